@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file lsm_event_picker.h
+/// Picks stick-slip events from a time series of the total elastic potential energy (PE), as in
+/// Sect. 4.1 of Weatherley and Abe (2004). Shared by the lattice solid and the block-slider model.
+#ifndef LSM_EVENT_PICKER_H
+#define LSM_EVENT_PICKER_H
+
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+
+namespace LSM {
+
+/// Readings of the paper's formula for the average change of PE, called A here;
+/// x = PE(t+1) - PE(t).
+enum class PickerReading {
+  exponential,  ///< A <- lambda A + (1 - lambda) x (default; ours), memory 1/(1 - lambda) samples
+  average,      ///< A <- (x + lambda A) / (1 + lambda) (ours), memory of about two samples
+  literal       ///< A <- (x + lambda A) / (1 + lambda t), t = index of the change, from 0 (paper)
+};
+
+inline const char *to_string(PickerReading reading) {
+  switch (reading) {
+    case PickerReading::exponential:
+      return "exponential";
+    case PickerReading::average:
+      return "average";
+    case PickerReading::literal:
+      return "literal";
+  }
+  return "unknown";
+}
+
+/// Returns false, and leaves reading alone, if name is none of exponential, average, literal.
+inline bool from_string(const std::string &name, PickerReading &reading) {
+  for (PickerReading candidate :
+       {PickerReading::exponential, PickerReading::average, PickerReading::literal}) {
+    if (name == to_string(candidate)) {
+      reading = candidate;
+      return true;
+    }
+  }
+  return false;
+}
+
+struct PickerSettings {
+  PickerReading reading = PickerReading::exponential;
+  double lambda = 0.99;           ///< leakiness per sample, 0 <= lambda < 1 (paper: 0.99)
+  double min_size = 0.0;          ///< positive sizes below this are counted, not reported (ours)
+  bool keep_nonpositive = false;  ///< report events of size <= 0 too, whatever min_size is (ours)
+};
+
+/// Leakiness for which the exponential reading forgets over memory_time, whatever the sampling
+/// interval dt (same units): exp(-dt/memory_time) (ours).
+/// \throws std::invalid_argument unless both are positive and finite.
+inline double lambda_from_memory_time(double memory_time, double dt) {
+  if (!std::isfinite(memory_time) || !(memory_time > 0.0))
+    throw std::invalid_argument("picker memory time must be a positive number");
+  if (!std::isfinite(dt) || !(dt > 0.0))
+    throw std::invalid_argument("time between picker samples must be a positive number");
+  return std::exp(-dt / memory_time);
+}
+
+/// One event. Times in model time, steps as pushed, energies in model energy.
+/// The picker fills all but the last three, which belong to the program that knows about slip.
+struct Event {
+  std::int64_t id = 0;  ///< 1, 2, ... over the reported events
+  double t_start = 0.0, t_end = 0.0;
+  std::int64_t step_start = 0, step_end = 0;
+  double size = 0.0;  ///< pe_start - pe_end
+  double pe_start = 0.0, pe_end = 0.0;
+  double slip_moment = 0.0, x_centroid = 0.0, rupture_length = 0.0;
+};
+
+/// Everything a picker has to remember besides its settings. Plain old data without padding, so it
+/// can be copied byte by byte into a restart file of the same machine type.
+struct PickerState {
+  std::int64_t samples = 0;   ///< samples pushed so far
+  std::int64_t step = 0;      ///< last sample
+  double time = 0.0;          ///< last sample
+  double pe = 0.0;            ///< last sample
+  double rate = 0.0;          ///< A
+  std::int64_t in_event = 0;  ///< 1 between commencement and cessation
+  std::int64_t step_start = 0;
+  double t_start = 0.0;
+  double pe_start = 0.0;
+  std::int64_t events = 0;  ///< reported events
+  std::int64_t dropped_nonpositive = 0;
+  std::int64_t dropped_small = 0;
+  double last_size = 0.0;  ///< size of the last reported event
+};
+static_assert(std::is_trivially_copyable<PickerState>::value, "PickerState goes into restarts");
+static_assert(sizeof(PickerState) == 13 * 8, "PickerState must have no padding");
+
+/// Streaming picker: push one PE sample after the other, in order of time.
+///
+/// With x = PE(t+1) - PE(t) and A updated with x, an event commences at sample t when A turns from
+/// >= 0 to < 0, and ceases at sample t when A turns to > 0; A == 0 keeps an open event open. The
+/// size, PE(start) - PE(end), comes from the raw series. The first sample only sets PE; A starts at
+/// 0. An event still open after the last sample is not reported.
+class EventPicker {
+ public:
+  /// \throws std::invalid_argument if a setting is out of range.
+  explicit EventPicker(PickerSettings settings) : settings_(settings) {
+    if (!(settings_.lambda >= 0.0 && settings_.lambda < 1.0))
+      throw std::invalid_argument("picker lambda must be at least 0 and less than 1");
+    if (!std::isfinite(settings_.min_size) || settings_.min_size < 0.0)
+      throw std::invalid_argument("picker minimum size must be a finite number >= 0");
+  }
+
+  /// Adds the sample PE(step) = pe. Returns true, and fills out, when an event that is to be
+  /// reported ceased at the sample before this one; otherwise leaves out alone.
+  /// Samples may be a decimated series; steps and times are reported as given.
+  /// \throws std::invalid_argument (and forgets the sample) if step or time do not advance or a
+  /// number is not finite, e.g. because a simulation blew up.
+  bool push(std::int64_t step, double time, double pe, Event &out) {
+    return push_change(step, time, pe, pe - state_.pe, out);
+  }
+
+  /// As push(), with the change dpe since the sample before given by the caller, who may know it
+  /// better than the difference of two large sums tells. pe itself is used for the sizes and may be
+  /// the accumulated dpe. The dpe of the first sample is ignored.
+  bool push_change(std::int64_t step, double time, double pe, double dpe, Event &out) {
+    check(step, time, pe, dpe);
+    const bool first = state_.samples == 0;
+    bool report = false;
+    if (!first) {
+      update_rate(dpe);
+      if (state_.in_event) {
+        if (state_.rate > 0.0) {
+          state_.in_event = 0;
+          report = finish(out);
+        }
+      } else if (state_.rate < 0.0) {
+        state_.in_event = 1;
+        state_.step_start = state_.step;
+        state_.t_start = state_.time;
+        state_.pe_start = state_.pe;
+      }
+    }
+    ++state_.samples;
+    state_.step = step;
+    state_.time = time;
+    state_.pe = pe;
+    return report;
+  }
+
+  bool in_event() const { return state_.in_event != 0; }
+  /// A, the smoothed change of PE per sample, after the last push.
+  double rate() const { return state_.rate; }
+  std::int64_t events() const { return state_.events; }  ///< reported events
+  std::int64_t dropped_nonpositive() const { return state_.dropped_nonpositive; }
+  std::int64_t dropped_small() const { return state_.dropped_small; }
+  double last_size() const { return state_.last_size; }  ///< last reported event; 0 before any
+
+  const PickerState &state() const { return state_; }
+  /// Goes on from a saved state, in mid-event too; the settings must be those it was saved under.
+  /// \throws std::invalid_argument if no picker can be in that state.
+  void set_state(const PickerState &state) {
+    const bool sane =
+        state.samples >= 0 && (state.in_event == 0 || state.in_event == 1) && state.events >= 0 &&
+        state.dropped_nonpositive >= 0 && state.dropped_small >= 0 && std::isfinite(state.time) &&
+        std::isfinite(state.pe) && std::isfinite(state.rate) &&
+        (state.in_event == 0 || (state.rate <= 0.0 && std::isfinite(state.t_start) &&
+                                 std::isfinite(state.pe_start) && state.step_start < state.step));
+    if (!sane) throw std::invalid_argument("saved picker state is inconsistent");
+    state_ = state;
+  }
+
+  const PickerSettings &settings() const { return settings_; }
+
+ private:
+  void check(std::int64_t step, double time, double pe, double dpe) const {
+    const bool first = state_.samples == 0;
+    if (!std::isfinite(pe) || (!first && !std::isfinite(dpe)))
+      throw std::invalid_argument("potential energy at step " + std::to_string(step) +
+                                  " is not a finite number");
+    if (!std::isfinite(time))
+      throw std::invalid_argument("time at step " + std::to_string(step) +
+                                  " is not a finite number");
+    if (first) return;
+    if (step <= state_.step)
+      throw std::invalid_argument("potential energy sample at step " + std::to_string(step) +
+                                  " after step " + std::to_string(state_.step) +
+                                  ", expected increasing steps");
+    if (time < state_.time)
+      throw std::invalid_argument("time goes back at step " + std::to_string(step) +
+                                  ", expected increasing times");
+  }
+
+  void update_rate(double x) {
+    const double lambda = settings_.lambda;
+    switch (settings_.reading) {
+      case PickerReading::exponential:
+        state_.rate = lambda * state_.rate + (1.0 - lambda) * x;
+        break;
+      case PickerReading::average:
+        state_.rate = (x + lambda * state_.rate) / (1.0 + lambda);
+        break;
+      case PickerReading::literal:
+        // The number of samples before this one is one more than the index of the change.
+        state_.rate =
+            (x + lambda * state_.rate) / (1.0 + lambda * static_cast<double>(state_.samples - 1));
+        break;
+    }
+  }
+
+  /// The event ceased at the sample still in state_.
+  bool finish(Event &out) {
+    const double size = state_.pe_start - state_.pe;
+    if (size <= 0.0) {
+      // Cannot be in exact arithmetic: the changes between commencement and cessation sum to a
+      // weighted sum of the negative A in between. Rounding of a large PE can make it so.
+      if (!settings_.keep_nonpositive) {
+        ++state_.dropped_nonpositive;
+        return false;
+      }
+    } else if (size < settings_.min_size) {
+      ++state_.dropped_small;
+      return false;
+    }
+    out = Event();
+    out.id = ++state_.events;
+    out.t_start = state_.t_start;
+    out.t_end = state_.time;
+    out.step_start = state_.step_start;
+    out.step_end = state_.step;
+    out.size = size;
+    out.pe_start = state_.pe_start;
+    out.pe_end = state_.pe;
+    state_.last_size = size;
+    return true;
+  }
+
+  PickerSettings settings_;
+  PickerState state_;
+};
+
+}  // namespace LSM
+
+#endif

@@ -1,0 +1,551 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// Random dense packing of tangent discs in two blocks separated by a straight fault.
+
+#ifndef LSM_PACKING_H
+#define LSM_PACKING_H
+
+#include "lsm_random.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace LSM {
+
+/// What make_packing() is asked for. Lengths in model units.
+struct PackingSettings {
+  double length = 120.0;        ///< period along the fault (x); at least 8 rmax
+  double width = 30.0;          ///< size across the fault (y); the fault is the line y = width/2
+  double rmin = 0.1;            ///< smallest radius
+  double rmax = 1.0;            ///< largest radius
+  uint64_t seed = 1;            ///< seed of the random numbers
+  int max_failures = 5000;      ///< a stretch of a block is full after so many failures in a row
+  double tolerance = 1e-8;      ///< accepted overlap of two discs, relative to the sum of the radii
+  double link_gap = 1e-5;       ///< discs (and lines) closer than this count as tangent
+  bool hexagonal_seeds = true;  ///< first discs on a hexagonal grid (false: at random points)
+  double fault_zone = 0.25;  ///< ours: discs with a surface so close to the fault line are flagged
+};
+
+/// One disc. Centre in [0, length) x (0, width).
+struct Disc {
+  double x, y, r;
+  int block;   ///< 0 lower, 1 upper
+  bool fault;  ///< surface within fault_zone of the fault line
+  bool plate;  ///< tangent to the outer line of its block
+};
+
+/// The result: discs sorted by position (columns of width 2 rmax along x, then y), links (i < j)
+/// sorted by i, then j.
+struct Packing {
+  std::vector<Disc> discs;
+  std::vector<std::pair<int, int>> links;
+  double coordination = 0.0;      ///< 2 * links / discs
+  double area_fraction = 0.0;     ///< area of the discs / (length * width)
+  double rmin_found = 0.0;        ///< smallest radius in the packing
+  int fault_tangent[2] = {0, 0};  ///< discs of the lower and upper block tangent to the fault line
+  int64_t tries = 0;              ///< tries of the filling stage, failures included
+};
+
+namespace packing_detail {
+
+/// One block [0, length) x [ylo, yhi], periodic in x, with a cell grid for neighbour searches.
+class BlockPacker {
+ public:
+  BlockPacker(const PackingSettings &settings, double ylo, double yhi, Random &random)
+      : set_(settings), ylo_(ylo), yhi_(yhi), random_(random) {
+    // no cell is smaller than rmax, so a search of few rings is enough
+    nx_ = std::max(1, static_cast<int>(set_.length / set_.rmax));
+    ny_ = std::max(1, static_cast<int>((yhi - ylo) / set_.rmax));
+    dx_ = set_.length / nx_;
+    dy_ = (yhi - ylo) / ny_;
+    cells_.resize(static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_));
+  }
+
+  void run() {
+    place_seeds();
+    fill();
+  }
+
+  int64_t tries() const { return tries_; }
+
+  /// Call f(x, y, r) for each disc, cell by cell.
+  template <class F>
+  void for_each(F &&f) const {
+    for (const auto &cell : cells_)
+      for (const Entry &e : cell) f(e.x, e.y, e.r);
+  }
+
+ private:
+  struct Entry {
+    double x, y, r;
+  };
+
+  /// A disc (line = 0) at (x, y) relative to the point of the try, or the lower (line = +1) or
+  /// upper (line = -1) line at height y. s is its surface distance from the point.
+  struct Object {
+    double s, x, y, r;
+    int line;
+  };
+
+  static constexpr double FAR = 1e300;
+
+  // ---------------------------------------------------------------- grid
+
+  int column(double x) const { return std::min(nx_ - 1, std::max(0, static_cast<int>(x / dx_))); }
+  int row(double y) const {
+    return std::min(ny_ - 1, std::max(0, static_cast<int>((y - ylo_) / dy_)));
+  }
+
+  void insert(double x, double y, double r) { cell(column(x), row(y)).push_back({x, y, r}); }
+
+  std::vector<Entry> &cell(int ix, int iy) {
+    return cells_[static_cast<std::size_t>(ix) * static_cast<std::size_t>(ny_) +
+                  static_cast<std::size_t>(iy)];
+  }
+
+  double wrap(double x) const {
+    if (x < 0.0) x += set_.length;
+    // a tiny negative x may round to length
+    if (x >= set_.length) x -= set_.length;
+    return x;
+  }
+
+  /// True if a disc at (x, y), x in [0, length), lies in the block and overlaps no other.
+  bool fits(double x, double y, double r) {
+    const double slack = set_.tolerance * r;
+    if (y - ylo_ < r - slack || yhi_ - y < r - slack) return false;
+    // reach: a disc further away than this along x or y cannot overlap
+    const double reach = r + set_.rmax;
+    const int kx = std::min(static_cast<int>(reach / dx_) + 1, (nx_ - 1) / 2);
+    const int ylow = row(y - reach), yhigh = row(y + reach);
+    const int cx = column(x);
+    for (int k = -kx; k <= kx; ++k) {
+      int ix = cx + k;
+      double shift = 0.0;
+      if (ix < 0) {
+        ix += nx_;
+        shift = -set_.length;
+      } else if (ix >= nx_) {
+        ix -= nx_;
+        shift = set_.length;
+      }
+      for (int iy = ylow; iy <= yhigh; ++iy)
+        for (const Entry &e : cell(ix, iy)) {
+          const double ex = e.x + shift - x, ey = e.y - y;
+          const double sum = (e.r + r) * (1.0 - set_.tolerance);
+          if (ex * ex + ey * ey < sum * sum) return false;
+        }
+    }
+    return true;
+  }
+
+  // ---------------------------------------------------------------- seeds
+
+  void place_seeds() {
+    // The columns are stretched to fit the period and the rows to fit the block: no seam shows,
+    // and as the spacing only grows, any radius up to rmax fits.
+    const double height = yhi_ - ylo_;
+    const int ncol = static_cast<int>(set_.length / (2.0 * set_.rmax));
+    const int gaps = static_cast<int>((height - 2.0 * set_.rmax) / (std::sqrt(3.0) * set_.rmax));
+    const double xstep = set_.length / ncol;
+    const double ystep = gaps > 0 ? (height - 2.0 * set_.rmax) / gaps : 0.0;
+    const double yfirst = gaps > 0 ? ylo_ + set_.rmax : 0.5 * (ylo_ + yhi_);
+    for (int j = 0; j <= gaps; ++j)
+      for (int i = 0; i < ncol; ++i) {
+        double x = (i + (j % 2 ? 0.75 : 0.25)) * xstep, y = yfirst + j * ystep;
+        if (!set_.hexagonal_seeds) {
+          x = random_.uniform(0.0, set_.length);
+          y = random_.uniform(ylo_, yhi_);
+        }
+        x = wrap(x);
+        const double r = random_.uniform(set_.rmin, set_.rmax);
+        if (fits(x, y, r)) insert(x, y, r);
+      }
+  }
+
+  // ---------------------------------------------------------------- filling
+
+  void fill() {
+    // Stopping rule: the block is cut along x into tiles about as long as TILE rmax; tries are made
+    // in each in turn until max_failures of them in a row failed there. The cost is
+    // linear in the length and the density reached does not depend on it.
+    const int ntile = std::max(1, static_cast<int>(set_.length / (TILE * set_.rmax)));
+    const double tile = set_.length / ntile;
+    std::vector<int> failures(static_cast<std::size_t>(ntile), 0);
+    int open = ntile;
+    while (open > 0) {
+      for (int t = 0; t < ntile; ++t) {
+        int &failed = failures[static_cast<std::size_t>(t)];
+        if (failed >= set_.max_failures) continue;
+        for (int n = 0; n < ROUND && failed < set_.max_failures; ++n) {
+          ++tries_;
+          failed = try_point(t * tile, tile) ? 0 : failed + 1;
+        }
+        if (failed >= set_.max_failures) --open;
+      }
+    }
+  }
+
+  bool try_point(double xlo, double xsize) {
+    const double px = wrap(xlo + xsize * random_.uniform());
+    const double py = ylo_ + (yhi_ - ylo_) * random_.uniform();
+    Object near[3];
+    if (!nearest(px, py, near)) return false;
+    double x[2], y[2], r[2];
+    const int n = tangent_circles(near, x, y, r);
+    for (int i = 0; i < n; ++i) {
+      if (!in_range(r[i])) continue;
+      if (!polish(near, x[i], y[i], r[i]) || !in_range(r[i])) continue;
+      const double nx = wrap(px + x[i]), ny = py + y[i];
+      if (!(ny > ylo_ && ny < yhi_) || !fits(nx, ny, r[i])) continue;
+      insert(nx, ny, r[i]);
+      return true;
+    }
+    return false;
+  }
+
+  bool in_range(double r) const { return r >= set_.rmin && r <= set_.rmax; }
+
+  static void offer(Object *near, const Object &o) {
+    if (o.s >= near[2].s) return;
+    int i = 2;
+    for (; i > 0 && o.s < near[i - 1].s; --i) near[i] = near[i - 1];
+    near[i] = o;
+  }
+
+  /// The three objects nearest to (px, py) by surface distance, nearest first.
+  bool nearest(double px, double py, Object *near) {
+    near[0] = near[1] = near[2] = {FAR, 0.0, 0.0, 0.0, 0};
+    offer(near, {py - ylo_, 0.0, ylo_ - py, 0.0, 1});
+    offer(near, {yhi_ - py, 0.0, yhi_ - py, 0.0, -1});
+    const int cx = column(px), cy = row(py);
+    const double fx = px - cx * dx_, fy = py - ylo_ - cy * dy_;
+    const double inset = std::min(std::min(fx, dx_ - fx), std::min(fy, dy_ - fy));
+    const double step = std::min(dx_, dy_);
+    const int last = std::max((nx_ - 1) / 2, ny_ - 1);
+    for (int k = 0; k <= last; ++k) {
+      // centres in ring k and beyond are at least this far away
+      if (k > 0 && inset + (k - 1) * step - set_.rmax >= near[2].s) break;
+      for (int jy = -k; jy <= k; ++jy) {
+        const int iy = cy + jy;
+        if (iy < 0 || iy >= ny_) continue;
+        const bool edge = (jy == -k || jy == k);
+        const double gy = jy == 0 ? 0.0 : (jy > 0 ? jy * dy_ - fy : fy - (jy + 1) * dy_);
+        for (int jx = -k; jx <= k; jx += (edge || k == 0) ? 1 : 2 * k) {
+          if (2 * jx > nx_ - 1 || -2 * jx > nx_ - 1) continue;
+          const double gx = jx == 0 ? 0.0 : (jx > 0 ? jx * dx_ - fx : fx - (jx + 1) * dx_);
+          const double far = near[2].s + set_.rmax;
+          if (near[2].s < FAR && gx * gx + gy * gy >= far * far) continue;
+          int ix = cx + jx;
+          double shift = -px;
+          if (ix < 0) {
+            ix += nx_;
+            shift -= set_.length;
+          } else if (ix >= nx_) {
+            ix -= nx_;
+            shift += set_.length;
+          }
+          for (const Entry &e : cell(ix, iy)) {
+            const double ex = e.x + shift, ey = e.y - py, limit = near[2].s + e.r;
+            const double d2 = ex * ex + ey * ey;
+            if (limit <= 0.0 || d2 >= limit * limit) continue;
+            offer(near, {std::sqrt(d2) - e.r, ex, ey, e.r, 0});
+          }
+        }
+      }
+    }
+    return near[2].s < FAR;
+  }
+
+  /// Circles that touch three objects from outside (at most two), smaller radius first.
+  /// With the first disc as origin, |p| = r + r1, the other two conditions are linear in (p, r):
+  /// p . n_k = a_k - b_k r, hence p = A - B r, and |A - B r| = r + r1 is a quadratic equation.
+  static int tangent_circles(const Object *o, double *x, double *y, double *r) {
+    int base = -1, lines = 0;
+    for (int i = 0; i < 3; ++i) {
+      if (o[i].line)
+        ++lines;
+      else if (base < 0)
+        base = i;
+    }
+    // a circle that touches both lines is wider than rmax allows
+    if (lines > 1) return 0;
+    const Object &d = o[base];
+    double n[2][2], a[2], b[2];
+    int m = 0;
+    for (int i = 0; i < 3; ++i) {
+      if (i == base) continue;
+      if (o[i].line) {
+        n[m][0] = 0.0;
+        n[m][1] = 1.0;
+        a[m] = o[i].y - d.y;
+        b[m] = -o[i].line;
+      } else {
+        const double ex = o[i].x - d.x, ey = o[i].y - d.y;
+        n[m][0] = ex;
+        n[m][1] = ey;
+        a[m] = 0.5 * (ex * ex + ey * ey - (o[i].r - d.r) * (o[i].r + d.r));
+        b[m] = o[i].r - d.r;
+      }
+      ++m;
+    }
+    const double det = n[0][0] * n[1][1] - n[0][1] * n[1][0];
+    if (det == 0.0) return 0;
+    const double ax = (a[0] * n[1][1] - a[1] * n[0][1]) / det;
+    const double ay = (a[1] * n[0][0] - a[0] * n[1][0]) / det;
+    const double bx = (b[0] * n[1][1] - b[1] * n[0][1]) / det;
+    const double by = (b[1] * n[0][0] - b[0] * n[1][0]) / det;
+    // q2 r^2 - 2 q1 r + q0 = 0
+    const double q2 = bx * bx + by * by - 1.0;
+    const double q1 = ax * bx + ay * by + d.r;
+    const double q0 = ax * ax + ay * ay - d.r * d.r;
+    const double disc = q1 * q1 - q2 * q0;
+    if (!(disc >= 0.0)) return 0;
+    // roots as q0 / s and s / q2: no cancellation, and one of them stays finite when q2 -> 0
+    const double s = q1 >= 0.0 ? q1 + std::sqrt(disc) : q1 - std::sqrt(disc);
+    double root[2];
+    int count = 0;
+    if (s != 0.0) root[count++] = q0 / s;
+    if (q2 != 0.0) root[count++] = s / q2;
+    if (count == 2 && root[1] < root[0]) std::swap(root[0], root[1]);
+    for (int i = 0; i < count; ++i) {
+      r[i] = root[i];
+      x[i] = d.x + ax - bx * root[i];
+      y[i] = d.y + ay - by * root[i];
+    }
+    return count;
+  }
+
+  /// Newton steps on the three gaps: the closed form loses digits when the three objects are
+  /// nearly in line. False if the gaps cannot be brought down to rounding.
+  static bool polish(const Object *o, double &x, double &y, double &r) {
+    double worst = FAR;
+    for (int iter = 0; iter < 4; ++iter) {
+      // row i: gradient (g0, g1, -1) of gap i = distance - r
+      double g[3][2], f[3];
+      double next = 0.0;
+      for (int i = 0; i < 3; ++i) {
+        if (o[i].line) {
+          g[i][0] = 0.0;
+          g[i][1] = o[i].line;
+          f[i] = o[i].line * (y - o[i].y) - r;
+        } else {
+          const double ex = x - o[i].x, ey = y - o[i].y;
+          const double d = std::sqrt(ex * ex + ey * ey);
+          if (!(d > 0.0)) return false;
+          g[i][0] = ex / d;
+          g[i][1] = ey / d;
+          f[i] = d - o[i].r - r;
+        }
+        next = std::max(next, f[i] < 0.0 ? -f[i] : f[i]);
+      }
+      if (!(next < FAR)) return false;
+      if (next < EXACT || (iter > 0 && next >= worst)) {
+        worst = next;
+        break;
+      }
+      worst = next;
+      const double a00 = g[1][0] - g[0][0], a01 = g[1][1] - g[0][1], e0 = f[1] - f[0];
+      const double a10 = g[2][0] - g[0][0], a11 = g[2][1] - g[0][1], e1 = f[2] - f[0];
+      const double det = a00 * a11 - a01 * a10;
+      if (det == 0.0) return false;
+      const double ux = (e0 * a11 - e1 * a01) / det, uy = (e1 * a00 - e0 * a10) / det;
+      x -= ux;
+      y -= uy;
+      r += f[0] - g[0][0] * ux - g[0][1] * uy;
+    }
+    return worst < CLOSE;
+  }
+
+  static constexpr double EXACT = 1e-15;  // no step improves on this
+  static constexpr double CLOSE = 1e-13;  // largest gap accepted, before the rounding of x itself
+  static constexpr double TILE = 15.0;    // length of a tile in rmax
+  static constexpr int ROUND = 64;        // tries in one tile before the next one has its turn
+
+  const PackingSettings &set_;
+  double ylo_, yhi_;
+  Random &random_;
+  int nx_ = 1, ny_ = 1;
+  double dx_ = 0.0, dy_ = 0.0;
+  std::vector<std::vector<Entry>> cells_;
+  int64_t tries_ = 0;
+};
+
+template <class A, class B>
+[[noreturn]] void reject(const char *name, const A &value, const char *expected, const B &bound) {
+  std::ostringstream msg;
+  msg << name << " = " << value << ", expected " << expected << bound;
+  throw std::invalid_argument(msg.str());
+}
+
+inline void check(const PackingSettings &s) {
+  const std::pair<const char *, double> positive[] = {
+      {"length", s.length}, {"width", s.width},         {"rmin", s.rmin},
+      {"rmax", s.rmax},     {"tolerance", s.tolerance}, {"link_gap", s.link_gap},
+  };
+  for (const auto &p : positive)
+    if (!(p.second > 0.0) || !(p.second < 1e300))
+      reject(p.first, p.second, "a positive finite number", "");
+  if (!(s.rmin < s.rmax)) reject("rmin", s.rmin, "a value below rmax = ", s.rmax);
+  if (s.max_failures < 1) reject("max_failures", s.max_failures, "at least ", 1);
+  if (!(s.tolerance <= 1e-4)) reject("tolerance", s.tolerance, "at most ", 1e-4);
+  // two discs that the tolerance lets overlap must still count as linked neighbours, not more
+  if (!(s.link_gap < 0.1 * s.rmin))
+    reject("link_gap", s.link_gap, "less than rmin/10 = ", 0.1 * s.rmin);
+  if (!(s.fault_zone >= s.link_gap) || !(s.fault_zone < 1e300))
+    reject("fault_zone", s.fault_zone, "at least link_gap = ", s.link_gap);
+  // each disc must meet at most one image of any other, with room for the neighbour search
+  if (!(s.length >= 8.0 * s.rmax))
+    reject("length", s.length, "at least 8 rmax for a periodic fault, that is ", 8.0 * s.rmax);
+  // no disc reaches from the fault zone of its block to the plate
+  const double least = 2.0 * (2.0 * s.rmax + s.fault_zone + s.link_gap);
+  if (!(s.width > least))
+    reject("width", s.width, "more than 2 (2 rmax + fault_zone + link_gap) = ", least);
+  if (s.length / s.rmax * (s.width / s.rmax) > 5e8)
+    reject("length", s.length, "less than 5e8 rmax^2 / width = ", 5e8 * s.rmax * s.rmax / s.width);
+}
+
+}  // namespace packing_detail
+
+/// Two blocks of tangent discs, [0, length) x [0, width/2] and [0, length) x [width/2, width],
+/// periodic in x.
+///
+/// Each block: (1) seeds on a hexagonal grid of spacing 2 rmax (stretched to fit period and
+/// height), radius uniform in [rmin, rmax); (2) a random point, the three objects nearest to it
+/// (discs by surface distance, the two lines of the block), the circle tangent to all three, kept
+/// if its radius is in [rmin, rmax], it lies inside the block and it overlaps nothing; (3) the
+/// block is cut into tiles along x (about 15 rmax long, ours), and each tile is full when
+/// max_failures consecutive tries in it failed. The cost is linear in the length.
+///
+/// The result depends on the settings and the floating-point arithmetic of the platform only.
+/// @throws std::invalid_argument with one line that names the setting and what was expected
+inline Packing make_packing(const PackingSettings &settings) {
+  packing_detail::check(settings);
+  const PackingSettings &s = settings;
+  Packing result;
+  Random random(s.seed);
+  const double middle = 0.5 * s.width;
+
+  for (int block = 0; block < 2; ++block) {
+    const double ylo = block == 0 ? 0.0 : middle, yhi = block == 0 ? middle : s.width;
+    packing_detail::BlockPacker packer(s, ylo, yhi, random);
+    packer.run();
+    result.tries += packer.tries();
+    packer.for_each([&](double x, double y, double r) {
+      const double to_fault = (block == 0 ? middle - y : y - middle) - r;
+      const double to_plate = (block == 0 ? y : s.width - y) - r;
+      result.discs.push_back({x, y, r, block, to_fault < s.fault_zone, to_plate < s.link_gap});
+      if (to_fault < s.link_gap) ++result.fault_tangent[block];
+    });
+  }
+
+  // neighbours in space are neighbours in memory and on few ranks
+  const double column = 2.0 * s.rmax;
+  std::sort(result.discs.begin(), result.discs.end(), [column](const Disc &a, const Disc &b) {
+    const auto ka = static_cast<int64_t>(a.x / column), kb = static_cast<int64_t>(b.x / column);
+    return std::tie(ka, a.y, a.x, a.r) < std::tie(kb, b.y, b.x, b.r);
+  });
+
+  // links: cells at least as large as the longest link, both blocks in one grid
+  const int n = static_cast<int>(result.discs.size());
+  const double reach = 2.0 * s.rmax + s.link_gap;
+  const int nx = std::max(1, static_cast<int>(s.length / reach));
+  const int ny = std::max(1, static_cast<int>(s.width / reach));
+  const double dx = s.length / nx, dy = s.width / ny;
+  const auto column_of = [&](double x) { return std::min(nx - 1, static_cast<int>(x / dx)); };
+  const auto row_of = [&](double y) {
+    return std::min(ny - 1, std::max(0, static_cast<int>(y / dy)));
+  };
+  const auto index = [&](int ix, int iy) {
+    return static_cast<std::size_t>(ix) * static_cast<std::size_t>(ny) +
+           static_cast<std::size_t>(iy);
+  };
+  std::vector<std::vector<int>> cells(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny));
+  for (int i = 0; i < n; ++i) {
+    const Disc &d = result.discs[static_cast<std::size_t>(i)];
+    cells[index(column_of(d.x), row_of(d.y))].push_back(i);
+  }
+  std::vector<int> partners;
+  double area = 0.0;
+  for (int i = 0; i < n; ++i) {
+    const Disc &a = result.discs[static_cast<std::size_t>(i)];
+    area += a.r * a.r;
+    result.rmin_found = i == 0 ? a.r : std::min(result.rmin_found, a.r);
+    partners.clear();
+    const int cx = column_of(a.x), cy = row_of(a.y);
+    for (int kx = -1; kx <= 1; ++kx)
+      for (int iy = std::max(0, cy - 1); iy <= std::min(ny - 1, cy + 1); ++iy)
+        for (const int j : cells[index((cx + kx + nx) % nx, iy)]) {
+          if (j <= i) continue;
+          const Disc &b = result.discs[static_cast<std::size_t>(j)];
+          if (b.block != a.block) continue;
+          double ex = b.x - a.x;
+          if (ex > 0.5 * s.length) ex -= s.length;
+          if (ex < -0.5 * s.length) ex += s.length;
+          const double ey = b.y - a.y, limit = a.r + b.r + s.link_gap;
+          if (ex * ex + ey * ey < limit * limit) partners.push_back(j);
+        }
+    std::sort(partners.begin(), partners.end());
+    for (const int j : partners) result.links.emplace_back(i, j);
+  }
+  result.area_fraction = 3.14159265358979323846 * area / (s.length * s.width);
+  result.coordination = n > 0 ? 2.0 * static_cast<double>(result.links.size()) / n : 0.0;
+  return result;
+}
+
+/// Upper bound of the highest angular frequency of the link network at rest (no contacts).
+///
+/// The non-zero eigenvalues of M^-1 K are those of the matrix over links
+/// G_ef = +- k n_e . n_f / m (summed over the discs that e and f share); the bound is the largest
+/// row sum of |G_ef| (Gershgorin). Velocity Verlet is stable below dt = 2 / frequency.
+/// @param masses one per disc
+inline double frequency_bound(const Packing &packing, double length,
+                              const std::vector<double> &masses, double stiffness) {
+  const std::size_t n = packing.discs.size(), m = packing.links.size();
+  std::vector<std::pair<double, double>> normal(m);
+  std::vector<std::size_t> first(n + 1, 0), at(2 * m);
+  for (const auto &l : packing.links) {
+    ++first[static_cast<std::size_t>(l.first) + 1];
+    ++first[static_cast<std::size_t>(l.second) + 1];
+  }
+  for (std::size_t i = 0; i < n; ++i) first[i + 1] += first[i];
+  std::vector<std::size_t> fill(first.begin(), first.end() - 1);
+  for (std::size_t e = 0; e < m; ++e) {
+    const auto i = static_cast<std::size_t>(packing.links[e].first);
+    const auto j = static_cast<std::size_t>(packing.links[e].second);
+    double ex = packing.discs[j].x - packing.discs[i].x;
+    if (ex > 0.5 * length) ex -= length;
+    if (ex < -0.5 * length) ex += length;
+    const double ey = packing.discs[j].y - packing.discs[i].y, d = std::sqrt(ex * ex + ey * ey);
+    normal[e] = {ex / d, ey / d};
+    at[fill[i]++] = e;
+    at[fill[j]++] = e;
+  }
+  double largest = 0.0;
+  for (std::size_t e = 0; e < m; ++e) {
+    double sum = 0.0;
+    for (const int disc : {packing.links[e].first, packing.links[e].second}) {
+      const auto i = static_cast<std::size_t>(disc);
+      double part = 0.0;
+      for (std::size_t k = first[i]; k < first[i + 1]; ++k) {
+        const double dot =
+            normal[e].first * normal[at[k]].first + normal[e].second * normal[at[k]].second;
+        part += dot < 0.0 ? -dot : dot;
+      }
+      sum += part * stiffness / masses[i];
+    }
+    largest = std::max(largest, sum);
+  }
+  return std::sqrt(largest);
+}
+
+}  // namespace LSM
+
+#endif

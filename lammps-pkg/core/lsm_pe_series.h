@@ -1,0 +1,506 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file lsm_pe_series.h
+/// Time series of the total elastic potential energy (PE), Sect. 4.1 of Weatherley and Abe (2004).
+/// The formats are ours. PE is kept as a full double: the sign of its change per step matters at
+/// 1e-9 of its value.
+///
+/// Text:    # lsm-pe-series 1
+///          # key = value ...          (model, dt, step0, time0, stride, then the others)
+///          step,time,pe
+///          one line per sample, 17 significant digits
+/// Binary:  16 bytes "lsm-pe-series-1\n", int64 length of the header, the header (the key = value
+///          lines above), then records of int64 step and double pe; everything little-endian.
+///          time = time0 + (step - step0) dt.
+#ifndef LSM_PE_SERIES_H
+#define LSM_PE_SERIES_H
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "lsm_text_io.h"
+
+namespace LSM {
+
+/// Unreadable or unwritable PE series; the message names file and line or record.
+class PeSeriesError : public FileError {
+ public:
+  using FileError::FileError;
+};
+
+/// Header of a PE series.
+struct PeSeriesInfo {
+  std::string model;        ///< "lsm" or "block-slider"
+  double dt = 1.0;          ///< time step of the simulation (model time), > 0
+  std::int64_t step0 = 0;   ///< step of time0, usually that of the first sample
+  double time0 = 0.0;       ///< time at step0
+  std::int64_t stride = 1;  ///< steps between samples, >= 1
+  std::vector<std::pair<std::string, std::string>> parameters;
+
+  double time(std::int64_t step) const { return time0 + static_cast<double>(step - step0) * dt; }
+  /// Value of one of the other parameters, or nullptr.
+  const std::string *find(std::string_view key) const { return text_io::find(parameters, key); }
+};
+
+namespace pe_series_detail {
+
+constexpr std::string_view first_line = "# lsm-pe-series 1";
+constexpr std::string_view text_magic = "# lsm-pe-series ";
+constexpr std::string_view column_line = "step,time,pe";
+constexpr std::string_view binary_magic = "lsm-pe-series-1\n";
+constexpr std::string_view binary_family = "lsm-pe-series-";
+constexpr std::int64_t record_bytes = 16;
+constexpr std::int64_t longest_header = 1 << 20;
+
+inline text_io::Parameters header(const PeSeriesInfo &info) {
+  text_io::Parameters all = {{"model", info.model},
+                             {"dt", text_io::number(info.dt)},
+                             {"step0", text_io::number(info.step0)},
+                             {"time0", text_io::number(info.time0)},
+                             {"stride", text_io::number(info.stride)}};
+  all.insert(all.end(), info.parameters.begin(), info.parameters.end());
+  return all;
+}
+
+/// What is wrong with the numbers of a header, or "".
+inline std::string fault(const PeSeriesInfo &info) {
+  if (info.model != "lsm" && info.model != "block-slider")
+    return "model is " + text_io::in_quotes(info.model) + ", expected 'lsm' or 'block-slider'";
+  if (!std::isfinite(info.dt) || !(info.dt > 0.0))
+    return "dt is " + text_io::number(info.dt) + ", expected a positive number";
+  if (!std::isfinite(info.time0))
+    return "time0 is " + text_io::number(info.time0) + ", expected a finite number";
+  if (info.stride < 1) return "stride is " + text_io::number(info.stride) + ", expected at least 1";
+  return {};
+}
+
+inline void check_info(const PeSeriesInfo &info) {
+  const std::string problem = fault(info);
+  if (!problem.empty()) throw std::invalid_argument("PE series header: " + problem);
+  text_io::check_parameters(header(info));
+}
+
+/// Adds one "# key = value" line to the list; returns what is wrong, or "".
+inline std::string add_parameter(std::string_view line, text_io::Parameters &all) {
+  std::pair<std::string, std::string> parameter;
+  if (!text_io::parse_parameter(line, parameter))
+    return "header line " + text_io::in_quotes(line) + ", expected '# key = value'";
+  if (text_io::find(all, parameter.first))
+    return "parameter " + text_io::in_quotes(parameter.first) + " given twice, expected once";
+  all.push_back(std::move(parameter));
+  return {};
+}
+
+/// Sorts the pairs of a header into info; returns what is wrong, or "".
+inline std::string interpret(const text_io::Parameters &all, PeSeriesInfo &info) {
+  info = PeSeriesInfo();
+  for (const char *key : {"model", "dt", "step0", "time0", "stride"})
+    if (!text_io::find(all, key))
+      return "parameter '" + std::string(key) + "' is missing in the header, expected '# " + key +
+             " = value'";
+  for (const auto &[key, value] : all) {
+    bool good = true;
+    if (key == "model")
+      info.model = value;
+    else if (key == "dt")
+      good = text_io::parse(value, info.dt);
+    else if (key == "step0")
+      good = text_io::parse(value, info.step0);
+    else if (key == "time0")
+      good = text_io::parse(value, info.time0);
+    else if (key == "stride")
+      good = text_io::parse(value, info.stride);
+    else
+      info.parameters.emplace_back(key, value);
+    if (!good)
+      return "parameter '" + key + "' is " + text_io::in_quotes(value) + ", expected " +
+             (key == "step0" || key == "stride" ? "an integer" : "a finite number");
+  }
+  return fault(info);
+}
+
+inline void append_bytes(std::string &out, std::uint64_t bits) {
+  for (int i = 0; i < 8; ++i) out += static_cast<char>((bits >> (8 * i)) & 0xff);
+}
+
+inline void append_bytes(std::string &out, double value) {
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &value, sizeof(bits));
+  append_bytes(out, bits);
+}
+
+inline std::uint64_t from_bytes(const char *bytes) {
+  std::uint64_t bits = 0;
+  for (int i = 0; i < 8; ++i)
+    bits |= static_cast<std::uint64_t>(static_cast<unsigned char>(bytes[i])) << (8 * i);
+  return bits;
+}
+
+inline std::int64_t step_from_bytes(const char *bytes) {
+  return static_cast<std::int64_t>(from_bytes(bytes));
+}
+
+inline double double_from_bytes(const char *bytes) {
+  const std::uint64_t bits = from_bytes(bytes);
+  double value = 0.0;
+  std::memcpy(&value, &bits, sizeof(value));
+  return value;
+}
+
+}  // namespace pe_series_detail
+
+/// Reads a PE series sample by sample; text or binary is found out from the file. Strict: anything
+/// unexpected throws.
+class PeSeriesReader {
+ public:
+  PeSeriesReader() = default;
+  /// \throws PeSeriesError
+  explicit PeSeriesReader(const std::string &path) { open(path); }
+
+  /// \throws PeSeriesError if the file cannot be read or its header is not as it should be.
+  void open(const std::string &path) { open(path, false); }
+
+  const PeSeriesInfo &info() const { return info_; }
+  bool binary() const { return binary_; }
+
+  /// Next sample; false at the end of the file. Steps increase, numbers are finite.
+  /// \throws PeSeriesError
+  bool next(std::int64_t &step, double &time, double &pe) {
+    if (!open_) throw PeSeriesError("PE series is not open");
+    return binary_ ? next_record(step, time, pe) : next_line(step, time, pe);
+  }
+
+ private:
+  friend class PeSeriesWriter;
+
+  void open(const std::string &path, bool resuming) {
+    using namespace pe_series_detail;
+    open_ = false;
+    resuming_ = resuming;
+    path_ = path;
+    has_last_ = false;
+    records_ = used_ = filled_ = 0;
+    lines_ = std::make_unique<text_io::LineReader<PeSeriesError>>(path);
+    in_ = std::ifstream(path, std::ios::in | std::ios::binary);
+    std::array<char, 16> start{};
+    in_.read(start.data(), start.size());
+    const std::string_view magic(start.data(), static_cast<std::size_t>(in_.gcount()));
+    if (magic.empty())
+      throw PeSeriesError(text_io::where(path, 1) + "empty file, expected '" +
+                          std::string(first_line) + "' or a binary PE series");
+    binary_ = magic.substr(0, binary_family.size()) == binary_family;
+    if (binary_) {
+      lines_.reset();
+      open_binary(magic);
+    } else {
+      in_.close();
+      open_text();
+    }
+    open_ = true;
+  }
+
+  void open_text() {
+    using namespace pe_series_detail;
+    lines_->next(line_);
+    if (line_ != first_line) {
+      if (std::string_view(line_).substr(0, text_magic.size()) == text_magic)
+        lines_->fail("PE series version " + text_io::in_quotes(line_.substr(text_magic.size())) +
+                     ", expected version 1");
+      lines_->fail("not a PE series, expected '" + std::string(first_line) + "'");
+    }
+    text_io::Parameters all;
+    while (lines_->next(line_)) {
+      if (line_.empty() || line_.front() != '#') {
+        if (line_ != column_line)
+          lines_->fail("column names " + text_io::in_quotes(line_) + ", expected '" +
+                       std::string(column_line) + "'");
+        if (!lines_->complete())
+          lines_->fail("truncated line of column names, expected a line end");
+        const std::string problem = interpret(all, info_);
+        if (!problem.empty()) lines_->fail(problem);
+        kept_end_ = lines_->end();
+        return;
+      }
+      const std::string problem = add_parameter(line_, all);
+      if (!problem.empty()) lines_->fail(problem);
+    }
+    lines_->fail("file ends within the header, expected '" + std::string(column_line) + "'");
+  }
+
+  void open_binary(std::string_view magic) {
+    using namespace pe_series_detail;
+    if (magic != binary_magic)
+      throw PeSeriesError(path_ + ": binary PE series of another version, expected version 1");
+    std::array<char, 8> bytes{};
+    in_.read(bytes.data(), bytes.size());
+    const std::int64_t length = step_from_bytes(bytes.data());
+    std::error_code code;
+    const auto size = static_cast<std::int64_t>(std::filesystem::file_size(path_, code));
+    if (code) throw PeSeriesError(path_ + ": cannot read: " + code.message());
+    data_begin_ = 16 + 8 + length;
+    if (!in_ || length < 0 || length > longest_header || data_begin_ > size)
+      throw PeSeriesError(path_ + ": file ends within the binary header, expected its length and " +
+                          "'# key = value' lines");
+    std::string text(static_cast<std::size_t>(length), '\0');
+    in_.read(text.data(), length);
+    if (!in_) throw PeSeriesError(path_ + ": cannot read the binary header");
+    text_io::Parameters all;
+    std::string_view rest = text;
+    std::string problem;
+    for (std::int64_t number = 1; !rest.empty() && problem.empty(); ++number) {
+      const std::size_t end = rest.find('\n');
+      problem = add_parameter(rest.substr(0, end), all);
+      if (!problem.empty()) problem = "header line " + std::to_string(number) + ": " + problem;
+      rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
+    }
+    if (problem.empty()) problem = interpret(all, info_);
+    if (!problem.empty()) throw PeSeriesError(path_ + ": " + problem);
+    total_ = (size - data_begin_) / record_bytes;
+    if (!resuming_ && (size - data_begin_) % record_bytes != 0)
+      throw PeSeriesError(path_ + ": truncated record " + std::to_string(total_ + 1) +
+                          " at the end, expected 16 bytes per record");
+    kept_end_ = data_begin_;
+    // The stream continues right behind the header.
+  }
+
+  bool next_line(std::int64_t &step, double &time, double &pe) {
+    if (!lines_->next(line_)) return false;
+    if (!lines_->complete()) {
+      if (resuming_) return false;
+      lines_->fail("truncated last line, expected 3 columns and a line end");
+    }
+    text_io::split(line_, fields_);
+    if (fields_.size() != 3)
+      lines_->fail(std::to_string(line_.empty() ? 0 : fields_.size()) +
+                   " columns, expected 3 (step,time,pe)");
+    std::int64_t new_step = 0;
+    double new_time = 0.0, new_pe = 0.0;
+    if (!text_io::parse(fields_[0], new_step)) bad_column("step", 0, "an integer");
+    if (!text_io::parse(fields_[1], new_time)) bad_column("time", 1, "a finite number");
+    if (!text_io::parse(fields_[2], new_pe)) bad_column("pe", 2, "a finite number");
+    if (has_last_ && new_step <= last_step_)
+      lines_->fail("step " + std::to_string(new_step) + " after step " +
+                   std::to_string(last_step_) + ", expected increasing steps");
+    const double expected = info_.time(new_step);
+    // Rounding may differ between the programs; a wrong dt or step0 is off by far more.
+    if (!(std::fabs(new_time - expected) <= 1e-9 * (std::fabs(expected) + info_.dt)))
+      lines_->fail("time " + text_io::number(new_time) + " at step " + std::to_string(new_step) +
+                   ", expected " + text_io::number(expected) + " from time0, step0 and dt");
+    step = new_step;
+    time = new_time;
+    pe = new_pe;
+    kept_end_ = lines_->end();
+    remember(step);
+    return true;
+  }
+
+  [[noreturn]] void bad_column(const char *name, std::size_t column, const char *expected) const {
+    lines_->fail("column '" + std::string(name) + "' is " + text_io::in_quotes(fields_[column]) +
+                 ", expected " + expected);
+  }
+
+  bool next_record(std::int64_t &step, double &time, double &pe) {
+    using namespace pe_series_detail;
+    if (records_ == total_) return false;
+    if (used_ == filled_) {
+      block_.resize(static_cast<std::size_t>(record_bytes) * 4096);
+      const std::int64_t wanted = std::min<std::int64_t>(4096, total_ - records_) * record_bytes;
+      in_.read(block_.data(), wanted);
+      if (in_.gcount() != wanted)
+        throw PeSeriesError(path_ + ": cannot read record " + std::to_string(records_ + 1));
+      used_ = 0;
+      filled_ = wanted;
+    }
+    const char *const record = block_.data() + used_;
+    const std::int64_t new_step = step_from_bytes(record);
+    const double new_pe = double_from_bytes(record + 8);
+    if (!std::isfinite(new_pe))
+      throw PeSeriesError(path_ + ": record " + std::to_string(records_ + 1) +
+                          ": pe is not finite, expected a finite number");
+    if (has_last_ && new_step <= last_step_)
+      throw PeSeriesError(path_ + ": record " + std::to_string(records_ + 1) + ": step " +
+                          std::to_string(new_step) + " after step " + std::to_string(last_step_) +
+                          ", expected increasing steps");
+    used_ += record_bytes;
+    step = new_step;
+    time = info_.time(new_step);
+    pe = new_pe;
+    kept_end_ += record_bytes;
+    remember(step);
+    return true;
+  }
+
+  void remember(std::int64_t step) {
+    last_step_ = step;
+    has_last_ = true;
+    ++records_;
+  }
+
+  std::string path_;
+  PeSeriesInfo info_;
+  bool open_ = false, binary_ = false;
+  bool resuming_ = false;  // a torn last sample ends the file quietly
+  bool has_last_ = false;
+  std::int64_t last_step_ = 0;
+  std::int64_t records_ = 0;   // samples read
+  std::int64_t kept_end_ = 0;  // offset behind the last sample read
+  // text
+  std::unique_ptr<text_io::LineReader<PeSeriesError>> lines_;
+  std::string line_;
+  std::vector<std::string_view> fields_;  // views into line_
+  // binary
+  std::ifstream in_;
+  std::int64_t data_begin_ = 0, total_ = 0, used_ = 0, filled_ = 0;
+  std::vector<char> block_;
+};
+
+/// Writes a PE series. Samples are collected and handed to the system in blocks of whole samples;
+/// flush() before writing a restart, or resume() finds samples missing.
+class PeSeriesWriter {
+ public:
+  PeSeriesWriter() = default;
+  PeSeriesWriter(const PeSeriesWriter &) = delete;
+  PeSeriesWriter &operator=(const PeSeriesWriter &) = delete;
+  ~PeSeriesWriter() {
+    try {
+      close();
+    } catch (...) {
+      // close() is there for those who want to know.
+    }
+  }
+
+  /// Starts a new file, replacing an older one (which stays if the new one cannot be written).
+  /// \throws PeSeriesError; std::invalid_argument for a header that could not be read back.
+  void create(const std::string &path, const PeSeriesInfo &info, bool binary) {
+    using namespace pe_series_detail;
+    check_info(info);
+    close();
+    std::string lines = text_io::header_text(first_line, header(info));
+    std::string text;
+    if (binary) {
+      lines.erase(0, first_line.size() + 1);
+      text = binary_magic;
+      append_bytes(text, static_cast<std::uint64_t>(lines.size()));
+      text += lines;
+    } else {
+      text = lines;
+      text += column_line;
+      text += '\n';
+    }
+    file_.create(path, text);
+    start(info, binary, 0, 0);
+  }
+
+  /// Goes on with the series of a run restarted from last_step: checks that the header says what
+  /// create() would write (parameters named in ignore may differ; their old values stay), drops
+  /// every sample after last_step and a torn last one. Returns the number of samples kept. The file
+  /// is left as it was if this throws.
+  /// \throws PeSeriesError naming the first parameter that differs, the first bad line, or the
+  /// samples missing before last_step.
+  std::int64_t resume(const std::string &path, const PeSeriesInfo &info, bool binary,
+                      std::int64_t last_step, const std::vector<std::string> &ignore = {}) {
+    using namespace pe_series_detail;
+    check_info(info);
+    close();
+    PeSeriesReader reader;
+    reader.open(path, true);
+    if (reader.binary() != binary)
+      throw PeSeriesError(path + ": cannot resume: file is " +
+                          (reader.binary() ? "binary, expected text" : "text, expected binary"));
+    const std::string problem = text_io::difference(header(reader.info()), header(info), ignore);
+    if (!problem.empty()) throw PeSeriesError(path + ": cannot resume: " + problem);
+    std::int64_t kept = 0, length = reader.kept_end_, last = 0, step = 0;
+    double time = 0.0, pe = 0.0;
+    // Steps increase, so the first one to drop is where the file is cut.
+    while (reader.next(step, time, pe) && step <= last_step) {
+      last = step;
+      ++kept;
+      length = reader.kept_end_;
+    }
+    const std::int64_t reached = kept > 0 ? last : info.step0;
+    if (reached < last_step && last_step - reached >= info.stride)
+      throw PeSeriesError(path + ": cannot resume: samples end at step " + std::to_string(reached) +
+                          ", expected them up to step " + std::to_string(last_step));
+    file_.append(path, length);
+    start(info, binary, kept, last);
+    return kept;
+  }
+
+  /// Adds a sample. \throws PeSeriesError if pe is not finite, steps do not increase, or a block
+  /// cannot be written.
+  void write(std::int64_t step, double pe) {
+    using namespace pe_series_detail;
+    if (!file_.is_open()) throw PeSeriesError("PE series is not open");
+    if (!std::isfinite(pe))
+      throw PeSeriesError(file_.path() + ": cannot write step " + std::to_string(step) +
+                          ": pe is not finite, expected a finite number");
+    if (rows_ > 0 && step <= last_step_)
+      throw PeSeriesError(file_.path() + ": cannot write step " + std::to_string(step) +
+                          " after step " + std::to_string(last_step_) +
+                          ", expected increasing steps");
+    if (binary_) {
+      append_bytes(buffer_, static_cast<std::uint64_t>(step));
+      append_bytes(buffer_, pe);
+    } else {
+      text_io::append(buffer_, step);
+      buffer_ += ',';
+      text_io::append(buffer_, info_.time(step));
+      buffer_ += ',';
+      text_io::append(buffer_, pe);
+      buffer_ += '\n';
+    }
+    last_step_ = step;
+    ++rows_;
+    if (buffer_.size() >= buffer_limit) flush();
+  }
+
+  /// Hands all samples so far to the system. \throws PeSeriesError
+  void flush() {
+    if (buffer_.empty()) return;
+    file_.write(buffer_);
+    buffer_.clear();
+  }
+
+  /// \throws PeSeriesError. Also done on destruction, silently.
+  void close() {
+    if (!file_.is_open()) return;
+    flush();
+    file_.close();
+  }
+
+  bool is_open() const { return file_.is_open(); }
+  std::int64_t rows() const { return rows_; }  ///< samples so far, kept ones included
+
+ private:
+  static constexpr std::size_t buffer_limit = 1 << 16;
+
+  void start(const PeSeriesInfo &info, bool binary, std::int64_t rows, std::int64_t last_step) {
+    info_ = info;
+    binary_ = binary;
+    rows_ = rows;
+    last_step_ = last_step;
+    buffer_.clear();
+    buffer_.reserve(buffer_limit + 128);
+  }
+
+  text_io::OutputFile<PeSeriesError> file_;
+  PeSeriesInfo info_;
+  bool binary_ = false;
+  std::int64_t rows_ = 0, last_step_ = 0;
+  std::string buffer_;
+};
+
+}  // namespace LSM
+
+#endif

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file lsm_random.h
+/// Random numbers that are the same on every platform for the same seed.
+#ifndef LSM_RANDOM_H
+#define LSM_RANDOM_H
+
+#include <cmath>
+#include <cstdint>
+#include <istream>
+#include <locale>
+#include <ostream>
+#include <random>
+
+namespace LSM {
+
+/// std::mt19937_64 with conversions to double of our own: the sequence of the engine is fixed by
+/// the C++ standard, that of std::uniform_real_distribution is not.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : engine_(seed) {}
+
+  /// Next 64 random bits.
+  std::uint64_t next() { return engine_(); }
+
+  /// Uniform in [0, 1): the upper 53 bits times 2^-53.
+  double uniform() { return static_cast<double>(next() >> 11) * 0x1.0p-53; }
+
+  /// Uniform in [lo, hi); returns lo when the interval is empty. Uses up one number in any case.
+  double uniform(double lo, double hi) {
+    const double value = lo + (hi - lo) * uniform();
+    // The product may round up to hi, which the half-open interval excludes.
+    if (value >= hi && hi > lo) return std::nextafter(hi, lo);
+    return value;
+  }
+
+  friend bool operator==(const Random &a, const Random &b) { return a.engine_ == b.engine_; }
+  friend bool operator!=(const Random &a, const Random &b) { return !(a == b); }
+
+  /// Writes the full state as decimal integers separated by blanks.
+  friend std::ostream &operator<<(std::ostream &os, const Random &random) {
+    // A locale with digit grouping would make the state unreadable.
+    const std::locale before = os.imbue(std::locale::classic());
+    os << random.engine_;
+    os.imbue(before);
+    return os;
+  }
+
+  /// Reads a state written by operator<<; sets failbit and keeps the old state if it is malformed.
+  friend std::istream &operator>>(std::istream &is, Random &random) {
+    const std::locale before = is.imbue(std::locale::classic());
+    std::mt19937_64 engine;
+    if (is >> engine) random.engine_ = engine;
+    is.imbue(before);
+    return is;
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+}  // namespace LSM
+
+#endif

@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file lsm_text_io.h
+/// What the catalogue and the PE series files have in common: numbers that do not depend on the
+/// locale, "# key = value" headers, and output files that never lose what was written before.
+#ifndef LSM_TEXT_IO_H
+#define LSM_TEXT_IO_H
+
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace LSM {
+
+/// Base of the errors about files. The message is one line and names the file.
+class FileError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+namespace text_io {
+
+using Parameters = std::vector<std::pair<std::string, std::string>>;
+
+/// 17 significant digits, so that reading gives the same double back.
+inline void append(std::string &out, double value) {
+  char buffer[64];
+  const auto result =
+      std::to_chars(buffer, buffer + sizeof(buffer), value, std::chars_format::general, 17);
+  out.append(buffer, result.ptr);
+}
+
+inline void append(std::string &out, std::int64_t value) {
+  char buffer[32];
+  const auto result = std::to_chars(buffer, buffer + sizeof(buffer), value);
+  out.append(buffer, result.ptr);
+}
+
+template <class T>
+std::string number(T value) {
+  std::string out;
+  append(out, value);
+  return out;
+}
+
+/// The whole of text has to be one number; no blanks, no locale. Infinities and NaN are refused.
+inline bool parse(std::string_view text, double &value) {
+  double result = 0.0;
+  const char *const end = text.data() + text.size();
+  const auto parsed = std::from_chars(text.data(), end, result);
+  if (parsed.ec != std::errc() || parsed.ptr != end || !std::isfinite(result)) return false;
+  value = result;
+  return true;
+}
+
+inline bool parse(std::string_view text, std::int64_t &value) {
+  std::int64_t result = 0;
+  const char *const end = text.data() + text.size();
+  const auto parsed = std::from_chars(text.data(), end, result);
+  if (parsed.ec != std::errc() || parsed.ptr != end) return false;
+  value = result;
+  return true;
+}
+
+inline std::string_view trim(std::string_view text) {
+  constexpr std::string_view blanks = " \t\r";
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+/// Splits at commas; n commas make n + 1 fields. Views into line.
+inline void split(std::string_view line, std::vector<std::string_view> &fields) {
+  fields.clear();
+  for (;;) {
+    const std::size_t comma = line.find(',');
+    fields.push_back(line.substr(0, comma));
+    if (comma == std::string_view::npos) return;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+/// Field of a bad line for an error message: quoted, not too long, printable.
+inline std::string in_quotes(std::string_view text) {
+  constexpr std::size_t longest = 40;
+  std::string out = "'";
+  for (char c : text.substr(0, longest)) {
+    const bool printable = static_cast<unsigned char>(c) >= 0x20 && c != 0x7f;
+    out += printable ? c : '?';
+  }
+  if (text.size() > longest) out += "...";
+  return out + "'";
+}
+
+inline std::string where(const std::string &path, std::int64_t line) {
+  return path + ":" + std::to_string(line) + ": ";
+}
+
+inline const std::string *find(const Parameters &parameters, std::string_view key) {
+  for (const auto &parameter : parameters)
+    if (parameter.first == key) return &parameter.second;
+  return nullptr;
+}
+
+/// A key or value that would not read back as it was written is a mistake of the program.
+/// \throws std::invalid_argument
+inline void check_parameters(const Parameters &parameters) {
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const std::string &key = parameters[i].first;
+    if (key.empty() || trim(key) != key || key.find_first_of("=\n\r") != std::string::npos)
+      throw std::invalid_argument("file header: parameter name " + in_quotes(key) +
+                                  " is empty or has blanks around it, '=' or a line break");
+    if (parameters[i].second.find_first_of("\n\r") != std::string::npos)
+      throw std::invalid_argument("file header: value of parameter " + in_quotes(key) +
+                                  " has a line break");
+    for (std::size_t j = 0; j < i; ++j)
+      if (parameters[j].first == key)
+        throw std::invalid_argument("file header: parameter " + in_quotes(key) + " given twice");
+  }
+}
+
+/// First line and one "# key = value" line per parameter.
+inline std::string header_text(std::string_view first_line, const Parameters &parameters) {
+  std::string out(first_line);
+  out += '\n';
+  for (const auto &parameter : parameters) {
+    out += "# ";
+    out += parameter.first;
+    out += " = ";
+    out += trim(parameter.second);
+    out += '\n';
+  }
+  return out;
+}
+
+/// Splits "# key = value" at the first '='.
+inline bool parse_parameter(std::string_view line, std::pair<std::string, std::string> &parameter) {
+  if (line.empty() || line.front() != '#') return false;
+  line.remove_prefix(1);
+  const std::size_t equals = line.find('=');
+  if (equals == std::string_view::npos) return false;
+  const std::string_view key = trim(line.substr(0, equals));
+  if (key.empty()) return false;
+  parameter.first = std::string(key);
+  parameter.second = std::string(trim(line.substr(equals + 1)));
+  return true;
+}
+
+/// First difference between the header of a file and the one a resumed run would write, or "".
+inline std::string difference(const Parameters &in_file, const Parameters &expected,
+                              const std::vector<std::string> &ignore) {
+  const auto ignored = [&ignore](const std::string &key) {
+    for (const std::string &candidate : ignore)
+      if (candidate == key) return true;
+    return false;
+  };
+  for (const auto &parameter : expected) {
+    if (ignored(parameter.first)) continue;
+    const std::string value(trim(parameter.second));
+    const std::string *found = find(in_file, parameter.first);
+    if (!found)
+      return "parameter '" + parameter.first + "' is missing in the file, expected '" + value + "'";
+    if (*found != value)
+      return "parameter '" + parameter.first + "' is '" + *found + "' in the file, expected '" +
+             value + "'";
+  }
+  for (const auto &parameter : in_file) {
+    if (!ignored(parameter.first) && !find(expected, parameter.first))
+      return "parameter '" + parameter.first + "' is '" + parameter.second +
+             "' in the file, expected no such parameter";
+  }
+  return {};
+}
+
+/// Lines of a file with their numbers and byte offsets.
+template <class Error>
+class LineReader {
+ public:
+  explicit LineReader(std::string path) : path_(std::move(path)) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path_, ignored))
+      throw Error(path_ + ": is a directory, expected a file");
+    errno = 0;
+    in_.open(path_, std::ios::in | std::ios::binary);
+    if (!in_) throw Error(path_ + ": cannot open: " + std::generic_category().message(errno));
+  }
+
+  /// Next line without its '\n'; false at the end of the file.
+  bool next(std::string &line) {
+    begin_ = end_;
+    if (!std::getline(in_, line)) {
+      if (in_.bad()) throw Error(where(path_, line_ + 1) + "cannot read");
+      return false;
+    }
+    ++line_;
+    complete_ = !in_.eof();
+    end_ += static_cast<std::int64_t>(line.size()) + (complete_ ? 1 : 0);
+    return true;
+  }
+
+  const std::string &path() const { return path_; }
+  std::int64_t line() const { return line_; }    ///< number of the last line, from 1
+  std::int64_t begin() const { return begin_; }  ///< offset of the last line
+  std::int64_t end() const { return end_; }      ///< offset behind the last line
+  bool complete() const { return complete_; }    ///< the last line ended with '\n'
+
+  [[noreturn]] void fail(const std::string &what) const { throw Error(where(path_, line_) + what); }
+
+ private:
+  std::string path_;
+  std::ifstream in_;
+  std::int64_t line_ = 0, begin_ = 0, end_ = 0;
+  bool complete_ = true;
+};
+
+/// Unbuffered output file: each write() hands all its bytes to the system at once, so a process
+/// killed between two calls leaves nothing half-written.
+template <class Error>
+class OutputFile {
+ public:
+  OutputFile() = default;
+  OutputFile(const OutputFile &) = delete;
+  OutputFile &operator=(const OutputFile &) = delete;
+  ~OutputFile() { discard(); }
+
+  /// Replaces path by a file that holds text. An older file stays untouched if that fails.
+  void create(const std::string &path, std::string_view text) {
+    namespace fs = std::filesystem;
+    close();
+    std::error_code code;
+    // A link has to go on pointing to the file; devices and pipes cannot be replaced.
+    fs::path target =
+        fs::is_symlink(path, code) ? fs::weakly_canonical(path, code) : fs::path(path);
+    if (code) target = path;
+    const fs::file_status status = fs::status(target, code);
+    if (fs::is_directory(status)) throw Error(path + ": is a directory, expected a file name");
+    const bool special = fs::exists(status) && !fs::is_regular_file(status);
+    const std::string written = special ? target.string() : target.string() + ".new";
+    open(path, written, "wb");
+    try {
+      write(text);
+      if (!special) {
+        fs::rename(written, target, code);
+        if (code) throw Error(path + ": cannot create: " + code.message());
+      }
+    } catch (...) {
+      discard();
+      if (!special) fs::remove(written, code);
+      throw;
+    }
+  }
+
+  /// Cuts an existing file to its first length bytes and goes on behind them.
+  void append(const std::string &path, std::int64_t length) {
+    close();
+    // Opened first: without the right to write nothing is cut.
+    open(path, path, "ab");
+    std::error_code code;
+    const auto bytes = static_cast<std::uintmax_t>(length);
+    if (std::filesystem::file_size(path, code) != bytes && !code)
+      std::filesystem::resize_file(path, bytes, code);
+    if (code) {
+      discard();
+      throw Error(path + ": cannot truncate: " + code.message());
+    }
+  }
+
+  /// On failure the file is closed: lines after a half-written one would not be readable.
+  void write(std::string_view text) {
+    if (!file_) throw Error("output file is not open");
+    errno = 0;
+    if (std::fwrite(text.data(), 1, text.size(), file_) == text.size() && std::fflush(file_) == 0)
+      return;
+    const int reason = errno;
+    discard();
+    throw Error(path_ + ": cannot write: " + std::generic_category().message(reason));
+  }
+
+  void close() {
+    if (!file_) return;
+    std::FILE *const file = file_;
+    file_ = nullptr;
+    errno = 0;
+    if (std::fclose(file) != 0)
+      throw Error(path_ + ": cannot write: " + std::generic_category().message(errno));
+  }
+
+  bool is_open() const { return file_ != nullptr; }
+  const std::string &path() const { return path_; }
+
+ private:
+  void discard() {
+    if (file_) std::fclose(file_);
+    file_ = nullptr;
+  }
+
+  void open(const std::string &shown, const std::string &opened, const char *mode) {
+    errno = 0;
+    file_ = std::fopen(opened.c_str(), mode);
+    if (!file_)
+      throw Error(shown + ": cannot open for writing: " + std::generic_category().message(errno));
+    std::setvbuf(file_, nullptr, _IONBF, 0);
+    path_ = shown;
+  }
+
+  std::FILE *file_ = nullptr;
+  std::string path_;
+};
+
+}  // namespace text_io
+}  // namespace LSM
+
+#endif

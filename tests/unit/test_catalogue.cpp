@@ -1,0 +1,567 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <csignal>
+#include <cstdint>
+#include <filesystem>
+#include <iterator>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lsm_catalogue.h"
+#include "unit_files.h"
+
+namespace {
+
+using LSM::Catalogue;
+using LSM::CatalogueError;
+using LSM::CatalogueInfo;
+using LSM::CatalogueWriter;
+using LSM::Event;
+using unit::contains;
+using unit::message_of;
+using unit::slurp;
+using unit::spill;
+
+CatalogueInfo some_info() {
+  CatalogueInfo info;
+  info.model = "lsm";
+  info.parameters = {{"seed", "7"}, {"lambda", "0.99"}, {"program", "lsm 0.1 = a = b"}};
+  return info;
+}
+
+/// Events at steps 100 to 110, 200 to 210, ...
+Event some_event(std::int64_t id) {
+  Event event;
+  event.id = id;
+  event.step_start = 100 * id;
+  event.step_end = 100 * id + 10;
+  event.t_start = 0.03 * static_cast<double>(event.step_start);
+  event.t_end = 0.03 * static_cast<double>(event.step_end);
+  event.pe_start = 10.0 + 1.0 / 3.0;
+  event.pe_end = 10.0 + 0.1 / static_cast<double>(id);
+  event.size = event.pe_start - event.pe_end;
+  event.slip_moment = 0.7 * static_cast<double>(id);
+  event.x_centroid = -1.25;
+  event.rupture_length = 3.0;
+  return event;
+}
+
+const std::string header =
+    "# lsm-catalogue 1\n"
+    "# model = lsm\n"
+    "# seed = 7\n"
+    "# lambda = 0.99\n"
+    "# program = lsm 0.1 = a = b\n";
+const std::string columns = "event_id,t_start,t_end,step_start,step_end,size,pe_start,pe_end\n";
+
+class CatalogueFile : public unit::Files {
+ protected:
+  std::string file() const { return path("events.csv"); }
+
+  void write_events(int count, const CatalogueInfo &info = some_info()) {
+    CatalogueWriter writer;
+    writer.create(file(), info);
+    for (int id = 1; id <= count; ++id) writer.write(some_event(id));
+    writer.close();
+  }
+};
+
+using CatalogueRead = CatalogueFile;
+using CatalogueWrite = CatalogueFile;
+using CatalogueResume = CatalogueFile;
+
+// ---- format ----
+
+TEST_F(CatalogueWrite, FormatToTheByte) {
+  CatalogueWriter writer;
+  writer.create(file(), some_info());
+  Event event;
+  event.id = 1;
+  event.t_start = 0.25;
+  event.t_end = 3.0;
+  event.step_start = 10;
+  event.step_end = 120;
+  event.size = 0.1;
+  event.pe_start = 1e-7;
+  event.pe_end = -2.5e20;
+  writer.write(event);
+  writer.close();
+  EXPECT_EQ(slurp(file()), header + columns +
+                               "1,0.25,3,10,120,0.10000000000000001,9.9999999999999995e-08,"
+                               "-2.5e+20\n");
+}
+
+TEST_F(CatalogueWrite, OptionalColumnsInEveryCombination) {
+  for (int mask = 0; mask < 8; ++mask) {
+    SCOPED_TRACE(mask);
+    CatalogueInfo info = some_info();
+    info.slip_moment = mask & 1;
+    info.x_centroid = mask & 2;
+    info.rupture_length = mask & 4;
+    write_events(2, info);
+    const Catalogue catalogue = LSM::read_catalogue(file());
+    EXPECT_EQ(catalogue.info.slip_moment, info.slip_moment);
+    EXPECT_EQ(catalogue.info.x_centroid, info.x_centroid);
+    EXPECT_EQ(catalogue.info.rupture_length, info.rupture_length);
+    ASSERT_EQ(catalogue.events.size(), 2U);
+    EXPECT_EQ(catalogue.events[1].slip_moment, mask & 1 ? 1.4 : 0.0);
+    EXPECT_EQ(catalogue.events[1].x_centroid, mask & 2 ? -1.25 : 0.0);
+    EXPECT_EQ(catalogue.events[1].rupture_length, mask & 4 ? 3.0 : 0.0);
+  }
+  EXPECT_TRUE(contains(slurp(file()), ",pe_end,slip_moment,x_centroid,rupture_length\n"));
+}
+
+TEST_F(CatalogueWrite, NumbersComeBackToTheLastBit) {
+  const double awkward[] = {0.1,
+                            1.0 / 3.0,
+                            -0.0,
+                            1e-300,
+                            std::numeric_limits<double>::denorm_min(),
+                            std::numeric_limits<double>::max(),
+                            123456789.01234567,
+                            -2.2250738585072014e-308};
+  CatalogueWriter writer;
+  writer.create(file(), some_info());
+  std::int64_t id = 0;
+  for (double value : awkward) {
+    Event event = some_event(++id);
+    event.size = value;
+    event.pe_end = -value;
+    writer.write(event);
+  }
+  writer.close();
+  const Catalogue catalogue = LSM::read_catalogue(file());
+  ASSERT_EQ(catalogue.events.size(), std::size(awkward));
+  for (std::size_t i = 0; i < std::size(awkward); ++i) {
+    EXPECT_EQ(catalogue.events[i].size, awkward[i]);
+    EXPECT_EQ(std::signbit(catalogue.events[i].size), std::signbit(awkward[i]));
+    EXPECT_EQ(catalogue.events[i].pe_end, -awkward[i]);
+    const Event expected = some_event(static_cast<std::int64_t>(i) + 1);
+    EXPECT_EQ(catalogue.events[i].id, expected.id);
+    EXPECT_EQ(catalogue.events[i].t_start, expected.t_start);
+    EXPECT_EQ(catalogue.events[i].t_end, expected.t_end);
+    EXPECT_EQ(catalogue.events[i].step_start, expected.step_start);
+    EXPECT_EQ(catalogue.events[i].step_end, expected.step_end);
+  }
+}
+
+TEST_F(CatalogueWrite, LargeStepsAreExact) {
+  CatalogueWriter writer;
+  writer.create(file(), some_info());
+  Event event = some_event(1);
+  event.step_start = std::numeric_limits<std::int64_t>::max() - 1;
+  event.step_end = std::numeric_limits<std::int64_t>::max();
+  writer.write(event);
+  const Catalogue catalogue = LSM::read_catalogue(file());
+  EXPECT_EQ(catalogue.events.at(0).step_start, event.step_start);
+  EXPECT_EQ(catalogue.events.at(0).step_end, event.step_end);
+}
+
+TEST_F(CatalogueWrite, LocaleDoesNotMatter) {
+  write_events(3);
+  const std::string expected = slurp(file());
+  const unit::CommaLocale locale;
+  write_events(3);
+  EXPECT_EQ(slurp(file()), expected);
+  const Catalogue catalogue = LSM::read_catalogue(file());
+  ASSERT_EQ(catalogue.events.size(), 3U);
+  EXPECT_EQ(catalogue.events[2].size, some_event(3).size);
+}
+
+TEST_F(CatalogueWrite, HeaderComesBack) {
+  CatalogueInfo info = some_info();
+  info.model = "block-slider";
+  info.parameters.emplace_back("note", "  blanks around go, commas, and = stay ");
+  info.parameters.emplace_back("empty", "");
+  write_events(0, info);
+  const Catalogue catalogue = LSM::read_catalogue(file());
+  EXPECT_TRUE(catalogue.events.empty());
+  EXPECT_EQ(catalogue.info.model, "block-slider");
+  ASSERT_EQ(catalogue.info.parameters.size(), 5U);
+  EXPECT_EQ(catalogue.info.parameters[0].first, "seed");
+  ASSERT_NE(catalogue.info.find("note"), nullptr);
+  EXPECT_EQ(*catalogue.info.find("note"), "blanks around go, commas, and = stay");
+  EXPECT_EQ(*catalogue.info.find("program"), "lsm 0.1 = a = b");
+  EXPECT_EQ(*catalogue.info.find("empty"), "");
+  EXPECT_EQ(catalogue.info.find("nothing"), nullptr);
+}
+
+TEST_F(CatalogueWrite, RefusesHeadersThatWouldNotReadBack) {
+  CatalogueWriter writer;
+  CatalogueInfo info = some_info();
+  info.model = "spring";
+  EXPECT_THROW(writer.create(file(), info), std::invalid_argument);
+  const std::pair<std::string, std::string> bad[] = {{"", "1"},       {"a=b", "1"},  {" a", "1"},
+                                                     {"a\nb", "1"},   {"a", "1\n2"}, {"seed", "8"},
+                                                     {"model", "lsm"}};
+  for (const auto &parameter : bad) {
+    SCOPED_TRACE(parameter.first);
+    info = some_info();
+    info.parameters.push_back(parameter);
+    EXPECT_THROW(writer.create(file(), info), std::invalid_argument);
+  }
+  EXPECT_FALSE(std::filesystem::exists(file()));
+}
+
+// ---- safety of what is written ----
+
+TEST_F(CatalogueWrite, EachEventIsInTheFileAtOnce) {
+  CatalogueWriter writer;
+  writer.create(file(), some_info());
+  EXPECT_EQ(LSM::read_catalogue(file()).events.size(), 0U);
+  for (int id = 1; id <= 5; ++id) {
+    writer.write(some_event(id));
+    EXPECT_EQ(LSM::read_catalogue(file()).events.size(), static_cast<std::size_t>(id));
+  }
+  EXPECT_EQ(writer.rows(), 5);
+}
+
+TEST_F(CatalogueWrite, KilledProcessLeavesEveryFinishedEvent) {
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    CatalogueWriter writer;
+    writer.create(file(), some_info());
+    for (int id = 1; id <= 3; ++id) writer.write(some_event(id));
+    raise(SIGKILL);
+    _exit(0);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFSIGNALED(status));
+  EXPECT_EQ(LSM::read_catalogue(file()).events.size(), 3U);
+}
+
+TEST_F(CatalogueWrite, CreateReplaces) {
+  write_events(5);
+  write_events(2);
+  EXPECT_EQ(LSM::read_catalogue(file()).events.size(), 2U);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 1);
+}
+
+TEST_F(CatalogueWrite, CreateFollowsLinks) {
+  spill(path("target.csv"), "old");
+  std::filesystem::create_symlink("target.csv", file());
+  write_events(1);
+  EXPECT_TRUE(std::filesystem::is_symlink(file()));
+  EXPECT_EQ(LSM::read_catalogue(path("target.csv")).events.size(), 1U);
+}
+
+TEST_F(CatalogueWrite, FailedCreateKeepsTheOldFile) {
+  write_events(3);
+  const std::string before = slurp(file());
+  std::filesystem::create_directory(file() + ".new");  // in the way of the temporary file
+  CatalogueWriter writer;
+  EXPECT_TRUE(contains(message_of<CatalogueError>([&] { writer.create(file(), some_info()); }),
+                       file() + ": cannot open for writing: "));
+  EXPECT_EQ(slurp(file()), before);
+  EXPECT_FALSE(writer.is_open());
+  EXPECT_THROW(writer.write(some_event(1)), CatalogueError);
+}
+
+TEST_F(CatalogueWrite, NoSuchFolder) {
+  CatalogueWriter writer;
+  EXPECT_TRUE(contains(
+      message_of<CatalogueError>([&] { writer.create(path("no/such/x.csv"), some_info()); }),
+      "no/such/x.csv: cannot open for writing: No such file"));
+  EXPECT_THROW(writer.create(folder_.string(), some_info()), CatalogueError);
+}
+
+TEST_F(CatalogueWrite, FullDisk) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  CatalogueWriter writer;
+  EXPECT_TRUE(contains(message_of<CatalogueError>([&] { writer.create("/dev/full", some_info()); }),
+                       "/dev/full: cannot write: "));
+  EXPECT_TRUE(std::filesystem::exists("/dev/full"));
+}
+
+TEST_F(CatalogueWrite, RefusesEventsNoReaderWouldTake) {
+  CatalogueWriter writer;
+  writer.create(file(), some_info());
+  writer.write(some_event(2));
+  Event event = some_event(3);
+  event.size = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(contains(message_of<CatalogueError>([&] { writer.write(event); }),
+                       "cannot write event 3: column 'size' is not finite"));
+  EXPECT_THROW(writer.write(some_event(1)), CatalogueError);
+  EXPECT_THROW(writer.write(some_event(2)), CatalogueError);
+  writer.write(some_event(3));
+  EXPECT_EQ(LSM::read_catalogue(file()).events.size(), 2U);
+}
+
+// ---- strict and lenient reading ----
+
+struct Bad {
+  const char *name;
+  std::string text;     // the file
+  std::string message;  // behind the path
+};
+
+const std::string row1 = "1,1,2,10,20,0.5,3,2.5\n";
+const std::string row2 = "2,3,4,30,40,0.5,3,2.5\n";
+const std::string row3 = "3,5,6,50,60,0.5,3,2.5\n";
+
+/// Bad rows between two good ones; line 8 of the file.
+const std::vector<Bad> bad_rows = {
+    {"missing column", "2,3,4,30,40,0.5,3\n", ":8: 7 columns, expected 8 (event_id,"},
+    {"extra column", "2,3,4,30,40,0.5,3,2.5,1\n", ":8: 9 columns, expected 8 "},
+    {"empty line", "\n", ":8: 0 columns, expected 8 "},
+    {"comment", "# note = late\n", ":8: 1 columns, expected 8 "},
+    {"nan", "2,3,4,30,40,nan,3,2.5\n", ":8: column 'size' is 'nan', expected a finite number"},
+    {"infinity", "2,3,4,30,40,0.5,inf,2.5\n", ":8: column 'pe_start' is 'inf', expected a finite"},
+    {"overflow", "2,3,4,30,40,1e999,3,2.5\n", ":8: column 'size' is '1e999', expected a finite"},
+    {"word", "2,3,four,30,40,0.5,3,2.5\n", ":8: column 't_end' is 'four', expected a finite"},
+    {"empty field", "2,,4,30,40,0.5,3,2.5\n", ":8: column 't_start' is '', expected a finite"},
+    {"blank", "2, 3,4,30,40,0.5,3,2.5\n", ":8: column 't_start' is ' 3', expected a finite"},
+    {"trailing rubbish", "2,3x,4,30,40,0.5,3,2.5\n", ":8: column 't_start' is '3x', expected a"},
+    {"carriage return", "2,3,4,30,40,0.5,3,2.5\r\n", ":8: column 'pe_end' is '2.5?', expected a"},
+    {"fractional step", "2,3,4,30.5,40,0.5,3,2.5\n",
+     ":8: column 'step_start' is '30.5', expected "
+     "an integer"},
+    {"long step", "2,3,4,30,99999999999999999999,0.5,3,2.5\n", ":8: column 'step_end' is '9999"},
+    {"ends before start", "2,3,2.5,30,40,0.5,3,2.5\n", ":8: t_end 2.5 is before t_start 3, "},
+    {"step ends before start", "2,3,4,30,29,0.5,3,2.5\n", ":8: step_end 29 is before step_start "},
+    {"time goes back", "2,1.5,4,30,40,0.5,3,2.5\n",
+     ":8: t_start 1.5 is before the end of the previous event 2, expected events in order"},
+    {"step goes back", "2,3,4,19,40,0.5,3,2.5\n", ":8: step_start 19 is before the end of the "},
+    {"same event", "1,3,4,30,40,0.5,3,2.5\n", ":8: event_id 1 after event_id 1, expected incr"}};
+
+TEST_F(CatalogueRead, StrictRefusesBadRows) {
+  for (const Bad &bad : bad_rows) {
+    SCOPED_TRACE(bad.name);
+    spill(file(), header + columns + row1 + bad.text + row3);
+    EXPECT_TRUE(contains(message_of<CatalogueError>([&] { LSM::read_catalogue(file()); }),
+                         file() + bad.message));
+  }
+}
+
+TEST_F(CatalogueRead, LenientSkipsAndCountsBadRows) {
+  std::string text = header + columns + row1;
+  for (const Bad &bad : bad_rows) text += bad.text;
+  spill(file(), text + row3 + "4,7,8,70,80,0.5,3,2.");
+  const Catalogue catalogue = LSM::read_catalogue(file(), true);
+  ASSERT_EQ(catalogue.events.size(), 2U);
+  EXPECT_EQ(catalogue.events[0].id, 1);
+  EXPECT_EQ(catalogue.events[1].id, 3);
+  EXPECT_EQ(catalogue.skipped, static_cast<std::int64_t>(bad_rows.size()) + 1);
+  EXPECT_TRUE(contains(catalogue.first_problem, file() + ":8: 7 columns, expected 8"));
+}
+
+TEST_F(CatalogueRead, StrictTakesAGoodFile) {
+  spill(file(), header + columns + row1 + row2 + row3);
+  const Catalogue catalogue = LSM::read_catalogue(file());
+  EXPECT_EQ(catalogue.events.size(), 3U);
+  EXPECT_EQ(catalogue.skipped, 0);
+  EXPECT_EQ(catalogue.first_problem, "");
+}
+
+TEST_F(CatalogueRead, StrictRefusesATruncatedLastLine) {
+  // Even where all columns are there: the last number may lack digits.
+  for (const std::string tail : {"2,3,4,30,40,0.5,3,2.5", "2,3,4,3", "2"}) {
+    spill(file(), header + columns + row1 + tail);
+    EXPECT_TRUE(contains(message_of<CatalogueError>([&] { LSM::read_catalogue(file()); }),
+                         file() + ":8: truncated last line, expected 8 columns and a line end"));
+  }
+}
+
+const std::vector<Bad> bad_headers = {
+    {"empty", "", ":1: empty file, expected '# lsm-catalogue 1'"},
+    {"version", "# lsm-catalogue 2\n# model = lsm\n" + columns,
+     ":1: catalogue version '2', expected version 1"},
+    {"other file", "time,size\n1,2\n", ":1: not a catalogue, expected '# lsm-catalogue 1'"},
+    {"no model", "# lsm-catalogue 1\n# seed = 7\n" + columns, ":3: no model in the header, expec"},
+    {"model", "# lsm-catalogue 1\n# model = sand\n" + columns,
+     ":2: model is 'sand', expected 'lsm' or 'block-slider'"},
+    {"no columns", header, ":5: file ends within the header, expected a line of column names"},
+    {"no column line", header + row1, ":6: column 1 is '1', expected 'event_id'"},
+    {"column missing", header + "event_id,t_start,t_end,step_start,step_end,size,pe_start\n",
+     ":6: column 8 is missing, expected 'pe_end'"},
+    {"column order", header + "event_id,t_end,t_start,step_start,step_end,size,pe_start,pe_end\n",
+     ":6: column 2 is 't_end', expected 't_start'"},
+    {"unknown column", header + columns.substr(0, columns.size() - 1) + ",depth\n",
+     ":6: column 9 is 'depth', expected slip_moment, x_centroid, rupture_length"},
+    {"optional order", header + columns.substr(0, columns.size() - 1) + ",x_centroid,slip_moment\n",
+     ":6: column 10 is 'slip_moment', expected slip_moment, x_centroid, rupture_length, in this"},
+    {"torn columns", header + columns.substr(0, columns.size() - 1),
+     ":6: truncated line of column names"}};
+
+TEST_F(CatalogueRead, BadHeadersAreRefusedEvenIfLenient) {
+  for (const Bad &bad : bad_headers) {
+    for (bool lenient : {false, true}) {
+      SCOPED_TRACE(bad.name);
+      spill(file(), bad.text);
+      EXPECT_TRUE(
+          contains(message_of<CatalogueError>([&] { LSM::read_catalogue(file(), lenient); }),
+                   file() + bad.message));
+    }
+  }
+}
+
+TEST_F(CatalogueRead, OddHeaderLinesAreRefusedOrSkipped) {
+  const std::string start = "# lsm-catalogue 1\n# model = lsm\n# seed = 7\n";
+  const Bad odd[] = {{"no value", "# just a note\n", ":4: header line '# just a note', expected "},
+                     {"no key", "# = 3\n", ":4: header line '# = 3', expected '# key = value'"},
+                     {"twice", "# seed = 8\n", ":4: parameter 'seed' given twice, expected once"},
+                     {"model twice", "# model = lsm\n", ":4: parameter 'model' given twice"}};
+  for (const Bad &bad : odd) {
+    SCOPED_TRACE(bad.name);
+    spill(file(), start + bad.text + columns + row1);
+    EXPECT_TRUE(contains(message_of<CatalogueError>([&] { LSM::read_catalogue(file()); }),
+                         file() + bad.message));
+    const Catalogue catalogue = LSM::read_catalogue(file(), true);
+    EXPECT_EQ(catalogue.events.size(), 1U);
+    EXPECT_EQ(catalogue.skipped, 1);
+    EXPECT_EQ(*catalogue.info.find("seed"), "7");
+  }
+}
+
+TEST_F(CatalogueRead, NoFile) {
+  EXPECT_TRUE(contains(message_of<CatalogueError>([&] { LSM::read_catalogue(file()); }),
+                       file() + ": cannot open: No such file"));
+  EXPECT_TRUE(contains(message_of<CatalogueError>([&] { LSM::read_catalogue(folder_.string()); }),
+                       ": is a directory, expected a file"));
+}
+
+TEST_F(CatalogueRead, EventByEvent) {
+  write_events(3);
+  LSM::CatalogueReader reader(file());
+  EXPECT_EQ(reader.info().model, "lsm");
+  Event event;
+  for (int id = 1; id <= 3; ++id) {
+    ASSERT_TRUE(reader.next(event));
+    EXPECT_EQ(event.id, id);
+    EXPECT_EQ(reader.line(), 6 + id);
+  }
+  EXPECT_FALSE(reader.next(event));
+  EXPECT_FALSE(reader.next(event));
+}
+
+TEST_F(CatalogueRead, MessagesStayOnOneLine) {
+  spill(file(), header + columns + "1,\x01\x1b" + std::string(5000, 'z') + ",2,10,20,0.5,3,2.5\n");
+  const std::string message = message_of<CatalogueError>([&] { LSM::read_catalogue(file()); });
+  EXPECT_TRUE(contains(message, "is '??zzz"));
+  EXPECT_LT(message.size(), file().size() + 200);
+}
+
+// ---- resuming ----
+
+TEST_F(CatalogueResume, GoesOnAsIfNeverInterrupted) {
+  write_events(6);
+  const std::string expected = slurp(file());
+  for (int at : {0, 1, 3, 6}) {
+    SCOPED_TRACE(at);
+    write_events(5);
+    CatalogueWriter writer;
+    // Event n ends at step 100 n + 10; one that ends at the step of the restart is kept.
+    const int kept = at < 5 ? at : 5;
+    EXPECT_EQ(writer.resume(file(), some_info(), 100 * at + 10), kept);
+    EXPECT_EQ(writer.rows(), kept);
+    for (int id = kept + 1; id <= 6; ++id) writer.write(some_event(id));
+    writer.close();
+    EXPECT_EQ(slurp(file()), expected);
+  }
+}
+
+TEST_F(CatalogueResume, DropsAnEventThatEndsJustAfterTheRestart) {
+  write_events(3);
+  CatalogueWriter writer;
+  EXPECT_EQ(writer.resume(file(), some_info(), 209), 1);
+}
+
+TEST_F(CatalogueResume, DropsATornLastLine) {
+  write_events(3);
+  const std::string expected = slurp(file());
+  for (const std::string tail : {"4,12,12.3,400,410,0.5", "4", ",,,,,,,,,,", "\x01\x02"}) {
+    spill(file(), expected + tail);
+    CatalogueWriter writer;
+    EXPECT_EQ(writer.resume(file(), some_info(), 1000), 3);
+    writer.close();
+    EXPECT_EQ(slurp(file()), expected);
+  }
+}
+
+TEST_F(CatalogueResume, KeepsOrderOverTheSeam) {
+  write_events(3);
+  CatalogueWriter writer;
+  writer.resume(file(), some_info(), 1000);
+  EXPECT_THROW(writer.write(some_event(3)), CatalogueError);
+  writer.write(some_event(4));
+  EXPECT_EQ(LSM::read_catalogue(file()).events.size(), 4U);
+}
+
+TEST_F(CatalogueResume, NamesTheParameterThatDiffers) {
+  write_events(3);
+  const std::string before = slurp(file());
+  const auto refused = [&](const CatalogueInfo &info, const std::string &message) {
+    CatalogueWriter writer;
+    EXPECT_TRUE(contains(message_of<CatalogueError>([&] { writer.resume(file(), info, 110); }),
+                         file() + ": cannot resume: " + message));
+    EXPECT_FALSE(writer.is_open());
+    EXPECT_EQ(slurp(file()), before);
+  };
+  CatalogueInfo info = some_info();
+  info.parameters[1].second = "0.98";
+  refused(info, "parameter 'lambda' is '0.99' in the file, expected '0.98'");
+  info = some_info();
+  info.parameters.emplace_back("mu", "0.6");
+  refused(info, "parameter 'mu' is missing in the file, expected '0.6'");
+  info = some_info();
+  info.parameters.erase(info.parameters.begin());
+  refused(info, "parameter 'seed' is '7' in the file, expected no such parameter");
+  info = some_info();
+  info.model = "block-slider";
+  refused(info, "model is 'lsm' in the file, expected 'block-slider'");
+  info = some_info();
+  info.slip_moment = true;
+  refused(info, "columns are 'event_id,");
+}
+
+TEST_F(CatalogueResume, IgnoredParametersMayDifferAndKeepTheirValue) {
+  write_events(3);
+  CatalogueInfo info = some_info();
+  info.parameters[2].second = "lsm 0.2";
+  info.parameters.emplace_back("steps", "200");
+  CatalogueWriter writer;
+  EXPECT_THROW(writer.resume(file(), info, 110, {"program"}), CatalogueError);
+  EXPECT_EQ(writer.resume(file(), info, 110, {"program", "steps"}), 1);
+  writer.close();
+  EXPECT_EQ(*LSM::read_catalogue(file()).info.find("program"), "lsm 0.1 = a = b");
+}
+
+TEST_F(CatalogueResume, OrderOfParametersDoesNotMatter) {
+  write_events(1);
+  CatalogueInfo info = some_info();
+  std::swap(info.parameters[0], info.parameters[2]);
+  CatalogueWriter writer;
+  EXPECT_EQ(writer.resume(file(), info, 1000), 1);
+}
+
+TEST_F(CatalogueResume, BadRowBeforeTheRestartLosesNothing) {
+  const std::string text = header + columns + row1 + "2,3,4,30,40,0.5\n" + row3;
+  spill(file(), text);
+  CatalogueWriter writer;
+  EXPECT_TRUE(
+      contains(message_of<CatalogueError>([&] { writer.resume(file(), some_info(), 1000); }),
+               file() + ":8: 6 columns, expected 8"));
+  EXPECT_EQ(slurp(file()), text);
+}
+
+TEST_F(CatalogueResume, NothingToGoOnWith) {
+  CatalogueWriter writer;
+  EXPECT_THROW(writer.resume(file(), some_info(), 0), CatalogueError);
+  EXPECT_FALSE(std::filesystem::exists(file()));
+  spill(file(), "");
+  EXPECT_THROW(writer.resume(file(), some_info(), 0), CatalogueError);
+  spill(file(), "something else\n");
+  EXPECT_THROW(writer.resume(file(), some_info(), 0), CatalogueError);
+  EXPECT_EQ(slurp(file()), "something else\n");
+}
+
+}  // namespace

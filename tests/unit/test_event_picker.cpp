@@ -1,0 +1,517 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "lsm_event_picker.h"
+#include "lsm_random.h"
+#include "unit_files.h"
+
+namespace {
+
+using LSM::Event;
+using LSM::EventPicker;
+using LSM::PickerReading;
+using LSM::PickerSettings;
+
+PickerSettings settings(PickerReading reading, double lambda) {
+  PickerSettings out;
+  out.reading = reading;
+  out.lambda = lambda;
+  return out;
+}
+
+void expect_same(const Event &a, const Event &b) {
+  EXPECT_EQ(a.id, b.id);
+  EXPECT_EQ(a.t_start, b.t_start);
+  EXPECT_EQ(a.t_end, b.t_end);
+  EXPECT_EQ(a.step_start, b.step_start);
+  EXPECT_EQ(a.step_end, b.step_end);
+  EXPECT_EQ(a.size, b.size);
+  EXPECT_EQ(a.pe_start, b.pe_start);
+  EXPECT_EQ(a.pe_end, b.pe_end);
+}
+
+void expect_same(const std::vector<Event> &a, const std::vector<Event> &b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    SCOPED_TRACE(i);
+    expect_same(a[i], b[i]);
+  }
+}
+
+/// Events of PE(0), PE(1), ... at times 0, dt, ...
+std::vector<Event> pick(EventPicker &picker, const std::vector<double> &pe, double dt = 1.0,
+                        std::int64_t first = 0) {
+  std::vector<Event> events;
+  Event event;
+  for (std::size_t i = 0; i < pe.size(); ++i) {
+    const std::int64_t step = first + static_cast<std::int64_t>(i);
+    if (picker.push(step, static_cast<double>(step) * dt, pe[i], event)) events.push_back(event);
+  }
+  return events;
+}
+
+/// Sawtooth of loading and of drops of random length, with noise; sizes over several decades.
+std::vector<double> stick_slip(std::uint64_t seed, int count) {
+  LSM::Random random(seed);
+  std::vector<double> pe;
+  double value = 100.0;
+  bool dropping = false;
+  int left = 50;
+  for (int i = 0; i < count; ++i) {
+    pe.push_back(value);
+    if (left-- == 0) {
+      dropping = !dropping;
+      left = static_cast<int>(dropping ? random.uniform(1, 20) : random.uniform(20, 200));
+    }
+    value += (dropping ? -random.uniform(0.1, 3.0) : 0.1) + random.uniform(-0.05, 0.05);
+  }
+  return pe;
+}
+
+// ---- hand-computed series: PE = 0 2 1 0 0.25 1.25 2.25, x = 2 -1 -1 0.25 1 1, lambda = 1/2 ----
+
+const std::vector<double> by_hand = {0, 2, 1, 0, 0.25, 1.25, 2.25};
+
+struct Expected {
+  std::vector<double> rate;    // A after each sample
+  std::vector<bool> in_event;  // after each sample
+  std::int64_t start, end;     // samples
+  double size;
+};
+
+void check_by_hand(PickerReading reading, const Expected &expected) {
+  EventPicker picker(settings(reading, 0.5));
+  Event event;
+  for (std::size_t i = 0; i < by_hand.size(); ++i) {
+    SCOPED_TRACE(i);
+    // Steps and times that cannot be mistaken for indices.
+    const std::int64_t step = 1000 + static_cast<std::int64_t>(i);
+    const bool reported =
+        picker.push(step, 50.0 + 0.25 * static_cast<double>(i), by_hand[i], event);
+    EXPECT_DOUBLE_EQ(picker.rate(), expected.rate[i]);
+    EXPECT_EQ(picker.in_event(), expected.in_event[i]);
+    EXPECT_EQ(reported, static_cast<std::int64_t>(i) == expected.end + 1);
+  }
+  EXPECT_EQ(picker.events(), 1);
+  EXPECT_EQ(event.id, 1);
+  EXPECT_EQ(event.step_start, 1000 + expected.start);
+  EXPECT_EQ(event.step_end, 1000 + expected.end);
+  EXPECT_EQ(event.t_start, 50.0 + 0.25 * static_cast<double>(expected.start));
+  EXPECT_EQ(event.t_end, 50.0 + 0.25 * static_cast<double>(expected.end));
+  EXPECT_EQ(event.pe_start, by_hand[static_cast<std::size_t>(expected.start)]);
+  EXPECT_EQ(event.pe_end, by_hand[static_cast<std::size_t>(expected.end)]);
+  EXPECT_EQ(event.size, expected.size);
+  EXPECT_EQ(picker.last_size(), expected.size);
+}
+
+TEST(EventPicker, ExponentialByHand) {
+  // A: 1, 0 (not negative: no event yet), -1/2, -1/8, 7/16
+  check_by_hand(PickerReading::exponential, {{0, 1, 0, -0.5, -0.125, 0.4375, 0.71875},
+                                             {false, false, false, true, true, false, false},
+                                             2,
+                                             4,
+                                             0.75});
+}
+
+TEST(EventPicker, AverageByHand) {
+  // A <- (x + A/2) / (3/2) = (2x + A)/3: 4/3, -2/9, -20/27, -13/162, 311/486, 1283/1458
+  check_by_hand(PickerReading::average,
+                {{0, 4.0 / 3, -2.0 / 9, -20.0 / 27, -13.0 / 162, 311.0 / 486, 1283.0 / 1458},
+                 {false, false, true, true, true, false, false},
+                 1,
+                 4,
+                 1.75});
+}
+
+TEST(EventPicker, LiteralByHand) {
+  // Denominators 1, 3/2, 2, 5/2, 3, 7/2. A: 2, 0, -1/2, 0 (the event stays open), 1/3, 1/3
+  check_by_hand(PickerReading::literal, {{0, 2, 0, -0.5, 0, 1.0 / 3, 1.0 / 3},
+                                         {false, false, false, true, true, false, false},
+                                         2,
+                                         4,
+                                         0.75});
+}
+
+TEST(EventPicker, WithoutMemoryTheRawSignDecides) {
+  EventPicker picker(settings(PickerReading::exponential, 0.0));
+  const std::vector<Event> events = pick(picker, by_hand);
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].step_start, 1);
+  EXPECT_EQ(events[0].step_end, 3);
+  EXPECT_EQ(events[0].size, 2.0);
+}
+
+TEST(EventPicker, SeriesThatStartsWithADrop) {
+  EventPicker picker(settings(PickerReading::exponential, 0.5));
+  const std::vector<Event> events = pick(picker, {5, 3, 2, 4});
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].step_start, 0);
+  EXPECT_EQ(events[0].step_end, 2);
+  EXPECT_EQ(events[0].size, 3.0);
+}
+
+TEST(EventPicker, FirstSampleOnlySetsTheEnergy) {
+  EventPicker picker{PickerSettings()};
+  Event event;
+  EXPECT_FALSE(picker.push(0, 0.0, -1e6, event));
+  EXPECT_EQ(picker.rate(), 0.0);
+  EXPECT_FALSE(picker.in_event());
+}
+
+TEST(EventPicker, OpenEventAtTheEndIsNotReported) {
+  EventPicker picker(settings(PickerReading::exponential, 0.5));
+  EXPECT_TRUE(pick(picker, {0, 1, -5, -6}).empty());
+  EXPECT_TRUE(picker.in_event());
+  EXPECT_EQ(picker.events(), 0);
+}
+
+TEST(EventPicker, ConstantEnergyIsNoEvent) {
+  EventPicker picker{PickerSettings()};
+  EXPECT_TRUE(pick(picker, std::vector<double>(1000, 3.5)).empty());
+  EXPECT_EQ(picker.rate(), 0.0);
+}
+
+// ---- readings ----
+
+TEST(EventPicker, LiteralFollowsTheRawSignOnceItsMemoryIsGone) {
+  // Changes of magnitude 0.5 to 1.5: from the tenth change on the remembered part, at most
+  // 1.5 / (t - 1), cannot outweigh the change itself. The first ten are loading.
+  LSM::Random random(42);
+  std::vector<double> pe = {0.0};
+  for (int i = 0; i < 20000; ++i) {
+    const double sign = i < 10 || random.uniform() < 0.7 ? 1.0 : -1.0;
+    pe.push_back(pe.back() + sign * random.uniform(0.5, 1.5));
+  }
+  EventPicker literal(settings(PickerReading::literal, 0.99));
+  EventPicker raw(settings(PickerReading::exponential, 0.0));
+  EventPicker smooth(settings(PickerReading::exponential, 0.99));
+  const std::vector<Event> expected = pick(raw, pe);
+  EXPECT_GT(expected.size(), 2000U);
+  expect_same(pick(literal, pe), expected);
+  EXPECT_LT(pick(smooth, pe).size(), expected.size() / 10);
+}
+
+TEST(EventPicker, SmoothingJoinsWhatNoiseSplits) {
+  const std::vector<double> pe = stick_slip(5, 20000);
+  EventPicker raw(settings(PickerReading::exponential, 0.0));
+  EventPicker smooth(settings(PickerReading::exponential, 0.9));
+  const auto many = pick(raw, pe), few = pick(smooth, pe);
+  EXPECT_GT(few.size(), 20U);
+  EXPECT_LE(few.size(), many.size());
+}
+
+TEST(EventPicker, SizesArePositiveForAllReadings) {
+  // The changes of an open event sum to a weighted sum of its negative A, so this holds exactly.
+  for (PickerReading reading :
+       {PickerReading::exponential, PickerReading::average, PickerReading::literal}) {
+    for (double lambda : {0.0, 0.5, 0.9, 0.99}) {
+      SCOPED_TRACE(std::string(to_string(reading)) + " " + std::to_string(lambda));
+      EventPicker picker(settings(reading, lambda));
+      const std::vector<double> pe = stick_slip(17, 20000);
+      const std::vector<Event> events = pick(picker, pe);
+      EXPECT_GT(events.size(), 20U);
+      EXPECT_EQ(picker.dropped_nonpositive(), 0);
+      for (std::size_t i = 0; i < events.size(); ++i) {
+        const Event &event = events[i];
+        ASSERT_GT(event.size, 0.0);
+        ASSERT_EQ(event.id, static_cast<std::int64_t>(i) + 1);
+        ASSERT_LT(event.step_start, event.step_end);
+        ASSERT_EQ(event.pe_start, pe[static_cast<std::size_t>(event.step_start)]);
+        ASSERT_EQ(event.pe_end, pe[static_cast<std::size_t>(event.step_end)]);
+        ASSERT_EQ(event.size, event.pe_start - event.pe_end);
+        ASSERT_GT(event.step_start, i ? events[i - 1].step_end : -1);
+      }
+    }
+  }
+}
+
+TEST(EventPicker, NamesOfReadings) {
+  for (const char *name : {"exponential", "average", "literal"}) {
+    PickerReading reading = PickerReading::exponential;
+    ASSERT_TRUE(LSM::from_string(name, reading));
+    EXPECT_STREQ(LSM::to_string(reading), name);
+  }
+  PickerReading reading = PickerReading::literal;
+  EXPECT_FALSE(LSM::from_string("Exponential", reading));
+  EXPECT_FALSE(LSM::from_string("", reading));
+  EXPECT_EQ(reading, PickerReading::literal);
+}
+
+// ---- memory time ----
+
+// PE rises by 1 per time until 50, falls by 3 per time until 60, rises again.
+double ramps(double t) {
+  if (t <= 50.0) return t;
+  if (t <= 60.0) return 50.0 - 3.0 * (t - 50.0);
+  return 20.0 + (t - 60.0);
+}
+
+std::vector<double> sampled_ramps(double dt) {
+  std::vector<double> pe;
+  const int count = static_cast<int>(std::lround(80.0 / dt));
+  for (int i = 0; i <= count; ++i) pe.push_back(ramps(i * dt));
+  return pe;
+}
+
+TEST(EventPicker, MemoryTimeMakesPicksIndependentOfTheTimeStep) {
+  // Between kinks A/dt relaxes as exp(-t/T) to the slope of PE, whatever dt.
+  const double memory = 2.0;
+  const double before = 1.0 - std::exp(-50.0 / memory);
+  const double start = 50.0 + memory * std::log((before + 3.0) / 3.0);
+  const double low = -3.0 + (before + 3.0) * std::exp(-10.0 / memory);
+  const double end = 60.0 + memory * std::log(1.0 - low);
+  for (double dt : {0.1, 0.03125, 0.01, 0.001}) {
+    SCOPED_TRACE(dt);
+    EventPicker picker(
+        settings(PickerReading::exponential, LSM::lambda_from_memory_time(memory, dt)));
+    const std::vector<Event> events = pick(picker, sampled_ramps(dt), dt);
+    ASSERT_EQ(events.size(), 1U);
+    // The sample before the one at which A has turned.
+    EXPECT_GE(events[0].t_start, start - dt * 1.001);
+    EXPECT_LE(events[0].t_start, start + dt * 0.001);
+    EXPECT_GE(events[0].t_end, end - dt * 1.001);
+    EXPECT_LE(events[0].t_end, end + dt * 0.001);
+    EXPECT_NEAR(events[0].size, ramps(start) - ramps(end), 3.0 * dt + dt);
+  }
+}
+
+TEST(EventPicker, FixedLambdaDependsOnTheTimeStep) {
+  std::vector<double> ends;
+  for (double dt : {0.1, 0.01}) {
+    EventPicker picker(settings(PickerReading::exponential, 0.99));
+    const std::vector<Event> events = pick(picker, sampled_ramps(dt), dt);
+    ASSERT_LE(events.size(), 1U);
+    ends.push_back(events.empty() ? 80.0 : events[0].t_end);
+  }
+  EXPECT_GT(ends[0] - ends[1], 5.0);
+}
+
+TEST(EventPicker, LambdaFromMemoryTime) {
+  EXPECT_DOUBLE_EQ(LSM::lambda_from_memory_time(2.0, 0.5), std::exp(-0.25));
+  // Ten small steps forget as much as one ten times as long.
+  EXPECT_NEAR(std::pow(LSM::lambda_from_memory_time(3.0, 0.01), 10),
+              LSM::lambda_from_memory_time(3.0, 0.1), 1e-14);
+  // 0.99 per step is a memory of very nearly 100 steps.
+  EXPECT_NEAR(LSM::lambda_from_memory_time(100.0, 1.0), 0.99, 1e-4);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (double bad : {0.0, -1.0, nan, infinity}) {
+    EXPECT_THROW(LSM::lambda_from_memory_time(bad, 1.0), std::invalid_argument);
+    EXPECT_THROW(LSM::lambda_from_memory_time(1.0, bad), std::invalid_argument);
+  }
+}
+
+// ---- restart, stride, push_change ----
+
+TEST(EventPicker, GoesOnFromAStateSavedAnywhere) {
+  const std::vector<double> pe = stick_slip(9, 3000);
+  for (PickerReading reading :
+       {PickerReading::exponential, PickerReading::average, PickerReading::literal}) {
+    SCOPED_TRACE(to_string(reading));
+    PickerSettings chosen = settings(reading, 0.9);
+    chosen.min_size = 1.0;
+    EventPicker whole(chosen);
+    const std::vector<Event> expected = pick(whole, pe);
+    ASSERT_GT(expected.size(), 5U);
+    int in_mid_event = 0;
+    for (std::size_t cut = 0; cut <= pe.size(); cut += 7) {
+      const auto middle = pe.begin() + static_cast<std::ptrdiff_t>(cut);
+      EventPicker before(chosen), after(chosen);
+      std::vector<Event> events = pick(before, {pe.begin(), middle});
+      in_mid_event += before.in_event();
+      char bytes[sizeof(LSM::PickerState)];
+      std::memcpy(bytes, &before.state(), sizeof(bytes));
+      LSM::PickerState state;
+      std::memcpy(&state, bytes, sizeof(bytes));
+      after.set_state(state);
+      EXPECT_EQ(after.in_event(), before.in_event());
+      const std::vector<Event> rest =
+          pick(after, {middle, pe.end()}, 1.0, static_cast<std::int64_t>(cut));
+      events.insert(events.end(), rest.begin(), rest.end());
+      SCOPED_TRACE(cut);
+      expect_same(events, expected);
+      EXPECT_EQ(after.events(), whole.events());
+      EXPECT_EQ(after.dropped_small(), whole.dropped_small());
+      EXPECT_EQ(after.last_size(), whole.last_size());
+      EXPECT_EQ(std::memcmp(&after.state(), &whole.state(), sizeof(bytes)), 0);
+      if (HasFailure()) return;
+    }
+    EXPECT_GT(in_mid_event, 5);
+  }
+}
+
+TEST(EventPicker, RefusesImpossibleStates) {
+  EventPicker picker{PickerSettings()};
+  LSM::PickerState state;
+  state.samples = -1;
+  EXPECT_THROW(picker.set_state(state), std::invalid_argument);
+  state = LSM::PickerState();
+  state.rate = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(picker.set_state(state), std::invalid_argument);
+  state = LSM::PickerState();
+  state.in_event = 2;
+  EXPECT_THROW(picker.set_state(state), std::invalid_argument);
+  state = LSM::PickerState();
+  state.in_event = 1;
+  state.step = 5;
+  state.rate = 1.0;  // an open event has A <= 0
+  EXPECT_THROW(picker.set_state(state), std::invalid_argument);
+  EXPECT_EQ(picker.state().samples, 0);
+}
+
+TEST(EventPicker, DecimatedSeriesKeepsItsSteps) {
+  const double dt = 0.01, memory = 2.0;
+  const int stride = 10;
+  const std::vector<double> pe = sampled_ramps(dt);
+  EventPicker every(settings(PickerReading::exponential, LSM::lambda_from_memory_time(memory, dt)));
+  EventPicker tenth(
+      settings(PickerReading::exponential, LSM::lambda_from_memory_time(memory, stride * dt)));
+  const std::vector<Event> fine = pick(every, pe, dt);
+  std::vector<Event> coarse;
+  Event event;
+  for (std::size_t i = 0; i < pe.size(); i += stride)
+    if (tenth.push(static_cast<std::int64_t>(i), static_cast<double>(i) * dt, pe[i], event))
+      coarse.push_back(event);
+  ASSERT_EQ(fine.size(), 1U);
+  ASSERT_EQ(coarse.size(), 1U);
+  EXPECT_EQ(coarse[0].step_start % stride, 0);
+  EXPECT_EQ(coarse[0].step_end % stride, 0);
+  EXPECT_EQ(coarse[0].t_start, static_cast<double>(coarse[0].step_start) * dt);
+  EXPECT_EQ(coarse[0].size, pe[static_cast<std::size_t>(coarse[0].step_start)] -
+                                pe[static_cast<std::size_t>(coarse[0].step_end)]);
+  EXPECT_LE(std::abs(coarse[0].step_start - fine[0].step_start), stride);
+  EXPECT_LE(std::abs(coarse[0].step_end - fine[0].step_end), stride);
+}
+
+TEST(EventPicker, GivenChangesPickTheSame) {
+  const std::vector<double> pe = stick_slip(3, 20000);
+  EventPicker by_difference(settings(PickerReading::exponential, 0.9));
+  EventPicker by_change(settings(PickerReading::exponential, 0.9));
+  const std::vector<Event> expected = pick(by_difference, pe);
+  ASSERT_GT(expected.size(), 20U);
+  std::vector<Event> events;
+  Event event;
+  for (std::size_t i = 0; i < pe.size(); ++i) {
+    // The change that comes with the first sample must not count.
+    const double change = i ? pe[i] - pe[i - 1] : -1e9;
+    const auto step = static_cast<std::int64_t>(i);
+    if (by_change.push_change(step, static_cast<double>(step), pe[i], change, event))
+      events.push_back(event);
+  }
+  expect_same(events, expected);
+}
+
+TEST(EventPicker, GivenChangesSeeWhatDifferencesOfLargeEnergiesLose) {
+  // Changes of 1e-6 are below the spacing of doubles at 1e12, about 1.2e-4.
+  EventPicker by_difference(settings(PickerReading::exponential, 0.5));
+  EventPicker by_change(settings(PickerReading::exponential, 0.5));
+  Event event;
+  double pe = 1e12;
+  for (int i = 0; i < 100; ++i) {
+    const double change = i % 20 < 10 ? 1e-6 : -1e-6;
+    pe += change;
+    by_difference.push(i, i, pe, event);
+    by_change.push_change(i, i, pe, change, event);
+  }
+  EXPECT_EQ(by_difference.rate(), 0.0);
+  EXPECT_FALSE(by_difference.in_event());
+  EXPECT_TRUE(by_change.in_event());
+  EXPECT_EQ(by_change.dropped_nonpositive(), 4);  // the sizes still come from the rounded energy
+}
+
+// ---- events that are not reported ----
+
+TEST(EventPicker, NonPositiveSizesAreCountedAndKeptOnlyOnDemand) {
+  for (bool keep : {false, true}) {
+    SCOPED_TRACE(keep);
+    PickerSettings chosen = settings(PickerReading::exponential, 0.5);
+    chosen.keep_nonpositive = keep;
+    chosen.min_size = 10.0;
+    EventPicker picker(chosen);
+    Event event;
+    int reported = 0;
+    // A given change of -1 while the energy stays (first event) or rises (second).
+    reported += picker.push_change(0, 0.0, 1.0, 0.0, event);
+    reported += picker.push_change(1, 1.0, 1.0, -1.0, event);
+    reported += picker.push_change(2, 2.0, 1.0, 2.0, event);
+    reported += picker.push_change(3, 3.0, 1.5, -3.0, event);
+    reported += picker.push_change(4, 4.0, 1.5, 9.0, event);
+    EXPECT_EQ(reported, keep ? 2 : 0);
+    EXPECT_EQ(picker.events(), keep ? 2 : 0);
+    EXPECT_EQ(picker.dropped_nonpositive(), keep ? 0 : 2);
+    EXPECT_EQ(picker.dropped_small(), 0);
+    if (keep) {
+      EXPECT_EQ(event.id, 2);
+      EXPECT_EQ(event.size, -0.5);
+    }
+  }
+}
+
+TEST(EventPicker, SmallEventsAreCountedAndTakeNoIdentifier) {
+  PickerSettings chosen = settings(PickerReading::exponential, 0.0);
+  chosen.min_size = 2.0;
+  EventPicker picker(chosen);
+  // Drops of 1, 2 (just large enough), 1.5, 3.
+  const std::vector<Event> events = pick(picker, {5, 4, 6, 4, 6, 4.5, 6, 3, 4});
+  ASSERT_EQ(events.size(), 2U);
+  EXPECT_EQ(events[0].id, 1);
+  EXPECT_EQ(events[0].size, 2.0);
+  EXPECT_EQ(events[1].id, 2);
+  EXPECT_EQ(events[1].size, 3.0);
+  EXPECT_EQ(picker.dropped_small(), 2);
+  EXPECT_EQ(picker.dropped_nonpositive(), 0);
+}
+
+TEST(EventPicker, UnreportedEventsLeaveTheOutputAlone) {
+  PickerSettings chosen = settings(PickerReading::exponential, 0.0);
+  chosen.min_size = 2.0;
+  EventPicker picker(chosen);
+  Event event;
+  event.id = 77;
+  for (int i = 0; i < 4; ++i) EXPECT_FALSE(picker.push(i, i, i % 2, event));
+  EXPECT_EQ(event.id, 77);
+}
+
+// ---- bad input ----
+
+TEST(EventPicker, RefusesSettingsOutOfRange) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (double lambda : {-0.01, 1.0, 1.5, nan})
+    EXPECT_THROW(EventPicker(settings(PickerReading::exponential, lambda)), std::invalid_argument);
+  for (double size : {-1.0, nan, std::numeric_limits<double>::infinity()}) {
+    PickerSettings chosen;
+    chosen.min_size = size;
+    EXPECT_THROW(EventPicker{chosen}, std::invalid_argument);
+  }
+}
+
+TEST(EventPicker, RefusesBadSamplesAndForgetsThem) {
+  EventPicker picker(settings(PickerReading::exponential, 0.5));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Event event;
+  EXPECT_THROW(picker.push(0, 0.0, nan, event), std::invalid_argument);
+  picker.push(10, 1.0, 1.0, event);
+  picker.push(11, 1.1, 2.0, event);
+  const LSM::PickerState before = picker.state();
+  EXPECT_TRUE(unit::contains(
+      unit::message_of<std::invalid_argument>([&] { picker.push(12, 1.2, nan, event); }),
+      "potential energy at step 12 is not a finite number"));
+  EXPECT_TRUE(unit::contains(
+      unit::message_of<std::invalid_argument>([&] { picker.push(11, 1.2, 3.0, event); }),
+      "step 11 after step 11"));
+  EXPECT_THROW(picker.push(12, 1.0, 3.0, event), std::invalid_argument);
+  EXPECT_THROW(picker.push(12, nan, 3.0, event), std::invalid_argument);
+  EXPECT_THROW(picker.push_change(12, 1.2, 3.0, nan, event), std::invalid_argument);
+  EXPECT_EQ(std::memcmp(&before, &picker.state(), sizeof(before)), 0);
+  EXPECT_NO_THROW(picker.push(12, 1.2, 3.0, event));
+}
+
+}  // namespace

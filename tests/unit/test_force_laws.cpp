@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "lsm_force_laws.h"
+
+namespace {
+
+using LSM::friction_step;
+using LSM::FrictionCoefficients;
+
+constexpr FrictionCoefficients kOne{2.0, 0.5, 0.5};
+constexpr FrictionCoefficients kStatic{2.0, 0.5, 0.8};
+
+TEST(Spring, ForceIsTheSlopeOfTheEnergy) {
+  const double k = 3.0, h = 1e-5;
+  for (double stretch : {-0.2, 0.0, 0.1}) {
+    const double slope =
+        (LSM::Spring::energy(k, stretch + h) - LSM::Spring::energy(k, stretch - h)) / (2.0 * h);
+    EXPECT_NEAR(LSM::Spring::force(k, stretch), slope, 1e-10);
+  }
+  EXPECT_GT(LSM::Spring::force(k, 0.1), 0.0);  // attraction when stretched
+}
+
+TEST(Link, BreaksBeyondTheBreakingDistanceOnly) {
+  EXPECT_FALSE(LSM::link_is_broken(1.1, 1.0, 1.1));  // Eq. (1): r <= r_cut holds
+  EXPECT_TRUE(LSM::link_is_broken(std::nextafter(1.1, 2.0), 1.0, 1.1));
+  EXPECT_FALSE(LSM::link_is_broken(0.1, 1.0, 1.1));
+}
+
+TEST(Contact, RepulsiveOnly) {
+  EXPECT_DOUBLE_EQ(LSM::contact_normal_force(2.0, 0.9, 1.0), 2.0 * (1.0 - 0.9));
+  EXPECT_EQ(LSM::contact_normal_force(2.0, 1.0, 1.0), 0.0);
+  EXPECT_EQ(LSM::contact_normal_force(2.0, 1.5, 1.0), 0.0);
+}
+
+TEST(Friction, SticksBelowTheLimit) {
+  const auto s = friction_step<false>(kOne, 0.1, 0.1, 1.0, false);
+  EXPECT_DOUBLE_EQ(s.xi, 0.2);
+  EXPECT_DOUBLE_EQ(s.force, 0.4);
+  EXPECT_EQ(s.slip, 0.0);
+  EXPECT_EQ(s.dissipated, 0.0);
+  EXPECT_FALSE(s.sliding);
+}
+
+TEST(Friction, SlidesAtTheLimitInBothDirections) {
+  for (double sign : {1.0, -1.0}) {
+    const auto s = friction_step<false>(kOne, sign * 0.2, sign * 0.15, 1.0, false);
+    EXPECT_DOUBLE_EQ(s.force, sign * 0.5);  // mu F_n, Eq. (3)
+    EXPECT_DOUBLE_EQ(s.xi, sign * 0.25);
+    EXPECT_NEAR(s.slip, sign * 0.1, 1e-15);
+    EXPECT_TRUE(s.sliding);
+    EXPECT_GT(s.dissipated, 0.0);
+  }
+}
+
+TEST(Friction, DissipationClosesTheEnergyBalanceOfTheTangentialSpring) {
+  // Work of the displacement by the trapezoidal rule = change of the elastic energy + loss.
+  double xi = 0.0, lost_in_all = 0.0;
+  for (int step = 0; step < 400; ++step) {
+    const double dxi = 0.05 * std::sin(0.1 * step);
+    const double fn = 1.0 + 0.5 * std::cos(0.37 * step);
+    const auto s = friction_step<false>(kOne, xi, dxi, fn, false);
+    const double work = 0.5 * kOne.k_t * (xi + s.xi) * dxi;
+    const double stored = LSM::Spring::energy(kOne.k_t, s.xi) - LSM::Spring::energy(kOne.k_t, xi);
+    EXPECT_NEAR(work, stored + s.dissipated, 1e-15);
+    EXPECT_LE(std::fabs(s.force), kOne.mu_dynamic * fn * (1.0 + 1e-15));
+    lost_in_all += s.dissipated;
+    xi = s.xi;
+  }
+  EXPECT_GT(lost_in_all, 0.1);
+}
+
+TEST(Friction, LostContactReleasesTheSpring) {
+  const auto s = friction_step<false>(kOne, 0.2, 0.0, 0.0, false);
+  EXPECT_EQ(s.xi, 0.0);
+  EXPECT_EQ(s.force, 0.0);
+  EXPECT_DOUBLE_EQ(s.dissipated, LSM::Spring::energy(kOne.k_t, 0.2));
+}
+
+TEST(Friction, WithoutFrictionNothingIsStored) {
+  const auto s = friction_step<false>({2.0, 0.0, 0.0}, 0.0, 0.3, 1.0, false);
+  EXPECT_EQ(s.force, 0.0);
+  EXPECT_EQ(s.dissipated, 0.0);
+}
+
+TEST(StaticFriction, HoldsUpToTheStaticLimitThenDropsToTheDynamicOne) {
+  auto s = friction_step<true>(kStatic, 0.0, 0.39, 1.0, false);  // pull 0.78 < 0.8
+  EXPECT_FALSE(s.sliding);
+  EXPECT_DOUBLE_EQ(s.force, 0.78);
+  s = friction_step<true>(kStatic, s.xi, 0.02, 1.0, s.sliding);  // 0.82
+  EXPECT_TRUE(s.sliding);
+  EXPECT_DOUBLE_EQ(s.force, 0.5);
+  s = friction_step<true>(kStatic, s.xi, 0.02, 1.0, s.sliding);  // goes on sliding below 0.8
+  EXPECT_TRUE(s.sliding);
+  EXPECT_DOUBLE_EQ(s.force, 0.5);
+  s = friction_step<true>(kStatic, s.xi, -0.01, 1.0, s.sliding);  // reversal: sticks again
+  EXPECT_FALSE(s.sliding);
+  EXPECT_DOUBLE_EQ(s.force, 0.48);
+}
+
+TEST(StaticFriction, EqualCoefficientsGiveTheSameAsTheCheaperLaw) {
+  double a = 0.0, b = 0.0;
+  bool sliding = false;
+  for (int step = 0; step < 300; ++step) {
+    const double dxi = 0.04 * std::sin(0.13 * step), fn = 1.0 + 0.3 * std::sin(0.05 * step);
+    const auto one = friction_step<false>(kOne, a, dxi, fn, false);
+    const auto two = friction_step<true>(kOne, b, dxi, fn, sliding);
+    ASSERT_EQ(one.force, two.force);
+    ASSERT_EQ(one.dissipated, two.dissipated);
+    a = one.xi;
+    b = two.xi;
+    sliding = two.sliding;
+  }
+}
+
+TEST(ContactSize, TwiceTheReducedRadius) {
+  EXPECT_DOUBLE_EQ(LSM::contact_size(1.0, 1.0), 1.0);
+  EXPECT_DOUBLE_EQ(LSM::contact_size(0.1, 1.0), LSM::contact_size(1.0, 0.1));
+}
+
+}  // namespace

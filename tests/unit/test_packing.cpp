@@ -1,0 +1,379 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The geometry is checked against plain pairwise loops, not against the search of the packing.
+
+#include "lsm_packing.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+LSM::PackingSettings settings(double length, std::uint64_t seed = 1) {
+  LSM::PackingSettings s;
+  s.length = length;
+  s.seed = seed;
+  return s;
+}
+
+// Shortest distance of the surfaces over the periodic images in x.
+double gap(const LSM::Disc &a, const LSM::Disc &b, double length) {
+  double dx = std::fabs(a.x - b.x);
+  dx = std::min(dx, length - dx);
+  return std::hypot(dx, a.y - b.y) - a.r - b.r;
+}
+
+class PackingOf40 : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { packing_ = new LSM::Packing(LSM::make_packing(settings(length))); }
+  static void TearDownTestSuite() {
+    delete packing_;
+    packing_ = nullptr;
+  }
+  static const LSM::Packing &packing() { return *packing_; }
+  static const LSM::Disc &disc(int i) { return packing_->discs.at(static_cast<std::size_t>(i)); }
+  static int count() { return static_cast<int>(packing_->discs.size()); }
+
+  static constexpr double length = 40.0;
+  static constexpr double width = 30.0;
+  static LSM::Packing *packing_;
+};
+LSM::Packing *PackingOf40::packing_ = nullptr;
+
+TEST_F(PackingOf40, RadiiAreInRange) {
+  double smallest = 1e9, largest = 0.0;
+  for (const auto &d : packing().discs) {
+    smallest = std::min(smallest, d.r);
+    largest = std::max(largest, d.r);
+  }
+  EXPECT_GE(smallest, 0.1);
+  EXPECT_LE(largest, 1.0);
+  // both ends of the range are made use of
+  EXPECT_LT(smallest, 0.11);
+  EXPECT_GT(largest, 0.95);
+  EXPECT_EQ(smallest, packing().rmin_found);
+}
+
+TEST_F(PackingOf40, DiscsLieInsideTheirBlock) {
+  for (const auto &d : packing().discs) {
+    EXPECT_GE(d.x, 0.0);
+    EXPECT_LT(d.x, length);
+    ASSERT_TRUE(d.block == 0 || d.block == 1);
+    const double low = d.block == 0 ? 0.0 : 15.0;
+    EXPECT_GE(d.y - d.r, low - 1e-8 * d.r);
+    EXPECT_LE(d.y + d.r, low + 15.0 + 1e-8 * d.r);
+  }
+}
+
+TEST_F(PackingOf40, NothingOverlaps) {
+  for (int i = 0; i < count(); ++i)
+    for (int j = i + 1; j < count(); ++j) {
+      const LSM::Disc &a = disc(i), &b = disc(j);
+      ASSERT_GE(gap(a, b, length), -1e-8 * (a.r + b.r)) << "discs " << i << " and " << j;
+    }
+}
+
+TEST_F(PackingOf40, LinksAreExactlyTheTangentPairsOfOneBlock) {
+  std::set<std::pair<int, int>> expected;
+  for (int i = 0; i < count(); ++i)
+    for (int j = i + 1; j < count(); ++j)
+      if (disc(i).block == disc(j).block && gap(disc(i), disc(j), length) < 1e-5)
+        expected.emplace(i, j);
+  const std::set<std::pair<int, int>> found(packing().links.begin(), packing().links.end());
+  EXPECT_EQ(found.size(), packing().links.size()) << "a link is listed twice";
+  EXPECT_EQ(found, expected);
+  EXPECT_TRUE(std::is_sorted(packing().links.begin(), packing().links.end()));
+}
+
+TEST_F(PackingOf40, NoLinkCrossesTheFault) {
+  for (const auto &l : packing().links) EXPECT_EQ(disc(l.first).block, disc(l.second).block);
+}
+
+TEST_F(PackingOf40, TangenciesAreExact) {
+  // Three objects touch each disc placed by the filling stage. Pairs that come closer than the link
+  // gap by chance are rare; all others are tangent to rounding.
+  int exact = 0;
+  for (const auto &l : packing().links)
+    if (std::fabs(gap(disc(l.first), disc(l.second), length)) < 1e-12) ++exact;
+  EXPECT_GE(exact, static_cast<int>(packing().links.size()) - 2);
+}
+
+TEST_F(PackingOf40, LargestClusterOfLinksIsTheWholeBlock) {
+  // union-find over the links; discs with no or few links (seeds) may stay apart
+  std::vector<int> root(packing().discs.size());
+  for (int i = 0; i < count(); ++i) root[static_cast<std::size_t>(i)] = i;
+  const auto find = [&](int i) {
+    while (root[static_cast<std::size_t>(i)] != i) i = root[static_cast<std::size_t>(i)];
+    return i;
+  };
+  for (const auto &l : packing().links) {
+    const int a = find(l.first), b = find(l.second);
+    root[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+  }
+  std::vector<int> size(packing().discs.size(), 0), in_block(2, 0);
+  for (int i = 0; i < count(); ++i) {
+    ++size[static_cast<std::size_t>(find(i))];
+    ++in_block[static_cast<std::size_t>(disc(i).block)];
+  }
+  std::vector<int> largest(2, 0);
+  for (int i = 0; i < count(); ++i) {
+    int &best = largest[static_cast<std::size_t>(disc(i).block)];
+    best = std::max(best, size[static_cast<std::size_t>(i)]);
+  }
+  EXPECT_GE(largest[0], 0.99 * in_block[0]);
+  EXPECT_GE(largest[1], 0.99 * in_block[1]);
+}
+
+TEST_F(PackingOf40, SeamIsLikeTheInside) {
+  // links across x = 0 against the mean over lines x = const inside
+  const auto crossing = [&](double at) {
+    int n = 0;
+    for (const auto &l : packing().links) {
+      double a = disc(l.first).x - at, b = disc(l.second).x - at;
+      a -= length * std::floor(a / length + 0.5);
+      b -= length * std::floor(b / length + 0.5);
+      if (a * b < 0.0 && std::fabs(a - b) < 0.5 * length) ++n;
+    }
+    return n;
+  };
+  double inside = 0.0;
+  for (int i = 1; i < 40; ++i) inside += crossing(i) / 39.0;
+  const int seam = crossing(0.0);
+  EXPECT_GT(inside, 20.0);
+  EXPECT_GT(seam, 0.6 * inside);
+  EXPECT_LT(seam, 1.4 * inside);
+}
+
+TEST_F(PackingOf40, FlagsFollowTheGeometry) {
+  int tangent[2] = {0, 0}, fault = 0, plate = 0;
+  for (const auto &d : packing().discs) {
+    const double to_fault = std::fabs(d.y - 15.0) - d.r;
+    const double to_plate = std::min(d.y, width - d.y) - d.r;
+    EXPECT_EQ(d.fault, to_fault < 0.25);
+    EXPECT_EQ(d.plate, to_plate < 1e-5);
+    EXPECT_FALSE(d.fault && d.plate);
+    if (to_fault < 1e-5) ++tangent[d.block];
+    fault += d.fault;
+    plate += d.plate;
+  }
+  EXPECT_EQ(tangent[0], packing().fault_tangent[0]);
+  EXPECT_EQ(tangent[1], packing().fault_tangent[1]);
+  EXPECT_GT(tangent[0], 40);
+  EXPECT_GT(tangent[1], 40);
+  EXPECT_GT(fault, tangent[0] + tangent[1]);
+  EXPECT_GT(plate, 80);
+}
+
+TEST_F(PackingOf40, FiguresAreThoseOfThePaper) {
+  EXPECT_GT(packing().coordination, 4.95);
+  EXPECT_LT(packing().coordination, 5.2);
+  EXPECT_GT(packing().area_fraction, 0.90);
+  EXPECT_LT(packing().area_fraction, 0.915);
+  // about 7800 particles for length 120
+  EXPECT_NEAR(count() / length, 65.0, 3.0);
+  double area = 0.0;
+  for (const auto &d : packing().discs) area += std::acos(-1.0) * d.r * d.r;
+  EXPECT_NEAR(packing().area_fraction, area / (length * width), 1e-12);
+  EXPECT_NEAR(packing().coordination, 2.0 * static_cast<double>(packing().links.size()) / count(),
+              1e-12);
+}
+
+TEST_F(PackingOf40, DiscsAreSortedByPosition) {
+  const auto before = [](const LSM::Disc &a, const LSM::Disc &b) {
+    const int ka = static_cast<int>(a.x / 2.0), kb = static_cast<int>(b.x / 2.0);
+    return ka != kb ? ka < kb : a.y < b.y;
+  };
+  EXPECT_TRUE(std::is_sorted(packing().discs.begin(), packing().discs.end(), before));
+}
+
+TEST(Packing, IsTheSameForTheSameSeed) {
+  const LSM::Packing a = LSM::make_packing(settings(20.0, 7)),
+                     b = LSM::make_packing(settings(20.0, 7));
+  ASSERT_EQ(a.discs.size(), b.discs.size());
+  for (std::size_t i = 0; i < a.discs.size(); ++i) {
+    EXPECT_EQ(a.discs[i].x, b.discs[i].x);
+    EXPECT_EQ(a.discs[i].y, b.discs[i].y);
+    EXPECT_EQ(a.discs[i].r, b.discs[i].r);
+  }
+  EXPECT_EQ(a.links, b.links);
+  EXPECT_EQ(a.tries, b.tries);
+}
+
+TEST(Packing, DiffersForAnotherSeed) {
+  const LSM::Packing a = LSM::make_packing(settings(20.0, 7)),
+                     b = LSM::make_packing(settings(20.0, 8));
+  // the grid of the first discs does not depend on the seed, their radii do
+  std::set<double> radii;
+  for (const auto &d : a.discs) radii.insert(d.r);
+  int same = 0;
+  for (const auto &d : b.discs) same += static_cast<int>(radii.count(d.r));
+  EXPECT_EQ(same, 0);
+}
+
+TEST(Packing, BlocksDoNotMirrorEachOther) {
+  const LSM::Packing p = LSM::make_packing(settings(20.0));
+  std::multiset<double> radii[2];
+  for (const auto &d : p.discs) radii[d.block].insert(d.r);
+  EXPECT_NE(radii[0], radii[1]);
+}
+
+TEST(Packing, DensityDoesNotDependOnTheLength) {
+  const LSM::Packing a = LSM::make_packing(settings(20.0)), b = LSM::make_packing(settings(60.0));
+  EXPECT_NEAR(static_cast<double>(a.discs.size()) / 20.0,
+              static_cast<double>(b.discs.size()) / 60.0, 4.0);
+  EXPECT_NEAR(a.area_fraction, b.area_fraction, 0.01);
+}
+
+TEST(Packing, FewFailuresGiveALooserPacking) {
+  LSM::PackingSettings s = settings(20.0);
+  const LSM::Packing dense = LSM::make_packing(s);
+  s.max_failures = 20;
+  const LSM::Packing loose = LSM::make_packing(s);
+  EXPECT_LT(loose.discs.size(), dense.discs.size());
+  EXPECT_LT(loose.tries, dense.tries);
+}
+
+// The smallest scenes have the narrowest room for the periodic search.
+TEST(Packing, SmallestLengthAndOtherSizesHaveNoOverlap) {
+  struct Case {
+    double length, width, rmin, rmax;
+    bool hexagonal;
+  };
+  const Case cases[] = {{8.0, 4.51, 0.1, 1.0, true},  {8.0, 30.0, 0.1, 1.0, false},
+                        {9.99, 10.0, 0.3, 0.7, true}, {17.3, 12.0, 0.2, 2.0, true},
+                        {20.0, 9.0, 0.9, 1.0, false}, {8.0, 20.0, 0.05, 0.5, true}};
+  for (const Case &c : cases) {
+    LSM::PackingSettings s;
+    s.length = c.length;
+    s.width = c.width;
+    s.rmin = c.rmin;
+    s.rmax = c.rmax;
+    s.hexagonal_seeds = c.hexagonal;
+    const LSM::Packing p = LSM::make_packing(s);
+    ASSERT_GT(p.discs.size(), 10u);
+    std::size_t tangent = 0;
+    for (std::size_t i = 0; i < p.discs.size(); ++i) {
+      const LSM::Disc &a = p.discs[i];
+      const double low = a.block == 0 ? 0.0 : 0.5 * c.width;
+      EXPECT_GE(a.y - a.r, low - 1e-8 * a.r);
+      EXPECT_LE(a.y + a.r, low + 0.5 * c.width + 1e-8 * a.r);
+      EXPECT_GE(a.r, c.rmin);
+      EXPECT_LE(a.r, c.rmax);
+      for (std::size_t j = i + 1; j < p.discs.size(); ++j) {
+        const double g = gap(a, p.discs[j], c.length);
+        ASSERT_GE(g, -1e-8 * (a.r + p.discs[j].r));
+        if (g < 1e-5 && a.block == p.discs[j].block) ++tangent;
+      }
+    }
+    EXPECT_EQ(tangent, p.links.size());
+  }
+}
+
+TEST(Packing, FrequencyBoundOfTwoDiscsIsExact) {
+  LSM::Packing p;
+  p.discs = {{1.0, 1.0, 0.5, 0, false, false}, {9.5, 1.0, 1.0, 0, false, false}};
+  p.links = {{0, 1}};
+  // reduced mass 2 * 3 / 5: omega^2 = k / mu
+  EXPECT_NEAR(LSM::frequency_bound(p, 10.0, {2.0, 3.0}, 4.0), std::sqrt(4.0 * 5.0 / 6.0), 1e-14);
+}
+
+TEST(Packing, FrequencyBoundLimitsAChain) {
+  // a periodic chain of equal masses has the highest frequency 2 sqrt(k / m), and the bound is
+  // sharp
+  LSM::Packing p;
+  const int n = 12;
+  for (int i = 0; i < n; ++i) {
+    p.discs.push_back({static_cast<double>(i), 1.0, 0.5, 0, false, false});
+    p.links.emplace_back(std::min(i, (i + 1) % n), std::max(i, (i + 1) % n));
+  }
+  EXPECT_NEAR(LSM::frequency_bound(p, n, std::vector<double>(n, 0.25), 1.0), 4.0, 1e-12);
+}
+
+TEST(Packing, FrequencyBoundIsAboveTheRayleighQuotient) {
+  const double length = 20.0;
+  const LSM::Packing p = LSM::make_packing(settings(length));
+  std::vector<double> mass;
+  for (const auto &d : p.discs) mass.push_back(d.r * d.r);
+  // power iteration on M^-1 K gives the true highest frequency from below
+  std::vector<double> u(2 * p.discs.size()), f(u.size());
+  LSM::Random random(3);
+  for (double &v : u) v = random.uniform(-1.0, 1.0);
+  double omega2 = 0.0;
+  for (int iter = 0; iter < 300; ++iter) {
+    std::fill(f.begin(), f.end(), 0.0);
+    for (const auto &l : p.links) {
+      const auto i = static_cast<std::size_t>(l.first), j = static_cast<std::size_t>(l.second);
+      double dx = p.discs[j].x - p.discs[i].x;
+      dx -= length * std::floor(dx / length + 0.5);
+      const double dy = p.discs[j].y - p.discs[i].y, d = std::hypot(dx, dy);
+      const double e = ((u[2 * j] - u[2 * i]) * dx + (u[2 * j + 1] - u[2 * i + 1]) * dy) / d;
+      f[2 * i] -= e * dx / d;
+      f[2 * i + 1] -= e * dy / d;
+      f[2 * j] += e * dx / d;
+      f[2 * j + 1] += e * dy / d;
+    }
+    double uku = 0.0, umu = 0.0, norm = 0.0;
+    for (std::size_t k = 0; k < u.size(); ++k) {
+      uku += u[k] * f[k];
+      umu += u[k] * u[k] * mass[k / 2];
+    }
+    omega2 = uku / umu;
+    for (std::size_t k = 0; k < u.size(); ++k) {
+      u[k] = f[k] / mass[k / 2];
+      norm = std::max(norm, std::fabs(u[k]));
+    }
+    for (double &v : u) v /= norm;
+  }
+  const double bound = LSM::frequency_bound(p, length, mass, 1.0);
+  EXPECT_GT(std::sqrt(omega2), 12.0);
+  EXPECT_GE(bound, std::sqrt(omega2));
+  EXPECT_LT(bound, 1.6 * std::sqrt(omega2));
+}
+
+// Each bad setting is refused with a message that names it.
+template <class Change>
+void expect_refused(const std::string &name, Change change) {
+  LSM::PackingSettings s = settings(20.0);
+  change(s);
+  try {
+    LSM::make_packing(s);
+    ADD_FAILURE() << name << " was accepted";
+  } catch (const std::invalid_argument &e) {
+    const std::string what = e.what();
+    EXPECT_EQ(what.rfind(name + " = ", 0), 0u) << what;
+    EXPECT_NE(what.find("expected"), std::string::npos) << what;
+    EXPECT_EQ(what.find('\n'), std::string::npos) << what;
+  }
+}
+
+TEST(Packing, RefusesImpossibleSettings) {
+  using S = LSM::PackingSettings;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double inf = std::numeric_limits<double>::infinity();
+  expect_refused("rmin", [](S &s) { s.rmin = 1.0; });
+  expect_refused("rmin", [](S &s) { s.rmin = 2.0; });
+  expect_refused("rmin", [](S &s) { s.rmin = 0.0; });
+  expect_refused("rmax", [](S &s) { s.rmax = -1.0; });
+  expect_refused("length", [](S &s) { s.length = 0.0; });
+  expect_refused("length", [](S &s) { s.length = 7.99; });
+  expect_refused("length", [&](S &s) { s.length = nan; });
+  expect_refused("length", [&](S &s) { s.length = inf; });
+  expect_refused("length", [](S &s) { s.length = 1e12; });
+  expect_refused("width", [](S &s) { s.width = -30.0; });
+  expect_refused("width", [](S &s) { s.width = 4.5; });
+  expect_refused("max_failures", [](S &s) { s.max_failures = 0; });
+  expect_refused("tolerance", [](S &s) { s.tolerance = 0.0; });
+  expect_refused("tolerance", [](S &s) { s.tolerance = 0.01; });
+  expect_refused("link_gap", [](S &s) { s.link_gap = 0.0; });
+  expect_refused("link_gap", [](S &s) { s.link_gap = 0.02; });
+  expect_refused("fault_zone", [](S &s) { s.fault_zone = -0.25; });
+  expect_refused("fault_zone", [&](S &s) { s.fault_zone = nan; });
+}
+
+}  // namespace
