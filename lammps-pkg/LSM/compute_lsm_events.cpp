@@ -1,0 +1,730 @@
+/* ----------------------------------------------------------------------
+   SPDX-License-Identifier: GPL-2.0-or-later
+------------------------------------------------------------------------- */
+
+#include "compute_lsm_events.h"
+
+#include "atom.h"
+#include "bond_lsm_linked.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "fix_lsm_nve.h"
+#include "fix_lsm_plates.h"
+#include "fix_lsm_record.h"
+#include "force.h"
+#include "group.h"
+#include "modify.h"
+#include "pair_lsm_free.h"
+#include "platform.h"
+#include "update.h"
+#include "utils.h"
+#include "write_restart.h"
+
+#include "lsm_sum.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+
+#include <unistd.h>
+
+using namespace LAMMPS_NS;
+
+// entries of the global vector
+
+enum {
+  EVENTS,
+  LAST_SIZE,
+  RATE,
+  IN_EVENT,
+  PE,
+  PE_LINK,
+  PE_CONTACT,
+  PE_TANGENTIAL,
+  NVECTOR,
+  KINETIC = NVECTOR,
+  WORK_PLATES,
+  WORK_FRICTION,
+  WORK_VISCOSITY,
+  RESIDUAL,
+  NLEDGER
+};
+
+/* ---------------------------------------------------------------------- */
+
+ComputeLSMEvents::ComputeLSMEvents(LAMMPS *_lmp, int narg, char **arg) :
+    Compute(_lmp, narg, arg), emergency_file("lsm_emergency.restart"), series_binary(true),
+    series_stride(1), memory_time(0.0), block(100), tangential(true), location(false),
+    bin_width(1.0), bin_fraction(0.05), ledger(false), ledger_tolerance(0.0), strain_limit(0.5),
+    check_every(1000), resume(false), progress(true), links(nullptr), recorder(nullptr),
+    plates(nullptr), first_filling(0), first_sending(0), count_filling(0), count_sending(0),
+    request(MPI_REQUEST_NULL), pending(false), shown_at(0.0), started_at(0.0),
+    ledger_started(false), ledger_start(0.0), friction_before(0.0), last_recorded(-1), opened(false)
+{
+  if (igroup) error->all(FLERR, "Compute lsm/events must use group all");
+  scalar_flag = 1;
+  vector_flag = 1;
+  extscalar = 0;
+  extvector = 0;
+
+  int iarg = 3;
+  auto need = [&](int n) {
+    if (iarg + n >= narg)
+      error->all(FLERR, "Compute lsm/events keyword {} needs {} value{}", arg[iarg], n,
+                 n > 1 ? "s" : "");
+  };
+  auto number = [&](int n) { return utils::numeric(FLERR, arg[iarg + n], false, lmp); };
+  auto positive = [&](int n) {
+    const double value = number(n);
+    if (!(value > 0.0))
+      error->all(FLERR, "Compute lsm/events {} is {}, but must be > 0", arg[iarg], arg[iarg + n]);
+    return value;
+  };
+  auto count = [&](int n) {
+    const int value = utils::inumeric(FLERR, arg[iarg + n], false, lmp);
+    if (value < 1)
+      error->all(FLERR, "Compute lsm/events {} is {}, but must be at least 1", arg[iarg],
+                 arg[iarg + n]);
+    return value;
+  };
+  auto yesno = [&](int n) { return utils::logical(FLERR, arg[iarg + n], false, lmp) != 0; };
+
+  while (iarg < narg) {
+    const std::string key = arg[iarg];
+    need(1);
+    int used = 2;
+    if (key == "catalogue") {
+      catalogue_file = arg[iarg + 1];
+    } else if (key == "series") {
+      need(2);
+      series_file = arg[iarg + 1];
+      const std::string form = arg[iarg + 2];
+      if (form != "binary" && form != "text")
+        error->all(FLERR, "Compute lsm/events series format is '{}', but must be binary or text",
+                   form);
+      series_binary = form == "binary";
+      used = 3;
+    } else if (key == "stride") {
+      series_stride = count(1);
+    } else if (key == "picker") {
+      if (!LSM::from_string(arg[iarg + 1], picker_settings.reading))
+        error->all(FLERR,
+                   "Compute lsm/events picker is '{}', but must be exponential, average or literal",
+                   arg[iarg + 1]);
+    } else if (key == "lambda") {
+      picker_settings.lambda = number(1);
+      if (!(picker_settings.lambda >= 0.0 && picker_settings.lambda < 1.0))
+        error->all(FLERR, "Compute lsm/events lambda is {}, but must be at least 0 and less than 1",
+                   arg[iarg + 1]);
+    } else if (key == "memory") {
+      memory_time = positive(1);
+    } else if (key == "minsize") {
+      picker_settings.min_size = number(1);
+      if (!(picker_settings.min_size >= 0.0))
+        error->all(FLERR, "Compute lsm/events minsize is {}, but must be >= 0", arg[iarg + 1]);
+    } else if (key == "nonpositive") {
+      picker_settings.keep_nonpositive = yesno(1);
+    } else if (key == "block") {
+      block = count(1);
+    } else if (key == "tangential") {
+      tangential = yesno(1);
+    } else if (key == "location") {
+      location = yesno(1);
+    } else if (key == "bin") {
+      bin_width = positive(1);
+    } else if (key == "fraction") {
+      bin_fraction = number(1);
+      if (!(bin_fraction >= 0.0 && bin_fraction < 1.0))
+        error->all(FLERR,
+                   "Compute lsm/events fraction is {}, but must be at least 0 and less than 1",
+                   arg[iarg + 1]);
+    } else if (key == "ledger") {
+      ledger = yesno(1);
+    } else if (key == "tolerance") {
+      ledger_tolerance = positive(1);
+      ledger = true;
+    } else if (key == "strainlimit") {
+      strain_limit = positive(1);
+    } else if (key == "check") {
+      check_every = count(1);
+    } else if (key == "emergency") {
+      emergency_file = arg[iarg + 1];
+    } else if (key == "resume") {
+      resume = yesno(1);
+    } else if (key == "progress") {
+      progress = yesno(1);
+    } else if (key == "parameter") {
+      need(2);
+      parameters.emplace_back(arg[iarg + 1], arg[iarg + 2]);
+      used = 3;
+    } else
+      error->all(FLERR,
+                 "Unknown compute lsm/events keyword '{}'; accepted are catalogue, series, stride, "
+                 "picker, lambda, memory, minsize, nonpositive, block, tangential, location, bin, "
+                 "fraction, ledger, tolerance, strainlimit, check, emergency, resume, progress and "
+                 "parameter",
+                 key);
+    iarg += used;
+  }
+
+  size_vector = ledger ? NLEDGER : NVECTOR;
+  vector = new double[size_vector];
+
+  recorder = dynamic_cast<FixLSMRecord *>(
+      modify->add_fix(std::string(id) + "_record all LSM_RECORD"));
+  if (!recorder) error->all(FLERR, "Compute lsm/events could not create fix LSM_RECORD");
+  recorder->owner = this;
+}
+
+/* ---------------------------------------------------------------------- */
+
+ComputeLSMEvents::~ComputeLSMEvents()
+{
+  // the styles and fixes below may be gone by now, so they are found again
+
+  if (force) {
+    if (auto p = dynamic_cast<LSMEnergySource *>(force->bond)) p->record_what = LSMEnergySource::NONE;
+    if (auto p = dynamic_cast<LSMEnergySource *>(force->pair)) p->record_what = LSMEnergySource::NONE;
+  }
+  if (recorder && modify) {
+    for (const auto &ifix : modify->get_fix_by_style("^lsm/nve"))
+      if (auto p = dynamic_cast<FixLSMNVE *>(ifix)) p->record_work = false;
+    const std::string id_fix = std::string(id) + "_record";
+    if (modify->get_fix_by_id(id_fix)) modify->delete_fix(id_fix);
+  }
+  delete[] vector;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeLSMEvents::init()
+{
+  if (modify->get_compute_by_style("lsm/events").size() > 1 && comm->me == 0)
+    error->warning(FLERR, "More than one compute lsm/events");
+
+  links = dynamic_cast<BondLSMLinked *>(force->bond_match("lsm/linked"));
+  auto contacts = dynamic_cast<PairLSMFree *>(force->pair_match("^lsm/", 0));
+  if (!links && !contacts)
+    error->all(FLERR, "Compute lsm/events needs bond style lsm/linked or pair style lsm/free or "
+                      "lsm/friction");
+  if (location && !force->pair_match("lsm/friction", 1))
+    error->all(FLERR, "Compute lsm/events location yes needs pair style lsm/friction");
+  if (location && !(domain->xperiodic))
+    error->all(FLERR, "Compute lsm/events location yes needs a box that is periodic in x");
+
+  const int what = LSMEnergySource::ENERGY | (location ? LSMEnergySource::SLIP : 0);
+  sources.clear();
+  if (links) sources.push_back(links);
+  if (contacts) sources.push_back(contacts);
+  for (auto *source : sources) {
+    source->record_what |= what;
+    source->slip_bin = bin_width;
+  }
+
+  plates = nullptr;
+  integrators.clear();
+  for (const auto &ifix : modify->get_fix_list()) {
+    if (auto p = dynamic_cast<FixLSMPlates *>(ifix)) plates = p;
+    if (auto p = dynamic_cast<FixLSMNVE *>(ifix)) {
+      integrators.push_back(p);
+      if (ledger) p->record_work = true;
+    }
+  }
+
+  if (memory_time > 0.0) {
+    if (update->dt <= 0.0) error->all(FLERR, "Compute lsm/events memory needs a time step > 0");
+    picker_settings.lambda = LSM::lambda_from_memory_time(memory_time, update->dt);
+  }
+  filling.resize(block);
+  sending.resize(block);
+  if (comm->me == 0) received.resize(static_cast<size_t>(block) * comm->nprocs);
+}
+
+/* ---------------------------------------------------------------------- */
+
+double ComputeLSMEvents::time_of(bigint step) const
+{
+  return update->atime + static_cast<double>(step - update->atimestep) * update->dt;
+}
+
+/* ---------------------------------------------------------------------- */
+
+LSM::CatalogueInfo ComputeLSMEvents::header() const
+{
+  using LSM::text_io::number;
+  LSM::CatalogueInfo info;
+  info.model = "lsm";
+  auto add = [&](const std::string &key, const std::string &value) {
+    for (const auto &p : parameters)
+      if (p.first == key) return;
+    info.parameters.emplace_back(key, value);
+  };
+  add("program", std::string("LAMMPS ") + lmp->version + " package LSM 1");
+  add("particles", std::to_string(atom->natoms));
+  add("links", std::to_string(atom->nbonds));
+  add("length", number(domain->prd[0]));
+  add("dt", number(update->dt));
+  for (const FixLSMNVE *p : integrators) add("viscosity", number(p->viscosity()));
+  add("picker", LSM::to_string(picker_settings.reading));
+  add("lambda", number(picker_settings.lambda));
+  add("min_size", number(picker_settings.min_size));
+  add("tangential_energy", tangential ? "yes" : "no");
+  if (location) {
+    add("slip_bin", number(bin_width));
+    add("rupture_fraction", number(bin_fraction));
+  }
+  add("ranks", std::to_string(comm->nprocs));
+  info.parameters.insert(info.parameters.end(), parameters.begin(), parameters.end());
+  info.slip_moment = info.x_centroid = info.rupture_length = location;
+  return info;
+}
+
+/* ----------------------------------------------------------------------
+   Files are opened at the first run, so that a mistake earlier in the input touches no older catalogue.
+------------------------------------------------------------------------- */
+
+void ComputeLSMEvents::open_files(bigint step)
+{
+  opened = true;
+  const bool from_restart = !recorder->restart_state.empty();
+  if (resume && !from_restart && comm->me == 0) {
+    std::error_code code;
+    if (!catalogue_file.empty() && std::filesystem::exists(catalogue_file, code))
+      error->one(FLERR,
+                 "Compute lsm/events resume yes: catalogue {} exists, but the restart file holds no "
+                 "picker state of compute {}; read a restart written while it was active",
+                 catalogue_file, id);
+  }
+  if (comm->me == 0) {
+    picker = std::make_unique<LSM::EventPicker>(picker_settings);
+    shown_at = started_at = platform::walltime();
+  }
+  if (from_restart) unpack_state(recorder->restart_state);
+  if (comm->me != 0) return;
+
+  const std::vector<std::string> free_to_change = {"program", "ranks"};
+  try {
+    std::error_code code;
+    if (!catalogue_file.empty()) {
+      catalogue = std::make_unique<LSM::CatalogueWriter>();
+      // an event that ended at the restart step is only known one step later, and comes again
+      if (resume && from_restart && std::filesystem::exists(catalogue_file, code))
+        catalogue->resume(catalogue_file, header(), step - 1, free_to_change);
+      else
+        catalogue->create(catalogue_file, header());
+    }
+    if (!series_file.empty()) {
+      LSM::PeSeriesInfo info;
+      info.model = "lsm";
+      info.dt = update->dt;
+      info.step0 = 0;
+      info.time0 = time_of(0);
+      info.stride = series_stride;
+      info.parameters = header().parameters;
+      info.parameters.erase(
+          std::remove_if(info.parameters.begin(), info.parameters.end(),
+                         [](const auto &p) { return p.first == "dt"; }),
+          info.parameters.end());
+      series = std::make_unique<LSM::PeSeriesWriter>();
+      if (resume && from_restart && std::filesystem::exists(series_file, code))
+        series->resume(series_file, info, series_binary, step, free_to_change);
+      else
+        series->create(series_file, info, series_binary);
+    }
+  } catch (std::exception &e) {
+    error->one(FLERR, "Compute lsm/events: {}", e.what());
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+double ComputeLSMEvents::local_pe() const
+{
+  double pe = 0.0;
+  for (const auto *source : sources) {
+    pe += source->pe_link + source->pe_contact;
+    if (tangential) pe += source->pe_tangential;
+  }
+  return pe;
+}
+
+/* ----------------------------------------------------------------------
+   called at the begin of each run: the state at this step is the first sample, unless the run before
+   or the restart had it
+------------------------------------------------------------------------- */
+
+void ComputeLSMEvents::setup_record()
+{
+  if (!opened) open_files(update->ntimestep);
+  if (ledger && !ledger_started) {
+    ledger_start = 0.0;
+    ledger_start = residual();
+    ledger_started = true;
+  }
+  if (last_recorded != update->ntimestep) record();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeLSMEvents::record()
+{
+  const bigint step = update->ntimestep;
+  if (count_filling == 0) first_filling = step;
+  filling[count_filling] = local_pe();
+  if (location)
+    for (const auto *source : sources)
+      for (const LSMSlip &s : source->slip) {
+        slip_filling.push_back(s);
+        slip_steps.push_back(count_filling);
+      }
+  count_filling++;
+  last_recorded = step;
+  if (count_filling == block) start_gather();
+  if (step % check_every == 0) check_health();
+}
+
+/* ----------------------------------------------------------------------
+   hands the filled block to rank 0 and goes on; rank 0 looks at it when the next block is full
+------------------------------------------------------------------------- */
+
+void ComputeLSMEvents::start_gather()
+{
+  finish_gather();
+  if (count_filling == 0) return;
+  std::swap(filling, sending);
+  first_sending = first_filling;
+  count_sending = count_filling;
+  count_filling = 0;
+  MPI_Igather(sending.data(), count_sending, MPI_DOUBLE, received.data(), count_sending, MPI_DOUBLE,
+              0, world, &request);
+  pending = true;
+
+  if (location) {
+    std::vector<double> mine;
+    mine.reserve(3 * slip_filling.size());
+    for (size_t n = 0; n < slip_filling.size(); n++) {
+      mine.push_back(slip_steps[n]);
+      mine.push_back(slip_filling[n].bin);
+      mine.push_back(slip_filling[n].moment);
+    }
+    slip_filling.clear();
+    slip_steps.clear();
+    const int n = static_cast<int>(mine.size());
+    std::vector<int> offsets(comm->nprocs, 0);
+    slip_counts.assign(comm->nprocs, 0);
+    MPI_Gather(&n, 1, MPI_INT, slip_counts.data(), 1, MPI_INT, 0, world);
+    int sum = 0;
+    for (int p = 0; p < comm->nprocs; p++) {
+      offsets[p] = sum;
+      sum += slip_counts[p];
+    }
+    slip_sent.resize(comm->me == 0 ? sum : 0);
+    MPI_Gatherv(mine.data(), n, MPI_DOUBLE, slip_sent.data(), slip_counts.data(), offsets.data(),
+                MPI_DOUBLE, 0, world);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeLSMEvents::finish_gather()
+{
+  if (!pending) return;
+  MPI_Wait(&request, MPI_STATUS_IGNORE);
+  pending = false;
+  if (comm->me != 0) return;
+
+  // slip of the block by step, in the order of the ranks
+
+  std::vector<std::vector<double>> slip_of(location ? count_sending : 0);
+  for (size_t n = 0; n + 2 < slip_sent.size() && location; n += 3) {
+    auto &one = slip_of[static_cast<size_t>(slip_sent[n])];
+    one.push_back(slip_sent[n + 1]);
+    one.push_back(slip_sent[n + 2]);
+  }
+
+  for (int s = 0; s < count_sending; s++) {
+    LSM::NeumaierSum sum;
+    for (int p = 0; p < comm->nprocs; p++)
+      sum.add(received[static_cast<size_t>(p) * count_sending + s]);
+    const double *slip = location ? slip_of[s].data() : nullptr;
+    const int nslip = location ? static_cast<int>(slip_of[s].size() / 2) : 0;
+    take_sample(first_sending + s, sum.value(), slip, nslip);
+  }
+  if (progress) show_progress(first_sending + count_sending - 1);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeLSMEvents::take_sample(bigint step, double pe, const double *slip, int nslip)
+{
+  try {
+    if (!std::isfinite(pe)) {
+      if (series) series->flush();
+      error->one(FLERR,
+                 "Potential energy is not finite at step {}; the catalogue ends with the last event "
+                 "before it. Use a smaller time step or start from an earlier restart",
+                 step);
+    }
+    if (series && step % series_stride == 0) series->write(step, pe);
+
+    LSM::Event event;
+    const bool was_open = picker->in_event();
+    const bool ended = picker->push(step, time_of(step), pe, event);
+    if (ended && location) locate(event);
+    if (ended && catalogue) catalogue->write(event);
+    if (location) {
+      if (was_open && !picker->in_event()) event_slip.clear();
+      if (picker->in_event())
+        for (int n = 0; n < nslip; n++)
+          event_slip[static_cast<int>(slip[2 * n])] += slip[2 * n + 1];
+    }
+  } catch (LAMMPSException &) {
+    throw;
+  } catch (std::exception &e) {
+    error->one(FLERR, "Compute lsm/events: {}", e.what());
+  }
+}
+
+/* ----------------------------------------------------------------------
+   slip moment, centroid and rupture length of an event from the slip of the bins along the fault
+   centroid: direction of the mean of the bins on the circle that the period makes
+------------------------------------------------------------------------- */
+
+void ComputeLSMEvents::locate(LSM::Event &event)
+{
+  const double length = domain->prd[0];
+  double largest = 0.0, sum = 0.0, c = 0.0, s = 0.0;
+  for (const auto &bin : event_slip) {
+    const double angle = 2.0 * M_PI * (bin.first + 0.5) * bin_width / length;
+    largest = MAX(largest, bin.second);
+    sum += bin.second;
+    c += bin.second * cos(angle);
+    s += bin.second * sin(angle);
+  }
+  int ruptured = 0;
+  for (const auto &bin : event_slip)
+    if (bin.second > bin_fraction * largest) ruptured++;
+  double along = atan2(s, c) / (2.0 * M_PI);
+  if (along < 0.0) along += 1.0;
+  event.slip_moment = sum;
+  event.x_centroid = domain->boxlo[0] + along * length;
+  event.rupture_length = MIN(ruptured * bin_width, length);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeLSMEvents::flush()
+{
+  start_gather();
+  finish_gather();
+  try {
+    if (series) series->flush();
+  } catch (std::exception &e) {
+    error->one(FLERR, "Compute lsm/events: {}", e.what());
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+double ComputeLSMEvents::total(double mine) const
+{
+  double all;
+  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
+  return all;
+}
+
+/* ----------------------------------------------------------------------
+   plates: only their motion across the fault, as the energy of the driven motion is no part of the balance
+------------------------------------------------------------------------- */
+
+double ComputeLSMEvents::kinetic() const
+{
+  const int skip = plates ? plates->plate_bits() : 0;
+  double **v = atom->v;
+  LSM::NeumaierSum sum;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (atom->mask[i] & skip) continue;
+    const double m = atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
+    sum.add(m * (v[i][0] * v[i][0] + v[i][1] * v[i][1] + v[i][2] * v[i][2]));
+  }
+  return 0.5 * total(sum.value()) + (plates ? plates->kinetic() : 0.0);
+}
+
+double ComputeLSMEvents::friction_work() const
+{
+  double mine = 0.0;
+  for (const auto *source : sources) mine += source->work_friction;
+  return friction_before + total(mine);
+}
+
+double ComputeLSMEvents::viscous_work() const
+{
+  double mine = 0.0;
+  for (const auto *p : integrators) mine += p->work_viscosity;
+  return total(mine);
+}
+
+/* ----------------------------------------------------------------------
+   kinetic + potential + losses - work of the plates, minus its value at the start
+   the tangential springs belong to the balance even if they are not counted as potential energy
+------------------------------------------------------------------------- */
+
+double ComputeLSMEvents::residual() const
+{
+  double mine = 0.0;
+  for (const auto *s : sources) mine += s->pe_link + s->pe_contact + s->pe_tangential;
+  double e = kinetic() + total(mine) + friction_work() + viscous_work();
+  if (plates) e -= plates->work();
+  return e - ledger_start;
+}
+
+/* ----------------------------------------------------------------------
+   stops a run that went bad: everything recorded so far is written, then a restart file
+------------------------------------------------------------------------- */
+
+void ComputeLSMEvents::check_health()
+{
+  double mine[2] = {0.0, 0.0}, all[2];
+  if (!std::isfinite(local_pe())) mine[0] = 1.0;
+  if (links) {
+    const double strain = links->max_strain();
+    mine[1] = std::isfinite(strain) ? strain : 1e300;
+  }
+  MPI_Allreduce(mine, all, 2, MPI_DOUBLE, MPI_MAX, world);
+
+  std::string what;
+  if (all[0] > 0.0 || all[1] >= 1e300)
+    what = "the potential energy is not finite";
+  else if (all[1] > strain_limit)
+    what = fmt::format("a link is strained by {:.4g}, above strainlimit {:.4g}", all[1],
+                       strain_limit);
+  else if (ledger_tolerance > 0.0) {
+    const double off = residual();
+    const double scale = friction_work() + viscous_work() + kinetic() + fabs(total(local_pe()));
+    if (fabs(off) > ledger_tolerance * scale)
+      what = fmt::format("the energy ledger is out of balance by {:.4g} of {:.4g}, above tolerance "
+                         "{:.4g}", off, scale, ledger_tolerance);
+  }
+  if (what.empty()) return;
+
+  if (all[0] == 0.0 && all[1] < 1e300) flush();
+  auto writer = WriteRestart(lmp);
+  writer.multiproc_options(0, 0, nullptr);
+  writer.write(emergency_file);
+  error->all(FLERR,
+             "Run stopped at step {}: {}. Wrote restart file {}; use a smaller time step or start "
+             "from an earlier restart",
+             update->ntimestep, what, emergency_file);
+}
+
+/* ----------------------------------------------------------------------
+   one line on a terminal, rewritten every few seconds; nothing in a pipe
+------------------------------------------------------------------------- */
+
+void ComputeLSMEvents::show_progress(bigint step)
+{
+  const double now = platform::walltime();
+  if (now - shown_at < 5.0) return;
+  shown_at = now;
+  if (!isatty(STDERR_FILENO)) return;
+  const double done = static_cast<double>(step - update->firststep);
+  const double left = static_cast<double>(update->laststep - step);
+  const double seconds = done > 0.0 ? (now - started_at) * left / done : 0.0;
+  fprintf(stderr, "\rstep " BIGINT_FORMAT " of " BIGINT_FORMAT ", %lld events, %.0f s left   ", step,
+          update->laststep, static_cast<long long>(picker->events()), seconds);
+}
+
+/* ---------------------------------------------------------------------- */
+
+std::vector<double> ComputeLSMEvents::pack_state()
+{
+  flush();
+  const double friction = friction_work();
+  std::vector<double> state;
+  if (!opened) return state;
+  state = {1.0,    static_cast<double>(last_recorded), ledger_started ? 1.0 : 0.0, ledger_start,
+           friction};
+  if (comm->me == 0) {
+    std::vector<double> bytes(sizeof(LSM::PickerState) / sizeof(double));
+    memcpy(bytes.data(), &picker->state(), sizeof(LSM::PickerState));
+    state.insert(state.end(), bytes.begin(), bytes.end());
+    for (const auto &bin : event_slip) {
+      state.push_back(bin.first);
+      state.push_back(bin.second);
+    }
+  }
+  return state;
+}
+
+void ComputeLSMEvents::unpack_state(const std::vector<double> &state)
+{
+  constexpr size_t fixed = 5, words = sizeof(LSM::PickerState) / sizeof(double);
+  if (state.size() < fixed + words || state[0] != 1.0)
+    error->all(FLERR, "Compute lsm/events {}: the restart file holds a state of another version", id);
+  last_recorded = static_cast<bigint>(state[1]);
+  ledger_started = state[2] != 0.0;
+  ledger_start = state[3];
+  friction_before = state[4];
+  if (comm->me == 0) {
+    LSM::PickerState picker_state;
+    memcpy(static_cast<void *>(&picker_state), &state[fixed], sizeof(picker_state));
+    picker->set_state(picker_state);
+    for (size_t n = fixed + words; n + 1 < state.size(); n += 2)
+      event_slip[static_cast<int>(state[n])] = state[n + 1];
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+double ComputeLSMEvents::compute_scalar()
+{
+  invoked_scalar = update->ntimestep;
+  flush();
+  double events = picker ? static_cast<double>(picker->events()) : 0.0;
+  MPI_Bcast(&events, 1, MPI_DOUBLE, 0, world);
+  scalar = events;
+  return scalar;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeLSMEvents::compute_vector()
+{
+  invoked_vector = update->ntimestep;
+  flush();
+  double picked[4] = {0.0, 0.0, 0.0, 0.0};
+  if (picker) {
+    picked[EVENTS] = static_cast<double>(picker->events());
+    picked[LAST_SIZE] = picker->last_size();
+    picked[RATE] = picker->rate();
+    picked[IN_EVENT] = picker->in_event() ? 1.0 : 0.0;
+  }
+  MPI_Bcast(picked, 4, MPI_DOUBLE, 0, world);
+  for (int n = 0; n < 4; n++) vector[n] = picked[n];
+
+  double mine[3] = {0.0, 0.0, 0.0};
+  for (const auto *s : sources) {
+    mine[0] += s->pe_link;
+    mine[1] += s->pe_contact;
+    mine[2] += s->pe_tangential;
+  }
+  MPI_Allreduce(mine, &vector[PE_LINK], 3, MPI_DOUBLE, MPI_SUM, world);
+  vector[PE] = vector[PE_LINK] + vector[PE_CONTACT] + (tangential ? vector[PE_TANGENTIAL] : 0.0);
+  if (!ledger) return;
+  vector[KINETIC] = kinetic();
+  vector[WORK_PLATES] = plates ? plates->work() : 0.0;
+  vector[WORK_FRICTION] = friction_work();
+  vector[WORK_VISCOSITY] = viscous_work();
+  vector[RESIDUAL] = ledger_started ? residual() : 0.0;
+}
+
+/* ---------------------------------------------------------------------- */
+
+double ComputeLSMEvents::memory_usage()
+{
+  return static_cast<double>(filling.capacity() + sending.capacity() + received.capacity()) *
+      sizeof(double);
+}

@@ -1,0 +1,125 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   SPDX-License-Identifier: GPL-2.0-or-later
+   Lattice Solid Model: potential energy at every step, slip events picked
+   from its drops, catalogue and energy ledger
+------------------------------------------------------------------------- */
+
+#ifdef COMPUTE_CLASS
+// clang-format off
+ComputeStyle(lsm/events,ComputeLSMEvents);
+// clang-format on
+#else
+
+#ifndef LMP_COMPUTE_LSM_EVENTS_H
+#define LMP_COMPUTE_LSM_EVENTS_H
+
+#include "compute.h"
+#include "lsm_catalogue.h"
+#include "lsm_energy.h"
+#include "lsm_event_picker.h"
+#include "lsm_pe_series.h"
+
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class ComputeLSMEvents : public Compute {
+ public:
+  ComputeLSMEvents(class LAMMPS *, int, char **);
+  ~ComputeLSMEvents() override;
+  void init() override;
+  double compute_scalar() override;
+  void compute_vector() override;
+  double memory_usage() override;
+
+  // called by fix LSM_RECORD
+
+  void setup_record();
+  void record();
+  void flush();
+  std::vector<double> pack_state();
+
+ private:
+  // settings
+
+  std::string catalogue_file, series_file, emergency_file;
+  bool series_binary;
+  int series_stride;
+  LSM::PickerSettings picker_settings;
+  double memory_time;    // > 0: lambda follows from it and the time step
+  int block;             // steps collected before ranks talk to each other
+  bool tangential;       // tangential springs count as potential energy
+  bool location;         // slip moment, centroid and rupture length of each event
+  double bin_width;
+  double bin_fraction;   // bins with less than this part of the largest slip are not ruptured
+  bool ledger;
+  double ledger_tolerance;    // 0: not checked
+  double strain_limit;
+  int check_every;
+  bool resume;
+  bool progress;
+  std::vector<std::pair<std::string, std::string>> parameters;
+
+  // sources
+
+  class BondLSMLinked *links;
+  class FixLSMRecord *recorder;
+  std::vector<LSMEnergySource *> sources;
+  class FixLSMPlates *plates;
+  std::vector<class FixLSMNVE *> integrators;
+
+  // blocks of samples: one is filled while the other is on its way to rank 0
+
+  std::vector<double> filling, sending, received;
+  std::vector<LSMSlip> slip_filling;
+  std::vector<int> slip_counts;
+  bigint first_filling, first_sending;
+  int count_filling, count_sending;
+  MPI_Request request;
+  bool pending;
+  std::vector<double> slip_sent;    // all slip of the block that is on its way, on rank 0
+  std::vector<int> slip_steps;
+
+  // rank 0
+
+  std::unique_ptr<LSM::EventPicker> picker;
+  std::unique_ptr<LSM::CatalogueWriter> catalogue;
+  std::unique_ptr<LSM::PeSeriesWriter> series;
+  std::map<int, double> event_slip;    // moment of each bin since the open event commenced
+  double shown_at, started_at;
+
+  // ledger
+
+  bool ledger_started;
+  double ledger_start;
+  double friction_before;    // work lost to friction before the last restart
+
+  bigint last_recorded;
+  bool opened;
+
+  double time_of(bigint step) const;
+  LSM::CatalogueInfo header() const;
+  void open_files(bigint step);
+  void unpack_state(const std::vector<double> &);
+  void start_gather();
+  void finish_gather();
+  void take_sample(bigint step, double pe, const double *slip, int nslip);
+  void locate(LSM::Event &);
+  double local_pe() const;
+  double total(double mine) const;
+  double kinetic() const;
+  double friction_work() const;
+  double viscous_work() const;
+  double residual() const;
+  void check_health();
+  void show_progress(bigint step);
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

@@ -1,0 +1,394 @@
+/* ----------------------------------------------------------------------
+   SPDX-License-Identifier: GPL-2.0-or-later
+   Lattice Solid Model: box, particles and links of a fault between two blocks
+------------------------------------------------------------------------- */
+
+#include "create_lsm_fault.h"
+
+#include "lsm_packing.h"
+
+#include "atom.h"
+#include "atom_vec.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "force.h"
+#include "special.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <exception>
+#include <limits>
+#include <string>
+#include <utility>
+
+using namespace LAMMPS_NS;
+
+// atom types: block, plus an offset for the fault zone and for the plate
+
+static constexpr int NTYPES = 6;
+static constexpr int BULK = 1;
+static constexpr int FAULT_ZONE = 3;
+static constexpr int PLATE = 5;
+static constexpr int LINK_TYPE = 1;
+
+static int type_of(const LSM::Disc &disc)
+{
+  return (disc.plate ? PLATE : (disc.fault ? FAULT_ZONE : BULK)) + disc.block;
+}
+
+// the disc that stores a link when each link is stored once: the smaller disc has fewer links,
+// which keeps the largest number of links per atom, and so memory and messages, small
+
+static std::pair<int, int> owner_first(const LSM::Packing &packing, const std::pair<int, int> &link)
+{
+  if (packing.discs[link.second].r < packing.discs[link.first].r)
+    return {link.second, link.first};
+  return link;
+}
+
+/* ---------------------------------------------------------------------- */
+
+CreateLSMFault::CreateLSMFault(LAMMPS *lmp_in) :
+    Command(lmp_in), mass_power(2), mass_scale(1.0), margin(2.0), stiffness(1.0)
+{
+}
+
+/* ---------------------------------------------------------------------- */
+
+void CreateLSMFault::command(int narg, char **arg)
+{
+  check_setup();
+
+  LSM::PackingSettings settings;
+  parse(narg, arg, settings);
+
+  MPI_Barrier(world);
+  const double time1 = platform::walltime();
+
+  LSM::Packing packing;
+  pack(settings, packing);
+  const double time2 = platform::walltime();
+
+  std::vector<double> masses;
+  masses.reserve(packing.discs.size());
+  for (const auto &disc : packing.discs)
+    masses.push_back(mass_scale * disc.r * disc.r * (mass_power == 3 ? disc.r : 1.0));
+
+  std::vector<int> stored(packing.discs.size(), 0);
+  for (const auto &link : packing.links) {
+    ++stored[owner_first(packing, link).first];
+    if (!force->newton_bond) ++stored[owner_first(packing, link).second];
+  }
+  const int most = stored.empty() ? 0 : *std::max_element(stored.begin(), stored.end());
+
+  create_box(settings.length, settings.width, most);
+  add_particles(packing, masses, stored);
+
+  Special special(lmp);
+  special.build();
+
+  MPI_Barrier(world);
+  if (comm->me == 0) {
+    report(settings, packing, masses);
+    utils::logmesg(lmp, "  create_lsm_fault CPU = {:.3f} seconds (packing {:.3f})\n",
+                   platform::walltime() - time1, time2 - time1);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   what the scene must be like before the box exists
+------------------------------------------------------------------------- */
+
+void CreateLSMFault::check_setup()
+{
+  if (domain->box_exist)
+    error->all(FLERR, "Create_lsm_fault creates the simulation box, but one exists already");
+  if (strcmp(update->unit_style, "lj") != 0)
+    error->all(FLERR, "Create_lsm_fault requires units lj, found units {}", update->unit_style);
+  if (domain->dimension != 2)
+    error->all(FLERR, "Create_lsm_fault requires dimension 2, found dimension {}",
+               domain->dimension);
+  if (!domain->xperiodic || domain->yperiodic || !domain->zperiodic)
+    error->all(FLERR,
+               "Create_lsm_fault requires boundary p f p: periodic in x and z, not periodic in y");
+  if (atom->molecular != Atom::MOLECULAR || !atom->avec->bonds_allow || !atom->radius_flag ||
+      !atom->rmass_flag)
+    error->all(FLERR,
+               "Create_lsm_fault requires an atom style with bonds, radius and mass of each "
+               "particle, such as hybrid bond sphere, found atom style {}",
+               atom->get_style());
+
+  const double *lj = force->special_lj, *coul = force->special_coul;
+  const bool as_needed =
+      lj[1] == 0.0 && lj[2] == 1.0 && lj[3] == 1.0 && coul[2] == 1.0 && coul[3] == 1.0;
+  if (comm->me == 0 && !as_needed)
+    error->warning(FLERR,
+                   "Linked particles must not be contact pairs and all others must be: "
+                   "use special_bonds lj/coul 0 1 1 before create_lsm_fault");
+}
+
+/* ---------------------------------------------------------------------- */
+
+void CreateLSMFault::parse(int narg, char **arg, LSM::PackingSettings &settings)
+{
+  bool have_length = false, have_width = false, have_seed = false;
+  int iarg = 0;
+  while (iarg < narg) {
+    const std::string key = arg[iarg];
+    const int values = (key == "mass") ? 2 : 1;
+    if (iarg + values >= narg) utils::missing_cmd_args(FLERR, "create_lsm_fault " + key, error);
+    const char *value = arg[iarg + 1];
+    if (key == "length") {
+      settings.length = utils::numeric(FLERR, value, false, lmp);
+      have_length = true;
+    } else if (key == "width") {
+      settings.width = utils::numeric(FLERR, value, false, lmp);
+      have_width = true;
+    } else if (key == "seed") {
+      const bigint seed = utils::bnumeric(FLERR, value, false, lmp);
+      if (seed < 0) error->all(FLERR, "Create_lsm_fault: seed = {}, expected 0 or more", seed);
+      settings.seed = static_cast<uint64_t>(seed);
+      have_seed = true;
+    } else if (key == "rmin") {
+      settings.rmin = utils::numeric(FLERR, value, false, lmp);
+    } else if (key == "rmax") {
+      settings.rmax = utils::numeric(FLERR, value, false, lmp);
+    } else if (key == "failures") {
+      settings.max_failures = utils::inumeric(FLERR, value, false, lmp);
+    } else if (key == "tolerance") {
+      settings.tolerance = utils::numeric(FLERR, value, false, lmp);
+    } else if (key == "linkgap") {
+      settings.link_gap = utils::numeric(FLERR, value, false, lmp);
+    } else if (key == "faultzone") {
+      settings.fault_zone = utils::numeric(FLERR, value, false, lmp);
+    } else if (key == "hexseeds") {
+      settings.hexagonal_seeds = utils::logical(FLERR, value, false, lmp) != 0;
+    } else if (key == "mass") {
+      if (strcmp(value, "r2") == 0)
+        mass_power = 2;
+      else if (strcmp(value, "r3") == 0)
+        mass_power = 3;
+      else
+        error->all(FLERR, "Create_lsm_fault: mass = {}, expected r2 or r3 and a number", value);
+      mass_scale = utils::numeric(FLERR, arg[iarg + 2], false, lmp);
+      if (!(mass_scale > 0.0) || !std::isfinite(mass_scale))
+        error->all(FLERR, "Create_lsm_fault: mass {} = {}, expected a positive number", value,
+                   mass_scale);
+    } else if (key == "margin") {
+      margin = utils::numeric(FLERR, value, false, lmp);
+      if (!(margin > 0.0) || !std::isfinite(margin))
+        error->all(FLERR, "Create_lsm_fault: margin = {}, expected a positive number", margin);
+    } else if (key == "stiffness") {
+      stiffness = utils::numeric(FLERR, value, false, lmp);
+      if (!(stiffness > 0.0) || !std::isfinite(stiffness))
+        error->all(FLERR, "Create_lsm_fault: stiffness = {}, expected a positive number",
+                   stiffness);
+    } else
+      error->all(FLERR,
+                 "Create_lsm_fault: unknown keyword {}, expected length, width, seed, rmin, rmax, "
+                 "failures, tolerance, linkgap, faultzone, hexseeds, mass, margin or stiffness",
+                 key);
+    iarg += 1 + values;
+  }
+  const char *missing =
+      !have_length ? "length" : (!have_width ? "width" : (!have_seed ? "seed" : nullptr));
+  if (missing)
+    error->all(FLERR, "Create_lsm_fault: {} is missing, expected length L width W seed S", missing);
+}
+
+/* ----------------------------------------------------------------------
+   rank 0 packs and all others get its result: the same scene on any number of ranks,
+   also where ranks run on processors that round differently
+------------------------------------------------------------------------- */
+
+void CreateLSMFault::pack(const LSM::PackingSettings &settings, LSM::Packing &packing)
+{
+  std::string problem;
+  if (comm->me == 0) {
+    try {
+      packing = LSM::make_packing(settings);
+      if (packing.discs.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()) / 8)
+        problem = "too many particles: " + std::to_string(packing.discs.size());
+    } catch (std::exception &e) {
+      problem = e.what();
+    }
+  }
+
+  int size = static_cast<int>(problem.size());
+  MPI_Bcast(&size, 1, MPI_INT, 0, world);
+  if (size > 0) {
+    problem.resize(size);
+    MPI_Bcast(&problem[0], size, MPI_CHAR, 0, world);
+    // settings by the names they have as keywords
+    const std::pair<const char *, const char *> names[] = {
+        {"max_failures", "failures"}, {"link_gap", "linkgap"}, {"fault_zone", "faultzone"}};
+    for (const auto &name : names)
+      for (auto at = problem.find(name.first); at != std::string::npos;
+           at = problem.find(name.first, at))
+        problem.replace(at, strlen(name.first), name.second);
+    error->all(FLERR, "Create_lsm_fault: {}", problem);
+  }
+
+  int counts[4] = {static_cast<int>(packing.discs.size()), static_cast<int>(packing.links.size()),
+                   packing.fault_tangent[0], packing.fault_tangent[1]};
+  MPI_Bcast(counts, 4, MPI_INT, 0, world);
+  const int n = counts[0], m = counts[1];
+  std::vector<double> xyr(3 * static_cast<std::size_t>(n));
+  std::vector<char> flags(n);
+  std::vector<int> ends(2 * static_cast<std::size_t>(m));
+  if (comm->me == 0) {
+    for (int i = 0; i < n; i++) {
+      const LSM::Disc &disc = packing.discs[i];
+      xyr[3 * i] = disc.x;
+      xyr[3 * i + 1] = disc.y;
+      xyr[3 * i + 2] = disc.r;
+      flags[i] = static_cast<char>(disc.block | (disc.fault ? 2 : 0) | (disc.plate ? 4 : 0));
+    }
+    for (int i = 0; i < m; i++) {
+      ends[2 * i] = packing.links[i].first;
+      ends[2 * i + 1] = packing.links[i].second;
+    }
+  }
+  MPI_Bcast(xyr.data(), 3 * n, MPI_DOUBLE, 0, world);
+  MPI_Bcast(flags.data(), n, MPI_CHAR, 0, world);
+  MPI_Bcast(ends.data(), 2 * m, MPI_INT, 0, world);
+  if (comm->me != 0) {
+    packing.fault_tangent[0] = counts[2];
+    packing.fault_tangent[1] = counts[3];
+    packing.discs.resize(n);
+    for (int i = 0; i < n; i++)
+      packing.discs[i] = {xyr[3 * i],   xyr[3 * i + 1],      xyr[3 * i + 2],
+                          flags[i] & 1, (flags[i] & 2) != 0, (flags[i] & 4) != 0};
+    packing.links.resize(m);
+    for (int i = 0; i < m; i++) packing.links[i] = {ends[2 * i], ends[2 * i + 1]};
+  }
+}
+
+/* ----------------------------------------------------------------------
+   the same steps as the create_box command
+------------------------------------------------------------------------- */
+
+void CreateLSMFault::create_box(double length, double width, int bonds_per_atom)
+{
+  domain->box_exist = 1;
+  domain->triclinic = 0;
+  domain->boxlo[0] = 0.0;
+  domain->boxhi[0] = length;
+  domain->boxlo[1] = -margin;
+  domain->boxhi[1] = width + margin;
+  domain->boxlo[2] = -0.5;
+  domain->boxhi[2] = 0.5;
+
+  atom->bond_per_atom = bonds_per_atom;
+  atom->angle_per_atom = atom->dihedral_per_atom = atom->improper_per_atom = 0;
+  atom->nbonds = atom->nangles = atom->ndihedrals = atom->nimpropers = 0;
+  atom->ntypes = NTYPES;
+  atom->nbondtypes = 1;
+  atom->nangletypes = atom->ndihedraltypes = atom->nimpropertypes = 0;
+
+  update->ntimestep = 0;
+
+  atom->allocate_type_arrays();
+  atom->deallocate_topology();
+  atom->avec->grow(1);
+
+  // never used, as each particle has its own mass, but write_data writes these masses too
+  // and read_data refuses zeros
+
+  if (atom->mass)
+    for (int itype = 1; itype <= NTYPES; itype++) atom->set_mass(FLERR, itype, 1.0);
+
+  domain->print_box("Created ");
+  domain->set_initial_box();
+  domain->set_global_box();
+  comm->set_proc_grid();
+  domain->set_local_box();
+}
+
+/* ----------------------------------------------------------------------
+   each rank adds the particles in its sub-domain and their links
+   a particle's ID is its place in the packing + 1
+------------------------------------------------------------------------- */
+
+void CreateLSMFault::add_particles(const LSM::Packing &packing, const std::vector<double> &masses,
+                                   const std::vector<int> &stored)
+{
+  const int n = static_cast<int>(packing.discs.size());
+  std::vector<int> local(n, -1);
+  const double *sublo = domain->sublo, *subhi = domain->subhi;
+
+  atom->nghost = 0;
+  atom->avec->clear_bonus();
+
+  for (int i = 0; i < n; i++) {
+    const LSM::Disc &disc = packing.discs[i];
+    double x[3] = {disc.x, disc.y, 0.0};
+    if (x[0] < sublo[0] || x[0] >= subhi[0] || x[1] < sublo[1] || x[1] >= subhi[1]) continue;
+    atom->avec->create_atom(type_of(disc), x);
+    const int m = atom->nlocal - 1;
+    local[i] = m;
+    atom->tag[m] = i + 1;
+    atom->radius[m] = disc.r;
+    atom->rmass[m] = masses[i];
+    if (atom->molecule_flag) atom->molecule[m] = disc.block + 1;
+    if (stored[i] > atom->bond_per_atom)
+      error->one(FLERR, "Create_lsm_fault: {} links of particle {} do not fit", stored[i], i + 1);
+  }
+
+  for (const auto &link : packing.links) {
+    const auto ends = owner_first(packing, link);
+    const int i = local[ends.first], j = local[ends.second];
+    if (i >= 0) {
+      atom->bond_type[i][atom->num_bond[i]] = LINK_TYPE;
+      atom->bond_atom[i][atom->num_bond[i]++] = ends.second + 1;
+    }
+    if (!force->newton_bond && j >= 0) {
+      atom->bond_type[j][atom->num_bond[j]] = LINK_TYPE;
+      atom->bond_atom[j][atom->num_bond[j]++] = ends.first + 1;
+    }
+  }
+
+  atom->data_fix_compute_variable(0, atom->nlocal);
+
+  bigint nblocal = atom->nlocal;
+  MPI_Allreduce(&nblocal, &atom->natoms, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (atom->natoms != n)
+    error->all(FLERR, "Create_lsm_fault: {} of {} particles have an owner", atom->natoms, n);
+  atom->nbonds = static_cast<bigint>(packing.links.size());
+
+  atom->tag_check();
+  if (atom->map_style != Atom::MAP_NONE) {
+    atom->map_init();
+    atom->map_set();
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void CreateLSMFault::report(const LSM::PackingSettings &settings, const LSM::Packing &packing,
+                            const std::vector<double> &masses)
+{
+  static const char *names[NTYPES] = {"lower block",      "upper block", "lower fault zone",
+                                      "upper fault zone", "lower plate", "upper plate"};
+  int counts[NTYPES] = {0};
+  for (const auto &disc : packing.discs) ++counts[type_of(disc) - 1];
+
+  utils::logmesg(lmp, "Created {} particles and {} links\n", packing.discs.size(),
+                 packing.links.size());
+  for (int i = 0; i < NTYPES; i++)
+    utils::logmesg(lmp, "  type {} = {:<16} : {} particles\n", i + 1, names[i], counts[i]);
+  utils::logmesg(lmp,
+                 "  coordination = {:.4f}, area fraction = {:.4f}, smallest radius = {:.6f}\n"
+                 "  particles tangent to the fault line = {} below, {} above\n",
+                 packing.coordination, packing.area_fraction, packing.rmin_found,
+                 packing.fault_tangent[0], packing.fault_tangent[1]);
+
+  const double omega = LSM::frequency_bound(packing, settings.length, masses, stiffness);
+  utils::logmesg(lmp,
+                 "  highest link frequency <= {:.4f} (bound for stiffness {:g}, no contacts): "
+                 "time steps up to {:.5f} are stable\n",
+                 omega, stiffness, 2.0 / omega);
+}

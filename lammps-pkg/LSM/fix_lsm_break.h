@@ -1,0 +1,40 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   SPDX-License-Identifier: GPL-2.0-or-later
+   Internal helper of bond style lsm/linked: removes broken links from the
+   topology of every rank and lets the pair become a contact pair
+------------------------------------------------------------------------- */
+
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(LSM_BREAK,FixLSMBreak);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_LSM_BREAK_H
+#define LMP_FIX_LSM_BREAK_H
+
+#include "fix.h"
+
+namespace LAMMPS_NS {
+
+class FixLSMBreak : public Fix {
+ public:
+  FixLSMBreak(class LAMMPS *, int, char **);
+  int setmask() override;
+  void init() override;
+  void setup_pre_exchange() override;
+  void pre_exchange() override;
+  void end_of_step() override;
+  double compute_scalar() override;
+
+ private:
+  class BondLSMLinked *links;
+  bigint total;    // links broken so far, all ranks
+
+  void apply();
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

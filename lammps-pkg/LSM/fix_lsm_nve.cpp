@@ -1,0 +1,403 @@
+/* ----------------------------------------------------------------------
+   SPDX-License-Identifier: GPL-2.0-or-later
+------------------------------------------------------------------------- */
+
+#include "fix_lsm_nve.h"
+
+#include "atom.h"
+#include "bond.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "force.h"
+#include "neigh_list.h"
+#include "neighbor.h"
+#include "pair_lsm_free.h"
+#include "update.h"
+
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+
+/* ---------------------------------------------------------------------- */
+
+FixLSMNVE::FixLSMNVE(LAMMPS *_lmp, int narg, char **arg) :
+    Fix(_lmp, narg, arg), record_work(false), work_viscosity(0.0), nu(0.0), dtv(0.0), dtf(0.0),
+    decay(1.0), check(ERROR), omega(0.0), dt_limit(0.0), initial_chosen(nullptr),
+    final_chosen(nullptr)
+{
+  time_integrate = 1;
+  dynamic_group_allow = 1;
+  scalar_flag = 1;
+  vector_flag = 1;
+  size_vector = 2;
+  global_freq = 1;
+  extscalar = 1;
+  extvector = 0;
+  restart_global = 1;
+  comm_forward = comm_reverse = domain->dimension == 3 ? 3 : 2;
+
+  int iarg = 3;
+  while (iarg < narg) {
+    if (iarg + 1 >= narg) error->all(FLERR, "Fix lsm/nve keyword {} needs a value", arg[iarg]);
+    if (strcmp(arg[iarg], "viscosity") == 0) {
+      nu = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
+      if (nu < 0.0) error->all(FLERR, "Fix lsm/nve viscosity is {}, but must be >= 0", nu);
+    } else if (strcmp(arg[iarg], "dtcheck") == 0) {
+      if (strcmp(arg[iarg + 1], "error") == 0)
+        check = ERROR;
+      else if (strcmp(arg[iarg + 1], "warn") == 0)
+        check = WARN;
+      else if (strcmp(arg[iarg + 1], "off") == 0)
+        check = OFF;
+      else
+        error->all(FLERR, "Fix lsm/nve dtcheck is '{}', but must be error, warn or off",
+                   arg[iarg + 1]);
+    } else
+      error->all(FLERR, "Unknown fix lsm/nve keyword '{}'; accepted are viscosity and dtcheck",
+                 arg[iarg]);
+    iarg += 2;
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixLSMNVE::setmask()
+{
+  return INITIAL_INTEGRATE | FINAL_INTEGRATE;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixLSMNVE::init()
+{
+  if (utils::strmatch(update->integrate_style, "^respa"))
+    error->all(FLERR, "Fix lsm/nve does not work with run_style respa");
+  reset_dt();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixLSMNVE::reset_dt()
+{
+  dtv = update->dt;
+  dtf = 0.5 * update->dt * force->ftm2v;
+  decay = exp(-0.5 * nu * update->dt);
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <bool DIM3> void FixLSMNVE::choose()
+{
+  if (nu > 0.0 && record_work) {
+    initial_chosen = &FixLSMNVE::initial_kernel<true, true, DIM3>;
+    final_chosen = &FixLSMNVE::final_kernel<true, true, DIM3>;
+  } else if (nu > 0.0) {
+    initial_chosen = &FixLSMNVE::initial_kernel<true, false, DIM3>;
+    final_chosen = &FixLSMNVE::final_kernel<true, false, DIM3>;
+  } else {
+    initial_chosen = &FixLSMNVE::initial_kernel<false, false, DIM3>;
+    final_chosen = &FixLSMNVE::final_kernel<false, false, DIM3>;
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixLSMNVE::setup(int /*vflag*/)
+{
+  if (domain->dimension == 3)
+    choose<true>();
+  else
+    choose<false>();
+
+  if (check == OFF) return;
+  omega = highest_frequency();
+  dt_limit = omega > 0.0 ? 2.0 / omega : 0.0;
+  if (omega == 0.0 || update->dt <= dt_limit) return;
+  if (check == ERROR)
+    error->all(FLERR, "Time step {} is above the stability limit {:.6g} of the links and contacts (2 / highest frequency "
+               "{:.6g}); use a smaller time step or fix lsm/nve dtcheck warn",
+               update->dt, dt_limit, omega);
+  if (comm->me == 0)
+    error->warning(FLERR, "Time step {} is above the stability limit {:.6g} of the links and contacts", update->dt, dt_limit);
+}
+
+/* ----------------------------------------------------------------------
+   Viscosity by Strang splitting: exact decay of the velocities for half a step before and after the
+   velocity Verlet step. Second order, stable for any viscosity, and the work it takes is known exactly.
+------------------------------------------------------------------------- */
+
+template <bool VISCOUS, bool WORK, bool DIM3> void FixLSMNVE::initial_kernel()
+{
+  double **x = atom->x;
+  double **v = atom->v;
+  double **f = atom->f;
+  const double *rmass = atom->rmass;
+  const double *mass = atom->mass;
+  const int *type = atom->type;
+  const int *mask = atom->mask;
+  const int nlocal = igroup == atom->firstgroup ? atom->nfirst : atom->nlocal;
+  double lost = 0.0;
+
+  for (int i = 0; i < nlocal; i++) {
+    if (!(mask[i] & groupbit)) continue;
+    const double m = rmass ? rmass[i] : mass[type[i]];
+    const double dtfm = dtf / m;
+    if constexpr (WORK) {
+      double vsq = v[i][0] * v[i][0] + v[i][1] * v[i][1];
+      if constexpr (DIM3) vsq += v[i][2] * v[i][2];
+      lost += m * vsq;
+    }
+    if constexpr (VISCOUS) {
+      v[i][0] *= decay;
+      v[i][1] *= decay;
+      if constexpr (DIM3) v[i][2] *= decay;
+    }
+    v[i][0] += dtfm * f[i][0];
+    v[i][1] += dtfm * f[i][1];
+    x[i][0] += dtv * v[i][0];
+    x[i][1] += dtv * v[i][1];
+    if constexpr (DIM3) {
+      v[i][2] += dtfm * f[i][2];
+      x[i][2] += dtv * v[i][2];
+    }
+  }
+  if constexpr (WORK) work_viscosity += 0.5 * (1.0 - decay * decay) * lost;
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <bool VISCOUS, bool WORK, bool DIM3> void FixLSMNVE::final_kernel()
+{
+  double **v = atom->v;
+  double **f = atom->f;
+  const double *rmass = atom->rmass;
+  const double *mass = atom->mass;
+  const int *type = atom->type;
+  const int *mask = atom->mask;
+  const int nlocal = igroup == atom->firstgroup ? atom->nfirst : atom->nlocal;
+  double lost = 0.0;
+
+  for (int i = 0; i < nlocal; i++) {
+    if (!(mask[i] & groupbit)) continue;
+    const double m = rmass ? rmass[i] : mass[type[i]];
+    const double dtfm = dtf / m;
+    v[i][0] += dtfm * f[i][0];
+    v[i][1] += dtfm * f[i][1];
+    if constexpr (DIM3) v[i][2] += dtfm * f[i][2];
+    if constexpr (WORK) {
+      double vsq = v[i][0] * v[i][0] + v[i][1] * v[i][1];
+      if constexpr (DIM3) vsq += v[i][2] * v[i][2];
+      lost += m * vsq;
+    }
+    if constexpr (VISCOUS) {
+      v[i][0] *= decay;
+      v[i][1] *= decay;
+      if constexpr (DIM3) v[i][2] *= decay;
+    }
+  }
+  if constexpr (WORK) work_viscosity += 0.5 * (1.0 - decay * decay) * lost;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixLSMNVE::initial_integrate(int /*vflag*/)
+{
+  (this->*initial_chosen)();
+}
+
+void FixLSMNVE::final_integrate()
+{
+  (this->*final_chosen)();
+}
+
+/* ----------------------------------------------------------------------
+   Highest frequency of the network of links and contacts by power iteration on its stiffness matrix,
+   scaled by the masses. Pairs closer than 1.05 of touching count as contacts that are there. The Rayleigh
+   quotient bounds the frequency from below; it is iterated until it changes by less than 0.1 %, and 2 %
+   are added.
+------------------------------------------------------------------------- */
+
+double FixLSMNVE::highest_frequency()
+{
+  const int nall = atom->nlocal + atom->nghost;
+  const int nlocal = atom->nlocal;
+  const int dim = domain->dimension == 3 ? 3 : 2;
+
+  struct Spring {
+    int i, j;
+    double k, kt, n[3];
+  };
+  std::vector<Spring> springs;
+  double **x = atom->x;
+
+  auto add = [&](int i, int j, double k, double kt) {
+    Spring s{i, j, k, kt, {x[i][0] - x[j][0], x[i][1] - x[j][1], x[i][2] - x[j][2]}};
+    const double r = sqrt(s.n[0] * s.n[0] + s.n[1] * s.n[1] + s.n[2] * s.n[2]);
+    if (r == 0.0) return;
+    for (double &c : s.n) c /= r;
+    springs.push_back(s);
+  };
+
+  int d = 0;
+  if (force->bond && neighbor->bondlist) {
+    const auto k = (const double *) force->bond->extract("k", d);
+    if (force->bond_match("lsm/linked") && k)
+      for (int n = 0; n < neighbor->nbondlist; n++) {
+        const int *b = neighbor->bondlist[n];
+        if (b[2] > 0) add(b[0], b[1], k[b[2]], 0.0);
+      }
+  }
+  auto contacts = dynamic_cast<PairLSMFree *>(force->pair_match("lsm/", 0));
+  if (contacts && contacts->list) {
+    const auto k = (double **) contacts->extract("k", d);
+    const auto kt = (double **) contacts->extract("kt", d);
+    const NeighList *list = contacts->list;
+    for (int ii = 0; ii < list->inum; ii++) {
+      const int i = list->ilist[ii];
+      for (int jj = 0; jj < list->numneigh[i]; jj++) {
+        const int j = list->firstneigh[i][jj] & NEIGHMASK;
+        const double reach = 1.05 * (atom->radius[i] + atom->radius[j]);
+        const double dx = x[i][0] - x[j][0], dy = x[i][1] - x[j][1], dz = x[i][2] - x[j][2];
+        if (dx * dx + dy * dy + dz * dz > reach * reach) continue;
+        const int it = atom->type[i], jt = atom->type[j];
+        add(i, j, k[it][jt], kt ? kt[it][jt] : 0.0);
+      }
+    }
+  }
+
+  const double *rmass = atom->rmass;
+  auto mass_of = [&](int i) { return rmass ? rmass[i] : atom->mass[atom->type[i]]; };
+
+  // any start vector that is not orthogonal to the sought mode will do; this one is the same for each
+  // rank count
+
+  trial.assign(static_cast<size_t>(nall) * dim, 0.0);
+  image.assign(static_cast<size_t>(nall) * dim, 0.0);
+  for (int i = 0; i < nlocal; i++)
+    for (int c = 0; c < dim; c++)
+      trial[i * dim + c] =
+          cos(12.9898 * static_cast<double>(atom->tag[i] % 100003) + 78.233 * (c + 1));
+
+  double value = 0.0;
+  for (int iteration = 0; iteration < 200; iteration++) {
+    comm->forward_comm(this);
+    image.assign(static_cast<size_t>(nall) * dim, 0.0);
+    for (const Spring &s : springs) {
+      double u[3] = {0.0, 0.0, 0.0};
+      double along = 0.0;
+      for (int c = 0; c < dim; c++) {
+        u[c] = trial[s.i * dim + c] - trial[s.j * dim + c];
+        along += u[c] * s.n[c];
+      }
+      const bool both = force->newton_bond || s.j < nlocal;
+      for (int c = 0; c < dim; c++) {
+        const double g = (s.k - s.kt) * along * s.n[c] + s.kt * u[c];
+        image[s.i * dim + c] += g;
+        if (both) image[s.j * dim + c] -= g;
+      }
+    }
+    if (force->newton_bond) comm->reverse_comm(this);
+
+    // trial holds displacements u; the next one is M^-1 K u, its Rayleigh quotient u.Ku / u.Mu
+
+    double mine[3] = {0.0, 0.0, 0.0}, all[3];
+    for (int i = 0; i < nlocal; i++) {
+      const double m = mass_of(i);
+      for (int c = 0; c < dim; c++) {
+        const int n = i * dim + c;
+        mine[0] += trial[n] * image[n];
+        mine[1] += m * trial[n] * trial[n];
+        mine[2] += image[n] * image[n] / m;
+      }
+    }
+    MPI_Allreduce(mine, all, 3, MPI_DOUBLE, MPI_SUM, world);
+    if (all[1] == 0.0 || all[2] == 0.0) return 0.0;
+    const double before = value;
+    value = all[0] / all[1];
+    const double scale = 1.0 / sqrt(all[2]);
+    for (int i = 0; i < nlocal; i++)
+      for (int c = 0; c < dim; c++) trial[i * dim + c] = image[i * dim + c] / mass_of(i) * scale;
+    if (iteration > 20 && fabs(value - before) < 1e-3 * value) break;
+  }
+  trial.clear();
+  image.clear();
+  return 1.02 * sqrt(value);
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixLSMNVE::pack_forward_comm(int n, int *list, double *buf, int /*pbc_flag*/, int * /*pbc*/)
+{
+  int m = 0;
+  for (int i = 0; i < n; i++)
+    for (int c = 0; c < comm_forward; c++) buf[m++] = trial[list[i] * comm_forward + c];
+  return m;
+}
+
+void FixLSMNVE::unpack_forward_comm(int n, int first, double *buf)
+{
+  int m = 0;
+  for (int i = first; i < first + n; i++)
+    for (int c = 0; c < comm_forward; c++) trial[i * comm_forward + c] = buf[m++];
+}
+
+int FixLSMNVE::pack_reverse_comm(int n, int first, double *buf)
+{
+  int m = 0;
+  for (int i = first; i < first + n; i++)
+    for (int c = 0; c < comm_reverse; c++) buf[m++] = image[i * comm_reverse + c];
+  return m;
+}
+
+void FixLSMNVE::unpack_reverse_comm(int n, int *list, double *buf)
+{
+  int m = 0;
+  for (int i = 0; i < n; i++)
+    for (int c = 0; c < comm_reverse; c++) image[list[i] * comm_reverse + c] += buf[m++];
+}
+
+/* ----------------------------------------------------------------------
+   scalar = work lost to viscosity (only counted while a compute keeps the ledger)
+   vector = highest frequency and stability limit found at setup
+------------------------------------------------------------------------- */
+
+double FixLSMNVE::compute_scalar()
+{
+  double all = 0.0;
+  MPI_Allreduce(&work_viscosity, &all, 1, MPI_DOUBLE, MPI_SUM, world);
+  return all;
+}
+
+double FixLSMNVE::compute_vector(int n)
+{
+  return n == 0 ? omega : dt_limit;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixLSMNVE::write_restart(FILE *fp)
+{
+  double total = compute_scalar();
+  if (comm->me == 0) {
+    const int size = sizeof(double);
+    fwrite(&size, sizeof(int), 1, fp);
+    fwrite(&total, sizeof(double), 1, fp);
+  }
+}
+
+void FixLSMNVE::restart(char *buf)
+{
+  double total;
+  memcpy(&total, buf, sizeof(double));
+  work_viscosity = comm->me == 0 ? total : 0.0;
+}
+
+/* ---------------------------------------------------------------------- */
+
+double FixLSMNVE::memory_usage()
+{
+  return static_cast<double>(trial.capacity() + image.capacity()) * sizeof(double);
+}

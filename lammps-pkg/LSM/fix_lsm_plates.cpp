@@ -1,0 +1,383 @@
+/* ----------------------------------------------------------------------
+   SPDX-License-Identifier: GPL-2.0-or-later
+------------------------------------------------------------------------- */
+
+#include "fix_lsm_plates.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "force.h"
+#include "group.h"
+#include "modify.h"
+#include "update.h"
+
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+
+enum { LOWER, UPPER };
+
+/* ---------------------------------------------------------------------- */
+
+FixLSMPlates::FixLSMPlates(LAMMPS *_lmp, int narg, char **arg) :
+    Fix(_lmp, narg, arg), speed(0.0), ramp(0.0), servo(false), stress(0.0), stress_ramp(0.0),
+    damping(0.0), vy_known(false), elapsed(0.0), ux(0.0), work_mine(0.0), dt(update->dt), summed_at(-1)
+{
+  scalar_flag = 1;
+  vector_flag = 1;
+  size_vector = 10;
+  global_freq = 1;
+  extscalar = 1;
+  extvector = 0;
+  restart_global = 1;
+
+  if (narg < 5)
+    error->all(FLERR, "Fix lsm/plates expects 'fix ID group lsm/plates lower-group upper-group "
+                      "keyword value ...'");
+  for (int p : {LOWER, UPPER}) {
+    plate[p].group = group->find(arg[3 + p]);
+    if (plate[p].group < 0)
+      error->all(FLERR, "Fix lsm/plates {} group '{}' does not exist", p ? "upper" : "lower",
+                 arg[3 + p]);
+    plate[p].bit = group->bitmask[plate[p].group];
+    plate[p].side = p == LOWER ? -1.0 : 1.0;
+    plate[p].mass = plate[p].vy = plate[p].uy = plate[p].fx = plate[p].fy = 0.0;
+  }
+
+  bool mode_given = false;
+  int iarg = 5;
+  while (iarg < narg) {
+    const std::string keyword = arg[iarg];
+    if (keyword == "position") {
+      servo = false;
+      mode_given = true;
+      iarg++;
+      continue;
+    }
+    if (iarg + 1 >= narg) error->all(FLERR, "Fix lsm/plates keyword {} needs a value", keyword);
+    const double value = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
+    if (keyword == "velocity")
+      speed = value;
+    else if (keyword == "ramp")
+      ramp = value;
+    else if (keyword == "stress") {
+      stress = value;
+      servo = mode_given = true;
+    } else if (keyword == "stressramp")
+      stress_ramp = value;
+    else if (keyword == "damping")
+      damping = value;
+    else
+      error->all(FLERR,
+                 "Unknown fix lsm/plates keyword '{}'; accepted are velocity, ramp, stress, "
+                 "stressramp, damping and position",
+                 keyword);
+    if (keyword != "velocity" && value < 0.0)
+      error->all(FLERR, "Fix lsm/plates {} is {}, but must be >= 0", keyword, value);
+    iarg += 2;
+  }
+  if (!mode_given)
+    error->all(FLERR, "Fix lsm/plates needs either 'stress value' (normal stress held) or "
+                      "'position' (plates do not move across the fault)");
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixLSMPlates::setmask()
+{
+  return INITIAL_INTEGRATE | FINAL_INTEGRATE | POST_NEIGHBOR;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixLSMPlates::init()
+{
+  if (domain->dimension != 2)
+    error->all(FLERR, "Fix lsm/plates needs a 2-dimensional simulation (dimension 2)");
+  if (!domain->xperiodic || domain->yperiodic)
+    error->all(FLERR, "Fix lsm/plates needs a box that is periodic in x and not in y (boundary p f p)");
+  if (utils::strmatch(update->integrate_style, "^respa"))
+    error->all(FLERR, "Fix lsm/plates does not work with run_style respa");
+  dt = update->dt;
+
+  // plates keep the velocity across the fault that their particles have, so that one fix can follow
+  // another; the fix itself remembers it from one run to the next and in a restart
+
+  double sum[4] = {0.0, 0.0, 0.0, 0.0}, all[4];
+  for (int i = 0; i < atom->nlocal; i++)
+    for (int p : {LOWER, UPPER})
+      if (atom->mask[i] & plate[p].bit) {
+        const double m = atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
+        sum[2 * p] += m;
+        sum[2 * p + 1] += m * atom->v[i][1];
+        if (atom->mask[i] & plate[1 - p].bit)
+          error->one(FLERR, "Fix lsm/plates: atom {} is in both plates", atom->tag[i]);
+      }
+  MPI_Allreduce(sum, all, 4, MPI_DOUBLE, MPI_SUM, world);
+  for (int p : {LOWER, UPPER}) {
+    plate[p].mass = all[2 * p];
+    if (plate[p].mass <= 0.0)
+      error->all(FLERR, "Fix lsm/plates: the {} plate (group '{}') has no particles",
+                 p ? "upper" : "lower", group->names[plate[p].group]);
+    if (!servo)
+      plate[p].vy = 0.0;
+    else if (!vy_known)
+      plate[p].vy = all[2 * p + 1] / plate[p].mass;
+  }
+  vy_known = true;
+
+  for (const auto &other : modify->get_fix_list())
+    if (other != this && other->time_integrate) {
+      int both = 0, any = 0;
+      for (int i = 0; i < atom->nlocal; i++)
+        if ((atom->mask[i] & other->groupbit) && (atom->mask[i] & plate_bits())) both = 1;
+      MPI_Allreduce(&both, &any, 1, MPI_INT, MPI_MAX, world);
+      if (any)
+        error->all(FLERR,
+                   "Particles of the plates of fix {} are moved by fix {} as well; take them out of "
+                   "the group of that fix",
+                   id, other->id);
+    }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixLSMPlates::reset_dt()
+{
+  dt = update->dt;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixLSMPlates::collect()
+{
+  for (Plate &p : plate) {
+    p.atoms.clear();
+    for (int i = 0; i < atom->nlocal; i++)
+      if (atom->mask[i] & p.bit) p.atoms.push_back(i);
+  }
+}
+
+void FixLSMPlates::setup_post_neighbor()
+{
+  collect();
+}
+
+void FixLSMPlates::post_neighbor()
+{
+  collect();
+}
+
+/* ----------------------------------------------------------------------
+   linear ramps
+------------------------------------------------------------------------- */
+
+double FixLSMPlates::velocity_at(double t) const
+{
+  return t < ramp ? speed * t / ramp : speed;
+}
+
+double FixLSMPlates::stress_at(double t) const
+{
+  return t < stress_ramp ? stress * t / stress_ramp : stress;
+}
+
+/* ----------------------------------------------------------------------
+   force of the blocks on the plates; only the motion across the fault needs it from all ranks
+------------------------------------------------------------------------- */
+
+void FixLSMPlates::sum_forces()
+{
+  double **f = atom->f;
+  double across[2];
+  for (int p : {LOWER, UPPER}) {
+    double fx = 0.0, fy = 0.0;
+    for (int i : plate[p].atoms) {
+      fx += f[i][0];
+      fy += f[i][1];
+    }
+    plate[p].fx = fx;
+    across[p] = fy;
+  }
+  if (servo && comm->nprocs > 1) {
+    double all[2];
+    MPI_Allreduce(across, all, 2, MPI_DOUBLE, MPI_SUM, world);
+    plate[LOWER].fy = all[LOWER];
+    plate[UPPER].fy = all[UPPER];
+  } else {
+    plate[LOWER].fy = across[LOWER];
+    plate[UPPER].fy = across[UPPER];
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixLSMPlates::setup(int /*vflag*/)
+{
+  sum_forces();
+  summed_at = -1;
+  for (const Plate &p : plate)
+    for (int i : p.atoms) {
+      atom->v[i][0] = p.side * velocity_at(elapsed);
+      atom->v[i][1] = p.vy;
+    }
+}
+
+/* ----------------------------------------------------------------------
+   Shear: prescribed, the particles move with the velocity of the middle of the step. Across the fault: Newton's
+   law for the rigid plate under the applied stress, the force of the block and the damping, velocity
+   Verlet with the same splitting as fix lsm/nve. Work: trapezoidal rule over the step.
+------------------------------------------------------------------------- */
+
+void FixLSMPlates::initial_integrate(int /*vflag*/)
+{
+  const double length = domain->prd[0];
+  const double dux = dt * velocity_at(elapsed + 0.5 * dt);
+  const double vx = dux / dt;
+  const double decay = exp(-0.5 * damping * dt);
+  double **x = atom->x;
+  double **v = atom->v;
+
+  for (Plate &p : plate) {
+    double duy = 0.0;
+    if (servo) {
+      const double applied = -p.side * stress_at(elapsed) * length;
+      const double kinetic = 0.5 * p.mass * p.vy * p.vy;
+      p.vy *= decay;
+      if (comm->me == 0) work_mine -= kinetic - 0.5 * p.mass * p.vy * p.vy;
+      p.vy += 0.5 * dt * (applied + p.fy) / p.mass;
+      duy = dt * p.vy;
+      if (comm->me == 0)
+        work_mine += -p.side * 0.5 * (stress_at(elapsed) + stress_at(elapsed + dt)) * length * duy;
+    }
+    p.uy += duy;
+    work_mine -= 0.5 * p.fx * p.side * dux;
+    for (int i : p.atoms) {
+      v[i][0] = p.side * vx;
+      v[i][1] = p.vy;
+      x[i][0] += p.side * dux;
+      x[i][1] += duy;
+    }
+  }
+  ux += dux;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixLSMPlates::final_integrate()
+{
+  const double length = domain->prd[0];
+  const double dux = dt * velocity_at(elapsed + 0.5 * dt);
+  const double decay = exp(-0.5 * damping * dt);
+  double **v = atom->v;
+
+  elapsed += dt;
+  sum_forces();
+  for (Plate &p : plate) {
+    work_mine -= 0.5 * p.fx * p.side * dux;
+    if (servo) {
+      const double applied = -p.side * stress_at(elapsed) * length;
+      p.vy += 0.5 * dt * (applied + p.fy) / p.mass;
+      const double kinetic = 0.5 * p.mass * p.vy * p.vy;
+      p.vy *= decay;
+      if (comm->me == 0) work_mine -= kinetic - 0.5 * p.mass * p.vy * p.vy;
+    }
+    const double vx = p.side * velocity_at(elapsed);
+    for (int i : p.atoms) {
+      v[i][0] = vx;
+      v[i][1] = p.vy;
+    }
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+double FixLSMPlates::kinetic() const
+{
+  double e = 0.0;
+  for (const Plate &p : plate) e += 0.5 * p.mass * p.vy * p.vy;
+  return e;
+}
+
+double FixLSMPlates::work()
+{
+  double all;
+  MPI_Allreduce(&work_mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
+  return all;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixLSMPlates::sum_for_output()
+{
+  if (summed_at == update->ntimestep) return;
+  double mine[4] = {plate[LOWER].fx, plate[LOWER].fy, plate[UPPER].fx, plate[UPPER].fy};
+  if (servo && comm->me != 0) mine[1] = mine[3] = 0.0;    // already the sum over all ranks
+  MPI_Allreduce(mine, sums, 4, MPI_DOUBLE, MPI_SUM, world);
+  summed_at = update->ntimestep;
+}
+
+/* ----------------------------------------------------------------------
+   scalar = work of the plates
+   vector = mean shear stress, mean normal stress, their ratio, shear stress lower and upper, normal stress
+            lower and upper, shear displacement of the plates against each other, approach of the plates,
+            kinetic energy of their motion across the fault
+------------------------------------------------------------------------- */
+
+double FixLSMPlates::compute_scalar()
+{
+  return work();
+}
+
+double FixLSMPlates::compute_vector(int n)
+{
+  sum_for_output();
+  const double length = domain->prd[0];
+  const double shear_lower = sums[0] / length, shear_upper = -sums[2] / length;
+  const double normal_lower = -sums[1] / length, normal_upper = sums[3] / length;
+  const double shear = 0.5 * (shear_lower + shear_upper);
+  const double normal = 0.5 * (normal_lower + normal_upper);
+  switch (n) {
+    case 0: return shear;
+    case 1: return normal;
+    case 2: return normal != 0.0 ? shear / normal : 0.0;
+    case 3: return shear_lower;
+    case 4: return shear_upper;
+    case 5: return normal_lower;
+    case 6: return normal_upper;
+    case 7: return 2.0 * ux;
+    case 8: return plate[LOWER].uy - plate[UPPER].uy;
+    default: return kinetic();
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixLSMPlates::write_restart(FILE *fp)
+{
+  const double values[7] = {elapsed,         ux,           plate[0].uy, plate[1].uy,
+                            plate[0].vy,     plate[1].vy,  work()};
+  if (comm->me == 0) {
+    const int size = sizeof(values);
+    fwrite(&size, sizeof(int), 1, fp);
+    fwrite(values, sizeof(double), 7, fp);
+  }
+}
+
+void FixLSMPlates::restart(char *buf)
+{
+  double values[7];
+  memcpy(values, buf, sizeof(values));
+  elapsed = values[0];
+  ux = values[1];
+  plate[0].uy = values[2];
+  plate[1].uy = values[3];
+  plate[0].vy = values[4];
+  plate[1].vy = values[5];
+  vy_known = true;
+  work_mine = comm->me == 0 ? values[6] : 0.0;
+}

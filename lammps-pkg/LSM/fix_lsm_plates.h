@@ -1,0 +1,78 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   SPDX-License-Identifier: GPL-2.0-or-later
+   Lattice Solid Model: two rigid driving plates
+------------------------------------------------------------------------- */
+
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(lsm/plates,FixLSMPlates);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_LSM_PLATES_H
+#define LMP_FIX_LSM_PLATES_H
+
+#include "fix.h"
+
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class FixLSMPlates : public Fix {
+ public:
+  FixLSMPlates(class LAMMPS *, int, char **);
+  int setmask() override;
+  void init() override;
+  void setup(int) override;
+  void setup_post_neighbor() override;
+  void post_neighbor() override;
+  void initial_integrate(int) override;
+  void final_integrate() override;
+  void reset_dt() override;
+  double compute_scalar() override;
+  double compute_vector(int) override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
+
+  int plate_bits() const { return plate[0].bit | plate[1].bit; }
+  double work();              // work of the plates on the blocks, all ranks, accumulated
+  double kinetic() const;     // kinetic energy of the motion of the plates across the fault
+
+ private:
+  struct Plate {
+    int group, bit;
+    double side;                // -1 lower, +1 upper
+    double mass;                // of all particles of the plate
+    double vy;                  // velocity across the fault
+    double uy;                  // displacement across the fault since the fix was made
+    double fx, fy;              // force of the block on the plate: fx this rank, fy all ranks with servo
+    std::vector<int> atoms;     // this rank's particles
+  };
+  Plate plate[2];
+
+  double speed;           // driving velocity of each plate in the end
+  double ramp;            // time over which it is reached
+  bool servo;             // normal stress held, or position held
+  double stress;          // normal stress in the end
+  double stress_ramp;     // time over which it is reached
+  double damping;         // -damping * mass * vy on each plate with servo
+  bool vy_known;          // velocities across the fault were set by a former run or a restart
+  double elapsed;         // time since the fix was made
+  double ux;              // shear displacement of each plate
+  double work_mine;       // this rank's part of the work
+  double dt;
+
+  double sums[4];         // fx, fy of both plates over all ranks, at step summed_at
+  bigint summed_at;
+
+  double velocity_at(double t) const;
+  double stress_at(double t) const;
+  void sum_forces();
+  void sum_for_output();
+  void collect();
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

@@ -1,0 +1,40 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   SPDX-License-Identifier: GPL-2.0-or-later
+   Internal helper of compute lsm/events: calls it at every step and keeps
+   its state in restart files
+------------------------------------------------------------------------- */
+
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(LSM_RECORD,FixLSMRecord);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_LSM_RECORD_H
+#define LMP_FIX_LSM_RECORD_H
+
+#include "fix.h"
+
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class FixLSMRecord : public Fix {
+ public:
+  FixLSMRecord(class LAMMPS *, int, char **);
+  int setmask() override;
+  void setup(int) override;
+  void end_of_step() override;
+  void post_run() override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
+
+  class ComputeLSMEvents *owner;       // set by the compute that made this fix
+  std::vector<double> restart_state;    // what a restart file held, empty if none
+
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

@@ -1,0 +1,39 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   SPDX-License-Identifier: GPL-2.0-or-later
+   Energies that the LSM force styles record at every force evaluation,
+   without LAMMPS' energy and virial machinery, when a compute asks for them.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_LSM_ENERGY_H
+#define LMP_LSM_ENERGY_H
+
+#include <vector>
+
+namespace LAMMPS_NS {
+
+/// Slip of the contacts inside one bin along the fault during one step.
+struct LSMSlip {
+  double bin;       ///< index of the bin along x
+  double moment;    ///< sum of |slip| times contact size
+};
+
+/// Base of the force styles whose energies compute lsm/events records.
+/// All values are this rank's share; a pair shared by two ranks counts half on each.
+class LSMEnergySource {
+ public:
+  enum { NONE = 0, ENERGY = 1, SLIP = 2 };
+
+  virtual ~LSMEnergySource() noexcept(false) {}    // as LAMMPS' own base classes
+
+  int record_what = NONE;          ///< what to record; the style resets it at every init
+  double pe_link = 0.0;            ///< link springs, at the last force evaluation
+  double pe_contact = 0.0;         ///< normal contact springs, at the last force evaluation
+  double pe_tangential = 0.0;      ///< tangential contact springs, at the last force evaluation
+  double work_friction = 0.0;      ///< work lost to friction, accumulated
+  double slip_bin = 1.0;           ///< width of the bins of `slip`
+  std::vector<LSMSlip> slip;       ///< contacts that slid in the last force evaluation
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

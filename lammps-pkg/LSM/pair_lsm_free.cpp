@@ -1,0 +1,353 @@
+/* ----------------------------------------------------------------------
+   SPDX-License-Identifier: GPL-2.0-or-later
+------------------------------------------------------------------------- */
+
+#include "pair_lsm_free.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "force.h"
+#include "memory.h"
+#include "neigh_list.h"
+#include "neigh_request.h"
+#include "neighbor.h"
+
+#include "lsm_force_laws.h"
+
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+
+/* ---------------------------------------------------------------------- */
+
+PairLSMFree::PairLSMFree(LAMMPS *_lmp) :
+    Pair(_lmp), k(nullptr), on(nullptr), maxrad(nullptr), newton_pair(0)
+{
+  single_enable = 1;
+  no_virial_fdotr_compute = 1;
+  finitecutflag = 1;
+  writedata = 1;
+  restartinfo = 1;
+}
+
+/* ---------------------------------------------------------------------- */
+
+PairLSMFree::~PairLSMFree()
+{
+  if (allocated) {
+    memory->destroy(setflag);
+    memory->destroy(cutsq);
+    memory->destroy(k);
+    memory->destroy(on);
+    delete[] maxrad;
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairLSMFree::compute(int eflag, int vflag)
+{
+  ev_init(eflag, vflag);
+  const int choice = (evflag ? 4 : 0) + (record_what ? 2 : 0) + (domain->dimension == 3 ? 1 : 0);
+  switch (choice) {
+    case 0: return eval<false, false, false>();
+    case 1: return eval<false, false, true>();
+    case 2: return eval<false, true, false>();
+    case 3: return eval<false, true, true>();
+    case 4: return eval<true, false, false>();
+    case 5: return eval<true, false, true>();
+    case 6: return eval<true, true, false>();
+    default: return eval<true, true, true>();
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <bool EV, bool RECORD, bool DIM3> void PairLSMFree::eval()
+{
+  double **x = atom->x;
+  double **f = atom->f;
+  const double *radius = atom->radius;
+  const int *type = atom->type;
+  const int nlocal = atom->nlocal;
+  double energy = 0.0;
+
+  for (int ii = 0; ii < list->inum; ii++) {
+    const int i = list->ilist[ii];
+    const int *jlist = list->firstneigh[i];
+    const int jnum = list->numneigh[i];
+    const double *ki = k[type[i]];
+
+    for (int jj = 0; jj < jnum; jj++) {
+      const int j = jlist[jj] & NEIGHMASK;
+      const double delx = x[i][0] - x[j][0];
+      const double dely = x[i][1] - x[j][1];
+      double delz = 0.0;
+      double rsq = delx * delx + dely * dely;
+      if constexpr (DIM3) {
+        delz = x[i][2] - x[j][2];
+        rsq += delz * delz;
+      }
+      const double r0 = radius[i] + radius[j];
+      if (rsq >= r0 * r0) continue;
+
+      const double kij = ki[type[j]];
+      const double r = sqrt(rsq);
+      const double fpair = r > 0.0 ? -LSM::Spring::force(kij, r - r0) / r : 0.0;
+      const bool both = newton_pair || j < nlocal;
+
+      f[i][0] += delx * fpair;
+      f[i][1] += dely * fpair;
+      if constexpr (DIM3) f[i][2] += delz * fpair;
+      if (both) {
+        f[j][0] -= delx * fpair;
+        f[j][1] -= dely * fpair;
+        if constexpr (DIM3) f[j][2] -= delz * fpair;
+      }
+      if constexpr (EV || RECORD) {
+        const double e = LSM::Spring::energy(kij, r - r0);
+        if constexpr (RECORD) energy += both ? e : 0.5 * e;
+        if constexpr (EV)
+          ev_tally(i, j, nlocal, newton_pair, e, 0.0, fpair, delx, dely, delz);
+      }
+    }
+  }
+  if constexpr (RECORD) pe_contact = energy;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairLSMFree::allocate()
+{
+  allocated = 1;
+  const int n = atom->ntypes + 1;
+  memory->create(setflag, n, n, "pair:setflag");
+  memory->create(cutsq, n, n, "pair:cutsq");
+  memory->create(k, n, n, "pair:k");
+  memory->create(on, n, n, "pair:on");
+  maxrad = new double[n];
+  for (int i = 0; i < n; i++)
+    for (int j = 0; j < n; j++) {
+      setflag[i][j] = on[i][j] = 0;
+      k[i][j] = 0.0;
+    }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairLSMFree::settings(int narg, char ** /*arg*/)
+{
+  if (narg != 0)
+    error->all(FLERR, "Pair style lsm/free takes no arguments, but {} were given", narg);
+}
+
+/* ----------------------------------------------------------------------
+   "pair_coeff I J off": these types never touch; costs nothing per step
+------------------------------------------------------------------------- */
+
+bool PairLSMFree::parse_off(int narg, char **arg, int ilo, int ihi, int jlo, int jhi)
+{
+  if (narg != 3 || strcmp(arg[2], "off") != 0) return false;
+  for (int i = ilo; i <= ihi; i++)
+    for (int j = MAX(jlo, i); j <= jhi; j++) {
+      setflag[i][j] = 1;
+      on[i][j] = 0;
+    }
+  return true;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairLSMFree::coeff(int narg, char **arg)
+{
+  if (narg != 3)
+    error->all(FLERR, "Pair style lsm/free expects 'pair_coeff I J k' or 'pair_coeff I J off'");
+  if (!allocated) allocate();
+
+  int ilo, ihi, jlo, jhi;
+  utils::bounds(FLERR, arg[0], 1, atom->ntypes, ilo, ihi, error);
+  utils::bounds(FLERR, arg[1], 1, atom->ntypes, jlo, jhi, error);
+  if (parse_off(narg, arg, ilo, ihi, jlo, jhi)) return;
+
+  const double k_one = utils::numeric(FLERR, arg[2], false, lmp);
+  if (k_one <= 0.0) error->all(FLERR, "Pair lsm/free stiffness is {}, but must be > 0", k_one);
+
+  int count = 0;
+  for (int i = ilo; i <= ihi; i++)
+    for (int j = MAX(jlo, i); j <= jhi; j++) {
+      k[i][j] = k_one;
+      on[i][j] = setflag[i][j] = 1;
+      count++;
+    }
+  if (count == 0) error->all(FLERR, "Pair lsm/free: pair_coeff {} {} names no pair of types", arg[0], arg[1]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+int PairLSMFree::request_flags() const
+{
+  return NeighConst::REQ_SIZE;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairLSMFree::init_style()
+{
+  if (!atom->radius_flag)
+    error->all(FLERR, "Pair style lsm/* needs particle radii: use atom_style hybrid bond sphere");
+  record_what = NONE;
+  newton_pair = force->newton_pair;
+
+  const int ntypes = atom->ntypes;
+  std::vector<double> mine(ntypes + 1, 0.0);
+  for (int i = 0; i < atom->nlocal; i++)
+    mine[atom->type[i]] = MAX(mine[atom->type[i]], atom->radius[i]);
+  maxrad[0] = 0.0;
+  MPI_Allreduce(&mine[1], &maxrad[1], ntypes, MPI_DOUBLE, MPI_MAX, world);
+
+  // types that never touch are left out when the list is built
+
+  auto request = neighbor->add_request(this, request_flags());
+  int any_off = 0;
+  for (int i = 1; i <= ntypes; i++)
+    for (int j = i; j <= ntypes; j++)
+      if (setflag[i][j] && !on[i][j]) any_off = 1;
+  if (any_off) {
+    auto iskip = new int[ntypes + 1];
+    int **ijskip;
+    memory->create(ijskip, ntypes + 1, ntypes + 1, "pair:ijskip");
+    for (int i = 1; i <= ntypes; i++) {
+      iskip[i] = 1;
+      for (int j = 1; j <= ntypes; j++) {
+        ijskip[i][j] = on[MIN(i, j)][MAX(i, j)] ? 0 : 1;
+        if (!ijskip[i][j]) iskip[i] = 0;
+      }
+    }
+    request->set_skip(iskip, ijskip);    // the request owns both from here on
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+double PairLSMFree::init_one(int i, int j)
+{
+  if (setflag[i][j] == 0) error->all(FLERR, "Pair lsm/*: coefficients of types {} {} are not set; use 'off' for types that never touch", i, j);
+  k[j][i] = k[i][j];
+  on[j][i] = on[i][j];
+  return maxrad[i] + maxrad[j];
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairLSMFree::write_coeff(FILE *fp, int i, int j)
+{
+  fwrite(&on[i][j], sizeof(int), 1, fp);
+  fwrite(&k[i][j], sizeof(double), 1, fp);
+}
+
+void PairLSMFree::read_coeff(FILE *fp, int i, int j)
+{
+  if (comm->me == 0) {
+    utils::sfread(FLERR, &on[i][j], sizeof(int), 1, fp, nullptr, error);
+    utils::sfread(FLERR, &k[i][j], sizeof(double), 1, fp, nullptr, error);
+  }
+  MPI_Bcast(&on[i][j], 1, MPI_INT, 0, world);
+  MPI_Bcast(&k[i][j], 1, MPI_DOUBLE, 0, world);
+}
+
+void PairLSMFree::print_coeff(FILE *fp, int i, int j)
+{
+  fprintf(fp, " %.17g", k[i][j]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairLSMFree::write_restart(FILE *fp)
+{
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = i; j <= atom->ntypes; j++) {
+      fwrite(&setflag[i][j], sizeof(int), 1, fp);
+      if (setflag[i][j]) write_coeff(fp, i, j);
+    }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairLSMFree::read_restart(FILE *fp)
+{
+  if (!allocated) allocate();
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = i; j <= atom->ntypes; j++) {
+      if (comm->me == 0) utils::sfread(FLERR, &setflag[i][j], sizeof(int), 1, fp, nullptr, error);
+      MPI_Bcast(&setflag[i][j], 1, MPI_INT, 0, world);
+      if (setflag[i][j]) read_coeff(fp, i, j);
+    }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairLSMFree::write_data(FILE *fp)
+{
+  for (int i = 1; i <= atom->ntypes; i++) {
+    fprintf(fp, "%d", i);
+    if (on[i][i])
+      print_coeff(fp, i, i);
+    else
+      fputs(" off", fp);
+    fputs("\n", fp);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairLSMFree::write_data_all(FILE *fp)
+{
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = i; j <= atom->ntypes; j++) {
+      fprintf(fp, "%d %d", i, j);
+      if (on[i][j])
+        print_coeff(fp, i, j);
+      else
+        fputs(" off", fp);
+      fputs("\n", fp);
+    }
+}
+
+/* ---------------------------------------------------------------------- */
+
+double PairLSMFree::single(int i, int j, int itype, int jtype, double rsq, double /*factor_coul*/,
+                           double /*factor_lj*/, double &fforce)
+{
+  fforce = 0.0;
+  const double r = sqrt(rsq);
+  const double r0 = atom->radius[i] + atom->radius[j];
+  const int lo = MIN(itype, jtype), hi = MAX(itype, jtype);
+  if (!on[lo][hi] || r >= r0 || r == 0.0) return 0.0;
+  fforce = -LSM::Spring::force(k[lo][hi], r - r0) / r;
+  return LSM::Spring::energy(k[lo][hi], r - r0);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void *PairLSMFree::extract(const char *str, int &dim)
+{
+  dim = 2;
+  if (strcmp(str, "k") == 0) return (void *) k;
+  if (strcmp(str, "on") == 0) return (void *) on;
+  return nullptr;
+}
+
+/* ---------------------------------------------------------------------- */
+
+double PairLSMFree::atom2cut(int i)
+{
+  return atom->radius[i] * 2;
+}
+
+double PairLSMFree::radii2cut(double r1, double r2)
+{
+  return r1 + r2;
+}

@@ -1,0 +1,58 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   SPDX-License-Identifier: GPL-2.0-or-later
+   Lattice Solid Model: repulsion of unlinked particles, Eq. (2)
+------------------------------------------------------------------------- */
+
+#ifdef PAIR_CLASS
+// clang-format off
+PairStyle(lsm/free,PairLSMFree);
+// clang-format on
+#else
+
+#ifndef LMP_PAIR_LSM_FREE_H
+#define LMP_PAIR_LSM_FREE_H
+
+#include "lsm_energy.h"
+#include "pair.h"
+
+namespace LAMMPS_NS {
+
+class PairLSMFree : public Pair, public LSMEnergySource {
+ public:
+  PairLSMFree(class LAMMPS *);
+  ~PairLSMFree() override;
+  void compute(int, int) override;
+  void settings(int, char **) override;
+  void coeff(int, char **) override;
+  void init_style() override;
+  double init_one(int, int) override;
+  void write_restart(FILE *) override;
+  void read_restart(FILE *) override;
+  void write_data(FILE *) override;
+  void write_data_all(FILE *) override;
+  double single(int, int, int, int, double, double, double, double &) override;
+  void *extract(const char *, int &) override;
+  double atom2cut(int) override;
+  double radii2cut(double, double) override;
+
+ protected:
+  double **k;          // contact stiffness
+  int **on;            // 1 if the pair of types interacts at all
+  double *maxrad;      // largest radius of each type
+  int newton_pair;
+
+  virtual void allocate();
+  virtual int request_flags() const;
+  bool parse_off(int narg, char **arg, int ilo, int ihi, int jlo, int jhi);
+  virtual void write_coeff(FILE *, int, int);
+  virtual void read_coeff(FILE *, int, int);
+  virtual void print_coeff(FILE *, int, int);
+
+ private:
+  template <bool EV, bool RECORD, bool DIM3> void eval();
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

@@ -1,0 +1,373 @@
+/* ----------------------------------------------------------------------
+   SPDX-License-Identifier: GPL-2.0-or-later
+------------------------------------------------------------------------- */
+
+#include "pair_lsm_friction.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "fix_dummy.h"
+#include "fix_neigh_history.h"
+#include "force.h"
+#include "memory.h"
+#include "modify.h"
+#include "neigh_list.h"
+#include "neighbor.h"
+
+#include "lsm_force_laws.h"
+
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+
+// values stored per contact: elongation of the tangential spring along the tangent (-ny,nx), the vector
+// from j to i in the step before, and (only if a static coefficient exceeds the dynamic one) 1 if sliding.
+// Elongation is the same seen from i and from j; the vector changes its sign.
+
+enum { XI, DX, DY, SLIDING };
+
+/* ---------------------------------------------------------------------- */
+
+PairLSMFriction::PairLSMFriction(LAMMPS *_lmp) :
+    PairLSMFree(_lmp), kt(nullptr), mu(nullptr), mus(nullptr), has_static(0), size_history(3),
+    fix_dummy(nullptr), fix_history(nullptr)
+{
+  centroidstressflag = CENTROID_NOTAVAIL;
+  nondefault_history_transfer = 1;
+  single_extra = 2;
+  svector = new double[2];
+
+  // placeholder so that the order of fixes is that of the input script
+
+  fix_dummy = dynamic_cast<FixDummy *>(
+      modify->add_fix("NEIGH_HISTORY_LSM_DUMMY" + std::to_string(instance_me) + " all DUMMY"));
+}
+
+/* ---------------------------------------------------------------------- */
+
+PairLSMFriction::~PairLSMFriction()
+{
+  delete[] svector;
+  if (!fix_history)
+    modify->delete_fix("NEIGH_HISTORY_LSM_DUMMY" + std::to_string(instance_me));
+  else
+    modify->delete_fix("NEIGH_HISTORY_LSM" + std::to_string(instance_me));
+  if (allocated) {
+    memory->destroy(kt);
+    memory->destroy(mu);
+    memory->destroy(mus);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairLSMFriction::compute(int eflag, int vflag)
+{
+  ev_init(eflag, vflag);
+  const int choice = (evflag ? 4 : 0) + (record_what ? 2 : 0) + (has_static ? 1 : 0);
+  switch (choice) {
+    case 0: return eval<false, false, false>();
+    case 1: return eval<false, false, true>();
+    case 2: return eval<false, true, false>();
+    case 3: return eval<false, true, true>();
+    case 4: return eval<true, false, false>();
+    case 5: return eval<true, false, true>();
+    case 6: return eval<true, true, false>();
+    default: return eval<true, true, true>();
+  }
+}
+
+/* ----------------------------------------------------------------------
+   The tangential increment is the change of the pair vector since the step before, not velocity times
+   time step: ghost velocities need not be communicated, and evaluating the forces twice at the same
+   positions (run after run, restart) changes nothing.
+------------------------------------------------------------------------- */
+
+template <bool EV, bool RECORD, bool HAS_STATIC> void PairLSMFriction::eval()
+{
+  double **x = atom->x;
+  double **f = atom->f;
+  const double *radius = atom->radius;
+  const int *type = atom->type;
+  const int nlocal = atom->nlocal;
+  int **firsttouch = fix_history->firstflag;
+  double **firsthistory = fix_history->firstvalue;
+
+  const bool record_slip = RECORD && (record_what & SLIP);
+  const double xlo = domain->boxlo[0], lx = domain->prd[0];
+  double e_normal = 0.0, e_tangential = 0.0, lost = 0.0;
+  if (record_slip) slip.clear();
+
+  for (int ii = 0; ii < list->inum; ii++) {
+    const int i = list->ilist[ii];
+    const int *jlist = list->firstneigh[i];
+    const int jnum = list->numneigh[i];
+    int *touch = firsttouch[i];
+    double *allhistory = firsthistory[i];
+
+    for (int jj = 0; jj < jnum; jj++) {
+      const int j = jlist[jj] & NEIGHMASK;
+      const double delx = x[i][0] - x[j][0];
+      const double dely = x[i][1] - x[j][1];
+      const double rsq = delx * delx + dely * dely;
+      const double r0 = radius[i] + radius[j];
+      const bool apart = rsq >= r0 * r0;
+      if (apart && !touch[jj]) continue;
+
+      double *h = &allhistory[size_history * jj];
+      const int itype = type[i], jtype = type[j];
+      const double r = sqrt(rsq);
+      const double rinv = 1.0 / r;
+      const double nx = delx * rinv, ny = dely * rinv;
+
+      double dxi = 0.0;
+      if (touch[jj]) {
+        // tangent of the middle of the step, so that the increment is of second order
+
+        const double mx = delx + h[DX], my = dely + h[DY];
+        const double minv = 1.0 / sqrt(mx * mx + my * my);
+        dxi = (my * (h[DX] - delx) + mx * (dely - h[DY])) * minv;
+      } else {
+        touch[jj] = 1;
+        h[XI] = 0.0;
+        if constexpr (HAS_STATIC) h[SLIDING] = 0.0;
+      }
+
+      const double kij = k[itype][jtype];
+      const double fn = LSM::contact_normal_force(kij, r, r0);
+      const LSM::FrictionCoefficients c{kt[itype][jtype], mu[itype][jtype], mus[itype][jtype]};
+      bool sliding = false;
+      if constexpr (HAS_STATIC) sliding = h[SLIDING] != 0.0;
+      const LSM::FrictionStep s = LSM::friction_step<HAS_STATIC>(c, h[XI], dxi, fn, sliding);
+
+      const bool both = newton_pair || j < nlocal;
+      if constexpr (RECORD) {
+        const double share = both ? 1.0 : 0.5;
+        e_normal += share * (apart ? 0.0 : LSM::Spring::energy(kij, r - r0));
+        e_tangential += share * LSM::Spring::energy(c.k_t, s.xi);
+        lost += share * s.dissipated;
+        if (record_slip && s.slip != 0.0) {
+          double along = (0.5 * (x[i][0] + x[j][0]) - xlo) / lx;
+          along = (along - floor(along)) * lx;
+          slip.push_back({floor(along / slip_bin),
+                          share * fabs(s.slip) * LSM::contact_size(radius[i], radius[j])});
+        }
+      }
+
+      if (apart) {
+        touch[jj] = 0;
+        memset(h, 0, size_history * sizeof(double));
+        continue;
+      }
+      h[XI] = s.xi;
+      h[DX] = delx;
+      h[DY] = dely;
+      if constexpr (HAS_STATIC) h[SLIDING] = s.sliding ? 1.0 : 0.0;
+
+      const double fx = fn * nx + s.force * ny;
+      const double fy = fn * ny - s.force * nx;
+      f[i][0] += fx;
+      f[i][1] += fy;
+      if (both) {
+        f[j][0] -= fx;
+        f[j][1] -= fy;
+      }
+      if constexpr (EV)
+        ev_tally_xyz(i, j, nlocal, newton_pair,
+                     LSM::Spring::energy(kij, r - r0) + LSM::Spring::energy(c.k_t, s.xi), 0.0, fx,
+                     fy, 0.0, delx, dely, 0.0);
+    }
+  }
+  if constexpr (RECORD) {
+    pe_contact = e_normal;
+    pe_tangential = e_tangential;
+    work_friction += lost;
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairLSMFriction::allocate()
+{
+  PairLSMFree::allocate();
+  const int n = atom->ntypes + 1;
+  memory->create(kt, n, n, "pair:kt");
+  memory->create(mu, n, n, "pair:mu");
+  memory->create(mus, n, n, "pair:mus");
+  for (int i = 0; i < n; i++)
+    for (int j = 0; j < n; j++) kt[i][j] = mu[i][j] = mus[i][j] = 0.0;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairLSMFriction::settings(int narg, char ** /*arg*/)
+{
+  if (narg != 0)
+    error->all(FLERR, "Pair style lsm/friction takes no arguments, but {} were given", narg);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairLSMFriction::coeff(int narg, char **arg)
+{
+  if (narg != 3 && narg != 5 && narg != 6)
+    error->all(FLERR, "Pair style lsm/friction expects 'pair_coeff I J k kt mu [mu_static]' or "
+                      "'pair_coeff I J off'");
+  if (!allocated) allocate();
+
+  int ilo, ihi, jlo, jhi;
+  utils::bounds(FLERR, arg[0], 1, atom->ntypes, ilo, ihi, error);
+  utils::bounds(FLERR, arg[1], 1, atom->ntypes, jlo, jhi, error);
+  if (parse_off(narg, arg, ilo, ihi, jlo, jhi)) return;
+  if (narg == 3)
+    error->all(FLERR, "Pair style lsm/friction expects 'off' or 'k kt mu [mu_static]', got '{}'",
+               arg[2]);
+
+  const double k_one = utils::numeric(FLERR, arg[2], false, lmp);
+  const double kt_one = utils::numeric(FLERR, arg[3], false, lmp);
+  const double mu_one = utils::numeric(FLERR, arg[4], false, lmp);
+  const double mus_one = narg == 6 ? utils::numeric(FLERR, arg[5], false, lmp) : mu_one;
+  if (k_one <= 0.0) error->all(FLERR, "Pair lsm/friction k is {}, but must be > 0", k_one);
+  if (kt_one <= 0.0) error->all(FLERR, "Pair lsm/friction kt is {}, but must be > 0", kt_one);
+  if (mu_one < 0.0) error->all(FLERR, "Pair lsm/friction mu is {}, but must be >= 0", mu_one);
+  if (mus_one < mu_one)
+    error->all(FLERR, "Pair lsm/friction mu_static is {}, but must be at least mu = {}", mus_one,
+               mu_one);
+
+  int count = 0;
+  for (int i = ilo; i <= ihi; i++)
+    for (int j = MAX(jlo, i); j <= jhi; j++) {
+      k[i][j] = k_one;
+      kt[i][j] = kt_one;
+      mu[i][j] = mu_one;
+      mus[i][j] = mus_one;
+      on[i][j] = setflag[i][j] = 1;
+      count++;
+    }
+  if (count == 0)
+    error->all(FLERR, "Pair lsm/friction: pair_coeff {} {} names no pair of types", arg[0], arg[1]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+int PairLSMFriction::request_flags() const
+{
+  return NeighConst::REQ_SIZE | NeighConst::REQ_HISTORY;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairLSMFriction::init_style()
+{
+  if (domain->dimension != 2)
+    error->all(FLERR, "Pair style lsm/friction needs a 2-dimensional simulation (dimension 2)");
+
+  int any = 0;
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = i; j <= atom->ntypes; j++)
+      if (on[i][j] && mus[i][j] > mu[i][j]) any = 1;
+  if (fix_history && any && !has_static)
+    error->all(FLERR, "Pair lsm/friction: mu_static > mu must be set before the first run");
+  if (!fix_history) {
+    has_static = any;
+    size_history = has_static ? 4 : 3;
+  }
+
+  PairLSMFree::init_style();
+
+  const std::string id_history = "NEIGH_HISTORY_LSM" + std::to_string(instance_me);
+  if (!fix_history) {
+    fix_history = dynamic_cast<FixNeighHistory *>(
+        modify->replace_fix("NEIGH_HISTORY_LSM_DUMMY" + std::to_string(instance_me),
+                            id_history + " all NEIGH_HISTORY " + std::to_string(size_history), 1));
+    fix_history->pair = this;
+  } else {
+    fix_history = dynamic_cast<FixNeighHistory *>(modify->get_fix_by_id(id_history));
+    if (!fix_history) error->all(FLERR, "Could not find the contact history of pair lsm/friction");
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+double PairLSMFriction::init_one(int i, int j)
+{
+  const double cut = PairLSMFree::init_one(i, j);
+  kt[j][i] = kt[i][j];
+  mu[j][i] = mu[i][j];
+  mus[j][i] = mus[i][j];
+  return cut;
+}
+
+/* ----------------------------------------------------------------------
+   history of the pair as seen from the other particle
+------------------------------------------------------------------------- */
+
+void PairLSMFriction::transfer_history(double *source, double *target, int, int)
+{
+  target[XI] = source[XI];
+  target[DX] = -source[DX];
+  target[DY] = -source[DY];
+  if (has_static) target[SLIDING] = source[SLIDING];
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairLSMFriction::write_coeff(FILE *fp, int i, int j)
+{
+  PairLSMFree::write_coeff(fp, i, j);
+  fwrite(&kt[i][j], sizeof(double), 1, fp);
+  fwrite(&mu[i][j], sizeof(double), 1, fp);
+  fwrite(&mus[i][j], sizeof(double), 1, fp);
+}
+
+void PairLSMFriction::read_coeff(FILE *fp, int i, int j)
+{
+  PairLSMFree::read_coeff(fp, i, j);
+  for (double *value : {&kt[i][j], &mu[i][j], &mus[i][j]}) {
+    if (comm->me == 0) utils::sfread(FLERR, value, sizeof(double), 1, fp, nullptr, error);
+    MPI_Bcast(value, 1, MPI_DOUBLE, 0, world);
+  }
+}
+
+void PairLSMFriction::print_coeff(FILE *fp, int i, int j)
+{
+  fprintf(fp, " %.17g %.17g %.17g %.17g", k[i][j], kt[i][j], mu[i][j], mus[i][j]);
+}
+
+/* ----------------------------------------------------------------------
+   normal force and energy of both springs; svector = elongation of the tangential spring and the
+   tangential force on i along (-ny,nx)
+------------------------------------------------------------------------- */
+
+double PairLSMFriction::single(int i, int j, int itype, int jtype, double rsq, double factor_coul,
+                               double factor_lj, double &fforce)
+{
+  double energy =
+      PairLSMFree::single(i, j, itype, jtype, rsq, factor_coul, factor_lj, fforce);
+  svector[0] = svector[1] = 0.0;
+  if (fforce == 0.0) return energy;
+
+  const int lo = MIN(itype, jtype), hi = MAX(itype, jtype);
+  const int *jlist = list->firstneigh[i];
+  for (int jj = 0; jj < list->numneigh[i]; jj++)
+    if ((jlist[jj] & NEIGHMASK) == j) {
+      svector[0] = fix_history->firstvalue[i][size_history * jj + XI];
+      svector[1] = -kt[lo][hi] * svector[0];
+      energy += LSM::Spring::energy(kt[lo][hi], svector[0]);
+      break;
+    }
+  return energy;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void *PairLSMFriction::extract(const char *str, int &dim)
+{
+  dim = 2;
+  if (strcmp(str, "kt") == 0) return (void *) kt;
+  if (strcmp(str, "mu") == 0) return (void *) mu;
+  return PairLSMFree::extract(str, dim);
+}

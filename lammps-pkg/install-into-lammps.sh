@@ -1,0 +1,38 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-2.0-or-later
+# Copies the package into a LAMMPS source tree as package LSM. Can be repeated: files are replaced.
+# usage: install-into-lammps.sh LAMMPS_FOLDER
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+if [ $# -ne 1 ]; then
+  echo "usage: $0 LAMMPS_FOLDER   (the top folder of a LAMMPS source tree)" >&2
+  exit 2
+fi
+lammps=$1
+list=$lammps/cmake/CMakeLists.txt
+for f in "$lammps/src/version.h" "$list"; do
+  [ -f "$f" ] || { echo "install-into-lammps: $f not found; expected the top folder of a LAMMPS source tree" >&2; exit 1; }
+done
+version=$(sed -n 's/.*LAMMPS_VERSION *"\(.*\)".*/\1/p' "$lammps/src/version.h")
+[ "$version" = "4 Feb 2025" ] ||
+  echo "install-into-lammps: warning: LAMMPS $version, the package is written for 4 Feb 2025" >&2
+grep -q '^set(STANDARD_PACKAGES' "$list" ||
+  { echo "install-into-lammps: $list: no line 'set(STANDARD_PACKAGES'" >&2; exit 1; }
+
+# A file of an older version of the package that is gone since must not stay behind.
+rm -rf "$lammps/src/LSM"
+mkdir "$lammps/src/LSM"
+for f in "$here"/LSM/*.h "$here"/LSM/*.cpp "$here"/core/*.h; do
+  # The plugin's entry point has no place in a package that is compiled in.
+  [ "$(basename "$f")" = lsm_plugin.cpp ] || cp "$f" "$lammps/src/LSM/"
+done
+if ! grep -q '^  LSM$' "$list"; then
+  sed -i 's/^set(STANDARD_PACKAGES$/&\n  LSM/' "$list"
+fi
+grep -q '^  LSM$' "$list" || { echo "install-into-lammps: $list could not be changed" >&2; exit 1; }
+cat <<EOF
+Package LSM is in $lammps/src/LSM. Build for example with
+  cmake -S $lammps/cmake -B lammps-build -D CMAKE_BUILD_TYPE=Release -D CMAKE_CXX_FLAGS=-ffp-contract=off \\
+        -D PKG_LSM=on -D PKG_MOLECULE=on -D PKG_GRANULAR=on -D PKG_BPM=on
+  cmake --build lammps-build --parallel
+EOF
