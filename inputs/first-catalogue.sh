@@ -1,0 +1,71 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-2.0-or-later
+# From a fresh Debian 12 to a first earthquake catalogue: installs what is missing, builds LAMMPS with
+# the package, runs the fault of length 120 on two ranks, prints its largest events and draws the
+# potential energy with the picked events.
+#
+# usage: inputs/first-catalogue.sh [STEPS]      (default 300000)
+# Build folder: build (LSM_BUILD_DIR replaces it). Results: first-catalogue/ in the build folder.
+set -euo pipefail
+export LC_ALL=C
+root=$(cd "$(dirname "$0")/.." && pwd)
+steps=${1:-300000}
+[[ $steps =~ ^[1-9][0-9]*$ ]] || { echo "usage: $0 [STEPS]; '$steps' is not a number of steps" >&2; exit 2; }
+build=${LSM_BUILD_DIR:-$root/build}
+
+. "$root/lammps-pkg/cmake/debian-packages.sh"
+# The lists are words on purpose.
+install_debian_packages $lammps_packages $plot_packages
+
+# A build folder that is there keeps its options.
+if [ ! -f "$build/CMakeCache.txt" ]; then
+  cmake -S "$root" -B "$build" -G Ninja -DLSM_BUILD_SLIDER=OFF -DLSM_BUILD_POSTPROC=OFF -DLSM_BUILD_TESTS=OFF
+fi
+cmake --build "$build" --target lmp
+
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
+export OMPI_MCA_btl_vader_single_copy_mechanism=none OMPI_MCA_btl_base_warn_component_unused=0
+export OMP_NUM_THREADS=1
+[ "$(nproc)" -ge 2 ] || export OMPI_MCA_mpi_yield_when_idle=1
+run=$build/first-catalogue
+mkdir -p "$run"
+cd "$run"
+rm -f first.*
+echo "Running the fault of length 120 for $steps steps of shear in $run"
+mpirun -np 2 "$build/bin/lmp" -in "$root/inputs/fault_120.in" -var steps "$steps" -var prefix first </dev/null
+
+catalogue=first.catalogue.csv
+series=first.pe.bin
+[ -f $series ] || series=first.pe.csv
+[ -f $catalogue ] || { echo "$run/$catalogue has not been written" >&2; exit 1; }
+[ -f $series ] || { echo "$run/first.pe.bin (or .csv) has not been written" >&2; exit 1; }
+
+table() { awk -F, '/^#/ { next } !head { head = 1; for (i = 1; i <= NF; i++) c[$i] = i; next }
+  { print $c["event_id"], $c["t_start"], $c["t_end"], $c["size"], $c["pe_start"] }' $catalogue; }
+count=$(table | wc -l)
+echo
+echo "$count events. The ten largest:"
+printf '%8s %12s %10s %12s\n' event start duration size
+table | sort -g -r -k 4,4 |
+  awk 'NR <= 10 { printf "%8d %12.2f %10.2f %12.3e\n", $1, $2, $3 - $2, $4 }'
+echo
+echo "Events by size:"
+table | awk '$4 > 0 { d = int(log($4) / log(10) + 1000) - 1000; n[d]++; if (!k++ || d < lo) lo = d; if (k == 1 || d > hi) hi = d }
+  END { if (k) for (d = lo; d <= hi; d++) printf "  1e%+03d to 1e%+03d %7d\n", d, d + 1, n[d] }'
+echo
+
+# The whole run, and the dozen events around the largest one.
+LSM_PLOT_TITLE="Fault of length 120: $count events" "$root/postproc/plot-pe-series.sh" $catalogue $series first.run
+if [ "$count" -gt 1 ]; then
+  window=$(table | awk '
+    { s[NR] = $2; e[NR] = $3; if (NR == 1 || $4 > big) { big = $4; at = NR } }
+    END { a = at > 6 ? at - 6 : 1; b = at + 5 < NR ? at + 5 : NR
+          margin = 0.03 * (e[b] - s[a]); from = s[a] - margin; printf "%.6f %.6f", (from < 0 ? 0 : from), e[b] + margin }')
+  LSM_PLOT_TITLE="Fault of length 120: around the largest event" \
+    "$root/postproc/plot-pe-series.sh" $catalogue $series first.largest $window
+fi
+echo "Catalogue, series and pictures are in $run"
+if [ "$count" -lt 100 ]; then
+  echo "Only $count events, expected at least 100: give more than $steps steps" >&2
+  exit 1
+fi

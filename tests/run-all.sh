@@ -1,0 +1,17 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-2.0-or-later
+# Installs what is missing, builds everything and runs all tests.
+# usage: tests/run-all.sh [CTEST OPTIONS]       (for example -R picker)
+# Build folder: build (LSM_BUILD_DIR replaces it).
+set -euo pipefail
+root=$(cd "$(dirname "$0")/.." && pwd)
+build=${LSM_BUILD_DIR:-$root/build}
+
+. "$root/lammps-pkg/cmake/debian-packages.sh"
+install_debian_packages $lammps_packages $plot_packages libgtest-dev libcli11-dev libfmt-dev \
+  nlohmann-json3-dev libgsl-dev
+
+cmake -S "$root" -B "$build" -G Ninja -DLSM_BUILD_LAMMPS=ON -DLSM_BUILD_SLIDER=ON -DLSM_BUILD_POSTPROC=ON \
+  -DLSM_BUILD_TESTS=ON
+cmake --build "$build"
+exec ctest --test-dir "$build" --output-on-failure --no-tests=error -j "$(nproc)" "$@"
