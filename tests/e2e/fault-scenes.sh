@@ -1,0 +1,52 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-2.0-or-later
+# Runs the fault scenes as the README tells, from another folder through a path.
+# usage: fault-scenes.sh LMP MPIRUN SOURCE_DIR
+set -euo pipefail
+export LC_ALL=C
+lmp=$1 mpirun=$2 source=$3
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+fail() { echo "FAILED: $*" >&2; [ -f out ] && tail -n 20 out >&2; exit 1; }
+
+# The fault of length 120 on two ranks yields events.
+"$mpirun" -np 2 "$lmp" -in "$source/inputs/fault_120.in" -var steps 60000 -var prefix short -var location yes \
+  </dev/null >out 2>&1 || fail "fault_120.in on two ranks"
+[ -f short.catalogue.csv ] && [ -f short.pe.bin ] && [ -f short.restart.end ] || fail "an output file is missing"
+events=$(grep -cv '^[#e]' short.catalogue.csv || true)
+[ "$events" -ge 3 ] || fail "$events events in 60000 steps, expected at least 3"
+# Sizes are positive and the rupture is no longer than the fault.
+awk -F, '!/^[#e]/ && !($6 > 0 && $9 >= 0 && $10 >= 0 && $10 <= 120 && $11 <= 120) { bad = 1 } END { exit bad }' \
+  short.catalogue.csv || fail "an event has an impossible size or place"
+# The fault carries about the shear stress that friction allows.
+ratio=$(awk '/^ *Step .*c_events/ { on = 1; next } /^Loop/ { on = 0 } on && NF == 8 { r = $7 } END { print r }' log.lammps)
+awk -v r="$ratio" 'BEGIN { exit !(r > 0.5 && r < 0.8) }' || fail "shear/normal stress ratio $ratio, expected 0.5 to 0.8"
+echo "fault_120.in: $events events, shear/normal stress $ratio"
+
+# Pictures from the files of the run.
+if command -v gnuplot >/dev/null; then
+  "$source/postproc/plot-pe-series.sh" short.catalogue.csv short.pe.bin picture >out 2>&1 || fail "plot-pe-series.sh"
+  [ -s picture.png ] && [ -s picture.svg ] || fail "no picture"
+fi
+
+# Every length is there and is read from its own folder as well.
+cd "$source/inputs"
+for length in 120 240 480 945 1440 1890; do
+  "$lmp" -in fault_$length.in -var settle 0 -var steps 2 -var prefix "$work/l$length" -log "$work/log.$length" </dev/null >"$work/out" 2>&1 ||
+    { cd "$work"; fail "fault_$length.in"; }
+  particles=$(sed -n 's/^Created \([0-9]*\) particles.*/\1/p' "$work/log.$length")
+  # 7850 for length 120 in the paper's words "about 7800", proportional to the length
+  awk -v n="$particles" -v l=$length 'BEGIN { exit !(n > 63 * l && n < 67 * l) }' ||
+    { cd "$work"; fail "fault_$length.in has $particles particles"; }
+  echo "fault_$length.in: $particles particles"
+done
+
+# A mistake on the command line is one clear line, and touches no catalogue.
+cd "$work"
+before=$(cksum <short.catalogue.csv)
+if "$lmp" -in "$source/inputs/fault_120.in" -var picker median -var settle 0 -var steps 1 -var prefix short </dev/null >out 2>&1; then
+  fail "picker median was accepted"
+fi
+grep -q "picker is 'median', but must be exponential, average or literal" out || fail "no clear message about the picker"
+[ "$before" = "$(cksum <short.catalogue.csv)" ] || fail "the older catalogue was touched"
