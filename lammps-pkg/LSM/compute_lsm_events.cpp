@@ -62,7 +62,8 @@ ComputeLSMEvents::ComputeLSMEvents(LAMMPS *_lmp, int narg, char **arg) :
     check_every(1000), resume(false), progress(true), links(nullptr), recorder(nullptr),
     plates(nullptr), first_filling(0), first_sending(0), count_filling(0), count_sending(0),
     request(MPI_REQUEST_NULL), pending(false), shown_at(0.0), started_at(0.0),
-    ledger_started(false), ledger_start(0.0), friction_before(0.0), last_recorded(-1), opened(false)
+    ledger_started(false), ledger_start(0.0), friction_before(0.0), anchor_time(0.0), anchor_dt(0.0),
+    anchor_step(0), last_recorded(-1), opened(false)
 {
   if (igroup) error->all(FLERR, "Compute lsm/events must use group all");
   scalar_flag = 1;
@@ -247,7 +248,7 @@ void ComputeLSMEvents::init()
 
 double ComputeLSMEvents::time_of(bigint step) const
 {
-  return update->atime + static_cast<double>(step - update->atimestep) * update->dt;
+  return anchor_time + static_cast<double>(step - anchor_step) * anchor_dt;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -302,6 +303,9 @@ void ComputeLSMEvents::open_files(bigint step)
     picker = std::make_unique<LSM::EventPicker>(picker_settings);
     shown_at = started_at = platform::walltime();
   }
+  anchor_time = update->atime;
+  anchor_step = update->atimestep;
+  anchor_dt = update->dt;
   if (from_restart) unpack_state(recorder->restart_state);
   if (comm->me != 0) return;
 
@@ -359,6 +363,11 @@ double ComputeLSMEvents::local_pe() const
 void ComputeLSMEvents::setup_record()
 {
   if (!opened) open_files(update->ntimestep);
+  if (update->dt != anchor_dt) {
+    anchor_time = time_of(update->ntimestep);
+    anchor_step = update->ntimestep;
+    anchor_dt = update->dt;
+  }
   if (ledger && !ledger_started) {
     ledger_start = 0.0;
     ledger_start = residual();
@@ -645,8 +654,11 @@ std::vector<double> ComputeLSMEvents::pack_state()
   const double friction = friction_work();
   std::vector<double> state;
   if (!opened) return state;
-  state = {1.0,    static_cast<double>(last_recorded), ledger_started ? 1.0 : 0.0, ledger_start,
-           friction};
+  state = {2.0,         static_cast<double>(last_recorded),
+           ledger_started ? 1.0 : 0.0,
+           ledger_start, friction,
+           anchor_time,  static_cast<double>(anchor_step),
+           anchor_dt};
   if (comm->me == 0) {
     std::vector<double> bytes(sizeof(LSM::PickerState) / sizeof(double));
     memcpy(bytes.data(), &picker->state(), sizeof(LSM::PickerState));
@@ -661,13 +673,16 @@ std::vector<double> ComputeLSMEvents::pack_state()
 
 void ComputeLSMEvents::unpack_state(const std::vector<double> &state)
 {
-  constexpr size_t fixed = 5, words = sizeof(LSM::PickerState) / sizeof(double);
-  if (state.size() < fixed + words || state[0] != 1.0)
+  constexpr size_t fixed = 8, words = sizeof(LSM::PickerState) / sizeof(double);
+  if (state.size() < fixed + words || state[0] != 2.0)
     error->all(FLERR, "Compute lsm/events {}: the restart file holds a state of another version", id);
   last_recorded = static_cast<bigint>(state[1]);
   ledger_started = state[2] != 0.0;
   ledger_start = state[3];
   friction_before = state[4];
+  anchor_time = state[5];
+  anchor_step = static_cast<bigint>(state[6]);
+  anchor_dt = state[7];
   if (comm->me == 0) {
     LSM::PickerState picker_state;
     memcpy(static_cast<void *>(&picker_state), &state[fixed], sizeof(picker_state));

@@ -98,6 +98,11 @@ class ComputeLSMEvents : public Compute {
   double ledger_start;
   double friction_before;    // work lost to friction before the last restart
 
+  // time of a step counts from here, so that a restarted run gives the same numbers
+
+  double anchor_time, anchor_dt;
+  bigint anchor_step;
+
   bigint last_recorded;
   bool opened;
 
