@@ -1,0 +1,429 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file slider_chain.h
+/// The chain of blocks under the one-force-per-step schemes, stepped chunk by chunk: all chunks
+/// (the dense oracle) or only those where something moves or may start to (the active set).
+///
+/// Both give the same numbers to the last digit: a chunk left out would have added zeros to sums
+/// kept in fixed lanes.
+///
+/// The potential energy of all springs,
+///   PE = sum_i K_c/2 (U_{i+1} - U_i)^2 + K_l/2 (X - U_i)^2,
+/// is quadratic, so its change over a step is exactly minus the work of the mean spring force on
+/// the blocks plus that of the mean plate force on the plate; only moving blocks enter (ours).
+#ifndef SLIDER_CHAIN_H
+#define SLIDER_CHAIN_H
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <new>
+#include <queue>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "lsm_sum.h"
+#include "slider_kernels.h"
+#include "slider_parameters.h"
+
+namespace Slider {
+
+/// What is needed to go on from a step, besides the parameters.
+struct ChainState {
+  std::int64_t step = 0;
+  double slip_sum = 0.0, slip_compensation = 0.0;  ///< sum of all U_i
+  double pe_sum = 0.0, pe_compensation = 0.0;
+  std::int64_t quiet_since = -1;                 ///< step since which no block moved; -1: one does
+  double pe_anchor = 0.0, loading_anchor = 0.0;  ///< PE and sum (X - U_i) at quiet_since
+  std::int64_t moved = 0;                        ///< block-steps with motion so far
+  double dpe = 0.0;                              ///< change of PE over the last step
+  std::vector<double> u, v;
+};
+
+/// PE of all springs, summed directly; used to set and to check the work formula.
+inline double direct_energy(const Parameters &p, const std::vector<double> &u, double plate) {
+  LSM::NeumaierSum sum;
+  for (int i = 0; i < p.blocks; ++i) {
+    const double stretch =
+        u[static_cast<std::size_t>(i + 1 < p.blocks ? i + 1 : 0)] - u[static_cast<std::size_t>(i)];
+    const double leaf = plate - u[static_cast<std::size_t>(i)];
+    sum.add(0.5 * p.kc * stretch * stretch + 0.5 * p.kl * leaf * leaf);
+  }
+  return sum.value();
+}
+
+/// Memory on cache lines, so that a chunk never lies across two.
+template <class T>
+struct LineAllocator {
+  using value_type = T;
+  LineAllocator() = default;
+  template <class U>
+  LineAllocator(const LineAllocator<U> &) {}
+  T *allocate(std::size_t n) {
+    return static_cast<T *>(::operator new(n * sizeof(T), std::align_val_t(64)));
+  }
+  void deallocate(T *p, std::size_t) { ::operator delete(p, std::align_val_t(64)); }
+  bool operator==(const LineAllocator &) const { return true; }
+  bool operator!=(const LineAllocator &) const { return false; }
+};
+
+class Chain {
+ public:
+  /// \param dense step all chunks, always
+  Chain(const Parameters &p, const std::vector<double> &mu, bool dense, InstructionSet set)
+      : p_(p), dense_(dense), plate_step_(p.velocity * p.dt) {
+    if (mu.size() != static_cast<std::size_t>(p.blocks))
+      throw std::invalid_argument("number of friction coefficients differs from --blocks");
+    const int scheme = p.scheme == Scheme::printed ? 0 : p.scheme == Scheme::semi_implicit ? 1 : 2;
+    function_ = step_function(scheme, set);
+    chunks_ = (p.blocks + chunk_size - 1) / chunk_size;
+    const std::size_t room = static_cast<std::size_t>(chunks_ + 2) * chunk_size;
+    for (auto *a : {&u_, &v_, &force_, &du_}) a->assign(room, 0.0);
+    mu_.assign(room, 1e300);
+    std::copy(mu.begin(), mu.end(), mu_.begin() + chunk_size);
+    view_.u = u_.data() + chunk_size;
+    view_.v = v_.data() + chunk_size;
+    view_.force = force_.data() + chunk_size;
+    view_.du = du_.data() + chunk_size;
+    view_.mu = mu_.data() + chunk_size;
+    view_.blocks = p.blocks;
+    view_.kc = p.kc;
+    view_.kl = p.kl;
+    view_.mass = p.mass;
+    view_.dt = p.dt;
+    const std::size_t n = static_cast<std::size_t>(chunks_);
+    hot_.assign(n, 0);
+    wake_.assign(n, 0);
+    list_.reserve(n);
+    next_list_.reserve(n);
+    last_edge_ = static_cast<std::uint8_t>(1U << ((p.blocks - 1) % chunk_size));
+    start();
+  }
+  Chain(const Chain &) = delete;
+  Chain &operator=(const Chain &) = delete;
+
+  std::int64_t step() const { return step_; }
+  double time() const { return static_cast<double>(step_) * p_.dt; }
+  double plate() const { return plate_step_ * static_cast<double>(step_); }
+  double pe() const { return pe_value_; }
+  double dpe() const { return dpe_; }                ///< change of PE over the last step
+  double slip_sum() const { return slip_.value(); }  ///< sum of all displacements
+  std::int64_t moved() const { return moved_; }
+  int active_chunks() const { return static_cast<int>(list_.size()); }
+
+  /// Displacements and velocities, one per block.
+  std::vector<double> displacements() const { return {view_.u, view_.u + p_.blocks}; }
+  std::vector<double> velocities() const { return {view_.v, view_.v + p_.blocks}; }
+
+  /// One time step.
+  void advance() {
+    const double loading_old = loading();
+    if (!list_.empty()) {
+      sums_ = function_(view_, list_.data(), static_cast<int>(list_.size()),
+                        plate_step_ * static_cast<double>(step_ + 1), hot_.data());
+    } else {
+      sums_ = StepSums();
+    }
+    ++step_;
+    if (sums_.slip == 0.0 && sums_.work == 0.0) {
+      quiet_step(loading_old);
+    } else {
+      if (quiet_since_ >= 0) {
+        pe_ = LSM::NeumaierSum(pe_value_);
+        quiet_since_ = -1;
+      }
+      slip_.add(sums_.slip);
+      dpe_ = 0.5 * p_.kl * plate_step_ * (loading_old + loading()) - sums_.work;
+      pe_.add(dpe_);
+      pe_value_ = pe_.value();
+    }
+    moved_ += sums_.hot;
+    if (!dense_) update_list();
+  }
+
+  /// Up to which step nothing can move; step() itself if something does or may.
+  std::int64_t quiet_until() {
+    if (dense_ || !list_.empty() || quiet_since_ < 0) return step_;
+    drop_stale();
+    return queue_.empty() ? std::numeric_limits<std::int64_t>::max() : queue_.top().first - 1;
+  }
+
+  /// Change of PE per step over a quiet step that starts at the given step.
+  double quiet_change(std::int64_t at) const {
+    const double loading_at = loading(at);
+    return p_.kl * plate_step_ * (loading_at + 0.5 * blocks() * plate_step_);
+  }
+
+  /// Goes to a step no later than quiet_until() without looking at those between.
+  void jump(std::int64_t to) {
+    step_ = to - 1;
+    advance();
+  }
+
+  ChainState state() const {
+    ChainState s;
+    s.step = step_;
+    s.slip_sum = slip_.sum();
+    s.slip_compensation = slip_.compensation();
+    s.pe_sum = pe_.sum();
+    s.pe_compensation = pe_.compensation();
+    s.quiet_since = quiet_since_;
+    s.pe_anchor = pe_anchor_;
+    s.loading_anchor = loading_anchor_;
+    s.moved = moved_;
+    s.dpe = dpe_;
+    s.u = displacements();
+    s.v = velocities();
+    return s;
+  }
+
+  /// Goes on from a saved state.
+  void set_state(const ChainState &s) {
+    const std::size_t n = static_cast<std::size_t>(p_.blocks);
+    if (s.u.size() != n || s.v.size() != n || s.step < 0)
+      throw std::invalid_argument("saved chain does not fit --blocks");
+    step_ = s.step;
+    slip_ = LSM::NeumaierSum(s.slip_sum, s.slip_compensation);
+    pe_ = LSM::NeumaierSum(s.pe_sum, s.pe_compensation);
+    quiet_since_ = s.quiet_since;
+    pe_anchor_ = s.pe_anchor;
+    loading_anchor_ = s.loading_anchor;
+    moved_ = s.moved;
+    dpe_ = s.dpe;
+    std::copy(s.u.begin(), s.u.end(), view_.u);
+    std::copy(s.v.begin(), s.v.end(), view_.v);
+    if (quiet_since_ >= 0)
+      pe_value_ = quiet_energy();
+    else
+      pe_value_ = pe_.value();
+    activate();
+  }
+
+  /// Starts from given displacements (one per block) at rest, at step 0 (ours; the paper has 0).
+  void set_displacements(const std::vector<double> &u) {
+    ChainState s;
+    s.u = u;
+    s.v.assign(static_cast<std::size_t>(p_.blocks), 0.0);
+    LSM::NeumaierSum sum;
+    for (double x : u) sum.add(x);
+    s.slip_sum = sum.sum();
+    s.slip_compensation = sum.compensation();
+    s.pe_sum = direct_energy(p_, u, 0.0);
+    set_state(s);
+  }
+
+ private:
+  double blocks() const { return static_cast<double>(p_.blocks); }
+  double loading(std::int64_t at) const {
+    return blocks() * (plate_step_ * static_cast<double>(at)) - slip_.value();
+  }
+  /// sum (X - U_i)
+  double loading() const { return loading(step_); }
+
+  // In quiet stretches PE follows from their first step, not from the step before, so that it does
+  // not matter which steps are looked at.
+  double quiet_energy() const {
+    const double travel = plate_step_ * static_cast<double>(step_ - quiet_since_);
+    return pe_anchor_ + p_.kl * travel * (loading_anchor_ + 0.5 * blocks() * travel);
+  }
+  void quiet_step(double loading_old) {
+    if (quiet_since_ < 0) {
+      quiet_since_ = step_ - 1;
+      pe_anchor_ = pe_value_;
+      loading_anchor_ = loading_old;
+    }
+    dpe_ = p_.kl * plate_step_ * (loading_old + 0.5 * blocks() * plate_step_);
+    pe_value_ = quiet_energy();
+  }
+
+  void start() {
+    ChainState s;
+    s.u.assign(static_cast<std::size_t>(p_.blocks), 0.0);
+    s.v = s.u;
+    set_state(s);
+  }
+
+  double spring_force(int i, double plate_at) const {
+    const double *u = view_.u;
+    return p_.kc * ((u[i - 1] - u[i]) + (u[i + 1] - u[i])) + p_.kl * (plate_at - u[i]);
+  }
+
+  // Last step, counted from step 0, after which chunk c need not stay idle: no later than two steps
+  // before its first block can start, rounding included. The plate only adds to the forces.
+  std::int64_t wake_step(int c) const {
+    double first = std::numeric_limits<double>::max(), scale = 0.0;
+    for (int i = c * chunk_size; i < (c + 1) * chunk_size && i < p_.blocks; ++i) {
+      const double *u = view_.u;
+      const double coupling = p_.kc * ((u[i - 1] - u[i]) + (u[i + 1] - u[i]));
+      const double plate_at = u[i] + (view_.mu[i] - coupling) / p_.kl;
+      first = std::min(first, plate_at);
+      scale = std::max({scale, std::fabs(plate_at),
+                        std::fabs(u[i]) * (1.0 + p_.kc / p_.kl) + view_.mu[i] / p_.kl});
+    }
+    const double steps =
+        (first - 64.0 * std::numeric_limits<double>::epsilon() * scale) / plate_step_;
+    if (!(steps < 4e18)) return std::numeric_limits<std::int64_t>::max();
+    return static_cast<std::int64_t>(std::floor(steps * (1.0 - 1e-15))) - 2;
+  }
+
+  // Sets forces and the active set afresh from u, v and the step.
+  void activate() {
+    view_.u[-1] = view_.u[p_.blocks - 1];
+    view_.u[p_.blocks] = view_.u[0];
+    list_.clear();
+    queue_ = Queue();
+    std::fill(wake_.begin(), wake_.end(), 0);
+    for (int i = 0; i < p_.blocks; ++i) view_.force[i] = spring_force(i, plate());
+    std::vector<std::int32_t> wanted;
+    for (int c = 0; c < chunks_; ++c) {
+      bool hot = dense_;
+      for (int i = c * chunk_size; i < (c + 1) * chunk_size && i < p_.blocks; ++i)
+        hot = hot || view_.v[i] > 0.0 || view_.force[i] > view_.mu[i];
+      if (dense_) {
+        list_.push_back(c);
+      } else if (hot) {
+        for (int d : {c > 0 ? c - 1 : chunks_ - 1, c, c + 1 < chunks_ ? c + 1 : 0})
+          wanted.push_back(d);
+      }
+    }
+    if (dense_) return;
+    std::sort(wanted.begin(), wanted.end());
+    wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+    list_ = wanted;
+    list_.reserve(static_cast<std::size_t>(chunks_));
+    for (int c = 0, k = 0; c < chunks_; ++c) {
+      if (k < static_cast<int>(list_.size()) && list_[static_cast<std::size_t>(k)] == c)
+        ++k;
+      else
+        idle_.push_back(c);
+    }
+    settle_idle(list_);
+  }
+
+  // A chunk is active while a block in it moves or is about to, or the nearest block of a
+  // neighbouring chunk is so, or it has to be watched because its first block will soon start.
+  void update_list() {
+    auto &next = next_list_;
+    next.clear();
+    bool want_first = false, want_last = false;
+    auto want = [&next](std::int32_t c) {
+      if (next.empty() || next.back() < c) next.push_back(c);
+    };
+    const std::int32_t last = chunks_ - 1;
+    for (std::size_t k = 0; k < list_.size(); ++k) {
+      const std::uint8_t h = hot_[k];
+      if (h == 0) continue;
+      const std::int32_t c = list_[k];
+      if (h & 1U) {
+        if (c == 0)
+          want_last = true;
+        else
+          want(c - 1);
+      }
+      want(c);
+      if (c < last) {
+        if (h & 0x80U) want(c + 1);
+      } else if (h & last_edge_) {
+        want_first = true;
+      }
+    }
+    if (want_last) want(last);
+    if (want_first && (next.empty() || next.front() != 0)) next.insert(next.begin(), 0);
+    if (next != list_) {
+      idle_.clear();
+      std::size_t k = 0;
+      for (std::int32_t c : list_) {
+        while (k < next.size() && next[k] < c) ++k;
+        if (k == next.size() || next[k] != c) idle_.push_back(c);
+      }
+      for (std::int32_t c : next) wake_[static_cast<std::size_t>(c)] = 0;
+      settle_idle(next);
+      list_.swap(next);
+    }
+    if (step_ + 1 >= next_wake_) wake_due();
+  }
+
+  // Puts the chunks in idle_ to sleep until their wake step, or back into the list if that is now.
+  void settle_idle(std::vector<std::int32_t> &list) {
+    for (std::int32_t c : idle_) {
+      const std::int64_t at = wake_step(c);
+      if (at <= step_ + 1) {
+        wake_[static_cast<std::size_t>(c)] = 0;
+        extra_.push_back(c);
+      } else {
+        wake_[static_cast<std::size_t>(c)] = at;
+        if (at < std::numeric_limits<std::int64_t>::max()) queue_.emplace(at, c);
+      }
+    }
+    idle_.clear();
+    add_extra(list);
+    next_wake_ = queue_.empty() ? std::numeric_limits<std::int64_t>::max() : queue_.top().first;
+    if (queue_.size() > 64 + 8 * static_cast<std::size_t>(chunks_)) rebuild_queue();
+  }
+
+  // All at once: inserting one by one would cost the length of the list each time.
+  void add_extra(std::vector<std::int32_t> &list) {
+    if (extra_.empty()) return;
+    std::sort(extra_.begin(), extra_.end());
+    const auto middle = static_cast<std::ptrdiff_t>(list.size());
+    list.insert(list.end(), extra_.begin(), extra_.end());
+    std::inplace_merge(list.begin(), list.begin() + middle, list.end());
+    extra_.clear();
+  }
+
+  void drop_stale() {
+    while (!queue_.empty() &&
+           wake_[static_cast<std::size_t>(queue_.top().second)] != queue_.top().first)
+      queue_.pop();
+    next_wake_ = queue_.empty() ? std::numeric_limits<std::int64_t>::max() : queue_.top().first;
+  }
+
+  void rebuild_queue() {
+    queue_ = Queue();
+    for (std::int32_t c = 0; c < chunks_; ++c) {
+      const std::int64_t at = wake_[static_cast<std::size_t>(c)];
+      if (at > 0 && at < std::numeric_limits<std::int64_t>::max()) queue_.emplace(at, c);
+    }
+  }
+
+  void wake_due() {
+    drop_stale();
+    while (!queue_.empty() && queue_.top().first <= step_ + 1) {
+      const std::int32_t c = queue_.top().second;
+      queue_.pop();
+      wake_[static_cast<std::size_t>(c)] = 0;
+      extra_.push_back(c);
+      drop_stale();
+    }
+    add_extra(list_);
+  }
+
+  using Entry = std::pair<std::int64_t, std::int32_t>;
+  using Queue = std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>>;
+
+  Parameters p_;
+  bool dense_;
+  double plate_step_;
+  StepFunction function_ = nullptr;
+  int chunks_ = 0;
+  std::uint8_t last_edge_ = 0;
+  std::vector<double, LineAllocator<double>> u_, v_, force_, du_, mu_;
+  ChainView view_;
+  std::int64_t step_ = 0;
+  LSM::NeumaierSum slip_, pe_;
+  double pe_value_ = 0.0, dpe_ = 0.0;
+  std::int64_t quiet_since_ = -1;
+  double pe_anchor_ = 0.0, loading_anchor_ = 0.0;
+  std::int64_t moved_ = 0;
+  StepSums sums_;
+  std::vector<std::uint8_t> hot_;
+  std::vector<std::int32_t> list_, next_list_, idle_, extra_;
+  std::vector<std::int64_t> wake_;  // 0: in the list; else the step to wake up
+  Queue queue_;
+  std::int64_t next_wake_ = 0;
+};
+
+}  // namespace Slider
+
+#endif

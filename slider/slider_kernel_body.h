@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Included once per instruction set by slider_kernels.cpp, inside a namespace of its own and with
+// SLIDER_LANES lanes per register; hence no include guard.
+
+typedef double Register __attribute__((vector_size(8 * SLIDER_LANES)));
+typedef long long Mask __attribute__((vector_size(8 * SLIDER_LANES)));
+constexpr int registers = chunk_size / SLIDER_LANES;
+
+struct Lanes {
+  Register r[registers];
+};
+
+inline __attribute__((always_inline)) Lanes load(const double *p) {
+  Lanes a;
+  std::memcpy(&a, p, sizeof a);
+  return a;
+}
+inline __attribute__((always_inline)) void store(double *p, const Lanes &a) {
+  std::memcpy(p, &a, sizeof a);
+}
+inline __attribute__((always_inline)) Register square_root(Register a) {
+#if SLIDER_LANES == 8
+  return (Register)_mm512_maskz_sqrt_pd(0xff, (__m512d)a);
+#elif SLIDER_LANES == 4
+  return (Register)_mm256_sqrt_pd((__m256d)a);
+#else
+  return (Register)_mm_sqrt_pd((__m128d)a);
+#endif
+}
+inline __attribute__((always_inline)) unsigned bits(Mask m) {
+#if SLIDER_LANES == 8
+  return _mm512_movepi64_mask((__m512i)m);
+#elif SLIDER_LANES == 4
+  return static_cast<unsigned>(_mm256_movemask_pd((__m256d)m));
+#else
+  return static_cast<unsigned>(_mm_movemask_pd((__m128d)m));
+#endif
+}
+
+// Scheme: 0 printed, 1 semi-implicit, 2 verlet.
+template <int scheme>
+StepSums step(const ChainView &chain, const std::int32_t *list, int count, double x_new,
+              std::uint8_t *hot) {
+  const Register zero = {};
+  const double h = chain.dt;
+  const double h_m = h / chain.mass;
+  const double half_h = 0.5 * h;
+  const double half_h_m = half_h / chain.mass;
+  const double kc = chain.kc, kl = chain.kl;
+  double *const u = chain.u, *const velocity = chain.v, *const force = chain.force;
+  double *const du = chain.du;
+  const double *const mu = chain.mu;
+  for (int k = 0; k < count; ++k) {
+    const std::int64_t i = static_cast<std::int64_t>(list[k]) * chunk_size;
+    const Lanes f = load(force + i), m = load(mu + i), v = load(velocity + i);
+    Lanes x = load(u + i), change;
+    for (int r = 0; r < registers; ++r) {
+      // A stuck block has v = 0, so f <= mu leaves it stuck without a branch, and a block whose
+      // velocity would turn negative sticks.
+      const Register push = f.r[r] - m.r[r] / (1.0 + v.r[r]);
+      Register w = v.r[r] + (scheme == 2 ? half_h_m : h_m) * push;
+      w = w > zero ? w : zero;
+      const Register moved = scheme == 0 ? half_h * (v.r[r] + w) : h * w;
+      const Register next = x.r[r] + moved;
+      change.r[r] = next - x.r[r];
+      x.r[r] = next;
+      std::memcpy(velocity + i + r * SLIDER_LANES, &w, sizeof w);
+    }
+    store(u + i, x);
+    store(du + i, change);
+  }
+  u[-1] = u[chain.blocks - 1];
+  u[chain.blocks] = u[0];
+
+  Lanes work = {}, slip = {};
+  StepSums sums;
+  for (int k = 0; k < count; ++k) {
+    const std::int64_t i = static_cast<std::int64_t>(list[k]) * chunk_size;
+    const Lanes x = load(u + i), left = load(u + i - 1), right = load(u + i + 1);
+    const Lanes old = load(force + i), m = load(mu + i), change = load(du + i);
+    Lanes v = load(velocity + i), f;
+    unsigned lanes = 0;
+    for (int r = 0; r < registers; ++r) {
+      f.r[r] = kc * ((left.r[r] - x.r[r]) + (right.r[r] - x.r[r])) + kl * (x_new - x.r[r]);
+      if (scheme == 2) {
+        // w = v_half + h/2 (f - mu / (1 + w)) / m is quadratic in w; its larger root is written so
+        // that nothing cancels and its sign is that of c - b.
+        const Register c = v.r[r] + half_h_m * f.r[r];
+        const Register b = half_h_m * m.r[r];
+        const Register q = (1.0 + c) * (1.0 + c) - 4.0 * b;
+        const Register s = square_root(q > zero ? q : zero);
+        const Register one = zero + 1.0;
+        const Register fast = c > one ? one : zero;
+        const Register numerator = fast > zero ? (c - 1.0) + s : 2.0 * (c - b);
+        const Register denominator = fast > zero ? one + one : (1.0 - c) + s;
+        Register w = numerator / denominator;
+        w = (w > zero) & (q > zero) ? w : zero;
+        v.r[r] = w;
+      }
+      lanes |= bits((v.r[r] > zero) | (f.r[r] > m.r[r])) << (r * SLIDER_LANES);
+      work.r[r] += (old.r[r] + f.r[r]) * change.r[r];
+      slip.r[r] += change.r[r];
+    }
+    store(force + i, f);
+    if (scheme == 2) store(velocity + i, v);
+    hot[k] = static_cast<std::uint8_t>(lanes);
+    sums.hot += __builtin_popcount(lanes);
+  }
+  double w[chunk_size], s[chunk_size];
+  store(w, work);
+  store(s, slip);
+  sums.work = 0.5 * (((w[0] + w[4]) + (w[2] + w[6])) + ((w[1] + w[5]) + (w[3] + w[7])));
+  sums.slip = ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
+  return sums;
+}

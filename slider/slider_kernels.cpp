@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "slider_kernels.h"
+
+#include <immintrin.h>
+
+#include <cstring>
+#include <stdexcept>
+
+// Vectors only travel between functions that are inlined, so how they would be passed is moot.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+namespace Slider {
+
+namespace KernelX86 {
+#define SLIDER_LANES 2
+#include "slider_kernel_body.h"
+#undef SLIDER_LANES
+}  // namespace KernelX86
+
+#pragma GCC push_options
+#pragma GCC target("avx2,popcnt")
+namespace KernelAvx2 {
+#define SLIDER_LANES 4
+#include "slider_kernel_body.h"
+#undef SLIDER_LANES
+}  // namespace KernelAvx2
+#pragma GCC pop_options
+
+#pragma GCC push_options
+#pragma GCC target("avx512f,avx512dq,avx512vl,avx512bw,popcnt")
+namespace KernelAvx512 {
+#define SLIDER_LANES 8
+#include "slider_kernel_body.h"
+#undef SLIDER_LANES
+}  // namespace KernelAvx512
+#pragma GCC pop_options
+
+namespace {
+bool has(InstructionSet set) {
+  switch (set) {
+    case InstructionSet::avx512:
+      return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+             __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw");
+    case InstructionSet::avx2:
+      return __builtin_cpu_supports("avx2");
+    default:
+      return true;
+  }
+}
+}  // namespace
+
+InstructionSet resolve(InstructionSet wanted) {
+  if (wanted != InstructionSet::automatic) {
+    if (!has(wanted))
+      throw std::invalid_argument(std::string("--isa = ") + to_string(wanted) +
+                                  ", expected an instruction set this processor has");
+    return wanted;
+  }
+  for (InstructionSet set : {InstructionSet::avx512, InstructionSet::avx2})
+    if (has(set)) return set;
+  return InstructionSet::x86_64;
+}
+
+StepFunction step_function(int scheme, InstructionSet set) {
+  static constexpr StepFunction table[3][3] = {
+      {KernelAvx512::step<0>, KernelAvx512::step<1>, KernelAvx512::step<2>},
+      {KernelAvx2::step<0>, KernelAvx2::step<1>, KernelAvx2::step<2>},
+      {KernelX86::step<0>, KernelX86::step<1>, KernelX86::step<2>}};
+  const InstructionSet found = resolve(set);
+  const int row = found == InstructionSet::avx512 ? 0 : found == InstructionSet::avx2 ? 1 : 2;
+  return table[row][scheme];
+}
+
+}  // namespace Slider

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file slider_kernels.h
+/// One time step of listed chunks of blocks, for the schemes printed, semi-implicit and verlet.
+/// Compiled for several instruction sets, which agree to the last digit: the arithmetic is that of
+/// fixed lanes, whatever the width of the registers, and contraction is off.
+#ifndef SLIDER_KERNELS_H
+#define SLIDER_KERNELS_H
+
+#include <cstdint>
+#include <string>
+
+namespace Slider {
+
+/// Blocks per chunk, the unit of the active set; lane l of chunk c is block 8 c + l.
+constexpr int chunk_size = 8;
+
+/// Arrays of the chain. Each has room for whole chunks and one further value either side of the
+/// blocks, where u keeps its periodic images u[-1] and u[blocks]. Blocks past the end have a
+/// coefficient nothing overcomes.
+struct ChainView {
+  double *u = nullptr;         ///< displacement
+  double *v = nullptr;         ///< velocity, >= 0
+  double *force = nullptr;     ///< spring force at the present time (older for inactive chunks)
+  double *du = nullptr;        ///< last change of displacement of an active chunk
+  const double *mu = nullptr;  ///< static coefficient
+  int blocks = 0;
+  double kc = 0.0, kl = 0.0, mass = 1.0, dt = 0.0;
+};
+
+/// Sums over the listed chunks, over one step.
+struct StepSums {
+  double work = 0.0;     ///< sum (F_old + F_new) du / 2, the work of the springs on the blocks
+  double slip = 0.0;     ///< sum du
+  std::int64_t hot = 0;  ///< number of blocks that move or are about to
+};
+
+/// Takes one step of the listed chunks (ascending, no repeats) to plate position x_new. hot[k] gets
+/// the lanes of chunk list[k] that move, or whose force exceeds mu, after the step.
+using StepFunction = StepSums (*)(const ChainView &chain, const std::int32_t *list, int count,
+                                  double x_new, std::uint8_t *hot);
+
+enum class InstructionSet { automatic, avx512, avx2, x86_64 };
+inline const char *to_string(InstructionSet set) {
+  switch (set) {
+    case InstructionSet::automatic:
+      return "auto";
+    case InstructionSet::avx512:
+      return "avx512";
+    case InstructionSet::avx2:
+      return "avx2";
+    case InstructionSet::x86_64:
+      return "x86-64";
+  }
+  return "unknown";
+}
+inline bool from_string(const std::string &name, InstructionSet &set) {
+  for (InstructionSet candidate : {InstructionSet::automatic, InstructionSet::avx512,
+                                   InstructionSet::avx2, InstructionSet::x86_64}) {
+    if (name == to_string(candidate)) {
+      set = candidate;
+      return true;
+    }
+  }
+  return false;
+}
+
+/// The widest set this processor has, or the one asked for.
+/// \throws std::invalid_argument if the processor lacks the set asked for.
+InstructionSet resolve(InstructionSet wanted);
+
+/// scheme: 0 printed, 1 semi-implicit, 2 verlet.
+StepFunction step_function(int scheme, InstructionSet set);
+
+}  // namespace Slider
+
+#endif

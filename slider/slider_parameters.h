@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file slider_parameters.h
+/// Parameters of the block-slider model of Weatherley and Abe (2004), Sect. 3, and their limits.
+#ifndef SLIDER_PARAMETERS_H
+#define SLIDER_PARAMETERS_H
+
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "lsm_random.h"
+
+namespace Slider {
+
+/// How one time step is taken. All but printed are ours.
+enum class Scheme {
+  printed,        ///< Eqs. 7 and 8: x += h v + h^2/2 a, v += h a, force of the old time
+  semi_implicit,  ///< v += h a, x += h v (symplectic Euler), order 1
+  verlet,         ///< velocity Verlet, friction of the new velocity solved in closed form, order 2
+  rk4,            ///< classical Runge-Kutta with located stick/slip switches, order 4
+  reference       ///< adaptive GSL rk8pd with located switches, for short runs
+};
+
+inline const char *to_string(Scheme scheme) {
+  switch (scheme) {
+    case Scheme::printed:
+      return "printed";
+    case Scheme::semi_implicit:
+      return "semi-implicit";
+    case Scheme::verlet:
+      return "verlet";
+    case Scheme::rk4:
+      return "rk4";
+    case Scheme::reference:
+      return "reference";
+  }
+  return "unknown";
+}
+
+/// Returns false, and leaves scheme alone, if name is no scheme.
+inline bool from_string(const std::string &name, Scheme &scheme) {
+  for (Scheme candidate :
+       {Scheme::printed, Scheme::semi_implicit, Scheme::verlet, Scheme::rk4, Scheme::reference}) {
+    if (name == to_string(candidate)) {
+      scheme = candidate;
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Parameters of one chain, in model units (paper values unless marked ours).
+struct Parameters {
+  int blocks = 1928;
+  double kc = 1.0;         ///< coupling spring K_c
+  double kl = 0.01;        ///< leaf spring K_l
+  double mass = 1.0;       ///< mass M of a block
+  double velocity = 0.01;  ///< driving velocity V_pl of the plate
+  double dt = 0.05;        ///< time step (ours; not in the paper)
+  Scheme scheme = Scheme::verlet;
+};
+
+/// Highest angular frequency of the sliding chain without friction: its shortest wave.
+inline double highest_frequency(const Parameters &p) {
+  const double pi = 3.14159265358979323846;
+  const double phase = 2.0 * pi * (p.blocks / 2) / p.blocks;
+  return std::sqrt((2.0 * p.kc * (1.0 - std::cos(phase)) + p.kl) / p.mass);
+}
+
+/// Time step above which the scheme blows up on an undamped spring. The printed scheme grows at
+/// any step (rate h w^2 / 4); its limit is where that beats friction, 0.12 for the paper's springs.
+inline double stability_limit(const Parameters &p) {
+  const double w = highest_frequency(p);
+  switch (p.scheme) {
+    case Scheme::printed:
+      return 0.12 * std::sqrt(4.01) / w;
+    case Scheme::semi_implicit:
+    case Scheme::verlet:
+      return 2.0 / w;
+    case Scheme::rk4:
+      return 2.0 * std::sqrt(2.0) / w;
+    case Scheme::reference:
+      return HUGE_VAL;
+  }
+  return 0.0;
+}
+
+/// Time step above which the growth of the printed scheme was seen to change the statistics.
+inline double printed_warning_limit(const Parameters &p) {
+  return 0.01 * std::sqrt(4.01) / highest_frequency(p);
+}
+
+/// \throws std::invalid_argument with one line naming the option, its value and what is expected.
+inline void check(const Parameters &p, bool force) {
+  auto fail = [](const std::string &option, double value, const std::string &expected) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.6g", value);
+    throw std::invalid_argument(option + " = " + text + ", expected " + expected);
+  };
+  if (p.blocks < 1) fail("--blocks", p.blocks, "at least 1");
+  if (p.blocks > 100000000) fail("--blocks", p.blocks, "at most 100000000");
+  auto positive = [&](const char *option, double value) {
+    if (!std::isfinite(value) || !(value > 0.0)) fail(option, value, "a positive finite number");
+  };
+  if (!std::isfinite(p.kc) || p.kc < 0.0) fail("--kc", p.kc, "a finite number >= 0");
+  positive("--kl", p.kl);
+  positive("--mass", p.mass);
+  positive("--velocity", p.velocity);
+  positive("--dt", p.dt);
+  const double limit = stability_limit(p);
+  if (p.scheme == Scheme::printed) {
+    if (p.dt >= limit * (1.0 - 1e-12) && !force)
+      fail("--dt", p.dt,
+           "less than " + std::to_string(limit) +
+               " for the printed scheme, which is unstable there (--force runs it all the same)");
+  } else if (p.dt > limit) {
+    fail("--dt", p.dt,
+         "at most " + std::to_string(limit) + ", the stability limit of the " +
+             to_string(p.scheme) + " scheme for these springs");
+  }
+}
+
+/// Static coefficients mu_0i, uniform in [low, high) and drawn in the order of the blocks.
+inline std::vector<double> random_friction(int blocks, double low, double high,
+                                           std::uint64_t seed) {
+  LSM::Random random(seed);
+  std::vector<double> mu(static_cast<std::size_t>(blocks));
+  for (double &m : mu) m = random.uniform(low, high);
+  return mu;
+}
+
+/// One static coefficient per line; blank lines and lines starting with # are skipped.
+/// \throws std::runtime_error "file:line: what, expected ..."
+inline std::vector<double> read_friction(const std::string &path) {
+  std::ifstream in(path);
+  if (!in) throw std::runtime_error(path + ": cannot be read, expected a file of coefficients");
+  std::vector<double> mu;
+  std::string line;
+  for (long number = 1; std::getline(in, line); ++number) {
+    const std::size_t first = line.find_first_not_of(" \t\r");
+    if (first == std::string::npos || line[first] == '#') continue;
+    const std::size_t last = line.find_last_not_of(" \t\r");
+    const std::string word = line.substr(first, last - first + 1);
+    char *end = nullptr;
+    const double value = std::strtod(word.c_str(), &end);
+    if (*end != '\0' || !std::isfinite(value) || value < 0.0)
+      throw std::runtime_error(path + ":" + std::to_string(number) + ": '" + word +
+                               "', expected one friction coefficient >= 0");
+    mu.push_back(value);
+  }
+  if (mu.empty()) throw std::runtime_error(path + ": no coefficient found, expected one per line");
+  return mu;
+}
+
+}  // namespace Slider
+
+#endif

@@ -1,0 +1,225 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-2.0-or-later
+# Tests of slider_cli from outside: slider_cli_test.sh PROGRAM CASE
+set -u
+program=$1
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder" || exit 1
+
+fail() {
+  echo "FAILED: $*" >&2
+  exit 1
+}
+run() { "$program" "$@" > out.txt 2> err.txt; }
+must_run() { run "$@" || fail "$* ended with $?: $(cat err.txt)"; }
+
+# refused PATTERN ARGUMENTS...: non-zero exit, one line that matches, no output file.
+refused() {
+  local pattern=$1
+  shift
+  rm -f bad.csv
+  run --catalogue bad.csv --blocks 16 --time 100 "$@" && fail "accepted: $*"
+  [ "$(wc -l < err.txt)" = 1 ] || fail "not one line for $*: $(cat err.txt)"
+  grep -q -e "$pattern" err.txt || fail "message for $* is '$(cat err.txt)', expected '$pattern'"
+  [ ! -e bad.csv ] || fail "output left behind by $*"
+}
+
+# same A B: equal files with at least MIN events
+same() {
+  cmp "$1" "$2" || fail "$1 and $2 differ"
+  [ "$(grep -vc '^[#e]' "$1")" -ge "${3:-10}" ] || fail "$1 has too few events to test anything"
+}
+
+short=(--blocks 100 --dt 0.05 --velocity 0.05 --warmup 0 --seed 3)
+
+case $2 in
+kernels)
+  for scheme in semi-implicit verlet; do
+    for picker in exponential literal; do
+      for kernel in active dense; do
+        must_run "${short[@]}" --steps 500000 --scheme $scheme --picker $picker --kernel $kernel \
+          --catalogue $kernel.csv --columns centroid,length
+      done
+      same active.csv dense.csv
+    done
+  done
+  for kernel in active dense; do
+    must_run "${short[@]}" --dt 0.01 --steps 1000000 --scheme printed --kernel $kernel \
+      --catalogue $kernel.csv
+  done
+  same active.csv dense.csv
+  ;;
+isa)
+  must_run "${short[@]}" --steps 300000 --isa x86-64 --catalogue plain.csv
+  tested=0
+  for isa in avx2 avx512; do
+    if run "${short[@]}" --steps 300000 --isa $isa --catalogue wide.csv; then
+      same plain.csv wide.csv
+      tested=1
+    else
+      grep -q 'instruction set this processor has' err.txt || fail "$(cat err.txt)"
+    fi
+  done
+  [ $tested = 1 ] || exit 77
+  ;;
+resume | terminate | kill)
+  settings=("${short[@]}" --steps 6000000 --pe-stride 1000 --columns centroid,length)
+  [ "$2" = resume ] && settings=("${short[@]}" --steps 1000000 --pe-stride 7 --columns length)
+  must_run "${settings[@]}" --catalogue whole.csv --pe-series whole.pe
+  part=("${settings[@]}" --catalogue part.csv --pe-series part.pe --checkpoint part.chk
+        --checkpoint-interval 50000)
+  if [ "$2" = resume ]; then
+    # Finished, then resumed: nothing changes. Refused with other parameters, damaged or none.
+    must_run "${part[@]}"
+    same whole.csv part.csv
+    must_run "${part[@]}" --resume
+    same whole.csv part.csv
+    cmp whole.pe part.pe || fail "PE series differ"
+    cp part.csv keep.csv
+    # The other kernels and rk4, killed and resumed.
+    more=(--velocity 0.05 --blocks 24 --dt 0.05 --warmup 0 --seed 3 --steps 100000)
+    for way in "--scheme rk4" "--kernel scalar" "--kernel dense"; do
+      must_run "${more[@]}" $way --catalogue whole2.csv
+      rm -f part2.chk
+      "$program" "${more[@]}" $way --catalogue part2.csv --checkpoint part2.chk \
+        --checkpoint-interval 1000 > out.txt 2> err.txt &
+      child=$!
+      while [ ! -e part2.chk ]; do :; done
+      kill -9 $child 2> /dev/null
+      wait $child 2> /dev/null
+      [ $? = 137 ] || fail "$way was never interrupted"
+      must_run "${more[@]}" $way --catalogue part2.csv --checkpoint part2.chk \
+        --checkpoint-interval 1000 --resume
+      same whole2.csv part2.csv 5
+    done
+    must_run "${more[@]}" --kernel active --catalogue part2.csv --checkpoint part2.chk --resume
+    must_run "${more[@]}" --kernel scalar --catalogue part2.csv --checkpoint part2.chk
+    run "${more[@]}" --catalogue part2.csv --checkpoint part2.chk --resume &&
+      fail "resumed from the checkpoint of the straightforward loop"
+    grep -q "kernel = scalar" err.txt || fail "message: $(cat err.txt)"
+    run "${part[@]}" --resume --kl 0.02 && fail "resumed with another --kl"
+    grep -q "kl = 0.01.*expected.*kl = 0.02" err.txt || fail "message: $(cat err.txt)"
+    cmp keep.csv part.csv || fail "a refused resume changed the catalogue"
+    head -c 500 part.chk > short.chk
+    run "${part[@]}" --checkpoint short.chk --resume && fail "resumed from a torn checkpoint"
+    grep -q "short.chk: damaged" err.txt || fail "message: $(cat err.txt)"
+    run "${part[@]}" --checkpoint none.chk --resume && fail "resumed from nothing"
+    grep -q "none.chk: cannot be read" err.txt || fail "message: $(cat err.txt)"
+  else
+    # Interrupted as soon as there is a checkpoint, again and again.
+    interrupted=0
+    for round in 1 2 3; do
+      more=()
+      [ -e part.chk ] && more=(--resume)
+      before=$(stat -c %Y%i part.chk 2> /dev/null)
+      "$program" "${part[@]}" "${more[@]}" > out.txt 2> err.txt &
+      child=$!
+      while [ "$(stat -c %Y%i part.chk 2> /dev/null)" = "$before" ] && kill -0 $child 2> /dev/null
+      do
+        :
+      done
+      if [ "$2" = kill ]; then
+        kill -9 $child 2> /dev/null
+        wait $child 2> /dev/null
+        [ $? = 137 ] && interrupted=$((interrupted + 1))
+      else
+        kill -TERM $child 2> /dev/null
+        wait $child
+        [ $? = 143 ] && interrupted=$((interrupted + 1))
+      fi
+    done
+    [ $interrupted -ge 1 ] || fail "the run was never interrupted"
+    must_run "${part[@]}" --resume
+    same whole.csv part.csv
+    cmp whole.pe part.pe || fail "PE series differ"
+  fi
+  ;;
+ensemble)
+  must_run "${short[@]}" --steps 300000 --ensemble 3 --threads 2 --catalogue 'run{run}.csv'
+  for k in 1 2 3; do
+    must_run "${short[@]}" --steps 300000 --seed $((k + 2)) --catalogue alone.csv
+    same run$k.csv alone.csv 5
+  done
+  printf '%s\n' '# two stiffnesses' '--kl 0.02' '--kl 0.05 --catalogue named.csv' > sets.txt
+  must_run "${short[@]}" --steps 300000 --ensemble sets.txt --catalogue set.csv --json all.json
+  must_run "${short[@]}" --steps 300000 --kl 0.05 --catalogue alone.csv
+  same named.csv alone.csv 5
+  grep -q '^# kl = 0.02$' set-1.csv || fail "set-1.csv lacks its kl"
+  refused "run 2 of the ensemble: .*--kl" --ensemble <(printf '%s\n' '--seed 1' '--kl -1')
+  refused "written by another run" --ensemble <(printf '%s\n' '--catalogue bad.csv --seed 1' \
+    '--catalogue bad.csv --seed 2')
+  ;;
+bad_input)
+  refused "frobnicate" --frobnicate 3
+  refused "--kc = -1, expected" --kc -1
+  refused "--kl = 0, expected" --kl 0
+  refused "--mass" --mass nan
+  refused "--velocity" --velocity -0.01
+  refused "--blocks" --blocks 0
+  refused "--blocks" --blocks many
+  refused "--steps" --steps 10.5 --time 1
+  refused "--dt = 1.5, expected at most 0.998" --dt 1.5
+  refused "--dt = 0.12, expected less than 0.12" --scheme printed --dt 0.12
+  refused "--scheme = 'euler', expected printed" --scheme euler
+  refused "--picker = 'best', expected" --picker best
+  refused "--picker-lambda = 1, expected" --picker-lambda 1
+  refused "--friction-range" --friction-range 1.0 0.5
+  : > empty.txt
+  refused "empty.txt: no coefficient" --friction-file empty.txt
+  printf '0.5\nx\n' > wrong.txt
+  refused "wrong.txt:2: 'x'" --friction-file wrong.txt
+  printf '0.5\n0.6\n' > few.txt
+  refused "few.txt: 2 coefficients, expected 16" --friction-file few.txt
+  refused "none.txt: cannot be read" --friction-file none.txt
+  refused "no/such/folder" --catalogue no/such/folder/c.csv
+  refused "no/such/folder" --pe-series no/such/folder/pe.txt
+  refused "no/such/folder" --checkpoint no/such/folder/c.chk
+  refused "no/such/folder" --json no/such/folder/s.json
+  refused "--resume needs --checkpoint" --resume
+  refused "--paper" --paper --scheme verlet
+  refused "--friction-range" --friction-range 0.5 1.0 --friction-range 0.8 0.7
+  refused "none.ini" --config none.ini
+  printf 'blocsk = 12\n' > wrong.ini
+  refused "blocsk" --config wrong.ini
+  # Above dt 0.01 the printed scheme runs, with a warning.
+  must_run --blocks 16 --steps 100 --scheme printed --dt 0.05 --catalogue warned.csv
+  grep -q 'warning: --dt = 0.05' err.txt || fail "no warning: $(cat err.txt)"
+  must_run --blocks 16 --steps 100 --scheme printed --dt 0.01 --catalogue quiet.csv
+  [ ! -s err.txt ] || fail "unexpected: $(cat err.txt)"
+  # Forced, it blows up sooner or later: an error, not an endless run of NaN.
+  run --blocks 64 --steps 3000000 --scheme printed --dt 0.9 --velocity 1 --force --warmup 0 \
+    --friction-range 0 0.1 --catalogue burst.csv && fail "the printed scheme survived dt 0.9"
+  grep -q "not a finite number" err.txt || fail "message: $(cat err.txt)"
+  ;;
+header)
+  must_run "${short[@]}" --steps 300000 --catalogue c.csv --json -
+  [ "$(head -n 1 c.csv)" = '# lsm-catalogue 1' ] || fail "first line"
+  [ "$(sed -n 2p c.csv)" = '# model = block-slider' ] || fail "second line"
+  for key in blocks kc kl mass velocity friction_low friction_high seed scheme dt steps picker \
+    lambda warmup; do
+    grep -q "^# $key = " c.csv || fail "no $key in the header"
+    grep -q "\"$key\": " out.txt || fail "no $key in the summary"
+  done
+  events=$(grep -vc '^[#e]' c.csv)
+  grep -q "\"events\": $events," out.txt || fail "the summary counts other events"
+  ;;
+paper)
+  must_run --paper --steps 20000 --blocks 16 --catalogue p.csv
+  for line in 'scheme = printed' 'dt = 0.01' 'picker = literal' 'lambda = 0.99' 'kl = 0.01' \
+    'velocity = 0.01' 'warmup = 0' 'friction_low = 0.5' 'friction_high = 1'; do
+    grep -q "^# $line\$" p.csv || fail "--paper does not give '$line'"
+  done
+  "$program" --help | grep -q -- '--friction-file' || fail "--help"
+  ;;
+config)
+  printf 'blocks = 100\ndt = 0.05\nvelocity = 0.05\nwarmup = 0\nseed = 3\nsteps = 300000\n' > s.ini
+  must_run --config s.ini --catalogue a.csv
+  must_run "${short[@]}" --steps 300000 --catalogue b.csv
+  same a.csv b.csv 5
+  ;;
+*)
+  fail "no case $2"
+  ;;
+esac
+exit 0

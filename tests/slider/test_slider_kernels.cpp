@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "slider_chain.h"
+#include "slider_scalar.h"
+
+namespace Slider {
+namespace {
+
+struct Case {
+  int blocks;
+  double kl, velocity, dt;
+  int steps;
+};
+constexpr Case cases[] = {
+    {1, 0.01, 0.1, 0.05, 60000},  {2, 0.01, 0.1, 0.05, 60000},  {3, 0.01, 0.1, 0.05, 60000},
+    {7, 0.01, 0.1, 0.05, 60000},  {8, 0.01, 0.1, 0.05, 60000},  {9, 0.01, 0.1, 0.05, 60000},
+    {16, 0.05, 0.1, 0.02, 60000}, {17, 0.01, 0.1, 0.05, 60000}, {100, 0.01, 0.02, 0.1, 60000},
+    {255, 0.1, 0.01, 0.1, 60000}, {64, 5.0, 0.5, 0.1, 20000},   {64, 1e-3, 1.0, 0.1, 60000}};
+
+TEST(SliderKernels, ActiveSetEqualsDenseToTheLastDigit) {
+  for (const Case &c : cases) {
+    for (Scheme scheme : {Scheme::printed, Scheme::semi_implicit, Scheme::verlet}) {
+      Parameters p;
+      p.blocks = c.blocks;
+      p.kl = c.kl;
+      p.velocity = c.velocity;
+      p.dt = c.dt;
+      p.scheme = scheme;
+      const auto mu = random_friction(p.blocks, 0.5, 1.0, 11);
+      Chain active(p, mu, false, InstructionSet::automatic);
+      Chain dense(p, mu, true, InstructionSet::automatic);
+      for (int n = 0; n < c.steps; ++n) {
+        active.advance();
+        dense.advance();
+        ASSERT_EQ(active.pe(), dense.pe()) << "N " << c.blocks << " step " << n;
+        ASSERT_EQ(active.dpe(), dense.dpe()) << "N " << c.blocks << " step " << n;
+        ASSERT_EQ(active.slip_sum(), dense.slip_sum()) << "N " << c.blocks << " step " << n;
+      }
+      EXPECT_EQ(active.displacements(), dense.displacements());
+      EXPECT_EQ(active.velocities(), dense.velocities());
+      EXPECT_GT(dense.moved(), 100) << "N " << c.blocks << ": nothing was tested";
+    }
+  }
+}
+
+TEST(SliderKernels, InstructionSetsAgreeToTheLastDigit) {
+  for (InstructionSet set : {InstructionSet::avx2, InstructionSet::avx512}) {
+    try {
+      resolve(set);
+    } catch (const std::invalid_argument &) {
+      continue;
+    }
+    for (const Case &c : cases) {
+      for (Scheme scheme : {Scheme::printed, Scheme::semi_implicit, Scheme::verlet}) {
+        Parameters p;
+        p.blocks = c.blocks;
+        p.kl = c.kl;
+        p.velocity = c.velocity;
+        p.dt = c.dt;
+        p.scheme = scheme;
+        const auto mu = random_friction(p.blocks, 0.5, 1.0, 12);
+        Chain one(p, mu, false, InstructionSet::x86_64);
+        Chain other(p, mu, false, set);
+        for (int n = 0; n < 20000; ++n) {
+          one.advance();
+          other.advance();
+        }
+        EXPECT_EQ(one.pe(), other.pe()) << to_string(set);
+        EXPECT_EQ(one.displacements(), other.displacements()) << to_string(set);
+      }
+    }
+  }
+}
+
+TEST(SliderKernels, AgreesWithStraightforwardLoop) {
+  // Same arithmetic per block, so the motion is the same; only PE is summed in another way.
+  for (const Case &c : cases) {
+    for (Scheme scheme : {Scheme::printed, Scheme::semi_implicit, Scheme::verlet}) {
+      Parameters p;
+      p.blocks = c.blocks;
+      p.kl = c.kl;
+      p.velocity = c.velocity;
+      p.dt = c.dt;
+      p.scheme = scheme;
+      const auto mu = random_friction(p.blocks, 0.5, 1.0, 13);
+      Chain active(p, mu, false, InstructionSet::automatic);
+      ScalarChain scalar(p, mu);
+      for (int n = 0; n < 20000; ++n) {
+        active.advance();
+        scalar.advance();
+        ASSERT_NEAR(active.pe(), scalar.pe(), 1e-10 * (1.0 + scalar.pe())) << "step " << n;
+      }
+      EXPECT_EQ(active.displacements(), scalar.displacements());
+    }
+  }
+}
+
+TEST(SliderKernels, QuietStretchesCanBeJumped) {
+  Parameters p;
+  p.blocks = 30;
+  p.dt = 0.05;
+  p.velocity = 0.1;
+  const auto mu = random_friction(p.blocks, 0.5, 1.0, 14);
+  Chain walks(p, mu, false, InstructionSet::automatic);
+  Chain jumps(p, mu, false, InstructionSet::automatic);
+  long long jumped = 0;
+  const long long end = 200000;
+  while (jumps.step() < end) {
+    const auto to = std::min<std::int64_t>(jumps.quiet_until(), end);
+    if (to > jumps.step() + 1) {
+      jumped += to - jumps.step();
+      jumps.jump(to);
+    } else {
+      jumps.advance();
+    }
+    while (walks.step() < jumps.step()) walks.advance();
+    ASSERT_EQ(walks.pe(), jumps.pe()) << jumps.step();
+    ASSERT_EQ(walks.dpe(), jumps.dpe()) << jumps.step();
+  }
+  EXPECT_EQ(walks.displacements(), jumps.displacements());
+  EXPECT_GT(jumped, 1000);
+  EXPECT_GT(walks.moved(), 1000);
+}
+
+TEST(SliderKernels, GoesOnFromAnySavedState) {
+  Parameters p;
+  p.blocks = 50;
+  p.dt = 0.05;
+  p.velocity = 0.1;
+  const auto mu = random_friction(p.blocks, 0.5, 1.0, 15);
+  Chain straight(p, mu, false, InstructionSet::automatic);
+  Chain *again = nullptr;
+  std::unique_ptr<Chain> holder;
+  for (int n = 0; n < 60000; ++n) {
+    if (n % 1777 == 0) {
+      holder = std::make_unique<Chain>(p, mu, false, InstructionSet::automatic);
+      again = holder.get();
+      again->set_state(straight.state());
+    }
+    straight.advance();
+    again->advance();
+    ASSERT_EQ(straight.pe(), again->pe()) << n;
+    ASSERT_EQ(straight.moved(), again->moved()) << n;
+  }
+  EXPECT_EQ(straight.displacements(), again->displacements());
+}
+
+TEST(SliderKernels, WorkFormulaMatchesSpringEnergies) {
+  Parameters p;
+  p.blocks = 200;
+  p.dt = 0.05;
+  const auto mu = random_friction(p.blocks, 0.5, 1.0, 16);
+  Chain chain(p, mu, false, InstructionSet::automatic);
+  for (int n = 0; n < 400000; ++n) {
+    chain.advance();
+    if (n % 5000 == 0) {
+      const double direct = direct_energy(p, chain.displacements(), chain.plate());
+      ASSERT_NEAR(chain.pe(), direct, 1e-11 * (1.0 + direct)) << n;
+    }
+  }
+  EXPECT_GT(chain.moved(), 1000);
+}
+
+}  // namespace
+}  // namespace Slider

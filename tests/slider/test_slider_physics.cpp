@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "slider_chain.h"
+#include "slider_scalar.h"
+#include "slider_switching.h"
+
+namespace Slider {
+namespace {
+
+constexpr Scheme stepped[] = {Scheme::printed, Scheme::semi_implicit, Scheme::verlet};
+
+// Displacements at the end of a run of any scheme.
+std::vector<double> final_state(Parameters p, Scheme scheme, double h, double time,
+                                const std::vector<double> &mu, const std::vector<double> &start) {
+  p.scheme = scheme;
+  p.dt = h;
+  const long steps = std::lround(time / h);
+  auto go = [&](auto &chain) {
+    chain.set_displacements(start);
+    for (long n = 0; n < steps; ++n) chain.advance();
+    return chain.displacements();
+  };
+  if (scheme == Scheme::rk4 || scheme == Scheme::reference) {
+    SwitchingChain chain(p, mu);
+    return go(chain);
+  }
+  Chain chain(p, mu, false, InstructionSet::automatic);
+  return go(chain);
+}
+
+double largest_difference(const std::vector<double> &a, const std::vector<double> &b) {
+  double worst = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) worst = std::max(worst, std::fabs(a[i] - b[i]));
+  return worst;
+}
+
+// One event from a common state: five blocks just below their limits and one just above.
+struct OneEvent {
+  Parameters p;
+  std::vector<double> mu, start;
+  double time = 12.8;
+  OneEvent() {
+    p.blocks = 12;
+    p.kl = 0.1;
+    mu = random_friction(p.blocks, 0.5, 1.0, 7);
+    // Displacements for which every block but the fourth is 10 % to 45 % below its limit.
+    start.assign(12, 0.0);
+    for (std::size_t i = 0; i < 12; ++i)
+      start[i] = -6.0 + 0.3 * std::sin(2.0 * static_cast<double>(i));
+    start[3] = -6.6;
+  }
+};
+
+TEST(SliderPhysics, FrictionlessBlockFollowsClosedForm) {
+  // M U'' = K_l (V t - U) from rest: U = V t - (V / w) sin w t, never moving back.
+  Parameters p;
+  p.blocks = 1;
+  p.kl = 0.7;
+  p.mass = 1.3;
+  p.velocity = 0.2;
+  const double w = std::sqrt(p.kl / p.mass), time = 20.0;
+  const double exact = p.velocity * time - p.velocity / w * std::sin(w * time);
+  const double tolerance[] = {2e-3, 2e-3, 1e-6};
+  for (int k = 0; k < 3; ++k)
+    EXPECT_NEAR(final_state(p, stepped[k], 0.002, time, {0.0}, {0.0})[0], exact, tolerance[k])
+        << to_string(stepped[k]);
+  EXPECT_NEAR(final_state(p, Scheme::rk4, 0.01, time, {0.0}, {0.0})[0], exact, 1e-10);
+  EXPECT_NEAR(final_state(p, Scheme::reference, 0.1, time, {0.0}, {0.0})[0], exact, 1e-12);
+}
+
+TEST(SliderPhysics, BlockBetweenStuckNeighboursFollowsClosedForm) {
+  // Two springs hold the moving block, whether they end at one neighbour (N = 2) or at two.
+  for (int blocks : {2, 3, 5}) {
+    Parameters p;
+    p.blocks = blocks;
+    p.kl = 0.05;
+    p.velocity = 0.3;
+    std::vector<double> mu(static_cast<std::size_t>(blocks), 1000.0);
+    mu[0] = 0.0;
+    const std::vector<double> start(mu.size(), 0.0);
+    const double k = 2.0 * p.kc + p.kl, w = std::sqrt(k), time = 10.0;
+    const double exact = p.kl * p.velocity / k * (time - std::sin(w * time) / w);
+    const std::vector<double> u = final_state(p, Scheme::verlet, 0.001, time, mu, start);
+    EXPECT_NEAR(u[0], exact, 1e-7);
+    for (std::size_t i = 1; i < u.size(); ++i) EXPECT_EQ(u[i], 0.0);
+    EXPECT_NEAR(final_state(p, Scheme::rk4, 0.01, time, mu, start)[0], exact, 1e-10);
+  }
+}
+
+TEST(SliderPhysics, LoadingAndOnsetOfOneBlock) {
+  for (Scheme scheme : stepped) {
+    Parameters p;
+    p.blocks = 1;
+    p.dt = 0.01;
+    p.scheme = scheme;
+    Chain chain(p, {0.6}, false, InstructionSet::automatic);
+    // K_l V t exceeds mu after t = 6000.
+    while (chain.displacements()[0] == 0.0 && chain.time() < 7000.0) {
+      chain.advance();
+      if (chain.displacements()[0] == 0.0) {
+        const double expected = 0.5 * p.kl * chain.plate() * chain.plate();
+        ASSERT_NEAR(chain.pe(), expected, 1e-13 * (1.0 + expected));
+      }
+    }
+    EXPECT_NEAR(chain.time(), 6000.0, 3.0 * p.dt) << to_string(scheme);
+  }
+}
+
+TEST(SliderPhysics, EqualBlocksMoveAsOne) {
+  Parameters p;
+  p.dt = 0.05;
+  p.blocks = 1;
+  p.velocity = 0.05;
+  Chain one(p, {0.7}, false, InstructionSet::automatic);
+  p.blocks = 37;
+  Chain many(p, std::vector<double>(37, 0.7), false, InstructionSet::automatic);
+  for (int n = 0; n < 100000; ++n) {
+    one.advance();
+    many.advance();
+  }
+  ASSERT_GT(one.slip_sum(), 100.0);
+  for (double u : many.displacements()) EXPECT_EQ(u, one.displacements()[0]);
+  EXPECT_NEAR(many.pe(), 37.0 * one.pe(), 1e-10 * many.pe());
+}
+
+TEST(SliderPhysics, ConvergenceOrdersOnOneEvent) {
+  const OneEvent e;
+  const std::vector<double> exact = final_state(e.p, Scheme::reference, 0.1, e.time, e.mu, e.start);
+  const double slip = largest_difference(exact, e.start);
+  ASSERT_GT(slip, 1.0);  // there is an event
+  struct Case {
+    Scheme scheme;
+    double order;
+  };
+  for (const Case &c : {Case{Scheme::printed, 1.0}, Case{Scheme::semi_implicit, 1.0},
+                        Case{Scheme::verlet, 2.0}, Case{Scheme::rk4, 4.0}}) {
+    // Slope of log error over log h by least squares.
+    double sx = 0, sy = 0, sxx = 0, sxy = 0;
+    int n = 0;
+    double last = 0.0;
+    for (double h = 0.1; h > 0.1 / 40.0; h /= 2.0, ++n) {
+      last = largest_difference(final_state(e.p, c.scheme, h, e.time, e.mu, e.start), exact) / slip;
+      const double x = std::log(h), y = std::log(last);
+      sx += x;
+      sy += y;
+      sxx += x * x;
+      sxy += x * y;
+    }
+    const double order = (n * sxy - sx * sy) / (n * sxx - sx * sx);
+    RecordProperty(to_string(c.scheme), std::to_string(order));
+    std::printf("%s: order %.2f, relative error %.2g at h = %.4g\n", to_string(c.scheme), order,
+                last, 0.1 / 32);
+    EXPECT_NEAR(order, c.order, 0.25) << to_string(c.scheme);
+    EXPECT_LT(last, c.order < 1.5 ? 2e-2 : c.order < 3.0 ? 1e-4 : 1e-8) << to_string(c.scheme);
+  }
+}
+
+TEST(SliderPhysics, ReferenceAgreesWithItselfAtAnotherStep) {
+  const OneEvent e;
+  const auto a = final_state(e.p, Scheme::reference, 0.1, e.time, e.mu, e.start);
+  const auto b = final_state(e.p, Scheme::reference, 0.025, e.time, e.mu, e.start);
+  EXPECT_LT(largest_difference(a, b), 1e-11);
+}
+
+TEST(SliderPhysics, NoBackSlip) {
+  Parameters p;
+  p.blocks = 40;
+  p.velocity = 0.1;
+  p.dt = 0.05;
+  const auto mu = random_friction(p.blocks, 0.5, 1.0, 3);
+  for (Scheme scheme : {Scheme::printed, Scheme::semi_implicit, Scheme::verlet, Scheme::rk4}) {
+    p.scheme = scheme;
+    auto watch = [&](auto &chain) {
+      std::vector<double> before = chain.displacements();
+      int stops = 0;
+      std::vector<double> v_before = chain.velocities();
+      for (int n = 0; n < 30000; ++n) {
+        chain.advance();
+        const auto u = chain.displacements(), v = chain.velocities();
+        for (std::size_t i = 0; i < u.size(); ++i) {
+          // Located switches leave rounding of the last digit at most.
+          ASSERT_GE(u[i], before[i] - 1e-12) << to_string(scheme) << " step " << n;
+          ASSERT_GE(v[i], 0.0) << to_string(scheme) << " step " << n;
+          stops += v[i] == 0.0 && v_before[i] > 0.0;
+        }
+        before = u;
+        v_before = v;
+      }
+      EXPECT_GT(stops, 20) << to_string(scheme);
+    };
+    if (scheme == Scheme::rk4) {
+      SwitchingChain chain(p, mu);
+      watch(chain);
+    } else {
+      Chain chain(p, mu, false, InstructionSet::automatic);
+      watch(chain);
+    }
+  }
+}
+
+TEST(SliderPhysics, BlockPushedBackwardsStaysStuck) {
+  Parameters p;
+  p.blocks = 3;
+  p.dt = 0.01;
+  for (Scheme scheme : stepped) {
+    p.scheme = scheme;
+    Chain chain(p, {5.0, 5.0, 5.0}, false, InstructionSet::automatic);
+    // The first block is 2 ahead: pushed back with 4, above its coefficient in magnitude.
+    chain.set_displacements({2.0, 0.0, 0.0});
+    for (int n = 0; n < 1000; ++n) chain.advance();
+    EXPECT_EQ(chain.displacements()[0], 2.0);
+    EXPECT_EQ(chain.moved(), 0);
+  }
+}
+
+TEST(SliderPhysics, EnergyLedgerClosesAsTheSchemeConverges) {
+  // Work of the plate = PE + kinetic energy + friction loss.
+  const OneEvent e;
+  for (Scheme scheme : {Scheme::semi_implicit, Scheme::verlet}) {
+    double gap[2] = {};
+    for (int k = 0; k < 2; ++k) {
+      Parameters p = e.p;
+      p.scheme = scheme;
+      p.dt = k == 0 ? 0.02 : 0.005;
+      ScalarChain chain(p, e.mu, true);
+      chain.set_displacements(e.start);
+      const double pe_start = chain.pe();
+      for (long n = 0; n < std::lround(e.time / p.dt); ++n) chain.advance();
+      const EnergyLedger l = chain.ledger();
+      ASSERT_GT(l.friction, 0.1);
+      gap[k] = std::fabs(l.plate - (chain.pe() - pe_start) - l.kinetic - l.friction) / l.friction;
+    }
+    const double order = std::log(gap[0] / gap[1]) / std::log(4.0);
+    EXPECT_GT(order, scheme == Scheme::verlet ? 1.6 : 0.8) << to_string(scheme);
+    EXPECT_LT(gap[1], scheme == Scheme::verlet ? 1e-4 : 1e-2) << to_string(scheme);
+  }
+}
+
+TEST(SliderPhysics, LedgerOfLocatedScheme) {
+  // PE follows from the forces at the ends of each step, friction is integrated along with the
+  // motion, and the work of the plate is summed here: three separate ways.
+  OneEvent e;
+  e.p.scheme = Scheme::rk4;
+  e.p.dt = 0.005;
+  SwitchingChain chain(e.p, e.mu);
+  chain.set_displacements(e.start);
+  const double pe_start = chain.pe();
+  double plate = 0.0, old_power = 0.0;
+  auto power = [&] {
+    double sum = 0.0;
+    for (double u : chain.displacements()) sum += chain.time() * e.p.velocity - u;
+    return e.p.kl * sum * e.p.velocity;
+  };
+  old_power = power();
+  for (long n = 0; n < std::lround(e.time / e.p.dt); ++n) {
+    chain.advance();
+    const double now = power();
+    plate += 0.5 * (old_power + now) * e.p.dt;
+    old_power = now;
+  }
+  const EnergyLedger l = chain.ledger();
+  EXPECT_NEAR(plate, chain.pe() - pe_start + l.kinetic + l.friction, 1e-5 * l.friction);
+  EXPECT_NEAR(chain.pe(), direct_energy(e.p, chain.displacements(), chain.time() * e.p.velocity),
+              1e-10);
+}
+
+TEST(SliderPhysics, ExtremeParametersStayFinite) {
+  struct Case {
+    int blocks;
+    double kl, velocity, low, high;
+  };
+  for (const Case &c : {Case{64, 1e-4, 0.01, 0.5, 1.0}, Case{64, 10.0, 0.01, 0.5, 1.0},
+                        Case{64, 0.01, 1e-6, 0.5, 1.0}, Case{64, 0.01, 1.0, 0.5, 1.0},
+                        Case{64, 10.0, 1.0, 0.5, 1.0}, Case{1, 0.01, 0.01, 0.5, 1.0},
+                        Case{2, 0.01, 0.1, 0.5, 1.0}, Case{3, 0.01, 0.1, 0.5, 1.0},
+                        Case{64, 0.01, 0.1, 0.7, 0.7}, Case{64, 0.01, 0.1, 0.7, 0.7 + 1e-9}}) {
+    for (Scheme scheme : {Scheme::semi_implicit, Scheme::verlet}) {
+      Parameters p;
+      p.blocks = c.blocks;
+      p.kl = c.kl;
+      p.velocity = c.velocity;
+      p.scheme = scheme;
+      p.dt = stability_limit(p) * 0.999;
+      p.dt = std::min(p.dt, 1.0);
+      Chain chain(p, random_friction(p.blocks, c.low, c.high, 5), false, InstructionSet::automatic);
+      for (int n = 0; n < 50000; ++n) chain.advance();
+      const auto u = chain.displacements();
+      for (double x : u) ASSERT_TRUE(std::isfinite(x) && x >= 0.0);
+      const double direct = direct_energy(p, u, chain.plate());
+      // Displacements are rounded at the size of the plate's travel; each rounding acts through a
+      // force of order one. Worst case: all of one sign.
+      const double rounding = 2.2e-16 * chain.plate() * p.blocks * 50000.0;
+      EXPECT_NEAR(chain.pe(), direct, rounding + 1e-9 * (1.0 + direct));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace Slider

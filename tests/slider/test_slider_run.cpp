@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "lsm_catalogue.h"
+#include "slider_run.h"
+
+namespace Slider {
+namespace {
+
+RunOptions options(int blocks, double dt, std::int64_t steps) {
+  RunOptions o;
+  o.parameters.blocks = blocks;
+  o.parameters.dt = dt;
+  o.mu = random_friction(blocks, 0.5, 1.0, 21);
+  o.steps = steps;
+  o.picker.lambda = 0.95;
+  return o;
+}
+
+std::string text(const std::string &path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+TEST(SliderRun, PureLoadingOverAThousandMillionSteps) {
+  for (LSM::PickerReading reading : {LSM::PickerReading::exponential, LSM::PickerReading::average,
+                                     LSM::PickerReading::literal}) {
+    RunOptions o = options(100, 0.05, 1000000000);
+    o.parameters.velocity = 1e-7;  // the plate reaches 5, far from the onset at 50
+    o.picker.reading = reading;
+    o.picker.keep_nonpositive = true;
+    const RunResult r = run(o);
+    EXPECT_EQ(r.steps, 1000000000);
+    EXPECT_EQ(r.events, 0);
+    EXPECT_EQ(r.moved, 0);
+    EXPECT_EQ(r.mean_slip, 0.0);
+    EXPECT_NEAR(r.pe, 100 * 0.5 * 0.01 * 25.0, 1e-10);
+    EXPECT_GT(r.jumped, 900000000);
+  }
+}
+
+TEST(SliderRun, JumpingChangesNoEvent) {
+  // The dense kernel takes every step, the active one jumps through quiet loading.
+  for (LSM::PickerReading reading : {LSM::PickerReading::exponential, LSM::PickerReading::average,
+                                     LSM::PickerReading::literal}) {
+    RunOptions o = options(24, 0.05, 2000000);
+    o.parameters.kl = 0.2;
+    o.picker.reading = reading;
+    const std::string a = testing::TempDir() + "slider_jump_a.csv",
+                      b = testing::TempDir() + "slider_jump_b.csv";
+    o.catalogue = a;
+    const RunResult active = run(o);
+    o.catalogue = b;
+    o.kernel = Kernel::dense;
+    const RunResult dense = run(o);
+    EXPECT_GT(active.jumped, 100000);
+    EXPECT_EQ(dense.jumped, 0);
+    EXPECT_GT(active.events, 20);
+    EXPECT_EQ(active.dropped_nonpositive, dense.dropped_nonpositive);
+    EXPECT_EQ(text(a), text(b));
+  }
+}
+
+TEST(SliderRun, SizesAreEnergyDrops) {
+  RunOptions o = options(50, 0.05, 400000);
+  o.parameters.velocity = 0.05;
+  o.catalogue = testing::TempDir() + "slider_sizes.csv";
+  o.x_centroid = o.rupture_length = true;
+  const RunResult r = run(o);
+  const LSM::Catalogue c = LSM::read_catalogue(o.catalogue);
+  ASSERT_EQ(static_cast<std::int64_t>(c.events.size()), r.events);
+  ASSERT_GT(r.events, 10);
+  for (const LSM::Event &e : c.events) {
+    EXPECT_NEAR(e.size, e.pe_start - e.pe_end, 1e-12 * e.pe_start);
+    EXPECT_GE(e.slip_moment, 0.0);
+    EXPECT_GE(e.rupture_length, 0.0);
+    EXPECT_LE(e.rupture_length, 50.0);
+    EXPECT_GE(e.x_centroid, 0.0);
+    EXPECT_LE(e.x_centroid, 50.0);
+    EXPECT_DOUBLE_EQ(e.t_start, 0.05 * static_cast<double>(e.step_start));
+  }
+}
+
+TEST(SliderRun, AllSchemesFindTheFirstLargeEvent) {
+  // Chaos leaves only the first events comparable across schemes.
+  RunOptions o = options(6, 0.005, 0);
+  o.parameters.kl = 0.5;
+  o.parameters.velocity = 0.1;
+  o.steps = 6000;
+  o.picker.lambda = 0.9;
+  o.parameters.scheme = Scheme::reference;
+  o.catalogue = testing::TempDir() + "slider_first_reference.csv";
+  run(o);
+  const LSM::Catalogue expected = LSM::read_catalogue(o.catalogue);
+  ASSERT_GE(expected.events.size(), 1U);
+  for (Scheme scheme : {Scheme::printed, Scheme::semi_implicit, Scheme::verlet, Scheme::rk4}) {
+    o.parameters.scheme = scheme;
+    o.catalogue = testing::TempDir() + "slider_first.csv";
+    run(o);
+    const LSM::Catalogue found = LSM::read_catalogue(o.catalogue);
+    ASSERT_GE(found.events.size(), 1U) << to_string(scheme);
+    EXPECT_NEAR(found.events[0].t_start, expected.events[0].t_start, 0.03) << to_string(scheme);
+    EXPECT_NEAR(found.events[0].size / expected.events[0].size, 1.0, 0.05) << to_string(scheme);
+  }
+}
+
+}  // namespace
+}  // namespace Slider
