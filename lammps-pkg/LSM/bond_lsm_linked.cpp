@@ -120,6 +120,9 @@ template <bool EV, bool RECORD, bool BREAK, bool DIM3> void BondLSMLinked::eval(
       if constexpr (BREAK)
         if (ratio[type] > 0.0 && LSM::link_is_broken(r, r0, ratio[type])) {
           bondlist[n][2] = 0;
+          if constexpr (RECORD)
+            work_broken += (newton_bond || j < nlocal ? 1.0 : 0.5) *
+                LSM::Spring::energy(stiffness[type], r - r0);
           broken.push_back(atom->tag[i]);
           broken.push_back(atom->tag[j]);
           continue;

@@ -50,6 +50,7 @@ enum {
   WORK_FRICTION,
   WORK_VISCOSITY,
   RESIDUAL,
+  WORK_BROKEN,
   NLEDGER
 };
 
@@ -62,7 +63,7 @@ ComputeLSMEvents::ComputeLSMEvents(LAMMPS *_lmp, int narg, char **arg) :
     check_every(1000), resume(false), progress(true), links(nullptr), recorder(nullptr),
     plates(nullptr), first_filling(0), first_sending(0), count_filling(0), count_sending(0),
     request(MPI_REQUEST_NULL), pending(false), shown_at(0.0), started_at(0.0),
-    ledger_started(false), ledger_start(0.0), friction_before(0.0), anchor_time(0.0), anchor_dt(0.0),
+    ledger_started(false), ledger_start(0.0), friction_before(0.0), broken_before(0.0), anchor_time(0.0), anchor_dt(0.0),
     anchor_step(0), last_recorded(-1), opened(false)
 {
   if (igroup) error->all(FLERR, "Compute lsm/events must use group all");
@@ -268,7 +269,8 @@ LSM::CatalogueInfo ComputeLSMEvents::header() const
   add("links", std::to_string(atom->nbonds));
   add("length", number(domain->prd[0]));
   add("dt", number(update->dt));
-  for (const FixLSMNVE *p : integrators) add("viscosity", number(p->viscosity()));
+  for (size_t n = 0; n < integrators.size(); n++)
+    add(n ? "viscosity_" + std::to_string(n + 1) : "viscosity", number(integrators[n]->viscosity()));
   add("picker", LSM::to_string(picker_settings.reading));
   add("lambda", number(picker_settings.lambda));
   add("min_size", number(picker_settings.min_size));
@@ -293,11 +295,12 @@ void ComputeLSMEvents::open_files(bigint step)
   const bool from_restart = !recorder->restart_state.empty();
   if (resume && !from_restart && comm->me == 0) {
     std::error_code code;
-    if (!catalogue_file.empty() && std::filesystem::exists(catalogue_file, code))
-      error->one(FLERR,
-                 "Compute lsm/events resume yes: catalogue {} exists, but the restart file holds no "
-                 "picker state of compute {}; read a restart written while it was active",
-                 catalogue_file, id);
+    for (const std::string &file : {catalogue_file, series_file})
+      if (!file.empty() && std::filesystem::exists(file, code))
+        error->one(FLERR,
+                   "Compute lsm/events resume yes: file {} exists, but the restart file holds no "
+                   "picker state of compute {}; read a restart written while it was active",
+                   file, id);
   }
   if (comm->me == 0) {
     picker = std::make_unique<LSM::EventPicker>(picker_settings);
@@ -309,7 +312,7 @@ void ComputeLSMEvents::open_files(bigint step)
   if (from_restart) unpack_state(recorder->restart_state);
   if (comm->me != 0) return;
 
-  const std::vector<std::string> free_to_change = {"program", "ranks"};
+  const std::vector<std::string> free_to_change = {"program", "ranks", "links"};
   try {
     std::error_code code;
     if (!catalogue_file.empty()) {
@@ -569,6 +572,11 @@ double ComputeLSMEvents::friction_work() const
   return friction_before + total(mine);
 }
 
+double ComputeLSMEvents::broken_work() const
+{
+  return broken_before + (links ? total(links->work_broken) : 0.0);
+}
+
 double ComputeLSMEvents::viscous_work() const
 {
   double mine = 0.0;
@@ -585,7 +593,7 @@ double ComputeLSMEvents::residual() const
 {
   double mine = 0.0;
   for (const auto *s : sources) mine += s->pe_link + s->pe_contact + s->pe_tangential;
-  double e = kinetic() + total(mine) + friction_work() + viscous_work();
+  double e = kinetic() + total(mine) + friction_work() + viscous_work() + broken_work();
   if (plates) e -= plates->work();
   return e - ledger_start;
 }
@@ -619,7 +627,15 @@ void ComputeLSMEvents::check_health()
   }
   if (what.empty()) return;
 
-  if (all[0] == 0.0 && all[1] < 1e300) flush();
+  // a restart file of such a state would be of no use, and would replace an older one
+
+  if (all[0] > 0.0 || all[1] >= 1e300)
+    error->all(FLERR,
+               "Run stopped at step {}: {}. The catalogue ends with the last event before it; use a "
+               "smaller time step or start from an earlier restart",
+               update->ntimestep, what);
+
+  flush();
   auto writer = WriteRestart(lmp);
   writer.multiproc_options(0, 0, nullptr);
   writer.write(emergency_file);
@@ -650,13 +666,13 @@ void ComputeLSMEvents::show_progress(bigint step)
 
 std::vector<double> ComputeLSMEvents::pack_state()
 {
+  if (!opened) return recorder->restart_state;
   flush();
-  const double friction = friction_work();
+  const double friction = friction_work(), broken = broken_work();
   std::vector<double> state;
-  if (!opened) return state;
-  state = {2.0,         static_cast<double>(last_recorded),
+  state = {3.0,         static_cast<double>(last_recorded),
            ledger_started ? 1.0 : 0.0,
-           ledger_start, friction,
+           ledger_start, friction, broken,
            anchor_time,  static_cast<double>(anchor_step),
            anchor_dt};
   if (comm->me == 0) {
@@ -673,16 +689,17 @@ std::vector<double> ComputeLSMEvents::pack_state()
 
 void ComputeLSMEvents::unpack_state(const std::vector<double> &state)
 {
-  constexpr size_t fixed = 8, words = sizeof(LSM::PickerState) / sizeof(double);
-  if (state.size() < fixed + words || state[0] != 2.0)
+  constexpr size_t fixed = 9, words = sizeof(LSM::PickerState) / sizeof(double);
+  if (state.size() < fixed + words || state[0] != 3.0)
     error->all(FLERR, "Compute lsm/events {}: the restart file holds a state of another version", id);
   last_recorded = static_cast<bigint>(state[1]);
   ledger_started = state[2] != 0.0;
   ledger_start = state[3];
   friction_before = state[4];
-  anchor_time = state[5];
-  anchor_step = static_cast<bigint>(state[6]);
-  anchor_dt = state[7];
+  broken_before = state[5];
+  anchor_time = state[6];
+  anchor_step = static_cast<bigint>(state[7]);
+  anchor_dt = state[8];
   if (comm->me == 0) {
     LSM::PickerState picker_state;
     memcpy(static_cast<void *>(&picker_state), &state[fixed], sizeof(picker_state));
@@ -734,6 +751,7 @@ void ComputeLSMEvents::compute_vector()
   vector[WORK_FRICTION] = friction_work();
   vector[WORK_VISCOSITY] = viscous_work();
   vector[RESIDUAL] = ledger_started ? residual() : 0.0;
+  vector[WORK_BROKEN] = broken_work();
 }
 
 /* ---------------------------------------------------------------------- */

@@ -97,6 +97,7 @@ class ComputeLSMEvents : public Compute {
   bool ledger_started;
   double ledger_start;
   double friction_before;    // work lost to friction before the last restart
+  double broken_before;      // and with links that broke
 
   // time of a step counts from here, so that a restarted run gives the same numbers
 
@@ -119,6 +120,7 @@ class ComputeLSMEvents : public Compute {
   double kinetic() const;
   double friction_work() const;
   double viscous_work() const;
+  double broken_work() const;
   double residual() const;
   void check_health();
   void show_progress(bigint step);

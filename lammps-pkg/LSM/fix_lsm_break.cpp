@@ -25,6 +25,7 @@ FixLSMBreak::FixLSMBreak(LAMMPS *_lmp, int narg, char **arg) :
 {
   if (narg != 3) error->all(FLERR, "Fix LSM_BREAK is internal to bond style lsm/linked");
   scalar_flag = 1;
+  extscalar = 0;
   global_freq = 1;
   nevery = 1;
   force_reneighbor = 1;

@@ -228,13 +228,14 @@ double FixLSMNVE::highest_frequency()
 
   struct Spring {
     int i, j;
+    bool both;    // whether the force on j is added here as well
     double k, kt, n[3];
   };
   std::vector<Spring> springs;
   double **x = atom->x;
 
-  auto add = [&](int i, int j, double k, double kt) {
-    Spring s{i, j, k, kt, {x[i][0] - x[j][0], x[i][1] - x[j][1], x[i][2] - x[j][2]}};
+  auto add = [&](int i, int j, bool newton, double k, double kt) {
+    Spring s{i, j, newton || j < nlocal, k, kt, {x[i][0] - x[j][0], x[i][1] - x[j][1], x[i][2] - x[j][2]}};
     const double r = sqrt(s.n[0] * s.n[0] + s.n[1] * s.n[1] + s.n[2] * s.n[2]);
     if (r == 0.0) return;
     for (double &c : s.n) c /= r;
@@ -247,7 +248,7 @@ double FixLSMNVE::highest_frequency()
     if (force->bond_match("lsm/linked") && k)
       for (int n = 0; n < neighbor->nbondlist; n++) {
         const int *b = neighbor->bondlist[n];
-        if (b[2] > 0) add(b[0], b[1], k[b[2]], 0.0);
+        if (b[2] > 0) add(b[0], b[1], force->newton_bond, k[b[2]], 0.0);
       }
   }
   auto contacts = dynamic_cast<PairLSMFree *>(force->pair_match("lsm/", 0));
@@ -263,7 +264,7 @@ double FixLSMNVE::highest_frequency()
         const double dx = x[i][0] - x[j][0], dy = x[i][1] - x[j][1], dz = x[i][2] - x[j][2];
         if (dx * dx + dy * dy + dz * dz > reach * reach) continue;
         const int it = atom->type[i], jt = atom->type[j];
-        add(i, j, k[it][jt], kt ? kt[it][jt] : 0.0);
+        add(i, j, force->newton_pair, k[it][jt], kt ? kt[it][jt] : 0.0);
       }
     }
   }
@@ -292,14 +293,13 @@ double FixLSMNVE::highest_frequency()
         u[c] = trial[s.i * dim + c] - trial[s.j * dim + c];
         along += u[c] * s.n[c];
       }
-      const bool both = force->newton_bond || s.j < nlocal;
       for (int c = 0; c < dim; c++) {
         const double g = (s.k - s.kt) * along * s.n[c] + s.kt * u[c];
         image[s.i * dim + c] += g;
-        if (both) image[s.j * dim + c] -= g;
+        if (s.both) image[s.j * dim + c] -= g;
       }
     }
-    if (force->newton_bond) comm->reverse_comm(this);
+    if (force->newton) comm->reverse_comm(this);
 
     // trial holds displacements u; the next one is M^-1 K u, its Rayleigh quotient u.Ku / u.Mu
 

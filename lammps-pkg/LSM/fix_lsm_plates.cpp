@@ -131,10 +131,12 @@ void FixLSMPlates::init()
   vy_known = true;
 
   for (const auto &other : modify->get_fix_list())
-    if (other != this && other->time_integrate) {
+    if (other != this && (other->time_integrate || strcmp(other->style, style) == 0)) {
+      const auto twin = dynamic_cast<FixLSMPlates *>(other);
+      const int bits = twin ? twin->plate_bits() : other->groupbit;
       int both = 0, any = 0;
       for (int i = 0; i < atom->nlocal; i++)
-        if ((atom->mask[i] & other->groupbit) && (atom->mask[i] & plate_bits())) both = 1;
+        if ((atom->mask[i] & bits) && (atom->mask[i] & plate_bits())) both = 1;
       MPI_Allreduce(&both, &any, 1, MPI_INT, MPI_MAX, world);
       if (any)
         error->all(FLERR,

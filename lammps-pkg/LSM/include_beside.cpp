@@ -25,7 +25,7 @@ void IncludeBeside::command(int narg, char **arg)
   char path[4096] = "";
   if (comm->me == 0) {
     std::string full = arg[0];
-    if (infile && infile != stdin && full.front() != '/') {
+    if (infile && infile != stdin && !full.empty() && full.front() != '/') {
       char script[2048];
       const std::string name = platform::guesspath(infile, script, sizeof(script));
       const auto slash = name.find_last_of('/');

@@ -30,6 +30,7 @@ class LSMEnergySource {
   double pe_contact = 0.0;         ///< normal contact springs, at the last force evaluation
   double pe_tangential = 0.0;      ///< tangential contact springs, at the last force evaluation
   double work_friction = 0.0;      ///< work lost to friction, accumulated
+  double work_broken = 0.0;        ///< energy of the links that broke, accumulated
   double slip_bin = 1.0;           ///< width of the bins of `slip`
   std::vector<LSMSlip> slip;       ///< contacts that slid in the last force evaluation
 };

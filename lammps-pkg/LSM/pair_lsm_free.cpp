@@ -151,6 +151,8 @@ void PairLSMFree::settings(int narg, char ** /*arg*/)
 bool PairLSMFree::parse_off(int narg, char **arg, int ilo, int ihi, int jlo, int jhi)
 {
   if (narg != 3 || strcmp(arg[2], "off") != 0) return false;
+  if (MAX(jlo, ilo) > jhi)
+    error->all(FLERR, "Pair lsm/*: pair_coeff {} {} names no pair of types I <= J", arg[0], arg[1]);
   for (int i = ilo; i <= ihi; i++)
     for (int j = MAX(jlo, i); j <= jhi; j++) {
       setflag[i][j] = 1;

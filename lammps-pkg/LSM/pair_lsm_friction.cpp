@@ -24,15 +24,16 @@
 using namespace LAMMPS_NS;
 
 // values stored per contact: elongation of the tangential spring along the tangent (-ny,nx), the vector
-// from j to i in the step before, and (only if a static coefficient exceeds the dynamic one) 1 if sliding.
+// from j to i in the step before, and (looked at only if a static coefficient exceeds the dynamic one) 1 if
+// sliding. Always four, so that a restart may switch static friction on or off.
 // Elongation is the same seen from i and from j; the vector changes its sign.
 
-enum { XI, DX, DY, SLIDING };
+enum { XI, DX, DY, SLIDING, SIZE_HISTORY };
 
 /* ---------------------------------------------------------------------- */
 
 PairLSMFriction::PairLSMFriction(LAMMPS *_lmp) :
-    PairLSMFree(_lmp), kt(nullptr), mu(nullptr), mus(nullptr), has_static(0), size_history(3),
+    PairLSMFree(_lmp), kt(nullptr), mu(nullptr), mus(nullptr), has_static(0),
     fix_dummy(nullptr), fix_history(nullptr)
 {
   centroidstressflag = CENTROID_NOTAVAIL;
@@ -43,7 +44,7 @@ PairLSMFriction::PairLSMFriction(LAMMPS *_lmp) :
   // placeholder so that the order of fixes is that of the input script
 
   fix_dummy = dynamic_cast<FixDummy *>(
-      modify->add_fix("NEIGH_HISTORY_LSM_DUMMY" + std::to_string(instance_me) + " all DUMMY"));
+      modify->add_fix("NEIGH_HISTORY_LSM_DUMMY all DUMMY"));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -52,9 +53,9 @@ PairLSMFriction::~PairLSMFriction()
 {
   delete[] svector;
   if (!fix_history)
-    modify->delete_fix("NEIGH_HISTORY_LSM_DUMMY" + std::to_string(instance_me));
+    modify->delete_fix("NEIGH_HISTORY_LSM_DUMMY");
   else
-    modify->delete_fix("NEIGH_HISTORY_LSM" + std::to_string(instance_me));
+    modify->delete_fix("NEIGH_HISTORY_LSM");
   if (allocated) {
     memory->destroy(kt);
     memory->destroy(mu);
@@ -117,10 +118,10 @@ template <bool EV, bool RECORD, bool HAS_STATIC> void PairLSMFriction::eval()
       const bool apart = rsq >= r0 * r0;
       if (apart && !touch[jj]) continue;
 
-      double *h = &allhistory[size_history * jj];
+      double *h = &allhistory[SIZE_HISTORY * jj];
       const int itype = type[i], jtype = type[j];
       const double r = sqrt(rsq);
-      const double rinv = 1.0 / r;
+      const double rinv = r > 0.0 ? 1.0 / r : 0.0;
       const double nx = delx * rinv, ny = dely * rinv;
 
       double dxi = 0.0;
@@ -128,12 +129,13 @@ template <bool EV, bool RECORD, bool HAS_STATIC> void PairLSMFriction::eval()
         // tangent of the middle of the step, so that the increment is of second order
 
         const double mx = delx + h[DX], my = dely + h[DY];
-        const double minv = 1.0 / sqrt(mx * mx + my * my);
+        const double msq = mx * mx + my * my;
+        const double minv = msq > 0.0 ? 1.0 / sqrt(msq) : 0.0;
         dxi = (my * (h[DX] - delx) + mx * (dely - h[DY])) * minv;
       } else {
         touch[jj] = 1;
         h[XI] = 0.0;
-        if constexpr (HAS_STATIC) h[SLIDING] = 0.0;
+        h[SLIDING] = 0.0;
       }
 
       const double kij = k[itype][jtype];
@@ -159,7 +161,7 @@ template <bool EV, bool RECORD, bool HAS_STATIC> void PairLSMFriction::eval()
 
       if (apart) {
         touch[jj] = 0;
-        memset(h, 0, size_history * sizeof(double));
+        memset(h, 0, SIZE_HISTORY * sizeof(double));
         continue;
       }
       h[XI] = s.xi;
@@ -265,24 +267,20 @@ void PairLSMFriction::init_style()
   if (domain->dimension != 2)
     error->all(FLERR, "Pair style lsm/friction needs a 2-dimensional simulation (dimension 2)");
 
-  int any = 0;
+  has_static = 0;
   for (int i = 1; i <= atom->ntypes; i++)
     for (int j = i; j <= atom->ntypes; j++)
-      if (on[i][j] && mus[i][j] > mu[i][j]) any = 1;
-  if (fix_history && any && !has_static)
-    error->all(FLERR, "Pair lsm/friction: mu_static > mu must be set before the first run");
-  if (!fix_history) {
-    has_static = any;
-    size_history = has_static ? 4 : 3;
-  }
+      if (on[i][j] && mus[i][j] > mu[i][j]) has_static = 1;
 
   PairLSMFree::init_style();
 
-  const std::string id_history = "NEIGH_HISTORY_LSM" + std::to_string(instance_me);
+  // one name, whichever styles came before, so that a restart finds the history
+
+  const std::string id_history = "NEIGH_HISTORY_LSM";
   if (!fix_history) {
     fix_history = dynamic_cast<FixNeighHistory *>(
-        modify->replace_fix("NEIGH_HISTORY_LSM_DUMMY" + std::to_string(instance_me),
-                            id_history + " all NEIGH_HISTORY " + std::to_string(size_history), 1));
+        modify->replace_fix("NEIGH_HISTORY_LSM_DUMMY",
+                            id_history + " all NEIGH_HISTORY " + std::to_string(SIZE_HISTORY), 1));
     fix_history->pair = this;
   } else {
     fix_history = dynamic_cast<FixNeighHistory *>(modify->get_fix_by_id(id_history));
@@ -310,7 +308,7 @@ void PairLSMFriction::transfer_history(double *source, double *target, int, int)
   target[XI] = source[XI];
   target[DX] = -source[DX];
   target[DY] = -source[DY];
-  if (has_static) target[SLIDING] = source[SLIDING];
+  target[SLIDING] = source[SLIDING];
 }
 
 /* ---------------------------------------------------------------------- */
@@ -354,7 +352,7 @@ double PairLSMFriction::single(int i, int j, int itype, int jtype, double rsq, d
   const int *jlist = list->firstneigh[i];
   for (int jj = 0; jj < list->numneigh[i]; jj++)
     if ((jlist[jj] & NEIGHMASK) == j) {
-      svector[0] = fix_history->firstvalue[i][size_history * jj + XI];
+      svector[0] = fix_history->firstvalue[i][SIZE_HISTORY * jj + XI];
       svector[1] = -kt[lo][hi] * svector[0];
       energy += LSM::Spring::energy(kt[lo][hi], svector[0]);
       break;

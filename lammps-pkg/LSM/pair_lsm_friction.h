@@ -32,8 +32,7 @@ class PairLSMFriction : public PairLSMFree {
 
  protected:
   double **kt, **mu, **mus;    // tangential stiffness, dynamic and static friction coefficient
-  int has_static;              // 1 if any mus > mu; adds one value to the history
-  int size_history;
+  int has_static;              // 1 if any mus > mu
   class FixDummy *fix_dummy;
   class FixNeighHistory *fix_history;
 
