@@ -41,6 +41,7 @@ class ComputeLSMEvents : public Compute {
   void setup_record();
   void record();
   void flush();
+  void check_health();
   std::vector<double> pack_state();
 
  private:
@@ -122,7 +123,6 @@ class ComputeLSMEvents : public Compute {
   double viscous_work() const;
   double broken_work() const;
   double residual() const;
-  void check_health();
   void show_progress(bigint step);
 };
 

@@ -26,7 +26,7 @@ FixLSMRecord::FixLSMRecord(LAMMPS *_lmp, int narg, char **arg) : Fix(_lmp, narg,
 
 int FixLSMRecord::setmask()
 {
-  return END_OF_STEP | POST_RUN;
+  return PRE_EXCHANGE | END_OF_STEP | POST_RUN;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -34,6 +34,13 @@ int FixLSMRecord::setmask()
 void FixLSMRecord::setup(int /*vflag*/)
 {
   owner->setup_record();
+}
+
+// a link torn over half the box would stop LAMMPS with 'Bond atoms missing' when the lists are built
+
+void FixLSMRecord::pre_exchange()
+{
+  owner->check_health();
 }
 
 void FixLSMRecord::end_of_step()

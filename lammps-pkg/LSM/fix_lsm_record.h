@@ -24,6 +24,7 @@ class FixLSMRecord : public Fix {
   FixLSMRecord(class LAMMPS *, int, char **);
   int setmask() override;
   void setup(int) override;
+  void pre_exchange() override;
   void end_of_step() override;
   void post_run() override;
   void write_restart(FILE *) override;

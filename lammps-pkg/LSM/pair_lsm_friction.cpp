@@ -15,6 +15,7 @@
 #include "modify.h"
 #include "neigh_list.h"
 #include "neighbor.h"
+#include "update.h"
 
 #include "lsm_force_laws.h"
 
@@ -97,10 +98,14 @@ template <bool EV, bool RECORD, bool HAS_STATIC> void PairLSMFriction::eval()
   int **firsttouch = fix_history->firstflag;
   double **firsthistory = fix_history->firstvalue;
 
-  const bool record_slip = RECORD && (record_what & SLIP);
+  // the setup of a run evaluates the forces of a step that was done: the state of the contacts stays, so
+  // that a run in pieces equals one run, and a contact that slides goes on sliding
+
+  const bool setup = update->setupflag != 0;
+  const bool record_slip = RECORD && (record_what & SLIP) && !setup;
   const double xlo = domain->boxlo[0], lx = domain->prd[0];
   double e_normal = 0.0, e_tangential = 0.0, lost = 0.0;
-  if (record_slip) slip.clear();
+  if constexpr (RECORD) slip.clear();
 
   for (int ii = 0; ii < list->inum; ii++) {
     const int i = list->ilist[ii];
@@ -143,7 +148,9 @@ template <bool EV, bool RECORD, bool HAS_STATIC> void PairLSMFriction::eval()
       const LSM::FrictionCoefficients c{kt[itype][jtype], mu[itype][jtype], mus[itype][jtype]};
       bool sliding = false;
       if constexpr (HAS_STATIC) sliding = h[SLIDING] != 0.0;
-      const LSM::FrictionStep s = LSM::friction_step<HAS_STATIC>(c, h[XI], dxi, fn, sliding);
+      const LSM::FrictionStep s = setup && !apart
+          ? LSM::FrictionStep{h[XI], c.k_t * h[XI], 0.0, 0.0, sliding}
+          : LSM::friction_step<HAS_STATIC>(c, h[XI], dxi, fn, sliding);
 
       const bool both = newton_pair || j < nlocal;
       if constexpr (RECORD) {
