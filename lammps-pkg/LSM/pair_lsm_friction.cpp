@@ -39,6 +39,10 @@ PairLSMFriction::PairLSMFriction(LAMMPS *_lmp) :
 {
   centroidstressflag = CENTROID_NOTAVAIL;
   nondefault_history_transfer = 1;
+
+  // a contact lost in the step in which the list is built keeps its history until its release was counted
+
+  beyond_contact = 1;
   single_extra = 2;
   svector = new double[2];
 

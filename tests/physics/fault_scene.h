@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file fault_scene.h
+/// A short fault for the physics tests: compressed once, then sheared from the same data file.
+#ifndef LSM_PHYSICS_FAULT_SCENE_H
+#define LSM_PHYSICS_FAULT_SCENE_H
+
+#include <string>
+
+#include "lmp_runner.h"
+
+namespace physics {
+
+inline const char *const fault_columns =
+    "thermo_style custom step ke c_events c_events[2] c_events[3] c_events[5] c_events[6] "
+    "c_events[7] c_events[8] c_events[9] c_events[10] c_events[11] c_events[12] c_events[13] "
+    "f_plates f_plates[1] f_plates[2] f_plates[8] f_plates[9]\n"
+    "thermo_modify norm no format float %.17g\n";
+
+/// Columns that a restart or another number of ranks must reproduce.
+inline const std::vector<std::string> compared = {
+    "KinEng",       "c_events[5]",  "c_events[6]",  "c_events[7]", "c_events[8]", "c_events[9]",
+    "c_events[10]", "c_events[11]", "c_events[12]", "f_plates[1]", "f_plates[2]", "f_plates[9]"};
+
+inline std::string fault_start() {
+  return R"(
+variable newton   index off
+variable dt       index 0.03
+variable mus      index 0.6
+variable seed     index 3
+units             lj
+dimension         2
+boundary          p f p
+newton            ${newton}
+atom_style        hybrid bond sphere
+atom_modify       map array
+comm_modify       mode single cutoff 3.6
+neighbor          0.4 bin
+neigh_modify      delay 0 every 10 check yes
+special_bonds     lj/coul 0 1 1
+)";
+}
+
+inline std::string fault_forces() {
+  return R"(
+bond_style        lsm/linked
+bond_coeff        1 1.0
+pair_style        lsm/friction
+pair_coeff        * * off
+pair_coeff        3 4 1.0 1.0 0.6 ${mus}
+)";
+}
+
+inline std::string fault_groups() {
+  return R"(
+group             lower type 5
+group             upper type 6
+group             plates union lower upper
+group             blocks subtract all plates
+)";
+}
+
+/// Compression; leaves settled.data.
+inline std::string fault_settle() {
+  return fault_start() +
+         "create_lsm_fault length 40 width 20 seed ${seed} failures 500\n" + fault_groups() +
+         fault_forces() + R"(
+timestep          0.03
+fix               move blocks lsm/nve viscosity 0.2
+fix               plates all lsm/plates lower upper stress 0.006 stressramp 60 damping 0.2
+thermo            1000
+run               6000
+write_data        settled.data nocoeff
+)";
+}
+
+inline std::string fault_read() {
+  return fault_start() + "read_data settled.data\n" + fault_groups() + fault_forces() +
+         "timestep ${dt}\n";
+}
+
+/// Fixes, compute and thermo of the shear phase; events are frequent, as the plates are fast.
+inline std::string fault_shear(const std::string &events) {
+  return R"(
+variable          viscosity index 0.02
+variable          velocity index 0.005
+fix               move blocks lsm/nve viscosity ${viscosity}
+fix               plates all lsm/plates lower upper stress 0.006 damping ${viscosity} velocity ${velocity} ramp 3
+compute           events all lsm/events ledger yes )" +
+         events + "\n" + fault_columns;
+}
+
+/// Suite that has settled.data in its folder.
+class Fault : public Lmp {
+ protected:
+  static void SetUpTestSuite() {
+    Lmp::SetUpTestSuite();
+    const Result settled = run_text(fault_settle());
+    if (settled.exit_code != 0) throw std::runtime_error(settled.output);
+  }
+};
+
+}  // namespace physics
+
+#endif

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file lmp_runner.h
+/// Runs lmp as another process in a temporary folder and reads what it printed.
+#ifndef LSM_PHYSICS_LMP_RUNNER_H
+#define LSM_PHYSICS_LMP_RUNNER_H
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+// Defined by CMake: LSM_LMP, LSM_INPUTS, LSM_MPIEXEC, LSM_MPIEXEC_NP.
+
+namespace physics {
+
+using Variables = std::vector<std::pair<std::string, std::string>>;
+
+inline std::string read_file(const std::string &path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+/// 17 significant digits: a double survives the way into a script and back.
+inline std::string text(double value) {
+  std::ostringstream out;
+  out.precision(17);
+  out << value;
+  return out.str();
+}
+
+/// What a run left behind.
+struct Result {
+  int exit_code = -1;  ///< 128 + signal if killed
+  std::string output;  ///< standard output and error
+  std::vector<std::map<std::string, double>> thermo;  ///< rows of all runs by column name
+  std::map<std::string, double> printed;              ///< lines "name = number" of print commands
+
+  /// Last thermo value of a column; fails the test and returns NaN if there is none.
+  double last(const std::string &column) const {
+    if (!thermo.empty()) {
+      const auto found = thermo.back().find(column);
+      if (found != thermo.back().end()) return found->second;
+    }
+    ADD_FAILURE() << "no thermo column " << column << " in:\n" << output;
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  /// Value of a print line; fails the test and returns NaN if there is none.
+  double value(const std::string &name) const {
+    const auto found = printed.find(name);
+    if (found != printed.end()) return found->second;
+    ADD_FAILURE() << "no line '" << name << " = ' in:\n" << output;
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  /// Lines of the output that hold the given text.
+  std::vector<std::string> lines_with(const std::string &part) const {
+    std::vector<std::string> found;
+    std::istringstream in(output);
+    for (std::string line; std::getline(in, line);)
+      if (line.find(part) != std::string::npos) found.push_back(line);
+    return found;
+  }
+};
+
+inline void parse_output(Result &result) {
+  std::istringstream in(result.output);
+  std::vector<std::string> columns;
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream split(line);
+    const std::vector<std::string> words{std::istream_iterator<std::string>(split), {}};
+    if (words.empty()) continue;
+    if (words[0] == "Step") {
+      columns = words;
+      continue;
+    }
+    if (words[0] == "Loop") columns.clear();
+    char *end = nullptr;
+    if (!columns.empty() && words.size() == columns.size()) {
+      std::map<std::string, double> row;
+      for (std::size_t n = 0; n < words.size(); ++n) {
+        row[columns[n]] = std::strtod(words[n].c_str(), &end);
+        if (*end != '\0') break;
+      }
+      if (row.size() == words.size() && *end == '\0') result.thermo.push_back(row);
+    } else if (words.size() == 3 && words[1] == "=") {
+      const double value = std::strtod(words[2].c_str(), &end);
+      if (*end == '\0') result.printed[words[0]] = value;
+    }
+  }
+}
+
+/// Test fixture with a folder of its own; all tests of a suite share it.
+class Lmp : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    std::string name = (std::filesystem::temp_directory_path() / "lsm-physics-XXXXXX").string();
+    if (!mkdtemp(name.data())) throw std::runtime_error("cannot create a temporary folder");
+    folder() = name;
+  }
+  static void TearDownTestSuite() {
+    std::error_code code;
+    std::filesystem::remove_all(folder(), code);
+  }
+  static std::string path(const std::string &name) { return (folder() / name).string(); }
+
+  /// Runs a scene of the inputs folder.
+  static Result run_scene(const std::string &name, const Variables &variables = {}, int ranks = 1) {
+    return start(std::string(LSM_INPUTS) + "/" + name, variables, ranks);
+  }
+  /// Runs a script given as text.
+  static Result run_text(const std::string &script, const Variables &variables = {},
+                         int ranks = 1) {
+    std::ofstream(path("script.in")) << script;
+    return start("script.in", variables, ranks);
+  }
+
+ private:
+  static std::filesystem::path &folder() {
+    static std::filesystem::path one;
+    return one;
+  }
+
+  static Result start(const std::string &script, const Variables &variables, int ranks) {
+    std::vector<std::string> words;
+    if (ranks > 1)
+      words = {LSM_MPIEXEC, "--oversubscribe", LSM_MPIEXEC_NP, std::to_string(ranks)};
+    for (const char *word : {LSM_LMP, "-in", script.c_str(), "-log", "none"})
+      words.emplace_back(word);
+    for (const auto &variable : variables)
+      words.insert(words.end(), {"-var", variable.first, variable.second});
+    std::vector<char *> argv;
+    for (auto &word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+
+    const std::string out = path("output.txt"), where = folder().string();
+    const pid_t child = fork();
+    if (child == 0) {
+      const int from = open("/dev/null", O_RDONLY);
+      const int to = open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+      dup2(from, 0);
+      dup2(to, 1);
+      dup2(to, 2);
+      if (chdir(where.c_str()) == 0) execv(argv[0], argv.data());
+      _exit(127);
+    }
+    int status = -1;
+    waitpid(child, &status, 0);
+    Result result;
+    result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    result.output = read_file(out);
+    parse_output(result);
+    return result;
+  }
+};
+
+inline ::testing::AssertionResult succeeded(const Result &result) {
+  if (result.exit_code == 0) return ::testing::AssertionSuccess();
+  return ::testing::AssertionFailure() << "exit code " << result.exit_code << "\n" << result.output;
+}
+
+/// The run failed with one line of error that holds all the given parts.
+inline ::testing::AssertionResult failed_with(const Result &result,
+                                              const std::vector<std::string> &parts) {
+  if (result.exit_code == 0)
+    return ::testing::AssertionFailure() << "the run succeeded:\n" << result.output;
+  const auto lines = result.lines_with("ERROR");
+  if (lines.size() != 1)
+    return ::testing::AssertionFailure() << lines.size() << " lines of error:\n" << result.output;
+  for (const auto &part : parts)
+    if (lines[0].find(part) == std::string::npos)
+      return ::testing::AssertionFailure() << "'" << part << "' is not in: " << lines[0];
+  return ::testing::AssertionSuccess();
+}
+
+/// Differences of all columns of two thermo tables, relative to the largest value of the column.
+inline double thermo_difference(const Result &a, const Result &b,
+                                const std::vector<std::string> &columns) {
+  EXPECT_EQ(a.thermo.size(), b.thermo.size());
+  double worst = 0.0;
+  for (const auto &column : columns) {
+    double scale = 0.0, off = 0.0;
+    for (std::size_t n = 0; n < std::min(a.thermo.size(), b.thermo.size()); ++n) {
+      const double x = a.thermo[n].at(column), y = b.thermo[n].at(column);
+      scale = std::max({scale, std::fabs(x), std::fabs(y)});
+      off = std::max(off, std::fabs(x - y));
+      if (!std::isfinite(x) || !std::isfinite(y)) return std::numeric_limits<double>::infinity();
+    }
+    if (scale > 0.0) worst = std::max(worst, off / scale);
+  }
+  return worst;
+}
+
+}  // namespace physics
+
+#endif

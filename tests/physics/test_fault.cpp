@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A short sheared fault: energy ledger, restart, on-line and later picking, numbers of ranks.
+#include <cmath>
+
+#include "fault_scene.h"
+#include "lsm_catalogue.h"
+#include "lsm_event_picker.h"
+#include "lsm_pe_series.h"
+
+using namespace physics;
+
+using Ledger = Fault;
+using Restart = Fault;
+using Events = Fault;
+using Ranks = Fault;
+
+static void expect_same_events(const std::vector<LSM::Event> &a, const std::vector<LSM::Event> &b,
+                               double tolerance) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t n = 0; n < a.size(); ++n) {
+    EXPECT_EQ(a[n].id, b[n].id);
+    EXPECT_EQ(a[n].step_start, b[n].step_start);
+    EXPECT_EQ(a[n].step_end, b[n].step_end);
+    EXPECT_NEAR(a[n].size, b[n].size, tolerance * a[n].pe_start);
+    EXPECT_NEAR(a[n].pe_start, b[n].pe_start, tolerance * a[n].pe_start);
+    EXPECT_NEAR(a[n].t_end, b[n].t_end, 1e-9 * a[n].t_end);
+  }
+}
+
+TEST_F(Ledger, BalancesAndFallsWithTheTimeStep) {
+  std::vector<double> off;
+  for (double dt : {0.04, 0.02, 0.01}) {
+    const std::string steps = text(std::round(80.0 / dt));
+    const Result r = run_text(fault_read() + fault_shear("") + "thermo " +
+                                  text(std::round(4.0 / dt)) + "\nrun " + steps + "\n",
+                              {{"dt", text(dt)}});
+    ASSERT_TRUE(succeeded(r));
+    double most = 0.0;
+    for (const auto &row : r.thermo) most = std::max(most, std::fabs(row.at("c_events[13]")));
+    off.push_back(most / r.last("f_plates"));
+    std::printf("dt %g: residual %.3g of the plates' work %.4g; friction %.4g, viscosity %.4g\n", dt,
+                off.back(), r.last("f_plates"), r.last("c_events[11]"), r.last("c_events[12]"));
+    EXPECT_GT(r.last("c_events[11]"), 0.0);
+    EXPECT_GT(r.last("c_events[12]"), 0.0);
+  }
+  EXPECT_LT(off[0], 1e-3);
+  EXPECT_LT(off[2], 1e-4);
+  EXPECT_LT(off[2], off[0] / 4);
+}
+
+TEST_F(Ledger, SecondOrderBeforeTheFaultSlips) {
+  // plates that approach each other at first: contacts hold, nothing switches
+  std::vector<double> off;
+  for (double dt : {0.04, 0.02, 0.01}) {
+    const Result r =
+        run_text(fault_read() + fault_shear("") + "thermo " + text(std::round(0.8 / dt)) + "\nrun " +
+                     text(std::round(8.0 / dt)) + "\n",
+                 {{"dt", text(dt)}, {"mus", "100"}, {"velocity", "0.001"}});
+    ASSERT_TRUE(succeeded(r));
+    double most = 0.0;
+    for (const auto &row : r.thermo) most = std::max(most, std::fabs(row.at("c_events[13]")));
+    off.push_back(most);
+  }
+  std::printf("residual without slip: %.3g %.3g %.3g\n", off[0], off[1], off[2]);
+  EXPECT_NEAR(std::log2(off[0] / off[2]) / 2, 2.0, 0.3);
+}
+
+static const char *const recording =
+    "catalogue ${prefix}.csv series ${prefix}.pe binary resume yes location yes";
+
+static std::string shear_from_data() {
+  return "variable prefix index whole\n" + fault_read() + fault_shear(recording) + "thermo 100\n";
+}
+
+TEST_F(Restart, EqualsTheUninterruptedRun) {
+  for (int ranks : {1, 2}) {
+    const std::string tag = std::to_string(ranks);
+    // the state is written on the way; the run goes on
+    const Result whole = run_text(shear_from_data() + "restart 3000 half." + tag +
+                                      ".*\nrun 3000\nrestart 0\nrun 2000\n",
+                                  {{"prefix", "whole" + tag}}, ranks);
+    ASSERT_TRUE(succeeded(whole));
+    const Result first = run_text(shear_from_data() + "restart 3000 half." + tag +
+                                      ".*\nrun 3000\nrestart 0\nrun 500\n",
+                                  {{"prefix", "resumed" + tag}}, ranks);
+    ASSERT_TRUE(succeeded(first));
+    const std::string again = "variable prefix index resumed" + tag +
+                              "\nnewton off\natom_style hybrid bond sphere\natom_modify map array\n"
+                              "comm_modify mode single cutoff 3.6\n"
+                              "read_restart half." + tag + ".3000\n"
+                              "neighbor 0.4 bin\nneigh_modify delay 0 every 10 check yes\n" +
+                              fault_shear(recording) + "thermo 100\nrun 2000\n";
+    Result second = run_text(again, {}, ranks);
+    ASSERT_TRUE(succeeded(second));
+
+    Result tail = whole;
+    tail.thermo.erase(tail.thermo.begin(), tail.thermo.end() - 21);
+    ASSERT_EQ(second.thermo.size(), 21u);
+    EXPECT_EQ(second.thermo.front().at("Step"), tail.thermo.front().at("Step"));
+    const double off = thermo_difference(tail, second, compared);
+    std::printf("restart on %d ranks: thermo differs by %.2g\n", ranks, off);
+    EXPECT_LT(off, 1e-7);
+    EXPECT_EQ(tail.last("c_events"), second.last("c_events"));
+
+    const auto a = LSM::read_catalogue(path("whole" + tag + ".csv"));
+    const auto b = LSM::read_catalogue(path("resumed" + tag + ".csv"));
+    EXPECT_GT(a.events.size(), 3u);
+    expect_same_events(a.events, b.events, 1e-9);
+    for (std::size_t n = 0; n < std::min(a.events.size(), b.events.size()); ++n)
+      EXPECT_NEAR(a.events[n].slip_moment, b.events[n].slip_moment,
+                  1e-6 * std::fabs(a.events[n].slip_moment) + 1e-12);
+
+    LSM::PeSeriesReader x(path("whole" + tag + ".pe")), y(path("resumed" + tag + ".pe"));
+    std::int64_t step = 0, other = 0;
+    double time = 0, pe = 0, other_time = 0, other_pe = 0;
+    std::int64_t samples = 0;
+    while (x.next(step, time, pe)) {
+      ASSERT_TRUE(y.next(other, other_time, other_pe));
+      ASSERT_EQ(step, other);
+      ASSERT_NEAR(pe, other_pe, 1e-9 * pe);
+      ++samples;
+    }
+    EXPECT_EQ(samples, 5001);
+    EXPECT_FALSE(y.next(other, other_time, other_pe));
+  }
+}
+
+TEST_F(Events, PickedOnlineEqualThosePickedLater) {
+  for (int ranks : {1, 2})
+    for (const char *picker : {"exponential", "average", "literal"})
+      for (const char *form : {"binary", "text"}) {
+        const Result r = run_text(
+            fault_read() +
+                fault_shear("catalogue online.csv series online.pe ${form} picker ${picker} block 37") +
+                "thermo 1000\nrun 2500\nrun 1500\n",
+            {{"form", form}, {"picker", picker}}, ranks);
+        ASSERT_TRUE(succeeded(r));
+        const auto catalogue = LSM::read_catalogue(path("online.csv"));
+        LSM::PickerSettings settings;
+        ASSERT_TRUE(LSM::from_string(picker, settings.reading));
+        LSM::EventPicker later(settings);
+        LSM::PeSeriesReader series(path("online.pe"));
+        std::vector<LSM::Event> events;
+        std::int64_t step = 0;
+        double time = 0, pe = 0;
+        LSM::Event event;
+        while (series.next(step, time, pe))
+          if (later.push(step, time, pe, event)) events.push_back(event);
+        EXPECT_GT(events.size(), 3u);
+        EXPECT_EQ(r.last("c_events"), static_cast<double>(events.size()));
+        expect_same_events(catalogue.events, events, 0.0);
+      }
+}
+
+TEST_F(Events, SlipAndCentroidLieOnTheFault) {
+  const Result r = run_text(fault_read() + fault_shear("catalogue located.csv location yes") +
+                            "thermo 1000\nrun 4000\n");
+  ASSERT_TRUE(succeeded(r));
+  const auto catalogue = LSM::read_catalogue(path("located.csv"));
+  ASSERT_GT(catalogue.events.size(), 3u);
+  for (const auto &e : catalogue.events) {
+    EXPECT_GE(e.slip_moment, 0.0);
+    EXPECT_GE(e.x_centroid, 0.0);
+    EXPECT_LE(e.x_centroid, 40.0);
+    EXPECT_LE(e.rupture_length, 40.0);
+  }
+}
+
+TEST_F(Ranks, ThermoAndFirstEventsAgree) {
+  const std::string script =
+      "variable prefix index one\n" + fault_read() +
+      fault_shear("catalogue ${prefix}.csv") + "thermo 100\nrun 1500\n";
+  const Result one = run_text(script);
+  ASSERT_TRUE(succeeded(one));
+  const auto events = LSM::read_catalogue(path("one.csv")).events;
+  EXPECT_GE(events.size(), 1u);
+  for (int ranks : {1, 2, 4})
+    for (const char *newton : {"on", "off"}) {
+      const Result r = run_text(script, {{"newton", newton}, {"prefix", "several"}}, ranks);
+      ASSERT_TRUE(succeeded(r));
+      const double off = thermo_difference(one, r, compared);
+      std::printf("%d ranks, newton %s: thermo differs by %.2g\n", ranks, newton, off);
+      EXPECT_LT(off, 1e-9);
+      expect_same_events(events, LSM::read_catalogue(path("several.csv")).events, 1e-9);
+    }
+}
+
+TEST_F(Ranks, StaticFrictionToo) {
+  const std::string script = fault_read() + fault_shear("") + "thermo 100\nrun 1000\n";
+  const Result one = run_text(script, {{"mus", "0.8"}});
+  ASSERT_TRUE(succeeded(one));
+  EXPECT_GT(one.last("c_events[11]"), 0.0);
+  for (int ranks : {2, 4})
+    for (const char *newton : {"on", "off"}) {
+      const Result r = run_text(script, {{"newton", newton}, {"mus", "0.8"}}, ranks);
+      ASSERT_TRUE(succeeded(r));
+      EXPECT_LT(thermo_difference(one, r, compared), 1e-9) << ranks << " ranks, newton " << newton;
+    }
+}
+
+TEST_F(Ranks, GeometryDoesNotDependOnThem) {
+  const std::string script = fault_start() +
+                             "create_lsm_fault length 40 width 20 seed 3 failures 500\n" +
+                             "write_dump all custom ${file} id type x y radius mass modify sort id "
+                             "format float %.17g\n";
+  ASSERT_TRUE(succeeded(run_text(script, {{"file", "one.dump"}})));
+  ASSERT_TRUE(succeeded(run_text(script, {{"file", "four.dump"}}, 4)));
+  EXPECT_GT(read_file(path("one.dump")).size(), 10000u);
+  EXPECT_EQ(read_file(path("one.dump")), read_file(path("four.dump")));
+}

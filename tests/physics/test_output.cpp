@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What LAMMPS users take for granted: runs in pieces, data files, local computes.
+#include "fault_scene.h"
+
+using namespace physics;
+
+using Output = Fault;
+
+TEST_F(Output, RunAfterRunEqualsOneRun) {
+  for (const char *mus : {"0.6", "0.8"}) {
+    const std::string start = fault_read() + fault_shear("") + "thermo 200\n";
+    const Result one = run_text(start + "run 2000\n", {{"mus", mus}});
+    const Result many = run_text(start + "run 400\nrun 400\nrun 0\nrun 1200\n", {{"mus", mus}});
+    ASSERT_TRUE(succeeded(one));
+    ASSERT_TRUE(succeeded(many));
+    const Result end_one = {0, "", {one.thermo.back()}, {}};
+    const Result end_many = {0, "", {many.thermo.back()}, {}};
+    EXPECT_EQ(one.last("Step"), many.last("Step"));
+    const double off = thermo_difference(end_one, end_many, compared);
+    std::printf("mu_static %s: run after run differs by %.2g\n", mus, off);
+    EXPECT_LT(off, 1e-9);
+    EXPECT_EQ(one.last("c_events"), many.last("c_events"));
+  }
+}
+
+TEST_F(Output, DataFileRoundTrip) {
+  const std::string energies = R"(
+fix               move blocks lsm/nve
+compute           events all lsm/events
+variable          links equal bonds
+thermo_style      custom step atoms bonds c_events[5] c_events[6] c_events[7] ke
+thermo_modify     norm no format float %.17g
+run               0
+)";
+  for (const char *newton : {"on", "off"}) {
+    const Result before = run_text(fault_read() + energies + "write_data again.data\n",
+                                   {{"newton", newton}});
+    ASSERT_TRUE(succeeded(before));
+    const std::string again = fault_start() + R"(
+bond_style        lsm/linked
+pair_style        lsm/friction
+read_data         again.data
+pair_coeff        * * off
+pair_coeff        3 4 1.0 1.0 0.6
+)" + fault_groups() + energies;
+    const Result after = run_text(again, {{"newton", newton}}, 2);
+    ASSERT_TRUE(succeeded(after));
+    EXPECT_GT(before.last("c_events[6]"), 0.0);
+    EXPECT_GT(before.last("c_events[7]"), 0.0);
+    EXPECT_LT(thermo_difference(before, after,
+                                {"Atoms", "Bonds", "c_events[5]", "c_events[6]", "c_events[7]",
+                                 "KinEng"}),
+              1e-12);
+  }
+}
+
+TEST_F(Output, LocalComputesGiveTheRecordedEnergies) {
+  const std::string script = fault_read() + fault_shear("") + R"(
+compute           links all bond/local engpot force dist
+compute           contacts all pair/local eng force dist
+compute           link_sum all reduce sum c_links[1] inputs local
+compute           contact_sum all reduce sum c_contacts[1] inputs local
+compute           pe all pe
+variable          pe equal c_pe
+thermo_style      custom step c_events[5] c_events[6] c_events[7] c_events[8] c_link_sum c_contact_sum v_pe
+thermo_modify     norm no format float %.17g
+thermo            500
+run               1000
+)";
+  for (int ranks : {1, 2})
+    for (const char *newton : {"on", "off"}) {
+      const Result r = run_text(script, {{"newton", newton}}, ranks);
+      ASSERT_TRUE(succeeded(r));
+      const double link = r.last("c_events[6]");
+      const double contact = r.last("c_events[7]") + r.last("c_events[8]");
+      EXPECT_GT(r.last("c_events[8]"), 0.0);
+      EXPECT_NEAR(r.last("c_link_sum"), link, 1e-10 * link);
+      EXPECT_NEAR(r.last("c_contact_sum"), contact, 1e-10 * contact);
+      EXPECT_NEAR(r.last("v_pe"), link + contact, 1e-10 * (link + contact));
+    }
+}

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The small scenes of the inputs folder against theory.
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "lmp_runner.h"
+
+using namespace physics;
+
+using Collision = Lmp;
+using PWave = Lmp;
+using Coulomb = Lmp;
+using Tension = Lmp;
+
+TEST_F(Collision, HeadOnAsInTheory) {
+  // disc 1 (radius and mass 1) hits disc 2 (radius 0.7, mass 0.49) at rest with 0.1
+  const Result r = run_scene("two_body_collision.in", {{"dt", "0.005"}});
+  ASSERT_TRUE(succeeded(r));
+  EXPECT_NEAR(r.value("velocity_1"), 0.1 * (1 - 0.49) / 1.49, 1e-6);
+  EXPECT_NEAR(r.value("velocity_2"), 0.1 * 2 / 1.49, 1e-6);
+  EXPECT_LT(std::fabs(r.value("energy_error")), 1e-5);
+}
+
+TEST_F(Collision, MomentumIsKeptOnAllRankCounts) {
+  for (int ranks : {1, 2, 4})
+    for (const char *newton : {"on", "off"}) {
+      const Result r =
+          run_scene("two_body_collision.in", {{"offset", "0.6"}, {"newton", newton}}, ranks);
+      ASSERT_TRUE(succeeded(r));
+      EXPECT_NEAR(r.value("momentum_x"), 0.1, 1e-15) << ranks << " ranks, newton " << newton;
+      EXPECT_NEAR(r.value("momentum_y"), 0.0, 1e-15);
+      EXPECT_GT(std::fabs(r.value("velocity_1") - 0.1), 0.01);  // they did collide
+    }
+}
+
+TEST_F(Collision, EnergyErrorFallsWithTheTimeStep) {
+  // second order at least; what is left after a collision even falls as (w dt)^3
+  // the error depends on where in a step contact begins: the largest over several gaps is compared
+  auto worst = [](double dt) {
+    double most = 0.0;
+    for (int n = 0; n < 8; ++n) {
+      const Result r = run_scene("two_body_collision.in",
+                                 {{"dt", text(dt)}, {"gap", text(0.5 + n * 0.1 * dt / 8)}});
+      EXPECT_TRUE(succeeded(r));
+      most = std::max(most, std::fabs(r.value("energy_error")));
+    }
+    return most;
+  };
+  const double coarse = worst(0.08), fine = worst(0.02);
+  const double order = std::log(coarse / fine) / std::log(4.0);
+  std::printf("energy error %.3g at dt 0.08, %.3g at dt 0.02: order %.3f\n", coarse, fine, order);
+  const double w = std::sqrt(1.49 / 0.49);  // of the contact: k = 1, reduced mass
+  EXPECT_GT(order, 2.0);
+  EXPECT_LT(coarse, std::pow(w * 0.08, 3));
+  EXPECT_LT(fine, std::pow(w * 0.02, 3));
+}
+
+TEST_F(PWave, LatticeAsInEquation4) {
+  for (const char *direction : {"x", "y"}) {
+    const Result r = run_scene("p_wave_lattice.in", {{"direction", direction}});
+    ASSERT_TRUE(succeeded(r));
+    std::printf("lattice, along %s: %.5f, Eq. 4: %.5f\n", direction, r.value("p_wave_speed"),
+                std::sqrt(9.0 / 8.0) * 2.0);
+    EXPECT_NEAR(r.value("p_wave_speed"), std::sqrt(9.0 / 8.0) * 2.0, 0.01 * 2.1213);
+  }
+}
+
+TEST_F(PWave, LatticeScalesWithStiffnessMassAndRadius) {
+  const Result r =
+      run_scene("p_wave_lattice.in", {{"k", "4"}, {"m0", "0.25"}, {"r", "0.5"}, {"sigma", "5"},
+                                      {"dt", "0.02"}, {"newton", "on"}}, 2);
+  ASSERT_TRUE(succeeded(r));
+  const double theory = std::sqrt(9.0 / 8.0) * 1.0 * 4.0;
+  EXPECT_NEAR(r.value("p_wave_speed"), theory, 0.01 * theory);
+}
+
+TEST_F(PWave, LatticeOnSeveralRanks) {
+  const double one = run_scene("p_wave_lattice.in").value("p_wave_speed");
+  for (int ranks : {2, 4})
+    for (const char *newton : {"on", "off"})
+      EXPECT_NEAR(run_scene("p_wave_lattice.in", {{"newton", newton}}, ranks).value("p_wave_speed"),
+                  one, 1e-8);
+}
+
+// Position of the half of the pulse's height on its leading edge, from the first layer above y = middle.
+static double front(const std::vector<std::pair<double, double>> &layers, double middle) {
+  std::size_t peak = 0;
+  for (std::size_t n = 0; n < layers.size(); ++n)
+    if (layers[n].first > middle && (layers[peak].first <= middle ||
+                                     layers[n].second > layers[peak].second))
+      peak = n;
+  const double half = 0.5 * layers[peak].second;
+  for (std::size_t n = peak + 1; n < layers.size(); ++n)
+    if (layers[n].second < half) {
+      const auto &a = layers[n - 1], &b = layers[n];
+      return a.first + (b.first - a.first) * (a.second - half) / (a.second - b.second);
+    }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+TEST_F(PWave, RandomPacking) {
+  const Result r = run_scene("p_wave_packing.in", {{"profile", "yes"}});
+  ASSERT_TRUE(succeeded(r));
+
+  // blocks "step layers count", then "layer y count vy"
+  std::ifstream in(path("p_wave_profile.txt"));
+  std::vector<std::pair<double, double>> fronts, layers;
+  double time = 0.0;
+  auto finish = [&] {
+    if (time > 4.0 && !layers.empty()) fronts.emplace_back(time, front(layers, 30.0));
+    layers.clear();
+  };
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream split(line);
+    std::vector<double> v{std::istream_iterator<double>(split), {}};
+    if (v.size() == 3) {
+      finish();
+      time = v[0] * 0.03;
+    } else if (v.size() == 4)
+      layers.emplace_back(v[1], v[3]);
+  }
+  finish();
+  ASSERT_GE(fronts.size(), 4u);
+  const double speed = (fronts.back().second - fronts.front().second) /
+                       (fronts.back().first - fronts.front().first);
+  std::printf("packing: front %.4f over %.2f, centroid of momentum %.4f\n", speed,
+              fronts.back().second - fronts.front().second, r.value("p_wave_speed"));
+  EXPECT_GT(speed, 2.0);
+  EXPECT_LT(speed, 2.2);
+  EXPECT_GT(r.value("p_wave_speed"), 2.0);
+  EXPECT_LT(r.value("p_wave_speed"), 2.2);
+}
+
+TEST_F(Coulomb, SticksBelowTheStaticStrength) {
+  for (const char *mus : {"0.6", "0.8"}) {
+    const Result r = run_scene("coulomb_block.in", {{"mus", mus}, {"pull", "0.98"}});
+    ASSERT_TRUE(succeeded(r));
+    EXPECT_EQ(r.value("friction_work"), 0.0);
+    // held by the spring: force / kt, give or take the swing the ramp left
+    const double elastic = 0.98 * std::stod(mus) * 0.01;
+    EXPECT_NEAR(r.value("slip"), elastic, 0.02 * elastic);
+  }
+}
+
+TEST_F(Coulomb, SlidesAboveItWithTheRightAcceleration) {
+  for (const char *pull : {"1.02", "1.3"}) {
+    const Result r = run_scene("coulomb_block.in", {{"pull", pull}});
+    ASSERT_TRUE(succeeded(r));
+    const double theory = (std::stod(pull) - 1.0) * 0.006;
+    EXPECT_NEAR(r.value("acceleration"), theory, 0.005 * theory);
+    EXPECT_GT(r.value("friction_work"), 0.0);
+  }
+}
+
+TEST_F(Coulomb, StaticStrengthIsAboveTheDynamicOne) {
+  // 0.98 x 0.8 is far above the dynamic strength and holds; once it moves, friction is the dynamic one
+  const Result sticks = run_scene("coulomb_block.in", {{"mus", "0.8"}, {"pull", "0.98"}});
+  const Result slides = run_scene("coulomb_block.in", {{"mus", "0.8"}, {"pull", "1.02"}});
+  ASSERT_TRUE(succeeded(sticks));
+  ASSERT_TRUE(succeeded(slides));
+  EXPECT_LT(std::fabs(sticks.value("acceleration")), 1e-5);
+  EXPECT_NEAR(slides.value("acceleration"), 1.02 * 0.008 - 0.006, 0.002 * 0.00216);
+}
+
+TEST_F(Coulomb, SlidingGoesOnFromRunToRun) {
+  // a contact that slides does not stick again when a run ends and the next begins
+  const Result one = run_scene("coulomb_block.in", {{"mus", "0.8"}, {"hold", "40"}});
+  ASSERT_TRUE(succeeded(one));
+  std::string script = read_file(std::string(LSM_INPUTS) + "/coulomb_block.in");
+  const std::string whole = "run             $(ceil(v_hold/v_dt):%.0f)";
+  const auto at = script.find(whole);
+  ASSERT_NE(at, std::string::npos);
+  std::string parts;
+  for (int n = 0; n < 8; ++n) parts += "run $(ceil(v_hold/v_dt)/8:%.0f)\n";
+  script.replace(at, whole.size(), parts);
+  const Result many = run_text(script, {{"mus", "0.8"}, {"hold", "40"}});
+  ASSERT_TRUE(succeeded(many));
+  EXPECT_NEAR(many.value("slip"), one.value("slip"), 1e-9 * one.value("slip"));
+}
+
+TEST_F(Coulomb, RanksAndNewton) {
+  const Result one = run_scene("coulomb_block.in");
+  for (const char *newton : {"on", "off"}) {
+    const Result r = run_scene("coulomb_block.in", {{"newton", newton}}, 2);
+    ASSERT_TRUE(succeeded(r));
+    EXPECT_NEAR(r.value("slip"), one.value("slip"), 1e-9);
+    EXPECT_NEAR(r.value("friction_work"), one.value("friction_work"), 1e-9);
+  }
+}
+
+TEST_F(Tension, BreaksAndTurnsIntoContacts) {
+  const Result r = run_scene("tension_break.in");
+  ASSERT_TRUE(succeeded(r));
+  EXPECT_LT(r.value("links_after_pull"), r.value("links_before"));
+  double strongest = 0.0;
+  for (const auto &row : r.thermo) strongest = std::max(strongest, row.at("v_tension"));
+  EXPECT_GT(strongest, 0.05);
+  EXPECT_LT(std::fabs(r.value("tension_after_pull")), 1e-6);  // two pieces
+  EXPECT_LT(r.value("tension_after_push"), -0.05);            // contacts bear pressure
+}
+
+TEST_F(Tension, ContactsBearNoTension) {
+  // pulled a second time, the pieces come apart without resistance
+  const std::string script = read_file(std::string(LSM_INPUTS) + "/tension_break.in") + R"lmp(
+velocity        left set $(-v_speed) 0 0
+velocity        right set ${speed} 0 0
+run             $(ceil(v_back/v_dt):%.0f)
+velocity        left set 0 0 0
+velocity        right set 0 0 0
+run             $(ceil(v_rest/v_dt):%.0f)
+print           "tension_at_end = $(v_tension:%.10g)"
+print           "links_at_end = $(v_links:%.0f)"
+)lmp";
+  const Result r = run_text(script);
+  ASSERT_TRUE(succeeded(r));
+  EXPECT_EQ(r.value("links_at_end"), r.value("links_after_push"));
+  EXPECT_LT(std::fabs(r.value("tension_at_end")), 1e-6);
+}
+
+TEST_F(Tension, SameOnAllRankCountsAndNewton) {
+  const Result one = run_scene("tension_break.in");
+  ASSERT_TRUE(succeeded(one));
+  for (int ranks : {1, 2, 4})
+    for (const char *newton : {"on", "off"}) {
+      const Result r = run_scene("tension_break.in", {{"newton", newton}}, ranks);
+      ASSERT_TRUE(succeeded(r)) << ranks << " ranks, newton " << newton;
+      EXPECT_EQ(r.value("links_after_pull"), one.value("links_after_pull"));
+      EXPECT_EQ(r.value("links_after_push"), one.value("links_after_push"));
+      EXPECT_LT(thermo_difference(one, r, {"Bonds", "v_tension", "KinEng"}), 1e-7);
+    }
+}
