@@ -13,7 +13,6 @@
 #include "fix_lsm_plates.h"
 #include "fix_lsm_record.h"
 #include "force.h"
-#include "group.h"
 #include "modify.h"
 #include "pair_lsm_free.h"
 #include "platform.h"
@@ -425,8 +424,7 @@ void ComputeLSMEvents::start_gather()
     slip_filling.clear();
     slip_steps.clear();
     const int n = static_cast<int>(mine.size());
-    std::vector<int> offsets(comm->nprocs, 0);
-    slip_counts.assign(comm->nprocs, 0);
+    std::vector<int> slip_counts(comm->nprocs, 0), offsets(comm->nprocs, 0);
     MPI_Gather(&n, 1, MPI_INT, slip_counts.data(), 1, MPI_INT, 0, world);
     int sum = 0;
     for (int p = 0; p < comm->nprocs; p++) {

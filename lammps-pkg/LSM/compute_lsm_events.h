@@ -77,7 +77,6 @@ class ComputeLSMEvents : public Compute {
 
   std::vector<double> filling, sending, received;
   std::vector<LSMSlip> slip_filling;
-  std::vector<int> slip_counts;
   bigint first_filling, first_sending;
   int count_filling, count_sending;
   MPI_Request request;

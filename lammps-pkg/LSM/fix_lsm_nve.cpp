@@ -92,14 +92,14 @@ void FixLSMNVE::reset_dt()
 template <bool DIM3> void FixLSMNVE::choose()
 {
   if (nu > 0.0 && record_work) {
-    initial_chosen = &FixLSMNVE::initial_kernel<true, true, DIM3>;
-    final_chosen = &FixLSMNVE::final_kernel<true, true, DIM3>;
+    initial_chosen = &FixLSMNVE::half_step<true, true, true, DIM3>;
+    final_chosen = &FixLSMNVE::half_step<false, true, true, DIM3>;
   } else if (nu > 0.0) {
-    initial_chosen = &FixLSMNVE::initial_kernel<true, false, DIM3>;
-    final_chosen = &FixLSMNVE::final_kernel<true, false, DIM3>;
+    initial_chosen = &FixLSMNVE::half_step<true, true, false, DIM3>;
+    final_chosen = &FixLSMNVE::half_step<false, true, false, DIM3>;
   } else {
-    initial_chosen = &FixLSMNVE::initial_kernel<false, false, DIM3>;
-    final_chosen = &FixLSMNVE::final_kernel<false, false, DIM3>;
+    initial_chosen = &FixLSMNVE::half_step<true, false, false, DIM3>;
+    final_chosen = &FixLSMNVE::half_step<false, false, false, DIM3>;
   }
 }
 
@@ -129,7 +129,7 @@ void FixLSMNVE::setup(int /*vflag*/)
    velocity Verlet step. Second order, stable for any viscosity, and the work it takes is known exactly.
 ------------------------------------------------------------------------- */
 
-template <bool VISCOUS, bool WORK, bool DIM3> void FixLSMNVE::initial_kernel()
+template <bool FIRST, bool VISCOUS, bool WORK, bool DIM3> void FixLSMNVE::half_step()
 {
   double **x = atom->x;
   double **v = atom->v;
@@ -141,62 +141,33 @@ template <bool VISCOUS, bool WORK, bool DIM3> void FixLSMNVE::initial_kernel()
   const int nlocal = igroup == atom->firstgroup ? atom->nfirst : atom->nlocal;
   double lost = 0.0;
 
-  for (int i = 0; i < nlocal; i++) {
-    if (!(mask[i] & groupbit)) continue;
-    const double m = rmass ? rmass[i] : mass[type[i]];
-    const double dtfm = dtf / m;
+  auto damp = [&](double *vi, double m) {
     if constexpr (WORK) {
-      double vsq = v[i][0] * v[i][0] + v[i][1] * v[i][1];
-      if constexpr (DIM3) vsq += v[i][2] * v[i][2];
+      double vsq = vi[0] * vi[0] + vi[1] * vi[1];
+      if constexpr (DIM3) vsq += vi[2] * vi[2];
       lost += m * vsq;
     }
     if constexpr (VISCOUS) {
-      v[i][0] *= decay;
-      v[i][1] *= decay;
-      if constexpr (DIM3) v[i][2] *= decay;
+      vi[0] *= decay;
+      vi[1] *= decay;
+      if constexpr (DIM3) vi[2] *= decay;
     }
-    v[i][0] += dtfm * f[i][0];
-    v[i][1] += dtfm * f[i][1];
-    x[i][0] += dtv * v[i][0];
-    x[i][1] += dtv * v[i][1];
-    if constexpr (DIM3) {
-      v[i][2] += dtfm * f[i][2];
-      x[i][2] += dtv * v[i][2];
-    }
-  }
-  if constexpr (WORK) work_viscosity += 0.5 * (1.0 - decay * decay) * lost;
-}
-
-/* ---------------------------------------------------------------------- */
-
-template <bool VISCOUS, bool WORK, bool DIM3> void FixLSMNVE::final_kernel()
-{
-  double **v = atom->v;
-  double **f = atom->f;
-  const double *rmass = atom->rmass;
-  const double *mass = atom->mass;
-  const int *type = atom->type;
-  const int *mask = atom->mask;
-  const int nlocal = igroup == atom->firstgroup ? atom->nfirst : atom->nlocal;
-  double lost = 0.0;
+  };
 
   for (int i = 0; i < nlocal; i++) {
     if (!(mask[i] & groupbit)) continue;
     const double m = rmass ? rmass[i] : mass[type[i]];
     const double dtfm = dtf / m;
+    if constexpr (FIRST) damp(v[i], m);
     v[i][0] += dtfm * f[i][0];
     v[i][1] += dtfm * f[i][1];
     if constexpr (DIM3) v[i][2] += dtfm * f[i][2];
-    if constexpr (WORK) {
-      double vsq = v[i][0] * v[i][0] + v[i][1] * v[i][1];
-      if constexpr (DIM3) vsq += v[i][2] * v[i][2];
-      lost += m * vsq;
-    }
-    if constexpr (VISCOUS) {
-      v[i][0] *= decay;
-      v[i][1] *= decay;
-      if constexpr (DIM3) v[i][2] *= decay;
-    }
+    if constexpr (FIRST) {
+      x[i][0] += dtv * v[i][0];
+      x[i][1] += dtv * v[i][1];
+      if constexpr (DIM3) x[i][2] += dtv * v[i][2];
+    } else
+      damp(v[i], m);
   }
   if constexpr (WORK) work_viscosity += 0.5 * (1.0 - decay * decay) * lost;
 }

@@ -51,8 +51,7 @@ class FixLSMNVE : public Fix {
   double dt_limit;      // 2/omega
   std::vector<double> trial, image;    // vectors of the power iteration, 2 or 3 values an atom
 
-  template <bool VISCOUS, bool WORK, bool DIM3> void initial_kernel();
-  template <bool VISCOUS, bool WORK, bool DIM3> void final_kernel();
+  template <bool FIRST, bool VISCOUS, bool WORK, bool DIM3> void half_step();
   void (FixLSMNVE::*initial_chosen)();
   void (FixLSMNVE::*final_chosen)();
   template <bool DIM3> void choose();

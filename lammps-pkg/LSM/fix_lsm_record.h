@@ -32,7 +32,6 @@ class FixLSMRecord : public Fix {
 
   class ComputeLSMEvents *owner;       // set by the compute that made this fix
   std::vector<double> restart_state;    // what a restart file held, empty if none
-
 };
 
 }    // namespace LAMMPS_NS
