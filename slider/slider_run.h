@@ -294,13 +294,8 @@ RunResult run(const RunOptions &o, C &chain) {
   }
   if (o.resume) {
     // An event that ended with the checkpoint's last sample is found by the sample after it.
-    if (!o.catalogue.empty()) {
-      const std::int64_t kept = catalogue.resume(o.catalogue, info, chain.step() - 1);
-      if (kept != state.events)
-        throw std::runtime_error(o.catalogue + ": cannot resume: " + std::to_string(kept) +
-                                 " events up to the checkpoint, expected " +
-                                 std::to_string(state.events));
-    }
+    if (!o.catalogue.empty())
+      catalogue.resume(o.catalogue, info, chain.step() - 1, {}, state.events);
     if (!o.series.empty()) series.resume(o.series, series_info, o.series_binary, chain.step());
   } else {
     if (!o.catalogue.empty()) catalogue.create(o.catalogue, info);

@@ -8,8 +8,8 @@ root=$(cd "$(dirname "$0")/.." && pwd)
 build=${LSM_BUILD_DIR:-$root/build}
 
 . "$root/lammps-pkg/cmake/debian-packages.sh"
-install_debian_packages $lammps_packages $plot_packages libgtest-dev libcli11-dev libfmt-dev \
-  nlohmann-json3-dev libgsl-dev
+install_debian_packages $lammps_packages $plot_packages $postproc_packages libgtest-dev libgmock-dev \
+  libbenchmark-dev
 
 cmake -S "$root" -B "$build" -G Ninja -DLSM_BUILD_LAMMPS=ON -DLSM_BUILD_SLIDER=ON -DLSM_BUILD_POSTPROC=ON \
   -DLSM_BUILD_TESTS=ON

@@ -13,12 +13,14 @@
 #define LSM_CATALOGUE_H
 
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -47,26 +49,43 @@ namespace catalogue_detail {
 
 constexpr std::string_view first_line = "# lsm-catalogue 1";
 constexpr std::string_view magic = "# lsm-catalogue ";
-constexpr std::array<std::string_view, 8> columns = {
-    "event_id", "t_start", "t_end", "step_start", "step_end", "size", "pe_start", "pe_end"};
-constexpr std::array<std::string_view, 3> optional_columns = {"slip_moment", "x_centroid",
-                                                              "rupture_length"};
 
-inline std::array<bool, 3> optional_flags(const CatalogueInfo &info) {
-  return {info.slip_moment, info.x_centroid, info.rupture_length};
+/// A column of the table and where it is in an event: a number or an integer.
+struct Column {
+  std::string_view name;
+  double Event::*number;
+  std::int64_t Event::*integer;
+};
+
+/// In the order of the file; the last three are optional.
+constexpr std::array<Column, 11> all_columns = {
+    {{"event_id", nullptr, &Event::id},
+     {"t_start", &Event::t_start, nullptr},
+     {"t_end", &Event::t_end, nullptr},
+     {"step_start", nullptr, &Event::step_start},
+     {"step_end", nullptr, &Event::step_end},
+     {"size", &Event::size, nullptr},
+     {"pe_start", &Event::pe_start, nullptr},
+     {"pe_end", &Event::pe_end, nullptr},
+     {"slip_moment", &Event::slip_moment, nullptr},
+     {"x_centroid", &Event::x_centroid, nullptr},
+     {"rupture_length", &Event::rupture_length, nullptr}}};
+constexpr std::size_t required = 8;
+
+/// The columns of a catalogue, in the order of the file.
+inline std::vector<Column> columns_of(const CatalogueInfo &info) {
+  const bool there[] = {info.slip_moment, info.x_centroid, info.rupture_length};
+  std::vector<Column> columns(all_columns.begin(), all_columns.begin() + required);
+  for (std::size_t i = required; i < all_columns.size(); ++i)
+    if (there[i - required]) columns.push_back(all_columns[i]);
+  return columns;
 }
 
 inline std::string column_line(const CatalogueInfo &info) {
   std::string out;
-  for (std::string_view column : columns) {
+  for (const Column &column : columns_of(info)) {
     if (!out.empty()) out += ',';
-    out += column;
-  }
-  const auto flags = optional_flags(info);
-  for (std::size_t i = 0; i < flags.size(); ++i) {
-    if (!flags[i]) continue;
-    out += ',';
-    out += optional_columns[i];
+    out += column.name;
   }
   return out;
 }
@@ -75,19 +94,16 @@ inline bool known_model(std::string_view model) {
   return model == "lsm" || model == "block-slider";
 }
 
-/// What forbids event to follow the event before (nullptr: none), or "".
-inline std::string fault(const Event &event, const Event *before) {
-  const std::pair<std::string_view, double> numbers[] = {{"t_start", event.t_start},
-                                                         {"t_end", event.t_end},
-                                                         {"size", event.size},
-                                                         {"pe_start", event.pe_start},
-                                                         {"pe_end", event.pe_end},
-                                                         {"slip_moment", event.slip_moment},
-                                                         {"x_centroid", event.x_centroid},
-                                                         {"rupture_length", event.rupture_length}};
-  for (const auto &[column, value] : numbers)
-    if (!std::isfinite(value))
-      return "column '" + std::string(column) + "' is not finite, expected a finite number";
+/// The first number of event that is not finite, or "".
+inline std::string not_finite(const Event &event) {
+  for (const Column &column : all_columns)
+    if (column.number && !std::isfinite(event.*column.number))
+      return "column '" + std::string(column.name) + "' is not finite, expected a finite number";
+  return {};
+}
+
+/// What forbids an event of finite numbers to follow the event before (nullptr: none), or "".
+inline std::string out_of_order(const Event &event, const Event *before) {
   if (event.t_end < event.t_start)
     return "t_end " + text_io::number(event.t_end) + " is before t_start " +
            text_io::number(event.t_start) + ", expected t_end >= t_start";
@@ -123,8 +139,9 @@ inline void check_info(const CatalogueInfo &info) {
 
 /// Reads a catalogue event by event.
 ///
-/// Strict (the default): anything unexpected throws. Lenient: bad lines below the first are skipped
-/// and counted; a wrong first line, model or column line, without which nothing can be read, throw.
+/// Strict (the default): anything unexpected throws. Lenient: bad lines below the first are passed
+/// over and counted by kind; a wrong first line, model or column line, without which nothing can be
+/// read, throw.
 class CatalogueReader {
  public:
   /// \throws CatalogueError if the header cannot be read.
@@ -136,16 +153,21 @@ class CatalogueReader {
   /// Next event; false at the end of the file. \throws CatalogueError (strict).
   bool next(Event &event) {
     while (reader_.next(line_)) {
-      if (resuming_ && !reader_.complete()) {
-        torn_ = true;
-        return false;
+      if (resuming_ && !reader_.complete()) return false;
+      if (!reader_.complete()) {
+        report(truncated, "truncated last line, expected " + std::to_string(columns_.size()) +
+                              " columns and a line end");
+        continue;
       }
       Event candidate;
-      std::string problem = parse_row(candidate);
-      if (problem.empty())
-        problem = catalogue_detail::fault(candidate, has_last_ ? &last_ : nullptr);
+      if (!parse_row(candidate)) {
+        report_row();
+        continue;
+      }
+      const std::string problem =
+          catalogue_detail::out_of_order(candidate, has_last_ ? &last_ : nullptr);
       if (!problem.empty()) {
-        report(problem);
+        report(order, problem);
         continue;
       }
       last_ = candidate;
@@ -161,16 +183,33 @@ class CatalogueReader {
   /// Message of the first bad line passed over, or "" (lenient).
   const std::string &first_problem() const { return first_problem_; }
 
+  /// One line of text for each kind of bad line passed over so far: how many (lenient).
+  std::vector<std::string> repairs() const {
+    static constexpr std::array<const char *, kinds> texts = {
+        "bad header lines", "a truncated last line", "lines with too few or too many columns",
+        "lines with something else than finite numbers", "events out of order"};
+    std::vector<std::string> out;
+    for (std::size_t kind = 0; kind < kinds; ++kind)
+      if (counts_[kind] > 0)
+        out.push_back(reader_.path() + ": passed over " + texts[kind] + ": " +
+                      std::to_string(counts_[kind]));
+    return out;
+  }
+
  private:
   friend class CatalogueWriter;
+
+  enum Kind : std::size_t { header, truncated, columns, number, order };
+  static constexpr std::size_t kinds = 5;
 
   CatalogueReader(const std::string &path, bool lenient, bool resuming)
       : reader_(path), lenient_(lenient), resuming_(resuming) {
     read_header();
   }
 
-  void report(const std::string &problem) {
+  void report(Kind kind, const std::string &problem) {
     if (!lenient_) reader_.fail(problem);
+    ++counts_[kind];
     if (skipped_++ == 0) first_problem_ = text_io::where(reader_.path(), reader_.line()) + problem;
   }
 
@@ -180,7 +219,7 @@ class CatalogueReader {
       throw CatalogueError(text_io::where(reader_.path(), 1) + "empty file, expected '" +
                            std::string(first_line) + "'");
     if (line_ != first_line) {
-      if (std::string_view(line_).substr(0, magic.size()) == magic)
+      if (line_.substr(0, magic.size()) == magic)
         reader_.fail("catalogue version " + text_io::in_quotes(line_.substr(magic.size())) +
                      ", expected version 1");
       reader_.fail("not a catalogue, expected '" + std::string(first_line) + "'");
@@ -204,7 +243,7 @@ class CatalogueReader {
   void read_parameter() {
     std::pair<std::string, std::string> parameter;
     if (!text_io::parse_parameter(line_, parameter)) {
-      report("header line " + text_io::in_quotes(line_) + ", expected '# key = value'");
+      report(header, "header line " + text_io::in_quotes(line_) + ", expected '# key = value'");
       return;
     }
     if (parameter.first == "model" && info_.model.empty()) {
@@ -215,7 +254,8 @@ class CatalogueReader {
       return;
     }
     if (parameter.first == "model" || info_.find(parameter.first)) {
-      report("parameter " + text_io::in_quotes(parameter.first) + " given twice, expected once");
+      report(header,
+             "parameter " + text_io::in_quotes(parameter.first) + " given twice, expected once");
       return;
     }
     info_.parameters.push_back(std::move(parameter));
@@ -225,77 +265,84 @@ class CatalogueReader {
     using namespace catalogue_detail;
     if (!reader_.complete()) reader_.fail("truncated line of column names, expected a line end");
     text_io::split(line_, fields_);
-    for (std::size_t i = 0; i < columns.size(); ++i) {
+    for (std::size_t i = 0; i < required; ++i) {
+      const std::string name(all_columns[i].name);
       if (i >= fields_.size())
-        reader_.fail("column " + std::to_string(i + 1) + " is missing, expected '" +
-                     std::string(columns[i]) + "'");
-      if (fields_[i] != columns[i])
+        reader_.fail("column " + std::to_string(i + 1) + " is missing, expected '" + name + "'");
+      if (fields_[i] != name)
         reader_.fail("column " + std::to_string(i + 1) + " is " + text_io::in_quotes(fields_[i]) +
-                     ", expected '" + std::string(columns[i]) + "'");
+                     ", expected '" + name + "'");
     }
-    std::size_t candidate = 0;
-    for (std::size_t i = columns.size(); i < fields_.size(); ++i) {
-      while (candidate < optional_columns.size() && optional_columns[candidate] != fields_[i])
+    bool *const flags[] = {&info_.slip_moment, &info_.x_centroid, &info_.rupture_length};
+    std::size_t candidate = required;
+    for (std::size_t i = required; i < fields_.size(); ++i, ++candidate) {
+      while (candidate < all_columns.size() && all_columns[candidate].name != fields_[i])
         ++candidate;
-      if (candidate == optional_columns.size())
+      if (candidate == all_columns.size())
         reader_.fail("column " + std::to_string(i + 1) + " is " + text_io::in_quotes(fields_[i]) +
                      ", expected slip_moment, x_centroid, rupture_length, in this order");
-      if (candidate == 0) info_.slip_moment = true;
-      if (candidate == 1) info_.x_centroid = true;
-      if (candidate == 2) info_.rupture_length = true;
-      ++candidate;
+      *flags[candidate - required] = true;
     }
-    count_ = fields_.size();
-    names_ = column_line(info_);
+    columns_ = columns_of(info_);
   }
 
-  /// Numbers of line_ into event; returns what is wrong, or "".
-  std::string parse_row(Event &event) {
-    using namespace catalogue_detail;
-    if (!reader_.complete())
-      return "truncated last line, expected " + std::to_string(count_) + " columns and a line end";
+  /// Numbers of line_ into event; false if they are not what the columns ask for.
+  bool parse_row(Event &event) const {
+    const char *at = line_.data();
+    const char *const end = at + line_.size();
+    for (const catalogue_detail::Column &column : columns_) {
+      // A comma before each field but the first.
+      if (&column != columns_.data()) {
+        if (at == end || *at != ',') return false;
+        ++at;
+      }
+      std::from_chars_result parsed{};
+      if (column.number) {
+        parsed = std::from_chars(at, end, event.*column.number);
+        if (parsed.ec != std::errc() || !std::isfinite(event.*column.number)) return false;
+      } else {
+        parsed = std::from_chars(at, end, event.*column.integer);
+        if (parsed.ec != std::errc()) return false;
+      }
+      at = parsed.ptr;
+    }
+    return at == end;
+  }
+
+  /// Says what parse_row() did not like about line_.
+  void report_row() {
     text_io::split(line_, fields_);
-    if (fields_.size() != count_)
-      return std::to_string(line_.empty() ? 0 : fields_.size()) + " columns, expected " +
-             std::to_string(count_) + " (" + names_ + ")";
-    std::array<double *, 11> numbers = {nullptr, &event.t_start, &event.t_end,    nullptr,
-                                        nullptr, &event.size,    &event.pe_start, &event.pe_end,
-                                        nullptr, nullptr,        nullptr};
-    std::array<std::int64_t *, 11> integers{};
-    integers[0] = &event.id;
-    integers[3] = &event.step_start;
-    integers[4] = &event.step_end;
-    std::array<std::string_view, 11> names{};
-    std::size_t column = 0;
-    for (; column < columns.size(); ++column) names[column] = columns[column];
-    double *const extra[] = {&event.slip_moment, &event.x_centroid, &event.rupture_length};
-    const auto flags = optional_flags(info_);
-    for (std::size_t i = 0; i < flags.size(); ++i) {
-      if (!flags[i]) continue;
-      numbers[column] = extra[i];
-      names[column++] = optional_columns[i];
+    if (fields_.size() != columns_.size()) {
+      report(columns, std::to_string(line_.empty() ? 0 : fields_.size()) + " columns, expected " +
+                          std::to_string(columns_.size()) + " (" +
+                          catalogue_detail::column_line(info_) + ")");
+      return;
     }
-    for (std::size_t i = 0; i < count_; ++i) {
-      const bool good = integers[i] ? text_io::parse(fields_[i], *integers[i])
-                                    : text_io::parse(fields_[i], *numbers[i]);
-      if (!good)
-        return "column '" + std::string(names[i]) + "' is " + text_io::in_quotes(fields_[i]) +
-               ", expected " + (integers[i] ? "an integer" : "a finite number");
+    for (std::size_t i = 0; i < fields_.size(); ++i) {
+      double any_number = 0.0;
+      std::int64_t any_integer = 0;
+      if (columns_[i].number ? text_io::parse(fields_[i], any_number)
+                             : text_io::parse(fields_[i], any_integer))
+        continue;
+      report(number, "column '" + std::string(columns_[i].name) + "' is " +
+                         text_io::in_quotes(fields_[i]) + ", expected " +
+                         (columns_[i].number ? "a finite number" : "an integer"));
+      return;
     }
-    return {};
   }
 
   text_io::LineReader<CatalogueError> reader_;
   bool lenient_ = false;
   bool resuming_ = false;  // a torn last line ends the file quietly
-  bool torn_ = false;
   CatalogueInfo info_;
-  std::string line_, names_, first_problem_;
+  std::vector<catalogue_detail::Column> columns_;
+  std::string_view line_;                 // valid until the next one is read
   std::vector<std::string_view> fields_;  // views into line_
-  std::size_t count_ = 0;
   Event last_;
   bool has_last_ = false;
+  std::array<std::int64_t, kinds> counts_{};
   std::int64_t skipped_ = 0;
+  std::string first_problem_;
 };
 
 /// A whole catalogue in memory.
@@ -333,7 +380,7 @@ class CatalogueWriter {
     text += catalogue_detail::column_line(info);
     text += '\n';
     file_.create(path, text);
-    flags_ = catalogue_detail::optional_flags(info);
+    columns_ = catalogue_detail::columns_of(info);
     has_last_ = false;
     rows_ = 0;
   }
@@ -341,10 +388,11 @@ class CatalogueWriter {
   /// Goes on with the catalogue of a run restarted from last_step: checks that the header says what
   /// create() would write (parameters named in ignore may differ; their old values stay), drops
   /// every event that ended after last_step and a torn last line. Returns the number of events
-  /// kept. The file is left as it was if this throws. \throws CatalogueError naming the first
-  /// parameter that differs or the first bad line.
+  /// kept, which has to be expected unless that is negative. The file is left as it was if this
+  /// throws. \throws CatalogueError naming the first parameter that differs, the first bad line, or
+  /// the number of events.
   std::int64_t resume(const std::string &path, const CatalogueInfo &info, std::int64_t last_step,
-                      const std::vector<std::string> &ignore = {}) {
+                      const std::vector<std::string> &ignore = {}, std::int64_t expected = -1) {
     catalogue_detail::check_info(info);
     file_.close();
     CatalogueReader reader(path, false, true);
@@ -352,9 +400,10 @@ class CatalogueWriter {
     std::string problem;
     if (found.model != info.model)
       problem = "model is '" + found.model + "' in the file, expected '" + info.model + "'";
-    else if (catalogue_detail::optional_flags(found) != catalogue_detail::optional_flags(info))
+    else if (const std::string columns = catalogue_detail::column_line(info);
+             catalogue_detail::column_line(found) != columns)
       problem = "columns are '" + catalogue_detail::column_line(found) +
-                "' in the file, expected '" + catalogue_detail::column_line(info) + "'";
+                "' in the file, expected '" + columns + "'";
     else
       problem = text_io::difference(found.parameters, info.parameters, ignore);
     if (!problem.empty()) throw CatalogueError(path + ": cannot resume: " + problem);
@@ -368,8 +417,11 @@ class CatalogueWriter {
       ++kept;
       length = reader.reader_.end();
     }
+    if (expected >= 0 && kept != expected)
+      throw CatalogueError(path + ": cannot resume: " + std::to_string(kept) +
+                           " events up to the checkpoint, expected " + std::to_string(expected));
     file_.append(path, length);
-    flags_ = catalogue_detail::optional_flags(info);
+    columns_ = catalogue_detail::columns_of(info);
     last_ = last;
     has_last_ = kept > 0;
     rows_ = kept;
@@ -380,22 +432,20 @@ class CatalogueWriter {
   /// \throws CatalogueError if that fails, or if the event is not one a reader would accept after
   /// the one before (NaN, order).
   void write(const Event &event) {
-    const std::string problem = catalogue_detail::fault(event, has_last_ ? &last_ : nullptr);
+    std::string problem = catalogue_detail::not_finite(event);
+    if (problem.empty())
+      problem = catalogue_detail::out_of_order(event, has_last_ ? &last_ : nullptr);
     if (!problem.empty())
       throw CatalogueError(file_.path() + ": cannot write event " + text_io::number(event.id) +
                            ": " + problem);
     line_.clear();
-    text_io::append(line_, event.id);
-    put(event.t_start);
-    put(event.t_end);
-    put(event.step_start);
-    put(event.step_end);
-    put(event.size);
-    put(event.pe_start);
-    put(event.pe_end);
-    if (flags_[0]) put(event.slip_moment);
-    if (flags_[1]) put(event.x_centroid);
-    if (flags_[2]) put(event.rupture_length);
+    for (const catalogue_detail::Column &column : columns_) {
+      if (!line_.empty()) line_ += ',';
+      if (column.number)
+        text_io::append(line_, event.*column.number);
+      else
+        text_io::append(line_, event.*column.integer);
+    }
     line_ += '\n';
     file_.write(line_);
     last_ = event;
@@ -411,14 +461,8 @@ class CatalogueWriter {
   std::int64_t rows() const { return rows_; }  ///< events in the file, kept ones included
 
  private:
-  template <class T>
-  void put(T value) {
-    line_ += ',';
-    text_io::append(line_, value);
-  }
-
   text_io::OutputFile<CatalogueError> file_;
-  std::array<bool, 3> flags_{};
+  std::vector<catalogue_detail::Column> columns_;
   Event last_;
   bool has_last_ = false;
   std::int64_t rows_ = 0;

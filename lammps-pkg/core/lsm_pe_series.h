@@ -48,7 +48,11 @@ struct PeSeriesInfo {
   std::int64_t stride = 1;  ///< steps between samples, >= 1
   std::vector<std::pair<std::string, std::string>> parameters;
 
-  double time(std::int64_t step) const { return time0 + static_cast<double>(step - step0) * dt; }
+  /// Steps are subtracted as doubles (the same number below 2^53): no header can make that
+  /// overflow.
+  double time(std::int64_t step) const {
+    return time0 + (static_cast<double>(step) - static_cast<double>(step0)) * dt;
+  }
   /// Value of one of the other parameters, or nullptr.
   const std::string *find(std::string_view key) const { return text_io::find(parameters, key); }
 };
@@ -160,36 +164,22 @@ inline double double_from_bytes(const char *bytes) {
 
 }  // namespace pe_series_detail
 
-/// Reads a PE series sample by sample; text or binary is found out from the file. Strict: anything
-/// unexpected throws.
+/// Reads a PE series sample by sample; text or binary is found out from the file. Anything
+/// unexpected throws; only a truncated last sample, which a killed run leaves behind, is dropped
+/// when asked for (lenient).
 class PeSeriesReader {
  public:
   PeSeriesReader() = default;
   /// \throws PeSeriesError
-  explicit PeSeriesReader(const std::string &path) { open(path); }
+  explicit PeSeriesReader(const std::string &path, bool lenient = false) { open(path, lenient); }
 
   /// \throws PeSeriesError if the file cannot be read or its header is not as it should be.
-  void open(const std::string &path) { open(path, false); }
-
-  const PeSeriesInfo &info() const { return info_; }
-  bool binary() const { return binary_; }
-
-  /// Next sample; false at the end of the file. Steps increase, numbers are finite.
-  /// \throws PeSeriesError
-  bool next(std::int64_t &step, double &time, double &pe) {
-    if (!open_) throw PeSeriesError("PE series is not open");
-    return binary_ ? next_record(step, time, pe) : next_line(step, time, pe);
-  }
-
- private:
-  friend class PeSeriesWriter;
-
-  void open(const std::string &path, bool resuming) {
+  void open(const std::string &path, bool lenient = false) {
     using namespace pe_series_detail;
     open_ = false;
-    resuming_ = resuming;
+    lenient_ = lenient;
+    torn_ = has_last_ = false;
     path_ = path;
-    has_last_ = false;
     records_ = used_ = filled_ = 0;
     lines_ = std::make_unique<text_io::LineReader<PeSeriesError>>(path);
     in_ = std::ifstream(path, std::ios::in | std::ios::binary);
@@ -210,11 +200,27 @@ class PeSeriesReader {
     open_ = true;
   }
 
+  const PeSeriesInfo &info() const { return info_; }
+  const std::string &path() const { return path_; }
+  /// A truncated last sample was dropped (lenient); known once next() has returned false.
+  bool torn() const { return torn_; }
+  bool binary() const { return binary_; }
+
+  /// Next sample; false at the end of the file. Steps increase, numbers are finite.
+  /// \throws PeSeriesError
+  bool next(std::int64_t &step, double &time, double &pe) {
+    if (!open_) throw PeSeriesError("PE series is not open");
+    return binary_ ? next_record(step, time, pe) : next_line(step, time, pe);
+  }
+
+ private:
+  friend class PeSeriesWriter;
+
   void open_text() {
     using namespace pe_series_detail;
     lines_->next(line_);
     if (line_ != first_line) {
-      if (std::string_view(line_).substr(0, text_magic.size()) == text_magic)
+      if (line_.substr(0, text_magic.size()) == text_magic)
         lines_->fail("PE series version " + text_io::in_quotes(line_.substr(text_magic.size())) +
                      ", expected version 1");
       lines_->fail("not a PE series, expected '" + std::string(first_line) + "'");
@@ -248,10 +254,10 @@ class PeSeriesReader {
     std::error_code code;
     const auto size = static_cast<std::int64_t>(std::filesystem::file_size(path_, code));
     if (code) throw PeSeriesError(path_ + ": cannot read: " + code.message());
-    data_begin_ = 16 + 8 + length;
-    if (!in_ || length < 0 || length > longest_header || data_begin_ > size)
+    if (!in_ || length < 0 || length > longest_header || 16 + 8 + length > size)
       throw PeSeriesError(path_ + ": file ends within the binary header, expected its length and " +
                           "'# key = value' lines");
+    data_begin_ = 16 + 8 + length;
     std::string text(static_cast<std::size_t>(length), '\0');
     in_.read(text.data(), length);
     if (!in_) throw PeSeriesError(path_ + ": cannot read the binary header");
@@ -267,7 +273,8 @@ class PeSeriesReader {
     if (problem.empty()) problem = interpret(all, info_);
     if (!problem.empty()) throw PeSeriesError(path_ + ": " + problem);
     total_ = (size - data_begin_) / record_bytes;
-    if (!resuming_ && (size - data_begin_) % record_bytes != 0)
+    torn_ = (size - data_begin_) % record_bytes != 0;
+    if (torn_ && !lenient_)
       throw PeSeriesError(path_ + ": truncated record " + std::to_string(total_ + 1) +
                           " at the end, expected 16 bytes per record");
     kept_end_ = data_begin_;
@@ -277,7 +284,8 @@ class PeSeriesReader {
   bool next_line(std::int64_t &step, double &time, double &pe) {
     if (!lines_->next(line_)) return false;
     if (!lines_->complete()) {
-      if (resuming_) return false;
+      torn_ = true;
+      if (lenient_) return false;
       lines_->fail("truncated last line, expected 3 columns and a line end");
     }
     text_io::split(line_, fields_);
@@ -297,10 +305,14 @@ class PeSeriesReader {
     if (!(std::fabs(new_time - expected) <= 1e-9 * (std::fabs(expected) + info_.dt)))
       lines_->fail("time " + text_io::number(new_time) + " at step " + std::to_string(new_step) +
                    ", expected " + text_io::number(expected) + " from time0, step0 and dt");
+    if (has_last_ && new_time < last_time_)
+      lines_->fail("time " + text_io::number(new_time) + " after time " +
+                   text_io::number(last_time_) + ", expected increasing times");
     step = new_step;
     time = new_time;
     pe = new_pe;
     kept_end_ = lines_->end();
+    last_time_ = time;
     remember(step);
     return true;
   }
@@ -325,6 +337,10 @@ class PeSeriesReader {
     const char *const record = block_.data() + used_;
     const std::int64_t new_step = step_from_bytes(record);
     const double new_pe = double_from_bytes(record + 8);
+    const double new_time = info_.time(new_step);
+    if (!std::isfinite(new_time))
+      throw PeSeriesError(path_ + ": record " + std::to_string(records_ + 1) + ": time of step " +
+                          std::to_string(new_step) + " is not finite, expected a finite number");
     if (!std::isfinite(new_pe))
       throw PeSeriesError(path_ + ": record " + std::to_string(records_ + 1) +
                           ": pe is not finite, expected a finite number");
@@ -334,7 +350,7 @@ class PeSeriesReader {
                           ", expected increasing steps");
     used_ += record_bytes;
     step = new_step;
-    time = info_.time(new_step);
+    time = new_time;
     pe = new_pe;
     kept_end_ += record_bytes;
     remember(step);
@@ -350,14 +366,15 @@ class PeSeriesReader {
   std::string path_;
   PeSeriesInfo info_;
   bool open_ = false, binary_ = false;
-  bool resuming_ = false;  // a torn last sample ends the file quietly
+  bool lenient_ = false, torn_ = false;
   bool has_last_ = false;
   std::int64_t last_step_ = 0;
+  double last_time_ = 0.0;
   std::int64_t records_ = 0;   // samples read
   std::int64_t kept_end_ = 0;  // offset behind the last sample read
   // text
   std::unique_ptr<text_io::LineReader<PeSeriesError>> lines_;
-  std::string line_;
+  std::string_view line_;                 // valid until the next one is read
   std::vector<std::string_view> fields_;  // views into line_
   // binary
   std::ifstream in_;
@@ -429,7 +446,7 @@ class PeSeriesWriter {
       length = reader.kept_end_;
     }
     const std::int64_t reached = kept > 0 ? last : info.step0;
-    if (reached < last_step && last_step - reached >= info.stride)
+    if (reached < last_step && last_step - info.stride >= reached)
       throw PeSeriesError(path + ": cannot resume: samples end at step " + std::to_string(reached) +
                           ", expected them up to step " + std::to_string(last_step));
     file_.append(path, length);

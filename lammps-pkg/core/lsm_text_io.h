@@ -11,8 +11,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
-#include <fstream>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -182,7 +183,7 @@ inline std::string difference(const Parameters &in_file, const Parameters &expec
   return {};
 }
 
-/// Lines of a file with their numbers and byte offsets.
+/// Lines of a file with their numbers and byte offsets, read in large blocks.
 template <class Error>
 class LineReader {
  public:
@@ -191,20 +192,34 @@ class LineReader {
     if (std::filesystem::is_directory(path_, ignored))
       throw Error(path_ + ": is a directory, expected a file");
     errno = 0;
-    in_.open(path_, std::ios::in | std::ios::binary);
-    if (!in_) throw Error(path_ + ": cannot open: " + std::generic_category().message(errno));
+    file_.reset(std::fopen(path_.c_str(), "rb"));
+    if (!file_) throw Error(path_ + ": cannot open: " + std::generic_category().message(errno));
+    std::setvbuf(file_.get(), nullptr, _IONBF, 0);
+    buffer_.resize(first_size);
   }
 
-  /// Next line without its '\n'; false at the end of the file.
-  bool next(std::string &line) {
+  /// Next line without its '\n', valid until the next call; false at the end of the file.
+  /// \throws Error if the file cannot be read or a line is longer than any of ours can be.
+  bool next(std::string_view &line) {
     begin_ = end_;
-    if (!std::getline(in_, line)) {
-      if (in_.bad()) throw Error(where(path_, line_ + 1) + "cannot read");
-      return false;
+    std::size_t searched = 0;
+    const char *newline = nullptr;
+    for (;;) {
+      const char *const start = buffer_.data() + used_;
+      const std::size_t there = filled_ - used_;
+      newline = static_cast<const char *>(std::memchr(start + searched, '\n', there - searched));
+      searched = there;
+      if (newline || !fill()) break;
     }
+    const char *const start = buffer_.data() + used_;
+    const std::size_t length = newline ? static_cast<std::size_t>(newline - start) : searched;
+    if (!newline && length == 0) return false;
+    line = std::string_view(start, length);
+    complete_ = newline != nullptr;
+    const std::size_t taken = length + (complete_ ? 1 : 0);
+    used_ += taken;
+    end_ += static_cast<std::int64_t>(taken);
     ++line_;
-    complete_ = !in_.eof();
-    end_ += static_cast<std::int64_t>(line.size()) + (complete_ ? 1 : 0);
     return true;
   }
 
@@ -217,8 +232,38 @@ class LineReader {
   [[noreturn]] void fail(const std::string &what) const { throw Error(where(path_, line_) + what); }
 
  private:
+  static constexpr std::size_t first_size = 1 << 18, longest_line = 1 << 20;
+
+  struct Close {
+    void operator()(std::FILE *file) const { std::fclose(file); }
+  };
+
+  /// More bytes behind the unfinished line, which moves to the front; false at the end of the file.
+  bool fill() {
+    const std::size_t rest = filled_ - used_;
+    std::memmove(buffer_.data(), buffer_.data() + used_, rest);
+    used_ = 0;
+    filled_ = rest;
+    if (rest == buffer_.size()) {
+      if (rest >= longest_line)
+        throw Error(where(path_, line_ + 1) + "longer than " + std::to_string(longest_line) +
+                    " bytes, expected a line of text");
+      buffer_.resize(2 * rest);
+    }
+    errno = 0;
+    const std::size_t got =
+        std::fread(buffer_.data() + filled_, 1, buffer_.size() - filled_, file_.get());
+    if (got == 0 && std::ferror(file_.get()))
+      throw Error(where(path_, line_ + 1) +
+                  "cannot read: " + std::generic_category().message(errno));
+    filled_ += got;
+    return got > 0;
+  }
+
   std::string path_;
-  std::ifstream in_;
+  std::unique_ptr<std::FILE, Close> file_;
+  std::vector<char> buffer_;
+  std::size_t used_ = 0, filled_ = 0;  // the lines to come are between them
   std::int64_t line_ = 0, begin_ = 0, end_ = 0;
   bool complete_ = true;
 };

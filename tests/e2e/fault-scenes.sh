@@ -1,10 +1,10 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
 # Runs the fault scenes as the README tells, from another folder through a path.
-# usage: fault-scenes.sh LMP MPIRUN SOURCE_DIR
+# usage: fault-scenes.sh LMP MPIRUN SOURCE_DIR [POSTPROC]
 set -euo pipefail
 export LC_ALL=C
-lmp=$1 mpirun=$2 source=$3
+lmp=$1 mpirun=$2 source=$3 postproc=${4:-}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
@@ -24,10 +24,15 @@ ratio=$(awk '/^ *Step .*c_events/ { on = 1; next } /^Loop/ { on = 0 } on && NF =
 awk -v r="$ratio" 'BEGIN { exit !(r > 0.5 && r < 0.8) }' || fail "shear/normal stress ratio $ratio, expected 0.5 to 0.8"
 echo "fault_120.in: $events events, shear/normal stress $ratio"
 
-# Pictures from the files of the run.
-if command -v gnuplot >/dev/null; then
-  "$source/postproc/plot-pe-series.sh" short.catalogue.csv short.pe.bin picture >out 2>&1 || fail "plot-pe-series.sh"
-  [ -s picture.png ] && [ -s picture.svg ] || fail "no picture"
+# The series picks to the events that the run picked, and is drawn.
+if [ -n "$postproc" ]; then
+  "$postproc" pick short.pe.bin -o picked.csv >out 2>&1 || fail "postproc pick"
+  cmp <(grep -v '^#' short.catalogue.csv | cut -d, -f1-8) <(grep -v '^#' picked.csv) ||
+    fail "events picked on-line and afterwards differ"
+  if command -v gnuplot >/dev/null; then
+    "$postproc" series short.pe.bin -o picture >out 2>&1 || fail "postproc series"
+    [ -s picture.png ] && [ -s picture.svg ] || fail "no picture"
+  fi
 fi
 
 # Every length is there and is read from its own folder as well.

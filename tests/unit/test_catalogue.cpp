@@ -475,6 +475,17 @@ TEST_F(CatalogueResume, DropsAnEventThatEndsJustAfterTheRestart) {
   EXPECT_EQ(writer.resume(file(), some_info(), 209), 1);
 }
 
+TEST_F(CatalogueResume, RefusesAnotherNumberOfEventsAndLeavesTheFile) {
+  write_events(3);
+  const std::string before = slurp(file());
+  CatalogueWriter writer;
+  EXPECT_TRUE(contains(
+      message_of<CatalogueError>([&] { writer.resume(file(), some_info(), 209, {}, 2); }),
+      "cannot resume: 1 events up to the checkpoint, expected 2"));
+  EXPECT_EQ(slurp(file()), before);
+  EXPECT_EQ(writer.resume(file(), some_info(), 209, {}, 1), 1);
+}
+
 TEST_F(CatalogueResume, DropsATornLastLine) {
   write_events(3);
   const std::string expected = slurp(file());

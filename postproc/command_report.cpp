@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "catalogue_input.h"
+#include "commands.h"
+#include "plot.h"
+#include "report.h"
+
+namespace LSM::postproc {
+
+namespace {
+
+struct Options {
+  CatalogueOptions catalogues;
+  ReportSettings report;
+  std::string output = "report.html";
+};
+
+}  // namespace
+
+void add_report(CLI::App &app) {
+  CLI::App *command = app.add_subcommand(
+      "report",
+      "One self-contained HTML page about a set of catalogues: parameters, counts, figures (SVG), "
+      "fits, finite-size scaling, Table 1, and what of it is the paper's and what is ours");
+  auto options = std::make_shared<Options>();
+  options->catalogues.add_to(command);
+  ReportSettings &report = options->report;
+  command->add_option("-o,--output", options->output, "The page");
+  command->add_option("--title", report.title, "Heading of the page");
+  command
+      ->add_option("--threshold", report.threshold,
+                   "Smallest size (model energy; 1e-4 as in the paper's Figs. 12 and 13)")
+      ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--replicas", report.replicas,
+                   "Synthetic samples of the Monte Carlo p-values; 0: none")
+      ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--bootstrap", report.bootstrap,
+                   "Resampled catalogues for the errors of the characteristic sizes")
+      ->check(CLI::Range(2, 1000000));
+  command->add_option("--seed", report.seed, "Of the random numbers");
+  command->callback([options] {
+    write_file(options->output, report_html(load_catalogues(options->catalogues), options->report));
+    fmt::print("wrote {}\n", options->output);
+  });
+}
+
+}  // namespace LSM::postproc

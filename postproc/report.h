@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file report.h
+/// One HTML page about a set of catalogues: parameters, counts, figures, fits, Table 1.
+#ifndef LSM_POSTPROC_REPORT_H
+#define LSM_POSTPROC_REPORT_H
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "catalogue_input.h"
+#include "numbers.h"
+
+namespace LSM::postproc {
+
+struct ReportSettings {
+  std::string title = "Event statistics of the fault and the block-slider";
+  double threshold = paper_threshold;  ///< smallest size (model energy)
+  int replicas = 100;                  ///< of the Monte Carlo p-values; 0: none
+  int bootstrap = 200;                 ///< of the characteristic sizes
+  std::uint64_t seed = 1;
+};
+
+/// The whole page. It needs no other file and no network; pictures are SVG within it. What cannot
+/// be drawn or fitted says why in its place. \throws PlotError if gnuplot cannot draw;
+/// std::invalid_argument for impossible settings
+std::string report_html(const std::vector<EventTable> &tables, const ReportSettings &settings);
+
+/// Text with the characters that HTML reserves replaced.
+std::string html_escape(std::string_view text);
+
+/// gnuplot's SVG as an element of a page: no prologue, identifiers that begin with prefix (those of
+/// several pictures would clash), background of the page, title as its name for screen readers.
+std::string inline_svg(std::string_view svg, const std::string &prefix, const std::string &title);
+
+}  // namespace LSM::postproc
+
+#endif

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file size_fits.h
+/// Exponents of the event sizes (paper: Sect. 4.2), and whether the roll-off moves with the length
+/// of the fault, the question the paper left open.
+#ifndef LSM_POSTPROC_SIZE_FITS_H
+#define LSM_POSTPROC_SIZE_FITS_H
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "catalogue_input.h"
+#include "finite_size.h"
+#include "numbers.h"
+#include "plot.h"
+#include "power_law.h"
+#include "size_densities.h"
+
+namespace LSM::postproc {
+
+struct SizeFitSettings {
+  std::vector<Range> ranges;  ///< of sizes (model energy); none: the range is searched
+  RangeSearch search;         ///< how it is searched
+  int replicas = 100;         ///< of the Monte Carlo p-value; 0: none
+  std::uint64_t seed = 1;
+  bool compare = true;  ///< with the rivals of compare()
+};
+
+/// One catalogue on one range.
+struct SizeFit {
+  std::string label, model;
+  std::size_t catalogue = 0;  ///< index among the catalogues
+  PowerLawFit fit;
+  double p = std::numeric_limits<double>::quiet_NaN();        ///< NaN: not computed
+  double p_error = std::numeric_limits<double>::quiet_NaN();  ///< of its Monte Carlo estimate
+  std::vector<Comparison> comparisons;
+};
+
+/// Every catalogue on every range. \throws std::invalid_argument for impossible settings
+std::vector<SizeFit> fit_sizes(const std::vector<EventTable> &tables,
+                               const SizeFitSettings &settings);
+
+/// "0.001 to 1", with what search_range() found marked.
+std::string range_text(const PowerLawFit &fit);
+std::string size_fits_text(const std::vector<SizeFit> &fits);
+Table size_fits_csv(const std::vector<SizeFit> &fits);
+nlohmann::json to_json(const SizeFit &fit);
+
+/// Density of the whole catalogue along the fitted law, for size_density_figure().
+/// \param settings those of the densities, which set the normalisation
+PowerLine fitted_line(const SizeFit &fit, const EventTable &table,
+                      const SizeDensitySettings &settings);
+
+/// Which law a comparison that is not degenerate favours; p below 0.05 decides (ours).
+const char *favoured(const Comparison &comparison);
+/// favoured() with the numbers, or "degenerate: why".
+std::string verdict(const Comparison &comparison);
+
+/// Characteristic sizes of the catalogues of one model against their lengths.
+struct Scaling {
+  std::string model;
+  double threshold = 0.0;
+  std::vector<std::string> labels;
+  std::vector<SizePoint> points;
+  ScalingFit fit;
+
+  std::string verdict() const;  ///< one sentence
+};
+
+/// One per model, catalogues without a length left out.
+/// \param replicas of the bootstrap
+std::vector<Scaling> scale_sizes(const std::vector<EventTable> &tables, double threshold,
+                                 int replicas, std::uint64_t seed);
+
+std::string scaling_text(const Scaling &scaling);
+nlohmann::json to_json(const Scaling &scaling);
+
+/// s* against length with error bars, the fitted power law and the constant.
+/// \throws std::runtime_error if no point can be drawn
+Figure scaling_figure(const std::vector<Scaling> &scalings, int width = 900);
+
+}  // namespace LSM::postproc
+
+#endif

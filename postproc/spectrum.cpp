@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "spectrum.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include <fftw3.h>
+#include <fmt/format.h>
+
+namespace LSM::postproc {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+double window_value(Window window, double phase) {
+  switch (window) {
+    case Window::hann:
+      return 0.5 - 0.5 * std::cos(phase);
+    case Window::hamming:
+      return 0.54 - 0.46 * std::cos(phase);
+    case Window::blackman:
+      return 0.42 - 0.5 * std::cos(phase) + 0.08 * std::cos(2.0 * phase);
+    case Window::rectangular:
+      break;
+  }
+  return 1.0;
+}
+
+/// Takes the mean or the straight line of least squares off values.
+void remove_trend(Detrend detrend, double *values, std::size_t count) {
+  if (detrend == Detrend::none) return;
+  const double n = static_cast<double>(count), middle = 0.5 * (n - 1.0);
+  double mean = 0.0, moment = 0.0;
+  for (std::size_t i = 0; i < count; ++i) mean += values[i] / n;
+  for (std::size_t i = 0; i < count; ++i)
+    moment += (static_cast<double>(i) - middle) * (values[i] - mean);
+  const double slope = detrend == Detrend::linear ? moment / (n * (n * n - 1.0) / 12.0) : 0.0;
+  for (std::size_t i = 0; i < count; ++i)
+    values[i] -= mean + slope * (static_cast<double>(i) - middle);
+}
+
+}  // namespace
+
+struct WelchSpectrum::Transform {
+  explicit Transform(std::size_t size)
+      : in(fftw_alloc_real(size)), out(fftw_alloc_complex(size / 2 + 1)) {
+    if (in && out) plan = fftw_plan_dft_r2c_1d(static_cast<int>(size), in, out, FFTW_ESTIMATE);
+    if (!plan) {
+      release();
+      throw std::runtime_error(
+          fmt::format("cannot plan a Fourier transform of {} samples, expected fewer", size));
+    }
+  }
+  ~Transform() { release(); }
+  Transform(const Transform &) = delete;
+  Transform &operator=(const Transform &) = delete;
+
+  double *in;
+  fftw_complex *out;
+  fftw_plan plan = nullptr;
+
+ private:
+  void release() {
+    if (plan) fftw_destroy_plan(plan);
+    fftw_free(in);
+    fftw_free(out);
+  }
+};
+
+WelchSpectrum::WelchSpectrum(const SpectrumSettings &settings, double interval)
+    : settings_(settings), interval_(interval) {
+  const std::size_t n = settings.segment;
+  if (n < 8 || n > static_cast<std::size_t>(std::numeric_limits<int>::max() / 2))
+    throw std::invalid_argument(
+        fmt::format("segment of {} samples, expected at least 8 and at most 1e9", n));
+  if (!(settings.overlap >= 0.0 && settings.overlap < 1.0))
+    throw std::invalid_argument(fmt::format(
+        "overlap of segments is {}, expected at least 0 and less than 1", settings.overlap));
+  if (!std::isfinite(interval) || !(interval > 0.0))
+    throw std::invalid_argument("time between samples must be a positive number");
+  hop_ = std::max<std::size_t>(
+      1, n - static_cast<std::size_t>(std::floor(settings.overlap * static_cast<double>(n))));
+  for (std::size_t i = 0; i < n; ++i) {
+    window_.push_back(
+        window_value(settings.window, 2.0 * pi * static_cast<double>(i) / static_cast<double>(n)));
+    power_ += window_.back() * window_.back();
+  }
+  buffer_.resize(n);
+  sums_.resize(n / 2 + 1);
+  transform_ = std::make_unique<Transform>(n);
+}
+
+WelchSpectrum::~WelchSpectrum() = default;
+
+void WelchSpectrum::add(double value) {
+  ++samples_;
+  buffer_[filled_++] = value;
+  if (filled_ < buffer_.size()) return;
+  take_segment();
+  std::copy(buffer_.begin() + static_cast<std::ptrdiff_t>(hop_), buffer_.end(), buffer_.begin());
+  filled_ -= hop_;
+}
+
+void WelchSpectrum::take_segment() {
+  Transform &t = *transform_;
+  std::copy(buffer_.begin(), buffer_.end(), t.in);
+  remove_trend(settings_.detrend, t.in, buffer_.size());
+  for (std::size_t i = 0; i < buffer_.size(); ++i) t.in[i] *= window_[i];
+  fftw_execute(t.plan);
+  for (std::size_t k = 0; k < sums_.size(); ++k)
+    sums_[k] += t.out[k][0] * t.out[k][0] + t.out[k][1] * t.out[k][1];
+  ++segments_;
+}
+
+double WelchSpectrum::effective_segments() const {
+  const double k = static_cast<double>(segments_);
+  double scatter = 1.0;
+  for (std::size_t shift = hop_; shift < window_.size(); shift += hop_) {
+    const double distance = static_cast<double>(shift / hop_);
+    if (distance >= k) break;
+    double product = 0.0;
+    for (std::size_t i = shift; i < window_.size(); ++i) product += window_[i] * window_[i - shift];
+    scatter += 2.0 * (1.0 - distance / k) * (product / power_) * (product / power_);
+  }
+  return k / scatter;
+}
+
+std::vector<SpectrumPoint> WelchSpectrum::points() const {
+  if (segments_ == 0)
+    throw std::invalid_argument(fmt::format("{} samples, expected at least one segment of {}",
+                                            samples_, settings_.segment));
+  const std::size_t n = window_.size();
+  const double step = 1.0 / (static_cast<double>(n) * interval_);
+  const double averages = effective_segments();
+  std::vector<SpectrumPoint> points(sums_.size());
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    // Negative frequencies are folded onto the positive ones; 0 and n/2 have no other half.
+    const bool alone = k == 0 || 2 * k == n;
+    points[k].frequency = static_cast<double>(k) * step;
+    points[k].width = step;
+    points[k].density =
+        (alone ? 1.0 : 2.0) * sums_[k] * interval_ / (power_ * static_cast<double>(segments_));
+    points[k].error = points[k].density * std::sqrt((alone ? 2.0 : 1.0) / averages);
+  }
+  return points;
+}
+
+std::vector<SpectrumPoint> averaged(const std::vector<SpectrumPoint> &points, int per_decade) {
+  if (per_decade < 1) return points;
+  std::vector<SpectrumPoint> out;
+  const double factor = std::pow(10.0, 1.0 / per_decade);
+  std::size_t begin = 0;
+  while (begin < points.size()) {
+    std::size_t end = begin + 1;
+    if (begin > 0)
+      while (end < points.size() && points[end].frequency < factor * points[begin].frequency) ++end;
+    SpectrumPoint sum;
+    for (std::size_t k = begin; k < end; ++k) {
+      sum.width += points[k].width;
+      sum.density += points[k].density * points[k].width;
+      sum.error += std::pow(points[k].error * points[k].width, 2);
+    }
+    sum.frequency = 0.5 * (points[begin].frequency + points[end - 1].frequency);
+    sum.density /= sum.width;
+    sum.error = std::sqrt(sum.error) / sum.width;
+    out.push_back(sum);
+    begin = end;
+  }
+  return out;
+}
+
+}  // namespace LSM::postproc

@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Fuzz target of the readers of catalogues and PE series, strict and lenient. Whatever the bytes, a
+// reader gives what its description promises or throws a FileError; nothing else, never a crash.
+//
+// Built as a program it mutates files of its own for a bounded time:
+//   fuzz_readers [SECONDS [SEED]]        (default 2 1)
+// The entry LLVMFuzzerTestOneInput serves libFuzzer: clang++ -std=c++17 -DLSM_LIBFUZZER
+// -fsanitize=fuzzer,address,undefined -I lammps-pkg/core tests/postproc/fuzz_readers.cpp
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+#include "lsm_catalogue.h"
+#include "lsm_event_picker.h"
+#include "lsm_pe_series.h"
+#include "lsm_random.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder of its own, in memory where there is such a place (files are written by the thousand);
+/// removed at the end.
+struct Folder {
+  Folder() {
+    const fs::path memory = "/dev/shm";
+    const bool fast = access(memory.c_str(), W_OK) == 0;
+    std::string name = ((fast ? memory : fs::temp_directory_path()) / "lsm-fuzz-XXXXXX").string();
+    if (!mkdtemp(name.data())) std::abort();
+    path = name;
+  }
+  ~Folder() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+  fs::path path;
+};
+
+const Folder &folder() {
+  static const Folder one;
+  return one;
+}
+
+struct Counts {
+  std::int64_t inputs = 0, accepted = 0, repaired = 0, refused = 0;
+};
+Counts catalogues, series;
+
+void require(bool good, const char *what) {
+  if (good) return;
+  std::fprintf(stderr, "fuzz_readers: broken promise: %s\n", what);
+  std::abort();
+}
+
+struct Outcome {
+  bool refused = false;
+  std::int64_t repairs = 0;
+  std::string message;
+};
+
+bool same(const LSM::Event &a, const LSM::Event &b) {
+  return a.id == b.id && a.t_start == b.t_start && a.t_end == b.t_end &&
+         a.step_start == b.step_start && a.step_end == b.step_end && a.size == b.size &&
+         a.pe_start == b.pe_start && a.pe_end == b.pe_end && a.slip_moment == b.slip_moment &&
+         a.x_centroid == b.x_centroid && a.rupture_length == b.rupture_length;
+}
+
+Outcome read_catalogue(const std::string &path, bool lenient, std::vector<LSM::Event> &events) {
+  Outcome outcome;
+  try {
+    LSM::CatalogueReader reader(path, lenient);
+    require(reader.info().model == "lsm" || reader.info().model == "block-slider", "known model");
+    LSM::Event event;
+    while (reader.next(event)) {
+      for (const double x : {event.t_start, event.t_end, event.size, event.pe_start, event.pe_end,
+                             event.slip_moment, event.x_centroid, event.rupture_length})
+        require(std::isfinite(x), "finite numbers");
+      require(event.t_start <= event.t_end, "an event ends after its start");
+      require(event.step_start <= event.step_end, "an event ends after its first step");
+      if (!events.empty()) {
+        require(events.back().id < event.id, "increasing identifiers");
+        require(events.back().t_end <= event.t_start, "events in order of time");
+        require(events.back().step_end <= event.step_start, "events in order of steps");
+      }
+      events.push_back(event);
+    }
+    outcome.repairs = reader.skipped();
+    require(reader.repairs().empty() == (reader.skipped() == 0), "repairs are stated");
+    require(reader.first_problem().empty() == (reader.skipped() == 0), "the first one is named");
+  } catch (const LSM::FileError &error) {
+    outcome.refused = true;
+    outcome.message = error.what();
+    require(outcome.message.rfind(path, 0) == 0, "a message begins with the file");
+    require(outcome.message.find('\n') == std::string::npos, "a message is one line");
+  }
+  return outcome;
+}
+
+void try_catalogue(const std::string &path) {
+  std::vector<LSM::Event> strict, lenient;
+  const Outcome a = read_catalogue(path, false, strict);
+  const Outcome b = read_catalogue(path, true, lenient);
+  require(a.repairs == 0, "strict repairs nothing");
+  require(!b.refused || a.refused, "lenient accepts what strict accepts");
+  if (!a.refused) {
+    require(b.repairs == 0 && strict.size() == lenient.size(), "nothing to repair");
+    for (std::size_t i = 0; i < strict.size(); ++i)
+      require(same(strict[i], lenient[i]), "the same events");
+  } else if (!b.refused) {
+    require(b.repairs > 0, "a repair for what strict refuses");
+  }
+  ++catalogues.inputs;
+  ++(!a.refused ? catalogues.accepted : !b.refused ? catalogues.repaired : catalogues.refused);
+  if (a.refused) return;
+  // What was read can be written, and reads back.
+  const std::string copy = (folder().path / "copy").string();
+  LSM::CatalogueInfo info;
+  info.model = "lsm";
+  info.slip_moment = info.x_centroid = info.rupture_length = true;
+  LSM::CatalogueWriter writer;
+  writer.create(copy, info);
+  for (const LSM::Event &event : strict) writer.write(event);
+  writer.close();
+  std::vector<LSM::Event> again;
+  require(!read_catalogue(copy, false, again).refused && again.size() == strict.size(),
+          "a copy can be read");
+  for (std::size_t i = 0; i < strict.size(); ++i) require(same(strict[i], again[i]), "a true copy");
+}
+
+struct Sample {
+  std::int64_t step;
+  double time, pe;
+  bool operator==(const Sample &o) const { return step == o.step && time == o.time && pe == o.pe; }
+};
+
+Outcome read_series(const std::string &path, bool lenient, std::vector<Sample> &samples) {
+  Outcome outcome;
+  try {
+    LSM::PeSeriesReader reader(path, lenient);
+    require(reader.info().dt > 0.0 && reader.info().stride >= 1, "sane header");
+    LSM::EventPicker picker{LSM::PickerSettings()};
+    LSM::Event event;
+    Sample s{};
+    bool picking = true;
+    while (reader.next(s.step, s.time, s.pe)) {
+      require(std::isfinite(s.time) && std::isfinite(s.pe), "finite numbers");
+      if (!samples.empty()) {
+        require(samples.back().step < s.step, "increasing steps");
+        require(samples.back().time <= s.time, "increasing times");
+        // Only a change that is too large for a double is more than a picker can take.
+        picking = picking && std::isfinite(s.pe - samples.back().pe);
+      }
+      if (picking) picker.push(s.step, s.time, s.pe, event);
+      samples.push_back(s);
+    }
+    outcome.repairs = reader.torn() ? 1 : 0;
+  } catch (const LSM::FileError &error) {
+    outcome.refused = true;
+    outcome.message = error.what();
+    require(outcome.message.rfind(path, 0) == 0, "a message begins with the file");
+    require(outcome.message.find('\n') == std::string::npos, "a message is one line");
+  }
+  return outcome;
+}
+
+void try_series(const std::string &path) {
+  std::vector<Sample> strict, lenient;
+  const Outcome a = read_series(path, false, strict);
+  const Outcome b = read_series(path, true, lenient);
+  require(!b.refused || a.refused, "lenient accepts what strict accepts");
+  if (!a.refused)
+    require(a.repairs == 0 && b.repairs == 0 && strict == lenient, "nothing to repair");
+  else
+    require(b.refused || b.repairs > 0, "only a truncated last sample is repaired");
+  ++series.inputs;
+  ++(!a.refused ? series.accepted : !b.refused ? series.repaired : series.refused);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+  const std::string path = (folder().path / "input").string();
+  std::ofstream(path, std::ios::binary)
+      .write(reinterpret_cast<const char *>(data), static_cast<std::streamsize>(size));
+  try_catalogue(path);
+  try_series(path);
+  return 0;
+}
+
+#ifndef LSM_LIBFUZZER
+namespace {
+
+std::string slurp(const std::string &path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+/// Small files as the programs write them.
+std::vector<std::string> seeds() {
+  std::vector<std::string> out;
+  const std::string path = (folder().path / "seed").string();
+  for (const bool columns : {false, true}) {
+    LSM::CatalogueInfo info;
+    info.model = columns ? "lsm" : "block-slider";
+    info.parameters = {{"dt", "0.03"}, {"length", "120"}, {"picker", "exponential"}};
+    info.slip_moment = info.x_centroid = info.rupture_length = columns;
+    LSM::CatalogueWriter writer;
+    writer.create(path, info);
+    for (int i = 0; i < 8; ++i) {
+      LSM::Event event;
+      event.id = i + 1;
+      event.step_start = 100 * i;
+      event.step_end = event.step_start + 10 * (i % 4);
+      event.t_start = 0.03 * static_cast<double>(event.step_start);
+      event.t_end = 0.03 * static_cast<double>(event.step_end);
+      event.size = std::pow(10.0, -i);
+      event.pe_start = 1.5;
+      event.pe_end = event.pe_start - event.size;
+      event.slip_moment = 0.25 * i;
+      writer.write(event);
+    }
+    writer.close();
+    out.push_back(slurp(path));
+  }
+  for (const bool binary : {false, true}) {
+    LSM::PeSeriesInfo info;
+    info.model = "lsm";
+    info.dt = 0.03;
+    info.step0 = 20;
+    info.time0 = 0.6;
+    info.parameters = {{"lambda", "0.99"}};
+    LSM::PeSeriesWriter writer;
+    writer.create(path, info, binary);
+    for (int i = 0; i < 12; ++i) writer.write(20 + i, 0.14 + 1e-3 * (i % 5));
+    writer.close();
+    out.push_back(slurp(path));
+  }
+  return out;
+}
+
+class Mutator {
+ public:
+  explicit Mutator(std::uint64_t seed) : random_(seed) {}
+
+  std::size_t below(std::size_t n) { return n == 0 ? 0 : random_.next() % n; }
+
+  void mutate(std::string &text, const std::vector<std::string> &others) {
+    static const std::vector<std::string> tokens = {"nan",
+                                                    "inf",
+                                                    "-inf",
+                                                    "1e999",
+                                                    "1e-999",
+                                                    "-",
+                                                    ",",
+                                                    ",,",
+                                                    "\n",
+                                                    "\r\n",
+                                                    "\n\n",
+                                                    "#",
+                                                    "# ",
+                                                    " = ",
+                                                    "=",
+                                                    "0",
+                                                    "-1",
+                                                    "9223372036854775807",
+                                                    "-9223372036854775808",
+                                                    "1e308",
+                                                    "-1e308",
+                                                    "# model = lsm\n",
+                                                    "# dt = 0\n",
+                                                    "slip_moment",
+                                                    ",slip_moment",
+                                                    "step,time,pe\n",
+                                                    "# lsm-catalogue 2",
+                                                    "lsm-pe-series-1\n",
+                                                    std::string(1, '\0'),
+                                                    std::string(8, '\xff')};
+    const std::size_t at = below(text.size() + 1);
+    switch (below(9)) {
+      case 0:
+        if (!text.empty()) text[below(text.size())] ^= static_cast<char>(1 << below(8));
+        break;
+      case 1:
+        if (!text.empty()) text[below(text.size())] = static_cast<char>(below(256));
+        break;
+      case 2:
+        text.erase(at, below(below(2) ? 4 : 200));
+        break;
+      case 3:
+        text.insert(at, tokens[below(tokens.size())]);
+        break;
+      case 4:
+        text.resize(at);
+        break;
+      case 5:
+        text.insert(at, text.substr(below(text.size() + 1), below(200)));
+        break;
+      case 6: {
+        const std::string &other = others[below(others.size())];
+        text = text.substr(0, at) + other.substr(below(other.size() + 1));
+        break;
+      }
+      case 7: {  // a digit for a digit keeps the form and changes the order
+        const std::size_t digit = text.find_first_of("0123456789", at);
+        if (digit != std::string::npos) text[digit] = static_cast<char>('0' + below(10));
+        break;
+      }
+      default: {  // a line twice or in another place
+        const std::size_t begin = text.rfind('\n', at) + 1, end = text.find('\n', begin);
+        if (end == std::string::npos) break;
+        const std::string line = text.substr(begin, end + 1 - begin);
+        if (below(2)) text.erase(begin, line.size());
+        const std::size_t to = text.find('\n', below(text.size() + 1));
+        if (to != std::string::npos) text.insert(to + 1, line);
+      }
+    }
+  }
+
+ private:
+  LSM::Random random_;
+};
+
+void show(const char *name, const Counts &c) {
+  std::printf("%s: %lld inputs, %lld accepted, %lld repaired, %lld refused\n", name,
+              static_cast<long long>(c.inputs), static_cast<long long>(c.accepted),
+              static_cast<long long>(c.repaired), static_cast<long long>(c.refused));
+}
+
+}  // namespace
+
+int main(int argc, char **argv) {
+  const double seconds = argc > 1 ? std::atof(argv[1]) : 2.0;
+  const std::uint64_t seed = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1;
+  std::printf("seed %llu\n", static_cast<unsigned long long>(seed));
+  const std::vector<std::string> files = seeds();
+  Mutator mutator(seed);
+  const auto run = [](const std::string &text) {
+    LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t *>(text.data()), text.size());
+  };
+  for (const std::string &file : files) run(file);
+  const auto begin = std::chrono::steady_clock::now();
+  // A slow machine still makes the first inputs, which reach all outcomes.
+  for (int i = 0; i < 5000 ||
+                  std::chrono::steady_clock::now() - begin < std::chrono::duration<double>(seconds);
+       ++i) {
+    std::string text = files[mutator.below(files.size())];
+    for (std::size_t times = 1 + mutator.below(5); times > 0; --times) mutator.mutate(text, files);
+    run(text);
+  }
+  show("catalogues", catalogues);
+  show("PE series", series);
+  for (const Counts *c : {&catalogues, &series}) {
+    if (c->accepted > 10 && c->repaired > 10 && c->refused > 10) continue;
+    std::fprintf(stderr,
+                 "fuzz_readers: an outcome was hardly reached, the mutations test little\n");
+    return 1;
+  }
+  return 0;
+}
+#endif

@@ -1,0 +1,259 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-2.0-or-later
+# Tests of postproc from outside: postproc_cli_test.sh PROGRAM CASE [SLIDER_CLI]
+set -u
+export LC_ALL=C
+program=$1 slider=${3:-}
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder" || exit 1
+
+fail() {
+  echo "FAILED: $*" >&2
+  exit 1
+}
+run() { "$program" "$@" > out.txt 2> err.txt; }
+must_run() { run "$@" || fail "$* ended with $?: $(cat err.txt)"; }
+
+# refused PATTERN ARGUMENTS...: exit 1, one line that matches, nothing written.
+refused() {
+  local pattern=$1 before
+  shift
+  : > out.txt > err.txt
+  before=$(ls -A)
+  run "$@"
+  [ $? = 1 ] || fail "exit status is not 1 for: $*"
+  [ "$(wc -l < err.txt)" = 1 ] || fail "not one line for $*: $(cat err.txt)"
+  grep -q "^postproc: " err.txt || fail "message for $* is '$(cat err.txt)'"
+  grep -q -e "$pattern" err.txt || fail "message for $* is '$(cat err.txt)', expected '$pattern'"
+  [ "$(ls -A)" = "$before" ] || fail "output left behind by $*: $(ls -A)"
+}
+
+# series FILE [ROWS]: loading with drops, as text.
+series() {
+  awk -v rows="${2:-5000}" 'BEGIN {
+    print "# lsm-pe-series 1\n# model = lsm\n# dt = 0.03\n# step0 = 0\n# time0 = 0\n# stride = 1"
+    print "# length = 40\n# picker = literal\n# lambda = 0.5\n# min_size = 0\nstep,time,pe"
+    pe = 1
+    for (i = 0; i < rows; i++) {
+      printf "%d,%.17g,%.17g\n", i, i * 0.03, pe
+      pe += i % 97 < 80 ? 1e-3 * (1 + i % 7) : -2e-3 * (1 + i % 11)
+    }
+  }' > "$1"
+}
+
+# What the picker has to find, written a second time in awk: reference READING LAMBDA MIN FILE
+reference() {
+  awk -F, -v reading="$1" -v lambda="$2" -v least="$3" '
+    /^#/ || /^step/ { next }
+    n++ {
+      x = $3 - pe
+      if (reading == "exponential") a = lambda * a + (1 - lambda) * x
+      if (reading == "average") a = (x + lambda * a) / (1 + lambda)
+      if (reading == "literal") a = (x + lambda * a) / (1 + lambda * (n - 2))
+      if (!open && a < 0) { open = 1; s0 = step; t0 = time; p0 = pe }
+      else if (open && a > 0) {
+        open = 0
+        if (p0 - pe > 0 && p0 - pe >= least)
+          printf "%d,%.17g,%.17g,%d,%d,%.17g,%.17g,%.17g\n", ++id, t0, time, s0, step, p0 - pe, p0, pe
+      }
+    }
+    { step = $1; time = $2; pe = $3 }' "$4"
+}
+rows() { grep -v '^[#e]' "$1"; }
+
+# catalogue FILE: five events with a centroid, one of negative size
+catalogue() {
+  {
+    printf '# lsm-catalogue 1\n# model = lsm\n# length = 40\n'
+    echo event_id,t_start,t_end,step_start,step_end,size,pe_start,pe_end,slip_moment,x_centroid
+    echo 1,0,1.5,0,50,1,2,1,3,10
+    echo 2,2,3,60,90,0.001,2,1.999,3,20
+    echo 3,86400.25,86401,100,190,1000,2000,1000,3,30
+    echo 5,86402,86403,200,290,-1,2,3,3,40
+    echo 6,86404.0000005,86405,300,390,1e-6,2,2,3,0
+  } > "$1"
+}
+
+case $2 in
+pick)
+  series pe.csv
+  for setting in "exponential 0.99 0" "exponential 0.9 0.01" "average 0.99 0" "literal 0.99 0.02"; do
+    read -r reading lambda least <<< "$setting"
+    must_run pick pe.csv -o picked.csv --force --picker "$reading" --lambda "$lambda" --min-size "$least"
+    reference "$reading" "$lambda" "$least" pe.csv > expected
+    [ "$(wc -l < expected)" -ge 10 ] || fail "too few events to test anything: $setting"
+    rows picked.csv | diff - expected > /dev/null || fail "$setting: not the events of the reference"
+    grep -q "^# picker = $reading$" picked.csv && grep -q "^# lambda = $lambda$" picked.csv ||
+      fail "$setting: header does not say so"
+  done
+  # What is not given comes from the header of the series; its parameters are carried over.
+  must_run pick pe.csv -o picked.csv --force
+  reference literal 0.5 0 pe.csv | diff - <(rows picked.csv) > /dev/null || fail "settings of the header not used"
+  grep -q '^# length = 40$' picked.csv && grep -q '^# dt = 0.029999999999999999$' picked.csv ||
+    fail "parameters are not carried over"
+  # Memory, in time and in samples; lambda = exp(-0.03/3), 1 - 1/100
+  must_run pick pe.csv -o a.csv --picker exponential --memory-time 3
+  grep -q '^# lambda = 0.99004983374916' a.csv || fail "--memory-time gives $(grep lambda a.csv)"
+  must_run pick pe.csv -o b.csv --picker exponential --memory-steps 100
+  grep -q '^# lambda = 0.99$' b.csv || fail "--memory-steps gives $(grep lambda b.csv)"
+  # Warm-up: identifiers begin with 1 behind it.
+  must_run pick pe.csv -o c.csv --warmup 75
+  reference literal 0.5 0 pe.csv | awk -F, '$2 >= 75' | cut -d, -f2- | diff - <(rows c.csv | cut -d, -f2-) > /dev/null ||
+    fail "--warmup 75"
+  [ "$(rows c.csv | head -n 1 | cut -d, -f1)" = 1 ] || fail "identifiers with --warmup"
+  # The catalogue is one that the other commands read.
+  must_run export c.csv -o table.csv
+  # An older file stays unless --force is given; nothing is left of a series that ends badly.
+  cp c.csv before
+  refused "c.csv: exists already" pick pe.csv -o c.csv
+  sed '4000s/,[^,]*$/,nan/' pe.csv > bad.csv
+  refused "bad.csv:4000: column 'pe' is 'nan', expected a finite number" pick bad.csv -o new.csv
+  refused "bad.csv:4000: column 'pe' is 'nan', expected a finite number" pick bad.csv -o c.csv --force
+  cmp c.csv before || fail "an older catalogue was touched"
+  head -c -5 pe.csv > torn.csv
+  refused "torn.csv:5011: truncated last line" pick torn.csv -o new.csv
+  must_run pick torn.csv -o new.csv --lenient
+  grep -q "torn.csv: dropped a truncated last sample: 1" err.txt || fail "a repair is not stated"
+  refused "is the series itself" pick pe.csv -o ./pe.csv --force
+  refused "lambda of the picker is 1, expected at least 0 and less than 1" pick pe.csv -o x.csv --lambda 1
+  refused "memory-steps 0.5: expected at least 1 sample" pick pe.csv -o x.csv --picker exponential --memory-steps 0.5
+  refused "memory-time with the reading 'literal', expected 'exponential'" pick pe.csv -o x.csv --memory-time 3
+  refused "lambda excludes" pick pe.csv -o x.csv --memory-steps 10 --lambda 0.5
+  refused "min-size -1: expected a finite size of at least 0" pick pe.csv -o x.csv --min-size -1
+  refused "median" pick pe.csv -o x.csv --picker median
+  ;;
+online)
+  # The same rows as the program that ran picked, from its series.
+  [ -x "$slider" ] || exit 77
+  for picker in exponential literal; do
+    for format in text binary; do
+      "$slider" --blocks 100 --dt 0.05 --velocity 0.05 --warmup 300 --steps 300000 --picker $picker \
+        --catalogue online.csv --pe-series pe --pe-format $format > /dev/null || fail "slider_cli"
+      must_run pick pe -o picked.csv --force
+      rows online.csv | cut -d, -f1-8 > expected
+      [ "$(wc -l < expected)" -ge 10 ] || fail "too few events to test anything"
+      rows picked.csv | cmp - expected || fail "$picker, $format: not the same rows"
+      diff <(grep '^#' online.csv | sort) <(grep '^#' picked.csv | grep -v picked_by | sort) > /dev/null ||
+        fail "$picker: headers differ"
+    done
+  done
+  ;;
+series)
+  series pe.csv
+  must_run series pe.csv -o all --no-picture --picker exponential --lambda 0.9
+  # 5000 samples are more than 2 x 2000: 2 rows for each of the columns, the extremes among them.
+  [ "$(grep -vc '^[#t]' all.csv)" = 4000 ] || fail "$(grep -vc '^[#t]' all.csv) rows, expected 4000"
+  extremes() { sort -g | sed -n '1p;$p'; }
+  [ "$(grep -v '^[#t]' all.csv | cut -d, -f2 | extremes)" = "$(grep -v '^[#s]' pe.csv | cut -d, -f3 | extremes)" ] ||
+    fail "an extreme is lost"
+  reference exponential 0.9 0 pe.csv | cut -d, -f2,3,7,8,6 > expected
+  grep -v '^[#t]' all-events.csv | awk -F, '$5 != "" { print $1 "," $2 "," $5 "," $3 "," $4 }' |
+    diff - expected > /dev/null || fail "not the events of the reference"
+  # Few samples are there one by one; the smoothed change has the memory of what was before.
+  must_run series pe.csv -o part --no-picture --from 30 --to 60 --picker exponential --lambda 0.9
+  awk -F, '/^[#s]/ { next } n++ { x = $3 - pe; a = 0.9 * a + (1 - 0.9) * x } { pe = $3 }
+    $2 >= 30 && $2 <= 60 { printf "%.17g,%.17g,%.17g,%.17g\n", $2, $3, x, a }' pe.csv > expected
+  [ "$(wc -l < expected)" -gt 900 ] && grep -v '^[#t]' part.csv | diff - expected > /dev/null || fail "window"
+  if command -v gnuplot > /dev/null; then
+    must_run series pe.csv -o drawn --from 30 --to 60
+    for extension in png svg gp csv; do [ -s drawn.$extension ] || fail "no drawn.$extension"; done
+    [ -s drawn-events.csv ] || fail "no drawn-events.csv"
+    grep -q '</svg>' drawn.svg || fail "the SVG is not whole"
+    # A window without an event, too.
+    must_run series pe.csv -o quiet --from 0 --to 1
+    [ -s quiet.svg ] || fail "no picture without events"
+  fi
+  refused "expected --from before --to" series pe.csv --from 5 --to 5 --no-picture -o x
+  refused "pe.csv: 0 samples in the window of time, expected at least 3" series pe.csv --from 1e6 -o x
+  refused "columns" series pe.csv --columns 2 -o x
+  ;;
+spectrum)
+  # A sine of amplitude 2 and period 25.6 steps of 0.5: variance 2, frequency 1/12.8
+  awk 'BEGIN {
+    print "# lsm-pe-series 1\n# model = lsm\n# dt = 0.5\n# step0 = 0\n# time0 = 0\n# stride = 1\nstep,time,pe"
+    for (i = 0; i < 4096; i++) printf "%d,%.17g,%.17g\n", i, i * 0.5, 5 + 2 * sin(8 * atan2(1, 1) * i / 25.6) }' > sine
+  must_run spectrum sine --segment 1024 --per-decade 0 --no-picture -o sine_spectrum
+  awk -F, '/^[#c]/ { next } { v += $4 * $5; if ($5 > big) { big = $5; at = $3 } }
+    END { exit !(v > 1.999 && v < 2.001 && at > 0.07812 && at < 0.07813) }' sine_spectrum.csv || fail "variance or frequency"
+  grep -q "4096 samples, 7 segments" out.txt || fail "segments: $(cat out.txt)"
+  must_run spectrum sine --segment 1024 --of change --window blackman --detrend mean --no-picture -o change
+  # change: amplitude 4 sin(pi/25.6), variance 0.11982 (8 sin^2)
+  awk -F, '/^[#c]/ { next } { v += $4 * $5 } END { exit !(v > 0.1197 && v < 0.1200) }' change.csv || fail "variance of the change"
+  if command -v gnuplot > /dev/null; then
+    must_run spectrum sine sine --label one --label 'two & <2>' -o drawn
+    for extension in png svg gp csv; do [ -s drawn.$extension ] || fail "no drawn.$extension"; done
+  fi
+  refused "4096 samples in the window of time, expected at least one segment of 8192" spectrum sine --segment 8192 -o x
+  sed '100d' sine > gap
+  refused "gap: step 93 after step 91, expected a sample every 1 steps" spectrum gap -o x
+  refused "overlap of segments is 1, expected at least 0 and less than 1" spectrum sine --overlap 1 -o x
+  refused "window" spectrum sine --window tukey -o x
+  refused "label given 1 times, expected once per series (2)" spectrum sine sine --label a -o x
+  ;;
+export)
+  catalogue c.csv
+  must_run export c.csv -o s.csv
+  grep -q "^4 events; left out: 0 of size <= 0" out.txt || fail "counts: $(cat out.txt)"
+  cat > expected << 'END'
+longitude,latitude,depth,time,magnitude,event_id,catalog_id,duration,size
+0,0,0,2000-01-01T00:00:00.000000,0,1,0,1.5,1
+0,0,0,2000-01-01T00:00:02.000000,-2,2,0,1,0.001
+0,0,0,2000-01-02T00:00:00.250000,2,3,0,0.75,1000
+0,0,0,2000-01-02T00:00:04.000001,-4,6,0,0.9999995,1e-06
+END
+  sed 's/0.9999994999[0-9]*/0.9999995/; s/0.9999995000[0-9]*/0.9999995/' s.csv | diff - expected || fail "seismostats"
+  must_run export c.csv -o p.csv --format csep --magnitude-constant 4.5 --time-unit day --start-date 1999-12-31T12:00:00 \
+    --degrees-per-length 0.5 --to 1000 --min-size -10
+  cat > expected << 'END'
+lon,lat,mag,time_string,depth,catalog_id,event_id
+5,0,4.5,1999-12-31T12:00:00.000000,0,0,1
+10,0,2.5,2000-01-02T12:00:00.000000,0,0,2
+END
+  diff p.csv expected || fail "csep"
+  must_run export c.csv c.csv -o two.csv --min-size -10
+  grep -q "^8 events; left out: 2 of size <= 0" out.txt || fail "two catalogues: $(cat out.txt)"
+  [ "$(cut -d, -f7 two.csv | sort | uniq -c | tr -s ' ' | tr '\n' ';')" = " 4 0; 4 1; 1 catalog_id;" ] || fail "catalog_id"
+  refused "s.csv: exists already" export c.csv -o s.csv
+  refused "event 3 starts at time 86400.25, a date outside the years 1700 to 2261" export c.csv -o x.csv --time-unit year
+  for date in 2000-13-01 2001-02-29 yesterday 2000-01-01T12; do
+    refused "start-date '$date': expected a date" export c.csv -o x.csv --start-date $date
+  done
+  refused "time-unit" export c.csv -o x.csv --time-unit -1
+  sed 's/,[^,]*$//; s/,slip_moment//' c.csv | sed 's/\(,pe_end\).*/\1,slip_moment/' > plain.csv
+  refused "plain.csv: has no column x_centroid" export plain.csv -o x.csv --degrees-per-length 1
+  ;;
+bad_input)
+  catalogue good.csv
+  refused "subcommand" # none
+  refused "help lists the options" smooth good.csv
+  refused "is required" pick good.csv
+  for command in pick histograms intervals fit series spectrum export report; do
+    run $command --help || fail "$command --help"
+    grep -q -- "--output" out.txt || fail "$command --help does not tell of --output"
+    refused "nowhere.csv: cannot open" $command nowhere.csv -o x
+    refused "is a directory, expected a file" $command / -o x
+    : > empty.csv
+    refused "empty.csv:1: empty file" $command empty.csv -o x
+    printf '# lsm-catalogue 2\n' > version.csv
+    case $command in pick | series | spectrum) printf '# lsm-pe-series 2\n' > version.csv ;; esac
+    for lenient in "" --lenient; do
+      refused "version.csv:1: .*version '2', expected version 1" $command version.csv -o x $lenient
+    done
+  done
+  run --version && grep -q '^postproc [0-9]' out.txt || fail "--version"
+  head -c -3 good.csv > torn.csv
+  refused "torn.csv:9: truncated last line" export torn.csv -o x
+  sed 's/^2,2,3/2,nan,3/; s/^3,/1,/' good.csv > bad.csv
+  refused "bad.csv:6: column 't_start' is 'nan', expected a finite number" export bad.csv -o x
+  must_run export bad.csv -o repaired.csv --lenient
+  grep -q "passed over lines with something else than finite numbers: 1" err.txt &&
+    grep -q "passed over events out of order: 1" err.txt || fail "repairs are not stated: $(cat err.txt)"
+  [ "$(wc -l < repaired.csv)" = 3 ] || fail "$(wc -l < repaired.csv) lines, expected 3"
+  refused "from 3 --to 2: expected --from before --to" export good.csv -o x --from 3 --to 2
+  ;;
+*)
+  fail "no case $2"
+  ;;
+esac
+echo passed

@@ -1,0 +1,192 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-2.0-or-later
+# Tests of the commands that draw, from outside: postproc_figures_test.sh PROGRAM CASE
+set -u
+program=$1
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder" || exit 1
+
+fail() {
+  echo "FAILED: $*" >&2
+  exit 1
+}
+run() { "$program" "$@" > out.txt 2> err.txt; }
+must_run() { run "$@" || fail "$* ended with $?: $(cat err.txt)"; }
+refused() { # PATTERN ARGUMENTS...: non-zero exit, one line on stderr that matches
+  local pattern=$1
+  shift
+  run "$@" && fail "accepted: $*"
+  [ "$(wc -l < err.txt)" = 1 ] || fail "not one line for $*: $(cat err.txt)"
+  grep -q -e "$pattern" err.txt || fail "message for $* is '$(cat err.txt)', expected '$pattern'"
+}
+pictures() { # BASE: all four files, none empty
+  local extension
+  for extension in csv gp png svg; do
+    [ -s "$1.$extension" ] || fail "$1.$extension is missing or empty"
+  done
+}
+# catalogue FILE LENGTH [MODEL]: from lines "t_start size" on stdin
+catalogue() {
+  awk -v length_="$2" -v model="${3:-lsm}" '
+    BEGIN { print "# lsm-catalogue 1\n# model = " model
+            print "# " (model == "lsm" ? "length" : "blocks") " = " length_
+            print "event_id,t_start,t_end,step_start,step_end,size,pe_start,pe_end" }
+    { printf "%d,%.17g,%.17g,%d,%d,%.17g,%.17g,0\n", NR, $1, $1, NR, NR, $2, $2 }' > "$1"
+}
+# near A B RELATIVE
+near() { awk -v a="$1" -v b="$2" -v r="$3" 'BEGIN { d = a - b; if (d < 0) d = -d; exit !(d <= r * (b < 0 ? -b : b)) }'; }
+# power ALPHA LO HI N: "t size" of a sample whose cumulative distribution is that of the power law
+power() {
+  awk -v a="$1" -v lo="$2" -v hi="$3" -v n="$4" 'BEGIN {
+    for (i = 0; i < n; ++i) {
+      u = ((i * 7919) % n + 0.5) / n # shuffled: 7919 is prime
+      if (a == 1) s = lo * (hi / lo) ^ u
+      else s = (lo ^ (1 - a) + u * (hi ^ (1 - a) - lo ^ (1 - a))) ^ (1 / (1 - a))
+      printf "%d %.17g\n", 10 * i, s } }'
+}
+
+case $2 in
+histograms)
+  # 90 events in the bin from 1e-3 to 10^-2.9, 10 in the one from 1e-2 to 10^-1.9, 7 too small.
+  awk 'BEGIN { for (i = 0; i < 107; ++i) print i, (i < 90 ? 1.1e-3 : i < 100 ? 1.1e-2 : 5e-5) }' |
+    catalogue a.csv 120
+  power 1 1e-3 1 1000 | catalogue b.csv 256 block-slider
+  must_run histograms a.csv b.csv --guide -1.07 --guide -1:1e-2:1e-1 -o h
+  pictures h
+  awk -F, '/^#/ || /^curve/ { next }
+    $1 == 1 && $7 > 0 {
+      ++n; w = $5 - $4; d = $7 / (100 * w); e = sqrt($7) / (100 * w)
+      if (($8 / d - 1) ^ 2 > 1e-18 || ($9 / e - 1) ^ 2 > 1e-18) exit 1
+      edge = n == 1 ? 1e-3 : 1e-2; count = n == 1 ? 90 : 10
+      if (($4 / edge - 1) ^ 2 > 1e-18 || $7 != count) exit 1
+      if (($5 / $4 / 10 ^ 0.1 - 1) ^ 2 > 1e-18) exit 1 }
+    $1 == 1 { rows++ }
+    END { exit !(n == 2 && rows == 11) }' h.csv || fail "densities of a.csv: $(cat h.csv)"
+  # Ten bins a decade over three decades, density 1 / (ln 1000 s), integral 1.
+  awk -F, '$1 == 2 && !/^#/ { sum += $8 * ($5 - $4); flat = $8 * $6 * log(1000); if ((flat - 1) ^ 2 > 0.05 ^ 2) exit 1; ++n }
+    END { exit !(n == 30 && (sum - 1) ^ 2 < 1e-18) }' h.csv || fail "densities of b.csv: $(cat h.csv)"
+  grep -q 'fault, length 120 (100 events)' h.svg || fail "no legend for a.csv"
+  grep -q 'block-slider, N = 256 (1000 events)' h.svg || fail "no legend for b.csv"
+  must_run histograms a.csv --normalise counts --threshold 0 -o c --no-picture
+  [ -e c.png ] && fail "--no-picture drew a picture"
+  awk -F, '!/^#/ && !/^curve/ && $8 != $7 { exit 1 } { total += $7 } END { exit total != 107 }' c.csv ||
+    fail "counts: $(cat c.csv)"
+  # Sizes divided by the length.
+  must_run histograms a.csv b.csv --collapse 1 -o d --no-picture
+  awk -F, '$1 == 1 && $7 == 90 { good = ($4 * 120 / 1e-3 - 1) ^ 2 < 1e-18 } END { exit !good }' d.csv || fail "--collapse"
+  refused 'expected SLOPE' histograms a.csv --guide steep -o x
+  refused 'expected LO:HI' histograms a.csv --range 3 -o x
+  refused 'nothing to draw' histograms a.csv --threshold 1 -o x
+  [ -e x.csv ] && fail "a refused command left a file"
+  ;;
+intervals)
+  # 100 times of 5, then 50 of 50.
+  awk 'BEGIN { t = 0; for (i = 0; i <= 150; ++i) { print t, (i % 2 ? 1 : 2); t += i < 100 ? 5 : 50 } }' |
+    catalogue a.csv 120
+  must_run intervals a.csv -o i
+  pictures i
+  awk -F, '/^#/ || /^curve/ || !($7 > 0) { next }
+    { ++n; d = $7 / (150 * ($5 - $4)); if (($8 / d - 1) ^ 2 > 1e-18) exit 1
+      if ($7 != (n == 1 ? 100 : 50)) exit 1
+      t = n == 1 ? 5 : 50; if (!($4 <= t && t < $5)) exit 1 }
+    END { exit n != 2 }' i.csv || fail "densities: $(cat i.csv)"
+  grep -q '150 inter-event times, mean 20 model time' out.txt || fail "mean: $(cat out.txt)"
+  grep -q 'LSM .*0.995 .*1.00 .*15.21 .*0.0573' out.txt || fail "printed Table 1: $(cat out.txt)"
+  grep -q '^printed,,,0.0,,1.00,,100.0,,0.25,,,Block-Slider,' i.table1.csv || fail "$(cat i.table1.csv)"
+  # Every second event is large: times of 10 and 100.
+  must_run intervals a.csv --threshold 0 --threshold 1.5 --rescale -o r --no-picture
+  awk -F, '!/^#/ && $1 == 2 && $7 == 50 && $4 <= 10 / 40 && 10 / 40 < $5 { good = 1 } END { exit !good }' r.csv ||
+    fail "rescaled: $(cat r.csv)"
+  # Exponential times: gamma = delta = 1, B = 7, C = 1 / 7.
+  awk 'BEGIN { t = 0; n = 4000; for (i = 0; i < n; ++i) { printf "%.17g 1\n", t; t += -7 * log(1 - ((i * 7919) % n + 0.5) / n) } }' |
+    catalogue e.csv 120
+  must_run intervals e.csv -o e --delta 1
+  awk -F, '$1 == "ours" { ++n; if ($12 > 3) exit 1
+      if (($4 - 1) ^ 2 > 0.03 ^ 2 || ($8 / 7 - 1) ^ 2 > 0.03 ^ 2 || ($10 * 7 - 1) ^ 2 > 0.03 ^ 2) exit 1 }
+    END { exit n != 2 }' e.table1.csv || fail "exponential times: $(cat e.table1.csv)"
+  refused "expected 'free' or a positive number" intervals a.csv --delta x -o x
+  ;;
+fit)
+  power 1 1e-3 1 2000 | catalogue a.csv 120
+  must_run fit a.csv --range 1e-3:1 --range 1e-3:0.1 --replicas 20 --json f.json -o f
+  pictures f
+  awk -F, '$1 == "lsm" { ++n; if ($6 < 0.99 || $6 > 1.01 || !($7 > 0.005 && $7 < 0.05)) exit 1 }
+    END { exit n != 6 }' f.fits.csv || fail "exponents: $(cat f.fits.csv)"
+  grep -q '"exponent": \(1.00\|0.99\)' f.json || fail "$(cat f.json)"
+  grep -q '"rival": "log-normal"' f.json || fail "no rivals in $(cat f.json)"
+  # The same seed gives the same answer.
+  cp out.txt first.txt
+  must_run fit a.csv --range 1e-3:1 --range 1e-3:0.1 --replicas 20 --json f.json -o f
+  cmp first.txt out.txt || fail "two runs differ"
+  must_run fit a.csv --replicas 0 --no-comparison -o s --no-picture
+  grep -q 'searched' out.txt || fail "$(cat out.txt)"
+  # Roll-off at a size proportional to the length.
+  for l in 100 200 400 800 1600; do
+    power 1.2 1e-3 "$(awk -v l=$l 'BEGIN { print l / 100 }')" 3000 | catalogue g$l.csv $l
+    power 1.2 1e-3 1 3000 | catalogue n$l.csv $l
+  done
+  must_run fit g100.csv g200.csv g400.csv g800.csv g1600.csv --range 1e-3:0.1 --replicas 0 --scaling --json g.json -o g
+  pictures g.scaling
+  grep -q 'grows with the length' out.txt || fail "growth: $(cat out.txt)"
+  d=$(awk '/"D":/ { gsub(/[",]/, ""); print $2 }' g.json)
+  near "$d" 1 0.1 || fail "s* grows as L^$d, expected 1"
+  must_run fit n100.csv n200.csv n400.csv n800.csv n1600.csv --range 1e-3:0.1 --replicas 0 --scaling --json n.json -o n
+  grep -q 'shows no dependence' out.txt || fail "no growth: $(cat out.txt)"
+  grep -q '"preferred": "no dependence on the length"' n.json || fail "$(cat n.json)"
+  must_run fit a.csv --range 1e-3:1 --replicas 0 --scaling -o o --no-picture
+  grep -q 'degenerate: ' out.txt || fail "scaling of one catalogue: $(cat out.txt)"
+  refused 'expected LO above 0' fit a.csv --range :1 -o x
+  ;;
+report)
+  power 1 1e-3 1 500 | catalogue 'a<b&c.csv' 120
+  power 1.2 1e-2 100 500 | catalogue s.csv 256 block-slider
+  must_run report 'a<b&c.csv' s.csv --label 'x<y&"z"' --label s --replicas 5 -o r.html
+  [ "$(grep -c '<svg' r.html)" -ge 4 ] || fail "fewer than four pictures"
+  grep -q 'x&lt;y&amp;&quot;z&quot;' r.html || fail "label not escaped"
+  grep -q 'x<y' r.html && fail "label let through"
+  grep -Eq '(src|href)=.?(https?:|//)|@import|url\((https?:)?//' r.html && fail "the page asks for something outside it"
+  for word in 'Fig. 12' 'Fig. 13' 'Fig. 14' 'Fig. 15' 'Table 1' '15.21' '100.0' '0.0573' '1.07'; do
+    grep -q "$word" r.html || fail "no $word in the page"
+  done
+  # Identifiers are unique, references lead to one.
+  grep -o " id=['\"][^'\"]*" r.html | sed "s/.*['\"]//" | sort > ids
+  [ -s ids ] && [ -z "$(uniq -d ids)" ] || fail "identifiers: $(uniq -d ids)"
+  grep -o "href=['\"]#[^'\"]*" r.html | sed 's/.*#//' | sort -u > references
+  [ -z "$(comm -23 references <(sort -u ids))" ] || fail "references to nothing: $(comm -23 references ids)"
+  for tag in table figure svg tr td th section div p ul li h2 h3; do
+    [ "$(grep -o "<$tag[ >]" r.html | wc -l)" = "$(grep -o "</$tag>" r.html | wc -l)" ] || fail "<$tag> not closed"
+  done
+  # Without gnuplot an older page stays.
+  cp r.html before.html
+  PATH=/nonexistent "$program" report s.csv -o r.html 2> err.txt && fail "a report without gnuplot"
+  grep -q 'gnuplot not found' err.txt || fail "$(cat err.txt)"
+  cmp r.html before.html || fail "the older page is gone"
+  ;;
+few)
+  # No event, one, and a few: what cannot be said is said to be degenerate.
+  : | catalogue none.csv 120
+  echo 5 0.01 | catalogue one.csv 120
+  awk 'BEGIN { for (i = 0; i < 6; ++i) print i * i, 0.01 * (i + 1) }' | catalogue few.csv 240
+  refused 'nothing to draw' histograms none.csv -o x
+  refused 'nothing to draw' intervals none.csv -o x
+  refused 'nothing to draw' intervals one.csv -o x
+  must_run histograms one.csv -o h1
+  pictures h1
+  must_run histograms few.csv none.csv -o h
+  grep -q 'no curve' err.txt || fail "nothing is said of the empty catalogue: $(cat err.txt)"
+  must_run intervals few.csv one.csv -o i
+  pictures i
+  [ "$(grep -c '^ours' i.table1.csv)" = 8 ] || fail "$(cat i.table1.csv)"
+  awk -F, '$1 == "ours" && ($4 $6 $8 $10 != "" || $NF == "") { exit 1 }' i.table1.csv || fail "numbers of degenerate fits"
+  must_run fit few.csv --range 1e-3:1 -o f
+  grep -q 'degenerate: ' out.txt || fail "$(cat out.txt)"
+  must_run report none.csv one.csv few.csv -o r.html
+  grep -q 'degenerate: ' r.html || fail "no degenerate fit in the page"
+  grep -Eq '>-?nan|>inf' r.html && fail "NaN or infinity in the page"
+  must_run report none.csv -o e.html
+  grep -q 'no events' e.html || fail "the empty catalogue is not said to be empty"
+  ;;
+*) fail "no case '$2'" ;;
+esac
+echo "$2: passed"

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "catalogue_input.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "unit_files.h"
+
+using namespace LSM;
+using namespace LSM::postproc;
+using unit::contains;
+using unit::message_of;
+using unit::spill;
+
+namespace {
+
+const std::string columns = "event_id,t_start,t_end,step_start,step_end,size,pe_start,pe_end";
+
+class CatalogueInput : public unit::Files {
+ protected:
+  /// Writes a catalogue and returns its path. The rows begin in line 4.
+  std::string file(const std::string &rows, const std::string &parameter = "length = 120",
+                   const std::string &model = "lsm") {
+    const std::string name = path("c" + std::to_string(++count_) + ".csv");
+    spill(name, "# lsm-catalogue 1\n# model = " + model + "\n# " + parameter + "\n" + columns +
+                    "\n" + rows);
+    return name;
+  }
+
+  CatalogueOptions lenient() const {
+    CatalogueOptions options;
+    options.lenient = true;
+    return options;
+  }
+
+  int count_ = 0;
+};
+
+const std::string good =
+    "1,1,2,10,20,0.5,1,0.5\n"
+    "2,3,4,30,40,1e-5,1,1\n"
+    "3,5,6,50,60,0.25,1,0.75\n"
+    "4,7,8,70,80,-0.125,1,1.125\n";
+
+TEST_F(CatalogueInput, ColumnsOfTheEventsChosen) {
+  const std::string name = file(good);
+  EventTable all = load_catalogue(name, [] {
+    CatalogueOptions options;
+    options.min_size = -1.0;
+    return options;
+  }());
+  EXPECT_EQ(all.size, (std::vector<double>{0.5, 1e-5, 0.25, -0.125}));
+  EXPECT_EQ(all.t_start, (std::vector<double>{1, 3, 5, 7}));
+  EXPECT_EQ(all.t_end, (std::vector<double>{2, 4, 6, 8}));
+  EXPECT_TRUE(all.slip_moment.empty());
+
+  CatalogueOptions options;
+  options.min_size = 1e-4;
+  options.from_time = 1.0;
+  options.to_time = 5.0;  // the first start left out
+  const EventTable some = load_catalogue(name, options);
+  EXPECT_EQ(some.size, std::vector<double>{0.5});
+  EXPECT_EQ(some.left_out_small, 1);
+  EXPECT_EQ(some.left_out_time, 2);
+  EXPECT_EQ(load_catalogue(name, CatalogueOptions()).size.size(), 3u);  // none of size < 0
+}
+
+TEST_F(CatalogueInput, SlipMomentIfThere) {
+  const std::string name = path("slip.csv");
+  spill(name,
+        "# lsm-catalogue 1\n# model = lsm\n" + columns + ",slip_moment\n1,1,2,10,20,0.5,1,0.5,7\n");
+  EXPECT_EQ(load_catalogue(name, CatalogueOptions()).slip_moment, std::vector<double>{7});
+}
+
+TEST_F(CatalogueInput, LengthAndLabelsFromTheHeader) {
+  CatalogueOptions options;
+  options.paths = {file(good), file(good, "blocks = 256", "block-slider"), file(good, "seed = 1"),
+                   file(good)};
+  std::vector<EventTable> tables = load_catalogues(options);
+  EXPECT_EQ(tables[0].length(), 120.0);
+  EXPECT_EQ(tables[1].length(), 256.0);
+  EXPECT_TRUE(std::isnan(tables[2].length()));
+  EXPECT_EQ(tables[0].label, "fault, length 120");
+  EXPECT_EQ(tables[1].label, "block-slider, N = 256");
+  EXPECT_EQ(tables[2].label, "c3");
+  EXPECT_EQ(tables[3].label, "fault, length 120 (c4)");
+
+  options.labels = {"a", "b", "c", "d"};
+  EXPECT_EQ(load_catalogues(options)[3].label, "d");
+  options.labels.pop_back();
+  EXPECT_TRUE(contains(message_of<std::invalid_argument>([&] { load_catalogues(options); }),
+                       "--label given 3 times, expected once per catalogue (4)"));
+  options.labels.clear();
+  options.from_time = options.to_time = 1.0;
+  EXPECT_THROW(load_catalogues(options), std::invalid_argument);
+}
+
+TEST_F(CatalogueInput, BadLinesAreErrorsOrCountedByKind) {
+  const std::string rows =
+      "1,1,2,10,20,0.5,1,0.5\n"
+      "2,3,nan,30,40,0.5,1,0.5\n"  // line 6: number
+      "3,3,4,30,40,0.5,1\n"        // columns
+      "4,0.5,4,30,40,0.5,1,0.5\n"  // order: starts within the first
+      "5,3,4,30,40,x,1,0.5\n"      // number
+      "6,3,4,30,40,0.25,1,0.75\n"
+      "6,5,6,50,60,0.25,1,0.75\n"  // order: identifier again
+      "7,7,8,70,80,0.25,1,0.7";    // truncated
+  const std::string name = file(rows);
+  EXPECT_TRUE(
+      contains(message_of<CatalogueError>([&] { load_catalogue(name, CatalogueOptions()); }),
+               name + ":6: column 't_end' is 'nan', expected a finite number"));
+  const EventTable table = load_catalogue(name, lenient());
+  EXPECT_EQ(table.size, (std::vector<double>{0.5, 0.25}));
+  EXPECT_EQ(table.skipped_lines, 6);
+  ASSERT_EQ(table.repairs.size(), 5u);
+  EXPECT_EQ(table.repairs[0], name + ": passed over a truncated last line: 1");
+  EXPECT_EQ(table.repairs[1], name + ": passed over lines with too few or too many columns: 1");
+  EXPECT_EQ(table.repairs[2],
+            name + ": passed over lines with something else than finite numbers: 2");
+  EXPECT_EQ(table.repairs[3], name + ": passed over events out of order: 2");
+  EXPECT_TRUE(contains(table.repairs[4], name + ":6: "));
+  EXPECT_TRUE(load_catalogue(file(good), lenient()).repairs.empty());
+}
+
+TEST_F(CatalogueInput, WhatCannotBeRepairedIsRefused) {
+  const std::string name = path("bad.csv");
+  const auto refused = [&](const std::string &text, const std::string &message) {
+    spill(name, text);
+    for (const bool soft : {false, true}) {
+      CatalogueOptions options;
+      options.lenient = soft;
+      EXPECT_TRUE(contains(message_of<CatalogueError>([&] { load_catalogue(name, options); }),
+                           name + message));
+    }
+  };
+  refused("", ":1: empty file, expected '# lsm-catalogue 1'");
+  refused("# lsm-catalogue 2\n# model = lsm\n" + columns + "\n",
+          ":1: catalogue version '2', expected version 1");
+  refused("id,time\n", ":1: not a catalogue");
+  refused("# lsm-catalogue 1\n# model = lsm\nevent_id,t_start,t_end\n",
+          ":3: column 4 is missing, expected 'step_start'");
+  refused("# lsm-catalogue 1\n# model = lsm\n" + columns, ":3: truncated line of column names");
+  refused("# lsm-catalogue 1\n" + columns + "\n", ":2: no model in the header");
+  refused("# lsm-catalogue 1\n# model = lsm\n" + std::string(2000000, '#'),
+          ":3: longer than 1048576 bytes, expected a line of text");
+}
+
+TEST_F(CatalogueInput, OneEventOrNone) {
+  EXPECT_EQ(load_catalogue(file("1,1,2,10,20,0.5,1,0.5\n"), CatalogueOptions()).size.size(), 1u);
+  EXPECT_EQ(load_catalogue(file(""), CatalogueOptions()).size.size(), 0u);
+}
+
+TEST_F(CatalogueInput, LinesAcrossTheBlocksOfTheReader) {
+  // More than one block of 2^18 bytes, with a line that is longer than a block.
+  std::string rows;
+  for (int i = 1; i <= 20000; ++i)
+    rows += std::to_string(i) + "," + std::to_string(2 * i) + "," + std::to_string(2 * i + 1) +
+            ",1,1,0." + std::to_string(i) + ",1,0.5\n";
+  const std::string name = path("long.csv");
+  spill(name, "# lsm-catalogue 1\n# model = lsm\n# note = " + std::string(300000, 'x') + "\n" +
+                  columns + "\n" + rows);
+  const EventTable table = load_catalogue(name, CatalogueOptions());
+  ASSERT_EQ(table.size.size(), 20000u);
+  for (std::size_t i = 0; i < table.size.size(); ++i) {
+    EXPECT_EQ(table.t_start[i], 2.0 * static_cast<double>(i + 1));
+    EXPECT_EQ(table.size[i], std::stod("0." + std::to_string(i + 1)));
+  }
+  ASSERT_NE(table.info.find("note"), nullptr);
+  EXPECT_EQ(table.info.find("note")->size(), 300000u);
+}
+
+}  // namespace

@@ -1,0 +1,405 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_integration.h>
+#include <gsl/gsl_randist.h>
+#include <gsl/gsl_rng.h>
+#include <gsl/gsl_sf.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "coverage.h"
+#include "generalised_gamma.h"
+#include "log_histogram.h"
+
+namespace {
+
+using namespace LSM::postproc;
+
+struct Truth {
+  double gamma, delta, B;
+  double c() const { return delta / (std::pow(B, gamma / delta) * std::tgamma(gamma / delta)); }
+};
+
+// Table 1 of the paper: Corral's universal law, with delta = 1.
+constexpr Truth corral{0.7, 1.0, 1.58};
+
+// theta^delta is gamma distributed; samples by GSL, independent of the code under test.
+class Source {
+ public:
+  explicit Source(unsigned long seed) : rng_(gsl_rng_alloc(gsl_rng_mt19937), gsl_rng_free) {
+    gsl_rng_set(rng_.get(), seed);
+  }
+  std::vector<double> sample(std::size_t n, const Truth &t, double lo = 0.0) {
+    std::vector<double> values;
+    while (values.size() < n) {
+      const double w = gsl_ran_gamma(rng_.get(), t.gamma / t.delta, t.B);
+      const double theta = std::pow(w, 1.0 / t.delta);
+      if (theta >= lo && theta > 0.0) values.push_back(theta);
+    }
+    return values;
+  }
+  // theta^-1 exp(-theta / B) above lo (gamma = 0, delta = 1): log-uniform numbers, thinned.
+  std::vector<double> sample_gamma_zero(std::size_t n, double B, double lo) {
+    std::vector<double> values;
+    while (values.size() < n) {
+      const double theta = lo * std::pow(60.0 * B / lo, gsl_rng_uniform(rng_.get()));
+      if (gsl_rng_uniform(rng_.get()) < std::exp(-theta / B)) values.push_back(theta);
+    }
+    return values;
+  }
+  std::vector<double> power_law(std::size_t n, double alpha, double hi) {
+    std::vector<double> values;
+    while (values.size() < n) {
+      const double x = gsl_ran_pareto(rng_.get(), alpha - 1.0, 1.0);
+      if (x <= hi) values.push_back(x);
+    }
+    return values;
+  }
+
+ private:
+  std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)> rng_;
+};
+
+std::vector<LogBin> binned(const std::vector<double> &values) {
+  LogHistogram histogram;
+  for (double value : values) histogram.add(value);
+  return histogram.bins();
+}
+
+GeneralisedGammaOptions delta_one() {
+  GeneralisedGammaOptions options;
+  options.fix_delta = 1.0;
+  return options;
+}
+
+// Log-likelihood by GSL: with the closed normalisation, or by quadrature above lo.
+double log_likelihood(const std::vector<double> &values, const Truth &t, double lo) {
+  double z = 1.0 / t.c();
+  if (lo > 0.0) {
+    gsl_integration_workspace *work = gsl_integration_workspace_alloc(1000);
+    gsl_function function;
+    function.params = const_cast<Truth *>(&t);
+    function.function = [](double v, void *p) {
+      const auto &truth = *static_cast<const Truth *>(p);
+      return std::exp(truth.gamma * v - std::exp(truth.delta * v) / truth.B);
+    };
+    double error = 0.0;
+    gsl_integration_qagiu(&function, std::log(lo), 0.0, 1e-12, 1000, work, &z, &error);
+    gsl_integration_workspace_free(work);
+  }
+  double sum = 0.0;
+  for (double x : values)
+    sum += (t.gamma - 1.0) * std::log(x) - std::pow(x, t.delta) / t.B - std::log(z);
+  return sum;
+}
+
+TEST(GeneralisedGamma, MaximumOfAnIndependentLikelihood) {
+  Source source(1);
+  for (double lo : {0.0, 0.05}) {
+    for (const Truth &truth : {corral, Truth{1.5, 0.8, 1.0}, Truth{0.9, 1.5, 4.0}}) {
+      const auto values = source.sample(3000, truth, lo);
+      for (const bool fixed : {false, true}) {
+        const GeneralisedGammaFit fit =
+            fit_maximum_likelihood(values, lo, fixed ? delta_one() : GeneralisedGammaOptions{});
+        ASSERT_FALSE(fit.degenerate) << fit.why;
+        const Truth best{fit.gamma, fit.delta, fit.B};
+        const double top = log_likelihood(values, best, lo);
+        EXPECT_NEAR(fit.log_likelihood, top, 1e-9 * std::fabs(top));
+        if (lo == 0.0) {
+          EXPECT_NEAR(fit.C, best.c(), 1e-9 * fit.C);
+        }
+        // Along every parameter the likelihood falls on both sides, evenly (slope zero).
+        for (int i = 0; i < (fixed ? 2 : 3); ++i) {
+          const double step = 0.02 * (i == 0 ? fit.se_gamma : i == 1 ? fit.se_B : fit.se_delta);
+          Truth up = best, down = best;
+          (i == 0 ? up.gamma : i == 1 ? up.B : up.delta) += step;
+          (i == 0 ? down.gamma : i == 1 ? down.B : down.delta) -= step;
+          const double above = log_likelihood(values, up, lo) - top;
+          const double below = log_likelihood(values, down, lo) - top;
+          EXPECT_LT(above, 0.0);
+          EXPECT_LT(below, 0.0);
+          EXPECT_NEAR(above / below, 1.0, 0.1) << i << " " << lo << " " << truth.gamma;
+        }
+      }
+    }
+  }
+}
+
+TEST(GeneralisedGamma, DensityIntegratesToOne) {
+  Source source(2);
+  for (double lo : {0.0, 0.02, 0.5}) {
+    const GeneralisedGammaFit fit = fit_maximum_likelihood(source.sample(20000, corral, lo), lo);
+    ASSERT_FALSE(fit.degenerate) << fit.why;
+    double integral = 0.0;
+    const double first = lo > 0.0 ? std::log(lo) : -80.0, last = std::log(200.0);
+    constexpr int steps = 200000;
+    for (int i = 0; i < steps; ++i) {
+      const double theta = std::exp(first + (last - first) * (i + 0.5) / steps);
+      integral += generalised_gamma_density(theta, fit) * theta * (last - first) / steps;
+    }
+    EXPECT_NEAR(integral, 1.0, 1e-6);
+  }
+}
+
+TEST(GeneralisedGamma, CorralsLawIsRecovered) {
+  Source source(3);
+  const auto values = source.sample(20000, corral);
+  const auto check = [](const GeneralisedGammaFit &fit, const std::string &what) {
+    ASSERT_FALSE(fit.degenerate) << what << fit.why;
+    EXPECT_NEAR(fit.gamma, corral.gamma, 3.0 * fit.se_gamma) << what;
+    EXPECT_NEAR(fit.delta, corral.delta, 3.0 * fit.se_delta) << what;
+    EXPECT_NEAR(fit.B, corral.B, 3.0 * fit.se_B) << what;
+    EXPECT_NEAR(fit.C, corral.c(), 3.0 * fit.se_C) << what;
+    EXPECT_LT(fit.se_gamma, 0.02) << what;
+    EXPECT_LT(fit.se_delta, 0.04) << what;
+  };
+  const GeneralisedGammaFit likelihood = fit_maximum_likelihood(values);
+  check(likelihood, "maximum likelihood");
+  EXPECT_LT(likelihood.ks * std::sqrt(20000.0), 1.36);
+  const GeneralisedGammaFit squares = fit_least_squares(binned(values));
+  check(squares, "least squares");
+  EXPECT_NEAR(squares.chi2, squares.dof, 4.0 * std::sqrt(2.0 * squares.dof));
+  check(fit_maximum_likelihood(values, 0.0, delta_one()), "maximum likelihood, delta = 1");
+  check(fit_least_squares(binned(values), delta_one()), "least squares, delta = 1");
+}
+
+TEST(GeneralisedGamma, LikelihoodIntervalsCoverTheTruth) {
+  Source source(4);
+  struct Case {
+    Truth truth;
+    double lo;
+    bool fixed;
+    std::size_t n;
+  };
+  // Large samples where delta is free: B is far from normal in small ones.
+  for (const Case &c :
+       {Case{corral, 0.0, true, 500}, Case{corral, 0.02, true, 1000},
+        Case{{1.0, 1.0, 600.0}, 0.0, true, 500}, Case{corral, 0.0, false, 4000},
+        Case{{2.0, 1.5, 1.2}, 0.0, false, 4000}, Case{corral, 0.02, false, 10000}}) {
+    Coverage gamma(c.truth.gamma), delta(c.truth.delta), b(c.truth.B), norm(c.truth.c());
+    for (int i = 0; i < 300; ++i) {
+      const GeneralisedGammaFit fit =
+          fit_maximum_likelihood(source.sample(c.n, c.truth, c.lo), c.lo,
+                                 c.fixed ? delta_one() : GeneralisedGammaOptions{});
+      ASSERT_FALSE(fit.degenerate) << fit.why;
+      gamma.add(fit.gamma, fit.se_gamma);
+      b.add(fit.B, fit.se_B);
+      if (!c.fixed) delta.add(fit.delta, fit.se_delta);
+      if (c.lo == 0.0) norm.add(fit.C, fit.se_C);
+    }
+    const std::string what = " gamma " + std::to_string(c.truth.gamma) + " lo " +
+                             std::to_string(c.lo) + (c.fixed ? " delta = 1" : " delta free");
+    gamma.expect("gamma," + what);
+    b.expect("B," + what);
+    if (!c.fixed) delta.expect("delta," + what);
+    if (c.lo == 0.0) norm.expect("C," + what);
+  }
+}
+
+TEST(GeneralisedGamma, GammaZeroNeedsTruncation) {
+  // The block-slider's law in Table 1.
+  Source source(5);
+  Coverage gamma(0.0), b(100.0);
+  for (int i = 0; i < 300; ++i) {
+    const auto values = source.sample_gamma_zero(1000, 100.0, 0.5);
+    const GeneralisedGammaFit fit = fit_maximum_likelihood(values, 0.5, delta_one());
+    ASSERT_FALSE(fit.degenerate) << fit.why;
+    gamma.add(fit.gamma, fit.se_gamma);
+    b.add(fit.B, fit.se_B);
+    if (i > 0) continue;
+    // C over [lo, infinity) is 1 / E1(lo / B) for gamma = 0.
+    EXPECT_NEAR(fit.C, 1.0 / gsl_sf_expint_E1(0.005), 4.0 * fit.se_C);
+    EXPECT_LT(fit.ks * std::sqrt(1000.0), 1.36);
+  }
+  gamma.expect("gamma = 0");
+  b.expect("B, gamma = 0");
+
+  // Without truncation the fit runs into gamma = 0 when small times pile up.
+  const auto values = source.sample_gamma_zero(5000, 1e6, 1e-30);
+  const GeneralisedGammaFit fit = fit_maximum_likelihood(values, 0.0, delta_one());
+  EXPECT_TRUE(fit.degenerate);
+  EXPECT_NE(fit.why.find("truncated on the left"), std::string::npos) << fit.why;
+}
+
+TEST(GeneralisedGamma, LeastSquaresIsNearlyUnbiasedAndItsErrorsAreRight) {
+  Source source(6);
+  const Truth truth{0.7, 1.0, 60.0};
+  for (const bool fixed : {false, true}) {
+    double gamma = 0.0, b = 0.0, gamma_squared = 0.0, c = 0.0, c_squared = 0.0;
+    constexpr int trials = 200;
+    for (int i = 0; i < trials; ++i) {
+      const GeneralisedGammaFit fit = fit_least_squares(
+          binned(source.sample(20000, truth)), fixed ? delta_one() : GeneralisedGammaOptions{});
+      ASSERT_FALSE(fit.degenerate) << fit.why;
+      const double pull = (fit.gamma - truth.gamma) / fit.se_gamma;
+      const double pull_c = std::log(fit.C / truth.c()) / (fit.se_C / fit.C);
+      gamma += pull / trials;
+      gamma_squared += pull * pull / trials;
+      b += std::log(fit.B / truth.B) / (fit.se_B / fit.B) / trials;
+      c += pull_c / trials;
+      c_squared += pull_c * pull_c / trials;
+    }
+    // Without the half count the mean pulls would be -0.6 and 0.3 or more.
+    EXPECT_LT(std::fabs(gamma), 0.45);
+    EXPECT_LT(std::fabs(b), 0.3);
+    EXPECT_NEAR(std::sqrt(gamma_squared - gamma * gamma), 1.0, 0.15);
+    EXPECT_NEAR(std::sqrt(c_squared - c * c), 1.0, 0.15);
+  }
+}
+
+TEST(GeneralisedGamma, ErrorsComeFromTheObservedInformation) {
+  // Data of another law, where observed and expected information differ; second differences of an
+  // independent likelihood.
+  Source source(12);
+  auto values = source.sample(3000, corral);
+  for (double value : source.sample(1000, {2.0, 1.0, 3.0})) values.push_back(value);
+  const GeneralisedGammaFit fit = fit_maximum_likelihood(values);
+  ASSERT_FALSE(fit.degenerate) << fit.why;
+  const double step[3] = {0.05 * fit.se_gamma, 0.05 * fit.se_delta, 0.05 * fit.se_B};
+  const auto at = [&](int i, double u, int j, double v) {
+    double p[3] = {fit.gamma, fit.delta, fit.B};
+    p[i] += u * step[i];
+    p[j] += v * step[j];
+    return log_likelihood(values, {p[0], p[1], p[2]}, 0.0);
+  };
+  double h[3][3];
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      h[i][j] = -(at(i, 1, j, 1) - at(i, 1, j, -1) - at(i, -1, j, 1) + at(i, -1, j, -1)) / 4.0 /
+                (step[i] * step[j]);
+  const auto minor = [&](int i, int j) {
+    const int a = (i + 1) % 3, b = (i + 2) % 3, c = (j + 1) % 3, d = (j + 2) % 3;
+    return h[a][c] * h[b][d] - h[a][d] * h[b][c];
+  };
+  const double determinant = h[0][0] * minor(0, 0) + h[0][1] * minor(0, 1) + h[0][2] * minor(0, 2);
+  EXPECT_NEAR(fit.se_gamma / std::sqrt(minor(0, 0) / determinant), 1.0, 0.01);
+  EXPECT_NEAR(fit.se_delta / std::sqrt(minor(1, 1) / determinant), 1.0, 0.01);
+  EXPECT_NEAR(fit.se_B / std::sqrt(minor(2, 2) / determinant), 1.0, 0.01);
+}
+
+TEST(GeneralisedGamma, UnitOfTimeDoesNotMatter) {
+  Source source(7);
+  auto values = source.sample(5000, corral);
+  for (const double lo : {0.0, 0.01}) {
+    const GeneralisedGammaFit fit = fit_maximum_likelihood(values, lo);
+    const GeneralisedGammaFit squares = fit_least_squares(binned(values));
+    std::vector<double> scaled = values;
+    for (double &value : scaled) value *= 1000.0;
+    const GeneralisedGammaFit other = fit_maximum_likelihood(scaled, 1000.0 * lo);
+    // 30 bins further, the same bins.
+    const GeneralisedGammaFit other_squares = fit_least_squares(binned(scaled));
+    for (const auto &[a, b] : {std::pair{fit, other}, std::pair{squares, other_squares}}) {
+      ASSERT_FALSE(a.degenerate || b.degenerate) << a.why << b.why;
+      EXPECT_NEAR(b.gamma, a.gamma, 1e-5);
+      EXPECT_NEAR(b.delta, a.delta, 1e-5);
+      EXPECT_NEAR(b.se_gamma, a.se_gamma, 1e-5);
+      EXPECT_NEAR(b.B / std::pow(1000.0, b.delta) / a.B, 1.0, 1e-4);
+      EXPECT_NEAR(b.C * std::pow(1000.0, b.gamma) / a.C, 1.0, 1e-4);
+    }
+  }
+}
+
+void expect_degenerate(const GeneralisedGammaFit &fit, const std::string &why) {
+  EXPECT_TRUE(fit.degenerate) << why;
+  for (double value : {fit.C, fit.gamma, fit.delta, fit.B, fit.se_C, fit.se_gamma, fit.se_B})
+    EXPECT_TRUE(std::isnan(value)) << why;
+  EXPECT_NE(fit.why.find(why), std::string::npos) << fit.why;
+}
+
+TEST(GeneralisedGamma, PowerLawIsDegenerate) {
+  Source source(8);
+  // Tested at 95 %: of 40 samples 2 may show a fall-off by chance; 8 would be one in 10^3.
+  int likelihood = 0, squares = 0;
+  for (int i = 0; i < 40; ++i) {
+    const auto values = source.power_law(2000, 1.5, HUGE_VAL);
+    if (!fit_maximum_likelihood(values, 1.0).degenerate) ++likelihood;
+    if (!fit_least_squares(binned(values)).degenerate) ++squares;
+    if (!fit_maximum_likelihood(values, 1.0, delta_one()).degenerate) ++likelihood;
+  }
+  EXPECT_LE(likelihood, 8);
+  EXPECT_LE(squares, 8);
+  const auto values = source.power_law(20000, 1.5, HUGE_VAL);
+  expect_degenerate(fit_maximum_likelihood(values, 1.0), "no exponential fall-off");
+  expect_degenerate(fit_least_squares(binned(values)), "no exponential fall-off");
+  // Not truncated, the law bends as far as it can.
+  expect_degenerate(fit_maximum_likelihood(values), "delta runs below 0.1");
+  // A sharp end is no exponential fall-off.
+  expect_degenerate(fit_maximum_likelihood(source.power_law(20000, 1.1, 1e4), 1.0),
+                    "delta runs above 10");
+}
+
+TEST(GeneralisedGamma, FewEventsAreDegenerate) {
+  Source source(9);
+  int free = 0, fixed = 0;
+  for (int i = 0; i < 50; ++i) {
+    const auto values = source.sample(30, corral);
+    if (fit_maximum_likelihood(values).degenerate) ++free;
+    if (!fit_maximum_likelihood(values, 0.0, delta_one()).degenerate) ++fixed;
+    EXPECT_TRUE(fit_least_squares(binned(values)).degenerate);
+  }
+  EXPECT_GE(free, 48);   // 30 values never determine three parameters
+  EXPECT_GE(fixed, 40);  // but two
+  for (int i = 0; i < 20; ++i)
+    EXPECT_FALSE(fit_maximum_likelihood(source.sample(5000, corral)).degenerate);
+  // In between some are shown, and those hold what the header promises.
+  int shown = 0;
+  for (int i = 0; i < 100; ++i) {
+    const GeneralisedGammaFit fit = fit_maximum_likelihood(source.sample(200, corral));
+    if (fit.degenerate) continue;
+    ++shown;
+    EXPECT_LE(fit.se_gamma, 0.25 * std::max(1.0, fit.gamma));
+    EXPECT_LE(fit.se_delta, 0.25 * fit.delta);
+    EXPECT_LE(fit.se_B, fit.B);
+  }
+  EXPECT_GT(shown, 5);
+  EXPECT_LT(shown, 95);
+  expect_degenerate(fit_maximum_likelihood(source.sample(19, corral)), "19 values");
+  expect_degenerate(fit_maximum_likelihood({}), "0 values");
+  expect_degenerate(fit_maximum_likelihood(std::vector<double>(100, 2.0)), "equal");
+  expect_degenerate(fit_least_squares({}), "0 bins");
+  expect_degenerate(fit_least_squares(binned(std::vector<double>(100, 2.0))), "1 bins");
+}
+
+TEST(GeneralisedGamma, WrongLawShows) {
+  Source source(10);
+  const auto values = source.sample(5000, {0.7, 0.5, 3.0});
+  const GeneralisedGammaFit fit = fit_maximum_likelihood(values, 0.0, delta_one());
+  ASSERT_FALSE(fit.degenerate);
+  EXPECT_GT(fit.ks * std::sqrt(5000.0), 1.63);
+  const GeneralisedGammaFit squares = fit_least_squares(binned(values), delta_one());
+  EXPECT_GT(squares.chi2, 2.0 * squares.dof);
+}
+
+TEST(GeneralisedGamma, RefusesImpossibleInput) {
+  const std::vector<double> good(30, 1.0);
+  for (double bad : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
+    std::vector<double> values = good;
+    values.push_back(bad);
+    EXPECT_THROW(fit_maximum_likelihood(values), std::invalid_argument) << bad;
+  }
+  EXPECT_NO_THROW(fit_maximum_likelihood({0.0, 1.0}, 0.5));
+  EXPECT_THROW(fit_maximum_likelihood(good, -1.0), std::invalid_argument);
+  EXPECT_THROW(fit_maximum_likelihood(good, std::nan("")), std::invalid_argument);
+  GeneralisedGammaOptions options;
+  options.fix_delta = 0.0;
+  EXPECT_THROW(fit_maximum_likelihood(good, 0.0, options), std::invalid_argument);
+  EXPECT_THROW(fit_least_squares({{2.0, 1.0, 1.5, 3, 1.0, 0.1}}), std::invalid_argument);
+}
+
+TEST(GeneralisedGamma, ErrorHandlerOfGslIsLeftAlone) {
+  gsl_error_handler_t *const mine = [](const char *, const char *, int, int) {};
+  gsl_error_handler_t *const before = gsl_set_error_handler(mine);
+  Source source(11);
+  fit_maximum_likelihood(source.sample(100, corral));
+  fit_least_squares(binned(source.sample(100, corral)));
+  EXPECT_EQ(gsl_set_error_handler(before), mine);
+}
+
+}  // namespace

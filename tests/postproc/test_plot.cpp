@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Tables, scripts and pictures: what a label or a file name may hold, and what happens without
+// gnuplot.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "numbers.h"
+#include "plot.h"
+#include "report.h"
+#include "unit_files.h"
+
+using namespace LSM::postproc;
+using unit::contains;
+using unit::message_of;
+using unit::slurp;
+
+namespace {
+
+class Plot : public unit::Files {
+ protected:
+  /// A picture of two points whose key holds title.
+  Figure figure(const std::string &title) const {
+    Figure result{Table({"x", "y"}), {}, {400, 300}};
+    result.table.add(1.0).add(2.0).end_row();
+    result.table.add(10.0).add(200.0).end_row();
+    result.script = axis("x", "x", true, 1.0, 10.0) + axis("y", "y", true, 2.0, 200.0) +
+                    "plot table using 1:2 with linespoints lt 1 title " + quote(title) + "\n";
+    return result;
+  }
+  PictureOptions output(const std::string &name) const {
+    PictureOptions options;
+    options.output = path(name);
+    return options;
+  }
+};
+
+/// PATH without any program for the life of the object.
+class EmptyPath {
+ public:
+  EmptyPath() : before_(std::getenv("PATH")) { setenv("PATH", "/nonexistent", 1); }
+  ~EmptyPath() { setenv("PATH", before_.c_str(), 1); }
+  EmptyPath(const EmptyPath &) = delete;
+  EmptyPath &operator=(const EmptyPath &) = delete;
+
+ private:
+  std::string before_;
+};
+
+TEST_F(Plot, LabelsArePrintedAsTheyAre) {
+  const std::string title = R"(a_b^c {x} @y \n "q" ~t 'r' $HOME %d é)";
+  const std::string svg = svg_text(figure(title));
+  EXPECT_TRUE(contains(svg, R"(a_b^c {x} @y \n "q" ~t 'r' $HOME %d é)"));
+}
+
+TEST_F(Plot, LabelsRunNoCommand) {
+  const std::string marker = path("marker");
+  const std::string svg =
+      svg_text(figure("`touch " + marker + "`" + "'.system('touch " + marker + "').'"));
+  EXPECT_FALSE(std::filesystem::exists(marker));
+  EXPECT_TRUE(contains(svg, "`touch "));
+}
+
+TEST_F(Plot, FolderNameMayHoldQuotesAndBlanks) {
+  const PictureOptions options = output("new folder/a 'b' \"c\" {d}_`e`");
+  const Figure picture = figure("t");
+  picture.table.write(options.table());
+  draw(options, picture.script, picture.size);
+  for (const char *extension : {".csv", ".gp", ".png", ".svg"})
+    EXPECT_TRUE(std::filesystem::exists(options.output + extension)) << extension;
+  EXPECT_EQ(slurp(options.output + ".png").substr(1, 3), "PNG");
+  EXPECT_TRUE(contains(slurp(options.output + ".svg"), "</svg>"));
+}
+
+TEST_F(Plot, ScriptDrawsAgainWhereItIs) {
+  const PictureOptions options = output("again");
+  const Figure picture = figure("t");
+  picture.table.write(options.table());
+  draw(options, picture.script, picture.size);
+  std::filesystem::create_directory(path("elsewhere"));
+  for (const char *extension : {".csv", ".gp"})
+    std::filesystem::rename(options.output + extension, path("elsewhere/again") + extension);
+  const std::string command = "cd '" + path("elsewhere") + "' && gnuplot again.gp";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  EXPECT_EQ(slurp(path("elsewhere/again.svg")), slurp(options.output + ".svg"));
+}
+
+TEST_F(Plot, WithoutGnuplotTableAndScriptAreThere) {
+  const EmptyPath nothing;
+  const PictureOptions options = output("none");
+  const Figure picture = figure("t");
+  const std::string message = message_of<PlotError>([&] { make(picture, options); });
+  EXPECT_TRUE(contains(message, "none.gp: gnuplot not found"));
+  EXPECT_TRUE(contains(message, "table and script are written"));
+  EXPECT_EQ(message.find('\n'), std::string::npos);
+  EXPECT_TRUE(std::filesystem::exists(options.output + ".gp"));
+  EXPECT_TRUE(std::filesystem::exists(options.output + ".csv"));
+  EXPECT_FALSE(std::filesystem::exists(options.output + ".png"));
+}
+
+TEST_F(Plot, NoPictureNeedsNoGnuplot) {
+  const EmptyPath nothing;
+  PictureOptions options = output("none");
+  options.no_picture = true;
+  EXPECT_NO_THROW(draw(options, "plot table using 1:2\n"));
+  EXPECT_TRUE(std::filesystem::exists(options.output + ".gp"));
+}
+
+TEST_F(Plot, FailureIsReportedAndLeavesNoPicture) {
+  const PictureOptions options = output("bad");
+  const std::string message =
+      message_of<PlotError>([&] { draw(options, "plot 'no-such-file.csv' using 1:2\n"); });
+  EXPECT_TRUE(contains(message, "bad.gp: gnuplot failed"));
+  EXPECT_TRUE(contains(message, "no-such-file.csv"));
+  EXPECT_FALSE(std::filesystem::exists(options.output + ".png"));
+  EXPECT_FALSE(std::filesystem::exists(options.output + ".svg"));
+}
+
+TEST_F(Plot, FolderAsOutputIsRefused) {
+  const std::string message = message_of<PlotError>([&] { make(figure("t"), output("x/")); });
+  EXPECT_TRUE(contains(message, "expected a file name"));
+  EXPECT_FALSE(std::filesystem::exists(path("x")));
+}
+
+TEST_F(Plot, TableQuotesTextAndKeepsDigits) {
+  Table table({"label", "value", "count"});
+  table.comment("two\nlines");
+  table.add("a, \"b\"").add(0.1).add(std::int64_t{3}).end_row();
+  table.add("plain").add(std::numeric_limits<double>::quiet_NaN()).add(std::int64_t{0}).end_row();
+  EXPECT_EQ(table.text(),
+            "# two lines\nlabel,value,count\n\"a, \"\"b\"\"\",0.10000000000000001,3\nplain,,0\n");
+  table.add("short");
+  EXPECT_THROW(table.end_row(), std::logic_error);
+}
+
+TEST_F(Plot, TableDoesNotDependOnTheLocale) {
+  const unit::CommaLocale comma;
+  Table table({"value"});
+  table.add(1234.5).end_row();
+  EXPECT_EQ(table.text(), "value\n1234.5\n");
+  EXPECT_EQ(with_error(1234.5, 0.25), "1234.50 +- 0.25");
+  EXPECT_TRUE(
+      contains(axis("x", "x", true, 0.5, 2000.0), "set xrange [0.10000000000000001:10000]"));
+}
+
+TEST_F(Plot, AxisOfPowersOfTen) {
+  EXPECT_TRUE(contains(axis("x", "x", true, 1e-4, 1e3), "[0.0001"));
+  EXPECT_TRUE(contains(axis("x", "x", true, 1e-4, 1e3), ":1000]"));
+  // Too short for powers of ten: 1, 2 and 5 around the data.
+  const std::string brief = axis("y", "y", true, 1100.0, 1900.0);
+  EXPECT_TRUE(contains(brief, "set yrange [1000:2000]"));
+  EXPECT_TRUE(contains(brief, "\"1000\" 1000, \"2000\" 2000"));
+}
+
+TEST_F(Plot, NumbersWithErrors) {
+  EXPECT_EQ(with_error(1.0734, 0.0241), "1.073 +- 0.024");
+  EXPECT_EQ(with_error(-0.126, 0.091, " ± "), "-0.126 ± 0.091");
+  EXPECT_EQ(with_error(3990.2, 3037.0), "3990 +- 3037");
+  EXPECT_EQ(with_error(3.14e-5, 2.2e-6), "(3.14 +- 0.22)e-05");
+  EXPECT_EQ(with_error(2.0, 0.0), "2");
+  EXPECT_EQ(with_error(std::nan(""), 1.0), "-");
+}
+
+TEST_F(Plot, Ranges) {
+  const Range range = parse_range("--range", "1e-3:2");
+  EXPECT_EQ(range.lo, 1e-3);
+  EXPECT_EQ(range.hi, 2.0);
+  EXPECT_TRUE(std::isinf(parse_range("--range", "1:").hi));
+  for (const char *bad : {"", "1", "2:1", "1:1", "a:2", "1:2:3", "nan:1"})
+    EXPECT_TRUE(contains(message_of<std::invalid_argument>([bad] { parse_range("--range", bad); }),
+                         "expected LO:HI"))
+        << bad;
+}
+
+TEST_F(Plot, InlinePicturesDoNotClash) {
+  const std::string svg = svg_text(figure("t"));
+  const std::string one = inline_svg(svg, "f1-", "A & B");
+  EXPECT_EQ(one.substr(0, 4), "<svg");
+  EXPECT_TRUE(contains(one, "<title>A &amp; B</title>"));
+  EXPECT_EQ(one.find("id='gp"), std::string::npos);
+  EXPECT_TRUE(contains(one, "id='f1-gpPt0'"));
+  EXPECT_EQ(one.find("href='#gp"), std::string::npos);
+  EXPECT_EQ(one.find("<?xml"), std::string::npos);
+  EXPECT_THROW(inline_svg("<p>", "f", "t"), std::invalid_argument);
+}
+
+}  // namespace

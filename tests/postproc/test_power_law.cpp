@@ -1,0 +1,384 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <gsl/gsl_integration.h>
+#include <gsl/gsl_randist.h>
+#include <gsl/gsl_rng.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "coverage.h"
+#include "ks_distance.h"
+#include "lsm_random.h"
+#include "power_law.h"
+
+namespace {
+
+using namespace LSM::postproc;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+std::vector<double> sample_of(std::size_t n, LSM::Random &random,
+                              const std::function<double(double)> &quantile) {
+  std::vector<double> sample(n);
+  for (double &x : sample) x = quantile(random.uniform());
+  std::sort(sample.begin(), sample.end());
+  return sample;
+}
+
+// Inverse of the distribution by the textbook formula, independent of the code under test.
+std::vector<double> power_law_sample(std::size_t n, double alpha, double lo, double hi,
+                                     LSM::Random &random) {
+  return sample_of(n, random, [=](double p) {
+    if (alpha == 1.0) return lo * std::pow(hi / lo, p);
+    const double e = 1.0 - alpha, a = std::pow(lo, e), b = hi == infinity ? 0.0 : std::pow(hi, e);
+    return std::clamp(std::pow(a + p * (b - a), 1.0 / e), lo, hi);
+  });
+}
+
+// Integral over [lo, hi] by GSL in u = ln x, panel by panel.
+double integrate(const std::function<double(double)> &density, double lo, double hi) {
+  gsl_integration_workspace *work = gsl_integration_workspace_alloc(1000);
+  struct Context {
+    const std::function<double(double)> *f;
+  } context{&density};
+  gsl_function function;
+  function.params = &context;
+  function.function = [](double u, void *p) {
+    return (*static_cast<Context *>(p)->f)(std::exp(u)) * std::exp(u);
+  };
+  const double first = std::log(lo), last = std::log(hi);
+  double total = 0.0;
+  for (int i = 0; i < 20; ++i) {
+    double value = 0.0, error = 0.0;
+    gsl_integration_qag(&function, first + (last - first) * i / 20,
+                        first + (last - first) * (i + 1) / 20, 0.0, 1e-12, 1000, GSL_INTEG_GAUSS61,
+                        work, &value, &error);
+    total += value;
+  }
+  gsl_integration_workspace_free(work);
+  return total;
+}
+
+TEST(PowerLaw, LikelihoodAgreesWithQuadrature) {
+  LSM::Random random(1);
+  for (double alpha : {-0.5, 0.5, 0.999999, 1.0, 1.000001, 1.5, 2.5}) {
+    for (double hi : {30.0, 1e4}) {
+      const auto sample = power_law_sample(300, alpha, 0.01, hi, random);
+      const PowerLawFit fit = fit_power_law(sample, 0.01, hi);
+      ASSERT_FALSE(fit.degenerate) << fit.why;
+      const auto log_likelihood = [&](double exponent) {
+        const double z = integrate([&](double x) { return std::pow(x, -exponent); }, 0.01, hi);
+        double sum = 0.0;
+        for (double x : sample) sum -= exponent * std::log(x) + std::log(z);
+        return sum;
+      };
+      const double top = log_likelihood(fit.alpha);
+      EXPECT_NEAR(fit.log_likelihood, top, 1e-9 * std::fabs(top));
+      // A maximum, and its curvature gives the standard error.
+      const double h = 0.1 * fit.standard_error;
+      const double below = log_likelihood(fit.alpha - h), above = log_likelihood(fit.alpha + h);
+      EXPECT_NEAR((above - below) / (2.0 * h) * fit.standard_error, 0.0, 2e-3);
+      const double curvature = (2.0 * top - above - below) / (h * h);
+      EXPECT_NEAR(1.0 / std::sqrt(curvature), fit.standard_error, 2e-3 * fit.standard_error);
+    }
+  }
+}
+
+TEST(PowerLaw, InfiniteRangeHasTheClosedForm) {
+  LSM::Random random(2);
+  const auto sample = power_law_sample(500, 2.5, 3.0, infinity, random);
+  const PowerLawFit fit = fit_power_law(sample, 3.0);
+  double logs = 0.0;
+  for (double x : sample) logs += std::log(x / 3.0);
+  EXPECT_NEAR(fit.alpha, 1.0 + 500.0 / logs, 1e-12);
+  EXPECT_NEAR(fit.standard_error, (fit.alpha - 1.0) / std::sqrt(500.0), 1e-12);
+}
+
+TEST(PowerLaw, DistributionIsContinuousThroughOneAndInverts) {
+  for (double hi : {2.0, 1e3, 1e12}) {
+    for (double p : {0.0, 1e-9, 0.1, 0.5, 0.999}) {
+      const double x = std::pow(hi, p);
+      EXPECT_NEAR(power_law_cdf(x, 1.0, 1.0, hi), p, 1e-14);
+      for (double off : {1e-15, 1e-12, 1e-9, 1e-6})
+        EXPECT_NEAR(power_law_cdf(x, 1.0 + off, 1.0, hi), p, 10.0 * off + 1e-13) << hi;
+      for (double alpha : {-20.0, 0.5, 1.0 - 1e-9, 1.0, 1.0 + 1e-9, 1.5, 40.0})
+        EXPECT_NEAR(power_law_cdf(power_law_quantile(p, alpha, 1.0, hi), alpha, 1.0, hi), p, 1e-10)
+            << alpha << " " << hi;
+    }
+  }
+  EXPECT_NEAR(power_law_cdf(4.0, 1.5, 1.0, infinity), 0.5, 1e-15);
+  EXPECT_NEAR(power_law_quantile(0.5, 1.5, 1.0, infinity), 4.0, 1e-14);
+  EXPECT_NEAR(power_law_cdf(2.0, 2.0, 1.0, 4.0), 2.0 / 3.0, 1e-15);
+  EXPECT_NEAR(power_law_cdf(2.0, 0.0, 1.0, 4.0), 1.0 / 3.0, 1e-15);
+}
+
+TEST(PowerLaw, IntervalsCoverTheTruth) {
+  LSM::Random random(3);
+  struct Case {
+    double alpha, lo, hi;
+  };
+  for (const Case &c :
+       {Case{0.5, 1e-4, 1.0}, Case{1.0, 1e-4, 0.1}, Case{1.0, 1e-12, 1.0}, Case{1.0, 1.0, 3.0},
+        Case{1.5, 1e-4, 1.0}, Case{2.5, 1.0, 100.0}, Case{2.5, 1.0, infinity}}) {
+    Coverage coverage(c.alpha);
+    for (int i = 0; i < 400; ++i) {
+      const auto sample = power_law_sample(500, c.alpha, c.lo, c.hi, random);
+      const PowerLawFit fit = fit_power_law(sample, c.lo, c.hi);
+      ASSERT_FALSE(fit.degenerate) << fit.why;
+      coverage.add(fit.alpha, fit.standard_error);
+    }
+    coverage.expect("alpha " + std::to_string(c.alpha) + " to " + std::to_string(c.hi));
+  }
+}
+
+TEST(PowerLaw, ValuesOutsideTheRangeDoNotCount) {
+  LSM::Random random(4);
+  auto sample = power_law_sample(400, 1.2, 1.0, 100.0, random);
+  const PowerLawFit alone = fit_power_law(sample, 1.0, 100.0);
+  sample.insert(sample.begin(), {-3.0, 0.0, 0.1, 0.99});
+  sample.insert(sample.end(), {100.5, 1e6});
+  const PowerLawFit fit = fit_power_law(sample, 1.0, 100.0);
+  EXPECT_EQ(fit.n, 400);
+  EXPECT_EQ(fit.alpha, alone.alpha);
+  EXPECT_EQ(fit.ks, alone.ks);
+}
+
+TEST(PowerLaw, DistanceIsThatOfEveryPoint) {
+  LSM::Random random(5);
+  for (std::size_t n : {10u, 11u, 100u, 101u, 5000u, 5001u}) {
+    for (double alpha : {0.5, 1.0, 2.0}) {
+      // Rounded down or up, so that there are ties and either distribution is the larger one.
+      auto sample = power_law_sample(n, alpha, 1.0, 50.0, random);
+      for (double &x : sample) x = (n % 2 == 0 ? std::floor(4.0 * x) : std::ceil(4.0 * x)) / 4.0;
+      const PowerLawFit fit = fit_power_law(sample, 1.0, 50.0);
+      double distance = 0.0;
+      for (std::size_t i = 0; i < n; ++i) {
+        const double f = power_law_cdf(sample[i], fit.alpha, 1.0, 50.0);
+        const auto rank = static_cast<double>(i), count = static_cast<double>(n);
+        distance = std::max({distance, f - rank / count, (rank + 1.0) / count - f});
+      }
+      EXPECT_NEAR(fit.ks, distance, 1e-13);
+    }
+  }
+}
+
+TEST(PowerLaw, DegenerateFitsGiveNoNumber) {
+  const auto expect_degenerate = [](const PowerLawFit &fit, const std::string &why) {
+    EXPECT_TRUE(fit.degenerate);
+    EXPECT_TRUE(std::isnan(fit.alpha));
+    EXPECT_TRUE(std::isnan(fit.standard_error));
+    EXPECT_TRUE(std::isnan(fit.ks));
+    EXPECT_NE(fit.why.find(why), std::string::npos) << fit.why;
+  };
+  expect_degenerate(fit_power_law({1, 2, 3, 4, 5, 6, 7, 8, 9}, 1.0, 10.0), "9 events");
+  expect_degenerate(fit_power_law({}, 1.0, 10.0), "0 events");
+  expect_degenerate(fit_power_law(std::vector<double>(50, 3.0), 1.0, 10.0), "same size");
+  LSM::Random random(6);
+  const auto narrow = power_law_sample(50, 1.0, 1.0, 1.05, random);
+  expect_degenerate(fit_power_law(narrow, 1.0, 1.05), "too narrow");
+  const auto sample = power_law_sample(40, 1.0, 1.0, 100.0, random);
+  expect_degenerate(search_range(sample), "no range holds");
+  expect_degenerate(search_range({}), "no range holds");
+  EXPECT_THROW(p_value(search_range(sample), sample, 10, 1), std::invalid_argument);
+  EXPECT_THROW(compare(sample, search_range(sample)), std::invalid_argument);
+}
+
+TEST(PowerLaw, RefusesImpossibleInput) {
+  const std::vector<double> sample(20, 1.0);
+  EXPECT_THROW(fit_power_law({2.0, 1.0}, 1.0, 3.0), std::invalid_argument);
+  EXPECT_THROW(fit_power_law(sample, 0.0, 3.0), std::invalid_argument);
+  EXPECT_THROW(fit_power_law(sample, 3.0, 3.0), std::invalid_argument);
+  EXPECT_THROW(fit_power_law(sample, std::nan(""), 3.0), std::invalid_argument);
+  RangeSearch search;
+  search.lower = false;
+  EXPECT_THROW(search_range(sample, search), std::invalid_argument);
+  search.upper = true;  // a lower cut that is not searched has to be given
+  EXPECT_THROW(search_range(sample, search), std::invalid_argument);
+  search.lo = 0.5;
+  EXPECT_NO_THROW(search_range(sample, search));
+  search.candidates = 1;
+  EXPECT_THROW(search_range(sample, search), std::invalid_argument);
+}
+
+TEST(PowerLaw, ProbabilityIsUniformUnderTheNull) {
+  LSM::Random random(7);
+  for (double alpha : {1.0, 2.0}) {
+    std::vector<double> p;
+    for (std::uint64_t i = 0; i < 300; ++i) {
+      const auto sample = power_law_sample(100, alpha, 1.0, 1e3, random);
+      p.push_back(p_value(fit_power_law(sample, 1.0, 1e3), sample, 99, i + 1));
+    }
+    std::sort(p.begin(), p.end());
+    // p takes the values 0.01 ... 1; the 0.3 % point of the distance is 1.8 / sqrt(300).
+    const double distance = KsDistance(p.data(), p.size(), [](double x) { return x - 0.005; })();
+    EXPECT_LT(distance, 1.8 / std::sqrt(300.0));
+  }
+}
+
+TEST(PowerLaw, ProbabilityAllowsForTheSearch) {
+  // A search in every replica: without it the data would look better than any replica.
+  LSM::Random random(13);
+  int rejected = 0;
+  double mean = 0.0;
+  constexpr int trials = 100;
+  for (std::uint64_t i = 0; i < trials; ++i) {
+    auto sample = power_law_sample(1000, 1.5, 1e-3, 1.0, random);
+    for (int k = 0; k < 500; ++k) sample.push_back(1e-3 * random.uniform(0.3, 1.0));
+    std::sort(sample.begin(), sample.end());
+    RangeSearch search;
+    search.hi = 1.0;
+    const PowerLawFit fit = search_range(sample, search);
+    const double p = p_value(fit, sample, 49, i + 1);
+    mean += p / trials;
+    if (p <= 0.1) ++rejected;
+    if (i == 0) {
+      EXPECT_EQ(p_value(fit, sample, 49, 1), p);
+      bool differs = false;
+      for (std::uint64_t seed = 2; seed < 8; ++seed)
+        differs = differs || p_value(fit, sample, 49, seed) != p;
+      EXPECT_TRUE(differs);
+    }
+  }
+  EXPECT_LE(rejected, 19);  // 10 expected and 3 standard deviations
+  EXPECT_NEAR(mean, 0.5, 0.12);
+}
+
+TEST(PowerLaw, OtherLawsAreRejected) {
+  LSM::Random random(8);
+  gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+  for (int i = 0; i < 10; ++i) {
+    std::vector<double> normal, exponential;
+    while (normal.size() < 1000) {
+      const double x = std::exp(gsl_ran_gaussian(rng, 1.0));
+      if (x > 0.1 && x < 100.0) normal.push_back(x);
+    }
+    while (exponential.size() < 1000) {
+      const double x = gsl_ran_exponential(rng, 1.0);
+      if (x > 0.1) exponential.push_back(x);
+    }
+    std::sort(normal.begin(), normal.end());
+    std::sort(exponential.begin(), exponential.end());
+    const PowerLawFit of_normal = fit_power_law(normal, 0.1, 100.0);
+    const PowerLawFit of_exponential = fit_power_law(exponential, 0.1, 100.0);
+    EXPECT_EQ(p_value(of_normal, normal, 99, 1), 0.01);
+    EXPECT_EQ(p_value(of_exponential, exponential, 99, 1), 0.01);
+    const auto against_normal = compare(normal, of_normal);
+    EXPECT_LT(against_normal[1].log_likelihood_ratio, 0.0);
+    EXPECT_LT(against_normal[1].p, 1e-6);
+    ASSERT_FALSE(against_normal[1].degenerate);
+    EXPECT_NEAR(against_normal[1].parameters[0].second, 0.0, 0.15);  // mu
+    EXPECT_NEAR(against_normal[1].parameters[1].second, 1.0, 0.15);  // sigma
+    const auto against_exponential = compare(exponential, of_exponential);
+    EXPECT_LT(against_exponential[0].log_likelihood_ratio, 0.0);
+    EXPECT_LT(against_exponential[0].p, 1e-6);
+    EXPECT_NEAR(against_exponential[0].parameters[0].second, 1.0, 0.15);  // rate
+  }
+  gsl_rng_free(rng);
+}
+
+TEST(PowerLaw, SearchFindsWhereThePowerLawBegins) {
+  LSM::Random random(9);
+  for (int i = 0; i < 5; ++i) {
+    // Exponent 1.5 above 1e-3; a heap just below, too narrow to be a range of its own.
+    std::vector<double> sample = power_law_sample(4000, 1.5, 1e-3, 1.0, random);
+    for (int k = 0; k < 2000; ++k) sample.push_back(1e-3 * random.uniform(0.5, 1.0));
+    std::sort(sample.begin(), sample.end());
+    RangeSearch search;
+    search.hi = 1.0;
+    const PowerLawFit fit = search_range(sample, search);
+    ASSERT_FALSE(fit.degenerate) << fit.why;
+    EXPECT_GT(fit.lo, 0.8e-3);
+    EXPECT_LT(fit.lo, 1e-2);
+    EXPECT_NEAR(fit.alpha, 1.5, 4.0 * fit.standard_error);
+    EXPECT_EQ(fit.n, std::count_if(sample.begin(), sample.end(),
+                                   [&](double x) { return x >= fit.lo && x <= fit.hi; }));
+    // Both cuts: nothing outside the law gets in.
+    for (int k = 0; k < 2000; ++k) sample.push_back(random.uniform(1.0, 1.5));
+    std::sort(sample.begin(), sample.end());
+    search.hi = infinity;
+    search.upper = true;
+    const PowerLawFit both = search_range(sample, search);
+    ASSERT_FALSE(both.degenerate) << both.why;
+    EXPECT_GT(both.lo, 0.8e-3);
+    EXPECT_LT(both.hi, 1.1);
+    EXPECT_GE(both.hi / both.lo, search.min_ratio);
+    EXPECT_NEAR(both.alpha, 1.5, 4.0 * both.standard_error);
+  }
+}
+
+// The ratios again from the parameters alone, every density normalised by quadrature.
+TEST(PowerLaw, RatiosAgreeWithQuadrature) {
+  LSM::Random random(10);
+  struct Case {
+    double alpha, cut_off, lo, hi;
+  };
+  for (const Case &c : {Case{0.6, 0.3, 1e-4, 1.0}, Case{1.0, 0.05, 1e-4, 1.0},
+                        Case{1.8, 2.0, 0.01, 1e3}, Case{2.5, 5.0, 1.0, infinity}}) {
+    // Power law with exponential cut-off by rejection.
+    std::vector<double> sample;
+    while (sample.size() < 3000) {
+      const double x = power_law_sample(1, c.alpha, c.lo, c.hi, random)[0];
+      if (random.uniform() < std::exp(-x / c.cut_off)) sample.push_back(x);
+    }
+    std::sort(sample.begin(), sample.end());
+    const PowerLawFit fit = fit_power_law(sample, c.lo, c.hi);
+    ASSERT_FALSE(fit.degenerate) << fit.why;
+    for (const Comparison &comparison : compare(sample, fit)) {
+      ASSERT_FALSE(comparison.degenerate) << comparison.rival << comparison.why;
+      std::map<std::string, double> p;
+      for (const auto &[name, value] : comparison.parameters) p[name] = value;
+      const auto log_density = [&](double x) {
+        if (comparison.rival == "exponential") return -p["rate"] * x;
+        if (comparison.rival == "log-normal")
+          return -std::log(x) - 0.5 * std::pow((std::log(x) - p["mu"]) / p["sigma"], 2);
+        return -p["alpha"] * std::log(x) - x / p["cut-off"];
+      };
+      // Far enough for every rival on the infinite range.
+      const double end = c.hi < infinity ? c.hi : 1e12;
+      const double shift = log_density(sample[sample.size() / 2]);
+      const double log_z =
+          shift + std::log(integrate([&](double x) { return std::exp(log_density(x) - shift); },
+                                     c.lo, end));
+      double rival = 0.0;
+      for (double x : sample) rival += log_density(x) - log_z;
+      EXPECT_NEAR(comparison.log_likelihood_ratio, fit.log_likelihood - rival,
+                  1e-6 * std::fabs(rival) / 1000.0)
+          << comparison.rival << " " << c.alpha;
+      if (comparison.nested) {
+        EXPECT_LT(comparison.p, 1e-6);
+        EXPECT_NEAR(p["alpha"], c.alpha, 0.12);
+        EXPECT_NEAR(std::log(p["cut-off"] / c.cut_off), 0.0, 0.6);
+      }
+    }
+  }
+}
+
+TEST(PowerLaw, CutOffIsNotFoundWhereThereIsNone) {
+  LSM::Random random(12);
+  int none = 0, significant = 0;
+  for (int i = 0; i < 300; ++i) {
+    const auto sample = power_law_sample(1000, 1.2, 1e-3, 1.0, random);
+    const Comparison cut_off = compare(sample, fit_power_law(sample, 1e-3, 1.0))[2];
+    if (cut_off.degenerate) {
+      ++none;
+      EXPECT_TRUE(cut_off.parameters.empty());
+      EXPECT_NE(cut_off.why.find("the power law itself"), std::string::npos) << cut_off.why;
+      EXPECT_EQ(cut_off.p, 1.0);
+    } else if (cut_off.p < 0.05) {
+      ++significant;
+    }
+  }
+  // At the border of the parameter half the samples prefer the power law itself, and the rest is
+  // half as often significant as p says.
+  expect_binomial(none, 300, 0.5, "no cut-off");
+  expect_binomial(significant, 300, 0.025, "cut-off with p < 0.05");
+}
+
+}  // namespace

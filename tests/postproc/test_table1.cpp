@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Table 1: the printed values as they are in the paper, ours apart from them; inter-event times.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gsl/gsl_randist.h>
+#include <gsl/gsl_rng.h>
+
+#include "intervals.h"
+#include "table1.h"
+#include "unit_files.h"
+
+using namespace LSM::postproc;
+using unit::contains;
+
+namespace {
+
+EventTable events(const std::vector<double> &starts, const std::vector<double> &sizes) {
+  EventTable table;
+  table.label = "made up";
+  table.info.model = "lsm";
+  table.t_start = starts;
+  table.size = sizes;
+  return table;
+}
+
+/// Start times whose differences are gamma distributed: shape and scale.
+EventTable gamma_events(double shape, double scale, int n) {
+  gsl_rng *generator = gsl_rng_alloc(gsl_rng_mt19937);
+  gsl_rng_set(generator, 20);
+  std::vector<double> starts = {0.0};
+  for (int i = 0; i < n; ++i)
+    starts.push_back(starts.back() + gsl_ran_gamma(generator, shape, scale));
+  gsl_rng_free(generator);
+  return events(starts, std::vector<double>(starts.size(), 1.0));
+}
+
+const Table1Row *row_with(const std::vector<Table1Row> &rows, const std::string &method) {
+  for (const Table1Row &row : rows)
+    if (row.method == method) return &row;
+  return nullptr;
+}
+
+TEST(Table1, PrintedValuesAsInThePaper) {
+  const auto rows = table1({});
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[0].source, "seismicity (Corral 2004)");
+  EXPECT_EQ(rows[0].values, (std::array<double, 4>{0.67, 0.98, 1.58, 0.50}));
+  EXPECT_EQ(rows[1].source, "LSM");
+  EXPECT_EQ(rows[1].values, (std::array<double, 4>{0.995, 1.0, 15.21, 0.0573}));
+  EXPECT_EQ(rows[2].source, "Block-Slider");
+  EXPECT_EQ(rows[2].values, (std::array<double, 4>{0.0, 1.0, 100.0, 0.25}));
+  for (const Table1Row &row : rows) EXPECT_TRUE(row.printed);
+  // Digits as printed.
+  EXPECT_TRUE(
+      contains(table1_csv(rows, false).text(), "printed,,,0.995,,1.00,,15.21,,0.0573,,,LSM,"));
+  const std::string text = table1_text(rows, false);
+  EXPECT_LT(text.find("printed in the paper"), text.find("Block-Slider"));
+  EXPECT_LT(text.find("Block-Slider"), text.find("ours"));
+}
+
+TEST(Table1, TimesFromStartToStartAboveTheThreshold) {
+  const EventTable table = events({1.0, 2.0, 4.0, 8.0}, {1.0, 0.1, 1.0, 0.5});
+  EXPECT_EQ(inter_event_times(table, 0.0), (std::vector<double>{1.0, 2.0, 4.0}));
+  EXPECT_EQ(inter_event_times(table, 0.5), (std::vector<double>{3.0, 4.0}));
+  EXPECT_EQ(inter_event_times(table, 2.0), std::vector<double>());
+}
+
+TEST(Table1, GammaTimesGiveTheirParameters) {
+  const double shape = 0.7, scale = 20.0;
+  IntervalSettings settings;
+  settings.deltas = {1.0};
+  const auto curves = interval_curves({gamma_events(shape, scale, 20000)}, settings);
+  ASSERT_EQ(curves.size(), 1u);
+  EXPECT_EQ(curves[0].n, 20000);
+  EXPECT_NEAR(curves[0].mean, shape * scale, 5.0 * std::sqrt(shape) * scale / std::sqrt(20000.0));
+  const auto rows = table1(curves);
+  const Table1Row *const row = row_with(rows, "maximum likelihood, δ = 1 held");
+  ASSERT_NE(row, nullptr);
+  ASSERT_EQ(row->why, "");
+  const double C = 1.0 / (std::pow(scale, shape) * std::tgamma(shape));
+  EXPECT_NEAR(row->values[0], shape, 4.0 * row->errors[0]);
+  EXPECT_NEAR(row->values[2], scale, 4.0 * row->errors[2]);
+  EXPECT_NEAR(row->values[3], C, 4.0 * row->errors[3]);
+  EXPECT_LT(row->errors[0], 0.02);
+  EXPECT_FALSE(row->printed);
+}
+
+TEST(Table1, RescaledTimesHaveMeanOne) {
+  IntervalSettings settings;
+  settings.deltas = {1.0};
+  settings.rescale = true;
+  const auto curves = interval_curves({gamma_events(0.7, 20.0, 20000)}, settings);
+  const auto rows = table1(curves);
+  const Table1Row *const row = row_with(rows, "maximum likelihood, δ = 1 held");
+  ASSERT_NE(row, nullptr);
+  // The fitted mean gamma B of a gamma density is that of the sample.
+  EXPECT_NEAR(row->values[0] * row->values[2], 1.0, 1e-5);
+}
+
+TEST(Table1, DegenerateFitsSayWhyAndShowNoNumbers) {
+  IntervalSettings settings;
+  const auto rows = table1(interval_curves({events({0.0, 1.0, 3.0}, {1.0, 1.0, 1.0})}, settings));
+  ASSERT_EQ(rows.size(), 3u + 4u);
+  for (std::size_t i = 3; i < rows.size(); ++i) {
+    EXPECT_NE(rows[i].why, "");
+    for (std::size_t k = 0; k < 4; ++k) {
+      EXPECT_EQ(rows[i].parameters[k], "");
+      EXPECT_TRUE(std::isnan(rows[i].values[k]));
+    }
+  }
+  EXPECT_TRUE(contains(table1_text(rows, false), "degenerate: "));
+}
+
+TEST(Table1, OneEventHasNoTimes) {
+  IntervalSettings settings;
+  const auto curves = interval_curves({events({5.0}, {1.0})}, settings);
+  ASSERT_EQ(curves.size(), 1u);
+  EXPECT_EQ(curves[0].n, 0);
+  EXPECT_TRUE(std::isnan(curves[0].mean));
+  EXPECT_THROW(interval_figure(curves, settings), std::runtime_error);
+}
+
+}  // namespace
