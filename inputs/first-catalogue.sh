@@ -15,18 +15,15 @@ build=${LSM_BUILD_DIR:-$root/build}
 
 . "$root/lammps-pkg/cmake/debian-packages.sh"
 # The lists are words on purpose.
-install_debian_packages $lammps_packages $plot_packages
+install_debian_packages $lammps_packages $plot_packages $postproc_packages
 
 # A build folder that is there keeps its options.
 if [ ! -f "$build/CMakeCache.txt" ]; then
-  cmake -S "$root" -B "$build" -G Ninja -DLSM_BUILD_SLIDER=OFF -DLSM_BUILD_POSTPROC=OFF -DLSM_BUILD_TESTS=OFF
+  cmake -S "$root" -B "$build" -G Ninja -DLSM_BUILD_SLIDER=OFF -DLSM_BUILD_TESTS=OFF
 fi
-cmake --build "$build" --target lmp
+cmake --build "$build" --target lmp postproc
 
-export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
-export OMPI_MCA_btl_vader_single_copy_mechanism=none OMPI_MCA_btl_base_warn_component_unused=0
-export OMP_NUM_THREADS=1
-[ "$(nproc)" -ge 2 ] || export OMPI_MCA_mpi_yield_when_idle=1
+. "$root/inputs/mpi-settings.sh"
 run=$build/first-catalogue
 mkdir -p "$run"
 cd "$run"
@@ -55,14 +52,14 @@ table | awk '$4 > 0 { d = int(log($4) / log(10) + 1000) - 1000; n[d]++; if (!k++
 echo
 
 # The whole run, and the dozen events around the largest one.
-LSM_PLOT_TITLE="Fault of length 120: $count events" "$root/postproc/plot-pe-series.sh" $catalogue $series first.run
+"$build/bin/postproc" series $series --output first.run --title "Fault of length 120: $count events"
 if [ "$count" -gt 1 ]; then
-  window=$(table | awk '
+  read -r from to <<<"$(table | awk '
     { s[NR] = $2; e[NR] = $3; if (NR == 1 || $4 > big) { big = $4; at = NR } }
     END { a = at > 6 ? at - 6 : 1; b = at + 5 < NR ? at + 5 : NR
-          margin = 0.03 * (e[b] - s[a]); from = s[a] - margin; printf "%.6f %.6f", (from < 0 ? 0 : from), e[b] + margin }')
-  LSM_PLOT_TITLE="Fault of length 120: around the largest event" \
-    "$root/postproc/plot-pe-series.sh" $catalogue $series first.largest $window
+          margin = 0.03 * (e[b] - s[a]); from = s[a] - margin; printf "%.6f %.6f", (from < 0 ? 0 : from), e[b] + margin }')"
+  "$build/bin/postproc" series $series --output first.largest --from "$from" --to "$to" \
+    --title "Fault of length 120: around the largest event"
 fi
 echo "Catalogue, series and pictures are in $run"
 if [ "$count" -lt 100 ]; then

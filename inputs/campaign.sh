@@ -1,0 +1,513 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-2.0-or-later
+# The whole study: six faults, five block-sliders in the paper's and in our settings, Fig. 7's leaf springs, chains
+# longer than the paper's, then the report. Run it again to go on where it was stopped; --help has the options.
+#
+# Each run has a folder of its own below the output folder:
+#   settings.txt    what the run was begun with; other settings need another folder
+#   output.txt      what the program said
+#   catalogue.csv   (sliders) or fault.catalogue.csv, fault.pe.bin (faults)
+#   checkpoint.bin, summary.json  (sliders) or fault.restart.STEP with its .info (faults)
+# What is done is found out from these files each time.
+set -uo pipefail
+export LC_ALL=C
+root=$(cd "$(dirname "$0")/.." && pwd)
+build=${LSM_BUILD_DIR:-$root/build}
+
+usage() {
+  cat <<END
+usage: inputs/campaign.sh [OPTIONS]
+Runs, or goes on with, the campaign, and ends with the report. Defaults in brackets.
+  --output DIR        folder of the results [\$LSM_BUILD_DIR/campaign or build/campaign]
+  --only KIND         sliders or faults [both]
+  --lengths L,L...    lengths of the faults [120,240,480,945,1440,1890]
+  --blocks N,N...     numbers of blocks of the sliders [256,614,972,1450,1928,4000,8000,16000,32000,64000,128000]
+  --kl K,K...         leaf springs of the runs after Fig. 7, 1928 blocks [0.02,0.05,0.1,0.5; none without 1928 blocks]
+  --seeds S           seeds 1 to S of the sliders up to 1928 blocks [3]
+  --steps N           time steps of each run [1e7]
+  --quick             a trial of some minutes: faults 120 and 240, sliders up to 4000 blocks, few steps
+  --hours H           stop after so many hours (faults lose the steps since the last checkpoint) [no limit]
+  --jobs J            cores in use at a time [all: $(nproc)]
+  --ranks R           MPI ranks of each fault [as many as have 60 units of length each, at most J]
+  --checkpoint N      steps between checkpoints of the faults [50000]
+  --series WHAT       PE series of the faults, every step: compress (when a run is done), keep or no [compress]
+  --fault NAME=VALUE  any further variable of fault.in, for all faults; may be repeated
+  --slider NAME=VALUE any further option of slider_cli, for all sliders; may be repeated
+  --bin DIR           folder of lmp, slider_cli and postproc [built in \$LSM_BUILD_DIR or build]
+  --no-report         no report at the end
+  --list              only say how far each run is
+END
+}
+die() { echo "campaign: $*" >&2; exit 2; }
+
+# ---- options
+
+output=$build/campaign only=both bin= list=no report=yes series=compress quick=no
+lengths= blocks= kl= seeds= hours= jobs=$(nproc) ranks= checkpoint=50000 steps=
+fault_more=() slider_more=()
+while [ $# -gt 0 ]; do
+  case $1 in
+    --help | -h) usage; exit 0 ;;
+    --quick) quick=yes; shift; continue ;;
+    --no-report) report=no; shift; continue ;;
+    --list) list=yes; shift; continue ;;
+    --output | --only | --lengths | --blocks | --kl | --seeds | --steps | --hours | --jobs | --ranks | --checkpoint | \
+      --series | --bin | --fault | --slider) ;;
+    *) die "unknown option '$1' (--help lists the options)" ;;
+  esac
+  [ $# -ge 2 ] || die "$1 needs a value"
+  case $1 in
+    --output) output=$2 ;; --only) only=$2 ;; --lengths) lengths=$2 ;; --blocks) blocks=$2 ;; --kl) kl=$2 ;;
+    --seeds) seeds=$2 ;; --steps) steps=$2 ;; --hours) hours=$2 ;; --jobs) jobs=$2 ;; --ranks) ranks=$2 ;;
+    --checkpoint) checkpoint=$2 ;; --series) series=$2 ;; --bin) bin=$2 ;;
+    --fault) fault_more+=("$2") ;; --slider) slider_more+=("$2") ;;
+  esac
+  shift 2
+done
+
+# whole OPTION VALUE: the value as digits; 1e7 is a whole number, too
+whole() {
+  [[ $2 =~ ^[0-9]+([.][0-9]+)?(e[+]?[0-9]+)?$ ]] && awk -v x="$2" 'BEGIN { if (x != int(x) || x < 1 || x > 9e15) exit 1
+    printf "%.0f", x }' || die "$1 = '$2', expected a whole number of at least 1"
+}
+# each OPTION LIST: the members of a list with commas, each a positive number
+each() {
+  [[ $2 =~ ^[0-9.]+(,[0-9.]+)*$ ]] || die "$1 = '$2', expected numbers with commas between them"
+  echo "${2//,/ }"
+}
+[[ $only =~ ^(both|sliders|faults)$ ]] || die "--only = '$only', expected sliders or faults"
+[[ $series =~ ^(compress|keep|no)$ ]] || die "--series = '$series', expected compress, keep or no"
+[[ -z $hours || $hours =~ ^[0-9]*[.]?[0-9]+$ ]] || die "--hours = '$hours', expected a number of hours"
+for setting in ${fault_more[@]+"${fault_more[@]}"} ${slider_more[@]+"${slider_more[@]}"}; do
+  [[ $setting =~ ^[a-z_-]+=[^\ ]+$ ]] || die "'$setting', expected NAME=VALUE after --fault and --slider"
+  case $setting in
+    steps=* | length=* | checkpoint=* | prefix=* | series=* | restart=* | run=* | blocks=* | catalogue=* | json=* | resume=* | \
+      config=* | ensemble=*) die "'${setting%%=*}' is set by the campaign itself, expected no --fault or --slider for it" ;;
+  esac
+done
+if [ $quick = yes ]; then
+  all="120,240 256,614,1928,4000 0.05 1" fault_steps=60000 slider_steps=3000000
+else
+  all="120,240,480,945,1440,1890 256,614,972,1450,1928,4000,8000,16000,32000,64000,128000 0.02,0.05,0.1,0.5 3"
+  fault_steps=10000000 slider_steps=10000000
+fi
+read -r all_lengths all_blocks all_kl all_seeds <<<"$all"
+lengths=${lengths:-$all_lengths} blocks=${blocks:-$all_blocks} kl=${kl:-$all_kl} seeds=${seeds:-$all_seeds}
+if [ -n "$steps" ]; then
+  fault_steps=$(whole --steps "$steps") || exit 2
+  slider_steps=$fault_steps
+fi
+jobs=$(whole --jobs "$jobs") && seeds=$(whole --seeds "$seeds") && checkpoint=$(whole --checkpoint "$checkpoint") || exit 2
+[ -z "$ranks" ] || ranks=$(whole --ranks "$ranks") || exit 2
+lengths=$(each --lengths "$lengths") && blocks=$(each --blocks "$blocks") && kl=$(each --kl "$kl") || exit 2
+
+# ---- programs
+
+if [ -z "$bin" ]; then
+  bin=$build/bin
+  if [ $list = no ]; then
+    . "$root/lammps-pkg/cmake/debian-packages.sh"
+    # The lists are words on purpose.
+    install_debian_packages $lammps_packages $plot_packages libcli11-dev libfmt-dev nlohmann-json3-dev \
+      libgsl-dev libfftw3-dev || exit 1
+    cmake -S "$root" -B "$build" -G Ninja -DLSM_BUILD_LAMMPS=ON -DLSM_BUILD_SLIDER=ON -DLSM_BUILD_POSTPROC=ON &&
+      cmake --build "$build" --target lmp slider_cli postproc || die "the programs could not be built"
+  fi
+fi
+bin=$(cd "$bin" 2>/dev/null && pwd) || die "no folder '$bin', expected one with lmp, slider_cli and postproc"
+needed=()
+[ "$only" = sliders ] || needed+=(lmp)
+[ "$only" = faults ] || needed+=(slider_cli)
+for program in "${needed[@]}"; do [ -x "$bin/$program" ] || die "no program $bin/$program"; done
+[ "$only" = sliders ] || lammps_version=$("$bin/lmp" -h 2>/dev/null | sed -n 's/^Large-scale.*Parallel Simulator - *//p')
+[ "$only" = faults ] || slider_version=$("$bin/slider_cli" --version 2>/dev/null)
+[ "$only" = sliders ] || [ -n "$lammps_version" ] || die "$bin/lmp does not tell its version"
+[ "$only" = faults ] || [ -n "$slider_version" ] || die "$bin/slider_cli does not tell its version"
+. "$root/inputs/mpi-settings.sh"
+
+# ---- folder and lock
+
+if [ $list = no ]; then
+  mkdir -p "$output" 2>/dev/null && output=$(cd "$output" && pwd) && [ -w "$output" ] ||
+    die "cannot write to folder '$output'"
+  { exec 9>>"$output/lock"; } 2>/dev/null || die "cannot write to folder '$output'"
+  flock -n 9 || die "another campaign works in $output"
+fi
+
+# ---- the runs: name, kind, cores, settings (the command without what may change), estimated core seconds
+
+names=() kinds=() cores=() goals=() settings=() costs=()
+add_run() {
+  names+=("$1") kinds+=("$2") cores+=("$3") goals+=("$4") settings+=("$5") costs+=("$6")
+}
+series_word=yes
+[ "$series" != no ] || series_word=no
+add_fault() {
+  local length=$1 r=$ranks words
+  [ -n "$r" ] || r=$(awk -v l="$length" -v j="$jobs" 'BEGIN { r = int(l / 60); if (r < 1) r = 1; if (r > j) r = j; print r }')
+  [ "$r" -le "$jobs" ] || die "--ranks = $r, expected at most --jobs = $jobs"
+  words="length=$length checkpoint=$checkpoint location=yes series=${series_word}"
+  words+="${fault_more[*]:+ ${fault_more[*]}}"
+  # about 65 discs per unit of length, 44 million steps of one disc per second and core
+  add_run "fault_$length" fault "$r" "$fault_steps" "program = lmp $lammps_version
+$(tr " =" "\n " <<<"$words")" "$(awk -v l="$length" -v n="$fault_steps" 'BEGIN { print 65 * l * n / 44e6 }')"
+}
+add_slider() {
+  local name=$1 n=$2
+  shift 2
+  local words="$* --steps $slider_steps" setting
+  for setting in ${slider_more[@]+"${slider_more[@]}"}; do words+=" --${setting%%=*} ${setting#*=}"; done
+  add_run "$name" slider 1 "$slider_steps" "program = slider_cli $slider_version
+${words// --/$'\n'--}" "$(awk -v b="$n" -v n="$slider_steps" 'BEGIN { print n * (2e-7 + 3e-10 * b) }')"
+}
+# our settings, as in inputs/slider/science_*.ini
+ours="--scheme verlet --dt 0.01 --picker exponential --picker-lambda 0.99 --warmup 12000"
+if [ "$only" != faults ]; then
+  for n in $blocks; do
+    most=$seeds
+    [ "$n" -le 1928 ] || most=1
+    for ((s = 1; s <= most; s++)); do
+      case $n in
+        256 | 614 | 972 | 1450 | 1928) add_slider "slider_paper_${n}_$s" "$n" "--paper --blocks $n --seed $s" ;;
+      esac
+      add_slider "slider_ours_${n}_$s" "$n" "$ours --blocks $n --seed $s"
+    done
+    if [ "$n" = 1928 ]; then
+      for k in $kl; do add_slider "slider_kl_$k" 1928 "$ours --blocks 1928 --kl $k --seed 1"; done
+    fi
+  done
+fi
+if [ "$only" != sliders ]; then
+  for l in $lengths; do add_fault "$l"; done
+fi
+
+# ---- how far a run is; nothing is written here
+# progress NAME KIND GOAL SETTINGS: sets at (steps), done (yes or no) and, for a fault, restart (file to go on from, or
+# empty); returns 1 with a line in why if the files do not fit together
+
+events_before() { # FILE STEP: whole lines of events that ended before STEP
+  { [ -z "$(tail -c 1 "$1")" ] && cat "$1" || sed '$d' "$1"; } |
+    awk -F, -v step="$2" '!/^[#e]/ && $5 < step { n++ } END { print n + 0 }'
+}
+value() { sed -n "s/^$2 = //p" "$1"; } # FILE KEY: from lines "KEY = value"
+
+identity() { cksum <<<"$1" | cut -d ' ' -f 1; }
+
+newest_restart() { # FOLDER: step of the newest restart file that was written to its end
+  local f best=-1 step
+  for f in "$1"/fault.restart.*.info; do
+    step=${f%.info} step=${step##*.}
+    if [[ $step =~ ^[0-9]+$ ]] && [ "$step" -gt "$best" ]; then best=$step; fi
+  done
+  [ "$best" -ge 0 ] && echo "$best"
+}
+
+progress() {
+  local folder=$output/$1 text=$4 info step kept events settle found wanted
+  at=0 done=no restart= why=
+  [ -e "$folder" ] || return 0
+  [ -d "$folder" ] || { why="$folder is no folder"; return 1; }
+  if [ ! -e "$folder/settings.txt" ]; then
+    if [ -n "$(find "$folder" -mindepth 1 ! -name settings.txt.new ! -name lock | head -n 1)" ]; then
+      why="$folder holds files, but no settings.txt of a campaign; move it away or choose another --output"
+      return 1
+    fi
+    return 0
+  fi
+  if [ "$(cat "$folder/settings.txt")" != "$text" ]; then
+    # a run that was refused before it began
+    [ -n "$(find "$folder" -name "*catalogue.csv" -o -name "checkpoint.bin" -o -name "*.info")" ] || return 0
+    found=$(diff <(echo "$text") "$folder/settings.txt" | sed -n "s/^> //p" | head -n 1)
+    wanted=$(diff <(echo "$text") "$folder/settings.txt" | sed -n "s/^< //p" | head -n 1)
+    why="$folder was begun with other settings: '${found:-nothing}', expected '${wanted:-nothing}'"
+    why+="; move it away or choose another --output"
+    return 1
+  fi
+  if [ "$2" = slider ]; then
+    [ -e "$folder/checkpoint.bin" ] || return 0
+    if [ ! -e "$folder/catalogue.csv" ]; then
+      why="$folder/catalogue.csv is missing, but there is a checkpoint; move the folder away to begin again"
+      return 1
+    fi
+    # the checkpoint itself is checked by slider_cli; a summary without it or of other events does not count
+    if [ -e "$folder/summary.json" ]; then
+      at=$(sed -n 's/^  "steps": \([0-9]*\),$/\1/p' "$folder/summary.json")
+      at=${at:-0}
+      events=$(sed -n 's/^  "events": \([0-9]*\),$/\1/p' "$folder/summary.json")
+      [ "$at" = "$3" ] && [ "$events" = "$(events_before "$folder/catalogue.csv" 9e18)" ] && done=yes
+    fi
+    return 0
+  fi
+  step=$(newest_restart "$folder") || return 0
+  restart=fault.restart.$step
+  info=$folder/$restart.info
+  if [ "$(tail -n 1 "$info")" != "$(cd "$folder" && cksum "$restart" 2>/dev/null)" ]; then
+    why="$folder/$restart is damaged (its checksum is not the one in $restart.info); remove both to go on from the \
+restart file before it"
+    return 1
+  fi
+  if [ "$(value "$info" run)" != "$(identity "$text")" ]; then
+    why="$folder/$restart was written by a run with other settings; remove it and its .info"
+    return 1
+  fi
+  if [ ! -e "$folder/fault.catalogue.csv" ]; then
+    why="$folder/fault.catalogue.csv is missing, but there is a checkpoint; move the folder away to begin again"
+    return 1
+  fi
+  events=$(value "$info" events)
+  kept=$(events_before "$folder/fault.catalogue.csv" "$step")
+  if [ "$kept" != "$events" ]; then
+    why="$folder/fault.catalogue.csv has $kept events before step $step, expected $events as in $restart.info"
+    return 1
+  fi
+  settle=$(value "$info" settle)
+  at=$((step - settle))
+  [ "$at" -ge "$3" ] && done=yes
+  return 0
+}
+
+# ---- one line per change, and one on a terminal that is written over
+
+terminal=no
+[ -t 1 ] && terminal=yes
+say() {
+  [ $terminal = yes ] && printf '\r\033[K'
+  printf '%s %s\n' "$(date '+%F %T')" "$*"
+}
+
+states=() ats=() starts=() begins=() pids=() reasons=()
+for i in "${!names[@]}"; do
+  if progress "${names[i]}" "${kinds[i]}" "${goals[i]}" "${settings[i]}"; then
+    [ $done = yes ] && states[i]=done || states[i]=waiting
+  else
+    states[i]=failed reasons[i]=$why
+  fi
+  ats[i]=$at
+done
+if [ $list = yes ]; then
+  for i in "${!names[@]}"; do
+    printf '%-24s %-8s %10s of %s steps%s\n' "${names[i]}" "${states[i]}" "${ats[i]}" "${goals[i]}" \
+      "${reasons[i]:+: ${reasons[i]}}"
+  done
+  exit 0
+fi
+for i in "${!names[@]}"; do [ "${states[i]}" != failed ] || say "${names[i]}: cannot go on: ${reasons[i]}"; done
+
+# ---- starting a run
+
+# run_in_folder NAME COMMAND...: takes the place of this process. The end of the campaign, kill -9 included, ends the
+# command.
+run_in_folder() {
+  cd "$output/$1" || exit 1
+  shift
+  exec 9>&- >>output.txt 2>&1 </dev/null
+  exec setpriv --pdeathsig TERM "$@"
+}
+
+start() {
+  local i=$1 name=${names[$1]} folder=$output/${names[$1]} text=${settings[$1]} words word
+  mkdir -p "$folder" 2>/dev/null || { why="cannot create $folder"; return 1; }
+  # The ranks of a campaign that was killed may live a little longer; each holds this lock.
+  flock -n -x "$folder/lock" true || flock -w 60 -x "$folder/lock" true ||
+    { why="a program of an earlier campaign still works in $folder"; return 1; }
+  progress "$name" "${kinds[i]}" "${goals[i]}" "$text" || return 1
+  if [ "$(cat "$folder/settings.txt" 2>/dev/null)" != "$text" ]; then
+    { echo "$text" >"$folder/settings.txt.new" && mv "$folder/settings.txt.new" "$folder/settings.txt"; } 2>/dev/null ||
+      { why="cannot write $folder/settings.txt"; return 1; }
+  fi
+  begins[i]=$(stat -c %s "$folder/output.txt" 2>/dev/null || echo 0)
+  if [ "${kinds[i]}" = slider ]; then
+    word=$(tail -n +2 <<<"$text")
+    words=($word --catalogue catalogue.csv --checkpoint checkpoint.bin --json summary.json --progress)
+    # a checkpoint takes long chains some 30 s of steps, short ones less
+    [[ $word =~ "--blocks "[0-9]{6} ]] && words+=(--checkpoint-interval 1e5)
+    [ ! -e "$folder/checkpoint.bin" ] || words+=(--resume)
+    run_in_folder "$name" flock -n -s -F lock "$bin/slider_cli" "${words[@]}" &
+  else
+    unpack_series "$folder" || { why="cannot unpack $folder/fault.pe.bin.gz"; return 1; }
+    words=(-in "$root/inputs/fault.in" -log none -var prefix fault -var steps "${goals[i]}" -var run "$(identity "$text")")
+    while read -r word; do words+=(-var ${word}); done < <(tail -n +2 <<<"$text")
+    [ -z "$restart" ] || words+=(-var restart "$restart")
+    run_in_folder "$name" mpirun -np "${cores[i]}" flock -n -s -F lock "$bin/lmp" "${words[@]}" &
+  fi
+  pids[i]=$!
+  states[i]=running ats[i]=$at starts[i]="$SECONDS $at"
+  if [ -e "$folder/checkpoint.bin" ] || [ -n "$restart" ]; then word="goes on from its checkpoint"
+    [ -z "$restart" ] || word+=" at step $at of ${goals[i]}"
+  else word="starts, ${goals[i]} steps"; fi
+  [ "${cores[i]}" = 1 ] || word+=", ${cores[i]} ranks"
+  [ -z "$restart" ] || [ "$(value "$folder/$restart.info" ranks)" = "${cores[i]}" ] ||
+    word+=" (another number than before: the same model, not the same digits)"
+  say "$name: $word"
+}
+
+# A packed series is complete before the other one goes, in both directions.
+pack_series() { # RUN
+  local file=$output/${names[$1]}/fault.pe.bin
+  [ "$series" = compress ] && [ -e "$file" ] || return 0
+  gzip -1 -c "$file" >"$file.gz.new" && mv "$file.gz.new" "$file.gz" && rm "$file" ||
+    say "${names[$1]}: the PE series could not be compressed"
+}
+unpack_series() { # FOLDER
+  local file=$1/fault.pe.bin
+  [ -e "$file.gz" ] || return 0
+  if [ ! -e "$file" ]; then
+    gzip -dc "$file.gz" >"$file.new" && mv "$file.new" "$file" || return 1
+  fi
+  rm "$file.gz"
+}
+
+finish() {
+  local i=$1 name=${names[$1]} folder=$output/${names[$1]} code said
+  wait "${pids[i]}"
+  code=$?
+  pids[i]=
+  if progress "$name" "${kinds[i]}" "${goals[i]}" "${settings[i]}" && [ $done = yes ]; then
+    states[i]=done ats[i]=$at
+    pack_series "$i"
+    say "$name: done, $(events_before "$folder"/*catalogue.csv 9e18) events"
+  elif [ -n "$stopping" ]; then
+    look "$i"
+    states[i]=stopped
+    say "$name: stopped at about step ${ats[i]}"
+  else
+    said=$(tail -c +$((begins[i] + 1)) "$folder/output.txt" 2>/dev/null | grep -a '^ERROR\|^slider_cli: ' | head -n 1)
+    [ -n "$why" ] || why=${said:-"its program ended with $code, see $folder/output.txt"}
+    [ "$(df --output=avail -k "$output" | tail -n 1)" -gt 1024 ] || why+="; no space left on the disk of $output"
+    states[i]=failed reasons[i]=$why
+    say "$name: failed: $why"
+  fi
+}
+
+# ---- time left
+
+# steps before the shear, which do not count
+settle_steps=$(sed -n 's/^variable settle *index *\([0-9]*\).*/\1/p' "$root/inputs/fault.in")
+for word in ${fault_more[@]+"${fault_more[@]}"}; do [[ $word != settle=* ]] || settle_steps=${word#*=}; done
+
+# look I: steps done by a running run, from what it says
+look() {
+  local text
+  text=$(tail -c 2000 "$output/${names[$1]}/output.txt" 2>/dev/null)
+  if [ "${kinds[$1]}" = slider ]; then
+    text=$(sed -n 's/^step \([0-9]*\) of.*/\1/p' <<<"$text" | tail -n 1)
+  else
+    text=$(awk -v settle="$settle_steps" 'NF == 8 && /^ *[0-9 ]/ { s = $1 } END { if (s != "") print s - settle }' <<<"$text")
+  fi
+  [ -n "$text" ] && [ "$text" -gt "${ats[$1]}" ] && ats[$1]=$text
+}
+
+# status: one line with the share done and the time left. Left: estimated core seconds, corrected by how the estimates
+# of the same kind did in this session.
+status() {
+  local i numbers= line=
+  for i in "${!names[@]}"; do
+    [ "${states[i]}" = running ] && look "$i" && line+=" ${names[i]} $((100 * ats[i] / goals[i])) %,"
+    numbers+="${kinds[i]} ${states[i]} ${cores[i]} ${costs[i]} ${ats[i]} ${goals[i]} ${starts[i]:-0 0}"$'\n'
+  done
+  awk -v now=$SECONDS -v jobs="$jobs" -v line="$line" '
+    NF { k[NR] = $1; state[NR] = $2; c[NR] = $3; cost[NR] = $4; f[NR] = $5 / $6; n = NR
+      if ($2 == "done") f[NR] = 1
+      if ($2 == "running") { spent[$1] += (now - $7) * $3; made[$1] += ($5 - $8) / $6 * $4 } }
+    END {
+      for (i = 1; i <= n; i++) {
+        all++; if (state[i] == "done") ready++
+        if (state[i] != "running" && state[i] != "waiting") continue
+        factor = made[k[i]] > 0 && spent[k[i]] > 5 ? spent[k[i]] / made[k[i]] : 1
+        one = (1 - f[i]) * cost[i] * factor; left += one
+        if (one / c[i] > longest) longest = one / c[i]
+      }
+      left /= jobs; if (longest > left) left = longest
+      t = left >= 172800 ? sprintf("%.0f days", left / 86400) : left >= 7200 ? sprintf("%.1f h", left / 3600) : \
+          left >= 120 ? sprintf("%.0f min", left / 60) : sprintf("%.0f s", left)
+      printf "%d of %d runs done;%s about %s left", ready, all, line, t }' <<<"$numbers"
+}
+
+# ---- the loop
+
+stopping=
+stop() {
+  [ -z "$stopping" ] || return 0
+  stopping=$1
+  local i
+  for i in "${!names[@]}"; do [ "${states[i]}" != running ] || kill -TERM "${pids[i]}" 2>/dev/null; done
+}
+trap 'stop "interrupted"' INT TERM HUP
+exec {never}<> <(:)
+
+deadline=
+[ -z "$hours" ] || deadline=$(awk -v h="$hours" 'BEGIN { printf "%.0f", h * 3600 }')
+shown=-10
+say "campaign in $output: ${#names[@]} runs, $jobs cores, $(status)"
+while :; do
+  used=0 active=0
+  for i in "${!names[@]}"; do
+    [ "${states[i]}" = running ] || continue
+    if kill -0 "${pids[i]}" 2>/dev/null; then
+      used=$((used + cores[i])) active=$((active + 1))
+    else
+      finish "$i"
+    fi
+  done
+  if [ -n "$deadline" ] && [ $SECONDS -ge "$deadline" ]; then stop "its $hours hours are over"; fi
+  for i in "${!names[@]}"; do
+    [ -z "$stopping" ] && [ "${states[i]}" = waiting ] && [ $((used + cores[i])) -le "$jobs" ] || continue
+    if start "$i"; then
+      used=$((used + cores[i])) active=$((active + 1))
+    else
+      states[i]=failed reasons[i]=$why
+      say "${names[i]}: cannot go on: $why"
+    fi
+  done
+  [ $active -gt 0 ] || break
+  if [ $terminal = yes ] && [ $((SECONDS - shown)) -ge 2 ]; then
+    printf '\r\033[K%s' "$(status | cut -c "1-$((${COLUMNS:-$(tput cols 2>/dev/null || echo 80)} - 1))")"
+    shown=$SECONDS
+  fi
+  read -r -t 0.2 -u "$never"
+done
+[ -z "$stopping" ] || say "stopped: $stopping; run the same command again to go on"
+
+# ---- reports
+
+failed=0 unfinished=0 code=0
+for i in "${!names[@]}"; do
+  [ "${states[i]}" != failed ] || failed=$((failed + 1))
+  if [ "${states[i]}" = "done" ]; then pack_series "$i"; else unfinished=$((unfinished + 1)); fi
+done
+
+# page FILE TITLE PATTERN: one page on the runs whose names match and that have a catalogue
+page() {
+  local i words=() labels=() label file
+  for i in "${!names[@]}"; do
+    [[ ${names[i]} =~ $3 ]] || continue
+    for file in "$output/${names[i]}"/*catalogue.csv; do
+      [ -e "$file" ] || continue
+      label=$(sed -E 's/^slider_kl_/slider 1928, K_l /; s/^slider_(paper|ours)_([0-9]*)_([0-9]*)/slider \2, seed \3/; s/_/ /g' \
+        <<<"${names[i]}")
+      [ "${states[i]}" = done ] || label+=" (unfinished, step ${ats[i]} of ${goals[i]})"
+      words+=("$file") labels+=(--label "$label")
+    done
+  done
+  [ ${#words[@]} -gt 0 ] || return 0
+  say "$1: $2"
+  "$bin/postproc" report --lenient --title "$2" --output "$output/$1" "${words[@]}" "${labels[@]}" || code=1
+}
+if [ $report = yes ] && [ "$stopping" != interrupted ]; then
+  if [ -x "$bin/postproc" ]; then
+    five='(256|614|972|1450|1928)'
+    page report.html "Faults, and block-sliders in our settings" "^fault|^slider_ours_${five}_1\$|^slider_kl"
+    page report_paper_settings.html "Block-sliders as printed in the paper" "^slider_paper_${five}_1\$"
+    page report_long_chains.html "Block-sliders longer than the paper's, our settings" '^slider_ours_[0-9]*_1$'
+    for ((s = 2; s <= seeds; s++)); do
+      page "report_seed_$s.html" "Block-sliders in our settings, seed $s" "^slider_ours_[0-9]*_$s\$"
+    done
+  else
+    say "no report: there is no program $bin/postproc"
+    code=1
+  fi
+fi
+say "$((${#names[@]} - unfinished)) of ${#names[@]} runs done, $failed failed; results in $output"
+[ "$stopping" != interrupted ] || code=130
+[ $failed -eq 0 ] || code=1
+exit $code
