@@ -32,7 +32,7 @@ fi
 grep -q '^  LSM$' "$list" || { echo "install-into-lammps: $list could not be changed" >&2; exit 1; }
 cat <<EOF
 Package LSM is in $lammps/src/LSM. Build for example with
-  cmake -S $lammps/cmake -B lammps-build -D CMAKE_BUILD_TYPE=Release -D CMAKE_CXX_FLAGS=-ffp-contract=off \\
+  cmake -S $lammps/cmake -B lammps-build -D CMAKE_BUILD_TYPE=Release -D CMAKE_CXX_FLAGS="-ffp-contract=off -fno-math-errno" \\
         -D PKG_LSM=on -D PKG_MOLECULE=on -D PKG_GRANULAR=on -D PKG_BPM=on
   cmake --build lammps-build --parallel
 EOF

@@ -14,17 +14,20 @@
 #include "neighbor.h"
 
 #include "lsm_force_laws.h"
-#include "lsm_sum.h"
+#include "lsm_link_kernel.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <tuple>
 
 using namespace LAMMPS_NS;
 
 /* ---------------------------------------------------------------------- */
 
 BondLSMLinked::BondLSMLinked(LAMMPS *_lmp) :
-    Bond(_lmp), k(nullptr), ratio(nullptr), breakable(0), maxrad(0.0)
+    Bond(_lmp), k(nullptr), ratio(nullptr), breakable(0), maxrad(0.0),
+    collected_at(-1)
 {
   writedata = 1;
 }
@@ -46,108 +49,150 @@ BondLSMLinked::~BondLSMLinked()
 void BondLSMLinked::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
-  const int choice = (evflag ? 8 : 0) + (record_what ? 4 : 0) + (breakable ? 2 : 0) +
-      (domain->dimension == 3 ? 1 : 0);
-  switch (choice) {
-    case 0: return eval<false, false, false, false>();
-    case 1: return eval<false, false, false, true>();
-    case 2: return eval<false, false, true, false>();
-    case 3: return eval<false, false, true, true>();
-    case 4: return eval<false, true, false, false>();
-    case 5: return eval<false, true, false, true>();
-    case 6: return eval<false, true, true, false>();
-    case 7: return eval<false, true, true, true>();
-    case 8: return eval<true, false, false, false>();
-    case 9: return eval<true, false, false, true>();
-    case 10: return eval<true, false, true, false>();
-    case 11: return eval<true, false, true, true>();
-    case 12: return eval<true, true, false, false>();
-    case 13: return eval<true, true, false, true>();
-    case 14: return eval<true, true, true, false>();
-    default: return eval<true, true, true, true>();
+  if (collected_at != neighbor->lastcall) collect();
+  const bool dim3 = domain->dimension == 3;
+  if (breakable)
+    dim3 ? eval<3, true>() : eval<2, true>();
+  else
+    dim3 ? eval<3, false>() : eval<2, false>();
+  if (evflag) tally();
+}
+
+/* ----------------------------------------------------------------------
+   The links of this rank in an order that follows from the particle IDs alone: a run that goes on from a
+   restart file sums in the same order, and links that follow each other touch the same stretch of memory if
+   IDs follow the particles in space. Links that are treated differently stand in segments of their own:
+   by type, and by whether the force on the second particle is added here.
+   With newton_bond off the first particle of a link is always owned, and a link to a ghost stands in the
+   list of both ranks: half of its energy is counted on each.
+------------------------------------------------------------------------- */
+
+void BondLSMLinked::collect()
+{
+  struct Link {
+    bool alone;
+    int type;
+    tagint low, high, first;
+    int i, j;
+    bool operator<(const Link &o) const
+    {
+      return std::tie(alone, type, low, high, first) <
+          std::tie(o.alone, o.type, o.low, o.high, o.first);
+    }
+  };
+
+  const tagint *const tag = atom->tag;
+  int **const bondlist = neighbor->bondlist;
+  std::vector<Link> links;
+  links.reserve(neighbor->nbondlist);
+  for (int n = 0; n < neighbor->nbondlist; n++) {
+    const int i = bondlist[n][0], j = bondlist[n][1], type = bondlist[n][2];
+    if (type > 0)
+      links.push_back({!force->newton_bond && j >= atom->nlocal, type, MIN(tag[i], tag[j]),
+                       MAX(tag[i], tag[j]), tag[i], i, j});
+  }
+  std::sort(links.begin(), links.end());
+
+  ends.clear();
+  rest.clear();
+  segments.clear();
+  for (const Link &link : links) {
+    const int n = static_cast<int>(rest.size());
+    if (segments.empty() || segments.back().type != link.type ||
+        segments.back().alone != link.alone)
+      segments.push_back({n, n, link.type, link.alone});
+    segments.back().last = n + 1;
+    ends.push_back({3 * link.i, 3 * link.j});
+    rest.push_back(atom->radius[link.i] + atom->radius[link.j]);
+  }
+  list_fresh();
+  collected_at = neighbor->lastcall;
+}
+
+/* ----------------------------------------------------------------------
+   Particles whose place in memory a block of links needs and the blocks shortly before did not: fetched while
+   the block before is worked on, as the time to fetch them one by one when they are needed would be longer
+   than all arithmetic.
+------------------------------------------------------------------------- */
+
+void BondLSMLinked::list_fresh()
+{
+  constexpr int REMEMBERED = 16;    // blocks whose particles are taken to be in the nearest cache still
+  constexpr int LINE = 8;           // doubles of a cache line
+
+  fresh.clear();
+  fresh_begin = {0};
+  std::vector<int> used(3 * (atom->nlocal + atom->nghost) / LINE + 1, -REMEMBERED - 1);
+  int number = 0;
+  for (const Segment &segment : segments)
+    for (int first = segment.first; first < segment.last; first += LSMLinkKernel::BLOCK, number++) {
+      const int last = MIN(first + LSMLinkKernel::BLOCK, segment.last);
+      for (int n = first; n < last; n++)
+        for (const int place : {ends[n].i, ends[n].j}) {
+          if (number - used[place / LINE] > REMEMBERED) fresh.push_back(place);
+          used[place / LINE] = number;
+        }
+      fresh_begin.push_back(static_cast<int>(fresh.size()));
+    }
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <int DIM, bool BREAK> void BondLSMLinked::eval()
+{
+  pe_link = 0.0;
+  if (rest.empty()) return;
+  const int *begin = fresh_begin.data();
+  for (const Segment &s : segments) {
+    const LSMLinkKernel::Links links{&ends[s.first], &rest[s.first], s.last - s.first, k[s.type],
+                                     ratio[s.type],  s.alone,        fresh.data(),     begin};
+    begin += (links.count + LSMLinkKernel::BLOCK - 1) / LSMLinkKernel::BLOCK;
+    gone.clear();
+    pe_link += LSMLinkKernel::forces<DIM, BREAK>(links, atom->x[0], atom->f[0], gone);
+    if constexpr (BREAK) note_broken(s);
   }
 }
 
 /* ----------------------------------------------------------------------
-   With newton_bond off the first particle of a link in the list is always owned, and a link to a ghost
-   stands in the list of both ranks: half of its energy is counted on each.
+   Broken links are noted for fix LSM_BREAK; before the forces are evaluated again the list is collected
+   without them.
 ------------------------------------------------------------------------- */
 
-template <bool EV, bool RECORD, bool BREAK, bool DIM3> void BondLSMLinked::eval()
+void BondLSMLinked::note_broken(const Segment &segment)
 {
-  // 256 links a partial sum: the rounding error of the total then grows with the number of partial sums,
-  // which are added with compensation
-
-  constexpr int CHUNK = 256;
-
-  if (atom->nlocal + atom->nghost == 0) {
-    if constexpr (RECORD) pe_link = 0.0;
-    return;
-  }
-
-  const double *const x = atom->x[0];
-  double *const f = atom->f[0];
-  const double *const radius = atom->radius;
-  int **const bondlist = neighbor->bondlist;
-  const int nbondlist = neighbor->nbondlist;
-  const int nlocal = atom->nlocal;
-  const int newton_bond = force->newton_bond;
-  const double *const stiffness = k;
-
-  LSM::NeumaierSum sum;
-
-  for (int first = 0; first < nbondlist; first += CHUNK) {
-    const int last = MIN(first + CHUNK, nbondlist);
-    double twice = 0.0;
-    for (int n = first; n < last; n++) {
-      const int i = bondlist[n][0];
-      const int j = bondlist[n][1];
-      const int type = bondlist[n][2];
-      if constexpr (BREAK)
-        if (type <= 0) continue;
-
-      const double delx = x[3 * i] - x[3 * j];
-      const double dely = x[3 * i + 1] - x[3 * j + 1];
-      double delz = 0.0;
-      double rsq = delx * delx + dely * dely;
-      if constexpr (DIM3) {
-        delz = x[3 * i + 2] - x[3 * j + 2];
-        rsq += delz * delz;
-      }
-      const double r0 = radius[i] + radius[j];
-      const double r = sqrt(rsq);
-
-      if constexpr (BREAK)
-        if (ratio[type] > 0.0 && LSM::link_is_broken(r, r0, ratio[type])) {
-          bondlist[n][2] = 0;
-          if constexpr (RECORD)
-            work_broken += (newton_bond || j < nlocal ? 1.0 : 0.5) *
-                LSM::Spring::energy(stiffness[type], r - r0);
-          broken.push_back(atom->tag[i]);
-          broken.push_back(atom->tag[j]);
-          continue;
-        }
-
-      const double pull = LSM::Spring::force(stiffness[type], r - r0);
-      const double fbond = -pull / r;
-      const bool both = newton_bond || j < nlocal;
-      const double fx = delx * fbond, fy = dely * fbond;
-      f[3 * i] += fx;
-      f[3 * i + 1] += fy;
-      if constexpr (DIM3) f[3 * i + 2] += delz * fbond;
-      if (both) {
-        f[3 * j] -= fx;
-        f[3 * j + 1] -= fy;
-        if constexpr (DIM3) f[3 * j + 2] -= delz * fbond;
-      }
-      if constexpr (RECORD) twice += (both ? 1.0 : 0.5) * (pull * (r - r0));
-      if constexpr (EV)
-        ev_tally(i, j, nlocal, newton_bond, LSM::Spring::energy(stiffness[type], r - r0), fbond,
-                 delx, dely, delz);
+  for (const int n : gone) {
+    const int i = ends[segment.first + n].i / 3, j = ends[segment.first + n].j / 3;
+    for (int m = 0; m < neighbor->nbondlist; m++)
+      if (neighbor->bondlist[m][0] == i && neighbor->bondlist[m][1] == j)
+        neighbor->bondlist[m][2] = 0;
+    broken.push_back(atom->tag[i]);
+    broken.push_back(atom->tag[j]);
+    if (record_what) {
+      double **x = atom->x, none;
+      const double dx = x[i][0] - x[j][0], dy = x[i][1] - x[j][1], dz = x[i][2] - x[j][2];
+      work_broken +=
+          (segment.alone ? 0.5 : 1.0) * single(segment.type, dx * dx + dy * dy + dz * dz, i, j, none);
     }
-    if constexpr (RECORD) sum.add(twice);
+    collected_at = -1;
   }
-  if constexpr (RECORD) pe_link = 0.5 * sum.value();
+}
+
+/* ----------------------------------------------------------------------
+   energy and virial for LAMMPS, in steps that ask for them
+------------------------------------------------------------------------- */
+
+void BondLSMLinked::tally()
+{
+  double **x = atom->x;
+  for (int n = 0; n < neighbor->nbondlist; n++) {
+    const int i = neighbor->bondlist[n][0], j = neighbor->bondlist[n][1];
+    const int type = neighbor->bondlist[n][2];
+    if (type <= 0) continue;
+    const double dx = x[i][0] - x[j][0], dy = x[i][1] - x[j][1], dz = x[i][2] - x[j][2];
+    double fbond = 0.0;
+    const double energy = single(type, dx * dx + dy * dy + dz * dz, i, j, fbond);
+    ev_tally(i, j, atom->nlocal, force->newton_bond, energy, fbond, dx, dy, dz);
+  }
 }
 
 /* ---------------------------------------------------------------------- */
@@ -227,6 +272,7 @@ void BondLSMLinked::init_style()
   if (!atom->radius_flag)
     error->all(FLERR, "Bond style lsm/linked needs particle radii: use atom_style hybrid bond sphere");
   record_what = NONE;
+  collected_at = -1;
 
   double mine = 0.0;
   for (int i = 0; i < atom->nlocal; i++) mine = MAX(mine, atom->radius[i]);

@@ -14,6 +14,7 @@ BondStyle(lsm/linked,BondLSMLinked);
 
 #include "bond.h"
 #include "lsm_energy.h"
+#include "lsm_link_kernel.h"
 
 #include <vector>
 
@@ -48,7 +49,24 @@ class BondLSMLinked : public Bond, public LSMEnergySource {
   void allocate();
 
  private:
-  template <bool EV, bool RECORD, bool BREAK, bool DIM3> void eval();
+  struct Segment {    // links that are treated the same way
+    int first, last;
+    int type;
+    bool alone;    // the force on the second particle is added by its owner
+  };
+  std::vector<LSMLinkKernel::Ends> ends;    // the links in the order of the sums
+  std::vector<double> rest;        // their rest lengths
+  std::vector<Segment> segments;
+  std::vector<int> fresh;          // places to fetch into the cache, block by block
+  std::vector<int> fresh_begin;    // where those of each block begin
+  std::vector<int> gone;           // links that broke in this evaluation, by their place in a segment
+  bigint collected_at;             // step of the neighbour list they were taken from, -1 if outdated
+
+  void collect();
+  void list_fresh();
+  template <int DIM, bool BREAK> void eval();
+  void note_broken(const Segment &);
+  void tally();
 };
 
 }    // namespace LAMMPS_NS

@@ -269,7 +269,7 @@ LSM::CatalogueInfo ComputeLSMEvents::header() const
   add("length", number(domain->prd[0]));
   add("dt", number(update->dt));
   for (size_t n = 0; n < integrators.size(); n++)
-    add(n ? "viscosity_" + std::to_string(n + 1) : "viscosity", number(integrators[n]->viscosity()));
+    add(n ? "viscosity_" + std::to_string(n + 1) : "viscosity", integrators[n]->viscosity());
   add("picker", LSM::to_string(picker_settings.reading));
   add("lambda", number(picker_settings.lambda));
   add("min_size", number(picker_settings.min_size));
@@ -318,7 +318,7 @@ void ComputeLSMEvents::open_files(bigint step)
       catalogue = std::make_unique<LSM::CatalogueWriter>();
       // an event that ended at the restart step is only known one step later, and comes again
       if (resume && from_restart && std::filesystem::exists(catalogue_file, code))
-        catalogue->resume(catalogue_file, header(), step - 1, free_to_change);
+        catalogue->resume(catalogue_file, header(), step - 1, free_to_change, picker->events());
       else
         catalogue->create(catalogue_file, header());
     }
@@ -326,8 +326,9 @@ void ComputeLSMEvents::open_files(bigint step)
       LSM::PeSeriesInfo info;
       info.model = "lsm";
       info.dt = update->dt;
-      info.step0 = 0;
-      info.time0 = time_of(0);
+      // the numbers that times are computed from, so that a reader gets the times of the catalogue
+      info.step0 = anchor_step;
+      info.time0 = anchor_time;
       info.stride = series_stride;
       info.parameters = header().parameters;
       info.parameters.erase(
@@ -634,6 +635,7 @@ void ComputeLSMEvents::check_health()
                update->ntimestep, what);
 
   flush();
+  for (auto *p : integrators) p->complete_step();
   auto writer = WriteRestart(lmp);
   writer.multiproc_options(0, 0, nullptr);
   writer.write(emergency_file);

@@ -10,11 +10,16 @@
 #include "domain.h"
 #include "error.h"
 #include "force.h"
+#include "group.h"
+#include "lsm_text_io.h"
+#include "modify.h"
 #include "neigh_list.h"
 #include "neighbor.h"
+#include "output.h"
 #include "pair_lsm_free.h"
 #include "update.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -24,9 +29,9 @@ using namespace FixConst;
 /* ---------------------------------------------------------------------- */
 
 FixLSMNVE::FixLSMNVE(LAMMPS *_lmp, int narg, char **arg) :
-    Fix(_lmp, narg, arg), record_work(false), work_viscosity(0.0), nu(0.0), dtv(0.0), dtf(0.0),
-    decay(1.0), check(ERROR), omega(0.0), dt_limit(0.0), initial_chosen(nullptr),
-    final_chosen(nullptr)
+    Fix(_lmp, narg, arg), record_work(false), work_viscosity(0.0), nu(atom->ntypes + 1, 0.0),
+    decay(atom->ntypes + 1, 1.0), viscous(false), dtv(0.0), dtf(0.0), check(ERROR), omega(0.0), dt_limit(0.0), pending(false),
+    initial_chosen(nullptr), final_chosen(nullptr), both_chosen(nullptr)
 {
   time_integrate = 1;
   dynamic_group_allow = 1;
@@ -43,8 +48,14 @@ FixLSMNVE::FixLSMNVE(LAMMPS *_lmp, int narg, char **arg) :
   while (iarg < narg) {
     if (iarg + 1 >= narg) error->all(FLERR, "Fix lsm/nve keyword {} needs a value", arg[iarg]);
     if (strcmp(arg[iarg], "viscosity") == 0) {
-      nu = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
-      if (nu < 0.0) error->all(FLERR, "Fix lsm/nve viscosity is {}, but must be >= 0", nu);
+      nu.assign(atom->ntypes + 1, viscosity_from(arg[iarg + 1]));
+    } else if (strcmp(arg[iarg], "viscosity/type") == 0) {
+      if (iarg + 2 >= narg) error->all(FLERR, "Fix lsm/nve keyword viscosity/type needs types and a value");
+      int lo, hi;
+      utils::bounds(FLERR, arg[iarg + 1], 1, atom->ntypes, lo, hi, error);
+      const double value = viscosity_from(arg[iarg + 2]);
+      for (int itype = lo; itype <= hi; itype++) nu[itype] = value;
+      iarg++;
     } else if (strcmp(arg[iarg], "dtcheck") == 0) {
       if (strcmp(arg[iarg + 1], "error") == 0)
         check = ERROR;
@@ -56,17 +67,33 @@ FixLSMNVE::FixLSMNVE(LAMMPS *_lmp, int narg, char **arg) :
         error->all(FLERR, "Fix lsm/nve dtcheck is '{}', but must be error, warn or off",
                    arg[iarg + 1]);
     } else
-      error->all(FLERR, "Unknown fix lsm/nve keyword '{}'; accepted are viscosity and dtcheck",
+      error->all(FLERR, "Unknown fix lsm/nve keyword '{}'; accepted are viscosity, viscosity/type and dtcheck",
                  arg[iarg]);
     iarg += 2;
   }
+  for (double value : nu) viscous = viscous || value > 0.0;
+}
+
+double FixLSMNVE::viscosity_from(const char *text)
+{
+  const double value = utils::numeric(FLERR, text, false, lmp);
+  if (!(value >= 0.0)) error->all(FLERR, "Fix lsm/nve viscosity is {}, but must be >= 0", value);
+  return value;
+}
+
+std::string FixLSMNVE::viscosity() const
+{
+  const bool same = std::all_of(nu.begin() + 1, nu.end(), [this](double value) { return value == nu[1]; });
+  std::string text = LSM::text_io::number(nu[1]);
+  for (size_t itype = 2; !same && itype < nu.size(); itype++) text += " " + LSM::text_io::number(nu[itype]);
+  return text;
 }
 
 /* ---------------------------------------------------------------------- */
 
 int FixLSMNVE::setmask()
 {
-  return INITIAL_INTEGRATE | FINAL_INTEGRATE;
+  return INITIAL_INTEGRATE | FINAL_INTEGRATE | POST_NEIGHBOR | POST_RUN;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -84,23 +111,66 @@ void FixLSMNVE::reset_dt()
 {
   dtv = update->dt;
   dtf = 0.5 * update->dt * force->ftm2v;
-  decay = exp(-0.5 * nu * update->dt);
+  for (int itype = 1; itype <= atom->ntypes; itype++) decay[itype] = exp(-0.5 * nu[itype] * update->dt);
+  collect();
+}
+
+/* ----------------------------------------------------------------------
+   the particles of the group in memory, and half a time step over the mass of each
+------------------------------------------------------------------------- */
+
+void FixLSMNVE::collect()
+{
+  const int nlocal = atom->nlocal;
+  runs.clear();
+  half_kick.resize(nlocal);
+  for (int i = 0; i < nlocal; i++) {
+    half_kick[i] = dtf / (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]);
+    if (!(atom->mask[i] & groupbit)) continue;
+    const double factor = decay[atom->type[i]];
+    if (runs.empty() || runs.back().last != i || runs.back().decay != factor) runs.push_back({i, i, factor});
+    runs.back().last = i + 1;
+  }
+}
+
+void FixLSMNVE::setup_post_neighbor()
+{
+  collect();
+}
+
+void FixLSMNVE::post_neighbor()
+{
+  collect();
 }
 
 /* ---------------------------------------------------------------------- */
 
 template <bool DIM3> void FixLSMNVE::choose()
 {
-  if (nu > 0.0 && record_work) {
-    initial_chosen = &FixLSMNVE::half_step<true, true, true, DIM3>;
-    final_chosen = &FixLSMNVE::half_step<false, true, true, DIM3>;
-  } else if (nu > 0.0) {
-    initial_chosen = &FixLSMNVE::half_step<true, true, false, DIM3>;
-    final_chosen = &FixLSMNVE::half_step<false, true, false, DIM3>;
+  if (viscous && record_work) {
+    initial_chosen = &FixLSMNVE::move<INITIAL, true, true, DIM3>;
+    final_chosen = &FixLSMNVE::move<FINAL, true, true, DIM3>;
+    both_chosen = nullptr;
+  } else if (viscous) {
+    initial_chosen = &FixLSMNVE::move<INITIAL, true, false, DIM3>;
+    final_chosen = &FixLSMNVE::move<FINAL, true, false, DIM3>;
+    both_chosen = &FixLSMNVE::move<FINAL | INITIAL, true, false, DIM3>;
   } else {
-    initial_chosen = &FixLSMNVE::half_step<true, false, false, DIM3>;
-    final_chosen = &FixLSMNVE::half_step<false, false, false, DIM3>;
+    initial_chosen = &FixLSMNVE::move<INITIAL, false, false, DIM3>;
+    final_chosen = &FixLSMNVE::move<FINAL, false, false, DIM3>;
+    both_chosen = &FixLSMNVE::move<FINAL | INITIAL, false, false, DIM3>;
   }
+
+  // fixes that may look at velocities between the end of a step and the begin of the next
+
+  onlookers.clear();
+  for (const auto &other : modify->get_fix_list()) {
+    if (utils::strmatch(other->style, "^lsm/") || utils::strmatch(other->style, "^LSM_")) continue;
+    const int when = modify->get_fix_mask(other);
+    if (when & (INITIAL_INTEGRATE | FINAL_INTEGRATE)) both_chosen = nullptr;
+    if (when & END_OF_STEP) onlookers.push_back(other);
+  }
+  if (group->dynamic[igroup]) both_chosen = nullptr;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -129,59 +199,80 @@ void FixLSMNVE::setup(int /*vflag*/)
    velocity Verlet step. Second order, stable for any viscosity, and the work it takes is known exactly.
 ------------------------------------------------------------------------- */
 
-template <bool FIRST, bool VISCOUS, bool WORK, bool DIM3> void FixLSMNVE::half_step()
+template <int PARTS, bool VISCOUS, bool WORK, bool DIM3> void FixLSMNVE::move()
 {
-  double **x = atom->x;
-  double **v = atom->v;
-  double **f = atom->f;
-  const double *rmass = atom->rmass;
-  const double *mass = atom->mass;
-  const int *type = atom->type;
-  const int *mask = atom->mask;
-  const int nlocal = igroup == atom->firstgroup ? atom->nfirst : atom->nlocal;
-  double lost = 0.0;
+  constexpr int DIM = DIM3 ? 3 : 2;
 
-  auto damp = [&](double *vi, double m) {
-    if constexpr (WORK) {
-      double vsq = vi[0] * vi[0] + vi[1] * vi[1];
-      if constexpr (DIM3) vsq += vi[2] * vi[2];
-      lost += m * vsq;
-    }
-    if constexpr (VISCOUS) {
-      vi[0] *= decay;
-      vi[1] *= decay;
-      if constexpr (DIM3) vi[2] *= decay;
-    }
-  };
+  for (const Run &run : runs) {
+    const double factor = run.decay;
+    double lost = 0.0;
+    double *x = atom->x[run.first];
+    double *v = atom->v[run.first];
+    const double *f = atom->f[run.first];
+    const double *kick = &half_kick[run.first];
+    const double *const end = &half_kick[0] + run.last;
 
-  for (int i = 0; i < nlocal; i++) {
-    if (!(mask[i] & groupbit)) continue;
-    const double m = rmass ? rmass[i] : mass[type[i]];
-    const double dtfm = dtf / m;
-    if constexpr (FIRST) damp(v[i], m);
-    v[i][0] += dtfm * f[i][0];
-    v[i][1] += dtfm * f[i][1];
-    if constexpr (DIM3) v[i][2] += dtfm * f[i][2];
-    if constexpr (FIRST) {
-      x[i][0] += dtv * v[i][0];
-      x[i][1] += dtv * v[i][1];
-      if constexpr (DIM3) x[i][2] += dtv * v[i][2];
-    } else
-      damp(v[i], m);
+    for (; kick < end; kick++, x += 3, v += 3, f += 3) {
+      double w[DIM], vsq = 0.0;
+      for (int c = 0; c < DIM; c++) w[c] = v[c];
+      if constexpr (PARTS & FINAL) {
+        for (int c = 0; c < DIM; c++) w[c] += *kick * f[c];
+        if constexpr (WORK)
+          for (int c = 0; c < DIM; c++) vsq += w[c] * w[c];
+        if constexpr (VISCOUS)
+          for (int c = 0; c < DIM; c++) w[c] *= factor;
+      }
+      if constexpr (PARTS & INITIAL) {
+        if constexpr (WORK)
+          for (int c = 0; c < DIM; c++) vsq += w[c] * w[c];
+        if constexpr (VISCOUS)
+          for (int c = 0; c < DIM; c++) w[c] *= factor;
+        for (int c = 0; c < DIM; c++) w[c] += *kick * f[c];
+        double to[DIM];
+        for (int c = 0; c < DIM; c++) to[c] = x[c] + dtv * w[c];
+        for (int c = 0; c < DIM; c++) x[c] = to[c];
+      }
+      for (int c = 0; c < DIM; c++) v[c] = w[c];
+      if constexpr (WORK) lost += dtf / *kick * vsq;
+    }
+    if constexpr (WORK) work_viscosity += 0.5 * (1.0 - factor * factor) * lost;
   }
-  if constexpr (WORK) work_viscosity += 0.5 * (1.0 - decay * decay) * lost;
 }
 
 /* ---------------------------------------------------------------------- */
 
 void FixLSMNVE::initial_integrate(int /*vflag*/)
 {
-  (this->*initial_chosen)();
+  if (group->dynamic[igroup]) collect();
+  (this->*(pending ? both_chosen : initial_chosen))();
+  pending = false;
 }
+
+/* ----------------------------------------------------------------------
+   The second half of a step waits for the first half of the next, so that both go through memory together,
+   unless somebody may look at the velocities in between. The same operations in the same order either way.
+------------------------------------------------------------------------- */
 
 void FixLSMNVE::final_integrate()
 {
+  const bigint step = update->ntimestep;
+  pending = both_chosen && step != output->next && step != update->laststep;
+  for (const Fix *other : onlookers)
+    if (step % other->nevery == 0) pending = false;
+  if (pending) return;
+  if (group->dynamic[igroup]) collect();
   (this->*final_chosen)();
+}
+
+void FixLSMNVE::complete_step()
+{
+  if (pending) (this->*final_chosen)();
+  pending = false;
+}
+
+void FixLSMNVE::post_run()
+{
+  complete_step();
 }
 
 /* ----------------------------------------------------------------------

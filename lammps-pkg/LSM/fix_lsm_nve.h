@@ -14,6 +14,7 @@ FixStyle(lsm/nve,FixLSMNVE);
 
 #include "fix.h"
 
+#include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -26,6 +27,9 @@ class FixLSMNVE : public Fix {
   void setup(int) override;
   void initial_integrate(int) override;
   void final_integrate() override;
+  void setup_post_neighbor() override;
+  void post_neighbor() override;
+  void post_run() override;
   void reset_dt() override;
   double compute_scalar() override;
   double compute_vector(int) override;
@@ -39,22 +43,42 @@ class FixLSMNVE : public Fix {
 
   bool record_work;        // set by compute lsm/events when it keeps the energy ledger
   double work_viscosity;    // work lost to viscosity, this rank, accumulated
-  double viscosity() const { return nu; }
+  /// Velocities and positions of the same time, where the second half of a step was put off.
+  void complete_step();
+  std::string viscosity() const;    // one value, or one per type
 
  private:
   enum { ERROR, WARN, OFF };
-  double nu;            // force -nu m v
+  std::vector<double> nu;       // force -nu m v, one value per type
+  std::vector<double> decay;    // factor of the velocities in half a step of viscosity, per type
+  bool viscous;                 // some nu is not 0
   double dtv, dtf;
-  double decay;         // factor of the velocities in half a step of viscosity
   int check;            // what to do when the time step is above the stability limit
   double omega;         // highest frequency found at setup
   double dt_limit;      // 2/omega
   std::vector<double> trial, image;    // vectors of the power iteration, 2 or 3 values an atom
 
-  template <bool FIRST, bool VISCOUS, bool WORK, bool DIM3> void half_step();
+  // particles of the group with the same viscosity that follow each other in memory, and dt/2 over the mass of
+  // every particle
+
+  struct Run {
+    int first, last;
+    double decay;
+  };
+  std::vector<Run> runs;
+  std::vector<double> half_kick;
+
+  enum { FINAL = 1, INITIAL = 2 };    // halves of a step
+  bool pending;                       // the second half of the last step is still to be done
+  std::vector<Fix *> onlookers;
   void (FixLSMNVE::*initial_chosen)();
   void (FixLSMNVE::*final_chosen)();
+  void (FixLSMNVE::*both_chosen)();    // null if no half may be put off
+
+  template <int PARTS, bool VISCOUS, bool WORK, bool DIM3> void move();
   template <bool DIM3> void choose();
+  void collect();
+  double viscosity_from(const char *);
   double highest_frequency();
 };
 

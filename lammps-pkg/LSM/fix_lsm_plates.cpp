@@ -13,6 +13,7 @@
 #include "modify.h"
 #include "update.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -161,6 +162,11 @@ void FixLSMPlates::collect()
     p.atoms.clear();
     for (int i = 0; i < atom->nlocal; i++)
       if (atom->mask[i] & p.bit) p.atoms.push_back(i);
+
+    // by ID, so that a run that goes on from a restart file sums in the same order
+
+    std::sort(p.atoms.begin(), p.atoms.end(),
+              [this](int a, int b) { return atom->tag[a] < atom->tag[b]; });
   }
 }
 

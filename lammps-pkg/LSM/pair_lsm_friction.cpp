@@ -24,18 +24,21 @@
 
 using namespace LAMMPS_NS;
 
-// values stored per contact: elongation of the tangential spring along the tangent (-ny,nx), the vector
-// from j to i in the step before, and (looked at only if a static coefficient exceeds the dynamic one) 1 if
-// sliding. Always four, so that a restart may switch static friction on or off.
-// Elongation is the same seen from i and from j; the vector changes its sign.
+// values stored per pair: elongation of the tangential spring along the tangent (-ny,nx), the vector from j
+// to i in the step before, and the state. Always four, so that a restart may switch static friction or the
+// onset on or off. Elongation is the same seen from i and from j; the vector changes its sign.
+// With onset located, pairs that nearly touch are stored as well, so that the vector before the contact
+// is known.
 
-enum { XI, DX, DY, SLIDING, SIZE_HISTORY };
+enum { XI, DX, DY, STATE, SIZE_HISTORY };
+static constexpr double STICKS = 0.0, SLIDES = 1.0, NEAR = -1.0;
+static constexpr double NEAR_REACH = 1.05;    // in sums of radii
 
 /* ---------------------------------------------------------------------- */
 
 PairLSMFriction::PairLSMFriction(LAMMPS *_lmp) :
     PairLSMFree(_lmp), kt(nullptr), mu(nullptr), mus(nullptr), has_static(0),
-    fix_dummy(nullptr), fix_history(nullptr)
+    locate_onset(1), fix_dummy(nullptr), fix_history(nullptr)
 {
   centroidstressflag = CENTROID_NOTAVAIL;
   nondefault_history_transfer = 1;
@@ -74,16 +77,37 @@ void PairLSMFriction::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
   const int choice = (evflag ? 4 : 0) + (record_what ? 2 : 0) + (has_static ? 1 : 0);
+  if (locate_onset)
+    choose<true>(choice);
+  else
+    choose<false>(choice);
+}
+
+template <bool LOCATE> void PairLSMFriction::choose(int choice)
+{
   switch (choice) {
-    case 0: return eval<false, false, false>();
-    case 1: return eval<false, false, true>();
-    case 2: return eval<false, true, false>();
-    case 3: return eval<false, true, true>();
-    case 4: return eval<true, false, false>();
-    case 5: return eval<true, false, true>();
-    case 6: return eval<true, true, false>();
-    default: return eval<true, true, true>();
+    case 0: return eval<false, false, false, LOCATE>();
+    case 1: return eval<false, false, true, LOCATE>();
+    case 2: return eval<false, true, false, LOCATE>();
+    case 3: return eval<false, true, true, LOCATE>();
+    case 4: return eval<true, false, false, LOCATE>();
+    case 5: return eval<true, false, true, LOCATE>();
+    case 6: return eval<true, true, false, LOCATE>();
+    default: return eval<true, true, true, LOCATE>();
   }
+}
+
+/* ----------------------------------------------------------------------
+   a pair without contact: the vector is kept while it is near, forgotten otherwise
+------------------------------------------------------------------------- */
+
+static inline void keep_near(bool near, double delx, double dely, int &touch, double *h)
+{
+  touch = near ? 1 : 0;
+  h[XI] = 0.0;
+  h[DX] = near ? delx : 0.0;
+  h[DY] = near ? dely : 0.0;
+  h[STATE] = near ? NEAR : STICKS;
 }
 
 /* ----------------------------------------------------------------------
@@ -92,7 +116,7 @@ void PairLSMFriction::compute(int eflag, int vflag)
    positions (run after run, restart) changes nothing.
 ------------------------------------------------------------------------- */
 
-template <bool EV, bool RECORD, bool HAS_STATIC> void PairLSMFriction::eval()
+template <bool EV, bool RECORD, bool HAS_STATIC, bool LOCATE> void PairLSMFriction::eval()
 {
   double **x = atom->x;
   double **f = atom->f;
@@ -125,9 +149,14 @@ template <bool EV, bool RECORD, bool HAS_STATIC> void PairLSMFriction::eval()
       const double rsq = delx * delx + dely * dely;
       const double r0 = radius[i] + radius[j];
       const bool apart = rsq >= r0 * r0;
-      if (apart && !touch[jj]) continue;
+      if (apart && !touch[jj] && (!LOCATE || rsq > NEAR_REACH * NEAR_REACH * r0 * r0)) continue;
 
       double *h = &allhistory[SIZE_HISTORY * jj];
+      const bool was_near = touch[jj] && h[STATE] == NEAR;
+      if (apart && (!touch[jj] || was_near)) {
+        keep_near(LOCATE && rsq <= NEAR_REACH * NEAR_REACH * r0 * r0, delx, dely, touch[jj], h);
+        continue;
+      }
       const int itype = type[i], jtype = type[j];
       const double r = sqrt(rsq);
       const double rinv = r > 0.0 ? 1.0 / r : 0.0;
@@ -141,17 +170,22 @@ template <bool EV, bool RECORD, bool HAS_STATIC> void PairLSMFriction::eval()
         const double msq = mx * mx + my * my;
         const double minv = msq > 0.0 ? 1.0 / sqrt(msq) : 0.0;
         dxi = (my * (h[DX] - delx) + mx * (dely - h[DY])) * minv;
+        if (was_near) {
+          const double before = sqrt(h[DX] * h[DX] + h[DY] * h[DY]);
+          dxi *= LOCATE ? LSM::share_in_contact(before, r, r0) : 0.0;
+          h[STATE] = STICKS;
+        }
       } else {
         touch[jj] = 1;
         h[XI] = 0.0;
-        h[SLIDING] = 0.0;
+        h[STATE] = STICKS;
       }
 
       const double kij = k[itype][jtype];
       const double fn = LSM::contact_normal_force(kij, r, r0);
       const LSM::FrictionCoefficients c{kt[itype][jtype], mu[itype][jtype], mus[itype][jtype]};
       bool sliding = false;
-      if constexpr (HAS_STATIC) sliding = h[SLIDING] != 0.0;
+      if constexpr (HAS_STATIC) sliding = h[STATE] == SLIDES;
       const LSM::FrictionStep s = setup && !apart
           ? LSM::FrictionStep{h[XI], c.k_t * h[XI], 0.0, 0.0, sliding}
           : LSM::friction_step<HAS_STATIC>(c, h[XI], dxi, fn, sliding);
@@ -171,14 +205,13 @@ template <bool EV, bool RECORD, bool HAS_STATIC> void PairLSMFriction::eval()
       }
 
       if (apart) {
-        touch[jj] = 0;
-        memset(h, 0, SIZE_HISTORY * sizeof(double));
+        keep_near(LOCATE && rsq <= NEAR_REACH * NEAR_REACH * r0 * r0, delx, dely, touch[jj], h);
         continue;
       }
       h[XI] = s.xi;
       h[DX] = delx;
       h[DY] = dely;
-      if constexpr (HAS_STATIC) h[SLIDING] = s.sliding ? 1.0 : 0.0;
+      if constexpr (HAS_STATIC) h[STATE] = s.sliding ? SLIDES : STICKS;
 
       const double fx = fn * nx + s.force * ny;
       const double fy = fn * ny - s.force * nx;
@@ -216,10 +249,16 @@ void PairLSMFriction::allocate()
 
 /* ---------------------------------------------------------------------- */
 
-void PairLSMFriction::settings(int narg, char ** /*arg*/)
+void PairLSMFriction::settings(int narg, char **arg)
 {
-  if (narg != 0)
-    error->all(FLERR, "Pair style lsm/friction takes no arguments, but {} were given", narg);
+  locate_onset = 1;
+  if (narg == 0) return;
+  if (narg != 2 || strcmp(arg[0], "onset") != 0)
+    error->all(FLERR, "Pair style lsm/friction expects no arguments or 'onset located|step', got '{}'", arg[0]);
+  if (strcmp(arg[1], "step") == 0)
+    locate_onset = 0;
+  else if (strcmp(arg[1], "located") != 0)
+    error->all(FLERR, "Pair lsm/friction onset is '{}', but must be located or step", arg[1]);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -319,7 +358,7 @@ void PairLSMFriction::transfer_history(double *source, double *target, int, int)
   target[XI] = source[XI];
   target[DX] = -source[DX];
   target[DY] = -source[DY];
-  target[SLIDING] = source[SLIDING];
+  target[STATE] = source[STATE];
 }
 
 /* ---------------------------------------------------------------------- */

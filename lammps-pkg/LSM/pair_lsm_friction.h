@@ -33,6 +33,7 @@ class PairLSMFriction : public PairLSMFree {
  protected:
   double **kt, **mu, **mus;    // tangential stiffness, dynamic and static friction coefficient
   int has_static;              // 1 if any mus > mu
+  int locate_onset;            // 1 if the begin of a contact within a step is located
   class FixDummy *fix_dummy;
   class FixNeighHistory *fix_history;
 
@@ -43,7 +44,8 @@ class PairLSMFriction : public PairLSMFree {
   void print_coeff(FILE *, int, int) override;
 
  private:
-  template <bool EV, bool RECORD, bool HAS_STATIC> void eval();
+  template <bool LOCATE> void choose(int);
+  template <bool EV, bool RECORD, bool HAS_STATIC, bool LOCATE> void eval();
 };
 
 }    // namespace LAMMPS_NS

@@ -28,6 +28,13 @@ inline double contact_normal_force(double k, double r, double r0)
   return r < r0 ? k * (r0 - r) : 0.0;
 }
 
+/// Part of a step that a new contact lasted, when the distance fell from r_before >= r0 to r < r0 evenly.
+/// The tangential spring of the contact takes this share of the step's displacement.
+inline double share_in_contact(double r_before, double r, double r0)
+{
+  return r_before > r ? (r0 - r) / (r_before - r) : 0.0;
+}
+
 /// Coefficients of the tangential law of one pair of particle types.
 struct FrictionCoefficients {
   double k_t;          ///< stiffness of the tangential spring (ours)

@@ -35,6 +35,13 @@ TEST(Contact, RepulsiveOnly) {
   EXPECT_EQ(LSM::contact_normal_force(2.0, 1.5, 1.0), 0.0);
 }
 
+TEST(Contact, ShareOfTheStepItBeginsIn) {
+  EXPECT_EQ(LSM::share_in_contact(1.0, 0.9, 1.0), 1.0);
+  EXPECT_NEAR(LSM::share_in_contact(1.3, 0.9, 1.0), 0.25, 1e-15);
+  EXPECT_EQ(LSM::share_in_contact(1.3, 1.0, 1.0), 0.0);
+  EXPECT_EQ(LSM::share_in_contact(0.9, 0.9, 1.0), 0.0);  // nothing moved: not a begin
+}
+
 TEST(Friction, SticksBelowTheLimit) {
   const auto s = friction_step<false>(kOne, 0.1, 0.1, 1.0, false);
   EXPECT_DOUBLE_EQ(s.xi, 0.2);

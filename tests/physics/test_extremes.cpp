@@ -1,0 +1,345 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Stiff and extreme cases: each is either right (ledger, momentum, bounds) or refused with a clear
+// message. Lines "EXTREME case outcome", separated by tabs, become a table of the accuracy report.
+#include "fault_scene.h"
+#include "lsm_catalogue.h"
+
+using namespace physics;
+
+using Extremes = Lmp;
+using Reproducible = Fault;
+
+namespace {
+
+void outcome(const std::string &name, const std::string &what) {
+  std::printf("EXTREME\t%s\t%s\n", name.c_str(), what.c_str());
+}
+
+std::string brief(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.2g", value);
+  return buffer;
+}
+
+/// A fault of a few hundred discs, compressed and sheared fast. The time step is a part of the
+/// limit that fix lsm/nve finds.
+std::string small_fault() {
+  return R"(
+variable rmin      index 0.1
+variable klink     index 1.0
+variable k         index 1.0
+variable kt        index 1.0
+variable mu        index 0.6
+variable stress    index 0.006
+variable velocity  index 0.002
+variable viscosity index 0.1
+variable part      index 0.25    # of the stability limit
+variable ramp      index 3
+variable settle    index 2000
+variable steps     index 4000
+variable check     index error
+variable failures  index 300
+units             lj
+dimension         2
+boundary          p f p
+newton            off
+atom_style        hybrid bond sphere
+atom_modify       map array
+special_bonds     lj/coul 0 1 1
+create_lsm_fault  length 16 width 10 seed 5 failures ${failures} rmin ${rmin}
+comm_modify       mode single cutoff 3.6
+neighbor          0.4 bin
+neigh_modify      delay 0 every 10 check yes
+bond_style        lsm/linked
+bond_coeff        1 ${klink}
+pair_style        lsm/friction
+pair_coeff        * * off
+pair_coeff        3 4 ${k} ${kt} ${mu}
+)" + fault_groups() +
+         R"(
+fix               limit blocks lsm/nve
+timestep          1e-9
+run               0
+variable          dt equal $(v_part*f_limit[2]:%.17g)
+unfix             limit
+timestep          ${dt}
+compute           guard all lsm/events check 10
+fix               press blocks lsm/nve viscosity 0.2 dtcheck ${check}
+fix               hold all lsm/plates lower upper stress ${stress} stressramp ${ramp} damping 0.2
+run               ${settle}
+unfix             press
+unfix             hold
+uncompute         guard
+fix               move blocks lsm/nve viscosity ${viscosity} dtcheck ${check}
+fix               plates all lsm/plates lower upper stress ${stress} damping ${viscosity} velocity ${velocity} ramp ${ramp}
+compute           events all lsm/events catalogue extreme.csv series extreme.pe text ledger yes check 50 emergency extreme.restart
+)" + fault_columns +
+         R"(
+thermo            100
+run               ${steps}
+)";
+}
+
+/// Largest residual of the ledger over the run, in parts of the largest energy that took part.
+double ledger_error(const Result &r) {
+  double most = 0.0, scale = 0.0;
+  for (const auto &row : r.thermo) {
+    if (!row.count("c_events[13]")) continue;
+    most = std::max(most, std::fabs(row.at("c_events[13]")));
+    for (const char *energy :
+         {"c_events[5]", "c_events[9]", "c_events[10]", "c_events[11]", "c_events[12]"})
+      scale = std::max(scale, std::fabs(row.at(energy)));
+  }
+  return scale > 0.0 ? most / scale : most;
+}
+
+bool finite(const Result &r) {
+  for (const auto &row : r.thermo)
+    for (const auto &one : row)
+      if (!std::isfinite(one.second)) return false;
+  return true;
+}
+
+/// Right: ends well, everything finite, the ledger balances, the files pass the strict readers.
+class Right {
+ public:
+  Right(const Result &r, const std::string &name, double tolerance, const std::string &catalogue) {
+    EXPECT_TRUE(succeeded(r)) << name;
+    if (r.exit_code != 0) return;
+    EXPECT_TRUE(finite(r)) << name;
+    const double error = ledger_error(r);
+    EXPECT_LT(error, tolerance) << name;
+    std::size_t events = 0;
+    EXPECT_NO_THROW(events = LSM::read_catalogue(catalogue).events.size()) << name;
+    outcome(name, "right; ledger to " + brief(error) + "; " + std::to_string(events) + " events");
+  }
+};
+
+}  // namespace
+
+TEST_F(Extremes, RadiiStiffnessFrictionLoad) {
+  struct Case {
+    const char *name;
+    Variables variables;
+    double tolerance;
+  };
+  const std::vector<Case> cases = {
+      {"radius ratio 10:1", {}, 1e-3},
+      {"radius ratio 30:1", {{"rmin", "0.0333"}}, 1e-3},
+      {"radius ratio 100:1", {{"rmin", "0.01"}, {"failures", "100"}}, 1e-3},
+      {"contacts 1e3 times stiffer than links", {{"k", "1000"}, {"kt", "1000"}}, 1e-3},
+      {"contacts 1e6 times stiffer than links", {{"k", "1e6"}, {"kt", "1e6"}}, 1e-3},
+      {"links 1e3 times stiffer than contacts", {{"klink", "1e3"}}, 1e-3},
+      {"links 1e6 times stiffer than contacts", {{"klink", "1e6"}}, 1e-3},
+      {"kt/k = 0.01", {{"kt", "0.01"}}, 1e-3},
+      {"kt/k = 0.1", {{"kt", "0.1"}}, 1e-3},
+      {"kt/k = 10", {{"kt", "10"}}, 1e-3},
+      {"kt/k = 100", {{"kt", "100"}}, 1e-3},
+      {"mu = 0", {{"mu", "0"}}, 1e-3},
+      {"mu = 0.01", {{"mu", "0.01"}}, 1e-3},
+      {"mu = 2", {{"mu", "2"}}, 1e-3},
+      {"mu = 10", {{"mu", "10"}}, 1e-3},
+      {"normal stress 1e-6", {{"stress", "1e-6"}}, 1e-3},
+      {"normal stress 0.1", {{"stress", "0.1"}}, 1e-3},
+      {"driving velocity 0", {{"velocity", "0"}}, 1e-3},
+      {"driving velocity 0.1 of the P-wave speed", {{"velocity", "0.21"}}, 1e-2},
+      {"viscosity 0", {{"viscosity", "0"}}, 1e-3},
+      {"viscosity 1", {{"viscosity", "1"}}, 1e-3},
+      {"viscosity 100 (overdamped)", {{"viscosity", "100"}}, 1e-3},
+      {"viscosity 1e4 (overdamped)", {{"viscosity", "1e4"}}, 1e-3},
+      {"time step 0.01 of the limit", {{"part", "0.01"}}, 1e-5},
+      {"time step 0.5 of the limit", {{"part", "0.5"}}, 1e-2},
+      {"time step 0.9 of the limit", {{"part", "0.9"}}, 1e-1},
+      {"zero-length ramps", {{"ramp", "0"}}, 1e-3}};
+  for (const auto &one : cases)
+    Right(run_text(small_fault(), one.variables), one.name, one.tolerance, path("extreme.csv"));
+}
+
+TEST_F(Extremes, RefusedOrStopped) {
+  const Result above = run_text(small_fault(), {{"part", "1.2"}});
+  EXPECT_TRUE(failed_with(above, {"Time step", "stability limit"}));
+  outcome("time step 1.2 of the limit", "refused: time step above the stability limit");
+
+  // Whatever happens above the limit, or under a stress that crushes the discs: no file holds a
+  // NaN.
+  for (const auto &[name, variables] : std::vector<std::pair<std::string, Variables>>{
+           {"time step 1.2 of the limit, check off", {{"part", "1.2"}, {"check", "off"}}},
+           {"time step 2 of the limit, check off", {{"part", "2"}, {"check", "off"}}},
+           {"normal stress 0.3", {{"stress", "0.3"}}},
+           {"normal stress 0.5 (overlap of half a radius)", {{"stress", "0.5"}}},
+           {"normal stress 2", {{"stress", "2"}}}}) {
+    std::filesystem::remove(path("extreme.csv"));
+    const Result r = run_text(small_fault(), variables);
+    if (std::filesystem::exists(path("extreme.csv"))) {
+      EXPECT_NO_THROW(LSM::read_catalogue(path("extreme.csv"))) << name;
+    }
+    if (r.exit_code == 0) {
+      EXPECT_TRUE(finite(r)) << name;
+      EXPECT_LT(ledger_error(r), 1e-1) << name;
+      outcome(name, "runs; ledger to " + brief(ledger_error(r)));
+    } else {
+      const auto lines = r.lines_with("ERROR");
+      ASSERT_GE(lines.size(), 1u) << name << "\n" << r.output;
+      outcome(name, "stopped: " + lines[0].substr(0, lines[0].find(" (/")));
+    }
+  }
+
+  std::string empty = small_fault();
+  const std::string lower = "type 5";
+  empty.replace(empty.find(lower), lower.size(), "empty");
+  EXPECT_TRUE(failed_with(run_text(empty), {"lower", "particles"}));
+  outcome("a plate without particles", "refused: the plate has no particles");
+}
+
+TEST_F(Extremes, LongRestDoesNotDrift) {
+  const Result r = run_text(small_fault(), {{"velocity", "0"},
+                                            {"viscosity", "0"},
+                                            {"settle", "30000"},
+                                            {"steps", "400000"},
+                                            {"part", "0.5"}});
+  ASSERT_TRUE(succeeded(r));
+  const auto &rows = r.thermo;
+  const double pe_end = rows.back().at("c_events[5]");
+  double kinetic = 0.0, spread = 0.0;
+  for (const auto &row : rows)
+    if (row.count("c_events[5]")) {
+      kinetic = std::max(kinetic, row.at("KinEng"));
+      spread = std::max(spread, std::fabs(row.at("c_events[5]") / pe_end - 1.0));
+    }
+  EXPECT_LT(kinetic, 1e-9 * pe_end);
+  EXPECT_LT(spread, 1e-6);
+  outcome("400000 steps of rest without viscosity", "right; PE within " + brief(spread) +
+                                                        "; kinetic energy below " +
+                                                        brief(kinetic / pe_end) + " of PE");
+}
+
+namespace {
+
+/// Single discs of radius 1 and mass 1 in a box that is periodic along x.
+std::string single_discs(const std::string &atoms) {
+  return R"(
+units             lj
+dimension         2
+boundary          p f p
+newton            off
+atom_style        hybrid bond sphere
+atom_modify       map array
+special_bonds     lj/coul 0 1 1
+comm_modify       mode single cutoff 3.6
+neighbor          0.4 bin
+neigh_modify      delay 0 every 1 check yes
+region            box block 0 10 -6 6 -0.5 0.5
+create_box        1 box bond/types 1 extra/bond/per/atom 2 extra/special/per/atom 4
+)" + atoms +
+         R"(
+set               type 1 diameter 2.0
+set               type 1 mass 1.0
+bond_style        lsm/linked
+bond_coeff        1 1.0 1.01
+pair_style        lsm/friction
+pair_coeff        1 1 1.0 1.0 0.6
+timestep          0.05
+fix               move all lsm/nve
+compute           events all lsm/events catalogue single.csv ledger yes
+variable          px equal mass(all)*vcm(all,x)
+variable          py equal mass(all)*vcm(all,y)
+variable          links equal bonds
+thermo_style      custom step ke c_events c_events[5] c_events[9] c_events[10] c_events[11] c_events[12] c_events[13] &
+                  v_px v_py v_links
+thermo_modify     norm no lost error format float %.17g
+)";
+}
+
+}  // namespace
+
+TEST_F(Extremes, TenThousandPeriods) {
+  // two linked discs drift through the period of 10, one across the border most of the time
+  const Result r =
+      run_text(single_discs("create_atoms 1 single 9.2 0 0\ncreate_atoms 1 single 1.15 0.35 0\n"
+                            "create_bonds single/bond 1 1 2\n") +
+               "velocity all set 2.0 0 0\nthermo 20000\nrun 1000000\n");
+  ASSERT_TRUE(succeeded(r));
+  EXPECT_NEAR(r.last("v_px"), 4.0, 1e-9);
+  EXPECT_NEAR(r.last("v_py"), 0.0, 1e-9);
+  EXPECT_EQ(r.last("v_links"), 1.0);
+  const double start = r.thermo.front().at("c_events[5]") + r.thermo.front().at("KinEng");
+  double most = 0.0;
+  for (const auto &row : r.thermo)
+    most = std::max(most, std::fabs(row.at("c_events[5]") + row.at("KinEng") - start));
+  // velocity Verlet on a spring: PE swings by (w dt)^2 / 4, w^2 = 2
+  EXPECT_LT(most, 1.3e-3 * r.thermo.front().at("c_events[5]") + 1e-9);
+  outcome("10000 periods across the boundary", "right; momentum to " +
+                                                   brief(std::fabs(r.last("v_px") - 4.0)) +
+                                                   "; energy to " + brief(most));
+}
+
+TEST_F(Extremes, NearlyCoincidentDiscs) {
+  for (const char *gap : {"1e-3", "1e-10", "0"}) {
+    const std::string at = std::string("create_atoms 1 single 5 0 0\ncreate_atoms 1 single $(5+") +
+                           gap + ":%.17g) 0 0\n";
+    const Result r = run_text(single_discs(at) + "thermo 10\nrun 400\n");
+    ASSERT_TRUE(succeeded(r));
+    EXPECT_TRUE(finite(r));
+    EXPECT_NEAR(r.last("v_px"), 0.0, 1e-13);
+    EXPECT_NEAR(r.last("v_py"), 0.0, 1e-13);
+    EXPECT_LT(ledger_error(r), 1e-2);
+    outcome(std::string("two discs ") + gap + " apart",
+            "right; ledger to " + brief(ledger_error(r)) + "; kinetic energy at the end " +
+                brief(r.last("KinEng")));
+  }
+}
+
+TEST_F(Extremes, LinksAtBreakingDistance) {
+  // ratio 1.01: the link of two discs of radius 1 holds up to 2.02
+  for (const auto &[distance, links] :
+       {std::pair<const char *, double>{"2.0199999", 1.0}, {"2.0200001", 0.0}}) {
+    const std::string at = std::string("create_atoms 1 single 4 0 0\ncreate_atoms 1 single $(4+") +
+                           distance + ":%.17g) 0 0\ncreate_bonds single/bond 1 1 2\n";
+    const Result r = run_text(single_discs(at) + "thermo 10\nrun 400\n");
+    ASSERT_TRUE(succeeded(r));
+    EXPECT_EQ(r.last("v_links"), links);
+    EXPECT_NEAR(r.last("v_px"), 0.0, 1e-13);
+    outcome(std::string("link stretched to ") + distance + " of 2.02",
+            links > 0.0 ? "right; holds" : "right; breaks");
+  }
+}
+
+TEST_F(Extremes, OneDiscAndNoContacts) {
+  const Result one = run_text(single_discs("create_atoms 1 single 5 0 0\n") +
+                              "velocity all set 0.5 0 0\nthermo 100\nrun 2000\n");
+  ASSERT_TRUE(succeeded(one));
+  EXPECT_NEAR(one.last("v_px"), 0.5, 1e-15);
+  EXPECT_EQ(one.last("c_events[5]"), 0.0);
+  EXPECT_EQ(LSM::read_catalogue(path("single.csv")).events.size(), 0u);
+  outcome("one disc", "right; no energy and no event");
+
+  const Result apart =
+      run_text(single_discs("create_atoms 1 single 2 0 0\ncreate_atoms 1 single 7 0 0\n") +
+               "thermo 100\nrun 2000\n");
+  ASSERT_TRUE(succeeded(apart));
+  EXPECT_EQ(apart.last("c_events[5]"), 0.0);
+  EXPECT_EQ(apart.last("KinEng"), 0.0);
+  EXPECT_EQ(LSM::read_catalogue(path("single.csv")).events.size(), 0u);
+  outcome("no contacts at all", "right; no energy and no event");
+}
+
+TEST_F(Reproducible, SameBytesFromSameRanks) {
+  const std::string script =
+      fault_read() + fault_shear("catalogue again.csv series again.pe binary location yes") +
+      "thermo 500\nrun 6000\nwrite_restart again.restart\n";
+  for (int ranks : {1, 2, 4}) {
+    std::string catalogue, series;
+    for (int round = 0; round < 2; ++round) {
+      ASSERT_TRUE(succeeded(run_text(script, {}, ranks)));
+      const std::string a = read_file(path("again.csv")), b = read_file(path("again.pe"));
+      if (round == 0) {
+        catalogue = a;
+        series = b;
+      } else {
+        EXPECT_TRUE(a == catalogue) << ranks << " ranks";
+        EXPECT_TRUE(b == series) << ranks << " ranks";
+      }
+    }
+    EXPECT_GT(LSM::read_catalogue(path("again.csv")).events.size(), 2u);
+  }
+}
