@@ -108,8 +108,7 @@ if [ -z "$bin" ]; then
   if [ $list = no ]; then
     . "$root/lammps-pkg/cmake/debian-packages.sh"
     # The lists are words on purpose.
-    install_debian_packages $lammps_packages $plot_packages libcli11-dev libfmt-dev nlohmann-json3-dev \
-      libgsl-dev libfftw3-dev || exit 1
+    install_debian_packages $lammps_packages $plot_packages $postproc_packages || exit 1
     cmake -S "$root" -B "$build" -G Ninja -DLSM_BUILD_LAMMPS=ON -DLSM_BUILD_SLIDER=ON -DLSM_BUILD_POSTPROC=ON &&
       cmake --build "$build" --target lmp slider_cli postproc || die "the programs could not be built"
   fi

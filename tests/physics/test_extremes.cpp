@@ -343,3 +343,50 @@ TEST_F(Reproducible, SameBytesFromSameRanks) {
     EXPECT_GT(LSM::read_catalogue(path("again.csv")).events.size(), 2u);
   }
 }
+
+// Fix lsm/nve joins the two half steps that meet between two time steps, unless somebody may look in between.
+TEST_F(Reproducible, OnlookersChangeNothingAndSeeWholeSteps) {
+  const std::string shear = fault_read() + R"(
+fix               move blocks lsm/nve viscosity 0.02
+fix               plates all lsm/plates lower upper stress 0.006 damping 0.02 velocity 0.005 ramp 3
+compute           events all lsm/events catalogue seen.csv series seen.pe binary
+compute           moving blocks ke
+thermo_style      custom step c_moving
+thermo_modify     norm no format float %.17g
+)";
+  for (int ranks : {1, 2}) {
+    ASSERT_TRUE(succeeded(run_text(shear + "thermo 0\nrun 3000\n", {}, ranks)));
+    const std::string catalogue = read_file(path("seen.csv")), series = read_file(path("seen.pe"));
+    EXPECT_GT(LSM::read_catalogue(path("seen.csv")).events.size(), 2u);
+
+    const Result each = run_text(shear + "thermo 1\nrun 3000\n", {}, ranks);
+    ASSERT_TRUE(succeeded(each));
+    ASSERT_EQ(each.thermo.size(), 3001u);
+    EXPECT_TRUE(read_file(path("seen.csv")) == catalogue) << ranks << " ranks";
+    EXPECT_TRUE(read_file(path("seen.pe")) == series) << ranks << " ranks";
+
+    const std::string onlookers[] = {
+        "fix look all ave/time 1 1 1 c_moving file seen.ke format ' %.17g'\n",
+        "fix look all ave/time 7 1 7 c_moving file seen.ke format ' %.17g'\n",
+        "fix look all print 7 '$(step) $(c_moving:%.17g)' file seen.ke screen no title '# step ke'\n"};
+    for (const std::string &look : onlookers) {
+      SCOPED_TRACE(std::to_string(ranks) + " ranks, " + look);
+      ASSERT_TRUE(succeeded(run_text(shear + look + "thermo 0\nrun 3000\n", {}, ranks)));
+      EXPECT_TRUE(read_file(path("seen.csv")) == catalogue);
+      EXPECT_TRUE(read_file(path("seen.pe")) == series);
+
+      std::ifstream in(path("seen.ke"));
+      std::size_t rows = 0, wrong = 0;
+      for (std::string line; std::getline(in, line);) {
+        std::size_t step = 0;
+        double kinetic = 0.0;
+        if (line[0] == '#' || !(std::istringstream(line) >> step >> kinetic)) continue;
+        ASSERT_LT(step, each.thermo.size());
+        if (kinetic != each.thermo[step].at("c_moving")) ++wrong;
+        ++rows;
+      }
+      EXPECT_EQ(wrong, 0u);
+      EXPECT_GT(rows, 400u);
+    }
+  }
+}

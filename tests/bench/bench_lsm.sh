@@ -1,0 +1,230 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-2.0-or-later
+# Speed of the fault in LAMMPS beside other programs, cost of its parts and features, cost against length, set-up.
+# Runs that are compared take turns, in rounds; tables hold medians over the rounds, and medians of the ratios within
+# each round. --help has the options.
+set -euo pipefail
+export LC_ALL=C
+here=$(cd "$(dirname "$0")" && pwd)
+. "$here/../../inputs/mpi-settings.sh"
+
+usage() {
+  cat <<END
+usage: bench_lsm.sh LMP STOCK_LMP FOLDER [OPTIONS]
+LMP has the styles of this package, STOCK_LMP is LAMMPS of the same version with BPM, GRANULAR and MOLECULE.
+FOLDER takes the scenes, which are made once for each LMP, all timings (timings.csv) and the tables (tables.md).
+  --quick            some three minutes: shorter runs, fewer rounds
+  --rounds N         rounds of peers and of recording on or off [7, quick 2]; others have half as many, but at least 2
+  --seconds S        a run takes about so long [1, quick 0.3]
+  --length L         fault of the comparisons [1890]
+  --only WHAT,...    peers, parts, features, lengths, setup [all]
+END
+}
+
+rounds=0 seconds=0 length=1890 only=peers,parts,features,lengths,setup quick=no
+arguments=()
+while (($#)); do
+  if [[ $1 =~ ^--(rounds|seconds|length|only)$ ]] && (($# < 2)); then
+    echo "bench_lsm.sh: $1 needs a value, see --help" >&2
+    exit 1
+  fi
+  case $1 in
+    --quick) quick=yes ;;
+    --rounds) rounds=$2; shift ;;
+    --seconds) seconds=$2; shift ;;
+    --length) length=$2; shift ;;
+    --only) only=$2; shift ;;
+    --help) usage; exit ;;
+    -*) echo "bench_lsm.sh: unknown option $1, see --help" >&2; exit 1 ;;
+    *) arguments+=("$1") ;;
+  esac
+  shift
+done
+if ((${#arguments[@]} != 3)); then usage >&2; exit 1; fi
+lmp=$(realpath "${arguments[0]}") stock=$(realpath "${arguments[1]}") folder=${arguments[2]}
+if ((rounds == 0)); then if [ $quick = yes ]; then rounds=2; else rounds=7; fi; fi
+if [ "$seconds" = 0 ]; then if [ $quick = yes ]; then seconds=0.3; else seconds=1; fi; fi
+few=$(((rounds + 1) / 2))
+if ((few < 2)); then few=$((rounds < 2 ? rounds : 2)); fi
+cores=$(env -u OMP_NUM_THREADS nproc)    # nproc follows OMP_NUM_THREADS
+ranks_in_turn=1
+if ((cores > 1)); then ranks_in_turn="1 2"; fi
+most=${ranks_in_turn##* }
+
+mkdir -p "$folder"
+cd "$folder"
+folder=$PWD
+timings=timings.csv
+echo "table,label,length,ranks,round,atoms,steps,seconds,cpu_percent,pair,bond,neigh,comm,output,modify,other" > $timings
+
+die() {
+  echo "bench_lsm.sh: $*" >&2
+  exit 1
+}
+
+# scene LENGTH: fault_LENGTH.restart and .data, and what other programs read
+scene() {
+  local name=fault_$1
+  if [ "$name.restart" -nt "$lmp" ] && [ "$name.geo" -nt "$here/convert.awk" ]; then return; fi
+  echo "making the fault of length $1" >&2
+  mpirun -np "$most" "$lmp" -in "$here/make.in" -var length "$1" -var name "$name" -log make.log -screen none ||
+    die "making the fault failed, see $folder/make.log"
+  awk -v name="$name" -f "$here/convert.awk" "$name.data"
+}
+
+# steps LENGTH MILLIONS: steps of a run that does so many million particle-steps in a second
+steps() {
+  awk -v length_of_fault="$1" -v rate="$2" -v s="$seconds" 'BEGIN {
+    n = int(rate * 1e6 * s / (65.2 * length_of_fault)); print n < 20 ? 20 : n }'
+}
+
+# note TABLE LABEL LENGTH RANKS ROUND LOG: one line of timings.csv from what a program printed
+note() {
+  awk -v start="$1,$2,$3,$4,$5" '
+    /^Loop time of/ { seconds = $4; for (i = 5; i < NF; i++) if ($(i + 1) == "steps") steps = $i
+                      atoms = $(NF - 1) }
+    /CPU use with/ { cpu = $1 + 0 }
+    /^(Pair|Bond|Neigh|Comm|Output|Modify|Other) +\|/ { split($0, cell, "|"); part[$1] = cell[3] + 0 }
+    END {
+      if (!seconds) exit 1
+      printf "%s,%d,%d,%s,%s", start, atoms, steps, seconds, cpu
+      n = split("Pair Bond Neigh Comm Output Modify Other", name, " ")
+      for (i = 1; i <= n; i++) printf ",%s", part[name[i]]
+      print ""
+    }' "$6" >> $timings || die "no timing of $2 in $folder/$6"
+}
+
+# ours TABLE LABEL LENGTH RANKS ROUND VARIABLES...
+ours() {
+  local table=$1 label=$2 size=$3 ranks=$4 round=$5
+  shift 5
+  mpirun -np "$ranks" "$lmp" -in "$here/ours.in" -var name "fault_$size" -var steps "$(steps "$size" $((60 * ranks)))" "$@" \
+    -log ours.log -screen none > ours.out 2>&1 || die "$label failed, see $folder/ours.log"
+  note "$table" "$label" "$size" "$ranks" "$round" ours.log
+}
+
+# others LABEL RANKS ROUND LINKS MILLIONS
+others() {
+  mpirun -np "$2" "$stock" -in "$here/stock.in" -var name "fault_$length" -var steps "$(steps "$length" $(($5 * $2)))" \
+    -var links "$4" -log stock.log -screen none > stock.out 2>&1 || die "$1 failed, see $folder/stock.log"
+  note peers "$1" "$length" "$2" "$3" stock.log
+}
+
+esys() {
+  rm -f "fault_$length".esys.*
+  mpirun -np $(($1 + 1)) esysparticle "$here/esys_particle.py" "fault_$length" "$1" "$length" "$(steps "$length" 2)" 3 \
+    > esys.out 2>&1 || return 1
+  note peers "ESyS-Particle" "$length" "$1" "$2" esys.out
+}
+
+wanted() { [[ ,$only, == *,$1,* ]]; }
+say() { echo "$(date +%H:%M:%S) $*" >&2; }
+
+steal() { awk '/^cpu / {t = 0; for (i = 2; i <= 9; i++) t += $i; print $9, t}' /proc/stat; }
+steal_before=$(steal)
+load_before=$(cut -d ' ' -f 1-3 /proc/loadavg)
+begin=$SECONDS
+
+if wanted peers; then
+  scene "$length"
+  have_esys=yes
+  if ! command -v esysparticle > /dev/null; then
+    have_esys=no
+    echo "ESyS-Particle is not installed and left out (Debian package esys-particle)" >&2
+  fi
+  for ((round = 1; round <= rounds; ++round)); do
+    say "peers, round $round of $rounds"
+    for ranks in $ranks_in_turn; do
+      ours peers "ours" "$length" "$ranks" "$round"
+      others "bond harmonic" "$ranks" "$round" harmonic 25
+      others "bond bpm/spring" "$ranks" "$round" bpm 15
+      others "bond harmonic with contacts" "$ranks" "$round" contacts 20
+      if [ $have_esys = yes ] && ((round <= few)) && ! esys "$ranks" "$round"; then
+        have_esys=no
+        echo "ESyS-Particle failed and is left out, see $folder/esys.out" >&2
+      fi
+    done
+  done
+fi
+
+if wanted parts; then
+  scene "$length"
+  for ((round = 1; round <= few; ++round)); do
+    say "parts, round $round of $few"
+    for ranks in $ranks_in_turn; do
+      # Each leaves out one thing more; what is left does not move, so that the contacts stay.
+      without=()
+      ours parts "everything" "$length" "$ranks" "$round"
+      for part in events plates integration contacts links; do
+        case $part in
+          contacts) without+=(-var contacts none) ;;
+          integration) without+=(-var move no) ;;
+          *) without+=(-var $part no) ;;
+        esac
+        ours parts $part "$length" "$ranks" "$round" "${without[@]}"
+      done
+    done
+  done
+fi
+
+if wanted features; then
+  scene "$length"
+  # Each takes turns with the base.
+  feature() {
+    local label=$1
+    shift
+    ours features "base of $label" "$length" "$most" "$round"
+    ours features "$label" "$length" "$most" "$round" "$@"
+  }
+  for ((round = 1; round <= rounds; ++round)); do
+    say "features, round $round of $rounds"
+    feature "nothing recorded" -var events no
+    if ((round > few)); then continue; fi
+    feature "PE and picking without files" -var files "progress yes"
+    feature "catalogue without PE series" -var files "catalogue ours.catalogue.csv"
+    feature "location of events" -var location yes
+    feature "energy ledger" -var ledger yes
+    feature "ranks sum PE every step" -var block 1
+    feature "no friction (lsm/free)" -var contacts lsm/free
+    feature "static friction above dynamic" -var mus 0.7
+    feature "links that can break" -var ratio 1.5
+    feature "no viscosity" -var viscosity 0
+    feature "pressure every 100 steps" -var pressure 100
+    feature "pressure every step" -var pressure 1
+    feature "fix that looks at each end of step" -var foreign yes
+    feature "velocities of ghosts sent" -var vel yes
+    feature "all lists rebuilt every 100 steps" -var rebuild 100
+  done
+fi
+
+if wanted lengths; then
+  for size in 120 240 480 945 1440 1890 3780; do scene $size; done
+  for ((round = 1; round <= few; ++round)); do
+    say "lengths, round $round of $few"
+    for size in 120 240 480 945 1440 1890 3780; do
+      for ranks in $ranks_in_turn; do ours lengths "ours" "$size" "$ranks" "$round"; done
+    done
+  done
+fi
+
+echo "ranks,round,create,first_step,read_restart" > setup.csv
+if wanted setup; then
+  for ((round = 1; round <= few; ++round)); do
+    say "setup, round $round of $few"
+    for ranks in $ranks_in_turn; do
+      mpirun -np "$ranks" "$lmp" -in "$here/make.in" -var length "$length" -var name setup -var settle 1 -log setup.log \
+        -screen none > setup.out 2>&1 || die "set-up failed, see $folder/setup.log"
+      awk -v start="$ranks,$round" '/^setup create/ {print start "," $3 "," $5 "," $7}' setup.log >> setup.csv
+    done
+  done
+  rm -f setup.restart setup.data
+fi
+
+{
+  echo "$(date -u +'%Y-%m-%d %H:%M') UTC, $(awk -F ': *' '/^model name/ {print $2; exit}' /proc/cpuinfo), $cores cores," \
+    "load before $load_before, $(echo "$steal_before $(steal)" | awk '{printf "%.1f", ($3 - $1) / ($4 - $2) * 100}') %" \
+    "of the time taken by other machines, fault of length $length, $rounds rounds of the comparisons and $few of the rest," \
+    "$(((SECONDS - begin) / 60)) min $(((SECONDS - begin) % 60)) s."
+  awk -v most="$most" -f "$here/tables.awk" $timings setup.csv
+} > tables.md
+cat tables.md
