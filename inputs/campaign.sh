@@ -160,7 +160,7 @@ add_slider() {
 ${words// --/$'\n'--}" "$(awk -v b="$n" -v n="$slider_steps" 'BEGIN { print n * (2e-7 + 3e-10 * b) }')"
 }
 # our settings, as in inputs/slider/science_*.ini
-ours="--scheme verlet --dt 0.01 --picker exponential --picker-lambda 0.99 --warmup 12000"
+ours="--scheme verlet --dt 0.05 --picker exponential --picker-memory-time 1 --warmup 12000"
 if [ "$only" != faults ]; then
   for n in $blocks; do
     most=$seeds

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "catalogue_input.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <stdexcept>
@@ -20,11 +21,15 @@ void CatalogueOptions::add_to(CLI::App *command) {
           "Catalogue files of either model, one curve each; written by compute lsm/events, "
           "slider_cli or postproc pick")
       ->required()
+      ->type_name("FILE")
+      ->default_str("")
       ->group(group);
   command
       ->add_option("--label", labels,
                    "Name of a curve, once per catalogue and in their order (default: the model and "
                    "its length or number of blocks, from the header)")
+      ->type_name("TEXT")
+      ->default_str("")
       ->group(group);
   command
       ->add_flag("--lenient", lenient,
@@ -53,6 +58,10 @@ double EventTable::length() const {
     if (text && text_io::parse(*text, value) && value > 0.0) return value;
   }
   return std::nan("");
+}
+
+double EventTable::share_in_events() const {
+  return t_start.empty() ? std::nan("") : in_events / (last_end - t_start.front());
 }
 
 namespace {
@@ -85,14 +94,20 @@ EventTable read_events(const std::string &path, const CatalogueOptions &options,
   table.path = path;
   table.info = reader.info();
   table.label = label_of(table);
+  if (const std::string *text = table.info.find("min_size"))
+    text_io::parse(*text, table.complete_from);
+  table.complete_from = std::max(table.complete_from, options.min_size);
   Event event;
   while (reader.next(event)) {
     if (event.t_start < options.from_time || event.t_start >= options.to_time)
       ++table.left_out_time;
     else if (event.size < options.min_size)
       ++table.left_out_small;
-    else
+    else {
+      table.in_events += event.t_end - event.t_start;
+      table.last_end = event.t_end;
       use(event);
+    }
   }
   table.skipped_lines = reader.skipped();
   table.repairs = reader.repairs();
@@ -104,14 +119,10 @@ EventTable load_catalogue(const std::string &path, const CatalogueOptions &optio
   EventTable columns;
   EventTable table = read_events(path, options, [&columns](const Event &event) {
     columns.t_start.push_back(event.t_start);
-    columns.t_end.push_back(event.t_end);
     columns.size.push_back(event.size);
-    columns.slip_moment.push_back(event.slip_moment);
   });
   table.t_start = std::move(columns.t_start);
-  table.t_end = std::move(columns.t_end);
   table.size = std::move(columns.size);
-  if (table.info.slip_moment) table.slip_moment = std::move(columns.slip_moment);
   return table;
 }
 

@@ -32,8 +32,11 @@ struct CatalogueOptions {
 struct EventTable {
   std::string path, label;
   CatalogueInfo info;
-  std::vector<double> t_start, t_end, size;
-  std::vector<double> slip_moment;   ///< empty if the catalogue has no such column
+  std::vector<double> t_start, size;
+  double in_events = 0.0;  ///< sum of the durations (model time)
+  double last_end = 0.0;   ///< t_end of the last event (model time)
+  /// Smaller events are missing: --min-size, or the picker's min_size in the header (energy).
+  double complete_from = 0.0;
   std::int64_t skipped_lines = 0;    ///< bad lines passed over (lenient)
   std::int64_t left_out_small = 0;   ///< events below min_size
   std::int64_t left_out_time = 0;    ///< events outside [from_time, to_time)
@@ -41,6 +44,11 @@ struct EventTable {
 
   /// Fault length, or the number of blocks of a chain, from the header; NaN if it has neither.
   double length() const;
+
+  /// Part of the time from the first start to the last end that lies within events; NaN if none.
+  /// Ruptures at the same time at different places are one drop of the PE of the whole model, and
+  /// so one event: the longer the model, the larger this part and the more events are joined.
+  double share_in_events() const;
 };
 
 /// Gives each event of a catalogue that the options choose to use, which need not keep it; returns

@@ -65,6 +65,7 @@ std::string date_text(double seconds, std::int64_t start, int last_year) {
 }
 
 void run(const Options &options) {
+  refuse_input(options.output, options.catalogues.paths);
   check(options.catalogues);
   if (!std::isfinite(options.constant) || !std::isfinite(options.degrees))
     throw std::invalid_argument(

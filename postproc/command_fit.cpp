@@ -10,6 +10,7 @@
 
 #include "catalogue_input.h"
 #include "commands.h"
+#include "new_file.h"
 #include "plot.h"
 #include "size_fits.h"
 
@@ -29,6 +30,9 @@ struct Options {
 };
 
 void run(Options &options) {
+  options.picture.check(options.catalogues.paths, {".fits.csv", ".scaling.csv", ".scaling.gp",
+                                                   ".scaling.png", ".scaling.svg"});
+  refuse_input(options.json, options.catalogues.paths);
   SizeFitSettings &settings = options.fits;
   for (const std::string &text : options.ranges) {
     const Range range = parse_range("--range", text);
@@ -71,10 +75,13 @@ void run(Options &options) {
   size_fits_csv(fits).write(table);
   fmt::print("wrote {}\n", table);
   make(sizes, options.picture);
-  if (options.scaling) {
+  if (std::any_of(scalings.begin(), scalings.end(), [](const auto &s) { return s.drawable(); })) {
     PictureOptions picture = options.picture;
     picture.output += ".scaling";
     make(scaling_figure(scalings), picture);
+  } else if (options.scaling) {
+    fmt::print(stderr,
+               "postproc: no catalogue gives a characteristic size, no picture of the scaling\n");
   }
 }
 
@@ -93,7 +100,10 @@ void add_fit(CLI::App &app) {
   command
       ->add_option(
           "--range", options->ranges,
-          "LO:HI, sizes that are fitted, several allowed; without it the range is searched")
+          "LO:HI, sizes that are fitted, several allowed; without it the range is searched. LO is "
+          "raised to where the catalogue begins (--min-size, or min_size in its header)")
+      ->type_name("LO:HI")
+      ->default_str("")
       ->allow_extra_args(false)
       ->group(group);
   command
@@ -105,13 +115,14 @@ void add_fit(CLI::App &app) {
       ->group(group);
   command
       ->add_option("--threshold", options->threshold,
-                   "Smallest size of the search, the picture and the scaling (model energy)")
-      ->check(CLI::NonNegativeNumber)
+                   "Smallest size of the search, the picture and the scaling (model energy; 1e-4 "
+                   "as in the paper's Figs. 12 and 13)")
+      ->check(zero_or_more())
       ->group(group);
   command
       ->add_option("--replicas", options->fits.replicas,
                    "Synthetic samples of the Monte Carlo p-value; 0: none")
-      ->check(CLI::NonNegativeNumber)
+      ->check(zero_or_more())
       ->group(group);
   command->add_option("--seed", options->fits.seed, "Of the random numbers")->group(group);
   command->add_flag("--no-comparison", options->no_comparison, "Leave out the rival laws")

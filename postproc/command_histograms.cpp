@@ -24,6 +24,7 @@ struct Options {
 };
 
 void run(Options &options) {
+  options.picture.check(options.catalogues.paths);
   SizeDensitySettings &settings = options.densities;
   if (!options.range.empty()) {
     const Range range = parse_range("--range", options.range);
@@ -56,8 +57,9 @@ void add_histograms(CLI::App &app) {
   const std::string group = "Densities";
   command
       ->add_option("--threshold", densities.threshold,
-                   "Smallest size (model energy; 1e-4 as in the paper's Figs. 12 and 13)")
-      ->check(CLI::NonNegativeNumber)
+                   "Smallest size (model energy; 1e-4 as in the paper's Figs. 12 and 13; for Fig. "
+                   "7 it states none)")
+      ->check(zero_or_more())
       ->group(group);
   command->add_option("--range", options->range, "LO:HI, only bins within this range of sizes")
       ->group(group);
@@ -80,6 +82,8 @@ void add_histograms(CLI::App &app) {
       ->add_option("--guide", options->guides,
                    "SLOPE or SLOPE:LO:HI, a straight line above the points, e.g. -1.07 (paper, "
                    "fault) or -0.5:1e-3:1 (paper, small events of the block-slider)")
+      ->type_name("LINE")
+      ->default_str("")
       ->allow_extra_args(false)
       ->group(group);
   command->callback([options] { run(*options); });

@@ -28,6 +28,7 @@ struct Options {
 };
 
 void run(Options &options) {
+  options.picture.check(options.catalogues.paths, {".table1.csv"});
   IntervalSettings &settings = options.intervals;
   settings.least_squares = options.method != "likelihood";
   settings.maximum_likelihood = options.method != "least-squares";
@@ -76,7 +77,7 @@ void add_intervals(CLI::App &app) {
           "Smallest size of the events (model energy), several allowed; 1e-4 is that of the "
           "paper's size densities, for times it states none")
       ->allow_extra_args(false)
-      ->check(CLI::NonNegativeNumber)
+      ->check(zero_or_more())
       ->group(group);
   command
       ->add_flag("--rescale", intervals.rescale,

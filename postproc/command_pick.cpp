@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 #include <string>
-#include <system_error>
 
 #include <fmt/format.h>
 
@@ -38,11 +36,13 @@ void set(text_io::Parameters &parameters, const std::string &key, const std::str
 text_io::Parameters catalogue_parameters(const PeSeriesInfo &info, const PickerSettings &picker,
                                          double warmup) {
   text_io::Parameters parameters = info.parameters;
-  const auto before_picker =
-      std::find_if(parameters.begin(), parameters.end(),
-                   [](const auto &parameter) { return parameter.first == "picker"; });
-  parameters.insert(before_picker, {"dt", info.model == "lsm" ? text_io::number(info.dt)
-                                                              : fmt::format("{}", info.dt)});
+  // Where the runs have it: the fault before its viscosity, the block-slider before its picker.
+  const auto after_dt =
+      std::find_if(parameters.begin(), parameters.end(), [](const auto &parameter) {
+        return parameter.first == "viscosity" || parameter.first == "picker";
+      });
+  parameters.insert(after_dt, {"dt", info.model == "lsm" ? text_io::number(info.dt)
+                                                         : fmt::format("{}", info.dt)});
   set(parameters, "picker", to_string(picker.reading));
   const auto set_number = [&parameters](const std::string &key, double value) {
     double there = 0.0;
@@ -61,6 +61,7 @@ text_io::Parameters catalogue_parameters(const PeSeriesInfo &info, const PickerS
 }
 
 void run(const Options &options) {
+  refuse_input(options.output, {options.series});
   const PeSeriesInfo info = PeSeriesReader(options.series, options.samples.lenient).info();
   EventPicker picker(options.picker.settings(info.parameters, info));
   double warmup = 0.0;
@@ -70,9 +71,6 @@ void run(const Options &options) {
   CatalogueInfo header;
   header.model = info.model;
   header.parameters = catalogue_parameters(info, picker.settings(), warmup);
-  std::error_code code;
-  if (std::filesystem::equivalent(options.series, options.output, code))
-    throw FileError(options.output + ": is the series itself, expected another name");
   NewFile file(options.output, options.force);
   CatalogueWriter catalogue;
   catalogue.create(file.part(), header);

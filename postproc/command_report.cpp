@@ -6,7 +6,7 @@
 
 #include "catalogue_input.h"
 #include "commands.h"
-#include "plot.h"
+#include "new_file.h"
 #include "report.h"
 
 namespace LSM::postproc {
@@ -34,17 +34,18 @@ void add_report(CLI::App &app) {
   command
       ->add_option("--threshold", report.threshold,
                    "Smallest size (model energy; 1e-4 as in the paper's Figs. 12 and 13)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(zero_or_more());
   command
       ->add_option("--replicas", report.replicas,
                    "Synthetic samples of the Monte Carlo p-values; 0: none")
-      ->check(CLI::NonNegativeNumber);
+      ->check(zero_or_more());
   command
       ->add_option("--bootstrap", report.bootstrap,
                    "Resampled catalogues for the errors of the characteristic sizes")
       ->check(CLI::Range(2, 1000000));
   command->add_option("--seed", report.seed, "Of the random numbers");
   command->callback([options] {
+    refuse_input(options->output, options->catalogues.paths);
     write_file(options->output, report_html(load_catalogues(options->catalogues), options->report));
     fmt::print("wrote {}\n", options->output);
   });

@@ -29,16 +29,6 @@ struct Options {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// Smallest and largest of the values seen.
-struct Extent {
-  double lo = std::numeric_limits<double>::infinity(), hi = -lo;
-  void add(double x) {
-    lo = std::min(lo, x);
-    hi = std::max(hi, x);
-  }
-  bool empty() const { return !(hi >= lo); }
-};
-
 using Values = std::array<double, 3>;  // PE, change, smoothed change
 
 /// Thins curves to at most two rows for each column of the picture: the smallest and the largest
@@ -166,6 +156,7 @@ unset multiplot
 }
 
 void run(const Options &options) {
+  options.picture.check({options.series}, {"-events.csv"});
   const PeSeriesInfo info = PeSeriesReader(options.series, options.samples.lenient).info();
   EventPicker picker(options.picker.settings(info.parameters, info));
 

@@ -76,6 +76,7 @@ Curve measure(const std::string &path, const Options &options) {
 }
 
 void run(const Options &options) {
+  options.picture.check(options.series);
   if (!options.labels.empty() && options.labels.size() != options.series.size())
     throw std::invalid_argument(fmt::format("--label given {} times, expected once per series ({})",
                                             options.labels.size(), options.series.size()));
@@ -177,7 +178,7 @@ void add_spectrum(CLI::App &app) {
           "--per-decade", options->per_decade,
           "Neighbouring frequencies are averaged to at most so many points in a decade; 0: "
           "all frequencies. Errors take neighbours as independent")
-      ->check(CLI::NonNegativeNumber)
+      ->check(zero_or_more())
       ->group(group);
   options->picture.add_to(command, "spectrum");
   command->callback([options] { run(*options); });

@@ -5,7 +5,11 @@
 #ifndef LSM_POSTPROC_COMMANDS_H
 #define LSM_POSTPROC_COMMANDS_H
 
+#include <string>
+
 #include <CLI/CLI.hpp>
+
+#include "lsm_text_io.h"
 
 namespace LSM::postproc {
 
@@ -17,6 +21,18 @@ void add_fit(CLI::App &app);         ///< size exponents, finite-size scaling
 void add_spectrum(CLI::App &app);    ///< power spectrum of PE (ours)
 void add_export(CLI::App &app);      ///< tables for earthquake catalogue tools
 void add_report(CLI::App &app);      ///< one page about a set of catalogues
+
+/// Check of an option that is a number of 0 or more.
+inline CLI::Validator zero_or_more() {
+  return CLI::Validator(
+      [](std::string &text) {
+        double value = 0.0;
+        return text_io::parse(text, value) && value >= 0.0
+                   ? std::string()
+                   : "expected a number of 0 or more, not " + text_io::in_quotes(text);
+      },
+      "");
+}
 
 }  // namespace LSM::postproc
 

@@ -133,7 +133,7 @@ ScalingFit fit_scaling(const std::vector<SizePoint> &points) {
   fit.aicc_constant = corrected_aic(fit.chi2_constant, 1, fit.points);
   if (fit.aicc < fit.aicc_constant - 2.0)
     fit.preferred = SizeDependence::power_law;
-  else if (fit.aicc_constant < fit.aicc - 2.0)
+  else if (fit.aicc_constant < fit.aicc - 2.0 && std::fabs(fit.D) < 1.96 * fit.se_D)
     fit.preferred = SizeDependence::none;
   return fit;
 }

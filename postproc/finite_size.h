@@ -41,7 +41,8 @@ struct ScalingFit {
   double chi2_constant = A;            ///< of the constant, points - 1 degrees of freedom
   double aicc = A, aicc_constant = A;  ///< chi2 + 2 k + 2 k (k + 1) / (points - k - 1)
   int points = 0;
-  /// The model whose AICc is lower by more than 2.
+  /// The model whose AICc is lower by more than 2; the constant only where D = 0 lies within the 95
+  /// % interval of D, since with few points AICc alone takes it up to 2.2 standard errors off.
   SizeDependence preferred = SizeDependence::undecided;
   bool degenerate = true;  ///< fewer than 4 usable points (AICc needs them) or all of one length
   std::string why;

@@ -2,6 +2,7 @@
 #include "generalised_gamma.h"
 
 #include <gsl/gsl_blas.h>
+#include <gsl/gsl_cdf.h>
 #include <gsl/gsl_eigen.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
@@ -590,6 +591,11 @@ GeneralisedGammaFit fit_least_squares(const std::vector<LogBin> &bins,
   report(p, {1.0, -reference, 0.0, 0.0}, covariance, reference, fit);
   fit.chi2 = best.chi2;
   return fit;
+}
+
+bool GeneralisedGammaFit::rejected() const {
+  if (!std::isnan(ks)) return ks * std::sqrt(static_cast<double>(n)) > 1.36;
+  return dof > 0 && gsl_cdf_chisq_Q(chi2, dof) < 0.05;
 }
 
 double generalised_gamma_density(double theta, const GeneralisedGammaFit &fit) {

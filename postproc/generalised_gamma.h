@@ -35,6 +35,9 @@ struct GeneralisedGammaFit {
   int dof = 0;             ///< least squares: bins used minus free parameters
   bool degenerate = true;  ///< the data do not determine the parameters; do not show the numbers
   std::string why;         ///< reason, one line
+
+  /// The data are not a sample of the law at 5 %: by ks as above, or by chi2 with dof.
+  bool rejected() const;
 };
 
 struct GeneralisedGammaOptions {

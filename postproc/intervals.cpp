@@ -40,8 +40,8 @@ std::vector<IntervalCurve> interval_curves(const std::vector<EventTable> &tables
       IntervalCurve curve;
       curve.label = table.label;
       curve.model = table.info.model;
-      curve.threshold = threshold;
-      std::vector<double> times = inter_event_times(table, threshold);
+      curve.threshold = std::max(threshold, table.complete_from);
+      std::vector<double> times = inter_event_times(table, curve.threshold);
       curve.n = static_cast<std::int64_t>(times.size());
       curve.mean = sum_pairwise(times.data(), times.size()) / static_cast<double>(times.size());
       // Events of zero length can start at the same time.
@@ -92,17 +92,9 @@ Figure interval_figure(const std::vector<IntervalCurve> &curves, const IntervalS
     if (curve.bins.empty()) continue;
     ++number;
     for (const LogBin &bin : curve.bins) {
-      figure.table.add(number)
-          .add(curve.model)
-          .add(curve.threshold)
-          .add(bin.lo)
-          .add(bin.hi)
-          .add(bin.centre)
-          .add(bin.count)
-          .add(bin.density)
-          .add(bin.error)
-          .add(curve.label)
-          .end_row();
+      figure.table.add(number).add(curve.model).add(curve.threshold);
+      add_bin(figure.table, bin);
+      figure.table.add(curve.label).end_row();
       if (bin.count == 0) continue;
       lowest = std::min(lowest, bin.density);
       highest = std::max(highest, bin.density);

@@ -10,13 +10,17 @@ namespace LSM::postproc {
 
 namespace fs = std::filesystem;
 
-NewFile::NewFile(const std::string &path, bool force) : path_(path), part_(path + ".part") {
+NewFile::NewFile(const std::string &path, bool replace) : path_(path), part_(path + ".part") {
   std::error_code code;
   const fs::file_status status = fs::status(path, code);
+  if (fs::is_directory(status) || !fs::path(path).has_filename())
+    throw FileError(path + ": is a directory, expected a file name");
+  if (fs::exists(status) && !fs::is_regular_file(status)) {
+    part_ = path_;
+    return;
+  }
   if (fs::exists(status)) {
-    if (!fs::is_regular_file(status))
-      throw FileError(path + ": is not a plain file, expected a file name for the output");
-    if (!force)
+    if (!replace)
       throw FileError(path + ": exists already, expected a new name or --force to replace it");
     // What a link points to is replaced, not the link.
     path_ = fs::canonical(path).string();
@@ -30,13 +34,28 @@ NewFile::NewFile(const std::string &path, bool force) : path_(path), part_(path 
 
 NewFile::~NewFile() {
   std::error_code ignored;
-  fs::remove(part_, ignored);
+  if (part_ != path_) fs::remove(part_, ignored);
 }
 
 void NewFile::commit() {
   std::error_code code;
-  fs::rename(part_, path_, code);
+  if (part_ != path_) fs::rename(part_, path_, code);
   if (code) throw FileError(path_ + ": cannot write: " + code.message());
+}
+
+void write_file(const std::string &path, std::string_view text) {
+  NewFile file(path, true);
+  text_io::OutputFile<FileError> out;
+  out.create(file.part(), text);
+  out.close();
+  file.commit();
+}
+
+void refuse_input(const std::string &output, const std::vector<std::string> &inputs) {
+  std::error_code ignored;
+  for (const std::string &input : inputs)
+    if (fs::equivalent(output, input, ignored))
+      throw FileError(output + ": is read by this command, expected another name for the output");
 }
 
 }  // namespace LSM::postproc

@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file new_file.h
-/// Output that appears whole or not at all.
+/// Output that appears whole or not at all, and never in the place of what it was made from.
 #ifndef LSM_POSTPROC_NEW_FILE_H
 #define LSM_POSTPROC_NEW_FILE_H
 
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace LSM::postproc {
 
 /// A file on its way: written under part(), it gets its name by commit(). Without that, after an
-/// error, the destructor removes it and an older file of the name is as it was.
+/// error, the destructor removes it and an older file of the name is as it was. Devices and pipes
+/// are written at once.
 class NewFile {
  public:
-  /// Missing folders are made. \throws FileError if path exists, unless force, or is no plain file.
-  NewFile(const std::string &path, bool force);
+  /// Missing folders are made. \throws FileError if path exists, unless replace, or is a folder.
+  NewFile(const std::string &path, bool replace);
   ~NewFile();
   NewFile(const NewFile &) = delete;
   NewFile &operator=(const NewFile &) = delete;
@@ -25,6 +28,12 @@ class NewFile {
  private:
   std::string path_, part_;
 };
+
+/// Writes text to path as a NewFile that replaces an older one. \throws FileError
+void write_file(const std::string &path, std::string_view text);
+
+/// \throws FileError if output is one of the files that are read.
+void refuse_input(const std::string &output, const std::vector<std::string> &inputs);
 
 }  // namespace LSM::postproc
 

@@ -21,6 +21,7 @@
 #include <fmt/core.h>
 
 #include "lsm_text_io.h"
+#include "new_file.h"
 
 namespace LSM::postproc {
 
@@ -41,11 +42,19 @@ set linetype 5 lc rgb "#E69F00" pt 4  dt (20,4,3,4,3,4) lw 1.6 ps 0.8*point
 set linetype 6 lc rgb "#56B4E9" pt 6  dt (8,3) lw 1.6 ps 0.85*point
 set linetype 7 lc rgb "#7A6A00" pt 8  dt (2,3) lw 1.8 ps 0.95*point
 set linetype 8 lc rgb "#000000" pt 12 dt 1 lw 1.2 ps 0.95*point
-set linetype cycle 8
+set linetype 9 lc rgb "#0072B2" pt 6 dt (3,5) lw 1.4 ps 0.9*point
+set linetype 10 lc rgb "#D55E00" pt 4 dt (3,5) lw 1.4 ps 0.9*point
+set linetype 11 lc rgb "#009E73" pt 8 dt (3,5) lw 1.4 ps 0.9*point
+set linetype 12 lc rgb "#CC79A7" pt 12 dt (3,5) lw 1.4 ps 0.9*point
+set linetype 13 lc rgb "#E69F00" pt 5 dt (3,5) lw 1.4 ps 0.9*point
+set linetype 14 lc rgb "#56B4E9" pt 7 dt (3,5) lw 1.4 ps 0.9*point
+set linetype 15 lc rgb "#7A6A00" pt 9 dt (3,5) lw 1.4 ps 0.9*point
+set linetype 16 lc rgb "#000000" pt 13 dt (3,5) lw 1.4 ps 0.9*point
+set linetype cycle 16
 set border lw 1.0 lc rgb "#333333"
 set tics out nomirror
 set grid xtics ytics lt 1 dt 1 lw 0.5 lc rgb "#d8d8d8"
-set key outside bottom center horizontal samplen 3 spacing 1.15 maxcols 2 width -7 Left reverse height 1
+set key outside bottom center horizontal samplen 3 spacing 1.15 maxcols 2 width -5 Left reverse height 1
 )";
 
 /// The reason stands in gnuplot's last line; a file that is missing is only named in a warning.
@@ -54,7 +63,8 @@ std::string gnuplot_message(const std::string &text) {
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
     const std::string trimmed(text_io::trim(line));
-    if (trimmed.empty()) continue;
+    // The second: said of every picture in a locale that is not UTF-8, and harmless.
+    if (trimmed.empty() || trimmed.find("iconv failed") != std::string::npos) continue;
     if (warning.empty() && trimmed.find("warning: ") != std::string::npos)
       warning = trimmed.substr(trimmed.find("warning: ") + 9) + "; ";
     last = trimmed;
@@ -146,10 +156,10 @@ std::string whole_script(const std::string &name, std::string_view body, Picture
 void check_name(const fs::path &base) {
   const std::string name = base.filename().string();
   if (name.empty() || name == "." || name == "..")
-    throw PlotError("--output '" + base.string() + "' ends with a folder, expected a file name");
+    throw FileError("--output '" + base.string() + "' ends with a folder, expected a file name");
   for (const char c : name)
     if (static_cast<unsigned char>(c) < 0x20)
-      throw PlotError("--output has a line break or another control character in it");
+      throw FileError("--output has a line break or another control character in it");
 }
 
 /// Single quotes: gnuplot runs what stands in backquotes in a string of double quotes.
@@ -173,6 +183,14 @@ void PictureOptions::add_to(CLI::App *app, const std::string &base) {
       ->type_name("BASE")
       ->capture_default_str();
   app->add_flag("--no-picture", no_picture, "Write the table and the script, do not run gnuplot");
+}
+
+void PictureOptions::check(const std::vector<std::string> &inputs,
+                           const std::vector<std::string> &more) const {
+  check_name(output);
+  for (const char *const text : {".csv", ".gp", ".png", ".svg"})
+    refuse_input(output + text, inputs);
+  for (const std::string &text : more) refuse_input(output + text, inputs);
 }
 
 Table::Table(std::vector<std::string> columns) : columns_(columns.size()) {
@@ -231,14 +249,8 @@ std::string Table::text() const { return comments_ + header_ + body_; }
 
 void Table::write(const std::string &path) const { write_file(path, text()); }
 
-void write_file(const std::string &path, std::string_view text) {
-  const fs::path folder = fs::path(path).parent_path();
-  std::error_code code;
-  if (!folder.empty()) fs::create_directories(folder, code);
-  if (code) throw PlotError(folder.string() + ": cannot make the folder: " + code.message());
-  text_io::OutputFile<PlotError> file;
-  file.create(path, text);
-  file.close();
+void add_bin(Table &table, const LogBin &bin) {
+  table.add(bin.lo).add(bin.hi).add(bin.centre).add(bin.count).add(bin.density).add(bin.error);
 }
 
 std::string quote(std::string_view text) { return escape(text, true); }
@@ -329,7 +341,7 @@ void make(const Figure &figure, const PictureOptions &options) {
 std::string svg_text(const Figure &figure) {
   std::string folder = (fs::temp_directory_path() / "postproc-XXXXXX").string();
   if (!mkdtemp(folder.data()))
-    throw PlotError(folder + ": cannot make the folder: " + std::generic_category().message(errno));
+    throw FileError(folder + ": cannot make the folder: " + std::generic_category().message(errno));
   const auto remove = [](const std::string *path) {
     std::error_code code;
     fs::remove_all(*path, code);

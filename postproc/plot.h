@@ -7,10 +7,12 @@
 #define LSM_POSTPROC_PLOT_H
 
 #include <cstdint>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "log_histogram.h"
+#include "lsm_text_io.h"
 
 namespace CLI {
 class App;
@@ -18,10 +20,10 @@ class App;
 
 namespace LSM::postproc {
 
-/// A picture, its table or its script cannot be made; the message is one line.
-class PlotError : public std::runtime_error {
+/// gnuplot cannot draw; the message is one line.
+class PlotError : public FileError {
  public:
-  using std::runtime_error::runtime_error;
+  using FileError::FileError;
 };
 
 /// Options --output and --no-picture of the commands that draw.
@@ -33,6 +35,13 @@ struct PictureOptions {
   void add_to(CLI::App *app, const std::string &base);
 
   std::string table() const { return output + ".csv"; }
+
+  /// Call before anything is read or written.
+  /// \param inputs files that the command reads
+  /// \param more what it writes besides BASE.csv, .gp, .png and .svg, as "BASE" + text
+  /// \throws FileError if BASE is no file name, or an output would replace an input
+  void check(const std::vector<std::string> &inputs,
+             const std::vector<std::string> &more = {}) const;
 };
 
 /// Comma-separated table: comment lines, one line of column names, rows. Text is quoted where it
@@ -49,7 +58,7 @@ class Table {
   void end_row();
   std::int64_t rows() const { return rows_; }
   std::string text() const;  ///< the whole file
-  /// Replaces the file at once; a missing folder is made. \throws PlotError
+  /// See write_file(). \throws FileError
   void write(const std::string &path) const;
 
  private:
@@ -60,8 +69,8 @@ class Table {
   std::int64_t rows_ = 0;
 };
 
-/// Writes text to path by way of a temporary name; a missing folder is made. \throws PlotError
-void write_file(const std::string &path, std::string_view text);
+/// Adds the fields bin_lo, bin_hi, centre, count, density and error of a bin.
+void add_bin(Table &table, const LogBin &bin);
 
 /// gnuplot string literal that prints text as it is (enhanced mode's markup escaped).
 std::string quote(std::string_view text);
@@ -88,9 +97,9 @@ PictureSize size_with_key(const std::vector<std::string> &titles, int width = 90
 ///
 /// body: gnuplot commands that end with a plot (or multiplot); run once per format. They find the
 /// string variables `base` (name without folder) and `table` (base.".csv"), comma as the separator
-/// of data files, line types 1 to 8 with Okabe and Ito's colours and different point types and
-/// dashes (`lt K`), and the key below the picture. lt 8 is black.
-/// \throws PlotError, also when gnuplot is missing (table and script are there by then)
+/// of data files, line types 1 to 16 with Okabe and Ito's colours, twice, and different point types
+/// and dashes (`lt K`), and the key below the picture. lt 8 is black.
+/// \throws FileError; PlotError, also when gnuplot is missing (table and script are there by then)
 void draw(const PictureOptions &options, std::string_view body, PictureSize size = {});
 
 /// A table and the picture of it.
@@ -101,10 +110,10 @@ struct Figure {
 };
 
 /// Writes table, script and pictures, and says on standard output what was written.
-/// \throws PlotError, see draw()
+/// \throws FileError, see draw()
 void make(const Figure &figure, const PictureOptions &options);
 
-/// The picture as SVG text, without leaving a file. \throws PlotError
+/// The picture as SVG text, without leaving a file. \throws FileError
 std::string svg_text(const Figure &figure);
 
 /// gnuplot function that error_bars() needs. Logarithmic axes have no place for zero: the lower end

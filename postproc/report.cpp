@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -96,8 +95,8 @@ const char *model_name(const std::string &model) {
 
 std::string catalogue_section(const std::vector<EventTable> &tables, double threshold) {
   HtmlTable table({"catalogue", "model", "events", fmt::format("of size {} or larger", threshold),
-                   "first to last start (model time)", "smallest to largest size (model energy)",
-                   "lines passed over"});
+                   "first to last start (model time)", "share of the time within events",
+                   "smallest to largest size (model energy)", "lines passed over"});
   for (const EventTable &events : tables) {
     const auto above = std::count_if(events.size.begin(), events.size.end(),
                                      [threshold](double size) { return size >= threshold; });
@@ -109,6 +108,7 @@ std::string catalogue_section(const std::vector<EventTable> &tables, double thre
          any ? fmt::format("{} to {}", short_number(events.t_start.front(), 6),
                            short_number(events.t_start.back(), 6))
              : "no events",
+         short_number(events.share_in_events(), 2),
          any ? fmt::format("{} to {}", short_number(*smallest, 3), short_number(*largest, 3))
              : "no events",
          std::to_string(events.skipped_lines)});
@@ -161,13 +161,13 @@ class Figures {
   int count_ = 0;
 };
 
-/// Runs draw; an impossible picture becomes a paragraph that says why. PlotError goes through: it
-/// is about gnuplot, not about the data.
+/// Runs draw; an impossible picture becomes a paragraph that says why. Errors about files and
+/// gnuplot go through: they are not about the data.
 template <class Draw>
 std::string drawn_or_why(Draw &&draw) {
   try {
     return draw();
-  } catch (const PlotError &) {
+  } catch (const FileError &) {
     throw;
   } catch (const std::runtime_error &error) {
     return "<p>" + degenerate(error.what()) + "</p>\n";
@@ -220,6 +220,11 @@ std::string scaling_section(const Scaling &scaling, Figures &figures) {
         "Ours: s* = &lt;s²&gt; / &lt;s&gt; follows the roll-off of the sizes; errors by resampling "
         "the events; lines: weighted fits of a power law and of a constant.");
   out += table.text();
+  out +=
+      "<p>Sizes are drops of the potential energy of the whole model, so that ruptures at the same "
+      "time at different places are one event. In long models more of them are joined (see the "
+      "share of the time within events, and whether the number of events goes on growing with the "
+      "length): growth of s* from this is no finite-size effect.</p>\n";
   const std::string sentence = scaling.verdict();
   out += "<p class=\"verdict\">" +
          (scaling.fit.degenerate ? degenerate(scaling.fit.why) : html_escape(sentence)) + "</p>\n";
@@ -227,7 +232,7 @@ std::string scaling_section(const Scaling &scaling, Figures &figures) {
 }
 
 std::string table1_section(const std::vector<IntervalCurve> &curves) {
-  HtmlTable table({"", "γ", "δ", "B", "C", "χ²/dof"});
+  HtmlTable table({"", "γ", "δ", "B", "C", "goodness of fit"});
   table.section("printed in the paper (unit of θ, threshold and errors not stated)");
   std::string head;
   bool ours = false;
@@ -244,12 +249,11 @@ std::string table1_section(const std::vector<IntervalCurve> &curves) {
     const std::string name =
         fmt::format("{}<br>{} (n = {})", html_escape(row.source), html_escape(row.method), row.n);
     if (row.why.empty())
-      table.row(name, {p[0], p[1], p[2], p[3],
-                       std::isnan(row.misfit) ? "" : short_number(row.misfit, 3)});
+      table.row(name, {p[0], p[1], p[2], p[3], row.goodness()});
     else
       table.row(name, {degenerate(row.why)});
   }
-  return table.text();
+  return table.text() + fmt::format("<p>“Rejected”: {}.</p>\n", rejection_rule);
 }
 
 /// Header value as text, or "".
@@ -258,9 +262,46 @@ std::string parameter(const EventTable &table, std::string_view key) {
   return text ? *text : "";
 }
 
-std::string model_section(const std::vector<EventTable> &tables, bool lsm,
+/// The catalogues of block-sliders by their leaf springs: `same` have the commonest value; `fig7`,
+/// as in the paper's Fig. 7, has one number of blocks and every value, and is empty if all are the
+/// same.
+void split_by_stiffness(const std::vector<EventTable> &tables, std::vector<EventTable> &same,
+                        std::vector<EventTable> &fig7) {
+  std::map<std::string, int> counts;
+  for (const EventTable &table : tables) ++counts[parameter(table, "kl")];
+  const std::string common = std::max_element(counts.begin(), counts.end(), [](auto &a, auto &b) {
+                               return a.second < b.second;
+                             })->first;
+  for (const EventTable &table : tables)
+    (parameter(table, "kl") == common ? same : fig7).push_back(table);
+  if (fig7.empty()) return;
+  const std::string blocks = parameter(fig7.front(), "blocks");
+  for (const EventTable &table : same)
+    if (parameter(table, "blocks") == blocks) fig7.push_back(table);
+}
+
+std::string size_figure(const std::vector<EventTable> &tables, const SizeDensitySettings &settings,
+                        const std::string &caption, Figures &figures) {
+  return drawn_or_why([&] {
+    std::vector<std::string> empty;
+    const Figure figure = size_density_figure(tables, settings, empty);
+    std::string whole = caption +
+                        " Ten bins a decade, count / (N width), Poisson errors (one decade down "
+                        "where they reach zero).";
+    for (const std::string &label : empty)
+      whole += " No event in range: " + html_escape(label) + ".";
+    return figures.add(figure, "Densities of event sizes", whole);
+  });
+}
+
+std::string model_section(const std::vector<EventTable> &all, bool lsm,
                           const ReportSettings &settings, Figures &figures,
                           std::vector<IntervalCurve> &all_curves) {
+  std::vector<EventTable> tables, fig7;
+  if (lsm)
+    tables = all;
+  else
+    split_by_stiffness(all, tables, fig7);
   SizeDensitySettings densities;
   densities.threshold = settings.threshold;
   densities.width = picture_width;
@@ -271,6 +312,8 @@ std::string model_section(const std::vector<EventTable> &tables, bool lsm,
   ranges.search.upper = true;
   // The paper prints no ranges. Ours: where its exponents are seen.
   const auto add_range = [&](double slope, const char *title, double lo, double hi) {
+    lo = std::max(lo, settings.threshold);
+    if (!(lo < hi)) return;
     ranges.ranges.push_back({lo, hi});
     PowerLine line;
     line.slope = slope;
@@ -286,27 +329,28 @@ std::string model_section(const std::vector<EventTable> &tables, bool lsm,
     add_range(-0.5, "paper: slope -0.5", 1e-2, 1.0);
     add_range(-1.0, "paper: slope -1.0", 1.0, 100.0);
   }
-  std::set<std::string> stiffnesses;
-  for (const EventTable &table : tables) stiffnesses.insert(parameter(table, "kl"));
-  const char *const number = lsm ? "Fig. 12" : stiffnesses.size() > 1 ? "Fig. 7" : "Fig. 13";
-  std::string out = fmt::format("<h3>Event sizes</h3>\n");
-  out += drawn_or_why([&] {
-    std::vector<std::string> empty;
-    const Figure figure = size_density_figure(tables, densities, empty);
-    std::string caption = fmt::format(
-        "Compare with {} of the paper. Sizes from {}, ten bins a decade, count / (N width), "
-        "Poisson "
-        "errors (one decade down where they reach zero). Straight lines: the paper's exponents, "
-        "drawn above the points; their ranges are ours.",
-        number, short_number(settings.threshold));
-    for (const std::string &label : empty)
-      caption += " No event in range: " + html_escape(label) + ".";
-    return figures.add(figure, "Densities of event sizes", caption);
-  });
-  std::vector<SizeFit> fits = fit_sizes(tables, ranges);
+  std::string out = "<h3>Event sizes</h3>\n";
+  out += size_figure(tables, densities,
+                     fmt::format("Compare with Fig. {} of the paper. Sizes from {}. Straight "
+                                 "lines: the paper's exponents, drawn above the points; their "
+                                 "ranges are ours.",
+                                 lsm ? 12 : 13, short_number(settings.threshold)),
+                     figures);
+  if (!fig7.empty()) {
+    SizeDensitySettings every;
+    every.threshold = 0.0;
+    every.width = picture_width;
+    out += size_figure(fig7, every,
+                       "Compare with Fig. 7 of the paper: one length, several stiffnesses "
+                       "K<sub>l</sub> of the leaf springs. All sizes, as the paper states no "
+                       "threshold for it.",
+                       figures);
+  }
+  std::vector<SizeFit> fits;
+  if (!ranges.ranges.empty()) fits = fit_sizes(all, ranges);
   SizeFitSettings searched = ranges;
   searched.ranges.clear();
-  for (SizeFit &fit : fit_sizes(tables, searched)) fits.push_back(std::move(fit));
+  for (SizeFit &fit : fit_sizes(all, searched)) fits.push_back(std::move(fit));
   out += size_fit_table(fits, lsm);
 
   out += "<h3>Finite-size scaling</h3>\n";

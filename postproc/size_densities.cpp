@@ -13,16 +13,6 @@ namespace LSM::postproc {
 
 namespace {
 
-struct Extent {
-  double lo = std::numeric_limits<double>::infinity();
-  double hi = 0.0;
-
-  void include(double value) {
-    lo = std::min(lo, value);
-    hi = std::max(hi, value);
-  }
-};
-
 struct Curve {
   std::string title;
   std::vector<LogBin> bins;
@@ -105,19 +95,13 @@ Figure size_density_figure(const std::vector<EventTable> &tables,
     for (const LogBin &bin : curves.back().bins) {
       figure.table.add(static_cast<std::int64_t>(curves.size()))
           .add(table.info.model)
-          .add(table.length())
-          .add(bin.lo)
-          .add(bin.hi)
-          .add(bin.centre)
-          .add(bin.count)
-          .add(bin.density)
-          .add(bin.error)
-          .add(table.label)
-          .end_row();
+          .add(table.length());
+      add_bin(figure.table, bin);
+      figure.table.add(table.label).end_row();
       if (bin.count == 0) continue;
-      sizes.include(bin.lo);
-      sizes.include(bin.hi);
-      heights.include(bin.density);
+      sizes.add(bin.lo);
+      sizes.add(bin.hi);
+      heights.add(bin.density);
     }
   }
   if (curves.empty())

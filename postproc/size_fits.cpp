@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <gsl/gsl_cdf.h>
 
 #include "lsm_text_io.h"
 
@@ -34,9 +35,25 @@ std::vector<SizeFit> fit_sizes(const std::vector<EventTable> &tables,
     std::vector<double> sorted = tables[i].size;
     std::sort(sorted.begin(), sorted.end());
     std::vector<PowerLawFit> laws;
-    for (const Range &range : settings.ranges)
-      laws.push_back(fit_power_law(sorted, range.lo, range.hi));
-    if (settings.ranges.empty()) laws.push_back(search_range(sorted, settings.search));
+    // Below that size the missing events would pass for a flatter law.
+    const double least = tables[i].complete_from;
+    for (const Range &range : settings.ranges) {
+      if (least < range.hi) {
+        laws.push_back(fit_power_law(sorted, std::max(range.lo, least), range.hi));
+        continue;
+      }
+      PowerLawFit none;
+      none.lo = range.lo;
+      none.hi = range.hi;
+      none.degenerate = true;
+      none.why = fmt::format("the catalogue only has events from {}", short_number(least));
+      laws.push_back(none);
+    }
+    if (settings.ranges.empty()) {
+      RangeSearch search = settings.search;
+      search.lo = std::max(search.lo, least);
+      laws.push_back(search_range(sorted, search));
+    }
     for (const PowerLawFit &law : laws) {
       SizeFit fit;
       fit.label = tables[i].label;
@@ -187,44 +204,69 @@ std::vector<Scaling> scale_sizes(const std::vector<EventTable> &tables, double t
   for (const EventTable &table : tables) {
     const double length = table.length();
     if (std::isnan(length)) continue;
-    auto found = std::find_if(scalings.begin(), scalings.end(), [&table](const Scaling &scaling) {
-      return scaling.model == table.info.model;
+    const std::string *const kl = table.info.find("kl");
+    const std::string stiffness = kl ? *kl : "";
+    auto found = std::find_if(scalings.begin(), scalings.end(), [&](const Scaling &scaling) {
+      return scaling.model == table.info.model && scaling.stiffness == stiffness;
     });
     if (found == scalings.end()) {
       scalings.emplace_back();
       found = scalings.end() - 1;
       found->model = table.info.model;
+      found->stiffness = stiffness;
+      // One for all lengths, and no catalogue with less than all of its events.
       found->threshold = threshold;
+      for (const EventTable &other : tables)
+        if (other.info.model == found->model)
+          found->threshold = std::max(found->threshold, other.complete_from);
     }
     found->labels.push_back(table.label);
     // A seed of its own for each catalogue, so that their bootstrap samples are independent.
-    found->points.push_back(
-        characteristic_size(table.size, threshold, length, replicas, seed + found->points.size()));
+    found->points.push_back(characteristic_size(table.size, found->threshold, length, replicas,
+                                                seed + found->points.size()));
   }
   for (Scaling &scaling : scalings) scaling.fit = fit_scaling(scaling.points);
   return scalings;
 }
 
+std::string Scaling::name() const {
+  const std::string model_name = model == "lsm" ? "fault" : "block-slider";
+  return stiffness.empty() ? model_name : model_name + ", Kl = " + stiffness;
+}
+
+bool Scaling::drawable() const {
+  return std::any_of(points.begin(), points.end(),
+                     [](const SizePoint &point) { return !point.degenerate; });
+}
+
 std::string Scaling::verdict() const {
   if (fit.degenerate) return "degenerate: " + fit.why;
   const std::string numbers = fmt::format(
-      "s* ~ L^D with D = {}; AICc {} for this power law, {} for no dependence on L",
-      with_error(fit.D, fit.se_D), short_number(fit.aicc), short_number(fit.aicc_constant));
+      "s* ~ L^D with D = {}, at 95 % from {} to {}, chi2 {} on {} degrees of freedom; AICc {} for "
+      "this power law, {} for no "
+      "dependence on L",
+      with_error(fit.D, fit.se_D), short_number(fit.D - 1.96 * fit.se_D, 2),
+      short_number(fit.D + 1.96 * fit.se_D, 2), short_number(fit.chi2, 3), fit.points - 2,
+      short_number(fit.aicc), short_number(fit.aicc_constant));
   const char *statement = "does not tell whether it depends on the length";
   if (fit.preferred == SizeDependence::none)
-    statement = "shows no dependence on the length, no sign of a finite-size effect";
+    statement = "shows no significant dependence on the length";
   else if (fit.preferred == SizeDependence::power_law)
-    statement = fit.D > 0.0 ? "grows with the length, as a finite-size effect would have it"
+    statement = fit.D > 0.0 ? "grows with the length"
                             : "shrinks with the length, which no finite-size effect explains";
-  return fmt::format("Over {} catalogues the characteristic size of the roll-off {} ({}).",
-                     fit.points, statement, numbers);
+  const char *const doubt =
+      fit.preferred == SizeDependence::power_law && gsl_cdf_chisq_Q(fit.chi2, fit.points - 2) < 0.01
+          ? ", but not as a power law"
+          : "";
+  return fmt::format("Over {} catalogues the characteristic size of the roll-off {}{} ({}).",
+                     fit.points, statement, doubt, numbers);
 }
 
 std::string scaling_text(const Scaling &scaling) {
   std::string out = fmt::format(
       "finite-size scaling, {}: characteristic size s* = <s^2>/<s>, sizes from {} (bootstrap "
       "errors)\n",
-      scaling.model, short_number(scaling.threshold));
+      scaling.name(), short_number(scaling.threshold));
   for (std::size_t i = 0; i < scaling.points.size(); ++i) {
     const SizePoint &point = scaling.points[i];
     out += fmt::format(
@@ -237,6 +279,7 @@ std::string scaling_text(const Scaling &scaling) {
 
 nlohmann::json to_json(const Scaling &scaling) {
   nlohmann::json json = {{"model", scaling.model},
+                         {"kl", scaling.stiffness},
                          {"threshold", scaling.threshold},
                          {"points", nlohmann::json::array()},
                          {"degenerate", scaling.fit.degenerate},
@@ -295,12 +338,11 @@ Figure scaling_figure(const std::vector<Scaling> &scalings, int width) {
     if (!(to > 0.0)) continue;
     shortest = std::min(shortest, from);
     longest = std::max(longest, to);
-    const char *const name = scaling.model == "lsm" ? "fault" : "block-slider";
     const std::string column = fmt::format("$1 == {} ? $3 : NaN", number);
     plots +=
         fmt::format("{}{}, \\\n     table using ({}):4 with points lt {} title {}",
                     plots.empty() ? "plot " : ", \\\n     ", error_bars(column, "$4", "$5", number),
-                    column, number, quote(std::string(name) + ": s*"));
+                    column, number, quote(scaling.name() + ": s*"));
     const ScalingFit &fit = scaling.fit;
     if (fit.degenerate) continue;
     const std::string where = fmt::format("[{}:{}] '+' using 1:", text_io::number(0.85 * from),

@@ -61,15 +61,18 @@ std::string verdict(const Comparison &comparison);
 /// Characteristic sizes of the catalogues of one model against their lengths.
 struct Scaling {
   std::string model;
+  std::string stiffness;  ///< block-slider: kl of the header; "" if there is none
   double threshold = 0.0;
   std::vector<std::string> labels;
   std::vector<SizePoint> points;
   ScalingFit fit;
 
+  std::string name() const;     ///< of the model, with the stiffness
+  bool drawable() const;        ///< has a point that is not degenerate
   std::string verdict() const;  ///< one sentence
 };
 
-/// One per model, catalogues without a length left out.
+/// One per model and stiffness of the leaf springs, catalogues without a length left out.
 /// \param replicas of the bootstrap
 std::vector<Scaling> scale_sizes(const std::vector<EventTable> &tables, double threshold,
                                  int replicas, std::uint64_t seed);

@@ -52,6 +52,8 @@ std::vector<Table1Row> table1(const std::vector<IntervalCurve> &curves,
         for (std::size_t i = 0; i < row.values.size(); ++i)
           row.parameters[i] = with_error(row.values[i], row.errors[i], plus_minus);
         if (fit.dof > 0) row.misfit = fit.chi2 / fit.dof;
+        row.ks = fit.ks;
+        row.rejected = fit.rejected();
       }
       rows.push_back(std::move(row));
     }
@@ -59,17 +61,24 @@ std::vector<Table1Row> table1(const std::vector<IntervalCurve> &curves,
   return rows;
 }
 
+std::string Table1Row::goodness() const {
+  const char *const verdict = rejected ? ", rejected" : "";
+  if (!std::isnan(misfit)) return fmt::format("χ²/dof {}{}", short_number(misfit, 3), verdict);
+  if (!std::isnan(ks)) return fmt::format("KS {}{}", short_number(ks, 3), verdict);
+  return {};
+}
+
 const char *theta_unit(bool rescaled) { return rescaled ? "multiples of the mean" : "model time"; }
 
 std::string table1_text(const std::vector<Table1Row> &rows, bool rescaled) {
   const auto line = [](const std::string &name, const std::array<std::string, 4> &cells,
-                       const std::string &misfit) {
+                       const std::string &goodness) {
     // fmt pads by characters as they are shown, so that Greek letters do not shift the columns.
     return fmt::format("    {:<44} {:<17} {:<15} {:<15} {:<20} {}\n", name, cells[0], cells[1],
-                       cells[2], cells[3], misfit);
+                       cells[2], cells[3], goodness);
   };
   std::string out = "Table 1: f(θ) = C θ^(γ-1) exp(-θ^δ / B)\n";
-  out += line("", {"γ", "δ", "B", "C"}, "χ²/dof");
+  out += line("", {"γ", "δ", "B", "C"}, "goodness of fit");
   out += "  printed in the paper (unit of θ, threshold and errors not stated)\n";
   for (const Table1Row &row : rows)
     if (row.printed) out += line(row.source, row.parameters, "");
@@ -85,17 +94,17 @@ std::string table1_text(const std::vector<Table1Row> &rows, bool rescaled) {
     }
     const std::string method = fmt::format("  {} (n = {})", row.method, row.n);
     if (row.why.empty())
-      out +=
-          line(method, row.parameters, std::isnan(row.misfit) ? "" : short_number(row.misfit, 3));
+      out += line(method, row.parameters, row.goodness());
     else
       out += fmt::format("    {:<44} degenerate: {}\n", method, row.why);
   }
-  return out;
+  return out + fmt::format("  rejected: {}\n", rejection_rule);
 }
 
 Table table1_csv(const std::vector<Table1Row> &rows, bool rescaled) {
   Table table({"origin", "threshold", "n", "gamma", "gamma_error", "delta", "delta_error", "B",
-               "B_error", "C", "C_error", "chi2_per_dof", "source", "method", "degenerate"});
+               "B_error", "C", "C_error", "chi2_per_dof", "ks", "rejected", "source", "method",
+               "degenerate"});
   table.comment("f(theta) = C theta^(gamma-1) exp(-theta^delta / B)");
   table.comment(
       fmt::format("printed: Table 1 of the paper, unit of theta not stated; ours: theta in {}",
@@ -114,7 +123,9 @@ Table table1_csv(const std::vector<Table1Row> &rows, bool rescaled) {
         table.add(row.values[i]);
       table.add(row.errors[i]);
     }
-    table.add(row.misfit).add(row.source).add(row.method).add(row.why).end_row();
+    table.add(row.misfit).add(row.ks);
+    table.add(row.goodness().empty() ? "" : row.rejected ? "yes" : "no");
+    table.add(row.source).add(row.method).add(row.why).end_row();
   }
   return table;
 }

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "intervals.h"
@@ -34,8 +35,17 @@ struct Table1Row {
   std::array<std::string, 4> parameters;  ///< with errors; empty if degenerate
   std::array<double, 4> values, errors;
   double misfit = std::numeric_limits<double>::quiet_NaN();  ///< least squares: chi2 per degree
+  double ks = std::numeric_limits<double>::quiet_NaN();      ///< maximum likelihood: KS distance
+  bool rejected = false;                                     ///< see rejection_rule
   std::string why;                                           ///< reason if degenerate
+
+  std::string goodness() const;  ///< misfit or ks, and whether rejected; "" if there is none
 };
+
+/// What "rejected" means, for readers.
+constexpr std::string_view rejection_rule =
+    "at 5 % the times do not follow the fitted density (χ² of its degrees of freedom, or "
+    "Kolmogorov-Smirnov distance KS above 1.36 / √n)";
 
 /// The printed columns, then ours. \param plus_minus between value and error
 std::vector<Table1Row> table1(const std::vector<IntervalCurve> &curves,

@@ -1,33 +1,10 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
 # Tests of postproc from outside: postproc_cli_test.sh PROGRAM CASE [SLIDER_CLI]
-set -u
 export LC_ALL=C
-program=$1 slider=${3:-}
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder" || exit 1
-
-fail() {
-  echo "FAILED: $*" >&2
-  exit 1
-}
-run() { "$program" "$@" > out.txt 2> err.txt; }
-must_run() { run "$@" || fail "$* ended with $?: $(cat err.txt)"; }
-
-# refused PATTERN ARGUMENTS...: exit 1, one line that matches, nothing written.
-refused() {
-  local pattern=$1 before
-  shift
-  : > out.txt > err.txt
-  before=$(ls -A)
-  run "$@"
-  [ $? = 1 ] || fail "exit status is not 1 for: $*"
-  [ "$(wc -l < err.txt)" = 1 ] || fail "not one line for $*: $(cat err.txt)"
-  grep -q "^postproc: " err.txt || fail "message for $* is '$(cat err.txt)'"
-  grep -q -e "$pattern" err.txt || fail "message for $* is '$(cat err.txt)', expected '$pattern'"
-  [ "$(ls -A)" = "$before" ] || fail "output left behind by $*: $(ls -A)"
-}
+slider=${3:-}
+# shellcheck source=tests/postproc/postproc_shell.sh
+source "$(dirname "${BASH_SOURCE[0]}")/postproc_shell.sh" "$1"
 
 # series FILE [ROWS]: loading with drops, as text.
 series() {
@@ -90,6 +67,10 @@ pick)
   # What is not given comes from the header of the series; its parameters are carried over.
   must_run pick pe.csv -o picked.csv --force
   reference literal 0.5 0 pe.csv | diff - <(rows picked.csv) > /dev/null || fail "settings of the header not used"
+  # dt stands where the run has it.
+  sed 's/^# length = 40/&\n# viscosity = 0.1/' pe.csv > fault.csv
+  must_run pick fault.csv -o fault_picked.csv
+  [ "$(grep -A 1 '^# dt' fault_picked.csv | tail -n 1)" = "# viscosity = 0.1" ] || fail "$(head -n 9 fault_picked.csv)"
   grep -q '^# length = 40$' picked.csv && grep -q '^# dt = 0.029999999999999999$' picked.csv ||
     fail "parameters are not carried over"
   # Memory, in time and in samples; lambda = exp(-0.03/3), 1 - 1/100
@@ -115,7 +96,7 @@ pick)
   refused "torn.csv:5011: truncated last line" pick torn.csv -o new.csv
   must_run pick torn.csv -o new.csv --lenient
   grep -q "torn.csv: dropped a truncated last sample: 1" err.txt || fail "a repair is not stated"
-  refused "is the series itself" pick pe.csv -o ./pe.csv --force
+  refused "is read by this command" pick pe.csv -o ./pe.csv --force
   refused "lambda of the picker is 1, expected at least 0 and less than 1" pick pe.csv -o x.csv --lambda 1
   refused "memory-steps 0.5: expected at least 1 sample" pick pe.csv -o x.csv --picker exponential --memory-steps 0.5
   refused "memory-time with the reading 'literal', expected 'exponential'" pick pe.csv -o x.csv --memory-time 3
@@ -225,6 +206,25 @@ END
   ;;
 bad_input)
   catalogue good.csv
+  # What is read is not replaced, whichever of the outputs would do it.
+  cp good.csv own.fits.csv
+  cp good.csv own.table1.csv
+  for words in "histograms good.csv -o ./good" "intervals own.table1.csv -o own" "fit own.fits.csv -o own" \
+    "fit good.csv -o x --json good.csv" "report good.csv -o good.csv" "export good.csv -o ../$(basename "$PWD")/good.csv --force"; do
+    # shellcheck disable=SC2086
+    refused "is read by this command, expected another name" $words
+  done
+  series pe.csv 50
+  cp pe.csv own-events.csv
+  refused "is read by this command" series pe.csv -o pe
+  refused "is read by this command" series own-events.csv -o own
+  refused "is read by this command" spectrum pe.csv -o pe
+  for command in histograms intervals fit; do
+    refused "ends with a folder, expected a file name" $command good.csv -o ./
+    refused "threshold: expected a number of 0 or more, not '-1'" $command good.csv --threshold -1 -o x
+    refused "threshold: expected a number of 0 or more, not 'nan'" $command good.csv --threshold nan -o x
+  done
+  refused "new/: is a directory, expected a file name" report good.csv -o new/
   refused "subcommand" # none
   refused "help lists the options" smooth good.csv
   refused "is required" pick good.csv

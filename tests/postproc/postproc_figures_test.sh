@@ -1,25 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
 # Tests of the commands that draw, from outside: postproc_figures_test.sh PROGRAM CASE
-set -u
-program=$1
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder" || exit 1
+# shellcheck source=tests/postproc/postproc_shell.sh
+source "$(dirname "${BASH_SOURCE[0]}")/postproc_shell.sh" "$1"
 
-fail() {
-  echo "FAILED: $*" >&2
-  exit 1
-}
-run() { "$program" "$@" > out.txt 2> err.txt; }
-must_run() { run "$@" || fail "$* ended with $?: $(cat err.txt)"; }
-refused() { # PATTERN ARGUMENTS...: non-zero exit, one line on stderr that matches
-  local pattern=$1
-  shift
-  run "$@" && fail "accepted: $*"
-  [ "$(wc -l < err.txt)" = 1 ] || fail "not one line for $*: $(cat err.txt)"
-  grep -q -e "$pattern" err.txt || fail "message for $* is '$(cat err.txt)', expected '$pattern'"
-}
 pictures() { # BASE: all four files, none empty
   local extension
   for extension in csv gp png svg; do
@@ -93,7 +77,7 @@ intervals)
     END { exit n != 2 }' i.csv || fail "densities: $(cat i.csv)"
   grep -q '150 inter-event times, mean 20 model time' out.txt || fail "mean: $(cat out.txt)"
   grep -q 'LSM .*0.995 .*1.00 .*15.21 .*0.0573' out.txt || fail "printed Table 1: $(cat out.txt)"
-  grep -q '^printed,,,0.0,,1.00,,100.0,,0.25,,,Block-Slider,' i.table1.csv || fail "$(cat i.table1.csv)"
+  grep -q '^printed,,,0.0,,1.00,,100.0,,0.25,,,,,Block-Slider,' i.table1.csv || fail "$(cat i.table1.csv)"
   # Every second event is large: times of 10 and 100.
   must_run intervals a.csv --threshold 0 --threshold 1.5 --rescale -o r --no-picture
   awk -F, '!/^#/ && $1 == 2 && $7 == 50 && $4 <= 10 / 40 && 10 / 40 < $5 { good = 1 } END { exit !good }' r.csv ||
@@ -101,10 +85,10 @@ intervals)
   # Exponential times: gamma = delta = 1, B = 7, C = 1 / 7.
   awk 'BEGIN { t = 0; n = 4000; for (i = 0; i < n; ++i) { printf "%.17g 1\n", t; t += -7 * log(1 - ((i * 7919) % n + 0.5) / n) } }' |
     catalogue e.csv 120
-  must_run intervals e.csv -o e --delta 1
+  must_run intervals e.csv -o x --delta 1
   awk -F, '$1 == "ours" { ++n; if ($12 > 3) exit 1
       if (($4 - 1) ^ 2 > 0.03 ^ 2 || ($8 / 7 - 1) ^ 2 > 0.03 ^ 2 || ($10 * 7 - 1) ^ 2 > 0.03 ^ 2) exit 1 }
-    END { exit n != 2 }' e.table1.csv || fail "exponential times: $(cat e.table1.csv)"
+    END { exit n != 2 }' x.table1.csv || fail "exponential times: $(cat x.table1.csv)"
   refused "expected 'free' or a positive number" intervals a.csv --delta x -o x
   ;;
 fit)
@@ -128,15 +112,26 @@ fit)
   done
   must_run fit g100.csv g200.csv g400.csv g800.csv g1600.csv --range 1e-3:0.1 --replicas 0 --scaling --json g.json -o g
   pictures g.scaling
-  grep -q 'grows with the length' out.txt || fail "growth: $(cat out.txt)"
+  grep -q 'grows with the length (' out.txt || fail "growth: $(cat out.txt)"
   d=$(awk '/"D":/ { gsub(/[",]/, ""); print $2 }' g.json)
   near "$d" 1 0.1 || fail "s* grows as L^$d, expected 1"
   must_run fit n100.csv n200.csv n400.csv n800.csv n1600.csv --range 1e-3:0.1 --replicas 0 --scaling --json n.json -o n
-  grep -q 'shows no dependence' out.txt || fail "no growth: $(cat out.txt)"
+  grep -q 'shows no significant dependence' out.txt || fail "no growth: $(cat out.txt)"
   grep -q '"preferred": "no dependence on the length"' n.json || fail "$(cat n.json)"
+  # Growth that is no power law: s* of 1, 1, 1, 1, 16.
+  sed 's/^# length.*/# length = 3200/' g1600.csv > n3200.csv
+  must_run fit n100.csv n200.csv n400.csv n800.csv n3200.csv --range 1e-3:0.1 --replicas 0 --scaling -o p --no-picture
+  grep -q 'grows with the length, but not as a power law' out.txt || fail "growth at the end: $(cat out.txt)"
   must_run fit a.csv --range 1e-3:1 --replicas 0 --scaling -o o --no-picture
   grep -q 'degenerate: ' out.txt || fail "scaling of one catalogue: $(cat out.txt)"
   refused 'expected LO above 0' fit a.csv --range :1 -o x
+  # Events left out below a size do not make the law flatter: the fit begins there.
+  must_run fit a.csv --min-size 0.01 --range 1e-3:1 --range 1e-3:0.01 --replicas 0 --no-comparison -o m --no-picture
+  awk -F, '$1 == "lsm" && $2 == 0.01 && $5 > 1300 { exit !($6 > 0.98 && $6 < 1.02) }' m.fits.csv || fail "$(cat m.fits.csv)"
+  grep -q '^lsm,0.01,1,' m.fits.csv && grep -q 'only has events from 0.01' m.fits.csv || fail "$(cat m.fits.csv)"
+  sed 's/^# length/# min_size = 0.01\n&/' a.csv | awk -F, '/^[#e]/ || $6 >= 0.01' > picked.csv
+  must_run fit picked.csv --range 1e-3:1 --replicas 0 --no-comparison -o m --no-picture
+  grep -q '^lsm,0.01,1,' m.fits.csv || fail "min_size of the header: $(cat m.fits.csv)"
   ;;
 report)
   power 1 1e-3 1 500 | catalogue 'a<b&c.csv' 120
@@ -157,6 +152,19 @@ report)
   for tag in table figure svg tr td th section div p ul li h2 h3; do
     [ "$(grep -o "<$tag[ >]" r.html | wc -l)" = "$(grep -o "</$tag>" r.html | wc -l)" ] || fail "<$tag> not closed"
   done
+  # Leaf springs of several stiffnesses have a picture of their own and no part in the scaling.
+  for kl in 0.01 0.1; do sed "s/^# blocks.*/&\n# kl = $kl/" s.csv > "kl$kl.csv"; done
+  must_run report kl0.01.csv kl0.1.csv kl0.01.csv --replicas 0 --label a --label b --label c -o k.html
+  grep -q 'Fig. 7' k.html || fail "no Fig. 7"
+  [ "$(grep -c '<th scope="row">b</th><td>256</td>' k.html)" = 0 ] || fail "another stiffness in the scaling"
+  [ "$(grep -c '<th scope="row">c</th><td>256</td>' k.html)" = 1 ] || fail "no scaling of the common stiffness"
+  grep -q 'Fig. 7' r.html && fail "Fig. 7 of one stiffness"
+  # No range begins below the threshold.
+  must_run report 'a<b&c.csv' --threshold 2e-3 --replicas 0 -o t.html
+  grep -q '<td>0.002 to 0.01</td>' t.html || fail "range of the fault"
+  grep -q '<td>0.0001 to' t.html && fail "a range below the threshold"
+  must_run report 'a<b&c.csv' --threshold 0.1 --replicas 0 -o t.html
+  grep -q ' to 0.01</td>' t.html && fail "a range below the threshold"
   # Without gnuplot an older page stays.
   cp r.html before.html
   PATH=/nonexistent "$program" report s.csv -o r.html 2> err.txt && fail "a report without gnuplot"
@@ -181,6 +189,12 @@ few)
   awk -F, '$1 == "ours" && ($4 $6 $8 $10 != "" || $NF == "") { exit 1 }' i.table1.csv || fail "numbers of degenerate fits"
   must_run fit few.csv --range 1e-3:1 -o f
   grep -q 'degenerate: ' out.txt || fail "$(cat out.txt)"
+  # No characteristic size in any catalogue: no picture of the scaling, the rest is there.
+  must_run fit one.csv few.csv --scaling -o z
+  pictures z
+  grep -q 'no picture of the scaling' err.txt || fail "nothing is said of the scaling: $(cat err.txt)"
+  [ "$(grep -c 'at least 10 needed' out.txt)" = 2 ] || fail "$(cat out.txt)"
+  [ -e z.scaling.csv ] && fail "a table without a picture"
   must_run report none.csv one.csv few.csv -o r.html
   grep -q 'degenerate: ' r.html || fail "no degenerate fit in the page"
   grep -Eq '>-?nan|>inf' r.html && fail "NaN or infinity in the page"

@@ -55,8 +55,7 @@ TEST_F(CatalogueInput, ColumnsOfTheEventsChosen) {
   }());
   EXPECT_EQ(all.size, (std::vector<double>{0.5, 1e-5, 0.25, -0.125}));
   EXPECT_EQ(all.t_start, (std::vector<double>{1, 3, 5, 7}));
-  EXPECT_EQ(all.t_end, (std::vector<double>{2, 4, 6, 8}));
-  EXPECT_TRUE(all.slip_moment.empty());
+  EXPECT_EQ(all.share_in_events(), 4.0 / 7.0);
 
   CatalogueOptions options;
   options.min_size = 1e-4;
@@ -69,11 +68,17 @@ TEST_F(CatalogueInput, ColumnsOfTheEventsChosen) {
   EXPECT_EQ(load_catalogue(name, CatalogueOptions()).size.size(), 3u);  // none of size < 0
 }
 
-TEST_F(CatalogueInput, SlipMomentIfThere) {
-  const std::string name = path("slip.csv");
-  spill(name,
-        "# lsm-catalogue 1\n# model = lsm\n" + columns + ",slip_moment\n1,1,2,10,20,0.5,1,0.5,7\n");
-  EXPECT_EQ(load_catalogue(name, CatalogueOptions()).slip_moment, std::vector<double>{7});
+TEST_F(CatalogueInput, KnowsWhereItIsComplete) {
+  const std::string name = path("picked.csv");
+  spill(name, "# lsm-catalogue 1\n# model = lsm\n# min_size = 0.01\n" + columns +
+                  "\n1,1,2,10,20,0.5,1,0.5\n");
+  CatalogueOptions options;
+  EXPECT_EQ(load_catalogue(name, options).complete_from, 0.01);
+  EXPECT_EQ(load_catalogue(file(good), options).complete_from, 0.0);
+  options.min_size = 0.001;
+  EXPECT_EQ(load_catalogue(name, options).complete_from, 0.01);
+  options.min_size = 0.1;
+  EXPECT_EQ(load_catalogue(name, options).complete_from, 0.1);
 }
 
 TEST_F(CatalogueInput, LengthAndLabelsFromTheHeader) {

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "new_file.h"
 #include "numbers.h"
 #include "plot.h"
 #include "report.h"
@@ -123,9 +124,45 @@ TEST_F(Plot, FailureIsReportedAndLeavesNoPicture) {
 }
 
 TEST_F(Plot, FolderAsOutputIsRefused) {
-  const std::string message = message_of<PlotError>([&] { make(figure("t"), output("x/")); });
+  const std::string message = message_of<LSM::FileError>([&] { make(figure("t"), output("x/")); });
   EXPECT_TRUE(contains(message, "expected a file name"));
   EXPECT_FALSE(std::filesystem::exists(path("x")));
+}
+
+TEST_F(Plot, FilesAppearWholeOrNotAtAll) {
+  const std::string name = path("folder/text");
+  write_file(name, "old");
+  {
+    NewFile file(name, true);
+    unit::spill(file.part(), "half of the n");
+    EXPECT_EQ(slurp(name), "old");
+  }
+  EXPECT_EQ(slurp(name), "old");
+  EXPECT_FALSE(std::filesystem::exists(name + ".part"));
+  EXPECT_TRUE(contains(message_of<LSM::FileError>([&] { NewFile(name, false); }), "--force"));
+  EXPECT_TRUE(contains(message_of<LSM::FileError>([&] { write_file(path("folder/"), "x"); }),
+                       "is a directory, expected a file name"));
+  // A link goes on pointing to the file; a device is no file to be replaced.
+  std::filesystem::create_symlink(name, path("link"));
+  write_file(path("link"), "new");
+  EXPECT_TRUE(std::filesystem::is_symlink(path("link")));
+  EXPECT_EQ(slurp(name), "new");
+  EXPECT_NO_THROW(write_file("/dev/null", "x"));
+}
+
+TEST_F(Plot, InputsAreNotReplaced) {
+  const std::string input = path("base.svg");
+  unit::spill(input, "read");
+  PictureOptions options = output("base");
+  EXPECT_TRUE(contains(message_of<LSM::FileError>([&] {
+                         options.check({path("x"), input});
+                       }),
+                       "base.svg: is read by this command"));
+  EXPECT_NO_THROW(options.check({path("x")}));
+  std::filesystem::create_symlink(input, path("other.fits.csv"));
+  options.output = path("other");
+  EXPECT_NO_THROW(options.check({input}));
+  EXPECT_THROW(options.check({input}, {".fits.csv"}), LSM::FileError);
 }
 
 TEST_F(Plot, TableQuotesTextAndKeepsDigits) {

@@ -56,7 +56,7 @@ TEST(Table1, PrintedValuesAsInThePaper) {
   for (const Table1Row &row : rows) EXPECT_TRUE(row.printed);
   // Digits as printed.
   EXPECT_TRUE(
-      contains(table1_csv(rows, false).text(), "printed,,,0.995,,1.00,,15.21,,0.0573,,,LSM,"));
+      contains(table1_csv(rows, false).text(), "printed,,,0.995,,1.00,,15.21,,0.0573,,,,,LSM,"));
   const std::string text = table1_text(rows, false);
   EXPECT_LT(text.find("printed in the paper"), text.find("Block-Slider"));
   EXPECT_LT(text.find("Block-Slider"), text.find("ours"));
@@ -87,6 +87,44 @@ TEST(Table1, GammaTimesGiveTheirParameters) {
   EXPECT_NEAR(row->values[3], C, 4.0 * row->errors[3]);
   EXPECT_LT(row->errors[0], 0.02);
   EXPECT_FALSE(row->printed);
+}
+
+TEST(Table1, PoorFitsAreRejected) {
+  IntervalSettings settings;
+  settings.deltas = {1.0};
+  const auto good = table1(interval_curves({gamma_events(0.7, 20.0, 5000)}, settings));
+  // Two clusters of times are no gamma density.
+  std::vector<double> starts = {0.0};
+  for (int i = 0; i < 2000; ++i)
+    starts.push_back(starts.back() +
+                     (i % 2 ? 1.0 : 100.0) * (1.0 + 0.5 * ((i * 7919) % 2000) / 2e3));
+  const auto poor =
+      table1(interval_curves({events(starts, std::vector<double>(starts.size(), 1.0))}, settings));
+  const char *const method = "maximum likelihood, δ = 1 held";
+  ASSERT_NE(row_with(good, method), nullptr);
+  ASSERT_NE(row_with(poor, method), nullptr);
+  EXPECT_FALSE(row_with(good, method)->rejected);
+  EXPECT_LT(row_with(good, method)->ks, 1.36 / std::sqrt(5000.0));
+  EXPECT_EQ(row_with(good, method)->goodness().find("KS 0.0"), 0u);
+  EXPECT_TRUE(row_with(poor, method)->rejected);
+  EXPECT_TRUE(contains(row_with(poor, method)->goodness(), ", rejected"));
+  EXPECT_TRUE(contains(table1_text(poor, false), "rejected: at 5 %"));
+  EXPECT_TRUE(contains(table1_csv(poor, false).text(), ",yes,made up,\"maximum likelihood"));
+  const Table1Row *const binned = row_with(good, "least squares, δ = 1 held");
+  ASSERT_NE(binned, nullptr);
+  EXPECT_TRUE(std::isnan(binned->ks));
+  EXPECT_EQ(binned->goodness().find("χ²/dof "), 0u);
+}
+
+TEST(Table1, MissingSmallEventsRaiseTheThreshold) {
+  EventTable table = events({1.0, 2.0, 4.0, 8.0}, {1.0, 0.1, 1.0, 0.5});
+  table.complete_from = 0.5;
+  IntervalSettings settings;
+  settings.thresholds = {0.01, 0.8};
+  const auto curves = interval_curves({table}, settings);
+  EXPECT_EQ(curves[0].threshold, 0.5);
+  EXPECT_EQ(curves[0].n, 2);
+  EXPECT_EQ(curves[1].threshold, 0.8);
 }
 
 TEST(Table1, RescaledTimesHaveMeanOne) {
