@@ -21,6 +21,7 @@ echo "== block-slider"
 echo "== lattice solid fault"
 "$fault" "$out" "$mode" "$lmp" "$inputs" "$scenes" "$@"
 echo "== extreme cases"
+[ "$mode" = quick ] || export LSM_REST_STEPS=100000000
 "$tests" --gtest_filter='Extremes.*:Reproducible.*' >"$out/work/extremes.txt" || {
   grep -A5 Failure "$out/work/extremes.txt" >&2
   exit 1
