@@ -1,18 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Common ground of the tests from outside, sourced with the program as first argument: a folder of
-# its own for the test, and ways to run the program there.
-set -u
-program=$1
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder" || exit 1
-
-fail() {
-  echo "FAILED: $*" >&2
-  exit 1
-}
-run() { "$program" "$@" > out.txt 2> err.txt; }
-must_run() { run "$@" || fail "$* ended with $?: $(cat err.txt)"; }
+# Common ground of the tests of postproc from outside, sourced with the program as first argument.
+# shellcheck source=tests/from_outside.sh
+source "$(dirname "${BASH_SOURCE[0]}")/../from_outside.sh" "$1"
 
 # refused PATTERN ARGUMENTS...: exit 1, one line that matches, nothing written.
 refused() {

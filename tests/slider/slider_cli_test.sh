@@ -1,18 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
 # Tests of slider_cli from outside: slider_cli_test.sh PROGRAM CASE
-set -u
-program=$1
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder" || exit 1
-
-fail() {
-  echo "FAILED: $*" >&2
-  exit 1
-}
-run() { "$program" "$@" > out.txt 2> err.txt; }
-must_run() { run "$@" || fail "$* ended with $?: $(cat err.txt)"; }
+# shellcheck source=tests/from_outside.sh
+source "$(dirname "${BASH_SOURCE[0]}")/../from_outside.sh" "$1"
 
 # refused PATTERN ARGUMENTS...: non-zero exit, one line that matches, no output file.
 refused() {
