@@ -16,7 +16,7 @@ fail() {
 
 fault=(--bin "$bin" --only faults --lengths 40 --no-report --series keep --jobs 2 --steps 30000 --checkpoint 1500
   --fault width=20 --fault settle=500 --fault velocity=0.01 --fault thermo=1000)
-slider=(--bin "$bin" --only sliders --blocks 100 --seeds 1 --no-report --jobs 1 --steps 9000000 --slider velocity=0.05
+slider=(--bin "$bin" --only sliders --blocks 100 --seeds 1 --no-report --jobs 1 --steps 20000000 --slider velocity=0.05
   --slider dt=0.05 --slider warmup=0 --slider checkpoint-interval=50000 --slider pe-series=series.bin
   --slider pe-stride=100 --slider pe-format=binary)
 # campaign FOLDER OPTIONS...
@@ -106,8 +106,10 @@ kill_slider)
   ;;
 kill_fault_*)
   r=${3//[^0-9]/}
-  whole "${fault[@]}" --ranks "$r"
-  killed part "${fault[@]}" --ranks "$r"
+  # Long enough for the kills to fall into the run and not into its start.
+  longer=("${fault[@]}" --steps 200000 --checkpoint 10000 --ranks "$r")
+  whole "${longer[@]}"
+  killed part "${longer[@]}"
   same whole/fault_40/fault.catalogue.csv part/fault_40/fault.catalogue.csv 15
   cmp whole/fault_40/fault.pe.bin part/fault_40/fault.pe.bin || fail "PE series differ"
   ;;
