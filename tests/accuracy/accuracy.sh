@@ -186,8 +186,8 @@ $(markdown slider_long.csv)
 From one saved state shortly before the event, through it, with other time steps; the reference is the same run with a
 much smaller step. *located*: a contact that begins within a step gets the part of the step's tangential displacement
 that follows its begin; *step*: it begins with elongation 0 at the end of the step; *force*: located, but viscosity is
-a force evaluated with the velocity of the half step instead of exact decay around the step. *standard*: kt = k, viscosity 0.1;
-*weak*: viscosity 0.02; *soft*, *stiff*: kt = 0.1 and 10.
+a force evaluated with the velocity of the half step instead of exact decay around the step. *standard*: kt = k, viscosity
+0.02, 0.3 for the discs of the fault zone; *even*: 0.1 everywhere; *weak*: 0.02 everywhere; *soft*, *stiff*: kt = 0.1 and 10.
 
 $(remarks fault_event.csv)
 
