@@ -130,7 +130,8 @@ if [ $list = no ]; then
   mkdir -p "$output" 2>/dev/null && output=$(cd "$output" && pwd) && [ -w "$output" ] ||
     die "cannot write to folder '$output'"
   { exec 9>>"$output/lock"; } 2>/dev/null || die "cannot write to folder '$output'"
-  flock -n 9 || die "another campaign works in $output"
+  # What a killed campaign had just begun, packing a series for example, holds the lock until it ends.
+  flock -w 5 9 || die "another campaign works in $output"
 fi
 
 # ---- the runs: name, kind, cores, settings (the command without what may change), estimated core seconds
@@ -274,9 +275,18 @@ say() {
   printf '%s %s\n' "$(date '+%F %T')" "$*"
 }
 
+# alone FOLDER: the ranks of a campaign that was killed may live a little longer; each holds this lock
+alone() {
+  [ ! -e "$1/lock" ] || flock -n -x "$1/lock" true || flock -w 60 -x "$1/lock" true 9>&- ||
+    { why="a program of an earlier campaign still works in $1"; return 1; }
+}
+
 states=() ats=() starts=() begins=() pids=() reasons=()
 for i in "${!names[@]}"; do
-  if progress "${names[i]}" "${kinds[i]}" "${goals[i]}" "${settings[i]}"; then
+  at=0
+  # Nobody may write while the files are compared with each other.
+  if { [ $list = yes ] || alone "$output/${names[i]}"; } &&
+    progress "${names[i]}" "${kinds[i]}" "${goals[i]}" "${settings[i]}"; then
     [ $done = yes ] && states[i]=done || states[i]=waiting
   else
     states[i]=failed reasons[i]=$why
@@ -306,9 +316,7 @@ run_in_folder() {
 start() {
   local i=$1 name=${names[$1]} folder=$output/${names[$1]} text=${settings[$1]} words word
   mkdir -p "$folder" 2>/dev/null || { why="cannot create $folder"; return 1; }
-  # The ranks of a campaign that was killed may live a little longer; each holds this lock.
-  flock -n -x "$folder/lock" true || flock -w 60 -x "$folder/lock" true ||
-    { why="a program of an earlier campaign still works in $folder"; return 1; }
+  alone "$folder" || return 1
   progress "$name" "${kinds[i]}" "${goals[i]}" "$text" || return 1
   if [ "$(cat "$folder/settings.txt" 2>/dev/null)" != "$text" ]; then
     { echo "$text" >"$folder/settings.txt.new" && mv "$folder/settings.txt.new" "$folder/settings.txt"; } 2>/dev/null ||

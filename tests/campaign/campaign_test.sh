@@ -56,7 +56,10 @@ killed() {
     # 1 to 10 % of the whole run, later longer, so that a machine that became busy gets to a checkpoint as well
     p=$((whole_ms * (RANDOM % 90 + 10) * (10 + round) / 10000))
     sleep "$((p / 1000)).$(printf %03d $((p % 1000)))"
-    kill -0 $child 2>/dev/null || break
+    if ! kill -0 $child 2>/dev/null; then
+      wait $child || fail "ended with $? on its own"
+      break
+    fi
     case $((round % 4)) in
       0) kill -9 $child ;; # the campaign: its programs end, too
       1) # the programs: the campaign says so
@@ -180,6 +183,12 @@ refuse_fault)
   campaign mended "${longer[@]}" || fail "not gone on from the restart file before it"
   grep -q 'goes on from its checkpoint at step 3000' out.txt || fail "not gone on from step 3000"
   same mended/fault_40/fault.catalogue.csv whole/fault_40/fault.catalogue.csv 5
+  # A program of a killed campaign still writes its catalogue: waited for.
+  cp -r one busy && cp keep/fault_40/$newest busy/fault_40
+  mv busy/fault_40/fault.catalogue.csv away.csv
+  (flock -s 7 && : >held && sleep 2 && mv away.csv busy/fault_40/fault.catalogue.csv) 7>>busy/fault_40/lock &
+  while [ ! -e held ]; do sleep 0.02; done
+  campaign busy "${short[@]}" && grep -q '1 of 1 runs done' out.txt || fail "files looked at while somebody writes"
   cp other/fault_40/$newest other/fault_40/$newest.info one/fault_40
   refused "$newest was written by a run with other settings" one "${longer[@]}"
   cp keep/fault_40/$newest keep/fault_40/$newest.info one/fault_40
