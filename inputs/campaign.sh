@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
 # The whole study: six faults, five block-sliders in the paper's and in our settings, Fig. 7's leaf springs, chains
-# longer than the paper's, then the report. Run it again to go on where it was stopped; --help has the options.
+# longer than the paper's, then report pages and figures. Run it again to go on where it was stopped; --help has the options.
 #
 # Each run has a folder of its own below the output folder:
 #   settings.txt    what the run was begun with; other settings need another folder
@@ -17,7 +17,7 @@ build=${LSM_BUILD_DIR:-$root/build}
 usage() {
   cat <<END
 usage: inputs/campaign.sh [OPTIONS]
-Runs, or goes on with, the campaign, and ends with the report. Defaults in brackets.
+Runs, or goes on with, the campaign, and ends with report pages and the folder figures. Defaults in brackets.
   --output DIR        folder of the results [\$LSM_BUILD_DIR/campaign or build/campaign]
   --only KIND         sliders or faults [both]
   --lengths L,L...    lengths of the faults [120,240,480,945,1440,1890]
@@ -34,7 +34,7 @@ Runs, or goes on with, the campaign, and ends with the report. Defaults in brack
   --fault NAME=VALUE  any further variable of fault.in, for all faults; may be repeated
   --slider NAME=VALUE any further option of slider_cli, for all sliders; may be repeated
   --bin DIR           folder of lmp, slider_cli and postproc [built in \$LSM_BUILD_DIR or build]
-  --no-report         no report at the end
+  --no-report         no report pages and figures at the end
   --list              only say how far each run is
 END
 }
@@ -483,11 +483,12 @@ for i in "${!names[@]}"; do
   if [ "${states[i]}" = "done" ]; then pack_series "$i"; else unfinished=$((unfinished + 1)); fi
 done
 
-# page FILE TITLE PATTERN: one page on the runs whose names match and that have a catalogue
-page() {
-  local i words=() labels=() label file
+# chosen PATTERN: words (catalogues) and labels of the runs whose names match
+chosen() {
+  local i label file
+  words=() labels=()
   for i in "${!names[@]}"; do
-    [[ ${names[i]} =~ $3 ]] || continue
+    [[ ${names[i]} =~ $1 ]] || continue
     for file in "$output/${names[i]}"/*catalogue.csv; do
       [ -e "$file" ] || continue
       label=$(sed -E 's/^slider_kl_/slider 1928, K_l /; s/^slider_(paper|ours)_([0-9]*)_([0-9]*)/slider \2, seed \3/; s/_/ /g' \
@@ -496,13 +497,44 @@ page() {
       words+=("$file") labels+=(--label "$label")
     done
   done
-  [ ${#words[@]} -gt 0 ] || return 0
+  [ ${#words[@]} -gt 0 ]
+}
+
+# page FILE TITLE PATTERN: one page on these runs
+page() {
+  local words labels
+  chosen "$3" || return 0
   say "$1: $2"
   "$bin/postproc" report --lenient --title "$2" --output "$output/$1" "${words[@]}" "${labels[@]}" || code=1
+}
+
+# figure NAME PATTERN COMMAND OPTIONS...: picture (PNG, SVG) of these runs, its table and script, and what was printed
+figure() {
+  local words labels base=$output/figures/$1 name=$1
+  chosen "$2" || return 0
+  shift 2
+  "$bin/postproc" "$1" "${words[@]}" --lenient "${labels[@]}" --output "$base" "${@:2}" >"$base.txt" 2>&1 || {
+    say "figure $name: $(tail -n 1 "$base.txt")"
+    code=1
+  }
+}
+figures() {
+  mkdir -p "$output/figures" 2>/dev/null || { say "cannot create $output/figures"; code=1; return; }
+  say "figures: Figs. 7, 12 to 15 and the scaling of the roll-off"
+  local ours="^slider_ours_${five}_1\$" faults='--range 1e-4:1e-2' sliders='--range 0.01:1 --range 1:100'
+  figure fig7_leaf_springs '^slider_kl|^slider_ours_1928_1$' histograms
+  figure fig12_fault_sizes '^fault' histograms --guide=-1.07:1e-4:1e-2
+  figure fig13_slider_sizes "$ours" histograms --guide=-0.5:1e-2:1 --guide=-1:1:100
+  figure fig14_fault_intervals '^fault' intervals
+  figure fig15_slider_intervals "$ours" intervals
+  # The ranges are words on purpose.
+  figure fault_fit '^fault' fit --scaling $faults
+  figure slider_fit "$ours" fit --scaling $sliders
 }
 if [ $report = yes ] && [ "$stopping" != interrupted ]; then
   if [ -x "$bin/postproc" ]; then
     five='(256|614|972|1450|1928)'
+    figures
     page report.html "Faults, and block-sliders in our settings" "^fault|^slider_ours_${five}_1\$|^slider_kl"
     page report_paper_settings.html "Block-sliders as printed in the paper" "^slider_paper_${five}_1\$"
     page report_long_chains.html "Block-sliders longer than the paper's, our settings" '^slider_ours_[0-9]*_1$'

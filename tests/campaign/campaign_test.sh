@@ -228,6 +228,23 @@ disk_full)
   same small/fault_40/fault.catalogue.csv whole/fault_40/fault.catalogue.csv 15
   cmp small/fault_40/fault.pe.bin whole/fault_40/fault.pe.bin || fail "PE series differ"
   ;;
+report)
+  # Ends with pages and figures of the runs that are there, and with none of those that are not.
+  drawn() {
+    local name
+    for name in "$@"; do
+      for file in one/figures/$name.{png,svg,csv,gp,txt}; do [ -s "$file" ] || fail "no $file"; done
+    done
+    [ "$(grep -c '<svg' one/report.html)" -ge 3 ] || fail "report.html has no figures"
+  }
+  campaign one --bin "$bin" --only sliders --blocks 256 --seeds 1 --steps 1200000 || fail "ended with $?"
+  drawn fig13_slider_sizes fig15_slider_intervals slider_fit
+  [ -z "$(ls one/figures | grep 'fault\|fig7')" ] || fail "figures of nothing"
+  options=()
+  for word in "${fault[@]}"; do [ "$word" = --no-report ] || options+=("$word"); done
+  campaign one "${options[@]}" || fail "ended with $?"
+  drawn fig12_fault_sizes fig14_fault_intervals fault_fit
+  ;;
 image)
   # Pictures of every fourth of 20 steps, and one on its own.
   picture() {
