@@ -109,6 +109,19 @@ set xlabel 'run time (s)'; set ylabel '$axis'
 $(join "${lines[@]}")"
   done
 done
+for quantity in own:6:'displacement at the fault off that of the same law, small step' \
+  rigid:8:'displacement at the fault off that without spring, small step'; do
+  IFS=: read -r name column axis <<<"$quantity"
+  lines=("$(line fault_friction.csv "\$1 == \"rigid\" && \$$column > 0" 4 "$column" 'half steps, no spring' 1)")
+  n=1
+  for kt in $(awk -F, '$1 == "spring" && !seen[$2]++ {print $2}' fault_friction.csv); do
+    n=$((n + 1))
+    lines+=("$(line fault_friction.csv "\$1 == \"spring\" && \$2 == $kt && \$$column > 0" 4 "$column" "spring kt $kt" $n)")
+  done
+  draw "fault_friction_$name" "set title 'Fault, one event: ways of solving friction'
+set xlabel 'run time (s)'; set ylabel '$axis'
+$(join "${lines[@]}")"
+done
 waves=()
 n=0
 for s in p_wave_lattice.in p_wave_packing.in; do
@@ -141,6 +154,7 @@ value() {  # FILE 'awk condition' COLUMN
   awk -F, '!/^#/ && FNR > 1 && ('"$2"') {print $'"$3"'; exit}' "$1"
 }
 ring() { awk -F, -v k="$1" -v v="$2" -v z="$3" '$1 == k && $2 == v && $3 == z {print $6 " of " $5 ", " $10}' fault_ringing.csv; }
+friction() { value fault_friction.csv "\$1 == \"$1\" && \$2 == $2 && \$3 == $3" "$4"; }
 event() { value fault_event.csv "\$1 == \"standard\" && \$4 == \"$1\" && \$5 == $2" "$3"; }
 {
   cat <<TEXT
@@ -204,6 +218,24 @@ TEXT
   cat <<TEXT
 $(markdown fault_event.csv)
 
+## Fault: friction without a spring
+
+Place & Mora (1999) solve static friction at half steps instead of giving the contact a tangential spring. Tried here in
+a small program that has the same fault without LAMMPS (\`friction_schemes.h\`): impulses at each half step that stop the
+tangential motion of every contact, or as much of it as mu F_n dt can, by projected Gauss-Seidel sweeps until no velocity
+changes by more than 1e-12, beside the tangential spring with the begin of contacts located.
+
+$(remarks fault_friction.csv)
+
+Orders of the displacement: without spring $(order fault_friction.csv '$1 == "rigid" && $3 > 0.002' 3 6), \
+spring kt = 1 $(order fault_friction.csv '$1 == "spring" && $2 == 1 && $3 > 0.002' 3 6). error: against the same law with a much smaller
+step; off_rigid: against no spring with a much smaller step.
+
+![own](fault_friction_own.png)
+![rigid](fault_friction_rigid.png)
+
+$(markdown fault_friction.csv)
+
 ## P-waves
 
 Speed in the triangular lattice and in the random packing against that with a much smaller time step.
@@ -261,6 +293,10 @@ rk4 with located switches reaches $(value slider_event.csv '$1 == "rk4" && $2 ==
 $(event step 0.03 8) to $(event located 0.03 8), that of the displacements from $(event step 0.03 7) to $(event located 0.03 7).
 - Fault: time step 0.06 with located onset has a size error of $(event located 0.06 8) in $(event located 0.06 6) s, \
 0.03 with onset at the step $(event step 0.03 8) in $(event step 0.03 6) s.
+- Fault: friction solved at half steps without a spring takes $(friction rigid 0 0.03 5) sweeps per step and $(friction rigid 0 0.03 4) s at time step 0.03
+  beside $(friction spring 1 0.03 4) s with the spring, but its displacement is off by $(friction rigid 0 0.03 6) beside $(friction spring 1 0.03 6), its event size by
+  $(friction rigid 0 0.03 7) beside $(friction spring 1 0.03 7). Not kept. The spring kt = k itself moves the displacement by $(friction spring 1 0.00375 8) and
+  the size by $(friction spring 1 0.00375 9) away from friction without spring.
 - What rings are small discs at the fault: they hop, are without contact for a large part of the time, and swing at their own
   frequency until viscosity stops them (table "What rings"). Events above 1e-6 shorter than 1.5 among all above 1e-6, and release rate of the
   fastest ruptures: viscosity 0.02 everywhere $(ring 1 0.02 0.02), 0.1 everywhere $(ring 1 0.1 0.1), 0.02 and 0.3 for the discs of the fault zone

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "event_statistics.h"
+#include "friction_schemes.h"
 #include "lsm_catalogue.h"
 #include "lsm_event_picker.h"
 #include "lsm_pe_series.h"
@@ -267,6 +268,173 @@ void single_events() {
                   dt, o.run.seconds, std::sqrt(off / slip), std::fabs(o.size / exact.size - 1.0),
                   ledger, std::fabs(o.arrival - exact.arrival), v.at_fault);
       }
+    }
+  }
+}
+
+// ---- ways of solving friction -------------------------------------------------------------------
+
+/// Rows of numbers of the last snapshot of a dump.
+std::vector<std::vector<double>> dumped(const std::string &file) {
+  std::ifstream in(work(file));
+  std::vector<std::vector<double>> rows;
+  bool inside = false;
+  for (std::string line; std::getline(in, line);) {
+    if (line.rfind("ITEM:", 0) == 0) {
+      inside = line.rfind("ITEM: ATOMS", 0) == 0 || line.rfind("ITEM: ENTRIES", 0) == 0;
+      continue;
+    }
+    std::istringstream split(line);
+    if (inside)
+      rows.emplace_back(std::istream_iterator<double>(split), std::istream_iterator<double>());
+  }
+  if (rows.empty()) throw std::runtime_error(work(file) + ": nothing in it");
+  return rows;
+}
+
+/// The saved state as lmp has it.
+Accuracy::Scene small_fault(const Saved &saved, const Variant &v) {
+  using Accuracy::Side;
+  event_run({{"resume", "yes"},
+             {"state", saved.state},
+             {"steps", "0"},
+             {"listing", "yes"},
+             {"prefix", "list"}});
+  Accuracy::Scene scene;
+  scene.constants = {length, 1.0, v.kt, 0.6, 0.006, 0.001, v.viscosity, v.at_fault};
+  for (const auto &row : dumped("list.discs")) {  // by id
+    constexpr std::array<Side, 7> side = {Side::block,      Side::block, Side::block,
+                                          Side::below,      Side::above, Side::lower_plate,
+                                          Side::upper_plate};
+    Accuracy::Disc d;
+    d.side = side.at(static_cast<std::size_t>(row.at(1)));
+    d.r = row.at(2);
+    d.m = row.at(3);
+    d.x = {row.at(4), row.at(5)};
+    d.v = {row.at(6), row.at(7)};
+    scene.discs.push_back(d);
+  }
+  auto index = [](double id) { return static_cast<int>(id) - 1; };
+  for (const auto &row : dumped("list.links"))
+    scene.links.push_back({index(row.at(0)), index(row.at(1))});
+  for (const auto &row : dumped("list.contacts")) {
+    Accuracy::Contact c;
+    c.i = index(row.at(0));
+    c.j = index(row.at(1));
+    const auto &i = scene.discs.at(static_cast<std::size_t>(c.i)),
+               &j = scene.discs.at(static_cast<std::size_t>(c.j));
+    // the elongation is the same seen from either disc
+    if (i.side == Side::above) std::swap(c.i, c.j);
+    const Accuracy::Vector d =
+        scene.discs[static_cast<std::size_t>(c.i)].x - scene.discs[static_cast<std::size_t>(c.j)].x;
+    c.before = {around(d.x), d.y};
+    c.touches = std::hypot(c.before.x, c.before.y) < i.r + j.r;
+    c.xi = row.at(2);
+    scene.contacts.push_back(c);
+  }
+  return scene;
+}
+
+struct Small {
+  std::vector<Accuracy::Disc> begin, end;
+  double size = 0.0, seconds = 0.0;
+};
+
+/// Steps through the event; its size is the largest that the picker finds.
+template <class Fault>
+Small run_small(Fault &fault, double time, double dt) {
+  LSM::PickerSettings settings;
+  settings.lambda = LSM::lambda_from_memory_time(3.0, dt);
+  LSM::EventPicker picker(settings);
+  Small result;
+  result.begin = fault.discs();
+  LSM::Event e;
+  picker.push(0, 0.0, fault.pe(), e);
+  const auto start = std::chrono::steady_clock::now();
+  const auto steps = static_cast<std::int64_t>(std::round(time / dt));
+  for (std::int64_t n = 1; n <= steps; ++n) {
+    fault.step();
+    if (picker.push(n, static_cast<double>(n) * dt, fault.pe(), e))
+      result.size = std::max(result.size, e.size);
+  }
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.end = fault.discs();
+  return result;
+}
+
+/// Rms distance at the fault between two ends, and of an end from its begin.
+double apart(const std::vector<Accuracy::Disc> &a, const std::vector<Accuracy::Disc> &b) {
+  double sum = 0.0, discs = 0.0;
+  for (std::size_t n = 0; n < a.size(); ++n)
+    if (a[n].side == Accuracy::Side::below || a[n].side == Accuracy::Side::above) {
+      sum += std::pow(around(a[n].x.x - b[n].x.x), 2);
+      discs += 1.0;
+    }
+  return std::sqrt(sum / discs);
+}
+
+void friction_schemes() {
+  const Variant v{"standard", 1.0, 0.02, 0.3};
+  const Saved saved = prepare(v);
+  const Accuracy::Scene state = small_fault(saved, v);
+  Table table("fault_friction.csv",
+              "scheme,kt,dt,seconds,sweeps_per_step,error_profile,error_size,profile_off_rigid,"
+              "size_off_rigid");
+
+  auto spring = [&](double kt, double dt) {
+    Accuracy::Scene scene = state;
+    scene.constants.kt = kt;
+    for (auto &c : scene.contacts) c.xi *= v.kt / kt;  // the same force
+    Accuracy::SpringFault fault(std::move(scene), dt);
+    return run_small(fault, saved.time, dt);
+  };
+  double sweeps = 0.0;
+  auto rigid = [&](double, double dt) {
+    Accuracy::RigidFault fault(state, dt, 1e-12);
+    Small s = run_small(fault, saved.time, dt);
+    sweeps = fault.sweeps_per_step();
+    return s;
+  };
+
+  const Small small = spring(v.kt, 0.03);
+  const Outcome by_lmp = one_event(saved, v, "located", "split", 0.03);
+  double off = 0.0;
+  for (const auto &[id, x] : by_lmp.end)
+    off += std::pow(around(x[0] - small.end.at(static_cast<std::size_t>(id) - 1).x.x), 2);
+  const double finest = quick ? 0.06 / 32 : 0.06 / 64;
+  const Small exact_rigid = rigid(0.0, finest);
+  const double slip = apart(exact_rigid.end, exact_rigid.begin),
+               off_lmp = std::sqrt(off / static_cast<double>(by_lmp.end.size())) / slip;
+  table.row(
+      "# with the spring and time step 0.03 the small program is off lmp by %.2g of the "
+      "displacement "
+      "and %.2g of the event size; displacement %.4g (rms at the fault), size without spring "
+      "%.6g\n",
+      off_lmp, std::fabs(small.size / by_lmp.size - 1.0), slip, exact_rigid.size);
+  if (!(off_lmp < 1e-6))
+    throw std::runtime_error("friction_schemes.h and lmp do not have the same fault");
+
+  struct Way {
+    const char *name;
+    double kt, largest;  // time step, below the stability limit
+    std::function<Small(double, double)> run;
+  };
+  for (const Way &w : {Way{"rigid", 0.0, 0.06, rigid}, Way{"spring", 1.0, 0.06, spring},
+                       Way{"spring", 10.0, 0.03, spring}, Way{"spring", 100.0, 0.0075, spring}}) {
+    if (quick && w.kt > 1.0) break;
+    sweeps = 0.0;
+    const Small exact = w.run(w.kt, finest);
+    for (double dt : {0.06, 0.03, 0.015, 0.0075, 0.00375, finest}) {
+      if (dt > w.largest) continue;
+      Small s;
+      for (int n = 0; n < (dt > 0.01 ? 3 : 1); ++n) {
+        Small again = w.run(w.kt, dt);
+        if (n > 0) again.seconds = std::min(again.seconds, s.seconds);
+        s = std::move(again);
+      }
+      table.row("%s,%g,%g,%.4g,%.1f,%.4g,%.4g,%.4g,%.4g\n", w.name, w.kt, dt, s.seconds, sweeps,
+                apart(s.end, exact.end) / slip, std::fabs(s.size / exact.size - 1.0),
+                apart(s.end, exact_rigid.end) / slip, std::fabs(s.size / exact_rigid.size - 1.0));
     }
   }
 }
@@ -673,11 +841,8 @@ int main(int argc, char **argv) {
   for (int n = 6; n < argc; ++n) mpiexec += std::string(n > 6 ? " " : "") + argv[n];
   try {
     const std::vector<std::pair<const char *, std::function<void()>>> parts = {
-        {"single events", single_events},
-        {"waves", waves},
-        {"long runs", long_runs},
-        {"ringing", ringing},
-        {"sums", sums}};
+        {"single events", single_events}, {"friction", friction_schemes}, {"waves", waves},
+        {"long runs", long_runs},         {"ringing", ringing},           {"sums", sums}};
     for (const auto &[name, part] : parts) {
       const auto start = std::chrono::steady_clock::now();
       part();
