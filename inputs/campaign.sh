@@ -491,7 +491,7 @@ chosen() {
     [[ ${names[i]} =~ $1 ]] || continue
     for file in "$output/${names[i]}"/*catalogue.csv; do
       [ -e "$file" ] || continue
-      label=$(sed -E 's/^slider_kl_/slider 1928, K_l /; s/^slider_(paper|ours)_([0-9]*)_([0-9]*)/slider \2, seed \3/; s/_/ /g' \
+      label=$(sed -E 's/_/ /g; s/^slider kl /slider 1928, K_l /; s/^slider (paper|ours) ([0-9]*) ([0-9]*)/slider \2, seed \3/' \
         <<<"${names[i]}")
       [ "${states[i]}" = done ] || label+=" (unfinished, step ${ats[i]} of ${goals[i]})"
       words+=("$file") labels+=(--label "$label")
@@ -512,6 +512,7 @@ page() {
 figure() {
   local words labels base=$output/figures/$1 name=$1
   chosen "$2" || return 0
+  [ "$name" != fig7_leaf_springs ] || labels=("${labels[@]/seed 1/K_l 0.01}")
   shift 2
   "$bin/postproc" "$1" "${words[@]}" --lenient "${labels[@]}" --output "$base" "${@:2}" >"$base.txt" 2>&1 || {
     say "figure $name: $(tail -n 1 "$base.txt")"

@@ -54,7 +54,7 @@ set linetype cycle 16
 set border lw 1.0 lc rgb "#333333"
 set tics out nomirror
 set grid xtics ytics lt 1 dt 1 lw 0.5 lc rgb "#d8d8d8"
-set key outside bottom center horizontal samplen 3 spacing 1.15 maxcols 2 width -5 Left reverse height 1
+set key outside bottom center horizontal samplen 3 spacing 1.15 maxcols 2 width -3 Left reverse height 1
 )";
 
 /// The reason stands in gnuplot's last line; a file that is missing is only named in a warning.
