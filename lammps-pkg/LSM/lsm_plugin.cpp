@@ -10,6 +10,7 @@
 #include "create_lsm_fault.h"
 #include "include_beside.h"
 #include "fix_lsm_break.h"
+#include "fix_lsm_history.h"
 #include "fix_lsm_nve.h"
 #include "fix_lsm_plates.h"
 #include "fix_lsm_record.h"
@@ -81,6 +82,7 @@ extern "C" void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   styles.add_with_args<Fix, FixLSMPlates>("fix", "lsm/plates", "fix style lsm/plates");
   // Created by the other styles for their own use.
   styles.add_with_args<Fix, FixLSMRecord>("fix", "LSM_RECORD", "fix style LSM_RECORD");
+  styles.add_with_args<Fix, FixLSMHistory>("fix", "LSM_HISTORY", "fix style LSM_HISTORY");
   styles.add_with_args<Fix, FixLSMBreak>("fix", "LSM_BREAK", "fix style LSM_BREAK");
   styles.add_with_args<Compute, ComputeLSMEvents>("compute", "lsm/events",
                                                   "compute style lsm/events");

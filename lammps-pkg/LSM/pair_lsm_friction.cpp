@@ -330,7 +330,7 @@ void PairLSMFriction::init_style()
   if (!fix_history) {
     fix_history = dynamic_cast<FixNeighHistory *>(
         modify->replace_fix("NEIGH_HISTORY_LSM_DUMMY",
-                            id_history + " all NEIGH_HISTORY " + std::to_string(SIZE_HISTORY), 1));
+                            id_history + " all LSM_HISTORY " + std::to_string(SIZE_HISTORY), 1));
     fix_history->pair = this;
   } else {
     fix_history = dynamic_cast<FixNeighHistory *>(modify->get_fix_by_id(id_history));

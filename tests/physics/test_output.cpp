@@ -23,6 +23,27 @@ TEST_F(Output, RunAfterRunEqualsOneRun) {
   }
 }
 
+// Contacts across the borders of ranks and of the box keep their springs.
+TEST_F(Output, RestartFileBetweenRunsChangesNothing) {
+  for (int ranks : {1, 2, 4}) {
+    const std::string start = fault_read() + fault_shear("") + "thermo 500\nrun 2000\n";
+    const Result without = run_text(start + "run 2000\n", {}, ranks);
+    const Result with = run_text(start + "write_restart between.restart\nrun 2000\n", {}, ranks);
+    const Result resumed = run_text(
+        "newton off\natom_style hybrid bond sphere\natom_modify map array\ncomm_modify mode single cutoff 3.6\n"
+        "read_restart between.restart\nneighbor 0.4 bin\nneigh_modify delay 0 every 10 check yes\n" +
+            fault_shear("") + "thermo 500\nrun 2000\n",
+        {}, ranks);
+    ASSERT_TRUE(succeeded(without));
+    ASSERT_TRUE(succeeded(with));
+    ASSERT_TRUE(succeeded(resumed));
+    EXPECT_LT(thermo_difference(without, with, compared), 1e-9) << ranks << " ranks";
+    Result second = without;
+    second.thermo.erase(second.thermo.begin(), second.thermo.end() - 5);
+    EXPECT_LT(thermo_difference(second, resumed, compared), 1e-9) << ranks << " ranks";
+  }
+}
+
 TEST_F(Output, DataFileRoundTrip) {
   const std::string energies = R"(
 fix               move blocks lsm/nve
