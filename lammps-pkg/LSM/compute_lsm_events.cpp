@@ -235,13 +235,19 @@ void ComputeLSMEvents::init()
     }
   }
 
-  if (memory_time > 0.0) {
-    if (update->dt <= 0.0) error->all(FLERR, "Compute lsm/events memory needs a time step > 0");
-    picker_settings.lambda = LSM::lambda_from_memory_time(memory_time, update->dt);
-  }
+  set_memory();
   filling.resize(block);
   sending.resize(block);
   if (comm->me == 0) received.resize(static_cast<size_t>(block) * comm->nprocs);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeLSMEvents::set_memory()
+{
+  if (memory_time <= 0.0) return;
+  if (update->dt <= 0.0) error->all(FLERR, "Compute lsm/events memory needs a time step > 0");
+  picker_settings.lambda = LSM::lambda_from_memory_time(memory_time, update->dt);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -290,7 +296,6 @@ LSM::CatalogueInfo ComputeLSMEvents::header() const
 
 void ComputeLSMEvents::open_files(bigint step)
 {
-  opened = true;
   const bool from_restart = !recorder->restart_state.empty();
   if (resume && !from_restart && comm->me == 0) {
     std::error_code code;
@@ -309,6 +314,8 @@ void ComputeLSMEvents::open_files(bigint step)
   anchor_step = update->atimestep;
   anchor_dt = update->dt;
   if (from_restart) unpack_state(recorder->restart_state);
+  change_dt();
+  opened = true;
   if (comm->me != 0) return;
 
   const std::vector<std::string> free_to_change = {"program", "ranks", "links"};
@@ -366,17 +373,39 @@ double ComputeLSMEvents::local_pe() const
 void ComputeLSMEvents::setup_record()
 {
   if (!opened) open_files(update->ntimestep);
-  if (update->dt != anchor_dt) {
-    anchor_time = time_of(update->ntimestep);
-    anchor_step = update->ntimestep;
-    anchor_dt = update->dt;
-  }
+  change_dt();
   if (ledger && !ledger_started) {
     ledger_start = 0.0;
     ledger_start = residual();
     ledger_started = true;
   }
   if (last_recorded != update->ntimestep) record();
+}
+
+/* ----------------------------------------------------------------------
+   looks whether the time step is another one: times go on from here, and the picker's rate is one per step
+   headers of files hold one time step, so it must not change once they are open
+------------------------------------------------------------------------- */
+
+void ComputeLSMEvents::change_dt()
+{
+  if (update->dt == anchor_dt) return;
+  const std::string &file = catalogue_file.empty() ? series_file : catalogue_file;
+  if (opened && !file.empty())
+    error->all(FLERR,
+               "Compute lsm/events {}: the time step changed from {} to {}, but the header of file {} holds one time "
+               "step; go on from a restart file with other files", id, anchor_dt, update->dt, file);
+  flush();
+  const double ratio = anchor_dt > 0.0 ? update->dt / anchor_dt : 0.0;
+  anchor_time = time_of(update->ntimestep);
+  anchor_step = update->ntimestep;
+  anchor_dt = update->dt;
+  set_memory();
+  if (!picker) return;
+  LSM::PickerState state = picker->state();
+  state.rate *= ratio;
+  picker = std::make_unique<LSM::EventPicker>(picker_settings);
+  picker->set_state(state);
 }
 
 /* ---------------------------------------------------------------------- */

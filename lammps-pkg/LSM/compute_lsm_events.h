@@ -40,6 +40,7 @@ class ComputeLSMEvents : public Compute {
 
   void setup_record();
   void record();
+  void change_dt();
   void flush();
   void check_health();
   std::vector<double> pack_state();
@@ -107,6 +108,7 @@ class ComputeLSMEvents : public Compute {
   bigint last_recorded;
   bool opened;
 
+  void set_memory();
   double time_of(bigint step) const;
   LSM::CatalogueInfo header() const;
   void open_files(bigint step);

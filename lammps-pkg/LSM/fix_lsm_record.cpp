@@ -7,6 +7,7 @@
 #include "comm.h"
 #include "compute_lsm_events.h"
 #include "error.h"
+#include "update.h"
 
 #include <cstring>
 
@@ -51,6 +52,13 @@ void FixLSMRecord::end_of_step()
 void FixLSMRecord::post_run()
 {
   owner->flush();
+}
+
+// within a run; between two runs the next one finds out
+
+void FixLSMRecord::reset_dt()
+{
+  if (update->whichflag) owner->change_dt();
 }
 
 /* ---------------------------------------------------------------------- */

@@ -27,6 +27,7 @@ class FixLSMRecord : public Fix {
   void pre_exchange() override;
   void end_of_step() override;
   void post_run() override;
+  void reset_dt() override;
   void write_restart(FILE *) override;
   void restart(char *) override;
 

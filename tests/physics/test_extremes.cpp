@@ -43,17 +43,9 @@ variable check     index error
 variable failures  index 300
 variable every     index 1       # steps between samples of the PE series
 variable thermo    index 100
-units             lj
-dimension         2
-boundary          p f p
-newton            off
-atom_style        hybrid bond sphere
-atom_modify       map array
-special_bonds     lj/coul 0 1 1
+)" + fault_start() +
+         R"(
 create_lsm_fault  length 16 width 10 seed 5 failures ${failures} rmin ${rmin}
-comm_modify       mode single cutoff 3.6
-neighbor          0.4 bin
-neigh_modify      delay 0 every 10 check yes
 bond_style        lsm/linked
 bond_coeff        1 ${klink}
 pair_style        lsm/friction
@@ -64,9 +56,8 @@ pair_coeff        3 4 ${k} ${kt} ${mu}
 fix               limit blocks lsm/nve
 timestep          1e-9
 run               0
-variable          dt equal $(v_part*f_limit[2]:%.17g)
+timestep          $(v_part*f_limit[2]:%.15g)
 unfix             limit
-timestep          ${dt}
 compute           guard all lsm/events check 10
 fix               press blocks lsm/nve viscosity 0.2 dtcheck ${check}
 fix               hold all lsm/plates lower upper stress ${stress} stressramp ${ramp} damping 0.2
@@ -227,17 +218,9 @@ namespace {
 
 /// Single discs of radius 1 and mass 1 in a box that is periodic along x.
 std::string single_discs(const std::string &atoms) {
-  return R"(
-units             lj
-dimension         2
-boundary          p f p
-newton            off
-atom_style        hybrid bond sphere
-atom_modify       map array
-special_bonds     lj/coul 0 1 1
-comm_modify       mode single cutoff 3.6
-neighbor          0.4 bin
-neigh_modify      delay 0 every 1 check yes
+  return fault_start() +
+         R"(
+neigh_modify      every 1
 region            box block 0 10 -6 6 -0.5 0.5
 create_box        1 box bond/types 1 extra/bond/per/atom 2 extra/special/per/atom 4
 )" + atoms +

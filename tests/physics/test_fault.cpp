@@ -123,6 +123,85 @@ TEST_F(Restart, EqualsTheUninterruptedRun) {
   }
 }
 
+static std::string sheared_state(const std::string &dt, const std::string &events) {
+  return "newton off\natom_style hybrid bond sphere\natom_modify map array\n"
+         "comm_modify mode single cutoff 3.6\nread_restart ${state}\ntimestep " + dt + "\n"
+         "neighbor 0.4 bin\nneigh_modify delay 0 every 10 check yes\n" + fault_shear(events);
+}
+
+// A is the change of PE per step, so half a time step means half an A.
+TEST_F(Restart, PickerFollowsTheTimeStep) {
+  for (int ranks : {1, 2})
+    for (const char *memory : {"lambda 0.99", "memory 3.0"}) {
+      SCOPED_TRACE(std::to_string(ranks) + " ranks, " + memory);
+      const Variables variables = {{"state", "slow.2000"}};
+      for (const char *name : {"fast.csv", "fast.pe"}) std::filesystem::remove(path(name));
+      const Result before = run_text(fault_read() + fault_shear(std::string("catalogue slow.csv ") + memory) +
+                                         "thermo 1000\nrestart 2000 slow.*\nrun 2000\n",
+                                     {}, ranks);
+      ASSERT_TRUE(succeeded(before));
+      const double rate = before.last("c_events[3]");
+      ASSERT_NE(rate, 0.0);
+
+      const bool by_time = std::string(memory) == "memory 3.0";
+      const double lambda = by_time ? std::exp(-0.015 / 3.0) : 0.99;
+      const Result resumed =
+          run_text(sheared_state("0.015", std::string("resume yes catalogue fast.csv series fast.pe text ") + memory) +
+                       "thermo 1\nrun 4000\n",
+                   variables, ranks);
+      ASSERT_TRUE(succeeded(resumed));
+      const Result between =
+          run_text(sheared_state("0.03", memory) + "thermo 1\nrun 0\ntimestep 0.015\nrun 1\n", variables, ranks);
+      ASSERT_TRUE(succeeded(between));
+      ASSERT_EQ(between.thermo.size(), 3u);
+      EXPECT_EQ(between.thermo[0].at("c_events[3]"), rate);
+      EXPECT_EQ(between.thermo[1].at("c_events[3]"), 0.5 * rate);
+      EXPECT_EQ(resumed.thermo[0].at("c_events[3]"), 0.5 * rate);
+      for (const auto &[first, second] : {std::pair(resumed.thermo[0], resumed.thermo[1]),
+                                          std::pair(between.thermo[1], between.thermo[2])})
+        EXPECT_NEAR(second.at("c_events[3]"),
+                    lambda * 0.5 * rate + (1.0 - lambda) * (second.at("c_events[5]") - first.at("c_events[5]")),
+                    1e-9 * std::fabs(rate));
+
+      // times go on from 60, and so do the numbers of the events
+      const double old_events = before.last("c_events");
+      const auto fast = LSM::read_catalogue(path("fast.csv"));
+      ASSERT_GT(fast.events.size(), 1u);
+      EXPECT_EQ(static_cast<double>(fast.events[0].id), old_events + 1.0);
+      EXPECT_NEAR(std::stod(*fast.info.find("dt")), 0.015, 1e-15);
+      EXPECT_NEAR(std::stod(*fast.info.find("lambda")), lambda, 1e-15);
+      for (const auto &e : fast.events)
+        EXPECT_NEAR(e.t_end, 60.0 + 0.015 * static_cast<double>(e.step_end - 2000), 1e-9);
+      LSM::PeSeriesReader series(path("fast.pe"));
+      std::int64_t step = 0;
+      double time = 0, pe = 0;
+      ASSERT_TRUE(series.next(step, time, pe));
+      EXPECT_EQ(step, 2001);
+      EXPECT_NEAR(time, 60.015, 1e-12);
+    }
+}
+
+// The header of a file holds one time step.
+TEST_F(Restart, TimeStepOfOpenFilesIsKept) {
+  const std::string shear = fault_read() + fault_shear("${files}") + "thermo 100\nrun 200\n";
+  for (const char *files : {"catalogue one.csv", "series one.pe binary"})
+    for (const char *change : {"timestep 0.015\nrun 200\n", "fix adapt all dt/reset 10 NULL NULL 1e-6\nrun 200\n"}) {
+      SCOPED_TRACE(std::string(files) + ", " + change);
+      for (int ranks : {1, 2})
+        EXPECT_TRUE(failed_with(run_text(shear + change, {{"files", files}}, ranks), {"time step", "from 0.03 to", "one."}));
+    }
+
+  const Variables variables = {{"state", "one.restart"}};
+  ASSERT_TRUE(succeeded(run_text(shear + "write_restart one.restart\n",
+                                 {{"files", "catalogue one.csv series one.pe binary"}})));
+  const std::string catalogue = read_file(path("one.csv")), series = read_file(path("one.pe"));
+  for (const char *files : {"catalogue one.csv", "series one.pe binary"})
+    EXPECT_TRUE(failed_with(run_text(sheared_state("0.015", std::string("resume yes ") + files) + "run 100\n", variables),
+                            {"one.", "'dt' is '0.0299", "expected '0.0149"}));
+  EXPECT_TRUE(read_file(path("one.csv")) == catalogue);
+  EXPECT_TRUE(read_file(path("one.pe")) == series);
+}
+
 TEST_F(Events, PickedOnlineEqualThosePickedLater) {
   for (int ranks : {1, 2})
     for (const char *picker : {"exponential", "average", "literal"})
