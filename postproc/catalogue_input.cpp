@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -61,7 +62,8 @@ double EventTable::length() const {
 }
 
 double EventTable::share_in_events() const {
-  return t_start.empty() ? std::nan("") : in_events / (last_end - t_start.front());
+  if (t_start.empty() || info.overlapping()) return std::nan("");
+  return in_events / (last_end - t_start.front());
 }
 
 namespace {
@@ -71,6 +73,15 @@ std::string label_of(const EventTable &table) {
   if (std::isnan(length)) return std::filesystem::path(table.path).stem().string();
   return table.info.model == "lsm" ? fmt::format("fault, length {}", length)
                                    : fmt::format("block-slider, N = {}", length);
+}
+
+// Times between events are reckoned from start to start, but ruptures come in order of their ends.
+void sort_by_start(EventTable &table) {
+  std::vector<std::pair<double, double>> rows(table.size.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = {table.t_start[i], table.size[i]};
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const auto &a, const auto &b) { return a.first < b.first; });
+  for (std::size_t i = 0; i < rows.size(); ++i) std::tie(table.t_start[i], table.size[i]) = rows[i];
 }
 
 }  // namespace
@@ -123,6 +134,7 @@ EventTable load_catalogue(const std::string &path, const CatalogueOptions &optio
   });
   table.t_start = std::move(columns.t_start);
   table.size = std::move(columns.size);
+  if (table.info.overlapping()) sort_by_start(table);
   return table;
 }
 

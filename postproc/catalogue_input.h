@@ -32,9 +32,9 @@ struct CatalogueOptions {
 struct EventTable {
   std::string path, label;
   CatalogueInfo info;
-  std::vector<double> t_start, size;
-  double in_events = 0.0;  ///< sum of the durations (model time)
-  double last_end = 0.0;   ///< t_end of the last event (model time)
+  std::vector<double> t_start, size;  ///< in order of t_start
+  double in_events = 0.0;             ///< sum of the durations (model time)
+  double last_end = 0.0;              ///< t_end of the last event (model time)
   /// Smaller events are missing: --min-size, or the picker's min_size in the header (energy).
   double complete_from = 0.0;
   std::int64_t skipped_lines = 0;    ///< bad lines passed over (lenient)
@@ -45,7 +45,8 @@ struct EventTable {
   /// Fault length, or the number of blocks of a chain, from the header; NaN if it has neither.
   double length() const;
 
-  /// Part of the time from the first start to the last end that lies within events; NaN if none.
+  /// Part of the time from the first start to the last end that lies within events; NaN if there is
+  /// none, or events may overlap (`events = ruptures`).
   /// Ruptures at the same time at different places are one drop of the PE of the whole model, and
   /// so one event: the longer the model, the larger this part and the more events are joined.
   double share_in_events() const;

@@ -20,6 +20,7 @@
 #include <new>
 #include <queue>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -117,9 +118,18 @@ class Chain {
   std::vector<double> velocities() const { return {view_.v, view_.v + p_.blocks}; }
 
   /// One time step.
-  void advance() {
+  void advance() { advance(Unwatched()); }
+
+  /// One time step, the same to the last digit; watch learns which blocks slid in it, in ascending
+  /// order, and the work of the springs on each of them, (F_old + F_new) du / 2 (see
+  /// RuptureTracker).
+  template <class Watch>
+  void advance(Watch &&watch) {
+    constexpr bool watches = std::decay_t<Watch>::watches;
     const double loading_old = loading();
+    [[maybe_unused]] const double pe_old = pe_value_;
     if (!list_.empty()) {
+      if constexpr (watches) keep_forces();
       sums_ = function_(view_, list_.data(), static_cast<int>(list_.size()),
                         plate_step_ * static_cast<double>(step_ + 1), hot_.data());
     } else {
@@ -139,6 +149,10 @@ class Chain {
       pe_value_ = pe_.value();
     }
     moved_ += sums_.hot;
+    if constexpr (watches) {
+      watch.begin_step(step_, pe_old);
+      if (quiet_since_ < 0) tell(watch);
+    }
     if (!dense_) update_list();
   }
 
@@ -214,6 +228,32 @@ class Chain {
   }
 
  private:
+  struct Unwatched {
+    static constexpr bool watches = false;
+  };
+
+  // The kernel replaces the forces that the work is reckoned with.
+  void keep_forces() {
+    old_force_.resize(list_.size() * chunk_size);
+    double *to = old_force_.data();
+    for (const std::int32_t c : list_) {
+      const double *from = view_.force + static_cast<std::int64_t>(c) * chunk_size;
+      to = std::copy(from, from + chunk_size, to);
+    }
+  }
+
+  template <class Watch>
+  void tell(Watch &watch) const {
+    const double *old = old_force_.data();
+    for (const std::int32_t c : list_) {
+      const int first = c * chunk_size;
+      for (int l = 0; l < chunk_size; ++l, ++old) {
+        const double slip = view_.du[first + l];
+        if (slip != 0.0) watch.slide(first + l, 0.5 * (*old + view_.force[first + l]) * slip, slip);
+      }
+    }
+  }
+
   double blocks() const { return static_cast<double>(p_.blocks); }
   double loading(std::int64_t at) const {
     return blocks() * (plate_step_ * static_cast<double>(at)) - slip_.value();
@@ -409,6 +449,7 @@ class Chain {
   int chunks_ = 0;
   std::uint8_t last_edge_ = 0;
   std::vector<double, LineAllocator<double>> u_, v_, force_, du_, mu_;
+  std::vector<double> old_force_;  // of the listed chunks, if someone watches
   ChainView view_;
   std::int64_t step_ = 0;
   LSM::NeumaierSum slip_, pe_;

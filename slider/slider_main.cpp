@@ -34,19 +34,21 @@ const char *const description =
     "1e7 steps, schemes of Eqs. 7 and 8 (--scheme printed), lambda = 0.99. Ours: the other "
     "schemes,\n"
     "the time step (the paper gives none), the reading 'exponential' of the event picker, "
-    "warm-up.\n"
+    "warm-up,\n"
+    "ruptures as another kind of events (--events ruptures).\n"
     "The sign of friction in Eq. 5 is read so that friction resists motion.";
 
 struct Settings {
   Slider::RunOptions run;
   std::string scheme = "verlet", kernel = "active", isa = "auto", picker = "exponential";
+  std::string events = "pe";
   double steps = 1e7, time = 1e5;
   double lambda = 0.99, memory_steps = 100.0, memory_time = 1.0;
   std::vector<double> friction = {0.5, 1.0};
   std::string friction_file;
   std::uint64_t seed = 1;
   std::string columns, series_format = "text", summary, ensemble;
-  double stride = 1, interval = 1e6;
+  double stride = 1, interval = 1e6, rupture_gap = 0.0;
   unsigned threads = 0;
   bool paper = false, force = false, fresh_catalogue = true;
 };
@@ -127,6 +129,17 @@ Settings parse(std::vector<std::string> arguments) {
       ->group(how);
 
   const std::string events = "Events";
+  app.add_option("--events", s.events,
+                 "What an event is: pe, a drop of the PE of the whole chain (paper); ruptures, a "
+                 "set of sliding blocks connected in space and time (ours): each is local, so "
+                 "those far apart stay apart in long chains, and events can overlap. Their size is "
+                 "the work of the springs on the blocks; they are written in the order in which "
+                 "they end; the options of the picker have no effect on them")
+      ->group(events);
+  auto *gap = app.add_option("--rupture-gap", s.rupture_gap,
+                             "With --events ruptures: time for which a block at rest still "
+                             "connects, beyond the one time step that forces take (time; ours)");
+  gap->group(events);
   app.add_option("--picker", s.picker,
                  "Reading of the smoothed change of PE: exponential, average (ours), literal")
       ->excludes(paper)
@@ -212,6 +225,7 @@ Settings parse(std::vector<std::string> arguments) {
   };
   choice("--scheme", s.scheme, p.scheme, "printed, semi-implicit, verlet, rk4 or reference");
   choice("--isa", s.isa, s.run.isa, "auto, avx512, avx2 or x86-64");
+  choice("--events", s.events, s.run.events, "pe or ruptures");
   choice("--picker", s.picker, s.run.picker.reading, "exponential, average or literal");
   if (s.kernel == "active")
     s.run.kernel = Slider::Kernel::active;
@@ -222,6 +236,7 @@ Settings parse(std::vector<std::string> arguments) {
   else
     throw std::invalid_argument("--kernel = '" + s.kernel + "', expected active, dense or scalar");
   Slider::check(p, s.force);
+  Slider::check_events(s.run);
   Slider::resolve(s.run.isa);
 
   if (steps->count() > 0 || s.paper) {
@@ -257,6 +272,14 @@ Settings parse(std::vector<std::string> arguments) {
   if (!(s.run.warmup >= 0.0) || !std::isfinite(s.run.warmup))
     throw std::invalid_argument("--warmup = " + number(s.run.warmup) +
                                 ", expected a finite number >= 0");
+  const bool ruptures = s.run.events == Slider::Events::ruptures;
+  if (gap->count() > 0 && !ruptures)
+    throw std::invalid_argument("--rupture-gap needs --events ruptures");
+  const double gap_steps = std::round(s.rupture_gap / p.dt);
+  if (!(s.rupture_gap >= 0.0) || !(gap_steps < 1e15))
+    throw std::invalid_argument("--rupture-gap = " + number(s.rupture_gap) +
+                                ", expected a number >= 0 and less than 1e15 time steps");
+  s.run.rupture_memory = 1 + static_cast<std::int64_t>(gap_steps);
   s.run.series_stride = whole("--pe-stride", s.stride, 1);
   s.run.checkpoint_interval = whole("--checkpoint-interval", s.interval, 0);
   if (s.series_format != "text" && s.series_format != "binary")
@@ -312,8 +335,13 @@ Settings parse(std::vector<std::string> arguments) {
   h.emplace_back("scheme", Slider::to_string(p.scheme));
   h.emplace_back("dt", number(p.dt));
   h.emplace_back("steps", std::to_string(s.run.steps));
-  h.emplace_back("picker", LSM::to_string(s.run.picker.reading));
-  h.emplace_back("lambda", number(s.run.picker.lambda));
+  if (ruptures) {
+    h.emplace_back("events", "ruptures");
+    h.emplace_back("rupture_gap", number(s.rupture_gap));
+  } else {
+    h.emplace_back("picker", LSM::to_string(s.run.picker.reading));
+    h.emplace_back("lambda", number(s.run.picker.lambda));
+  }
   h.emplace_back("min_size", number(s.run.picker.min_size));
   h.emplace_back("keep_nonpositive", s.run.picker.keep_nonpositive ? "yes" : "no");
   h.emplace_back("warmup", number(s.run.warmup));

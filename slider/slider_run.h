@@ -27,6 +27,7 @@
 #include "slider_chain.h"
 #include "slider_kernels.h"
 #include "slider_parameters.h"
+#include "slider_ruptures.h"
 #include "slider_scalar.h"
 #include "slider_switching.h"
 
@@ -38,12 +39,24 @@ inline const char *to_string(Kernel kernel) {
   return kernel == Kernel::active ? "active" : kernel == Kernel::dense ? "dense" : "scalar";
 }
 
+/// What an event is: a drop of the PE of the whole chain (paper), or a connected set of sliding
+/// blocks (ours, see slider_ruptures.h).
+enum class Events { pe, ruptures };
+inline const char *to_string(Events events) { return events == Events::pe ? "pe" : "ruptures"; }
+inline bool from_string(const std::string &name, Events &events) {
+  if (name != "pe" && name != "ruptures") return false;
+  events = name == "pe" ? Events::pe : Events::ruptures;
+  return true;
+}
+
 struct RunOptions {
   Parameters parameters;
   std::vector<double> mu;  ///< one per block
   std::int64_t steps = 0;
-  LSM::PickerSettings picker;
-  double warmup = 0.0;  ///< events that start before this time are not written
+  Events events = Events::pe;
+  LSM::PickerSettings picker;       ///< for ruptures, only the sizes that are written
+  std::int64_t rupture_memory = 1;  ///< steps over which slips are connected, at least 1
+  double warmup = 0.0;              ///< events that start before this time are not written
   Kernel kernel = Kernel::active;
   InstructionSet isa = InstructionSet::automatic;
   std::string catalogue;  ///< empty: none
@@ -72,6 +85,18 @@ struct RunResult {
   int interrupted = 0;  ///< signal number, or 0
 };
 
+/// \throws std::invalid_argument with one line for ruptures where nobody tells which block slides.
+inline void check_events(const RunOptions &o) {
+  if (o.events != Events::ruptures) return;
+  if (o.parameters.scheme == Scheme::rk4 || o.parameters.scheme == Scheme::reference)
+    throw std::invalid_argument(std::string("--events = ruptures with --scheme ") +
+                                to_string(o.parameters.scheme) +
+                                ", expected the scheme printed, semi-implicit or verlet");
+  if (o.kernel == Kernel::scalar)
+    throw std::invalid_argument(
+        "--events = ruptures with --kernel scalar, expected the kernel active or dense");
+}
+
 /// Finds out early whether an output can be written; an empty path is none.
 /// \throws std::runtime_error naming file and option
 inline void probe(const std::string &path, const std::string &option) {
@@ -93,6 +118,8 @@ struct RunState {
   std::int64_t events = 0, before_warmup = 0;
   double slip_start = 0.0, largest = 0.0;
   std::vector<double> u_start;
+  RuptureState ruptures;
+  bool with_ruptures = false;  ///< otherwise a checkpoint has none
 };
 
 class ByteWriter {
@@ -103,9 +130,10 @@ class ByteWriter {
     const char *p = reinterpret_cast<const char *>(&value);
     bytes.append(p, sizeof value);
   }
-  void put(const std::vector<double> &a) {
+  template <class T>
+  void put(const std::vector<T> &a) {
     put(static_cast<std::uint64_t>(a.size()));
-    bytes.append(reinterpret_cast<const char *>(a.data()), a.size() * sizeof(double));
+    bytes.append(reinterpret_cast<const char *>(a.data()), a.size() * sizeof(T));
   }
   void put(const std::string &a) {
     put(static_cast<std::uint64_t>(a.size()));
@@ -121,9 +149,11 @@ class ByteReader {
   void get(T &value) {
     std::memcpy(&value, take(sizeof value), sizeof value);
   }
-  void get(std::vector<double> &a) {
-    a.resize(count(sizeof(double)));
-    const std::size_t size = a.size() * sizeof(double);
+  template <class T>
+  void get(std::vector<T> &a) {
+    static_assert(std::is_trivially_copyable<T>::value, "plain data only");
+    a.resize(count(sizeof(T)));
+    const std::size_t size = a.size() * sizeof(T);
     const char *from = take(size);
     if (size) std::memcpy(a.data(), from, size);
   }
@@ -184,6 +214,10 @@ void archive(Archive &&each, State &s) {
   each(s.slip_start);
   each(s.largest);
   each(s.u_start);
+  if (s.with_ruptures) {
+    each(s.ruptures.open);
+    each(s.ruptures.recent);
+  }
 }
 
 /// Replaces the file in one go, so that there is a whole checkpoint at any moment.
@@ -209,7 +243,8 @@ inline void write_checkpoint(const std::string &path, const std::string &print,
   }
 }
 
-inline RunState read_checkpoint(const std::string &path, const std::string &print) {
+inline RunState read_checkpoint(const std::string &path, const std::string &print,
+                                bool with_ruptures) {
   std::ifstream in(path, std::ios::binary);
   if (!in)
     throw std::runtime_error(path + ": cannot be read, expected a checkpoint to resume from");
@@ -225,6 +260,7 @@ inline RunState read_checkpoint(const std::string &path, const std::string &prin
   if (checksum(all) != sum) throw damaged;
   std::string found;
   RunState state;
+  state.with_ruptures = with_ruptures;
   try {
     ByteReader reader(all);
     reader.get(found);
@@ -251,13 +287,18 @@ inline RunState read_checkpoint(const std::string &path, const std::string &prin
   return state;
 }
 
-template <class C>
+template <Events events, class C>
 RunResult run(const RunOptions &o, C &chain) {
+  constexpr bool ruptures = events == Events::ruptures;
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
   const double dt = o.parameters.dt;
   LSM::EventPicker picker(o.picker);
+  // The sizes dropped are counted where the picker does, for checkpoints.
+  LSM::PickerState counts;
+  RuptureTracker tracker(ruptures ? o.parameters.blocks : 1, o.rupture_memory, o.x_centroid);
   RunState state;
+  state.with_ruptures = ruptures;
   RunResult result;
   // The straightforward loop keeps none of the sums that the others go on from.
   const std::string print =
@@ -288,14 +329,18 @@ RunResult run(const RunOptions &o, C &chain) {
   LSM::CatalogueWriter catalogue;
   LSM::PeSeriesWriter series;
   if (o.resume) {
-    state = read_checkpoint(o.checkpoint, print);
+    state = read_checkpoint(o.checkpoint, print, ruptures);
     chain.set_state(state.chain);
     picker.set_state(state.picker);
+    counts = state.picker;
+    if (ruptures) tracker.set_state(state.ruptures, chain.step());
   }
   if (o.resume) {
-    // An event that ended with the checkpoint's last sample is found by the sample after it.
+    // An event that ended with the checkpoint's last sample is found by the sample after it, a
+    // rupture when its memory is over.
+    const std::int64_t late = ruptures ? o.rupture_memory : 1;
     if (!o.catalogue.empty())
-      catalogue.resume(o.catalogue, info, chain.step() - 1, {}, state.events);
+      catalogue.resume(o.catalogue, info, chain.step() - late, {}, state.events);
     if (!o.series.empty()) series.resume(o.series, series_info, o.series_binary, chain.step());
   } else {
     if (!o.catalogue.empty()) catalogue.create(o.catalogue, info);
@@ -311,7 +356,8 @@ RunResult run(const RunOptions &o, C &chain) {
   auto save = [&] {
     if (series.is_open()) series.flush();
     state.chain = chain.state();
-    state.picker = picker.state();
+    state.picker = ruptures ? counts : picker.state();
+    if (ruptures) state.ruptures = tracker.state();
     write_checkpoint(o.checkpoint, print, state);
   };
   const bool checkpoints = !o.checkpoint.empty();
@@ -348,6 +394,43 @@ RunResult run(const RunOptions &o, C &chain) {
     if (catalogue.is_open()) catalogue.write(event);
   };
 
+  auto finish_rupture = [&](const Rupture &rupture) {
+    LSM::Event e = tracker.event(rupture, dt);
+    if (!(e.size > 0.0)) {
+      if (!o.picker.keep_nonpositive) {
+        ++counts.dropped_nonpositive;
+        return;
+      }
+    } else if (e.size < o.picker.min_size) {
+      ++counts.dropped_small;
+      return;
+    }
+    if (e.t_start < o.warmup) {
+      ++state.before_warmup;
+      return;
+    }
+    e.id = ++state.events;
+    state.largest = std::max(state.largest, e.size);
+    if (catalogue.is_open()) catalogue.write(e);
+  };
+  // One step, or several in which nothing slides.
+  [[maybe_unused]] auto advance_ruptures = [&]([[maybe_unused]] std::int64_t limit) {
+    if constexpr (ruptures) {
+      if (tracker.idle() && chain.quiet_until() > chain.step() + 1) {
+        std::int64_t to = std::min(chain.quiet_until(), limit);
+        if (series.is_open()) to = std::min(to, next_multiple(o.series_stride));
+        result.jumped += to - chain.step() - 1;
+        chain.jump(to);
+        return;
+      }
+      chain.advance(tracker);
+      if (!std::isfinite(chain.dpe()) || !std::isfinite(chain.pe()))
+        throw std::runtime_error("potential energy at step " + std::to_string(chain.step()) +
+                                 " is not a finite number");
+      tracker.end_step(chain.pe(), finish_rupture);
+    }
+  };
+
   Clock::time_point reported = begin;
   LSM::Event event;
   const std::int64_t look = std::max<std::int64_t>(16, 200000 / (o.parameters.blocks + 100));
@@ -357,6 +440,12 @@ RunResult run(const RunOptions &o, C &chain) {
     const std::int64_t pause = std::min(limit, chain.step() + look);
     bool in_event = picker.in_event();
     while (chain.step() < pause) {
+      if constexpr (ruptures) {
+        advance_ruptures(limit);
+        if (series.is_open() && chain.step() % o.series_stride == 0)
+          series.write(chain.step(), chain.pe());
+        continue;
+      }
       if (!in_event && chain.quiet_until() > chain.step() + replay) {
         // Nothing slips: the plate alone changes PE, and as long as it raises PE no event can
         // commence. With an event open the steps are taken one by one.
@@ -412,8 +501,9 @@ RunResult run(const RunOptions &o, C &chain) {
   result.steps = chain.step();
   result.events = state.events;
   result.before_warmup = state.before_warmup;
-  result.dropped_nonpositive = picker.dropped_nonpositive();
-  result.dropped_small = picker.dropped_small();
+  const LSM::PickerState &counted = ruptures ? counts : picker.state();
+  result.dropped_nonpositive = counted.dropped_nonpositive;
+  result.dropped_small = counted.dropped_small;
   result.moved = chain.moved();
   result.pe = chain.pe();
   result.pe_direct = direct_energy(o.parameters, chain.displacements(),
@@ -429,16 +519,18 @@ RunResult run(const RunOptions &o, C &chain) {
 /// Runs, or goes on with, one chain. \throws std::exception with one line on bad input or output.
 inline RunResult run(const RunOptions &o) {
   const Parameters &p = o.parameters;
+  check_events(o);
   if (p.scheme == Scheme::rk4 || p.scheme == Scheme::reference) {
     SwitchingChain chain(p, o.mu);
-    return detail::run(o, chain);
+    return detail::run<Events::pe>(o, chain);
   }
   if (o.kernel == Kernel::scalar) {
     ScalarChain chain(p, o.mu);
-    return detail::run(o, chain);
+    return detail::run<Events::pe>(o, chain);
   }
   Chain chain(p, o.mu, o.kernel == Kernel::dense, o.isa);
-  return detail::run(o, chain);
+  return o.events == Events::ruptures ? detail::run<Events::ruptures>(o, chain)
+                                      : detail::run<Events::pe>(o, chain);
 }
 
 }  // namespace Slider

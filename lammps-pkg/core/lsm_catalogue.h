@@ -8,7 +8,8 @@
 ///     event_id,t_start,t_end,step_start,step_end,size,pe_start,pe_end[,slip_moment][,x_centroid]...
 ///
 /// Times in model time, sizes in model energy, 17 significant digits. Events are in order of time
-/// and do not overlap; identifiers increase. (The format is ours.)
+/// and do not overlap; identifiers increase. With the parameter `events = ruptures`, events are
+/// local: they may overlap in time, and are in order of their ends. (The format is ours.)
 #ifndef LSM_CATALOGUE_H
 #define LSM_CATALOGUE_H
 
@@ -43,6 +44,12 @@ struct CatalogueInfo {
 
   /// Value of a parameter, or nullptr.
   const std::string *find(std::string_view key) const { return text_io::find(parameters, key); }
+
+  /// Whether events may overlap in time; they are in order of their ends then.
+  bool overlapping() const {
+    const std::string *events = find("events");
+    return events && *events == "ruptures";
+  }
 };
 
 namespace catalogue_detail {
@@ -103,7 +110,7 @@ inline std::string not_finite(const Event &event) {
 }
 
 /// What forbids an event of finite numbers to follow the event before (nullptr: none), or "".
-inline std::string out_of_order(const Event &event, const Event *before) {
+inline std::string out_of_order(const Event &event, const Event *before, bool overlapping) {
   if (event.t_end < event.t_start)
     return "t_end " + text_io::number(event.t_end) + " is before t_start " +
            text_io::number(event.t_start) + ", expected t_end >= t_start";
@@ -114,6 +121,14 @@ inline std::string out_of_order(const Event &event, const Event *before) {
   if (event.id <= before->id)
     return "event_id " + text_io::number(event.id) + " after event_id " +
            text_io::number(before->id) + ", expected increasing event_id";
+  if (overlapping) {
+    if (event.t_end < before->t_end || event.step_end < before->step_end)
+      return "end at t_end " + text_io::number(event.t_end) + ", step_end " +
+             text_io::number(event.step_end) + " is before the end of the previous event " +
+             text_io::number(before->t_end) + ", " + text_io::number(before->step_end) +
+             ", expected ruptures in order of their ends";
+    return {};
+  }
   if (event.t_start < before->t_end)
     return "t_start " + text_io::number(event.t_start) +
            " is before the end of the previous event " + text_io::number(before->t_end) +
@@ -165,7 +180,7 @@ class CatalogueReader {
         continue;
       }
       const std::string problem =
-          catalogue_detail::out_of_order(candidate, has_last_ ? &last_ : nullptr);
+          catalogue_detail::out_of_order(candidate, has_last_ ? &last_ : nullptr, overlapping_);
       if (!problem.empty()) {
         report(order, problem);
         continue;
@@ -284,6 +299,7 @@ class CatalogueReader {
       *flags[candidate - required] = true;
     }
     columns_ = columns_of(info_);
+    overlapping_ = info_.overlapping();
   }
 
   /// Numbers of line_ into event; false if they are not what the columns ask for.
@@ -335,6 +351,7 @@ class CatalogueReader {
   bool lenient_ = false;
   bool resuming_ = false;  // a torn last line ends the file quietly
   CatalogueInfo info_;
+  bool overlapping_ = false;
   std::vector<catalogue_detail::Column> columns_;
   std::string_view line_;                 // valid until the next one is read
   std::vector<std::string_view> fields_;  // views into line_
@@ -381,6 +398,7 @@ class CatalogueWriter {
     text += '\n';
     file_.create(path, text);
     columns_ = catalogue_detail::columns_of(info);
+    overlapping_ = info.overlapping();
     has_last_ = false;
     rows_ = 0;
   }
@@ -411,7 +429,7 @@ class CatalogueWriter {
     std::int64_t kept = 0;
     std::int64_t length = reader.reader_.end();
     Event event, last;
-    // Events are in order, so the first one to drop is where the file is cut.
+    // Events are in order of their ends, so the first one to drop is where the file is cut.
     while (reader.next(event) && event.step_end <= last_step) {
       last = event;
       ++kept;
@@ -422,6 +440,7 @@ class CatalogueWriter {
                            " events up to the checkpoint, expected " + std::to_string(expected));
     file_.append(path, length);
     columns_ = catalogue_detail::columns_of(info);
+    overlapping_ = info.overlapping();
     last_ = last;
     has_last_ = kept > 0;
     rows_ = kept;
@@ -434,7 +453,7 @@ class CatalogueWriter {
   void write(const Event &event) {
     std::string problem = catalogue_detail::not_finite(event);
     if (problem.empty())
-      problem = catalogue_detail::out_of_order(event, has_last_ ? &last_ : nullptr);
+      problem = catalogue_detail::out_of_order(event, has_last_ ? &last_ : nullptr, overlapping_);
     if (!problem.empty())
       throw CatalogueError(file_.path() + ": cannot write event " + text_io::number(event.id) +
                            ": " + problem);
@@ -462,6 +481,7 @@ class CatalogueWriter {
 
  private:
   text_io::OutputFile<CatalogueError> file_;
+  bool overlapping_ = false;
   std::vector<catalogue_detail::Column> columns_;
   Event last_;
   bool has_last_ = false;

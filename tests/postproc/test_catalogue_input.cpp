@@ -46,6 +46,19 @@ const std::string good =
     "3,5,6,50,60,0.25,1,0.75\n"
     "4,7,8,70,80,-0.125,1,1.125\n";
 
+TEST_F(CatalogueInput, RupturesAreSortedByTheirStarts) {
+  const std::string rows =
+      "1,2,3,20,30,0.5,1,0.5\n"
+      "2,2.5,3,25,30,0.25,1,1\n"
+      "3,1,4,10,40,0.125,1,0.75\n";
+  const EventTable table =
+      load_catalogue(file(rows, "events = ruptures", "block-slider"), CatalogueOptions());
+  EXPECT_EQ(table.t_start, (std::vector<double>{1, 2, 2.5}));
+  EXPECT_EQ(table.size, (std::vector<double>{0.125, 0.5, 0.25}));
+  EXPECT_EQ(table.last_end, 4.0);
+  EXPECT_TRUE(std::isnan(table.share_in_events()));
+}
+
 TEST_F(CatalogueInput, ColumnsOfTheEventsChosen) {
   const std::string name = file(good);
   EventTable all = load_catalogue(name, [] {

@@ -208,6 +208,84 @@ config)
   must_run "${short[@]}" --steps 300000 --catalogue b.csv
   same a.csv b.csv 5
   ;;
+ruptures)
+  # The same motion: PE and the state of the chain do not depend on the kind of events.
+  must_run "${short[@]}" --steps 300000 --catalogue pe.csv --pe-series pe.pe --pe-stride 3
+  must_run "${short[@]}" --steps 300000 --events ruptures --catalogue r.csv --pe-series r.pe \
+    --pe-stride 3
+  cmp <(grep -v '^#' pe.pe) <(grep -v '^#' r.pe) || fail "the kind of events changes PE"
+  grep -q '^# events = ruptures$' r.csv || fail "no kind of events in the header"
+  grep -q '^# rupture_gap = 0$' r.csv || fail "no gap in the header"
+  grep -q '^# events\|^# rupture' pe.csv && fail "the header of pe events has changed"
+  must_run "${short[@]}" --steps 300000 --events pe --catalogue pe2.csv
+  same pe.csv pe2.csv
+  # Kernels and instruction sets, with ruptures that join over a gap.
+  for more in "" "--rupture-gap 0.5" "--scheme semi-implicit" "--scheme printed --dt 0.01"; do
+    for kernel in active dense; do
+      # shellcheck disable=SC2086
+      must_run "${short[@]}" --events ruptures --columns centroid,length --steps 300000 $more \
+        --kernel $kernel --isa "$([ $kernel = active ] && echo auto || echo x86-64)" \
+        --catalogue $kernel.csv
+    done
+    same active.csv dense.csv 100
+  done
+  # Sizes that are not written.
+  must_run "${short[@]}" --steps 300000 --events ruptures --min-size 0.5 --catalogue large.csv
+  awk -F, '/^[0-9]/ && $6 >= 0.5 { sub(/^[0-9]*,/, ""); print }' r.csv > expected.txt
+  sed -n '/^[0-9]/s/^[0-9]*,//p' large.csv > found.txt
+  cmp expected.txt found.txt || fail "--min-size does not keep the ruptures of that size"
+  [ -s found.txt ] || fail "no rupture is large enough to test anything"
+  # Killed at any moment, and resumed, again and again.
+  settings=("${short[@]}" --steps 2000000 --events ruptures --columns centroid,length
+            --rupture-gap 0.2 --pe-stride 500)
+  must_run "${settings[@]}" --catalogue whole.csv --pe-series whole.pe --checkpoint whole.chk
+  part=("${settings[@]}" --catalogue part.csv --pe-series part.pe --checkpoint part.chk
+        --checkpoint-interval 20011)
+  interrupted=0
+  for round in 1 2 3 4 5; do
+    more=()
+    [ -e part.chk ] && more=(--resume)
+    before=$(stat -c %Y%i part.chk 2> /dev/null)
+    "$program" "${part[@]}" "${more[@]}" > out.txt 2> err.txt &
+    child=$!
+    while [ "$(stat -c %Y%i part.chk 2> /dev/null)" = "$before" ] && kill -0 $child 2> /dev/null
+    do
+      :
+    done
+    if [ $((round % 2)) = 0 ]; then
+      kill -TERM $child 2> /dev/null
+    else
+      kill -9 $child 2> /dev/null
+    fi
+    wait $child 2> /dev/null
+    case $? in 137 | 143) interrupted=$((interrupted + 1)) ;; esac
+  done
+  [ $interrupted -ge 1 ] || fail "the run was never interrupted"
+  must_run "${part[@]}" --resume
+  same whole.csv part.csv 1000
+  cmp whole.pe part.pe || fail "PE series differ"
+  cmp whole.chk part.chk || fail "checkpoints differ"
+  # From the one kind of events there is no way to the other.
+  run "${settings[@]}" --events pe --catalogue part.csv --checkpoint part.chk --resume &&
+    fail "resumed with other events"
+  must_run "${short[@]}" --steps 1000 --catalogue pe.csv --checkpoint pe.chk
+  run "${short[@]}" --steps 1000 --events ruptures --catalogue pe.csv --checkpoint pe.chk \
+    --resume && fail "resumed with other events"
+  grep -q "cannot resume: .*expected 'events = ruptures'" err.txt || fail "message: $(cat err.txt)"
+  same whole.csv part.csv 1000
+  refused "--events = 'slips', expected pe or ruptures" --events slips
+  refused "--rupture-gap needs --events ruptures" --rupture-gap 1
+  refused "--rupture-gap = -1, expected" --events ruptures --rupture-gap -1
+  refused "--rupture-gap = nan, expected" --events ruptures --rupture-gap nan
+  refused "--events = ruptures with --scheme rk4, expected" --events ruptures --scheme rk4
+  refused "--events = ruptures with --scheme reference, expected" --events ruptures \
+    --scheme reference
+  refused "--events = ruptures with --kernel scalar, expected" --events ruptures --kernel scalar
+  run --blocks 64 --steps 3000000 --scheme printed --dt 0.9 --velocity 1 --force --warmup 0 \
+    --friction-range 0 0.1 --events ruptures --catalogue burst.csv &&
+    fail "the printed scheme survived dt 0.9"
+  grep -q "not a finite number" err.txt || fail "message: $(cat err.txt)"
+  ;;
 *)
   fail "no case $2"
   ;;

@@ -342,6 +342,56 @@ TEST_F(CatalogueRead, StrictRefusesBadRows) {
   }
 }
 
+TEST_F(CatalogueRead, RupturesMayOverlapInOrderOfTheirEnds) {
+  const std::string ruptures = header + "# events = ruptures\n" + columns;
+  // Started first but ended last; two that end at the same time.
+  const std::string rows =
+      "1,2,3,20,30,0.5,3,2.5\n"
+      "2,2.5,3,25,30,0.5,3,2.5\n"
+      "3,1,4,10,40,0.5,3,2.5\n";
+  spill(file(), ruptures + rows);
+  const Catalogue catalogue = LSM::read_catalogue(file());
+  EXPECT_TRUE(catalogue.info.overlapping());
+  ASSERT_EQ(catalogue.events.size(), 3U);
+  EXPECT_EQ(catalogue.events[2].t_start, 1.0);
+  // Not without the parameter, nor with another value of it.
+  for (const char *other : {"", "# events = pe\n"}) {
+    spill(file(), header + other + columns + rows);
+    EXPECT_TRUE(contains(message_of<CatalogueError>([&] { LSM::read_catalogue(file()); }),
+                         "t_start 2.5 is before the end of the previous event 3, expected"));
+  }
+  // The order of the ends is asked for.
+  for (const char *bad : {"4,2,3.5,20,50,0.5,3,2.5\n", "4,2,4.5,20,35,0.5,3,2.5\n"}) {
+    spill(file(), ruptures + rows + bad);
+    EXPECT_TRUE(contains(message_of<CatalogueError>([&] { LSM::read_catalogue(file()); }),
+                         "is before the end of the previous event 4, 40, expected ruptures in "
+                         "order of their ends"));
+  }
+  spill(file(), ruptures + rows + "3,2,5,20,50,0.5,3,2.5\n");
+  EXPECT_TRUE(contains(message_of<CatalogueError>([&] { LSM::read_catalogue(file()); }),
+                       "event_id 3 after event_id 3"));
+}
+
+TEST_F(CatalogueResume, RupturesAreCutByTheirEnds) {
+  CatalogueInfo info = some_info();
+  info.parameters.emplace_back("events", "ruptures");
+  CatalogueWriter writer;
+  writer.create(file(), info);
+  Event event;
+  for (const std::int64_t end : {30, 30, 40, 55}) {
+    event.id += 1;
+    event.step_end = end;
+    event.t_end = static_cast<double>(end);
+    writer.write(event);  // all start at 0
+  }
+  event.id += 1;
+  event.step_end = 54;
+  EXPECT_THROW(writer.write(event), CatalogueError);
+  writer.close();
+  EXPECT_EQ(CatalogueWriter().resume(file(), info, 40, {}, 3), 3);
+  EXPECT_EQ(LSM::read_catalogue(file()).events.size(), 3U);
+}
+
 TEST_F(CatalogueRead, LenientSkipsAndCountsBadRows) {
   std::string text = header + columns + row1;
   for (const Bad &bad : bad_rows) text += bad.text;

@@ -1,0 +1,458 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <queue>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lsm_catalogue.h"
+#include "lsm_pe_series.h"
+#include "lsm_random.h"
+#include "slider_chain.h"
+#include "slider_ruptures.h"
+#include "slider_run.h"
+
+namespace Slider {
+namespace {
+
+/// One line per step, one character per block; '#' slides. Slip and work are one each per slide,
+/// and PE after step n is -n.
+using Pattern = std::vector<std::string>;
+
+struct Found {
+  std::vector<Rupture> ruptures;
+  RuptureTracker tracker;
+};
+
+/// Restores the tracker from its state after each step if asked for.
+Found track(const Pattern &pattern, std::int64_t memory, bool restarts = false) {
+  const int blocks = static_cast<int>(pattern.front().size());
+  Found found{{}, RuptureTracker(blocks, memory, true)};
+  const auto keep = [&found](const Rupture &r) { found.ruptures.push_back(r); };
+  std::int64_t step = 0;
+  const auto one = [&](const std::string &line) {
+    ++step;
+    found.tracker.begin_step(step, -static_cast<double>(step - 1));
+    for (int i = 0; i < blocks; ++i)
+      if (line[static_cast<std::size_t>(i)] == '#') found.tracker.slide(i, 1.0, 1.0);
+    found.tracker.end_step(-static_cast<double>(step), keep);
+    if (!restarts) return;
+    const RuptureState state = found.tracker.state();
+    found.tracker = RuptureTracker(blocks, memory, true);
+    found.tracker.set_state(state, step);
+  };
+  for (const std::string &line : pattern) one(line);
+  for (std::int64_t n = 0; n < memory; ++n) one(std::string(pattern.front().size(), '.'));
+  EXPECT_TRUE(found.tracker.idle());
+  return found;
+}
+
+TEST(Ruptures, TwoApart) {
+  const Found f = track({".#....#.",  //
+                         ".##...#.",  //
+                         "..#....."},
+                        1);
+  ASSERT_EQ(f.ruptures.size(), 2U);
+  const Rupture &first = f.ruptures[0], &second = f.ruptures[1];
+  EXPECT_EQ(first.step_start, 0);
+  EXPECT_EQ(first.step_end, 2);
+  EXPECT_EQ(first.begin, 6);
+  EXPECT_EQ(first.length, 1);
+  EXPECT_EQ(first.size, 2.0);
+  EXPECT_EQ(second.step_end, 3);
+  EXPECT_EQ(second.begin, 1);
+  EXPECT_EQ(second.length, 2);
+  EXPECT_EQ(second.slip, 4.0);
+  EXPECT_EQ(second.pe_start, 0.0);
+  EXPECT_EQ(second.pe_end, -3.0);
+  const LSM::Event e = f.tracker.event(first, 0.25);
+  EXPECT_EQ(e.t_start, 0.0);
+  EXPECT_EQ(e.t_end, 0.5);
+  EXPECT_EQ(e.size, 2.0);
+  EXPECT_EQ(e.slip_moment, 2.0);
+  EXPECT_EQ(e.rupture_length, 1.0);
+  EXPECT_NEAR(e.x_centroid, 6.0, 1e-14);
+}
+
+TEST(Ruptures, TwoThatMeetAreOne) {
+  const Found f = track({"#......",  //
+                         "##...#.",  //
+                         ".##.##.",  //
+                         "..###..",  //
+                         "......."},
+                        1);
+  ASSERT_EQ(f.ruptures.size(), 1U);
+  EXPECT_EQ(f.ruptures[0].step_start, 0);
+  EXPECT_EQ(f.ruptures[0].first_block, 0);
+  EXPECT_EQ(f.ruptures[0].step_end, 4);
+  EXPECT_EQ(f.ruptures[0].begin, 0);
+  EXPECT_EQ(f.ruptures[0].length, 6);
+  EXPECT_EQ(f.ruptures[0].size, 11.0);
+}
+
+TEST(Ruptures, OneThatSplitsStaysOneUntilBothEnd) {
+  const Found f = track({"...##...",  //
+                         "..#..#..",  //
+                         ".#....#.",  //
+                         "......#."},
+                        1);
+  ASSERT_EQ(f.ruptures.size(), 1U);
+  EXPECT_EQ(f.ruptures[0].step_end, 4);
+  EXPECT_EQ(f.ruptures[0].length, 6);
+  EXPECT_EQ(f.ruptures[0].size, 7.0);
+}
+
+TEST(Ruptures, AcrossTheSeam) {
+  const Found f = track({"#.....",  //
+                         "#....#",  //
+                         "....##"},
+                        1);
+  ASSERT_EQ(f.ruptures.size(), 1U);
+  EXPECT_EQ(f.ruptures[0].begin, 4);
+  EXPECT_EQ(f.ruptures[0].length, 3);
+  EXPECT_NEAR(f.tracker.event(f.ruptures[0], 1.0).x_centroid, 5.2, 0.05);
+  // Slips 2, 2, 1 on blocks 0, 5, 4 lie about 5.2 on the ring, not about 2.8.
+}
+
+TEST(Ruptures, AllRoundTheRing) {
+  for (const Pattern &p : {Pattern{"#...", "#..#", "..##", ".##."}, Pattern{"#.#.", "##.#"}}) {
+    const Found f = track(p, 1);
+    ASSERT_EQ(f.ruptures.size(), 1U);
+    EXPECT_EQ(f.ruptures[0].length, 4);
+    EXPECT_EQ(f.ruptures[0].begin, 0);
+  }
+}
+
+TEST(Ruptures, APauseParts) {
+  const Pattern pause = {"..#..",  //
+                         ".....",  //
+                         "..##."};
+  const Found parted = track(pause, 1);
+  ASSERT_EQ(parted.ruptures.size(), 2U);
+  EXPECT_EQ(parted.ruptures[0].step_end, 1);
+  EXPECT_EQ(parted.ruptures[1].step_start, 2);
+  const Found bridged = track(pause, 2);
+  ASSERT_EQ(bridged.ruptures.size(), 1U);
+  EXPECT_EQ(bridged.ruptures[0].size, 3.0);
+  EXPECT_EQ(bridged.ruptures[0].step_start, 0);
+  // A neighbour pushed over its limit by the last slide: one step is not a pause.
+  EXPECT_EQ(track({".#..", "..#.", "...#"}, 1).ruptures.size(), 1U);
+  EXPECT_EQ(track({".#...", "...#."}, 1).ruptures.size(), 2U);
+}
+
+TEST(Ruptures, AStoppedBlockThatRejoinsIsCountedOnce) {
+  const Found f = track({"..##....",  //
+                         "...##...",  //
+                         "....##..",  //
+                         "..#..#..",  //
+                         "..##.#..",  //
+                         "...###.."},
+                        1);
+  ASSERT_EQ(f.ruptures.size(), 1U);
+  EXPECT_EQ(f.ruptures[0].begin, 2);
+  EXPECT_EQ(f.ruptures[0].length, 4);
+  EXPECT_EQ(f.ruptures[0].size, 14.0);
+}
+
+/// Ruptures by search through all of space and time.
+std::vector<Rupture> search(const Pattern &pattern, std::int64_t memory) {
+  const int blocks = static_cast<int>(pattern.front().size()),
+            steps = static_cast<int>(pattern.size());
+  std::set<std::pair<int, int>> left;  // step, block
+  for (int n = 0; n < steps; ++n)
+    for (int i = 0; i < blocks; ++i)
+      if (pattern[static_cast<std::size_t>(n)][static_cast<std::size_t>(i)] == '#')
+        left.emplace(n + 1, i);
+  std::vector<Rupture> out;
+  while (!left.empty()) {
+    std::queue<std::pair<int, int>> todo;
+    todo.push(*left.begin());
+    Rupture r;
+    r.step_start = left.begin()->first - 1;
+    r.first_block = left.begin()->second;
+    left.erase(left.begin());
+    std::set<int> distinct;
+    while (!todo.empty()) {
+      const auto [n, i] = todo.front();
+      todo.pop();
+      r.size += 1.0;
+      r.step_end = std::max<std::int64_t>(r.step_end, n);
+      distinct.insert(i);
+      for (int m = n - static_cast<int>(memory); m <= n + static_cast<int>(memory); ++m)
+        for (int d : {-1, 0, 1}) {
+          const auto there = left.find({m, (i + d + blocks) % blocks});
+          if (there == left.end()) continue;
+          todo.push(*there);
+          left.erase(there);
+        }
+    }
+    r.length = static_cast<std::int64_t>(distinct.size());
+    out.push_back(r);
+  }
+  std::sort(out.begin(), out.end(), [](const Rupture &a, const Rupture &b) {
+    return std::tie(a.step_end, a.step_start, a.first_block) <
+           std::tie(b.step_end, b.step_start, b.first_block);
+  });
+  return out;
+}
+
+TEST(Ruptures, RandomPatternsAgreeWithASearch) {
+  LSM::Random random(5);
+  std::size_t several = 0;
+  for (const int blocks : {1, 2, 3, 5, 8, 21, 40})
+    for (const double density : {0.02, 0.1, 0.2, 0.35, 0.6})
+      for (const std::int64_t memory : {1, 2, 4})
+        for (int trial = 0; trial < 8; ++trial) {
+          Pattern pattern(60, std::string(static_cast<std::size_t>(blocks), '.'));
+          for (std::string &line : pattern)
+            for (char &c : line)
+              if (random.uniform() < density) c = '#';
+          const std::vector<Rupture> expected = search(pattern, memory);
+          if (expected.size() > 2) ++several;
+          for (const bool restarts : {false, true}) {
+            const std::vector<Rupture> found = track(pattern, memory, restarts).ruptures;
+            ASSERT_EQ(found.size(), expected.size());
+            for (std::size_t k = 0; k < found.size(); ++k) {
+              ASSERT_EQ(found[k].step_start, expected[k].step_start);
+              ASSERT_EQ(found[k].step_end, expected[k].step_end);
+              ASSERT_EQ(found[k].first_block, expected[k].first_block);
+              ASSERT_EQ(found[k].length, expected[k].length);
+              ASSERT_EQ(found[k].size, expected[k].size);
+              ASSERT_EQ(found[k].pe_start, -static_cast<double>(expected[k].step_start));
+              ASSERT_EQ(found[k].pe_end, -static_cast<double>(expected[k].step_end));
+            }
+          }
+        }
+  EXPECT_GT(several, 100U);
+}
+
+TEST(Ruptures, ImpossibleStatesAreRefused) {
+  RuptureTracker tracker(10, 1, false);
+  RuptureState state;
+  state.recent.push_back({3, 5, 0});
+  EXPECT_THROW(tracker.set_state(state, 5), std::invalid_argument);  // of no rupture
+  state.open.emplace_back();
+  EXPECT_NO_THROW(tracker.set_state(state, 5));
+  EXPECT_THROW(tracker.set_state(state, 4), std::invalid_argument);  // slides in the future
+  state.recent[0].block = 10;
+  EXPECT_THROW(tracker.set_state(state, 5), std::invalid_argument);
+  EXPECT_THROW(RuptureTracker(10, 0, false), std::invalid_argument);
+}
+
+// ---- the chain ----
+
+Parameters parameters(int blocks, Scheme scheme) {
+  Parameters p;
+  p.blocks = blocks;
+  p.scheme = scheme;
+  p.dt = scheme == Scheme::printed ? 0.01 : 0.05;
+  p.velocity = 0.05;
+  return p;
+}
+
+TEST(RupturesOfTheChain, EnergiesAddUpAndNothingElseChanges) {
+  for (const Scheme scheme : {Scheme::printed, Scheme::semi_implicit, Scheme::verlet})
+    for (const bool dense : {false, true}) {
+      const Parameters p = parameters(61, scheme);
+      const auto mu = random_friction(p.blocks, 0.5, 1.0, 4);
+      Chain chain(p, mu, dense, InstructionSet::automatic);
+      Chain alone(p, mu, false, InstructionSet::automatic);
+      RuptureTracker tracker(p.blocks, 1, false);
+      double work = 0.0, slip = 0.0, plate_work = 0.0;
+      std::size_t ended = 0;
+      double before = 0.0;
+      for (int n = 0; n < 150000; ++n) {
+        chain.advance(tracker);
+        tracker.end_step(chain.pe(), [&](const Rupture &r) {
+          work += r.size;
+          slip += r.slip;
+          ++ended;
+        });
+        alone.advance();
+        ASSERT_EQ(chain.pe(), alone.pe());
+        ASSERT_EQ(chain.dpe(), alone.dpe());
+        // The mean force of the leaf springs on the plate over the step, times its way.
+        const double stretch = p.blocks * chain.plate() - chain.slip_sum();
+        plate_work += 0.5 * p.kl * (before + stretch) * p.velocity * p.dt;
+        before = stretch;
+      }
+      EXPECT_EQ(chain.displacements(), alone.displacements());
+      EXPECT_EQ(chain.velocities(), alone.velocities());
+      const RuptureState state = tracker.state();
+      for (const Rupture &r : state.open) {
+        work += r.size;
+        slip += r.slip;
+      }
+      EXPECT_GT(ended, 100U);
+      EXPECT_GT(work, 100.0);
+      EXPECT_NEAR(slip, chain.slip_sum(), 1e-10 * slip);
+      EXPECT_NEAR(plate_work - work, direct_energy(p, chain.displacements(), chain.plate()),
+                  1e-9 * work);
+    }
+}
+
+TEST(RupturesOfTheChain, AreThoseOfTheDisplacements) {
+  // What slides is found afresh from the displacements of the dense kernel, and put together by
+  // the search.
+  Parameters p = parameters(43, Scheme::verlet);
+  p.velocity = 0.01;
+  const auto mu = random_friction(p.blocks, 0.5, 1.0, 9);
+  Chain dense(p, mu, true, InstructionSet::automatic);
+  for (int n = 0; n < 100000; ++n) dense.advance();
+  Chain chain(p, mu, false, InstructionSet::automatic);
+  chain.set_state(dense.state());
+  RuptureTracker tracker(p.blocks, 1, false);
+  std::vector<Rupture> found;
+  Pattern pattern;
+  std::vector<double> before = dense.displacements();
+  for (int n = 0; n < 300000; ++n) {
+    dense.advance();
+    const std::vector<double> now = dense.displacements();
+    pattern.emplace_back(now.size(), '.');
+    for (std::size_t i = 0; i < now.size(); ++i)
+      if (now[i] != before[i]) pattern.back()[i] = '#';
+    before = now;
+    chain.advance(tracker);
+    tracker.end_step(chain.pe(), [&found](const Rupture &r) { found.push_back(r); });
+  }
+  const std::size_t open = tracker.state().open.size();
+  const std::vector<Rupture> expected = search(pattern, 1);
+  ASSERT_GT(found.size(), 100U);
+  ASSERT_EQ(found.size() + open, expected.size());
+  std::int64_t longest = 0;
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    ASSERT_EQ(found[k].step_start, expected[k].step_start + 100000);
+    ASSERT_EQ(found[k].step_end, expected[k].step_end + 100000);
+    ASSERT_EQ(found[k].first_block, expected[k].first_block);
+    ASSERT_EQ(found[k].length, expected[k].length);
+    longest = std::max(longest, found[k].length);
+  }
+  EXPECT_GT(longest, 10);
+}
+
+// ---- catalogues ----
+
+RunOptions options(const std::string &name, Events events) {
+  RunOptions o;
+  o.parameters.blocks = 256;
+  o.mu = random_friction(256, 0.5, 1.0, 1);
+  o.steps = 1000000;
+  o.picker.lambda = LSM::lambda_from_memory_time(1.0, 0.05);
+  o.warmup = 12000.0;
+  o.events = events;
+  if (events == Events::ruptures) o.header.emplace_back("events", "ruptures");
+  o.catalogue = testing::TempDir() + "slider_" + name + ".csv";
+  o.x_centroid = o.rupture_length = true;
+  return o;
+}
+
+TEST(RupturesOfTheChain, BoundTheSlipOfEventsOfTheEnergy) {
+  // Both catalogues are of the same motion. An event of PE holds the slip of all ruptures within
+  // it, and no more than that of all ruptures that overlap with it. The events' slip is taken one
+  // sample late; a second rupture is there or not to the step.
+  RunOptions o = options("pe", Events::pe);
+  run(o);
+  const LSM::Catalogue drops = LSM::read_catalogue(o.catalogue);
+  o = options("ruptures", Events::ruptures);
+  o.series = testing::TempDir() + "slider_ruptures.pe";
+  o.series_stride = 1;
+  o.series_binary = true;
+  run(o);
+  const LSM::Catalogue ruptures = LSM::read_catalogue(o.catalogue);
+  ASSERT_TRUE(ruptures.info.overlapping());
+  ASSERT_FALSE(drops.info.overlapping());
+  std::size_t large = 0, overlaps = 0;
+  double last_end = 0.0;
+  for (const LSM::Event &r : ruptures.events) last_end = std::max(last_end, r.t_end);
+  for (const LSM::Event &drop : drops.events) {
+    if (drop.size < 10.0 || drop.t_start < 13000.0 || drop.t_end > last_end - 5000.0) continue;
+    ++large;
+    double within = 0.0, touching = 0.0, largest = 0.0;
+    for (const LSM::Event &r : ruptures.events) {
+      if (r.step_start > drop.step_end + 1 || r.step_end < drop.step_start) continue;
+      touching += r.slip_moment;
+      if (r.step_start > drop.step_start && r.step_end <= drop.step_end) within += r.slip_moment;
+      largest = std::max(largest, r.slip_moment);
+    }
+    EXPECT_LE(within, drop.slip_moment * (1.0 + 1e-9)) << "at " << drop.t_start;
+    EXPECT_GE(touching, drop.slip_moment * (1.0 - 1e-9)) << "at " << drop.t_start;
+    // In a chain as short as this one, one rupture makes a large event.
+    EXPECT_GE(largest, 0.9 * drop.slip_moment) << "at " << drop.t_start;
+  }
+  EXPECT_GT(large, 5U);
+  // PE of the ruptures is that of the series, and at least one pair overlaps.
+  std::vector<double> pe;
+  LSM::PeSeriesReader series;
+  series.open(o.series);
+  std::int64_t step = 0;
+  double time = 0.0, value = 0.0;
+  while (series.next(step, time, value)) pe.push_back(value);
+  ASSERT_EQ(pe.size(), 1000001U);
+  for (std::size_t k = 0; k < ruptures.events.size(); ++k) {
+    const LSM::Event &r = ruptures.events[k];
+    ASSERT_EQ(r.pe_start, pe[static_cast<std::size_t>(r.step_start)]);
+    ASSERT_EQ(r.pe_end, pe[static_cast<std::size_t>(r.step_end)]);
+    ASSERT_GT(r.size, 0.0);
+    ASSERT_GE(r.t_start, 12000.0);
+    if (k > 0 && r.t_start < ruptures.events[k - 1].t_end) ++overlaps;
+  }
+  EXPECT_GT(overlaps, 100U);
+}
+
+std::string text(const std::string &path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+TEST(RupturesOfTheChain, ResumeFindsTheRowsOfTheCheckpoint) {
+  // A run killed after it wrote more ruptures than its checkpoint knows of, some of which ended no
+  // more than the memory before the checkpoint.
+  RunOptions o = options("resume", Events::ruptures);
+  o.parameters.blocks = 60;
+  o.mu = random_friction(60, 0.5, 1.0, 3);
+  o.parameters.velocity = 0.05;
+  o.warmup = 0.0;
+  o.steps = 100000;
+  o.rupture_memory = 8;
+  run(o);
+  const std::string whole = text(o.catalogue);
+  const LSM::Catalogue catalogue = LSM::read_catalogue(o.catalogue);
+  ASSERT_GT(catalogue.events.size(), 200U);
+  o.checkpoint = testing::TempDir() + "slider_resume.chk";
+  for (std::size_t k = 50; k < 200; k += 50) {
+    for (const std::int64_t later : {0, 1, 7, 8, 9}) {
+      std::remove(o.catalogue.c_str());
+      o.resume = false;
+      o.steps = catalogue.events[k].step_end + later;
+      const RunResult part = run(o);
+      EXPECT_EQ(part.events > static_cast<std::int64_t>(k), later >= 8) << later;
+      std::ofstream(o.catalogue, std::ios::binary) << whole;
+      o.resume = true;
+      o.steps = 100000;
+      run(o);
+      EXPECT_EQ(text(o.catalogue), whole) << "rupture " << k << ", " << later;
+    }
+  }
+}
+
+TEST(RupturesOfTheChain, OnlyWhereSomeoneTellsWhatSlides) {
+  RunOptions o = options("none", Events::ruptures);
+  o.catalogue = testing::TempDir() + "slider_refused.csv";
+  o.kernel = Kernel::scalar;
+  EXPECT_THROW(run(o), std::invalid_argument);
+  o.kernel = Kernel::active;
+  for (const Scheme scheme : {Scheme::rk4, Scheme::reference}) {
+    o.parameters.scheme = scheme;
+    EXPECT_THROW(run(o), std::invalid_argument);
+  }
+  EXPECT_FALSE(std::ifstream(o.catalogue).good());
+}
+
+}  // namespace
+}  // namespace Slider
