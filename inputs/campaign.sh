@@ -160,7 +160,7 @@ add_slider() {
   add_run "$name" slider 1 "$slider_steps" "program = slider_cli $slider_version
 ${words// --/$'\n'--}" "$(awk -v b="$n" -v n="$slider_steps" 'BEGIN { print n * (2e-7 + 3e-10 * b) }')"
 }
-# our settings, as in inputs/slider/science_*.ini
+# our settings, as in inputs/slider/science_*.ini; once more with ruptures as events, which long chains need
 ours="--scheme verlet --dt 0.05 --picker exponential --picker-memory-time 1 --warmup 12000"
 if [ "$only" != faults ]; then
   for n in $blocks; do
@@ -171,6 +171,8 @@ if [ "$only" != faults ]; then
         256 | 614 | 972 | 1450 | 1928) add_slider "slider_paper_${n}_$s" "$n" "--paper --blocks $n --seed $s" ;;
       esac
       add_slider "slider_ours_${n}_$s" "$n" "$ours --blocks $n --seed $s"
+      [ "$n" -lt 256 ] ||
+        add_slider "slider_ruptures_${n}_$s" "$n" "$ours --events ruptures --min-size 0.1 --blocks $n --seed $s"
     done
     if [ "$n" = 1928 ]; then
       for k in $kl; do add_slider "slider_kl_$k" 1928 "$ours --blocks 1928 --kl $k --seed 1"; done
@@ -491,8 +493,8 @@ chosen() {
     [[ ${names[i]} =~ $1 ]] || continue
     for file in "$output/${names[i]}"/*catalogue.csv; do
       [ -e "$file" ] || continue
-      label=$(sed -E 's/_/ /g; s/^slider kl /slider 1928, K_l /; s/^slider (paper|ours) ([0-9]*) ([0-9]*)/slider \2, seed \3/' \
-        <<<"${names[i]}")
+      label=$(sed -E -e 's/_/ /g; s/^slider kl /slider 1928, K_l /; s/^slider (paper|ours) ([0-9]*) /slider \2, seed /' \
+        -e 's/^slider ruptures ([0-9]*) (.*)/slider \1, seed \2, ruptures/' <<<"${names[i]}")
       [ "${states[i]}" = done ] || label+=" (unfinished, step ${ats[i]} of ${goals[i]})"
       words+=("$file") labels+=(--label "$label")
     done
@@ -531,12 +533,15 @@ figures() {
   # The ranges are words on purpose.
   figure fault_fit '^fault' fit --scaling $faults
   figure slider_fit "$ours" fit --scaling $sliders
+  # steady from time 40000 on in our settings
+  figure rupture_fit '^slider_ruptures' fit --scaling --range 1:100 --from 40000 --threshold 0.1 --replicas 0
 }
 if [ $report = yes ] && [ "$stopping" != interrupted ]; then
   if [ -x "$bin/postproc" ]; then
     five='(256|614|972|1450|1928)'
     figures
     page report.html "Faults, and block-sliders in our settings" "^fault|^slider_ours_${five}_1\$|^slider_kl"
+    page report_ruptures.html "Block-sliders, ruptures as events, our settings" '^slider_ruptures_[0-9]*_1$'
     page report_paper_settings.html "Block-sliders as printed in the paper" "^slider_paper_${five}_1\$"
     page report_long_chains.html "Block-sliders longer than the paper's, our settings" '^slider_ours_[0-9]*_1$'
     for ((s = 2; s <= seeds; s++)); do

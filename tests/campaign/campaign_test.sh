@@ -238,7 +238,9 @@ report)
     [ "$(grep -c '<svg' one/report.html)" -ge 3 ] || fail "report.html has no figures"
   }
   campaign one --bin "$bin" --only sliders --blocks 256 --seeds 1 --steps 1200000 || fail "ended with $?"
-  drawn fig13_slider_sizes fig15_slider_intervals slider_fit
+  drawn fig13_slider_sizes fig15_slider_intervals slider_fit rupture_fit
+  grep -q '"slider 256, seed 1"' one/figures/fig13_slider_sizes.csv || fail "no label in fig13_slider_sizes.csv"
+  grep -q '"slider 256, seed 1, ruptures"' one/figures/rupture_fit.csv || fail "no label in rupture_fit.csv"
   [ -z "$(ls one/figures | grep 'fault\|fig7')" ] || fail "figures of nothing"
   options=()
   for word in "${fault[@]}"; do [ "$word" = --no-report ] || options+=("$word"); done
