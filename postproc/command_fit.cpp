@@ -129,7 +129,8 @@ void add_fit(CLI::App &app) {
       ->group(group);
   command
       ->add_flag("--scaling", options->scaling,
-                 "Characteristic size <s^2>/<s> against length for each model")
+                 "Characteristic size <s^2>/<s> against length for each model: a power law, no "
+                 "dependence, or growth that ends at a length (ours)")
       ->group(group);
   command
       ->add_option("--bootstrap", options->bootstrap,

@@ -210,7 +210,7 @@ std::string scaling_section(const Scaling &scaling, Figures &figures) {
     const SizePoint &point = scaling.points[i];
     table.row(
         html_escape(scaling.labels[i]),
-        {short_number(point.length), std::to_string(point.n),
+        {short_number(point.length, 6), std::to_string(point.n),
          point.degenerate ? degenerate(point.why) : with_error(point.s_star, point.error, " ± ")});
   }
   std::string out;
@@ -218,7 +218,8 @@ std::string scaling_section(const Scaling &scaling, Figures &figures) {
     out = figures.add(
         scaling_figure({scaling}, picture_width), "Characteristic size against length",
         "Ours: s* = &lt;s²&gt; / &lt;s&gt; follows the roll-off of the sizes; errors by resampling "
-        "the events; lines: weighted fits of a power law and of a constant.");
+        "the events; lines: weighted fits of a power law, of a constant and, "
+        "if it is preferred, of growth that ends.");
   out += table.text();
   out +=
       "<p>Sizes are drops of the potential energy of the whole model, so that ruptures at the same "

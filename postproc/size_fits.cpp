@@ -246,20 +246,37 @@ std::string Scaling::verdict() const {
       "this power law, {} for no "
       "dependence on L",
       with_error(fit.D, fit.se_D), short_number(fit.D - 1.96 * fit.se_D, 2),
-      short_number(fit.D + 1.96 * fit.se_D, 2), short_number(fit.chi2, 3), fit.points - 2,
+      short_number(fit.D + 1.96 * fit.se_D, 2), short_number(fit.chi2), fit.points - 2,
       short_number(fit.aicc), short_number(fit.aicc_constant));
+  const Saturation &end = fit.saturation;
+  const std::string saturation =
+      end.degenerate
+          ? "degenerate: " + end.why
+          : fmt::format(
+                "AICc {} with L_c = {}, s_inf = {}, D = {}, chi2 {} on {} degrees of freedom",
+                short_number(end.aicc), with_error(end.L_c, end.se_L_c),
+                with_error(end.s_inf, end.se_s_inf), with_error(end.D, end.se_D),
+                short_number(end.chi2), fit.points - 3);
   const char *statement = "does not tell whether it depends on the length";
   if (fit.preferred == SizeDependence::none)
     statement = "shows no significant dependence on the length";
   else if (fit.preferred == SizeDependence::power_law)
     statement = fit.D > 0.0 ? "grows with the length"
                             : "shrinks with the length, which no finite-size effect explains";
-  const char *const doubt =
-      fit.preferred == SizeDependence::power_law && gsl_cdf_chisq_Q(fit.chi2, fit.points - 2) < 0.01
-          ? ", but not as a power law"
-          : "";
-  return fmt::format("Over {} catalogues the characteristic size of the roll-off {}{} ({}).",
-                     fit.points, statement, doubt, numbers);
+  else if (fit.preferred == SizeDependence::saturates)
+    statement = "grows with the length up to L_c and no further";
+  const char *doubt = "";
+  if (fit.preferred == SizeDependence::power_law &&
+      gsl_cdf_chisq_Q(fit.chi2, fit.points - 2) < 0.01)
+    doubt = ", but not as a power law";
+  else if (fit.preferred == SizeDependence::saturates &&
+           gsl_cdf_chisq_Q(end.chi2, fit.points - 3) < 0.01)
+    doubt = ", but not along the curve fitted";
+  return fmt::format(
+      "Over {} catalogues the characteristic size of the roll-off {}{} ({}; for growth that "
+      "ends, s* = s_inf [1 + (L_c/L)^({}D)]^(-1/{}): {}).",
+      fit.points, statement, doubt, numbers, Saturation::sharpness, Saturation::sharpness,
+      saturation);
 }
 
 std::string scaling_text(const Scaling &scaling) {
@@ -270,8 +287,8 @@ std::string scaling_text(const Scaling &scaling) {
   for (std::size_t i = 0; i < scaling.points.size(); ++i) {
     const SizePoint &point = scaling.points[i];
     out += fmt::format(
-        "  {:<32} length {:>6}  n = {:<7} s* = {}\n", scaling.labels[i], short_number(point.length),
-        point.n,
+        "  {:<32} length {:>6}  n = {:<7} s* = {}\n", scaling.labels[i],
+        short_number(point.length, 6), point.n,
         point.degenerate ? "degenerate: " + point.why : with_error(point.s_star, point.error));
   }
   return out + "  " + scaling.verdict() + "\n";
@@ -310,6 +327,19 @@ nlohmann::json to_json(const Scaling &scaling) {
   json["chi2_constant"] = fit.chi2_constant;
   json["aicc"] = fit.aicc;
   json["aicc_constant"] = fit.aicc_constant;
+  const Saturation &end = fit.saturation;
+  if (end.degenerate) {
+    json["saturation_degenerate"] = end.why;
+  } else {
+    json["s_inf"] = end.s_inf;
+    json["s_inf_error"] = end.se_s_inf;
+    json["L_c"] = end.L_c;
+    json["L_c_error"] = end.se_L_c;
+    json["D_saturation"] = end.D;
+    json["D_saturation_error"] = end.se_D;
+    json["chi2_saturation"] = end.chi2;
+    json["aicc_saturation"] = end.aicc;
+  }
   json["preferred"] = to_string(fit.preferred);
   return json;
 }
@@ -353,10 +383,24 @@ Figure scaling_figure(const std::vector<Scaling> &scalings, int width) {
         quote_plain(fmt::format("A L^D with D = {}", with_error(fit.D, fit.se_D, " ± "))));
     lines += fmt::format(", \\\n     {}({}) with lines lt 8 dt 2 title 'constant'", where,
                          text_io::number(fit.constant));
+    const Saturation &end = fit.saturation;
+    if (fit.preferred != SizeDependence::saturates) continue;
+    // Sampled evenly in ln L, so that the bend is smooth.
+    lines += fmt::format(
+        ", \\\n     [1:2] '+' using (x = {}*{}**($1-1)):({}*(1+({}/x)**({}))**({})) with lines lt "
+        "{} "
+        "dt 4 lw 2 title {}",
+        text_io::number(0.85 * from), text_io::number(to / (0.85 * 0.85 * from)),
+        text_io::number(end.s_inf), text_io::number(end.L_c),
+        text_io::number(end.D * Saturation::sharpness),
+        text_io::number(-1.0 / Saturation::sharpness), number,
+        quote_plain(fmt::format("growth up to L_c = {}, s_{{∞}} = {}",
+                                with_error(end.L_c, end.se_L_c, " ± "),
+                                with_error(end.s_inf, end.se_s_inf, " ± "))));
   }
   if (plots.empty())
     throw std::runtime_error("finite-size scaling: no catalogue gives a characteristic size");
-  figure.size = size_with_key(std::vector<std::string>(3 * scalings.size()), width);
+  figure.size = size_with_key(std::vector<std::string>(4 * scalings.size()), width);
   figure.script =
       axis("x", "length of the fault, number of blocks", true, 0.9 * shortest, 1.1 * longest) +
       axis("y", "characteristic size s* (energy)", true, lowest, highest) +

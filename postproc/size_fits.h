@@ -80,8 +80,8 @@ std::vector<Scaling> scale_sizes(const std::vector<EventTable> &tables, double t
 std::string scaling_text(const Scaling &scaling);
 nlohmann::json to_json(const Scaling &scaling);
 
-/// s* against length with error bars, the fitted power law and the constant.
-/// \throws std::runtime_error if no point can be drawn
+/// s* against length with error bars, the fitted power law, the constant and, where it is
+/// preferred, growth that ends. \throws std::runtime_error if no point can be drawn
 Figure scaling_figure(const std::vector<Scaling> &scalings, int width = 900);
 
 }  // namespace LSM::postproc

@@ -122,6 +122,16 @@ fit)
   sed 's/^# length.*/# length = 3200/' g1600.csv > n3200.csv
   must_run fit n100.csv n200.csv n400.csv n800.csv n3200.csv --range 1e-3:0.1 --replicas 0 --scaling -o p --no-picture
   grep -q 'grows with the length, but not as a power law' out.txt || fail "growth at the end: $(cat out.txt)"
+  # Growth that ends: s* of 1, 2, 4, 4, 4, 4, 4.
+  for l in 800 1600 3200 6400; do sed "s/^# length.*/# length = $l/" g400.csv > s$l.csv; done
+  must_run fit g100.csv g200.csv g400.csv s800.csv s1600.csv s3200.csv s6400.csv --range 1e-3:0.1 --replicas 0 --scaling --json s.json -o s
+  pictures s.scaling
+  grep -q "growth up to L_c = " s.scaling.gp || fail "no curve of growth that ends: $(cat s.scaling.gp)"
+  grep -q "growth up to L_c" g.scaling.gp n.scaling.gp && fail "a curve of growth that ends without such growth"
+  grep -q 'grows with the length up to L_c and no further (' out.txt || fail "growth that ends: $(cat out.txt)"
+  grep -q '"preferred": "growth that ends at a length"' s.json || fail "$(cat s.json)"
+  near "$(awk '/"L_c":/ { gsub(/[",]/, ""); print $2 }' s.json)" 350 0.25 || fail "L_c: $(cat s.json)"
+  near "$(awk '/"s_inf":/ { gsub(/[",]/, ""); print $2 }' s.json)" "$(awk -F, '$3 == 6400 { print $4 }' s.scaling.csv)" 0.03 || fail "s_inf: $(cat s.json)"
   must_run fit a.csv --range 1e-3:1 --replicas 0 --scaling -o o --no-picture
   grep -q 'degenerate: ' out.txt || fail "scaling of one catalogue: $(cat out.txt)"
   refused 'expected LO above 0' fit a.csv --range :1 -o x

@@ -136,10 +136,116 @@ TEST(Scaling, DegenerateInput) {
   EXPECT_TRUE(fit_scaling(same).degenerate);
 }
 
+SizePoint noisy(double length, double s, double relative, gsl_rng *rng) {
+  const double measured = s * std::exp(gsl_ran_gaussian(rng, relative));
+  return point(length, measured, relative * measured);
+}
+
+double saturating(double length, double s_inf, double L_c, double D) {
+  const double m = Saturation::sharpness;
+  return s_inf * std::pow(1.0 + std::pow(L_c / length, D * m), -1.0 / m);
+}
+
+TEST(Saturation, ExactCurve) {
+  std::vector<SizePoint> points;
+  for (double length : {50, 100, 200, 400, 800, 1600, 3200, 6400}) {
+    const double s = saturating(length, 8000.0, 700.0, 0.7);
+    points.push_back(point(length, s, 0.01 * s));
+  }
+  const ScalingFit fit = fit_scaling(points);
+  const Saturation &end = fit.saturation;
+  ASSERT_FALSE(end.degenerate) << end.why;
+  EXPECT_NEAR(end.s_inf, 8000.0, 1e-4);
+  EXPECT_NEAR(end.L_c, 700.0, 1e-4);
+  EXPECT_NEAR(end.D, 0.7, 1e-7);
+  EXPECT_NEAR(end.chi2, 0.0, 1e-12);
+  EXPECT_NEAR(end.aicc, 2.0 * 3.0 + 24.0 / 4.0, 1e-9);
+  EXPECT_EQ(fit.preferred, SizeDependence::saturates);
+}
+
+TEST(Saturation, IsRecognisedAndItsErrorsCover) {
+  gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+  const double s_inf = 8000.0, L_c = 2400.0, D = 0.7;
+  Coverage covers_s(s_inf), covers_l(L_c), covers_d(D);
+  const int trials = 400;
+  int found = 0;
+  for (int i = 0; i < trials; ++i) {
+    std::vector<SizePoint> points;
+    for (double length : {256, 614, 1928, 4000, 8000, 16000, 32000, 64000})
+      for (int repeat = 0; repeat < 2; ++repeat)
+        points.push_back(
+            noisy(length, saturating(length, s_inf, L_c, D), length < 1000 ? 0.02 : 0.04, rng));
+    const ScalingFit fit = fit_scaling(points);
+    if (fit.preferred == SizeDependence::saturates) ++found;
+    covers_s.add(fit.saturation.s_inf, fit.saturation.se_s_inf);
+    covers_l.add(fit.saturation.L_c, fit.saturation.se_L_c);
+    covers_d.add(fit.saturation.D, fit.saturation.se_D);
+  }
+  EXPECT_EQ(found, trials);
+  covers_s.expect("s_inf");
+  covers_l.expect("L_c");
+  covers_d.expect("D");
+  gsl_rng_free(rng);
+}
+
+TEST(Saturation, IsNotSeenWithoutIt) {
+  gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+  for (double D : {0.0, 0.1, 0.3, 1.0}) {
+    for (int number : {6, 10, 16}) {
+      for (int repeats : {1, 2}) {
+        const int trials = 300;
+        int found = 0;
+        for (int i = 0; i < trials; ++i) {
+          std::vector<SizePoint> points;
+          for (int k = 0; k < number; ++k) {
+            const double length = 100.0 * std::pow(2.0, k / repeats);
+            points.push_back(
+                noisy(length, 3.0 * std::pow(length, D), k % 2 == 0 ? 0.03 : 0.06, rng));
+          }
+          if (fit_scaling(points).preferred == SizeDependence::saturates) ++found;
+        }
+        EXPECT_LT(found, trials / 20)
+            << "D = " << D << ", " << number << " points, " << repeats << " of each length";
+      }
+    }
+  }
+  gsl_rng_free(rng);
+}
+
+TEST(Saturation, DegenerateInput) {
+  const auto curve = [](const std::vector<double> &at, double L_c, double D) {
+    std::vector<SizePoint> points;
+    for (double length : at) {
+      const double s = saturating(length, 10.0, L_c, D);
+      points.push_back(point(length, s, 0.001 * s));
+    }
+    return fit_scaling(points);
+  };
+  const auto reason = [](const ScalingFit &fit) {
+    EXPECT_TRUE(fit.saturation.degenerate);
+    EXPECT_TRUE(std::isnan(fit.saturation.L_c));
+    EXPECT_TRUE(std::isnan(fit.saturation.chi2));
+    EXPECT_TRUE(std::isnan(fit.saturation.aicc));
+    EXPECT_NE(fit.preferred, SizeDependence::saturates);
+    return fit.saturation.why;
+  };
+  EXPECT_EQ(reason(curve({1, 2, 4, 8}, 3, 1)), "4 usable points, at least 5 needed");
+  EXPECT_EQ(reason(curve({1, 1, 2, 2, 4, 4}, 2, 1)), "3 different lengths, at least 4 needed");
+  const std::string outside = "no end of growth with two lengths on either side of it";
+  const std::vector<double> many = {1, 2, 4, 8, 16, 32, 64, 128};
+  EXPECT_EQ(reason(curve(many, 1.5, 1.0)), outside);
+  EXPECT_EQ(reason(curve(many, 90.0, 1.0)), outside);
+  EXPECT_FALSE(curve(many, 3.0, 1.0).saturation.degenerate);
+  EXPECT_FALSE(curve(many, 40.0, 1.0).saturation.degenerate);
+  // The same in reverse: a fall, which has an end, but no growth.
+  EXPECT_FALSE(reason(curve(many, 12.0, -1.0)).empty());
+}
+
 TEST(Scaling, NamesOfTheOutcome) {
   EXPECT_STREQ(to_string(SizeDependence::none), "no dependence on the length");
   EXPECT_STREQ(to_string(SizeDependence::undecided), "undecided");
   EXPECT_STREQ(to_string(SizeDependence::power_law), "power law in the length");
+  EXPECT_STREQ(to_string(SizeDependence::saturates), "growth that ends at a length");
 }
 
 }  // namespace
