@@ -106,23 +106,28 @@ Run event_run(Variables variables, int ranks = 1) {
   return run(scenes + "/fault_event.in", std::move(variables), ranks);
 }
 
-/// Columns of the last snapshot of a dump, by particle.
-std::map<int, std::array<double, 2>> snapshot(const std::string &file) {
+/// Rows of numbers of a dump with one snapshot.
+std::vector<std::vector<double>> dumped(const std::string &file) {
   std::ifstream in(work(file));
-  std::map<int, std::array<double, 2>> rows;
+  std::vector<std::vector<double>> rows;
   bool inside = false;
   for (std::string line; std::getline(in, line);) {
     if (line.rfind("ITEM:", 0) == 0) {
-      inside = line.rfind("ITEM: ATOMS", 0) == 0;
+      inside = line.rfind("ITEM: ATOMS", 0) == 0 || line.rfind("ITEM: ENTRIES", 0) == 0;
       continue;
     }
-    if (!inside) continue;
     std::istringstream split(line);
-    int id;
-    std::array<double, 2> v;
-    if (split >> id >> v[0] >> v[1]) rows[id] = v;
+    if (inside)
+      rows.emplace_back(std::istream_iterator<double>(split), std::istream_iterator<double>());
   }
-  if (rows.empty()) throw std::runtime_error(work(file) + ": no particles");
+  if (rows.empty()) throw std::runtime_error(work(file) + ": nothing in it");
+  return rows;
+}
+
+/// Two columns of a dump with one snapshot, by particle.
+std::map<int, std::array<double, 2>> snapshot(const std::string &file) {
+  std::map<int, std::array<double, 2>> rows;
+  for (const auto &row : dumped(file)) rows[static_cast<int>(row.at(0))] = {row.at(1), row.at(2)};
   return rows;
 }
 
@@ -273,24 +278,6 @@ void single_events() {
 }
 
 // ---- ways of solving friction -------------------------------------------------------------------
-
-/// Rows of numbers of the last snapshot of a dump.
-std::vector<std::vector<double>> dumped(const std::string &file) {
-  std::ifstream in(work(file));
-  std::vector<std::vector<double>> rows;
-  bool inside = false;
-  for (std::string line; std::getline(in, line);) {
-    if (line.rfind("ITEM:", 0) == 0) {
-      inside = line.rfind("ITEM: ATOMS", 0) == 0 || line.rfind("ITEM: ENTRIES", 0) == 0;
-      continue;
-    }
-    std::istringstream split(line);
-    if (inside)
-      rows.emplace_back(std::istream_iterator<double>(split), std::istream_iterator<double>());
-  }
-  if (rows.empty()) throw std::runtime_error(work(file) + ": nothing in it");
-  return rows;
-}
 
 /// The saved state as lmp has it.
 Accuracy::Scene small_fault(const Saved &saved, const Variant &v) {

@@ -21,6 +21,19 @@ same() {
   [ "$(grep -vc '^[#e]' "$1")" -ge "${3:-10}" ] || fail "$1 has too few events to test anything"
 }
 
+# until_checkpoint: the run ${part[@]} in the background, as child, resumed if it was begun before; returns as soon as
+# it has written a checkpoint, or ended
+until_checkpoint() {
+  local more=() before
+  [ -e part.chk ] && more=(--resume)
+  before=$(stat -c %Y%i part.chk 2> /dev/null)
+  "$program" "${part[@]}" "${more[@]}" > out.txt 2> err.txt &
+  child=$!
+  while [ "$(stat -c %Y%i part.chk 2> /dev/null)" = "$before" ] && kill -0 $child 2> /dev/null; do
+    :
+  done
+}
+
 short=(--blocks 100 --dt 0.05 --velocity 0.05 --warmup 0 --seed 3)
 
 case $2 in
@@ -100,15 +113,7 @@ resume | terminate | kill)
     # Interrupted as soon as there is a checkpoint, again and again.
     interrupted=0
     for round in 1 2 3; do
-      more=()
-      [ -e part.chk ] && more=(--resume)
-      before=$(stat -c %Y%i part.chk 2> /dev/null)
-      "$program" "${part[@]}" "${more[@]}" > out.txt 2> err.txt &
-      child=$!
-      while [ "$(stat -c %Y%i part.chk 2> /dev/null)" = "$before" ] && kill -0 $child 2> /dev/null
-      do
-        :
-      done
+      until_checkpoint
       if [ "$2" = kill ]; then
         kill -9 $child 2> /dev/null
         wait $child 2> /dev/null
@@ -243,15 +248,7 @@ ruptures)
         --checkpoint-interval 20011)
   interrupted=0
   for round in 1 2 3 4 5; do
-    more=()
-    [ -e part.chk ] && more=(--resume)
-    before=$(stat -c %Y%i part.chk 2> /dev/null)
-    "$program" "${part[@]}" "${more[@]}" > out.txt 2> err.txt &
-    child=$!
-    while [ "$(stat -c %Y%i part.chk 2> /dev/null)" = "$before" ] && kill -0 $child 2> /dev/null
-    do
-      :
-    done
+    until_checkpoint
     if [ $((round % 2)) = 0 ]; then
       kill -TERM $child 2> /dev/null
     else
