@@ -37,7 +37,12 @@ void add_report(CLI::App &app) {
       ->check(zero_or_more());
   command
       ->add_option("--replicas", report.replicas,
-                   "Synthetic samples of the Monte Carlo p-values; 0: none")
+                   "Synthetic samples of the Monte Carlo p-values of fitted sizes; 0: none")
+      ->check(zero_or_more());
+  command
+      ->add_option("--interval-replicas", report.interval_replicas,
+                   "Synthetic samples of the Monte Carlo p-values of fitted inter-event times; 0: "
+                   "none")
       ->check(zero_or_more());
   command
       ->add_option("--bootstrap", report.bootstrap,

@@ -250,7 +250,7 @@ std::string table1_section(const std::vector<IntervalCurve> &curves) {
     const std::string name =
         fmt::format("{}<br>{} (n = {})", html_escape(row.source), html_escape(row.method), row.n);
     if (row.why.empty())
-      table.row(name, {p[0], p[1], p[2], p[3], row.goodness()});
+      table.row(name, {p[0], p[1], p[2], p[3], row.goodness(" ± ")});
     else
       table.row(name, {degenerate(row.why)});
   }
@@ -365,6 +365,8 @@ std::string model_section(const std::vector<EventTable> &all, bool lsm,
   IntervalSettings intervals;
   intervals.thresholds = {settings.threshold};
   intervals.width = picture_width;
+  intervals.replicas = settings.interval_replicas;
+  intervals.seed = settings.seed;
   const std::vector<IntervalCurve> curves = interval_curves(tables, intervals);
   out += drawn_or_why([&] {
     return figures.add(
@@ -376,6 +378,7 @@ std::string model_section(const std::vector<EventTable> &all, bool lsm,
             lsm ? 14 : 15, short_number(settings.threshold)));
   });
   intervals.rescale = true;
+  intervals.replicas = 0;  // the same fits in another unit
   const std::vector<IntervalCurve> rescaled = interval_curves(tables, intervals);
   out += drawn_or_why([&] {
     return figures.add(
@@ -485,8 +488,10 @@ std::string report_html(const std::vector<EventTable> &tables, const ReportSetti
       "worse; below 0.1: not a power law), comparisons with rival laws (p below 0.05 decides), and "
       "the finite-size test.</li>\n"
       "<li>“Degenerate” stands where the data do not determine the numbers.</li>\n";
-  out += fmt::format("<li>Monte Carlo: {} replicas, {} bootstrap samples, seed {}.</li>\n</ul>\n",
-                     settings.replicas, settings.bootstrap, settings.seed);
+  out += fmt::format(
+      "<li>Monte Carlo: {} replicas for sizes, {} for inter-event times, {} bootstrap samples, "
+      "seed {}.</li>\n</ul>\n",
+      settings.replicas, settings.interval_replicas, settings.bootstrap, settings.seed);
   out +=
       "<h2>Parameters</h2>\n<p>As the programs wrote them into the catalogues.</p>\n" + parameters;
   return out + "</body>\n</html>\n";

@@ -16,7 +16,8 @@ namespace LSM::postproc {
 struct ReportSettings {
   std::string title = "Event statistics of the fault and the block-slider";
   double threshold = paper_threshold;  ///< smallest size (model energy)
-  int replicas = 100;                  ///< of the Monte Carlo p-values; 0: none
+  int replicas = 100;                  ///< of the Monte Carlo p-values of sizes; 0: none
+  int interval_replicas = 1000;        ///< the same of inter-event times
   int bootstrap = 200;                 ///< of the characteristic sizes
   std::uint64_t seed = 1;
 };

@@ -77,7 +77,7 @@ intervals)
     END { exit n != 2 }' i.csv || fail "densities: $(cat i.csv)"
   grep -q '150 inter-event times, mean 20 model time' out.txt || fail "mean: $(cat out.txt)"
   grep -q 'LSM .*0.995 .*1.00 .*15.21 .*0.0573' out.txt || fail "printed Table 1: $(cat out.txt)"
-  grep -q '^printed,,,0.0,,1.00,,100.0,,0.25,,,,,Block-Slider,' i.table1.csv || fail "$(cat i.table1.csv)"
+  grep -q '^printed,,,0.0,,1.00,,100.0,,0.25,,,,,,,Block-Slider,' i.table1.csv || fail "$(cat i.table1.csv)"
   # Every second event is large: times of 10 and 100.
   must_run intervals a.csv --threshold 0 --threshold 1.5 --rescale -o r --no-picture
   awk -F, '!/^#/ && $1 == 2 && $7 == 50 && $4 <= 10 / 40 && 10 / 40 < $5 { good = 1 } END { exit !good }' r.csv ||
@@ -89,6 +89,16 @@ intervals)
   awk -F, '$1 == "ours" { ++n; if ($12 > 3) exit 1
       if (($4 - 1) ^ 2 > 0.03 ^ 2 || ($8 / 7 - 1) ^ 2 > 0.03 ^ 2 || ($10 * 7 - 1) ^ 2 > 0.03 ^ 2) exit 1 }
     END { exit n != 2 }' x.table1.csv || fail "exponential times: $(cat x.table1.csv)"
+  # p-values: from the seed, with as many replicas as asked for.
+  grep -q 'KS [0-9.e-]*, p = 1' out.txt || fail "times without scatter fit too well: $(cat out.txt)"
+  awk -F, '$1 == "ours" && $13 != "" { ++n; if (!($14 == 1 && $15 == 0 && $16 == "no")) exit 1 } END { exit n != 1 }' x.table1.csv ||
+    fail "p-value: $(cat x.table1.csv)"
+  must_run intervals a.csv --delta 1 --method likelihood --replicas 20 --seed 3 -o p --no-picture
+  grep -q 'p ≤ 0.048, rejected' out.txt || fail "two times only are no gamma density: $(cat out.txt)"
+  grep -q 'rejected: p below 0.05' out.txt || fail "no rule: $(cat out.txt)"
+  must_run intervals a.csv --delta 1 --method likelihood --replicas 0 -o p --no-picture
+  grep -q ', p [=≤]' out.txt && fail "a p-value without replicas: $(cat out.txt)"
+  refused 'replicas' intervals a.csv --replicas -1 -o x
   refused "expected 'free' or a positive number" intervals a.csv --delta x -o x
   ;;
 fit)
