@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "commands.h"
 #include "lsm_text_io.h"
 
 namespace LSM::postproc {
@@ -86,6 +87,34 @@ void sort_by_start(EventTable &table) {
 
 }  // namespace
 
+std::string Threshold::text(const EventTable &table) const {
+  const std::string size = short_number(of(table));
+  if (given_) return size + ", as given";
+  if (of(table) > size_) return size + ", completeness in the header of " + table.completeness_path;
+  return size + ", that of the paper's Figs. 12 and 13";
+}
+
+std::vector<std::string> Threshold::texts(const std::vector<EventTable> &tables) const {
+  std::vector<std::string> lines;
+  for (const EventTable &table : tables) {
+    const std::string line = fmt::format(
+        "smallest size, {}: {}", table.info.model == "lsm" ? "fault" : "block-slider", text(table));
+    if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(line);
+  }
+  return lines;
+}
+
+CLI::Option *add_threshold(CLI::App *command, Threshold &threshold, const std::string &what) {
+  return command
+      ->add_option_function<double>(
+          "--threshold", [&threshold](const double &size) { threshold = Threshold(size); },
+          "Smallest size of " + what +
+              " (model energy); without it 1e-4, as in the paper's Figs. 12 and 13, or the largest "
+              "'completeness' in the headers of a model where that is larger (ours)")
+      ->check(zero_or_more())
+      ->default_str("1e-4");
+}
+
 void check(const CatalogueOptions &options) {
   if (std::isnan(options.min_size))
     throw std::invalid_argument("--min-size is not a number, expected a size");
@@ -108,6 +137,8 @@ EventTable read_events(const std::string &path, const CatalogueOptions &options,
   if (const std::string *text = table.info.find("min_size"))
     text_io::parse(*text, table.complete_from);
   table.complete_from = std::max(table.complete_from, options.min_size);
+  table.completeness = table.info.completeness();
+  table.completeness_path = path;
   Event event;
   while (reader.next(event)) {
     if (event.t_start < options.from_time || event.t_start >= options.to_time)
@@ -151,6 +182,15 @@ std::vector<EventTable> load_catalogues(const CatalogueOptions &options) {
       if (tables[i].label == tables[j].label)
         tables[j].label += " (" + std::filesystem::path(tables[j].path).stem().string() + ")";
   for (std::size_t i = 0; i < options.labels.size(); ++i) tables[i].label = options.labels[i];
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    for (const EventTable &other : tables) {
+      if (other.info.model != tables[i].info.model ||
+          !(other.completeness > tables[i].completeness))
+        continue;
+      tables[i].completeness = other.completeness;
+      tables[i].completeness_path = other.completeness_path;
+    }
+  }
   for (const EventTable &table : tables) state_repairs(table);
   return tables;
 }

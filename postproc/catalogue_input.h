@@ -5,6 +5,7 @@
 #define LSM_POSTPROC_CATALOGUE_INPUT_H
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "lsm_catalogue.h"
+#include "numbers.h"
 
 namespace LSM::postproc {
 
@@ -37,6 +39,10 @@ struct EventTable {
   double last_end = 0.0;              ///< t_end of the last event (model time)
   /// Smaller events are missing: --min-size, or the picker's min_size in the header (energy).
   double complete_from = 0.0;
+  /// The largest `completeness` in the headers of the catalogues of this model that were loaded
+  /// together, so that their curves begin at the same size, and the file that has it (energy).
+  double completeness = 0.0;
+  std::string completeness_path;
   std::int64_t skipped_lines = 0;    ///< bad lines passed over (lenient)
   std::int64_t left_out_small = 0;   ///< events below min_size
   std::int64_t left_out_time = 0;    ///< events outside [from_time, to_time)
@@ -51,6 +57,31 @@ struct EventTable {
   /// so one event: the longer the model, the larger this part and the more events are joined.
   double share_in_events() const;
 };
+
+/// The smallest size of the events that a command uses.
+class Threshold {
+ public:
+  /// The paper's, or the completeness of the catalogues where that is larger.
+  Threshold() = default;
+  /// The one that was given.
+  Threshold(double size) : size_(size), given_(true) {}
+  bool given() const { return given_; }
+  double given_or_paper() const { return size_; }
+  double of(const EventTable &table) const {
+    return given_ ? size_ : std::max(size_, table.completeness);
+  }
+  /// "0.01, completeness in the header of x.csv"
+  std::string text(const EventTable &table) const;
+  /// One line for each model in tables.
+  std::vector<std::string> texts(const std::vector<EventTable> &tables) const;
+
+ private:
+  double size_ = paper_threshold;
+  bool given_ = false;
+};
+
+/// Adds --threshold. \param what beside "smallest size of"
+CLI::Option *add_threshold(CLI::App *command, Threshold &threshold, const std::string &what);
 
 /// Gives each event of a catalogue that the options choose to use, which need not keep it; returns
 /// the table without the columns. \throws CatalogueError "file:line: what, expected ..."

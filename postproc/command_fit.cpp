@@ -22,7 +22,6 @@ struct Options {
   CatalogueOptions catalogues;
   PictureOptions picture;
   SizeFitSettings fits;
-  double threshold = paper_threshold;
   std::vector<std::string> ranges;
   std::string search = "both", json;
   bool scaling = false, no_comparison = false;
@@ -41,7 +40,6 @@ void run(Options &options) {
       throw std::invalid_argument("--range '" + text + "', expected LO above 0");
     settings.ranges.push_back(range);
   }
-  settings.search.lo = options.threshold;
   settings.search.upper = options.search == "both";
   settings.compare = !options.no_comparison;
   const std::vector<EventTable> tables = load_catalogues(options.catalogues);
@@ -50,14 +48,17 @@ void run(Options &options) {
   if (options.scaling) {
     options.bootstrap.seed = settings.seed;
     options.bootstrap.block = parse_block(options.block);
-    scalings = scale_sizes(tables, options.threshold, options.bootstrap);
+    scalings = scale_sizes(tables, settings.threshold, options.bootstrap);
     if (scalings.empty())
       throw std::runtime_error("--scaling: no catalogue gives its length or number of blocks");
   }
   SizeDensitySettings densities;
-  densities.threshold = options.threshold;
-  for (const Range &range : settings.ranges)
-    densities.threshold = std::min(densities.threshold, range.lo);
+  densities.threshold = settings.threshold;
+  if (!settings.ranges.empty()) {
+    double least = settings.threshold.given_or_paper();
+    for (const Range &range : settings.ranges) least = std::min(least, range.lo);
+    densities.threshold = least;
+  }
   for (const SizeFit &fit : fits)
     if (!fit.fit.degenerate)
       densities.lines.push_back(fitted_line(fit, tables[fit.catalogue], densities));
@@ -65,6 +66,8 @@ void run(Options &options) {
   std::vector<std::string> empty;
   const Figure sizes = size_density_figure(tables, densities, empty);
 
+  if (settings.ranges.empty())
+    for (const std::string &line : settings.threshold.texts(tables)) fmt::print("{}\n", line);
   fmt::print("{}", size_fits_text(fits));
   for (const Scaling &scaling : scalings) fmt::print("{}", scaling_text(scaling));
   if (!options.json.empty()) {
@@ -116,11 +119,7 @@ void add_fit(CLI::App &app) {
           "both, or lower (Clauset et al. 2009; the range then has no upper end)")
       ->check(CLI::IsMember({"both", "lower"}))
       ->group(group);
-  command
-      ->add_option("--threshold", options->threshold,
-                   "Smallest size of the search, the picture and the scaling (model energy; 1e-4 "
-                   "as in the paper's Figs. 12 and 13)")
-      ->check(zero_or_more())
+  add_threshold(command, options->fits.threshold, "the search, the picture and the scaling")
       ->group(group);
   command
       ->add_option("--replicas", options->fits.replicas,

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include <algorithm>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -28,7 +30,8 @@ void run(Options &options) {
   SizeDensitySettings &settings = options.densities;
   if (!options.range.empty()) {
     const Range range = parse_range("--range", options.range);
-    if (range.lo > settings.threshold) settings.threshold = range.lo;
+    if (range.lo > -std::numeric_limits<double>::infinity())
+      settings.threshold = std::max(range.lo, settings.threshold.given_or_paper());
     settings.upto = range.hi;
   }
   settings.counts = options.normalise == "counts";
@@ -37,7 +40,9 @@ void run(Options &options) {
     settings.lines.back().dash = 1 + static_cast<int>(settings.lines.size());
   }
   std::vector<std::string> empty;
-  const Figure figure = size_density_figure(load_catalogues(options.catalogues), settings, empty);
+  const std::vector<EventTable> tables = load_catalogues(options.catalogues);
+  const Figure figure = size_density_figure(tables, settings, empty);
+  for (const std::string &line : settings.threshold.texts(tables)) fmt::print("{}\n", line);
   for (const std::string &label : empty)
     fmt::print(stderr, "postproc: {}: no event in the range of sizes, no curve\n", label);
   make(figure, options.picture);
@@ -55,12 +60,7 @@ void add_histograms(CLI::App &app) {
   options->picture.add_to(command, "histograms");
   SizeDensitySettings &densities = options->densities;
   const std::string group = "Densities";
-  command
-      ->add_option("--threshold", densities.threshold,
-                   "Smallest size (model energy; 1e-4 as in the paper's Figs. 12 and 13; for Fig. "
-                   "7 it states none)")
-      ->check(zero_or_more())
-      ->group(group);
+  add_threshold(command, densities.threshold, "the densities")->group(group);
   command->add_option("--range", options->range, "LO:HI, only bins within this range of sizes")
       ->group(group);
   command

@@ -52,7 +52,7 @@ void run(Options &options) {
   for (const IntervalCurve &curve : curves)
     if (curve.n > 0)
       fmt::print("{}, sizes from {}: {} inter-event times, mean {} model time\n", curve.label,
-                 short_number(curve.threshold), curve.n, short_number(curve.mean, 6));
+                 curve.threshold_text, curve.n, short_number(curve.mean, 6));
   fmt::print("{}", table1_text(rows, settings.rescale));
   table1_csv(rows, settings.rescale).write(options.picture.output + ".table1.csv");
   fmt::print("wrote {}.table1.csv\n", options.picture.output);
@@ -74,8 +74,10 @@ void add_intervals(CLI::App &app) {
   command
       ->add_option(
           "--threshold", intervals.thresholds,
-          "Smallest size of the events (model energy), several allowed; 1e-4 is that of the "
-          "paper's size densities, for times it states none")
+          "Smallest size of the events (model energy), several allowed; without it 1e-4, which is "
+          "that of the paper's size densities (for times it states none), or the largest "
+          "'completeness' in the headers of a model where that is larger (ours)")
+      ->default_str("1e-4")
       ->allow_extra_args(false)
       ->check(zero_or_more())
       ->group(group);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <algorithm>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 #include <fmt/format.h>
@@ -18,7 +19,7 @@ struct Options {
   std::string series, output;
   SeriesOptions samples;
   PickerOptions picker;
-  std::optional<double> warmup;
+  std::optional<double> warmup, completeness;
   bool force = false;
 };
 
@@ -34,7 +35,7 @@ void set(text_io::Parameters &parameters, const std::string &key, const std::str
 /// The header that the run itself writes: the parameters of the series with dt among them, and the
 /// picker's settings. A value that has not changed keeps its text.
 text_io::Parameters catalogue_parameters(const PeSeriesInfo &info, const PickerSettings &picker,
-                                         double warmup) {
+                                         double warmup, std::optional<double> completeness) {
   text_io::Parameters parameters = info.parameters;
   // Where the runs have it: the fault before its viscosity, the block-slider before its picker.
   const auto after_dt =
@@ -55,6 +56,7 @@ text_io::Parameters catalogue_parameters(const PeSeriesInfo &info, const PickerS
   if (picker.keep_nonpositive || text_io::find(parameters, "keep_nonpositive"))
     set(parameters, "keep_nonpositive", picker.keep_nonpositive ? "yes" : "no");
   if (warmup > 0.0 || text_io::find(parameters, "warmup")) set_number("warmup", warmup);
+  if (completeness) set_number("completeness", *completeness);
   if (info.stride > 1) set(parameters, "stride", text_io::number(info.stride));
   set(parameters, "picked_by", "postproc " POSTPROC_VERSION);
   return parameters;
@@ -70,7 +72,10 @@ void run(const Options &options) {
 
   CatalogueInfo header;
   header.model = info.model;
-  header.parameters = catalogue_parameters(info, picker.settings(), warmup);
+  header.parameters = catalogue_parameters(info, picker.settings(), warmup, options.completeness);
+  for (const auto &[key, value] : header.parameters)
+    if (const std::string problem = catalogue_detail::bad_value(key, value); !problem.empty())
+      throw std::invalid_argument(options.series + ": " + problem);
   NewFile file(options.output, options.force);
   CatalogueWriter catalogue;
   catalogue.create(file.part(), header);
@@ -115,6 +120,13 @@ void add_pick(CLI::App &app) {
       "--warmup", options->warmup,
       "Leave out events that start before this time (model time; ours; default: as in "
       "the header of the series, or 0)");
+  command
+      ->add_option(
+          "--completeness", options->completeness,
+          "Size below which the events are not claimed to be independent of the time step "
+          "(energy; ours), for the header of the catalogue: the other commands begin there "
+          "by default (default: as in the header of the series, or not said)")
+      ->check(zero_or_more());
   options->picker.add_to(command);
   command->callback([options] { run(*options); });
 }

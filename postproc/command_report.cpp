@@ -32,10 +32,7 @@ void add_report(CLI::App &app) {
   ReportSettings &report = options->report;
   command->add_option("-o,--output", options->output, "The page");
   command->add_option("--title", report.title, "Heading of the page");
-  command
-      ->add_option("--threshold", report.threshold,
-                   "Smallest size (model energy; 1e-4 as in the paper's Figs. 12 and 13)")
-      ->check(zero_or_more());
+  add_threshold(command, report.threshold, "the events");
   command
       ->add_option("--replicas", report.replicas,
                    "Synthetic samples of the Monte Carlo p-values of fitted sizes; 0: none")

@@ -37,11 +37,16 @@ std::vector<IntervalCurve> interval_curves(const std::vector<EventTable> &tables
   if (settings.replicas < 0) throw std::invalid_argument("--replicas: expected 0 or more");
   std::vector<IntervalCurve> curves;
   for (const EventTable &table : tables) {
-    for (const double threshold : settings.thresholds) {
+    std::vector<Threshold> thresholds(settings.thresholds.begin(), settings.thresholds.end());
+    if (thresholds.empty()) thresholds.emplace_back();
+    for (const Threshold &threshold : thresholds) {
       IntervalCurve curve;
       curve.label = table.label;
       curve.model = table.info.model;
-      curve.threshold = std::max(threshold, table.complete_from);
+      curve.threshold = std::max(threshold.of(table), table.complete_from);
+      curve.threshold_text = curve.threshold > threshold.of(table)
+                                 ? short_number(curve.threshold) + ", where the catalogue begins"
+                                 : threshold.text(table);
       std::vector<double> times = inter_event_times(table, curve.threshold);
       curve.n = static_cast<std::int64_t>(times.size());
       curve.mean = sum_pairwise(times.data(), times.size()) / static_cast<double>(times.size());
@@ -87,6 +92,9 @@ Figure interval_figure(const std::vector<IntervalCurve> &curves, const IntervalS
       settings.rescale ? "inter-event times from start to start, divided by their mean"
                        : "inter-event times from start to start in model time, densities in 1 / "
                          "model time; errors: Poisson");
+  std::set<std::string> sources;
+  for (const IntervalCurve &curve : curves) sources.insert(curve.threshold_text);
+  for (const std::string &source : sources) figure.table.comment("sizes from " + source);
   std::string points, lines;
   std::vector<std::string> titles;
   double lowest = std::numeric_limits<double>::infinity(), highest = 0.0, first = lowest,

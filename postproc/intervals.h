@@ -18,7 +18,8 @@
 namespace LSM::postproc {
 
 struct IntervalSettings {
-  std::vector<double> thresholds = {paper_threshold};  ///< smallest sizes (model energy)
+  /// Smallest sizes (model energy); none: Threshold().
+  std::vector<double> thresholds;
   bool rescale = false;                                ///< times divided by their mean
   double factor = LogHistogram::default_factor;        ///< ratio of the edges of a bin
   double shortest = 0.0;  ///< shorter times are not fitted, in the unit of the picture; 0: none
@@ -42,6 +43,7 @@ struct IntervalFit {
 struct IntervalCurve {
   std::string label, model;
   double threshold = 0.0;
+  std::string threshold_text;  ///< with where it comes from
   std::int64_t n = 0;  ///< inter-event times
   double mean = 0.0;   ///< of the inter-event times, model time; NaN if there is none
   std::vector<LogBin> bins;

@@ -93,27 +93,30 @@ const char *model_name(const std::string &model) {
   return model == "lsm" ? "Fault" : "Block-slider";
 }
 
-std::string catalogue_section(const std::vector<EventTable> &tables, double threshold) {
-  HtmlTable table({"catalogue", "model", "events", fmt::format("of size {} or larger", threshold),
+std::string catalogue_section(const std::vector<EventTable> &tables, const Threshold &least) {
+  HtmlTable table({"catalogue", "model", "events", "from the smallest size used",
                    "first to last start (model time)", "share of the time within events",
                    "smallest to largest size (model energy)", "lines passed over"});
   for (const EventTable &events : tables) {
+    const double threshold = least.of(events);
     const auto above = std::count_if(events.size.begin(), events.size.end(),
                                      [threshold](double size) { return size >= threshold; });
     const auto [smallest, largest] = std::minmax_element(events.size.begin(), events.size.end());
     const bool any = !events.size.empty();
-    table.row(
-        html_escape(events.label),
-        {model_name(events.info.model), std::to_string(events.size.size()), std::to_string(above),
-         any ? fmt::format("{} to {}", short_number(events.t_start.front(), 6),
-                           short_number(events.t_start.back(), 6))
-             : "no events",
-         short_number(events.share_in_events(), 2),
-         any ? fmt::format("{} to {}", short_number(*smallest, 3), short_number(*largest, 3))
-             : "no events",
-         std::to_string(events.skipped_lines)});
+    table.row(html_escape(events.label),
+              {model_name(events.info.model), std::to_string(events.size.size()),
+               fmt::format("{} from {}", above, short_number(threshold)),
+               any ? fmt::format("{} to {}", short_number(events.t_start.front(), 6),
+                                 short_number(events.t_start.back(), 6))
+                   : "no events",
+               short_number(events.share_in_events(), 2),
+               any ? fmt::format("{} to {}", short_number(*smallest, 3), short_number(*largest, 3))
+                   : "no events",
+               std::to_string(events.skipped_lines)});
   }
   std::string out = table.text();
+  for (const std::string &line : least.texts(tables))
+    out += "<p>" + html_escape("S" + line.substr(1)) + ".</p>\n";
   for (const EventTable &events : tables)
     for (const std::string &repair : events.repairs)
       out += "<p>" + html_escape(events.label + ": " + repair) + "</p>\n";
@@ -312,17 +315,18 @@ std::string model_section(const std::vector<EventTable> &all, bool lsm,
     tables = all;
   else
     split_by_stiffness(all, tables, fig7);
+  const double threshold = settings.threshold.of(all.front());  // the same for all of a model
   SizeDensitySettings densities;
   densities.threshold = settings.threshold;
   densities.width = picture_width;
   SizeFitSettings ranges;
   ranges.replicas = settings.replicas;
   ranges.seed = settings.seed;
-  ranges.search.lo = settings.threshold;
+  ranges.threshold = settings.threshold;
   ranges.search.upper = true;
   // The paper prints no ranges. Ours: where its exponents are seen.
   const auto add_range = [&](double slope, const char *title, double lo, double hi) {
-    lo = std::max(lo, settings.threshold);
+    lo = std::max(lo, threshold);
     if (!(lo < hi)) return;
     ranges.ranges.push_back({lo, hi});
     PowerLine line;
@@ -344,7 +348,7 @@ std::string model_section(const std::vector<EventTable> &all, bool lsm,
                      fmt::format("Compare with Fig. {} of the paper. Sizes from {}. Straight "
                                  "lines: the paper's exponents, drawn above the points; their "
                                  "ranges are ours.",
-                                 lsm ? 12 : 13, short_number(settings.threshold)),
+                                 lsm ? 12 : 13, short_number(threshold)),
                      figures);
   if (!fig7.empty()) {
     SizeDensitySettings every;
@@ -373,7 +377,7 @@ std::string model_section(const std::vector<EventTable> &all, bool lsm,
 
   out += "<h3>Inter-event times</h3>\n";
   IntervalSettings intervals;
-  intervals.thresholds = {settings.threshold};
+  if (settings.threshold.given()) intervals.thresholds = {threshold};
   intervals.width = picture_width;
   intervals.replicas = settings.interval_replicas;
   intervals.seed = settings.seed;
@@ -385,7 +389,7 @@ std::string model_section(const std::vector<EventTable> &all, bool lsm,
             "Compare with Fig. {} of the paper. Start to start, events of size {} or larger; "
             "lines: fitted generalised gamma densities, least squares where they are not "
             "degenerate.",
-            lsm ? 14 : 15, short_number(settings.threshold)));
+            lsm ? 14 : 15, short_number(threshold)));
   });
   intervals.rescale = true;
   intervals.replicas = 0;  // the same fits in another unit

@@ -16,7 +16,7 @@ namespace LSM::postproc {
 
 struct ReportSettings {
   std::string title = "Event statistics of the fault and the block-slider";
-  double threshold = paper_threshold;  ///< smallest size (model energy)
+  Threshold threshold;                 ///< smallest size (model energy)
   int replicas = 100;                  ///< of the Monte Carlo p-values of sizes; 0: none
   int interval_replicas = 1000;        ///< the same of inter-event times
   Resampling bootstrap;                ///< of the characteristic sizes, with seed below

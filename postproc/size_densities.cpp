@@ -49,8 +49,11 @@ PowerLine parse_guide(std::string_view text) {
 
 Figure size_density_figure(const std::vector<EventTable> &tables,
                            const SizeDensitySettings &settings, std::vector<std::string> &empty) {
-  if (!(settings.threshold >= 0.0) || !(settings.upto > settings.threshold))
-    throw std::invalid_argument("size range: expected 0 <= lower end < upper end");
+  for (const EventTable &table : tables)
+    if (const double lo = settings.threshold.of(table); !(lo >= 0.0) || !(settings.upto > lo))
+      throw std::invalid_argument(
+          fmt::format("sizes from {} to {}: expected 0 <= lower end < upper end",
+                      settings.threshold.text(table), settings.upto));
   // Labels may hold commas, so they come last: awk -F, finds the numbers without them.
   Figure figure{Table({"curve", "model", "length", "bin_lo", "bin_hi", "size", "count",
                        settings.counts ? "events" : "density", "error", "label"}),
@@ -61,6 +64,7 @@ Figure size_density_figure(const std::vector<EventTable> &tables,
         "sizes divided by length^{0}, densities multiplied by length^{0}", settings.collapse));
   figure.table.comment(
       "units: sizes in model energy, densities in 1 / model energy; errors: Poisson");
+  for (const std::string &line : settings.threshold.texts(tables)) figure.table.comment(line);
 
   std::vector<Curve> curves;
   std::vector<std::size_t> catalogues;  // index of each curve's table
@@ -71,7 +75,7 @@ Figure size_density_figure(const std::vector<EventTable> &tables,
     LogHistogram histogram(settings.factor);
     for (const double size : table.size) histogram.add(size);
     // The range applies to the sizes as they are in the catalogue.
-    Curve curve{{}, histogram.bins(settings.threshold, settings.upto)};
+    Curve curve{{}, histogram.bins(settings.threshold.of(table), settings.upto)};
     std::int64_t events = 0;
     for (LogBin &bin : curve.bins) {
       events += bin.count;
@@ -104,10 +108,12 @@ Figure size_density_figure(const std::vector<EventTable> &tables,
       heights.add(bin.density);
     }
   }
-  if (curves.empty())
-    throw std::runtime_error(
-        fmt::format("no event of size {} or larger in any catalogue, nothing to draw",
-                    short_number(settings.threshold)));
+  if (curves.empty()) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const EventTable &table : tables) least = std::min(least, settings.threshold.of(table));
+    throw std::runtime_error(fmt::format(
+        "no event of size {} or larger in any catalogue, nothing to draw", short_number(least)));
+  }
 
   std::string x_label = "event size s (energy, model units)";
   std::string y_label = "probability density p(s) (1 / energy)";

@@ -33,7 +33,7 @@ struct PowerLine {
 PowerLine parse_guide(std::string_view text);
 
 struct SizeDensitySettings {
-  double threshold = paper_threshold;                     ///< smallest size (model energy)
+  Threshold threshold;                                    ///< smallest size (model energy)
   double upto = std::numeric_limits<double>::infinity();  ///< largest size
   double factor = LogHistogram::default_factor;           ///< ratio of the edges of a bin
   bool counts = false;                                    ///< events per bin instead of densities

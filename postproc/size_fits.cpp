@@ -51,7 +51,7 @@ std::vector<SizeFit> fit_sizes(const std::vector<EventTable> &tables,
     }
     if (settings.ranges.empty()) {
       RangeSearch search = settings.search;
-      search.lo = std::max(search.lo, least);
+      search.lo = std::max({search.lo, least, settings.threshold.of(tables[i])});
       laws.push_back(search_range(sorted, search));
     }
     for (const PowerLawFit &law : laws) {
@@ -59,6 +59,7 @@ std::vector<SizeFit> fit_sizes(const std::vector<EventTable> &tables,
       fit.label = tables[i].label;
       fit.model = tables[i].info.model;
       fit.catalogue = i;
+      fit.completeness = tables[i].info.completeness();
       fit.fit = law;
       if (!law.degenerate && settings.replicas > 0) {
         fit.p = p_value(law, sorted, settings.replicas, settings.seed);
@@ -88,6 +89,10 @@ std::string size_fits_text(const std::vector<SizeFit> &fits) {
   for (const SizeFit &fit : fits) {
     const PowerLawFit &law = fit.fit;
     out += fmt::format("{}: sizes {}, {} events\n", fit.label, range_text(law), law.n);
+    if (law.lo < fit.completeness)
+      out += fmt::format(
+          "  note: below its completeness of {} the catalogue may depend on the time step\n",
+          short_number(fit.completeness));
     if (law.degenerate) {
       out += "  degenerate: " + law.why + "\n";
       continue;
@@ -181,7 +186,8 @@ PowerLine fitted_line(const SizeFit &fit, const EventTable &table,
   LogHistogram histogram(settings.factor);
   for (const double size : table.size) histogram.add(size);
   std::int64_t drawn = 0;
-  for (const LogBin &bin : histogram.bins(settings.threshold, settings.upto)) drawn += bin.count;
+  for (const LogBin &bin : histogram.bins(settings.threshold.of(table), settings.upto))
+    drawn += bin.count;
   PowerLine line;
   line.slope = -law.alpha;
   line.lo = law.lo;
@@ -198,7 +204,7 @@ PowerLine fitted_line(const SizeFit &fit, const EventTable &table,
   return line;
 }
 
-std::vector<Scaling> scale_sizes(const std::vector<EventTable> &tables, double threshold,
+std::vector<Scaling> scale_sizes(const std::vector<EventTable> &tables, const Threshold &threshold,
                                  const Resampling &resampling) {
   std::vector<Scaling> scalings;
   for (const EventTable &table : tables) {
@@ -215,10 +221,14 @@ std::vector<Scaling> scale_sizes(const std::vector<EventTable> &tables, double t
       found->model = table.info.model;
       found->stiffness = stiffness;
       // One for all lengths, and no catalogue with less than all of its events.
-      found->threshold = threshold;
-      for (const EventTable &other : tables)
-        if (other.info.model == found->model)
-          found->threshold = std::max(found->threshold, other.complete_from);
+      found->threshold = threshold.of(table);
+      found->threshold_text = threshold.text(table);
+      for (const EventTable &other : tables) {
+        if (other.info.model != found->model || !(other.complete_from > found->threshold)) continue;
+        found->threshold = other.complete_from;
+        found->threshold_text =
+            short_number(other.complete_from) + ", where " + other.label + " begins";
+      }
     }
     found->labels.push_back(table.label);
     // A seed of its own for each catalogue, so that their bootstrap samples are independent.
@@ -298,7 +308,7 @@ std::string scaling_text(const Scaling &scaling) {
   std::string out = fmt::format(
       "finite-size scaling, {}: characteristic size s* = <s^2>/<s>, sizes from {} (bootstrap "
       "errors, {})\n",
-      scaling.name(), short_number(scaling.threshold),
+      scaling.name(), scaling.threshold_text,
       scaling.by_event() ? "events one by one as if independent" : "blocks of time");
   for (std::size_t i = 0; i < scaling.points.size(); ++i) {
     const SizePoint &point = scaling.points[i];
@@ -318,6 +328,7 @@ nlohmann::json to_json(const Scaling &scaling) {
   nlohmann::json json = {{"model", scaling.model},
                          {"kl", scaling.stiffness},
                          {"threshold", scaling.threshold},
+                         {"threshold_from", scaling.threshold_text},
                          {"points", nlohmann::json::array()},
                          {"degenerate", scaling.fit.degenerate},
                          {"verdict", scaling.verdict()}};

@@ -23,6 +23,7 @@ namespace LSM::postproc {
 struct SizeFitSettings {
   std::vector<Range> ranges;  ///< of sizes (model energy); none: the range is searched
   RangeSearch search;         ///< how it is searched
+  Threshold threshold;        ///< smallest size of the search
   int replicas = 100;         ///< of the Monte Carlo p-value; 0: none
   std::uint64_t seed = 1;
   bool compare = true;  ///< with the rivals of compare()
@@ -32,6 +33,7 @@ struct SizeFitSettings {
 struct SizeFit {
   std::string label, model;
   std::size_t catalogue = 0;  ///< index among the catalogues
+  double completeness = 0.0;  ///< in the header of the catalogue; 0: not said
   PowerLawFit fit;
   double p = std::numeric_limits<double>::quiet_NaN();        ///< NaN: not computed
   double p_error = std::numeric_limits<double>::quiet_NaN();  ///< of its Monte Carlo estimate
@@ -63,6 +65,7 @@ struct Scaling {
   std::string model;
   std::string stiffness;  ///< block-slider: kl of the header; "" if there is none
   double threshold = 0.0;
+  std::string threshold_text;  ///< with where it comes from
   std::vector<std::string> labels;
   std::vector<SizePoint> points;
   ScalingFit fit;
@@ -74,7 +77,7 @@ struct Scaling {
 };
 
 /// One per model and stiffness of the leaf springs, catalogues without a length left out.
-std::vector<Scaling> scale_sizes(const std::vector<EventTable> &tables, double threshold,
+std::vector<Scaling> scale_sizes(const std::vector<EventTable> &tables, const Threshold &threshold,
                                  const Resampling &resampling);
 
 /// Resampling::block from "auto" or a time. \throws std::invalid_argument naming --block

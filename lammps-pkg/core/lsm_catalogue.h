@@ -9,7 +9,9 @@
 ///
 /// Times in model time, sizes in model energy, 17 significant digits. Events are in order of time
 /// and do not overlap; identifiers increase. With the parameter `events = ruptures`, events are
-/// local: they may overlap in time, and are in order of their ends. (The format is ours.)
+/// local: they may overlap in time, and are in order of their ends. The parameter `completeness` is
+/// a size: events smaller than it are not claimed to be independent of the time step. (The format
+/// is ours.)
 #ifndef LSM_CATALOGUE_H
 #define LSM_CATALOGUE_H
 
@@ -49,6 +51,13 @@ struct CatalogueInfo {
   bool overlapping() const {
     const std::string *events = find("events");
     return events && *events == "ruptures";
+  }
+
+  /// Size below which events are not claimed to be independent of the time step; 0: not said.
+  double completeness() const {
+    double size = 0.0;
+    if (const std::string *text = find("completeness")) text_io::parse(*text, size);
+    return size;
   }
 };
 
@@ -101,6 +110,13 @@ inline bool known_model(std::string_view model) {
   return model == "lsm" || model == "block-slider";
 }
 
+/// What is wrong with the value of a parameter, or "".
+inline std::string bad_value(const std::string &key, const std::string &value) {
+  double size = 0.0;
+  if (key != "completeness" || (text_io::parse(value, size) && size >= 0.0)) return {};
+  return "completeness is " + text_io::in_quotes(value) + ", expected a finite size of at least 0";
+}
+
 /// The first number of event that is not finite, or "".
 inline std::string not_finite(const Event &event) {
   for (const Column &column : all_columns)
@@ -148,6 +164,10 @@ inline void check_info(const CatalogueInfo &info) {
   text_io::check_parameters(info.parameters);
   if (info.find("model"))
     throw std::invalid_argument("catalogue header: parameter 'model' given twice");
+  for (const auto &[key, value] : info.parameters) {
+    const std::string problem = bad_value(key, value);
+    if (!problem.empty()) throw std::invalid_argument("catalogue header: " + problem);
+  }
 }
 
 }  // namespace catalogue_detail
@@ -271,6 +291,11 @@ class CatalogueReader {
     if (parameter.first == "model" || info_.find(parameter.first)) {
       report(header,
              "parameter " + text_io::in_quotes(parameter.first) + " given twice, expected once");
+      return;
+    }
+    const std::string problem = catalogue_detail::bad_value(parameter.first, parameter.second);
+    if (!problem.empty()) {
+      report(header, problem);
       return;
     }
     info_.parameters.push_back(std::move(parameter));

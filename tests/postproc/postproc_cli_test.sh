@@ -83,6 +83,19 @@ pick)
   reference literal 0.5 0 pe.csv | awk -F, '$2 >= 75' | cut -d, -f2- | diff - <(rows c.csv | cut -d, -f2-) > /dev/null ||
     fail "--warmup 75"
   [ "$(rows c.csv | head -n 1 | cut -d, -f1)" = 1 ] || fail "identifiers with --warmup"
+  # Completeness: said on request, carried over, replaced.
+  grep -q completeness c.csv && fail "completeness that nobody gave"
+  must_run pick pe.csv -o d.csv --completeness 0.003
+  [ "$(grep -c '^# completeness = 0.003$' d.csv)" = 1 ] || fail "--completeness: $(grep '^#' d.csv)"
+  rows d.csv | diff - <(rows picked.csv) > /dev/null || fail "--completeness changes the events"
+  sed 's/^# length/# completeness = 0.002\n&/' pe.csv > known.csv
+  must_run pick known.csv -o e.csv
+  grep -q '^# completeness = 0.002$' e.csv || fail "completeness of the series is lost: $(grep '^#' e.csv)"
+  must_run pick known.csv -o e.csv --force --completeness 0.004
+  [ "$(grep '^# completeness' e.csv)" = '# completeness = 0.004' ] || fail "completeness: $(grep '^#' e.csv)"
+  refused "completeness: expected a number of 0 or more, not '-1'" pick pe.csv -o x.csv --completeness -1
+  sed 's/^# length/# completeness = small\n&/' pe.csv > known.csv
+  refused "known.csv: completeness is 'small', expected a finite size of at least 0" pick known.csv -o x.csv
   # The catalogue is one that the other commands read.
   must_run export c.csv -o table.csv
   # An older file stays unless --force is given; nothing is left of a series that ends badly.

@@ -166,6 +166,53 @@ fit)
   must_run fit picked.csv --range 1e-3:1 --replicas 0 --no-comparison -o m --no-picture
   grep -q '^lsm,0.01,1,' m.fits.csv || fail "min_size of the header: $(cat m.fits.csv)"
   ;;
+completeness)
+  power 1 1e-3 1 1000 | catalogue plain.csv 120
+  sed 's/^# length/# completeness = 0.01\n&/' plain.csv > known.csv
+  sed 's/^# length = 120/# length = 240/' plain.csv > long.csv
+  power 1 1e-3 1 1000 | catalogue s.csv 256 block-slider
+  above=$(awk -F, '!/^[#e]/ && $6 >= 0.01 { ++n } END { print n }' plain.csv)
+  [ "$above" -gt 600 ] && [ "$above" -lt 700 ] || fail "$above events from 0.01"
+  # Without it as ever.
+  must_run histograms plain.csv -o p --no-picture
+  grep -q "smallest size, fault: 0.0001, that of the paper" out.txt || fail "$(cat out.txt)"
+  counts() { awk -F, -v curve="$2" '!/^#/ && $1 == curve { n += $7 } END { print n }' "$1"; }
+  [ "$(counts p.csv 1)" = 1000 ] || fail "$(counts p.csv 1) events"
+  # With it, for all faults and no slider.
+  must_run histograms long.csv known.csv s.csv -o h --no-picture
+  for place in out.txt h.csv; do
+    grep -q 'smallest size, fault: 0.01, completeness in the header of known.csv' $place &&
+      grep -q 'smallest size, block-slider: 0.0001, that of the paper' $place || fail "$(cat $place)"
+  done
+  [ "$(counts h.csv 1) $(counts h.csv 2) $(counts h.csv 3)" = "$above $above 1000" ] || fail "$(cat h.csv)"
+  # What is given goes before.
+  must_run histograms known.csv -o h --no-picture --threshold 0.001
+  [ "$(counts h.csv 1)" = 1000 ] && grep -q '0.001, as given' out.txt || fail "--threshold: $(cat out.txt h.csv)"
+  must_run histograms known.csv -o h --no-picture --range 0.001:
+  [ "$(counts h.csv 1)" = 1000 ] || fail "--range 0.001: $(cat h.csv)"
+  must_run histograms known.csv -o h --no-picture --range :1
+  [ "$(counts h.csv 1)" = "$above" ] || fail "--range :1 $(cat h.csv)"
+  must_run intervals known.csv -o i --no-picture --replicas 0
+  grep -q "sizes from 0.01, completeness in the header of known.csv: $((above - 1)) inter-event times" out.txt || fail "$(cat out.txt)"
+  grep -q '^# sizes from 0.01, completeness in the header' i.csv && grep -q "^ours,0.01,$((above - 1))," i.table1.csv || fail "$(cat i.csv)"
+  must_run intervals known.csv -o i --no-picture --replicas 0 --threshold 1e-4
+  grep -q "sizes from 0.0001, as given: 999 inter-event times" out.txt || fail "$(cat out.txt)"
+  must_run fit known.csv --replicas 0 --scaling -o f --no-picture --json f.json
+  grep -q 'smallest size, fault: 0.01, completeness in the header' out.txt || fail "$(cat out.txt)"
+  awk -F, '$1 == "lsm" && !($2 >= 0.01) { exit 1 }' f.fits.csv || fail "the search begins too low: $(cat f.fits.csv)"
+  grep -q "n = $above " out.txt && grep -q '"threshold_from": "0.01, completeness' f.json || fail "scaling: $(cat out.txt f.json)"
+  grep -q 'may depend on the time step' out.txt && fail "a note without a reason: $(cat out.txt)"
+  must_run fit known.csv --replicas 0 --no-comparison --range 1e-3:1 -o f --no-picture
+  grep -q '^lsm,0.001,1,no,1000,' f.fits.csv && grep -q 'below its completeness of 0.01' out.txt || fail "--range: $(cat out.txt)"
+  must_run report known.csv s.csv --replicas 0 --interval-replicas 0 -o r.html
+  grep -q "<td>$above from 0.01</td>" r.html && grep -q '<td>1000 from 0.0001</td>' r.html &&
+    grep -q 'Smallest size, fault: 0.01, completeness in the header of known.csv' r.html || fail "the page"
+  grep -q 'Sizes from 0.01\.' r.html && ! grep -q '<td>0.0001 to' r.html || fail "ranges of the page"
+  sed 's/^# length/# completeness = small\n&/' plain.csv > bad.csv
+  for command in histograms intervals fit report; do
+    refused "bad.csv:3: completeness is 'small', expected a finite size of at least 0" $command bad.csv -o x
+  done
+  ;;
 report)
   power 1 1e-3 1 500 | catalogue 'a<b&c.csv' 120
   power 1.2 1e-2 100 500 | catalogue s.csv 256 block-slider

@@ -94,6 +94,54 @@ TEST_F(CatalogueInput, KnowsWhereItIsComplete) {
   EXPECT_EQ(load_catalogue(name, options).complete_from, 0.1);
 }
 
+TEST_F(CatalogueInput, CompletenessIsTheDefaultThreshold) {
+  CatalogueOptions options;
+  options.paths = {file(good), file(good, "completeness = 0.003"),
+                   file(good, "completeness = 0.002"), file(good, "blocks = 3", "block-slider"),
+                   file(good, "completeness = 1e-5", "block-slider")};
+  const std::vector<EventTable> tables = load_catalogues(options);
+  const Threshold none, given(0.25);
+  // One for all of a model; never below the paper's.
+  for (std::size_t i : {0, 1, 2}) {
+    EXPECT_EQ(none.of(tables[i]), 0.003);
+    EXPECT_EQ(none.text(tables[i]), "0.003, completeness in the header of " + options.paths[1]);
+    EXPECT_EQ(tables[i].complete_from, 0.0);  // nothing is left out for it
+  }
+  for (std::size_t i : {3, 4}) {
+    EXPECT_EQ(none.of(tables[i]), 1e-4);
+    EXPECT_EQ(none.text(tables[i]), "0.0001, that of the paper's Figs. 12 and 13");
+  }
+  for (const EventTable &table : tables) EXPECT_EQ(given.of(table), 0.25);
+  EXPECT_EQ(given.text(tables[0]), "0.25, as given");
+  EXPECT_EQ(Threshold(0.0).of(tables[0]), 0.0);
+  EXPECT_EQ(none.texts(tables),
+            (std::vector<std::string>{
+                "smallest size, fault: " + none.text(tables[0]),
+                "smallest size, block-slider: 0.0001, that of the paper's Figs. 12 and 13"}));
+}
+
+TEST_F(CatalogueInput, CompletenessHasToBeASize) {
+  for (const std::string bad : {"small", "-1", "nan", "inf", "1e-4 (measured)"}) {
+    const std::string name = file(good, "completeness = " + bad);
+    CatalogueOptions options;
+    try {
+      load_catalogue(name, options);
+      ADD_FAILURE() << bad;
+    } catch (const LSM::CatalogueError &error) {
+      EXPECT_EQ(std::string(error.what()),
+                name + ":3: completeness is '" + bad + "', expected a finite size of at least 0");
+    }
+    options.lenient = true;
+    const EventTable table = load_catalogue(name, options);
+    EXPECT_EQ(table.completeness, 0.0);
+    EXPECT_EQ(table.skipped_lines, 1);
+    LSM::CatalogueInfo info;
+    info.model = "lsm";
+    info.parameters = {{"completeness", bad}};
+    EXPECT_THROW(LSM::CatalogueWriter().create(path("out.csv"), info), std::invalid_argument);
+  }
+}
+
 TEST_F(CatalogueInput, LengthAndLabelsFromTheHeader) {
   CatalogueOptions options;
   options.paths = {file(good), file(good, "blocks = 256", "block-slider"), file(good, "seed = 1"),

@@ -145,6 +145,23 @@ TEST(Table1, MissingSmallEventsRaiseTheThreshold) {
   EXPECT_EQ(curves[1].threshold, 0.8);
 }
 
+TEST(Table1, CompletenessIsTheDefaultThreshold) {
+  EventTable table = events({1.0, 2.0, 4.0, 8.0}, {1.0, 0.1, 1.0, 0.5});
+  table.completeness = 0.3;
+  table.completeness_path = "a.csv";
+  IntervalSettings settings;
+  const auto curves = interval_curves({table}, settings);
+  ASSERT_EQ(curves.size(), 1u);
+  EXPECT_EQ(curves[0].threshold, 0.3);
+  EXPECT_EQ(curves[0].n, 2);
+  EXPECT_EQ(curves[0].threshold_text, "0.3, completeness in the header of a.csv");
+  settings.thresholds = {0.05};
+  EXPECT_EQ(interval_curves({table}, settings)[0].n, 3);
+  table.complete_from = 0.7;
+  EXPECT_EQ(interval_curves({table}, settings)[0].threshold_text,
+            "0.7, where the catalogue begins");
+}
+
 TEST(Table1, RescaledTimesHaveMeanOne) {
   IntervalSettings settings;
   settings.deltas = {1.0};
