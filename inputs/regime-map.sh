@@ -55,7 +55,7 @@ point() {
     return 1
   fi
   "$bin/postproc" series fault.pe.bin --from "$skip" -o shape >shape.txt 2>&1
-  "$bin/postproc" pick fault.pe.bin --memory-time 0.45 -o fault.short.csv >/dev/null 2>&1
+  "$bin/postproc" pick fault.pe.bin --memory-time 3 -o fault.long.csv >/dev/null 2>&1
   rm -f fault.restart.*
   cp shape.txt numbers.txt
 }
@@ -93,10 +93,10 @@ statistics() {
 }
 default() { sed -n "s/^variable $1 *index *\([^ ]*\).*/\1/p" "$root/inputs/fault.in"; }
 {
-  echo "# Regime map of the fault; runs of inputs/regime-map.txt, times below $skip left out. short: picked with a memory of 0.45"
+  echo "# Regime map of the fault; runs of inputs/regime-map.txt, times below $skip left out. long_: picked with a memory of 3"
   echo "# exponents: 1e-4 to 1e-1 and 1e-3 to 1e-1; gamma and B: times between events of 1e-3 and more, delta = 1 (likelihood)"
   echo -n "length,stress,viscosity,others,saw_tooth,drop_over_load,time_in_events,mean_duration"
-  for kind in "" short_; do
+  for kind in "" long_; do
     for name in events from_1e-4 from_1e-3 exponent_4 error_4 exponent_3 error_3 gamma gamma_error B mean_time; do
       echo -n ",$kind$name"
     done
@@ -120,7 +120,7 @@ default() { sed -n "s/^variable $1 *index *\([^ ]*\).*/\1/p" "$root/inputs/fault
     shape=$(sed -n 's/.*(saw-tooth \([^;]*\);.*fastest fall . load \([^,]*\), time in events \([^,]*\), mean duration \(.*\)/\1,\2,\3,\4/p' \
       "$folder/numbers.txt")
     [ -n "$shape" ] || shape=1,,, # PE only rises: nothing slips
-    echo "$length,$stress,$viscosity,$others,$shape,$(statistics "$folder" fault.catalogue.csv),$(statistics "$folder" fault.short.csv)"
+    echo "$length,$stress,$viscosity,$others,$shape,$(statistics "$folder" fault.catalogue.csv),$(statistics "$folder" fault.long.csv)"
   done < <(list)
 } >"$output/regime-map.csv.new" && mv "$output/regime-map.csv.new" "$output/regime-map.csv" || exit 1
 
