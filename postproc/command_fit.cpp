@@ -26,7 +26,8 @@ struct Options {
   std::vector<std::string> ranges;
   std::string search = "both", json;
   bool scaling = false, no_comparison = false;
-  int bootstrap = 200;
+  Resampling bootstrap;
+  std::string block = "auto";
 };
 
 void run(Options &options) {
@@ -47,7 +48,9 @@ void run(Options &options) {
   const std::vector<SizeFit> fits = fit_sizes(tables, settings);
   std::vector<Scaling> scalings;
   if (options.scaling) {
-    scalings = scale_sizes(tables, options.threshold, options.bootstrap, settings.seed);
+    options.bootstrap.seed = settings.seed;
+    options.bootstrap.block = parse_block(options.block);
+    scalings = scale_sizes(tables, options.threshold, options.bootstrap);
     if (scalings.empty())
       throw std::runtime_error("--scaling: no catalogue gives its length or number of blocks");
   }
@@ -133,10 +136,11 @@ void add_fit(CLI::App &app) {
                  "dependence, or growth that ends at a length (ours)")
       ->group(group);
   command
-      ->add_option("--bootstrap", options->bootstrap,
+      ->add_option("--bootstrap", options->bootstrap.replicas,
                    "Resampled catalogues for the errors of --scaling")
       ->check(CLI::Range(2, 1000000))
       ->group(group);
+  command->add_option("--block", options->block, block_help)->group(group);
   command->add_option("--json", options->json, "Also write the results to this file")->group(group);
   command->callback([options] { run(*options); });
 }

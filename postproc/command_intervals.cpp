@@ -103,6 +103,13 @@ void add_intervals(CLI::App &app) {
                    "Leave shorter times out of the fits (model time, or multiples of the mean with "
                    "--rescale); by likelihood gamma <= 0 needs this")
       ->group(group);
+  command
+      ->add_option("--replicas", intervals.replicas,
+                   "Synthetic samples of the Monte Carlo p-value of each fit by likelihood, fitted "
+                   "as the data were; 0: none")
+      ->check(zero_or_more())
+      ->group(group);
+  command->add_option("--seed", intervals.seed, "Of the random numbers")->group(group);
   command->callback([options] { run(*options); });
 }
 

@@ -8,6 +8,7 @@
 #include "commands.h"
 #include "new_file.h"
 #include "report.h"
+#include "size_fits.h"
 
 namespace LSM::postproc {
 
@@ -16,7 +17,7 @@ namespace {
 struct Options {
   CatalogueOptions catalogues;
   ReportSettings report;
-  std::string output = "report.html";
+  std::string output = "report.html", block = "auto";
 };
 
 }  // namespace
@@ -37,15 +38,22 @@ void add_report(CLI::App &app) {
       ->check(zero_or_more());
   command
       ->add_option("--replicas", report.replicas,
-                   "Synthetic samples of the Monte Carlo p-values; 0: none")
+                   "Synthetic samples of the Monte Carlo p-values of fitted sizes; 0: none")
       ->check(zero_or_more());
   command
-      ->add_option("--bootstrap", report.bootstrap,
+      ->add_option("--interval-replicas", report.interval_replicas,
+                   "Synthetic samples of the Monte Carlo p-values of fitted inter-event times; 0: "
+                   "none")
+      ->check(zero_or_more());
+  command
+      ->add_option("--bootstrap", report.bootstrap.replicas,
                    "Resampled catalogues for the errors of the characteristic sizes")
       ->check(CLI::Range(2, 1000000));
+  command->add_option("--block", options->block, block_help);
   command->add_option("--seed", report.seed, "Of the random numbers");
   command->callback([options] {
     refuse_input(options->output, options->catalogues.paths);
+    options->report.bootstrap.block = parse_block(options->block);
     write_file(options->output, report_html(load_catalogues(options->catalogues), options->report));
     fmt::print("wrote {}\n", options->output);
   });

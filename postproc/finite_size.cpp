@@ -140,20 +140,110 @@ Saturation fit_saturation(LogPoints points) {
 
 }  // namespace
 
-SizePoint characteristic_size(const std::vector<double> &sizes, double threshold, double length,
-                              int replicas, std::uint64_t seed) {
+double block_length(const std::vector<double> &values) {
+  const auto n = static_cast<double>(values.size());
+  const double longest = std::max(1.0, n / 10.0);
+  const double shortest = std::min(std::cbrt(n), longest);
+  const auto covariance = [&](std::size_t lag) {
+    NeumaierSum sum;
+    for (std::size_t i = 0; i + lag < values.size(); ++i) sum.add(values[i] * values[i + lag]);
+    return sum.value() / n;
+  };
+  // The correlation is taken to end before the first five lags in a row without a significant one.
+  constexpr std::size_t quiet = 5;
+  const std::size_t last =
+      std::min(static_cast<std::size_t>(std::ceil(std::sqrt(n))) + quiet, values.size() / 2);
+  std::vector<double> r = {covariance(0)};
+  if (!(r[0] > 0.0)) return shortest;
+  const double significant = 2.0 * std::sqrt(std::log10(n) / n) * r[0];
+  std::size_t end = 0;
+  for (std::size_t lag = 1; lag <= last; ++lag) {
+    r.push_back(covariance(lag));
+    if (std::fabs(r[lag]) >= significant) end = lag;
+    if (lag >= end + quiet) break;
+  }
+  // Flat-top window over twice that.
+  const std::size_t width = std::min(2 * std::max<std::size_t>(end, 1), last);
+  while (r.size() <= width) r.push_back(covariance(r.size()));
+  double spectrum = r[0], slope = 0.0;
+  for (std::size_t lag = 1; lag <= width; ++lag) {
+    const double t = static_cast<double>(lag) / static_cast<double>(width);
+    const double weighted = 2.0 * std::min(1.0, 2.0 * (1.0 - t)) * r[lag];
+    spectrum += weighted;
+    slope += static_cast<double>(lag) * weighted;
+  }
+  // A spectrum of 0 or less is noise about a small one: the longest block.
+  if (!(spectrum > 0.0)) return longest;
+  return std::clamp(std::cbrt(1.5 * std::pow(slope / spectrum, 2) * n), shortest, longest);
+}
+
+namespace {
+
+// Events on a ring of time, with running sums so that those of any stretch cost two look-ups.
+class Ring {
+ public:
+  Ring(const std::vector<double> &times, const std::vector<double> &sizes) : times_(times) {
+    const auto n = static_cast<double>(times.size());
+    // The gap where the ends are joined is as long as the others on average.
+    duration_ = (times.back() - times.front()) * n / (n - 1.0);
+    NeumaierSum s, s2;
+    sums_.push_back({0.0, 0.0});
+    for (double size : sizes) {
+      s.add(size);
+      s2.add(size * size);
+      sums_.push_back({s.value(), s2.value()});
+    }
+  }
+  struct Sums {
+    double s, s2;
+  };
+  double duration() const { return duration_; }
+  Sums all() const { return sums_.back(); }
+  // Of the events in [from, from + length), 0 <= from < duration, length <= duration.
+  Sums over(double from, double length) const {
+    const Sums first = before(from), wrapped = before(from + length - duration_);
+    const Sums last = from + length > duration_ ? Sums{all().s + wrapped.s, all().s2 + wrapped.s2}
+                                                : before(from + length);
+    return {last.s - first.s, last.s2 - first.s2};
+  }
+
+ private:
+  Sums before(double time) const {
+    return sums_[static_cast<std::size_t>(
+        std::lower_bound(times_.begin(), times_.end(), times_.front() + time) - times_.begin())];
+  }
+  const std::vector<double> &times_;
+  std::vector<Sums> sums_;
+  double duration_;
+};
+
+}  // namespace
+
+SizePoint characteristic_size(const std::vector<double> &t_start, const std::vector<double> &sizes,
+                              double threshold, double length, const Resampling &resampling) {
   const std::string what = "characteristic size: ";
+  const int replicas = resampling.replicas;
   if (replicas < 2)
     throw std::invalid_argument(what + std::to_string(replicas) + " replicas, expected at least 2");
+  if (t_start.size() != sizes.size() || !std::is_sorted(t_start.begin(), t_start.end()))
+    throw std::invalid_argument(what + "expected one time for each size, in ascending order");
+  if (!std::isnan(resampling.block) &&
+      !(resampling.block >= 0.0 && std::isfinite(resampling.block)))
+    throw std::invalid_argument(what + "block of " + number(resampling.block) +
+                                ", expected a finite time of at least 0");
   if (!(threshold >= 0.0 && std::isfinite(threshold)))
     throw std::invalid_argument(what + "threshold " + number(threshold) +
                                 ", expected a finite number of at least 0");
   if (!(length > 0.0 && std::isfinite(length)))
     throw std::invalid_argument(what + "length " + number(length) +
                                 ", expected a positive finite number");
-  std::vector<double> kept;
-  for (double size : sizes)
-    if (size > 0.0 && size >= threshold && std::isfinite(size)) kept.push_back(size);
+  std::vector<double> kept, times;
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    const double size = sizes[i];
+    if (!(size > 0.0 && size >= threshold && std::isfinite(size))) continue;
+    kept.push_back(size);
+    times.push_back(t_start[i]);
+  }
   SizePoint point;
   point.length = length;
   point.n = static_cast<std::int64_t>(kept.size());
@@ -167,6 +257,11 @@ SizePoint characteristic_size(const std::vector<double> &sizes, double threshold
     return point;
   }
 
+  if (!(times.back() > times.front())) {
+    point.why = "all events begin at the same time";
+    return point;
+  }
+
   const auto ratio = [&](const auto &next) {
     NeumaierSum sum, squares;
     for (std::size_t i = 0; i < kept.size(); ++i) {
@@ -176,16 +271,59 @@ SizePoint characteristic_size(const std::vector<double> &sizes, double threshold
     }
     return squares.value() / sum.value();
   };
-  point.degenerate = false;
+  const Ring ring(times, kept);
   point.s_star = ratio([&](std::size_t i) { return kept[i]; });
+  // What an event adds to the deviation of the ratio, to first order.
+  const auto pull = [&](double size) { return (size * size - point.s_star * size) / ring.all().s; };
+  NeumaierSum pulls;
+  for (double size : kept) pulls.add(std::pow(pull(size), 2));
+  point.error_independent = std::sqrt(pulls.value());
+
+  point.block = resampling.block;
+  if (std::isnan(point.block)) {
+    // As many bins as events: one in each on average.
+    std::vector<double> bins(kept.size(), 0.0);
+    const auto count = static_cast<double>(bins.size());
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      const double at = (times[i] - times.front()) / ring.duration() * count;
+      bins[std::min(static_cast<std::size_t>(at), bins.size() - 1)] += pull(kept[i]);
+    }
+    point.block = block_length(bins) * ring.duration() / count;
+  }
+  if (point.block > 0.0) {
+    // Below a hundredth of the mean interval hardly a block would hold two events.
+    const double shortest = 0.01 * ring.duration() / static_cast<double>(kept.size());
+    if (!(point.block >= shortest && point.block <= 0.5 * ring.duration()))
+      throw std::invalid_argument(what + "block of " + number(point.block) + ", expected 0 or " +
+                                  number(shortest) + " to half of the catalogue, which is " +
+                                  number(ring.duration()) + " long");
+    point.blocks = static_cast<int>(std::round(ring.duration() / point.block));  // a whole number
+    point.block = ring.duration() / point.blocks;
+  }
+
+  point.degenerate = false;
   const std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)> rng(gsl_rng_alloc(gsl_rng_mt19937),
                                                               gsl_rng_free);
-  gsl_rng_set(rng.get(), static_cast<unsigned long>(seed));
+  gsl_rng_set(rng.get(), static_cast<unsigned long>(resampling.seed));
+  const auto event_by_event = [&] {
+    return ratio([&](std::size_t) { return kept[gsl_rng_uniform_int(rng.get(), kept.size())]; });
+  };
+  const auto block_by_block = [&] {
+    NeumaierSum s, s2;
+    while (!(s.value() > 0.0)) {  // a draw without an event has no ratio
+      for (int i = 0; i < point.blocks; ++i) {
+        const double from = gsl_rng_uniform(rng.get()) * ring.duration();
+        const Ring::Sums part = ring.over(from, point.block);
+        s.add(part.s);
+        s2.add(part.s2);
+      }
+    }
+    return s2.value() / s.value();
+  };
   NeumaierSum sum, squares;
   for (int replica = 0; replica < replicas; ++replica) {
     const double deviation =
-        ratio([&](std::size_t) { return kept[gsl_rng_uniform_int(rng.get(), kept.size())]; }) -
-        point.s_star;
+        (point.blocks > 0 ? block_by_block() : event_by_event()) - point.s_star;
     sum.add(deviation);
     squares.add(deviation * deviation);
   }

@@ -17,17 +17,45 @@ struct SizePoint {
   double length = 0.0;  ///< fault length (model units) or number of blocks
   double s_star = std::numeric_limits<double>::quiet_NaN();  ///< <s^2> / <s>, energy units
   double error = std::numeric_limits<double>::quiet_NaN();   ///< bootstrap standard error
+  /// What the error would be if the events were independent (from their moments).
+  double error_independent = std::numeric_limits<double>::quiet_NaN();
+  double block = 0.0;  ///< length of the blocks resampled (model time); 0: event by event
+  int blocks = 0;      ///< as many make up the catalogue
   std::int64_t n = 0;                                        ///< events at or above the threshold
   bool degenerate = true;  ///< fewer than 10 events, or all equal: s_star and error are NaN
   std::string why;
 };
 
+/// How errors come from one catalogue.
+struct Resampling {
+  int replicas = 200;
+  std::uint64_t seed = 1;
+  /// Length of the blocks (model time); NaN: block_length(); 0: event by event, as if they were
+  /// independent.
+  double block = std::numeric_limits<double>::quiet_NaN();
+};
+
 /// s* = <s^2> / <s> over the sizes at or above threshold; for a power law with exponent below 3 it
-/// follows the roll-off. Error by resampling events (independent events assumed).
-/// \throws std::invalid_argument for fewer than 2 replicas, or a length or threshold that is not
-/// positive and finite (threshold may be 0)
-SizePoint characteristic_size(const std::vector<double> &sizes, double threshold, double length,
-                              int replicas = 200, std::uint64_t seed = 1);
+/// follows the roll-off. Events come in sequences, so the error is that of a circular block
+/// bootstrap in time (Politis & Romano 1992): stretches of the catalogue, joined to a ring, that
+/// begin at random times, together as long as the catalogue. Event by event it would leave out the
+/// correlation of events near to each other.
+/// \param t_start of the events, in ascending order
+/// \throws std::invalid_argument for fewer than 2 replicas; a length, threshold or block that is
+/// not positive and finite (threshold and block may be 0); a block longer than half the catalogue
+/// or shorter than a hundredth of the mean interval;
+/// times that are not ascending, or not as many as sizes
+SizePoint characteristic_size(const std::vector<double> &t_start, const std::vector<double> &sizes,
+                              double threshold, double length, const Resampling &resampling = {});
+
+/// Number of values in a block with the least mean-square error of the variance of the mean, by
+/// circular block bootstrap: Politis & White 2004 (Econometric Reviews 23, 53) as corrected by
+/// Patton, Politis & White 2009 (ibid. 28, 372). It grows as the cube root of the number of values:
+/// long against the correlation, so that few sequences are cut, and short against the series, so
+/// that there are many blocks. Ours: not below the cube root itself, so that correlations too weak
+/// to be significant lag by lag count all the same, and not above a tenth of the values.
+/// \param values consecutive ones of a stationary series with mean 0
+double block_length(const std::vector<double> &values);
 
 enum class SizeDependence { power_law, none, undecided, saturates };
 const char *to_string(SizeDependence dependence);

@@ -28,16 +28,13 @@ struct GeneralisedGammaFit {
   double lo = 0.0;     ///< left truncation (maximum likelihood) or lowest edge (least squares)
   std::int64_t n = 0;  ///< values, or counts in the bins used
   double log_likelihood = std::numeric_limits<double>::quiet_NaN();  ///< maximum likelihood only
-  /// Kolmogorov-Smirnov distance, maximum likelihood only. Above 1.36 / sqrt(n) the law is rejected
-  /// at 5 % even without allowing for the fitted parameters.
+  /// Kolmogorov-Smirnov distance, maximum likelihood only. Parameters fitted to the same values
+  /// make it small: tables for given parameters do not apply, see p_value().
   double ks = std::numeric_limits<double>::quiet_NaN();
   double chi2 = std::numeric_limits<double>::quiet_NaN();  ///< least squares only
   int dof = 0;             ///< least squares: bins used minus free parameters
   bool degenerate = true;  ///< the data do not determine the parameters; do not show the numbers
   std::string why;         ///< reason, one line
-
-  /// The data are not a sample of the law at 5 %: by ks as above, or by chi2 with dof.
-  bool rejected() const;
 };
 
 struct GeneralisedGammaOptions {
@@ -69,6 +66,14 @@ GeneralisedGammaFit fit_least_squares(const std::vector<LogBin> &bins,
 /// delta spoils B less when times are over their mean).
 GeneralisedGammaFit fit_maximum_likelihood(const std::vector<double> &values, double lo = 0.0,
                                            const GeneralisedGammaOptions &options = {});
+
+/// Probability of a fit as poor as this one if the values are independent numbers drawn from the
+/// fitted density. Least squares: from chi2 and dof, without random numbers. Maximum likelihood:
+/// the fraction of synthetic samples, each fitted as the data were, whose Kolmogorov-Smirnov
+/// distance is at least that of the data, (k + 1) / (replicas + 1); its standard error is sqrt(p (1
+/// - p) / replicas). NaN for maximum likelihood without replicas. \throws std::invalid_argument if
+/// the fit is degenerate, or for fewer than 0 replicas
+double p_value(const GeneralisedGammaFit &fit, int replicas, std::uint64_t seed);
 
 /// The density at theta > 0.
 double generalised_gamma_density(double theta, const GeneralisedGammaFit &fit);

@@ -34,6 +34,7 @@ std::vector<IntervalCurve> interval_curves(const std::vector<EventTable> &tables
                                            const IntervalSettings &settings) {
   if (!(settings.shortest >= 0.0) || !std::isfinite(settings.shortest))
     throw std::invalid_argument("--shortest: expected a time of zero or more");
+  if (settings.replicas < 0) throw std::invalid_argument("--replicas: expected 0 or more");
   std::vector<IntervalCurve> curves;
   for (const EventTable &table : tables) {
     for (const double threshold : settings.thresholds) {
@@ -65,6 +66,11 @@ std::vector<IntervalCurve> interval_curves(const std::vector<EventTable> &tables
         if (settings.maximum_likelihood)
           curve.fits.push_back({"maximum likelihood", delta,
                                 fit_maximum_likelihood(times, settings.shortest, options)});
+      }
+      for (IntervalFit &fit : curve.fits) {
+        if (fit.fit.degenerate) continue;
+        fit.p = p_value(fit.fit, settings.replicas, settings.seed);
+        if (fit.fit.dof == 0) fit.p_error = std::sqrt(fit.p * (1.0 - fit.p) / settings.replicas);
       }
       curves.push_back(std::move(curve));
     }

@@ -23,6 +23,8 @@ struct IntervalSettings {
   double factor = LogHistogram::default_factor;        ///< ratio of the edges of a bin
   double shortest = 0.0;  ///< shorter times are not fitted, in the unit of the picture; 0: none
   bool least_squares = true, maximum_likelihood = true;
+  int replicas = 1000;  ///< of the Monte Carlo p-values of maximum likelihood; 0: none
+  std::uint64_t seed = 1;
   int width = 900;                                                               ///< of the picture
   std::vector<double> deltas = {std::numeric_limits<double>::quiet_NaN(), 1.0};  ///< NaN: free
 };
@@ -31,6 +33,9 @@ struct IntervalFit {
   std::string method;  ///< "least squares" or "maximum likelihood"
   double held = 0.0;   ///< delta if it was held, NaN if it was free
   GeneralisedGammaFit fit;
+  double p = std::numeric_limits<double>::quiet_NaN();  ///< p_value(); NaN: degenerate, no replicas
+  /// Of its Monte Carlo estimate; NaN: least squares, which needs none.
+  double p_error = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// One catalogue above one threshold.

@@ -205,20 +205,29 @@ std::string size_fit_table(const std::vector<SizeFit> &fits, bool lsm) {
 }
 
 std::string scaling_section(const Scaling &scaling, Figures &figures) {
-  HtmlTable table({"catalogue", "length L", "events", "s* (model energy)"});
+  HtmlTable table({"catalogue", "length L", "events", "s* (model energy)",
+                   "error if events were independent", "blocks, length (model time)"});
   for (std::size_t i = 0; i < scaling.points.size(); ++i) {
     const SizePoint &point = scaling.points[i];
+    if (point.degenerate) {
+      table.row(html_escape(scaling.labels[i]),
+                {short_number(point.length, 6), std::to_string(point.n), degenerate(point.why)});
+      continue;
+    }
     table.row(
         html_escape(scaling.labels[i]),
         {short_number(point.length, 6), std::to_string(point.n),
-         point.degenerate ? degenerate(point.why) : with_error(point.s_star, point.error, " ± ")});
+         with_error(point.s_star, point.error, " ± "), short_number(point.error_independent, 2),
+         point.blocks > 0 ? fmt::format("{} of {}", point.blocks, short_number(point.block, 3))
+                          : "–"});
   }
   std::string out;
   if (!scaling.fit.degenerate)
     out = figures.add(
         scaling_figure({scaling}, picture_width), "Characteristic size against length",
         "Ours: s* = &lt;s²&gt; / &lt;s&gt; follows the roll-off of the sizes; errors by resampling "
-        "the events; lines: weighted fits of a power law, of a constant and, "
+        "blocks of time, since events come in sequences; lines: weighted fits of a power law, of a "
+        "constant and, "
         "if it is preferred, of growth that ends.");
   out += table.text();
   out +=
@@ -250,7 +259,7 @@ std::string table1_section(const std::vector<IntervalCurve> &curves) {
     const std::string name =
         fmt::format("{}<br>{} (n = {})", html_escape(row.source), html_escape(row.method), row.n);
     if (row.why.empty())
-      table.row(name, {p[0], p[1], p[2], p[3], row.goodness()});
+      table.row(name, {p[0], p[1], p[2], p[3], row.goodness(" ± ")});
     else
       table.row(name, {degenerate(row.why)});
   }
@@ -355,8 +364,9 @@ std::string model_section(const std::vector<EventTable> &all, bool lsm,
   out += size_fit_table(fits, lsm);
 
   out += "<h3>Finite-size scaling</h3>\n";
-  const std::vector<Scaling> scalings =
-      scale_sizes(tables, settings.threshold, settings.bootstrap, settings.seed);
+  Resampling bootstrap = settings.bootstrap;
+  bootstrap.seed = settings.seed;
+  const std::vector<Scaling> scalings = scale_sizes(tables, settings.threshold, bootstrap);
   for (const Scaling &scaling : scalings) out += scaling_section(scaling, figures);
   if (scalings.empty())
     out += "<p>" + degenerate("no catalogue gives its length or number of blocks") + "</p>\n";
@@ -365,6 +375,8 @@ std::string model_section(const std::vector<EventTable> &all, bool lsm,
   IntervalSettings intervals;
   intervals.thresholds = {settings.threshold};
   intervals.width = picture_width;
+  intervals.replicas = settings.interval_replicas;
+  intervals.seed = settings.seed;
   const std::vector<IntervalCurve> curves = interval_curves(tables, intervals);
   out += drawn_or_why([&] {
     return figures.add(
@@ -376,6 +388,7 @@ std::string model_section(const std::vector<EventTable> &all, bool lsm,
             lsm ? 14 : 15, short_number(settings.threshold)));
   });
   intervals.rescale = true;
+  intervals.replicas = 0;  // the same fits in another unit
   const std::vector<IntervalCurve> rescaled = interval_curves(tables, intervals);
   out += drawn_or_why([&] {
     return figures.add(
@@ -485,8 +498,10 @@ std::string report_html(const std::vector<EventTable> &tables, const ReportSetti
       "worse; below 0.1: not a power law), comparisons with rival laws (p below 0.05 decides), and "
       "the finite-size test.</li>\n"
       "<li>“Degenerate” stands where the data do not determine the numbers.</li>\n";
-  out += fmt::format("<li>Monte Carlo: {} replicas, {} bootstrap samples, seed {}.</li>\n</ul>\n",
-                     settings.replicas, settings.bootstrap, settings.seed);
+  out += fmt::format(
+      "<li>Monte Carlo: {} replicas for sizes, {} for inter-event times, {} bootstrap samples, "
+      "seed {}.</li>\n</ul>\n",
+      settings.replicas, settings.interval_replicas, settings.bootstrap.replicas, settings.seed);
   out +=
       "<h2>Parameters</h2>\n<p>As the programs wrote them into the catalogues.</p>\n" + parameters;
   return out + "</body>\n</html>\n";

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "catalogue_input.h"
+#include "finite_size.h"
 #include "numbers.h"
 
 namespace LSM::postproc {
@@ -16,8 +17,9 @@ namespace LSM::postproc {
 struct ReportSettings {
   std::string title = "Event statistics of the fault and the block-slider";
   double threshold = paper_threshold;  ///< smallest size (model energy)
-  int replicas = 100;                  ///< of the Monte Carlo p-values; 0: none
-  int bootstrap = 200;                 ///< of the characteristic sizes
+  int replicas = 100;                  ///< of the Monte Carlo p-values of sizes; 0: none
+  int interval_replicas = 1000;        ///< the same of inter-event times
+  Resampling bootstrap;                ///< of the characteristic sizes, with seed below
   std::uint64_t seed = 1;
 };
 

@@ -199,7 +199,7 @@ PowerLine fitted_line(const SizeFit &fit, const EventTable &table,
 }
 
 std::vector<Scaling> scale_sizes(const std::vector<EventTable> &tables, double threshold,
-                                 int replicas, std::uint64_t seed) {
+                                 const Resampling &resampling) {
   std::vector<Scaling> scalings;
   for (const EventTable &table : tables) {
     const double length = table.length();
@@ -222,8 +222,10 @@ std::vector<Scaling> scale_sizes(const std::vector<EventTable> &tables, double t
     }
     found->labels.push_back(table.label);
     // A seed of its own for each catalogue, so that their bootstrap samples are independent.
-    found->points.push_back(characteristic_size(table.size, found->threshold, length, replicas,
-                                                seed + found->points.size()));
+    Resampling own = resampling;
+    own.seed += found->points.size();
+    found->points.push_back(
+        characteristic_size(table.t_start, table.size, found->threshold, length, own));
   }
   for (Scaling &scaling : scalings) scaling.fit = fit_scaling(scaling.points);
   return scalings;
@@ -237,6 +239,11 @@ std::string Scaling::name() const {
 bool Scaling::drawable() const {
   return std::any_of(points.begin(), points.end(),
                      [](const SizePoint &point) { return !point.degenerate; });
+}
+
+bool Scaling::by_event() const {
+  return std::none_of(points.begin(), points.end(),
+                      [](const SizePoint &point) { return point.blocks > 0; });
 }
 
 std::string Scaling::verdict() const {
@@ -279,17 +286,30 @@ std::string Scaling::verdict() const {
       saturation);
 }
 
+double parse_block(const std::string &text) {
+  double block = std::numeric_limits<double>::quiet_NaN();
+  if (text != "auto" && !(text_io::parse(text, block) && block >= 0.0))
+    throw std::invalid_argument("--block " + text_io::in_quotes(text) +
+                                ", expected 'auto' or a time of 0 or more");
+  return block;
+}
+
 std::string scaling_text(const Scaling &scaling) {
   std::string out = fmt::format(
       "finite-size scaling, {}: characteristic size s* = <s^2>/<s>, sizes from {} (bootstrap "
-      "errors)\n",
-      scaling.name(), short_number(scaling.threshold));
+      "errors, {})\n",
+      scaling.name(), short_number(scaling.threshold),
+      scaling.by_event() ? "events one by one as if independent" : "blocks of time");
   for (std::size_t i = 0; i < scaling.points.size(); ++i) {
     const SizePoint &point = scaling.points[i];
     out += fmt::format(
-        "  {:<32} length {:>6}  n = {:<7} s* = {}\n", scaling.labels[i],
+        "  {:<32} length {:>6}  n = {:<7} s* = {}{}\n", scaling.labels[i],
         short_number(point.length, 6), point.n,
-        point.degenerate ? "degenerate: " + point.why : with_error(point.s_star, point.error));
+        point.degenerate ? "degenerate: " + point.why : with_error(point.s_star, point.error),
+        point.blocks > 0 ? fmt::format(", {} blocks of {}, error {} of that of independent events",
+                                       point.blocks, short_number(point.block, 3),
+                                       short_number(point.error / point.error_independent, 2))
+                         : "");
   }
   return out + "  " + scaling.verdict() + "\n";
 }
@@ -312,6 +332,9 @@ nlohmann::json to_json(const Scaling &scaling) {
     } else {
       entry["s_star"] = point.s_star;
       entry["error"] = point.error;
+      entry["error_independent"] = point.error_independent;
+      entry["block"] = point.block;
+      entry["blocks"] = point.blocks;
     }
     json["points"].push_back(entry);
   }
@@ -345,9 +368,14 @@ nlohmann::json to_json(const Scaling &scaling) {
 }
 
 Figure scaling_figure(const std::vector<Scaling> &scalings, int width) {
-  Figure figure{Table({"curve", "model", "length", "s_star", "error", "events", "label"}), {}, {}};
+  Figure figure{Table({"curve", "model", "length", "s_star", "error", "events", "error_independent",
+                       "block", "blocks", "label"}),
+                {},
+                {}};
+  figure.table.comment("characteristic size <s^2>/<s> in model energy units; errors: bootstrap");
   figure.table.comment(
-      "characteristic size <s^2>/<s> in model energy units; errors: bootstrap over the events");
+      "block: length of the stretches of the catalogue that are resampled, model time; 0: events "
+      "one by one; error_independent: if the events were independent");
   std::string plots, lines;
   double shortest = std::numeric_limits<double>::infinity(), longest = 0.0, lowest = shortest,
          highest = 0.0;
@@ -358,7 +386,9 @@ Figure scaling_figure(const std::vector<Scaling> &scalings, int width) {
     for (std::size_t i = 0; i < scaling.points.size(); ++i) {
       const SizePoint &point = scaling.points[i];
       figure.table.add(number).add(scaling.model).add(point.length);
-      figure.table.add(point.s_star).add(point.error).add(point.n).add(scaling.labels[i]).end_row();
+      figure.table.add(point.s_star).add(point.error).add(point.n).add(point.error_independent);
+      figure.table.add(point.block).add(static_cast<std::int64_t>(point.blocks));
+      figure.table.add(scaling.labels[i]).end_row();
       if (point.degenerate) continue;
       from = std::min(from, point.length);
       to = std::max(to, point.length);

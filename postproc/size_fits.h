@@ -69,13 +69,21 @@ struct Scaling {
 
   std::string name() const;     ///< of the model, with the stiffness
   bool drawable() const;        ///< has a point that is not degenerate
+  bool by_event() const;        ///< errors are not those of blocks of time
   std::string verdict() const;  ///< one sentence
 };
 
 /// One per model and stiffness of the leaf springs, catalogues without a length left out.
-/// \param replicas of the bootstrap
 std::vector<Scaling> scale_sizes(const std::vector<EventTable> &tables, double threshold,
-                                 int replicas, std::uint64_t seed);
+                                 const Resampling &resampling);
+
+/// Resampling::block from "auto" or a time. \throws std::invalid_argument naming --block
+double parse_block(const std::string &text);
+constexpr const char *block_help =
+    "Length of the stretches of time that are resampled for these errors, since events come in "
+    "sequences (model time): auto, from the correlation of each catalogue (Politis and White "
+    "2004); "
+    "or 0, events one by one as if independent";
 
 std::string scaling_text(const Scaling &scaling);
 nlohmann::json to_json(const Scaling &scaling);

@@ -35,7 +35,7 @@ std::vector<Table1Row> table1(const std::vector<IntervalCurve> &curves,
     rows.push_back(row);
   }
   for (const IntervalCurve &curve : curves) {
-    for (const auto &[method, held, fit] : curve.fits) {
+    for (const auto &[method, held, fit, p, p_error] : curve.fits) {
       Table1Row row;
       row.source = curve.label;
       row.method = method;
@@ -53,7 +53,8 @@ std::vector<Table1Row> table1(const std::vector<IntervalCurve> &curves,
           row.parameters[i] = with_error(row.values[i], row.errors[i], plus_minus);
         if (fit.dof > 0) row.misfit = fit.chi2 / fit.dof;
         row.ks = fit.ks;
-        row.rejected = fit.rejected();
+        row.p = p;
+        row.p_error = p_error;
       }
       rows.push_back(std::move(row));
     }
@@ -61,11 +62,17 @@ std::vector<Table1Row> table1(const std::vector<IntervalCurve> &curves,
   return rows;
 }
 
-std::string Table1Row::goodness() const {
-  const char *const verdict = rejected ? ", rejected" : "";
-  if (!std::isnan(misfit)) return fmt::format("χ²/dof {}{}", short_number(misfit, 3), verdict);
-  if (!std::isnan(ks)) return fmt::format("KS {}{}", short_number(ks, 3), verdict);
-  return {};
+std::string Table1Row::goodness(const std::string &plus_minus) const {
+  std::string out;
+  if (!std::isnan(misfit)) out = "χ²/dof " + short_number(misfit, 3);
+  if (!std::isnan(ks)) out = "KS " + short_number(ks, 3);
+  if (out.empty() || std::isnan(p)) return out;
+  // Error and value are the same where no synthetic sample was as far off.
+  if (p_error > 0.999 * p)
+    out += ", p ≤ " + short_number(p, 2);
+  else
+    out += ", p = " + (p_error > 0.0 ? with_error(p, p_error, plus_minus) : short_number(p, 2));
+  return out + (rejected() ? ", rejected" : "");
 }
 
 const char *theta_unit(bool rescaled) { return rescaled ? "multiples of the mean" : "model time"; }
@@ -103,12 +110,13 @@ std::string table1_text(const std::vector<Table1Row> &rows, bool rescaled) {
 
 Table table1_csv(const std::vector<Table1Row> &rows, bool rescaled) {
   Table table({"origin", "threshold", "n", "gamma", "gamma_error", "delta", "delta_error", "B",
-               "B_error", "C", "C_error", "chi2_per_dof", "ks", "rejected", "source", "method",
-               "degenerate"});
+               "B_error", "C", "C_error", "chi2_per_dof", "ks", "p", "p_error", "rejected",
+               "source", "method", "degenerate"});
   table.comment("f(theta) = C theta^(gamma-1) exp(-theta^delta / B)");
   table.comment(
       fmt::format("printed: Table 1 of the paper, unit of theta not stated; ours: theta in {}",
                   theta_unit(rescaled)));
+  table.comment(fmt::format("rejected: {}", rejection_rule));
   for (const Table1Row &row : rows) {
     table.add(row.printed ? "printed" : "ours").add(row.threshold);
     if (row.printed)
@@ -123,8 +131,8 @@ Table table1_csv(const std::vector<Table1Row> &rows, bool rescaled) {
         table.add(row.values[i]);
       table.add(row.errors[i]);
     }
-    table.add(row.misfit).add(row.ks);
-    table.add(row.goodness().empty() ? "" : row.rejected ? "yes" : "no");
+    table.add(row.misfit).add(row.ks).add(row.p).add(row.p_error);
+    table.add(std::isnan(row.p) ? "" : row.rejected() ? "yes" : "no");
     table.add(row.source).add(row.method).add(row.why).end_row();
   }
   return table;

@@ -36,16 +36,21 @@ struct Table1Row {
   std::array<double, 4> values, errors;
   double misfit = std::numeric_limits<double>::quiet_NaN();  ///< least squares: chi2 per degree
   double ks = std::numeric_limits<double>::quiet_NaN();      ///< maximum likelihood: KS distance
-  bool rejected = false;                                     ///< see rejection_rule
+  double p = std::numeric_limits<double>::quiet_NaN();       ///< of the fit; NaN: not computed
+  double p_error = std::numeric_limits<double>::quiet_NaN();  ///< if p is a Monte Carlo estimate
   std::string why;                                           ///< reason if degenerate
 
-  std::string goodness() const;  ///< misfit or ks, and whether rejected; "" if there is none
+  bool rejected() const { return p < 0.05; }  ///< see rejection_rule
+  /// Misfit or ks, p, and whether rejected; "" if there is none.
+  std::string goodness(const std::string &plus_minus = " +- ") const;
 };
 
-/// What "rejected" means, for readers.
+/// What p and "rejected" mean, for readers.
 constexpr std::string_view rejection_rule =
-    "at 5 % the times do not follow the fitted density (χ² of its degrees of freedom, or "
-    "Kolmogorov-Smirnov distance KS above 1.36 / √n)";
+    "p below 0.05. p is the probability of a fit as poor or poorer if the times are independent "
+    "and follow the fitted density: least squares from χ² and its degrees of freedom (dof), "
+    "maximum likelihood as the share of synthetic samples, each fitted like the data, whose "
+    "Kolmogorov-Smirnov distance KS is as large";
 
 /// The printed columns, then ours. \param plus_minus between value and error
 std::vector<Table1Row> table1(const std::vector<IntervalCurve> &curves,

@@ -32,6 +32,7 @@ class Coverage {
     expect_binomial(two_, trials_, 0.95, what + ", 95 % interval");
   }
   int trials() const { return trials_; }
+  int within_two() const { return two_; }  // in the interval of 95 %
 
  private:
   double truth_;

@@ -23,8 +23,11 @@ near() { awk -v a="$1" -v b="$2" -v r="$3" 'BEGIN { d = a - b; if (d < 0) d = -d
 # power ALPHA LO HI N: "t size" of a sample whose cumulative distribution is that of the power law
 power() {
   awk -v a="$1" -v lo="$2" -v hi="$3" -v n="$4" 'BEGIN {
+    srand(1)
+    for (i = 0; i < n; ++i) order[i] = i
+    for (i = n - 1; i > 0; --i) { j = int(rand() * (i + 1)); k = order[i]; order[i] = order[j]; order[j] = k }
     for (i = 0; i < n; ++i) {
-      u = ((i * 7919) % n + 0.5) / n # shuffled: 7919 is prime
+      u = (order[i] + 0.5) / n # in random order, as neighbours in time must not depend on each other
       if (a == 1) s = lo * (hi / lo) ^ u
       else s = (lo ^ (1 - a) + u * (hi ^ (1 - a) - lo ^ (1 - a))) ^ (1 / (1 - a))
       printf "%d %.17g\n", 10 * i, s } }'
@@ -77,7 +80,7 @@ intervals)
     END { exit n != 2 }' i.csv || fail "densities: $(cat i.csv)"
   grep -q '150 inter-event times, mean 20 model time' out.txt || fail "mean: $(cat out.txt)"
   grep -q 'LSM .*0.995 .*1.00 .*15.21 .*0.0573' out.txt || fail "printed Table 1: $(cat out.txt)"
-  grep -q '^printed,,,0.0,,1.00,,100.0,,0.25,,,,,Block-Slider,' i.table1.csv || fail "$(cat i.table1.csv)"
+  grep -q '^printed,,,0.0,,1.00,,100.0,,0.25,,,,,,,Block-Slider,' i.table1.csv || fail "$(cat i.table1.csv)"
   # Every second event is large: times of 10 and 100.
   must_run intervals a.csv --threshold 0 --threshold 1.5 --rescale -o r --no-picture
   awk -F, '!/^#/ && $1 == 2 && $7 == 50 && $4 <= 10 / 40 && 10 / 40 < $5 { good = 1 } END { exit !good }' r.csv ||
@@ -89,6 +92,16 @@ intervals)
   awk -F, '$1 == "ours" { ++n; if ($12 > 3) exit 1
       if (($4 - 1) ^ 2 > 0.03 ^ 2 || ($8 / 7 - 1) ^ 2 > 0.03 ^ 2 || ($10 * 7 - 1) ^ 2 > 0.03 ^ 2) exit 1 }
     END { exit n != 2 }' x.table1.csv || fail "exponential times: $(cat x.table1.csv)"
+  # p-values: from the seed, with as many replicas as asked for.
+  grep -q 'KS [0-9.e-]*, p = 1' out.txt || fail "times without scatter fit too well: $(cat out.txt)"
+  awk -F, '$1 == "ours" && $13 != "" { ++n; if (!($14 == 1 && $15 == 0 && $16 == "no")) exit 1 } END { exit n != 1 }' x.table1.csv ||
+    fail "p-value: $(cat x.table1.csv)"
+  must_run intervals a.csv --delta 1 --method likelihood --replicas 20 --seed 3 -o p --no-picture
+  grep -q 'p ≤ 0.048, rejected' out.txt || fail "two times only are no gamma density: $(cat out.txt)"
+  grep -q 'rejected: p below 0.05' out.txt || fail "no rule: $(cat out.txt)"
+  must_run intervals a.csv --delta 1 --method likelihood --replicas 0 -o p --no-picture
+  grep -q ', p [=≤]' out.txt && fail "a p-value without replicas: $(cat out.txt)"
+  refused 'replicas' intervals a.csv --replicas -1 -o x
   refused "expected 'free' or a positive number" intervals a.csv --delta x -o x
   ;;
 fit)
@@ -118,6 +131,16 @@ fit)
   must_run fit n100.csv n200.csv n400.csv n800.csv n1600.csv --range 1e-3:0.1 --replicas 0 --scaling --json n.json -o n
   grep -q 'shows no significant dependence' out.txt || fail "no growth: $(cat out.txt)"
   grep -q '"preferred": "no dependence on the length"' n.json || fail "$(cat n.json)"
+  # Errors by blocks of time, of a length that can be given, or event by event.
+  grep -q 'bootstrap errors, blocks of time' out.txt && grep -q ' blocks of .* of that of independent events' out.txt || fail "$(cat out.txt)"
+  must_run fit g100.csv g200.csv --range 1e-3:0.1 --replicas 0 --scaling --block 1000 --json b.json -o b --no-picture
+  awk -F, '!/^#/ && $1 == 1 && !($8 > 990 && $8 < 1010 && $9 == 30) { exit 1 }' b.scaling.csv || fail "--block: $(cat b.scaling.csv)"
+  grep -q '"blocks": 30' b.json && grep -q '"error_independent": ' b.json || fail "$(cat b.json)"
+  must_run fit g100.csv g200.csv --range 1e-3:0.1 --replicas 0 --scaling --block 0 -o b --no-picture
+  grep -q 'events one by one as if independent' out.txt || fail "--block 0: $(cat out.txt)"
+  awk -F, '!/^#/ && $1 == 1 && !($8 == 0 && $9 == 0 && $5 > 0.8 * $7 && $5 < 1.2 * $7) { exit 1 }' b.scaling.csv || fail "--block 0: $(cat b.scaling.csv)"
+  refused "block 'long', expected 'auto' or a time of 0 or more" fit g100.csv --scaling --block long -o x
+  refused 'block of 20000, expected 0 or .* to half of the catalogue' fit g100.csv --scaling --block 20000 -o x
   # Growth that is no power law: s* of 1, 1, 1, 1, 16.
   sed 's/^# length.*/# length = 3200/' g1600.csv > n3200.csv
   must_run fit n100.csv n200.csv n400.csv n800.csv n3200.csv --range 1e-3:0.1 --replicas 0 --scaling -o p --no-picture

@@ -3,9 +3,14 @@
 #include <gsl/gsl_rng.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <memory>
+#include <numeric>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "coverage.h"
@@ -16,45 +21,202 @@ namespace {
 
 using namespace LSM::postproc;
 
+std::vector<double> one_by_one(std::size_t n) {
+  std::vector<double> times(n);
+  std::iota(times.begin(), times.end(), 0.0);
+  return times;
+}
+
+Resampling resampling(int replicas, std::uint64_t seed,
+                      double block = std::numeric_limits<double>::quiet_NaN()) {
+  Resampling result;
+  result.replicas = replicas;
+  result.seed = seed;
+  result.block = block;
+  return result;
+}
+
 TEST(CharacteristicSize, SmallExampleByHand) {
   std::vector<double> sizes = {1e-9, 0.5, -2.0};
   for (int i = 0; i < 10; ++i) sizes.push_back(1.0 + i);
-  const SizePoint point = characteristic_size(sizes, 1.0, 120.0);
+  const SizePoint point = characteristic_size(one_by_one(13), sizes, 1.0, 120.0);
   ASSERT_FALSE(point.degenerate);
+  // Of independent events: sqrt(sum (s^2 - 7 s)^2) / 55.
+  EXPECT_NEAR(point.error_independent, std::sqrt(1848.0) / 55.0, 1e-12);
   EXPECT_EQ(point.n, 10);
   EXPECT_EQ(point.length, 120.0);
   EXPECT_DOUBLE_EQ(point.s_star, 385.0 / 55.0);
 }
 
 TEST(CharacteristicSize, ErrorCoversTheTruth) {
-  // Exponential sizes: <s^2> / <s> = 2.
+  // Exponential sizes, <s^2> / <s> = 2, event by event; uniform ones, 2 / 3, by blocks of time.
   LSM::Random random(1);
-  Coverage coverage(2.0);
+  Coverage by_event(2.0), by_block(2.0 / 3.0);
   for (std::uint64_t i = 0; i < 300; ++i) {
     std::vector<double> sizes(2000);
     for (double &size : sizes) size = -std::log1p(-random.uniform());
-    const SizePoint point = characteristic_size(sizes, 0.0, 1.0, 100, i);
-    coverage.add(point.s_star, point.error);
+    const auto times = one_by_one(sizes.size());
+    const SizePoint single = characteristic_size(times, sizes, 0.0, 1.0, resampling(100, i, 0.0));
+    by_event.add(single.s_star, single.error);
+    EXPECT_EQ(single.blocks, 0);
+    EXPECT_NEAR(single.error / single.error_independent, 1.0, 0.4);
+    for (double &size : sizes) size = random.uniform();
+    const SizePoint point = characteristic_size(times, sizes, 0.0, 1.0, resampling(200, i));
+    by_block.add(point.s_star, point.error);
+    EXPECT_GT(point.blocks, 100);
   }
-  coverage.expect("s*");
+  by_event.expect("s*, event by event");
+  by_block.expect("s*, blocks of time");
+}
+
+// Sequences that begin at random, 10 events on average in each, sizes uniform from a/2 to 3a/2 with
+// a common to the sequence, 1 or 3. So <s> = 2, <s^2> = 5 * 13/12.
+class Sequences {
+ public:
+  explicit Sequences(unsigned long seed) : rng_(gsl_rng_alloc(gsl_rng_mt19937), gsl_rng_free) {
+    gsl_rng_set(rng_.get(), seed);
+  }
+  static constexpr double truth = 2.5 * 13.0 / 12.0, pause = 100.0, delay = 30.0;
+  // From the moments of a sequence: number K of events geometric, and z = s^2 - truth s, of which
+  // the sum over the catalogue divided by that of s is the deviation.
+  static double error(double sequences) {
+    const double mean_k = 10.0, mean_k2 = 190.0;
+    double variance = 0.0;
+    for (const double a : {1.0, 3.0}) {
+      const double s2 = 13.0 / 12.0 * a * a, s3 = 1.25 * a * a * a, s4 = 1.5125 * a * a * a * a;
+      const double mean = s2 - truth * a;
+      const double square = s4 - 2.0 * truth * s3 + truth * truth * s2;
+      variance += 0.5 * (mean_k * (square - mean * mean) + mean_k2 * mean * mean);
+    }
+    return std::sqrt(sequences * variance) / (sequences * mean_k * 2.0);
+  }
+  void catalogue(double duration, std::vector<double> &times, std::vector<double> &sizes) {
+    std::vector<std::pair<double, double>> events;
+    const double before = 20.0 * delay;  // sequences that begin earlier reach into the catalogue
+    for (double t = -before; (t += gsl_ran_exponential(rng_.get(), pause)) < duration;) {
+      const double mean = gsl_rng_uniform_int(rng_.get(), 2) == 0 ? 1.0 : 3.0;
+      for (unsigned int k = gsl_ran_geometric(rng_.get(), 0.1); k > 0; --k) {
+        const double at = t + gsl_ran_exponential(rng_.get(), delay);
+        if (at >= 0.0 && at < duration)
+          events.emplace_back(at, mean * (0.5 + gsl_rng_uniform(rng_.get())));
+      }
+    }
+    std::sort(events.begin(), events.end());
+    times.clear();
+    sizes.clear();
+    for (const auto &[t, s] : events) {
+      times.push_back(t);
+      sizes.push_back(s);
+    }
+  }
+
+ private:
+  std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)> rng_;
+};
+
+TEST(CharacteristicSize, ErrorCoversTheTruthThoughEventsComeInSequences) {
+  Sequences source(2);
+  Coverage blocks(Sequences::truth), by_event(Sequences::truth);
+  const double sequences = 300.0;
+  double error = 0.0, error_by_event = 0.0, length = 0.0;
+  constexpr int trials = 300;
+  std::vector<double> times, sizes;
+  for (int i = 0; i < trials; ++i) {
+    source.catalogue(sequences * Sequences::pause, times, sizes);
+    const auto seed = static_cast<std::uint64_t>(i);
+    const SizePoint point = characteristic_size(times, sizes, 0.0, 1.0, resampling(100, seed));
+    const SizePoint single =
+        characteristic_size(times, sizes, 0.0, 1.0, resampling(100, seed, 0.0));
+    EXPECT_EQ(single.s_star, point.s_star);
+    blocks.add(point.s_star, point.error);
+    by_event.add(single.s_star, single.error);
+    error += point.error / trials;
+    error_by_event += single.error / trials;
+    length += point.block / trials;
+  }
+  blocks.expect("s* of sequences");
+  // The known error, of which events one by one have less than half.
+  const double known = Sequences::error(sequences);
+  EXPECT_NEAR(error / known, 1.0, 0.06);
+  EXPECT_LT(error_by_event / known, 0.5);
+  EXPECT_LT(by_event.within_two(), 0.7 * trials);
+  EXPECT_GT(length, 2.0 * Sequences::delay);
+  EXPECT_LT(length, 40.0 * Sequences::delay);
+}
+
+TEST(CharacteristicSize, BlocksOfTime) {
+  Sequences source(3);
+  std::vector<double> times, sizes;
+  source.catalogue(2e4, times, sizes);
+  const auto at = [&](double block) {
+    return characteristic_size(times, sizes, 0.0, 1.0, resampling(400, 1, block));
+  };
+  const SizePoint given = at(1000.0);
+  EXPECT_EQ(given.blocks, 20);
+  EXPECT_NEAR(given.block, 1000.0, 30.0);
+  // The shortest blocks hold an event or none: event by event.
+  EXPECT_NEAR(at(0.5).error / at(0.0).error, 1.0, 0.15);
+  EXPECT_GT(given.error / at(0.0).error, 1.3);
+  EXPECT_THROW(at(1.1e4), std::invalid_argument);
+  EXPECT_THROW(at(0.05), std::invalid_argument);
+  EXPECT_THROW(at(-1.0), std::invalid_argument);
+  std::swap(times.front(), times.back());
+  EXPECT_THROW(at(1000.0), std::invalid_argument);
+  times.pop_back();
+  EXPECT_THROW(at(1000.0), std::invalid_argument);
+}
+
+TEST(BlockLength, OfAnAutoregressiveSeries) {
+  // x_i = rho x_(i-1) + noise: covariances rho^|k|, from which the best length follows.
+  const std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)> rng(gsl_rng_alloc(gsl_rng_mt19937),
+                                                              gsl_rng_free);
+  const std::size_t n = 8000;
+  for (const double rho : {0.0, 0.6, 0.9}) {
+    double mean = 0.0;
+    for (int i = 0; i < 40; ++i) {
+      std::vector<double> x(n);
+      double last = gsl_ran_gaussian(rng.get(), 1.0 / std::sqrt(1.0 - rho * rho));
+      for (double &x_i : x) x_i = last = rho * last + gsl_ran_gaussian(rng.get(), 1.0);
+      mean += block_length(x) / 40.0;
+    }
+    const double best =
+        std::cbrt(1.5 * std::pow(2.0 * rho / (1.0 - rho * rho), 2) * static_cast<double>(n));
+    EXPECT_NEAR(mean / std::max(best, 20.0), 1.0, 0.1) << rho;  // 20 is the cube root of n
+  }
+  EXPECT_EQ(block_length(std::vector<double>(10, 0.0)), 1.0);
+  EXPECT_EQ(block_length(std::vector<double>(1000, 0.0)), 10.0);
 }
 
 TEST(CharacteristicSize, SameSeedSameError) {
   const std::vector<double> sizes = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
-  const double error = characteristic_size(sizes, 0.0, 1.0, 50, 7).error;
-  EXPECT_EQ(characteristic_size(sizes, 0.0, 1.0, 50, 7).error, error);
-  EXPECT_NE(characteristic_size(sizes, 0.0, 1.0, 50, 8).error, error);
+  for (const double block : {0.0, 2.0}) {
+    const auto error = [&](std::uint64_t seed) {
+      return characteristic_size(one_by_one(11), sizes, 0.0, 1.0, resampling(50, seed, block))
+          .error;
+    };
+    EXPECT_GT(error(7), 0.0);
+    EXPECT_EQ(error(7), error(7));
+    EXPECT_NE(error(7), error(8));
+  }
 }
 
 TEST(CharacteristicSize, DegenerateAndImpossible) {
-  const SizePoint few = characteristic_size(std::vector<double>(9, 1.0), 0.0, 1.0);
+  const SizePoint few = characteristic_size(one_by_one(9), std::vector<double>(9, 1.0), 0.0, 1.0);
   EXPECT_TRUE(few.degenerate);
   EXPECT_TRUE(std::isnan(few.s_star));
   EXPECT_NE(few.why.find("9 events"), std::string::npos);
-  EXPECT_TRUE(characteristic_size(std::vector<double>(50, 1.0), 0.0, 1.0).degenerate);
-  EXPECT_THROW(characteristic_size({}, 0.0, 1.0, 1), std::invalid_argument);
-  EXPECT_THROW(characteristic_size({}, 0.0, 0.0), std::invalid_argument);
-  EXPECT_THROW(characteristic_size({}, -1.0, 1.0), std::invalid_argument);
+  const SizePoint equal =
+      characteristic_size(one_by_one(50), std::vector<double>(50, 1.0), 0.0, 1.0);
+  EXPECT_TRUE(equal.degenerate);
+  EXPECT_NE(equal.why.find("the same size"), std::string::npos);
+  const SizePoint at_once =
+      characteristic_size(std::vector<double>(50, 3.0), one_by_one(50), 0.0, 1.0);
+  EXPECT_TRUE(at_once.degenerate);
+  EXPECT_TRUE(std::isnan(at_once.s_star));
+  EXPECT_NE(at_once.why.find("at the same time"), std::string::npos);
+  EXPECT_THROW(characteristic_size({}, {}, 0.0, 1.0, resampling(1, 1)), std::invalid_argument);
+  EXPECT_THROW(characteristic_size({}, {}, 0.0, 0.0), std::invalid_argument);
+  EXPECT_THROW(characteristic_size({}, {}, -1.0, 1.0), std::invalid_argument);
 }
 
 SizePoint point(double length, double s_star, double error) {

@@ -54,6 +54,11 @@ class Source {
     }
     return values;
   }
+  std::vector<double> log_normal(std::size_t n) {
+    std::vector<double> values(n);
+    for (double &value : values) value = gsl_ran_lognormal(rng_.get(), 0.0, 1.0);
+    return values;
+  }
   std::vector<double> power_law(std::size_t n, double alpha, double hi) {
     std::vector<double> values;
     while (values.size() < n) {
@@ -162,7 +167,7 @@ TEST(GeneralisedGamma, CorralsLawIsRecovered) {
   };
   const GeneralisedGammaFit likelihood = fit_maximum_likelihood(values);
   check(likelihood, "maximum likelihood");
-  EXPECT_LT(likelihood.ks * std::sqrt(20000.0), 1.36);
+  EXPECT_GT(p_value(likelihood, 20, 1), 0.05);
   const GeneralisedGammaFit squares = fit_least_squares(binned(values));
   check(squares, "least squares");
   EXPECT_NEAR(squares.chi2, squares.dof, 4.0 * std::sqrt(2.0 * squares.dof));
@@ -216,7 +221,7 @@ TEST(GeneralisedGamma, GammaZeroNeedsTruncation) {
     if (i > 0) continue;
     // C over [lo, infinity) is 1 / E1(lo / B) for gamma = 0.
     EXPECT_NEAR(fit.C, 1.0 / gsl_sf_expint_E1(0.005), 4.0 * fit.se_C);
-    EXPECT_LT(fit.ks * std::sqrt(1000.0), 1.36);
+    EXPECT_GT(p_value(fit, 20, 1), 0.05);
   }
   gamma.expect("gamma = 0");
   b.expect("B, gamma = 0");
@@ -372,9 +377,99 @@ TEST(GeneralisedGamma, WrongLawShows) {
   const auto values = source.sample(5000, {0.7, 0.5, 3.0});
   const GeneralisedGammaFit fit = fit_maximum_likelihood(values, 0.0, delta_one());
   ASSERT_FALSE(fit.degenerate);
-  EXPECT_GT(fit.ks * std::sqrt(5000.0), 1.63);
+  EXPECT_EQ(p_value(fit, 40, 1), 1.0 / 41.0);
   const GeneralisedGammaFit squares = fit_least_squares(binned(values), delta_one());
   EXPECT_GT(squares.chi2, 2.0 * squares.dof);
+  EXPECT_LT(p_value(squares, 0, 1), 1e-6);
+}
+
+// How many of the samples are rejected at 5 %.
+struct Rejections {
+  int trials = 0;
+  int by_table = 0;             // Kolmogorov's table for given parameters
+  int by_monte_carlo = 0;       // p_value()
+  int upper_half = 0;           // p above one half
+  int binned = 0, by_chi2 = 0;  // samples that least squares can fit, and p_value() of these
+};
+constexpr int test_replicas = 40;
+
+template <class Draw>
+Rejections rejections(int trials, double lo, const GeneralisedGammaOptions &options, Draw draw) {
+  Rejections count;
+  while (count.trials < trials) {
+    const std::vector<double> values = draw();
+    const GeneralisedGammaFit fit = fit_maximum_likelihood(values, lo, options);
+    const GeneralisedGammaFit squares = fit_least_squares(binned(values), options);
+    EXPECT_FALSE(fit.degenerate) << fit.why;
+    if (fit.degenerate) break;
+    ++count.trials;
+    const double p = p_value(fit, test_replicas, static_cast<std::uint64_t>(count.trials));
+    if (fit.ks * std::sqrt(static_cast<double>(fit.n)) > 1.36) ++count.by_table;
+    if (p < 0.05) ++count.by_monte_carlo;
+    if (p > 0.5) ++count.upper_half;
+    if (squares.degenerate) continue;
+    ++count.binned;
+    if (p_value(squares, 0, 1) < 0.05) ++count.by_chi2;
+  }
+  return count;
+}
+
+TEST(GoodnessOfFit, ATrueLawIsRejectedAtTheNominalRate) {
+  Source source(13);
+  struct Case {
+    Truth truth;
+    double lo;
+    bool fixed;
+    std::size_t n;
+    int trials;
+  };
+  // Of 41 equally probable ranks those with p below 0.05, and those with p above 0.5.
+  const double nominal = 2.0 / 41.0, half = 21.0 / 41.0;
+  for (const Case &c :
+       {Case{corral, 0.0, true, 400, 400}, Case{{2.0, 1.0, 600.0}, 0.0, true, 400, 400},
+        Case{corral, 0.02, true, 600, 150}, Case{corral, 0.0, false, 2000, 80}}) {
+    const Rejections count =
+        rejections(c.trials, c.lo, c.fixed ? delta_one() : GeneralisedGammaOptions{},
+                   [&] { return source.sample(c.n, c.truth, c.lo); });
+    const std::string what =
+        "gamma " + std::to_string(c.truth.gamma) + ", lo " + std::to_string(c.lo);
+    expect_binomial(count.by_monte_carlo, count.trials, nominal, what);
+    expect_binomial(count.upper_half, count.trials, half, what + ", p above one half");
+    // The table for given parameters hardly ever rejects.
+    EXPECT_LT(count.by_table, 0.01 * count.trials) << what;
+    EXPECT_GT(count.binned, 0.9 * count.trials) << what;
+    if (c.lo == 0.0) expect_binomial(count.by_chi2, count.binned, 0.05, what + ", least squares");
+  }
+  // gamma = 0, which exists above a time only.
+  const Rejections count =
+      rejections(120, 0.5, delta_one(), [&] { return source.sample_gamma_zero(600, 100.0, 0.5); });
+  expect_binomial(count.by_monte_carlo, count.trials, nominal, "gamma = 0");
+}
+
+TEST(GoodnessOfFit, AFalseLawIsRejectedWhereTheTableForGivenParametersPassesIt) {
+  Source source(14);
+  const Rejections bent = rejections(100, 0.0, delta_one(), [&] {
+    return source.sample(2000, {0.7, 0.85, 1.58});
+  });
+  EXPECT_LT(bent.by_table, 10);
+  EXPECT_GT(bent.by_monte_carlo, 20);
+  const Rejections normal =
+      rejections(100, 0.0, delta_one(), [&] { return source.log_normal(300); });
+  EXPECT_GT(normal.by_monte_carlo, 95);
+  EXPECT_LT(normal.by_table, 85);
+}
+
+TEST(GoodnessOfFit, SeedAndReplicas) {
+  Source source(15);
+  const GeneralisedGammaFit fit =
+      fit_maximum_likelihood(source.sample(500, corral), 0, delta_one());
+  const double p = p_value(fit, 200, 7);
+  EXPECT_EQ(p_value(fit, 200, 7), p);
+  EXPECT_NE(p_value(fit, 200, 8), p);
+  EXPECT_NEAR(p_value(fit, 200, 8), p, 5.0 * std::sqrt(p * (1.0 - p) / 200.0));
+  EXPECT_TRUE(std::isnan(p_value(fit, 0, 7)));
+  EXPECT_THROW(p_value(fit, -1, 7), std::invalid_argument);
+  EXPECT_THROW(p_value(fit_maximum_likelihood({}), 10, 7), std::invalid_argument);
 }
 
 TEST(GeneralisedGamma, RefusesImpossibleInput) {

@@ -56,7 +56,7 @@ TEST(Table1, PrintedValuesAsInThePaper) {
   for (const Table1Row &row : rows) EXPECT_TRUE(row.printed);
   // Digits as printed.
   EXPECT_TRUE(
-      contains(table1_csv(rows, false).text(), "printed,,,0.995,,1.00,,15.21,,0.0573,,,,,LSM,"));
+      contains(table1_csv(rows, false).text(), "printed,,,0.995,,1.00,,15.21,,0.0573,,,,,,,LSM,"));
   const std::string text = table1_text(rows, false);
   EXPECT_LT(text.find("printed in the paper"), text.find("Block-Slider"));
   EXPECT_LT(text.find("Block-Slider"), text.find("ours"));
@@ -73,6 +73,7 @@ TEST(Table1, GammaTimesGiveTheirParameters) {
   const double shape = 0.7, scale = 20.0;
   IntervalSettings settings;
   settings.deltas = {1.0};
+  settings.replicas = 0;
   const auto curves = interval_curves({gamma_events(shape, scale, 20000)}, settings);
   ASSERT_EQ(curves.size(), 1u);
   EXPECT_EQ(curves[0].n, 20000);
@@ -92,6 +93,7 @@ TEST(Table1, GammaTimesGiveTheirParameters) {
 TEST(Table1, PoorFitsAreRejected) {
   IntervalSettings settings;
   settings.deltas = {1.0};
+  settings.replicas = 100;
   const auto good = table1(interval_curves({gamma_events(0.7, 20.0, 5000)}, settings));
   // Two clusters of times are no gamma density.
   std::vector<double> starts = {0.0};
@@ -103,17 +105,33 @@ TEST(Table1, PoorFitsAreRejected) {
   const char *const method = "maximum likelihood, δ = 1 held";
   ASSERT_NE(row_with(good, method), nullptr);
   ASSERT_NE(row_with(poor, method), nullptr);
-  EXPECT_FALSE(row_with(good, method)->rejected);
-  EXPECT_LT(row_with(good, method)->ks, 1.36 / std::sqrt(5000.0));
+  EXPECT_FALSE(row_with(good, method)->rejected());
+  EXPECT_GT(row_with(good, method)->p, 0.05);
+  EXPECT_GT(row_with(good, method)->p_error, 0.01);
   EXPECT_EQ(row_with(good, method)->goodness().find("KS 0.0"), 0u);
-  EXPECT_TRUE(row_with(poor, method)->rejected);
-  EXPECT_TRUE(contains(row_with(poor, method)->goodness(), ", rejected"));
-  EXPECT_TRUE(contains(table1_text(poor, false), "rejected: at 5 %"));
+  EXPECT_TRUE(contains(row_with(good, method)->goodness(), ", p = 0."));
+  EXPECT_TRUE(contains(row_with(good, method)->goodness(" ± "), " ± 0.0"));
+  EXPECT_FALSE(contains(row_with(good, method)->goodness(), "rejected"));
+  EXPECT_TRUE(row_with(poor, method)->rejected());
+  EXPECT_EQ(row_with(poor, method)->p, 1.0 / 101.0);
+  EXPECT_TRUE(contains(row_with(poor, method)->goodness(), ", p ≤ 0.0099, rejected"));
+  EXPECT_TRUE(contains(table1_text(poor, false), "rejected: p below 0.05"));
   EXPECT_TRUE(contains(table1_csv(poor, false).text(), ",yes,made up,\"maximum likelihood"));
+  EXPECT_TRUE(contains(table1_csv(good, false).text(), ",no,made up,\"maximum likelihood"));
   const Table1Row *const binned = row_with(good, "least squares, δ = 1 held");
   ASSERT_NE(binned, nullptr);
   EXPECT_TRUE(std::isnan(binned->ks));
   EXPECT_EQ(binned->goodness().find("χ²/dof "), 0u);
+  EXPECT_TRUE(contains(binned->goodness(), ", p = "));
+  EXPECT_TRUE(std::isnan(binned->p_error));
+
+  // Without replicas nothing is said about the law.
+  settings.replicas = 0;
+  const auto quick = table1(interval_curves({gamma_events(0.7, 20.0, 5000)}, settings));
+  EXPECT_TRUE(std::isnan(row_with(quick, method)->p));
+  EXPECT_FALSE(row_with(quick, method)->rejected());
+  EXPECT_FALSE(contains(row_with(quick, method)->goodness(), "p "));
+  EXPECT_TRUE(contains(table1_csv(quick, false).text(), ",,,,made up,\"maximum likelihood"));
 }
 
 TEST(Table1, MissingSmallEventsRaiseTheThreshold) {
@@ -131,6 +149,7 @@ TEST(Table1, RescaledTimesHaveMeanOne) {
   IntervalSettings settings;
   settings.deltas = {1.0};
   settings.rescale = true;
+  settings.replicas = 0;
   const auto curves = interval_curves({gamma_events(0.7, 20.0, 20000)}, settings);
   const auto rows = table1(curves);
   const Table1Row *const row = row_with(rows, "maximum likelihood, δ = 1 held");
