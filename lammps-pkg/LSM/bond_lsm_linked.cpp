@@ -16,6 +16,7 @@
 
 #include "lsm_force_laws.h"
 #include "lsm_link_kernel.h"
+#include "lsm_scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -290,6 +291,7 @@ void BondLSMLinked::init_style()
 {
   if (!atom->radius_flag)
     error->all(FLERR, "Bond style lsm/linked needs particle radii: use atom_style hybrid bond sphere");
+  LSMScene::refuse_changing_radii(lmp, "Bond style lsm/linked");
   collected_at = -1;
 
   double mine = 0.0;

@@ -8,8 +8,7 @@ using namespace physics;
 using LinkTypes = Lmp;
 using BrokenLinks = Lmp;
 
-// ---- link types that can break and link types that cannot
-// -------------------------------------------------
+// ---- link types that can break and link types that cannot ----
 
 TEST_F(LinkTypes, UnbreakableLinksStayWhereOthersCanBreak) {
   // 21 discs: ten links of each type, so that the lanes of a chunk of 16 are not filled
@@ -51,8 +50,7 @@ TEST_F(LinkTypes, TypesThatDoNotBreakPullLikeAlone) {
   EXPECT_EQ(far.last("Bonds"), 20.0);
 }
 
-// ---- a link that breaks, and restart files
-// ----------------------------------------------------------------
+// ---- a link that breaks, and restart files ----
 
 TEST_F(BrokenLinks, RestartOfTheStepInWhichALinkBreaksCountsItOnce) {
   const std::string pulled = two_link_types(5) + "velocity last set 0.1 0 0\nthermo 1\n";
