@@ -5,12 +5,13 @@
 #include "fix_lsm_nve.h"
 
 #include "atom.h"
-#include "bond.h"
+#include "bond_lsm_linked.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
 #include "force.h"
 #include "group.h"
+#include "lsm_scene.h"
 #include "lsm_text_io.h"
 #include "modify.h"
 #include "neigh_list.h"
@@ -102,6 +103,7 @@ void FixLSMNVE::init()
 {
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix lsm/nve does not work with run_style respa");
+  LSMScene::refuse_changing_radii(lmp, "Fix lsm/nve");
   reset_dt();
 }
 
@@ -183,6 +185,9 @@ void FixLSMNVE::setup(int /*vflag*/)
     choose<false>();
 
   if (check == OFF) return;
+  const std::string foreign = LSMScene::foreign_forces(force);
+  if (!foreign.empty() && comm->me == 0)
+    error->warning(FLERR, "Fix lsm/nve {}: the stability limit of the time step does not know of {}", id, foreign);
   omega = highest_frequency();
   dt_limit = omega > 0.0 ? 2.0 / omega : 0.0;
   if (omega == 0.0 || update->dt <= dt_limit) return;
@@ -304,18 +309,13 @@ double FixLSMNVE::highest_frequency()
     springs.push_back(s);
   };
 
-  int d = 0;
-  if (force->bond && neighbor->bondlist) {
-    const auto k = (const double *) force->bond->extract("k", d);
-    if (force->bond_match("lsm/linked") && k)
-      for (int n = 0; n < neighbor->nbondlist; n++) {
-        const int *b = neighbor->bondlist[n];
-        if (b[2] > 0) add(b[0], b[1], force->newton_bond, k[b[2]], 0.0);
-      }
-  }
-  auto contacts = dynamic_cast<PairLSMFree *>(force->pair_match("lsm/", 0));
-  if (contacts && contacts->list) {
+  if (auto links = dynamic_cast<BondLSMLinked *>(force->bond_match("lsm/linked")))
+    for (const auto &link : links->held()) add(link.i, link.j, force->newton_bond, link.stiffness, 0.0);
+  for (PairLSMFree *contacts : LSMScene::contact_styles(force)) {
+    if (!contacts->list) continue;
+    int d = 0;
     const auto k = (double **) contacts->extract("k", d);
+    const auto on = (int **) contacts->extract("on", d);
     const auto kt = (double **) contacts->extract("kt", d);
     const NeighList *list = contacts->list;
     for (int ii = 0; ii < list->inum; ii++) {
@@ -326,7 +326,7 @@ double FixLSMNVE::highest_frequency()
         const double dx = x[i][0] - x[j][0], dy = x[i][1] - x[j][1], dz = x[i][2] - x[j][2];
         if (dx * dx + dy * dy + dz * dz > reach * reach) continue;
         const int it = atom->type[i], jt = atom->type[j];
-        add(i, j, force->newton_pair, k[it][jt], kt ? kt[it][jt] : 0.0);
+        if (on[it][jt]) add(i, j, force->newton_pair, k[it][jt], kt ? kt[it][jt] : 0.0);
       }
     }
   }
