@@ -248,6 +248,8 @@ void ComputeLSMEvents::init()
 
 void ComputeLSMEvents::check_surroundings()
 {
+  if (modify->get_fix_by_id(std::string(id) + "_record") != recorder)
+    error->all(FLERR, "Compute lsm/events {}: its fix {}_record is gone; use uncompute to end recording", id, id);
   if (update->whichflag == 0) return;
   if (update->whichflag == 2)
     error->all(FLERR, "Compute lsm/events does not work with minimize: it records the steps of a run; uncompute it before");

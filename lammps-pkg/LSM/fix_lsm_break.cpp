@@ -103,37 +103,47 @@ void FixLSMBreak::remove(const std::vector<tagint> &broken)
                            [&](const Link &a, const Link &b) { return key(a) == key(b); }),
                unique.end());
 
+  // with newton_bond on one of the two ranks has the link; another link of the pair keeps it out of contact
+
   bigint removed = 0;
-  for (const Link &link : unique) {
-    for (int side = 0; side < 2; side++) {
-      const tagint own = side ? link.high : link.low;
-      const tagint other = side ? link.low : link.high;
-      const int i = atom->map(own);
-      if (i < 0 || i >= atom->nlocal) continue;
+  std::vector<int> mine(unique.size(), 0), remaining(unique.size(), 0);
+  auto for_each_end = [&](const auto &act) {
+    for (size_t n = 0; n < unique.size(); n++)
+      for (int side = 0; side < 2; side++) {
+        const tagint other = side ? unique[n].low : unique[n].high;
+        const int i = atom->map(side ? unique[n].high : unique[n].low);
+        if (i >= 0 && i < atom->nlocal) act(n, i, other);
+      }
+  };
+  for_each_end([&](size_t n, int i, tagint other) {
+    for (int m = 0; m < atom->num_bond[i]; m++)
+      if (atom->bond_atom[i][m] == other && atom->bond_type[i][m] == unique[n].type) {
+        const int last = --atom->num_bond[i];
+        atom->bond_atom[i][m] = atom->bond_atom[i][last];
+        atom->bond_type[i][m] = atom->bond_type[i][last];
+        removed++;
+        break;
+      }
+    for (int m = 0; m < atom->num_bond[i]; m++)
+      if (atom->bond_atom[i][m] == other) mine[n]++;
+  });
+  MPI_Allreduce(mine.data(), remaining.data(), static_cast<int>(mine.size()), MPI_INT, MPI_SUM, world);
 
-      for (int m = 0; m < atom->num_bond[i]; m++)
-        if (atom->bond_atom[i][m] == other && atom->bond_type[i][m] == link.type) {
-          const int last = --atom->num_bond[i];
-          atom->bond_atom[i][m] = atom->bond_atom[i][last];
-          atom->bond_type[i][m] = atom->bond_type[i][last];
-          removed++;
-          break;
-        }
+  // 1-2 neighbours are the first nspecial[0]; what follows moves up
 
-      // 1-2 neighbours are the first nspecial[0]; what follows moves up
-
-      tagint *special = atom->special[i];
-      int *nspecial = atom->nspecial[i];
-      for (int m = 0; m < nspecial[0]; m++)
-        if (special[m] == other) {
-          for (int n = m; n < nspecial[2] - 1; n++) special[n] = special[n + 1];
-          nspecial[0]--;
-          nspecial[1]--;
-          nspecial[2]--;
-          break;
-        }
-    }
-  }
+  for_each_end([&](size_t n, int i, tagint other) {
+    if (remaining[n]) return;
+    tagint *special = atom->special[i];
+    int *nspecial = atom->nspecial[i];
+    for (int m = 0; m < nspecial[0]; m++)
+      if (special[m] == other) {
+        for (int rest = m; rest < nspecial[2] - 1; rest++) special[rest] = special[rest + 1];
+        nspecial[0]--;
+        nspecial[1]--;
+        nspecial[2]--;
+        break;
+      }
+  });
   bigint removed_all = 0;
   MPI_Allreduce(&removed, &removed_all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   const bigint links_removed = force->newton_bond ? removed_all : removed_all / 2;

@@ -38,7 +38,7 @@ static constexpr double NEAR_REACH = 1.05;    // in sums of radii
 /* ---------------------------------------------------------------------- */
 
 PairLSMFriction::PairLSMFriction(LAMMPS *_lmp) :
-    PairLSMFree(_lmp), kt(nullptr), mu(nullptr), mus(nullptr), has_static(0),
+    PairLSMFree(_lmp), kt(nullptr), mu(nullptr), mus(nullptr), own_static(nullptr), has_static(0),
     locate_onset(1), fix_dummy(nullptr), fix_history(nullptr)
 {
   centroidstressflag = CENTROID_NOTAVAIL;
@@ -75,6 +75,7 @@ PairLSMFriction::~PairLSMFriction()
     memory->destroy(kt);
     memory->destroy(mu);
     memory->destroy(mus);
+    memory->destroy(own_static);
   }
 }
 
@@ -263,8 +264,12 @@ void PairLSMFriction::allocate()
   memory->create(kt, n, n, "pair:kt");
   memory->create(mu, n, n, "pair:mu");
   memory->create(mus, n, n, "pair:mus");
+  memory->create(own_static, n, n, "pair:own_static");
   for (int i = 0; i < n; i++)
-    for (int j = 0; j < n; j++) kt[i][j] = mu[i][j] = mus[i][j] = 0.0;
+    for (int j = 0; j < n; j++) {
+      kt[i][j] = mu[i][j] = mus[i][j] = 0.0;
+      own_static[i][j] = 0;
+    }
 }
 
 /* ---------------------------------------------------------------------- */
@@ -316,6 +321,7 @@ void PairLSMFriction::coeff(int narg, char **arg)
       kt[i][j] = kt_one;
       mu[i][j] = mu_one;
       mus[i][j] = mus_one;
+      own_static[i][j] = narg == 6;
       on[i][j] = setflag[i][j] = 1;
       count++;
     }
@@ -337,11 +343,7 @@ void PairLSMFriction::init_style()
   if (domain->dimension != 2)
     error->all(FLERR, "Pair style lsm/friction needs a 2-dimensional simulation (dimension 2)");
 
-  has_static = 0;
-  for (int i = 1; i <= atom->ntypes; i++)
-    for (int j = i; j <= atom->ntypes; j++)
-      if (on[i][j] && mus[i][j] > mu[i][j]) has_static = 1;
-
+  has_static = 0;    // see init_one()
   PairLSMFree::init_style();
 
   // the history of a pair is found by the IDs of its particles
@@ -380,6 +382,14 @@ double PairLSMFriction::init_one(int i, int j)
   const double cut = PairLSMFree::init_one(i, j);
   kt[j][i] = kt[i][j];
   mu[j][i] = mu[i][j];
+
+  // fix adapt changes mu and comes here again
+
+  if (!own_static[i][j]) mus[i][j] = mu[i][j];
+  if (on[i][j] && mus[i][j] < mu[i][j])
+    error->all(FLERR, "Pair lsm/friction mu of types {} {} became {}, but must be at most mu_static = {}", i, j,
+               mu[i][j], mus[i][j]);
+  if (on[i][j] && mus[i][j] > mu[i][j]) has_static = 1;
   mus[j][i] = mus[i][j];
   return cut;
 }
@@ -413,6 +423,7 @@ void PairLSMFriction::read_coeff(FILE *fp, int i, int j)
     if (comm->me == 0) utils::sfread(FLERR, value, sizeof(double), 1, fp, nullptr, error);
     MPI_Bcast(value, 1, MPI_DOUBLE, 0, world);
   }
+  own_static[i][j] = mus[i][j] > mu[i][j];
 }
 
 void PairLSMFriction::print_coeff(FILE *fp, int i, int j)

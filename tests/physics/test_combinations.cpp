@@ -12,6 +12,7 @@ using namespace physics;
 using Hybrid = Lmp;
 using BetweenRuns = Lmp;
 using Refused = Lmp;
+using Works = Lmp;
 
 namespace {
 
@@ -393,4 +394,130 @@ TEST_F(Refused, RecordingBehindAFixThatMovesParticlesToOtherRanks) {
                            "fix spread all balance 1 1.0 shift x 5 1.0\nfix move all lsm/nve\n" +
                            recorded() + "run 1\n"),
                   {"lsm/events", "fix spread"}));
+}
+
+TEST_F(Refused, RecordingWhoseFixIsGone) {
+  EXPECT_TRUE(failed_with(
+      run_text(shear_contact("pair_style lsm/free\npair_coeff * * 1.0\n") +
+               "fix move all lsm/nve\n" + recorded() + "run 1\nunfix events_record\nrun 1\n"),
+      {"lsm/events", "events_record"}));
+}
+
+// ---- other commands that work ----
+
+namespace {
+
+/// Two linked pairs that rub on each other, one more contact across the period.
+std::string rubbing(
+    const std::string &pair = "pair_style lsm/friction\npair_coeff * * 1.0 1.0 0.6\n") {
+  std::string text = discs(
+      {{"-3", "0"}, {"-1", "0"}, {"-2", "1.7"}, {"0", "1.7"}, {"29.5", "0"}, {"29", "1.9"}}, 2, 2);
+  const std::string boundary = "boundary          f f p";
+  text.replace(text.find(boundary), boundary.size(), "boundary          p f p");
+  return text + R"(
+set               atom 3*4 type 2
+set               atom 6 type 2
+create_bonds      single/bond 1 1 2
+create_bonds      single/bond 1 3 4
+bond_style        lsm/linked
+bond_coeff        * 1.0
+)" + pair +
+         R"(
+timestep          0.02
+group             top type 2
+group             bottom type 1
+velocity          top set 0.1 -0.02 0
+velocity          bottom set -0.1 0.02 0
+)" + recorded() +
+         "thermo 50\n";
+}
+
+/// Largest difference of energies at the end of two runs.
+double energies_differ(const Result &a, const Result &b) {
+  double worst = 0.0;
+  for (const char *column : {"KinEng", "c_events[6]", "c_events[7]", "c_events[8]", "c_events[11]"})
+    worst = std::max(worst, std::fabs(a.last(column) - b.last(column)));
+  return worst;
+}
+
+}  // namespace
+
+TEST_F(Works, BalanceRespaAndHybridGiveTheSameMotion) {
+  const Result plain = run_text(rubbing() + "fix move all lsm/nve\nrun 100\n");
+  ASSERT_TRUE(succeeded(plain));
+  EXPECT_GT(plain.last("c_events[8]"), 1e-6);
+  EXPECT_GT(plain.last("c_events[11]"), 1e-3);
+  const std::string hybrid =
+      "pair_style hybrid lsm/free lsm/friction\npair_coeff 1 1 lsm/free 1.0\npair_coeff 2 2 "
+      "lsm/free 1.0\n"
+      "pair_coeff 1 2 lsm/friction 1.0 1.0 0.6\n";
+  const std::string others[] = {
+      rubbing() + "fix move all lsm/nve\nrun 50\nbalance 1.0 shift x 5 1.0\nrun 50\n",
+      rubbing() + "fix spread all balance 10 1.0 shift x 5 1.0\nfix move all lsm/nve\nrun 100\n",
+      rubbing() + "fix move all nve\nrun_style respa 2 1 bond 1 pair 2\nrun 100\n",
+      rubbing() + "fix move all lsm/nve\nchange_box all triclinic\nrun 100\n",
+      rubbing() + "fix move all lsm/nve\nrun 30 post no\nrun 70 pre no\n",
+      rubbing(hybrid) + "fix move all lsm/nve\nrun 100\n"};
+  for (const std::string &other : others)
+    for (int ranks : {1, 2}) {
+      const Result r = run_text(other, {}, ranks);
+      ASSERT_TRUE(succeeded(r)) << other;
+      EXPECT_LT(energies_differ(plain, r), 1e-12) << other;
+    }
+}
+
+TEST_F(Works, HybridGoesOnFromARestartFile) {
+  const std::string coefficients =
+      "pair_coeff 1 1 lsm/free 1.0\npair_coeff 2 2 lsm/free 1.0\npair_coeff 1 2 lsm/friction 1.0 "
+      "1.0 0.6\n";
+  const Result whole =
+      run_text(rubbing("pair_style hybrid lsm/free lsm/friction\n" + coefficients) +
+               "fix move all lsm/nve\nrun 30\nwrite_restart hybrid.restart\nrun 30\n");
+  ASSERT_TRUE(succeeded(whole));
+  EXPECT_GT(whole.last("c_events[8]"), 1e-6);
+  const Result r = run_text(
+      "atom_modify map array\ncomm_modify mode single cutoff 4.5\nread_restart hybrid.restart\n" +
+      coefficients + "timestep 0.02\nfix move all lsm/nve\n" + recorded() + "run 30\n");
+  ASSERT_TRUE(succeeded(r));
+  EXPECT_LT(energies_differ(whole, r), 1e-12);
+}
+
+TEST_F(Works, StaticFrictionFollowsAnAdaptedCoefficientUnlessItWasGiven) {
+  const std::string adapted =
+      rubbing() +
+      "fix move all lsm/nve\nvariable less equal ramp(0.6,0.1)\n"
+      "fix weaken all adapt 1 pair lsm/friction mu * * v_less\nrun 20\nunfix weaken\n";
+  const Result follows = run_text(adapted + "run 40\n");
+  const Result given = run_text(adapted + "pair_coeff * * 1.0 1.0 0.1\nrun 40\n");
+  ASSERT_TRUE(succeeded(follows));
+  ASSERT_TRUE(succeeded(given));
+  EXPECT_GT(given.last("c_events[11]"), 0.0);
+  EXPECT_LT(energies_differ(follows, given), 1e-12);
+}
+
+TEST_F(Works, LinksAndFreeContactsInThreeDimensions) {
+  std::string text = discs({{"0", "0"}, {"2", "0"}});
+  for (const auto &[from, to] :
+       {std::pair<std::string, std::string>{"dimension         2", "dimension         3"},
+        {"boundary          f f p", "boundary          f f f"},
+        {"-10 10 -0.5 0.5", "-10 10 -10 10"},
+        {"set group all mass 1.0",
+         "create_atoms 1 single 1 0 1.6\nset group all diameter 2.0\nset group all mass 1.0"}})
+    text.replace(text.find(from), from.size(), to);
+  text +=
+      "create_bonds single/bond 1 1 2\nbond_style lsm/linked\nbond_coeff 1 1.0\npair_style "
+      "lsm/free\n"
+      "pair_coeff 1 1 1.0\ntimestep 0.01\nfix move all lsm/nve\n" +
+      recorded() +
+      "variable pz equal vcm(all,z)\nthermo 200\nrun 200\nprint \"pz = $(v_pz:%.17g)\"\n";
+  const double gap = std::sqrt(1.0 + 1.6 * 1.6) - 2.0;
+  for (const char *newton : {"on", "off"})
+    for (int ranks : {1, 2}) {
+      const Result r = run_text(text, {{"newton", newton}}, ranks);
+      ASSERT_TRUE(succeeded(r));
+      EXPECT_NEAR(r.thermo.front().at("c_events[7]"), gap * gap, 1e-14);
+      EXPECT_GT(r.last("KinEng"), 1e-3);
+      EXPECT_NEAR(r.value("pz"), 0.0, 1e-14);
+      EXPECT_LT(std::fabs(r.last("c_events[13]")), 1e-5);
+    }
 }

@@ -118,3 +118,29 @@ run               5
   EXPECT_EQ(r.value("links"), 0.0);
   EXPECT_NEAR(r.last("c_events[14]"), 0.005, 1e-15);
 }
+
+TEST_F(BrokenLinks, AnotherLinkOfThePairKeepsItOutOfContact) {
+  // of two links between the same discs one breaks; the other pulls them together again
+  for (const char *newton : {"on", "off"})
+    for (int ranks : {1, 2}) {
+      SCOPED_TRACE(std::string("newton ") + newton + ", ranks " + std::to_string(ranks));
+      const Result r = run_text(discs({{"-1.05", "0"}, {"1.05", "0"}}, 2) + R"(
+create_bonds      single/bond 1 1 2
+create_bonds      single/bond 2 1 2
+bond_style        lsm/linked
+bond_coeff        1 1.0
+bond_coeff        2 1.0 1.02
+pair_style        lsm/free
+pair_coeff        1 1 1.0
+timestep          0.05
+fix               move all lsm/nve
+compute           events all lsm/events ledger yes
+)" + disc_columns + "thermo 45\nrun 45\n",
+                                {{"newton", newton}}, ranks);
+      ASSERT_TRUE(succeeded(r));
+      EXPECT_EQ(r.last("Bonds"), 1.0);
+      EXPECT_EQ(r.last("c_events[7]"), 0.0);
+      // half a period of w^2 = 2 after 44.4 steps: compressed as far as it was stretched
+      EXPECT_NEAR(r.last("c_events[6]"), 0.5 * 0.1 * 0.1, 1e-4);
+    }
+}
