@@ -86,7 +86,7 @@ for setting in ${fault_more[@]+"${fault_more[@]}"} ${slider_more[@]+"${slider_mo
   esac
 done
 if [ $quick = yes ]; then
-  all="120,240 256,614,1928,4000 0.05 1" fault_steps=60000 slider_steps=3000000
+  all="120,240 256,614,1928,4000 0.05 1" fault_steps=200000 slider_steps=3000000
 else
   all="120,240,480,945,1440,1890 256,614,972,1450,1928,4000,8000,16000,32000,64000,128000 0.02,0.05,0.1,0.5 3"
   fault_steps=2400000 slider_steps=10000000
@@ -528,14 +528,17 @@ figure() {
 figures() {
   mkdir -p "$output/figures" 2>/dev/null || { say "cannot create $output/figures"; code=1; return; }
   say "figures: Figs. 7, 12 to 15 and the scaling of the roll-off"
-  local ours="^slider_ours_${five}_1\$" faults='--range 1e-4:1e-2' sliders='--range 0.01:1 --range 1:100'
+  local ours="^slider_ours_${five}_1\$" faults='--range 1e-3:1e-1 --range 1e-3:1' sliders='--range 0.01:1 --range 1:100'
   figure fig7_leaf_springs '^slider_kl|^slider_ours_1928_1$' histograms
-  figure fig12_fault_sizes '^fault' histograms --guide=-1.07:1e-4:1e-2
+  # The faults are loaded from nothing until time 3000 or so; below 1e-3 their counts depend on the time step.
+  local loaded=0
+  [ "$fault_steps" -lt 200000 ] || loaded=3000
+  figure fig12_fault_sizes '^fault_[0-9]*$' histograms --from $loaded --threshold 1e-4 --guide=-1.07:1e-3:1
   figure fig13_slider_sizes "$ours" histograms --guide=-0.5:1e-2:1 --guide=-1:1:100
-  figure fig14_fault_intervals '^fault' intervals
+  figure fig14_fault_intervals '^fault_[0-9]*$' intervals --from $loaded --threshold 1e-3
   figure fig15_slider_intervals "$ours" intervals
   # The ranges are words on purpose.
-  figure fault_fit '^fault' fit --scaling $faults
+  figure fault_fit '^fault' fit --from $loaded --threshold 1e-3 --scaling $faults
   figure slider_fit "$ours" fit --scaling $sliders
   # steady from time 40000 on in our settings
   figure rupture_fit '^slider_ruptures' fit --scaling --range 1:100 --from 40000 --threshold 0.1 --replicas 0
