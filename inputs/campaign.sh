@@ -23,8 +23,8 @@ Runs, or goes on with, the campaign, and ends with report pages and the folder f
   --lengths L,L...    lengths of the faults [120,240,480,945,1440,1890]
   --blocks N,N...     numbers of blocks of the sliders [256,614,972,1450,1928,4000,8000,16000,32000,64000,128000]
   --kl K,K...         leaf springs of the runs after Fig. 7, 1928 blocks [0.02,0.05,0.1,0.5; none without 1928 blocks]
-  --seeds S           seeds 1 to S of the sliders up to 1928 blocks [3]
-  --steps N           time steps of each run [1e7]
+  --seeds S           seeds 1 to S of the sliders up to 1928 blocks, and of the faults up to length 480 [3]
+  --steps N           time steps of each run [sliders 1e7, faults 2.4e6 of 0.06: 1.4e5 time units, see README.md]
   --quick             a trial of some minutes: faults 120 and 240, sliders up to 4000 blocks, few steps
   --hours H           stop after so many hours (faults lose the steps since the last checkpoint) [no limit]
   --jobs J            cores in use at a time [all: $(nproc)]
@@ -81,15 +81,15 @@ each() {
 for setting in ${fault_more[@]+"${fault_more[@]}"} ${slider_more[@]+"${slider_more[@]}"}; do
   [[ $setting =~ ^[a-z_-]+=[^\ ]+$ ]] || die "'$setting', expected NAME=VALUE after --fault and --slider"
   case $setting in
-    steps=* | length=* | checkpoint=* | prefix=* | series=* | restart=* | run=* | blocks=* | catalogue=* | json=* | resume=* | \
+    steps=* | length=* | seed=* | checkpoint=* | prefix=* | series=* | restart=* | run=* | blocks=* | catalogue=* | json=* | resume=* | \
       config=* | ensemble=*) die "'${setting%%=*}' is set by the campaign itself, expected no --fault or --slider for it" ;;
   esac
 done
 if [ $quick = yes ]; then
-  all="120,240 256,614,1928,4000 0.05 1" fault_steps=60000 slider_steps=3000000
+  all="120,240 256,614,1928,4000 0.05 1" fault_steps=200000 slider_steps=3000000
 else
   all="120,240,480,945,1440,1890 256,614,972,1450,1928,4000,8000,16000,32000,64000,128000 0.02,0.05,0.1,0.5 3"
-  fault_steps=10000000 slider_steps=10000000
+  fault_steps=2400000 slider_steps=10000000
 fi
 read -r all_lengths all_blocks all_kl all_seeds <<<"$all"
 lengths=${lengths:-$all_lengths} blocks=${blocks:-$all_blocks} kl=${kl:-$all_kl} seeds=${seeds:-$all_seeds}
@@ -142,14 +142,14 @@ add_run() {
 }
 series_word=yes
 [ "$series" != no ] || series_word=no
-add_fault() {
-  local length=$1 r=$ranks words
+add_fault() { # LENGTH SEED
+  local length=$1 seed=$2 r=$ranks words
   [ -n "$r" ] || r=$(awk -v l="$length" -v j="$jobs" 'BEGIN { r = int(l / 60); if (r < 1) r = 1; if (r > j) r = j; print r }')
   [ "$r" -le "$jobs" ] || die "--ranks = $r, expected at most --jobs = $jobs"
-  words="length=$length checkpoint=$checkpoint location=yes series=${series_word}"
+  words="length=$length seed=$seed checkpoint=$checkpoint location=yes series=${series_word}"
   words+="${fault_more[*]:+ ${fault_more[*]}}"
   # about 65 discs per unit of length, 44 million steps of one disc per second and core
-  add_run "fault_$length" fault "$r" "$fault_steps" "program = lmp $lammps_version
+  add_run "fault_$length$([ "$seed" = 1 ] || echo "_seed_$seed")" fault "$r" "$fault_steps" "program = lmp $lammps_version
 $(tr " =" "\n " <<<"$words")" "$(awk -v l="$length" -v n="$fault_steps" 'BEGIN { print 65 * l * n / 44e6 }')"
 }
 add_slider() {
@@ -180,7 +180,11 @@ if [ "$only" != faults ]; then
   done
 fi
 if [ "$only" != sliders ]; then
-  for l in $lengths; do add_fault "$l"; done
+  for l in $lengths; do
+    most=$seeds
+    awk -v l="$l" 'BEGIN { exit !(l > 480) }' && most=1
+    for ((s = 1; s <= most; s++)); do add_fault "$l" "$s"; done
+  done
 fi
 
 # ---- how far a run is; nothing is written here
@@ -524,14 +528,17 @@ figure() {
 figures() {
   mkdir -p "$output/figures" 2>/dev/null || { say "cannot create $output/figures"; code=1; return; }
   say "figures: Figs. 7, 12 to 15 and the scaling of the roll-off"
-  local ours="^slider_ours_${five}_1\$" faults='--range 1e-4:1e-2' sliders='--range 0.01:1 --range 1:100'
+  local ours="^slider_ours_${five}_1\$" faults='--range 1e-3:1e-1 --range 1e-3:1' sliders='--range 0.01:1 --range 1:100'
   figure fig7_leaf_springs '^slider_kl|^slider_ours_1928_1$' histograms
-  figure fig12_fault_sizes '^fault' histograms --guide=-1.07:1e-4:1e-2
+  # The faults are loaded from nothing until time 3000 or so; below 1e-3 their counts depend on the time step.
+  local loaded=0
+  [ "$fault_steps" -lt 200000 ] || loaded=3000
+  figure fig12_fault_sizes '^fault_[0-9]*$' histograms --from $loaded --threshold 1e-4 --guide=-1.07:1e-3:1
   figure fig13_slider_sizes "$ours" histograms --guide=-0.5:1e-2:1 --guide=-1:1:100
-  figure fig14_fault_intervals '^fault' intervals
+  figure fig14_fault_intervals '^fault_[0-9]*$' intervals --from $loaded --threshold 1e-3
   figure fig15_slider_intervals "$ours" intervals
   # The ranges are words on purpose.
-  figure fault_fit '^fault' fit --scaling $faults
+  figure fault_fit '^fault' fit --from $loaded --threshold 1e-3 --scaling $faults
   figure slider_fit "$ours" fit --scaling $sliders
   # steady from time 40000 on in our settings
   figure rupture_fit '^slider_ruptures' fit --scaling --range 1:100 --from 40000 --threshold 0.1 --replicas 0

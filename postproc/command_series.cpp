@@ -13,6 +13,7 @@
 #include "commands.h"
 #include "numbers.h"
 #include "plot.h"
+#include "regime.h"
 #include "series_input.h"
 
 namespace LSM::postproc {
@@ -25,6 +26,7 @@ struct Options {
   PickerOptions picker;
   PictureOptions picture;
   std::int64_t columns = 2000;
+  double window = regime_window;
 };
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -181,6 +183,7 @@ void run(const Options &options) {
                     samples, options.columns));
   events.comment("events picked in the window; an empty size: not ended yet; " + settings);
 
+  RegimeMeter meter(options.window, info.dt * static_cast<double>(info.stride));
   Thinner thinner(figure.table, samples, options.columns);
   const auto add_event = [&](double t_start, double t_end, double pe_start, double pe_end,
                              double size) {
@@ -191,9 +194,12 @@ void run(const Options &options) {
   SeriesOptions again = options.samples;
   again.to_time = times.hi;
   read_series(options.series, again, [&](std::int64_t step, double time, double pe) {
-    if (picker.push(step, time, pe, event) && event.t_end >= times.lo)
+    if (picker.push(step, time, pe, event) && event.t_end >= times.lo) {
       add_event(event.t_start, event.t_end, event.pe_start, event.pe_end, event.size);
+      meter.event(std::max(event.t_start, times.lo), event.t_end);
+    }
     if (time >= times.lo) {
+      meter.add(pe);
       const bool first = std::isnan(before);
       thinner.add(time, {pe, pe - before, first ? nan : picker.rate()});
     }
@@ -214,6 +220,7 @@ void run(const Options &options) {
   events.write(options.picture.output + "-events.csv");
   fmt::print("{} samples, {} events\nwrote {}-events.csv\n", samples, events.rows(),
              options.picture.output);
+  fmt::print("{}\n", regime_line(meter));
   make(figure, options.picture);
 }
 
@@ -238,6 +245,12 @@ void add_series(CLI::App &app) {
                    "Columns of the picture (ours). More than twice as many samples are thinned to "
                    "the smallest and largest value in each column")
       ->check(CLI::Range(std::int64_t{10}, std::int64_t{1000000}));
+  command
+      ->add_option("--window", options->window,
+                   "Time over which the rise and the fall of PE are measured for the number that tells stick-slip "
+                   "from creep (model time, ours)")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   options->picture.add_to(command, "series");
   options->picker.add_to(command);
   command->callback([options] { run(*options); });

@@ -19,8 +19,10 @@
 
 namespace {
 
-volatile int stop_signal = 0;
-extern "C" void note_signal(int number) { stop_signal = number; }
+// Written by a signal handler, read by all threads of an ensemble.
+std::atomic<int> stop_signal{0};
+static_assert(std::atomic<int>::is_always_lock_free, "a signal handler must not wait for a lock");
+extern "C" void note_signal(int number) { stop_signal.store(number, std::memory_order_relaxed); }
 
 const char *const description =
     "Block-slider: a periodic chain of N blocks on a rough surface, coupled by springs K_c and "
@@ -187,6 +189,10 @@ Settings parse(std::vector<std::string> arguments) {
       ->group(files);
   app.add_flag("--resume", s.run.resume,
                "Go on from the checkpoint; the catalogue ends as if never interrupted")
+      ->group(files);
+  app.add_flag("--overwrite", s.run.overwrite,
+               "Replace catalogue, series and checkpoint of an earlier run, which is refused "
+               "otherwise; with --resume, those of runs of an ensemble that have no checkpoint")
       ->group(files);
   app.add_option("--json", s.summary, "JSON summary to write; - is standard output")->group(files);
   app.add_flag("--progress", s.run.progress, "Report on standard error every second")->group(files);
@@ -458,6 +464,13 @@ std::vector<Settings> ensemble(const Settings &base, const std::vector<std::stri
             fmt::format("run {} of the ensemble: {} is written by another "
                         "run, expected a file of its own",
                         k + 1, path));
+    // Those never reached before the interruption start afresh.
+    if (s.run.resume && !std::ifstream(s.run.checkpoint)) s.run.resume = false;
+    try {
+      Slider::check_replaced(s.run);
+    } catch (const std::runtime_error &e) {
+      throw std::runtime_error(fmt::format("run {} of the ensemble: {}", k + 1, e.what()));
+    }
   }
   return all;
 }
@@ -469,13 +482,12 @@ int run_all(std::vector<Settings> &all, const Settings &base) {
   std::atomic<std::size_t> next{0};
   auto work = [&] {
     for (std::size_t k = next++; k < all.size(); k = next++) {
-      if (stop_signal != 0 && all[k].run.checkpoint.empty()) {
-        results[k].interrupted = stop_signal;
+      const int stopped_by = stop_signal;
+      if (stopped_by != 0 && all[k].run.checkpoint.empty()) {
+        results[k].interrupted = stopped_by;
         continue;
       }
       try {
-        // Those never reached before the interruption start afresh.
-        if (all[k].run.resume && !std::ifstream(all[k].run.checkpoint)) all[k].run.resume = false;
         results[k] = Slider::run(all[k].run);
       } catch (const std::exception &e) {
         errors[k] = e.what();

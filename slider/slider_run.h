@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <cmath>
@@ -67,9 +68,10 @@ struct RunOptions {
   std::string checkpoint;  ///< empty: none
   std::int64_t checkpoint_interval = 0;
   bool resume = false;
+  bool overwrite = false;  ///< replace files of an earlier run
   bool progress = false;
   std::vector<std::pair<std::string, std::string>> header;  ///< everything that shapes the result
-  const volatile int *stop = nullptr;                       ///< a signal number ends the run
+  const std::atomic<int> *stop = nullptr;                   ///< a signal number ends the run
 };
 
 struct RunResult {
@@ -108,6 +110,18 @@ inline void probe(const std::string &path, const std::string &option) {
                              ", expected a writable file for " + option);
   std::fclose(file);
   std::remove(trial.c_str());
+}
+
+/// A run that starts afresh replaces no file that holds something, unless asked.
+/// \throws std::runtime_error naming file and options
+inline void check_replaced(const RunOptions &o) {
+  if (o.resume || o.overwrite) return;
+  const std::pair<const std::string &, const char *> outputs[] = {
+      {o.catalogue, "--catalogue"}, {o.series, "--pe-series"}, {o.checkpoint, "--checkpoint"}};
+  for (const auto &[path, option] : outputs)
+    if (LSM::text_io::holds_data(path))
+      throw std::runtime_error(path + ": exists, expected a new file for " + option +
+                               "; --overwrite replaces it, --resume goes on with it");
 }
 
 namespace detail {
@@ -324,6 +338,7 @@ RunResult run(const RunOptions &o, C &chain) {
              keys.end());
 
   // Nothing is written if one of the outputs cannot be.
+  check_replaced(o);
   probe(o.series, "--pe-series");
   probe(o.checkpoint, "--checkpoint");
   LSM::CatalogueWriter catalogue;
@@ -484,8 +499,9 @@ RunResult run(const RunOptions &o, C &chain) {
     }
     if (checkpoints && interval > 0 && chain.step() % interval == 0 && chain.step() < o.steps)
       save();
-    if (o.stop && *o.stop != 0 && chain.step() < o.steps) {
-      result.interrupted = *o.stop;
+    const int stopped_by = o.stop ? o.stop->load(std::memory_order_relaxed) : 0;
+    if (stopped_by != 0 && chain.step() < o.steps) {
+      result.interrupted = stopped_by;
       if (checkpoints) save();
       break;
     }

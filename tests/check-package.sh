@@ -61,6 +61,7 @@ esac
     echo "$load"
     scene
     cat <<EOF
+special_bonds lj/coul 0 1 1
 bond_style lsm/linked
 bond_coeff 1 1.0
 pair_style lsm/free

@@ -12,9 +12,11 @@
 #include "memory.h"
 #include "modify.h"
 #include "neighbor.h"
+#include "update.h"
 
 #include "lsm_force_laws.h"
 #include "lsm_link_kernel.h"
+#include "lsm_scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,6 +24,8 @@
 #include <tuple>
 
 using namespace LAMMPS_NS;
+
+static constexpr double BROKEN = -1.0;    // in place of a rest length, until the list is collected anew
 
 /* ---------------------------------------------------------------------- */
 
@@ -50,11 +54,7 @@ void BondLSMLinked::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
   if (collected_at != neighbor->lastcall) collect();
-  const bool dim3 = domain->dimension == 3;
-  if (breakable)
-    dim3 ? eval<3, true>() : eval<2, true>();
-  else
-    dim3 ? eval<3, false>() : eval<2, false>();
+  domain->dimension == 3 ? eval<3>() : eval<2>();
   if (evflag) tally();
 }
 
@@ -138,18 +138,25 @@ void BondLSMLinked::list_fresh()
 
 /* ---------------------------------------------------------------------- */
 
-template <int DIM, bool BREAK> void BondLSMLinked::eval()
+template <int DIM> void BondLSMLinked::eval()
 {
   pe_link = 0.0;
   if (rest.empty()) return;
+
+  // a minimizer tries positions that it takes back
+
+  const bool minimizing = update->whichflag == 2;
   const int *begin = fresh_begin.data();
   for (const Segment &s : segments) {
     const LSMLinkKernel::Links links{&ends[s.first], &rest[s.first], s.last - s.first, k[s.type],
                                      ratio[s.type],  s.alone,        fresh.data(),     begin};
     begin += (links.count + LSMLinkKernel::BLOCK - 1) / LSMLinkKernel::BLOCK;
-    gone.clear();
-    pe_link += LSMLinkKernel::forces<DIM, BREAK>(links, atom->x[0], atom->f[0], gone);
-    if constexpr (BREAK) note_broken(s);
+    if (ratio[s.type] > 0.0 && !minimizing) {
+      gone.clear();
+      pe_link += LSMLinkKernel::forces<DIM, true>(links, atom->x[0], atom->f[0], gone);
+      note_broken(s);
+    } else
+      pe_link += LSMLinkKernel::forces<DIM, false>(links, atom->x[0], atom->f[0], gone);
   }
 }
 
@@ -167,6 +174,8 @@ void BondLSMLinked::note_broken(const Segment &segment)
         neighbor->bondlist[m][2] = 0;
     broken.push_back(atom->tag[i]);
     broken.push_back(atom->tag[j]);
+    broken.push_back(segment.type);
+    rest[segment.first + n] = BROKEN;
     if (record_what) {
       double **x = atom->x, none;
       const double dx = x[i][0] - x[j][0], dy = x[i][1] - x[j][1], dz = x[i][2] - x[j][2];
@@ -201,15 +210,26 @@ double BondLSMLinked::max_strain() const
 {
   double **x = atom->x;
   double worst = 0.0;
-  for (int n = 0; n < neighbor->nbondlist; n++) {
-    if (neighbor->bondlist[n][2] <= 0) continue;
-    const int i = neighbor->bondlist[n][0], j = neighbor->bondlist[n][1];
-    const double r0 = atom->radius[i] + atom->radius[j];
+  for (size_t n = 0; n < rest.size(); n++) {
+    if (rest[n] == BROKEN) continue;
+    const int i = ends[n].i / 3, j = ends[n].j / 3;
     const double dx = x[i][0] - x[j][0], dy = x[i][1] - x[j][1], dz = x[i][2] - x[j][2];
-    const double strain = fabs(sqrt(dx * dx + dy * dy + dz * dz) - r0) / r0;
+    const double strain = fabs(sqrt(dx * dx + dy * dy + dz * dz) - rest[n]) / rest[n];
     if (!(strain <= worst)) worst = strain;    // a NaN counts as worst
   }
   return worst;
+}
+
+/* ---------------------------------------------------------------------- */
+
+std::vector<BondLSMLinked::Held> BondLSMLinked::held() const
+{
+  std::vector<Held> all;
+  all.reserve(rest.size());
+  for (const Segment &s : segments)
+    for (int n = s.first; n < s.last; n++)
+      if (rest[n] != BROKEN) all.push_back({ends[n].i / 3, ends[n].j / 3, k[s.type]});
+  return all;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -271,7 +291,7 @@ void BondLSMLinked::init_style()
 {
   if (!atom->radius_flag)
     error->all(FLERR, "Bond style lsm/linked needs particle radii: use atom_style hybrid bond sphere");
-  record_what = NONE;
+  LSMScene::refuse_changing_radii(lmp, "Bond style lsm/linked");
   collected_at = -1;
 
   double mine = 0.0;

@@ -35,9 +35,16 @@ class BondLSMLinked : public Bond, public LSMEnergySource {
   double single(int, double, int, int, double &) override;
   void *extract(const char *, int &) override;
 
-  /// Pairs of particle IDs whose link broke since fix LSM_BREAK last took them.
+  /// Two particle IDs and the type of each link that broke since fix LSM_BREAK last took them.
   std::vector<tagint> broken;
-  /// Largest |r - r0| / r0 of the links this rank holds.
+
+  struct Held {
+    int i, j;    ///< local indices
+    double stiffness;
+  };
+  /// Links of the last force evaluation, those of this style only under bond_style hybrid.
+  std::vector<Held> held() const;
+  /// Largest |r - r0| / r0 among them.
   double max_strain() const;
 
  protected:
@@ -64,7 +71,7 @@ class BondLSMLinked : public Bond, public LSMEnergySource {
 
   void collect();
   void list_fresh();
-  template <int DIM, bool BREAK> void eval();
+  template <int DIM> void eval();
   void note_broken(const Segment &);
   void tally();
 };

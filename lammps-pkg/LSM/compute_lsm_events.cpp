@@ -20,6 +20,7 @@
 #include "utils.h"
 #include "write_restart.h"
 
+#include "lsm_scene.h"
 #include "lsm_sum.h"
 
 #include <algorithm>
@@ -63,7 +64,7 @@ ComputeLSMEvents::ComputeLSMEvents(LAMMPS *_lmp, int narg, char **arg) :
     plates(nullptr), first_filling(0), first_sending(0), count_filling(0), count_sending(0),
     request(MPI_REQUEST_NULL), pending(false), shown_at(0.0), started_at(0.0),
     ledger_started(false), ledger_start(0.0), friction_before(0.0), broken_before(0.0), anchor_time(0.0), anchor_dt(0.0),
-    anchor_step(0), last_recorded(-1), opened(false)
+    anchor_step(0), last_recorded(-1), opened(false), residual_at_end(0.0), ended_at(-1)
 {
   if (igroup) error->all(FLERR, "Compute lsm/events must use group all");
   scalar_flag = 1;
@@ -207,8 +208,8 @@ void ComputeLSMEvents::init()
     error->warning(FLERR, "More than one compute lsm/events");
 
   links = dynamic_cast<BondLSMLinked *>(force->bond_match("lsm/linked"));
-  auto contacts = dynamic_cast<PairLSMFree *>(force->pair_match("^lsm/", 0));
-  if (!links && !contacts)
+  const auto contacts = LSMScene::contact_styles(force);
+  if (!links && contacts.empty())
     error->all(FLERR, "Compute lsm/events needs bond style lsm/linked or pair style lsm/free or "
                       "lsm/friction");
   if (location && !force->pair_match("lsm/friction", 1))
@@ -216,10 +217,12 @@ void ComputeLSMEvents::init()
   if (location && !(domain->xperiodic))
     error->all(FLERR, "Compute lsm/events location yes needs a box that is periodic in x");
 
+  check_surroundings();
+
   const int what = LSMEnergySource::ENERGY | (location ? LSMEnergySource::SLIP : 0);
   sources.clear();
   if (links) sources.push_back(links);
-  if (contacts) sources.push_back(contacts);
+  sources.insert(sources.end(), contacts.begin(), contacts.end());
   for (auto *source : sources) {
     source->record_what |= what;
     source->slip_bin = bin_width;
@@ -239,6 +242,31 @@ void ComputeLSMEvents::init()
   filling.resize(block);
   sending.resize(block);
   if (comm->me == 0) received.resize(static_cast<size_t>(block) * comm->nprocs);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeLSMEvents::check_surroundings()
+{
+  if (modify->get_fix_by_id(std::string(id) + "_record") != recorder)
+    error->all(FLERR, "Compute lsm/events {}: its fix {}_record is gone; use uncompute to end recording", id, id);
+  if (update->whichflag == 0) return;
+  if (update->whichflag == 2)
+    error->all(FLERR, "Compute lsm/events does not work with minimize: it records the steps of a run; uncompute it before");
+  if (LSMScene::is_rerun(update))
+    error->all(FLERR, "Compute lsm/events does not work with rerun: it records the steps of a run; use thermo keyword pe "
+                      "for the energies of snapshots");
+
+  // the strain of links is looked at before particles move to other ranks
+
+  for (const auto &ifix : modify->get_fix_list()) {
+    if (ifix == recorder) break;
+    if (ifix->pre_exchange_migrate)
+      error->all(FLERR, "Compute lsm/events {} must be defined before fix {}, which moves particles to other ranks", id, ifix->id);
+  }
+  const std::string foreign = LSMScene::foreign_forces(force);
+  if (!foreign.empty() && comm->me == 0)
+    error->warning(FLERR, "Compute lsm/events {}: PE, events and ledger do not hold the energy of {}", id, foreign);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -374,6 +402,7 @@ void ComputeLSMEvents::setup_record()
 {
   if (!opened) open_files(update->ntimestep);
   change_dt();
+  leave_out_jump();
   if (ledger && !ledger_started) {
     ledger_start = 0.0;
     ledger_start = residual();
@@ -565,6 +594,57 @@ void ComputeLSMEvents::flush()
   } catch (std::exception &e) {
     error->one(FLERR, "Compute lsm/events: {}", e.what());
   }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeLSMEvents::end_run()
+{
+  flush();
+  for (auto *p : integrators) p->complete_step();
+  if (ledger_started) residual_at_end = residual();
+  ended_at = update->ntimestep;
+}
+
+/* ----------------------------------------------------------------------
+   Commands between two runs (displace_atoms, delete_atoms, velocity, other coefficients) change energies at
+   once. That is no event and no loss of the model: both go on from the energies that are found.
+------------------------------------------------------------------------- */
+
+void ComputeLSMEvents::leave_out_jump()
+{
+  const bigint step = update->ntimestep;
+  const double size = MAX(domain->prd[0], domain->prd[1]);
+  const double floor = 1e-22 * static_cast<double>(atom->natoms) * size * size;    // positions rounded otherwise
+  double change = 0.0;
+
+  if (last_recorded == step) {
+    flush();
+    const double pe = total(local_pe());
+    double jump = 0.0;
+    if (picker && picker->state().step == step) jump = pe - picker->state().pe;
+    MPI_Bcast(&jump, 1, MPI_DOUBLE, 0, world);
+    if (fabs(jump) > MAX(1e-9 * fabs(pe), floor)) {
+      change = jump;
+      if (picker) {
+        LSM::PickerState state = picker->state();
+        state.pe += jump;
+        state.pe_start += jump;
+        picker->set_state(state);
+      }
+    }
+  }
+  if (ledger_started && ended_at == step) {
+    const double jump = residual() - residual_at_end;
+    const double scale = friction_work() + viscous_work() + kinetic() + fabs(total(local_pe()));
+    if (fabs(jump) > MAX(1e-9 * scale, floor)) {
+      change = jump;
+      ledger_start += jump;
+    }
+  }
+  if (change != 0.0 && comm->me == 0)
+    error->warning(FLERR, "Compute lsm/events {}: the energy changed by {:.6g} between two runs; events and ledger leave "
+                          "it out", id, change);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -42,6 +42,7 @@ class ComputeLSMEvents : public Compute {
   void record();
   void change_dt();
   void flush();
+  void end_run();
   void check_health();
   std::vector<double> pack_state();
 
@@ -108,6 +109,11 @@ class ComputeLSMEvents : public Compute {
   bigint last_recorded;
   bool opened;
 
+  double residual_at_end;    // of the last run, which ended at step ended_at
+  bigint ended_at;
+
+  void check_surroundings();
+  void leave_out_jump();
   void set_memory();
   double time_of(bigint step) const;
   LSM::CatalogueInfo header() const;

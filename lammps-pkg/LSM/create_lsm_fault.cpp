@@ -199,6 +199,13 @@ void CreateLSMFault::parse(int narg, char **arg, LSM::PackingSettings &settings)
       settings.fault_zone = utils::numeric(FLERR, value, false, lmp);
     } else if (key == "hexseeds") {
       settings.hexagonal_seeds = utils::logical(FLERR, value, false, lmp) != 0;
+    } else if (key == "loose") {
+      if (strcmp(value, "remove") == 0)
+        settings.remove_loose = true;
+      else if (strcmp(value, "keep") == 0)
+        settings.remove_loose = false;
+      else
+        error->all(FLERR, "Create_lsm_fault: loose = {}, expected remove or keep", value);
     } else if (key == "mass") {
       if (strcmp(value, "r2") == 0)
         mass_power = 2;
@@ -222,7 +229,7 @@ void CreateLSMFault::parse(int narg, char **arg, LSM::PackingSettings &settings)
     } else
       error->all(FLERR,
                  "Create_lsm_fault: unknown keyword {}, expected length, width, seed, rmin, rmax, "
-                 "failures, tolerance, linkgap, faultzone, hexseeds, mass, margin or stiffness",
+                 "failures, tolerance, linkgap, faultzone, hexseeds, loose, mass, margin or stiffness",
                  key);
     iarg += 1 + values;
   }
@@ -258,7 +265,8 @@ void CreateLSMFault::pack(const LSM::PackingSettings &settings, LSM::Packing &pa
     MPI_Bcast(&problem[0], size, MPI_CHAR, 0, world);
     // settings by the names they have as keywords
     const std::pair<const char *, const char *> names[] = {
-        {"max_failures", "failures"}, {"link_gap", "linkgap"}, {"fault_zone", "faultzone"}};
+        {"max_failures", "failures"}, {"link_gap", "linkgap"}, {"fault_zone", "faultzone"},
+        {"remove_loose = yes", "loose = remove"}};
     for (const auto &name : names)
       for (auto at = problem.find(name.first); at != std::string::npos;
            at = problem.find(name.first, at))
@@ -423,6 +431,11 @@ void CreateLSMFault::report(const LSM::PackingSettings &settings, const LSM::Pac
                  "  particles tangent to the fault line = {} below, {} above\n",
                  packing.coordination, packing.area_fraction, packing.rmin_found,
                  packing.fault_tangent[0], packing.fault_tangent[1]);
+  utils::logmesg(lmp,
+                 "  loose particles (fewer than {} links) = {} {}, {} of them tangent to the fault line; "
+                 "softest support of the others = {:.4f} of a link\n",
+                 LSM::HELD_LINKS, packing.loose, settings.remove_loose ? "removed" : "kept",
+                 packing.loose_tangent, packing.weakest);
 
   const double omega = LSM::frequency_bound(packing, settings.length, masses, stiffness);
   utils::logmesg(lmp,

@@ -9,10 +9,12 @@
 #include "comm.h"
 #include "error.h"
 #include "force.h"
+#include "lsm_scene.h"
 #include "update.h"
 
 #include <algorithm>
-#include <utility>
+#include <cstring>
+#include <tuple>
 #include <vector>
 
 using namespace LAMMPS_NS;
@@ -27,7 +29,7 @@ FixLSMBreak::FixLSMBreak(LAMMPS *_lmp, int narg, char **arg) :
   scalar_flag = 1;
   extscalar = 0;
   global_freq = 1;
-  nevery = 1;
+  restart_global = 1;
   force_reneighbor = 1;
   next_reneighbor = -1;
 }
@@ -36,7 +38,7 @@ FixLSMBreak::FixLSMBreak(LAMMPS *_lmp, int narg, char **arg) :
 
 int FixLSMBreak::setmask()
 {
-  return PRE_EXCHANGE | END_OF_STEP;
+  return PRE_REVERSE;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -48,90 +50,100 @@ void FixLSMBreak::init()
   if (force->special_lj[1] != 0.0 || force->special_lj[2] != 1.0 || force->special_lj[3] != 1.0)
     error->all(FLERR, "Breakable links need 'special_bonds lj 0 1 1', so that a pair is in contact "
                       "only when its link is broken");
+  if (LSMScene::is_rerun(update))
+    error->all(FLERR, "Bond style lsm/linked does not work with rerun where links can break: it would depend on the "
+                      "snapshots before; give bond_coeff without a breaking ratio");
 }
 
 /* ----------------------------------------------------------------------
-   A link broken in step t is gone from every list before the forces of step t+1: its length exceeds the
-   rest length then, so the pair cannot have touched in between.
+   A link that broke in this force evaluation leaves the topology at once, before anybody can write a restart
+   file. It is gone from every list before the forces of the next step: its length exceeds the rest length
+   now, so the pair cannot have touched in between.
 ------------------------------------------------------------------------- */
 
-void FixLSMBreak::end_of_step()
+void FixLSMBreak::setup_pre_reverse(int eflag, int vflag)
+{
+  pre_reverse(eflag, vflag);
+}
+
+void FixLSMBreak::pre_reverse(int /*eflag*/, int /*vflag*/)
 {
   int mine = static_cast<int>(links->broken.size()), all = 0;
   MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_SUM, world);
-  if (all) next_reneighbor = update->ntimestep + 1;
-}
+  if (all == 0) return;
 
-/* ---------------------------------------------------------------------- */
-
-void FixLSMBreak::setup_pre_exchange()
-{
-  apply();
-}
-
-void FixLSMBreak::pre_exchange()
-{
-  apply();
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FixLSMBreak::apply()
-{
-  int mine = static_cast<int>(links->broken.size());
   std::vector<int> counts(comm->nprocs), offsets(comm->nprocs);
   MPI_Allgather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
-  int sum = 0;
-  for (int p = 0; p < comm->nprocs; p++) {
-    offsets[p] = sum;
-    sum += counts[p];
-  }
-  if (sum == 0) return;
-
-  std::vector<tagint> pairs(sum);
-  MPI_Allgatherv(links->broken.data(), mine, MPI_LMP_TAGINT, pairs.data(), counts.data(),
+  for (int p = 1; p < comm->nprocs; p++) offsets[p] = offsets[p - 1] + counts[p - 1];
+  std::vector<tagint> broken(all);
+  MPI_Allgatherv(links->broken.data(), mine, MPI_LMP_TAGINT, broken.data(), counts.data(),
                  offsets.data(), MPI_LMP_TAGINT, world);
   links->broken.clear();
+  remove(broken);
+  next_reneighbor = update->ntimestep + 1;
+}
 
+/* ---------------------------------------------------------------------- */
+
+void FixLSMBreak::remove(const std::vector<tagint> &broken)
+{
   // two ranks may report the same link
 
-  std::vector<std::pair<tagint, tagint>> unique;
-  for (int n = 0; n < sum; n += 2)
-    unique.emplace_back(std::min(pairs[n], pairs[n + 1]), std::max(pairs[n], pairs[n + 1]));
-  std::sort(unique.begin(), unique.end());
-  unique.erase(std::unique(unique.begin(), unique.end()), unique.end());
+  struct Link {
+    tagint low, high;
+    int type;
+  };
+  std::vector<Link> unique;
+  for (size_t n = 0; n + 2 < broken.size(); n += 3)
+    unique.push_back({std::min(broken[n], broken[n + 1]), std::max(broken[n], broken[n + 1]),
+                      static_cast<int>(broken[n + 2])});
+  const auto key = [](const Link &l) { return std::make_tuple(l.low, l.high, l.type); };
+  std::sort(unique.begin(), unique.end(), [&](const Link &a, const Link &b) { return key(a) < key(b); });
+  unique.erase(std::unique(unique.begin(), unique.end(),
+                           [&](const Link &a, const Link &b) { return key(a) == key(b); }),
+               unique.end());
+
+  // with newton_bond on one of the two ranks has the link; another link of the pair keeps it out of contact
 
   bigint removed = 0;
-  for (const auto &p : unique) {
-    for (int side = 0; side < 2; side++) {
-      const tagint own = side ? p.second : p.first;
-      const tagint other = side ? p.first : p.second;
-      const int i = atom->map(own);
-      if (i < 0 || i >= atom->nlocal) continue;
+  std::vector<int> mine(unique.size(), 0), remaining(unique.size(), 0);
+  auto for_each_end = [&](const auto &act) {
+    for (size_t n = 0; n < unique.size(); n++)
+      for (int side = 0; side < 2; side++) {
+        const tagint other = side ? unique[n].low : unique[n].high;
+        const int i = atom->map(side ? unique[n].high : unique[n].low);
+        if (i >= 0 && i < atom->nlocal) act(n, i, other);
+      }
+  };
+  for_each_end([&](size_t n, int i, tagint other) {
+    for (int m = 0; m < atom->num_bond[i]; m++)
+      if (atom->bond_atom[i][m] == other && atom->bond_type[i][m] == unique[n].type) {
+        const int last = --atom->num_bond[i];
+        atom->bond_atom[i][m] = atom->bond_atom[i][last];
+        atom->bond_type[i][m] = atom->bond_type[i][last];
+        removed++;
+        break;
+      }
+    for (int m = 0; m < atom->num_bond[i]; m++)
+      if (atom->bond_atom[i][m] == other) mine[n]++;
+  });
+  MPI_Allreduce(mine.data(), remaining.data(), static_cast<int>(mine.size()), MPI_INT, MPI_SUM, world);
 
-      for (int m = 0; m < atom->num_bond[i]; m++)
-        if (atom->bond_atom[i][m] == other) {
-          const int last = --atom->num_bond[i];
-          atom->bond_atom[i][m] = atom->bond_atom[i][last];
-          atom->bond_type[i][m] = atom->bond_type[i][last];
-          removed++;
-          break;
-        }
+  // 1-2 neighbours are the first nspecial[0]; what follows moves up
 
-      // 1-2 neighbours are the first nspecial[0]; what follows moves up
-
-      tagint *special = atom->special[i];
-      int *nspecial = atom->nspecial[i];
-      for (int m = 0; m < nspecial[0]; m++)
-        if (special[m] == other) {
-          for (int n = m; n < nspecial[2] - 1; n++) special[n] = special[n + 1];
-          nspecial[0]--;
-          nspecial[1]--;
-          nspecial[2]--;
-          break;
-        }
-    }
-  }
+  for_each_end([&](size_t n, int i, tagint other) {
+    if (remaining[n]) return;
+    tagint *special = atom->special[i];
+    int *nspecial = atom->nspecial[i];
+    for (int m = 0; m < nspecial[0]; m++)
+      if (special[m] == other) {
+        for (int rest = m; rest < nspecial[2] - 1; rest++) special[rest] = special[rest + 1];
+        nspecial[0]--;
+        nspecial[1]--;
+        nspecial[2]--;
+        break;
+      }
+  });
   bigint removed_all = 0;
   MPI_Allreduce(&removed, &removed_all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   const bigint links_removed = force->newton_bond ? removed_all : removed_all / 2;
@@ -144,4 +156,19 @@ void FixLSMBreak::apply()
 double FixLSMBreak::compute_scalar()
 {
   return static_cast<double>(total);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixLSMBreak::write_restart(FILE *fp)
+{
+  if (comm->me) return;
+  const int size = sizeof(bigint);
+  fwrite(&size, sizeof(int), 1, fp);
+  fwrite(&total, sizeof(bigint), 1, fp);
+}
+
+void FixLSMBreak::restart(char *buf)
+{
+  memcpy(&total, buf, sizeof(bigint));
 }

@@ -15,6 +15,8 @@ FixStyle(LSM_BREAK,FixLSMBreak);
 
 #include "fix.h"
 
+#include <vector>
+
 namespace LAMMPS_NS {
 
 class FixLSMBreak : public Fix {
@@ -22,16 +24,17 @@ class FixLSMBreak : public Fix {
   FixLSMBreak(class LAMMPS *, int, char **);
   int setmask() override;
   void init() override;
-  void setup_pre_exchange() override;
-  void pre_exchange() override;
-  void end_of_step() override;
+  void setup_pre_reverse(int, int) override;
+  void pre_reverse(int, int) override;
   double compute_scalar() override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
 
  private:
   class BondLSMLinked *links;
   bigint total;    // links broken so far, all ranks
 
-  void apply();
+  void remove(const std::vector<tagint> &);
 };
 
 }    // namespace LAMMPS_NS

@@ -5,6 +5,8 @@
 #include "fix_lsm_history.h"
 
 #include "comm.h"
+#include "error.h"
+#include "lsm_scene.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
@@ -17,6 +19,23 @@ FixLSMHistory::FixLSMHistory(LAMMPS *_lmp, int narg, char **arg) : FixNeighHisto
 
   delete[] style;
   style = utils::strdup("NEIGH_HISTORY");
+
+  // partners of a contact are kept by their ID
+
+  stores_ids = 1;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixLSMHistory::init()
+{
+  FixNeighHistory::init();
+  if (update->whichflag == 2)
+    error->all(FLERR, "Pair style lsm/friction does not work with minimize: friction depends on the path, so there is no "
+                      "energy to be minimized; use pair style lsm/free, or a run with viscosity");
+  if (LSMScene::is_rerun(update))
+    error->all(FLERR, "Pair style lsm/friction does not work with rerun: snapshots do not hold the elongations of the "
+                      "tangential springs; use pair style lsm/free for the energy of the normal springs");
 }
 
 /* ----------------------------------------------------------------------

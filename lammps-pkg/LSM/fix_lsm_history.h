@@ -20,6 +20,7 @@ namespace LAMMPS_NS {
 class FixLSMHistory : public FixNeighHistory {
  public:
   FixLSMHistory(class LAMMPS *, int, char **);
+  void init() override;
   void write_restart(FILE *) override;
 };
 

@@ -5,12 +5,14 @@
 #include "fix_lsm_nve.h"
 
 #include "atom.h"
-#include "bond.h"
+#include "bond_lsm_linked.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
 #include "force.h"
 #include "group.h"
+#include "lsm_frequency.h"
+#include "lsm_scene.h"
 #include "lsm_text_io.h"
 #include "modify.h"
 #include "neigh_list.h"
@@ -22,6 +24,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -102,6 +105,7 @@ void FixLSMNVE::init()
 {
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix lsm/nve does not work with run_style respa");
+  LSMScene::refuse_changing_radii(lmp, "Fix lsm/nve");
   reset_dt();
 }
 
@@ -183,6 +187,9 @@ void FixLSMNVE::setup(int /*vflag*/)
     choose<false>();
 
   if (check == OFF) return;
+  const std::string foreign = LSMScene::foreign_forces(force);
+  if (!foreign.empty() && comm->me == 0)
+    error->warning(FLERR, "Fix lsm/nve {}: the stability limit of the time step does not know of {}", id, foreign);
   omega = highest_frequency();
   dt_limit = omega > 0.0 ? 2.0 / omega : 0.0;
   if (omega == 0.0 || update->dt <= dt_limit) return;
@@ -276,46 +283,32 @@ void FixLSMNVE::post_run()
 }
 
 /* ----------------------------------------------------------------------
-   Highest frequency of the network of links and contacts by power iteration on its stiffness matrix,
-   scaled by the masses. Pairs closer than 1.05 of touching count as contacts that are there. The Rayleigh
-   quotient bounds the frequency from below; it is iterated until it changes by less than 0.1 %, and 2 %
-   are added.
+   Bound of the highest frequency of the network of links and contacts, see lsm_frequency.h. Pairs closer
+   than 1.05 of touching count as contacts that are there.
 ------------------------------------------------------------------------- */
 
 double FixLSMNVE::highest_frequency()
 {
-  const int nall = atom->nlocal + atom->nghost;
   const int nlocal = atom->nlocal;
   const int dim = domain->dimension == 3 ? 3 : 2;
-
-  struct Spring {
-    int i, j;
-    bool both;    // whether the force on j is added here as well
-    double k, kt, n[3];
-  };
-  std::vector<Spring> springs;
+  std::vector<LSM::Spring> springs;
   double **x = atom->x;
 
   auto add = [&](int i, int j, bool newton, double k, double kt) {
-    Spring s{i, j, newton || j < nlocal, k, kt, {x[i][0] - x[j][0], x[i][1] - x[j][1], x[i][2] - x[j][2]}};
+    LSM::Spring s{i, j, newton || j < nlocal, k, kt, {x[i][0] - x[j][0], x[i][1] - x[j][1], x[i][2] - x[j][2]}};
     const double r = sqrt(s.n[0] * s.n[0] + s.n[1] * s.n[1] + s.n[2] * s.n[2]);
     if (r == 0.0) return;
     for (double &c : s.n) c /= r;
     springs.push_back(s);
   };
 
-  int d = 0;
-  if (force->bond && neighbor->bondlist) {
-    const auto k = (const double *) force->bond->extract("k", d);
-    if (force->bond_match("lsm/linked") && k)
-      for (int n = 0; n < neighbor->nbondlist; n++) {
-        const int *b = neighbor->bondlist[n];
-        if (b[2] > 0) add(b[0], b[1], force->newton_bond, k[b[2]], 0.0);
-      }
-  }
-  auto contacts = dynamic_cast<PairLSMFree *>(force->pair_match("lsm/", 0));
-  if (contacts && contacts->list) {
+  if (auto links = dynamic_cast<BondLSMLinked *>(force->bond_match("lsm/linked")))
+    for (const auto &link : links->held()) add(link.i, link.j, force->newton_bond, link.stiffness, 0.0);
+  for (PairLSMFree *contacts : LSMScene::contact_styles(force)) {
+    if (!contacts->list) continue;
+    int d = 0;
     const auto k = (double **) contacts->extract("k", d);
+    const auto on = (int **) contacts->extract("on", d);
     const auto kt = (double **) contacts->extract("kt", d);
     const NeighList *list = contacts->list;
     for (int ii = 0; ii < list->inum; ii++) {
@@ -326,67 +319,44 @@ double FixLSMNVE::highest_frequency()
         const double dx = x[i][0] - x[j][0], dy = x[i][1] - x[j][1], dz = x[i][2] - x[j][2];
         if (dx * dx + dy * dy + dz * dz > reach * reach) continue;
         const int it = atom->type[i], jt = atom->type[j];
-        add(i, j, force->newton_pair, k[it][jt], kt ? kt[it][jt] : 0.0);
+        if (on[it][jt]) add(i, j, force->newton_pair, k[it][jt], kt ? kt[it][jt] : 0.0);
       }
     }
   }
 
-  const double *rmass = atom->rmass;
-  auto mass_of = [&](int i) { return rmass ? rmass[i] : atom->mass[atom->type[i]]; };
+  // the matrix is M^-1/2 K M^-1/2; ghosts need displacements only, and give back forces
 
-  // any start vector that is not orthogonal to the sought mode will do; this one is the same for each
-  // rank count
-
-  trial.assign(static_cast<size_t>(nall) * dim, 0.0);
-  image.assign(static_cast<size_t>(nall) * dim, 0.0);
-  for (int i = 0; i < nlocal; i++)
-    for (int c = 0; c < dim; c++)
-      trial[i * dim + c] =
-          cos(12.9898 * static_cast<double>(atom->tag[i] % 100003) + 78.233 * (c + 1));
-
-  double value = 0.0;
-  for (int iteration = 0; iteration < 200; iteration++) {
-    comm->forward_comm(this);
-    image.assign(static_cast<size_t>(nall) * dim, 0.0);
-    for (const Spring &s : springs) {
-      double u[3] = {0.0, 0.0, 0.0};
-      double along = 0.0;
-      for (int c = 0; c < dim; c++) {
-        u[c] = trial[s.i * dim + c] - trial[s.j * dim + c];
-        along += u[c] * s.n[c];
-      }
-      for (int c = 0; c < dim; c++) {
-        const double g = (s.k - s.kt) * along * s.n[c] + s.kt * u[c];
-        image[s.i * dim + c] += g;
-        if (s.both) image[s.j * dim + c] -= g;
-      }
+  const size_t size = static_cast<size_t>(nlocal) * dim, all = static_cast<size_t>(nlocal + atom->nghost) * dim;
+  std::vector<double> scale(nlocal), start(size);
+  for (int i = 0; i < nlocal; i++) {
+    scale[i] = 1.0 / sqrt(atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]);
+    for (int c = 0; c < dim; c += 2) {
+      const auto pair = LSM::normal_pair(atom->tag[i], c);
+      start[i * dim + c] = pair.first;
+      if (c + 1 < dim) start[i * dim + c + 1] = pair.second;
     }
-    if (force->newton) comm->reverse_comm(this);
-
-    // trial holds displacements u; the next one is M^-1 K u, its Rayleigh quotient u.Ku / u.Mu
-
-    double mine[3] = {0.0, 0.0, 0.0}, all[3];
-    for (int i = 0; i < nlocal; i++) {
-      const double m = mass_of(i);
-      for (int c = 0; c < dim; c++) {
-        const int n = i * dim + c;
-        mine[0] += trial[n] * image[n];
-        mine[1] += m * trial[n] * trial[n];
-        mine[2] += image[n] * image[n] / m;
-      }
-    }
-    MPI_Allreduce(mine, all, 3, MPI_DOUBLE, MPI_SUM, world);
-    if (all[1] == 0.0 || all[2] == 0.0) return 0.0;
-    const double before = value;
-    value = all[0] / all[1];
-    const double scale = 1.0 / sqrt(all[2]);
+  }
+  auto multiply = [&](const std::vector<double> &from, std::vector<double> &to) {
+    trial.resize(all);
     for (int i = 0; i < nlocal; i++)
-      for (int c = 0; c < dim; c++) trial[i * dim + c] = image[i * dim + c] / mass_of(i) * scale;
-    if (iteration > 20 && fabs(value - before) < 1e-3 * value) break;
-  }
+      for (int c = 0; c < dim; c++) trial[i * dim + c] = from[i * dim + c] * scale[i];
+    comm->forward_comm(this);
+    image.assign(all, 0.0);
+    LSM::add_spring_forces(springs, dim, trial, image);
+    if (force->newton) comm->reverse_comm(this);
+    for (int i = 0; i < nlocal; i++)
+      for (int c = 0; c < dim; c++) to[i * dim + c] = image[i * dim + c] * scale[i];
+  };
+  auto sum = [&](double mine) {
+    double total;
+    MPI_Allreduce(&mine, &total, 1, MPI_DOUBLE, MPI_SUM, world);
+    return total;
+  };
+  const auto largest =
+      LSM::largest_eigenvalue(std::move(start), static_cast<double>(atom->natoms) * dim, multiply, sum);
   trial.clear();
   image.clear();
-  return 1.02 * sqrt(value);
+  return sqrt(largest.bound);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -54,9 +54,9 @@ class FixLSMNVE : public Fix {
   bool viscous;                 // some nu is not 0
   double dtv, dtf;
   int check;            // what to do when the time step is above the stability limit
-  double omega;         // highest frequency found at setup
+  double omega;         // bound of the highest frequency found at setup
   double dt_limit;      // 2/omega
-  std::vector<double> trial, image;    // vectors of the power iteration, 2 or 3 values an atom
+  std::vector<double> trial, image;    // displacements and forces, 2 or 3 values an atom
 
   // particles of the group with the same viscosity that follow each other in memory, and dt/2 over the mass of
   // every particle

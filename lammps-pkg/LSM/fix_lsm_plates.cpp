@@ -26,7 +26,7 @@ enum { LOWER, UPPER };
 
 FixLSMPlates::FixLSMPlates(LAMMPS *_lmp, int narg, char **arg) :
     Fix(_lmp, narg, arg), speed(0.0), ramp(0.0), servo(false), stress(0.0), stress_ramp(0.0),
-    damping(0.0), vy_known(false), elapsed(0.0), ux(0.0), work_mine(0.0), dt(update->dt), summed_at(-1)
+    damping(0.0), impedance(0.0), vy_known(false), elapsed(0.0), ux(0.0), work_mine(0.0), dt(update->dt), summed_at(-1)
 {
   scalar_flag = 1;
   vector_flag = 1;
@@ -72,10 +72,12 @@ FixLSMPlates::FixLSMPlates(LAMMPS *_lmp, int narg, char **arg) :
       stress_ramp = value;
     else if (keyword == "damping")
       damping = value;
+    else if (keyword == "impedance")
+      impedance = value;
     else
       error->all(FLERR,
                  "Unknown fix lsm/plates keyword '{}'; accepted are velocity, ramp, stress, "
-                 "stressramp, damping and position",
+                 "stressramp, damping, impedance and position",
                  keyword);
     if (keyword != "velocity" && value < 0.0)
       error->all(FLERR, "Fix lsm/plates {} is {}, but must be >= 0", keyword, value);
@@ -246,7 +248,6 @@ void FixLSMPlates::initial_integrate(int /*vflag*/)
   const double length = domain->prd[0];
   const double dux = dt * velocity_at(elapsed + 0.5 * dt);
   const double vx = dux / dt;
-  const double decay = exp(-0.5 * damping * dt);
   double **x = atom->x;
   double **v = atom->v;
 
@@ -255,7 +256,7 @@ void FixLSMPlates::initial_integrate(int /*vflag*/)
     if (servo) {
       const double applied = -p.side * stress_at(elapsed) * length;
       const double kinetic = 0.5 * p.mass * p.vy * p.vy;
-      p.vy *= decay;
+      p.vy *= exp(-0.5 * (damping + impedance * length / p.mass) * dt);
       if (comm->me == 0) work_mine -= kinetic - 0.5 * p.mass * p.vy * p.vy;
       p.vy += 0.5 * dt * (applied + p.fy) / p.mass;
       duy = dt * p.vy;
@@ -280,7 +281,6 @@ void FixLSMPlates::final_integrate()
 {
   const double length = domain->prd[0];
   const double dux = dt * velocity_at(elapsed + 0.5 * dt);
-  const double decay = exp(-0.5 * damping * dt);
   double **v = atom->v;
 
   elapsed += dt;
@@ -291,7 +291,7 @@ void FixLSMPlates::final_integrate()
       const double applied = -p.side * stress_at(elapsed) * length;
       p.vy += 0.5 * dt * (applied + p.fy) / p.mass;
       const double kinetic = 0.5 * p.mass * p.vy * p.vy;
-      p.vy *= decay;
+      p.vy *= exp(-0.5 * (damping + impedance * length / p.mass) * dt);
       if (comm->me == 0) work_mine -= kinetic - 0.5 * p.mass * p.vy * p.vy;
     }
     const double vx = p.side * velocity_at(elapsed);

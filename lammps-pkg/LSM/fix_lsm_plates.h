@@ -56,6 +56,7 @@ class FixLSMPlates : public Fix {
   double stress;          // normal stress in the end
   double stress_ramp;     // time over which it is reached
   double damping;         // -damping * mass * vy on each plate with servo
+  double impedance;       // -impedance * length * vy on each plate with servo
   bool vy_known;          // velocities across the fault were set by a former run or a restart
   double elapsed;         // time since the fix was made
   double ux;              // shear displacement of each plate

@@ -51,7 +51,7 @@ void FixLSMRecord::end_of_step()
 
 void FixLSMRecord::post_run()
 {
-  owner->flush();
+  owner->end_run();
 }
 
 // within a run; between two runs the next one finds out

@@ -95,7 +95,7 @@ namespace LSMLinkKernel {
 
   template <int DIM, bool BREAK>
   LSM_INLINE static void pull(Stage<DIM> &s, const double *r0, const Links &links, int first,
-                              double *energy, std::vector<int> &broken)
+                              double *energy, std::vector<int> &broken, int n = CHUNK)
   {
     const double k = links.stiffness, ratio = links.ratio;
     const double *__restrict rsq = s.rsq, *__restrict rest = r0;
@@ -111,7 +111,7 @@ namespace LSMLinkKernel {
     }
     if constexpr (BREAK)
       if (any_broken)
-        for (int l = 0; l < CHUNK; l++) {
+        for (int l = 0; l < n; l++) {
           const double r = std::sqrt(rsq[l]);
           if (!LSM::link_is_broken(r, rest[l], ratio)) continue;
           twice[l] -= 2.0 * LSM::Spring::energy(k, r - rest[l]);
@@ -177,7 +177,7 @@ namespace LSMLinkKernel {
       double r0[CHUNK];
       for (int l = 0; l < CHUNK; l++) r0[l] = l < rest ? links.rest[first + l] : 1.0;
       take<DIM>(ring[0], x, links.ends + first, rest);
-      pull<DIM, BREAK>(ring[0], r0, links, first, energy, broken);
+      pull<DIM, BREAK>(ring[0], r0, links, first, energy, broken, rest);
       give<DIM>(ring[0], f, links.ends + first, links.alone, rest);
     }
     add_up(energy, sum);

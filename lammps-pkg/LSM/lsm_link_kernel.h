@@ -25,7 +25,7 @@ namespace LSMLinkKernel {
     const double *rest;      ///< rest lengths
     int count;
     double stiffness;
-    double ratio;            ///< breaking distance over rest length, 0 if the links cannot break
+    double ratio;            ///< breaking distance over rest length, only used in BREAK
     bool alone;              ///< no force on the second particle: its owner adds it
     const int *fresh;        ///< places (as in Ends) to fetch into the cache, block by block
     const int *fresh_begin;  ///< where those of each block begin, and of the last end

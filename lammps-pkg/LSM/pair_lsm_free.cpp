@@ -8,13 +8,17 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "fix.h"
 #include "force.h"
 #include "memory.h"
+#include "modify.h"
 #include "neigh_list.h"
 #include "neigh_request.h"
 #include "neighbor.h"
+#include "update.h"
 
 #include "lsm_force_laws.h"
+#include "lsm_scene.h"
 
 #include <cmath>
 #include <cstring>
@@ -24,7 +28,7 @@ using namespace LAMMPS_NS;
 /* ---------------------------------------------------------------------- */
 
 PairLSMFree::PairLSMFree(LAMMPS *_lmp) :
-    Pair(_lmp), k(nullptr), on(nullptr), maxrad(nullptr), newton_pair(0)
+    Pair(_lmp), k(nullptr), on(nullptr), maxrad(nullptr), newton_pair(0), screened(false)
 {
   single_enable = 1;
   no_virial_fdotr_compute = 1;
@@ -51,6 +55,7 @@ PairLSMFree::~PairLSMFree()
 void PairLSMFree::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
+  if (screened) check_special();
   const int choice = (evflag ? 4 : 0) + (record_what ? 2 : 0) + (domain->dimension == 3 ? 1 : 0);
   switch (choice) {
     case 0: return eval<false, false, false>();
@@ -93,6 +98,7 @@ template <bool EV, bool RECORD, bool DIM3> void PairLSMFree::eval()
       }
       const double r0 = radius[i] + radius[j];
       if (rsq >= r0 * r0) continue;
+      if (screened && left_out(jlist[jj], type[i], type[j])) continue;
 
       const double kij = ki[type[j]];
       const double r = sqrt(rsq);
@@ -116,6 +122,28 @@ template <bool EV, bool RECORD, bool DIM3> void PairLSMFree::eval()
     }
   }
   if constexpr (RECORD) pe_contact = energy;
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool PairLSMFree::left_out(int entry, int itype, int jtype) const
+{
+  return !on[itype][jtype] || force->special_lj[sbmask(entry)] == 0.0;
+}
+
+/* ----------------------------------------------------------------------
+   linked particles are no contact pairs, and all others are
+   under pair_style hybrid the factors of each sub-style are known only while it computes
+------------------------------------------------------------------------- */
+
+void PairLSMFree::check_special() const
+{
+  const double *factor = force->special_lj;
+  if (atom->nbonds > 0 && (factor[1] != 0.0 || factor[2] != 1.0 || factor[3] != 1.0))
+    error->all(FLERR,
+               "Pair style lsm/*: the special_bonds factors lj are {} {} {}, but must be 0 1 1, so that linked particles "
+               "are no contact pairs and all others are",
+               factor[1], factor[2], factor[3]);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -202,17 +230,44 @@ void PairLSMFree::init_style()
     error->all(FLERR, "Pair style lsm/* needs particle radii: use atom_style hybrid bond sphere");
   record_what = NONE;
   newton_pair = force->newton_pair;
+  LSMScene::refuse_changing_radii(lmp, "Pair style lsm/*");
+  if (utils::strmatch(force->pair_style, "^hybrid/scaled"))
+    error->all(FLERR, "Pair style lsm/* does not work under hybrid/scaled, as recorded energies and the time-step check "
+                      "would not be scaled; use pair_style hybrid or hybrid/overlay");
+  if (update->whichflag && (!compute_flag || !force->pair->compute_flag))
+    error->all(FLERR, "Pair style lsm/* does not work with pair_modify compute no; use 'pair_coeff I J off'");
+
+  // the list of a sub-style of hybrid holds what hybrid wants; with charges linked pairs stay in it, too
+
+  const bool under_hybrid = force->pair != this;
+  screened = under_hybrid ||
+      (atom->nbonds > 0 && (force->special_coul[1] != 0.0 || force->kspace != nullptr));
+  if (update->whichflag) {
+    if (!under_hybrid) check_special();
+    if (LSMScene::contact_styles(force).front() == this) warn_of_missing_links();
+  }
 
   const int ntypes = atom->ntypes;
   std::vector<double> mine(ntypes + 1, 0.0);
   for (int i = 0; i < atom->nlocal; i++)
     mine[atom->type[i]] = MAX(mine[atom->type[i]], atom->radius[i]);
+
+  // those that are to come
+
+  for (const char *style : {"^pour", "^deposit"})
+    for (const auto &source : modify->get_fix_by_style(style))
+      for (int i = 1; i <= ntypes; i++) {
+        int itype = i;
+        const auto radius = (const double *) source->extract("radius", itype);
+        if (radius) mine[i] = MAX(mine[i], *radius);
+      }
   maxrad[0] = 0.0;
   MPI_Allreduce(&mine[1], &maxrad[1], ntypes, MPI_DOUBLE, MPI_MAX, world);
 
-  // types that never touch are left out when the list is built
+  // types that never touch are left out when the list is built; hybrid would replace what is asked for here
 
   auto request = neighbor->add_request(this, request_flags());
+  if (under_hybrid) return;
   int any_off = 0;
   for (int i = 1; i <= ntypes; i++)
     for (int j = i; j <= ntypes; j++)
@@ -230,6 +285,28 @@ void PairLSMFree::init_style()
     }
     request->set_skip(iskip, ijskip);    // the request owns both from here on
   }
+}
+
+/* ----------------------------------------------------------------------
+   A pair whose link was turned off or removed without its entry among the special neighbors neither holds
+   together nor touches.
+------------------------------------------------------------------------- */
+
+void PairLSMFree::warn_of_missing_links() const
+{
+  if (atom->molecular != Atom::MOLECULAR || !atom->nspecial) return;
+  bigint mine[2] = {0, 0}, all[2];    // particles among the 1-2 neighbors of others, ends of links
+  for (int i = 0; i < atom->nlocal; i++) {
+    mine[0] += atom->nspecial[i][0];
+    for (int m = 0; m < atom->num_bond[i]; m++)
+      if (atom->bond_type[i][m] > 0) mine[1] += force->newton_bond ? 2 : 1;
+  }
+  MPI_Allreduce(mine, all, 2, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (comm->me == 0 && all[0] > all[1])
+    error->warning(FLERR,
+                   "Pair style lsm/*: {} pairs of particles have no link but are kept from touching as if they had one; "
+                   "use 'delete_bonds ... remove special'",
+                   (all[0] - all[1]) / 2);
 }
 
 /* ---------------------------------------------------------------------- */

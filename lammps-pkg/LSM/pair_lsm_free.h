@@ -40,7 +40,11 @@ class PairLSMFree : public Pair, public LSMEnergySource {
   int **on;            // 1 if the pair of types interacts at all
   double *maxrad;      // largest radius of each type
   int newton_pair;
+  bool screened;       // lists hold pairs that must not interact
 
+  bool left_out(int entry, int itype, int jtype) const;
+  void check_special() const;
+  void warn_of_missing_links() const;
   virtual void allocate();
   virtual int request_flags() const;
   bool parse_off(int narg, char **arg, int ilo, int ihi, int jlo, int jhi);

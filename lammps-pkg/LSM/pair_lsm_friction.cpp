@@ -21,6 +21,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 using namespace LAMMPS_NS;
 
@@ -37,7 +38,7 @@ static constexpr double NEAR_REACH = 1.05;    // in sums of radii
 /* ---------------------------------------------------------------------- */
 
 PairLSMFriction::PairLSMFriction(LAMMPS *_lmp) :
-    PairLSMFree(_lmp), kt(nullptr), mu(nullptr), mus(nullptr), has_static(0),
+    PairLSMFree(_lmp), kt(nullptr), mu(nullptr), mus(nullptr), own_static(nullptr), has_static(0),
     locate_onset(1), fix_dummy(nullptr), fix_history(nullptr)
 {
   centroidstressflag = CENTROID_NOTAVAIL;
@@ -48,6 +49,12 @@ PairLSMFriction::PairLSMFriction(LAMMPS *_lmp) :
   beyond_contact = 1;
   single_extra = 2;
   svector = new double[2];
+
+  // a second one would take the contact history of the first
+
+  if (modify->get_fix_by_id("NEIGH_HISTORY_LSM_DUMMY") || modify->get_fix_by_id("NEIGH_HISTORY_LSM"))
+    error->all(FLERR, "Pair style lsm/friction can be used once only, also under pair_style hybrid; give several "
+                      "pair_coeff commands to one");
 
   // placeholder so that the order of fixes is that of the input script
 
@@ -68,6 +75,7 @@ PairLSMFriction::~PairLSMFriction()
     memory->destroy(kt);
     memory->destroy(mu);
     memory->destroy(mus);
+    memory->destroy(own_static);
   }
 }
 
@@ -76,6 +84,7 @@ PairLSMFriction::~PairLSMFriction()
 void PairLSMFriction::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
+  if (screened) check_special();
   const int choice = (evflag ? 4 : 0) + (record_what ? 2 : 0) + (has_static ? 1 : 0);
   if (locate_onset)
     choose<true>(choice);
@@ -127,9 +136,14 @@ template <bool EV, bool RECORD, bool HAS_STATIC, bool LOCATE> void PairLSMFricti
   double **firsthistory = fix_history->firstvalue;
 
   // the setup of a run evaluates the forces of a step that was done: the state of the contacts stays, so
-  // that a run in pieces equals one run, and a contact that slides goes on sliding
+  // that a run in pieces equals one run, and a contact that slides goes on sliding. Only where a command moved
+  // particles since, by more than they are rounded when they cross a border of the box, their contacts follow.
 
   const bool setup = update->setupflag != 0;
+  double farthest = 0.0;
+  for (int c = 0; c < 2; c++)
+    farthest = MAX(farthest, MAX(fabs(domain->boxlo[c]), fabs(domain->boxhi[c])));
+  const double rounding = 16.0 * std::numeric_limits<double>::epsilon() * farthest;
   const bool record_slip = RECORD && (record_what & SLIP) && !setup;
   const double xlo = domain->boxlo[0], lx = domain->prd[0];
   double e_normal = 0.0, e_tangential = 0.0, lost = 0.0;
@@ -150,6 +164,10 @@ template <bool EV, bool RECORD, bool HAS_STATIC, bool LOCATE> void PairLSMFricti
       const double r0 = radius[i] + radius[j];
       const bool apart = rsq >= r0 * r0;
       if (apart && !touch[jj] && (!LOCATE || rsq > NEAR_REACH * NEAR_REACH * r0 * r0)) continue;
+      if (screened && left_out(jlist[jj], type[i], type[j])) {
+        touch[jj] = 0;
+        continue;
+      }
 
       double *h = &allhistory[SIZE_HISTORY * jj];
       const bool was_near = touch[jj] && h[STATE] == NEAR;
@@ -163,7 +181,10 @@ template <bool EV, bool RECORD, bool HAS_STATIC, bool LOCATE> void PairLSMFricti
       const double nx = delx * rinv, ny = dely * rinv;
 
       double dxi = 0.0;
+      bool moved = !setup;
       if (touch[jj]) {
+        if (setup) moved = fabs(delx - h[DX]) > rounding || fabs(dely - h[DY]) > rounding;
+
         // tangent of the middle of the step, so that the increment is of second order
 
         const double mx = delx + h[DX], my = dely + h[DY];
@@ -186,7 +207,7 @@ template <bool EV, bool RECORD, bool HAS_STATIC, bool LOCATE> void PairLSMFricti
       const LSM::FrictionCoefficients c{kt[itype][jtype], mu[itype][jtype], mus[itype][jtype]};
       bool sliding = false;
       if constexpr (HAS_STATIC) sliding = h[STATE] == SLIDES;
-      const LSM::FrictionStep s = setup && !apart
+      const LSM::FrictionStep s = !moved && !apart
           ? LSM::FrictionStep{h[XI], c.k_t * h[XI], 0.0, 0.0, sliding}
           : LSM::friction_step<HAS_STATIC>(c, h[XI], dxi, fn, sliding);
 
@@ -195,7 +216,7 @@ template <bool EV, bool RECORD, bool HAS_STATIC, bool LOCATE> void PairLSMFricti
         const double share = both ? 1.0 : 0.5;
         e_normal += share * (apart ? 0.0 : LSM::Spring::energy(kij, r - r0));
         e_tangential += share * LSM::Spring::energy(c.k_t, s.xi);
-        lost += share * s.dissipated;
+        if (!setup) lost += share * s.dissipated;
         if (record_slip && s.slip != 0.0) {
           double along = (0.5 * (x[i][0] + x[j][0]) - xlo) / lx;
           along = (along - floor(along)) * lx;
@@ -243,8 +264,12 @@ void PairLSMFriction::allocate()
   memory->create(kt, n, n, "pair:kt");
   memory->create(mu, n, n, "pair:mu");
   memory->create(mus, n, n, "pair:mus");
+  memory->create(own_static, n, n, "pair:own_static");
   for (int i = 0; i < n; i++)
-    for (int j = 0; j < n; j++) kt[i][j] = mu[i][j] = mus[i][j] = 0.0;
+    for (int j = 0; j < n; j++) {
+      kt[i][j] = mu[i][j] = mus[i][j] = 0.0;
+      own_static[i][j] = 0;
+    }
 }
 
 /* ---------------------------------------------------------------------- */
@@ -296,6 +321,7 @@ void PairLSMFriction::coeff(int narg, char **arg)
       kt[i][j] = kt_one;
       mu[i][j] = mu_one;
       mus[i][j] = mus_one;
+      own_static[i][j] = narg == 6;
       on[i][j] = setflag[i][j] = 1;
       count++;
     }
@@ -317,12 +343,23 @@ void PairLSMFriction::init_style()
   if (domain->dimension != 2)
     error->all(FLERR, "Pair style lsm/friction needs a 2-dimensional simulation (dimension 2)");
 
-  has_static = 0;
-  for (int i = 1; i <= atom->ntypes; i++)
-    for (int j = i; j <= atom->ntypes; j++)
-      if (on[i][j] && mus[i][j] > mu[i][j]) has_static = 1;
-
+  has_static = 0;    // see init_one()
   PairLSMFree::init_style();
+
+  // the history of a pair is found by the IDs of its particles
+
+  if (update->whichflag) {
+    double reach = 0.0;
+    for (int i = 1; i <= atom->ntypes; i++)
+      for (int j = i; j <= atom->ntypes; j++)
+        if (on[i][j]) reach = MAX(reach, maxrad[i] + maxrad[j] + neighbor->skin);
+    for (int c = 0; c < 2; c++)
+      if (domain->periodicity[c] && domain->prd[c] < 2.0 * reach)
+        error->all(FLERR,
+                   "Pair style lsm/friction: the period of the box in {} is {:.6g}, but must be at least {:.6g} (twice the "
+                   "largest contact distance with the neighbor skin), as a pair would meet itself on both sides",
+                   c ? "y" : "x", domain->prd[c], 2.0 * reach);
+  }
 
   // one name, whichever styles came before, so that a restart finds the history
 
@@ -345,6 +382,14 @@ double PairLSMFriction::init_one(int i, int j)
   const double cut = PairLSMFree::init_one(i, j);
   kt[j][i] = kt[i][j];
   mu[j][i] = mu[i][j];
+
+  // fix adapt changes mu and comes here again
+
+  if (!own_static[i][j]) mus[i][j] = mu[i][j];
+  if (on[i][j] && mus[i][j] < mu[i][j])
+    error->all(FLERR, "Pair lsm/friction mu of types {} {} became {}, but must be at most mu_static = {}", i, j,
+               mu[i][j], mus[i][j]);
+  if (on[i][j] && mus[i][j] > mu[i][j]) has_static = 1;
   mus[j][i] = mus[i][j];
   return cut;
 }
@@ -378,6 +423,7 @@ void PairLSMFriction::read_coeff(FILE *fp, int i, int j)
     if (comm->me == 0) utils::sfread(FLERR, value, sizeof(double), 1, fp, nullptr, error);
     MPI_Bcast(value, 1, MPI_DOUBLE, 0, world);
   }
+  own_static[i][j] = mus[i][j] > mu[i][j];
 }
 
 void PairLSMFriction::print_coeff(FILE *fp, int i, int j)

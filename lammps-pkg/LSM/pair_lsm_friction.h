@@ -32,6 +32,7 @@ class PairLSMFriction : public PairLSMFree {
 
  protected:
   double **kt, **mu, **mus;    // tangential stiffness, dynamic and static friction coefficient
+  int **own_static;            // 1 if mus was given, else it follows mu
   int has_static;              // 1 if any mus > mu
   int locate_onset;            // 1 if the begin of a contact within a step is located
   class FixDummy *fix_dummy;

@@ -31,6 +31,7 @@ struct PackingSettings {
   double link_gap = 1e-5;       ///< discs (and lines) closer than this count as tangent
   bool hexagonal_seeds = true;  ///< first discs on a hexagonal grid (false: at random points)
   double fault_zone = 0.25;  ///< ours: discs with a surface so close to the fault line are flagged
+  bool remove_loose = true;  ///< ours: take out discs that their links do not hold, see Packing::loose
 };
 
 /// One disc. Centre in [0, length) x (0, width).
@@ -41,6 +42,10 @@ struct Disc {
   bool plate;  ///< tangent to the outer line of its block
 };
 
+/// Links that a disc needs to be held. Two links hold a disc that does not rotate only while it is pushed into the
+/// wedge between them (ours, measured: such discs swing and hop, see the README).
+constexpr int HELD_LINKS = 3;
+
 /// The result: discs sorted by position (columns of width 2 rmax along x, then y), links (i < j)
 /// sorted by i, then j.
 struct Packing {
@@ -50,6 +55,11 @@ struct Packing {
   double area_fraction = 0.0;     ///< area of the discs / (length * width)
   double rmin_found = 0.0;        ///< smallest radius in the packing
   int fault_tangent[2] = {0, 0};  ///< discs of the lower and upper block tangent to the fault line
+  int loose = 0;          ///< discs with fewer than HELD_LINKS links, or whose links do not lead to their plate; those
+                          ///< of the plates, which move as one body, do not count. With remove_loose they are gone
+  int loose_tangent = 0;  ///< those of them that were tangent to the fault line
+  double weakest = 0.0;   ///< softest direction of all discs but the plates': smallest eigenvalue of the sum of
+                          ///< n n^T over the links of a disc (n: direction of the link), 0 when nothing holds it
   int64_t tries = 0;              ///< tries of the filling stage, failures included
 };
 
@@ -414,46 +424,48 @@ inline void check(const PackingSettings &s) {
 
 }  // namespace packing_detail
 
-/// Two blocks of tangent discs, [0, length) x [0, width/2] and [0, length) x [width/2, width],
-/// periodic in x.
-///
-/// Each block: (1) seeds on a hexagonal grid of spacing 2 rmax (stretched to fit period and
-/// height), radius uniform in [rmin, rmax); (2) a random point, the three objects nearest to it
-/// (discs by surface distance, the two lines of the block), the circle tangent to all three, kept
-/// if its radius is in [rmin, rmax], it lies inside the block and it overlaps nothing; (3) the
-/// block is cut into tiles along x (about 15 rmax long, ours), and each tile is full when
-/// max_failures consecutive tries in it failed. The cost is linear in the length.
-///
-/// The result depends on the settings and the floating-point arithmetic of the platform only.
-/// @throws std::invalid_argument with one line that names the setting and what was expected
-inline Packing make_packing(const PackingSettings &settings) {
-  packing_detail::check(settings);
-  const PackingSettings &s = settings;
-  Packing result;
+namespace packing_detail {
+
+/// Surface distance of a disc from the fault line.
+inline double fault_gap(const PackingSettings &s, const Disc &d) {
+  return (d.block == 0 ? 0.5 * s.width - d.y : d.y - 0.5 * s.width) - d.r;
+}
+
+/// From disc a to disc b by the shortest way along the period.
+inline std::pair<double, double> link_vector(double length, const Disc &a, const Disc &b) {
+  double ex = b.x - a.x;
+  if (ex > 0.5 * length) ex -= length;
+  if (ex < -0.5 * length) ex += length;
+  return {ex, b.y - a.y};
+}
+
+inline void fill_blocks(const PackingSettings &s, Packing &result) {
   Random random(s.seed);
   const double middle = 0.5 * s.width;
-
   for (int block = 0; block < 2; ++block) {
     const double ylo = block == 0 ? 0.0 : middle, yhi = block == 0 ? middle : s.width;
-    packing_detail::BlockPacker packer(s, ylo, yhi, random);
+    BlockPacker packer(s, ylo, yhi, random);
     packer.run();
     result.tries += packer.tries();
     packer.for_each([&](double x, double y, double r) {
-      const double to_fault = (block == 0 ? middle - y : y - middle) - r;
-      const double to_plate = (block == 0 ? y : s.width - y) - r;
-      result.discs.push_back({x, y, r, block, to_fault < s.fault_zone, to_plate < s.link_gap});
-      if (to_fault < s.link_gap) ++result.fault_tangent[block];
+      Disc disc{x, y, r, block, false, (block == 0 ? y : s.width - y) - r < s.link_gap};
+      disc.fault = fault_gap(s, disc) < s.fault_zone;
+      result.discs.push_back(disc);
     });
   }
+}
 
-  // neighbours in space are neighbours in memory and on few ranks
+/// Neighbours in space become neighbours in memory, and are on few ranks.
+inline void sort_discs(const PackingSettings &s, Packing &result) {
   const double column = 2.0 * s.rmax;
   std::sort(result.discs.begin(), result.discs.end(), [column](const Disc &a, const Disc &b) {
     const auto ka = static_cast<int64_t>(a.x / column), kb = static_cast<int64_t>(b.x / column);
     return std::tie(ka, a.y, a.x, a.r) < std::tie(kb, b.y, b.x, b.r);
   });
+}
 
-  // links: cells at least as large as the longest link, both blocks in one grid
+/// Links of tangent discs, by cells at least as large as the longest link, both blocks in one grid.
+inline void link_discs(const PackingSettings &s, Packing &result) {
   const int n = static_cast<int>(result.discs.size());
   const double reach = 2.0 * s.rmax + s.link_gap;
   const int nx = std::max(1, static_cast<int>(s.length / reach));
@@ -473,11 +485,8 @@ inline Packing make_packing(const PackingSettings &settings) {
     cells[index(column_of(d.x), row_of(d.y))].push_back(i);
   }
   std::vector<int> partners;
-  double area = 0.0;
   for (int i = 0; i < n; ++i) {
     const Disc &a = result.discs[static_cast<std::size_t>(i)];
-    area += a.r * a.r;
-    result.rmin_found = i == 0 ? a.r : std::min(result.rmin_found, a.r);
     partners.clear();
     const int cx = column_of(a.x), cy = row_of(a.y);
     for (int kx = -1; kx <= 1; ++kx)
@@ -486,17 +495,140 @@ inline Packing make_packing(const PackingSettings &settings) {
           if (j <= i) continue;
           const Disc &b = result.discs[static_cast<std::size_t>(j)];
           if (b.block != a.block) continue;
-          double ex = b.x - a.x;
-          if (ex > 0.5 * s.length) ex -= s.length;
-          if (ex < -0.5 * s.length) ex += s.length;
-          const double ey = b.y - a.y, limit = a.r + b.r + s.link_gap;
+          const auto [ex, ey] = link_vector(s.length, a, b);
+          const double limit = a.r + b.r + s.link_gap;
           if (ex * ex + ey * ey < limit * limit) partners.push_back(j);
         }
     std::sort(partners.begin(), partners.end());
     for (const int j : partners) result.links.emplace_back(i, j);
   }
+}
+
+/// Finds the loose discs, takes them out if the settings say so, and with them those that this leaves loose.
+inline void look_for_loose(const PackingSettings &s, Packing &result) {
+  const std::size_t n = result.discs.size();
+  std::vector<std::vector<std::size_t>> partners(n);
+  for (const auto &l : result.links) {
+    partners[static_cast<std::size_t>(l.first)].push_back(static_cast<std::size_t>(l.second));
+    partners[static_cast<std::size_t>(l.second)].push_back(static_cast<std::size_t>(l.first));
+  }
+  std::vector<char> loose(n, 0);
+  std::vector<std::size_t> links(n), check;
+  for (std::size_t i = 0; i < n; ++i) {
+    links[i] = partners[i].size();
+    check.push_back(i);
+  }
+  // kept discs only have the links that they were made with
+  while (!check.empty()) {
+    const std::size_t i = check.back();
+    check.pop_back();
+    if (loose[i] || result.discs[i].plate || links[i] >= HELD_LINKS) continue;
+    loose[i] = 1;
+    if (!s.remove_loose) continue;
+    for (const std::size_t j : partners[i]) {
+      --links[j];
+      check.push_back(j);
+    }
+  }
+  // a piece that hangs on nothing
+  std::vector<char> hung(n, 0);
+  for (std::size_t i = 0; i < n; ++i)
+    if (result.discs[i].plate) {
+      hung[i] = 1;
+      check.push_back(i);
+    }
+  while (!check.empty()) {
+    const std::size_t i = check.back();
+    check.pop_back();
+    for (const std::size_t j : partners[i])
+      if (!hung[j] && !(s.remove_loose && loose[j])) {
+        hung[j] = 1;
+        check.push_back(j);
+      }
+  }
+  std::vector<int> place(n, -1);
+  std::vector<Disc> kept;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (loose[i] || !hung[i]) {
+      ++result.loose;
+      if (fault_gap(s, result.discs[i]) < s.link_gap) ++result.loose_tangent;
+      if (s.remove_loose) continue;
+    }
+    place[i] = static_cast<int>(kept.size());
+    kept.push_back(result.discs[i]);
+  }
+  result.discs.swap(kept);
+  std::vector<std::pair<int, int>> left;
+  for (const auto &l : result.links) {
+    const int i = place[static_cast<std::size_t>(l.first)], j = place[static_cast<std::size_t>(l.second)];
+    if (i >= 0 && j >= 0) left.emplace_back(i, j);
+  }
+  result.links.swap(left);
+}
+
+inline void measure(const PackingSettings &s, Packing &result) {
+  double area = 0.0;
+  bool first = true;
+  struct Tensor {
+    double xx = 0.0, xy = 0.0, yy = 0.0;
+  };
+  std::vector<Tensor> held(result.discs.size());
+  for (const auto &l : result.links) {
+    const auto i = static_cast<std::size_t>(l.first), j = static_cast<std::size_t>(l.second);
+    const auto [ex, ey] = link_vector(s.length, result.discs[i], result.discs[j]);
+    const double d2 = ex * ex + ey * ey;
+    for (const std::size_t k : {i, j}) {
+      held[k].xx += ex * ex / d2;
+      held[k].xy += ex * ey / d2;
+      held[k].yy += ey * ey / d2;
+    }
+  }
+  for (std::size_t i = 0; i < result.discs.size(); ++i) {
+    const Disc &d = result.discs[i];
+    area += d.r * d.r;
+    result.rmin_found = i == 0 ? d.r : std::min(result.rmin_found, d.r);
+    if (fault_gap(s, d) < s.link_gap) ++result.fault_tangent[d.block];
+    if (d.plate) continue;
+    const Tensor &t = held[i];
+    const double mean = 0.5 * (t.xx + t.yy), half = 0.5 * (t.xx - t.yy);
+    const double softest = std::max(0.0, mean - std::sqrt(half * half + t.xy * t.xy));
+    result.weakest = first ? softest : std::min(result.weakest, softest);
+    first = false;
+  }
   result.area_fraction = 3.14159265358979323846 * area / (s.length * s.width);
+  const auto n = static_cast<double>(result.discs.size());
   result.coordination = n > 0 ? 2.0 * static_cast<double>(result.links.size()) / n : 0.0;
+}
+
+}  // namespace packing_detail
+
+/// Two blocks of tangent discs, [0, length) x [0, width/2] and [0, length) x [width/2, width],
+/// periodic in x.
+///
+/// Each block: (1) seeds on a hexagonal grid of spacing 2 rmax (stretched to fit period and
+/// height), radius uniform in [rmin, rmax); (2) a random point, the three objects nearest to it
+/// (discs by surface distance, the two lines of the block), the circle tangent to all three, kept
+/// if its radius is in [rmin, rmax], it lies inside the block and it overlaps nothing; (3) the
+/// block is cut into tiles along x (about 15 rmax long, ours), and each tile is full when
+/// max_failures consecutive tries in it failed. The cost is linear in the length. At last (4, ours) discs that their
+/// links do not hold are taken out: see Packing::loose.
+///
+/// The result depends on the settings and the floating-point arithmetic of the platform only.
+/// @throws std::invalid_argument with one line that names the setting and what was expected
+inline Packing make_packing(const PackingSettings &settings) {
+  packing_detail::check(settings);
+  Packing result;
+  packing_detail::fill_blocks(settings, result);
+  packing_detail::sort_discs(settings, result);
+  packing_detail::link_discs(settings, result);
+  packing_detail::look_for_loose(settings, result);
+  if (settings.remove_loose)
+    for (const int block : {0, 1})
+      if (std::none_of(result.discs.begin(), result.discs.end(),
+                       [block](const Disc &d) { return d.block == block && !d.plate; }))
+        packing_detail::reject("remove_loose", "yes", "discs of this range of radii to hold each other, but none of the ",
+                               block == 0 ? "lower block is left" : "upper block is left");
+  packing_detail::measure(settings, result);
   return result;
 }
 
@@ -520,10 +652,8 @@ inline double frequency_bound(const Packing &packing, double length,
   for (std::size_t e = 0; e < m; ++e) {
     const auto i = static_cast<std::size_t>(packing.links[e].first);
     const auto j = static_cast<std::size_t>(packing.links[e].second);
-    double ex = packing.discs[j].x - packing.discs[i].x;
-    if (ex > 0.5 * length) ex -= length;
-    if (ex < -0.5 * length) ex += length;
-    const double ey = packing.discs[j].y - packing.discs[i].y, d = std::sqrt(ex * ex + ey * ey);
+    const auto [ex, ey] = packing_detail::link_vector(length, packing.discs[i], packing.discs[j]);
+    const double d = std::sqrt(ex * ex + ey * ey);
     normal[e] = {ex / d, ey / d};
     at[fill[i]++] = e;
     at[fill[j]++] = e;

@@ -268,6 +268,13 @@ class LineReader {
   bool complete_ = true;
 };
 
+/// Whether path is a file that a new one of that name would replace: regular, and not empty.
+inline bool holds_data(const std::string &path) {
+  std::error_code code;
+  return !path.empty() && std::filesystem::is_regular_file(path, code) &&
+         std::filesystem::file_size(path, code) > 0 && !code;
+}
+
 /// Unbuffered output file: each write() hands all its bytes to the system at once, so a process
 /// killed between two calls leaves nothing half-written.
 template <class Error>

@@ -23,7 +23,7 @@ std::string brief(double value) {
   return buffer;
 }
 
-/// A fault of a few hundred discs, compressed and sheared fast. The time step is a part of the
+/// A fault of a few hundred discs, loose ones among them, compressed and sheared fast. The time step is a part of the
 /// limit that fix lsm/nve finds.
 std::string small_fault() {
   return R"(
@@ -45,7 +45,7 @@ variable every     index 1       # steps between samples of the PE series
 variable thermo    index 100
 )" + fault_start() +
          R"(
-create_lsm_fault  length 16 width 10 seed 5 failures ${failures} rmin ${rmin}
+create_lsm_fault  length 16 width 10 seed 5 failures ${failures} rmin ${rmin} loose keep
 bond_style        lsm/linked
 bond_coeff        1 ${klink}
 pair_style        lsm/friction

@@ -230,3 +230,76 @@ TEST_F(Tension, SameOnAllRankCountsAndNewton) {
       EXPECT_LT(thermo_difference(one, r, {"Bonds", "v_tension", "KinEng"}), 1e-7);
     }
 }
+
+// ---- plates on a lattice of discs of radius and mass 1 ------------------------------------------
+
+/// A bar of the lattice between two plates that are pressed from time 0 on; its P-waves run across the rows.
+class Plates : public Lmp {
+ protected:
+  static Result pressed_bar(double impedance) {
+    return run_text(R"(
+units             lj
+dimension         2
+boundary          p f p
+newton            off
+atom_style        hybrid bond sphere
+atom_modify       map array
+comm_modify       mode single cutoff 3.6
+neighbor          0.3 bin
+special_bonds     lj/coul 0 1 1
+lattice           hex $(1/(2*sqrt(3)):%.17g)
+region            box block 0 4 -40 40 -0.1 0.1
+create_box        1 box bond/types 1 extra/bond/per/atom 6 extra/special/per/atom 6
+create_atoms      1 box
+change_box        all y delta -5 5 units box
+set               type 1 diameter 2
+set               type 1 mass 1
+bond_style        lsm/linked
+bond_coeff        1 1.0
+pair_style        zero 2.2
+pair_coeff        * *
+create_bonds      many all all 1 1.99 2.01
+variable          far equal bound(all,ymax)-0.5
+variable          near equal bound(all,ymin)+0.5
+region            above block INF INF ${far} INF INF INF units box
+region            below block INF INF INF ${near} INF INF units box
+group             upper region above
+group             lower region below
+group             bar subtract all upper lower
+timestep          0.05
+fix               move bar lsm/nve
+fix               plates all lsm/plates lower upper stress 1e-4 impedance )" +
+                          text(impedance) + R"(
+compute           moving all ke
+thermo_style      custom step time c_moving f_plates[9]
+thermo_modify     norm no format float %.17g
+thermo            100
+run               4000
+)");
+  }
+};
+
+TEST_F(Plates, ImpedanceAddsToThatOfTheBlocks) {
+  // Eq. 4 times the mass per area; a plate pressed by a stress moves with the stress over the sum of the impedances until
+  // the wave from the other side is there, 138 / 2.12 = 65 time units
+  const double blocks = std::sqrt(9.0 / 8.0) * 2.0 / (2.0 * std::sqrt(3.0));
+  double rest = 0.0;
+  for (const double impedance : {0.0, 0.3, blocks, 3.0}) {
+    const Result r = pressed_bar(impedance);
+    ASSERT_TRUE(succeeded(r));
+    ASSERT_EQ(r.thermo.size(), 41u);
+    const double speed = 0.5 * (r.thermo.at(11).at("f_plates[9]") - r.thermo.at(4).at("f_plates[9]")) / 35.0;
+    EXPECT_NEAR(speed / (1e-4 / (impedance + blocks)), 1.0, 0.02) << "impedance " << impedance;
+    // three crossings later: waves that were reflected are still there, those of the matching plate are gone
+    const double moving = r.thermo.at(40).at("c_moving");
+    if (impedance == 0.0) rest = moving;
+    std::printf("impedance %.4g: speed %.4g of theory, kinetic energy %.3g\n", impedance,
+                speed / (1e-4 / (impedance + blocks)), moving);
+    if (impedance == blocks) {
+      EXPECT_LT(moving, 0.01 * rest);
+    } else {
+      EXPECT_GT(moving, 0.01 * rest);
+    }
+  }
+  EXPECT_GT(rest, 0.0);
+}

@@ -122,7 +122,7 @@ online)
   [ -x "$slider" ] || exit 77
   for picker in exponential literal; do
     for format in text binary; do
-      "$slider" --blocks 100 --dt 0.05 --velocity 0.05 --warmup 300 --steps 300000 --picker $picker \
+      "$slider" --overwrite --blocks 100 --dt 0.05 --velocity 0.05 --warmup 300 --steps 300000 --picker $picker \
         --catalogue online.csv --pe-series pe --pe-format $format > /dev/null || fail "slider_cli"
       must_run pick pe -o picked.csv --force
       rows online.csv | cut -d, -f1-8 > expected

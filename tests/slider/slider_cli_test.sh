@@ -4,6 +4,9 @@
 # shellcheck source=tests/from_outside.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../from_outside.sh" "$1"
 
+# Most cases write the same files again and again.
+run() { "$program" --overwrite "$@" > out.txt 2> err.txt; }
+
 # refused PATTERN ARGUMENTS...: non-zero exit, one line that matches, no output file.
 refused() {
   local pattern=$1
@@ -85,10 +88,10 @@ resume | terminate | kill)
     for way in "--scheme rk4" "--kernel scalar" "--kernel dense"; do
       must_run "${more[@]}" $way --catalogue whole2.csv
       rm -f part2.chk
-      "$program" "${more[@]}" $way --catalogue part2.csv --checkpoint part2.chk \
+      "$program" "${more[@]}" $way --overwrite --catalogue part2.csv --checkpoint part2.chk \
         --checkpoint-interval 1000 > out.txt 2> err.txt &
       child=$!
-      while [ ! -e part2.chk ]; do :; done
+      while [ ! -e part2.chk ] && kill -0 $child 2> /dev/null; do :; done
       kill -9 $child 2> /dev/null
       wait $child 2> /dev/null
       [ $? = 137 ] || fail "$way was never interrupted"
@@ -206,6 +209,57 @@ paper)
     grep -q "^# $line\$" p.csv || fail "--paper does not give '$line'"
   done
   "$program" --help | grep -q -- '--friction-file' || fail "--help"
+  ;;
+overwrite)
+  # Without --overwrite nothing that holds something is replaced, and the refusal leaves no file.
+  # kept PATTERN ARGUMENTS...: refused with one line that matches; all files stay as they are
+  kept() {
+    local pattern=$1 before
+    shift
+    before=$(ls; cksum ./*.csv ./*.pe ./*.chk 2> /dev/null)
+    "$program" "${short[@]}" --steps 300000 "$@" > out.txt 2> ../err.txt && fail "replaced: $*"
+    [ "$(wc -l < ../err.txt)" = 1 ] || fail "not one line for $*: $(cat ../err.txt)"
+    grep -q -e "$pattern" ../err.txt || fail "message is '$(cat ../err.txt)', expected '$pattern'"
+    [ "$before" = "$(ls; cksum ./*.csv ./*.pe ./*.chk 2> /dev/null)" ] || fail "files changed by $*"
+  }
+  mkdir one && cd one || exit 1
+  : > out.txt
+  fresh() { "$program" "${short[@]}" --steps 300000 "$@" > out.txt 2> ../err.txt; }
+  fresh --catalogue a.csv --pe-series a.pe --pe-stride 100 --checkpoint a.chk ||
+    fail "$(cat ../err.txt)"
+  same a.csv a.csv 5
+  kept "a.csv: exists, expected a new file for --catalogue; --overwrite replaces it, --resume" \
+    --catalogue a.csv --pe-series b.pe --checkpoint b.chk
+  kept "a.pe: exists, expected a new file for --pe-series; --overwrite" --catalogue b.csv \
+    --pe-series a.pe
+  kept "a.chk: exists, expected a new file for --checkpoint; --overwrite" --catalogue b.csv \
+    --checkpoint a.chk
+  kept "a.csv: exists" --catalogue a.csv --events ruptures
+  # Asked to, it does; the new files are those of a first run.
+  cp a.csv first.csv
+  fresh --catalogue a.csv --overwrite --seed 4 || fail "$(cat ../err.txt)"
+  cmp -s a.csv first.csv && fail "--overwrite did not replace the catalogue"
+  fresh --catalogue a.csv --overwrite || fail "$(cat ../err.txt)"
+  same a.csv first.csv 5
+  # An ensemble looks at all files before the first run; --resume without a checkpoint is a fresh
+  # start.
+  fresh --ensemble 3 --catalogue 'r{run}.csv' --checkpoint 'r{run}.chk' || fail "$(cat ../err.txt)"
+  rm r1.csv r1.chk r2.chk
+  kept "run 2 of the ensemble: r2.csv: exists" --ensemble 3 --catalogue 'r{run}.csv' \
+    --checkpoint 'r{run}.chk'
+  kept "run 2 of the ensemble: r2.csv: exists" --ensemble 3 --catalogue 'r{run}.csv' \
+    --checkpoint 'r{run}.chk' --resume
+  cp r2.csv first.csv
+  cp -p r3.csv third.csv
+  fresh --ensemble 3 --catalogue 'r{run}.csv' --checkpoint 'r{run}.chk' --resume --overwrite ||
+    fail "$(cat ../err.txt)"
+  same r2.csv first.csv 5
+  same r3.csv third.csv 5
+  [ -s r1.csv ] || fail "run 1 did not start"
+  # What holds nothing, and what is no file, is no reason to refuse.
+  : > empty.csv
+  fresh --catalogue empty.csv --pe-series /dev/null || fail "$(cat ../err.txt)"
+  same empty.csv a.csv 5
   ;;
 config)
   printf 'blocks = 100\ndt = 0.05\nvelocity = 0.05\nwarmup = 0\nseed = 3\nsteps = 300000\n' > s.ini

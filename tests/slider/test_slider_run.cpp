@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <string>
 #include <vector>
 
 #include "lsm_catalogue.h"
+#include "lsm_pe_series.h"
 #include "slider_run.h"
 
 namespace Slider {
@@ -19,6 +21,7 @@ RunOptions options(int blocks, double dt, std::int64_t steps) {
   o.mu = random_friction(blocks, 0.5, 1.0, 21);
   o.steps = steps;
   o.picker.lambda = 0.95;
+  o.overwrite = true;
   return o;
 }
 
@@ -66,24 +69,73 @@ TEST(SliderRun, JumpingChangesNoEvent) {
   }
 }
 
-TEST(SliderRun, SizesAreEnergyDrops) {
+TEST(SliderRun, EventsAreThoseOfTheSeries) {
+  // The leaky average of Sect. 4.1, written down once more, over the series of every step.
   RunOptions o = options(50, 0.05, 400000);
   o.parameters.velocity = 0.05;
   o.catalogue = testing::TempDir() + "slider_sizes.csv";
+  o.series = testing::TempDir() + "slider_sizes.pe";
+  o.series_binary = true;
   o.x_centroid = o.rupture_length = true;
   const RunResult r = run(o);
   const LSM::Catalogue c = LSM::read_catalogue(o.catalogue);
-  ASSERT_EQ(static_cast<std::int64_t>(c.events.size()), r.events);
-  ASSERT_GT(r.events, 10);
-  for (const LSM::Event &e : c.events) {
-    EXPECT_NEAR(e.size, e.pe_start - e.pe_end, 1e-12 * e.pe_start);
+  std::vector<double> pe;
+  LSM::PeSeriesReader series;
+  series.open(o.series);
+  std::int64_t step = 0;
+  double time = 0.0, value = 0.0;
+  while (series.next(step, time, value)) pe.push_back(value);
+  ASSERT_EQ(pe.size(), 400001U);
+  EXPECT_NEAR(pe.back(), r.pe_direct, 1e-9 * r.pe_direct);
+
+  struct Drop {
+    std::size_t start, end;
+  };
+  std::vector<Drop> drops;
+  double average = 0.0;
+  std::size_t start = 0, nonpositive = 0;
+  bool open = false;
+  for (std::size_t n = 0; n + 1 < pe.size(); ++n) {
+    average = 0.95 * average + (1.0 - 0.95) * (pe[n + 1] - pe[n]);
+    if (!open && average < 0.0) {
+      open = true;
+      start = n;
+    } else if (open && average > 0.0) {
+      open = false;
+      if (pe[start] > pe[n])
+        drops.push_back({start, n});
+      else
+        ++nonpositive;
+    }
+  }
+  ASSERT_GT(drops.size(), 50U);
+  EXPECT_EQ(static_cast<std::size_t>(r.dropped_nonpositive), nonpositive);
+  ASSERT_EQ(c.events.size(), drops.size());
+  ASSERT_EQ(r.events, static_cast<std::int64_t>(drops.size()));
+  double slip = 0.0, largest = 0.0, longest = 0.0;
+  for (std::size_t k = 0; k < drops.size(); ++k) {
+    const LSM::Event &e = c.events[k];
+    ASSERT_EQ(static_cast<std::size_t>(e.step_start), drops[k].start) << k;
+    ASSERT_EQ(static_cast<std::size_t>(e.step_end), drops[k].end) << k;
+    EXPECT_EQ(e.pe_start, pe[drops[k].start]);
+    EXPECT_EQ(e.pe_end, pe[drops[k].end]);
+    EXPECT_EQ(e.size, pe[drops[k].start] - pe[drops[k].end]);
+    EXPECT_DOUBLE_EQ(e.t_start, 0.05 * static_cast<double>(drops[k].start));
+    EXPECT_DOUBLE_EQ(e.t_end, 0.05 * static_cast<double>(drops[k].end));
     EXPECT_GE(e.slip_moment, 0.0);
-    EXPECT_GE(e.rupture_length, 0.0);
+    EXPECT_EQ(e.rupture_length > 0.0, e.slip_moment > 0.0) << k;
     EXPECT_LE(e.rupture_length, 50.0);
     EXPECT_GE(e.x_centroid, 0.0);
     EXPECT_LE(e.x_centroid, 50.0);
-    EXPECT_DOUBLE_EQ(e.t_start, 0.05 * static_cast<double>(e.step_start));
+    slip += e.slip_moment;
+    largest = std::max(largest, e.size);
+    longest = std::max(longest, e.rupture_length);
   }
+  EXPECT_EQ(largest, r.largest_event);
+  EXPECT_EQ(longest, 50.0);
+  // Blocks slide while the plate raises PE faster, too, but most of the slip is in events.
+  EXPECT_LE(slip, 50.0 * r.mean_slip);
+  EXPECT_GT(slip, 25.0 * r.mean_slip);
 }
 
 TEST(SliderRun, AllSchemesFindTheFirstLargeEvent) {

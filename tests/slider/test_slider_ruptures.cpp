@@ -349,6 +349,7 @@ RunOptions options(const std::string &name, Events events) {
   if (events == Events::ruptures) o.header.emplace_back("events", "ruptures");
   o.catalogue = testing::TempDir() + "slider_" + name + ".csv";
   o.x_centroid = o.rupture_length = true;
+  o.overwrite = true;
   return o;
 }
 

@@ -105,7 +105,7 @@ TEST_F(PackingOf40, TangenciesAreExact) {
 }
 
 TEST_F(PackingOf40, LargestClusterOfLinksIsTheWholeBlock) {
-  // union-find over the links; discs with no or few links (seeds) may stay apart
+  // union-find over the links; no piece hangs on nothing
   std::vector<int> root(packing().discs.size());
   for (int i = 0; i < count(); ++i) root[static_cast<std::size_t>(i)] = i;
   const auto find = [&](int i) {
@@ -126,8 +126,8 @@ TEST_F(PackingOf40, LargestClusterOfLinksIsTheWholeBlock) {
     int &best = largest[static_cast<std::size_t>(disc(i).block)];
     best = std::max(best, size[static_cast<std::size_t>(i)]);
   }
-  EXPECT_GE(largest[0], 0.99 * in_block[0]);
-  EXPECT_GE(largest[1], 0.99 * in_block[1]);
+  EXPECT_EQ(largest[0], in_block[0]);
+  EXPECT_EQ(largest[1], in_block[1]);
 }
 
 TEST_F(PackingOf40, SeamIsLikeTheInside) {
@@ -164,8 +164,8 @@ TEST_F(PackingOf40, FlagsFollowTheGeometry) {
   }
   EXPECT_EQ(tangent[0], packing().fault_tangent[0]);
   EXPECT_EQ(tangent[1], packing().fault_tangent[1]);
-  EXPECT_GT(tangent[0], 40);
-  EXPECT_GT(tangent[1], 40);
+  EXPECT_GT(tangent[0], 20);
+  EXPECT_GT(tangent[1], 20);
   EXPECT_GT(fault, tangent[0] + tangent[1]);
   EXPECT_GT(plate, 80);
 }
@@ -173,15 +173,99 @@ TEST_F(PackingOf40, FlagsFollowTheGeometry) {
 TEST_F(PackingOf40, FiguresAreThoseOfThePaper) {
   EXPECT_GT(packing().coordination, 4.95);
   EXPECT_LT(packing().coordination, 5.2);
-  EXPECT_GT(packing().area_fraction, 0.90);
-  EXPECT_LT(packing().area_fraction, 0.915);
-  // about 7800 particles for length 120
-  EXPECT_NEAR(count() / length, 65.0, 3.0);
+  EXPECT_GT(packing().area_fraction, 0.89);
+  EXPECT_LT(packing().area_fraction, 0.91);
+  // about 7800 particles for length 120, of which about 260 are loose
+  EXPECT_NEAR((count() + packing().loose) / length, 65.0, 2.0);
   double area = 0.0;
   for (const auto &d : packing().discs) area += std::acos(-1.0) * d.r * d.r;
   EXPECT_NEAR(packing().area_fraction, area / (length * width), 1e-12);
   EXPECT_NEAR(packing().coordination, 2.0 * static_cast<double>(packing().links.size()) / count(),
               1e-12);
+}
+
+// The loose discs found again the slow way: take out any disc with fewer than three links until none is left.
+TEST_F(PackingOf40, LooseDiscsAreExactlyThoseTakenOut) {
+  LSM::PackingSettings s = settings(length);
+  s.remove_loose = false;
+  const LSM::Packing all = LSM::make_packing(s);
+  std::vector<bool> there(all.discs.size(), true);
+  const auto links_of = [&](int disc) {
+    int n = 0;
+    for (const auto &l : all.links)
+      if ((l.first == disc || l.second == disc) && there.at(static_cast<std::size_t>(l.first)) &&
+          there.at(static_cast<std::size_t>(l.second)))
+        ++n;
+    return n;
+  };
+  int loose = 0, loose_tangent = 0, gone = 0, gone_tangent = 0;
+  for (bool first = true, again = true; again; first = false) {
+    again = false;
+    std::vector<int> out;
+    for (int i = 0; i < static_cast<int>(all.discs.size()); ++i) {
+      const LSM::Disc &d = all.discs.at(static_cast<std::size_t>(i));
+      if (!there[static_cast<std::size_t>(i)] || d.plate || links_of(i) >= 3) continue;
+      out.push_back(i);
+      const bool tangent = std::fabs(d.y - 15.0) - d.r < 1e-5;
+      if (first) loose_tangent += tangent;
+      gone_tangent += tangent;
+    }
+    if (first) loose = static_cast<int>(out.size());
+    gone += static_cast<int>(out.size());
+    for (const int i : out) there[static_cast<std::size_t>(i)] = false;
+    again = !out.empty();
+  }
+  EXPECT_EQ(all.loose, loose);
+  EXPECT_EQ(all.loose_tangent, loose_tangent);
+  EXPECT_GT(loose_tangent, 30);  // most of them lie at the fault: they were fitted to two discs and its line
+  EXPECT_EQ(packing().loose, gone);
+  EXPECT_EQ(packing().loose_tangent, gone_tangent);
+  EXPECT_GT(gone, loose);  // some are only held by those
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < all.discs.size(); ++i) {
+    if (!there[i]) continue;
+    ASSERT_LT(at, packing().discs.size());
+    EXPECT_EQ(packing().discs[at].x, all.discs[i].x);
+    EXPECT_EQ(packing().discs[at].y, all.discs[i].y);
+    ++at;
+  }
+  EXPECT_EQ(at, packing().discs.size());
+}
+
+TEST_F(PackingOf40, EachDiscIsHeldInEveryDirection) {
+  // work of the links of a disc when it alone moves by a unit length: the least over all directions
+  std::vector<std::vector<std::pair<double, double>>> normals(packing().discs.size());
+  for (const auto &l : packing().links) {
+    double dx = disc(l.second).x - disc(l.first).x;
+    dx -= length * std::floor(dx / length + 0.5);
+    const double dy = disc(l.second).y - disc(l.first).y, d = std::hypot(dx, dy);
+    for (const int i : {l.first, l.second}) normals.at(static_cast<std::size_t>(i)).emplace_back(dx / d, dy / d);
+  }
+  double softest = 1e9;
+  for (int i = 0; i < count(); ++i) {
+    if (disc(i).plate) continue;
+    ASSERT_GE(normals[static_cast<std::size_t>(i)].size(), 3u) << "disc " << i;
+    for (int k = 0; k < 1800; ++k) {
+      const double angle = k * std::acos(-1.0) / 1800.0, c = std::cos(angle), s = std::sin(angle);
+      double sum = 0.0;
+      for (const auto &n : normals[static_cast<std::size_t>(i)]) sum += std::pow(n.first * c + n.second * s, 2);
+      softest = std::min(softest, sum);
+    }
+  }
+  EXPECT_GT(softest, 0.25);
+  EXPECT_NEAR(packing().weakest, softest, 1e-5);
+}
+
+TEST(Packing, PiecesThatHangOnNothingAreTakenOut) {
+  // so few discs are fitted that many seeds touch nothing
+  LSM::PackingSettings s = settings(20.0);
+  s.max_failures = 40;
+  const LSM::Packing p = LSM::make_packing(s);
+  s.remove_loose = false;
+  const LSM::Packing all = LSM::make_packing(s);
+  EXPECT_NEAR(all.weakest, 0.0, 1e-12);
+  EXPECT_EQ(p.discs.size() + static_cast<std::size_t>(p.loose), all.discs.size());
+  EXPECT_GT(p.loose, 10);
 }
 
 TEST_F(PackingOf40, DiscsAreSortedByPosition) {
@@ -232,6 +316,7 @@ TEST(Packing, DensityDoesNotDependOnTheLength) {
 
 TEST(Packing, FewFailuresGiveALooserPacking) {
   LSM::PackingSettings s = settings(20.0);
+  s.remove_loose = false;
   const LSM::Packing dense = LSM::make_packing(s);
   s.max_failures = 20;
   const LSM::Packing loose = LSM::make_packing(s);
@@ -255,6 +340,7 @@ TEST(Packing, SmallestLengthAndOtherSizesHaveNoOverlap) {
     s.rmin = c.rmin;
     s.rmax = c.rmax;
     s.hexagonal_seeds = c.hexagonal;
+    s.remove_loose = false;  // in some of these no disc would be left
     const LSM::Packing p = LSM::make_packing(s);
     ASSERT_GT(p.discs.size(), 10u);
     std::size_t tangent = 0;
@@ -372,6 +458,7 @@ TEST(Packing, RefusesImpossibleSettings) {
   expect_refused("tolerance", [](S &s) { s.tolerance = 0.01; });
   expect_refused("link_gap", [](S &s) { s.link_gap = 0.0; });
   expect_refused("link_gap", [](S &s) { s.link_gap = 0.02; });
+  expect_refused("remove_loose", [](S &s) { s.rmin = 0.95; });
   expect_refused("fault_zone", [](S &s) { s.fault_zone = -0.25; });
   expect_refused("fault_zone", [&](S &s) { s.fault_zone = nan; });
 }

@@ -11,7 +11,7 @@ rounds=${3:-3}
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 seconds() {
-  "$program" "$@" --catalogue "$folder/c.csv" --json - | awk '/"seconds"/ {print $2 + 0}'
+  "$program" "$@" --overwrite --catalogue "$folder/c.csv" --json - | awk '/"seconds"/ {print $2 + 0}'
 }
 echo "N = 1928, $steps steps, dt 0.01, PE every step; seconds"
 for scheme in printed semi-implicit verlet; do
@@ -30,7 +30,7 @@ done
 echo "cost of the active set against N, semi-implicit, dt 0.01, the first 500 time units of slip"
 for blocks in 1000 10000 100000 1000000; do
   "$program" --blocks $blocks --dt 0.01 --steps 550000 --scheme semi-implicit --warmup 0 \
-    --catalogue "$folder/n.csv" \
+    --overwrite --catalogue "$folder/n.csv" \
     --json "$folder/a.json" > /dev/null
   awk -v n=$blocks '/"nanosec/ {t = $2 + 0} /"moving_f/ {m = $2 * n}
     END {printf "N %8d  %10.1f ns/step  %10.1f blocks moving on average  %6.2f ns per moving block\n",

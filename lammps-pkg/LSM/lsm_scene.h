@@ -1,0 +1,37 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   SPDX-License-Identifier: GPL-2.0-or-later
+   What else is in the scene: asked by the styles of the package, so that
+   a combination that they cannot handle is named and not missed
+------------------------------------------------------------------------- */
+
+#ifndef LMP_LSM_SCENE_H
+#define LMP_LSM_SCENE_H
+
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+class Force;
+class LAMMPS;
+class PairLSMFree;
+class Update;
+
+namespace LSMScene {
+
+  /// Pair styles of the package, each by itself under pair_style hybrid.
+  std::vector<PairLSMFree *> contact_styles(Force *);
+
+  /// Force styles in use that are not of the package, as "bond harmonic, pair lj/cut"; empty if there is none.
+  std::string foreign_forces(Force *);
+
+  /// Whether the command rerun evaluates snapshots. Nothing in LAMMPS says so: its steps do not follow each other as
+  /// those of a run, which begins at the step that is reached and has the length it was given.
+  bool is_rerun(const Update *);
+
+  /// Stops if a fix changes particle radii during a run; `who` begins the message.
+  void refuse_changing_radii(LAMMPS *, const std::string &who);
+
+}    // namespace LSMScene
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,33 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-2.0-or-later
+# The default fault sticks and slips, and the number that says so tells a creeping one apart.
+# usage: stick-slip.sh LMP POSTPROC SOURCE_DIR
+set -euo pipefail
+export LC_ALL=C
+lmp=$1 postproc=$2 source=$3
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+fail() { echo "FAILED: $*" >&2; tail -n 20 out >&2; exit 1; }
+
+# regime NAME VARIABLES...: runs half the shortest fault of the paper; word, saw_tooth and in_events from postproc series
+regime() {
+  local name=$1 line
+  shift
+  "$lmp" -in "$source/inputs/fault.in" -var length 60 -var steps 180000 -var prefix "$name" "$@" </dev/null >out 2>&1 ||
+    fail "lmp of $name"
+  "$postproc" series "$name.pe.bin" --from 3000 -o "$name" >out 2>&1 || fail "postproc series of $name"
+  line=$(grep '^regime: ' out) || fail "no regime of $name"
+  echo "$name: $line"
+  [[ $line =~ ^regime:\ ([a-z-]+)\ \(saw-tooth\ ([0-9.e+]+)\; ]] || fail "regime of $name has another form"
+  word=${BASH_REMATCH[1]} saw_tooth=${BASH_REMATCH[2]}
+  [[ $line =~ time\ in\ events\ ([0-9.e-]+) ]] || fail "no time in events of $name"
+  in_events=${BASH_REMATCH[1]}
+}
+regime default
+[ "$word" = stick-slip ] || fail "the default fault is called $word"
+# Seeds 1 and 2 had 7 and 12, and 0.19 and 0.15.
+awk -v s="$saw_tooth" -v t="$in_events" 'BEGIN { exit !(s > 5 && t < 0.25) }' || fail "the default fault hardly sticks"
+regime creeping -var stress 0.004
+[ "$word" = creep ] || fail "the fault at stress 0.004 is called $word"
+awk -v s="$saw_tooth" -v t="$in_events" 'BEGIN { exit !(s < 3 && t > 0.3) }' || fail "the fault at stress 0.004 does not creep"

@@ -1,0 +1,523 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Styles of the package together with what else LAMMPS offers: each combination works, or one line
+// says by name why it does not.
+#include <fstream>
+
+#include "disc_scene.h"
+#include "lmp_runner.h"
+#include "lsm_catalogue.h"
+
+using namespace physics;
+
+using Hybrid = Lmp;
+using BetweenRuns = Lmp;
+using Refused = Lmp;
+using Works = Lmp;
+
+namespace {
+
+/// Two discs in contact that shear against each other: types 1 (fixed) and 2.
+std::string shear_contact(
+    const std::string &pair = "pair_style lsm/friction\npair_coeff * * 1.0 1.0 0.6\n") {
+  return discs({{"0", "0"}, {"0", "1.9"}}, 1, 2) + "set atom 2 type 2\n" + pair + R"(
+bond_style        lsm/linked
+bond_coeff        1 1.0
+timestep          0.01
+group             top id 2
+)";
+}
+
+std::string recorded(const std::string &options = "ledger yes") {
+  return "compute events all lsm/events " + options + "\n" + disc_columns;
+}
+
+}  // namespace
+
+// ---- hybrid styles ----
+
+TEST_F(Hybrid, PairsThatAreOffDoNotTouch) {
+  for (const char *style : {"lsm/free", "lsm/friction"}) {
+    SCOPED_TRACE(style);
+    const std::string coefficients = std::string(style) == "lsm/free" ? "1.0" : "1.0 1.0 0.6";
+    const std::string lj = "lj/cut 1.0";
+    // disc 2 (type 2) overlaps disc 1 (type 1); off between types
+    const Result r =
+        run_text(shear_contact(
+                     "pair_style hybrid " + std::string(style) + " " + lj + "\npair_coeff 1 1 " +
+                     style + " " + coefficients + "\npair_coeff 1 2 " + style + " " + coefficients +
+                     "\npair_coeff 1 2 " + style + " off\npair_coeff 2 2 lj/cut 0.0 1.0\n") +
+                 "fix move all lsm/nve\n" + recorded() + "thermo 50\nrun 50\n");
+    ASSERT_TRUE(succeeded(r));
+    EXPECT_EQ(r.last("c_events[7]"), 0.0);
+    EXPECT_EQ(r.last("KinEng"), 0.0);
+    const Result on = run_text(shear_contact("pair_style hybrid " + std::string(style) + " " + lj +
+                                             "\npair_coeff 1 1 " + style + " " + coefficients +
+                                             "\npair_coeff 1 2 " + style + " " + coefficients +
+                                             "\npair_coeff 2 2 lj/cut 0.0 1.0\n") +
+                               "fix move all lsm/nve\n" + recorded() + "thermo 50\nrun 50\n");
+    ASSERT_TRUE(succeeded(on));
+    EXPECT_GT(on.last("c_events[7]"), 0.0);
+  }
+}
+
+namespace {
+
+/// Three discs in a row; the first link is harmonic, the second lsm/linked.
+std::string hybrid_bonds() {
+  return discs({{"0", "0"}, {"2.0", "0"}, {"4.2", "0"}}, 2) + R"(
+create_bonds      single/bond 1 1 2
+create_bonds      single/bond 2 2 3
+bond_style        hybrid harmonic lsm/linked
+bond_coeff        1 harmonic 0.5 1.0
+bond_coeff        2 lsm/linked 1.0
+pair_style        lsm/free
+pair_coeff        1 1 1.0
+variable          dt index 0.01
+timestep          ${dt}
+fix               move all lsm/nve
+)";
+}
+
+}  // namespace
+
+TEST_F(Hybrid, TimeStepIsCheckedWithLinksUnderBondHybrid) {
+  EXPECT_TRUE(
+      failed_with(run_text(hybrid_bonds() + "run 1\n", {{"dt", "3"}}), {"Time step 3", "limit"}));
+  const Result r = run_text(hybrid_bonds() + "run 1\nprint \"limit = $(f_move[2]:%.17g)\"\n");
+  ASSERT_TRUE(succeeded(r));
+  // one link of stiffness 1 between two masses of 1: w^2 = 2
+  EXPECT_LE(r.value("limit"), std::sqrt(2.0));
+  EXPECT_GT(r.value("limit"), 0.94 * std::sqrt(2.0));
+  // what the check does not know is named
+  EXPECT_EQ(r.lines_with("WARNING: Fix lsm/nve").size(), 1u) << r.output;
+  EXPECT_NE(r.output.find("bond harmonic"), std::string::npos);
+}
+
+TEST_F(Hybrid, ForeignBondsAreNamedAndDoNotCountAsStrain) {
+  // the harmonic bond has a rest length of 1, half the sum of the radii
+  const Result r = run_text(hybrid_bonds() + recorded("strainlimit 0.3 check 1 ledger yes") +
+                            "thermo 10\nrun 100\n");
+  ASSERT_TRUE(succeeded(r));
+  EXPECT_EQ(r.lines_with("WARNING: Compute lsm/events").size(), 1u) << r.output;
+  const auto lines = r.lines_with("WARNING: Compute lsm/events");
+  ASSERT_GE(lines.size(), 1u);
+  EXPECT_NE(lines[0].find("bond harmonic"), std::string::npos) << lines[0];
+  EXPECT_NEAR(r.thermo.front().at("c_events[6]"), 0.5 * 0.2 * 0.2, 1e-14);
+
+  // the strain of links counts under hybrid, too
+  EXPECT_TRUE(failed_with(
+      run_text(hybrid_bonds() + recorded("strainlimit 0.05 check 1 ledger yes") + "run 100\n"),
+      {"strained by"}));
+}
+
+TEST_F(Hybrid, BreakableLinksUnderBondHybrid) {
+  std::string text = hybrid_bonds() + recorded("strainlimit 10 ledger yes") + "thermo 5\nrun 20\n";
+  const std::string unbreakable = "2 lsm/linked 1.0";
+  text.replace(text.find(unbreakable), unbreakable.size(), "2 lsm/linked 1.0 1.05");
+  for (int ranks : {1, 2}) {
+    const Result r = run_text(text, {}, ranks);
+    ASSERT_TRUE(succeeded(r));
+    EXPECT_EQ(r.last("Bonds"), 1.0);
+    EXPECT_NEAR(r.last("c_events[14]"), 0.5 * 0.2 * 0.2, 1e-14);
+  }
+}
+
+TEST_F(Hybrid, TwoPairStylesOfThePackageAreBothRecordedAndChecked) {
+  // free between types 1 and 1, friction between 1 and 2
+  const std::string scene = discs({{"0", "0"}, {"0", "1.9"}, {"5", "0"}, {"5", "1.8"}}, 1, 2) + R"(
+set               atom 2 type 2
+variable          dt index 0.01
+pair_style        hybrid lsm/free lsm/friction
+pair_coeff        1 1 lsm/free 1.0
+pair_coeff        1 2 lsm/friction 1.0 1.0 0.6
+pair_coeff        2 2 lsm/friction off
+timestep          ${dt}
+fix               move all lsm/nve
+)";
+  const Result r = run_text(scene + recorded() + "thermo 10\nrun 100\n");
+  ASSERT_TRUE(succeeded(r));
+  EXPECT_NEAR(r.thermo.front().at("c_events[7]"), 0.5 * (0.1 * 0.1 + 0.2 * 0.2), 1e-14);
+  EXPECT_NEAR(r.last("c_events[7]") + r.last("c_events[8]"), r.last("PotEng"), 1e-14);
+  EXPECT_LT(std::fabs(r.last("c_events[13]")), 1e-5);
+  EXPECT_TRUE(r.lines_with("WARNING: Compute lsm/events").empty()) << r.output;
+
+  EXPECT_TRUE(failed_with(run_text(scene + "run 1\n", {{"dt", "3"}}), {"Time step 3", "limit"}));
+}
+
+TEST_F(Hybrid, ForeignPairStylesAreNamed) {
+  const Result r = run_text(shear_contact("pair_style hybrid lsm/free lj/cut 1.0\npair_coeff 1 * "
+                                          "lsm/free 1.0\npair_coeff 2 2 lj/cut 1.0 1.0\n") +
+                            "fix move all lsm/nve\n" + recorded() + "run 1\n");
+  ASSERT_TRUE(succeeded(r));
+  const auto lines = r.lines_with("WARNING: Compute lsm/events");
+  ASSERT_EQ(lines.size(), 1u) << r.output;
+  EXPECT_NE(lines[0].find("pair lj/cut"), std::string::npos) << lines[0];
+}
+
+TEST_F(Hybrid, RefusedByName) {
+  EXPECT_TRUE(failed_with(
+      run_text(shear_contact("pair_style hybrid lsm/friction lsm/friction onset step\n")),
+      {"lsm/friction", "once"}));
+  EXPECT_TRUE(failed_with(
+      run_text(
+          shear_contact(
+              "pair_style hybrid/scaled 0.5 lsm/free 1.0 lj/cut 1.0\npair_coeff * * lsm/free 1.0\n"
+              "pair_coeff 1 1 lj/cut 0.0 1.0\n") +
+          "fix move all lsm/nve\nrun 1\n"),
+      {"lsm/", "hybrid/scaled"}));
+}
+
+// ---- between two runs ----
+
+TEST_F(BetweenRuns, DisplacedParticlesLoadTangentialSprings) {
+  // sheared by 0.01 at an overlap of 0.1: sticks, as mu k 0.1 = 0.06
+  const std::string scene = shear_contact() + "fix move all lsm/nve\n" + recorded();
+  for (int ranks : {1, 2}) {
+    SCOPED_TRACE(ranks);
+    const Result r =
+        run_text(scene + "run 0\ndisplace_atoms top move 0.01 0 0 units box\nrun 0\n", {}, ranks);
+    ASSERT_TRUE(succeeded(r));
+    EXPECT_NEAR(r.last("c_events[8]"), 0.5 * 0.01 * 0.01, 1e-8);
+    // no work of friction was done by the model, and the ledger begins anew with one line that says
+    // so
+    EXPECT_EQ(r.last("c_events[11]"), 0.0);
+    EXPECT_NEAR(r.last("c_events[13]"), 0.0, 1e-15);
+    EXPECT_EQ(r.lines_with("WARNING: Compute lsm/events").size(), 1u) << r.output;
+
+    // beyond mu F_n it slides: the spring keeps what friction holds
+    const Result far =
+        run_text(scene + "run 0\ndisplace_atoms top move 0.2 0 0 units box\nrun 0\n", {}, ranks);
+    ASSERT_TRUE(succeeded(far));
+    const double overlap = 2.0 - std::sqrt(1.9 * 1.9 + 0.2 * 0.2);
+    EXPECT_NEAR(far.last("c_events[8]"), 0.5 * std::pow(0.6 * overlap, 2), 1e-12);
+  }
+}
+
+TEST_F(BetweenRuns, PiecesOfARunStayAsTheyWere) {
+  // no command between the runs: no warning, no other digit
+  const std::string scene = shear_contact() + "velocity top set 0.05 0 0\nfix move all lsm/nve\n" +
+                            recorded() + "thermo 10\n";
+  const Result whole = run_text(scene + "run 40\n");
+  const Result pieces = run_text(scene + "run 20\nrun 20\n");
+  ASSERT_TRUE(succeeded(whole));
+  ASSERT_TRUE(succeeded(pieces));
+  EXPECT_GT(whole.last("c_events[8]"), 0.0);
+  for (const char *column :
+       {"KinEng", "c_events[7]", "c_events[8]", "c_events[11]", "c_events[13]"})
+    EXPECT_EQ(whole.last(column), pieces.last(column)) << column;
+  EXPECT_TRUE(pieces.lines_with("WARNING: Compute lsm/events").empty()) << pieces.output;
+}
+
+TEST_F(BetweenRuns, CommandsThatChangeEnergyAreNoEventsAndNoResidual) {
+  // two contacts whose load rises throughout; each command takes or gives energy at once
+  const std::string scene = discs({{"0", "0"}, {"0", "1.9"}, {"5", "0"}, {"5", "1.9"}}) + R"(
+pair_style        lsm/friction
+pair_coeff        1 1 1.0 1.0 0.6
+bond_style        lsm/linked
+bond_coeff        1 1.0
+timestep          0.01
+group             pair id 3 4
+group             one id 4
+group             tops id 2 4
+velocity          tops set 0 -0.3 0
+fix               move all lsm/nve
+)" + recorded("catalogue jump.csv lambda 0.5 ledger yes") +
+                            "thermo 10\n";
+  for (const char *command :
+       {"delete_atoms group pair", "displace_atoms one move 0 0.1 0 units box",
+        "velocity pair set 0 0 0", "velocity pair set 0.1 0 0", "set group pair mass 2.0",
+        "pair_coeff 1 1 0.5 1.0 0.6"}) {
+    SCOPED_TRACE(command);
+    const Result r = run_text(scene + "run 20\n" + command + "\nrun 20\n");
+    ASSERT_TRUE(succeeded(r));
+    EXPECT_LT(std::fabs(r.last("c_events[13]")), 1e-4);
+    EXPECT_EQ(r.lines_with("WARNING: Compute lsm/events").size(), 1u) << r.output;
+    // the energy that the command took would be the size of an event
+    for (const auto &event : LSM::read_catalogue(path("jump.csv")).events)
+      EXPECT_LT(event.size, 1e-3);
+  }
+}
+
+TEST_F(BetweenRuns, LinksTurnedOffLeaveContacts) {
+  // a pair without a link that is kept from touching passes through: said in one line
+  const std::string scene = discs({{"0", "0"}, {"1.9", "0"}}) + R"(
+create_bonds      single/bond 1 1 2
+bond_style        lsm/linked
+bond_coeff        1 1.0
+pair_style        lsm/free
+pair_coeff        1 1 1.0
+timestep          0.01
+fix               move all lsm/nve
+)" + recorded() + "thermo 10\n";
+  const Result left = run_text(scene + "run 10\ndelete_bonds all bond 1\nrun 10\n");
+  EXPECT_EQ(left.lines_with("WARNING: Pair style lsm/").size(), 1u) << left.output;
+  const Result right = run_text(scene + "run 10\ndelete_bonds all bond 1 remove special\nrun 10\n");
+  ASSERT_TRUE(succeeded(right));
+  EXPECT_TRUE(right.lines_with("WARNING: Pair style lsm/").empty()) << right.output;
+  EXPECT_GT(right.last("c_events[7]"), 0.0);
+}
+
+// ---- refused ----
+
+TEST_F(Refused, RerunOfWhatDependsOnThePath) {
+  const std::string dump =
+      "dump snap all custom 5 snap.dump id type x y z radius\ndump_modify snap format float "
+      "%.17g\n";
+  const std::string rerun = "undump snap\nrerun snap.dump dump x y\n";
+  const std::string friction =
+      shear_contact() + "velocity top set 0.05 0 0\nfix move all lsm/nve\n" + dump + "run 20\n";
+  EXPECT_TRUE(failed_with(run_text(friction + rerun), {"lsm/friction", "rerun"}));
+
+  const std::string free =
+      shear_contact("pair_style lsm/free\npair_coeff * * 1.0\n") +
+      "velocity top set 0.05 0 0\nfix move all lsm/nve\nthermo_style custom step pe\n"
+      "thermo_modify norm no format float %.17g\nthermo 5\n" +
+      dump + "run 20\n";
+  EXPECT_TRUE(failed_with(run_text(free + "compute events all lsm/events\n" + rerun),
+                          {"lsm/events", "rerun"}));
+  // energies that follow from the positions alone are those of the run
+  const Result again = run_text(free + rerun);
+  ASSERT_TRUE(succeeded(again));
+  ASSERT_EQ(again.thermo.size(), 10u) << again.output;
+  EXPECT_GT(again.thermo[0].at("PotEng"), 0.0);
+  for (std::size_t n = 0; n < 5; ++n)
+    EXPECT_NEAR(again.thermo[n + 5].at("PotEng"), again.thermo[n].at("PotEng"), 1e-15);
+
+  EXPECT_TRUE(failed_with(run_text(two_link_types(5) + "uncompute events\nthermo_style one\n" +
+                                   dump + "run 20\n" + rerun),
+                          {"lsm/linked", "rerun"}));
+}
+
+TEST_F(Refused, MinimizeWithFriction) {
+  EXPECT_TRUE(failed_with(run_text(shear_contact() + "minimize 0 1e-10 100 1000\n"),
+                          {"lsm/friction", "minimize"}));
+  EXPECT_TRUE(failed_with(run_text(shear_contact("pair_style lsm/free\npair_coeff * * 1.0\n") +
+                                   "compute events all lsm/events\nminimize 0 1e-10 100 1000\n"),
+                          {"lsm/events", "minimize"}));
+  const Result free = run_text(shear_contact("pair_style lsm/free\npair_coeff * * 1.0\n") +
+                               "thermo_style custom step pe\nthermo_modify norm no format float "
+                               "%.17g\nmin_modify line backtrack\nminimize 0 1e-10 100 1000\n");
+  ASSERT_TRUE(succeeded(free));
+  EXPECT_GT(free.thermo.front().at("PotEng"), 0.0);
+  EXPECT_LT(free.last("PotEng"), 1e-15);
+}
+
+TEST_F(Refused, LinksHoldWhileEnergyIsMinimized) {
+  // a trial of the line search beyond the breaking distance breaks nothing; what is too long at the
+  // end breaks then
+  const std::string scene = discs({{"0", "0"}, {"2.1", "0"}}) + R"(
+create_bonds      single/bond 1 1 2
+bond_style        lsm/linked
+bond_coeff        1 1.0 1.02
+pair_style        lsm/free
+pair_coeff        1 1 1.0
+timestep          0.1
+fix               move all lsm/nve
+thermo_style      custom step bonds pe
+thermo_modify     norm no format float %.17g
+)";
+  const Result r = run_text(scene + "minimize 0 1e-12 100 1000\nrun 5\n");
+  ASSERT_TRUE(succeeded(r));
+  EXPECT_NEAR(r.thermo.front().at("PotEng"), 0.005, 1e-15);
+  EXPECT_LT(r.last("PotEng"), 1e-15);
+  EXPECT_EQ(r.last("Bonds"), 1.0);
+  const Result held =
+      run_text(scene + "fix hold all setforce 0 0 0\nminimize 0 1e-12 100 1000\nrun 5\n");
+  ASSERT_TRUE(succeeded(held));
+  EXPECT_EQ(held.last("Bonds"), 0.0);
+}
+
+TEST_F(Refused, RadiiThatChangeDuringARun) {
+  std::string scene = shear_contact("pair_style lsm/free\npair_coeff * * 1.0\n");
+  const std::string style = "hybrid bond sphere";
+  scene.replace(scene.find(style), style.size(), "hybrid bond sphere 1");
+  scene += "variable size equal 2.0+0.001*step\nfix grow all adapt 1 atom diameter v_size\n";
+  EXPECT_TRUE(failed_with(run_text(scene + "fix move all nve\nrun 10\n"), {"lsm/", "fix grow"}));
+  std::string linked = scene;
+  linked +=
+      "pair_style zero 2.0\npair_coeff * *\ncreate_bonds single/bond 1 1 2\nfix move all nve\nrun "
+      "10\n";
+  EXPECT_TRUE(failed_with(run_text(linked), {"lsm/linked", "fix grow"}));
+  EXPECT_TRUE(failed_with(
+      run_text(
+          scene +
+          "bond_style none\npair_style zero 2.0\npair_coeff * *\nfix move all lsm/nve\nrun 10\n"),
+      {"lsm/nve", "fix grow"}));
+}
+
+TEST_F(Refused, SpecialBonds) {
+  const std::string scene = discs({{"0", "0"}, {"1.9", "0"}}) + R"(
+create_bonds      single/bond 1 1 2
+bond_style        lsm/linked
+bond_coeff        1 1.0
+pair_style        lsm/free
+pair_coeff        1 1 1.0
+timestep          0.01
+fix               move all lsm/nve
+)";
+  for (const char *setting :
+       {"lj/coul 0 0 0", "lj/coul 0 0.5 1", "lj/coul 1 1 1", "lj/coul 0.5 1 1"})
+    EXPECT_TRUE(failed_with(run_text(scene + "special_bonds " + setting + "\nrun 1\n"),
+                            {"special_bonds", "0 1 1"}))
+        << setting;
+  // 1-2 neighbours stay in the list for the sake of charges: they must not touch all the same
+  const Result r = run_text(scene + "special_bonds lj 0 1 1 coul 1 1 1\n" + recorded() + "run 1\n");
+  ASSERT_TRUE(succeeded(r));
+  EXPECT_EQ(r.last("c_events[7]"), 0.0);
+  EXPECT_GT(r.last("c_events[6]"), 0.0);
+}
+
+TEST_F(Refused, PairComputeOff) {
+  EXPECT_TRUE(failed_with(
+      run_text(shear_contact() + "fix move all lsm/nve\npair_modify compute no\nrun 1\n"),
+      {"lsm/", "pair_modify compute no"}));
+}
+
+TEST_F(Refused, BoxSoSmallThatAPairMeetsTwice) {
+  std::string scene = shear_contact();
+  for (const auto &[from, to] :
+       {std::pair<std::string, std::string>{"boundary          f f p", "boundary          p f p"},
+        {"block -30 30", "block -2.3 2.3"}})
+    scene.replace(scene.find(from), from.size(), to);
+  EXPECT_TRUE(
+      failed_with(run_text(scene + "fix move all lsm/nve\nrun 1\n"), {"lsm/friction", "period"}));
+}
+
+TEST_F(Refused, NewNumbersForParticlesWhoseContactsAreKept) {
+  EXPECT_TRUE(failed_with(
+      run_text(shear_contact() + "fix move all lsm/nve\nrun 1\nreset_atoms id\n"), {"IDs"}));
+}
+
+TEST_F(Refused, RecordingBehindAFixThatMovesParticlesToOtherRanks) {
+  EXPECT_TRUE(
+      failed_with(run_text(shear_contact("pair_style lsm/free\npair_coeff * * 1.0\n") +
+                           "fix spread all balance 1 1.0 shift x 5 1.0\nfix move all lsm/nve\n" +
+                           recorded() + "run 1\n"),
+                  {"lsm/events", "fix spread"}));
+}
+
+TEST_F(Refused, RecordingWhoseFixIsGone) {
+  EXPECT_TRUE(failed_with(
+      run_text(shear_contact("pair_style lsm/free\npair_coeff * * 1.0\n") +
+               "fix move all lsm/nve\n" + recorded() + "run 1\nunfix events_record\nrun 1\n"),
+      {"lsm/events", "events_record"}));
+}
+
+// ---- other commands that work ----
+
+namespace {
+
+/// Two linked pairs that rub on each other, one more contact across the period.
+std::string rubbing(
+    const std::string &pair = "pair_style lsm/friction\npair_coeff * * 1.0 1.0 0.6\n") {
+  std::string text = discs(
+      {{"-3", "0"}, {"-1", "0"}, {"-2", "1.7"}, {"0", "1.7"}, {"29.5", "0"}, {"29", "1.9"}}, 2, 2);
+  const std::string boundary = "boundary          f f p";
+  text.replace(text.find(boundary), boundary.size(), "boundary          p f p");
+  return text + R"(
+set               atom 3*4 type 2
+set               atom 6 type 2
+create_bonds      single/bond 1 1 2
+create_bonds      single/bond 1 3 4
+bond_style        lsm/linked
+bond_coeff        * 1.0
+)" + pair +
+         R"(
+timestep          0.02
+group             top type 2
+group             bottom type 1
+velocity          top set 0.1 -0.02 0
+velocity          bottom set -0.1 0.02 0
+)" + recorded() +
+         "thermo 50\n";
+}
+
+/// Largest difference of energies at the end of two runs.
+double energies_differ(const Result &a, const Result &b) {
+  double worst = 0.0;
+  for (const char *column : {"KinEng", "c_events[6]", "c_events[7]", "c_events[8]", "c_events[11]"})
+    worst = std::max(worst, std::fabs(a.last(column) - b.last(column)));
+  return worst;
+}
+
+}  // namespace
+
+TEST_F(Works, BalanceRespaAndHybridGiveTheSameMotion) {
+  const Result plain = run_text(rubbing() + "fix move all lsm/nve\nrun 100\n");
+  ASSERT_TRUE(succeeded(plain));
+  EXPECT_GT(plain.last("c_events[8]"), 1e-6);
+  EXPECT_GT(plain.last("c_events[11]"), 1e-3);
+  const std::string hybrid =
+      "pair_style hybrid lsm/free lsm/friction\npair_coeff 1 1 lsm/free 1.0\npair_coeff 2 2 "
+      "lsm/free 1.0\n"
+      "pair_coeff 1 2 lsm/friction 1.0 1.0 0.6\n";
+  const std::string others[] = {
+      rubbing() + "fix move all lsm/nve\nrun 50\nbalance 1.0 shift x 5 1.0\nrun 50\n",
+      rubbing() + "fix spread all balance 10 1.0 shift x 5 1.0\nfix move all lsm/nve\nrun 100\n",
+      rubbing() + "fix move all nve\nrun_style respa 2 1 bond 1 pair 2\nrun 100\n",
+      rubbing() + "fix move all lsm/nve\nchange_box all triclinic\nrun 100\n",
+      rubbing() + "fix move all lsm/nve\nrun 30 post no\nrun 70 pre no\n",
+      rubbing(hybrid) + "fix move all lsm/nve\nrun 100\n"};
+  for (const std::string &other : others)
+    for (int ranks : {1, 2}) {
+      const Result r = run_text(other, {}, ranks);
+      ASSERT_TRUE(succeeded(r)) << other;
+      EXPECT_LT(energies_differ(plain, r), 1e-12) << other;
+    }
+}
+
+TEST_F(Works, HybridGoesOnFromARestartFile) {
+  const std::string coefficients =
+      "pair_coeff 1 1 lsm/free 1.0\npair_coeff 2 2 lsm/free 1.0\npair_coeff 1 2 lsm/friction 1.0 "
+      "1.0 0.6\n";
+  const Result whole =
+      run_text(rubbing("pair_style hybrid lsm/free lsm/friction\n" + coefficients) +
+               "fix move all lsm/nve\nrun 30\nwrite_restart hybrid.restart\nrun 30\n");
+  ASSERT_TRUE(succeeded(whole));
+  EXPECT_GT(whole.last("c_events[8]"), 1e-6);
+  const Result r = run_text(
+      "atom_modify map array\ncomm_modify mode single cutoff 4.5\nread_restart hybrid.restart\n" +
+      coefficients + "timestep 0.02\nfix move all lsm/nve\n" + recorded() + "run 30\n");
+  ASSERT_TRUE(succeeded(r));
+  EXPECT_LT(energies_differ(whole, r), 1e-12);
+}
+
+TEST_F(Works, StaticFrictionFollowsAnAdaptedCoefficientUnlessItWasGiven) {
+  const std::string adapted =
+      rubbing() +
+      "fix move all lsm/nve\nvariable less equal ramp(0.6,0.1)\n"
+      "fix weaken all adapt 1 pair lsm/friction mu * * v_less\nrun 20\nunfix weaken\n";
+  const Result follows = run_text(adapted + "run 40\n");
+  const Result given = run_text(adapted + "pair_coeff * * 1.0 1.0 0.1\nrun 40\n");
+  ASSERT_TRUE(succeeded(follows));
+  ASSERT_TRUE(succeeded(given));
+  EXPECT_GT(given.last("c_events[11]"), 0.0);
+  EXPECT_LT(energies_differ(follows, given), 1e-12);
+}
+
+TEST_F(Works, LinksAndFreeContactsInThreeDimensions) {
+  std::string text = discs({{"0", "0"}, {"2", "0"}});
+  for (const auto &[from, to] :
+       {std::pair<std::string, std::string>{"dimension         2", "dimension         3"},
+        {"boundary          f f p", "boundary          f f f"},
+        {"-10 10 -0.5 0.5", "-10 10 -10 10"},
+        {"set group all mass 1.0",
+         "create_atoms 1 single 1 0 1.6\nset group all diameter 2.0\nset group all mass 1.0"}})
+    text.replace(text.find(from), from.size(), to);
+  text +=
+      "create_bonds single/bond 1 1 2\nbond_style lsm/linked\nbond_coeff 1 1.0\npair_style "
+      "lsm/free\n"
+      "pair_coeff 1 1 1.0\ntimestep 0.01\nfix move all lsm/nve\n" +
+      recorded() +
+      "variable pz equal vcm(all,z)\nthermo 200\nrun 200\nprint \"pz = $(v_pz:%.17g)\"\n";
+  const double gap = std::sqrt(1.0 + 1.6 * 1.6) - 2.0;
+  for (const char *newton : {"on", "off"})
+    for (int ranks : {1, 2}) {
+      const Result r = run_text(text, {{"newton", newton}}, ranks);
+      ASSERT_TRUE(succeeded(r));
+      EXPECT_NEAR(r.thermo.front().at("c_events[7]"), gap * gap, 1e-14);
+      EXPECT_GT(r.last("KinEng"), 1e-3);
+      EXPECT_NEAR(r.value("pz"), 0.0, 1e-14);
+      EXPECT_LT(std::fabs(r.last("c_events[13]")), 1e-5);
+    }
+}

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Links that break, links that do not, and restart files written meanwhile.
+#include "disc_scene.h"
+#include "lmp_runner.h"
+
+using namespace physics;
+
+using LinkTypes = Lmp;
+using BrokenLinks = Lmp;
+
+// ---- link types that can break and link types that cannot ----
+
+TEST_F(LinkTypes, UnbreakableLinksStayWhereOthersCanBreak) {
+  // 21 discs: ten links of each type, so that the lanes of a chunk of 16 are not filled
+  for (const char *newton : {"on", "off"})
+    for (int ranks : {1, 2}) {
+      SCOPED_TRACE(std::string("newton ") + newton + ", ranks " + std::to_string(ranks));
+      const Result rest =
+          run_text(two_link_types(21) + "thermo 10\nrun 10\n", {{"newton", newton}}, ranks);
+      ASSERT_TRUE(succeeded(rest));
+      EXPECT_EQ(rest.last("Bonds"), 20.0);
+
+      // pulled at once: the last link (type 2) breaks, and nothing else
+      const Result pulled =
+          run_text(two_link_types(21) + "velocity last set 0.1 0 0\nthermo 10\nrun 200\n",
+                   {{"newton", newton}}, ranks);
+      ASSERT_TRUE(succeeded(pulled));
+      EXPECT_EQ(pulled.last("Bonds"), 19.0);
+      EXPECT_GT(pulled.last("c_events[14]"), 0.0);
+      // the force of 0.04 is gone somewhere in a step of length 0.1 * 0.02
+      EXPECT_LT(std::fabs(pulled.last("c_events[13]")), 0.04 * 0.1 * 0.02);
+    }
+}
+
+TEST_F(LinkTypes, TypesThatDoNotBreakPullLikeAlone) {
+  // a breaking distance that is never reached changes no digit of the motion
+  const std::string pull = "velocity last set 0.01 0 0\nthermo 20\nrun 200\n";
+  const Result far = run_text(two_link_types(21) + pull, {{"ratio", "5"}});
+  std::string never = two_link_types(21);
+  const std::string ratio = "bond_coeff        2 1.0 ${ratio}";
+  never.replace(never.find(ratio), ratio.size(), "bond_coeff        2 1.0");
+  const Result none = run_text(never + pull);
+  ASSERT_TRUE(succeeded(far));
+  ASSERT_TRUE(succeeded(none));
+  ASSERT_EQ(far.thermo.size(), none.thermo.size());
+  for (std::size_t n = 0; n < far.thermo.size(); ++n)
+    for (const char *column : {"KinEng", "c_events[6]"})
+      EXPECT_EQ(far.thermo[n].at(column), none.thermo[n].at(column)) << column << " in row " << n;
+  EXPECT_GT(far.last("c_events[6]"), 0.0);
+  EXPECT_EQ(far.last("Bonds"), 20.0);
+}
+
+// ---- a link that breaks, and restart files ----
+
+TEST_F(BrokenLinks, RestartOfTheStepInWhichALinkBreaksCountsItOnce) {
+  const std::string pulled = two_link_types(5) + "velocity last set 0.1 0 0\nthermo 1\n";
+  const Result whole = run_text(pulled + "run 60\nprint \"count = $(f_LSM_BREAK:%.0f)\"\n");
+  ASSERT_TRUE(succeeded(whole));
+  ASSERT_EQ(whole.value("count"), 1.0);
+  const double lost = whole.last("c_events[14]");
+  ASSERT_GT(lost, 0.0);
+  int step = -1;  // of the break
+  for (const auto &row : whole.thermo)
+    if (step < 0 && row.at("c_events[14]") > 0.0) step = static_cast<int>(row.at("Step"));
+  ASSERT_GT(step, 0);
+
+  const std::string go_on = R"(
+timestep          0.02
+fix               move all lsm/nve
+compute           events all lsm/events ledger yes strainlimit 10
+)" + std::string(disc_columns) +
+                            "thermo 1\nrun 60 upto\nprint \"count = $(f_LSM_BREAK:%.0f)\"\n";
+  // before, in and after the step: by the run itself, and by a command after it
+  for (int at : {step - 1, step, step + 1})
+    for (bool within : {true, false})
+      for (int ranks : {1, 2}) {
+        SCOPED_TRACE("step " + std::to_string(at) + (within ? " within" : " after") +
+                     " the run, ranks " + std::to_string(ranks));
+        const std::string n = std::to_string(at);
+        const Result first =
+            within ? run_text(pulled + "restart " + n + " broken.*.restart\nrun " + n + "\n", {},
+                              ranks)
+                   : run_text(pulled + "run " + n + "\nwrite_restart broken." + n + ".restart\n",
+                              {}, ranks);
+        ASSERT_TRUE(succeeded(first));
+        const Result r = run_text(
+            "atom_modify map array\ncomm_modify mode single cutoff 4.5\nread_restart broken." + n +
+                ".restart\n" + go_on,
+            {}, ranks);
+        ASSERT_TRUE(succeeded(r));
+        EXPECT_EQ(r.last("c_events[14]"), lost);
+        EXPECT_EQ(r.last("Bonds"), 3.0);
+        EXPECT_EQ(r.value("count"), 1.0);
+        EXPECT_NEAR(r.last("c_events[13]"), whole.last("c_events[13]"), 1e-12);
+      }
+}
+
+TEST_F(BrokenLinks, TooLongAtTheBeginBreaksOnce) {
+  // too long from the first force evaluation on: gone from lists and files after a run of no steps
+  const Result r = run_text(discs({{"0", "0"}, {"2.1", "0"}}) + R"(
+create_bonds      single/bond 1 1 2
+bond_style        lsm/linked
+bond_coeff        1 1.0 1.02
+pair_style        lsm/free
+pair_coeff        1 1 1.0
+timestep          0.1
+fix               move all lsm/nve
+compute           events all lsm/events ledger yes
+)" + disc_columns + R"(
+thermo            1
+run               0
+write_restart     long.restart
+variable          links equal bonds
+print             "links = ${links}"
+run               5
+)");
+  ASSERT_TRUE(succeeded(r));
+  EXPECT_EQ(r.value("links"), 0.0);
+  EXPECT_NEAR(r.last("c_events[14]"), 0.005, 1e-15);
+}
+
+TEST_F(BrokenLinks, AnotherLinkOfThePairKeepsItOutOfContact) {
+  // of two links between the same discs one breaks; the other pulls them together again
+  for (const char *newton : {"on", "off"})
+    for (int ranks : {1, 2}) {
+      SCOPED_TRACE(std::string("newton ") + newton + ", ranks " + std::to_string(ranks));
+      const Result r = run_text(discs({{"-1.05", "0"}, {"1.05", "0"}}, 2) + R"(
+create_bonds      single/bond 1 1 2
+create_bonds      single/bond 2 1 2
+bond_style        lsm/linked
+bond_coeff        1 1.0
+bond_coeff        2 1.0 1.02
+pair_style        lsm/free
+pair_coeff        1 1 1.0
+timestep          0.05
+fix               move all lsm/nve
+compute           events all lsm/events ledger yes
+)" + disc_columns + "thermo 45\nrun 45\n",
+                                {{"newton", newton}}, ranks);
+      ASSERT_TRUE(succeeded(r));
+      EXPECT_EQ(r.last("Bonds"), 1.0);
+      EXPECT_EQ(r.last("c_events[7]"), 0.0);
+      // half a period of w^2 = 2 after 44.4 steps: compressed as far as it was stretched
+      EXPECT_NEAR(r.last("c_events[6]"), 0.5 * 0.1 * 0.1, 1e-4);
+    }
+}

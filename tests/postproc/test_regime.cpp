@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "regime.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace {
+
+using LSM::postproc::Regime;
+using LSM::postproc::RegimeMeter;
+
+// Rises by `up` per sample for n samples, then falls to the start within m samples; so many times.
+void saw_tooth(RegimeMeter &meter, double up, int n, int m, int times) {
+  for (int k = 0; k < times; ++k) {
+    for (int i = 0; i < n; ++i) meter.add(up * i);
+    for (int i = 0; i < m; ++i) meter.add(up * n * (1.0 - static_cast<double>(i) / m));
+  }
+  meter.add(0.0);
+}
+
+TEST(Regime, OfASawToothIsTheRatioOfItsSlopes) {
+  // windows of 5 samples, flanks of 200 and 10: no window holds a turn
+  RegimeMeter meter(0.5, 0.1);
+  saw_tooth(meter, 1e-3, 200, 10, 50);
+  const Regime r = meter.result();
+  EXPECT_DOUBLE_EQ(r.window, 0.5);
+  EXPECT_EQ(r.windows, 50 * 210 / 5);
+  EXPECT_NEAR(r.rise, 1e-2, 1e-14);
+  EXPECT_NEAR(r.fall, 0.2, 1e-13);
+  EXPECT_NEAR(r.saw_tooth, 20.0, 1e-10);
+  EXPECT_NEAR(r.drop_over_load, 20.0, 1e-10);
+  EXPECT_EQ(name_of(r), "stick-slip");
+}
+
+TEST(Regime, OfASymmetricSeriesIsOne) {
+  RegimeMeter meter(0.3, 0.1);
+  for (int i = 0; i < 300000; ++i) meter.add(std::sin(0.002 * i) + std::sin(0.0071 * i));
+  const Regime r = meter.result();
+  EXPECT_NEAR(r.saw_tooth, 1.0, 0.01);
+  EXPECT_EQ(name_of(r), "creep");
+}
+
+TEST(Regime, DoesNotGrowWithTheLengthOfTheSeries) {
+  // events of many sizes: the fastest fall grows with their number, the mean does not
+  const auto of = [](int cycles) {
+    RegimeMeter meter(1.0, 1.0);
+    double pe = 0.0, u = 0.5;
+    for (int k = 0; k < cycles; ++k) {
+      u = std::fmod(u * 997.0 + 0.123, 1.0);
+      for (int i = 0; i < 20; ++i) meter.add(pe += 1.0);
+      meter.add(pe -= 10.0 / std::pow(1.0 - 0.9999 * u, 0.45));
+    }
+    return meter.result();
+  };
+  const Regime brief = of(300), longer = of(30000);
+  EXPECT_GT(longer.drop_over_load, 2.0 * brief.drop_over_load);
+  EXPECT_NEAR(longer.saw_tooth / brief.saw_tooth, 1.0, 0.5);
+}
+
+TEST(Regime, TimeInEventsAndMeanDuration) {
+  RegimeMeter meter(1.0, 1.0);
+  saw_tooth(meter, 1.0, 90, 10, 1);  // 101 samples: 100 time units
+  meter.event(10.0, 25.0);
+  meter.event(90.0, 95.0);
+  EXPECT_DOUBLE_EQ(meter.result().time_in_events, 0.2);
+  EXPECT_DOUBLE_EQ(meter.result().mean_duration, 10.0);
+}
+
+TEST(Regime, SeriesWithoutAFallOrARiseHasNone) {
+  RegimeMeter rising(1.0, 1.0), falling(1.0, 1.0), empty(1.0, 1.0);
+  for (int i = 0; i < 100; ++i) {
+    rising.add(i);
+    falling.add(-i);
+  }
+  EXPECT_THROW(rising.result(), std::runtime_error);
+  EXPECT_THROW(falling.result(), std::runtime_error);
+  EXPECT_THROW(empty.result(), std::runtime_error);
+  EXPECT_NE(regime_line(rising).find("PE only rises"), std::string::npos);
+  EXPECT_NE(regime_line(falling).find("PE only falls"), std::string::npos);
+}
+
+}  // namespace
