@@ -91,6 +91,7 @@ statistics() {
     "$folder/times.table1.csv" 2>/dev/null || printf ',,,'
   cut -d, -f4 "$folder/count"
 }
+echo "-1,-1" >"$output/torn.csv" # gnuplot wants a row
 default() { sed -n "s/^variable $1 *index *\([^ ]*\).*/\1/p" "$root/inputs/fault.in"; }
 {
   echo "# Regime map of the fault; runs of inputs/regime-map.txt, times below $skip left out. long_: picked with a memory of 3"
@@ -114,6 +115,7 @@ default() { sed -n "s/^variable $1 *index *\([^ ]*\).*/\1/p" "$root/inputs/fault
     done
     if [ -e "$folder/failed.txt" ]; then
       echo "regime-map: $words: $(cut -c 1-100 "$folder/failed.txt")" >&2
+      [ -n "$others" ] || [ "$length" != 120 ] || echo "$stress,$viscosity" >>"$output/torn.csv"
       continue
     fi
     [ -e "$folder/numbers.txt" ] || continue
@@ -137,11 +139,15 @@ set yrange [0.0012:0.17]
 set cblabel "saw-tooth number (speed of fall / speed of rise of PE)"
 set cbrange [1:12]
 set palette defined (0 "#b2182b", 0.44 "#f7f7f7", 1 "#2166ac")
-set title "Where the fault creeps (below 3) and where it sticks and slips"
+set title "Where the fault creeps (below 3) and where it sticks and slips; exponent of the sizes below"
 set key off
+set xtics (0.003, 0.006, 0.01, 0.015, 0.02, 0.03, 0.05)
+set ytics (0.002, 0.005, 0.015, 0.05, 0.1)
 plot data using 2:3:5 with points pt 7 ps 7 lc palette, \
      "" using 2:3:(sprintf("%.1f", $5)) with labels font ",11", \
-     "" using 2:3:(sprintf("b = %.2f", $12)) with labels offset 0,-2.2 font ",8", \
+     "" using 2:3:(sprintf("%.2f", $14)) with labels offset 0,-2.1 font ",9", \
+     torn using 1:2 with points pt 2 ps 3 lw 2 lc rgb "#777777", \
+     "" using 1:2:("links torn") with labels offset 0,-2.1 font ",9" tc rgb "#777777", \
      "< echo 0.02,0.015" using 1:2 with points pt 6 ps 8.5 lw 2.5 lc rgb "black"
 END
 sed -n '/^#/!p' "$output/regime-map.csv" | awk -F, 'NR > 1 && $1 == 120 && $4 == ""' >"$output/grid.csv"
@@ -149,7 +155,7 @@ if [ -s "$output/grid.csv" ]; then
   (cd "$output" && for kind in png svg; do
     terminal="pngcairo size 900,640 font 'sans,12'"
     [ $kind = png ] || terminal="svg size 900,640 font 'sans,12'"
-    gnuplot -e "set terminal $terminal; set output 'regime-map.$kind'; data = 'grid.csv'; load 'regime-map.gp'" || exit 1
+    gnuplot -e "set terminal $terminal; set output 'regime-map.$kind'; data = 'grid.csv'; torn = 'torn.csv'; load 'regime-map.gp'" || exit 1
   done) || exit 1
 fi
 echo "regime-map: $(sed '/^#/d' "$output/regime-map.csv" | tail -n +2 | wc -l) points in $output/regime-map.csv"
