@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -18,6 +19,7 @@ struct Options {
   CatalogueOptions catalogues;
   ReportSettings report;
   std::string output = "report.html", block = "auto";
+  std::vector<std::string> series;
 };
 
 }  // namespace
@@ -48,10 +50,25 @@ void add_report(CLI::App &app) {
       ->check(CLI::Range(2, 1000000));
   command->add_option("--block", options->block, block_help);
   command->add_option("--seed", report.seed, "Of the random numbers");
+  command
+      ->add_option("--series", options->series,
+                   "PE series whose regime, stick-slip or creep, the page shall state (ours), "
+                   "several allowed; --from, --to and --lenient hold for them, too")
+      ->type_name("FILE")
+      ->default_str("")
+      ->allow_extra_args(false);
   command->callback([options] {
     refuse_input(options->output, options->catalogues.paths);
+    refuse_input(options->output, options->series);
     options->report.bootstrap.block = parse_block(options->block);
-    write_file(options->output, report_html(load_catalogues(options->catalogues), options->report));
+    const std::vector<EventTable> tables = load_catalogues(options->catalogues);
+    SeriesOptions samples;
+    samples.lenient = options->catalogues.lenient;
+    samples.from_time = options->catalogues.from_time;
+    samples.to_time = options->catalogues.to_time;
+    std::vector<SeriesRegime> series;
+    for (const std::string &path : options->series) series.push_back(series_regime(path, samples));
+    write_file(options->output, report_html(tables, options->report, series));
     fmt::print("wrote {}\n", options->output);
   });
 }

@@ -5,12 +5,16 @@
 #define LSM_POSTPROC_REPORT_H
 
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "catalogue_input.h"
 #include "finite_size.h"
 #include "numbers.h"
+#include "regime.h"
+#include "series_input.h"
 
 namespace LSM::postproc {
 
@@ -23,10 +27,24 @@ struct ReportSettings {
   std::uint64_t seed = 1;
 };
 
+/// Whether one PE series sticks and slips.
+struct SeriesRegime {
+  std::string path, model;
+  double length = std::numeric_limits<double>::quiet_NaN();  ///< or number of blocks; NaN: not said
+  double first = 0.0, last = 0.0;                            ///< times of the samples used
+  std::optional<Regime> regime;
+  std::string why;  ///< reason if there is none
+};
+
+/// Reads a PE series once; events are picked with the settings of its header.
+/// \throws PeSeriesError; std::runtime_error for fewer than 3 samples in the window of time
+SeriesRegime series_regime(const std::string &path, const SeriesOptions &options);
+
 /// The whole page. It needs no other file and no network; pictures are SVG within it. What cannot
 /// be drawn or fitted says why in its place. \throws PlotError if gnuplot cannot draw;
 /// std::invalid_argument for impossible settings
-std::string report_html(const std::vector<EventTable> &tables, const ReportSettings &settings);
+std::string report_html(const std::vector<EventTable> &tables, const ReportSettings &settings,
+                        const std::vector<SeriesRegime> &series = {});
 
 /// Text with the characters that HTML reserves replaced.
 std::string html_escape(std::string_view text);

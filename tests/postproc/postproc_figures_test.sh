@@ -232,6 +232,30 @@ report)
   for tag in table figure svg tr td th section div p ul li h2 h3; do
     [ "$(grep -o "<$tag[ >]" r.html | wc -l)" = "$(grep -o "</$tag>" r.html | wc -l)" ] || fail "<$tag> not closed"
   done
+  # PE series: 90 steps up by 1 and 9 down by 10, or as many down as up; one that only rises.
+  pe() { # FILE LENGTH UP DOWN
+    awk -v length_="$2" -v up="$3" -v down="$4" 'BEGIN {
+      print "# lsm-pe-series 1\n# model = lsm\n# dt = 1\n# step0 = 0\n# time0 = 0\n# stride = 1"
+      print "# length = " length_ "\n# picker = literal\n# lambda = 0\nstep,time,pe"
+      for (i = 0; i <= 20 * (up + down) + 1; ++i) {
+        printf "%d,%d,%.17g\n", i, i, x
+        x += i % (up + down) < up ? 1 : down ? -up / down : 0 } }' > "$1"
+  }
+  pe tooth.pe 120 90 9
+  pe creep.pe 240 60 60
+  pe rise.pe 480 10 0
+  must_run report s.csv --series tooth.pe --series creep.pe --series rise.pe --replicas 0 --interval-replicas 0 -o p.html
+  row() { grep "^<tr><th scope=\"row\">$1<" p.html | sed 's/<[^>]*>/|/g; s/||*/|/g'; }
+  [ "$(row tooth.pe)" = '|tooth.pe|Fault|120|0 to 1981|stick-slip|10|10|0.091|9|' ] || fail "row of tooth.pe: $(row tooth.pe)"
+  [ "$(row creep.pe)" = '|creep.pe|Fault|240|0 to 2401|creep|1|1|0.5|60|' ] || fail "row of creep.pe: $(row creep.pe)"
+  row rise.pe | grep -q '480|0 to 201|degenerate: PE only rises' || fail "row of rise.pe: $(row rise.pe)"
+  grep -q 'Stick-slip or creep' r.html && fail "a section without a series"
+  # The window of time holds for the series, too.
+  must_run report s.csv --series tooth.pe --from 495 --to 1485 --replicas 0 --interval-replicas 0 -o p.html
+  row tooth.pe | grep -q '|495 to 1485|stick-slip|10|' || fail "--from, --to: $(row tooth.pe)"
+  refused 'samples in the window of time' report s.csv --series tooth.pe --from 5000 -o x.html
+  refused 'is read by this command' report s.csv --series tooth.pe -o tooth.pe
+  refused 'nowhere.pe: cannot open' report s.csv --series nowhere.pe -o x.html
   # Leaf springs of several stiffnesses have a picture of their own and no part in the scaling.
   for kl in 0.01 0.1; do sed "s/^# blocks.*/&\n# kl = $kl/" s.csv > "kl$kl.csv"; done
   must_run report kl0.01.csv kl0.1.csv kl0.01.csv --replicas 0 --label a --label b --label c -o k.html
