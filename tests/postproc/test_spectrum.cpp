@@ -107,20 +107,22 @@ TEST(Spectrum, WhiteNoiseLevelAndErrors) {
   const double sigma = 0.3, dt = 0.05, level = 2.0 * sigma * sigma * dt;
   for (const Window window : windows) {
     for (const double overlap : {0.0, 0.5, 0.75}) {
-      WelchSpectrum spectrum({128, overlap, window, Detrend::none}, dt);
-      const std::vector<SpectrumPoint> points =
-          feed(spectrum, noise(128 * 400, 11, sigma)).points();
       double sum = 0.0, scatter = 0.0;
       std::size_t count = 0;
-      for (std::size_t k = 2; k < 63; ++k, ++count) {
-        sum += points[k].density / level;
-        scatter += std::pow(
-            (points[k].density - level) / (level * points[k].error / points[k].density), 2);
+      for (const unsigned seed : {11u, 12u, 13u, 14u, 15u, 16u, 17u, 18u}) {
+        WelchSpectrum spectrum({128, overlap, window, Detrend::none}, dt);
+        const std::vector<SpectrumPoint> points =
+            feed(spectrum, noise(128 * 400, seed, sigma)).points();
+        for (std::size_t k = 2; k < 63; ++k, ++count) {
+          sum += points[k].density / level;
+          scatter += std::pow(
+              (points[k].density - level) / (level * points[k].error / points[k].density), 2);
+        }
       }
-      // 61 points of relative error near 1/20 (neighbours share up to half of it).
-      EXPECT_NEAR(sum / static_cast<double>(count), 1.0, 0.03);
-      // A mean square of 61 correlated normal deviates: standard error below 0.3.
-      EXPECT_NEAR(scatter / static_cast<double>(count), 1.0, 0.75);
+      // 488 points of relative error near 1/20 (neighbours share up to half of it).
+      EXPECT_NEAR(sum / static_cast<double>(count), 1.0, 0.011);
+      // A mean square of 488 correlated normal deviates: standard error below 0.1.
+      EXPECT_NEAR(scatter / static_cast<double>(count), 1.0, 0.27);
     }
   }
 }
