@@ -328,7 +328,7 @@ SizePoint characteristic_size(const std::vector<double> &t_start, const std::vec
     squares.add(deviation * deviation);
   }
   const double mean = sum.value() / replicas;
-  point.error = std::sqrt((squares.value() - replicas * mean * mean) / (replicas - 1));
+  point.error = std::sqrt(std::max(0.0, squares.value() - replicas * mean * mean) / (replicas - 1));
   return point;
 }
 

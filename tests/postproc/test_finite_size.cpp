@@ -166,6 +166,16 @@ TEST(CharacteristicSize, BlocksOfTime) {
   EXPECT_THROW(at(1000.0), std::invalid_argument);
 }
 
+TEST(CharacteristicSize, BlocksGoRoundTheRing) {
+  // A pattern that repeats: every half of the ring holds five of it, wherever it begins.
+  std::vector<double> sizes;
+  for (int i = 0; i < 40; ++i) sizes.push_back(1.0 + i % 4);
+  const SizePoint point =
+      characteristic_size(one_by_one(40), sizes, 0.0, 1.0, resampling(200, 1, 20.0));
+  EXPECT_EQ(point.blocks, 2);
+  EXPECT_NEAR(point.error, 0.0, 1e-9);
+}
+
 TEST(BlockLength, OfAnAutoregressiveSeries) {
   // x_i = rho x_(i-1) + noise: covariances rho^|k|, from which the best length follows.
   const std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)> rng(gsl_rng_alloc(gsl_rng_mt19937),
