@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -168,6 +169,35 @@ inline Agreement agreement(const std::vector<double> &dt, const std::vector<Esti
       xy += g * x * y;
     }
   return {chi_square_tail(chi, n - 1), xx > 0.0 ? chi_square_tail(xy * xy / xx, 1) : 1.0};
+}
+
+/// Events of two runs paired one to one by their starts (both in order of time).
+struct Pairs {
+  int both = 0, only_first = 0, only_second = 0;
+  /// Chance of a larger difference of the two numbers if an event missing in one run is as likely
+  /// missing in the other (McNemar's test with correction for continuity).
+  double p() const {
+    const double off = std::abs(only_first - only_second), all = only_first + only_second;
+    return off > 1.0 ? chi_square_tail((off - 1.0) * (off - 1.0) / all, 1) : 1.0;
+  }
+};
+/// \param near  largest distance of two starts of a pair
+inline Pairs paired(const std::vector<double> &first, const std::vector<double> &second,
+                    double near) {
+  Pairs pairs;
+  std::size_t i = 0, j = 0;
+  while (i < first.size() && j < second.size()) {
+    if (std::fabs(first[i] - second[j]) <= near) {
+      ++pairs.both;
+      ++i;
+      ++j;
+    } else {
+      ++(first[i] < second[j] ? i : j);
+    }
+  }
+  pairs.only_first = static_cast<int>(first.size()) - pairs.both;
+  pairs.only_second = static_cast<int>(second.size()) - pairs.both;
+  return pairs;
 }
 
 }  // namespace Accuracy

@@ -76,4 +76,20 @@ TEST(EventStatistics, AgreementFindsAScatterAndATrend) {
   EXPECT_EQ(one.p_same, 1.0);
 }
 
+TEST(EventStatistics, PairsOneToOne) {
+  const auto pairs = Accuracy::paired({1.0, 2.0, 2.1, 9.0}, {1.05, 2.05, 5.0}, 0.2);
+  EXPECT_EQ(pairs.both, 2);  // 2.1 has lost its partner to 2.0
+  EXPECT_EQ(pairs.only_first, 2);
+  EXPECT_EQ(pairs.only_second, 1);
+  EXPECT_EQ(pairs.p(), 1.0);
+  EXPECT_EQ(Accuracy::paired({}, {1.0}, 1.0).only_second, 1);
+  // 1 against 16 odd events: (15 - 1)^2 / 17 = 11.53
+  Accuracy::Pairs odd;
+  odd.only_first = 1;
+  odd.only_second = 16;
+  EXPECT_NEAR(odd.p(), 6.85e-4, 1e-5);
+  std::swap(odd.only_first, odd.only_second);
+  EXPECT_NEAR(odd.p(), 6.85e-4, 1e-5);
+}
+
 }  // namespace
