@@ -4,11 +4,12 @@
 # Usage: accuracy.sh full|quick FOLDER SLIDER_PROGRAM FAULT_PROGRAM PHYSICS_TESTS LMP INPUTS SCENES MPIEXEC...
 # full takes some 20 minutes on 2 cores, quick about 3. The report is FOLDER/report.md.
 # LSM_ACCURACY_PARTS="long runs,sums" runs only those parts (slider, single events, friction, waves, long runs, sums,
-# extremes) and keeps what is in FOLDER: tables of the other parts, long runs that have ended. The report says what is missing.
+# extremes, or text: none) and keeps what is in FOLDER: tables of the other parts, long runs that have ended. The report
+# says what is missing.
 set -euo pipefail
 export LC_ALL=C
 if [ $# -lt 9 ]; then
-  sed -n '/^# Usage/,/^# extremes/s/^# //p' "$0" >&2
+  sed -n '/^# Usage/,/^# says/s/^# //p' "$0" >&2
   exit 2
 fi
 mode=$1 out=$2 slider=$3 fault=$4 tests=$5 lmp=$6 inputs=$7 scenes=$8
@@ -18,8 +19,8 @@ fault_parts="single events,friction,waves,long runs,sums"
 parts=${LSM_ACCURACY_PARTS:-slider,$fault_parts,extremes}
 IFS=, read -ra names <<<"$parts"
 for name in "${names[@]}"; do
-  [[ ,slider,$fault_parts,extremes, == *",$name,"* ]] || {
-    echo "accuracy: LSM_ACCURACY_PARTS: no part is called '$name'; there are slider,$fault_parts,extremes" >&2
+  [[ ,slider,$fault_parts,extremes,text, == *",$name,"* ]] || {
+    echo "accuracy: LSM_ACCURACY_PARTS: no part is called '$name'; there are slider,$fault_parts,extremes,text" >&2
     exit 2
   }
 done
@@ -158,7 +159,7 @@ for run in remove:0.03:1 remove:0.06:1 remove:0.06:2 remove:0.09:1 keep:0.06:1; 
   n=$((n + 1))
   title="dt $dt"
   [ "$ranks" = 1 ] || title+=", $ranks ranks"
-  [ "$loose" = remove ] || title+=", loose discs kept"
+  [ "$loose" = remove ] || title+=", loose discs kept,\nagainst 0.03"
   long+=("'< awk -F, '\\''\$1 == \"$loose\" && \$2 == $dt && \$3 == $ranks'\\'' fault_long.csv' using (\$4 * 1.0$((4 * n))):8:(sqrt(\$10 + \$11) * \$8 / \$5) with yerrorlines lt $n title '$title'")
 done
 [ ${#long[@]} = 0 ] || draw fault_long "set title 'Fault, long runs: number of events against that at the smallest time step'
@@ -286,7 +287,7 @@ $(markdown fault_long_runs.csv)
 Each catalogue from several sizes (threshold) on, beside that of the first run, the one with the smallest time step: number of events with
 the error of a Poisson process; dispersion, the variance of the counts in 30 equal stretches of time over their mean (1 for a Poisson
 process); ratio to the number in the first run; events whose start has a partner in the first run within 5 time units (in_both), events without
-one there (only_in_first) and here (only_here); exponent of the sizes from the threshold to 0.1 (from 0.01 on: to 1) and density
+one there (only_in_first) and here (only_here); events shorter than the memory of the picker, one time unit (brief); exponent of the sizes from the threshold to 0.1 (from 0.01 on: to 1) and density
 t^(gamma - 1) exp(-t / B) of the times between starts, both by maximum likelihood; probability of the two-sample Kolmogorov-Smirnov
 test of sizes and of times against the first run. Errors of exponents and times hold for independent events.
 Error bars of the diagram: square root of the number of events without partner.
@@ -299,7 +300,7 @@ Do runs with time steps up to some size, on one and two ranks, agree? p_counts t
 with the time step (the smaller of the two, doubled) if all were independent runs of one process; counts have the larger of the error of a Poisson process and
 that of the dispersion. p_size, p_interval: the least likely pair with the first run (times the number of pairs). Runs that make the same
 events are not independent, so these six are too mild; p_pairs is not: probability of a larger difference between events without partner here and
-there, if either is as likely (McNemar; the least, times the number of pairs). depends: the least of the seven, times seven, is below 0.05.
+there, if either is as likely (McNemar; the least, times the number of pairs). shortest: only events of this duration (time units) and more. depends: the least of the seven, times seven, is below 0.05.
 
 $(markdown fault_completeness.csv)
 
