@@ -159,11 +159,11 @@ for run in remove:0.03:1 remove:0.06:1 remove:0.06:2 remove:0.09:1 keep:0.06:1; 
   n=$((n + 1))
   title="dt $dt"
   [ "$ranks" = 1 ] || title+=", $ranks ranks"
-  [ "$loose" = remove ] || title+=", loose discs kept,\nagainst 0.03"
-  long+=("'< awk -F, '\\''\$1 == \"$loose\" && \$2 == $dt && \$3 == $ranks'\\'' fault_long.csv' using (\$4 * 1.0$((4 * n))):8:(sqrt(\$10 + \$11) * \$8 / \$5) with yerrorlines lt $n title '$title'")
+  [ "$loose" = remove ] || title+=", loose discs kept (against 0.03)"
+  long+=("'< awk -F, '\\''\$1 == \"$loose\" && \$2 == $dt && \$3 == $ranks'\\'' fault_long.csv' using (\$4 * 1.$(printf %02d $((4 * n)))):8:(sqrt(\$10 + \$11) * \$8 / \$5) with yerrorlines lt $n title '$title'")
 done
 [ ${#long[@]} = 0 ] || draw fault_long "set title 'Fault, long runs: number of events against that at the smallest time step'
-unset logscale y; set format y '%g'; set offsets 0, 0, 0.05, 0.05
+unset logscale y; set format y '%g'; set offsets 0, 0, 0.05, 0.05; set key inside top right; set xrange [8e-6:2e-2]
 set xlabel 'smallest size counted'; set ylabel 'ratio of the numbers of events'
 $(join "${long[@]}"), 1 with lines lt 6 notitle"
 
@@ -300,7 +300,8 @@ Do runs with time steps up to some size, on one and two ranks, agree? p_counts t
 with the time step (the smaller of the two, doubled) if all were independent runs of one process; counts have the larger of the error of a Poisson process and
 that of the dispersion. p_size, p_interval: the least likely pair with the first run (times the number of pairs). Runs that make the same
 events are not independent, so these six are too mild; p_pairs is not: probability of a larger difference between events without partner here and
-there, if either is as likely (McNemar; the least, times the number of pairs). shortest: only events of this duration (time units) and more. depends: the least of the seven, times seven, is below 0.05.
+there, if either is as likely (McNemar; the least, times the number of pairs). shortest: only events of this duration (time units) and more. depends: the least of the seven, times seven, is below 0.05;
+with fewer than 30 events in a run nothing is said.
 
 $(markdown fault_completeness.csv)
 

@@ -602,15 +602,19 @@ void compare(const std::vector<const LongRun *> &runs, Table &table) {
 /// From which size on do these runs agree?
 void judge(const std::vector<const LongRun *> &runs, double up_to, double shortest,
            Table &verdicts) {
+  constexpr std::size_t least_events = 30;
   double from = NAN;  // the smallest threshold above all that depend
+  bool any_depends = false;
   const char *loose = runs.front()->loose;
   for (const double threshold : thresholds) {
     std::vector<double> dt;
     std::vector<Accuracy::Estimate> count, exponent, gamma, scale;
     const Sample finest = sample_of(*runs.front(), threshold, shortest);
     LeastOf size, interval, pairs, all;
+    bool enough = true;
     for (const LongRun *w : runs) {
       const Sample s = sample_of(*w, threshold, shortest);
+      enough = enough && s.sizes.size() >= least_events;
       dt.push_back(w->dt);
       // Events come in sequences: the error of a count is at least that of the counts in stretches.
       count.push_back(
@@ -635,17 +639,26 @@ void judge(const std::vector<const LongRun *> &runs, double up_to, double shorte
     for (double value : p) all.add(value);
     const bool depends = all.value() < 0.05;
     verdicts.row("%s,%g,%g,%g,%.3g,%.3g,%.3g,%.3g,%.3g,%.3g,%.3g,%s\n", loose, up_to, shortest,
-                 threshold, p[0], p[1], p[2], p[3], p[4], p[5], p[6], depends ? "yes" : "no");
+                 threshold, p[0], p[1], p[2], p[3], p[4], p[5], p[6],
+                 !enough   ? "too few events"
+                 : depends ? "yes"
+                           : "no");
+    if (!enough) continue;
+    any_depends = any_depends || depends;
     if (depends)
       from = NAN;
     else if (std::isnan(from))
       from = threshold;
   }
-  verdicts.row("# loose discs %s, time steps up to %g, %s: %s %g on %s\n", loose, up_to,
-               shortest > 0.0 ? "events not shorter than the memory of the picker" : "all events",
-               std::isnan(from) ? "even from size" : "from size",
-               std::isnan(from) ? thresholds.back() : from,
-               std::isnan(from) ? "they depend on it" : "nothing is seen to depend on it");
+  const std::string which =
+      shortest > 0.0 ? "events not shorter than the memory of the picker" : "all events";
+  std::string verdict = "too few to tell";
+  if (!std::isnan(from))
+    verdict = "from size " + text(from) + " on nothing is seen to depend on it";
+  else if (any_depends)
+    verdict = "they depend on it up to the largest size looked at";
+  verdicts.row("# loose discs %s, time steps up to %g, %s: %s\n", loose, up_to, which.c_str(),
+               verdict.c_str());
 }
 
 void picker_readings(const LongRun &w, Table &table) {
