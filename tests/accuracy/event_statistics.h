@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file event_statistics.h
-/// Event sizes in a few numbers, and the two-sample Kolmogorov-Smirnov test.
+/// Event sizes and times in a few numbers, and tests of whether samples agree.
 #ifndef LSM_ACCURACY_EVENT_STATISTICS_H
 #define LSM_ACCURACY_EVENT_STATISTICS_H
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
+#include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace Accuracy {
@@ -83,6 +86,118 @@ inline KolmogorovSmirnov two_sample(std::vector<double> a, std::vector<double> b
   double p = 0.0;
   for (int k = 1; k <= 100; ++k) p += (k % 2 ? 2.0 : -2.0) * std::exp(-2.0 * k * k * z * z);
   return {distance, z < 0.2 ? 1.0 : std::clamp(p, 0.0, 1.0)};
+}
+
+/// Derivatives of log Gamma: digamma, trigamma (x > 0).
+inline std::pair<double, double> polygamma(double x) {
+  double first = 0.0, second = 0.0;
+  for (; x < 10.0; x += 1.0) {
+    first -= 1.0 / x;
+    second += 1.0 / (x * x);
+  }
+  const double q = 1.0 / (x * x);
+  first += std::log(x) - 0.5 / x - q * (1.0 / 12.0 - q * (1.0 / 120.0 - q / 252.0));
+  second += 1.0 / x + 0.5 * q + q / x * (1.0 / 6.0 - q * (1.0 / 30.0 - q / 42.0));
+  return {first, second};
+}
+
+/// Density ~ t^(gamma - 1) exp(-t / b) of times by maximum likelihood; NaN with fewer than 10.
+struct GammaDensity {
+  Estimate gamma, b;
+};
+inline GammaDensity gamma_density(const std::vector<double> &t) {
+  const double n = static_cast<double>(t.size());
+  if (n < 10.0) return {};
+  double sum = 0.0, logs = 0.0;
+  for (double v : t) {
+    if (!(v > 0.0)) throw std::runtime_error("gamma_density: a time is not above 0");
+    sum += v;
+    logs += std::log(v);
+  }
+  const double mean = sum / n, spread = std::log(mean) - logs / n;
+  // log(gamma) - digamma(gamma) = spread; the left side falls with gamma
+  double low = 1e-6, high = 1e6;
+  for (int k = 0; k < 200; ++k) {
+    const double mid = std::sqrt(low * high);
+    (std::log(mid) - polygamma(mid).first > spread ? low : high) = mid;
+  }
+  const double gamma = std::sqrt(low * high), second = polygamma(gamma).second, b = mean / gamma;
+  return {{gamma, std::sqrt(gamma / (n * (gamma * second - 1.0)))},
+          {b, b * std::sqrt(second / (n * (gamma * second - 1.0)))}};
+}
+
+/// Probability that chi-square with so many degrees of freedom exceeds x.
+inline double chi_square_tail(double x, int freedom) {
+  if (freedom < 1 || !(x >= 0.0)) throw std::runtime_error("chi_square_tail: out of range");
+  const double half = 0.5 * x;
+  double a = freedom % 2 ? 0.5 : 1.0;
+  double tail = freedom % 2 ? std::erfc(std::sqrt(half)) : std::exp(-half);
+  double term = std::pow(half, a) * std::exp(-half) / std::tgamma(a + 1.0);
+  for (; a < 0.5 * freedom; a += 1.0) {
+    tail += term;
+    term *= half / (a + 1.0);
+  }
+  return tail;
+}
+
+/// Do estimates from several time steps agree? p_same: chance of a larger scatter (chi-square) if
+/// all have the same true value; p_trend: of a larger slope against the time step. 1 with fewer
+/// than two estimates or time steps.
+struct Agreement {
+  double p_same = 1.0, p_trend = 1.0;
+};
+inline Agreement agreement(const std::vector<double> &dt, const std::vector<Estimate> &all) {
+  double w = 0.0, wx = 0.0, wy = 0.0;
+  int n = 0;
+  auto known = [](const Estimate &e) { return std::isfinite(e.value) && e.error > 0.0; };
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (known(all[k])) {
+      const double g = 1.0 / (all[k].error * all[k].error);
+      w += g;
+      wx += g * dt[k];
+      wy += g * all[k].value;
+      ++n;
+    }
+  if (n < 2) return {};
+  double chi = 0.0, xx = 0.0, xy = 0.0;
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (known(all[k])) {
+      const double g = 1.0 / (all[k].error * all[k].error), x = dt[k] - wx / w,
+                   y = all[k].value - wy / w;
+      chi += g * y * y;
+      xx += g * x * x;
+      xy += g * x * y;
+    }
+  return {chi_square_tail(chi, n - 1), xx > 0.0 ? chi_square_tail(xy * xy / xx, 1) : 1.0};
+}
+
+/// Events of two runs paired one to one by their starts (both in order of time).
+struct Pairs {
+  int both = 0, only_first = 0, only_second = 0;
+  /// Chance of a larger difference of the two numbers if an event missing in one run is as likely
+  /// missing in the other (McNemar's test with correction for continuity).
+  double p() const {
+    const double off = std::abs(only_first - only_second), all = only_first + only_second;
+    return off > 1.0 ? chi_square_tail((off - 1.0) * (off - 1.0) / all, 1) : 1.0;
+  }
+};
+/// \param near  largest distance of two starts of a pair
+inline Pairs paired(const std::vector<double> &first, const std::vector<double> &second,
+                    double near) {
+  Pairs pairs;
+  std::size_t i = 0, j = 0;
+  while (i < first.size() && j < second.size()) {
+    if (std::fabs(first[i] - second[j]) <= near) {
+      ++pairs.both;
+      ++i;
+      ++j;
+    } else {
+      ++(first[i] < second[j] ? i : j);
+    }
+  }
+  pairs.only_first = static_cast<int>(first.size()) - pairs.both;
+  pairs.only_second = static_cast<int>(second.size()) - pairs.both;
+  return pairs;
 }
 
 }  // namespace Accuracy

@@ -36,8 +36,7 @@ struct Disc {
 
 /// Constants of the scene; compare fault_event.in.
 struct Constants {
-  double length = 0.0, k = 1.0, kt = 1.0, mu = 0.6, stress = 0.0, velocity = 0.0, viscosity = 0.0,
-         viscosity_at_fault = 0.0;
+  double length = 0.0, k = 1.0, kt = 1.0, mu = 0.6, stress = 0.0, velocity = 0.0, viscosity = 0.0;
 };
 
 /// A pair across the fault that touches or may touch soon; the elongation xi and the vector of the
@@ -97,16 +96,13 @@ class SmallFault {
   /// Half a kick of the blocks. Viscosity decays by half a step after a final and before an initial
   /// kick.
   void half_kick(double dt, bool initial) {
-    const double at[2] = {std::exp(-0.5 * c_.viscosity * dt),
-                          std::exp(-0.5 * c_.viscosity_at_fault * dt)};
+    const double damp = std::exp(-0.5 * c_.viscosity * dt);
     for (Disc &d : s_.discs) {
       if (d.side >= Side::lower_plate) continue;
-      const double decay = at[d.side != Side::block];
-      if (initial) d.v = decay * d.v;
+      if (initial) d.v = damp * d.v;
       d.v = d.v + (0.5 * dt / d.m) * d.f;
-      if (!initial) d.v = decay * d.v;
+      if (!initial) d.v = damp * d.v;
     }
-    const double damp = std::exp(-0.5 * c_.viscosity * dt);
     for (int p : {0, 1}) {
       Plate &plate = plates_[p];
       double fy = p == 0 ? c_.stress * c_.length : -c_.stress * c_.length;
