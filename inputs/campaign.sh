@@ -81,9 +81,12 @@ each() {
 for setting in ${fault_more[@]+"${fault_more[@]}"} ${slider_more[@]+"${slider_more[@]}"}; do
   [[ $setting =~ ^[a-z_-]+=[^\ ]+$ ]] || die "'$setting', expected NAME=VALUE after --fault and --slider"
   case $setting in
-    steps=* | length=* | seed=* | checkpoint=* | prefix=* | series=* | restart=* | run=* | blocks=* | catalogue=* | json=* | resume=* | \
+    steps=* | length=* | checkpoint=* | prefix=* | series=* | restart=* | run=* | blocks=* | catalogue=* | json=* | resume=* | \
       config=* | ensemble=*) die "'${setting%%=*}' is set by the campaign itself, expected no --fault or --slider for it" ;;
   esac
+done
+for setting in ${fault_more[@]+"${fault_more[@]}"}; do
+  [[ $setting != seed=* ]] || die "'seed' of the faults is set by the campaign itself (--seeds), expected no --fault for it"
 done
 if [ $quick = yes ]; then
   all="120,240 256,614,1928,4000 0.05 1" fault_steps=200000 slider_steps=3000000

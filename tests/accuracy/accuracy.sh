@@ -233,7 +233,8 @@ much smaller step. *located*: a contact that begins within a step gets the part 
 that follows its begin; *step*: it begins with elongation 0 at the end of the step; *force*: located, but viscosity is
 a force evaluated with the velocity of the half step instead of exact decay around the step. *standard*: kt = k, viscosity
 0.015, as in \`fault.in\`; *damped*, *light*: viscosity 0.05 and 0.005; *soft*, *stiff*: kt = 0.1 and 10. What differs from
-\`fault.in\`: length 60 instead of 120 and more, and that ledger and places of events are on, which moves no disc. The event is the
+\`fault.in\`: length 60 instead of 120 and more, plates that reflect P-waves (the small program below has no others), and that
+ledger and places of events are on, which moves no disc. The event is the
 first of size 0.01 or more. It speeds up slowly over most of its duration, so that a small error of its begin grows into one of
 its time: the arrival is when the velocity of a patch of the upper block has changed by half of its largest change.
 
