@@ -337,13 +337,14 @@ start() {
     words=($word --catalogue catalogue.csv --checkpoint checkpoint.bin --json summary.json --progress)
     # a checkpoint takes long chains some 30 s of steps, short ones less
     [[ $word =~ "--blocks "[0-9]{6} ]] && words+=(--checkpoint-interval 1e5)
-    [ ! -e "$folder/checkpoint.bin" ] || words+=(--resume)
+    # what a run of these settings wrote before its first checkpoint is replaced
+    if [ -e "$folder/checkpoint.bin" ]; then words+=(--resume); else words+=(--overwrite); fi
     run_in_folder "$name" flock -n -s -F lock "$bin/slider_cli" "${words[@]}" &
   else
     unpack_series "$folder" || { why="cannot unpack $folder/fault.pe.bin.gz"; return 1; }
     words=(-in "$root/inputs/fault.in" -log none -var prefix fault -var steps "${goals[i]}" -var run "$(identity "$text")")
     while read -r word; do words+=(-var ${word}); done < <(tail -n +2 <<<"$text")
-    [ -z "$restart" ] || words+=(-var restart "$restart")
+    if [ -n "$restart" ]; then words+=(-var restart "$restart"); else words+=(-var overwrite yes); fi
     run_in_folder "$name" mpirun -np "${cores[i]}" flock -n -s -F lock "$bin/lmp" "${words[@]}" &
   fi
   pids[i]=$!

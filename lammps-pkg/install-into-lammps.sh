@@ -14,8 +14,10 @@ for f in "$lammps/src/version.h" "$list"; do
   [ -f "$f" ] || { echo "install-into-lammps: $f not found; expected the top folder of a LAMMPS source tree" >&2; exit 1; }
 done
 version=$(sed -n 's/.*LAMMPS_VERSION *"\(.*\)".*/\1/p' "$lammps/src/version.h")
-[ "$version" = "4 Feb 2025" ] ||
-  echo "install-into-lammps: warning: LAMMPS $version, the package is written for 4 Feb 2025" >&2
+case $version in
+  "4 Feb 2025" | "4 Jul 2026") ;;
+  *) echo "install-into-lammps: warning: LAMMPS $version, the package is written for 4 Feb 2025 and 4 Jul 2026" >&2 ;;
+esac
 grep -q '^set(STANDARD_PACKAGES' "$list" ||
   { echo "install-into-lammps: $list: no line 'set(STANDARD_PACKAGES'" >&2; exit 1; }
 

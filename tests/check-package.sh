@@ -1,9 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Checks one way of using the package.
-# usage: check-package.sh built-in|plugin LMP STOCK_LMP PLUGIN
+# Checks one way of using the package, or that a plugin that does not fit is not loaded.
+# usage: check-package.sh built-in|plugin|refused LMP STOCK_LMP PLUGIN [PLUGIN_OF_OTHER_INTEGERS]
 set -euo pipefail
-way=$1 lmp=$2 stock=$3 plugin=$4
+way=$1 lmp=$2 stock=$3 plugin=$4 bigbig=${5:-}
 styles="bond_style:lsm/linked pair_style:lsm/free pair_style:lsm/friction fix:lsm/nve fix:lsm/plates
   compute:lsm/events create_lsm_fault include_beside"
 work=$(mktemp -d)
@@ -52,7 +52,34 @@ case $way in
       grep -q -- "Loading plugin: .*${style#*:}" out || fail "the plugin does not register ${style#*:}"
     done
     ;;
-  *) fail "unknown way '$way', expected built-in or plugin" ;;
+  refused)
+    # not_loaded PROGRAM PLUGIN PATTERN: one line that matches, no style registered, and the program goes on
+    not_loaded() {
+      { echo "plugin load $2"; echo "plugin list"; echo 'print "went on"'; } >in.refused
+      "$1" -in in.refused -log none >out 2>&1 || fail "plugin load ends with an error"
+      [ "$(grep -c "Plugin of the LSM package not loaded" out)" = 1 ] || fail "not one line about it"
+      grep -q -- "$3" out || fail "expected a line with '$3'"
+      ! grep -q 'Loading plugin\|style plugin' out || fail "styles were registered"
+      grep -q '^went on' out || fail "the program did not go on"
+    }
+    # The same file for another version of LAMMPS, of the same length.
+    version=$(sed -n 's/.*Large-scale Atomic\/Molecular Massively Parallel Simulator - \(.*[0-9]\).*/\1/p' \
+      <<<"$("$stock" -h)" | head -n 1)
+    [ "$version" = "4 Feb 2025" ] || [ "$version" = "4 Jul 2026" ] || fail "the stock lmp is of version '$version'"
+    LC_ALL=C sed "s/$version/5 Mar 2019/g" "$plugin" >other.so
+    ! cmp -s "$plugin" other.so || fail "the plugin does not hold its version"
+    not_loaded "$stock" ./other.so "compiled for LAMMPS 5 Mar 2019, and this is LAMMPS $version;"
+    not_loaded "$stock" "$bigbig" "tagint and imageint of 64, 64 and 64 bits, and this LAMMPS has .* 64, 32 and 32 bits;"
+    not_loaded "$lmp" "$plugin" "the package is compiled into this LAMMPS already"
+    # Loaded twice by the stock program: LAMMPS' own message.
+    printf 'plugin load %s\nplugin load %s\n' "$plugin" "$plugin" >in.twice
+    "$stock" -in in.twice -log none >out 2>&1 || fail "loading twice ends with an error"
+    grep -q 'must unload existing' out || fail "no message when loaded twice"
+    ! grep -q 'not loaded' out || fail "the plugin takes itself for a package that is compiled in"
+    echo "plugins that do not fit: passed"
+    exit
+    ;;
+  *) fail "unknown way '$way', expected built-in, plugin or refused" ;;
 esac
 
 # The second scene after 'clear' finds the styles again (a plugin has to be loaded again).
@@ -84,4 +111,61 @@ EOF
 # Kinetic 2 * 0.5 * 0.25 * 0.1^2 plus link 0.5 * 0.05^2.
 awk '/^ENERGY/ { d = $4 - 0.00375; if (d < -1e-5 || d > 1e-5) bad = 1; n++ }
      END { exit bad || n != 2 }' out || fail "the energy of the scene is not 0.00375"
+# A sheared fault with friction, plates and events; a restart in the middle of it gives the same files.
+# fault LOAD NAME GEOMETRY RUNS: lines of the input
+fault() {
+  local name=$2
+  echo "$1"
+  cat <<EOF
+units lj
+dimension 2
+boundary p f p
+newton off
+atom_style hybrid bond sphere
+atom_modify map array
+special_bonds lj/coul 0 1 1
+$3
+comm_modify mode single cutoff 3.6
+neighbor 0.4 bin
+neigh_modify delay 0 every 10 check yes
+group lower type 5
+group upper type 6
+group plates union lower upper
+group blocks subtract all plates
+bond_style lsm/linked
+bond_coeff 1 1.0
+pair_style lsm/friction
+pair_coeff * * off
+pair_coeff 3 4 1.0 1.0 0.6
+timestep 0.03
+fix move blocks lsm/nve viscosity 0.05
+fix plates all lsm/plates lower upper stress 0.02 stressramp 6 damping 0.05 velocity 0.02 ramp 6
+compute events all lsm/events catalogue $name.csv series $name.pe binary ledger yes location yes resume yes
+thermo 1000
+thermo_style custom step c_events c_events[5] c_events[11]
+$4
+EOF
+}
+geometry="create_lsm_fault length 20 width 14 seed 3 failures 300"
+# Pieces, as in fault.in: each run sorts the particles, so that a restart between two gives the same digits.
+two_runs="run 2000
+write_restart state
+run"
+fault "$load" whole "$geometry" "$two_runs 2000" >in.whole
+fault "$load" part "$geometry" "$two_runs 500" >in.first
+fault "$load" part "read_restart state" "run 2000" >in.second
+for part in whole first second; do
+  "$program" -in in.$part -log none >out 2>&1 || fail "the fault ends with an error ($way, $part)"
+done
+cmp whole.csv part.csv || fail "the catalogue after a restart differs"
+cmp whole.pe part.pe || fail "the series after a restart differs"
+[ "$(grep -vc '^[#e]' whole.csv)" -ge 3 ] || fail "too few events to test anything"
+awk -F, '!/^[#e]/ && $9 > 0 { n++ } END { exit n < 1 }' whole.csv || fail "nothing slid in any event"
+if [ "$way" = plugin ]; then
+  # The same bytes as the program that has the package compiled in.
+  fault "" other "$geometry" "$two_runs 2000" >in.other
+  "$lmp" -in in.other -log none >out 2>&1 || fail "the fault ends with an error (built-in)"
+  cmp whole.csv other.csv || fail "plugin and built-in give other catalogues"
+  cmp whole.pe other.pe || fail "plugin and built-in give other series"
+fi
 echo "package as $way: passed"

@@ -22,6 +22,7 @@
 
 #include "lsm_scene.h"
 #include "lsm_sum.h"
+#include "lsm_text_io.h"
 
 #include <algorithm>
 #include <cmath>
@@ -60,11 +61,12 @@ ComputeLSMEvents::ComputeLSMEvents(LAMMPS *_lmp, int narg, char **arg) :
     Compute(_lmp, narg, arg), emergency_file("lsm_emergency.restart"), series_binary(true),
     series_stride(1), memory_time(0.0), block(100), tangential(true), location(false),
     bin_width(1.0), bin_fraction(0.05), ledger(false), ledger_tolerance(0.0), strain_limit(0.5),
-    check_every(1000), resume(false), progress(true), links(nullptr), recorder(nullptr),
+    check_every(1000), resume(false), overwrite(false), progress(true), links(nullptr), recorder(nullptr),
     plates(nullptr), first_filling(0), first_sending(0), count_filling(0), count_sending(0),
     request(MPI_REQUEST_NULL), pending(false), shown_at(0.0), started_at(0.0),
     ledger_started(false), ledger_start(0.0), friction_before(0.0), broken_before(0.0), anchor_time(0.0), anchor_dt(0.0),
-    anchor_step(0), last_recorded(-1), opened(false), residual_at_end(0.0), ended_at(-1)
+    anchor_step(0), last_recorded(-1), opened(false), check_now(false), widest(0.0), residual_at_end(0.0),
+    ended_at(-1)
 {
   if (igroup) error->all(FLERR, "Compute lsm/events must use group all");
   scalar_flag = 1;
@@ -156,6 +158,8 @@ ComputeLSMEvents::ComputeLSMEvents(LAMMPS *_lmp, int narg, char **arg) :
       emergency_file = arg[iarg + 1];
     } else if (key == "resume") {
       resume = yesno(1);
+    } else if (key == "overwrite") {
+      overwrite = yesno(1);
     } else if (key == "progress") {
       progress = yesno(1);
     } else if (key == "parameter") {
@@ -166,8 +170,8 @@ ComputeLSMEvents::ComputeLSMEvents(LAMMPS *_lmp, int narg, char **arg) :
       error->all(FLERR,
                  "Unknown compute lsm/events keyword '{}'; accepted are catalogue, series, stride, "
                  "picker, lambda, memory, minsize, nonpositive, block, tangential, location, bin, "
-                 "fraction, ledger, tolerance, strainlimit, check, emergency, resume, progress and "
-                 "parameter",
+                 "fraction, ledger, tolerance, strainlimit, check, emergency, resume, overwrite, progress "
+                 "and parameter",
                  key);
     iarg += used;
   }
@@ -185,6 +189,10 @@ ComputeLSMEvents::ComputeLSMEvents(LAMMPS *_lmp, int narg, char **arg) :
 
 ComputeLSMEvents::~ComputeLSMEvents()
 {
+  // an error between two steps leaves a block on its way, on all ranks; its buffers go with this object
+
+  if (pending) MPI_Wait(&request, MPI_STATUS_IGNORE);
+
   // the styles and fixes below may be gone by now, so they are found again
 
   if (force) {
@@ -325,15 +333,6 @@ LSM::CatalogueInfo ComputeLSMEvents::header() const
 void ComputeLSMEvents::open_files(bigint step)
 {
   const bool from_restart = !recorder->restart_state.empty();
-  if (resume && !from_restart && comm->me == 0) {
-    std::error_code code;
-    for (const std::string &file : {catalogue_file, series_file})
-      if (!file.empty() && std::filesystem::exists(file, code))
-        error->one(FLERR,
-                   "Compute lsm/events resume yes: file {} exists, but the restart file holds no "
-                   "picker state of compute {}; read a restart written while it was active",
-                   file, id);
-  }
   if (comm->me == 0) {
     picker = std::make_unique<LSM::EventPicker>(picker_settings);
     shown_at = started_at = platform::walltime();
@@ -343,16 +342,41 @@ void ComputeLSMEvents::open_files(bigint step)
   anchor_dt = update->dt;
   if (from_restart) unpack_state(recorder->restart_state);
   change_dt();
+  if (comm->me == 0) begin_files(step, from_restart);
+  stop_on_failure();
   opened = true;
-  if (comm->me != 0) return;
+}
+
+/* ----------------------------------------------------------------------
+   on rank 0; what is in the way is found before the first file is touched
+------------------------------------------------------------------------- */
+
+void ComputeLSMEvents::begin_files(bigint step, bool from_restart)
+{
+  std::error_code code;
+  for (const auto &[file, key] : {std::pair<const std::string &, const char *>{catalogue_file, "catalogue"},
+                                  {series_file, "series"}}) {
+    if (file.empty()) continue;
+    const bool continued = resume && std::filesystem::exists(file, code);
+    if (continued && !from_restart)
+      failure = fmt::format("Compute lsm/events resume yes: file {} exists, but the restart file holds no "
+                            "picker state of compute {}; read a restart written while it was active",
+                            file, id);
+    else if (!continued && !overwrite && LSM::text_io::holds_data(file))
+      failure = fmt::format("Compute lsm/events {}: file {} exists; give another name, or replace it with "
+                            "overwrite yes{}",
+                            key, file, from_restart ? ", or go on with it with resume yes" : "");
+    else
+      failure = LSM::text_io::why_not_writable(file);
+    if (!failure.empty()) return;
+  }
 
   const std::vector<std::string> free_to_change = {"program", "ranks", "links"};
   try {
-    std::error_code code;
     if (!catalogue_file.empty()) {
       catalogue = std::make_unique<LSM::CatalogueWriter>();
       // an event that ended at the restart step is only known one step later, and comes again
-      if (resume && from_restart && std::filesystem::exists(catalogue_file, code))
+      if (resume && std::filesystem::exists(catalogue_file, code))
         catalogue->resume(catalogue_file, header(), step - 1, free_to_change, picker->events());
       else
         catalogue->create(catalogue_file, header());
@@ -371,14 +395,30 @@ void ComputeLSMEvents::open_files(bigint step)
                          [](const auto &p) { return p.first == "dt"; }),
           info.parameters.end());
       series = std::make_unique<LSM::PeSeriesWriter>();
-      if (resume && from_restart && std::filesystem::exists(series_file, code))
+      if (resume && std::filesystem::exists(series_file, code))
         series->resume(series_file, info, series_binary, step, free_to_change);
       else
         series->create(series_file, info, series_binary);
     }
   } catch (std::exception &e) {
-    error->one(FLERR, "Compute lsm/events: {}", e.what());
+    failure = fmt::format("Compute lsm/events: {}", e.what());
   }
+}
+
+/* ----------------------------------------------------------------------
+   all ranks stop with what went wrong on rank 0, so that none waits for it
+------------------------------------------------------------------------- */
+
+void ComputeLSMEvents::stop_on_failure()
+{
+  int length = static_cast<int>(failure.size());
+  MPI_Bcast(&length, 1, MPI_INT, 0, world);
+  if (length == 0) return;
+  failure.resize(length);
+  MPI_Bcast(&failure[0], length, MPI_CHAR, 0, world);
+  const std::string what = failure;
+  failure.clear();
+  error->all(FLERR, "{}", what);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -400,6 +440,10 @@ double ComputeLSMEvents::local_pe() const
 
 void ComputeLSMEvents::setup_record()
 {
+  double mine = 0.0;
+  for (int i = 0; i < atom->nlocal; i++) mine = MAX(mine, 2.0 * atom->radius[i]);
+  MPI_Allreduce(&mine, &widest, 1, MPI_DOUBLE, MPI_MAX, world);
+  check_now = false;
   if (!opened) open_files(update->ntimestep);
   change_dt();
   leave_out_jump();
@@ -453,7 +497,7 @@ void ComputeLSMEvents::record()
   count_filling++;
   last_recorded = step;
   if (count_filling == block) start_gather();
-  if (step % check_every == 0) check_health();
+  if (check_now || step % check_every == 0) check_health();
 }
 
 /* ----------------------------------------------------------------------
@@ -503,8 +547,14 @@ void ComputeLSMEvents::finish_gather()
   if (!pending) return;
   MPI_Wait(&request, MPI_STATUS_IGNORE);
   pending = false;
-  if (comm->me != 0) return;
+  if (comm->me == 0) take_block();
+  stop_on_failure();
+}
 
+/* ---------------------------------------------------------------------- */
+
+void ComputeLSMEvents::take_block()
+{
   // slip of the block by step, in the order of the ranks
 
   std::vector<std::vector<double>> slip_of(location ? count_sending : 0);
@@ -514,7 +564,7 @@ void ComputeLSMEvents::finish_gather()
     one.push_back(slip_sent[n + 2]);
   }
 
-  for (int s = 0; s < count_sending; s++) {
+  for (int s = 0; s < count_sending && failure.empty(); s++) {
     LSM::NeumaierSum sum;
     for (int p = 0; p < comm->nprocs; p++)
       sum.add(received[static_cast<size_t>(p) * count_sending + s]);
@@ -532,10 +582,10 @@ void ComputeLSMEvents::take_sample(bigint step, double pe, const double *slip, i
   try {
     if (!std::isfinite(pe)) {
       if (series) series->flush();
-      error->one(FLERR,
-                 "Potential energy is not finite at step {}; the catalogue ends with the last event "
-                 "before it. Use a smaller time step or start from an earlier restart",
-                 step);
+      failure = fmt::format("Potential energy is not finite at step {}; the catalogue ends with the last event "
+                            "before it. Use a smaller time step or start from an earlier restart",
+                            step);
+      return;
     }
     if (series && step % series_stride == 0) series->write(step, pe);
 
@@ -550,10 +600,8 @@ void ComputeLSMEvents::take_sample(bigint step, double pe, const double *slip, i
         for (int n = 0; n < nslip; n++)
           event_slip[static_cast<int>(slip[2 * n])] += slip[2 * n + 1];
     }
-  } catch (LAMMPSException &) {
-    throw;
   } catch (std::exception &e) {
-    error->one(FLERR, "Compute lsm/events: {}", e.what());
+    failure = fmt::format("Compute lsm/events: {}", e.what());
   }
 }
 
@@ -592,8 +640,9 @@ void ComputeLSMEvents::flush()
   try {
     if (series) series->flush();
   } catch (std::exception &e) {
-    error->one(FLERR, "Compute lsm/events: {}", e.what());
+    failure = fmt::format("Compute lsm/events: {}", e.what());
   }
+  stop_on_failure();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -707,11 +756,35 @@ double ComputeLSMEvents::residual() const
 }
 
 /* ----------------------------------------------------------------------
-   stops a run that went bad: everything recorded so far is written, then a restart file
+   Before neighbor lists are built: a link torn beyond the ghosts would stop LAMMPS with 'Bond atoms missing'.
+   In the middle of a step there is no energy to check and nothing worth a restart file, so what can wait is
+   checked when the step is complete.
+------------------------------------------------------------------------- */
+
+void ComputeLSMEvents::look_early()
+{
+  if (!links) return;
+  double mine = links->max_strain(), all;
+  if (!std::isfinite(mine)) mine = 1e300;
+  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_MAX, world);
+  check_now = all > strain_limit;
+  if (!check_now || (1.0 + all) * widest <= comm->get_comm_cutoff()) return;
+  flush();
+  error->all(FLERR,
+             "Run stopped at step {}: {}. The catalogue ends with the last event before it; use a "
+             "smaller time step or start from an earlier restart",
+             update->ntimestep,
+             all >= 1e300 ? "positions are not finite"
+                          : fmt::format("a link is strained by {:.4g}, above strainlimit {:.4g}", all, strain_limit));
+}
+
+/* ----------------------------------------------------------------------
+   at the end of a step; stops a run that went bad: everything recorded so far is written, then a restart file
 ------------------------------------------------------------------------- */
 
 void ComputeLSMEvents::check_health()
 {
+  check_now = false;
   double mine[2] = {0.0, 0.0}, all[2];
   if (!std::isfinite(local_pe())) mine[0] = 1.0;
   if (links) {
@@ -727,6 +800,7 @@ void ComputeLSMEvents::check_health()
     what = fmt::format("a link is strained by {:.4g}, above strainlimit {:.4g}", all[1],
                        strain_limit);
   else if (ledger_tolerance > 0.0) {
+    for (auto *p : integrators) p->complete_step();
     const double off = residual();
     const double scale = friction_work() + viscous_work() + kinetic() + fabs(total(local_pe()));
     if (fabs(off) > ledger_tolerance * scale)
@@ -737,11 +811,13 @@ void ComputeLSMEvents::check_health()
 
   // a restart file of such a state would be of no use, and would replace an older one
 
-  if (all[0] > 0.0 || all[1] >= 1e300)
+  if (all[0] > 0.0 || all[1] >= 1e300) {
+    flush();
     error->all(FLERR,
                "Run stopped at step {}: {}. The catalogue ends with the last event before it; use a "
                "smaller time step or start from an earlier restart",
                update->ntimestep, what);
+  }
 
   flush();
   for (auto *p : integrators) p->complete_step();

@@ -43,7 +43,7 @@ class ComputeLSMEvents : public Compute {
   void change_dt();
   void flush();
   void end_run();
-  void check_health();
+  void look_early();
   std::vector<double> pack_state();
 
  private:
@@ -64,6 +64,7 @@ class ComputeLSMEvents : public Compute {
   double strain_limit;
   int check_every;
   bool resume;
+  bool overwrite;
   bool progress;
   std::vector<std::pair<std::string, std::string>> parameters;
 
@@ -108,6 +109,9 @@ class ComputeLSMEvents : public Compute {
 
   bigint last_recorded;
   bool opened;
+  bool check_now;         // something looked wrong within the step
+  double widest;          // largest diameter
+  std::string failure;    // what went wrong on rank 0, which the others have to hear of
 
   double residual_at_end;    // of the last run, which ended at step ended_at
   bigint ended_at;
@@ -118,9 +122,13 @@ class ComputeLSMEvents : public Compute {
   double time_of(bigint step) const;
   LSM::CatalogueInfo header() const;
   void open_files(bigint step);
+  void begin_files(bigint step, bool from_restart);
+  void stop_on_failure();
+  void check_health();
   void unpack_state(const std::vector<double> &);
   void start_gather();
   void finish_gather();
+  void take_block();
   void take_sample(bigint step, double pe, const double *slip, int nslip);
   void locate(LSM::Event &);
   double local_pe() const;

@@ -111,15 +111,17 @@ void FixLSMPlates::init()
   // another; the fix itself remembers it from one run to the next and in a restart
 
   double sum[4] = {0.0, 0.0, 0.0, 0.0}, all[4];
+  tagint in_both = 0, shared = 0;
   for (int i = 0; i < atom->nlocal; i++)
     for (int p : {LOWER, UPPER})
       if (atom->mask[i] & plate[p].bit) {
         const double m = atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
         sum[2 * p] += m;
         sum[2 * p + 1] += m * atom->v[i][1];
-        if (atom->mask[i] & plate[1 - p].bit)
-          error->one(FLERR, "Fix lsm/plates: atom {} is in both plates", atom->tag[i]);
+        if (atom->mask[i] & plate[1 - p].bit) in_both = MAX(in_both, atom->tag[i]);
       }
+  MPI_Allreduce(&in_both, &shared, 1, MPI_LMP_TAGINT, MPI_MAX, world);
+  if (shared) error->all(FLERR, "Fix lsm/plates: atom {} is in both plates", shared);
   MPI_Allreduce(sum, all, 4, MPI_DOUBLE, MPI_SUM, world);
   for (int p : {LOWER, UPPER}) {
     plate[p].mass = all[2 * p];

@@ -37,11 +37,9 @@ void FixLSMRecord::setup(int /*vflag*/)
   owner->setup_record();
 }
 
-// a link torn over half the box would stop LAMMPS with 'Bond atoms missing' when the lists are built
-
 void FixLSMRecord::pre_exchange()
 {
-  owner->check_health();
+  owner->look_early();
 }
 
 void FixLSMRecord::end_of_step()

@@ -23,6 +23,7 @@ void IncludeBeside::command(int narg, char **arg)
   if (narg != 1) error->all(FLERR, "include_beside expects one file name, but got {} words", narg);
 
   char path[4096] = "";
+  int readable = 1;
   if (comm->me == 0) {
     std::string full = arg[0];
     if (infile && infile != stdin && !full.empty() && full.front() != '/') {
@@ -31,11 +32,11 @@ void IncludeBeside::command(int narg, char **arg)
       const auto slash = name.find_last_of('/');
       if (slash != std::string::npos) full = name.substr(0, slash + 1) + full;
     }
-    if (!platform::file_is_readable(full))
-      error->one(FLERR, "include_beside: cannot read file {}", full);
-    if (full.size() >= sizeof(path)) error->one(FLERR, "include_beside: path {} is too long", full);
-    strcpy(path, full.c_str());
+    readable = full.size() < sizeof(path) && platform::file_is_readable(full);
+    strncpy(path, full.c_str(), sizeof(path) - 1);
   }
   MPI_Bcast(path, sizeof(path), MPI_CHAR, 0, world);
+  MPI_Bcast(&readable, 1, MPI_INT, 0, world);
+  if (!readable) error->all(FLERR, "include_beside: cannot read file {}", path);
   input->one(std::string("include \"") + path + "\"");
 }

@@ -5,6 +5,15 @@
 #include "lammpsplugin.h"
 #include "version.h"
 
+#include "force.h"
+
+#include <mpi.h>
+
+#include <cstdio>
+#include <cstring>
+#include <dlfcn.h>
+#include <string>
+
 #include "bond_lsm_linked.h"
 #include "compute_lsm_events.h"
 #include "create_lsm_fault.h"
@@ -70,10 +79,81 @@ class Registrar {
   lammpsplugin_t plugin_{};
 };
 
+// Before the versions are known to be equal, only functions of LAMMPS' C library interface may be called: no class
+// need look as it did when this file was compiled.
+
+template <class Function> Function in_program(const char *name)
+{
+  return reinterpret_cast<Function>(dlsym(RTLD_DEFAULT, name));
+}
+
+const char *const months[] = {"Jan", "Feb", "Mar", "Apr", "May", "Jun",
+                              "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
+
+/// The number that lammps_version() gives for a version like '4 Feb 2025': 20250204.
+int number_of(const char *version)
+{
+  int day = 0, year = 0;
+  char name[4] = "";
+  if (sscanf(version, "%d %3s %d", &day, name, &year) != 3) return 0;
+  for (int month = 1; month <= 12; month++)
+    if (strcmp(name, months[month - 1]) == 0) return 10000 * year + 100 * month + day;
+  return 0;
+}
+
+std::string name_of(int number)
+{
+  const int month = number / 100 % 100;
+  if (month < 1 || month > 12) return std::to_string(number);
+  return std::to_string(number % 100) + " " + months[month - 1] + " " + std::to_string(number / 10000);
+}
+
+std::string sizes(int big, int tag, int image)
+{
+  const auto bits = [](int bytes) { return std::to_string(8 * bytes); };
+  return "bigint, tagint and imageint of " + bits(big) + ", " + bits(tag) + " and " + bits(image) + " bits";
+}
+
+/// What keeps the styles from this LAMMPS, or "".
+std::string mismatch(void *lmp)
+{
+  const auto version = in_program<int (*)(void *)>("lammps_version");
+  const auto setting = in_program<int (*)(void *, const char *)>("lammps_extract_setting");
+  if (!version || !setting) return "the program does not tell its version to plugins";
+  const int found = version(lmp);
+  if (found != number_of(LAMMPS_VERSION))
+    return std::string("it was compiled for LAMMPS ") + LAMMPS_VERSION + ", and this is LAMMPS " + name_of(found) +
+        "; compile it with the source of this LAMMPS";
+  const int big = setting(lmp, "bigint"), tag = setting(lmp, "tagint"), image = setting(lmp, "imageint");
+  if (big != sizeof(bigint) || tag != sizeof(tagint) || image != sizeof(imageint))
+    return "it was compiled for " + sizes(sizeof(bigint), sizeof(tagint), sizeof(imageint)) + ", and this LAMMPS has " +
+        sizes(big, tag, image) + "; compile it with the same LAMMPS_SIZES";
+  return {};
+}
+
+/// Whether the program has the styles already, and not from this plugin.
+bool compiled_in(LAMMPS *lmp)
+{
+  const auto found = lmp->force->pair_map->find("lsm/free");
+  return found != lmp->force->pair_map->end() &&
+      found->second != reinterpret_cast<Force::PairCreator>(&make<Pair, PairLSMFree>);
+}
+
 }    // namespace
 
 extern "C" void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
 {
+  std::string why = mismatch(lmp);
+  if (why.empty() && compiled_in(static_cast<LAMMPS *>(lmp))) why = "the package is compiled into this LAMMPS already";
+  if (!why.empty()) {
+    int me = 0;
+    MPI_Comm_rank(MPI_COMM_WORLD, &me);
+    if (me == 0) {
+      printf("WARNING: Plugin of the LSM package not loaded: %s\n", why.c_str());
+      fflush(stdout);
+    }
+    return;
+  }
   Registrar styles(lmp, handle, regfunc);
   styles.add<Bond, BondLSMLinked>("bond", "lsm/linked", "bond style lsm/linked");
   styles.add<Pair, PairLSMFree>("pair", "lsm/free", "pair style lsm/free");

@@ -32,8 +32,21 @@ class PairLSMFree : public Pair, public LSMEnergySource {
   void write_data_all(FILE *) override;
   double single(int, int, int, int, double, double, double, double &) override;
   void *extract(const char *, int &) override;
-  double atom2cut(int) override;
-  double radii2cut(double, double) override;
+
+  // virtual functions of Pair in LAMMPS 4Feb2025, which 4Jul2026 has no more: no 'override', and no warning of that
+
+#if defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsuggest-override"
+#endif
+#if defined(__clang__)
+#pragma clang diagnostic ignored "-Winconsistent-missing-override"
+#endif
+  double atom2cut(int);
+  double radii2cut(double, double);
+#if defined(__GNUC__)
+#pragma GCC diagnostic pop
+#endif
 
  protected:
   double **k;          // contact stiffness

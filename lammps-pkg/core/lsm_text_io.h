@@ -275,6 +275,27 @@ inline bool holds_data(const std::string &path) {
          std::filesystem::file_size(path, code) > 0 && !code;
 }
 
+/// Why OutputFile could not write the file path, or "". Nothing is changed or left behind.
+inline std::string why_not_writable(const std::string &path) {
+  std::error_code code;
+  if (std::filesystem::is_directory(path, code))
+    return path + ": is a directory, expected a file name";
+  const bool there = std::filesystem::exists(path, code);
+  // A reader of a pipe would notice.
+  if (there && !std::filesystem::is_regular_file(path, code)) return {};
+  // A file that exists is written in place, or replaced by a new one beside it.
+  for (const std::string &tried : {path, path + ".new"}) {
+    if (tried == path && !there) continue;
+    errno = 0;
+    std::FILE *const file = std::fopen(tried.c_str(), "ab");
+    if (!file)
+      return path + ": cannot open for writing: " + std::generic_category().message(errno);
+    std::fclose(file);
+    if (tried != path) std::filesystem::remove(tried, code);
+  }
+  return {};
+}
+
 /// Unbuffered output file: each write() hands all its bytes to the system at once, so a process
 /// killed between two calls leaves nothing half-written.
 template <class Error>

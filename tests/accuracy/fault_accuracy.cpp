@@ -518,6 +518,7 @@ void start(LongRun &w) {
                                {"settle", text(std::round(compression / w.dt))},
                                {"steps", text(std::round(w.time / w.dt))},
                                {"checkpoint", "1000000000"},
+                               {"overwrite", "yes"},
                                {"thermo", "100000"},
                                {"series", w.series ? "yes" : "no"}};
   run(inputs + "/fault.in", variables, w.ranks, w.prefix());

@@ -85,7 +85,7 @@ variable          viscosity index 0.02
 variable          velocity index 0.005
 fix               move blocks lsm/nve viscosity ${viscosity}
 fix               plates all lsm/plates lower upper stress 0.006 damping ${viscosity} velocity ${velocity} ramp 3
-compute           events all lsm/events ledger yes )" +
+compute           events all lsm/events ledger yes overwrite yes )" +
          events + "\n" + fault_columns;
 }
 

@@ -190,7 +190,8 @@ inline ::testing::AssertionResult failed_with(const Result &result,
   return ::testing::AssertionSuccess();
 }
 
-/// Differences of all columns of two thermo tables, relative to the largest value of the column.
+/// Differences of all columns of two thermo tables, relative to the largest value of the column. A
+/// column that is zero throughout in both says nothing, and fails the test.
 inline double thermo_difference(const Result &a, const Result &b,
                                 const std::vector<std::string> &columns) {
   EXPECT_EQ(a.thermo.size(), b.thermo.size());
@@ -203,6 +204,7 @@ inline double thermo_difference(const Result &a, const Result &b,
       off = std::max(off, std::fabs(x - y));
       if (!std::isfinite(x) || !std::isfinite(y)) return std::numeric_limits<double>::infinity();
     }
+    EXPECT_GT(scale, 0.0) << "column " << column << " is zero throughout";
     if (scale > 0.0) worst = std::max(worst, off / scale);
   }
   return worst;

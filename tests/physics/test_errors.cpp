@@ -2,6 +2,8 @@
 // Mistakes in the input, and runs that go bad.
 #include "fault_scene.h"
 #include "lsm_catalogue.h"
+#include "lsm_event_picker.h"
+#include "lsm_pe_series.h"
 
 using namespace physics;
 
@@ -67,30 +69,159 @@ TEST_F(BadInput, OneLineOfErrorOnTwoRanks) {
 
 TEST_F(BlowUp, StopsWithAMessageAndACleanCatalogue) {
   std::string script = fault_read() + fault_shear("catalogue blown.csv series blown.pe text emergency "
-                                                  "blown.restart");
+                                                  "blown.restart nonpositive yes picker literal");
   const std::string fix = "viscosity ${viscosity}\n";
   script.replace(script.find(fix), fix.size(), "viscosity ${viscosity} dtcheck off\n");
   for (int ranks : {1, 2})
     for (const char *dt : {"0.13", "0.2"}) {
-      const Result r =
-          run_text(script + "thermo 100\nthermo_modify lost ignore\nrun 20000\n", {{"dt", dt}}, ranks);
+      for (const char *file : {"blown.csv", "blown.pe"}) std::filesystem::remove(path(file));
+      const Result r = run_text(script + "thermo 100\nthermo_modify lost ignore\nrun 20000\n", {{"dt", dt}}, ranks);
       EXPECT_NE(r.exit_code, 0);
       const auto lines = r.lines_with("ERROR");
       ASSERT_GE(lines.size(), 1u) << r.output;
       EXPECT_TRUE(lines[0].find("strained") != std::string::npos ||
                   lines[0].find("not finite") != std::string::npos)
           << lines[0];
-      // the strict reader refuses anything that is not finite
-      EXPECT_NO_THROW(LSM::read_catalogue(path("blown.csv")));
+      // the strict readers refuse anything that is not finite; what is there is what the series says
+      const auto found = LSM::read_catalogue(path("blown.csv")).events;
+      LSM::PeSeriesReader series(path("blown.pe"));
+      LSM::PickerSettings settings;
+      settings.reading = LSM::PickerReading::literal;
+      settings.keep_nonpositive = true;
+      LSM::EventPicker later(settings);
+      std::vector<LSM::Event> expected;
+      std::int64_t step = 0, samples = 0;
+      double time = 0, pe = 0;
+      LSM::Event event;
+      while (series.next(step, time, pe)) {
+        EXPECT_EQ(step, samples++);
+        if (later.push(step, time, pe, event)) expected.push_back(event);
+      }
+      // far above the limit there is no time for an event
+      EXPECT_GT(samples, 5) << dt;
+      if (dt == std::string("0.13")) {
+        EXPECT_GT(expected.size(), 0u);
+      }
+      ASSERT_EQ(found.size(), expected.size()) << dt;
+      for (std::size_t n = 0; n < found.size(); ++n) EXPECT_EQ(found[n].step_end, expected[n].step_end);
     }
 }
 
-TEST_F(BlowUp, LedgerOutOfBalanceStopsTheRun) {
-  // a tolerance far below what the time step allows
-  const Result r = run_text(fault_read() + fault_shear("catalogue off.csv tolerance 1e-12 check 100 "
-                                                       "emergency off.restart") +
-                            "run 2000\n");
-  EXPECT_TRUE(failed_with(r, {"ledger", "off.restart"}));
-  EXPECT_TRUE(std::filesystem::exists(path("off.restart")));
-  EXPECT_NO_THROW(LSM::read_catalogue(path("off.csv")));
+// New neighbor lists every so often, which is in the middle of a step.
+static const std::string often = "neigh_modify delay 0 every 10 check no\n";
+
+// A tolerance that every step keeps stops nothing, neither every step nor where lists are built; a tenth of what
+// the worst step shows does.
+TEST_F(BlowUp, LedgerIsCheckedForWholeSteps) {
+  for (int ranks : {1, 2})
+    for (const char *viscosity : {"0", "0.02"}) {
+      if (ranks == 2 && viscosity == std::string("0.02")) continue;
+      SCOPED_TRACE(std::string(viscosity) + ", ranks " + std::to_string(ranks));
+      const std::string start = fault_read() + often + fault_shear("${check} emergency off.restart");
+      const Variables free = {{"viscosity", viscosity}, {"check", "check 1000"}};
+      const Result all = run_text(start + "thermo 1\nrun 1000\n", free, ranks);
+      ASSERT_TRUE(succeeded(all));
+      double worst = 0.0;
+      for (const auto &row : all.thermo) {
+        const double scale = row.at("c_events[11]") + row.at("c_events[12]") + row.at("c_events[9]") +
+                             std::fabs(row.at("c_events[5]"));
+        worst = std::max(worst, std::fabs(row.at("c_events[13]")) / scale);
+      }
+      ASSERT_GT(worst, 0.0);
+      for (const char *every : {"1", "7"}) {
+        if (ranks == 2 && every[0] == '7') continue;
+        std::filesystem::remove(path("off.restart"));
+        const Result sane = run_text(start + "thermo 10000\nrun 1000\n",
+                                     {{"viscosity", viscosity},
+                                      {"check", "tolerance " + text(1.01 * worst) + " check " + every}},
+                                     ranks);
+        EXPECT_TRUE(succeeded(sane));
+        EXPECT_FALSE(std::filesystem::exists(path("off.restart")));
+      }
+      EXPECT_TRUE(failed_with(run_text(start + "thermo 10000\nrun 1000\n",
+                                       {{"viscosity", viscosity},
+                                        {"check", "tolerance " + text(0.1 * worst) + " check 1"}},
+                                       ranks),
+                              {"ledger", "off.restart"}));
+    }
+}
+
+// The restart file of a run that was stopped holds a whole step, whatever stopped it.
+TEST_F(BlowUp, EmergencyRestartHoldsAWholeStep) {
+  const std::string dump = "write_dump all custom ${file} id x y vx vy modify sort id format float %.17g\n";
+  for (int ranks : {1, 2})
+    for (const char *why : {"tolerance 1e-12 check 100", "tolerance 1e-12 check 133", "strainlimit 0.05 check 1000000"}) {
+      // without viscosity, fix lsm/nve puts off the second half of steps
+      const bool by_ledger = why[0] == 't';
+      const std::string viscosity = by_ledger ? "0.02" : "0", velocity = by_ledger ? "0.005" : "0.05";
+      SCOPED_TRACE(std::string(why) + ", ranks " + std::to_string(ranks));
+      std::filesystem::remove(path("off.restart"));
+      const Result r = run_text(fault_read() + often + fault_shear(std::string("catalogue off.csv emergency off.restart ") + why) +
+                                    "thermo 10000\nrun 4000\n",
+                                {{"viscosity", viscosity}, {"velocity", velocity}}, ranks);
+      ASSERT_TRUE(failed_with(r, {by_ledger ? "ledger" : "strained", "off.restart", "at step "}));
+      const std::string line = r.lines_with("ERROR")[0];
+      const std::string step = std::to_string(std::stoi(line.substr(line.find("at step ") + 8)));
+      ASSERT_GT(std::stoi(step), 10);
+      ASSERT_TRUE(std::filesystem::exists(path("off.restart")));
+      ASSERT_TRUE(succeeded(run_text(fault_read() + often + fault_shear("") + "thermo 10000\nrun " + step + "\n" + dump,
+                                     {{"file", "whole.dump"}, {"viscosity", viscosity}, {"velocity", velocity}}, ranks)));
+      ASSERT_TRUE(succeeded(run_text("newton off\natom_style hybrid bond sphere\natom_modify map array\n"
+                                     "comm_modify mode single cutoff 3.6\nread_restart off.restart\n" + dump,
+                                     {{"file", "off.dump"}}, ranks)));
+      const std::string whole = read_file(path("whole.dump")), off = read_file(path("off.dump"));
+      EXPECT_GT(whole.size(), 10000u);
+      EXPECT_TRUE(whole == off) << "step " << step;
+    }
+}
+
+// Nothing that holds events is replaced unless asked, on any number of ranks.
+TEST_F(BadInput, OlderFilesAreKept) {
+  const std::string shear = fault_read() + R"(
+fix               move blocks lsm/nve
+fix               plates all lsm/plates lower upper stress 0.006 damping 0.02 velocity 0.005 ramp 3
+compute           events all lsm/events ${files}
+thermo            1000
+run               1000
+write_restart     kept.state
+)";
+  const std::string both = "catalogue kept.csv series kept.pe binary";
+  const std::string again = "newton off\natom_style hybrid bond sphere\natom_modify map array\n"
+                            "comm_modify mode single cutoff 3.6\nread_restart kept.state\n"
+                            "neighbor 0.4 bin\nneigh_modify delay 0 every 10 check yes\ntimestep 0.03\n" +
+                            shear.substr(fault_read().size());
+  for (int ranks : {1, 2}) {
+    for (const char *file : {"kept.csv", "kept.pe"}) std::filesystem::remove(path(file));
+    ASSERT_TRUE(succeeded(run_text(shear, {{"files", both}}, ranks)));
+    const std::string catalogue = read_file(path("kept.csv")), series = read_file(path("kept.pe"));
+    ASSERT_GT(series.size(), 10000u);
+    std::filesystem::copy_file(path("kept.state"), path("first.state"),
+                               std::filesystem::copy_options::overwrite_existing);
+    const auto unchanged = [&] {
+      return read_file(path("kept.csv")) == catalogue && read_file(path("kept.pe")) == series &&
+             !std::filesystem::exists(path("new.csv")) && !std::filesystem::exists(path("new.pe")) &&
+             !std::filesystem::exists(path("kept.csv.new"));
+    };
+    const std::vector<std::pair<std::string, std::string>> refused = {
+        {both, "kept.csv"},
+        {"catalogue new.csv series kept.pe binary", "kept.pe"},
+        {"catalogue kept.csv series new.pe text", "kept.csv"},
+        {both + " overwrite no", "kept.csv"}};
+    for (const auto &[files, name] : refused) {
+      if (ranks == 2 && name == "kept.pe") continue;
+      EXPECT_TRUE(failed_with(run_text(shear, {{"files", files}}, ranks), {name, "exists", "overwrite yes"})) << files;
+      EXPECT_TRUE(unchanged()) << files;
+      // from a restart file without resume, too
+      EXPECT_TRUE(failed_with(run_text(again, {{"files", files}}, ranks), {name, "exists", "resume yes"})) << files;
+      EXPECT_TRUE(unchanged()) << files;
+    }
+    EXPECT_TRUE(failed_with(run_text(shear, {{"files", "catalogue new.csv series no/folder/s.pe text"}}, ranks),
+                            {"no/folder/s.pe"}));
+    EXPECT_TRUE(unchanged());
+    // asked to, it does
+    ASSERT_TRUE(succeeded(run_text(shear, {{"files", both + " overwrite yes"}}, ranks)));
+    EXPECT_TRUE(unchanged());
+    ASSERT_TRUE(succeeded(run_text(again, {{"files", both + " overwrite yes"}}, ranks)));
+    EXPECT_FALSE(read_file(path("kept.pe")) == series);
+  }
 }

@@ -67,7 +67,7 @@ unfix             hold
 uncompute         guard
 fix               move blocks lsm/nve viscosity ${viscosity} dtcheck ${check}
 fix               plates all lsm/plates lower upper stress ${stress} damping ${viscosity} velocity ${velocity} ramp ${ramp}
-compute           events all lsm/events catalogue extreme.csv series extreme.pe text stride ${every} ledger yes check 50 emergency extreme.restart
+compute           events all lsm/events overwrite yes catalogue extreme.csv series extreme.pe text stride ${every} ledger yes check 50 emergency extreme.restart
 )" + fault_columns +
          R"(
 thermo            ${thermo}
@@ -155,28 +155,26 @@ TEST_F(Extremes, RefusedOrStopped) {
   EXPECT_TRUE(failed_with(above, {"Time step", "stability limit"}));
   outcome("time step 1.2 of the limit", "refused: time step above the stability limit");
 
-  // Whatever happens above the limit, or under a stress that crushes the discs: no file holds a
-  // NaN.
+  // Above the limit without its check, and under a stress that crushes the discs: the check of the strain stops
+  // the compression, before there is a catalogue.
   for (const auto &[name, variables] : std::vector<std::pair<std::string, Variables>>{
            {"time step 1.2 of the limit, check off", {{"part", "1.2"}, {"check", "off"}}},
            {"time step 2 of the limit, check off", {{"part", "2"}, {"check", "off"}}},
            {"normal stress 0.3", {{"stress", "0.3"}}},
            {"normal stress 0.5 (overlap of half a radius)", {{"stress", "0.5"}}},
            {"normal stress 2", {{"stress", "2"}}}}) {
-    std::filesystem::remove(path("extreme.csv"));
+    for (const char *file : {"extreme.csv", "extreme.pe"}) std::filesystem::remove(path(file));
     const Result r = run_text(small_fault(), variables);
-    if (std::filesystem::exists(path("extreme.csv"))) {
-      EXPECT_NO_THROW(LSM::read_catalogue(path("extreme.csv"))) << name;
+    EXPECT_TRUE(failed_with(r, {"Run stopped at step ", "a link is strained by ", "above strainlimit 0.5"})) << name;
+    EXPECT_FALSE(std::filesystem::exists(path("extreme.csv"))) << name;
+    EXPECT_TRUE(finite(r)) << name;
+    const auto lines = r.lines_with("ERROR");
+    // caught as soon as it is above the limit, where it grows slowly
+    const std::string by = "strained by ";
+    if (std::string(name).find("stress") != std::string::npos && lines.size() == 1 && lines[0].find(by) != std::string::npos) {
+      EXPECT_LT(std::stod(lines[0].substr(lines[0].find(by) + by.size())), 0.7) << name;
     }
-    if (r.exit_code == 0) {
-      EXPECT_TRUE(finite(r)) << name;
-      EXPECT_LT(ledger_error(r), 1e-1) << name;
-      outcome(name, "runs; ledger to " + brief(ledger_error(r)));
-    } else {
-      const auto lines = r.lines_with("ERROR");
-      ASSERT_GE(lines.size(), 1u) << name << "\n" << r.output;
-      outcome(name, "stopped: " + lines[0].substr(0, lines[0].find(" (/")));
-    }
+    if (!lines.empty()) outcome(name, "stopped: " + lines[0].substr(0, lines[0].find(" (/")));
   }
 
   std::string empty = small_fault();
@@ -233,7 +231,7 @@ pair_style        lsm/friction
 pair_coeff        1 1 1.0 1.0 0.6
 timestep          0.05
 fix               move all lsm/nve
-compute           events all lsm/events catalogue single.csv ledger yes
+compute           events all lsm/events overwrite yes catalogue single.csv ledger yes
 variable          px equal mass(all)*vcm(all,x)
 variable          py equal mass(all)*vcm(all,y)
 variable          links equal bonds
@@ -342,7 +340,7 @@ TEST_F(Reproducible, OnlookersChangeNothingAndSeeWholeSteps) {
   const std::string shear = fault_read() + R"(
 fix               move blocks lsm/nve viscosity 0.02
 fix               plates all lsm/plates lower upper stress 0.006 damping 0.02 velocity 0.005 ramp 3
-compute           events all lsm/events catalogue seen.csv series seen.pe binary
+compute           events all lsm/events overwrite yes catalogue seen.csv series seen.pe binary
 compute           moving blocks ke
 thermo_style      custom step c_moving
 thermo_modify     norm no format float %.17g

@@ -229,17 +229,46 @@ TEST_F(Events, PickedOnlineEqualThosePickedLater) {
       }
 }
 
+// Slip, place and length of each event against the work lost to friction and the meaning of the columns.
 TEST_F(Events, SlipAndCentroidLieOnTheFault) {
-  const Result r = run_text(fault_read() + fault_shear("catalogue located.csv location yes") +
-                            "thermo 1000\nrun 4000\n");
+  const std::string script = fault_read() + fault_shear("catalogue located.csv location yes") + "thermo ${thermo}\nrun 3000\n";
+  const Result r = run_text(script, {{"thermo", "1"}});
   ASSERT_TRUE(succeeded(r));
   const auto catalogue = LSM::read_catalogue(path("located.csv"));
-  ASSERT_GT(catalogue.events.size(), 3u);
+  ASSERT_GT(catalogue.events.size(), 2u);
+  std::size_t slid = 0, elsewhere = 0;
+  const double first = catalogue.events[0].x_centroid;
   for (const auto &e : catalogue.events) {
-    EXPECT_GE(e.slip_moment, 0.0);
-    EXPECT_GE(e.x_centroid, 0.0);
-    EXPECT_LE(e.x_centroid, 40.0);
+    // rows of the thermo table are steps
+    ASSERT_EQ(r.thermo[static_cast<std::size_t>(e.step_end)].at("Step"), static_cast<double>(e.step_end));
+    const double lost = r.thermo[static_cast<std::size_t>(e.step_end)].at("c_events[11]") -
+                        r.thermo[static_cast<std::size_t>(e.step_start)].at("c_events[11]");
+    // something slides exactly where friction takes energy
+    EXPECT_EQ(e.slip_moment > 0.0, lost > 0.0) << "event " << e.id;
+    EXPECT_EQ(e.rupture_length > 0.0, e.slip_moment > 0.0) << "event " << e.id;
+    if (!(e.slip_moment > 0.0)) continue;
+    ++slid;
+    // whole bins
+    EXPECT_EQ(e.rupture_length, std::round(e.rupture_length));
+    EXPECT_GE(e.rupture_length, 1.0);
     EXPECT_LE(e.rupture_length, 40.0);
+    EXPECT_GT(e.x_centroid, 0.0);
+    EXPECT_LT(e.x_centroid, 40.0);
+    if (std::fabs(e.x_centroid - first) > 1.0) ++elsewhere;
+    // the work is mu F s, the moment s times the size of the contact: no contact bears ten times the whole fault's load
+    EXPECT_LT(lost, 10.0 * 0.6 * 0.006 * 40.0 * e.slip_moment) << "event " << e.id;
+  }
+  EXPECT_GT(slid, 2u);
+  EXPECT_GT(elsewhere, 0u) << "every event is at the same place";
+
+  // the slip that two ranks gather
+  ASSERT_TRUE(succeeded(run_text(script, {{"thermo", "1000"}}, 2)));
+  const auto two = LSM::read_catalogue(path("located.csv"));
+  expect_same_events(catalogue.events, two.events, 1e-9);
+  for (std::size_t n = 0; n < std::min(two.events.size(), catalogue.events.size()); ++n) {
+    EXPECT_NEAR(two.events[n].slip_moment, catalogue.events[n].slip_moment, 1e-6 * catalogue.events[n].slip_moment);
+    EXPECT_NEAR(two.events[n].x_centroid, catalogue.events[n].x_centroid, 1e-5);
+    EXPECT_EQ(two.events[n].rupture_length, catalogue.events[n].rupture_length);
   }
 }
 

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// LAMMPS as a library on several ranks: what goes wrong on one of them has to stop all of them, and
+// the program has to be able to go on. usage: mpirun -np N library_errors
+#include <mpi.h>
+#include <signal.h>
+#include <sys/resource.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+
+#define LAMMPS_LIB_MPI
+#include "library.h"
+
+namespace {
+
+int rank = 0, failures = 0;
+
+void check(bool good, const std::string &what) {
+  int mine = good ? 0 : 1, bad = 0;
+  MPI_Allreduce(&mine, &bad, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
+  if (bad == 0) return;
+  ++failures;
+  if (rank == 0) std::fprintf(stderr, "FAILED on %d ranks: %s\n", bad, what.c_str());
+}
+
+const char *const scene = R"(
+units           lj
+dimension       2
+boundary        p p p
+newton          off
+atom_style      hybrid bond sphere
+atom_modify     map array
+comm_modify     cutoff 4
+special_bonds   lj/coul 0 1 1
+region          box block 0 40 0 40 -0.5 0.5
+create_box      1 box bond/types 1 extra/bond/per/atom 6 extra/special/per/atom 6
+lattice         hex $(1/(2*sqrt(3)):%.17g)
+region          patch block 4 30 4 30 -0.2 0.2
+create_atoms    1 region patch
+set             type 1 diameter 2.0
+set             type 1 mass 1.0
+bond_style      lsm/linked
+bond_coeff      1 1.0
+pair_style      lsm/free
+pair_coeff      * * 1.0
+create_bonds    many all all 1 1.99 2.01
+velocity        all create 0.001 77 loop geom
+timestep        0.05
+thermo          1000
+)";
+
+class Session {
+ public:
+  Session() {
+    const char *words[] = {"library_errors", "-log", "none", "-screen", "none"};
+    lammps_ = lammps_open(5, const_cast<char **>(words), MPI_COMM_WORLD, nullptr);
+    lammps_commands_string(lammps_, scene);
+    check(!lammps_has_error(lammps_), "the scene itself: " + error());
+  }
+  ~Session() { lammps_close(lammps_); }
+
+  void run(const std::string &commands) { lammps_commands_string(lammps_, commands.c_str()); }
+  std::string error() {
+    char text[1024] = "";
+    if (lammps_has_error(lammps_)) lammps_get_last_error_message(lammps_, text, sizeof text);
+    return text;
+  }
+  /// The commands end in an error with this text on all ranks.
+  void fails(const std::string &commands, const std::string &expected) {
+    run(commands);
+    const std::string found = error();
+    check(found.find(expected) != std::string::npos,
+          commands + "\n  gives '" + found + "', expected '" + expected + "'");
+  }
+
+ private:
+  void *lammps_;
+};
+
+}  // namespace
+
+int main(int argc, char **argv) {
+  MPI_Init(&argc, &argv);
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  signal(SIGXFSZ, SIG_IGN);
+  if (rank == 0)
+    for (const char *file : {"there.csv", "new.pe", "full.pe"}) std::remove(file);
+  MPI_Barrier(MPI_COMM_WORLD);
+  const std::string start = "fix move all lsm/nve\n";
+
+  // Files that cannot be written, at the first run.
+  for (const char *files :
+       {"catalogue no/folder/c.csv", "series no/folder/s.pe text", "catalogue /dev/full"})
+    Session().fails(start + "compute events all lsm/events " + files + "\nrun 10\n", "cannot");
+  Session().fails("include_beside no/file.in\n", "cannot read file");
+  Session().fails(
+      "fix plates all lsm/nve\nchange_box all boundary p f p\ngroup a id 1 2\ngroup b id 2 3\nfix "
+      "p all lsm/plates a b "
+      "stress 1\nrun 1\n",
+      "is in both plates");
+
+  // A catalogue that is there.
+  if (rank == 0) std::ofstream("there.csv") << "events\n";
+  MPI_Barrier(MPI_COMM_WORLD);
+  Session().fails(
+      start + "compute events all lsm/events catalogue there.csv series new.pe text\nrun 10\n",
+      "there.csv exists");
+  if (rank == 0) {
+    std::string line;
+    std::getline(std::ifstream("there.csv"), line);
+    if (line != "events" || std::ifstream("new.pe").good()) {
+      ++failures;
+      std::fprintf(stderr, "FAILED: a refused run changed its files\n");
+    }
+  }
+
+  // A disk that is full in the middle of a run, found by rank 0 only.
+  {
+    Session session;
+    if (rank == 0) {
+      struct rlimit limit = {20000, RLIM_INFINITY};
+      setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    session.fails(start + "compute events all lsm/events series full.pe text\nrun 5000\n",
+                  "cannot write");
+    if (rank == 0) {
+      struct rlimit limit = {RLIM_INFINITY, RLIM_INFINITY};
+      setrlimit(RLIMIT_FSIZE, &limit);
+    }
+  }
+  // A value that is not finite, which rank 0 finds when the block arrives.
+  Session().fails(
+      start +
+          "compute events all lsm/events check 1000000\nrun 100\nvelocity all set 1e200 0 0\n"
+          "neigh_modify every 1000000 delay 1000000 check no\ntimestep 1e200\nfix move all lsm/nve "
+          "dtcheck off\nrun 250\n",
+      "not finite");
+  // A block on its way when another command fails between two steps.
+  {
+    Session session;
+    session.fails(start +
+                      "compute events all lsm/events block 10\nvariable bad equal 1/(step<115)\n"
+                      "fix print all print 5 '${bad}' screen no\nrun 1000\n",
+                  "Divide by 0");
+  }
+  // The program goes on.
+  {
+    Session session;
+    session.run(start + "compute events all lsm/events\nrun 200\n");
+    check(session.error().empty(), "a run after all that: " + session.error());
+  }
+  int all = 0;
+  MPI_Allreduce(&failures, &all, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+  MPI_Finalize();
+  if (rank == 0 && all == 0) std::printf("errors of one rank reach all: passed\n");
+  return all == 0 ? 0 : 1;
+}
