@@ -42,12 +42,12 @@ set xtics ("100" 100, "200" 200, "500" 500, "1000" 1000, "2000" 2000, "5000" 500
 set xrange [100:5000]
 set ylabel 'characteristic size s* (energy)'
 set logscale y
-set ytics ("0.01" 0.01, "0.02" 0.02, "0.05" 0.05, "0.1" 0.1)
-set yrange [0.01:0.10000000000000001]
+set ytics ("0.2" 0.2, "0.5" 0.5, "1" 1, "2" 2, "5" 5)
+set yrange [0.20000000000000001:5]
 low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y
 plot table using ($1 == 1 ? $3 : NaN):(low($4,$5)):(0):($4+$5-low($4,$5)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \
      table using ($1 == 1 ? $3 : NaN):4 with points lt 1 title 'fault: s*', \
-     [102:2223.5294117647059] '+' using 1:(0.0011326708940038136*$1**(0.48866060214760976)) with lines lt 1 title 'A L^D with D = 0.489 ± 0.020', \
-     [102:2223.5294117647059] '+' using 1:(0.018930617481020852) with lines lt 8 dt 2 title 'constant'
+     [102:2223.5294117647059] '+' using 1:(0.012547218837053294*$1**(0.68484767838709382)) with lines lt 1 title 'A L^D with D = 0.685 ± 0.049', \
+     [102:2223.5294117647059] '+' using 1:(0.54672219147172618) with lines lt 8 dt 2 title 'constant'
 unset output
 }

@@ -6,10 +6,10 @@ if (!exists("formats")) formats = "png svg"
 do for [format in formats] {
 if (format eq "png") {
 point = 1.0
-set terminal pngcairo size 1800,1330 enhanced font "DejaVu Sans,26" linewidth 2 pointscale 2 background "#ffffff"
+set terminal pngcairo size 1800,1284 enhanced font "DejaVu Sans,26" linewidth 2 pointscale 2 background "#ffffff"
 } else {
 point = 0.65
-set terminal svg size 900,665 dynamic enhanced font "DejaVu Sans,13" background "#ffffff"
+set terminal svg size 900,642 dynamic enhanced font "DejaVu Sans,13" background "#ffffff"
 }
 
 set datafile separator comma
@@ -41,39 +41,35 @@ set logscale x
 set format x "10^{%L}"
 set xtics 10
 set mxtics 10
-set xrange [0.0001:1]
+set xrange [0.0001:10]
 set ylabel 'probability density p(s) (1 / energy)'
 set logscale y
 set format y "10^{%L}"
 set ytics 10
 set mytics 10
-set yrange [0.01:10000]
+set yrange [0.0001:10000]
 row(k) = $1 == k && $7 > 0 ? $6 : NaN
 low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y
 plot table using (row(1)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \
      table using (row(1)):8 with lines lt 1 lw 1.2 notitle, \
      table using (row(1)):8 with points lt 1 notitle, \
-     keyentry with linespoints lt 1 title 'fault 120 (1564 events)', \
+     keyentry with linespoints lt 1 title 'length 120, 1.4e+05 time units (1810 events)', \
      table using (row(2)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 2 dt 1 lw 0.8 notitle, \
      table using (row(2)):8 with lines lt 2 lw 1.2 notitle, \
      table using (row(2)):8 with points lt 2 notitle, \
-     keyentry with linespoints lt 2 title 'fault 240 (1691 events)', \
+     keyentry with linespoints lt 2 title 'length 240, 1.5e+05 time units (3230 events)', \
      table using (row(3)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 3 dt 1 lw 0.8 notitle, \
      table using (row(3)):8 with lines lt 3 lw 1.2 notitle, \
      table using (row(3)):8 with points lt 3 notitle, \
-     keyentry with linespoints lt 3 title 'fault 480 (unfinished, step 4950000 of 10000000) (825 events)', \
+     keyentry with linespoints lt 3 title 'length 480, 3.8e+04 time units (728 events)', \
      table using (row(4)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 4 dt 1 lw 0.8 notitle, \
      table using (row(4)):8 with lines lt 4 lw 1.2 notitle, \
      table using (row(4)):8 with points lt 4 notitle, \
-     keyentry with linespoints lt 4 title 'fault 945 (unfinished, step 4700000 of 10000000) (966 events)', \
+     keyentry with linespoints lt 4 title 'length 945, 3.5e+04 time units (769 events)', \
      table using (row(5)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 5 dt 1 lw 0.8 notitle, \
      table using (row(5)):8 with lines lt 5 lw 1.2 notitle, \
      table using (row(5)):8 with points lt 5 notitle, \
-     keyentry with linespoints lt 5 title 'fault 1440 (unfinished, step 1150000 of 10000000) (225 events)', \
-     table using (row(6)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 6 dt 1 lw 0.8 notitle, \
-     table using (row(6)):8 with lines lt 6 lw 1.2 notitle, \
-     table using (row(6)):8 with points lt 6 notitle, \
-     keyentry with linespoints lt 6 title 'fault 1890 (unfinished, step 1700000 of 10000000) (315 events)', \
-     [0.0001:0.01] '+' using 1:(0.39973288969692777*$1**(-1.0700000000000001)) with lines lt 8 dt 2 lw 2.2 title 'slope -1.07'
+     keyentry with linespoints lt 5 title 'length 1890, 2.4e+04 time units (608 events)', \
+     [0.001:1] '+' using 1:(0.17225926157682234*$1**(-1.0700000000000001)) with lines lt 8 dt 2 lw 2.2 title 'slope -1.07'
 unset output
 }

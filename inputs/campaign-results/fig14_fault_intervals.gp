@@ -6,10 +6,10 @@ if (!exists("formats")) formats = "png svg"
 do for [format in formats] {
 if (format eq "png") {
 point = 1.0
-set terminal pngcairo size 1800,1330 enhanced font "DejaVu Sans,26" linewidth 2 pointscale 2 background "#ffffff"
+set terminal pngcairo size 1800,1284 enhanced font "DejaVu Sans,26" linewidth 2 pointscale 2 background "#ffffff"
 } else {
 point = 0.65
-set terminal svg size 900,665 dynamic enhanced font "DejaVu Sans,13" background "#ffffff"
+set terminal svg size 900,642 dynamic enhanced font "DejaVu Sans,13" background "#ffffff"
 }
 
 set datafile separator comma
@@ -41,40 +41,36 @@ set logscale x
 set format x "10^{%L}"
 set xtics 10
 set mxtics 10
-set xrange [1:1000]
+set xrange [0.10000000000000001:10000]
 set ylabel 'probability density f(θ) (1 / model time)'
 set logscale y
 set format y "10^{%L}"
 set ytics 10
 set mytics 10
-set yrange [9.9999999999999995e-07:0.01]
+set yrange [9.9999999999999995e-07:0.10000000000000001]
 row(k) = $1 == k && $7 > 0 ? $6 : NaN
 low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y
 set samples 400
 plot table using (row(1)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \
      table using (row(1)):8 with points lt 1 notitle, \
-     keyentry with linespoints lt 1 title 'fault 120 (1563 times)', \
+     keyentry with linespoints lt 1 title 'length 120, 1.4e+05 time units (630 times)', \
      table using (row(2)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 2 dt 1 lw 0.8 notitle, \
      table using (row(2)):8 with points lt 2 notitle, \
-     keyentry with linespoints lt 2 title 'fault 240 (1690 times)', \
+     keyentry with linespoints lt 2 title 'length 240, 1.5e+05 time units (726 times)', \
      table using (row(3)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 3 dt 1 lw 0.8 notitle, \
      table using (row(3)):8 with points lt 3 notitle, \
-     keyentry with linespoints lt 3 title 'fault 480 (unfinished, step 4950000 of 10000000) (824 times)', \
+     keyentry with linespoints lt 3 title 'length 480, 3.8e+04 time units (251 times)', \
      table using (row(4)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 4 dt 1 lw 0.8 notitle, \
      table using (row(4)):8 with points lt 4 notitle, \
-     keyentry with linespoints lt 4 title 'fault 945 (unfinished, step 4700000 of 10000000) (965 times)', \
+     keyentry with linespoints lt 4 title 'length 945, 3.5e+04 time units (278 times)', \
      table using (row(5)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 5 dt 1 lw 0.8 notitle, \
      table using (row(5)):8 with points lt 5 notitle, \
-     keyentry with linespoints lt 5 title 'fault 1440 (unfinished, step 1150000 of 10000000) (224 times)', \
-     table using (row(6)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 6 dt 1 lw 0.8 notitle, \
-     table using (row(6)):8 with points lt 6 notitle, \
-     keyentry with linespoints lt 6 title 'fault 1890 (unfinished, step 1700000 of 10000000) (314 times)', \
-     [25.11886431509582:794.32823472428277] '+' using 1:(0.001023306925361135*$1**(0.48610661240693731)*exp(-$1**(1)/119.6129327173273)) with lines lt 1 notitle, \
-     [10.000000000000005:1000.0000000000017] '+' using 1:(0.00046401850899699024*$1**(0.70980668345333053)*exp(-$1**(1)/97.806403214375123)) with lines lt 2 notitle, \
-     [7.9432823472428193:794.32823472428277] '+' using 1:(0.00063628308833446341*$1**(0.62114725933345105)*exp(-$1**(1)/105.05046794115633)) with lines lt 3 notitle, \
-     [7.9432823472428193:630.95734448019425] '+' using 1:(2.1866441721361518e-05*$1**(2.3484269009445149)*exp(-$1**(0.54166120161593667)/2.2514103807981662)) with lines lt 4 notitle, \
-     [10.000000000000005:794.32823472428277] '+' using 1:(9.2683117634707822e-05*$1**(1.1663475012785169)*exp(-$1**(1)/70.118041797638654)) with lines lt 5 notitle, \
-     [10.000000000000005:1000.0000000000017] '+' using 1:(0.0010505444703560955*$1**(0.55087857059117962)*exp(-$1**(1)/94.973931310818827)) with lines lt 6 notitle, \
+     keyentry with linespoints lt 5 title 'length 1890, 2.4e+04 time units (203 times)', \
+     [1.99526231496888:1584.8931924611163] '+' using 1:(0.013798355048776779*$1**(-0.27810364868012061)*exp(-$1**(1)/300.39033555133523)) with lines lt 1 notitle, \
+     [3.981071705534974:1258.9254117941693] '+' using 1:(0.0014304465474167878*$1**(0.37940853949325359)*exp(-$1**(0.89931149928124265)/72.136125256144382)) with lines lt 2 notitle, \
+     [0.63095734448019314:630.95734448019425] '+' using 1:(0.0031974101111759507*$1**(0.25912624992641087)*exp(-$1**(1)/107.6141675833447)) with lines lt 3 notitle, \
+     [1.99526231496888:630.95734448019425] '+' using 1:(0.018828022079470191*$1**(-0.24351692229153354)*exp(-$1**(1)/165.0860442720961)) with lines lt 4 notitle, \
+     [0.39810717055349715:630.95734448019425] '+' using 1:(0.051104062113544145*$1**(-0.52696163421685493)*exp(-$1**(1)/204.65084731528157)) with lines lt 5 notitle, \
      keyentry with lines lt 8 title 'lines: fitted generalised gamma'
 unset output
 }
