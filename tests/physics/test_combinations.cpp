@@ -221,7 +221,7 @@ group             one id 4
 group             tops id 2 4
 velocity          tops set 0 -0.3 0
 fix               move all lsm/nve
-)" + recorded("catalogue jump.csv lambda 0.5 ledger yes") +
+)" + recorded("catalogue jump.csv lambda 0.5 ledger yes overwrite yes") +
                             "thermo 10\n";
   for (const char *command :
        {"delete_atoms group pair", "displace_atoms one move 0 0.1 0 units box",

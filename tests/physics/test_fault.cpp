@@ -231,7 +231,7 @@ TEST_F(Events, PickedOnlineEqualThosePickedLater) {
 
 // Slip, place and length of each event against the work lost to friction and the meaning of the columns.
 TEST_F(Events, SlipAndCentroidLieOnTheFault) {
-  const std::string script = fault_read() + fault_shear("catalogue located.csv location yes") + "thermo ${thermo}\nrun 3000\n";
+  const std::string script = fault_read() + fault_shear("catalogue located.csv location yes") + "thermo ${thermo}\nrun 5000\n";
   const Result r = run_text(script, {{"thermo", "1"}});
   ASSERT_TRUE(succeeded(r));
   const auto catalogue = LSM::read_catalogue(path("located.csv"));
