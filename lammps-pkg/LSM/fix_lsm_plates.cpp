@@ -258,7 +258,7 @@ void FixLSMPlates::initial_integrate(int /*vflag*/)
     if (servo) {
       const double applied = -p.side * stress_at(elapsed) * length;
       const double kinetic = 0.5 * p.mass * p.vy * p.vy;
-      p.vy *= exp(-0.5 * (damping + impedance * length / p.mass) * dt);
+      p.vy *= decay_of(p);
       if (comm->me == 0) work_mine -= kinetic - 0.5 * p.mass * p.vy * p.vy;
       p.vy += 0.5 * dt * (applied + p.fy) / p.mass;
       duy = dt * p.vy;
@@ -293,7 +293,7 @@ void FixLSMPlates::final_integrate()
       const double applied = -p.side * stress_at(elapsed) * length;
       p.vy += 0.5 * dt * (applied + p.fy) / p.mass;
       const double kinetic = 0.5 * p.mass * p.vy * p.vy;
-      p.vy *= exp(-0.5 * (damping + impedance * length / p.mass) * dt);
+      p.vy *= decay_of(p);
       if (comm->me == 0) work_mine -= kinetic - 0.5 * p.mass * p.vy * p.vy;
     }
     const double vx = p.side * velocity_at(elapsed);
@@ -302,6 +302,15 @@ void FixLSMPlates::final_integrate()
       v[i][1] = p.vy;
     }
   }
+}
+
+/* ---------------------------------------------------------------------- */
+
+// factor of the velocity across the fault in half a step
+
+double FixLSMPlates::decay_of(const Plate &p) const
+{
+  return exp(-0.5 * (damping + impedance * domain->prd[0] / p.mass) * dt);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -66,6 +66,7 @@ class FixLSMPlates : public Fix {
   double sums[4];         // fx, fy of both plates over all ranks, at step summed_at
   bigint summed_at;
 
+  double decay_of(const Plate &p) const;
   double velocity_at(double t) const;
   double stress_at(double t) const;
   void sum_forces();
