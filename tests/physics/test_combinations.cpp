@@ -238,9 +238,9 @@ fix               move all lsm/nve
   }
 }
 
-TEST_F(BetweenRuns, LinksTurnedOffLeaveContacts) {
-  // a pair without a link that is kept from touching passes through: said in one line
-  const std::string scene = discs({{"0", "0"}, {"1.9", "0"}}) + R"(
+/// Two linked discs, overlapping by 0.1, that may touch as well.
+std::string linked_pair() {
+  return discs({{"0", "0"}, {"1.9", "0"}}) + R"(
 create_bonds      single/bond 1 1 2
 bond_style        lsm/linked
 bond_coeff        1 1.0
@@ -248,7 +248,12 @@ pair_style        lsm/free
 pair_coeff        1 1 1.0
 timestep          0.01
 fix               move all lsm/nve
-)" + recorded() + "thermo 10\n";
+)";
+}
+
+TEST_F(BetweenRuns, LinksTurnedOffLeaveContacts) {
+  // a pair without a link that is kept from touching passes through: said in one line
+  const std::string scene = linked_pair() + recorded() + "thermo 10\n";
   const Result left = run_text(scene + "run 10\ndelete_bonds all bond 1\nrun 10\n");
   EXPECT_EQ(left.lines_with("WARNING: Pair style lsm/").size(), 1u) << left.output;
   const Result right = run_text(scene + "run 10\ndelete_bonds all bond 1 remove special\nrun 10\n");
@@ -346,15 +351,7 @@ TEST_F(Refused, RadiiThatChangeDuringARun) {
 }
 
 TEST_F(Refused, SpecialBonds) {
-  const std::string scene = discs({{"0", "0"}, {"1.9", "0"}}) + R"(
-create_bonds      single/bond 1 1 2
-bond_style        lsm/linked
-bond_coeff        1 1.0
-pair_style        lsm/free
-pair_coeff        1 1 1.0
-timestep          0.01
-fix               move all lsm/nve
-)";
+  const std::string scene = linked_pair();
   for (const char *setting :
        {"lj/coul 0 0 0", "lj/coul 0 0.5 1", "lj/coul 1 1 1", "lj/coul 0.5 1 1"})
     EXPECT_TRUE(failed_with(run_text(scene + "special_bonds " + setting + "\nrun 1\n"),
