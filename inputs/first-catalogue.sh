@@ -4,12 +4,12 @@
 # the package, runs the fault of length 120 on two ranks, prints its largest events and draws the
 # potential energy with the picked events.
 #
-# usage: inputs/first-catalogue.sh [STEPS]      (default 600000)
+# usage: inputs/first-catalogue.sh [STEPS]      (default 240000)
 # Build folder: build (LSM_BUILD_DIR replaces it). Results: first-catalogue/ in the build folder.
 set -euo pipefail
 export LC_ALL=C
 root=$(cd "$(dirname "$0")/.." && pwd)
-steps=${1:-600000}
+steps=${1:-240000}
 [[ $steps =~ ^[1-9][0-9]*$ ]] || { echo "usage: $0 [STEPS]; '$steps' is not a number of steps" >&2; exit 2; }
 build=${LSM_BUILD_DIR:-$root/build}
 

@@ -85,7 +85,8 @@ static std::pair<int, int> owner_first(const LSM::Packing &packing, const std::p
 /* ---------------------------------------------------------------------- */
 
 CreateLSMFault::CreateLSMFault(LAMMPS *lmp_in) :
-    Command(lmp_in), mass_power(2), mass_scale(1.0), margin(2.0), stiffness(1.0)
+    Command(lmp_in), mass_power(2), mass_scale(1.0), mass_floor(0.0), margin(2.0),
+    stiffness(1.0)
 {
 }
 
@@ -107,8 +108,9 @@ void CreateLSMFault::command(int narg, char **arg)
 
   std::vector<double> masses;
   masses.reserve(packing.discs.size());
-  for (const auto &disc : packing.discs)
-    masses.push_back(mass_scale * disc.r * disc.r * (mass_power == 3 ? disc.r : 1.0));
+  for (const auto &disc : packing.discs) {
+    masses.push_back(std::max(mass_of(disc.r), mass_floor));
+  }
 
   std::vector<int> stored(packing.discs.size(), 0);
   for (const auto &link : packing.links) {
@@ -129,6 +131,13 @@ void CreateLSMFault::command(int narg, char **arg)
     utils::logmesg(lmp, "  create_lsm_fault CPU = {:.3f} seconds (packing {:.3f})\n",
                    platform::walltime() - time1, time2 - time1);
   }
+}
+
+/* ---------------------------------------------------------------------- */
+
+double CreateLSMFault::mass_of(double radius) const
+{
+  return mass_scale * radius * radius * (mass_power == 3 ? radius : 1.0);
 }
 
 /* ----------------------------------------------------------------------
@@ -217,6 +226,11 @@ void CreateLSMFault::parse(int narg, char **arg, LSM::PackingSettings &settings)
       if (!(mass_scale > 0.0) || !std::isfinite(mass_scale))
         error->all(FLERR, "Create_lsm_fault: mass {} = {}, expected a positive number", value,
                    mass_scale);
+    } else if (key == "massfloor") {
+      mass_floor = utils::numeric(FLERR, value, false, lmp);
+      if (!(mass_floor >= 0.0) || !std::isfinite(mass_floor))
+        error->all(FLERR, "Create_lsm_fault: massfloor = {}, expected 0 or a positive number",
+                   mass_floor);
     } else if (key == "margin") {
       margin = utils::numeric(FLERR, value, false, lmp);
       if (!(margin > 0.0) || !std::isfinite(margin))
@@ -229,7 +243,8 @@ void CreateLSMFault::parse(int narg, char **arg, LSM::PackingSettings &settings)
     } else
       error->all(FLERR,
                  "Create_lsm_fault: unknown keyword {}, expected length, width, seed, rmin, rmax, "
-                 "failures, tolerance, linkgap, faultzone, hexseeds, loose, mass, margin or stiffness",
+                 "failures, tolerance, linkgap, faultzone, hexseeds, loose, mass, massfloor, margin or "
+                 "stiffness",
                  key);
     iarg += 1 + values;
   }
@@ -436,6 +451,21 @@ void CreateLSMFault::report(const LSM::PackingSettings &settings, const LSM::Pac
                  "softest support of the others = {:.4f} of a link\n",
                  LSM::HELD_LINKS, packing.loose, settings.remove_loose ? "removed" : "kept",
                  packing.loose_tangent, packing.weakest);
+
+  if (mass_floor > 0.0) {
+    double sum = 0.0, raised = 0.0;
+    bigint count = 0;
+    for (std::size_t i = 0; i < masses.size(); i++) {
+      const double own = mass_of(packing.discs[i].r);
+      sum += own;
+      if (own < mass_floor) {
+        raised += mass_floor - own;
+        ++count;
+      }
+    }
+    utils::logmesg(lmp, "  mass floor {:g}: {} particles raised, {:.2f} % more mass in all\n",
+                   mass_floor, count, 100.0 * raised / sum);
+  }
 
   const double omega = LSM::frequency_bound(packing, settings.length, masses, stiffness);
   utils::logmesg(lmp,

@@ -31,9 +31,11 @@ class CreateLSMFault : public Command {
  private:
   int mass_power;      // mass = mass_scale * radius^mass_power
   double mass_scale;
+  double mass_floor;   // smaller masses are raised to it
   double margin;       // empty space beyond each plate
   double stiffness;    // of the links, for the estimate of the time step only
 
+  double mass_of(double radius) const;    // before the floor
   void check_setup();
   void parse(int, char **, LSM::PackingSettings &);
   void pack(const LSM::PackingSettings &, LSM::Packing &);

@@ -11,11 +11,11 @@ cd "$work"
 fail() { echo "FAILED: $*" >&2; [ -f out ] && tail -n 20 out >&2; exit 1; }
 
 # The fault of length 120 on two ranks yields events.
-"$mpirun" -np 2 "$lmp" -in "$source/inputs/fault_120.in" -var steps 60000 -var prefix short -var location yes \
+"$mpirun" -np 2 "$lmp" -in "$source/inputs/fault_120.in" -var steps 30000 -var prefix short -var location yes \
   </dev/null >out 2>&1 || fail "fault_120.in on two ranks"
 [ -f short.catalogue.csv ] && [ -f short.pe.bin ] && [ -f short.restart.end ] || fail "an output file is missing"
 events=$(grep -cv '^[#e]' short.catalogue.csv || true)
-[ "$events" -ge 3 ] || fail "$events events in 60000 steps, expected at least 3"
+[ "$events" -ge 3 ] || fail "$events events in 30000 steps, expected at least 3"
 # Sizes are positive and the rupture is no longer than the fault.
 awk -F, '!/^[#e]/ && !($6 > 0 && $9 >= 0 && $10 >= 0 && $10 <= 120 && $11 <= 120) { bad = 1 } END { exit bad }' \
   short.catalogue.csv || fail "an event has an impossible size or place"

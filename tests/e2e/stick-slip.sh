@@ -14,7 +14,7 @@ fail() { echo "FAILED: $*" >&2; tail -n 20 out >&2; exit 1; }
 regime() {
   local name=$1 line
   shift
-  "$lmp" -in "$source/inputs/fault.in" -var length 60 -var steps 180000 -var prefix "$name" "$@" </dev/null >out 2>&1 ||
+  "$lmp" -in "$source/inputs/fault.in" -var length 60 -var steps 72000 -var prefix "$name" "$@" </dev/null >out 2>&1 ||
     fail "lmp of $name"
   "$postproc" series "$name.pe.bin" --from 3000 -o "$name" >out 2>&1 || fail "postproc series of $name"
   line=$(grep '^regime: ' out) || fail "no regime of $name"
