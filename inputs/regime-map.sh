@@ -148,14 +148,14 @@ plot data using 2:3:5 with points pt 7 ps 7 lc palette, \
      "" using 2:3:(sprintf("%.2f", $14)) with labels offset 0,-2.1 font ",9", \
      torn using 1:2 with points pt 2 ps 3 lw 2 lc rgb "#777777", \
      "" using 1:2:("links torn") with labels offset 0,-2.1 font ",9" tc rgb "#777777", \
-     "< echo 0.02,0.015" using 1:2 with points pt 6 ps 8.5 lw 2.5 lc rgb "black"
+     "< echo ".default using 1:2 with points pt 6 ps 8.5 lw 2.5 lc rgb "black"
 END
 sed -n '/^#/!p' "$output/regime-map.csv" | awk -F, 'NR > 1 && $1 == 120 && $4 == ""' >"$output/grid.csv"
 if [ -s "$output/grid.csv" ]; then
   (cd "$output" && for kind in png svg; do
     terminal="pngcairo size 900,640 font 'sans,12'"
     [ $kind = png ] || terminal="svg size 900,640 font 'sans,12'"
-    gnuplot -e "set terminal $terminal; set output 'regime-map.$kind'; data = 'grid.csv'; torn = 'torn.csv'; load 'regime-map.gp'" || exit 1
+    gnuplot -e "set terminal $terminal; set output 'regime-map.$kind'; data = 'grid.csv'; torn = 'torn.csv'; default = '$(default stress),$(default viscosity)'; load 'regime-map.gp'" || exit 1
   done) || exit 1
 fi
 echo "regime-map: $(sed '/^#/d' "$output/regime-map.csv" | tail -n +2 | wc -l) points in $output/regime-map.csv"

@@ -183,7 +183,7 @@ void run(const Options &options) {
                     samples, options.columns));
   events.comment("events picked in the window; an empty size: not ended yet; " + settings);
 
-  RegimeMeter meter(options.window, info.dt * static_cast<double>(info.stride));
+  RegimeMeter meter(options.window, info.dt * static_cast<double>(info.stride), length_of(info));
   Thinner thinner(figure.table, samples, options.columns);
   const auto add_event = [&](double t_start, double t_end, double pe_start, double pe_end,
                              double size) {

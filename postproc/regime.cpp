@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -12,8 +13,21 @@
 
 namespace LSM::postproc {
 
-RegimeMeter::RegimeMeter(double window, double spacing)
-    : per_window_(std::max<std::int64_t>(1, std::llround(window / spacing))), spacing_(spacing) {}
+double stick_slip_above(double length) {
+  constexpr double shortest = 120.0;
+  return length > shortest ? 1.0 + 2.0 * std::sqrt(shortest / length) : 3.0;
+}
+
+double length_of(const PeSeriesInfo &info) {
+  double length = std::numeric_limits<double>::quiet_NaN();
+  if (const std::string *text = info.find("length")) text_io::parse(*text, length);
+  return length;
+}
+
+RegimeMeter::RegimeMeter(double window, double spacing, double length)
+    : per_window_(std::max<std::int64_t>(1, std::llround(window / spacing))),
+      spacing_(spacing),
+      length_(length) {}
 
 void RegimeMeter::add(double pe) {
   if (samples_ % per_window_ == 0) {
@@ -30,6 +44,7 @@ void RegimeMeter::event(double t_start, double t_end) {
 
 Regime RegimeMeter::result() const {
   Regime r;
+  r.above = stick_slip_above(length_);
   r.window = static_cast<double>(per_window_) * spacing_;
   r.windows = static_cast<std::int64_t>(changes_.size());
   std::vector<double> rises;
@@ -47,9 +62,11 @@ Regime RegimeMeter::result() const {
     }
   }
   if (rises.empty() || !(fastest > 0.0))
-    throw std::runtime_error(fmt::format("PE only {} over {} windows of {} time units: no events to tell a regime by",
-                                         rises.empty() ? "falls" : "rises", r.windows, r.window));
-  const auto quantile = rises.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(rises.size() - 1));
+    throw std::runtime_error(
+        fmt::format("PE only {} over {} windows of {} time units: no events to tell a regime by",
+                    rises.empty() ? "falls" : "rises", r.windows, r.window));
+  const auto quantile =
+      rises.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(rises.size() - 1));
   std::nth_element(rises.begin(), quantile, rises.end());
   r.rise = up2.value() / up.value() / r.window;
   r.fall = down2.value() / down.value() / r.window;
@@ -61,17 +78,19 @@ Regime RegimeMeter::result() const {
 }
 
 std::string name_of(const Regime &regime) {
-  return regime.saw_tooth > stick_slip_above ? "stick-slip" : "creep";
+  return regime.saw_tooth > regime.above ? "stick-slip" : "creep";
 }
 
 std::string regime_line(const RegimeMeter &meter) {
   try {
     const Regime r = meter.result();
     return fmt::format(
-        "regime: {} (saw-tooth {}; above {} is stick-slip, ours), fastest fall / load {}, time in events {}, mean "
+        "regime: {} (saw-tooth {}; above {} is stick-slip, ours), fastest fall / load {}, time in "
+        "events {}, mean "
         "duration {}",
-        name_of(r), short_number(r.saw_tooth), stick_slip_above, short_number(r.drop_over_load),
-        short_number(r.time_in_events), short_number(r.mean_duration));
+        name_of(r), short_number(r.saw_tooth), short_number(r.above, 3),
+        short_number(r.drop_over_load), short_number(r.time_in_events),
+        short_number(r.mean_duration));
   } catch (const std::runtime_error &e) {
     return fmt::format("regime: {}", e.what());
   }

@@ -124,7 +124,7 @@ std::string catalogue_section(const std::vector<EventTable> &tables, const Thres
 }
 
 std::string series_section(const std::vector<SeriesRegime> &series) {
-  HtmlTable table({"PE series", "model", "length or blocks", "times", "regime", "saw-tooth",
+  HtmlTable table({"PE series", "model", "length or blocks", "times", "regime", "saw-tooth", "stick-slip above",
                    "fastest fall / load", "share of the time within events",
                    "mean duration of events (model time)"});
   double window = regime_window;
@@ -136,7 +136,7 @@ std::string series_section(const std::vector<SeriesRegime> &series) {
       const Regime &r = *one.regime;
       window = r.window;
       for (const std::string &cell :
-           {name_of(r), short_number(r.saw_tooth, 3), short_number(r.drop_over_load, 3),
+           {name_of(r), short_number(r.saw_tooth, 3), short_number(r.above, 3), short_number(r.drop_over_load, 3),
             short_number(r.time_in_events, 2), short_number(r.mean_duration, 3)})
         cells.push_back(cell);
     } else {
@@ -149,12 +149,13 @@ std::string series_section(const std::vector<SeriesRegime> &series) {
              "<p>All ours; the paper shows in its Fig. 8 that PE rises steadily and drops at once. "
              "Saw-tooth: rate at which PE falls over the rate at which it rises, over windows of "
              "{} "
-             "time units; above {} is stick-slip, else creep. Fastest fall over the 99 % quantile "
+             "time units; above {} (up to length 120; 1 + 2 / sqrt(length / 120) beyond, as PE sums over "
+             "parts that slip on their own) is stick-slip, else creep. Fastest fall over the 99 % quantile "
              "of "
              "the rises; it grows with the length of the series. Events as picked with the "
              "settings "
              "of the header of each series.</p>\n",
-             short_number(window), stick_slip_above);
+             short_number(window), short_number(stick_slip_above(120)));
 }
 
 std::string parameter_section(const std::vector<const EventTable *> &tables) {
@@ -497,7 +498,7 @@ SeriesRegime series_regime(const std::string &path, const SeriesOptions &options
   for (const char *const key : {"length", "blocks"})
     if (const std::string *text = info.find(key)) text_io::parse(*text, result.length);
   EventPicker picker(PickerOptions().settings(info.parameters, info));
-  RegimeMeter meter(regime_window, info.dt * static_cast<double>(info.stride));
+  RegimeMeter meter(regime_window, info.dt * static_cast<double>(info.stride), length_of(info));
   Event event;
   Extent times;
   const std::int64_t samples =

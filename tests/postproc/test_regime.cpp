@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 namespace {
@@ -22,7 +23,7 @@ void saw_tooth(RegimeMeter &meter, double up, int n, int m, int times) {
 
 TEST(Regime, OfASawToothIsTheRatioOfItsSlopes) {
   // windows of 5 samples, flanks of 200 and 10: no window holds a turn
-  RegimeMeter meter(0.5, 0.1);
+  RegimeMeter meter(0.5, 0.1, 120);
   saw_tooth(meter, 1e-3, 200, 10, 50);
   const Regime r = meter.result();
   EXPECT_DOUBLE_EQ(r.window, 0.5);
@@ -35,7 +36,7 @@ TEST(Regime, OfASawToothIsTheRatioOfItsSlopes) {
 }
 
 TEST(Regime, OfASymmetricSeriesIsOne) {
-  RegimeMeter meter(0.3, 0.1);
+  RegimeMeter meter(0.3, 0.1, 120);
   for (int i = 0; i < 300000; ++i) meter.add(std::sin(0.002 * i) + std::sin(0.0071 * i));
   const Regime r = meter.result();
   EXPECT_NEAR(r.saw_tooth, 1.0, 0.01);
@@ -45,7 +46,7 @@ TEST(Regime, OfASymmetricSeriesIsOne) {
 TEST(Regime, DoesNotGrowWithTheLengthOfTheSeries) {
   // events of many sizes: the fastest fall grows with their number, the mean does not
   const auto of = [](int cycles) {
-    RegimeMeter meter(1.0, 1.0);
+    RegimeMeter meter(1.0, 1.0, 120);
     double pe = 0.0, u = 0.5;
     for (int k = 0; k < cycles; ++k) {
       u = std::fmod(u * 997.0 + 0.123, 1.0);
@@ -59,8 +60,31 @@ TEST(Regime, DoesNotGrowWithTheLengthOfTheSeries) {
   EXPECT_NEAR(longer.saw_tooth / brief.saw_tooth, 1.0, 0.5);
 }
 
+// n faults of length 120 side by side, each a saw-tooth that falls 12 times as fast as it rises,
+// out of step.
+TEST(Regime, OfALongFaultIsJudgedByItsLength) {
+  for (const int n : {1, 4, 16}) {
+    RegimeMeter meter(1.0, 1.0, 120.0 * n);
+    for (int t = 0; t < 50000; ++t) {
+      double pe = 0.0;
+      for (int k = 0; k < n; ++k) {
+        const double period = 130.0 * (1.0 + 0.37 * k / n),
+                     phase = std::fmod(t + 71.0 * k * k, period) / period;
+        pe += phase < 12.0 / 13 ? phase : 12.0 * (1.0 - phase);
+      }
+      meter.add(pe);
+    }
+    const Regime r = meter.result();
+    std::printf("%d faults: saw-tooth %.2f, stick-slip above %.2f\n", n, r.saw_tooth, r.above);
+    EXPECT_EQ(name_of(r), "stick-slip") << n;
+    EXPECT_NEAR(r.above, 1 + 2 / std::sqrt(n), 1e-12);
+  }
+  EXPECT_EQ(LSM::postproc::stick_slip_above(40.0), 3.0);
+  EXPECT_EQ(LSM::postproc::stick_slip_above(std::nan("")), 3.0);
+}
+
 TEST(Regime, TimeInEventsAndMeanDuration) {
-  RegimeMeter meter(1.0, 1.0);
+  RegimeMeter meter(1.0, 1.0, 120);
   saw_tooth(meter, 1.0, 90, 10, 1);  // 101 samples: 100 time units
   meter.event(10.0, 25.0);
   meter.event(90.0, 95.0);
@@ -69,7 +93,7 @@ TEST(Regime, TimeInEventsAndMeanDuration) {
 }
 
 TEST(Regime, SeriesWithoutAFallOrARiseHasNone) {
-  RegimeMeter rising(1.0, 1.0), falling(1.0, 1.0), empty(1.0, 1.0);
+  RegimeMeter rising(1.0, 1.0, 120), falling(1.0, 1.0, 120), empty(1.0, 1.0, 120);
   for (int i = 0; i < 100; ++i) {
     rising.add(i);
     falling.add(-i);
