@@ -152,7 +152,7 @@ done
 draw fault_wave "set title 'P-wave speed'; set xlabel 'CPU time (s)'; set ylabel 'relative error'; set key noenhanced
 $(join "${waves[@]}")"
 long=() n=0
-for run in remove:0.03:1 remove:0.06:1 remove:0.06:2 remove:0.09:1 keep:0.06:1; do
+for run in remove:0.03:1 remove:0.06:1 remove:0.09:1 remove:0.12:1 remove:0.15:1 remove:0.15:2 remove:0.18:1 keep:0.06:1; do
   IFS=: read -r loose dt ranks <<<"$run"
   [ -e fault_long.csv ] && awk -F, -v l="$loose" -v d="$dt" -v r="$ranks" \
     '$1 == l && $2 == d && $3 == r && $8 != 1 {found = 1} END {exit !found}' fault_long.csv || continue
@@ -233,7 +233,7 @@ much smaller step. *located*: a contact that begins within a step gets the part 
 that follows its begin; *step*: it begins with elongation 0 at the end of the step; *force*: located, but viscosity is
 a force evaluated with the velocity of the half step instead of exact decay around the step. *standard*: kt = k, viscosity
 0.015, as in \`fault.in\`; *damped*, *light*: viscosity 0.05 and 0.005; *soft*, *stiff*: kt = 0.1 and 10. What differs from
-\`fault.in\`: length 60 instead of 120 and more, plates that reflect P-waves (the small program below has no others), and that
+\`fault.in\`: length 60 instead of 120 and more, all masses r^2 (as with \`-var preset single\`), and that
 ledger and places of events are on, which moves no disc. The event is the
 first of size 0.01 or more. It speeds up slowly over most of its duration, so that a small error of its begin grows into one of
 its time: the arrival is when the velocity of a patch of the upper block has changed by half of its largest change.
@@ -288,7 +288,7 @@ $(markdown fault_long_runs.csv)
 Each catalogue from several sizes (threshold) on, beside that of the first run, the one with the smallest time step: number of events with
 the error of a Poisson process; dispersion, the variance of the counts in 30 equal stretches of time over their mean (1 for a Poisson
 process); ratio to the number in the first run; events whose start has a partner in the first run within 5 time units (in_both), events without
-one there (only_in_first) and here (only_here); events shorter than the memory of the picker, one time unit (brief); exponent of the sizes from the threshold to 0.1 (from 0.01 on: to 1) and density
+one there (only_in_first) and here (only_here); events shorter than the memory of the picker, half a time unit (brief); exponent of the sizes from the threshold to 0.1 (from 0.01 on: to 1) and density
 t^(gamma - 1) exp(-t / B) of the times between starts, both by maximum likelihood; probability of the two-sample Kolmogorov-Smirnov
 test of sizes and of times against the first run. Errors of exponents and times hold for independent events.
 Error bars of the diagram: square root of the number of events without partner.

@@ -40,8 +40,8 @@ std::string folder, lmp, inputs, scenes, mpiexec;
 bool quick = false;
 
 // as in fault_event.in and fault.in
-constexpr double length = 60.0, width = 30.0, stress = 0.02, velocity = 0.00025, memory = 1.0,
-                 compression = 1200.0;
+constexpr double length = 60.0, width = 30.0, stress = 0.02, velocity = 0.00025, memory = 0.5,
+                 impedance = 0.6, compression = 1200.0;
 
 std::string text(double value) {
   char buffer[32];
@@ -74,6 +74,7 @@ class Table {
 /// What one run of lmp printed.
 struct Run {
   double seconds = 0.0;                   ///< CPU time of the last 'run' command on one rank
+  double cpu = 0.0;                       ///< CPU time of all of it on all ranks, if it has a name
   std::map<std::string, double> last;     ///< last thermo row
   std::map<std::string, double> printed;  ///< lines "name = number"
 };
@@ -94,12 +95,25 @@ Run run(const std::string &script, const Variables &variables, int ranks = 1,
   if (!name.empty()) std::getline(std::ifstream(mark) >> std::ws, done);
   int status = 0;
   if (done.empty() || done != command) {
-    status = std::system(
-        ("cd '" + folder + "/work' && " + command + " > " + output + " 2>&1 < /dev/null").c_str());
+    const std::string all = command + " > " + output + " 2>&1 < /dev/null",
+                      there = "cd '" + folder + "/work' && ";
+    if (name.empty()) {
+      status = std::system((there + all).c_str());
+    } else {
+      std::ofstream(work(name + ".sh")) << all << '\n';
+      status = std::system(
+          (there + "TIMEFORMAT='%U %S' bash -c 'time bash " + name + ".sh' 2> " + name + ".cpu")
+              .c_str());
+    }
     if (!name.empty() && status == 0) std::ofstream(mark) << command << '\n';
   }
   std::ifstream in(work(output));
   Run result;
+  if (!name.empty()) {
+    double user = 0.0, system = 0.0;
+    std::ifstream(work(name + ".cpu")) >> user >> system;
+    result.cpu = user + system;
+  }
   std::string error;
   std::vector<std::string> columns;
   for (std::string line; std::getline(in, line);) {
@@ -326,7 +340,7 @@ Accuracy::Scene small_fault(const Saved &saved, const Variant &v) {
              {"listing", "yes"},
              {"prefix", "list"}});
   Accuracy::Scene scene;
-  scene.constants = {length, 1.0, v.kt, 0.6, stress, velocity, v.viscosity};
+  scene.constants = {length, 1.0, v.kt, 0.6, stress, velocity, v.viscosity, impedance};
   for (const auto &row : dumped("list.discs")) {  // by id
     constexpr std::array<Side, 7> side = {Side::block,      Side::block, Side::block,
                                           Side::below,      Side::above, Side::lower_plate,
@@ -503,7 +517,9 @@ struct LongRun {
   double dt;
   int ranks;
   bool series;
+  double mass_floor = 0.0;  ///< smaller masses are raised to it
   double time = 0.0;
+  double seconds = 0.0;                 ///< CPU time of all ranks
   std::vector<LSM::Event> events = {};  ///< after the warm-up
   std::string prefix() const {
     return std::string("long_") + loose + "_" + text(dt) + "_" + std::to_string(ranks);
@@ -515,13 +531,14 @@ void start(LongRun &w) {
                                {"prefix", w.prefix()},
                                {"loose", w.loose},
                                {"dt", text(w.dt)},
+                               {"massfloor", text(w.mass_floor)},
                                {"settle", text(std::round(compression / w.dt))},
                                {"steps", text(std::round(w.time / w.dt))},
                                {"checkpoint", "1000000000"},
                                {"overwrite", "yes"},
                                {"thermo", "100000"},
                                {"series", w.series ? "yes" : "no"}};
-  run(inputs + "/fault.in", variables, w.ranks, w.prefix());
+  w.seconds = run(inputs + "/fault.in", variables, w.ranks, w.prefix()).cpu;
   w.events = events_of(w.prefix() + ".catalogue.csv");
   w.events.erase(
       std::remove_if(w.events.begin(), w.events.end(),
@@ -695,12 +712,14 @@ void picker_readings(const LongRun &w, Table &table) {
 void long_runs() {
   std::vector<LongRun> ways = {{"remove", 0.03, 1, true},
                                {"remove", 0.06, 1, true},
-                               {"remove", 0.06, 2, false},
-                               {"remove", 0.09, 1, false}};
+                               {"remove", 0.15, 1, true, 0.04},
+                               {"remove", 0.15, 2, false, 0.04}};
   if (!quick)
-    ways = {{"remove", 0.015, 1, true}, {"remove", 0.03, 1, false}, {"remove", 0.06, 1, true},
-            {"remove", 0.06, 2, false}, {"remove", 0.09, 1, false}, {"keep", 0.03, 1, false},
-            {"keep", 0.06, 1, false}};
+    ways = {{"remove", 0.015, 1, true},       {"remove", 0.03, 1, false},
+            {"remove", 0.06, 1, true},        {"remove", 0.09, 1, false},
+            {"remove", 0.12, 1, false, 0.04}, {"remove", 0.15, 1, true, 0.04},
+            {"remove", 0.15, 2, false, 0.04}, {"remove", 0.18, 1, false, 0.09},
+            {"keep", 0.03, 1, false},         {"keep", 0.06, 1, false}};
   for (LongRun &w : ways) {
     w.time = quick ? 15000.0 : 90000.0;
     if (std::string(w.loose) == "keep") w.time /= 2.0;
@@ -726,11 +745,14 @@ void long_runs() {
   for (LongRun &w : ways)
     if (w.ranks > 1) start(w);
 
-  Table runs("fault_long_runs.csv", "loose,dt,ranks,time,events,time_in_events,after_30_to_40");
+  Table runs("fault_long_runs.csv",
+             "loose,dt,massfloor,ranks,time,events,time_in_events,after_30_to_40,largest,released,"
+             "seconds,time_per_core_hour");
   runs.row(
       "# inputs/fault.in at length %g, events after the first %g time units of shear, by their "
       "begin. after_30_to_40: share of the events of 1e-3 and more that begin 30 to 40 time units "
-      "after the one before (the blocks swing with a period near 34)\n",
+      "after the one before (the blocks swing with a period near 34). released: sum of the sizes; "
+      "seconds: CPU time of all ranks\n",
       length, warmup);
   for (const LongRun &w : ways) {
     double inside = 0.0;
@@ -738,9 +760,16 @@ void long_runs() {
     const Sample s = sample_of(w, 1e-3);
     const auto echoes = std::count_if(s.intervals.begin(), s.intervals.end(),
                                       [](double t) { return t > 30.0 && t < 40.0; });
-    runs.row("%s,%g,%d,%g,%zu,%.3f,%.3f\n", w.loose, w.dt, w.ranks, w.time, w.events.size(),
-             inside / (w.time - warmup),
-             static_cast<double>(echoes) / static_cast<double>(s.intervals.size()));
+    LSM::NeumaierSum released;
+    double largest = 0.0;
+    for (const auto &e : w.events) {
+      released.add(e.size);
+      largest = std::max(largest, e.size);
+    }
+    runs.row("%s,%g,%g,%d,%g,%zu,%.3f,%.3f,%.4g,%.4g,%.0f,%.3g\n", w.loose, w.dt, w.mass_floor,
+             w.ranks, w.time, w.events.size(), inside / (w.time - warmup),
+             static_cast<double>(echoes) / static_cast<double>(s.intervals.size()), largest,
+             released.value(), w.seconds, 3600.0 * w.time / w.seconds);
   }
   Table table(
       "fault_long.csv",
@@ -811,7 +840,7 @@ pair_coeff * * off
 pair_coeff 3 4 1.0 1.0 0.6
 timestep 0.03
 fix move blocks lsm/nve viscosity 0.015
-fix plates all lsm/plates lower upper stress 0.02 damping 0.015 velocity 0.00025
+fix plates all lsm/plates lower upper stress 0.02 damping 0.015 impedance 0.6 velocity 0.00025
 compute events all lsm/events
 compute link all bond/local engpot
 if "${write} == yes" then "dump link all local 100 sums.link c_link" "dump_modify link format float %.17g"

@@ -36,7 +36,8 @@ struct Disc {
 
 /// Constants of the scene; compare fault_event.in.
 struct Constants {
-  double length = 0.0, k = 1.0, kt = 1.0, mu = 0.6, stress = 0.0, velocity = 0.0, viscosity = 0.0;
+  double length = 0.0, k = 1.0, kt = 1.0, mu = 0.6, stress = 0.0, velocity = 0.0, viscosity = 0.0,
+         impedance = 0.0;
 };
 
 /// A pair across the fault that touches or may touch soon; the elongation xi and the vector of the
@@ -107,9 +108,10 @@ class SmallFault {
       Plate &plate = plates_[p];
       double fy = p == 0 ? c_.stress * c_.length : -c_.stress * c_.length;
       for (int n : plate.discs) fy += disc(n).f.y;
-      if (initial) plate.vy *= damp;
+      const double absorbed = std::exp(-0.5 * c_.impedance * c_.length / plate.mass * dt);
+      if (initial) plate.vy *= damp * absorbed;
       plate.vy += 0.5 * dt * fy / plate.mass;
-      if (!initial) plate.vy *= damp;
+      if (!initial) plate.vy *= damp * absorbed;
       for (int n : plate.discs) disc(n).v = {p == 0 ? -c_.velocity : c_.velocity, plate.vy};
     }
   }
