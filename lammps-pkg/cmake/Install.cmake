@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+# cmake --install, the manual pages, and a Debian package by cpack. To be included by the root CMakeLists.txt, last.
+include(GNUInstallDirs)
+set(share ${CMAKE_INSTALL_DATADIR}/lsm-fault)
+set(documents ${CMAKE_INSTALL_DATADIR}/doc/lsm-fault)
+
+install(DIRECTORY lammps-pkg/core/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lsm FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY inputs DESTINATION ${share} FILES_MATCHING PATTERN "*.in" PATTERN "*.ini" PATTERN results EXCLUDE)
+install(FILES README.md ARCHITECTURE.md LICENSE DESTINATION ${documents})
+if(TARGET lmp)
+  install(TARGETS lmp RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(TARGETS lsmplugin LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/lsm-fault)
+  install(DIRECTORY lammps-pkg/doc/ DESTINATION ${documents}/lammps FILES_MATCHING PATTERN "*.rst")
+endif()
+
+# Manual pages are made from what --help says.
+find_program(LSM_HELP2MAN help2man)
+set(pages)
+foreach(program IN ITEMS slider_cli postproc)
+  if(NOT TARGET ${program})
+    continue()
+  endif()
+  install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  if(NOT LSM_HELP2MAN)
+    continue()
+  endif()
+  set(name_slider_cli "earthquake catalogues of the block-slider model")
+  set(name_postproc "statistics and figures of earthquake catalogues")
+  set(page ${CMAKE_BINARY_DIR}/man/${program}.1)
+  file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/man)
+  add_custom_command(
+    OUTPUT ${page}
+    COMMAND ${LSM_HELP2MAN} --no-info --version-string=${PROJECT_VERSION} --name=${name_${program}} --output=${page}
+            $<TARGET_FILE:${program}>
+    DEPENDS ${program}
+    COMMENT "Manual page of ${program}"
+    VERBATIM)
+  list(APPEND pages ${page})
+  install(FILES ${page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+endforeach()
+if(pages)
+  add_custom_target(manual_pages ALL DEPENDS ${pages})
+endif()
+
+# The pages of the styles as HTML
+find_program(LSM_SPHINX sphinx-build)
+if(LSM_SPHINX)
+  add_custom_target(
+    pages
+    COMMAND ${LSM_SPHINX} -q -n -W --keep-going -b html ${PROJECT_SOURCE_DIR}/lammps-pkg/doc ${CMAKE_BINARY_DIR}/pages
+    COMMENT "HTML pages in ${CMAKE_BINARY_DIR}/pages"
+    VERBATIM)
+endif()
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME lsm-fault)
+set(CPACK_PACKAGE_CONTACT "the authors of lsm-fault <lsm-fault@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "gnuplot-nox, openmpi-bin")
+# Debian's LAMMPS has a program lmp, too.
+set(CPACK_DEBIAN_PACKAGE_CONFLICTS lammps)
+set(CPACK_STRIP_FILES ON)
+include(CPack)
