@@ -355,8 +355,10 @@ RunResult run(const RunOptions &o, C &chain) {
     // rupture when its memory is over.
     const std::int64_t late = ruptures ? o.rupture_memory : 1;
     if (!o.catalogue.empty())
-      catalogue.resume(o.catalogue, info, chain.step() - late, {}, state.events);
-    if (!o.series.empty()) series.resume(o.series, series_info, o.series_binary, chain.step());
+      catalogue.find_cut(o.catalogue, info, chain.step() - late, {}, state.events);
+    if (!o.series.empty()) series.find_cut(o.series, series_info, o.series_binary, chain.step());
+    if (!o.catalogue.empty()) catalogue.cut();
+    if (!o.series.empty()) series.cut();
   } else {
     if (!o.catalogue.empty()) catalogue.create(o.catalogue, info);
     if (!o.series.empty()) {
