@@ -272,6 +272,13 @@ void ComputeLSMEvents::check_surroundings()
     if (ifix->pre_exchange_migrate)
       error->all(FLERR, "Compute lsm/events {} must be defined before fix {}, which moves particles to other ranks", id, ifix->id);
   }
+  if (ledger)
+    for (const char *adds_or_takes : {"^pour", "^deposit", "^evaporate"})
+      for (const auto &other : modify->get_fix_by_style(adds_or_takes))
+        error->all(FLERR,
+                   "Compute lsm/events {}: the energy ledger does not know the particles that fix {} "
+                   "adds or takes away; use ledger no and no tolerance",
+                   id, other->id);
   const std::string foreign = LSMScene::foreign_forces(force);
   if (!foreign.empty() && comm->me == 0)
     error->warning(FLERR, "Compute lsm/events {}: PE, events and ledger do not hold the energy of {}", id, foreign);
