@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file regime.h
+/// Does a fault stick and slip, or creep? Numbers of a PE series (ours; the paper shows its Fig. 8
+/// only: PE rises steadily while the fault is locked and drops at once in an event).
+#ifndef LSM_POSTPROC_REGIME_H
+#define LSM_POSTPROC_REGIME_H
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace LSM::postproc {
+
+/// Numbers of the shape of a PE series. Rates are changes of PE per unit of time over consecutive
+/// windows.
+struct Regime {
+  double window = 0.0;       ///< length of a window (model time)
+  std::int64_t windows = 0;  ///< how many there were
+  double rise = 0.0;  ///< rate at which PE rises: mean over rising windows, weighted by their rise
+  double fall = 0.0;  ///< rate at which it falls, likewise
+  double saw_tooth =
+      0.0;  ///< fall / rise: 1 for a series that goes up as it goes down, large for a saw-tooth
+  double drop_over_load =
+      0.0;  ///< fastest fall / 99 % quantile of the rises; grows with the length of the series
+  double time_in_events = 0.0;  ///< share of the time within picked events
+  double mean_duration = 0.0;   ///< mean duration of picked events (model time)
+};
+
+/// Default window (ours): long beside the periods of single discs (about 1), short beside large
+/// events (10 and more).
+constexpr double regime_window = 3.0;
+
+/// Saw-tooth numbers above this are called stick-slip (ours; chosen from the regime map of the
+/// fault, see the README).
+constexpr double stick_slip_above = 3.0;
+
+/// Collects a Regime from the samples of a series.
+class RegimeMeter {
+ public:
+  /// \param window length of a window (model time), > 0; rounded to whole samples
+  /// \param spacing time between samples, > 0
+  RegimeMeter(double window, double spacing);
+  /// The next sample.
+  void add(double pe);
+  /// An event that was picked.
+  void event(double t_start, double t_end);
+  /// \throws std::runtime_error if PE did not both rise and fall over a window
+  Regime result() const;
+
+ private:
+  std::int64_t per_window_, samples_ = 0, events_ = 0;
+  double spacing_, before_ = 0.0, in_events_ = 0.0;
+  std::vector<double> changes_;
+};
+
+/// "stick-slip" or "creep".
+std::string name_of(const Regime &regime);
+
+}  // namespace LSM::postproc
+
+#endif
