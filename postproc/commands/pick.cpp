@@ -66,7 +66,7 @@ text_io::Parameters catalogue_parameters(const PeSeriesInfo &info, const PickerS
 void run(const Options &options) {
   refuse_input(options.output, {options.series});
   const PeSeriesInfo info = PeSeriesReader(options.series, options.samples.lenient).info();
-  EventPicker picker(options.picker.settings(info.parameters, info));
+  EventPicker picker(picker_settings(options.picker, info.parameters, info));
   double warmup = 0.0;
   if (const std::string *text = info.find("warmup")) text_io::parse(*text, warmup);
   if (options.warmup) warmup = *options.warmup;
@@ -128,7 +128,7 @@ void add_pick(CLI::App &app) {
           "(energy; ours), for the header of the catalogue: the other commands begin there "
           "by default (default: as in the header of the series, or not said)")
       ->check(zero_or_more());
-  options->picker.add_to(command);
+  add_picker_options(command, options->picker);
   command->callback([options] { run(*options); });
 }
 

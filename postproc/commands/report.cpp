@@ -34,7 +34,7 @@ SeriesRegime series_regime(const std::string &path, const SeriesOptions &options
   result.model = info.model;
   for (const char *const key : {"length", "blocks"})
     if (const std::string *text = info.find(key)) text_io::parse(*text, result.length);
-  EventPicker picker(PickerOptions().settings(info.parameters, info));
+  EventPicker picker(picker_settings({}, info.parameters, info));
   RegimeMeter meter(regime_window, info.dt * static_cast<double>(info.stride));
   Event event;
   Extent times;

@@ -49,7 +49,7 @@ std::string regime_line(const RegimeMeter &meter) {
 void run(const Options &options) {
   options.picture.check({options.series}, {"-events.csv"});
   const PeSeriesInfo info = PeSeriesReader(options.series, options.samples.lenient).info();
-  EventPicker picker(options.picker.settings(info.parameters, info));
+  EventPicker picker(picker_settings(options.picker, info.parameters, info));
 
   Extent times;
   const std::int64_t samples =
@@ -142,7 +142,7 @@ void add_series(CLI::App &app) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   add_picture_options(command, options->picture, "series");
-  options->picker.add_to(command);
+  add_picker_options(command, options->picker);
   command->callback([options] { run(*options); });
 }
 

@@ -7,13 +7,13 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
 
 #include "lsm_event_picker.h"
 #include "lsm_pe_series.h"
+#include "lsm_picker_options.h"
 
 namespace LSM::postproc {
 
@@ -34,21 +34,17 @@ struct SeriesOptions {
 std::int64_t read_series(const std::string &path, const SeriesOptions &options,
                          const std::function<void(std::int64_t step, double time, double pe)> &use);
 
-/// The picker's options. What is not given comes from the header of the series, so that picking
-/// afterwards repeats what the run picked; what is not there either has the defaults of
-/// PickerSettings.
-struct PickerOptions {
-  std::optional<std::string> reading;
-  std::optional<double> lambda, memory_time, memory_steps, min_size;
-  bool keep_nonpositive = false;
+/// Adds the options of the picker to a command.
+void add_picker_options(CLI::App *command, PickerOptions &options);
 
-  /// Adds --picker, --lambda, --memory-time, --memory-steps, --min-size, --keep-nonpositive.
-  void add_to(CLI::App *command);
-  /// \param parameters header of the series, or of the catalogue picked from it
-  /// \param info header of the series, for dt and stride
-  /// \throws std::invalid_argument naming the option that is out of range
-  PickerSettings settings(const text_io::Parameters &parameters, const PeSeriesInfo &info) const;
-};
+/// The picker that the options ask for. What is not given comes from the header of the series, so
+/// that picking afterwards repeats what the run picked; what is not there either has the defaults
+/// of PickerSettings.
+/// \param parameters header of the series, or of the catalogue picked from it
+/// \param info header of the series, for dt and stride
+/// \throws std::invalid_argument naming the option that is out of range
+PickerSettings picker_settings(const PickerOptions &options, const text_io::Parameters &parameters,
+                               const PeSeriesInfo &info);
 
 }  // namespace LSM::postproc
 
