@@ -5,7 +5,6 @@
 #include <cmath>
 #include <filesystem>
 #include <stdexcept>
-#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -64,11 +63,19 @@ std::string label_of(const EventTable &table) {
 
 // Times between events are reckoned from start to start, but ruptures come in order of their ends.
 void sort_by_start(EventTable &table) {
-  std::vector<std::pair<double, double>> rows(table.size.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = {table.t_start[i], table.size[i]};
+  struct Row {
+    double start, end, size;
+  };
+  std::vector<Row> rows(table.size.size());
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    rows[i] = {table.t_start[i], table.t_end[i], table.size[i]};
   std::stable_sort(rows.begin(), rows.end(),
-                   [](const auto &a, const auto &b) { return a.first < b.first; });
-  for (std::size_t i = 0; i < rows.size(); ++i) std::tie(table.t_start[i], table.size[i]) = rows[i];
+                   [](const Row &a, const Row &b) { return a.start < b.start; });
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    table.t_start[i] = rows[i].start;
+    table.t_end[i] = rows[i].end;
+    table.size[i] = rows[i].size;
+  }
 }
 
 }  // namespace
@@ -130,9 +137,11 @@ EventTable load_catalogue(const std::string &path, const CatalogueOptions &optio
   EventTable columns;
   EventTable table = read_events(path, options, [&columns](const Event &event) {
     columns.t_start.push_back(event.t_start);
+    columns.t_end.push_back(event.t_end);
     columns.size.push_back(event.size);
   });
   table.t_start = std::move(columns.t_start);
+  table.t_end = std::move(columns.t_end);
   table.size = std::move(columns.size);
   if (table.info.overlapping()) sort_by_start(table);
   return table;

@@ -12,6 +12,7 @@
 #include "catalogue_input.h"
 #include "commands.h"
 #include "lsm_text_io.h"
+#include "magnitude_options.h"
 #include "new_file.h"
 
 namespace LSM::postproc {
@@ -24,7 +25,8 @@ struct Options {
   CatalogueOptions catalogues;
   std::string output, start = "2000-01-01T00:00:00";
   Format format = Format::seismostats;
-  double constant = 0.0, degrees = 0.0;
+  MagnitudeOptions magnitudes;
+  double degrees = 0.0;
   double unit = 1.0;  // seconds in a unit of model time
   bool force = false;
 };
@@ -67,9 +69,9 @@ std::string date_text(double seconds, std::int64_t start, int last_year) {
 void run(const Options &options) {
   refuse_input(options.output, options.catalogues.paths);
   check(options.catalogues);
-  if (!std::isfinite(options.constant) || !std::isfinite(options.degrees))
-    throw std::invalid_argument(
-        "--magnitude-constant and --degrees-per-length: expected finite numbers");
+  options.magnitudes.check();
+  if (!std::isfinite(options.degrees))
+    throw std::invalid_argument("--degrees-per-length: expected a finite number");
   const bool csep = options.format == Format::csep;
   const std::int64_t start = parse_date(options.start);
   NewFile file(options.output, options.force);
@@ -82,11 +84,11 @@ void run(const Options &options) {
   for (std::size_t i = 0; i < options.catalogues.paths.size(); ++i) {
     const std::string &path = options.catalogues.paths[i];
     const EventTable table = read_events(path, options.catalogues, [&](const Event &event) {
-      if (!(event.size > 0.0)) {
+      if (!(options.magnitudes.quantity(event) > 0.0)) {
         ++without;
         return;
       }
-      const double magnitude = 2.0 / 3.0 * std::log10(event.size) + options.constant;
+      const double magnitude = options.magnitudes.magnitude(event);
       const double longitude = event.x_centroid * options.degrees;
       const std::string date = date_text(event.t_start * options.unit, start, csep ? 9999 : 2261);
       if (date.empty())
@@ -104,6 +106,7 @@ void run(const Options &options) {
       out.write(block);
       block.clear();
     });
+    options.magnitudes.require(path, table.info);
     if (options.degrees != 0.0 && !table.info.x_centroid)
       throw std::runtime_error(path +
                                ": has no column x_centroid, expected one for "
@@ -113,8 +116,8 @@ void run(const Options &options) {
   out.write(block);
   out.close();
   file.commit();
-  fmt::print("{} events; left out: {} of size <= 0, which have no magnitude\nwrote {}\n", written,
-             without, options.output);
+  fmt::print("{} events; left out: {} of {} <= 0, which have no magnitude\nwrote {}\n", written,
+             without, options.magnitudes.of(), options.output);
 }
 
 }  // namespace
@@ -142,10 +145,7 @@ void add_export(CLI::App &app) {
           {"seismostats", Format::seismostats}, {"csep", Format::csep}}))
       ->default_str("seismostats")
       ->group(group);
-  command
-      ->add_option("--magnitude-constant", options->constant,
-                   "Magnitude of an event of size 1 (energy)")
-      ->group(group);
+  options->magnitudes.add_to(command, group);
   command
       ->add_option("--start-date", options->start,
                    "Date of model time 0, YYYY-MM-DD or YYYY-MM-DDTHH:MM:SS (UTC). Times are the "

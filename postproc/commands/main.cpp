@@ -24,7 +24,8 @@ const char *const footer =
     "the threshold 1e-4 of Figs. 12 and 13, the form of the generalised gamma density and Table "
     "1.\n"
     "Ours: the readings 'exponential' and 'average' of the picker, maximum likelihood fits with\n"
-    "their errors and tests, spectra, exported magnitudes, bin factors. The help of each command\n"
+    "their errors and tests, magnitudes, b-values, aftershocks, spectra, bin factors. The help of "
+    "each command\n"
     "says so again where it matters.\n"
     "Exit status: 0, or 1 after one line on standard error that begins with 'postproc:'.";
 
@@ -46,7 +47,7 @@ int main(int argc, char **argv) {
     app.option_defaults()->always_capture_default();
     app.get_formatter()->column_width(34);
     for (const auto add : {add_pick, add_series, add_histograms, add_intervals, add_fit,
-                           add_spectrum, add_export, add_report})
+                           add_magnitudes, add_aftershocks, add_spectrum, add_export, add_report})
       add(app);
     try {
       app.parse(argc, argv);

@@ -26,9 +26,9 @@ struct Range {
 struct EventTable {
   std::string path, label;
   CatalogueInfo info;
-  std::vector<double> t_start, size;  ///< in order of t_start
-  double in_events = 0.0;             ///< sum of the durations (model time)
-  double last_end = 0.0;              ///< t_end of the last event (model time)
+  std::vector<double> t_start, t_end, size;  ///< in order of t_start
+  double in_events = 0.0;                    ///< sum of the durations (model time)
+  double last_end = 0.0;                     ///< t_end of the last event (model time)
   /// Smaller events are missing: --min-size, or the picker's min_size in the header (energy).
   double complete_from = 0.0;
   /// The largest `completeness` in the headers of the catalogues of this model that were loaded

@@ -16,7 +16,8 @@ constexpr std::int64_t fewest = 10;
 
 void check_width(double width) {
   if (!(width >= 0.0) || !std::isfinite(width))
-    throw std::invalid_argument("width of the magnitude bins: expected a finite number of 0 or more");
+    throw std::invalid_argument(
+        "width of the magnitude bins: expected a finite number of 0 or more");
 }
 
 // Of values from least on; all of them are used.
@@ -24,8 +25,8 @@ BValue estimate(const std::vector<double> &values, double least, double width, c
   BValue result;
   result.n = static_cast<std::int64_t>(values.size());
   if (result.n < fewest) {
-    result.why = std::to_string(result.n) + " " + what + ", at least " + std::to_string(fewest) +
-                 " needed";
+    result.why =
+        std::to_string(result.n) + " " + what + ", at least " + std::to_string(fewest) + " needed";
     return result;
   }
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
@@ -92,9 +93,8 @@ double maximum_curvature(const std::vector<double> &magnitudes, double width, do
   std::map<double, std::int64_t> counts;
   for (const double m : magnitudes) ++counts[std::floor(m / width + 0.5)];
   if (counts.empty()) return std::nan("");
-  const auto fullest = std::max_element(counts.begin(), counts.end(), [](auto &a, auto &b) {
-    return a.second < b.second;
-  });
+  const auto fullest = std::max_element(counts.begin(), counts.end(),
+                                        [](auto &a, auto &b) { return a.second < b.second; });
   return width * fullest->first + correction;
 }
 

@@ -5,8 +5,8 @@
 ///
 /// Sources: Aki 1965, Bull. Earthq. Res. Inst. 43, 237 (b by maximum likelihood); Tinti & Mulargia
 /// 1987, Bull. Seismol. Soc. Am. 77, 2125 (magnitudes in bins); Shi & Bolt 1982, ibid. 72, 1677
-/// (error); van der Elst 2021, J. Geophys. Res. Solid Earth 126, e2020JB021027 (b-positive); Wiemer &
-/// Wyss 2000, Bull. Seismol. Soc. Am. 90, 859 and Woessner & Wiemer 2005, ibid. 95, 684 (maximum
+/// (error); van der Elst 2021, J. Geophys. Res. Solid Earth 126, e2020JB021027 (b-positive); Wiemer
+/// & Wyss 2000, Bull. Seismol. Soc. Am. 90, 859 and Woessner & Wiemer 2005, ibid. 95, 684 (maximum
 /// curvature). SeismoStats 1.0 (Swiss Seismological Service) has the same estimators.
 #ifndef LSM_POSTPROC_MAGNITUDES_H
 #define LSM_POSTPROC_MAGNITUDES_H
@@ -23,7 +23,7 @@ namespace LSM::postproc {
 struct MagnitudeScale {
   double slope = 2.0 / 3.0;
   double constant = 0.0;
-  double of(double size) const;       ///< size > 0
+  double of(double size) const;         ///< size > 0
   double size(double magnitude) const;  ///< its inverse
 };
 
@@ -52,8 +52,8 @@ BValue b_value(const std::vector<double> &magnitudes, double completeness, doubl
 BValue b_positive(const std::vector<double> &magnitudes, double completeness, double width = 0.0,
                   double least = std::numeric_limits<double>::quiet_NaN());
 
-/// Centre of the fullest bin of the given width (the lower one of equals) plus correction, 0.2 after
-/// Woessner & Wiemer. NaN without a magnitude. \throws std::invalid_argument unless width > 0
+/// Centre of the fullest bin of the given width (the lower one of equals) plus correction, 0.2
+/// after Woessner & Wiemer. NaN without a magnitude. \throws std::invalid_argument unless width > 0
 double maximum_curvature(const std::vector<double> &magnitudes, double width,
                          double correction = 0.2);
 

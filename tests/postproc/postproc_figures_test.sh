@@ -284,6 +284,18 @@ report)
   grep -q 'gnuplot not found' err.txt || fail "$(cat err.txt)"
   cmp r.html before.html || fail "the older page is gone"
   ;;
+seismology)
+  power 1.667 1e-3 1e3 2000 | catalogue a.csv 120
+  power 1.2 1e-3 1e3 2000 | catalogue b.csv 240
+  must_run magnitudes a.csv b.csv --label 'a_{x}' --label b -o m
+  pictures m
+  grep -q 'b = 1.' m.gp && grep -q 'a\\\\_\\\\{x\\\\}' m.gp || fail "titles: $(grep title m.gp)"
+  must_run aftershocks a.csv b.csv -o s --replicas 10
+  pictures s
+  grep -q filledcurves s.gp || fail "no band of Poisson catalogues"
+  refused 'nothing to draw' magnitudes a.csv --min-size 1e9 -o x
+  refused 'expected at least 2' aftershocks a.csv --min-size 1e9 -o x
+  ;;
 few)
   # No event, one, and a few: what cannot be said is said to be degenerate.
   : | catalogue none.csv 120

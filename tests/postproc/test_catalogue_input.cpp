@@ -55,6 +55,7 @@ TEST_F(CatalogueInput, RupturesAreSortedByTheirStarts) {
   const EventTable table =
       load_catalogue(file(rows, "events = ruptures", "block-slider"), CatalogueOptions());
   EXPECT_EQ(table.t_start, (std::vector<double>{1, 2, 2.5}));
+  EXPECT_EQ(table.t_end, (std::vector<double>{4, 3, 3}));
   EXPECT_EQ(table.size, (std::vector<double>{0.125, 0.5, 0.25}));
   EXPECT_EQ(table.last_end, 4.0);
   EXPECT_TRUE(std::isnan(table.share_in_events()));
