@@ -30,6 +30,15 @@
 
 namespace Slider {
 
+/// What the schemes with located switches need besides.
+struct SwitchingState {
+  std::vector<std::uint8_t> sliding;  ///< which blocks slide; empty: those with a velocity
+  double friction_loss = 0.0;
+  double pe_start = 0.0;    ///< PE that the energy ledger begins with
+  double inner_step = 0.0;  ///< next step of the adaptive scheme; 0: not known yet
+  std::int64_t switches = 0;
+};
+
 /// What is needed to go on from a step, besides the parameters.
 struct ChainState {
   std::int64_t step = 0;
@@ -40,6 +49,7 @@ struct ChainState {
   std::int64_t moved = 0;                        ///< block-steps with motion so far
   double dpe = 0.0;                              ///< change of PE over the last step
   std::vector<double> u, v;
+  SwitchingState switching;
 };
 
 /// PE of all springs, summed directly; used to set and to check the work formula.

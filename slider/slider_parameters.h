@@ -4,6 +4,7 @@
 #ifndef SLIDER_PARAMETERS_H
 #define SLIDER_PARAMETERS_H
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -13,9 +14,13 @@
 #include <string>
 #include <vector>
 
+#include "lsm_names.h"
 #include "lsm_random.h"
 
 namespace Slider {
+
+using LSM::from_string;
+using LSM::to_string;
 
 /// How one time step is taken. All but printed are ours.
 enum class Scheme {
@@ -26,32 +31,12 @@ enum class Scheme {
   reference       ///< adaptive GSL rk8pd with located switches, for short runs
 };
 
-inline const char *to_string(Scheme scheme) {
-  switch (scheme) {
-    case Scheme::printed:
-      return "printed";
-    case Scheme::semi_implicit:
-      return "semi-implicit";
-    case Scheme::verlet:
-      return "verlet";
-    case Scheme::rk4:
-      return "rk4";
-    case Scheme::reference:
-      return "reference";
-  }
-  return "unknown";
-}
-
-/// Returns false, and leaves scheme alone, if name is no scheme.
-inline bool from_string(const std::string &name, Scheme &scheme) {
-  for (Scheme candidate :
-       {Scheme::printed, Scheme::semi_implicit, Scheme::verlet, Scheme::rk4, Scheme::reference}) {
-    if (name == to_string(candidate)) {
-      scheme = candidate;
-      return true;
-    }
-  }
-  return false;
+constexpr std::array<LSM::Named<Scheme>, 5> names_of(Scheme) {
+  return {{{Scheme::printed, "printed"},
+           {Scheme::semi_implicit, "semi-implicit"},
+           {Scheme::verlet, "verlet"},
+           {Scheme::rk4, "rk4"},
+           {Scheme::reference, "reference"}}};
 }
 
 /// Parameters of one chain, in model units (paper values unless marked ours).

@@ -110,6 +110,17 @@ resume | terminate | kill)
     head -c 500 part.chk > short.chk
     run "${part[@]}" --checkpoint short.chk --resume && fail "resumed from a torn checkpoint"
     grep -q "short.chk: damaged" err.txt || fail "message: $(cat err.txt)"
+    # One byte of a number changed, the file as long as it was.
+    cp part.chk flipped.chk
+    printf '\x55' | dd of=flipped.chk bs=1 seek=$(($(stat -c %s part.chk) / 2)) conv=notrunc 2> dd.txt
+    cmp -s part.chk flipped.chk && printf '\xaa' | dd of=flipped.chk bs=1 seek=$(($(stat -c %s part.chk) / 2)) conv=notrunc 2> dd.txt
+    run "${part[@]}" --checkpoint flipped.chk --resume && fail "resumed from a checkpoint with a wrong byte"
+    grep -q "flipped.chk: damaged" err.txt || fail "message: $(cat err.txt)"
+    # Those of older programs had a format of their own.
+    printf 'slider-checkpoint-1\n0123456789abcdef' > old.chk
+    run "${part[@]}" --checkpoint old.chk --resume && fail "resumed from an old checkpoint"
+    [ "$(cat err.txt)" = "slider_cli: old.chk: checkpoint of version 1, expected version 2: finish that run with the program that began it, or start afresh" ] || fail "message: $(cat err.txt)"
+    cmp keep.csv part.csv || fail "a refused resume changed the catalogue"
     run "${part[@]}" --checkpoint none.chk --resume && fail "resumed from nothing"
     grep -q "none.chk: cannot be read" err.txt || fail "message: $(cat err.txt)"
   else
