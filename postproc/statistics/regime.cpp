@@ -60,6 +60,10 @@ Regime RegimeMeter::result() const {
       fastest = std::max(fastest, -x);
     }
   }
+  if (changes_.empty())
+    throw std::runtime_error(fmt::format(
+        "the series is shorter than two windows of {} time units: too short to tell a regime by",
+        r.window));
   if (rises.empty() || !(fastest > 0.0))
     throw std::runtime_error(
         fmt::format("PE only {} over {} windows of {} time units: no events to tell a regime by",

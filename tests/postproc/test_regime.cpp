@@ -105,7 +105,7 @@ TEST(Regime, SeriesWithoutAFallOrARiseHasNone) {
   };
   EXPECT_TRUE(unit::contains(why(rising), "PE only rises"));
   EXPECT_TRUE(unit::contains(why(falling), "PE only falls"));
-  EXPECT_TRUE(unit::contains(why(empty), "PE only rises over 0 windows"));
+  EXPECT_TRUE(unit::contains(why(empty), "shorter than two windows of 1 time units"));
 }
 
 }  // namespace
