@@ -4,3 +4,6 @@
 /// it with LSM_FRICTION_LAW(Law) defined to have that expanded for each law, and without for the laws themselves;
 /// hence no include guard.
 #include "coulomb.h"
+#include "slip_weakening.h"
+#include "velocity_weakening.h"
+#include "rate_state.h"
