@@ -34,10 +34,13 @@ struct Coulomb : FrictionLaw {
 struct CoulombStatic : Coulomb {
   static constexpr bool needs_sliding = true;
 
+  /// Also of the block-slider.
+  static double friction(double mu_static, double mu, bool sliding) { return sliding ? mu : mu_static; }
+
   static bool fits(const Coefficients &) { return true; }
   static double elongation(const Coefficients &c, FrictionContact &s, double *)
   {
-    return stick_or_slide(c.kt, s, (s.sliding ? c.mu : c.mu_static) * s.fn, c.mu * s.fn);
+    return stick_or_slide(c.kt, s, friction(c.mu_static, c.mu, s.sliding) * s.fn, c.mu * s.fn);
   }
 };
 

@@ -2,6 +2,7 @@
 /// \file slip_weakening.h
 /// Linear slip weakening (Ida 1972, Andrews 1976): the strength falls from mu_static fn to mu fn over the slip dc. A
 /// contact that rests forgets its slip with the time constant `heal` (ours; not at all where that is 0, as in Andrews).
+/// The block-slider takes the same strength.
 #ifdef LSM_FRICTION_LAW
 LSM_FRICTION_LAW(SlipWeakening)
 #endif
@@ -27,12 +28,17 @@ struct SlipWeakening : FrictionLaw {
 
   static void begin(const Coefficients &, double *slip) { *slip = 0.0; }
 
+  static double strength(double mu_static, double mu, double dc, double slip)
+  {
+    return slip < dc ? mu_static - (mu_static - mu) * (slip / dc) : mu;
+  }
+
   /// The slip of the step lowers the strength that it is reckoned with: kt (|trial| - x) = strength(slip + x) is
   /// solved for x. Where strength falls faster than the spring relaxes, nothing stops the slip before mu fn.
   static double elongation(const Coefficients &c, FrictionContact &s, double *slip)
   {
     const double fall = (c.mu_static - c.mu) * s.fn / c.dc;
-    const double excess = c.kt * std::fabs(s.trial()) - (c.mu * s.fn + fall * (c.dc - *slip));
+    const double excess = c.kt * std::fabs(s.trial()) - s.fn * strength(c.mu_static, c.mu, c.dc, *slip);
     s.sliding = excess > 0.0;
     if (!s.sliding) {
       if (c.heal > 0.0) *slip *= std::exp(-s.time / c.heal);
