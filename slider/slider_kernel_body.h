@@ -39,8 +39,8 @@ inline __attribute__((always_inline)) unsigned bits(Mask m) {
 
 // Friction::force for a register of blocks, that of a block at rest with f <= m being at least f.
 template <Law law>
-inline __attribute__((always_inline)) Register friction(const ChainView &chain, Register m, Register v,
-                                                        Register f, Register slip) {
+inline __attribute__((always_inline)) Register friction(const ChainView &chain, Register m,
+                                                        Register v, Register f, Register slip) {
   if constexpr (law == Law::coulomb) {
     const Register zero = {}, low = chain.dynamic * m;
     return (v > zero) | (f > m) ? low : m;
@@ -143,3 +143,10 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
   sums.slip = ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
   return sums;
 }
+
+// By law and scheme.
+constexpr StepFunction functions[][3] = {
+    {step<0, Law::velocity_weakening>, step<1, Law::velocity_weakening>,
+     step<2, Law::velocity_weakening>},
+    {step<0, Law::coulomb>, step<1, Law::coulomb>, step<2, Law::coulomb>},
+    {step<0, Law::slip_weakening>, step<1, Law::slip_weakening>, step<2, Law::slip_weakening>}};

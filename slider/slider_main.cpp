@@ -99,13 +99,15 @@ Settings parse(std::vector<std::string> arguments) {
       ->excludes(range)
       ->group(model);
   app.add_option("--seed", s.seed, "Seed of the coefficients")->group(model);
-  auto *law = app.add_option("--law", s.law,
-                             "Friction of a moving block: velocity-weakening, mu_0i / (1 + v), Eq. 6; ours: "
-                             "coulomb, R mu_0i with the R of --dynamic-friction; slip-weakening, from mu_0i to "
-                             "R mu_0i over the slip of --slip-distance since the block last rested");
+  auto *law = app.add_option(
+      "--law", s.law,
+      "Friction of a moving block: velocity-weakening, mu_0i / (1 + v), Eq. 6; ours: "
+      "coulomb, R mu_0i with the R of --dynamic-friction; slip-weakening, from mu_0i to "
+      "R mu_0i over the slip of --slip-distance since the block last rested");
   law->group(model);
-  auto *dynamic = app.add_option("--dynamic-friction", s.dynamic,
-                                 "Dynamic over static coefficient, of coulomb and slip-weakening (ours)");
+  auto *dynamic =
+      app.add_option("--dynamic-friction", s.dynamic,
+                     "Dynamic over static coefficient, of coulomb and slip-weakening (ours)");
   dynamic->group(model);
   auto *distance = app.add_option("--slip-distance", s.distance,
                                   "Slip over which slip-weakening weakens (length; ours)");
@@ -242,9 +244,10 @@ Settings parse(std::vector<std::string> arguments) {
       throw std::invalid_argument(fmt::format("{} = '{}', expected {}", option, word, expected));
   };
   choice("--scheme", s.scheme, p.scheme, "printed, semi-implicit, verlet, rk4 or reference");
-  choice("--law", s.law, p.friction.law,
-         "velocity-weakening, coulomb or slip-weakening (with others no block rests: they are laws of "
-         "pair_style lsm/friction)");
+  choice(
+      "--law", s.law, p.friction.law,
+      "velocity-weakening, coulomb or slip-weakening (with others no block rests: they are laws of "
+      "pair_style lsm/friction)");
   using Slider::Law;
   if (dynamic->count() > 0 && p.friction.law == Law::velocity_weakening)
     throw std::invalid_argument("--dynamic-friction needs --law coulomb or slip-weakening");

@@ -77,8 +77,10 @@ void FixLSMHistory::unpack_restart(int nlocal, int nth)
     const std::string mine = law.empty() ? "a law without a state" : "the law " + law;
     const int size = (static_cast<int>(extra[m]) - 2) / count - 1;
     if (size != dnum)
-      error->one(FLERR, "Pair style lsm/friction: the restart file holds contacts of another friction law, with {} numbers each, "
-                        "but {} has {}", size, mine, dnum);
+      error->one(FLERR,
+                 "Pair style lsm/friction: the restart file holds contacts of another friction law, with {} numbers "
+                 "each, but {} has {}",
+                 size, mine, dnum);
     if (!law.empty() && law != law_of_file)
       error->one(FLERR, "Pair style lsm/friction: the restart file holds contacts of the law {}, expected those of {}",
                  law_of_file, mine);

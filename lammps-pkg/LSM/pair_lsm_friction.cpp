@@ -333,7 +333,7 @@ void PairLSMFriction::choose(const Law *wanted)
   if (fix_history || restored)
     error->all(FLERR,
                "Pair style lsm/friction has contacts of the law {}{}, and cannot go on with the law {}; give 'pair_style "
-               "none' first to forget them",
+               "none' and 'run 0' first to forget them",
                law->name, restored ? " from a restart file" : "", wanted->name);
   if (allocated) destroy_coefficients();
   law = running = wanted;

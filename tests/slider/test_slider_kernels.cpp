@@ -43,18 +43,21 @@ TEST(SliderKernels, OtherLawsAgreeOverKernelsAndInstructionSets) {
           active.advance();
           dense.advance();
           scalar.advance();
-          ASSERT_EQ(active.pe(), dense.pe()) << to_string(law) << " N " << c.blocks << " step " << n;
+          ASSERT_EQ(active.pe(), dense.pe())
+              << to_string(law) << " N " << c.blocks << " step " << n;
           ASSERT_EQ(active.slip_sum(), dense.slip_sum()) << to_string(law) << " N " << c.blocks;
           if (n == 10000) {  // a state holds all that is needed
             active.set_state(active.state());
             scalar.set_state(scalar.state());
           }
         }
-        EXPECT_EQ(active.displacements(), scalar.displacements()) << to_string(law) << " N " << c.blocks;
+        EXPECT_EQ(active.displacements(), scalar.displacements())
+            << to_string(law) << " N " << c.blocks;
         EXPECT_EQ(active.velocities(), scalar.velocities()) << to_string(law) << " N " << c.blocks;
         EXPECT_NEAR(active.pe(), scalar.pe(), 1e-9 * scalar.pe());
         EXPECT_GT(dense.moved(), 100) << "N " << c.blocks << ": nothing was tested";
-        EXPECT_EQ(active.state().rest.empty(), law != Law::slip_weakening);  // kept only where it is needed
+        EXPECT_EQ(active.state().rest.empty(),
+                  law != Law::slip_weakening);  // kept only where it is needed
       }
 }
 

@@ -216,7 +216,7 @@ TYPED_TEST(RateStateLaw, VelocityStepAsInTheClosedForm) {
     contact.move(2e-5, 2e-5 / v);
     const double s = (contact.slipped - before) / 0.02, q = std::exp(-s);
     const double theta = std::is_same<TypeParam, RateStateAgeing>::value
-                             ? 1.0 + 9.0 * q                    // v theta / dc: 10 at first, 1 in the end
+                             ? 1.0 + 9.0 * q  // v theta / dc: 10 at first, 1 in the end
                              : std::exp(std::log(10.0) * q);
     EXPECT_NEAR(contact.force, 0.6 + 0.01 * std::log(10.0) + 0.015 * std::log(theta / 10.0), 6e-5);
   }
@@ -237,7 +237,8 @@ TYPED_TEST(RateStateLaw, AnswersHoldsAsItsEvolutionLaw) {
 }
 
 TYPED_TEST(RateStateLaw, ForceSpringAndVelocityAgreeForAnyStep) {
-  // the solved equation, from creep to steps much longer than dc, with coefficients that overflow a plain form
+  // the solved equation, from creep to steps much longer than dc, with coefficients that overflow a
+  // plain form
   for (double a : {0.0008, 0.01, 0.3})
     for (double dxi : {1e-12, 1e-6, 1e-3, 0.5})
       for (double xi : {0.0, 0.2, 0.4})
@@ -246,9 +247,11 @@ TYPED_TEST(RateStateLaw, ForceSpringAndVelocityAgreeForAnyStep) {
           double state[1] = {theta};
           const typename TypeParam::Coefficients c{kt, 0.6, a, 0.015, 0.02, 1e-3, 0.0};
           const FrictionStep s = friction_step<TypeParam>(c, {fn, xi, dxi, time, false}, state);
-          const double E = (0.6 + 0.015 * std::log(1e-3 * theta / 0.02)) / a, q = s.force / (fn * a);
+          const double E = (0.6 + 0.015 * std::log(1e-3 * theta / 0.02)) / a,
+                       q = s.force / (fn * a);
           const double v = 1e-3 * (std::exp(q - E) - std::exp(-q - E));
-          EXPECT_NEAR(s.xi + v * time, xi + dxi, 1e-11 * (xi + dxi) + 1e-19) << a << " " << dxi << " " << xi << " " << kt;
+          EXPECT_NEAR(s.xi + v * time, xi + dxi, 1e-11 * (xi + dxi) + 1e-19)
+              << a << " " << dxi << " " << xi << " " << kt;
           EXPECT_GE(s.xi, 0.0);
           EXPECT_GT(state[0], 0.0);
           EXPECT_TRUE(std::isfinite(state[0]));
@@ -265,7 +268,8 @@ TYPED_TEST(RateStateLaw, IsOfFirstOrderInTheTimeStepAtLeast) {
     }
     return contact.lost;
   };
-  const double exact = work(256000), coarse = std::fabs(work(2000) - exact), fine = std::fabs(work(8000) - exact);
+  const double exact = work(256000), coarse = std::fabs(work(2000) - exact),
+               fine = std::fabs(work(8000) - exact);
   EXPECT_GT(exact, 2.0);
   EXPECT_GT(std::log(coarse / fine) / std::log(4.0), 0.8);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file friction_law.h
-/// What a friction law is. Every law acts through a tangential spring of stiffness k_t (ours): in each step it says
-/// how far the spring stays stretched, and the rest of the displacement is slip. How to add one: README.md of the package.
+/// What a friction law is. Every law acts through a tangential spring of stiffness kt (ours): in each step it says how
+/// far the spring stays stretched, and the rest of the displacement is slip. README.md of the package: how to add one.
 #ifndef LSM_FRICTION_LAW_H
 #define LSM_FRICTION_LAW_H
 
@@ -49,17 +49,17 @@ struct FrictionLaw {
 };
 
 /// Sticks while the pull of the spring is at most `strength`, else slides at `dynamic`.
-inline double stick_or_slide(double k_t, FrictionContact &s, double strength, double dynamic)
+inline double stick_or_slide(double kt, FrictionContact &s, double strength, double dynamic)
 {
   const double trial = s.trial();
-  s.sliding = k_t * std::fabs(trial) > strength;
-  return s.sliding ? std::copysign(dynamic / k_t, trial) : trial;
+  s.sliding = kt * std::fabs(trial) > strength;
+  return s.sliding ? std::copysign(dynamic / kt, trial) : trial;
 }
 
 /// What one step did to a contact.
 struct FrictionStep {
   double xi;            ///< elongation of the tangential spring afterwards
-  double force;         ///< k_t xi; the force on particle i is -force along the tangent
+  double force;         ///< kt xi; the force on particle i is -force along the tangent
   double slip;          ///< irreversible part of the displacement, with sign
   double dissipated;    ///< work lost to friction in this step
   bool sliding;         ///< whether the contact slides now
