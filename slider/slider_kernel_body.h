@@ -105,8 +105,9 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
     for (int r = 0; r < registers; ++r) {
       f.r[r] = kc * ((left.r[r] - x.r[r]) + (right.r[r] - x.r[r])) + kl * (x_new - x.r[r]);
       if (scheme == 2 && law != Law::velocity_weakening) {
+        // A block that came to rest in the first half of the step has healed.
         Register slid = zero;
-        if constexpr (needs_rest) slid = x.r[r] - rest.r[r];
+        if constexpr (needs_rest) slid = v.r[r] > zero ? x.r[r] - rest.r[r] : zero;
         const Register w =
             v.r[r] + half_h_m * (f.r[r] - friction<law>(chain, m.r[r], v.r[r], f.r[r], slid));
         v.r[r] = w > zero ? w : zero;

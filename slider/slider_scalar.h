@@ -106,8 +106,9 @@ class ScalarChain {
     if (p_.scheme == Scheme::verlet && law.law != Law::velocity_weakening) {
       for (std::size_t i = 0; i < n; ++i) {
         if (v_[i] == 0.0 && force_[i] <= mu_[i]) continue;
-        v_[i] = std::fmax(
-            0.0, v_[i] + half_m * (force_[i] - law.force(mu_[i], v_[i], u_[i] - rest_[i])));
+        // A block that came to rest in the first half of the step has healed.
+        const double slip = v_[i] > 0.0 ? u_[i] - rest_[i] : 0.0;
+        v_[i] = std::fmax(0.0, v_[i] + half_m * (force_[i] - law.force(mu_[i], v_[i], slip)));
       }
     } else if (p_.scheme == Scheme::verlet) {
       for (std::size_t i = 0; i < n; ++i) {

@@ -31,8 +31,8 @@ TEST(SliderKernels, OtherLawsAgreeOverKernelsAndInstructionSets) {
         Parameters p;
         p.blocks = c.blocks;
         p.kl = c.kl;
-        p.velocity = c.velocity;
         p.dt = c.dt;
+        p.velocity = std::max(c.velocity, 0.1);
         p.scheme = scheme;
         p.friction = {law, 0.7, 0.3};
         const auto mu = random_friction(p.blocks, 0.5, 1.0, 11);

@@ -35,7 +35,7 @@ struct Parameter {
 
 /// A law derives from this and hides what is different. It also has a name, Coefficients, their parameters[], and
 ///   static double elongation(const Coefficients &c, FrictionContact &s, double *state),
-/// which returns the elongation afterwards (the trial one if the contact sticks) and sets s.sliding.
+/// which returns the elongation afterwards and sets s.sliding, without which it must be the trial one.
 struct FrictionLaw {
   static constexpr bool needs_time = false;       ///< s.time, for velocities
   static constexpr bool needs_sliding = false;    ///< s.sliding of the step before
@@ -71,6 +71,7 @@ template <class Law>
 inline FrictionStep friction_step(const typename Law::Coefficients &c, FrictionContact s, double *state = nullptr)
 {
   const double xi = Law::elongation(c, s, state);
+  if (!s.sliding) return {xi, c.kt * xi, 0.0, 0.0, false};
   const double slip = s.trial() - xi;
   return {xi, c.kt * xi, slip, 0.5 * c.kt * (s.xi + xi) * slip, s.sliding};
 }
