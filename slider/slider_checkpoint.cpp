@@ -80,7 +80,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SwitchingState, sliding, friction_loss, pe_st
                                    switches)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ChainState, step, slip_sum, slip_compensation, pe_sum,
                                    pe_compensation, quiet_since, pe_anchor, loading_anchor, moved,
-                                   dpe, u, v, switching)
+                                   dpe, u, v, rest, switching)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunState, chain, picker, events, before_warmup, slip_start,
                                    largest, u_start, ruptures)
 

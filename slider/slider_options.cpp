@@ -29,7 +29,7 @@ const char *const description =
     "schemes,\n"
     "the time step (the paper gives none), the reading 'exponential' of the event picker, "
     "warm-up,\n"
-    "ruptures as another kind of events (--events ruptures).\n"
+    "other laws of friction (--law), ruptures as another kind of events (--events ruptures).\n"
     "The sign of friction in Eq. 5 is read so that friction resists motion.";
 
 std::int64_t whole(const std::string &option, double value, double least) {
@@ -50,10 +50,10 @@ void choose(const char *option, const std::string &word, Enum &value) {
 
 /// Options that others refer to.
 struct Added {
-  CLI::Option *paper, *steps, *gap;
+  CLI::Option *paper, *steps, *gap, *dynamic, *distance;
 };
 
-void add_model(CLI::App &app, Settings &s) {
+void add_model(CLI::App &app, Settings &s, Added &o) {
   Parameters &p = s.run.parameters;
   const std::string model = "Model (defaults are the paper's values)";
   app.add_option("--blocks", p.blocks, "Number of blocks N")->group(model);
@@ -71,6 +71,18 @@ void add_model(CLI::App &app, Settings &s) {
       ->excludes(range)
       ->group(model);
   app.add_option("--seed", s.seed, "Seed of the coefficients")->group(model);
+  app.add_option("--law", s.law,
+                 "Friction of a moving block: velocity-weakening, mu_0i / (1 + v), Eq. 6; ours: "
+                 "coulomb, R mu_0i with the R of --dynamic-friction; slip-weakening, from mu_0i to "
+                 "R mu_0i over the slip of --slip-distance since the block last rested")
+      ->group(model);
+  o.dynamic =
+      app.add_option("--dynamic-friction", s.dynamic,
+                     "Dynamic over static coefficient, of coulomb and slip-weakening (ours)");
+  o.dynamic->group(model);
+  o.distance = app.add_option("--slip-distance", s.distance,
+                              "Slip over which slip-weakening weakens (length; ours)");
+  o.distance->group(model);
 }
 
 void add_integration(CLI::App &app, Settings &s, Added &o) {
@@ -191,6 +203,21 @@ void read_arguments(CLI::App &app, std::vector<std::string> arguments) {
   }
 }
 
+void interpret_law(Settings &s, const Added &o) {
+  Friction &friction = s.run.parameters.friction;
+  if (!from_string(s.law, friction.law))
+    throw std::invalid_argument("--law = '" + s.law +
+                                "', expected velocity-weakening, coulomb or slip-weakening (with "
+                                "others no block rests: they "
+                                "are laws of pair_style lsm/friction)");
+  if (o.dynamic->count() > 0 && friction.law == Law::velocity_weakening)
+    throw std::invalid_argument("--dynamic-friction needs --law coulomb or slip-weakening");
+  if (o.distance->count() > 0 && friction.law != Law::slip_weakening)
+    throw std::invalid_argument("--slip-distance needs --law slip-weakening");
+  if (friction.law != Law::velocity_weakening) friction.dynamic = s.dynamic;
+  if (friction.law == Law::slip_weakening) friction.dc = s.distance;
+}
+
 void interpret_integration(Settings &s, const Added &o) {
   Parameters &p = s.run.parameters;
   if (s.paper) {
@@ -303,6 +330,12 @@ void set_header(Settings &s) {
     // The coefficients count, not where the file lies.
     h.emplace_back("friction_checksum", fmt::format("{:016x}", friction_checksum(s.run.mu)));
   }
+  if (p.friction.law != Law::velocity_weakening) {
+    h.emplace_back("law", s.law);
+    h.emplace_back("dynamic_friction", number(p.friction.dynamic));
+    if (p.friction.law == Law::slip_weakening)
+      h.emplace_back("slip_distance", number(p.friction.dc));
+  }
   h.emplace_back("scheme", to_string(p.scheme));
   h.emplace_back("dt", number(p.dt));
   h.emplace_back("steps", std::to_string(s.run.steps));
@@ -347,12 +380,13 @@ Settings parse(std::vector<std::string> arguments, const std::atomic<int> *stop)
   app.get_formatter()->column_width(34);
 
   Added added{};
-  add_model(app, s);
+  add_model(app, s, added);
   add_integration(app, s, added);
   add_events(app, s, added);
   add_files(app, s);
   add_ensemble(app, s);
   read_arguments(app, std::move(arguments));
+  interpret_law(s, added);
   interpret_integration(s, added);
   interpret_events(s, added);
   interpret_files(s);

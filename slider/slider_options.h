@@ -21,7 +21,8 @@ struct Settings {
   LSM::PickerOptions picker;
   double steps = 1e7, time = 1e5;
   std::vector<double> friction = {0.5, 1.0};
-  std::string friction_file;
+  std::string friction_file, law = "velocity-weakening";
+  double dynamic = 0.8, distance = 0.1;
   std::uint64_t seed = 1;
   std::string columns, series_format = "text", summary, ensemble;
   double stride = 1, interval = 1e6, rupture_gap = 0.0;

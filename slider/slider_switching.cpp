@@ -23,6 +23,7 @@ SwitchingChain::SwitchingChain(const Parameters &p, std::vector<double> mu)
   n_ = mu_.size();
   y_.assign(2 * n_ + 1, 0.0);
   slides_.assign(n_, 0);
+  rest_.assign(n_, 0.0);
   if (p.scheme == Scheme::reference) {
     system_ = {&SwitchingChain::derivative, nullptr, 2 * n_ + 1, this};
     stepper_.reset(gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, 2 * n_ + 1));
@@ -59,6 +60,7 @@ ChainState SwitchingChain::state() const {
   s.switching.pe_start = pe_start_;
   s.switching.inner_step = inner_;
   s.switching.switches = switches_;
+  if (p_.friction.needs_rest()) s.rest = rest_;
   return s;
 }
 
@@ -79,6 +81,7 @@ void SwitchingChain::set_state(const ChainState &s) {
   pe_start_ = s.switching.pe_start;
   if (s.switching.inner_step > 0.0) inner_ = s.switching.inner_step;
   switches_ = s.switching.switches;
+  if (!s.rest.empty()) rest_ = s.rest;
 }
 
 EnergyLedger SwitchingChain::ledger() const {
@@ -91,6 +94,7 @@ EnergyLedger SwitchingChain::ledger() const {
 
 void SwitchingChain::set_displacements(const std::vector<double> &u) {
   std::copy(u.begin(), u.end(), y_.begin());
+  rest_ = u;
   pe_ = pe_start_ = direct_energy(p_, u, time() * p_.velocity);
 }
 
@@ -136,7 +140,7 @@ void SwitchingChain::derive(double t, const double *y, double *dy) const {
     const double v = y[n_ + i];
     if (slides_[i]) {
       // Stages may overshoot to v < 0 just before the block sticks; the law goes on smoothly.
-      const double friction = mu_[i] / (1.0 + v);
+      const double friction = p_.friction.force(mu_[i], v, y[i] - rest_[i]);
       dy[i] = v;
       dy[n_ + i] = (force(y, i, plate) - friction) / p_.mass;
       loss += friction * v;
@@ -186,6 +190,7 @@ double SwitchingChain::passed(const std::vector<double> &y, double t, std::size_
 
 void SwitchingChain::flip(std::size_t i) {
   slides_[i] = !slides_[i];
+  rest_[i] = y_[i];
   y_[n_ + i] = 0.0;
   ++switches_;
 }

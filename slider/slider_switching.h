@@ -61,7 +61,8 @@ class SwitchingChain {
 
   Parameters p_;
   std::vector<double> mu_;
-  std::vector<double> y_;  // u, v of every block, then the friction loss
+  std::vector<double> y_;     // u, v of every block, then the friction loss
+  std::vector<double> rest_;  // where each block last rested
   std::vector<double> trial_, middle_, error_;
   std::vector<double> k1_, k2_, k3_, k4_, stage_;
   std::vector<std::uint8_t> slides_;
