@@ -61,14 +61,17 @@ InstructionSet resolve(InstructionSet wanted) {
   return InstructionSet::x86_64;
 }
 
-StepFunction step_function(int scheme, InstructionSet set) {
-  static constexpr StepFunction table[3][3] = {
-      {KernelAvx512::step<0>, KernelAvx512::step<1>, KernelAvx512::step<2>},
-      {KernelAvx2::step<0>, KernelAvx2::step<1>, KernelAvx2::step<2>},
-      {KernelX86::step<0>, KernelX86::step<1>, KernelX86::step<2>}};
+#define SLIDER_SCHEMES(Kernel, Law) {Kernel::step<0, Law>, Kernel::step<1, Law>, Kernel::step<2, Law>}
+#define SLIDER_KERNELS(Kernel)                                                                       \
+  {SLIDER_SCHEMES(Kernel, Law::velocity_weakening), SLIDER_SCHEMES(Kernel, Law::coulomb),            \
+   SLIDER_SCHEMES(Kernel, Law::slip_weakening)}
+
+StepFunction step_function(int scheme, Law law, InstructionSet set) {
+  static constexpr StepFunction table[3][3][3] = {
+      SLIDER_KERNELS(KernelAvx512), SLIDER_KERNELS(KernelAvx2), SLIDER_KERNELS(KernelX86)};
   const InstructionSet found = resolve(set);
   const int row = found == InstructionSet::avx512 ? 0 : found == InstructionSet::avx2 ? 1 : 2;
-  return table[row][scheme];
+  return table[row][static_cast<int>(law)][scheme];
 }
 
 }  // namespace Slider

@@ -37,7 +37,7 @@ const char *const description =
     "schemes,\n"
     "the time step (the paper gives none), the reading 'exponential' of the event picker, "
     "warm-up,\n"
-    "ruptures as another kind of events (--events ruptures).\n"
+    "other laws of friction (--law), ruptures as another kind of events (--events ruptures).\n"
     "The sign of friction in Eq. 5 is read so that friction resists motion.";
 
 struct Settings {
@@ -47,7 +47,8 @@ struct Settings {
   double steps = 1e7, time = 1e5;
   double lambda = 0.99, memory_steps = 100.0, memory_time = 1.0;
   std::vector<double> friction = {0.5, 1.0};
-  std::string friction_file;
+  std::string friction_file, law = "velocity-weakening";
+  double dynamic = 0.8, distance = 0.1;
   std::uint64_t seed = 1;
   std::string columns, series_format = "text", summary, ensemble;
   double stride = 1, interval = 1e6, rupture_gap = 0.0;
@@ -98,6 +99,17 @@ Settings parse(std::vector<std::string> arguments) {
       ->excludes(range)
       ->group(model);
   app.add_option("--seed", s.seed, "Seed of the coefficients")->group(model);
+  auto *law = app.add_option("--law", s.law,
+                             "Friction of a moving block: velocity-weakening, mu_0i / (1 + v), Eq. 6; ours: "
+                             "coulomb, R mu_0i with the R of --dynamic-friction; slip-weakening, from mu_0i to "
+                             "R mu_0i over the slip of --slip-distance since the block last rested");
+  law->group(model);
+  auto *dynamic = app.add_option("--dynamic-friction", s.dynamic,
+                                 "Dynamic over static coefficient, of coulomb and slip-weakening (ours)");
+  dynamic->group(model);
+  auto *distance = app.add_option("--slip-distance", s.distance,
+                                  "Slip over which slip-weakening weakens (length; ours)");
+  distance->group(model);
 
   const std::string how = "Integration";
   auto *paper = app.add_flag("--paper", s.paper,
@@ -230,6 +242,16 @@ Settings parse(std::vector<std::string> arguments) {
       throw std::invalid_argument(fmt::format("{} = '{}', expected {}", option, word, expected));
   };
   choice("--scheme", s.scheme, p.scheme, "printed, semi-implicit, verlet, rk4 or reference");
+  choice("--law", s.law, p.friction.law,
+         "velocity-weakening, coulomb or slip-weakening (with others no block rests: they are laws of "
+         "pair_style lsm/friction)");
+  using Slider::Law;
+  if (dynamic->count() > 0 && p.friction.law == Law::velocity_weakening)
+    throw std::invalid_argument("--dynamic-friction needs --law coulomb or slip-weakening");
+  if (distance->count() > 0 && p.friction.law != Law::slip_weakening)
+    throw std::invalid_argument("--slip-distance needs --law slip-weakening");
+  if (p.friction.law != Law::velocity_weakening) p.friction.dynamic = s.dynamic;
+  if (p.friction.law == Law::slip_weakening) p.friction.dc = s.distance;
   choice("--isa", s.isa, s.run.isa, "auto, avx512, avx2 or x86-64");
   choice("--events", s.events, s.run.events, "pe or ruptures");
   choice("--picker", s.picker, s.run.picker.reading, "exponential, average or literal");
@@ -337,6 +359,12 @@ Settings parse(std::vector<std::string> arguments) {
     std::string bytes(reinterpret_cast<const char *>(s.run.mu.data()),
                       s.run.mu.size() * sizeof(double));
     h.emplace_back("friction_checksum", fmt::format("{:016x}", Slider::detail::checksum(bytes)));
+  }
+  if (p.friction.law != Law::velocity_weakening) {
+    h.emplace_back("law", s.law);
+    h.emplace_back("dynamic_friction", number(p.friction.dynamic));
+    if (p.friction.law == Law::slip_weakening)
+      h.emplace_back("slip_distance", number(p.friction.dc));
   }
   h.emplace_back("scheme", Slider::to_string(p.scheme));
   h.emplace_back("dt", number(p.dt));

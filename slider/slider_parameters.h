@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "lsm_random.h"
+#include "slider_laws.h"
 
 namespace Slider {
 
@@ -63,6 +64,7 @@ struct Parameters {
   double velocity = 0.01;  ///< driving velocity V_pl of the plate
   double dt = 0.05;        ///< time step (ours; not in the paper)
   Scheme scheme = Scheme::verlet;
+  Friction friction = {};  ///< Eq. 6
 };
 
 /// Highest angular frequency of the sliding chain without friction: its shortest wave.
@@ -112,6 +114,9 @@ inline void check(const Parameters &p, bool force) {
   positive("--mass", p.mass);
   positive("--velocity", p.velocity);
   positive("--dt", p.dt);
+  if (!(p.friction.dynamic >= 0.0 && p.friction.dynamic <= 1.0))
+    fail("--dynamic-friction", p.friction.dynamic, "at least 0 and at most 1");
+  positive("--slip-distance", p.friction.dc);
   const double limit = stability_limit(p);
   if (p.scheme == Scheme::printed) {
     if (p.dt >= limit * (1.0 - 1e-12) && !force)

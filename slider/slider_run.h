@@ -134,6 +134,7 @@ struct RunState {
   std::vector<double> u_start;
   RuptureState ruptures;
   bool with_ruptures = false;  ///< otherwise a checkpoint has none
+  bool with_rest = false;      ///< as with the ruptures
 };
 
 class ByteWriter {
@@ -232,6 +233,7 @@ void archive(Archive &&each, State &s) {
     each(s.ruptures.open);
     each(s.ruptures.recent);
   }
+  if (s.with_rest) each(s.chain.rest);
 }
 
 /// Replaces the file in one go, so that there is a whole checkpoint at any moment.
@@ -258,7 +260,7 @@ inline void write_checkpoint(const std::string &path, const std::string &print,
 }
 
 inline RunState read_checkpoint(const std::string &path, const std::string &print,
-                                bool with_ruptures) {
+                                bool with_ruptures, bool with_rest) {
   std::ifstream in(path, std::ios::binary);
   if (!in)
     throw std::runtime_error(path + ": cannot be read, expected a checkpoint to resume from");
@@ -275,6 +277,7 @@ inline RunState read_checkpoint(const std::string &path, const std::string &prin
   std::string found;
   RunState state;
   state.with_ruptures = with_ruptures;
+  state.with_rest = with_rest;
   try {
     ByteReader reader(all);
     reader.get(found);
@@ -313,6 +316,7 @@ RunResult run(const RunOptions &o, C &chain) {
   RuptureTracker tracker(ruptures ? o.parameters.blocks : 1, o.rupture_memory, o.x_centroid);
   RunState state;
   state.with_ruptures = ruptures;
+  state.with_rest = o.parameters.friction.needs_rest();
   RunResult result;
   // The straightforward loop keeps none of the sums that the others go on from.
   const std::string print =
@@ -344,7 +348,7 @@ RunResult run(const RunOptions &o, C &chain) {
   LSM::CatalogueWriter catalogue;
   LSM::PeSeriesWriter series;
   if (o.resume) {
-    state = read_checkpoint(o.checkpoint, print, ruptures);
+    state = read_checkpoint(o.checkpoint, print, ruptures, state.with_rest);
     chain.set_state(state.chain);
     picker.set_state(state.picker);
     counts = state.picker;

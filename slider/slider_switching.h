@@ -32,6 +32,7 @@ class SwitchingChain {
     n_ = mu_.size();
     y_.assign(2 * n_ + 1, 0.0);
     slides_.assign(n_, 0);
+    rest_.assign(n_, 0.0);
     if (p.scheme == Scheme::reference) {
       system_ = {&SwitchingChain::derivative, nullptr, 2 * n_ + 1, this};
       stepper_.reset(gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, 2 * n_ + 1));
@@ -71,6 +72,7 @@ class SwitchingChain {
     s.dpe = dpe_;
     s.u = y_;
     s.v.assign(slides_.begin(), slides_.end());
+    if (p_.friction.needs_rest()) s.rest = rest_;
     return s;
   }
   void set_state(const ChainState &s) {
@@ -84,6 +86,7 @@ class SwitchingChain {
     moved_ = s.moved;
     dpe_ = s.dpe;
     y_ = s.u;
+    if (!s.rest.empty()) rest_ = s.rest;
     for (std::size_t i = 0; i < n_; ++i) slides_[i] = s.v[i] != 0.0;
   }
 
@@ -97,6 +100,7 @@ class SwitchingChain {
 
   void set_displacements(const std::vector<double> &u) {
     std::copy(u.begin(), u.end(), y_.begin());
+    rest_ = u;
     pe_ = pe_start_ = direct_energy(p_, u, time() * p_.velocity);
   }
 
@@ -147,7 +151,7 @@ class SwitchingChain {
       const double v = y[n_ + i];
       if (slides_[i]) {
         // Stages may overshoot to v < 0 just before the block sticks; the law goes on smoothly.
-        const double friction = mu_[i] / (1.0 + v);
+        const double friction = p_.friction.force(mu_[i], v, y[i] - rest_[i]);
         dy[i] = v;
         dy[n_ + i] = (force(y, i, plate) - friction) / p_.mass;
         loss += friction * v;
@@ -197,6 +201,7 @@ class SwitchingChain {
 
   void flip(std::size_t i) {
     slides_[i] = !slides_[i];
+    rest_[i] = y_[i];
     y_[n_ + i] = 0.0;
     ++switches_;
   }
@@ -280,7 +285,7 @@ class SwitchingChain {
   };
 
   Parameters p_;
-  std::vector<double> mu_, y_, trial_, middle_, error_;
+  std::vector<double> mu_, y_, rest_, trial_, middle_, error_;
   std::vector<double> k1_, k2_, k3_, k4_, stage_;
   std::vector<char> slides_;
   std::vector<std::size_t> late_;

@@ -23,6 +23,41 @@ constexpr Case cases[] = {
     {16, 0.05, 0.1, 0.02, 60000}, {17, 0.01, 0.1, 0.05, 60000}, {100, 0.01, 0.02, 0.1, 60000},
     {255, 0.1, 0.01, 0.1, 60000}, {64, 5.0, 0.5, 0.1, 20000},   {64, 1e-3, 1.0, 0.1, 60000}};
 
+// The laws beside Eq. 6, whose tests follow.
+TEST(SliderKernels, OtherLawsAgreeOverKernelsAndInstructionSets) {
+  for (const Law law : {Law::coulomb, Law::slip_weakening})
+    for (const Case &c : {cases[0], cases[3], cases[7], cases[8], cases[10]})
+      for (Scheme scheme : {Scheme::printed, Scheme::semi_implicit, Scheme::verlet}) {
+        Parameters p;
+        p.blocks = c.blocks;
+        p.kl = c.kl;
+        p.velocity = c.velocity;
+        p.dt = c.dt;
+        p.scheme = scheme;
+        p.friction = {law, 0.7, 0.3};
+        const auto mu = random_friction(p.blocks, 0.5, 1.0, 11);
+        Chain active(p, mu, false, InstructionSet::automatic);
+        Chain dense(p, mu, true, InstructionSet::x86_64);
+        ScalarChain scalar(p, mu);
+        for (int n = 0; n < 20000; ++n) {
+          active.advance();
+          dense.advance();
+          scalar.advance();
+          ASSERT_EQ(active.pe(), dense.pe()) << to_string(law) << " N " << c.blocks << " step " << n;
+          ASSERT_EQ(active.slip_sum(), dense.slip_sum()) << to_string(law) << " N " << c.blocks;
+          if (n == 10000) {  // a state holds all that is needed
+            active.set_state(active.state());
+            scalar.set_state(scalar.state());
+          }
+        }
+        EXPECT_EQ(active.displacements(), scalar.displacements()) << to_string(law) << " N " << c.blocks;
+        EXPECT_EQ(active.velocities(), scalar.velocities()) << to_string(law) << " N " << c.blocks;
+        EXPECT_NEAR(active.pe(), scalar.pe(), 1e-9 * scalar.pe());
+        EXPECT_GT(dense.moved(), 100) << "N " << c.blocks << ": nothing was tested";
+        EXPECT_EQ(active.state().rest.empty(), law != Law::slip_weakening);  // kept only where it is needed
+      }
+}
+
 TEST(SliderKernels, ActiveSetEqualsDenseToTheLastDigit) {
   for (const Case &c : cases) {
     for (Scheme scheme : {Scheme::printed, Scheme::semi_implicit, Scheme::verlet}) {
