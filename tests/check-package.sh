@@ -4,7 +4,7 @@
 # usage: check-package.sh built-in|plugin|refused LMP STOCK_LMP PLUGIN [PLUGIN_OF_OTHER_INTEGERS]
 set -euo pipefail
 way=$1 lmp=$2 stock=$3 plugin=$4 bigbig=${5:-}
-styles="bond_style:lsm/linked pair_style:lsm/free pair_style:lsm/friction fix:lsm/nve fix:lsm/plates
+styles="bond_style:lsm/linked pair_style:lsm/free pair_style:lsm/friction fix:lsm/nve fix:lsm/plates fix:lsm/leap
   compute:lsm/events create_lsm_fault include_beside"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

@@ -31,7 +31,7 @@ class LSMRecordEnergies {
 
   /// setup: the step was done before; its slip was counted then.
   LSMRecordEnergies(LSMEnergySource &source, bool setup, double xlo, double period) :
-      source_(source), counts_(!setup), slips_(!setup && (source.record_what & LSMEnergySource::SLIP)), xlo_(xlo),
+      source_(source), counts_(!setup), slips_(!setup && (source.record_what & (LSMEnergySource::SLIP | LSMEnergySource::SLIP_RATE))), xlo_(xlo),
       period_(period)
   {
     if (source.record_what) source_.slip.clear();
@@ -49,6 +49,8 @@ class LSMRecordEnergies {
   void slip(double share, double x, double moment)
   {
     if (!slips_) return;
+    moment_ += share * moment;
+    if (!(source_.record_what & LSMEnergySource::SLIP)) return;
     double along = (x - xlo_) / period_;
     along = (along - floor(along)) * period_;
     source_.slip.push_back({floor(along / source_.slip_bin), share * moment});
@@ -59,13 +61,14 @@ class LSMRecordEnergies {
     source_.pe_contact = normal_;
     source_.pe_tangential = tangential_;
     source_.work_friction += lost_;
+    source_.slip_moment += moment_;
   }
 
  private:
   LSMEnergySource &source_;
   const bool counts_, slips_;
   const double xlo_, period_;
-  double normal_ = 0.0, tangential_ = 0.0, lost_ = 0.0;
+  double normal_ = 0.0, tangential_ = 0.0, lost_ = 0.0, moment_ = 0.0;
 };
 
 /// Also LAMMPS' own energy and virial, which the loop hands to the pair style.

@@ -65,6 +65,7 @@ template <class Chosen> PairLSMFriction::Law PairLSMFriction::entry()
           count,
           Chosen::state_size,
           Chosen::named,
+          Chosen::needs_time,
           &::fits<Chosen>,
           &PairLSMFriction::loop<Chosen, LSMRecordNothing>,
           &PairLSMFriction::loop<Chosen, LSMRecordEnergies>,

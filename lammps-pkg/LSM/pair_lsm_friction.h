@@ -39,6 +39,8 @@ class PairLSMFriction : public PairLSMFree {
   double single(int, int, int, int, double, double, double, double &) override;
   void *extract(const char *, int &) override;
   void transfer_history(double *, double *, int, int) override;
+  /// Name of the law if it depends on time or velocity, else null.
+  const char *law_of_time() const { return law->needs_time ? law->name : nullptr; }
 
  protected:
   void allocate() override;
@@ -56,6 +58,7 @@ class PairLSMFriction : public PairLSMFree {
     int count;
     int state_size;
     bool named;
+    bool needs_time;
     bool (*fits)(const double *);
     void (PairLSMFriction::*loop_nothing)();
     void (PairLSMFriction::*loop_energies)();
