@@ -93,9 +93,9 @@ TEST(Sequences, MainShocksByHand) {
   rule.first = 1.5;
   EXPECT_EQ(stack_sequences(table, rule).times, (std::vector<double>{2, 10}));
   rule.first = 0.0;
-  // Within the window of a larger one: none.
   rule.window = 99;
-  EXPECT_EQ(stack_sequences(table, rule).main_shocks, 1);  // 300; 200 is 98 from its end to 300
+  // 200 ends 98 before 300, which is larger; 100 ends 90 before 200, which is as large and later.
+  EXPECT_EQ(stack_sequences(table, rule).main_shocks, 2);
   // The window has to lie within the catalogue.
   rule.window = 201;
   EXPECT_EQ(stack_sequences(table, rule).main_shocks, 0);
@@ -138,11 +138,11 @@ TEST(Omori, ErrorsCoverTheTruth) {
   };
   const double fitted = std::nan("");
   for (const Case &one :
-       {Case{{1.5, 0.3, 1.1, 0.01}, 0.0, fitted}, Case{{1.0, 0.1, 0.9, 0.02}, 0.05, fitted},
+       {Case{{1.5, 0.3, 1.1, 0.01}, 0.0, fitted}, Case{{1.0, 0.3, 0.9, 0.02}, 0.05, fitted},
         Case{{1.0, 0.0, 1.2, 0.02}, 0.1, 0.0}}) {
     Coverage p(one.law.p), ln_c(std::log(one.law.c)), ln_K(std::log(one.law.K)),
         background(one.law.background);
-    for (unsigned long seed = 1; seed <= 150; ++seed) {
+    for (unsigned long seed = 1; seed <= 100; ++seed) {
       const OmoriFit fit =
           fit_omori(omori_sequences(one.law, 150, one.first, 100.0, seed), one.hold_c);
       ASSERT_FALSE(fit.degenerate) << fit.why;
@@ -235,9 +235,9 @@ TEST(Aftershocks, ShareOfPoissonCatalogues) {
   rule.window = 40.0;
   // The same for a Poisson catalogue as for its own random order: p is uniform.
   int low = 0;
-  const int trials = 60;
+  const int trials = 40;
   for (int seed = 1; seed <= trials; ++seed) {
-    const Aftershocks a = aftershocks_of(poisson(3000, 1.0, static_cast<unsigned long>(seed)), rule,
+    const Aftershocks a = aftershocks_of(poisson(1000, 1.0, static_cast<unsigned long>(seed)), rule,
                                          std::nan(""), 1.6, 9, 100);
     ASSERT_FALSE(std::isnan(a.p));
     if (a.p <= 0.5) ++low;
