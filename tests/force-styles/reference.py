@@ -21,7 +21,7 @@ NEAR = 1.05  # pairs closer than this, in sums of radii, are known before they t
 class Scene:
     """Jittered grid of discs (triangular) or spheres (cubic) in a periodic box around the origin."""
 
-    def __init__(self, dim, seed, atom_types, bond_types, angle_types=0):
+    def __init__(self, dim, seed, atom_types, bond_types, angle_types=0, speed=0.4):
         rng = random.Random(seed)
         self.dim, self.atom_types, self.bond_types, self.angle_types = dim, atom_types, bond_types, angle_types
         if dim == 2:
@@ -34,7 +34,7 @@ class Scene:
         for kz, ky, kx in itertools.product(*(range(n) for n in reversed(counts))):
             site = [kx + 0.25 + (0.5 * (ky % 2) if dim == 2 else 0.25), (ky + 0.5) * rise, kz + 0.5]
             x = [round(s - 0.5 * b + rng.uniform(-0.09, 0.09), 6) for s, b in zip(site, self.box)]
-            v = [round(rng.uniform(-0.4, 0.4), 6) for _ in range(3)]
+            v = [round(rng.uniform(-speed, speed), 6) for _ in range(3)]
             if dim == 2:
                 x[2] = v[2] = 0.0
             self.x.append(x)
@@ -304,7 +304,7 @@ def main():
     scenes = {2: Scene(2, SEEDS[0], 2, 3), 3: Scene(3, SEEDS[1], 2, 3)}
     for dim, scene in scenes.items():
         scene.write(os.path.join(folder, f"data.bond_{dim}d"))
-    blocks = Scene(2, SEEDS[2], 5, 5, 4)
+    blocks = Scene(2, SEEDS[2], 5, 5, 4, speed=0.1)
     blocks.write(os.path.join(folder, "data.molecular_2d"))
 
     plain = {1: ("lsm", 1.0, None), 2: ("lsm", 0.7, None), 3: ("lsm", 1.4, None)}
