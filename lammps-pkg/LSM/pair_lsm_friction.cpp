@@ -467,6 +467,11 @@ void PairLSMFriction::init_style()
   if (domain->dimension != 2)
     error->all(FLERR, "Pair style lsm/friction needs a 2-dimensional simulation (dimension 2)");
 
+  // forces at displaced positions would slide contacts
+
+  if (!modify->get_fix_by_style("^numdiff").empty())
+    error->all(FLERR, "Pair style lsm/friction does not work with fix numdiff, as friction depends on the path");
+
   running = law;    // see init_one()
   PairLSMFree::init_style();
 
