@@ -37,9 +37,12 @@ void Outputs::create(double pe) {
 }
 
 void Outputs::resume(std::int64_t step, std::int64_t events, std::int64_t late) {
+  // Nothing is cut before both are found to fit.
   if (!catalogue_path_.empty())
-    catalogue_.resume(catalogue_path_, catalogue_info_, step - late, {}, events);
-  if (!series_path_.empty()) series_.resume(series_path_, series_info_, binary_, step);
+    catalogue_.find_cut(catalogue_path_, catalogue_info_, step - late, {}, events);
+  if (!series_path_.empty()) series_.find_cut(series_path_, series_info_, binary_, step);
+  if (!catalogue_path_.empty()) catalogue_.cut();
+  if (!series_path_.empty()) series_.cut();
 }
 
 void Outputs::flush() {

@@ -292,6 +292,12 @@ void BondLSMLinked::init_style()
   if (!atom->radius_flag)
     error->all(FLERR, "Bond style lsm/linked needs particle radii: use atom_style hybrid bond sphere");
   LSMScene::refuse_changing_radii(lmp, "Bond style lsm/linked");
+  for (const char *makes_or_breaks : {"^bond/break", "^bond/create", "^bond/react", "^bond/swap"})
+    for (const auto &other : modify->get_fix_by_style(makes_or_breaks))
+      error->all(FLERR,
+                 "Bond style lsm/linked does not work with fix {} of style {}, as nobody would count "
+                 "the energy of its bonds; let links break by the ratio of bond_coeff",
+                 other->id, other->style);
   collected_at = -1;
 
   double mine = 0.0;

@@ -275,6 +275,13 @@ void ComputeLSMEvents::check_surroundings()
     if (ifix->pre_exchange_migrate)
       error->all(FLERR, "Compute lsm/events {} must be defined before fix {}, which moves particles to other ranks", id, ifix->id);
   }
+  if (ledger)
+    for (const char *adds_or_takes : {"^pour", "^deposit", "^evaporate"})
+      for (const auto &other : modify->get_fix_by_style(adds_or_takes))
+        error->all(FLERR,
+                   "Compute lsm/events {}: the energy ledger does not know the particles that fix {} "
+                   "adds or takes away; use ledger no and no tolerance",
+                   id, other->id);
   const std::string foreign = LSMScene::foreign_forces(force);
   if (!foreign.empty() && comm->me == 0)
     error->warning(FLERR, "Compute lsm/events {}: PE, events and ledger do not hold the energy of {}", id, foreign);
@@ -377,17 +384,19 @@ void ComputeLSMEvents::begin_files(bigint step, bool from_restart)
   }
 
   const std::vector<std::string> free_to_change = {"program", "ranks", "links"};
+  const auto goes_on = [&](const std::string &file) {
+    return resume && !file.empty() && std::filesystem::exists(file, code);
+  };
+  const bool catalogue_goes_on = goes_on(catalogue_file), series_goes_on = goes_on(series_file);
   try {
     if (!catalogue_file.empty()) {
       catalogue = std::make_unique<LSM::CatalogueWriter>();
       // an event that ended at the restart step is only known one step later, and comes again
-      if (resume && std::filesystem::exists(catalogue_file, code))
-        catalogue->resume(catalogue_file, header(), step - 1, free_to_change, picker->events());
-      else
-        catalogue->create(catalogue_file, header());
+      if (catalogue_goes_on)
+        catalogue->find_cut(catalogue_file, header(), step - 1, free_to_change, picker->events());
     }
+    LSM::PeSeriesInfo info;
     if (!series_file.empty()) {
-      LSM::PeSeriesInfo info;
       info.model = "lsm";
       info.dt = update->dt;
       // the numbers that times are computed from, so that a reader gets the times of the catalogue
@@ -400,11 +409,16 @@ void ComputeLSMEvents::begin_files(bigint step, bool from_restart)
                          [](const auto &p) { return p.first == "dt"; }),
           info.parameters.end());
       series = std::make_unique<LSM::PeSeriesWriter>();
-      if (resume && std::filesystem::exists(series_file, code))
-        series->resume(series_file, info, series_binary, step, free_to_change);
-      else
-        series->create(series_file, info, series_binary);
+      if (series_goes_on)
+        series->find_cut(series_file, info, series_binary, step, free_to_change);
     }
+
+    // both fit
+
+    if (catalogue)
+      catalogue_goes_on ? (void) catalogue->cut() : catalogue->create(catalogue_file, header());
+    if (series)
+      series_goes_on ? (void) series->cut() : series->create(series_file, info, series_binary);
   } catch (std::exception &e) {
     failure = fmt::format("Compute lsm/events: {}", e.what());
   }

@@ -378,6 +378,9 @@ void CreateLSMFault::add_particles(const LSM::Packing &packing, const std::vecto
                                    const std::vector<int> &stored)
 {
   const int n = static_cast<int>(packing.discs.size());
+  for (int i = 0; i < n; i++)
+    if (stored[i] > atom->bond_per_atom)
+      error->all(FLERR, "Create_lsm_fault: {} links of particle {} do not fit", stored[i], i + 1);
   std::vector<int> local(n, -1);
   const double *sublo = domain->sublo, *subhi = domain->subhi;
 
@@ -395,8 +398,6 @@ void CreateLSMFault::add_particles(const LSM::Packing &packing, const std::vecto
     atom->radius[m] = disc.r;
     atom->rmass[m] = masses[i];
     if (atom->molecule_flag) atom->molecule[m] = disc.block + 1;
-    if (stored[i] > atom->bond_per_atom)
-      error->one(FLERR, "Create_lsm_fault: {} links of particle {} do not fit", stored[i], i + 1);
   }
 
   for (const auto &link : packing.links) {

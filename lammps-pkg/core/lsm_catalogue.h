@@ -436,6 +436,14 @@ class CatalogueWriter {
   /// the number of events.
   std::int64_t resume(const std::string &path, const CatalogueInfo &info, std::int64_t last_step,
                       const std::vector<std::string> &ignore = {}, std::int64_t expected = -1) {
+    find_cut(path, info, last_step, ignore, expected);
+    return cut();
+  }
+
+  /// All of resume() but the change of the file, which cut() does: where more than one file goes
+  /// on, nothing is cut before all of them are found to fit.
+  void find_cut(const std::string &path, const CatalogueInfo &info, std::int64_t last_step,
+                const std::vector<std::string> &ignore = {}, std::int64_t expected = -1) {
     catalogue_detail::check_info(info);
     file_.close();
     CatalogueReader reader(path, false, true);
@@ -463,13 +471,19 @@ class CatalogueWriter {
     if (expected >= 0 && kept != expected)
       throw CatalogueError(path + ": cannot resume: " + std::to_string(kept) +
                            " events up to the checkpoint, expected " + std::to_string(expected));
-    file_.append(path, length);
+    cut_path_ = path;
+    cut_length_ = length;
     columns_ = catalogue_detail::columns_of(info);
     overlapping_ = info.overlapping();
     last_ = last;
     has_last_ = kept > 0;
     rows_ = kept;
-    return kept;
+  }
+
+  /// Goes on with the file that find_cut() looked at. Returns the number of events kept.
+  std::int64_t cut() {
+    file_.append(cut_path_, cut_length_);
+    return rows_;
   }
 
   /// Appends one line and hands it to the system.
@@ -512,6 +526,8 @@ class CatalogueWriter {
   bool has_last_ = false;
   std::int64_t rows_ = 0;
   std::string line_;
+  std::string cut_path_;
+  std::int64_t cut_length_ = 0;
 };
 
 }  // namespace LSM

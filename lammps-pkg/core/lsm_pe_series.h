@@ -427,6 +427,14 @@ class PeSeriesWriter {
   /// samples missing before last_step.
   std::int64_t resume(const std::string &path, const PeSeriesInfo &info, bool binary,
                       std::int64_t last_step, const std::vector<std::string> &ignore = {}) {
+    find_cut(path, info, binary, last_step, ignore);
+    return cut();
+  }
+
+  /// All of resume() but the change of the file, which cut() does: where more than one file goes
+  /// on, nothing is cut before all of them are found to fit.
+  void find_cut(const std::string &path, const PeSeriesInfo &info, bool binary,
+                std::int64_t last_step, const std::vector<std::string> &ignore = {}) {
     using namespace pe_series_detail;
     check_info(info);
     close();
@@ -449,9 +457,15 @@ class PeSeriesWriter {
     if (reached < last_step && last_step - info.stride >= reached)
       throw PeSeriesError(path + ": cannot resume: samples end at step " + std::to_string(reached) +
                           ", expected them up to step " + std::to_string(last_step));
-    file_.append(path, length);
+    cut_path_ = path;
+    cut_length_ = length;
     start(info, binary, kept, last);
-    return kept;
+  }
+
+  /// Goes on with the file that find_cut() looked at. Returns the number of samples kept.
+  std::int64_t cut() {
+    file_.append(cut_path_, cut_length_);
+    return rows_;
   }
 
   /// Adds a sample. \throws PeSeriesError if pe is not finite, steps do not increase, or a block
@@ -516,6 +530,8 @@ class PeSeriesWriter {
   bool binary_ = false;
   std::int64_t rows_ = 0, last_step_ = 0;
   std::string buffer_;
+  std::string cut_path_;
+  std::int64_t cut_length_ = 0;
 };
 
 }  // namespace LSM

@@ -332,6 +332,35 @@ thermo_modify     norm no format float %.17g
   EXPECT_EQ(held.last("Bonds"), 0.0);
 }
 
+namespace {
+
+/// A floor of discs of radius 0.45 that is held, gravity, and a fix that lets others of radius 0.5
+/// fall on it.
+std::string rain(const std::string &insert) {
+  std::vector<std::pair<std::string, std::string>> floor;
+  for (int n = 0; n < 60; ++n) floor.emplace_back(text(n - 29.5), "-8");
+  return discs(floor) + R"(
+set               group all diameter 0.9
+group             floor id <= 60
+pair_style        lsm/friction
+pair_coeff        * * 1.0 1.0 0.6
+timestep          0.02
+region            sky block -28 28 -5 -1 -0.2 0.2
+fix               down all gravity 0.05 vector 0 -1 0
+fix               move all lsm/nve viscosity 0.05
+)" + insert +
+         "\nfix hold floor setforce 0 0 0\n";
+}
+
+const char *const rain_columns = R"(
+variable          low equal bound(all,ymin)
+variable          top equal bound(all,ymax)
+thermo_style      custom step atoms ke c_events[7] c_events[8] v_low v_top
+thermo_modify     norm no format float %.17g
+)";
+
+}  // namespace
+
 TEST_F(Refused, RadiiThatChangeDuringARun) {
   std::string scene = shear_contact("pair_style lsm/free\npair_coeff * * 1.0\n");
   const std::string style = "hybrid bond sphere";
@@ -400,6 +429,20 @@ TEST_F(Refused, RecordingWhoseFixIsGone) {
       {"lsm/events", "events_record"}));
 }
 
+TEST_F(Refused, FixesThatBreakLinks) {
+  EXPECT_TRUE(failed_with(run_text(std::string("plugin load ") + LSM_FOREIGN_FIX + "\n" +
+                                   linked_pair() + "fix cut all bond/break 1 1 2.5\nrun 1\n"),
+                          {"lsm/linked", "fix cut", "bond/break", "ratio"}));
+}
+
+TEST_F(Refused, LedgerOfParticlesThatCome) {
+  const std::string scene = rain("fix drop all deposit 20 1 40 771 region sky near 1.2");
+  for (const char *options : {"ledger yes", "tolerance 0.1"})
+    EXPECT_TRUE(failed_with(run_text(scene + recorded(options) + "run 1\n"),
+                            {"lsm/events", "ledger", "fix drop"}))
+        << options;
+}
+
 // ---- other commands that work ----
 
 namespace {
@@ -438,6 +481,41 @@ double energies_differ(const Result &a, const Result &b) {
 }
 
 }  // namespace
+
+TEST_F(Works, GridsOfProcessors) {
+  const std::string run = rubbing() + "fix move all lsm/nve\nrun 100\n";
+  const Result plain = run_text(run);
+  ASSERT_TRUE(succeeded(plain));
+  EXPECT_GT(plain.last("c_events[11]"), 1e-3);
+  for (const auto &[grid, ranks] :
+       {std::pair<std::string, int>{"1 2 1", 2}, {"2 2 1", 4}, {"4 1 1", 4}}) {
+    const Result r = run_text("processors " + grid + "\n" + run, {}, ranks);
+    ASSERT_TRUE(succeeded(r)) << grid;
+    EXPECT_EQ(r.lines_with(grid.substr(0, 1) + " by " + grid.substr(2, 1) + " by 1 MPI").size(),
+              1u);
+    EXPECT_LT(energies_differ(plain, r), 1e-12) << grid;
+  }
+}
+
+TEST_F(Works, ParticlesThatComeTouchWhatIsThere) {
+  for (const char *insert : {"fix drop all deposit 20 1 40 771 region sky near 1.2 vy -0.2 -0.2",
+                             "fix drop all pour 20 1 771 region sky diam one 1.0 vol 0.3 50"}) {
+    std::vector<Result> runs;
+    for (int ranks : {1, 2}) {
+      runs.push_back(run_text(rain(insert) + "compute events all lsm/events\n" + rain_columns +
+                                  "thermo 400\nrun 1200\n",
+                              {}, ranks));
+      ASSERT_TRUE(succeeded(runs.back())) << insert;
+      // larger than those of the floor, and found all the same: nothing falls through
+      EXPECT_EQ(runs.back().last("Atoms"), 80.0) << insert;
+      EXPECT_EQ(runs.back().last("v_low"), -8.0) << insert;
+    }
+    EXPECT_LT(
+        thermo_difference(runs[0], runs[1], {"KinEng", "c_events[7]", "c_events[8]", "v_top"}),
+        1e-9)
+        << insert;
+  }
+}
 
 TEST_F(Works, BalanceRespaAndHybridGiveTheSameMotion) {
   const Result plain = run_text(rubbing() + "fix move all lsm/nve\nrun 100\n");

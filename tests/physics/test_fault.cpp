@@ -183,6 +183,31 @@ TEST_F(Restart, PickerFollowsTheTimeStep) {
     }
 }
 
+// A PE series that does not fit is found before the catalogue is cut back, and the other way round.
+TEST_F(Restart, NothingIsCutWhereOneFileDoesNotFit) {
+  const std::string events = "resume yes catalogue pair.csv series pair.pe text";
+  const std::string again = sheared_state("0.03", events) + "run 1\n";
+  for (int ranks : {1, 2})
+    for (const char *wrong : {"pair.pe", "pair.csv"}) {
+      SCOPED_TRACE(std::to_string(ranks) + " ranks, " + wrong);
+      for (const char *name : {"pair.csv", "pair.pe"}) std::filesystem::remove(path(name));
+      ASSERT_TRUE(succeeded(run_text(
+          fault_read() + fault_shear(events) + "restart 1000 pair.*\nrun 1900\n", {}, ranks)));
+      std::string text = read_file(path(wrong));
+      const std::string key = "# length = 40\n";
+      ASSERT_NE(text.find(key), std::string::npos);
+      text.replace(text.find(key), key.size(), "# length = 41\n");
+      std::ofstream(path(wrong)) << text;
+      const std::string catalogue = read_file(path("pair.csv")),
+                        series = read_file(path("pair.pe"));
+      ASSERT_GT(series.size(), 1500 * std::string("1,0.03,0.001\n").size());
+      EXPECT_TRUE(failed_with(run_text(again, {{"state", "pair.1000"}}, ranks),
+                              {wrong, "length", "41", "40"}));
+      EXPECT_TRUE(read_file(path("pair.csv")) == catalogue);
+      EXPECT_TRUE(read_file(path("pair.pe")) == series);
+    }
+}
+
 // The header of a file holds one time step.
 TEST_F(Restart, TimeStepOfOpenFilesIsKept) {
   const std::string shear = fault_read() + fault_shear("${files}") + "thermo 100\nrun 200\n";

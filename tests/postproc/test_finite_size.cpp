@@ -197,6 +197,28 @@ TEST(BlockLength, OfAnAutoregressiveSeries) {
   EXPECT_EQ(block_length(std::vector<double>(1000, 0.0)), 10.0);
 }
 
+TEST(BlockLength, OfASeriesWhoseCorrelationEnds) {
+  // Sums of five numbers in a row: correlated up to lag 4. The same rule (Politis & White 2004),
+  // written out for that: lags up to 4 count in full, 5 to 7 less and less, 8 no more.
+  LSM::Random random(7);
+  const std::size_t n = 4000;
+  std::vector<double> noise(n + 4), x(n, 0.0);
+  for (double &e : noise) e = random.uniform() - 0.5;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = 0; k < 5; ++k) x[i] += noise[i + k];
+  std::vector<double> r(10, 0.0);
+  for (std::size_t lag = 0; lag < r.size(); ++lag)
+    for (std::size_t i = 0; i + lag < n; ++i) r[lag] += x[i] * x[i + lag] / static_cast<double>(n);
+  const double noticed = 2.0 * std::sqrt(std::log10(4000.0) / 4000.0) * r[0];
+  EXPECT_GT(r[4], noticed);
+  for (std::size_t lag = 5; lag < r.size(); ++lag) EXPECT_LT(std::fabs(r[lag]), noticed) << lag;
+  const double full = r[1] + r[2] + r[3] + r[4] + 0.75 * r[5] + 0.5 * r[6] + 0.25 * r[7];
+  const double moment =
+      r[1] + 2.0 * r[2] + 3.0 * r[3] + 4.0 * r[4] + 3.75 * r[5] + 3.0 * r[6] + 1.75 * r[7];
+  const double ratio = 2.0 * moment / (r[0] + 2.0 * full);
+  EXPECT_NEAR(block_length(x), std::cbrt(1.5 * ratio * ratio * 4000.0), 1e-9);
+}
+
 TEST(CharacteristicSize, SameSeedSameError) {
   const std::vector<double> sizes = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
   for (const double block : {0.0, 2.0}) {

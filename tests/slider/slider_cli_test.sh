@@ -107,6 +107,17 @@ resume | terminate | kill)
     run "${part[@]}" --resume --kl 0.02 && fail "resumed with another --kl"
     grep -q "kl = 0.01.*expected.*kl = 0.02" err.txt || fail "message: $(cat err.txt)"
     cmp keep.csv part.csv || fail "a refused resume changed the catalogue"
+    # What does not fit is found before any file is cut, as that torn line would be.
+    cp part.pe keep.pe
+    printf '999,1' >> part.csv
+    sed -i 's/^# seed = 3$/# seed = 4/' part.pe
+    before=$(cksum part.csv part.pe part.chk)
+    run "${part[@]}" --resume && fail "resumed with the PE series of another run"
+    grep -q "part.pe: cannot resume: parameter 'seed' is '4'" err.txt || fail "message: $(cat err.txt)"
+    [ "$before" = "$(cksum part.csv part.pe part.chk)" ] || fail "a refused resume changed files"
+    cp keep.pe part.pe
+    must_run "${part[@]}" --resume
+    cmp keep.csv part.csv || fail "the torn line was not cut"
     head -c 500 part.chk > short.chk
     run "${part[@]}" --checkpoint short.chk --resume && fail "resumed from a torn checkpoint"
     grep -q "short.chk: damaged" err.txt || fail "message: $(cat err.txt)"
@@ -150,6 +161,24 @@ ensemble)
     must_run "${short[@]}" --steps 300000 --seed $((k + 2)) --catalogue alone.csv
     same run$k.csv alone.csv 5
   done
+  # Stopped by a signal while several run at a time, it goes on as if it had not been.
+  stopped=("${short[@]}" --steps 300000 --ensemble 3 --threads 3 --catalogue 'part{run}.csv'
+           --checkpoint 'part{run}.chk' --checkpoint-interval 1000)
+  for round in 1 2 3 4 5; do
+    rm -f part*
+    "$program" "${stopped[@]}" > out.txt 2> err.txt &
+    child=$!
+    while kill -0 $child 2> /dev/null; do
+      [ -e part1.chk ] && [ -e part2.chk ] && [ -e part3.chk ] && break
+    done
+    kill -TERM $child 2> /dev/null
+    wait $child
+    code=$?
+    [ $code = 143 ] && break
+  done
+  [ $code = 143 ] || fail "the ensemble was never interrupted: $(cat err.txt)"
+  must_run "${stopped[@]}" --resume
+  for k in 1 2 3; do same run$k.csv part$k.csv 5; done
   printf '%s\n' '# two stiffnesses' '--kl 0.02' '--kl 0.05 --catalogue named.csv' > sets.txt
   must_run "${short[@]}" --steps 300000 --ensemble sets.txt --catalogue set.csv --json all.json
   must_run "${short[@]}" --steps 300000 --kl 0.05 --catalogue alone.csv

@@ -536,6 +536,19 @@ TEST_F(CatalogueResume, RefusesAnotherNumberOfEventsAndLeavesTheFile) {
   EXPECT_EQ(writer.resume(file(), some_info(), 209, {}, 1), 1);
 }
 
+TEST_F(CatalogueResume, LookingForThePlaceToCutChangesNothing) {
+  write_events(3);
+  spill(file(), slurp(file()) + "4,12");
+  const std::string before = slurp(file());
+  CatalogueWriter writer;
+  writer.find_cut(file(), some_info(), 209);
+  EXPECT_EQ(slurp(file()), before);
+  EXPECT_EQ(writer.cut(), 1);
+  writer.write(some_event(2));
+  writer.close();
+  EXPECT_EQ(LSM::read_catalogue(file()).events.size(), 2U);
+}
+
 TEST_F(CatalogueResume, DropsATornLastLine) {
   write_events(3);
   const std::string expected = slurp(file());

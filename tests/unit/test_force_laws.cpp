@@ -79,6 +79,14 @@ TEST(Friction, DissipationClosesTheEnergyBalanceOfTheTangentialSpring) {
   EXPECT_GT(lost_in_all, 0.1);
 }
 
+TEST(Friction, SlipsTheWayTheSpringPullsWhereTheLoadFalls) {
+  // The discs move back a little, but what no longer bears the spring is the lower load.
+  const auto s = friction_step<false>({2.0, 0.5, 0.5}, 0.4, -0.01, 0.1, false);
+  EXPECT_DOUBLE_EQ(s.xi, 0.025);
+  EXPECT_DOUBLE_EQ(s.slip, 0.365);
+  EXPECT_GT(s.dissipated, 0.0);
+}
+
 TEST(Friction, LostContactReleasesTheSpring) {
   const auto s = friction_step<false>(kOne, 0.2, 0.0, 0.0, false);
   EXPECT_EQ(s.xi, 0.0);

@@ -361,6 +361,18 @@ TEST_P(PeSeriesBoth, ResumeGoesOnAsIfNeverInterrupted) {
   }
 }
 
+TEST_P(PeSeriesBoth, LookingForThePlaceToCutChangesNothing) {
+  write_series(GetParam(), 110);
+  const std::string before = slurp(file());
+  PeSeriesWriter writer;
+  writer.find_cut(file(), some_info(), GetParam(), 105);
+  EXPECT_EQ(slurp(file()), before);
+  EXPECT_EQ(writer.cut(), 3);
+  writer.write(106, 1.0);
+  writer.close();
+  EXPECT_EQ(read_all(file()).size(), 4U);
+}
+
 TEST_P(PeSeriesBoth, ResumeBeforeTheFirstSample) {
   write_series(GetParam(), 110);
   PeSeriesWriter writer;
