@@ -30,6 +30,15 @@
 
 namespace Slider {
 
+/// What the schemes with located switches need besides.
+struct SwitchingState {
+  std::vector<std::uint8_t> sliding;  ///< which blocks slide; empty: those with a velocity
+  double friction_loss = 0.0;
+  double pe_start = 0.0;    ///< PE that the energy ledger begins with
+  double inner_step = 0.0;  ///< next step of the adaptive scheme; 0: not known yet
+  std::int64_t switches = 0;
+};
+
 /// What is needed to go on from a step, besides the parameters.
 struct ChainState {
   std::int64_t step = 0;
@@ -40,6 +49,9 @@ struct ChainState {
   std::int64_t moved = 0;                        ///< block-steps with motion so far
   double dpe = 0.0;                              ///< change of PE over the last step
   std::vector<double> u, v;
+  SwitchingState switching;
+  std::vector<double>
+      rest;  ///< where blocks last rested, if the law needs it; empty: where they are
 };
 
 /// PE of all springs, summed directly; used to set and to check the work formula.
@@ -77,7 +89,7 @@ class Chain {
     if (mu.size() != static_cast<std::size_t>(p.blocks))
       throw std::invalid_argument("number of friction coefficients differs from --blocks");
     const int scheme = p.scheme == Scheme::printed ? 0 : p.scheme == Scheme::semi_implicit ? 1 : 2;
-    function_ = step_function(scheme, set);
+    function_ = step_function(scheme, p.friction.law, set);
     chunks_ = (p.blocks + chunk_size - 1) / chunk_size;
     const std::size_t room = static_cast<std::size_t>(chunks_ + 2) * chunk_size;
     for (auto *a : {&u_, &v_, &force_, &du_}) a->assign(room, 0.0);
@@ -88,6 +100,12 @@ class Chain {
     view_.force = force_.data() + chunk_size;
     view_.du = du_.data() + chunk_size;
     view_.mu = mu_.data() + chunk_size;
+    if (p.friction.needs_rest()) {
+      rest_.assign(room, 0.0);
+      view_.rest = rest_.data() + chunk_size;
+    }
+    view_.dynamic = p.friction.dynamic;
+    view_.dc = p.friction.dc;
     view_.blocks = p.blocks;
     view_.kc = p.kc;
     view_.kl = p.kl;
@@ -189,13 +207,14 @@ class Chain {
     s.dpe = dpe_;
     s.u = displacements();
     s.v = velocities();
+    if (view_.rest) s.rest.assign(view_.rest, view_.rest + p_.blocks);
     return s;
   }
 
   /// Goes on from a saved state.
   void set_state(const ChainState &s) {
     const std::size_t n = static_cast<std::size_t>(p_.blocks);
-    if (s.u.size() != n || s.v.size() != n || s.step < 0)
+    if (s.u.size() != n || s.v.size() != n || (!s.rest.empty() && s.rest.size() != n) || s.step < 0)
       throw std::invalid_argument("saved chain does not fit --blocks");
     step_ = s.step;
     slip_ = LSM::NeumaierSum(s.slip_sum, s.slip_compensation);
@@ -207,6 +226,10 @@ class Chain {
     dpe_ = s.dpe;
     std::copy(s.u.begin(), s.u.end(), view_.u);
     std::copy(s.v.begin(), s.v.end(), view_.v);
+    if (view_.rest) {
+      const auto &rest = s.rest.empty() ? s.u : s.rest;
+      std::copy(rest.begin(), rest.end(), view_.rest);
+    }
     if (quiet_since_ >= 0)
       pe_value_ = quiet_energy();
     else
@@ -448,7 +471,7 @@ class Chain {
   StepFunction function_ = nullptr;
   int chunks_ = 0;
   std::uint8_t last_edge_ = 0;
-  std::vector<double, LineAllocator<double>> u_, v_, force_, du_, mu_;
+  std::vector<double, LineAllocator<double>> u_, v_, force_, du_, mu_, rest_;
   std::vector<double> old_force_;  // of the listed chunks, if someone watches
   ChainView view_;
   std::int64_t step_ = 0;

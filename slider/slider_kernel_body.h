@@ -37,8 +37,23 @@ inline __attribute__((always_inline)) unsigned bits(Mask m) {
 #endif
 }
 
+// Friction::force for a register of blocks, that of a block at rest with f <= m being at least f.
+template <Law law>
+inline __attribute__((always_inline)) Register friction(const ChainView &chain, Register m,
+                                                        Register v, Register f, Register slip) {
+  if constexpr (law == Law::coulomb) {
+    const Register zero = {}, low = chain.dynamic * m;
+    return (v > zero) | (f > m) ? low : m;
+  } else if constexpr (law == Law::slip_weakening) {
+    const Register zero = {}, low = chain.dynamic * m;
+    return slip < zero + chain.dc ? m - (m - low) * (slip / chain.dc) : low;
+  } else {
+    return m / (1.0 + v);
+  }
+}
+
 // Scheme: 0 printed, 1 semi-implicit, 2 verlet.
-template <int scheme>
+template <int scheme, Law law>
 StepSums step(const ChainView &chain, const std::int32_t *list, int count, double x_new,
               std::uint8_t *hot) {
   const Register zero = {};
@@ -50,14 +65,19 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
   double *const u = chain.u, *const velocity = chain.v, *const force = chain.force;
   double *const du = chain.du;
   const double *const mu = chain.mu;
+  constexpr bool needs_rest = law == Law::slip_weakening;
   for (int k = 0; k < count; ++k) {
     const std::int64_t i = static_cast<std::int64_t>(list[k]) * chunk_size;
     const Lanes f = load(force + i), m = load(mu + i), v = load(velocity + i);
     Lanes x = load(u + i), change;
+    [[maybe_unused]] Lanes rest;
+    if constexpr (needs_rest) rest = load(chain.rest + i);
     for (int r = 0; r < registers; ++r) {
+      Register slid = zero;
+      if constexpr (needs_rest) slid = x.r[r] - rest.r[r];
       // A stuck block has v = 0, so f <= mu leaves it stuck without a branch, and a block whose
       // velocity would turn negative sticks.
-      const Register push = f.r[r] - m.r[r] / (1.0 + v.r[r]);
+      const Register push = f.r[r] - friction<law>(chain, m.r[r], v.r[r], f.r[r], slid);
       Register w = v.r[r] + (scheme == 2 ? half_h_m : h_m) * push;
       w = w > zero ? w : zero;
       const Register moved = scheme == 0 ? half_h * (v.r[r] + w) : h * w;
@@ -79,10 +99,19 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
     const Lanes x = load(u + i), left = load(u + i - 1), right = load(u + i + 1);
     const Lanes old = load(force + i), m = load(mu + i), change = load(du + i);
     Lanes v = load(velocity + i), f;
+    [[maybe_unused]] Lanes rest;
+    if constexpr (needs_rest) rest = load(chain.rest + i);
     unsigned lanes = 0;
     for (int r = 0; r < registers; ++r) {
       f.r[r] = kc * ((left.r[r] - x.r[r]) + (right.r[r] - x.r[r])) + kl * (x_new - x.r[r]);
-      if (scheme == 2) {
+      if (scheme == 2 && law != Law::velocity_weakening) {
+        // A block that came to rest in the first half of the step has healed.
+        Register slid = zero;
+        if constexpr (needs_rest) slid = v.r[r] > zero ? x.r[r] - rest.r[r] : zero;
+        const Register w =
+            v.r[r] + half_h_m * (f.r[r] - friction<law>(chain, m.r[r], v.r[r], f.r[r], slid));
+        v.r[r] = w > zero ? w : zero;
+      } else if (scheme == 2) {
         // w = v_half + h/2 (f - mu / (1 + w)) / m is quadratic in w; its larger root is written so
         // that nothing cancels and its sign is that of c - b.
         const Register c = v.r[r] + half_h_m * f.r[r];
@@ -97,12 +126,14 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
         w = (w > zero) & (q > zero) ? w : zero;
         v.r[r] = w;
       }
+      if constexpr (needs_rest) rest.r[r] = v.r[r] > zero ? rest.r[r] : x.r[r];
       lanes |= bits((v.r[r] > zero) | (f.r[r] > m.r[r])) << (r * SLIDER_LANES);
       work.r[r] += (old.r[r] + f.r[r]) * change.r[r];
       slip.r[r] += change.r[r];
     }
     store(force + i, f);
     if (scheme == 2) store(velocity + i, v);
+    if constexpr (needs_rest) store(chain.rest + i, rest);
     hot[k] = static_cast<std::uint8_t>(lanes);
     sums.hot += __builtin_popcount(lanes);
   }
@@ -113,3 +144,10 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
   sums.slip = ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
   return sums;
 }
+
+// By law and scheme.
+constexpr StepFunction functions[][3] = {
+    {step<0, Law::velocity_weakening>, step<1, Law::velocity_weakening>,
+     step<2, Law::velocity_weakening>},
+    {step<0, Law::coulomb>, step<1, Law::coulomb>, step<2, Law::coulomb>},
+    {step<0, Law::slip_weakening>, step<1, Law::slip_weakening>, step<2, Law::slip_weakening>}};

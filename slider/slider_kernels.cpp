@@ -61,14 +61,12 @@ InstructionSet resolve(InstructionSet wanted) {
   return InstructionSet::x86_64;
 }
 
-StepFunction step_function(int scheme, InstructionSet set) {
-  static constexpr StepFunction table[3][3] = {
-      {KernelAvx512::step<0>, KernelAvx512::step<1>, KernelAvx512::step<2>},
-      {KernelAvx2::step<0>, KernelAvx2::step<1>, KernelAvx2::step<2>},
-      {KernelX86::step<0>, KernelX86::step<1>, KernelX86::step<2>}};
+StepFunction step_function(int scheme, Law law, InstructionSet set) {
   const InstructionSet found = resolve(set);
-  const int row = found == InstructionSet::avx512 ? 0 : found == InstructionSet::avx2 ? 1 : 2;
-  return table[row][scheme];
+  const int row = static_cast<int>(law);
+  return found == InstructionSet::avx512 ? KernelAvx512::functions[row][scheme]
+         : found == InstructionSet::avx2 ? KernelAvx2::functions[row][scheme]
+                                         : KernelX86::functions[row][scheme];
 }
 
 }  // namespace Slider

@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <string>
 
+#include "slider_laws.h"
+
 namespace Slider {
 
 /// Blocks per chunk, the unit of the active set; lane l of chunk c is block 8 c + l.
@@ -22,9 +24,11 @@ struct ChainView {
   double *v = nullptr;         ///< velocity, >= 0
   double *force = nullptr;     ///< spring force at the present time (older for inactive chunks)
   double *du = nullptr;        ///< last change of displacement of an active chunk
+  double *rest = nullptr;      ///< where a block last rested, if the law needs it
   const double *mu = nullptr;  ///< static coefficient
   int blocks = 0;
   double kc = 0.0, kl = 0.0, mass = 1.0, dt = 0.0;
+  double dynamic = 1.0, dc = 1.0;  ///< see Friction
 };
 
 /// Sums over the listed chunks, over one step.
@@ -69,7 +73,7 @@ inline bool from_string(const std::string &name, InstructionSet &set) {
 InstructionSet resolve(InstructionSet wanted);
 
 /// scheme: 0 printed, 1 semi-implicit, 2 verlet.
-StepFunction step_function(int scheme, InstructionSet set);
+StepFunction step_function(int scheme, Law law, InstructionSet set);
 
 }  // namespace Slider
 

@@ -4,6 +4,7 @@
 #ifndef SLIDER_PARAMETERS_H
 #define SLIDER_PARAMETERS_H
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -13,9 +14,14 @@
 #include <string>
 #include <vector>
 
+#include "lsm_names.h"
 #include "lsm_random.h"
+#include "slider_laws.h"
 
 namespace Slider {
+
+using LSM::from_string;
+using LSM::to_string;
 
 /// How one time step is taken. All but printed are ours.
 enum class Scheme {
@@ -26,32 +32,12 @@ enum class Scheme {
   reference       ///< adaptive GSL rk8pd with located switches, for short runs
 };
 
-inline const char *to_string(Scheme scheme) {
-  switch (scheme) {
-    case Scheme::printed:
-      return "printed";
-    case Scheme::semi_implicit:
-      return "semi-implicit";
-    case Scheme::verlet:
-      return "verlet";
-    case Scheme::rk4:
-      return "rk4";
-    case Scheme::reference:
-      return "reference";
-  }
-  return "unknown";
-}
-
-/// Returns false, and leaves scheme alone, if name is no scheme.
-inline bool from_string(const std::string &name, Scheme &scheme) {
-  for (Scheme candidate :
-       {Scheme::printed, Scheme::semi_implicit, Scheme::verlet, Scheme::rk4, Scheme::reference}) {
-    if (name == to_string(candidate)) {
-      scheme = candidate;
-      return true;
-    }
-  }
-  return false;
+constexpr std::array<LSM::Named<Scheme>, 5> names_of(Scheme) {
+  return {{{Scheme::printed, "printed"},
+           {Scheme::semi_implicit, "semi-implicit"},
+           {Scheme::verlet, "verlet"},
+           {Scheme::rk4, "rk4"},
+           {Scheme::reference, "reference"}}};
 }
 
 /// Parameters of one chain, in model units (paper values unless marked ours).
@@ -63,6 +49,7 @@ struct Parameters {
   double velocity = 0.01;  ///< driving velocity V_pl of the plate
   double dt = 0.05;        ///< time step (ours; not in the paper)
   Scheme scheme = Scheme::verlet;
+  Friction friction = {};  ///< Eq. 6
 };
 
 /// Highest angular frequency of the sliding chain without friction: its shortest wave.
@@ -112,6 +99,9 @@ inline void check(const Parameters &p, bool force) {
   positive("--mass", p.mass);
   positive("--velocity", p.velocity);
   positive("--dt", p.dt);
+  if (!(p.friction.dynamic >= 0.0 && p.friction.dynamic <= 1.0))
+    fail("--dynamic-friction", p.friction.dynamic, "at least 0 and at most 1");
+  positive("--slip-distance", p.friction.dc);
   const double limit = stability_limit(p);
   if (p.scheme == Scheme::printed) {
     if (p.dt >= limit * (1.0 - 1e-12) && !force)

@@ -28,6 +28,7 @@ class ScalarChain {
     u_.assign(mu_.size(), 0.0);
     v_ = u_;
     force_ = u_;
+    rest_ = u_;
   }
 
   std::int64_t step() const { return step_; }
@@ -55,6 +56,7 @@ class ScalarChain {
     s.dpe = dpe_;
     s.u = u_;
     s.v = v_;
+    if (p_.friction.needs_rest()) s.rest = rest_;
     return s;
   }
   void set_state(const ChainState &s) {
@@ -64,6 +66,7 @@ class ScalarChain {
     moved_ = s.moved;
     u_ = s.u;
     v_ = s.v;
+    rest_ = s.rest.empty() ? u_ : s.rest;
     set_forces();
     pe_ = s.pe_sum;
     dpe_ = s.dpe;
@@ -71,6 +74,7 @@ class ScalarChain {
 
   void set_displacements(const std::vector<double> &u) {
     u_ = u;
+    rest_ = u_;
     pe_ = set_forces();
   }
 
@@ -78,6 +82,7 @@ class ScalarChain {
     const std::size_t n = u_.size();
     const double h = p_.dt, half = 0.5 * h;
     const double old_plate = plate();
+    const Friction &law = p_.friction;
     if (keep_ledger_) {
       saved_u_ = u_;
       saved_v_ = v_;
@@ -86,7 +91,7 @@ class ScalarChain {
     for (std::size_t i = 0; i < n; ++i) {
       double v = v_[i];
       if (v == 0.0 && force_[i] <= mu_[i]) continue;  // stuck
-      const double push = force_[i] - mu_[i] / (1.0 + v);
+      const double push = force_[i] - law.force(mu_[i], v, u_[i] - rest_[i]);
       if (p_.scheme == Scheme::verlet)
         v += half_m * push;
       else
@@ -98,7 +103,14 @@ class ScalarChain {
     }
     ++step_;
     const double pe = set_forces();
-    if (p_.scheme == Scheme::verlet) {
+    if (p_.scheme == Scheme::verlet && law.law != Law::velocity_weakening) {
+      for (std::size_t i = 0; i < n; ++i) {
+        if (v_[i] == 0.0 && force_[i] <= mu_[i]) continue;
+        // A block that came to rest in the first half of the step has healed.
+        const double slip = v_[i] > 0.0 ? u_[i] - rest_[i] : 0.0;
+        v_[i] = std::fmax(0.0, v_[i] + half_m * (force_[i] - law.force(mu_[i], v_[i], slip)));
+      }
+    } else if (p_.scheme == Scheme::verlet) {
       for (std::size_t i = 0; i < n; ++i) {
         const double c = v_[i] + half_m * force_[i], b = half_m * mu_[i];
         const double q = (1.0 + c) * (1.0 + c) - 4.0 * b;
@@ -115,19 +127,29 @@ class ScalarChain {
     }
     dpe_ = pe - pe_;
     pe_ = pe;
-    if (!keep_ledger_) return;
+    if (keep_ledger_) balance(old_plate);
+    if (law.needs_rest())
+      for (std::size_t i = 0; i < n; ++i)
+        if (v_[i] == 0.0) rest_[i] = u_[i];
+  }
+
+ private:
+  void balance(double old_plate) {
+    const std::size_t n = u_.size();
+    const Friction &law = p_.friction;
     const double plate_now = plate();
     ledger_.kinetic = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
       const double slip = u_[i] - saved_u_[i];
       ledger_.plate +=
           p_.kl * 0.5 * ((old_plate - saved_u_[i]) + (plate_now - u_[i])) * (plate_now - old_plate);
-      ledger_.friction += 0.5 * mu_[i] * (1.0 / (1.0 + saved_v_[i]) + 1.0 / (1.0 + v_[i])) * slip;
+      ledger_.friction += 0.5 * slip *
+                          (law.force(mu_[i], saved_v_[i], saved_u_[i] - rest_[i]) +
+                           law.force(mu_[i], v_[i], u_[i] - rest_[i]));
       ledger_.kinetic += 0.5 * p_.mass * v_[i] * v_[i];
     }
   }
 
- private:
   /// Forces of all springs; returns PE.
   double set_forces() {
     const std::size_t n = u_.size();
@@ -152,7 +174,7 @@ class ScalarChain {
   }
 
   Parameters p_;
-  std::vector<double> mu_, u_, v_, force_, saved_u_, saved_v_;
+  std::vector<double> mu_, u_, v_, force_, rest_, saved_u_, saved_v_;
   bool keep_ledger_;
   EnergyLedger ledger_;
   std::int64_t step_ = 0, moved_ = 0;

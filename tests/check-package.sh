@@ -3,8 +3,8 @@
 # Checks one way of using the package, or that a plugin that does not fit is not loaded.
 # usage: check-package.sh built-in|plugin|refused LMP STOCK_LMP PLUGIN [PLUGIN_OF_OTHER_INTEGERS]
 set -euo pipefail
-way=$1 lmp=$2 stock=$3 plugin=$4 bigbig=${5:-}
-styles="bond_style:lsm/linked pair_style:lsm/free pair_style:lsm/friction fix:lsm/nve fix:lsm/plates
+way=$1 lmp=$2 stock=$3 plugin=$4 other_integers=${5:-}
+styles="bond_style:lsm/linked pair_style:lsm/free pair_style:lsm/friction fix:lsm/nve fix:lsm/plates fix:lsm/leap
   compute:lsm/events create_lsm_fault include_beside"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -69,7 +69,11 @@ case $way in
     LC_ALL=C sed "s/$version/5 Mar 2019/g" "$plugin" >other.so
     ! cmp -s "$plugin" other.so || fail "the plugin does not hold its version"
     not_loaded "$stock" ./other.so "compiled for LAMMPS 5 Mar 2019, and this is LAMMPS $version;"
-    not_loaded "$stock" "$bigbig" "tagint and imageint of 64, 64 and 64 bits, and this LAMMPS has .* 64, 32 and 32 bits;"
+    bits="64, 32 and 32" other="64, 64 and 64"
+    if "$stock" -h | grep -q 'LAMMPS_BIGBIG'; then
+      bits="64, 64 and 64" other="64, 32 and 32"
+    fi
+    not_loaded "$stock" "$other_integers" "tagint and imageint of $other bits, and this LAMMPS has .* $bits bits;"
     not_loaded "$lmp" "$plugin" "the package is compiled into this LAMMPS already"
     # Loaded twice by the stock program: LAMMPS' own message.
     printf 'plugin load %s\nplugin load %s\n' "$plugin" "$plugin" >in.twice

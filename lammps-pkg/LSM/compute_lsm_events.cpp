@@ -10,6 +10,7 @@
 #include "domain.h"
 #include "error.h"
 #include "fix_lsm_nve.h"
+#include "fix_lsm_leap.h"
 #include "fix_lsm_plates.h"
 #include "fix_lsm_record.h"
 #include "force.h"
@@ -62,7 +63,7 @@ ComputeLSMEvents::ComputeLSMEvents(LAMMPS *_lmp, int narg, char **arg) :
     series_stride(1), memory_time(0.0), block(100), tangential(true), location(false),
     bin_width(1.0), bin_fraction(0.05), ledger(false), ledger_tolerance(0.0), strain_limit(0.5),
     check_every(1000), resume(false), overwrite(false), progress(true), links(nullptr), recorder(nullptr),
-    plates(nullptr), first_filling(0), first_sending(0), count_filling(0), count_sending(0),
+    plates(nullptr), leap(nullptr), first_filling(0), first_sending(0), count_filling(0), count_sending(0),
     request(MPI_REQUEST_NULL), pending(false), shown_at(0.0), started_at(0.0),
     ledger_started(false), ledger_start(0.0), friction_before(0.0), broken_before(0.0), anchor_time(0.0), anchor_dt(0.0),
     anchor_step(0), last_recorded(-1), opened(false), check_now(false), widest(0.0), residual_at_end(0.0),
@@ -237,9 +238,11 @@ void ComputeLSMEvents::init()
   }
 
   plates = nullptr;
+  leap = nullptr;
   integrators.clear();
   for (const auto &ifix : modify->get_fix_list()) {
     if (auto p = dynamic_cast<FixLSMPlates *>(ifix)) plates = p;
+    if (auto p = dynamic_cast<FixLSMLeap *>(ifix)) leap = p;
     if (auto p = dynamic_cast<FixLSMNVE *>(ifix)) {
       integrators.push_back(p);
       if (ledger) p->record_work = true;
@@ -297,6 +300,7 @@ void ComputeLSMEvents::set_memory()
 
 double ComputeLSMEvents::time_of(bigint step) const
 {
+  if (leap) return leap->model_time(step);
   return anchor_time + static_cast<double>(step - anchor_step) * anchor_dt;
 }
 
@@ -319,6 +323,7 @@ LSM::CatalogueInfo ComputeLSMEvents::header() const
   add("dt", number(update->dt));
   for (size_t n = 0; n < integrators.size(); n++)
     add(n ? "viscosity_" + std::to_string(n + 1) : "viscosity", integrators[n]->viscosity());
+  if (leap) add("leap", leap->settings());
   add("picker", LSM::to_string(picker_settings.reading));
   add("lambda", number(picker_settings.lambda));
   add("min_size", number(picker_settings.min_size));

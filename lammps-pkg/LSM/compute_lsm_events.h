@@ -74,6 +74,7 @@ class ComputeLSMEvents : public Compute {
   class FixLSMRecord *recorder;
   std::vector<LSMEnergySource *> sources;
   class FixLSMPlates *plates;
+  class FixLSMLeap *leap;    // null if steps and time are proportional
   std::vector<class FixLSMNVE *> integrators;
 
   // blocks of samples: one is filled while the other is on its way to rank 0

@@ -4,6 +4,7 @@
 
 #include "fix_lsm_history.h"
 
+#include "atom.h"
 #include "comm.h"
 #include "error.h"
 #include "lsm_scene.h"
@@ -13,8 +14,11 @@ using namespace LAMMPS_NS;
 
 /* ---------------------------------------------------------------------- */
 
-FixLSMHistory::FixLSMHistory(LAMMPS *_lmp, int narg, char **arg) : FixNeighHistory(_lmp, narg, arg)
+FixLSMHistory::FixLSMHistory(LAMMPS *_lmp, int narg, char **arg) :
+    FixNeighHistory(_lmp, MIN(narg, 4), arg), law(narg == 5 ? arg[4] : ""), law_of_file("")
 {
+  if (narg > 5) error->all(FLERR, "Fix LSM_HISTORY is internal to pair style lsm/friction");
+
   // as fix NEIGH_HISTORY in restart files
 
   delete[] style;
@@ -46,10 +50,40 @@ void FixLSMHistory::init()
 
 void FixLSMHistory::write_restart(FILE *fp)
 {
-  if (update->whichflag) {
-    FixNeighHistory::write_restart(fp);
-  } else if (comm->me == 0) {
-    const int size = 0;
-    fwrite(&size, sizeof(int), 1, fp);
+  if (update->whichflag) pre_exchange();
+  if (comm->me) return;
+  const int size = law.empty() ? 0 : static_cast<int>(law.size()) + 1;
+  fwrite(&size, sizeof(int), 1, fp);
+  fwrite(law.c_str(), 1, size, fp);
+}
+
+/* ----------------------------------------------------------------------
+   A law that keeps no state has written nothing here, and then there is nothing to be read: what the buffer holds
+   counts only for contacts of the right size, see below.
+------------------------------------------------------------------------- */
+
+void FixLSMHistory::restart(char *buf)
+{
+  law_of_file = buf;
+}
+
+void FixLSMHistory::unpack_restart(int nlocal, int nth)
+{
+  const double *extra = atom->extra[nlocal];
+  int m = 0;
+  for (int i = 0; i < nth; i++) m += static_cast<int>(extra[m]);
+  const int count = static_cast<int>(extra[m + 1]);
+  if (count > 0) {
+    const std::string mine = law.empty() ? "a law without a state" : "the law " + law;
+    const int size = (static_cast<int>(extra[m]) - 2) / count - 1;
+    if (size != dnum)
+      error->one(FLERR,
+                 "Pair style lsm/friction: the restart file holds contacts of another friction law, with {} numbers "
+                 "each, but {} has {}",
+                 size, mine, dnum);
+    if (!law.empty() && law != law_of_file)
+      error->one(FLERR, "Pair style lsm/friction: the restart file holds contacts of the law {}, expected those of {}",
+                 law_of_file, mine);
   }
+  FixNeighHistory::unpack_restart(nlocal, nth);
 }

@@ -1,7 +1,8 @@
 /* -*- c++ -*- ----------------------------------------------------------
    SPDX-License-Identifier: GPL-2.0-or-later
    Internal helper of pair style lsm/friction: contact history that a
-   write_restart command between two runs leaves alone
+   write_restart command between two runs leaves alone, and that knows the
+   law of friction it belongs to
 ------------------------------------------------------------------------- */
 
 #ifdef FIX_CLASS
@@ -15,6 +16,8 @@ FixStyle(LSM_HISTORY,FixLSMHistory);
 
 #include "fix_neigh_history.h"
 
+#include <string>
+
 namespace LAMMPS_NS {
 
 class FixLSMHistory : public FixNeighHistory {
@@ -22,6 +25,12 @@ class FixLSMHistory : public FixNeighHistory {
   FixLSMHistory(class LAMMPS *, int, char **);
   void init() override;
   void write_restart(FILE *) override;
+  void restart(char *) override;
+  void unpack_restart(int, int) override;
+
+ private:
+  const std::string law;    // of the contacts, "" if it keeps no state of its own
+  const char *law_of_file;
 };
 
 }    // namespace LAMMPS_NS

@@ -32,7 +32,7 @@ using namespace FixConst;
 /* ---------------------------------------------------------------------- */
 
 FixLSMNVE::FixLSMNVE(LAMMPS *_lmp, int narg, char **arg) :
-    Fix(_lmp, narg, arg), record_work(false), work_viscosity(0.0), nu(atom->ntypes + 1, 0.0),
+    Fix(_lmp, narg, arg), record_work(false), work_viscosity(0.0), nu_least(0.0), nu(atom->ntypes + 1, 0.0),
     decay(atom->ntypes + 1, 1.0), viscous(false), dtv(0.0), dtf(0.0), check(ERROR), omega(0.0), dt_limit(0.0), pending(false),
     initial_chosen(nullptr), final_chosen(nullptr), both_chosen(nullptr)
 {
@@ -115,8 +115,19 @@ void FixLSMNVE::reset_dt()
 {
   dtv = update->dt;
   dtf = 0.5 * update->dt * force->ftm2v;
-  for (int itype = 1; itype <= atom->ntypes; itype++) decay[itype] = exp(-0.5 * nu[itype] * update->dt);
+  for (int itype = 1; itype <= atom->ntypes; itype++) decay[itype] = exp(-0.5 * MAX(nu[itype], nu_least) * update->dt);
   collect();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixLSMNVE::raise_viscosity(double least)
+{
+  if (least == nu_least) return;
+  complete_step();    // a half that was put off has the old one
+  nu_least = least;
+  reset_dt();
+  if (initial_chosen) choose();
 }
 
 /* ----------------------------------------------------------------------
@@ -149,8 +160,9 @@ void FixLSMNVE::post_neighbor()
 
 /* ---------------------------------------------------------------------- */
 
-template <bool DIM3> void FixLSMNVE::choose()
+template <bool DIM3> void FixLSMNVE::choose_for()
 {
+  const bool viscous = this->viscous || nu_least > 0.0;
   if (viscous && record_work) {
     initial_chosen = &FixLSMNVE::move<INITIAL, true, true, DIM3>;
     final_chosen = &FixLSMNVE::move<FINAL, true, true, DIM3>;
@@ -179,12 +191,19 @@ template <bool DIM3> void FixLSMNVE::choose()
 
 /* ---------------------------------------------------------------------- */
 
-void FixLSMNVE::setup(int /*vflag*/)
+void FixLSMNVE::choose()
 {
   if (domain->dimension == 3)
-    choose<true>();
+    choose_for<true>();
   else
-    choose<false>();
+    choose_for<false>();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixLSMNVE::setup(int /*vflag*/)
+{
+  choose();
 
   if (check == OFF) return;
   const std::string foreign = LSMScene::foreign_forces(force);

@@ -45,10 +45,12 @@ class FixLSMNVE : public Fix {
   double work_viscosity;    // work lost to viscosity, this rank, accumulated
   /// Velocities and positions of the same time, where the second half of a step was put off.
   void complete_step();
+  void raise_viscosity(double least);    // to at least this, for now; 0: as it was given
   std::string viscosity() const;    // one value, or one per type
 
  private:
   enum { ERROR, WARN, OFF };
+  double nu_least;              // raised to it for now
   std::vector<double> nu;       // force -nu m v, one value per type
   std::vector<double> decay;    // factor of the velocities in half a step of viscosity, per type
   bool viscous;                 // some nu is not 0
@@ -76,7 +78,8 @@ class FixLSMNVE : public Fix {
   void (FixLSMNVE::*both_chosen)();    // null if no half may be put off
 
   template <int PARTS, bool VISCOUS, bool WORK, bool DIM3> void move();
-  template <bool DIM3> void choose();
+  template <bool DIM3> void choose_for();
+  void choose();
   void collect();
   double viscosity_from(const char *);
   double highest_frequency();

@@ -25,7 +25,7 @@ enum { LOWER, UPPER };
 /* ---------------------------------------------------------------------- */
 
 FixLSMPlates::FixLSMPlates(LAMMPS *_lmp, int narg, char **arg) :
-    Fix(_lmp, narg, arg), speed(0.0), ramp(0.0), servo(false), stress(0.0), stress_ramp(0.0),
+    Fix(_lmp, narg, arg), loading(1.0), speed(0.0), ramp(0.0), servo(false), stress(0.0), stress_ramp(0.0),
     damping(0.0), impedance(0.0), vy_known(false), elapsed(0.0), ux(0.0), work_mine(0.0), dt(update->dt), summed_at(-1)
 {
   scalar_flag = 1;
@@ -190,7 +190,7 @@ void FixLSMPlates::post_neighbor()
 
 double FixLSMPlates::velocity_at(double t) const
 {
-  return t < ramp ? speed * t / ramp : speed;
+  return loading * (t < ramp ? speed * t / ramp : speed);
 }
 
 double FixLSMPlates::stress_at(double t) const

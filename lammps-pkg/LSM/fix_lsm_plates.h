@@ -34,6 +34,8 @@ class FixLSMPlates : public Fix {
   void write_restart(FILE *) override;
   void restart(char *) override;
 
+  double loading;             // factor of the driving velocity now, set by fix lsm/leap
+  double driving_velocity() const { return speed; }
   int plate_bits() const { return plate[0].bit | plate[1].bit; }
   double work();              // work of the plates on the blocks, all ranks, accumulated
   double kinetic() const;     // kinetic energy of the motion of the plates across the fault

@@ -21,7 +21,7 @@ struct LSMSlip {
 /// All values are this rank's share; a pair shared by two ranks counts half on each.
 class LSMEnergySource {
  public:
-  enum { NONE = 0, ENERGY = 1, SLIP = 2 };
+  enum { NONE = 0, ENERGY = 1, SLIP = 2, SLIP_RATE = 4 };
 
   virtual ~LSMEnergySource() noexcept(false) {}    // as LAMMPS' own base classes
 
@@ -31,6 +31,7 @@ class LSMEnergySource {
   double pe_tangential = 0.0;      ///< tangential contact springs, at the last force evaluation
   double work_friction = 0.0;      ///< work lost to friction, accumulated
   double work_broken = 0.0;        ///< energy of the links that broke, accumulated
+  double slip_moment = 0.0;        ///< sum of |slip| times contact size, accumulated (SLIP_RATE)
   double slip_bin = 1.0;           ///< width of the bins of `slip`
   std::vector<LSMSlip> slip;       ///< contacts that slid in the last force evaluation
 };

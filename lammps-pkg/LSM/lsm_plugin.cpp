@@ -21,6 +21,7 @@
 #include "fix_lsm_break.h"
 #include "fix_lsm_history.h"
 #include "fix_lsm_nve.h"
+#include "fix_lsm_leap.h"
 #include "fix_lsm_plates.h"
 #include "fix_lsm_record.h"
 #include "pair_lsm_free.h"
@@ -159,6 +160,7 @@ extern "C" void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   styles.add<Pair, PairLSMFree>("pair", "lsm/free", "pair style lsm/free");
   styles.add<Pair, PairLSMFriction>("pair", "lsm/friction", "pair style lsm/friction");
   styles.add_with_args<Fix, FixLSMNVE>("fix", "lsm/nve", "fix style lsm/nve");
+  styles.add_with_args<Fix, FixLSMLeap>("fix", "lsm/leap", "fix style lsm/leap");
   styles.add_with_args<Fix, FixLSMPlates>("fix", "lsm/plates", "fix style lsm/plates");
   // Created by the other styles for their own use.
   styles.add_with_args<Fix, FixLSMRecord>("fix", "LSM_RECORD", "fix style LSM_RECORD");

@@ -17,6 +17,7 @@
 #include "neighbor.h"
 #include "update.h"
 
+#include "lsm_contact_recorder.h"
 #include "lsm_force_laws.h"
 #include "lsm_scene.h"
 
@@ -56,29 +57,32 @@ void PairLSMFree::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
   if (screened) check_special();
-  const int choice = (evflag ? 4 : 0) + (record_what ? 2 : 0) + (domain->dimension == 3 ? 1 : 0);
-  switch (choice) {
-    case 0: return eval<false, false, false>();
-    case 1: return eval<false, false, true>();
-    case 2: return eval<false, true, false>();
-    case 3: return eval<false, true, true>();
-    case 4: return eval<true, false, false>();
-    case 5: return eval<true, false, true>();
-    case 6: return eval<true, true, false>();
-    default: return eval<true, true, true>();
-  }
+  if (evflag)
+    loop<LSMRecordAndTally>();
+  else if (record_what)
+    loop<LSMRecordEnergies>();
+  else
+    loop<LSMRecordNothing>();
+}
+
+template <class Recorder> void PairLSMFree::loop()
+{
+  if (domain->dimension == 3)
+    loop<Recorder, true>();
+  else
+    loop<Recorder, false>();
 }
 
 /* ---------------------------------------------------------------------- */
 
-template <bool EV, bool RECORD, bool DIM3> void PairLSMFree::eval()
+template <class Recorder, bool DIM3> void PairLSMFree::loop()
 {
   double **x = atom->x;
   double **f = atom->f;
   const double *radius = atom->radius;
   const int *type = atom->type;
   const int nlocal = atom->nlocal;
-  double energy = 0.0;
+  Recorder recorder(*this, update->setupflag != 0, domain->boxlo[0], domain->prd[0]);
 
   for (int ii = 0; ii < list->inum; ii++) {
     const int i = list->ilist[ii];
@@ -113,15 +117,14 @@ template <bool EV, bool RECORD, bool DIM3> void PairLSMFree::eval()
         f[j][1] -= dely * fpair;
         if constexpr (DIM3) f[j][2] -= delz * fpair;
       }
-      if constexpr (EV || RECORD) {
+      if constexpr (Recorder::records) {
         const double e = LSM::Spring::energy(kij, r - r0);
-        if constexpr (RECORD) energy += both ? e : 0.5 * e;
-        if constexpr (EV)
-          ev_tally(i, j, nlocal, newton_pair, e, 0.0, fpair, delx, dely, delz);
+        recorder.springs(both ? 1.0 : 0.5, e, 0.0);
+        if constexpr (Recorder::tallies) ev_tally(i, j, nlocal, newton_pair, e, 0.0, fpair, delx, dely, delz);
       }
     }
   }
-  if constexpr (RECORD) pe_contact = energy;
+  recorder.finish();
 }
 
 /* ---------------------------------------------------------------------- */

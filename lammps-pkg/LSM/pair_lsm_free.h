@@ -66,7 +66,8 @@ class PairLSMFree : public Pair, public LSMEnergySource {
   virtual void print_coeff(FILE *, int, int);
 
  private:
-  template <bool EV, bool RECORD, bool DIM3> void eval();
+  template <class Recorder> void loop();
+  template <class Recorder, bool DIM3> void loop();
 };
 
 }    // namespace LAMMPS_NS

@@ -17,29 +17,92 @@
 #include "neighbor.h"
 #include "update.h"
 
+#include "laws/friction_laws.h"
+#include "lsm_contact_recorder.h"
 #include "lsm_force_laws.h"
 
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <limits>
+#include <utility>
 
 using namespace LAMMPS_NS;
 
 // values stored per pair: elongation of the tangential spring along the tangent (-ny,nx), the vector from j
-// to i in the step before, and the state. Always four, so that a restart may switch static friction or the
-// onset on or off. Elongation is the same seen from i and from j; the vector changes its sign.
+// to i in the step before, the status, and the state of the law, if it has one. The first four are always there, so
+// that a restart may switch static friction or the onset on or off. All but the vector, which changes its sign, are
+// the same seen from i and from j.
 // With onset located, pairs that nearly touch are stored as well, so that the vector before the contact
 // is known.
 
-enum { XI, DX, DY, STATE, SIZE_HISTORY };
+enum { XI, DX, DY, STATUS, LAW_STATE };
 static constexpr double STICKS = 0.0, SLIDES = 1.0, NEAR = -1.0;
 static constexpr double NEAR_REACH = 1.05;    // in sums of radii
+
+// ---- the laws ----
+
+template <class Law, class Value, std::size_t... n>
+static typename Law::Coefficients coefficients_of(const Value &value, std::index_sequence<n...>)
+{
+  return {value(n)...};
+}
+
+template <class Law> static constexpr auto parameters_of = std::make_index_sequence<std::size(Law::parameters)>();
+
+template <class Law> static bool fits(const double *values)
+{
+  return Law::fits(coefficients_of<Law>([values](std::size_t n) { return values[n]; }, parameters_of<Law>));
+}
+
+template <class Chosen> PairLSMFriction::Law PairLSMFriction::entry()
+{
+  constexpr int count = static_cast<int>(std::size(Chosen::parameters));
+  static_assert(count <= MAX_PARAMETERS && sizeof(typename Chosen::Coefficients) == count * sizeof(double),
+                "as many parameters as coefficients, and room for them");
+  return {Chosen::name,
+          Chosen::parameters,
+          count,
+          Chosen::state_size,
+          Chosen::named,
+          Chosen::needs_time,
+          &::fits<Chosen>,
+          &PairLSMFriction::loop<Chosen, LSMRecordNothing>,
+          &PairLSMFriction::loop<Chosen, LSMRecordEnergies>,
+          &PairLSMFriction::loop<Chosen, LSMRecordAndTally>};
+}
+
+const PairLSMFriction::Law PairLSMFriction::laws[] = {
+#define LSM_FRICTION_LAW(law) entry<LSM::law>(),
+#include "laws/friction_laws.h"
+#undef LSM_FRICTION_LAW
+};
+
+const PairLSMFriction::Law *PairLSMFriction::find_law(const std::string &name)
+{
+  for (const Law &one : laws)
+    if (name == one.name) return &one;
+  return nullptr;
+}
+
+std::string PairLSMFriction::law_names()
+{
+  std::string all;
+  for (const Law &one : laws)
+    if (find_law(one.name) == &one) all += (all.empty() ? "" : ", ") + std::string(one.name);
+  return all;
+}
+
+int PairLSMFriction::size_history() const
+{
+  return LAW_STATE + law->state_size;
+}
 
 /* ---------------------------------------------------------------------- */
 
 PairLSMFriction::PairLSMFriction(LAMMPS *_lmp) :
-    PairLSMFree(_lmp), kt(nullptr), mu(nullptr), mus(nullptr), own_static(nullptr), has_static(0),
-    locate_onset(1), fix_dummy(nullptr), fix_history(nullptr)
+    PairLSMFree(_lmp), law(&laws[0]), running(&laws[0]), coefficient{}, given{}, restored(false), locate_onset(1),
+    fix_dummy(nullptr), fix_history(nullptr)
 {
   centroidstressflag = CENTROID_NOTAVAIL;
   nondefault_history_transfer = 1;
@@ -71,12 +134,7 @@ PairLSMFriction::~PairLSMFriction()
     modify->delete_fix("NEIGH_HISTORY_LSM_DUMMY");
   else
     modify->delete_fix("NEIGH_HISTORY_LSM");
-  if (allocated) {
-    memory->destroy(kt);
-    memory->destroy(mu);
-    memory->destroy(mus);
-    memory->destroy(own_static);
-  }
+  destroy_coefficients();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -85,25 +143,7 @@ void PairLSMFriction::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
   if (screened) check_special();
-  const int choice = (evflag ? 4 : 0) + (record_what ? 2 : 0) + (has_static ? 1 : 0);
-  if (locate_onset)
-    choose<true>(choice);
-  else
-    choose<false>(choice);
-}
-
-template <bool LOCATE> void PairLSMFriction::choose(int choice)
-{
-  switch (choice) {
-    case 0: return eval<false, false, false, LOCATE>();
-    case 1: return eval<false, false, true, LOCATE>();
-    case 2: return eval<false, true, false, LOCATE>();
-    case 3: return eval<false, true, true, LOCATE>();
-    case 4: return eval<true, false, false, LOCATE>();
-    case 5: return eval<true, false, true, LOCATE>();
-    case 6: return eval<true, true, false, LOCATE>();
-    default: return eval<true, true, true, LOCATE>();
-  }
+  (this->*(evflag ? running->loop_tally : record_what ? running->loop_energies : running->loop_nothing))();
 }
 
 /* ----------------------------------------------------------------------
@@ -116,7 +156,7 @@ static inline void keep_near(bool near, double delx, double dely, int &touch, do
   h[XI] = 0.0;
   h[DX] = near ? delx : 0.0;
   h[DY] = near ? dely : 0.0;
-  h[STATE] = near ? NEAR : STICKS;
+  h[STATUS] = near ? NEAR : STICKS;
 }
 
 /* ----------------------------------------------------------------------
@@ -125,8 +165,9 @@ static inline void keep_near(bool near, double delx, double dely, int &touch, do
    positions (run after run, restart) changes nothing.
 ------------------------------------------------------------------------- */
 
-template <bool EV, bool RECORD, bool HAS_STATIC, bool LOCATE> void PairLSMFriction::eval()
+template <class Law, class Recorder> void PairLSMFriction::loop()
 {
+  constexpr int size = LAW_STATE + Law::state_size;
   double **x = atom->x;
   double **f = atom->f;
   const double *radius = atom->radius;
@@ -134,6 +175,10 @@ template <bool EV, bool RECORD, bool HAS_STATIC, bool LOCATE> void PairLSMFricti
   const int nlocal = atom->nlocal;
   int **firsttouch = fix_history->firstflag;
   double **firsthistory = fix_history->firstvalue;
+  double **table[std::size(Law::parameters)];
+  for (std::size_t n = 0; n < std::size(Law::parameters); n++) table[n] = coefficient[n];
+  const double reach_sq = locate_onset ? NEAR_REACH * NEAR_REACH : 0.0;
+  [[maybe_unused]] const double dt = update->dt;
 
   // the setup of a run evaluates the forces of a step that was done: the state of the contacts stays, so
   // that a run in pieces equals one run, and a contact that slides goes on sliding. Only where a command moved
@@ -144,10 +189,7 @@ template <bool EV, bool RECORD, bool HAS_STATIC, bool LOCATE> void PairLSMFricti
   for (int c = 0; c < 2; c++)
     farthest = MAX(farthest, MAX(fabs(domain->boxlo[c]), fabs(domain->boxhi[c])));
   const double rounding = 16.0 * std::numeric_limits<double>::epsilon() * farthest;
-  const bool record_slip = RECORD && (record_what & SLIP) && !setup;
-  const double xlo = domain->boxlo[0], lx = domain->prd[0];
-  double e_normal = 0.0, e_tangential = 0.0, lost = 0.0;
-  if constexpr (RECORD) slip.clear();
+  Recorder recorder(*this, setup, domain->boxlo[0], domain->prd[0]);
 
   for (int ii = 0; ii < list->inum; ii++) {
     const int i = list->ilist[ii];
@@ -163,24 +205,26 @@ template <bool EV, bool RECORD, bool HAS_STATIC, bool LOCATE> void PairLSMFricti
       const double rsq = delx * delx + dely * dely;
       const double r0 = radius[i] + radius[j];
       const bool apart = rsq >= r0 * r0;
-      if (apart && !touch[jj] && (!LOCATE || rsq > NEAR_REACH * NEAR_REACH * r0 * r0)) continue;
+      if (apart && !touch[jj] && rsq > reach_sq * r0 * r0) continue;
       if (screened && left_out(jlist[jj], type[i], type[j])) {
         touch[jj] = 0;
         continue;
       }
 
-      double *h = &allhistory[SIZE_HISTORY * jj];
-      const bool was_near = touch[jj] && h[STATE] == NEAR;
+      double *h = &allhistory[size * jj];
+      const bool was_near = touch[jj] && h[STATUS] == NEAR;
       if (apart && (!touch[jj] || was_near)) {
-        keep_near(LOCATE && rsq <= NEAR_REACH * NEAR_REACH * r0 * r0, delx, dely, touch[jj], h);
+        keep_near(rsq <= reach_sq * r0 * r0, delx, dely, touch[jj], h);
         continue;
       }
       const int itype = type[i], jtype = type[j];
       const double r = sqrt(rsq);
       const double rinv = r > 0.0 ? 1.0 / r : 0.0;
       const double nx = delx * rinv, ny = dely * rinv;
+      const auto c = coefficients_of<Law>([&table, itype, jtype](std::size_t n) { return table[n][itype][jtype]; },
+                                          parameters_of<Law>);
 
-      double dxi = 0.0;
+      LSM::FrictionContact contact{0.0, 0.0, 0.0, 0.0, false};
       bool moved = !setup;
       if (touch[jj]) {
         if (setup) moved = fabs(delx - h[DX]) > rounding || fabs(dely - h[DY]) > rounding;
@@ -190,69 +234,64 @@ template <bool EV, bool RECORD, bool HAS_STATIC, bool LOCATE> void PairLSMFricti
         const double mx = delx + h[DX], my = dely + h[DY];
         const double msq = mx * mx + my * my;
         const double minv = msq > 0.0 ? 1.0 / sqrt(msq) : 0.0;
-        dxi = (my * (h[DX] - delx) + mx * (dely - h[DY])) * minv;
+        contact.dxi = (my * (h[DX] - delx) + mx * (dely - h[DY])) * minv;
+        if constexpr (Law::needs_time) contact.time = dt;
         if (was_near) {
           const double before = sqrt(h[DX] * h[DX] + h[DY] * h[DY]);
-          dxi *= LOCATE ? LSM::share_in_contact(before, r, r0) : 0.0;
-          h[STATE] = STICKS;
+          const double share = locate_onset ? LSM::share_in_contact(before, r, r0) : 0.0;
+          contact.dxi *= share;
+          if constexpr (Law::needs_time) contact.time *= share;
+          h[STATUS] = STICKS;
+          Law::begin(c, h + LAW_STATE);
         }
       } else {
         touch[jj] = 1;
         h[XI] = 0.0;
-        h[STATE] = STICKS;
+        h[STATUS] = STICKS;
+        Law::begin(c, h + LAW_STATE);
       }
 
       const double kij = k[itype][jtype];
-      const double fn = LSM::contact_normal_force(kij, r, r0);
-      const LSM::FrictionCoefficients c{kt[itype][jtype], mu[itype][jtype], mus[itype][jtype]};
-      bool sliding = false;
-      if constexpr (HAS_STATIC) sliding = h[STATE] == SLIDES;
+      contact.fn = LSM::contact_normal_force(kij, r, r0);
+      contact.xi = h[XI];
+      if constexpr (Law::needs_sliding) contact.sliding = h[STATUS] == SLIDES;
       const LSM::FrictionStep s = !moved && !apart
-          ? LSM::FrictionStep{h[XI], c.k_t * h[XI], 0.0, 0.0, sliding}
-          : LSM::friction_step<HAS_STATIC>(c, h[XI], dxi, fn, sliding);
+          ? LSM::FrictionStep{h[XI], c.kt * h[XI], 0.0, 0.0, contact.sliding}
+          : LSM::friction_step<Law>(c, contact, h + LAW_STATE);
 
       const bool both = newton_pair || j < nlocal;
-      if constexpr (RECORD) {
+      if constexpr (Recorder::records) {
         const double share = both ? 1.0 : 0.5;
-        e_normal += share * (apart ? 0.0 : LSM::Spring::energy(kij, r - r0));
-        e_tangential += share * LSM::Spring::energy(c.k_t, s.xi);
-        if (!setup) lost += share * s.dissipated;
-        if (record_slip && s.slip != 0.0) {
-          double along = (0.5 * (x[i][0] + x[j][0]) - xlo) / lx;
-          along = (along - floor(along)) * lx;
-          slip.push_back({floor(along / slip_bin),
-                          share * fabs(s.slip) * LSM::contact_size(radius[i], radius[j])});
-        }
+        recorder.springs(share, apart ? 0.0 : LSM::Spring::energy(kij, r - r0), LSM::Spring::energy(c.kt, s.xi));
+        recorder.dissipation(share, s.dissipated);
+        if (s.slip != 0.0)
+          recorder.slip(share, 0.5 * (x[i][0] + x[j][0]), fabs(s.slip) * LSM::contact_size(radius[i], radius[j]));
       }
 
       if (apart) {
-        keep_near(LOCATE && rsq <= NEAR_REACH * NEAR_REACH * r0 * r0, delx, dely, touch[jj], h);
+        keep_near(rsq <= reach_sq * r0 * r0, delx, dely, touch[jj], h);
         continue;
       }
       h[XI] = s.xi;
       h[DX] = delx;
       h[DY] = dely;
-      if constexpr (HAS_STATIC) h[STATE] = s.sliding ? SLIDES : STICKS;
+      if constexpr (Law::needs_sliding) h[STATUS] = s.sliding ? SLIDES : STICKS;
 
-      const double fx = fn * nx + s.force * ny;
-      const double fy = fn * ny - s.force * nx;
+      const double fx = contact.fn * nx + s.force * ny;
+      const double fy = contact.fn * ny - s.force * nx;
       f[i][0] += fx;
       f[i][1] += fy;
       if (both) {
         f[j][0] -= fx;
         f[j][1] -= fy;
       }
-      if constexpr (EV)
+      if constexpr (Recorder::tallies)
         ev_tally_xyz(i, j, nlocal, newton_pair,
-                     LSM::Spring::energy(kij, r - r0) + LSM::Spring::energy(c.k_t, s.xi), 0.0, fx,
+                     LSM::Spring::energy(kij, r - r0) + LSM::Spring::energy(c.kt, s.xi), 0.0, fx,
                      fy, 0.0, delx, dely, 0.0);
     }
   }
-  if constexpr (RECORD) {
-    pe_contact = e_normal;
-    pe_tangential = e_tangential;
-    work_friction += lost;
-  }
+  recorder.finish();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -260,16 +299,49 @@ template <bool EV, bool RECORD, bool HAS_STATIC, bool LOCATE> void PairLSMFricti
 void PairLSMFriction::allocate()
 {
   PairLSMFree::allocate();
+  create_coefficients();
+}
+
+void PairLSMFriction::create_coefficients()
+{
   const int n = atom->ntypes + 1;
-  memory->create(kt, n, n, "pair:kt");
-  memory->create(mu, n, n, "pair:mu");
-  memory->create(mus, n, n, "pair:mus");
-  memory->create(own_static, n, n, "pair:own_static");
-  for (int i = 0; i < n; i++)
-    for (int j = 0; j < n; j++) {
-      kt[i][j] = mu[i][j] = mus[i][j] = 0.0;
-      own_static[i][j] = 0;
-    }
+  for (int p = 0; p < law->count; p++) {
+    memory->create(coefficient[p], n, n, "pair:coefficient");
+    memory->create(given[p], n, n, "pair:given");
+    for (int i = 0; i < n; i++)
+      for (int j = 0; j < n; j++) {
+        coefficient[p][i][j] = 0.0;
+        given[p][i][j] = 0;
+      }
+  }
+}
+
+void PairLSMFriction::destroy_coefficients()
+{
+  for (int p = 0; p < MAX_PARAMETERS; p++) {
+    memory->destroy(coefficient[p]);
+    memory->destroy(given[p]);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   another law has other coefficients, and cannot go on with the contacts of the one before
+------------------------------------------------------------------------- */
+
+void PairLSMFriction::choose(const Law *wanted)
+{
+  if (wanted == law) return;
+  if (fix_history || restored)
+    error->all(FLERR,
+               "Pair style lsm/friction has contacts of the law {}{}, and cannot go on with the law {}; give 'pair_style "
+               "none' and 'run 0' first to forget them",
+               law->name, restored ? " from a restart file" : "", wanted->name);
+  if (allocated) destroy_coefficients();
+  law = running = wanted;
+  if (!allocated) return;
+  create_coefficients();
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = i; j <= atom->ntypes; j++) setflag[i][j] = on[i][j] = 0;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -277,51 +349,103 @@ void PairLSMFriction::allocate()
 void PairLSMFriction::settings(int narg, char **arg)
 {
   locate_onset = 1;
-  if (narg == 0) return;
-  if (narg != 2 || strcmp(arg[0], "onset") != 0)
-    error->all(FLERR, "Pair style lsm/friction expects no arguments or 'onset located|step', got '{}'", arg[0]);
-  if (strcmp(arg[1], "step") == 0)
-    locate_onset = 0;
-  else if (strcmp(arg[1], "located") != 0)
-    error->all(FLERR, "Pair lsm/friction onset is '{}', but must be located or step", arg[1]);
+  const Law *wanted = &laws[0];
+  int iarg = 0;
+  if (narg > 0 && strcmp(arg[0], "onset") != 0) {
+    wanted = find_law(arg[0]);
+    if (!wanted)
+      error->all(FLERR, "Pair style lsm/friction expects [LAW] [onset located|step] with one of the laws {}, got '{}'",
+                 law_names(), arg[0]);
+    iarg = 1;
+  }
+  if (iarg < narg) {
+    if (narg != iarg + 2 || strcmp(arg[iarg], "onset") != 0)
+      error->all(FLERR, "Pair style lsm/friction expects [LAW] [onset located|step], got '{}'", arg[iarg]);
+    if (strcmp(arg[iarg + 1], "step") == 0)
+      locate_onset = 0;
+    else if (strcmp(arg[iarg + 1], "located") != 0)
+      error->all(FLERR, "Pair lsm/friction onset is '{}', but must be located or step", arg[iarg + 1]);
+  }
+  choose(wanted);
+}
+
+/* ----------------------------------------------------------------------
+   values: those of all parameters of the law before it and of it
+------------------------------------------------------------------------- */
+
+void PairLSMFriction::check(int p, double value, const double *values, const std::string &where) const
+{
+  const LSM::Parameter &one = law->parameters[p];
+  if (one.range == LSM::Parameter::positive && !(value > 0.0))
+    error->all(FLERR, "Pair lsm/friction {}{} is {}, but must be > 0", one.name, where, value);
+  if (!(value >= 0.0)) error->all(FLERR, "Pair lsm/friction {}{} is {}, but must be >= 0", one.name, where, value);
+  if (one.least >= 0 && value < values[one.least])
+    error->all(FLERR, "Pair lsm/friction {}{} is {}, but must be at least {} = {}", one.name, where, value,
+               law->parameters[one.least].name, values[one.least]);
 }
 
 /* ---------------------------------------------------------------------- */
 
 void PairLSMFriction::coeff(int narg, char **arg)
 {
-  if (narg != 3 && narg != 5 && narg != 6)
-    error->all(FLERR, "Pair style lsm/friction expects 'pair_coeff I J k kt mu [mu_static]' or "
-                      "'pair_coeff I J off'");
+  // what is expected: 'k kt mu [mu_static]', or 'k kt mu VALUE ... [theta VALUE]'
+
+  std::string expected = "k kt";
+  int required = 0;
+  for (int p = 1; p < law->count; p++) {
+    const LSM::Parameter &one = law->parameters[p];
+    const bool optional = one.otherwise != LSM::Parameter::required;
+    const std::string words = one.name + std::string(law->named ? " VALUE" : "");
+    expected += optional ? " [" + words + "]" : " " + words;
+    if (!optional) required++;
+  }
+  const std::string what = law->named ? "Pair style lsm/friction " + std::string(law->name) : "Pair style lsm/friction";
+  const int each = law->named ? 2 : 1, most = 4 + each * (law->count - 1);
+  const bool off_only = narg == 3;
+  if (!off_only && (narg < 4 + each * required || narg > most || (narg - 4) % each))
+    error->all(FLERR, "{} expects 'pair_coeff I J {}' or 'pair_coeff I J off'", what, expected);
   if (!allocated) allocate();
 
   int ilo, ihi, jlo, jhi;
   utils::bounds(FLERR, arg[0], 1, atom->ntypes, ilo, ihi, error);
   utils::bounds(FLERR, arg[1], 1, atom->ntypes, jlo, jhi, error);
   if (parse_off(narg, arg, ilo, ihi, jlo, jhi)) return;
-  if (narg == 3)
-    error->all(FLERR, "Pair style lsm/friction expects 'off' or 'k kt mu [mu_static]', got '{}'",
-               arg[2]);
+  if (off_only) error->all(FLERR, "{} expects 'off' or '{}', got '{}'", what, expected, arg[2]);
 
   const double k_one = utils::numeric(FLERR, arg[2], false, lmp);
-  const double kt_one = utils::numeric(FLERR, arg[3], false, lmp);
-  const double mu_one = utils::numeric(FLERR, arg[4], false, lmp);
-  const double mus_one = narg == 6 ? utils::numeric(FLERR, arg[5], false, lmp) : mu_one;
   if (k_one <= 0.0) error->all(FLERR, "Pair lsm/friction k is {}, but must be > 0", k_one);
-  if (kt_one <= 0.0) error->all(FLERR, "Pair lsm/friction kt is {}, but must be > 0", kt_one);
-  if (mu_one < 0.0) error->all(FLERR, "Pair lsm/friction mu is {}, but must be >= 0", mu_one);
-  if (mus_one < mu_one)
-    error->all(FLERR, "Pair lsm/friction mu_static is {}, but must be at least mu = {}", mus_one,
-               mu_one);
+  double value[MAX_PARAMETERS];
+  bool is_given[MAX_PARAMETERS] = {};
+  value[0] = utils::numeric(FLERR, arg[3], false, lmp);
+  is_given[0] = true;
+  for (int iarg = 4, p = 1; iarg < narg; iarg += each, p++) {
+    if (law->named) {
+      for (p = 1; p < law->count && strcmp(arg[iarg], law->parameters[p].name) != 0; p++) {}
+      if (p == law->count || is_given[p])
+        error->all(FLERR, "{} expects 'pair_coeff I J {}', got {}'{}'", what, expected,
+                   p == law->count ? "" : "a second ", arg[iarg]);
+    }
+    value[p] = utils::numeric(FLERR, arg[iarg + each - 1], false, lmp);
+    is_given[p] = true;
+  }
+  for (int p = 0; p < law->count; p++) {
+    const LSM::Parameter &one = law->parameters[p];
+    if (!is_given[p]) {
+      if (one.otherwise == LSM::Parameter::required)
+        error->all(FLERR, "{} expects 'pair_coeff I J {}', but {} is missing", what, expected, one.name);
+      value[p] = one.otherwise == LSM::Parameter::as_least ? value[one.least] : one.otherwise;
+    }
+  }
+  for (int p = 0; p < law->count; p++) check(p, value[p], value, "");
 
   int count = 0;
   for (int i = ilo; i <= ihi; i++)
     for (int j = MAX(jlo, i); j <= jhi; j++) {
       k[i][j] = k_one;
-      kt[i][j] = kt_one;
-      mu[i][j] = mu_one;
-      mus[i][j] = mus_one;
-      own_static[i][j] = narg == 6;
+      for (int p = 0; p < law->count; p++) {
+        coefficient[p][i][j] = value[p];
+        given[p][i][j] = is_given[p];
+      }
       on[i][j] = setflag[i][j] = 1;
       count++;
     }
@@ -343,7 +467,12 @@ void PairLSMFriction::init_style()
   if (domain->dimension != 2)
     error->all(FLERR, "Pair style lsm/friction needs a 2-dimensional simulation (dimension 2)");
 
-  has_static = 0;    // see init_one()
+  // forces at displaced positions would slide contacts
+
+  if (!modify->get_fix_by_style("^numdiff").empty())
+    error->all(FLERR, "Pair style lsm/friction does not work with fix numdiff, as friction depends on the path");
+
+  running = law;    // see init_one()
   PairLSMFree::init_style();
 
   // the history of a pair is found by the IDs of its particles
@@ -365,9 +494,9 @@ void PairLSMFriction::init_style()
 
   const std::string id_history = "NEIGH_HISTORY_LSM";
   if (!fix_history) {
-    fix_history = dynamic_cast<FixNeighHistory *>(
-        modify->replace_fix("NEIGH_HISTORY_LSM_DUMMY",
-                            id_history + " all LSM_HISTORY " + std::to_string(SIZE_HISTORY), 1));
+    fix_history = dynamic_cast<FixNeighHistory *>(modify->replace_fix(
+        "NEIGH_HISTORY_LSM_DUMMY",
+        fmt::format("{} all LSM_HISTORY {} {}", id_history, size_history(), law->state_size ? law->name : ""), 1));
     fix_history->pair = this;
   } else {
     fix_history = dynamic_cast<FixNeighHistory *>(modify->get_fix_by_id(id_history));
@@ -380,17 +509,28 @@ void PairLSMFriction::init_style()
 double PairLSMFriction::init_one(int i, int j)
 {
   const double cut = PairLSMFree::init_one(i, j);
-  kt[j][i] = kt[i][j];
-  mu[j][i] = mu[i][j];
 
-  // fix adapt changes mu and comes here again
+  // fix adapt changes coefficients and comes here again
 
-  if (!own_static[i][j]) mus[i][j] = mu[i][j];
-  if (on[i][j] && mus[i][j] < mu[i][j])
-    error->all(FLERR, "Pair lsm/friction mu of types {} {} became {}, but must be at most mu_static = {}", i, j,
-               mu[i][j], mus[i][j]);
-  if (on[i][j] && mus[i][j] > mu[i][j]) has_static = 1;
-  mus[j][i] = mus[i][j];
+  double value[MAX_PARAMETERS];
+  for (int p = 0; p < law->count; p++) {
+    const LSM::Parameter &one = law->parameters[p];
+    if (!given[p][i][j] && one.otherwise == LSM::Parameter::as_least)
+      coefficient[p][i][j] = coefficient[one.least][i][j];
+    coefficient[p][j][i] = value[p] = coefficient[p][i][j];
+  }
+  if (!on[i][j]) return cut;
+  const std::string types = fmt::format(" of types {} {}", i, j);
+  for (int p = 0; p < law->count; p++) check(p, value[p], value, types);
+
+  // the list has another law of the name; within a run there is no way back
+
+  while (!running->fits(value)) {
+    const Law *next = running + 1;
+    if (next == std::end(laws) || strcmp(next->name, law->name) != 0)
+      error->all(FLERR, "Pair lsm/friction: the law {} cannot be run with the coefficients{}", law->name, types);
+    running = next;
+  }
   return cut;
 }
 
@@ -403,7 +543,58 @@ void PairLSMFriction::transfer_history(double *source, double *target, int, int)
   target[XI] = source[XI];
   target[DX] = -source[DX];
   target[DY] = -source[DY];
-  target[STATE] = source[STATE];
+  for (int n = STATUS; n < size_history(); n++) target[n] = source[n];
+}
+
+/* ----------------------------------------------------------------------
+   A law other than the first is named in front of what the first one writes, behind a number that nothing else
+   begins with.
+------------------------------------------------------------------------- */
+
+static constexpr int LAW_FOLLOWS = -1;
+
+void PairLSMFriction::write_restart_settings(FILE *fp)
+{
+  if (law == &laws[0]) return;
+  const int size = static_cast<int>(strlen(law->name));
+  fwrite(&LAW_FOLLOWS, sizeof(int), 1, fp);
+  fwrite(&size, sizeof(int), 1, fp);
+  fwrite(law->name, 1, size, fp);
+}
+
+void PairLSMFriction::read_restart_settings(FILE *fp)
+{
+  int size = 0;
+  if (comm->me == 0) {
+    int mark;
+    utils::sfread(FLERR, &mark, sizeof(int), 1, fp, nullptr, error);
+    if (mark == LAW_FOLLOWS)
+      utils::sfread(FLERR, &size, sizeof(int), 1, fp, nullptr, error);
+    else
+      fseek(fp, -static_cast<long>(sizeof(int)), SEEK_CUR);
+  }
+  MPI_Bcast(&size, 1, MPI_INT, 0, world);
+  restored = true;
+  if (size == 0) return;
+  std::string name(size, ' ');
+  if (comm->me == 0) utils::sfread(FLERR, &name[0], 1, size, fp, nullptr, error);
+  MPI_Bcast(&name[0], size, MPI_CHAR, 0, world);
+  law = running = find_law(name);
+  if (!law)
+    error->all(FLERR, "Pair style lsm/friction: the restart file has contacts of the law {}, expected one of {}", name,
+               law_names());
+}
+
+void PairLSMFriction::write_restart(FILE *fp)
+{
+  write_restart_settings(fp);
+  PairLSMFree::write_restart(fp);
+}
+
+void PairLSMFriction::read_restart(FILE *fp)
+{
+  read_restart_settings(fp);
+  PairLSMFree::read_restart(fp);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -411,24 +602,28 @@ void PairLSMFriction::transfer_history(double *source, double *target, int, int)
 void PairLSMFriction::write_coeff(FILE *fp, int i, int j)
 {
   PairLSMFree::write_coeff(fp, i, j);
-  fwrite(&kt[i][j], sizeof(double), 1, fp);
-  fwrite(&mu[i][j], sizeof(double), 1, fp);
-  fwrite(&mus[i][j], sizeof(double), 1, fp);
+  for (int p = 0; p < law->count; p++) fwrite(&coefficient[p][i][j], sizeof(double), 1, fp);
 }
 
 void PairLSMFriction::read_coeff(FILE *fp, int i, int j)
 {
   PairLSMFree::read_coeff(fp, i, j);
-  for (double *value : {&kt[i][j], &mu[i][j], &mus[i][j]}) {
+  for (int p = 0; p < law->count; p++) {
+    double *value = &coefficient[p][i][j];
     if (comm->me == 0) utils::sfread(FLERR, value, sizeof(double), 1, fp, nullptr, error);
     MPI_Bcast(value, 1, MPI_DOUBLE, 0, world);
+    const int least = law->parameters[p].least;
+    given[p][i][j] = least < 0 || *value > coefficient[least][i][j];
   }
-  own_static[i][j] = mus[i][j] > mu[i][j];
 }
 
 void PairLSMFriction::print_coeff(FILE *fp, int i, int j)
 {
-  fprintf(fp, " %.17g %.17g %.17g %.17g", k[i][j], kt[i][j], mu[i][j], mus[i][j]);
+  fprintf(fp, " %.17g %.17g", k[i][j], coefficient[0][i][j]);
+  for (int p = 1; p < law->count; p++) {
+    if (law->named) fprintf(fp, " %s", law->parameters[p].name);
+    fprintf(fp, " %.17g", coefficient[p][i][j]);
+  }
 }
 
 /* ----------------------------------------------------------------------
@@ -444,24 +639,27 @@ double PairLSMFriction::single(int i, int j, int itype, int jtype, double rsq, d
   svector[0] = svector[1] = 0.0;
   if (fforce == 0.0) return energy;
 
-  const int lo = MIN(itype, jtype), hi = MAX(itype, jtype);
+  const double kt = coefficient[0][MIN(itype, jtype)][MAX(itype, jtype)];
   const int *jlist = list->firstneigh[i];
   for (int jj = 0; jj < list->numneigh[i]; jj++)
     if ((jlist[jj] & NEIGHMASK) == j) {
-      svector[0] = fix_history->firstvalue[i][SIZE_HISTORY * jj + XI];
-      svector[1] = -kt[lo][hi] * svector[0];
-      energy += LSM::Spring::energy(kt[lo][hi], svector[0]);
+      svector[0] = fix_history->firstvalue[i][size_history() * jj + XI];
+      svector[1] = -kt * svector[0];
+      energy += LSM::Spring::energy(kt, svector[0]);
       break;
     }
   return energy;
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   coefficients by their names, but not those that follow another
+------------------------------------------------------------------------- */
 
 void *PairLSMFriction::extract(const char *str, int &dim)
 {
   dim = 2;
-  if (strcmp(str, "kt") == 0) return (void *) kt;
-  if (strcmp(str, "mu") == 0) return (void *) mu;
+  for (int p = 0; p < law->count; p++)
+    if (strcmp(str, law->parameters[p].name) == 0 && law->parameters[p].otherwise != LSM::Parameter::as_least)
+      return (void *) coefficient[p];
   return PairLSMFree::extract(str, dim);
 }

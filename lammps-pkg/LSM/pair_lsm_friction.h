@@ -1,7 +1,7 @@
 /* -*- c++ -*- ----------------------------------------------------------
    SPDX-License-Identifier: GPL-2.0-or-later
-   Lattice Solid Model: repulsion and Coulomb friction of unlinked
-   particles, Eqs. (2) and (3), two dimensions
+   Lattice Solid Model: repulsion and friction of unlinked particles,
+   Eqs. (2) and (3), two dimensions; the laws of friction are in core/laws
 ------------------------------------------------------------------------- */
 
 #ifdef PAIR_CLASS
@@ -15,6 +15,12 @@ PairStyle(lsm/friction,PairLSMFriction);
 
 #include "pair_lsm_free.h"
 
+#include <string>
+
+namespace LSM {
+struct Parameter;
+}
+
 namespace LAMMPS_NS {
 
 class PairLSMFriction : public PairLSMFree {
@@ -26,18 +32,17 @@ class PairLSMFriction : public PairLSMFree {
   void coeff(int, char **) override;
   void init_style() override;
   double init_one(int, int) override;
+  void write_restart(FILE *) override;
+  void read_restart(FILE *) override;
+  void write_restart_settings(FILE *) override;
+  void read_restart_settings(FILE *) override;
   double single(int, int, int, int, double, double, double, double &) override;
   void *extract(const char *, int &) override;
   void transfer_history(double *, double *, int, int) override;
+  /// Name of the law if it depends on time or velocity, else null.
+  const char *law_of_time() const { return law->needs_time ? law->name : nullptr; }
 
  protected:
-  double **kt, **mu, **mus;    // tangential stiffness, dynamic and static friction coefficient
-  int **own_static;            // 1 if mus was given, else it follows mu
-  int has_static;              // 1 if any mus > mu
-  int locate_onset;            // 1 if the begin of a contact within a step is located
-  class FixDummy *fix_dummy;
-  class FixNeighHistory *fix_history;
-
   void allocate() override;
   int request_flags() const override;
   void write_coeff(FILE *, int, int) override;
@@ -45,8 +50,41 @@ class PairLSMFriction : public PairLSMFree {
   void print_coeff(FILE *, int, int) override;
 
  private:
-  template <bool LOCATE> void choose(int);
-  template <bool EV, bool RECORD, bool HAS_STATIC, bool LOCATE> void eval();
+  // what is known of a law at run time; a line of the list in core/laws/friction_laws.h gives one of these
+
+  struct Law {
+    const char *name;
+    const LSM::Parameter *parameters;
+    int count;
+    int state_size;
+    bool named;
+    bool needs_time;
+    bool (*fits)(const double *);
+    void (PairLSMFriction::*loop_nothing)();
+    void (PairLSMFriction::*loop_energies)();
+    void (PairLSMFriction::*loop_tally)();
+  };
+  static const Law laws[];
+  static constexpr int MAX_PARAMETERS = 8;
+
+  const Law *law;                        // first one of the name that was chosen
+  const Law *running;                    // of these, the first that fits all coefficients
+  double **coefficient[MAX_PARAMETERS];    // by parameter of the law, then by types
+  int **given[MAX_PARAMETERS];             // 1 if the parameter was given, else it has another's value
+  bool restored;                         // law and coefficients come from a restart file
+  int locate_onset;                      // 1 if the begin of a contact within a step is located
+  class FixDummy *fix_dummy;
+  class FixNeighHistory *fix_history;
+
+  static const Law *find_law(const std::string &);
+  static std::string law_names();
+  template <class> static Law entry();
+  template <class, class> void loop();
+  void choose(const Law *);
+  void create_coefficients();
+  void destroy_coefficients();
+  void check(int, double, const double *, const std::string &) const;
+  int size_history() const;
 };
 
 }    // namespace LAMMPS_NS

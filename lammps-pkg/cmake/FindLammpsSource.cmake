@@ -5,12 +5,26 @@
 # given as LSM_LAMMPS_SOURCE; a source or tarball already in LSM_LAMMPS_CACHE; Debian's source
 # package through apt; a git clone of the version's tag.
 
-set(LSM_LAMMPS_VERSION "4 Feb 2025")
-set(LSM_LAMMPS_TAG "patch_4Feb2025")
+set(LSM_LAMMPS_VERSION "4 Feb 2025"
+    CACHE STRING "Version of LAMMPS that is fetched: '4 Feb 2025' (the reference) or '4 Jul 2026'")
+set(LSM_LAMMPS_VERSIONS "4 Feb 2025" "4 Jul 2026")
+set_property(CACHE LSM_LAMMPS_VERSION PROPERTY STRINGS ${LSM_LAMMPS_VERSIONS})
 set(LSM_LAMMPS_GIT "https://github.com/lammps/lammps.git")
-set(LSM_LAMMPS_SUITE "trixie")
-set(LSM_LAMMPS_TARBALL "lammps-4Feb2025.tar.xz")
-set(LSM_LAMMPS_SHA256 "3671165bd52fad36734e0a9136c5bc5ecb225e03988f8c89aa13366a8b53b1c7")
+# Debian's source package of each: suite, name of the file in the cache, its checksum.
+if(LSM_LAMMPS_VERSION STREQUAL "4 Feb 2025")
+  set(LSM_LAMMPS_SUITE "trixie")
+  set(LSM_LAMMPS_TARBALL "lammps-4Feb2025.tar.xz")
+  set(LSM_LAMMPS_SHA256 "3671165bd52fad36734e0a9136c5bc5ecb225e03988f8c89aa13366a8b53b1c7")
+elseif(LSM_LAMMPS_VERSION STREQUAL "4 Jul 2026")
+  set(LSM_LAMMPS_SUITE "forky")
+  set(LSM_LAMMPS_TARBALL "lammps-4Jul2026.tar.gz")
+  set(LSM_LAMMPS_SHA256 "cddbc45a047416bd48a4a0b87f24a5b61b3446982b74d18cafe619c22b17eb62")
+else()
+  message(FATAL_ERROR "LSM_LAMMPS_VERSION=${LSM_LAMMPS_VERSION}: expected '4 Feb 2025' or '4 Jul 2026'")
+endif()
+string(REPLACE " " "" LSM_LAMMPS_NAME "${LSM_LAMMPS_VERSION}")
+set(LSM_LAMMPS_TAG "patch_${LSM_LAMMPS_NAME}")
+set(LSM_LAMMPS_NAME "lammps-${LSM_LAMMPS_NAME}")
 
 # Version string of a LAMMPS source folder, empty when it is none.
 function(lsm_lammps_version dir out)
@@ -22,15 +36,25 @@ function(lsm_lammps_version dir out)
   set(${out} "${version}" PARENT_SCOPE)
 endfunction()
 
-# Unpacks what a build needs; the rest of the archive (documentation, examples) is left out.
+# Unpacks what a build needs; the rest of the archive (documentation, examples) is left out. Some archives hold one
+# folder with everything in it, others everything at the top.
 function(lsm_unpack_lammps tarball dir)
   message(STATUS "Unpacking ${tarball}")
   file(REMOVE_RECURSE ${dir} ${dir}.part)
   file(MAKE_DIRECTORY ${dir}.part)
-  execute_process(
-    COMMAND tar -xf ${tarball} -C ${dir}.part --strip-components=1 --exclude=*/doc/* --exclude=*/examples/*
-            --exclude=*/bench/* --exclude=*/unittest/*
-    RESULT_VARIABLE rc)
+  set(excludes)
+  foreach(part IN ITEMS doc examples bench unittest)
+    list(APPEND excludes --exclude=${part}/*)
+  endforeach()
+  execute_process(COMMAND tar -xf ${tarball} -C ${dir}.part ${excludes} RESULT_VARIABLE rc)
+  file(GLOB top LIST_DIRECTORIES true ${dir}.part/*)
+  list(LENGTH top count)
+  if(rc EQUAL 0 AND count EQUAL 1)
+    file(REMOVE_RECURSE ${dir}.top)
+    file(RENAME ${top} ${dir}.top)
+    file(REMOVE_RECURSE ${dir}.part)
+    file(RENAME ${dir}.top ${dir}.part)
+  endif()
   if(NOT rc EQUAL 0)
     file(REMOVE_RECURSE ${dir}.part)
     message(FATAL_ERROR "Cannot unpack ${tarball} (is xz-utils installed?)")
@@ -46,9 +70,9 @@ function(lsm_find_lammps_source out_dir out_id)
       message(FATAL_ERROR "LSM_LAMMPS_SOURCE=${LSM_LAMMPS_SOURCE}: expected the top folder of a LAMMPS "
                           "source tree (with src/version.h and cmake/CMakeLists.txt)")
     endif()
-    if(NOT version STREQUAL LSM_LAMMPS_VERSION)
-      message(WARNING "LSM_LAMMPS_SOURCE holds LAMMPS ${version}; the package is written for and tested with "
-                      "${LSM_LAMMPS_VERSION}")
+    if(NOT version IN_LIST LSM_LAMMPS_VERSIONS)
+      list(JOIN LSM_LAMMPS_VERSIONS " and " tested)
+      message(WARNING "LSM_LAMMPS_SOURCE holds LAMMPS ${version}; the package is written for and tested with ${tested}")
     endif()
     message(STATUS "LAMMPS ${version} source: ${dir} (given)")
     set(${out_dir} ${dir} PARENT_SCOPE)
@@ -58,7 +82,7 @@ function(lsm_find_lammps_source out_dir out_id)
 
   set(cache ${LSM_LAMMPS_CACHE})
   file(MAKE_DIRECTORY ${cache})
-  set(dir ${cache}/lammps-4Feb2025)
+  set(dir ${cache}/${LSM_LAMMPS_NAME})
   set(tarball ${cache}/${LSM_LAMMPS_TARBALL})
   # A source that is complete needs no lock, so that a read-only cache can be used.
   lsm_lammps_version(${dir} version)
@@ -75,7 +99,7 @@ function(lsm_find_lammps_source out_dir out_id)
       endif()
     endif()
     if(NOT EXISTS ${tarball})
-      message(STATUS "Fetching LAMMPS ${LSM_LAMMPS_VERSION} (132 MB) with apt from Debian ${LSM_LAMMPS_SUITE}")
+      message(STATUS "Fetching LAMMPS ${LSM_LAMMPS_VERSION} with apt from Debian ${LSM_LAMMPS_SUITE}")
       execute_process(COMMAND ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/fetch-lammps.sh ${cache}
                               ${LSM_LAMMPS_TARBALL} ${LSM_LAMMPS_SUITE} RESULT_VARIABLE rc)
       if(rc EQUAL 0)

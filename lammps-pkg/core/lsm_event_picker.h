@@ -5,11 +5,14 @@
 #ifndef LSM_EVENT_PICKER_H
 #define LSM_EVENT_PICKER_H
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+
+#include "lsm_names.h"
 
 namespace LSM {
 
@@ -21,28 +24,10 @@ enum class PickerReading {
   literal       ///< A <- (x + lambda A) / (1 + lambda t), t = index of the change, from 0 (paper)
 };
 
-inline const char *to_string(PickerReading reading) {
-  switch (reading) {
-    case PickerReading::exponential:
-      return "exponential";
-    case PickerReading::average:
-      return "average";
-    case PickerReading::literal:
-      return "literal";
-  }
-  return "unknown";
-}
-
-/// Returns false, and leaves reading alone, if name is none of exponential, average, literal.
-inline bool from_string(const std::string &name, PickerReading &reading) {
-  for (PickerReading candidate :
-       {PickerReading::exponential, PickerReading::average, PickerReading::literal}) {
-    if (name == to_string(candidate)) {
-      reading = candidate;
-      return true;
-    }
-  }
-  return false;
+constexpr std::array<Named<PickerReading>, 3> names_of(PickerReading) {
+  return {{{PickerReading::exponential, "exponential"},
+           {PickerReading::average, "average"},
+           {PickerReading::literal, "literal"}}};
 }
 
 struct PickerSettings {

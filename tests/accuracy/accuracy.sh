@@ -312,6 +312,14 @@ Readings of the picker on the same series (memory in time units, or the printed 
 
 $(markdown fault_picker.csv)
 
+## Fault: leaps over the loading
+
+The same large events with plates slower than the paper's, with and without \`fix lsm/leap\`, and what each costs.
+
+$(remarks fault_leaps.csv)
+
+$(markdown fault_leaps.csv)
+
 ## Sums
 
 PE of all links against the sum of the same energies in long double.

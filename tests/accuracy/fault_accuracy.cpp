@@ -798,6 +798,98 @@ void long_runs() {
     if (w.series) picker_readings(w, pickers);
 }
 
+// ---- leaps --------------------------------------------------------------------------------------
+
+/// A run with slow plates; fast = 0: without leaps.
+struct SlowRun {
+  double velocity, fast, steps;
+  std::vector<LSM::Event> large = {};
+  double seconds = 0.0;
+};
+
+/// The same large events with and without leaps, and what a large event costs.
+void leaps() {
+  constexpr double large = 1e-2, paper = 0.00025;
+  std::vector<SlowRun> runs = {{2.5e-5, 0.0, 350000},
+                               {2.5e-5, 2.5e-4, 60000},
+                               {2.5e-5, 5e-5, 200000},
+                               {2.5e-4, 0.0, 60000},
+                               {2.5e-8, 2.5e-4, 60000}};
+  if (!quick)
+    runs = {{2.5e-5, 0.0, 700000},    {2.5e-5, 2.5e-4, 200000}, {2.5e-5, 1e-4, 240000},
+            {2.5e-5, 5e-5, 400000},   {2.5e-4, 0.0, 400000},    {2.5e-6, 2.5e-4, 200000},
+            {2.5e-7, 2.5e-4, 200000}, {2.5e-8, 2.5e-4, 200000}};
+  Table table(
+      "fault_leaps.csv",
+      "velocity,fast,events,steps_per_event,model_time_per_event,seconds_per_event,paired,of,"
+      "shift,scatter_of_shift,median_size_error");
+  table.row(
+      "# inputs/fault.in at length %g, events of %g and more; paired: with the run without leaps, "
+      "by end and size; "
+      "shift of the ends: times velocity / %g, so in time units of the paper's driving\n",
+      length, large, paper);
+  for (SlowRun &w : runs) {
+    const std::string name = "slow_" + text(w.velocity) + "_" + text(w.fast);
+    w.seconds = run(inputs + "/fault.in",
+                    {{"length", text(length)},
+                     {"prefix", name},
+                     {"velocity", text(w.velocity)},
+                     {"leap", w.fast > 0.0 ? "yes" : "no"},
+                     {"fast", text(w.fast > 0.0 ? w.fast : paper)},
+                     {"steps", text(w.steps)},
+                     {"series", "no"},
+                     {"checkpoint", "1000000000"},
+                     {"overwrite", "yes"},
+                     {"thermo", "100000"}},
+                    1, name)
+                    .cpu;
+    w.large = events_of(name + ".catalogue.csv");
+    w.large.erase(std::remove_if(w.large.begin(), w.large.end(),
+                                 [](const LSM::Event &e) { return e.size < large; }),
+                  w.large.end());
+    if (w.large.size() < 3) throw std::runtime_error(name + ": fewer than three large events");
+
+    // the nearest of similar size within half the mean time between them
+    std::vector<double> shifts, errors;
+    const SlowRun &slow = runs.front();
+    std::size_t of = 0;
+    if (&w != &slow && w.velocity == slow.velocity) {
+      const double near = 0.5 * (slow.large.back().t_end - slow.large.front().t_end) /
+                          static_cast<double>(slow.large.size() - 1);
+      std::vector<char> taken(w.large.size(), 0);
+      for (const LSM::Event &e : slow.large) {
+        if (e.t_end > w.large.back().t_end - near) continue;
+        ++of;
+        std::size_t best = w.large.size();
+        double least = 1e300;
+        for (std::size_t n = 0; n < w.large.size(); ++n) {
+          const double apart = std::fabs(w.large[n].t_end - e.t_end) / near,
+                       other = std::fabs(std::log(w.large[n].size / e.size));
+          if (taken[n] || apart > 1.0 || other > std::log(2.0) || apart + other > least) continue;
+          least = apart + other;
+          best = n;
+        }
+        if (best == w.large.size()) continue;
+        taken[best] = 1;
+        shifts.push_back((w.large[best].t_end - e.t_end) * w.velocity / paper);
+        errors.push_back(std::fabs(w.large[best].size / e.size - 1.0));
+      }
+    }
+    const auto quantile = [](std::vector<double> values, double q) {
+      if (values.empty()) return static_cast<double>(NAN);
+      std::sort(values.begin(), values.end());
+      return values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1))];
+    };
+    const double intervals = static_cast<double>(w.large.size() - 1);
+    const double steps =
+        static_cast<double>(w.large.back().step_end - w.large.front().step_end) / intervals;
+    table.row("%g,%g,%zu,%.0f,%.4g,%.3g,%zu,%zu,%.3g,%.3g,%.3g\n", w.velocity, w.fast,
+              w.large.size(), steps, (w.large.back().t_end - w.large.front().t_end) / intervals,
+              w.seconds * steps / w.steps, shifts.size(), of, quantile(shifts, 0.5),
+              0.5 * (quantile(shifts, 0.75) - quantile(shifts, 0.25)), quantile(errors, 0.5));
+  }
+}
+
 // ---- sums ---------------------------------------------------------------------------------------
 
 /// Numbers in the last column of all snapshots of a local dump.
@@ -938,6 +1030,7 @@ int main(int argc, char **argv) {
         {"friction", friction_schemes},
         {"waves", waves},
         {"long runs", long_runs},
+        {"leaps", leaps},
         {"sums", sums}};
     const char *wanted = std::getenv("LSM_ACCURACY_PARTS");
     for (const auto &[name, part] : parts) {

@@ -136,7 +136,9 @@ class Lmp : public ::testing::Test {
     std::vector<std::string> words;
     if (ranks > 1)
       words = {LSM_MPIEXEC, "--oversubscribe", LSM_MPIEXEC_NP, std::to_string(ranks)};
-    for (const char *word : {LSM_LMP, "-in", script.c_str(), "-log", "none"})
+    // another program may be tested with the same tests
+    const char *other = std::getenv("LSM_LMP");
+    for (const char *word : {other ? other : LSM_LMP, "-in", script.c_str(), "-log", "none"})
       words.emplace_back(word);
     for (const auto &variable : variables)
       words.insert(words.end(), {"-var", variable.first, variable.second});

@@ -110,12 +110,14 @@ pick)
   must_run pick torn.csv -o new.csv --lenient
   grep -q "torn.csv: dropped a truncated last sample: 1" err.txt || fail "a repair is not stated"
   refused "is read by this command" pick pe.csv -o ./pe.csv --force
-  refused "lambda of the picker is 1, expected at least 0 and less than 1" pick pe.csv -o x.csv --lambda 1
-  refused "memory-steps 0.5: expected at least 1 sample" pick pe.csv -o x.csv --picker exponential --memory-steps 0.5
+  refused "lambda = 1, expected at least 0 and less than 1" pick pe.csv -o x.csv --lambda 1
+  sed 's/^# lambda = .*/# lambda = 1.5/' pe.csv > leaky.csv
+  refused "lambda in the header of the series is 1.5, expected at least 0" pick leaky.csv -o x.csv
+  refused "memory-steps = 0.5, expected at least 1 sample" pick pe.csv -o x.csv --picker exponential --memory-steps 0.5
   refused "memory-time with the reading 'literal', expected 'exponential'" pick pe.csv -o x.csv --memory-time 3
   refused "lambda excludes" pick pe.csv -o x.csv --memory-steps 10 --lambda 0.5
-  refused "min-size -1: expected a finite size of at least 0" pick pe.csv -o x.csv --min-size -1
-  refused "median" pick pe.csv -o x.csv --picker median
+  refused "min-size = -1, expected a finite size of at least 0" pick pe.csv -o x.csv --min-size -1
+  refused "picker = .median., expected exponential, average or literal" pick pe.csv -o x.csv --picker median
   ;;
 online)
   # The same rows as the program that ran picked, from its series.
@@ -217,12 +219,98 @@ END
   sed 's/,[^,]*$//; s/,slip_moment//' c.csv | sed 's/\(,pe_end\).*/\1,slip_moment/' > plain.csv
   refused "plain.csv: has no column x_centroid" export plain.csv -o x.csv --degrees-per-length 1
   ;;
+magnitudes)
+  # Sizes 10^(-3 + 3 q) for magnitudes from -2 on, exponential with b = 1: M = -2 - log10(1 - q), evenly spaced q.
+  awk 'BEGIN {
+    print "# lsm-catalogue 1\n# model = lsm\n# length = 40\n# completeness = 1e-3"
+    print "event_id,t_start,t_end,step_start,step_end,size,pe_start,pe_end,slip_moment"
+    for (i = 0; i < 2000; i++) {
+      k = (i * 7919) % 2000
+      m = -2 - log(1 - (k + 0.5) / 2000) / log(10)
+      printf "%d,%d,%d,%d,%d,%.17g,1,1,%.17g\n", i + 1, 2 * i, 2 * i + 1, 2 * i, 2 * i + 1, 10 ^ (1.5 * m), 10 ^ m }
+  }' > gr.csv
+  must_run magnitudes gr.csv -o m --no-picture
+  awk -F, '/^lsm/ { n++; if (!($4 == 2000 && $2 == -2 && $5 > 0.99 && $5 < 1.01 && $6 > 0.018 && $6 < 0.026)) exit 1 }
+    END { exit n != 1 }' m.bvalues.csv || fail "b: $(cat m.bvalues.csv)"
+  grep -q 'M = 0.6667 log10(size) + 0 (a convention, ours)' out.txt && grep -q 'completeness in the header of gr.csv' out.txt &&
+    grep -q 'exponent of the sizes 1 + 0.6667 b = 1.66' out.txt || fail "$(cat out.txt)"
+  # The same b of the table that is exported, by the textbook's formula: with and without bins.
+  for bin in 0 0.1; do
+    must_run magnitudes gr.csv -o m --no-picture --magnitude-bin $bin --complete-from -1.5
+    must_run export gr.csv -o table.csv --force --magnitude-bin $bin
+    awk -F, -v w=$bin 'FNR > 1 && FILENAME == "table.csv" && $5 >= -1.5 - w / 2 - 1e-9 { sum += $5 + 1.5; ++n }
+      FILENAME == "m.bvalues.csv" && /^lsm/ { b = $5; found = $4 }
+      END { mean = sum / n; want = w ? log(1 + w / mean) / (w * log(10)) : 1 / (mean * log(10))
+        exit !(n == found && b / want > 1 - 1e-12 && b / want < 1 + 1e-12) }' table.csv m.bvalues.csv ||
+      fail "bins of $bin: $(cat m.bvalues.csv)"
+  done
+  # The smallest size that a magnitude begins with is given, found, or that of the header.
+  must_run magnitudes gr.csv -o m --no-picture --complete-from curvature
+  awk -F, '/^lsm/ && !($2 > -1.91 && $2 < -1.69 && $2 == $3) { exit 1 }' m.bvalues.csv || fail "curvature: $(cat m.bvalues.csv)"
+  must_run magnitudes gr.csv -o m --no-picture --threshold 0.01
+  awk -F, '/^lsm/ && !($2 > -1.3334 && $2 < -1.3333) { exit 1 }' m.bvalues.csv || fail "--threshold: $(cat m.bvalues.csv)"
+  # Of the moment, and as plain logarithm.
+  must_run magnitudes gr.csv -o m --no-picture --magnitude-of moment --magnitude-slope 1 --complete-from -2
+  awk -F, '/^lsm/ && !($5 > 0.99 && $5 < 1.01) { exit 1 }' m.bvalues.csv || fail "moment: $(cat m.bvalues.csv)"
+  grep -q 'M = 1 log10(slip_moment) + 0' out.txt || fail "$(cat out.txt)"
+  [ "$(awk -F, '!/^[#c]/ { n += $4 } END { print n }' m.csv)" = 2000 ] || fail "counts: $(cat m.csv)"
+  refused "header holds for sizes only, expected 'curvature' or a magnitude" magnitudes gr.csv -o x --magnitude-of moment
+  refused "complete-from 'nowhere', expected 'header', 'curvature' or a magnitude" magnitudes gr.csv -o x --complete-from nowhere
+  refused "magnitude-slope: expected a positive finite number" magnitudes gr.csv -o x --magnitude-slope 0
+  refused "magnitude-bin: expected a finite number of 0 or more" magnitudes gr.csv -o x --magnitude-bin -1
+  sed 's/,[^,]*$//; s/,slip_moment//' gr.csv > plain.csv
+  refused "plain.csv: has no column slip_moment, expected one for --magnitude-of moment" magnitudes plain.csv -o x --magnitude-of moment --complete-from -2
+  refused "plain.csv: has no column slip_moment" export plain.csv -o x.csv --magnitude-of moment
+  ;;
+aftershocks)
+  # 42 main shocks 5000 apart, the first of which has no time before it, each followed by 50 events at t = 2 (1 / (1 - q) - 1), which is p = 2 with c = 2, and 50 evenly.
+  awk 'BEGIN {
+    print "# lsm-catalogue 1\n# model = lsm\n# length = 40"
+    print "event_id,t_start,t_end,step_start,step_end,size,pe_start,pe_end"
+    for (m = 0; m < 42; m++) {
+      printf "%.6f 100\n", 5000 * m | "sort -g > rows.txt"
+      for (k = 0; k < 50; k++) {
+        printf "%.6f 0.01\n", 5000 * m + 10 + 2 * (1 / (1 - (k + (m + 0.5) / 42) / 50) - 1) | "sort -g > rows.txt"
+        printf "%.6f 0.01\n", 5000 * m + 10 + 97.3 * (k + (m + 0.5) / 42) | "sort -g > rows.txt" } }
+    close("sort -g > rows.txt")
+    while ((getline line < "rows.txt") > 0) {
+      split(line, f, " ")
+      end = f[2] == 100 ? f[1] + 10 : f[1]
+      printf "%d,%.6f,%.6f,%d,%d,%s,1,1\n", ++id, f[1], end, id, id, f[2] } }' > omori.csv
+  must_run aftershocks omori.csv -o a --no-picture --main-size 50 --window 1000 --replicas 19
+  # p = 2, c = 2, K = 100, background 1/97.3
+  awk -F, '/^lsm/ { n++; if (!($6 == 41 && $10 > 1.9 && $10 < 2.1 && $12 > 1.7 && $12 < 2.3 && $14 > 75 && $14 < 130 && $16 > 0.0098 &&
+    $16 < 0.0108 && $18 > 1000 && $19 == 0.05)) exit 1 } END { exit n != 1 }' a.omori.csv || fail "$(cat a.omori.csv)"
+  grep -q '41 main shocks of size 50 or larger (largest event of all that start within 1000 before and after)' out.txt &&
+    grep -q 'as large in a share of 0.05 of Poisson catalogues' out.txt || fail "$(cat out.txt)"
+  # Stacked rate: counts in the bins, per main shock and time unit.
+  awk -F, '/^1,/ { if ($7 < 0.9999 * $6 / (41 * ($4 - $3)) || $7 > 1.0001 * $6 / (41 * ($4 - $3))) exit 1; ++n }
+    END { exit !(n > 8) }' a.csv || fail "$(cat a.csv)"
+  must_run aftershocks omori.csv -o a --no-picture --main-size 50 --window 1000 --replicas 0 --hold-c 2
+  grep -q 'c = 2 (held)' out.txt || fail "$(cat out.txt)"
+  # Events at one place in each stretch of 10 have no aftershocks.
+  sed 's/^[0-9]*,.*//' omori.csv | sed '/^$/d' > even.csv
+  awk 'BEGIN { for (i = 0; i < 5000; i++) { t = 10 * (i + i * 0.618034 % 1)
+    printf "%d,%.6f,%.6f,%d,%d,%s,1,1\n", i + 1, t, t, i, i, i % 100 == 50 ? 100 : 0.01 } }' >> even.csv
+  must_run aftershocks even.csv -o a --no-picture --main-size 50 --window 300 --replicas 0
+  grep -q 'degenerate: no decay' out.txt || fail "$(cat out.txt)"
+  awk -F, '/^lsm/ && !($8 > 0.099 && $8 < 0.101 && $10 == "" && $12 == "") { exit 1 }' a.omori.csv || fail "$(cat a.omori.csv)"
+  # By default a share of the events are large enough.
+  must_run aftershocks omori.csv -o a --no-picture --replicas 0
+  grep -q 'main shocks of size 0.01 or larger' out.txt || fail "$(cat out.txt)"
+  refused "no event of size 1000 or larger, expected a smaller --main-size" aftershocks omori.csv -o x --main-size 1000
+  refused "first time after main shocks: expected 0 or more, below the window" aftershocks omori.csv -o x --first 20 --window 10
+  refused "c held at 0.000000, expected 0 or more (0 needs a first time above 0)" aftershocks omori.csv -o x --hold-c 0 --main-size 50
+  refused "main-share excludes --main-size" aftershocks omori.csv -o x --main-size 1 --main-share 0.1
+  ;;
 bad_input)
   catalogue good.csv
   # What is read is not replaced, whichever of the outputs would do it.
   cp good.csv own.fits.csv
   cp good.csv own.table1.csv
-  for words in "histograms good.csv -o ./good" "intervals own.table1.csv -o own" "fit own.fits.csv -o own" \
+  cp good.csv own.bvalues.csv
+  cp good.csv own.omori.csv
+  for words in "magnitudes own.bvalues.csv -o own" "aftershocks own.omori.csv -o own" "histograms good.csv -o ./good" "intervals own.table1.csv -o own" "fit own.fits.csv -o own" \
     "fit good.csv -o x --json good.csv" "report good.csv -o good.csv" "export good.csv -o ../$(basename "$PWD")/good.csv --force"; do
     # shellcheck disable=SC2086
     refused "is read by this command, expected another name" $words
@@ -232,7 +320,7 @@ bad_input)
   refused "is read by this command" series pe.csv -o pe
   refused "is read by this command" series own-events.csv -o own
   refused "is read by this command" spectrum pe.csv -o pe
-  for command in histograms intervals fit; do
+  for command in histograms intervals fit magnitudes aftershocks; do
     refused "ends with a folder, expected a file name" $command good.csv -o ./
     refused "threshold: expected a number of 0 or more, not '-1'" $command good.csv --threshold -1 -o x
     refused "threshold: expected a number of 0 or more, not 'nan'" $command good.csv --threshold nan -o x
@@ -241,7 +329,7 @@ bad_input)
   refused "subcommand" # none
   refused "help lists the options" smooth good.csv
   refused "is required" pick good.csv
-  for command in pick histograms intervals fit series spectrum export report; do
+  for command in pick histograms intervals fit series spectrum magnitudes aftershocks export report; do
     run $command --help || fail "$command --help"
     grep -q -- "--output" out.txt || fail "$command --help does not tell of --output"
     refused "nowhere.csv: cannot open" $command nowhere.csv -o x

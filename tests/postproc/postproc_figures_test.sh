@@ -263,6 +263,15 @@ report)
   [ "$(grep -c '<th scope="row">b</th><td>256</td>' k.html)" = 0 ] || fail "another stiffness in the scaling"
   [ "$(grep -c '<th scope="row">c</th><td>256</td>' k.html)" = 1 ] || fail "no scaling of the common stiffness"
   grep -q 'Fig. 7' r.html && fail "Fig. 7 of one stiffness"
+  # Each kind of event has its own words, and a scaling of its own.
+  sed 's/^# blocks.*/&\n# events = ruptures/' s.csv > ruptures.csv
+  must_run report ruptures.csv --replicas 0 -o u.html
+  grep -q 'Events are ruptures: connected in space and time' u.html || fail "no words on ruptures"
+  grep -q 'drops of the potential energy' u.html && fail "words on drops of PE on a page of ruptures"
+  grep -q 'drops of the potential energy' r.html || fail "no words on drops of PE"
+  must_run report s.csv ruptures.csv --replicas 0 --label a --label b -o u.html
+  [ "$(grep -c 'Events are ruptures: connected' u.html) $(grep -c 'drops of the potential energy' u.html)" = "1 1" ] ||
+    fail "both kinds of event in one scaling"
   # No range begins below the threshold.
   must_run report 'a<b&c.csv' --threshold 2e-3 --replicas 0 -o t.html
   grep -q '<td>0.002 to 0.01</td>' t.html || fail "range of the fault"
@@ -274,6 +283,18 @@ report)
   PATH=/nonexistent "$program" report s.csv -o r.html 2> err.txt && fail "a report without gnuplot"
   grep -q 'gnuplot not found' err.txt || fail "$(cat err.txt)"
   cmp r.html before.html || fail "the older page is gone"
+  ;;
+seismology)
+  power 1.7 1e-3 1e3 2000 | catalogue a.csv 120
+  power 1.2 1e-3 1e3 2000 | catalogue b.csv 240
+  must_run magnitudes a.csv b.csv --threshold 1e-3 --label 'a_{x}' --label b -o m
+  pictures m
+  grep -q 'b = 1.' m.gp && grep -qF 'a\_\{x\}' m.gp || fail "titles: $(grep title m.gp)"
+  must_run aftershocks a.csv b.csv -o s --replicas 10
+  pictures s
+  grep -q filledcurves s.gp || fail "no band of Poisson catalogues"
+  refused 'nothing to draw' magnitudes a.csv --min-size 1e9 -o x
+  refused 'expected at least 2' aftershocks a.csv --min-size 1e9 -o x
   ;;
 few)
   # No event, one, and a few: what cannot be said is said to be degenerate.

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "numbers.h"
 #include "unit_files.h"
 
 using namespace LSM;
@@ -54,6 +55,7 @@ TEST_F(CatalogueInput, RupturesAreSortedByTheirStarts) {
   const EventTable table =
       load_catalogue(file(rows, "events = ruptures", "block-slider"), CatalogueOptions());
   EXPECT_EQ(table.t_start, (std::vector<double>{1, 2, 2.5}));
+  EXPECT_EQ(table.t_end, (std::vector<double>{4, 3, 3}));
   EXPECT_EQ(table.size, (std::vector<double>{0.125, 0.5, 0.25}));
   EXPECT_EQ(table.last_end, 4.0);
   EXPECT_TRUE(std::isnan(table.share_in_events()));
@@ -104,19 +106,19 @@ TEST_F(CatalogueInput, CompletenessIsTheDefaultThreshold) {
   // One for all of a model; never below the paper's.
   for (std::size_t i : {0, 1, 2}) {
     EXPECT_EQ(none.of(tables[i]), 0.003);
-    EXPECT_EQ(none.text(tables[i]), "0.003, completeness in the header of " + options.paths[1]);
+    EXPECT_EQ(text(none.in(tables[i])), "0.003, completeness in the header of " + options.paths[1]);
     EXPECT_EQ(tables[i].complete_from, 0.0);  // nothing is left out for it
   }
   for (std::size_t i : {3, 4}) {
     EXPECT_EQ(none.of(tables[i]), 1e-4);
-    EXPECT_EQ(none.text(tables[i]), "0.0001, that of the paper's Figs. 12 and 13");
+    EXPECT_EQ(text(none.in(tables[i])), "0.0001, that of the paper's Figs. 12 and 13");
   }
   for (const EventTable &table : tables) EXPECT_EQ(given.of(table), 0.25);
-  EXPECT_EQ(given.text(tables[0]), "0.25, as given");
+  EXPECT_EQ(text(given.in(tables[0])), "0.25, as given");
   EXPECT_EQ(Threshold(0.0).of(tables[0]), 0.0);
-  EXPECT_EQ(none.texts(tables),
+  EXPECT_EQ(texts(none, tables),
             (std::vector<std::string>{
-                "smallest size, fault: " + none.text(tables[0]),
+                "smallest size, fault: " + text(none.in(tables[0])),
                 "smallest size, block-slider: 0.0001, that of the paper's Figs. 12 and 13"}));
 }
 

@@ -13,8 +13,10 @@
 
 #include "new_file.h"
 #include "numbers.h"
+#include "option_values.h"
 #include "plot.h"
 #include "report.h"
+#include "report_template.h"
 #include "unit_files.h"
 
 using namespace LSM::postproc;
@@ -213,6 +215,22 @@ TEST_F(Plot, Ranges) {
     EXPECT_TRUE(contains(message_of<std::invalid_argument>([bad] { parse_range("--range", bad); }),
                          "expected LO:HI"))
         << bad;
+}
+
+TEST(ReportTemplate, PartsAreFilled) {
+  EXPECT_EQ(report_part("scaling",
+                        {{"figure", "{{F}}"}, {"table", "T"}, {"events", "E"}, {"verdict", "V"}}),
+            "{{F}}\nT\nE\n<p class=\"verdict\">V</p>");
+  EXPECT_TRUE(
+      contains(message_of<std::logic_error>([] { report_part("nothing"); }), "no part 'nothing'"));
+  EXPECT_TRUE(contains(message_of<std::logic_error>([] {
+                         report_part("scaling", {{"figure", ""}});
+                       }),
+                       "nothing for {{table}}"));
+  EXPECT_TRUE(contains(message_of<std::logic_error>([] {
+                         report_part("ruptures", {{"figure", ""}});
+                       }),
+                       "without a place"));
 }
 
 TEST_F(Plot, InlinePicturesDoNotClash) {

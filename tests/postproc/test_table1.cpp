@@ -9,7 +9,9 @@
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
 
+#include "interval_figure.h"
 #include "intervals.h"
+#include "numbers.h"
 #include "table1.h"
 #include "unit_files.h"
 
@@ -140,9 +142,9 @@ TEST(Table1, MissingSmallEventsRaiseTheThreshold) {
   IntervalSettings settings;
   settings.thresholds = {0.01, 0.8};
   const auto curves = interval_curves({table}, settings);
-  EXPECT_EQ(curves[0].threshold, 0.5);
+  EXPECT_EQ(curves[0].threshold.size, 0.5);
   EXPECT_EQ(curves[0].n, 2);
-  EXPECT_EQ(curves[1].threshold, 0.8);
+  EXPECT_EQ(curves[1].threshold.size, 0.8);
 }
 
 TEST(Table1, CompletenessIsTheDefaultThreshold) {
@@ -152,13 +154,13 @@ TEST(Table1, CompletenessIsTheDefaultThreshold) {
   IntervalSettings settings;
   const auto curves = interval_curves({table}, settings);
   ASSERT_EQ(curves.size(), 1u);
-  EXPECT_EQ(curves[0].threshold, 0.3);
+  EXPECT_EQ(curves[0].threshold.size, 0.3);
   EXPECT_EQ(curves[0].n, 2);
-  EXPECT_EQ(curves[0].threshold_text, "0.3, completeness in the header of a.csv");
+  EXPECT_EQ(text(curves[0].threshold), "0.3, completeness in the header of a.csv");
   settings.thresholds = {0.05};
   EXPECT_EQ(interval_curves({table}, settings)[0].n, 3);
   table.complete_from = 0.7;
-  EXPECT_EQ(interval_curves({table}, settings)[0].threshold_text,
+  EXPECT_EQ(text(interval_curves({table}, settings)[0].threshold),
             "0.7, where the catalogue begins");
 }
 
@@ -195,7 +197,7 @@ TEST(Table1, OneEventHasNoTimes) {
   ASSERT_EQ(curves.size(), 1u);
   EXPECT_EQ(curves[0].n, 0);
   EXPECT_TRUE(std::isnan(curves[0].mean));
-  EXPECT_THROW(interval_figure(curves, settings), std::runtime_error);
+  EXPECT_THROW(interval_figure(curves, false), std::runtime_error);
 }
 
 }  // namespace

@@ -121,6 +121,17 @@ resume | terminate | kill)
     head -c 500 part.chk > short.chk
     run "${part[@]}" --checkpoint short.chk --resume && fail "resumed from a torn checkpoint"
     grep -q "short.chk: damaged" err.txt || fail "message: $(cat err.txt)"
+    # One byte of a number changed, the file as long as it was.
+    cp part.chk flipped.chk
+    printf '\x55' | dd of=flipped.chk bs=1 seek=$(($(stat -c %s part.chk) / 2)) conv=notrunc 2> dd.txt
+    cmp -s part.chk flipped.chk && printf '\xaa' | dd of=flipped.chk bs=1 seek=$(($(stat -c %s part.chk) / 2)) conv=notrunc 2> dd.txt
+    run "${part[@]}" --checkpoint flipped.chk --resume && fail "resumed from a checkpoint with a wrong byte"
+    grep -q "flipped.chk: damaged" err.txt || fail "message: $(cat err.txt)"
+    # Those of older programs had a format of their own.
+    printf 'slider-checkpoint-1\n0123456789abcdef' > old.chk
+    run "${part[@]}" --checkpoint old.chk --resume && fail "resumed from an old checkpoint"
+    [ "$(cat err.txt)" = "slider_cli: old.chk: checkpoint of version 1, expected version 2: finish that run with the program that began it, or start afresh" ] || fail "message: $(cat err.txt)"
+    cmp keep.csv part.csv || fail "a refused resume changed the catalogue"
     run "${part[@]}" --checkpoint none.chk --resume && fail "resumed from nothing"
     grep -q "none.chk: cannot be read" err.txt || fail "message: $(cat err.txt)"
   else
@@ -176,6 +187,82 @@ ensemble)
   refused "run 2 of the ensemble: .*--kl" --ensemble <(printf '%s\n' '--seed 1' '--kl -1')
   refused "written by another run" --ensemble <(printf '%s\n' '--catalogue bad.csv --seed 1' \
     '--catalogue bad.csv --seed 2')
+  ;;
+laws)
+  # One block: period of its events between a third of the run and the end, against closed forms.
+  # period ARGUMENTS...: sets $period
+  one=(--blocks 1 --velocity 0.001 --warmup 0 --friction-range 0.8 0.8 --picker literal --min-size 1e-7)
+  period() {
+    must_run "${one[@]}" --catalogue one.csv "$@"
+    period=$(awk -F, '!/^[#e]/ { t[n++] = $2 } END { a = int(n / 3); if (n - a > 2) printf "%.6g", (t[n - 1] - t[a]) / (n - 1 - a)
+                                                     else print 0 }' one.csv)
+  }
+  # near WHAT EXPRESSION TOLERANCE: the period against an expression of awk
+  near() {
+    awk -v p="$period" -v tolerance="$3" "BEGIN { pi = atan2(0, -1); theory = $2; d = p / theory - 1
+      printf \"%s: period %.5g, theory %.5g\\n\", \"$1\", p, theory
+      exit !(d < tolerance && d > -tolerance) }" || fail "$1: period $period, expected $2"
+  }
+  # Coulomb: loading over twice the drop of strength, D = 0.8 - 0.6, then half a swing and a little: (Fs - Fd) w / (K V)
+  for scheme in verlet semi-implicit rk4; do
+    period --law coulomb --dynamic-friction 0.75 --kl 0.05 --time 80000 --dt 0.05 --scheme $scheme
+    near "coulomb, $scheme" "2 * 0.2 / (0.05 * 0.001) + 2 / sqrt(0.05) * (pi - atan2(0.2 * sqrt(0.05), 0.05 * 0.001))" 1e-4
+  done
+  # Without a drop the block follows the plate, and swings by V / w: PE falls by no more than 2 Fs V / w each time.
+  largest() { awk -F, '!/^[#e]/ && $6 > most { most = $6 } END { print most + 0 }' one.csv; }
+  awk -v s="$(largest)" 'BEGIN { exit !(s > 4) }' || fail "Coulomb slips of $(largest), expected (0.8^2 - 0.4^2) / (2 K) = 4.8"
+  period --law coulomb --dynamic-friction 1 --kl 0.05 --time 20000 --dt 0.05
+  awk -v s="$(largest)" 'BEGIN { exit !(s < 1.01 * 2 * 0.8 * 0.001 / sqrt(0.05)) }' ||
+    fail "events of $(largest) although friction never falls"
+  # Slip weakening by W = 0.8 (1 - 0.75) / 0.5 = 0.4 per slip. Above this stiffness a slip swings about a slow drift,
+  # y = K V / (K - W) (t - sin(w t) / w) with w^2 = K - W, and PE falls while it is faster than the plate; below it a
+  # slip is that of the whole drop.
+  for kl in 0.5 0.8; do
+    period --law slip-weakening --dynamic-friction 0.75 --slip-distance 0.5 --kl $kl --time 4000 --dt 0.01
+    awk -v K=$kl -v W=0.4 -v V=0.001 -v s="$(largest)" 'function force(a) { return 0.8 + K * V * (a - K / (K - W) * (a - sin(a))) / w }
+      BEGIN { w = sqrt(K - W); a = atan2(sqrt(1 - W * W / K / K), W / K); first = force(a); last = force(8 * atan2(1, 1) - a)
+        theory = (first ^ 2 - last ^ 2) / (2 * K); d = s / theory - 1
+        printf "slip weakening, stiffness %s: largest slip %.5g, theory %.5g\n", K, s, theory; exit !(d < 0.01 && d > -0.01) }' ||
+      fail "slip weakening, stiffness $kl: slips of $(largest)"
+  done
+  stable=$(largest)
+  period --law slip-weakening --dynamic-friction 0.75 --slip-distance 0.5 --kl 0.1 --time 100000 --dt 0.05
+  # The drop less what the weakening takes, 0.2 x 0.5 / 2, decides how far: 0.2 D - K D^2 / 2 = 0.05.
+  near "slip weakening, stiffness 0.1" "(0.2 + sqrt(0.2 ^ 2 - 2 * 0.1 * 0.05)) / 0.1 / 0.001" 0.02
+  found=$period
+  period --law slip-weakening --dynamic-friction 0.75 --slip-distance 0.5 --kl 0.1 --time 100000 --dt 0.05 --scheme reference
+  near "its reference" "$found" 1e-3
+  awk -v s="$stable" -v most="$(largest)" 'BEGIN { exit !(most > 100 * s) }' ||
+    fail "slips below the critical stiffness are no larger than above"
+  # Eq. 6 is the default, and its reference is by GSL.
+  must_run "${short[@]}" --steps 100000 --catalogue default.csv
+  must_run "${short[@]}" --steps 100000 --law velocity-weakening --catalogue named.csv
+  same default.csv named.csv
+  period --kl 0.05 --time 60000 --dt 0.05
+  found=$period
+  period --kl 0.05 --time 60000 --dt 0.05 --scheme reference
+  near "Eq. 6" "$found" 1e-3
+  # A chain, interrupted and resumed, and on the straightforward loop; the header has the law.
+  for law in coulomb slip-weakening; do
+    chain=("${short[@]}" --law $law --steps 200000 --scheme verlet)
+    must_run "${chain[@]}" --catalogue active.csv --checkpoint whole.chk
+    must_run "${chain[@]}" --catalogue dense.csv --kernel dense
+    same active.csv dense.csv
+    grep -q "^# law = $law" active.csv || fail "no law in the header"
+    rm -f part.chk
+    "$program" --overwrite "${chain[@]}" --catalogue part.csv --checkpoint part.chk --checkpoint-interval 20000 > out.txt 2> err.txt &
+    child=$!
+    while [ ! -e part.chk ] && kill -0 $child 2> /dev/null; do :; done
+    kill -INT $child 2> /dev/null
+    wait $child
+    must_run "${chain[@]}" --catalogue part.csv --checkpoint part.chk --checkpoint-interval 20000 --resume
+    same active.csv part.csv
+  done
+  refused "--law = 'rate-state-ageing', expected velocity-weakening, coulomb or slip-weakening" --law rate-state-ageing
+  refused "--dynamic-friction needs --law coulomb or slip-weakening" --dynamic-friction 0.5
+  refused "--slip-distance needs --law slip-weakening" --law coulomb --slip-distance 0.5
+  refused "--dynamic-friction = 1.5, expected at least 0 and at most 1" --law coulomb --dynamic-friction 1.5
+  refused "--slip-distance = 0, expected a positive" --law slip-weakening --slip-distance 0
   ;;
 bad_input)
   refused "frobnicate" --frobnicate 3

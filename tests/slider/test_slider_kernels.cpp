@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <stdexcept>
 #include <vector>
 
 #include "slider_chain.h"
 #include "slider_scalar.h"
+#include "slider_switching.h"
 
 namespace Slider {
 namespace {
@@ -23,15 +25,58 @@ constexpr Case cases[] = {
     {16, 0.05, 0.1, 0.02, 60000}, {17, 0.01, 0.1, 0.05, 60000}, {100, 0.01, 0.02, 0.1, 60000},
     {255, 0.1, 0.01, 0.1, 60000}, {64, 5.0, 0.5, 0.1, 20000},   {64, 1e-3, 1.0, 0.1, 60000}};
 
+Parameters parameters(const Case &c, Scheme scheme) {
+  Parameters p;
+  p.blocks = c.blocks;
+  p.kl = c.kl;
+  p.velocity = c.velocity;
+  p.dt = c.dt;
+  p.scheme = scheme;
+  return p;
+}
+
+// The laws beside Eq. 6, whose tests follow.
+TEST(SliderKernels, OtherLawsAgreeOverKernelsAndInstructionSets) {
+  for (const Law law : {Law::coulomb, Law::slip_weakening})
+    for (const Case &c : {cases[0], cases[3], cases[7], cases[8], cases[10]})
+      for (Scheme scheme : {Scheme::printed, Scheme::semi_implicit, Scheme::verlet}) {
+        Parameters p;
+        p.blocks = c.blocks;
+        p.kl = c.kl;
+        p.dt = c.dt;
+        p.velocity = std::max(c.velocity, 0.1);
+        p.scheme = scheme;
+        p.friction = {law, 0.7, 0.3};
+        const auto mu = random_friction(p.blocks, 0.5, 1.0, 11);
+        Chain active(p, mu, false, InstructionSet::automatic);
+        Chain dense(p, mu, true, InstructionSet::x86_64);
+        ScalarChain scalar(p, mu);
+        for (int n = 0; n < 20000; ++n) {
+          active.advance();
+          dense.advance();
+          scalar.advance();
+          ASSERT_EQ(active.pe(), dense.pe())
+              << to_string(law) << " N " << c.blocks << " step " << n;
+          ASSERT_EQ(active.slip_sum(), dense.slip_sum()) << to_string(law) << " N " << c.blocks;
+          if (n == 10000) {  // a state holds all that is needed
+            active.set_state(active.state());
+            scalar.set_state(scalar.state());
+          }
+        }
+        EXPECT_EQ(active.displacements(), scalar.displacements())
+            << to_string(law) << " N " << c.blocks;
+        EXPECT_EQ(active.velocities(), scalar.velocities()) << to_string(law) << " N " << c.blocks;
+        EXPECT_NEAR(active.pe(), scalar.pe(), 1e-9 * scalar.pe());
+        EXPECT_GT(dense.moved(), 100) << "N " << c.blocks << ": nothing was tested";
+        EXPECT_EQ(active.state().rest.empty(),
+                  law != Law::slip_weakening);  // kept only where it is needed
+      }
+}
+
 TEST(SliderKernels, ActiveSetEqualsDenseToTheLastDigit) {
   for (const Case &c : cases) {
     for (Scheme scheme : {Scheme::printed, Scheme::semi_implicit, Scheme::verlet}) {
-      Parameters p;
-      p.blocks = c.blocks;
-      p.kl = c.kl;
-      p.velocity = c.velocity;
-      p.dt = c.dt;
-      p.scheme = scheme;
+      const Parameters p = parameters(c, scheme);
       const auto mu = random_friction(p.blocks, 0.5, 1.0, 11);
       Chain active(p, mu, false, InstructionSet::automatic);
       Chain dense(p, mu, true, InstructionSet::automatic);
@@ -58,12 +103,7 @@ TEST(SliderKernels, InstructionSetsAgreeToTheLastDigit) {
     }
     for (const Case &c : cases) {
       for (Scheme scheme : {Scheme::printed, Scheme::semi_implicit, Scheme::verlet}) {
-        Parameters p;
-        p.blocks = c.blocks;
-        p.kl = c.kl;
-        p.velocity = c.velocity;
-        p.dt = c.dt;
-        p.scheme = scheme;
+        const Parameters p = parameters(c, scheme);
         const auto mu = random_friction(p.blocks, 0.5, 1.0, 12);
         Chain one(p, mu, false, InstructionSet::x86_64);
         Chain other(p, mu, false, set);
@@ -82,12 +122,7 @@ TEST(SliderKernels, AgreesWithStraightforwardLoop) {
   // Same arithmetic per block, so the motion is the same; only PE is summed in another way.
   for (const Case &c : cases) {
     for (Scheme scheme : {Scheme::printed, Scheme::semi_implicit, Scheme::verlet}) {
-      Parameters p;
-      p.blocks = c.blocks;
-      p.kl = c.kl;
-      p.velocity = c.velocity;
-      p.dt = c.dt;
-      p.scheme = scheme;
+      const Parameters p = parameters(c, scheme);
       const auto mu = random_friction(p.blocks, 0.5, 1.0, 13);
       Chain active(p, mu, false, InstructionSet::automatic);
       ScalarChain scalar(p, mu);
@@ -149,6 +184,45 @@ TEST(SliderKernels, GoesOnFromAnySavedState) {
     ASSERT_EQ(straight.moved(), again->moved()) << n;
   }
   EXPECT_EQ(straight.displacements(), again->displacements());
+}
+
+TEST(SliderSwitching, GoesOnFromAnySavedState) {
+  for (Scheme scheme : {Scheme::rk4, Scheme::reference}) {
+    Parameters p;
+    p.blocks = 6;
+    p.kl = 0.5;
+    p.velocity = 0.1;
+    p.dt = 0.05;
+    p.scheme = scheme;
+    const auto mu = random_friction(p.blocks, 0.5, 1.0, 17);
+    SwitchingChain straight(p, mu);
+    auto again = std::make_unique<SwitchingChain>(p, mu);
+    for (int n = 0; n < 2000; ++n) {
+      if (n % 97 == 0) {
+        const ChainState state = straight.state();
+        EXPECT_EQ(state.u, straight.displacements());
+        EXPECT_EQ(state.v, straight.velocities());
+        EXPECT_EQ(state.pe_sum, straight.pe());
+        EXPECT_EQ(state.slip_sum, 0.0);  // nothing rides on the sums of other schemes
+        again = std::make_unique<SwitchingChain>(p, mu);
+        again->set_state(state);
+      }
+      straight.advance();
+      again->advance();
+      ASSERT_EQ(straight.pe(), again->pe()) << n;
+      ASSERT_EQ(straight.displacements(), again->displacements()) << n;
+      ASSERT_EQ(straight.switches(), again->switches()) << n;
+      ASSERT_EQ(straight.ledger().friction, again->ledger().friction) << n;
+      ASSERT_EQ(straight.ledger().plate, again->ledger().plate) << n;
+    }
+    EXPECT_GT(straight.switches(), 20);
+    ChainState state = straight.state();
+    state.switching.sliding.pop_back();
+    EXPECT_THROW(again->set_state(state), std::invalid_argument);
+    state = straight.state();
+    state.v.push_back(0.0);
+    EXPECT_THROW(again->set_state(state), std::invalid_argument);
+  }
 }
 
 TEST(SliderKernels, WorkFormulaMatchesSpringEnergies) {

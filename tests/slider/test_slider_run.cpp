@@ -9,6 +9,7 @@
 
 #include "lsm_catalogue.h"
 #include "lsm_pe_series.h"
+#include "slider_files.h"
 #include "slider_run.h"
 
 namespace Slider {
@@ -23,11 +24,6 @@ RunOptions options(int blocks, double dt, std::int64_t steps) {
   o.picker.lambda = 0.95;
   o.overwrite = true;
   return o;
-}
-
-std::string text(const std::string &path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
 TEST(SliderRun, PureLoadingOverAThousandMillionSteps) {
@@ -79,12 +75,7 @@ TEST(SliderRun, EventsAreThoseOfTheSeries) {
   o.x_centroid = o.rupture_length = true;
   const RunResult r = run(o);
   const LSM::Catalogue c = LSM::read_catalogue(o.catalogue);
-  std::vector<double> pe;
-  LSM::PeSeriesReader series;
-  series.open(o.series);
-  std::int64_t step = 0;
-  double time = 0.0, value = 0.0;
-  while (series.next(step, time, value)) pe.push_back(value);
+  const std::vector<double> pe = pe_of(o.series);
   ASSERT_EQ(pe.size(), 400001U);
   EXPECT_NEAR(pe.back(), r.pe_direct, 1e-9 * r.pe_direct);
 

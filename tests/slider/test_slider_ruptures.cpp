@@ -16,6 +16,7 @@
 #include "lsm_random.h"
 #include "slider_chain.h"
 #include "slider_ruptures.h"
+#include "slider_files.h"
 #include "slider_run.h"
 
 namespace Slider {
@@ -388,12 +389,7 @@ TEST(RupturesOfTheChain, BoundTheSlipOfEventsOfTheEnergy) {
   }
   EXPECT_GT(large, 5U);
   // PE of the ruptures is that of the series, and at least one pair overlaps.
-  std::vector<double> pe;
-  LSM::PeSeriesReader series;
-  series.open(o.series);
-  std::int64_t step = 0;
-  double time = 0.0, value = 0.0;
-  while (series.next(step, time, value)) pe.push_back(value);
+  const std::vector<double> pe = pe_of(o.series);
   ASSERT_EQ(pe.size(), 1000001U);
   for (std::size_t k = 0; k < ruptures.events.size(); ++k) {
     const LSM::Event &r = ruptures.events[k];
@@ -404,11 +400,6 @@ TEST(RupturesOfTheChain, BoundTheSlipOfEventsOfTheEnergy) {
     if (k > 0 && r.t_start < ruptures.events[k - 1].t_end) ++overlaps;
   }
   EXPECT_GT(overlaps, 100U);
-}
-
-std::string text(const std::string &path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
 TEST(RupturesOfTheChain, ResumeFindsTheRowsOfTheCheckpoint) {

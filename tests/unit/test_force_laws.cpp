@@ -69,10 +69,10 @@ TEST(Friction, DissipationClosesTheEnergyBalanceOfTheTangentialSpring) {
     const double dxi = 0.05 * std::sin(0.1 * step);
     const double fn = 1.0 + 0.5 * std::cos(0.37 * step);
     const auto s = friction_step<false>(kOne, xi, dxi, fn, false);
-    const double work = 0.5 * kOne.k_t * (xi + s.xi) * dxi;
-    const double stored = LSM::Spring::energy(kOne.k_t, s.xi) - LSM::Spring::energy(kOne.k_t, xi);
+    const double work = 0.5 * kOne.kt * (xi + s.xi) * dxi;
+    const double stored = LSM::Spring::energy(kOne.kt, s.xi) - LSM::Spring::energy(kOne.kt, xi);
     EXPECT_NEAR(work, stored + s.dissipated, 1e-15);
-    EXPECT_LE(std::fabs(s.force), kOne.mu_dynamic * fn * (1.0 + 1e-15));
+    EXPECT_LE(std::fabs(s.force), kOne.mu * fn * (1.0 + 1e-15));
     lost_in_all += s.dissipated;
     xi = s.xi;
   }
@@ -91,7 +91,7 @@ TEST(Friction, LostContactReleasesTheSpring) {
   const auto s = friction_step<false>(kOne, 0.2, 0.0, 0.0, false);
   EXPECT_EQ(s.xi, 0.0);
   EXPECT_EQ(s.force, 0.0);
-  EXPECT_DOUBLE_EQ(s.dissipated, LSM::Spring::energy(kOne.k_t, 0.2));
+  EXPECT_DOUBLE_EQ(s.dissipated, LSM::Spring::energy(kOne.kt, 0.2));
 }
 
 TEST(Friction, WithoutFrictionNothingIsStored) {

@@ -1,0 +1,276 @@
+/* ----------------------------------------------------------------------
+   SPDX-License-Identifier: GPL-2.0-or-later
+------------------------------------------------------------------------- */
+
+#include "fix_lsm_leap.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "fix_lsm_nve.h"
+#include "fix_lsm_plates.h"
+#include "force.h"
+#include "lsm_energy.h"
+#include "lsm_scene.h"
+#include "lsm_text_io.h"
+#include "modify.h"
+#include "pair_lsm_friction.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+
+static constexpr bigint KEPT_STEPS = 20000;    // of changes of the rate, for steps that are looked at later
+
+/* ---------------------------------------------------------------------- */
+
+FixLSMLeap::FixLSMLeap(LAMMPS *_lmp, int narg, char **arg) :
+    Fix(_lmp, narg, arg), fast(0.00025), slip(0.5), calm(10.0), rest(10.0), viscosity(0.1), ramp(15.0), between(1.5),
+    plates(nullptr), dt(update->dt), loading_energy(0.0), state(EVENT), factor(1.0), since(0.0), steps_time(0.0),
+    leap_time(0.0), stops(0.0), restored(false), restored_time(0.0)
+{
+  scalar_flag = 1;
+  vector_flag = 1;
+  size_vector = 6;
+  global_freq = 1;
+  extscalar = 0;
+  extvector = 0;
+  restart_global = 1;
+
+  if (narg < 4) error->all(FLERR, "Fix lsm/leap expects 'fix ID group lsm/leap plates-ID keyword value ...'");
+  plates_id = arg[3];
+  struct Keyword {
+    const char *name;
+    double *value;
+    bool zero;    // whether 0 is accepted
+  };
+  const Keyword keywords[] = {{"fast", &fast, false},         {"slip", &slip, false}, {"calm", &calm, true},
+                              {"rest", &rest, false},         {"settle", &viscosity, true},
+                              {"ramp", &ramp, true},          {"look", &between, false}};
+  for (int iarg = 4; iarg < narg; iarg += 2) {
+    const Keyword *which = nullptr;
+    for (const auto &k : keywords)
+      if (strcmp(arg[iarg], k.name) == 0) which = &k;
+    if (!which)
+      error->all(FLERR, "Unknown fix lsm/leap keyword '{}'; accepted are fast, slip, calm, rest, settle, ramp and look",
+                 arg[iarg]);
+    if (iarg + 1 >= narg) error->all(FLERR, "Fix lsm/leap keyword {} needs a value", arg[iarg]);
+    *which->value = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
+    if (!(*which->value > 0.0 || (which->zero && *which->value == 0.0)))
+      error->all(FLERR, "Fix lsm/leap {} is {}, but must be {} 0", which->name, *which->value, which->zero ? ">=" : ">");
+  }
+  reset_dt();
+}
+
+FixLSMLeap::~FixLSMLeap()
+{
+  // the other fixes may be gone already
+
+  if (auto p = dynamic_cast<FixLSMPlates *>(modify->get_fix_by_id(plates_id))) p->loading = 1.0;
+  for (auto &fix : modify->get_fix_by_style("^lsm/nve"))
+    if (auto p = dynamic_cast<FixLSMNVE *>(fix)) p->raise_viscosity(0.0);
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixLSMLeap::setmask()
+{
+  return END_OF_STEP;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixLSMLeap::init()
+{
+  plates = dynamic_cast<FixLSMPlates *>(modify->get_fix_by_id(plates_id));
+  if (!plates) error->all(FLERR, "Fix lsm/leap {}: '{}' is not the ID of a fix lsm/plates", id, plates_id);
+  if (plates->driving_velocity() == 0.0)
+    error->all(FLERR, "Fix lsm/leap {}: the plates of fix {} do not move; give it a velocity", id, plates_id);
+  if (fabs(plates->driving_velocity()) > fast)
+    error->all(FLERR, "Fix lsm/leap {}: fast is {}, but must be at least the driving velocity {} of fix {}", id, fast,
+               fabs(plates->driving_velocity()), plates_id);
+  if (modify->get_fix_by_style("^lsm/leap").size() > 1) error->all(FLERR, "More than one fix lsm/leap");
+
+  integrators.clear();
+  for (auto &fix : modify->get_fix_by_style("^lsm/nve"))
+    if (auto p = dynamic_cast<FixLSMNVE *>(fix)) integrators.push_back(p);
+  if (integrators.empty()) error->all(FLERR, "Fix lsm/leap {} needs a fix lsm/nve", id);
+
+  contacts.clear();
+  for (auto *p : LSMScene::contact_styles(force))
+    if (auto *friction = dynamic_cast<PairLSMFriction *>(p)) {
+      if (friction->law_of_time())
+        error->all(FLERR, "Fix lsm/leap {}: friction by the law {} depends on time, which leaps leave out", id,
+                   friction->law_of_time());
+      friction->record_what |= LSMEnergySource::SLIP_RATE;
+      friction->slip_moment = 0.0;
+      contacts.push_back(friction);
+    }
+  if (contacts.empty()) error->all(FLERR, "Fix lsm/leap {} needs a pair style lsm/friction", id);
+  reset_dt();
+}
+
+void FixLSMLeap::reset_dt()
+{
+  if (!changes.empty() && dt != update->dt)
+    error->all(FLERR, "Fix lsm/leap {}: the time step changed from {} to {}, but must stay the same", id, dt, update->dt);
+  dt = update->dt;
+  nevery = MAX(1, static_cast<int>(std::lround(between / dt)));
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixLSMLeap::setup(int /*vflag*/)
+{
+  // uniform shear between the plates: v grows from -fast to fast over the width
+
+  double mass = 0.0, all;
+  for (int i = 0; i < atom->nlocal; i++) mass += atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
+  MPI_Allreduce(&mass, &all, 1, MPI_DOUBLE, MPI_SUM, world);
+  loading_energy = 0.5 * all * fast * fast / 3.0;
+
+  if (changes.empty()) {
+    const double now = update->atime + static_cast<double>(update->ntimestep - update->atimestep) * dt;
+    changes.push_back({update->ntimestep, restored ? restored_time : now, factor});
+  } else {
+    changes.push_back({update->ntimestep, model_time(update->ntimestep), factor});
+  }
+  set_factor(MIN(factor, fast / fabs(plates->driving_velocity())));    // a restart may go on with a smaller one
+  plates->loading = factor;
+  for (auto *p : integrators) p->raise_viscosity(state == SETTLE ? viscosity : 0.0);
+}
+
+/* ---------------------------------------------------------------------- */
+
+double FixLSMLeap::model_time(bigint step) const
+{
+  if (changes.empty()) return restored ? restored_time : update->atime;
+  auto last = changes.rbegin();
+  while (last->step > step && std::next(last) != changes.rend()) ++last;
+  return last->time + static_cast<double>(step - last->step) * dt * last->rate;
+}
+
+std::string FixLSMLeap::settings() const
+{
+  using LSM::text_io::number;
+  return "fast " + number(fast) + " slip " + number(slip) + " calm " + number(calm) + " rest " + number(rest) +
+      " settle " + number(viscosity) + " ramp " + number(ramp) + " look " + number(between);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixLSMLeap::set_factor(double value)
+{
+  if (value == factor) return;
+  const bigint now = update->ntimestep;
+  changes.push_back({now, model_time(now), value});
+  while (changes.size() > 2 && changes[1].step < now - KEPT_STEPS) changes.pop_front();
+  factor = plates->loading = value;
+}
+
+/* ----------------------------------------------------------------------
+   the blocks only: plates move as they are driven
+------------------------------------------------------------------------- */
+
+double FixLSMLeap::kinetic() const
+{
+  const int skip = plates->plate_bits();
+  double **v = atom->v;
+  double sum = 0.0;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (atom->mask[i] & skip) continue;
+    sum += (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]) * (v[i][0] * v[i][0] + v[i][1] * v[i][1]);
+  }
+  return 0.5 * sum;
+}
+
+/* ----------------------------------------------------------------------
+   event: plates as slow as they are driven, until nothing slipped for a while
+   settle: more viscosity, until the blocks are at rest
+   leap: plates fast, until something slips
+------------------------------------------------------------------------- */
+
+void FixLSMLeap::end_of_step()
+{
+  if (state == SETTLE)
+    for (auto *p : integrators) p->complete_step();
+  double mine[2] = {0.0, state == SETTLE ? kinetic() : 0.0}, all[2];
+  for (auto *p : contacts) {
+    mine[0] += p->slip_moment;
+    p->slip_moment = 0.0;
+  }
+  MPI_Allreduce(mine, all, 2, MPI_DOUBLE, MPI_SUM, world);
+  const double span = nevery * dt;
+  const double slipping = all[0] / span / (2.0 * fast * domain->prd[0]);
+  const double most = fast / fabs(plates->driving_velocity());
+
+  steps_time += span;
+  if (state == LEAP) leap_time += span;
+  since = slipping > slip ? 0.0 : since + span;
+
+  const int before = state;
+  if (since < calm) {
+    if (state == LEAP) stops += 1.0;
+    state = EVENT;
+  } else if (state == EVENT || (state == SETTLE && all[1] > rest * loading_energy)) {
+    state = SETTLE;
+  } else {
+    state = LEAP;
+  }
+  if (state != before)
+    for (auto *p : integrators) p->raise_viscosity(state == SETTLE ? viscosity : 0.0);
+
+  const double change = ramp > span ? (most - 1.0) * span / ramp : most;
+  set_factor(state == LEAP ? MIN(most, factor + change) : MAX(1.0, MIN(most, factor) - change));
+}
+
+/* ----------------------------------------------------------------------
+   scalar = model time
+   vector = factor of the driving velocity, state (0 event, 1 settle, 2 leap), time of the steps, part of it in leaps,
+            model time beyond the time of the steps, leaps that ended
+------------------------------------------------------------------------- */
+
+double FixLSMLeap::compute_scalar()
+{
+  return model_time(update->ntimestep);
+}
+
+double FixLSMLeap::compute_vector(int n)
+{
+  const double now = update->atime + static_cast<double>(update->ntimestep - update->atimestep) * dt;
+  const double values[6] = {factor, static_cast<double>(state), steps_time, leap_time,
+                            model_time(update->ntimestep) - now, stops};
+  return values[n];
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixLSMLeap::write_restart(FILE *fp)
+{
+  const double values[7] = {model_time(update->ntimestep), static_cast<double>(state), factor, since, steps_time,
+                            leap_time, stops};
+  if (comm->me == 0) {
+    const int size = sizeof(values);
+    fwrite(&size, sizeof(int), 1, fp);
+    fwrite(values, sizeof(double), 7, fp);
+  }
+}
+
+void FixLSMLeap::restart(char *buf)
+{
+  double values[7];
+  memcpy(values, buf, sizeof(values));
+  restored_time = values[0];
+  restored = true;
+  state = static_cast<int>(values[1]);
+  factor = values[2];
+  since = values[3];
+  steps_time = values[4];
+  leap_time = values[5];
+  stops = values[6];
+}

@@ -1,0 +1,83 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   SPDX-License-Identifier: GPL-2.0-or-later
+   Lattice Solid Model: leaps over the loading between events (ours)
+------------------------------------------------------------------------- */
+
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(lsm/leap,FixLSMLeap);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_LSM_LEAP_H
+#define LMP_FIX_LSM_LEAP_H
+
+#include "fix.h"
+
+#include <deque>
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class FixLSMLeap : public Fix {
+ public:
+  FixLSMLeap(class LAMMPS *, int, char **);
+  ~FixLSMLeap() override;
+  int setmask() override;
+  void init() override;
+  void setup(int) override;
+  void end_of_step() override;
+  void reset_dt() override;
+  double compute_scalar() override;
+  double compute_vector(int) override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
+
+  double model_time(bigint step) const;    // at a step that was done in the last 10 000 steps or so
+  std::string settings() const;            // for headers of files
+
+ private:
+  enum { EVENT, SETTLE, LEAP };
+
+  // settings
+
+  std::string plates_id;
+  double fast;        // driving velocity while nothing slips
+  double slip;        // rate of slip moment over that of the whole fault at the fast velocity: above it is an event
+  double calm;        // time without such slip after which the blocks settle
+  double rest;        // kinetic energy over that of the loading motion at the fast velocity: below it they are at rest
+  double viscosity;   // while they settle, at least; 0: no more than always
+  double ramp;        // time from the slow to the fast velocity
+  double between;     // time between two looks
+
+  class FixLSMPlates *plates;
+  std::vector<class FixLSMNVE *> integrators;
+  std::vector<class LSMEnergySource *> contacts;
+  double dt, loading_energy;
+
+  // state; the model time goes on from the last change of its rate
+
+  struct Change {
+    bigint step;
+    double time, rate;
+  };
+  std::deque<Change> changes;
+  int state;
+  double factor;            // of the driving velocity now
+  double since;             // time since the last slip above the bound
+  double steps_time;        // time of the steps done under this fix
+  double leap_time;         // those of them while leaping
+  double stops;             // leaps that ended
+  bool restored;
+  double restored_time;
+
+  double kinetic() const;
+  void look();
+  void set_factor(double);
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

@@ -1,0 +1,82 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   SPDX-License-Identifier: GPL-2.0-or-later
+   What a contact loop records of the contacts it passes. A loop is compiled
+   once with each recorder, so that a run that records nothing pays nothing.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_LSM_CONTACT_RECORDER_H
+#define LMP_LSM_CONTACT_RECORDER_H
+
+#include "lsm_energy.h"
+
+#include <cmath>
+
+namespace LAMMPS_NS {
+
+/// Nothing is recorded.
+struct LSMRecordNothing {
+  static constexpr bool records = false, tallies = false;
+
+  LSMRecordNothing(LSMEnergySource &, bool, double, double) {}
+  void springs(double, double, double) {}
+  void dissipation(double, double) {}
+  void slip(double, double, double) {}
+  void finish() {}
+};
+
+/// Energies, and slip of the bins along the fault if it is asked for. `share` is that of this rank in a contact.
+class LSMRecordEnergies {
+ public:
+  static constexpr bool records = true, tallies = false;
+
+  /// setup: the step was done before; its slip was counted then.
+  LSMRecordEnergies(LSMEnergySource &source, bool setup, double xlo, double period) :
+      source_(source), counts_(!setup), slips_(!setup && (source.record_what & (LSMEnergySource::SLIP | LSMEnergySource::SLIP_RATE))), xlo_(xlo),
+      period_(period)
+  {
+    if (source.record_what) source_.slip.clear();
+  }
+  void springs(double share, double normal, double tangential)
+  {
+    normal_ += share * normal;
+    tangential_ += share * tangential;
+  }
+  void dissipation(double share, double work)
+  {
+    if (counts_) lost_ += share * work;
+  }
+  /// x: place of the contact; moment: slip times size of the contact
+  void slip(double share, double x, double moment)
+  {
+    if (!slips_) return;
+    moment_ += share * moment;
+    if (!(source_.record_what & LSMEnergySource::SLIP)) return;
+    double along = (x - xlo_) / period_;
+    along = (along - floor(along)) * period_;
+    source_.slip.push_back({floor(along / source_.slip_bin), share * moment});
+  }
+  void finish()
+  {
+    if (!source_.record_what) return;
+    source_.pe_contact = normal_;
+    source_.pe_tangential = tangential_;
+    source_.work_friction += lost_;
+    source_.slip_moment += moment_;
+  }
+
+ private:
+  LSMEnergySource &source_;
+  const bool counts_, slips_;
+  const double xlo_, period_;
+  double normal_ = 0.0, tangential_ = 0.0, lost_ = 0.0, moment_ = 0.0;
+};
+
+/// Also LAMMPS' own energy and virial, which the loop hands to the pair style.
+struct LSMRecordAndTally : LSMRecordEnergies {
+  static constexpr bool tallies = true;
+  using LSMRecordEnergies::LSMRecordEnergies;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

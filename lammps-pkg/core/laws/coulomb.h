@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file coulomb.h
+/// Coulomb friction, Eq. (3) of Weatherley & Abe 2004, with a tangential spring (ours).
+#ifdef LSM_FRICTION_LAW
+LSM_FRICTION_LAW(Coulomb)
+LSM_FRICTION_LAW(CoulombStatic)
+#endif
+#ifndef LSM_LAW_COULOMB_H
+#define LSM_LAW_COULOMB_H
+
+#include "friction_law.h"
+
+namespace LSM {
+
+/// Holds up to mu fn, and slides at mu fn.
+struct Coulomb : FrictionLaw {
+  struct Coefficients {
+    double kt, mu, mu_static;
+  };
+  static constexpr const char *name = "coulomb";
+  static constexpr Parameter parameters[] = {{"kt", Parameter::positive},
+                                             {"mu", Parameter::not_negative},
+                                             {"mu_static", Parameter::not_negative, Parameter::as_least, 1}};
+  static constexpr bool named = false;
+
+  static bool fits(const Coefficients &c) { return c.mu_static <= c.mu; }
+  static double elongation(const Coefficients &c, FrictionContact &s, double *)
+  {
+    return stick_or_slide(c.kt, s, c.mu * s.fn, c.mu * s.fn);
+  }
+};
+
+/// The same with a static coefficient above the dynamic one (ours): a contact that did not slide holds up to it.
+struct CoulombStatic : Coulomb {
+  static constexpr bool needs_sliding = true;
+
+  /// Also of the block-slider.
+  static double friction(double mu_static, double mu, bool sliding) { return sliding ? mu : mu_static; }
+
+  static bool fits(const Coefficients &) { return true; }
+  static double elongation(const Coefficients &c, FrictionContact &s, double *)
+  {
+    return stick_or_slide(c.kt, s, friction(c.mu_static, c.mu, s.sliding) * s.fn, c.mu * s.fn);
+  }
+};
+
+}    // namespace LSM
+
+#endif

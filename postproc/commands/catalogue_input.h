@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file catalogue_input.h
+/// Catalogues as the commands use them: the columns that count, and the options that choose events.
+#ifndef LSM_POSTPROC_CATALOGUE_INPUT_H
+#define LSM_POSTPROC_CATALOGUE_INPUT_H
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "event_table.h"
+#include "lsm_catalogue.h"
+
+namespace LSM::postproc {
+
+/// Which catalogues to read, and which of their events.
+struct CatalogueOptions {
+  std::vector<std::string> paths;
+  std::vector<std::string> labels;  ///< one per path, or none: labels are made from the headers
+  bool lenient = false;             ///< repair what can be repaired, and say so
+  double min_size = 0.0;            ///< events of smaller size are left out (energy)
+  double from_time = -std::numeric_limits<double>::infinity();  ///< first t_start kept
+  double to_time = std::numeric_limits<double>::infinity();     ///< first t_start left out
+
+  /// Adds the catalogue arguments, --label, --lenient, --min-size, --from and --to to a command.
+  void add_to(CLI::App *command);
+};
+
+/// Adds --threshold. \param what beside "smallest size of"
+CLI::Option *add_threshold(CLI::App *command, Threshold &threshold, const std::string &what);
+
+/// Gives each event of a catalogue that the options choose to use, which need not keep it; returns
+/// the table without the columns. \throws CatalogueError "file:line: what, expected ..."
+EventTable read_events(const std::string &path, const CatalogueOptions &options,
+                       const std::function<void(const Event &)> &use);
+
+/// Reads one catalogue. \throws CatalogueError "file:line: what, expected ..."
+EventTable load_catalogue(const std::string &path, const CatalogueOptions &options);
+
+/// \throws std::invalid_argument for impossible times, sizes or numbers of labels.
+void check(const CatalogueOptions &options);
+
+/// What was repaired, on standard error.
+void state_repairs(const EventTable &table);
+
+/// Reads all options.paths, labels them, and states repairs on standard error.
+/// \throws CatalogueError; std::invalid_argument for impossible options.
+std::vector<EventTable> load_catalogues(const CatalogueOptions &options);
+
+}  // namespace LSM::postproc
+
+#endif

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "catalogue_input.h"
+#include "commands.h"
+#include "interval_figure.h"
+#include "lsm_text_io.h"
+#include "numbers.h"
+#include "option_values.h"
+#include "picture_options.h"
+#include "plot.h"
+#include "table1.h"
+
+namespace LSM::postproc {
+
+namespace {
+
+struct Options {
+  CatalogueOptions catalogues;
+  PictureOptions picture;
+  IntervalSettings intervals;
+  std::string method = "both";
+  std::vector<std::string> deltas = {"free", "1"};
+};
+
+void run(Options &options) {
+  options.picture.check(options.catalogues.paths, {".table1.csv"});
+  IntervalSettings &settings = options.intervals;
+  settings.least_squares = options.method != "likelihood";
+  settings.maximum_likelihood = options.method != "least-squares";
+  settings.deltas.clear();
+  for (const std::string &text : options.deltas) {
+    double delta = std::numeric_limits<double>::quiet_NaN();
+    if (text != "free" && !(text_io::parse(text, delta) && delta > 0.0))
+      throw std::invalid_argument("--delta " + text_io::in_quotes(text) +
+                                  ", expected 'free' or a positive number");
+    settings.deltas.push_back(delta);
+  }
+  const std::vector<IntervalCurve> curves =
+      interval_curves(load_catalogues(options.catalogues), settings);
+  const Figure figure = interval_figure(curves, settings.rescale);
+  for (const IntervalCurve &curve : curves)
+    if (curve.bins.empty())
+      fmt::print(stderr,
+                 "postproc: {}: fewer than two events of size {} or larger, no inter-event time\n",
+                 curve.label, short_number(curve.threshold.size));
+  const std::vector<Table1Row> rows = table1(curves);
+  for (const IntervalCurve &curve : curves)
+    if (curve.n > 0)
+      fmt::print("{}, sizes from {}: {} inter-event times, mean {} model time\n", curve.label,
+                 text(curve.threshold), curve.n, short_number(curve.mean, 6));
+  fmt::print("{}", table1_text(rows, settings.rescale));
+  table1_csv(rows, settings.rescale).write(options.picture.output + ".table1.csv");
+  fmt::print("wrote {}.table1.csv\n", options.picture.output);
+  make(figure, options.picture);
+}
+
+}  // namespace
+
+void add_intervals(CLI::App &app) {
+  CLI::App *command = app.add_subcommand(
+      "intervals",
+      "Densities of inter-event times (start to start), generalised gamma fits, and the parameters "
+      "beside the paper's Table 1 (paper: Figs. 14, 15)");
+  auto options = std::make_shared<Options>();
+  options->catalogues.add_to(command);
+  add_picture_options(command, options->picture, "intervals");
+  IntervalSettings &intervals = options->intervals;
+  const std::string group = "Inter-event times";
+  command
+      ->add_option(
+          "--threshold", intervals.thresholds,
+          "Smallest size of the events (model energy), several allowed; without it 1e-4, which is "
+          "that of the paper's size densities (for times it states none), or the largest "
+          "'completeness' in the headers of a model where that is larger (ours)")
+      ->default_str("1e-4")
+      ->allow_extra_args(false)
+      ->check(zero_or_more())
+      ->group(group);
+  command
+      ->add_flag("--rescale", intervals.rescale,
+                 "Divide the times of each curve by their mean (as Corral 2004 does)")
+      ->group(group);
+  command
+      ->add_option("--bin-factor", intervals.factor,
+                   "Ratio of the edges of a bin (the value is ours: ten bins a decade)")
+      ->group(group);
+  command
+      ->add_option("--method", options->method,
+                   "How to fit: least-squares on the density (as in the paper), likelihood (ours), "
+                   "or both")
+      ->check(CLI::IsMember({"least-squares", "likelihood", "both"}))
+      ->group(group);
+  command
+      ->add_option("--delta", options->deltas,
+                   "Exponent in the exponential: free or a value, several allowed")
+      ->allow_extra_args(false)
+      ->group(group);
+  command
+      ->add_option("--shortest", intervals.shortest,
+                   "Leave shorter times out of the fits (model time, or multiples of the mean with "
+                   "--rescale); by likelihood gamma <= 0 needs this")
+      ->group(group);
+  command
+      ->add_option("--replicas", intervals.replicas,
+                   "Synthetic samples of the Monte Carlo p-value of each fit by likelihood, fitted "
+                   "as the data were; 0: none")
+      ->check(zero_or_more())
+      ->group(group);
+  command->add_option("--seed", intervals.seed, "Of the random numbers")->group(group);
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace LSM::postproc

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file series_input.h
+/// PE series as the commands use them: which samples, and how events are picked from them.
+#ifndef LSM_POSTPROC_SERIES_INPUT_H
+#define LSM_POSTPROC_SERIES_INPUT_H
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "lsm_event_picker.h"
+#include "lsm_pe_series.h"
+#include "lsm_picker_options.h"
+
+namespace LSM::postproc {
+
+/// Which samples of a PE series to use.
+struct SeriesOptions {
+  bool lenient = false;  ///< drop a truncated last sample, and say so
+  double from_time = -std::numeric_limits<double>::infinity();  ///< first time used
+  double to_time = std::numeric_limits<double>::infinity();     ///< last time used
+
+  /// Adds --lenient and, if window, --from and --to to a command.
+  void add_to(CLI::App *command, bool window);
+};
+
+/// Reads a PE series in one pass; use is called with each sample from the first to the one that
+/// ends the window, those before the window too: a picker needs them. States a truncated last
+/// sample on standard error (lenient). Returns the number of samples within the window.
+/// \throws PeSeriesError; std::invalid_argument for an impossible window.
+std::int64_t read_series(const std::string &path, const SeriesOptions &options,
+                         const std::function<void(std::int64_t step, double time, double pe)> &use);
+
+/// Adds the options of the picker to a command.
+void add_picker_options(CLI::App *command, PickerOptions &options);
+
+/// The picker that the options ask for. What is not given comes from the header of the series, so
+/// that picking afterwards repeats what the run picked; what is not there either has the defaults
+/// of PickerSettings.
+/// \param parameters header of the series, or of the catalogue picked from it
+/// \param info header of the series, for dt and stride
+/// \throws std::invalid_argument naming the option that is out of range
+PickerSettings picker_settings(const PickerOptions &options, const text_io::Parameters &parameters,
+                               const PeSeriesInfo &info);
+
+}  // namespace LSM::postproc
+
+#endif

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "interval_figure.h"
+
+#include <algorithm>
+#include <limits>
+#include <set>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "lsm_text_io.h"
+#include "numbers.h"
+
+namespace LSM::postproc {
+
+Figure interval_figure(const std::vector<IntervalCurve> &curves, bool rescaled, int width) {
+  Figure figure{Table({"curve", "model", "threshold", "bin_lo", "bin_hi", "theta", "count",
+                       "density", "error", "label"}),
+                {},
+                {}};
+  figure.table.comment(
+      rescaled ? "inter-event times from start to start, divided by their mean"
+               : "inter-event times from start to start in model time, densities in 1 / "
+                 "model time; errors: Poisson");
+  std::set<std::string> sources;
+  for (const IntervalCurve &curve : curves) sources.insert(text(curve.threshold));
+  for (const std::string &source : sources) figure.table.comment("sizes from " + source);
+  std::string points, lines;
+  std::vector<std::string> titles;
+  double lowest = std::numeric_limits<double>::infinity(), highest = 0.0, first = lowest,
+         last = 0.0;
+  std::set<double> thresholds;
+  for (const IntervalCurve &curve : curves) thresholds.insert(curve.threshold.size);
+  std::int64_t number = 0;
+  for (const IntervalCurve &curve : curves) {
+    if (curve.bins.empty()) continue;
+    ++number;
+    for (const LogBin &bin : curve.bins) {
+      figure.table.add(number).add(curve.model).add(curve.threshold.size);
+      add_bin(figure.table, bin);
+      figure.table.add(curve.label).end_row();
+      if (bin.count == 0) continue;
+      lowest = std::min(lowest, bin.density);
+      highest = std::max(highest, bin.density);
+      first = std::min(first, bin.lo);
+      last = std::max(last, bin.hi);
+    }
+    std::string title = curve.label;
+    if (thresholds.size() > 1) title += fmt::format(", s ≥ {}", short_number(curve.threshold.size));
+    const std::string row = fmt::format("row({})", number);
+    points += fmt::format(
+        "{0}{1}, \\\n     table using ({2}):8 with points lt {3} notitle, \\\n"
+        "     keyentry with linespoints lt {3} title {4}",
+        points.empty() ? "plot " : ", \\\n     ", error_bars(row, "$8", "$9", number), row, number,
+        quote(fmt::format("{} ({} times)", title, curve.n)));
+    titles.push_back(title + " (00000 times)");
+    const GeneralisedGammaFit *const fit = curve.drawn();
+    if (fit)
+      lines += fmt::format(
+          ", \\\n     [{}:{}] '+' using 1:({}*$1**({})*exp(-$1**({})/{})) with lines lt {} "
+          "notitle",
+          text_io::number(curve.bins.front().lo), text_io::number(curve.bins.back().hi),
+          text_io::number(fit->C), text_io::number(fit->gamma - 1.0), text_io::number(fit->delta),
+          text_io::number(fit->B), number);
+  }
+  if (!lines.empty())
+    lines += ", \\\n     keyentry with lines lt 8 title 'lines: fitted generalised gamma'";
+  titles.emplace_back();
+  figure.size = size_with_key(titles, width);
+  if (number == 0)
+    throw std::runtime_error("no catalogue has two events above the threshold, nothing to draw");
+  figure.script =
+      axis("x",
+           rescaled ? "inter-event time θ (mean = 1)" : "inter-event time θ (model time units)",
+           true, first, last) +
+      axis("y", rescaled ? "probability density f(θ)" : "probability density f(θ) (1 / model time)",
+           true, 0.3 * lowest, highest) +
+      "row(k) = $1 == k && $7 > 0 ? $6 : NaN\n" + std::string(error_bar_function) +
+      "set samples 400\n" + points + lines + "\n";
+  return figure;
+}
+
+}  // namespace LSM::postproc

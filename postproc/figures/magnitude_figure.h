@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file magnitude_figure.h
+/// Frequencies of magnitudes and b-values as text, table and picture (ours).
+#ifndef LSM_POSTPROC_MAGNITUDE_FIGURE_H
+#define LSM_POSTPROC_MAGNITUDE_FIGURE_H
+
+#include <string>
+#include <vector>
+
+#include "magnitudes.h"
+#include "plot.h"
+
+namespace LSM::postproc {
+
+/// One catalogue.
+struct MagnitudeCurve {
+  std::string label, model;
+  std::vector<double> magnitudes;  ///< in order of time
+  double completeness = 0.0;
+  std::string completeness_text;  ///< where it comes from
+  double curvature = 0.0;         ///< completeness by maximum curvature
+  BValue b, positive;
+};
+
+/// \param scale of the magnitudes \param of what they are magnitudes of
+std::string magnitudes_text(const std::vector<MagnitudeCurve> &curves, const MagnitudeScale &scale,
+                            const std::string &of);
+Table magnitudes_csv(const std::vector<MagnitudeCurve> &curves, const MagnitudeScale &scale,
+                     const std::string &of, double width);
+
+/// Numbers of events in each bin and from each magnitude on, with the fitted laws.
+/// \param width of the bins, > 0 \throws std::runtime_error if no curve has an event
+Figure magnitude_figure(const std::vector<MagnitudeCurve> &curves, double width);
+
+}  // namespace LSM::postproc
+
+#endif

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "numbers.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace LSM::postproc {
+
+std::string short_number(double value, int digits) {
+  return std::isnan(value) ? "-" : fmt::format("{:.{}g}", value, digits);
+}
+
+std::string with_error(double value, double error, std::string_view plus_minus) {
+  if (!std::isfinite(value) || !std::isfinite(error) || !(error > 0.0)) return short_number(value);
+  const double largest = std::max(std::abs(value), error);
+  int exponent = static_cast<int>(std::floor(std::log10(largest)));
+  if (exponent > -4 && exponent < 6) exponent = 0;
+  const double scale = std::pow(10.0, -exponent);
+  const int decimals = std::max(0, 1 - static_cast<int>(std::floor(std::log10(error * scale))));
+  const std::string pair =
+      fmt::format("{:.{}f}{}{:.{}f}", value * scale, decimals, plus_minus, error * scale, decimals);
+  return exponent == 0 ? pair : fmt::format("({})e{:+03d}", pair, exponent);
+}
+
+std::string text(const SmallestSize &smallest) {
+  const std::string size = short_number(smallest.size);
+  switch (smallest.origin) {
+    case SmallestSize::Origin::given:
+      return size + ", as given";
+    case SmallestSize::Origin::header:
+      return size + ", completeness in the header of " + smallest.source;
+    case SmallestSize::Origin::catalogue:
+      return fmt::format("{}, where {} begins", size,
+                         smallest.source.empty() ? "the catalogue" : smallest.source);
+    case SmallestSize::Origin::paper:
+      break;
+  }
+  return size + ", that of the paper's Figs. 12 and 13";
+}
+
+std::vector<std::string> texts(const Threshold &threshold, const std::vector<EventTable> &tables) {
+  std::vector<std::string> lines;
+  for (const EventTable &table : tables) {
+    const std::string line =
+        fmt::format("smallest size, {}: {}", table.info.model == "lsm" ? "fault" : "block-slider",
+                    text(threshold.in(table)));
+    if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(line);
+  }
+  return lines;
+}
+
+}  // namespace LSM::postproc

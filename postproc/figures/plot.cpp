@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "plot.h"
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <sstream>
+#include <system_error>
+
+#include <fmt/core.h>
+
+#include "lsm_text_io.h"
+#include "new_file.h"
+
+namespace LSM::postproc {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Line types: Okabe and Ito's colours (told apart with any kind of colour vision), each with its
+// own point type and dashes so that a print in black and white still tells the curves apart.
+constexpr std::string_view prelude = R"(
+set datafile separator comma
+set encoding utf8
+set linetype 1 lc rgb "#0072B2" pt 7  dt 1 lw 1.6 ps 0.8*point
+set linetype 2 lc rgb "#D55E00" pt 5  dt (14,6) lw 1.6 ps 0.75*point
+set linetype 3 lc rgb "#009E73" pt 9  dt (4,4) lw 1.8 ps 0.95*point
+set linetype 4 lc rgb "#CC79A7" pt 13 dt (14,4,3,4) lw 1.6 ps 1.0*point
+set linetype 5 lc rgb "#E69F00" pt 4  dt (20,4,3,4,3,4) lw 1.6 ps 0.8*point
+set linetype 6 lc rgb "#56B4E9" pt 6  dt (8,3) lw 1.6 ps 0.85*point
+set linetype 7 lc rgb "#7A6A00" pt 8  dt (2,3) lw 1.8 ps 0.95*point
+set linetype 8 lc rgb "#000000" pt 12 dt 1 lw 1.2 ps 0.95*point
+set linetype 9 lc rgb "#0072B2" pt 6 dt (3,5) lw 1.4 ps 0.9*point
+set linetype 10 lc rgb "#D55E00" pt 4 dt (3,5) lw 1.4 ps 0.9*point
+set linetype 11 lc rgb "#009E73" pt 8 dt (3,5) lw 1.4 ps 0.9*point
+set linetype 12 lc rgb "#CC79A7" pt 12 dt (3,5) lw 1.4 ps 0.9*point
+set linetype 13 lc rgb "#E69F00" pt 5 dt (3,5) lw 1.4 ps 0.9*point
+set linetype 14 lc rgb "#56B4E9" pt 7 dt (3,5) lw 1.4 ps 0.9*point
+set linetype 15 lc rgb "#7A6A00" pt 9 dt (3,5) lw 1.4 ps 0.9*point
+set linetype 16 lc rgb "#000000" pt 13 dt (3,5) lw 1.4 ps 0.9*point
+set linetype cycle 16
+set border lw 1.0 lc rgb "#333333"
+set tics out nomirror
+set grid xtics ytics lt 1 dt 1 lw 0.5 lc rgb "#d8d8d8"
+set key outside bottom center horizontal samplen 3 spacing 1.15 maxcols 2 width -3 Left reverse height 1
+)";
+
+/// The reason stands in gnuplot's last line; a file that is missing is only named in a warning.
+std::string gnuplot_message(const std::string &text) {
+  std::string warning, last;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const std::string trimmed(text_io::trim(line));
+    // The second: said of every picture in a locale that is not UTF-8, and harmless.
+    if (trimmed.empty() || trimmed.find("iconv failed") != std::string::npos) continue;
+    if (warning.empty() && trimmed.find("warning: ") != std::string::npos)
+      warning = trimmed.substr(trimmed.find("warning: ") + 9) + "; ";
+    last = trimmed;
+  }
+  return warning + last;
+}
+
+/// Runs gnuplot in folder. \throws PlotError with gnuplot's own message
+void run_gnuplot(const std::string &folder, std::vector<std::string> arguments) {
+  // -d: a user's own start-up file must not change the pictures.
+  arguments.insert(arguments.begin(), {"gnuplot", "-d"});
+  std::vector<char *> argv;
+  for (std::string &argument : arguments) argv.push_back(argument.data());
+  argv.push_back(nullptr);
+
+  int pipe_ends[2];
+  if (pipe2(pipe_ends, O_CLOEXEC) != 0)
+    throw PlotError("cannot start gnuplot: " + std::generic_category().message(errno));
+  const pid_t child = fork();
+  if (child == 0) {
+    const int null = open("/dev/null", O_RDWR);
+    dup2(null, STDIN_FILENO);
+    dup2(null, STDOUT_FILENO);
+    dup2(pipe_ends[1], STDERR_FILENO);
+    if (chdir(folder.c_str()) != 0) _exit(126);
+    execvp("gnuplot", argv.data());
+    _exit(errno == ENOENT ? 127 : 126);
+  }
+  const int fork_error = errno;
+  close(pipe_ends[1]);
+  std::string messages;
+  if (child > 0) {
+    char buffer[4096];
+    ssize_t count = 0;
+    while ((count = read(pipe_ends[0], buffer, sizeof(buffer))) > 0 ||
+           (count < 0 && errno == EINTR))
+      if (count > 0) messages.append(buffer, static_cast<std::size_t>(count));
+  }
+  close(pipe_ends[0]);
+  if (child < 0)
+    throw PlotError("cannot start gnuplot: " + std::generic_category().message(fork_error));
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
+    throw PlotError("gnuplot not found (Debian package gnuplot-nox)");
+  throw PlotError("gnuplot failed: " + gnuplot_message(messages));
+}
+
+/// 1, 2 and 5 times powers of ten, from the last one below lo to the first one above hi.
+std::vector<double> ticks_around(double lo, double hi) {
+  std::vector<double> ticks;
+  for (int n = static_cast<int>(std::floor(std::log10(lo))) - 1;; ++n) {
+    for (const int digit : {1, 2, 5}) {
+      const double tick = digit * std::pow(10.0, n);
+      if (tick < lo) ticks.clear();
+      ticks.push_back(tick);
+      if (tick > hi) return ticks;
+    }
+  }
+}
+
+std::string whole_script(const std::string &name, std::string_view body, PictureSize size) {
+  std::string script = fmt::format(
+      "# Draws {0}.png and {0}.svg from {0}.csv: run `gnuplot {0}.gp` in this folder.\n"
+      "base = {1}\ntable = base.\".csv\"\nif (!exists(\"formats\")) formats = \"png svg\"\n",
+      name, quote_plain(name));
+  script += fmt::format(
+      "\ndo for [format in formats] {{\n"
+      "if (format eq \"png\") {{\n"
+      "point = 1.0\n"
+      "set terminal pngcairo size {},{} enhanced font \"DejaVu Sans,26\" linewidth 2 pointscale 2 "
+      "background \"#ffffff\"\n"
+      "}} else {{\n"
+      "point = 0.65\n"
+      "set terminal svg size {},{} dynamic enhanced font \"DejaVu Sans,13\" background "
+      "\"#ffffff\"\n"
+      "}}\n"
+      "{}"
+      "set output base.\".\".format\n",
+      2 * size.width, 2 * size.height, size.width, size.height, prelude);
+  script += body;
+  if (!body.empty() && body.back() != '\n') script += '\n';
+  script += "unset output\n}\n";
+  return script;
+}
+
+void check_name(const fs::path &base) {
+  const std::string name = base.filename().string();
+  if (name.empty() || name == "." || name == "..")
+    throw FileError("--output '" + base.string() + "' ends with a folder, expected a file name");
+  for (const char c : name)
+    if (static_cast<unsigned char>(c) < 0x20)
+      throw FileError("--output has a line break or another control character in it");
+}
+
+/// Single quotes: gnuplot runs what stands in backquotes in a string of double quotes.
+std::string escape(std::string_view text, bool markup) {
+  std::string out = "'";
+  for (const char c : text) {
+    if (markup && std::string_view("\\{}^_@&~").find(c) != std::string_view::npos) out += '\\';
+    if (c == '\'') out += '\'';
+    out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  }
+  return out + "'";
+}
+
+}  // namespace
+
+void PictureOptions::check(const std::vector<std::string> &inputs,
+                           const std::vector<std::string> &more) const {
+  check_name(output);
+  for (const char *const text : {".csv", ".gp", ".png", ".svg"})
+    refuse_input(output + text, inputs);
+  for (const std::string &text : more) refuse_input(output + text, inputs);
+}
+
+Table::Table(std::vector<std::string> columns) : columns_(columns.size()) {
+  for (const std::string &column : columns) {
+    if (!header_.empty()) header_ += ',';
+    header_ += column;
+  }
+  header_ += '\n';
+}
+
+void Table::comment(std::string_view text) {
+  comments_ += "# ";
+  for (const char c : text) comments_ += c == '\n' || c == '\r' ? ' ' : c;
+  comments_ += '\n';
+}
+
+void Table::put(std::string_view field) {
+  if (fields_++ > 0) body_ += ',';
+  body_ += field;
+}
+
+Table &Table::add(double value) {
+  put(std::isnan(value) ? std::string() : text_io::number(value));
+  return *this;
+}
+
+Table &Table::add(std::int64_t value) {
+  put(text_io::number(value));
+  return *this;
+}
+
+Table &Table::add(std::string_view text) {
+  if (text.find_first_of(",\"\n\r") == std::string_view::npos) {
+    put(text);
+    return *this;
+  }
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"') quoted += '"';
+    quoted += c == '\n' || c == '\r' ? ' ' : c;
+  }
+  put(quoted + '"');
+  return *this;
+}
+
+void Table::end_row() {
+  if (fields_ != columns_)
+    throw std::logic_error(
+        fmt::format("table: a row has {} fields, expected {}", fields_, columns_));
+  body_ += '\n';
+  fields_ = 0;
+  ++rows_;
+}
+
+std::string Table::text() const { return comments_ + header_ + body_; }
+
+void Table::write(const std::string &path) const { write_file(path, text()); }
+
+void add_bin(Table &table, const LogBin &bin) {
+  table.add(bin.lo).add(bin.hi).add(bin.centre).add(bin.count).add(bin.density).add(bin.error);
+}
+
+std::string quote(std::string_view text) { return escape(text, true); }
+
+std::string quote_plain(std::string_view text) { return escape(text, false); }
+
+std::string axis(std::string_view name, std::string_view label, bool logarithmic, double lo,
+                 double hi) {
+  std::string out = fmt::format("set {}label {}\n", name, quote_plain(label));
+  const bool both = std::isfinite(lo) && std::isfinite(hi);
+  if (logarithmic) {
+    out += fmt::format("set logscale {}\n", name);
+    if (both && hi < 30.0 * lo) {
+      // Too short for powers of ten alone.
+      const std::vector<double> ticks = ticks_around(lo, hi);
+      lo = ticks.front();
+      hi = ticks.back();
+      std::string list;
+      for (const double tick : ticks)
+        list += fmt::format("{}\"{:g}\" {:g}", list.empty() ? "" : ", ", tick, tick);
+      out += fmt::format("set {}tics ({})\n", name, list);
+    } else {
+      // A hair inside, so that an end on a decade but for rounding stays there.
+      if (std::isfinite(lo)) lo = std::pow(10.0, std::floor(std::log10(lo) + 1e-9));
+      if (std::isfinite(hi)) hi = std::pow(10.0, std::ceil(std::log10(hi) - 1e-9));
+      // A label on every decade, or on every second one where they would touch.
+      const bool sparse = both && std::log10(hi / lo) > 12.5;
+      out += fmt::format("set format {0} \"10^{{%L}}\"\nset {0}tics {1}\nset m{0}tics {2}\n", name,
+                         sparse ? 100 : 10, sparse ? 2 : 10);
+    }
+  }
+  const auto end = [](double value) {
+    return std::isfinite(value) ? text_io::number(value) : std::string("*");
+  };
+  if (std::isfinite(lo) || std::isfinite(hi))
+    out += fmt::format("set {}range [{}:{}]\n", name, end(lo), end(hi));
+  return out;
+}
+
+std::string error_bars(std::string_view x, std::string_view y, std::string_view error,
+                       std::int64_t line_type) {
+  return fmt::format(
+      "table using ({0}):(low({1},{2})):(0):({1}+{2}-low({1},{2})) with vectors heads "
+      "size screen 0.003,90 lt {3} dt 1 lw 0.8 notitle",
+      x, y, error, line_type);
+}
+
+PictureSize size_with_key(const std::vector<std::string> &titles, int width) {
+  // Two columns where both fit: gnuplot reckons with about 9.2 units for a character, a sample and
+  // its gaps 60.
+  std::size_t longest = 0;
+  for (const std::string &title : titles) longest = std::max(longest, title.size());
+  const std::size_t columns = 2 * (9.2 * static_cast<double>(longest) + 60.0) < width ? 2 : 1;
+  const std::size_t rows = (titles.size() + columns - 1) / columns;
+  return {width, static_cast<int>(0.56 * width) + 23 * static_cast<int>(rows)};
+}
+
+void draw(const PictureOptions &options, std::string_view body, PictureSize size) {
+  const fs::path base(options.output);
+  check_name(base);
+  const std::string name = base.filename().string();
+  const std::string folder = base.has_parent_path() ? base.parent_path().string() : ".";
+  const std::string script = options.output + ".gp";
+  write_file(script, whole_script(name, body, size));
+  if (options.no_picture) return;
+
+  const std::array<std::string, 2> pictures = {options.output + ".png", options.output + ".svg"};
+  std::error_code code;
+  for (const std::string &picture : pictures) fs::remove(picture, code);
+  try {
+    run_gnuplot(folder, {name + ".gp"});
+    for (const std::string &picture : pictures)
+      if (fs::file_size(picture, code) == 0 || code) throw PlotError("gnuplot wrote no " + picture);
+  } catch (const PlotError &error) {
+    for (const std::string &picture : pictures) fs::remove(picture, code);
+    throw PlotError(script + ": " + error.what() +
+                    "; table and script are written (--no-picture: only these)");
+  }
+}
+
+void make(const Figure &figure, const PictureOptions &options) {
+  check_name(options.output);
+  figure.table.write(options.table());
+  draw(options, figure.script, figure.size);
+  print_written(options);
+}
+
+std::string svg_text(const Figure &figure) {
+  std::string folder = (fs::temp_directory_path() / "postproc-XXXXXX").string();
+  if (!mkdtemp(folder.data()))
+    throw FileError(folder + ": cannot make the folder: " + std::generic_category().message(errno));
+  const auto remove = [](const std::string *path) {
+    std::error_code code;
+    fs::remove_all(*path, code);
+  };
+  const std::unique_ptr<const std::string, decltype(remove)> cleaner(&folder, remove);
+  figure.table.write(folder + "/figure.csv");
+  write_file(folder + "/figure.gp", whole_script("figure", figure.script, figure.size));
+  run_gnuplot(folder, {"-e", "formats='svg'", "figure.gp"});
+  std::ifstream in(folder + "/figure.svg", std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  if (text.find("</svg>") == std::string::npos) throw PlotError("gnuplot wrote no picture");
+  return text;
+}
+
+void print_written(const PictureOptions &options) {
+  fmt::print("wrote {0}.csv, {0}.gp{1}\n", options.output,
+             options.no_picture ? "" : fmt::format(", {0}.png, {0}.svg", options.output));
+}
+
+}  // namespace LSM::postproc

@@ -1,0 +1,408 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "aftershocks.h"
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_linalg.h>
+#include <gsl/gsl_multimin.h>
+#include <gsl/gsl_randist.h>
+#include <gsl/gsl_rng.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <numeric>
+#include <stdexcept>
+
+#include "log_histogram.h"
+#include "lsm_sum.h"
+
+namespace LSM::postproc {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::int64_t fewest = 20;
+
+using Rng = std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)>;
+
+Rng generator(std::uint64_t seed) {
+  Rng rng(gsl_rng_alloc(gsl_rng_mt19937), gsl_rng_free);
+  gsl_rng_set(rng.get(), static_cast<unsigned long>(seed));
+  return rng;
+}
+
+// Integral of (t + c)^-p from a to b, p near 1 included.
+double omori_integral(double a, double b, double c, double p) {
+  const double low = std::log(a + c), high = std::log(b + c), q = 1.0 - p;
+  const double z = q * (high - low);
+  return std::exp(q * low) * (high - low) *
+         (std::fabs(z) < 1e-8 ? 1.0 + 0.5 * z : std::expm1(z) / z);
+}
+
+// ln L as a function of the numbers of aftershocks and background events expected, c and p.
+class Likelihood {
+ public:
+  explicit Likelihood(const Sequences &s) : s_(s), n_(static_cast<double>(s.times.size())) {}
+
+  double operator()(double aftershocks, double background, double c, double p) const {
+    const double scale = aftershocks / omori_integral(s_.first, s_.window, c, p);
+    const double flat = background / (s_.window - s_.first);
+    if (!std::isfinite(scale)) return -HUGE_VAL;
+    NeumaierSum sum;
+    for (const double t : s_.times)
+      sum.add(std::log(scale * std::exp(-p * std::log(t + c)) + flat));
+    return sum.value() - aftershocks - background;
+  }
+  double constant() const { return n_ * std::log(n_ / (s_.window - s_.first)) - n_; }
+  double n() const { return n_; }
+
+ private:
+  const Sequences &s_;
+  double n_;
+};
+
+// What is searched: at the maximum as many events are expected as there are, so one share is
+// enough.
+struct Search {
+  const Likelihood *likelihood;
+  double hold_c;  // NaN: fitted
+  bool background;
+  double least_ln_c, most_ln_c;
+
+  // Order: logit of the share of aftershocks (if there is a background), ln c (if fitted), p.
+  std::size_t size() const { return 1U + (background ? 1U : 0U) + (std::isnan(hold_c) ? 1U : 0U); }
+  struct Point {
+    double share, c, p;
+  };
+  Point at(const gsl_vector *x) const {
+    std::size_t i = 0;
+    Point point{1.0, hold_c, 0.0};
+    if (background) point.share = 1.0 / (1.0 + std::exp(-gsl_vector_get(x, i++)));
+    if (std::isnan(hold_c)) point.c = std::exp(gsl_vector_get(x, i++));
+    point.p = gsl_vector_get(x, i);
+    return point;
+  }
+  double cost(const gsl_vector *x) const {
+    const Point point = at(x);
+    if (std::isnan(hold_c) && !(std::log(point.c) >= least_ln_c && std::log(point.c) <= most_ln_c))
+      return 1e300;
+    if (!(std::fabs(point.p) < 20.0)) return 1e300;
+    const double n = likelihood->n();
+    const double value = (*likelihood)(n * point.share, n * (1.0 - point.share), point.c, point.p);
+    return std::isfinite(value) ? -value : 1e300;
+  }
+};
+
+struct Maximum {
+  Search::Point point{1.0, nan, nan};
+  double log_likelihood = -HUGE_VAL;
+};
+
+Maximum climb(const Search &search, double share, double ln_c, double p) {
+  const std::size_t size = search.size();
+  gsl_multimin_function function;
+  function.n = size;
+  function.params = const_cast<Search *>(&search);
+  function.f = [](const gsl_vector *x, void *data) {
+    return static_cast<const Search *>(data)->cost(x);
+  };
+  const std::unique_ptr<gsl_vector, decltype(&gsl_vector_free)> x(gsl_vector_alloc(size),
+                                                                  gsl_vector_free),
+      step(gsl_vector_alloc(size), gsl_vector_free);
+  std::size_t i = 0;
+  if (search.background) {
+    gsl_vector_set(step.get(), i, 1.0);
+    gsl_vector_set(x.get(), i++, std::log(share / (1.0 - share)));
+  }
+  if (std::isnan(search.hold_c)) {
+    gsl_vector_set(step.get(), i, 1.0);
+    gsl_vector_set(x.get(), i++, ln_c);
+  }
+  gsl_vector_set(step.get(), i, 0.3);
+  gsl_vector_set(x.get(), i, p);
+  const std::unique_ptr<gsl_multimin_fminimizer, decltype(&gsl_multimin_fminimizer_free)> work(
+      gsl_multimin_fminimizer_alloc(gsl_multimin_fminimizer_nmsimplex2, size),
+      gsl_multimin_fminimizer_free);
+  // Twice: a simplex that has collapsed early goes on from a fresh one.
+  for (int round = 0; round < 2; ++round) {
+    gsl_multimin_fminimizer_set(work.get(), &function, x.get(), step.get());
+    for (int k = 0; k < 1000; ++k)
+      if (gsl_multimin_fminimizer_iterate(work.get()) != GSL_SUCCESS ||
+          gsl_multimin_fminimizer_size(work.get()) < 1e-6)
+        break;
+    gsl_vector_memcpy(x.get(), gsl_multimin_fminimizer_x(work.get()));
+  }
+  return {search.at(x.get()), -gsl_multimin_fminimizer_minimum(work.get())};
+}
+
+// Covariance of the variables of a function at its maximum, by central differences; empty if the
+// function has none there.
+template <class Function>
+std::vector<double> covariance_at_maximum(const Function &f, const std::vector<double> &x,
+                                          const std::vector<double> &step) {
+  const std::size_t n = x.size();
+  std::vector<double> information(n * n);
+  const auto shifted = [&](std::size_t i, double a, std::size_t j, double b) {
+    std::vector<double> at = x;
+    at[i] += a * step[i];
+    at[j] += b * step[j];
+    return f(at);
+  };
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j <= i; ++j) {
+      const double second = i == j ? (shifted(i, 1, i, 0) - 2.0 * f(x) + shifted(i, -1, i, 0))
+                                   : 0.25 * (shifted(i, 1, j, 1) - shifted(i, 1, j, -1) -
+                                             shifted(i, -1, j, 1) + shifted(i, -1, j, -1));
+      information[i * n + j] = information[j * n + i] = -second / (step[i] * step[j]);
+    }
+  gsl_matrix_view matrix = gsl_matrix_view_array(information.data(), n, n);
+  if (gsl_linalg_cholesky_decomp1(&matrix.matrix) != GSL_SUCCESS ||
+      gsl_linalg_cholesky_invert(&matrix.matrix) != GSL_SUCCESS)
+    return {};
+  return information;
+}
+
+double error_of(const std::vector<double> &gradient, const std::vector<double> &covariance) {
+  double variance = 0.0;
+  const std::size_t n = gradient.size();
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j)
+      variance += gradient[i] * covariance[i * n + j] * gradient[j];
+  return std::sqrt(variance);
+}
+
+}  // namespace
+
+Sequences stack_sequences(const EventTable &events, const SequenceRule &rule) {
+  if (!(rule.window > 0.0) || !std::isfinite(rule.window))
+    throw std::invalid_argument("window after main shocks: expected a positive finite time");
+  if (!(rule.first >= 0.0) || !(rule.first < rule.window))
+    throw std::invalid_argument(
+        "first time after main shocks: expected 0 or more, below the window");
+  const std::vector<double> &start = events.t_start, &end = events.t_end, &size = events.size;
+  if (end.size() != start.size() || size.size() != start.size())
+    throw std::invalid_argument("sequences: expected one start, end and size of each event");
+  Sequences stack;
+  stack.first = rule.first;
+  stack.window = rule.window;
+  const auto index_from = [&start](double time) {
+    return static_cast<std::size_t>(std::lower_bound(start.begin(), start.end(), time) -
+                                    start.begin());
+  };
+  for (std::size_t main = 0; main < start.size(); ++main) {
+    if (!(size[main] >= rule.main_size)) continue;
+    const double from = start[main] - rule.window, to = end[main] + rule.window;
+    if (from < start.front() || to > start.back()) continue;
+    bool largest = true;
+    for (std::size_t i = index_from(from); largest && i < start.size() && start[i] <= to; ++i)
+      largest = size[i] < size[main] || i == main || (size[i] == size[main] && i > main);
+    if (!largest) continue;
+    ++stack.main_shocks;
+    for (std::size_t i = index_from(end[main] + rule.first); i < start.size() && start[i] <= to;
+         ++i)
+      if (size[i] >= rule.least_size && i != main)
+        stack.times.push_back(std::min(start[i] - end[main], rule.window));
+  }
+  std::sort(stack.times.begin(), stack.times.end());
+  return stack;
+}
+
+double OmoriFit::rate(double t) const {
+  return degenerate ? constant : K * std::pow(t + c, -p) + background;
+}
+
+OmoriFit fit_omori(const Sequences &s, double hold_c) {
+  if (!(s.window > s.first && s.first >= 0.0) || s.main_shocks < 0 ||
+      (!s.times.empty() &&
+       (s.main_shocks == 0 || s.times.front() < s.first || s.times.back() > s.window)))
+    throw std::invalid_argument("Omori fit: times outside the window, or without a main shock");
+  const bool held = !std::isnan(hold_c);
+  if (held && (!std::isfinite(hold_c) || !(hold_c >= 0.0) || !(hold_c + s.first > 0.0)))
+    throw std::invalid_argument("Omori fit: c held at " + std::to_string(hold_c) +
+                                ", expected 0 or more (0 needs a first time above 0)");
+  OmoriFit fit;
+  fit.n = static_cast<std::int64_t>(s.times.size());
+  const double shocks = static_cast<double>(s.main_shocks), span = s.window - s.first;
+  if (fit.n > 0) {
+    fit.constant = static_cast<double>(fit.n) / (shocks * span);
+    fit.se_constant = std::sqrt(static_cast<double>(fit.n)) / (shocks * span);
+  }
+  if (fit.n < fewest) {
+    fit.why = std::to_string(fit.n) + " events after " + std::to_string(s.main_shocks) +
+              " main shocks, at least " + std::to_string(fewest) + " events needed";
+    return fit;
+  }
+  const Likelihood likelihood(s);
+  // Below a thousandth of the first time nothing tells one c from another.
+  const auto positive = std::upper_bound(s.times.begin(), s.times.end(), 0.0);
+  const double shortest = positive == s.times.end() ? s.window : std::max(*positive, s.first);
+  Search search{&likelihood, hold_c, true, std::log(1e-3 * shortest), std::log(s.window)};
+  gsl_error_handler_t *const handler = gsl_set_error_handler_off();
+  Maximum best;
+  const double middle = s.times[s.times.size() / 4];
+  for (const double share : {0.3, 0.8})
+    for (const double c : {0.1 * middle, middle}) {
+      const double ln_c = std::clamp(std::log(std::max(c, 1e-300)), search.least_ln_c + 0.1,
+                                     search.most_ln_c - 0.1);
+      const Maximum found = climb(search, share, ln_c, 1.1);
+      if (found.log_likelihood > best.log_likelihood) best = found;
+      if (held) break;
+    }
+  // Less than half an event of background: at the border, where there is no curvature.
+  bool background = true;
+  if ((1.0 - best.point.share) * likelihood.n() < 0.5) {
+    background = search.background = false;
+    best = climb(search, 1.0, std::log(best.point.c > 0.0 ? best.point.c : 1.0), best.point.p);
+    best.point.share = 1.0;
+  }
+  const auto [share, c, p] = best.point;
+  fit.likelihood_ratio = std::max(0.0, 2.0 * (best.log_likelihood - likelihood.constant()));
+
+  // Errors in ln(aftershocks), p, [ln c], [ln(background)].
+  std::vector<double> x = {std::log(share * likelihood.n()), p}, step = {1e-2, 1e-3};
+  if (!held) {
+    x.push_back(std::log(c));
+    step.push_back(1e-2);
+  }
+  if (background) {
+    x.push_back(std::log((1.0 - share) * likelihood.n()));
+    step.push_back(1e-2);
+  }
+  const auto unpack = [&](const std::vector<double> &at) {
+    return std::array<double, 4>{std::exp(at[0]), background ? std::exp(at.back()) : 0.0,
+                                 held ? hold_c : std::exp(at[2]), at[1]};
+  };
+  const std::vector<double> covariance = covariance_at_maximum(
+      [&](const std::vector<double> &at) {
+        const auto [aftershocks, flat, c_at, p_at] = unpack(at);
+        return likelihood(aftershocks, flat, c_at, p_at);
+      },
+      x, step);
+  gsl_set_error_handler(handler);
+  const double needed = held ? 5.99 : 7.81;
+  if (!(fit.likelihood_ratio > needed))
+    fit.why = "no decay that a constant rate does not explain as well";
+  else if (!held &&
+           !(std::log(c) > search.least_ln_c + 0.01 && std::log(c) < search.most_ln_c - 0.01))
+    fit.why = std::log(c) < 0.5 * (search.least_ln_c + search.most_ln_c)
+                  ? "c is shorter than the times tell; hold it, or count from a later first time"
+                  : "c is as long as the window";
+  else if (!(p > 0.0))
+    fit.why = "the rate rises with time";
+  else if (covariance.empty())
+    fit.why = "no maximum of the likelihood";
+  if (!fit.why.empty()) return fit;
+  const std::size_t n = x.size();
+  fit.se_p = std::sqrt(covariance[n + 1]);
+  const double se_ln_c = held ? 0.0 : std::sqrt(covariance[2 * n + 2]);
+  if (!(fit.se_p < 0.5 && se_ln_c < 1.5)) {
+    fit.why = "K, c and p trade against each other";
+    fit.se_p = nan;
+    return fit;
+  }
+  fit.degenerate = false;
+  fit.p = p;
+  fit.c = c;
+  fit.se_c = c * se_ln_c;
+  const auto ln_K = [&](const std::vector<double> &at) {
+    const auto [aftershocks, flat, c_at, p_at] = unpack(at);
+    return std::log(aftershocks / (shocks * omori_integral(s.first, s.window, c_at, p_at)));
+  };
+  std::vector<double> gradient(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    std::vector<double> up = x, down = x;
+    up[i] += step[i];
+    down[i] -= step[i];
+    gradient[i] = (ln_K(up) - ln_K(down)) / (2.0 * step[i]);
+  }
+  fit.K = std::exp(ln_K(x));
+  fit.se_K = fit.K * error_of(gradient, covariance);
+  fit.background = (1.0 - share) * likelihood.n() / (shocks * span);
+  if (background) fit.se_background = fit.background * std::sqrt(covariance[n * n - 1]);
+  return fit;
+}
+
+EventTable poisson_catalogue(const EventTable &events, std::uint64_t seed) {
+  EventTable out = events;
+  const std::size_t n = events.t_start.size();
+  if (n < 2) return out;
+  const Rng rng = generator(seed);
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  gsl_ran_shuffle(rng.get(), order.data(), n, sizeof(std::size_t));
+  const double first = events.t_start.front(), last = events.t_start.back();
+  std::vector<double> starts(n);
+  if (events.info.overlapping()) {
+    for (double &t : starts) t = gsl_ran_flat(rng.get(), first, last);
+    std::sort(starts.begin(), starts.end());
+  } else {
+    NeumaierSum gaps;
+    for (std::size_t i = 1; i < n; ++i) gaps.add(events.t_start[i] - events.t_end[i - 1]);
+    const double mean = gaps.value() / static_cast<double>(n - 1);
+    double time = first;
+    for (std::size_t i = 0; i < n; ++i) {
+      starts[i] = time;
+      time +=
+          events.t_end[order[i]] - events.t_start[order[i]] + gsl_ran_exponential(rng.get(), mean);
+    }
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    out.t_start[i] = starts[i];
+    out.t_end[i] = starts[i] + (events.t_end[order[i]] - events.t_start[order[i]]);
+    out.size[i] = events.size[order[i]];
+  }
+  return out;
+}
+
+Aftershocks aftershocks_of(const EventTable &events, const SequenceRule &rule, double hold_c,
+                           double factor, int replicas, std::uint64_t seed) {
+  if (replicas < 0) throw std::invalid_argument("--replicas: expected 0 or more");
+  Aftershocks result;
+  result.rule = rule;
+  result.sequences = stack_sequences(events, rule);
+  result.fit = fit_omori(result.sequences, hold_c);
+  const auto histogram_of = [factor](const Sequences &sequences) {
+    LogHistogram histogram(factor);
+    for (const double time : sequences.times) histogram.add(time);
+    return histogram.bins(sequences.first, sequences.window);
+  };
+  const auto shocks = static_cast<double>(result.sequences.main_shocks);
+  for (const LogBin &bin : histogram_of(result.sequences)) {
+    const double exposure = shocks * (bin.hi - bin.lo);
+    const auto count = static_cast<double>(bin.count);
+    result.bins.push_back(
+        {bin.lo, bin.hi, bin.centre, bin.count, count / exposure, std::sqrt(count) / exposure});
+  }
+  std::vector<NeumaierSum> sums(result.bins.size()), squares(result.bins.size());
+  int as_large = 0, used = 0;
+  for (int replica = 0; replica < replicas; ++replica) {
+    const Sequences other = stack_sequences(
+        poisson_catalogue(events, seed + static_cast<std::uint64_t>(replica)), rule);
+    if (other.main_shocks == 0) continue;
+    ++used;
+    // 0 where there are too few events to fit.
+    if (fit_omori(other, hold_c).likelihood_ratio >= result.fit.likelihood_ratio) ++as_large;
+    std::vector<double> rates(result.bins.size());
+    for (const LogBin &bin : histogram_of(other))
+      for (std::size_t i = 0; i < rates.size(); ++i)
+        if (std::fabs(bin.lo - result.bins[i].lo) < 1e-9 * bin.lo)
+          rates[i] = static_cast<double>(bin.count) /
+                     (static_cast<double>(other.main_shocks) * (bin.hi - bin.lo));
+    for (std::size_t i = 0; i < rates.size(); ++i) {
+      sums[i].add(rates[i]);
+      squares[i].add(rates[i] * rates[i]);
+    }
+  }
+  for (std::size_t i = 0; used > 1 && i < result.bins.size(); ++i) {
+    RateBin &bin = result.bins[i];
+    bin.poisson = sums[i].value() / used;
+    bin.scatter = std::sqrt(std::max(0.0, squares[i].value() - used * bin.poisson * bin.poisson) /
+                            (used - 1));
+  }
+  if (used > 0 && !std::isnan(result.fit.likelihood_ratio))
+    result.p = (as_large + 1.0) / (used + 1.0);
+  return result;
+}
+
+}  // namespace LSM::postproc

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "event_table.h"
+
+#include <cmath>
+
+#include "lsm_text_io.h"
+
+namespace LSM::postproc {
+
+double EventTable::length() const {
+  double value = 0.0;
+  for (const char *key : {"length", "blocks"}) {
+    const std::string *text = info.find(key);
+    if (text && text_io::parse(*text, value) && value > 0.0) return value;
+  }
+  return std::nan("");
+}
+
+double EventTable::share_in_events() const {
+  if (t_start.empty() || info.overlapping()) return std::nan("");
+  return in_events / (last_end - t_start.front());
+}
+
+SmallestSize Threshold::in(const EventTable &table) const {
+  if (given_) return {size_, SmallestSize::Origin::given};
+  if (table.completeness > size_)
+    return {table.completeness, SmallestSize::Origin::header, table.completeness_path};
+  return {size_, SmallestSize::Origin::paper};
+}
+
+SmallestSize Threshold::complete_in(const EventTable &table) const {
+  const SmallestSize smallest = in(table);
+  if (!(table.complete_from > smallest.size)) return smallest;
+  return {table.complete_from, SmallestSize::Origin::catalogue};
+}
+
+}  // namespace LSM::postproc

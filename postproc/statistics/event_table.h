@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file event_table.h
+/// The events of a catalogue by column, as the estimators take them, and the smallest size they
+/// use.
+#ifndef LSM_POSTPROC_EVENT_TABLE_H
+#define LSM_POSTPROC_EVENT_TABLE_H
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "lsm_catalogue.h"
+
+namespace LSM::postproc {
+
+/// Events smaller than this are left out of the paper's Figs. 12 and 13 (model energy units).
+constexpr double paper_threshold = 1e-4;
+
+/// Sizes or times from lo to hi.
+struct Range {
+  double lo, hi;
+};
+
+/// The events of one catalogue, by column.
+struct EventTable {
+  std::string path, label;
+  CatalogueInfo info;
+  std::vector<double> t_start, t_end, size;  ///< in order of t_start
+  double in_events = 0.0;                    ///< sum of the durations (model time)
+  double last_end = 0.0;                     ///< t_end of the last event (model time)
+  /// Smaller events are missing: --min-size, or the picker's min_size in the header (energy).
+  double complete_from = 0.0;
+  /// The largest `completeness` in the headers of the catalogues of this model that were loaded
+  /// together, so that their curves begin at the same size, and the file that has it (energy).
+  double completeness = 0.0;
+  std::string completeness_path;
+  std::int64_t skipped_lines = 0;    ///< bad lines passed over (lenient)
+  std::int64_t left_out_small = 0;   ///< events below min_size
+  std::int64_t left_out_time = 0;    ///< events outside [from_time, to_time)
+  std::vector<std::string> repairs;  ///< what was passed over, counted by kind (lenient)
+
+  /// Fault length, or the number of blocks of a chain, from the header; NaN if it has neither.
+  double length() const;
+
+  /// Part of the time from the first start to the last end that lies within events; NaN if there is
+  /// none, or events may overlap (`events = ruptures`).
+  /// Ruptures at the same time at different places are one drop of the PE of the whole model, and
+  /// so one event: the longer the model, the larger this part and the more events are joined.
+  double share_in_events() const;
+};
+
+/// Size below which events are left out, and why there.
+struct SmallestSize {
+  enum class Origin {
+    given,     ///< by the user
+    paper,     ///< that of the paper's Figs. 12 and 13
+    header,    ///< `completeness` in the header of source, a path
+    catalogue  ///< smaller events are missing in source, a label, or in the catalogue itself
+  };
+  double size = paper_threshold;
+  Origin origin = Origin::paper;
+  std::string source = {};
+};
+
+/// Which smallest size was asked for.
+class Threshold {
+ public:
+  /// The paper's, or the completeness of the catalogues where that is larger.
+  Threshold() = default;
+  /// The one that was given.
+  Threshold(double size) : size_(size), given_(true) {}
+  bool given() const { return given_; }
+  double given_or_paper() const { return size_; }
+  double of(const EventTable &table) const {
+    return given_ ? size_ : std::max(size_, table.completeness);
+  }
+  SmallestSize in(const EventTable &table) const;
+  /// As in(), but not below where the events of the table begin.
+  SmallestSize complete_in(const EventTable &table) const;
+
+ private:
+  double size_ = paper_threshold;
+  bool given_ = false;
+};
+
+}  // namespace LSM::postproc
+
+#endif

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "intervals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "lsm_sum.h"
+
+namespace LSM::postproc {
+
+const GeneralisedGammaFit *IntervalCurve::drawn() const {
+  for (const IntervalFit &candidate : fits)
+    if (!candidate.fit.degenerate) return &candidate.fit;
+  return nullptr;
+}
+
+std::vector<double> inter_event_times(const EventTable &events, double threshold) {
+  std::vector<double> times;
+  double before = std::nan("");
+  for (std::size_t i = 0; i < events.size.size(); ++i) {
+    if (!(events.size[i] >= threshold)) continue;
+    if (!std::isnan(before)) times.push_back(events.t_start[i] - before);
+    before = events.t_start[i];
+  }
+  return times;
+}
+
+std::vector<IntervalCurve> interval_curves(const std::vector<EventTable> &tables,
+                                           const IntervalSettings &settings) {
+  if (!(settings.shortest >= 0.0) || !std::isfinite(settings.shortest))
+    throw std::invalid_argument("--shortest: expected a time of zero or more");
+  if (settings.replicas < 0) throw std::invalid_argument("--replicas: expected 0 or more");
+  std::vector<IntervalCurve> curves;
+  for (const EventTable &table : tables) {
+    std::vector<Threshold> thresholds(settings.thresholds.begin(), settings.thresholds.end());
+    if (thresholds.empty()) thresholds.emplace_back();
+    for (const Threshold &threshold : thresholds) {
+      IntervalCurve curve;
+      curve.label = table.label;
+      curve.model = table.info.model;
+      curve.threshold = threshold.complete_in(table);
+      std::vector<double> times = inter_event_times(table, curve.threshold.size);
+      curve.n = static_cast<std::int64_t>(times.size());
+      curve.mean = sum_pairwise(times.data(), times.size()) / static_cast<double>(times.size());
+      // Events of zero length can start at the same time.
+      times.erase(std::remove_if(times.begin(), times.end(), [](double t) { return !(t > 0.0); }),
+                  times.end());
+      LogHistogram histogram(settings.factor);
+      for (double &time : times) {
+        if (settings.rescale) time /= curve.mean;
+        histogram.add(time);
+      }
+      curve.bins = histogram.bins();
+      // Fitted bins keep the normalisation of the whole density, as C belongs to it.
+      std::vector<LogBin> fitted;
+      for (const LogBin &bin : curve.bins)
+        if (bin.lo >= settings.shortest) fitted.push_back(bin);
+      for (const double delta : settings.deltas) {
+        GeneralisedGammaOptions options;
+        options.fix_delta = delta;
+        if (settings.least_squares)
+          curve.fits.push_back({"least squares", delta, fit_least_squares(fitted, options)});
+        if (settings.maximum_likelihood)
+          curve.fits.push_back({"maximum likelihood", delta,
+                                fit_maximum_likelihood(times, settings.shortest, options)});
+      }
+      for (IntervalFit &fit : curve.fits) {
+        if (fit.fit.degenerate) continue;
+        fit.p = p_value(fit.fit, settings.replicas, settings.seed);
+        if (fit.fit.dof == 0) fit.p_error = std::sqrt(fit.p * (1.0 - fit.p) / settings.replicas);
+      }
+      curves.push_back(std::move(curve));
+    }
+  }
+  return curves;
+}
+
+}  // namespace LSM::postproc

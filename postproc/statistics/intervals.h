@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file intervals.h
+/// Inter-event times, their densities, and generalised gamma fits (paper: Sect. 4.3).
+#ifndef LSM_POSTPROC_INTERVALS_H
+#define LSM_POSTPROC_INTERVALS_H
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "event_table.h"
+#include "generalised_gamma.h"
+#include "log_histogram.h"
+
+namespace LSM::postproc {
+
+struct IntervalSettings {
+  /// Smallest sizes (model energy); none: Threshold().
+  std::vector<double> thresholds;
+  bool rescale = false;                          ///< times divided by their mean
+  double factor = LogHistogram::default_factor;  ///< ratio of the edges of a bin
+  double shortest = 0.0;  ///< shorter times are not fitted, in the unit of the picture; 0: none
+  bool least_squares = true, maximum_likelihood = true;
+  int replicas = 1000;  ///< of the Monte Carlo p-values of maximum likelihood; 0: none
+  std::uint64_t seed = 1;
+  std::vector<double> deltas = {std::numeric_limits<double>::quiet_NaN(), 1.0};  ///< NaN: free
+};
+
+struct IntervalFit {
+  std::string method;  ///< "least squares" or "maximum likelihood"
+  double held = 0.0;   ///< delta if it was held, NaN if it was free
+  GeneralisedGammaFit fit;
+  double p = std::numeric_limits<double>::quiet_NaN();  ///< p_value(); NaN: degenerate, no replicas
+  /// Of its Monte Carlo estimate; NaN: least squares, which needs none.
+  double p_error = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// One catalogue above one threshold.
+struct IntervalCurve {
+  std::string label, model;
+  SmallestSize threshold;
+  std::int64_t n = 0;  ///< inter-event times
+  double mean = 0.0;   ///< of the inter-event times, model time; NaN if there is none
+  std::vector<LogBin> bins;
+  std::vector<IntervalFit> fits;
+
+  /// The fit that is drawn: the first that is not degenerate, or nullptr.
+  const GeneralisedGammaFit *drawn() const;
+};
+
+/// Times from the start of an event to the start of the next one, events smaller than threshold
+/// left out (model time).
+std::vector<double> inter_event_times(const EventTable &events, double threshold);
+
+/// \throws std::invalid_argument for impossible settings
+std::vector<IntervalCurve> interval_curves(const std::vector<EventTable> &tables,
+                                           const IntervalSettings &settings);
+
+}  // namespace LSM::postproc
+
+#endif

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "size_fits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace LSM::postproc {
+
+std::vector<SizeFit> fit_sizes(const std::vector<EventTable> &tables,
+                               const SizeFitSettings &settings) {
+  if (settings.replicas < 0) throw std::invalid_argument("--replicas: expected 0 or more");
+  std::vector<SizeFit> fits;
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    std::vector<double> sorted = tables[i].size;
+    std::sort(sorted.begin(), sorted.end());
+    std::vector<PowerLawFit> laws;
+    // Below that size the missing events would pass for a flatter law.
+    const double least = tables[i].complete_from;
+    for (const Range &range : settings.ranges) {
+      if (least < range.hi) {
+        laws.push_back(fit_power_law(sorted, std::max(range.lo, least), range.hi));
+        continue;
+      }
+      PowerLawFit none;
+      none.lo = range.lo;
+      none.hi = range.hi;
+      none.degenerate = true;
+      none.why = fmt::format("the catalogue only has events from {:.4g}", least);
+      laws.push_back(none);
+    }
+    if (settings.ranges.empty()) {
+      RangeSearch search = settings.search;
+      search.lo = std::max({search.lo, least, settings.threshold.of(tables[i])});
+      laws.push_back(search_range(sorted, search));
+    }
+    for (const PowerLawFit &law : laws) {
+      SizeFit fit;
+      fit.label = tables[i].label;
+      fit.model = tables[i].info.model;
+      fit.catalogue = i;
+      fit.completeness = tables[i].info.completeness();
+      fit.fit = law;
+      if (!law.degenerate && settings.replicas > 0) {
+        fit.p = p_value(law, sorted, settings.replicas, settings.seed);
+        fit.p_error = std::sqrt(fit.p * (1.0 - fit.p) / settings.replicas);
+      }
+      if (!law.degenerate && settings.compare) fit.comparisons = compare(sorted, law);
+      fits.push_back(std::move(fit));
+    }
+  }
+  return fits;
+}
+
+std::vector<Scaling> scale_sizes(const std::vector<EventTable> &tables, const Threshold &threshold,
+                                 const Resampling &resampling) {
+  std::vector<Scaling> scalings;
+  for (const EventTable &table : tables) {
+    const double length = table.length();
+    if (std::isnan(length)) continue;
+    const std::string *const kl = table.info.find("kl");
+    const std::string stiffness = kl ? *kl : "";
+    auto found = std::find_if(scalings.begin(), scalings.end(), [&](const Scaling &scaling) {
+      return scaling.model == table.info.model && scaling.stiffness == stiffness &&
+             scaling.ruptures == table.info.overlapping();
+    });
+    if (found == scalings.end()) {
+      scalings.emplace_back();
+      found = scalings.end() - 1;
+      found->model = table.info.model;
+      found->stiffness = stiffness;
+      found->ruptures = table.info.overlapping();
+      // One for all lengths, and no catalogue with less than all of its events.
+      found->threshold = threshold.in(table);
+      for (const EventTable &other : tables) {
+        if (other.info.model != found->model || !(other.complete_from > found->threshold.size))
+          continue;
+        found->threshold = {other.complete_from, SmallestSize::Origin::catalogue, other.label};
+      }
+    }
+    found->labels.push_back(table.label);
+    // A seed of its own for each catalogue, so that their bootstrap samples are independent.
+    Resampling own = resampling;
+    own.seed += found->points.size();
+    found->points.push_back(
+        characteristic_size(table.t_start, table.size, found->threshold.size, length, own));
+  }
+  for (Scaling &scaling : scalings) scaling.fit = fit_scaling(scaling.points);
+  return scalings;
+}
+
+bool Scaling::drawable() const {
+  return std::any_of(points.begin(), points.end(),
+                     [](const SizePoint &point) { return !point.degenerate; });
+}
+
+bool Scaling::by_event() const {
+  return std::none_of(points.begin(), points.end(),
+                      [](const SizePoint &point) { return point.blocks > 0; });
+}
+
+}  // namespace LSM::postproc

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file size_fits.h
+/// Exponents of the event sizes (paper: Sect. 4.2), and whether the roll-off moves with the length
+/// of the fault, the question the paper left open.
+#ifndef LSM_POSTPROC_SIZE_FITS_H
+#define LSM_POSTPROC_SIZE_FITS_H
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "event_table.h"
+#include "finite_size.h"
+#include "power_law.h"
+
+namespace LSM::postproc {
+
+struct SizeFitSettings {
+  std::vector<Range> ranges;  ///< of sizes (model energy); none: the range is searched
+  RangeSearch search;         ///< how it is searched
+  Threshold threshold;        ///< smallest size of the search
+  int replicas = 100;         ///< of the Monte Carlo p-value; 0: none
+  std::uint64_t seed = 1;
+  bool compare = true;  ///< with the rivals of compare()
+};
+
+/// One catalogue on one range.
+struct SizeFit {
+  std::string label, model;
+  std::size_t catalogue = 0;  ///< index among the catalogues
+  double completeness = 0.0;  ///< in the header of the catalogue; 0: not said
+  PowerLawFit fit;
+  double p = std::numeric_limits<double>::quiet_NaN();        ///< NaN: not computed
+  double p_error = std::numeric_limits<double>::quiet_NaN();  ///< of its Monte Carlo estimate
+  std::vector<Comparison> comparisons;
+};
+
+/// Every catalogue on every range. \throws std::invalid_argument for impossible settings
+std::vector<SizeFit> fit_sizes(const std::vector<EventTable> &tables,
+                               const SizeFitSettings &settings);
+
+/// Characteristic sizes of the catalogues of one model against their lengths.
+struct Scaling {
+  std::string model;
+  std::string stiffness;  ///< block-slider: kl of the header; "" if there is none
+  bool ruptures = false;  ///< events are ruptures, not drops of the PE of the whole model
+  SmallestSize threshold;
+  std::vector<std::string> labels;
+  std::vector<SizePoint> points;
+  ScalingFit fit;
+
+  bool drawable() const;  ///< has a point that is not degenerate
+  bool by_event() const;  ///< errors are not those of blocks of time
+};
+
+/// One per model, stiffness of the leaf springs and kind of events, catalogues without a length
+/// left out.
+std::vector<Scaling> scale_sizes(const std::vector<EventTable> &tables, const Threshold &threshold,
+                                 const Resampling &resampling);
+
+}  // namespace LSM::postproc
+
+#endif

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "slider_checkpoint.h"
+
+#include <unistd.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include <nlohmann/json.hpp>
+
+namespace nlohmann {
+
+template <>
+struct adl_serializer<Slider::Rupture> {
+  // One list for both ways. Json: json or const json.
+  template <class Json, class Rupture, class Each>
+  static void visit(Json &j, Rupture &r, const Each &each) {
+    each(j, "step_start", r.step_start);
+    each(j, "step_end", r.step_end);
+    each(j, "first", r.first_block);
+    each(j, "begin", r.begin);
+    each(j, "length", r.length);
+    each(j, "size", r.size);
+    each(j, "slip", r.slip);
+    each(j, "slip_cos", r.slip_cos);
+    each(j, "slip_sin", r.slip_sin);
+    each(j, "pe_start", r.pe_start);
+    each(j, "pe_end", r.pe_end);
+  }
+  static void to_json(json &j, const Slider::Rupture &r) {
+    visit(j, r, [](json &to, const char *key, const auto &value) { to[key] = value; });
+  }
+  static void from_json(const json &j, Slider::Rupture &r) {
+    visit(j, r, [](const json &from, const char *key, auto &value) { from.at(key).get_to(value); });
+  }
+};
+
+template <>
+struct adl_serializer<Slider::RecentSlip> {
+  static void to_json(json &j, const Slider::RecentSlip &slip) {
+    const auto &[place, step, rupture] = slip;
+    j = {place, step, rupture};
+  }
+  static void from_json(const json &j, Slider::RecentSlip &slip) {
+    auto &[place, step, rupture] = slip;
+    j.at(0).get_to(place);
+    j.at(1).get_to(step);
+    j.at(2).get_to(rupture);
+  }
+};
+
+template <>
+struct adl_serializer<Slider::RuptureState> {
+  static void to_json(json &j, const Slider::RuptureState &state) {
+    j = {{"open", state.open}, {"recent", state.recent}};
+  }
+  static void from_json(const json &j, Slider::RuptureState &state) {
+    j.at("open").get_to(state.open);
+    j.at("recent").get_to(state.recent);
+  }
+};
+
+}  // namespace nlohmann
+
+namespace LSM {
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PickerState, samples, step, time, pe, rate, in_event, step_start,
+                                   t_start, pe_start, events, dropped_nonpositive, dropped_small,
+                                   last_size)
+}
+
+namespace Slider {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SwitchingState, sliding, friction_loss, pe_start, inner_step,
+                                   switches)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ChainState, step, slip_sum, slip_compensation, pe_sum,
+                                   pe_compensation, quiet_since, pe_anchor, loading_anchor, moved,
+                                   dpe, u, v, rest, switching)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunState, chain, picker, events, before_warmup, slip_start,
+                                   largest, u_start, ruptures)
+
+namespace {
+
+using nlohmann::json;
+
+constexpr int version = 2;
+constexpr const char *version_key = "slider_cli checkpoint";
+// First bytes of version 1, a format of its own.
+constexpr const char *version_1 = "slider-checkpoint-1\n";
+
+std::uint32_t checksum(const std::vector<std::uint8_t> &bytes) {
+  return static_cast<std::uint32_t>(crc32_z(0, bytes.data(), bytes.size()));
+}
+
+bool write_whole(const std::string &path, const std::vector<std::uint8_t> &bytes) {
+  std::FILE *file = std::fopen(path.c_str(), "wb");
+  if (!file) return false;
+  const bool good = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size() &&
+                    std::fflush(file) == 0 && fsync(fileno(file)) == 0;
+  return std::fclose(file) == 0 && good;
+}
+
+[[noreturn]] void refuse_version(const std::string &path, const std::string &found) {
+  throw std::runtime_error(path + ": checkpoint of version " + found + ", expected version " +
+                           std::to_string(version) +
+                           ": finish that run with the program that began it, or start afresh");
+}
+
+void compare(const std::string &path, const std::vector<std::string> &found,
+             const std::vector<std::string> &expected) {
+  for (std::size_t i = 0; i < std::max(found.size(), expected.size()); ++i) {
+    const std::string x = i < found.size() ? found[i] : "",
+                      y = i < expected.size() ? expected[i] : "";
+    if (x != y)
+      throw std::runtime_error(path + ": cannot resume: checkpoint has '" + x + "', expected '" +
+                               y + "'");
+  }
+}
+
+}  // namespace
+
+void write_checkpoint(const std::string &path, const std::vector<std::string> &settings,
+                      const RunState &state) {
+  const std::vector<std::uint8_t> run = json::to_cbor({{"settings", settings}, {"state", state}});
+  const json file = {{version_key, version}, {"crc32", checksum(run)}, {"run", json::binary(run)}};
+  const std::string written = path + ".new";
+  if (write_whole(written, json::to_cbor(file)) && std::rename(written.c_str(), path.c_str()) == 0)
+    return;
+  const std::string why = std::strerror(errno);
+  std::remove(written.c_str());
+  throw std::runtime_error(path + ": cannot write the checkpoint: " + why);
+}
+
+RunState read_checkpoint(const std::string &path, const std::vector<std::string> &settings) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in)
+    throw std::runtime_error(path + ": cannot be read, expected a checkpoint to resume from");
+  const std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  if (bytes.compare(0, std::strlen(version_1), version_1) == 0) refuse_version(path, "1");
+  const std::runtime_error damaged(
+      path + ": damaged checkpoint, or none of slider_cli, expected a whole file");
+  json run;
+  std::vector<std::string> found;
+  RunState state;
+  try {
+    const json file = json::from_cbor(bytes);
+    const int found_version = file.at(version_key).get<int>();
+    if (found_version != version) refuse_version(path, std::to_string(found_version));
+    const std::vector<std::uint8_t> &packed = file.at("run").get_binary();
+    if (file.at("crc32").get<std::uint32_t>() != checksum(packed)) throw damaged;
+    run = json::from_cbor(packed);
+    found = run.at("settings").get<std::vector<std::string>>();
+  } catch (const json::exception &) {
+    throw damaged;
+  }
+  compare(path, found, settings);
+  try {
+    return run.at("state").get<RunState>();
+  } catch (const json::exception &) {
+    throw damaged;
+  }
+}
+
+}  // namespace Slider

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file slider_checkpoint.h
+/// Checkpoints of a run: all that it has to know to go on to the last digit, as CBOR (RFC 8949)
+/// with a CRC-32 of it.
+#ifndef SLIDER_CHECKPOINT_H
+#define SLIDER_CHECKPOINT_H
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "lsm_event_picker.h"
+#include "slider_chain.h"
+#include "slider_ruptures.h"
+
+namespace Slider {
+
+/// A run between two steps.
+struct RunState {
+  ChainState chain;
+  LSM::PickerState picker;  ///< with ruptures, only the sizes that were dropped
+  std::int64_t events = 0, before_warmup = 0;
+  double slip_start = 0.0, largest = 0.0;
+  std::vector<double> u_start;
+  RuptureState ruptures;
+};
+
+/// Replaces the file in one go, so that there is a whole checkpoint at any moment.
+/// \param settings "key = value" of everything that shapes the run
+/// \throws std::runtime_error
+void write_checkpoint(const std::string &path, const std::vector<std::string> &settings,
+                      const RunState &state);
+
+/// \throws std::runtime_error with one line for a damaged file, one of another version, or one of a
+/// run with other settings, naming the first of them that differs
+RunState read_checkpoint(const std::string &path, const std::vector<std::string> &settings);
+
+}  // namespace Slider
+
+#endif

@@ -1,0 +1,342 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "slider_run.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+
+#include "lsm_circular_mean.h"
+#include "lsm_text_io.h"
+#include "slider_chain.h"
+#include "slider_checkpoint.h"
+#include "slider_output.h"
+#include "slider_ruptures.h"
+#include "slider_scalar.h"
+#include "slider_switching.h"
+
+namespace Slider {
+
+void check_events(const RunOptions &o) {
+  if (o.events != Events::ruptures) return;
+  if (o.parameters.scheme == Scheme::rk4 || o.parameters.scheme == Scheme::reference)
+    throw std::invalid_argument(std::string("--events = ruptures with --scheme ") +
+                                to_string(o.parameters.scheme) +
+                                ", expected the scheme printed, semi-implicit or verlet");
+  if (o.kernel == Kernel::scalar)
+    throw std::invalid_argument(
+        "--events = ruptures with --kernel scalar, expected the kernel active or dense");
+}
+
+void probe(const std::string &path, const std::string &option) {
+  if (path.empty()) return;
+  const std::string trial = path + ".new";
+  std::FILE *file = std::fopen(trial.c_str(), "wb");
+  if (!file)
+    throw std::runtime_error(path + ": " + std::strerror(errno) +
+                             ", expected a writable file for " + option);
+  std::fclose(file);
+  std::remove(trial.c_str());
+}
+
+void check_replaced(const RunOptions &o) {
+  if (o.resume || o.overwrite) return;
+  const std::pair<const std::string &, const char *> outputs[] = {
+      {o.catalogue, "--catalogue"}, {o.series, "--pe-series"}, {o.checkpoint, "--checkpoint"}};
+  for (const auto &[path, option] : outputs)
+    if (LSM::text_io::holds_data(path))
+      throw std::runtime_error(path + ": exists, expected a new file for " + option +
+                               "; --overwrite replaces it, --resume goes on with it");
+}
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// What a recorder has to tell at the end.
+struct Counts {
+  std::int64_t dropped_nonpositive = 0, dropped_small = 0;
+};
+
+/// Events are drops of the PE of the whole chain.
+template <class C>
+class PeRecorder {
+ public:
+  /// Samples after its end in which an event is found.
+  static constexpr std::int64_t late = 1;
+
+  PeRecorder(const RunOptions &o, C &chain, RunState &state, Outputs &outputs, RunResult &result)
+      : o_(o), chain_(chain), state_(state), outputs_(outputs), result_(result), picker_(o.picker) {
+    // After so many steps the picker has forgotten what it was started with, to the last digit.
+    const double memory = o.picker.reading == LSM::PickerReading::exponential
+                              ? 45.0 / std::max(1.0 - o.picker.lambda, 1e-15)
+                              : 100.0;
+    replay_ = static_cast<std::int64_t>(std::min(memory, 1e15)) + 1;
+  }
+
+  void begin() {
+    LSM::Event none;
+    picker_.push_change(0, 0.0, chain_.pe(), 0.0, none);
+  }
+  void restore() { picker_.set_state(state_.picker); }
+  void save() { state_.picker = picker_.state(); }
+  Counts counts() const { return {picker_.dropped_nonpositive(), picker_.dropped_small()}; }
+
+  /// One step, or several in which nothing slides, up to limit at most.
+  void advance(std::int64_t limit) {
+    if (!picker_.in_event() && chain_.quiet_until() > chain_.step() + replay_ && jump(limit))
+      return;
+    chain_.advance();
+    const bool before = picker_.in_event();
+    const bool report =
+        picker_.push_change(chain_.step(), o_.parameters.dt * static_cast<double>(chain_.step()),
+                            chain_.pe(), chain_.dpe(), event_);
+    // Slip is taken one sample late at both ends, which is less than a time step's worth.
+    if (picker_.in_event() && !before) open();
+    if (report) finish();
+  }
+
+ private:
+  bool located() const { return o_.x_centroid || o_.rupture_length; }
+
+  /// Nothing slips: the plate alone changes PE, and as long as it raises PE no event can commence.
+  /// With an event open the steps are taken one by one. False: no jump is worth it.
+  bool jump(std::int64_t limit) {
+    const std::int64_t last = std::min(chain_.quiet_until(), limit);
+    // The sample that is due next is taken by a step.
+    const std::int64_t to = std::min(last, outputs_.next_sample(chain_.step()) - 1) - replay_;
+    if (!(to > chain_.step() && picker_.rate() >= 0.0 && chain_.quiet_change(chain_.step()) > 0.0))
+      return false;
+    LSM::PickerState s = picker_.state();
+    result_.jumped += to - chain_.step();
+    s.samples += to - chain_.step();
+    chain_.jump(to);
+    s.step = to;
+    s.time = o_.parameters.dt * static_cast<double>(to);
+    s.pe = chain_.pe();
+    s.rate = chain_.dpe();
+    if (o_.picker.reading == LSM::PickerReading::literal)
+      s.rate /= 1.0 + o_.picker.lambda * static_cast<double>(s.samples - 2);
+    picker_.set_state(s);
+    return true;
+  }
+
+  void open() {
+    state_.slip_start = chain_.slip_sum();
+    if (located()) state_.u_start = chain_.displacements();
+  }
+
+  void finish() {
+    if (event_.t_start < o_.warmup) {
+      ++state_.before_warmup;
+      return;
+    }
+    event_.id = ++state_.events;
+    event_.slip_moment = chain_.slip_sum() - state_.slip_start;
+    if (located()) locate();
+    state_.largest = std::max(state_.largest, event_.size);
+    outputs_.event(event_);
+  }
+
+  void locate() {
+    const std::vector<double> u = chain_.displacements();
+    LSM::CircularMean mean(static_cast<double>(u.size()));
+    for (std::size_t i = 0; i < u.size(); ++i) {
+      const double slip = u[i] - state_.u_start[i];
+      if (slip > 0.0) event_.rupture_length += 1.0;
+      mean.add(static_cast<double>(i), slip);
+    }
+    event_.x_centroid = mean.position();
+  }
+
+  const RunOptions &o_;
+  C &chain_;
+  RunState &state_;
+  Outputs &outputs_;
+  RunResult &result_;
+  LSM::EventPicker picker_;
+  LSM::Event event_;
+  std::int64_t replay_ = 0;
+};
+
+/// Events are ruptures, see slider_ruptures.h.
+class RuptureRecorder {
+ public:
+  RuptureRecorder(const RunOptions &o, Chain &chain, RunState &state, Outputs &outputs,
+                  RunResult &result)
+      : late(o.rupture_memory),
+        o_(o),
+        chain_(chain),
+        state_(state),
+        outputs_(outputs),
+        result_(result),
+        tracker_(o.parameters.blocks, o.rupture_memory, o.x_centroid) {}
+
+  /// Steps after its end in which a rupture is found: when its memory is over.
+  const std::int64_t late;
+
+  void begin() {}
+  void restore() { tracker_.set_state(state_.ruptures, chain_.step()); }
+  void save() { state_.ruptures = tracker_.state(); }
+  // Counted where the picker does, for checkpoints.
+  Counts counts() const { return {state_.picker.dropped_nonpositive, state_.picker.dropped_small}; }
+
+  /// One step, or several in which nothing slides, up to limit at most.
+  void advance(std::int64_t limit) {
+    if (tracker_.idle() && chain_.quiet_until() > chain_.step() + 1) {
+      const std::int64_t to =
+          std::min({chain_.quiet_until(), limit, outputs_.next_sample(chain_.step())});
+      result_.jumped += to - chain_.step() - 1;
+      chain_.jump(to);
+      return;
+    }
+    chain_.advance(tracker_);
+    if (!std::isfinite(chain_.dpe()) || !std::isfinite(chain_.pe()))
+      throw std::runtime_error("potential energy at step " + std::to_string(chain_.step()) +
+                               " is not a finite number");
+    tracker_.end_step(chain_.pe(), [this](const Rupture &rupture) { finish(rupture); });
+  }
+
+ private:
+  void finish(const Rupture &rupture) {
+    LSM::Event e = tracker_.event(rupture, o_.parameters.dt);
+    if (!(e.size > 0.0)) {
+      if (!o_.picker.keep_nonpositive) {
+        ++state_.picker.dropped_nonpositive;
+        return;
+      }
+    } else if (e.size < o_.picker.min_size) {
+      ++state_.picker.dropped_small;
+      return;
+    }
+    if (e.t_start < o_.warmup) {
+      ++state_.before_warmup;
+      return;
+    }
+    e.id = ++state_.events;
+    state_.largest = std::max(state_.largest, e.size);
+    outputs_.event(e);
+  }
+
+  const RunOptions &o_;
+  Chain &chain_;
+  RunState &state_;
+  Outputs &outputs_;
+  RunResult &result_;
+  RuptureTracker tracker_;
+};
+
+/// Everything that shapes the result, as "key = value".
+std::vector<std::string> settings_of(const RunOptions &o) {
+  std::vector<std::string> lines;
+  for (const auto &[key, value] : o.header) lines.push_back(key + " = " + value);
+  // The straightforward loop keeps none of the sums that the others go on from.
+  lines.emplace_back(o.kernel == Kernel::scalar ? "kernel = scalar" : "kernel = active or dense");
+  return lines;
+}
+
+/// Says on standard error how far the run is, once a second.
+class Progress {
+ public:
+  explicit Progress(const RunOptions &o) : on_(o.progress), steps_(o.steps) {}
+  void tell(std::int64_t step, std::int64_t events) {
+    if (!on_ || !(Clock::now() - told_ > std::chrono::seconds(1))) return;
+    told_ = Clock::now();
+    std::fprintf(stderr, "step %lld of %lld, %lld events\n", static_cast<long long>(step),
+                 static_cast<long long>(steps_), static_cast<long long>(events));
+  }
+
+ private:
+  bool on_;
+  std::int64_t steps_;
+  Clock::time_point told_ = Clock::now();
+};
+
+template <class Recorder, class C>
+RunResult run_chain(const RunOptions &o, C &chain) {
+  const Clock::time_point begin = Clock::now();
+  RunState state;
+  RunResult result;
+  Outputs outputs(o);
+  Recorder recorder(o, chain, state, outputs, result);
+  const std::vector<std::string> settings = settings_of(o);
+  if (o.resume) {
+    state = read_checkpoint(o.checkpoint, settings);
+    chain.set_state(state.chain);
+    recorder.restore();
+    outputs.resume(chain.step(), state.events, recorder.late);
+  } else {
+    outputs.create(chain.pe());
+    recorder.begin();
+  }
+  result.first_step = chain.step();
+
+  const auto save = [&] {
+    outputs.flush();
+    state.chain = chain.state();
+    recorder.save();
+    write_checkpoint(o.checkpoint, settings, state);
+  };
+  const bool checkpoints = !o.checkpoint.empty();
+  const std::int64_t interval = checkpoints ? o.checkpoint_interval : 0;
+  // Signals and the clock are looked at so often only.
+  const std::int64_t look = std::max<std::int64_t>(16, 200000 / (o.parameters.blocks + 100));
+  Progress progress(o);
+  while (chain.step() < o.steps) {
+    std::int64_t limit = o.steps;
+    if (interval > 0) limit = std::min(limit, (chain.step() / interval + 1) * interval);
+    const std::int64_t pause = std::min(limit, chain.step() + look);
+    while (chain.step() < pause) {
+      recorder.advance(limit);
+      outputs.sample(chain.step(), chain.pe());
+    }
+    if (interval > 0 && chain.step() % interval == 0 && chain.step() < o.steps) save();
+    const int stopped_by = o.stop ? o.stop->load(std::memory_order_relaxed) : 0;
+    if (stopped_by != 0 && chain.step() < o.steps) {
+      result.interrupted = stopped_by;
+      if (checkpoints) save();
+      break;
+    }
+    progress.tell(chain.step(), state.events);
+  }
+  if (checkpoints && result.interrupted == 0) save();
+  outputs.close();
+
+  result.steps = chain.step();
+  result.events = state.events;
+  result.before_warmup = state.before_warmup;
+  result.dropped_nonpositive = recorder.counts().dropped_nonpositive;
+  result.dropped_small = recorder.counts().dropped_small;
+  result.moved = chain.moved();
+  result.pe = chain.pe();
+  const double plate = o.parameters.velocity * o.parameters.dt * static_cast<double>(chain.step());
+  result.pe_direct = direct_energy(o.parameters, chain.displacements(), plate);
+  result.mean_slip = chain.slip_sum() / o.parameters.blocks;
+  result.largest_event = state.largest;
+  result.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  return result;
+}
+
+}  // namespace
+
+RunResult run(const RunOptions &o) {
+  const Parameters &p = o.parameters;
+  check_events(o);
+  if (p.scheme == Scheme::rk4 || p.scheme == Scheme::reference) {
+    SwitchingChain chain(p, o.mu);
+    return run_chain<PeRecorder<SwitchingChain>>(o, chain);
+  }
+  if (o.kernel == Kernel::scalar) {
+    ScalarChain chain(p, o.mu);
+    return run_chain<PeRecorder<ScalarChain>>(o, chain);
+  }
+  Chain chain(p, o.mu, o.kernel == Kernel::dense, o.isa);
+  return o.events == Events::ruptures ? run_chain<RuptureRecorder>(o, chain)
+                                      : run_chain<PeRecorder<Chain>>(o, chain);
+}
+
+}  // namespace Slider

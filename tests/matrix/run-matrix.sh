@@ -1,0 +1,213 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-2.0-or-later
+# Builds and runs the package with other versions of LAMMPS, compilers and integers, and in each way it can be used, and
+# compares a short fault with the reference, byte by byte. README.md in this folder tells what each column does.
+#
+# usage: tests/matrix/run-matrix.sh [--folder FOLDER] [--jobs N] [COLUMN...]
+#   --folder FOLDER   where everything is built (default build-matrix; some GB)
+#   --jobs N          processes for compiling (default: number of cores)
+#   COLUMN...         reference clang bigbig jul2026 plugin installed testers testers-jul2026 (default: all, in this order);
+#                     all but the reference need it done before
+# LSM_LAMMPS_CACHE is used as by the build; default FOLDER/cache. LSM_MATRIX_FLAGS are the flags for LAMMPS' own sources in
+# all columns but the reference (default -O1). The table is FOLDER/table.md, one row a column with its date.
+set -euo pipefail
+root=$(cd "$(dirname "$0")/../.." && pwd)
+folder=$root/build-matrix
+jobs=$(nproc)
+all="reference clang bigbig jul2026 plugin installed testers testers-jul2026"
+columns=()
+fail() { echo "run-matrix: $*" >&2; exit 1; }
+while [ $# -gt 0 ]; do
+  case $1 in
+    --folder) [ $# -ge 2 ] || fail "--folder needs a folder"; mkdir -p "$2"; folder=$(cd "$2" && pwd); shift 2 ;;
+    --jobs) [[ ${2:-} =~ ^[1-9][0-9]*$ ]] || fail "--jobs needs a number of at least 1"; jobs=$2; shift 2 ;;
+    -h | --help) sed -n '3,14s/^# \{0,1\}//p' "$0"; exit ;;
+    *) [[ " $all " == *" $1 "* ]] || fail "unknown column '$1', expected one of: $all"; columns+=("$1"); shift ;;
+  esac
+done
+[ ${#columns[@]} -gt 0 ] || read -ra columns <<<"$all"
+mkdir -p "$folder"
+export LSM_LAMMPS_CACHE=${LSM_LAMMPS_CACHE:-$folder/cache}
+export CMAKE_BUILD_PARALLEL_LEVEL=$jobs
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 \
+  OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_hwloc_base_binding_policy=none OMP_NUM_THREADS=1
+flags="-DCMAKE_CXX_FLAGS_RELEASE=${LSM_MATRIX_FLAGS:--O1} -DNDEBUG"
+precompile=-DCMAKE_PROJECT_INCLUDE=$root/tests/matrix/precompile.cmake
+
+. "$root/lammps-pkg/cmake/debian-packages.sh"
+install_debian_packages $lammps_packages clang libgtest-dev libgmock-dev libyaml-dev
+
+# The fault of every column: short, fast plates, with events, energies and the places of events.
+scene=(-var length 30 -var width 16 -var seed 3 -var settle 2000 -var steps 6000 -var checkpoint 3000 -var velocity 0.01
+  -var thermo 3000 -var location yes -var ledger yes)
+
+# run_fault COLUMN LMP [PLUGIN]: on 1 and 2 ranks, in FOLDER/COLUMN/fault
+run_fault() {
+  local name=$1 lmp=$2 plugin=${3:-} at=$folder/$1/fault ranks
+  rm -rf "$at"
+  mkdir -p "$at"
+  { [ -z "$plugin" ] || echo "plugin load $plugin"; echo "include $root/inputs/fault_120.in"; } >"$at/in.fault"
+  for ranks in 1 2; do
+    (cd "$at" && mpirun -np $ranks "$lmp" -in in.fault -log none "${scene[@]}" -var prefix on_$ranks >out_$ranks.txt 2>&1) ||
+      { tail -n 5 "$at/out_$ranks.txt"; return 1; }
+  done
+}
+
+# compare_fault COLUMN: what a fault has in common with that of the reference, in words
+compare_fault() {
+  local ours=$folder/$1/fault theirs=$folder/reference/fault ranks words=""
+  for ranks in 1 2; do
+    local events difference="same bytes"
+    events=$(grep -vc '^[#e]' "$ours/on_$ranks.catalogue.csv" || true)
+    [ "$events" -ge 5 ] || { echo "FAILED: $events events on $ranks ranks say nothing"; return 1; }
+    cmp -s "$ours/on_$ranks.pe.bin" "$theirs/on_$ranks.pe.bin" || difference="PE series differs"
+    # the comment lines name the version of LAMMPS
+    cmp -s <(grep -v '^#' "$ours/on_$ranks.catalogue.csv") <(grep -v '^#' "$theirs/on_$ranks.catalogue.csv") ||
+      difference="$difference, catalogue differs"
+    words="$words${words:+; }$ranks rank$([ $ranks = 1 ] || echo s): $events events, $difference"
+  done
+  echo "$words"
+  [[ $words != *differs* ]]
+}
+
+# configure COLUMN OPTIONS...: the project
+configure() {
+  local log=$folder/$1.configure.log at
+  at=$(realpath -m "$folder/$1")
+  shift
+  cmake -S "$root" -B "$at" -G Ninja -DLSM_BUILD_SLIDER=OFF -DLSM_BUILD_POSTPROC=OFF "$@" >"$log" 2>&1 ||
+    { tail -n 20 "$log"; return 1; }
+}
+
+# build COLUMN TARGETS...: the log grows, so that no warning is forgotten when only a part is built anew
+build() {
+  local log=$folder/$1.build.log at=$folder/$1
+  shift
+  cmake --build "$at" --parallel "$jobs" --target "$@" >>"$log" 2>&1 || { tail -n 30 "$log"; return 1; }
+  ! grep "^$root/\(lammps-pkg\|tests\)/.*warning:" "$log"
+}
+
+# run_tests COLUMN PATTERN LOG: how many passed, in words
+run_tests() {
+  local rc=0 log=$folder/$3.tests.log
+  ctest --test-dir "$folder/$1" -R "$2" --no-tests=error --output-on-failure >"$log" 2>&1 || rc=$?
+  sed -n 's/^\([0-9]*%\) tests passed, \([0-9]*\) tests failed out of \([0-9]*\)/\3 run, \2 failed/p' "$log"
+  return $rc
+}
+
+compiler_of() { "$1" --version | head -n 1; }
+
+# row COLUMN LAMMPS COMPILER INTEGERS BUILD TESTS FAULT
+row() { printf '| %s | %s | %s | %s | %s | %s | %s | %s |\n' "$1" "$2" "$3" "$4" "$5" "$6" "$7" "$(date +%F)" >"$folder/$1.row"; }
+
+# The source of a version, with LAMMPS' testers: FOLDER/unittest-NAME
+testers_of() {
+  local tarball=$1 at=$2
+  [ -d "$at/force-styles" ] && return
+  rm -rf "$at.part"
+  mkdir -p "$at.part"
+  tar -xf "$tarball" -C "$at.part" --wildcards '*unittest/*'
+  mv "$(find "$at.part" -maxdepth 2 -type d -name unittest)" "$at"
+  rm -rf "$at.part"
+}
+
+# whole COLUMN LAMMPS INTEGERS COMPILER OPTIONS...: project, tests and fault
+whole() {
+  local name=$1 lammps=$2 integers=$3 compiler=$4 tests fault ok=0
+  shift 4
+  configure "$name" "$@"
+  case $name in
+    reference | clang)
+      build "$name" lmp lsmplugin lsmplugin_other_integers lsm_library_errors lsm_unit_tests lsm_physics_tests
+      tests=$(run_tests "$name" '^(unit|physics|package)\.' "$name") || ok=1
+      tests="unit, physics, package: $tests"
+      ;;
+    *)
+      # unit tests know no LAMMPS; those of physics start the program of this column
+      build "$name" lmp lsmplugin lsmplugin_other_integers lsm_library_errors
+      tests=$(run_tests "$name" '^(package\.|physics\.library)' "$name") || ok=1
+      tests="package, library: $tests; physics: $(LSM_LMP=$folder/$name/bin/lmp \
+        run_tests reference '^physics\.[A-Z]' "$name.physics")" || ok=1
+      ;;
+  esac
+  run_fault "$name" "$folder/$name/bin/lmp"
+  fault=$(compare_fault "$name") || ok=1
+  row "$name" "$lammps" "$compiler" "$integers" "no warning" "$tests" "$fault"
+  return $ok
+}
+
+do_column() {
+  local name=$1 gxx clang tests fault ok=0
+  gxx=$(compiler_of g++)
+  clang=$(compiler_of clang++)
+  case $name in
+    reference) whole reference "4 Feb 2025" smallbig "$gxx" ;;
+    clang) whole clang "4 Feb 2025" smallbig "$clang" -DCMAKE_CXX_COMPILER=clang++ "-DLSM_LAMMPS_OPTIONS=$flags;$precompile" ;;
+    bigbig) whole bigbig "4 Feb 2025" bigbig "$gxx" -DLSM_LAMMPS_SIZES=bigbig "-DLSM_LAMMPS_OPTIONS=$flags;$precompile" ;;
+    jul2026) whole jul2026 "4 Jul 2026" smallbig "$gxx" "-DLSM_LAMMPS_VERSION=4 Jul 2026" "-DLSM_LAMMPS_OPTIONS=$flags;$precompile" ;;
+    plugin)
+      local stock
+      stock=$(sed -n 's/^LSM_STOCK_LMP:INTERNAL=//p' "$folder/reference/CMakeCache.txt")
+      ! "$stock" -h | grep -q 'lsm/' || { echo "the stock lmp has the styles already"; return 1; }
+      run_fault plugin "$stock" "$folder/reference/lib/lsmplugin.so"
+      fault=$(compare_fault plugin) || ok=1
+      row plugin "4 Feb 2025, stock lmp" "$gxx" smallbig "that of the reference" "those of the reference (package.plugin)" "$fault"
+      return $ok
+      ;;
+    installed)
+      # into a copy of the source; LAMMPS' own CMake builds the program, with warnings shown
+      local tree=$folder/installed-lammps at=$folder/installed
+      if [ ! -d "$tree" ]; then
+        cp -rL "$LSM_LAMMPS_CACHE/lammps-4Feb2025" "$tree.part"
+        mv "$tree.part" "$tree"
+      fi
+      "$root/lammps-pkg/install-into-lammps.sh" "$tree" >"$folder/installed.configure.log"
+      cmake -S "$tree/cmake" -B "$at" -G Ninja "$precompile" -DCMAKE_BUILD_TYPE=Release "$flags" \
+        "-DCMAKE_CXX_FLAGS=-ffp-contract=off -fno-math-errno -Wall -Wextra" -DPKG_LSM=on -DPKG_MOLECULE=on -DPKG_GRANULAR=on \
+        -DPKG_BPM=on -DBUILD_OMP=off -DWITH_JPEG=off -DWITH_FFMPEG=off -DDOWNLOAD_POTENTIALS=off \
+        >>"$folder/installed.configure.log" 2>&1
+      cmake --build "$at" --parallel "$jobs" >"$at.build.log" 2>&1 || { tail -n 30 "$at.build.log"; return 1; }
+      ! grep "src/LSM/.*warning:" "$at.build.log" || return 1
+      "$at/lmp" -h | grep -q '\bLSM\b' || { echo "lmp -h does not name the package"; return 1; }
+      run_fault installed "$at/lmp"
+      fault=$(compare_fault installed) || ok=1
+      row installed "4 Feb 2025, package copied into its tree" "$gxx" smallbig "full link, no warning" "none: LAMMPS' own build" "$fault"
+      return $ok
+      ;;
+    testers | testers-jul2026)
+      local base=reference version="4 Feb 2025" tarball=lammps-4Feb2025.tar.xz
+      [ $name = testers ] || { base=jul2026 version="4 Jul 2026" tarball=lammps-4Jul2026.tar.gz; }
+      [ -f "$LSM_LAMMPS_CACHE/$tarball" ] || { echo "no $tarball in $LSM_LAMMPS_CACHE: it holds the testers"; return 1; }
+      testers_of "$LSM_LAMMPS_CACHE/$tarball" "$folder/unittest-$base"
+      configure "$base" "-DLSM_LAMMPS_UNITTEST=$(realpath "$folder/unittest-$base")"
+      build "$base" test_bond_style test_pair_style test_fix_timestep
+      tests=$(run_tests "$base" '^force-styles\.' "$name") || ok=1
+      row "$name" "$version, its own testers of styles" "$gxx" smallbig "no warning" "$tests" "-"
+      return $ok
+      ;;
+  esac
+}
+
+bad=()
+for name in "${columns[@]}"; do
+  [ "$name" = reference ] || [ -f "$folder/reference.row" ] || fail "$name is compared with the reference, which is not done yet"
+  echo "== $name ($(date '+%F %T'))"
+  rm -f "$folder/$name.row"
+  set +e
+  (set -e; do_column "$name")
+  rc=$?
+  set -e
+  if [ $rc -ne 0 ]; then
+    bad+=("$name")
+    [ -f "$folder/$name.row" ] || row "$name" "" "" "" "**failed**" "" ""
+  fi
+done
+{
+  echo "| column | LAMMPS | compiler | integers | build | tests | fault beside the reference | date |"
+  echo "|---|---|---|---|---|---|---|---|"
+  for name in $all; do
+    [ ! -f "$folder/$name.row" ] || cat "$folder/$name.row"
+  done
+} >"$folder/table.md"
+cat "$folder/table.md"
+[ ${#bad[@]} -eq 0 ] || fail "failed: ${bad[*]}"

@@ -1,0 +1,595 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The friction laws of pair lsm/friction in a spring-slider: a disc that is pressed on a flat
+// surface and pulled by a spring whose end moves. Periods, critical stiffnesses and motion against
+// closed forms, and against GSL where there is none; then restart, ranks, ledger, hybrid and
+// refusals for every law. GSL is linked by this program, not by lmp.
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_odeiv2.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "disc_scene.h"
+#include "fault_scene.h"
+#include "lsm_catalogue.h"
+
+using namespace physics;
+
+namespace {
+
+/// Mass 1, pressed with 1, normal stiffness 100. Moved at `speed` by force for the time `before`,
+/// then let go with the velocity `begin` on a spring of `stiffness` whose force is then `pull` and
+/// whose end goes on at `speed`.
+struct Slider {
+  std::string law, coefficients;  // behind kt
+  double kt = 100.0, stiffness = 1.0, speed = 1e-3, viscosity = 0.0, dt = 0.02;
+  double before = 0.0, begin = 0.0, pull = 0.0, time = 100.0, every = 1.0;
+
+  std::string script() const {
+    const std::string R = "100000";
+    return R"(
+units             lj
+dimension         2
+boundary          f f p
+atom_style        sphere
+atom_modify       map array
+neighbor          0.3 nsq
+region            box block -40 40 -100010 10 -0.5 0.5
+create_box        2 box
+create_atoms      1 single 0 -100000 0
+create_atoms      2 single 0 0.99 0
+group             base type 1
+group             disc type 2
+set               group base diameter 200000
+set               group disc diameter 2
+set               group base mass 1
+set               group disc mass 1
+pair_style        lsm/friction )" +
+           law + "\npair_coeff * * off\npair_coeff 1 2 100 " + text(kt) + " " + coefficients + R"(
+compute           events all lsm/events ledger yes
+thermo_style      custom step time c_events[6] c_events[8] c_events[11]
+thermo_modify     norm no format float %.17g
+thermo            1000000
+timestep          )" +
+           text(dt) + "\nfix move disc lsm/nve viscosity " + text(viscosity) + R"(
+fix               press disc addforce 0 -1 0
+)" +
+           (before > 0.0 ? "velocity disc set " + text(speed) +
+                               " 0 0\nfix hold disc setforce 0 NULL NULL\nrun " +
+                               text(std::round(before / dt)) + "\nunfix hold\n"
+                         : "") +
+           "velocity disc set " + text(begin) + R"( 0 0
+variable          t0 equal $(time:%.17g)
+variable          t equal time-v_t0
+variable          x equal xcm(disc,x)
+variable          x0 equal $(v_x:%.17g)
+variable          u equal v_x-v_x0
+variable          v equal vcm(disc,x)
+variable          pull equal )" +
+           text(pull) + "+" + text(stiffness) + "*(" + text(speed) + R"(*v_t-v_u)
+variable          zero equal 0
+fix               spring disc addforce v_pull v_zero v_zero
+thermo_style      custom step v_t v_u v_v v_pull c_events[6] c_events[8] c_events[11]
+thermo_modify     norm no format float %.17g
+thermo            )" +
+           text(std::round(every / dt)) + "\nrun " + text(std::round(time / dt)) + "\n";
+  }
+};
+
+struct Motion {
+  std::vector<double> t, u, v;
+};
+
+/// Times at which the velocity rises through `speed`, between two samples.
+std::vector<double> starts(const Motion &m, double speed) {
+  std::vector<double> at;
+  for (std::size_t n = 1; n < m.t.size(); ++n)
+    if (m.v[n - 1] <= speed && m.v[n] > speed)
+      at.push_back(m.t[n - 1] +
+                   (m.t[n] - m.t[n - 1]) * (speed - m.v[n - 1]) / (m.v[n] - m.v[n - 1]));
+  return at;
+}
+
+double mean_period(const std::vector<double> &at) {
+  return at.size() < 2 ? NAN : (at.back() - at.front()) / static_cast<double>(at.size() - 1);
+}
+
+/// Adaptive rk8pd; the right side is free to be a closure.
+Motion integrate(std::vector<double> y, double end, double every,
+                 const std::function<void(double, const double *, double *)> &derive) {
+  using Derive = std::function<void(double, const double *, double *)>;
+  gsl_odeiv2_system system{[](double t, const double *state, double *dy, void *self) {
+                             (*static_cast<const Derive *>(self))(t, state, dy);
+                             return static_cast<int>(GSL_SUCCESS);
+                           },
+                           nullptr, y.size(), const_cast<Derive *>(&derive)};
+  const std::unique_ptr<gsl_odeiv2_driver, void (*)(gsl_odeiv2_driver *)> driver(
+      gsl_odeiv2_driver_alloc_y_new(&system, gsl_odeiv2_step_rk8pd, 1e-6, 1e-12, 1e-9),
+      gsl_odeiv2_driver_free);
+  Motion m;
+  double t = 0.0;
+  for (int n = 0; n <= static_cast<int>(std::lround(end / every)); ++n) {
+    if (n > 0 && gsl_odeiv2_driver_apply(driver.get(), &t, n * every, y.data()) != GSL_SUCCESS) {
+      ADD_FAILURE() << "the reference stopped at t = " << t;
+      break;
+    }
+    m.t.push_back(t);
+    m.u.push_back(y[0]);
+    m.v.push_back(y[1]);
+  }
+  return m;
+}
+
+}  // namespace
+
+class Laws : public Lmp {
+ protected:
+  static Motion run_slider(const Slider &s) {
+    const Result r = run_text(s.script());
+    EXPECT_TRUE(succeeded(r));
+    Motion m;
+    for (const auto &row : r.thermo) {
+      if (!row.count("v_u")) continue;
+      m.t.push_back(row.at("v_t"));
+      m.u.push_back(row.at("v_u"));
+      m.v.push_back(row.at("v_v"));
+    }
+    EXPECT_EQ(m.t.size(), static_cast<std::size_t>(std::lround(s.time / s.every)) + 1) << r.output;
+    return m;
+  }
+};
+
+// ---- stick-slip between two strengths: Coulomb with a static coefficient, slip weakening over a
+// tiny distance ----
+
+/// Distance of a slip that begins at the strength `high` with the velocity v0 under the friction
+/// `low`, when the spring's end moves on: the damped oscillator up to its first rest.
+static double slip_distance(const Slider &s, double high, double low, double v0) {
+  // with w = pull - low - viscosity v (mass 1): u'' = high - low + K (V t - u) - nu u'
+  const double nu = s.viscosity, K = s.stiffness, V = s.speed;
+  const double steady = (high - low - nu * V) / K;  // u = V t + steady is a solution
+  const double omega = std::sqrt(K - 0.25 * nu * nu);
+  const double A = -steady, B = (v0 - V + 0.5 * nu * A) / omega;
+  auto u = [&](double t) {
+    return V * t + steady +
+           std::exp(-0.5 * nu * t) * (A * std::cos(omega * t) + B * std::sin(omega * t));
+  };
+  double low_t = 0.5 * M_PI / omega,
+         high_t = 1.5 * M_PI / omega;  // the velocity changes its sign in between
+  for (int n = 0; n < 100; ++n) {
+    const double t = 0.5 * (low_t + high_t);
+    const double h = 1e-6;
+    (u(t + h) > u(t - h) ? low_t : high_t) = t;
+  }
+  return u(low_t);
+}
+
+TEST_F(Laws, StickSlipPeriodOfTwoStrengths) {
+  for (const char *law : {"", "slip-weakening"}) {
+    Slider s;
+    s.law = law;
+    s.coefficients = s.law.empty() ? "0.6 0.8" : "mu 0.6 mu_static 0.8 dc 1e-5 heal 2";
+    s.viscosity = 0.1;
+    s.speed = 2e-3;
+    s.time = 1000.0;
+    s.every = 0.1;
+    // the period is that in which the plate moves by a slip and by what the contact gives way
+    // before it slips again
+    const double creep = s.speed * s.stiffness / (s.stiffness + s.kt);
+    const double theory = (slip_distance(s, 0.8, 0.6, creep) + 0.2 / s.kt) / s.speed;
+    const double period = mean_period(starts(run_slider(s), 0.1));
+    std::printf("%s: period %.4f, closed form %.4f\n", *law ? law : "coulomb", period, theory);
+    EXPECT_NEAR(period, theory, 0.001 * theory) << law;
+  }
+}
+
+// ---- slip weakening ----
+
+TEST_F(Laws, SlipWeakeningIsStableAboveTheCriticalStiffnessOnly) {
+  // weakening per slip, (mu_static - mu) fn / dc = 1, seen through the contact's own spring
+  for (double stiffness : {0.5, 0.9, 1.1, 2.0}) {
+    Slider s;
+    s.law = "slip-weakening";
+    s.coefficients = "mu 0.6 mu_static 0.8 dc 0.2";
+    s.stiffness = stiffness;
+    s.speed = 4e-3;
+    s.every = 0.5;
+    const double weakening = 1.0 / (1.0 - 1.0 / s.kt);
+    const double creep = s.speed * stiffness / (stiffness + s.kt);
+    s.begin = creep;  // so that the contact is loaded without a swing
+    const double breaks = 0.8 * (1.0 / stiffness + 1.0 / s.kt) / s.speed;
+    s.time = std::ceil(breaks) + 60.0;
+    const Motion m = run_slider(s);
+
+    // from the break on: y'' = K V t - (K - W) y
+    const double rest = stiffness - weakening, rate = std::sqrt(std::fabs(rest));
+    const double drift = s.speed * stiffness / rest;
+    double largest = 0.0, worst = 0.0, fastest = 0.0;
+    int compared = 0;
+    for (std::size_t n = 0; n < m.t.size(); ++n) {
+      const double t = m.t[n] - breaks;
+      if (t < 0.0) continue;
+      const double y = drift * t + (creep - drift) *
+                                       (rest > 0.0 ? std::sin(rate * t) : std::sinh(rate * t)) /
+                                       rate;
+      if (y > 0.15) break;
+      const double moved = m.u[n] - creep * breaks;
+      worst = std::max(worst, std::fabs(moved - y));
+      largest = std::max(largest, y);
+      fastest = std::max(fastest, m.v[n] / s.speed);
+      ++compared;
+    }
+    std::printf("stiffness %.1f of critical: fastest %.1f plate velocities, off by %.2g of %.3g\n",
+                stiffness, fastest, worst, largest);
+    ASSERT_GT(compared, 5);
+    EXPECT_LT(worst, 0.01 * largest);
+    if (rest > 0.0)
+      EXPECT_LT(fastest, 2.1 * stiffness / rest);
+    else
+      EXPECT_GT(fastest, 15.0);
+  }
+}
+
+// ---- velocity weakening ----
+
+TEST_F(Laws, VelocityWeakeningGrowsAtTheRateOfItsWeakening) {
+  // sliding at V, |d force / d v| = mu fn / (1 + V)^2 feeds the swing that the viscosity takes
+  // from: both over 2 m
+  const double V = 0.2, W = 0.6 / (1.2 * 1.2);
+  for (double viscosity : {0.2, W, 0.6}) {
+    Slider s;
+    s.law = "velocity-weakening";
+    s.coefficients = "mu 0.6";
+    s.stiffness = 25.0;
+    s.speed = V;
+    s.viscosity = viscosity;
+    s.dt = 0.002;
+    s.before = 0.4;
+    s.begin = V;
+    s.pull = 0.6 / (1.0 + V) + viscosity * V + 1e-3 * 25.0;  // a swing of 1e-3, V/5 fast at most
+    s.time = 12.0;
+    s.every = 0.01;
+    const Motion m = run_slider(s);
+    // envelope from energy: u - V t swings around the steady distance
+    auto size = [&](std::size_t n) {
+      const double x = m.u[n] - V * m.t[n] - 1e-3, v = m.v[n] - V;
+      return std::sqrt(x * x + v * v / 25.0);
+    };
+    const std::size_t turn = static_cast<std::size_t>(std::lround(2.0 * M_PI / 5.0 / s.every));
+    double early = 0.0, late = 0.0;
+    for (std::size_t n = 0; n < 2 * turn; ++n) {
+      early += size(n);
+      late += size(m.t.size() - 1 - n);
+    }
+    const double rate = std::log(late / early) / (s.time - (2 * turn - 1) * s.every);
+    std::printf("viscosity %.4f: rate %.5f, closed form %.5f\n", viscosity, rate,
+                0.5 * (W - viscosity));
+    EXPECT_NEAR(rate, 0.5 * (W - viscosity), 0.004);
+  }
+}
+
+TEST_F(Laws, VelocityWeakeningStickSlipAsTheBlockSlider) {
+  // one block of Sect. 3: K_l = 0.01, V = 0.01, M = 1; the contact's spring is stiff, and a little
+  // viscosity ends its swing before the next slip
+  Slider s;
+  s.law = "velocity-weakening";
+  s.coefficients = "mu 0.8 vc 1";
+  s.stiffness = 0.1;
+  s.speed = 0.04;
+  s.viscosity = 0.1;
+  s.time = 800.0;
+  s.every = 0.1;
+  const double period = mean_period(starts(run_slider(s), 0.1));
+
+  // a block without a contact spring: slips from the strength 0.8 on, with all the velocity of the
+  // law
+  const Motion slip =
+      integrate({0.0, 1e-9}, 40.0, 0.001, [&s](double t, const double *y, double *dy) {
+        dy[0] = y[1];
+        dy[1] = 0.8 + s.stiffness * (s.speed * t - y[0]) - 0.8 / (1.0 + std::max(0.0, y[1])) -
+                s.viscosity * y[1];
+      });
+  double distance = 0.0;
+  for (std::size_t n = 1; n < slip.t.size() && distance == 0.0; ++n)
+    if (slip.t[n] > 1.0 && slip.v[n] <= 0.0) distance = slip.u[n];
+  ASSERT_GT(distance, 0.1);
+  // the velocity of the contact's spring when it breaks starts the slip sooner, but the distance is
+  // the same
+  const double theory = distance / s.speed;
+  std::printf("period %.3f, reference %.3f\n", period, theory);
+  EXPECT_NEAR(period, theory, 0.005 * theory);
+}
+
+// ---- rate and state ----
+
+namespace {
+
+constexpr double kA = 0.01, kB = 0.015, kDc = 0.005, kMu = 0.6;
+
+/// Disc, contact spring, velocity of the slip and ln(v0 theta / dc), with V = v0.
+Motion rate_state_reference(const Slider &s, bool ageing) {
+  const double V = s.speed;
+  return integrate({0.0, s.begin, kMu / s.kt, 0.0}, s.time, s.every,
+                   [&s, V, ageing](double t, const double *y, double *dy) {
+                     const double E = (kMu + kB * y[3]) / kA, q = s.kt * y[2] / kA;
+                     const double v = V * (std::exp(q - E) - std::exp(-q - E));
+                     const double omega = std::fabs(v) / V * std::exp(y[3]);  // v theta / dc
+                     dy[0] = y[1];
+                     dy[1] = s.pull + s.stiffness * (V * t - y[0]) - s.kt * y[2];
+                     dy[2] = y[1] - v;
+                     dy[3] = ageing ? V / kDc * (std::exp(-y[3]) - std::fabs(v) / V)
+                                    : (omega > 0.0 ? -std::fabs(v) / kDc * std::log(omega) : 0.0);
+                   });
+}
+
+Slider rate_state_slider(const char *evolution, double of_critical, double speed) {
+  Slider s;
+  s.law = std::string("rate-state-") + evolution;
+  s.coefficients = "mu 0.6 a 0.01 b 0.015 dc 0.005 v0 " + text(speed);
+  // critical: (b - a) fn / dc = 1 for the springs of slider and contact in a row
+  s.stiffness = of_critical / (1.0 - of_critical / s.kt);
+  s.speed = s.begin = speed;
+  s.before = 0.06 / speed;  // to the steady state
+  s.dt = 0.01;
+  return s;
+}
+
+}  // namespace
+
+TEST_F(Laws, RateStateIsStableAboveTheCriticalStiffnessOnly) {
+  for (const char *evolution : {"ageing", "slip"})
+    for (double of_critical : {0.8, 1.2}) {
+      Slider s = rate_state_slider(evolution, of_critical, 1e-3);
+      s.pull = kMu + 1e-4;
+      s.time = 200.0;
+      s.every = 0.5;
+      const Motion m = run_slider(s),
+                   reference = rate_state_reference(s, s.law == "rate-state-ageing");
+      ASSERT_EQ(m.t.size(), reference.t.size());
+      // largest velocity above the mean in the first and the last turn
+      const double K = s.stiffness * s.kt / (s.stiffness + s.kt);
+      const double turn = 2.0 * M_PI / (1e-3 * std::sqrt(K / (kA * kDc)));
+      double early = 0.0, late = 0.0, worst = 0.0, largest = 0.0;
+      for (std::size_t n = 0; n < m.t.size(); ++n) {
+        if (m.t[n] < turn) early = std::max(early, m.v[n] / s.speed - 1.0);
+        if (m.t[n] > s.time - turn) late = std::max(late, m.v[n] / s.speed - 1.0);
+        worst = std::max(worst, std::fabs(m.u[n] - reference.u[n]));
+        largest = std::max(largest, std::fabs(reference.u[n] - s.speed * reference.t[n]));
+      }
+      const double rate = std::log(late / early) / (s.time - turn);
+      const double theory = 0.5 * s.speed / kDc * ((kB - kA) / kA - K * kDc / kA);
+      std::printf(
+          "%s, %.1f of the critical stiffness: rate %.5f, quasi-static closed form %.5f; off the "
+          "reference by "
+          "%.2g of %.3g\n",
+          evolution, of_critical, rate, theory, worst, largest);
+      EXPECT_GT(early, 0.001);
+      EXPECT_NEAR(rate, theory, 0.25 * std::fabs(theory));
+      EXPECT_LT(worst, 0.03 * largest);
+    }
+}
+
+TEST_F(Laws, RateStateStickSlipPeriodAsTheReference) {
+  for (const char *evolution : {"ageing", "slip"}) {
+    Slider s = rate_state_slider(evolution, 0.5, 4e-3);
+    s.pull = kMu + 1e-3;
+    s.time = 400.0;
+    s.every = 0.05;
+    s.dt = 0.005;
+    const Motion m = run_slider(s),
+                 reference = rate_state_reference(s, s.law == "rate-state-ageing");
+    const auto ours = starts(m, 3.0 * s.speed), exact = starts(reference, 3.0 * s.speed);
+    std::printf("%s: fastest %.3g, reference %.3g\n", evolution,
+                *std::max_element(m.v.begin(), m.v.end()),
+                *std::max_element(reference.v.begin(), reference.v.end()));
+    ASSERT_GE(exact.size(), 5u);
+    ASSERT_GE(ours.size(), 5u);
+    const double period = mean_period({ours.end() - 4, ours.end()}),
+                 theory = mean_period({exact.end() - 4, exact.end()});
+    std::printf("%s: period %.3f, reference %.3f; %zu slips of %zu\n", evolution, period, theory,
+                ours.size(), exact.size());
+    EXPECT_NEAR(period, theory, 0.01 * theory);
+  }
+}
+
+// ---- every law on a fault ----
+
+namespace {
+
+struct FaultLaw {
+  const char *name, *coefficients;  // behind k kt
+};
+const std::vector<FaultLaw> fault_laws = {
+    {"coulomb", "0.5 0.6"},
+    {"slip-weakening", "mu 0.5 mu_static 0.6 dc 2e-3 heal 5"},
+    {"velocity-weakening", "mu 0.6 vc 0.02"},
+    {"rate-state-ageing", "mu 0.6 a 0.01 b 0.015 dc 1e-3 v0 1e-3"},
+    {"rate-state-slip", "mu 0.6 a 0.01 b 0.015 dc 1e-3 v0 1e-3 theta 2"}};
+
+std::string with_law(const std::string &pairs) {
+  return "bond_style lsm/linked\nbond_coeff 1 1.0\n" + pairs;
+}
+
+std::string plain(const FaultLaw &law) {
+  return with_law(std::string("pair_style lsm/friction ") + law.name +
+                  "\npair_coeff * * off\npair_coeff 3 4 1.0 1.0 " + law.coefficients + "\n");
+}
+
+std::string under_hybrid(const FaultLaw &law) {
+  return with_law(std::string("pair_style hybrid lsm/free lsm/friction ") + law.name +
+                  "\npair_coeff * * lsm/free off\npair_coeff 3 4 lsm/friction 1.0 1.0 " +
+                  law.coefficients + "\n");
+}
+
+std::string from_data(const std::string &forces, const std::string &files) {
+  return "variable velocity index 0.03\n" + fault_start() + "read_data settled.data\n" +
+         fault_groups() + forces + "timestep ${dt}\n" + fault_shear(files) +
+         "thermo_style custom step ke epair c_events[5] c_events[6] c_events[7] c_events[8] "
+         "c_events[11] c_events[12] "
+         "c_events[13] f_plates\nthermo_modify norm no format float %.17g\nthermo 500\n";
+}
+
+std::string from_restart(const std::string &file, const std::string &forces) {
+  return "newton off\natom_style hybrid bond sphere\natom_modify map array\ncomm_modify mode "
+         "single cutoff 3.6\n"
+         "read_restart " +
+         file +
+         "\nneighbor 0.4 bin\nneigh_modify delay 0 every 10 check yes\nspecial_bonds lj/coul 0 1 "
+         "1\n" +
+         forces + "variable velocity index 0.03\ntimestep 0.03\n" + fault_shear("") +
+         "thermo 500\n";
+}
+
+const std::vector<std::string> law_columns = {"KinEng",      "c_events[6]",  "c_events[7]",
+                                              "c_events[8]", "c_events[11]", "c_events[12]"};
+
+}  // namespace
+
+using LawsOnFault = Fault;
+
+TEST_F(LawsOnFault, BalanceTheirEnergyOnAnyRanksUnderHybridAndFromRestartFiles) {
+  std::vector<double> lost;
+  for (const FaultLaw &law : fault_laws) {
+    const std::string name = law.name;
+    const Result whole = run_text(from_data(plain(law), "location yes catalogue " + name + ".csv") +
+                                  "restart 1500 " + name + ".*\nrun 2000\n");
+    ASSERT_TRUE(succeeded(whole)) << name;
+    lost.push_back(whole.last("c_events[11]"));
+    std::printf("%s: lost to friction %.4g, plates %.4g, residual %.2g\n", law.name, lost.back(),
+                whole.last("f_plates"), whole.last("c_events[13]"));
+    EXPECT_GT(lost.back(), 1e-4) << name;
+    for (const auto &row : whole.thermo)
+      EXPECT_LT(std::fabs(row.at("c_events[13]")), 3e-4 * whole.last("f_plates")) << name;
+    EXPECT_NEAR(whole.last("E_pair"), whole.last("c_events[7]") + whole.last("c_events[8]"), 1e-12)
+        << name;
+    double moment = 0.0;
+    for (const auto &event : LSM::read_catalogue(path(name + ".csv")).events)
+      moment += event.slip_moment;
+    EXPECT_GT(moment, 0.0) << name;
+
+    const Result two = run_text(from_data(plain(law), "") + "run 2000\n", {{"newton", "on"}}, 2);
+    ASSERT_TRUE(succeeded(two)) << name;
+    EXPECT_LT(thermo_difference(whole, two, law_columns), 1e-7) << name;
+    const Result hybrid = run_text(from_data(under_hybrid(law), "") + "restart 1500 hybrid." +
+                                   name + ".*\nrun 2000\n");
+    ASSERT_TRUE(succeeded(hybrid)) << name;
+    EXPECT_LT(thermo_difference(whole, hybrid, law_columns), 1e-9) << name;
+
+    // a restart file knows the law; under hybrid it does not know the coefficients
+    Result tail = whole;
+    tail.thermo.erase(tail.thermo.begin(), tail.thermo.end() - 2);
+    const std::string again = "pair_coeff * * lsm/free off\npair_coeff 3 4 lsm/friction 1.0 1.0 " +
+                              std::string(law.coefficients) + "\n";
+    for (const auto &[file, forces] : {std::pair<std::string, std::string>{name + ".1500", ""},
+                                       {name + ".1500", plain(law)},
+                                       {"hybrid." + name + ".1500", again},
+                                       {"hybrid." + name + ".1500", under_hybrid(law)}}) {
+      const Result second = run_text(from_restart(file, forces) + "run 500\n");
+      ASSERT_TRUE(succeeded(second)) << name;
+      EXPECT_LT(
+          thermo_difference(tail, second, {"KinEng", "c_events[6]", "c_events[7]", "c_events[8]"}),
+          1e-9)
+          << file;
+    }
+    // and so does a data file, of the coefficients
+    const Result data = run_text(fault_start() + "read_data settled.data\n" + plain(law) +
+                                 "run 0\nwrite_data written.data pair ij\n");
+    ASSERT_TRUE(succeeded(data)) << name;
+    const Result read =
+        run_text(fault_start() + "bond_style lsm/linked\npair_style lsm/friction " + name +
+                 "\nread_data written.data\nrun 0\nwrite_data again.data pair ij\n");
+    ASSERT_TRUE(succeeded(read)) << name;
+    const auto coefficients = [](const std::string &text) {
+      const std::size_t from = text.find("PairIJ Coeffs");
+      return text.substr(from, text.find("Bond Coeffs") - from);
+    };
+    EXPECT_EQ(coefficients(read_file(path("written.data"))),
+              coefficients(read_file(path("again.data"))))
+        << name;
+  }
+  for (std::size_t n = 0; n < lost.size(); ++n)
+    for (std::size_t m = 0; m < n; ++m) EXPECT_NE(lost[n], lost[m]);
+
+  // a restart file and another law
+  const auto refused = [](const std::string &file, const FaultLaw &law, bool hybrid,
+                          std::vector<std::string> parts) {
+    parts.emplace_back("lsm/friction");
+    EXPECT_TRUE(failed_with(
+        run_text(from_restart(file, hybrid ? under_hybrid(law) : plain(law)) + "run 0\n"), parts))
+        << file << " with " << law.name;
+  };
+  EXPECT_TRUE(succeeded(
+      run_text(from_restart("coulomb.1500", "pair_style none\nrun 0\n" + plain(fault_laws[3])) +
+               "run 0\n")));
+  refused("coulomb.1500", fault_laws[3], false, {"coulomb", "restart", "rate-state-ageing"});
+  refused("slip-weakening.1500", fault_laws[0], false, {"slip-weakening", "restart", "coulomb"});
+  refused("hybrid.slip-weakening.1500", fault_laws[3], true,
+          {"slip-weakening", "restart", "rate-state-ageing"});
+  refused("hybrid.coulomb.1500", fault_laws[1], true,
+          {"restart", "slip-weakening", "4 numbers", "5"});
+  refused("hybrid.rate-state-slip.1500", fault_laws[0], true, {"restart", "5 numbers", "4"});
+}
+
+TEST_F(LawsOnFault, WithoutLawOrWithCoulombItIsTheSameToTheLastDigit) {
+  const Result without = run_text(from_data(plain({"", "0.6"}), "") + "run 500\n");
+  const Result with =
+      run_text(from_data(plain({"coulomb onset located", "0.6 0.6"}), "") + "run 500\n");
+  ASSERT_TRUE(succeeded(without));
+  ASSERT_TRUE(succeeded(with));
+  EXPECT_EQ(thermo_difference(without, with, law_columns), 0.0);
+}
+
+TEST_F(LawsOnFault, MistakesAreNamedInOneLine) {
+  struct Case {
+    const char *law, *coefficients;
+    std::vector<std::string> parts;
+  };
+  const std::vector<Case> cases = {
+      {"viscous",
+       "0.6",
+       {"viscous",
+        "coulomb, slip-weakening, velocity-weakening, rate-state-ageing, rate-state-slip"}},
+      {"coulomb step", "0.6", {"onset", "step"}},
+      {"slip-weakening onset late", "", {"late", "located"}},
+      {"slip-weakening",
+       "0.6 0.7 0.1",
+       {"slip-weakening", "mu VALUE mu_static VALUE dc VALUE [heal VALUE]"}},
+      {"slip-weakening", "mu 0.6 mu_static 0.7 d_c 0.1", {"slip-weakening", "'d_c'"}},
+      {"slip-weakening", "mu 0.6 mu_static 0.7 mu 0.5", {"a second 'mu'"}},
+      {"slip-weakening", "mu 0.6 mu_static 0.7 heal 0.5", {"dc is missing"}},
+      {"slip-weakening", "mu 0.6 mu_static 0.5 dc 0.1", {"mu_static is 0.5", "at least mu = 0.6"}},
+      {"slip-weakening", "mu 0.6 mu_static 0.7 dc 0", {"dc is 0", "> 0"}},
+      {"slip-weakening", "mu 0.6 mu_static 0.7 dc 1 heal -1", {"heal is -1", ">= 0"}},
+      {"velocity-weakening", "mu 0.6 vc x", {"x"}},
+      {"velocity-weakening", "mu 0.6 vc -1", {"vc is -1", "> 0"}},
+      {"velocity-weakening", "mu 0.6 vc", {"mu VALUE [vc VALUE]"}},
+      {"rate-state-slip", "mu 0.6 a 0 b 0.1 dc 1 v0 1", {"a is 0", "> 0"}},
+      {"rate-state-ageing", "mu 0.6 a 0.1 b 0.1 dc 1", {"rate-state-ageing", "v0"}}};
+  for (const Case &one : cases)
+    EXPECT_TRUE(failed_with(
+        run_text(fault_start() + "read_data settled.data\n" + plain({one.law, one.coefficients})),
+        one.parts))
+        << one.law << " " << one.coefficients;
+
+  // contacts of one law are no contacts of another
+  const FaultLaw other = fault_laws[3];
+  EXPECT_TRUE(failed_with(
+      run_text(from_data(plain(fault_laws[0]), "") + "run 5\n" + plain(other) + "run 0\n"),
+      {"lsm/friction", "coulomb", "rate-state-ageing", "none"}));
+  EXPECT_TRUE(succeeded(run_text(from_data(plain(fault_laws[0]), "") + "run 5\npair_style none\n" +
+                                 plain(other) + "run 5\n")));
+  // before the first run there are none
+  EXPECT_TRUE(succeeded(run_text(from_data(plain(fault_laws[0]) + plain(other), "") + "run 5\n")));
+  EXPECT_TRUE(failed_with(run_text(from_data(plain(fault_laws[0]), "") +
+                                   "pair_style lsm/friction " + other.name + "\nrun 5\n"),
+                          {"pair coeffs are not set"}));
+  // what fix adapt does is checked as well
+  const std::string adapt =
+      "variable a equal -0.001*(step+1)\nfix a all adapt 1 pair lsm/friction b 3 4 v_a\nrun 3\n";
+  EXPECT_TRUE(
+      failed_with(run_text(from_data(plain(other), "") + adapt), {"b of types 3 4 is -", ">= 0"}));
+}

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "aftershocks.h"
+
+#include <gsl/gsl_randist.h>
+#include <gsl/gsl_rng.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+#include "coverage.h"
+
+using namespace LSM::postproc;
+
+namespace {
+
+using Rng = std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)>;
+
+Rng generator(unsigned long seed) {
+  Rng rng(gsl_rng_alloc(gsl_rng_mt19937), gsl_rng_free);
+  gsl_rng_set(rng.get(), seed);
+  return rng;
+}
+
+struct Law {
+  double K, c, p, background;
+};
+
+/// Events after main shocks that follow the law, drawn by inversion.
+Sequences omori_sequences(const Law &law, int main_shocks, double first, double window,
+                          unsigned long seed) {
+  const Rng rng = generator(seed);
+  const double q = 1.0 - law.p, low = std::pow(first + law.c, q),
+               high = std::pow(window + law.c, q);
+  Sequences s;
+  s.main_shocks = main_shocks;
+  s.first = first;
+  s.window = window;
+  const unsigned decaying = gsl_ran_poisson(rng.get(), main_shocks * law.K * (high - low) / q);
+  const unsigned constant =
+      gsl_ran_poisson(rng.get(), main_shocks * law.background * (window - first));
+  for (unsigned i = 0; i < decaying; ++i)
+    s.times.push_back(
+        std::pow(gsl_ran_flat(rng.get(), std::min(low, high), std::max(low, high)), 1.0 / q) -
+        law.c);
+  for (unsigned i = 0; i < constant; ++i) s.times.push_back(gsl_ran_flat(rng.get(), first, window));
+  for (double &t : s.times) t = std::clamp(t, first, window);
+  std::sort(s.times.begin(), s.times.end());
+  return s;
+}
+
+EventTable events(const std::vector<double> &starts, const std::vector<double> &durations,
+                  const std::vector<double> &sizes) {
+  EventTable table;
+  table.info.model = "lsm";
+  table.t_start = starts;
+  for (std::size_t i = 0; i < starts.size(); ++i) table.t_end.push_back(starts[i] + durations[i]);
+  table.size = sizes;
+  return table;
+}
+
+/// A Poisson catalogue with sizes of a power law.
+EventTable poisson(int n, double mean, unsigned long seed) {
+  const Rng rng = generator(seed);
+  std::vector<double> starts, durations, sizes;
+  double time = 0.0;
+  for (int i = 0; i < n; ++i) {
+    time += gsl_ran_exponential(rng.get(), mean);
+    starts.push_back(time);
+    durations.push_back(0.0);
+    sizes.push_back(gsl_ran_pareto(rng.get(), 0.7, 1.0));
+  }
+  return events(starts, durations, sizes);
+}
+
+TEST(Sequences, MainShocksByHand) {
+  //                        0    1    2    3    4     5    6    7    8    9    10
+  const EventTable table =
+      events({0, 100, 105, 111, 120, 200, 203, 204, 300, 310, 500},
+             {0, 10, 1, 1, 0, 2, 0, 0, 0, 0, 0}, {1, 50, 1, 2, 0.1, 50, 50, 1, 60, 1, 1});
+  SequenceRule rule;
+  rule.main_size = 50;
+  rule.least_size = 1;
+  rule.window = 20;
+  const Sequences s = stack_sequences(table, rule);
+  // At 100 (ends at 110), at 200 (ends at 202; the equal one at 203 comes second), at 300.
+  EXPECT_EQ(s.main_shocks, 3);
+  // 105 begins before the end; 120 is too small.
+  EXPECT_EQ(s.times, (std::vector<double>{1, 1, 2, 10}));
+  rule.first = 1.5;
+  EXPECT_EQ(stack_sequences(table, rule).times, (std::vector<double>{2, 10}));
+  rule.first = 0.0;
+  rule.window = 99;
+  // 200 ends 98 before 300, which is larger; 100 ends 90 before 200, which is as large and later.
+  EXPECT_EQ(stack_sequences(table, rule).main_shocks, 2);
+  // The window has to lie within the catalogue.
+  rule.window = 201;
+  EXPECT_EQ(stack_sequences(table, rule).main_shocks, 0);
+  rule.window = 0.0;
+  EXPECT_THROW(stack_sequences(table, rule), std::invalid_argument);
+  rule.window = rule.first = 1.0;
+  EXPECT_THROW(stack_sequences(table, rule), std::invalid_argument);
+}
+
+TEST(Omori, MaximumOfAnIndependentLikelihood) {
+  // ln L written down again; no point near the fit is better, and it is flat there.
+  const Sequences s = omori_sequences({2.0, 0.5, 1.3, 0.02}, 100, 0.0, 50.0, 3);
+  const OmoriFit fit = fit_omori(s);
+  ASSERT_FALSE(fit.degenerate) << fit.why;
+  const auto log_likelihood = [&s](double K, double c, double p, double background) {
+    double sum = 0.0;
+    for (const double t : s.times) sum += std::log(K / std::pow(t + c, p) + background);
+    const double q = 1.0 - p;
+    return sum - static_cast<double>(s.main_shocks) *
+                     (K * (std::pow(s.window + c, q) - std::pow(c, q)) / q + background * s.window);
+  };
+  const double best = log_likelihood(fit.K, fit.c, fit.p, fit.background);
+  for (const double up : {-1e-3, 1e-3}) {
+    EXPECT_LT(log_likelihood(fit.K * (1 + up), fit.c, fit.p, fit.background), best);
+    EXPECT_LT(log_likelihood(fit.K, fit.c * (1 + up), fit.p, fit.background), best);
+    EXPECT_LT(log_likelihood(fit.K, fit.c, fit.p + up, fit.background), best);
+    EXPECT_LT(log_likelihood(fit.K, fit.c, fit.p, fit.background * (1 + up)), best);
+  }
+  const double n = static_cast<double>(s.times.size());
+  const double constant = n * std::log(n / (100.0 * 50.0)) - n;
+  EXPECT_NEAR(fit.likelihood_ratio, 2.0 * (best - constant), 1e-4);
+  EXPECT_NEAR(fit.constant, n / 5000.0, 1e-12);
+  EXPECT_NEAR(fit.rate(1.0), fit.K * std::pow(1.0 + fit.c, -fit.p) + fit.background, 1e-12);
+}
+
+TEST(Omori, ErrorsCoverTheTruth) {
+  struct Case {
+    Law law;
+    double first, hold_c;
+  };
+  const double fitted = std::nan("");
+  for (const Case &one :
+       {Case{{1.5, 0.3, 1.1, 0.01}, 0.0, fitted}, Case{{1.0, 0.3, 0.9, 0.02}, 0.05, fitted},
+        Case{{1.0, 0.0, 1.2, 0.02}, 0.1, 0.0}}) {
+    Coverage p(one.law.p), ln_c(std::log(one.law.c)), ln_K(std::log(one.law.K)),
+        background(one.law.background);
+    for (unsigned long seed = 1; seed <= 100; ++seed) {
+      const OmoriFit fit =
+          fit_omori(omori_sequences(one.law, 150, one.first, 100.0, seed), one.hold_c);
+      ASSERT_FALSE(fit.degenerate) << fit.why;
+      p.add(fit.p, fit.se_p);
+      ln_K.add(std::log(fit.K), fit.se_K / fit.K);
+      background.add(fit.background, fit.se_background);
+      if (std::isnan(one.hold_c))
+        ln_c.add(std::log(fit.c), fit.se_c / fit.c);
+      else
+        EXPECT_EQ(fit.se_c, 0.0);
+    }
+    p.expect("p");
+    ln_K.expect("ln K");
+    background.expect("background");
+    if (std::isnan(one.hold_c)) ln_c.expect("ln c");
+  }
+}
+
+TEST(Omori, WithoutBackgroundItIsZero) {
+  const OmoriFit fit = fit_omori(omori_sequences({5.0, 1.0, 1.5, 0.0}, 300, 0.0, 20.0, 12));
+  ASSERT_FALSE(fit.degenerate) << fit.why;
+  EXPECT_NEAR(fit.p, 1.5, 4.0 * fit.se_p);
+  EXPECT_TRUE(fit.background == 0.0 ? std::isnan(fit.se_background)
+                                    : fit.background < 2.0 * fit.se_background);
+}
+
+TEST(Omori, AConstantRateIsNoDecay) {
+  int decays = 0;
+  const int trials = 100;
+  for (int seed = 1; seed <= trials; ++seed) {
+    const OmoriFit fit = fit_omori(
+        omori_sequences({1e-12, 1.0, 1.1, 0.1}, 50, 0.0, 100.0, static_cast<unsigned long>(seed)));
+    if (fit.likelihood_ratio > 7.81) ++decays;
+    if (fit.likelihood_ratio <= 7.81) {
+      EXPECT_TRUE(fit.degenerate);
+      EXPECT_EQ(fit.why, "no decay that a constant rate does not explain as well");
+      EXPECT_TRUE(std::isnan(fit.p) && std::isnan(fit.c) && std::isnan(fit.K));
+      EXPECT_NEAR(fit.constant, 0.1, 5.0 * fit.se_constant);
+      EXPECT_EQ(fit.rate(3.0), fit.constant);
+    }
+  }
+  EXPECT_LE(decays, 10);  // 5 on average, if the approximation holds
+}
+
+TEST(Omori, DegenerateAndImpossible) {
+  Sequences s = omori_sequences({0.1, 1.0, 1.1, 0.0}, 30, 0.0, 10.0, 1);
+  ASSERT_LT(s.times.size(), 20u);
+  EXPECT_TRUE(fit_omori(s).degenerate);
+  EXPECT_NE(fit_omori(s).why.find("at least 20 events needed"), std::string::npos);
+  // A c far below the first of the times cannot be told.
+  const OmoriFit sharp = fit_omori(omori_sequences({1.0, 1e-9, 0.8, 0.0}, 200, 0.5, 100.0, 2));
+  EXPECT_TRUE(sharp.degenerate);
+  EXPECT_TRUE(std::isnan(sharp.p));
+  EXPECT_FALSE(
+      fit_omori(omori_sequences({1.0, 1e-9, 0.8, 0.0}, 200, 0.5, 100.0, 2), 0.0).degenerate);
+  s.window = 0.5 * s.times.back();
+  EXPECT_THROW(fit_omori(s), std::invalid_argument);
+  EXPECT_THROW(fit_omori(omori_sequences({1.0, 1.0, 1.1, 0.0}, 30, 0.0, 10.0, 1), 0.0),
+               std::invalid_argument);
+  EXPECT_THROW(fit_omori(omori_sequences({1.0, 1.0, 1.1, 0.0}, 30, 0.0, 10.0, 1), -1.0),
+               std::invalid_argument);
+}
+
+TEST(PoissonCatalogue, KeepsTheEventsAndForgetsTheirTimes) {
+  EventTable table = events({1, 2, 5, 9, 20}, {0.5, 1, 2, 0, 3}, {1, 2, 3, 4, 5});
+  const EventTable other = poisson_catalogue(table, 4);
+  std::vector<double> sizes = other.size;
+  std::sort(sizes.begin(), sizes.end());
+  EXPECT_EQ(sizes, table.size);
+  EXPECT_TRUE(std::is_sorted(other.t_start.begin(), other.t_start.end()));
+  for (std::size_t i = 0; i < 5; ++i) {
+    const auto which = static_cast<std::size_t>(other.size[i]) - 1;
+    EXPECT_NEAR(other.t_end[i] - other.t_start[i], table.t_end[which] - table.t_start[which],
+                1e-12);
+    if (i > 0) {
+      EXPECT_GE(other.t_start[i], other.t_end[i - 1]);
+    }
+  }
+  EXPECT_NE(other.t_start, table.t_start);
+  // Ruptures may overlap.
+  table.info.parameters = {{"events", "ruptures"}};
+  EXPECT_GE(poisson_catalogue(table, 4).t_start.front(), 1.0);
+  EXPECT_LE(poisson_catalogue(table, 4).t_start.back(), 20.0);
+}
+
+TEST(Aftershocks, ShareOfPoissonCatalogues) {
+  SequenceRule rule;
+  rule.main_size = 30.0;
+  rule.least_size = 1.0;
+  rule.window = 40.0;
+  // The same for a Poisson catalogue as for its own random order: p is uniform.
+  int low = 0;
+  const int trials = 40;
+  for (int seed = 1; seed <= trials; ++seed) {
+    const Aftershocks a = aftershocks_of(poisson(1000, 1.0, static_cast<unsigned long>(seed)), rule,
+                                         std::nan(""), 1.6, 9, 100);
+    ASSERT_FALSE(std::isnan(a.p));
+    if (a.p <= 0.5) ++low;
+  }
+  expect_binomial(low, trials, 0.5, "p of at most 0.5");
+
+  // Sequences put into one.
+  EventTable clustered = poisson(3000, 1.0, 77);
+  const Rng rng = generator(5);
+  std::vector<std::pair<double, double>> rows;
+  for (std::size_t i = 0; i < clustered.size.size(); ++i) {
+    rows.emplace_back(clustered.t_start[i], clustered.size[i]);
+    if (clustered.size[i] < 30.0) continue;
+    for (int k = 0; k < 60; ++k)  // p = 2, c = 1
+      rows.emplace_back(clustered.t_start[i] + 1.0 / gsl_ran_flat(rng.get(), 0.0, 1.0) - 1.0, 1.0);
+  }
+  std::sort(rows.begin(), rows.end());
+  clustered.t_start.clear();
+  clustered.size.clear();
+  for (const auto &[time, size] : rows) {
+    clustered.t_start.push_back(time);
+    clustered.size.push_back(size);
+  }
+  clustered.t_end = clustered.t_start;
+  const Aftershocks a = aftershocks_of(clustered, rule, std::nan(""), 1.6, 19, 1);
+  ASSERT_FALSE(a.fit.degenerate) << a.fit.why;
+  EXPECT_NEAR(a.fit.p, 2.0, 4.0 * a.fit.se_p);
+  EXPECT_NEAR(a.fit.c, 1.0, 4.0 * a.fit.se_c);
+  EXPECT_LT(a.fit.se_p, 0.3);
+  EXPECT_EQ(a.p, 0.05);
+  ASSERT_GT(a.bins.size(), 5u);
+  const RateBin &early = a.bins[2], &late = a.bins.back();
+  EXPECT_GT(early.rate, early.poisson + 5.0 * early.scatter);
+  EXPECT_NEAR(late.rate, a.fit.rate(late.centre), 4.0 * late.error + 0.1 * late.rate);
+}
+
+}  // namespace

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "magnitudes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include "coverage.h"
+#include "lsm_random.h"
+
+using namespace LSM::postproc;
+
+namespace {
+
+const double ln10 = std::log(10.0);
+
+/// Magnitudes of the Gutenberg-Richter law from completeness on.
+std::vector<double> gutenberg_richter(double b, double completeness, int n, std::uint64_t seed) {
+  LSM::Random random(seed);
+  std::vector<double> out;
+  for (int i = 0; i < n; ++i)
+    out.push_back(completeness - std::log10(1.0 - random.uniform(0.0, 1.0)) / b);
+  return out;
+}
+
+// The first 100 magnitudes of the first column of simulated_magnitudes.csv in the tests of
+// SeismoStats (Swiss Seismological Service, 2025), to 6 decimals.
+const std::vector<double> published = {
+    -0.004056, -0.225414, 0.024663,  0.369362,  -0.155318, -0.162744, -0.159219, -0.124840,
+    -0.157675, 0.116724,  0.063539,  -0.125563, 0.543107,  -0.216353, 0.560792,  -0.017805,
+    0.881001,  0.140280,  0.781248,  0.040690,  -0.113408, -0.027858, -0.168285, -0.159762,
+    0.802735,  0.098666,  0.508835,  0.195588,  -0.105816, -0.014058, -0.203084, -0.215910,
+    0.106744,  -0.140871, 0.060249,  -0.009696, -0.154738, -0.058942, -0.242185, 0.207318,
+    -0.167191, -0.101008, 0.518626,  0.074469,  -0.002204, -0.199668, -0.023874, 0.061535,
+    -0.228070, -0.051022, -0.234200, -0.123478, -0.153368, 0.004495,  -0.084110, -0.222719,
+    2.406523,  0.383782,  0.295185,  -0.243677, 0.567403,  0.464037,  0.509633,  -0.089360,
+    0.228934,  -0.033933, 0.248206,  -0.227249, -0.162541, -0.007622, 0.935064,  0.468009,
+    0.627432,  0.331659,  -0.060851, 0.569551,  0.438892,  -0.165339, 0.653683,  -0.200071,
+    0.189269,  -0.217855, 0.516056,  0.317887,  -0.160481, 0.028968,  0.215581,  2.033461,
+    -0.220661, 0.521036,  0.524800,  -0.082554, 0.135383,  0.550492,  0.077868,  -0.207885,
+    0.203427,  -0.088574, 0.081362,  0.576132};
+
+TEST(Magnitudes, OfSizes) {
+  const MagnitudeScale usual, plain{1.0, 4.5};
+  EXPECT_DOUBLE_EQ(usual.of(1000.0), 2.0);
+  EXPECT_DOUBLE_EQ(plain.of(1000.0), 7.5);
+  for (const double size : {1e-8, 0.3, 7e5})
+    EXPECT_NEAR(plain.size(plain.of(size)) / size, 1.0, 1e-12);
+  EXPECT_DOUBLE_EQ(binned(0.249, 0.1), 0.2);
+  EXPECT_DOUBLE_EQ(binned(0.25, 0.5), 0.5);
+  EXPECT_DOUBLE_EQ(binned(-0.25, 0.5), 0.0);
+  EXPECT_EQ(binned(0.123, 0.0), 0.123);
+}
+
+TEST(BValue, ErrorIsThatPublishedWithSeismoStats) {
+  ASSERT_EQ(published.size(), 100u);
+  const BValue result = b_value(published, -0.25);
+  ASSERT_FALSE(result.degenerate);
+  // Published for these magnitudes with b = 1.
+  EXPECT_NEAR(result.error / (result.b * result.b), 0.09776728958456313, 1e-6);
+}
+
+TEST(BValue, SmallExampleByHand) {
+  // Excess over the completeness: 0.1, 0.2 ... 1.0, mean 0.55, sum of squares about it 0.825.
+  std::vector<double> magnitudes = {-3.0, 0.99};
+  for (int i = 1; i <= 10; ++i) magnitudes.push_back(1.0 + 0.1 * i);
+  const BValue aki = b_value(magnitudes, 1.0);
+  EXPECT_EQ(aki.n, 10);
+  EXPECT_NEAR(aki.b, 1.0 / (ln10 * 0.55), 1e-12);
+  EXPECT_NEAR(aki.error, ln10 * aki.b * aki.b * std::sqrt(0.825 / 90.0), 1e-12);
+  // In bins of 0.1 the bin centred at 1.0 holds 0.99, too.
+  const BValue tinti = b_value(magnitudes, 1.0, 0.1);
+  EXPECT_EQ(tinti.n, 11);
+  EXPECT_NEAR(tinti.b, std::log(1.0 + 0.1 * 11.0 / 5.49) / (ln10 * 0.1), 1e-12);
+  // Steps up: 10 of 0.1, from 0.99 to 1.1 one of 0.11; least keeps all or none.
+  EXPECT_EQ(b_positive(magnitudes, 1.0, 0.1).n, 10);
+  EXPECT_EQ(b_positive(magnitudes, 1.0, 0.1, 0.2).n, 0);
+}
+
+TEST(BValue, ErrorCoversTheTruth) {
+  for (const double b : {0.1, 1.0, 1.5})
+    for (const double width : {0.0, 0.1}) {
+      Coverage coverage(b);
+      for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+        // Bins centred at multiples of width take what lies half a bin around them.
+        std::vector<double> magnitudes = gutenberg_richter(b, 2.0 - 0.5 * width, 300, seed);
+        for (double &m : magnitudes) m = binned(m, width);
+        const BValue result = b_value(magnitudes, 2.0, width);
+        ASSERT_EQ(result.n, 300);
+        coverage.add(result.b, result.error);
+      }
+      coverage.expect("b = " + std::to_string(b) + ", bins of " + std::to_string(width));
+    }
+}
+
+TEST(BValue, PositiveDifferencesHaveTheSame) {
+  Coverage coverage(1.0);
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    std::vector<double> magnitudes = gutenberg_richter(1.0, -0.05, 600, seed);
+    for (double &m : magnitudes) m = binned(m, 0.1);
+    const BValue result = b_positive(magnitudes, 0.0, 0.1);
+    ASSERT_GT(result.n, 200);
+    coverage.add(result.b, result.error);
+  }
+  coverage.expect("b-positive");
+}
+
+TEST(BValue, PositiveDifferencesForgiveWhatIsMissedAfterLargeEvents) {
+  // An event of magnitude m hides those below m - 1, and less from event to event.
+  std::vector<double> seen;
+  double hidden = -1.0;
+  for (const double m : gutenberg_richter(1.0, 0.0, 200000, 7)) {
+    hidden -= 0.05;
+    if (m < hidden) continue;
+    seen.push_back(m);
+    hidden = std::max(hidden, m - 1.0);
+  }
+  ASSERT_LT(seen.size(), 180000u);
+  const BValue classic = b_value(seen, 0.0), positive = b_positive(seen, 0.0);
+  EXPECT_LT(classic.b, 0.9);
+  EXPECT_NEAR(positive.b, 1.0, 4.0 * positive.error);
+  EXPECT_LT(positive.error, 0.01);
+}
+
+TEST(BValue, FewOrEqualMagnitudesAreDegenerate) {
+  const BValue none = b_value({}, 0.0), few = b_value(std::vector<double>(9, 1.0), 0.0),
+               equal = b_value(std::vector<double>(50, 1.0), 0.0);
+  for (const BValue &result : {none, few, equal}) {
+    EXPECT_TRUE(result.degenerate);
+    EXPECT_TRUE(std::isnan(result.b) && std::isnan(result.error));
+  }
+  EXPECT_EQ(few.why, "9 magnitudes, at least 10 needed");
+  EXPECT_EQ(equal.why, "all magnitudes are equal");
+  EXPECT_THROW(b_value({}, 0.0, -0.1), std::invalid_argument);
+  EXPECT_THROW(b_positive({}, 0.0, 0.1, -1.0), std::invalid_argument);
+  EXPECT_THROW(maximum_curvature({}, 0.0), std::invalid_argument);
+}
+
+TEST(MaximumCurvature, IsWhereTheCatalogueBeginsToMissEvents) {
+  // Seen with a probability that rises from 0 to 1 between 0.4 and 1.
+  LSM::Random random(3);
+  std::vector<double> seen;
+  for (const double m : gutenberg_richter(1.0, 0.0, 100000, 11))
+    if (random.uniform(0.0, 1.0) < (m - 0.4) / 0.6) seen.push_back(m);
+  EXPECT_NEAR(maximum_curvature(seen, 0.1), 1.0, 0.11);
+  EXPECT_NEAR(maximum_curvature(seen, 0.1, 0.0), 0.8, 0.11);
+  EXPECT_NEAR(b_value(seen, maximum_curvature(seen, 0.1)).b, 1.0, 0.05);
+  EXPECT_TRUE(std::isnan(maximum_curvature({}, 0.1)));
+  // The lower of two equals.
+  EXPECT_DOUBLE_EQ(maximum_curvature({1.0, 1.0, 2.0, 2.0, 3.0}, 0.5, 0.25), 1.25);
+}
+
+}  // namespace
