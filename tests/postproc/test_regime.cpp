@@ -81,7 +81,7 @@ TEST(Regime, SeriesWithoutAFallOrARiseHasNone) {
   };
   EXPECT_TRUE(unit::contains(why(rising), "PE only rises"));
   EXPECT_TRUE(unit::contains(why(falling), "PE only falls"));
-  EXPECT_TRUE(unit::contains(why(empty), "PE only rises over 0 windows"));
+  EXPECT_TRUE(unit::contains(why(empty), "PE only falls over 0 windows"));
 }
 
 }  // namespace
