@@ -9,8 +9,8 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
-#include "fix_lsm_nve.h"
 #include "fix_lsm_leap.h"
+#include "fix_lsm_nve.h"
 #include "fix_lsm_plates.h"
 #include "fix_lsm_record.h"
 #include "force.h"
@@ -62,12 +62,12 @@ ComputeLSMEvents::ComputeLSMEvents(LAMMPS *_lmp, int narg, char **arg) :
     Compute(_lmp, narg, arg), emergency_file("lsm_emergency.restart"), series_binary(true),
     series_stride(1), memory_time(0.0), block(100), tangential(true), location(false),
     bin_width(1.0), bin_fraction(0.05), ledger(false), ledger_tolerance(0.0), strain_limit(0.5),
-    check_every(1000), resume(false), overwrite(false), progress(true), links(nullptr), recorder(nullptr),
-    plates(nullptr), leap(nullptr), first_filling(0), first_sending(0), count_filling(0), count_sending(0),
-    request(MPI_REQUEST_NULL), pending(false), shown_at(0.0), started_at(0.0),
-    ledger_started(false), ledger_start(0.0), friction_before(0.0), broken_before(0.0), anchor_time(0.0), anchor_dt(0.0),
-    anchor_step(0), last_recorded(-1), opened(false), check_now(false), widest(0.0), residual_at_end(0.0),
-    ended_at(-1)
+    check_every(1000), resume(false), overwrite(false), progress(true), links(nullptr),
+    recorder(nullptr), plates(nullptr), leap(nullptr), first_filling(0), first_sending(0),
+    count_filling(0), count_sending(0), request(MPI_REQUEST_NULL), pending(false), shown_at(0.0),
+    started_at(0.0), ledger_started(false), ledger_start(0.0), friction_before(0.0),
+    broken_before(0.0), anchor_time(0.0), anchor_dt(0.0), anchor_step(0), last_recorded(-1),
+    opened(false), check_now(false), widest(0.0), residual_at_end(0.0), ended_at(-1)
 {
   if (igroup) error->all(FLERR, "Compute lsm/events must use group all");
   scalar_flag = 1;
@@ -168,20 +168,21 @@ ComputeLSMEvents::ComputeLSMEvents(LAMMPS *_lmp, int narg, char **arg) :
       parameters.emplace_back(arg[iarg + 1], arg[iarg + 2]);
       used = 3;
     } else
-      error->all(FLERR,
-                 "Unknown compute lsm/events keyword '{}'; accepted are catalogue, series, stride, "
-                 "picker, lambda, memory, minsize, nonpositive, block, tangential, location, bin, "
-                 "fraction, ledger, tolerance, strainlimit, check, emergency, resume, overwrite, progress "
-                 "and parameter",
-                 key);
+      error->all(
+          FLERR,
+          "Unknown compute lsm/events keyword '{}'; accepted are catalogue, series, stride, "
+          "picker, lambda, memory, minsize, nonpositive, block, tangential, location, bin, "
+          "fraction, ledger, tolerance, strainlimit, check, emergency, resume, overwrite, progress "
+          "and parameter",
+          key);
     iarg += used;
   }
 
   size_vector = ledger ? NLEDGER : NVECTOR;
   vector = new double[size_vector];
 
-  recorder = dynamic_cast<FixLSMRecord *>(
-      modify->add_fix(std::string(id) + "_record all LSM_RECORD"));
+  recorder =
+      dynamic_cast<FixLSMRecord *>(modify->add_fix(std::string(id) + "_record all LSM_RECORD"));
   if (!recorder) error->all(FLERR, "Compute lsm/events could not create fix LSM_RECORD");
   recorder->owner = this;
 }
@@ -197,8 +198,10 @@ ComputeLSMEvents::~ComputeLSMEvents()
   // the styles and fixes below may be gone by now, so they are found again
 
   if (force) {
-    if (auto p = dynamic_cast<LSMEnergySource *>(force->bond)) p->record_what = LSMEnergySource::NONE;
-    if (auto p = dynamic_cast<LSMEnergySource *>(force->pair)) p->record_what = LSMEnergySource::NONE;
+    if (auto p = dynamic_cast<LSMEnergySource *>(force->bond))
+      p->record_what = LSMEnergySource::NONE;
+    if (auto p = dynamic_cast<LSMEnergySource *>(force->pair))
+      p->record_what = LSMEnergySource::NONE;
   }
   if (recorder && modify) {
     for (const auto &ifix : modify->get_fix_by_style("^lsm/nve"))
@@ -260,12 +263,16 @@ void ComputeLSMEvents::init()
 void ComputeLSMEvents::check_surroundings()
 {
   if (modify->get_fix_by_id(std::string(id) + "_record") != recorder)
-    error->all(FLERR, "Compute lsm/events {}: its fix {}_record is gone; use uncompute to end recording", id, id);
+    error->all(FLERR,
+               "Compute lsm/events {}: its fix {}_record is gone; use uncompute to end recording",
+               id, id);
   if (update->whichflag == 0) return;
   if (update->whichflag == 2)
-    error->all(FLERR, "Compute lsm/events does not work with minimize: it records the steps of a run; uncompute it before");
+    error->all(FLERR, "Compute lsm/events does not work with minimize: it records the steps of a "
+                      "run; uncompute it before");
   if (LSMScene::is_rerun(update))
-    error->all(FLERR, "Compute lsm/events does not work with rerun: it records the steps of a run; use thermo keyword pe "
+    error->all(FLERR, "Compute lsm/events does not work with rerun: it records the steps of a run; "
+                      "use thermo keyword pe "
                       "for the energies of snapshots");
 
   // the strain of links is looked at before particles move to other ranks
@@ -273,18 +280,24 @@ void ComputeLSMEvents::check_surroundings()
   for (const auto &ifix : modify->get_fix_list()) {
     if (ifix == recorder) break;
     if (ifix->pre_exchange_migrate)
-      error->all(FLERR, "Compute lsm/events {} must be defined before fix {}, which moves particles to other ranks", id, ifix->id);
+      error->all(FLERR,
+                 "Compute lsm/events {} must be defined before fix {}, which moves particles to "
+                 "other ranks",
+                 id, ifix->id);
   }
   if (ledger)
     for (const char *adds_or_takes : {"^pour", "^deposit", "^evaporate"})
       for (const auto &other : modify->get_fix_by_style(adds_or_takes))
-        error->all(FLERR,
-                   "Compute lsm/events {}: the energy ledger does not know the particles that fix {} "
-                   "adds or takes away; use ledger no and no tolerance",
-                   id, other->id);
+        error->all(
+            FLERR,
+            "Compute lsm/events {}: the energy ledger does not know the particles that fix {} "
+            "adds or takes away; use ledger no and no tolerance",
+            id, other->id);
   const std::string foreign = LSMScene::foreign_forces(force);
   if (!foreign.empty() && comm->me == 0)
-    error->warning(FLERR, "Compute lsm/events {}: PE, events and ledger do not hold the energy of {}", id, foreign);
+    error->warning(FLERR,
+                   "Compute lsm/events {}: PE, events and ledger do not hold the energy of {}", id,
+                   foreign);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -366,18 +379,21 @@ void ComputeLSMEvents::open_files(bigint step)
 void ComputeLSMEvents::begin_files(bigint step, bool from_restart)
 {
   std::error_code code;
-  for (const auto &[file, key] : {std::pair<const std::string &, const char *>{catalogue_file, "catalogue"},
-                                  {series_file, "series"}}) {
+  for (const auto &[file, key] :
+       {std::pair<const std::string &, const char *>{catalogue_file, "catalogue"},
+        {series_file, "series"}}) {
     if (file.empty()) continue;
     const bool continued = resume && std::filesystem::exists(file, code);
     if (continued && !from_restart)
-      failure = fmt::format("Compute lsm/events resume yes: file {} exists, but the restart file holds no "
-                            "picker state of compute {}; read a restart written while it was active",
-                            file, id);
+      failure = fmt::format(
+          "Compute lsm/events resume yes: file {} exists, but the restart file holds no "
+          "picker state of compute {}; read a restart written while it was active",
+          file, id);
     else if (!continued && !overwrite && LSM::text_io::holds_data(file))
-      failure = fmt::format("Compute lsm/events {}: file {} exists; give another name, or replace it with "
-                            "overwrite yes{}",
-                            key, file, from_restart ? ", or go on with it with resume yes" : "");
+      failure = fmt::format(
+          "Compute lsm/events {}: file {} exists; give another name, or replace it with "
+          "overwrite yes{}",
+          key, file, from_restart ? ", or go on with it with resume yes" : "");
     else
       failure = LSM::text_io::why_not_writable(file);
     if (!failure.empty()) return;
@@ -404,13 +420,11 @@ void ComputeLSMEvents::begin_files(bigint step, bool from_restart)
       info.time0 = anchor_time;
       info.stride = series_stride;
       info.parameters = header().parameters;
-      info.parameters.erase(
-          std::remove_if(info.parameters.begin(), info.parameters.end(),
-                         [](const auto &p) { return p.first == "dt"; }),
-          info.parameters.end());
+      info.parameters.erase(std::remove_if(info.parameters.begin(), info.parameters.end(),
+                                           [](const auto &p) { return p.first == "dt"; }),
+                            info.parameters.end());
       series = std::make_unique<LSM::PeSeriesWriter>();
-      if (series_goes_on)
-        series->find_cut(series_file, info, series_binary, step, free_to_change);
+      if (series_goes_on) series->find_cut(series_file, info, series_binary, step, free_to_change);
     }
 
     // both fit
@@ -485,8 +499,10 @@ void ComputeLSMEvents::change_dt()
   const std::string &file = catalogue_file.empty() ? series_file : catalogue_file;
   if (opened && !file.empty())
     error->all(FLERR,
-               "Compute lsm/events {}: the time step changed from {} to {}, but the header of file {} holds one time "
-               "step; go on from a restart file with other files", id, anchor_dt, update->dt, file);
+               "Compute lsm/events {}: the time step changed from {} to {}, but the header of file "
+               "{} holds one time "
+               "step; go on from a restart file with other files",
+               id, anchor_dt, update->dt, file);
   flush();
   const double ratio = anchor_dt > 0.0 ? update->dt / anchor_dt : 0.0;
   anchor_time = time_of(update->ntimestep);
@@ -601,9 +617,10 @@ void ComputeLSMEvents::take_sample(bigint step, double pe, const double *slip, i
   try {
     if (!std::isfinite(pe)) {
       if (series) series->flush();
-      failure = fmt::format("Potential energy is not finite at step {}; the catalogue ends with the last event "
-                            "before it. Use a smaller time step or start from an earlier restart",
-                            step);
+      failure = fmt::format(
+          "Potential energy is not finite at step {}; the catalogue ends with the last event "
+          "before it. Use a smaller time step or start from an earlier restart",
+          step);
       return;
     }
     if (series && step % series_stride == 0) series->write(step, pe);
@@ -683,7 +700,8 @@ void ComputeLSMEvents::leave_out_jump()
 {
   const bigint step = update->ntimestep;
   const double size = MAX(domain->prd[0], domain->prd[1]);
-  const double floor = 1e-22 * static_cast<double>(atom->natoms) * size * size;    // positions rounded otherwise
+  const double floor =
+      1e-22 * static_cast<double>(atom->natoms) * size * size;    // positions rounded otherwise
   double change = 0.0;
 
   if (last_recorded == step) {
@@ -711,8 +729,11 @@ void ComputeLSMEvents::leave_out_jump()
     }
   }
   if (change != 0.0 && comm->me == 0)
-    error->warning(FLERR, "Compute lsm/events {}: the energy changed by {:.6g} between two runs; events and ledger leave "
-                          "it out", id, change);
+    error->warning(FLERR,
+                   "Compute lsm/events {}: the energy changed by {:.6g} between two runs; events "
+                   "and ledger leave "
+                   "it out",
+                   id, change);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -794,7 +815,8 @@ void ComputeLSMEvents::look_early()
              "smaller time step or start from an earlier restart",
              update->ntimestep,
              all >= 1e300 ? "positions are not finite"
-                          : fmt::format("a link is strained by {:.4g}, above strainlimit {:.4g}", all, strain_limit));
+                          : fmt::format("a link is strained by {:.4g}, above strainlimit {:.4g}",
+                                        all, strain_limit));
 }
 
 /* ----------------------------------------------------------------------
@@ -816,15 +838,16 @@ void ComputeLSMEvents::check_health()
   if (all[0] > 0.0 || all[1] >= 1e300)
     what = "the potential energy is not finite";
   else if (all[1] > strain_limit)
-    what = fmt::format("a link is strained by {:.4g}, above strainlimit {:.4g}", all[1],
-                       strain_limit);
+    what =
+        fmt::format("a link is strained by {:.4g}, above strainlimit {:.4g}", all[1], strain_limit);
   else if (ledger_tolerance > 0.0) {
     for (auto *p : integrators) p->complete_step();
     const double off = residual();
     const double scale = friction_work() + viscous_work() + kinetic() + fabs(total(local_pe()));
     if (fabs(off) > ledger_tolerance * scale)
       what = fmt::format("the energy ledger is out of balance by {:.4g} of {:.4g}, above tolerance "
-                         "{:.4g}", off, scale, ledger_tolerance);
+                         "{:.4g}",
+                         off, scale, ledger_tolerance);
   }
   if (what.empty()) return;
 
@@ -832,10 +855,11 @@ void ComputeLSMEvents::check_health()
 
   if (all[0] > 0.0 || all[1] >= 1e300) {
     flush();
-    error->all(FLERR,
-               "Run stopped at step {}: {}. The catalogue ends with the last event before it; use a "
-               "smaller time step or start from an earlier restart",
-               update->ntimestep, what);
+    error->all(
+        FLERR,
+        "Run stopped at step {}: {}. The catalogue ends with the last event before it; use a "
+        "smaller time step or start from an earlier restart",
+        update->ntimestep, what);
   }
 
   flush();
@@ -862,8 +886,8 @@ void ComputeLSMEvents::show_progress(bigint step)
   const double done = static_cast<double>(step - update->firststep);
   const double left = static_cast<double>(update->laststep - step);
   const double seconds = done > 0.0 ? (now - started_at) * left / done : 0.0;
-  fprintf(stderr, "\rstep " BIGINT_FORMAT " of " BIGINT_FORMAT ", %lld events, %.0f s left   ", step,
-          update->laststep, static_cast<long long>(picker->events()), seconds);
+  fprintf(stderr, "\rstep " BIGINT_FORMAT " of " BIGINT_FORMAT ", %lld events, %.0f s left   ",
+          step, update->laststep, static_cast<long long>(picker->events()), seconds);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -874,10 +898,14 @@ std::vector<double> ComputeLSMEvents::pack_state()
   flush();
   const double friction = friction_work(), broken = broken_work();
   std::vector<double> state;
-  state = {3.0,         static_cast<double>(last_recorded),
+  state = {3.0,
+           static_cast<double>(last_recorded),
            ledger_started ? 1.0 : 0.0,
-           ledger_start, friction, broken,
-           anchor_time,  static_cast<double>(anchor_step),
+           ledger_start,
+           friction,
+           broken,
+           anchor_time,
+           static_cast<double>(anchor_step),
            anchor_dt};
   if (comm->me == 0) {
     std::vector<double> bytes(sizeof(LSM::PickerState) / sizeof(double));
@@ -895,7 +923,8 @@ void ComputeLSMEvents::unpack_state(const std::vector<double> &state)
 {
   constexpr size_t fixed = 9, words = sizeof(LSM::PickerState) / sizeof(double);
   if (state.size() < fixed + words || state[0] != 3.0)
-    error->all(FLERR, "Compute lsm/events {}: the restart file holds a state of another version", id);
+    error->all(FLERR, "Compute lsm/events {}: the restart file holds a state of another version",
+               id);
   last_recorded = static_cast<bigint>(state[1]);
   ledger_started = state[2] != 0.0;
   ledger_start = state[3];
@@ -963,5 +992,5 @@ void ComputeLSMEvents::compute_vector()
 double ComputeLSMEvents::memory_usage()
 {
   return static_cast<double>(filling.capacity() + sending.capacity() + received.capacity()) *
-      sizeof(double);
+         sizeof(double);
 }

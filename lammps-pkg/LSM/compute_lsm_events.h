@@ -58,7 +58,7 @@ class ComputeLSMEvents : public Compute {
   bool tangential;       // tangential springs count as potential energy
   bool location;         // slip moment, centroid and rupture length of each event
   double bin_width;
-  double bin_fraction;   // bins with less than this part of the largest slip are not ruptured
+  double bin_fraction;    // bins with less than this part of the largest slip are not ruptured
   bool ledger;
   double ledger_tolerance;    // 0: not checked
   double strain_limit;

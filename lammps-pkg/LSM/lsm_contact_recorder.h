@@ -31,8 +31,9 @@ class LSMRecordEnergies {
 
   /// setup: the step was done before; its slip was counted then.
   LSMRecordEnergies(LSMEnergySource &source, bool setup, double xlo, double period) :
-      source_(source), counts_(!setup), slips_(!setup && (source.record_what & (LSMEnergySource::SLIP | LSMEnergySource::SLIP_RATE))), xlo_(xlo),
-      period_(period)
+      source_(source), counts_(!setup),
+      slips_(!setup && (source.record_what & (LSMEnergySource::SLIP | LSMEnergySource::SLIP_RATE))),
+      xlo_(xlo), period_(period)
   {
     if (source.record_what) source_.slip.clear();
   }

@@ -95,8 +95,8 @@ std::string catalogue_section(const std::vector<EventTable> &tables, const Thres
 }
 
 std::string series_section(const std::vector<SeriesRegime> &series) {
-  HtmlTable table({"PE series", "model", "length or blocks", "times", "regime", "saw-tooth", "stick-slip above",
-                   "fastest fall / load", "share of the time within events",
+  HtmlTable table({"PE series", "model", "length or blocks", "times", "regime", "saw-tooth",
+                   "stick-slip above", "fastest fall / load", "share of the time within events",
                    "mean duration of events (model time)"});
   double window = regime_window;
   for (const SeriesRegime &one : series) {
@@ -107,8 +107,9 @@ std::string series_section(const std::vector<SeriesRegime> &series) {
       const Regime &r = *one.regime;
       window = r.window;
       for (const std::string &cell :
-           {name_of(r), short_number(r.saw_tooth, 3), short_number(r.above, 3), short_number(r.drop_over_load, 3),
-            short_number(r.time_in_events, 2), short_number(r.mean_duration, 3)})
+           {name_of(r), short_number(r.saw_tooth, 3), short_number(r.above, 3),
+            short_number(r.drop_over_load, 3), short_number(r.time_in_events, 2),
+            short_number(r.mean_duration, 3)})
         cells.push_back(cell);
     } else {
       cells.push_back(degenerate(one.why));
