@@ -32,7 +32,7 @@ export CMAKE_BUILD_PARALLEL_LEVEL=$jobs
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 \
   OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_hwloc_base_binding_policy=none OMP_NUM_THREADS=1
 flags="-DCMAKE_CXX_FLAGS_RELEASE=${LSM_MATRIX_FLAGS:--O1} -DNDEBUG"
-precompile=-DCMAKE_PROJECT_INCLUDE=$root/tests/matrix/precompile.cmake
+precompile=-DCMAKE_PROJECT_INCLUDE=$root/lammps-pkg/cmake/PrecompileLammps.cmake
 
 . "$root/lammps-pkg/cmake/debian-packages.sh"
 install_debian_packages $lammps_packages clang libgtest-dev libgmock-dev libyaml-dev
@@ -142,9 +142,9 @@ do_column() {
   clang=$(compiler_of clang++)
   case $name in
     reference) whole reference "4 Feb 2025" smallbig "$gxx" ;;
-    clang) whole clang "4 Feb 2025" smallbig "$clang" -DCMAKE_CXX_COMPILER=clang++ "-DLSM_LAMMPS_OPTIONS=$flags;$precompile" ;;
-    bigbig) whole bigbig "4 Feb 2025" bigbig "$gxx" -DLSM_LAMMPS_SIZES=bigbig "-DLSM_LAMMPS_OPTIONS=$flags;$precompile" ;;
-    jul2026) whole jul2026 "4 Jul 2026" smallbig "$gxx" "-DLSM_LAMMPS_VERSION=4 Jul 2026" "-DLSM_LAMMPS_OPTIONS=$flags;$precompile" ;;
+    clang) whole clang "4 Feb 2025" smallbig "$clang" -DCMAKE_CXX_COMPILER=clang++ "-DLSM_LAMMPS_OPTIONS=$flags" ;;
+    bigbig) whole bigbig "4 Feb 2025" bigbig "$gxx" -DLSM_LAMMPS_SIZES=bigbig "-DLSM_LAMMPS_OPTIONS=$flags" ;;
+    jul2026) whole jul2026 "4 Jul 2026" smallbig "$gxx" "-DLSM_LAMMPS_VERSION=4 Jul 2026" "-DLSM_LAMMPS_OPTIONS=$flags" ;;
     plugin)
       local stock
       stock=$(sed -n 's/^LSM_STOCK_LMP:INTERNAL=//p' "$folder/reference/CMakeCache.txt")
