@@ -244,13 +244,13 @@ TEST(Aftershocks, ShareOfPoissonCatalogues) {
   expect_binomial(low, trials, 0.5, "p of at most 0.5");
 
   // Sequences put into one.
-  EventTable clustered = poisson(3000, 1.0, 77);
+  EventTable clustered = poisson(1000, 1.0, 77);
   const Rng rng = generator(5);
   std::vector<std::pair<double, double>> rows;
   for (std::size_t i = 0; i < clustered.size.size(); ++i) {
     rows.emplace_back(clustered.t_start[i], clustered.size[i]);
     if (clustered.size[i] < 30.0) continue;
-    for (int k = 0; k < 60; ++k)  // p = 2, c = 1
+    for (int k = 0; k < 30; ++k)  // p = 2, c = 1
       rows.emplace_back(clustered.t_start[i] + 1.0 / gsl_ran_flat(rng.get(), 0.0, 1.0) - 1.0, 1.0);
   }
   std::sort(rows.begin(), rows.end());
