@@ -36,6 +36,7 @@ class FixLSMPlates : public Fix {
 
   int plate_bits() const { return plate[0].bit | plate[1].bit; }
   double work();              // work of the plates on the blocks, all ranks, accumulated
+  double driving() const { return 2.0 * speed; }    // velocity of the upper plate relative to the lower one, in the end
   double kinetic() const;     // kinetic energy of the motion of the plates across the fault
 
  private:

@@ -145,9 +145,13 @@ template <bool EV, bool RECORD, bool HAS_STATIC, bool LOCATE> void PairLSMFricti
     farthest = MAX(farthest, MAX(fabs(domain->boxlo[c]), fabs(domain->boxhi[c])));
   const double rounding = 16.0 * std::numeric_limits<double>::epsilon() * farthest;
   const bool record_slip = RECORD && (record_what & SLIP) && !setup;
+  const bool record_contacts = RECORD && (record_what & CONTACTS);
   const double xlo = domain->boxlo[0], lx = domain->prd[0];
   double e_normal = 0.0, e_tangential = 0.0, lost = 0.0;
-  if constexpr (RECORD) slip.clear();
+  if constexpr (RECORD) {
+    slip.clear();
+    contacts.clear();
+  }
 
   for (int ii = 0; ii < list->inum; ii++) {
     const int i = list->ilist[ii];
@@ -222,6 +226,11 @@ template <bool EV, bool RECORD, bool HAS_STATIC, bool LOCATE> void PairLSMFricti
           along = (along - floor(along)) * lx;
           slip.push_back({floor(along / slip_bin),
                           share * fabs(s.slip) * LSM::contact_size(radius[i], radius[j])});
+        }
+        if (record_contacts) {
+          const double fx = apart ? 0.0 : fn * nx + s.force * ny;
+          contacts.push_back({0.5 * (x[i][0] + x[j][0]), -s.slip * fabs(ny), s.dissipated,
+                              ny > 0.0 ? -fx : fx, share});
         }
       }
 

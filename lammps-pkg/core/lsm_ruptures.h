@@ -180,12 +180,12 @@ class RuptureFinder {
     const std::int64_t n = sets_.step() + 1;
     const double least = slipping_above(grid_, settings_.velocity);
     sets_.begin_step(n);
-    bool slips = false;
+    active_ = !sets_.idle();  // until the interval after the end, whose stress is wanted
     for (int b = 0; b < grid_.bins; ++b) {
       const auto i = static_cast<std::size_t>(b);
       const double slip = row.slip[i], size = std::fabs(slip);
       if (!(size > least)) continue;
-      slips = true;
+      active_ = true;
       FaultRupture &r = sets_.slide(b, [this, n](FaultRupture &begun) {
         begun.pe_start = pe_;
         begun.hypocentre = begun.first_place;
@@ -206,13 +206,12 @@ class RuptureFinder {
           if (r.step_end == n - 1) r.stress_after = mean(row.stress, r);
         },
         [&](const FaultRupture &r) { finished(event(r)); });
-    active_ = slips || !sets_.idle();
     forget();
     before_ = row.stress;
     pe_ = pe;
   }
 
-  /// Something slipped in the last interval, or may still be connected with what slips next.
+  /// Something slipped in the last interval, or a rupture was open when it began.
   bool active() const { return active_; }
   std::int64_t intervals() const { return sets_.step(); }  ///< added so far
   /// At the end of the last interval.

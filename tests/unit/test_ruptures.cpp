@@ -64,7 +64,7 @@ std::vector<Event> find(Pattern pattern, const FaultGrid &grid, const RuptureSet
   RuptureFinder finder(grid, settings);
   const std::string quiet(static_cast<std::size_t>(grid.bins), '.');
   finder.begin(0.0, row_of(quiet, 0));
-  for (std::int64_t k = 0; k < settings.memory; ++k) pattern.push_back(quiet);
+  for (std::int64_t k = 0; k <= settings.memory; ++k) pattern.push_back(quiet);
   int n = 0;
   for (const std::string &line : pattern) {
     ++n;
