@@ -37,7 +37,11 @@ class FixLSMPlates : public Fix {
   double loading;    // factor of the driving velocity now, set by fix lsm/leap
   double driving_velocity() const { return speed; }
   int plate_bits() const { return plate[0].bit | plate[1].bit; }
-  double work();             // work of the plates on the blocks, all ranks, accumulated
+  double work();    // work of the plates on the blocks, all ranks, accumulated
+  double driving() const
+  {
+    return 2.0 * speed;
+  }                          // velocity of the upper plate relative to the lower one, in the end
   double kinetic() const;    // kinetic energy of the motion of the plates across the fault
 
  private:

@@ -276,6 +276,11 @@ template <class Law, class Recorder> void PairLSMFriction::loop()
         if (s.slip != 0.0)
           recorder.slip(share, 0.5 * (x[i][0] + x[j][0]),
                         fabs(s.slip) * LSM::contact_size(radius[i], radius[j]));
+        if (recorder.wants_contacts()) {
+          const double along = apart ? 0.0 : contact.fn * nx + s.force * ny;
+          recorder.contact({0.5 * (x[i][0] + x[j][0]), -s.slip * fabs(ny), s.dissipated,
+                            ny > 0.0 ? -along : along, share});
+        }
       }
 
       if (apart) {
