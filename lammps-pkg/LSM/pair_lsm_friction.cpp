@@ -182,8 +182,6 @@ template <class Law, class Recorder> void PairLSMFriction::loop()
   const int nlocal = atom->nlocal;
   int **firsttouch = fix_history->firstflag;
   double **firsthistory = fix_history->firstvalue;
-  double **table[std::size(Law::parameters)];
-  for (std::size_t n = 0; n < std::size(Law::parameters); n++) table[n] = coefficient[n];
   const double reach_sq = locate_onset ? NEAR_REACH * NEAR_REACH : 0.0;
   [[maybe_unused]] const double dt = update->dt;
 
@@ -204,6 +202,10 @@ template <class Law, class Recorder> void PairLSMFriction::loop()
     const int jnum = list->numneigh[i];
     int *touch = firsttouch[i];
     double *allhistory = firsthistory[i];
+    const int itype = type[i];
+    const double *const ki = k[itype];
+    const double *row[std::size(Law::parameters)];
+    for (std::size_t n = 0; n < std::size(Law::parameters); n++) row[n] = coefficient[n][itype];
 
     for (int jj = 0; jj < jnum; jj++) {
       const int j = jlist[jj] & NEIGHMASK;
@@ -213,7 +215,7 @@ template <class Law, class Recorder> void PairLSMFriction::loop()
       const double r0 = radius[i] + radius[j];
       const bool apart = rsq >= r0 * r0;
       if (apart && !touch[jj] && rsq > reach_sq * r0 * r0) continue;
-      if (screened && left_out(jlist[jj], type[i], type[j])) {
+      if (screened && left_out(jlist[jj], itype, type[j])) {
         touch[jj] = 0;
         continue;
       }
@@ -224,13 +226,12 @@ template <class Law, class Recorder> void PairLSMFriction::loop()
         keep_near(rsq <= reach_sq * r0 * r0, delx, dely, touch[jj], h);
         continue;
       }
-      const int itype = type[i], jtype = type[j];
+      const int jtype = type[j];
       const double r = sqrt(rsq);
       const double rinv = r > 0.0 ? 1.0 / r : 0.0;
       const double nx = delx * rinv, ny = dely * rinv;
-      const auto c = coefficients_of<Law>(
-          [&table, itype, jtype](std::size_t n) { return table[n][itype][jtype]; },
-          parameters_of<Law>);
+      const auto c = coefficients_of<Law>([&row, jtype](std::size_t n) { return row[n][jtype]; },
+                                          parameters_of<Law>);
 
       LSM::FrictionContact contact{0.0, 0.0, 0.0, 0.0, false};
       bool moved = !setup;
@@ -259,7 +260,7 @@ template <class Law, class Recorder> void PairLSMFriction::loop()
         Law::begin(c, h + LAW_STATE);
       }
 
-      const double kij = k[itype][jtype];
+      const double kij = ki[jtype];
       contact.fn = LSM::contact_normal_force(kij, r, r0);
       contact.xi = h[XI];
       if constexpr (Law::needs_sliding) contact.sliding = h[STATUS] == SLIDES;
