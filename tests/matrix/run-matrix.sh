@@ -55,15 +55,16 @@ run_fault() {
 
 # compare_fault COLUMN: what a fault has in common with that of the reference, in words
 compare_fault() {
-  local ours=$folder/$1/fault theirs=$folder/reference/fault ranks words=""
+  local ours=$folder/$1/fault theirs=$folder/reference/fault ranks file words=""
   for ranks in 1 2; do
     local events difference="same bytes"
     events=$(grep -vc '^[#e]' "$ours/on_$ranks.catalogue.csv" || true)
     [ "$events" -ge 5 ] || { echo "FAILED: $events events on $ranks ranks say nothing"; return 1; }
-    cmp -s "$ours/on_$ranks.pe.bin" "$theirs/on_$ranks.pe.bin" || difference="PE series differs"
-    # the comment lines name the version of LAMMPS
-    cmp -s <(grep -v '^#' "$ours/on_$ranks.catalogue.csv") <(grep -v '^#' "$theirs/on_$ranks.catalogue.csv") ||
-      difference="$difference, catalogue differs"
+    # the headers name the version of LAMMPS
+    for file in pe.bin catalogue.csv; do
+      cmp -s <(LC_ALL=C sed 's/LAMMPS 4 Jul 2026/LAMMPS 4 Feb 2025/' "$ours/on_$ranks.$file") "$theirs/on_$ranks.$file" ||
+        difference="$file differs"
+    done
     words="$words${words:+; }$ranks rank$([ $ranks = 1 ] || echo s): $events events, $difference"
   done
   echo "$words"
