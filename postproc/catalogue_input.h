@@ -39,8 +39,8 @@ struct EventTable {
   double last_end = 0.0;              ///< t_end of the last event (model time)
   /// Smaller events are missing: --min-size, or the picker's min_size in the header (energy).
   double complete_from = 0.0;
-  /// The largest `completeness` in the headers of the catalogues of this model that were loaded
-  /// together, so that their curves begin at the same size, and the file that has it (energy).
+  /// The largest `completeness` in the headers of the catalogues of this model and kind of event that
+  /// were loaded together, so that their curves begin at the same size, and the file that has it (energy).
   double completeness = 0.0;
   std::string completeness_path;
   std::int64_t skipped_lines = 0;    ///< bad lines passed over (lenient)

@@ -21,6 +21,7 @@ void add_fit(CLI::App &app);         ///< size exponents, finite-size scaling
 void add_spectrum(CLI::App &app);    ///< power spectrum of PE (ours)
 void add_export(CLI::App &app);      ///< tables for earthquake catalogue tools
 void add_report(CLI::App &app);      ///< one page about a set of catalogues
+void add_rupture(CLI::App &app);     ///< ruptures of a fault in space and time (ours)
 
 /// Check of an option that is a number of 0 or more.
 inline CLI::Validator zero_or_more() {

@@ -46,7 +46,7 @@ int main(int argc, char **argv) {
     app.option_defaults()->always_capture_default();
     app.get_formatter()->column_width(34);
     for (const auto add : {add_pick, add_series, add_histograms, add_intervals, add_fit,
-                           add_spectrum, add_export, add_report})
+                           add_spectrum, add_export, add_report, add_rupture})
       add(app);
     try {
       app.parse(argc, argv);

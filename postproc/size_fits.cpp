@@ -213,18 +213,22 @@ std::vector<Scaling> scale_sizes(const std::vector<EventTable> &tables, const Th
     const std::string *const kl = table.info.find("kl");
     const std::string stiffness = kl ? *kl : "";
     auto found = std::find_if(scalings.begin(), scalings.end(), [&](const Scaling &scaling) {
-      return scaling.model == table.info.model && scaling.stiffness == stiffness;
+      return scaling.model == table.info.model && scaling.ruptures == table.info.overlapping() &&
+             scaling.stiffness == stiffness;
     });
     if (found == scalings.end()) {
       scalings.emplace_back();
       found = scalings.end() - 1;
       found->model = table.info.model;
+      found->ruptures = table.info.overlapping();
       found->stiffness = stiffness;
       // One for all lengths, and no catalogue with less than all of its events.
       found->threshold = threshold.of(table);
       found->threshold_text = threshold.text(table);
       for (const EventTable &other : tables) {
-        if (other.info.model != found->model || !(other.complete_from > found->threshold)) continue;
+        if (other.info.model != found->model || other.info.overlapping() != found->ruptures ||
+            !(other.complete_from > found->threshold))
+          continue;
         found->threshold = other.complete_from;
         found->threshold_text =
             short_number(other.complete_from) + ", where " + other.label + " begins";
@@ -242,7 +246,8 @@ std::vector<Scaling> scale_sizes(const std::vector<EventTable> &tables, const Th
 }
 
 std::string Scaling::name() const {
-  const std::string model_name = model == "lsm" ? "fault" : "block-slider";
+  const std::string model_name =
+      std::string(model == "lsm" ? "fault" : "block-slider") + (ruptures ? ", ruptures" : "");
   return stiffness.empty() ? model_name : model_name + ", Kl = " + stiffness;
 }
 
@@ -326,6 +331,7 @@ std::string scaling_text(const Scaling &scaling) {
 
 nlohmann::json to_json(const Scaling &scaling) {
   nlohmann::json json = {{"model", scaling.model},
+                         {"events", scaling.ruptures ? "ruptures" : "pe"},
                          {"kl", scaling.stiffness},
                          {"threshold", scaling.threshold},
                          {"threshold_from", scaling.threshold_text},

@@ -60,9 +60,10 @@ const char *favoured(const Comparison &comparison);
 /// favoured() with the numbers, or "degenerate: why".
 std::string verdict(const Comparison &comparison);
 
-/// Characteristic sizes of the catalogues of one model against their lengths.
+/// Characteristic sizes of the catalogues of one model and kind of event against their lengths.
 struct Scaling {
   std::string model;
+  bool ruptures = false;  ///< events are ruptures, not drops of the total PE
   std::string stiffness;  ///< block-slider: kl of the header; "" if there is none
   double threshold = 0.0;
   std::string threshold_text;  ///< with where it comes from
@@ -70,13 +71,14 @@ struct Scaling {
   std::vector<SizePoint> points;
   ScalingFit fit;
 
-  std::string name() const;     ///< of the model, with the stiffness
+  std::string name() const;     ///< of the model, with the kind of event and the stiffness
   bool drawable() const;        ///< has a point that is not degenerate
   bool by_event() const;        ///< errors are not those of blocks of time
   std::string verdict() const;  ///< one sentence
 };
 
-/// One per model and stiffness of the leaf springs, catalogues without a length left out.
+/// One per model, kind of event and stiffness of the leaf springs; catalogues without a length are
+/// left out.
 std::vector<Scaling> scale_sizes(const std::vector<EventTable> &tables, const Threshold &threshold,
                                  const Resampling &resampling);
 
