@@ -261,8 +261,11 @@ ComputeLSMEvents::~ComputeLSMEvents()
 
 void ComputeLSMEvents::init()
 {
-  if (modify->get_compute_by_style("lsm/events").size() > 1 && comm->me == 0)
-    error->warning(FLERR, "More than one compute lsm/events");
+  int same = 0;
+  for (const auto &other : modify->get_compute_by_style("lsm/events"))
+    if (auto p = dynamic_cast<ComputeLSMEvents *>(other)) same += p->ruptures == ruptures;
+  if (same > 1 && comm->me == 0)
+    error->warning(FLERR, "More than one compute lsm/events with the same kind of events");
 
   links = dynamic_cast<BondLSMLinked *>(force->bond_match("lsm/linked"));
   const auto contacts = LSMScene::contact_styles(force);
