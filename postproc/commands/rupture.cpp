@@ -138,7 +138,7 @@ void add_rupture(CLI::App &app) {
       "(BASE-event)");
   auto options = std::make_shared<Options>();
   options->catalogues.add_to(command);
-  options->picture.add_to(command, "rupture");
+  add_picture_options(command, options->picture, "rupture");
   const std::string group = "Slip history";
   command
       ->add_option("--history", options->history,
