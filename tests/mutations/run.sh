@@ -44,23 +44,15 @@ done
 
 # apply I FOLDER: the mutated text of mutation I on standard output
 apply() {
-  local text
-  if [ ! -e "$2/${files[$1]}" ]; then
-    echo "${names[$1]}: there is no file ${files[$1]}" >&2
-    return 1
-  fi
-  text=$(cat "$2/${files[$1]}"; echo x)
-  text=${text%x}
-  local -r rest=${text#*"${from[$1]}"}
-  if [ "$rest" = "$text" ]; then
-    echo "${names[$1]}: '${from[$1]}' is not in ${files[$1]}" >&2
-    return 1
-  fi
-  if [ "${rest#*"${from[$1]}"}" != "$rest" ]; then
-    echo "${names[$1]}: '${from[$1]}' is in ${files[$1]} more than once" >&2
-    return 1
-  fi
-  printf '%s' "${text%%"${from[$1]}"*}${to[$1]}$rest"
+  perl -0777 -e '
+    my ($name, $folder, $file, $from, $to) = @ARGV;
+    open(my $in, "<", "$folder/$file") or die "$name: there is no file $file\n";
+    my $text = <$in>;
+    my $at = index($text, $from);
+    die "$name: \x27$from\x27 is not in $file\n" if $at < 0;
+    die "$name: \x27$from\x27 is in $file more than once\n" if index($text, $from, $at + 1) >= 0;
+    substr($text, $at, length $from) = $to;
+    print $text;' "${names[$1]}" "$2" "${files[$1]}" "${from[$1]}" "${to[$1]}"
 }
 
 chosen=() outdated=0

@@ -552,6 +552,9 @@ TEST_F(CatalogueResume, RefusesAnotherNumberOfEventsAndLeavesTheFile) {
   EXPECT_TRUE(
       contains(message_of<CatalogueError>([&] { writer.resume(file(), some_info(), 209, {}, 2); }),
                "cannot resume: 1 events up to the checkpoint, expected 2"));
+  EXPECT_TRUE(
+      contains(message_of<CatalogueError>([&] { writer.resume(file(), some_info(), 209, {}, 0); }),
+               "cannot resume: 1 events up to the checkpoint, expected 0"));
   EXPECT_EQ(slurp(file()), before);
   EXPECT_EQ(writer.resume(file(), some_info(), 209, {}, 1), 1);
 }

@@ -141,6 +141,17 @@ TEST_P(PeSeriesBoth, ComesBackToTheLastBit) {
   }
 }
 
+TEST_F(PeSeries, TimeThatDoesNotFollowFromTheStepIsRefused) {
+  write_series(false, 110);
+  std::string text = slurp(file());
+  const std::string sample = "\n102,7.5,";
+  ASSERT_NE(text.find(sample), std::string::npos);
+  text.replace(text.find(sample), sample.size(), "\n102,7.5000019073486328,");
+  spill(file(), text);
+  EXPECT_TRUE(contains(message_of<PeSeriesError>([&] { read_all(file()); }),
+                       "time 7.5000019073486328 at step 102, expected 7.5 from time0"));
+}
+
 TEST_P(PeSeriesBoth, ManyBlocks) {
   const std::int64_t last = 100 + 2 * 20000;
   write_series(GetParam(), last);
