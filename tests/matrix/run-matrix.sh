@@ -167,7 +167,7 @@ do_column() {
         "-DCMAKE_CXX_FLAGS=-ffp-contract=off -fno-math-errno -Wall -Wextra" -DPKG_LSM=on -DPKG_MOLECULE=on -DPKG_GRANULAR=on \
         -DPKG_BPM=on -DBUILD_OMP=off -DWITH_JPEG=off -DWITH_FFMPEG=off -DDOWNLOAD_POTENTIALS=off \
         >>"$folder/installed.configure.log" 2>&1
-      cmake --build "$at" --parallel "$jobs" >"$at.build.log" 2>&1 || { tail -n 30 "$at.build.log"; return 1; }
+      cmake --build "$at" --parallel "$jobs" >>"$at.build.log" 2>&1 || { tail -n 30 "$at.build.log"; return 1; }
       ! grep "src/LSM/.*warning:" "$at.build.log" || return 1
       "$at/lmp" -h | grep -q '\bLSM\b' || { echo "lmp -h does not name the package"; return 1; }
       run_fault installed "$at/lmp"
