@@ -238,8 +238,8 @@ report)
   sed 's/^# length/# events = ruptures\n&/' 'a<b&c.csv' > r.csv
   must_run report r.csv --replicas 0 --interval-replicas 0 -o p.html
   grep -q 'Sizes are drops of the potential energy' p.html && fail "words on drops of PE about ruptures"
-  grep -q '<h2>Fault: ruptures</h2>' p.html && grep -q 'those at the same time at different places are events of their own' p.html &&
-    grep -q 'The size of a rupture is the work that friction took' p.html || fail "no words on ruptures"
+  grep -q '<h2>Fault: ruptures</h2>' p.html && grep -q 'those at the same time at different places stay apart' p.html &&
+    grep -q 'that friction took on its part of the fault' p.html || fail "no words on ruptures"
   # Both kinds on one page: a section each.
   must_run report r.csv 'a<b&c.csv' --replicas 0 --interval-replicas 0 -o p.html
   grep -q '<h2>Fault</h2>' p.html && grep -q '<h2>Fault: ruptures</h2>' p.html && grep -q '<td>drops of PE</td>' p.html &&
@@ -258,7 +258,7 @@ report)
   pe rise.pe 480 10 0
   must_run report s.csv --series tooth.pe --series creep.pe --series rise.pe --replicas 0 --interval-replicas 0 -o p.html
   row() { grep "^<tr><th scope=\"row\">$1<" p.html | sed 's/<[^>]*>/|/g; s/||*/|/g'; }
-  [ "$(row tooth.pe)" = '|tooth.pe|Fault|120|0 to 1981|stick-slip|10|10|0.091|9|' ] || fail "row of tooth.pe: $(row tooth.pe)"
+  [ "$(row tooth.pe)" = '|tooth.pe|Fault|120|0 to 1981|stick-slip|10|3|10|0.091|9|' ] || fail "row of tooth.pe: $(row tooth.pe)"
   [ "$(row creep.pe)" = '|creep.pe|Fault|240|0 to 2401|creep|1|1|0.5|60|' ] || fail "row of creep.pe: $(row creep.pe)"
   row rise.pe | grep -q '480|0 to 201|degenerate: PE only rises' || fail "row of rise.pe: $(row rise.pe)"
   grep -q 'Stick-slip or creep' r.html && fail "a section without a series"
