@@ -259,7 +259,7 @@ report)
   must_run report s.csv --series tooth.pe --series creep.pe --series rise.pe --replicas 0 --interval-replicas 0 -o p.html
   row() { grep "^<tr><th scope=\"row\">$1<" p.html | sed 's/<[^>]*>/|/g; s/||*/|/g'; }
   [ "$(row tooth.pe)" = '|tooth.pe|Fault|120|0 to 1981|stick-slip|10|3|10|0.091|9|' ] || fail "row of tooth.pe: $(row tooth.pe)"
-  [ "$(row creep.pe)" = '|creep.pe|Fault|240|0 to 2401|creep|1|1|0.5|60|' ] || fail "row of creep.pe: $(row creep.pe)"
+  [ "$(row creep.pe)" = '|creep.pe|Fault|240|0 to 2401|creep|1|2.41|1|0.5|60|' ] || fail "row of creep.pe: $(row creep.pe)"
   row rise.pe | grep -q '480|0 to 201|degenerate: PE only rises' || fail "row of rise.pe: $(row rise.pe)"
   grep -q 'Stick-slip or creep' r.html && fail "a section without a series"
   # The window of time holds for the series, too.
