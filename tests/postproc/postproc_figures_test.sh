@@ -327,9 +327,9 @@ rupture)
       awk '{ m = 0.1 * $3 * $3
              printf "%d,%s,%s,%d,%d,%.17g,100,%.17g,%.17g,60,%d,60.5,60,%g,0.003\n", NR, $1, $2, NR, NR, m / 100, 100 - $4, m, $3, 0.1 * $3 }'
   } > a.csv
-  must_run rupture a.csv -o r
+  must_run rupture a.csv --label a -o r
   for name in length pe stress; do pictures r-$name; done
-  grep -q '^fault, length 120: 43 ruptures' out.txt || fail "$(cat out.txt)"
+  grep -q '^a: 43 ruptures' out.txt || fail "$(cat out.txt)"
   # Of the lengths below that of the fault: slope 2 without scatter.
   grep -q '^# fit, without those of the whole fault: slope 2' r-length.csv || fail "$(head -3 r-length.csv)"
   [ "$(awk -F, '$6 == 1' r-length.csv | wc -l)" = 1 ] || fail "ruptures of the whole fault"
