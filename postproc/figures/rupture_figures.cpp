@@ -566,12 +566,12 @@ set multiplot
 set lmargin at screen 0.11
 set rmargin at screen 0.83
 set xrange [{x0}:{x1}]
-set tmargin at screen 0.94
+set tmargin at screen 0.92
 set bmargin at screen 0.36
 set format x ''
 set ylabel 'Time since its begin (model units)'
 set yrange [{t0}:{t1}]
-set key at screen 0.47,0.985 center top horizontal maxcols 3 maxrows 1
+set key at screen 0.47,0.99 center top horizontal maxcols 2
 plot table using 1:2:3 with image notitle, \
      lines using ($1 == 1 ? $2 : NaN):3 with lines lc rgb '#0072B2' lw 1 dt 1 title 'rupture', \
      lines using ($1 == 2 ? $2 : NaN):3 with lines lc rgb '#000000' lw 1.6 dt 1 title {p}, \
