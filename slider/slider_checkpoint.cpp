@@ -23,7 +23,7 @@ struct adl_serializer<Slider::Rupture> {
   static void visit(Json &j, Rupture &r, const Each &each) {
     each(j, "step_start", r.step_start);
     each(j, "step_end", r.step_end);
-    each(j, "first", r.first_block);
+    each(j, "first", r.first_place);
     each(j, "begin", r.begin);
     each(j, "length", r.length);
     each(j, "size", r.size);

@@ -6,10 +6,10 @@ if (!exists("formats")) formats = "png svg"
 do for [format in formats] {
 if (format eq "png") {
 point = 1.0
-set terminal pngcairo size 1800,1284 enhanced font "DejaVu Sans,26" linewidth 2 pointscale 2 background "#ffffff"
+set terminal pngcairo size 1800,1330 enhanced font "DejaVu Sans,26" linewidth 2 pointscale 2 background "#ffffff"
 } else {
 point = 0.65
-set terminal svg size 900,642 dynamic enhanced font "DejaVu Sans,13" background "#ffffff"
+set terminal svg size 900,665 dynamic enhanced font "DejaVu Sans,13" background "#ffffff"
 }
 
 set datafile separator comma
@@ -47,30 +47,34 @@ set logscale y
 set format y "10^{%L}"
 set ytics 10
 set mytics 10
-set yrange [9.9999999999999995e-07:0.10000000000000001]
+set yrange [9.9999999999999995e-08:1]
 row(k) = $1 == k && $7 > 0 ? $6 : NaN
 low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y
 set samples 400
 plot table using (row(1)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \
      table using (row(1)):8 with points lt 1 notitle, \
-     keyentry with linespoints lt 1 title 'length 120, 1.4e+05 time units (630 times)', \
+     keyentry with linespoints lt 1 title 'length 120, 1.5e+05 time units (619 times)', \
      table using (row(2)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 2 dt 1 lw 0.8 notitle, \
      table using (row(2)):8 with points lt 2 notitle, \
-     keyentry with linespoints lt 2 title 'length 240, 1.5e+05 time units (726 times)', \
+     keyentry with linespoints lt 2 title 'length 240, 1.5e+05 time units (716 times)', \
      table using (row(3)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 3 dt 1 lw 0.8 notitle, \
      table using (row(3)):8 with points lt 3 notitle, \
-     keyentry with linespoints lt 3 title 'length 480, 3.8e+04 time units (251 times)', \
+     keyentry with linespoints lt 3 title 'length 480, 1.5e+05 time units (973 times)', \
      table using (row(4)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 4 dt 1 lw 0.8 notitle, \
      table using (row(4)):8 with points lt 4 notitle, \
-     keyentry with linespoints lt 4 title 'length 945, 3.5e+04 time units (278 times)', \
+     keyentry with linespoints lt 4 title 'length 945, 5.6e+04 time units (439 times)', \
      table using (row(5)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 5 dt 1 lw 0.8 notitle, \
      table using (row(5)):8 with points lt 5 notitle, \
-     keyentry with linespoints lt 5 title 'length 1890, 2.4e+04 time units (203 times)', \
-     [1.99526231496888:1584.8931924611163] '+' using 1:(0.013798355048776779*$1**(-0.27810364868012061)*exp(-$1**(1)/300.39033555133523)) with lines lt 1 notitle, \
-     [3.981071705534974:1258.9254117941693] '+' using 1:(0.0014304465474167878*$1**(0.37940853949325359)*exp(-$1**(0.89931149928124265)/72.136125256144382)) with lines lt 2 notitle, \
-     [0.63095734448019314:630.95734448019425] '+' using 1:(0.0031974101111759507*$1**(0.25912624992641087)*exp(-$1**(1)/107.6141675833447)) with lines lt 3 notitle, \
-     [1.99526231496888:630.95734448019425] '+' using 1:(0.018828022079470191*$1**(-0.24351692229153354)*exp(-$1**(1)/165.0860442720961)) with lines lt 4 notitle, \
-     [0.39810717055349715:630.95734448019425] '+' using 1:(0.051104062113544145*$1**(-0.52696163421685493)*exp(-$1**(1)/204.65084731528157)) with lines lt 5 notitle, \
+     keyentry with linespoints lt 5 title 'length 1440, 3.4e+04 time units (290 times)', \
+     table using (row(6)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 6 dt 1 lw 0.8 notitle, \
+     table using (row(6)):8 with points lt 6 notitle, \
+     keyentry with linespoints lt 6 title 'length 1890, 6.2e+04 time units (623 times)', \
+     [0.39810717055349715:1584.8931924611163] '+' using 1:(0.011289452679097849*$1**(-0.23548933688862017)*exp(-$1**(1)/292.01268682609907)) with lines lt 1 notitle, \
+     [5.0118723362727247:1258.9254117941693] '+' using 1:(0.00072990321596544362*$1**(0.561587944127103)*exp(-$1**(0.88084840075539861)/57.214907245023468)) with lines lt 2 notitle, \
+     [0.50118723362727224:1584.8931924611163] '+' using 1:(0.0026905382521968542*$1**(0.21803596999949715)*exp(-$1**(1.1846846967737079)/378.41343312102845)) with lines lt 3 notitle, \
+     [0.2511886431509579:794.32823472428277] '+' using 1:(0.011660474783420045*$1**(-0.091367099938132412)*exp(-$1**(1)/131.14685775598812)) with lines lt 4 notitle, \
+     [0.2511886431509579:1000.0000000000017] '+' using 1:(0.034559063521328127*$1**(-0.39822323747727217)*exp(-$1**(1)/178.4914365481053)) with lines lt 5 notitle, \
+     [0.2511886431509579:794.32823472428277] '+' using 1:(0.023885374768882188*$1**(-0.31021145878151213)*exp(-$1**(1.1156681058148989)/275.249720271223)) with lines lt 6 notitle, \
      keyentry with lines lt 8 title 'lines: fitted generalised gamma'
 unset output
 }

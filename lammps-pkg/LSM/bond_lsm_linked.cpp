@@ -26,13 +26,13 @@
 
 using namespace LAMMPS_NS;
 
-static constexpr double BROKEN = -1.0;    // in place of a rest length, until the list is collected anew
+static constexpr double BROKEN =
+    -1.0;    // in place of a rest length, until the list is collected anew
 
 /* ---------------------------------------------------------------------- */
 
 BondLSMLinked::BondLSMLinked(LAMMPS *_lmp) :
-    Bond(_lmp), k(nullptr), ratio(nullptr), breakable(0), maxrad(0.0),
-    collected_at(-1)
+    Bond(_lmp), k(nullptr), ratio(nullptr), breakable(0), maxrad(0.0), collected_at(-1)
 {
   writedata = 1;
 }
@@ -78,7 +78,7 @@ void BondLSMLinked::collect()
     bool operator<(const Link &o) const
     {
       return std::tie(alone, type, low, high, first) <
-          std::tie(o.alone, o.type, o.low, o.high, o.first);
+             std::tie(o.alone, o.type, o.low, o.high, o.first);
     }
   };
 
@@ -118,8 +118,9 @@ void BondLSMLinked::collect()
 
 void BondLSMLinked::list_fresh()
 {
-  constexpr int REMEMBERED = 16;    // blocks whose particles are taken to be in the nearest cache still
-  constexpr int LINE = 8;           // doubles of a cache line
+  constexpr int REMEMBERED =
+      16;                    // blocks whose particles are taken to be in the nearest cache still
+  constexpr int LINE = 8;    // doubles of a cache line
 
   fresh.clear();
   fresh_begin = {0};
@@ -180,8 +181,8 @@ void BondLSMLinked::note_broken(const Segment &segment)
     if (record_what) {
       double **x = atom->x, none;
       const double dx = x[i][0] - x[j][0], dy = x[i][1] - x[j][1], dz = x[i][2] - x[j][2];
-      work_broken +=
-          (segment.alone ? 0.5 : 1.0) * single(segment.type, dx * dx + dy * dy + dz * dz, i, j, none);
+      work_broken += (segment.alone ? 0.5 : 1.0) *
+                     single(segment.type, dx * dx + dy * dy + dz * dz, i, j, none);
     }
     collected_at = -1;
   }
@@ -291,14 +292,16 @@ void BondLSMLinked::coeff(int narg, char **arg)
 void BondLSMLinked::init_style()
 {
   if (!atom->radius_flag)
-    error->all(FLERR, "Bond style lsm/linked needs particle radii: use atom_style hybrid bond sphere");
+    error->all(FLERR,
+               "Bond style lsm/linked needs particle radii: use atom_style hybrid bond sphere");
   LSMScene::refuse_changing_radii(lmp, "Bond style lsm/linked");
   for (const char *makes_or_breaks : {"^bond/break", "^bond/create", "^bond/react", "^bond/swap"})
     for (const auto &other : modify->get_fix_by_style(makes_or_breaks))
-      error->all(FLERR,
-                 "Bond style lsm/linked does not work with fix {} of style {}, as nobody would count "
-                 "the energy of its bonds; let links break by the ratio of bond_coeff",
-                 other->id, other->style);
+      error->all(
+          FLERR,
+          "Bond style lsm/linked does not work with fix {} of style {}, as nobody would count "
+          "the energy of its bonds; let links break by the ratio of bond_coeff",
+          other->id, other->style);
   collected_at = -1;
 
   double mine = 0.0;
@@ -307,8 +310,7 @@ void BondLSMLinked::init_style()
 
   // only links that can break need the fix that tells the other ranks and updates the topology
 
-  if (breakable && !modify->get_fix_by_id("LSM_BREAK"))
-    modify->add_fix("LSM_BREAK all LSM_BREAK");
+  if (breakable && !modify->get_fix_by_id("LSM_BREAK")) modify->add_fix("LSM_BREAK all LSM_BREAK");
 }
 
 /* ----------------------------------------------------------------------

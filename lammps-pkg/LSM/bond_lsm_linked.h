@@ -62,12 +62,12 @@ class BondLSMLinked : public Bond, public LSMEnergySource {
     bool alone;    // the force on the second particle is added by its owner
   };
   std::vector<LSMLinkKernel::Ends> ends;    // the links in the order of the sums
-  std::vector<double> rest;        // their rest lengths
+  std::vector<double> rest;                 // their rest lengths
   std::vector<Segment> segments;
   std::vector<int> fresh;          // places to fetch into the cache, block by block
   std::vector<int> fresh_begin;    // where those of each block begin
-  std::vector<int> gone;           // links that broke in this evaluation, by their place in a segment
-  bigint collected_at;             // step of the neighbour list they were taken from, -1 if outdated
+  std::vector<int> gone;    // links that broke in this evaluation, by their place in a segment
+  bigint collected_at;      // step of the neighbour list they were taken from, -1 if outdated
 
   void collect();
   void list_fresh();

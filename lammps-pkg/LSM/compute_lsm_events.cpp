@@ -9,8 +9,8 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
-#include "fix_lsm_nve.h"
 #include "fix_lsm_leap.h"
+#include "fix_lsm_nve.h"
 #include "fix_lsm_plates.h"
 #include "fix_lsm_record.h"
 #include "force.h"
@@ -59,15 +59,17 @@ enum {
 /* ---------------------------------------------------------------------- */
 
 ComputeLSMEvents::ComputeLSMEvents(LAMMPS *_lmp, int narg, char **arg) :
-    Compute(_lmp, narg, arg), emergency_file("lsm_emergency.restart"), series_binary(true),
-    series_stride(1), memory_time(0.0), block(100), tangential(true), location(false),
-    bin_width(1.0), bin_fraction(0.05), ledger(false), ledger_tolerance(0.0), strain_limit(0.5),
-    check_every(1000), resume(false), overwrite(false), progress(true), links(nullptr), recorder(nullptr),
-    plates(nullptr), leap(nullptr), first_filling(0), first_sending(0), count_filling(0), count_sending(0),
-    request(MPI_REQUEST_NULL), pending(false), shown_at(0.0), started_at(0.0),
-    ledger_started(false), ledger_start(0.0), friction_before(0.0), broken_before(0.0), anchor_time(0.0), anchor_dt(0.0),
-    anchor_step(0), last_recorded(-1), opened(false), check_now(false), widest(0.0), residual_at_end(0.0),
-    ended_at(-1)
+    Compute(_lmp, narg, arg), emergency_file("lsm_emergency.restart"), ruptures(false),
+    series_binary(true), series_stride(1), memory_time(0.0), block(100), tangential(true),
+    location(false), bin_width(1.0), bin_fraction(0.05), slipping(5.0), driving(0.0), forward(1.0),
+    interval(10), gap(1), pause(3.0), modulus(0.0), quiet(100), ledger(false),
+    ledger_tolerance(0.0), strain_limit(0.5), check_every(1000), resume(false), overwrite(false),
+    progress(true), links(nullptr), recorder(nullptr), plates(nullptr), leap(nullptr),
+    first_filling(0), first_sending(0), count_filling(0), count_sending(0),
+    request(MPI_REQUEST_NULL), pending(false), went_on(false), fault_begun(false), shown_at(0.0),
+    started_at(0.0), ledger_started(false), ledger_start(0.0), friction_before(0.0),
+    broken_before(0.0), anchor_time(0.0), anchor_dt(0.0), anchor_step(0), last_recorded(-1),
+    opened(false), check_now(false), widest(0.0), residual_at_end(0.0), ended_at(-1)
 {
   if (igroup) error->all(FLERR, "Compute lsm/events must use group all");
   scalar_flag = 1;
@@ -95,13 +97,48 @@ ComputeLSMEvents::ComputeLSMEvents(LAMMPS *_lmp, int narg, char **arg) :
                  arg[iarg + n]);
     return value;
   };
+  auto no_less_than_zero = [&](int n) {
+    const double value = number(n);
+    if (!(value >= 0.0))
+      error->all(FLERR, "Compute lsm/events {} is {}, but must be >= 0", arg[iarg], arg[iarg + n]);
+    return value;
+  };
+  const char *only_ruptures = nullptr;
   auto yesno = [&](int n) { return utils::logical(FLERR, arg[iarg + n], false, lmp) != 0; };
 
   while (iarg < narg) {
     const std::string key = arg[iarg];
     need(1);
     int used = 2;
-    if (key == "catalogue") {
+    for (const char *one :
+         {"history", "slipping", "driving", "interval", "gap", "pause", "modulus", "quiet"})
+      if (key == one) only_ruptures = one;
+    if (key == "events") {
+      const std::string kind = arg[iarg + 1];
+      if (kind != "pe" && kind != "ruptures")
+        error->all(FLERR, "Compute lsm/events events is '{}', but must be pe or ruptures", kind);
+      ruptures = kind == "ruptures";
+    } else if (key == "history") {
+      history_file = arg[iarg + 1];
+    } else if (key == "slipping") {
+      slipping = no_less_than_zero(1);
+    } else if (key == "driving") {
+      driving = positive(1);
+    } else if (key == "interval") {
+      interval = count(1);
+    } else if (key == "gap") {
+      const double value = no_less_than_zero(1);
+      gap = static_cast<int>(MIN(value, 1e6));
+      if (gap != value)
+        error->all(FLERR, "Compute lsm/events gap is {}, but must be a number of bins",
+                   arg[iarg + 1]);
+    } else if (key == "pause") {
+      pause = no_less_than_zero(1);
+    } else if (key == "modulus") {
+      modulus = positive(1);
+    } else if (key == "quiet") {
+      quiet = count(1);
+    } else if (key == "catalogue") {
       catalogue_file = arg[iarg + 1];
     } else if (key == "series") {
       need(2);
@@ -168,20 +205,29 @@ ComputeLSMEvents::ComputeLSMEvents(LAMMPS *_lmp, int narg, char **arg) :
       parameters.emplace_back(arg[iarg + 1], arg[iarg + 2]);
       used = 3;
     } else
-      error->all(FLERR,
-                 "Unknown compute lsm/events keyword '{}'; accepted are catalogue, series, stride, "
-                 "picker, lambda, memory, minsize, nonpositive, block, tangential, location, bin, "
-                 "fraction, ledger, tolerance, strainlimit, check, emergency, resume, overwrite, progress "
-                 "and parameter",
-                 key);
+      error->all(
+          FLERR,
+          "Unknown compute lsm/events keyword '{}'; accepted are events, catalogue, series, "
+          "stride, "
+          "picker, lambda, memory, minsize, nonpositive, block, tangential, location, bin, "
+          "fraction, history, slipping, driving, interval, gap, pause, modulus, quiet, ledger, "
+          "tolerance, strainlimit, check, emergency, resume, overwrite, progress and parameter",
+          key);
     iarg += used;
   }
+
+  if (only_ruptures && !ruptures)
+    error->all(FLERR, "Compute lsm/events keyword {} needs events ruptures", only_ruptures);
+  if (ruptures && location)
+    error->all(
+        FLERR,
+        "Compute lsm/events location yes needs events pe; ruptures have columns of their own");
 
   size_vector = ledger ? NLEDGER : NVECTOR;
   vector = new double[size_vector];
 
-  recorder = dynamic_cast<FixLSMRecord *>(
-      modify->add_fix(std::string(id) + "_record all LSM_RECORD"));
+  recorder =
+      dynamic_cast<FixLSMRecord *>(modify->add_fix(std::string(id) + "_record all LSM_RECORD"));
   if (!recorder) error->all(FLERR, "Compute lsm/events could not create fix LSM_RECORD");
   recorder->owner = this;
 }
@@ -197,8 +243,10 @@ ComputeLSMEvents::~ComputeLSMEvents()
   // the styles and fixes below may be gone by now, so they are found again
 
   if (force) {
-    if (auto p = dynamic_cast<LSMEnergySource *>(force->bond)) p->record_what = LSMEnergySource::NONE;
-    if (auto p = dynamic_cast<LSMEnergySource *>(force->pair)) p->record_what = LSMEnergySource::NONE;
+    if (auto p = dynamic_cast<LSMEnergySource *>(force->bond))
+      p->record_what = LSMEnergySource::NONE;
+    if (auto p = dynamic_cast<LSMEnergySource *>(force->pair))
+      p->record_what = LSMEnergySource::NONE;
   }
   if (recorder && modify) {
     for (const auto &ifix : modify->get_fix_by_style("^lsm/nve"))
@@ -213,8 +261,11 @@ ComputeLSMEvents::~ComputeLSMEvents()
 
 void ComputeLSMEvents::init()
 {
-  if (modify->get_compute_by_style("lsm/events").size() > 1 && comm->me == 0)
-    error->warning(FLERR, "More than one compute lsm/events");
+  int same = 0;
+  for (const auto &other : modify->get_compute_by_style("lsm/events"))
+    if (auto p = dynamic_cast<ComputeLSMEvents *>(other)) same += p->ruptures == ruptures;
+  if (same > 1 && comm->me == 0)
+    error->warning(FLERR, "More than one compute lsm/events with the same kind of events");
 
   links = dynamic_cast<BondLSMLinked *>(force->bond_match("lsm/linked"));
   const auto contacts = LSMScene::contact_styles(force);
@@ -225,10 +276,15 @@ void ComputeLSMEvents::init()
     error->all(FLERR, "Compute lsm/events location yes needs pair style lsm/friction");
   if (location && !(domain->xperiodic))
     error->all(FLERR, "Compute lsm/events location yes needs a box that is periodic in x");
+  if (ruptures && !force->pair_match("lsm/friction", 1))
+    error->all(FLERR, "Compute lsm/events events ruptures needs pair style lsm/friction");
+  if (ruptures && !(domain->xperiodic))
+    error->all(FLERR, "Compute lsm/events events ruptures needs a box that is periodic in x");
 
   check_surroundings();
 
-  const int what = LSMEnergySource::ENERGY | (location ? LSMEnergySource::SLIP : 0);
+  const int what = LSMEnergySource::ENERGY | (location ? LSMEnergySource::SLIP : 0) |
+                   (ruptures ? LSMEnergySource::CONTACTS : 0);
   sources.clear();
   if (links) sources.push_back(links);
   sources.insert(sources.end(), contacts.begin(), contacts.end());
@@ -249,10 +305,73 @@ void ComputeLSMEvents::init()
     }
   }
 
+  if (ruptures && leap)
+    error->all(FLERR,
+               "Compute lsm/events {}: events ruptures does not work with fix lsm/leap, as "
+               "intervals of ruptures are"
+               " as long as others; use events pe",
+               id);
+  if (ruptures) find_driving();
   set_memory();
   filling.resize(block);
   sending.resize(block);
   if (comm->me == 0) received.resize(static_cast<size_t>(block) * comm->nprocs);
+}
+
+/* ----------------------------------------------------------------------
+   what the slip of the fault is measured against: velocity and direction of the plates, stiffness of the links
+   the first run decides, as the headers of the files hold it
+------------------------------------------------------------------------- */
+
+void ComputeLSMEvents::find_driving()
+{
+  if (opened || update->whichflag == 0) return;
+  if (plates && plates->driving() < 0.0) forward = -1.0;
+  if (driving == 0.0 && plates) driving = fabs(plates->driving());
+  if (driving == 0.0)
+    error->all(FLERR, "Compute lsm/events events ruptures needs {}, or the keyword driving",
+               plates ? "a velocity of fix lsm/plates that is not 0" : "fix lsm/plates");
+  if (modulus > 0.0) return;
+  if (!links)
+    error->all(
+        FLERR,
+        "Compute lsm/events events ruptures needs bond style lsm/linked, or the keyword modulus");
+  int dim;
+  const auto *stiffness = static_cast<const double *>(links->extract("k", dim));
+  modulus = 0.25 * sqrt(3.0) * stiffness[1];    // of the regular lattice of equal discs
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeLSMEvents::make_grid()
+{
+  const double length = domain->prd[0];
+  grid.bins = MAX(1, static_cast<int>(length / bin_width * (1.0 + 1e-12)));
+  grid.x0 = domain->boxlo[0];
+  grid.width = length / grid.bins;
+  grid.step0 = update->ntimestep;
+  grid.interval = interval;
+  grid.time0 = anchor_time + static_cast<double>(update->ntimestep - anchor_step) * anchor_dt;
+  grid.dt = update->dt;
+  sums = LSM::FaultSums(grid);
+  fault_begun = false;
+  if (comm->me == 0) finder = std::make_unique<LSM::RuptureFinder>(grid, rupture_settings());
+}
+
+LSM::RuptureSettings ComputeLSMEvents::rupture_settings() const
+{
+  LSM::RuptureSettings settings;
+  settings.velocity = slipping * driving;
+  settings.gap = gap;
+  settings.memory = MAX(1, static_cast<int64_t>(std::llround(pause / (interval * update->dt))));
+  settings.modulus = modulus;
+  return settings;
+}
+
+/// Numbers of events of the kind that is written.
+const LSM::PickerState &ComputeLSMEvents::counts() const
+{
+  return ruptures ? rupture_counts : picker->state();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -260,12 +379,16 @@ void ComputeLSMEvents::init()
 void ComputeLSMEvents::check_surroundings()
 {
   if (modify->get_fix_by_id(std::string(id) + "_record") != recorder)
-    error->all(FLERR, "Compute lsm/events {}: its fix {}_record is gone; use uncompute to end recording", id, id);
+    error->all(FLERR,
+               "Compute lsm/events {}: its fix {}_record is gone; use uncompute to end recording",
+               id, id);
   if (update->whichflag == 0) return;
   if (update->whichflag == 2)
-    error->all(FLERR, "Compute lsm/events does not work with minimize: it records the steps of a run; uncompute it before");
+    error->all(FLERR, "Compute lsm/events does not work with minimize: it records the steps of a "
+                      "run; uncompute it before");
   if (LSMScene::is_rerun(update))
-    error->all(FLERR, "Compute lsm/events does not work with rerun: it records the steps of a run; use thermo keyword pe "
+    error->all(FLERR, "Compute lsm/events does not work with rerun: it records the steps of a run; "
+                      "use thermo keyword pe "
                       "for the energies of snapshots");
 
   // the strain of links is looked at before particles move to other ranks
@@ -273,18 +396,24 @@ void ComputeLSMEvents::check_surroundings()
   for (const auto &ifix : modify->get_fix_list()) {
     if (ifix == recorder) break;
     if (ifix->pre_exchange_migrate)
-      error->all(FLERR, "Compute lsm/events {} must be defined before fix {}, which moves particles to other ranks", id, ifix->id);
+      error->all(FLERR,
+                 "Compute lsm/events {} must be defined before fix {}, which moves particles to "
+                 "other ranks",
+                 id, ifix->id);
   }
   if (ledger)
     for (const char *adds_or_takes : {"^pour", "^deposit", "^evaporate"})
       for (const auto &other : modify->get_fix_by_style(adds_or_takes))
-        error->all(FLERR,
-                   "Compute lsm/events {}: the energy ledger does not know the particles that fix {} "
-                   "adds or takes away; use ledger no and no tolerance",
-                   id, other->id);
+        error->all(
+            FLERR,
+            "Compute lsm/events {}: the energy ledger does not know the particles that fix {} "
+            "adds or takes away; use ledger no and no tolerance",
+            id, other->id);
   const std::string foreign = LSMScene::foreign_forces(force);
   if (!foreign.empty() && comm->me == 0)
-    error->warning(FLERR, "Compute lsm/events {}: PE, events and ledger do not hold the energy of {}", id, foreign);
+    error->warning(FLERR,
+                   "Compute lsm/events {}: PE, events and ledger do not hold the energy of {}", id,
+                   foreign);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -306,7 +435,18 @@ double ComputeLSMEvents::time_of(bigint step) const
 
 /* ---------------------------------------------------------------------- */
 
-LSM::CatalogueInfo ComputeLSMEvents::header() const
+static LSM::text_io::Parameters without(LSM::text_io::Parameters all,
+                                        const std::vector<std::string> &keys)
+{
+  all.erase(std::remove_if(all.begin(), all.end(),
+                           [&keys](const auto &p) {
+                             return std::find(keys.begin(), keys.end(), p.first) != keys.end();
+                           }),
+            all.end());
+  return all;
+}
+
+LSM::CatalogueInfo ComputeLSMEvents::header(bool of_ruptures) const
 {
   using LSM::text_io::number;
   LSM::CatalogueInfo info;
@@ -324,17 +464,60 @@ LSM::CatalogueInfo ComputeLSMEvents::header() const
   for (size_t n = 0; n < integrators.size(); n++)
     add(n ? "viscosity_" + std::to_string(n + 1) : "viscosity", integrators[n]->viscosity());
   if (leap) add("leap", leap->settings());
-  add("picker", LSM::to_string(picker_settings.reading));
-  add("lambda", number(picker_settings.lambda));
+  if (!of_ruptures) {
+    add("picker", LSM::to_string(picker_settings.reading));
+    add("lambda", number(picker_settings.lambda));
+  }
   add("min_size", number(picker_settings.min_size));
   add("tangential_energy", tangential ? "yes" : "no");
   if (location) {
     add("slip_bin", number(bin_width));
     add("rupture_fraction", number(bin_fraction));
   }
+  if (of_ruptures) {
+    add("events", "ruptures");
+    add("driving", number(driving));
+    add("slipping", number(slipping));
+    add("slip_velocity", number(slipping * driving));
+    add("slip_bin", number(grid.width));
+    add("interval", std::to_string(interval));
+    add("gap", std::to_string(gap));
+    add("pause", number(pause));
+    add("modulus", number(modulus));
+  }
   add("ranks", std::to_string(comm->nprocs));
   info.parameters.insert(info.parameters.end(), parameters.begin(), parameters.end());
-  info.slip_moment = info.x_centroid = info.rupture_length = location;
+  info.slip_moment = info.x_centroid = info.rupture_length = location || of_ruptures;
+  info.x_hypocentre = info.x_begin = info.mean_slip = info.stress_drop = of_ruptures;
+  return info;
+}
+
+/* ----------------------------------------------------------------------
+   of the series, which is the same whatever the events are
+------------------------------------------------------------------------- */
+
+LSM::PeSeriesInfo ComputeLSMEvents::series_header() const
+{
+  LSM::PeSeriesInfo info;
+  info.model = "lsm";
+  info.dt = update->dt;
+  // the numbers that times are computed from, so that a reader gets the times of the catalogue
+  info.step0 = anchor_step;
+  info.time0 = anchor_time;
+  info.stride = series_stride;
+  info.parameters = without(header(false).parameters, {"dt"});
+  return info;
+}
+
+LSM::SlipHistoryInfo ComputeLSMEvents::history_header() const
+{
+  LSM::SlipHistoryInfo info;
+  info.grid = grid;
+  info.ruptures = rupture_settings();
+  info.driving = driving;
+  info.quiet = quiet;
+  info.parameters = without(header(true).parameters, {"dt", "slip_velocity", "interval", "gap",
+                                                      "modulus", "driving", "slip_bin", "events"});
   return info;
 }
 
@@ -352,6 +535,7 @@ void ComputeLSMEvents::open_files(bigint step)
   anchor_time = update->atime;
   anchor_step = update->atimestep;
   anchor_dt = update->dt;
+  if (ruptures) make_grid();
   if (from_restart) unpack_state(recorder->restart_state);
   change_dt();
   if (comm->me == 0) begin_files(step, from_restart);
@@ -366,18 +550,28 @@ void ComputeLSMEvents::open_files(bigint step)
 void ComputeLSMEvents::begin_files(bigint step, bool from_restart)
 {
   std::error_code code;
-  for (const auto &[file, key] : {std::pair<const std::string &, const char *>{catalogue_file, "catalogue"},
-                                  {series_file, "series"}}) {
+  for (const auto &[file, key] :
+       {std::pair<const std::string &, const char *>{catalogue_file, "catalogue"},
+        {series_file, "series"},
+        {history_file, "history"}}) {
     if (file.empty()) continue;
     const bool continued = resume && std::filesystem::exists(file, code);
     if (continued && !from_restart)
-      failure = fmt::format("Compute lsm/events resume yes: file {} exists, but the restart file holds no "
-                            "picker state of compute {}; read a restart written while it was active",
-                            file, id);
+      failure = fmt::format(
+          "Compute lsm/events resume yes: file {} exists, but the restart file holds no "
+          "picker state of compute {}; read a restart written while it was active",
+          file, id);
+    else if (continued && ruptures && !went_on && file != series_file)
+      failure = fmt::format(
+          "Compute lsm/events resume yes: file {} exists, but the restart file holds no "
+          "ruptures of compute {} with these bins and intervals; give another name, or replace it "
+          "with overwrite yes and resume no",
+          file, id);
     else if (!continued && !overwrite && LSM::text_io::holds_data(file))
-      failure = fmt::format("Compute lsm/events {}: file {} exists; give another name, or replace it with "
-                            "overwrite yes{}",
-                            key, file, from_restart ? ", or go on with it with resume yes" : "");
+      failure = fmt::format(
+          "Compute lsm/events {}: file {} exists; give another name, or replace it with "
+          "overwrite yes{}",
+          key, file, from_restart ? ", or go on with it with resume yes" : "");
     else
       failure = LSM::text_io::why_not_writable(file);
     if (!failure.empty()) return;
@@ -392,33 +586,37 @@ void ComputeLSMEvents::begin_files(bigint step, bool from_restart)
     if (!catalogue_file.empty()) {
       catalogue = std::make_unique<LSM::CatalogueWriter>();
       // an event that ended at the restart step is only known one step later, and comes again
+      // a rupture is known to have ended when its pause is over
+      const bigint known =
+          ruptures ? grid.step0 + (finder->intervals() - rupture_settings().memory) * grid.interval
+                   : step - 1;
       if (catalogue_goes_on)
-        catalogue->find_cut(catalogue_file, header(), step - 1, free_to_change, picker->events());
+        catalogue->find_cut(catalogue_file, header(ruptures), known, free_to_change,
+                            counts().events);
     }
     LSM::PeSeriesInfo info;
     if (!series_file.empty()) {
-      info.model = "lsm";
-      info.dt = update->dt;
-      // the numbers that times are computed from, so that a reader gets the times of the catalogue
-      info.step0 = anchor_step;
-      info.time0 = anchor_time;
-      info.stride = series_stride;
-      info.parameters = header().parameters;
-      info.parameters.erase(
-          std::remove_if(info.parameters.begin(), info.parameters.end(),
-                         [](const auto &p) { return p.first == "dt"; }),
-          info.parameters.end());
+      info = series_header();
       series = std::make_unique<LSM::PeSeriesWriter>();
-      if (series_goes_on)
-        series->find_cut(series_file, info, series_binary, step, free_to_change);
+      if (series_goes_on) series->find_cut(series_file, info, series_binary, step, free_to_change);
+    }
+    if (!history_file.empty()) {
+      history = std::make_unique<LSM::SlipHistoryWriter>();
+      if (goes_on(history_file))
+        history->resume(history_file, history_header(), saved_history, free_to_change);
     }
 
-    // both fit
+    // all fit
 
     if (catalogue)
-      catalogue_goes_on ? (void) catalogue->cut() : catalogue->create(catalogue_file, header());
+      catalogue_goes_on ? (void) catalogue->cut()
+                        : catalogue->create(catalogue_file, header(ruptures));
     if (series)
       series_goes_on ? (void) series->cut() : series->create(series_file, info, series_binary);
+    if (history && !history->is_open() && went_on)
+      history->create(history_file, history_header(),
+                      grid.step0 + finder->intervals() * grid.interval, finder->pe(),
+                      finder->stress());
   } catch (std::exception &e) {
     failure = fmt::format("Compute lsm/events: {}", e.what());
   }
@@ -466,6 +664,7 @@ void ComputeLSMEvents::setup_record()
   if (!opened) open_files(update->ntimestep);
   change_dt();
   leave_out_jump();
+  if (ruptures && !fault_begun) begin_fault();
   if (ledger && !ledger_started) {
     ledger_start = 0.0;
     ledger_start = residual();
@@ -482,17 +681,23 @@ void ComputeLSMEvents::setup_record()
 void ComputeLSMEvents::change_dt()
 {
   if (update->dt == anchor_dt) return;
-  const std::string &file = catalogue_file.empty() ? series_file : catalogue_file;
+  const std::string &file = !catalogue_file.empty() ? catalogue_file
+                            : !series_file.empty()  ? series_file
+                                                    : history_file;
   if (opened && !file.empty())
     error->all(FLERR,
-               "Compute lsm/events {}: the time step changed from {} to {}, but the header of file {} holds one time "
-               "step; go on from a restart file with other files", id, anchor_dt, update->dt, file);
+               "Compute lsm/events {}: the time step changed from {} to {}, but the header of file "
+               "{} holds one time "
+               "step; go on from a restart file with other files",
+               id, anchor_dt, update->dt, file);
   flush();
   const double ratio = anchor_dt > 0.0 ? update->dt / anchor_dt : 0.0;
   anchor_time = time_of(update->ntimestep);
   anchor_step = update->ntimestep;
   anchor_dt = update->dt;
   set_memory();
+  if (ruptures) make_grid();
+  if (ruptures && opened) begin_fault();
   if (!picker) return;
   LSM::PickerState state = picker->state();
   state.rate *= ratio;
@@ -513,10 +718,54 @@ void ComputeLSMEvents::record()
         slip_filling.push_back(s);
         slip_steps.push_back(count_filling);
       }
+  if (ruptures) record_contacts(step);
   count_filling++;
   last_recorded = step;
   if (count_filling == block) start_gather();
   if (check_now || step % check_every == 0) check_health();
+}
+
+/* ----------------------------------------------------------------------
+   the state before the first interval: only the forces count
+------------------------------------------------------------------------- */
+
+void ComputeLSMEvents::begin_fault()
+{
+  fault_begun = true;
+  sums.clear();
+  for (const auto *source : sources)
+    for (const LSMContact &c : source->contacts)
+      sums.add(c.x, 0.0, 0.0, forward * c.force, c.share);
+  std::vector<double> all(sums.values().size());
+  MPI_Reduce(sums.values().data(), all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_SUM, 0,
+             world);
+  sums.clear();
+  const double pe = total(local_pe());
+  if (comm->me == 0) {
+    const LSM::FaultRow row = LSM::fault_row(grid, all.data(), 1);
+    finder->begin(pe, row);
+    try {
+      if (history) history->create(history_file, history_header(), grid.step0, pe, row.stress);
+    } catch (std::exception &e) {
+      failure = fmt::format("Compute lsm/events: {}", e.what());
+    }
+  }
+  stop_on_failure();
+}
+
+/* ----------------------------------------------------------------------
+   adds the contacts of this step to the sums of the interval
+------------------------------------------------------------------------- */
+
+void ComputeLSMEvents::record_contacts(bigint step)
+{
+  if (step == grid.step0) return;
+  for (const auto *source : sources)
+    for (const LSMContact &c : source->contacts)
+      sums.add(c.x, forward * c.slip, c.work, forward * c.force, c.share);
+  if (!ends_interval(step)) return;
+  sums_filling.insert(sums_filling.end(), sums.values().begin(), sums.values().end());
+  sums.clear();
 }
 
 /* ----------------------------------------------------------------------
@@ -535,6 +784,12 @@ void ComputeLSMEvents::start_gather()
               0, world, &request);
   pending = true;
 
+  if (ruptures && !sums_filling.empty()) {
+    sums_sent.resize(comm->me == 0 ? sums_filling.size() : 0);
+    MPI_Reduce(sums_filling.data(), sums_sent.data(), static_cast<int>(sums_filling.size()),
+               MPI_DOUBLE, MPI_SUM, 0, world);
+    sums_filling.clear();
+  }
   if (location) {
     std::vector<double> mine;
     mine.reserve(3 * slip_filling.size());
@@ -583,6 +838,7 @@ void ComputeLSMEvents::take_block()
     one.push_back(slip_sent[n + 2]);
   }
 
+  const double *values = sums_sent.data();
   for (int s = 0; s < count_sending && failure.empty(); s++) {
     LSM::NeumaierSum sum;
     for (int p = 0; p < comm->nprocs; p++)
@@ -590,6 +846,9 @@ void ComputeLSMEvents::take_block()
     const double *slip = location ? slip_of[s].data() : nullptr;
     const int nslip = location ? static_cast<int>(slip_of[s].size() / 2) : 0;
     take_sample(first_sending + s, sum.value(), slip, nslip);
+    if (!ruptures || !failure.empty() || !ends_interval(first_sending + s)) continue;
+    take_interval(first_sending + s, sum.value(), values);
+    values += LSM::FaultSums::fields * grid.bins;
   }
   if (progress) show_progress(first_sending + count_sending - 1);
 }
@@ -601,9 +860,10 @@ void ComputeLSMEvents::take_sample(bigint step, double pe, const double *slip, i
   try {
     if (!std::isfinite(pe)) {
       if (series) series->flush();
-      failure = fmt::format("Potential energy is not finite at step {}; the catalogue ends with the last event "
-                            "before it. Use a smaller time step or start from an earlier restart",
-                            step);
+      failure = fmt::format(
+          "Potential energy is not finite at step {}; the catalogue ends with the last event "
+          "before it. Use a smaller time step or start from an earlier restart",
+          step);
       return;
     }
     if (series && step % series_stride == 0) series->write(step, pe);
@@ -612,7 +872,7 @@ void ComputeLSMEvents::take_sample(bigint step, double pe, const double *slip, i
     const bool was_open = picker->in_event();
     const bool ended = picker->push(step, time_of(step), pe, event);
     if (ended && location) locate(event);
-    if (ended && catalogue) catalogue->write(event);
+    if (ended && catalogue && !ruptures) catalogue->write(event);
     if (location) {
       if (was_open && !picker->in_event()) event_slip.clear();
       if (picker->in_event())
@@ -622,6 +882,37 @@ void ComputeLSMEvents::take_sample(bigint step, double pe, const double *slip, i
   } catch (std::exception &e) {
     failure = fmt::format("Compute lsm/events: {}", e.what());
   }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeLSMEvents::take_interval(bigint step, double pe, const double *values)
+{
+  try {
+    const LSM::FaultRow row = LSM::fault_row(grid, values, grid.interval);
+    finder->add(pe, row, [this](const LSM::Event &event) { finish_rupture(event); });
+    if (history) history->add(step, pe, row, finder->active());
+  } catch (std::exception &e) {
+    failure = fmt::format("Compute lsm/events: {}", e.what());
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeLSMEvents::finish_rupture(LSM::Event event)
+{
+  if (!(event.size > 0.0)) {
+    if (!picker_settings.keep_nonpositive) {
+      rupture_counts.dropped_nonpositive++;
+      return;
+    }
+  } else if (event.size < picker_settings.min_size) {
+    rupture_counts.dropped_small++;
+    return;
+  }
+  event.id = ++rupture_counts.events;
+  rupture_counts.last_size = event.size;
+  if (catalogue) catalogue->write(event);
 }
 
 /* ----------------------------------------------------------------------
@@ -683,7 +974,8 @@ void ComputeLSMEvents::leave_out_jump()
 {
   const bigint step = update->ntimestep;
   const double size = MAX(domain->prd[0], domain->prd[1]);
-  const double floor = 1e-22 * static_cast<double>(atom->natoms) * size * size;    // positions rounded otherwise
+  const double floor =
+      1e-22 * static_cast<double>(atom->natoms) * size * size;    // positions rounded otherwise
   double change = 0.0;
 
   if (last_recorded == step) {
@@ -711,8 +1003,11 @@ void ComputeLSMEvents::leave_out_jump()
     }
   }
   if (change != 0.0 && comm->me == 0)
-    error->warning(FLERR, "Compute lsm/events {}: the energy changed by {:.6g} between two runs; events and ledger leave "
-                          "it out", id, change);
+    error->warning(FLERR,
+                   "Compute lsm/events {}: the energy changed by {:.6g} between two runs; events "
+                   "and ledger leave "
+                   "it out",
+                   id, change);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -794,7 +1089,8 @@ void ComputeLSMEvents::look_early()
              "smaller time step or start from an earlier restart",
              update->ntimestep,
              all >= 1e300 ? "positions are not finite"
-                          : fmt::format("a link is strained by {:.4g}, above strainlimit {:.4g}", all, strain_limit));
+                          : fmt::format("a link is strained by {:.4g}, above strainlimit {:.4g}",
+                                        all, strain_limit));
 }
 
 /* ----------------------------------------------------------------------
@@ -816,15 +1112,16 @@ void ComputeLSMEvents::check_health()
   if (all[0] > 0.0 || all[1] >= 1e300)
     what = "the potential energy is not finite";
   else if (all[1] > strain_limit)
-    what = fmt::format("a link is strained by {:.4g}, above strainlimit {:.4g}", all[1],
-                       strain_limit);
+    what =
+        fmt::format("a link is strained by {:.4g}, above strainlimit {:.4g}", all[1], strain_limit);
   else if (ledger_tolerance > 0.0) {
     for (auto *p : integrators) p->complete_step();
     const double off = residual();
     const double scale = friction_work() + viscous_work() + kinetic() + fabs(total(local_pe()));
     if (fabs(off) > ledger_tolerance * scale)
       what = fmt::format("the energy ledger is out of balance by {:.4g} of {:.4g}, above tolerance "
-                         "{:.4g}", off, scale, ledger_tolerance);
+                         "{:.4g}",
+                         off, scale, ledger_tolerance);
   }
   if (what.empty()) return;
 
@@ -832,10 +1129,11 @@ void ComputeLSMEvents::check_health()
 
   if (all[0] > 0.0 || all[1] >= 1e300) {
     flush();
-    error->all(FLERR,
-               "Run stopped at step {}: {}. The catalogue ends with the last event before it; use a "
-               "smaller time step or start from an earlier restart",
-               update->ntimestep, what);
+    error->all(
+        FLERR,
+        "Run stopped at step {}: {}. The catalogue ends with the last event before it; use a "
+        "smaller time step or start from an earlier restart",
+        update->ntimestep, what);
   }
 
   flush();
@@ -862,8 +1160,8 @@ void ComputeLSMEvents::show_progress(bigint step)
   const double done = static_cast<double>(step - update->firststep);
   const double left = static_cast<double>(update->laststep - step);
   const double seconds = done > 0.0 ? (now - started_at) * left / done : 0.0;
-  fprintf(stderr, "\rstep " BIGINT_FORMAT " of " BIGINT_FORMAT ", %lld events, %.0f s left   ", step,
-          update->laststep, static_cast<long long>(picker->events()), seconds);
+  fprintf(stderr, "\rstep " BIGINT_FORMAT " of " BIGINT_FORMAT ", %lld events, %.0f s left   ",
+          step, update->laststep, static_cast<long long>(counts().events), seconds);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -873,16 +1171,22 @@ std::vector<double> ComputeLSMEvents::pack_state()
   if (!opened) return recorder->restart_state;
   flush();
   const double friction = friction_work(), broken = broken_work();
+  const std::vector<double> rupture_state = ruptures ? pack_ruptures() : std::vector<double>();
   std::vector<double> state;
-  state = {3.0,         static_cast<double>(last_recorded),
+  state = {ruptures ? 4.0 : 3.0,
+           static_cast<double>(last_recorded),
            ledger_started ? 1.0 : 0.0,
-           ledger_start, friction, broken,
-           anchor_time,  static_cast<double>(anchor_step),
+           ledger_start,
+           friction,
+           broken,
+           anchor_time,
+           static_cast<double>(anchor_step),
            anchor_dt};
   if (comm->me == 0) {
     std::vector<double> bytes(sizeof(LSM::PickerState) / sizeof(double));
     memcpy(bytes.data(), &picker->state(), sizeof(LSM::PickerState));
     state.insert(state.end(), bytes.begin(), bytes.end());
+    state.insert(state.end(), rupture_state.begin(), rupture_state.end());
     for (const auto &bin : event_slip) {
       state.push_back(bin.first);
       state.push_back(bin.second);
@@ -894,8 +1198,9 @@ std::vector<double> ComputeLSMEvents::pack_state()
 void ComputeLSMEvents::unpack_state(const std::vector<double> &state)
 {
   constexpr size_t fixed = 9, words = sizeof(LSM::PickerState) / sizeof(double);
-  if (state.size() < fixed + words || state[0] != 3.0)
-    error->all(FLERR, "Compute lsm/events {}: the restart file holds a state of another version", id);
+  if (state.size() < fixed + words || (state[0] != 3.0 && state[0] != 4.0))
+    error->all(FLERR, "Compute lsm/events {}: the restart file holds a state of another version",
+               id);
   last_recorded = static_cast<bigint>(state[1]);
   ledger_started = state[2] != 0.0;
   ledger_start = state[3];
@@ -904,12 +1209,89 @@ void ComputeLSMEvents::unpack_state(const std::vector<double> &state)
   anchor_time = state[6];
   anchor_step = static_cast<bigint>(state[7]);
   anchor_dt = state[8];
+  if (ruptures && state[0] == 4.0) unpack_ruptures(state, fixed + words);
   if (comm->me == 0) {
     LSM::PickerState picker_state;
     memcpy(static_cast<void *>(&picker_state), &state[fixed], sizeof(picker_state));
     picker->set_state(picker_state);
-    for (size_t n = fixed + words; n + 1 < state.size(); n += 2)
+    for (size_t n = fixed + words; n + 1 < state.size() && state[0] == 3.0; n += 2)
       event_slip[static_cast<int>(state[n])] = state[n + 1];
+  }
+}
+
+/* ----------------------------------------------------------------------
+   ruptures in the state, on rank 0: times of the intervals, then lists behind their lengths
+------------------------------------------------------------------------- */
+
+std::vector<double> ComputeLSMEvents::pack_ruptures()
+{
+  std::vector<double> open_sums(sums.values().size());
+  MPI_Reduce(sums.values().data(), open_sums.data(), static_cast<int>(open_sums.size()), MPI_DOUBLE,
+             MPI_SUM, 0, world);
+  if (comm->me != 0) return {};
+  std::vector<double> state = {static_cast<double>(grid.step0),
+                               grid.time0,
+                               grid.dt,
+                               static_cast<double>(grid.interval),
+                               static_cast<double>(grid.bins),
+                               static_cast<double>(rupture_counts.events),
+                               static_cast<double>(rupture_counts.dropped_nonpositive),
+                               static_cast<double>(rupture_counts.dropped_small),
+                               rupture_counts.last_size};
+  const std::vector<double> written = history && history->is_open() ? history->state()
+                                                                    : std::vector<double>();
+  for (const auto &list : {open_sums, finder->state(), written}) {
+    state.push_back(static_cast<double>(list.size()));
+    state.insert(state.end(), list.begin(), list.end());
+  }
+  return state;
+}
+
+/* ----------------------------------------------------------------------
+   another time step, interval or number of bins: the numbers of the ruptures go on, what was open is lost
+------------------------------------------------------------------------- */
+
+void ComputeLSMEvents::unpack_ruptures(const std::vector<double> &state, size_t at)
+{
+  constexpr size_t fixed = 9;
+  std::vector<std::vector<double>> lists;
+  if (at + fixed <= state.size()) {
+    for (size_t n = at + fixed; n < state.size(); n += lists.back().size()) {
+      const auto length = static_cast<size_t>(state[n++]);
+      if (length > state.size() - n) break;
+      lists.emplace_back(state.begin() + n, state.begin() + n + length);
+    }
+  }
+  if (lists.size() != 3)
+    error->all(FLERR, "Compute lsm/events {}: the restart file holds a state of another version",
+               id);
+  const double *const saved = &state[at];
+  rupture_counts.events = static_cast<int64_t>(saved[5]);
+  rupture_counts.dropped_nonpositive = static_cast<int64_t>(saved[6]);
+  rupture_counts.dropped_small = static_cast<int64_t>(saved[7]);
+  rupture_counts.last_size = saved[8];
+  fault_begun = went_on =
+      saved[2] == update->dt && saved[3] == grid.interval && saved[4] == grid.bins;
+  if (!went_on) {
+    if (comm->me == 0)
+      error->warning(FLERR,
+                     "Compute lsm/events {}: the restart file holds ruptures of another time step, "
+                     "interval or "
+                     "number of bins; those that were open are lost",
+                     id);
+    return;
+  }
+  grid.step0 = static_cast<bigint>(saved[0]);
+  grid.time0 = saved[1];
+  sums = LSM::FaultSums(grid);
+  if (comm->me != 0) return;
+  sums.values() = lists[0];
+  saved_history = lists[2];
+  try {
+    finder = std::make_unique<LSM::RuptureFinder>(grid, rupture_settings());
+    finder->set_state(lists[1]);
+  } catch (std::exception &e) {
+    failure = fmt::format("Compute lsm/events {}: {}", id, e.what());
   }
 }
 
@@ -919,7 +1301,7 @@ double ComputeLSMEvents::compute_scalar()
 {
   invoked_scalar = update->ntimestep;
   flush();
-  double events = picker ? static_cast<double>(picker->events()) : 0.0;
+  double events = picker ? static_cast<double>(counts().events) : 0.0;
   MPI_Bcast(&events, 1, MPI_DOUBLE, 0, world);
   scalar = events;
   return scalar;
@@ -933,10 +1315,12 @@ void ComputeLSMEvents::compute_vector()
   flush();
   double picked[4] = {0.0, 0.0, 0.0, 0.0};
   if (picker) {
-    picked[EVENTS] = static_cast<double>(picker->events());
-    picked[LAST_SIZE] = picker->last_size();
+    picked[EVENTS] = static_cast<double>(counts().events);
+    picked[LAST_SIZE] = counts().last_size;
     picked[RATE] = picker->rate();
-    picked[IN_EVENT] = picker->in_event() ? 1.0 : 0.0;
+    picked[IN_EVENT] = ruptures             ? static_cast<double>(finder->open())
+                       : picker->in_event() ? 1.0
+                                            : 0.0;
   }
   MPI_Bcast(picked, 4, MPI_DOUBLE, 0, world);
   for (int n = 0; n < 4; n++) vector[n] = picked[n];
@@ -963,5 +1347,5 @@ void ComputeLSMEvents::compute_vector()
 double ComputeLSMEvents::memory_usage()
 {
   return static_cast<double>(filling.capacity() + sending.capacity() + received.capacity()) *
-      sizeof(double);
+         sizeof(double);
 }

@@ -18,6 +18,8 @@ ComputeStyle(lsm/events,ComputeLSMEvents);
 #include "lsm_energy.h"
 #include "lsm_event_picker.h"
 #include "lsm_pe_series.h"
+#include "lsm_ruptures.h"
+#include "lsm_slip_history.h"
 
 #include <map>
 #include <memory>
@@ -49,7 +51,8 @@ class ComputeLSMEvents : public Compute {
  private:
   // settings
 
-  std::string catalogue_file, series_file, emergency_file;
+  std::string catalogue_file, series_file, history_file, emergency_file;
+  bool ruptures;    // events are ruptures, not drops of PE
   bool series_binary;
   int series_stride;
   LSM::PickerSettings picker_settings;
@@ -58,7 +61,17 @@ class ComputeLSMEvents : public Compute {
   bool tangential;       // tangential springs count as potential energy
   bool location;         // slip moment, centroid and rupture length of each event
   double bin_width;
-  double bin_fraction;   // bins with less than this part of the largest slip are not ruptured
+  double bin_fraction;    // bins with less than this part of the largest slip are not ruptured
+  double
+      slipping;    // bins whose slip velocity is above this multiple of the driving velocity slip
+  double
+      driving;    // velocity of one side of the fault relative to the other; 0: that of the plates
+  double forward;    // direction of the upper side along x: 1 or -1
+  int interval;      // steps over which the slip of a bin is taken together
+  int gap;           // bins that may lie between two that are connected
+  double pause;      // time over which slips are connected
+  double modulus;    // shear modulus; 0: that of the links
+  int quiet;         // intervals in one record of the history while nothing slips
   bool ledger;
   double ledger_tolerance;    // 0: not checked
   double strain_limit;
@@ -88,8 +101,20 @@ class ComputeLSMEvents : public Compute {
   std::vector<double> slip_sent;    // all slip of the block that is on its way, on rank 0
   std::vector<int> slip_steps;
 
+  // slip of the fault: sums of the interval that is not complete, and those of the block
+
+  LSM::FaultGrid grid;
+  LSM::FaultSums sums;
+  std::vector<double> sums_filling, sums_sent;
+  bool went_on;                         // from ruptures of the restart file
+  bool fault_begun;                     // its state before the first interval is known
+  std::vector<double> saved_history;    // state of the slip history in the restart file
+
   // rank 0
 
+  std::unique_ptr<LSM::RuptureFinder> finder;
+  std::unique_ptr<LSM::SlipHistoryWriter> history;
+  LSM::PickerState rupture_counts;    // only the numbers of events
   std::unique_ptr<LSM::EventPicker> picker;
   std::unique_ptr<LSM::CatalogueWriter> catalogue;
   std::unique_ptr<LSM::PeSeriesWriter> series;
@@ -121,12 +146,28 @@ class ComputeLSMEvents : public Compute {
   void leave_out_jump();
   void set_memory();
   double time_of(bigint step) const;
-  LSM::CatalogueInfo header() const;
+  LSM::CatalogueInfo header(bool of_ruptures) const;
+  LSM::PeSeriesInfo series_header() const;
+  LSM::SlipHistoryInfo history_header() const;
+  LSM::RuptureSettings rupture_settings() const;
+  const LSM::PickerState &counts() const;
   void open_files(bigint step);
   void begin_files(bigint step, bool from_restart);
   void stop_on_failure();
   void check_health();
   void unpack_state(const std::vector<double> &);
+  void find_driving();
+  void make_grid();
+  std::vector<double> pack_ruptures();
+  void unpack_ruptures(const std::vector<double> &, size_t);
+  void begin_fault();
+  void record_contacts(bigint step);
+  bool ends_interval(bigint step) const
+  {
+    return step > grid.step0 && (step - grid.step0) % grid.interval == 0;
+  }
+  void take_interval(bigint step, double pe, const double *values);
+  void finish_rupture(LSM::Event);
   void start_gather();
   void finish_gather();
   void take_block();

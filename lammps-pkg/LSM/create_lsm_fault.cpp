@@ -52,12 +52,12 @@ static void order_along_fault(LSM::Packing &packing)
   const int n = static_cast<int>(packing.discs.size());
   std::vector<int> order(n), place(n);
   const auto key = [](const LSM::Disc &d) {
-    return std::make_tuple(static_cast<int>(d.x / STRETCH), d.plate ? 2 : (d.fault ? 0 : 1), d.x, d.y);
+    return std::make_tuple(static_cast<int>(d.x / STRETCH), d.plate ? 2 : (d.fault ? 0 : 1), d.x,
+                           d.y);
   };
   std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](int a, int b) {
-    return key(packing.discs[a]) < key(packing.discs[b]);
-  });
+  std::sort(order.begin(), order.end(),
+            [&](int a, int b) { return key(packing.discs[a]) < key(packing.discs[b]); });
   std::vector<LSM::Disc> discs;
   discs.reserve(n);
   for (int i = 0; i < n; i++) {
@@ -77,16 +77,14 @@ static void order_along_fault(LSM::Packing &packing)
 
 static std::pair<int, int> owner_first(const LSM::Packing &packing, const std::pair<int, int> &link)
 {
-  if (packing.discs[link.second].r < packing.discs[link.first].r)
-    return {link.second, link.first};
+  if (packing.discs[link.second].r < packing.discs[link.first].r) return {link.second, link.first};
   return link;
 }
 
 /* ---------------------------------------------------------------------- */
 
 CreateLSMFault::CreateLSMFault(LAMMPS *lmp_in) :
-    Command(lmp_in), mass_power(2), mass_scale(1.0), mass_floor(0.0), margin(2.0),
-    stiffness(1.0)
+    Command(lmp_in), mass_power(2), mass_scale(1.0), mass_floor(0.0), margin(2.0), stiffness(1.0)
 {
 }
 
@@ -167,9 +165,8 @@ void CreateLSMFault::check_setup()
   const bool as_needed =
       lj[1] == 0.0 && lj[2] == 1.0 && lj[3] == 1.0 && coul[2] == 1.0 && coul[3] == 1.0;
   if (comm->me == 0 && !as_needed)
-    error->warning(FLERR,
-                   "Linked particles must not be contact pairs and all others must be: "
-                   "use special_bonds lj/coul 0 1 1 before create_lsm_fault");
+    error->warning(FLERR, "Linked particles must not be contact pairs and all others must be: "
+                          "use special_bonds lj/coul 0 1 1 before create_lsm_fault");
 }
 
 /* ---------------------------------------------------------------------- */
@@ -241,15 +238,16 @@ void CreateLSMFault::parse(int narg, char **arg, LSM::PackingSettings &settings)
         error->all(FLERR, "Create_lsm_fault: stiffness = {}, expected a positive number",
                    stiffness);
     } else
-      error->all(FLERR,
-                 "Create_lsm_fault: unknown keyword {}, expected length, width, seed, rmin, rmax, "
-                 "failures, tolerance, linkgap, faultzone, hexseeds, loose, mass, massfloor, margin or "
-                 "stiffness",
-                 key);
+      error->all(
+          FLERR,
+          "Create_lsm_fault: unknown keyword {}, expected length, width, seed, rmin, rmax, "
+          "failures, tolerance, linkgap, faultzone, hexseeds, loose, mass, massfloor, margin or "
+          "stiffness",
+          key);
     iarg += 1 + values;
   }
-  const char *missing =
-      !have_length ? "length" : (!have_width ? "width" : (!have_seed ? "seed" : nullptr));
+  const char *missing = !have_length ? "length"
+                                     : (!have_width ? "width" : (!have_seed ? "seed" : nullptr));
   if (missing)
     error->all(FLERR, "Create_lsm_fault: {} is missing, expected length L width W seed S", missing);
 }
@@ -280,7 +278,9 @@ void CreateLSMFault::pack(const LSM::PackingSettings &settings, LSM::Packing &pa
     MPI_Bcast(&problem[0], size, MPI_CHAR, 0, world);
     // settings by the names they have as keywords
     const std::pair<const char *, const char *> names[] = {
-        {"max_failures", "failures"}, {"link_gap", "linkgap"}, {"fault_zone", "faultzone"},
+        {"max_failures", "failures"},
+        {"link_gap", "linkgap"},
+        {"fault_zone", "faultzone"},
         {"remove_loose = yes", "loose = remove"}};
     for (const auto &name : names)
       for (auto at = problem.find(name.first); at != std::string::npos;
@@ -447,11 +447,12 @@ void CreateLSMFault::report(const LSM::PackingSettings &settings, const LSM::Pac
                  "  particles tangent to the fault line = {} below, {} above\n",
                  packing.coordination, packing.area_fraction, packing.rmin_found,
                  packing.fault_tangent[0], packing.fault_tangent[1]);
-  utils::logmesg(lmp,
-                 "  loose particles (fewer than {} links) = {} {}, {} of them tangent to the fault line; "
-                 "softest support of the others = {:.4f} of a link\n",
-                 LSM::HELD_LINKS, packing.loose, settings.remove_loose ? "removed" : "kept",
-                 packing.loose_tangent, packing.weakest);
+  utils::logmesg(
+      lmp,
+      "  loose particles (fewer than {} links) = {} {}, {} of them tangent to the fault line; "
+      "softest support of the others = {:.4f} of a link\n",
+      LSM::HELD_LINKS, packing.loose, settings.remove_loose ? "removed" : "kept",
+      packing.loose_tangent, packing.weakest);
 
   if (mass_floor > 0.0) {
     double sum = 0.0, raised = 0.0;

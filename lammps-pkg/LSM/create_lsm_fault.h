@@ -29,11 +29,11 @@ class CreateLSMFault : public Command {
   void command(int, char **) override;
 
  private:
-  int mass_power;      // mass = mass_scale * radius^mass_power
+  int mass_power;    // mass = mass_scale * radius^mass_power
   double mass_scale;
-  double mass_floor;   // smaller masses are raised to it
-  double margin;       // empty space beyond each plate
-  double stiffness;    // of the links, for the estimate of the time step only
+  double mass_floor;    // smaller masses are raised to it
+  double margin;        // empty space beyond each plate
+  double stiffness;     // of the links, for the estimate of the time step only
 
   double mass_of(double radius) const;    // before the floor
   void check_setup();

@@ -51,7 +51,8 @@ void FixLSMBreak::init()
     error->all(FLERR, "Breakable links need 'special_bonds lj 0 1 1', so that a pair is in contact "
                       "only when its link is broken");
   if (LSMScene::is_rerun(update))
-    error->all(FLERR, "Bond style lsm/linked does not work with rerun where links can break: it would depend on the "
+    error->all(FLERR, "Bond style lsm/linked does not work with rerun where links can break: it "
+                      "would depend on the "
                       "snapshots before; give bond_coeff without a breaking ratio");
 }
 
@@ -98,7 +99,8 @@ void FixLSMBreak::remove(const std::vector<tagint> &broken)
     unique.push_back({std::min(broken[n], broken[n + 1]), std::max(broken[n], broken[n + 1]),
                       static_cast<int>(broken[n + 2])});
   const auto key = [](const Link &l) { return std::make_tuple(l.low, l.high, l.type); };
-  std::sort(unique.begin(), unique.end(), [&](const Link &a, const Link &b) { return key(a) < key(b); });
+  std::sort(unique.begin(), unique.end(),
+            [&](const Link &a, const Link &b) { return key(a) < key(b); });
   unique.erase(std::unique(unique.begin(), unique.end(),
                            [&](const Link &a, const Link &b) { return key(a) == key(b); }),
                unique.end());
@@ -127,7 +129,8 @@ void FixLSMBreak::remove(const std::vector<tagint> &broken)
     for (int m = 0; m < atom->num_bond[i]; m++)
       if (atom->bond_atom[i][m] == other) mine[n]++;
   });
-  MPI_Allreduce(mine.data(), remaining.data(), static_cast<int>(mine.size()), MPI_INT, MPI_SUM, world);
+  MPI_Allreduce(mine.data(), remaining.data(), static_cast<int>(mine.size()), MPI_INT, MPI_SUM,
+                world);
 
   // 1-2 neighbours are the first nspecial[0]; what follows moves up
 

@@ -35,11 +35,14 @@ void FixLSMHistory::init()
 {
   FixNeighHistory::init();
   if (update->whichflag == 2)
-    error->all(FLERR, "Pair style lsm/friction does not work with minimize: friction depends on the path, so there is no "
+    error->all(FLERR, "Pair style lsm/friction does not work with minimize: friction depends on "
+                      "the path, so there is no "
                       "energy to be minimized; use pair style lsm/free, or a run with viscosity");
   if (LSMScene::is_rerun(update))
-    error->all(FLERR, "Pair style lsm/friction does not work with rerun: snapshots do not hold the elongations of the "
-                      "tangential springs; use pair style lsm/free for the energy of the normal springs");
+    error->all(FLERR,
+               "Pair style lsm/friction does not work with rerun: snapshots do not hold the "
+               "elongations of the "
+               "tangential springs; use pair style lsm/free for the energy of the normal springs");
 }
 
 /* ----------------------------------------------------------------------
@@ -78,11 +81,14 @@ void FixLSMHistory::unpack_restart(int nlocal, int nth)
     const int size = (static_cast<int>(extra[m]) - 2) / count - 1;
     if (size != dnum)
       error->one(FLERR,
-                 "Pair style lsm/friction: the restart file holds contacts of another friction law, with {} numbers "
+                 "Pair style lsm/friction: the restart file holds contacts of another friction "
+                 "law, with {} numbers "
                  "each, but {} has {}",
                  size, mine, dnum);
     if (!law.empty() && law != law_of_file)
-      error->one(FLERR, "Pair style lsm/friction: the restart file holds contacts of the law {}, expected those of {}",
+      error->one(FLERR,
+                 "Pair style lsm/friction: the restart file holds contacts of the law {}, expected "
+                 "those of {}",
                  law_of_file, mine);
   }
   FixNeighHistory::unpack_restart(nlocal, nth);

@@ -25,14 +25,16 @@
 using namespace LAMMPS_NS;
 using namespace FixConst;
 
-static constexpr bigint KEPT_STEPS = 20000;    // of changes of the rate, for steps that are looked at later
+static constexpr bigint KEPT_STEPS =
+    20000;    // of changes of the rate, for steps that are looked at later
 
 /* ---------------------------------------------------------------------- */
 
 FixLSMLeap::FixLSMLeap(LAMMPS *_lmp, int narg, char **arg) :
-    Fix(_lmp, narg, arg), fast(0.00025), slip(0.5), calm(10.0), rest(10.0), viscosity(0.1), ramp(15.0), between(1.5),
-    plates(nullptr), dt(update->dt), loading_energy(0.0), state(EVENT), factor(1.0), since(0.0), steps_time(0.0),
-    leap_time(0.0), stops(0.0), restored(false), restored_time(0.0)
+    Fix(_lmp, narg, arg), fast(0.00025), slip(0.5), calm(10.0), rest(10.0), viscosity(0.1),
+    ramp(15.0), between(1.5), plates(nullptr), dt(update->dt), loading_energy(0.0), state(EVENT),
+    factor(1.0), since(0.0), steps_time(0.0), leap_time(0.0), stops(0.0), restored(false),
+    restored_time(0.0)
 {
   scalar_flag = 1;
   vector_flag = 1;
@@ -42,27 +44,32 @@ FixLSMLeap::FixLSMLeap(LAMMPS *_lmp, int narg, char **arg) :
   extvector = 0;
   restart_global = 1;
 
-  if (narg < 4) error->all(FLERR, "Fix lsm/leap expects 'fix ID group lsm/leap plates-ID keyword value ...'");
+  if (narg < 4)
+    error->all(FLERR, "Fix lsm/leap expects 'fix ID group lsm/leap plates-ID keyword value ...'");
   plates_id = arg[3];
   struct Keyword {
     const char *name;
     double *value;
     bool zero;    // whether 0 is accepted
   };
-  const Keyword keywords[] = {{"fast", &fast, false},         {"slip", &slip, false}, {"calm", &calm, true},
-                              {"rest", &rest, false},         {"settle", &viscosity, true},
-                              {"ramp", &ramp, true},          {"look", &between, false}};
+  const Keyword keywords[] = {{"fast", &fast, false},       {"slip", &slip, false},
+                              {"calm", &calm, true},        {"rest", &rest, false},
+                              {"settle", &viscosity, true}, {"ramp", &ramp, true},
+                              {"look", &between, false}};
   for (int iarg = 4; iarg < narg; iarg += 2) {
     const Keyword *which = nullptr;
     for (const auto &k : keywords)
       if (strcmp(arg[iarg], k.name) == 0) which = &k;
     if (!which)
-      error->all(FLERR, "Unknown fix lsm/leap keyword '{}'; accepted are fast, slip, calm, rest, settle, ramp and look",
+      error->all(FLERR,
+                 "Unknown fix lsm/leap keyword '{}'; accepted are fast, slip, calm, rest, settle, "
+                 "ramp and look",
                  arg[iarg]);
     if (iarg + 1 >= narg) error->all(FLERR, "Fix lsm/leap keyword {} needs a value", arg[iarg]);
     *which->value = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
     if (!(*which->value > 0.0 || (which->zero && *which->value == 0.0)))
-      error->all(FLERR, "Fix lsm/leap {} is {}, but must be {} 0", which->name, *which->value, which->zero ? ">=" : ">");
+      error->all(FLERR, "Fix lsm/leap {} is {}, but must be {} 0", which->name, *which->value,
+                 which->zero ? ">=" : ">");
   }
   reset_dt();
 }
@@ -88,13 +95,18 @@ int FixLSMLeap::setmask()
 void FixLSMLeap::init()
 {
   plates = dynamic_cast<FixLSMPlates *>(modify->get_fix_by_id(plates_id));
-  if (!plates) error->all(FLERR, "Fix lsm/leap {}: '{}' is not the ID of a fix lsm/plates", id, plates_id);
+  if (!plates)
+    error->all(FLERR, "Fix lsm/leap {}: '{}' is not the ID of a fix lsm/plates", id, plates_id);
   if (plates->driving_velocity() == 0.0)
-    error->all(FLERR, "Fix lsm/leap {}: the plates of fix {} do not move; give it a velocity", id, plates_id);
+    error->all(FLERR, "Fix lsm/leap {}: the plates of fix {} do not move; give it a velocity", id,
+               plates_id);
   if (fabs(plates->driving_velocity()) > fast)
-    error->all(FLERR, "Fix lsm/leap {}: fast is {}, but must be at least the driving velocity {} of fix {}", id, fast,
-               fabs(plates->driving_velocity()), plates_id);
-  if (modify->get_fix_by_style("^lsm/leap").size() > 1) error->all(FLERR, "More than one fix lsm/leap");
+    error->all(
+        FLERR,
+        "Fix lsm/leap {}: fast is {}, but must be at least the driving velocity {} of fix {}", id,
+        fast, fabs(plates->driving_velocity()), plates_id);
+  if (modify->get_fix_by_style("^lsm/leap").size() > 1)
+    error->all(FLERR, "More than one fix lsm/leap");
 
   integrators.clear();
   for (auto &fix : modify->get_fix_by_style("^lsm/nve"))
@@ -105,8 +117,9 @@ void FixLSMLeap::init()
   for (auto *p : LSMScene::contact_styles(force))
     if (auto *friction = dynamic_cast<PairLSMFriction *>(p)) {
       if (friction->law_of_time())
-        error->all(FLERR, "Fix lsm/leap {}: friction by the law {} depends on time, which leaps leave out", id,
-                   friction->law_of_time());
+        error->all(FLERR,
+                   "Fix lsm/leap {}: friction by the law {} depends on time, which leaps leave out",
+                   id, friction->law_of_time());
       friction->record_what |= LSMEnergySource::SLIP_RATE;
       friction->slip_moment = 0.0;
       contacts.push_back(friction);
@@ -118,7 +131,9 @@ void FixLSMLeap::init()
 void FixLSMLeap::reset_dt()
 {
   if (!changes.empty() && dt != update->dt)
-    error->all(FLERR, "Fix lsm/leap {}: the time step changed from {} to {}, but must stay the same", id, dt, update->dt);
+    error->all(FLERR,
+               "Fix lsm/leap {}: the time step changed from {} to {}, but must stay the same", id,
+               dt, update->dt);
   dt = update->dt;
   nevery = MAX(1, static_cast<int>(std::lround(between / dt)));
 }
@@ -130,17 +145,21 @@ void FixLSMLeap::setup(int /*vflag*/)
   // uniform shear between the plates: v grows from -fast to fast over the width
 
   double mass = 0.0, all;
-  for (int i = 0; i < atom->nlocal; i++) mass += atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
+  for (int i = 0; i < atom->nlocal; i++)
+    mass += atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
   MPI_Allreduce(&mass, &all, 1, MPI_DOUBLE, MPI_SUM, world);
   loading_energy = 0.5 * all * fast * fast / 3.0;
 
   if (changes.empty()) {
-    const double now = update->atime + static_cast<double>(update->ntimestep - update->atimestep) * dt;
+    const double now =
+        update->atime + static_cast<double>(update->ntimestep - update->atimestep) * dt;
     changes.push_back({update->ntimestep, restored ? restored_time : now, factor});
   } else {
     changes.push_back({update->ntimestep, model_time(update->ntimestep), factor});
   }
-  set_factor(MIN(factor, fast / fabs(plates->driving_velocity())));    // a restart may go on with a smaller one
+  set_factor(
+      MIN(factor,
+          fast / fabs(plates->driving_velocity())));    // a restart may go on with a smaller one
   plates->loading = factor;
   for (auto *p : integrators) p->raise_viscosity(state == SETTLE ? viscosity : 0.0);
 }
@@ -158,8 +177,9 @@ double FixLSMLeap::model_time(bigint step) const
 std::string FixLSMLeap::settings() const
 {
   using LSM::text_io::number;
-  return "fast " + number(fast) + " slip " + number(slip) + " calm " + number(calm) + " rest " + number(rest) +
-      " settle " + number(viscosity) + " ramp " + number(ramp) + " look " + number(between);
+  return "fast " + number(fast) + " slip " + number(slip) + " calm " + number(calm) + " rest " +
+         number(rest) + " settle " + number(viscosity) + " ramp " + number(ramp) + " look " +
+         number(between);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -184,7 +204,8 @@ double FixLSMLeap::kinetic() const
   double sum = 0.0;
   for (int i = 0; i < atom->nlocal; i++) {
     if (atom->mask[i] & skip) continue;
-    sum += (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]) * (v[i][0] * v[i][0] + v[i][1] * v[i][1]);
+    sum += (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]) *
+           (v[i][0] * v[i][0] + v[i][1] * v[i][1]);
   }
   return 0.5 * sum;
 }
@@ -242,9 +263,10 @@ double FixLSMLeap::compute_scalar()
 
 double FixLSMLeap::compute_vector(int n)
 {
-  const double now = update->atime + static_cast<double>(update->ntimestep - update->atimestep) * dt;
-  const double values[6] = {factor, static_cast<double>(state), steps_time, leap_time,
-                            model_time(update->ntimestep) - now, stops};
+  const double now =
+      update->atime + static_cast<double>(update->ntimestep - update->atimestep) * dt;
+  const double values[6] = {factor,    static_cast<double>(state),          steps_time,
+                            leap_time, model_time(update->ntimestep) - now, stops};
   return values[n];
 }
 
@@ -252,8 +274,13 @@ double FixLSMLeap::compute_vector(int n)
 
 void FixLSMLeap::write_restart(FILE *fp)
 {
-  const double values[7] = {model_time(update->ntimestep), static_cast<double>(state), factor, since, steps_time,
-                            leap_time, stops};
+  const double values[7] = {model_time(update->ntimestep),
+                            static_cast<double>(state),
+                            factor,
+                            since,
+                            steps_time,
+                            leap_time,
+                            stops};
   if (comm->me == 0) {
     const int size = sizeof(values);
     fwrite(&size, sizeof(int), 1, fp);

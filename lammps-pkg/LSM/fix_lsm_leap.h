@@ -43,13 +43,15 @@ class FixLSMLeap : public Fix {
   // settings
 
   std::string plates_id;
-  double fast;        // driving velocity while nothing slips
-  double slip;        // rate of slip moment over that of the whole fault at the fast velocity: above it is an event
-  double calm;        // time without such slip after which the blocks settle
-  double rest;        // kinetic energy over that of the loading motion at the fast velocity: below it they are at rest
-  double viscosity;   // while they settle, at least; 0: no more than always
-  double ramp;        // time from the slow to the fast velocity
-  double between;     // time between two looks
+  double fast;    // driving velocity while nothing slips
+  double
+      slip;    // rate of slip moment over that of the whole fault at the fast velocity: above it is an event
+  double calm;    // time without such slip after which the blocks settle
+  double
+      rest;    // kinetic energy over that of the loading motion at the fast velocity: below it they are at rest
+  double viscosity;    // while they settle, at least; 0: no more than always
+  double ramp;         // time from the slow to the fast velocity
+  double between;      // time between two looks
 
   class FixLSMPlates *plates;
   std::vector<class FixLSMNVE *> integrators;
@@ -64,11 +66,11 @@ class FixLSMLeap : public Fix {
   };
   std::deque<Change> changes;
   int state;
-  double factor;            // of the driving velocity now
-  double since;             // time since the last slip above the bound
-  double steps_time;        // time of the steps done under this fix
-  double leap_time;         // those of them while leaping
-  double stops;             // leaps that ended
+  double factor;        // of the driving velocity now
+  double since;         // time since the last slip above the bound
+  double steps_time;    // time of the steps done under this fix
+  double leap_time;     // those of them while leaping
+  double stops;         // leaps that ended
   bool restored;
   double restored_time;
 

@@ -32,9 +32,10 @@ using namespace FixConst;
 /* ---------------------------------------------------------------------- */
 
 FixLSMNVE::FixLSMNVE(LAMMPS *_lmp, int narg, char **arg) :
-    Fix(_lmp, narg, arg), record_work(false), work_viscosity(0.0), nu_least(0.0), nu(atom->ntypes + 1, 0.0),
-    decay(atom->ntypes + 1, 1.0), viscous(false), dtv(0.0), dtf(0.0), check(ERROR), omega(0.0), dt_limit(0.0), pending(false),
-    initial_chosen(nullptr), final_chosen(nullptr), both_chosen(nullptr)
+    Fix(_lmp, narg, arg), record_work(false), work_viscosity(0.0), nu_least(0.0),
+    nu(atom->ntypes + 1, 0.0), decay(atom->ntypes + 1, 1.0), viscous(false), dtv(0.0), dtf(0.0),
+    check(ERROR), omega(0.0), dt_limit(0.0), pending(false), initial_chosen(nullptr),
+    final_chosen(nullptr), both_chosen(nullptr)
 {
   time_integrate = 1;
   dynamic_group_allow = 1;
@@ -53,7 +54,8 @@ FixLSMNVE::FixLSMNVE(LAMMPS *_lmp, int narg, char **arg) :
     if (strcmp(arg[iarg], "viscosity") == 0) {
       nu.assign(atom->ntypes + 1, viscosity_from(arg[iarg + 1]));
     } else if (strcmp(arg[iarg], "viscosity/type") == 0) {
-      if (iarg + 2 >= narg) error->all(FLERR, "Fix lsm/nve keyword viscosity/type needs types and a value");
+      if (iarg + 2 >= narg)
+        error->all(FLERR, "Fix lsm/nve keyword viscosity/type needs types and a value");
       int lo, hi;
       utils::bounds(FLERR, arg[iarg + 1], 1, atom->ntypes, lo, hi, error);
       const double value = viscosity_from(arg[iarg + 2]);
@@ -70,8 +72,10 @@ FixLSMNVE::FixLSMNVE(LAMMPS *_lmp, int narg, char **arg) :
         error->all(FLERR, "Fix lsm/nve dtcheck is '{}', but must be error, warn or off",
                    arg[iarg + 1]);
     } else
-      error->all(FLERR, "Unknown fix lsm/nve keyword '{}'; accepted are viscosity, viscosity/type and dtcheck",
-                 arg[iarg]);
+      error->all(
+          FLERR,
+          "Unknown fix lsm/nve keyword '{}'; accepted are viscosity, viscosity/type and dtcheck",
+          arg[iarg]);
     iarg += 2;
   }
   for (double value : nu) viscous = viscous || value > 0.0;
@@ -86,9 +90,11 @@ double FixLSMNVE::viscosity_from(const char *text)
 
 std::string FixLSMNVE::viscosity() const
 {
-  const bool same = std::all_of(nu.begin() + 1, nu.end(), [this](double value) { return value == nu[1]; });
+  const bool same =
+      std::all_of(nu.begin() + 1, nu.end(), [this](double value) { return value == nu[1]; });
   std::string text = LSM::text_io::number(nu[1]);
-  for (size_t itype = 2; !same && itype < nu.size(); itype++) text += " " + LSM::text_io::number(nu[itype]);
+  for (size_t itype = 2; !same && itype < nu.size(); itype++)
+    text += " " + LSM::text_io::number(nu[itype]);
   return text;
 }
 
@@ -115,7 +121,8 @@ void FixLSMNVE::reset_dt()
 {
   dtv = update->dt;
   dtf = 0.5 * update->dt * force->ftm2v;
-  for (int itype = 1; itype <= atom->ntypes; itype++) decay[itype] = exp(-0.5 * MAX(nu[itype], nu_least) * update->dt);
+  for (int itype = 1; itype <= atom->ntypes; itype++)
+    decay[itype] = exp(-0.5 * MAX(nu[itype], nu_least) * update->dt);
   collect();
 }
 
@@ -143,7 +150,8 @@ void FixLSMNVE::collect()
     half_kick[i] = dtf / (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]);
     if (!(atom->mask[i] & groupbit)) continue;
     const double factor = decay[atom->type[i]];
-    if (runs.empty() || runs.back().last != i || runs.back().decay != factor) runs.push_back({i, i, factor});
+    if (runs.empty() || runs.back().last != i || runs.back().decay != factor)
+      runs.push_back({i, i, factor});
     runs.back().last = i + 1;
   }
 }
@@ -208,16 +216,22 @@ void FixLSMNVE::setup(int /*vflag*/)
   if (check == OFF) return;
   const std::string foreign = LSMScene::foreign_forces(force);
   if (!foreign.empty() && comm->me == 0)
-    error->warning(FLERR, "Fix lsm/nve {}: the stability limit of the time step does not know of {}", id, foreign);
+    error->warning(FLERR,
+                   "Fix lsm/nve {}: the stability limit of the time step does not know of {}", id,
+                   foreign);
   omega = highest_frequency();
   dt_limit = omega > 0.0 ? 2.0 / omega : 0.0;
   if (omega == 0.0 || update->dt <= dt_limit) return;
   if (check == ERROR)
-    error->all(FLERR, "Time step {} is above the stability limit {:.6g} of the links and contacts (2 / highest frequency "
+    error->all(FLERR,
+               "Time step {} is above the stability limit {:.6g} of the links and contacts (2 / "
+               "highest frequency "
                "{:.6g}); use a smaller time step or fix lsm/nve dtcheck warn",
                update->dt, dt_limit, omega);
   if (comm->me == 0)
-    error->warning(FLERR, "Time step {} is above the stability limit {:.6g} of the links and contacts", update->dt, dt_limit);
+    error->warning(FLERR,
+                   "Time step {} is above the stability limit {:.6g} of the links and contacts",
+                   update->dt, dt_limit);
 }
 
 /* ----------------------------------------------------------------------
@@ -314,7 +328,8 @@ double FixLSMNVE::highest_frequency()
   double **x = atom->x;
 
   auto add = [&](int i, int j, bool newton, double k, double kt) {
-    LSM::Spring s{i, j, newton || j < nlocal, k, kt, {x[i][0] - x[j][0], x[i][1] - x[j][1], x[i][2] - x[j][2]}};
+    LSM::Spring s{i, j,  newton || j < nlocal,
+                  k, kt, {x[i][0] - x[j][0], x[i][1] - x[j][1], x[i][2] - x[j][2]}};
     const double r = sqrt(s.n[0] * s.n[0] + s.n[1] * s.n[1] + s.n[2] * s.n[2]);
     if (r == 0.0) return;
     for (double &c : s.n) c /= r;
@@ -322,7 +337,8 @@ double FixLSMNVE::highest_frequency()
   };
 
   if (auto links = dynamic_cast<BondLSMLinked *>(force->bond_match("lsm/linked")))
-    for (const auto &link : links->held()) add(link.i, link.j, force->newton_bond, link.stiffness, 0.0);
+    for (const auto &link : links->held())
+      add(link.i, link.j, force->newton_bond, link.stiffness, 0.0);
   for (PairLSMFree *contacts : LSMScene::contact_styles(force)) {
     if (!contacts->list) continue;
     int d = 0;
@@ -345,7 +361,8 @@ double FixLSMNVE::highest_frequency()
 
   // the matrix is M^-1/2 K M^-1/2; ghosts need displacements only, and give back forces
 
-  const size_t size = static_cast<size_t>(nlocal) * dim, all = static_cast<size_t>(nlocal + atom->nghost) * dim;
+  const size_t size = static_cast<size_t>(nlocal) * dim,
+               all = static_cast<size_t>(nlocal + atom->nghost) * dim;
   std::vector<double> scale(nlocal), start(size);
   for (int i = 0; i < nlocal; i++) {
     scale[i] = 1.0 / sqrt(atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]);
@@ -371,8 +388,8 @@ double FixLSMNVE::highest_frequency()
     MPI_Allreduce(&mine, &total, 1, MPI_DOUBLE, MPI_SUM, world);
     return total;
   };
-  const auto largest =
-      LSM::largest_eigenvalue(std::move(start), static_cast<double>(atom->natoms) * dim, multiply, sum);
+  const auto largest = LSM::largest_eigenvalue(
+      std::move(start), static_cast<double>(atom->natoms) * dim, multiply, sum);
   trial.clear();
   image.clear();
   return sqrt(largest.bound);

@@ -41,12 +41,12 @@ class FixLSMNVE : public Fix {
   void unpack_reverse_comm(int, int *, double *) override;
   double memory_usage() override;
 
-  bool record_work;        // set by compute lsm/events when it keeps the energy ledger
+  bool record_work;         // set by compute lsm/events when it keeps the energy ledger
   double work_viscosity;    // work lost to viscosity, this rank, accumulated
   /// Velocities and positions of the same time, where the second half of a step was put off.
   void complete_step();
   void raise_viscosity(double least);    // to at least this, for now; 0: as it was given
-  std::string viscosity() const;    // one value, or one per type
+  std::string viscosity() const;         // one value, or one per type
 
  private:
   enum { ERROR, WARN, OFF };
@@ -55,9 +55,9 @@ class FixLSMNVE : public Fix {
   std::vector<double> decay;    // factor of the velocities in half a step of viscosity, per type
   bool viscous;                 // some nu is not 0
   double dtv, dtf;
-  int check;            // what to do when the time step is above the stability limit
-  double omega;         // bound of the highest frequency found at setup
-  double dt_limit;      // 2/omega
+  int check;                           // what to do when the time step is above the stability limit
+  double omega;                        // bound of the highest frequency found at setup
+  double dt_limit;                     // 2/omega
   std::vector<double> trial, image;    // displacements and forces, 2 or 3 values an atom
 
   // particles of the group with the same viscosity that follow each other in memory, and dt/2 over the mass of

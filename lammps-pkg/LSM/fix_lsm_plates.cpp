@@ -25,8 +25,9 @@ enum { LOWER, UPPER };
 /* ---------------------------------------------------------------------- */
 
 FixLSMPlates::FixLSMPlates(LAMMPS *_lmp, int narg, char **arg) :
-    Fix(_lmp, narg, arg), loading(1.0), speed(0.0), ramp(0.0), servo(false), stress(0.0), stress_ramp(0.0),
-    damping(0.0), impedance(0.0), vy_known(false), elapsed(0.0), ux(0.0), work_mine(0.0), dt(update->dt), summed_at(-1)
+    Fix(_lmp, narg, arg), loading(1.0), speed(0.0), ramp(0.0), servo(false), stress(0.0),
+    stress_ramp(0.0), damping(0.0), impedance(0.0), vy_known(false), elapsed(0.0), ux(0.0),
+    work_mine(0.0), dt(update->dt), summed_at(-1)
 {
   scalar_flag = 1;
   vector_flag = 1;
@@ -102,7 +103,8 @@ void FixLSMPlates::init()
   if (domain->dimension != 2)
     error->all(FLERR, "Fix lsm/plates needs a 2-dimensional simulation (dimension 2)");
   if (!domain->xperiodic || domain->yperiodic)
-    error->all(FLERR, "Fix lsm/plates needs a box that is periodic in x and not in y (boundary p f p)");
+    error->all(FLERR,
+               "Fix lsm/plates needs a box that is periodic in x and not in y (boundary p f p)");
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix lsm/plates does not work with run_style respa");
   dt = update->dt;
@@ -144,10 +146,11 @@ void FixLSMPlates::init()
         if ((atom->mask[i] & bits) && (atom->mask[i] & plate_bits())) both = 1;
       MPI_Allreduce(&both, &any, 1, MPI_INT, MPI_MAX, world);
       if (any)
-        error->all(FLERR,
-                   "Particles of the plates of fix {} are moved by fix {} as well; take them out of "
-                   "the group of that fix",
-                   id, other->id);
+        error->all(
+            FLERR,
+            "Particles of the plates of fix {} are moved by fix {} as well; take them out of "
+            "the group of that fix",
+            id, other->id);
     }
 }
 
@@ -378,8 +381,8 @@ double FixLSMPlates::compute_vector(int n)
 
 void FixLSMPlates::write_restart(FILE *fp)
 {
-  const double values[7] = {elapsed,         ux,           plate[0].uy, plate[1].uy,
-                            plate[0].vy,     plate[1].vy,  work()};
+  const double values[7] = {elapsed,     ux,          plate[0].uy, plate[1].uy,
+                            plate[0].vy, plate[1].vy, work()};
   if (comm->me == 0) {
     const int size = sizeof(values);
     fwrite(&size, sizeof(int), 1, fp);

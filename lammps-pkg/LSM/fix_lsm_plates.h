@@ -34,38 +34,42 @@ class FixLSMPlates : public Fix {
   void write_restart(FILE *) override;
   void restart(char *) override;
 
-  double loading;             // factor of the driving velocity now, set by fix lsm/leap
+  double loading;    // factor of the driving velocity now, set by fix lsm/leap
   double driving_velocity() const { return speed; }
   int plate_bits() const { return plate[0].bit | plate[1].bit; }
-  double work();              // work of the plates on the blocks, all ranks, accumulated
-  double kinetic() const;     // kinetic energy of the motion of the plates across the fault
+  double work();    // work of the plates on the blocks, all ranks, accumulated
+  double driving() const
+  {
+    return 2.0 * speed;
+  }                          // velocity of the upper plate relative to the lower one, in the end
+  double kinetic() const;    // kinetic energy of the motion of the plates across the fault
 
  private:
   struct Plate {
     int group, bit;
-    double side;                // -1 lower, +1 upper
-    double mass;                // of all particles of the plate
-    double vy;                  // velocity across the fault
-    double uy;                  // displacement across the fault since the fix was made
-    double fx, fy;              // force of the block on the plate: fx this rank, fy all ranks with servo
-    std::vector<int> atoms;     // this rank's particles
+    double side;      // -1 lower, +1 upper
+    double mass;      // of all particles of the plate
+    double vy;        // velocity across the fault
+    double uy;        // displacement across the fault since the fix was made
+    double fx, fy;    // force of the block on the plate: fx this rank, fy all ranks with servo
+    std::vector<int> atoms;    // this rank's particles
   };
   Plate plate[2];
 
-  double speed;           // driving velocity of each plate in the end
-  double ramp;            // time over which it is reached
-  bool servo;             // normal stress held, or position held
-  double stress;          // normal stress in the end
-  double stress_ramp;     // time over which it is reached
-  double damping;         // -damping * mass * vy on each plate with servo
-  double impedance;       // -impedance * length * vy on each plate with servo
-  bool vy_known;          // velocities across the fault were set by a former run or a restart
-  double elapsed;         // time since the fix was made
-  double ux;              // shear displacement of each plate
-  double work_mine;       // this rank's part of the work
+  double speed;          // driving velocity of each plate in the end
+  double ramp;           // time over which it is reached
+  bool servo;            // normal stress held, or position held
+  double stress;         // normal stress in the end
+  double stress_ramp;    // time over which it is reached
+  double damping;        // -damping * mass * vy on each plate with servo
+  double impedance;      // -impedance * length * vy on each plate with servo
+  bool vy_known;         // velocities across the fault were set by a former run or a restart
+  double elapsed;        // time since the fix was made
+  double ux;             // shear displacement of each plate
+  double work_mine;      // this rank's part of the work
   double dt;
 
-  double sums[4];         // fx, fy of both plates over all ranks, at step summed_at
+  double sums[4];    // fx, fy of both plates over all ranks, at step summed_at
   bigint summed_at;
 
   double decay_of(const Plate &p) const;

@@ -16,7 +16,8 @@ using namespace FixConst;
 
 /* ---------------------------------------------------------------------- */
 
-FixLSMRecord::FixLSMRecord(LAMMPS *_lmp, int narg, char **arg) : Fix(_lmp, narg, arg), owner(nullptr)
+FixLSMRecord::FixLSMRecord(LAMMPS *_lmp, int narg, char **arg) :
+    Fix(_lmp, narg, arg), owner(nullptr)
 {
   if (narg != 3) error->all(FLERR, "Fix LSM_RECORD is internal to compute lsm/events");
   nevery = 1;

@@ -31,7 +31,7 @@ class FixLSMRecord : public Fix {
   void write_restart(FILE *) override;
   void restart(char *) override;
 
-  class ComputeLSMEvents *owner;       // set by the compute that made this fix
+  class ComputeLSMEvents *owner;        // set by the compute that made this fix
   std::vector<double> restart_state;    // what a restart file held, empty if none
 };
 

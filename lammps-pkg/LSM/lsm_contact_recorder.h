@@ -21,6 +21,8 @@ struct LSMRecordNothing {
   void springs(double, double, double) {}
   void dissipation(double, double) {}
   void slip(double, double, double) {}
+  static constexpr bool wants_contacts() { return false; }
+  void contact(const LSMContact &) {}
   void finish() {}
 };
 
@@ -31,10 +33,13 @@ class LSMRecordEnergies {
 
   /// setup: the step was done before; its slip was counted then.
   LSMRecordEnergies(LSMEnergySource &source, bool setup, double xlo, double period) :
-      source_(source), counts_(!setup), slips_(!setup && (source.record_what & (LSMEnergySource::SLIP | LSMEnergySource::SLIP_RATE))), xlo_(xlo),
-      period_(period)
+      source_(source), counts_(!setup),
+      slips_(!setup && (source.record_what & (LSMEnergySource::SLIP | LSMEnergySource::SLIP_RATE))),
+      xlo_(xlo), period_(period)
   {
-    if (source.record_what) source_.slip.clear();
+    if (!source.record_what) return;
+    source_.slip.clear();
+    source_.contacts.clear();
   }
   void springs(double share, double normal, double tangential)
   {
@@ -55,6 +60,9 @@ class LSMRecordEnergies {
     along = (along - floor(along)) * period_;
     source_.slip.push_back({floor(along / source_.slip_bin), share * moment});
   }
+  /// Only where compute lsm/events looks for ruptures.
+  bool wants_contacts() const { return source_.record_what & LSMEnergySource::CONTACTS; }
+  void contact(const LSMContact &one) { source_.contacts.push_back(one); }
   void finish()
   {
     if (!source_.record_what) return;

@@ -51,8 +51,14 @@ namespace LSMLinkKernel {
   struct Vector3 {
     double c[3];
     double operator[](int n) const { return c[n]; }
-    Vector3 operator+(const Vector3 &o) const { return {{c[0] + o.c[0], c[1] + o.c[1], c[2] + o.c[2]}}; }
-    Vector3 operator-(const Vector3 &o) const { return {{c[0] - o.c[0], c[1] - o.c[1], c[2] - o.c[2]}}; }
+    Vector3 operator+(const Vector3 &o) const
+    {
+      return {{c[0] + o.c[0], c[1] + o.c[1], c[2] + o.c[2]}};
+    }
+    Vector3 operator-(const Vector3 &o) const
+    {
+      return {{c[0] - o.c[0], c[1] - o.c[1], c[2] - o.c[2]}};
+    }
     Vector3 operator*(double s) const { return {{c[0] * s, c[1] * s, c[2] * s}}; }
   };
 
@@ -71,9 +77,9 @@ namespace LSMLinkKernel {
   }
 
   template <int DIM> struct alignas(64) Stage {
-    Vector<DIM> d[CHUNK];     // from j to i
-    double rsq[CHUNK];        // its square
-    double fbond[CHUNK];      // force on i over d
+    Vector<DIM> d[CHUNK];    // from j to i
+    double rsq[CHUNK];       // its square
+    double fbond[CHUNK];     // force on i over d
   };
 
   template <int DIM>

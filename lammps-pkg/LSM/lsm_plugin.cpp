@@ -17,13 +17,13 @@
 #include "bond_lsm_linked.h"
 #include "compute_lsm_events.h"
 #include "create_lsm_fault.h"
-#include "include_beside.h"
 #include "fix_lsm_break.h"
 #include "fix_lsm_history.h"
-#include "fix_lsm_nve.h"
 #include "fix_lsm_leap.h"
+#include "fix_lsm_nve.h"
 #include "fix_lsm_plates.h"
 #include "fix_lsm_record.h"
+#include "include_beside.h"
 #include "pair_lsm_free.h"
 #include "pair_lsm_friction.h"
 
@@ -106,13 +106,15 @@ std::string name_of(int number)
 {
   const int month = number / 100 % 100;
   if (month < 1 || month > 12) return std::to_string(number);
-  return std::to_string(number % 100) + " " + months[month - 1] + " " + std::to_string(number / 10000);
+  return std::to_string(number % 100) + " " + months[month - 1] + " " +
+         std::to_string(number / 10000);
 }
 
 std::string sizes(int big, int tag, int image)
 {
   const auto bits = [](int bytes) { return std::to_string(8 * bytes); };
-  return "bigint, tagint and imageint of " + bits(big) + ", " + bits(tag) + " and " + bits(image) + " bits";
+  return "bigint, tagint and imageint of " + bits(big) + ", " + bits(tag) + " and " + bits(image) +
+         " bits";
 }
 
 /// What keeps the styles from this LAMMPS, or "".
@@ -123,12 +125,14 @@ std::string mismatch(void *lmp)
   if (!version || !setting) return "the program does not tell its version to plugins";
   const int found = version(lmp);
   if (found != number_of(LAMMPS_VERSION))
-    return std::string("it was compiled for LAMMPS ") + LAMMPS_VERSION + ", and this is LAMMPS " + name_of(found) +
-        "; compile it with the source of this LAMMPS";
-  const int big = setting(lmp, "bigint"), tag = setting(lmp, "tagint"), image = setting(lmp, "imageint");
+    return std::string("it was compiled for LAMMPS ") + LAMMPS_VERSION + ", and this is LAMMPS " +
+           name_of(found) + "; compile it with the source of this LAMMPS";
+  const int big = setting(lmp, "bigint"), tag = setting(lmp, "tagint"),
+            image = setting(lmp, "imageint");
   if (big != sizeof(bigint) || tag != sizeof(tagint) || image != sizeof(imageint))
-    return "it was compiled for " + sizes(sizeof(bigint), sizeof(tagint), sizeof(imageint)) + ", and this LAMMPS has " +
-        sizes(big, tag, image) + "; compile it with the same LAMMPS_SIZES";
+    return "it was compiled for " + sizes(sizeof(bigint), sizeof(tagint), sizeof(imageint)) +
+           ", and this LAMMPS has " + sizes(big, tag, image) +
+           "; compile it with the same LAMMPS_SIZES";
   return {};
 }
 
@@ -137,7 +141,7 @@ bool compiled_in(LAMMPS *lmp)
 {
   const auto found = lmp->force->pair_map->find("lsm/free");
   return found != lmp->force->pair_map->end() &&
-      found->second != reinterpret_cast<Force::PairCreator>(&make<Pair, PairLSMFree>);
+         found->second != reinterpret_cast<Force::PairCreator>(&make<Pair, PairLSMFree>);
 }
 
 }    // namespace
@@ -145,7 +149,8 @@ bool compiled_in(LAMMPS *lmp)
 extern "C" void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
 {
   std::string why = mismatch(lmp);
-  if (why.empty() && compiled_in(static_cast<LAMMPS *>(lmp))) why = "the package is compiled into this LAMMPS already";
+  if (why.empty() && compiled_in(static_cast<LAMMPS *>(lmp)))
+    why = "the package is compiled into this LAMMPS already";
   if (!why.empty()) {
     int me = 0;
     MPI_Comm_rank(MPI_COMM_WORLD, &me);

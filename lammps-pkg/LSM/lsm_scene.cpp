@@ -64,19 +64,19 @@ namespace LSMScene {
 
   bool is_rerun(const Update *update)
   {
-    return update->whichflag == 1 &&
-        (update->ntimestep != update->firststep ||
-         update->laststep != update->firststep + update->nsteps);
+    return update->whichflag == 1 && (update->ntimestep != update->firststep ||
+                                      update->laststep != update->firststep + update->nsteps);
   }
 
   void refuse_changing_radii(LAMMPS *lmp, const std::string &who)
   {
     for (const auto &fix : lmp->modify->get_fix_list())
       if (fix->diam_flag)
-        lmp->error->all(FLERR,
-                        "{}: fix {} changes the diameters of particles during a run, but radii and masses are "
-                        "read at its begin and with the neighbor lists; change them between two runs",
-                        who, fix->id);
+        lmp->error->all(
+            FLERR,
+            "{}: fix {} changes the diameters of particles during a run, but radii and masses are "
+            "read at its begin and with the neighbor lists; change them between two runs",
+            who, fix->id);
   }
 
 }    // namespace LSMScene

@@ -120,7 +120,8 @@ template <class Recorder, bool DIM3> void PairLSMFree::loop()
       if constexpr (Recorder::records) {
         const double e = LSM::Spring::energy(kij, r - r0);
         recorder.springs(both ? 1.0 : 0.5, e, 0.0);
-        if constexpr (Recorder::tallies) ev_tally(i, j, nlocal, newton_pair, e, 0.0, fpair, delx, dely, delz);
+        if constexpr (Recorder::tallies)
+          ev_tally(i, j, nlocal, newton_pair, e, 0.0, fpair, delx, dely, delz);
       }
     }
   }
@@ -144,7 +145,8 @@ void PairLSMFree::check_special() const
   const double *factor = force->special_lj;
   if (atom->nbonds > 0 && (factor[1] != 0.0 || factor[2] != 1.0 || factor[3] != 1.0))
     error->all(FLERR,
-               "Pair style lsm/*: the special_bonds factors lj are {} {} {}, but must be 0 1 1, so that linked particles "
+               "Pair style lsm/*: the special_bonds factors lj are {} {} {}, but must be 0 1 1, so "
+               "that linked particles "
                "are no contact pairs and all others are",
                factor[1], factor[2], factor[3]);
 }
@@ -215,7 +217,8 @@ void PairLSMFree::coeff(int narg, char **arg)
       on[i][j] = setflag[i][j] = 1;
       count++;
     }
-  if (count == 0) error->all(FLERR, "Pair lsm/free: pair_coeff {} {} names no pair of types", arg[0], arg[1]);
+  if (count == 0)
+    error->all(FLERR, "Pair lsm/free: pair_coeff {} {} names no pair of types", arg[0], arg[1]);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -235,16 +238,19 @@ void PairLSMFree::init_style()
   newton_pair = force->newton_pair;
   LSMScene::refuse_changing_radii(lmp, "Pair style lsm/*");
   if (utils::strmatch(force->pair_style, "^hybrid/scaled"))
-    error->all(FLERR, "Pair style lsm/* does not work under hybrid/scaled, as recorded energies and the time-step check "
+    error->all(FLERR, "Pair style lsm/* does not work under hybrid/scaled, as recorded energies "
+                      "and the time-step check "
                       "would not be scaled; use pair_style hybrid or hybrid/overlay");
   if (update->whichflag && (!compute_flag || !force->pair->compute_flag))
-    error->all(FLERR, "Pair style lsm/* does not work with pair_modify compute no; use 'pair_coeff I J off'");
+    error->all(
+        FLERR,
+        "Pair style lsm/* does not work with pair_modify compute no; use 'pair_coeff I J off'");
 
   // the list of a sub-style of hybrid holds what hybrid wants; with charges linked pairs stay in it, too
 
   const bool under_hybrid = force->pair != this;
   screened = under_hybrid ||
-      (atom->nbonds > 0 && (force->special_coul[1] != 0.0 || force->kspace != nullptr));
+             (atom->nbonds > 0 && (force->special_coul[1] != 0.0 || force->kspace != nullptr));
   if (update->whichflag) {
     if (!under_hybrid) check_special();
     if (LSMScene::contact_styles(force).front() == this) warn_of_missing_links();
@@ -307,7 +313,8 @@ void PairLSMFree::warn_of_missing_links() const
   MPI_Allreduce(mine, all, 2, MPI_LMP_BIGINT, MPI_SUM, world);
   if (comm->me == 0 && all[0] > all[1])
     error->warning(FLERR,
-                   "Pair style lsm/*: {} pairs of particles have no link but are kept from touching as if they had one; "
+                   "Pair style lsm/*: {} pairs of particles have no link but are kept from "
+                   "touching as if they had one; "
                    "use 'delete_bonds ... remove special'",
                    (all[0] - all[1]) / 2);
 }
@@ -316,7 +323,11 @@ void PairLSMFree::warn_of_missing_links() const
 
 double PairLSMFree::init_one(int i, int j)
 {
-  if (setflag[i][j] == 0) error->all(FLERR, "Pair lsm/*: coefficients of types {} {} are not set; use 'off' for types that never touch", i, j);
+  if (setflag[i][j] == 0)
+    error->all(
+        FLERR,
+        "Pair lsm/*: coefficients of types {} {} are not set; use 'off' for types that never touch",
+        i, j);
   k[j][i] = k[i][j];
   on[j][i] = on[i][j];
   return maxrad[i] + maxrad[j];

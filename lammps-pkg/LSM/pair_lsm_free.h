@@ -49,11 +49,11 @@ class PairLSMFree : public Pair, public LSMEnergySource {
 #endif
 
  protected:
-  double **k;          // contact stiffness
-  int **on;            // 1 if the pair of types interacts at all
-  double *maxrad;      // largest radius of each type
+  double **k;        // contact stiffness
+  int **on;          // 1 if the pair of types interacts at all
+  double *maxrad;    // largest radius of each type
   int newton_pair;
-  bool screened;       // lists hold pairs that must not interact
+  bool screened;    // lists hold pairs that must not interact
 
   bool left_out(int entry, int itype, int jtype) const;
   void check_special() const;

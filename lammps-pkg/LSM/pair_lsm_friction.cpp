@@ -48,17 +48,20 @@ static typename Law::Coefficients coefficients_of(const Value &value, std::index
   return {value(n)...};
 }
 
-template <class Law> static constexpr auto parameters_of = std::make_index_sequence<std::size(Law::parameters)>();
+template <class Law>
+static constexpr auto parameters_of = std::make_index_sequence<std::size(Law::parameters)>();
 
 template <class Law> static bool fits(const double *values)
 {
-  return Law::fits(coefficients_of<Law>([values](std::size_t n) { return values[n]; }, parameters_of<Law>));
+  return Law::fits(
+      coefficients_of<Law>([values](std::size_t n) { return values[n]; }, parameters_of<Law>));
 }
 
 template <class Chosen> PairLSMFriction::Law PairLSMFriction::entry()
 {
   constexpr int count = static_cast<int>(std::size(Chosen::parameters));
-  static_assert(count <= MAX_PARAMETERS && sizeof(typename Chosen::Coefficients) == count * sizeof(double),
+  static_assert(count <= MAX_PARAMETERS &&
+                    sizeof(typename Chosen::Coefficients) == count * sizeof(double),
                 "as many parameters as coefficients, and room for them");
   return {Chosen::name,
           Chosen::parameters,
@@ -101,8 +104,8 @@ int PairLSMFriction::size_history() const
 /* ---------------------------------------------------------------------- */
 
 PairLSMFriction::PairLSMFriction(LAMMPS *_lmp) :
-    PairLSMFree(_lmp), law(&laws[0]), running(&laws[0]), coefficient{}, given{}, restored(false), locate_onset(1),
-    fix_dummy(nullptr), fix_history(nullptr)
+    PairLSMFree(_lmp), law(&laws[0]), running(&laws[0]), coefficient{}, given{}, restored(false),
+    locate_onset(1), fix_dummy(nullptr), fix_history(nullptr)
 {
   centroidstressflag = CENTROID_NOTAVAIL;
   nondefault_history_transfer = 1;
@@ -115,14 +118,16 @@ PairLSMFriction::PairLSMFriction(LAMMPS *_lmp) :
 
   // a second one would take the contact history of the first
 
-  if (modify->get_fix_by_id("NEIGH_HISTORY_LSM_DUMMY") || modify->get_fix_by_id("NEIGH_HISTORY_LSM"))
-    error->all(FLERR, "Pair style lsm/friction can be used once only, also under pair_style hybrid; give several "
-                      "pair_coeff commands to one");
+  if (modify->get_fix_by_id("NEIGH_HISTORY_LSM_DUMMY") ||
+      modify->get_fix_by_id("NEIGH_HISTORY_LSM"))
+    error->all(
+        FLERR,
+        "Pair style lsm/friction can be used once only, also under pair_style hybrid; give several "
+        "pair_coeff commands to one");
 
   // placeholder so that the order of fixes is that of the input script
 
-  fix_dummy = dynamic_cast<FixDummy *>(
-      modify->add_fix("NEIGH_HISTORY_LSM_DUMMY all DUMMY"));
+  fix_dummy = dynamic_cast<FixDummy *>(modify->add_fix("NEIGH_HISTORY_LSM_DUMMY all DUMMY"));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -143,7 +148,9 @@ void PairLSMFriction::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
   if (screened) check_special();
-  (this->*(evflag ? running->loop_tally : record_what ? running->loop_energies : running->loop_nothing))();
+  (this->*(evflag        ? running->loop_tally
+           : record_what ? running->loop_energies
+                         : running->loop_nothing))();
 }
 
 /* ----------------------------------------------------------------------
@@ -175,8 +182,6 @@ template <class Law, class Recorder> void PairLSMFriction::loop()
   const int nlocal = atom->nlocal;
   int **firsttouch = fix_history->firstflag;
   double **firsthistory = fix_history->firstvalue;
-  double **table[std::size(Law::parameters)];
-  for (std::size_t n = 0; n < std::size(Law::parameters); n++) table[n] = coefficient[n];
   const double reach_sq = locate_onset ? NEAR_REACH * NEAR_REACH : 0.0;
   [[maybe_unused]] const double dt = update->dt;
 
@@ -197,6 +202,10 @@ template <class Law, class Recorder> void PairLSMFriction::loop()
     const int jnum = list->numneigh[i];
     int *touch = firsttouch[i];
     double *allhistory = firsthistory[i];
+    const int itype = type[i];
+    const double *const ki = k[itype];
+    const double *row[std::size(Law::parameters)];
+    for (std::size_t n = 0; n < std::size(Law::parameters); n++) row[n] = coefficient[n][itype];
 
     for (int jj = 0; jj < jnum; jj++) {
       const int j = jlist[jj] & NEIGHMASK;
@@ -206,7 +215,7 @@ template <class Law, class Recorder> void PairLSMFriction::loop()
       const double r0 = radius[i] + radius[j];
       const bool apart = rsq >= r0 * r0;
       if (apart && !touch[jj] && rsq > reach_sq * r0 * r0) continue;
-      if (screened && left_out(jlist[jj], type[i], type[j])) {
+      if (screened && left_out(jlist[jj], itype, type[j])) {
         touch[jj] = 0;
         continue;
       }
@@ -217,11 +226,11 @@ template <class Law, class Recorder> void PairLSMFriction::loop()
         keep_near(rsq <= reach_sq * r0 * r0, delx, dely, touch[jj], h);
         continue;
       }
-      const int itype = type[i], jtype = type[j];
+      const int jtype = type[j];
       const double r = sqrt(rsq);
       const double rinv = r > 0.0 ? 1.0 / r : 0.0;
       const double nx = delx * rinv, ny = dely * rinv;
-      const auto c = coefficients_of<Law>([&table, itype, jtype](std::size_t n) { return table[n][itype][jtype]; },
+      const auto c = coefficients_of<Law>([&row, jtype](std::size_t n) { return row[n][jtype]; },
                                           parameters_of<Law>);
 
       LSM::FrictionContact contact{0.0, 0.0, 0.0, 0.0, false};
@@ -251,21 +260,28 @@ template <class Law, class Recorder> void PairLSMFriction::loop()
         Law::begin(c, h + LAW_STATE);
       }
 
-      const double kij = k[itype][jtype];
+      const double kij = ki[jtype];
       contact.fn = LSM::contact_normal_force(kij, r, r0);
       contact.xi = h[XI];
       if constexpr (Law::needs_sliding) contact.sliding = h[STATUS] == SLIDES;
-      const LSM::FrictionStep s = !moved && !apart
-          ? LSM::FrictionStep{h[XI], c.kt * h[XI], 0.0, 0.0, contact.sliding}
-          : LSM::friction_step<Law>(c, contact, h + LAW_STATE);
+      const LSM::FrictionStep s =
+          !moved && !apart ? LSM::FrictionStep{h[XI], c.kt * h[XI], 0.0, 0.0, contact.sliding}
+                           : LSM::friction_step<Law>(c, contact, h + LAW_STATE);
 
       const bool both = newton_pair || j < nlocal;
       if constexpr (Recorder::records) {
         const double share = both ? 1.0 : 0.5;
-        recorder.springs(share, apart ? 0.0 : LSM::Spring::energy(kij, r - r0), LSM::Spring::energy(c.kt, s.xi));
+        recorder.springs(share, apart ? 0.0 : LSM::Spring::energy(kij, r - r0),
+                         LSM::Spring::energy(c.kt, s.xi));
         recorder.dissipation(share, s.dissipated);
         if (s.slip != 0.0)
-          recorder.slip(share, 0.5 * (x[i][0] + x[j][0]), fabs(s.slip) * LSM::contact_size(radius[i], radius[j]));
+          recorder.slip(share, 0.5 * (x[i][0] + x[j][0]),
+                        fabs(s.slip) * LSM::contact_size(radius[i], radius[j]));
+        if (recorder.wants_contacts()) {
+          const double along = apart ? 0.0 : contact.fn * nx + s.force * ny;
+          recorder.contact({0.5 * (x[i][0] + x[j][0]), -s.slip * fabs(ny), s.dissipated,
+                            ny > 0.0 ? -along : along, share});
+        }
       }
 
       if (apart) {
@@ -333,7 +349,8 @@ void PairLSMFriction::choose(const Law *wanted)
   if (wanted == law) return;
   if (fix_history || restored)
     error->all(FLERR,
-               "Pair style lsm/friction has contacts of the law {}{}, and cannot go on with the law {}; give 'pair_style "
+               "Pair style lsm/friction has contacts of the law {}{}, and cannot go on with the "
+               "law {}; give 'pair_style "
                "none' and 'run 0' first to forget them",
                law->name, restored ? " from a restart file" : "", wanted->name);
   if (allocated) destroy_coefficients();
@@ -354,17 +371,21 @@ void PairLSMFriction::settings(int narg, char **arg)
   if (narg > 0 && strcmp(arg[0], "onset") != 0) {
     wanted = find_law(arg[0]);
     if (!wanted)
-      error->all(FLERR, "Pair style lsm/friction expects [LAW] [onset located|step] with one of the laws {}, got '{}'",
+      error->all(FLERR,
+                 "Pair style lsm/friction expects [LAW] [onset located|step] with one of the laws "
+                 "{}, got '{}'",
                  law_names(), arg[0]);
     iarg = 1;
   }
   if (iarg < narg) {
     if (narg != iarg + 2 || strcmp(arg[iarg], "onset") != 0)
-      error->all(FLERR, "Pair style lsm/friction expects [LAW] [onset located|step], got '{}'", arg[iarg]);
+      error->all(FLERR, "Pair style lsm/friction expects [LAW] [onset located|step], got '{}'",
+                 arg[iarg]);
     if (strcmp(arg[iarg + 1], "step") == 0)
       locate_onset = 0;
     else if (strcmp(arg[iarg + 1], "located") != 0)
-      error->all(FLERR, "Pair lsm/friction onset is '{}', but must be located or step", arg[iarg + 1]);
+      error->all(FLERR, "Pair lsm/friction onset is '{}', but must be located or step",
+                 arg[iarg + 1]);
   }
   choose(wanted);
 }
@@ -373,15 +394,17 @@ void PairLSMFriction::settings(int narg, char **arg)
    values: those of all parameters of the law before it and of it
 ------------------------------------------------------------------------- */
 
-void PairLSMFriction::check(int p, double value, const double *values, const std::string &where) const
+void PairLSMFriction::check(int p, double value, const double *values,
+                            const std::string &where) const
 {
   const LSM::Parameter &one = law->parameters[p];
   if (one.range == LSM::Parameter::positive && !(value > 0.0))
     error->all(FLERR, "Pair lsm/friction {}{} is {}, but must be > 0", one.name, where, value);
-  if (!(value >= 0.0)) error->all(FLERR, "Pair lsm/friction {}{} is {}, but must be >= 0", one.name, where, value);
+  if (!(value >= 0.0))
+    error->all(FLERR, "Pair lsm/friction {}{} is {}, but must be >= 0", one.name, where, value);
   if (one.least >= 0 && value < values[one.least])
-    error->all(FLERR, "Pair lsm/friction {}{} is {}, but must be at least {} = {}", one.name, where, value,
-               law->parameters[one.least].name, values[one.least]);
+    error->all(FLERR, "Pair lsm/friction {}{} is {}, but must be at least {} = {}", one.name, where,
+               value, law->parameters[one.least].name, values[one.least]);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -399,7 +422,8 @@ void PairLSMFriction::coeff(int narg, char **arg)
     expected += optional ? " [" + words + "]" : " " + words;
     if (!optional) required++;
   }
-  const std::string what = law->named ? "Pair style lsm/friction " + std::string(law->name) : "Pair style lsm/friction";
+  const std::string what = law->named ? "Pair style lsm/friction " + std::string(law->name)
+                                      : "Pair style lsm/friction";
   const int each = law->named ? 2 : 1, most = 4 + each * (law->count - 1);
   const bool off_only = narg == 3;
   if (!off_only && (narg < 4 + each * required || narg > most || (narg - 4) % each))
@@ -432,7 +456,8 @@ void PairLSMFriction::coeff(int narg, char **arg)
     const LSM::Parameter &one = law->parameters[p];
     if (!is_given[p]) {
       if (one.otherwise == LSM::Parameter::required)
-        error->all(FLERR, "{} expects 'pair_coeff I J {}', but {} is missing", what, expected, one.name);
+        error->all(FLERR, "{} expects 'pair_coeff I J {}', but {} is missing", what, expected,
+                   one.name);
       value[p] = one.otherwise == LSM::Parameter::as_least ? value[one.least] : one.otherwise;
     }
   }
@@ -470,7 +495,9 @@ void PairLSMFriction::init_style()
   // forces at displaced positions would slide contacts
 
   if (!modify->get_fix_by_style("^numdiff").empty())
-    error->all(FLERR, "Pair style lsm/friction does not work with fix numdiff, as friction depends on the path");
+    error->all(
+        FLERR,
+        "Pair style lsm/friction does not work with fix numdiff, as friction depends on the path");
 
   running = law;    // see init_one()
   PairLSMFree::init_style();
@@ -485,8 +512,10 @@ void PairLSMFriction::init_style()
     for (int c = 0; c < 2; c++)
       if (domain->periodicity[c] && domain->prd[c] < 2.0 * reach)
         error->all(FLERR,
-                   "Pair style lsm/friction: the period of the box in {} is {:.6g}, but must be at least {:.6g} (twice the "
-                   "largest contact distance with the neighbor skin), as a pair would meet itself on both sides",
+                   "Pair style lsm/friction: the period of the box in {} is {:.6g}, but must be at "
+                   "least {:.6g} (twice the "
+                   "largest contact distance with the neighbor skin), as a pair would meet itself "
+                   "on both sides",
                    c ? "y" : "x", domain->prd[c], 2.0 * reach);
   }
 
@@ -494,9 +523,11 @@ void PairLSMFriction::init_style()
 
   const std::string id_history = "NEIGH_HISTORY_LSM";
   if (!fix_history) {
-    fix_history = dynamic_cast<FixNeighHistory *>(modify->replace_fix(
-        "NEIGH_HISTORY_LSM_DUMMY",
-        fmt::format("{} all LSM_HISTORY {} {}", id_history, size_history(), law->state_size ? law->name : ""), 1));
+    fix_history = dynamic_cast<FixNeighHistory *>(
+        modify->replace_fix("NEIGH_HISTORY_LSM_DUMMY",
+                            fmt::format("{} all LSM_HISTORY {} {}", id_history, size_history(),
+                                        law->state_size ? law->name : ""),
+                            1));
     fix_history->pair = this;
   } else {
     fix_history = dynamic_cast<FixNeighHistory *>(modify->get_fix_by_id(id_history));
@@ -528,7 +559,8 @@ double PairLSMFriction::init_one(int i, int j)
   while (!running->fits(value)) {
     const Law *next = running + 1;
     if (next == std::end(laws) || strcmp(next->name, law->name) != 0)
-      error->all(FLERR, "Pair lsm/friction: the law {} cannot be run with the coefficients{}", law->name, types);
+      error->all(FLERR, "Pair lsm/friction: the law {} cannot be run with the coefficients{}",
+                 law->name, types);
     running = next;
   }
   return cut;
@@ -581,8 +613,10 @@ void PairLSMFriction::read_restart_settings(FILE *fp)
   MPI_Bcast(&name[0], size, MPI_CHAR, 0, world);
   law = running = find_law(name);
   if (!law)
-    error->all(FLERR, "Pair style lsm/friction: the restart file has contacts of the law {}, expected one of {}", name,
-               law_names());
+    error->all(
+        FLERR,
+        "Pair style lsm/friction: the restart file has contacts of the law {}, expected one of {}",
+        name, law_names());
 }
 
 void PairLSMFriction::write_restart(FILE *fp)
@@ -634,8 +668,7 @@ void PairLSMFriction::print_coeff(FILE *fp, int i, int j)
 double PairLSMFriction::single(int i, int j, int itype, int jtype, double rsq, double factor_coul,
                                double factor_lj, double &fforce)
 {
-  double energy =
-      PairLSMFree::single(i, j, itype, jtype, rsq, factor_coul, factor_lj, fforce);
+  double energy = PairLSMFree::single(i, j, itype, jtype, rsq, factor_coul, factor_lj, fforce);
   svector[0] = svector[1] = 0.0;
   if (fforce == 0.0) return energy;
 
@@ -659,7 +692,8 @@ void *PairLSMFriction::extract(const char *str, int &dim)
 {
   dim = 2;
   for (int p = 0; p < law->count; p++)
-    if (strcmp(str, law->parameters[p].name) == 0 && law->parameters[p].otherwise != LSM::Parameter::as_least)
+    if (strcmp(str, law->parameters[p].name) == 0 &&
+        law->parameters[p].otherwise != LSM::Parameter::as_least)
       return (void *) coefficient[p];
   return PairLSMFree::extract(str, dim);
 }

@@ -67,12 +67,12 @@ class PairLSMFriction : public PairLSMFree {
   static const Law laws[];
   static constexpr int MAX_PARAMETERS = 8;
 
-  const Law *law;                        // first one of the name that was chosen
-  const Law *running;                    // of these, the first that fits all coefficients
+  const Law *law;                          // first one of the name that was chosen
+  const Law *running;                      // of these, the first that fits all coefficients
   double **coefficient[MAX_PARAMETERS];    // by parameter of the law, then by types
-  int **given[MAX_PARAMETERS];             // 1 if the parameter was given, else it has another's value
-  bool restored;                         // law and coefficients come from a restart file
-  int locate_onset;                      // 1 if the begin of a contact within a step is located
+  int **given[MAX_PARAMETERS];    // 1 if the parameter was given, else it has another's value
+  bool restored;                  // law and coefficients come from a restart file
+  int locate_onset;               // 1 if the begin of a contact within a step is located
   class FixDummy *fix_dummy;
   class FixNeighHistory *fix_history;
 

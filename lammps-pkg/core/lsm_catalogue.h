@@ -7,6 +7,8 @@
 ///     # key = value ...
 ///     event_id,t_start,t_end,step_start,step_end,size,pe_start,pe_end[,slip_moment][,x_centroid]...
 ///
+/// Columns that may follow, in this order: slip_moment, x_centroid, rupture_length, x_hypocentre,
+/// x_begin, mean_slip, stress_drop. What they mean is said by the program that writes them.
 /// Times in model time, sizes in model energy, 17 significant digits. Events are in order of time
 /// and do not overlap; identifiers increase. With the parameter `events = ruptures`, events are
 /// local: they may overlap in time, and are in order of their ends. The parameter `completeness` is
@@ -43,6 +45,8 @@ struct CatalogueInfo {
   std::string model;                                            ///< "lsm" or "block-slider"
   std::vector<std::pair<std::string, std::string>> parameters;  ///< in the order of the file
   bool slip_moment = false, x_centroid = false, rupture_length = false;  ///< optional columns
+  /// Further ones, of ruptures.
+  bool x_hypocentre = false, x_begin = false, mean_slip = false, stress_drop = false;
 
   /// Value of a parameter, or nullptr.
   const std::string *find(std::string_view key) const { return text_io::find(parameters, key); }
@@ -73,8 +77,8 @@ struct Column {
   std::int64_t Event::*integer;
 };
 
-/// In the order of the file; the last three are optional.
-constexpr std::array<Column, 11> all_columns = {
+/// In the order of the file; those behind the first `required` are optional.
+constexpr std::array<Column, 15> all_columns = {
     {{"event_id", nullptr, &Event::id},
      {"t_start", &Event::t_start, nullptr},
      {"t_end", &Event::t_end, nullptr},
@@ -85,15 +89,25 @@ constexpr std::array<Column, 11> all_columns = {
      {"pe_end", &Event::pe_end, nullptr},
      {"slip_moment", &Event::slip_moment, nullptr},
      {"x_centroid", &Event::x_centroid, nullptr},
-     {"rupture_length", &Event::rupture_length, nullptr}}};
+     {"rupture_length", &Event::rupture_length, nullptr},
+     {"x_hypocentre", &Event::x_hypocentre, nullptr},
+     {"x_begin", &Event::x_begin, nullptr},
+     {"mean_slip", &Event::mean_slip, nullptr},
+     {"stress_drop", &Event::stress_drop, nullptr}}};
 constexpr std::size_t required = 8;
+
+/// Whether a catalogue has the optional columns, in their order.
+constexpr std::array<bool CatalogueInfo::*, 7> optional_columns = {
+    &CatalogueInfo::slip_moment,  &CatalogueInfo::x_centroid, &CatalogueInfo::rupture_length,
+    &CatalogueInfo::x_hypocentre, &CatalogueInfo::x_begin,    &CatalogueInfo::mean_slip,
+    &CatalogueInfo::stress_drop};
+static_assert(required + optional_columns.size() == all_columns.size(), "a flag for each column");
 
 /// The columns of a catalogue, in the order of the file.
 inline std::vector<Column> columns_of(const CatalogueInfo &info) {
-  const bool there[] = {info.slip_moment, info.x_centroid, info.rupture_length};
   std::vector<Column> columns(all_columns.begin(), all_columns.begin() + required);
   for (std::size_t i = required; i < all_columns.size(); ++i)
-    if (there[i - required]) columns.push_back(all_columns[i]);
+    if (info.*optional_columns[i - required]) columns.push_back(all_columns[i]);
   return columns;
 }
 
@@ -103,6 +117,13 @@ inline std::string column_line(const CatalogueInfo &info) {
     if (!out.empty()) out += ',';
     out += column.name;
   }
+  return out;
+}
+
+inline std::string optional_names() {
+  std::string out;
+  for (std::size_t i = required; i < all_columns.size(); ++i)
+    out += (out.empty() ? "" : ", ") + std::string(all_columns[i].name);
   return out;
 }
 
@@ -313,15 +334,14 @@ class CatalogueReader {
         reader_.fail("column " + std::to_string(i + 1) + " is " + text_io::in_quotes(fields_[i]) +
                      ", expected '" + name + "'");
     }
-    bool *const flags[] = {&info_.slip_moment, &info_.x_centroid, &info_.rupture_length};
     std::size_t candidate = required;
     for (std::size_t i = required; i < fields_.size(); ++i, ++candidate) {
       while (candidate < all_columns.size() && all_columns[candidate].name != fields_[i])
         ++candidate;
       if (candidate == all_columns.size())
         reader_.fail("column " + std::to_string(i + 1) + " is " + text_io::in_quotes(fields_[i]) +
-                     ", expected slip_moment, x_centroid, rupture_length, in this order");
-      *flags[candidate - required] = true;
+                     ", expected " + optional_names() + ", in this order");
+      info_.*optional_columns[candidate - required] = true;
     }
     columns_ = columns_of(info_);
     overlapping_ = info_.overlapping();

@@ -49,7 +49,8 @@ inline double lambda_from_memory_time(double memory_time, double dt) {
 }
 
 /// One event. Times in model time, steps as pushed, energies in model energy.
-/// The picker fills all but the last three, which belong to the program that knows about slip.
+/// The picker fills all but those from slip_moment on, which belong to the program that knows about
+/// slip.
 struct Event {
   std::int64_t id = 0;  ///< 1, 2, ... over the reported events
   double t_start = 0.0, t_end = 0.0;
@@ -57,6 +58,7 @@ struct Event {
   double size = 0.0;  ///< pe_start - pe_end
   double pe_start = 0.0, pe_end = 0.0;
   double slip_moment = 0.0, x_centroid = 0.0, rupture_length = 0.0;
+  double x_hypocentre = 0.0, x_begin = 0.0, mean_slip = 0.0, stress_drop = 0.0;  ///< of ruptures
 };
 
 /// Everything a picker has to remember besides its settings. Plain old data without padding, so it

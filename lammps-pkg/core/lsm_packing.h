@@ -31,7 +31,8 @@ struct PackingSettings {
   double link_gap = 1e-5;       ///< discs (and lines) closer than this count as tangent
   bool hexagonal_seeds = true;  ///< first discs on a hexagonal grid (false: at random points)
   double fault_zone = 0.25;  ///< ours: discs with a surface so close to the fault line are flagged
-  bool remove_loose = true;  ///< ours: take out discs that their links do not hold, see Packing::loose
+  bool remove_loose =
+      true;  ///< ours: take out discs that their links do not hold, see Packing::loose
 };
 
 /// One disc. Centre in [0, length) x (0, width).
@@ -42,8 +43,8 @@ struct Disc {
   bool plate;  ///< tangent to the outer line of its block
 };
 
-/// Links that a disc needs to be held. Two links hold a disc that does not rotate only while it is pushed into the
-/// wedge between them (ours, measured: such discs swing and hop, see the README).
+/// Links that a disc needs to be held. Two links hold a disc that does not rotate only while it is
+/// pushed into the wedge between them (ours, measured: such discs swing and hop, see the README).
 constexpr int HELD_LINKS = 3;
 
 /// The result: discs sorted by position (columns of width 2 rmax along x, then y), links (i < j)
@@ -55,12 +56,14 @@ struct Packing {
   double area_fraction = 0.0;     ///< area of the discs / (length * width)
   double rmin_found = 0.0;        ///< smallest radius in the packing
   int fault_tangent[2] = {0, 0};  ///< discs of the lower and upper block tangent to the fault line
-  int loose = 0;          ///< discs with fewer than HELD_LINKS links, or whose links do not lead to their plate; those
-                          ///< of the plates, which move as one body, do not count. With remove_loose they are gone
+  int loose = 0;  ///< discs with fewer than HELD_LINKS links, or whose links do not lead to their
+                  ///< plate; those of the plates, which move as one body, do not count. With
+                  ///< remove_loose they are gone
   int loose_tangent = 0;  ///< those of them that were tangent to the fault line
-  double weakest = 0.0;   ///< softest direction of all discs but the plates': smallest eigenvalue of the sum of
-                          ///< n n^T over the links of a disc (n: direction of the link), 0 when nothing holds it
-  int64_t tries = 0;              ///< tries of the filling stage, failures included
+  double weakest =
+      0.0;  ///< softest direction of all discs but the plates': smallest eigenvalue of the sum of
+            ///< n n^T over the links of a disc (n: direction of the link), 0 when nothing holds it
+  int64_t tries = 0;  ///< tries of the filling stage, failures included
 };
 
 namespace packing_detail {
@@ -504,7 +507,8 @@ inline void link_discs(const PackingSettings &s, Packing &result) {
   }
 }
 
-/// Finds the loose discs, takes them out if the settings say so, and with them those that this leaves loose.
+/// Finds the loose discs, takes them out if the settings say so, and with them those that this
+/// leaves loose.
 inline void look_for_loose(const PackingSettings &s, Packing &result) {
   const std::size_t n = result.discs.size();
   std::vector<std::vector<std::size_t>> partners(n);
@@ -560,7 +564,8 @@ inline void look_for_loose(const PackingSettings &s, Packing &result) {
   result.discs.swap(kept);
   std::vector<std::pair<int, int>> left;
   for (const auto &l : result.links) {
-    const int i = place[static_cast<std::size_t>(l.first)], j = place[static_cast<std::size_t>(l.second)];
+    const int i = place[static_cast<std::size_t>(l.first)],
+              j = place[static_cast<std::size_t>(l.second)];
     if (i >= 0 && j >= 0) left.emplace_back(i, j);
   }
   result.links.swap(left);
@@ -610,8 +615,8 @@ inline void measure(const PackingSettings &s, Packing &result) {
 /// (discs by surface distance, the two lines of the block), the circle tangent to all three, kept
 /// if its radius is in [rmin, rmax], it lies inside the block and it overlaps nothing; (3) the
 /// block is cut into tiles along x (about 15 rmax long, ours), and each tile is full when
-/// max_failures consecutive tries in it failed. The cost is linear in the length. At last (4, ours) discs that their
-/// links do not hold are taken out: see Packing::loose.
+/// max_failures consecutive tries in it failed. The cost is linear in the length. At last (4, ours)
+/// discs that their links do not hold are taken out: see Packing::loose.
 ///
 /// The result depends on the settings and the floating-point arithmetic of the platform only.
 /// @throws std::invalid_argument with one line that names the setting and what was expected
@@ -626,7 +631,8 @@ inline Packing make_packing(const PackingSettings &settings) {
     for (const int block : {0, 1})
       if (std::none_of(result.discs.begin(), result.discs.end(),
                        [block](const Disc &d) { return d.block == block && !d.plate; }))
-        packing_detail::reject("remove_loose", "yes", "discs of this range of radii to hold each other, but none of the ",
+        packing_detail::reject("remove_loose", "yes",
+                               "discs of this range of radii to hold each other, but none of the ",
                                block == 0 ? "lower block is left" : "upper block is left");
   packing_detail::measure(settings, result);
   return result;

@@ -19,8 +19,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <stdexcept>
@@ -29,6 +27,7 @@
 #include <utility>
 #include <vector>
 
+#include "lsm_binary_io.h"
 #include "lsm_text_io.h"
 
 namespace LSM {
@@ -65,7 +64,10 @@ constexpr std::string_view column_line = "step,time,pe";
 constexpr std::string_view binary_magic = "lsm-pe-series-1\n";
 constexpr std::string_view binary_family = "lsm-pe-series-";
 constexpr std::int64_t record_bytes = 16;
-constexpr std::int64_t longest_header = 1 << 20;
+using binary_io::add_parameter;
+using binary_io::append_bytes;
+using binary_io::double_from_bytes;
+using binary_io::step_from_bytes;
 
 inline text_io::Parameters header(const PeSeriesInfo &info) {
   text_io::Parameters all = {{"model", info.model},
@@ -95,17 +97,6 @@ inline void check_info(const PeSeriesInfo &info) {
   text_io::check_parameters(header(info));
 }
 
-/// Adds one "# key = value" line to the list; returns what is wrong, or "".
-inline std::string add_parameter(std::string_view line, text_io::Parameters &all) {
-  std::pair<std::string, std::string> parameter;
-  if (!text_io::parse_parameter(line, parameter))
-    return "header line " + text_io::in_quotes(line) + ", expected '# key = value'";
-  if (text_io::find(all, parameter.first))
-    return "parameter " + text_io::in_quotes(parameter.first) + " given twice, expected once";
-  all.push_back(std::move(parameter));
-  return {};
-}
-
 /// Sorts the pairs of a header into info; returns what is wrong, or "".
 inline std::string interpret(const text_io::Parameters &all, PeSeriesInfo &info) {
   info = PeSeriesInfo();
@@ -132,34 +123,6 @@ inline std::string interpret(const text_io::Parameters &all, PeSeriesInfo &info)
              (key == "step0" || key == "stride" ? "an integer" : "a finite number");
   }
   return fault(info);
-}
-
-inline void append_bytes(std::string &out, std::uint64_t bits) {
-  for (int i = 0; i < 8; ++i) out += static_cast<char>((bits >> (8 * i)) & 0xff);
-}
-
-inline void append_bytes(std::string &out, double value) {
-  std::uint64_t bits = 0;
-  std::memcpy(&bits, &value, sizeof(bits));
-  append_bytes(out, bits);
-}
-
-inline std::uint64_t from_bytes(const char *bytes) {
-  std::uint64_t bits = 0;
-  for (int i = 0; i < 8; ++i)
-    bits |= static_cast<std::uint64_t>(static_cast<unsigned char>(bytes[i])) << (8 * i);
-  return bits;
-}
-
-inline std::int64_t step_from_bytes(const char *bytes) {
-  return static_cast<std::int64_t>(from_bytes(bytes));
-}
-
-inline double double_from_bytes(const char *bytes) {
-  const std::uint64_t bits = from_bytes(bytes);
-  double value = 0.0;
-  std::memcpy(&value, &bits, sizeof(value));
-  return value;
 }
 
 }  // namespace pe_series_detail
@@ -248,30 +211,11 @@ class PeSeriesReader {
     using namespace pe_series_detail;
     if (magic != binary_magic)
       throw PeSeriesError(path_ + ": binary PE series of another version, expected version 1");
-    std::array<char, 8> bytes{};
-    in_.read(bytes.data(), bytes.size());
-    const std::int64_t length = step_from_bytes(bytes.data());
-    std::error_code code;
-    const auto size = static_cast<std::int64_t>(std::filesystem::file_size(path_, code));
-    if (code) throw PeSeriesError(path_ + ": cannot read: " + code.message());
-    if (!in_ || length < 0 || length > longest_header || 16 + 8 + length > size)
-      throw PeSeriesError(path_ + ": file ends within the binary header, expected its length and " +
-                          "'# key = value' lines");
-    data_begin_ = 16 + 8 + length;
-    std::string text(static_cast<std::size_t>(length), '\0');
-    in_.read(text.data(), length);
-    if (!in_) throw PeSeriesError(path_ + ": cannot read the binary header");
-    text_io::Parameters all;
-    std::string_view rest = text;
-    std::string problem;
-    for (std::int64_t number = 1; !rest.empty() && problem.empty(); ++number) {
-      const std::size_t end = rest.find('\n');
-      problem = add_parameter(rest.substr(0, end), all);
-      if (!problem.empty()) problem = "header line " + std::to_string(number) + ": " + problem;
-      rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
-    }
-    if (problem.empty()) problem = interpret(all, info_);
+    const binary_io::Header found = binary_io::read_header<PeSeriesError>(in_, path_);
+    const std::string problem = interpret(found.parameters, info_);
     if (!problem.empty()) throw PeSeriesError(path_ + ": " + problem);
+    data_begin_ = found.begin;
+    const std::int64_t size = found.size;
     total_ = (size - data_begin_) / record_bytes;
     torn_ = (size - data_begin_) % record_bytes != 0;
     if (torn_ && !lenient_)
@@ -403,15 +347,11 @@ class PeSeriesWriter {
     using namespace pe_series_detail;
     check_info(info);
     close();
-    std::string lines = text_io::header_text(first_line, header(info));
     std::string text;
     if (binary) {
-      lines.erase(0, first_line.size() + 1);
-      text = binary_magic;
-      append_bytes(text, static_cast<std::uint64_t>(lines.size()));
-      text += lines;
+      text = binary_io::header_bytes(binary_magic, header(info));
     } else {
-      text = lines;
+      text = text_io::header_text(first_line, header(info));
       text += column_line;
       text += '\n';
     }

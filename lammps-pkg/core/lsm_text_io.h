@@ -288,8 +288,7 @@ inline std::string why_not_writable(const std::string &path) {
     if (tried == path && !there) continue;
     errno = 0;
     std::FILE *const file = std::fopen(tried.c_str(), "ab");
-    if (!file)
-      return path + ": cannot open for writing: " + std::generic_category().message(errno);
+    if (!file) return path + ": cannot open for writing: " + std::generic_category().message(errno);
     std::fclose(file);
     if (tried != path) std::filesystem::remove(tried, code);
   }

@@ -163,6 +163,7 @@ std::vector<EventTable> load_catalogues(const CatalogueOptions &options) {
   for (std::size_t i = 0; i < tables.size(); ++i) {
     for (const EventTable &other : tables) {
       if (other.info.model != tables[i].info.model ||
+          other.info.overlapping() != tables[i].info.overlapping() ||
           !(other.completeness > tables[i].completeness))
         continue;
       tables[i].completeness = other.completeness;

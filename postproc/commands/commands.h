@@ -19,6 +19,7 @@ void add_aftershocks(CLI::App &app);  ///< rates after main shocks, Omori-Utsu l
 void add_spectrum(CLI::App &app);     ///< power spectrum of PE (ours)
 void add_export(CLI::App &app);       ///< tables for earthquake catalogue tools
 void add_report(CLI::App &app);       ///< one page about a set of catalogues
+void add_rupture(CLI::App &app);      ///< ruptures of a fault in space and time (ours)
 
 }  // namespace LSM::postproc
 

@@ -46,8 +46,9 @@ int main(int argc, char **argv) {
     app.require_subcommand(1);
     app.option_defaults()->always_capture_default();
     app.get_formatter()->column_width(34);
-    for (const auto add : {add_pick, add_series, add_histograms, add_intervals, add_fit,
-                           add_magnitudes, add_aftershocks, add_spectrum, add_export, add_report})
+    for (const auto add :
+         {add_pick, add_series, add_histograms, add_intervals, add_fit, add_magnitudes,
+          add_aftershocks, add_spectrum, add_export, add_report, add_rupture})
       add(app);
     try {
       app.parse(argc, argv);

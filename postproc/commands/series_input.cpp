@@ -36,8 +36,8 @@ std::int64_t read_series(
 }
 
 void add_picker_options(CLI::App *command, PickerOptions &options) {
-  const PickerOptions::Added added = options.add_to(
-      command, "Event picker (what is not given is as in the header of the series)");
+  const PickerOptions::Added added =
+      options.add_to(command, "Event picker (what is not given is as in the header of the series)");
   added.lambda->description(added.lambda->get_description() +
                             ". From the header of a series of every s-th step: its value to the "
                             "power s (exponential)");

@@ -129,7 +129,7 @@ Figure aftershock_figure(const std::vector<AftershockCurve> &curves) {
       lines += fmt::format("{}({}) with lines lt {} dt 2 notitle", where,
                            text_io::number(a.fit.constant), number);
     else
-      lines += fmt::format("{}({}*($1+{})**(-{})+{}) with lines lt {} notitle", where,
+      lines += fmt::format("{}({}*($1+{})**(-{})+{}) with lines lt {} dt 1 notitle", where,
                            text_io::number(a.fit.K), text_io::number(a.fit.c),
                            text_io::number(a.fit.p), text_io::number(a.fit.background), number);
   }

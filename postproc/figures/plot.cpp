@@ -140,12 +140,14 @@ std::string whole_script(const std::string &name, std::string_view body, Picture
       "background \"#ffffff\"\n"
       "}} else {{\n"
       "point = 0.65\n"
-      "set terminal svg size {},{} dynamic enhanced font \"DejaVu Sans,13\" background "
+      "set terminal svg size {},{} dynamic enhanced{} font \"DejaVu Sans,13\" background "
       "\"#ffffff\"\n"
       "}}\n"
       "{}"
       "set output base.\".\".format\n",
-      2 * size.width, 2 * size.height, size.width, size.height, prelude);
+      2 * size.width, 2 * size.height, size.width, size.height,
+      // Without that, images go into files of their own.
+      body.find("with image") != std::string_view::npos ? " standalone" : "", prelude);
   script += body;
   if (!body.empty() && body.back() != '\n') script += '\n';
   script += "unset output\n}\n";

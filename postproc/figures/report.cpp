@@ -64,8 +64,12 @@ const char *model_name(const std::string &model) {
   return model == "lsm" ? "Fault" : "Block-slider";
 }
 
+const char *kind_name(const EventTable &table) {
+  return table.info.overlapping() ? "ruptures" : "drops of PE";
+}
+
 std::string catalogue_section(const std::vector<EventTable> &tables, const Threshold &least) {
-  HtmlTable table({"catalogue", "model", "events", "from the smallest size used",
+  HtmlTable table({"catalogue", "model", "kind of event", "events", "from the smallest size used",
                    "first to last start (model time)", "share of the time within events",
                    "smallest to largest size (model energy)", "lines passed over"});
   for (const EventTable &events : tables) {
@@ -75,7 +79,7 @@ std::string catalogue_section(const std::vector<EventTable> &tables, const Thres
     const auto [smallest, largest] = std::minmax_element(events.size.begin(), events.size.end());
     const bool any = !events.size.empty();
     table.row(html_escape(events.label),
-              {model_name(events.info.model), std::to_string(events.size.size()),
+              {model_name(events.info.model), kind_name(events), std::to_string(events.size.size()),
                fmt::format("{} from {}", above, short_number(threshold)),
                any ? fmt::format("{} to {}", short_number(events.t_start.front(), 6),
                                  short_number(events.t_start.back(), 6))
@@ -95,8 +99,8 @@ std::string catalogue_section(const std::vector<EventTable> &tables, const Thres
 }
 
 std::string series_section(const std::vector<SeriesRegime> &series) {
-  HtmlTable table({"PE series", "model", "length or blocks", "times", "regime", "saw-tooth", "stick-slip above",
-                   "fastest fall / load", "share of the time within events",
+  HtmlTable table({"PE series", "model", "length or blocks", "times", "regime", "saw-tooth",
+                   "stick-slip above", "fastest fall / load", "share of the time within events",
                    "mean duration of events (model time)"});
   double window = regime_window;
   for (const SeriesRegime &one : series) {
@@ -107,8 +111,9 @@ std::string series_section(const std::vector<SeriesRegime> &series) {
       const Regime &r = *one.regime;
       window = r.window;
       for (const std::string &cell :
-           {name_of(r), short_number(r.saw_tooth, 3), short_number(r.above, 3), short_number(r.drop_over_load, 3),
-            short_number(r.time_in_events, 2), short_number(r.mean_duration, 3)})
+           {name_of(r), short_number(r.saw_tooth, 3), short_number(r.above, 3),
+            short_number(r.drop_over_load, 3), short_number(r.time_in_events, 2),
+            short_number(r.mean_duration, 3)})
         cells.push_back(cell);
     } else {
       cells.push_back(degenerate(one.why));
@@ -294,7 +299,7 @@ std::string size_figure(const std::vector<EventTable> &tables, const SizeDensity
   });
 }
 
-std::string model_section(const std::vector<EventTable> &all, bool lsm,
+std::string model_section(const std::vector<EventTable> &all, bool lsm, bool ruptures,
                           const ReportSettings &settings, Figures &figures,
                           std::vector<IntervalCurve> &all_curves) {
   std::vector<EventTable> tables, fig7;
@@ -302,7 +307,7 @@ std::string model_section(const std::vector<EventTable> &all, bool lsm,
     tables = all;
   else
     split_by_stiffness(all, tables, fig7);
-  const double threshold = settings.threshold.of(all.front());  // the same for all of a model
+  const double threshold = settings.threshold.of(all.front());  // the same for all of a kind
   SizeDensitySettings densities;
   densities.threshold = settings.threshold;
   densities.width = picture_width;
@@ -330,11 +335,12 @@ std::string model_section(const std::vector<EventTable> &all, bool lsm,
     add_range(-0.5, "paper: slope -0.5", 1e-2, 1.0);
     add_range(-1.0, "paper: slope -1.0", 1.0, 100.0);
   }
-  std::string sizes = size_figure(
-      tables, densities,
-      report_part("sizes caption",
-                  {{"figure", lsm ? "12" : "13"}, {"threshold", short_number(threshold)}}),
-      figures);
+  std::string sizes =
+      ruptures ? report_part(lsm ? "ruptures of a fault" : "ruptures of a chain") : std::string();
+  sizes += size_figure(tables, densities,
+                       report_part("sizes caption", {{"figure", lsm ? "12" : "13"},
+                                                     {"threshold", short_number(threshold)}}),
+                       figures);
   if (!fig7.empty()) {
     SizeDensitySettings every;
     every.threshold = 0.0;
@@ -374,7 +380,8 @@ std::string model_section(const std::vector<EventTable> &all, bool lsm,
                        "Inter-event times divided by their mean", report_part("rescaled caption"));
   });
   all_curves.insert(all_curves.end(), curves.begin(), curves.end());
-  return report_part("model", {{"name", model_name(lsm ? "lsm" : "block-slider")},
+  return report_part("model", {{"name", std::string(model_name(lsm ? "lsm" : "block-slider")) +
+                                            (ruptures ? ": ruptures" : "")},
                                {"sizes", sizes},
                                {"fits", size_fit_table(fits, lsm)},
                                {"scaling", scaling},
@@ -437,16 +444,18 @@ std::string report_html(const std::vector<EventTable> &tables, const ReportSetti
   Figures figures;
   std::vector<IntervalCurve> curves;
   std::string models, parameters;
-  for (const bool lsm : {true, false}) {
+  for (const auto &[lsm, ruptures] :
+       {std::pair{true, false}, {true, true}, {false, false}, {false, true}}) {
     std::vector<EventTable> chosen;
     for (const EventTable &table : tables)
-      if ((table.info.model == "lsm") == lsm) chosen.push_back(table);
+      if ((table.info.model == "lsm") == lsm && table.info.overlapping() == ruptures)
+        chosen.push_back(table);
     if (chosen.empty()) continue;
     std::vector<const EventTable *> views;
     for (const EventTable &table : chosen) views.push_back(&table);
-    parameters += fmt::format("<h3>{}</h3>\n{}", model_name(views.front()->info.model),
-                              parameter_section(views));
-    models += model_section(chosen, lsm, settings, figures, curves);
+    parameters += fmt::format("<h3>{}{}</h3>\n{}", model_name(views.front()->info.model),
+                              ruptures ? ": ruptures" : "", parameter_section(views));
+    models += model_section(chosen, lsm, ruptures, settings, figures, curves);
   }
   const auto count = [](std::int64_t n) { return std::to_string(n); };
   return report_part("page", {{"title", html_escape(settings.title)},

@@ -99,7 +99,8 @@ struct Maximum {
   double log_likelihood = -HUGE_VAL;
 };
 
-Maximum climb(const Search &search, double share, double ln_c, double p) {
+/// From a start to where the simplex is smaller than tolerance.
+Maximum climb(const Search &search, double share, double ln_c, double p, double tolerance) {
   const std::size_t size = search.size();
   gsl_multimin_function function;
   function.n = size;
@@ -113,6 +114,7 @@ Maximum climb(const Search &search, double share, double ln_c, double p) {
   std::size_t i = 0;
   if (search.background) {
     gsl_vector_set(step.get(), i, 1.0);
+    share = std::clamp(share, 1e-9, 1.0 - 1e-9);
     gsl_vector_set(x.get(), i++, std::log(share / (1.0 - share)));
   }
   if (std::isnan(search.hold_c)) {
@@ -124,15 +126,12 @@ Maximum climb(const Search &search, double share, double ln_c, double p) {
   const std::unique_ptr<gsl_multimin_fminimizer, decltype(&gsl_multimin_fminimizer_free)> work(
       gsl_multimin_fminimizer_alloc(gsl_multimin_fminimizer_nmsimplex2, size),
       gsl_multimin_fminimizer_free);
-  // Twice: a simplex that has collapsed early goes on from a fresh one.
-  for (int round = 0; round < 2; ++round) {
-    gsl_multimin_fminimizer_set(work.get(), &function, x.get(), step.get());
-    for (int k = 0; k < 1000; ++k)
-      if (gsl_multimin_fminimizer_iterate(work.get()) != GSL_SUCCESS ||
-          gsl_multimin_fminimizer_size(work.get()) < 1e-6)
-        break;
-    gsl_vector_memcpy(x.get(), gsl_multimin_fminimizer_x(work.get()));
-  }
+  gsl_multimin_fminimizer_set(work.get(), &function, x.get(), step.get());
+  for (int k = 0; k < 500; ++k)
+    if (gsl_multimin_fminimizer_iterate(work.get()) != GSL_SUCCESS ||
+        gsl_multimin_fminimizer_size(work.get()) < tolerance)
+      break;
+  gsl_vector_memcpy(x.get(), gsl_multimin_fminimizer_x(work.get()));
   return {search.at(x.get()), -gsl_multimin_fminimizer_minimum(work.get())};
 }
 
@@ -245,17 +244,15 @@ OmoriFit fit_omori(const Sequences &s, double hold_c) {
     for (const double c : {0.1 * middle, middle}) {
       const double ln_c = std::clamp(std::log(std::max(c, 1e-300)), search.least_ln_c + 0.1,
                                      search.most_ln_c - 0.1);
-      const Maximum found = climb(search, share, ln_c, 1.1);
+      const Maximum found = climb(search, share, ln_c, 1.1, 0.02);
       if (found.log_likelihood > best.log_likelihood) best = found;
       if (held) break;
     }
   // Less than half an event of background: at the border, where there is no curvature.
-  bool background = true;
-  if ((1.0 - best.point.share) * likelihood.n() < 0.5) {
-    background = search.background = false;
-    best = climb(search, 1.0, std::log(best.point.c > 0.0 ? best.point.c : 1.0), best.point.p);
-    best.point.share = 1.0;
-  }
+  const bool background = (1.0 - best.point.share) * likelihood.n() >= 0.5;
+  search.background = background;
+  const double ln_c = std::log(best.point.c > 0.0 ? best.point.c : 1.0);
+  best = climb(search, best.point.share, ln_c, best.point.p, 1e-7);
   const auto [share, c, p] = best.point;
   fit.likelihood_ratio = std::max(0.0, 2.0 * (best.log_likelihood - likelihood.constant()));
 

@@ -75,7 +75,8 @@ std::vector<Scaling> scale_sizes(const std::vector<EventTable> &tables, const Th
       // One for all lengths, and no catalogue with less than all of its events.
       found->threshold = threshold.in(table);
       for (const EventTable &other : tables) {
-        if (other.info.model != found->model || !(other.complete_from > found->threshold.size))
+        if (other.info.model != found->model || other.info.overlapping() != found->ruptures ||
+            !(other.complete_from > found->threshold.size))
           continue;
         found->threshold = {other.complete_from, SmallestSize::Origin::catalogue, other.label};
       }

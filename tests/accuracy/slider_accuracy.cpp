@@ -95,16 +95,6 @@ void put(C &chain, const Start &start) {
   s.slip_sum = slip.value();
   chain.set_state(s);
 }
-void put(SwitchingChain &chain, const Start &start) {
-  ChainState s;
-  s.u = start.u;
-  s.u.insert(s.u.end(), start.v.begin(), start.v.end());
-  s.u.push_back(0.0);  // friction loss
-  s.v = start.v;
-  s.slip_compensation = 0.1;  // first step of the adaptive scheme
-  s.pe_sum = s.pe_compensation = start.pe;
-  chain.set_state(s);
-}
 
 struct Outcome {
   std::vector<double> u;

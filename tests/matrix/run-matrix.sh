@@ -32,7 +32,7 @@ export CMAKE_BUILD_PARALLEL_LEVEL=$jobs
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 \
   OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_hwloc_base_binding_policy=none OMP_NUM_THREADS=1
 flags="-DCMAKE_CXX_FLAGS_RELEASE=${LSM_MATRIX_FLAGS:--O1} -DNDEBUG"
-precompile=-DCMAKE_PROJECT_INCLUDE=$root/tests/matrix/precompile.cmake
+precompile=-DCMAKE_PROJECT_INCLUDE=$root/lammps-pkg/cmake/PrecompileLammps.cmake
 
 . "$root/lammps-pkg/cmake/debian-packages.sh"
 install_debian_packages $lammps_packages clang libgtest-dev libgmock-dev libyaml-dev
@@ -55,15 +55,16 @@ run_fault() {
 
 # compare_fault COLUMN: what a fault has in common with that of the reference, in words
 compare_fault() {
-  local ours=$folder/$1/fault theirs=$folder/reference/fault ranks words=""
+  local ours=$folder/$1/fault theirs=$folder/reference/fault ranks file words=""
   for ranks in 1 2; do
     local events difference="same bytes"
     events=$(grep -vc '^[#e]' "$ours/on_$ranks.catalogue.csv" || true)
     [ "$events" -ge 5 ] || { echo "FAILED: $events events on $ranks ranks say nothing"; return 1; }
-    cmp -s "$ours/on_$ranks.pe.bin" "$theirs/on_$ranks.pe.bin" || difference="PE series differs"
-    # the comment lines name the version of LAMMPS
-    cmp -s <(grep -v '^#' "$ours/on_$ranks.catalogue.csv") <(grep -v '^#' "$theirs/on_$ranks.catalogue.csv") ||
-      difference="$difference, catalogue differs"
+    # the headers name the version of LAMMPS
+    for file in pe.bin catalogue.csv; do
+      cmp -s <(LC_ALL=C sed 's/LAMMPS 4 Jul 2026/LAMMPS 4 Feb 2025/' "$ours/on_$ranks.$file") "$theirs/on_$ranks.$file" ||
+        difference="$file differs"
+    done
     words="$words${words:+; }$ranks rank$([ $ranks = 1 ] || echo s): $events events, $difference"
   done
   echo "$words"
@@ -142,9 +143,9 @@ do_column() {
   clang=$(compiler_of clang++)
   case $name in
     reference) whole reference "4 Feb 2025" smallbig "$gxx" ;;
-    clang) whole clang "4 Feb 2025" smallbig "$clang" -DCMAKE_CXX_COMPILER=clang++ "-DLSM_LAMMPS_OPTIONS=$flags;$precompile" ;;
-    bigbig) whole bigbig "4 Feb 2025" bigbig "$gxx" -DLSM_LAMMPS_SIZES=bigbig "-DLSM_LAMMPS_OPTIONS=$flags;$precompile" ;;
-    jul2026) whole jul2026 "4 Jul 2026" smallbig "$gxx" "-DLSM_LAMMPS_VERSION=4 Jul 2026" "-DLSM_LAMMPS_OPTIONS=$flags;$precompile" ;;
+    clang) whole clang "4 Feb 2025" smallbig "$clang" -DCMAKE_CXX_COMPILER=clang++ "-DLSM_LAMMPS_OPTIONS=$flags" ;;
+    bigbig) whole bigbig "4 Feb 2025" bigbig "$gxx" -DLSM_LAMMPS_SIZES=bigbig "-DLSM_LAMMPS_OPTIONS=$flags" ;;
+    jul2026) whole jul2026 "4 Jul 2026" smallbig "$gxx" "-DLSM_LAMMPS_VERSION=4 Jul 2026" "-DLSM_LAMMPS_OPTIONS=$flags" ;;
     plugin)
       local stock
       stock=$(sed -n 's/^LSM_STOCK_LMP:INTERNAL=//p' "$folder/reference/CMakeCache.txt")
@@ -166,7 +167,7 @@ do_column() {
         "-DCMAKE_CXX_FLAGS=-ffp-contract=off -fno-math-errno -Wall -Wextra" -DPKG_LSM=on -DPKG_MOLECULE=on -DPKG_GRANULAR=on \
         -DPKG_BPM=on -DBUILD_OMP=off -DWITH_JPEG=off -DWITH_FFMPEG=off -DDOWNLOAD_POTENTIALS=off \
         >>"$folder/installed.configure.log" 2>&1
-      cmake --build "$at" --parallel "$jobs" >"$at.build.log" 2>&1 || { tail -n 30 "$at.build.log"; return 1; }
+      cmake --build "$at" --parallel "$jobs" >>"$at.build.log" 2>&1 || { tail -n 30 "$at.build.log"; return 1; }
       ! grep "src/LSM/.*warning:" "$at.build.log" || return 1
       "$at/lmp" -h | grep -q '\bLSM\b' || { echo "lmp -h does not name the package"; return 1; }
       run_fault installed "$at/lmp"

@@ -61,9 +61,8 @@ group             blocks subtract all plates
 
 /// Compression; leaves settled.data.
 inline std::string fault_settle() {
-  return fault_start() +
-         "create_lsm_fault length 40 width 20 seed ${seed} failures 500\n" + fault_groups() +
-         fault_forces() + R"(
+  return fault_start() + "create_lsm_fault length 40 width 20 seed ${seed} failures 500\n" +
+         fault_groups() + fault_forces() + R"(
 timestep          0.03
 fix               move blocks lsm/nve viscosity 0.2
 fix               plates all lsm/plates lower upper stress 0.006 stressramp 60 damping 0.2

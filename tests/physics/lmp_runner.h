@@ -43,8 +43,8 @@ inline std::string text(double value) {
 
 /// What a run left behind.
 struct Result {
-  int exit_code = -1;  ///< 128 + signal if killed
-  std::string output;  ///< standard output and error
+  int exit_code = -1;                                 ///< 128 + signal if killed
+  std::string output;                                 ///< standard output and error
   std::vector<std::map<std::string, double>> thermo;  ///< rows of all runs by column name
   std::map<std::string, double> printed;              ///< lines "name = number" of print commands
 
@@ -134,8 +134,7 @@ class Lmp : public ::testing::Test {
 
   static Result start(const std::string &script, const Variables &variables, int ranks) {
     std::vector<std::string> words;
-    if (ranks > 1)
-      words = {LSM_MPIEXEC, "--oversubscribe", LSM_MPIEXEC_NP, std::to_string(ranks)};
+    if (ranks > 1) words = {LSM_MPIEXEC, "--oversubscribe", LSM_MPIEXEC_NP, std::to_string(ranks)};
     // another program may be tested with the same tests
     const char *other = std::getenv("LSM_LMP");
     for (const char *word : {other ? other : LSM_LMP, "-in", script.c_str(), "-log", "none"})

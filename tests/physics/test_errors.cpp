@@ -54,35 +54,37 @@ TEST_F(BadInput, OneLineOfError) {
       {"length 40 width 20 seed 1 colour 3", {"colour"}},
       {"length 40 width 20 seed -1", {"seed", "-1"}}};
   for (const auto &one : geometry)
-    EXPECT_TRUE(failed_with(run_text(fault_start() + "create_lsm_fault " + one.lines + "\n"),
-                            one.parts))
+    EXPECT_TRUE(
+        failed_with(run_text(fault_start() + "create_lsm_fault " + one.lines + "\n"), one.parts))
         << one.lines;
 }
 
 TEST_F(BadInput, OneLineOfErrorOnTwoRanks) {
   EXPECT_TRUE(failed_with(run_text(fault_read() + "fix a all lsm/nve viscosity -1\n", {}, 2),
                           {"viscosity", "-1"}));
-  EXPECT_TRUE(failed_with(
-      run_text(fault_read() + fault_shear("") + "run 10\n", {{"dt", "0.3"}}, 2),
-      {"stability limit"}));
+  EXPECT_TRUE(failed_with(run_text(fault_read() + fault_shear("") + "run 10\n", {{"dt", "0.3"}}, 2),
+                          {"stability limit"}));
 }
 
 TEST_F(BlowUp, StopsWithAMessageAndACleanCatalogue) {
-  std::string script = fault_read() + fault_shear("catalogue blown.csv series blown.pe text emergency "
-                                                  "blown.restart nonpositive yes picker literal");
+  std::string script = fault_read() + fault_shear(
+                                          "catalogue blown.csv series blown.pe text emergency "
+                                          "blown.restart nonpositive yes picker literal");
   const std::string fix = "viscosity ${viscosity}\n";
   script.replace(script.find(fix), fix.size(), "viscosity ${viscosity} dtcheck off\n");
   for (int ranks : {1, 2})
     for (const char *dt : {"0.13", "0.2"}) {
       for (const char *file : {"blown.csv", "blown.pe"}) std::filesystem::remove(path(file));
-      const Result r = run_text(script + "thermo 100\nthermo_modify lost ignore\nrun 20000\n", {{"dt", dt}}, ranks);
+      const Result r = run_text(script + "thermo 100\nthermo_modify lost ignore\nrun 20000\n",
+                                {{"dt", dt}}, ranks);
       EXPECT_NE(r.exit_code, 0);
       const auto lines = r.lines_with("ERROR");
       ASSERT_GE(lines.size(), 1u) << r.output;
       EXPECT_TRUE(lines[0].find("strained") != std::string::npos ||
                   lines[0].find("not finite") != std::string::npos)
           << lines[0];
-      // the strict readers refuse anything that is not finite; what is there is what the series says
+      // the strict readers refuse anything that is not finite; what is there is what the series
+      // says
       const auto found = LSM::read_catalogue(path("blown.csv")).events;
       LSM::PeSeriesReader series(path("blown.pe"));
       LSM::PickerSettings settings;
@@ -103,38 +105,41 @@ TEST_F(BlowUp, StopsWithAMessageAndACleanCatalogue) {
         EXPECT_GT(expected.size(), 0u);
       }
       ASSERT_EQ(found.size(), expected.size()) << dt;
-      for (std::size_t n = 0; n < found.size(); ++n) EXPECT_EQ(found[n].step_end, expected[n].step_end);
+      for (std::size_t n = 0; n < found.size(); ++n)
+        EXPECT_EQ(found[n].step_end, expected[n].step_end);
     }
 }
 
 // New neighbor lists every so often, which is in the middle of a step.
 static const std::string often = "neigh_modify delay 0 every 10 check no\n";
 
-// A tolerance that every step keeps stops nothing, neither every step nor where lists are built; a tenth of what
-// the worst step shows does.
+// A tolerance that every step keeps stops nothing, neither every step nor where lists are built; a
+// tenth of what the worst step shows does.
 TEST_F(BlowUp, LedgerIsCheckedForWholeSteps) {
   for (int ranks : {1, 2})
     for (const char *viscosity : {"0", "0.02"}) {
       if (ranks == 2 && viscosity == std::string("0.02")) continue;
       SCOPED_TRACE(std::string(viscosity) + ", ranks " + std::to_string(ranks));
-      const std::string start = fault_read() + often + fault_shear("${check} emergency off.restart");
+      const std::string start =
+          fault_read() + often + fault_shear("${check} emergency off.restart");
       const Variables free = {{"viscosity", viscosity}, {"check", "check 1000"}};
       const Result all = run_text(start + "thermo 1\nrun 1000\n", free, ranks);
       ASSERT_TRUE(succeeded(all));
       double worst = 0.0;
       for (const auto &row : all.thermo) {
-        const double scale = row.at("c_events[11]") + row.at("c_events[12]") + row.at("c_events[9]") +
-                             std::fabs(row.at("c_events[5]"));
+        const double scale = row.at("c_events[11]") + row.at("c_events[12]") +
+                             row.at("c_events[9]") + std::fabs(row.at("c_events[5]"));
         worst = std::max(worst, std::fabs(row.at("c_events[13]")) / scale);
       }
       ASSERT_GT(worst, 0.0);
       for (const char *every : {"1", "7"}) {
         if (ranks == 2 && every[0] == '7') continue;
         std::filesystem::remove(path("off.restart"));
-        const Result sane = run_text(start + "thermo 10000\nrun 1000\n",
-                                     {{"viscosity", viscosity},
-                                      {"check", "tolerance " + text(1.01 * worst) + " check " + every}},
-                                     ranks);
+        const Result sane =
+            run_text(start + "thermo 10000\nrun 1000\n",
+                     {{"viscosity", viscosity},
+                      {"check", "tolerance " + text(1.01 * worst) + " check " + every}},
+                     ranks);
         EXPECT_TRUE(succeeded(sane));
         EXPECT_FALSE(std::filesystem::exists(path("off.restart")));
       }
@@ -148,27 +153,35 @@ TEST_F(BlowUp, LedgerIsCheckedForWholeSteps) {
 
 // The restart file of a run that was stopped holds a whole step, whatever stopped it.
 TEST_F(BlowUp, EmergencyRestartHoldsAWholeStep) {
-  const std::string dump = "write_dump all custom ${file} id x y vx vy modify sort id format float %.17g\n";
+  const std::string dump =
+      "write_dump all custom ${file} id x y vx vy modify sort id format float %.17g\n";
   for (int ranks : {1, 2})
-    for (const char *why : {"tolerance 1e-12 check 100", "tolerance 1e-12 check 133", "strainlimit 0.05 check 1000000"}) {
+    for (const char *why : {"tolerance 1e-12 check 100", "tolerance 1e-12 check 133",
+                            "strainlimit 0.05 check 1000000"}) {
       // without viscosity, fix lsm/nve puts off the second half of steps
       const bool by_ledger = why[0] == 't';
-      const std::string viscosity = by_ledger ? "0.02" : "0", velocity = by_ledger ? "0.005" : "0.05";
+      const std::string viscosity = by_ledger ? "0.02" : "0",
+                        velocity = by_ledger ? "0.005" : "0.05";
       SCOPED_TRACE(std::string(why) + ", ranks " + std::to_string(ranks));
       std::filesystem::remove(path("off.restart"));
-      const Result r = run_text(fault_read() + often + fault_shear(std::string("catalogue off.csv emergency off.restart ") + why) +
-                                    "thermo 10000\nrun 4000\n",
-                                {{"viscosity", viscosity}, {"velocity", velocity}}, ranks);
+      const Result r =
+          run_text(fault_read() + often +
+                       fault_shear(std::string("catalogue off.csv emergency off.restart ") + why) +
+                       "thermo 10000\nrun 4000\n",
+                   {{"viscosity", viscosity}, {"velocity", velocity}}, ranks);
       ASSERT_TRUE(failed_with(r, {by_ledger ? "ledger" : "strained", "off.restart", "at step "}));
       const std::string line = r.lines_with("ERROR")[0];
       const std::string step = std::to_string(std::stoi(line.substr(line.find("at step ") + 8)));
       ASSERT_GT(std::stoi(step), 10);
       ASSERT_TRUE(std::filesystem::exists(path("off.restart")));
-      ASSERT_TRUE(succeeded(run_text(fault_read() + often + fault_shear("") + "thermo 10000\nrun " + step + "\n" + dump,
-                                     {{"file", "whole.dump"}, {"viscosity", viscosity}, {"velocity", velocity}}, ranks)));
-      ASSERT_TRUE(succeeded(run_text("newton off\natom_style hybrid bond sphere\natom_modify map array\n"
-                                     "comm_modify mode single cutoff 3.6\nread_restart off.restart\n" + dump,
-                                     {{"file", "off.dump"}}, ranks)));
+      ASSERT_TRUE(succeeded(run_text(
+          fault_read() + often + fault_shear("") + "thermo 10000\nrun " + step + "\n" + dump,
+          {{"file", "whole.dump"}, {"viscosity", viscosity}, {"velocity", velocity}}, ranks)));
+      ASSERT_TRUE(
+          succeeded(run_text("newton off\natom_style hybrid bond sphere\natom_modify map array\n"
+                             "comm_modify mode single cutoff 3.6\nread_restart off.restart\n" +
+                                 dump,
+                             {{"file", "off.dump"}}, ranks)));
       const std::string whole = read_file(path("whole.dump")), off = read_file(path("off.dump"));
       EXPECT_GT(whole.size(), 10000u);
       EXPECT_TRUE(whole == off) << "step " << step;
@@ -186,10 +199,11 @@ run               1000
 write_restart     kept.state
 )";
   const std::string both = "catalogue kept.csv series kept.pe binary";
-  const std::string again = "newton off\natom_style hybrid bond sphere\natom_modify map array\n"
-                            "comm_modify mode single cutoff 3.6\nread_restart kept.state\n"
-                            "neighbor 0.4 bin\nneigh_modify delay 0 every 10 check yes\ntimestep 0.03\n" +
-                            shear.substr(fault_read().size());
+  const std::string again =
+      "newton off\natom_style hybrid bond sphere\natom_modify map array\n"
+      "comm_modify mode single cutoff 3.6\nread_restart kept.state\n"
+      "neighbor 0.4 bin\nneigh_modify delay 0 every 10 check yes\ntimestep 0.03\n" +
+      shear.substr(fault_read().size());
   for (int ranks : {1, 2}) {
     for (const char *file : {"kept.csv", "kept.pe"}) std::filesystem::remove(path(file));
     ASSERT_TRUE(succeeded(run_text(shear, {{"files", both}}, ranks)));
@@ -199,7 +213,8 @@ write_restart     kept.state
                                std::filesystem::copy_options::overwrite_existing);
     const auto unchanged = [&] {
       return read_file(path("kept.csv")) == catalogue && read_file(path("kept.pe")) == series &&
-             !std::filesystem::exists(path("new.csv")) && !std::filesystem::exists(path("new.pe")) &&
+             !std::filesystem::exists(path("new.csv")) &&
+             !std::filesystem::exists(path("new.pe")) &&
              !std::filesystem::exists(path("kept.csv.new"));
     };
     const std::vector<std::pair<std::string, std::string>> refused = {
@@ -209,14 +224,19 @@ write_restart     kept.state
         {both + " overwrite no", "kept.csv"}};
     for (const auto &[files, name] : refused) {
       if (ranks == 2 && name == "kept.pe") continue;
-      EXPECT_TRUE(failed_with(run_text(shear, {{"files", files}}, ranks), {name, "exists", "overwrite yes"})) << files;
+      EXPECT_TRUE(failed_with(run_text(shear, {{"files", files}}, ranks),
+                              {name, "exists", "overwrite yes"}))
+          << files;
       EXPECT_TRUE(unchanged()) << files;
       // from a restart file without resume, too
-      EXPECT_TRUE(failed_with(run_text(again, {{"files", files}}, ranks), {name, "exists", "resume yes"})) << files;
+      EXPECT_TRUE(
+          failed_with(run_text(again, {{"files", files}}, ranks), {name, "exists", "resume yes"}))
+          << files;
       EXPECT_TRUE(unchanged()) << files;
     }
-    EXPECT_TRUE(failed_with(run_text(shear, {{"files", "catalogue new.csv series no/folder/s.pe text"}}, ranks),
-                            {"no/folder/s.pe"}));
+    EXPECT_TRUE(failed_with(
+        run_text(shear, {{"files", "catalogue new.csv series no/folder/s.pe text"}}, ranks),
+        {"no/folder/s.pe"}));
     EXPECT_TRUE(unchanged());
     // asked to, it does
     ASSERT_TRUE(succeeded(run_text(shear, {{"files", both + " overwrite yes"}}, ranks)));

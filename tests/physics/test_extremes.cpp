@@ -23,8 +23,8 @@ std::string brief(double value) {
   return buffer;
 }
 
-/// A fault of a few hundred discs, loose ones among them, compressed and sheared fast. The time step is a part of the
-/// limit that fix lsm/nve finds.
+/// A fault of a few hundred discs, loose ones among them, compressed and sheared fast. The time
+/// step is a part of the limit that fix lsm/nve finds.
 std::string small_fault() {
   return R"(
 variable rmin      index 0.1
@@ -155,8 +155,8 @@ TEST_F(Extremes, RefusedOrStopped) {
   EXPECT_TRUE(failed_with(above, {"Time step", "stability limit"}));
   outcome("time step 1.2 of the limit", "refused: time step above the stability limit");
 
-  // Above the limit without its check, and under a stress that crushes the discs: the check of the strain stops
-  // the compression, before there is a catalogue.
+  // Above the limit without its check, and under a stress that crushes the discs: the check of the
+  // strain stops the compression, before there is a catalogue.
   for (const auto &[name, variables] : std::vector<std::pair<std::string, Variables>>{
            {"time step 1.2 of the limit, check off", {{"part", "1.2"}, {"check", "off"}}},
            {"time step 2 of the limit, check off", {{"part", "2"}, {"check", "off"}}},
@@ -165,13 +165,16 @@ TEST_F(Extremes, RefusedOrStopped) {
            {"normal stress 2", {{"stress", "2"}}}}) {
     for (const char *file : {"extreme.csv", "extreme.pe"}) std::filesystem::remove(path(file));
     const Result r = run_text(small_fault(), variables);
-    EXPECT_TRUE(failed_with(r, {"Run stopped at step ", "a link is strained by ", "above strainlimit 0.5"})) << name;
+    EXPECT_TRUE(
+        failed_with(r, {"Run stopped at step ", "a link is strained by ", "above strainlimit 0.5"}))
+        << name;
     EXPECT_FALSE(std::filesystem::exists(path("extreme.csv"))) << name;
     EXPECT_TRUE(finite(r)) << name;
     const auto lines = r.lines_with("ERROR");
     // caught as soon as it is above the limit, where it grows slowly
     const std::string by = "strained by ";
-    if (std::string(name).find("stress") != std::string::npos && lines.size() == 1 && lines[0].find(by) != std::string::npos) {
+    if (std::string(name).find("stress") != std::string::npos && lines.size() == 1 &&
+        lines[0].find(by) != std::string::npos) {
       EXPECT_LT(std::stod(lines[0].substr(lines[0].find(by) + by.size())), 0.7) << name;
     }
     if (!lines.empty()) outcome(name, "stopped: " + lines[0].substr(0, lines[0].find(" (/")));
@@ -208,8 +211,8 @@ TEST_F(Extremes, LongRestDoesNotDrift) {
   EXPECT_LT(kinetic, 1e-9 * pe_end);
   EXPECT_LT(spread, 1e-6);
   outcome(steps + " steps of rest without viscosity", "right; PE within " + brief(spread) +
-                                                        "; kinetic energy below " +
-                                                        brief(kinetic / pe_end) + " of PE");
+                                                          "; kinetic energy below " +
+                                                          brief(kinetic / pe_end) + " of PE");
 }
 
 namespace {
@@ -335,7 +338,8 @@ TEST_F(Reproducible, SameBytesFromSameRanks) {
   }
 }
 
-// Fix lsm/nve joins the two half steps that meet between two time steps, unless somebody may look in between.
+// Fix lsm/nve joins the two half steps that meet between two time steps, unless somebody may look
+// in between.
 TEST_F(Reproducible, OnlookersChangeNothingAndSeeWholeSteps) {
   const std::string shear = fault_read() + R"(
 fix               move blocks lsm/nve viscosity 0.02
@@ -359,7 +363,8 @@ thermo_modify     norm no format float %.17g
     const std::string onlookers[] = {
         "fix look all ave/time 1 1 1 c_moving file seen.ke format ' %.17g'\n",
         "fix look all ave/time 7 1 7 c_moving file seen.ke format ' %.17g'\n",
-        "fix look all print 7 '$(step) $(c_moving:%.17g)' file seen.ke screen no title '# step ke'\n"};
+        "fix look all print 7 '$(step) $(c_moving:%.17g)' file seen.ke screen no title '# step "
+        "ke'\n"};
     for (const std::string &look : onlookers) {
       SCOPED_TRACE(std::to_string(ranks) + " ranks, " + look);
       ASSERT_TRUE(succeeded(run_text(shear + look + "thermo 0\nrun 3000\n", {}, ranks)));

@@ -40,8 +40,8 @@ TEST_F(Ledger, BalancesAndFallsWithTheTimeStep) {
     double most = 0.0;
     for (const auto &row : r.thermo) most = std::max(most, std::fabs(row.at("c_events[13]")));
     off.push_back(most / r.last("f_plates"));
-    std::printf("dt %g: residual %.3g of the plates' work %.4g; friction %.4g, viscosity %.4g\n", dt,
-                off.back(), r.last("f_plates"), r.last("c_events[11]"), r.last("c_events[12]"));
+    std::printf("dt %g: residual %.3g of the plates' work %.4g; friction %.4g, viscosity %.4g\n",
+                dt, off.back(), r.last("f_plates"), r.last("c_events[11]"), r.last("c_events[12]"));
     EXPECT_GT(r.last("c_events[11]"), 0.0);
     EXPECT_GT(r.last("c_events[12]"), 0.0);
   }
@@ -55,8 +55,8 @@ TEST_F(Ledger, SecondOrderBeforeTheFaultSlips) {
   std::vector<double> off;
   for (double dt : {0.04, 0.02, 0.01}) {
     const Result r =
-        run_text(fault_read() + fault_shear("") + "thermo " + text(std::round(0.8 / dt)) + "\nrun " +
-                     text(std::round(8.0 / dt)) + "\n",
+        run_text(fault_read() + fault_shear("") + "thermo " + text(std::round(0.8 / dt)) +
+                     "\nrun " + text(std::round(8.0 / dt)) + "\n",
                  {{"dt", text(dt)}, {"mus", "100"}, {"velocity", "0.001"}});
     ASSERT_TRUE(succeeded(r));
     double most = 0.0;
@@ -87,7 +87,9 @@ TEST_F(Restart, EqualsTheUninterruptedRun) {
     const std::string again = "variable prefix index resumed" + tag +
                               "\nnewton off\natom_style hybrid bond sphere\natom_modify map array\n"
                               "comm_modify mode single cutoff 3.6\n"
-                              "read_restart half." + tag + ".3000\n"
+                              "read_restart half." +
+                              tag +
+                              ".3000\n"
                               "neighbor 0.4 bin\nneigh_modify delay 0 every 10 check yes\n" +
                               fault_shear(recording) + "thermo 100\nrun 2000\n";
     Result second = run_text(again, {}, ranks);
@@ -127,8 +129,11 @@ TEST_F(Restart, EqualsTheUninterruptedRun) {
 
 static std::string sheared_state(const std::string &dt, const std::string &events) {
   return "newton off\natom_style hybrid bond sphere\natom_modify map array\n"
-         "comm_modify mode single cutoff 3.6\nread_restart ${state}\ntimestep " + dt + "\n"
-         "neighbor 0.4 bin\nneigh_modify delay 0 every 10 check yes\n" + fault_shear(events);
+         "comm_modify mode single cutoff 3.6\nread_restart ${state}\ntimestep " +
+         dt +
+         "\n"
+         "neighbor 0.4 bin\nneigh_modify delay 0 every 10 check yes\n" +
+         fault_shear(events);
 }
 
 // A is the change of PE per step, so half a time step means half an A.
@@ -138,22 +143,25 @@ TEST_F(Restart, PickerFollowsTheTimeStep) {
       SCOPED_TRACE(std::to_string(ranks) + " ranks, " + memory);
       const Variables variables = {{"state", "slow.2000"}};
       for (const char *name : {"fast.csv", "fast.pe"}) std::filesystem::remove(path(name));
-      const Result before = run_text(fault_read() + fault_shear(std::string("catalogue slow.csv ") + memory) +
-                                         "thermo 1000\nrestart 2000 slow.*\nrun 2000\n",
-                                     {}, ranks);
+      const Result before =
+          run_text(fault_read() + fault_shear(std::string("catalogue slow.csv ") + memory) +
+                       "thermo 1000\nrestart 2000 slow.*\nrun 2000\n",
+                   {}, ranks);
       ASSERT_TRUE(succeeded(before));
       const double rate = before.last("c_events[3]");
       ASSERT_NE(rate, 0.0);
 
       const bool by_time = std::string(memory) == "memory 3.0";
       const double lambda = by_time ? std::exp(-0.015 / 3.0) : 0.99;
-      const Result resumed =
-          run_text(sheared_state("0.015", std::string("resume yes catalogue fast.csv series fast.pe text ") + memory) +
-                       "thermo 1\nrun 4000\n",
-                   variables, ranks);
+      const Result resumed = run_text(
+          sheared_state(
+              "0.015", std::string("resume yes catalogue fast.csv series fast.pe text ") + memory) +
+              "thermo 1\nrun 4000\n",
+          variables, ranks);
       ASSERT_TRUE(succeeded(resumed));
       const Result between =
-          run_text(sheared_state("0.03", memory) + "thermo 1\nrun 0\ntimestep 0.015\nrun 1\n", variables, ranks);
+          run_text(sheared_state("0.03", memory) + "thermo 1\nrun 0\ntimestep 0.015\nrun 1\n",
+                   variables, ranks);
       ASSERT_TRUE(succeeded(between));
       ASSERT_EQ(between.thermo.size(), 3u);
       EXPECT_EQ(between.thermo[0].at("c_events[3]"), rate);
@@ -162,7 +170,8 @@ TEST_F(Restart, PickerFollowsTheTimeStep) {
       for (const auto &[first, second] : {std::pair(resumed.thermo[0], resumed.thermo[1]),
                                           std::pair(between.thermo[1], between.thermo[2])})
         EXPECT_NEAR(second.at("c_events[3]"),
-                    lambda * 0.5 * rate + (1.0 - lambda) * (second.at("c_events[5]") - first.at("c_events[5]")),
+                    lambda * 0.5 * rate +
+                        (1.0 - lambda) * (second.at("c_events[5]") - first.at("c_events[5]")),
                     1e-9 * std::fabs(rate));
 
       // times go on from 60, and so do the numbers of the events
@@ -212,10 +221,12 @@ TEST_F(Restart, NothingIsCutWhereOneFileDoesNotFit) {
 TEST_F(Restart, TimeStepOfOpenFilesIsKept) {
   const std::string shear = fault_read() + fault_shear("${files}") + "thermo 100\nrun 200\n";
   for (const char *files : {"catalogue one.csv", "series one.pe binary"})
-    for (const char *change : {"timestep 0.015\nrun 200\n", "fix adapt all dt/reset 10 NULL NULL 1e-6\nrun 200\n"}) {
+    for (const char *change :
+         {"timestep 0.015\nrun 200\n", "fix adapt all dt/reset 10 NULL NULL 1e-6\nrun 200\n"}) {
       SCOPED_TRACE(std::string(files) + ", " + change);
       for (int ranks : {1, 2})
-        EXPECT_TRUE(failed_with(run_text(shear + change, {{"files", files}}, ranks), {"time step", "from 0.03 to", "one."}));
+        EXPECT_TRUE(failed_with(run_text(shear + change, {{"files", files}}, ranks),
+                                {"time step", "from 0.03 to", "one."}));
     }
 
   const Variables variables = {{"state", "one.restart"}};
@@ -223,8 +234,10 @@ TEST_F(Restart, TimeStepOfOpenFilesIsKept) {
                                  {{"files", "catalogue one.csv series one.pe binary"}})));
   const std::string catalogue = read_file(path("one.csv")), series = read_file(path("one.pe"));
   for (const char *files : {"catalogue one.csv", "series one.pe binary"})
-    EXPECT_TRUE(failed_with(run_text(sheared_state("0.015", std::string("resume yes ") + files) + "run 100\n", variables),
-                            {"one.", "'dt' is '0.0299", "expected '0.0149"}));
+    EXPECT_TRUE(failed_with(
+        run_text(sheared_state("0.015", std::string("resume yes ") + files) + "run 100\n",
+                 variables),
+        {"one.", "'dt' is '0.0299", "expected '0.0149"}));
   EXPECT_TRUE(read_file(path("one.csv")) == catalogue);
   EXPECT_TRUE(read_file(path("one.pe")) == series);
 }
@@ -235,7 +248,8 @@ TEST_F(Events, PickedOnlineEqualThosePickedLater) {
       for (const char *form : {"binary", "text"}) {
         const Result r = run_text(
             fault_read() +
-                fault_shear("catalogue online.csv series online.pe ${form} picker ${picker} block 37") +
+                fault_shear(
+                    "catalogue online.csv series online.pe ${form} picker ${picker} block 37") +
                 "thermo 1000\nrun 2500\nrun 1500\n",
             {{"form", form}, {"picker", picker}}, ranks);
         ASSERT_TRUE(succeeded(r));
@@ -256,9 +270,11 @@ TEST_F(Events, PickedOnlineEqualThosePickedLater) {
       }
 }
 
-// Slip, place and length of each event against the work lost to friction and the meaning of the columns.
+// Slip, place and length of each event against the work lost to friction and the meaning of the
+// columns.
 TEST_F(Events, SlipAndCentroidLieOnTheFault) {
-  const std::string script = fault_read() + fault_shear("catalogue located.csv location yes") + "thermo ${thermo}\nrun 5000\n";
+  const std::string script = fault_read() + fault_shear("catalogue located.csv location yes") +
+                             "thermo ${thermo}\nrun 5000\n";
   const Result r = run_text(script, {{"thermo", "1"}});
   ASSERT_TRUE(succeeded(r));
   const auto catalogue = LSM::read_catalogue(path("located.csv"));
@@ -267,7 +283,8 @@ TEST_F(Events, SlipAndCentroidLieOnTheFault) {
   const double first = catalogue.events[0].x_centroid;
   for (const auto &e : catalogue.events) {
     // rows of the thermo table are steps
-    ASSERT_EQ(r.thermo[static_cast<std::size_t>(e.step_end)].at("Step"), static_cast<double>(e.step_end));
+    ASSERT_EQ(r.thermo[static_cast<std::size_t>(e.step_end)].at("Step"),
+              static_cast<double>(e.step_end));
     const double lost = r.thermo[static_cast<std::size_t>(e.step_end)].at("c_events[11]") -
                         r.thermo[static_cast<std::size_t>(e.step_start)].at("c_events[11]");
     // something slides exactly where friction takes energy
@@ -282,7 +299,8 @@ TEST_F(Events, SlipAndCentroidLieOnTheFault) {
     EXPECT_GT(e.x_centroid, 0.0);
     EXPECT_LT(e.x_centroid, 40.0);
     if (std::fabs(e.x_centroid - first) > 1.0) ++elsewhere;
-    // the work is mu F s, the moment s times the size of the contact: no contact bears ten times the whole fault's load
+    // the work is mu F s, the moment s times the size of the contact: no contact bears ten times
+    // the whole fault's load
     EXPECT_LT(lost, 10.0 * 0.6 * 0.006 * 40.0 * e.slip_moment) << "event " << e.id;
   }
   EXPECT_GT(slid, 2u);
@@ -293,16 +311,16 @@ TEST_F(Events, SlipAndCentroidLieOnTheFault) {
   const auto two = LSM::read_catalogue(path("located.csv"));
   expect_same_events(catalogue.events, two.events, 1e-9);
   for (std::size_t n = 0; n < std::min(two.events.size(), catalogue.events.size()); ++n) {
-    EXPECT_NEAR(two.events[n].slip_moment, catalogue.events[n].slip_moment, 1e-6 * catalogue.events[n].slip_moment);
+    EXPECT_NEAR(two.events[n].slip_moment, catalogue.events[n].slip_moment,
+                1e-6 * catalogue.events[n].slip_moment);
     EXPECT_NEAR(two.events[n].x_centroid, catalogue.events[n].x_centroid, 1e-5);
     EXPECT_EQ(two.events[n].rupture_length, catalogue.events[n].rupture_length);
   }
 }
 
 TEST_F(Ranks, ThermoAndFirstEventsAgree) {
-  const std::string script =
-      "variable prefix index one\n" + fault_read() +
-      fault_shear("catalogue ${prefix}.csv") + "thermo 100\nrun 1500\n";
+  const std::string script = "variable prefix index one\n" + fault_read() +
+                             fault_shear("catalogue ${prefix}.csv") + "thermo 100\nrun 1500\n";
   const Result one = run_text(script);
   ASSERT_TRUE(succeeded(one));
   const auto events = LSM::read_catalogue(path("one.csv")).events;
@@ -354,7 +372,8 @@ TEST_F(MassFloor, RaisesTheSmallestMassesOnly) {
   ASSERT_TRUE(succeeded(floor));
   std::ifstream before(path("plain.dump")), after(path("floor.dump"));
   std::string a, b;
-  for (int line = 0; line < 9; line++) ASSERT_TRUE(std::getline(before, a) && std::getline(after, b));
+  for (int line = 0; line < 9; line++)
+    ASSERT_TRUE(std::getline(before, a) && std::getline(after, b));
   int raised = 0, all = 0;
   double id, x, y, r, m, id1, x1, y1, r1, m1;
   while (before >> id >> x >> y >> r >> m) {
@@ -368,5 +387,7 @@ TEST_F(MassFloor, RaisesTheSmallestMassesOnly) {
   EXPECT_GT(all, 300);
   EXPECT_GT(raised, 30);
   EXPECT_LT(raised, all - 300);
-  EXPECT_EQ(floor.lines_with("mass floor 0.18: " + std::to_string(raised) + " particles raised").size(), 1u);
+  EXPECT_EQ(
+      floor.lines_with("mass floor 0.18: " + std::to_string(raised) + " particles raised").size(),
+      1u);
 }

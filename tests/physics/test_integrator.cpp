@@ -51,8 +51,8 @@ TEST_F(Integrator, SecondOrder) {
     }
     const double of_place = std::log2((place[0] - place[1]) / (place[1] - place[2]));
     const double of_kinetic = std::log2((kinetic[0] - kinetic[1]) / (kinetic[1] - kinetic[2]));
-    std::printf("viscosity %s: order %.3f (positions), %.3f (kinetic energy)\n", viscosity, of_place,
-                of_kinetic);
+    std::printf("viscosity %s: order %.3f (positions), %.3f (kinetic energy)\n", viscosity,
+                of_place, of_kinetic);
     EXPECT_NEAR(of_place, 2.0, 0.1);
     EXPECT_NEAR(of_kinetic, 2.0, 0.1);
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Leaps over the loading: model time, nothing changed where nothing is leapt, restart, ranks, refusals.
+// Leaps over the loading: model time, nothing changed where nothing is leapt, restart, ranks,
+// refusals.
 #include <cmath>
 
 #include "fault_scene.h"
@@ -10,13 +11,15 @@ using namespace physics;
 using Leap = Fault;
 
 // Slow plates on the settled fault; LEAP stands for the fix under test.
-static std::string slow(const std::string &leap, const std::string &columns = "c_events[5] f_plates[8]") {
+static std::string slow(const std::string &leap,
+                        const std::string &columns = "c_events[5] f_plates[8]") {
   return fault_read() + R"(
 variable          velocity index 0.0005
 variable          viscosity index 0.02
 fix               move blocks lsm/nve viscosity ${viscosity}
 fix               plates all lsm/plates lower upper stress 0.006 damping ${viscosity} velocity ${velocity}
-)" + leap + R"(
+)" + leap +
+         R"(
 compute           events all lsm/events ledger yes overwrite yes catalogue ${prefix}.csv
 thermo_style      custom step time )" +
          columns + R"(
@@ -27,8 +30,9 @@ thermo            100
 
 TEST_F(Leap, WithoutAFasterVelocityNothingChanges) {
   const Result without = run_text(slow("") + "run 1500\n", {{"prefix", "without"}, {"dt", "0.03"}});
-  const Result with = run_text(slow("fix leap all lsm/leap plates fast 0.0005 settle 0\n") + "run 1500\n",
-                               {{"prefix", "with"}, {"dt", "0.03"}});
+  const Result with =
+      run_text(slow("fix leap all lsm/leap plates fast 0.0005 settle 0\n") + "run 1500\n",
+               {{"prefix", "with"}, {"dt", "0.03"}});
   ASSERT_TRUE(succeeded(without));
   ASSERT_TRUE(succeeded(with));
   ASSERT_EQ(without.thermo.size(), with.thermo.size());
@@ -36,15 +40,17 @@ TEST_F(Leap, WithoutAFasterVelocityNothingChanges) {
   for (std::size_t n = 0; n < with.thermo.size(); ++n) EXPECT_EQ(without.thermo[n], with.thermo[n]);
 }
 
-// The displacement of the plates is their velocity times the model time; PE that is loaded without slip is the same
-// at the same model time, the better the slower the plates leap.
+// The displacement of the plates is their velocity times the model time; PE that is loaded without
+// slip is the same at the same model time, the better the slower the plates leap.
 TEST_F(Leap, LoadsAsSlowPlatesDo) {
-  const std::string columns = "c_events[5] f_plates[8] f_leap f_leap[1] f_leap[2] c_events[13] f_plates";
+  const std::string columns =
+      "c_events[5] f_plates[8] f_leap f_leap[1] f_leap[2] c_events[13] f_plates";
   const auto loaded = [&](const std::string &fast, double steps) {
     // friction that holds: nothing slips
     const Result r = run_text(
-        slow("fix leap all lsm/leap plates calm 3 rest 1e9 settle 0 ramp 6 fast " + fast + "\n", columns) + "run " +
-            text(steps) + "\n",
+        slow("fix leap all lsm/leap plates calm 3 rest 1e9 settle 0 ramp 6 fast " + fast + "\n",
+             columns) +
+            "run " + text(steps) + "\n",
         {{"prefix", "loaded"}, {"dt", "0.04"}, {"mus", "100"}, {"velocity", "0.00001"}});
     EXPECT_TRUE(succeeded(r));
     EXPECT_NEAR(r.last("f_leap[1]"), std::stod(fast) / 1e-5, 1e-9);
@@ -59,8 +65,9 @@ TEST_F(Leap, LoadsAsSlowPlatesDo) {
     for (std::size_t n = 1; n < r.thermo.size(); ++n) {
       const double a = r.thermo[n - 1].at("f_plates[8]"), b = r.thermo[n].at("f_plates[8]");
       if (a <= displacement && displacement < b)
-        return r.thermo[n - 1].at("c_events[5]") + (displacement - a) / (b - a) *
-                                                       (r.thermo[n].at("c_events[5]") - r.thermo[n - 1].at("c_events[5]"));
+        return r.thermo[n - 1].at("c_events[5]") +
+               (displacement - a) / (b - a) *
+                   (r.thermo[n].at("c_events[5]") - r.thermo[n - 1].at("c_events[5]"));
     }
     ADD_FAILURE() << "displacement " << displacement << " is not reached";
     return 0.0;
@@ -74,23 +81,28 @@ TEST_F(Leap, LoadsAsSlowPlatesDo) {
 
 TEST_F(Leap, RestartAndRanks) {
   const std::string leap = "fix leap all lsm/leap plates fast 0.005 calm 3 ramp 6 look 0.6\n";
-  const std::string columns = "c_events c_events[5] f_plates[8] f_leap f_leap[1] f_leap[3] f_leap[4]";
+  const std::string columns =
+      "c_events c_events[5] f_plates[8] f_leap f_leap[1] f_leap[3] f_leap[4]";
   const std::string head = slow(leap, columns);
-  const Result whole = run_text(head + "restart 1333 half.*\nrun 3000\n", {{"prefix", "whole"}, {"dt", "0.03"}});
+  const Result whole =
+      run_text(head + "restart 1333 half.*\nrun 3000\n", {{"prefix", "whole"}, {"dt", "0.03"}});
   ASSERT_TRUE(succeeded(whole));
-  EXPECT_GT(whole.last("f_leap[4]"), 10.0);                          // it leapt
+  EXPECT_GT(whole.last("f_leap[4]"), 10.0);                            // it leapt
   EXPECT_LT(whole.last("f_leap[4]"), 0.99 * whole.last("f_leap[3]"));  // and it stopped
   EXPECT_GT(whole.last("f_leap"), 100.0);
   for (const auto &row : whole.thermo)
-    EXPECT_NEAR(row.at("f_plates[8]"), 2 * 0.0005 * (row.at("f_leap") - whole.thermo.front().at("f_leap")), 1e-12);
+    EXPECT_NEAR(row.at("f_plates[8]"),
+                2 * 0.0005 * (row.at("f_leap") - whole.thermo.front().at("f_leap")), 1e-12);
 
   std::string again = head;
   const std::size_t begin = again.find("read_data"), end = again.find('\n', begin);
   again.replace(begin, end - begin, "read_restart half.1333");
   const Result second = run_text(again + "run 1667\n", {{"prefix", "second"}, {"dt", "0.03"}});
   ASSERT_TRUE(succeeded(second));
-  for (const char *column : {"f_leap", "f_leap[1]", "f_leap[3]", "f_leap[4]", "f_plates[8]", "c_events[5]"})
-    EXPECT_NEAR(second.last(column), whole.last(column), 1e-7 * std::fabs(whole.last(column))) << column;
+  for (const char *column :
+       {"f_leap", "f_leap[1]", "f_leap[3]", "f_leap[4]", "f_plates[8]", "c_events[5]"})
+    EXPECT_NEAR(second.last(column), whole.last(column), 1e-7 * std::fabs(whole.last(column)))
+        << column;
 
   // the run may go on with another velocity: none of the former is left over
   again.replace(again.find("fast 0.005"), 10, "fast 0.0005");
@@ -102,8 +114,10 @@ TEST_F(Leap, RestartAndRanks) {
   for (int ranks : {2, 4}) {
     const Result r = run_text(head + "run 3000\n", {{"prefix", "ranks"}, {"dt", "0.03"}}, ranks);
     ASSERT_TRUE(succeeded(r));
-    for (const char *column : {"f_leap", "f_leap[1]", "f_leap[3]", "f_leap[4]", "f_plates[8]", "c_events[5]"})
-      EXPECT_NEAR(r.last(column), whole.last(column), 1e-6 * std::fabs(whole.last(column))) << column << ranks;
+    for (const char *column :
+         {"f_leap", "f_leap[1]", "f_leap[3]", "f_leap[4]", "f_plates[8]", "c_events[5]"})
+      EXPECT_NEAR(r.last(column), whole.last(column), 1e-6 * std::fabs(whole.last(column)))
+          << column << ranks;
   }
 }
 
@@ -120,7 +134,8 @@ TEST_F(Leap, CatalogueHasModelTimes) {
   EXPECT_EQ(catalogue.info.find("leap")->substr(0, 10), "fast 0.005");
   bool stretched = false;
   for (const auto &e : catalogue.events) {
-    const auto &row = r.thermo.at(static_cast<std::size_t>(e.step_end - static_cast<std::int64_t>(r.thermo[0].at("Step"))));
+    const auto &row = r.thermo.at(
+        static_cast<std::size_t>(e.step_end - static_cast<std::int64_t>(r.thermo[0].at("Step"))));
     ASSERT_EQ(row.at("Step"), static_cast<double>(e.step_end));
     EXPECT_NEAR(e.t_end, row.at("f_leap"), 1e-9 * e.t_end);
     stretched = stretched || e.t_end > 1.5 * row.at("Time");
@@ -134,16 +149,21 @@ TEST_F(Leap, Refusals) {
     std::string says;
   } cases[] = {{"fix leap all lsm/leap\n", "expects 'fix ID group lsm/leap plates-ID"},
                {"fix leap all lsm/leap move\n", "'move' is not the ID of a fix lsm/plates"},
-               {"fix leap all lsm/leap plates fast 0.0001\n", "fast is 0.0001, but must be at least the driving velocity 0.0005"},
+               {"fix leap all lsm/leap plates fast 0.0001\n",
+                "fast is 0.0001, but must be at least the driving velocity 0.0005"},
                {"fix leap all lsm/leap plates slip 0\n", "slip is 0, but must be > 0"},
                {"fix leap all lsm/leap plates calm -1\n", "calm is -1, but must be >= 0"},
-               {"fix leap all lsm/leap plates speed 1\n", "Unknown fix lsm/leap keyword 'speed'; accepted are fast"},
+               {"fix leap all lsm/leap plates speed 1\n",
+                "Unknown fix lsm/leap keyword 'speed'; accepted are fast"},
                {"fix leap all lsm/leap plates fast\n", "keyword fast needs a value"},
-               {"fix leap all lsm/leap plates fast 0.01\nfix more all lsm/leap plates fast 0.01\n", "More than one fix lsm/leap"}};
+               {"fix leap all lsm/leap plates fast 0.01\nfix more all lsm/leap plates fast 0.01\n",
+                "More than one fix lsm/leap"}};
   for (const auto &one : cases)
-    EXPECT_TRUE(failed_with(run_text(slow(one.lines) + "run 1\n", {{"prefix", "refused"}, {"dt", "0.03"}}), {one.says}))
+    EXPECT_TRUE(failed_with(
+        run_text(slow(one.lines) + "run 1\n", {{"prefix", "refused"}, {"dt", "0.03"}}), {one.says}))
         << one.lines;
-  EXPECT_TRUE(failed_with(run_text(slow("fix leap all lsm/leap plates fast 0.01\n") + "run 1\ntimestep 0.02\nrun 1\n",
-                                   {{"prefix", "refused"}, {"dt", "0.03"}}),
-                          {"the time step changed from 0.03 to 0.02"}));
+  EXPECT_TRUE(failed_with(
+      run_text(slow("fix leap all lsm/leap plates fast 0.01\n") + "run 1\ntimestep 0.02\nrun 1\n",
+               {{"prefix", "refused"}, {"dt", "0.03"}}),
+      {"the time step changed from 0.03 to 0.02"}));
 }

@@ -30,8 +30,10 @@ TEST_F(Output, RestartFileBetweenRunsChangesNothing) {
     const Result without = run_text(start + "run 2000\n", {}, ranks);
     const Result with = run_text(start + "write_restart between.restart\nrun 2000\n", {}, ranks);
     const Result resumed = run_text(
-        "newton off\natom_style hybrid bond sphere\natom_modify map array\ncomm_modify mode single cutoff 3.6\n"
-        "read_restart between.restart\nneighbor 0.4 bin\nneigh_modify delay 0 every 10 check yes\n" +
+        "newton off\natom_style hybrid bond sphere\natom_modify map array\ncomm_modify mode single "
+        "cutoff 3.6\n"
+        "read_restart between.restart\nneighbor 0.4 bin\nneigh_modify delay 0 every 10 check "
+        "yes\n" +
             fault_shear("") + "thermo 500\nrun 2000\n",
         {}, ranks);
     ASSERT_TRUE(succeeded(without));
@@ -54,8 +56,8 @@ thermo_modify     norm no format float %.17g
 run               0
 )";
   for (const char *newton : {"on", "off"}) {
-    const Result before = run_text(fault_read() + energies + "write_data again.data\n",
-                                   {{"newton", newton}});
+    const Result before =
+        run_text(fault_read() + energies + "write_data again.data\n", {{"newton", newton}});
     ASSERT_TRUE(succeeded(before));
     const std::string again = fault_start() + R"(
 bond_style        lsm/linked
@@ -68,9 +70,9 @@ pair_coeff        3 4 1.0 1.0 0.6
     ASSERT_TRUE(succeeded(after));
     EXPECT_GT(before.last("c_events[6]"), 0.0);
     EXPECT_GT(before.last("c_events[7]"), 0.0);
-    EXPECT_LT(thermo_difference(before, after,
-                                {"Atoms", "Bonds", "c_events[5]", "c_events[6]", "c_events[7]",
-                                 "KinEng"}),
+    EXPECT_LT(thermo_difference(
+                  before, after,
+                  {"Atoms", "Bonds", "c_events[5]", "c_events[6]", "c_events[7]", "KinEng"}),
               1e-12);
   }
 }

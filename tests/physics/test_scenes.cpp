@@ -67,9 +67,10 @@ TEST_F(PWave, LatticeAsInEquation4) {
 }
 
 TEST_F(PWave, LatticeScalesWithStiffnessMassAndRadius) {
-  const Result r =
-      run_scene("p_wave_lattice.in", {{"k", "4"}, {"m0", "0.25"}, {"r", "0.5"}, {"sigma", "5"},
-                                      {"dt", "0.02"}, {"newton", "on"}}, 2);
+  const Result r = run_scene(
+      "p_wave_lattice.in",
+      {{"k", "4"}, {"m0", "0.25"}, {"r", "0.5"}, {"sigma", "5"}, {"dt", "0.02"}, {"newton", "on"}},
+      2);
   ASSERT_TRUE(succeeded(r));
   const double theory = std::sqrt(9.0 / 8.0) * 1.0 * 4.0;
   EXPECT_NEAR(r.value("p_wave_speed"), theory, 0.01 * theory);
@@ -83,12 +84,13 @@ TEST_F(PWave, LatticeOnSeveralRanks) {
                   one, 1e-8);
 }
 
-// Position of the half of the pulse's height on its leading edge, from the first layer above y = middle.
+// Position of the half of the pulse's height on its leading edge, from the first layer above y =
+// middle.
 static double front(const std::vector<std::pair<double, double>> &layers, double middle) {
   std::size_t peak = 0;
   for (std::size_t n = 0; n < layers.size(); ++n)
-    if (layers[n].first > middle && (layers[peak].first <= middle ||
-                                     layers[n].second > layers[peak].second))
+    if (layers[n].first > middle &&
+        (layers[peak].first <= middle || layers[n].second > layers[peak].second))
       peak = n;
   const double half = 0.5 * layers[peak].second;
   for (std::size_t n = peak + 1; n < layers.size(); ++n)
@@ -122,8 +124,8 @@ TEST_F(PWave, RandomPacking) {
   }
   finish();
   ASSERT_GE(fronts.size(), 4u);
-  const double speed = (fronts.back().second - fronts.front().second) /
-                       (fronts.back().first - fronts.front().first);
+  const double speed =
+      (fronts.back().second - fronts.front().second) / (fronts.back().first - fronts.front().first);
   std::printf("packing: front %.4f over %.2f, centroid of momentum %.4f\n", speed,
               fronts.back().second - fronts.front().second, r.value("p_wave_speed"));
   EXPECT_GT(speed, 2.0);
@@ -154,7 +156,8 @@ TEST_F(Coulomb, SlidesAboveItWithTheRightAcceleration) {
 }
 
 TEST_F(Coulomb, StaticStrengthIsAboveTheDynamicOne) {
-  // 0.98 x 0.8 is far above the dynamic strength and holds; once it moves, friction is the dynamic one
+  // 0.98 x 0.8 is far above the dynamic strength and holds; once it moves, friction is the dynamic
+  // one
   const Result sticks = run_scene("coulomb_block.in", {{"mus", "0.8"}, {"pull", "0.98"}});
   const Result slides = run_scene("coulomb_block.in", {{"mus", "0.8"}, {"pull", "1.02"}});
   ASSERT_TRUE(succeeded(sticks));
@@ -233,7 +236,8 @@ TEST_F(Tension, SameOnAllRankCountsAndNewton) {
 
 // ---- plates on a lattice of discs of radius and mass 1 ------------------------------------------
 
-/// A bar of the lattice between two plates that are pressed from time 0 on; its P-waves run across the rows.
+/// A bar of the lattice between two plates that are pressed from time 0 on; its P-waves run across
+/// the rows.
 class Plates : public Lmp {
  protected:
   static Result pressed_bar(double impedance) {
@@ -269,7 +273,7 @@ group             bar subtract all upper lower
 timestep          0.05
 fix               move bar lsm/nve
 fix               plates all lsm/plates lower upper stress 1e-4 impedance )" +
-                          text(impedance) + R"(
+                    text(impedance) + R"(
 compute           moving all ke
 thermo_style      custom step time c_moving f_plates[9]
 thermo_modify     norm no format float %.17g
@@ -280,17 +284,19 @@ run               4000
 };
 
 TEST_F(Plates, ImpedanceAddsToThatOfTheBlocks) {
-  // Eq. 4 times the mass per area; a plate pressed by a stress moves with the stress over the sum of the impedances until
-  // the wave from the other side is there, 138 / 2.12 = 65 time units
+  // Eq. 4 times the mass per area; a plate pressed by a stress moves with the stress over the sum
+  // of the impedances until the wave from the other side is there, 138 / 2.12 = 65 time units
   const double blocks = std::sqrt(9.0 / 8.0) * 2.0 / (2.0 * std::sqrt(3.0));
   double rest = 0.0;
   for (const double impedance : {0.0, 0.3, blocks, 3.0}) {
     const Result r = pressed_bar(impedance);
     ASSERT_TRUE(succeeded(r));
     ASSERT_EQ(r.thermo.size(), 41u);
-    const double speed = 0.5 * (r.thermo.at(11).at("f_plates[9]") - r.thermo.at(4).at("f_plates[9]")) / 35.0;
+    const double speed =
+        0.5 * (r.thermo.at(11).at("f_plates[9]") - r.thermo.at(4).at("f_plates[9]")) / 35.0;
     EXPECT_NEAR(speed / (1e-4 / (impedance + blocks)), 1.0, 0.02) << "impedance " << impedance;
-    // three crossings later: waves that were reflected are still there, those of the matching plate are gone
+    // three crossings later: waves that were reflected are still there, those of the matching plate
+    // are gone
     const double moving = r.thermo.at(40).at("c_moving");
     if (impedance == 0.0) rest = moving;
     std::printf("impedance %.4g: speed %.4g of theory, kinetic energy %.3g\n", impedance,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Fuzz target of the readers of catalogues and PE series, strict and lenient. Whatever the bytes, a
-// reader gives what its description promises or throws a FileError; nothing else, never a crash.
+// Fuzz target of the readers of catalogues, PE series and slip histories, strict and lenient.
+// Whatever the bytes, a reader gives what its description promises or throws a FileError; nothing
+// else, never a crash.
 //
 // Built as a program it mutates files of its own for a bounded time:
 //   fuzz_readers [SECONDS [SEED]]        (default 2 1)
@@ -23,6 +24,7 @@
 #include "lsm_event_picker.h"
 #include "lsm_pe_series.h"
 #include "lsm_random.h"
+#include "lsm_slip_history.h"
 
 namespace {
 
@@ -53,7 +55,7 @@ const Folder &folder() {
 struct Counts {
   std::int64_t inputs = 0, accepted = 0, repaired = 0, refused = 0;
 };
-Counts catalogues, series;
+Counts catalogues, series, histories;
 
 void require(bool good, const char *what) {
   if (good) return;
@@ -71,7 +73,9 @@ bool same(const LSM::Event &a, const LSM::Event &b) {
   return a.id == b.id && a.t_start == b.t_start && a.t_end == b.t_end &&
          a.step_start == b.step_start && a.step_end == b.step_end && a.size == b.size &&
          a.pe_start == b.pe_start && a.pe_end == b.pe_end && a.slip_moment == b.slip_moment &&
-         a.x_centroid == b.x_centroid && a.rupture_length == b.rupture_length;
+         a.x_centroid == b.x_centroid && a.rupture_length == b.rupture_length &&
+         a.x_hypocentre == b.x_hypocentre && a.x_begin == b.x_begin && a.mean_slip == b.mean_slip &&
+         a.stress_drop == b.stress_drop;
 }
 
 Outcome read_catalogue(const std::string &path, bool lenient, std::vector<LSM::Event> &events) {
@@ -82,7 +86,8 @@ Outcome read_catalogue(const std::string &path, bool lenient, std::vector<LSM::E
     LSM::Event event;
     while (reader.next(event)) {
       for (const double x : {event.t_start, event.t_end, event.size, event.pe_start, event.pe_end,
-                             event.slip_moment, event.x_centroid, event.rupture_length})
+                             event.slip_moment, event.x_centroid, event.rupture_length,
+                             event.x_hypocentre, event.x_begin, event.mean_slip, event.stress_drop})
         require(std::isfinite(x), "finite numbers");
       require(event.t_start <= event.t_end, "an event ends after its start");
       require(event.step_start <= event.step_end, "an event ends after its first step");
@@ -126,6 +131,7 @@ void try_catalogue(const std::string &path) {
   LSM::CatalogueInfo info;
   info.model = "lsm";
   info.slip_moment = info.x_centroid = info.rupture_length = true;
+  info.x_hypocentre = info.x_begin = info.mean_slip = info.stress_drop = true;
   LSM::CatalogueWriter writer;
   writer.create(copy, info);
   for (const LSM::Event &event : strict) writer.write(event);
@@ -134,6 +140,43 @@ void try_catalogue(const std::string &path) {
   require(!read_catalogue(copy, false, again).refused && again.size() == strict.size(),
           "a copy can be read");
   for (std::size_t i = 0; i < strict.size(); ++i) require(same(strict[i], again[i]), "a true copy");
+}
+
+void try_history(const std::string &path) {
+  std::int64_t counts[2] = {0, 0};
+  bool refused[2] = {false, false}, torn = false;
+  for (const bool lenient : {false, true}) {
+    try {
+      LSM::SlipHistoryReader reader(path, lenient);
+      LSM::SlipRecord record;
+      std::int64_t last = 0;
+      while (reader.next(record)) {
+        require(std::isfinite(record.pe), "finite PE");
+        for (const auto *values : {&record.row.slip, &record.row.work, &record.row.stress}) {
+          require(values->size() == static_cast<std::size_t>(reader.info().grid.bins), "all bins");
+          for (const float x : *values) require(std::isfinite(x), "finite numbers");
+        }
+        require(counts[lenient] == 0 ? record.step_begin == record.step_end
+                                     : record.step_begin == last && record.step_end > last,
+                "records without gaps");
+        last = record.step_end;
+        ++counts[lenient];
+      }
+      torn = torn || reader.torn();
+    } catch (const LSM::FileError &error) {
+      refused[lenient] = true;
+      const std::string message = error.what();
+      require(message.rfind(path, 0) == 0, "a message begins with the file");
+      require(message.find('\n') == std::string::npos, "a message is one line");
+    }
+  }
+  require(!refused[true] || refused[false], "lenient accepts what strict accepts");
+  require(refused[false] || (counts[0] == counts[1] && !torn), "nothing to repair");
+  require(!refused[false] || refused[true] || torn, "a repair for what strict refuses");
+  ++histories.inputs;
+  ++(!refused[false]  ? histories.accepted
+     : !refused[true] ? histories.repaired
+                      : histories.refused);
 }
 
 struct Sample {
@@ -193,6 +236,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
       .write(reinterpret_cast<const char *>(data), static_cast<std::streamsize>(size));
   try_catalogue(path);
   try_series(path);
+  try_history(path);
   return 0;
 }
 
@@ -213,6 +257,7 @@ std::vector<std::string> seeds() {
     info.model = columns ? "lsm" : "block-slider";
     info.parameters = {{"dt", "0.03"}, {"length", "120"}, {"picker", "exponential"}};
     info.slip_moment = info.x_centroid = info.rupture_length = columns;
+    info.x_begin = info.stress_drop = columns;
     LSM::CatalogueWriter writer;
     writer.create(path, info);
     for (int i = 0; i < 8; ++i) {
@@ -245,6 +290,25 @@ std::vector<std::string> seeds() {
     out.push_back(slurp(path));
   }
   return out;
+}
+
+/// A small slip history as compute lsm/events writes it.
+std::string history_seed() {
+  const std::string path = (folder().path / "seed").string();
+  LSM::SlipHistoryInfo info;
+  info.grid.bins = 2;
+  info.grid.interval = 10;
+  info.grid.dt = 0.06;
+  info.quiet = 3;
+  LSM::SlipHistoryWriter writer;
+  writer.create(path, info, 0, 1.0, {0.5F, 0.25F});
+  for (int n = 1; n <= 9; ++n) {
+    LSM::FaultRow row(2);
+    row.slip = {0.25F, 0.0F};
+    writer.add(10 * n, 1.0 - 0.01 * n, row, n > 3 && n < 7);
+  }
+  writer.close();
+  return slurp(path);
 }
 
 class Mutator {
@@ -341,7 +405,8 @@ int main(int argc, char **argv) {
   const double seconds = argc > 1 ? std::atof(argv[1]) : 2.0;
   const std::uint64_t seed = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1;
   std::printf("seed %llu\n", static_cast<unsigned long long>(seed));
-  const std::vector<std::string> files = seeds();
+  std::vector<std::string> files = seeds();
+  files.push_back(history_seed());
   Mutator mutator(seed);
   const auto run = [](const std::string &text) {
     LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t *>(text.data()), text.size());
@@ -358,7 +423,8 @@ int main(int argc, char **argv) {
   }
   show("catalogues", catalogues);
   show("PE series", series);
-  for (const Counts *c : {&catalogues, &series}) {
+  show("slip histories", histories);
+  for (const Counts *c : {&catalogues, &series, &histories}) {
     if (c->accepted > 10 && c->repaired > 10 && c->refused > 10) continue;
     std::fprintf(stderr,
                  "fuzz_readers: an outcome was hardly reached, the mutations test little\n");

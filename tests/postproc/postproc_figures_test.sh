@@ -232,6 +232,18 @@ report)
   for tag in table figure svg tr td th section div p ul li h2 h3; do
     [ "$(grep -o "<$tag[ >]" r.html | wc -l)" = "$(grep -o "</$tag>" r.html | wc -l)" ] || fail "<$tag> not closed"
   done
+  # Each kind of event has its own words.
+  grep -q 'Sizes are drops of the potential energy of the whole model' r.html || fail "no words on drops of PE"
+  grep -q 'are ruptures' r.html && fail "words on ruptures about drops of PE"
+  sed 's/^# length/# events = ruptures\n&/' 'a<b&c.csv' > r.csv
+  must_run report r.csv --replicas 0 --interval-replicas 0 -o p.html
+  grep -q 'Sizes are drops of the potential energy' p.html && fail "words on drops of PE about ruptures"
+  grep -q '<h2>Fault: ruptures</h2>' p.html && grep -q 'those at the same time at different places stay apart' p.html &&
+    grep -q 'that friction took on its part of the fault' p.html || fail "no words on ruptures"
+  # Both kinds on one page: a section each.
+  must_run report r.csv 'a<b&c.csv' --replicas 0 --interval-replicas 0 -o p.html
+  grep -q '<h2>Fault</h2>' p.html && grep -q '<h2>Fault: ruptures</h2>' p.html && grep -q '<td>drops of PE</td>' p.html &&
+    grep -q '<td>ruptures</td>' p.html || fail "not both kinds"
   # PE series: 90 steps up by 1 and 9 down by 10, or as many down as up; one that only rises.
   pe() { # FILE LENGTH UP DOWN
     awk -v length_="$2" -v up="$3" -v down="$4" 'BEGIN {
@@ -246,8 +258,8 @@ report)
   pe rise.pe 480 10 0
   must_run report s.csv --series tooth.pe --series creep.pe --series rise.pe --replicas 0 --interval-replicas 0 -o p.html
   row() { grep "^<tr><th scope=\"row\">$1<" p.html | sed 's/<[^>]*>/|/g; s/||*/|/g'; }
-  [ "$(row tooth.pe)" = '|tooth.pe|Fault|120|0 to 1981|stick-slip|10|10|0.091|9|' ] || fail "row of tooth.pe: $(row tooth.pe)"
-  [ "$(row creep.pe)" = '|creep.pe|Fault|240|0 to 2401|creep|1|1|0.5|60|' ] || fail "row of creep.pe: $(row creep.pe)"
+  [ "$(row tooth.pe)" = '|tooth.pe|Fault|120|0 to 1981|stick-slip|10|3|10|0.091|9|' ] || fail "row of tooth.pe: $(row tooth.pe)"
+  [ "$(row creep.pe)" = '|creep.pe|Fault|240|0 to 2401|creep|1|2.41|1|0.5|60|' ] || fail "row of creep.pe: $(row creep.pe)"
   row rise.pe | grep -q '480|0 to 201|degenerate: PE only rises' || fail "row of rise.pe: $(row rise.pe)"
   grep -q 'Stick-slip or creep' r.html && fail "a section without a series"
   # The window of time holds for the series, too.
@@ -325,6 +337,39 @@ few)
   grep -Eq '>-?nan|>inf' r.html && fail "NaN or infinity in the page"
   must_run report none.csv -o e.html
   grep -q 'no events' e.html || fail "the empty catalogue is not said to be empty"
+  ;;
+rupture)
+  # Moment 0.1 L^2 and drops of PE 0.05 of the moment, one after the other; two more at the same time as the largest.
+  {
+    printf '# lsm-catalogue 1\n# model = lsm\n# length = 120\n# events = ruptures\n'
+    echo event_id,t_start,t_end,step_start,step_end,size,pe_start,pe_end,slip_moment,x_centroid,rupture_length,x_hypocentre,x_begin,mean_slip,stress_drop
+    awk 'BEGIN { for (i = 1; i <= 39; ++i) print 10 * i, 10 * i + 5, i, 0.005 * i * i
+                 print "402 404.5 30 0.4\n400 405 40 8\n401 405 25 -0.2\n500 505 120 72" }' |
+      awk '{ m = 0.1 * $3 * $3
+             printf "%d,%s,%s,%d,%d,%.17g,100,%.17g,%.17g,60,%d,60.5,60,%g,0.003\n", NR, $1, $2, NR, NR, m / 100, 100 - $4, m, $3, 0.1 * $3 }'
+  } > a.csv
+  must_run rupture a.csv --label a -o r
+  for name in length pe stress; do pictures r-$name; done
+  grep -q '^a: 43 ruptures' out.txt || fail "$(cat out.txt)"
+  # Of the lengths below that of the fault: slope 2 without scatter.
+  grep -q '^# fit, without those of the whole fault: slope 2' r-length.csv || fail "$(head -3 r-length.csv)"
+  [ "$(awk -F, '$6 == 1' r-length.csv | wc -l)" = 1 ] || fail "ruptures of the whole fault"
+  # PE rose during one; of the others but those with another one beside them the drop is 0.05 times the moment.
+  grep -q '^# PE rose during 1 of 43 ruptures' r-pe.csv || fail "$(head -5 r-pe.csv)"
+  grep '^# fit of those alone in time: slope 1' r-pe.csv | grep -q 'n = 40.*ratio 0.05, scatter' || fail "$(head -5 r-pe.csv)"
+  awk -F, '!/^#/ && $6 == 0 { ++n; if ($4 != 160 && $4 != 90 && $4 != 62.5) exit 1 } END { exit n != 3 }' r-pe.csv ||
+    fail "ruptures at the same time: $(awk -F, '$6 == 0' r-pe.csv)"
+  grep -q 'means of half decades' r-stress.svg || fail "no means"
+  must_run rupture a.csv a.csv --label one --label two --no-picture -o t
+  [ "$(awk -F, '$2 == "two"' t-length.csv | wc -l)" = 43 ] || fail "two catalogues"
+  cut -d, -f1-11 a.csv > short.csv
+  refused 'short.csv: no catalogue of ruptures of a fault' rupture short.csv -o x
+  echo 5 0.01 | catalogue plain.csv 120
+  refused 'plain.csv: no catalogue of ruptures of a fault' rupture plain.csv -o x
+  refused '--event needs --history' rupture a.csv --event 3 -o x
+  refused 'a.csv: not a slip history' rupture a.csv --history a.csv -o x
+  head -6 a.csv > two.csv
+  refused 'expected at least 3' rupture two.csv -o x
   ;;
 *) fail "no case '$2'" ;;
 esac

@@ -50,6 +50,10 @@ Event some_event(std::int64_t id) {
   event.slip_moment = 0.7 * static_cast<double>(id);
   event.x_centroid = -1.25;
   event.rupture_length = 3.0;
+  event.x_hypocentre = 0.5;
+  event.x_begin = -0.75;
+  event.mean_slip = 0.125 * static_cast<double>(id);
+  event.stress_drop = -0.25;
   return event;
 }
 
@@ -99,23 +103,37 @@ TEST_F(CatalogueWrite, FormatToTheByte) {
 }
 
 TEST_F(CatalogueWrite, OptionalColumnsInEveryCombination) {
-  for (int mask = 0; mask < 8; ++mask) {
+  for (int mask = 0; mask < 128; ++mask) {
     SCOPED_TRACE(mask);
     CatalogueInfo info = some_info();
     info.slip_moment = mask & 1;
     info.x_centroid = mask & 2;
     info.rupture_length = mask & 4;
+    info.x_hypocentre = mask & 8;
+    info.x_begin = mask & 16;
+    info.mean_slip = mask & 32;
+    info.stress_drop = mask & 64;
     write_events(2, info);
     const Catalogue catalogue = LSM::read_catalogue(file());
     EXPECT_EQ(catalogue.info.slip_moment, info.slip_moment);
     EXPECT_EQ(catalogue.info.x_centroid, info.x_centroid);
     EXPECT_EQ(catalogue.info.rupture_length, info.rupture_length);
+    EXPECT_EQ(catalogue.info.x_hypocentre, info.x_hypocentre);
+    EXPECT_EQ(catalogue.info.x_begin, info.x_begin);
+    EXPECT_EQ(catalogue.info.mean_slip, info.mean_slip);
+    EXPECT_EQ(catalogue.info.stress_drop, info.stress_drop);
     ASSERT_EQ(catalogue.events.size(), 2U);
     EXPECT_EQ(catalogue.events[1].slip_moment, mask & 1 ? 1.4 : 0.0);
     EXPECT_EQ(catalogue.events[1].x_centroid, mask & 2 ? -1.25 : 0.0);
     EXPECT_EQ(catalogue.events[1].rupture_length, mask & 4 ? 3.0 : 0.0);
+    EXPECT_EQ(catalogue.events[1].x_hypocentre, mask & 8 ? 0.5 : 0.0);
+    EXPECT_EQ(catalogue.events[1].x_begin, mask & 16 ? -0.75 : 0.0);
+    EXPECT_EQ(catalogue.events[1].mean_slip, mask & 32 ? 0.25 : 0.0);
+    EXPECT_EQ(catalogue.events[1].stress_drop, mask & 64 ? -0.25 : 0.0);
   }
-  EXPECT_TRUE(contains(slurp(file()), ",pe_end,slip_moment,x_centroid,rupture_length\n"));
+  EXPECT_TRUE(contains(slurp(file()),
+                       ",pe_end,slip_moment,x_centroid,rupture_length,x_hypocentre,"
+                       "x_begin,mean_slip,stress_drop\n"));
 }
 
 TEST_F(CatalogueWrite, NumbersComeBackToTheLastBit) {
@@ -438,7 +456,9 @@ const std::vector<Bad> bad_headers = {
     {"unknown column", header + columns.substr(0, columns.size() - 1) + ",depth\n",
      ":6: column 9 is 'depth', expected slip_moment, x_centroid, rupture_length"},
     {"optional order", header + columns.substr(0, columns.size() - 1) + ",x_centroid,slip_moment\n",
-     ":6: column 10 is 'slip_moment', expected slip_moment, x_centroid, rupture_length, in this"},
+     ":6: column 10 is 'slip_moment', expected slip_moment, x_centroid, rupture_length, "
+     "x_hypocentre, x_begin, mean_slip, "
+     "stress_drop, in this"},
     {"torn columns", header + columns.substr(0, columns.size() - 1),
      ":6: truncated line of column names"}};
 

@@ -184,7 +184,8 @@ TEST_F(PackingOf40, FiguresAreThoseOfThePaper) {
               1e-12);
 }
 
-// The loose discs found again the slow way: take out any disc with fewer than three links until none is left.
+// The loose discs found again the slow way: take out any disc with fewer than three links until
+// none is left.
 TEST_F(PackingOf40, LooseDiscsAreExactlyThoseTakenOut) {
   LSM::PackingSettings s = settings(length);
   s.remove_loose = false;
@@ -217,7 +218,8 @@ TEST_F(PackingOf40, LooseDiscsAreExactlyThoseTakenOut) {
   }
   EXPECT_EQ(all.loose, loose);
   EXPECT_EQ(all.loose_tangent, loose_tangent);
-  EXPECT_GT(loose_tangent, 30);  // most of them lie at the fault: they were fitted to two discs and its line
+  EXPECT_GT(loose_tangent,
+            30);  // most of them lie at the fault: they were fitted to two discs and its line
   EXPECT_EQ(packing().loose, gone);
   EXPECT_EQ(packing().loose_tangent, gone_tangent);
   EXPECT_GT(gone, loose);  // some are only held by those
@@ -239,7 +241,8 @@ TEST_F(PackingOf40, EachDiscIsHeldInEveryDirection) {
     double dx = disc(l.second).x - disc(l.first).x;
     dx -= length * std::floor(dx / length + 0.5);
     const double dy = disc(l.second).y - disc(l.first).y, d = std::hypot(dx, dy);
-    for (const int i : {l.first, l.second}) normals.at(static_cast<std::size_t>(i)).emplace_back(dx / d, dy / d);
+    for (const int i : {l.first, l.second})
+      normals.at(static_cast<std::size_t>(i)).emplace_back(dx / d, dy / d);
   }
   double softest = 1e9;
   for (int i = 0; i < count(); ++i) {
@@ -248,7 +251,8 @@ TEST_F(PackingOf40, EachDiscIsHeldInEveryDirection) {
     for (int k = 0; k < 1800; ++k) {
       const double angle = k * std::acos(-1.0) / 1800.0, c = std::cos(angle), s = std::sin(angle);
       double sum = 0.0;
-      for (const auto &n : normals[static_cast<std::size_t>(i)]) sum += std::pow(n.first * c + n.second * s, 2);
+      for (const auto &n : normals[static_cast<std::size_t>(i)])
+        sum += std::pow(n.first * c + n.second * s, 2);
       softest = std::min(softest, sum);
     }
   }

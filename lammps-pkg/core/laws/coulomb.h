@@ -18,32 +18,34 @@ struct Coulomb : FrictionLaw {
     double kt, mu, mu_static;
   };
   static constexpr const char *name = "coulomb";
-  static constexpr Parameter parameters[] = {{"kt", Parameter::positive},
-                                             {"mu", Parameter::not_negative},
-                                             {"mu_static", Parameter::not_negative, Parameter::as_least, 1}};
+  static constexpr Parameter parameters[] = {
+      {"kt", Parameter::positive},
+      {"mu", Parameter::not_negative},
+      {"mu_static", Parameter::not_negative, Parameter::as_least, 1}};
   static constexpr bool named = false;
 
   static bool fits(const Coefficients &c) { return c.mu_static <= c.mu; }
-  static double elongation(const Coefficients &c, FrictionContact &s, double *)
-  {
+  static double elongation(const Coefficients &c, FrictionContact &s, double *) {
     return stick_or_slide(c.kt, s, c.mu * s.fn, c.mu * s.fn);
   }
 };
 
-/// The same with a static coefficient above the dynamic one (ours): a contact that did not slide holds up to it.
+/// The same with a static coefficient above the dynamic one (ours): a contact that did not slide
+/// holds up to it.
 struct CoulombStatic : Coulomb {
   static constexpr bool needs_sliding = true;
 
   /// Also of the block-slider.
-  static double friction(double mu_static, double mu, bool sliding) { return sliding ? mu : mu_static; }
+  static double friction(double mu_static, double mu, bool sliding) {
+    return sliding ? mu : mu_static;
+  }
 
   static bool fits(const Coefficients &) { return true; }
-  static double elongation(const Coefficients &c, FrictionContact &s, double *)
-  {
+  static double elongation(const Coefficients &c, FrictionContact &s, double *) {
     return stick_or_slide(c.kt, s, friction(c.mu_static, c.mu, s.sliding) * s.fn, c.mu * s.fn);
   }
 };
 
-}    // namespace LSM
+}  // namespace LSM
 
 #endif

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file friction_law.h
-/// What a friction law is. Every law acts through a tangential spring of stiffness kt (ours): in each step it says how
-/// far the spring stays stretched, and the rest of the displacement is slip. README.md of the package: how to add one.
+/// What a friction law is. Every law acts through a tangential spring of stiffness kt (ours): in
+/// each step it says how far the spring stays stretched, and the rest of the displacement is slip.
+/// README.md of the package: how to add one.
 #ifndef LSM_FRICTION_LAW_H
 #define LSM_FRICTION_LAW_H
 
@@ -11,46 +12,57 @@ namespace LSM {
 
 /// One contact in one step, as its law sees it. What a law does not need is not set.
 struct FrictionContact {
-  double fn;       ///< magnitude of the normal force now; 0 when contact was lost: all of xi is released
-  double xi;       ///< elongation of the tangential spring before the step
-  double dxi;      ///< tangential displacement of particle i relative to j in this step
-  double time;     ///< time that the displacement took, may be 0 where dxi is; set if the law needs_time
-  bool sliding;    ///< in: whether the contact slid in the step before, set if the law needs_sliding; out: slides now
+  double fn;  ///< magnitude of the normal force now; 0 when contact was lost: all of xi is released
+  double xi;  ///< elongation of the tangential spring before the step
+  double dxi;  ///< tangential displacement of particle i relative to j in this step
+  double
+      time;  ///< time that the displacement took, may be 0 where dxi is; set if the law needs_time
+  bool sliding;  ///< in: whether the contact slid in the step before, set if the law needs_sliding;
+                 ///< out: slides now
 
-  double trial() const { return xi + dxi; }    ///< elongation if nothing slips
+  double trial() const { return xi + dxi; }  ///< elongation if nothing slips
   double speed() const { return time > 0.0 ? std::fabs(dxi) / time : 0.0; }
 };
 
-/// A coefficient of a law by its name in pair_coeff. The first of each law is "kt", and the order is that of the
-/// members of the law's Coefficients, which are doubles.
+/// A coefficient of a law by its name in pair_coeff. The first of each law is "kt", and the order
+/// is that of the members of the law's Coefficients, which are doubles.
 struct Parameter {
   enum Range { positive, not_negative };
   static constexpr double required = -1.0, as_least = -2.0;
 
   const char *name;
   Range range;
-  double otherwise = required;    ///< value where it is not given; as_least: that of parameter `least`
-  int least = -1;                 ///< index of the parameter that it must not fall below, or -1
+  double otherwise =
+      required;    ///< value where it is not given; as_least: that of parameter `least`
+  int least = -1;  ///< index of the parameter that it must not fall below, or -1
 };
 
-/// A law derives from this and hides what is different. It also has a name, Coefficients, their parameters[], and
+/// A law derives from this and hides what is different. It also has a name, Coefficients, their
+/// parameters[], and
 ///   static double elongation(const Coefficients &c, FrictionContact &s, double *state),
-/// which returns the elongation afterwards and sets s.sliding, without which it must be the trial one.
+/// which returns the elongation afterwards and sets s.sliding, without which it must be the trial
+/// one.
 struct FrictionLaw {
-  static constexpr bool needs_time = false;       ///< s.time, for velocities
-  static constexpr bool needs_sliding = false;    ///< s.sliding of the step before
-  static constexpr int state_size = 0;            ///< numbers kept for each contact, the same seen from both particles
-  static constexpr bool named = true;             ///< pair_coeff gives 'name value' after kt, not values in order
+  static constexpr bool needs_time = false;     ///< s.time, for velocities
+  static constexpr bool needs_sliding = false;  ///< s.sliding of the step before
+  static constexpr int state_size =
+      0;  ///< numbers kept for each contact, the same seen from both particles
+  static constexpr bool named =
+      true;  ///< pair_coeff gives 'name value' after kt, not values in order
 
   /// State of a contact that begins.
-  template <class Coefficients> static void begin(const Coefficients &, double * /*state*/) {}
-  /// Whether the law can be run with these; laws of the same name are tried in the order of the list.
-  template <class Coefficients> static bool fits(const Coefficients &) { return true; }
+  template <class Coefficients>
+  static void begin(const Coefficients &, double * /*state*/) {}
+  /// Whether the law can be run with these; laws of the same name are tried in the order of the
+  /// list.
+  template <class Coefficients>
+  static bool fits(const Coefficients &) {
+    return true;
+  }
 };
 
 /// Sticks while the pull of the spring is at most `strength`, else slides at `dynamic`.
-inline double stick_or_slide(double kt, FrictionContact &s, double strength, double dynamic)
-{
+inline double stick_or_slide(double kt, FrictionContact &s, double strength, double dynamic) {
   const double trial = s.trial();
   s.sliding = kt * std::fabs(trial) > strength;
   return s.sliding ? std::copysign(dynamic / kt, trial) : trial;
@@ -58,24 +70,24 @@ inline double stick_or_slide(double kt, FrictionContact &s, double strength, dou
 
 /// What one step did to a contact.
 struct FrictionStep {
-  double xi;            ///< elongation of the tangential spring afterwards
-  double force;         ///< kt xi; the force on particle i is -force along the tangent
-  double slip;          ///< irreversible part of the displacement, with sign
-  double dissipated;    ///< work lost to friction in this step
-  bool sliding;         ///< whether the contact slides now
+  double xi;          ///< elongation of the tangential spring afterwards
+  double force;       ///< kt xi; the force on particle i is -force along the tangent
+  double slip;        ///< irreversible part of the displacement, with sign
+  double dissipated;  ///< work lost to friction in this step
+  bool sliding;       ///< whether the contact slides now
 };
 
-/// Dissipated work counts the slip only, with the mean of the tangential force before and after the step: this is
-/// the trapezoidal rule that velocity Verlet's energy balance needs.
+/// Dissipated work counts the slip only, with the mean of the tangential force before and after the
+/// step: this is the trapezoidal rule that velocity Verlet's energy balance needs.
 template <class Law>
-inline FrictionStep friction_step(const typename Law::Coefficients &c, FrictionContact s, double *state = nullptr)
-{
+inline FrictionStep friction_step(const typename Law::Coefficients &c, FrictionContact s,
+                                  double *state = nullptr) {
   const double xi = Law::elongation(c, s, state);
   if (!s.sliding) return {xi, c.kt * xi, 0.0, 0.0, false};
   const double slip = s.trial() - xi;
   return {xi, c.kt * xi, slip, 0.5 * c.kt * (s.xi + xi) * slip, s.sliding};
 }
 
-}    // namespace LSM
+}  // namespace LSM
 
 #endif

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file linear_spring.h
-/// Linear spring along the line of centres, Eqs. (1) and (2) of Weatherley & Abe 2004: links that hold and break,
-/// contacts that only repel. A positive force is attraction. The rest length of a pair is the sum of the two radii
-/// (ours: nothing per link is stored).
+/// Linear spring along the line of centres, Eqs. (1) and (2) of Weatherley & Abe 2004: links that
+/// hold and break, contacts that only repel. A positive force is attraction. The rest length of a
+/// pair is the sum of the two radii (ours: nothing per link is stored).
 #ifndef LSM_LAW_LINEAR_SPRING_H
 #define LSM_LAW_LINEAR_SPRING_H
 
@@ -19,11 +19,10 @@ struct Spring {
 inline bool link_is_broken(double r, double r0, double ratio) { return r > ratio * r0; }
 
 /// Eq. (2): magnitude of the repulsion of an unlinked pair, zero when apart.
-inline double contact_normal_force(double k, double r, double r0)
-{
+inline double contact_normal_force(double k, double r, double r0) {
   return r < r0 ? k * (r0 - r) : 0.0;
 }
 
-}    // namespace LSM
+}  // namespace LSM
 
 #endif

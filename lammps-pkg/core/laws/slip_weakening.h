@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file slip_weakening.h
-/// Linear slip weakening (Ida 1972, Andrews 1976): the strength falls from mu_static fn to mu fn over the slip dc. A
-/// contact that rests forgets its slip with the time constant `heal` (ours; not at all where that is 0, as in Andrews).
-/// The block-slider takes the same strength.
+/// Linear slip weakening (Ida 1972, Andrews 1976): the strength falls from mu_static fn to mu fn
+/// over the slip dc. A contact that rests forgets its slip with the time constant `heal` (ours; not
+/// at all where that is 0, as in Andrews). The block-slider takes the same strength.
 #ifdef LSM_FRICTION_LAW
 LSM_FRICTION_LAW(SlipWeakening)
 #endif
@@ -18,27 +18,28 @@ struct SlipWeakening : FrictionLaw {
     double kt, mu, mu_static, dc, heal;
   };
   static constexpr const char *name = "slip-weakening";
-  static constexpr Parameter parameters[] = {{"kt", Parameter::positive},
-                                             {"mu", Parameter::not_negative},
-                                             {"mu_static", Parameter::not_negative, Parameter::required, 1},
-                                             {"dc", Parameter::positive},
-                                             {"heal", Parameter::not_negative, 0.0}};
-  static constexpr bool needs_time = true;     // to heal
-  static constexpr int state_size = 1;         // slip, at most dc
+  static constexpr Parameter parameters[] = {
+      {"kt", Parameter::positive},
+      {"mu", Parameter::not_negative},
+      {"mu_static", Parameter::not_negative, Parameter::required, 1},
+      {"dc", Parameter::positive},
+      {"heal", Parameter::not_negative, 0.0}};
+  static constexpr bool needs_time = true;  // to heal
+  static constexpr int state_size = 1;      // slip, at most dc
 
   static void begin(const Coefficients &, double *slip) { *slip = 0.0; }
 
-  static double strength(double mu_static, double mu, double dc, double slip)
-  {
+  static double strength(double mu_static, double mu, double dc, double slip) {
     return slip < dc ? mu_static - (mu_static - mu) * (slip / dc) : mu;
   }
 
-  /// The slip of the step lowers the strength that it is reckoned with: kt (|trial| - x) = strength(slip + x) is
-  /// solved for x. Where strength falls faster than the spring relaxes, nothing stops the slip before mu fn.
-  static double elongation(const Coefficients &c, FrictionContact &s, double *slip)
-  {
+  /// The slip of the step lowers the strength that it is reckoned with: kt (|trial| - x) =
+  /// strength(slip + x) is solved for x. Where strength falls faster than the spring relaxes,
+  /// nothing stops the slip before mu fn.
+  static double elongation(const Coefficients &c, FrictionContact &s, double *slip) {
     const double fall = (c.mu_static - c.mu) * s.fn / c.dc;
-    const double excess = c.kt * std::fabs(s.trial()) - s.fn * strength(c.mu_static, c.mu, c.dc, *slip);
+    const double excess =
+        c.kt * std::fabs(s.trial()) - s.fn * strength(c.mu_static, c.mu, c.dc, *slip);
     s.sliding = excess > 0.0;
     if (!s.sliding) {
       if (c.heal > 0.0) *slip *= std::exp(-s.time / c.heal);
@@ -51,6 +52,6 @@ struct SlipWeakening : FrictionLaw {
   }
 };
 
-}    // namespace LSM
+}  // namespace LSM
 
 #endif

@@ -1,0 +1,411 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file lsm_slip_history.h
+/// Slip of a fault in space and time, for pictures and for finding its ruptures again (ours): the
+/// bins of lsm_ruptures.h, interval by interval while anything slips, many intervals in one record
+/// else.
+///
+/// Binary: 16 bytes "lsm-slip-hist-1\n", int64 length of the header, the header (lines
+/// "# key = value"), then records of
+///
+///     int64 step_begin, int64 step_end   the steps that the record is about
+///     double pe                          total potential energy at step_end
+///     bins times float slip              slip since step_begin
+///     bins times float work              work lost to friction since step_begin
+///     bins times float stress            shear stress, mean over the last interval
+///
+/// everything little-endian. The first record is the state before the first interval (step_begin =
+/// step_end, no slip); each of the others begins where the one before ended.
+#ifndef LSM_SLIP_HISTORY_H
+#define LSM_SLIP_HISTORY_H
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "lsm_binary_io.h"
+#include "lsm_ruptures.h"
+#include "lsm_text_io.h"
+
+namespace LSM {
+
+/// Unreadable or unwritable slip history; the message names file and record.
+class SlipHistoryError : public FileError {
+ public:
+  using FileError::FileError;
+};
+
+/// Header of a slip history.
+struct SlipHistoryInfo {
+  std::string model = "lsm";
+  FaultGrid grid;
+  RuptureSettings ruptures;
+  double driving = 0.0;    ///< velocity of one side of the fault relative to the other
+  std::int64_t quiet = 1;  ///< intervals in a record while nothing slips, at most
+  text_io::Parameters parameters;
+
+  /// Value of one of the other parameters, or nullptr.
+  const std::string *find(std::string_view key) const { return text_io::find(parameters, key); }
+};
+
+/// The fault between two steps.
+struct SlipRecord {
+  std::int64_t step_begin = 0, step_end = 0;
+  double pe = 0.0;
+  FaultRow row;
+};
+
+namespace slip_history_detail {
+
+constexpr std::string_view magic = "lsm-slip-hist-1\n";
+constexpr std::string_view family = "lsm-slip-hist-";
+constexpr std::int64_t most_bins = 1 << 20;
+
+/// Calls f(name, double &) or f(name, std::int64_t &) for each number of a header, in the order of
+/// the file.
+template <class Info, class F>
+void each_number(Info &info, F &&f) {
+  auto bins = static_cast<std::int64_t>(info.grid.bins);
+  f("bins", bins);
+  if constexpr (!std::is_const_v<Info>)
+    info.grid.bins = bins > 0 && bins <= most_bins ? static_cast<int>(bins) : 0;
+  f("x0", info.grid.x0);
+  f("bin", info.grid.width);
+  f("step0", info.grid.step0);
+  f("interval", info.grid.interval);
+  f("time0", info.grid.time0);
+  f("dt", info.grid.dt);
+  f("slip_velocity", info.ruptures.velocity);
+  auto gap = static_cast<std::int64_t>(info.ruptures.gap);
+  f("gap", gap);
+  if constexpr (!std::is_const_v<Info>)
+    info.ruptures.gap = gap >= 0 && gap <= most_bins ? static_cast<int>(gap) : -1;
+  f("memory_intervals", info.ruptures.memory);
+  f("modulus", info.ruptures.modulus);
+  f("driving", info.driving);
+  f("quiet", info.quiet);
+}
+
+inline text_io::Parameters header(const SlipHistoryInfo &info) {
+  text_io::Parameters all = {{"model", info.model}};
+  each_number(info, [&all](const char *name, const auto &value) {
+    all.emplace_back(name, text_io::number(value));
+  });
+  all.insert(all.end(), info.parameters.begin(), info.parameters.end());
+  return all;
+}
+
+/// What is wrong with the numbers of a header, or "".
+inline std::string fault(const SlipHistoryInfo &info) {
+  const FaultGrid &grid = info.grid;
+  if (info.model != "lsm") return "model is " + text_io::in_quotes(info.model) + ", expected 'lsm'";
+  if (grid.bins < 1) return "bins is not a number of bins, expected 1 to 1048576";
+  for (const auto &[name, value] : {std::pair<const char *, double>{"bin", grid.width},
+                                    {"dt", grid.dt},
+                                    {"modulus", info.ruptures.modulus}})
+    if (!(value > 0.0))
+      return std::string(name) + " is " + text_io::number(value) + ", expected a positive number";
+  for (const auto &[name, value] :
+       {std::pair<const char *, std::int64_t>{"interval", grid.interval},
+        {"memory_intervals", info.ruptures.memory},
+        {"quiet", info.quiet}})
+    if (value < 1)
+      return std::string(name) + " is " + text_io::number(value) + ", expected at least 1";
+  if (info.ruptures.gap < 0) return "gap is out of range, expected 0 to 1048576";
+  if (!(info.ruptures.velocity >= 0.0))
+    return "slip_velocity is " + text_io::number(info.ruptures.velocity) + ", expected at least 0";
+  return {};
+}
+
+/// Sorts the pairs of a header into info; returns what is wrong, or "".
+inline std::string interpret(const text_io::Parameters &all, SlipHistoryInfo &info) {
+  info = SlipHistoryInfo();
+  std::vector<std::string> known = {"model"};
+  std::string problem;
+  const std::string *model = text_io::find(all, "model");
+  if (!model) return "parameter 'model' is missing in the header, expected '# model = lsm'";
+  info.model = *model;
+  each_number(info, [&](const char *name, auto &value) {
+    known.emplace_back(name);
+    if (!problem.empty()) return;
+    const std::string *text = text_io::find(all, name);
+    if (!text)
+      problem = "parameter '" + std::string(name) + "' is missing in the header, expected '# " +
+                name + " = value'";
+    else if (!text_io::parse(*text, value))
+      problem = "parameter '" + std::string(name) + "' is " + text_io::in_quotes(*text) +
+                ", expected " +
+                (std::is_same_v<decltype(value), double &> ? "a finite number" : "an integer");
+  });
+  if (!problem.empty()) return problem;
+  for (const auto &parameter : all)
+    if (std::find(known.begin(), known.end(), parameter.first) == known.end())
+      info.parameters.push_back(parameter);
+  return fault(info);
+}
+
+inline std::int64_t record_bytes(const SlipHistoryInfo &info) {
+  return 24 + 12 * static_cast<std::int64_t>(info.grid.bins);
+}
+
+}  // namespace slip_history_detail
+
+/// Reads a slip history record by record. Anything unexpected throws; only a truncated last record,
+/// which a killed run leaves behind, is dropped when asked for (lenient).
+class SlipHistoryReader {
+ public:
+  /// \throws SlipHistoryError if the file cannot be read or its header is not as it should be.
+  explicit SlipHistoryReader(const std::string &path, bool lenient = false) : path_(path) {
+    using namespace slip_history_detail;
+    // Says what is wrong with folders and files that cannot be opened.
+    text_io::LineReader<SlipHistoryError>{path};
+    in_.open(path, std::ios::in | std::ios::binary);
+    std::array<char, 16> start{};
+    in_.read(start.data(), start.size());
+    const std::string_view found(start.data(), static_cast<std::size_t>(in_.gcount()));
+    if (found != magic)
+      throw SlipHistoryError(
+          path +
+          (found.substr(0, family.size()) == family
+               ? ": slip history of another version, expected version 1"
+               : ": not a slip history, expected a file that begins with 'lsm-slip-hist-1'"));
+    const binary_io::Header header = binary_io::read_header<SlipHistoryError>(in_, path);
+    const std::string problem = interpret(header.parameters, info_);
+    if (!problem.empty()) throw SlipHistoryError(path + ": " + problem);
+    bytes_.resize(static_cast<std::size_t>(record_bytes(info_)));
+    total_ = (header.size - header.begin) / record_bytes(info_);
+    torn_ = (header.size - header.begin) % record_bytes(info_) != 0;
+    kept_end_ = header.begin;
+    if (torn_ && !lenient)
+      throw SlipHistoryError(path + ": truncated record " + std::to_string(total_ + 1) +
+                             " at the end, expected " + std::to_string(record_bytes(info_)) +
+                             " bytes per record");
+  }
+
+  const SlipHistoryInfo &info() const { return info_; }
+  const std::string &path() const { return path_; }
+  bool torn() const { return torn_; }  ///< a truncated last record is dropped (lenient)
+  std::int64_t records() const { return total_; }
+
+  /// Next record; false at the end of the file. \throws SlipHistoryError
+  bool next(SlipRecord &record) {
+    using namespace binary_io;
+    if (records_ == total_) return false;
+    in_.read(bytes_.data(), static_cast<std::streamsize>(bytes_.size()));
+    if (in_.gcount() != static_cast<std::streamsize>(bytes_.size())) fail("cannot be read");
+    const char *at = bytes_.data();
+    record.step_begin = step_from_bytes(at);
+    record.step_end = step_from_bytes(at + 8);
+    record.pe = double_from_bytes(at + 16);
+    at += 24;
+    if (!std::isfinite(record.pe)) fail("pe is not finite, expected a finite number");
+    for (std::vector<float> *values : {&record.row.slip, &record.row.work, &record.row.stress}) {
+      values->resize(static_cast<std::size_t>(info_.grid.bins));
+      for (float &value : *values) {
+        value = float_from_bytes(at);
+        at += 4;
+        if (!std::isfinite(value))
+          fail("slip, work or stress of a bin is not finite, expected finite numbers");
+      }
+    }
+    check_steps(record);
+    last_end_ = record.step_end;
+    ++records_;
+    kept_end_ += static_cast<std::int64_t>(bytes_.size());
+    return true;
+  }
+
+ private:
+  friend class SlipHistoryWriter;
+
+  [[noreturn]] void fail(const std::string &what) const {
+    throw SlipHistoryError(path_ + ": record " + std::to_string(records_ + 1) + ": " + what);
+  }
+
+  void check_steps(const SlipRecord &record) const {
+    const std::string steps =
+        "steps " + std::to_string(record.step_begin) + " to " + std::to_string(record.step_end);
+    if (records_ == 0) {
+      if (record.step_begin != record.step_end)
+        fail(steps + ", expected the state before the first interval");
+    } else if (record.step_begin != last_end_) {
+      fail(steps + " after step " + std::to_string(last_end_) + ", expected records without gaps");
+    } else if (record.step_end <= record.step_begin) {
+      fail(steps + ", expected increasing steps");
+    }
+    // Differences of any two steps, also of nonsense ones, are below 2^64.
+    const auto since =
+        static_cast<std::uint64_t>(record.step_end) - static_cast<std::uint64_t>(info_.grid.step0);
+    if (record.step_end < info_.grid.step0 ||
+        since % static_cast<std::uint64_t>(info_.grid.interval) != 0)
+      fail(steps + ", expected whole intervals of " + std::to_string(info_.grid.interval) +
+           " steps from step " + std::to_string(info_.grid.step0));
+    if (!std::isfinite(info_.grid.time(record.step_end)))
+      fail("time of " + steps + " is not finite, expected a finite number");
+  }
+
+  std::string path_;
+  SlipHistoryInfo info_;
+  std::ifstream in_;
+  std::vector<char> bytes_;
+  std::int64_t total_ = 0, records_ = 0, last_end_ = 0;
+  std::int64_t kept_end_ = 0;  // offset behind the last record read
+  bool torn_ = false;
+};
+
+/// Writes a slip history. Each record is on its way to disk when it is complete.
+class SlipHistoryWriter {
+ public:
+  /// Starts a new file, replacing an older one (which stays if the new one cannot be written), with
+  /// the state at the given step. \throws SlipHistoryError; std::invalid_argument for a header that
+  /// could not be read back.
+  void create(const std::string &path, const SlipHistoryInfo &info, std::int64_t step, double pe,
+              const std::vector<float> &stress) {
+    using namespace slip_history_detail;
+    check(info);
+    file_.create(path, binary_io::header_bytes(magic, header(info)));
+    start(info, step);
+    SlipRecord first;
+    first.step_begin = first.step_end = step;
+    first.pe = pe;
+    first.row = FaultRow(info.grid.bins);
+    first.row.stress = stress;
+    put(first);
+  }
+
+  /// Goes on with the history of a run restarted with the given state(): checks that the header
+  /// says what create() would write (parameters named in ignore may differ; their old values stay),
+  /// and drops every record after that state and a torn last one. The file is left as it was if
+  /// this throws. \throws SlipHistoryError
+  void resume(const std::string &path, const SlipHistoryInfo &info,
+              const std::vector<double> &saved, const std::vector<std::string> &ignore = {}) {
+    using namespace slip_history_detail;
+    check(info);
+    file_.close();
+    const auto bins = static_cast<std::size_t>(info.grid.bins);
+    if (saved.size() != 4 + 3 * bins)
+      throw SlipHistoryError(path + ": cannot resume: the saved state is of another fault");
+    SlipHistoryReader reader(path, true);
+    const std::string problem = text_io::difference(header(reader.info()), header(info), ignore);
+    if (!problem.empty()) throw SlipHistoryError(path + ": cannot resume: " + problem);
+    const auto wanted = static_cast<std::int64_t>(saved[0]);
+    std::int64_t reached = 0, length = 0;
+    SlipRecord record;
+    while (reader.next(record) && record.step_end <= wanted) {
+      reached = record.step_end;
+      length = reader.kept_end_;
+    }
+    if (length == 0 || reached != wanted)
+      throw SlipHistoryError(
+          path + ": cannot resume: " +
+          (length == 0 ? "no records" : "records end at step " + std::to_string(reached)) +
+          ", expected them up to step " + std::to_string(wanted));
+    file_.append(path, length);
+    start(info, wanted);
+    pending_ = static_cast<std::int64_t>(saved[1]);
+    last_.step_end = static_cast<std::int64_t>(saved[2]);
+    last_.pe = saved[3];
+    for (std::size_t b = 0; b < bins; ++b) {
+      slip_[b] = saved[4 + b];
+      work_[b] = saved[4 + bins + b];
+      last_.row.stress[b] = static_cast<float>(saved[4 + 2 * bins + b]);
+    }
+  }
+
+  /// The next interval, which ends at the given step. active: something slips, or did so until a
+  /// moment ago. \throws SlipHistoryError
+  void add(std::int64_t step_end, double pe, const FaultRow &row, bool active) {
+    if (active) finish();
+    for (std::size_t b = 0; b < slip_.size(); ++b) {
+      slip_[b] += static_cast<double>(row.slip[b]);
+      work_[b] += static_cast<double>(row.work[b]);
+    }
+    last_.step_end = step_end;
+    last_.pe = pe;
+    last_.row.stress = row.stress;
+    ++pending_;
+    if (active || pending_ >= info_.quiet) finish();
+  }
+
+  /// For restarts, after any add().
+  std::vector<double> state() const {
+    std::vector<double> out = {static_cast<double>(begin_), static_cast<double>(pending_),
+                               static_cast<double>(last_.step_end), last_.pe};
+    out.insert(out.end(), slip_.begin(), slip_.end());
+    out.insert(out.end(), work_.begin(), work_.end());
+    out.insert(out.end(), last_.row.stress.begin(), last_.row.stress.end());
+    return out;
+  }
+
+  /// \throws SlipHistoryError. Also done on destruction, silently. What belongs to a record that is
+  /// not complete is lost.
+  void close() { file_.close(); }
+  bool is_open() const { return file_.is_open(); }
+
+ private:
+  static void check(const SlipHistoryInfo &info) {
+    const std::string problem = slip_history_detail::fault(info);
+    if (!problem.empty()) throw std::invalid_argument("slip history header: " + problem);
+    text_io::check_parameters(slip_history_detail::header(info));
+  }
+
+  void start(const SlipHistoryInfo &info, std::int64_t step) {
+    info_ = info;
+    begin_ = step;
+    pending_ = 0;
+    last_.row = FaultRow(info.grid.bins);
+    slip_.assign(last_.row.slip.size(), 0.0);
+    work_ = slip_;
+  }
+
+  /// Writes what was added since the last record.
+  void finish() {
+    if (pending_ == 0) return;
+    last_.step_begin = begin_;
+    for (std::size_t b = 0; b < slip_.size(); ++b) {
+      last_.row.slip[b] = static_cast<float>(slip_[b]);
+      last_.row.work[b] = static_cast<float>(work_[b]);
+      slip_[b] = work_[b] = 0.0;
+    }
+    put(last_);
+    begin_ = last_.step_end;
+    pending_ = 0;
+  }
+
+  void put(const SlipRecord &record) {
+    std::string bytes;
+    bytes.reserve(static_cast<std::size_t>(slip_history_detail::record_bytes(info_)));
+    binary_io::append_bytes(bytes, static_cast<std::uint64_t>(record.step_begin));
+    binary_io::append_bytes(bytes, static_cast<std::uint64_t>(record.step_end));
+    binary_io::append_bytes(bytes, record.pe);
+    for (const std::vector<float> *values :
+         {&record.row.slip, &record.row.work, &record.row.stress})
+      for (const float value : *values) {
+        if (!std::isfinite(value))
+          throw SlipHistoryError(file_.path() + ": cannot write step " +
+                                 std::to_string(record.step_end) +
+                                 ": slip, work or stress is not finite");
+        binary_io::append_bytes(bytes, value);
+      }
+    file_.write(bytes);
+  }
+
+  text_io::OutputFile<SlipHistoryError> file_;
+  SlipHistoryInfo info_;
+  std::int64_t begin_ = 0;    // of the record that is being put together
+  std::int64_t pending_ = 0;  // intervals in it
+  std::vector<double> slip_, work_;
+  SlipRecord last_;
+};
+
+}  // namespace LSM
+
+#endif

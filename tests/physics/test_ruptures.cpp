@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Ruptures of compute lsm/events: prescribed slip, a short fault, restart; and where location yes
+// finds an event.
+#include <cmath>
+#include <sstream>
+
+#include "fault_scene.h"
+#include "lsm_catalogue.h"
+#include "lsm_pe_series.h"
+#include "lsm_slip_history.h"
+#include "slow_ruptures.h"
+
+using namespace physics;
+
+using Ruptures = Fault;
+using Located = Lmp;
+
+/// Twenty upper discs (id 21 to 40), each right above a lower one (id 1 to 20), overlapping by
+/// 0.01; a period of 40.
+static std::string upper_and_lower(const std::string &compute) {
+  std::string script = R"(
+variable          newton index off
+units             lj
+dimension         2
+boundary          p f p
+newton            ${newton}
+atom_style        hybrid bond sphere
+atom_modify       map array
+comm_modify       mode single cutoff 4.5
+neighbor          0.4 bin
+neigh_modify      delay 0 every 1 check yes
+region            box block 0 40 -10 10 -0.5 0.5
+create_box        2 box
+)";
+  for (int type : {1, 2})
+    for (int n = 0; n < 20; ++n)
+      script += "create_atoms " + std::to_string(type) + " single " + std::to_string(2 * n + 1) +
+                (type == 1 ? " 0.0 0\n" : " 1.99 0\n");
+  return script + R"(
+set               group all diameter 2.0
+set               group all mass 1.0
+pair_style        lsm/friction
+pair_coeff        * * off
+pair_coeff        1 2 1.0 1.0 1e-5
+timestep          0.1
+thermo            1000
+compute           events all lsm/events overwrite yes )" +
+         compute + "\nthermo_style      custom step c_events c_events[2] c_events[5]\n";
+}
+
+/// The upper disc of each given bin moves along x at its velocity for so many steps.
+static std::string moved(const std::vector<std::pair<int, double>> &bins, int steps) {
+  std::string script, after;
+  for (const auto &[bin, velocity] : bins) {
+    const std::string name = "m" + std::to_string(bin);
+    script += "group " + name + " id " + std::to_string(21 + bin) + "\nfix " + name + " " + name +
+              " move linear " + text(velocity) + " 0 NULL\n";
+    after += "unfix " + name + "\ngroup " + name + " delete\n";
+  }
+  return script + "run " + std::to_string(steps) + "\n" + after;
+}
+
+static std::vector<LSM::SlipRecord> records_of(const std::string &path) {
+  LSM::SlipHistoryReader reader(path);
+  std::vector<LSM::SlipRecord> records;
+  LSM::SlipRecord record;
+  while (reader.next(record)) records.push_back(record);
+  return records;
+}
+
+/// The file without what has to differ between numbers of ranks: their number, and the last digits
+/// of PE.
+static std::string without_ranks_and_pe(const std::string &file) {
+  std::istringstream in(file);
+  std::string out;
+  for (std::string line; std::getline(in, line);) {
+    if (line.rfind("# ranks", 0) == 0) continue;
+    if (!line.empty() && line[0] != '#') {
+      std::vector<std::string> fields;
+      std::istringstream split(line);
+      for (std::string field; std::getline(split, field, ',');) fields.push_back(field);
+      line.clear();
+      for (std::size_t n = 0; n < fields.size(); ++n)
+        if (n != 6 && n != 7) line += fields[n] + ',';
+    }
+    out += line + '\n';
+  }
+  return out;
+}
+
+// The driving velocity is 0.001, so that bins slip above 0.005; an interval lasts 1.
+TEST_F(Ruptures, PrescribedSlipIsFoundOnAnyNumberOfRanks) {
+  const std::string script =
+      upper_and_lower(
+          "catalogue ${name}.csv history ${name}.slip events ruptures driving 0.001 slipping 5 "
+          "interval 10 "
+          "bin 2 gap 0 pause 1 modulus 0.5 quiet 4 block 7") +
+      moved({{19, 0.02}, {0, 0.02}, {5, 0.002}}, 10) +              // 1
+      moved({{19, 0.02}, {0, 0.02}, {5, 0.002}, {10, 0.03}}, 10) +  // 2
+      moved({{1, 0.04}, {10, 0.03}, {5, 0.002}}, 10) +              // 3
+      moved({{12, -0.05}, {5, 0.002}}, 10) +  // 4: 10 and 12 are not neighbours
+      moved({{5, 0.002}}, 60);
+  // along x, of an upper disc that went by d: the contact slips along its tangent, which turns; the
+  // step is finite
+  const auto slip = [](double d) { return 1.99 * std::atan(d / 1.99); };
+  const double close = 3e-5;
+  std::string first;
+  std::vector<LSM::Event> one;
+  for (const char *newton : {"off", "on"})
+    for (int ranks : {1, 2, 4}) {
+      SCOPED_TRACE(std::to_string(ranks) + " ranks, newton " + newton);
+      ASSERT_TRUE(succeeded(run_text(script, {{"name", "moved"}, {"newton", newton}}, ranks)));
+      const auto catalogue = LSM::read_catalogue(path("moved.csv"));
+      ASSERT_EQ(catalogue.events.size(), 3u);
+      const auto &a = catalogue.events[0], &b = catalogue.events[1], &c = catalogue.events[2];
+      // both ended with step 30; the one that began first comes first
+      EXPECT_EQ(a.step_start, 0);
+      EXPECT_EQ(a.step_end, 30);
+      EXPECT_EQ(b.step_start, 10);
+      EXPECT_EQ(b.step_end, 30);
+      EXPECT_EQ(c.step_start, 30);
+      EXPECT_EQ(c.step_end, 40);
+      EXPECT_NEAR(a.t_end, 3.0, 1e-12);
+      // across the seam: bins 19, 0 and 1 slipped 0.04 each
+      EXPECT_NEAR(a.slip_moment, 0.5 * 2.0 * 3.0 * slip(0.04), close * 0.12);
+      EXPECT_NEAR(a.mean_slip, slip(0.04), close * 0.04);
+      EXPECT_EQ(a.rupture_length, 6.0);
+      EXPECT_EQ(a.x_begin, 38.0);
+      EXPECT_NEAR(std::remainder(a.x_centroid - 1.0, 40.0), 0.0, 1e-3);
+      EXPECT_NEAR(b.slip_moment, slip(0.06), close * 0.06);
+      EXPECT_EQ(b.rupture_length, 2.0);
+      EXPECT_EQ(b.x_hypocentre, 21.0);
+      EXPECT_NEAR(b.x_centroid, 21.0, 1e-9);
+      // against the driven direction
+      EXPECT_NEAR(c.slip_moment, -slip(0.05), close * 0.05);
+      // friction: mu fn slip, fn 0.0097 on the way, and half of that in the first of 20 steps
+      EXPECT_NEAR(b.size, 1e-5 * 0.0097 * 0.06 * 0.975, 0.01 * 6e-9);
+      // upper discs that went by d press back by fn d / 2 each, over bins of 2
+      EXPECT_NEAR(a.stress_drop, 0.5 * 0.01 * 0.04 / 2.0, 0.05 * 1e-4);
+      EXPECT_NEAR(c.stress_drop, -0.5 * 0.01 * 0.05 / 2.0, 0.1 * 1.25e-4);
+      EXPECT_GT(a.pe_start, a.pe_end);
+
+      // all slip of the fault is in ruptures, or below the velocity: bin 5
+      const LSM::SlipHistoryInfo info = LSM::SlipHistoryReader(path("moved.slip")).info();
+      const auto slow = unit::slow_ruptures(info, records_of(path("moved.slip")));
+      EXPECT_NEAR(slow.slip_in_ruptures, 3.0 * slip(0.04) + slip(0.06) - slip(0.05), close * 0.23);
+      // the last of the ten intervals belongs to a record that is not complete
+      EXPECT_NEAR(slow.slip_elsewhere, slip(0.018), close * 0.018);
+      EXPECT_NEAR(a.slip_moment + b.slip_moment + c.slip_moment, 0.5 * 2.0 * slow.slip_in_ruptures,
+                  1e-12);
+
+      const std::string rest = without_ranks_and_pe(read_file(path("moved.csv")));
+      if (first.empty()) {
+        first = rest;
+        one = catalogue.events;
+      }
+      EXPECT_EQ(rest, first);
+      for (std::size_t n = 0; n < 3; ++n) {
+        EXPECT_NEAR(catalogue.events[n].pe_start, one[n].pe_start, 1e-13 * one[n].pe_start);
+        EXPECT_NEAR(catalogue.events[n].pe_end, one[n].pe_end, 1e-13 * one[n].pe_end);
+      }
+    }
+}
+
+static const char *const found =
+    "catalogue ${prefix}.csv series ${prefix}.pe binary history ${prefix}.slip events ruptures "
+    "slipping 2 interval 7 "
+    "pause 1.5 quiet 5 resume yes ";
+
+static std::string sheared(const std::string &events) {
+  return "variable prefix index whole\n" + fault_read() + fault_shear(events) + "thermo 1000\n";
+}
+
+static void expect_same_ruptures(const std::vector<LSM::Event> &a, const std::vector<LSM::Event> &b,
+                                 double tolerance) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t n = 0; n < a.size(); ++n) {
+    SCOPED_TRACE(n);
+    EXPECT_EQ(a[n].step_start, b[n].step_start);
+    EXPECT_EQ(a[n].step_end, b[n].step_end);
+    EXPECT_EQ(a[n].t_start, b[n].t_start);
+    EXPECT_EQ(a[n].t_end, b[n].t_end);
+    EXPECT_EQ(a[n].rupture_length, b[n].rupture_length);
+    EXPECT_NEAR(a[n].x_begin, b[n].x_begin, 1e-12);
+    EXPECT_NEAR(a[n].x_hypocentre, b[n].x_hypocentre, 1e-12);
+    EXPECT_NEAR(a[n].size, b[n].size, tolerance * std::fabs(a[n].size));
+    EXPECT_NEAR(a[n].slip_moment, b[n].slip_moment, tolerance * std::fabs(a[n].slip_moment));
+    EXPECT_NEAR(a[n].mean_slip, b[n].mean_slip, tolerance * std::fabs(a[n].mean_slip));
+    EXPECT_NEAR(a[n].stress_drop, b[n].stress_drop, tolerance);
+    EXPECT_NEAR(a[n].pe_start, b[n].pe_start, tolerance * a[n].pe_start);
+    EXPECT_NEAR(a[n].pe_end, b[n].pe_end, tolerance * a[n].pe_end);
+    EXPECT_NEAR(std::remainder(a[n].x_centroid - b[n].x_centroid, 40.0), 0.0, std::sqrt(tolerance));
+  }
+}
+
+// The same trajectory as with events pe, to the last bit; the same ruptures by a search through the
+// history.
+TEST_F(Ruptures, OfAFaultAreThoseOfItsSlipHistory) {
+  ASSERT_TRUE(
+      succeeded(run_text(sheared("catalogue plain.csv series plain.pe binary") + "run 6000\n")));
+  const Result r = run_text(sheared(found) + "run 6000\n", {{"prefix", "found"}});
+  ASSERT_TRUE(succeeded(r));
+  EXPECT_TRUE(read_file(path("plain.pe")) == read_file(path("found.pe")));
+
+  const auto catalogue = LSM::read_catalogue(path("found.csv"));
+  EXPECT_EQ(r.last("c_events"), static_cast<double>(catalogue.events.size()));
+  const LSM::SlipHistoryInfo info = LSM::SlipHistoryReader(path("found.slip")).info();
+  const auto records = records_of(path("found.slip"));
+  const unit::SlowRuptures slow = unit::slow_ruptures(info, records);
+  std::vector<LSM::Event> expected;
+  double written = 0.0;
+  std::size_t large = 0;
+  for (const auto &e : slow.events)
+    if (e.size > 0.0) {
+      expected.push_back(e);
+      written += e.slip_moment;
+      if (e.rupture_length > 3.0) ++large;
+    }
+  EXPECT_GT(large, 5u);
+  expect_same_ruptures(catalogue.events, expected, 1e-9);
+
+  // moments add up to the slip of the fault, which follows the plates
+  double moments = 0.0, total = 0.0;
+  for (const auto &e : catalogue.events) moments += e.slip_moment;
+  EXPECT_NEAR(moments, written, 1e-9 * written);
+  for (const auto &record : records)
+    for (const float slip : record.row.slip) total += static_cast<double>(slip);
+  EXPECT_NEAR(total, slow.slip_in_ruptures + slow.slip_elsewhere, 1e-9 * total);
+  EXPECT_LT(moments, info.ruptures.modulus * info.grid.width * total);
+  const double plates = r.last("f_plates[8]"), mean = total / info.grid.bins;
+  std::printf("%zu ruptures, %zu longer than 3; mean slip %.4g, plates %.4g\n", expected.size(),
+              large, mean, plates);
+  EXPECT_LT(mean, 1.05 * plates);
+  EXPECT_GT(mean, 0.7 * plates);
+}
+
+TEST_F(Ruptures, OfAFaultAgreeOnAllRankCounts) {
+  std::vector<LSM::Event> one;
+  for (int ranks : {1, 2, 4}) {
+    SCOPED_TRACE(ranks);
+    const std::string prefix = "ranks" + std::to_string(ranks);
+    ASSERT_TRUE(succeeded(run_text(sheared(found + std::string("slipping 1")) + "run 2000\n",
+                                   {{"prefix", prefix}}, ranks)));
+    const auto events = LSM::read_catalogue(path(prefix + ".csv")).events;
+    if (ranks == 1) one = events;
+    EXPECT_GT(events.size(), 2u);
+    expect_same_ruptures(one, events, 1e-6);
+  }
+}
+
+// The restart file is written within an interval, with ruptures open.
+TEST_F(Ruptures, GoOnFromARestartFile) {
+  for (int ranks : {1, 2}) {
+    SCOPED_TRACE(ranks);
+    const std::string tag = std::to_string(ranks);
+    const Result whole = run_text(sheared(found) + "restart 1502 cut." + tag + ".*\nrun 3000\n",
+                                  {{"prefix", "whole" + tag}}, ranks);
+    ASSERT_TRUE(succeeded(whole));
+    ASSERT_TRUE(succeeded(run_text(sheared(found) + "restart 1502 cut." + tag + ".*\nrun 2000\n",
+                                   {{"prefix", "resumed" + tag}}, ranks)));
+    const std::string again = "variable prefix index resumed" + tag +
+                              "\nnewton off\natom_style hybrid bond sphere\natom_modify map array\n"
+                              "comm_modify mode single cutoff 3.6\nread_restart cut." +
+                              tag +
+                              ".1502\n"
+                              "neighbor 0.4 bin\nneigh_modify delay 0 every 10 check yes\n" +
+                              fault_shear(found) + "thermo 1000\nrun 1498\n";
+    const Result second = run_text(again, {}, ranks);
+    ASSERT_TRUE(succeeded(second));
+    EXPECT_EQ(second.last("c_events"), whole.last("c_events"));
+    const auto a = LSM::read_catalogue(path("whole" + tag + ".csv")).events;
+    const auto b = LSM::read_catalogue(path("resumed" + tag + ".csv")).events;
+    std::size_t open = 0;
+    for (const auto &e : a)
+      if (e.step_start < 1500 && e.step_end > 1505) ++open;
+    EXPECT_GT(open, 0u) << "no rupture was open when the restart file was written";
+    expect_same_ruptures(a, b, 1e-6);
+    const auto x = records_of(path("whole" + tag + ".slip")),
+               y = records_of(path("resumed" + tag + ".slip"));
+    ASSERT_EQ(x.size(), y.size());
+    for (std::size_t n = 0; n < x.size(); ++n) {
+      EXPECT_EQ(x[n].step_begin, y[n].step_begin);
+      EXPECT_EQ(x[n].step_end, y[n].step_end);
+      EXPECT_NEAR(x[n].pe, y[n].pe, 1e-9 * x[n].pe);
+    }
+  }
+  // of a compute without ruptures there is nothing to go on with, and no file that it could belong
+  // to
+  const std::string state = fault_read() + fault_shear("catalogue bare.csv") +
+                            "thermo 1000\nrun 100\nwrite_restart bare\n";
+  ASSERT_TRUE(succeeded(run_text(state)));
+  const std::string from =
+      "variable prefix index found\nnewton off\natom_style hybrid bond sphere\n"
+      "atom_modify map array\ncomm_modify mode single cutoff 3.6\nread_restart bare\n"
+      "neighbor 0.4 bin\nneigh_modify delay 0 every 10 check yes\n";
+  ASSERT_TRUE(succeeded(run_text(sheared(found) + "run 100\n", {{"prefix", "there"}})));
+  EXPECT_TRUE(failed_with(run_text(from + fault_shear(found) + "run 10\n", {{"prefix", "there"}}),
+                          {"there.csv exists", "no ruptures of compute events"}));
+  ASSERT_TRUE(succeeded(run_text(from + fault_shear(found) + "run 100\n", {{"prefix", "begun"}})));
+  EXPECT_EQ(LSM::SlipHistoryReader(path("begun.slip")).info().grid.step0, 100);
+}
+
+TEST_F(Ruptures, OneLineOfError) {
+  const auto with = [](const std::string &compute) { return upper_and_lower(compute) + "run 0\n"; };
+  for (const auto &[compute, parts] : std::vector<std::pair<std::string, std::vector<std::string>>>{
+           {"events slips", {"events is 'slips', but must be pe or ruptures"}},
+           {"gap 2", {"keyword gap needs events ruptures"}},
+           {"history h.slip", {"keyword history needs events ruptures"}},
+           {"events ruptures location yes", {"location yes needs events pe"}},
+           {"events ruptures gap 1.5", {"gap is 1.5, but must be a number of bins"}},
+           {"events ruptures pause -1", {"pause is -1, but must be >= 0"}},
+           {"events ruptures interval 0", {"interval is 0, but must be at least 1"}},
+           {"events ruptures modulus 0.4", {"needs fix lsm/plates, or the keyword driving"}},
+           {"events ruptures driving 0.001",
+            {"needs bond style lsm/linked, or the keyword modulus"}},
+           {"events ruptures driving 0.001 modulus 1 history missing/h.slip",
+            {"missing/h.slip", "No such file"}}})
+    EXPECT_TRUE(failed_with(run_text(with(compute)), parts)) << compute;
+  EXPECT_TRUE(failed_with(
+      run_text(with("events ruptures driving 0.001 modulus 1 history h.slip overwrite no") +
+               "thermo_style one\nuncompute events\ncompute events all lsm/events events ruptures "
+               "driving 0.001 "
+               "modulus 1 history h.slip\nrun 0\n"),
+      {"history: file h.slip exists"}));
+}
+
+// Discs that move off those below lower PE; those that move back raise it, which ends the event.
+TEST_F(Located, MomentCentroidAndLengthOfAPrescribedEvent) {
+  const std::string script =
+      upper_and_lower("catalogue located.csv location yes bin 2 fraction 0.05 lambda 0") +
+      moved({}, 10) +                                              // at rest
+      moved({{19, 0.03}, {0, 0.04}, {1, 0.01}, {7, 0.001}}, 20) +  // 7 is below the fraction
+      moved({{19, -0.03}, {0, -0.04}, {1, -0.01}}, 10);
+  for (int ranks : {1, 2, 4}) {
+    SCOPED_TRACE(ranks);
+    ASSERT_TRUE(succeeded(run_text(script, {}, ranks)));
+    const auto catalogue = LSM::read_catalogue(path("located.csv"));
+    ASSERT_EQ(catalogue.events.size(), 1u);
+    const auto &e = catalogue.events[0];
+    EXPECT_EQ(e.step_start, 10);
+    EXPECT_EQ(e.step_end, 30);
+    // slips of 0.06, 0.08, 0.02 and 0.002, contacts of size 1
+    EXPECT_NEAR(e.slip_moment, 0.162, 1e-3 * 0.162);
+    EXPECT_EQ(e.rupture_length, 6.0);
+    double c = 0.0, s = 0.0;
+    for (const auto &[x, slip] : {std::pair(39.0, 0.06), std::pair(1.0, 0.08), std::pair(3.0, 0.02),
+                                  std::pair(15.0, 0.002)}) {
+      c += slip * std::cos(x * 2.0 * M_PI / 40.0);
+      s += slip * std::sin(x * 2.0 * M_PI / 40.0);
+    }
+    EXPECT_NEAR(std::remainder(e.x_centroid - std::atan2(s, c) * 40.0 / (2.0 * M_PI), 40.0), 0.0,
+                1e-3);
+    EXPECT_GE(e.x_centroid, 0.0);
+    EXPECT_LT(e.x_centroid, 40.0);
+    // what the springs of the four contacts lost
+    double drop = 0.0;
+    for (const double d : {0.06, 0.08, 0.02, 0.002})
+      drop += 0.5 * (0.01 * 0.01 - std::pow(2.0 - std::hypot(d, 1.99), 2));
+    EXPECT_NEAR(e.size, drop, 1e-3 * drop);
+  }
+}

@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lsm_random.h"
+#include "lsm_ruptures.h"
+#include "slow_ruptures.h"
+
+namespace {
+
+using LSM::Event;
+using LSM::FaultGrid;
+using LSM::FaultRow;
+using LSM::FaultSums;
+using LSM::RuptureFinder;
+using LSM::RuptureSettings;
+
+/// One line per interval, one character per bin; a digit is the slip of the bin in hundredths.
+using Pattern = std::vector<std::string>;
+
+/// Ten bins of width 2 from x = -5; intervals of 4 steps of 0.25; slips above 0.005 count.
+FaultGrid some_grid(int bins = 10) {
+  FaultGrid grid;
+  grid.bins = bins;
+  grid.x0 = -5.0;
+  grid.width = 2.0;
+  grid.step0 = 1000;
+  grid.interval = 4;
+  grid.time0 = 50.0;
+  grid.dt = 0.25;
+  return grid;
+}
+
+RuptureSettings some_settings(int gap = 0, std::int64_t memory = 1) {
+  RuptureSettings settings;
+  settings.velocity = 0.005;
+  settings.gap = gap;
+  settings.memory = memory;
+  settings.modulus = 0.5;
+  return settings;
+}
+
+/// Work is a tenth of the slip; the stress of bin b after interval n is 1 - n / 100 + b / 1000, and
+/// PE is -n.
+FaultRow row_of(const std::string &line, int n) {
+  FaultRow row(static_cast<int>(line.size()));
+  for (std::size_t b = 0; b < line.size(); ++b) {
+    if (line[b] != '.') row.slip[b] = 0.01F * static_cast<float>(line[b] - '0');
+    row.work[b] = 0.1F * row.slip[b];
+    row.stress[b] = 1.0F - 0.01F * static_cast<float>(n) + 0.001F * static_cast<float>(b);
+  }
+  return row;
+}
+
+/// Restores the finder from its state after each interval if asked for.
+std::vector<Event> find(Pattern pattern, const FaultGrid &grid, const RuptureSettings &settings,
+                        bool restarts = false) {
+  std::vector<Event> events;
+  RuptureFinder finder(grid, settings);
+  const std::string quiet(static_cast<std::size_t>(grid.bins), '.');
+  finder.begin(0.0, row_of(quiet, 0));
+  for (std::int64_t k = 0; k <= settings.memory; ++k) pattern.push_back(quiet);
+  int n = 0;
+  for (const std::string &line : pattern) {
+    ++n;
+    finder.add(-n, row_of(line, n), [&events](const Event &e) { events.push_back(e); });
+    if (!restarts) continue;
+    const std::vector<double> state = finder.state();
+    finder = RuptureFinder(grid, settings);
+    finder.set_state(state);
+  }
+  EXPECT_EQ(finder.open(), 0);
+  EXPECT_FALSE(finder.active());
+  return events;
+}
+
+/// The same as a history.
+std::vector<LSM::SlipRecord> records_of(Pattern pattern, const FaultGrid &grid,
+                                        std::int64_t memory) {
+  const std::string quiet(static_cast<std::size_t>(grid.bins), '.');
+  pattern.insert(pattern.begin(), quiet);
+  for (std::int64_t k = 0; k < memory; ++k) pattern.push_back(quiet);
+  std::vector<LSM::SlipRecord> records;
+  for (std::size_t n = 0; n < pattern.size(); ++n) {
+    LSM::SlipRecord r;
+    r.step_end = grid.step0 + grid.interval * static_cast<std::int64_t>(n);
+    r.step_begin = n > 0 ? r.step_end - grid.interval : r.step_end;
+    r.pe = -static_cast<double>(n);
+    r.row = row_of(pattern[n], static_cast<int>(n));
+    records.push_back(r);
+  }
+  return records;
+}
+
+constexpr double rounding = 1e-7;  // of floats
+
+TEST(FaultRuptures, OneWithAllItsNumbers) {
+  const std::vector<Event> events = find({"..........",  //
+                                          "..12......",  //
+                                          ".231......",  //
+                                          ".1........"},
+                                         some_grid(), some_settings());
+  ASSERT_EQ(events.size(), 1U);
+  const Event &e = events[0];
+  EXPECT_EQ(e.step_start, 1004);
+  EXPECT_EQ(e.step_end, 1016);
+  EXPECT_EQ(e.t_start, 51.0);
+  EXPECT_EQ(e.t_end, 54.0);
+  EXPECT_EQ(e.pe_start, -1.0);
+  EXPECT_EQ(e.pe_end, -4.0);
+  EXPECT_NEAR(e.size, 0.01, rounding);  // work: a tenth of 0.10
+  EXPECT_NEAR(e.slip_moment, 0.5 * 0.10 * 2.0, rounding);
+  EXPECT_EQ(e.rupture_length, 6.0);
+  EXPECT_EQ(e.x_begin, -3.0);
+  EXPECT_EQ(e.x_hypocentre, 2.0);  // bin 3 slips most in the first interval
+  EXPECT_NEAR(e.mean_slip, 0.1 / 3.0, rounding);
+  // Slips 3, 4, 3 in the bins 1, 2, 3, whose middle one has its centre at 0.
+  EXPECT_NEAR(e.x_centroid, 0.0, 1e-6);
+  // From interval 1, before it, to interval 5, the first after it.
+  EXPECT_NEAR(e.stress_drop, 0.04, rounding);
+}
+
+TEST(FaultRuptures, AcrossTheSeam) {
+  const std::vector<Event> events = find({"1.........",  //
+                                          "2........2",  //
+                                          "........3."},
+                                         some_grid(), some_settings());
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].rupture_length, 6.0);
+  EXPECT_EQ(events[0].x_begin, 11.0);
+  EXPECT_EQ(events[0].x_hypocentre, -4.0);
+  // Slips 3, 2, 3 in the bins 0, 9, 8: the middle one.
+  EXPECT_NEAR(events[0].x_centroid, 14.0, 1e-6);
+}
+
+TEST(FaultRuptures, SlipsBelowTheVelocityDoNotCount) {
+  RuptureSettings settings = some_settings();
+  settings.velocity = 0.015;
+  const std::vector<Event> events = find({"11211....."}, some_grid(), settings);
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].rupture_length, 2.0);
+  EXPECT_NEAR(events[0].slip_moment, 0.5 * 0.02 * 2.0, rounding);
+  // Exactly at the velocity is not above it: 0.25 is the same as a float and as a double.
+  FaultGrid grid = some_grid();
+  settings.velocity = 0.25 / grid.duration();
+  RuptureFinder finder(grid, settings);
+  FaultRow row(grid.bins);
+  finder.begin(0.0, row);
+  row.slip[3] = 0.25F;
+  finder.add(0.0, row, [](const Event &) {});
+  EXPECT_FALSE(finder.active());
+  row.slip[3] = std::nextafter(0.25F, 1.0F);
+  finder.add(0.0, row, [](const Event &) {});
+  EXPECT_TRUE(finder.active());
+}
+
+TEST(FaultRuptures, BackwardSlipCountsAndIsTakenOff) {
+  FaultGrid grid = some_grid();
+  RuptureFinder finder(grid, some_settings());
+  FaultRow row(grid.bins);
+  finder.begin(0.0, row);
+  row.slip[4] = 0.5F;
+  row.slip[5] = -0.25F;
+  std::vector<Event> events;
+  const auto keep = [&events](const Event &e) { events.push_back(e); };
+  finder.add(0.0, row, keep);
+  finder.add(0.0, FaultRow(grid.bins), keep);
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].slip_moment, 0.5 * 2.0 * 0.25);
+  EXPECT_EQ(events[0].rupture_length, 4.0);
+}
+
+TEST(FaultRuptures, GapsAndMemoryConnect) {
+  const Pattern hole = {"1..1......"};
+  EXPECT_EQ(find(hole, some_grid(), some_settings(1)).size(), 2U);
+  const std::vector<Event> bridged = find(hole, some_grid(), some_settings(2));
+  ASSERT_EQ(bridged.size(), 1U);
+  EXPECT_EQ(bridged[0].rupture_length, 8.0);
+  EXPECT_NEAR(bridged[0].mean_slip, 0.02 / 4.0, rounding);
+
+  const Pattern pause = {"1.........", "..........", "1........."};
+  EXPECT_EQ(find(pause, some_grid(), some_settings(0, 1)).size(), 2U);
+  EXPECT_EQ(find(pause, some_grid(), some_settings(0, 2)).size(), 1U);
+
+  // The gap across the seam counts, too; ends no farther apart than a gap close the ring.
+  const std::vector<Event> seam = find({"1.......1."}, some_grid(), some_settings(1));
+  ASSERT_EQ(seam.size(), 1U);
+  EXPECT_EQ(seam[0].x_begin, 11.0);
+  EXPECT_EQ(seam[0].rupture_length, 6.0);
+  const std::vector<Event> round = find({"1.1.1.1.1."}, some_grid(), some_settings(1));
+  ASSERT_EQ(round.size(), 1U);
+  EXPECT_EQ(round[0].rupture_length, 20.0);
+}
+
+TEST(FaultRuptures, RandomPatternsAgreeWithASearch) {
+  LSM::Random random(7);
+  std::size_t several = 0, holes = 0;
+  for (const int bins : {1, 2, 3, 7, 30})
+    for (const double density : {0.03, 0.1, 0.3})
+      for (const int gap : {0, 1, 3})
+        for (const std::int64_t memory : {1, 3})
+          for (int trial = 0; trial < 6; ++trial) {
+            const FaultGrid grid = some_grid(bins);
+            const RuptureSettings settings = some_settings(gap, memory);
+            Pattern pattern(50, std::string(static_cast<std::size_t>(bins), '.'));
+            for (std::string &line : pattern)
+              for (char &c : line)
+                if (random.uniform() < density)
+                  c = static_cast<char>('1' + static_cast<int>(9.0 * random.uniform()));
+            LSM::SlipHistoryInfo info;
+            info.grid = grid;
+            info.ruptures = settings;
+            const unit::SlowRuptures slow =
+                unit::slow_ruptures(info, records_of(pattern, grid, memory));
+            if (slow.events.size() > 2) ++several;
+            double moment = 0.0;
+            for (const Event &e : slow.events) moment += e.slip_moment;
+            ASSERT_NEAR(moment, settings.modulus * grid.width * slow.slip_in_ruptures, 1e-9);
+            ASSERT_EQ(slow.slip_elsewhere, 0.0);
+            for (const bool restarts : {false, true}) {
+              const std::vector<Event> found = find(pattern, grid, settings, restarts);
+              ASSERT_EQ(found.size(), slow.events.size());
+              for (std::size_t k = 0; k < found.size(); ++k) {
+                const Event &a = found[k], &b = slow.events[k];
+                ASSERT_EQ(a.step_start, b.step_start);
+                ASSERT_EQ(a.step_end, b.step_end);
+                ASSERT_EQ(a.t_end, b.t_end);
+                ASSERT_EQ(a.pe_start, b.pe_start);
+                ASSERT_EQ(a.pe_end, b.pe_end);
+                ASSERT_NEAR(a.size, b.size, 1e-12);
+                ASSERT_NEAR(a.slip_moment, b.slip_moment, 1e-12);
+                ASSERT_EQ(a.rupture_length, b.rupture_length);
+                ASSERT_EQ(a.x_begin, b.x_begin);
+                ASSERT_NEAR(a.mean_slip, b.mean_slip, 1e-12);
+                ASSERT_NEAR(a.stress_drop, b.stress_drop, 1e-12);
+                if (a.rupture_length < bins * grid.width / 2) {  // else slips may balance
+                  ASSERT_NEAR(std::remainder(a.x_centroid - b.x_centroid, grid.length()), 0, 1e-9);
+                  ASSERT_GE(a.x_centroid, grid.x0);
+                  ASSERT_LT(a.x_centroid, grid.x0 + grid.length());
+                }
+                if (gap > 0 && a.rupture_length < bins * grid.width) ++holes;
+              }
+            }
+          }
+  EXPECT_GT(several, 100U);
+  EXPECT_GT(holes, 100U);
+}
+
+TEST(FaultRuptures, HypocentreIsWhereMostSlippedFirst) {
+  // The two of the first interval meet later; the one that slipped more stays the first.
+  const std::vector<Event> events = find({"3...5.....",  //
+                                          "91.19.....",  //
+                                          ".111......"},
+                                         some_grid(), some_settings());
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].x_hypocentre, 4.0);
+  EXPECT_EQ(events[0].rupture_length, 10.0);
+}
+
+TEST(FaultRuptures, ImpossibleSettingsAndStatesAreRefused) {
+  EXPECT_THROW(RuptureFinder(some_grid(), some_settings(-1)), std::invalid_argument);
+  EXPECT_THROW(RuptureFinder(some_grid(), some_settings(0, 0)), std::invalid_argument);
+  RuptureFinder finder(some_grid(), some_settings());
+  finder.begin(0.0, row_of("..........", 0));
+  finder.add(0.0, row_of("12........", 1), [](const Event &) {});
+  const std::vector<double> state = finder.state();
+  RuptureFinder other(some_grid(9), some_settings());
+  EXPECT_THROW(other.set_state(state), std::invalid_argument);
+  for (std::size_t n = 0; n < state.size(); ++n)
+    EXPECT_THROW(finder.set_state({state.begin(), state.begin() + static_cast<long>(n)}),
+                 std::invalid_argument);
+  EXPECT_NO_THROW(finder.set_state(state));
+}
+
+// ---- contacts to bins ----
+
+TEST(FaultSums, MeanOfTheContactsAndStress) {
+  const FaultGrid grid = some_grid();
+  FaultSums sums(grid);
+  // Two contacts in bin 2 in each of 4 steps, one of them seen by two ranks; one in bin 9.
+  for (int step = 0; step < 4; ++step) {
+    sums.add(-0.5, 0.01, 0.002, 0.1, 1.0);
+    sums.add(0.5, 0.03, 0.006, 0.3, 0.5);
+    sums.add(0.5, 0.03, 0.006, 0.3, 0.5);
+    sums.add(14.9 - 20.0, 0.002, 0.0, 0.0, 1.0);
+  }
+  const FaultRow row = LSM::fault_row(grid, sums.values().data(), 4);
+  EXPECT_FLOAT_EQ(row.slip[2], 4 * 0.02F);
+  EXPECT_FLOAT_EQ(row.work[2], 4 * 0.008F);
+  EXPECT_FLOAT_EQ(row.stress[2], 0.4F / 2.0F);
+  EXPECT_FLOAT_EQ(row.slip[9], 4 * 0.002F);
+  // Bins without contacts: linear in between, across the seam, too.
+  EXPECT_FLOAT_EQ(row.slip[3], 4 * (0.02F - 0.018F / 7.0F));
+  EXPECT_FLOAT_EQ(row.slip[8], 4 * (0.002F + 0.018F / 7.0F));
+  EXPECT_FLOAT_EQ(row.slip[0], 4 * 0.008F);
+  EXPECT_FLOAT_EQ(row.slip[1], 4 * 0.014F);
+  EXPECT_EQ(row.work[3], 0.0F);
+  EXPECT_EQ(row.stress[3], 0.0F);
+}
+
+TEST(FaultSums, ContactOfOneStepGivesAVelocity) {
+  FaultSums sums(some_grid());
+  sums.add(0.0, 0.01, 0.0, 0.0, 1.0);
+  const FaultRow row = LSM::fault_row(some_grid(), sums.values().data(), 4);
+  for (const float slip : row.slip) EXPECT_FLOAT_EQ(slip, 0.04F);
+  sums.clear();
+  const FaultRow none = LSM::fault_row(some_grid(), sums.values().data(), 4);
+  for (const float slip : none.slip) EXPECT_EQ(slip, 0.0F);
+}
+
+TEST(FaultSums, EdgesAndPlacesOutsideTheBoxHaveABin) {
+  for (const double x : {-5.0, 14.999999999999998, 15.0, 1e9, -1e9, std::nextafter(-5.0, -6.0)}) {
+    FaultSums sums(some_grid());
+    sums.add(x, 0.01, 0.0, 0.0, 1.0);
+    double contacts = 0.0;
+    for (std::size_t b = 0; b < 10; ++b) contacts += sums.values()[FaultSums::fields * b + 1];
+    EXPECT_EQ(contacts, 1.0) << x;
+  }
+}
+
+}  // namespace
