@@ -91,7 +91,7 @@ build() {
 # run_tests COLUMN PATTERN LOG: how many passed, in words
 run_tests() {
   local rc=0 log=$folder/$3.tests.log
-  ctest --test-dir "$folder/$1" -R "$2" --no-tests=error --output-on-failure >"$log" 2>&1 || rc=$?
+  ctest --test-dir "$folder/$1" -R "$2" --no-tests=error --output-on-failure --repeat after-timeout:3 >"$log" 2>&1 || rc=$?
   sed -n 's/^\([0-9]*%\) tests passed, \([0-9]*\) tests failed out of \([0-9]*\)/\3 run, \2 failed/p' "$log"
   return $rc
 }
