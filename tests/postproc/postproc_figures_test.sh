@@ -78,7 +78,8 @@ intervals)
       if ($7 != (n == 1 ? 100 : 50)) exit 1
       t = n == 1 ? 5 : 50; if (!($4 <= t && t < $5)) exit 1 }
     END { exit n != 2 }' i.csv || fail "densities: $(cat i.csv)"
-  grep -q '150 inter-event times, mean 20 model time' out.txt || fail "mean: $(cat out.txt)"
+  grep -q '150 inter-event times, mean 20 model time, standard deviation 1.064 of the mean' out.txt ||
+    fail "mean: $(cat out.txt)"
   grep -q 'LSM .*0.995 .*1.00 .*15.21 .*0.0573' out.txt || fail "printed Table 1: $(cat out.txt)"
   grep -q '^printed,,,0.0,,1.00,,100.0,,0.25,,,,,,,Block-Slider,' i.table1.csv || fail "$(cat i.table1.csv)"
   # Every second event is large: times of 10 and 100.
@@ -366,6 +367,11 @@ rupture)
   refused 'short.csv: no catalogue of ruptures of a fault' rupture short.csv -o x
   echo 5 0.01 | catalogue plain.csv 120
   refused 'plain.csv: no catalogue of ruptures of a fault' rupture plain.csv -o x
+  # Of the places 15, 45, 75 and 105 only 75 is reached by more than the one rupture of the whole fault: by 28.
+  must_run intervals a.csv --threshold 0 --places 4 --no-picture -o p
+  grep -q ': 27 inter-event times, mean' out.txt && grep -q 'times at 4 places each' out.txt || fail "$(cat out.txt)"
+  refused 'plain.csv: --places: no columns x_begin and rupture_length' intervals plain.csv --places 4 -o x
+  refused '--places' intervals a.csv --places -1 -o x
   refused '--event needs --history' rupture a.csv --event 3 -o x
   refused 'a.csv: not a slip history' rupture a.csv --history a.csv -o x
   head -6 a.csv > two.csv
