@@ -56,7 +56,8 @@ TEST(TwoSample, FalseAlarmsAsOftenAsStated) {
   const double slack = 3.0 * std::sqrt(trials * 0.05 * 0.95);
   EXPECT_NEAR(alarms(trials, 0.0, 1), 0.05 * trials, slack);
   EXPECT_NEAR(alarms(trials, 0.0, 0), 0.05 * trials, slack);
-  // With a memory of some events blocks are needed; in 2000 trials 6 % differ with them, 28 % without.
+  // With a memory of some events blocks are needed; in 2000 trials 6 % differ with them, 28 %
+  // without.
   EXPECT_GT(alarms(trials, 0.6, 1), 0.2 * trials);
   EXPECT_NEAR(alarms(trials, 0.6, 0), 0.05 * trials, slack);
 }
