@@ -350,7 +350,11 @@ rupture)
              printf "%d,%s,%s,%d,%d,%.17g,100,%.17g,%.17g,60,%d,60.5,60,%g,0.003\n", NR, $1, $2, NR, NR, m / 100, 100 - $4, m, $3, 0.1 * $3 }'
   } > a.csv
   must_run rupture a.csv --label a -o r
-  for name in length pe stress; do pictures r-$name; done
+  for name in lengths moments length pe stress; do pictures r-$name; done
+  # Lengths 1 to 39 once each, and 40, 30, 25, 120: 43 in all; 8 from 25 to 30; T = 495.
+  awk -F, '!/^#/ && !/^curve/ { n += $6; if ($3 == 24.5 && $6 != 8) exit 1
+    d = $6 / (495 * 120 * ($4 - $3)); if (($7 - d) ^ 2 > 1e-18 * d * d) exit 1 } END { exit n != 43 }' r-lengths.csv ||
+    fail "densities of lengths: $(cat r-lengths.csv)"
   grep -q '^a: 43 ruptures' out.txt || fail "$(cat out.txt)"
   # Of the lengths below that of the fault: slope 2 without scatter.
   grep -q '^# fit, without those of the whole fault: slope 2' r-length.csv || fail "$(head -3 r-length.csv)"
