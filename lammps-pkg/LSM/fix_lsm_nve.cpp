@@ -29,6 +29,9 @@
 using namespace LAMMPS_NS;
 using namespace FixConst;
 
+static constexpr double NEARLY_CLOSED =
+    1.05;    // distance over sum of radii of contacts that may close soon
+
 /* ---------------------------------------------------------------------- */
 
 FixLSMNVE::FixLSMNVE(LAMMPS *_lmp, int narg, char **arg) :
@@ -219,9 +222,26 @@ void FixLSMNVE::setup(int /*vflag*/)
     error->warning(FLERR,
                    "Fix lsm/nve {}: the stability limit of the time step does not know of {}", id,
                    foreign);
-  omega = highest_frequency();
+  omega = highest_frequency(NEARLY_CLOSED);
   dt_limit = omega > 0.0 ? 2.0 / omega : 0.0;
+  const bool went_on = goes_on;
+  goes_on = true;
   if (omega == 0.0 || update->dt <= dt_limit) return;
+
+  // foresight may refuse a start, but not a run that has come far already
+
+  if (went_on && check == ERROR) {
+    const double closed = highest_frequency(1.0);
+    if (closed == 0.0 || update->dt <= 2.0 / closed) {
+      if (comm->me == 0)
+        error->warning(
+            FLERR,
+            "Time step {} is above the stability limit {:.6g} with the contacts that are nearly "
+            "closed, below that of the closed ones, {:.6g}; this run goes on",
+            update->dt, dt_limit, closed > 0.0 ? 2.0 / closed : INFINITY);
+      return;
+    }
+  }
   if (check == ERROR)
     error->all(FLERR,
                "Time step {} is above the stability limit {:.6g} of the links and contacts (2 / "
@@ -317,10 +337,10 @@ void FixLSMNVE::post_run()
 
 /* ----------------------------------------------------------------------
    Bound of the highest frequency of the network of links and contacts, see lsm_frequency.h. Pairs closer
-   than 1.05 of touching count as contacts that are there.
+   than reach_factor of touching count as contacts that are there.
 ------------------------------------------------------------------------- */
 
-double FixLSMNVE::highest_frequency()
+double FixLSMNVE::highest_frequency(double reach_factor)
 {
   const int nlocal = atom->nlocal;
   const int dim = domain->dimension == 3 ? 3 : 2;
@@ -350,7 +370,7 @@ double FixLSMNVE::highest_frequency()
       const int i = list->ilist[ii];
       for (int jj = 0; jj < list->numneigh[i]; jj++) {
         const int j = list->firstneigh[i][jj] & NEIGHMASK;
-        const double reach = 1.05 * (atom->radius[i] + atom->radius[j]);
+        const double reach = reach_factor * (atom->radius[i] + atom->radius[j]);
         const double dx = x[i][0] - x[j][0], dy = x[i][1] - x[j][1], dz = x[i][2] - x[j][2];
         if (dx * dx + dy * dy + dz * dz > reach * reach) continue;
         const int it = atom->type[i], jt = atom->type[j];
@@ -460,6 +480,7 @@ void FixLSMNVE::restart(char *buf)
 {
   double total;
   memcpy(&total, buf, sizeof(double));
+  goes_on = true;
   work_viscosity = comm->me == 0 ? total : 0.0;
 }
 
