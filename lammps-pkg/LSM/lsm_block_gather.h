@@ -16,7 +16,7 @@ namespace LAMMPS_NS {
 
 class LSMBlockGather {
  public:
-  /// slip: the blocks hold slips; nobody else may use these numbers of messages meanwhile
+  /// slip: the blocks hold slips
   LSMBlockGather(MPI_Comm, bool slip);
   ~LSMBlockGather();
   LSMBlockGather(const LSMBlockGather &) = delete;

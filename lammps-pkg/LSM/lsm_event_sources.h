@@ -40,8 +40,8 @@ class LSMEventSources : protected Pointers {
   bool has_links() const { return links_; }
 
   double pe() const;    ///< this rank's share
-  void pe_by_kind(
-      double *) const;    ///< links, contacts and their tangential springs, this rank's shares
+  /// Links, contacts and their tangential springs, this rank's shares; three numbers.
+  void pe_by_kind(double *) const;
   double max_strain() const;            ///< of this rank's links
   LSM::EnergyTerms energies() const;    ///< of all ranks; works since these styles began
   void complete_steps() const;          ///< velocities and positions of the same time
