@@ -93,12 +93,19 @@ void ComputeLSMEvents::init()
                id, id);
   sources.check(recorder, options.ledger);
   sources.find(options.ledger);
-  if (settings.ruptures && sources.leap())
+  const bool leaps = sources.leap() != nullptr;
+  if (leaps && !settings.history_file.empty())
+    error->all(
+        FLERR,
+        "Compute lsm/events {}: history does not work with fix lsm/leap, as the intervals of "
+        "a slip history are all as long; leave it out",
+        id);
+  if (opened && leaps != settings.own_times)
     error->all(FLERR,
-               "Compute lsm/events {}: events ruptures does not work with fix lsm/leap, as "
-               "intervals of ruptures are"
-               " as long as others; use events pe",
-               id);
+               "Compute lsm/events {}: fix lsm/leap {} since the files of this compute were begun; "
+               "uncompute it before, and begin others",
+               id, leaps ? "was defined" : "is gone");
+  settings.own_times = leaps;
 
   // the first run decides, as the headers of the files hold it
 

@@ -25,6 +25,7 @@
 using namespace LAMMPS_NS;
 using namespace FixConst;
 
+static constexpr double RESTART_WITH_CHANGES = -2.0;    // where others had a time
 static constexpr bigint KEPT_STEPS =
     20000;    // of changes of the rate, for steps that are looked at later
 
@@ -33,8 +34,7 @@ static constexpr bigint KEPT_STEPS =
 FixLSMLeap::FixLSMLeap(LAMMPS *_lmp, int narg, char **arg) :
     Fix(_lmp, narg, arg), fast(0.00025), slip(0.5), calm(10.0), rest(10.0), viscosity(0.1),
     ramp(15.0), between(1.5), plates(nullptr), dt(update->dt), loading_energy(0.0), state(EVENT),
-    factor(1.0), since(0.0), steps_time(0.0), leap_time(0.0), stops(0.0), restored(false),
-    restored_time(0.0)
+    factor(1.0), since(0.0), steps_time(0.0), leap_time(0.0), stops(0.0), begun(false)
 {
   scalar_flag = 1;
   vector_flag = 1;
@@ -130,7 +130,7 @@ void FixLSMLeap::init()
 
 void FixLSMLeap::reset_dt()
 {
-  if (!changes.empty() && dt != update->dt)
+  if (begun && dt != update->dt)
     error->all(FLERR,
                "Fix lsm/leap {}: the time step changed from {} to {}, but must stay the same", id,
                dt, update->dt);
@@ -142,6 +142,8 @@ void FixLSMLeap::reset_dt()
 
 void FixLSMLeap::setup(int /*vflag*/)
 {
+  begun = true;
+
   // uniform shear between the plates: v grows from -fast to fast over the width
 
   double mass = 0.0, all;
@@ -153,9 +155,9 @@ void FixLSMLeap::setup(int /*vflag*/)
   if (changes.empty()) {
     const double now =
         update->atime + static_cast<double>(update->ntimestep - update->atimestep) * dt;
-    changes.push_back({update->ntimestep, restored ? restored_time : now, factor});
+    changes.push_back({update->ntimestep, now, factor * dt});
   } else {
-    changes.push_back({update->ntimestep, model_time(update->ntimestep), factor});
+    changes.push_back({update->ntimestep, model_time(update->ntimestep), factor * dt});
   }
   set_factor(
       MIN(factor,
@@ -168,10 +170,10 @@ void FixLSMLeap::setup(int /*vflag*/)
 
 double FixLSMLeap::model_time(bigint step) const
 {
-  if (changes.empty()) return restored ? restored_time : update->atime;
+  if (changes.empty()) return update->atime;
   auto last = changes.rbegin();
   while (last->step > step && std::next(last) != changes.rend()) ++last;
-  return last->time + static_cast<double>(step - last->step) * dt * last->rate;
+  return last->time + static_cast<double>(step - last->step) * last->rate;
 }
 
 std::string FixLSMLeap::settings() const
@@ -188,7 +190,7 @@ void FixLSMLeap::set_factor(double value)
 {
   if (value == factor) return;
   const bigint now = update->ntimestep;
-  changes.push_back({now, model_time(now), value});
+  changes.push_back({now, model_time(now), value * dt});
   while (changes.size() > 2 && changes[1].step < now - KEPT_STEPS) changes.pop_front();
   factor = plates->loading = value;
 }
@@ -274,30 +276,46 @@ double FixLSMLeap::compute_vector(int n)
 
 void FixLSMLeap::write_restart(FILE *fp)
 {
-  const double values[7] = {model_time(update->ntimestep),
-                            static_cast<double>(state),
-                            factor,
-                            since,
-                            steps_time,
-                            leap_time,
-                            stops};
-  if (comm->me == 0) {
-    const int size = sizeof(values);
-    fwrite(&size, sizeof(int), 1, fp);
-    fwrite(values, sizeof(double), 7, fp);
-  }
+  if (comm->me != 0) return;
+  std::vector<double> values = {RESTART_WITH_CHANGES,
+                                model_time(update->ntimestep),
+                                static_cast<double>(state),
+                                factor,
+                                since,
+                                steps_time,
+                                leap_time,
+                                stops,
+                                static_cast<double>(changes.size())};
+  for (const Change &c : changes)
+    values.insert(values.end(), {static_cast<double>(c.step), c.time, c.rate});
+  const int size = static_cast<int>(values.size() * sizeof(double));
+  fwrite(&size, sizeof(int), 1, fp);
+  fwrite(values.data(), sizeof(double), values.size(), fp);
 }
+
+/* ----------------------------------------------------------------------
+   events that are still open began before the restart, so that earlier changes of the rate count
+------------------------------------------------------------------------- */
 
 void FixLSMLeap::restart(char *buf)
 {
-  double values[7];
+  double values[9];
+  memcpy(values, buf, sizeof(double));
+  if (values[0] != RESTART_WITH_CHANGES)
+    error->all(FLERR, "Fix lsm/leap {}: the restart file is of an older version of the package",
+               id);
   memcpy(values, buf, sizeof(values));
-  restored_time = values[0];
-  restored = true;
-  state = static_cast<int>(values[1]);
-  factor = values[2];
-  since = values[3];
-  steps_time = values[4];
-  leap_time = values[5];
-  stops = values[6];
+  state = static_cast<int>(values[2]);
+  factor = values[3];
+  since = values[4];
+  steps_time = values[5];
+  leap_time = values[6];
+  stops = values[7];
+  changes.clear();
+  const char *from = buf + sizeof(values);
+  for (int n = 0; n < static_cast<int>(values[8]); n++, from += 3 * sizeof(double)) {
+    double change[3];
+    memcpy(change, from, sizeof(change));
+    changes.push_back({static_cast<bigint>(change[0]), change[1], change[2]});
+  }
 }

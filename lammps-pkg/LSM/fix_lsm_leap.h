@@ -36,6 +36,7 @@ class FixLSMLeap : public Fix {
 
   double model_time(bigint step) const;    // at a step that was done in the last 10 000 steps or so
   std::string settings() const;            // for headers of files
+  double fastest() const { return fast; }
 
  private:
   enum { EVENT, SETTLE, LEAP };
@@ -62,7 +63,7 @@ class FixLSMLeap : public Fix {
 
   struct Change {
     bigint step;
-    double time, rate;
+    double time, rate;    // rate: model time of a step
   };
   std::deque<Change> changes;
   int state;
@@ -71,8 +72,7 @@ class FixLSMLeap : public Fix {
   double steps_time;    // time of the steps done under this fix
   double leap_time;     // those of them while leaping
   double stops;         // leaps that ended
-  bool restored;
-  double restored_time;
+  bool begun;           // the time step is fixed
 
   double kinetic() const;
   void look();

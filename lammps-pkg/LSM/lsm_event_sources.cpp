@@ -136,6 +136,7 @@ void LSMEventSources::release()
 void LSMEventSources::find_driving(LSM::EventSettings &settings) const
 {
   if (plates_ && plates_->driving() < 0.0) settings.forward = -1.0;
+  if (settings.driving == 0.0 && leap_) settings.driving = 2.0 * leap_->fastest();
   if (settings.driving == 0.0 && plates_) settings.driving = fabs(plates_->driving());
   if (settings.driving == 0.0)
     error->all(FLERR, "Compute lsm/events events ruptures needs {}, or the keyword driving",

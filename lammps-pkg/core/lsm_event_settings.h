@@ -29,7 +29,8 @@ struct EventSettings {
   bool resume = false;     ///< go on with files that exist, from a restart
   bool overwrite = false;  ///< replace files that exist
 
-  bool ruptures = false;  ///< events are ruptures, not drops of PE
+  bool ruptures = false;   ///< events are ruptures, not drops of PE
+  bool own_times = false;  ///< steps and time are not proportional
   PickerSettings picker;
   bool tangential = true;      ///< tangential springs count as PE
   bool location = false;       ///< slip moment, centroid and rupture length of each event
@@ -38,7 +39,7 @@ struct EventSettings {
 
   // Of ruptures:
   double slipping = 5.0;  ///< multiple of the driving velocity above which a bin slips
-  double driving = 0.0;   ///< velocity of one side of the fault relative to the other
+  double driving = 0.0;   ///< velocity that slip counts against
   double forward = 1.0;   ///< direction of the upper side along x: 1 or -1
   int interval = 10;      ///< steps over which the slip of a bin is taken together
   int gap = 1;            ///< bins that may lie between two that are connected
@@ -153,6 +154,7 @@ inline PeSeriesInfo series_header(const EventSettings &settings, const SceneInfo
   info.step0 = clock.step;
   info.time0 = clock.time;
   info.stride = settings.series_stride;
+  info.own_times = settings.own_times;
   info.parameters = event_settings_detail::without(
       catalogue_header(settings, scene, false, 0.0).parameters, {"dt"});
   return info;

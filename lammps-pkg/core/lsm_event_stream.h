@@ -205,7 +205,7 @@ class EventStream {
       add_sample(step, time_of(step), pe,
                  settings_.location ? &slips[static_cast<std::size_t>(n)] : nullptr, x0, length);
       if (!settings_.ruptures || !grid_.ends_interval(step)) continue;
-      add_interval(step, pe, sums);
+      add_interval(step, pe, sums, time_of);
       sums += FaultSums::fields * static_cast<std::size_t>(grid_.bins);
     }
   }
@@ -296,7 +296,7 @@ class EventStream {
                              "; the catalogue ends with the last event before it. Use a smaller "
                              "time step or start from an earlier restart");
     }
-    if (series_ && step % settings_.series_stride == 0) series_->write(step, pe);
+    if (series_ && step % settings_.series_stride == 0) series_->write(step, time, pe);
 
     Event event;
     const bool was_open = picker_.in_event();
@@ -308,9 +308,16 @@ class EventStream {
     if (picker_.in_event()) locator_.add(*slips);
   }
 
-  void add_interval(std::int64_t step, double pe, const double *sums) {
+  template <class TimeOf>
+  void add_interval(std::int64_t step, double pe, const double *sums, TimeOf &&time_of) {
     const FaultRow row = fault_row(grid_, sums, grid_.interval);
-    finder_->add(pe, row, [this](const Event &rupture) { finish(rupture); });
+    finder_->add(pe, row, [this, &time_of](Event rupture) {
+      if (settings_.own_times) {
+        rupture.t_start = time_of(rupture.step_start);
+        rupture.t_end = time_of(rupture.step_end);
+      }
+      finish(rupture);
+    });
     if (history_) history_->add(step, pe, row, finder_->active());
   }
 

@@ -5,6 +5,7 @@
 
 #include "fault_scene.h"
 #include "lsm_catalogue.h"
+#include "lsm_pe_series.h"
 
 using namespace physics;
 
@@ -141,6 +142,68 @@ TEST_F(Leap, CatalogueHasModelTimes) {
     stretched = stretched || e.t_end > 1.5 * row.at("Time");
   }
   EXPECT_TRUE(stretched);
+}
+
+// A series holds the time of each sample, ruptures have model times, and both go on as they were.
+TEST_F(Leap, SeriesAndRupturesHaveModelTimes) {
+  const std::string recorded =
+      slow("fix leap all lsm/leap plates fast 0.005 calm 3 ramp 6 look 0.6\n",
+           "c_events c_events[5] f_plates[8] f_leap") +
+      "variable go index no\nuncompute events\n"
+      "compute events all lsm/events resume ${go} catalogue ${prefix}.csv series ${prefix}.pe "
+      "binary\n"
+      "compute ruptures all lsm/events events ruptures slipping 0.5 interval 10 resume ${go} "
+      "catalogue "
+      "${prefix}.ruptures progress no\nthermo 1\n";
+  const Result r = run_text(recorded + "run 2000\nwrite_restart samples.restart\nrun 2000\n",
+                            {{"prefix", "samples"}, {"dt", "0.03"}});
+  ASSERT_TRUE(succeeded(r));
+  std::map<double, double> model;  // time of each step
+  for (const auto &row : r.thermo) model[row.at("Step")] = row.at("f_leap");
+
+  LSM::PeSeriesReader reader(path("samples.pe"));
+  EXPECT_TRUE(reader.info().own_times);
+  std::int64_t step = 0, samples = 0;
+  double time = 0.0, pe = 0.0;
+  while (reader.next(step, time, pe)) {
+    ASSERT_NEAR(time, model.at(static_cast<double>(step)), 1e-12 * time) << step;
+    ++samples;
+  }
+  EXPECT_EQ(samples, 4001);
+  EXPECT_GT(time, 1.5 * 4000 * 0.03);  // it leapt
+
+  const auto ruptures = LSM::read_catalogue(path("samples.ruptures"));
+  ASSERT_GE(ruptures.events.size(), 3u);
+  // Slip counts against the plates' fastest velocity.
+  EXPECT_EQ(*ruptures.info.find("driving"), LSM::text_io::number(0.01));
+  for (const auto &e : ruptures.events) {
+    EXPECT_NEAR(e.t_start, model.at(static_cast<double>(e.step_start)), 1e-12 * e.t_start);
+    EXPECT_NEAR(e.t_end, model.at(static_cast<double>(e.step_end)), 1e-12 * e.t_end);
+  }
+
+  // The second half again, from the restart file: the same bytes.
+  const std::string whole_series = read_file(path("samples.pe")),
+                    whole = read_file(path("samples.csv")),
+                    whole_ruptures = read_file(path("samples.ruptures"));
+  std::string again = recorded;
+  const auto from = again.find("read_data"), to = again.find('\n', from);
+  ASSERT_NE(from, std::string::npos);
+  again.replace(from, to - from, "read_restart samples.restart");
+  const Result second =
+      run_text(again + "run 2000\n", {{"prefix", "samples"}, {"dt", "0.03"}, {"go", "yes"}});
+  ASSERT_TRUE(succeeded(second));
+  EXPECT_EQ(read_file(path("samples.pe")), whole_series);
+  EXPECT_EQ(read_file(path("samples.csv")), whole);
+  EXPECT_EQ(read_file(path("samples.ruptures")), whole_ruptures);
+
+  // A leap that comes or goes under open files, and a slip history, are refused.
+  EXPECT_TRUE(failed_with(
+      run_text(recorded + "run 1\nunfix leap\nrun 1\n", {{"prefix", "gone"}, {"dt", "0.03"}}),
+      {"fix lsm/leap is gone"}));
+  EXPECT_TRUE(failed_with(run_text(recorded + "uncompute ruptures\ncompute ruptures all lsm/events "
+                                              "events ruptures history h.slip\nrun 1\n",
+                                   {{"prefix", "history"}, {"dt", "0.03"}}),
+                          {"history does not work with fix lsm/leap"}));
 }
 
 TEST_F(Leap, Refusals) {

@@ -1,0 +1,41 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-2.0-or-later
+# Discs of one block cannot pass through those of the other, whether they are at the fault or behind it: the upper block
+# is pushed into the lower one and the face of that into what lies behind, and each pair of both blocks that overlaps has to
+# repel; with contacts all, those of one block, too.
+# usage: fault-contacts.sh LMP SOURCE_DIR
+set -euo pipefail
+export LC_ALL=C
+lmp=$1 source=$2
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+fail() { echo "FAILED: $*" >&2; tail -n 20 out >&2; exit 1; }
+cp -r "$source/inputs" scene
+cat >scene/probe.in <<'END'
+group above type 2 4 6
+displace_atoms above move 0 -0.5 0
+group face type 3
+displace_atoms face move 0.05 -0.2 0
+compute types all property/local ptype1 ptype2 cutoff radius
+compute push all pair/local force cutoff radius
+dump probe all local 1 ${prefix}.pairs c_types[1] c_types[2] c_push
+END
+# pairs NAME VARIABLES...: rows "types, overlapping pairs, those that repel", of the first step
+pairs() {
+  local name=$1
+  shift
+  "$lmp" -in scene/fault.in -var length 30 -var settle 0 -var steps 1 -var prefix "$name" -var extra probe "$@" </dev/null >out 2>&1 ||
+    fail "lmp of $name"
+  awk '/^ITEM: TIMESTEP/ { if (++steps > 1) exit } /^ITEM/ { on = /ITEM: ENTRIES/; next }
+    on { a = $1 < $2 ? $1 : $2; b = $1 < $2 ? $2 : $1; n[a "-" b]++; if ($3 > 0) f[a "-" b]++ }
+    END { for (k in n) print k, n[k], f[k] + 0 }' "$name.pairs" >"$name.rows"
+  sort "$name.rows"
+}
+pairs fault
+for types in 1-4 2-3 3-4; do
+  awk -v t=$types '$1 == t && $2 > 0 { found = 1; if ($3 != $2) bad = 1 } END { exit bad || !found }' fault.rows || fail "pairs of types $types"
+done
+awk '$1 == "1-3" && $2 > 0 && $3 == 0 { good = 1 } END { exit !good }' fault.rows || fail "discs of one block, contacts fault"
+pairs all -var contacts all
+awk '$1 == "1-3" && $2 > 0 { found = 1 } $3 != $2 { bad = 1 } END { exit bad || !found }' all.rows || fail "contacts all"
