@@ -16,7 +16,7 @@ cat >scene/probe.in <<'END'
 group above type 2 4 6
 displace_atoms above move 0 -0.5 0
 group face type 3
-displace_atoms face move 0.05 -0.2 0
+displace_atoms face move 0.02 -0.05 0
 compute types all property/local ptype1 ptype2 cutoff radius
 compute push all pair/local force cutoff radius
 dump probe all local 1 ${prefix}.pairs c_types[1] c_types[2] c_push
