@@ -436,8 +436,8 @@ finish() {
 
 # ---- time left
 
-# steps before the shear, which do not count: 1200 time units of 0.15, see fault.in
-settle_steps=8000
+# steps before the shear, which do not count: 1200 time units of 0.12, see fault.in
+settle_steps=10000
 for word in ${fault_more[@]+"${fault_more[@]}"}; do [[ $word != settle=* ]] || settle_steps=${word#*=}; done
 
 # look I: steps done by a running run, from what it says
