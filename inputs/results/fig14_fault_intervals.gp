@@ -6,10 +6,10 @@ if (!exists("formats")) formats = "png svg"
 do for [format in formats] {
 if (format eq "png") {
 point = 1.0
-set terminal pngcairo size 1800,1330 enhanced font "DejaVu Sans,26" linewidth 2 pointscale 2 background "#ffffff"
+set terminal pngcairo size 1800,1192 enhanced font "DejaVu Sans,26" linewidth 2 pointscale 2 background "#ffffff"
 } else {
 point = 0.65
-set terminal svg size 900,665 dynamic enhanced font "DejaVu Sans,13" background "#ffffff"
+set terminal svg size 900,596 dynamic enhanced font "DejaVu Sans,13" background "#ffffff"
 }
 
 set datafile separator comma
@@ -47,34 +47,34 @@ set logscale y
 set format y "10^{%L}"
 set ytics 10
 set mytics 10
-set yrange [9.9999999999999995e-08:1]
+set yrange [9.9999999999999995e-08:0.10000000000000001]
 row(k) = $1 == k && $7 > 0 ? $6 : NaN
 low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y
 set samples 400
 plot table using (row(1)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \
      table using (row(1)):8 with points lt 1 notitle, \
-     keyentry with linespoints lt 1 title 'length 120, 1.5e+05 time units (619 times)', \
+     keyentry with linespoints lt 1 title 'fault 120 (617 times)', \
      table using (row(2)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 2 dt 1 lw 0.8 notitle, \
      table using (row(2)):8 with points lt 2 notitle, \
-     keyentry with linespoints lt 2 title 'length 240, 1.5e+05 time units (716 times)', \
+     keyentry with linespoints lt 2 title 'fault 240 (716 times)', \
      table using (row(3)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 3 dt 1 lw 0.8 notitle, \
      table using (row(3)):8 with points lt 3 notitle, \
-     keyentry with linespoints lt 3 title 'length 480, 1.5e+05 time units (973 times)', \
+     keyentry with linespoints lt 3 title 'fault 480 (969 times)', \
      table using (row(4)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 4 dt 1 lw 0.8 notitle, \
      table using (row(4)):8 with points lt 4 notitle, \
-     keyentry with linespoints lt 4 title 'length 945, 5.6e+04 time units (439 times)', \
+     keyentry with linespoints lt 4 title 'fault 945 (1132 times)', \
      table using (row(5)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 5 dt 1 lw 0.8 notitle, \
      table using (row(5)):8 with points lt 5 notitle, \
-     keyentry with linespoints lt 5 title 'length 1440, 3.4e+04 time units (290 times)', \
+     keyentry with linespoints lt 5 title 'fault 1440 (591 times)', \
      table using (row(6)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 6 dt 1 lw 0.8 notitle, \
      table using (row(6)):8 with points lt 6 notitle, \
-     keyentry with linespoints lt 6 title 'length 1890, 6.2e+04 time units (623 times)', \
-     [0.39810717055349715:1584.8931924611163] '+' using 1:(0.011289452679097849*$1**(-0.23548933688862017)*exp(-$1**(1)/292.01268682609907)) with lines lt 1 notitle, \
+     keyentry with linespoints lt 6 title 'fault 1890 (1422 times)', \
+     [1:1584.8931924611163] '+' using 1:(0.011326047338956174*$1**(-0.23548933687880913)*exp(-$1**(1)/292.01268682076221)) with lines lt 1 notitle, \
      [5.0118723362727247:1258.9254117941693] '+' using 1:(0.00072990321596544362*$1**(0.561587944127103)*exp(-$1**(0.88084840075539861)/57.214907245023468)) with lines lt 2 notitle, \
-     [0.50118723362727224:1584.8931924611163] '+' using 1:(0.0026905382521968542*$1**(0.21803596999949715)*exp(-$1**(1.1846846967737079)/378.41343312102845)) with lines lt 3 notitle, \
-     [0.2511886431509579:794.32823472428277] '+' using 1:(0.011660474783420045*$1**(-0.091367099938132412)*exp(-$1**(1)/131.14685775598812)) with lines lt 4 notitle, \
-     [0.2511886431509579:1000.0000000000017] '+' using 1:(0.034559063521328127*$1**(-0.39822323747727217)*exp(-$1**(1)/178.4914365481053)) with lines lt 5 notitle, \
-     [0.2511886431509579:794.32823472428277] '+' using 1:(0.023885374768882188*$1**(-0.31021145878151213)*exp(-$1**(1.1156681058148989)/275.249720271223)) with lines lt 6 notitle, \
+     [0.63095734448019314:1584.8931924611163] '+' using 1:(0.0021988593507390776*$1**(0.28436194228278855)*exp(-$1**(1.1325965985046815)/260.45710952965646)) with lines lt 3 notitle, \
+     [0.63095734448019314:1000.0000000000017] '+' using 1:(0.0047745182250049124*$1**(0.14909388758355258)*exp(-$1**(1.0229403451830947)/125.30648164793762)) with lines lt 4 notitle, \
+     [0.63095734448019314:1000.0000000000017] '+' using 1:(0.0078513781984353818*$1**(0.083121880553480132)*exp(-$1**(0.88402329680868119)/50.946423201463766)) with lines lt 5 notitle, \
+     [0.79432823472428149:794.32823472428277] '+' using 1:(0.0086710971008278036*$1**(0.2183105791579496)*exp(-$1**(0.70812715104156676)/13.627368100246905)) with lines lt 6 notitle, \
      keyentry with lines lt 8 title 'lines: fitted generalised gamma'
 unset output
 }
