@@ -119,7 +119,7 @@ whole() {
   configure "$name" "$@"
   case $name in
     reference | clang)
-      build "$name" lmp lsmplugin lsmplugin_other_integers lsm_library_errors lsm_unit_tests lsm_physics_tests
+      build "$name" all
       tests=$(run_tests "$name" '^(unit|physics|package)\.' "$name") || ok=1
       tests="unit, physics, package: $tests"
       ;;
