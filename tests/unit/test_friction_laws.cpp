@@ -189,7 +189,7 @@ TEST(VelocityWeakening, SticksBelowTheStrengthAtRest) {
 template <class Law>
 class RateStateLaw : public ::testing::Test {};
 using Evolutions = ::testing::Types<RateStateAgeing, RateStateSlip>;
-TYPED_TEST_SUITE(RateStateLaw, Evolutions);
+TYPED_TEST_SUITE(RateStateLaw, Evolutions, );  // clang wants the last comma
 
 // stiff, so that the contact slips at the velocity it is moved with
 constexpr RateStateAgeing::Coefficients kAgeing{1e6, 0.6, 0.01, 0.015, 0.02, 1e-3, 0.0};
