@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# The whole study: six faults, five block-sliders in the paper's and in our settings, Fig. 7's leaf springs, chains
-# longer than the paper's, then report pages and figures. Run it again to go on where it was stopped; --help has the options.
+# The whole study: the runs of campaign.txt, then report pages and figures. Run it again to go on where it was stopped;
+# --help has the options.
 #
 # Each run has a folder of its own below the output folder:
 #   settings.txt    what the run was begun with; other settings need another folder
@@ -20,12 +20,13 @@ usage: inputs/campaign.sh [OPTIONS]
 Runs, or goes on with, the campaign, and ends with report pages and the folder figures. Defaults in brackets.
   --output DIR        folder of the results [\$LSM_BUILD_DIR/campaign or build/campaign]
   --only KIND         sliders or faults [both]
-  --lengths L,L...    lengths of the faults [120,240,480,945,1440,1890]
-  --blocks N,N...     numbers of blocks of the sliders [256,614,972,1450,1928,4000,8000,16000,32000,64000,128000]
-  --kl K,K...         leaf springs of the runs after Fig. 7, 1928 blocks [0.02,0.05,0.1,0.5; none without 1928 blocks]
-  --seeds S           seeds 1 to S of the sliders up to 1928 blocks, and of the faults up to length 480 [3]
-  --steps N           time steps of each run [sliders 1e7, faults 9.6e5 of 0.15: 1.4e5 time units, see README.md]
-  --quick             a trial of some minutes: faults 120 and 240, sliders up to 4000 blocks, few steps
+  --table FILE        table of the runs [inputs/campaign.txt]
+  --lengths L,L...    lengths of the faults [as in the table]
+  --blocks N,N...     numbers of blocks of the sliders [as in the table]
+  --kl K,K...         leaf springs of the runs after Fig. 7, 1928 blocks [as in the table; none without 1928 blocks]
+  --seeds S           seeds 1 to S where the table has 1-N [1-N]
+  --steps N           time steps of each run [as in the table]
+  --quick             a trial of some minutes: --table inputs/campaign-quick.txt
   --hours H           stop after so many hours (faults lose the steps since the last checkpoint) [no limit]
   --jobs J            cores in use at a time [all: $(nproc)]
   --ranks R           MPI ranks of each fault [as many as have 60 units of length each, at most J]
@@ -42,22 +43,22 @@ die() { echo "campaign: $*" >&2; exit 2; }
 
 # ---- options
 
-output=$build/campaign only=both bin= list=no report=yes series=compress quick=no
+output=$build/campaign only=both bin= list=no report=yes series=compress table=$root/inputs/campaign.txt
 lengths= blocks= kl= seeds= hours= jobs=$(nproc) ranks= checkpoint=50000 steps=
 fault_more=() slider_more=()
 while [ $# -gt 0 ]; do
   case $1 in
     --help | -h) usage; exit 0 ;;
-    --quick) quick=yes; shift; continue ;;
+    --quick) table=$root/inputs/campaign-quick.txt; shift; continue ;;
     --no-report) report=no; shift; continue ;;
     --list) list=yes; shift; continue ;;
     --output | --only | --lengths | --blocks | --kl | --seeds | --steps | --hours | --jobs | --ranks | --checkpoint | \
-      --series | --bin | --fault | --slider) ;;
+      --series | --bin | --fault | --slider | --table) ;;
     *) die "unknown option '$1' (--help lists the options)" ;;
   esac
   [ $# -ge 2 ] || die "$1 needs a value"
   case $1 in
-    --output) output=$2 ;; --only) only=$2 ;; --lengths) lengths=$2 ;; --blocks) blocks=$2 ;; --kl) kl=$2 ;;
+    --output) output=$2 ;; --table) table=$2 ;; --only) only=$2 ;; --lengths) lengths=$2 ;; --blocks) blocks=$2 ;; --kl) kl=$2 ;;
     --seeds) seeds=$2 ;; --steps) steps=$2 ;; --hours) hours=$2 ;; --jobs) jobs=$2 ;; --ranks) ranks=$2 ;;
     --checkpoint) checkpoint=$2 ;; --series) series=$2 ;; --bin) bin=$2 ;;
     --fault) fault_more+=("$2") ;; --slider) slider_more+=("$2") ;;
@@ -70,10 +71,9 @@ whole() {
   [[ $2 =~ ^[0-9]+([.][0-9]+)?(e[+]?[0-9]+)?$ ]] && awk -v x="$2" 'BEGIN { if (x != int(x) || x < 1 || x > 9e15) exit 1
     printf "%.0f", x }' || die "$1 = '$2', expected a whole number of at least 1"
 }
-# each OPTION LIST: the members of a list with commas, each a positive number
-each() {
+# numbers OPTION LIST: refuses anything else than numbers with commas
+numbers() {
   [[ $2 =~ ^[0-9.]+(,[0-9.]+)*$ ]] || die "$1 = '$2', expected numbers with commas between them"
-  echo "${2//,/ }"
 }
 [[ $only =~ ^(both|sliders|faults)$ ]] || die "--only = '$only', expected sliders or faults"
 [[ $series =~ ^(compress|keep|no)$ ]] || die "--series = '$series', expected compress, keep or no"
@@ -88,21 +88,74 @@ done
 for setting in ${fault_more[@]+"${fault_more[@]}"}; do
   [[ $setting != seed=* ]] || die "'seed' of the faults is set by the campaign itself (--seeds), expected no --fault for it"
 done
-if [ $quick = yes ]; then
-  all="120,240 256,614,1928,4000 0.05 1" fault_steps=80000 slider_steps=3000000
-else
-  all="120,240,480,945,1440,1890 256,614,972,1450,1928,4000,8000,16000,32000,64000,128000 0.02,0.05,0.1,0.5 3"
-  fault_steps=960000 slider_steps=10000000
-fi
-read -r all_lengths all_blocks all_kl all_seeds <<<"$all"
-lengths=${lengths:-$all_lengths} blocks=${blocks:-$all_blocks} kl=${kl:-$all_kl} seeds=${seeds:-$all_seeds}
-if [ -n "$steps" ]; then
-  fault_steps=$(whole --steps "$steps") || exit 2
-  slider_steps=$fault_steps
-fi
-jobs=$(whole --jobs "$jobs") && seeds=$(whole --seeds "$seeds") && checkpoint=$(whole --checkpoint "$checkpoint") || exit 2
+[ -z "$steps" ] || steps=$(whole --steps "$steps") || exit 2
+[ -z "$seeds" ] || seeds=$(whole --seeds "$seeds") || exit 2
+jobs=$(whole --jobs "$jobs") && checkpoint=$(whole --checkpoint "$checkpoint") || exit 2
 [ -z "$ranks" ] || ranks=$(whole --ranks "$ranks") || exit 2
-lengths=$(each --lengths "$lengths") && blocks=$(each --blocks "$blocks") && kl=$(each --kl "$kl") || exit 2
+[ -z "$lengths" ] || numbers --lengths "$lengths"
+[ -z "$blocks" ] || numbers --blocks "$blocks"
+[ -z "$kl" ] || numbers --kl "$kl"
+
+# ---- the table
+
+# One line for each run: program, name, size, seed, steps, NAME=VALUE or none, settings
+read_table() {
+  awk -v file="$table" -v lengths="$lengths" -v blocks="$blocks" -v kl="$kl" -v most="$seeds" -v steps="$steps" '
+    function stop(what) { print "campaign: " file ":" NR ": " what >"/dev/stderr"; failed = 1; exit 2 }
+    function is_list(text) { return text ~ /^[0-9.]+(,[0-9.]+)*$/ }
+    function is_among(size, sizes, n,   i) { for (i = 1; i <= n; i++) if (sizes[i] == size) return 1; return 0 }
+    /^ *(#|$)/ { next }
+    $2 == "=" { text = $0; sub(/^[^=]*= */, "", text); known[$1] = text; next }
+    {
+      if (NF < 8) stop(NF " columns, expected program, name, sizes, others, seeds, steps, each and settings")
+      if ($1 != "fault" && $1 != "slider") stop("program \"" $1 "\", expected fault or slider")
+      if ($3 != "none" && !is_list($3)) stop("sizes \"" $3 "\", expected numbers with commas between them, or none")
+      if ($4 != "none" && $4 !~ /^[0-9.]+-[0-9.]*$/) stop("others \"" $4 "\", expected A-B, A- or none")
+      if ($5 !~ /^(1-)?[1-9][0-9]*$/) stop("seeds \"" $5 "\", expected 1-N or a seed")
+      if ($6 + 0 != int($6 + 0) || $6 + 0 < 1) stop("steps \"" $6 "\", expected a whole number of at least 1")
+      if ($7 != "none" && $7 !~ /^[a-z_-]+=[^,]+(,[^,]+)*$/) stop("each \"" $7 "\", expected NAME=V,V... or none")
+      settings = ""
+      for (i = 8; i <= NF; i++) {
+        word = $i
+        if (word ~ /^@/) {
+          if (!(substr(word, 2) in known)) stop(word " stands for nothing, expected a line " substr(word, 2) " = ... before")
+          word = known[substr(word, 2)]
+        }
+        settings = settings (i > 8 ? " " : "") word
+      }
+      first = last = $5
+      if (sub(/^1-/, "", last)) { first = 1; if (most != "") last = most }
+      key = $7; sub(/=.*/, "", key)
+      list = $7; sub(/^[^=]*=/, "", list)
+      if (key == "kl" && kl != "") list = kl
+      values = $7 == "none" ? 1 : split(list, value, ",")
+      usual = $3 == "none" ? 0 : split($3, own, ",")
+      wanted = $1 == "fault" ? lengths : blocks
+      sizes = wanted != "" ? split(wanted, size, ",") : usual
+      if (wanted == "") for (i = 1; i <= usual; i++) size[i] = own[i]
+      low = $4 == "none" ? 1 : $4 + 0
+      high = $4; sub(/.*-/, "", high)
+      if ($4 == "none") high = 0; else if (high == "") high = 1e300
+      for (i = 1; i <= sizes; i++) {
+        if (!is_among(size[i], own, usual) && !(size[i] + 0 > low && size[i] + 0 <= high + 0)) continue
+        for (seed = first + 0; seed <= last + 0; seed++)
+          for (v = 1; v <= values; v++) {
+            name = $2
+            seeded = gsub(/SEED/, seed, name)
+            gsub(/SIZE/, size[i], name); gsub(/VALUE/, value[v], name)
+            if (!seeded && seed > 1) name = name "_seed_" seed
+            if (name in used) stop("there is a run " name " already (line " used[name] "), expected another name")
+            used[name] = NR
+            printf "%s\t%s\t%s\t%d\t%.0f\t%s\t%s\n", $1, name, size[i], seed, steps != "" ? steps : $6, \
+              $7 == "none" ? "none" : key "=" value[v], settings
+          }
+      }
+    }
+    END { if (!failed && !NR) { print "campaign: " file ": empty, expected a table of runs" >"/dev/stderr"; exit 2 } }
+  ' "$table"
+}
+[ -r "$table" ] || die "cannot read $table, expected a table of the runs"
+runs=$(read_table) || exit 2
 
 # ---- programs
 
@@ -145,50 +198,35 @@ add_run() {
 }
 series_word=yes
 [ "$series" != no ] || series_word=no
-add_fault() { # LENGTH SEED
-  local length=$1 seed=$2 r=$ranks words
+add_fault() { # NAME LENGTH SEED STEPS EACH SETTINGS
+  local length=$2 seed=$3 steps=$4 r=$ranks words
   [ -n "$r" ] || r=$(awk -v l="$length" -v j="$jobs" 'BEGIN { r = int(l / 60); if (r < 1) r = 1; if (r > j) r = j; print r }')
   [ "$r" -le "$jobs" ] || die "--ranks = $r, expected at most --jobs = $jobs"
-  words="length=$length seed=$seed checkpoint=$checkpoint location=yes series=${series_word}"
+  words="length=$length seed=$seed checkpoint=$checkpoint $6 series=${series_word}"
+  [ "$5" = none ] || words+=" $5"
   words+="${fault_more[*]:+ ${fault_more[*]}}"
+  fault_steps=$steps
   # about 65 discs per unit of length, 44 million steps of one disc per second and core
-  add_run "fault_$length$([ "$seed" = 1 ] || echo "_seed_$seed")" fault "$r" "$fault_steps" "program = lmp $lammps_version
-$(tr " =" "\n " <<<"$words")" "$(awk -v l="$length" -v n="$fault_steps" 'BEGIN { print 65 * l * n / 44e6 }')"
+  add_run "$1" fault "$r" "$steps" "program = lmp $lammps_version
+$(tr " =" "\n " <<<"$words")" "$(awk -v l="$length" -v n="$steps" 'BEGIN { print 65 * l * n / 44e6 }')"
 }
-add_slider() {
-  local name=$1 n=$2
-  shift 2
-  local words="$* --steps $slider_steps" setting
+add_slider() { # NAME BLOCKS SEED STEPS EACH SETTINGS
+  local words="$6 --blocks $2" setting
+  [ "$5" = none ] || words+=" --${5%%=*} ${5#*=}"
+  words+=" --seed $3 --steps $4"
   for setting in ${slider_more[@]+"${slider_more[@]}"}; do words+=" --${setting%%=*} ${setting#*=}"; done
-  add_run "$name" slider 1 "$slider_steps" "program = slider_cli $slider_version
-${words// --/$'\n'--}" "$(awk -v b="$n" -v n="$slider_steps" 'BEGIN { print n * (2e-7 + 3e-10 * b) }')"
+  add_run "$1" slider 1 "$4" "program = slider_cli $slider_version
+${words// --/$'\n'--}" "$(awk -v b="$2" -v n="$4" 'BEGIN { print n * (2e-7 + 3e-10 * b) }')"
 }
-# our settings, as in inputs/slider/science_*.ini; once more with ruptures as events, which long chains need
-ours="--scheme verlet --dt 0.05 --picker exponential --picker-memory-time 1 --warmup 12000"
-if [ "$only" != faults ]; then
-  for n in $blocks; do
-    most=$seeds
-    [ "$n" -le 1928 ] || most=1
-    for ((s = 1; s <= most; s++)); do
-      case $n in
-        256 | 614 | 972 | 1450 | 1928) add_slider "slider_paper_${n}_$s" "$n" "--paper --blocks $n --seed $s" ;;
-      esac
-      add_slider "slider_ours_${n}_$s" "$n" "$ours --blocks $n --seed $s"
-      [ "$n" -lt 256 ] ||
-        add_slider "slider_ruptures_${n}_$s" "$n" "$ours --events ruptures --min-size 0.1 --blocks $n --seed $s"
-    done
-    if [ "$n" = 1928 ]; then
-      for k in $kl; do add_slider "slider_kl_$k" 1928 "$ours --blocks 1928 --kl $k --seed 1"; done
-    fi
-  done
-fi
-if [ "$only" != sliders ]; then
-  for l in $lengths; do
-    most=$seeds
-    awk -v l="$l" 'BEGIN { exit !(l > 480) }' && most=1
-    for ((s = 1; s <= most; s++)); do add_fault "$l" "$s"; done
-  done
-fi
+fault_steps=0
+while IFS=$'\t' read -r program words; do
+  IFS=$'\t' read -r -a row <<<"$words"
+  case $program,$only in
+    fault,both | fault,faults) add_fault "${row[@]}" ;;
+    slider,both | slider,sliders) add_slider "${row[@]}" ;;
+  esac
+done <<<"$runs"
+[ ${#names[@]} -gt 0 ] || die "$table has no run of these sizes, expected one at least"
 
 # ---- how far a run is; nothing is written here
 # progress NAME KIND GOAL SETTINGS: sets at (steps), done (yes or no) and, for a fault, restart (file to go on from, or
@@ -284,8 +322,8 @@ say() {
   printf '%s %s\n' "$(date '+%F %T')" "$*"
 }
 
-# alone FOLDER: the ranks of a campaign that was killed may live a little longer; each holds this lock
-alone() {
+# nobody_works_in FOLDER: the ranks of a campaign that was killed may live a little longer; each holds this lock
+nobody_works_in() {
   [ ! -e "$1/lock" ] || flock -n -x "$1/lock" true || flock -w 60 -x "$1/lock" true 9>&- ||
     { why="a program of an earlier campaign still works in $1"; return 1; }
 }
@@ -294,7 +332,7 @@ states=() ats=() starts=() begins=() pids=() reasons=()
 for i in "${!names[@]}"; do
   at=0
   # Nobody may write while the files are compared with each other.
-  if { [ $list = yes ] || alone "$output/${names[i]}"; } &&
+  if { [ $list = yes ] || nobody_works_in "$output/${names[i]}"; } &&
     progress "${names[i]}" "${kinds[i]}" "${goals[i]}" "${settings[i]}"; then
     [ $done = yes ] && states[i]=done || states[i]=waiting
   else
@@ -325,7 +363,7 @@ run_in_folder() {
 start() {
   local i=$1 name=${names[$1]} folder=$output/${names[$1]} text=${settings[$1]} words word
   mkdir -p "$folder" 2>/dev/null || { why="cannot create $folder"; return 1; }
-  alone "$folder" || return 1
+  nobody_works_in "$folder" || return 1
   progress "$name" "${kinds[i]}" "${goals[i]}" "$text" || return 1
   if [ "$(cat "$folder/settings.txt" 2>/dev/null)" != "$text" ]; then
     { echo "$text" >"$folder/settings.txt.new" && mv "$folder/settings.txt.new" "$folder/settings.txt"; } 2>/dev/null ||
@@ -550,12 +588,13 @@ figures() {
 if [ $report = yes ] && [ "$stopping" != interrupted ]; then
   if [ -x "$bin/postproc" ]; then
     five='(256|614|972|1450|1928)'
+    most_seeds=$(cut -f 4 <<<"$runs" | sort -n | tail -n 1)
     figures
     page report.html "Faults, and block-sliders in our settings" "^fault|^slider_ours_${five}_1\$|^slider_kl"
     page report_ruptures.html "Block-sliders, ruptures as events, our settings" '^slider_ruptures_[0-9]*_1$'
     page report_paper_settings.html "Block-sliders as printed in the paper" "^slider_paper_${five}_1\$"
     page report_long_chains.html "Block-sliders longer than the paper's, our settings" '^slider_ours_[0-9]*_1$'
-    for ((s = 2; s <= seeds; s++)); do
+    for ((s = 2; s <= most_seeds; s++)); do
       page "report_seed_$s.html" "Block-sliders in our settings, seed $s" "^slider_ours_[0-9]*_$s\$"
     done
   else

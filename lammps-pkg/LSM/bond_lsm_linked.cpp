@@ -71,14 +71,14 @@ void BondLSMLinked::compute(int eflag, int vflag)
 void BondLSMLinked::collect()
 {
   struct Link {
-    bool alone;
+    bool first_only;
     int type;
     tagint low, high, first;
     int i, j;
     bool operator<(const Link &o) const
     {
-      return std::tie(alone, type, low, high, first) <
-             std::tie(o.alone, o.type, o.low, o.high, o.first);
+      return std::tie(first_only, type, low, high, first) <
+             std::tie(o.first_only, o.type, o.low, o.high, o.first);
     }
   };
 
@@ -100,13 +100,13 @@ void BondLSMLinked::collect()
   for (const Link &link : links) {
     const int n = static_cast<int>(rest.size());
     if (segments.empty() || segments.back().type != link.type ||
-        segments.back().alone != link.alone)
-      segments.push_back({n, n, link.type, link.alone});
+        segments.back().first_only != link.first_only)
+      segments.push_back({n, n, link.type, link.first_only});
     segments.back().last = n + 1;
     ends.push_back({3 * link.i, 3 * link.j});
     rest.push_back(atom->radius[link.i] + atom->radius[link.j]);
   }
-  list_fresh();
+  list_to_fetch();
   collected_at = neighbor->lastcall;
 }
 
@@ -116,14 +116,14 @@ void BondLSMLinked::collect()
    than all arithmetic.
 ------------------------------------------------------------------------- */
 
-void BondLSMLinked::list_fresh()
+void BondLSMLinked::list_to_fetch()
 {
   constexpr int REMEMBERED =
       16;                    // blocks whose particles are taken to be in the nearest cache still
   constexpr int LINE = 8;    // doubles of a cache line
 
-  fresh.clear();
-  fresh_begin = {0};
+  to_fetch.clear();
+  to_fetch_begin = {0};
   std::vector<int> used(3 * (atom->nlocal + atom->nghost) / LINE + 1, -REMEMBERED - 1);
   int number = 0;
   for (const Segment &segment : segments)
@@ -131,10 +131,10 @@ void BondLSMLinked::list_fresh()
       const int last = MIN(first + LSMLinkKernel::BLOCK, segment.last);
       for (int n = first; n < last; n++)
         for (const int place : {ends[n].i, ends[n].j}) {
-          if (number - used[place / LINE] > REMEMBERED) fresh.push_back(place);
+          if (number - used[place / LINE] > REMEMBERED) to_fetch.push_back(place);
           used[place / LINE] = number;
         }
-      fresh_begin.push_back(static_cast<int>(fresh.size()));
+      to_fetch_begin.push_back(static_cast<int>(to_fetch.size()));
     }
 }
 
@@ -148,17 +148,17 @@ template <int DIM> void BondLSMLinked::eval()
   // a minimizer tries positions that it takes back
 
   const bool minimizing = update->whichflag == 2;
-  const int *begin = fresh_begin.data();
+  const int *begin = to_fetch_begin.data();
   for (const Segment &s : segments) {
     const LSMLinkKernel::Links links{&ends[s.first], &rest[s.first], s.last - s.first, k[s.type],
-                                     ratio[s.type],  s.alone,        fresh.data(),     begin};
+                                     ratio[s.type],  s.first_only,   to_fetch.data(),  begin};
     begin += (links.count + LSMLinkKernel::BLOCK - 1) / LSMLinkKernel::BLOCK;
     if (ratio[s.type] > 0.0 && !minimizing) {
-      gone.clear();
-      pe_link += LSMLinkKernel::forces<DIM, true>(links, atom->x[0], atom->f[0], gone);
+      broken_now.clear();
+      pe_link += LSMLinkKernel::forces<DIM, true>(links, atom->x[0], atom->f[0], broken_now);
       note_broken(s);
     } else
-      pe_link += LSMLinkKernel::forces<DIM, false>(links, atom->x[0], atom->f[0], gone);
+      pe_link += LSMLinkKernel::forces<DIM, false>(links, atom->x[0], atom->f[0], broken_now);
   }
 }
 
@@ -169,7 +169,7 @@ template <int DIM> void BondLSMLinked::eval()
 
 void BondLSMLinked::note_broken(const Segment &segment)
 {
-  for (const int n : gone) {
+  for (const int n : broken_now) {
     const int i = ends[segment.first + n].i / 3, j = ends[segment.first + n].j / 3;
     for (int m = 0; m < neighbor->nbondlist; m++)
       if (neighbor->bondlist[m][0] == i && neighbor->bondlist[m][1] == j)
@@ -181,7 +181,7 @@ void BondLSMLinked::note_broken(const Segment &segment)
     if (record_what) {
       double **x = atom->x, none;
       const double dx = x[i][0] - x[j][0], dy = x[i][1] - x[j][1], dz = x[i][2] - x[j][2];
-      work_broken += (segment.alone ? 0.5 : 1.0) *
+      work_broken += (segment.first_only ? 0.5 : 1.0) *
                      single(segment.type, dx * dx + dy * dy + dz * dz, i, j, none);
     }
     collected_at = -1;

@@ -59,18 +59,19 @@ class BondLSMLinked : public Bond, public LSMEnergySource {
   struct Segment {    // links that are treated the same way
     int first, last;
     int type;
-    bool alone;    // the force on the second particle is added by its owner
+    bool first_only;    // the force on the second particle is added by its owner
   };
   std::vector<LSMLinkKernel::Ends> ends;    // the links in the order of the sums
   std::vector<double> rest;                 // their rest lengths
   std::vector<Segment> segments;
-  std::vector<int> fresh;          // places to fetch into the cache, block by block
-  std::vector<int> fresh_begin;    // where those of each block begin
-  std::vector<int> gone;    // links that broke in this evaluation, by their place in a segment
-  bigint collected_at;      // step of the neighbour list they were taken from, -1 if outdated
+  std::vector<int> to_fetch;          // places to fetch into the cache, block by block
+  std::vector<int> to_fetch_begin;    // where those of each block begin
+  std::vector<int>
+      broken_now;         // links that broke in this evaluation, by their place in a segment
+  bigint collected_at;    // step of the neighbour list they were taken from, -1 if outdated
 
   void collect();
-  void list_fresh();
+  void list_to_fetch();
   template <int DIM> void eval();
   void note_broken(const Segment &);
   void tally();

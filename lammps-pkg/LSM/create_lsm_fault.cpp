@@ -10,6 +10,7 @@
 #include "atom.h"
 #include "atom_vec.h"
 #include "comm.h"
+#include "create_box.h"
 #include "domain.h"
 #include "error.h"
 #include "force.h"
@@ -325,48 +326,41 @@ void CreateLSMFault::pack(const LSM::PackingSettings &settings, LSM::Packing &pa
 }
 
 /* ----------------------------------------------------------------------
-   the same steps as the create_box command
+   words of a command as LAMMPS hands them over
+------------------------------------------------------------------------- */
+
+template <class Command> static void with_words(const std::string &line, Command &&command)
+{
+  std::vector<std::string> words = utils::split_words(line);
+  std::vector<char *> pointers;
+  for (std::string &word : words) pointers.push_back(&word[0]);
+  command(static_cast<int>(pointers.size()), pointers.data());
+}
+
+/* ----------------------------------------------------------------------
+   by the commands region and create_box; 17 digits are the same number again
 ------------------------------------------------------------------------- */
 
 void CreateLSMFault::create_box(double length, double width, int bonds_per_atom)
 {
-  domain->box_exist = 1;
-  domain->triclinic = 0;
-  domain->boxlo[0] = 0.0;
-  domain->boxhi[0] = length;
-  domain->boxlo[1] = -margin;
-  domain->boxhi[1] = width + margin;
-  domain->boxlo[2] = -0.5;
-  domain->boxhi[2] = 0.5;
-
-  atom->bond_per_atom = bonds_per_atom;
-  atom->angle_per_atom = atom->dihedral_per_atom = atom->improper_per_atom = 0;
-  atom->nbonds = atom->nangles = atom->ndihedrals = atom->nimpropers = 0;
-  atom->ntypes = NTYPES;
-  atom->nbondtypes = 1;
-  atom->nangletypes = atom->ndihedraltypes = atom->nimpropertypes = 0;
-
-  update->ntimestep = 0;
+  const std::string region = "create_lsm_fault_box";
+  with_words(fmt::format("{} block 0 {:.17g} {:.17g} {:.17g} -0.5 0.5 units box", region, length,
+                         -margin, width + margin),
+             [this](int narg, char **arg) { domain->add_region(narg, arg); });
+  with_words(
+      fmt::format("{} {} bond/types 1 extra/bond/per/atom {}", NTYPES, region, bonds_per_atom),
+      [this](int narg, char **arg) { CreateBox(lmp).command(narg, arg); });
+  domain->delete_region(region);
 
   // the order of the particles suits links and contacts better than that of LAMMPS' sorting
 
   atom->sortfreq = 0;
-
-  atom->allocate_type_arrays();
-  atom->deallocate_topology();
-  atom->avec->grow(1);
 
   // never used, as each particle has its own mass, but write_data writes these masses too
   // and read_data refuses zeros
 
   if (atom->mass)
     for (int itype = 1; itype <= NTYPES; itype++) atom->set_mass(FLERR, itype, 1.0);
-
-  domain->print_box("Created ");
-  domain->set_initial_box();
-  domain->set_global_box();
-  comm->set_proc_grid();
-  domain->set_local_box();
 }
 
 /* ----------------------------------------------------------------------

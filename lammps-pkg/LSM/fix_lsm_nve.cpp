@@ -5,7 +5,6 @@
 #include "fix_lsm_nve.h"
 
 #include "atom.h"
-#include "bond_lsm_linked.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
@@ -15,10 +14,7 @@
 #include "lsm_scene.h"
 #include "lsm_text_io.h"
 #include "modify.h"
-#include "neigh_list.h"
-#include "neighbor.h"
 #include "output.h"
-#include "pair_lsm_free.h"
 #include "update.h"
 
 #include <algorithm>
@@ -28,6 +24,9 @@
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
+
+static constexpr double NEARLY_CLOSED =
+    1.05;    // distance over sum of radii of contacts that may close soon
 
 /* ---------------------------------------------------------------------- */
 
@@ -219,9 +218,26 @@ void FixLSMNVE::setup(int /*vflag*/)
     error->warning(FLERR,
                    "Fix lsm/nve {}: the stability limit of the time step does not know of {}", id,
                    foreign);
-  omega = highest_frequency();
+  omega = highest_frequency(NEARLY_CLOSED);
   dt_limit = omega > 0.0 ? 2.0 / omega : 0.0;
+  const bool went_on = goes_on;
+  goes_on = true;
   if (omega == 0.0 || update->dt <= dt_limit) return;
+
+  // foresight may refuse a start, but not a run that has come far already
+
+  if (went_on && check == ERROR) {
+    const double closed = highest_frequency(1.0);
+    if (closed == 0.0 || update->dt <= 2.0 / closed) {
+      if (comm->me == 0)
+        error->warning(
+            FLERR,
+            "Time step {} is above the stability limit {:.6g} with the contacts that are nearly "
+            "closed, below that of the closed ones, {:.6g}; this run goes on",
+            update->dt, dt_limit, closed > 0.0 ? 2.0 / closed : INFINITY);
+      return;
+    }
+  }
   if (check == ERROR)
     error->all(FLERR,
                "Time step {} is above the stability limit {:.6g} of the links and contacts (2 / "
@@ -317,79 +333,31 @@ void FixLSMNVE::post_run()
 
 /* ----------------------------------------------------------------------
    Bound of the highest frequency of the network of links and contacts, see lsm_frequency.h. Pairs closer
-   than 1.05 of touching count as contacts that are there.
+   than reach_factor of touching count as contacts that are there.
 ------------------------------------------------------------------------- */
 
-double FixLSMNVE::highest_frequency()
+double FixLSMNVE::highest_frequency(double reach_factor)
 {
-  const int nlocal = atom->nlocal;
-  const int dim = domain->dimension == 3 ? 3 : 2;
-  std::vector<LSM::Spring> springs;
-  double **x = atom->x;
-
-  auto add = [&](int i, int j, bool newton, double k, double kt) {
-    LSM::Spring s{i, j,  newton || j < nlocal,
-                  k, kt, {x[i][0] - x[j][0], x[i][1] - x[j][1], x[i][2] - x[j][2]}};
-    const double r = sqrt(s.n[0] * s.n[0] + s.n[1] * s.n[1] + s.n[2] * s.n[2]);
-    if (r == 0.0) return;
-    for (double &c : s.n) c /= r;
-    springs.push_back(s);
-  };
-
-  if (auto links = dynamic_cast<BondLSMLinked *>(force->bond_match("lsm/linked")))
-    for (const auto &link : links->held())
-      add(link.i, link.j, force->newton_bond, link.stiffness, 0.0);
-  for (PairLSMFree *contacts : LSMScene::contact_styles(force)) {
-    if (!contacts->list) continue;
-    int d = 0;
-    const auto k = (double **) contacts->extract("k", d);
-    const auto on = (int **) contacts->extract("on", d);
-    const auto kt = (double **) contacts->extract("kt", d);
-    const NeighList *list = contacts->list;
-    for (int ii = 0; ii < list->inum; ii++) {
-      const int i = list->ilist[ii];
-      for (int jj = 0; jj < list->numneigh[i]; jj++) {
-        const int j = list->firstneigh[i][jj] & NEIGHMASK;
-        const double reach = 1.05 * (atom->radius[i] + atom->radius[j]);
-        const double dx = x[i][0] - x[j][0], dy = x[i][1] - x[j][1], dz = x[i][2] - x[j][2];
-        if (dx * dx + dy * dy + dz * dz > reach * reach) continue;
-        const int it = atom->type[i], jt = atom->type[j];
-        if (on[it][jt]) add(i, j, force->newton_pair, k[it][jt], kt ? kt[it][jt] : 0.0);
-      }
-    }
+  LSM::SpringNetwork network;
+  network.dim = comm_forward;
+  network.ghosts = atom->nghost;
+  network.springs = LSMScene::springs(lmp, reach_factor);
+  for (int i = 0; i < atom->nlocal; i++) {
+    network.mass.push_back(atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]);
+    network.id.push_back(atom->tag[i]);
   }
-
-  // the matrix is M^-1/2 K M^-1/2; ghosts need displacements only, and give back forces
-
-  const size_t size = static_cast<size_t>(nlocal) * dim,
-               all = static_cast<size_t>(nlocal + atom->nghost) * dim;
-  std::vector<double> scale(nlocal), start(size);
-  for (int i = 0; i < nlocal; i++) {
-    scale[i] = 1.0 / sqrt(atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]);
-    for (int c = 0; c < dim; c += 2) {
-      const auto pair = LSM::normal_pair(atom->tag[i], c);
-      start[i * dim + c] = pair.first;
-      if (c + 1 < dim) start[i * dim + c + 1] = pair.second;
-    }
-  }
-  auto multiply = [&](const std::vector<double> &from, std::vector<double> &to) {
-    trial.resize(all);
-    for (int i = 0; i < nlocal; i++)
-      for (int c = 0; c < dim; c++) trial[i * dim + c] = from[i * dim + c] * scale[i];
-    comm->forward_comm(this);
-    image.assign(all, 0.0);
-    LSM::add_spring_forces(springs, dim, trial, image);
-    if (force->newton) comm->reverse_comm(this);
-    for (int i = 0; i < nlocal; i++)
-      for (int c = 0; c < dim; c++) to[i * dim + c] = image[i * dim + c] * scale[i];
-  };
-  auto sum = [&](double mine) {
+  const auto sum = [this](double mine) {
     double total;
     MPI_Allreduce(&mine, &total, 1, MPI_DOUBLE, MPI_SUM, world);
     return total;
   };
-  const auto largest = LSM::largest_eigenvalue(
-      std::move(start), static_cast<double>(atom->natoms) * dim, multiply, sum);
+  const auto to_ghosts = [this] { comm->forward_comm(this); };
+  const auto from_ghosts = [this] {
+    if (force->newton) comm->reverse_comm(this);
+  };
+  const auto largest =
+      LSM::highest_frequency_squared(network, static_cast<double>(atom->natoms) * network.dim,
+                                     trial, image, to_ghosts, from_ghosts, sum);
   trial.clear();
   image.clear();
   return sqrt(largest.bound);
@@ -460,6 +428,7 @@ void FixLSMNVE::restart(char *buf)
 {
   double total;
   memcpy(&total, buf, sizeof(double));
+  goes_on = true;
   work_viscosity = comm->me == 0 ? total : 0.0;
 }
 

@@ -58,6 +58,7 @@ class FixLSMNVE : public Fix {
   int check;                           // what to do when the time step is above the stability limit
   double omega;                        // bound of the highest frequency found at setup
   double dt_limit;                     // 2/omega
+  bool goes_on = false;                // after another run, or from a restart file
   std::vector<double> trial, image;    // displacements and forces, 2 or 3 values an atom
 
   // particles of the group with the same viscosity that follow each other in memory, and dt/2 over the mass of
@@ -82,7 +83,7 @@ class FixLSMNVE : public Fix {
   void choose();
   void collect();
   double viscosity_from(const char *);
-  double highest_frequency();
+  double highest_frequency(double reach_factor);
 };
 
 }    // namespace LAMMPS_NS

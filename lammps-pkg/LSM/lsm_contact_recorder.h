@@ -22,7 +22,7 @@ struct LSMRecordNothing {
   void dissipation(double, double) {}
   void slip(double, double, double) {}
   static constexpr bool wants_contacts() { return false; }
-  void contact(const LSMContact &) {}
+  void contact(const LSM::FaultContact &) {}
   void finish() {}
 };
 
@@ -62,7 +62,7 @@ class LSMRecordEnergies {
   }
   /// Only where compute lsm/events looks for ruptures.
   bool wants_contacts() const { return source_.record_what & LSMEnergySource::CONTACTS; }
-  void contact(const LSMContact &one) { source_.contacts.push_back(one); }
+  void contact(const LSM::FaultContact &one) { source_.contacts.push_back(one); }
   void finish()
   {
     if (!source_.record_what) return;

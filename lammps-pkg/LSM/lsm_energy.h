@@ -7,25 +7,11 @@
 #ifndef LMP_LSM_ENERGY_H
 #define LMP_LSM_ENERGY_H
 
+#include "lsm_slip_recorder.h"
+
 #include <vector>
 
 namespace LAMMPS_NS {
-
-/// Slip of the contacts inside one bin along the fault during one step.
-struct LSMSlip {
-  double bin;       ///< index of the bin along x
-  double moment;    ///< sum of |slip| times contact size
-};
-
-/// A contact in one force evaluation, seen as part of a fault along x: what the upper particle does
-/// to the lower one.
-struct LSMContact {
-  double x;        ///< middle between the two centres
-  double slip;     ///< of the upper particle along x; only the irreversible part
-  double work;     ///< lost to friction
-  double force;    ///< on the lower particle along x
-  double share;    ///< 1, or 0.5 where another rank has the contact as well
-};
 
 /// Base of the force styles whose energies compute lsm/events records.
 /// All values are this rank's share; a pair shared by two ranks counts half on each.
@@ -35,16 +21,17 @@ class LSMEnergySource {
 
   virtual ~LSMEnergySource() noexcept(false) {}    // as LAMMPS' own base classes
 
-  int record_what = NONE;        ///< what to record; the style resets it at every init
-  double pe_link = 0.0;          ///< link springs, at the last force evaluation
-  double pe_contact = 0.0;       ///< normal contact springs, at the last force evaluation
-  double pe_tangential = 0.0;    ///< tangential contact springs, at the last force evaluation
-  double work_friction = 0.0;    ///< work lost to friction, accumulated
-  double work_broken = 0.0;      ///< energy of the links that broke, accumulated
-  double slip_moment = 0.0;      ///< sum of |slip| times contact size, accumulated (SLIP_RATE)
-  double slip_bin = 1.0;         ///< width of the bins of `slip`
-  std::vector<LSMSlip> slip;     ///< contacts that slid in the last force evaluation
-  std::vector<LSMContact> contacts;    ///< all contacts of the last force evaluation, with friction
+  int record_what = NONE;            ///< what to record; the style resets it at every init
+  double pe_link = 0.0;              ///< link springs, at the last force evaluation
+  double pe_contact = 0.0;           ///< normal contact springs, at the last force evaluation
+  double pe_tangential = 0.0;        ///< tangential contact springs, at the last force evaluation
+  double work_friction = 0.0;        ///< work lost to friction, accumulated
+  double work_broken = 0.0;          ///< energy of the links that broke, accumulated
+  double slip_moment = 0.0;          ///< sum of |slip| times contact size, accumulated (SLIP_RATE)
+  double slip_bin = 1.0;             ///< width of the bins of `slip`
+  std::vector<LSM::BinSlip> slip;    ///< contacts that slid in the last force evaluation
+  std::vector<LSM::FaultContact>
+      contacts;    ///< all contacts of the last force evaluation, with friction
 };
 
 }    // namespace LAMMPS_NS

@@ -83,7 +83,7 @@ namespace LSMLinkKernel {
   };
 
   template <int DIM>
-  LSM_INLINE static void take(Stage<DIM> &s, const double *x, const Ends *end, int n = CHUNK)
+  LSM_INLINE static void gather(Stage<DIM> &s, const double *x, const Ends *end, int n = CHUNK)
   {
 #pragma GCC unroll 8
     for (int l = 0; l < n; l++) {
@@ -100,8 +100,9 @@ namespace LSMLinkKernel {
   // right afterwards.
 
   template <int DIM, bool BREAK>
-  LSM_INLINE static void pull(Stage<DIM> &s, const double *r0, const Links &links, int first,
-                              double *energy, std::vector<int> &broken, int n = CHUNK)
+  LSM_INLINE static void spring_forces(Stage<DIM> &s, const double *r0, const Links &links,
+                                       int first, double *energy, std::vector<int> &broken,
+                                       int n = CHUNK)
   {
     const double k = links.stiffness, ratio = links.ratio;
     const double *__restrict rsq = s.rsq, *__restrict rest = r0;
@@ -127,15 +128,15 @@ namespace LSMLinkKernel {
   }
 
   template <int DIM>
-  LSM_INLINE static void give(const Stage<DIM> &s, double *f, const Ends *end, bool alone,
-                              int n = CHUNK)
+  LSM_INLINE static void scatter(const Stage<DIM> &s, double *f, const Ends *end, bool first_only,
+                                 int n = CHUNK)
   {
 #pragma GCC unroll 8
     for (int l = 0; l < n; l++) {
       const Vector<DIM> g = s.d[l] * s.fbond[l];
       double *const fi = f + end[l].i, *const fj = f + end[l].j;
       store<DIM>(fi, load<DIM>(fi) + g);
-      if (!alone) store<DIM>(fj, load<DIM>(fj) - g);
+      if (!first_only) store<DIM>(fj, load<DIM>(fj) - g);
     }
   }
 
@@ -164,30 +165,32 @@ namespace LSMLinkKernel {
       if (coming < chunks) {
         const int block = coming / BLOCK_CHUNKS;
         if (coming % BLOCK_CHUNKS == 0 && block + 1 < blocks)
-          for (int m = links.fresh_begin[block + 1]; m < links.fresh_begin[block + 2]; m++) {
-            __builtin_prefetch(x + links.fresh[m]);
-            __builtin_prefetch(f + links.fresh[m], 1);
+          for (int m = links.to_fetch_begin[block + 1]; m < links.to_fetch_begin[block + 2]; m++) {
+            __builtin_prefetch(x + links.to_fetch[m]);
+            __builtin_prefetch(f + links.to_fetch[m], 1);
           }
-        take<DIM>(ring[coming % RING], x, links.ends + coming * CHUNK);
+        gather<DIM>(ring[coming % RING], x, links.ends + coming * CHUNK);
       }
       if (chunk >= 0 && chunk < chunks) {
         const int first = chunk * CHUNK;
-        pull<DIM, BREAK>(ring[chunk % RING], links.rest + first, links, first, energy, broken);
+        spring_forces<DIM, BREAK>(ring[chunk % RING], links.rest + first, links, first, energy,
+                                  broken);
         if ((chunk + 1) % BLOCK_CHUNKS == 0) add_up(energy, sum);
       }
-      if (going >= 0) give<DIM>(ring[going % RING], f, links.ends + going * CHUNK, links.alone);
+      if (going >= 0)
+        scatter<DIM>(ring[going % RING], f, links.ends + going * CHUNK, links.first_only);
     }
 
     if (rest > 0) {
       const int first = chunks * CHUNK;
       double r0[CHUNK];
       for (int l = 0; l < CHUNK; l++) r0[l] = l < rest ? links.rest[first + l] : 1.0;
-      take<DIM>(ring[0], x, links.ends + first, rest);
-      pull<DIM, BREAK>(ring[0], r0, links, first, energy, broken, rest);
-      give<DIM>(ring[0], f, links.ends + first, links.alone, rest);
+      gather<DIM>(ring[0], x, links.ends + first, rest);
+      spring_forces<DIM, BREAK>(ring[0], r0, links, first, energy, broken, rest);
+      scatter<DIM>(ring[0], f, links.ends + first, links.first_only, rest);
     }
     add_up(energy, sum);
-    return links.alone ? 0.5 * sum.value() : sum.value();
+    return links.first_only ? 0.5 * sum.value() : sum.value();
   }
 
   template double forces<2, false>(const Links &, const double *, double *, std::vector<int> &);

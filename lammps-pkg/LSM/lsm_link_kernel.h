@@ -25,10 +25,10 @@ namespace LSMLinkKernel {
     const double *rest;    ///< rest lengths
     int count;
     double stiffness;
-    double ratio;              ///< breaking distance over rest length, only used in BREAK
-    bool alone;                ///< no force on the second particle: its owner adds it
-    const int *fresh;          ///< places (as in Ends) to fetch into the cache, block by block
-    const int *fresh_begin;    ///< where those of each block begin, and of the last end
+    double ratio;                 ///< breaking distance over rest length, only used in BREAK
+    bool first_only;              ///< no force on the second particle: its owner adds it
+    const int *to_fetch;          ///< places (as in Ends) to fetch into the cache, block by block
+    const int *to_fetch_begin;    ///< where those of each block begin, and of the last end
   };
 
   /// Adds the forces of the links to f and returns their elastic energy. In BREAK, links that are longer than

@@ -4,15 +4,19 @@
 
 #include "lsm_scene.h"
 
+#include "atom.h"
 #include "bond_hybrid.h"
+#include "bond_lsm_linked.h"
 #include "error.h"
 #include "fix.h"
 #include "force.h"
 #include "modify.h"
+#include "neigh_list.h"
 #include "pair_lsm_free.h"
 #include "update.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace LAMMPS_NS {
 namespace LSMScene {
@@ -34,6 +38,47 @@ namespace LSMScene {
     std::vector<PairLSMFree *> all;
     for (Pair *one : sub_styles(force, "^lsm/"))
       if (auto contacts = dynamic_cast<PairLSMFree *>(one)) all.push_back(contacts);
+    return all;
+  }
+
+  std::vector<LSM::PairSpring> springs(LAMMPS *lmp, double reach_factor)
+  {
+    Atom *const atom = lmp->atom;
+    Force *const force = lmp->force;
+    std::vector<LSM::PairSpring> all;
+    double **x = atom->x;
+
+    auto add = [&](int i, int j, bool newton, double k, double kt) {
+      LSM::PairSpring s{i, j,  newton || j < atom->nlocal,
+                        k, kt, {x[i][0] - x[j][0], x[i][1] - x[j][1], x[i][2] - x[j][2]}};
+      const double r = sqrt(s.n[0] * s.n[0] + s.n[1] * s.n[1] + s.n[2] * s.n[2]);
+      if (r == 0.0) return;
+      for (double &c : s.n) c /= r;
+      all.push_back(s);
+    };
+
+    if (auto links = dynamic_cast<BondLSMLinked *>(force->bond_match("lsm/linked")))
+      for (const auto &link : links->held())
+        add(link.i, link.j, force->newton_bond, link.stiffness, 0.0);
+    for (PairLSMFree *contacts : contact_styles(force)) {
+      if (!contacts->list) continue;
+      int d = 0;
+      const auto k = (double **) contacts->extract("k", d);
+      const auto on = (int **) contacts->extract("on", d);
+      const auto kt = (double **) contacts->extract("kt", d);
+      const NeighList *list = contacts->list;
+      for (int ii = 0; ii < list->inum; ii++) {
+        const int i = list->ilist[ii];
+        for (int jj = 0; jj < list->numneigh[i]; jj++) {
+          const int j = list->firstneigh[i][jj] & NEIGHMASK;
+          const double reach = reach_factor * (atom->radius[i] + atom->radius[j]);
+          const double dx = x[i][0] - x[j][0], dy = x[i][1] - x[j][1], dz = x[i][2] - x[j][2];
+          if (dx * dx + dy * dy + dz * dz > reach * reach) continue;
+          const int it = atom->type[i], jt = atom->type[j];
+          if (on[it][jt]) add(i, j, force->newton_pair, k[it][jt], kt ? kt[it][jt] : 0.0);
+        }
+      }
+    }
     return all;
   }
 

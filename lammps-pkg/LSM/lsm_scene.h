@@ -7,6 +7,8 @@
 #ifndef LMP_LSM_SCENE_H
 #define LMP_LSM_SCENE_H
 
+#include "lsm_frequency.h"
+
 #include <string>
 #include <vector>
 
@@ -20,6 +22,9 @@ namespace LSMScene {
 
   /// Pair styles of the package, each by itself under pair_style hybrid.
   std::vector<PairLSMFree *> contact_styles(Force *);
+
+  /// Links and contacts of this rank as springs about the present positions; also pairs that are about to touch.
+  std::vector<LSM::PairSpring> springs(LAMMPS *, double reach_factor);
 
   /// Force styles in use that are not of the package, as "bond harmonic, pair lj/cut"; empty if there is none.
   std::string foreign_forces(Force *);

@@ -19,16 +19,6 @@ inline double share_in_contact(double r_before, double r, double r0) {
 /// Effective size of a contact for the slip moment (ours): twice the reduced radius.
 inline double contact_size(double ri, double rj) { return 2.0 * ri * rj / (ri + rj); }
 
-/// Coulomb friction in one call, for programs that know no other law.
-using FrictionCoefficients = Coulomb::Coefficients;
-template <bool HAS_STATIC>
-inline FrictionStep friction_step(const FrictionCoefficients &c, double xi, double dxi, double fn,
-                                  bool sliding) {
-  const FrictionContact s{fn, xi, dxi, 0.0, sliding};
-  if constexpr (HAS_STATIC) return friction_step<CoulombStatic>(c, s);
-  return friction_step<Coulomb>(c, s);
-}
-
 }  // namespace LSM
 
 #endif

@@ -23,7 +23,7 @@ namespace LSM {
 
 /// A spring between particles i and j along the unit vector n, with stiffness k along it and kt
 /// across it. If not both, the force on j is not added: it is added where j is at home.
-struct Spring {
+struct PairSpring {
   int i, j;
   bool both;
   double k, kt;
@@ -32,9 +32,9 @@ struct Spring {
 
 /// Adds the forces of the springs against the displacements to force; axes values a particle.
 template <std::size_t axes>
-void add_spring_forces(const std::vector<Spring> &springs, const std::vector<double> &displacement,
-                       std::vector<double> &force) {
-  for (const Spring &s : springs) {
+void add_spring_forces(const std::vector<PairSpring> &springs,
+                       const std::vector<double> &displacement, std::vector<double> &force) {
+  for (const PairSpring &s : springs) {
     const double *const ui = displacement.data() + static_cast<std::size_t>(s.i) * axes;
     const double *const uj = displacement.data() + static_cast<std::size_t>(s.j) * axes;
     double *const fi = force.data() + static_cast<std::size_t>(s.i) * axes;
@@ -53,7 +53,7 @@ void add_spring_forces(const std::vector<Spring> &springs, const std::vector<dou
   }
 }
 
-inline void add_spring_forces(const std::vector<Spring> &springs, int dim,
+inline void add_spring_forces(const std::vector<PairSpring> &springs, int dim,
                               const std::vector<double> &displacement, std::vector<double> &force) {
   if (dim == 3)
     add_spring_forces<3>(springs, displacement, force);
@@ -164,6 +164,49 @@ LargestEigenvalue largest_eigenvalue(std::vector<double> start, double dimension
   result.found = largest_of_tridiagonal(diagonal, beside);
   result.bound = complete ? result.found * (1.0 + 1e-9) : result.found / (1.0 - eigenvalue_share);
   return result;
+}
+
+/// One rank's masses and springs. Particles are numbered: those at home, then the ghosts, which are
+/// at home on another rank or are the same particles beyond a periodic boundary.
+struct SpringNetwork {
+  int dim = 2;                    ///< 2 or 3
+  std::vector<double> mass;       ///< of those at home
+  std::vector<std::uint64_t> id;  ///< of those at home, for the start vector
+  std::size_t ghosts = 0;
+  std::vector<PairSpring> springs;
+
+  std::size_t axes() const { return static_cast<std::size_t>(dim); }
+  std::size_t at_home() const { return mass.size() * axes(); }  ///< displacements
+};
+
+/// Square of the highest frequency: largest eigenvalue of M^-1/2 K M^-1/2, in so many dimensions on
+/// all ranks. displacement and force belong to the caller, `dim` values a particle: to_ghosts() has
+/// to copy displacements of particles at home to their ghosts, from_ghosts() to add the forces of
+/// ghosts to those at home, or to do nothing where no spring gave them any. sum(a) adds up over
+/// ranks.
+template <class ToGhosts, class FromGhosts, class Sum>
+LargestEigenvalue highest_frequency_squared(const SpringNetwork &network, double dimensions,
+                                            std::vector<double> &displacement,
+                                            std::vector<double> &force, ToGhosts &&to_ghosts,
+                                            FromGhosts &&from_ghosts, Sum &&sum) {
+  const std::size_t dim = network.axes(), size = network.at_home();
+  std::vector<double> scale(size), start(size);
+  for (std::size_t i = 0; i < network.mass.size(); ++i)
+    for (std::size_t c = 0; c < dim; ++c) {
+      scale[i * dim + c] = 1.0 / std::sqrt(network.mass[i]);
+      const auto pair = normal_pair(network.id[i], c - c % 2);
+      start[i * dim + c] = c % 2 == 0 ? pair.first : pair.second;
+    }
+  const auto multiply = [&](const std::vector<double> &from, std::vector<double> &to) {
+    displacement.resize(size + network.ghosts * dim);
+    for (std::size_t n = 0; n < size; ++n) displacement[n] = from[n] * scale[n];
+    to_ghosts();
+    force.assign(displacement.size(), 0.0);
+    add_spring_forces(network.springs, network.dim, displacement, force);
+    from_ghosts();
+    for (std::size_t n = 0; n < size; ++n) to[n] = force[n] * scale[n];
+  };
+  return largest_eigenvalue(std::move(start), dimensions, multiply, sum);
 }
 
 }  // namespace LSM

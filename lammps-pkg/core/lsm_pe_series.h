@@ -11,6 +11,10 @@
 /// Binary:  16 bytes "lsm-pe-series-1\n", int64 length of the header, the header (the key = value
 ///          lines above), then records of int64 step and double pe; everything little-endian.
 ///          time = time0 + (step - step0) dt.
+///
+/// Where steps and time are not proportional (fix lsm/leap), the header says "times = own": a text
+/// file has the time of each sample in its column as always, a binary record is int64 step, double
+/// time, double pe.
 #ifndef LSM_PE_SERIES_H
 #define LSM_PE_SERIES_H
 
@@ -45,6 +49,7 @@ struct PeSeriesInfo {
   std::int64_t step0 = 0;   ///< step of time0, usually that of the first sample
   double time0 = 0.0;       ///< time at step0
   std::int64_t stride = 1;  ///< steps between samples, >= 1
+  bool own_times = false;   ///< each sample has its own time; time() does not hold
   std::vector<std::pair<std::string, std::string>> parameters;
 
   /// Steps are subtracted as doubles (the same number below 2^53): no header can make that
@@ -63,7 +68,8 @@ constexpr std::string_view text_magic = "# lsm-pe-series ";
 constexpr std::string_view column_line = "step,time,pe";
 constexpr std::string_view binary_magic = "lsm-pe-series-1\n";
 constexpr std::string_view binary_family = "lsm-pe-series-";
-constexpr std::int64_t record_bytes = 16;
+constexpr std::string_view times_key = "times", own_times = "own";
+inline std::int64_t record_bytes(const PeSeriesInfo &info) { return info.own_times ? 24 : 16; }
 using binary_io::add_parameter;
 using binary_io::append_bytes;
 using binary_io::double_from_bytes;
@@ -75,6 +81,7 @@ inline text_io::Parameters header(const PeSeriesInfo &info) {
                              {"step0", text_io::number(info.step0)},
                              {"time0", text_io::number(info.time0)},
                              {"stride", text_io::number(info.stride)}};
+  if (info.own_times) all.emplace_back(times_key, own_times);
   all.insert(all.end(), info.parameters.begin(), info.parameters.end());
   return all;
 }
@@ -116,7 +123,11 @@ inline std::string interpret(const text_io::Parameters &all, PeSeriesInfo &info)
       good = text_io::parse(value, info.time0);
     else if (key == "stride")
       good = text_io::parse(value, info.stride);
-    else
+    else if (key == times_key) {
+      if (value != own_times)
+        return "parameter 'times' is " + text_io::in_quotes(value) + ", expected 'own' or none";
+      info.own_times = true;
+    } else
       info.parameters.emplace_back(key, value);
     if (!good)
       return "parameter '" + key + "' is " + text_io::in_quotes(value) + ", expected " +
@@ -216,11 +227,13 @@ class PeSeriesReader {
     if (!problem.empty()) throw PeSeriesError(path_ + ": " + problem);
     data_begin_ = found.begin;
     const std::int64_t size = found.size;
-    total_ = (size - data_begin_) / record_bytes;
-    torn_ = (size - data_begin_) % record_bytes != 0;
+    record_bytes_ = record_bytes(info_);
+    total_ = (size - data_begin_) / record_bytes_;
+    torn_ = (size - data_begin_) % record_bytes_ != 0;
     if (torn_ && !lenient_)
       throw PeSeriesError(path_ + ": truncated record " + std::to_string(total_ + 1) +
-                          " at the end, expected 16 bytes per record");
+                          " at the end, expected " + std::to_string(record_bytes_) +
+                          " bytes per record");
     kept_end_ = data_begin_;
     // The stream continues right behind the header.
   }
@@ -244,7 +257,7 @@ class PeSeriesReader {
     if (has_last_ && new_step <= last_step_)
       lines_->fail("step " + std::to_string(new_step) + " after step " +
                    std::to_string(last_step_) + ", expected increasing steps");
-    const double expected = info_.time(new_step);
+    const double expected = info_.own_times ? new_time : info_.time(new_step);
     // Rounding may differ between the programs; a wrong dt or step0 is off by far more.
     if (!(std::fabs(new_time - expected) <= 1e-9 * (std::fabs(expected) + info_.dt)))
       lines_->fail("time " + text_io::number(new_time) + " at step " + std::to_string(new_step) +
@@ -270,8 +283,8 @@ class PeSeriesReader {
     using namespace pe_series_detail;
     if (records_ == total_) return false;
     if (used_ == filled_) {
-      block_.resize(static_cast<std::size_t>(record_bytes) * 4096);
-      const std::int64_t wanted = std::min<std::int64_t>(4096, total_ - records_) * record_bytes;
+      block_.resize(static_cast<std::size_t>(record_bytes_) * 4096);
+      const std::int64_t wanted = std::min<std::int64_t>(4096, total_ - records_) * record_bytes_;
       in_.read(block_.data(), wanted);
       if (in_.gcount() != wanted)
         throw PeSeriesError(path_ + ": cannot read record " + std::to_string(records_ + 1));
@@ -280,8 +293,8 @@ class PeSeriesReader {
     }
     const char *const record = block_.data() + used_;
     const std::int64_t new_step = step_from_bytes(record);
-    const double new_pe = double_from_bytes(record + 8);
-    const double new_time = info_.time(new_step);
+    const double new_pe = double_from_bytes(record + record_bytes_ - 8);
+    const double new_time = info_.own_times ? double_from_bytes(record + 8) : info_.time(new_step);
     if (!std::isfinite(new_time))
       throw PeSeriesError(path_ + ": record " + std::to_string(records_ + 1) + ": time of step " +
                           std::to_string(new_step) + " is not finite, expected a finite number");
@@ -292,11 +305,16 @@ class PeSeriesReader {
       throw PeSeriesError(path_ + ": record " + std::to_string(records_ + 1) + ": step " +
                           std::to_string(new_step) + " after step " + std::to_string(last_step_) +
                           ", expected increasing steps");
-    used_ += record_bytes;
+    if (has_last_ && new_time < last_time_)
+      throw PeSeriesError(path_ + ": record " + std::to_string(records_ + 1) + ": time " +
+                          text_io::number(new_time) + " after time " + text_io::number(last_time_) +
+                          ", expected increasing times");
+    used_ += record_bytes_;
     step = new_step;
     time = new_time;
     pe = new_pe;
-    kept_end_ += record_bytes;
+    last_time_ = time;
+    kept_end_ += record_bytes_;
     remember(step);
     return true;
   }
@@ -322,7 +340,7 @@ class PeSeriesReader {
   std::vector<std::string_view> fields_;  // views into line_
   // binary
   std::ifstream in_;
-  std::int64_t data_begin_ = 0, total_ = 0, used_ = 0, filled_ = 0;
+  std::int64_t data_begin_ = 0, total_ = 0, used_ = 0, filled_ = 0, record_bytes_ = 16;
   std::vector<char> block_;
 };
 
@@ -386,10 +404,11 @@ class PeSeriesWriter {
     const std::string problem = text_io::difference(header(reader.info()), header(info), ignore);
     if (!problem.empty()) throw PeSeriesError(path + ": cannot resume: " + problem);
     std::int64_t kept = 0, length = reader.kept_end_, last = 0, step = 0;
-    double time = 0.0, pe = 0.0;
+    double time = 0.0, pe = 0.0, last_time = 0.0;
     // Steps increase, so the first one to drop is where the file is cut.
     while (reader.next(step, time, pe) && step <= last_step) {
       last = step;
+      last_time = time;
       ++kept;
       length = reader.kept_end_;
     }
@@ -400,6 +419,7 @@ class PeSeriesWriter {
     cut_path_ = path;
     cut_length_ = length;
     start(info, binary, kept, last);
+    last_time_ = last_time;
   }
 
   /// Goes on with the file that find_cut() looked at. Returns the number of samples kept.
@@ -408,11 +428,27 @@ class PeSeriesWriter {
     return rows_;
   }
 
-  /// Adds a sample. \throws PeSeriesError if pe is not finite, steps do not increase, or a block
-  /// cannot be written.
+  /// Adds a sample at the time that follows from its step. \throws as below; std::logic_error for a
+  /// series with own_times
   void write(std::int64_t step, double pe) {
+    if (info_.own_times) throw std::logic_error("PE series: a sample needs its time");
+    write(step, info_.time(step), pe);
+  }
+
+  /// Adds a sample. \param time counts with own_times only
+  /// \throws PeSeriesError if a number is not finite, steps or times do not increase, or a block
+  /// cannot be written.
+  void write(std::int64_t step, double time, double pe) {
     using namespace pe_series_detail;
     if (!file_.is_open()) throw PeSeriesError("PE series is not open");
+    if (!info_.own_times) time = info_.time(step);
+    if (!std::isfinite(time))
+      throw PeSeriesError(file_.path() + ": cannot write step " + std::to_string(step) +
+                          ": time is not finite, expected a finite number");
+    if (rows_ > 0 && info_.own_times && time < last_time_)
+      throw PeSeriesError(file_.path() + ": cannot write time " + text_io::number(time) +
+                          " after time " + text_io::number(last_time_) +
+                          ", expected increasing times");
     if (!std::isfinite(pe))
       throw PeSeriesError(file_.path() + ": cannot write step " + std::to_string(step) +
                           ": pe is not finite, expected a finite number");
@@ -422,16 +458,18 @@ class PeSeriesWriter {
                           ", expected increasing steps");
     if (binary_) {
       append_bytes(buffer_, static_cast<std::uint64_t>(step));
+      if (info_.own_times) append_bytes(buffer_, time);
       append_bytes(buffer_, pe);
     } else {
       text_io::append(buffer_, step);
       buffer_ += ',';
-      text_io::append(buffer_, info_.time(step));
+      text_io::append(buffer_, time);
       buffer_ += ',';
       text_io::append(buffer_, pe);
       buffer_ += '\n';
     }
     last_step_ = step;
+    last_time_ = time;
     ++rows_;
     if (buffer_.size() >= buffer_limit) flush();
   }
@@ -469,6 +507,7 @@ class PeSeriesWriter {
   PeSeriesInfo info_;
   bool binary_ = false;
   std::int64_t rows_ = 0, last_step_ = 0;
+  double last_time_ = 0.0;
   std::string buffer_;
   std::string cut_path_;
   std::int64_t cut_length_ = 0;

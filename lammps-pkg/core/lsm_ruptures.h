@@ -44,6 +44,9 @@ struct FaultGrid {
   double time(std::int64_t step) const {
     return time0 + (static_cast<double>(step) - static_cast<double>(step0)) * dt;
   }
+  bool ends_interval(std::int64_t step) const {
+    return step > step0 && (step - step0) % interval == 0;
+  }
   double centre(std::int64_t bin) const { return x0 + (static_cast<double>(bin) + 0.5) * width; }
 };
 

@@ -229,13 +229,13 @@ class SlipSets {
     const Set &x = nodes_[index(a)].set, &y = nodes_[index(b)].set;
     if (std::tie(y.step_start, y.first_place) < std::tie(x.step_start, x.first_place))
       std::swap(a, b);
-    Node &into = nodes_[index(a)], &gone = nodes_[index(b)];
-    extend(into.set, gone.set.begin, gone.set.length, places_, reach_ - 1);
-    into.set.step_end = std::max(into.set.step_end, gone.set.step_end);
-    into.set.absorb(gone.set);
-    gone.parent = a;
+    Node &into = nodes_[index(a)], &joined = nodes_[index(b)];
+    extend(into.set, joined.set.begin, joined.set.length, places_, reach_ - 1);
+    into.set.step_end = std::max(into.set.step_end, joined.set.step_end);
+    into.set.absorb(joined.set);
+    joined.parent = a;
     nodes_[index(into.tail)].next = b;
-    into.tail = gone.tail;
+    into.tail = joined.tail;
     return a;
   }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -63,18 +64,18 @@ std::string label_of(const EventTable &table) {
 
 // Times between events are reckoned from start to start, but ruptures come in order of their ends.
 void sort_by_start(EventTable &table) {
-  struct Row {
-    double start, end, size;
-  };
-  std::vector<Row> rows(table.size.size());
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    rows[i] = {table.t_start[i], table.t_end[i], table.size[i]};
-  std::stable_sort(rows.begin(), rows.end(),
-                   [](const Row &a, const Row &b) { return a.start < b.start; });
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    table.t_start[i] = rows[i].start;
-    table.t_end[i] = rows[i].end;
-    table.size[i] = rows[i].size;
+  std::vector<std::size_t> order(table.size.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&table](std::size_t i, std::size_t j) {
+    return table.t_start[i] < table.t_start[j];
+  });
+  for (std::vector<double> *column :
+       {&table.t_start, &table.t_end, &table.size, &table.begin, &table.extent}) {
+    if (column->empty()) continue;
+    std::vector<double> sorted;
+    sorted.reserve(order.size());
+    for (const std::size_t i : order) sorted.push_back((*column)[i]);
+    *column = std::move(sorted);
   }
 }
 
@@ -139,10 +140,16 @@ EventTable load_catalogue(const std::string &path, const CatalogueOptions &optio
     columns.t_start.push_back(event.t_start);
     columns.t_end.push_back(event.t_end);
     columns.size.push_back(event.size);
+    columns.begin.push_back(event.x_begin);
+    columns.extent.push_back(event.rupture_length);
   });
   table.t_start = std::move(columns.t_start);
   table.t_end = std::move(columns.t_end);
   table.size = std::move(columns.size);
+  if (table.info.x_begin && table.info.rupture_length) {
+    table.begin = std::move(columns.begin);
+    table.extent = std::move(columns.extent);
+  }
   if (table.info.overlapping()) sort_by_start(table);
   return table;
 }

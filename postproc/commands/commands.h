@@ -16,6 +16,7 @@ void add_intervals(CLI::App &app);    ///< inter-event times (Figs. 14, 15, Tabl
 void add_fit(CLI::App &app);          ///< size exponents, finite-size scaling
 void add_magnitudes(CLI::App &app);   ///< frequencies of magnitudes, b-values (ours)
 void add_aftershocks(CLI::App &app);  ///< rates after main shocks, Omori-Utsu law (ours)
+void add_compare(CLI::App &app);      ///< do catalogues agree? (ours)
 void add_spectrum(CLI::App &app);     ///< power spectrum of PE (ours)
 void add_export(CLI::App &app);       ///< tables for earthquake catalogue tools
 void add_report(CLI::App &app);       ///< one page about a set of catalogues

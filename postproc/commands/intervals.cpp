@@ -54,8 +54,16 @@ void run(Options &options) {
   const std::vector<Table1Row> rows = table1(curves);
   for (const IntervalCurve &curve : curves)
     if (curve.n > 0)
-      fmt::print("{}, sizes from {}: {} inter-event times, mean {} model time\n", curve.label,
-                 text(curve.threshold), curve.n, short_number(curve.mean, 6));
+      fmt::print(
+          "{}, sizes from {}: {} inter-event times, mean {} model time, standard deviation {} of "
+          "the mean\n",
+          curve.label, text(curve.threshold), curve.n, short_number(curve.mean, 6),
+          short_number(curve.variation));
+  if (settings.places > 0)
+    fmt::print(
+        "times at {} places each; places closer than ruptures are long share ruptures, and then "
+        "errors and p are too small\n",
+        settings.places);
   fmt::print("{}", table1_text(rows, settings.rescale));
   table1_csv(rows, settings.rescale).write(options.picture.output + ".table1.csv");
   fmt::print("wrote {}.table1.csv\n", options.picture.output);
@@ -82,6 +90,13 @@ void add_intervals(CLI::App &app) {
           "'completeness' in the headers of a model where that is larger (ours)")
       ->default_str("1e-4")
       ->allow_extra_args(false)
+      ->check(zero_or_more())
+      ->group(group);
+  command
+      ->add_option("--places", intervals.places,
+                   "Times between ruptures that reach the same place, for this number of places "
+                   "along the fault, all together (ours; catalogues of ruptures of faults); 0: "
+                   "between any two events")
       ->check(zero_or_more())
       ->group(group);
   command

@@ -48,7 +48,7 @@ int main(int argc, char **argv) {
     app.get_formatter()->column_width(34);
     for (const auto add :
          {add_pick, add_series, add_histograms, add_intervals, add_fit, add_magnitudes,
-          add_aftershocks, add_spectrum, add_export, add_report, add_rupture})
+          add_aftershocks, add_compare, add_spectrum, add_export, add_report, add_rupture})
       add(app);
     try {
       app.parse(argc, argv);

@@ -3,6 +3,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 #include "numbers.h"
 #include "picture_options.h"
 #include "plot.h"
+#include "rupture_densities.h"
 #include "rupture_figures.h"
 
 namespace LSM::postproc {
@@ -94,8 +96,9 @@ void run(const Options &options) {
   std::vector<std::string> inputs = options.catalogues.paths;
   if (!options.history.empty()) inputs.push_back(options.history);
   std::vector<std::string> outputs;
-  for (const char *const name : {"-spacetime", "-spacetime-outlines", "-lines", "-event",
-                                 "-event-lines", "-length", "-pe", "-stress"})
+  for (const char *const name :
+       {"-spacetime", "-spacetime-outlines", "-lines", "-event", "-event-lines", "-lengths",
+        "-moments", "-length", "-pe", "-stress"})
     for (const char *const kind : {".csv", ".gp", ".png", ".svg"})
       outputs.push_back(std::string(name) + kind);
   options.picture.check(inputs, outputs);
@@ -119,10 +122,15 @@ void run(const Options &options) {
                table.events.size(), short_number(moment, 6), short_number(largest),
                short_number(longest));
   }
+  // What cannot be drawn is found out before the first file is written.
+  const std::vector<std::pair<std::string, Figure>> figures = {
+      {"-lengths", rupture_density_figure(tables, RuptureQuantity::length)},
+      {"-moments", rupture_density_figure(tables, RuptureQuantity::moment)},
+      {"-length", moment_length_figure(tables)},
+      {"-pe", moment_pe_figure(tables)},
+      {"-stress", stress_drop_figure(tables)}};
   if (!options.history.empty()) draw_history(options, tables.front());
-  make(moment_length_figure(tables), named(options.picture, "-length"));
-  make(moment_pe_figure(tables), named(options.picture, "-pe"));
-  make(stress_drop_figure(tables), named(options.picture, "-stress"));
+  for (const auto &[name, figure] : figures) make(figure, named(options.picture, name));
 }
 
 }  // namespace
@@ -131,7 +139,8 @@ void add_rupture(CLI::App &app) {
   CLI::App *command = app.add_subcommand(
       "rupture",
       "Draws the ruptures of faults (ours; catalogues of compute lsm/events with events ruptures): "
-      "moment against length (BASE-length), against the drop of the total PE, which the paper says "
+      "how many of each length (BASE-lengths) and moment (BASE-moments) there are, moment against "
+      "length (BASE-length), against the drop of the total PE, which the paper says "
       "should be proportional (BASE-pe), stress drop against moment (BASE-stress). With a slip "
       "history, also the slip velocity in space and time with the ruptures outlined "
       "(BASE-spacetime), lines of the slip along the fault (BASE-lines), and one rupture in detail "

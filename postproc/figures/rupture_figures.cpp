@@ -201,7 +201,7 @@ LogFit fit_logarithms(const std::vector<std::pair<double, double>> &points) {
   return fit;
 }
 
-std::vector<bool> alone_in_time(const std::vector<Event> &events) {
+std::vector<bool> slips_by_itself(const std::vector<Event> &events) {
   std::vector<std::size_t> order(events.size());
   double longest = 0.0;
   for (std::size_t k = 0; k < events.size(); ++k) {
@@ -270,7 +270,7 @@ Figure moment_pe_figure(const std::vector<RuptureTable> &tables) {
   std::vector<std::pair<double, double>> alone, all;
   std::int64_t negative = 0;
   for (std::size_t k = 0; k < tables.size(); ++k) {
-    const std::vector<bool> is_alone = alone_in_time(tables[k].events);
+    const std::vector<bool> is_alone = slips_by_itself(tables[k].events);
     for (std::size_t n = 0; n < tables[k].events.size(); ++n) {
       const Event &e = tables[k].events[n];
       if (!(e.slip_moment > 0.0)) continue;

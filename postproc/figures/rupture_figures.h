@@ -38,7 +38,7 @@ LogFit fit_logarithms(const std::vector<std::pair<double, double>> &points);
 
 /// Whether the ruptures at the same time as each one (which a drop of the total PE holds as well)
 /// have less than a tenth of its moment together.
-std::vector<bool> alone_in_time(const std::vector<Event> &events);
+std::vector<bool> slips_by_itself(const std::vector<Event> &events);
 
 Figure moment_length_figure(const std::vector<RuptureTable> &tables);
 Figure moment_pe_figure(const std::vector<RuptureTable> &tables);

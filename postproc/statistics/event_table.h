@@ -27,8 +27,11 @@ struct EventTable {
   std::string path, label;
   CatalogueInfo info;
   std::vector<double> t_start, t_end, size;  ///< in order of t_start
-  double in_events = 0.0;                    ///< sum of the durations (model time)
-  double last_end = 0.0;                     ///< t_end of the last event (model time)
+  /// Row along the fault that an event ruptured, [begin, begin + extent), which may continue across
+  /// the periodic border; both empty if the catalogue does not have these columns.
+  std::vector<double> begin, extent;
+  double in_events = 0.0;  ///< sum of the durations (model time)
+  double last_end = 0.0;   ///< t_end of the last event (model time)
   /// Smaller events are missing: --min-size, or the picker's min_size in the header (energy).
   double complete_from = 0.0;
   /// The largest `completeness` in the headers of the catalogues of this model that were loaded

@@ -274,10 +274,12 @@ SizePoint characteristic_size(const std::vector<double> &t_start, const std::vec
   const Ring ring(times, kept);
   point.s_star = ratio([&](std::size_t i) { return kept[i]; });
   // What an event adds to the deviation of the ratio, to first order.
-  const auto pull = [&](double size) { return (size * size - point.s_star * size) / ring.all().s; };
-  NeumaierSum pulls;
-  for (double size : kept) pulls.add(std::pow(pull(size), 2));
-  point.error_independent = std::sqrt(pulls.value());
+  const auto influence = [&](double size) {
+    return (size * size - point.s_star * size) / ring.all().s;
+  };
+  NeumaierSum influences;
+  for (double size : kept) influences.add(std::pow(influence(size), 2));
+  point.error_independent = std::sqrt(influences.value());
 
   point.block = resampling.block;
   if (std::isnan(point.block)) {
@@ -286,7 +288,7 @@ SizePoint characteristic_size(const std::vector<double> &t_start, const std::vec
     const auto count = static_cast<double>(bins.size());
     for (std::size_t i = 0; i < kept.size(); ++i) {
       const double at = (times[i] - times.front()) / ring.duration() * count;
-      bins[std::min(static_cast<std::size_t>(at), bins.size() - 1)] += pull(kept[i]);
+      bins[std::min(static_cast<std::size_t>(at), bins.size() - 1)] += influence(kept[i]);
     }
     point.block = block_length(bins) * ring.duration() / count;
   }

@@ -26,10 +26,46 @@ std::vector<double> inter_event_times(const EventTable &events, double threshold
   return times;
 }
 
+std::vector<double> times_at_places(const EventTable &events, double threshold, int places) {
+  const double length = events.length();
+  if (events.begin.size() != events.size.size() || !(length > 0.0))
+    throw std::invalid_argument(events.path +
+                                ": --places: no columns x_begin and rupture_length, or no length "
+                                "in the header, expected a catalogue of ruptures of a fault");
+  std::vector<double> times;
+  for (int place = 0; place < places; ++place) {
+    const double x = (place + 0.5) * length / places;
+    double before = std::nan("");
+    for (std::size_t i = 0; i < events.size.size(); ++i) {
+      if (!(events.size[i] >= threshold)) continue;
+      double beyond = std::fmod(x - events.begin[i], length);
+      if (beyond < 0.0) beyond += length;
+      if (beyond >= events.extent[i]) continue;
+      if (!std::isnan(before)) times.push_back(events.t_start[i] - before);
+      before = events.t_start[i];
+    }
+  }
+  return times;
+}
+
+namespace {
+
+double variation_of(const std::vector<double> &times, double mean) {
+  if (times.size() < 2) return std::nan("");
+  std::vector<double> squares;
+  for (const double time : times) squares.push_back((time - mean) * (time - mean));
+  return std::sqrt(sum_pairwise(squares.data(), squares.size()) /
+                   static_cast<double>(squares.size() - 1)) /
+         mean;
+}
+
+}  // namespace
+
 std::vector<IntervalCurve> interval_curves(const std::vector<EventTable> &tables,
                                            const IntervalSettings &settings) {
   if (!(settings.shortest >= 0.0) || !std::isfinite(settings.shortest))
     throw std::invalid_argument("--shortest: expected a time of zero or more");
+  if (settings.places < 0) throw std::invalid_argument("--places: expected 0 or more");
   if (settings.replicas < 0) throw std::invalid_argument("--replicas: expected 0 or more");
   std::vector<IntervalCurve> curves;
   for (const EventTable &table : tables) {
@@ -40,9 +76,12 @@ std::vector<IntervalCurve> interval_curves(const std::vector<EventTable> &tables
       curve.label = table.label;
       curve.model = table.info.model;
       curve.threshold = threshold.complete_in(table);
-      std::vector<double> times = inter_event_times(table, curve.threshold.size);
+      std::vector<double> times =
+          settings.places > 0 ? times_at_places(table, curve.threshold.size, settings.places)
+                              : inter_event_times(table, curve.threshold.size);
       curve.n = static_cast<std::int64_t>(times.size());
       curve.mean = sum_pairwise(times.data(), times.size()) / static_cast<double>(times.size());
+      curve.variation = variation_of(times, curve.mean);
       // Events of zero length can start at the same time.
       times.erase(std::remove_if(times.begin(), times.end(), [](double t) { return !(t > 0.0); }),
                   times.end());

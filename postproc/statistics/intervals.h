@@ -18,6 +18,9 @@ namespace LSM::postproc {
 struct IntervalSettings {
   /// Smallest sizes (model energy); none: Threshold().
   std::vector<double> thresholds;
+  /// Places along the fault, equally spaced: times between events that rupture the same one, those
+  /// of all places together; 0: times between any two events.
+  int places = 0;
   bool rescale = false;                          ///< times divided by their mean
   double factor = LogHistogram::default_factor;  ///< ratio of the edges of a bin
   double shortest = 0.0;  ///< shorter times are not fitted, in the unit of the picture; 0: none
@@ -42,6 +45,9 @@ struct IntervalCurve {
   SmallestSize threshold;
   std::int64_t n = 0;  ///< inter-event times
   double mean = 0.0;   ///< of the inter-event times, model time; NaN if there is none
+  /// Standard deviation of the times over their mean: 1 for independent events, 0 for periodic
+  /// ones, above 1 for clusters; NaN if there are fewer than two times.
+  double variation = 0.0;
   std::vector<LogBin> bins;
   std::vector<IntervalFit> fits;
 
@@ -52,6 +58,12 @@ struct IntervalCurve {
 /// Times from the start of an event to the start of the next one, events smaller than threshold
 /// left out (model time).
 std::vector<double> inter_event_times(const EventTable &events, double threshold);
+
+/// The same for events that rupture a place, for `places` of them, equally spaced along the fault
+/// from half a space on, one after the other. Places closer to each other than events are long
+/// share events, so that their times are not independent. \throws std::invalid_argument if the
+/// table does not say where its events ruptured
+std::vector<double> times_at_places(const EventTable &events, double threshold, int places);
 
 /// \throws std::invalid_argument for impossible settings
 std::vector<IntervalCurve> interval_curves(const std::vector<EventTable> &tables,

@@ -99,12 +99,12 @@ void WelchSpectrum::add(double value) {
   ++samples_;
   buffer_[filled_++] = value;
   if (filled_ < buffer_.size()) return;
-  take_segment();
+  add_segment();
   std::copy(buffer_.begin() + static_cast<std::ptrdiff_t>(hop_), buffer_.end(), buffer_.begin());
   filled_ -= hop_;
 }
 
-void WelchSpectrum::take_segment() {
+void WelchSpectrum::add_segment() {
   Transform &t = *transform_;
   std::copy(buffer_.begin(), buffer_.end(), t.in);
   remove_trend(settings_.detrend, t.in, buffer_.size());
@@ -138,12 +138,12 @@ std::vector<SpectrumPoint> WelchSpectrum::points() const {
   std::vector<SpectrumPoint> points(sums_.size());
   for (std::size_t k = 0; k < points.size(); ++k) {
     // Negative frequencies are folded onto the positive ones; 0 and n/2 have no other half.
-    const bool alone = k == 0 || 2 * k == n;
+    const bool unpaired = k == 0 || 2 * k == n;
     points[k].frequency = static_cast<double>(k) * step;
     points[k].width = step;
     points[k].density =
-        (alone ? 1.0 : 2.0) * sums_[k] * interval_ / (power_ * static_cast<double>(segments_));
-    points[k].error = points[k].density * std::sqrt((alone ? 2.0 : 1.0) / averages);
+        (unpaired ? 1.0 : 2.0) * sums_[k] * interval_ / (power_ * static_cast<double>(segments_));
+    points[k].error = points[k].density * std::sqrt((unpaired ? 2.0 : 1.0) / averages);
   }
   return points;
 }

@@ -53,7 +53,7 @@ class WelchSpectrum {
 
  private:
   struct Transform;
-  void take_segment();
+  void add_segment();
 
   SpectrumSettings settings_;
   double interval_ = 1.0;

@@ -210,7 +210,7 @@ class SpringFault : public SmallFault {
  private:
   double forces(bool setup) {
     double pe = link_forces();
-    const LSM::FrictionCoefficients law{c_.kt, c_.mu, c_.mu};
+    const LSM::Coulomb::Coefficients law{c_.kt, c_.mu, c_.mu};
     for (Contact &c : s_.contacts) {
       Disc &a = disc(c.i), &b = disc(c.j);
       const Vector d = around(a.x - b.x);
@@ -226,7 +226,7 @@ class SpringFault : public SmallFault {
           double along =
               (middle.x * change.y - middle.y * change.x) / std::sqrt(dot(middle, middle));
           if (!c.touches) along *= LSM::share_in_contact(std::sqrt(dot(c.before, c.before)), r, r0);
-          c.xi = LSM::friction_step<false>(law, c.xi, along, fn, false).xi;
+          c.xi = LSM::friction_step<LSM::Coulomb>(law, {fn, c.xi, along, 0.0, false}).xi;
         }
         c.touches = true;
         const double ft = c_.kt * c.xi;

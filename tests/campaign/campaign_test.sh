@@ -89,6 +89,15 @@ same() {
   [ "$(grep -vc '^[#e]' "$1")" -ge "$3" ] || fail "$1 has too few events to test anything"
 }
 
+# settings_are FILE PROGRAM WORDS...: a campaign goes on only with runs of these settings, line by line, so that their
+# text must stay what it was when a campaign began.
+settings_are() {
+  local file=$1 program=$2
+  shift 2
+  diff <(printf '%s\n' "$@") <(tail -n +2 "$file") >&2 || fail "$file: other settings"
+  [[ $(head -n 1 "$file") == "program = $program "* ]] || fail "$file begins with $(head -n 1 "$file")"
+}
+
 sums() { (cd "$1" && find . -type f ! -name output.txt ! -name lock | sort | xargs cksum); }
 
 # refused PATTERN FOLDER OPTIONS...: ends with an error that matches, and leaves all files as they are
@@ -122,6 +131,9 @@ refuse_slider)
   campaign one "${short[@]}" && grep -q '1 of 1 runs done' out.txt && ! grep -q starts out.txt || fail "done, but begun again"
   campaign other "${short[@]}" --slider seed=2 || fail "ended with $?"
   run=$(echo one/slider*)
+  settings_are "$run/settings.txt" slider_cli '--scheme verlet' '--dt 0.05' '--picker exponential' \
+    '--picker-memory-time 1' '--warmup 12000' '--blocks 100' '--seed 1' '--steps 300000' '--velocity 0.05' '--dt 0.05' \
+    '--warmup 0' '--checkpoint-interval 50000' '--pe-series series.bin' '--pe-stride 100' '--pe-format binary'
   refused "begun with other settings: '--steps 300000', expected '--steps 400000'" one "${short[@]}" --steps 4e5
   cp -r one keep
   sed -i 's/^program = slider_cli .*/program = slider_cli 0.0/' "$run/settings.txt"
@@ -160,6 +172,32 @@ refuse_slider)
   exec 8>>one/lock && flock 8
   campaign one "${short[@]}" && fail "two campaigns in one folder"
   grep -q "another campaign works in" out.txt || fail "no message about the other campaign"
+  # Tables: the runs that they ask for, and lines that name what is wrong
+  runs_of() { # TABLE OPTIONS...
+    printf '%s\n' "$1" >table.txt
+    campaign none "${slider[@]}" --blocks 100,300 --table table.txt --list "${@:2}" && cut -d ' ' -f 1 out.txt | xargs
+  }
+  row='slider s_SIZE_SEED 200 50-150 1-2 1e5 none --dt 0.05'
+  [ "$(runs_of "$row")" = s_100_1 ] || fail "others of a table: $(cat out.txt)"
+  [ "$(runs_of "$row" --seeds 3 --blocks 200,150,50)" = "s_200_1 s_200_2 s_200_3 s_150_1 s_150_2 s_150_3" ] ||
+    fail "seeds of a table: $(cat out.txt)"
+  [ "$(runs_of "slider k_VALUE 100 none 4 1e5 kl=1,2 --dt 0.05")" = "k_1_seed_4 k_2_seed_4" ] ||
+    fail "values of a table: $(cat out.txt)"
+  while IFS='|' read -r bad said; do
+    runs_of "$bad" && fail "accepted: $bad"
+    [ "$(cat out.txt)" = "campaign: table.txt:1: $said" ] || fail "expected '$said' for $bad"
+  done <<'END'
+slider s_SIZE 100 none 1 1e5 none|7 columns, expected program, name, sizes, others, seeds, steps, each and settings
+chain s_SIZE 100 none 1 1e5 none --dt 1|program "chain", expected fault or slider
+slider s_SIZE 100;300 none 1 1e5 none --dt 1|sizes "100;300", expected numbers with commas between them, or none
+slider s_SIZE 100 all 1 1e5 none --dt 1|others "all", expected A-B, A- or none
+slider s_SIZE 100 none 2-3 1e5 none --dt 1|seeds "2-3", expected 1-N or a seed
+slider s_SIZE 100 none 1 1.5 none --dt 1|steps "1.5", expected a whole number of at least 1
+slider s_SIZE 100 none 1 1e5 kl --dt 1|each "kl", expected NAME=V,V... or none
+slider s_SIZE 100 none 1 1e5 none @ours|@ours stands for nothing, expected a line ours = ... before
+slider s 100,300 none 1 1e5 none --dt 1|there is a run s already (line 1), expected another name
+END
+  runs_of '# nothing' && fail "accepted: a table without runs"
   # Options
   for bad in '--steps 1.5' '--only chains' '--lengths 12,x' '--jobs 0' '--frobnicate' '--slider velocity' '--hours'; do
     # The words of an option are words on purpose.
@@ -173,6 +211,8 @@ refuse_fault)
   campaign whole "${fault[@]}" --steps 6000 || fail "ended with $?"
   campaign one "${short[@]}" || fail "ended with $?"
   campaign other "${short[@]}" --fault mu=0.5 || fail "ended with $?"
+  settings_are one/fault_40/settings.txt lmp 'length 40' 'seed 1' 'checkpoint 1500' 'location yes' 'series yes' 'width 20' \
+    'settle 500' 'velocity 0.01' 'thermo 1000'
   longer=("${fault[@]}" --steps 6000)
   refused "begun with other settings: 'checkpoint 1500', expected 'checkpoint 2000'" one "${longer[@]}" --checkpoint 2000
   cp -r one keep

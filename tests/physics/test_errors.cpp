@@ -35,6 +35,7 @@ TEST_F(BadInput, OneLineOfError) {
       {"pair_coeff 3 4 1 1 0.6 0.5", {"mu_static", "0.5"}},
       {"compute a all lsm/events lamda 0.9", {"lamda", "lambda"}},
       {"compute a all lsm/events lambda 1.5", {"lambda", "1.5"}},
+      {"compute a all lsm/events memory 1e300\nrun 1", {"lambda"}},  // 1 to the last digit
       {"compute a all lsm/events picker best", {"picker", "best", "exponential"}},
       {"compute a all lsm/events series f.pe", {"series"}},
       {"fix a all lsm/plates lower nowhere stress 1", {"nowhere"}},

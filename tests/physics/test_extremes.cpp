@@ -267,6 +267,35 @@ TEST_F(Extremes, TenThousandPeriods) {
                                                    "; energy to " + brief(most));
 }
 
+TEST_F(Extremes, ContactsThatMayCloseRefuseAStartButNotARunThatGoesOn) {
+  // Two discs of mass 1, k = kt = 1: a limit of the root of 2 once they touch.
+  const auto discs = [](const char *distance) {
+    return single_discs(std::string("create_atoms 1 single 3 0 0\ncreate_atoms 1 single $(3+") +
+                        distance + ":%.17g) 0 0\n") +
+           "thermo_style one\nuncompute events\n";
+  };
+  const std::string start = "timestep 2.0\nrun 0\n",
+                    on = "timestep 1.0\nrun 1\ntimestep 2.0\nrun 1\n";
+  EXPECT_TRUE(failed_with(run_text(discs("2.04") + start), {"Time step 2", "stability limit 1.4"}));
+  const Result went_on = run_text(discs("2.04") + on);
+  EXPECT_TRUE(succeeded(went_on));
+  EXPECT_NE(went_on.output.find("nearly closed"), std::string::npos);
+  EXPECT_TRUE(failed_with(run_text(discs("1.99") + on), {"Time step 2", "stability limit 1.4"}));
+  const Result far = run_text(discs("2.2") + on);
+  EXPECT_TRUE(succeeded(far));
+  EXPECT_EQ(far.output.find("nearly closed"), std::string::npos);
+  // A restart file goes on, too.
+  const std::string rest = "timestep 1.0\nrun 1\nwrite_restart two.restart\n";
+  ASSERT_TRUE(succeeded(run_text(discs("2.04") + rest)));
+  std::string again = discs("2.04");
+  const auto from = again.find("region "), to = again.find("bond_style");
+  ASSERT_TRUE(from != std::string::npos && to != std::string::npos && from < to);
+  again.replace(from, to - from, "read_restart two.restart\n");
+  const Result restarted = run_text(again + start);
+  EXPECT_TRUE(succeeded(restarted));
+  EXPECT_NE(restarted.output.find("nearly closed"), std::string::npos);
+}
+
 TEST_F(Extremes, NearlyCoincidentDiscs) {
   for (const char *gap : {"1e-3", "1e-10", "0"}) {
     const std::string at = std::string("create_atoms 1 single 5 0 0\ncreate_atoms 1 single $(5+") +

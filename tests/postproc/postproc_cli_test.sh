@@ -187,6 +187,29 @@ spectrum)
   refused "window" spectrum sine --window tukey -o x
   refused "label given 1 times, expected once per series (2)" spectrum sine sine --label a -o x
   ;;
+compare)
+  # Times of 4 and 6, sizes 1 to 7; the same with other numbers; times twice as long; few events.
+  made() { # NAME TIME COUNT [SHIFT]
+    awk -v time="$2" -v count="$3" -v shift="${4:-0}" 'BEGIN {
+      print "# lsm-catalogue 1\n# model = lsm\n# length = 120"
+      print "event_id,t_start,t_end,step_start,step_end,size,pe_start,pe_end"
+      for (i = 1; i <= count; i++) {
+        t += time * (0.8 + 0.4 * (int((i + shift) * 0.618034 * 7) % 2)); s = 1 + (i + shift) * 11 % 7
+        printf "%d,%g,%g,%d,%d,%g,10,%g\n", i, t, t + 1, 10 * i, 10 * i + 1, s, 10 - s } }' > "$1"
+  }
+  made a.csv 5 400; made b.csv 5 300 3; made c.csv 10 300 3; made few.csv 5 9
+  must_run compare a.csv b.csv c.csv -o d
+  grep -q 'sizes: 400 and 300.*no difference seen$' out.txt || fail "$(cat out.txt)"
+  [ "$(grep -c 'no difference seen' out.txt) $(grep -c 'they differ' out.txt)" = "3 1" ] || fail "$(cat out.txt)"
+  grep 'they differ' out.txt | grep -q 'times: 399 and 299.*ratio 2.0.*distance 1, p = (5.0 +- 5.0)e-04' || fail "$(cat out.txt)"
+  [ "$(grep -vc '^#' d.csv)" = 5 ] || fail "$(cat d.csv)"
+  cp d.csv before.csv
+  must_run compare a.csv b.csv c.csv -o d
+  cmp d.csv before.csv || fail "not the same twice"
+  refused 'one catalogue, expected at least two' compare a.csv -o x
+  refused 'few.csv: sizes: two-sample test of 9 values' compare a.csv few.csv -o x
+  refused 'no such file\|cannot open' compare a.csv none.csv -o x
+  ;;
 export)
   catalogue c.csv
   must_run export c.csv -o s.csv

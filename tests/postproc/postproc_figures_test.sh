@@ -78,7 +78,8 @@ intervals)
       if ($7 != (n == 1 ? 100 : 50)) exit 1
       t = n == 1 ? 5 : 50; if (!($4 <= t && t < $5)) exit 1 }
     END { exit n != 2 }' i.csv || fail "densities: $(cat i.csv)"
-  grep -q '150 inter-event times, mean 20 model time' out.txt || fail "mean: $(cat out.txt)"
+  grep -q '150 inter-event times, mean 20 model time, standard deviation 1.064 of the mean' out.txt ||
+    fail "mean: $(cat out.txt)"
   grep -q 'LSM .*0.995 .*1.00 .*15.21 .*0.0573' out.txt || fail "printed Table 1: $(cat out.txt)"
   grep -q '^printed,,,0.0,,1.00,,100.0,,0.25,,,,,,,Block-Slider,' i.table1.csv || fail "$(cat i.table1.csv)"
   # Every second event is large: times of 10 and 100.
@@ -349,7 +350,11 @@ rupture)
              printf "%d,%s,%s,%d,%d,%.17g,100,%.17g,%.17g,60,%d,60.5,60,%g,0.003\n", NR, $1, $2, NR, NR, m / 100, 100 - $4, m, $3, 0.1 * $3 }'
   } > a.csv
   must_run rupture a.csv --label a -o r
-  for name in length pe stress; do pictures r-$name; done
+  for name in lengths moments length pe stress; do pictures r-$name; done
+  # Lengths 1 to 39 once each, and 40, 30, 25, 120: 43 in all; 8 from 25 to 30; T = 495.
+  awk -F, '!/^#/ && !/^curve/ { n += $6; if ($3 == 24.5 && $6 != 8) exit 1
+    d = $6 / (495 * 120 * ($4 - $3)); if (($7 - d) ^ 2 > 1e-18 * d * d) exit 1 } END { exit n != 43 }' r-lengths.csv ||
+    fail "densities of lengths: $(cat r-lengths.csv)"
   grep -q '^a: 43 ruptures' out.txt || fail "$(cat out.txt)"
   # Of the lengths below that of the fault: slope 2 without scatter.
   grep -q '^# fit, without those of the whole fault: slope 2' r-length.csv || fail "$(head -3 r-length.csv)"
@@ -366,6 +371,11 @@ rupture)
   refused 'short.csv: no catalogue of ruptures of a fault' rupture short.csv -o x
   echo 5 0.01 | catalogue plain.csv 120
   refused 'plain.csv: no catalogue of ruptures of a fault' rupture plain.csv -o x
+  # Of the places 15, 45, 75 and 105 only 75 is reached by more than the one rupture of the whole fault: by 28.
+  must_run intervals a.csv --threshold 0 --places 4 --no-picture -o p
+  grep -q ': 27 inter-event times, mean' out.txt && grep -q 'times at 4 places each' out.txt || fail "$(cat out.txt)"
+  refused 'plain.csv: --places: no columns x_begin and rupture_length' intervals plain.csv --places 4 -o x
+  refused '--places' intervals a.csv --places -1 -o x
   refused '--event needs --history' rupture a.csv --event 3 -o x
   refused 'a.csv: not a slip history' rupture a.csv --history a.csv -o x
   head -6 a.csv > two.csv

@@ -207,9 +207,9 @@ TEST(AloneInTime, CountsWhatOverlaps) {
     events[k].t_end = rows[k][1];
     events[k].slip_moment = rows[k][2];
   }
-  EXPECT_EQ(alone_in_time(events), (std::vector<bool>{false, false, false, true, false}));
+  EXPECT_EQ(slips_by_itself(events), (std::vector<bool>{false, false, false, true, false}));
   events[4].slip_moment = 0.005;
-  EXPECT_EQ(alone_in_time(events), (std::vector<bool>{true, false, false, true, false}));
+  EXPECT_EQ(slips_by_itself(events), (std::vector<bool>{true, false, false, true, false}));
 }
 
 }  // namespace

@@ -46,6 +46,43 @@ const Table1Row *row_with(const std::vector<Table1Row> &rows, const std::string 
   return nullptr;
 }
 
+TEST(Intervals, VariationOfRegularIndependentAndClusteredTimes) {
+  IntervalSettings settings;
+  settings.thresholds = {0.0};
+  settings.deltas.clear();
+  const auto variation = [&settings](const EventTable &table) {
+    return interval_curves({table}, settings)[0].variation;
+  };
+  EXPECT_DOUBLE_EQ(variation(events({0.0, 2.0, 4.0, 6.0}, {1.0, 1.0, 1.0, 1.0})), 0.0);
+  // 1, 3: mean 2, sample standard deviation root 2
+  EXPECT_DOUBLE_EQ(variation(events({0.0, 1.0, 4.0}, {1.0, 1.0, 1.0})), std::sqrt(2.0) / 2.0);
+  EXPECT_TRUE(std::isnan(variation(events({0.0, 1.0}, {1.0, 1.0}))));
+  // a gamma density of shape k has 1 / root k
+  EXPECT_NEAR(variation(gamma_events(4.0, 1.0, 40000)), 0.5, 0.01);
+  EXPECT_NEAR(variation(gamma_events(0.25, 1.0, 40000)), 2.0, 0.1);
+}
+
+TEST(Intervals, AtOnePlaceOnly) {
+  // Four places of a fault of length 8: 1, 3, 5, 7.
+  EventTable table = events({0.0, 10.0, 25.0, 45.0, 70.0}, {1.0, 1.0, 0.1, 1.0, 1.0});
+  table.info.parameters = {{"length", "8"}};
+  table.begin = {0.5, 2.0, 0.0, 6.5, 1.0};   // the fourth continues across the border to 1.5
+  table.extent = {1.0, 2.0, 8.0, 3.0, 2.0};  // reaches 1; 3; all; 7 and 1; 1, as it ends before 3
+  EXPECT_EQ(times_at_places(table, 0.5, 4), (std::vector<double>{45.0, 25.0}));
+  // With the small one: at 1: 0, 25, 45, 70; at 3: 10, 25; at 5: 25; at 7: 25, 45.
+  EXPECT_EQ(times_at_places(table, 0.0, 4), (std::vector<double>{25.0, 20.0, 25.0, 15.0, 20.0}));
+  IntervalSettings settings;
+  settings.thresholds = {0.0};
+  settings.deltas.clear();
+  settings.places = 4;
+  const auto curves = interval_curves({table}, settings);
+  EXPECT_EQ(curves[0].n, 5);
+  EXPECT_DOUBLE_EQ(curves[0].mean, 21.0);
+  table.begin.clear();
+  table.extent.clear();
+  EXPECT_THROW(times_at_places(table, 0.0, 4), std::invalid_argument);
+}
+
 TEST(Table1, PrintedValuesAsInThePaper) {
   const auto rows = table1({});
   ASSERT_EQ(rows.size(), 3u);

@@ -340,8 +340,8 @@ overwrite)
   }
   mkdir one && cd one || exit 1
   : > out.txt
-  fresh() { "$program" "${short[@]}" --steps 300000 "$@" > out.txt 2> ../err.txt; }
-  fresh --catalogue a.csv --pe-series a.pe --pe-stride 100 --checkpoint a.chk ||
+  from_the_start() { "$program" "${short[@]}" --steps 300000 "$@" > out.txt 2> ../err.txt; }
+  from_the_start --catalogue a.csv --pe-series a.pe --pe-stride 100 --checkpoint a.chk ||
     fail "$(cat ../err.txt)"
   same a.csv a.csv 5
   kept "a.csv: exists, expected a new file for --catalogue; --overwrite replaces it, --resume" \
@@ -353,13 +353,13 @@ overwrite)
   kept "a.csv: exists" --catalogue a.csv --events ruptures
   # Asked to, it does; the new files are those of a first run.
   cp a.csv first.csv
-  fresh --catalogue a.csv --overwrite --seed 4 || fail "$(cat ../err.txt)"
+  from_the_start --catalogue a.csv --overwrite --seed 4 || fail "$(cat ../err.txt)"
   cmp -s a.csv first.csv && fail "--overwrite did not replace the catalogue"
-  fresh --catalogue a.csv --overwrite || fail "$(cat ../err.txt)"
+  from_the_start --catalogue a.csv --overwrite || fail "$(cat ../err.txt)"
   same a.csv first.csv 5
   # An ensemble looks at all files before the first run; --resume without a checkpoint is a fresh
   # start.
-  fresh --ensemble 3 --catalogue 'r{run}.csv' --checkpoint 'r{run}.chk' || fail "$(cat ../err.txt)"
+  from_the_start --ensemble 3 --catalogue 'r{run}.csv' --checkpoint 'r{run}.chk' || fail "$(cat ../err.txt)"
   rm r1.csv r1.chk r2.chk
   kept "run 2 of the ensemble: r2.csv: exists" --ensemble 3 --catalogue 'r{run}.csv' \
     --checkpoint 'r{run}.chk'
@@ -367,14 +367,14 @@ overwrite)
     --checkpoint 'r{run}.chk' --resume
   cp r2.csv first.csv
   cp -p r3.csv third.csv
-  fresh --ensemble 3 --catalogue 'r{run}.csv' --checkpoint 'r{run}.chk' --resume --overwrite ||
+  from_the_start --ensemble 3 --catalogue 'r{run}.csv' --checkpoint 'r{run}.chk' --resume --overwrite ||
     fail "$(cat ../err.txt)"
   same r2.csv first.csv 5
   same r3.csv third.csv 5
   [ -s r1.csv ] || fail "run 1 did not start"
   # What holds nothing, and what is no file, is no reason to refuse.
   : > empty.csv
-  fresh --catalogue empty.csv --pe-series /dev/null || fail "$(cat ../err.txt)"
+  from_the_start --catalogue empty.csv --pe-series /dev/null || fail "$(cat ../err.txt)"
   same empty.csv a.csv 5
   ;;
 config)

@@ -7,11 +7,12 @@
 
 namespace {
 
+using LSM::Coulomb;
+using LSM::CoulombStatic;
 using LSM::friction_step;
-using LSM::FrictionCoefficients;
 
-constexpr FrictionCoefficients kOne{2.0, 0.5, 0.5};
-constexpr FrictionCoefficients kStatic{2.0, 0.5, 0.8};
+constexpr Coulomb::Coefficients kOne{2.0, 0.5, 0.5};
+constexpr Coulomb::Coefficients kStatic{2.0, 0.5, 0.8};
 
 TEST(Spring, ForceIsTheSlopeOfTheEnergy) {
   const double k = 3.0, h = 1e-5;
@@ -43,7 +44,7 @@ TEST(Contact, ShareOfTheStepItBeginsIn) {
 }
 
 TEST(Friction, SticksBelowTheLimit) {
-  const auto s = friction_step<false>(kOne, 0.1, 0.1, 1.0, false);
+  const auto s = friction_step<Coulomb>(kOne, {1.0, 0.1, 0.1, 0.0, false});
   EXPECT_DOUBLE_EQ(s.xi, 0.2);
   EXPECT_DOUBLE_EQ(s.force, 0.4);
   EXPECT_EQ(s.slip, 0.0);
@@ -53,7 +54,7 @@ TEST(Friction, SticksBelowTheLimit) {
 
 TEST(Friction, SlidesAtTheLimitInBothDirections) {
   for (double sign : {1.0, -1.0}) {
-    const auto s = friction_step<false>(kOne, sign * 0.2, sign * 0.15, 1.0, false);
+    const auto s = friction_step<Coulomb>(kOne, {1.0, sign * 0.2, sign * 0.15, 0.0, false});
     EXPECT_DOUBLE_EQ(s.force, sign * 0.5);  // mu F_n, Eq. (3)
     EXPECT_DOUBLE_EQ(s.xi, sign * 0.25);
     EXPECT_NEAR(s.slip, sign * 0.1, 1e-15);
@@ -68,7 +69,7 @@ TEST(Friction, DissipationClosesTheEnergyBalanceOfTheTangentialSpring) {
   for (int step = 0; step < 400; ++step) {
     const double dxi = 0.05 * std::sin(0.1 * step);
     const double fn = 1.0 + 0.5 * std::cos(0.37 * step);
-    const auto s = friction_step<false>(kOne, xi, dxi, fn, false);
+    const auto s = friction_step<Coulomb>(kOne, {fn, xi, dxi, 0.0, false});
     const double work = 0.5 * kOne.kt * (xi + s.xi) * dxi;
     const double stored = LSM::Spring::energy(kOne.kt, s.xi) - LSM::Spring::energy(kOne.kt, xi);
     EXPECT_NEAR(work, stored + s.dissipated, 1e-15);
@@ -81,36 +82,38 @@ TEST(Friction, DissipationClosesTheEnergyBalanceOfTheTangentialSpring) {
 
 TEST(Friction, SlipsTheWayTheSpringPullsWhereTheLoadFalls) {
   // The discs move back a little, but what no longer bears the spring is the lower load.
-  const auto s = friction_step<false>({2.0, 0.5, 0.5}, 0.4, -0.01, 0.1, false);
+  const auto s = friction_step<Coulomb>({2.0, 0.5, 0.5}, {0.1, 0.4, -0.01, 0.0, false});
   EXPECT_DOUBLE_EQ(s.xi, 0.025);
   EXPECT_DOUBLE_EQ(s.slip, 0.365);
   EXPECT_GT(s.dissipated, 0.0);
 }
 
 TEST(Friction, LostContactReleasesTheSpring) {
-  const auto s = friction_step<false>(kOne, 0.2, 0.0, 0.0, false);
+  const auto s = friction_step<Coulomb>(kOne, {0.0, 0.2, 0.0, 0.0, false});
   EXPECT_EQ(s.xi, 0.0);
   EXPECT_EQ(s.force, 0.0);
   EXPECT_DOUBLE_EQ(s.dissipated, LSM::Spring::energy(kOne.kt, 0.2));
 }
 
 TEST(Friction, WithoutFrictionNothingIsStored) {
-  const auto s = friction_step<false>({2.0, 0.0, 0.0}, 0.0, 0.3, 1.0, false);
+  const auto s = friction_step<Coulomb>({2.0, 0.0, 0.0}, {1.0, 0.0, 0.3, 0.0, false});
   EXPECT_EQ(s.force, 0.0);
   EXPECT_EQ(s.dissipated, 0.0);
 }
 
 TEST(StaticFriction, HoldsUpToTheStaticLimitThenDropsToTheDynamicOne) {
-  auto s = friction_step<true>(kStatic, 0.0, 0.39, 1.0, false);  // pull 0.78 < 0.8
+  auto s = friction_step<CoulombStatic>(kStatic, {1.0, 0.0, 0.39, 0.0, false});  // pull 0.78 < 0.8
   EXPECT_FALSE(s.sliding);
   EXPECT_DOUBLE_EQ(s.force, 0.78);
-  s = friction_step<true>(kStatic, s.xi, 0.02, 1.0, s.sliding);  // 0.82
+  s = friction_step<CoulombStatic>(kStatic, {1.0, s.xi, 0.02, 0.0, s.sliding});  // 0.82
   EXPECT_TRUE(s.sliding);
   EXPECT_DOUBLE_EQ(s.force, 0.5);
-  s = friction_step<true>(kStatic, s.xi, 0.02, 1.0, s.sliding);  // goes on sliding below 0.8
+  s = friction_step<CoulombStatic>(kStatic,
+                                   {1.0, s.xi, 0.02, 0.0, s.sliding});  // goes on sliding below 0.8
   EXPECT_TRUE(s.sliding);
   EXPECT_DOUBLE_EQ(s.force, 0.5);
-  s = friction_step<true>(kStatic, s.xi, -0.01, 1.0, s.sliding);  // reversal: sticks again
+  s = friction_step<CoulombStatic>(kStatic,
+                                   {1.0, s.xi, -0.01, 0.0, s.sliding});  // reversal: sticks again
   EXPECT_FALSE(s.sliding);
   EXPECT_DOUBLE_EQ(s.force, 0.48);
 }
@@ -120,8 +123,8 @@ TEST(StaticFriction, EqualCoefficientsGiveTheSameAsTheCheaperLaw) {
   bool sliding = false;
   for (int step = 0; step < 300; ++step) {
     const double dxi = 0.04 * std::sin(0.13 * step), fn = 1.0 + 0.3 * std::sin(0.05 * step);
-    const auto one = friction_step<false>(kOne, a, dxi, fn, false);
-    const auto two = friction_step<true>(kOne, b, dxi, fn, sliding);
+    const auto one = friction_step<Coulomb>(kOne, {fn, a, dxi, 0.0, false});
+    const auto two = friction_step<CoulombStatic>(kOne, {fn, b, dxi, 0.0, sliding});
     ASSERT_EQ(one.force, two.force);
     ASSERT_EQ(one.dissipated, two.dissipated);
     a = one.xi;

@@ -18,7 +18,7 @@ namespace {
 struct Network {
   int dim = 2;
   std::vector<double> mass;
-  std::vector<LSM::Spring> springs;
+  std::vector<LSM::PairSpring> springs;
 
   std::size_t size() const { return mass.size() * static_cast<std::size_t>(dim); }
   double root_mass(std::size_t n) const {
@@ -57,7 +57,7 @@ LSM::LargestEigenvalue by_lanczos(const Network &network, std::uint64_t offset =
 std::vector<std::vector<double>> dense(const Network &network) {
   const std::size_t size = network.size(), dim = static_cast<std::size_t>(network.dim);
   std::vector<std::vector<double>> a(size, std::vector<double>(size, 0.0));
-  for (const LSM::Spring &s : network.springs)
+  for (const LSM::PairSpring &s : network.springs)
     for (std::size_t c = 0; c < dim; ++c)
       for (std::size_t d = 0; d < dim; ++d) {
         const double k = s.k * s.n[c] * s.n[d] + s.kt * ((c == d ? 1.0 : 0.0) - s.n[c] * s.n[d]);
@@ -254,6 +254,71 @@ TEST(Frequency, ThreeDimensionsAndRandomStiffness) {
         link(network, i, j, random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1),
              std::exp(random.uniform(-6.0, 6.0)), std::exp(random.uniform(-6.0, 6.0)));
   expect_bounded_by_all(network, "3-D");
+}
+
+/// The network as a rank has it that owns all particles but sees every other spring's second end as
+/// a ghost; newton: ghosts give their forces back, else each of the two ends has the spring.
+LSM::LargestEigenvalue with_ghosts(const Network &network, bool newton) {
+  LSM::SpringNetwork rank;
+  rank.dim = network.dim;
+  rank.mass = network.mass;
+  std::vector<std::size_t> owner;
+  const auto ghost_of = [&](int i) {
+    owner.push_back(static_cast<std::size_t>(i));
+    return static_cast<int>(network.mass.size() + owner.size() - 1);
+  };
+  for (std::size_t i = 0; i < network.mass.size(); ++i) rank.id.push_back(i + 1);
+  for (std::size_t n = 0; n < network.springs.size(); ++n) {
+    LSM::PairSpring s = network.springs[n];
+    if (n % 2 == 1) {
+      LSM::PairSpring other = s;
+      s.j = ghost_of(s.j);
+      s.both = newton;
+      std::swap(other.i, other.j);
+      other.j = ghost_of(other.j);
+      other.both = false;
+      if (!newton) rank.springs.push_back(other);
+    }
+    rank.springs.push_back(s);
+  }
+  rank.ghosts = owner.size();
+  const auto dim = static_cast<std::size_t>(network.dim);
+  std::vector<double> displacement, force;
+  const auto each_ghost = [&](auto &&exchange) {
+    for (std::size_t g = 0; g < owner.size(); ++g)
+      for (std::size_t c = 0; c < dim; ++c)
+        exchange((network.mass.size() + g) * dim + c, owner[g] * dim + c);
+  };
+  return LSM::highest_frequency_squared(
+      rank, static_cast<double>(network.size()), displacement, force,
+      [&] { each_ghost([&](std::size_t g, std::size_t o) { displacement[g] = displacement[o]; }); },
+      [&] {
+        if (newton) each_ghost([&](std::size_t g, std::size_t o) { force[o] += force[g]; });
+      },
+      [](double mine) { return mine; });
+}
+
+TEST(Frequency, ParticlesOfOtherRanksAndBeyondTheBoundary) {
+  LSM::Random random(31);
+  Network three;
+  three.dim = 3;
+  for (int i = 0; i < 30; ++i) three.mass.push_back(random.uniform(0.04, 1.0));
+  for (int i = 0; i < 30; ++i)
+    for (int j = 0; j < i; ++j)
+      if (random.uniform() < 0.2)
+        link(three, i, j, random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1),
+             random.uniform(0.5, 2.0), random.uniform(0.0, 1.0));
+  for (const Network &network : {packing(7, 2.0, 1.0, 1.0, 8.0, 5.0), three}) {
+    const double largest = exact(network);
+    const LSM::LargestEigenvalue plain = by_lanczos(network);
+    for (const bool newton : {false, true}) {
+      const LSM::LargestEigenvalue found = with_ghosts(network, newton);
+      EXPECT_GE(found.bound, largest);
+      EXPECT_LE(found.found, largest * (1.0 + 1e-12));
+      EXPECT_GE(std::sqrt(largest / found.bound), 0.95);
+      EXPECT_NEAR(found.bound, plain.bound, 1e-9 * largest);  // the same start vector
+    }
+  }
 }
 
 TEST(Frequency, NothingToSwing) {

@@ -106,6 +106,93 @@ TEST_F(PeSeries, BinaryToTheByte) {
   EXPECT_EQ(slurp(file()), expected);
 }
 
+// ---- samples with times of their own ----
+
+PeSeriesInfo leaping() {
+  PeSeriesInfo info = some_info();
+  info.own_times = true;
+  return info;
+}
+
+TEST_F(PeSeries, OwnTimesToTheByte) {
+  PeSeriesWriter writer;
+  writer.create(file(), leaping(), false);
+  writer.write(100, 7.0, 0.5);
+  writer.write(102, 1000.25, -3.0);
+  writer.close();
+  std::string header = text_header;
+  header.insert(header.find("# seed"), "# times = own\n");
+  EXPECT_EQ(slurp(file()), header + "100,7,0.5\n102,1000.25,-3\n");
+  writer.create(file(), leaping(), true);
+  writer.write(0x0102, 2.0, -2.0);
+  writer.close();
+  const std::string bytes = slurp(file());
+  EXPECT_EQ(bytes.substr(bytes.size() - 24), std::string("\x02\x01\0\0\0\0\0\0", 8) +
+                                                 std::string("\0\0\0\0\0\0\0\x40", 8) +
+                                                 std::string("\0\0\0\0\0\0\0\xc0", 8));
+}
+
+TEST_P(PeSeriesBoth, OwnTimesComeBackAndGoOn) {
+  const auto time_of = [](std::int64_t step) {
+    return 7.0 + 0.1 * static_cast<double>(step * step);
+  };
+  PeSeriesWriter writer;
+  writer.create(file(), leaping(), GetParam());
+  for (std::int64_t step = 100; step <= 120; step += 2)
+    writer.write(step, time_of(step), some_pe(step));
+  writer.close();
+  const std::string before = slurp(file());
+  {
+    PeSeriesWriter again;
+    EXPECT_EQ(again.resume(file(), leaping(), GetParam(), 110), 6);
+    EXPECT_TRUE(contains(message_of<PeSeriesError>([&] { again.write(112, time_of(108), 1.0); }),
+                         "after time"));
+    for (std::int64_t step = 112; step <= 120; step += 2)
+      again.write(step, time_of(step), some_pe(step));
+  }
+  EXPECT_EQ(slurp(file()), before);
+  const auto samples = read_all(file());
+  ASSERT_EQ(samples.size(), 11U);
+  for (const auto &sample : samples) {
+    EXPECT_EQ(sample.time, time_of(sample.step));
+    EXPECT_EQ(sample.pe, some_pe(sample.step));
+  }
+  PeSeriesWriter other;
+  EXPECT_TRUE(contains(
+      message_of<PeSeriesError>([&] { other.resume(file(), some_info(), GetParam(), 110); }),
+      "cannot resume: parameter 'times'"));
+  EXPECT_EQ(slurp(file()), before);
+}
+
+TEST_P(PeSeriesBoth, OwnTimesOutOfOrderAreRefused) {
+  PeSeriesWriter writer;
+  writer.create(file(), leaping(), GetParam());
+  EXPECT_THROW(writer.write(100, 1.0), std::logic_error);
+  EXPECT_THROW(writer.write(100, std::nan(""), 1.0), PeSeriesError);
+  writer.write(100, 8.0, 1.0);
+  EXPECT_THROW(writer.write(102, 7.5, 1.0), PeSeriesError);
+  writer.write(102, 8.0, 2.0);
+  writer.close();
+  EXPECT_EQ(read_all(file()).size(), 2U);
+  // The same by hand, past the writer.
+  std::string bytes = slurp(file());
+  if (GetParam())
+    bytes[bytes.size() - 10] = '\x1c';  // 8 becomes 7
+  else
+    bytes.replace(bytes.rfind("102,8,"), 6, "102,7,");
+  spill(file(), bytes);
+  EXPECT_TRUE(
+      contains(message_of<PeSeriesError>([&] { read_all(file()); }), "expected increasing times"));
+}
+
+TEST_F(PeSeries, OtherTimesAreRefused) {
+  std::string text = text_header;
+  text.insert(text.find("# seed"), "# times = none\n");
+  spill(file(), text + "100,7,0.5\n");
+  EXPECT_TRUE(contains(message_of<PeSeriesError>([&] { read_all(file()); }),
+                       "parameter 'times' is 'none', expected 'own'"));
+}
+
 TEST_P(PeSeriesBoth, ComesBackToTheLastBit) {
   const double values[] = {0.1,
                            1.0 / 3.0,

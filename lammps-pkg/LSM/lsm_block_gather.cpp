@@ -1,0 +1,75 @@
+/* ----------------------------------------------------------------------
+   SPDX-License-Identifier: GPL-2.0-or-later
+------------------------------------------------------------------------- */
+
+#include "lsm_block_gather.h"
+
+using namespace LAMMPS_NS;
+
+LSMBlockGather::LSMBlockGather(MPI_Comm world, bool slip) : world_(world), me_(0), slip_(slip)
+{
+  MPI_Comm_rank(world_, &me_);
+  MPI_Comm_size(world_, &block_.ranks);
+}
+
+LSMBlockGather::~LSMBlockGather()
+{
+  // an error between two steps leaves a block on its way, on all ranks
+
+  if (pending_) MPI_Wait(&request_, MPI_STATUS_IGNORE);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void LSMBlockGather::start(const LSM::SampleBlock &mine)
+{
+  block_.first = mine.first;
+  block_.count = mine.count;
+  const size_t all = static_cast<size_t>(block_.ranks) * mine.count;
+  if (me_ == 0 && block_.pe.size() < all) block_.pe.resize(all);
+  MPI_Igather(mine.pe.data(), mine.count, MPI_DOUBLE, block_.pe.data(), mine.count, MPI_DOUBLE, 0,
+              world_, &request_);
+  pending_ = true;
+
+  // the intervals end at the same steps on all ranks
+
+  block_.intervals.resize(me_ == 0 ? mine.intervals.size() : 0);
+  if (!mine.intervals.empty())
+    MPI_Reduce(mine.intervals.data(), block_.intervals.data(),
+               static_cast<int>(mine.intervals.size()), MPI_DOUBLE, MPI_SUM, 0, world_);
+  if (slip_) gather_slip(mine.slip);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void LSMBlockGather::gather_slip(const std::vector<double> &mine)
+{
+  const int n = static_cast<int>(mine.size());
+  std::vector<int> counts(block_.ranks, 0), offsets(block_.ranks, 0);
+  MPI_Gather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, world_);
+  int sum = 0;
+  for (int p = 0; p < block_.ranks; p++) {
+    offsets[p] = sum;
+    sum += counts[p];
+  }
+  block_.slip.resize(me_ == 0 ? sum : 0);
+  MPI_Gatherv(mine.data(), n, MPI_DOUBLE, block_.slip.data(), counts.data(), offsets.data(),
+              MPI_DOUBLE, 0, world_);
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool LSMBlockGather::finish()
+{
+  if (!pending_) return false;
+  MPI_Wait(&request_, MPI_STATUS_IGNORE);
+  pending_ = false;
+  return true;
+}
+
+double LSMBlockGather::bytes() const
+{
+  return static_cast<double>(block_.pe.capacity() + block_.slip.capacity() +
+                             block_.intervals.capacity()) *
+         sizeof(double);
+}

@@ -1,0 +1,39 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   SPDX-License-Identifier: GPL-2.0-or-later
+   Keywords of compute lsm/events
+------------------------------------------------------------------------- */
+
+#ifndef LMP_LSM_EVENT_OPTIONS_H
+#define LMP_LSM_EVENT_OPTIONS_H
+
+#include "lsm_event_settings.h"
+#include "lsm_watchdog.h"
+
+#include <string>
+
+namespace LAMMPS_NS {
+class LAMMPS;
+
+struct LSMEventOptions {
+  LSM::EventSettings events;
+  LSM::WatchdogSettings watchdog;
+  std::string emergency_file = "lsm_emergency.restart";
+  double memory_time = 0.0;    ///< of the picker; > 0: lambda follows from it and the time step
+  int block = 100;             ///< steps collected before ranks talk to each other
+  bool ledger = false;
+  bool progress = true;
+
+  /// From the words behind the style's name, which begin at arg[first]. Stops at the first that is wrong.
+  LSMEventOptions(LAMMPS *, int first, int narg, char **arg);
+
+ private:
+  class Reader;
+  bool read_events(Reader &);
+  bool read_ruptures(Reader &);
+  bool read_files(Reader &);
+  bool read_run(Reader &);
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,252 @@
+/* ----------------------------------------------------------------------
+   SPDX-License-Identifier: GPL-2.0-or-later
+------------------------------------------------------------------------- */
+
+#include "lsm_event_sources.h"
+
+#include "atom.h"
+#include "bond_lsm_linked.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "fix.h"
+#include "fix_lsm_leap.h"
+#include "fix_lsm_nve.h"
+#include "fix_lsm_plates.h"
+#include "force.h"
+#include "modify.h"
+#include "pair_lsm_free.h"
+#include "update.h"
+
+#include "lsm_scene.h"
+#include "lsm_sum.h"
+#include "lsm_text_io.h"
+
+#include <cmath>
+
+using namespace LAMMPS_NS;
+
+/* ---------------------------------------------------------------------- */
+
+LSMEventSources::LSMEventSources(LAMMPS *_lmp, const LSM::EventSettings &settings) :
+    Pointers(_lmp), settings_(settings)
+{
+}
+
+/* ---------------------------------------------------------------------- */
+
+void LSMEventSources::check(const Fix *recorder, bool ledger) const
+{
+  const std::string &id = settings_.name;
+  if (update->whichflag == 0) return;
+  if (update->whichflag == 2)
+    error->all(FLERR, "Compute lsm/events does not work with minimize: it records the steps of a "
+                      "run; uncompute it before");
+  if (LSMScene::is_rerun(update))
+    error->all(FLERR, "Compute lsm/events does not work with rerun: it records the steps of a run; "
+                      "use thermo keyword pe "
+                      "for the energies of snapshots");
+
+  // the strain of links is looked at before particles move to other ranks
+
+  for (const auto &ifix : modify->get_fix_list()) {
+    if (ifix == recorder) break;
+    if (ifix->pre_exchange_migrate)
+      error->all(FLERR,
+                 "Compute lsm/events {} must be defined before fix {}, which moves particles to "
+                 "other ranks",
+                 id, ifix->id);
+  }
+  if (ledger)
+    for (const char *adds_or_takes : {"^pour", "^deposit", "^evaporate"})
+      for (const auto &other : modify->get_fix_by_style(adds_or_takes))
+        error->all(
+            FLERR,
+            "Compute lsm/events {}: the energy ledger does not know the particles that fix {} "
+            "adds or takes away; use ledger no and no tolerance",
+            id, other->id);
+  const std::string foreign = LSMScene::foreign_forces(force);
+  if (!foreign.empty() && comm->me == 0)
+    error->warning(FLERR,
+                   "Compute lsm/events {}: PE, events and ledger do not hold the energy of {}", id,
+                   foreign);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void LSMEventSources::find(bool ledger)
+{
+  links_ = dynamic_cast<BondLSMLinked *>(force->bond_match("lsm/linked"));
+  const auto contacts = LSMScene::contact_styles(force);
+  if (!links_ && contacts.empty())
+    error->all(FLERR, "Compute lsm/events needs bond style lsm/linked or pair style lsm/free or "
+                      "lsm/friction");
+  const char *const what = settings_.location   ? "location yes"
+                           : settings_.ruptures ? "events ruptures"
+                                                : nullptr;
+  if (what && !force->pair_match("lsm/friction", 1))
+    error->all(FLERR, "Compute lsm/events {} needs pair style lsm/friction", what);
+  if (what && !domain->xperiodic)
+    error->all(FLERR, "Compute lsm/events {} needs a box that is periodic in x", what);
+
+  styles_.clear();
+  if (links_) styles_.push_back(links_);
+  styles_.insert(styles_.end(), contacts.begin(), contacts.end());
+  for (auto *style : styles_) {
+    style->record_what |= LSMEnergySource::ENERGY |
+                          (settings_.location ? LSMEnergySource::SLIP : 0) |
+                          (settings_.ruptures ? LSMEnergySource::CONTACTS : 0);
+    style->slip_bin = settings_.bin_width;
+  }
+
+  plates_ = nullptr;
+  leap_ = nullptr;
+  integrators_.clear();
+  for (const auto &ifix : modify->get_fix_list()) {
+    if (auto p = dynamic_cast<FixLSMPlates *>(ifix)) plates_ = p;
+    if (auto p = dynamic_cast<FixLSMLeap *>(ifix)) leap_ = p;
+    if (auto p = dynamic_cast<FixLSMNVE *>(ifix)) {
+      integrators_.push_back(p);
+      if (ledger) p->record_work = true;
+    }
+  }
+}
+
+/* ----------------------------------------------------------------------
+   the styles may have been deleted since, so they are looked for again
+------------------------------------------------------------------------- */
+
+void LSMEventSources::release()
+{
+  if (force) {
+    if (auto p = dynamic_cast<LSMEnergySource *>(force->bond))
+      p->record_what = LSMEnergySource::NONE;
+    if (auto p = dynamic_cast<LSMEnergySource *>(force->pair))
+      p->record_what = LSMEnergySource::NONE;
+  }
+  if (modify)
+    for (const auto &ifix : modify->get_fix_by_style("^lsm/nve"))
+      if (auto p = dynamic_cast<FixLSMNVE *>(ifix)) p->record_work = false;
+}
+
+/* ----------------------------------------------------------------------
+   what the slip of the fault is measured against: velocity and direction of the plates, stiffness of the links
+------------------------------------------------------------------------- */
+
+void LSMEventSources::find_driving(LSM::EventSettings &settings) const
+{
+  if (plates_ && plates_->driving() < 0.0) settings.forward = -1.0;
+  if (settings.driving == 0.0 && plates_) settings.driving = fabs(plates_->driving());
+  if (settings.driving == 0.0)
+    error->all(FLERR, "Compute lsm/events events ruptures needs {}, or the keyword driving",
+               plates_ ? "a velocity of fix lsm/plates that is not 0" : "fix lsm/plates");
+  if (settings.modulus > 0.0) return;
+  if (!links_)
+    error->all(
+        FLERR,
+        "Compute lsm/events events ruptures needs bond style lsm/linked, or the keyword modulus");
+  int dim;
+  const auto *stiffness = static_cast<const double *>(links_->extract("k", dim));
+  settings.modulus = 0.25 * sqrt(3.0) * stiffness[1];    // of the regular lattice of equal discs
+}
+
+/* ---------------------------------------------------------------------- */
+
+double LSMEventSources::pe() const
+{
+  double pe = 0.0;
+  for (const auto *style : styles_) {
+    pe += style->pe_link + style->pe_contact;
+    if (settings_.tangential) pe += style->pe_tangential;
+  }
+  return pe;
+}
+
+void LSMEventSources::pe_by_kind(double *pe) const
+{
+  pe[0] = pe[1] = pe[2] = 0.0;
+  for (const auto *style : styles_) {
+    pe[0] += style->pe_link;
+    pe[1] += style->pe_contact;
+    pe[2] += style->pe_tangential;
+  }
+}
+
+double LSMEventSources::max_strain() const
+{
+  return links_ ? links_->max_strain() : 0.0;
+}
+
+void LSMEventSources::complete_steps() const
+{
+  for (auto *p : integrators_) p->complete_step();
+}
+
+/* ---------------------------------------------------------------------- */
+
+static double total(double mine, MPI_Comm world)
+{
+  double all;
+  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
+  return all;
+}
+
+/* ----------------------------------------------------------------------
+   plates: only their motion across the fault, as the energy of the driven motion is no part of the balance
+------------------------------------------------------------------------- */
+
+double LSMEventSources::kinetic() const
+{
+  const int skip = plates_ ? plates_->plate_bits() : 0;
+  double **v = atom->v;
+  LSM::NeumaierSum sum;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (atom->mask[i] & skip) continue;
+    const double m = atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
+    sum.add(m * (v[i][0] * v[i][0] + v[i][1] * v[i][1] + v[i][2] * v[i][2]));
+  }
+  return 0.5 * total(sum.value(), world) + (plates_ ? plates_->kinetic() : 0.0);
+}
+
+/* ----------------------------------------------------------------------
+   the tangential springs belong to the balance even if they are not counted as potential energy
+------------------------------------------------------------------------- */
+
+LSM::EnergyTerms LSMEventSources::energies() const
+{
+  double potential = 0.0, friction = 0.0, viscosity = 0.0;
+  for (const auto *style : styles_) {
+    potential += style->pe_link + style->pe_contact + style->pe_tangential;
+    friction += style->work_friction;
+  }
+  for (const auto *p : integrators_) viscosity += p->work_viscosity;
+  LSM::EnergyTerms terms;
+  terms.kinetic = kinetic();
+  terms.potential = total(potential, world);
+  terms.friction = total(friction, world);
+  terms.viscosity = total(viscosity, world);
+  terms.broken = links_ ? total(links_->work_broken, world) : 0.0;
+  terms.plates = plates_ ? plates_->work() : 0.0;
+  terms.counted_pe = total(pe(), world);
+  return terms;
+}
+
+/* ---------------------------------------------------------------------- */
+
+LSM::SceneInfo LSMEventSources::scene() const
+{
+  using LSM::text_io::number;
+  LSM::SceneInfo info;
+  info.ranks = comm->nprocs;
+  info.dt = update->dt;
+  info.parameters = {{"program", std::string("LAMMPS ") + lmp->version + " package LSM 1"},
+                     {"particles", std::to_string(atom->natoms)},
+                     {"links", std::to_string(atom->nbonds)},
+                     {"length", number(domain->prd[0])},
+                     {"dt", number(update->dt)}};
+  for (size_t n = 0; n < integrators_.size(); n++)
+    info.parameters.emplace_back(n ? "viscosity_" + std::to_string(n + 1) : "viscosity",
+                                 integrators_[n]->viscosity());
+  if (leap_) info.parameters.emplace_back("leap", leap_->settings());
+  return info;
+}

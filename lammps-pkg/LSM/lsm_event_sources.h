@@ -1,0 +1,63 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   SPDX-License-Identifier: GPL-2.0-or-later
+   What compute lsm/events records of a scene: the styles that have its
+   energies and works, found anew for each run
+------------------------------------------------------------------------- */
+
+#ifndef LMP_LSM_EVENT_SOURCES_H
+#define LMP_LSM_EVENT_SOURCES_H
+
+#include "lsm_energy.h"
+#include "lsm_energy_ledger.h"
+#include "lsm_event_settings.h"
+#include "pointers.h"
+
+#include <vector>
+
+namespace LAMMPS_NS {
+class BondLSMLinked;
+class Fix;
+class FixLSMLeap;
+class FixLSMNVE;
+class FixLSMPlates;
+
+class LSMEventSources : protected Pointers {
+ public:
+  LSMEventSources(LAMMPS *, const LSM::EventSettings &);
+  /// Stops if something in the scene does not go together with recording, and warns of energies that are not recorded.
+  /// recorder: the fix that calls the compute.
+  void check(const Fix *recorder, bool ledger) const;
+  /// Stops if the scene has not what the settings need; makes the styles record what they ask for.
+  void find(bool ledger);
+  /// Makes them record nothing; those that are left.
+  void release();
+  /// Settings of ruptures that the scene decides where the keywords do not.
+  void find_driving(LSM::EventSettings &) const;
+
+  /// Those that record slips and contacts.
+  const std::vector<LSMEnergySource *> &styles() const { return styles_; }
+  const FixLSMLeap *leap() const { return leap_; }    ///< null if steps and time are proportional
+  bool has_links() const { return links_; }
+
+  double pe() const;    ///< this rank's share
+  /// Links, contacts and their tangential springs, this rank's shares; three numbers.
+  void pe_by_kind(double *) const;
+  double max_strain() const;            ///< of this rank's links
+  LSM::EnergyTerms energies() const;    ///< of all ranks; works since these styles began
+  void complete_steps() const;          ///< velocities and positions of the same time
+  LSM::SceneInfo scene() const;
+
+ private:
+  const LSM::EventSettings &settings_;
+  BondLSMLinked *links_ = nullptr;
+  std::vector<LSMEnergySource *> styles_;
+  FixLSMPlates *plates_ = nullptr;
+  FixLSMLeap *leap_ = nullptr;
+  std::vector<FixLSMNVE *> integrators_;
+
+  double kinetic() const;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file lsm_energy_ledger.h
+/// Balance of the energies and works of a run: what is out of balance comes from the integration.
+#ifndef LSM_ENERGY_LEDGER_H
+#define LSM_ENERGY_LEDGER_H
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace LSM {
+
+/// Energies at one moment and works since the first run, of all ranks.
+struct EnergyTerms {
+  double kinetic = 0.0;     ///< the driven motion of the plates left out
+  double potential = 0.0;   ///< all springs, whatever counts as PE
+  double friction = 0.0;    ///< lost
+  double viscosity = 0.0;   ///< lost
+  double broken = 0.0;      ///< lost with links that broke
+  double plates = 0.0;      ///< done by the plates
+  double counted_pe = 0.0;  ///< what counts as PE
+
+  double balance() const { return kinetic + potential + friction + viscosity + broken - plates; }
+  /// What an error is compared with.
+  double scale() const { return friction + viscosity + kinetic + std::fabs(counted_pe); }
+};
+
+/// Whether a change is more than that of the same energy computed from positions that were rounded
+/// otherwise; floor: of positions near zero energy.
+inline bool is_jump(double change, double energy, double floor) {
+  return std::fabs(change) > std::max(floor, 1e-9 * energy);
+}
+
+class EnergyLedger {
+ public:
+  bool begun() const { return begun_; }
+  /// The balance is counted from here.
+  void begin(const EnergyTerms &now) {
+    start_ = now.balance();
+    begun_ = true;
+  }
+
+  /// Energy that came from nowhere since begin().
+  double residual(const EnergyTerms &now) const { return now.balance() - start_; }
+
+  /// Remembers the end of a run.
+  void end_run(std::int64_t step, const EnergyTerms &now) {
+    if (begun_) residual_at_end_ = residual(now);
+    ended_at_ = step;
+  }
+  /// Takes a jump since the end of the run before, of something that happened between two runs, out
+  /// of the balance. Returns it, or 0. now() is asked where there is something to compare with.
+  template <class Now>
+  double leave_out_jump(std::int64_t step, double floor, Now &&now) {
+    if (!begun_ || ended_at_ != step) return 0.0;
+    const EnergyTerms terms = now();
+    const double jump = residual(terms) - residual_at_end_;
+    if (!is_jump(jump, terms.scale(), floor)) return 0.0;
+    start_ += jump;
+    return jump;
+  }
+
+  double start() const { return start_; }
+  /// Goes on with the ledger of a restart file. friction, broken: works until then, which the
+  /// styles of the new run do not know.
+  void set_state(bool begun, double start, double friction, double broken) {
+    begun_ = begun;
+    start_ = start;
+    friction_before_ = friction;
+    broken_before_ = broken;
+  }
+  /// now: with works since the last restart.
+  EnergyTerms with_earlier_works(EnergyTerms now) const {
+    now.friction = friction_before_ + now.friction;
+    now.broken = broken_before_ + now.broken;
+    return now;
+  }
+
+ private:
+  bool begun_ = false;
+  double start_ = 0.0;
+  double friction_before_ = 0.0, broken_before_ = 0.0;
+  double residual_at_end_ = 0.0;
+  std::int64_t ended_at_ = -1;
+};
+
+}  // namespace LSM
+
+#endif

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file lsm_watchdog.h
+/// Finds runs that went bad: energies that are not finite, links strained too far, a ledger out of
+/// balance.
+#ifndef LSM_WATCHDOG_H
+#define LSM_WATCHDOG_H
+
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <string>
+
+#include "lsm_energy_ledger.h"
+
+namespace LSM {
+
+struct WatchdogSettings {
+  double strain_limit = 0.5;  ///< of a link
+  double tolerance = 0.0;     ///< residual of the ledger over its scale; 0: not looked at
+  int every = 1000;           ///< steps between two looks
+};
+
+class Watchdog {
+ public:
+  /// What is wrong, or "".
+  struct Finding {
+    std::string what;
+    bool finite = true;  ///< the state is worth a restart file
+  };
+
+  explicit Watchdog(const WatchdogSettings &settings) : settings_(settings) {}
+
+  /// Strain for a maximum over ranks, which would lose what is not a number.
+  static double comparable(double strain) { return std::isfinite(strain) ? strain : not_finite; }
+
+  void calm_down() { alarmed_ = false; }
+  bool due(std::int64_t step) const { return alarmed_ || step % settings_.every == 0; }
+
+  /// In the middle of a step, before links can be torn beyond the ghosts. Remembers to look at the
+  /// end of the step; says what is wrong if the most strained link may not reach that far: the
+  /// largest distance between two linked particles at rest, and that of the ghosts.
+  std::string look_early(double strain, double widest, double reach) {
+    alarmed_ = strain > settings_.strain_limit;
+    if (!alarmed_ || (1.0 + strain) * widest <= reach) return {};
+    return strain >= not_finite ? "positions are not finite" : strained(strain);
+  }
+
+  /// At the end of a step; terms() gives the energies for the ledger, where it is looked at.
+  template <class Terms>
+  Finding look(bool pe_finite, double strain, const EnergyLedger &ledger, Terms &&terms) {
+    alarmed_ = false;
+    if (!pe_finite || strain >= not_finite) return {"the potential energy is not finite", false};
+    if (strain > settings_.strain_limit) return {strained(strain), true};
+    if (!(settings_.tolerance > 0.0)) return {};
+    const EnergyTerms now = terms();
+    const double off = ledger.residual(now), scale = now.scale();
+    if (!(std::fabs(off) > settings_.tolerance * scale)) return {};
+    return {"the energy ledger is out of balance by " + text(off) + " of " + text(scale) +
+                ", above tolerance " + text(settings_.tolerance),
+            true};
+  }
+
+ private:
+  static constexpr double not_finite = 1e300;
+
+  static std::string text(double value) {
+    char digits[32];
+    std::snprintf(digits, sizeof digits, "%.4g", value);
+    return digits;
+  }
+  std::string strained(double strain) const {
+    return "a link is strained by " + text(strain) + ", above strainlimit " +
+           text(settings_.strain_limit);
+  }
+
+  WatchdogSettings settings_;
+  bool alarmed_ = false;  // something looked wrong within the step
+};
+
+}  // namespace LSM
+
+#endif

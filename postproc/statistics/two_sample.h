@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file two_sample.h
+/// Do two series come from the same law? For catalogues that ought to agree: other time steps,
+/// seeds, ranks, leaps.
+#ifndef LSM_POSTPROC_TWO_SAMPLE_H
+#define LSM_POSTPROC_TWO_SAMPLE_H
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace LSM::postproc {
+
+/// A mean and its standard error, which allows for values that depend on those before them.
+struct BlockMean {
+  double mean = std::numeric_limits<double>::quiet_NaN();
+  double error = std::numeric_limits<double>::quiet_NaN();  ///< NaN: fewer than two blocks
+};
+
+struct TwoSampleTest {
+  std::array<std::int64_t, 2> n = {0, 0};
+  double distance = std::numeric_limits<double>::quiet_NaN();  ///< Kolmogorov-Smirnov
+  /// Share of random divisions, the true one included, whose distance is as large.
+  double p = std::numeric_limits<double>::quiet_NaN();
+  double p_error = std::numeric_limits<double>::quiet_NaN();  ///< of the Monte Carlo estimate
+  int block = 1;                                              ///< values that are kept together
+  std::array<BlockMean, 2> means;
+  double ratio = std::numeric_limits<double>::quiet_NaN();  ///< second mean over the first
+  double ratio_error = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Largest distance between the empirical distributions of two samples, neither of them empty.
+double two_sample_distance(std::vector<double> first, std::vector<double> second);
+
+/// Permutation test of the Kolmogorov-Smirnov distance. Events come in sequences, so that blocks of
+/// consecutive values change sides, not single ones: with single ones, series that depend on their
+/// past differ too often.
+/// \param first, second positive values in the order of time
+/// \param replicas random divisions, at least 1
+/// \param block values in a block, at least 1; 0: the longer of the two block_length() of the ranks
+/// \throws std::invalid_argument for fewer than 10 values in a series, or impossible settings
+TwoSampleTest two_sample_test(const std::vector<double> &first, const std::vector<double> &second,
+                              int replicas, std::uint64_t seed, int block = 0);
+
+}  // namespace LSM::postproc
+
+#endif

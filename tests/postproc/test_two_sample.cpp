@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Two-sample tests: distances by hand, false alarms as often as stated, for series with memory,
+// too.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "lsm_random.h"
+#include "two_sample.h"
+
+using namespace LSM::postproc;
+
+namespace {
+
+double gaussian(LSM::Random &random) {
+  return std::sqrt(-2.0 * std::log(1.0 - random.uniform())) *
+         std::cos(6.283185307179586 * random.uniform());
+}
+
+/// exp of a series in which each value remembers the one before it.
+std::vector<double> series(LSM::Random &random, int n, double memory, double mean = 0.0) {
+  std::vector<double> values;
+  double x = gaussian(random);
+  for (int i = 0; i < n; ++i) {
+    x = memory * x + std::sqrt(1.0 - memory * memory) * gaussian(random);
+    values.push_back(std::exp(mean + x));
+  }
+  return values;
+}
+
+/// Of `trials` pairs from the same law, how many have p < 0.05?
+int alarms(int trials, double memory, int block) {
+  LSM::Random random(7);
+  int count = 0;
+  for (int i = 0; i < trials; ++i) {
+    const auto a = series(random, 300, memory), b = series(random, 200, memory);
+    if (two_sample_test(a, b, 199, 1, block).p < 0.05) ++count;
+  }
+  return count;
+}
+
+}  // namespace
+
+TEST(TwoSample, DistanceByHand) {
+  EXPECT_DOUBLE_EQ(two_sample_distance({1, 2, 3}, {1, 2, 3}), 0.0);
+  EXPECT_DOUBLE_EQ(two_sample_distance({1, 2}, {3, 4, 5}), 1.0);
+  EXPECT_DOUBLE_EQ(two_sample_distance({1, 2, 3, 4}, {2.5, 5}), 0.5);
+  EXPECT_DOUBLE_EQ(two_sample_distance({1, 1, 2, 2}, {1, 2, 2, 2}), 0.25);  // ties
+  EXPECT_THROW(two_sample_distance({}, {1}), std::invalid_argument);
+}
+
+TEST(TwoSample, FalseAlarmsAsOftenAsStated) {
+  // Three standard deviations of the binomial distribution about 5 %.
+  const int trials = 400;
+  const double slack = 3.0 * std::sqrt(trials * 0.05 * 0.95);
+  EXPECT_NEAR(alarms(trials, 0.0, 1), 0.05 * trials, slack);
+  EXPECT_NEAR(alarms(trials, 0.0, 0), 0.05 * trials, slack);
+  // With a memory of some events blocks are needed; in 2000 trials 6 % differ with them, 28 %
+  // without.
+  EXPECT_GT(alarms(trials, 0.6, 1), 0.2 * trials);
+  EXPECT_NEAR(alarms(trials, 0.6, 0), 0.05 * trials, slack);
+}
+
+TEST(TwoSample, FindsDifferences) {
+  LSM::Random random(3);
+  const auto a = series(random, 500, 0.3), b = series(random, 500, 0.3, 0.5);
+  const TwoSampleTest test = two_sample_test(a, b, 999, 1);
+  EXPECT_LE(test.p, 0.005);
+  EXPECT_EQ(test.n[0], 500);
+  EXPECT_NEAR(test.ratio, std::exp(0.5), 3.0 * test.ratio_error);
+  EXPECT_DOUBLE_EQ(test.distance, two_sample_distance(a, b));
+  // The same shape with other clusters: the same p for the same seed, another one for another.
+  EXPECT_EQ(test.p, two_sample_test(a, b, 999, 1).p);
+}
+
+TEST(TwoSample, ErrorOfTheMeanAllowsForMemory) {
+  // Of exp(x): not known in closed form for few values, so against the scatter of many series.
+  LSM::Random random(11);
+  double squares = 0.0, errors = 0.0, sum = 0.0;
+  const int trials = 400;
+  for (int i = 0; i < trials; ++i) {
+    const auto a = series(random, 400, 0.6), b = series(random, 20, 0.0);
+    const TwoSampleTest test = two_sample_test(a, b, 1, 1);
+    squares += std::pow(test.means[0].mean, 2);
+    sum += test.means[0].mean;
+    errors += std::pow(test.means[0].error, 2);
+  }
+  const double scatter = std::sqrt(squares / trials - std::pow(sum / trials, 2));
+  EXPECT_NEAR(std::sqrt(errors / trials) / scatter, 1.0, 0.2);
+  EXPECT_NEAR(sum / trials, std::exp(0.5), 3.0 * scatter / std::sqrt(1.0 * trials));
+}
+
+TEST(TwoSample, RefusesWhatItCannotCompare) {
+  const std::vector<double> few(9, 1.0), enough(10, 1.0);
+  EXPECT_THROW(two_sample_test(few, enough, 10, 1), std::invalid_argument);
+  EXPECT_THROW(two_sample_test(enough, few, 10, 1), std::invalid_argument);
+  EXPECT_THROW(two_sample_test(enough, enough, 0, 1), std::invalid_argument);
+  EXPECT_THROW(two_sample_test(enough, enough, 10, 1, -1), std::invalid_argument);
+  EXPECT_EQ(two_sample_test(enough, enough, 10, 1).p, 1.0);  // all equal
+}

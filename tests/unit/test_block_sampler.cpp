@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "lsm_block_sampler.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace {
+
+using LSM::BlockSampler;
+using LSM::GatheredBlock;
+using LSM::SampleBlock;
+
+/// What the ranks' blocks are on rank 0; the sums of intervals are added up.
+GatheredBlock gathered(const std::vector<SampleBlock> &blocks) {
+  GatheredBlock all;
+  all.first = blocks[0].first;
+  all.count = blocks[0].count;
+  all.ranks = static_cast<int>(blocks.size());
+  all.intervals.assign(blocks[0].intervals.size(), 0.0);
+  for (const SampleBlock &block : blocks) {
+    all.pe.insert(all.pe.end(), block.pe.begin(), block.pe.end());
+    all.slip.insert(all.slip.end(), block.slip.begin(), block.slip.end());
+    for (std::size_t n = 0; n < block.intervals.size(); ++n) all.intervals[n] += block.intervals[n];
+  }
+  return all;
+}
+
+TEST(BlockSampler, FillsOneBlockWhileTheOtherIsOnItsWay) {
+  BlockSampler sampler;
+  sampler.resize(3);
+  EXPECT_TRUE(sampler.empty());
+  for (int step = 10; step < 13; ++step) {
+    EXPECT_FALSE(sampler.full());
+    sampler.add(step, 0.5 * step);
+  }
+  EXPECT_TRUE(sampler.full());
+  const SampleBlock &sent = sampler.hand_over();
+  EXPECT_TRUE(sampler.empty());
+  const double *const at = sent.pe.data();
+  sampler.add(13, 7.0);
+  sampler.add(14, 8.0);
+  EXPECT_EQ(sent.first, 10);
+  EXPECT_EQ(sent.count, 3);
+  EXPECT_EQ(sent.pe, (std::vector<double>{5.0, 5.5, 6.0}));
+  EXPECT_EQ(sent.pe.data(), at);  // a message is read from there
+
+  const SampleBlock &next = sampler.hand_over();  // not full: the end of a run
+  EXPECT_EQ(next.first, 13);
+  EXPECT_EQ(next.count, 2);
+  EXPECT_EQ(next.pe, (std::vector<double>{7.0, 8.0}));
+
+  sampler.add(15, 9.0);
+  const SampleBlock &last = sampler.hand_over();
+  EXPECT_EQ(last.first, 15);
+  EXPECT_EQ(last.pe, (std::vector<double>{9.0}));
+}
+
+TEST(BlockSampler, SlipAndIntervalsGoWithTheirBlock) {
+  BlockSampler sampler;
+  sampler.resize(2);
+  sampler.add_slip({{4.0, 0.25}});
+  sampler.add(1, 0.0);
+  sampler.add_slip({{5.0, 0.5}, {6.0, 0.75}});
+  sampler.add_slip({{7.0, 1.0}});
+  sampler.add_interval({1.0, 2.0});
+  sampler.add(2, 0.0);
+  const SampleBlock first = sampler.hand_over();
+  EXPECT_EQ(first.slip, (std::vector<double>{0, 4, 0.25, 1, 5, 0.5, 1, 6, 0.75, 1, 7, 1.0}));
+  EXPECT_EQ(first.intervals, (std::vector<double>{1.0, 2.0}));
+  sampler.add(3, 0.0);
+  const SampleBlock second = sampler.hand_over();
+  EXPECT_TRUE(second.slip.empty());
+  EXPECT_TRUE(second.intervals.empty());
+}
+
+TEST(GatheredBlock, TotalsOfAllRanksAreCompensated) {
+  std::vector<SampleBlock> blocks(4);
+  const double terms[4] = {1.0, 1e100, 1.0, -1e100};
+  for (int rank = 0; rank < 4; ++rank) {
+    blocks[static_cast<std::size_t>(rank)].count = 2;
+    blocks[static_cast<std::size_t>(rank)].pe = {10.0 * rank, terms[rank]};
+  }
+  const GatheredBlock all = gathered(blocks);
+  EXPECT_EQ(all.total(0), 60.0);
+  EXPECT_EQ(all.total(1), 2.0);  // a plain sum gives 0
+}
+
+TEST(GatheredBlock, SlipOfAStepInTheOrderOfTheRanks) {
+  std::vector<SampleBlock> blocks(2);
+  blocks[0].count = blocks[1].count = 3;
+  blocks[0].slip = {0, 1, 0.1, 2, 3, 0.3};
+  blocks[1].slip = {0, 2, 0.2, 0, 1, 0.4, 2, 9, 0.9};
+  const auto steps = gathered(blocks).slip_by_step();
+  ASSERT_EQ(steps.size(), 3u);
+  ASSERT_EQ(steps[0].size(), 3u);
+  EXPECT_EQ(steps[0][0].bin, 1.0);
+  EXPECT_EQ(steps[0][0].moment, 0.1);
+  EXPECT_EQ(steps[0][1].bin, 2.0);
+  EXPECT_EQ(steps[0][2].moment, 0.4);
+  EXPECT_TRUE(steps[1].empty());
+  ASSERT_EQ(steps[2].size(), 2u);
+  EXPECT_EQ(steps[2][1].bin, 9.0);
+}
+
+}  // namespace

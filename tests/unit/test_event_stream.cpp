@@ -1,0 +1,429 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "lsm_event_stream.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "unit_files.h"
+
+namespace {
+
+using LSM::EventSettings;
+using LSM::EventStream;
+using LSM::EventStreamError;
+using LSM::FaultGrid;
+using LSM::GatheredBlock;
+using LSM::SavedStream;
+
+constexpr double length = 20.0;
+constexpr double dt = 0.5;
+
+/// A fault that is loaded and slips now and then, made up: PE, slips of two ranks and the sums of
+/// its contacts as functions of the step.
+double pe_at(std::int64_t step) {
+  const double phase = static_cast<double>(step % 40);
+  return 10.0 + 0.01 * static_cast<double>(step % 7) +
+         (phase < 30 ? 0.1 * phase : 3.0 - 0.3 * (phase - 30));
+}
+bool slides(std::int64_t step) { return step % 40 >= 30; }
+
+struct MadeUpRun {
+  EventSettings settings;
+  LSM::SceneInfo scene{{{"program", "made up"}, {"links", "7"}}, 2, dt};
+  LSM::StepClock clock{100.0, 0, dt};
+  FaultGrid grid;
+  std::vector<double> sums;  // of the interval that is not complete
+  std::unique_ptr<EventStream> stream;
+
+  explicit MadeUpRun(const EventSettings &s) : settings(s) {
+    stream = std::make_unique<EventStream>(settings);
+    grid = settings.grid(0.0, length, 0, 100.0, dt);
+    if (settings.ruptures) stream->set_grid(grid);
+    sums = LSM::FaultSums(grid).values();
+  }
+
+  void begin() {
+    stream->begin_files(0, false, scene, clock);
+    if (settings.ruptures) stream->begin_fault(pe_at(0), sums);
+  }
+  void restart(std::int64_t step, const std::vector<double> &state) {
+    SavedStream saved;
+    ASSERT_TRUE(saved.read(state, 0, settings.ruptures));
+    grid = settings.grid(0.0, length, step, clock.at(step), dt);
+    if (settings.ruptures) stream->set_grid(grid);
+    stream->set_state(saved);
+    if (settings.ruptures) {
+      grid.step0 = saved.grid.step0;
+      sums = saved.open_sums;
+    }
+    stream->begin_files(step, true, scene, clock);
+  }
+
+  void add_contacts(std::int64_t step) {
+    for (int b = 0; b < grid.bins; ++b) {
+      double *const s = &sums[LSM::FaultSums::fields * static_cast<std::size_t>(b)];
+      const bool slips = slides(step) && b >= 3 && b < 6 + step / 40;
+      s[0] += slips ? 0.02 * (b + 1) : 1e-5;
+      s[1] += 1.0;
+      s[2] += slips ? 0.001 * (b + 1) : 0.0;
+      s[3] += 1.0 + 0.01 * static_cast<double>(step % 40) - (slips ? 0.1 : 0.0);
+    }
+  }
+
+  /// Steps from..to in blocks of that many.
+  void run(std::int64_t from, std::int64_t to, int steps) {
+    for (std::int64_t first = from; first <= to; first += steps) {
+      GatheredBlock block;
+      block.first = first;
+      block.count = static_cast<int>(std::min<std::int64_t>(steps, to - first + 1));
+      block.ranks = 2;
+      block.pe.resize(2 * static_cast<std::size_t>(block.count));
+      for (int n = 0; n < block.count; ++n) {
+        const std::int64_t step = first + n;
+        const double part = 0.25 * pe_at(step);
+        block.pe[static_cast<std::size_t>(n)] = part;
+        block.pe[static_cast<std::size_t>(block.count + n)] = pe_at(step) - part;
+        block.slip.insert(block.slip.end(), {static_cast<double>(n), 4.0, 0.125});
+        if (slides(step)) block.slip.insert(block.slip.end(), {static_cast<double>(n), 5.0, 1.0});
+        if (step > 0 && settings.ruptures) add_contacts(step);
+        if (!grid.ends_interval(step)) continue;
+        block.intervals.insert(block.intervals.end(), sums.begin(), sums.end());
+        std::fill(sums.begin(), sums.end(), 0.0);
+      }
+      stream->add_block(
+          block, [this](std::int64_t step) { return clock.at(step); }, 0.0, length);
+    }
+    stream->flush();
+  }
+};
+
+class EventStreamFiles : public unit::Files {
+ protected:
+  EventSettings pe_settings(const std::string &name) const {
+    EventSettings s;
+    s.name = "events";
+    s.picker.lambda = 0.5;
+    s.catalogue_file = path(name + ".csv");
+    s.series_file = path(name + ".pe");
+    s.series_stride = 2;
+    return s;
+  }
+  EventSettings rupture_settings(const std::string &name) const {
+    EventSettings s = pe_settings(name);
+    s.ruptures = true;
+    s.history_file = path(name + ".slip");
+    s.driving = 0.001;
+    s.interval = 4;
+    s.modulus = 0.4;
+    s.quiet = 3;
+    s.gap = 0;
+    return s;
+  }
+  void expect_same_files(const EventSettings &a, const EventSettings &b) const {
+    EXPECT_EQ(unit::slurp(a.catalogue_file), unit::slurp(b.catalogue_file));
+    EXPECT_EQ(unit::slurp(a.series_file), unit::slurp(b.series_file));
+    if (!a.history_file.empty()) {
+      EXPECT_EQ(unit::slurp(a.history_file), unit::slurp(b.history_file));
+    }
+  }
+  static std::vector<LSM::Event> events_of(const EventSettings &s) {
+    LSM::CatalogueReader reader(s.catalogue_file);
+    std::vector<LSM::Event> events;
+    for (LSM::Event event; reader.next(event);) events.push_back(event);
+    return events;
+  }
+};
+
+TEST_F(EventStreamFiles, CatalogueIsWhatThePickerFindsInTheSeries) {
+  MadeUpRun run(pe_settings("a"));
+  run.settings.series_stride = 1;
+  run.stream = std::make_unique<EventStream>(run.settings);
+  run.begin();
+  run.run(0, 400, 100);
+  LSM::EventPicker picker(run.settings.picker);
+  LSM::PeSeriesReader series(run.settings.series_file);
+  std::vector<LSM::Event> expected;
+  std::int64_t step, samples = 0;
+  double time, pe;
+  for (LSM::Event event; series.next(step, time, pe); ++samples) {
+    EXPECT_EQ(pe, pe_at(step));
+    if (picker.push(step, time, pe, event)) expected.push_back(event);
+  }
+  EXPECT_EQ(samples, 401);
+  const auto events = events_of(run.settings);
+  ASSERT_EQ(events.size(), expected.size());
+  ASSERT_GE(events.size(), 9u);
+  for (std::size_t n = 0; n < events.size(); ++n) {
+    EXPECT_EQ(events[n].step_start, expected[n].step_start);
+    EXPECT_EQ(events[n].t_end, expected[n].t_end);
+    EXPECT_EQ(events[n].size, expected[n].size);
+  }
+  EXPECT_EQ(run.stream->counts().events, static_cast<std::int64_t>(events.size()));
+}
+
+TEST_F(EventStreamFiles, BlocksLeaveNoTrace) {
+  for (const bool ruptures : {false, true}) {
+    std::vector<EventSettings> done;
+    for (const int block : {1, 7, 100}) {
+      const std::string name = (ruptures ? "r" : "p") + std::to_string(block);
+      EventSettings settings = ruptures ? rupture_settings(name) : pe_settings(name);
+      settings.location = !ruptures;
+      MadeUpRun run(settings);
+      run.begin();
+      run.run(0, 500, block);
+      done.push_back(settings);
+      ASSERT_GE(events_of(settings).size(), 5u);
+    }
+    expect_same_files(done[0], done[1]);
+    expect_same_files(done[0], done[2]);
+  }
+}
+
+TEST_F(EventStreamFiles, SlipCountsWhileItsEventIsOpen) {
+  EventSettings settings = pe_settings("a");
+  settings.location = true;
+  settings.bin_fraction = 0.5;
+  MadeUpRun run(settings);
+  run.begin();
+  run.run(0, 500, 50);
+  const auto events = events_of(settings);
+  ASSERT_GE(events.size(), 5u);
+  for (const LSM::Event &event : events) {
+    // Bin 5 slid by 1 in each step in which PE fell, bin 4 by 0.125 in each step.
+    EXPECT_GT(event.slip_moment, 1.125);
+    EXPECT_LT(event.slip_moment,
+              1.125 * static_cast<double>(event.step_end - event.step_start + 2));
+    EXPECT_EQ(event.rupture_length, 1.0);
+    EXPECT_NEAR(event.x_centroid, 5.5, 0.15);
+  }
+}
+
+TEST_F(EventStreamFiles, GoesOnFromItsStateByteForByte) {
+  for (const bool ruptures : {false, true}) {
+    // Loading; within an event; within an interval and a pause; at the end of an event, which is
+    // known one step later
+    EventSettings any = ruptures ? rupture_settings("r") : pe_settings("p");
+    MadeUpRun ends(any);
+    ends.begin();
+    ends.run(0, 200, 20);
+    const std::int64_t end = events_of(any).at(2).step_end;
+    for (const std::int64_t stop : {std::int64_t{60}, std::int64_t{75}, std::int64_t{83}, end,
+                                    std::int64_t{161}, std::int64_t{236}}) {
+      const std::string at = (ruptures ? "r" : "p") + std::to_string(stop);
+      EventSettings whole = ruptures ? rupture_settings(at) : pe_settings(at);
+      whole.location = !ruptures;
+      MadeUpRun uninterrupted(whole);
+      uninterrupted.begin();
+      uninterrupted.run(0, 400, 20);
+
+      EventSettings part = ruptures ? rupture_settings(at + "part") : pe_settings(at + "part");
+      part.location = whole.location;
+      MadeUpRun first(part);
+      first.begin();
+      first.run(0, stop, 20);
+      const std::vector<double> state = first.stream->state(first.sums);
+      first.run(stop + 1, stop + 90, 20);  // killed later than the restart file was written
+      first.stream.reset();
+
+      part.resume = true;
+      MadeUpRun second(part);
+      ASSERT_NO_FATAL_FAILURE(second.restart(stop, state));
+      second.run(stop + 1, 400, 20);
+      expect_same_files(whole, part);
+      ASSERT_GE(events_of(whole).size(), 5u);
+      EXPECT_EQ(second.stream->state(second.sums), uninterrupted.stream->state(uninterrupted.sums));
+    }
+  }
+}
+
+TEST_F(EventStreamFiles, NothingIsTouchedThatIsInTheWay) {
+  const EventSettings settings = pe_settings("a");
+  unit::spill(settings.series_file, "somebody's data");
+  MadeUpRun run(settings);
+  EXPECT_EQ(unit::message_of<EventStreamError>([&] { run.begin(); }),
+            "Compute lsm/events series: file " + settings.series_file +
+                " exists; give another name, or replace it with overwrite yes");
+  EXPECT_EQ(unit::slurp(settings.series_file), "somebody's data");
+  EXPECT_FALSE(std::filesystem::exists(settings.catalogue_file));
+
+  EventSettings resuming = settings;
+  resuming.resume = true;
+  MadeUpRun without_restart(resuming);
+  EXPECT_TRUE(unit::contains(unit::message_of<EventStreamError>([&] { without_restart.begin(); }),
+                             "holds no picker state of compute events"));
+
+  EventSettings replacing = settings;
+  replacing.overwrite = true;
+  MadeUpRun replaces(replacing);
+  replaces.begin();
+  EXPECT_NE(unit::slurp(settings.series_file), "somebody's data");
+}
+
+TEST_F(EventStreamFiles, RupturesOfOtherBinsDoNotGoOn) {
+  EventSettings settings = rupture_settings("a");
+  MadeUpRun first(settings);
+  first.begin();
+  first.run(0, 236, 20);
+  SavedStream saved;
+  ASSERT_TRUE(saved.read(first.stream->state(first.sums), 0, true));
+  const auto events = first.stream->counts().events;
+  ASSERT_GT(events, 0);
+  first.stream.reset();
+
+  settings.bin_width = 2.0;
+  settings.resume = true;
+  MadeUpRun second(settings);
+  EXPECT_FALSE(saved.goes_on_with(second.grid));
+  second.stream->set_state(saved);
+  EXPECT_EQ(second.stream->counts().events, events);  // the numbers go on
+  EXPECT_EQ(second.stream->open(), 0);
+  EXPECT_TRUE(unit::contains(unit::message_of<EventStreamError>([&] {
+                               second.stream->begin_files(236, true, second.scene, second.clock);
+                             }),
+                             "holds no ruptures of compute events with these bins"));
+}
+
+TEST_F(EventStreamFiles, DamagedStatesAreRefused) {
+  MadeUpRun run(rupture_settings("a"));
+  run.begin();
+  run.run(0, 236, 20);
+  ASSERT_GT(run.stream->open(), 0);
+  std::vector<double> state = run.stream->state(run.sums);
+  SavedStream saved;
+  EXPECT_TRUE(saved.read(state, 0, true));
+  for (const std::size_t length_left : {std::size_t{0}, SavedStream::picker_words - 1,
+                                        SavedStream::picker_words + 4, state.size() - 1})
+    EXPECT_FALSE(
+        saved.read({state.begin(), state.begin() + static_cast<long>(length_left)}, 0, true))
+        << length_left;
+  state.push_back(0.0);
+  EXPECT_FALSE(saved.read(state, 0, true));
+  state.pop_back();
+
+  // Lists of the right lengths that no fault can have written.
+  ASSERT_TRUE(saved.read(state, 0, true));
+  saved.finder.back() = 1000.0;
+  MadeUpRun other(rupture_settings("b"));
+  EXPECT_THROW(other.stream->set_state(saved), std::invalid_argument);
+}
+
+TEST_F(EventStreamFiles, TheSeriesEndsBeforeAnEnergyThatIsNotFinite) {
+  EventSettings settings = pe_settings("a");
+  settings.series_stride = 1;
+  MadeUpRun run(settings);
+  run.begin();
+  GatheredBlock block;
+  block.count = 3;
+  block.pe = {1.0, 2.0, std::numeric_limits<double>::quiet_NaN()};
+  const std::string message = unit::message_of<EventStreamError>([&] {
+    run.stream->add_block(
+        block, [](std::int64_t step) { return 0.5 * static_cast<double>(step); }, 0.0, length);
+  });
+  EXPECT_TRUE(unit::contains(message, "Potential energy is not finite at step 2"));
+  LSM::PeSeriesReader series(settings.series_file);  // of a run that is still there
+  std::int64_t step, samples = 0;
+  double time, pe;
+  while (series.next(step, time, pe)) ++samples;
+  EXPECT_EQ(samples, 2);
+}
+
+TEST(EventStream, WhatTheOutsideChangesIsNoEvent) {
+  EventSettings settings;
+  settings.picker.lambda = 0.5;
+  EventStream stream(settings);
+  const auto add = [&](std::int64_t first, const std::vector<double> &pe) {
+    GatheredBlock block;
+    block.first = first;
+    block.count = static_cast<int>(pe.size());
+    block.pe = pe;
+    stream.add_block(
+        block, [](std::int64_t step) { return static_cast<double>(step); }, 0.0, length);
+  };
+  add(0, {10.0, 11.0, 12.0});
+  const double rate = stream.picker().rate();
+  stream.leave_out_jump(-8.0);
+  add(3, {5.0});
+  EXPECT_EQ(stream.open(), 0);
+  EXPECT_EQ(stream.picker().rate(), 0.5 * rate + 0.5);
+  // Half the time step: half the rate per step.
+  const double before = stream.picker().rate();
+  settings.picker.lambda = 0.75;
+  stream.change_picker(settings.picker, 0.5);
+  EXPECT_EQ(stream.picker().rate(), 0.5 * before);
+  add(4, {5.0});
+  EXPECT_EQ(stream.picker().rate(), 0.75 * 0.5 * before);
+}
+
+TEST(EventStream, AJumpWithinAnEventIsNoPartOfItsSize) {
+  EventSettings settings;
+  settings.picker.lambda = 0.5;
+  EventStream smooth(settings), jumps(settings);
+  for (std::int64_t step = 0; step < 60; ++step) {
+    const bool after = step > 33;
+    GatheredBlock block;
+    block.first = step;
+    block.count = 1;
+    const auto time_of = [](std::int64_t s) { return static_cast<double>(s); };
+    block.pe = {pe_at(step)};
+    smooth.add_block(block, time_of, 0.0, length);
+    block.pe = {pe_at(step) - (after ? 8.0 : 0.0)};
+    jumps.add_block(block, time_of, 0.0, length);
+    if (step != 33) continue;
+    ASSERT_EQ(jumps.open(), 1);
+    jumps.leave_out_jump(-8.0);
+  }
+  ASSERT_GT(smooth.counts().events, 0);
+  EXPECT_EQ(jumps.counts().events, smooth.counts().events);
+  EXPECT_NEAR(jumps.counts().last_size, smooth.counts().last_size, 1e-12);
+}
+
+TEST(EventSettings, HeadersSayEachParameterOnce) {
+  EventSettings settings;
+  settings.ruptures = true;
+  settings.driving = 0.0005;
+  settings.modulus = 0.4;
+  settings.parameters = {{"seed", "3"}, {"links", "many"}};
+  const LSM::SceneInfo scene{{{"program", "p"}, {"links", "7"}, {"dt", "0.5"}}, 2, 0.5};
+  const auto pe = LSM::catalogue_header(settings, scene, false, 0.0);
+  EXPECT_EQ(*pe.find("links"), "many");  // what the user says stands, behind the others
+  EXPECT_EQ(pe.parameters.back().first, "links");
+  EXPECT_EQ(*pe.find("ranks"), "2");
+  EXPECT_NE(pe.find("picker"), nullptr);
+  EXPECT_FALSE(pe.stress_drop);
+  const auto ruptures = LSM::catalogue_header(settings, scene, true, 1.25);
+  EXPECT_EQ(*ruptures.find("slip_bin"), "1.25");
+  EXPECT_EQ(*ruptures.find("slip_velocity"), "0.0025000000000000001");
+  EXPECT_EQ(ruptures.find("picker"), nullptr);
+  EXPECT_TRUE(ruptures.stress_drop);
+  // The series is the same whatever the events are; what its own lines hold is not there twice.
+  const auto series = LSM::series_header(settings, scene, {100.0, 50, 0.5});
+  EXPECT_EQ(series.find("dt"), nullptr);
+  EXPECT_EQ(series.time(60), 105.0);
+  settings.ruptures = false;
+  EXPECT_EQ(LSM::series_header(settings, scene, {100.0, 50, 0.5}).parameters, series.parameters);
+}
+
+TEST(EventSettings, BinsFillTheFault) {
+  EventSettings settings;
+  settings.bin_width = 3.0;
+  const FaultGrid grid = settings.grid(-5.0, 20.0, 7, 1.0, 0.5);
+  EXPECT_EQ(grid.bins, 6);
+  EXPECT_DOUBLE_EQ(grid.length(), 20.0);
+  settings.bin_width = 0.1;
+  EXPECT_EQ(settings.grid(0.0, 0.3, 0, 0.0, 1.0).bins, 3);  // 2.9999999999999996 widths
+  settings.bin_width = 50.0;
+  EXPECT_EQ(settings.grid(0.0, 20.0, 0, 0.0, 1.0).bins, 1);
+  settings.pause = 0.0;
+  EXPECT_EQ(settings.rupture_settings(0.5).memory, 1);
+  settings.pause = 12.0;
+  EXPECT_EQ(settings.rupture_settings(0.5).memory, 2);  // intervals of 10 steps of 0.5
+}
+
+}  // namespace
