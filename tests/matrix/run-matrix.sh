@@ -125,10 +125,10 @@ whole() {
       ;;
     *)
       # unit tests know no LAMMPS; those of physics start the program of this column
-      build "$name" lmp lsmplugin lsmplugin_other_integers lsm_library_errors
+      build "$name" lmp lsmplugin lsmplugin_other_integers lsm_library_errors lsm_foreign_fix
       tests=$(run_tests "$name" '^(package\.|physics\.library)' "$name") || ok=1
       tests="package, library: $tests; physics: $(LSM_LMP=$folder/$name/bin/lmp \
-        run_tests reference '^physics\.[A-Z]' "$name.physics")" || ok=1
+        LSM_FOREIGN_FIX=$folder/$name/lib/lsm_foreign_fix.so run_tests reference '^physics\.[A-Z]' "$name.physics")" || ok=1
       ;;
   esac
   run_fault "$name" "$folder/$name/bin/lmp"
