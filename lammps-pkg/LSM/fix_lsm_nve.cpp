@@ -169,12 +169,12 @@ void FixLSMNVE::post_neighbor()
 
 template <bool DIM3> void FixLSMNVE::choose_for()
 {
-  const bool viscous = this->viscous || nu_least > 0.0;
-  if (viscous && record_work) {
+  const bool slows = viscous || nu_least > 0.0;
+  if (slows && record_work) {
     initial_chosen = &FixLSMNVE::move<INITIAL, true, true, DIM3>;
     final_chosen = &FixLSMNVE::move<FINAL, true, true, DIM3>;
     both_chosen = nullptr;
-  } else if (viscous) {
+  } else if (slows) {
     initial_chosen = &FixLSMNVE::move<INITIAL, true, false, DIM3>;
     final_chosen = &FixLSMNVE::move<FINAL, true, false, DIM3>;
     both_chosen = &FixLSMNVE::move<FINAL | INITIAL, true, false, DIM3>;

@@ -119,16 +119,16 @@ whole() {
   configure "$name" "$@"
   case $name in
     reference | clang)
-      build "$name" lmp lsmplugin lsmplugin_other_integers lsm_library_errors lsm_unit_tests lsm_physics_tests
+      build "$name" all
       tests=$(run_tests "$name" '^(unit|physics|package)\.' "$name") || ok=1
       tests="unit, physics, package: $tests"
       ;;
     *)
       # unit tests know no LAMMPS; those of physics start the program of this column
-      build "$name" lmp lsmplugin lsmplugin_other_integers lsm_library_errors
+      build "$name" lmp lsmplugin lsmplugin_other_integers lsm_library_errors lsm_foreign_fix
       tests=$(run_tests "$name" '^(package\.|physics\.library)' "$name") || ok=1
       tests="package, library: $tests; physics: $(LSM_LMP=$folder/$name/bin/lmp \
-        run_tests reference '^physics\.[A-Z]' "$name.physics")" || ok=1
+        LSM_FOREIGN_FIX=$folder/$name/lib/lsm_foreign_fix.so run_tests reference '^physics\.[A-Z]' "$name.physics")" || ok=1
       ;;
   esac
   run_fault "$name" "$folder/$name/bin/lmp"

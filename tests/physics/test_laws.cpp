@@ -209,7 +209,7 @@ TEST_F(Laws, SlipWeakeningIsStableAboveTheCriticalStiffnessOnly) {
     const double rest = stiffness - weakening, rate = std::sqrt(std::fabs(rest));
     const double drift = s.speed * stiffness / rest;
     double largest = 0.0, worst = 0.0, fastest = 0.0;
-    int compared = 0;
+    int times = 0;
     for (std::size_t n = 0; n < m.t.size(); ++n) {
       const double t = m.t[n] - breaks;
       if (t < 0.0) continue;
@@ -221,11 +221,11 @@ TEST_F(Laws, SlipWeakeningIsStableAboveTheCriticalStiffnessOnly) {
       worst = std::max(worst, std::fabs(moved - y));
       largest = std::max(largest, y);
       fastest = std::max(fastest, m.v[n] / s.speed);
-      ++compared;
+      ++times;
     }
     std::printf("stiffness %.1f of critical: fastest %.1f plate velocities, off by %.2g of %.3g\n",
                 stiffness, fastest, worst, largest);
-    ASSERT_GT(compared, 5);
+    ASSERT_GT(times, 5);
     EXPECT_LT(worst, 0.01 * largest);
     if (rest > 0.0)
       EXPECT_LT(fastest, 2.1 * stiffness / rest);

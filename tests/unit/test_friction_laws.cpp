@@ -189,7 +189,7 @@ TEST(VelocityWeakening, SticksBelowTheStrengthAtRest) {
 template <class Law>
 class RateStateLaw : public ::testing::Test {};
 using Evolutions = ::testing::Types<RateStateAgeing, RateStateSlip>;
-TYPED_TEST_SUITE(RateStateLaw, Evolutions);
+TYPED_TEST_SUITE(RateStateLaw, Evolutions, );  // clang wants the last comma
 
 // stiff, so that the contact slips at the velocity it is moved with
 constexpr RateStateAgeing::Coefficients kAgeing{1e6, 0.6, 0.01, 0.015, 0.02, 1e-3, 0.0};
@@ -234,6 +234,33 @@ TYPED_TEST(RateStateLaw, AnswersHoldsAsItsEvolutionLaw) {
     EXPECT_NEAR(contact.state[0], theta + 1000.0, 1e-9 * theta);
   else
     EXPECT_EQ(contact.state[0], theta);
+}
+
+TYPED_TEST(RateStateLaw, StateOfASteadySlipIsExactForAnyStep) {
+  // steps from far below to far above dc/v, beginning below and above the steady state
+  const double dc = 0.02, v = 0.3, steady = dc / v;
+  for (double theta : {1e-3 * steady, 0.5 * steady, 20.0 * steady})
+    for (double time : {1e-4 * steady, 0.1 * steady, 2.0 * steady, 30.0 * steady}) {
+      const double q = std::exp(-time / steady);
+      if (std::is_same<TypeParam, RateStateAgeing>::value) {
+        const double exact = steady + (theta - steady) * q;
+        EXPECT_NEAR(LSM::AgeingEvolution::evolved(theta, v, dc, time), exact,
+                    1e-15 * (steady + theta));  // rounding of the two parts
+      } else {
+        const double exact = steady * std::pow(theta / steady, q);
+        EXPECT_NEAR(LSM::SlipEvolution::evolved(theta, v, dc, time), exact, 1e-13 * exact);
+      }
+    }
+}
+
+TYPED_TEST(RateStateLaw, BeginsWithTheStateGivenOrThatOfSteadySlip) {
+  auto c = stiff<TypeParam>();
+  double theta = 0.0;
+  TypeParam::begin(c, &theta);
+  EXPECT_EQ(theta, c.dc / c.v0);
+  c.theta = 3.0;
+  TypeParam::begin(c, &theta);
+  EXPECT_EQ(theta, 3.0);
 }
 
 TYPED_TEST(RateStateLaw, ForceSpringAndVelocityAgreeForAnyStep) {

@@ -260,6 +260,14 @@ TEST(FaultRuptures, HypocentreIsWhereMostSlippedFirst) {
   ASSERT_EQ(events.size(), 1U);
   EXPECT_EQ(events[0].x_hypocentre, 4.0);
   EXPECT_EQ(events[0].rupture_length, 10.0);
+
+  // One that began later does not take it over, however much slips in its first interval.
+  const std::vector<Event> later = find({"..1.......",  //
+                                         "..1..9....",  //
+                                         "..1111...."},
+                                        some_grid(), some_settings());
+  ASSERT_EQ(later.size(), 1U);
+  EXPECT_EQ(later[0].x_hypocentre, 0.0);
 }
 
 TEST(FaultRuptures, ImpossibleSettingsAndStatesAreRefused) {
