@@ -181,7 +181,7 @@ if wanted features; then
     feature "nothing recorded" -var events no
     if ((round > few)); then continue; fi
     feature "PE and picking without files" -var files "progress yes"
-    feature "catalogue without PE series" -var files "catalogue ours.catalogue.csv"
+    feature "catalogue without PE series" -var files "catalogue ours.catalogue.csv overwrite yes"
     feature "location of events" -var location yes
     feature "energy ledger" -var ledger yes
     feature "ranks sum PE every step" -var block 1
