@@ -189,8 +189,8 @@ if wanted features; then
     feature "static friction above dynamic" -var mus 0.7
     feature "slip weakening" -var otherlaw yes -var law slip-weakening -var friction "mu 0.5 mu_static 0.6 dc 0.002 heal 5"
     feature "velocity weakening" -var otherlaw yes -var law velocity-weakening -var friction "mu 0.6 vc 0.02"
-    feature "rate and state, ageing" -var otherlaw yes -var law rate-state-ageing -var friction "mu 0.6 a 0.01 b 0.015 dc 0.001 v0 0.0005"
-    feature "rate and state, slip" -var otherlaw yes -var law rate-state-slip -var friction "mu 0.6 a 0.01 b 0.015 dc 0.001 v0 0.0005"
+    feature "rate and state (ageing)" -var otherlaw yes -var law rate-state-ageing -var friction "mu 0.6 a 0.01 b 0.015 dc 0.001 v0 0.0005"
+    feature "rate and state (slip)" -var otherlaw yes -var law rate-state-slip -var friction "mu 0.6 a 0.01 b 0.015 dc 0.001 v0 0.0005"
     feature "links that can break" -var ratio 1.5
     feature "no viscosity" -var viscosity 0
     feature "pressure every 100 steps" -var pressure 100
