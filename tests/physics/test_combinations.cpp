@@ -191,6 +191,7 @@ TEST_F(BetweenRuns, DisplacedParticlesLoadTangentialSprings) {
     ASSERT_TRUE(succeeded(far));
     const double overlap = 2.0 - std::sqrt(1.9 * 1.9 + 0.2 * 0.2);
     EXPECT_NEAR(far.last("c_events[8]"), 0.5 * std::pow(0.6 * overlap, 2), 1e-12);
+    EXPECT_EQ(far.last("c_events[11]"), 0.0);  // what slid was moved, not lost in a step
   }
 }
 

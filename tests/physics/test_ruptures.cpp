@@ -359,3 +359,25 @@ TEST_F(Located, MomentCentroidAndLengthOfAPrescribedEvent) {
     EXPECT_NEAR(e.size, drop, 1e-3 * drop);
   }
 }
+
+// A contact whose two discs lie on either side of the border of the box is in one bin, whatever
+// image of a disc it was found with.
+TEST_F(Located, ContactsAcrossTheBorderOfTheBox) {
+  for (const double side : {1.0, -1.0}) {
+    // to the left the contact at the border joins the bin of column 19, to the right it has that of
+    // column 0
+    const std::string script =
+        upper_and_lower("catalogue located.csv location yes bin 2 fraction 0.05 lambda 0") +
+        "displace_atoms all move -1 0 0 units box\n" + moved({}, 10) +
+        moved({{0, -side * 0.04}, {side > 0.0 ? 19 : 1, side * 0.04}}, 20) +
+        moved({{0, side * 0.04}, {side > 0.0 ? 19 : 1, -side * 0.04}}, 10);
+    for (const char *newton : {"off", "on"})
+      for (int ranks : {1, 2, 4}) {
+        SCOPED_TRACE(std::to_string(side) + newton + std::to_string(ranks));
+        ASSERT_TRUE(succeeded(run_text(script, {{"newton", newton}}, ranks)));
+        const auto catalogue = LSM::read_catalogue(path("located.csv"));
+        ASSERT_EQ(catalogue.events.size(), 1u);
+        EXPECT_EQ(catalogue.events[0].rupture_length, 2.0);
+      }
+  }
+}
