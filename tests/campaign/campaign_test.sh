@@ -119,7 +119,7 @@ kill_slider)
 kill_fault_*)
   r=${3//[^0-9]/}
   # Long enough for the kills to fall into the run and not into its start.
-  longer=("${fault[@]}" --steps 200000 --checkpoint 10000 --ranks "$r")
+  longer=("${fault[@]}" --steps 400000 --checkpoint 10000 --ranks "$r")
   whole "${longer[@]}"
   killed part "${longer[@]}"
   same whole/fault_40/fault.catalogue.csv part/fault_40/fault.catalogue.csv 15
