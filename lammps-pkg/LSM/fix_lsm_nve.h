@@ -45,6 +45,8 @@ class FixLSMNVE : public Fix {
   double work_viscosity;    // work lost to viscosity, this rank, accumulated
   /// Velocities and positions of the same time, where the second half of a step was put off.
   void complete_step();
+  /// Whether the second half of the last step is still to be done.
+  bool has_put_off() const { return pending; }
   void raise_viscosity(double least);    // to at least this, for now; 0: as it was given
   std::string viscosity() const;         // one value, or one per type
 

@@ -8,6 +8,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "fix_lsm_nve.h"
 #include "force.h"
 #include "group.h"
 #include "modify.h"
@@ -27,7 +28,7 @@ enum { LOWER, UPPER };
 FixLSMPlates::FixLSMPlates(LAMMPS *_lmp, int narg, char **arg) :
     Fix(_lmp, narg, arg), loading(1.0), speed(0.0), ramp(0.0), servo(false), stress(0.0),
     stress_ramp(0.0), damping(0.0), impedance(0.0), vy_known(false), elapsed(0.0), ux(0.0),
-    work_mine(0.0), dt(update->dt), summed_at(-1)
+    work_mine(0.0), dt(update->dt), pending(false), reducing(false), moved(0.0), along(0.0), summed_at(-1)
 {
   scalar_flag = 1;
   vector_flag = 1;
@@ -91,9 +92,18 @@ FixLSMPlates::FixLSMPlates(LAMMPS *_lmp, int narg, char **arg) :
 
 /* ---------------------------------------------------------------------- */
 
+FixLSMPlates::~FixLSMPlates()
+{
+  // an error between two steps leaves a sum on its way, on all ranks
+
+  if (reducing) MPI_Wait(&request, MPI_STATUS_IGNORE);
+}
+
+/* ---------------------------------------------------------------------- */
+
 int FixLSMPlates::setmask()
 {
-  return INITIAL_INTEGRATE | FINAL_INTEGRATE | POST_NEIGHBOR;
+  return INITIAL_INTEGRATE | FINAL_INTEGRATE | POST_NEIGHBOR | POST_RUN;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -136,6 +146,10 @@ void FixLSMPlates::init()
       plate[p].vy = all[2 * p + 1] / plate[p].mass;
   }
   vy_known = true;
+
+  integrators.clear();
+  for (auto &fix : modify->get_fix_by_style("^lsm/nve"))
+    if (auto p = dynamic_cast<FixLSMNVE *>(fix)) integrators.push_back(p);
 
   for (const auto &other : modify->get_fix_list())
     if (other != this && (other->time_integrate || strcmp(other->style, style) == 0)) {
@@ -205,10 +219,9 @@ double FixLSMPlates::stress_at(double t) const
    force of the blocks on the plates; only the motion across the fault needs it from all ranks
 ------------------------------------------------------------------------- */
 
-void FixLSMPlates::sum_forces()
+void FixLSMPlates::start_sum()
 {
   double **f = atom->f;
-  double across[2];
   for (int p : {LOWER, UPPER}) {
     double fx = 0.0, fy = 0.0;
     for (int i : plate[p].atoms) {
@@ -216,24 +229,26 @@ void FixLSMPlates::sum_forces()
       fy += f[i][1];
     }
     plate[p].fx = fx;
-    across[p] = fy;
+    across_mine[p] = across[p] = fy;
   }
-  if (servo && comm->nprocs > 1) {
-    double all[2];
-    MPI_Allreduce(across, all, 2, MPI_DOUBLE, MPI_SUM, world);
-    plate[LOWER].fy = all[LOWER];
-    plate[UPPER].fy = all[UPPER];
-  } else {
-    plate[LOWER].fy = across[LOWER];
-    plate[UPPER].fy = across[UPPER];
-  }
+  reducing = servo && comm->nprocs > 1;
+  if (reducing) MPI_Iallreduce(across_mine, across, 2, MPI_DOUBLE, MPI_SUM, world, &request);
+}
+
+void FixLSMPlates::finish_sum()
+{
+  if (reducing) MPI_Wait(&request, MPI_STATUS_IGNORE);
+  reducing = false;
+  plate[LOWER].fy = across[LOWER];
+  plate[UPPER].fy = across[UPPER];
 }
 
 /* ---------------------------------------------------------------------- */
 
 void FixLSMPlates::setup(int /*vflag*/)
 {
-  sum_forces();
+  start_sum();
+  finish_sum();
   summed_at = -1;
   for (const Plate &p : plate)
     for (int i : p.atoms) {
@@ -250,6 +265,7 @@ void FixLSMPlates::setup(int /*vflag*/)
 
 void FixLSMPlates::initial_integrate(int /*vflag*/)
 {
+  if (pending) finish_step();
   const double length = domain->prd[0];
   const double dux = dt * velocity_at(elapsed + 0.5 * dt);
   const double vx = dux / dt;
@@ -280,18 +296,32 @@ void FixLSMPlates::initial_integrate(int /*vflag*/)
   ux += dux;
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   While the sum of the forces over all ranks is on its way, particles of the blocks move on where fix lsm/nve has put off
+   the second half of its step (see there), as nobody looks at velocities then.
+------------------------------------------------------------------------- */
 
 void FixLSMPlates::final_integrate()
 {
-  const double length = domain->prd[0];
-  const double dux = dt * velocity_at(elapsed + 0.5 * dt);
-  double **v = atom->v;
-
+  moved = dt * velocity_at(elapsed + 0.5 * dt);
   elapsed += dt;
-  sum_forces();
+  along = velocity_at(elapsed);
+  start_sum();
+  pending = true;
+  bool in_time = reducing && !integrators.empty();
+  for (const auto *p : integrators) in_time = in_time && p->has_put_off();
+  if (!in_time) complete_step();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixLSMPlates::finish_step()
+{
+  const double length = domain->prd[0];
+  pending = false;
+  finish_sum();
   for (Plate &p : plate) {
-    work_mine -= 0.5 * p.fx * p.side * dux;
+    work_mine -= 0.5 * p.fx * p.side * moved;
     if (servo) {
       const double applied = -p.side * stress_at(elapsed) * length;
       p.vy += 0.5 * dt * (applied + p.fy) / p.mass;
@@ -299,12 +329,24 @@ void FixLSMPlates::final_integrate()
       p.vy *= decay_of(p);
       if (comm->me == 0) work_mine -= kinetic - 0.5 * p.mass * p.vy * p.vy;
     }
-    const double vx = p.side * velocity_at(elapsed);
+  }
+}
+
+void FixLSMPlates::complete_step()
+{
+  if (!pending) return;
+  finish_step();
+  double **v = atom->v;
+  for (const Plate &p : plate)
     for (int i : p.atoms) {
-      v[i][0] = vx;
+      v[i][0] = p.side * along;
       v[i][1] = p.vy;
     }
-  }
+}
+
+void FixLSMPlates::post_run()
+{
+  complete_step();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -327,6 +369,7 @@ double FixLSMPlates::kinetic() const
 
 double FixLSMPlates::work()
 {
+  complete_step();
   double all;
   MPI_Allreduce(&work_mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
   return all;
@@ -336,6 +379,7 @@ double FixLSMPlates::work()
 
 void FixLSMPlates::sum_for_output()
 {
+  complete_step();
   if (summed_at == update->ntimestep) return;
   double mine[4] = {plate[LOWER].fx, plate[LOWER].fy, plate[UPPER].fx, plate[UPPER].fy};
   if (servo && comm->me != 0) mine[1] = mine[3] = 0.0;    // already the sum over all ranks

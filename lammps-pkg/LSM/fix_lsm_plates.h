@@ -21,6 +21,7 @@ namespace LAMMPS_NS {
 class FixLSMPlates : public Fix {
  public:
   FixLSMPlates(class LAMMPS *, int, char **);
+  ~FixLSMPlates() override;
   int setmask() override;
   void init() override;
   void setup(int) override;
@@ -28,11 +29,15 @@ class FixLSMPlates : public Fix {
   void post_neighbor() override;
   void initial_integrate(int) override;
   void final_integrate() override;
+  void post_run() override;
   void reset_dt() override;
   double compute_scalar() override;
   double compute_vector(int) override;
   void write_restart(FILE *) override;
   void restart(char *) override;
+
+  /// Velocities and positions of the same time.
+  void complete_step();
 
   double loading;    // factor of the driving velocity now, set by fix lsm/leap
   double driving_velocity() const { return speed; }
@@ -69,13 +74,22 @@ class FixLSMPlates : public Fix {
   double work_mine;      // this rank's part of the work
   double dt;
 
+  std::vector<class FixLSMNVE *> integrators;
+  bool pending;     // the second half of the last step is still to be done
+  bool reducing;    // forces across the fault are on their way to all ranks
+  MPI_Request request;
+  double across_mine[2], across[2];    // they, of this rank and of all
+  double moved, along;                 // shear displacement and velocity of the last step
+
   double sums[4];    // fx, fy of both plates over all ranks, at step summed_at
   bigint summed_at;
 
   double decay_of(const Plate &p) const;
   double velocity_at(double t) const;
   double stress_at(double t) const;
-  void sum_forces();
+  void start_sum();
+  void finish_sum();
+  void finish_step();
   void sum_for_output();
   void collect();
 };

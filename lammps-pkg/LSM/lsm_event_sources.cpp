@@ -181,6 +181,7 @@ double LSMEventSources::max_strain() const
 void LSMEventSources::complete_steps() const
 {
   for (auto *p : integrators_) p->complete_step();
+  if (plates_) plates_->complete_step();
 }
 
 /* ---------------------------------------------------------------------- */
