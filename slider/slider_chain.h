@@ -92,13 +92,12 @@ class Chain {
     function_ = step_function(scheme, p.friction.law, set);
     chunks_ = (p.blocks + chunk_size - 1) / chunk_size;
     const std::size_t room = static_cast<std::size_t>(chunks_ + 2) * chunk_size;
-    for (auto *a : {&u_, &v_, &force_, &du_}) a->assign(room, 0.0);
+    for (auto *a : {&u_, &v_, &force_}) a->assign(room, 0.0);
     mu_.assign(room, 1e300);
     std::copy(mu.begin(), mu.end(), mu_.begin() + chunk_size);
     view_.u = u_.data() + chunk_size;
     view_.v = v_.data() + chunk_size;
     view_.force = force_.data() + chunk_size;
-    view_.du = du_.data() + chunk_size;
     view_.mu = mu_.data() + chunk_size;
     if (p.friction.needs_rest()) {
       rest_.assign(room, 0.0);
@@ -147,7 +146,11 @@ class Chain {
     const double loading_old = loading();
     [[maybe_unused]] const double pe_old = pe_value_;
     if (!list_.empty()) {
-      if constexpr (watches) keep_forces();
+      if constexpr (watches) {
+        du_.resize(v_.size(), 0.0);
+        keep_forces();
+      }
+      view_.du = watches ? du_.data() + chunk_size : nullptr;
       sums_ = function_(view_, list_.data(), static_cast<int>(list_.size()),
                         plate_step_ * static_cast<double>(step_ + 1), hot_.data());
     } else {

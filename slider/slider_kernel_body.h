@@ -64,12 +64,21 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
   const double kc = chain.kc, kl = chain.kl;
   double *const u = chain.u, *const velocity = chain.v, *const force = chain.force;
   double *const du = chain.du;
+  const bool keeps_slip = du != nullptr;
   const double *const mu = chain.mu;
   constexpr bool needs_rest = law == Law::slip_weakening;
-  for (int k = 0; k < count; ++k) {
+  // Blocks move (the first half of the step), then their springs pull. A chunk is pulled some chunks after it was
+  // moved: its neighbours have been moved by then, its data are still in the nearest cache, and its displacements are
+  // no longer on their way there, which loads that lie across two chunks would wait for. The first chunk of
+  // the chain, a neighbour of the last, comes last.
+  constexpr int lag = 6;
+  constexpr int ahead = 12;  // chunks in the list between fetching into the cache and moving
+  constexpr unsigned ring = 8;  // more than lag
+  static_assert(ring > lag);
+  const auto move = [&](int k, Lanes &change) __attribute__((always_inline)) {
     const std::int64_t i = static_cast<std::int64_t>(list[k]) * chunk_size;
     const Lanes f = load(force + i), m = load(mu + i), v = load(velocity + i);
-    Lanes x = load(u + i), change;
+    Lanes x = load(u + i);
     [[maybe_unused]] Lanes rest;
     if constexpr (needs_rest) rest = load(chain.rest + i);
     for (int r = 0; r < registers; ++r) {
@@ -87,17 +96,15 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
       std::memcpy(velocity + i + r * SLIDER_LANES, &w, sizeof w);
     }
     store(u + i, x);
-    store(du + i, change);
-  }
-  u[-1] = u[chain.blocks - 1];
-  u[chain.blocks] = u[0];
+    if (keeps_slip) store(du + i, change);
+  };
 
   Lanes work = {}, slip = {};
   StepSums sums;
-  for (int k = 0; k < count; ++k) {
+  const auto pull = [&](int k, const Lanes &change) __attribute__((always_inline)) {
     const std::int64_t i = static_cast<std::int64_t>(list[k]) * chunk_size;
     const Lanes x = load(u + i), left = load(u + i - 1), right = load(u + i + 1);
-    const Lanes old = load(force + i), m = load(mu + i), change = load(du + i);
+    const Lanes old = load(force + i), m = load(mu + i);
     Lanes v = load(velocity + i), f;
     [[maybe_unused]] Lanes rest;
     if constexpr (needs_rest) rest = load(chain.rest + i);
@@ -136,7 +143,30 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
     if constexpr (needs_rest) store(chain.rest + i, rest);
     hot[k] = static_cast<std::uint8_t>(lanes);
     sums.hot += __builtin_popcount(lanes);
+  };
+
+  const auto fetch = [&](int k) __attribute__((always_inline)) {
+    const std::int64_t i = static_cast<std::int64_t>(list[k]) * chunk_size;
+    __builtin_prefetch(u + i, 1);
+    __builtin_prefetch(velocity + i, 1);
+    __builtin_prefetch(force + i, 1);
+    if (keeps_slip) __builtin_prefetch(du + i, 1);
+    __builtin_prefetch(mu + i);
+    if constexpr (needs_rest) __builtin_prefetch(chain.rest + i, 1);
+  };
+
+  Lanes first_change = {}, changes[ring];
+  const int begin = count > 0 && list[0] == 0 ? 1 : 0;
+  if (begin == 1) move(0, first_change);
+  u[chain.blocks] = u[0];
+  for (int k = begin; k < count + lag; ++k) {
+    if (k + ahead < count) fetch(k + ahead);
+    if (k < count) move(k, changes[static_cast<unsigned>(k) % ring]);
+    if (k - lag >= begin) pull(k - lag, changes[static_cast<unsigned>(k - lag) % ring]);
   }
+  u[-1] = u[chain.blocks - 1];
+  if (begin == 1) pull(0, first_change);
+
   double w[chunk_size], s[chunk_size];
   store(w, work);
   store(s, slip);
