@@ -17,11 +17,11 @@ FOLDER takes the scenes, which are made once for each LMP, all timings (timings.
   --rounds N         rounds of peers and of recording on or off [7, quick 2]; others have half as many, but at least 2
   --seconds S        a run takes about so long [1, quick 0.3]
   --length L         fault of the comparisons [1890]
-  --only WHAT,...    peers, parts, features, lengths, setup [all]
+  --only WHAT,...    peers, parts, features, lengths, scale, setup [all]; scale runs up to 8 ranks, whatever the cores
 END
 }
 
-rounds=0 seconds=0 length=1890 only=peers,parts,features,lengths,setup quick=no
+rounds=0 seconds=0 length=1890 only=peers,parts,features,lengths,scale,setup quick=no
 arguments=()
 while (($#)); do
   if [[ $1 =~ ^--(rounds|seconds|length|only)$ ]] && (($# < 2)); then
@@ -211,6 +211,34 @@ if wanted lengths; then
   done
 fi
 
+# What ranks send each other, counted, not timed: the difference of two runs, so that set-up does not count.
+echo "length,ranks,particles,largest_share,ghosts,messages,bytes,collectives,nonblocking,pe" > scale.csv
+if wanted scale; then
+  if mpicc -O2 -shared -fPIC -o count_mpi.so "$here/count_mpi.c" 2> count_mpi.err; then
+    for size in 120 480 "$length"; do
+      scene "$size"
+      for ranks in 1 2 4 8; do
+        say "scale, length $size, $ranks ranks"
+        for count in 100 200; do
+          mpirun -np "$ranks" -x LD_PRELOAD="$PWD/count_mpi.so" "$lmp" -in "$here/ours.in" -var name "fault_$size" -var steps $count \
+            -log "scale.$count.log" -screen none > "scale.$count.out" 2>&1 || die "counting messages failed, see $folder/scale.$count.log"
+        done
+        awk -v size="$size" -v ranks="$ranks" '
+          FILENAME ~ /200.log$/ && /^Nlocal:/ {share = $4 / $2}
+          FILENAME ~ /200.log$/ && /^Nghost:/ {ghosts = $2}
+          FILENAME ~ /200.log$/ && /^Loop time of/ {particles = $(NF - 1)}
+          FILENAME ~ /200.log$/ && /^PE / {pe = $2}
+          /^count_mpi / {sign = FILENAME ~ /200.out$/ ? 1 : -1; for (i = 3; i <= 6; i++) n[i] += sign * $i}
+          END {printf "%d,%d,%d,%.4f,%.1f", size, ranks, particles, share, ghosts
+               for (i = 3; i <= 6; i++) printf ",%.3f", n[i] / ranks / 100
+               print "," pe}' scale.100.out scale.200.out scale.200.log >> scale.csv
+      done
+    done
+  else
+    echo "mpicc failed, what ranks send is left out, see $folder/count_mpi.err" >&2
+  fi
+fi
+
 echo "ranks,round,create,first_step,read_restart" > setup.csv
 if wanted setup; then
   for ((round = 1; round <= few; ++round)); do
@@ -229,6 +257,6 @@ fi
     "load before $load_before, $(echo "$steal_before $(steal)" | awk '{printf "%.1f", ($3 - $1) / ($4 - $2) * 100}') %" \
     "of the time taken by other machines, fault of length $length, $rounds rounds of the comparisons and $few of the rest," \
     "$(((SECONDS - begin) / 60)) min $(((SECONDS - begin) % 60)) s."
-  awk -v most="$most" -f "$here/tables.awk" $timings setup.csv
+  awk -v most="$most" -f "$here/tables.awk" $timings setup.csv scale.csv
 } > tables.md
 cat tables.md

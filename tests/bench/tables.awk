@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# awk -v most=RANKS -f tables.awk timings.csv setup.csv: tables in Markdown. Medians over the rounds.
+# awk -v most=RANKS -f tables.awk timings.csv setup.csv scale.csv: tables in Markdown. Medians over the rounds.
 
 function median(list,    value, n, i, j, t) {
   n = split(list, value, " ")
@@ -54,6 +54,33 @@ file == 1 {
 file == 2 {
   for (i = 3; i <= 5; i++) setup[$1, i] = setup[$1, i] " " $i
   has["setup"] = 1
+}
+
+file == 3 {
+  scales++
+  for (i = 1; i <= 10; i++) scale[scales, i] = $i
+  has["scale"] = 1
+}
+
+# ns for each particle and step on a rank of its own with so many particles, between those measured on one rank
+function cost_of_share(particles,    k, n, at, value, i) {
+  for (k = 1; k <= keys; k++)
+    if (table[k] == "lengths" && ranks_of[k] == 1) { at[++n] = log(atoms[order[k]]); value[n] = cost(order[k]) }
+  if (log(particles) <= at[1]) return value[1]
+  for (i = 2; i <= n; i++)
+    if (log(particles) <= at[i])
+      return value[i - 1] + (value[i] - value[i - 1]) * (log(particles) - at[i - 1]) / (at[i] - at[i - 1])
+  return value[n]
+}
+
+# microseconds of a step: arithmetic of the largest share, messages to both neighbours at the same time, and
+# collective calls that go up and down a tree
+function step_time(particles, ranks, bytes, collectives, spread,    share, t, levels) {
+  share = particles / ranks
+  t = (ranks == 1 ? share : share + spread * sqrt(share)) * cost_of_share(share) * 1e-3
+  if (ranks == 1) return t
+  levels = int(log(ranks) / log(2) + 0.999)
+  return t + latency + bytes / 2 / bandwidth * 1e-3 + collectives * 2 * levels * latency
 }
 
 # LAMMPS' own timers of a key
@@ -129,6 +156,46 @@ END {
       if (table[k] == "lengths")
         printf "| %d | %d | %d | %.1f | %.2f |%s\n", length_of[k], atoms[order[k]], ranks_of[k], rate(order[k]), cost(order[k]),
                timers(order[k])
+  }
+
+  if (has["scale"]) {
+    print "\n### What ranks send each other, each step and rank (counted)\n"
+    print "| length | ranks | particles of a rank, mean | largest over mean | ghosts | messages | bytes | collective calls that wait | that do not | PE beside 1 rank |"
+    print "|---|---|---|---|---|---|---|---|---|---|"
+    for (k = 1; k <= scales; k++) {
+      if (scale[k, 2] == 1) base = scale[k, 10]
+      printf "| %d | %d | %.0f | %.3f | %.0f | %.2f | %.0f | %.2f | %.2f | %.1e |\n", scale[k, 1], scale[k, 2], scale[k, 3] / scale[k, 2],
+             scale[k, 4], scale[k, 5], scale[k, 6], scale[k, 7], scale[k, 8], scale[k, 9], scale[k, 10] / base - 1
+      if (scale[k, 2] > 1) {
+        if (scale[k, 7] > halo) halo = scale[k, 7]
+        waits = scale[k, 8]
+        s = (scale[k, 4] - 1) * sqrt(scale[k, 3] / scale[k, 2])    # particles beyond the mean, over its root
+        if (s > spread) spread = s
+      }
+    }
+    print "\nOf the calls that wait 0.1 ask whether neighbour lists are out of date; every 100th step gathers PE and looks whether the run is sound."
+  }
+
+  if (has["scale"] && has["lengths"]) {
+    latency = 1.5; bandwidth = 10
+    print "\n### Predicted, not measured\n"
+    printf "Latency %g us, %g GB/s, %.0f bytes a step to two neighbours, %.2f collective calls that wait (2 log2(ranks) latencies each), largest share mean + %.2f sqrt(mean), cost of a particle that of one rank with as many in the table above.\n\n",
+           latency, bandwidth, halo, waits, spread
+    line = "| ranks |"; under = "|---|"
+    n = split("1890 3780 7560 15120", size_at, " ")
+    for (i = 1; i <= n; i++) { line = line " length " size_at[i] ", us a step | million particle-steps/s | efficiency |"; under = under "---|---|---|" }
+    print line; print under
+    for (ranks = 1; ranks <= 512; ranks *= 2) {
+      if (ranks > 1 && ranks < 8) continue
+      printf "| %d |", ranks
+      for (i = 1; i <= n; i++) {
+        particles = 63.15 * size_at[i]
+        t = step_time(particles, ranks, halo, waits, spread)
+        one = step_time(particles, 1, 0, 0, 0)
+        printf " %.1f | %.0f | %.0f %% |", t, particles / t, one / t / ranks * 100
+      }
+      print ""
+    }
   }
 
   if (has["setup"]) {
