@@ -55,7 +55,9 @@ mkdir -p "$folder"
 cd "$folder"
 folder=$PWD
 timings=timings.csv
-echo "table,label,length,ranks,round,atoms,steps,seconds,cpu_percent,pair,bond,neigh,comm,output,modify,other" > $timings
+echo "table,label,length,ranks,round,atoms,steps,seconds,cpu_percent,pair,bond,neigh,comm,output,modify,other,resident" > $timings
+measure=()    # largest resident memory of each rank, if there is GNU time
+if [ -x /usr/bin/time ]; then measure=(/usr/bin/time -f "resident %M"); fi
 
 die() {
   echo "bench_lsm.sh: $*" >&2
@@ -78,43 +80,44 @@ steps() {
     n = int(rate * 1e6 * s / (65.2 * length_of_fault)); print n < 20 ? 20 : n }'
 }
 
-# note TABLE LABEL LENGTH RANKS ROUND LOG: one line of timings.csv from what a program printed
+# note TABLE LABEL LENGTH RANKS ROUND LOG OUTPUT: one line of timings.csv from what a program printed
 note() {
   awk -v start="$1,$2,$3,$4,$5" '
     /^Loop time of/ { seconds = $4; for (i = 5; i < NF; i++) if ($(i + 1) == "steps") steps = $i
                       atoms = $(NF - 1) }
     /CPU use with/ { cpu = $1 + 0 }
+    /^resident / { resident += $2 }
     /^(Pair|Bond|Neigh|Comm|Output|Modify|Other) +\|/ { split($0, cell, "|"); part[$1] = cell[3] + 0 }
     END {
       if (!seconds) exit 1
       printf "%s,%d,%d,%s,%s", start, atoms, steps, seconds, cpu
       n = split("Pair Bond Neigh Comm Output Modify Other", name, " ")
       for (i = 1; i <= n; i++) printf ",%s", part[name[i]]
-      print ""
-    }' "$6" >> $timings || die "no timing of $2 in $folder/$6"
+      print "," resident + 0
+    }' "$6" "$7" >> $timings || die "no timing of $2 in $folder/$6"
 }
 
 # ours TABLE LABEL LENGTH RANKS ROUND VARIABLES...
 ours() {
   local table=$1 label=$2 size=$3 ranks=$4 round=$5
   shift 5
-  mpirun -np "$ranks" "$lmp" -in "$here/ours.in" -var name "fault_$size" -var steps "$(steps "$size" $((60 * ranks)))" "$@" \
+  mpirun -np "$ranks" "${measure[@]}" "$lmp" -in "$here/ours.in" -var name "fault_$size" -var steps "$(steps "$size" $((60 * ranks)))" "$@" \
     -log ours.log -screen none > ours.out 2>&1 || die "$label failed, see $folder/ours.log"
-  note "$table" "$label" "$size" "$ranks" "$round" ours.log
+  note "$table" "$label" "$size" "$ranks" "$round" ours.log ours.out
 }
 
 # others LABEL RANKS ROUND LINKS MILLIONS
 others() {
-  mpirun -np "$2" "$stock" -in "$here/stock.in" -var name "fault_$length" -var steps "$(steps "$length" $(($5 * $2)))" \
+  mpirun -np "$2" "${measure[@]}" "$stock" -in "$here/stock.in" -var name "fault_$length" -var steps "$(steps "$length" $(($5 * $2)))" \
     -var links "$4" -log stock.log -screen none > stock.out 2>&1 || die "$1 failed, see $folder/stock.log"
-  note peers "$1" "$length" "$2" "$3" stock.log
+  note peers "$1" "$length" "$2" "$3" stock.log stock.out
 }
 
 esys() {
   rm -f "fault_$length".esys.*
-  mpirun -np $(($1 + 1)) esysparticle "$here/esys_particle.py" "fault_$length" "$1" "$length" "$(steps "$length" 2)" 3 \
+  mpirun -np $(($1 + 1)) "${measure[@]}" esysparticle "$here/esys_particle.py" "fault_$length" "$1" "$length" "$(steps "$length" 2)" 3 \
     > esys.out 2>&1 || return 1
-  note peers "ESyS-Particle" "$length" "$1" "$2" esys.out
+  note peers "ESyS-Particle" "$length" "$1" "$2" esys.out /dev/null
 }
 
 wanted() { [[ ,$only, == *,$1,* ]]; }

@@ -46,6 +46,7 @@ file == 1 {
   atoms[key] = $6
   if ($5 > rounds) rounds = $5
   for (i = 10; i <= 16; i++) parts[key, i] = parts[key, i] " " $i / $6 / $7 * 1e9
+  if ($17 > 0) { resident[key] = resident[key] " " $17; any_resident = 1 }
   if ($1 != "peers" || $2 == "ours") cpu = cpu " " $9
   has[$1] = 1
   if ($1 == "peers" || $1 == "parts") size = $3
@@ -99,13 +100,14 @@ END {
 
   if (has["peers"]) {
     print "\n### Side by side, PE at every step\n"
-    print "| program | particles | ranks | million particle-steps/s | ns | ours is so many times faster |"
-    print "|---|---|---|---|---|---|"
+    print "| program | particles | ranks | million particle-steps/s | ns | ours is so many times faster |" (any_resident ? " memory, bytes per particle |" : "")
+    print "|---|---|---|---|---|---|" (any_resident ? "---|" : "")
     for (k = 1; k <= keys; k++) {
       if (table[k] != "peers") continue
       base = "peers|ours|" length_of[k] "|" ranks_of[k]
-      printf "| %s | %d | %d | %.1f | %.1f | %s |\n", label[k], atoms[order[k]], ranks_of[k], rate(order[k]), cost(order[k]),
+      printf "| %s | %d | %d | %.1f | %.1f | %s |", label[k], atoms[order[k]], ranks_of[k], rate(order[k]), cost(order[k]),
              (order[k] == base ? "" : sprintf("%.2f", ratio(order[k], base)))
+      print (any_resident ? sprintf(" %.0f |", median(resident[order[k]]) * 1024 / atoms[order[k]]) : "")
     }
     if (most > 1) {
       n = split("ours,bond harmonic,bond bpm/spring,bond harmonic with contacts,ESyS-Particle", name, ",")
@@ -151,12 +153,12 @@ END {
 
   if (has["lengths"]) {
     print "\n### Against the length of the fault\n"
-    print "| length | particles | ranks | million particle-steps/s | ns | links | contacts | modify | comm | neigh | other |"
-    print "|---|---|---|---|---|---|---|---|---|---|---|"
+    print "| length | particles | ranks | million particle-steps/s | ns | links | contacts | modify | comm | neigh | other |" (any_resident ? " memory, bytes per particle |" : "")
+    print "|---|---|---|---|---|---|---|---|---|---|---|" (any_resident ? "---|" : "")
     for (k = 1; k <= keys; k++)
       if (table[k] == "lengths")
-        printf "| %d | %d | %d | %.1f | %.2f |%s\n", length_of[k], atoms[order[k]], ranks_of[k], rate(order[k]), cost(order[k]),
-               timers(order[k])
+        printf "| %d | %d | %d | %.1f | %.2f |%s%s\n", length_of[k], atoms[order[k]], ranks_of[k], rate(order[k]), cost(order[k]),
+               timers(order[k]), (any_resident ? sprintf(" %.0f |", median(resident[order[k]]) * 1024 / atoms[order[k]]) : "")
   }
 
   if (has["scale"]) {
