@@ -109,7 +109,7 @@ run() {
   [ $rc != 124 ] || { echo 'ran past the time limit' > "$work/failed"; return 1; }
   sed -n 's/^\[  FAILED  \] \([A-Za-z0-9_/]*\.[A-Za-z0-9_/]*\).*/\1/p' "$work/test.log" | sort -u > "$work/failed"
   [ $rc = 0 ] && grep -q '^\[  PASSED  \] [1-9]' "$work/test.log" && return 0
-  [ -s "$work/failed" ] || echo "ended with $rc" > "$work/failed"
+  [ -s "$work/failed" ] || echo "ended with $rc: $(tail -n 1 "$work/test.log" | tr '|' ' ' | cut -c 1-100)" > "$work/failed"
   return 1
 }
 
@@ -141,6 +141,12 @@ for i in "${chosen[@]}"; do
   *) outcome='does not compile' && survivors=$((survivors + 1)) ;;
   esac
   cat "$work/original" > "$tree/$file"
+  # A program that no test let fail, but that crashed or took too long: the code, or the machine?
+  if grep -q ' ' "$work/failed" && [[ $outcome = caught* ]]; then
+    outcome="caught: $(cat "$work/failed")"
+    # shellcheck disable=SC2086
+    run ${tests[$i]} || { echo "${names[$i]}: $outcome, but ${tests[$i]} fails without it, too" >&2; exit 2; }
+  fi
   echo "${names[$i]}: $outcome"
   [ -e "$table" ] && sed -i "/^| ${names[$i]} |/d" "$table"
   # shellcheck disable=SC2016

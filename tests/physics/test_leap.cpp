@@ -122,6 +122,36 @@ TEST_F(Leap, RestartAndRanks) {
   }
 }
 
+// What an event left moving comes to rest before the plates leap: kinetic energy of the blocks
+// below `rest` times that of a uniform shear between plates as fast as in leaps. Plates do not
+// count: theirs is 0.14 of the limit here, as they are driven all the time.
+TEST_F(Leap, LeapsBeginAtRest) {
+  const double rest = 0.06, fast = 0.005;
+  const Result r = run_text(
+      slow("fix leap all lsm/leap plates fast 0.005 slip 0.1 calm 0.6 rest 0.06 settle 0.3 ramp 6 "
+           "look 0.6\ncompute kinetic blocks ke\nvariable mass equal mass(all)\n",
+           "f_leap[1] f_leap[2] c_kinetic v_mass") +
+          "thermo 20\nrun 12000\n",
+      {{"prefix", "rest"}, {"dt", "0.03"}, {"velocity", "0.001"}});
+  ASSERT_TRUE(succeeded(r));
+  const double limit = rest * 0.5 * r.last("v_mass") * fast * fast / 3.0;
+  int begun = 0, waits = 0;
+  for (std::size_t n = 1; n < r.thermo.size(); ++n) {  // one row for each look of the fix
+    if (r.thermo[n - 1].at("f_leap[2]") != 1.0) continue;
+    const double kinetic = r.thermo[n].at("c_kinetic");
+    if (r.thermo[n].at("f_leap[2]") == 2.0) {
+      ++begun;
+      EXPECT_LE(kinetic, limit * (1.0 + 1e-9)) << r.thermo[n].at("Step");
+    } else if (r.thermo[n].at("f_leap[2]") == 1.0) {
+      ++waits;
+      EXPECT_GT(kinetic, limit * (1.0 - 1e-9)) << r.thermo[n].at("Step");
+    }
+  }
+  std::printf("%d leaps begun, %d looks at blocks not yet at rest\n", begun, waits);
+  EXPECT_GE(begun, 5);
+  EXPECT_GE(waits, 50);
+}
+
 // Times of events are model times: those of the steps, stretched, and the header says how.
 TEST_F(Leap, CatalogueHasModelTimes) {
   const Result r = run_text(slow("fix leap all lsm/leap plates fast 0.005 calm 3 ramp 6 look 0.6\n",

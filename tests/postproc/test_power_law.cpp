@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include <gsl/gsl_cdf.h>
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
@@ -17,6 +18,7 @@
 #include "ks_distance.h"
 #include "lsm_random.h"
 #include "power_law.h"
+#include "truncated_family.h"
 
 namespace {
 
@@ -64,6 +66,23 @@ double integrate(const std::function<double(double)> &density, double lo, double
   }
   gsl_integration_workspace_free(work);
   return total;
+}
+
+// Where the closed forms cancel there are series: both sides of the border, and 0.
+TEST(PowerLaw, MeanAndVarianceAgreeWithQuadratureForAnyTilt) {
+  for (double z : {0.0, 1e-9, 1e-4, 0.03, 0.07, 0.0999, 0.1001, 0.5, 3.0, 30.0}) {
+    const auto moment = [&](double shift, int power) {
+      return integrate([&](double t) { return std::pow(t - shift, power) * std::exp(-z * t); },
+                       1e-14, 1.0);
+    };
+    const double total = moment(0.0, 0), mean = moment(0.0, 1) / total;
+    const double variance = moment(mean, 2) / total;
+    EXPECT_NEAR(tilted_mean(-z), mean, 1e-11) << z;
+    EXPECT_NEAR(tilted_mean(z), 1.0 - mean, 1e-11) << z;
+    EXPECT_NEAR(tilted_variance(z), variance, 2e-11) << z;
+    EXPECT_NEAR(tilted_variance(-z), variance, 2e-11) << z;
+    EXPECT_NEAR(log_normalisation(-z), std::log(total), 1e-11) << z;
+  }
 }
 
 TEST(PowerLaw, LikelihoodAgreesWithQuadrature) {
@@ -222,6 +241,30 @@ TEST(PowerLaw, ProbabilityIsUniformUnderTheNull) {
   }
 }
 
+TEST(PowerLaw, ProbabilityIsTheShareOfSamplesThatFitWorse) {
+  LSM::Random random(31);
+  constexpr int replicas = 8000;
+  for (double alpha : {1.0, 2.0}) {
+    // a sample whose probability is in the middle, where a few per cent of the distance change it
+    // most
+    std::vector<double> data;
+    double about = 0.0;
+    for (std::uint64_t seed = 1; std::fabs(about - 0.5) > 0.2 && seed < 100; ++seed) {
+      data = power_law_sample(100, alpha, 1.0, 1e3, random);
+      about = p_value(fit_power_law(data, 1.0, 1e3), data, 200, seed);
+    }
+    const PowerLawFit fit = fit_power_law(data, 1.0, 1e3);
+    const double p = p_value(fit, data, replicas, 500);
+    EXPECT_NEAR(p, 0.5, 0.3);
+    int worse = 0;
+    for (int i = 0; i < replicas; ++i)
+      worse +=
+          fit_power_law(power_law_sample(100, fit.alpha, 1.0, 1e3, random), 1.0, 1e3).ks >= fit.ks;
+    const double share = static_cast<double>(worse) / replicas;
+    EXPECT_NEAR(p, share, 4.0 * std::sqrt(2.0 * p * (1.0 - p) / replicas)) << alpha;
+  }
+}
+
 TEST(PowerLaw, ProbabilityAllowsForTheSearch) {
   // A search in every replica: without it the data would look better than any replica.
   LSM::Random random(13);
@@ -316,6 +359,7 @@ TEST(PowerLaw, SearchFindsWhereThePowerLawBegins) {
 // The ratios again from the parameters alone, every density normalised by quadrature.
 TEST(PowerLaw, RatiosAgreeWithQuadrature) {
   LSM::Random random(10);
+  int two_sided = 0;
   struct Case {
     double alpha, cut_off, lo, hi;
   };
@@ -330,6 +374,8 @@ TEST(PowerLaw, RatiosAgreeWithQuadrature) {
     std::sort(sample.begin(), sample.end());
     const PowerLawFit fit = fit_power_law(sample, c.lo, c.hi);
     ASSERT_FALSE(fit.degenerate) << fit.why;
+    const double log_power_law_z = std::log(
+        integrate([&](double x) { return std::pow(x, -fit.alpha); }, c.lo, std::min(c.hi, 1e12)));
     for (const Comparison &comparison : compare(sample, fit)) {
       ASSERT_FALSE(comparison.degenerate) << comparison.rival << comparison.why;
       std::map<std::string, double> p;
@@ -346,8 +392,12 @@ TEST(PowerLaw, RatiosAgreeWithQuadrature) {
       const double log_z =
           shift + std::log(integrate([&](double x) { return std::exp(log_density(x) - shift); },
                                      c.lo, end));
-      double rival = 0.0;
-      for (double x : sample) rival += log_density(x) - log_z;
+      double rival = 0.0, squares = 0.0;
+      for (double x : sample) {
+        rival += log_density(x) - log_z;
+        const double ours = -fit.alpha * std::log(x) - log_power_law_z;
+        squares += std::pow(ours - (log_density(x) - log_z), 2);
+      }
       EXPECT_NEAR(comparison.log_likelihood_ratio, fit.log_likelihood - rival,
                   1e-6 * std::fabs(rival) / 1000.0)
           << comparison.rival << " " << c.alpha;
@@ -355,9 +405,20 @@ TEST(PowerLaw, RatiosAgreeWithQuadrature) {
         EXPECT_LT(comparison.p, 1e-6);
         EXPECT_NEAR(p["alpha"], c.alpha, 0.12);
         EXPECT_NEAR(std::log(p["cut-off"] / c.cut_off), 0.0, 0.6);
+      } else {
+        // Vuong: sum over its standard deviation, two-sided against a normal law
+        const auto n = static_cast<double>(sample.size());
+        const double mean = comparison.log_likelihood_ratio / n;
+        const double z = std::sqrt(n) * mean / std::sqrt(squares / n - mean * mean);
+        EXPECT_NEAR(comparison.normalised / z, 1.0, 1e-4) << comparison.rival << " " << c.alpha;
+        const double expected = 2.0 * gsl_cdf_ugaussian_Q(std::fabs(comparison.normalised));
+        if (expected < 1e-200) continue;
+        EXPECT_NEAR(comparison.p / expected, 1.0, 1e-9) << comparison.rival << " " << c.alpha;
+        ++two_sided;
       }
     }
   }
+  EXPECT_GE(two_sided, 3);
 }
 
 TEST(PowerLaw, CutOffIsNotFoundWhereThereIsNone) {

@@ -85,6 +85,16 @@ TEST(Regime, OfALongFaultIsJudgedByItsLength) {
   EXPECT_EQ(LSM::postproc::stick_slip_above(std::nan("")), 3.0);
 }
 
+TEST(Regime, FastestFallIsMeasuredByTheLargestRises) {
+  // rises of 1 to 101 in any order, 99 % of them up to 100, and one fall of 200
+  RegimeMeter meter(1.0, 1.0, 120);
+  double pe = 0.0;
+  meter.add(pe);
+  for (int k = 0; k < 101; ++k) meter.add(pe += 1 + 37 * k % 101);
+  meter.add(pe - 200.0);
+  EXPECT_DOUBLE_EQ(meter.result().drop_over_load, 2.0);
+}
+
 TEST(Regime, TimeInEventsAndMeanDuration) {
   RegimeMeter meter(1.0, 1.0, 120);
   saw_tooth(meter, 1.0, 90, 10, 1);  // 101 samples: 100 time units
