@@ -37,7 +37,8 @@ TEST_F(Leap, WithoutAFasterVelocityNothingChanges) {
     const Variables variables = {{"prefix", "nothing"}, {"dt", "0.03"}, {"velocity", velocity}};
     const Result without = run_text(slow("") + "run 1500\n", variables);
     const Result with =
-        run_text(slow("fix leap all lsm/leap plates fast 0.0005 calm 1 rest 1e-9\n") + "run 1500\n",
+        run_text(slow("fix leap all lsm/leap plates fast 0.0005 calm 1 rest 1e-9 settle 0.1\n") +
+                     "run 1500\n",
                  variables);
     ASSERT_TRUE(succeeded(without));
     ASSERT_TRUE(succeeded(with));
@@ -51,10 +52,11 @@ TEST_F(Leap, WithoutAFasterVelocityNothingChanges) {
 }
 
 TEST_F(Leap, PlatesMayMoveTheOtherWay) {
-  const Result r = run_text(slow("fix leap all lsm/leap plates fast 0.005 calm 3 ramp 6 look 0.6\n",
-                                 "f_plates[1] f_plates[8] f_leap f_leap[4] c_events[13] f_plates") +
-                                "run 3000\n",
-                            {{"prefix", "back"}, {"dt", "0.03"}, {"velocity", "-0.0005"}});
+  const Result r =
+      run_text(slow("fix leap all lsm/leap plates fast 0.005 calm 3 settle 0.1 ramp 6 look 0.6\n",
+                    "f_plates[1] f_plates[8] f_leap f_leap[4] c_events[13] f_plates") +
+                   "run 3000\n",
+               {{"prefix", "back"}, {"dt", "0.03"}, {"velocity", "-0.0005"}});
   ASSERT_TRUE(succeeded(r));
   EXPECT_GT(r.last("f_leap[4]"), 10.0);  // it leapt
   EXPECT_LT(r.last("f_plates[8]"), -0.3);
@@ -109,12 +111,13 @@ TEST_F(Leap, LoadsAsSlowPlatesDo) {
 // leaps.
 TEST_F(Leap, WaitsUntilTheBlocksAreAtRest) {
   const auto leapt = [&](const std::string &rest) {
-    const Result r = run_text(
-        slow("compute own blocks ke\nfix leap all lsm/leap plates calm 3 ramp 6 fast 0.0004 rest " +
-                 rest + "\n",
-             "f_leap[2] f_leap[4] c_own ke") +
-            "run 6000\n",
-        {{"prefix", "rest"}, {"dt", "0.04"}, {"mus", "100"}, {"velocity", "0.0002"}});
+    const Result r =
+        run_text(slow("compute own blocks ke\nfix leap all lsm/leap plates calm 3 ramp 6 settle "
+                      "0.1 fast 0.0004 rest " +
+                          rest + "\n",
+                      "f_leap[2] f_leap[4] c_own ke") +
+                     "run 6000\n",
+                 {{"prefix", "rest"}, {"dt", "0.04"}, {"mus", "100"}, {"velocity", "0.0002"}});
     EXPECT_TRUE(succeeded(r));
     return r;
   };
@@ -210,7 +213,8 @@ run               0
 }
 
 TEST_F(Leap, RestartAndRanks) {
-  const std::string leap = "fix leap all lsm/leap plates fast 0.005 calm 3 ramp 6 look 0.6\n";
+  const std::string leap =
+      "fix leap all lsm/leap plates fast 0.005 calm 3 settle 0.1 ramp 6 look 0.6\n";
   const std::string columns =
       "c_events c_events[5] f_plates[8] f_leap f_leap[1] f_leap[3] f_leap[4]";
   const std::string head = slow(leap, columns);
@@ -253,10 +257,11 @@ TEST_F(Leap, RestartAndRanks) {
 
 // Times of events are model times: those of the steps, stretched, and the header says how.
 TEST_F(Leap, CatalogueHasModelTimes) {
-  const Result r = run_text(slow("fix leap all lsm/leap plates fast 0.005 calm 3 ramp 6 look 0.6\n",
-                                 "c_events c_events[5] f_plates[8] f_leap") +
-                                "thermo 1\nrun 4000\n",
-                            {{"prefix", "times"}, {"dt", "0.03"}});
+  const Result r =
+      run_text(slow("fix leap all lsm/leap plates fast 0.005 calm 3 settle 0.1 ramp 6 look 0.6\n",
+                    "c_events c_events[5] f_plates[8] f_leap") +
+                   "thermo 1\nrun 4000\n",
+               {{"prefix", "times"}, {"dt", "0.03"}});
   ASSERT_TRUE(succeeded(r));
   const auto catalogue = LSM::read_catalogue(path("times.csv"));
   ASSERT_GT(catalogue.events.size(), 2u);
@@ -276,7 +281,7 @@ TEST_F(Leap, CatalogueHasModelTimes) {
 // A series holds the time of each sample, ruptures have model times, and both go on as they were.
 TEST_F(Leap, SeriesAndRupturesHaveModelTimes) {
   const std::string recorded =
-      slow("fix leap all lsm/leap plates fast 0.005 calm 3 ramp 6 look 0.6\n",
+      slow("fix leap all lsm/leap plates fast 0.005 calm 3 settle 0.1 ramp 6 look 0.6\n",
            "c_events c_events[5] f_plates[8] f_leap") +
       "variable go index no\nuncompute events\n"
       "compute events all lsm/events resume ${go} catalogue ${prefix}.csv series ${prefix}.pe "
