@@ -32,7 +32,7 @@ static constexpr bigint KEPT_STEPS =
 /* ---------------------------------------------------------------------- */
 
 FixLSMLeap::FixLSMLeap(LAMMPS *_lmp, int narg, char **arg) :
-    Fix(_lmp, narg, arg), fast(0.00025), slip(0.5), calm(10.0), rest(10.0), viscosity(0.1),
+    Fix(_lmp, narg, arg), fast(0.00025), slip(0.5), calm(10.0), rest(10.0), viscosity(0.0),
     ramp(15.0), between(1.5), plates(nullptr), dt(update->dt), loading_energy(0.0), state(EVENT),
     factor(1.0), since(0.0), steps_time(0.0), leap_time(0.0), stops(0.0), begun(false)
 {
@@ -97,9 +97,11 @@ void FixLSMLeap::init()
   plates = dynamic_cast<FixLSMPlates *>(modify->get_fix_by_id(plates_id));
   if (!plates)
     error->all(FLERR, "Fix lsm/leap {}: '{}' is not the ID of a fix lsm/plates", id, plates_id);
-  if (plates->driving_velocity() == 0.0)
-    error->all(FLERR, "Fix lsm/leap {}: the plates of fix {} do not move; give it a velocity", id,
-               plates_id);
+  if (plates->driving_velocity() == 0.0 && comm->me == 0)
+    error->warning(FLERR,
+                   "Fix lsm/leap {}: the plates of fix {} do not move, so there is nothing to leap "
+                   "over: the blocks relax as without this fix",
+                   id, plates_id);
   if (fabs(plates->driving_velocity()) > fast)
     error->all(
         FLERR,
@@ -120,7 +122,7 @@ void FixLSMLeap::init()
         error->all(FLERR,
                    "Fix lsm/leap {}: friction by the law {} depends on time, which leaps leave out",
                    id, friction->law_of_time());
-      friction->record_what |= LSMEnergySource::SLIP_RATE;
+      if (leaps()) friction->record_what |= LSMEnergySource::SLIP_RATE;
       friction->slip_moment = 0.0;
       contacts.push_back(friction);
     }
@@ -159,14 +161,19 @@ void FixLSMLeap::setup(int /*vflag*/)
   } else {
     changes.push_back({update->ntimestep, model_time(update->ntimestep), factor * dt});
   }
-  set_factor(
-      MIN(factor,
-          fast / fabs(plates->driving_velocity())));    // a restart may go on with a smaller one
+  if (!leaps()) state = EVENT;    // a restart may go on with another velocity
+  set_factor(leaps() ? MIN(factor, fast / fabs(plates->driving_velocity())) : 1.0);
   plates->loading = factor;
   for (auto *p : integrators) p->raise_viscosity(state == SETTLE ? viscosity : 0.0);
 }
 
 /* ---------------------------------------------------------------------- */
+
+bool FixLSMLeap::leaps() const
+{
+  const double velocity = fabs(plates->driving_velocity());
+  return velocity > 0.0 && velocity < fast;
+}
 
 double FixLSMLeap::model_time(bigint step) const
 {
@@ -213,6 +220,7 @@ double FixLSMLeap::kinetic() const
 }
 
 /* ----------------------------------------------------------------------
+   without a faster velocity there is nothing to do
    event: plates as slow as they are driven, until nothing slipped for a while
    settle: more viscosity, until the blocks are at rest
    leap: plates fast, until something slips
@@ -220,6 +228,11 @@ double FixLSMLeap::kinetic() const
 
 void FixLSMLeap::end_of_step()
 {
+  const double span = nevery * dt;
+  if (!leaps()) {
+    steps_time += span;
+    return;
+  }
   if (state == SETTLE)
     for (auto *p : integrators) p->complete_step();
   double mine[2] = {0.0, state == SETTLE ? kinetic() : 0.0}, all[2];
@@ -228,7 +241,6 @@ void FixLSMLeap::end_of_step()
     p->slip_moment = 0.0;
   }
   MPI_Allreduce(mine, all, 2, MPI_DOUBLE, MPI_SUM, world);
-  const double span = nevery * dt;
   const double slipping = all[0] / span / (2.0 * fast * domain->prd[0]);
   const double most = fast / fabs(plates->driving_velocity());
 

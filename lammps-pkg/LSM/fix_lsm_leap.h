@@ -74,8 +74,8 @@ class FixLSMLeap : public Fix {
   double stops;         // leaps that ended
   bool begun;           // the time step is fixed
 
+  bool leaps() const;    // there is a faster velocity, and a velocity at all
   double kinetic() const;
-  void look();
   void set_factor(double);
 };
 

@@ -53,7 +53,27 @@ void CatalogueOptions::add_to(CLI::App *command) {
       ->group(group);
 }
 
+void CatalogueOptions::add_displacement(CLI::App *command) {
+  command
+      ->add_flag("--displacement", displacement,
+                 "Times as the way of the driving plate, model time times the 'velocity' in the "
+                 "header, also those of --from and --to: for catalogues of different driving "
+                 "velocities (ours)")
+      ->group("Catalogues");
+}
+
 namespace {
+
+/// Model time in the unit of the times asked for.
+double time_unit(const CatalogueInfo &info, const std::string &path, bool displacement) {
+  if (!displacement) return 1.0;
+  double velocity = 0.0;
+  const std::string *text = info.find("velocity");
+  if (!text || !text_io::parse(*text, velocity) || !(std::fabs(velocity) > 0.0))
+    throw CatalogueError(path + ": " + (text ? "velocity = " + *text : "no velocity") +
+                         " in the header, expected one that is not 0 for --displacement");
+  return std::fabs(velocity);
+}
 
 std::string label_of(const EventTable &table) {
   const double length = table.length();
@@ -116,8 +136,11 @@ EventTable read_events(const std::string &path, const CatalogueOptions &options,
   table.complete_from = std::max(table.complete_from, options.min_size);
   table.completeness = table.info.completeness();
   table.completeness_path = path;
+  const double unit = time_unit(table.info, path, options.displacement);
   Event event;
   while (reader.next(event)) {
+    event.t_start *= unit;
+    event.t_end *= unit;
     if (event.t_start < options.from_time || event.t_start >= options.to_time)
       ++table.left_out_time;
     else if (event.size < options.min_size)

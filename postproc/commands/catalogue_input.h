@@ -24,9 +24,13 @@ struct CatalogueOptions {
   double min_size = 0.0;            ///< events of smaller size are left out (energy)
   double from_time = -std::numeric_limits<double>::infinity();  ///< first t_start kept
   double to_time = std::numeric_limits<double>::infinity();     ///< first t_start left out
+  /// Times, from_time and to_time are those of the plates' way: model time times driving velocity.
+  bool displacement = false;
 
   /// Adds the catalogue arguments, --label, --lenient, --min-size, --from and --to to a command.
   void add_to(CLI::App *command);
+  /// Adds --displacement to a command that says nothing about the unit of its times.
+  void add_displacement(CLI::App *command);
 };
 
 /// Adds --threshold. \param what beside "smallest size of"

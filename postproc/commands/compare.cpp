@@ -92,6 +92,7 @@ void add_compare(CLI::App &app) {
       "consecutive events (ours; events come in sequences), ratio of the means with its error");
   auto options = std::make_shared<Options>();
   options->catalogues.add_to(command);
+  options->catalogues.add_displacement(command);
   command->add_option("--output,-o", options->output, "BASE: the table is written to BASE.csv");
   add_threshold(command, options->threshold, "the events that are compared");
   command->add_option("--replicas", options->replicas, "Random divisions of each p-value")

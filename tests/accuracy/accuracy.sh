@@ -320,6 +320,10 @@ $(remarks fault_leaps.csv)
 
 $(markdown fault_leaps.csv)
 
+$(remarks fault_leaps_first.csv)
+
+$(markdown fault_leaps_first.csv)
+
 ## Sums
 
 PE of all links against the sum of the same energies in long double.

@@ -11,6 +11,7 @@
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
@@ -800,94 +801,162 @@ void long_runs() {
 
 // ---- leaps --------------------------------------------------------------------------------------
 
+constexpr double large = 1e-2, paper_velocity = 0.00025;
+
 /// A run with slow plates; fast = 0: without leaps.
 struct SlowRun {
   double velocity, fast, steps;
-  std::vector<LSM::Event> large = {};
+  std::vector<LSM::Event> events = {}, large_events = {};
   double seconds = 0.0;
+  std::string name() const { return "slow_" + text(velocity) + "_" + text(fast); }
+  /// Times as the way of the plates, in time units of the paper's driving.
+  double unit() const { return velocity / paper_velocity; }
 };
 
-/// The same large events with and without leaps, and what a large event costs.
+/// For each large event of one run that of the other that is nearest and of similar size, within
+/// half the mean time between them and a factor of 2; SIZE_MAX: none. Events of the last bit of
+/// time are left out.
+std::vector<std::size_t> partners(const std::vector<LSM::Event> &first,
+                                  const std::vector<LSM::Event> &second) {
+  const double near =
+      0.5 * (first.back().t_end - first.front().t_end) / static_cast<double>(first.size() - 1);
+  std::vector<std::size_t> all;
+  std::vector<char> taken(second.size(), 0);
+  for (const LSM::Event &e : first) {
+    if (e.t_end > second.back().t_end - near) break;
+    all.push_back(SIZE_MAX);
+    double least = 1e300;
+    for (std::size_t n = 0; n < second.size(); ++n) {
+      const double apart = std::fabs(second[n].t_end - e.t_end) / near,
+                   other = std::fabs(std::log(second[n].size / e.size));
+      if (taken[n] || apart > 1.0 || other > std::log(2.0) || apart + other > least) continue;
+      least = apart + other;
+      all.back() = n;
+    }
+    if (all.back() != SIZE_MAX) taken[all.back()] = 1;
+  }
+  return all;
+}
+
+double quantile(std::vector<double> values, double q) {
+  if (values.empty()) return static_cast<double>(NAN);
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1))];
+}
+
+/// Sizes from `smallest` on, and the times between their starts in time units of the paper's
+/// driving.
+std::pair<std::vector<double>, std::vector<double>> sizes_and_times(const SlowRun &w,
+                                                                    double smallest) {
+  std::vector<double> sizes, times;
+  double before = NAN;
+  for (const LSM::Event &e : w.events) {
+    if (e.size < smallest) continue;
+    sizes.push_back(e.size);
+    if (std::isfinite(before)) times.push_back((e.t_start - before) * w.unit());
+    before = e.t_start;
+  }
+  return {sizes, times};
+}
+
+bool same_events(const std::vector<LSM::Event> &a, const std::vector<LSM::Event> &b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto &x, const auto &y) {
+    return x.step_start == y.step_start && x.step_end == y.step_end && x.size == y.size;
+  });
+}
+
+/// The same large events with and without leaps, long catalogues by two-sample tests, and what a
+/// large event costs.
 void leaps() {
-  constexpr double large = 1e-2, paper = 0.00025;
-  std::vector<SlowRun> runs = {{2.5e-5, 0.0, 350000},
-                               {2.5e-5, 2.5e-4, 60000},
-                               {2.5e-5, 5e-5, 200000},
-                               {2.5e-4, 0.0, 60000},
-                               {2.5e-8, 2.5e-4, 60000}};
+  // The first without leaps; those with its velocity are held against it. Pairs of other
+  // velocities follow each other, without leaps and with.
+  std::vector<SlowRun> runs = {{2.5e-5, 0.0, 350000},   {2.5e-5, 2.5e-4, 60000},
+                               {2.5e-5, 5e-5, 200000},  {2.5e-4, 0.0, 60000},
+                               {2.5e-4, 2.5e-4, 60000}, {2.5e-8, 2.5e-4, 60000}};
   if (!quick)
-    runs = {{2.5e-5, 0.0, 700000},    {2.5e-5, 2.5e-4, 200000}, {2.5e-5, 1e-4, 240000},
-            {2.5e-5, 5e-5, 400000},   {2.5e-4, 0.0, 400000},    {2.5e-6, 2.5e-4, 200000},
-            {2.5e-7, 2.5e-4, 200000}, {2.5e-8, 2.5e-4, 200000}};
+    runs = {{2.5e-5, 0.0, 1600000},   {2.5e-5, 2.5e-4, 210000}, {2.5e-5, 1e-4, 440000},
+            {2.5e-5, 5e-5, 950000},   {2.5e-4, 0.0, 300000},    {2.5e-4, 2.5e-4, 300000},
+            {2.5e-6, 2.5e-4, 200000}, {2.5e-7, 2.5e-4, 200000}, {2.5e-8, 2.5e-4, 200000}};
   Table table(
       "fault_leaps.csv",
       "velocity,fast,events,steps_per_event,model_time_per_event,seconds_per_event,paired,of,"
-      "shift,scatter_of_shift,median_size_error");
+      "shift,scatter_of_shift,median_size_error,p_size,p_time");
   table.row(
       "# inputs/fault.in at length %g, events of %g and more; paired: with the run without leaps, "
       "by end and size; "
-      "shift of the ends: times velocity / %g, so in time units of the paper's driving\n",
-      length, large, paper);
+      "shift of the ends: times velocity / %g, so in time units of the paper's driving; p: that of "
+      "two-sample tests (Kolmogorov-Smirnov) of sizes from 1e-3 on and of the times between them "
+      "against the first run, times in the same units\n",
+      length, large, paper_velocity);
+  Table one_by_one("fault_leaps_first.csv",
+                   "event,start,size,centroid,fast,late,size_error,centroid_off");
+  one_by_one.row(
+      "# the first ten events of %g and more at %g without leaps, and the same with them; start, "
+      "late: times velocity / %g\n",
+      large, runs.front().velocity, paper_velocity);
   for (SlowRun &w : runs) {
-    const std::string name = "slow_" + text(w.velocity) + "_" + text(w.fast);
+    const std::string name = w.name();
     w.seconds = run(inputs + "/fault.in",
                     {{"length", text(length)},
                      {"prefix", name},
                      {"velocity", text(w.velocity)},
                      {"leap", w.fast > 0.0 ? "yes" : "no"},
-                     {"fast", text(w.fast > 0.0 ? w.fast : paper)},
+                     {"fast", text(w.fast > 0.0 ? w.fast : paper_velocity)},
                      {"steps", text(w.steps)},
                      {"series", "no"},
+                     {"location", "yes"},
                      {"checkpoint", "1000000000"},
                      {"overwrite", "yes"},
                      {"thermo", "100000"}},
                     1, name)
                     .cpu;
-    w.large = events_of(name + ".catalogue.csv");
-    w.large.erase(std::remove_if(w.large.begin(), w.large.end(),
-                                 [](const LSM::Event &e) { return e.size < large; }),
-                  w.large.end());
-    if (w.large.size() < 3) throw std::runtime_error(name + ": fewer than three large events");
+    w.events = events_of(name + ".catalogue.csv");
+    for (const LSM::Event &e : w.events)
+      if (e.size >= large) w.large_events.push_back(e);
+    if (w.large_events.size() < 3)
+      throw std::runtime_error(name + ": fewer than three large events");
 
-    // the nearest of similar size within half the mean time between them
     std::vector<double> shifts, errors;
     const SlowRun &slow = runs.front();
     std::size_t of = 0;
     if (&w != &slow && w.velocity == slow.velocity) {
-      const double near = 0.5 * (slow.large.back().t_end - slow.large.front().t_end) /
-                          static_cast<double>(slow.large.size() - 1);
-      std::vector<char> taken(w.large.size(), 0);
-      for (const LSM::Event &e : slow.large) {
-        if (e.t_end > w.large.back().t_end - near) continue;
-        ++of;
-        std::size_t best = w.large.size();
-        double least = 1e300;
-        for (std::size_t n = 0; n < w.large.size(); ++n) {
-          const double apart = std::fabs(w.large[n].t_end - e.t_end) / near,
-                       other = std::fabs(std::log(w.large[n].size / e.size));
-          if (taken[n] || apart > 1.0 || other > std::log(2.0) || apart + other > least) continue;
-          least = apart + other;
-          best = n;
+      const std::vector<std::size_t> pairs = partners(slow.large_events, w.large_events);
+      of = pairs.size();
+      for (std::size_t n = 0; n < pairs.size(); ++n) {
+        const LSM::Event &e = slow.large_events[n];
+        if (n < 10)
+          one_by_one.row("%zu,%.6g,%.4g,%.4g,%g,", n + 1, e.t_start * w.unit(), e.size,
+                         e.x_centroid, w.fast);
+        if (pairs[n] == SIZE_MAX) {
+          if (n < 10) one_by_one.row("-,-,-\n");
+          continue;
         }
-        if (best == w.large.size()) continue;
-        taken[best] = 1;
-        shifts.push_back((w.large[best].t_end - e.t_end) * w.velocity / paper);
-        errors.push_back(std::fabs(w.large[best].size / e.size - 1.0));
+        const LSM::Event &same = w.large_events[pairs[n]];
+        shifts.push_back((same.t_end - e.t_end) * w.unit());
+        errors.push_back(std::fabs(same.size / e.size - 1.0));
+        if (n < 10)
+          one_by_one.row("%.4g,%.3g,%.3g\n", (same.t_start - e.t_start) * w.unit(),
+                         same.size / e.size - 1.0,
+                         std::fabs(around(same.x_centroid - e.x_centroid)));
       }
     }
-    const auto quantile = [](std::vector<double> values, double q) {
-      if (values.empty()) return static_cast<double>(NAN);
-      std::sort(values.begin(), values.end());
-      return values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1))];
-    };
-    const double intervals = static_cast<double>(w.large.size() - 1);
-    const double steps =
-        static_cast<double>(w.large.back().step_end - w.large.front().step_end) / intervals;
-    table.row("%g,%g,%zu,%.0f,%.4g,%.3g,%zu,%zu,%.3g,%.3g,%.3g\n", w.velocity, w.fast,
-              w.large.size(), steps, (w.large.back().t_end - w.large.front().t_end) / intervals,
+    const auto mine = sizes_and_times(w, 1e-3), first = sizes_and_times(slow, 1e-3);
+    const double intervals = static_cast<double>(w.large_events.size() - 1);
+    const LSM::Event &begin = w.large_events.front(), &end = w.large_events.back();
+    const double steps = static_cast<double>(end.step_end - begin.step_end) / intervals;
+    table.row("%g,%g,%zu,%.0f,%.4g,%.3g,%zu,%zu,%.3g,%.3g,%.3g,%.3g,%.3g\n", w.velocity, w.fast,
+              w.large_events.size(), steps, (end.t_end - begin.t_end) / intervals,
               w.seconds * steps / w.steps, shifts.size(), of, quantile(shifts, 0.5),
-              0.5 * (quantile(shifts, 0.75) - quantile(shifts, 0.25)), quantile(errors, 0.5));
+              0.5 * (quantile(shifts, 0.75) - quantile(shifts, 0.25)), quantile(errors, 0.5),
+              Accuracy::two_sample(first.first, mine.first).p,
+              Accuracy::two_sample(first.second, mine.second).p);
   }
+  // With plates that are as fast as they can be there is nothing to leap over.
+  for (const SlowRun &a : runs)
+    for (const SlowRun &b : runs)
+      if (a.velocity == b.velocity && a.fast == 0.0 && b.fast == b.velocity)
+        table.row("# at %g with leaps %s of %zu events are those without, to the last digit\n",
+                  b.velocity, same_events(a.events, b.events) ? "all" : "NOT all", a.events.size());
 }
 
 // ---- sums ---------------------------------------------------------------------------------------

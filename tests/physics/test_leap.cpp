@@ -2,6 +2,8 @@
 // Leaps over the loading: model time, nothing changed where nothing is leapt, restart, ranks,
 // refusals.
 #include <cmath>
+#include <set>
+#include <sstream>
 
 #include "fault_scene.h"
 #include "lsm_catalogue.h"
@@ -29,16 +31,40 @@ thermo            100
 )";
 }
 
+// Neither velocity nor viscosity: at rest or not, there is nothing to leap to.
 TEST_F(Leap, WithoutAFasterVelocityNothingChanges) {
-  const Result without = run_text(slow("") + "run 1500\n", {{"prefix", "without"}, {"dt", "0.03"}});
-  const Result with =
-      run_text(slow("fix leap all lsm/leap plates fast 0.0005 settle 0\n") + "run 1500\n",
-               {{"prefix", "with"}, {"dt", "0.03"}});
-  ASSERT_TRUE(succeeded(without));
-  ASSERT_TRUE(succeeded(with));
-  ASSERT_EQ(without.thermo.size(), with.thermo.size());
-  EXPECT_GT(without.last("f_plates[8]"), 0.01);
-  for (std::size_t n = 0; n < with.thermo.size(); ++n) EXPECT_EQ(without.thermo[n], with.thermo[n]);
+  for (const char *velocity : {"0.0005", "0"}) {
+    const Variables variables = {{"prefix", "nothing"}, {"dt", "0.03"}, {"velocity", velocity}};
+    const Result without = run_text(slow("") + "run 1500\n", variables);
+    const Result with =
+        run_text(slow("fix leap all lsm/leap plates fast 0.0005 calm 1 rest 1e-9 settle 0.1\n") +
+                     "run 1500\n",
+                 variables);
+    ASSERT_TRUE(succeeded(without));
+    ASSERT_TRUE(succeeded(with));
+    ASSERT_EQ(without.thermo.size(), with.thermo.size());
+    EXPECT_EQ(without.last("f_plates[8]") > 0.01, velocity != std::string("0"));
+    for (std::size_t n = 0; n < with.thermo.size(); ++n)
+      EXPECT_EQ(without.thermo[n], with.thermo[n]) << velocity;
+    EXPECT_EQ(with.lines_with("nothing to leap over").size(),
+              velocity == std::string("0") ? 1u : 0u);
+  }
+}
+
+TEST_F(Leap, PlatesMayMoveTheOtherWay) {
+  const Result r =
+      run_text(slow("fix leap all lsm/leap plates fast 0.005 calm 3 settle 0.1 ramp 6 look 0.6\n",
+                    "f_plates[1] f_plates[8] f_leap f_leap[4] c_events[13] f_plates") +
+                   "run 3000\n",
+               {{"prefix", "back"}, {"dt", "0.03"}, {"velocity", "-0.0005"}});
+  ASSERT_TRUE(succeeded(r));
+  EXPECT_GT(r.last("f_leap[4]"), 10.0);  // it leapt
+  EXPECT_LT(r.last("f_plates[8]"), -0.3);
+  for (const auto &row : r.thermo)
+    EXPECT_NEAR(row.at("f_plates[8]"),
+                -2 * 0.0005 * (row.at("f_leap") - r.thermo.front().at("f_leap")), 1e-12);
+  EXPECT_GT(r.last("f_plates"), 1e-3);  // the plates do work
+  EXPECT_LT(std::fabs(r.last("c_events[13]")), 2e-3 * r.last("f_plates"));
 }
 
 // The displacement of the plates is their velocity times the model time; PE that is loaded without
@@ -80,8 +106,115 @@ TEST_F(Leap, LoadsAsSlowPlatesDo) {
   EXPECT_NEAR(b / a, 1.0, 0.05);
 }
 
+// Blocks that move as plates with the driving velocity do load them are at rest if 'rest' allows
+// for that; what the plates themselves have, a quarter more, does not count. Until then nothing
+// leaps.
+TEST_F(Leap, WaitsUntilTheBlocksAreAtRest) {
+  const auto leapt = [&](const std::string &rest) {
+    const Result r =
+        run_text(slow("compute own blocks ke\nfix leap all lsm/leap plates calm 3 ramp 6 settle "
+                      "0.1 fast 0.0004 rest " +
+                          rest + "\n",
+                      "f_leap[2] f_leap[4] c_own ke") +
+                     "run 6000\n",
+                 {{"prefix", "rest"}, {"dt", "0.04"}, {"mus", "100"}, {"velocity", "0.0002"}});
+    EXPECT_TRUE(succeeded(r));
+    return r;
+  };
+  // at half of the fast velocity a quarter of the energy
+  const Result never = leapt("0.2");
+  EXPECT_EQ(never.last("f_leap[4]"), 0.0);
+  EXPECT_EQ(never.last("f_leap[2]"), 1.0);
+  EXPECT_GT(never.last("KinEng") / never.last("c_own"), 1.2);
+  EXPECT_GT(leapt("0.28").last("f_leap[4]"), 10.0);
+}
+
+// A fault that slips all the time leaps all the time, as friction does not ask how fast; it is as
+// strong and as strained.
+TEST_F(Leap, FaultThatCreepsGoesOnCreeping) {
+  const auto creep = [&](const std::string &leap, const std::string &steps) {
+    const Result r = run_text(slow(leap, "c_events[5] c_events[11] c_events[13] f_plates[8]") +
+                                  "pair_coeff 3 4 1.0 1.0 0.05 0.05\nrun " + steps + "\n",
+                              {{"prefix", "creep"}, {"dt", "0.04"}});
+    EXPECT_TRUE(succeeded(r));
+    EXPECT_LT(std::fabs(r.last("c_events[13]")), 2e-3 * r.last("c_events[11]"));
+    return r;
+  };
+  struct Crept {
+    double mean_pe = 0.0, friction_work = 0.0;
+  };
+  const auto from_here_to_there = [](const Result &r) {
+    Crept crept;
+    double n = 0.0, first = NAN;
+    for (const auto &row : r.thermo) {
+      if (row.at("f_plates[8]") < 0.2) first = row.at("c_events[11]");
+      if (row.at("f_plates[8]") < 0.2 || row.at("f_plates[8]") > 1.6) continue;
+      crept.friction_work = row.at("c_events[11]") - first;
+      crept.mean_pe += row.at("c_events[5]");
+      n += 1.0;
+    }
+    EXPECT_GT(n, 50.0);
+    crept.mean_pe /= n;
+    return crept;
+  };
+  const Crept slower = from_here_to_there(creep("", "40000"));
+  const Crept leapt =
+      from_here_to_there(creep("fix leap all lsm/leap plates fast 0.002\n", "12000"));
+  std::printf("creeping: PE %.5g and %.5g, friction %.5g and %.5g\n", slower.mean_pe, leapt.mean_pe,
+              slower.friction_work, leapt.friction_work);
+  EXPECT_NEAR(leapt.mean_pe / slower.mean_pe, 1.0, 0.05);
+  EXPECT_NEAR(leapt.friction_work / slower.friction_work, 1.0, 0.05);
+}
+
+// Links that are near breaking: the same break, at the same displacement of the plates.
+TEST_F(Leap, TheSameLinksBreak) {
+  std::string scene = slow("LEAP", "bonds f_plates[8]");
+  const std::string links = "bond_coeff        1 1.0\n", pairs = "pair_coeff        3 4";
+  scene.replace(scene.find(links), links.size(), "bond_coeff 1 1.0 1.006\n");
+  scene.replace(scene.find(pairs), pairs.size(), "pair_coeff * *");
+  scene += R"(
+variable          moved equal f_plates[8]
+fix               enough all halt 1 v_moved > 0.11 error continue message no
+run               20000
+unfix             enough
+compute           left all property/local batom1 batom2
+dump              left all local 1 ${prefix}.links c_left[1] c_left[2]
+run               0
+)";
+  const auto left = [&](const std::string &name, const std::string &leap, double &before) {
+    // what breaks at once rings down first; then both start from the same state
+    std::string all_of_it = scene;
+    all_of_it.replace(all_of_it.find("LEAP"), 4, "run 6000\n" + leap);
+    const Result r = run_text(
+        all_of_it, {{"prefix", name}, {"dt", "0.05"}, {"mus", "100"}, {"velocity", "0.00005"}});
+    EXPECT_TRUE(succeeded(r));
+    EXPECT_NEAR(r.last("f_plates[8]"), 0.11, 1e-4);
+    for (const auto &row : r.thermo)
+      if (row.count("Bonds") > 0 && row.at("Step") == 6000.0) before = row.at("Bonds");
+    std::istringstream in(read_file(path(name + ".links")));
+    std::set<std::pair<long, long>> all;
+    for (std::string line; std::getline(in, line);) {
+      std::istringstream words(line);
+      long a, b;
+      if (words >> a >> b && !(words >> line)) all.insert(std::minmax(a, b));
+    }
+    EXPECT_EQ(static_cast<double>(all.size()), r.last("Bonds"));
+    return all;
+  };
+  double before = NAN;
+  const auto slowly = left("slowly", "", before);
+  EXPECT_GE(before - static_cast<double>(slowly.size()), 10.0);  // enough to compare
+  for (const char *fast : {"0.0001", "0.0002"}) {
+    const auto leapt =
+        left("leapt", std::string("fix leap all lsm/leap plates calm 3 ramp 6 fast ") + fast + "\n",
+             before);
+    EXPECT_EQ(leapt, slowly) << fast;
+  }
+}
+
 TEST_F(Leap, RestartAndRanks) {
-  const std::string leap = "fix leap all lsm/leap plates fast 0.005 calm 3 ramp 6 look 0.6\n";
+  const std::string leap =
+      "fix leap all lsm/leap plates fast 0.005 calm 3 settle 0.1 ramp 6 look 0.6\n";
   const std::string columns =
       "c_events c_events[5] f_plates[8] f_leap f_leap[1] f_leap[3] f_leap[4]";
   const std::string head = slow(leap, columns);
@@ -154,10 +287,11 @@ TEST_F(Leap, LeapsBeginAtRest) {
 
 // Times of events are model times: those of the steps, stretched, and the header says how.
 TEST_F(Leap, CatalogueHasModelTimes) {
-  const Result r = run_text(slow("fix leap all lsm/leap plates fast 0.005 calm 3 ramp 6 look 0.6\n",
-                                 "c_events c_events[5] f_plates[8] f_leap") +
-                                "thermo 1\nrun 4000\n",
-                            {{"prefix", "times"}, {"dt", "0.03"}});
+  const Result r =
+      run_text(slow("fix leap all lsm/leap plates fast 0.005 calm 3 settle 0.1 ramp 6 look 0.6\n",
+                    "c_events c_events[5] f_plates[8] f_leap") +
+                   "thermo 1\nrun 4000\n",
+               {{"prefix", "times"}, {"dt", "0.03"}});
   ASSERT_TRUE(succeeded(r));
   const auto catalogue = LSM::read_catalogue(path("times.csv"));
   ASSERT_GT(catalogue.events.size(), 2u);
@@ -177,7 +311,7 @@ TEST_F(Leap, CatalogueHasModelTimes) {
 // A series holds the time of each sample, ruptures have model times, and both go on as they were.
 TEST_F(Leap, SeriesAndRupturesHaveModelTimes) {
   const std::string recorded =
-      slow("fix leap all lsm/leap plates fast 0.005 calm 3 ramp 6 look 0.6\n",
+      slow("fix leap all lsm/leap plates fast 0.005 calm 3 settle 0.1 ramp 6 look 0.6\n",
            "c_events c_events[5] f_plates[8] f_leap") +
       "variable go index no\nuncompute events\n"
       "compute events all lsm/events resume ${go} catalogue ${prefix}.csv series ${prefix}.pe "

@@ -206,6 +206,17 @@ compare)
   cp d.csv before.csv
   must_run compare a.csv b.csv c.csv -o d
   cmp d.csv before.csv || fail "not the same twice"
+  # Half the velocity, so twice the time for the same way.
+  for velocity in 0.5 -1; do
+    f=a.csv; [ "$velocity" = -1 ] || f=c.csv
+    sed "s/^# length.*/&\n# velocity = $velocity/" "$f" > "way$velocity.csv"
+  done
+  must_run compare way-1.csv way0.5.csv --displacement --from 250 --to 1250 -o d
+  [ "$(grep -c 'no difference seen' out.txt) $(grep -c 'they differ' out.txt)" = "2 0" ] || fail "$(cat out.txt)"
+  grep -q 'times: 199 and 199.*ratio 1.0' out.txt || fail "$(cat out.txt)"
+  refused 'a.csv: no velocity in the header, expected' compare a.csv c.csv --displacement -o x
+  sed 's/velocity = .*/velocity = 0/' way-1.csv > rest.csv
+  refused 'rest.csv: velocity = 0 in the header, expected' compare rest.csv c.csv --displacement -o x
   refused 'one catalogue, expected at least two' compare a.csv -o x
   refused 'few.csv: sizes: two-sample test of 9 values' compare a.csv few.csv -o x
   refused 'no such file\|cannot open' compare a.csv none.csv -o x

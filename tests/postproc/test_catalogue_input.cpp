@@ -61,6 +61,19 @@ TEST_F(CatalogueInput, RupturesAreSortedByTheirStarts) {
   EXPECT_TRUE(std::isnan(table.share_in_events()));
 }
 
+TEST_F(CatalogueInput, TimesAsTheWayOfThePlate) {
+  CatalogueOptions options;
+  options.displacement = true;
+  options.from_time = 1.0;  // of the way, too
+  options.to_time = 3.5;
+  const EventTable table = load_catalogue(file(good, "velocity = -0.5"), options);
+  EXPECT_EQ(table.t_start, (std::vector<double>{1.5, 2.5}));
+  EXPECT_EQ(table.t_end, (std::vector<double>{2.0, 3.0}));
+  EXPECT_EQ(table.in_events, 1.0);
+  for (const char *parameter : {"length = 120", "velocity = 0", "velocity = fast"})
+    EXPECT_THROW(load_catalogue(file(good, parameter), options), CatalogueError) << parameter;
+}
+
 TEST_F(CatalogueInput, ColumnsOfTheEventsChosen) {
   const std::string name = file(good);
   EventTable all = load_catalogue(name, [] {
