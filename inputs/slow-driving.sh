@@ -94,7 +94,7 @@ pairs='FNR == 1 { file++; v = file == 1 ? v1 : v2 }
 echo "velocity,leaps,from,to,mains,after,after_per_time,before,before_per_time" >around.csv
 {
   echo "# Statistics of the fault of length 120 against the driving velocity; plates have moved by $way, or as far as the run went (way)"
-  echo "# exponent: sizes 1e-3 to 1e-1, long: 1e-3 to 1; gamma: times between events of 1e-3 and more, delta = 1; share_small: of the"
+  echo "# exponent: sizes 1e-3 to 1e-1, long: 1e-3 to 1, from_1e-2: 1e-2 to 1; gamma: times between events of 1e-3 (1e-2) and more, delta = 1; share_small: of the"
   echo "# events of 1e-3 and more those below 1e-2; in_events: share of the model time; p: two-sample tests against the first run, times"
   echo "# as ways of the plates; after_100, before_100: events of 1e-3 and more within 100 time units of a main shock, per main shock;"
   echo "# after_way, before_way: those later or earlier than that, up to a way of 0.04; gap: shortest time above 100 from the end of a"
@@ -102,7 +102,7 @@ echo "velocity,leaps,from,to,mains,after,after_per_time,before,before_per_time" 
   echo "# here within the way 0.02 and a factor of 2 in size, by chance so many (chance)"
   echo -n "velocity,leaps,way,steps,cpu_s,events_1e-4,events_1e-3,events_1e-2,events_1e-1,largest,released,exponent,exponent_error,long,long_error,"
   echo -n "gamma,gamma_error,share_small,in_events,p_size,p_time,of,same,chance,mains,after_100,before_100,after_way,before_way,gap,steps_per_large,"
-  echo "cpu_s_per_large,model_time_per_cpu_s"
+  echo "cpu_s_per_large,model_time_per_cpu_s,from_1e-2,from_1e-2_error,gamma_1e-2,gamma_1e-2_error"
   while read -r velocity leap _; do
     folder=${velocity}_leap_$leap file=$folder/fault.catalogue.csv
     [ -e "$folder/cpu.txt" ] || continue
@@ -111,8 +111,10 @@ echo "velocity,leaps,from,to,mains,after,after_per_time,before,before_per_time" 
     went=$(awk -F, -v v="$velocity" -v w="$way" -v b=$begin '!/^[#e]/ { t = $3 } END { d = v * (t - b); printf "%.4g", (d > w * 0.99) ? w : d }' "$file")
     to=$(awk -v v="$velocity" -v w="$went" -v b=$begin 'BEGIN { printf "%.10g", b + w / v }')
     awk -F, -v v="$velocity" -v leap="$leap" -v to="$to" "$around" "$file" >"$folder/around.csv" && cat "$folder/around.csv" >>around.csv
-    "$bin/postproc" fit "$file" --to "$to" --range 1e-3:1e-1 --range 1e-3:1 --replicas 0 --no-comparison --no-picture -o "$folder/fit" >/dev/null
-    "$bin/postproc" intervals "$file" --to "$to" --threshold 1e-3 --method likelihood --delta 1 --replicas 0 --no-picture -o "$folder/times" >/dev/null
+    "$bin/postproc" fit "$file" --to "$to" --range 1e-3:1e-1 --range 1e-3:1 --range 1e-2:1 --replicas 0 --no-comparison --no-picture -o "$folder/fit" >/dev/null
+    for size in 1e-3 1e-2; do
+      "$bin/postproc" intervals "$file" --to "$to" --threshold $size --method likelihood --delta 1 --replicas 0 --no-picture -o "$folder/times_$size" >/dev/null
+    done
     p=, same=,,
     if [ "$file" != "$paper" ] && [ -e "$paper" ]; then
       p=$("$bin/postproc" compare "$paper" "$file" --label first --label second --displacement --threshold 1e-3 \
@@ -121,8 +123,9 @@ echo "velocity,leaps,from,to,mains,after,after_per_time,before,before_per_time" 
       same=$(awk -F, -v v1="${paper%%_*}" -v v2="$velocity" -v begin=$begin -v way="$went" "$pairs" "$paper" "$file")
     fi
     awk -F, -v v="$velocity" -v leap="$leap" -v to="$to" -v b=$begin -v cpu="$cpu" -v went="$went" -v p="$p,$same" \
-      -v fits="$(awk -F, "$named"' { e[$c["hi"] + 0] = sprintf("%.3f,%.3f", $c["exponent"], $c["standard_error"]) } END { print e[0.1] "," e[1] }' "$folder/fit.fits.csv")" \
-      -v gamma="$(awk -F, "$named"' $1 == "ours" { printf "%.3f,%.3f", $c["gamma"], $c["gamma_error"] }' "$folder/times.table1.csv")" \
+      -v fits="$(awk -F, "$named"' { e[++n] = sprintf("%.3f,%.3f", $c["exponent"], $c["standard_error"]) } END { print e[1] "," e[2] }' "$folder/fit.fits.csv")" \
+      -v gamma="$(awk -F, "$named"' $1 == "ours" { printf "%.3f,%.3f", $c["gamma"], $c["gamma_error"] }' "$folder/times_1e-3.table1.csv")" \
+      -v larger="$(awk -F, "$named"' { e = sprintf("%.3f,%.3f", $c["exponent"], $c["standard_error"]) } END { print e }' "$folder/fit.fits.csv"),$(awk -F, "$named"' $1 == "ours" { printf "%.3f,%.3f", $c["gamma"], $c["gamma_error"] }' "$folder/times_1e-2.table1.csv")" \
       -v near="$(awk -F, '{ mains = $5; if ($4 <= 100) { a += $6; b += $8 } else { c += $6; d += $8 } } END { printf "%d,%.3g,%.3g,%.3g,%.3g", mains, a / mains, b / mains, c / mains, d / mains }' "$folder/around.csv")" \
       '/^# dt = / { sub(/.*= /, ""); dt = $0 }
       !/^[#e]/ { all_steps = $5; all_time = $3 }
@@ -133,8 +136,8 @@ echo "velocity,leaps,from,to,mains,after,after_per_time,before,before_per_time" 
         if ($6 >= 1e-2) n2++
         if ($6 >= 0.1) { n1++; main = $3 } }
       END { cpu *= steps / all_steps # that of the steps that count
-        printf "%s,%s,%s,%d,%.0f,%d,%d,%d,%d,%.3g,%.3g,%s,%s,%.3f,%.3g,%s,%s,%.4g,%.0f,%.3g,%.4g\n", v, leap, went, steps, cpu, n4, n3, n2, n1, most,
-          released, fits, gamma, (n3 - n2) / n3, inside / (to - b), p, near, gap, steps / n2, cpu / n2, (to - b) / cpu }' "$file"
+        printf "%s,%s,%s,%d,%.0f,%d,%d,%d,%d,%.3g,%.3g,%s,%s,%.3f,%.3g,%s,%s,%.4g,%.0f,%.3g,%.4g,%s\n", v, leap, went, steps, cpu, n4, n3, n2, n1, most,
+          released, fits, gamma, (n3 - n2) / n3, inside / (to - b), p, near, gap, steps / n2, cpu / n2, (to - b) / cpu, larger }' "$file"
   done <<<"$runs"
 } >slow-driving.csv.new && mv slow-driving.csv.new slow-driving.csv || exit 1
 
@@ -161,20 +164,21 @@ set xlabel "driving velocity of each plate"
 set key top left Left reverse samplen 1
 set title "Events while the plates move by 36 each"
 set ylabel "number of events" offset 1
-set yrange [0:1150]
-plot "slow-driving.csv" using 1:(yes(7)) with points pt 7 lc rgb "#0072B2" title "from 10^{-3}, leaps", "" using 1:(no(7)*36/$3) with points pt 6 lc rgb "#0072B2" title "without leaps", \
-  "" using 1:(yes(8)) with points pt 5 lc rgb "#D55E00" title "from 10^{-2}", "" using 1:(no(8)*36/$3) with points pt 4 lc rgb "#D55E00" notitle, \
-  "" using 1:(yes(9)) with points pt 9 lc rgb "#009E73" title "from 10^{-1}", "" using 1:(no(9)*36/$3) with points pt 8 lc rgb "#009E73" notitle
+set yrange [0:2100]
+plot "slow-driving.csv" using 1:(yes(7)*36/$3) with points pt 7 lc rgb "#0072B2" title "from 10^{-3}, leaps", "" using 1:(no(7)*36/$3) with points pt 6 lc rgb "#0072B2" title "without leaps", \
+  "" using 1:(yes(8)*36/$3) with points pt 5 lc rgb "#D55E00" title "from 10^{-2}", "" using 1:(no(8)*36/$3) with points pt 4 lc rgb "#D55E00" notitle, \
+  "" using 1:(yes(9)*36/$3) with points pt 9 lc rgb "#009E73" title "from 10^{-1}", "" using 1:(no(9)*36/$3) with points pt 8 lc rgb "#009E73" notitle
 set title "Exponents"
 set ylabel "exponent, γ" offset 1
-set yrange [0.3:1.7]
+set yrange [0:2.7]
 plot "slow-driving.csv" using 1:(yes(14)):15 with yerrorbars pt 7 lc rgb "#0072B2" title "sizes 10^{-3} to 1, leaps", "" using 1:(no(14)):15 with yerrorbars pt 6 lc rgb "#0072B2" title "without leaps", \
-  "" using ($1*1.1):(yes(12)):13 with yerrorbars pt 5 lc rgb "#D55E00" title "sizes 10^{-3} to 10^{-1}", "" using ($1*1.1):(no(12)):13 with yerrorbars pt 4 lc rgb "#D55E00" notitle, \
-  "" using ($1*0.9):(yes(16)):17 with yerrorbars pt 9 lc rgb "#009E73" title "γ of the times", "" using ($1*0.9):(no(16)):17 with yerrorbars pt 8 lc rgb "#009E73" notitle
+  "" using ($1*1.1):(yes(34)):35 with yerrorbars pt 5 lc rgb "#D55E00" title "sizes 10^{-2} to 1", "" using ($1*1.1):(no(34)):35 with yerrorbars pt 4 lc rgb "#D55E00" notitle, \
+  "" using ($1*0.9):(yes(16)):17 with yerrorbars pt 9 lc rgb "#009E73" title "γ of the times from 10^{-3}", "" using ($1*0.9):(no(16)):17 with yerrorbars pt 8 lc rgb "#009E73" notitle, \
+  "" using ($1*0.8):(yes(36)):37 with yerrorbars pt 13 lc rgb "#CC79A7" title "γ from 10^{-2}", "" using ($1*0.8):(no(36)):37 with yerrorbars pt 12 lc rgb "#CC79A7" notitle
 set title "Events from 10^{-3} after a main shock (10^{-1} and more)"
 set xrange [1:2e5]
 set xlabel "time since its end (time units)"
-set yrange [1e-8:1]
+set yrange [1e-7:3]
 set logscale y
 set format y "10^{%L}"
 set ylabel "events per main shock and time unit" offset 1
