@@ -47,7 +47,7 @@ set yrange [0.20000000000000001:5]
 low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y
 plot table using ($1 == 1 ? $3 : NaN):(low($4,$5)):(0):($4+$5-low($4,$5)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \
      table using ($1 == 1 ? $3 : NaN):4 with points lt 1 title 'fault: s*', \
-     [102:2223.5294117647059] '+' using 1:(0.016604614203447634*$1**(0.63128942094215668)) with lines lt 1 title 'A L^D with D = 0.631 ± 0.026', \
-     [102:2223.5294117647059] '+' using 1:(0.62845899570237584) with lines lt 8 dt 2 title 'constant'
+     [102:2223.5294117647059] '+' using 1:(0.012886668624125073*$1**(0.67517863706955772)) with lines lt 1 title 'A L^D with D = 0.675 ± 0.025', \
+     [102:2223.5294117647059] '+' using 1:(0.65632816182424569) with lines lt 8 dt 2 title 'constant'
 unset output
 }

@@ -44,12 +44,12 @@ set mxtics 10
 set xrange [100:10000]
 set ylabel 'characteristic size s* (energy)'
 set logscale y
-set ytics ("0.2" 0.2, "0.5" 0.5, "1" 1)
-set yrange [0.20000000000000001:1]
+set ytics ("0.2" 0.2, "0.5" 0.5)
+set yrange [0.20000000000000001:0.5]
 low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y
 plot table using ($1 == 1 ? $3 : NaN):(low($4,$5)):(0):($4+$5-low($4,$5)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \
      table using ($1 == 1 ? $3 : NaN):4 with points lt 1 title 'fault, ruptures: s*', \
-     [102:4447.0588235294117] '+' using 1:(0.3498032280099399*$1**(0.00010908618544314483)) with lines lt 1 title 'A L^D with D = 0.000 ± 0.020', \
-     [102:4447.0588235294117] '+' using 1:(0.35005666098516847) with lines lt 8 dt 2 title 'constant'
+     [102:4447.0588235294117] '+' using 1:(0.31165667206738329*$1**(0.01521195871780418)) with lines lt 1 title 'A L^D with D = 0.015 ± 0.016', \
+     [102:4447.0588235294117] '+' using 1:(0.34357182777479567) with lines lt 8 dt 2 title 'constant'
 unset output
 }

@@ -53,27 +53,27 @@ low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y
 plot table using (row(1)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \
      table using (row(1)):8 with lines lt 1 lw 1.2 notitle, \
      table using (row(1)):8 with points lt 1 notitle, \
-     keyentry with linespoints lt 1 title 'fault 120 (1473 events)', \
+     keyentry with linespoints lt 1 title 'fault 120 (1312 events)', \
      table using (row(2)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 2 dt 1 lw 0.8 notitle, \
      table using (row(2)):8 with lines lt 2 lw 1.2 notitle, \
      table using (row(2)):8 with points lt 2 notitle, \
-     keyentry with linespoints lt 2 title 'fault 240 (2301 events)', \
+     keyentry with linespoints lt 2 title 'fault 240 (1935 events)', \
      table using (row(3)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 3 dt 1 lw 0.8 notitle, \
      table using (row(3)):8 with lines lt 3 lw 1.2 notitle, \
      table using (row(3)):8 with points lt 3 notitle, \
-     keyentry with linespoints lt 3 title 'fault 480 (3080 events)', \
+     keyentry with linespoints lt 3 title 'fault 480 (2590 events)', \
      table using (row(4)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 4 dt 1 lw 0.8 notitle, \
      table using (row(4)):8 with lines lt 4 lw 1.2 notitle, \
      table using (row(4)):8 with points lt 4 notitle, \
-     keyentry with linespoints lt 4 title 'fault 945 (3106 events)', \
+     keyentry with linespoints lt 4 title 'fault 945 (2894 events)', \
      table using (row(5)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 5 dt 1 lw 0.8 notitle, \
      table using (row(5)):8 with lines lt 5 lw 1.2 notitle, \
      table using (row(5)):8 with points lt 5 notitle, \
-     keyentry with linespoints lt 5 title 'fault 1440 (1810 events)', \
+     keyentry with linespoints lt 5 title 'fault 1440 (3461 events)', \
      table using (row(6)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 6 dt 1 lw 0.8 notitle, \
      table using (row(6)):8 with lines lt 6 lw 1.2 notitle, \
      table using (row(6)):8 with points lt 6 notitle, \
-     keyentry with linespoints lt 6 title 'fault 1890 (3916 events)', \
-     [0.001:1] '+' using 1:(0.17230685337289206*$1**(-1.0700000000000001)) with lines lt 8 dt 2 lw 2.2 title 'slope -1.07'
+     keyentry with linespoints lt 6 title 'fault 1890 (3510 events)', \
+     [0.001:1] '+' using 1:(0.19949656620624309*$1**(-1.0700000000000001)) with lines lt 8 dt 2 lw 2.2 title 'slope -1.07'
 unset output
 }

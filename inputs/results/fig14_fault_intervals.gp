@@ -53,28 +53,28 @@ low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y
 set samples 400
 plot table using (row(1)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \
      table using (row(1)):8 with points lt 1 notitle, \
-     keyentry with linespoints lt 1 title 'fault 120 (617 times)', \
+     keyentry with linespoints lt 1 title 'fault 120 (623 times)', \
      table using (row(2)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 2 dt 1 lw 0.8 notitle, \
      table using (row(2)):8 with points lt 2 notitle, \
-     keyentry with linespoints lt 2 title 'fault 240 (716 times)', \
+     keyentry with linespoints lt 2 title 'fault 240 (712 times)', \
      table using (row(3)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 3 dt 1 lw 0.8 notitle, \
      table using (row(3)):8 with points lt 3 notitle, \
-     keyentry with linespoints lt 3 title 'fault 480 (969 times)', \
+     keyentry with linespoints lt 3 title 'fault 480 (941 times)', \
      table using (row(4)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 4 dt 1 lw 0.8 notitle, \
      table using (row(4)):8 with points lt 4 notitle, \
-     keyentry with linespoints lt 4 title 'fault 945 (1132 times)', \
+     keyentry with linespoints lt 4 title 'fault 945 (1122 times)', \
      table using (row(5)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 5 dt 1 lw 0.8 notitle, \
      table using (row(5)):8 with points lt 5 notitle, \
-     keyentry with linespoints lt 5 title 'fault 1440 (591 times)', \
+     keyentry with linespoints lt 5 title 'fault 1440 (1218 times)', \
      table using (row(6)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 6 dt 1 lw 0.8 notitle, \
      table using (row(6)):8 with points lt 6 notitle, \
-     keyentry with linespoints lt 6 title 'fault 1890 (1422 times)', \
-     [1:1584.8931924611163] '+' using 1:(0.011326047338956174*$1**(-0.23548933687880913)*exp(-$1**(1)/292.01268682076221)) with lines lt 1 notitle, \
-     [5.0118723362727247:1258.9254117941693] '+' using 1:(0.00072990321596544362*$1**(0.561587944127103)*exp(-$1**(0.88084840075539861)/57.214907245023468)) with lines lt 2 notitle, \
-     [0.63095734448019314:1584.8931924611163] '+' using 1:(0.0021988593507390776*$1**(0.28436194228278855)*exp(-$1**(1.1325965985046815)/260.45710952965646)) with lines lt 3 notitle, \
-     [0.63095734448019314:1000.0000000000017] '+' using 1:(0.0047745182250049124*$1**(0.14909388758355258)*exp(-$1**(1.0229403451830947)/125.30648164793762)) with lines lt 4 notitle, \
-     [0.63095734448019314:1000.0000000000017] '+' using 1:(0.0078513781984353818*$1**(0.083121880553480132)*exp(-$1**(0.88402329680868119)/50.946423201463766)) with lines lt 5 notitle, \
-     [0.79432823472428149:794.32823472428277] '+' using 1:(0.0086710971008278036*$1**(0.2183105791579496)*exp(-$1**(0.70812715104156676)/13.627368100246905)) with lines lt 6 notitle, \
+     keyentry with linespoints lt 6 title 'fault 1890 (1402 times)', \
+     [1:1584.8931924611163] '+' using 1:(0.0099671634956845466*$1**(-0.20114363293151905)*exp(-$1**(1)/277.11515065559479)) with lines lt 1 notitle, \
+     [1.99526231496888:1258.9254117941693] '+' using 1:(0.0010215171040128829*$1**(0.44288051866850342)*exp(-$1**(0.93745306316542742)/90.860315088451472)) with lines lt 2 notitle, \
+     [1.2589254117941673:1584.8931924611163] '+' using 1:(0.0011185514725172588*$1**(0.48991006190870823)*exp(-$1**(1.0307648750652798)/122.29158637580207)) with lines lt 3 notitle, \
+     [0.63095734448019314:1000.0000000000017] '+' using 1:(0.0043608080806113161*$1**(0.1914213216811016)*exp(-$1**(0.97098682674063774)/88.330175676196447)) with lines lt 4 notitle, \
+     [0.63095734448019314:1000.0000000000017] '+' using 1:(0.0073380174987996687*$1**(0.11626090167135184)*exp(-$1**(0.84593885894793408)/39.727360605852205)) with lines lt 5 notitle, \
+     [1:794.32823472428277] '+' using 1:(0.0075169923155046113*$1**(0.27387302399466318)*exp(-$1**(0.69847549618074123)/12.427766171604858)) with lines lt 6 notitle, \
      keyentry with lines lt 8 title 'lines: fitted generalised gamma'
 unset output
 }
