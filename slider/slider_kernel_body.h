@@ -67,12 +67,13 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
   const bool keeps_slip = du != nullptr;
   const double *const mu = chain.mu;
   constexpr bool needs_rest = law == Law::slip_weakening;
-  // Blocks move (the first half of the step), then their springs pull. A chunk is pulled some chunks after it was
-  // moved: its neighbours have been moved by then, its data are still in the nearest cache, and its displacements are
-  // no longer on their way there, which loads that lie across two chunks would wait for. The first chunk of
-  // the chain, a neighbour of the last, comes last.
+  // Blocks move (the first half of the step), then their springs pull. A chunk is pulled some
+  // chunks after it was moved: its neighbours have been moved by then, its data are still in the
+  // nearest cache, and its displacements are no longer on their way there, which loads that lie
+  // across two chunks would wait for. The first chunk of the chain, a neighbour of the last, comes
+  // last.
   constexpr int lag = 6;
-  constexpr int ahead = 12;  // chunks in the list between fetching into the cache and moving
+  constexpr int ahead = 12;     // chunks in the list between fetching into the cache and moving
   constexpr unsigned ring = 8;  // more than lag
   static_assert(ring > lag);
   const auto move = [&](int k, Lanes &change) __attribute__((always_inline)) {

@@ -28,7 +28,8 @@ enum { LOWER, UPPER };
 FixLSMPlates::FixLSMPlates(LAMMPS *_lmp, int narg, char **arg) :
     Fix(_lmp, narg, arg), loading(1.0), speed(0.0), ramp(0.0), servo(false), stress(0.0),
     stress_ramp(0.0), damping(0.0), impedance(0.0), vy_known(false), elapsed(0.0), ux(0.0),
-    work_mine(0.0), dt(update->dt), pending(false), reducing(false), moved(0.0), along(0.0), summed_at(-1)
+    work_mine(0.0), dt(update->dt), pending(false), reducing(false), moved(0.0), along(0.0),
+    summed_at(-1)
 {
   scalar_flag = 1;
   vector_flag = 1;
