@@ -96,8 +96,13 @@ compute           events all lsm/events ledger yes strainlimit 10
 }
 
 TEST_F(BrokenLinks, TooLongAtTheBeginBreaksOnce) {
-  // too long from the first force evaluation on: gone from lists and files after a run of no steps
-  const Result r = run_text(discs({{"0", "0"}, {"2.1", "0"}}) + R"(
+  // Too long from the first force evaluation on: gone from lists and files after a run of no steps.
+  // On two ranks the link lies across their border; with newton off both have it, and half of its
+  // energy each.
+  for (const char *newton : {"on", "off"})
+    for (int ranks : {1, 2}) {
+      SCOPED_TRACE(std::string("newton ") + newton + ", ranks " + std::to_string(ranks));
+      const Result r = run_text(discs({{"-1.05", "0"}, {"1.05", "0"}}) + R"(
 create_bonds      single/bond 1 1 2
 bond_style        lsm/linked
 bond_coeff        1 1.0 1.02
@@ -113,10 +118,13 @@ write_restart     long.restart
 variable          links equal bonds
 print             "links = ${links}"
 run               5
-)");
-  ASSERT_TRUE(succeeded(r));
-  EXPECT_EQ(r.value("links"), 0.0);
-  EXPECT_NEAR(r.last("c_events[14]"), 0.005, 1e-15);
+)",
+                                {{"newton", newton}}, ranks);
+      ASSERT_TRUE(succeeded(r));
+      EXPECT_EQ(r.value("links"), 0.0);
+      EXPECT_EQ(r.thermo.front().at("c_events[6]"), 0.0);  // the energy of what broke just now
+      EXPECT_NEAR(r.last("c_events[14]"), 0.005, 1e-15);
+    }
 }
 
 TEST_F(BrokenLinks, AnotherLinkOfThePairKeepsItOutOfContact) {
