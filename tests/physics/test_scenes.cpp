@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "disc_scene.h"
 #include "lmp_runner.h"
 
 using namespace physics;
@@ -189,6 +190,43 @@ TEST_F(Coulomb, RanksAndNewton) {
     ASSERT_TRUE(succeeded(r));
     EXPECT_NEAR(r.value("slip"), one.value("slip"), 1e-9);
     EXPECT_NEAR(r.value("friction_work"), one.value("friction_work"), 1e-9);
+  }
+}
+
+TEST_F(Coulomb, ContactsSeenFromTheOtherSide) {
+  // Two discs pressed together obliquely and sheared while both drift across the bins by which
+  // LAMMPS sorts particles: the one listed first changes, and with it the side from which the
+  // contact is remembered.
+  std::vector<Result> runs;
+  for (const char *sort : {"0", "1"})
+    runs.push_back(run_text(discs({{"-0.65", "0.65"}, {"0.65", "-0.65"}}) + R"in(
+atom_modify       sort ${sort} 1.5
+neigh_modify      delay 0 every 1 check no
+bond_style        lsm/linked
+bond_coeff        1 1.0
+pair_style        lsm/friction
+pair_coeff        1 1 1.0 1.0 0.6
+velocity          all set 0 0.1 0
+group             upper id 1
+group             lower id 2
+fix               up upper addforce 0.13 -0.09 0
+fix               down lower addforce -0.13 0.09 0
+fix               move all lsm/nve viscosity 0.1
+timestep          0.05
+thermo_style      custom step ke pe
+thermo_modify     norm no format float %.17g
+thermo            50
+run               1200
+print             "height = $(y[1]:%.17g)"
+)in",
+                            {{"sort", sort}}));
+  for (const Result &r : runs) ASSERT_TRUE(succeeded(r));
+  EXPECT_GT(runs[0].value("height"), 1.5);  // over the border of a bin
+  EXPECT_NEAR(runs[1].value("height"), runs[0].value("height"), 1e-11);
+  ASSERT_EQ(runs[0].thermo.size(), runs[1].thermo.size());
+  for (std::size_t n = 0; n < runs[0].thermo.size(); ++n) {
+    EXPECT_NEAR(runs[1].thermo[n].at("KinEng"), runs[0].thermo[n].at("KinEng"), 1e-12) << n;
+    EXPECT_NEAR(runs[1].thermo[n].at("PotEng"), runs[0].thermo[n].at("PotEng"), 1e-12) << n;
   }
 }
 
