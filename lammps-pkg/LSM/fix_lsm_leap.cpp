@@ -79,8 +79,7 @@ FixLSMLeap::~FixLSMLeap()
   // the other fixes may be gone already
 
   if (auto p = dynamic_cast<FixLSMPlates *>(modify->get_fix_by_id(plates_id))) p->loading = 1.0;
-  for (auto &fix : modify->get_fix_by_style("^lsm/nve"))
-    if (auto p = dynamic_cast<FixLSMNVE *>(fix)) p->raise_viscosity(0.0);
+  for (auto *p : LSMScene::integrators(modify)) p->raise_viscosity(0.0);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -110,9 +109,7 @@ void FixLSMLeap::init()
   if (modify->get_fix_by_style("^lsm/leap").size() > 1)
     error->all(FLERR, "More than one fix lsm/leap");
 
-  integrators.clear();
-  for (auto &fix : modify->get_fix_by_style("^lsm/nve"))
-    if (auto p = dynamic_cast<FixLSMNVE *>(fix)) integrators.push_back(p);
+  integrators = LSMScene::integrators(modify);
   if (integrators.empty()) error->all(FLERR, "Fix lsm/leap {} needs a fix lsm/nve", id);
 
   contacts.clear();

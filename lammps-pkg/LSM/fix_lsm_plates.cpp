@@ -11,6 +11,7 @@
 #include "fix_lsm_nve.h"
 #include "force.h"
 #include "group.h"
+#include "lsm_scene.h"
 #include "modify.h"
 #include "update.h"
 
@@ -148,9 +149,7 @@ void FixLSMPlates::init()
   }
   vy_known = true;
 
-  integrators.clear();
-  for (auto &fix : modify->get_fix_by_style("^lsm/nve"))
-    if (auto p = dynamic_cast<FixLSMNVE *>(fix)) integrators.push_back(p);
+  integrators = LSMScene::integrators(modify);
 
   for (const auto &other : modify->get_fix_list())
     if (other != this && (other->time_integrate || strcmp(other->style, style) == 0)) {

@@ -101,15 +101,13 @@ void LSMEventSources::find(bool ledger)
 
   plates_ = nullptr;
   leap_ = nullptr;
-  integrators_.clear();
   for (const auto &ifix : modify->get_fix_list()) {
     if (auto p = dynamic_cast<FixLSMPlates *>(ifix)) plates_ = p;
     if (auto p = dynamic_cast<FixLSMLeap *>(ifix)) leap_ = p;
-    if (auto p = dynamic_cast<FixLSMNVE *>(ifix)) {
-      integrators_.push_back(p);
-      if (ledger) p->record_work = true;
-    }
   }
+  integrators_ = LSMScene::integrators(modify);
+  if (ledger)
+    for (auto *p : integrators_) p->record_work = true;
 }
 
 /* ----------------------------------------------------------------------
@@ -125,8 +123,7 @@ void LSMEventSources::release()
       p->record_what = LSMEnergySource::NONE;
   }
   if (modify)
-    for (const auto &ifix : modify->get_fix_by_style("^lsm/nve"))
-      if (auto p = dynamic_cast<FixLSMNVE *>(ifix)) p->record_work = false;
+    for (auto *p : LSMScene::integrators(modify)) p->record_work = false;
 }
 
 /* ----------------------------------------------------------------------

@@ -9,6 +9,7 @@
 #include "bond_lsm_linked.h"
 #include "error.h"
 #include "fix.h"
+#include "fix_lsm_nve.h"
 #include "force.h"
 #include "modify.h"
 #include "neigh_list.h"
@@ -38,6 +39,14 @@ namespace LSMScene {
     std::vector<PairLSMFree *> all;
     for (Pair *one : sub_styles(force, "^lsm/"))
       if (auto contacts = dynamic_cast<PairLSMFree *>(one)) all.push_back(contacts);
+    return all;
+  }
+
+  std::vector<FixLSMNVE *> integrators(Modify *modify)
+  {
+    std::vector<FixLSMNVE *> all;
+    for (auto &fix : modify->get_fix_by_style("^lsm/nve"))
+      if (auto p = dynamic_cast<FixLSMNVE *>(fix)) all.push_back(p);
     return all;
   }
 

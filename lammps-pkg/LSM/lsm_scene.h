@@ -13,8 +13,10 @@
 #include <vector>
 
 namespace LAMMPS_NS {
+class FixLSMNVE;
 class Force;
 class LAMMPS;
+class Modify;
 class PairLSMFree;
 class Update;
 
@@ -22,6 +24,9 @@ namespace LSMScene {
 
   /// Pair styles of the package, each by itself under pair_style hybrid.
   std::vector<PairLSMFree *> contact_styles(Force *);
+
+  /// Fixes that move particles of the package.
+  std::vector<FixLSMNVE *> integrators(Modify *);
 
   /// Links and contacts of this rank as springs about the present positions; also pairs that are about to touch.
   std::vector<LSM::PairSpring> springs(LAMMPS *, double reach_factor);

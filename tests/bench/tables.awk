@@ -85,6 +85,11 @@ function step_time(particles, ranks, bytes, collectives, spread,    share, t, le
   return t + latency + bytes / 2 / bandwidth * 1e-3 + collectives * 2 * levels * latency + (sum > 0.25 * t ? sum - 0.25 * t : 0)
 }
 
+# a further column, if any program was measured
+function memory(text) { return any_resident ? " " text " |" : "" }
+
+function memory_of(key) { return memory(sprintf("%.0f", median(resident[key]) * 1024 / atoms[key])) }
+
 # LAMMPS' own timers of a key
 function timers(key,    i, line) {
   for (i = 11; i >= 10; i--) line = line sprintf(" %.2f |", median(parts[key, i]))
@@ -100,14 +105,14 @@ END {
 
   if (has["peers"]) {
     print "\n### Side by side, PE at every step\n"
-    print "| program | particles | ranks | million particle-steps/s | ns | ours is so many times faster |" (any_resident ? " memory, bytes per particle |" : "")
+    print "| program | particles | ranks | million particle-steps/s | ns | ours is so many times faster |" memory("memory, bytes per particle")
     print "|---|---|---|---|---|---|" (any_resident ? "---|" : "")
     for (k = 1; k <= keys; k++) {
       if (table[k] != "peers") continue
       base = "peers|ours|" length_of[k] "|" ranks_of[k]
       printf "| %s | %d | %d | %.1f | %.1f | %s |", label[k], atoms[order[k]], ranks_of[k], rate(order[k]), cost(order[k]),
              (order[k] == base ? "" : sprintf("%.2f", ratio(order[k], base)))
-      print (any_resident ? sprintf(" %.0f |", median(resident[order[k]]) * 1024 / atoms[order[k]]) : "")
+      print memory_of(order[k])
     }
     if (most > 1) {
       n = split("ours,bond harmonic,bond bpm/spring,bond harmonic with contacts,ESyS-Particle", name, ",")
@@ -153,12 +158,12 @@ END {
 
   if (has["lengths"]) {
     print "\n### Against the length of the fault\n"
-    print "| length | particles | ranks | million particle-steps/s | ns | links | contacts | modify | comm | neigh | other |" (any_resident ? " memory, bytes per particle |" : "")
+    print "| length | particles | ranks | million particle-steps/s | ns | links | contacts | modify | comm | neigh | other |" memory("memory, bytes per particle")
     print "|---|---|---|---|---|---|---|---|---|---|---|" (any_resident ? "---|" : "")
     for (k = 1; k <= keys; k++)
       if (table[k] == "lengths")
         printf "| %d | %d | %d | %.1f | %.2f |%s%s\n", length_of[k], atoms[order[k]], ranks_of[k], rate(order[k]), cost(order[k]),
-               timers(order[k]), (any_resident ? sprintf(" %.0f |", median(resident[order[k]]) * 1024 / atoms[order[k]]) : "")
+               timers(order[k]), memory_of(order[k])
   }
 
   if (has["scale"]) {

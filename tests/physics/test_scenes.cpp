@@ -195,8 +195,8 @@ TEST_F(Coulomb, RanksAndNewton) {
 
 TEST_F(Coulomb, ContactsSeenFromTheOtherSide) {
   // Two discs pressed together obliquely and sheared while both drift across the bins by which
-  // LAMMPS sorts particles: the one listed first changes, and with it the side from which the
-  // contact is remembered.
+  // LAMMPS sorts particles, so that their order changes: a contact is the same, whichever of its
+  // discs is listed first.
   std::vector<Result> runs;
   for (const char *sort : {"0", "1"})
     runs.push_back(run_text(discs({{"-0.65", "0.65"}, {"0.65", "-0.65"}}) + R"in(
