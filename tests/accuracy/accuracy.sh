@@ -111,14 +111,15 @@ $(join "${long[@]}")"
 
 variants=
 [ ! -e fault_event.csv ] || variants=$(awk -F, '!/^#/ && FNR > 1 && !seen[$1]++ {print $1}' fault_event.csv)
-methods=(located step force)
-declare -A label=([located]="onset located" [step]="onset at the step" [force]="viscosity as a force")
+methods=(located step force "floor 0.04" "floor 0.09")
+declare -A label=([located]="onset located" [step]="onset at the step" [force]="viscosity as a force"
+  ["floor 0.04"]="masses of at least 0.04" ["floor 0.09"]="masses of at least 0.09")
 for quantity in profile:7:'rms error of displacement at the fault / rms displacement' size:8:'relative error of event size' \
   ledger:9:'residual of the ledger / work of the plates' arrival:10:'error of arrival time at a station'; do
   IFS=: read -r name column axis <<<"$quantity"
   for v in $variants; do
     lines=()
-    for n in 0 1 2; do
+    for n in "${!methods[@]}"; do
       m=${methods[$n]}
       awk -F, -v v="$v" -v m="$m" -v c="$column" '$1 == v && $4 == m && $c != "nan" {found = 1} END {exit !found}' \
         fault_event.csv || continue
@@ -232,7 +233,7 @@ From one saved state shortly before the event, through it, with other time steps
 much smaller step. *located*: a contact that begins within a step gets the part of the step's tangential displacement
 that follows its begin; *step*: it begins with elongation 0 at the end of the step; *force*: located, but viscosity is
 a force evaluated with the velocity of the half step instead of exact decay around the step. *standard*: kt = k, viscosity
-0.015, as in \`fault.in\`; *damped*, *light*: viscosity 0.05 and 0.005; *soft*, *stiff*: kt = 0.1 and 10. What differs from
+0.015, as in \`fault.in\`; *floor 0.04*, *floor 0.09*: smaller masses raised to that, as \`-var preset statistics\` does with 0.04; *damped*, *light*: viscosity 0.05 and 0.005; *soft*, *stiff*: kt = 0.1 and 10. What differs from
 \`fault.in\`: length 60 instead of 120 and more, all masses r^2 (as with \`-var preset single\`), and that
 ledger and places of events are on, which moves no disc. The event is the
 first of size 0.01 or more. It speeds up slowly over most of its duration, so that a small error of its begin grows into one of

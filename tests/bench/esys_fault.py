@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+# A fault in ESyS-Particle as inputs/fault.in has it with hold = position: masses r^2, viscosity, friction between the blocks, plates
+# driven at constant speed. NAME.geo, length, time step, viscosity, driving velocity of each plate, CPU seconds of the worker, most steps.
+# Ends when the worker has used so much time; PE of links and contacts at every step in NAME.esys.links and NAME.esys.contacts.
+import math
+import os
+import sys
+from esys.lsm import (DampingPrms, InteractionScalarFieldSaverPrms, LsmMpi, NRotBondPrms, NRotFrictionPrms)
+from esys.lsm.util import BoundingBox, Vec3
+
+name = sys.argv[1]
+length, dt, viscosity, velocity, seconds = map(float, sys.argv[2:7])
+steps = int(sys.argv[7])
+ramp = 150
+
+
+def worker_time():
+    """CPU seconds of the other process of this run, the one that computes."""
+    for entry in os.listdir("/proc"):
+        if not entry.isdigit() or int(entry) == os.getpid():
+            continue
+        try:
+            with open("/proc/%s/stat" % entry) as stat:
+                text = stat.read()
+        except OSError:
+            continue
+        fields = text[text.rindex(")") + 2:].split()
+        if fields[1] == str(os.getppid()) and "esysparticle" in text:
+            return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+    return 0.0
+
+
+simulation = LsmMpi(numWorkerProcesses=1, mpiDimList=[1, 1, 1])
+simulation.initNeighbourSearch(particleType="NRotSphere", gridSpacing=2.5, verletDist=0.2)
+simulation.setSpatialDomain(BoundingBox(Vec3(0, -10, -5), Vec3(length, 40, 5)), circDimList=[True, False, False])
+simulation.force2dComputations(True)
+simulation.setTimeStepSize(dt)
+simulation.readGeometry(name + ".geo")
+for tag in range(1, 7):
+    simulation.setParticleDensity(tag, -1, 1 / math.pi)  # a disc of radius r weighs density pi r^2
+for tag in (5, 6):
+    simulation.setParticleNonDynamic(tag)
+simulation.createInteractionGroup(NRotBondPrms(name="links", normalK=1.0, breakDistance=10.0, tag=0, scaling=False))
+# createInteractionGroupTagged takes no notice of tags with this friction (version 2.3.5), so that contacts are those of all discs
+# that no link joins, as with contacts = all in inputs/fault.in.
+simulation.createInteractionGroup(NRotFrictionPrms(name="contacts", normalK=1.0, dynamicMu=0.6, shearK=1.0, scaling=False))
+simulation.createExclusion("links", "contacts")
+simulation.createInteractionGroup(DampingPrms(type="Damping", name="viscosity", viscosity=viscosity, maxIterations=50))
+for group in ("links", "contacts"):
+    simulation.createFieldSaver(
+        InteractionScalarFieldSaverPrms(interactionName=group, fieldName="potential_energy", fileName=name + ".esys." + group,
+                                        fileFormat="SUM", beginTimeStep=0, endTimeStep=steps, timeStepIncr=1))
+simulation.setNumTimeSteps(steps)
+step = 0
+while step < steps and worker_time() < seconds:
+    for _ in range(50):
+        if step * dt <= ramp + 50 * dt and step % 10 == 0:
+            share = min(1.0, step * dt / ramp)
+            for tag, side in ((5, -1), (6, 1)):
+                simulation.setTaggedParticleVelocity(tag, Vec3(side * share * velocity, 0, 0))
+        simulation.runTimeStep()
+        step += 1
+print("worker %.1f s for %d steps" % (worker_time(), step), flush=True)
+simulation.exit()
