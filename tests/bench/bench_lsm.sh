@@ -17,11 +17,12 @@ FOLDER takes the scenes, which are made once for each LMP, all timings (timings.
   --rounds N         rounds of peers and of recording on or off [7, quick 2]; others have half as many, but at least 2
   --seconds S        a run takes about so long [1, quick 0.3]
   --length L         fault of the comparisons [1890]
-  --only WHAT,...    peers, parts, features, lengths, scale, setup [all]; scale runs up to 8 ranks, whatever the cores
+  --only WHAT,...    peers, parts, features, lengths, scale, setup, analysis [all]; scale runs up to 8 ranks, whatever the
+                     cores; analysis: postproc beside LMP, 1e7 events (quick 1e5)
 END
 }
 
-rounds=0 seconds=0 length=1890 only=peers,parts,features,lengths,scale,setup quick=no
+rounds=0 seconds=0 length=1890 only=peers,parts,features,lengths,scale,setup,analysis quick=no
 arguments=()
 while (($#)); do
   if [[ $1 =~ ^--(rounds|seconds|length|only)$ ]] && (($# < 2)); then
@@ -242,17 +243,39 @@ if wanted scale; then
   fi
 fi
 
-echo "ranks,round,create,first_step,read_restart" > setup.csv
+echo "ranks,round,create,first_step,read_restart,write_restart" > setup.csv
 if wanted setup; then
   for ((round = 1; round <= few; ++round)); do
     say "setup, round $round of $few"
     for ranks in $ranks_in_turn; do
       mpirun -np "$ranks" "$lmp" -in "$here/make.in" -var length "$length" -var name setup -var settle 1 -log setup.log \
         -screen none > setup.out 2>&1 || die "set-up failed, see $folder/setup.log"
-      awk -v start="$ranks,$round" '/^setup create/ {print start "," $3 "," $5 "," $7}' setup.log >> setup.csv
+      awk -v start="$ranks,$round" '/^setup create/ {print start "," $3 "," $5 "," $7 "," $9}' setup.log >> setup.csv
     done
   done
   rm -f setup.restart setup.data
+fi
+
+echo "events,command,seconds,kilobytes" > analysis.csv
+if wanted analysis; then
+  postproc=$(dirname "$lmp")/postproc
+  if [ -x "$postproc" ] && [ -x /usr/bin/time ]; then
+    events=10000000
+    if [ $quick = yes ]; then events=100000; fi
+    awk -v n=$events -f "$here/catalogue.awk" > analysis.catalogue.csv
+    for ((round = 1; round <= few; ++round)); do
+      say "analysis, round $round of $few"
+      for command in histograms magnitudes "fit --replicas 0 --no-comparison" "intervals --replicas 0"; do
+        # shellcheck disable=SC2086
+        /usr/bin/time -o analysis.time -f "%e,%M" "$postproc" $command analysis.catalogue.csv --no-picture -o analysed > analysis.out 2>&1 ||
+          die "postproc $command failed, see $folder/analysis.out"
+        echo "$events,$command,$(tail -1 analysis.time)" >> analysis.csv
+      done
+    done
+    rm -f analysis.catalogue.csv
+  else
+    echo "no $postproc or no GNU time, the analysis is left out" >&2
+  fi
 fi
 
 {
@@ -260,6 +283,6 @@ fi
     "load before $load_before, $(echo "$steal_before $(steal)" | awk '{printf "%.1f", ($3 - $1) / ($4 - $2) * 100}') %" \
     "of the time taken by other machines, fault of length $length, $rounds rounds of the comparisons and $few of the rest," \
     "$(((SECONDS - begin) / 60)) min $(((SECONDS - begin) % 60)) s."
-  awk -v most="$most" -f "$here/tables.awk" $timings setup.csv scale.csv
+  awk -v most="$most" -f "$here/tables.awk" $timings setup.csv scale.csv analysis.csv
 } > tables.md
 cat tables.md

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# awk -v most=RANKS -f tables.awk timings.csv setup.csv scale.csv: tables in Markdown. Medians over the rounds.
+# awk -v most=RANKS -f tables.awk timings.csv setup.csv scale.csv analysis.csv: tables in Markdown. Medians over the rounds.
 
 function median(list,    value, n, i, j, t) {
   n = split(list, value, " ")
@@ -53,7 +53,7 @@ file == 1 {
 }
 
 file == 2 {
-  for (i = 3; i <= 5; i++) setup[$1, i] = setup[$1, i] " " $i
+  for (i = 3; i <= 6; i++) setup[$1, i] = setup[$1, i] " " $i
   has["setup"] = 1
 }
 
@@ -61,6 +61,13 @@ file == 3 {
   scales++
   for (i = 1; i <= 10; i++) scale[scales, i] = $i
   has["scale"] = 1
+}
+
+file == 4 {
+  events = $1
+  if (!($2 in analysis)) command[++commands] = $2
+  analysis[$2] = analysis[$2] " " $3
+  kilobytes[$2] = kilobytes[$2] " " $4
 }
 
 # ns for each particle and step on a rank of its own with so many particles, between those measured on one rank
@@ -208,9 +215,16 @@ END {
 
   if (has["setup"]) {
     print "\n### Set-up, seconds\n"
-    print "| ranks | create_lsm_fault | first step | read_restart |"
-    print "|---|---|---|---|"
+    print "| ranks | create_lsm_fault | first step | write_restart | read_restart |"
+    print "|---|---|---|---|---|"
     for (r = 1; r <= most; r++)
-      printf "| %d | %.2f | %.2f | %.2f |\n", r, median(setup[r, 3]), median(setup[r, 4]), median(setup[r, 5])
+      printf "| %d | %.2f | %.2f | %.2f | %.2f |\n", r, median(setup[r, 3]), median(setup[r, 4]), median(setup[r, 6]), median(setup[r, 5])
+  }
+
+  if (commands) {
+    printf "\n### postproc on a catalogue of %g events\n\n", events
+    print "| command | seconds | memory, MB |"
+    print "|---|---|---|"
+    for (i = 1; i <= commands; i++) printf "| %s | %.1f | %.0f |\n", command[i], median(analysis[command[i]]), median(kilobytes[command[i]]) / 1024
   }
 }
