@@ -215,6 +215,20 @@ if wanted lengths; then
   done
 fi
 
+# The bandwidth that the caches and the memory have for as much data.
+echo "ranks,megabytes,gb_per_second" > triad.csv
+if wanted lengths; then
+  if mpicc -O3 -march=native -o triad "$here/triad.c" 2> triad.err; then
+    for ranks in $ranks_in_turn; do
+      say "triad, $ranks ranks"
+      mpirun -np "$ranks" ./triad 0.25 0.5 1 2 4 8 16 32 64 2> triad.err | awk -v ranks="$ranks" '/^triad / {print ranks "," $2 "," $3}' >> triad.csv ||
+        die "triad failed, see $folder/triad.err"
+    done
+  else
+    echo "mpicc failed, the bandwidth is left out, see $folder/triad.err" >&2
+  fi
+fi
+
 # What ranks send each other, counted, not timed: the difference of two runs, so that set-up does not count.
 echo "length,ranks,particles,largest_share,ghosts,messages,bytes,collectives,nonblocking,pe" > scale.csv
 if wanted scale; then
@@ -283,6 +297,6 @@ fi
     "load before $load_before, $(echo "$steal_before $(steal)" | awk '{printf "%.1f", ($3 - $1) / ($4 - $2) * 100}') %" \
     "of the time taken by other machines, fault of length $length, $rounds rounds of the comparisons and $few of the rest," \
     "$(((SECONDS - begin) / 60)) min $(((SECONDS - begin) % 60)) s."
-  awk -v most="$most" -f "$here/tables.awk" $timings setup.csv scale.csv analysis.csv
+  awk -v most="$most" -f "$here/tables.awk" $timings setup.csv scale.csv analysis.csv triad.csv
 } > tables.md
 cat tables.md

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# awk -v most=RANKS -f tables.awk timings.csv setup.csv scale.csv analysis.csv: tables in Markdown. Medians over the rounds.
+# awk -v most=RANKS -f tables.awk timings.csv setup.csv scale.csv analysis.csv triad.csv: tables in Markdown. Medians over the rounds.
 
 function median(list,    value, n, i, j, t) {
   n = split(list, value, " ")
@@ -68,6 +68,28 @@ file == 4 {
   if (!($2 in analysis)) command[++commands] = $2
   analysis[$2] = analysis[$2] " " $3
   kilobytes[$2] = kilobytes[$2] " " $4
+}
+
+file == 5 {
+  triads[$1]++
+  triad_at[$1, triads[$1]] = $2
+  triad[$1, triads[$1]] = $3
+}
+
+# What a step reads and writes for each particle, bytes: force cleared 24; links, of which there are 2.53, 16 each, positions 24, forces
+# there and back 48; integration: forces 24, velocities and positions there and back 96, mass, viscosity and type 16.
+function bytes_of_step() { return 24 + 2.53 * 16 + 24 + 48 + 24 + 96 + 16 }
+
+# bytes of these data themselves
+function bytes_of_data() { return 72 + 2.53 * 16 + 16 }
+
+# triad of each rank, GB/s, for so many megabytes on each
+function bandwidth_of(ranks, megabytes,    i) {
+  if (megabytes <= triad_at[ranks, 1]) return triad[ranks, 1]
+  for (i = 2; i <= triads[ranks]; i++)
+    if (megabytes <= triad_at[ranks, i])
+      return triad[ranks, i - 1] + (triad[ranks, i] - triad[ranks, i - 1]) * log(megabytes / triad_at[ranks, i - 1]) / log(triad_at[ranks, i] / triad_at[ranks, i - 1])
+  return triad[ranks, triads[ranks]]
 }
 
 # ns for each particle and step on a rank of its own with so many particles, between those measured on one rank
@@ -171,6 +193,20 @@ END {
       if (table[k] == "lengths")
         printf "| %d | %d | %d | %.1f | %.2f |%s%s\n", length_of[k], atoms[order[k]], ranks_of[k], rate(order[k]), cost(order[k]),
                timers(order[k]), memory_of(order[k])
+    if (1 in triads) {
+      printf "\n### Against the bandwidth: %.0f bytes for each particle and step, %.0f bytes of data\n\n", bytes_of_step(), bytes_of_data()
+      print "| length | ranks | data of a rank, MB | GB/s of a rank | triad with as much data, GB/s | share | speed over that of the shortest |"
+      print "|---|---|---|---|---|---|---|"
+      for (k = 1; k <= keys; k++) {
+        if (table[k] != "lengths") continue
+        r = ranks_of[k]
+        if (!(r in shortest)) shortest[r] = cost(order[k])
+        megabytes = atoms[order[k]] * bytes_of_data() / r * 1e-6
+        speed = bytes_of_step() / cost(order[k]) / r
+        printf "| %d | %d | %.1f | %.1f | %.1f | %.0f %% | %.2f |\n", length_of[k], r, megabytes, speed, bandwidth_of(r, megabytes),
+               speed / bandwidth_of(r, megabytes) * 100, shortest[r] / cost(order[k])
+      }
+    }
   }
 
   if (has["scale"]) {
