@@ -9,9 +9,10 @@ build=${LSM_BUILD_DIR:-$root/build}
 output=$build/slow-driving bin=$build/bin way=36 run=yes
 # velocity, leaps, steps: the first is the paper's, to which the others are compared
 runs="2.5e-4 no 1200000
-2.5e-5 yes 1500000
-2.5e-6 yes 1500000
-2.5e-7 yes 1500000
+2.5e-5 yes 2200000
+2.5e-6 yes 2200000
+2.5e-7 yes 2200000
+2.5e-8 yes 2200000
 2.5e-5 no 12000000"
 
 usage() {
@@ -159,7 +160,7 @@ yes(c) = strcol(2) eq "yes" ? column(c) : NaN
 no(c) = strcol(2) eq "no" ? column(c) : NaN
 set logscale x
 set format x "10^{%L}"
-set xrange [1.2e-7:6e-4]
+set xrange [1.2e-8:6e-4]
 set xlabel "driving velocity of each plate"
 set key top left Left reverse samplen 1
 set title "Events while the plates move by 36 each"
@@ -176,9 +177,9 @@ plot "slow-driving.csv" using 1:(yes(14)):15 with yerrorbars pt 7 lc rgb "#0072B
   "" using ($1*0.9):(yes(16)):17 with yerrorbars pt 9 lc rgb "#009E73" title "γ of the times from 10^{-3}", "" using ($1*0.9):(no(16)):17 with yerrorbars pt 8 lc rgb "#009E73" notitle, \
   "" using ($1*0.8):(yes(36)):37 with yerrorbars pt 13 lc rgb "#CC79A7" title "γ from 10^{-2}", "" using ($1*0.8):(no(36)):37 with yerrorbars pt 12 lc rgb "#CC79A7" notitle
 set title "Events from 10^{-3} after a main shock (10^{-1} and more)"
-set xrange [1:2e5]
+set xrange [1:2e6]
 set xlabel "time since its end (time units)"
-set yrange [1e-7:3]
+set yrange [1e-8:3]
 set logscale y
 set format y "10^{%L}"
 set ylabel "events per main shock and time unit" offset 1
@@ -189,15 +190,16 @@ plot "around.csv" using (mid($3, $4)):(at("2.5e-4", "no")) with points pt 6 lc r
   "" using (mid($3, $4)):(at("2.5e-5", "no")) with points pt 4 lc rgb "#D55E00" title "2.5·10^{-5}, no leaps", \
   "" using (mid($3, $4)):(at("2.5e-5", "yes")) with points pt 5 lc rgb "#D55E00" title "2.5·10^{-5}, leaps", \
   "" using (mid($3, $4)):(at("2.5e-6", "yes")) with points pt 9 lc rgb "#009E73" title "2.5·10^{-6}", \
-  "" using (mid($3, $4)):(at("2.5e-7", "yes")) with points pt 7 lc rgb "#0072B2" title "2.5·10^{-7}"
+  "" using (mid($3, $4)):(at("2.5e-7", "yes")) with points pt 7 lc rgb "#0072B2" title "2.5·10^{-7}", \
+  "" using (mid($3, $4)):(at("2.5e-8", "yes")) with points pt 13 lc rgb "#CC79A7" title "2.5·10^{-8}"
 set title "Cost of an event of 10^{-2} and more"
-set xrange [1.2e-7:6e-4]
+set xrange [1.2e-8:6e-4]
 set xlabel "driving velocity of each plate"
 set yrange [1e3:3e7]
 set ylabel "steps" offset 1
 set key top right
 plot "slow-driving.csv" using 1:(yes(31)) with points pt 7 lc rgb "#0072B2" title "leaps", "" using 1:(no(31)) with points pt 4 lc rgb "#D55E00" title "without", \
-  [2.5e-7:2.5e-4] base*2.5e-5/x lc rgb "#D55E00" dt (4,4) title "as 1 / velocity"
+  [2.5e-8:2.5e-4] base*2.5e-5/x lc rgb "#D55E00" dt (4,4) title "as 1 / velocity"
 unset multiplot
 set output
 }
