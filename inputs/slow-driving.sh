@@ -7,12 +7,14 @@ export LC_ALL=C
 root=$(cd "$(dirname "$0")/.." && pwd)
 build=${LSM_BUILD_DIR:-$root/build}
 output=$build/slow-driving bin=$build/bin way=36 run=yes
-# velocity, leaps, steps: the first is the paper's, to which the others are compared
+# velocity, leaps (no, or how fast the plates move in them), steps: the first is the paper's, to which the others are compared
 runs="2.5e-4 no 1200000
-2.5e-5 yes 2200000
-2.5e-6 yes 2200000
-2.5e-7 yes 2200000
-2.5e-8 yes 2200000
+2.5e-5 2.5e-4 2200000
+2.5e-6 2.5e-4 2200000
+2.5e-7 2.5e-4 2200000
+2.5e-8 2.5e-4 2200000
+2.5e-5 1e-4 3500000
+2.5e-6 1e-4 3500000
 2.5e-5 no 12000000"
 
 usage() {
@@ -45,8 +47,9 @@ one() {
   local folder=$output/$1_leap_$2
   [ ! -e "$folder/cpu.txt" ] || return 0
   rm -rf "$folder" && mkdir -p "$folder" && cd "$folder" || return 1
-  local TIMEFORMAT='%U %S'
-  { time "$bin/lmp" -in "$root/inputs/fault_120.in" -log none -var prefix fault -var velocity "$1" -var leap "$2" -var steps "$3" \
+  local TIMEFORMAT='%U %S' leaps=(-var leap no)
+  [ "$2" = no ] || leaps=(-var leap yes -var fast "$2")
+  { time "$bin/lmp" -in "$root/inputs/fault_120.in" -log none -var prefix fault -var velocity "$1" "${leaps[@]}" -var steps "$3" \
     -var series no >output.txt 2>&1 </dev/null; } 2>time.txt || {
     echo "slow-driving: $folder: $(grep -m 1 ERROR output.txt || echo "lmp failed, see output.txt")" >&2
     return 1
@@ -156,7 +159,8 @@ set border lw 1.0 lc rgb "#333333"
 set tics out nomirror
 set grid xtics ytics lt 1 lw 0.5 lc rgb "#d8d8d8"
 set multiplot layout 2,2 margins 0.08,0.98,0.085,0.95 spacing 0.10,0.165
-yes(c) = strcol(2) eq "yes" ? column(c) : NaN
+yes(c) = strcol(2) eq "2.5e-4" ? column(c) : NaN
+slower(c) = strcol(2) eq "1e-4" ? column(c) : NaN
 no(c) = strcol(2) eq "no" ? column(c) : NaN
 set logscale x
 set format x "10^{%L}"
@@ -167,12 +171,14 @@ set title "Events while the plates move by 36 each"
 set ylabel "number of events" offset 1
 set yrange [0:2100]
 plot "slow-driving.csv" using 1:(yes(7)*36/$3) with points pt 7 lc rgb "#0072B2" title "from 10^{-3}, leaps", "" using 1:(no(7)*36/$3) with points pt 6 lc rgb "#0072B2" title "without leaps", \
+  "" using 1:(slower(7)*36/$3) with points pt 2 lc rgb "#0072B2" title "leaps with 10^{-4}", "" using 1:(slower(8)*36/$3) with points pt 2 lc rgb "#D55E00" notitle, "" using 1:(slower(9)*36/$3) with points pt 2 lc rgb "#009E73" notitle, \
   "" using 1:(yes(8)*36/$3) with points pt 5 lc rgb "#D55E00" title "from 10^{-2}", "" using 1:(no(8)*36/$3) with points pt 4 lc rgb "#D55E00" notitle, \
   "" using 1:(yes(9)*36/$3) with points pt 9 lc rgb "#009E73" title "from 10^{-1}", "" using 1:(no(9)*36/$3) with points pt 8 lc rgb "#009E73" notitle
 set title "Exponents"
 set ylabel "exponent, γ" offset 1
 set yrange [0:2.7]
 plot "slow-driving.csv" using 1:(yes(14)):15 with yerrorbars pt 7 lc rgb "#0072B2" title "sizes 10^{-3} to 1, leaps", "" using 1:(no(14)):15 with yerrorbars pt 6 lc rgb "#0072B2" title "without leaps", \
+  "" using 1:(slower(14)):15 with yerrorbars pt 2 lc rgb "#0072B2" title "leaps with 10^{-4}", "" using ($1*1.1):(slower(34)):35 with yerrorbars pt 2 lc rgb "#D55E00" notitle, "" using ($1*0.9):(slower(16)):17 with yerrorbars pt 2 lc rgb "#009E73" notitle, \
   "" using ($1*1.1):(yes(34)):35 with yerrorbars pt 5 lc rgb "#D55E00" title "sizes 10^{-2} to 1", "" using ($1*1.1):(no(34)):35 with yerrorbars pt 4 lc rgb "#D55E00" notitle, \
   "" using ($1*0.9):(yes(16)):17 with yerrorbars pt 9 lc rgb "#009E73" title "γ of the times from 10^{-3}", "" using ($1*0.9):(no(16)):17 with yerrorbars pt 8 lc rgb "#009E73" notitle, \
   "" using ($1*0.8):(yes(36)):37 with yerrorbars pt 13 lc rgb "#CC79A7" title "γ from 10^{-2}", "" using ($1*0.8):(no(36)):37 with yerrorbars pt 12 lc rgb "#CC79A7" notitle
@@ -188,17 +194,17 @@ mid(a, b) = a > 0 ? sqrt(a*b) : 0.5*b
 at(v, leap) = strcol(1) eq v && strcol(2) eq leap && column(7) > 0 ? column(7) : NaN
 plot "around.csv" using (mid($3, $4)):(at("2.5e-4", "no")) with points pt 6 lc rgb "#000000" title "2.5·10^{-4}, no leaps", \
   "" using (mid($3, $4)):(at("2.5e-5", "no")) with points pt 4 lc rgb "#D55E00" title "2.5·10^{-5}, no leaps", \
-  "" using (mid($3, $4)):(at("2.5e-5", "yes")) with points pt 5 lc rgb "#D55E00" title "2.5·10^{-5}, leaps", \
-  "" using (mid($3, $4)):(at("2.5e-6", "yes")) with points pt 9 lc rgb "#009E73" title "2.5·10^{-6}", \
-  "" using (mid($3, $4)):(at("2.5e-7", "yes")) with points pt 7 lc rgb "#0072B2" title "2.5·10^{-7}", \
-  "" using (mid($3, $4)):(at("2.5e-8", "yes")) with points pt 13 lc rgb "#CC79A7" title "2.5·10^{-8}"
+  "" using (mid($3, $4)):(at("2.5e-5", "2.5e-4")) with points pt 5 lc rgb "#D55E00" title "2.5·10^{-5}, leaps", \
+  "" using (mid($3, $4)):(at("2.5e-6", "2.5e-4")) with points pt 9 lc rgb "#009E73" title "2.5·10^{-6}", \
+  "" using (mid($3, $4)):(at("2.5e-7", "2.5e-4")) with points pt 7 lc rgb "#0072B2" title "2.5·10^{-7}", \
+  "" using (mid($3, $4)):(at("2.5e-8", "2.5e-4")) with points pt 13 lc rgb "#CC79A7" title "2.5·10^{-8}"
 set title "Cost of an event of 10^{-2} and more"
 set xrange [1.2e-8:6e-4]
 set xlabel "driving velocity of each plate"
 set yrange [1e3:3e7]
 set ylabel "steps" offset 1
 set key top right
-plot "slow-driving.csv" using 1:(yes(31)) with points pt 7 lc rgb "#0072B2" title "leaps", "" using 1:(no(31)) with points pt 4 lc rgb "#D55E00" title "without", \
+plot "slow-driving.csv" using 1:(yes(31)) with points pt 7 lc rgb "#0072B2" title "leaps", "" using 1:(slower(31)) with points pt 2 lc rgb "#0072B2" title "leaps with 10^{-4}", "" using 1:(no(31)) with points pt 4 lc rgb "#D55E00" title "without", \
   [2.5e-8:2.5e-4] base*2.5e-5/x lc rgb "#D55E00" dt (4,4) title "as 1 / velocity"
 unset multiplot
 set output
