@@ -215,9 +215,7 @@ class Chain {
     const double most = plate_step_ * static_cast<double>(last - step_);
     leap_from_ = step_;
     leap_pieces_.clear();
-    const auto allowed = [&] {
-      return creep.pe_rate() > 0.0 ? rises : creep.pe_rate() < 0.0 ? falls : rises && falls;
-    };
+    const auto allowed = [&] { return creep.pe_rate() < 0.0 ? falls : rises; };
     if (!allowed()) return false;
     for (;;) {
       note_piece(creep);

@@ -13,10 +13,10 @@
 /// creep, from rest to rest, and friction that falls with velocity makes that swing grow. Creep is
 /// the mean of these slips. With x the shape of a swing and
 ///   k = x K x - x W x,  d = x G x,  m = M x x,  W = weakening with slip, G = mu_0i (Eq. 6),
-/// it grows as exp(a t), a = d / 2 m, and turns after pi / w, w^2 = k / m - a^2, with e^(pi a / w)
-/// times the velocity of creep; if k < m a^2 it does not turn but runs away. It stays below a
-/// velocity g times as fast as creep if k >= q m a^2 for all x, q = 1 + (pi / ln g)^2, which is to
-/// say that (K - W) / q - s G + s^2 M is positive definite for all s.
+/// it grows as exp(a t), a = d / 2 m, and turns after pi / w, w^2 = k / m - a^2, with 1 + e^(pi a /
+/// w) times the velocity of creep; if k < m a^2 it does not turn but runs away. It stays below 1 +
+/// g times the velocity of creep if k >= q m a^2 for all x, q = 1 + (pi / ln g)^2, which is to say
+/// that (K - W) / q - s G + s^2 M is positive definite for all s.
 #ifndef SLIDER_CREEP_H
 #define SLIDER_CREEP_H
 
@@ -72,6 +72,7 @@ class Creep {
   }
   /// Goes on to next(). Returns whether the run that the block joins gets fast.
   bool join() {
+    next();
     const Coming coming = queue_.top();
     queue_.pop();
     to(coming.way);
@@ -117,9 +118,9 @@ class Creep {
       low = std::min(low, mu_[i]);
       high = std::max(high, mu_[i]);
     }
-    // A swing that does not grow is twice as fast as creep.
-    const double growth = fast_ / rate;
-    if (!(growth > 2.0)) return true;
+    // From rest, the swing comes on top of the creep.
+    const double growth = fast_ / rate - 1.0;
+    if (!(growth > 1.0)) return true;
     const Friction &law = p_.friction;
     switch (law.law) {
       case Law::coulomb:
