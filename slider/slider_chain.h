@@ -216,7 +216,7 @@ class Chain {
     leap_from_ = step_;
     leap_pieces_.clear();
     const auto allowed = [&] { return creep.pe_rate() < 0.0 ? falls : rises; };
-    if (!allowed()) return false;
+    if (creep.begins_fast() || !allowed()) return false;
     for (;;) {
       note_piece(creep);
       const double to = std::min(most, creep.next());

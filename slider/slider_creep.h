@@ -58,13 +58,16 @@ class Creep {
     slope_ = p.kl * n_;
     for (int i = 0; i < n_; ++i) {
       // Runs are found at their first block; a full ring has none.
-      if (at(i).creeps && (!at(before(i)).creeps || (creeping_ == n_ && i == 0))) solve(i);
+      if (at(i).creeps && (!at(before(i)).creeps || (creeping_ == n_ && i == 0)))
+        begins_fast_ = gets_fast(i, solve(i)) || begins_fast_;
     }
     for (int i = 0; i < n_; ++i)
       if (!at(i).creeps) expect(i);
   }
 
   int creeping() const { return creeping_; }
+  /// Whether blocks that are at their limit from the beginning get fast.
+  bool begins_fast() const { return begins_fast_; }
   /// Way of the plate at which the next block comes to its limit; never: there is none.
   double next() {
     while (!queue_.empty() && stale(queue_.top())) queue_.pop();
@@ -237,6 +240,7 @@ class Creep {
   std::vector<Row> stack_;
   std::priority_queue<Coming, std::vector<Coming>, std::greater<Coming>> queue_;
   int creeping_ = 0;
+  bool begins_fast_ = false;
   double way_ = 0.0, pe_ = 0.0, pe_rate_ = 0.0, slope_ = 0.0;
 };
 

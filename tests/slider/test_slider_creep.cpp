@@ -258,6 +258,23 @@ TEST(SliderLeaps, FindTheSameLargeEvents) {
   EXPECT_NEAR(leaps.pe, leaps.pe_direct, 1e-11 * leaps.pe);
 }
 
+TEST(SliderLeaps, DoNotHoldBackWhatHasBegunToRunAway) {
+  // One block on a soft spring, whose slip begins as slowly as the plate moves.
+  RunOptions o = slow(1, 1e-4, 400.0);
+  o.catalogue = testing::TempDir() + "slider_one.csv";
+  run(o);
+  const auto expected = large_events(o, 1.0);
+  ASSERT_GE(expected.size(), 3U);
+  o.leap_speed = 1e-3;
+  run(o);
+  const auto found = large_events(o, 1.0);
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    EXPECT_NEAR(found[k].t_start, expected[k].t_start, 1e-3 * expected[k].t_start);
+    EXPECT_NEAR(found[k].size, expected[k].size, 1e-3 * expected[k].size);
+  }
+}
+
 TEST(SliderLeaps, HaveAnEndAsThePlateGetsSlower) {
   // The same events at the same ways, at a cost that does not grow.
   std::vector<LSM::Event> last;
