@@ -9,7 +9,8 @@ build=${LSM_BUILD_DIR:-$root/build}
 output=$build/slow-driving-slider bin=$build/bin run=yes long=no begin=120
 # blocks, seed, velocity, --leap, way of the plate
 runs="256 1 1e-2 0 1200
-256 1 1e-3 0 1200
+256 1 1e-3 0 3720
+256 2 1e-3 0 3720
 256 1 1e-4 0 1200
 256 1 1e-3 1e-3 3720
 256 1 1e-4 1e-3 3720
@@ -22,8 +23,8 @@ runs="256 1 1e-2 0 1200
 256 2 1e-4 1e-3 3720
 256 2 1e-5 1e-3 3720
 256 2 1e-6 1e-3 3720
-1928 1 1e-2 0 600
-1928 1 1e-3 0 600
+1928 1 1e-2 0 1120
+1928 1 1e-3 0 1120
 1928 1 1e-3 1e-3 1120
 1928 1 1e-4 1e-3 1120
 1928 1 1e-5 1e-3 1120
@@ -119,6 +120,10 @@ $long_runs" | sort -k1,1n -k2,2n -k3,3gr -k4,4g | while read -r blocks seed velo
 cat >slow-driving-slider.gp <<'END'
 # Draws slow-driving-slider.png and slow-driving-slider.svg from slow-driving-slider.csv
 set datafile separator ","
+$line << END_OF_LINE
+1e-6,4.5e8
+1e-2,4.5e4
+END_OF_LINE
 do for [kind in "png svg"] {
 if (kind eq "png") { set terminal pngcairo size 1800,650 font "DejaVu Sans,21" linewidth 2 pointscale 2 background "#ffffff" } \
 else { set terminal svg size 900,325 dynamic font "DejaVu Sans,10.5" background "#ffffff" }
@@ -127,7 +132,7 @@ set encoding utf8
 set border lw 1.0 lc rgb "#333333"
 set tics out nomirror
 set grid xtics ytics lt 1 lw 0.5 lc rgb "#d8d8d8"
-set multiplot layout 1,2 margins 0.08,0.98,0.17,0.91 spacing 0.11,0
+set multiplot layout 1,2 margins 0.085,0.98,0.17,0.88 spacing 0.11,0
 is(n, c, leaps) = column(1) == n && (leaps ? abs(column(4) - 1e-3) < 1e-9 : column(4) == 0) ? column(c) : NaN
 set logscale xy
 set format x "10^{%L}"
@@ -136,8 +141,8 @@ set xlabel "driving velocity of the plate"
 set format y "%g"
 unset key
 set title "Events for a way of 1000"
-set ylabel "number of events" offset 1
-set yrange [10:3000]
+set ylabel "number of events" offset 0.5
+set yrange [20:9999]
 set key top right reverse Left samplen 1
 plot "slow-driving-slider.csv" using 3:(is(256, 7, 1)) with points pt 7 lc rgb "#0072B2" title "256 blocks, from 1, leaps", "" using 3:(is(256, 7, 0)) with points pt 6 lc rgb "#0072B2" title "without leaps", \
   "" using 3:(is(256, 8, 1)) with points pt 5 lc rgb "#D55E00" title "from 100", "" using 3:(is(256, 8, 0)) with points pt 4 lc rgb "#D55E00" notitle, \
@@ -149,7 +154,7 @@ set yrange [1e3:1e10]
 set format y "10^{%L}"
 plot "slow-driving-slider.csv" using 3:(is(256, 22, 1)) with points pt 7 lc rgb "#0072B2" title "256 blocks, leaps", "" using 3:(is(256, 22, 0)) with points pt 6 lc rgb "#0072B2" title "without leaps", \
   "" using 3:(is(1928, 22, 1)) with points pt 9 lc rgb "#009E73" title "1928 blocks, leaps", "" using 3:(is(1928, 22, 0)) with points pt 8 lc rgb "#009E73" notitle, \
-  [1e-6:1e-2] 4.5e4*1e-2/x lc rgb "#0072B2" dt (4,4) title "as 1 / velocity"
+  $line using 1:2 with lines lc rgb "#0072B2" dt (4,4) title "as 1 / velocity"
 unset multiplot
 set output
 }
