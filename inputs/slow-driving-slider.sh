@@ -11,7 +11,7 @@ output=$build/slow-driving-slider bin=$build/bin run=yes long=no begin=120
 runs="256 1 1e-2 0 1200
 256 1 1e-3 0 3720
 256 2 1e-3 0 3720
-256 1 1e-4 0 1200
+256 1 1e-4 0 3720
 256 1 1e-3 1e-3 3720
 256 1 1e-4 1e-3 3720
 256 1 1e-5 1e-3 3720
@@ -132,7 +132,7 @@ set encoding utf8
 set border lw 1.0 lc rgb "#333333"
 set tics out nomirror
 set grid xtics ytics lt 1 lw 0.5 lc rgb "#d8d8d8"
-set multiplot layout 1,2 margins 0.085,0.98,0.17,0.88 spacing 0.11,0
+set multiplot layout 1,2 margins 0.095,0.98,0.17,0.88 spacing 0.11,0
 is(n, c, leaps) = column(1) == n && (leaps ? abs(column(4) - 1e-3) < 1e-9 : column(4) == 0) ? column(c) : NaN
 set logscale xy
 set format x "10^{%L}"

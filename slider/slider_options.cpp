@@ -116,9 +116,11 @@ void add_integration(CLI::App &app, Settings &s, Added &o) {
       ->group(how);
   o.leap = app.add_option(
       "--leap", s.run.leap_speed,
-      "Leap over slow loading (ours): while no block has been faster than so many times V for the "
-      "time --leap-calm, blocks at their limit creep without steps, in the limit of a slow plate, "
-      "until some of them run away; 0: never. Model time goes on; --kernel active or dense");
+      "Leap over slow loading (ours): while no block has been faster than this for the time "
+      "--leap-calm, blocks at their limit creep without steps, in the limit of a slow plate, until "
+      "some are about to get as fast; 1e-3 is sound for V up to 1e-3; 0: never. Model time and "
+      "steps "
+      "go on; needs --kernel active or dense (length/time)");
   o.leap->group(how);
   o.calm = app.add_option("--leap-calm", s.run.leap_calm,
                           "Time of steps before each leap, long enough for blocks that run away "
