@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "lsm_sum.h"
+#include "slider_creep.h"
 #include "slider_kernels.h"
 #include "slider_parameters.h"
 
@@ -196,6 +197,63 @@ class Chain {
     advance();
   }
 
+  /// Velocity of the fastest block.
+  double fastest() const {
+    double v = 0.0;
+    for (const std::int32_t c : list_)
+      for (int l = 0; l < chunk_size; ++l) v = std::max(v, view_.v[c * chunk_size + l]);
+    return v;
+  }
+
+  /// Creeps on without steps (see Creep), all blocks at rest at its end: to the step at which
+  /// blocks are about to get fast, or PE begins or ceases to fall, or to last. \param least steps
+  /// that are worth it \param falls,rises whether PE may fall, or rise, in it \return false, and
+  /// nothing done, if they are not
+  bool leap(std::int64_t last, std::int64_t least, double fast, bool falls, bool rises) {
+    if (last - step_ < least) return false;
+    Creep creep(p_, view_.mu, view_.u, plate(), fast);
+    const double most = plate_step_ * static_cast<double>(last - step_);
+    leap_from_ = step_;
+    leap_pieces_.clear();
+    const auto allowed = [&] { return creep.pe_rate() < 0.0 ? falls : rises; };
+    if (creep.begins_fast() || !allowed()) return false;
+    for (;;) {
+      note_piece(creep);
+      const double to = std::min(most, creep.next());
+      const double turn = creep.way() - creep.pe_rate() / creep.pe_slope();
+      if (!rises && turn < to) {
+        creep.to(turn);
+        break;
+      }
+      if (to == most) {
+        creep.to(most);
+        break;
+      }
+      if (creep.join() || !allowed()) break;
+    }
+    const double steps = std::ceil(creep.way() / plate_step_);
+    const std::int64_t landing = std::min(last, step_ + static_cast<std::int64_t>(steps));
+    if (landing - step_ < least) return false;
+    const double way = plate_step_ * static_cast<double>(landing - step_);
+    while (creep.next() < way) {
+      note_piece(creep);
+      creep.join();
+    }
+    note_piece(creep);
+    creep.to(std::max(way, creep.way()));
+    land(creep, landing);
+    return true;
+  }
+  /// PE at a step within the last leap; steps must ascend.
+  double pe_in_leap(std::int64_t at) {
+    const double way = plate_step_ * static_cast<double>(at - leap_from_);
+    while (leap_piece_ + 1 < leap_pieces_.size() && leap_pieces_[leap_piece_ + 1].way <= way)
+      ++leap_piece_;
+    const LeapPiece &piece = leap_pieces_[leap_piece_];
+    const double on = way - piece.way;
+    return leap_pe_ + piece.pe + on * (piece.pe_rate + 0.5 * piece.pe_slope * on);
+  }
+
   ChainState state() const {
     ChainState s;
     s.step = step_;
@@ -257,6 +315,33 @@ class Chain {
   struct Unwatched {
     static constexpr bool watches = false;
   };
+
+  // A straight piece of a leap.
+  struct LeapPiece {
+    double way, pe, pe_rate, pe_slope;
+  };
+  void note_piece(const Creep &creep) {
+    leap_pieces_.push_back({creep.way(), creep.pe(), creep.pe_rate(), creep.pe_slope()});
+  }
+
+  void land(Creep &creep, std::int64_t landing) {
+    leap_piece_ = 0;
+    leap_pe_ = pe_value_;
+    pe_ = LSM::NeumaierSum(pe_value_);
+    pe_.add(creep.pe());
+    pe_value_ = pe_.value();
+    dpe_ = plate_step_ * creep.pe_rate();
+    slip_ = LSM::NeumaierSum();
+    for (int i = 0; i < p_.blocks; ++i) {
+      view_.u[i] = creep.displacement(i);
+      slip_.add(view_.u[i]);
+    }
+    std::fill(view_.v, view_.v + p_.blocks, 0.0);
+    if (view_.rest) std::copy(view_.u, view_.u + p_.blocks, view_.rest);
+    quiet_since_ = -1;
+    step_ = landing;
+    activate();
+  }
 
   // The kernel replaces the forces that the work is reckoned with.
   void keep_forces() {
@@ -483,6 +568,10 @@ class Chain {
   std::int64_t quiet_since_ = -1;
   double pe_anchor_ = 0.0, loading_anchor_ = 0.0;
   std::int64_t moved_ = 0;
+  std::vector<LeapPiece> leap_pieces_;  // of the last leap
+  std::size_t leap_piece_ = 0;
+  std::int64_t leap_from_ = 0;
+  double leap_pe_ = 0.0;
   StepSums sums_;
   std::vector<std::uint8_t> hot_;
   std::vector<std::int32_t> list_, next_list_, idle_, extra_;

@@ -126,7 +126,10 @@ void compare(const std::string &path, const std::vector<std::string> &found,
 
 void write_checkpoint(const std::string &path, const std::vector<std::string> &settings,
                       const RunState &state) {
-  const std::vector<std::uint8_t> run = json::to_cbor({{"settings", settings}, {"state", state}});
+  json content = {{"settings", settings}, {"state", state}};
+  // Apart, so that a run without leaps writes what it wrote before there were any.
+  if (state.calm_since != 0) content["calm_since"] = state.calm_since;
+  const std::vector<std::uint8_t> run = json::to_cbor(content);
   const json file = {{version_key, version}, {"crc32", checksum(run)}, {"run", json::binary(run)}};
   const std::string written = path + ".new";
   if (write_whole(written, json::to_cbor(file)) && std::rename(written.c_str(), path.c_str()) == 0)
@@ -160,7 +163,9 @@ RunState read_checkpoint(const std::string &path, const std::vector<std::string>
   }
   compare(path, found, settings);
   try {
-    return run.at("state").get<RunState>();
+    state = run.at("state").get<RunState>();
+    state.calm_since = run.value("calm_since", std::int64_t{0});
+    return state;
   } catch (const json::exception &) {
     throw damaged;
   }

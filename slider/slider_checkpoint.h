@@ -23,6 +23,7 @@ struct RunState {
   double slip_start = 0.0, largest = 0.0;
   std::vector<double> u_start;
   RuptureState ruptures;
+  std::int64_t calm_since = 0;  ///< step in which a block last was too fast for a leap, or of one
 };
 
 /// Replaces the file in one go, so that there is a whole checkpoint at any moment.

@@ -43,6 +43,10 @@ nlohmann::ordered_json summary(const Settings &s, const Slider::RunResult &r) {
   j["moving_fraction"] =
       static_cast<double>(r.moved) / (static_cast<double>(r.steps) * s.run.parameters.blocks);
   j["steps_jumped"] = r.jumped;
+  if (s.run.leap_speed > 0.0) {
+    j["leaps"] = r.leaps;
+    j["steps_leapt"] = r.leapt;
+  }
   j["kernel"] = Slider::to_string(s.run.kernel);
   j["instruction_set"] = Slider::to_string(Slider::resolve(s.run.isa));
   j["seconds"] = r.seconds;

@@ -50,7 +50,7 @@ void choose(const char *option, const std::string &word, Enum &value) {
 
 /// Options that others refer to.
 struct Added {
-  CLI::Option *paper, *steps, *gap, *dynamic, *distance;
+  CLI::Option *paper, *steps, *gap, *dynamic, *distance, *leap, *calm;
 };
 
 void add_model(CLI::App &app, Settings &s, Added &o) {
@@ -114,6 +114,18 @@ void add_integration(CLI::App &app, Settings &s, Added &o) {
                  "For the first three schemes: active (only moving chunks of blocks), dense (all "
                  "blocks; same catalogue), scalar (the straightforward loop)")
       ->group(how);
+  o.leap = app.add_option(
+      "--leap", s.run.leap_speed,
+      "Leap over slow loading (ours): while no block has been faster than this for the time "
+      "--leap-calm, blocks at their limit creep without steps, in the limit of a slow plate, until "
+      "some are about to get as fast; 1e-3 is sound for V up to 1e-3; 0: never. Model time and "
+      "steps "
+      "go on; needs --kernel active or dense (length/time)");
+  o.leap->group(how);
+  o.calm = app.add_option("--leap-calm", s.run.leap_calm,
+                          "Time of steps before each leap, long enough for blocks that run away "
+                          "to become fast (time)");
+  o.calm->group(how);
   app.add_option("--isa", s.isa,
                  "Instruction set: auto, avx512, avx2, x86-64; all give the same catalogue")
       ->group(how);
@@ -232,6 +244,9 @@ void interpret_integration(Settings &s, const Added &o) {
     throw std::invalid_argument("--isa = '" + s.isa + "', expected auto, avx512, avx2 or x86-64");
   check(p, s.force);
   check_events(s.run);
+  if (o.calm->count() > 0 && o.leap->count() == 0)
+    throw std::invalid_argument("--leap-calm needs --leap");
+  check_leaps(s.run);
   resolve(s.run.isa);
   if (o.steps->count() > 0 || s.paper) {
     s.run.steps = whole("--steps", s.steps, 1);
@@ -339,6 +354,10 @@ void set_header(Settings &s) {
   h.emplace_back("scheme", to_string(p.scheme));
   h.emplace_back("dt", number(p.dt));
   h.emplace_back("steps", std::to_string(s.run.steps));
+  if (s.run.leap_speed > 0.0) {
+    h.emplace_back("leap", number(s.run.leap_speed));
+    h.emplace_back("leap_calm", number(s.run.leap_calm));
+  }
   if (s.run.events == Events::ruptures) {
     h.emplace_back("events", "ruptures");
     h.emplace_back("rupture_gap", number(s.rupture_gap));

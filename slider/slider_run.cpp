@@ -9,6 +9,7 @@
 #include <cstring>
 #include <limits>
 #include <stdexcept>
+#include <type_traits>
 
 #include "lsm_circular_mean.h"
 #include "lsm_text_io.h"
@@ -30,6 +31,25 @@ void check_events(const RunOptions &o) {
   if (o.kernel == Kernel::scalar)
     throw std::invalid_argument(
         "--events = ruptures with --kernel scalar, expected the kernel active or dense");
+}
+
+void check_leaps(const RunOptions &o) {
+  const auto fail = [](const char *option, double value, const char *expected) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.6g", value);
+    throw std::invalid_argument(std::string(option) + " = " + text + ", expected " + expected);
+  };
+  if (!(o.leap_speed >= 0.0) || !std::isfinite(o.leap_speed))
+    fail("--leap", o.leap_speed, "a finite number >= 0");
+  if (o.leap_speed == 0.0) return;
+  if (!(o.leap_calm > 0.0) || !(o.leap_calm < 1e15 * o.parameters.dt))
+    fail("--leap-calm", o.leap_calm, "a positive number, less than 1e15 time steps");
+  if (o.parameters.scheme == Scheme::rk4 || o.parameters.scheme == Scheme::reference)
+    throw std::invalid_argument(std::string("--leap with --scheme ") +
+                                to_string(o.parameters.scheme) +
+                                ", expected the scheme printed, semi-implicit or verlet");
+  if (o.kernel == Kernel::scalar)
+    throw std::invalid_argument("--leap with --kernel scalar, expected the kernel active or dense");
 }
 
 void probe(const std::string &path, const std::string &option) {
@@ -62,6 +82,63 @@ struct Counts {
   std::int64_t dropped_nonpositive = 0, dropped_small = 0;
 };
 
+/// When to leap: a block moves, so that there is nothing to jump over, and none has been fast for a
+/// while. Nothing but the state of the chain decides, looked at in the same steps in any run, so
+/// that one that goes on from a checkpoint leaps where the other did.
+class Leaps {
+ public:
+  Leaps(const RunOptions &o, Chain &chain, RunState &state, Outputs &outputs, RunResult &result)
+      : chain_(chain), state_(state), outputs_(outputs), result_(result), steps_(o.steps) {
+    const double dt = o.parameters.dt;
+    bound_ = o.leap_speed;
+    calm_ = std::max<std::int64_t>(1, std::llround(o.leap_calm / dt));
+    look_ = std::max<std::int64_t>(1, std::llround(1.0 / dt));
+    next_ = bound_ > 0.0 ? 0 : std::numeric_limits<std::int64_t>::max();
+  }
+
+  /// Whether a leap may begin here. \param at_rest also when nothing moves
+  bool due(bool at_rest) {
+    const std::int64_t step = chain_.step();
+    if (step < next_) return false;
+    next_ = (step / look_ + 1) * look_;
+    if (step % look_ != 0) return false;
+    const double v = chain_.fastest();
+    if (v > bound_) state_.calm_since = step;
+    return (v > 0.0 || at_rest) && step - state_.calm_since >= calm_;
+  }
+  /// See Chain::leap(). A leap shorter than the calm that has to follow is worth nothing.
+  bool leap(bool falls, bool rises) {
+    const std::int64_t from = chain_.step();
+    const bool done = chain_.leap(steps_, calm_, bound_, falls, rises);
+    state_.calm_since = chain_.step();
+    if (!done) return false;
+    ++result_.leaps;
+    result_.leapt += chain_.step() - from;
+    for (std::int64_t s = outputs_.next_sample(from); s < chain_.step();
+         s = outputs_.next_sample(s))
+      outputs_.sample(s, chain_.pe_in_leap(s));
+    return true;
+  }
+
+ private:
+  Chain &chain_;
+  RunState &state_;
+  Outputs &outputs_;
+  RunResult &result_;
+  std::int64_t steps_, calm_ = 1, look_ = 1, next_ = 0;
+  double bound_ = 0.0;
+};
+
+/// Chains that cannot leap.
+struct NoLeaps {
+  template <class... Any>
+  explicit NoLeaps(Any &&...) {}
+  bool due(bool) const { return false; }
+  bool leap(bool, bool) const { return false; }
+};
+template <class C>
+using LeapsOf = std::conditional_t<std::is_same_v<C, Chain>, Leaps, NoLeaps>;
+
 /// Events are drops of the PE of the whole chain.
 template <class C>
 class PeRecorder {
@@ -70,7 +147,13 @@ class PeRecorder {
   static constexpr std::int64_t late = 1;
 
   PeRecorder(const RunOptions &o, C &chain, RunState &state, Outputs &outputs, RunResult &result)
-      : o_(o), chain_(chain), state_(state), outputs_(outputs), result_(result), picker_(o.picker) {
+      : o_(o),
+        chain_(chain),
+        state_(state),
+        outputs_(outputs),
+        result_(result),
+        leaps_(o, chain, state, outputs, result),
+        picker_(o.picker) {
     // After so many steps the picker has forgotten what it was started with, to the last digit.
     const double memory = o.picker.reading == LSM::PickerReading::exponential
                               ? 45.0 / std::max(1.0 - o.picker.lambda, 1e-15)
@@ -90,6 +173,7 @@ class PeRecorder {
   void advance(std::int64_t limit) {
     if (!picker_.in_event() && chain_.quiet_until() > chain_.step() + replay_ && jump(limit))
       return;
+    if (leaps_.due(picker_.in_event()) && leap()) return;
     chain_.advance();
     const bool before = picker_.in_event();
     const bool report =
@@ -111,18 +195,35 @@ class PeRecorder {
     const std::int64_t to = std::min(last, outputs_.next_sample(chain_.step()) - 1) - replay_;
     if (!(to > chain_.step() && picker_.rate() >= 0.0 && chain_.quiet_change(chain_.step()) > 0.0))
       return false;
-    LSM::PickerState s = picker_.state();
-    result_.jumped += to - chain_.step();
-    s.samples += to - chain_.step();
+    const std::int64_t from = chain_.step();
+    result_.jumped += to - from;
     chain_.jump(to);
-    s.step = to;
-    s.time = o_.parameters.dt * static_cast<double>(to);
+    gone_on(from);
+    return true;
+  }
+
+  /// PE rises, or within an event falls, from the beginning of a leap to its end.
+  bool leap() {
+    const bool falls = picker_.in_event();
+    const std::int64_t from = chain_.step();
+    if ((picker_.rate() < 0.0) != falls || !leaps_.leap(falls, !falls)) return false;
+    gone_on(from);
+    return true;
+  }
+
+  /// The picker has seen the same change of PE in each step since the given one.
+  void gone_on(std::int64_t from) {
+    LSM::PickerState s = picker_.state();
+    s.samples += chain_.step() - from;
+    s.step = chain_.step();
+    s.time = o_.parameters.dt * static_cast<double>(s.step);
     s.pe = chain_.pe();
     s.rate = chain_.dpe();
     if (o_.picker.reading == LSM::PickerReading::literal)
       s.rate /= 1.0 + o_.picker.lambda * static_cast<double>(s.samples - 2);
+    // A leap to where PE begins or ceases to fall ends up to a step behind; the next step tells.
+    s.rate = s.in_event != 0 ? std::min(s.rate, 0.0) : std::max(s.rate, 0.0);
     picker_.set_state(s);
-    return true;
   }
 
   void open() {
@@ -158,6 +259,7 @@ class PeRecorder {
   RunState &state_;
   Outputs &outputs_;
   RunResult &result_;
+  LeapsOf<C> leaps_;
   LSM::EventPicker picker_;
   LSM::Event event_;
   std::int64_t replay_ = 0;
@@ -174,6 +276,7 @@ class RuptureRecorder {
         state_(state),
         outputs_(outputs),
         result_(result),
+        leaps_(o, chain, state, outputs, result),
         tracker_(o.parameters.blocks, o.rupture_memory, o.x_centroid) {}
 
   /// Steps after its end in which a rupture is found: when its memory is over.
@@ -194,7 +297,12 @@ class RuptureRecorder {
       chain_.jump(to);
       return;
     }
-    chain_.advance(tracker_);
+    if (leaps_.due(false) && leaps_.leap(true, true)) {
+      // What slides in a leap is no rupture, and one that slid before it has ended there.
+      tracker_.begin_step(chain_.step(), chain_.pe());
+    } else {
+      chain_.advance(tracker_);
+    }
     if (!std::isfinite(chain_.dpe()) || !std::isfinite(chain_.pe()))
       throw std::runtime_error("potential energy at step " + std::to_string(chain_.step()) +
                                " is not a finite number");
@@ -227,6 +335,7 @@ class RuptureRecorder {
   RunState &state_;
   Outputs &outputs_;
   RunResult &result_;
+  Leaps leaps_;
   RuptureTracker tracker_;
 };
 
@@ -294,7 +403,8 @@ RunResult run_chain(const RunOptions &o, C &chain) {
       recorder.advance(limit);
       outputs.sample(chain.step(), chain.pe());
     }
-    if (interval > 0 && chain.step() % interval == 0 && chain.step() < o.steps) save();
+    // A leap may go beyond the limit.
+    if (interval > 0 && chain.step() >= limit && chain.step() < o.steps) save();
     const int stopped_by = o.stop ? o.stop->load(std::memory_order_relaxed) : 0;
     if (stopped_by != 0 && chain.step() < o.steps) {
       result.interrupted = stopped_by;

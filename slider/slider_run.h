@@ -38,6 +38,8 @@ struct RunOptions {
   Events events = Events::pe;
   LSM::PickerSettings picker;       ///< for ruptures, only the sizes that are written
   std::int64_t rupture_memory = 1;  ///< steps over which slips are connected, at least 1
+  double leap_speed = 0.0;          ///< leaps while no block is faster; 0: no leaps
+  double leap_calm = 50.0;          ///< time for which none has to be so before a leap
   double warmup = 0.0;              ///< events that start before this time are not written
   Kernel kernel = Kernel::active;
   InstructionSet isa = InstructionSet::automatic;
@@ -61,15 +63,20 @@ struct RunResult {
   std::int64_t events = 0;         ///< in the catalogue
   std::int64_t before_warmup = 0;  ///< picked but too early
   std::int64_t dropped_nonpositive = 0, dropped_small = 0;
-  std::int64_t moved = 0;            ///< block-steps with motion
-  std::int64_t jumped = 0;           ///< quiet steps jumped over
-  double pe = 0.0, pe_direct = 0.0;  ///< by work, and summed over all springs, at the end
+  std::int64_t moved = 0;             ///< block-steps with motion
+  std::int64_t jumped = 0;            ///< quiet steps jumped over
+  std::int64_t leaps = 0, leapt = 0;  ///< number of leaps, steps leapt over
+  double pe = 0.0, pe_direct = 0.0;   ///< by work, and summed over all springs, at the end
   double mean_slip = 0.0, largest_event = 0.0, seconds = 0.0;
   int interrupted = 0;  ///< signal number, or 0
 };
 
 /// \throws std::invalid_argument with one line for ruptures where nobody tells which block slides.
 void check_events(const RunOptions &options);
+
+/// \throws std::invalid_argument with one line for leaps that make no sense, or with a scheme or
+/// kernel that has none.
+void check_leaps(const RunOptions &options);
 
 /// Finds out early whether an output can be written; an empty path is none.
 /// \throws std::runtime_error naming file and option

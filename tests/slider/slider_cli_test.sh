@@ -453,6 +453,71 @@ ruptures)
     fail "the printed scheme survived dt 0.9"
   grep -q "not a finite number" err.txt || fail "message: $(cat err.txt)"
   ;;
+leap)
+  slow=(--blocks 256 --velocity 1e-3 --warmup 0 --seed 3 --time 250000 --leap 1e-3)
+  must_run "${slow[@]}" --catalogue active.csv --json leap.json
+  must_run "${slow[@]}" --catalogue dense.csv --kernel dense --isa x86-64
+  same active.csv dense.csv
+  grep -q '^# leap = 0.001$' active.csv || fail "no leap in the header"
+  grep -q '^# leap_calm = 50$' active.csv || fail "no calm in the header"
+  number() { sed -n "s/^ *\"$1\": \([0-9]*\),*$/\1/p" leap.json; }
+  [ "$(number leaps)" -ge 20 ] || fail "$(number leaps) leaps"
+  [ $((10 * ($(number steps) - $(number steps_jumped) - $(number steps_leapt)))) -lt "$(number steps)" ] ||
+    fail "leaps save too little: $(cat leap.json)"
+  # Off, nothing knows of them.
+  must_run "${short[@]}" --steps 300000 --catalogue none.csv --checkpoint none.chk --json none.json
+  must_run "${short[@]}" --steps 300000 --leap 0 --catalogue off.csv --checkpoint off.chk
+  same none.csv off.csv
+  cmp none.chk off.chk || fail "--leap 0 changes the checkpoint"
+  grep -q leap none.csv none.json && fail "a run without leaps speaks of them"
+  # Other laws and schemes. Under Coulomb friction that falls nothing creeps: the leaps end where a block starts.
+  for way in "--scheme semi-implicit" "--scheme printed --dt 0.01 --velocity 1e-2 --time 25000" "--law coulomb" \
+    "--law coulomb --dynamic-friction 1" "--law slip-weakening" "--law slip-weakening --slip-distance 0.5"; do
+    # shellcheck disable=SC2086
+    must_run "${slow[@]}" $way --catalogue active.csv
+    # shellcheck disable=SC2086
+    must_run "${slow[@]}" $way --catalogue dense.csv --kernel dense
+    [ "$way" = "--law coulomb --dynamic-friction 1" ] && min=0 || min=3
+    same active.csv dense.csv $min
+  done
+  # Killed and resumed again and again; a series with samples within leaps.
+  for events in pe ruptures; do
+    settings=("${slow[@]}" --events $events --min-size 1e-3 --columns centroid,length --pe-stride 700)
+    must_run "${settings[@]}" --catalogue whole.csv --pe-series whole.pe --checkpoint whole.chk
+    must_run "${settings[@]}" --catalogue alone.csv
+    same whole.csv alone.csv
+    rm -f part.csv part.pe part.chk
+    part=("${settings[@]}" --catalogue part.csv --pe-series part.pe --checkpoint part.chk --checkpoint-interval 3001)
+    interrupted=0
+    for round in 1 2 3 4 5 6; do
+      until_checkpoint
+      if [ $((round % 2)) = 0 ]; then
+        kill -TERM $child 2> /dev/null
+      else
+        kill -9 $child 2> /dev/null
+      fi
+      wait $child 2> /dev/null
+      case $? in 137 | 143) interrupted=$((interrupted + 1)) ;; esac
+    done
+    [ $interrupted -ge 1 ] || fail "the run with leaps was never interrupted"
+    must_run "${part[@]}" --resume
+    same whole.csv part.csv
+    cmp whole.pe part.pe || fail "PE series differ"
+    cmp whole.chk part.chk || fail "checkpoints differ"
+    run "${part[@]}" --leap 1e-2 --resume && fail "resumed with other leaps"
+    grep -q "leap = 0.001.*expected.*leap = 0.01" err.txt || fail "message: $(cat err.txt)"
+  done
+  must_run "${slow[@]}" --ensemble 2 --catalogue 'run{run}.csv'
+  must_run "${slow[@]}" --seed 4 --catalogue alone.csv
+  same run2.csv alone.csv 5
+  refused "--leap = -1, expected a finite number >= 0" --leap -1
+  refused "--leap = nan, expected" --leap nan
+  refused "--leap-calm = 0, expected a positive number" --leap 1e-3 --leap-calm 0
+  refused "--leap-calm needs --leap" --leap-calm 10
+  refused "--leap with --scheme rk4, expected" --leap 1e-3 --scheme rk4
+  refused "--leap with --scheme reference, expected" --leap 1e-3 --scheme reference
+  refused "--leap with --kernel scalar, expected the kernel active or dense" --leap 1e-3 --kernel scalar
+  ;;
 *)
   fail "no case $2"
   ;;

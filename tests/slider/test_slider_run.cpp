@@ -53,8 +53,10 @@ TEST(SliderRun, JumpingChangesNoEvent) {
     const std::string a = testing::TempDir() + "slider_jump_a.csv",
                       b = testing::TempDir() + "slider_jump_b.csv";
     o.catalogue = a;
+    o.checkpoint = a + ".chk";
     const RunResult active = run(o);
     o.catalogue = b;
+    o.checkpoint = b + ".chk";
     o.kernel = Kernel::dense;
     const RunResult dense = run(o);
     EXPECT_GT(active.jumped, 100000);
@@ -62,6 +64,9 @@ TEST(SliderRun, JumpingChangesNoEvent) {
     EXPECT_GT(active.events, 20);
     EXPECT_EQ(active.dropped_nonpositive, dense.dropped_nonpositive);
     EXPECT_EQ(text(a), text(b));
+    // The whole state at the end: displacements, velocities, PE, picker.
+    EXPECT_GT(text(a + ".chk").size(), 500U);
+    EXPECT_EQ(text(a + ".chk"), text(b + ".chk"));
   }
 }
 
