@@ -242,7 +242,9 @@ print             "height = $(v_y:%.17g)"
         EXPECT_EQ(by_number.thermo[n].at("c_first"), by_number.thermo[0].at("c_first"));
         if (n > 0 && r.thermo[n].at("c_first") != r.thermo[n - 1].at("c_first")) ++turns;
       }
-      if (newton == std::string("on") && ranks == 1) EXPECT_GE(turns, 4);
+      if (newton == std::string("on") && ranks == 1) {
+        EXPECT_GE(turns, 4);
+      }
     }
 }
 
