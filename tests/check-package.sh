@@ -70,7 +70,7 @@ case $way in
     ! cmp -s "$plugin" other.so || fail "the plugin does not hold its version"
     not_loaded "$stock" ./other.so "compiled for LAMMPS 5 Mar 2019, and this is LAMMPS $version;"
     bits="64, 32 and 32" other="64, 64 and 64"
-    if "$stock" -h | grep -q 'LAMMPS_BIGBIG'; then
+    if grep -q 'LAMMPS_BIGBIG' <<<"$("$stock" -h)"; then
       bits="64, 64 and 64" other="64, 32 and 32"
     fi
     not_loaded "$stock" "$other_integers" "tagint and imageint of $other bits, and this LAMMPS has .* $bits bits;"

@@ -57,13 +57,16 @@ ComputeLSMEvents::ComputeLSMEvents(LAMMPS *_lmp, int narg, char **arg) :
   extscalar = 0;
   extvector = 0;
   size_vector = options.ledger ? NLEDGER : NVECTOR;
-  vector = new double[size_vector];
   settings.name = id;
 
-  recorder =
-      dynamic_cast<FixLSMRecord *>(modify->add_fix(std::string(id) + "_record all LSM_RECORD"));
+  const std::string id_fix = std::string(id) + "_record";
+  if (modify->get_fix_by_id(id_fix))
+    error->all(FLERR, "Compute lsm/events {} needs a fix of the ID {}, which exists already", id,
+               id_fix);
+  recorder = dynamic_cast<FixLSMRecord *>(modify->add_fix(id_fix + " all LSM_RECORD"));
   if (!recorder) error->all(FLERR, "Compute lsm/events could not create fix LSM_RECORD");
   recorder->owner = this;
+  vector = new double[size_vector];    // last: a constructor that stops is not destroyed
 }
 
 /* ---------------------------------------------------------------------- */

@@ -105,7 +105,7 @@ int PairLSMFriction::size_history() const
 
 PairLSMFriction::PairLSMFriction(LAMMPS *_lmp) :
     PairLSMFree(_lmp), law(&laws[0]), running(&laws[0]), coefficient{}, given{}, restored(false),
-    locate_onset(1), fix_dummy(nullptr), fix_history(nullptr)
+    locate_onset(1), of_single{}, fix_dummy(nullptr), fix_history(nullptr)
 {
   centroidstressflag = CENTROID_NOTAVAIL;
   nondefault_history_transfer = 1;
@@ -114,7 +114,7 @@ PairLSMFriction::PairLSMFriction(LAMMPS *_lmp) :
 
   beyond_contact = 1;
   single_extra = 2;
-  svector = new double[2];
+  svector = of_single;
 
   // a second one would take the contact history of the first
 
@@ -134,7 +134,6 @@ PairLSMFriction::PairLSMFriction(LAMMPS *_lmp) :
 
 PairLSMFriction::~PairLSMFriction()
 {
-  delete[] svector;
   if (!fix_history)
     modify->delete_fix("NEIGH_HISTORY_LSM_DUMMY");
   else

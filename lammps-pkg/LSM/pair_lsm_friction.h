@@ -73,6 +73,7 @@ class PairLSMFriction : public PairLSMFree {
   int **given[MAX_PARAMETERS];    // 1 if the parameter was given, else it has another's value
   bool restored;                  // law and coefficients come from a restart file
   int locate_onset;               // 1 if the begin of a contact within a step is located
+  double of_single[2];    // what svector points to: a constructor that stops leaves nothing behind
   class FixDummy *fix_dummy;
   class FixNeighHistory *fix_history;
 

@@ -149,7 +149,7 @@ do_column() {
     plugin)
       local stock
       stock=$(sed -n 's/^LSM_STOCK_LMP:INTERNAL=//p' "$folder/reference/CMakeCache.txt")
-      ! "$stock" -h | grep -q 'lsm/' || { echo "the stock lmp has the styles already"; return 1; }
+      ! grep -q 'lsm/' <<<"$("$stock" -h)" || { echo "the stock lmp has the styles already"; return 1; }
       run_fault plugin "$stock" "$folder/reference/lib/lsmplugin.so"
       fault=$(compare_fault plugin) || ok=1
       row plugin "4 Feb 2025, stock lmp" "$gxx" smallbig "that of the reference" "those of the reference (package.plugin)" "$fault"
@@ -169,7 +169,7 @@ do_column() {
         >>"$folder/installed.configure.log" 2>&1
       cmake --build "$at" --parallel "$jobs" >>"$at.build.log" 2>&1 || { tail -n 30 "$at.build.log"; return 1; }
       ! grep "src/LSM/.*warning:" "$at.build.log" || return 1
-      "$at/lmp" -h | grep -q '\bLSM\b' || { echo "lmp -h does not name the package"; return 1; }
+      grep -q '\bLSM\b' <<<"$("$at/lmp" -h)" || { echo "lmp -h does not name the package"; return 1; }
       run_fault installed "$at/lmp"
       fault=$(compare_fault installed) || ok=1
       row installed "4 Feb 2025, package copied into its tree" "$gxx" smallbig "full link, no warning" "none: LAMMPS' own build" "$fault"

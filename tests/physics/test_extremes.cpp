@@ -367,6 +367,58 @@ TEST_F(Reproducible, SameBytesFromSameRanks) {
   }
 }
 
+TEST_F(Reproducible, LinksAreSummedInTheOrderOfTheirNumbers) {
+  // Particles are sorted in memory as they move, and a run from a restart file begins with those of
+  // the file: forces of many links on a disc and their energy have the same digits in any order.
+  const std::string script = R"(
+variable          sort index 0
+units             lj
+dimension         2
+boundary          f f p
+newton            on
+atom_style        hybrid bond sphere
+atom_modify       map array sort ${sort} 1.5
+comm_modify       mode single cutoff 4.5
+neighbor          0.4 bin
+neigh_modify      delay 0 every 1 check no
+special_bonds     lj/coul 0 1 1
+lattice           hex $(1/(2*sqrt(3)):%.17g)
+region            box block -5 5 -3 3 -0.1 0.1
+create_box        1 box bond/types 1 extra/bond/per/atom 6 extra/special/per/atom 6
+region            blob block -3 2 -2 1 -0.1 0.1
+create_atoms      1 region blob
+set               group all diameter 2
+set               group all mass 1
+bond_style        lsm/linked
+bond_coeff        1 1.0
+pair_style        lsm/free
+pair_coeff        1 1 off
+create_bonds      many all all 1 1.99 2.01
+velocity          all create 0.01 4711 mom yes rot yes
+velocity          all set 0.1 0.1 0 sum yes
+fix               move all lsm/nve
+compute           events all lsm/events
+timestep          0.05
+thermo_style      custom step bonds c_events[5]
+thermo_modify     norm no format float %.17g
+thermo            10
+run               300
+write_dump        all custom order.${sort} id modify sort off
+write_dump        all custom state.${sort} id x y vx vy modify sort id format float %.17g
+)";
+  std::vector<Result> runs;
+  for (const char *sort : {"0", "1"}) {
+    runs.push_back(run_text(script, {{"sort", sort}}));
+    ASSERT_TRUE(succeeded(runs.back()));
+  }
+  EXPECT_GT(runs[0].last("Bonds"), 80.0);
+  EXPECT_FALSE(read_file(path("order.0")) == read_file(path("order.1")));
+  EXPECT_TRUE(read_file(path("state.0")) == read_file(path("state.1")));
+  ASSERT_EQ(runs[0].thermo.size(), runs[1].thermo.size());
+  for (std::size_t n = 0; n < runs[0].thermo.size(); ++n)
+    EXPECT_EQ(runs[0].thermo[n].at("c_events[5]"), runs[1].thermo[n].at("c_events[5]")) << n;
+}
+
 // Fix lsm/nve joins the two half steps that meet between two time steps, unless somebody may look
 // in between.
 TEST_F(Reproducible, OnlookersChangeNothingAndSeeWholeSteps) {

@@ -152,3 +152,60 @@ compute           events all lsm/events ledger yes
       EXPECT_NEAR(r.last("c_events[6]"), 0.5 * 0.1 * 0.1, 1e-4);
     }
 }
+
+TEST_F(BrokenLinks, PartnersOfTheFormerPartnerAreTouched) {
+  // One disc of a bent chain breaks away from the middle one and meets the last, until then the
+  // partner of its partner. With 'lj 0 1 1', without coul, LAMMPS lists partners of partners behind
+  // partners: the last one moves up, but is none. From which of the two the pair is looked at,
+  // follows from the numbers with nsq, and from the places with bins.
+  for (const char *list : {"nsq", "bin"})
+    for (bool reversed : {false, true})
+      for (int ranks : {1, 2}) {
+        SCOPED_TRACE(std::string(list) + (reversed ? ", reversed" : "") + ", ranks " +
+                     std::to_string(ranks));
+        std::vector<std::pair<std::string, std::string>> chain = {
+            {"-1.05", "0"}, {"1.05", "0"}, {"-0.1", "1.9"}};
+        if (reversed) std::swap(chain.front(), chain.back());
+        const std::string loose = reversed ? "3" : "1", last = reversed ? "1" : "3";
+        const Result r = run_text(discs(chain, 2) + R"(
+neighbor          0.4 )" + list + R"(
+special_bonds     lj 0 1 1
+create_bonds      single/bond 1 2 )" + loose +
+                                      R"(
+create_bonds      single/bond 2 2 )" + last +
+                                      R"(
+bond_style        lsm/linked
+bond_coeff        1 1.0 1.02
+bond_coeff        2 1.0
+pair_style        lsm/free
+pair_coeff        1 1 1.0
+group             loose id )" + loose +
+                                      R"(
+group             last id )" + last + R"(
+velocity          loose set 0.02 0.1 0
+timestep          0.05
+fix               move all lsm/nve
+group             middle id 2
+variable          r equal sqrt((xcm(loose,x)-xcm(last,x))^2+(xcm(loose,y)-xcm(last,y))^2)
+variable          s equal sqrt((xcm(loose,x)-xcm(middle,x))^2+(xcm(loose,y)-xcm(middle,y))^2)
+compute           events all lsm/events ledger yes
+thermo_style      custom step bonds v_r v_s c_events[7]
+thermo_modify     norm no format float %.17g
+thermo            10
+run               80
+run               10
+)",
+                                  {}, ranks);
+        ASSERT_TRUE(succeeded(r));
+        EXPECT_EQ(r.last("Bonds"), 1.0);
+        int touching = 0;
+        for (const auto &row : r.thermo) {
+          const double overlap = std::max(0.0, 2.0 - row.at("v_r"));
+          const double other = std::max(0.0, 2.0 - row.at("v_s"));
+          EXPECT_NEAR(row.at("c_events[7]"), 0.5 * (overlap * overlap + other * other), 1e-15);
+          if (overlap > 0.05) ++touching;
+        }
+        EXPECT_GE(touching, 2);
+        EXPECT_TRUE(r.lines_with("kept from touching").empty()) << r.output;
+      }
+}

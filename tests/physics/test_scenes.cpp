@@ -194,40 +194,94 @@ TEST_F(Coulomb, RanksAndNewton) {
 }
 
 TEST_F(Coulomb, ContactsSeenFromTheOtherSide) {
-  // Two discs pressed together obliquely and sheared while both drift across the bins by which
-  // LAMMPS sorts particles, so that their order changes: a contact is the same, whichever of its
-  // discs is listed first.
-  std::vector<Result> runs;
-  for (const char *sort : {"0", "1"})
-    runs.push_back(run_text(discs({{"-0.65", "0.65"}, {"0.65", "-0.65"}}) + R"in(
-atom_modify       sort ${sort} 1.5
+  // Two discs, one beside the other and a little higher, are sheared while both drift upwards
+  // through the bins by which LAMMPS finds pairs. It lists the left one first where both are in one
+  // row of bins, else the lower one: the contact is seen from one side, then from the other. Listed
+  // by number it stays as it is. On two ranks their border goes across the way.
+  auto run = [](const std::string &list, const std::string &newton, int ranks) {
+    return run_text("processors 1 * 1\n" + discs({{"-0.85", "0.45"}, {"0.85", "-0.45"}}) + R"in(
+variable          list index bin
+neighbor          0.4 ${list}
 neigh_modify      delay 0 every 1 check no
 bond_style        lsm/linked
 bond_coeff        1 1.0
 pair_style        lsm/friction
 pair_coeff        1 1 1.0 1.0 0.6
-velocity          all set 0 0.3 0
+velocity          all set 0 0.1 0
 group             upper id 1
 group             lower id 2
-fix               up upper addforce 0.13 -0.09 0
-fix               down lower addforce -0.13 0.09 0
-fix               move all lsm/nve viscosity 0.1
+fix               up upper addforce 0.13 -0.05 0
+fix               down lower addforce -0.13 0.05 0
+fix               move all lsm/nve
+compute           pairs all property/local patom1
+compute           first all reduce max c_pairs inputs local
 timestep          0.05
-thermo_style      custom step ke pe
+thermo_style      custom step ke pe c_first
 thermo_modify     norm no format float %.17g
-thermo            50
+thermo            25
 run               1200
-print             "height = $(y[1]:%.17g)"
+variable          y equal xcm(upper,y)
+print             "height = $(v_y:%.17g)"
 )in",
-                            {{"sort", sort}}));
-  for (const Result &r : runs) ASSERT_TRUE(succeeded(r));
-  EXPECT_GT(runs[0].value("height"), 3.0);  // over two borders of bins
-  EXPECT_NEAR(runs[1].value("height"), runs[0].value("height"), 1e-11);
-  ASSERT_EQ(runs[0].thermo.size(), runs[1].thermo.size());
-  for (std::size_t n = 0; n < runs[0].thermo.size(); ++n) {
-    EXPECT_NEAR(runs[1].thermo[n].at("KinEng"), runs[0].thermo[n].at("KinEng"), 1e-12) << n;
-    EXPECT_NEAR(runs[1].thermo[n].at("PotEng"), runs[0].thermo[n].at("PotEng"), 1e-12) << n;
+                    {{"list", list}, {"newton", newton}}, ranks);
+  };
+  const Result by_number = run("nsq", "on", 1);
+  ASSERT_TRUE(succeeded(by_number));
+  EXPECT_GT(by_number.value("height"), 5.0);  // over several borders of bins
+  for (const char *newton : {"on", "off"})
+    for (int ranks : {1, 2}) {
+      SCOPED_TRACE(std::string("newton ") + newton + ", ranks " + std::to_string(ranks));
+      const Result r = run("bin", newton, ranks);
+      ASSERT_TRUE(succeeded(r));
+      EXPECT_NEAR(r.value("height"), by_number.value("height"), 1e-11);
+      ASSERT_EQ(r.thermo.size(), by_number.thermo.size());
+      int turns = 0;
+      for (std::size_t n = 0; n < r.thermo.size(); ++n) {
+        EXPECT_NEAR(r.thermo[n].at("KinEng"), by_number.thermo[n].at("KinEng"), 1e-12) << n;
+        EXPECT_NEAR(r.thermo[n].at("PotEng"), by_number.thermo[n].at("PotEng"), 1e-12) << n;
+        EXPECT_EQ(by_number.thermo[n].at("c_first"), by_number.thermo[0].at("c_first"));
+        if (n > 0 && r.thermo[n].at("c_first") != r.thermo[n - 1].at("c_first")) ++turns;
+      }
+      if (newton == std::string("on") && ranks == 1) {
+        EXPECT_GE(turns, 4);
+      }
+    }
+}
+
+TEST_F(Coulomb, SpringOfAStickingContactIsSecondOrder) {
+  // A disc moves past another on a straight line, without slip: each step adds the distance across
+  // the line between the centres, in all the integral of c / r with c the cross product of distance
+  // and velocity. While they come closer all the way, an increment taken at the end of a step, or
+  // at its begin, is off by half of what the distance changes in it, always to the same side.
+  const double x = 1.95, y = -0.4, vx = -0.15, vy = 0.05, time = 6.4;
+  const double speed = std::hypot(vx, vy), cross = x * vy - y * vx;
+  const double from = (x * vx + y * vy) / speed, to = from + speed * time;
+  ASSERT_LT(to, 0.0);  // the closest place is not reached
+  const double h = std::fabs(cross) / speed;
+  const double exact = h * (std::asinh(to / h) - std::asinh(from / h));
+  std::vector<double> off;
+  for (double dt : {0.16, 0.08, 0.04}) {
+    const Result r = run_text(discs({{"0", "0"}, {text(x), text(y)}}) + R"in(
+bond_style        lsm/linked
+bond_coeff        1 1.0
+pair_style        lsm/friction
+pair_coeff        1 1 1.0 1.0 1000
+group             moved id 2
+velocity          moved set )in" +
+                              text(vx) + " " + text(vy) + R"in( 0
+fix               hold all setforce 0 0 0
+fix               move all lsm/nve
+compute           events all lsm/events ledger yes
+timestep          )in" + text(dt) +
+                              "\n" + disc_columns + "thermo 1000\nrun " +
+                              text(std::round(time / dt)) + "\n");
+    ASSERT_TRUE(succeeded(r));
+    EXPECT_EQ(r.last("c_events[11]"), 0.0);  // no slip
+    off.push_back(std::sqrt(2.0 * r.last("c_events[8]")) - exact);
   }
+  std::printf("elongation %.6g, off by %.3g %.3g %.3g\n", exact, off[0], off[1], off[2]);
+  EXPECT_LT(std::fabs(off[2]), 1e-5 * exact);
+  EXPECT_NEAR(std::log2(off[0] / off[2]) / 2.0, 2.0, 0.1);
 }
 
 TEST_F(Tension, BreaksAndTurnsIntoContacts) {
@@ -346,4 +400,55 @@ TEST_F(Plates, ImpedanceAddsToThatOfTheBlocks) {
     }
   }
   EXPECT_GT(rest, 0.0);
+}
+
+TEST_F(Plates, WorkOfAStressThatIsRamped) {
+  // Plates without blocks, a disc each, from rest under a force that grows: half the square of the
+  // momentum over the mass is the work. The trapezoidal rule of a step differs from what velocity
+  // Verlet gives the plate by dt^2 (F_end^2 - F_begin^2) / (8 m), which adds up to the last force
+  // alone; with the stress of the begin or the end of a step the work is off by 2 dt / (3 t).
+  const double stress = 1e-3, length = 4.0, ramp = 40.0, masses[] = {2.0, 3.0};
+  for (double dt : {0.4, 0.1}) {
+    const Result r = run_text(R"in(
+units             lj
+dimension         2
+boundary          p f p
+atom_style        sphere
+atom_modify       map array
+region            box block 0 4 -10 10 -0.5 0.5
+create_box        2 box
+create_atoms      1 single 1 -5 0
+create_atoms      2 single 1 5 0
+set               type * diameter 1
+set               type 1 mass 2
+set               type 2 mass 3
+pair_style        lsm/free
+pair_coeff        * * 1
+group             lower type 1
+group             upper type 2
+fix               plates all lsm/plates lower upper stress )in" +
+                              text(stress) + " stressramp " + text(ramp) + R"in(
+compute           events all lsm/events ledger yes
+timestep          )in" + text(dt) +
+                              R"in(
+thermo_style      custom step time f_plates f_plates[9] f_plates[10] c_events[10] c_events[13]
+thermo_modify     norm no format float %.17g
+thermo            )in" + text(std::round(4.0 / dt)) +
+                              "\nrun " + text(std::round(ramp / dt)) + "\n");
+    ASSERT_TRUE(succeeded(r));
+    ASSERT_EQ(r.thermo.size(), 11u);
+    for (std::size_t n = 1; n < r.thermo.size(); ++n) {
+      const auto &row = r.thermo[n];
+      const double t = row.at("Time"), force = stress * length * t / ramp;
+      double kinetic = 0.0, verlet = 0.0;
+      for (double m : masses) {
+        kinetic += 0.5 * std::pow(0.5 * force * t, 2) / m;
+        verlet += dt * dt * force * force / (8.0 * m);
+      }
+      EXPECT_NEAR(row.at("f_plates[10]"), kinetic, 1e-12 * kinetic) << "t = " << t;
+      EXPECT_NEAR(row.at("f_plates"), kinetic - verlet, 1e-12 * kinetic) << "t = " << t;
+      EXPECT_NEAR(row.at("c_events[10]"), row.at("f_plates"), 1e-12 * kinetic) << "t = " << t;
+      EXPECT_NEAR(row.at("c_events[13]"), verlet, 1e-12 * kinetic) << "t = " << t;
+    }
+  }
 }

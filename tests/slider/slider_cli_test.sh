@@ -324,7 +324,7 @@ paper)
     'velocity = 0.01' 'warmup = 0' 'friction_low = 0.5' 'friction_high = 1'; do
     grep -q "^# $line\$" p.csv || fail "--paper does not give '$line'"
   done
-  "$program" --help | grep -q -- '--friction-file' || fail "--help"
+  grep -q -- '--friction-file' <<<"$("$program" --help)" || fail "--help"
   ;;
 overwrite)
   # Without --overwrite nothing that holds something is replaced, and the refusal leaves no file.
