@@ -169,14 +169,14 @@ set xlabel "driving velocity of each plate"
 set key top left Left reverse samplen 1
 set title "Events while the plates move by 36 each"
 set ylabel "number of events" offset 1
-set yrange [0:2100]
+set yrange [0:3000]
 plot "slow-driving.csv" using 1:(yes(7)*36/$3) with points pt 7 lc rgb "#0072B2" title "from 10^{-3}, leaps", "" using 1:(no(7)*36/$3) with points pt 6 lc rgb "#0072B2" title "without leaps", \
   "" using 1:(slower(7)*36/$3) with points pt 2 lc rgb "#0072B2" title "leaps with 10^{-4}", "" using 1:(slower(8)*36/$3) with points pt 2 lc rgb "#D55E00" notitle, "" using 1:(slower(9)*36/$3) with points pt 2 lc rgb "#009E73" notitle, \
   "" using 1:(yes(8)*36/$3) with points pt 5 lc rgb "#D55E00" title "from 10^{-2}", "" using 1:(no(8)*36/$3) with points pt 4 lc rgb "#D55E00" notitle, \
   "" using 1:(yes(9)*36/$3) with points pt 9 lc rgb "#009E73" title "from 10^{-1}", "" using 1:(no(9)*36/$3) with points pt 8 lc rgb "#009E73" notitle
 set title "Exponents"
 set ylabel "exponent, γ" offset 1
-set yrange [0:2.7]
+set yrange [0:3.6]
 plot "slow-driving.csv" using 1:(yes(14)):15 with yerrorbars pt 7 lc rgb "#0072B2" title "sizes 10^{-3} to 1, leaps", "" using 1:(no(14)):15 with yerrorbars pt 6 lc rgb "#0072B2" title "without leaps", \
   "" using 1:(slower(14)):15 with yerrorbars pt 2 lc rgb "#0072B2" title "leaps with 10^{-4}", "" using ($1*1.1):(slower(34)):35 with yerrorbars pt 2 lc rgb "#D55E00" notitle, "" using ($1*0.9):(slower(16)):17 with yerrorbars pt 2 lc rgb "#009E73" notitle, \
   "" using ($1*1.1):(yes(34)):35 with yerrorbars pt 5 lc rgb "#D55E00" title "sizes 10^{-2} to 1", "" using ($1*1.1):(no(34)):35 with yerrorbars pt 4 lc rgb "#D55E00" notitle, \

@@ -112,7 +112,8 @@ awk -F, -v time="$time" '
           d = v[w, s, q] - v[first, s, q]; m++; sum += d; squares += d * d }
         if (!m) { printf ",,"; continue }
         mean = sum / m
-        printf ",%.4f,%s", mean, m > 1 ? sprintf("%.4f", sqrt((squares > m * mean * mean ? squares - m * mean * mean : 0) / (m - 1) / m)) : "" }
+        rest = squares - m * mean * mean
+        printf ",%.4f,%s", mean, (m > 1 ? sprintf("%.4f", sqrt((rest > 0 ? rest : 0) / (m - 1) / m)) : "") }
       printf ",%s,%s,%d\n", ps[w], pt[w], lost[w] } }' runs.csv >catalogues.csv.new && mv catalogues.csv.new catalogues.csv
 
 cat >catalogues.gp <<'END'
@@ -126,21 +127,22 @@ set encoding utf8
 set border lw 1.0 lc rgb "#333333"
 set tics out nomirror
 set grid xtics ytics lt 1 lw 0.5 lc rgb "#d8d8d8"
-set multiplot layout 1,3 margins 0.06,0.985,0.13,0.9 spacing 0.065,0
+set multiplot layout 1,3 margins 0.06,0.985,0.19,0.9 spacing 0.065,0
 set logscale x
 set xrange [most/12.:most*2]
 set xlabel "model time for a core-hour"
 set xtics format "10^{%L}"
-name(n) = sprintf("%s, %s%s%s", strcol(1), strcol(2), strcol(3) eq "step" ? ", step" : "", strcol(4) eq "1" ? "" : ", kt ".strcol(4))
-set title "Number of events from 10^{-3}, share off"
+# rows of the table by number
+row(n) = sprintf("%d", n + 1)
 set key off
-set yrange [-0.15:0.15]
-plot 0 lc rgb "#888888" dt 2, "catalogues.csv" using 6:8:9 every ::1 with yerrorbars pt 7 lc rgb "#0072B2", "" using 6:8:(name(0)) every ::1 with labels offset 0,2.2 font ",14"
+set title "Number of events from 10^{-3}, share off"
+set yrange [-0.1:0.1]
+plot 0 lc rgb "#888888" dt 2, "catalogues.csv" using 6:8:9 every ::1 with yerrorbars pt 7 lc rgb "#0072B2", "" using 6:8:(row($0)) every ::1 with labels offset 1,0.6
 set title "Exponent (10^{-3} to 1), off"
-plot 0 lc rgb "#888888" dt 2, "catalogues.csv" using 6:12:13 every ::1 with yerrorbars pt 5 lc rgb "#D55E00", "" using 6:12:(name(0)) every ::1 with labels offset 0,2.2 font ",14"
+plot 0 lc rgb "#888888" dt 2, "catalogues.csv" using 6:12:13 every ::1 with yerrorbars pt 5 lc rgb "#D55E00", "" using 6:12:(row($0)) every ::1 with labels offset 1,0.6
 set title "γ of the times between events, off"
-set yrange [-0.4:0.4]
-plot 0 lc rgb "#888888" dt 2, "catalogues.csv" using 6:14:15 every ::1 with yerrorbars pt 9 lc rgb "#009E73", "" using 6:14:(name(0)) every ::1 with labels offset 0,2.2 font ",14"
+set yrange [-0.3:0.3]
+plot 0 lc rgb "#888888" dt 2, "catalogues.csv" using 6:14:15 every ::1 with yerrorbars pt 9 lc rgb "#009E73", "" using 6:14:(row($0)) every ::1 with labels offset 1,0.6
 unset multiplot
 set output
 }
