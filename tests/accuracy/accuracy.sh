@@ -3,8 +3,8 @@
 # The accuracy report: tables, work-precision diagrams and a text, all from runs made here.
 # Usage: accuracy.sh full|quick FOLDER SLIDER_PROGRAM FAULT_PROGRAM PHYSICS_TESTS LMP INPUTS SCENES MPIEXEC...
 # full takes some 20 minutes on 2 cores, quick about 3. The report is FOLDER/report.md.
-# LSM_ACCURACY_PARTS="long runs,sums" runs only those parts (slider, single events, friction, waves, long runs, sums,
-# extremes, or text: none) and keeps what is in FOLDER: tables of the other parts, long runs that have ended. The report
+# LSM_ACCURACY_PARTS="long runs,sums" runs only those parts (slider, single events, friction, waves, long runs, leaps,
+# sums, extremes, or text: none) and keeps what is in FOLDER: tables of the other parts, long runs that have ended. The report
 # says what is missing.
 set -euo pipefail
 export LC_ALL=C
@@ -15,7 +15,7 @@ fi
 mode=$1 out=$2 slider=$3 fault=$4 tests=$5 lmp=$6 inputs=$7 scenes=$8
 shift 8
 command -v gnuplot >/dev/null || { echo "accuracy: gnuplot not found (Debian package gnuplot-nox)" >&2; exit 1; }
-fault_parts="single events,friction,waves,long runs,sums"
+fault_parts="single events,friction,waves,long runs,leaps,sums"
 parts=${LSM_ACCURACY_PARTS:-slider,$fault_parts,extremes}
 IFS=, read -ra names <<<"$parts"
 for name in "${names[@]}"; do
@@ -44,6 +44,11 @@ if wanted extremes; then
   }
   { printf "case\toutcome\n"; sed -n "s/^EXTREME\t//p" "$out/work/extremes.txt"; } >"$out/extremes.tsv"
 fi
+
+# Those of catalogues.sh, if they are there
+for suffix in csv png svg; do
+  [ ! -e "$out/../work-precision/catalogues.$suffix" ] || cp "$out/../work-precision/catalogues.$suffix" "$out/fault_catalogues.$suffix"
+done
 
 # ---- diagrams -----------------------------------------------------------------------------------
 # Okabe-Ito colours; each line has its own point type and dash as well.
@@ -312,6 +317,16 @@ $(remarks fault_completeness.csv)
 Readings of the picker on the same series (memory in time units, or the printed lambda per step):
 
 $(markdown fault_picker.csv)
+
+## Fault: catalogues, error against run time
+
+By \`tests/accuracy/catalogues.sh\`, which takes 40 minutes of CPU time and is no part of this report's own runs.
+
+$(remarks fault_catalogues.csv)
+
+![catalogues](fault_catalogues.png)
+
+$(markdown fault_catalogues.csv)
 
 ## Fault: leaps over the loading
 
