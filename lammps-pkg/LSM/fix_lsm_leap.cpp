@@ -106,6 +106,12 @@ void FixLSMLeap::init()
         FLERR,
         "Fix lsm/leap {}: fast is {}, but must be at least the driving velocity {} of fix {}", id,
         fast, fabs(plates->driving_velocity()), plates_id);
+  if (leaps() && slip * fast < 2.0 * fabs(plates->driving_velocity()) && comm->me == 0)
+    error->warning(FLERR,
+                   "Fix lsm/leap {}: slip {} times fast {} is less than twice the driving velocity "
+                   "{}: a fault that only follows its plates ends leaps, and events are cut into "
+                   "pieces; take a larger fast, or no leaps",
+                   id, slip, fast, fabs(plates->driving_velocity()));
   if (modify->get_fix_by_style("^lsm/leap").size() > 1)
     error->all(FLERR, "More than one fix lsm/leap");
 

@@ -159,7 +159,8 @@ do_column() {
       # into a copy of the source; LAMMPS' own CMake builds the program, with warnings shown
       local tree=$folder/installed-lammps at=$folder/installed
       if [ ! -d "$tree" ]; then
-        cp -rL "$LSM_LAMMPS_CACHE/lammps-4Feb2025" "$tree.part"
+        # with its links as they are: one of them, in an example, leads nowhere
+        rm -rf "$tree.part" && mkdir "$tree.part" && cp -a "$LSM_LAMMPS_CACHE/lammps-4Feb2025/." "$tree.part"
         mv "$tree.part" "$tree"
       fi
       "$root/lammps-pkg/install-into-lammps.sh" "$tree" >"$folder/installed.configure.log"

@@ -51,6 +51,21 @@ TEST_F(Leap, WithoutAFasterVelocityNothingChanges) {
   }
 }
 
+// At 1.99 times the slip of the plates a fault that follows them would end leaps.
+TEST_F(Leap, WarnsOfPlatesThatAreHardlyFaster) {
+  for (const auto &[settings, warns] : {std::pair{"fast 0.00199", 1u},
+                                        {"fast 0.002", 0u},
+                                        {"fast 0.001 slip 0.99", 1u},
+                                        {"fast 0.001 slip 1", 0u},
+                                        {"fast 0.0005", 0u}}) {
+    const Result r =
+        run_text(slow(std::string("fix leap all lsm/leap plates ") + settings + "\n") + "run 0\n",
+                 {{"prefix", "hardly"}, {"dt", "0.03"}});
+    ASSERT_TRUE(succeeded(r));
+    EXPECT_EQ(r.lines_with("less than twice the driving velocity").size(), warns) << settings;
+  }
+}
+
 TEST_F(Leap, PlatesMayMoveTheOtherWay) {
   const Result r =
       run_text(slow("fix leap all lsm/leap plates fast 0.005 calm 3 settle 0.1 ramp 6 look 0.6\n",
