@@ -105,7 +105,7 @@ int PairLSMFriction::size_history() const
 
 PairLSMFriction::PairLSMFriction(LAMMPS *_lmp) :
     PairLSMFree(_lmp), law(&laws[0]), running(&laws[0]), coefficient{}, given{}, restored(false),
-    locate_onset(1), of_single{}, fix_dummy(nullptr), fix_history(nullptr)
+    locate_onset(1), of_single{}, builds(-1), fix_dummy(nullptr), fix_history(nullptr)
 {
   centroidstressflag = CENTROID_NOTAVAIL;
   nondefault_history_transfer = 1;
@@ -147,9 +147,22 @@ void PairLSMFriction::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
   if (screened) check_special();
+  if (neighbor->ncalls != builds) find_neighbors();
   (this->*(evflag        ? running->loop_tally
            : record_what ? running->loop_energies
                          : running->loop_nothing))();
+}
+
+/* ----------------------------------------------------------------------
+   in the order of the list, so that sums stay what they are
+------------------------------------------------------------------------- */
+
+void PairLSMFriction::find_neighbors()
+{
+  builds = neighbor->ncalls;
+  with_neighbors.clear();
+  for (int ii = 0; ii < list->inum; ii++)
+    if (list->numneigh[list->ilist[ii]]) with_neighbors.push_back(list->ilist[ii]);
 }
 
 /* ----------------------------------------------------------------------
@@ -195,8 +208,7 @@ template <class Law, class Recorder> void PairLSMFriction::loop()
   const double rounding = 16.0 * std::numeric_limits<double>::epsilon() * farthest;
   Recorder recorder(*this, setup, domain->boxlo[0], domain->prd[0]);
 
-  for (int ii = 0; ii < list->inum; ii++) {
-    const int i = list->ilist[ii];
+  for (const int i : with_neighbors) {
     const int *jlist = list->firstneigh[i];
     const int jnum = list->numneigh[i];
     int *touch = firsttouch[i];
@@ -499,6 +511,7 @@ void PairLSMFriction::init_style()
         "Pair style lsm/friction does not work with fix numdiff, as friction depends on the path");
 
   running = law;    // see init_one()
+  builds = -1;      // the lists may be others, and their builds are counted anew
   PairLSMFree::init_style();
 
   // the history of a pair is found by the IDs of its particles

@@ -15,6 +15,8 @@ PairStyle(lsm/friction,PairLSMFriction);
 
 #include "pair_lsm_free.h"
 
+#include <vector>
+
 #include <string>
 
 namespace LSM {
@@ -74,6 +76,9 @@ class PairLSMFriction : public PairLSMFree {
   bool restored;                  // law and coefficients come from a restart file
   int locate_onset;               // 1 if the begin of a contact within a step is located
   double of_single[2];    // what svector points to: a constructor that stops leaves nothing behind
+  std::vector<int>
+      with_neighbors;    // particles of the list that have any: few, as most lie inside a block
+  int builds;            // of the neighbor lists when these were looked for
   class FixDummy *fix_dummy;
   class FixNeighHistory *fix_history;
 
@@ -86,6 +91,7 @@ class PairLSMFriction : public PairLSMFree {
   void destroy_coefficients();
   void check(int, double, const double *, const std::string &) const;
   int size_history() const;
+  void find_neighbors();
 };
 
 }    // namespace LAMMPS_NS
