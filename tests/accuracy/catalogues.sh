@@ -67,7 +67,6 @@ to=$(awk -v t="$time" 'BEGIN { printf "%.10g", 1200 + t }')
 # shellcheck disable=SC2016
 named='/^[^#]/ && !head { head = 1; for (i = 1; i <= NF; i++) c[$i] = i; next } /^#/ { next }'
 echo "dt,massfloor,onset,kt,seed,cpu_s,events_1e-4,events_1e-3,events_1e-2,events_1e-1,largest,released,exponent,exponent_error,gamma,gamma_error,p_size,p_time,bursts" >runs.csv
-first=
 while read -r dt floor onset kt; do
   for seed in $seeds; do
     folder=${dt}_${floor}_${onset}_$kt/seed_$seed
@@ -91,8 +90,7 @@ while read -r dt floor onset kt; do
   done
 done <<<"$ways"
 
-# Means over the packings, each beside the same packing of the first way; the error is that of the mean of these differences, or,
-# where events are nearly the same, so that packings differ by less, nothing smaller than it.
+# Means over the packings, each beside the same packing of the first way; the error is that of the mean of these differences.
 awk -F, -v time="$time" '
   NR == 1 { next }
   { w = $1 "," $2 "," $3 "," $4

@@ -37,6 +37,22 @@ until_checkpoint() {
   done
 }
 
+# interrupt_often N: starts the part N times, killed by turns by KILL and TERM
+interrupt_often() {
+  local round interrupted=0
+  for ((round = 1; round <= $1; ++round)); do
+    until_checkpoint
+    if [ $((round % 2)) = 0 ]; then
+      kill -TERM $child 2> /dev/null
+    else
+      kill -9 $child 2> /dev/null
+    fi
+    wait $child 2> /dev/null
+    case $? in 137 | 143) interrupted=$((interrupted + 1)) ;; esac
+  done
+  [ $interrupted -ge 1 ] || fail "the run was never interrupted"
+}
+
 short=(--blocks 100 --dt 0.05 --velocity 0.05 --warmup 0 --seed 3)
 
 case $2 in
@@ -416,18 +432,7 @@ ruptures)
   must_run "${settings[@]}" --catalogue whole.csv --pe-series whole.pe --checkpoint whole.chk
   part=("${settings[@]}" --catalogue part.csv --pe-series part.pe --checkpoint part.chk
         --checkpoint-interval 20011)
-  interrupted=0
-  for round in 1 2 3 4 5; do
-    until_checkpoint
-    if [ $((round % 2)) = 0 ]; then
-      kill -TERM $child 2> /dev/null
-    else
-      kill -9 $child 2> /dev/null
-    fi
-    wait $child 2> /dev/null
-    case $? in 137 | 143) interrupted=$((interrupted + 1)) ;; esac
-  done
-  [ $interrupted -ge 1 ] || fail "the run was never interrupted"
+  interrupt_often 5
   must_run "${part[@]}" --resume
   same whole.csv part.csv 1000
   cmp whole.pe part.pe || fail "PE series differ"
@@ -488,18 +493,7 @@ leap)
     same whole.csv alone.csv
     rm -f part.csv part.pe part.chk
     part=("${settings[@]}" --catalogue part.csv --pe-series part.pe --checkpoint part.chk --checkpoint-interval 3001)
-    interrupted=0
-    for round in 1 2 3 4 5 6; do
-      until_checkpoint
-      if [ $((round % 2)) = 0 ]; then
-        kill -TERM $child 2> /dev/null
-      else
-        kill -9 $child 2> /dev/null
-      fi
-      wait $child 2> /dev/null
-      case $? in 137 | 143) interrupted=$((interrupted + 1)) ;; esac
-    done
-    [ $interrupted -ge 1 ] || fail "the run with leaps was never interrupted"
+    interrupt_often 6
     must_run "${part[@]}" --resume
     same whole.csv part.csv
     cmp whole.pe part.pe || fail "PE series differ"
