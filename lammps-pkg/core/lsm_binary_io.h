@@ -9,12 +9,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
-#include <istream>
 #include <string>
 #include <string_view>
-#include <system_error>
-#include <utility>
 
 #include "lsm_text_io.h"
 
@@ -64,17 +60,6 @@ inline float float_from_bytes(const char *bytes) {
   return value;
 }
 
-/// Adds one "# key = value" line to the list; returns what is wrong, or "".
-inline std::string add_parameter(std::string_view line, text_io::Parameters &all) {
-  std::pair<std::string, std::string> parameter;
-  if (!text_io::parse_parameter(line, parameter))
-    return "header line " + text_io::in_quotes(line) + ", expected '# key = value'";
-  if (text_io::find(all, parameter.first))
-    return "parameter " + text_io::in_quotes(parameter.first) + " given twice, expected once";
-  all.push_back(std::move(parameter));
-  return {};
-}
-
 /// The beginning of a file: `magic` of 16 bytes and the header.
 inline std::string header_bytes(std::string_view magic, const text_io::Parameters &parameters) {
   std::string text(magic);
@@ -90,33 +75,33 @@ struct Header {
   std::int64_t size = 0;   ///< of the whole file
 };
 
-/// Reads the header of a file whose first 16 bytes were read. The stream continues right behind it.
+/// Reads the header of a file whose first 16 bytes were read. What comes next is behind it.
 /// \throws Error naming the file
 template <class Error>
-Header read_header(std::istream &in, const std::string &path) {
+Header read_header(text_io::Bytes &in) {
+  const std::string &path = in.path();
   std::array<char, 8> bytes{};
-  in.read(bytes.data(), bytes.size());
-  const std::int64_t length = step_from_bytes(bytes.data());
-  std::error_code code;
   Header header;
-  header.size = static_cast<std::int64_t>(std::filesystem::file_size(path, code));
-  if (code) throw Error(path + ": cannot read: " + code.message());
-  if (!in || length < 0 || length > longest_header || 16 + 8 + length > header.size)
+  const bool whole = in.read(bytes.data(), bytes.size()) == bytes.size();
+  const std::int64_t length = step_from_bytes(bytes.data());
+  header.size = in.size();
+  if (!whole || length < 0 || length > longest_header || 16 + 8 + length > header.size)
     throw Error(path + ": file ends within the binary header, expected its length and " +
                 "'# key = value' lines");
   header.begin = 16 + 8 + length;
   std::string text(static_cast<std::size_t>(length), '\0');
-  in.read(text.data(), length);
-  if (!in) throw Error(path + ": cannot read the binary header");
+  if (in.read(text.data(), text.size()) != text.size())
+    throw Error(path + ": cannot read the binary header");
   std::string_view rest = text;
-  std::string problem;
-  for (std::int64_t number = 1; !rest.empty() && problem.empty(); ++number) {
+  text_io::ParameterList parameters;
+  for (std::int64_t number = 1; !rest.empty(); ++number) {
     const std::size_t end = rest.find('\n');
-    problem = add_parameter(rest.substr(0, end), header.parameters);
-    if (!problem.empty()) problem = "header line " + std::to_string(number) + ": " + problem;
+    const std::string problem = parameters.add_line(rest.substr(0, end));
+    if (!problem.empty())
+      throw Error(path + ": header line " + std::to_string(number) + ": " + problem);
     rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
   }
-  if (!problem.empty()) throw Error(path + ": " + problem);
+  header.parameters = parameters.all();
   return header;
 }
 

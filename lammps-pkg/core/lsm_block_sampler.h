@@ -5,6 +5,7 @@
 #ifndef LSM_BLOCK_SAMPLER_H
 #define LSM_BLOCK_SAMPLER_H
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -42,11 +43,11 @@ class BlockSampler {
       block->pe.reserve(static_cast<std::size_t>(steps));
   }
 
-  /// Slip in the step whose PE comes next.
-  void add_slip(const std::vector<BinSlip> &slips) {
-    for (const BinSlip &s : slips)
-      filling_.slip.insert(filling_.slip.end(),
-                           {static_cast<double>(filling_.count), s.bin, s.moment});
+  /// Slip in the step whose PE comes next, in bins of that width.
+  void add_slip(const std::vector<ContactSlip> &slips, double bin_width) {
+    for (const ContactSlip &s : slips)
+      filling_.slip.insert(filling_.slip.end(), {static_cast<double>(filling_.count),
+                                                 std::floor(s.along / bin_width), s.moment});
   }
   /// An interval that ends with the step whose PE comes next.
   void add_interval(const std::vector<double> &sums) {

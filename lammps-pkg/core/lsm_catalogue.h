@@ -201,8 +201,9 @@ inline void check_info(const CatalogueInfo &info) {
 class CatalogueReader {
  public:
   /// \throws CatalogueError if the header cannot be read.
-  explicit CatalogueReader(const std::string &path, bool lenient = false)
-      : CatalogueReader(path, lenient, false) {}
+  explicit CatalogueReader(const std::string &path, bool lenient = false,
+                           text_io::OpenBytes open = text_io::open_plain)
+      : CatalogueReader(path, lenient, open, false) {}
 
   const CatalogueInfo &info() const { return info_; }
 
@@ -258,8 +259,8 @@ class CatalogueReader {
   enum Kind : std::size_t { header, truncated, columns, number, order };
   static constexpr std::size_t kinds = 5;
 
-  CatalogueReader(const std::string &path, bool lenient, bool resuming)
-      : reader_(path), lenient_(lenient), resuming_(resuming) {
+  CatalogueReader(const std::string &path, bool lenient, text_io::OpenBytes open, bool resuming)
+      : reader_(path, open), lenient_(lenient), resuming_(resuming) {
     read_header();
   }
 
@@ -280,11 +281,13 @@ class CatalogueReader {
                      ", expected version 1");
       reader_.fail("not a catalogue, expected '" + std::string(first_line) + "'");
     }
+    text_io::ParameterList parameters;
     while (reader_.next(line_)) {
       if (!line_.empty() && line_.front() == '#') {
-        read_parameter();
+        read_parameter(parameters);
         continue;
       }
+      info_.parameters = parameters.all();
       read_columns();
       if (info_.model.empty())
         reader_.fail(
@@ -296,7 +299,7 @@ class CatalogueReader {
                          column_line(CatalogueInfo()) + "'");
   }
 
-  void read_parameter() {
+  void read_parameter(text_io::ParameterList &parameters) {
     std::pair<std::string, std::string> parameter;
     if (!text_io::parse_parameter(line_, parameter)) {
       report(header, "header line " + text_io::in_quotes(line_) + ", expected '# key = value'");
@@ -309,17 +312,12 @@ class CatalogueReader {
       info_.model = parameter.second;
       return;
     }
-    if (parameter.first == "model" || info_.find(parameter.first)) {
-      report(header,
-             "parameter " + text_io::in_quotes(parameter.first) + " given twice, expected once");
-      return;
-    }
-    const std::string problem = catalogue_detail::bad_value(parameter.first, parameter.second);
-    if (!problem.empty()) {
-      report(header, problem);
-      return;
-    }
-    info_.parameters.push_back(std::move(parameter));
+    std::string problem = catalogue_detail::bad_value(parameter.first, parameter.second);
+    if (parameter.first == "model")
+      problem = "parameter 'model' given twice, expected once";
+    else if (problem.empty())
+      problem = parameters.add(std::move(parameter));
+    if (!problem.empty()) report(header, problem);
   }
 
   void read_columns() {
@@ -466,7 +464,7 @@ class CatalogueWriter {
                 const std::vector<std::string> &ignore = {}, std::int64_t expected = -1) {
     catalogue_detail::check_info(info);
     file_.close();
-    CatalogueReader reader(path, false, true);
+    CatalogueReader reader(path, false, text_io::open_plain, true);
     const CatalogueInfo &found = reader.info();
     std::string problem;
     if (found.model != info.model)
@@ -488,6 +486,8 @@ class CatalogueWriter {
       ++kept;
       length = reader.reader_.end();
     }
+    if (reader.reader_.foreign())
+      throw CatalogueError(path + ": cannot resume: " + std::string(text_io::foreign_lines));
     if (expected >= 0 && kept != expected)
       throw CatalogueError(path + ": cannot resume: " + std::to_string(kept) +
                            " events up to the checkpoint, expected " + std::to_string(expected));

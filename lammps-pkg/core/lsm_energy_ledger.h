@@ -19,10 +19,14 @@ struct EnergyTerms {
   double broken = 0.0;      ///< lost with links that broke
   double plates = 0.0;      ///< done by the plates
   double counted_pe = 0.0;  ///< what counts as PE
+  double outside = 0.0;     ///< done by given forces
+  double absorbed = 0.0;    ///< lost to borders that absorb waves
 
-  double balance() const { return kinetic + potential + friction + viscosity + broken - plates; }
+  double balance() const {
+    return kinetic + potential + friction + viscosity + broken + absorbed - plates - outside;
+  }
   /// What an error is compared with.
-  double scale() const { return friction + viscosity + kinetic + std::fabs(counted_pe); }
+  double scale() const { return friction + viscosity + absorbed + kinetic + std::fabs(counted_pe); }
 };
 
 /// Whether a change is more than that of the same energy computed from positions that were rounded

@@ -170,6 +170,7 @@ inline SlipHistoryInfo history_header(const EventSettings &settings, const Scene
   info.parameters = event_settings_detail::without(
       catalogue_header(settings, scene, true, grid.width).parameters,
       {"dt", "slip_velocity", "interval", "gap", "modulus", "driving", "slip_bin", "events"});
+  if (!grid.ring) info.parameters.emplace_back("ends", "open");
   return info;
 }
 

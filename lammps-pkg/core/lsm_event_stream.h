@@ -20,6 +20,7 @@
 
 #include "lsm_block_sampler.h"
 #include "lsm_event_settings.h"
+#include "lsm_output_claim.h"
 #include "lsm_slip_recorder.h"
 
 namespace LSM {
@@ -141,47 +142,20 @@ class EventStream {
   }
 
   /// Begins the files, or goes on with them: what is in the way is found before the first one is
-  /// touched. from_restart: set_state() was called; clock: for the series.
-  /// \throws EventStreamError or what the writers throw
+  /// touched. from_restart: set_state() was called; clock: for the series; others: files that
+  /// something else writes. \throws EventStreamError or what the writers throw
   void begin_files(std::int64_t step, bool from_restart, const SceneInfo &scene,
-                   const StepClock &clock) {
-    check_files(from_restart);
-    const bool catalogue_goes_on = goes_on(settings_.catalogue_file);
-    const bool series_goes_on = goes_on(settings_.series_file);
-    const std::vector<std::string> free_to_change = {"program", "ranks", "links"};
-    const CatalogueInfo catalogue_info =
-        catalogue_header(settings_, scene, settings_.ruptures, grid_.width);
-    PeSeriesInfo series_info;
-    if (!settings_.catalogue_file.empty()) {
-      catalogue_ = std::make_unique<CatalogueWriter>();
-      if (catalogue_goes_on)
-        catalogue_->find_cut(settings_.catalogue_file, catalogue_info, last_known_end(step),
-                             free_to_change, counts().events);
+                   const StepClock &clock, const std::vector<Output> &others = {}) {
+    claim_.claim({{"catalogue", settings_.catalogue_file},
+                  {"series", settings_.series_file},
+                  {"history", settings_.history_file}},
+                 others);
+    try {
+      open_files(step, from_restart, scene, clock);
+    } catch (...) {
+      claim_.release();
+      throw;
     }
-    if (!settings_.series_file.empty()) {
-      series_info = series_header(settings_, scene, clock);
-      series_ = std::make_unique<PeSeriesWriter>();
-      if (series_goes_on)
-        series_->find_cut(settings_.series_file, series_info, settings_.series_binary, step,
-                          free_to_change);
-    }
-    if (!settings_.history_file.empty()) {
-      history_info_ = history_header(settings_, scene, grid_);
-      history_ = std::make_unique<SlipHistoryWriter>();
-      if (goes_on(settings_.history_file))
-        history_->resume(settings_.history_file, history_info_, saved_history_, free_to_change);
-    }
-
-    // All fit.
-    if (catalogue_)
-      catalogue_goes_on ? static_cast<void>(catalogue_->cut())
-                        : catalogue_->create(settings_.catalogue_file, catalogue_info);
-    if (series_)
-      series_goes_on ? static_cast<void>(series_->cut())
-                     : series_->create(settings_.series_file, series_info, settings_.series_binary);
-    if (history_ && !history_->is_open() && ruptures_go_on_)
-      history_->create(settings_.history_file, history_info_, interval_end(finder_->intervals()),
-                       finder_->pe(), finder_->stress());
   }
 
   /// The fault before its first interval, with the sums of its contacts over the ranks.
@@ -208,6 +182,11 @@ class EventStream {
       add_interval(step, pe, sums, time_of);
       sums += FaultSums::fields * static_cast<std::size_t>(grid_.bins);
     }
+  }
+
+  /// Writes open ruptures with the end that they have by now; nothing may be added afterwards.
+  void write_unfinished() {
+    if (finder_) finder_->each_open_as_ended([this](const Event &rupture) { finish(rupture); });
   }
 
   /// Hands all samples so far to the system.
@@ -288,6 +267,47 @@ class EventStream {
     }
   }
 
+  void open_files(std::int64_t step, bool from_restart, const SceneInfo &scene,
+                  const StepClock &clock) {
+    check_files(from_restart);
+    const bool catalogue_goes_on = goes_on(settings_.catalogue_file);
+    const bool series_goes_on = goes_on(settings_.series_file);
+    const std::vector<std::string> free_to_change = {"program", "ranks", "links"};
+    const CatalogueInfo catalogue_info =
+        catalogue_header(settings_, scene, settings_.ruptures, grid_.width);
+    PeSeriesInfo series_info;
+    if (!settings_.catalogue_file.empty()) {
+      catalogue_ = std::make_unique<CatalogueWriter>();
+      if (catalogue_goes_on)
+        catalogue_->find_cut(settings_.catalogue_file, catalogue_info, last_known_end(step),
+                             free_to_change, counts().events);
+    }
+    if (!settings_.series_file.empty()) {
+      series_info = series_header(settings_, scene, clock);
+      series_ = std::make_unique<PeSeriesWriter>();
+      if (series_goes_on)
+        series_->find_cut(settings_.series_file, series_info, settings_.series_binary, step,
+                          free_to_change);
+    }
+    if (!settings_.history_file.empty()) {
+      history_info_ = history_header(settings_, scene, grid_);
+      history_ = std::make_unique<SlipHistoryWriter>();
+      if (goes_on(settings_.history_file))
+        history_->resume(settings_.history_file, history_info_, saved_history_, free_to_change);
+    }
+
+    // All fit.
+    if (catalogue_)
+      catalogue_goes_on ? static_cast<void>(catalogue_->cut())
+                        : catalogue_->create(settings_.catalogue_file, catalogue_info);
+    if (series_)
+      series_goes_on ? static_cast<void>(series_->cut())
+                     : series_->create(settings_.series_file, series_info, settings_.series_binary);
+    if (history_ && !history_->is_open() && ruptures_go_on_)
+      history_->create(settings_.history_file, history_info_, interval_end(finder_->intervals()),
+                       finder_->pe(), finder_->stress());
+  }
+
   void add_sample(std::int64_t step, double time, double pe, const std::vector<BinSlip> *slips,
                   double x0, double length) {
     if (!std::isfinite(pe)) {
@@ -346,6 +366,7 @@ class EventStream {
   bool ruptures_go_on_ = false;
   std::vector<double> saved_history_;
 
+  OutputClaim claim_;  // outlives the writers
   std::unique_ptr<CatalogueWriter> catalogue_;
   std::unique_ptr<PeSeriesWriter> series_;
   std::unique_ptr<SlipHistoryWriter> history_;

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <cstdint>
 #include <sstream>
 #include <stdexcept>
@@ -571,32 +572,47 @@ inline void look_for_loose(const PackingSettings &s, Packing &result) {
   result.links.swap(left);
 }
 
-inline void measure(const PackingSettings &s, Packing &result) {
-  double area = 0.0;
-  bool first = true;
-  struct Tensor {
-    double xx = 0.0, xy = 0.0, yy = 0.0;
-  };
-  std::vector<Tensor> held(result.discs.size());
-  for (const auto &l : result.links) {
+/// Sum of n n^T over the links of a disc (n: direction of the link).
+struct Support {
+  double xx = 0.0, xy = 0.0, yy = 0.0;
+  int links = 0;
+
+  double mean() const { return 0.5 * (xx + yy); }
+  double apart() const {
+    const double half = 0.5 * (xx - yy);
+    return std::sqrt(half * half + xy * xy);
+  }
+  double softest() const { return std::max(0.0, mean() - apart()); }
+  double stiffest() const { return mean() + apart(); }
+};
+
+inline std::vector<Support> supports(double length, const Packing &packing) {
+  std::vector<Support> held(packing.discs.size());
+  for (const auto &l : packing.links) {
     const auto i = static_cast<std::size_t>(l.first), j = static_cast<std::size_t>(l.second);
-    const auto [ex, ey] = link_vector(s.length, result.discs[i], result.discs[j]);
+    const auto [ex, ey] = link_vector(length, packing.discs[i], packing.discs[j]);
     const double d2 = ex * ex + ey * ey;
     for (const std::size_t k : {i, j}) {
       held[k].xx += ex * ex / d2;
       held[k].xy += ex * ey / d2;
       held[k].yy += ey * ey / d2;
+      ++held[k].links;
     }
   }
+  return held;
+}
+
+inline void measure(const PackingSettings &s, Packing &result) {
+  double area = 0.0;
+  bool first = true;
+  const std::vector<Support> held = supports(s.length, result);
   for (std::size_t i = 0; i < result.discs.size(); ++i) {
     const Disc &d = result.discs[i];
     area += d.r * d.r;
     result.rmin_found = i == 0 ? d.r : std::min(result.rmin_found, d.r);
     if (fault_gap(s, d) < s.link_gap) ++result.fault_tangent[d.block];
     if (d.plate) continue;
-    const Tensor &t = held[i];
-    const double mean = 0.5 * (t.xx + t.yy), half = 0.5 * (t.xx - t.yy);
-    const double softest = std::max(0.0, mean - std::sqrt(half * half + t.xy * t.xy));
+    const double softest = held[i].softest();
     result.weakest = first ? softest : std::min(result.weakest, softest);
     first = false;
   }
@@ -680,6 +696,36 @@ inline double frequency_bound(const Packing &packing, double length,
     largest = std::max(largest, sum);
   }
   return std::sqrt(largest);
+}
+
+/// Discs of radius r that fit around one of radius `radius` at most, 0 < r: as many as leave room
+/// for each other, with overlaps of a tenth of r allowed.
+inline int most_neighbours(double radius, double r) {
+  const double least = 0.9 * r;
+  return static_cast<int>(3.14159265358979323846 / std::asin(least / (radius + least)));
+}
+
+/// Masses that are enough for a time step whatever contacts the discs get.
+///
+/// With S the stiffness that a disc feels while all others rest, u^T K u <= 2 sum of u_i^T S_i u_i
+/// for any network of springs, so that velocity Verlet is stable where m_i >= dt^2 s_i / 2 for all
+/// i, s the largest eigenvalue of S. That of the links is known; each further neighbour for which
+/// there is room adds at most the larger of the normal and tangential stiffness of a contact.
+/// @param stiffness of links and contacts
+/// @param kt        tangential stiffness of contacts
+inline std::vector<double> masses_for_step(const Packing &packing, double length, double dt,
+                                           double stiffness, double kt) {
+  const std::vector<packing_detail::Support> held = packing_detail::supports(length, packing);
+  double least = std::numeric_limits<double>::infinity();
+  for (const Disc &d : packing.discs) least = std::min(least, d.r);
+  std::vector<double> masses;
+  for (std::size_t i = 0; i < packing.discs.size(); ++i) {
+    const int room = most_neighbours(packing.discs[i].r, least) - held[i].links;
+    const double felt =
+        stiffness * held[i].stiffest() + std::max(0, room) * std::max(stiffness, kt);
+    masses.push_back(0.5 * dt * dt * felt);
+  }
+  return masses;
 }
 
 }  // namespace LSM

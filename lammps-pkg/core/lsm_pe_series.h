@@ -23,7 +23,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <fstream>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -70,7 +69,6 @@ constexpr std::string_view binary_magic = "lsm-pe-series-1\n";
 constexpr std::string_view binary_family = "lsm-pe-series-";
 constexpr std::string_view times_key = "times", own_times = "own";
 inline std::int64_t record_bytes(const PeSeriesInfo &info) { return info.own_times ? 24 : 16; }
-using binary_io::add_parameter;
 using binary_io::append_bytes;
 using binary_io::double_from_bytes;
 using binary_io::step_from_bytes;
@@ -145,35 +143,22 @@ class PeSeriesReader {
  public:
   PeSeriesReader() = default;
   /// \throws PeSeriesError
-  explicit PeSeriesReader(const std::string &path, bool lenient = false) { open(path, lenient); }
-
-  /// \throws PeSeriesError if the file cannot be read or its header is not as it should be.
-  void open(const std::string &path, bool lenient = false) {
-    using namespace pe_series_detail;
-    open_ = false;
-    lenient_ = lenient;
-    torn_ = has_last_ = false;
-    path_ = path;
-    records_ = used_ = filled_ = 0;
-    lines_ = std::make_unique<text_io::LineReader<PeSeriesError>>(path);
-    in_ = std::ifstream(path, std::ios::in | std::ios::binary);
-    std::array<char, 16> start{};
-    in_.read(start.data(), start.size());
-    const std::string_view magic(start.data(), static_cast<std::size_t>(in_.gcount()));
-    if (magic.empty())
-      throw PeSeriesError(text_io::where(path, 1) + "empty file, expected '" +
-                          std::string(first_line) + "' or a binary PE series");
-    binary_ = magic.substr(0, binary_family.size()) == binary_family;
-    if (binary_) {
-      lines_.reset();
-      open_binary(magic);
-    } else {
-      in_.close();
-      open_text();
-    }
-    open_ = true;
+  explicit PeSeriesReader(const std::string &path, bool lenient = false,
+                          text_io::OpenBytes opener = text_io::open_plain) {
+    open(path, lenient, opener);
   }
 
+  /// \throws PeSeriesError if the file cannot be read or its header is not as it should be.
+  void open(const std::string &path, bool lenient = false,
+            text_io::OpenBytes opener = text_io::open_plain) {
+    try {
+      open(opener(path), lenient);
+    } catch (const PeSeriesError &) {
+      throw;
+    } catch (const FileError &error) {
+      throw PeSeriesError(error.what());
+    }
+  }
   const PeSeriesInfo &info() const { return info_; }
   const std::string &path() const { return path_; }
   /// A truncated last sample was dropped (lenient); known once next() has returned false.
@@ -190,6 +175,27 @@ class PeSeriesReader {
  private:
   friend class PeSeriesWriter;
 
+  void open(std::unique_ptr<text_io::Bytes> bytes, bool lenient) {
+    using namespace pe_series_detail;
+    open_ = false;
+    lenient_ = lenient;
+    torn_ = has_last_ = false;
+    path_ = bytes->path();
+    records_ = used_ = filled_ = 0;
+    const std::string_view begin = bytes->peek(binary_magic.size());
+    if (begin.empty())
+      throw PeSeriesError(text_io::where(path_, 1) + "empty file, expected '" +
+                          std::string(first_line) + "' or a binary PE series");
+    binary_ = begin.substr(0, binary_family.size()) == binary_family;
+    if (binary_) {
+      open_binary(std::move(bytes));
+    } else {
+      lines_ = std::make_unique<text_io::LineReader<PeSeriesError>>(std::move(bytes));
+      open_text();
+    }
+    open_ = true;
+  }
+
   void open_text() {
     using namespace pe_series_detail;
     lines_->next(line_);
@@ -199,7 +205,7 @@ class PeSeriesReader {
                      ", expected version 1");
       lines_->fail("not a PE series, expected '" + std::string(first_line) + "'");
     }
-    text_io::Parameters all;
+    text_io::ParameterList parameters;
     while (lines_->next(line_)) {
       if (line_.empty() || line_.front() != '#') {
         if (line_ != column_line)
@@ -207,22 +213,26 @@ class PeSeriesReader {
                        std::string(column_line) + "'");
         if (!lines_->complete())
           lines_->fail("truncated line of column names, expected a line end");
-        const std::string problem = interpret(all, info_);
+        const std::string problem = interpret(parameters.all(), info_);
         if (!problem.empty()) lines_->fail(problem);
         kept_end_ = lines_->end();
         return;
       }
-      const std::string problem = add_parameter(line_, all);
+      const std::string problem = parameters.add_line(line_);
       if (!problem.empty()) lines_->fail(problem);
     }
     lines_->fail("file ends within the header, expected '" + std::string(column_line) + "'");
   }
 
-  void open_binary(std::string_view magic) {
+  void open_binary(std::unique_ptr<text_io::Bytes> bytes) {
     using namespace pe_series_detail;
-    if (magic != binary_magic)
+    lines_.reset();
+    in_ = std::move(bytes);
+    std::array<char, binary_magic.size()> magic{};
+    const std::size_t got = in_->read(magic.data(), magic.size());
+    if (std::string_view(magic.data(), got) != binary_magic)
       throw PeSeriesError(path_ + ": binary PE series of another version, expected version 1");
-    const binary_io::Header found = binary_io::read_header<PeSeriesError>(in_, path_);
+    const binary_io::Header found = binary_io::read_header<PeSeriesError>(*in_);
     const std::string problem = interpret(found.parameters, info_);
     if (!problem.empty()) throw PeSeriesError(path_ + ": " + problem);
     data_begin_ = found.begin;
@@ -235,7 +245,6 @@ class PeSeriesReader {
                           " at the end, expected " + std::to_string(record_bytes_) +
                           " bytes per record");
     kept_end_ = data_begin_;
-    // The stream continues right behind the header.
   }
 
   bool next_line(std::int64_t &step, double &time, double &pe) {
@@ -285,8 +294,8 @@ class PeSeriesReader {
     if (used_ == filled_) {
       block_.resize(static_cast<std::size_t>(record_bytes_) * 4096);
       const std::int64_t wanted = std::min<std::int64_t>(4096, total_ - records_) * record_bytes_;
-      in_.read(block_.data(), wanted);
-      if (in_.gcount() != wanted)
+      const auto bytes = static_cast<std::size_t>(wanted);
+      if (in_->read(block_.data(), bytes) != bytes)
         throw PeSeriesError(path_ + ": cannot read record " + std::to_string(records_ + 1));
       used_ = 0;
       filled_ = wanted;
@@ -339,7 +348,7 @@ class PeSeriesReader {
   std::string_view line_;                 // valid until the next one is read
   std::vector<std::string_view> fields_;  // views into line_
   // binary
-  std::ifstream in_;
+  std::unique_ptr<text_io::Bytes> in_;
   std::int64_t data_begin_ = 0, total_ = 0, used_ = 0, filled_ = 0, record_bytes_ = 16;
   std::vector<char> block_;
 };
@@ -412,6 +421,8 @@ class PeSeriesWriter {
       ++kept;
       length = reader.kept_end_;
     }
+    if (reader.lines_ && reader.lines_->foreign())
+      throw PeSeriesError(path + ": cannot resume: " + std::string(text_io::foreign_lines));
     const std::int64_t reached = kept > 0 ? last : info.step0;
     if (reached < last_step && last_step - info.stride >= reached)
       throw PeSeriesError(path + ": cannot resume: samples end at step " + std::to_string(reached) +

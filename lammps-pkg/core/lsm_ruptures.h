@@ -22,6 +22,7 @@
 #include <iterator>
 #include <map>
 #include <stdexcept>
+#include <tuple>
 #include <vector>
 
 #include "lsm_event_picker.h"
@@ -38,6 +39,7 @@ struct FaultGrid {
   std::int64_t interval = 1;  ///< steps
   double time0 = 0.0;         ///< time at step0
   double dt = 1.0;            ///< time of a step
+  bool ring = true;           ///< periodic; else the fault has two ends
 
   double length() const { return bins * width; }
   double duration() const { return static_cast<double>(interval) * dt; }  ///< of an interval
@@ -74,7 +76,7 @@ class FaultSums {
   /// counts the contact as well.
   void add(double x, double slip, double work, double force, double share) {
     double along = (x - grid_.x0) / grid_.length();
-    along -= std::floor(along);
+    along = grid_.ring ? along - std::floor(along) : std::max(along, 0.0);
     const int bin = std::min(static_cast<int>(along * grid_.bins), grid_.bins - 1);
     double *const sums = &values_[fields * static_cast<std::size_t>(bin)];
     sums[0] += share * slip;
@@ -107,7 +109,13 @@ inline FaultRow fault_row(const FaultGrid &grid, const double *sums, std::int64_
     held.push_back(b);
   }
   if (held.empty()) return row;
-  for (std::size_t k = 0; k < held.size(); ++k) {
+  if (!grid.ring) {
+    std::fill(row.slip.begin(), row.slip.begin() + static_cast<std::ptrdiff_t>(held.front()),
+              row.slip[held.front()]);
+    std::fill(row.slip.begin() + static_cast<std::ptrdiff_t>(held.back()), row.slip.end(),
+              row.slip[held.back()]);
+  }
+  for (std::size_t k = 0; k + (grid.ring ? 0 : 1) < held.size(); ++k) {
     const std::size_t left = held[k];
     const std::size_t right = k + 1 < held.size() ? held[k + 1] : held[0] + bins;
     const double a = row.slip[left], b = row.slip[right % bins];
@@ -158,15 +166,18 @@ class RuptureFinder {
  public:
   /// \throws std::invalid_argument for settings out of range
   RuptureFinder(const FaultGrid &grid, const RuptureSettings &settings)
-      : grid_(grid), settings_(settings), sets_(grid.bins, settings.gap + 1, settings.memory) {
+      : grid_(grid),
+        settings_(settings),
+        // places behind the end in which nothing slides keep the ends apart
+        sets_(grid.bins + (grid.ring ? 0 : settings.gap + 1), settings.gap + 1, settings.memory) {
     if (!(settings.velocity >= 0.0) || !(settings.modulus > 0.0) || settings.gap < 0)
       throw std::invalid_argument(
           "rupture settings out of range, expected a velocity and a gap of at least 0 and a "
           "modulus above 0");
     const double circle = 2.0 * pi / grid.bins;
     for (int b = 0; b < grid.bins; ++b) {
-      cosine_.push_back(std::cos(circle * (b + 0.5)));
-      sine_.push_back(std::sin(circle * (b + 0.5)));
+      cosine_.push_back(grid.ring ? std::cos(circle * (b + 0.5)) : b + 0.5);
+      sine_.push_back(grid.ring ? std::sin(circle * (b + 0.5)) : 1.0);
     }
   }
 
@@ -212,6 +223,21 @@ class RuptureFinder {
     forget();
     before_ = row.stress;
     pe_ = pe;
+  }
+
+  /// Calls f(const Event &) for each open rupture as if it ended now, in the order of add().
+  template <class F>
+  void each_open_as_ended(F &&f) const {
+    std::vector<FaultRupture> all;
+    sets_.each_open([&all](const FaultRupture &r) { all.push_back(r); });
+    std::sort(all.begin(), all.end(), [](const FaultRupture &a, const FaultRupture &b) {
+      return std::tie(a.step_end, a.step_start, a.first_place) <
+             std::tie(b.step_end, b.step_start, b.first_place);
+    });
+    for (FaultRupture &r : all) {
+      if (r.step_end == sets_.step()) r.stress_after = mean(before_, r);
+      f(event(r));
+    }
   }
 
   /// Something slipped in the last interval, or a rupture was open when it began.
@@ -342,7 +368,8 @@ class RuptureFinder {
     e.pe_start = r.pe_start;
     e.pe_end = r.pe_end;
     e.slip_moment = settings_.modulus * r.slip * grid_.width;
-    double along = std::atan2(r.slip_sin, r.slip_cos) / (2.0 * pi);
+    double along = grid_.ring ? std::atan2(r.slip_sin, r.slip_cos) / (2.0 * pi)
+                              : r.slip_cos / r.slip_sin / grid_.bins;
     if (along < 0.0) along += 1.0;
     if (!(along < 1.0)) along = 0.0;  // of -1e-17
     e.x_centroid = grid_.x0 + along * grid_.length();
@@ -357,9 +384,9 @@ class RuptureFinder {
   FaultGrid grid_;
   RuptureSettings settings_;
   SlipSets<FaultRupture> sets_;
-  std::vector<double> cosine_, sine_;
-  std::vector<float> before_;  // stresses of the interval before
-  double pe_ = 0.0;            // at its end
+  std::vector<double> cosine_, sine_;  // direction of a bin on the ring; without ring place and 1
+  std::vector<float> before_;          // stresses of the interval before
+  double pe_ = 0.0;                    // at its end
   bool active_ = false;
   std::map<std::int64_t, std::vector<float>> snapshots_;  // stresses before open ruptures began
 };

@@ -23,7 +23,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <fstream>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -149,6 +149,8 @@ inline std::string interpret(const text_io::Parameters &all, SlipHistoryInfo &in
   for (const auto &parameter : all)
     if (std::find(known.begin(), known.end(), parameter.first) == known.end())
       info.parameters.push_back(parameter);
+  const std::string *ends = info.find("ends");
+  info.grid.ring = !ends || *ends != "open";
   return fault(info);
 }
 
@@ -163,31 +165,16 @@ inline std::int64_t record_bytes(const SlipHistoryInfo &info) {
 class SlipHistoryReader {
  public:
   /// \throws SlipHistoryError if the file cannot be read or its header is not as it should be.
-  explicit SlipHistoryReader(const std::string &path, bool lenient = false) : path_(path) {
-    using namespace slip_history_detail;
-    // Says what is wrong with folders and files that cannot be opened.
-    text_io::LineReader<SlipHistoryError>{path};
-    in_.open(path, std::ios::in | std::ios::binary);
-    std::array<char, 16> start{};
-    in_.read(start.data(), start.size());
-    const std::string_view found(start.data(), static_cast<std::size_t>(in_.gcount()));
-    if (found != magic)
-      throw SlipHistoryError(
-          path +
-          (found.substr(0, family.size()) == family
-               ? ": slip history of another version, expected version 1"
-               : ": not a slip history, expected a file that begins with 'lsm-slip-hist-1'"));
-    const binary_io::Header header = binary_io::read_header<SlipHistoryError>(in_, path);
-    const std::string problem = interpret(header.parameters, info_);
-    if (!problem.empty()) throw SlipHistoryError(path + ": " + problem);
-    bytes_.resize(static_cast<std::size_t>(record_bytes(info_)));
-    total_ = (header.size - header.begin) / record_bytes(info_);
-    torn_ = (header.size - header.begin) % record_bytes(info_) != 0;
-    kept_end_ = header.begin;
-    if (torn_ && !lenient)
-      throw SlipHistoryError(path + ": truncated record " + std::to_string(total_ + 1) +
-                             " at the end, expected " + std::to_string(record_bytes(info_)) +
-                             " bytes per record");
+  explicit SlipHistoryReader(const std::string &path, bool lenient = false,
+                             text_io::OpenBytes open = text_io::open_plain)
+      : path_(path) {
+    try {
+      start(open(path), lenient);
+    } catch (const SlipHistoryError &) {
+      throw;
+    } catch (const FileError &error) {
+      throw SlipHistoryError(error.what());
+    }
   }
 
   const SlipHistoryInfo &info() const { return info_; }
@@ -199,8 +186,7 @@ class SlipHistoryReader {
   bool next(SlipRecord &record) {
     using namespace binary_io;
     if (records_ == total_) return false;
-    in_.read(bytes_.data(), static_cast<std::streamsize>(bytes_.size()));
-    if (in_.gcount() != static_cast<std::streamsize>(bytes_.size())) fail("cannot be read");
+    if (in_->read(bytes_.data(), bytes_.size()) != bytes_.size()) fail("cannot be read");
     const char *at = bytes_.data();
     record.step_begin = step_from_bytes(at);
     record.step_end = step_from_bytes(at + 8);
@@ -225,6 +211,30 @@ class SlipHistoryReader {
 
  private:
   friend class SlipHistoryWriter;
+
+  void start(std::unique_ptr<text_io::Bytes> bytes, bool lenient) {
+    using namespace slip_history_detail;
+    in_ = std::move(bytes);
+    std::array<char, 16> begin{};
+    const std::string_view found(begin.data(), in_->read(begin.data(), begin.size()));
+    if (found != magic)
+      throw SlipHistoryError(
+          path_ +
+          (found.substr(0, family.size()) == family
+               ? ": slip history of another version, expected version 1"
+               : ": not a slip history, expected a file that begins with 'lsm-slip-hist-1'"));
+    const binary_io::Header header = binary_io::read_header<SlipHistoryError>(*in_);
+    const std::string problem = interpret(header.parameters, info_);
+    if (!problem.empty()) throw SlipHistoryError(path_ + ": " + problem);
+    bytes_.resize(static_cast<std::size_t>(record_bytes(info_)));
+    total_ = (header.size - header.begin) / record_bytes(info_);
+    torn_ = (header.size - header.begin) % record_bytes(info_) != 0;
+    kept_end_ = header.begin;
+    if (torn_ && !lenient)
+      throw SlipHistoryError(path_ + ": truncated record " + std::to_string(total_ + 1) +
+                             " at the end, expected " + std::to_string(record_bytes(info_)) +
+                             " bytes per record");
+  }
 
   [[noreturn]] void fail(const std::string &what) const {
     throw SlipHistoryError(path_ + ": record " + std::to_string(records_ + 1) + ": " + what);
@@ -254,7 +264,7 @@ class SlipHistoryReader {
 
   std::string path_;
   SlipHistoryInfo info_;
-  std::ifstream in_;
+  std::unique_ptr<text_io::Bytes> in_;
   std::vector<char> bytes_;
   std::int64_t total_ = 0, records_ = 0, last_end_ = 0;
   std::int64_t kept_end_ = 0;  // offset behind the last record read

@@ -17,6 +17,12 @@
 
 namespace LSM {
 
+/// Slip of one contact during one step.
+struct ContactSlip {
+  double along;   ///< its place: distance along x from the begin of the fault, less than its length
+  double moment;  ///< |slip| times contact size
+};
+
 /// Slip of the contacts inside one bin along the fault during one step.
 struct BinSlip {
   double bin;     ///< index of the bin along x

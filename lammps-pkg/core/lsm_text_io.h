@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file lsm_text_io.h
 /// What the catalogue and the PE series files have in common: numbers that do not depend on the
-/// locale, "# key = value" headers, and output files that never lose what was written before.
+/// locale, "# key = value" headers, input that may be compressed, and output files that never lose
+/// what was written before.
 #ifndef LSM_TEXT_IO_H
 #define LSM_TEXT_IO_H
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -18,6 +20,8 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -116,17 +120,16 @@ inline const std::string *find(const Parameters &parameters, std::string_view ke
 /// A key or value that would not read back as it was written is a mistake of the program.
 /// \throws std::invalid_argument
 inline void check_parameters(const Parameters &parameters) {
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const std::string &key = parameters[i].first;
+  std::unordered_set<std::string_view> keys;
+  for (const auto &[key, value] : parameters) {
     if (key.empty() || trim(key) != key || key.find_first_of("=\n\r") != std::string::npos)
       throw std::invalid_argument("file header: parameter name " + in_quotes(key) +
                                   " is empty or has blanks around it, '=' or a line break");
-    if (parameters[i].second.find_first_of("\n\r") != std::string::npos)
+    if (value.find_first_of("\n\r") != std::string::npos)
       throw std::invalid_argument("file header: value of parameter " + in_quotes(key) +
                                   " has a line break");
-    for (std::size_t j = 0; j < i; ++j)
-      if (parameters[j].first == key)
-        throw std::invalid_argument("file header: parameter " + in_quotes(key) + " given twice");
+    if (!keys.insert(key).second)
+      throw std::invalid_argument("file header: parameter " + in_quotes(key) + " given twice");
   }
 }
 
@@ -157,45 +160,173 @@ inline bool parse_parameter(std::string_view line, std::pair<std::string, std::s
   return true;
 }
 
+/// Parameters of a file that is being read. A header may be long: no key is looked for in a list.
+class ParameterList {
+ public:
+  /// Adds what a "# key = value" line says; returns what is wrong, or "".
+  std::string add_line(std::string_view line) {
+    std::pair<std::string, std::string> parameter;
+    if (!parse_parameter(line, parameter))
+      return "header line " + in_quotes(line) + ", expected '# key = value'";
+    return add(std::move(parameter));
+  }
+  std::string add(std::pair<std::string, std::string> parameter) {
+    if (!keys_.insert(parameter.first).second)
+      return "parameter " + in_quotes(parameter.first) + " given twice, expected once";
+    all_.push_back(std::move(parameter));
+    return {};
+  }
+  const Parameters &all() const { return all_; }
+
+ private:
+  Parameters all_;
+  std::unordered_set<std::string> keys_;
+};
+
 /// First difference between the header of a file and the one a resumed run would write, or "".
 inline std::string difference(const Parameters &in_file, const Parameters &expected,
                               const std::vector<std::string> &ignore) {
   const auto ignored = [&ignore](const std::string &key) {
-    for (const std::string &candidate : ignore)
-      if (candidate == key) return true;
-    return false;
+    return std::find(ignore.begin(), ignore.end(), key) != ignore.end();
   };
+  std::unordered_map<std::string_view, std::string_view> found, known;
+  for (const auto &[key, value] : in_file) found.emplace(key, value);
+  for (const auto &[key, value] : expected) known.emplace(key, value);
   for (const auto &parameter : expected) {
     if (ignored(parameter.first)) continue;
     const std::string value(trim(parameter.second));
-    const std::string *found = find(in_file, parameter.first);
-    if (!found)
+    const auto there = found.find(parameter.first);
+    if (there == found.end())
       return "parameter '" + parameter.first + "' is missing in the file, expected '" + value + "'";
-    if (*found != value)
-      return "parameter '" + parameter.first + "' is '" + *found + "' in the file, expected '" +
-             value + "'";
+    if (there->second != value)
+      return "parameter '" + parameter.first + "' is '" + std::string(there->second) +
+             "' in the file, expected '" + value + "'";
   }
   for (const auto &parameter : in_file) {
-    if (!ignored(parameter.first) && !find(expected, parameter.first))
+    if (!ignored(parameter.first) && known.count(parameter.first) == 0)
       return "parameter '" + parameter.first + "' is '" + parameter.second +
              "' in the file, expected no such parameter";
   }
   return {};
 }
 
-/// Lines of a file with their numbers and byte offsets, read in large blocks.
+/// The bytes of a file from the first to the last.
+class Bytes {
+ public:
+  explicit Bytes(std::string path) : path_(std::move(path)) {}
+  virtual ~Bytes() = default;
+  Bytes(const Bytes &) = delete;
+  Bytes &operator=(const Bytes &) = delete;
+
+  /// Fewer than most only at the end. \throws FileError
+  std::size_t read(char *to, std::size_t most) {
+    const std::size_t known = std::min(most, ahead_.size());
+    std::memcpy(to, ahead_.data(), known);
+    ahead_.erase(0, known);
+    return known == most ? known : known + more(to + known, most - known);
+  }
+  /// The next bytes, which stay to be read. \throws FileError
+  std::string_view peek(std::size_t count) {
+    const std::size_t known = ahead_.size();
+    if (known < count) {
+      ahead_.resize(count);
+      ahead_.resize(known + more(ahead_.data() + known, count - known));
+    }
+    return std::string_view(ahead_).substr(0, count);
+  }
+  /// Of the whole file. \throws FileError
+  virtual std::int64_t size() const = 0;
+  const std::string &path() const { return path_; }
+
+ private:
+  virtual std::size_t more(char *to, std::size_t most) = 0;
+
+  std::string path_, ahead_;
+};
+
+/// How a reader comes by the bytes of a file.
+using OpenBytes = std::unique_ptr<Bytes> (*)(const std::string &path);
+
+/// The bytes of a file as they lie there.
+class FileBytes : public Bytes {
+ public:
+  /// \throws FileError
+  explicit FileBytes(const std::string &path) : Bytes(path) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored))
+      throw FileError(path + ": is a directory, expected a file");
+    errno = 0;
+    file_.reset(std::fopen(path.c_str(), "rb"));
+    if (!file_) throw FileError(path + ": cannot open: " + std::generic_category().message(errno));
+    std::setvbuf(file_.get(), nullptr, _IONBF, 0);
+  }
+  std::int64_t size() const override {
+    std::error_code code;
+    const auto size = static_cast<std::int64_t>(std::filesystem::file_size(path(), code));
+    if (code) throw FileError(path() + ": cannot read: " + code.message());
+    return size;
+  }
+
+ private:
+  struct Close {
+    void operator()(std::FILE *file) const { std::fclose(file); }
+  };
+
+  std::size_t more(char *to, std::size_t most) override {
+    errno = 0;
+    const std::size_t got = std::fread(to, 1, most, file_.get());
+    if (got < most && std::ferror(file_.get()))
+      throw FileError(path() + ": cannot read: " + std::generic_category().message(errno));
+    return got;
+  }
+
+  std::unique_ptr<std::FILE, Close> file_;
+};
+
+/// The program that compressed a file that was not read yet, or "". \throws FileError
+inline std::string_view compressed_by(Bytes &file) {
+  using namespace std::string_view_literals;
+  constexpr std::pair<std::string_view, std::string_view> known[] = {
+      {"\x1f\x8b"sv, "gzip"},
+      {"\xfd"
+       "7zXZ\0"sv,
+       "xz"},
+      {"BZh"sv, "bzip2"},
+      {"\x28\xb5\x2f\xfd"sv, "zstd"}};
+  for (const auto &[mark, program] : known)
+    if (file.peek(mark.size()) == mark) return program;
+  return {};
+}
+
+/// A file that is not compressed: LAMMPS and the block-slider link nothing that could read others.
+/// \throws FileError
+inline std::unique_ptr<Bytes> open_plain(const std::string &path) {
+  auto bytes = std::make_unique<FileBytes>(path);
+  const std::string_view program = compressed_by(*bytes);
+  if (!program.empty())
+    throw FileError(path + ": compressed by " + std::string(program) +
+                    ", expected a file that is not");
+  return bytes;
+}
+
+/// Why a file of LineReader::foreign() lines cannot go on.
+constexpr std::string_view foreign_lines =
+    "line ends of Windows or a byte order mark, expected the file as the run wrote it";
+
+/// Lines of a file with their numbers and byte offsets, read in large blocks. A byte order mark and
+/// the '\r' of line ends of Windows are no part of them.
 template <class Error>
 class LineReader {
  public:
-  explicit LineReader(std::string path) : path_(std::move(path)) {
-    std::error_code ignored;
-    if (std::filesystem::is_directory(path_, ignored))
-      throw Error(path_ + ": is a directory, expected a file");
-    errno = 0;
-    file_.reset(std::fopen(path_.c_str(), "rb"));
-    if (!file_) throw Error(path_ + ": cannot open: " + std::generic_category().message(errno));
-    std::setvbuf(file_.get(), nullptr, _IONBF, 0);
-    buffer_.resize(first_size);
+  explicit LineReader(const std::string &path, OpenBytes open = open_plain) : path_(path) {
+    try {
+      start(open(path));
+    } catch (const FileError &error) {
+      throw Error(error.what());
+    }
+  }
+  explicit LineReader(std::unique_ptr<Bytes> bytes) : path_(bytes->path()) {
+    start(std::move(bytes));
   }
 
   /// Next line without its '\n', valid until the next call; false at the end of the file.
@@ -220,6 +351,10 @@ class LineReader {
     used_ += taken;
     end_ += static_cast<std::int64_t>(taken);
     ++line_;
+    if (!line.empty() && line.back() == '\r') {
+      line.remove_suffix(1);
+      foreign_ = true;
+    }
     return true;
   }
 
@@ -228,15 +363,24 @@ class LineReader {
   std::int64_t begin() const { return begin_; }  ///< offset of the last line
   std::int64_t end() const { return end_; }      ///< offset behind the last line
   bool complete() const { return complete_; }    ///< the last line ended with '\n'
+  /// What was read had a byte order mark or line ends of Windows: no program of ours wrote it so.
+  bool foreign() const { return foreign_; }
 
   [[noreturn]] void fail(const std::string &what) const { throw Error(where(path_, line_) + what); }
 
  private:
   static constexpr std::size_t first_size = 1 << 18, longest_line = 1 << 20;
 
-  struct Close {
-    void operator()(std::FILE *file) const { std::fclose(file); }
-  };
+  void start(std::unique_ptr<Bytes> bytes) {
+    bytes_ = std::move(bytes);
+    buffer_.resize(first_size);
+    constexpr std::string_view mark = "\xef\xbb\xbf";
+    const std::string_view begin = bytes_->peek(mark.size());
+    if (begin.substr(0, 2) == "\xff\xfe" || begin.substr(0, 2) == "\xfe\xff")
+      throw Error(path_ + ": text in UTF-16, expected UTF-8 or ASCII");
+    foreign_ = begin == mark;
+    if (foreign_) end_ = static_cast<std::int64_t>(bytes_->read(buffer_.data(), mark.size()));
+  }
 
   /// More bytes behind the unfinished line, which moves to the front; false at the end of the file.
   bool fill() {
@@ -250,22 +394,21 @@ class LineReader {
                     " bytes, expected a line of text");
       buffer_.resize(2 * rest);
     }
-    errno = 0;
-    const std::size_t got =
-        std::fread(buffer_.data() + filled_, 1, buffer_.size() - filled_, file_.get());
-    if (got == 0 && std::ferror(file_.get()))
-      throw Error(where(path_, line_ + 1) +
-                  "cannot read: " + std::generic_category().message(errno));
-    filled_ += got;
-    return got > 0;
+    try {
+      const std::size_t got = bytes_->read(buffer_.data() + filled_, buffer_.size() - filled_);
+      filled_ += got;
+      return got > 0;
+    } catch (const FileError &error) {
+      throw Error(error.what());
+    }
   }
 
   std::string path_;
-  std::unique_ptr<std::FILE, Close> file_;
+  std::unique_ptr<Bytes> bytes_;
   std::vector<char> buffer_;
   std::size_t used_ = 0, filled_ = 0;  // the lines to come are between them
   std::int64_t line_ = 0, begin_ = 0, end_ = 0;
-  bool complete_ = true;
+  bool complete_ = true, foreign_ = false;
 };
 
 /// Whether path is a file that a new one of that name would replace: regular, and not empty.

@@ -59,10 +59,10 @@ TEST(BlockSampler, FillsOneBlockWhileTheOtherIsOnItsWay) {
 TEST(BlockSampler, SlipAndIntervalsGoWithTheirBlock) {
   BlockSampler sampler;
   sampler.resize(2);
-  sampler.add_slip({{4.0, 0.25}});
+  sampler.add_slip({{8.5, 0.25}}, 2.0);
   sampler.add(1, 0.0);
-  sampler.add_slip({{5.0, 0.5}, {6.0, 0.75}});
-  sampler.add_slip({{7.0, 1.0}});
+  sampler.add_slip({{10.0, 0.5}, {13.9, 0.75}}, 2.0);
+  sampler.add_slip({{14.0, 1.0}}, 2.0);
   sampler.add_interval({1.0, 2.0});
   sampler.add(2, 0.0);
   const SampleBlock first = sampler.hand_over();

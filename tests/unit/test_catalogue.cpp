@@ -339,7 +339,7 @@ const std::vector<Bad> bad_rows = {
     {"empty field", "2,,4,30,40,0.5,3,2.5\n", ":8: column 't_start' is '', expected a finite"},
     {"blank", "2, 3,4,30,40,0.5,3,2.5\n", ":8: column 't_start' is ' 3', expected a finite"},
     {"trailing rubbish", "2,3x,4,30,40,0.5,3,2.5\n", ":8: column 't_start' is '3x', expected a"},
-    {"carriage return", "2,3,4,30,40,0.5,3,2.5\r\n", ":8: column 'pe_end' is '2.5?', expected a"},
+    {"carriage return", "2,3,4,30,40,0.5\r,3,2.5\n", ":8: column 'size' is '0.5?', expected a"},
     {"fractional step", "2,3,4,30.5,40,0.5,3,2.5\n",
      ":8: column 'step_start' is '30.5', expected "
      "an integer"},
@@ -388,6 +388,62 @@ TEST_F(CatalogueRead, RupturesMayOverlapInOrderOfTheirEnds) {
   spill(file(), ruptures + rows + "3,2,5,20,50,0.5,3,2.5\n");
   EXPECT_TRUE(contains(message_of<CatalogueError>([&] { LSM::read_catalogue(file()); }),
                        "event_id 3 after event_id 3"));
+}
+
+std::string with_line_ends_of_windows(const std::string &text) {
+  std::string out;
+  for (const char c : text) out += c == '\n' ? std::string("\r\n") : std::string(1, c);
+  return out;
+}
+
+TEST_F(CatalogueRead, LineEndsOfWindowsAndByteOrderMarks) {
+  write_events(3);
+  const std::string plain = slurp(file()), mark = "\xef\xbb\xbf";
+  for (const std::string &text :
+       {mark + plain, with_line_ends_of_windows(plain), mark + with_line_ends_of_windows(plain)}) {
+    spill(file(), text);
+    const Catalogue catalogue = LSM::read_catalogue(file());
+    ASSERT_EQ(catalogue.events.size(), 3U);
+    EXPECT_EQ(catalogue.events[2].size, some_event(3).size);
+    EXPECT_EQ(*catalogue.info.find("seed"), "7");
+    // To go on behind it would mix two kinds of lines.
+    CatalogueWriter writer;
+    EXPECT_TRUE(
+        contains(message_of<CatalogueError>([&] { writer.resume(file(), some_info(), 200); }),
+                 "cannot resume: line ends of Windows or a byte order mark, expected"));
+    EXPECT_EQ(slurp(file()), text);
+  }
+  for (const char *utf16 : {"\xff\xfe#\0", "\xfe\xff\0#"}) {
+    spill(file(), std::string(utf16, 4));
+    EXPECT_TRUE(contains(message_of<CatalogueError>([&] { LSM::read_catalogue(file()); }),
+                         "UTF-16, expected UTF-8"));
+  }
+}
+
+TEST_F(CatalogueRead, CompressedFilesAreRefusedByName) {
+  const std::pair<std::string, const char *> files[] = {{"\x1f\x8b\b", "gzip"},
+                                                        {std::string("\xfd"
+                                                                     "7zXZ\0",
+                                                                     6),
+                                                         "xz"},
+                                                        {"BZh9", "bzip2"},
+                                                        {"\x28\xb5\x2f\xfd", "zstd"}};
+  for (const auto &[begin, program] : files) {
+    spill(file(), begin + "and more");
+    EXPECT_EQ(message_of<CatalogueError>([&] { LSM::read_catalogue(file()); }),
+              file() + ": compressed by " + program + ", expected a file that is not");
+  }
+}
+
+// Were each key looked for among those before it, this would take longer than any test may.
+TEST_F(CatalogueRead, LongHeader) {
+  CatalogueInfo info = some_info();
+  for (int i = 0; i < 300000; ++i) info.parameters.emplace_back("key" + std::to_string(i), "1");
+  write_events(2, info);
+  const Catalogue catalogue = LSM::read_catalogue(file());
+  EXPECT_EQ(catalogue.info.parameters, info.parameters);
+  CatalogueWriter writer;
+  EXPECT_EQ(writer.resume(file(), info, 1000), 2);
 }
 
 TEST_F(CatalogueResume, RupturesAreCutByTheirEnds) {

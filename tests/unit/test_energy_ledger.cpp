@@ -23,6 +23,16 @@ TEST(EnergyLedger, WhatThePlatesDoIsStoredOrLost) {
   EXPECT_EQ(ledger.residual(terms(1.5, 3.0, 0.25, 0.125, 0.0, 1.9375)), -0.0625);
 }
 
+TEST(EnergyLedger, WorkFromOutsideIsStoredOrLeaves) {
+  EnergyLedger ledger;
+  ledger.begin(EnergyTerms());
+  EnergyTerms now = terms(0.5, 1.0, 0.25, 0.0, 0.0, 0.0);
+  now.outside = 2.0;
+  EXPECT_EQ(ledger.residual(now), -0.25);
+  now.absorbed = 0.25;
+  EXPECT_EQ(ledger.residual(now), 0.0);
+}
+
 TEST(EnergyLedger, ScaleHasNoSignAndOnlyWhatCounts) {
   EnergyTerms now = terms(1.0, 100.0, 2.0, 4.0, 8.0, 16.0);
   now.counted_pe = -32.0;

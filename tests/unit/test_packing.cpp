@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The geometry is checked against plain pairwise loops, not against the search of the packing.
 
+#include "lsm_frequency.h"
 #include "lsm_packing.h"
 
 #include <gtest/gtest.h>
@@ -424,6 +425,66 @@ TEST(Packing, FrequencyBoundIsAboveTheRayleighQuotient) {
   EXPECT_GT(std::sqrt(omega2), 12.0);
   EXPECT_GE(bound, std::sqrt(omega2));
   EXPECT_LT(bound, 1.6 * std::sqrt(omega2));
+}
+
+// The largest time step for the links and the contacts (k = kt = 1) that there are when the upper
+// block is pushed down by `depth` and along the fault by `shift`.
+double step_limit(LSM::Packing p, double length, const std::vector<double> &masses, double depth,
+                  double shift) {
+  for (LSM::Disc &d : p.discs)
+    if (d.block == 1) {
+      d.x += shift;
+      d.y -= depth;
+    }
+  const std::set<std::pair<int, int>> linked(p.links.begin(), p.links.end());
+  LSM::SpringNetwork network;
+  network.mass = masses;
+  for (std::size_t i = 0; i < p.discs.size(); ++i) {
+    network.id.push_back(i + 1);
+    for (std::size_t j = i + 1; j < p.discs.size(); ++j) {
+      const auto [dx, dy] = LSM::packing_detail::link_vector(length, p.discs[i], p.discs[j]);
+      const double d = std::hypot(dx, dy);
+      const int a = static_cast<int>(i), b = static_cast<int>(j);
+      const bool link = linked.count({a, b}) > 0;
+      if (link || d < p.discs[i].r + p.discs[j].r)
+        network.springs.push_back({a, b, true, 1.0, link ? 0.0 : 1.0, {dx / d, dy / d, 0.0}});
+    }
+  }
+  std::vector<double> u, f;
+  const auto largest = LSM::highest_frequency_squared(
+      network, 2.0 * static_cast<double>(masses.size()), u, f, [] {}, [] {},
+      [](double mine) { return mine; });
+  return 2.0 / std::sqrt(largest.found);
+}
+
+TEST(Packing, MassesForAStepAreEnoughWhateverTheContacts) {
+  const double length = 30.0;
+  const LSM::Packing p = LSM::make_packing(settings(length));
+  std::vector<double> own;
+  for (const LSM::Disc &d : p.discs) own.push_back(d.r * d.r);
+  const double step = step_limit(p, length, own, -1.0, 0.0);  // no contact yet
+  std::vector<double> enough = LSM::masses_for_step(p, length, step, 1.0, 1.0);
+  for (std::size_t i = 0; i < own.size(); ++i) enough[i] = std::max(enough[i], own[i]);
+  double least = step;
+  for (const double depth : {0.03, 0.2})
+    for (const double shift : {0.0, 1.3, 11.0}) {
+      least = std::min(least, step_limit(p, length, own, depth, shift));
+      EXPECT_GE(step_limit(p, length, enough, depth, shift), step) << depth << ' ' << shift;
+    }
+  EXPECT_LT(least, step) << "contacts make no disc unstable, so this shows nothing";
+}
+
+TEST(Packing, MassesForAStepCountTheRoomForNeighbours) {
+  EXPECT_EQ(LSM::most_neighbours(1.0, 1.0), 6);
+  EXPECT_EQ(LSM::most_neighbours(0.2, 0.1), 9);
+  LSM::Packing p;
+  p.discs = {{4.0, 3.0, 1.0, 0, false, false}, {6.0, 3.0, 1.0, 0, false, true}};
+  p.links = {{0, 1}};
+  // one link of stiffness 2, room for five contacts, each of at most 3
+  const std::vector<double> masses = LSM::masses_for_step(p, 20.0, 0.1, 2.0, 3.0);
+  EXPECT_NEAR(masses[0], 0.5 * 0.01 * (2.0 + 5.0 * 3.0), 1e-15);
+  EXPECT_EQ(masses[1],
+            masses[0]);  // discs of a plate, too: the check of the step takes all as free
 }
 
 // Each bad setting is refused with a message that names it.

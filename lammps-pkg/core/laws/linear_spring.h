@@ -8,15 +8,24 @@
 
 namespace LSM {
 
+// Templates take one number or, in the loop over links, a vector of the machine; always inlined, as
+// functions with other instruction sets pass such vectors differently.
+
 struct Spring {
   /// Attractive force at the given stretch r - r0.
-  static double force(double k, double stretch) { return k * stretch; }
+  template <class Number>
+  [[gnu::always_inline]] static Number force(double k, const Number &stretch) {
+    return k * stretch;
+  }
   /// Elastic energy at the given stretch r - r0.
   static double energy(double k, double stretch) { return 0.5 * k * stretch * stretch; }
 };
 
 /// Eq. (1): a link holds while r <= r_cut; here r_cut = ratio * r0.
-inline bool link_is_broken(double r, double r0, double ratio) { return r > ratio * r0; }
+template <class Number>
+[[gnu::always_inline]] inline auto link_is_broken(const Number &r, const Number &r0, double ratio) {
+  return r > ratio * r0;
+}
 
 /// Eq. (2): magnitude of the repulsion of an unlinked pair, zero when apart.
 inline double contact_normal_force(double k, double r, double r0) {

@@ -1,0 +1,398 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file lsm_output_claim.h
+/// The files that a run is about to write: no two of them may be one file, whatever its names, and
+/// no other run may write them at the same time. (Ours.)
+///
+/// A run holds FILE.lock for as long as it writes FILE: locked by flock, so that a killed run lets
+/// go of it, and with the host and process for the message of the next one. Where the file system
+/// has no flock the file itself is the lock: one left behind on this host is told from one that is
+/// held, one of another host has to be removed by hand.
+#ifndef LSM_OUTPUT_CLAIM_H
+#define LSM_OUTPUT_CLAIM_H
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <climits>
+#include <csignal>
+#include <cstddef>
+#include <cstdint>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <thread>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "lsm_text_io.h"
+
+namespace LSM {
+
+/// A file that a run will write; what: the option or keyword that names it, for messages.
+struct Output {
+  std::string what;
+  std::string path;
+};
+
+namespace output_claim_detail {
+
+namespace fs = std::filesystem;
+
+/// The file that a path leads to, links followed, also where there is none yet.
+inline fs::path target_of(const std::string &path) {
+  constexpr int most_links = 40;  // as the system
+  std::error_code code;
+  fs::path at = path;
+  for (int n = 0; n < most_links && fs::is_symlink(fs::symlink_status(at, code)); ++n) {
+    const fs::path to = fs::read_symlink(at, code);
+    if (code) break;
+    at = to.is_absolute() ? to : at.parent_path() / to;
+  }
+  const fs::path folder = fs::weakly_canonical(fs::absolute(at, code).parent_path(), code);
+  return folder / at.filename();
+}
+
+/// The process that holds a lock, as its file tells.
+struct Holder {
+  std::string host, boot, started;
+  std::int64_t process = 0, begun = 0;
+};
+
+inline std::string first_line_of(const std::string &path) {
+  std::ifstream in(path);
+  std::string line;
+  std::getline(in, line);
+  return line;
+}
+
+/// When a process began, in the system's ticks since its start; 0 if there is none, -1 if the
+/// system does not tell.
+inline std::int64_t begin_of(std::int64_t process) {
+  if (kill(static_cast<pid_t>(process), 0) != 0 && errno == ESRCH) return 0;
+  const std::string line = first_line_of("/proc/" + std::to_string(process) + "/stat");
+  // The name of the program, in brackets, may hold anything. The begin is the 20th field behind it.
+  std::size_t at = line.rfind(')');
+  for (int field = 0; field < 20 && at != std::string::npos; ++field) at = line.find(' ', at + 1);
+  if (at == std::string::npos) return -1;
+  std::int64_t ticks = -1;
+  text_io::parse(std::string_view(line).substr(at + 1, line.find(' ', at + 1) - at - 1), ticks);
+  return ticks;
+}
+
+inline Holder this_process() {
+  Holder me;
+  std::array<char, HOST_NAME_MAX + 1> name{};
+  gethostname(name.data(), name.size() - 1);
+  me.host = name.data();
+  // Containers of one host have process numbers of their own.
+  std::error_code code;
+  me.boot = first_line_of("/proc/sys/kernel/random/boot_id") + " " +
+            fs::read_symlink("/proc/self/ns/pid", code).string();
+  me.process = getpid();
+  me.begun = begin_of(me.process);
+  std::array<char, 32> now{};
+  const std::time_t seconds = std::time(nullptr);
+  std::tm parts{};
+  std::strftime(now.data(), now.size(), "%Y-%m-%d %H:%M:%S", localtime_r(&seconds, &parts));
+  me.started = now.data();
+  return me;
+}
+
+constexpr std::string_view magic = "# lsm-lock 1\n";
+
+inline std::string to_text(const Holder &holder) {
+  return text_io::header_text(magic.substr(0, magic.size() - 1),
+                              {{"host", holder.host},
+                               {"process", std::to_string(holder.process)},
+                               {"started", holder.started},
+                               {"boot", holder.boot},
+                               {"begun", std::to_string(holder.begun)}});
+}
+
+/// False: the text is none of to_text().
+inline bool from_text(const std::string &text, Holder &holder) {
+  if (text.compare(0, magic.size(), magic) != 0) return false;
+  std::string_view rest = std::string_view(text).substr(magic.size());
+  text_io::Parameters all;
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size() - 1);
+    std::pair<std::string, std::string> parameter;
+    if (text_io::parse_parameter(rest.substr(0, end), parameter)) all.push_back(parameter);
+    rest.remove_prefix(end + 1);
+  }
+  for (const auto &[key, value] : {std::pair<const char *, std::string *>{"host", &holder.host},
+                                   {"boot", &holder.boot},
+                                   {"started", &holder.started}})
+    if (const std::string *found = text_io::find(all, key)) *value = *found;
+  for (const auto &[key, value] :
+       {std::pair<const char *, std::int64_t *>{"process", &holder.process},
+        {"begun", &holder.begun}})
+    if (const std::string *found = text_io::find(all, key)) text_io::parse(*found, *value);
+  return holder.process > 0;
+}
+
+/// Whether that process may still run: always, if it is on another host.
+inline bool may_live(const Holder &holder) {
+  const Holder me = this_process();
+  if (holder.host != me.host) return true;
+  // Started again since, or another container of the same name, whose end cannot be seen.
+  if (holder.boot != me.boot)
+    return holder.boot.substr(0, holder.boot.find(' ')) == me.boot.substr(0, me.boot.find(' '));
+  const std::int64_t begun = begin_of(holder.process);
+  return begun != 0 && (begun < 0 || holder.begun <= 0 || begun == holder.begun);
+}
+
+}  // namespace output_claim_detail
+
+/// The same text for two paths if they lead to one file: "./a" and "a", links of both kinds, also
+/// for files that are still to come. "" for devices such as /dev/null, which any number may write.
+inline std::string file_identity(const std::string &path) {
+  struct stat found {};
+  if (stat(path.c_str(), &found) != 0) return output_claim_detail::target_of(path).string();
+  if (S_ISCHR(found.st_mode)) return {};
+  return std::to_string(found.st_dev) + ":" + std::to_string(found.st_ino);
+}
+
+/// Whether this process has a file open for writing already, under whatever name: a log, a file of
+/// another part of the program.
+inline bool is_open_for_writing(const std::string &path) {
+  struct stat wanted {
+  }, opened{};
+  if (stat(path.c_str(), &wanted) != 0 || !S_ISREG(wanted.st_mode)) return false;
+  std::error_code code;
+  for (const auto &entry : std::filesystem::directory_iterator("/proc/self/fd", code)) {
+    std::int64_t descriptor = -1;
+    if (!text_io::parse(entry.path().filename().string(), descriptor)) continue;
+    const int mode = fcntl(static_cast<int>(descriptor), F_GETFL);
+    if (mode < 0 || (mode & O_ACCMODE) == O_RDONLY) continue;
+    if (fstat(static_cast<int>(descriptor), &opened) == 0 && opened.st_dev == wanted.st_dev &&
+        opened.st_ino == wanted.st_ino)
+      return true;
+  }
+  return false;
+}
+
+/// What is wrong with the names of a run's outputs, or "". Empty paths are passed over.
+inline std::string bad_outputs(const std::vector<Output> &outputs) {
+  std::unordered_map<std::string, const Output *> before;
+  for (const Output &one : outputs) {
+    if (one.path.empty()) continue;
+    const std::string extension = std::filesystem::path(one.path).extension().string();
+    if (extension == ".lock" || extension == ".new")
+      return one.what + " " + one.path + ": names that end in " + extension +
+             " are those of files on their way to another name; give another one";
+    const std::string identity = file_identity(one.path);
+    if (identity.empty()) continue;
+    const auto [same, added] = before.emplace(identity, &one);
+    if (!added)
+      return same->second->what + " " + same->second->path + " and " + one.what + " " + one.path +
+             " are the same file; give each a name of its own";
+  }
+  return {};
+}
+
+/// Holds the lock of one file.
+class FileLock {
+ public:
+  using Flock = int (*)(int, int);
+
+  FileLock() = default;
+  FileLock(FileLock &&other) noexcept
+      : descriptor_(std::exchange(other.descriptor_, -1)), lock_(std::move(other.lock_)) {}
+  FileLock &operator=(FileLock &&other) noexcept {
+    release();
+    descriptor_ = std::exchange(other.descriptor_, -1);
+    lock_ = std::move(other.lock_);
+    return *this;
+  }
+  FileLock(const FileLock &) = delete;
+  FileLock &operator=(const FileLock &) = delete;
+  ~FileLock() { release(); }
+
+  /// \throws FileError if another run holds it, which it names, or if the lock cannot be written.
+  /// flock: another one than the system's, for tests.
+  explicit FileLock(const std::string &path, Flock flock = ::flock)
+      : lock_(output_claim_detail::target_of(path).string() + ".lock") {
+    using namespace output_claim_detail;
+    for (int attempt = 0; attempt < most_attempts; ++attempt) {
+      bool ours = true;  // the file was not there
+      descriptor_ = open_lock(O_CREAT | O_EXCL);
+      if (descriptor_ < 0 && errno == EEXIST) {
+        ours = false;
+        descriptor_ = open_lock(0);
+        if (descriptor_ < 0 && errno == ENOENT) continue;  // removed in between
+      }
+      if (descriptor_ < 0) fail(path, "cannot open for writing", errno);
+      if (flock(descriptor_, LOCK_EX | LOCK_NB) == 0) {
+        if (!is_there()) {  // its owner removed it in between
+          drop();
+          continue;
+        }
+        if (!ours) check_content(path);
+        sign(path);
+        return;
+      }
+      const int reason = errno;
+      if (reason == EWOULDBLOCK) refuse(path, read());
+      if (reason != ENOSYS && reason != EOPNOTSUPP && reason != ENOLCK && reason != EINVAL)
+        fail(path, "cannot lock", reason);
+      // Without flock. Who made the file has the lock.
+      if (ours) {
+        sign(path);
+        return;
+      }
+      remove_stale(path);
+    }
+    fail(path, "cannot lock", EAGAIN);
+  }
+
+  void release() {
+    if (descriptor_ < 0) return;
+    if (is_there()) unlink(lock_.c_str());
+    drop();
+  }
+
+ private:
+  static constexpr int most_attempts = 100;
+
+  int open_lock(int flags) const {
+    return open(lock_.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | flags, 0666);
+  }
+  void drop() {
+    close(descriptor_);
+    descriptor_ = -1;
+  }
+  [[noreturn]] void fail(const std::string &path, const char *what, int reason) {
+    if (descriptor_ >= 0) drop();
+    throw FileError(path + ": " + what + ": its lock file " + lock_ + ": " +
+                    std::generic_category().message(reason));
+  }
+
+  /// The name still leads to the file that is open.
+  bool is_there() const {
+    struct stat opened {
+    }, named{};
+    return fstat(descriptor_, &opened) == 0 && stat(lock_.c_str(), &named) == 0 &&
+           opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
+  }
+
+  /// What the file says; a process that made it is given time to sign it.
+  std::string read() const {
+    for (int attempt = 0;; ++attempt) {
+      std::array<char, 1024> text{};
+      const ssize_t length = pread(descriptor_, text.data(), text.size(), 0);
+      if (length != 0 || attempt == 20)
+        return {text.data(), static_cast<std::size_t>(std::max<ssize_t>(length, 0))};
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+  }
+
+  void sign(const std::string &path) {
+    const std::string text = output_claim_detail::to_text(output_claim_detail::this_process());
+    if (ftruncate(descriptor_, 0) == 0 &&
+        pwrite(descriptor_, text.data(), text.size(), 0) == static_cast<ssize_t>(text.size()))
+      return;
+    const int reason = errno;
+    unlink(lock_.c_str());
+    fail(path, "cannot write", reason);
+  }
+
+  /// A file of that name that is no lock is somebody's.
+  void check_content(const std::string &path) {
+    struct stat opened {};
+    if (fstat(descriptor_, &opened) != 0 || opened.st_size == 0) return;
+    output_claim_detail::Holder holder;
+    if (output_claim_detail::from_text(read(), holder)) return;
+    drop();
+    throw FileError(path + ": its lock file " + lock_ + " holds something else; move it away");
+  }
+
+  [[noreturn]] void refuse(const std::string &path, const std::string &text,
+                           const std::string &hint = {}) {
+    output_claim_detail::Holder holder;
+    const bool known = output_claim_detail::from_text(text, holder);
+    const bool own = known && holder.process == getpid() &&
+                     holder.host == output_claim_detail::this_process().host;
+    drop();
+    throw FileError(path + ": is being written by " +
+                    (own     ? "this run already"
+                     : known ? "another run: process " + std::to_string(holder.process) + " on " +
+                                   holder.host + " since " + holder.started
+                             : "another run") +
+                    "; " + (own ? "give each output a name of its own" : "wait for its end") +
+                    hint);
+  }
+
+  /// Without flock: takes away the file of a run that has ended.
+  void remove_stale(const std::string &path) {
+    using namespace output_claim_detail;
+    if (read().size() > 0) check_content(path);
+    Holder holder;
+    const std::string text = read();
+    if (from_text(text, holder) && may_live(holder))
+      refuse(path, text, ", or remove " + lock_ + " if it has ended");
+    // Another one may have done so a moment ago, and made its own.
+    const std::string aside = lock_ + "." + std::to_string(getpid());
+    if (rename(lock_.c_str(), aside.c_str()) == 0) {
+      struct stat opened {
+      }, moved{};
+      const bool same = fstat(descriptor_, &opened) == 0 && stat(aside.c_str(), &moved) == 0 &&
+                        opened.st_ino == moved.st_ino;
+      same ? unlink(aside.c_str()) : rename(aside.c_str(), lock_.c_str());
+    }
+    drop();
+  }
+
+  int descriptor_ = -1;
+  std::string lock_;
+};
+
+/// The outputs of a run, from before the first is written until the last is closed.
+class OutputClaim {
+ public:
+  /// Lets go of what it had before. Empty paths are passed over. others: files that something else
+  /// writes, which are compared and not locked.
+  /// \throws FileError before anything is written: two outputs are one file, another run writes one
+  void claim(const std::vector<Output> &outputs, const std::vector<Output> &others = {}) {
+    release();
+    std::vector<Output> all = outputs;
+    all.insert(all.end(), others.begin(), others.end());
+    const std::string problem = bad_outputs(all);
+    if (!problem.empty()) throw FileError(problem);
+    for (const Output &output : outputs)
+      if (is_open_for_writing(output.path))
+        throw FileError(output.what + " " + output.path +
+                        ": this run writes that file already, as its log or by another command; "
+                        "give each output a name of its own");
+    std::vector<FileLock> locks;
+    for (const Output &output : outputs)
+      if (needs_lock(output.path)) locks.emplace_back(output.path);
+    locks_ = std::move(locks);
+  }
+  void release() { locks_.clear(); }
+
+ private:
+  /// Devices and pipes have readers of their own.
+  static bool needs_lock(const std::string &path) {
+    if (path.empty()) return false;
+    std::error_code code;
+    const auto status = std::filesystem::status(path, code);
+    return !std::filesystem::exists(status) || std::filesystem::is_regular_file(status);
+  }
+
+  std::vector<FileLock> locks_;
+};
+
+}  // namespace LSM
+
+#endif

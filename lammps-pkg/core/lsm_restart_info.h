@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file lsm_restart_info.h
+/// FILE.info beside a restart file: settings of the run, and size and checksum, by which a file
+/// that is not whole is told before anything reads it. (Ours.)
+///
+///   key = value                  one line each
+///   lines = CRC                  of the lines above
+///   CRC SIZE NAME                of the restart file, as cksum prints it in its folder
+#ifndef LSM_RESTART_INFO_H
+#define LSM_RESTART_INFO_H
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "lsm_text_io.h"
+
+namespace LSM {
+
+class RestartInfoError : public FileError {
+ public:
+  using FileError::FileError;
+};
+
+/// The checksum of POSIX cksum: the remainder of the bytes and of their number.
+class Cksum {
+ public:
+  void add(std::string_view bytes) {
+    for (const char c : bytes) push(static_cast<unsigned char>(c));
+    size_ += bytes.size();
+  }
+  std::uint64_t size() const { return size_; }
+  std::uint32_t value() const {
+    Cksum all = *this;
+    for (std::uint64_t rest = size_; rest > 0; rest >>= 8)
+      all.push(static_cast<unsigned char>(rest & 0xff));
+    return ~all.remainder_;
+  }
+
+ private:
+  void push(unsigned char byte) {
+    remainder_ = (remainder_ << 8) ^ table()[(remainder_ >> 24) ^ byte];
+  }
+  static const std::array<std::uint32_t, 256> &table() {
+    static const std::array<std::uint32_t, 256> all = [] {
+      std::array<std::uint32_t, 256> made{};
+      for (std::uint32_t n = 0; n < 256; ++n) {
+        made[n] = n << 24;
+        for (int bit = 0; bit < 8; ++bit)
+          made[n] = (made[n] << 1) ^ ((made[n] & 0x80000000U) != 0 ? 0x04C11DB7U : 0U);
+      }
+      return made;
+    }();
+    return all;
+  }
+
+  std::uint32_t remainder_ = 0;
+  std::uint64_t size_ = 0;
+};
+
+namespace restart_info_detail {
+
+[[noreturn]] inline void fail(const std::string &path, const char *what) {
+  throw RestartInfoError(path + ": " + what + ": " + std::generic_category().message(errno));
+}
+
+inline Cksum sum_of(const std::string &path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) fail(path, "cannot open");
+  Cksum sum;
+  std::string block(1 << 20, '\0');
+  do {
+    in.read(block.data(), static_cast<std::streamsize>(block.size()));
+    sum.add(std::string_view(block).substr(0, static_cast<std::size_t>(in.gcount())));
+  } while (in);
+  if (!in.eof()) fail(path, "cannot read");
+  return sum;
+}
+
+/// All that was written of a file, or of the names in a folder, is on the disk.
+inline void sync(const std::string &path) {
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) fail(path, "cannot open");
+  const int failed = fsync(file);
+  close(file);
+  // Folders of some file systems cannot be synchronised.
+  if (failed != 0 && errno != EINVAL) fail(path, "cannot write");
+}
+
+inline void move(const std::string &from, const std::string &to) {
+  sync(from);
+  if (std::rename(from.c_str(), to.c_str()) != 0) fail(to, "cannot create");
+  const std::string folder = std::filesystem::path(to).parent_path().string();
+  sync(folder.empty() ? "." : folder);
+}
+
+inline std::string last_line(const std::string &path, const Cksum &sum) {
+  return std::to_string(sum.value()) + " " + std::to_string(sum.size()) + " " +
+         std::filesystem::path(path).filename().string();
+}
+
+}  // namespace restart_info_detail
+
+/// Gives a restart file that was written as `written` its name and its FILE.info. Whenever this is
+/// interrupted, a file with an info is whole, and an older one of that name stays or is gone.
+/// settings: keys without '='. \throws RestartInfoError
+inline void seal_restart(const std::string &written, const std::string &path,
+                         const text_io::Parameters &settings) {
+  using namespace restart_info_detail;
+  const Cksum sum = sum_of(written);
+  std::string text;
+  for (const auto &[key, value] : settings) text += key + " = " + value + "\n";
+  Cksum lines;
+  lines.add(text);
+  text += "lines = " + std::to_string(lines.value()) + "\n" + last_line(path, sum) + "\n";
+  const std::string info = path + ".info";
+  std::error_code code;
+  std::filesystem::remove(info, code);
+  move(written, path);
+  {
+    text_io::OutputFile<RestartInfoError> file;
+    file.create(info, text);
+    file.close();
+  }
+  sync(info);
+}
+
+/// Compares a restart file with its FILE.info; returns the settings in it, which are empty if it
+/// has the last line only. \throws RestartInfoError, one line that says what is wrong
+inline text_io::Parameters check_restart(const std::string &path) {
+  using namespace restart_info_detail;
+  const std::string info = path + ".info";
+  const Cksum sum = sum_of(path);
+  std::ifstream in(info);
+  if (!in)
+    throw RestartInfoError(path + ": its checksum file " + info +
+                           " is missing, so it may not be whole; take an earlier restart file");
+  text_io::Parameters settings;
+  std::string line, sums, above, stated;
+  while (std::getline(in, line)) {
+    std::pair<std::string, std::string> setting;
+    if (!text_io::parse_parameter("#" + line, setting)) {
+      sums = line;
+    } else if (setting.first == "lines") {
+      stated = setting.second;
+    } else {
+      above += line + "\n";
+      settings.push_back(std::move(setting));
+    }
+  }
+  Cksum lines;
+  lines.add(above);
+  if (!settings.empty() && stated != std::to_string(lines.value()))
+    throw RestartInfoError(info + ": is damaged, or of an earlier version: the checksum of its " +
+                           "lines is not there; its last line on its own will do");
+  std::istringstream words(sums);
+  std::string expected, size;
+  if (!(words >> expected >> size))
+    throw RestartInfoError(info + ": has no last line with checksum and size of " + path);
+  if (size != std::to_string(sum.size()))
+    throw RestartInfoError(path + ": is damaged, it has " + std::to_string(sum.size()) +
+                           " bytes, expected " + size + " as in " + info +
+                           "; take an earlier restart file");
+  if (expected != std::to_string(sum.value()))
+    throw RestartInfoError(path + ": is damaged, its checksum is not that in " + info +
+                           "; take an earlier restart file");
+  return settings;
+}
+
+}  // namespace LSM
+
+#endif

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Links in rows: each link once, forces and energy of a plain loop, the same digits whatever the
+// order in memory and the instruction set.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+#include "lsm_link_kernel.h"
+#include "lsm_random.h"
+
+namespace {
+
+using namespace LAMMPS_NS;
+using LSMLinkKernel::Breakable;
+using LSMLinkKernel::Elastic;
+using LSMLinkRows::Link;
+using LSMLinkRows::Rows;
+
+/// Particles on a disturbed grid with links between neighbours: up to nine for one particle. Those
+/// from nlocal on are ghosts.
+struct Network {
+  int nlocal, nall;
+  std::vector<double> x;  // three a particle
+  std::vector<Link> links;
+  std::vector<int> owned;
+};
+
+Network make_network(int side, int dim, uint64_t seed) {
+  LSM::Random random(seed);
+  Network net;
+  net.nlocal = side * side;
+  net.nall = net.nlocal + side;
+  for (int n = 0; n < net.nall; ++n) {
+    const double z = dim == 3 ? random.uniform(-0.4, 0.4) : 0.0;
+    net.x.insert(net.x.end(),
+                 {n % side + random.uniform(-0.2, 0.2), n / side + random.uniform(-0.2, 0.2), z});
+  }
+  const int steps[][2] = {{1, 0}, {0, 1}, {1, 1}, {-1, 1}, {2, 1}};
+  for (int n = 0; n < net.nlocal; ++n)
+    for (const auto &step : steps) {
+      const int column = n % side + step[0], other = n + step[0] + side * step[1];
+      if (column < 0 || column >= side || other >= net.nall || random.uniform() < 0.4) continue;
+      net.links.push_back({n, other, random.uniform(0.7, 1.6)});
+    }
+  net.owned.resize(net.nlocal);
+  std::iota(net.owned.begin(), net.owned.end(), 0);
+  return net;
+}
+
+/// Those of its links that lead to ghosts, whose forces are not wanted.
+Network links_to_ghosts(Network net) {
+  const auto is_owned = [&](const Link &link) { return link.j < net.nlocal; };
+  net.links.erase(std::remove_if(net.links.begin(), net.links.end(), is_owned), net.links.end());
+  return net;
+}
+
+Rows rows_of(const Network &net, bool mixed = false) {
+  return make_rows(net.owned, net.links, net.nlocal, net.nall, mixed);
+}
+
+struct Evaluation {
+  double energy;
+  std::vector<double> f;
+  std::vector<LSMLinkKernel::Place> broken;
+  double virial;  // what one rounding of each length would change the energy by, over epsilon
+};
+
+template <int DIM, class Law>
+Evaluation evaluate(const Network &net, const Rows &rows, const Law &law, bool first_only = false,
+                    bool avx2 = LSMLinkKernel::has_avx2()) {
+  Evaluation e{0.0, std::vector<double>(net.x.size(), 0.0), {}, 0.0};
+  e.energy =
+      LSMLinkKernel::forces<DIM>(rows, law, first_only, net.x.data(), e.f.data(), e.broken, avx2);
+  return e;
+}
+
+/// The same by a plain loop over the links in long double; ratio 0: links do not break.
+Evaluation plain(const Network &net, double k, double ratio, bool first_only = false) {
+  std::vector<long double> f(net.x.size(), 0.0L);
+  long double energy = 0.0L, virial = 0.0L;
+  for (const Link &link : net.links) {
+    long double d[3], rsq = 0.0L;
+    for (int c = 0; c < 3; ++c) {
+      d[c] = static_cast<long double>(net.x[3 * link.i + c]) - net.x[3 * link.j + c];
+      rsq += d[c] * d[c];
+    }
+    const long double r = std::sqrt(rsq), stretch = r - link.rest;
+    if (ratio > 0.0 && r > ratio * link.rest) continue;
+    virial += k * std::fabs(stretch) * r;
+    energy += (first_only ? 0.25L : 0.5L) * k * stretch * stretch;
+    for (int c = 0; c < 3; ++c) {
+      f[3 * link.i + c] -= k * stretch / r * d[c];
+      if (!first_only) f[3 * link.j + c] += k * stretch / r * d[c];
+    }
+  }
+  return {static_cast<double>(energy), {f.begin(), f.end()}, {}, static_cast<double>(virial)};
+}
+
+void expect_near(const Evaluation &got, const Evaluation &expected) {
+  EXPECT_NEAR(got.energy, expected.energy, 2e-16 * expected.virial);
+  double worst = 0.0;
+  ASSERT_EQ(got.f.size(), expected.f.size());
+  for (std::size_t n = 0; n < got.f.size(); ++n)
+    worst = std::max(worst, std::fabs(got.f[n] - expected.f[n]));
+  EXPECT_LT(worst, 1e-14);
+}
+
+std::multiset<std::pair<int, int>> pairs_of(const Rows &rows) {
+  std::multiset<std::pair<int, int>> all;
+  for (const auto &run : rows.runs)
+    for (int n = 0; n < run.slices * run.length * LSMLinkRows::LANES; ++n) {
+      if (rows.rest[run.link + n] == LSMLinkRows::NO_LINK) continue;
+      const int row = n / (run.length * LSMLinkRows::LANES) * LSMLinkRows::LANES;
+      const int i = rows.particle[run.row + row + n % LSMLinkRows::LANES] / 3;
+      all.insert(std::minmax(i, rows.other[run.link + n] / 3));
+    }
+  return all;
+}
+
+TEST(LinkRows, HoldEachLinkOnce) {
+  for (int side : {1, 2, 3, 5, 40}) {
+    const Network net = make_network(side, 2, 7);
+    std::multiset<std::pair<int, int>> expected;
+    for (const Link &link : net.links) expected.insert(std::minmax(link.i, link.j));
+    for (bool mixed : {false, true}) EXPECT_EQ(pairs_of(rows_of(net, mixed)), expected) << side;
+  }
+}
+
+TEST(LinkRows, AreOfOwnedParticles) {
+  const Network net = make_network(40, 2, 3);
+  const auto to_ghost = [&](const Link &link) { return link.j >= net.nlocal; };
+  ASSERT_GT(std::count_if(net.links.begin(), net.links.end(), to_ghost), 20);
+  for (const int place : rows_of(net).particle) ASSERT_LT(place, 3 * net.nlocal);
+}
+
+TEST(LinkRows, FillFewPlacesUp) {
+  const Network net = make_network(100, 2, 11);
+  const Rows rows = rows_of(net);
+  EXPECT_LT(rows.other.size(), 1.05 * net.links.size());
+  EXPECT_LT(rows.particle.size(), 1.1 * net.nlocal);
+}
+
+TEST(LinkRows, FetchEachPlaceOfALaterWindow) {
+  const Network net = make_network(100, 2, 5);
+  const Rows rows = rows_of(net);
+  int at = 0;
+  for (const auto &run : rows.runs) {
+    EXPECT_GE(run.fetch_end, run.fetch);
+    if (run.fetch_end > run.fetch) {
+      EXPECT_EQ(run.fetch, at);
+      at = run.fetch_end;
+    }
+  }
+  EXPECT_GT(at, 2 * net.nlocal / 8);  // of three doubles each, eight in a line
+  EXPECT_EQ(at, static_cast<int>(rows.to_fetch.size()));
+}
+
+template <int DIM>
+void forces_agree() {
+  for (int side : {1, 2, 3, 6, 40, 70}) {
+    SCOPED_TRACE(side);
+    const Network net = make_network(side, DIM, 17);
+    expect_near(evaluate<DIM>(net, rows_of(net), Elastic{0.7}), plain(net, 0.7, 0.0));
+    expect_near(evaluate<DIM>(net, rows_of(net), Breakable{{0.7}, 1.2}), plain(net, 0.7, 1.2));
+    const Network out = links_to_ghosts(net);
+    expect_near(evaluate<DIM>(out, rows_of(out, true), Elastic{0.7}, true),
+                plain(out, 0.7, 0.0, true));
+    expect_near(evaluate<DIM>(out, rows_of(out, true), Breakable{{0.7}, 1.2}, true),
+                plain(out, 0.7, 1.2, true));
+  }
+}
+
+TEST(LinkKernel, ForcesOfAPlainLoopInTwoDimensions) { forces_agree<2>(); }
+TEST(LinkKernel, ForcesOfAPlainLoopInThreeDimensions) { forces_agree<3>(); }
+
+TEST(LinkKernel, BrokenLinksAreNamedOnce) {
+  const Network net = make_network(40, 2, 19);
+  std::multiset<std::pair<int, int>> expected, got;
+  for (const Link &link : net.links) {
+    const double r = std::hypot(net.x[3 * link.i] - net.x[3 * link.j],
+                                net.x[3 * link.i + 1] - net.x[3 * link.j + 1]);
+    if (r > 1.2 * link.rest) expected.insert(std::minmax(link.i, link.j));
+  }
+  ASSERT_GT(expected.size(), 100u);
+  for (bool mixed : {false, true}) {
+    const Rows rows = rows_of(net, mixed);
+    got.clear();
+    for (const auto &place : evaluate<2>(net, rows, Breakable{{1.0}, 1.2}, mixed).broken)
+      got.insert(std::minmax(rows.particle[place.row] / 3, rows.other[place.link] / 3));
+    EXPECT_EQ(got, expected);
+  }
+}
+
+TEST(LinkKernel, LinksThatMayBreakPullLikeOthers) {
+  const Network net = make_network(40, 2, 23);
+  const Rows rows = rows_of(net);
+  const Evaluation far = evaluate<2>(net, rows, Breakable{{1.0}, 100.0});
+  const Evaluation never = evaluate<2>(net, rows, Elastic{1.0});
+  EXPECT_TRUE(far.broken.empty());
+  EXPECT_EQ(far.energy, never.energy);
+  EXPECT_EQ(far.f, never.f);
+}
+
+TEST(LinkKernel, SameDigitsInAnyOrderInMemory) {
+  // particles change places, links and owned ones stay in the order of their numbers
+  const Network net = make_network(50, 2, 29);
+  std::vector<int> place(net.nlocal);
+  std::iota(place.begin(), place.end(), 0);
+  LSM::Random random(31);
+  for (int n = net.nlocal - 1; n > 0; --n)
+    std::swap(place[n], place[static_cast<int>(random.uniform() * (n + 1))]);
+  const auto moved = [&](int n) { return n < net.nlocal ? place[n] : n; };
+  Network other = net;
+  for (int n = 0; n < net.nall; ++n) std::copy_n(&net.x[3 * n], 3, &other.x[3 * moved(n)]);
+  for (Link &link : other.links) link = {moved(link.i), moved(link.j), link.rest};
+  for (int &i : other.owned) i = moved(i);
+
+  const Evaluation a = evaluate<2>(net, rows_of(net), Elastic{1.0});
+  const Evaluation b = evaluate<2>(other, rows_of(other), Elastic{1.0});
+  EXPECT_EQ(a.energy, b.energy);
+  for (int n = 0; n < net.nall; ++n)
+    for (int c = 0; c < 2; ++c) ASSERT_EQ(a.f[3 * n + c], b.f[3 * moved(n) + c]) << n;
+}
+
+template <int DIM, class Law>
+void instruction_sets_agree(const Law &law) {
+  const Network net = make_network(60, DIM, 37);
+  for (bool mixed : {false, true}) {
+    const Rows rows = rows_of(net, mixed);
+    const Evaluation narrow = evaluate<DIM>(net, rows, law, mixed, false);
+    const Evaluation wide = evaluate<DIM>(net, rows, law, mixed, true);
+    EXPECT_EQ(narrow.energy, wide.energy);
+    EXPECT_EQ(narrow.f, wide.f);
+    EXPECT_EQ(narrow.broken.size(), wide.broken.size());
+  }
+}
+
+TEST(LinkKernel, InstructionSetsGiveTheSameDigits) {
+  if (!LSMLinkKernel::has_avx2()) GTEST_SKIP() << "this processor has no AVX2";
+  instruction_sets_agree<2>(Elastic{0.7});
+  instruction_sets_agree<3>(Elastic{0.7});
+  instruction_sets_agree<2>(Breakable{{0.7}, 1.2});
+  instruction_sets_agree<3>(Breakable{{0.7}, 1.2});
+}
+
+}  // namespace

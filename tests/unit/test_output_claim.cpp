@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "lsm_output_claim.h"
+#include "unit_files.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using LSM::bad_outputs;
+using LSM::file_identity;
+using LSM::FileError;
+using LSM::FileLock;
+using LSM::OutputClaim;
+using unit::contains;
+using unit::message_of;
+using unit::slurp;
+using unit::spill;
+
+int no_flock(int, int) {
+  errno = ENOSYS;
+  return -1;
+}
+
+class OutputClaims : public unit::Files {
+ protected:
+  void TearDown() override {
+    if (child_ > 0) end_child();
+    unit::Files::TearDown();
+  }
+
+  /// Another process that holds the lock of a file until it is killed.
+  void hold(const std::string &name, FileLock::Flock flock) {
+    int ready[2];
+    ASSERT_EQ(pipe(ready), 0);
+    child_ = fork();
+    ASSERT_GE(child_, 0);
+    if (child_ == 0) {
+      const FileLock lock(path(name), flock);
+      const bool told = write(ready[1], "!", 1) == 1;
+      while (told) pause();
+      _exit(1);
+    }
+    char byte = 0;
+    close(ready[1]);
+    ASSERT_EQ(read(ready[0], &byte, 1), 1);
+    close(ready[0]);
+  }
+  void end_child() {
+    kill(child_, SIGKILL);
+    waitpid(child_, nullptr, 0);
+    child_ = -1;
+  }
+
+  pid_t child_ = -1;
+};
+
+TEST_F(OutputClaims, OneFileUnderTwoNames) {
+  fs::create_directory(path("sub"));
+  spill(path("here.csv"), "x");
+  fs::create_hard_link(path("here.csv"), path("hard.csv"));
+  fs::create_symlink("here.csv", path("soft.csv"));
+  fs::create_symlink("new.csv", path("dangling.csv"));
+  fs::create_directory_symlink("sub", path("folder"));
+  for (const auto &[one, other] :
+       std::vector<std::pair<std::string, std::string>>{{"here.csv", "here.csv"},
+                                                        {"here.csv", "./here.csv"},
+                                                        {"here.csv", "sub/../here.csv"},
+                                                        {"here.csv", "hard.csv"},
+                                                        {"here.csv", "soft.csv"},
+                                                        {"new.csv", "dangling.csv"},
+                                                        {"new.csv", ".//new.csv"},
+                                                        {"sub/new.csv", "folder/new.csv"},
+                                                        {"none/new.csv", "sub/../none/new.csv"}}) {
+    EXPECT_EQ(file_identity(path(one)), file_identity(path(other))) << one << " " << other;
+    EXPECT_EQ(bad_outputs({{"--catalogue", path(one)}, {"--json", ""}, {"--pe", path(other)}}),
+              "--catalogue " + path(one) + " and --pe " + path(other) +
+                  " are the same file; give each a name of its own");
+  }
+  EXPECT_EQ(bad_outputs({{"a", path("here.csv")},
+                         {"b", path("new.csv")},
+                         {"c", path("sub/new.csv")},
+                         {"d", path("sub/here.csv")}}),
+            "");
+}
+
+TEST_F(OutputClaims, RelativeNamesAndDevices) {
+  const fs::path before = fs::current_path();
+  fs::current_path(folder_);
+  EXPECT_NE(bad_outputs({{"a", "new.csv"}, {"b", path("new.csv")}}), "");
+  EXPECT_NE(bad_outputs({{"a", "new.csv"}, {"b", "./new.csv"}}), "");
+  fs::current_path(before);
+  EXPECT_EQ(bad_outputs({{"a", "/dev/null"}, {"b", "/dev/null"}}), "");
+}
+
+TEST_F(OutputClaims, NamesOfFilesOnTheirWay) {
+  EXPECT_TRUE(contains(bad_outputs({{"a", path("a.csv")}, {"b", path("a.csv.new")}}), "b "));
+  EXPECT_TRUE(contains(bad_outputs({{"a", path("a.csv.lock")}}), "names that end in .lock"));
+}
+
+TEST_F(OutputClaims, NothingIsLeftOfALock) {
+  {
+    OutputClaim claim;
+    claim.claim({{"a", path("a.csv")}, {"b", path("b.csv")}, {"c", ""}});
+    EXPECT_TRUE(fs::exists(path("a.csv.lock")));
+    EXPECT_TRUE(fs::exists(path("b.csv.lock")));
+    EXPECT_FALSE(fs::exists(path("a.csv")));
+    claim.claim({{"b", path("b.csv")}});
+    EXPECT_FALSE(fs::exists(path("a.csv.lock")));
+  }
+  EXPECT_TRUE(fs::is_empty(folder_));
+}
+
+TEST_F(OutputClaims, NothingIsHeldIfOneIsTaken) {
+  OutputClaim first, second;
+  first.claim({{"b", path("b.csv")}});
+  const std::string message = message_of<FileError>([&] {
+    second.claim({{"a", path("a.csv")}, {"b", path("b.csv")}});
+  });
+  EXPECT_EQ(message, path("b.csv") + ": is being written by this run already; give each output a " +
+                         "name of its own");
+  EXPECT_FALSE(fs::exists(path("a.csv.lock")));
+  first.release();
+  second.claim({{"a", path("a.csv")}, {"b", path("b.csv")}});
+}
+
+TEST_F(OutputClaims, AnotherRunIsNamedWhicheverWayTheFileIs) {
+  for (FileLock::Flock flock : {FileLock::Flock(::flock), FileLock::Flock(no_flock)}) {
+    spill(path("a.csv"), "x");
+    if (!fs::exists(path("link.csv"))) fs::create_symlink("a.csv", path("link.csv"));
+    hold("a.csv", flock);
+    for (const char *name : {"a.csv", "link.csv"}) {
+      const std::string message =
+          message_of<FileError>([&] { const FileLock lock(path(name), flock); });
+      EXPECT_TRUE(contains(message, path(name) + ": is being written by another run: process " +
+                                        std::to_string(child_) + " on "));
+      EXPECT_EQ(message.find('\n'), std::string::npos);
+    }
+    end_child();
+    // Killed: its lock file is still there, and no lock any more.
+    EXPECT_TRUE(fs::exists(path("a.csv.lock")));
+    { const FileLock lock(path("a.csv"), flock); }
+    EXPECT_FALSE(fs::exists(path("a.csv.lock")));
+  }
+}
+
+/// Lock file of a process; host, boot and begin as this process has them unless changed.
+std::string lock_text(const std::string &key, const std::string &value) {
+  std::string text = LSM::output_claim_detail::to_text(LSM::output_claim_detail::this_process());
+  const std::size_t at = text.find("# " + key + " = ");
+  EXPECT_NE(at, std::string::npos);
+  return text.replace(at, text.find('\n', at) - at, "# " + key + " = " + value);
+}
+
+TEST_F(OutputClaims, WithoutFlockStaleOnesAreToldApart) {
+  const std::string lock = path("a.csv.lock");
+  // The number of a process that ended, given to another since; a start of the host since.
+  for (const std::string &text :
+       {lock_text("begun", "1"), lock_text("boot", "other [1]"), std::string()}) {
+    spill(lock, text);
+    { const FileLock held(path("a.csv"), no_flock); }
+    EXPECT_FALSE(fs::exists(lock)) << text;
+  }
+  // Another host, or another container of this one.
+  const std::string boot = LSM::output_claim_detail::this_process().boot;
+  for (const std::string &text : {lock_text("host", "elsewhere"),
+                                  lock_text("boot", boot.substr(0, boot.find(' ')) + " pid:[1]")}) {
+    spill(lock, text);
+    EXPECT_TRUE(contains(message_of<FileError>([&] { FileLock(path("a.csv"), no_flock); }),
+                         ", or remove " + lock + " if it has ended"));
+    EXPECT_EQ(slurp(lock), text);
+  }
+  // With flock nobody holds it.
+  { const FileLock held(path("a.csv")); }
+  EXPECT_FALSE(fs::exists(lock));
+}
+
+TEST_F(OutputClaims, AFileThatIsNoLockStays) {
+  for (FileLock::Flock flock : {FileLock::Flock(::flock), FileLock::Flock(no_flock)}) {
+    spill(path("a.csv.lock"), "my notes\n");
+    EXPECT_TRUE(contains(message_of<FileError>([&] { FileLock(path("a.csv"), flock); }),
+                         "holds something else"));
+    EXPECT_EQ(slurp(path("a.csv.lock")), "my notes\n");
+  }
+  // Nor does a link lead to another file.
+  fs::remove(path("a.csv.lock"));
+  spill(path("victim"), "");
+  fs::create_symlink("victim", path("a.csv.lock"));
+  EXPECT_TRUE(contains(message_of<FileError>([&] { FileLock(path("a.csv")); }), "cannot open"));
+  EXPECT_EQ(slurp(path("victim")), "");
+}
+
+TEST_F(OutputClaims, FilesThatAreOpenAlready) {
+  std::ofstream log(path("log"));
+  fs::create_hard_link(path("log"), path("a.csv"));
+  OutputClaim claim;
+  EXPECT_TRUE(contains(message_of<FileError>([&] {
+                         claim.claim({{"catalogue", path("a.csv")}});
+                       }),
+                       "catalogue " + path("a.csv") + ": this run writes that file already"));
+  log.close();
+  const std::ifstream reader(path("log"));
+  claim.claim({{"catalogue", path("a.csv")}});
+}
+
+TEST_F(OutputClaims, FilesOfOthersAreComparedAndNotLocked) {
+  OutputClaim claim;
+  EXPECT_NE(message_of<FileError>([&] {
+              claim.claim({{"catalogue", path("a.csv")}}, {{"emergency", path("./a.csv")}});
+            }),
+            "");
+  claim.claim({{"catalogue", path("a.csv")}}, {{"emergency", path("b")}});
+  EXPECT_FALSE(fs::exists(path("b.lock")));
+}
+
+TEST_F(OutputClaims, FoldersThatCannotBeWritten) {
+  EXPECT_TRUE(contains(message_of<FileError>([&] { FileLock(path("none/a.csv")); }),
+                       path("none/a.csv") + ": cannot open for writing: its lock file "));
+}
+
+TEST_F(OutputClaims, DevicesAreNotLocked) {
+  OutputClaim claim;
+  claim.claim({{"a", "/dev/null"}, {"b", "/dev/null"}});
+  EXPECT_FALSE(fs::exists("/dev/null.lock"));
+}
+
+}  // namespace
