@@ -7,6 +7,7 @@ export LC_ALL=C
 build=$1 stock=$2 cxx=$3 version=$4
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
+here=$(cd "$(dirname "$0")" && pwd)
 cd "$work"
 fail() { echo "FAILED: $*"; [ ! -f out ] || tail -n 20 out; exit 1; }
 
@@ -39,12 +40,18 @@ clean lmp -in "$share/lsm-fault/inputs/fault_120.in" -log none -var length 20 -v
 [ "$(grep -cv '^[#e]' slider.csv)" -gt 2 ] || fail "the slider made no events"
 clean postproc export slider.csv -o table.csv
 [ "$(wc -l <table.csv)" -gt 2 ] || fail "the table is empty"
+clean postproc explore slider.csv -o page.html
+grep -q 'Dygraph' page.html || fail "the page is without its library"
 
 # the plugin, in a stock lmp
 plugin=$(find root -name lsmplugin.so)
 printf 'plugin load %s\ninclude %s\n' "$work/$plugin" "$share/lsm-fault/inputs/two_body_collision.in" >in.plugin
 clean "$stock" -in in.plugin -log none
 grep -q 'Loading plugin: .*lsm/free' out || fail "the plugin was not loaded"
+
+# LAMMPS as a library, from Python
+"$here/check-python.sh" "$work/root/usr/lib/python3/dist-packages" "$bin/lmp" "$share/lsm-fault/inputs" >out 2>&1 ||
+  fail "the Python module"
 
 # headers of the core
 cat >program.cpp <<'END'

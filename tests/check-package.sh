@@ -4,8 +4,8 @@
 # usage: check-package.sh built-in|plugin|refused LMP STOCK_LMP PLUGIN [PLUGIN_OF_OTHER_INTEGERS]
 set -euo pipefail
 way=$1 lmp=$2 stock=$3 plugin=$4 other_integers=${5:-}
-styles="bond_style:lsm/linked pair_style:lsm/free pair_style:lsm/friction fix:lsm/nve fix:lsm/plates fix:lsm/leap
-  compute:lsm/events create_lsm_fault include_beside"
+styles="bond_style:lsm/linked pair_style:lsm/free pair_style:lsm/friction fix:lsm/nve fix:lsm/plates fix:lsm/leap fix:lsm/absorb fix:lsm/traction
+  compute:lsm/events create_lsm_fault include_beside check_variable save_restart check_restart"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"

@@ -16,23 +16,22 @@
 #include "update.h"
 
 #include "lsm_force_laws.h"
-#include "lsm_link_kernel.h"
 #include "lsm_scene.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 #include <tuple>
+#include <utility>
 
 using namespace LAMMPS_NS;
-
-static constexpr double BROKEN =
-    -1.0;    // in place of a rest length, until the list is collected anew
 
 /* ---------------------------------------------------------------------- */
 
 BondLSMLinked::BondLSMLinked(LAMMPS *_lmp) :
-    Bond(_lmp), k(nullptr), ratio(nullptr), breakable(0), maxrad(0.0), collected_at(-1)
+    Bond(_lmp), k(nullptr), ratio(nullptr), breakable(0), maxrad(0.0),
+    avx2(LSMLinkKernel::has_avx2()), collected_at(-1)
 {
   writedata = 1;
 }
@@ -60,7 +59,7 @@ void BondLSMLinked::compute(int eflag, int vflag)
 }
 
 /* ----------------------------------------------------------------------
-   The links of this rank in an order that follows from the particle IDs alone: a run that goes on from a
+   The links of this rank in rows, in an order that follows from the particle IDs alone: a run that goes on from a
    restart file sums in the same order, and links that follow each other touch the same stretch of memory if
    IDs follow the particles in space. Links that are treated differently stand in segments of their own:
    by type, and by whether the force on the second particle is added here.
@@ -83,83 +82,72 @@ void BondLSMLinked::collect()
   };
 
   const tagint *const tag = atom->tag;
+  const int nlocal = atom->nlocal;
   int **const bondlist = neighbor->bondlist;
   std::vector<Link> links;
   links.reserve(neighbor->nbondlist);
   for (int n = 0; n < neighbor->nbondlist; n++) {
-    const int i = bondlist[n][0], j = bondlist[n][1], type = bondlist[n][2];
-    if (type > 0)
-      links.push_back({!force->newton_bond && j >= atom->nlocal, type, MIN(tag[i], tag[j]),
-                       MAX(tag[i], tag[j]), tag[i], i, j});
+    int i = bondlist[n][0], j = bondlist[n][1];
+    const int type = bondlist[n][2];
+    if (type <= 0) continue;
+    if (j < nlocal && tag[j] < tag[i]) std::swap(i, j);
+    links.push_back({!force->newton_bond && j >= nlocal, type, MIN(tag[i], tag[j]),
+                     MAX(tag[i], tag[j]), tag[i], i, j});
   }
   std::sort(links.begin(), links.end());
 
-  ends.clear();
-  rest.clear();
+  const std::vector<int> owned = owned_by_id();
+  const double *const radius = atom->radius;
+  std::vector<LSMLinkRows::Link> same;
   segments.clear();
-  for (const Link &link : links) {
-    const int n = static_cast<int>(rest.size());
-    if (segments.empty() || segments.back().type != link.type ||
-        segments.back().first_only != link.first_only)
-      segments.push_back({n, n, link.type, link.first_only});
-    segments.back().last = n + 1;
-    ends.push_back({3 * link.i, 3 * link.j});
-    rest.push_back(atom->radius[link.i] + atom->radius[link.j]);
+  for (size_t n = 0; n < links.size(); n++) {
+    const Link &link = links[n];
+    same.push_back({link.i, link.j, radius[link.i] + radius[link.j]});
+    if (n + 1 < links.size() && links[n + 1].type == link.type &&
+        links[n + 1].first_only == link.first_only)
+      continue;
+    segments.push_back(
+        {link.type, link.first_only,
+         LSMLinkRows::make_rows(owned, same, nlocal, nlocal + atom->nghost, link.first_only)});
+    same.clear();
   }
-  list_to_fetch();
   collected_at = neighbor->lastcall;
 }
 
-/* ----------------------------------------------------------------------
-   Particles whose place in memory a block of links needs and the blocks shortly before did not: fetched while
-   the block before is worked on, as the time to fetch them one by one when they are needed would be longer
-   than all arithmetic.
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
-void BondLSMLinked::list_to_fetch()
+std::vector<int> BondLSMLinked::owned_by_id() const
 {
-  constexpr int REMEMBERED =
-      16;                    // blocks whose particles are taken to be in the nearest cache still
-  constexpr int LINE = 8;    // doubles of a cache line
-
-  to_fetch.clear();
-  to_fetch_begin = {0};
-  std::vector<int> used(3 * (atom->nlocal + atom->nghost) / LINE + 1, -REMEMBERED - 1);
-  int number = 0;
-  for (const Segment &segment : segments)
-    for (int first = segment.first; first < segment.last; first += LSMLinkKernel::BLOCK, number++) {
-      const int last = MIN(first + LSMLinkKernel::BLOCK, segment.last);
-      for (int n = first; n < last; n++)
-        for (const int place : {ends[n].i, ends[n].j}) {
-          if (number - used[place / LINE] > REMEMBERED) to_fetch.push_back(place);
-          used[place / LINE] = number;
-        }
-      to_fetch_begin.push_back(static_cast<int>(to_fetch.size()));
-    }
+  const tagint *const tag = atom->tag;
+  std::vector<int> owned(atom->nlocal);
+  std::iota(owned.begin(), owned.end(), 0);
+  if (!std::is_sorted(tag, tag + atom->nlocal))
+    std::sort(owned.begin(), owned.end(), [tag](int i, int j) { return tag[i] < tag[j]; });
+  return owned;
 }
 
 /* ---------------------------------------------------------------------- */
 
 template <int DIM> void BondLSMLinked::eval()
 {
-  pe_link = 0.0;
-  if (rest.empty()) return;
-
   // a minimizer tries positions that it takes back
 
   const bool minimizing = update->whichflag == 2;
-  const int *begin = to_fetch_begin.data();
-  for (const Segment &s : segments) {
-    const LSMLinkKernel::Links links{&ends[s.first], &rest[s.first], s.last - s.first, k[s.type],
-                                     ratio[s.type],  s.first_only,   to_fetch.data(),  begin};
-    begin += (links.count + LSMLinkKernel::BLOCK - 1) / LSMLinkKernel::BLOCK;
+  pe_link = 0.0;
+  for (Segment &s : segments) {
     if (ratio[s.type] > 0.0 && !minimizing) {
       broken_now.clear();
-      pe_link += LSMLinkKernel::forces<DIM, true>(links, atom->x[0], atom->f[0], broken_now);
+      pe_link += forces_of<DIM>(s, LSMLinkKernel::Breakable{{k[s.type]}, ratio[s.type]});
       note_broken(s);
     } else
-      pe_link += LSMLinkKernel::forces<DIM, false>(links, atom->x[0], atom->f[0], broken_now);
+      pe_link += forces_of<DIM>(s, LSMLinkKernel::Elastic{k[s.type]});
   }
+}
+
+template <int DIM, class Law> double BondLSMLinked::forces_of(const Segment &s, const Law &law)
+{
+  return LSMLinkKernel::forces<DIM>(s.rows, law, s.first_only, atom->x[0], atom->f[0], broken_now,
+                                    avx2);
 }
 
 /* ----------------------------------------------------------------------
@@ -167,17 +155,20 @@ template <int DIM> void BondLSMLinked::eval()
    without them.
 ------------------------------------------------------------------------- */
 
-void BondLSMLinked::note_broken(const Segment &segment)
+void BondLSMLinked::note_broken(Segment &segment)
 {
-  for (const int n : broken_now) {
-    const int i = ends[segment.first + n].i / 3, j = ends[segment.first + n].j / 3;
-    for (int m = 0; m < neighbor->nbondlist; m++)
-      if (neighbor->bondlist[m][0] == i && neighbor->bondlist[m][1] == j)
-        neighbor->bondlist[m][2] = 0;
+  for (const LSMLinkKernel::Place &place : broken_now) {
+    const int i = segment.rows.particle[place.row] / 3, j = segment.rows.other[place.link] / 3;
+    for (int m = 0; m < neighbor->nbondlist; m++) {
+      int *const bond = neighbor->bondlist[m];
+      if (bond[2] == segment.type && MIN(bond[0], bond[1]) == MIN(i, j) &&
+          MAX(bond[0], bond[1]) == MAX(i, j))
+        bond[2] = 0;
+    }
     broken.push_back(atom->tag[i]);
     broken.push_back(atom->tag[j]);
     broken.push_back(segment.type);
-    rest[segment.first + n] = BROKEN;
+    segment.rows.rest[place.link] = LSMLinkRows::NO_LINK;
     if (record_what) {
       double **x = atom->x, none;
       const double dx = x[i][0] - x[j][0], dy = x[i][1] - x[j][1], dz = x[i][2] - x[j][2];
@@ -208,17 +199,30 @@ void BondLSMLinked::tally()
 
 /* ---------------------------------------------------------------------- */
 
+template <class Act> void BondLSMLinked::for_each_link(const Act &act) const
+{
+  using LSMLinkRows::LANES;
+  for (const Segment &s : segments)
+    for (const LSMLinkRows::Run &run : s.rows.runs)
+      for (int n = 0; n < run.slices * run.length * LANES; n++) {
+        const double rest = s.rows.rest[run.link + n];
+        if (rest == LSMLinkRows::NO_LINK) continue;
+        const int row = n / (run.length * LANES) * LANES + n % LANES;
+        act(s, s.rows.particle[run.row + row] / 3, s.rows.other[run.link + n] / 3, rest);
+      }
+}
+
+/* ---------------------------------------------------------------------- */
+
 double BondLSMLinked::max_strain() const
 {
   double **x = atom->x;
   double worst = 0.0;
-  for (size_t n = 0; n < rest.size(); n++) {
-    if (rest[n] == BROKEN) continue;
-    const int i = ends[n].i / 3, j = ends[n].j / 3;
+  for_each_link([&](const Segment &, int i, int j, double rest) {
     const double dx = x[i][0] - x[j][0], dy = x[i][1] - x[j][1], dz = x[i][2] - x[j][2];
-    const double strain = fabs(sqrt(dx * dx + dy * dy + dz * dz) - rest[n]) / rest[n];
+    const double strain = fabs(sqrt(dx * dx + dy * dy + dz * dz) - rest) / rest;
     if (!(strain <= worst)) worst = strain;    // a NaN counts as worst
-  }
+  });
   return worst;
 }
 
@@ -227,10 +231,8 @@ double BondLSMLinked::max_strain() const
 std::vector<BondLSMLinked::Held> BondLSMLinked::held() const
 {
   std::vector<Held> all;
-  all.reserve(rest.size());
-  for (const Segment &s : segments)
-    for (int n = s.first; n < s.last; n++)
-      if (rest[n] != BROKEN) all.push_back({ends[n].i / 3, ends[n].j / 3, k[s.type]});
+  all.reserve(neighbor->nbondlist);
+  for_each_link([&](const Segment &s, int i, int j, double) { all.push_back({i, j, k[s.type]}); });
   return all;
 }
 

@@ -56,24 +56,23 @@ class BondLSMLinked : public Bond, public LSMEnergySource {
   void allocate();
 
  private:
+  const bool avx2;    // of the processor
   struct Segment {    // links that are treated the same way
-    int first, last;
     int type;
     bool first_only;    // the force on the second particle is added by its owner
+    LSMLinkRows::Rows rows;
   };
-  std::vector<LSMLinkKernel::Ends> ends;    // the links in the order of the sums
-  std::vector<double> rest;                 // their rest lengths
   std::vector<Segment> segments;
-  std::vector<int> to_fetch;          // places to fetch into the cache, block by block
-  std::vector<int> to_fetch_begin;    // where those of each block begin
-  std::vector<int>
-      broken_now;         // links that broke in this evaluation, by their place in a segment
+  std::vector<LSMLinkKernel::Place>
+      broken_now;         // links of a segment that broke in this evaluation
   bigint collected_at;    // step of the neighbour list they were taken from, -1 if outdated
 
+  std::vector<int> owned_by_id() const;
   void collect();
-  void list_to_fetch();
   template <int DIM> void eval();
-  void note_broken(const Segment &);
+  template <int DIM, class Law> double forces_of(const Segment &, const Law &);
+  void note_broken(Segment &);
+  template <class Act> void for_each_link(const Act &) const;
   void tally();
 };
 

@@ -11,7 +11,9 @@
 #include "fix_lsm_leap.h"
 #include "fix_lsm_record.h"
 #include "modify.h"
+#include "output.h"
 #include "platform.h"
+#include "save_restart.h"
 #include "update.h"
 #include "write_restart.h"
 
@@ -40,6 +42,8 @@ enum {
   WORK_VISCOSITY,
   RESIDUAL,
   WORK_BROKEN,
+  WORK_OUTSIDE,
+  WORK_ABSORBED,
   NLEDGER
 };
 
@@ -49,7 +53,7 @@ ComputeLSMEvents::ComputeLSMEvents(LAMMPS *_lmp, int narg, char **arg) :
     Compute(_lmp, narg, arg), options(_lmp, 3, narg, arg), settings(options.events),
     recorder(nullptr), sources(_lmp, settings), gather(world, settings.location),
     watchdog(options.watchdog), last_recorded(-1), opened(false), fault_begun(false), widest(0.0),
-    shown_at(0.0), started_at(0.0)
+    shown_at(0.0), started_at(0.0), begin(0.0), period(0.0)
 {
   if (igroup) error->all(FLERR, "Compute lsm/events must use group all");
   scalar_flag = 1;
@@ -66,6 +70,7 @@ ComputeLSMEvents::ComputeLSMEvents(LAMMPS *_lmp, int narg, char **arg) :
   recorder = dynamic_cast<FixLSMRecord *>(modify->add_fix(id_fix + " all LSM_RECORD"));
   if (!recorder) error->all(FLERR, "Compute lsm/events could not create fix LSM_RECORD");
   recorder->owner = this;
+  update->first_update = 0;
   vector = new double[size_vector];    // last: a constructor that stops is not destroyed
 }
 
@@ -73,7 +78,13 @@ ComputeLSMEvents::ComputeLSMEvents(LAMMPS *_lmp, int narg, char **arg) :
 
 ComputeLSMEvents::~ComputeLSMEvents()
 {
+  // the first processor has all complete intervals since the end of the last run
+  if (options.unfinished) on_rank_0([this] { stream->write_unfinished(); });
   sources.release();
+
+  // LAMMPS' lists of fixes and what the styles record are made at an init: 'run N pre no' needs one, too
+
+  if (update) update->first_update = 0;
   const std::string id_fix = std::string(id) + "_record";
   if (recorder && modify && modify->get_fix_by_id(id_fix)) modify->delete_fix(id_fix);
   delete[] vector;
@@ -147,10 +158,24 @@ void ComputeLSMEvents::open_files()
   if (from_restart) unpack_state(recorder->restart_state);
   change_dt();
   on_rank_0([this, from_restart] {
-    stream->begin_files(update->ntimestep, from_restart, sources.scene(), clock);
+    stream->begin_files(update->ntimestep, from_restart, sources.scene(), clock, restart_files());
   });
   stop_on_failure();
   opened = true;
+}
+
+/* ----------------------------------------------------------------------
+   names with a step or a processor in them are no other file's
+------------------------------------------------------------------------- */
+
+std::vector<LSM::Output> ComputeLSMEvents::restart_files() const
+{
+  std::vector<LSM::Output> files = {{"emergency", options.emergency_file}};
+  if (output->restart_flag_double) {
+    files.push_back({"restart", output->restart2a});
+    files.push_back({"restart", output->restart2b});
+  }
+  return files;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -159,8 +184,16 @@ void ComputeLSMEvents::make_grid()
 {
   const bigint step = update->ntimestep;
   const double time = clock.at(step);
-  fault.begin(settings.grid(domain->boxlo[0], domain->prd[0], step, time, update->dt),
-              settings.forward);
+  const double bins = domain->prd[0] / settings.bin_width;
+  constexpr auto most = LSM::slip_history_detail::most_bins;
+  if (bins > static_cast<double>(most))
+    error->all(FLERR,
+               "Compute lsm/events: bin {} makes {:.0f} bins of a box of length {}, expected at "
+               "most {}",
+               settings.bin_width, bins, domain->prd[0], most);
+  LSM::FaultGrid grid = settings.grid(domain->boxlo[0], domain->prd[0], step, time, update->dt);
+  grid.ring = domain->xperiodic;
+  fault.begin(grid, settings.forward);
   fault_begun = false;
   on_rank_0([this] { stream->set_grid(fault.grid()); });
 }
@@ -209,11 +242,41 @@ void ComputeLSMEvents::setup_record()
   MPI_Allreduce(&mine, &widest, 1, MPI_DOUBLE, MPI_MAX, world);
   watchdog.calm_down();
   if (!opened) open_files();
+  check_box();
   change_dt();
   leave_out_jump();
   if (settings.ruptures && !fault_begun) begin_fault();
   if (options.ledger && !ledger.begun()) ledger.begin(energies());
   if (last_recorded != update->ntimestep) record();
+}
+
+/* ----------------------------------------------------------------------
+   places along the fault are counted from the box as it was, and headers hold its length
+------------------------------------------------------------------------- */
+
+void ComputeLSMEvents::check_box()
+{
+  const bool placed = settings.ruptures || settings.location;
+  if (placed)
+    for (const auto &ifix : modify->get_fix_list())
+      if (ifix->box_change & Fix::BOX_CHANGE_X)
+        error->all(FLERR,
+                   "Compute lsm/events {}: fix {} changes the box along x, which {} cannot follow",
+                   id, ifix->id, settings.ruptures ? "events ruptures" : "location yes");
+  if (period == 0.0) {
+    begin = domain->boxlo[0];
+    period = domain->prd[0];
+  }
+  if (begin == domain->boxlo[0] && period == domain->prd[0]) return;
+  for (const std::string &file :
+       {settings.catalogue_file, settings.series_file, settings.history_file})
+    if (placed || !file.empty())
+      error->all(
+          FLERR,
+          "Compute lsm/events {}: the box along x was {} to {} when it began and is {} to {} "
+          "now, which {} cannot follow; uncompute it before, and begin another with other files",
+          id, begin, begin + period, domain->boxlo[0], domain->boxhi[0],
+          placed ? "the places of events" : "the header of file " + file);
 }
 
 /* ----------------------------------------------------------------------
@@ -253,7 +316,7 @@ void ComputeLSMEvents::record()
 {
   const bigint step = update->ntimestep;
   if (settings.location)
-    for (const auto *style : sources.styles()) sampler.add_slip(style->slip);
+    for (const auto *style : sources.styles()) sampler.add_slip(style->slip, settings.bin_width);
   if (settings.ruptures && step != fault.grid().step0) {
     for (const auto *style : sources.styles()) fault.add(style->contacts);
     if (fault.grid().ends_interval(step)) {
@@ -434,9 +497,11 @@ void ComputeLSMEvents::check_health()
         update->ntimestep, found.what);
 
   sources.complete_steps();
-  auto writer = WriteRestart(lmp);
-  writer.multiproc_options(0, 0, nullptr);
-  writer.write(options.emergency_file);
+  SaveRestart(lmp).save(options.emergency_file, {}, [this](const std::string &file) {
+    WriteRestart writer(lmp);
+    writer.multiproc_options(0, 0, nullptr);
+    writer.write(file);
+  });
   error->all(FLERR,
              "Run stopped at step {}: {}. Wrote restart file {}; use a smaller time step or start "
              "from an earlier restart",
@@ -563,6 +628,8 @@ void ComputeLSMEvents::compute_vector()
   vector[WORK_VISCOSITY] = now.viscosity;
   vector[RESIDUAL] = ledger.begun() ? ledger.residual(now) : 0.0;
   vector[WORK_BROKEN] = now.broken;
+  vector[WORK_OUTSIDE] = now.outside;
+  vector[WORK_ABSORBED] = now.absorbed;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -75,11 +75,15 @@ class ComputeLSMEvents : public Compute {
   std::string failure;    // what went wrong on rank 0, which the others have to hear of
   double shown_at, started_at;
 
+  double begin, period;    // of the box along x at the first run
+
   void set_memory();
   void open_files();
+  std::vector<LSM::Output> restart_files() const;
   void unpack_state(const std::vector<double> &);
   void make_grid();
   void begin_fault();
+  void check_box();
   void leave_out_jump();
   void start_gather();
   void finish_gather();

@@ -5,6 +5,7 @@
 
 #include "create_lsm_fault.h"
 
+#include "lsm_lattice.h"
 #include "lsm_packing.h"
 
 #include "atom.h"
@@ -36,6 +37,7 @@ static constexpr int BULK = 1;
 static constexpr int FAULT_ZONE = 3;
 static constexpr int PLATE = 5;
 static constexpr int LINK_TYPE = 1;
+static constexpr int BORDER_LINK_TYPE = 2;    // of a lattice
 
 static int type_of(const LSM::Disc &disc)
 {
@@ -85,7 +87,8 @@ static std::pair<int, int> owner_first(const LSM::Packing &packing, const std::p
 /* ---------------------------------------------------------------------- */
 
 CreateLSMFault::CreateLSMFault(LAMMPS *lmp_in) :
-    Command(lmp_in), mass_power(2), mass_scale(1.0), mass_floor(0.0), margin(2.0), stiffness(1.0)
+    Command(lmp_in), mass_power(2), mass_scale(1.0), mass_floor(0.0), step(0.0), step_kt(0.0),
+    margin(2.0), stiffness(1.0), lattice(false), types(NTYPES)
 {
 }
 
@@ -93,24 +96,56 @@ CreateLSMFault::CreateLSMFault(LAMMPS *lmp_in) :
 
 void CreateLSMFault::command(int narg, char **arg)
 {
+  lattice = narg > 0 && strcmp(arg[0], "lattice") == 0;
   check_setup();
-
-  LSM::PackingSettings settings;
-  parse(narg, arg, settings);
-
   MPI_Barrier(world);
   const double time1 = platform::walltime();
 
   LSM::Packing packing;
-  pack(settings, packing);
-  const double time2 = platform::walltime();
-
+  LSM::PackingSettings random;
   std::vector<double> masses;
-  masses.reserve(packing.discs.size());
-  for (const auto &disc : packing.discs) {
-    masses.push_back(std::max(mass_of(disc.r), mass_floor));
+  double time2;
+  if (lattice) {
+    LSM::LatticeSettings regular;
+    parse(narg - 1, arg + 1, regular);
+    pack([&regular] { return LSM::make_lattice(regular); }, packing);
+    time2 = platform::walltime();
+    masses = masses_of(packing);
+    const double x = regular.half_length(), y = regular.half_width() + margin;
+    const double lo[] = {-x, -y, -0.5 * regular.spacing}, hi[] = {x, y, 0.5 * regular.spacing};
+    create(lo, hi, packing, masses);
+  } else {
+    parse(narg, arg, random);
+    pack(
+        [&random] {
+          LSM::Packing one = LSM::make_packing(random);
+          order_along_fault(one);
+          return one;
+        },
+        packing);
+    time2 = platform::walltime();
+    masses = masses_of(packing);
+    if (step > 0.0) {
+      const auto enough = LSM::masses_for_step(packing, random.length, step, stiffness, step_kt);
+      for (std::size_t i = 0; i < masses.size(); i++) masses[i] = std::max(masses[i], enough[i]);
+    }
+    const double lo[] = {0.0, -margin, -0.5}, hi[] = {random.length, random.width + margin, 0.5};
+    create(lo, hi, packing, masses);
   }
+  MPI_Barrier(world);
+  if (comm->me == 0) {
+    report_types(packing);
+    if (!lattice) report(random, packing, masses);
+    utils::logmesg(lmp, "  create_lsm_fault CPU = {:.3f} seconds (packing {:.3f})\n",
+                   platform::walltime() - time1, time2 - time1);
+  }
+}
 
+/* ---------------------------------------------------------------------- */
+
+void CreateLSMFault::create(const double *lo, const double *hi, const LSM::Packing &packing,
+                            const std::vector<double> &masses)
+{
   std::vector<int> stored(packing.discs.size(), 0);
   for (const auto &link : packing.links) {
     ++stored[owner_first(packing, link).first];
@@ -118,18 +153,25 @@ void CreateLSMFault::command(int narg, char **arg)
   }
   const int most = stored.empty() ? 0 : *std::max_element(stored.begin(), stored.end());
 
-  create_box(settings.length, settings.width, most);
+  create_box(lo, hi, most);
   add_particles(packing, masses, stored);
 
   Special special(lmp);
   special.build();
+}
 
-  MPI_Barrier(world);
-  if (comm->me == 0) {
-    report(settings, packing, masses);
-    utils::logmesg(lmp, "  create_lsm_fault CPU = {:.3f} seconds (packing {:.3f})\n",
-                   platform::walltime() - time1, time2 - time1);
-  }
+/* ----------------------------------------------------------------------
+   a disc in a straight border of a lattice stands for half the area of the others
+------------------------------------------------------------------------- */
+
+std::vector<double> CreateLSMFault::masses_of(const LSM::Packing &packing) const
+{
+  std::vector<double> masses;
+  masses.reserve(packing.discs.size());
+  for (const auto &disc : packing.discs)
+    masses.push_back((lattice && (disc.fault || disc.plate) ? 0.5 : 1.0) *
+                     std::max(mass_of(disc.r), mass_floor));
+  return masses;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -152,9 +194,10 @@ void CreateLSMFault::check_setup()
   if (domain->dimension != 2)
     error->all(FLERR, "Create_lsm_fault requires dimension 2, found dimension {}",
                domain->dimension);
-  if (!domain->xperiodic || domain->yperiodic || !domain->zperiodic)
+  if ((!lattice && !domain->xperiodic) || domain->yperiodic || !domain->zperiodic)
     error->all(FLERR,
-               "Create_lsm_fault requires boundary p f p: periodic in x and z, not periodic in y");
+               "Create_lsm_fault requires boundary p f p: periodic in x and z, not periodic in y{}",
+               lattice ? "; or f f p" : "");
   if (atom->molecular != Atom::MOLECULAR || !atom->avec->bonds_allow || !atom->radius_flag ||
       !atom->rmass_flag)
     error->all(FLERR,
@@ -178,7 +221,7 @@ void CreateLSMFault::parse(int narg, char **arg, LSM::PackingSettings &settings)
   int iarg = 0;
   while (iarg < narg) {
     const std::string key = arg[iarg];
-    const int values = (key == "mass") ? 2 : 1;
+    const int values = (key == "mass" || key == "massstep") ? 2 : 1;
     if (iarg + values >= narg) utils::missing_cmd_args(FLERR, "create_lsm_fault " + key, error);
     const char *value = arg[iarg + 1];
     if (key == "length") {
@@ -214,37 +257,31 @@ void CreateLSMFault::parse(int narg, char **arg, LSM::PackingSettings &settings)
       else
         error->all(FLERR, "Create_lsm_fault: loose = {}, expected remove or keep", value);
     } else if (key == "mass") {
-      if (strcmp(value, "r2") == 0)
-        mass_power = 2;
-      else if (strcmp(value, "r3") == 0)
-        mass_power = 3;
-      else
-        error->all(FLERR, "Create_lsm_fault: mass = {}, expected r2 or r3 and a number", value);
-      mass_scale = utils::numeric(FLERR, arg[iarg + 2], false, lmp);
-      if (!(mass_scale > 0.0) || !std::isfinite(mass_scale))
-        error->all(FLERR, "Create_lsm_fault: mass {} = {}, expected a positive number", value,
-                   mass_scale);
+      parse_mass(value, arg[iarg + 2]);
     } else if (key == "massfloor") {
       mass_floor = utils::numeric(FLERR, value, false, lmp);
       if (!(mass_floor >= 0.0) || !std::isfinite(mass_floor))
         error->all(FLERR, "Create_lsm_fault: massfloor = {}, expected 0 or a positive number",
                    mass_floor);
+    } else if (key == "massstep") {
+      step = utils::numeric(FLERR, value, false, lmp);
+      step_kt = utils::numeric(FLERR, arg[iarg + 2], false, lmp);
+      if (!(step >= 0.0) || !std::isfinite(step) || !(step_kt >= 0.0) || !std::isfinite(step_kt))
+        error->all(FLERR,
+                   "Create_lsm_fault: massstep = {} {}, expected a time step and a tangential "
+                   "stiffness, both 0 or a positive number",
+                   step, step_kt);
     } else if (key == "margin") {
-      margin = utils::numeric(FLERR, value, false, lmp);
-      if (!(margin > 0.0) || !std::isfinite(margin))
-        error->all(FLERR, "Create_lsm_fault: margin = {}, expected a positive number", margin);
+      margin = positive(key, value);
     } else if (key == "stiffness") {
-      stiffness = utils::numeric(FLERR, value, false, lmp);
-      if (!(stiffness > 0.0) || !std::isfinite(stiffness))
-        error->all(FLERR, "Create_lsm_fault: stiffness = {}, expected a positive number",
-                   stiffness);
+      stiffness = positive(key, value);
     } else
-      error->all(
-          FLERR,
-          "Create_lsm_fault: unknown keyword {}, expected length, width, seed, rmin, rmax, "
-          "failures, tolerance, linkgap, faultzone, hexseeds, loose, mass, massfloor, margin or "
-          "stiffness",
-          key);
+      error->all(FLERR,
+                 "Create_lsm_fault: unknown keyword {}, expected length, width, seed, rmin, rmax, "
+                 "failures, tolerance, linkgap, faultzone, hexseeds, loose, mass, massfloor, "
+                 "massstep, margin "
+                 "or stiffness",
+                 key);
     iarg += 1 + values;
   }
   const char *missing = !have_length ? "length"
@@ -253,18 +290,80 @@ void CreateLSMFault::parse(int narg, char **arg, LSM::PackingSettings &settings)
     error->all(FLERR, "Create_lsm_fault: {} is missing, expected length L width W seed S", missing);
 }
 
+/* ---------------------------------------------------------------------- */
+
+double CreateLSMFault::positive(const std::string &what, const char *text) const
+{
+  const double value = utils::numeric(FLERR, text, false, lmp);
+  if (!(value > 0.0) || !std::isfinite(value))
+    error->all(FLERR, "Create_lsm_fault: {} = {}, expected a positive number", what, value);
+  return value;
+}
+
+void CreateLSMFault::parse_mass(const char *power, const char *scale)
+{
+  if (strcmp(power, "r2") == 0)
+    mass_power = 2;
+  else if (strcmp(power, "r3") == 0)
+    mass_power = 3;
+  else
+    error->all(FLERR, "Create_lsm_fault: mass = {}, expected r2 or r3 and a number", power);
+  mass_scale = positive(std::string("mass ") + power, scale);
+}
+
+void CreateLSMFault::parse(int narg, char **arg, LSM::LatticeSettings &settings)
+{
+  settings.ring = domain->xperiodic;
+  margin = 0.0;
+  int iarg = 0;
+  while (iarg < narg) {
+    const std::string key = arg[iarg];
+    const int values = (key == "mass") ? 2 : 1;
+    if (iarg + values >= narg) utils::missing_cmd_args(FLERR, "create_lsm_fault " + key, error);
+    const char *value = arg[iarg + 1];
+    if (key == "length")
+      settings.length = positive(key, value);
+    else if (key == "width")
+      settings.width = positive(key, value);
+    else if (key == "spacing")
+      settings.spacing = positive(key, value);
+    else if (key == "mass")
+      parse_mass(value, arg[iarg + 2]);
+    else if (key == "margin")
+      margin = positive(key, value);
+    else if (key == "types") {
+      types = utils::inumeric(FLERR, value, false, lmp);
+      if (types < NTYPES)
+        error->all(FLERR, "Create_lsm_fault: types = {}, expected at least {}", types, NTYPES);
+    } else
+      error->all(FLERR,
+                 "Create_lsm_fault lattice: unknown keyword {}, expected length, width, spacing, "
+                 "mass, margin or types",
+                 key);
+    iarg += 1 + values;
+  }
+  const char *missing =
+      settings.length == 0.0
+          ? "length"
+          : (settings.width == 0.0 ? "width" : (settings.spacing == 0.0 ? "spacing" : nullptr));
+  if (missing)
+    error->all(FLERR,
+               "Create_lsm_fault: {} is missing, expected lattice length L width W spacing D",
+               missing);
+  if (margin == 0.0) margin = settings.spacing;
+}
+
 /* ----------------------------------------------------------------------
    rank 0 packs and all others get its result: the same scene on any number of ranks,
    also where ranks run on processors that round differently
 ------------------------------------------------------------------------- */
 
-void CreateLSMFault::pack(const LSM::PackingSettings &settings, LSM::Packing &packing)
+template <class Make> void CreateLSMFault::pack(Make &&make, LSM::Packing &packing)
 {
   std::string problem;
   if (comm->me == 0) {
     try {
-      packing = LSM::make_packing(settings);
-      order_along_fault(packing);
+      packing = make();
       if (packing.discs.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()) / 8)
         problem = "too many particles: " + std::to_string(packing.discs.size());
     } catch (std::exception &e) {
@@ -341,15 +440,15 @@ template <class Command> static void with_words(const std::string &line, Command
    by the commands region and create_box; 17 digits are the same number again
 ------------------------------------------------------------------------- */
 
-void CreateLSMFault::create_box(double length, double width, int bonds_per_atom)
+void CreateLSMFault::create_box(const double *lo, const double *hi, int bonds_per_atom)
 {
   const std::string region = "create_lsm_fault_box";
-  with_words(fmt::format("{} block 0 {:.17g} {:.17g} {:.17g} -0.5 0.5 units box", region, length,
-                         -margin, width + margin),
+  with_words(fmt::format("{} block {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} units box",
+                         region, lo[0], hi[0], lo[1], hi[1], lo[2], hi[2]),
              [this](int narg, char **arg) { domain->add_region(narg, arg); });
-  with_words(
-      fmt::format("{} {} bond/types 1 extra/bond/per/atom {}", NTYPES, region, bonds_per_atom),
-      [this](int narg, char **arg) { CreateBox(lmp).command(narg, arg); });
+  with_words(fmt::format("{} {} bond/types {} extra/bond/per/atom {}", types, region,
+                         lattice ? BORDER_LINK_TYPE : LINK_TYPE, bonds_per_atom),
+             [this](int narg, char **arg) { CreateBox(lmp).command(narg, arg); });
   domain->delete_region(region);
 
   // the order of the particles suits links and contacts better than that of LAMMPS' sorting
@@ -360,7 +459,7 @@ void CreateLSMFault::create_box(double length, double width, int bonds_per_atom)
   // and read_data refuses zeros
 
   if (atom->mass)
-    for (int itype = 1; itype <= NTYPES; itype++) atom->set_mass(FLERR, itype, 1.0);
+    for (int itype = 1; itype <= types; itype++) atom->set_mass(FLERR, itype, 1.0);
 }
 
 /* ----------------------------------------------------------------------
@@ -397,12 +496,13 @@ void CreateLSMFault::add_particles(const LSM::Packing &packing, const std::vecto
   for (const auto &link : packing.links) {
     const auto ends = owner_first(packing, link);
     const int i = local[ends.first], j = local[ends.second];
+    const int type = lattice && LSM::in_border(packing, link) ? BORDER_LINK_TYPE : LINK_TYPE;
     if (i >= 0) {
-      atom->bond_type[i][atom->num_bond[i]] = LINK_TYPE;
+      atom->bond_type[i][atom->num_bond[i]] = type;
       atom->bond_atom[i][atom->num_bond[i]++] = ends.second + 1;
     }
     if (!force->newton_bond && j >= 0) {
-      atom->bond_type[j][atom->num_bond[j]] = LINK_TYPE;
+      atom->bond_type[j][atom->num_bond[j]] = type;
       atom->bond_atom[j][atom->num_bond[j]++] = ends.first + 1;
     }
   }
@@ -424,8 +524,7 @@ void CreateLSMFault::add_particles(const LSM::Packing &packing, const std::vecto
 
 /* ---------------------------------------------------------------------- */
 
-void CreateLSMFault::report(const LSM::PackingSettings &settings, const LSM::Packing &packing,
-                            const std::vector<double> &masses)
+void CreateLSMFault::report_types(const LSM::Packing &packing)
 {
   static const char *names[NTYPES] = {"lower block",      "upper block", "lower fault zone",
                                       "upper fault zone", "lower plate", "upper plate"};
@@ -436,6 +535,13 @@ void CreateLSMFault::report(const LSM::PackingSettings &settings, const LSM::Pac
                  packing.links.size());
   for (int i = 0; i < NTYPES; i++)
     utils::logmesg(lmp, "  type {} = {:<16} : {} particles\n", i + 1, names[i], counts[i]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void CreateLSMFault::report(const LSM::PackingSettings &settings, const LSM::Packing &packing,
+                            const std::vector<double> &masses)
+{
   utils::logmesg(lmp,
                  "  coordination = {:.4f}, area fraction = {:.4f}, smallest radius = {:.6f}\n"
                  "  particles tangent to the fault line = {} below, {} above\n",
@@ -448,19 +554,24 @@ void CreateLSMFault::report(const LSM::PackingSettings &settings, const LSM::Pac
       LSM::HELD_LINKS, packing.loose, settings.remove_loose ? "removed" : "kept",
       packing.loose_tangent, packing.weakest);
 
-  if (mass_floor > 0.0) {
+  if (mass_floor > 0.0 || step > 0.0) {
     double sum = 0.0, raised = 0.0;
     bigint count = 0;
     for (std::size_t i = 0; i < masses.size(); i++) {
       const double own = mass_of(packing.discs[i].r);
       sum += own;
-      if (own < mass_floor) {
-        raised += mass_floor - own;
+      if (masses[i] > own) {
+        raised += masses[i] - own;
         ++count;
       }
     }
-    utils::logmesg(lmp, "  mass floor {:g}: {} particles raised, {:.2f} % more mass in all\n",
-                   mass_floor, count, 100.0 * raised / sum);
+    std::string what;
+    if (mass_floor > 0.0) what = fmt::format("mass floor {:g}", mass_floor);
+    if (step > 0.0)
+      what +=
+          fmt::format("{}time step {:g} stable with any contacts", what.empty() ? "" : ", ", step);
+    utils::logmesg(lmp, "  {}: {} particles raised, {:.2f} % more mass in all\n", what, count,
+                   100.0 * raised / sum);
   }
 
   const double omega = LSM::frequency_bound(packing, settings.length, masses, stiffness);

@@ -14,9 +14,11 @@ CommandStyle(create_lsm_fault,CreateLSMFault);
 
 #include "command.h"
 
+#include <string>
 #include <vector>
 
 namespace LSM {
+struct LatticeSettings;
 struct Packing;
 struct PackingSettings;
 }    // namespace LSM
@@ -32,15 +34,25 @@ class CreateLSMFault : public Command {
   int mass_power;    // mass = mass_scale * radius^mass_power
   double mass_scale;
   double mass_floor;    // smaller masses are raised to it
+  double step;          // masses are raised so that it is stable with any contacts; 0: not
+  double step_kt;       // tangential stiffness of these
   double margin;        // empty space beyond each plate
   double stiffness;     // of the links, for the estimate of the time step only
+  bool lattice;         // mirrored rows of equal discs, not a random packing
+  int types;            // of atoms
 
   double mass_of(double radius) const;    // before the floor
+  std::vector<double> masses_of(const LSM::Packing &) const;
   void check_setup();
   void parse(int, char **, LSM::PackingSettings &);
-  void pack(const LSM::PackingSettings &, LSM::Packing &);
-  void create_box(double, double, int);
+  void parse(int, char **, LSM::LatticeSettings &);
+  void parse_mass(const char *, const char *);
+  double positive(const std::string &, const char *) const;
+  template <class Make> void pack(Make &&, LSM::Packing &);
+  void create(const double *, const double *, const LSM::Packing &, const std::vector<double> &);
+  void create_box(const double *, const double *, int);
   void add_particles(const LSM::Packing &, const std::vector<double> &, const std::vector<int> &);
+  void report_types(const LSM::Packing &);
   void report(const LSM::PackingSettings &, const LSM::Packing &, const std::vector<double> &);
 };
 

@@ -33,8 +33,8 @@ static constexpr bigint KEPT_STEPS =
 
 FixLSMLeap::FixLSMLeap(LAMMPS *_lmp, int narg, char **arg) :
     Fix(_lmp, narg, arg), fast(0.00025), slip(0.5), calm(10.0), rest(10.0), viscosity(0.0),
-    ramp(15.0), between(1.5), plates(nullptr), dt(update->dt), loading_energy(0.0), state(EVENT),
-    factor(1.0), since(0.0), steps_time(0.0), leap_time(0.0), stops(0.0), begun(false)
+    ramp(15.0), grow(0.0), between(1.5), plates(nullptr), dt(update->dt), loading_energy(0.0),
+    state(EVENT), factor(1.0), since(0.0), steps_time(0.0), leap_time(0.0), stops(0.0), begun(false)
 {
   scalar_flag = 1;
   vector_flag = 1;
@@ -55,7 +55,7 @@ FixLSMLeap::FixLSMLeap(LAMMPS *_lmp, int narg, char **arg) :
   const Keyword keywords[] = {{"fast", &fast, false},       {"slip", &slip, false},
                               {"calm", &calm, true},        {"rest", &rest, false},
                               {"settle", &viscosity, true}, {"ramp", &ramp, true},
-                              {"look", &between, false}};
+                              {"grow", &grow, true},        {"look", &between, false}};
   for (int iarg = 4; iarg < narg; iarg += 2) {
     const Keyword *which = nullptr;
     for (const auto &k : keywords)
@@ -63,7 +63,7 @@ FixLSMLeap::FixLSMLeap(LAMMPS *_lmp, int narg, char **arg) :
     if (!which)
       error->all(FLERR,
                  "Unknown fix lsm/leap keyword '{}'; accepted are fast, slip, calm, rest, settle, "
-                 "ramp and look",
+                 "ramp, grow and look",
                  arg[iarg]);
     if (iarg + 1 >= narg) error->all(FLERR, "Fix lsm/leap keyword {} needs a value", arg[iarg]);
     *which->value = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
@@ -121,10 +121,6 @@ void FixLSMLeap::init()
   contacts.clear();
   for (auto *p : LSMScene::contact_styles(force))
     if (auto *friction = dynamic_cast<PairLSMFriction *>(p)) {
-      if (friction->law_of_time())
-        error->all(FLERR,
-                   "Fix lsm/leap {}: friction by the law {} depends on time, which leaps leave out",
-                   id, friction->law_of_time());
       if (leaps()) friction->record_what |= LSMEnergySource::SLIP_RATE;
       friction->slip_moment = 0.0;
       contacts.push_back(friction);
@@ -167,6 +163,7 @@ void FixLSMLeap::setup(int /*vflag*/)
   if (!leaps()) state = EVENT;    // a restart may go on with another velocity
   set_factor(leaps() ? MIN(factor, fast / fabs(plates->driving_velocity())) : 1.0);
   plates->loading = factor;
+  for (auto *p : contacts) p->pace = factor;
   for (auto *p : integrators) p->raise_viscosity(state == SETTLE ? viscosity : 0.0);
 }
 
@@ -190,8 +187,8 @@ std::string FixLSMLeap::settings() const
 {
   using LSM::text_io::number;
   return "fast " + number(fast) + " slip " + number(slip) + " calm " + number(calm) + " rest " +
-         number(rest) + " settle " + number(viscosity) + " ramp " + number(ramp) + " look " +
-         number(between);
+         number(rest) + " settle " + number(viscosity) + " ramp " + number(ramp) + " grow " +
+         number(grow) + " look " + number(between);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -203,6 +200,7 @@ void FixLSMLeap::set_factor(double value)
   changes.push_back({now, model_time(now), value * dt});
   while (changes.size() > 2 && changes[1].step < now - KEPT_STEPS) changes.pop_front();
   factor = plates->loading = value;
+  for (auto *p : contacts) p->pace = value;
 }
 
 /* ----------------------------------------------------------------------
@@ -264,7 +262,8 @@ void FixLSMLeap::end_of_step()
     for (auto *p : integrators) p->raise_viscosity(state == SETTLE ? viscosity : 0.0);
 
   const double change = ramp > span ? (most - 1.0) * span / ramp : most;
-  set_factor(state == LEAP ? MIN(most, factor + change) : MAX(1.0, MIN(most, factor) - change));
+  const double rise = grow > 0.0 ? MIN(change, factor * span / grow) : change;
+  set_factor(state == LEAP ? MIN(most, factor + rise) : MAX(1.0, MIN(most, factor) - change));
 }
 
 /* ----------------------------------------------------------------------

@@ -52,11 +52,12 @@ class FixLSMLeap : public Fix {
       rest;    // kinetic energy over that of the loading motion at the fast velocity: below it they are at rest
   double viscosity;    // while they settle, at least; 0: no more than always
   double ramp;         // time from the slow to the fast velocity
-  double between;      // time between two looks
+  double grow;       // model time of a leap in which the factor rises by 1; 0: as fast as the ramp
+  double between;    // time between two looks
 
   class FixLSMPlates *plates;
   std::vector<class FixLSMNVE *> integrators;
-  std::vector<class LSMEnergySource *> contacts;
+  std::vector<class PairLSMFriction *> contacts;
   double dt, loading_energy;
 
   // state; the model time goes on from the last change of its rate

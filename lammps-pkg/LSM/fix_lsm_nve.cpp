@@ -5,15 +5,18 @@
 #include "fix_lsm_nve.h"
 
 #include "atom.h"
+#include "atom_vec.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
 #include "force.h"
 #include "group.h"
+#include "integrate.h"
 #include "lsm_frequency.h"
 #include "lsm_scene.h"
 #include "lsm_text_io.h"
 #include "modify.h"
+#include "neighbor.h"
 #include "output.h"
 #include "update.h"
 
@@ -33,7 +36,7 @@ static constexpr double NEARLY_CLOSED =
 FixLSMNVE::FixLSMNVE(LAMMPS *_lmp, int narg, char **arg) :
     Fix(_lmp, narg, arg), record_work(false), work_viscosity(0.0), nu_least(0.0),
     nu(atom->ntypes + 1, 0.0), decay(atom->ntypes + 1, 1.0), viscous(false), dtv(0.0), dtf(0.0),
-    check(ERROR), omega(0.0), dt_limit(0.0), pending(false), initial_chosen(nullptr),
+    check(ERROR), omega(0.0), dt_limit(0.0), clears(false), pending(false), initial_chosen(nullptr),
     final_chosen(nullptr), both_chosen(nullptr)
 {
   time_integrate = 1;
@@ -80,6 +83,11 @@ FixLSMNVE::FixLSMNVE(LAMMPS *_lmp, int narg, char **arg) :
   for (double value : nu) viscous = viscous || value > 0.0;
 }
 
+FixLSMNVE::~FixLSMNVE()
+{
+  leave_clearing_to_integrator();
+}
+
 double FixLSMNVE::viscosity_from(const char *text)
 {
   const double value = utils::numeric(FLERR, text, false, lmp);
@@ -101,7 +109,7 @@ std::string FixLSMNVE::viscosity() const
 
 int FixLSMNVE::setmask()
 {
-  return INITIAL_INTEGRATE | FINAL_INTEGRATE | POST_NEIGHBOR | POST_RUN;
+  return INITIAL_INTEGRATE | FINAL_INTEGRATE | POST_NEIGHBOR | PRE_FORCE | POST_RUN;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -153,6 +161,13 @@ void FixLSMNVE::collect()
       runs.push_back({i, i, factor});
     runs.back().last = i + 1;
   }
+  others.clear();
+  int from = 0;
+  for (const Run &run : runs) {
+    if (run.first > from) others.push_back({from, run.first});
+    from = run.last;
+  }
+  if (nlocal > from) others.push_back({from, nlocal});
 }
 
 void FixLSMNVE::setup_post_neighbor()
@@ -167,28 +182,28 @@ void FixLSMNVE::post_neighbor()
 
 /* ---------------------------------------------------------------------- */
 
-template <bool DIM3> void FixLSMNVE::choose_for()
+template <bool DIM3, bool CLEARS> void FixLSMNVE::choose_for()
 {
   const bool slows = viscous || nu_least > 0.0;
   if (slows && record_work) {
-    initial_chosen = &FixLSMNVE::move<INITIAL, true, true, DIM3>;
-    final_chosen = &FixLSMNVE::move<FINAL, true, true, DIM3>;
+    initial_chosen = &FixLSMNVE::move<INITIAL, true, true, DIM3, CLEARS>;
+    final_chosen = &FixLSMNVE::move<FINAL, true, true, DIM3, false>;
     both_chosen = nullptr;
   } else if (slows) {
-    initial_chosen = &FixLSMNVE::move<INITIAL, true, false, DIM3>;
-    final_chosen = &FixLSMNVE::move<FINAL, true, false, DIM3>;
-    both_chosen = &FixLSMNVE::move<FINAL | INITIAL, true, false, DIM3>;
+    initial_chosen = &FixLSMNVE::move<INITIAL, true, false, DIM3, CLEARS>;
+    final_chosen = &FixLSMNVE::move<FINAL, true, false, DIM3, false>;
+    both_chosen = &FixLSMNVE::move<FINAL | INITIAL, true, false, DIM3, CLEARS>;
   } else {
-    initial_chosen = &FixLSMNVE::move<INITIAL, false, false, DIM3>;
-    final_chosen = &FixLSMNVE::move<FINAL, false, false, DIM3>;
-    both_chosen = &FixLSMNVE::move<FINAL | INITIAL, false, false, DIM3>;
+    initial_chosen = &FixLSMNVE::move<INITIAL, false, false, DIM3, CLEARS>;
+    final_chosen = &FixLSMNVE::move<FINAL, false, false, DIM3, false>;
+    both_chosen = &FixLSMNVE::move<FINAL | INITIAL, false, false, DIM3, CLEARS>;
   }
 
   // fixes that may look at velocities between the end of a step and the begin of the next
 
   onlookers.clear();
   for (const auto &other : modify->get_fix_list()) {
-    if (utils::strmatch(other->style, "^lsm/") || utils::strmatch(other->style, "^LSM_")) continue;
+    if (LSMScene::is_ours(other)) continue;
     const int when = modify->get_fix_mask(other);
     if (when & (INITIAL_INTEGRATE | FINAL_INTEGRATE)) both_chosen = nullptr;
     if (when & END_OF_STEP) onlookers.push_back(other);
@@ -201,9 +216,9 @@ template <bool DIM3> void FixLSMNVE::choose_for()
 void FixLSMNVE::choose()
 {
   if (domain->dimension == 3)
-    choose_for<true>();
+    clears ? choose_for<true, true>() : choose_for<true, false>();
   else
-    choose_for<false>();
+    clears ? choose_for<false, true>() : choose_for<false, false>();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -255,7 +270,7 @@ void FixLSMNVE::setup(int /*vflag*/)
    velocity Verlet step. Second order, stable for any viscosity, and the work it takes is known exactly.
 ------------------------------------------------------------------------- */
 
-template <int PARTS, bool VISCOUS, bool WORK, bool DIM3> void FixLSMNVE::move()
+template <int PARTS, bool VISCOUS, bool WORK, bool DIM3, bool CLEARS> void FixLSMNVE::move()
 {
   constexpr int DIM = DIM3 ? 3 : 2;
 
@@ -264,7 +279,7 @@ template <int PARTS, bool VISCOUS, bool WORK, bool DIM3> void FixLSMNVE::move()
     double lost = 0.0;
     double *x = atom->x[run.first];
     double *v = atom->v[run.first];
-    const double *f = atom->f[run.first];
+    double *f = atom->f[run.first];
     const double *kick = &half_kick[run.first];
     const double *const end = &half_kick[0] + run.last;
 
@@ -289,6 +304,8 @@ template <int PARTS, bool VISCOUS, bool WORK, bool DIM3> void FixLSMNVE::move()
         for (int c = 0; c < DIM; c++) x[c] = to[c];
       }
       for (int c = 0; c < DIM; c++) v[c] = w[c];
+      if constexpr (CLEARS)
+        for (int c = 0; c < 3; c++) f[c] = 0.0;
       if constexpr (WORK) lost += dtf / *kick * vsq;
     }
     if constexpr (WORK) work_viscosity += 0.5 * (1.0 - factor * factor) * lost;
@@ -320,6 +337,76 @@ void FixLSMNVE::final_integrate()
   (this->*final_chosen)();
 }
 
+/* ----------------------------------------------------------------------
+   Whether nobody else looks at forces, or adds to them, between the begin of a step and the interactions, and
+   nobody needs the torques that the integrator would clear with them
+------------------------------------------------------------------------- */
+
+bool FixLSMNVE::may_clear() const
+{
+  if (strcmp(update->integrate_style, "verlet") != 0 || group->dynamic[igroup] ||
+      neighbor->includegroup || atom->avec->forceclearflag ||
+      LSMScene::integrators(modify).size() > 1 || !LSMScene::foreign_forces(force).empty())
+    return false;
+  constexpr int LOOKS = INITIAL_INTEGRATE | POST_INTEGRATE | PRE_FORCE | POST_FORCE;
+  for (const auto &other : modify->get_fix_list())
+    if (!LSMScene::is_ours(other) && (modify->get_fix_mask(other) & LOOKS)) return false;
+  return true;
+}
+
+/* ----------------------------------------------------------------------
+   Integrate::external_force_clear is there for such a purpose, but no fix of LAMMPS has it: only classes derived
+   from Integrate may name it.
+------------------------------------------------------------------------- */
+
+struct Clearing : public Integrate {
+  static void is_external(Integrate *integrate, int yes)
+  {
+    integrate->*(&Clearing::external_force_clear) = yes;
+  }
+};
+
+void FixLSMNVE::leave_clearing_to_integrator()
+{
+  // When LAMMPS itself ends, update is gone before its fixes.
+  if (clears && update && update->integrate) Clearing::is_external(update->integrate, 0);
+  clears = false;
+}
+
+static void set_to_zero(double **of, int first, int last)
+{
+  if (last > first) memset(of[first], 0, sizeof(double) * 3 * (last - first));
+}
+
+void FixLSMNVE::clear_all()
+{
+  const int count = atom->nlocal + (force->newton ? atom->nghost : 0);
+  set_to_zero(atom->f, 0, count);
+  if (atom->torque_flag) set_to_zero(atom->torque, 0, count);
+}
+
+void FixLSMNVE::setup_pre_force(int /*vflag*/)
+{
+  leave_clearing_to_integrator();
+  clears = may_clear();
+  if (!clears) return;
+  Clearing::is_external(update->integrate, 1);
+  clear_all();
+}
+
+// When the lists were built other particles have the places of these.
+
+void FixLSMNVE::pre_force(int /*vflag*/)
+{
+  if (!clears) return;
+  if (neighbor->ago == 0) {
+    clear_all();
+    return;
+  }
+  for (const auto &between : others) set_to_zero(atom->f, between.first, between.second);
+  if (force->newton) set_to_zero(atom->f, atom->nlocal, atom->nlocal + atom->nghost);
+}
+
 void FixLSMNVE::complete_step()
 {
   if (pending) (this->*final_chosen)();
@@ -329,6 +416,7 @@ void FixLSMNVE::complete_step()
 void FixLSMNVE::post_run()
 {
   complete_step();
+  leave_clearing_to_integrator();
 }
 
 /* ----------------------------------------------------------------------

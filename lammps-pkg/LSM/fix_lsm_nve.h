@@ -15,6 +15,7 @@ FixStyle(lsm/nve,FixLSMNVE);
 #include "fix.h"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -22,6 +23,7 @@ namespace LAMMPS_NS {
 class FixLSMNVE : public Fix {
  public:
   FixLSMNVE(class LAMMPS *, int, char **);
+  ~FixLSMNVE() override;
   int setmask() override;
   void init() override;
   void setup(int) override;
@@ -29,6 +31,8 @@ class FixLSMNVE : public Fix {
   void final_integrate() override;
   void setup_post_neighbor() override;
   void post_neighbor() override;
+  void setup_pre_force(int) override;
+  void pre_force(int) override;
   void post_run() override;
   void reset_dt() override;
   double compute_scalar() override;
@@ -73,6 +77,12 @@ class FixLSMNVE : public Fix {
   std::vector<Run> runs;
   std::vector<double> half_kick;
 
+  // Forces are set to 0 while they are in the cache, as the particles move, instead of by the integrator
+  // afterwards, unless somebody may look at them in between or needs torques
+
+  bool clears;
+  std::vector<std::pair<int, int>> others;    // particles between the runs: first, last
+
   enum { FINAL = 1, INITIAL = 2 };    // halves of a step
   bool pending;                       // the second half of the last step is still to be done
   std::vector<Fix *> onlookers;
@@ -80,10 +90,13 @@ class FixLSMNVE : public Fix {
   void (FixLSMNVE::*final_chosen)();
   void (FixLSMNVE::*both_chosen)();    // null if no half may be put off
 
-  template <int PARTS, bool VISCOUS, bool WORK, bool DIM3> void move();
-  template <bool DIM3> void choose_for();
+  template <int PARTS, bool VISCOUS, bool WORK, bool DIM3, bool CLEARS> void move();
+  template <bool DIM3, bool CLEARS> void choose_for();
   void choose();
   void collect();
+  bool may_clear() const;
+  void leave_clearing_to_integrator();
+  void clear_all();
   double viscosity_from(const char *);
   double highest_frequency(double reach_factor);
 };

@@ -58,7 +58,7 @@ class LSMRecordEnergies {
     if (!(source_.record_what & LSMEnergySource::SLIP)) return;
     double along = (x - xlo_) / period_;
     along = (along - floor(along)) * period_;
-    source_.slip.push_back({floor(along / source_.slip_bin), share * moment});
+    source_.slip.push_back({along, share * moment});
   }
   /// Only where compute lsm/events looks for ruptures.
   bool wants_contacts() const { return source_.record_what & LSMEnergySource::CONTACTS; }

@@ -21,17 +21,25 @@ class LSMEnergySource {
 
   virtual ~LSMEnergySource() noexcept(false) {}    // as LAMMPS' own base classes
 
-  int record_what = NONE;            ///< what to record; the style resets it at every init
-  double pe_link = 0.0;              ///< link springs, at the last force evaluation
-  double pe_contact = 0.0;           ///< normal contact springs, at the last force evaluation
-  double pe_tangential = 0.0;        ///< tangential contact springs, at the last force evaluation
-  double work_friction = 0.0;        ///< work lost to friction, accumulated
-  double work_broken = 0.0;          ///< energy of the links that broke, accumulated
-  double slip_moment = 0.0;          ///< sum of |slip| times contact size, accumulated (SLIP_RATE)
-  double slip_bin = 1.0;             ///< width of the bins of `slip`
-  std::vector<LSM::BinSlip> slip;    ///< contacts that slid in the last force evaluation
+  int record_what = NONE;        ///< what to record; the style resets it at every init
+  double pe_link = 0.0;          ///< link springs, at the last force evaluation
+  double pe_contact = 0.0;       ///< normal contact springs, at the last force evaluation
+  double pe_tangential = 0.0;    ///< tangential contact springs, at the last force evaluation
+  double work_friction = 0.0;    ///< work lost to friction, accumulated
+  double work_broken = 0.0;      ///< energy of the links that broke, accumulated
+  double slip_moment = 0.0;      ///< sum of |slip| times contact size, accumulated (SLIP_RATE)
+  std::vector<LSM::ContactSlip> slip;    ///< contacts that slid in the last force evaluation
   std::vector<LSM::FaultContact>
       contacts;    ///< all contacts of the last force evaluation, with friction
+};
+
+/// Base of the fixes that do work on particles, other than by plates. This rank's share; a restart goes on with it.
+class LSMWorkSource {
+ public:
+  virtual ~LSMWorkSource() noexcept(false) {}
+
+  double work_outside = 0.0;     ///< done on the particles by given forces, accumulated
+  double work_absorbed = 0.0;    ///< lost to dashpots, accumulated
 };
 
 }    // namespace LAMMPS_NS

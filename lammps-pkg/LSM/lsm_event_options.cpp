@@ -75,7 +75,8 @@ class LSMEventOptions::Reader : protected Pointers {
         "Unknown compute lsm/events keyword '{}'; accepted are events, catalogue, series, "
         "stride, "
         "picker, lambda, memory, minsize, nonpositive, block, tangential, location, bin, "
-        "fraction, history, slipping, driving, interval, gap, pause, modulus, quiet, ledger, "
+        "fraction, history, slipping, driving, interval, gap, pause, modulus, quiet, unfinished, "
+        "ledger, "
         "tolerance, strainlimit, check, emergency, resume, overwrite, progress and parameter",
         key);
   }
@@ -171,6 +172,8 @@ bool LSMEventOptions::read_ruptures(Reader &in)
     events.modulus = in.positive();
   } else if (in.key == "quiet") {
     events.quiet = in.count();
+  } else if (in.key == "unfinished") {
+    unfinished = in.yes();
   } else
     return false;
   return true;
@@ -217,6 +220,8 @@ bool LSMEventOptions::read_run(Reader &in)
     watchdog.every = in.count();
   } else if (in.key == "emergency") {
     emergency_file = in.text();
+    if (emergency_file.find_first_of("*%") != std::string::npos)
+      in.refuse("the name of one file, without * and %");
   } else if (in.key == "progress") {
     progress = in.yes();
   } else

@@ -22,6 +22,7 @@ struct LSMEventOptions {
   int block = 100;             ///< steps collected before ranks talk to each other
   bool ledger = false;
   bool progress = true;
+  bool unfinished = false;    ///< ruptures that are open in the end are written
 
   /// From the words behind the style's name, which begin at arg[first]. Stops at the first that is wrong.
   LSMEventOptions(LAMMPS *, int first, int narg, char **arg);

@@ -86,7 +86,7 @@ void LSMEventSources::find(bool ledger)
                                                 : nullptr;
   if (what && !force->pair_match("lsm/friction", 1))
     error->all(FLERR, "Compute lsm/events {} needs pair style lsm/friction", what);
-  if (what && !domain->xperiodic)
+  if (settings_.location && !domain->xperiodic)
     error->all(FLERR, "Compute lsm/events {} needs a box that is periodic in x", what);
 
   styles_.clear();
@@ -96,12 +96,13 @@ void LSMEventSources::find(bool ledger)
     style->record_what |= LSMEnergySource::ENERGY |
                           (settings_.location ? LSMEnergySource::SLIP : 0) |
                           (settings_.ruptures ? LSMEnergySource::CONTACTS : 0);
-    style->slip_bin = settings_.bin_width;
   }
 
   plates_ = nullptr;
   leap_ = nullptr;
+  works_.clear();
   for (const auto &ifix : modify->get_fix_list()) {
+    if (auto p = dynamic_cast<LSMWorkSource *>(ifix)) works_.push_back(p);
     if (auto p = dynamic_cast<FixLSMPlates *>(ifix)) plates_ = p;
     if (auto p = dynamic_cast<FixLSMLeap *>(ifix)) leap_ = p;
   }
@@ -213,12 +214,16 @@ double LSMEventSources::kinetic() const
 
 LSM::EnergyTerms LSMEventSources::energies() const
 {
-  double potential = 0.0, friction = 0.0, viscosity = 0.0;
+  double potential = 0.0, friction = 0.0, viscosity = 0.0, outside = 0.0, absorbed = 0.0;
   for (const auto *style : styles_) {
     potential += style->pe_link + style->pe_contact + style->pe_tangential;
     friction += style->work_friction;
   }
   for (const auto *p : integrators_) viscosity += p->work_viscosity;
+  for (const auto *p : works_) {
+    outside += p->work_outside;
+    absorbed += p->work_absorbed;
+  }
   LSM::EnergyTerms terms;
   terms.kinetic = kinetic();
   terms.potential = total(potential, world);
@@ -226,6 +231,8 @@ LSM::EnergyTerms LSMEventSources::energies() const
   terms.viscosity = total(viscosity, world);
   terms.broken = links_ ? total(links_->work_broken, world) : 0.0;
   terms.plates = plates_ ? plates_->work() : 0.0;
+  terms.outside = total(outside, world);
+  terms.absorbed = total(absorbed, world);
   terms.counted_pe = total(pe(), world);
   return terms;
 }

@@ -54,6 +54,7 @@ class LSMEventSources : protected Pointers {
   FixLSMPlates *plates_ = nullptr;
   FixLSMLeap *leap_ = nullptr;
   std::vector<FixLSMNVE *> integrators_;
+  std::vector<LSMWorkSource *> works_;
 
   double kinetic() const;
 };

@@ -2,201 +2,267 @@
    SPDX-License-Identifier: GPL-2.0-or-later
 ------------------------------------------------------------------------- */
 
+// Functions with other instruction sets pass vectors differently: here all that take any are inlined.
+#if defined(__GNUC__)
+#pragma GCC diagnostic ignored "-Wpsabi"
+#endif
+
 #include "lsm_link_kernel.h"
 
-#include "lsm_force_laws.h"
 #include "lsm_sum.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <type_traits>
 
 // The arithmetic becomes vector instructions only where sqrt() need not set errno (-fno-math-errno), and gives
 // the same digits with each instruction set only without fused multiply-add (-ffp-contract=off).
-// Vectors of 512 bits were measured to be no faster: loads and stores limit the loop.
+// Vectors of 512 bits were measured to be slower: their roots take longer than twice those of 256.
 
-#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__gnu_linux__)
-#define LSM_CLONES __attribute__((target_clones("default", "avx2")))
 #define LSM_INLINE inline __attribute__((always_inline))
-#else
-#define LSM_CLONES
-#define LSM_INLINE inline
-#endif
+#define LSM_LAMBDA __attribute__((always_inline))
 
 namespace LAMMPS_NS {
 namespace LSMLinkKernel {
 
-  // Links go through three stations in chunks: their vectors are taken from the positions; lengths, forces and
-  // energies are computed; the forces are added to the particles. Each station works on another chunk, so that
-  // the divisions and roots of one run beside the loads and stores of the others. Between the first and
-  // the second lie some chunks, as a wide load right after the narrow stores of its parts would wait for them.
+  using LSMLinkRows::LANES;
+  using LSMLinkRows::Rows;
+  using LSMLinkRows::Run;
+  using Lanes = double __attribute__((vector_size(LANES * sizeof(double))));
+  using Pair = double __attribute__((vector_size(2 * sizeof(double))));
 
-  constexpr int CHUNK = 16;
-  constexpr int LEAD = 6;
-  constexpr int LAG = 4;
-  constexpr int RING = 16;    // more than LEAD + LAG
-
-  // Vectors of one link. In two dimensions one machine vector, which keeps the compiler from gathering
-  // and scattering over several links, slower here.
-
-  struct Vector2 {
-    double __attribute__((vector_size(16))) c;
-    double operator[](int n) const { return c[n]; }
-    Vector2 operator+(const Vector2 &o) const { return {c + o.c}; }
-    Vector2 operator-(const Vector2 &o) const { return {c - o.c}; }
-    Vector2 operator*(double s) const { return {c * s}; }
-  };
-
-  struct Vector3 {
-    double c[3];
-    double operator[](int n) const { return c[n]; }
-    Vector3 operator+(const Vector3 &o) const
-    {
-      return {{c[0] + o.c[0], c[1] + o.c[1], c[2] + o.c[2]}};
-    }
-    Vector3 operator-(const Vector3 &o) const
-    {
-      return {{c[0] - o.c[0], c[1] - o.c[1], c[2] - o.c[2]}};
-    }
-    Vector3 operator*(double s) const { return {{c[0] * s, c[1] * s, c[2] * s}}; }
-  };
-
-  template <int DIM> using Vector = std::conditional_t<DIM == 2, Vector2, Vector3>;
-
-  template <int DIM> LSM_INLINE static Vector<DIM> load(const double *from)
+  template <class Vector> LSM_INLINE static Vector load(const double *from)
   {
-    Vector<DIM> v;
+    Vector v;
     memcpy(&v, from, sizeof(v));
     return v;
   }
 
-  template <int DIM> LSM_INLINE static void store(double *to, const Vector<DIM> &v)
+  template <class Vector> LSM_INLINE static void store(double *to, const Vector &v)
   {
     memcpy(to, &v, sizeof(v));
   }
 
-  template <int DIM> struct alignas(64) Stage {
-    Vector<DIM> d[CHUNK];    // from j to i
-    double rsq[CHUNK];       // its square
-    double fbond[CHUNK];     // force on i over d
+  // four of the numbers of a and b, counted through both
+
+  template <int I, int J, int K, int L, class Vector>
+  LSM_INLINE static Lanes pick(const Vector &a, const Vector &b)
+  {
+#if defined(__clang__) || __GNUC__ >= 12
+    return __builtin_shufflevector(a, b, I, J, K, L);
+#else
+    constexpr int n = sizeof(Vector) / sizeof(double);
+    return Lanes{I < n ? a[I % n] : b[I % n], J < n ? a[J % n] : b[J % n],
+                 K < n ? a[K % n] : b[K % n], L < n ? a[L % n] : b[L % n]};
+#endif
+  }
+
+  // Positions of four particles, two coordinates by one load each.
+
+  template <int DIM>
+  LSM_INLINE static void gather(const double *x, const int *place, Lanes (&to)[DIM])
+  {
+    const Lanes a = pick<0, 1, 2, 3>(load<Pair>(x + place[0]), load<Pair>(x + place[2]));
+    const Lanes b = pick<0, 1, 2, 3>(load<Pair>(x + place[1]), load<Pair>(x + place[3]));
+    to[0] = pick<0, 4, 2, 6>(a, b);
+    to[1] = pick<1, 5, 3, 7>(a, b);
+    if constexpr (DIM == 3) {
+      const double z[LANES] = {x[place[0] + 2], x[place[1] + 2], x[place[2] + 2], x[place[3] + 2]};
+      to[2] = load<Lanes>(z);
+    }
+  }
+
+  // Adds SIGN times the forces g to those of four particles, one after the other: two of them may be the same.
+
+  template <int SIGN, int DIM>
+  LSM_INLINE static void scatter(double *f, const int *place, const Lanes (&g)[DIM])
+  {
+    const Lanes a = pick<0, 4, 2, 6>(g[0], g[1]), b = pick<1, 5, 3, 7>(g[0], g[1]);
+    const Pair to[LANES] = {{a[0], a[1]}, {b[0], b[1]}, {a[2], a[3]}, {b[2], b[3]}};
+#pragma GCC unroll 4
+    for (int c = 0; c < LANES; c++) {
+      double *const at = f + place[c];
+      store<Pair>(at, SIGN > 0 ? load<Pair>(at) + to[c] : load<Pair>(at) - to[c]);
+      if constexpr (DIM == 3) at[2] += SIGN * g[2][c];
+    }
+  }
+
+  // What is known of the links of a slice on its way.
+
+  template <int DIM, int LENGTH> struct Stage {
+    Lanes d[LENGTH][DIM];    // from the partner to the particle of the row
+    Lanes r[LENGTH];         // square of its length, length, force over length
   };
 
-  template <int DIM>
-  LSM_INLINE static void gather(Stage<DIM> &s, const double *x, const Ends *end, int n = CHUNK)
+  // Few links ever break: not worth a place in the loop.
+
+  template <class Law>
+  __attribute__((noinline, cold)) static void note_broken(const Law &law, int length,
+                                                          const double *r, const double *rest,
+                                                          Place first, std::vector<Place> &broken)
   {
-#pragma GCC unroll 8
-    for (int l = 0; l < n; l++) {
-      const Vector<DIM> d = load<DIM>(x + end[l].i) - load<DIM>(x + end[l].j);
-      s.d[l] = d;
-      double rsq = d[0] * d[0] + d[1] * d[1];
-      if constexpr (DIM == 3) rsq += d[2] * d[2];
-      s.rsq[l] = rsq;
-    }
-    for (int l = n; l < CHUNK; l++) s.rsq[l] = 1.0;
+    for (int n = 0; n < length * LANES; n++)
+      if (law.is_broken(r[n], rest[n])) broken.push_back({first.row + n % LANES, first.link + n});
   }
 
-  // Twice the energy of each link is added to the sum of its place in the chunk. A link that is broken is put
-  // right afterwards.
+  // Slices go through four stations, each of which works on another slice, so that every instruction finds its
+  // operands ready: what waits for a root or a quotient holds up the hundred or so instructions behind it.
+  // Stations are lambdas over local variables, as members of a class would be kept in memory.
 
-  template <int DIM, bool BREAK>
-  LSM_INLINE static void spring_forces(Stage<DIM> &s, const double *r0, const Links &links,
-                                       int first, double *energy, std::vector<int> &broken,
-                                       int n = CHUNK)
+  template <int DIM, int LENGTH, bool FILLED_UP, bool BOTH, class Law>
+  LSM_INLINE static double work_on(const Run &run, const Rows &rows, const Law &law,
+                                   const double *x, double *f, std::vector<Place> &broken)
   {
-    const double k = links.stiffness, ratio = links.ratio;
-    const double *__restrict rsq = s.rsq, *__restrict rest = r0;
-    double *__restrict fbond = s.fbond, *__restrict twice = energy;
-    int any_broken = 0;
-    for (int l = 0; l < CHUNK; l++) {
-      const double r = std::sqrt(rsq[l]);
-      const double stretch = r - rest[l];
-      const double force = LSM::Spring::force(k, stretch);
-      fbond[l] = -force / r;
-      twice[l] += force * stretch;
-      if constexpr (BREAK) any_broken |= LSM::link_is_broken(r, rest[l], ratio);
-    }
-    if constexpr (BREAK)
-      if (any_broken)
-        for (int l = 0; l < n; l++) {
-          const double r = std::sqrt(rsq[l]);
-          if (!LSM::link_is_broken(r, rest[l], ratio)) continue;
-          twice[l] -= 2.0 * LSM::Spring::energy(k, r - rest[l]);
-          fbond[l] = 0.0;
-          broken.push_back(first + l);
+    constexpr int STAGES = 4;
+    Stage<DIM, LENGTH> ring[STAGES];
+    const int *row_in = &rows.particle[run.row], *row_out = row_in;
+    const int *other_in = &rows.other[run.link], *other_out = other_in;
+    const double *rest = &rows.rest[run.link];
+    Lanes twice{};    // the energy
+
+    const auto vectors = [&](int slice) LSM_LAMBDA {
+      Stage<DIM, LENGTH> &s = ring[slice % STAGES];
+      Lanes at[DIM];
+      gather<DIM>(x, row_in, at);
+      row_in += LANES;
+#pragma GCC unroll 4
+      for (int n = 0; n < LENGTH; n++, other_in += LANES) {
+        Lanes to[DIM];
+        gather<DIM>(x, other_in, to);
+        for (int c = 0; c < DIM; c++) s.d[n][c] = at[c] - to[c];
+        s.r[n] = s.d[n][0] * s.d[n][0] + s.d[n][1] * s.d[n][1];
+        if constexpr (DIM == 3) s.r[n] += s.d[n][2] * s.d[n][2];
+      }
+    };
+
+    const auto lengths = [&](int slice) LSM_LAMBDA {
+      Stage<DIM, LENGTH> &s = ring[slice % STAGES];
+#pragma GCC unroll 4
+      for (int n = 0; n < LENGTH; n++) {
+        const Lanes q = s.r[n];
+        s.r[n] = Lanes{std::sqrt(q[0]), std::sqrt(q[1]), std::sqrt(q[2]), std::sqrt(q[3])};
+      }
+    };
+
+    const auto springs = [&](int slice) LSM_LAMBDA {
+      Stage<DIM, LENGTH> &s = ring[slice % STAGES];
+      if constexpr (Law::breaks) {
+        auto any = law.is_broken(s.r[0], load<Lanes>(rest));
+        for (int n = 1; n < LENGTH; n++)
+          any |= law.is_broken(s.r[n], load<Lanes>(rest + n * LANES));
+        if (any[0] | any[1] | any[2] | any[3])
+          note_broken(law, LENGTH, reinterpret_cast<const double *>(s.r), rest,
+                      {run.row + slice * LANES, static_cast<int>(rest - &rows.rest[0])}, broken);
+      }
+#pragma GCC unroll 4
+      for (int n = 0; n < LENGTH; n++, rest += LANES) {
+        const Lanes r = s.r[n], r0 = load<Lanes>(rest);
+        Lanes stretch = r - r0;
+        if constexpr (FILLED_UP) stretch = r0 < LSMLinkRows::NO_LINK ? stretch : Lanes{};
+        if constexpr (Law::breaks) stretch = law.is_broken(r, r0) ? Lanes{} : stretch;
+        const Lanes force = law.force(stretch);
+        twice += force * stretch;
+        s.r[n] = force / r;
+      }
+    };
+
+    const auto sums = [&](int slice) LSM_LAMBDA {
+      const Stage<DIM, LENGTH> &s = ring[slice % STAGES];
+      Lanes sum[DIM];
+#pragma GCC unroll 4
+      for (int n = 0; n < LENGTH; n++, other_out += LANES) {
+        Lanes force[DIM];
+        for (int c = 0; c < DIM; c++) {
+          force[c] = s.r[n] * s.d[n][c];
+          sum[c] = n ? sum[c] + force[c] : force[c];
         }
-  }
+        if constexpr (BOTH) scatter<1, DIM>(f, other_out, force);
+      }
+      scatter<-1, DIM>(f, row_out, sum);
+      row_out += LANES;
+    };
 
-  template <int DIM>
-  LSM_INLINE static void scatter(const Stage<DIM> &s, double *f, const Ends *end, bool first_only,
-                                 int n = CHUNK)
-  {
-#pragma GCC unroll 8
-    for (int l = 0; l < n; l++) {
-      const Vector<DIM> g = s.d[l] * s.fbond[l];
-      double *const fi = f + end[l].i, *const fj = f + end[l].j;
-      store<DIM>(fi, load<DIM>(fi) + g);
-      if (!first_only) store<DIM>(fj, load<DIM>(fj) - g);
+    int fetch = run.fetch;
+    const auto fetch_some = [&](int count) LSM_LAMBDA {
+      for (; count > 0 && fetch < run.fetch_end; count--, fetch++) {
+        __builtin_prefetch(x + rows.to_fetch[fetch]);
+        __builtin_prefetch(f + rows.to_fetch[fetch], 1);
+      }
+    };
+
+    const int slices = run.slices;
+    const int fetches = (run.fetch_end - run.fetch + slices - 1) / slices;
+    for (int n = 0; n < slices + STAGES - 1; n++) {
+      if (n >= 1 && n - 1 < slices) lengths(n - 1);
+      if (n < slices) {
+        fetch_some(fetches);
+        vectors(n);
+      }
+      if (n >= 2 && n - 2 < slices) springs(n - 2);
+      if (n >= 3) sums(n - 3);
     }
+    return (twice[0] + twice[2]) + (twice[1] + twice[3]);
   }
 
-  // the lanes of the energy in the same order everywhere
-
-  LSM_INLINE static void add_up(double *energy, LSM::NeumaierSum &sum)
+  template <int DIM, class Law>
+  LSM_INLINE static double work_on_all(const Rows &rows, const Law &law, bool first_only,
+                                       const double *x, double *f, std::vector<Place> &broken)
   {
-    for (int half = CHUNK / 2; half > 0; half /= 2)
-      for (int l = 0; l < half; l++) energy[l] += energy[half + l];
-    sum.add(0.5 * energy[0]);
-    std::fill_n(energy, CHUNK, 0.0);
-  }
-
-  template <int DIM, bool BREAK>
-  LSM_CLONES double forces(const Links &links, const double *x, double *f, std::vector<int> &broken)
-  {
-    constexpr int BLOCK_CHUNKS = BLOCK / CHUNK;
-    const int chunks = links.count / CHUNK, rest = links.count % CHUNK;
-    const int blocks = (links.count + BLOCK - 1) / BLOCK;
-    Stage<DIM> ring[RING];
-    alignas(64) double energy[CHUNK] = {0.0};
     LSM::NeumaierSum sum;
-
-    for (int chunk = -LEAD; chunk < chunks + LAG; chunk++) {
-      const int coming = chunk + LEAD, going = chunk - LAG;
-      if (coming < chunks) {
-        const int block = coming / BLOCK_CHUNKS;
-        if (coming % BLOCK_CHUNKS == 0 && block + 1 < blocks)
-          for (int m = links.to_fetch_begin[block + 1]; m < links.to_fetch_begin[block + 2]; m++) {
-            __builtin_prefetch(x + links.to_fetch[m]);
-            __builtin_prefetch(f + links.to_fetch[m], 1);
-          }
-        gather<DIM>(ring[coming % RING], x, links.ends + coming * CHUNK);
-      }
-      if (chunk >= 0 && chunk < chunks) {
-        const int first = chunk * CHUNK;
-        spring_forces<DIM, BREAK>(ring[chunk % RING], links.rest + first, links, first, energy,
-                                  broken);
-        if ((chunk + 1) % BLOCK_CHUNKS == 0) add_up(energy, sum);
-      }
-      if (going >= 0)
-        scatter<DIM>(ring[going % RING], f, links.ends + going * CHUNK, links.first_only);
+    for (const Run &run : rows.runs) {
+      double twice = 0.0;
+      if (first_only)
+        twice = work_on<DIM, LSMLinkRows::LONGEST, true, false>(run, rows, law, x, f, broken);
+      else if (run.filled_up)
+        twice = work_on<DIM, LSMLinkRows::LONGEST, true, true>(run, rows, law, x, f, broken);
+      else if (run.length == 4)
+        twice = work_on<DIM, 4, false, true>(run, rows, law, x, f, broken);
+      else if (run.length == 3)
+        twice = work_on<DIM, 3, false, true>(run, rows, law, x, f, broken);
+      else if (run.length == 2)
+        twice = work_on<DIM, 2, false, true>(run, rows, law, x, f, broken);
+      else
+        twice = work_on<DIM, 1, false, true>(run, rows, law, x, f, broken);
+      sum.add((first_only ? 0.25 : 0.5) * twice);
     }
-
-    if (rest > 0) {
-      const int first = chunks * CHUNK;
-      double r0[CHUNK];
-      for (int l = 0; l < CHUNK; l++) r0[l] = l < rest ? links.rest[first + l] : 1.0;
-      gather<DIM>(ring[0], x, links.ends + first, rest);
-      spring_forces<DIM, BREAK>(ring[0], r0, links, first, energy, broken, rest);
-      scatter<DIM>(ring[0], f, links.ends + first, links.first_only, rest);
-    }
-    add_up(energy, sum);
-    return links.first_only ? 0.5 * sum.value() : sum.value();
+    return sum.value();
   }
 
-  template double forces<2, false>(const Links &, const double *, double *, std::vector<int> &);
-  template double forces<2, true>(const Links &, const double *, double *, std::vector<int> &);
-  template double forces<3, false>(const Links &, const double *, double *, std::vector<int> &);
-  template double forces<3, true>(const Links &, const double *, double *, std::vector<int> &);
+#if defined(__x86_64__) && defined(__GNUC__)
+#define LSM_AVX2 __attribute__((target("avx2")))
+  bool has_avx2()
+  {
+    return __builtin_cpu_supports("avx2");
+  }
+#else
+#define LSM_AVX2
+  bool has_avx2()
+  {
+    return false;
+  }
+#endif
+
+  template <int DIM, class Law>
+  LSM_AVX2 static double work_on_all_avx2(const Rows &rows, const Law &law, bool first_only,
+                                          const double *x, double *f, std::vector<Place> &broken)
+  {
+    return work_on_all<DIM>(rows, law, first_only, x, f, broken);
+  }
+
+  template <int DIM, class Law>
+  double forces(const Rows &rows, const Law &law, bool first_only, const double *x, double *f,
+                std::vector<Place> &broken, bool avx2)
+  {
+    return avx2 ? work_on_all_avx2<DIM>(rows, law, first_only, x, f, broken)
+                : work_on_all<DIM>(rows, law, first_only, x, f, broken);
+  }
+
+#define LSM_INSTANTIATE(dim, law)                                                             \
+  template double forces<dim, law>(const Rows &, const law &, bool, const double *, double *, \
+                                   std::vector<Place> &, bool)
+  LSM_INSTANTIATE(2, Elastic);
+  LSM_INSTANTIATE(3, Elastic);
+  LSM_INSTANTIATE(2, Breakable);
+  LSM_INSTANTIATE(3, Breakable);
 
 }    // namespace LSMLinkKernel
 }    // namespace LAMMPS_NS

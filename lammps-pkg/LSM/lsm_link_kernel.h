@@ -1,40 +1,60 @@
 /* -*- c++ -*- ----------------------------------------------------------
    SPDX-License-Identifier: GPL-2.0-or-later
-   Forces and energy of a list of links, Eq. (1), with the widest vectors
-   of the machine and the same digits on each
+   Forces and energy of links in rows, Eq. (1), with the widest vectors of
+   the machine and the same digits on each
 ------------------------------------------------------------------------- */
 
 #ifndef LMP_LSM_LINK_KERNEL_H
 #define LMP_LSM_LINK_KERNEL_H
+
+#include "lsm_force_laws.h"
+#include "lsm_link_rows.h"
 
 #include <vector>
 
 namespace LAMMPS_NS {
 namespace LSMLinkKernel {
 
-  constexpr int BLOCK = 256;    ///< links whose energies are added before they go to the total
+  // The laws of links: what the loop over links, which is written once, asks about those that it works on side by
+  // side. A Number is a vector of the machine, see linear_spring.h.
 
-  /// The two particles of a link: 3 times their local index.
-  struct Ends {
-    int i, j;
-  };
-
-  /// Links that are treated the same way.
-  struct Links {
-    const Ends *ends;
-    const double *rest;    ///< rest lengths
-    int count;
+  /// Linear spring.
+  struct Elastic {
+    static constexpr bool breaks = false;
     double stiffness;
-    double ratio;                 ///< breaking distance over rest length, only used in BREAK
-    bool first_only;              ///< no force on the second particle: its owner adds it
-    const int *to_fetch;          ///< places (as in Ends) to fetch into the cache, block by block
-    const int *to_fetch_begin;    ///< where those of each block begin, and of the last end
+    /// Attraction by the spring, which stores half of its product with the stretch.
+    template <class Number> [[gnu::always_inline]] Number force(const Number &stretch) const
+    {
+      return LSM::Spring::force(stiffness, stretch);
+    }
   };
 
-  /// Adds the forces of the links to f and returns their elastic energy. In BREAK, links that are longer than
-  /// their breaking distance give neither, and their numbers are added to `broken`.
-  template <int DIM, bool BREAK>
-  double forces(const Links &, const double *x, double *f, std::vector<int> &broken);
+  /// Linear spring that breaks beyond `ratio` times its rest length.
+  struct Breakable : Elastic {
+    static constexpr bool breaks = true;
+    double ratio;
+    template <class Number>
+    [[gnu::always_inline]] auto is_broken(const Number &r, const Number &rest) const
+    {
+      return LSM::link_is_broken(r, rest, ratio);
+    }
+  };
+
+  /// A link by its place in Rows::particle, and in Rows::other and rest.
+  struct Place {
+    int row, link;
+  };
+
+  /// Adds the forces of links to f and returns their elastic energy. Links that break give neither, and are added to
+  /// `broken`.
+  /// \param first_only  no force on the partner: its owner adds it. Half of the energy is returned. Rows have to be mixed
+  /// \param avx2        use these instructions, which the processor has to have; the same digits either way
+  template <int DIM, class Law>
+  double forces(const LSMLinkRows::Rows &, const Law &, bool first_only, const double *x, double *f,
+                std::vector<Place> &broken, bool avx2);
+
+  /// Whether the processor has AVX2.
+  bool has_avx2();
 
 }    // namespace LSMLinkKernel
 }    // namespace LAMMPS_NS

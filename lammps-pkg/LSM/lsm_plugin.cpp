@@ -15,17 +15,22 @@
 #include <string>
 
 #include "bond_lsm_linked.h"
+#include "check_restart.h"
+#include "check_variable.h"
 #include "compute_lsm_events.h"
 #include "create_lsm_fault.h"
+#include "fix_lsm_absorb.h"
 #include "fix_lsm_break.h"
 #include "fix_lsm_history.h"
 #include "fix_lsm_leap.h"
 #include "fix_lsm_nve.h"
 #include "fix_lsm_plates.h"
 #include "fix_lsm_record.h"
+#include "fix_lsm_traction.h"
 #include "include_beside.h"
 #include "pair_lsm_free.h"
 #include "pair_lsm_friction.h"
+#include "save_restart.h"
 
 using namespace LAMMPS_NS;
 
@@ -167,6 +172,8 @@ extern "C" void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   styles.add_with_args<Fix, FixLSMNVE>("fix", "lsm/nve", "fix style lsm/nve");
   styles.add_with_args<Fix, FixLSMLeap>("fix", "lsm/leap", "fix style lsm/leap");
   styles.add_with_args<Fix, FixLSMPlates>("fix", "lsm/plates", "fix style lsm/plates");
+  styles.add_with_args<Fix, FixLSMAbsorb>("fix", "lsm/absorb", "fix style lsm/absorb");
+  styles.add_with_args<Fix, FixLSMTraction>("fix", "lsm/traction", "fix style lsm/traction");
   // Created by the other styles for their own use.
   styles.add_with_args<Fix, FixLSMRecord>("fix", "LSM_RECORD", "fix style LSM_RECORD");
   styles.add_with_args<Fix, FixLSMHistory>("fix", "LSM_HISTORY", "fix style LSM_HISTORY");
@@ -175,4 +182,7 @@ extern "C" void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
                                                   "compute style lsm/events");
   styles.add<Command, CreateLSMFault>("command", "create_lsm_fault", "command create_lsm_fault");
   styles.add<Command, IncludeBeside>("command", "include_beside", "command include_beside");
+  styles.add<Command, CheckVariable>("command", "check_variable", "command check_variable");
+  styles.add<Command, SaveRestart>("command", "save_restart", "command save_restart");
+  styles.add<Command, CheckRestart>("command", "check_restart", "command check_restart");
 }

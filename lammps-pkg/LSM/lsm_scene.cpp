@@ -42,6 +42,11 @@ namespace LSMScene {
     return all;
   }
 
+  bool is_ours(const Fix *fix)
+  {
+    return utils::strmatch(fix->style, "^lsm/") || utils::strmatch(fix->style, "^LSM_");
+  }
+
   std::vector<FixLSMNVE *> integrators(Modify *modify)
   {
     std::vector<FixLSMNVE *> all;

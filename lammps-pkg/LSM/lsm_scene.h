@@ -13,6 +13,7 @@
 #include <vector>
 
 namespace LAMMPS_NS {
+class Fix;
 class FixLSMNVE;
 class Force;
 class LAMMPS;
@@ -24,6 +25,9 @@ namespace LSMScene {
 
   /// Pair styles of the package, each by itself under pair_style hybrid.
   std::vector<PairLSMFree *> contact_styles(Force *);
+
+  /// Whether a fix is of the package.
+  bool is_ours(const Fix *);
 
   /// Fixes that move particles of the package.
   std::vector<FixLSMNVE *> integrators(Modify *);

@@ -29,7 +29,8 @@ using namespace LAMMPS_NS;
 /* ---------------------------------------------------------------------- */
 
 PairLSMFree::PairLSMFree(LAMMPS *_lmp) :
-    Pair(_lmp), k(nullptr), on(nullptr), maxrad(nullptr), newton_pair(0), screened(false)
+    Pair(_lmp), k(nullptr), on(nullptr), active(nullptr), maxrad(nullptr), newton_pair(0),
+    screened(false), own_radii(-1)
 {
   single_enable = 1;
   no_virial_fdotr_compute = 1;
@@ -47,6 +48,7 @@ PairLSMFree::~PairLSMFree()
     memory->destroy(cutsq);
     memory->destroy(k);
     memory->destroy(on);
+    memory->destroy(active);
     delete[] maxrad;
   }
 }
@@ -57,6 +59,8 @@ void PairLSMFree::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
   if (screened) check_special();
+  near.update(neighbor->ncalls, *list, atom->x[0], atom->nlocal + atom->nghost, contact_radii(),
+              1.0, nullptr);
   if (evflag)
     loop<LSMRecordAndTally>();
   else if (record_what)
@@ -79,19 +83,18 @@ template <class Recorder, bool DIM3> void PairLSMFree::loop()
 {
   double **x = atom->x;
   double **f = atom->f;
-  const double *radius = atom->radius;
+  const double *radius = contact_radii();
   const int *type = atom->type;
   const int nlocal = atom->nlocal;
   Recorder recorder(*this, update->setupflag != 0, domain->boxlo[0], domain->prd[0]);
 
-  for (int ii = 0; ii < list->inum; ii++) {
-    const int i = list->ilist[ii];
+  for (const LSMNearPairs::Particle &one : near.particles) {
+    const int i = one.i;
     const int *jlist = list->firstneigh[i];
-    const int jnum = list->numneigh[i];
     const double *ki = k[type[i]];
 
-    for (int jj = 0; jj < jnum; jj++) {
-      const int j = jlist[jj] & NEIGHMASK;
+    for (int m = one.first; m < one.last; m++) {
+      const int jj = near.pairs[m], j = jlist[jj] & NEIGHMASK;
       const double delx = x[i][0] - x[j][0];
       const double dely = x[i][1] - x[j][1];
       double delz = 0.0;
@@ -130,9 +133,16 @@ template <class Recorder, bool DIM3> void PairLSMFree::loop()
 
 /* ---------------------------------------------------------------------- */
 
+const double *PairLSMFree::contact_radii() const
+{
+  return own_radii < 0 ? atom->radius : atom->dvector[own_radii];
+}
+
+/* ---------------------------------------------------------------------- */
+
 bool PairLSMFree::left_out(int entry, int itype, int jtype) const
 {
-  return !on[itype][jtype] || force->special_lj[sbmask(entry)] == 0.0;
+  return !active[itype][jtype] || force->special_lj[sbmask(entry)] == 0.0;
 }
 
 /* ----------------------------------------------------------------------
@@ -161,10 +171,11 @@ void PairLSMFree::allocate()
   memory->create(cutsq, n, n, "pair:cutsq");
   memory->create(k, n, n, "pair:k");
   memory->create(on, n, n, "pair:on");
+  memory->create(active, n, n, "pair:active");
   maxrad = new double[n];
   for (int i = 0; i < n; i++)
     for (int j = 0; j < n; j++) {
-      setflag[i][j] = on[i][j] = 0;
+      setflag[i][j] = on[i][j] = active[i][j] = 0;
       k[i][j] = 0.0;
     }
 }
@@ -235,6 +246,9 @@ void PairLSMFree::init_style()
   if (!atom->radius_flag)
     error->all(FLERR, "Pair style lsm/* needs particle radii: use atom_style hybrid bond sphere");
   record_what = NONE;
+  near.clear();    // the list may be another, and its builds are counted anew
+  int flag, columns;
+  own_radii = atom->find_custom("lsm_contact_radius", flag, columns);
   newton_pair = force->newton_pair;
   LSMScene::refuse_changing_radii(lmp, "Pair style lsm/*");
   if (utils::strmatch(force->pair_style, "^hybrid/scaled"))
@@ -256,7 +270,12 @@ void PairLSMFree::init_style()
     if (LSMScene::contact_styles(force).front() == this) warn_of_missing_links();
   }
 
+  // hybrid calls init_one() of the pairs of types that it gives to this style; not of those with none, which it leaves
+  // in the list where both types with themselves belong to this style
+
   const int ntypes = atom->ntypes;
+  for (int i = 1; i <= ntypes; i++)
+    for (int j = 1; j <= ntypes; j++) active[i][j] = 0;
   std::vector<double> mine(ntypes + 1, 0.0);
   for (int i = 0; i < atom->nlocal; i++)
     mine[atom->type[i]] = MAX(mine[atom->type[i]], atom->radius[i]);
@@ -329,7 +348,7 @@ double PairLSMFree::init_one(int i, int j)
         "Pair lsm/*: coefficients of types {} {} are not set; use 'off' for types that never touch",
         i, j);
   k[j][i] = k[i][j];
-  on[j][i] = on[i][j];
+  on[j][i] = active[i][j] = active[j][i] = on[i][j];
   return maxrad[i] + maxrad[j];
 }
 
@@ -416,9 +435,9 @@ double PairLSMFree::single(int i, int j, int itype, int jtype, double rsq, doubl
 {
   fforce = 0.0;
   const double r = sqrt(rsq);
-  const double r0 = atom->radius[i] + atom->radius[j];
+  const double r0 = contact_radii()[i] + contact_radii()[j];
   const int lo = MIN(itype, jtype), hi = MAX(itype, jtype);
-  if (!on[lo][hi] || r >= r0 || r == 0.0) return 0.0;
+  if (!active[lo][hi] || r >= r0 || r == 0.0) return 0.0;
   fforce = -LSM::Spring::force(k[lo][hi], r - r0) / r;
   return LSM::Spring::energy(k[lo][hi], r - r0);
 }
@@ -429,7 +448,7 @@ void *PairLSMFree::extract(const char *str, int &dim)
 {
   dim = 2;
   if (strcmp(str, "k") == 0) return (void *) k;
-  if (strcmp(str, "on") == 0) return (void *) on;
+  if (strcmp(str, "on") == 0) return (void *) active;
   return nullptr;
 }
 

@@ -13,6 +13,7 @@ PairStyle(lsm/free,PairLSMFree);
 #define LMP_PAIR_LSM_FREE_H
 
 #include "lsm_energy.h"
+#include "lsm_near_pairs.h"
 #include "pair.h"
 
 namespace LAMMPS_NS {
@@ -33,6 +34,12 @@ class PairLSMFree : public Pair, public LSMEnergySource {
   double single(int, int, int, int, double, double, double, double &) override;
   void *extract(const char *, int &) override;
 
+  /// Stiffness of the contacts of two types, 0 if they never touch.
+  double stiffness(int itype, int jtype) const
+  {
+    return active[itype][jtype] ? k[itype][jtype] : 0.0;
+  }
+
   // virtual functions of Pair in LAMMPS 4Feb2025, which 4Jul2026 has no more: no 'override', and no warning of that
 
 #if defined(__GNUC__)
@@ -51,9 +58,14 @@ class PairLSMFree : public Pair, public LSMEnergySource {
  protected:
   double **k;        // contact stiffness
   int **on;          // 1 if the pair of types interacts at all
+  int **active;      // on, and not 'none' under hybrid, since the last init
   double *maxrad;    // largest radius of each type
   int newton_pair;
+  LSMNearPairs near;
   bool screened;    // lists hold pairs that must not interact
+  int own_radii;    // index of the radii of the contacts, where fix lsm/traction has made them others, or -1
+
+  const double *contact_radii() const;
 
   bool left_out(int entry, int itype, int jtype) const;
   void check_special() const;

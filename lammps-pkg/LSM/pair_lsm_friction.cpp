@@ -57,6 +57,13 @@ template <class Law> static bool fits(const double *values)
       coefficients_of<Law>([values](std::size_t n) { return values[n]; }, parameters_of<Law>));
 }
 
+template <class Law> static void begin(const double *values, double *state)
+{
+  Law::begin(
+      coefficients_of<Law>([values](std::size_t n) { return values[n]; }, parameters_of<Law>),
+      state);
+}
+
 template <class Chosen> PairLSMFriction::Law PairLSMFriction::entry()
 {
   constexpr int count = static_cast<int>(std::size(Chosen::parameters));
@@ -68,8 +75,8 @@ template <class Chosen> PairLSMFriction::Law PairLSMFriction::entry()
           count,
           Chosen::state_size,
           Chosen::named,
-          Chosen::needs_time,
           &::fits<Chosen>,
+          &::begin<Chosen>,
           &PairLSMFriction::loop<Chosen, LSMRecordNothing>,
           &PairLSMFriction::loop<Chosen, LSMRecordEnergies>,
           &PairLSMFriction::loop<Chosen, LSMRecordAndTally>};
@@ -104,8 +111,8 @@ int PairLSMFriction::size_history() const
 /* ---------------------------------------------------------------------- */
 
 PairLSMFriction::PairLSMFriction(LAMMPS *_lmp) :
-    PairLSMFree(_lmp), law(&laws[0]), running(&laws[0]), coefficient{}, given{}, restored(false),
-    locate_onset(1), of_single{}, builds(-1), fix_dummy(nullptr), fix_history(nullptr)
+    PairLSMFree(_lmp), pace(1.0), law(&laws[0]), running(&laws[0]), coefficient{}, given{},
+    restored(false), locate_onset(1), of_single{}, fix_dummy(nullptr), fix_history(nullptr)
 {
   centroidstressflag = CENTROID_NOTAVAIL;
   nondefault_history_transfer = 1;
@@ -147,22 +154,11 @@ void PairLSMFriction::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
   if (screened) check_special();
-  if (neighbor->ncalls != builds) find_neighbors();
+  near.update(neighbor->ncalls, *list, atom->x[0], atom->nlocal + atom->nghost, contact_radii(),
+              locate_onset ? NEAR_REACH : 1.0, fix_history->firstflag);
   (this->*(evflag        ? running->loop_tally
            : record_what ? running->loop_energies
                          : running->loop_nothing))();
-}
-
-/* ----------------------------------------------------------------------
-   in the order of the list, so that sums stay what they are
-------------------------------------------------------------------------- */
-
-void PairLSMFriction::find_neighbors()
-{
-  builds = neighbor->ncalls;
-  with_neighbors.clear();
-  for (int ii = 0; ii < list->inum; ii++)
-    if (list->numneigh[list->ilist[ii]]) with_neighbors.push_back(list->ilist[ii]);
 }
 
 /* ----------------------------------------------------------------------
@@ -189,13 +185,13 @@ template <class Law, class Recorder> void PairLSMFriction::loop()
   constexpr int size = LAW_STATE + Law::state_size;
   double **x = atom->x;
   double **f = atom->f;
-  const double *radius = atom->radius;
+  const double *radius = contact_radii();
   const int *type = atom->type;
   const int nlocal = atom->nlocal;
   int **firsttouch = fix_history->firstflag;
   double **firsthistory = fix_history->firstvalue;
   const double reach_sq = locate_onset ? NEAR_REACH * NEAR_REACH : 0.0;
-  [[maybe_unused]] const double dt = update->dt;
+  [[maybe_unused]] const double dt = update->dt * pace;
 
   // the setup of a run evaluates the forces of a step that was done: the state of the contacts stays, so
   // that a run in pieces equals one run, and a contact that slides goes on sliding. Only where a command moved
@@ -208,9 +204,9 @@ template <class Law, class Recorder> void PairLSMFriction::loop()
   const double rounding = 16.0 * std::numeric_limits<double>::epsilon() * farthest;
   Recorder recorder(*this, setup, domain->boxlo[0], domain->prd[0]);
 
-  for (const int i : with_neighbors) {
+  for (const LSMNearPairs::Particle &one : near.particles) {
+    const int i = one.i;
     const int *jlist = list->firstneigh[i];
-    const int jnum = list->numneigh[i];
     int *touch = firsttouch[i];
     double *allhistory = firsthistory[i];
     const int itype = type[i];
@@ -218,7 +214,8 @@ template <class Law, class Recorder> void PairLSMFriction::loop()
     const double *row[std::size(Law::parameters)];
     for (std::size_t n = 0; n < std::size(Law::parameters); n++) row[n] = coefficient[n][itype];
 
-    for (int jj = 0; jj < jnum; jj++) {
+    for (int m = one.first; m < one.last; m++) {
+      const int jj = near.pairs[m];
       const int j = jlist[jj] & NEIGHMASK;
       const double delx = x[i][0] - x[j][0];
       const double dely = x[i][1] - x[j][1];
@@ -319,6 +316,33 @@ template <class Law, class Recorder> void PairLSMFriction::loop()
     }
   }
   recorder.finish();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairLSMFriction::load_contacts(const double *shear)
+{
+  double **x = atom->x;
+  const double *radius = contact_radii();
+  for (int ii = 0; ii < list->inum; ii++) {
+    const int i = list->ilist[ii];
+    for (int jj = 0; jj < list->numneigh[i]; jj++) {
+      const int j = list->firstneigh[i][jj] & NEIGHMASK;
+      const double delx = x[i][0] - x[j][0], dely = x[i][1] - x[j][1];
+      const double r0 = radius[i] + radius[j];
+      const int itype = atom->type[i], jtype = atom->type[j];
+      if (!active[itype][jtype] || delx * delx + dely * dely >= r0 * r0) continue;
+      double values[MAX_PARAMETERS];
+      for (int p = 0; p < law->count; p++) values[p] = coefficient[p][itype][jtype];
+      double *const h = &fix_history->firstvalue[i][size_history() * jj];
+      fix_history->firstflag[i][jj] = 1;
+      h[XI] = -shear[i] / values[0];
+      h[DX] = delx;
+      h[DY] = dely;
+      h[STATUS] = STICKS;
+      law->begin(values, h + LAW_STATE);
+    }
+  }
 }
 
 /* ---------------------------------------------------------------------- */
@@ -510,8 +534,8 @@ void PairLSMFriction::init_style()
         FLERR,
         "Pair style lsm/friction does not work with fix numdiff, as friction depends on the path");
 
+  pace = 1.0;
   running = law;    // see init_one()
-  builds = -1;      // the lists may be others, and their builds are counted anew
   PairLSMFree::init_style();
 
   // the history of a pair is found by the IDs of its particles

@@ -15,8 +15,6 @@ PairStyle(lsm/friction,PairLSMFriction);
 
 #include "pair_lsm_free.h"
 
-#include <vector>
-
 #include <string>
 
 namespace LSM {
@@ -41,8 +39,10 @@ class PairLSMFriction : public PairLSMFree {
   double single(int, int, int, int, double, double, double, double &) override;
   void *extract(const char *, int &) override;
   void transfer_history(double *, double *, int, int) override;
-  /// Name of the law if it depends on time or velocity, else null.
-  const char *law_of_time() const { return law->needs_time ? law->name : nullptr; }
+  double pace;    ///< model time over time of the steps, for laws that depend on time: fix lsm/leap
+  /// Begins the contacts that the lists hold with a shear force of the upper particle on the lower one, which is given
+  /// for each particle of this rank; called before forces are evaluated in a setup.
+  void load_contacts(const double *shear);
 
  protected:
   void allocate() override;
@@ -60,8 +60,8 @@ class PairLSMFriction : public PairLSMFree {
     int count;
     int state_size;
     bool named;
-    bool needs_time;
     bool (*fits)(const double *);
+    void (*begin)(const double *, double *);
     void (PairLSMFriction::*loop_nothing)();
     void (PairLSMFriction::*loop_energies)();
     void (PairLSMFriction::*loop_tally)();
@@ -76,9 +76,6 @@ class PairLSMFriction : public PairLSMFree {
   bool restored;                  // law and coefficients come from a restart file
   int locate_onset;               // 1 if the begin of a contact within a step is located
   double of_single[2];    // what svector points to: a constructor that stops leaves nothing behind
-  std::vector<int>
-      with_neighbors;    // particles of the list that have any: few, as most lie inside a block
-  int builds;            // of the neighbor lists when these were looked for
   class FixDummy *fix_dummy;
   class FixNeighHistory *fix_history;
 
@@ -91,7 +88,6 @@ class PairLSMFriction : public PairLSMFree {
   void destroy_coefficients();
   void check(int, double, const double *, const std::string &) const;
   int size_history() const;
-  void find_neighbors();
 };
 
 }    // namespace LAMMPS_NS

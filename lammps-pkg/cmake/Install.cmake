@@ -2,6 +2,7 @@
 # cmake --install, the manual pages, and a Debian package by cpack. To be included by the root CMakeLists.txt, last.
 include(GNUInstallDirs)
 set(share ${CMAKE_INSTALL_DATADIR}/lsm-fault)
+set(LSM_PYTHON_DIR lib/python3/dist-packages CACHE STRING "Folder of Python modules below the prefix; Python looks there if it is /usr")
 set(documents ${CMAKE_INSTALL_DATADIR}/doc/lsm-fault)
 
 install(DIRECTORY lammps-pkg/core/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lsm FILES_MATCHING PATTERN "*.h")
@@ -10,6 +11,8 @@ install(FILES README.md ARCHITECTURE.md LICENSE DESTINATION ${documents})
 if(TARGET lmp)
   install(TARGETS lmp RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   install(TARGETS lsmplugin LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/lsm-fault)
+  install(TARGETS lammps_shared LIBRARY DESTINATION ${LSM_PYTHON_DIR}/lammps)
+  install(DIRECTORY ${LSM_PYTHON_MODULE} DESTINATION ${LSM_PYTHON_DIR} FILES_MATCHING PATTERN "*.py" PATTERN __pycache__ EXCLUDE)
   install(DIRECTORY lammps-pkg/doc/ DESTINATION ${documents}/lammps FILES_MATCHING PATTERN "*.rst")
 endif()
 

@@ -30,4 +30,5 @@ install_debian_packages() {
 lammps_packages="build-essential cmake ninja-build libopenmpi-dev openmpi-bin libpng-dev zlib1g-dev
   gzip xz-utils ca-certificates git"
 plot_packages="gnuplot-nox fonts-dejavu-core"
-postproc_packages="libcli11-dev libfmt-dev nlohmann-json3-dev libgsl-dev libfftw3-dev zlib1g-dev"
+postproc_packages="libcli11-dev libfmt-dev nlohmann-json3-dev libgsl-dev libfftw3-dev zlib1g-dev
+  liblzma-dev libjs-dygraphs libpugixml-dev libhowardhinnant-date-dev"

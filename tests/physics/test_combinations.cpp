@@ -61,6 +61,26 @@ TEST_F(Hybrid, PairsThatAreOffDoNotTouch) {
   }
 }
 
+// As in stock LAMMPS 'none' takes back what '* *' said.
+TEST_F(Hybrid, NoneAfterStarDoesNotTouch) {
+  for (const char *style : {"lsm/free", "lsm/friction"})
+    for (const char *more : {"", " zero 1.0"}) {
+      SCOPED_TRACE(std::string(style) + more);
+      const std::string coefficients = std::string(style) == "lsm/free" ? "1.0" : "1.0 1.0 0.6";
+      const std::string start = "pair_style hybrid/overlay " + std::string(style) + more +
+                                "\npair_coeff * * " + style + " " + coefficients + "\n" +
+                                (*more ? "pair_coeff 1 1 zero\n" : "");
+      const std::string run = "fix move all lsm/nve\n" + recorded() + "thermo 50\nrun 50\n";
+      const Result on = run_text(shear_contact(start) + run);
+      ASSERT_TRUE(succeeded(on));
+      EXPECT_GT(on.last("c_events[7]"), 0.0);
+      const Result none = run_text(shear_contact(start + "pair_coeff 1 2 none\n") + run);
+      ASSERT_TRUE(succeeded(none));
+      EXPECT_EQ(none.last("c_events[7]"), 0.0);
+      EXPECT_EQ(none.last("KinEng"), 0.0);
+    }
+}
+
 namespace {
 
 /// Three discs in a row; the first link is harmonic, the second lsm/linked.

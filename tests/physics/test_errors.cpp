@@ -3,6 +3,7 @@
 #include "fault_scene.h"
 #include "lsm_catalogue.h"
 #include "lsm_event_picker.h"
+#include "lsm_output_claim.h"
 #include "lsm_pe_series.h"
 
 using namespace physics;
@@ -110,6 +111,62 @@ TEST_F(BlowUp, StopsWithAMessageAndACleanCatalogue) {
       for (std::size_t n = 0; n < found.size(); ++n)
         EXPECT_EQ(found[n].step_end, expected[n].step_end);
     }
+}
+
+// A name that leads to a file of another output, whatever it looks like: nothing is written to it.
+TEST_F(BadInput, OneFileForTwoOutputs) {
+  const std::string shear = fault_read() + fault_shear("emergency e.state ${files}");
+  std::ofstream(path("there.csv")) << "somebody's data\n";
+  std::filesystem::create_hard_link(path("there.csv"), path("hard.csv"));
+  std::filesystem::create_symlink("one.csv", path("soft.csv"));
+  struct Case {
+    const char *files, *more;
+    std::vector<std::string> parts;
+  };
+  const std::vector<Case> cases = {
+      {"catalogue one.csv series one.csv text", "", {"catalogue one.csv and series one.csv"}},
+      {"catalogue one.csv series ./one.csv text", "", {"series ./one.csv", "the same file"}},
+      {"catalogue soft.csv series one.csv binary", "", {"the same file"}},
+      {"catalogue there.csv series hard.csv binary", "", {"the same file"}},
+      {"catalogue one.csv series e.state binary", "", {"e.state", "the same file"}},
+      {"catalogue one.csv", "restart 100 one.csv two.csv", {"restart one.csv", "the same file"}},
+      {"catalogue one.csv", "log soft.csv", {"catalogue one.csv: this run writes that file"}},
+      {"catalogue one.csv", "dump d all atom 100 one.csv", {"this run writes that file"}},
+      {"catalogue one.csv",
+       "compute r all lsm/events events ruptures catalogue one.csv overwrite yes",
+       {"one.csv", "this run"}},
+      {"catalogue one.csv.new", "", {"names that end in .new"}}};
+  for (const auto &one : cases) {
+    std::filesystem::remove(path("one.csv"));
+    EXPECT_TRUE(
+        failed_with(run_text(shear + one.more + "\nrun 10\n", {{"files", one.files}}), one.parts))
+        << one.files << " " << one.more;
+    EXPECT_EQ(read_file(path("there.csv")), "somebody's data\n") << one.files;
+  }
+  EXPECT_TRUE(succeeded(
+      run_text(shear + "run 10\n", {{"files", "catalogue /dev/null series /dev/null text"}})));
+}
+
+TEST_F(BadInput, MoreBinsThanAHistoryMayHave) {
+  EXPECT_TRUE(
+      failed_with(run_text(fault_read() +
+                           fault_shear("events ruptures bin 1e-6 catalogue many.csv") + "run 10\n"),
+                  {"bin 1e-06 makes", "bins of a box", "expected at most 1048576"}));
+  EXPECT_FALSE(std::filesystem::exists(path("many.csv")));
+}
+
+TEST_F(BadInput, AnotherRunWritesTheFile) {
+  const std::string shear = fault_read() + fault_shear("catalogue held.csv series held.pe binary");
+  for (int ranks : {1, 2})
+    for (const char *file : {"held.csv", "held.pe"}) {
+      const LSM::FileLock held(path(file));
+      EXPECT_TRUE(failed_with(
+          run_text(shear + "run 10\n", {}, ranks),
+          {file, "is being written by another run: process " + std::to_string(getpid()) + " on "}));
+      EXPECT_FALSE(std::filesystem::exists(path("held.csv"))) << file;
+    }
+  EXPECT_TRUE(succeeded(run_text(shear + "run 10\nuncompute events\n")));
+  EXPECT_FALSE(std::filesystem::exists(path("held.csv.lock")));
 }
 
 // New neighbor lists every so often, which is in the middle of a step.

@@ -419,6 +419,97 @@ write_dump        all custom state.${sort} id x y vx vy modify sort id format fl
     EXPECT_EQ(runs[0].thermo[n].at("c_events[5]"), runs[1].thermo[n].at("c_events[5]")) << n;
 }
 
+// Fix lsm/nve sets forces to 0 as particles move; the integrator does, before the interactions,
+// where a fix of another package acts on forces. Either way they are whole when somebody looks, and
+// in the runs after.
+TEST_F(Reproducible, ForcesAreClearedByEither) {
+  const std::string runs = fault_read() + R"(
+fix               move blocks lsm/nve viscosity 0.02
+fix               plates all lsm/plates lower upper stress 0.006 damping 0.02 velocity 0.005 ramp 3
+OTHER
+run               300
+run               200
+write_dump        all custom forces.FILE id x y fx fy fz tqx tqz modify sort id format float %.17g
+run               50 pre no
+neigh_modify      delay 0 every 1 check no
+run               20
+unfix             plates
+unfix             move
+fix               move blocks nve
+run               50
+write_dump        all custom after.FILE id x y fx fy fz tqx tqz modify sort id format float %.17g
+)";
+  const auto with = [&](std::string text, const std::string &other, const std::string &file) {
+    text.replace(text.find("OTHER"), 5, other);
+    for (std::size_t at; (at = text.find("FILE")) != std::string::npos;) text.replace(at, 4, file);
+    return text;
+  };
+  for (int ranks : {1, 2}) {
+    ASSERT_TRUE(succeeded(run_text(with(runs, "", "fix"), {}, ranks)));
+    ASSERT_TRUE(succeeded(
+        run_text(with(runs, "fix idle blocks addforce 0.0 0.0 0.0", "integrator"), {}, ranks)));
+    for (const char *name : {"forces", "after"}) {
+      const std::string ours = read_file(path(name + std::string(".fix")));
+      EXPECT_GT(ours.size(), 1000u);
+      EXPECT_TRUE(ours == read_file(path(name + std::string(".integrator"))))
+          << name << ", " << ranks << " ranks";
+    }
+  }
+}
+
+TEST_F(Reproducible, PairsThatAreNotLookedAtDoNotTouch) {
+  // A gas of discs: with a list built anew in each step all pairs are looked at, with lists that
+  // stay for long only those that may touch soon. nsq lists pairs in the same order each time.
+  for (const char *pair : {"lsm/friction", "lsm/friction onset step", "lsm/free"}) {
+    const std::string script = R"(
+variable          check index yes
+units             lj
+dimension         2
+boundary          f f p
+newton            off
+atom_style        hybrid bond sphere
+atom_modify       map array sort 0 0
+neighbor          0.9 nsq
+neigh_modify      delay 0 every 1 check ${check}
+lattice           sq $(1/2.3^2:%.17g)
+region            box block -4 4 -4 4 -0.1 0.1
+create_box        1 box
+create_atoms      1 box
+set               group all diameter 2
+set               group all mass 1
+pair_style        )" + std::string(pair) +
+                               R"(
+pair_coeff        1 1 1.0)" + (pair == std::string("lsm/free") ? "" : " 1.0 0.6") +
+                               R"(
+velocity          all create 0.05 4711 mom yes rot no
+fix               walls all wall/reflect xlo EDGE xhi EDGE ylo EDGE yhi EDGE
+fix               move all lsm/nve
+compute           events all lsm/events
+timestep          0.05
+thermo_style      custom step ke c_events[7] c_events[8] nbuild
+thermo_modify     norm no format float %.17g
+thermo            100
+run               3000
+)";
+    std::vector<Result> runs;
+    for (const char *check : {"yes", "no"}) {
+      runs.push_back(run_text(script, {{"check", check}}));
+      ASSERT_TRUE(succeeded(runs.back()));
+    }
+    EXPECT_EQ(runs[1].last("Nbuild"), 3000.0);
+    EXPECT_LT(runs[0].last("Nbuild"), 300.0);
+    ASSERT_EQ(runs[0].thermo.size(), runs[1].thermo.size());
+    int touching = 0;
+    for (std::size_t n = 0; n < runs[0].thermo.size(); ++n) {
+      for (const char *column : {"KinEng", "c_events[7]", "c_events[8]"})
+        EXPECT_EQ(runs[0].thermo[n].at(column), runs[1].thermo[n].at(column))
+            << pair << ", " << column << " in row " << n;
+      if (runs[0].thermo[n].at("c_events[7]") > 0.0) ++touching;
+    }
+    EXPECT_GT(touching, 25);
+  }
+}
+
 // Fix lsm/nve joins the two half steps that meet between two time steps, unless somebody may look
 // in between.
 TEST_F(Reproducible, OnlookersChangeNothingAndSeeWholeSteps) {

@@ -360,6 +360,33 @@ TEST_F(Ranks, GeometryDoesNotDependOnThem) {
   EXPECT_EQ(read_file(path("one.dump")), read_file(path("four.dump")));
 }
 
+TEST_F(MassFloor, MassesForAStepMakeItStableWithContacts) {
+  // the upper block pressed into the lower one: many contacts at once, as stiff across as along
+  const std::string script = fault_start() +
+                             "create_lsm_fault length 40 width 20 seed 3 failures 500 massstep "
+                             "${step} 1.0\n" +
+                             fault_groups() + fault_forces() + R"(
+group above type 2 4 6
+displace_atoms above move 1.3 -0.1 0
+fix move blocks lsm/nve dtcheck warn
+fix plates all lsm/plates lower upper position
+thermo_style custom step f_move[2]
+thermo_modify format float %.17g
+timestep 0.12
+run 0
+)";
+  const Result own = run_text(script, {{"step", "0"}});
+  const Result raised = run_text(script, {{"step", "0.12"}});
+  ASSERT_TRUE(succeeded(own));
+  ASSERT_TRUE(succeeded(raised));
+  EXPECT_LT(own.last("f_move[2]"), 0.12);
+  EXPECT_GE(raised.last("f_move[2]"), 0.12);
+  const Result two = run_text(script, {{"step", "0.12"}}, 2);
+  ASSERT_TRUE(succeeded(two));
+  EXPECT_NEAR(two.last("f_move[2]"), raised.last("f_move[2]"), 1e-9);
+  EXPECT_EQ(raised.lines_with("time step 0.12 stable with any contacts: ").size(), 1u);
+}
+
 TEST_F(MassFloor, RaisesTheSmallestMassesOnly) {
   const std::string script = fault_start() +
                              "create_lsm_fault length 40 width 20 seed 3 failures 500 mass r2 2.0 "

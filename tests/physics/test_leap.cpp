@@ -181,6 +181,58 @@ TEST_F(Leap, FaultThatCreepsGoesOnCreeping) {
   EXPECT_NEAR(leapt.friction_work / slower.friction_work, 1.0, 0.05);
 }
 
+// A velocity-strengthening fault creeps under the stress of slow plates, sigma (mu + a ln(v / v0)),
+// also where they leap: a law that depends on time is given model time.
+TEST_F(Leap, LawsOfTimeAreGivenModelTime) {
+  const std::string law =
+      "pair_style none\nrun 0\npair_style lsm/friction rate-state-ageing\npair_coeff * * off\n"
+      "pair_coeff 3 4 1.0 1.0 mu 0.2 a 0.1 b 0 dc 1e-3 v0 1e-3\n";
+  const auto stress = [&](const std::string &velocity, const std::string &leap,
+                          const std::string &steps) {
+    std::string scene = slow(leap, "c_events[5] f_plates[3] f_plates[8]");
+    scene.insert(scene.find("\nfix               move"), "\n" + law);
+    const Result r = run_text(scene + "run " + steps + "\n",
+                              {{"prefix", "time"}, {"dt", "0.04"}, {"velocity", velocity}});
+    EXPECT_TRUE(succeeded(r));
+    double sum = 0.0, n = 0.0;
+    for (const auto &row : r.thermo) {
+      if (row.count("f_plates[8]") == 0 || row.at("f_plates[8]") < 0.5 ||
+          row.at("f_plates[8]") > 1.1)
+        continue;
+      sum += row.at("f_plates[3]");
+      n += 1.0;
+    }
+    EXPECT_GT(n, 30.0);
+    return std::fabs(sum / n);
+  };
+  const double slowly = stress("0.0005", "", "30000"), fast = stress("0.002", "", "8000"),
+               leapt =
+                   stress("0.0005", "fix leap all lsm/leap plates fast 0.002 slip 3\n", "10000");
+  std::printf("stress of creep: %.4f, %.4f by leaps; %.4f at four times the velocity\n", slowly,
+              leapt, fast);
+  EXPECT_GT(fast - slowly, 0.06);  // a ln 4 = 0.14 where all contacts are level
+  EXPECT_NEAR(leapt, slowly, 0.25 * (fast - slowly));
+}
+
+// With `grow` the factor is at most 1 + model time since the leap began / grow.
+TEST_F(Leap, FactorGrowsWithTheTimeOfTheLeap) {
+  const Result r =
+      run_text(slow("fix leap all lsm/leap plates fast 0.005 calm 3 rest 1e9 ramp 0 grow 50 look "
+                    "0.3\n",
+                    "f_leap f_leap[1] f_leap[2]") +
+                   "thermo 10\nrun 12000\n",
+               {{"prefix", "grow"}, {"dt", "0.03"}, {"mus", "100"}, {"velocity", "0.00005"}});
+  ASSERT_TRUE(succeeded(r));
+  double began = NAN;
+  for (const auto &row : r.thermo) {
+    if (row.at("f_leap[2]") != 2.0) continue;
+    if (std::isnan(began)) began = row.at("f_leap") - 0.3;
+    EXPECT_LE(row.at("f_leap[1]"), 1.01 + (row.at("f_leap") - began) / 50) << row.at("Step");
+    EXPECT_GE(row.at("f_leap[1]"), std::min(99.9, 0.98 * (1 + (row.at("f_leap") - began) / 50)));
+  }
+  EXPECT_NEAR(r.last("f_leap[1]"), 100.0, 1e-9);
+}
+
 // Links that are near breaking: the same break, at the same displacement of the plates.
 TEST_F(Leap, TheSameLinksBreak) {
   std::string scene = slow("LEAP", "bonds f_plates[8]");

@@ -381,3 +381,59 @@ TEST_F(Located, ContactsAcrossTheBorderOfTheBox) {
       }
   }
 }
+
+// Contacts are recorded once, and each compute sorts them into bins of its own.
+TEST_F(Located, EachComputeHasItsOwnBins) {
+  const auto located = [](const char *more) {
+    return upper_and_lower("catalogue own.csv location yes bin 2 fraction 0.05 lambda 0\n" +
+                           std::string(more)) +
+           moved({}, 10) + moved({{19, 0.03}, {0, 0.04}, {1, 0.01}, {7, 0.001}}, 20) +
+           moved({{19, -0.03}, {0, -0.04}, {1, -0.01}}, 10);
+  };
+  ASSERT_TRUE(succeeded(run_text(located(""))));
+  const std::string alone = read_file(path("own.csv"));
+  ASSERT_EQ(LSM::read_catalogue(path("own.csv")).events.size(), 1u);
+  for (const char *other :
+       {"compute other all lsm/events", "compute other all lsm/events location yes bin 7 lambda 0",
+        "compute other all lsm/events events ruptures driving 0.001 modulus 0.5 bin 5"}) {
+    ASSERT_TRUE(succeeded(run_text(located(other))));
+    EXPECT_EQ(read_file(path("own.csv")), alone) << other;
+  }
+}
+
+TEST_F(Ruptures, UncomputeLeavesTheOtherCompute) {
+  const std::string pe = "compute events all lsm/events overwrite yes catalogue pe.csv\n";
+  const std::string other =
+      "compute other all lsm/events events ruptures overwrite yes catalogue r.csv\n";
+  const std::string fixes =
+      fault_read() + fault_shear("") + "uncompute events\nthermo_style custom step ke\n";
+  ASSERT_TRUE(succeeded(run_text(fixes + pe + "run 1000\nrun 2000\n")));
+  const std::string alone = read_file(path("pe.csv"));
+  ASSERT_GE(LSM::read_catalogue(path("pe.csv")).events.size(), 3u);
+  for (const std::string &both : {pe + other, other + pe})
+    for (const char *words : {"", " pre no"})
+      for (int ranks : {1, 2}) {
+        if (ranks == 2 && !*words) continue;
+        ASSERT_TRUE(succeeded(run_text(
+            fixes + both + "run 1000\nuncompute other\nrun 2000" + words + "\n", {}, ranks)));
+        if (ranks == 1) {
+          EXPECT_EQ(read_file(path("pe.csv")), alone) << both << words;
+        }
+      }
+}
+
+TEST_F(Ruptures, BoxThatChangesIsRefused) {
+  const std::string start = fault_read() + fault_shear("");
+  const std::string ruptures = "compute r all lsm/events events ruptures overwrite yes\n";
+  const std::string longer = "change_box all x scale 1.001 remap\nrun 100\n";
+  EXPECT_TRUE(failed_with(run_text(start + ruptures + "run 100\n" + longer),
+                          {"lsm/events r: the box along x was 0 to 40", "places of events"}));
+  EXPECT_TRUE(failed_with(
+      run_text(start + ruptures + "fix d all deform 1 x scale 1.001 remap x\nrun 100\n"),
+      {"lsm/events r: fix d changes the box along x, which events ruptures cannot follow"}));
+  EXPECT_TRUE(failed_with(
+      run_text(start + "compute l all lsm/events overwrite yes catalogue l.csv\nrun 100\n" +
+               longer),
+      {"the header of file l.csv"}));
+  EXPECT_TRUE(succeeded(run_text(start + "run 100\n" + longer)));
+}

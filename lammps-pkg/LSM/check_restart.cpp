@@ -1,0 +1,110 @@
+/* ----------------------------------------------------------------------
+   SPDX-License-Identifier: GPL-2.0-or-later
+------------------------------------------------------------------------- */
+
+#include "check_restart.h"
+
+#include "comm.h"
+#include "error.h"
+#include "input.h"
+#include "variable.h"
+
+#include "lsm_restart_info.h"
+
+#include <cstring>
+#include <exception>
+
+using namespace LAMMPS_NS;
+
+/* ----------------------------------------------------------------------
+   check_restart FILE [free NAME ...] [fixed NAME ...]
+------------------------------------------------------------------------- */
+
+void CheckRestart::command(int narg, char **arg)
+{
+  if (narg < 1) error->all(FLERR, "check_restart expects a file name");
+  const std::string file = arg[0];
+
+  // rank 0 reads; the settings go to the others as lines of key and value
+
+  std::string problem, lines;
+  if (comm->me == 0) {
+    try {
+      for (const auto &[key, value] : LSM::check_restart(file)) lines += key + "=" + value + "\n";
+    } catch (std::exception &e) {
+      problem = e.what();
+    }
+  }
+  share(problem);
+  if (!problem.empty()) error->all(FLERR, "check_restart: {}", problem);
+  share(lines);
+  LSM::text_io::Parameters settings;
+  for (size_t at = 0; at < lines.size();) {
+    const size_t equals = lines.find('=', at), end = lines.find('\n', equals);
+    settings.emplace_back(lines.substr(at, equals - at),
+                          lines.substr(equals + 1, end - equals - 1));
+    at = end + 1;
+  }
+
+  bool fixed = false, any = false;
+  for (int n = 1; n < narg; n++) {
+    if (strcmp(arg[n], "fixed") == 0 || strcmp(arg[n], "free") == 0) {
+      fixed = arg[n][1] == 'i';
+      any = true;
+      continue;
+    }
+    if (!any)
+      error->all(FLERR, "check_restart expects the keyword fixed or free before '{}'", arg[n]);
+    take(file, arg[n], LSM::text_io::find(settings, arg[n]), fixed);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void CheckRestart::share(std::string &text) const
+{
+  int length = static_cast<int>(text.size());
+  MPI_Bcast(&length, 1, MPI_INT, 0, world);
+  text.resize(length);
+  if (length) MPI_Bcast(&text[0], length, MPI_CHAR, 0, world);
+}
+
+/* ----------------------------------------------------------------------
+   a variable that is there was set on the command line, or by a script that includes this one
+------------------------------------------------------------------------- */
+
+void CheckRestart::take(const std::string &file, const std::string &name, const std::string *value,
+                        bool fixed)
+{
+  if (!value) {
+    if (fixed && comm->me == 0)
+      error->warning(FLERR, "Restart file {} does not say its {}: it is taken as given", file,
+                     name);
+    return;
+  }
+  const char *const given = input->variable->retrieve(name.c_str());
+  if (given && *value != given) {
+    double a, b;
+    const bool same = LSM::text_io::parse(*value, a) && LSM::text_io::parse(given, b) && a == b;
+    if (fixed && !same)
+      error->all(FLERR,
+                 "Variable {} is {}, but restart file {} was written with {} = {}, which it "
+                 "cannot change; leave it out",
+                 name, given, file, name, *value);
+    if (!same) return;
+
+    // written in another way: as before, for the headers of files that go on
+
+    set({name, "delete"});
+  }
+  if (!input->variable->retrieve(name.c_str())) set({name, "index", *value});
+}
+
+/* ---------------------------------------------------------------------- */
+
+void CheckRestart::set(std::vector<std::string> words)
+{
+  std::vector<char *> args;
+  for (std::string &word : words) args.push_back(&word[0]);
+  input->variable->set(static_cast<int>(args.size()), args.data());
+}

@@ -1,0 +1,77 @@
+/* ----------------------------------------------------------------------
+   SPDX-License-Identifier: GPL-2.0-or-later
+------------------------------------------------------------------------- */
+
+#include "check_variable.h"
+
+#include "comm.h"
+#include "error.h"
+#include "input.h"
+#include "variable.h"
+
+#include "lsm_text_io.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <string>
+
+using namespace LAMMPS_NS;
+
+/* ----------------------------------------------------------------------
+   a name typed wrong on the command line is a variable that nothing reads
+------------------------------------------------------------------------- */
+
+void CheckVariable::warn_of_others(int narg, char **arg)
+{
+  if (comm->me != 0) return;
+  for (int n = 0; n < input->variable->nvar; n++) {
+    const std::string name = input->variable->names[n];
+    if (std::none_of(arg, arg + narg, [&name](const char *known) { return name == known; }))
+      error->warning(FLERR, "Variable {} is none that this script reads", name);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   check_variable * among NAME ...
+   check_variable NAME words WORD ... | above NUMBER | whole NUMBER | file
+------------------------------------------------------------------------- */
+
+void CheckVariable::command(int narg, char **arg)
+{
+  const std::string kind = narg > 1 ? arg[1] : "";
+  if (kind == "among" && strcmp(arg[0], "*") == 0) {
+    warn_of_others(narg - 2, arg + 2);
+    return;
+  }
+  const bool ranged = kind == "above" || kind == "whole";
+  if (!(ranged && narg == 3) && !(kind == "words" && narg > 2) && !(kind == "file" && narg == 2))
+    error->all(FLERR,
+               "check_variable expects a name and 'words' with words, 'above' or 'whole' with a "
+               "number, or 'file'; or * and 'among' with names");
+  const char *const text = input->variable->retrieve(arg[0]);
+  if (!text) error->all(FLERR, "check_variable: there is no variable {}", arg[0]);
+  const std::string value = text;
+
+  bool good = false;
+  std::string expected;
+  if (kind == "words") {
+    for (int n = 2; n < narg; n++) {
+      good = good || value == arg[n];
+      expected += (n == 2 ? "" : n + 1 < narg ? ", " : " or ") + std::string(arg[n]);
+    }
+  } else if (kind == "file") {
+    good = !value.empty() && value.front() != '-' &&
+           value.find_first_of(" \t\n\"'&#$*%") == std::string::npos;
+    expected = "a file name without blanks, quotes, &, #, $, *, % and without - at its begin "
+               "(./-name does)";
+  } else {
+    const double least = utils::numeric(FLERR, arg[2], false, lmp);
+    double number = 0.0;
+    good = LSM::text_io::parse(value, number) &&
+           (kind == "above" ? number > least : number >= least && number == std::floor(number));
+    expected =
+        (kind == "above" ? "a number above " : "a whole number of at least ") + std::string(arg[2]);
+  }
+  if (!good) error->all(FLERR, "Variable {} is '{}', but must be {}", arg[0], value, expected);
+}

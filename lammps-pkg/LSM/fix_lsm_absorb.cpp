@@ -1,0 +1,133 @@
+/* ----------------------------------------------------------------------
+   SPDX-License-Identifier: GPL-2.0-or-later
+------------------------------------------------------------------------- */
+
+#include "fix_lsm_absorb.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "force.h"
+#include "update.h"
+
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+
+/* ---------------------------------------------------------------------- */
+
+FixLSMAbsorb::FixLSMAbsorb(LAMMPS *_lmp, int narg, char **arg) :
+    Fix(_lmp, narg, arg), dashpot{}, rate(0.0)
+{
+  scalar_flag = 1;
+  global_freq = 1;
+  extscalar = 1;
+  restart_global = 1;
+
+  if (narg != 7)
+    error->all(FLERR,
+               "Fix lsm/absorb expects 'fix ID group lsm/absorb x|y ZP ZS LENGTH': direction "
+               "across the border, impedances of P- and S-waves, length of the border for "
+               "each particle");
+  if (strcmp(arg[3], "x") != 0 && strcmp(arg[3], "y") != 0)
+    error->all(FLERR, "Fix lsm/absorb direction across the border is '{}', but must be x or y",
+               arg[3]);
+  static constexpr const char *names[] = {"impedance of P-waves", "impedance of S-waves", "length"};
+  double value[3];
+  for (int n = 0; n < 3; n++) {
+    value[n] = utils::numeric(FLERR, arg[4 + n], false, lmp);
+    if (!(value[n] >= 0.0) || !std::isfinite(value[n]))
+      error->all(FLERR, "Fix lsm/absorb {} is {}, but must be >= 0", names[n], value[n]);
+  }
+  const int across = arg[3][0] == 'x' ? 0 : 1;
+  dashpot[across] = value[0] * value[2];
+  dashpot[1 - across] = value[1] * value[2];
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixLSMAbsorb::setmask()
+{
+  return POST_FORCE;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixLSMAbsorb::init()
+{
+  if (domain->dimension != 2)
+    error->all(FLERR, "Fix lsm/absorb needs a 2-dimensional simulation (dimension 2)");
+  if (utils::strmatch(update->integrate_style, "^respa"))
+    error->all(FLERR, "Fix lsm/absorb does not work with run_style respa");
+}
+
+/* ----------------------------------------------------------------------
+   Velocities are those of half a step before the forces, once a run goes on: the dashpot pulls against the velocity that
+   the particle has when its own pull is in the force, so that the scheme stays of second order, and stable
+   whatever the impedance. half: half a time step, 0 in the setup, where velocities and forces are of one time.
+
+   With velocity Verlet the work of a force in the two halves of the steps before and after it is force times the
+   velocity of its time, so the loss is known exactly.
+------------------------------------------------------------------------- */
+
+void FixLSMAbsorb::add_forces(double half)
+{
+  double **v = atom->v;
+  double **f = atom->f;
+  double lost = 0.0;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    const double kick =
+        half * force->ftm2v / (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]);
+    for (int c = 0; c < 2; c++) {
+      const double now = (v[i][c] + kick * f[i][c]) / (1.0 + kick * dashpot[c]);
+      f[i][c] -= dashpot[c] * now;
+      lost += dashpot[c] * now * now;
+    }
+  }
+  work_absorbed += half * (rate + lost);
+  rate = lost;
+}
+
+void FixLSMAbsorb::setup(int /*vflag*/)
+{
+  add_forces(0.0);
+}
+
+void FixLSMAbsorb::post_force(int /*vflag*/)
+{
+  add_forces(0.5 * update->dt);
+}
+
+/* ----------------------------------------------------------------------
+   scalar = energy that has left
+------------------------------------------------------------------------- */
+
+double FixLSMAbsorb::compute_scalar()
+{
+  double all;
+  MPI_Allreduce(&work_absorbed, &all, 1, MPI_DOUBLE, MPI_SUM, world);
+  return all;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixLSMAbsorb::write_restart(FILE *fp)
+{
+  const double total = compute_scalar();
+  if (comm->me == 0) {
+    const int size = sizeof(double);
+    fwrite(&size, sizeof(int), 1, fp);
+    fwrite(&total, sizeof(double), 1, fp);
+  }
+}
+
+void FixLSMAbsorb::restart(char *buf)
+{
+  double total;
+  memcpy(&total, buf, sizeof(double));
+  work_absorbed = comm->me == 0 ? total : 0.0;
+}

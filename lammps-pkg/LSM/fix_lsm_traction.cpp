@@ -1,0 +1,286 @@
+/* ----------------------------------------------------------------------
+   SPDX-License-Identifier: GPL-2.0-or-later
+------------------------------------------------------------------------- */
+
+#include "fix_lsm_traction.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "force.h"
+#include "group.h"
+#include "input.h"
+#include "modify.h"
+#include "pair_lsm_friction.h"
+#include "update.h"
+#include "variable.h"
+
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+
+enum { LOWER, UPPER };
+static constexpr double FACING =
+    1.2;    // distance over sum of radii of two discs that face each other
+
+/* ---------------------------------------------------------------------- */
+
+FixLSMTraction::FixLSMTraction(LAMMPS *_lmp, int narg, char **arg) :
+    Fix(_lmp, narg, arg), begun(false), contact_radius(nullptr), load{}
+{
+  scalar_flag = 1;
+  global_freq = 1;
+  extscalar = 1;
+  restart_global = 1;
+  comm_forward = 1;
+
+  if (narg != 7)
+    error->all(FLERR, "Fix lsm/traction expects 'fix ID group lsm/traction lower-group upper-group "
+                      "NORMAL SHEAR', tractions as numbers or variables v_name");
+  if (modify->get_fix_by_style("^lsm/traction").size() > 0)
+    error->all(FLERR, "Fix lsm/traction can be used once only; give it variables of the position");
+  for (int s : {LOWER, UPPER}) {
+    const int which = group->find(arg[3 + s]);
+    if (which < 0)
+      error->all(FLERR, "Fix lsm/traction {} group '{}' does not exist", s ? "upper" : "lower",
+                 arg[3 + s]);
+    side[s] = group->bitmask[which];
+    traction[s] = arg[5 + s];
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+FixLSMTraction::~FixLSMTraction()
+{
+  const std::string store = std::string(id) + "_store";
+  if (modify && modify->get_fix_by_id(store)) modify->delete_fix(store);
+}
+
+/* ----------------------------------------------------------------------
+   by a fix that hands them from rank to rank and to restart files
+------------------------------------------------------------------------- */
+
+void FixLSMTraction::post_constructor()
+{
+  modify->add_fix(std::string(id) +
+                  "_store all property/atom d_lsm_contact_radius d_lsm_normal d_lsm_shear ghost "
+                  "yes writedata no");
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixLSMTraction::setmask()
+{
+  return PRE_FORCE | POST_FORCE;    // the former for its setup only
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixLSMTraction::init()
+{
+  if (domain->dimension != 2)
+    error->all(FLERR, "Fix lsm/traction needs a 2-dimensional simulation (dimension 2)");
+  if (utils::strmatch(update->integrate_style, "^respa"))
+    error->all(FLERR, "Fix lsm/traction does not work with run_style respa");
+  if (!dynamic_cast<PairLSMFriction *>(force->pair_match("lsm/friction", 1)))
+    error->all(FLERR, "Fix lsm/traction needs pair style lsm/friction");
+}
+
+/* ----------------------------------------------------------------------
+   the arrays move when they grow
+------------------------------------------------------------------------- */
+
+void FixLSMTraction::find_store()
+{
+  int flag, columns;
+  contact_radius = atom->dvector[atom->find_custom("lsm_contact_radius", flag, columns)];
+  load[NORMAL] = atom->dvector[atom->find_custom("lsm_normal", flag, columns)];
+  load[SHEAR] = atom->dvector[atom->find_custom("lsm_shear", flag, columns)];
+}
+
+/* ----------------------------------------------------------------------
+   a traction at each particle of this rank
+------------------------------------------------------------------------- */
+
+std::vector<double> FixLSMTraction::evaluate(const std::string &text) const
+{
+  std::vector<double> all(atom->nlocal);
+  if (text.substr(0, 2) != "v_") {
+    all.assign(all.size(), utils::numeric(FLERR, text, false, lmp));
+    return all;
+  }
+  auto *const variable = input->variable;
+  const int which = variable->find(text.substr(2).c_str());
+  if (which < 0) error->all(FLERR, "Fix lsm/traction: variable {} does not exist", text.substr(2));
+  if (variable->equalstyle(which))
+    all.assign(all.size(), variable->compute_equal(which));
+  else if (variable->atomstyle(which))
+    variable->compute_atom(which, igroup, all.data(), 1, 0);
+  else
+    error->all(FLERR, "Fix lsm/traction: variable {} must be of style equal or atom",
+               text.substr(2));
+  return all;
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixLSMTraction::partner(int i, const std::vector<int> &others) const
+{
+  int found = -1;
+  for (const int j : others) {
+    const double dx = atom->x[i][0] - atom->x[j][0], dy = atom->x[i][1] - atom->x[j][1];
+    const double reach = FACING * (atom->radius[i] + atom->radius[j]);
+    if (dx * dx + dy * dy > reach * reach) continue;
+    if (found >= 0)
+      error->one(
+          FLERR,
+          "Fix lsm/traction: particle {} faces particles {} and {}, but must face one, as in "
+          "the rows of create_lsm_fault lattice",
+          atom->tag[i], atom->tag[found], atom->tag[j]);
+    found = j;
+  }
+  if (found < 0)
+    error->one(FLERR, "Fix lsm/traction: particle {} faces none of the other side", atom->tag[i]);
+  return found;
+}
+
+/* ----------------------------------------------------------------------
+   Where discs just touch, contacts reach farther by the overlap that the normal traction needs, and their tangential springs
+   begin with the elongation that the shear traction needs: no particle moves and no link is strained.
+------------------------------------------------------------------------- */
+
+void FixLSMTraction::begin()
+{
+  auto *const pair = dynamic_cast<PairLSMFriction *>(force->pair_match("lsm/friction", 1));
+  find_store();
+  const std::vector<double> normal = evaluate(traction[NORMAL]), shear = evaluate(traction[SHEAR]);
+  const int *const mask = atom->mask;
+  const double *const radius = atom->radius;
+  std::vector<int> face[2];
+  for (int i = 0; i < atom->nlocal + atom->nghost; i++)
+    for (int s : {LOWER, UPPER})
+      if (mask[i] & side[s]) face[s].push_back(i);
+
+  for (int i = 0; i < atom->nlocal; i++) {
+    contact_radius[i] = radius[i];
+    load[NORMAL][i] = load[SHEAR][i] = 0.0;
+    for (int s : {LOWER, UPPER}) {
+      if (!(mask[i] & side[s])) continue;
+      const int j = partner(i, face[1 - s]);
+      const double k = pair->stiffness(atom->type[i], atom->type[j]);
+      if (k == 0.0)
+        error->one(FLERR,
+                   "Fix lsm/traction: types {} and {} of particles that face each other do not "
+                   "touch by pair_coeff",
+                   atom->type[i], atom->type[j]);
+      if (!(normal[i] >= 0.0) || !std::isfinite(normal[i]) || !std::isfinite(shear[i]))
+        error->one(FLERR,
+                   "Fix lsm/traction: normal and shear traction of particle {} are {} and {}, "
+                   "but must be >= 0 and finite",
+                   atom->tag[i], normal[i], shear[i]);
+      load[NORMAL][i] = 2.0 * radius[i] * normal[i];
+      load[SHEAR][i] = 2.0 * radius[i] * shear[i];
+      const double dx = atom->x[i][0] - atom->x[j][0], dy = atom->x[i][1] - atom->x[j][1];
+      const double more =
+          0.5 * (sqrt(dx * dx + dy * dy) + load[NORMAL][i] / k - radius[i] - radius[j]);
+      if (fabs(more) > 0.05 * radius[i])
+        error->one(
+            FLERR,
+            "Fix lsm/traction: particle {} would overlap its partner by {:.3g} of its "
+            "radius, but may by a tenth; its contact is too soft for the normal traction, or "
+            "the faces do not touch",
+            atom->tag[i], 2.0 * more / radius[i]);
+      contact_radius[i] += more;
+    }
+  }
+  comm->forward_comm(this);
+  pair->load_contacts(load[SHEAR]);
+  begun = true;
+}
+
+void FixLSMTraction::setup_pre_force(int /*vflag*/)
+{
+  if (!begun) begin();
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixLSMTraction::pack_forward_comm(int n, int *list, double *buf, int /*pbc_flag*/,
+                                      int * /*pbc*/)
+{
+  for (int m = 0; m < n; m++) buf[m] = contact_radius[list[m]];
+  return n;
+}
+
+void FixLSMTraction::unpack_forward_comm(int n, int first, double *buf)
+{
+  for (int m = 0; m < n; m++) contact_radius[first + m] = buf[m];
+}
+
+/* ----------------------------------------------------------------------
+   The forces that the tractions stand against: the upper face is pulled along x, and each pressed on the other. Within a run
+   velocities are those of the middle of the step, times the time step the displacement.
+------------------------------------------------------------------------- */
+
+void FixLSMTraction::add_forces(double dt)
+{
+  find_store();
+  double **v = atom->v;
+  double **f = atom->f;
+  double work = 0.0;
+  for (int i = 0; i < atom->nlocal; i++)
+    for (int s : {LOWER, UPPER}) {
+      if (!(atom->mask[i] & side[s])) continue;
+      const double up = s == UPPER ? 1.0 : -1.0;
+      const double fx = up * load[SHEAR][i], fy = -up * load[NORMAL][i];
+      f[i][0] += fx;
+      f[i][1] += fy;
+      work += fx * v[i][0] + fy * v[i][1];
+    }
+  work_outside += dt * work;
+}
+
+void FixLSMTraction::setup(int /*vflag*/)
+{
+  add_forces(0.0);
+}
+
+void FixLSMTraction::post_force(int /*vflag*/)
+{
+  add_forces(update->dt);
+}
+
+/* ----------------------------------------------------------------------
+   scalar = work of these forces
+------------------------------------------------------------------------- */
+
+double FixLSMTraction::compute_scalar()
+{
+  double all;
+  MPI_Allreduce(&work_outside, &all, 1, MPI_DOUBLE, MPI_SUM, world);
+  return all;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixLSMTraction::write_restart(FILE *fp)
+{
+  const double values[2] = {compute_scalar(), begun ? 1.0 : 0.0};
+  if (comm->me == 0) {
+    const int size = sizeof(values);
+    fwrite(&size, sizeof(int), 1, fp);
+    fwrite(values, sizeof(double), 2, fp);
+  }
+}
+
+void FixLSMTraction::restart(char *buf)
+{
+  double values[2];
+  memcpy(values, buf, sizeof(values));
+  work_outside = comm->me == 0 ? values[0] : 0.0;
+  begun = values[1] != 0.0;
+}

@@ -1,0 +1,56 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   SPDX-License-Identifier: GPL-2.0-or-later
+   Lattice Solid Model: initial normal and shear traction of a flat fault
+------------------------------------------------------------------------- */
+
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(lsm/traction,FixLSMTraction);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_LSM_TRACTION_H
+#define LMP_FIX_LSM_TRACTION_H
+
+#include "fix.h"
+#include "lsm_energy.h"
+
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class FixLSMTraction : public Fix, public LSMWorkSource {
+ public:
+  FixLSMTraction(class LAMMPS *, int, char **);
+  ~FixLSMTraction() override;
+  void post_constructor() override;
+  int setmask() override;
+  void init() override;
+  void setup_pre_force(int) override;
+  void setup(int) override;
+  void post_force(int) override;
+  int pack_forward_comm(int, int *, double *, int, int *) override;
+  void unpack_forward_comm(int, int, double *) override;
+  double compute_scalar() override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
+
+ private:
+  enum { NORMAL, SHEAR };
+  int side[2];                         // group bits of the lower and the upper face
+  std::string traction[2];             // normal and shear: number or v_name
+  bool begun;                          // the contacts have been loaded
+  double *contact_radius, *load[2];    // of each particle; load: force of the other face
+
+  void find_store();
+  std::vector<double> evaluate(const std::string &) const;
+  int partner(int, const std::vector<int> &) const;
+  void begin();
+  void add_forces(double);
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

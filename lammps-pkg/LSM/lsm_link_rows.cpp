@@ -1,0 +1,141 @@
+/* ----------------------------------------------------------------------
+   SPDX-License-Identifier: GPL-2.0-or-later
+------------------------------------------------------------------------- */
+
+#include "lsm_link_rows.h"
+
+#include <algorithm>
+#include <array>
+
+namespace LAMMPS_NS {
+namespace LSMLinkRows {
+
+  static constexpr int LINE = 8;    // doubles of a cache line
+
+  struct Row {
+    int i, first, length;    // links of i from the first on
+  };
+
+  // Links by the particle whose rows they are in.
+
+  struct Owners {
+    std::vector<int> begin;    // of the links of each particle, and the end of the last
+    std::vector<int> other;
+    std::vector<double> rest;
+
+    Owners(const std::vector<Link> &links, int nlocal);
+  };
+
+  Owners::Owners(const std::vector<Link> &links, int nlocal) :
+      begin(nlocal + 1, 0), other(links.size()), rest(links.size())
+  {
+    std::vector<bool> swapped(links.size());
+    std::vector<int> count(nlocal, 0);
+    for (std::size_t n = 0; n < links.size(); n++) {
+      const Link &link = links[n];
+      swapped[n] = link.j < nlocal && count[link.j] < count[link.i];
+      count[swapped[n] ? link.j : link.i]++;
+    }
+    for (int i = 0; i < nlocal; i++) begin[i + 1] = begin[i] + count[i];
+    std::vector<int> next(begin.begin(), begin.end() - 1);
+    for (std::size_t n = 0; n < links.size(); n++) {
+      const Link &link = links[n];
+      const int place = next[swapped[n] ? link.j : link.i]++;
+      other[place] = swapped[n] ? link.i : link.j;
+      rest[place] = link.rest;
+    }
+  }
+
+  static void add_run(Rows &o, const Owners &of, std::vector<Row> &rows, int length, bool filled_up)
+  {
+    if (rows.empty()) return;
+    while (rows.size() % LANES) rows.push_back({rows.back().i, rows.back().first, 0});
+    o.runs.push_back({static_cast<int>(rows.size()) / LANES, length, filled_up,
+                      static_cast<int>(o.particle.size()), static_cast<int>(o.other.size()), 0, 0});
+    for (std::size_t slice = 0; slice < rows.size(); slice += LANES) {
+      for (int c = 0; c < LANES; c++) o.particle.push_back(3 * rows[slice + c].i);
+      for (int n = 0; n < length; n++)
+        for (int c = 0; c < LANES; c++) {
+          const Row &row = rows[slice + c];
+          const bool is_link = n < row.length;
+          const int link = row.first + (is_link ? n : 0);
+          o.other.push_back(3 * of.other[link]);
+          o.rest.push_back(is_link ? of.rest[link] : NO_LINK);
+        }
+    }
+  }
+
+  // The rows of the particles of a window, the longest first; what does not fill a slice makes one of mixed lengths.
+
+  static void add_window(Rows &o, const Owners &of, const int *first, const int *last, bool mixed)
+  {
+    std::array<std::vector<Row>, LONGEST + 1> rows;
+    for (; first < last; first++) {
+      const int i = *first, count = of.begin[i + 1] - of.begin[i];
+      const int pieces = (count + LONGEST - 1) / LONGEST;
+      for (int p = 0, done = 0; p < pieces; p++) {
+        const int length = (count - done + pieces - p - 1) / (pieces - p);
+        rows[length].push_back({i, of.begin[i] + done, length});
+        done += length;
+      }
+    }
+    std::vector<Row> left;
+    for (int length = LONGEST; length > 0; length--) {
+      std::vector<Row> &full = rows[length];
+      const auto end = mixed ? full.begin() : full.end() - full.size() % LANES;
+      left.insert(left.end(), end, full.end());
+      full.erase(end, full.end());
+      add_run(o, of, full, length, false);
+    }
+    add_run(o, of, left, LONGEST, true);
+  }
+
+  // Cache lines that the runs from `first` on use and those of the window before did not. They are fetched
+  // while those are worked on, evenly: one by one when they are needed would take longer than all arithmetic.
+
+  static void fetch_ahead(Rows &o, std::size_t before, std::size_t first, std::vector<int> &used,
+                          int window)
+  {
+    const std::size_t begin = o.to_fetch.size();
+    const auto use = [&](const std::vector<int> &places, int from) {
+      for (std::size_t n = from; n < places.size(); n++) {
+        int &last = used[places[n] / LINE];
+        if (last < window - 1 && before < first) o.to_fetch.push_back(places[n]);
+        last = window;
+      }
+    };
+    if (first == o.runs.size()) return;
+    use(o.particle, o.runs[first].row);
+    use(o.other, o.runs[first].link);
+
+    double slices = 0.0, done = 0.0;
+    for (std::size_t r = before; r < first; r++) slices += o.runs[r].slices;
+    const auto share = [&] {
+      return static_cast<int>(begin + (o.to_fetch.size() - begin) * done / slices);
+    };
+    for (std::size_t r = before; r < first; r++) {
+      o.runs[r].fetch = share();
+      done += o.runs[r].slices;
+      o.runs[r].fetch_end = share();
+    }
+  }
+
+  Rows make_rows(const std::vector<int> &owned, const std::vector<Link> &links, int nlocal,
+                 int nall, bool mixed)
+  {
+    const Owners of(links, nlocal);
+    Rows o;
+    std::vector<int> used(3 * nall / LINE + 1, -2);
+    std::size_t before = 0;    // where the runs of the window before begin
+    const int n = static_cast<int>(owned.size());
+    for (int from = 0, window = 0; from < n; from += WINDOW, window++) {
+      const std::size_t first = o.runs.size();
+      add_window(o, of, &owned[from], &owned[0] + std::min(n, from + WINDOW), mixed);
+      fetch_ahead(o, before, first, used, window);
+      before = first;
+    }
+    return o;
+  }
+
+}    // namespace LSMLinkRows
+}    // namespace LAMMPS_NS

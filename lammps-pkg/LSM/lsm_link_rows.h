@@ -1,0 +1,56 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   SPDX-License-Identifier: GPL-2.0-or-later
+   Links in the order in which lsm_link_kernel takes them
+------------------------------------------------------------------------- */
+
+#ifndef LMP_LSM_LINK_ROWS_H
+#define LMP_LSM_LINK_ROWS_H
+
+#include <limits>
+#include <vector>
+
+namespace LAMMPS_NS {
+namespace LSMLinkRows {
+
+  constexpr int LANES = 4;        ///< rows of a slice, worked on side by side
+  constexpr int LONGEST = 4;      ///< links of a row; a particle with more has several rows
+  constexpr int WINDOW = 1024;    ///< particles whose rows are sorted by length
+  constexpr double NO_LINK = std::numeric_limits<
+      double>::infinity();    ///< rest length of a place in a slice that only fills it up
+
+  struct Link {
+    int i, j;       ///< local indices; the row is one of i, unless j is owned and has fewer links
+    double rest;    ///< rest length
+  };
+
+  /// Slices of rows of the same length.
+  struct Run {
+    int slices, length;
+    bool filled_up;          ///< some places hold no link
+    int row, link;           ///< where it begins in Rows::particle, and in Rows::other and rest
+    int fetch, fetch_end;    ///< what to fetch meanwhile, in Rows::to_fetch
+  };
+
+  /// Links of one kind. Places are 3 times the local index of a particle.
+  struct Rows {
+    std::vector<Run> runs;
+    std::vector<int> particle;    ///< place of the particle of each row, LANES for each slice
+    std::vector<int> other;       ///< place of its partner, LANES for each link of a slice
+    std::vector<double> rest;     ///< rest length, or NO_LINK
+    std::vector<int> to_fetch;    ///< places to fetch into the cache
+  };
+
+  /// The rows of links. Their order follows from that of `owned` and of `links` alone, so both have to follow
+  /// from the particle IDs.
+  /// \param owned  local indices of the particles of this rank, each once
+  /// \param links  the first end of each is owned
+  /// \param nlocal particles of this rank: those with local indices from this on are ghosts and have no rows
+  /// \param nall   local indices are below this
+  /// \param mixed  put rows of all lengths side by side, filled up to the longest: for few links
+  Rows make_rows(const std::vector<int> &owned, const std::vector<Link> &links, int nlocal,
+                 int nall, bool mixed);
+
+}    // namespace LSMLinkRows
+}    // namespace LAMMPS_NS
+
+#endif

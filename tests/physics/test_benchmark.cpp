@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Dynamic ruptures of a flat fault in the regular lattice, against a boundary integral and a closed
+// form.
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "lmp_runner.h"
+#include "lsm_catalogue.h"
+#include "lsm_slip_history.h"
+
+using namespace physics;
+
+namespace {
+
+struct History {
+  LSM::SlipHistoryInfo info;
+  double scale = 1.0;
+  std::vector<LSM::SlipRecord> records;
+  std::vector<double> slip;  // in the end, of each bin
+
+  explicit History(const std::string &path) {
+    LSM::SlipHistoryReader reader(path);
+    info = reader.info();
+    scale = std::stod(*info.find("scale"));
+    slip.assign(static_cast<std::size_t>(info.grid.bins), 0.0);
+    for (LSM::SlipRecord record; reader.next(record);) {
+      for (std::size_t b = 0; b < slip.size(); ++b)
+        slip[b] += static_cast<double>(record.row.slip[b]) / scale;
+      records.push_back(record);
+    }
+  }
+  double end() const { return info.grid.time(records.back().step_end); }
+};
+
+/// Small blocks with a rupture that runs for a second.
+Variables small(const std::string &prefix) {
+  return {{"dx", "500"},   {"length", "20000"}, {"width", "8000"},
+          {"tend", "1.5"}, {"weak", "6000"},    {"prefix", prefix}};
+}
+
+}  // namespace
+
+using Benchmark = Lmp;
+
+TEST_F(Benchmark, SelfSimilarCrack) {
+  const Result r = run_scene("rupture_crack.in", {{"dx", "200"}, {"speed", "0.5"}});
+  ASSERT_TRUE(succeeded(r));
+  const History history(path("crack_200.slip.bin"));
+  const double vs = 6000.0 / std::sqrt(3.0), mu = 2670.0 * vs * vs;
+  const double tip = 0.5 * vs * history.end();
+  EXPECT_NEAR(tip, 6000.0, 1e-6);
+  double measured = 0.0, shape = 0.0;
+  for (int b = 0; b < history.info.grid.bins; ++b) {
+    const double x = history.info.grid.centre(b);
+    if (std::fabs(x) > 0.7 * tip) continue;
+    const double one = 7e6 / mu * std::sqrt(tip * tip - x * x);
+    measured += one * history.slip[static_cast<std::size_t>(b)];
+    shape += one * one;
+  }
+  // Freund (1990), section 6.3.3, for vp / vs = sqrt 3
+  std::printf("A = %.4f, exact 1.2977\n", measured / shape);
+  EXPECT_NEAR(measured / shape, 1.2977, 0.015 * 1.2977);
+}
+
+TEST_F(Benchmark, EnergyIsBalanced) {
+  const Result r = run_scene("rupture_tpv205.in", small("balance"));
+  ASSERT_TRUE(succeeded(r));
+  const double friction = r.last("c_ruptures[11]");
+  EXPECT_GT(r.last("c_ruptures[15]"), friction);         // the load outside does the work
+  EXPECT_GT(r.last("c_ruptures[16]"), 1e-3 * friction);  // and waves have reached the borders
+  EXPECT_LT(std::fabs(r.last("c_ruptures[13]")), 2e-4 * friction);
+}
+
+TEST_F(Benchmark, RanksAgree) {
+  const Result one = run_scene("rupture_tpv205.in", small("ranks_1"));
+  ASSERT_TRUE(succeeded(one));
+  const History expected(path("ranks_1.slip.bin"));
+  double largest = 0.0;
+  for (const double slip : expected.slip) largest = std::max(largest, slip);
+  EXPECT_GT(largest, 0.1);
+  for (const int ranks : {2, 4}) {
+    const std::string prefix = "ranks_" + std::to_string(ranks);
+    const Result more = run_scene("rupture_tpv205.in", small(prefix), ranks);
+    ASSERT_TRUE(succeeded(more));
+    for (const char *column :
+         {"KinEng", "c_ruptures[6]", "c_ruptures[11]", "c_ruptures[15]", "c_ruptures[16]"})
+      EXPECT_NEAR(more.last(column), one.last(column), 1e-10 * std::fabs(one.last(column)))
+          << column;
+    const History history(path(prefix + ".slip.bin"));
+    ASSERT_EQ(history.records.size(), expected.records.size());
+    for (std::size_t b = 0; b < expected.slip.size(); ++b)
+      EXPECT_NEAR(history.slip[b], expected.slip[b], 1e-6 * largest);  // the file holds floats
+  }
+}
+
+TEST_F(Benchmark, RupturesStillOpenAreWrittenIfAsked) {
+  Variables variables = small("open");
+  ASSERT_TRUE(succeeded(run_scene("rupture_tpv205.in", variables)));
+  LSM::CatalogueReader reader(path("open.ruptures.csv"));
+  LSM::Event event, largest;
+  while (reader.next(event))
+    if (event.rupture_length > largest.rupture_length) largest = event;
+  EXPECT_NEAR(largest.t_end, 1.5, 1e-9);  // it still slips
+  EXPECT_GE(largest.rupture_length, 3000.0);
+  EXPECT_NEAR(largest.x_centroid, 0.0, 600.0);
+}
+
+// A lattice in model units, of 40 by 16 discs, in which a patch of higher stress breaks.
+static std::string lattice(const std::string &begin, const std::string &box = "f f p") {
+  return "units lj\ndimension 2\nboundary " + box +
+         "\nnewton off\natom_style hybrid bond sphere\n"
+         "atom_modify map array\nspecial_bonds lj/coul 0 1 1\n" +
+         begin +
+         "\ncomm_modify mode single cutoff 1.8\nneighbor 0.1 bin\n"
+         "group lower type 3\ngroup upper type 4\ngroup caps type 5 6\n"
+         "bond_style lsm/linked\nbond_coeff 1 1.0\nbond_coeff 2 0.5\n"
+         "pair_style lsm/friction slip-weakening\npair_coeff * * off\n"
+         "pair_coeff 3 4 1.0 10.0 mu 0.5 mu_static 0.7 dc 3e-4\n"
+         "variable shear atom 6e-4+1.2e-4*(abs(x)<4)\n"
+         "fix load all lsm/traction lower upper 1e-3 v_shear\n"
+         "fix caps caps lsm/absorb y 1.2 0.7 1.0\nfix move all lsm/nve\ntimestep 0.1\n"
+         "compute events all lsm/events ledger yes progress no\n"
+         "thermo_style custom step ke c_events[6] c_events[11] c_events[15] c_events[16]\n"
+         "thermo_modify norm no format float %.17g\nthermo 100\n";
+}
+static const std::string created =
+    "create_lsm_fault lattice length 41 width 16 spacing 1.0 mass r2 4.0";
+static const std::vector<std::string> energies = {"KinEng", "c_events[6]", "c_events[11]",
+                                                  "c_events[15]", "c_events[16]"};
+
+TEST_F(Benchmark, GoesOnFromARestartFile) {
+  for (const int ranks : {1, 2}) {
+    const Result whole = run_text(lattice(created) + "run 400\n", {}, ranks);
+    ASSERT_TRUE(succeeded(whole));
+    EXPECT_GT(whole.last("c_events[11]"), 1e-6);
+    const Result half =
+        run_text(lattice(created) + "run 200\nwrite_restart half.restart\n", {}, ranks);
+    ASSERT_TRUE(succeeded(half));
+    const Result rest = run_text(lattice("read_restart half.restart") + "run 200\n", {}, ranks);
+    ASSERT_TRUE(succeeded(rest));
+    for (const std::string &column : energies)
+      EXPECT_NEAR(rest.last(column), whole.last(column), 1e-10 * std::fabs(whole.last(column)))
+          << column << ", " << ranks << " ranks";
+  }
+}
+
+TEST_F(Benchmark, PeriodicLatticeSlidesAsAWhole) {
+  // all of the fault is above its strength: it drops to the dynamic friction everywhere, and
+  // nothing depends on x, across the border of the box as well
+  const Result r = run_text(
+      lattice("create_lsm_fault lattice length 40 width 16 spacing 1.0 mass r2 4.0", "p f p") +
+      "unfix load\nfix load all lsm/traction lower upper 1e-3 7.5e-4\nrun 200\n"
+      "compute least all reduce min vx\ncompute most all reduce max vx\n"
+      "group top type 4\ncompute a top reduce min vx\ncompute b top reduce max vx\n"
+      "thermo_style custom step c_a c_b c_events[11]\nrun 0\n");
+  ASSERT_TRUE(succeeded(r));
+  EXPECT_GT(r.last("c_events[11]"), 1e-6);
+  EXPECT_GT(r.last("c_a"), 1e-6);
+  EXPECT_NEAR(r.last("c_a"), r.last("c_b"), 1e-9 * r.last("c_b"));
+}
+
+TEST_F(Benchmark, AbsorbsPlaneWaves) {
+  // a pulse of velocity across or along the border in a periodic strip; what comes back is left
+  for (const char *component : {"x", "y"}) {
+    const std::string along = component;
+    const Result r = run_text(
+        "units lj\ndimension 2\nboundary p f p\nnewton off\natom_style hybrid bond sphere\n"
+        "atom_modify map array\nspecial_bonds lj/coul 0 1 1\n"
+        "create_lsm_fault lattice length 8 width 160 spacing 1.0 mass r2 4.0\n"
+        "comm_modify mode single cutoff 1.8\nneighbor 0.1 bin\nbond_style lsm/linked\n"
+        "bond_coeff 1 1.0\nbond_coeff 2 0.5\npair_style lsm/friction\n"
+        "pair_coeff * * 1.0 1.0 0.0\ngroup caps type 5 6\n"
+        // density 2 / sqrt 3; vp = sqrt(9/8), vs = sqrt(3/8) for mass, k and spacing of 1
+        "fix caps caps lsm/absorb y $(2/sqrt(3)*sqrt(9/8):%.17g) $(2/sqrt(3)*sqrt(3/8):%.17g) 1.0\n"
+        "variable pulse atom 1e-6*exp(-0.02*(y-40)^2)*(y>0)\n"
+        "velocity all set " +
+        (along == "x" ? std::string("v_pulse 0 0") : std::string("0 v_pulse 0")) +
+        "\nfix move all lsm/nve\ntimestep 0.2\nthermo_style custom step ke f_caps\n"
+        "thermo_modify norm no format float %.12g\nrun 0\nrun " +
+        (along == "x" ? "1150" : "680") + "\n");
+    ASSERT_TRUE(succeeded(r));
+    const double begin = r.thermo.front().at("KinEng");
+    // both halves of the pulse have met a border: the free fault sends back what came from above
+    std::printf("pulse along %s: %.3g of the energy is left, %.6g absorbed\n", component,
+                r.last("KinEng") / begin, r.last("f_caps") / begin);
+    EXPECT_LT(r.last("KinEng"), 2e-3 * begin);
+    EXPECT_NEAR(r.last("f_caps"), begin, 3e-3 * begin);
+  }
+}
+
+TEST_F(Benchmark, WrongInputIsNamed) {
+  const std::string begin = lattice(created);
+  EXPECT_TRUE(failed_with(run_text(lattice("create_lsm_fault lattice length 41 width 16")),
+                          {"spacing is missing"}));
+  EXPECT_TRUE(failed_with(run_text(lattice(created + " seed 7")), {"unknown keyword seed"}));
+  EXPECT_TRUE(failed_with(run_text(lattice(created + " types 4")), {"types = 4", "at least 6"}));
+  EXPECT_TRUE(
+      failed_with(run_text(begin + "fix a caps lsm/absorb z 1.0 1.0 1.0\n"), {"'z'", "x or y"}));
+  EXPECT_TRUE(failed_with(run_text(begin + "fix a caps lsm/absorb y -1.0 1.0 1.0\n"),
+                          {"impedance of P-waves", ">= 0"}));
+  EXPECT_TRUE(failed_with(
+      run_text(begin + "unfix load\nfix load all lsm/traction lower caps 1e-3 0\nrun 0\n"),
+      {"faces none"}));
+  EXPECT_TRUE(failed_with(
+      run_text(begin + "unfix load\nfix load all lsm/traction lower upper 1e-3 v_nothing\nrun 0\n"),
+      {"variable nothing does not exist"}));
+  EXPECT_TRUE(failed_with(
+      run_text(begin + "unfix load\nfix load all lsm/traction lower upper 0.5 0\nrun 0\n"),
+      {"would overlap"}));
+}
