@@ -13,6 +13,8 @@
 #ifndef SLIDER_CHAIN_H
 #define SLIDER_CHAIN_H
 
+#include <sys/mman.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <functional>
@@ -67,17 +69,27 @@ inline double direct_energy(const Parameters &p, const std::vector<double> &u, d
   return sum.value();
 }
 
-/// Memory on cache lines, so that a chunk never lies across two.
+/// Memory on cache lines, so that a chunk never lies across two. Long arrays ask for huge pages: of
+/// a long chain every active chunk lies on ordinary pages of its own, one for each array, more than
+/// the processor remembers.
 template <class T>
 struct LineAllocator {
   using value_type = T;
   LineAllocator() = default;
   template <class U>
   LineAllocator(const LineAllocator<U> &) {}
-  T *allocate(std::size_t n) {
-    return static_cast<T *>(::operator new(n * sizeof(T), std::align_val_t(64)));
+  static constexpr std::size_t line = 64, huge_page = std::size_t(1) << 21;
+  static std::align_val_t alignment(std::size_t n) {
+    return std::align_val_t(n * sizeof(T) < 2 * huge_page ? line : huge_page);
   }
-  void deallocate(T *p, std::size_t) { ::operator delete(p, std::align_val_t(64)); }
+  T *allocate(std::size_t n) {
+    void *const p = ::operator new(n * sizeof(T), alignment(n));
+#ifdef MADV_HUGEPAGE
+    if (alignment(n) == std::align_val_t(huge_page)) madvise(p, n * sizeof(T), MADV_HUGEPAGE);
+#endif
+    return static_cast<T *>(p);
+  }
+  void deallocate(T *p, std::size_t n) { ::operator delete(p, alignment(n)); }
   bool operator==(const LineAllocator &) const { return true; }
   bool operator!=(const LineAllocator &) const { return false; }
 };
@@ -115,7 +127,7 @@ class Chain {
     hot_.assign(n, 0);
     wake_.assign(n, 0);
     list_.reserve(n);
-    next_list_.reserve(n);
+    next_list_.reserve(3 * n + 1);
     last_edge_ = static_cast<std::uint8_t>(1U << ((p.blocks - 1) % chunk_size));
     start();
   }
@@ -455,44 +467,50 @@ class Chain {
   // A chunk is active while a block in it moves or is about to, or the nearest block of a
   // neighbouring chunk is so, or it has to be watched because its first block will soon start.
   void update_list() {
+    // Without branches on the lanes, which would be mispredicted half of the time.
     auto &next = next_list_;
-    next.clear();
-    bool want_first = false, want_last = false;
-    auto want = [&next](std::int32_t c) {
-      if (next.empty() || next.back() < c) next.push_back(c);
+    next.resize(3 * list_.size() + 1);
+    std::size_t n = 0;
+    std::int32_t back = -1;
+    const auto want = [&](std::int32_t c, bool wanted) {
+      next[n] = c;
+      wanted = wanted && back < c;
+      n += wanted;
+      back = wanted ? c : back;
     };
-    const std::int32_t last = chunks_ - 1;
     for (std::size_t k = 0; k < list_.size(); ++k) {
       const std::uint8_t h = hot_[k];
-      if (h == 0) continue;
       const std::int32_t c = list_[k];
-      if (h & 1U) {
-        if (c == 0)
-          want_last = true;
-        else
-          want(c - 1);
-      }
-      want(c);
-      if (c < last) {
-        if (h & 0x80U) want(c + 1);
-      } else if (h & last_edge_) {
-        want_first = true;
-      }
+      want(c - 1, h & 1U);
+      want(c, h);
+      want(c + 1, h & 0x80U);
     }
-    if (want_last) want(last);
-    if (want_first && (next.empty() || next.front() != 0)) next.insert(next.begin(), 0);
-    if (next != list_) {
-      idle_.clear();
-      std::size_t k = 0;
-      for (std::int32_t c : list_) {
-        while (k < next.size() && next[k] < c) ++k;
-        if (k == next.size() || next[k] != c) idle_.push_back(c);
-      }
-      for (std::int32_t c : next) wake_[static_cast<std::size_t>(c)] = 0;
-      settle_idle(next);
-      list_.swap(next);
+    if (back == chunks_) --n;
+    next.resize(n);
+    if (!list_.empty()) {
+      const std::int32_t last = chunks_ - 1;
+      const bool want_last = list_.front() == 0 && hot_[0] & 1U;
+      const bool want_first = list_.back() == last && hot_[list_.size() - 1] & last_edge_;
+      if (want_last && (next.empty() || next.back() != last)) next.push_back(last);
+      if (want_first && (next.empty() || next.front() != 0)) next.insert(next.begin(), 0);
     }
+    if (next != list_) change_list_to_next();
     if (step_ + 1 >= next_wake_) wake_due();
+  }
+
+  void change_list_to_next() {
+    idle_.clear();
+    std::size_t k = 0;
+    for (const std::int32_t c : next_list_) {
+      while (k < list_.size() && list_[k] < c) idle_.push_back(list_[k++]);
+      if (k < list_.size() && list_[k] == c)
+        ++k;
+      else
+        wake_[static_cast<std::size_t>(c)] = 0;
+    }
+    idle_.insert(idle_.end(), list_.begin() + static_cast<std::ptrdiff_t>(k), list_.end());
+    settle_idle(next_list_);
+    list_.swap(next_list_);
   }
 
   // Puts the chunks in idle_ to sleep until their wake step, or back into the list if that is now.

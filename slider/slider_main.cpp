@@ -157,8 +157,12 @@ int main(int argc, char **argv) {
     std::signal(SIGINT, note_signal);
     std::signal(SIGTERM, note_signal);
     warn(settings);
-    if (settings.ensemble.empty()) return run_one(settings);
-    std::vector<Settings> all = Slider::ensemble(settings, arguments);
+    if (settings.ensemble.empty()) {
+      Slider::check_files({settings});
+      return run_one(settings);
+    }
+    const std::vector<Settings> all = Slider::ensemble(settings, arguments);
+    Slider::check_files(all);
     return run_all(all, settings);
   } catch (const Slider::Done &done) {
     std::cout << done.text;

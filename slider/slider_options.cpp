@@ -8,9 +8,13 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <set>
 #include <sstream>
 #include <stdexcept>
+
+#include "lsm_output_claim.h"
+#include "lsm_whole_number.h"
 
 namespace Slider {
 
@@ -70,7 +74,9 @@ void add_model(CLI::App &app, Settings &s, Added &o) {
                  "File with one static coefficient per line, one line per block")
       ->excludes(range)
       ->group(model);
-  app.add_option("--seed", s.seed, "Seed of the coefficients")->group(model);
+  app.add_option("--seed", s.seed, "Seed of the coefficients")
+      ->check(LSM::whole_number())
+      ->group(model);
   app.add_option("--law", s.law,
                  "Friction of a moving block: velocity-weakening, mu_0i / (1 + v), Eq. 6; ours: "
                  "coulomb, R mu_0i with the R of --dynamic-friction; slip-weakening, from mu_0i to "
@@ -196,7 +202,42 @@ void add_ensemble(CLI::App &app, Settings &s) {
          "line; '{run}' in output names is replaced by the run's number, from 1, or put "
          "before the extension")
       ->group(many);
-  app.add_option("--threads", s.threads, "Runs at a time; 0: one per core")->group(many);
+  app.add_option("--threads", s.threads, "Runs at a time; 0: one per core")
+      ->check(LSM::whole_number(4096))
+      ->group(many);
+}
+
+/// What is wrong with a file of 'option = value' lines, or "": CLI11 takes the last of two values
+/// without a word.
+std::string bad_config(const CLI::App &app, const std::string &path) {
+  std::ifstream in(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  if (text.find('\0') != std::string::npos)
+    return path + ": not a text file, expected lines 'option = value'";
+  if (text.compare(0, 3, "\xef\xbb\xbf") == 0)
+    return path + ": begins with a byte order mark, expected lines 'option = value'";
+  std::set<std::string> keys;
+  std::istringstream lines(text);
+  std::string line;
+  for (std::int64_t number = 1; std::getline(lines, line); ++number) {
+    const std::string_view said = LSM::text_io::trim(line);
+    if (said.empty() || std::string_view("#;[").find(said.front()) != std::string_view::npos)
+      continue;
+    const std::size_t equals = std::min(said.find('='), said.size());
+    const std::string key(LSM::text_io::trim(said.substr(0, equals)));
+    const std::string where = LSM::text_io::where(path, number);
+    if (!keys.insert(key).second)
+      return where + LSM::text_io::in_quotes(key) + " given twice, expected once";
+    const CLI::Option *option = app.get_option_no_throw("--" + key);
+    const std::string_view value =
+        LSM::text_io::trim(said.substr(std::min(equals + 1, said.size())));
+    if (option && option->get_items_expected_max() == 1 && !value.empty() &&
+        value.find_first_of("\"'#;") == std::string_view::npos &&
+        value.find_first_of(" \t,[") != std::string_view::npos)
+      return where + LSM::text_io::in_quotes(key) + " is " + LSM::text_io::in_quotes(value) +
+             ", expected one value (in quotes if it has blanks)";
+  }
+  return {};
 }
 
 /// \throws Done; std::invalid_argument
@@ -392,7 +433,8 @@ Settings parse(std::vector<std::string> arguments, const std::atomic<int> *stop)
   s.run.stop = stop;
   CLI::App app(description, "slider_cli");
   app.set_version_flag("--version", std::string(SLIDER_VERSION));
-  app.set_config("--config", "", "File of 'option = value' lines; the command line has precedence");
+  app.set_config("--config", "", "File of 'option = value' lines; the command line has precedence")
+      ->check(CLI::Validator([&app](std::string &path) { return bad_config(app, path); }, ""));
   app.allow_config_extras(false);
   app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   app.option_defaults()->always_capture_default();
@@ -405,6 +447,7 @@ Settings parse(std::vector<std::string> arguments, const std::atomic<int> *stop)
   add_files(app, s);
   add_ensemble(app, s);
   read_arguments(app, std::move(arguments));
+  if (app.get_config_ptr()->count() > 0) s.config = app.get_config_ptr()->as<std::string>();
   interpret_law(s, added);
   interpret_integration(s, added);
   interpret_events(s, added);
@@ -424,12 +467,12 @@ std::vector<Settings> ensemble(const Settings &base, const std::vector<std::stri
     for (long k = 0; k < count; ++k)
       runs.push_back({"--seed", std::to_string(base.seed + static_cast<std::uint64_t>(k))});
   } else {
-    std::ifstream in(base.ensemble);
-    if (!in)
+    if (!std::ifstream(base.ensemble))
       throw std::invalid_argument("--ensemble = '" + base.ensemble +
                                   "', expected a number of runs or a readable file");
-    for (std::string line; std::getline(in, line);) {
-      std::istringstream words(line);
+    LSM::text_io::LineReader<LSM::FileError> in(base.ensemble);
+    for (std::string_view line; in.next(line);) {
+      std::istringstream words{std::string(line)};
       std::vector<std::string> extra;
       for (std::string word; words >> word && word[0] != '#';) extra.push_back(word);
       if (!extra.empty()) runs.push_back(extra);
@@ -438,7 +481,6 @@ std::vector<Settings> ensemble(const Settings &base, const std::vector<std::stri
       throw std::invalid_argument(base.ensemble + ": no run found, expected options on each line");
   }
   std::vector<Settings> all;
-  std::set<std::string> outputs;
   for (std::size_t k = 0; k < runs.size(); ++k) {
     std::vector<std::string> words = arguments;
     words.insert(words.end(), runs[k].begin(), runs[k].end());
@@ -452,12 +494,6 @@ std::vector<Settings> ensemble(const Settings &base, const std::vector<std::stri
     if (!given) s.run.catalogue = numbered(s.run.catalogue, k + 1);
     s.run.series = numbered(s.run.series, k + 1);
     s.run.checkpoint = numbered(s.run.checkpoint, k + 1);
-    for (const std::string &path : {s.run.catalogue, s.run.series, s.run.checkpoint})
-      if (!path.empty() && !outputs.insert(path).second)
-        throw std::invalid_argument(
-            fmt::format("run {} of the ensemble: {} is written by another "
-                        "run, expected a file of its own",
-                        k + 1, path));
     // Those never reached before the interruption start afresh.
     if (s.run.resume && !std::ifstream(s.run.checkpoint)) s.run.resume = false;
     try {
@@ -467,6 +503,28 @@ std::vector<Settings> ensemble(const Settings &base, const std::vector<std::stri
     }
   }
   return all;
+}
+
+void check_files(const std::vector<Settings> &all) {
+  std::vector<LSM::Output> outputs;
+  for (std::size_t k = 0; k < all.size(); ++k)
+    for (LSM::Output &output : outputs_of(all[k].run)) {
+      if (all.size() > 1)
+        output.what = fmt::format("run {} of the ensemble: {}", k + 1, output.what);
+      outputs.push_back(std::move(output));
+    }
+  const Settings &any = all.front();
+  if (any.summary != "-") outputs.push_back({"--json", any.summary});
+  const std::string problem = LSM::bad_outputs(outputs);
+  if (!problem.empty()) throw std::invalid_argument(problem);
+  std::set<std::string> inputs;
+  for (const Settings &s : all)
+    for (const std::string &path : {s.friction_file, s.config, s.ensemble})
+      if (!path.empty() && std::ifstream(path)) inputs.insert(LSM::file_identity(path));
+  for (const LSM::Output &output : outputs)
+    if (!output.path.empty() && inputs.count(LSM::file_identity(output.path)) > 0)
+      throw std::invalid_argument(output.what + " " + output.path +
+                                  " is read by this run, expected another name for the output");
 }
 
 }  // namespace Slider

@@ -21,7 +21,7 @@ struct Settings {
   LSM::PickerOptions picker;
   double steps = 1e7, time = 1e5;
   std::vector<double> friction = {0.5, 1.0};
-  std::string friction_file, law = "velocity-weakening";
+  std::string config, friction_file, law = "velocity-weakening";
   double dynamic = 0.8, distance = 0.1;
   std::uint64_t seed = 1;
   std::string columns, series_format = "text", summary, ensemble;
@@ -41,6 +41,10 @@ Settings parse(std::vector<std::string> arguments, const std::atomic<int> *stop)
 /// The runs of --ensemble, each with output files of its own.
 /// \param base of the same arguments \throws as parse()
 std::vector<Settings> ensemble(const Settings &base, const std::vector<std::string> &arguments);
+
+/// One file for one purpose, in all runs together, and none of them read as well.
+/// \throws std::invalid_argument naming options and file
+void check_files(const std::vector<Settings> &all);
 
 }  // namespace Slider
 

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "slider_output.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
+#include <system_error>
 
 namespace Slider {
 
@@ -10,6 +15,8 @@ Outputs::Outputs(const RunOptions &o)
       series_path_(o.series),
       binary_(o.series_binary),
       stride_(o.series_stride) {
+  // Before anything is looked at: what is there now, another run may have written just before.
+  claim_.claim(outputs_of(o));
   check_replaced(o);
   probe(o.series, "--pe-series");
   probe(o.checkpoint, "--checkpoint");
@@ -47,6 +54,16 @@ void Outputs::resume(std::int64_t step, std::int64_t events, std::int64_t late) 
 
 void Outputs::flush() {
   if (series_.is_open()) series_.flush();
+  // A checkpoint must not outlive in a failure of power what it counts on.
+  for (const std::string &path : {catalogue_path_, series_path_}) {
+    if (!LSM::text_io::holds_data(path)) continue;
+    const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    const bool lost = file < 0 || fsync(file) != 0;
+    const int why = errno;
+    if (file >= 0) ::close(file);
+    if (lost)
+      throw LSM::FileError(path + ": cannot write: " + std::generic_category().message(why));
+  }
 }
 
 void Outputs::close() {

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "lsm_catalogue.h"
+#include "lsm_output_claim.h"
 #include "lsm_pe_series.h"
 #include "slider_run.h"
 
@@ -16,7 +17,7 @@ namespace Slider {
 
 class Outputs {
  public:
-  /// Looks whether all files can be written; writes none.
+  /// Keeps other runs from writing the files, and looks whether they can be written; writes none.
   /// \throws std::runtime_error naming file and option
   explicit Outputs(const RunOptions &options);
 
@@ -38,7 +39,7 @@ class Outputs {
     return series_.is_open() ? (step / stride_ + 1) * stride_
                              : std::numeric_limits<std::int64_t>::max();
   }
-  /// Everything so far is on its way to disk.
+  /// Everything so far is on disk.
   void flush();
   void close();
 
@@ -46,6 +47,7 @@ class Outputs {
   std::string catalogue_path_, series_path_;
   bool binary_;
   std::int64_t stride_;
+  LSM::OutputClaim claim_;  // let go of last
   LSM::CatalogueInfo catalogue_info_;
   LSM::PeSeriesInfo series_info_;
   LSM::CatalogueWriter catalogue_;

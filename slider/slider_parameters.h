@@ -8,14 +8,14 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
-#include <fstream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lsm_names.h"
 #include "lsm_random.h"
+#include "lsm_text_io.h"
 #include "slider_laws.h"
 
 namespace Slider {
@@ -127,20 +127,14 @@ inline std::vector<double> random_friction(int blocks, double low, double high,
 /// One static coefficient per line; blank lines and lines starting with # are skipped.
 /// \throws std::runtime_error "file:line: what, expected ..."
 inline std::vector<double> read_friction(const std::string &path) {
-  std::ifstream in(path);
-  if (!in) throw std::runtime_error(path + ": cannot be read, expected a file of coefficients");
+  LSM::text_io::LineReader<LSM::FileError> in(path);
   std::vector<double> mu;
-  std::string line;
-  for (long number = 1; std::getline(in, line); ++number) {
-    const std::size_t first = line.find_first_not_of(" \t\r");
-    if (first == std::string::npos || line[first] == '#') continue;
-    const std::size_t last = line.find_last_not_of(" \t\r");
-    const std::string word = line.substr(first, last - first + 1);
-    char *end = nullptr;
-    const double value = std::strtod(word.c_str(), &end);
-    if (*end != '\0' || !std::isfinite(value) || value < 0.0)
-      throw std::runtime_error(path + ":" + std::to_string(number) + ": '" + word +
-                               "', expected one friction coefficient >= 0");
+  for (std::string_view line; in.next(line);) {
+    const std::string_view word = LSM::text_io::trim(line);
+    if (word.empty() || word.front() == '#') continue;
+    double value = 0.0;
+    if (!LSM::text_io::parse(word, value) || value < 0.0)
+      in.fail(LSM::text_io::in_quotes(word) + ", expected one friction coefficient >= 0");
     mu.push_back(value);
   }
   if (mu.empty()) throw std::runtime_error(path + ": no coefficient found, expected one per line");

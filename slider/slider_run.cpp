@@ -63,11 +63,13 @@ void probe(const std::string &path, const std::string &option) {
   std::remove(trial.c_str());
 }
 
+std::vector<LSM::Output> outputs_of(const RunOptions &o) {
+  return {{"--catalogue", o.catalogue}, {"--pe-series", o.series}, {"--checkpoint", o.checkpoint}};
+}
+
 void check_replaced(const RunOptions &o) {
   if (o.resume || o.overwrite) return;
-  const std::pair<const std::string &, const char *> outputs[] = {
-      {o.catalogue, "--catalogue"}, {o.series, "--pe-series"}, {o.checkpoint, "--checkpoint"}};
-  for (const auto &[path, option] : outputs)
+  for (const auto &[option, path] : outputs_of(o))
     if (LSM::text_io::holds_data(path))
       throw std::runtime_error(path + ": exists, expected a new file for " + option +
                                "; --overwrite replaces it, --resume goes on with it");

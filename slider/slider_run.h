@@ -13,6 +13,7 @@
 
 #include "lsm_event_picker.h"
 #include "lsm_names.h"
+#include "lsm_output_claim.h"
 #include "slider_kernels.h"
 #include "slider_parameters.h"
 
@@ -81,6 +82,9 @@ void check_leaps(const RunOptions &options);
 /// Finds out early whether an output can be written; an empty path is none.
 /// \throws std::runtime_error naming file and option
 void probe(const std::string &path, const std::string &option);
+
+/// The files that a run writes as it goes.
+std::vector<LSM::Output> outputs_of(const RunOptions &options);
 
 /// A run that starts afresh replaces no file that holds something, unless asked.
 /// \throws std::runtime_error naming file and options

@@ -201,7 +201,7 @@ ensemble)
   same named.csv alone.csv 5
   grep -q '^# kl = 0.02$' set-1.csv || fail "set-1.csv lacks its kl"
   refused "run 2 of the ensemble: .*--kl" --ensemble <(printf '%s\n' '--seed 1' '--kl -1')
-  refused "written by another run" --ensemble <(printf '%s\n' '--catalogue bad.csv --seed 1' \
+  refused "are the same file" --ensemble <(printf '%s\n' '--catalogue bad.csv --seed 1' \
     '--catalogue bad.csv --seed 2')
   ;;
 laws)
@@ -301,7 +301,17 @@ bad_input)
   refused "wrong.txt:2: 'x'" --friction-file wrong.txt
   printf '0.5\n0.6\n' > few.txt
   refused "few.txt: 2 coefficients, expected 16" --friction-file few.txt
-  refused "none.txt: cannot be read" --friction-file none.txt
+  refused "none.txt: cannot open" --friction-file none.txt
+  { printf '\357\273\277'; yes 0.5 | head -n 16 | sed 's/$/\r/'; } > windows.txt
+  must_run --blocks 16 --steps 100 --friction-file windows.txt --catalogue windows.csv
+  gzip -c few.txt > few.gz
+  refused "few.gz: compressed by gzip, expected a file that is not" --friction-file few.gz
+  for number in -1 18446744073709551616 1e3 0x10 ' 7'; do
+    refused "seed: expected a whole number from 0 to 18446744073709551615, not '$number'" "--seed=$number"
+    refused "threads: expected a whole number from 0 to 4096, not '$number'" "--threads=$number"
+  done
+  must_run --blocks 16 --steps 100 --seed 18446744073709551615 --catalogue largest.csv
+  grep -q '^# seed = 18446744073709551615$' largest.csv || fail "the largest seed: $(head -12 largest.csv)"
   refused "no/such/folder" --catalogue no/such/folder/c.csv
   refused "no/such/folder" --pe-series no/such/folder/pe.txt
   refused "no/such/folder" --checkpoint no/such/folder/c.chk
@@ -312,6 +322,19 @@ bad_input)
   refused "none.ini" --config none.ini
   printf 'blocsk = 12\n' > wrong.ini
   refused "blocsk" --config wrong.ini
+  printf 'seed = 3\ndt = 0.05\nseed = 4\n' > wrong.ini
+  refused "wrong.ini:3: 'seed' given twice, expected once" --config wrong.ini
+  printf 'seed = 3\nseed=3\n' > wrong.ini
+  refused "wrong.ini:2: 'seed' given twice, expected once" --config wrong.ini
+  printf 'steps = 100 200\n' > wrong.ini
+  refused "wrong.ini:1: 'steps' is '100 200', expected one value" --config wrong.ini
+  printf 'seed = -1\n' > wrong.ini
+  refused "not '-1'" --config wrong.ini
+  printf '\357\273\277seed = 1\n' > wrong.ini
+  refused "wrong.ini: begins with a byte order mark" --config wrong.ini
+  printf 's\0e\0e\0d\0' > wrong.ini
+  refused "wrong.ini: not a text file" --config wrong.ini
+  refused "slider_cli: not a text file" --config "$program"
   # Above dt 0.01 the printed scheme runs, with a warning.
   must_run --blocks 16 --steps 100 --scheme printed --dt 0.05 --catalogue warned.csv
   grep -q 'warning: --dt = 0.05' err.txt || fail "no warning: $(cat err.txt)"
@@ -398,6 +421,107 @@ config)
   must_run --config s.ini --catalogue a.csv
   must_run "${short[@]}" --steps 300000 --catalogue b.csv
   same a.csv b.csv 5
+  # Line ends of Windows, comments, two values where two are expected, text with blanks.
+  printf '# a chain\r\nblocks = 100\r\ndt = 0.05\r\n; slow\r\nvelocity = 0.05\r\nwarmup = 0\r\nseed = 3\r\nsteps = 300000\r\n' > s.ini
+  printf 'friction-range = 0.5 1.0\r\ncatalogue = "a b.csv"\r\n' >> s.ini
+  must_run --config s.ini
+  same 'a b.csv' b.csv 5
+  ;;
+faults)
+  # Killed at each system call that has to do with files, or refused it: nothing is lost, nothing silently wrong.
+  need_strace
+  settings=(--blocks 100 --dt 0.05 --velocity 0.05 --warmup 0 --seed 3 --steps 50000 --pe-stride 50 --checkpoint-interval 20000)
+  must_run "${settings[@]}" --catalogue whole.csv --pe-series whole.pe --checkpoint whole.chk
+  part=("${settings[@]}" --catalogue part.csv --pe-series part.pe --checkpoint part.chk)
+  system_calls part. --overwrite "${part[@]}" > calls
+  [ "$(grep -c '^write' calls)" -ge 8 ] && [ "$(grep -c '^rename' calls)" -ge 5 ] && grep -q '^fsync' calls ||
+    fail "not the calls of a run: $(cat calls)"
+  complete() { # goes on where it can, and compares
+    if [ -e part.chk ]; then
+      "$program" "${part[@]}" --resume > out.txt 2> err.txt || fail "$1: --resume: $(cat err.txt)"
+    else
+      must_run "${part[@]}"
+    fi
+    cmp part.csv whole.csv && cmp part.pe whole.pe && cmp part.chk whole.chk || fail "$1: other bytes"
+    for left in part.*; do
+      case $left in part.csv | part.pe | part.chk) ;; *) fail "$1: $left is left behind" ;; esac
+    done
+  }
+  while read -r name n; do
+    rm -f part.*
+    with_fault "$name" "$n" signal=KILL "${part[@]}" && fail "not killed at $name $n"
+    complete "killed at $name $n"
+    case $name in
+    write | openat | fsync | pwrite64) error=ENOSPC ;;
+    rename | unlink | truncate | ftruncate) error=EACCES ;;
+    *) continue ;;
+    esac
+    rm -f part.*
+    if with_fault "$name" "$n" error=$error "${part[@]}"; then
+      cmp part.csv whole.csv && cmp part.pe whole.pe && cmp part.chk whole.chk ||
+        fail "$error at $name $n without a word"
+    else
+      [ "$(wc -l < err.txt)" = 1 ] && grep -q '^slider_cli: ' err.txt ||
+        fail "$error at $name $n: '$(cat err.txt)'"
+    fi
+    complete "$error at $name $n"
+  done < calls
+  ;;
+outputs)
+  # One file for one purpose, whatever its names; nothing is begun.
+  both() { # ARGUMENTS...: refused, all files as they were
+    local before
+    before=$(cksum ./* 2> /dev/null)
+    "$program" --blocks 16 --time 100 "$@" > ../out.txt 2> ../err.txt && fail "accepted: $*"
+    [ "$(wc -l < ../err.txt)" = 1 ] || fail "not one line for $*: $(cat ../err.txt)"
+    grep -q "$pattern" ../err.txt || fail "message for $* is '$(cat ../err.txt)', expected '$pattern'"
+    [ "$(cksum ./* 2> /dev/null)" = "$before" ] || fail "files changed by $*"
+  }
+  mkdir here && cd here || exit 1
+  echo 0.5 > mu.txt
+  yes 0.5 | head -n 16 > mu.txt
+  printf 'blocks = 16\n' > s.ini
+  printf -- '--seed 1\n--seed 2\n' > runs.txt
+  ln -s a.csv link.csv
+  ln s.ini hard.csv
+  pattern='are the same file'
+  for overwrite in "" --overwrite; do
+    # shellcheck disable=SC2086
+    for words in "--catalogue a.csv --pe-series a.csv" "--catalogue a.csv --pe-series ./a.csv" \
+      "--catalogue a.csv --pe-series ../here/a.csv" "--catalogue a.csv --checkpoint $PWD/a.csv" \
+      "--catalogue a.csv --json a.csv" "--catalogue link.csv --json a.csv" "--pe-series a --checkpoint a" \
+      "--checkpoint x --json x" "--ensemble 2 --catalogue a.csv --json a-1.csv" \
+      "--ensemble 2 --catalogue a-1.csv --pe-series a{run}-1.csv --catalogue a{run}-1.csv"; do
+      both $words $overwrite
+    done
+  done
+  pattern='is read by this run'
+  both --friction-file mu.txt --catalogue mu.txt --overwrite
+  both --config s.ini --catalogue hard.csv --overwrite
+  both --config s.ini --json s.ini
+  both --ensemble runs.txt --json ./runs.txt
+  pattern='files on their way to another name'
+  both --catalogue a.csv.new
+  # Two runs of the same files at a time: the second is told who writes them, and changes nothing.
+  part=(--blocks 100 --time 1e9 --catalogue p.csv --pe-series p.pe --pe-stride 1000 --checkpoint p.chk --checkpoint-interval 1000)
+  "$program" "${part[@]}" 2> /dev/null &
+  child=$!
+  for _ in $(seq 300); do [ -s p.chk ] && break; sleep 0.1; done
+  [ -s p.chk ] || fail "no checkpoint"
+  for words in --resume --overwrite "--catalogue other.csv --overwrite"; do
+    # shellcheck disable=SC2086
+    "$program" "${part[@]}" $words > ../out.txt 2> ../err.txt && fail "a second run beside the first: $words"
+    grep -q "is being written by another run: process $child on $(hostname) since" ../err.txt || fail "$(cat ../err.txt)"
+    [ "$(wc -l < ../err.txt)" = 1 ] && [ ! -e other.csv ] || fail "$(cat ../err.txt)"
+  done
+  kill -9 $child
+  wait $child 2> /dev/null
+  # What a killed run leaves of its locks keeps nobody.
+  part=(--blocks 100 --steps 200000 --dt 0.05 --velocity 0.05 --warmup 0 --catalogue q.csv --checkpoint q.chk --checkpoint-interval 1000)
+  "$program" "${part[@]}" > ../out.txt 2> ../err.txt || fail "$(cat ../err.txt)"
+  ls ./*.lock > /dev/null 2>&1 && rm p.csv.lock p.pe.lock p.chk.lock 2> /dev/null
+  ls ./*.lock > /dev/null 2>&1 && fail "a run that ended left a lock: $(ls ./*.lock)"
+  cd .. || exit 1
   ;;
 ruptures)
   # The same motion: PE and the state of the chain do not depend on the kind of events.
