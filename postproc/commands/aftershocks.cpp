@@ -12,6 +12,7 @@
 #include "aftershock_figure.h"
 #include "catalogue_input.h"
 #include "commands.h"
+#include "json_output.h"
 #include "numbers.h"
 #include "option_values.h"
 #include "picture_options.h"
@@ -22,6 +23,7 @@ namespace {
 
 struct Options {
   CatalogueOptions catalogues;
+  JsonOutput json;
   PictureOptions picture;
   Threshold threshold;
   std::optional<double> main_size, window;
@@ -56,8 +58,9 @@ SequenceRule rule_for(const EventTable &table, const Options &options) {
   return rule;
 }
 
-void run(const Options &options) {
-  options.picture.check(options.catalogues.paths, {".omori.csv"});
+void run(Options &options) {
+  options.json.check(options.catalogues.paths);
+  options.picture.check(options.catalogues.paths, {".omori.csv"}, {options.json.output()});
   const std::vector<EventTable> tables = load_catalogues(options.catalogues);
   std::vector<AftershockCurve> curves;
   for (const EventTable &table : tables)
@@ -68,9 +71,13 @@ void run(const Options &options) {
   for (const std::string &line : texts(options.threshold, tables)) fmt::print("{}\n", line);
   fmt::print("{}", aftershocks_text(curves));
   const std::string table = options.picture.output + ".omori.csv";
-  aftershocks_csv(curves).write(table);
+  const Table laws = aftershocks_csv(curves);
+  laws.write(table);
   fmt::print("wrote {}\n", table);
   make(figure, options.picture);
+  options.json.add("laws", laws);
+  options.json.add("rates", figure.table);
+  options.json.write();
 }
 
 }  // namespace
@@ -85,12 +92,16 @@ void add_aftershocks(CLI::App &app) {
       "not look for aftershocks");
   auto options = std::make_shared<Options>();
   options->catalogues.add_to(command);
+  options->json.add_to(command);
   add_picture_options(command, options->picture, "aftershocks");
   const std::string group = "Sequences";
   add_threshold(command, options->threshold, "the events that are counted")->group(group);
   auto *main_size =
       command->add_option("--main-size", options->main_size, "Smallest main shock (model energy)");
-  main_size->check(CLI::PositiveNumber)->default_str("from --main-share")->group(group);
+  main_size->transform(size_or_magnitude())
+      ->check(CLI::PositiveNumber)
+      ->default_str("from --main-share")
+      ->group(group);
   command
       ->add_option("--main-share", options->share,
                    "Share of the counted events that are large enough for a main shock")
@@ -123,7 +134,7 @@ void add_aftershocks(CLI::App &app) {
   command->add_option("--replicas", options->replicas, "Poisson catalogues; 0: none")
       ->check(zero_or_more())
       ->group(group);
-  command->add_option("--seed", options->seed, "Of the random numbers")->group(group);
+  add_seed(command, options->seed)->group(group);
   command->callback([options] { run(*options); });
 }
 

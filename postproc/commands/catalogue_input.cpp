@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "input_file.h"
 #include "lsm_text_io.h"
 #include "option_values.h"
 
@@ -20,8 +23,9 @@ void CatalogueOptions::add_to(CLI::App *command) {
   command
       ->add_option(
           "catalogues", paths,
-          "Catalogue files of either model, one curve each; written by compute lsm/events, "
-          "slider_cli or postproc pick")
+          "Catalogue files, one curve each: of either model, as written by compute lsm/events, "
+          "slider_cli or postproc pick; or of earthquakes (ComCat CSV, QuakeML, ZMAP, SCEDC), with "
+          "times in days since 1970 UTC and sizes 10^(1.5 M)")
       ->required()
       ->type_name("FILE")
       ->default_str("")
@@ -39,18 +43,69 @@ void CatalogueOptions::add_to(CLI::App *command) {
                  "events out of order), count them and say so on standard error; without it the "
                  "first of them is an error. A wrong version or header is always one")
       ->group(group);
-  command->add_option("--min-size", min_size, "Leave out events smaller than this (energy)")
+  command
+      ->add_option("--min-size", min_size,
+                   "Leave out events smaller than this (energy; M2.5: magnitude 2.5)")
+      ->transform(size_or_magnitude())
       ->group(group);
   command
-      ->add_option("--from", from_time,
-                   "Leave out events that start before this time, e.g. the warm-up (model time)")
-      ->default_str("start")
+      ->add_option_function<double>(
+          "--min-magnitude",
+          [this](const double &magnitude) { min_size = size_of_magnitude(magnitude); },
+          "The same as a magnitude")
+      ->excludes("--min-size")
+      ->default_str("")
+      ->group(group);
+  add_time(command, "--from", from_time, from_day,
+           "Leave out events that start before this time, e.g. the warm-up (model time; of "
+           "earthquakes a date by ISO 8601, such as 1984-01-01 or 1984-01-01T12:00Z)");
+  add_time(command, "--to", to_time, to_day,
+           "Leave out events that start at this time or later (as --from)");
+  command
+      ->add_option("--format", format,
+                   "What the files are: detect (by their begin, pipes are models: '<' is quakeml, "
+                   "'# lsm-catalogue' "
+                   "models, column names with time and mag csv, YYYY/MM/DD scedc, nine numbers "
+                   "zmap), or one of these. Of earthquakes only events of that type are taken; "
+                   "blasts and others are counted on standard error")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, CatalogueFormat>{{"detect", CatalogueFormat::detect},
+                                                 {"models", CatalogueFormat::models},
+                                                 {"csv", CatalogueFormat::csv},
+                                                 {"quakeml", CatalogueFormat::quakeml},
+                                                 {"zmap", CatalogueFormat::zmap},
+                                                 {"scedc", CatalogueFormat::scedc}}))
+      ->default_str("detect")
       ->group(group);
   command
-      ->add_option("--to", to_time,
-                   "Leave out events that start at this time or later (model time)")
-      ->default_str("end")
+      ->add_option("--region", regions,
+                   "Earthquakes within W/E/S/N only (degrees); several: a curve for each")
+      ->allow_extra_args(false)
+      ->type_name("W/E/S/N")
+      ->default_str("")
       ->group(group);
+}
+
+void CatalogueOptions::add_time(CLI::App *command, const char *option, double &time, double &day,
+                                const std::string &help) {
+  const auto read = [option, &time, &day](const std::vector<std::string> &texts) {
+    for (const std::string &text : texts) {
+      const std::optional<double> date = parse_date(text);
+      if (date)
+        day = *date;
+      else if (!text_io::parse(text, time))
+        throw std::invalid_argument(fmt::format(
+            "{} {}: expected a model time, or for earthquakes a date such as 1984-01-01", option,
+            text_io::in_quotes(text)));
+    }
+  };
+  command
+      ->add_option_function<std::vector<std::string>>(option, read,
+                                                      help + "; may be given once for each")
+      ->allow_extra_args(false)
+      ->type_name("TIME")
+      ->default_str(time < 0.0 ? "start" : "end")
+      ->group("Catalogues");
 }
 
 void CatalogueOptions::add_displacement(CLI::App *command) {
@@ -106,8 +161,10 @@ CLI::Option *add_threshold(CLI::App *command, Threshold &threshold, const std::s
       ->add_option_function<double>(
           "--threshold", [&threshold](const double &size) { threshold = Threshold(size); },
           "Smallest size of " + what +
-              " (model energy); without it 1e-4, as in the paper's Figs. 12 and 13, or the largest "
+              " (model energy; M2.5: magnitude 2.5); without it 1e-4, as in the paper's Figs. 12 "
+              "and 13, or the largest "
               "'completeness' in the headers of a model where that is larger (ours)")
+      ->transform(size_or_magnitude())
       ->check(zero_or_more())
       ->default_str("1e-4");
 }
@@ -118,15 +175,92 @@ void check(const CatalogueOptions &options) {
   if (!(options.from_time < options.to_time))
     throw std::invalid_argument(fmt::format("--from {} --to {}: expected --from before --to",
                                             options.from_time, options.to_time));
-  if (!options.labels.empty() && options.labels.size() != options.paths.size())
+  if (options.regions.empty() && !options.labels.empty() &&
+      options.labels.size() != options.paths.size())
     throw std::invalid_argument(
         fmt::format("--label given {} times, expected once per catalogue ({})",
                     options.labels.size(), options.paths.size()));
+  for (const std::string &region : options.regions) parse_region(region);
+  if (!(options.from_day < options.to_day))
+    throw std::invalid_argument("--from is no earlier date than --to, expected --from before --to");
 }
 
-EventTable read_events(const std::string &path, const CatalogueOptions &options,
-                       const std::function<void(const Event &)> &use) {
-  CatalogueReader reader(path, options.lenient);
+namespace {
+
+constexpr std::size_t head_size = 1 << 16;  // enough to know a format by
+
+/// The bytes of a file, at most so many. \throws FileError
+std::string bytes_of(const std::string &path, std::size_t most) {
+  const auto bytes = open_input(path);
+  std::string out;
+  for (std::size_t got = 1; got > 0 && out.size() < most;) {
+    const std::size_t known = out.size();
+    out.resize(std::min(most, known + head_size));
+    got = bytes->read(out.data() + known, out.size() - known);
+    out.resize(known + got);
+  }
+  return out;
+}
+
+/// Gives an event to use if it lies within [from, to) and is large enough.
+void choose(const Event &event, double from, double to, const CatalogueOptions &options,
+            EventTable &table, const std::function<void(const Event &)> &use) {
+  if (event.t_start < from || event.t_start >= to)
+    ++table.left_out_time;
+  else if (event.size < options.min_size)
+    ++table.left_out_small;
+  else {
+    table.in_events += event.t_end - event.t_start;
+    table.last_end = event.t_end;
+    use(event);
+  }
+}
+
+EventTable read_earthquake_events(const std::string &path, CatalogueFormat format,
+                                  const CatalogueOptions &options,
+                                  const std::function<void(const Event &)> &use) {
+  if (options.displacement)
+    throw CatalogueError(path +
+                         ": earthquakes, expected a catalogue of a model for --displacement");
+  const EarthquakeList list = read_earthquakes(
+      bytes_of(path, std::numeric_limits<std::size_t>::max()), format, path, options.lenient);
+  EventTable table;
+  table.path = path;
+  table.info.model = seismicity;
+  table.label = std::filesystem::path(path).filename().string();
+  table.label = table.label.substr(0, table.label.find('.'));
+  if (!options.regions.empty()) {
+    table.region = options.regions.front();
+    table.label += " " + table.region;
+  }
+  std::int64_t elsewhere = 0;
+  for (const Earthquake &one : list.events) {
+    if (!table.region.empty() && !parse_region(table.region).contains(one)) {
+      ++elsewhere;
+      continue;
+    }
+    Event event;
+    event.t_start = event.t_end = one.time;
+    event.size = size_of_magnitude(one.magnitude);
+    if (table.complete_from == 0.0 || event.size < table.complete_from)
+      table.complete_from = event.size;
+    choose(event, options.from_day, options.to_day, options, table, use);
+  }
+  table.complete_from = std::max(table.complete_from, options.min_size);
+  const auto left_out = [&](std::int64_t count, const std::string &what) {
+    if (count > 0) table.repairs.push_back(fmt::format("{}: left out {} {}", path, count, what));
+  };
+  for (const auto &[type, count] : list.others) left_out(count, "of type '" + type + "'");
+  left_out(list.without_magnitude, "without magnitude");
+  left_out(elsewhere, "outside of " + table.region);
+  left_out(list.bad_lines, "that cannot be read; the first was " + list.first_problem);
+  table.skipped_lines = list.bad_lines;
+  return table;
+}
+
+EventTable read_model_events(const std::string &path, const CatalogueOptions &options,
+                             const std::function<void(const Event &)> &use) {
+  CatalogueReader reader(path, options.lenient, open_input);
   EventTable table;
   table.path = path;
   table.info = reader.info();
@@ -141,20 +275,27 @@ EventTable read_events(const std::string &path, const CatalogueOptions &options,
   while (reader.next(event)) {
     event.t_start *= unit;
     event.t_end *= unit;
-    if (event.t_start < options.from_time || event.t_start >= options.to_time)
-      ++table.left_out_time;
-    else if (event.size < options.min_size)
-      ++table.left_out_small;
-    else {
-      table.in_events += event.t_end - event.t_start;
-      table.last_end = event.t_end;
-      use(event);
-    }
+    choose(event, options.from_time, options.to_time, options, table, use);
   }
   table.skipped_lines = reader.skipped();
   table.repairs = reader.repairs();
   if (reader.skipped() > 0) table.repairs.push_back("the first was " + reader.first_problem());
   return table;
+}
+
+}  // namespace
+
+EventTable read_events(const std::string &path, const CatalogueOptions &options,
+                       const std::function<void(const Event &)> &use) {
+  CatalogueFormat format = options.format;
+  std::error_code unknown;
+  // What comes through a pipe can be read only once.
+  if (format == CatalogueFormat::detect)
+    format = std::filesystem::is_regular_file(path, unknown)
+                 ? detect_format(bytes_of(path, head_size))
+                 : CatalogueFormat::models;
+  return format == CatalogueFormat::models ? read_model_events(path, options, use)
+                                           : read_earthquake_events(path, format, options, use);
 }
 
 EventTable load_catalogue(const std::string &path, const CatalogueOptions &options) {
@@ -181,10 +322,42 @@ void state_repairs(const EventTable &table) {
   for (const std::string &repair : table.repairs) fmt::print(stderr, "postproc: {}\n", repair);
 }
 
+namespace {
+
+/// What only catalogues of one kind have was asked for, and one is there.
+void check_kinds(const CatalogueOptions &options, std::size_t quakes, std::size_t all) {
+  if (quakes == 0 && (std::isfinite(options.from_day) || std::isfinite(options.to_day)))
+    throw std::invalid_argument(
+        "--from or --to is a date, but no catalogue is of earthquakes, expected a model time");
+  if (quakes == 0 && !options.regions.empty())
+    throw std::invalid_argument("--region, but no catalogue is of earthquakes");
+  if (quakes == all && (std::isfinite(options.from_time) || std::isfinite(options.to_time)))
+    throw std::invalid_argument(
+        "--from or --to is a number, but all catalogues are of earthquakes, expected a date such "
+        "as "
+        "1984-01-01");
+  if (!options.labels.empty() && options.labels.size() != all)
+    throw std::invalid_argument(
+        fmt::format("--label given {} times, expected once per catalogue and region ({})",
+                    options.labels.size(), all));
+}
+
+}  // namespace
+
 std::vector<EventTable> load_catalogues(const CatalogueOptions &options) {
   check(options);
   std::vector<EventTable> tables;
-  for (const std::string &path : options.paths) tables.push_back(load_catalogue(path, options));
+  CatalogueOptions one = options;
+  const std::size_t regions = std::max<std::size_t>(1, options.regions.size());
+  std::size_t quakes = 0;
+  for (const std::string &path : options.paths)
+    for (std::size_t i = 0; i < regions; ++i) {
+      if (!options.regions.empty()) one.regions = {options.regions[i]};
+      tables.push_back(load_catalogue(path, one));
+      if (!tables.back().earthquakes()) break;
+      ++quakes;
+    }
+  check_kinds(options, quakes, tables.size());
   for (std::size_t i = 0; i < tables.size(); ++i)
     for (std::size_t j = i + 1; j < tables.size(); ++j)
       if (tables[i].label == tables[j].label)

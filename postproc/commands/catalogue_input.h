@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "earthquakes.h"
 #include "event_table.h"
 #include "lsm_catalogue.h"
 
@@ -24,13 +25,21 @@ struct CatalogueOptions {
   double min_size = 0.0;            ///< events of smaller size are left out (energy)
   double from_time = -std::numeric_limits<double>::infinity();  ///< first t_start kept
   double to_time = std::numeric_limits<double>::infinity();     ///< first t_start left out
+  double from_day = -std::numeric_limits<double>::infinity();   ///< the same of earthquakes
+  double to_day = std::numeric_limits<double>::infinity();
+  CatalogueFormat format = CatalogueFormat::detect;
+  std::vector<std::string> regions;  ///< of earthquakes, "W/E/S/N"; a table for each, or one
   /// Times, from_time and to_time are those of the plates' way: model time times driving velocity.
   bool displacement = false;
 
-  /// Adds the catalogue arguments, --label, --lenient, --min-size, --from and --to to a command.
+  /// Adds the catalogue arguments and the options that choose events to a command.
   void add_to(CLI::App *command);
   /// Adds --displacement to a command that says nothing about the unit of its times.
   void add_displacement(CLI::App *command);
+
+ private:
+  void add_time(CLI::App *command, const char *option, double &time, double &day,
+                const std::string &help);
 };
 
 /// Adds --threshold. \param what beside "smallest size of"
@@ -41,7 +50,8 @@ CLI::Option *add_threshold(CLI::App *command, Threshold &threshold, const std::s
 EventTable read_events(const std::string &path, const CatalogueOptions &options,
                        const std::function<void(const Event &)> &use);
 
-/// Reads one catalogue. \throws CatalogueError "file:line: what, expected ..."
+/// Reads one catalogue; of earthquakes those in the first region. \throws CatalogueError
+/// "file:line: what, expected ..."
 EventTable load_catalogue(const std::string &path, const CatalogueOptions &options);
 
 /// \throws std::invalid_argument for impossible times, sizes or numbers of labels.

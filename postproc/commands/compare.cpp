@@ -10,6 +10,8 @@
 #include "catalogue_input.h"
 #include "commands.h"
 #include "intervals.h"
+#include "json_output.h"
+#include "lsm_sum.h"
 #include "new_file.h"
 #include "numbers.h"
 #include "option_values.h"
@@ -22,17 +24,20 @@ namespace {
 
 struct Options {
   CatalogueOptions catalogues;
+  JsonOutput json;
   Threshold threshold;
   std::string output = "compare";
   int replicas = 2000, block = 0;
+  bool rescale = false;
   std::uint64_t seed = 1;
 };
 
-void run(const Options &options) {
+void run(Options &options) {
+  options.json.check(options.catalogues.paths);
   if (options.catalogues.paths.size() < 2)
     throw std::invalid_argument("one catalogue, expected at least two to compare");
   const PictureOptions files{options.output, true};
-  files.check(options.catalogues.paths);
+  files.check(options.catalogues.paths, {}, {options.json.output()});
   const std::vector<EventTable> tables = load_catalogues(options.catalogues);
   Table out({"first", "second", "quantity", "smallest_size", "n_first", "n_second", "ks_distance",
              "p", "p_error", "block", "mean_first", "mean_first_error", "mean_second",
@@ -47,6 +52,14 @@ void run(const Options &options) {
       if (size >= threshold) sizes.push_back(size);
     return sizes;
   };
+  const auto times_of = [threshold, &options](const EventTable &table) {
+    std::vector<double> times = inter_event_times(table, threshold);
+    const double mean =
+        sum_pairwise(times.data(), times.size()) / static_cast<double>(times.size());
+    if (options.rescale)
+      for (double &time : times) time /= mean;
+    return times;
+  };
   for (const std::string &line : texts(options.threshold, tables)) fmt::print("{}\n", line);
   for (std::size_t i = 1; i < tables.size(); ++i) {
     const EventTable &first = tables.front(), &second = tables[i];
@@ -55,8 +68,7 @@ void run(const Options &options) {
       try {
         test = quantity == "size" ? two_sample_test(sizes_of(first), sizes_of(second),
                                                     options.replicas, options.seed, options.block)
-                                  : two_sample_test(inter_event_times(first, threshold),
-                                                    inter_event_times(second, threshold),
+                                  : two_sample_test(times_of(first), times_of(second),
                                                     options.replicas, options.seed, options.block);
       } catch (const std::invalid_argument &e) {
         throw std::runtime_error(
@@ -80,6 +92,8 @@ void run(const Options &options) {
   }
   out.write(files.table());
   fmt::print("wrote {}\n", files.table());
+  options.json.add("tests", out);
+  options.json.write();
 }
 
 }  // namespace
@@ -92,9 +106,13 @@ void add_compare(CLI::App &app) {
       "consecutive events (ours; events come in sequences), ratio of the means with its error");
   auto options = std::make_shared<Options>();
   options->catalogues.add_to(command);
+  options->json.add_to(command);
   options->catalogues.add_displacement(command);
   command->add_option("--output,-o", options->output, "BASE: the table is written to BASE.csv");
   add_threshold(command, options->threshold, "the events that are compared");
+  command->add_flag("--rescale", options->rescale,
+                    "Divide the times of each catalogue by their mean (as Corral 2004 does): do "
+                    "they have the same form?");
   command->add_option("--replicas", options->replicas, "Random divisions of each p-value")
       ->check(CLI::PositiveNumber);
   command
@@ -102,7 +120,7 @@ void add_compare(CLI::App &app) {
                    "Consecutive events that change sides together; 0: as many as the correlation "
                    "of the series asks for; 1: as if events were independent")
       ->check(zero_or_more());
-  command->add_option("--seed", options->seed, "Of the random numbers");
+  add_seed(command, options->seed);
   command->callback([options] { run(*options); });
 }
 

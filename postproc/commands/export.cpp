@@ -11,6 +11,7 @@
 
 #include "catalogue_input.h"
 #include "commands.h"
+#include "json_output.h"
 #include "lsm_text_io.h"
 #include "magnitude_options.h"
 #include "new_file.h"
@@ -23,6 +24,7 @@ enum class Format { seismostats, csep };
 
 struct Options {
   CatalogueOptions catalogues;
+  JsonOutput json;
   std::string output, start = "2000-01-01T00:00:00";
   Format format = Format::seismostats;
   MagnitudeOptions magnitudes;
@@ -66,8 +68,9 @@ std::string date_text(double seconds, std::int64_t start, int last_year) {
                      date.tm_mday, date.tm_hour, date.tm_min, date.tm_sec, rest);
 }
 
-void run(const Options &options) {
-  refuse_input(options.output, options.catalogues.paths);
+void run(Options &options) {
+  options.json.check(options.catalogues.paths);
+  check_outputs({{"--output", options.output}, options.json.output()}, options.catalogues.paths);
   check(options.catalogues);
   options.magnitudes.check();
   if (!std::isfinite(options.degrees))
@@ -118,6 +121,10 @@ void run(const Options &options) {
   file.commit();
   fmt::print("{} events; left out: {} of {} <= 0, which have no magnitude\nwrote {}\n", written,
              without, options.magnitudes.of(), options.output);
+  Table counts({"events", "without_magnitude"});
+  counts.add(written).add(without).end_row();
+  options.json.add("counts", counts);
+  options.json.write();
 }
 
 }  // namespace
@@ -131,6 +138,8 @@ void add_export(CLI::App &app) {
       "(ours). A model of a single fault has no geography: latitude and depth are 0");
   auto options = std::make_shared<Options>();
   options->catalogues.add_to(command);
+  options->json.add_to(command);
+  command->remove_option(command->get_option("--format"));  // here that of the output
   command->add_option("-o,--output", options->output, "Table to write")->required();
   command->add_flag("--force", options->force, "Replace the table if it exists");
   const std::string group = "Conventions (ours)";

@@ -6,11 +6,10 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "catalogue_input.h"
 #include "commands.h"
-#include "new_file.h"
+#include "json_output.h"
 #include "numbers.h"
 #include "option_values.h"
 #include "picture_options.h"
@@ -23,19 +22,22 @@ namespace {
 
 struct Options {
   CatalogueOptions catalogues;
+  JsonOutput json;
   PictureOptions picture;
   SizeFitSettings fits;
   std::vector<std::string> ranges;
-  std::string search = "both", json;
+  std::string search = "both";
   bool scaling = false, no_comparison = false;
   Resampling bootstrap;
   std::string block = "auto";
 };
 
 void run(Options &options) {
-  options.picture.check(options.catalogues.paths, {".fits.csv", ".scaling.csv", ".scaling.gp",
-                                                   ".scaling.png", ".scaling.svg"});
-  refuse_input(options.json, options.catalogues.paths);
+  options.picture.check(
+      options.catalogues.paths,
+      {".fits.csv", ".scaling.csv", ".scaling.gp", ".scaling.png", ".scaling.svg"},
+      {options.json.output()});
+  options.json.check(options.catalogues.paths);
   SizeFitSettings &settings = options.fits;
   for (const std::string &text : options.ranges) {
     const Range range = parse_range("--range", text);
@@ -73,13 +75,11 @@ void run(Options &options) {
     for (const std::string &line : texts(settings.threshold, tables)) fmt::print("{}\n", line);
   fmt::print("{}", size_fits_text(fits));
   for (const Scaling &scaling : scalings) fmt::print("{}", scaling_text(scaling));
-  if (!options.json.empty()) {
-    nlohmann::json json = {{"fits", nlohmann::json::array()}};
-    for (const SizeFit &fit : fits) json["fits"].push_back(to_json(fit));
-    for (const Scaling &scaling : scalings) json["scaling"].push_back(to_json(scaling));
-    write_file(options.json, json.dump(2) + "\n");
-    fmt::print("wrote {}\n", options.json);
-  }
+  nlohmann::json found = {{"fits", nlohmann::json::array()}};
+  for (const SizeFit &fit : fits) found["fits"].push_back(to_json(fit));
+  for (const Scaling &scaling : scalings) found["scaling"].push_back(to_json(scaling));
+  for (const auto &[name, value] : found.items()) options.json.add(name, value);
+  options.json.write();
   const std::string table = options.picture.output + ".fits.csv";
   size_fits_csv(fits).write(table);
   fmt::print("wrote {}\n", table);
@@ -104,6 +104,7 @@ void add_fit(CLI::App &app) {
       "densities: 1.07 for the fault, 0.5 and 1.0 for the block-slider)");
   auto options = std::make_shared<Options>();
   options->catalogues.add_to(command);
+  options->json.add_to(command);
   add_picture_options(command, options->picture, "fit");
   const std::string group = "Fit";
   command
@@ -129,7 +130,7 @@ void add_fit(CLI::App &app) {
                    "Synthetic samples of the Monte Carlo p-value; 0: none")
       ->check(zero_or_more())
       ->group(group);
-  command->add_option("--seed", options->fits.seed, "Of the random numbers")->group(group);
+  add_seed(command, options->fits.seed)->group(group);
   command->add_flag("--no-comparison", options->no_comparison, "Leave out the rival laws")
       ->group(group);
   command
@@ -143,7 +144,6 @@ void add_fit(CLI::App &app) {
       ->check(CLI::Range(2, 1000000))
       ->group(group);
   command->add_option("--block", options->block, block_help)->group(group);
-  command->add_option("--json", options->json, "Also write the results to this file")->group(group);
   command->callback([options] { run(*options); });
 }
 

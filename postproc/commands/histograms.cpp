@@ -10,6 +10,7 @@
 
 #include "catalogue_input.h"
 #include "commands.h"
+#include "json_output.h"
 #include "numbers.h"
 #include "option_values.h"
 #include "picture_options.h"
@@ -22,6 +23,7 @@ namespace {
 
 struct Options {
   CatalogueOptions catalogues;
+  JsonOutput json;
   PictureOptions picture;
   SizeDensitySettings densities;
   std::string range, normalise = "density";
@@ -29,7 +31,8 @@ struct Options {
 };
 
 void run(Options &options) {
-  options.picture.check(options.catalogues.paths);
+  options.picture.check(options.catalogues.paths, {}, {options.json.output()});
+  options.json.check(options.catalogues.paths);
   SizeDensitySettings &settings = options.densities;
   if (!options.range.empty()) {
     const Range range = parse_range("--range", options.range);
@@ -49,6 +52,8 @@ void run(Options &options) {
   for (const std::string &label : empty)
     fmt::print(stderr, "postproc: {}: no event in the range of sizes, no curve\n", label);
   make(figure, options.picture);
+  options.json.add("densities", figure.table);
+  options.json.write();
 }
 
 }  // namespace
@@ -60,6 +65,7 @@ void add_histograms(CLI::App &app) {
       "one curve per catalogue (paper: Figs. 7, 12, 13)");
   auto options = std::make_shared<Options>();
   options->catalogues.add_to(command);
+  options->json.add_to(command);
   add_picture_options(command, options->picture, "histograms");
   SizeDensitySettings &densities = options->densities;
   const std::string group = "Densities";

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -9,8 +11,10 @@
 #include <fmt/format.h>
 
 #include "catalogue_input.h"
+#include "clustering_tables.h"
 #include "commands.h"
 #include "interval_figure.h"
+#include "json_output.h"
 #include "lsm_text_io.h"
 #include "numbers.h"
 #include "option_values.h"
@@ -24,6 +28,7 @@ namespace {
 
 struct Options {
   CatalogueOptions catalogues;
+  JsonOutput json;
   PictureOptions picture;
   IntervalSettings intervals;
   std::string method = "both";
@@ -31,7 +36,9 @@ struct Options {
 };
 
 void run(Options &options) {
-  options.picture.check(options.catalogues.paths, {".table1.csv"});
+  options.picture.check(options.catalogues.paths, {".table1.csv", ".clustering.csv"},
+                        {options.json.output()});
+  options.json.check(options.catalogues.paths);
   IntervalSettings &settings = options.intervals;
   settings.least_squares = options.method != "likelihood";
   settings.maximum_likelihood = options.method != "least-squares";
@@ -52,13 +59,22 @@ void run(Options &options) {
                  "postproc: {}: fewer than two events of size {} or larger, no inter-event time\n",
                  curve.label, short_number(curve.threshold.size));
   const std::vector<Table1Row> rows = table1(curves);
+  Table times({"label", "threshold", "n", "mean", "variation"});
+  for (const IntervalCurve &curve : curves)
+    times.add(curve.label)
+        .add(curve.threshold.size)
+        .add(curve.n)
+        .add(curve.mean)
+        .add(curve.variation)
+        .end_row();
   for (const IntervalCurve &curve : curves)
     if (curve.n > 0)
       fmt::print(
-          "{}, sizes from {}: {} inter-event times, mean {} model time, standard deviation {} of "
-          "the mean\n",
-          curve.label, text(curve.threshold), curve.n, short_number(curve.mean, 6),
-          short_number(curve.variation));
+          "{}, {}: {} inter-event times, mean {} {}, standard deviation {} of the mean, burstiness "
+          "{}\n",
+          curve.label, curve.earthquakes ? curve.from() : "sizes from " + text(curve.threshold),
+          curve.n, short_number(curve.mean, 6), curve.unit, short_number(curve.variation),
+          short_number(curve.burstiness()));
   if (settings.places > 0)
     fmt::print(
         "times at {} places each; places closer than ruptures are long share ruptures, and then "
@@ -67,7 +83,19 @@ void run(Options &options) {
   fmt::print("{}", table1_text(rows, settings.rescale));
   table1_csv(rows, settings.rescale).write(options.picture.output + ".table1.csv");
   fmt::print("wrote {}.table1.csv\n", options.picture.output);
+  fmt::print("{}", clustering_text(curves, date_text));
+  const Table clusters = clustering_csv(curves);
+  clusters.write(options.picture.output + ".clustering.csv");
+  fmt::print("wrote {}.clustering.csv\n", options.picture.output);
   make(figure, options.picture);
+  std::vector<Table1Row> ours;
+  std::copy_if(rows.begin(), rows.end(), std::back_inserter(ours),
+               [](const Table1Row &row) { return !row.printed; });
+  options.json.add("times", times);
+  options.json.add("fits", table1_csv(ours, settings.rescale));
+  options.json.add("densities", figure.table);
+  options.json.add("clustering", clusters);
+  options.json.write();
 }
 
 }  // namespace
@@ -79,17 +107,19 @@ void add_intervals(CLI::App &app) {
       "beside the paper's Table 1 (paper: Figs. 14, 15)");
   auto options = std::make_shared<Options>();
   options->catalogues.add_to(command);
+  options->json.add_to(command);
   add_picture_options(command, options->picture, "intervals");
   IntervalSettings &intervals = options->intervals;
   const std::string group = "Inter-event times";
   command
-      ->add_option(
-          "--threshold", intervals.thresholds,
-          "Smallest size of the events (model energy), several allowed; without it 1e-4, which is "
-          "that of the paper's size densities (for times it states none), or the largest "
-          "'completeness' in the headers of a model where that is larger (ours)")
+      ->add_option("--threshold", intervals.thresholds,
+                   "Smallest size of the events (model energy; M2.5: magnitude 2.5), several "
+                   "allowed; without it 1e-4, which is "
+                   "that of the paper's size densities (for times it states none), or the largest "
+                   "'completeness' in the headers of a model where that is larger (ours)")
       ->default_str("1e-4")
       ->allow_extra_args(false)
+      ->transform(size_or_magnitude())
       ->check(zero_or_more())
       ->group(group);
   command
@@ -129,7 +159,25 @@ void add_intervals(CLI::App &app) {
                    "as the data were; 0: none")
       ->check(zero_or_more())
       ->group(group);
-  command->add_option("--seed", intervals.seed, "Of the random numbers")->group(group);
+  intervals.shuffles = 200;
+  command
+      ->add_option(
+          "--shuffles", intervals.shuffles,
+          "Random series that burstiness, memory, times after short and long ones, and the "
+          "steadiness of the rate are compared with; 0: without these")
+      ->check(zero_or_more())
+      ->group(group);
+  command
+      ->add_option(
+          "--steady", intervals.steady,
+          "Largest departure of the cumulative number of events from a straight line, over "
+          "their number, of stretches proposed as steady (ours)")
+      ->check(CLI::Range(0.0, 1.0))
+      ->group(group);
+  command->add_option("--steady-events", intervals.steady_events, "Fewest events of such a stretch")
+      ->check(CLI::PositiveNumber)
+      ->group(group);
+  add_seed(command, intervals.seed)->group(group);
   command->callback([options] { run(*options); });
 }
 

@@ -9,6 +9,7 @@
 
 #include "catalogue_input.h"
 #include "commands.h"
+#include "json_output.h"
 #include "lsm_text_io.h"
 #include "magnitude_figure.h"
 #include "magnitude_options.h"
@@ -22,6 +23,7 @@ namespace {
 
 struct Options {
   CatalogueOptions catalogues;
+  JsonOutput json;
   PictureOptions picture;
   MagnitudeOptions magnitudes;
   Threshold threshold;
@@ -31,16 +33,18 @@ struct Options {
 };
 
 /// Magnitudes of one catalogue in order of its events.
-std::vector<double> magnitudes_in(const std::string &path, const Options &options) {
+std::vector<double> magnitudes_in(const EventTable &chosen, const Options &options) {
   struct Row {
     double start, magnitude;
   };
   std::vector<Row> rows;
-  const EventTable table = read_events(path, options.catalogues, [&](const Event &event) {
+  CatalogueOptions catalogue = options.catalogues;
+  if (!chosen.region.empty()) catalogue.regions = {chosen.region};
+  const EventTable table = read_events(chosen.path, catalogue, [&](const Event &event) {
     if (options.magnitudes.quantity(event) > 0.0)
       rows.push_back({event.t_start, options.magnitudes.magnitude(event)});
   });
-  options.magnitudes.require(path, table.info);
+  options.magnitudes.require(chosen.path, table.info);
   if (table.info.overlapping())
     std::stable_sort(rows.begin(), rows.end(),
                      [](const Row &a, const Row &b) { return a.start < b.start; });
@@ -75,8 +79,9 @@ void set_completeness(MagnitudeCurve &curve, const EventTable &table, const Opti
   if (m.bin > 0.0) curve.completeness = m.bin * std::ceil(curve.completeness / m.bin - 1e-9);
 }
 
-void run(const Options &options) {
-  options.picture.check(options.catalogues.paths, {".bvalues.csv"});
+void run(Options &options) {
+  options.json.check(options.catalogues.paths);
+  options.picture.check(options.catalogues.paths, {".bvalues.csv"}, {options.json.output()});
   options.magnitudes.check();
   const std::vector<EventTable> tables = load_catalogues(options.catalogues);
   const double width = options.magnitudes.bin > 0.0 ? options.magnitudes.bin : options.picture_bin;
@@ -85,7 +90,7 @@ void run(const Options &options) {
     MagnitudeCurve curve;
     curve.label = table.label;
     curve.model = table.info.model;
-    curve.magnitudes = magnitudes_in(table.path, options);
+    curve.magnitudes = magnitudes_in(table, options);
     curve.curvature = maximum_curvature(curve.magnitudes, width);
     set_completeness(curve, table, options);
     curve.b = b_value(curve.magnitudes, curve.completeness, options.magnitudes.bin);
@@ -97,9 +102,13 @@ void run(const Options &options) {
   const std::string of = options.magnitudes.of();
   fmt::print("{}", magnitudes_text(curves, options.magnitudes.scale, of));
   const std::string table = options.picture.output + ".bvalues.csv";
-  magnitudes_csv(curves, options.magnitudes.scale, of, options.magnitudes.bin).write(table);
+  const Table values = magnitudes_csv(curves, options.magnitudes.scale, of, options.magnitudes.bin);
+  values.write(table);
   fmt::print("wrote {}\n", table);
   make(figure, options.picture);
+  options.json.add("b_values", values);
+  options.json.add("frequencies", figure.table);
+  options.json.write();
 }
 
 }  // namespace
@@ -113,6 +122,7 @@ void add_magnitudes(CLI::App &app) {
       "log10(size) + constant; a power law of sizes with exponent a gives b = (a - 1) / slope");
   auto options = std::make_shared<Options>();
   options->catalogues.add_to(command);
+  options->json.add_to(command);
   add_picture_options(command, options->picture, "magnitudes");
   const std::string group = "Magnitudes (ours)";
   options->magnitudes.add_to(command, group);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // postproc: from catalogues and potential energy series to the paper's figures and Table 1.
+#include <unistd.h>
+
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -9,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "commands.h"
+#include "replicas.h"
 
 namespace {
 
@@ -35,10 +39,36 @@ int fail(std::string what) {
   return 1;
 }
 
+/// Says on a terminal how far a Monte Carlo test that takes long is.
+class Progress {
+ public:
+  void operator()(int done, int count) {
+    const auto now = Clock::now();
+    if (done == 1) {
+      begin_ = told_ = now;
+      shown_ = false;
+    }
+    if (done == count && shown_) {
+      fmt::print(stderr, "\r\033[K");
+    } else if (now - begin_ > std::chrono::seconds(1) &&
+               now - told_ > std::chrono::milliseconds(200)) {
+      fmt::print(stderr, "\rMonte Carlo replica {} of {}", done, count);
+      shown_ = true;
+      told_ = now;
+    }
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point begin_, told_;
+  bool shown_ = false;
+};
+
 }  // namespace
 
 int main(int argc, char **argv) {
   using namespace LSM::postproc;
+  if (isatty(STDERR_FILENO)) watch_replicas(Progress());
   try {
     CLI::App app(description, "postproc");
     app.set_version_flag("--version", "postproc " POSTPROC_VERSION);
@@ -48,7 +78,8 @@ int main(int argc, char **argv) {
     app.get_formatter()->column_width(34);
     for (const auto add :
          {add_pick, add_series, add_histograms, add_intervals, add_fit, add_magnitudes,
-          add_aftershocks, add_compare, add_spectrum, add_export, add_report, add_rupture})
+          add_aftershocks, add_count, add_match, add_compare, add_nature, add_spectrum, add_export,
+          add_report, add_rupture, add_explore, add_benchmark, add_summary})
       add(app);
     try {
       app.parse(argc, argv);

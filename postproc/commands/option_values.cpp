@@ -7,7 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "earthquakes.h"
 #include "lsm_text_io.h"
+#include "lsm_whole_number.h"
 
 namespace LSM::postproc {
 
@@ -18,6 +20,23 @@ CLI::Validator zero_or_more() {
         return text_io::parse(text, value) && value >= 0.0
                    ? std::string()
                    : "expected a number of 0 or more, not " + text_io::in_quotes(text);
+      },
+      "");
+}
+
+CLI::Option *add_seed(CLI::App *command, std::uint64_t &seed) {
+  return command->add_option("--seed", seed, "Of the random numbers")->check(whole_number());
+}
+
+CLI::Validator size_or_magnitude() {
+  return CLI::Validator(
+      [](std::string &text) {
+        double magnitude = 0.0;
+        if (text.empty() || text.front() != 'M') return std::string();
+        if (!text_io::parse(std::string_view(text).substr(1), magnitude))
+          return "expected a size, or M and a magnitude, not " + text_io::in_quotes(text);
+        text = text_io::number(size_of_magnitude(magnitude));
+        return std::string();
       },
       "");
 }
@@ -61,6 +80,19 @@ double parse_block(const std::string &text) {
     throw std::invalid_argument("--block " + text_io::in_quotes(text) +
                                 ", expected 'auto' or a time of 0 or more");
   return block;
+}
+
+void add_wave_speeds(CLI::App *command, double &p_speed, double &s_speed,
+                     const std::string &group) {
+  command->add_option("--p-speed", p_speed, "Speed of P-waves (paper, Eq. 4: 2.12 for k = m0 = 1)")
+      ->check(CLI::PositiveNumber)
+      ->group(group);
+  command
+      ->add_option("--s-speed", s_speed,
+                   "Speed of S-waves (ours: that of P-waves over the root of 3, as in the regular "
+                   "lattice)")
+      ->check(CLI::PositiveNumber)
+      ->group(group);
 }
 
 }  // namespace LSM::postproc

@@ -4,6 +4,7 @@
 #ifndef LSM_POSTPROC_OPTION_VALUES_H
 #define LSM_POSTPROC_OPTION_VALUES_H
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -17,12 +18,21 @@ namespace LSM::postproc {
 /// Check of an option that is a number of 0 or more.
 CLI::Validator zero_or_more();
 
+/// Adds --seed of the random numbers of a command.
+CLI::Option *add_seed(CLI::App *command, std::uint64_t &seed);
+
+/// Turns M2.5 into the size of an event of magnitude 2.5, 10^(1.5 M), for options that are a size.
+CLI::Validator size_or_magnitude();
+
 /// "LO:HI" with LO < HI; an end left out is -infinity or infinity.
 /// \throws std::invalid_argument naming the option
 Range parse_range(const std::string &option, std::string_view text);
 
 /// "SLOPE" or "SLOPE:LO:HI". \throws std::invalid_argument
 PowerLine parse_guide(std::string_view text);
+
+/// Adds --p-speed and --s-speed.
+void add_wave_speeds(CLI::App *command, double &p_speed, double &s_speed, const std::string &group);
 
 /// Resampling::block from "auto" or a time. \throws std::invalid_argument naming --block
 double parse_block(const std::string &text);

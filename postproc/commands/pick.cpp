@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include "commands.h"
+#include "input_file.h"
+#include "json_output.h"
 #include "lsm_catalogue.h"
 #include "new_file.h"
 #include "option_values.h"
@@ -19,6 +21,7 @@ namespace {
 struct Options {
   std::string series, output;
   SeriesOptions samples;
+  JsonOutput json;
   PickerOptions picker;
   std::optional<double> warmup, completeness;
   bool force = false;
@@ -63,9 +66,11 @@ text_io::Parameters catalogue_parameters(const PeSeriesInfo &info, const PickerS
   return parameters;
 }
 
-void run(const Options &options) {
-  refuse_input(options.output, {options.series});
-  const PeSeriesInfo info = PeSeriesReader(options.series, options.samples.lenient).info();
+void run(Options &options) {
+  options.json.check({options.series});
+  check_outputs({{"--output", options.output}, options.json.output()}, {options.series});
+  const PeSeriesInfo info =
+      PeSeriesReader(options.series, options.samples.lenient, open_input).info();
   EventPicker picker(picker_settings(options.picker, info.parameters, info));
   double warmup = 0.0;
   if (const std::string *text = info.find("warmup")) text_io::parse(*text, warmup);
@@ -99,6 +104,11 @@ void run(const Options &options) {
       "before the warm-up ended{}\nwrote {}\n",
       samples, catalogue.rows(), picker.dropped_nonpositive(), picker.dropped_small(), early,
       picker.in_event() ? ", 1 that had not ended" : "", options.output);
+  Table counts({"samples", "events", "nonpositive", "small", "before_warmup", "unfinished"});
+  counts.add(samples).add(catalogue.rows()).add(picker.dropped_nonpositive());
+  counts.add(picker.dropped_small()).add(early).add(std::int64_t{picker.in_event()}).end_row();
+  options.json.add("counts", counts);
+  options.json.write();
 }
 
 }  // namespace
@@ -117,6 +127,7 @@ void add_pick(CLI::App &app) {
   command->add_option("-o,--output", options->output, "Catalogue to write")->required();
   command->add_flag("--force", options->force, "Replace the catalogue if it exists");
   options->samples.add_to(command, false);
+  options->json.add_to(command);
   command->add_option(
       "--warmup", options->warmup,
       "Leave out events that start before this time (model time; ours; default: as in "

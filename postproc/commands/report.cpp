@@ -9,6 +9,7 @@
 
 #include "catalogue_input.h"
 #include "commands.h"
+#include "input_file.h"
 #include "new_file.h"
 #include "numbers.h"
 #include "option_values.h"
@@ -28,7 +29,7 @@ struct Options {
 
 /// Reads a PE series once; events are picked with the settings of its header.
 SeriesRegime series_regime(const std::string &path, const SeriesOptions &options) {
-  const PeSeriesInfo info = PeSeriesReader(path, options.lenient).info();
+  const PeSeriesInfo info = PeSeriesReader(path, options.lenient, open_input).info();
   SeriesRegime result;
   result.path = path;
   result.model = info.model;
@@ -86,7 +87,7 @@ void add_report(CLI::App &app) {
                    "Resampled catalogues for the errors of the characteristic sizes")
       ->check(CLI::Range(2, 1000000));
   command->add_option("--block", options->block, block_help);
-  command->add_option("--seed", report.seed, "Of the random numbers");
+  add_seed(command, report.seed);
   command
       ->add_option("--series", options->series,
                    "PE series whose regime, stick-slip or creep, the page shall state (ours), "

@@ -10,7 +10,9 @@
 
 #include "catalogue_input.h"
 #include "commands.h"
+#include "json_output.h"
 #include "numbers.h"
+#include "option_values.h"
 #include "picture_options.h"
 #include "plot.h"
 #include "rupture_densities.h"
@@ -22,6 +24,7 @@ namespace {
 
 struct Options {
   CatalogueOptions catalogues;
+  JsonOutput json;
   PictureOptions picture;
   std::string history;
   std::int64_t event = 0;
@@ -91,7 +94,8 @@ void draw_history(const Options &options, const RuptureTable &catalogue) {
   make(figure, one);
 }
 
-void run(const Options &options) {
+void run(Options &options) {
+  options.json.check(options.catalogues.paths);
   check(options.catalogues);
   std::vector<std::string> inputs = options.catalogues.paths;
   if (!options.history.empty()) inputs.push_back(options.history);
@@ -101,11 +105,12 @@ void run(const Options &options) {
         "-moments", "-length", "-pe", "-stress"})
     for (const char *const kind : {".csv", ".gp", ".png", ".svg"})
       outputs.push_back(std::string(name) + kind);
-  options.picture.check(inputs, outputs);
+  options.picture.check(inputs, outputs, {options.json.output()});
   if (options.history.empty() && options.event != 0)
     throw std::invalid_argument("--event needs --history");
 
   std::vector<RuptureTable> tables;
+  Table largest_of({"label", "ruptures", "moment", "largest", "longest"});
   for (const std::string &path : options.catalogues.paths) {
     tables.push_back(load_ruptures(path, options.catalogues));
     state_repairs(tables.back().head);
@@ -121,6 +126,8 @@ void run(const Options &options) {
     fmt::print("{}: {} ruptures, moments in all {}, largest {}, longest {}\n", table.head.label,
                table.events.size(), short_number(moment, 6), short_number(largest),
                short_number(longest));
+    largest_of.add(table.head.label).add(static_cast<std::int64_t>(table.events.size()));
+    largest_of.add(moment).add(largest).add(longest).end_row();
   }
   // What cannot be drawn is found out before the first file is written.
   const std::vector<std::pair<std::string, Figure>> figures = {
@@ -130,7 +137,12 @@ void run(const Options &options) {
       {"-pe", moment_pe_figure(tables)},
       {"-stress", stress_drop_figure(tables)}};
   if (!options.history.empty()) draw_history(options, tables.front());
-  for (const auto &[name, figure] : figures) make(figure, named(options.picture, name));
+  options.json.add("catalogues", largest_of);
+  for (const auto &[name, figure] : figures) {
+    make(figure, named(options.picture, name));
+    options.json.add(name.substr(1), figure.table);
+  }
+  options.json.write();
 }
 
 }  // namespace
@@ -147,6 +159,7 @@ void add_rupture(CLI::App &app) {
       "(BASE-event)");
   auto options = std::make_shared<Options>();
   options->catalogues.add_to(command);
+  options->json.add_to(command);
   add_picture_options(command, options->picture, "rupture");
   const std::string group = "Slip history";
   command
@@ -170,17 +183,7 @@ void add_rupture(CLI::App &app) {
       ->check(CLI::PositiveNumber)
       ->default_str("a tenth of --locked")
       ->group(group);
-  command
-      ->add_option("--p-speed", options->p_speed,
-                   "Speed of P-waves (paper, Eq. 4: 2.12 for k = m0 = 1)")
-      ->check(CLI::PositiveNumber)
-      ->group(group);
-  command
-      ->add_option("--s-speed", options->s_speed,
-                   "Speed of S-waves (ours: that of P-waves over the root of 3, as in the regular "
-                   "lattice)")
-      ->check(CLI::PositiveNumber)
-      ->group(group);
+  add_wave_speeds(command, options->p_speed, options->s_speed, group);
   command->callback([options] { run(*options); });
 }
 

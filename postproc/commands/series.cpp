@@ -10,6 +10,8 @@
 #include <fmt/format.h>
 
 #include "commands.h"
+#include "input_file.h"
+#include "json_output.h"
 #include "numbers.h"
 #include "picture_options.h"
 #include "plot.h"
@@ -24,6 +26,7 @@ namespace {
 struct Options {
   std::string series, title;
   SeriesOptions samples;
+  JsonOutput json;
   PickerOptions picker;
   PictureOptions picture;
   std::int64_t columns = 2000;
@@ -31,6 +34,21 @@ struct Options {
 };
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// One row; without a regime its numbers are empty.
+Table regime_table(std::int64_t samples, std::int64_t events, const RegimeMeter &meter) {
+  Table table({"samples", "events", "regime", "saw_tooth", "stick_slip_above", "drop_over_load",
+               "time_in_events", "mean_duration", "why"});
+  table.add(samples).add(events);
+  try {
+    const Regime r = meter.result();
+    table.add(name_of(r)).add(r.saw_tooth).add(r.above).add(r.drop_over_load);
+    table.add(r.time_in_events).add(r.mean_duration).add("").end_row();
+  } catch (const std::runtime_error &e) {
+    table.add("").add(nan).add(nan).add(nan).add(nan).add(nan).add(e.what()).end_row();
+  }
+  return table;
+}
 
 std::string regime_line(const RegimeMeter &meter) {
   try {
@@ -47,9 +65,11 @@ std::string regime_line(const RegimeMeter &meter) {
   }
 }
 
-void run(const Options &options) {
-  options.picture.check({options.series}, {"-events.csv"});
-  const PeSeriesInfo info = PeSeriesReader(options.series, options.samples.lenient).info();
+void run(Options &options) {
+  options.json.check({options.series});
+  options.picture.check({options.series}, {"-events.csv"}, {options.json.output()});
+  const PeSeriesInfo info =
+      PeSeriesReader(options.series, options.samples.lenient, open_input).info();
   EventPicker picker(picker_settings(options.picker, info.parameters, info));
 
   Extent times;
@@ -112,6 +132,9 @@ void run(const Options &options) {
              options.picture.output);
   fmt::print("{}\n", regime_line(meter));
   make(figure, options.picture);
+  options.json.add("series", regime_table(samples, events.rows(), meter));
+  options.json.add("events", events);
+  options.json.write();
 }
 
 }  // namespace
@@ -128,6 +151,7 @@ void add_series(CLI::App &app) {
                    "PE series, text or binary, written by compute lsm/events or slider_cli")
       ->required();
   options->samples.add_to(command, true);
+  options->json.add_to(command);
   command->add_option("--title", options->title, "Title of the picture")
       ->default_str("number of events and times");
   command

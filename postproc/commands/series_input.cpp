@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "input_file.h"
+
 namespace LSM::postproc {
 
 void SeriesOptions::add_to(CLI::App *command, bool window) {
@@ -24,7 +26,7 @@ std::int64_t read_series(
   if (!(options.from_time < options.to_time))
     throw std::invalid_argument(fmt::format("--from {} --to {}: expected --from before --to",
                                             options.from_time, options.to_time));
-  PeSeriesReader reader(path, options.lenient);
+  PeSeriesReader reader(path, options.lenient, open_input);
   std::int64_t step = 0, inside = 0;
   double time = 0.0, pe = 0.0;
   while (reader.next(step, time, pe) && time <= options.to_time) {

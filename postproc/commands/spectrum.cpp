@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 
 #include "commands.h"
+#include "input_file.h"
+#include "json_output.h"
 #include "picture_options.h"
 #include "plot.h"
 #include "series_input.h"
@@ -23,6 +25,7 @@ namespace {
 struct Options {
   std::vector<std::string> series, labels;
   SeriesOptions samples;
+  JsonOutput json;
   SpectrumSettings spectrum;
   PictureOptions picture;
   std::string of = "pe";
@@ -39,7 +42,7 @@ std::size_t default_segment(const std::string &path, const SeriesOptions &option
 }
 
 SpectrumCurve measure(const std::string &path, const Options &options) {
-  const PeSeriesInfo info = PeSeriesReader(path, options.samples.lenient).info();
+  const PeSeriesInfo info = PeSeriesReader(path, options.samples.lenient, open_input).info();
   SpectrumSettings settings = options.spectrum;
   settings.segment = options.segment > 0 ? static_cast<std::size_t>(options.segment)
                                          : default_segment(path, options.samples);
@@ -73,12 +76,14 @@ SpectrumCurve measure(const std::string &path, const Options &options) {
           spectrum.effective_segments()};
 }
 
-void run(const Options &options) {
-  options.picture.check(options.series);
+void run(Options &options) {
+  options.json.check(options.series);
+  options.picture.check(options.series, {}, {options.json.output()});
   if (!options.labels.empty() && options.labels.size() != options.series.size())
     throw std::invalid_argument(fmt::format("--label given {} times, expected once per series ({})",
                                             options.labels.size(), options.series.size()));
   std::vector<SpectrumCurve> curves;
+  Table averages({"label", "samples", "segments", "averages", "variance"});
   for (std::size_t i = 0; i < options.series.size(); ++i) {
     curves.push_back(measure(options.series[i], options));
     SpectrumCurve &curve = curves.back();
@@ -88,8 +93,14 @@ void run(const Options &options) {
     fmt::print(
         "{}: {} samples, {} segments (as good as {:.1f} independent ones), variance {:.6g}\n",
         curve.label, curve.samples, curve.segments, curve.averages, variance(curve));
+    averages.add(curve.label).add(curve.samples).add(curve.segments).add(curve.averages);
+    averages.add(variance(curve)).end_row();
   }
-  make(spectrum_figure(curves, options.of == "pe"), options.picture);
+  const Figure figure = spectrum_figure(curves, options.of == "pe");
+  make(figure, options.picture);
+  options.json.add("series", averages);
+  options.json.add("spectra", figure.table);
+  options.json.write();
 }
 
 }  // namespace
@@ -108,6 +119,7 @@ void add_spectrum(CLI::App &app) {
   command->add_option("--label", options->labels,
                       "Name of a curve, once per series and in their order (default: file name)");
   options->samples.add_to(command, true);
+  options->json.add_to(command);
   command
       ->add_option("--of", options->of, "pe: the potential energy; change: its change per sample")
       ->check(CLI::IsMember({"pe", "change"}));

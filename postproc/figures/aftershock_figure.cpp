@@ -22,6 +22,7 @@ std::string aftershocks_text(const std::vector<AftershockCurve> &curves) {
         curve.label, a.sequences.main_shocks, short_number(a.rule.main_size),
         short_number(a.rule.window), a.fit.n, short_number(a.rule.least_size),
         short_number(a.rule.first), short_number(a.rule.window));
+    out += fmt::format("  {} events as long before their starts\n", a.sequences.before.size());
     if (a.fit.n > 0)
       out += fmt::format("  constant rate: {} per time unit\n",
                          with_error(a.fit.constant, a.fit.se_constant));
@@ -84,11 +85,12 @@ Table aftershocks_csv(const std::vector<AftershockCurve> &curves) {
 
 Figure aftershock_figure(const std::vector<AftershockCurve> &curves) {
   Figure figure{Table({"curve", "model", "bin_lo", "bin_hi", "time", "count", "rate", "error",
-                       "poisson_rate", "poisson_scatter", "label"}),
+                       "poisson_rate", "poisson_scatter", "label", "before"}),
                 {},
                 {}};
   figure.table.comment(
       "rate of events per main shock and model time, from the end of the main shock");
+  figure.table.comment("before: events as long before the start of a main shock, by their ends");
   figure.table.comment(
       "error: Poisson; poisson_*: mean and standard deviation in Poisson catalogues");
   Extent times, rates;
@@ -102,7 +104,7 @@ Figure aftershock_figure(const std::vector<AftershockCurve> &curves) {
     for (const RateBin &bin : a.bins) {
       figure.table.add(number).add(curve.model).add(bin.lo).add(bin.hi).add(bin.centre);
       figure.table.add(bin.count).add(bin.rate).add(bin.error).add(bin.poisson).add(bin.scatter);
-      figure.table.add(curve.label).end_row();
+      figure.table.add(curve.label).add(bin.before).end_row();
       times.add(bin.lo);
       times.add(bin.hi);
       if (bin.count > 0) rates.add(bin.rate);

@@ -19,11 +19,13 @@ Figure interval_figure(const std::vector<IntervalCurve> &curves, bool rescaled, 
                 {},
                 {}};
   figure.table.comment(
-      rescaled ? "inter-event times from start to start, divided by their mean"
-               : "inter-event times from start to start in model time, densities in 1 / "
-                 "model time; errors: Poisson");
+      rescaled
+          ? "inter-event times from start to start, divided by their mean"
+          : "inter-event times from start to start in model time (earthquakes: days), densities "
+            "in 1 / model time; errors: Poisson");
   std::set<std::string> sources;
-  for (const IntervalCurve &curve : curves) sources.insert(text(curve.threshold));
+  for (const IntervalCurve &curve : curves)
+    sources.insert(curve.earthquakes ? curve.from() : text(curve.threshold));
   for (const std::string &source : sources) figure.table.comment("sizes from " + source);
   std::string points, lines;
   std::vector<std::string> titles;
@@ -46,7 +48,7 @@ Figure interval_figure(const std::vector<IntervalCurve> &curves, bool rescaled, 
       last = std::max(last, bin.hi);
     }
     std::string title = curve.label;
-    if (thresholds.size() > 1) title += fmt::format(", s ≥ {}", short_number(curve.threshold.size));
+    if (thresholds.size() > 1) title += ", " + curve.from();
     const std::string row = fmt::format("row({})", number);
     points += fmt::format(
         "{0}{1}, \\\n     table using ({2}):8 with points lt {3} notitle, \\\n"
@@ -63,7 +65,16 @@ Figure interval_figure(const std::vector<IntervalCurve> &curves, bool rescaled, 
           text_io::number(fit->C), text_io::number(fit->gamma - 1.0), text_io::number(fit->delta),
           text_io::number(fit->B), number);
   }
-  if (!lines.empty())
+  const bool fitted = !lines.empty();
+  if (rescaled) {
+    lines += fmt::format(
+        ", \\\n     [{}:{}] '+' using 1:(0.5*$1**(-0.33)*exp(-$1/1.58)) with lines lt 8 dt (6,4) "
+        "lw 2 "
+        "title 'earthquakes, Corral (2004)'",
+        text_io::number(first), text_io::number(last));
+    titles.emplace_back("earthquakes, Corral (2004)");
+  }
+  if (fitted)
     lines += ", \\\n     keyentry with lines lt 8 title 'lines: fitted generalised gamma'";
   titles.emplace_back();
   figure.size = size_with_key(titles, width);

@@ -30,6 +30,7 @@ NewFile::NewFile(const std::string &path, bool replace) : path_(path), part_(pat
   code.clear();
   if (!folder.empty()) fs::create_directories(folder, code);
   if (code) throw FileError(folder.string() + ": cannot make the folder: " + code.message());
+  lock_ = FileLock(path_);
 }
 
 NewFile::~NewFile() {
@@ -54,8 +55,17 @@ void write_file(const std::string &path, std::string_view text) {
 void refuse_input(const std::string &output, const std::vector<std::string> &inputs) {
   std::error_code ignored;
   for (const std::string &input : inputs)
-    if (fs::equivalent(output, input, ignored))
+    if (fs::equivalent(output, input, ignored) ||
+        fs::equivalent(output + ".part", input, ignored) ||
+        fs::equivalent(output + ".lock", input, ignored))
       throw FileError(output + ": is read by this command, expected another name for the output");
+}
+
+void check_outputs(const std::vector<Output> &outputs, const std::vector<std::string> &inputs) {
+  const std::string problem = bad_outputs(outputs);
+  if (!problem.empty()) throw FileError(problem);
+  for (const Output &output : outputs)
+    if (!output.path.empty()) refuse_input(output.path, inputs);
 }
 
 }  // namespace LSM::postproc

@@ -8,14 +8,17 @@
 #include <string_view>
 #include <vector>
 
+#include "lsm_output_claim.h"
+
 namespace LSM::postproc {
 
 /// A file on its way: written under part(), it gets its name by commit(). Without that, after an
-/// error, the destructor removes it and an older file of the name is as it was. Devices and pipes
-/// are written at once.
+/// error, the destructor removes it and an older file of the name is as it was. Nobody else writes
+/// it meanwhile. Devices and pipes are written at once.
 class NewFile {
  public:
-  /// Missing folders are made. \throws FileError if path exists, unless replace, or is a folder.
+  /// Missing folders are made. \throws FileError if path exists, unless replace, is a folder, or is
+  /// being written by another program of ours.
   NewFile(const std::string &path, bool replace);
   ~NewFile();
   NewFile(const NewFile &) = delete;
@@ -27,13 +30,19 @@ class NewFile {
 
  private:
   std::string path_, part_;
+  FileLock lock_;
 };
 
 /// Writes text to path as a NewFile that replaces an older one. \throws FileError
 void write_file(const std::string &path, std::string_view text);
 
-/// \throws FileError if output is one of the files that are read.
+/// \throws FileError if output, or the name under which it is on its way, is one of the files that
+/// are read.
 void refuse_input(const std::string &output, const std::vector<std::string> &inputs);
+
+/// The same for several outputs; empty paths are passed over. \throws FileError also if two of them
+/// are one file, whatever its names
+void check_outputs(const std::vector<Output> &outputs, const std::vector<std::string> &inputs);
 
 }  // namespace LSM::postproc
 

@@ -43,9 +43,11 @@ std::string text(const SmallestSize &smallest) {
 std::vector<std::string> texts(const Threshold &threshold, const std::vector<EventTable> &tables) {
   std::vector<std::string> lines;
   for (const EventTable &table : tables) {
-    const std::string line =
-        fmt::format("smallest size, {}: {}", table.info.model == "lsm" ? "fault" : "block-slider",
-                    text(threshold.in(table)));
+    const std::string line = fmt::format("smallest size, {}: {}",
+                                         table.earthquakes()         ? "earthquakes"
+                                         : table.info.model == "lsm" ? "fault"
+                                                                     : "block-slider",
+                                         text(threshold.in(table)));
     if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(line);
   }
   return lines;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
@@ -18,6 +19,7 @@
 #include <system_error>
 
 #include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 #include "lsm_text_io.h"
 #include "new_file.h"
@@ -129,9 +131,9 @@ std::vector<double> ticks_around(double lo, double hi) {
 
 std::string whole_script(const std::string &name, std::string_view body, PictureSize size) {
   std::string script = fmt::format(
-      "# Draws {0}.png and {0}.svg from {0}.csv: run `gnuplot {0}.gp` in this folder.\n"
+      "# Draws {0}.png and {0}.svg from {0}.csv: run `gnuplot ./{0}.gp` in this folder.\n"
       "base = {1}\ntable = base.\".csv\"\nif (!exists(\"formats\")) formats = \"png svg\"\n",
-      name, quote_plain(name));
+      name, quote_plain("./" + name));
   script += fmt::format(
       "\ndo for [format in formats] {{\n"
       "if (format eq \"png\") {{\n"
@@ -163,34 +165,38 @@ void check_name(const fs::path &base) {
       throw FileError("--output has a line break or another control character in it");
 }
 
-/// Single quotes: gnuplot runs what stands in backquotes in a string of double quotes.
+/// gnuplot runs what stands in backquotes or follows a pipe, ends strings at quotes, takes two
+/// quotes at the begin of a string for an empty one, and counts braces: all but what is harmless is
+/// written as octal numbers.
 std::string escape(std::string_view text, bool markup) {
-  std::string out = "'";
+  // Markup of our own is there to be read.
+  const std::string_view harmless = markup ? " .,:;()=+-/*%<>!?" : " .,:;()=+-/*%<>!?_^{}";
+  std::string out = "\"";
+  bool number = false;  // goes on with the next digit, however long it is
   for (const char c : text) {
-    if (markup && std::string_view("\\{}^_@&~").find(c) != std::string_view::npos) out += '\\';
-    if (c == '\'') out += '\'';
-    out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    const auto code = static_cast<unsigned char>(c < 0x20 && c >= 0 ? ' ' : c);
+    if (markup && std::string_view("\\{}^_@&~").find(c) != std::string_view::npos) out += "\\134";
+    number = !(code >= 0x80 || std::isalpha(code) || (std::isdigit(code) && !number) ||
+               harmless.find(static_cast<char>(code)) != std::string_view::npos);
+    out += number ? fmt::format("\\{:03o}", code) : std::string(1, static_cast<char>(code));
   }
-  return out + "'";
+  return out + "\"";
 }
 
 }  // namespace
 
 void PictureOptions::check(const std::vector<std::string> &inputs,
-                           const std::vector<std::string> &more) const {
+                           const std::vector<std::string> &more,
+                           const std::vector<Output> &others) const {
   check_name(output);
+  std::vector<Output> outputs = others;
   for (const char *const text : {".csv", ".gp", ".png", ".svg"})
-    refuse_input(output + text, inputs);
-  for (const std::string &text : more) refuse_input(output + text, inputs);
+    outputs.push_back({"--output", output + text});
+  for (const std::string &text : more) outputs.push_back({"--output", output + text});
+  check_outputs(outputs, inputs);
 }
 
-Table::Table(std::vector<std::string> columns) : columns_(columns.size()) {
-  for (const std::string &column : columns) {
-    if (!header_.empty()) header_ += ',';
-    header_ += column;
-  }
-  header_ += '\n';
-}
+Table::Table(std::vector<std::string> columns) : columns_(std::move(columns)) {}
 
 void Table::comment(std::string_view text) {
   comments_ += "# ";
@@ -198,45 +204,68 @@ void Table::comment(std::string_view text) {
   comments_ += '\n';
 }
 
-void Table::put(std::string_view field) {
-  if (fields_++ > 0) body_ += ',';
-  body_ += field;
-}
-
 Table &Table::add(double value) {
-  put(std::isnan(value) ? std::string() : text_io::number(value));
+  cells_.emplace_back(value);
   return *this;
 }
 
 Table &Table::add(std::int64_t value) {
-  put(text_io::number(value));
+  cells_.emplace_back(value);
   return *this;
 }
 
 Table &Table::add(std::string_view text) {
-  if (text.find_first_of(",\"\n\r") == std::string_view::npos) {
-    put(text);
-    return *this;
-  }
+  cells_.emplace_back(std::string(text));
+  return *this;
+}
+
+void Table::end_row() {
+  const std::size_t fields = cells_.size() - static_cast<std::size_t>(rows_) * columns_.size();
+  if (fields != columns_.size())
+    throw std::logic_error(
+        fmt::format("table: a row has {} fields, expected {}", fields, columns_.size()));
+  ++rows_;
+}
+
+namespace {
+
+std::string csv_field(double value) {
+  return std::isnan(value) ? std::string() : text_io::number(value);
+}
+
+std::string csv_field(std::int64_t value) { return text_io::number(value); }
+
+std::string csv_field(const std::string &text) {
+  if (text.find_first_of(",\"#\n\r") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) {
     if (c == '"') quoted += '"';
     quoted += c == '\n' || c == '\r' ? ' ' : c;
   }
-  put(quoted + '"');
-  return *this;
+  return quoted + '"';
 }
 
-void Table::end_row() {
-  if (fields_ != columns_)
-    throw std::logic_error(
-        fmt::format("table: a row has {} fields, expected {}", fields_, columns_));
-  body_ += '\n';
-  fields_ = 0;
-  ++rows_;
+}  // namespace
+
+std::string Table::text() const {
+  std::string out = comments_;
+  for (std::size_t k = 0; k < columns_.size(); ++k) out += (k > 0 ? "," : "") + columns_[k];
+  for (std::size_t k = 0; k < cells_.size(); ++k) {
+    out += k % columns_.size() == 0 ? '\n' : ',';
+    out += std::visit([](const auto &value) { return csv_field(value); }, cells_[k]);
+  }
+  return out + '\n';
 }
 
-std::string Table::text() const { return comments_ + header_ + body_; }
+nlohmann::ordered_json Table::json() const {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (std::size_t k = 0; k < cells_.size(); ++k) {
+    if (k % columns_.size() == 0) rows.push_back(nlohmann::ordered_json::object());
+    std::visit([&](const auto &value) { rows.back()[columns_[k % columns_.size()]] = value; },
+               cells_[k]);
+  }
+  return rows;
+}
 
 void Table::write(const std::string &path) const { write_file(path, text()); }
 
@@ -312,7 +341,7 @@ void draw(const PictureOptions &options, std::string_view body, PictureSize size
   std::error_code code;
   for (const std::string &picture : pictures) fs::remove(picture, code);
   try {
-    run_gnuplot(folder, {name + ".gp"});
+    run_gnuplot(folder, {"./" + name + ".gp"});
     for (const std::string &picture : pictures)
       if (fs::file_size(picture, code) == 0 || code) throw PlotError("gnuplot wrote no " + picture);
   } catch (const PlotError &error) {

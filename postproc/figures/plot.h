@@ -9,9 +9,13 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "log_histogram.h"
+#include "lsm_output_claim.h"
 #include "lsm_text_io.h"
 
 namespace LSM::postproc {
@@ -32,13 +36,15 @@ struct PictureOptions {
   /// Call before anything is read or written.
   /// \param inputs files that the command reads
   /// \param more what it writes besides BASE.csv, .gp, .png and .svg, as "BASE" + text
-  /// \throws FileError if BASE is no file name, or an output would replace an input
-  void check(const std::vector<std::string> &inputs,
-             const std::vector<std::string> &more = {}) const;
+  /// \param others files of other options; empty paths are passed over
+  /// \throws FileError if BASE is no file name, an output would replace an input, or two are one
+  void check(const std::vector<std::string> &inputs, const std::vector<std::string> &more = {},
+             const std::vector<Output> &others = {}) const;
 };
 
-/// Comma-separated table: comment lines, one line of column names, rows. Text is quoted where it
-/// has to be; numbers have all their digits; NaN is an empty field.
+/// Numbers and texts in named columns. As a comma-separated table: comment lines, one line of
+/// column names, rows; text is quoted where it has to be; numbers have all their digits; NaN is an
+/// empty field. As JSON: an array of objects; NaN is null.
 class Table {
  public:
   explicit Table(std::vector<std::string> columns);
@@ -50,15 +56,15 @@ class Table {
   /// Ends the row. \throws std::logic_error unless it has one field per column.
   void end_row();
   std::int64_t rows() const { return rows_; }
-  std::string text() const;  ///< the whole file
+  std::string text() const;             ///< the whole file
+  nlohmann::ordered_json json() const;  ///< without the comments
   /// See write_file(). \throws FileError
   void write(const std::string &path) const;
 
  private:
-  void put(std::string_view field);
-
-  std::string comments_, header_, body_;
-  std::size_t columns_ = 0, fields_ = 0;
+  std::string comments_;
+  std::vector<std::string> columns_;
+  std::vector<std::variant<double, std::int64_t, std::string>> cells_;  ///< row by row
   std::int64_t rows_ = 0;
 };
 
@@ -89,10 +95,11 @@ PictureSize size_with_key(const std::vector<std::string> &titles, int width = 90
 /// checks that BASE.png and BASE.svg came out.
 ///
 /// body: gnuplot commands that end with a plot (or multiplot); run once per format. They find the
-/// string variables `base` (name without folder) and `table` (base.".csv"), comma as the separator
-/// of data files, line types 1 to 16 with Okabe and Ito's colours, twice, and different point types
-/// and dashes (`lt K`), and the key below the picture. lt 8 is black.
-/// \throws FileError; PlotError, also when gnuplot is missing (table and script are there by then)
+/// string variables `base` ("./" and the name without folder, so that no name begins a pipe) and
+/// `table` (base.".csv"), comma as the separator of data files, line types 1 to 16 with Okabe and
+/// Ito's colours, twice, and different point types and dashes (`lt K`), and the key below the
+/// picture. lt 8 is black. \throws FileError; PlotError, also when gnuplot is missing (table and
+/// script are there by then)
 void draw(const PictureOptions &options, std::string_view body, PictureSize size = {});
 
 /// A table and the picture of it.

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "input_file.h"
 #include "numbers.h"
 
 namespace LSM::postproc {
@@ -41,20 +43,51 @@ void add_event(Table &table, std::size_t curve, const RuptureTable &of, const Ev
   table.add(static_cast<std::int64_t>(curve + 1)).add(of.head.label).add(event.id);
 }
 
+/// Which ruptures a scatter shows. Of very many that is the largest and some of the others:
+/// pictures of a million points take minutes to draw and to look at.
+class Shown {
+ public:
+  explicit Shown(const RuptureTable &of) : events_(of.events) {
+    step_ = std::max<std::size_t>(1, (events_.size() + most - 1) / most);
+    if (step_ == 1) return;
+    std::vector<double> moments;
+    for (const Event &event : events_) moments.push_back(event.slip_moment);
+    std::nth_element(moments.begin(), moments.begin() + largest - 1, moments.end(),
+                     std::greater<double>());
+    large_ = moments[largest - 1];
+  }
+  bool operator()(std::size_t i) const {
+    return i % step_ == 0 || events_[i].slip_moment >= large_;
+  }
+  /// For legends and tables, "" if all are shown.
+  std::string text() const {
+    if (step_ == 1) return {};
+    return fmt::format(", shown: the largest {} and one of {}", largest, step_);
+  }
+
+ private:
+  static constexpr std::size_t most = 20000, largest = 1000;
+
+  const std::vector<Event> &events_;
+  std::size_t step_ = 1;
+  double large_ = 0.0;
+};
+
 /// Scatter of one curve per catalogue, from the columns x and y of the table.
 std::string points(const std::vector<RuptureTable> &tables, int x, int y) {
   std::string out;
   for (std::size_t k = 0; k < tables.size(); ++k)
-    out += fmt::format(
-        "{}table using ($1 == {} ? ${} : NaN):{} with points lt {} title {}",
-        k > 0 ? ", \\\n     " : "", k + 1, x, y, k % 16 + 1,
-        quote(fmt::format("{} ({} ruptures)", tables[k].head.label, tables[k].events.size())));
+    out += fmt::format("{}table using ($1 == {} ? ${} : NaN):{} with points lt {} title {}",
+                       k > 0 ? ", \\\n     " : "", k + 1, x, y, k % 16 + 1,
+                       quote(fmt::format("{} ({} ruptures{})", tables[k].head.label,
+                                         tables[k].events.size(), Shown(tables[k]).text())));
   return out;
 }
 
 std::vector<std::string> titles_of(const std::vector<RuptureTable> &tables, std::size_t more) {
   std::vector<std::string> titles(more, std::string(60, ' '));
-  for (const RuptureTable &table : tables) titles.push_back(table.head.label + " (10000 ruptures)");
+  for (const RuptureTable &table : tables)
+    titles.push_back(table.head.label + " (10000 ruptures)" + Shown(table).text());
   return titles;
 }
 
@@ -235,11 +268,15 @@ Figure moment_length_figure(const std::vector<RuptureTable> &tables) {
   std::vector<std::pair<double, double>> fitted;
   for (std::size_t k = 0; k < tables.size(); ++k) {
     const double whole = tables[k].head.length();
-    for (const Event &e : tables[k].events) {
+    const Shown shown(tables[k]);
+    for (std::size_t n = 0; n < tables[k].events.size(); ++n) {
+      const Event &e = tables[k].events[n];
       if (!(e.slip_moment > 0.0)) continue;
       const bool all = e.rupture_length > whole * (1.0 - 1e-9);
-      add_event(figure.table, k, tables[k], e);
-      figure.table.add(e.rupture_length).add(e.slip_moment).add(std::int64_t{all}).end_row();
+      if (shown(n)) {
+        add_event(figure.table, k, tables[k], e);
+        figure.table.add(e.rupture_length).add(e.slip_moment).add(std::int64_t{all}).end_row();
+      }
       lengths.add(e.rupture_length);
       moments.add(e.slip_moment);
       if (!all) fitted.emplace_back(e.rupture_length, e.slip_moment);
@@ -271,11 +308,14 @@ Figure moment_pe_figure(const std::vector<RuptureTable> &tables) {
   std::int64_t negative = 0;
   for (std::size_t k = 0; k < tables.size(); ++k) {
     const std::vector<bool> is_alone = slips_by_itself(tables[k].events);
+    const Shown shown(tables[k]);
     for (std::size_t n = 0; n < tables[k].events.size(); ++n) {
       const Event &e = tables[k].events[n];
       if (!(e.slip_moment > 0.0)) continue;
-      add_event(figure.table, k, tables[k], e);
-      figure.table.add(e.slip_moment).add(drop_of(e)).add(std::int64_t{is_alone[n]}).end_row();
+      if (shown(n)) {
+        add_event(figure.table, k, tables[k], e);
+        figure.table.add(e.slip_moment).add(drop_of(e)).add(std::int64_t{is_alone[n]}).end_row();
+      }
       if (!(drop_of(e) > 0.0)) {
         ++negative;
         continue;
@@ -335,10 +375,14 @@ Figure stress_drop_figure(const std::vector<RuptureTable> &tables) {
       double n = 0.0, y = 0.0, yy = 0.0;
     };
     std::map<long, Sums> bins;
-    for (const Event &e : tables[k].events) {
+    const Shown shown(tables[k]);
+    for (std::size_t n = 0; n < tables[k].events.size(); ++n) {
+      const Event &e = tables[k].events[n];
       if (!(e.slip_moment > 0.0)) continue;
-      add_event(figure.table, k, tables[k], e);
-      figure.table.add(e.slip_moment).add(e.stress_drop).add(nan).add(nan).end_row();
+      if (shown(n)) {
+        add_event(figure.table, k, tables[k], e);
+        figure.table.add(e.slip_moment).add(e.stress_drop).add(nan).add(nan).end_row();
+      }
       moments.add(e.slip_moment);
       drops.add(e.stress_drop);
       Sums &bin = bins[std::lround(std::floor(2.0 * std::log10(e.slip_moment)))];
@@ -382,7 +426,7 @@ void Outline::absorb(const Outline &later) {
 }
 
 HistoryWindow load_history(const std::string &path, bool lenient, double from, double to) {
-  SlipHistoryReader reader(path, lenient);
+  SlipHistoryReader reader(path, lenient, open_input);
   HistoryWindow window;
   window.info = reader.info();
   if (reader.torn()) fmt::print(stderr, "postproc: {}: dropped a truncated last record: 1\n", path);

@@ -41,6 +41,7 @@ std::vector<Table1Row> table1(const std::vector<IntervalCurve> &curves,
       row.method = method;
       if (!std::isnan(held)) row.method += fmt::format(", δ = {} held", short_number(held));
       row.threshold = curve.threshold.size;
+      row.from = curve.from();
       row.n = fit.n;
       row.values = {fit.gamma, fit.delta, fit.B, fit.C};
       row.errors = {fit.se_gamma, fit.se_delta, fit.se_B, fit.se_C};
@@ -75,7 +76,9 @@ std::string Table1Row::goodness(const std::string &plus_minus) const {
   return out + (rejected() ? ", rejected" : "");
 }
 
-const char *theta_unit(bool rescaled) { return rescaled ? "multiples of the mean" : "model time"; }
+const char *theta_unit(bool rescaled) {
+  return rescaled ? "multiples of the mean" : "model time, of earthquakes days";
+}
 
 std::string table1_text(const std::vector<Table1Row> &rows, bool rescaled) {
   const auto line = [](const std::string &name, const std::array<std::string, 4> &cells,
@@ -94,7 +97,7 @@ std::string table1_text(const std::vector<Table1Row> &rows, bool rescaled) {
   std::string head;
   for (const Table1Row &row : rows) {
     if (row.printed) continue;
-    std::string next = fmt::format("{}, sizes from {}", row.source, short_number(row.threshold));
+    std::string next = fmt::format("{}, {}", row.source, row.from);
     if (next != head) {
       head = next;
       out += "    " + head + "\n";

@@ -29,6 +29,7 @@ const std::array<PrintedColumn, 3> &printed_table1();
 struct Table1Row {
   bool printed = false;                   ///< from the paper
   std::string source;                     ///< head of the column, or label of the catalogue
+  std::string from;                       ///< ours: smallest size in words
   std::string method;                     ///< how it was fitted; empty if printed
   double threshold = 0.0;                 ///< ours: smallest size
   std::int64_t n = 0;                     ///< ours: inter-event times fitted

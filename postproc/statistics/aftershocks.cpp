@@ -16,6 +16,7 @@
 
 #include "log_histogram.h"
 #include "lsm_sum.h"
+#include "replicas.h"
 
 namespace LSM::postproc {
 
@@ -23,14 +24,6 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t fewest = 20;
-
-using Rng = std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)>;
-
-Rng generator(std::uint64_t seed) {
-  Rng rng(gsl_rng_alloc(gsl_rng_mt19937), gsl_rng_free);
-  gsl_rng_set(rng.get(), static_cast<unsigned long>(seed));
-  return rng;
-}
 
 // Integral of (t + c)^-p from a to b, p near 1 included.
 double omori_integral(double a, double b, double c, double p) {
@@ -43,23 +36,36 @@ double omori_integral(double a, double b, double c, double p) {
 // ln L as a function of the numbers of aftershocks and background events expected, c and p.
 class Likelihood {
  public:
-  explicit Likelihood(const Sequences &s) : s_(s), n_(static_cast<double>(s.times.size())) {}
+  explicit Likelihood(const Sequences &s)
+      : first_(s.first), window_(s.window), n_(static_cast<double>(s.times.size())) {
+    // Of many, those within 0.2 % count as one at their mean: the rate hardly bends there, and an
+    // evaluation costs no more for more of them.
+    const double width = n_ > static_cast<double>(largest_exact_sample) ? 1.002 : 1.0;
+    for (std::size_t i = 0; i < s.times.size();) {
+      std::size_t end = i + 1;
+      while (end < s.times.size() && s.times[end] <= width * s.times[i]) ++end;
+      const auto count = static_cast<double>(end - i);
+      times_.push_back(sum_pairwise(s.times.data() + i, end - i) / count);
+      counts_.push_back(count);
+      i = end;
+    }
+  }
 
   double operator()(double aftershocks, double background, double c, double p) const {
-    const double scale = aftershocks / omori_integral(s_.first, s_.window, c, p);
-    const double flat = background / (s_.window - s_.first);
+    const double scale = aftershocks / omori_integral(first_, window_, c, p);
+    const double flat = background / (window_ - first_);
     if (!std::isfinite(scale)) return -HUGE_VAL;
     NeumaierSum sum;
-    for (const double t : s_.times)
-      sum.add(std::log(scale * std::exp(-p * std::log(t + c)) + flat));
+    for (std::size_t i = 0; i < times_.size(); ++i)
+      sum.add(counts_[i] * std::log(scale * std::exp(-p * std::log(times_[i] + c)) + flat));
     return sum.value() - aftershocks - background;
   }
-  double constant() const { return n_ * std::log(n_ / (s_.window - s_.first)) - n_; }
+  double constant() const { return n_ * std::log(n_ / (window_ - first_)) - n_; }
   double n() const { return n_; }
 
  private:
-  const Sequences &s_;
-  double n_;
+  std::vector<double> times_, counts_;
+  double first_, window_, n_;
 };
 
 // What is searched: at the maximum as many events are expected as there are, so one share is
@@ -202,6 +208,10 @@ Sequences stack_sequences(const EventTable &events, const SequenceRule &rule) {
          ++i)
       if (size[i] >= rule.least_size && i != main)
         stack.times.push_back(std::min(start[i] - end[main], rule.window));
+    // Events that overlap with the main shock are neither before nor after it.
+    for (std::size_t i = index_from(from); i < main; ++i)
+      if (size[i] >= rule.least_size && start[main] - end[i] >= rule.first)
+        stack.before.push_back(start[main] - end[i]);
   }
   std::sort(stack.times.begin(), stack.times.end());
   return stack;
@@ -211,7 +221,10 @@ double OmoriFit::rate(double t) const {
   return degenerate ? constant : K * std::pow(t + c, -p) + background;
 }
 
-OmoriFit fit_omori(const Sequences &s, double hold_c) {
+namespace {
+
+// Without the care of GSL's errors, whose handler is one for all threads.
+OmoriFit fit_quietly(const Sequences &s, double hold_c) {
   if (!(s.window > s.first && s.first >= 0.0) || s.main_shocks < 0 ||
       (!s.times.empty() &&
        (s.main_shocks == 0 || s.times.front() < s.first || s.times.back() > s.window)))
@@ -237,7 +250,6 @@ OmoriFit fit_omori(const Sequences &s, double hold_c) {
   const auto positive = std::upper_bound(s.times.begin(), s.times.end(), 0.0);
   const double shortest = positive == s.times.end() ? s.window : std::max(*positive, s.first);
   Search search{&likelihood, hold_c, true, std::log(1e-3 * shortest), std::log(s.window)};
-  gsl_error_handler_t *const handler = gsl_set_error_handler_off();
   Maximum best;
   const double middle = s.times[s.times.size() / 4];
   for (const double share : {0.3, 0.8})
@@ -276,7 +288,6 @@ OmoriFit fit_omori(const Sequences &s, double hold_c) {
         return likelihood(aftershocks, flat, c_at, p_at);
       },
       x, step);
-  gsl_set_error_handler(handler);
   const double needed = held ? 5.99 : 7.81;
   if (!(fit.likelihood_ratio > needed))
     fit.why = "no decay that a constant rate does not explain as well";
@@ -320,10 +331,28 @@ OmoriFit fit_omori(const Sequences &s, double hold_c) {
   return fit;
 }
 
+}  // namespace
+
+OmoriFit fit_omori(const Sequences &sequences, double hold_c) {
+  gsl_error_handler_t *const handler = gsl_set_error_handler_off();
+  try {
+    const OmoriFit fit = fit_quietly(sequences, hold_c);
+    gsl_set_error_handler(handler);
+    return fit;
+  } catch (...) {
+    gsl_set_error_handler(handler);
+    throw;
+  }
+}
+
 EventTable poisson_catalogue(const EventTable &events, std::uint64_t seed) {
-  EventTable out = events;
   const std::size_t n = events.t_start.size();
-  if (n < 2) return out;
+  if (n < 2) return events;
+  EventTable out;
+  out.info = events.info;
+  out.t_start.resize(n);
+  out.t_end.resize(n);
+  out.size.resize(n);
   const Rng rng = generator(seed);
   std::vector<std::size_t> order(n);
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -359,36 +388,60 @@ Aftershocks aftershocks_of(const EventTable &events, const SequenceRule &rule, d
   result.rule = rule;
   result.sequences = stack_sequences(events, rule);
   result.fit = fit_omori(result.sequences, hold_c);
-  const auto histogram_of = [factor](const Sequences &sequences) {
+  const auto histogram_of = [factor, &rule](const std::vector<double> &times) {
     LogHistogram histogram(factor);
-    for (const double time : sequences.times) histogram.add(time);
-    return histogram.bins(sequences.first, sequences.window);
+    for (const double time : times) histogram.add(time);
+    return histogram.bins(rule.first, rule.window);
+  };
+  const auto same_lo = [](double a, double b) { return std::fabs(a - b) < 1e-9 * a; };
+  const auto count_in = [&](const std::vector<double> &times, double lo) {
+    for (const LogBin &bin : histogram_of(times))
+      if (same_lo(bin.lo, lo)) return bin.count;
+    return std::int64_t{0};
   };
   const auto shocks = static_cast<double>(result.sequences.main_shocks);
-  for (const LogBin &bin : histogram_of(result.sequences)) {
+  std::vector<double> around = result.sequences.times;
+  around.insert(around.end(), result.sequences.before.begin(), result.sequences.before.end());
+  for (const LogBin &bin : histogram_of(around)) {
     const double exposure = shocks * (bin.hi - bin.lo);
-    const auto count = static_cast<double>(bin.count);
+    const std::int64_t after = count_in(result.sequences.times, bin.lo);
+    const auto count = static_cast<double>(after);
     result.bins.push_back(
-        {bin.lo, bin.hi, bin.centre, bin.count, count / exposure, std::sqrt(count) / exposure});
+        {bin.lo, bin.hi, bin.centre, after, count / exposure, std::sqrt(count) / exposure});
+    result.bins.back().before = count_in(result.sequences.before, bin.lo);
   }
-  std::vector<NeumaierSum> sums(result.bins.size()), squares(result.bins.size());
-  int as_large = 0, used = 0;
-  for (int replica = 0; replica < replicas; ++replica) {
-    const Sequences other = stack_sequences(
-        poisson_catalogue(events, seed + static_cast<std::uint64_t>(replica)), rule);
-    if (other.main_shocks == 0) continue;
-    ++used;
+  struct Replica {
+    bool used = false, as_large = false;
+    std::vector<double> rates;
+  };
+  std::vector<Replica> all(static_cast<std::size_t>(replicas));
+  const std::size_t bins = result.bins.size();
+  gsl_error_handler_t *const handler = gsl_set_error_handler_off();
+  for_each_replica(replicas, [&](int k) {
+    const Sequences other =
+        stack_sequences(poisson_catalogue(events, seed_of_replica(seed, k)), rule);
+    if (other.main_shocks == 0) return;
+    Replica &replica = all[static_cast<std::size_t>(k)];
+    replica.used = true;
     // 0 where there are too few events to fit.
-    if (fit_omori(other, hold_c).likelihood_ratio >= result.fit.likelihood_ratio) ++as_large;
-    std::vector<double> rates(result.bins.size());
-    for (const LogBin &bin : histogram_of(other))
-      for (std::size_t i = 0; i < rates.size(); ++i)
-        if (std::fabs(bin.lo - result.bins[i].lo) < 1e-9 * bin.lo)
-          rates[i] = static_cast<double>(bin.count) /
-                     (static_cast<double>(other.main_shocks) * (bin.hi - bin.lo));
-    for (std::size_t i = 0; i < rates.size(); ++i) {
-      sums[i].add(rates[i]);
-      squares[i].add(rates[i] * rates[i]);
+    replica.as_large = fit_quietly(other, hold_c).likelihood_ratio >= result.fit.likelihood_ratio;
+    replica.rates.resize(bins);
+    for (const LogBin &bin : histogram_of(other.times))
+      for (std::size_t i = 0; i < bins; ++i)
+        if (same_lo(bin.lo, result.bins[i].lo))
+          replica.rates[i] = static_cast<double>(bin.count) /
+                             (static_cast<double>(other.main_shocks) * (bin.hi - bin.lo));
+  });
+  gsl_set_error_handler(handler);
+  std::vector<NeumaierSum> sums(bins), squares(bins);
+  int as_large = 0, used = 0;
+  for (const Replica &replica : all) {
+    if (!replica.used) continue;
+    ++used;
+    if (replica.as_large) ++as_large;
+    for (std::size_t i = 0; i < bins; ++i) {
+      sums[i].add(replica.rates[i]);
+      squares[i].add(replica.rates[i] * replica.rates[i]);
     }
   }
   for (std::size_t i = 0; used > 1 && i < result.bins.size(); ++i) {

@@ -26,9 +26,10 @@ struct SequenceRule {
   double first = 0.0;       ///< events sooner than this after the end are not counted
 };
 
-/// Events after main shocks, all sequences on top of each other.
+/// Events after and before main shocks, all sequences on top of each other.
 struct Sequences {
-  std::vector<double> times;  ///< starts, since the end of the main shock; ascending
+  std::vector<double> times;   ///< starts, since the end of the main shock; ascending
+  std::vector<double> before;  ///< from the end of an earlier event to the start of the main shock
   std::int64_t main_shocks = 0;
   double first = 0.0, window = 0.0;  ///< from and to which times are counted
 };
@@ -79,6 +80,7 @@ struct RateBin {
   double error;                                               ///< Poisson error of rate
   double poisson = std::numeric_limits<double>::quiet_NaN();  ///< mean rate in Poisson catalogues
   double scatter = poisson;  ///< standard deviation of the rate from one of them to the next
+  std::int64_t before = 0;   ///< events as long before the main shocks
 };
 
 /// The aftershocks of one catalogue beside those of Poisson catalogues of the same events.

@@ -23,6 +23,8 @@ double EventTable::share_in_events() const {
 
 SmallestSize Threshold::in(const EventTable &table) const {
   if (given_) return {size_, SmallestSize::Origin::given};
+  if (table.earthquakes())
+    return {table.complete_from, SmallestSize::Origin::catalogue, table.label};
   if (table.completeness > size_)
     return {table.completeness, SmallestSize::Origin::header, table.completeness_path};
   return {size_, SmallestSize::Origin::paper};

@@ -24,7 +24,7 @@ struct Range {
 
 /// The events of one catalogue, by column.
 struct EventTable {
-  std::string path, label;
+  std::string path, label, region;  ///< region: of earthquakes, or empty
   CatalogueInfo info;
   std::vector<double> t_start, t_end, size;  ///< in order of t_start
   /// Row along the fault that an event ruptured, [begin, begin + extent), which may continue across
@@ -32,7 +32,8 @@ struct EventTable {
   std::vector<double> begin, extent;
   double in_events = 0.0;  ///< sum of the durations (model time)
   double last_end = 0.0;   ///< t_end of the last event (model time)
-  /// Smaller events are missing: --min-size, or the picker's min_size in the header (energy).
+  /// Smaller events are missing: --min-size, the picker's min_size in the header, or the smallest
+  /// earthquake (energy).
   double complete_from = 0.0;
   /// The largest `completeness` in the headers of the catalogues of this model that were loaded
   /// together, so that their curves begin at the same size, and the file that has it (energy).
@@ -42,6 +43,11 @@ struct EventTable {
   std::int64_t left_out_small = 0;   ///< events below min_size
   std::int64_t left_out_time = 0;    ///< events outside [from_time, to_time)
   std::vector<std::string> repairs;  ///< what was passed over, counted by kind (lenient)
+
+  /// Whether these are earthquakes: times in days, sizes 10^(1.5 M).
+  bool earthquakes() const { return info.model == "seismicity"; }
+  /// "model time" or "days".
+  const char *time_unit() const { return earthquakes() ? "days" : "model time"; }
 
   /// Fault length, or the number of blocks of a chain, from the header; NaN if it has neither.
   double length() const;
@@ -75,9 +81,7 @@ class Threshold {
   Threshold(double size) : size_(size), given_(true) {}
   bool given() const { return given_; }
   double given_or_paper() const { return size_; }
-  double of(const EventTable &table) const {
-    return given_ ? size_ : std::max(size_, table.completeness);
-  }
+  double of(const EventTable &table) const { return in(table).size; }
   SmallestSize in(const EventTable &table) const;
   /// As in(), but not below where the events of the table begin.
   SmallestSize complete_in(const EventTable &table) const;

@@ -15,14 +15,19 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <mutex>
+#include <numeric>
 #include <stdexcept>
 
+#include "cells.h"
 #include "ks_distance.h"
 #include "lsm_sum.h"
 #include "lsm_text_io.h"
+#include "replicas.h"
 #include "truncated_family.h"
 
 namespace LSM::postproc {
@@ -153,20 +158,52 @@ struct Profile {
   bool border = false;                // best without any fall-off
 };
 
+// What is left of a law beyond v, without its constant. s = exp(delta (v - v0)) beyond 700
+// underflows.
+double tail(double k, double s) {
+  if (s > 700.0) return 0.0;
+  return k > 0.0 ? gsl_sf_gamma_inc_Q(k, s) : gsl_sf_gamma_inc(k, s);
+}
+
+// Kolmogorov-Smirnov distance of points to the law.
+template <class Points>
+double distance(const Points &points, double lower, double gamma, double delta, double v0) {
+  if (std::isinf(v0)) {  // the power law at the border
+    const auto cdf = [&](double v) { return -std::expm1(gamma * (v - lower)); };
+    return KsDistance(points, cdf)();
+  }
+  const double k = gamma / delta;
+  const auto survival = [&](double v) { return tail(k, std::exp(delta * (v - v0))); };
+  const double all = std::isfinite(lower) ? survival(lower) : 1.0;
+  return KsDistance(points, [&](double v) { return 1.0 - survival(v) / all; })();
+}
+
 // Sample of logarithms; profile(delta) has the best gamma and scale for a given delta.
 class Likelihood {
  public:
-  Likelihood(std::vector<double> v, double lower) : v_(std::move(v)), lower_(lower) {
-    NeumaierSum sum;
-    for (double v_i : v_) sum.add(v_i);
-    mean_v_ = sum.value() / static_cast<double>(v_.size());
+  Likelihood(std::vector<double> v, double lower)
+      : v_(std::move(v)), lower_(lower), n_(static_cast<double>(v_.size())) {
+    mean_v_ = mean([](double v_i) { return v_i; });
+  }
+  // By cells.
+  Likelihood(const std::vector<double> &centres, const std::vector<double> &counts, double lower)
+      : lower_(lower), n_(std::accumulate(counts.begin(), counts.end(), 0.0)) {
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      if (!(counts[i] > 0.0)) continue;
+      v_.push_back(centres[i]);
+      counts_.push_back(counts[i]);
+    }
+    mean_v_ = mean([](double v_i) { return v_i; });
   }
 
   template <class F>
   double mean(F f) const {
     NeumaierSum sum;
-    for (double v : v_) sum.add(f(v));
-    return sum.value() / static_cast<double>(v_.size());
+    if (counts_.empty())
+      for (double v : v_) sum.add(f(v));
+    else
+      for (std::size_t i = 0; i < v_.size(); ++i) sum.add(counts_[i] * f(v_[i]));
+    return sum.value() / n_;
   }
   double mean_v() const { return mean_v_; }
   bool truncated() const { return std::isfinite(lower_); }
@@ -247,28 +284,15 @@ class Likelihood {
   // With delta held at a value, or free (NaN).
   Profile best(double held) const { return std::isnan(held) ? best() : profile(held); }
 
-  // Kolmogorov-Smirnov distance to the law; sorts the sample.
-  double distance(double gamma, double delta, double v0) {
+  // Ascending, from here on.
+  const std::vector<double> &sort() {
     std::sort(v_.begin(), v_.end());
-    if (std::isinf(v0)) {  // the power law at the border
-      const auto cdf = [&](double v) { return -std::expm1(gamma * (v - lower_)); };
-      return KsDistance(v_.data(), v_.size(), cdf)();
-    }
-    const double k = gamma / delta;
-    // Survival without its constant. Beyond s = 700 both functions underflow.
-    const auto survival = [&](double v) {
-      const double s = std::exp(delta * (v - v0));
-      if (s > 700.0) return 0.0;
-      return k > 0.0 ? gsl_sf_gamma_inc_Q(k, s) : gsl_sf_gamma_inc(k, s);
-    };
-    const double all = truncated() ? survival(lower_) : 1.0;
-    const auto cdf = [&](double v) { return 1.0 - survival(v) / all; };
-    return KsDistance(v_.data(), v_.size(), cdf)();
+    return v_;
   }
 
  private:
-  std::vector<double> v_;
-  double lower_, mean_v_;
+  std::vector<double> v_, counts_;  // no counts: one of each
+  double lower_, n_, mean_v_ = 0.0;
 };
 
 // Derivatives of ln f at v without the constant: first in slope, second in curvature.
@@ -281,22 +305,22 @@ void derivatives(double v, double delta, double v0, Vector &slope, Matrix &curva
   curvature[scale][scale] = -delta * delta * s;
 }
 
+// Where next to nothing is left of a law cut off below s, in units in which B is 1.
+double end_of(double s, double k, double delta) {
+  return std::log(std::max(s, k) + 8.0 * std::sqrt(k) + 40.0) / delta;
+}
+
 // Draws v = ln theta - v0 from a fitted density.
 class Sampler {
  public:
-  Sampler(double gamma, double delta, double lower, std::uint64_t seed)
-      : delta_(delta), k_(gamma / delta), rng_(gsl_rng_alloc(gsl_rng_mt19937), gsl_rng_free) {
-    gsl_rng_set(rng_.get(), static_cast<unsigned long>(seed));
+  Sampler(double gamma, double delta, double lower) : delta_(delta), k_(gamma / delta) {
     if (std::isinf(lower)) return;
     // Truncated, where k may be 0 or less: the distribution on so many points that a straight line
     // from one to the next is off by less than 1e-5.
     constexpr std::size_t points = 8192;
     const double s = std::exp(delta * lower), k = std::max(k_, 0.0);
-    const double last = std::log(std::max(s, k) + 8.0 * std::sqrt(k) + 40.0) / delta;
-    const auto survival = [&](double v) {
-      const double end = std::exp(delta * v);
-      return k_ > 0.0 ? gsl_sf_gamma_inc_Q(k_, end) : gsl_sf_gamma_inc(k_, end);
-    };
+    const double last = end_of(s, k, delta);
+    const auto survival = [&](double v) { return tail(k_, std::exp(delta * v)); };
     const double all = survival(lower);
     for (std::size_t i = 0; i < points; ++i) {
       at_.push_back(lower + (last - lower) * static_cast<double>(i) / (points - 1));
@@ -305,13 +329,13 @@ class Sampler {
     cdf_.front() = 0.0;
   }
 
-  double operator()() {
+  double operator()(gsl_rng *rng) const {
     if (at_.empty()) {
       // A gamma variable of shape k, in logarithms since it underflows where k is small.
-      const double u = gsl_rng_uniform_pos(rng_.get());
-      return (std::log(gsl_ran_gamma(rng_.get(), k_ + 1.0, 1.0)) + std::log(u) / k_) / delta_;
+      const double u = gsl_rng_uniform_pos(rng);
+      return (std::log(gsl_ran_gamma(rng, k_ + 1.0, 1.0)) + std::log(u) / k_) / delta_;
     }
-    const double u = gsl_rng_uniform(rng_.get()) * cdf_.back();
+    const double u = gsl_rng_uniform(rng) * cdf_.back();
     const auto above = std::upper_bound(cdf_.begin() + 1, cdf_.end() - 1, u);
     const auto i = static_cast<std::size_t>(above - cdf_.begin());
     const double share = (u - cdf_[i - 1]) / (cdf_[i] - cdf_[i - 1]);
@@ -320,9 +344,52 @@ class Sampler {
 
  private:
   double delta_, k_;
-  std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)> rng_;
   std::vector<double> at_, cdf_;
 };
+
+// The test of a fit to many values: data and replicas by the same cells, in units in which B is 1.
+class CellTest {
+ public:
+  CellTest(const GeneralisedGammaFit &fit, double lower, double held)
+      : lower_(lower), held_(held), cells_(cells_of(fit, lower)) {}
+
+  const Cells &cells() const { return cells_; }
+
+  // Distance of the law that fits counts best.
+  double distance(const std::vector<double> &counts) const {
+    const Profile best = Likelihood(cells_.centres(), counts, lower_).best(held_);
+    if (!std::isfinite(best.log_likelihood)) return HUGE_VAL;
+    std::vector<double> below(counts.size() + 1);
+    std::partial_sum(counts.begin(), counts.end(), below.begin() + 1);
+    return postproc::distance(CountedEdges(cells_.edges().data(), below.data(), below.size()),
+                              lower_, best.gamma, best.delta, best.v0);
+  }
+
+ private:
+  static Cells cells_of(const GeneralisedGammaFit &fit, double lower) {
+    const double delta = fit.delta, k = fit.gamma / delta;
+    const auto n = static_cast<double>(fit.n);
+    const bool truncated = std::isfinite(lower);
+    // A thousandth of a value is below the first edge.
+    const double first = truncated ? lower : std::log(1e-3 / n) / fit.gamma;
+    const double s = truncated ? std::exp(delta * lower) : 0.0;
+    const double all = truncated ? tail(k, s) : 1.0;
+    return Cells([&](double v) { return tail(k, std::exp(delta * v)) / all; },
+                 {first, end_of(s, std::max(k, 0.0), delta)}, n);
+  }
+
+  double lower_, held_;
+  Cells cells_;
+};
+
+// Left truncation in units in which B is 1, on which distances do not depend.
+double scaled_lower(const GeneralisedGammaFit &fit) {
+  return fit.lo > 0.0 ? std::log(fit.lo) - std::log(fit.B) / fit.delta : -HUGE_VAL;
+}
+
+double held_delta(const GeneralisedGammaFit &fit) {
+  return fit.delta_fixed ? fit.delta : std::numeric_limits<double>::quiet_NaN();
+}
 
 // ---- least squares
 
@@ -542,7 +609,14 @@ GeneralisedGammaFit fit_maximum_likelihood(const std::vector<double> &values, do
   slope_c[shape] -= reference;
   report(p, slope_c, covariance, reference, fit);
   fit.log_likelihood = n * (best.log_likelihood - likelihood.mean_v() - reference);
-  fit.ks = likelihood.distance(gamma, delta, v0);
+  std::vector<double> sorted = likelihood.sort();
+  fit.ks =
+      distance(SortedValues(sorted.data(), sorted.size()), likelihood.lower(), gamma, delta, v0);
+  if (fit.n > largest_exact_sample) {
+    for (double &v_i : sorted) v_i -= v0;
+    const CellTest test(fit, scaled_lower(fit), held_delta(fit));
+    fit.ks_by_cells = test.distance(test.cells().count(sorted));
+  }
   return fit;
 }
 
@@ -654,19 +728,35 @@ double p_value(const GeneralisedGammaFit &fit, int replicas, std::uint64_t seed)
   if (fit.dof > 0) return gsl_cdf_chisq_Q(fit.chi2, fit.dof);
   if (replicas == 0) return std::numeric_limits<double>::quiet_NaN();
   const QuietGsl quiet;
-  // In units in which B is 1, on which the distance does not depend.
-  const double lower = fit.lo > 0.0 ? std::log(fit.lo) - std::log(fit.B) / fit.delta : -HUGE_VAL;
-  const double held = fit.delta_fixed ? fit.delta : std::numeric_limits<double>::quiet_NaN();
-  Sampler draw(fit.gamma, fit.delta, lower, seed);
-  int worse = 0;
-  for (int replica = 0; replica < replicas; ++replica) {
-    std::vector<double> v(static_cast<std::size_t>(fit.n));
-    for (double &v_i : v) v_i = draw();
-    Likelihood likelihood(std::move(v), lower);
-    const Profile best = likelihood.best(held);
-    // Whether the data would have been called degenerate does not matter: any optimum is a fit.
-    const bool fitted = std::isfinite(best.log_likelihood);
-    if (!fitted || !(likelihood.distance(best.gamma, best.delta, best.v0) < fit.ks)) ++worse;
+  const double lower = scaled_lower(fit), held = held_delta(fit);
+  const auto n = static_cast<std::size_t>(fit.n);
+  std::atomic<int> worse{0};
+  // Whether the data would have been called degenerate does not matter: any optimum is a fit.
+  if (fit.n > largest_exact_sample) {
+    const CellTest test(fit, lower, held);
+    for_each_replica(replicas, [&](int replica) {
+      const Rng rng = generator(seed_of_replica(seed, replica));
+      if (!(test.distance(test.cells().draw(rng.get(), n)) < fit.ks_by_cells)) ++worse;
+    });
+  } else {
+    const Sampler draw(fit.gamma, fit.delta, lower);
+    // One after the other from one stream, whoever takes them.
+    const Rng rng = generator(seed);
+    std::mutex drawing;
+    for_each_replica(replicas, [&](int) {
+      std::vector<double> v(n);
+      {
+        const std::lock_guard<std::mutex> lock(drawing);
+        for (double &v_i : v) v_i = draw(rng.get());
+      }
+      Likelihood likelihood(std::move(v), lower);
+      const Profile best = likelihood.best(held);
+      const bool fitted = std::isfinite(best.log_likelihood);
+      const std::vector<double> &sorted = likelihood.sort();
+      if (!fitted || !(distance(SortedValues(sorted.data(), n), lower, best.gamma, best.delta,
+                                best.v0) < fit.ks))
+        ++worse;
+    });
   }
   return (worse + 1.0) / (replicas + 1.0);
 }

@@ -31,6 +31,9 @@ struct GeneralisedGammaFit {
   /// Kolmogorov-Smirnov distance, maximum likelihood only. Parameters fitted to the same values
   /// make it small: tables for given parameters do not apply, see p_value().
   double ks = std::numeric_limits<double>::quiet_NaN();
+  /// The same at the edges of the cells by which p_value() takes more than largest_exact_sample
+  /// values, and of the fit to these; NaN for fewer.
+  double ks_by_cells = std::numeric_limits<double>::quiet_NaN();
   double chi2 = std::numeric_limits<double>::quiet_NaN();  ///< least squares only
   int dof = 0;             ///< least squares: bins used minus free parameters
   bool degenerate = true;  ///< the data do not determine the parameters; do not show the numbers

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
+
+#include <fmt/format.h>
 
 #include "lsm_sum.h"
 
@@ -15,14 +18,22 @@ const GeneralisedGammaFit *IntervalCurve::drawn() const {
   return nullptr;
 }
 
+std::string IntervalCurve::from() const {
+  return earthquakes ? fmt::format("magnitudes from {:.3g}", std::log10(threshold.size) / 1.5)
+                     : fmt::format("sizes from {:.4g}", threshold.size);
+}
+
+std::vector<double> starts_of(const EventTable &events, double threshold) {
+  std::vector<double> starts;
+  for (std::size_t i = 0; i < events.size.size(); ++i)
+    if (events.size[i] >= threshold) starts.push_back(events.t_start[i]);
+  return starts;
+}
+
 std::vector<double> inter_event_times(const EventTable &events, double threshold) {
-  std::vector<double> times;
-  double before = std::nan("");
-  for (std::size_t i = 0; i < events.size.size(); ++i) {
-    if (!(events.size[i] >= threshold)) continue;
-    if (!std::isnan(before)) times.push_back(events.t_start[i] - before);
-    before = events.t_start[i];
-  }
+  std::vector<double> times = starts_of(events, threshold);
+  std::adjacent_difference(times.begin(), times.end(), times.begin());
+  if (!times.empty()) times.erase(times.begin());
   return times;
 }
 
@@ -75,6 +86,8 @@ std::vector<IntervalCurve> interval_curves(const std::vector<EventTable> &tables
       IntervalCurve curve;
       curve.label = table.label;
       curve.model = table.info.model;
+      curve.earthquakes = table.earthquakes();
+      curve.unit = table.time_unit();
       curve.threshold = threshold.complete_in(table);
       std::vector<double> times =
           settings.places > 0 ? times_at_places(table, curve.threshold.size, settings.places)
@@ -82,6 +95,11 @@ std::vector<IntervalCurve> interval_curves(const std::vector<EventTable> &tables
       curve.n = static_cast<std::int64_t>(times.size());
       curve.mean = sum_pairwise(times.data(), times.size()) / static_cast<double>(times.size());
       curve.variation = variation_of(times, curve.mean);
+      if (settings.shuffles > 0 && settings.places == 0) {
+        curve.clustering = clustering(times, settings.shuffles, settings.seed);
+        curve.steadiness = steadiness(starts_of(table, curve.threshold.size), settings.steady,
+                                      settings.steady_events, settings.shuffles, settings.seed);
+      }
       // Events of zero length can start at the same time.
       times.erase(std::remove_if(times.begin(), times.end(), [](double t) { return !(t > 0.0); }),
                   times.end());

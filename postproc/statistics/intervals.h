@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "clustering.h"
 #include "event_table.h"
 #include "generalised_gamma.h"
 #include "log_histogram.h"
@@ -27,6 +28,10 @@ struct IntervalSettings {
   bool least_squares = true, maximum_likelihood = true;
   int replicas = 1000;  ///< of the Monte Carlo p-values of maximum likelihood; 0: none
   std::uint64_t seed = 1;
+  /// Random series that clustering() and steadiness() compare with; 0: without these.
+  int shuffles = 0;
+  double steady = 0.05;              ///< departure that a steady stretch may have
+  std::int64_t steady_events = 500;  ///< and its smallest number of events
   std::vector<double> deltas = {std::numeric_limits<double>::quiet_NaN(), 1.0};  ///< NaN: free
 };
 
@@ -42,18 +47,29 @@ struct IntervalFit {
 /// One catalogue above one threshold.
 struct IntervalCurve {
   std::string label, model;
+  bool earthquakes = false;  ///< sizes are 10^(1.5 M)
+  std::string unit;          ///< of the times, unless rescaled
   SmallestSize threshold;
   std::int64_t n = 0;  ///< inter-event times
   double mean = 0.0;   ///< of the inter-event times, model time; NaN if there is none
   /// Standard deviation of the times over their mean: 1 for independent events, 0 for periodic
   /// ones, above 1 for clusters; NaN if there are fewer than two times.
   double variation = 0.0;
+  /// The same from -1, periodic, to 1: 0 for independent events (Goh & Barabasi 2008).
+  double burstiness() const { return (variation - 1.0) / (variation + 1.0); }
   std::vector<LogBin> bins;
   std::vector<IntervalFit> fits;
+  Clustering clustering;  ///< if asked for, and times are those between any two events
+  Steadiness steadiness;  ///< likewise
 
   /// The fit that is drawn: the first that is not degenerate, or nullptr.
   const GeneralisedGammaFit *drawn() const;
+  /// "sizes from 0.001", of earthquakes "magnitudes from 2"
+  std::string from() const;
 };
+
+/// Starts of the events of at least a size.
+std::vector<double> starts_of(const EventTable &events, double threshold);
 
 /// Times from the start of an event to the start of the next one, events smaller than threshold
 /// left out (model time).

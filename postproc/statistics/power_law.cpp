@@ -6,13 +6,17 @@
 #include <gsl/gsl_rng.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
-#include <memory>
+#include <mutex>
+#include <numeric>
 #include <stdexcept>
 
+#include "cells.h"
 #include "ks_distance.h"
 #include "lsm_sum.h"
 #include "lsm_text_io.h"
+#include "replicas.h"
 #include "truncated_family.h"
 
 namespace LSM::postproc {
@@ -39,7 +43,15 @@ class LogSample {
 
   const std::vector<double> &y() const { return y_; }
   std::size_t size() const { return y_.size(); }
+  double front() const { return y_.front(); }
+  double back() const { return y_.back(); }
   double sum(std::size_t first, std::size_t last) const { return sums_[last] - sums_[first]; }
+  double count(std::size_t first, std::size_t last) const {
+    return static_cast<double>(last - first);
+  }
+  /// A range that is asked for, as far as the sample can tell its ends.
+  double lower_end(double lower) const { return lower; }
+  double upper_end(double upper) const { return upper; }
   /// Index of the first value at or above y, or above it.
   std::size_t first_from(double y) const {
     return static_cast<std::size_t>(std::lower_bound(y_.begin(), y_.end(), y) - y_.begin());
@@ -48,8 +60,60 @@ class LogSample {
     return static_cast<std::size_t>(std::upper_bound(y_.begin(), y_.end(), y) - y_.begin());
   }
 
+  SortedValues points(std::size_t first, std::size_t last) const {
+    return {y_.data() + first, last - first};
+  }
+
  private:
   std::vector<double> y_, sums_;
+};
+
+// The same by cells: ranges begin and end at edges, and an index is that of an edge.
+class CountedLogs {
+ public:
+  CountedLogs(const Cells &cells, const std::vector<double> &counts)
+      : edges_(cells.edges()), below_(edges_.size()), sums_(edges_.size()) {
+    NeumaierSum sum;
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      sum.add(counts[i] * cells.centres()[i]);
+      below_[i + 1] = below_[i] + counts[i];
+      sums_[i + 1] = sum.value();
+    }
+  }
+
+  std::size_t size() const { return static_cast<std::size_t>(below_.back()); }
+  double front() const { return *(edge(std::upper_bound(below_.begin(), below_.end(), 0.0)) - 1); }
+  double back() const {
+    return *edge(std::lower_bound(below_.begin(), below_.end(), below_.back()));
+  }
+  double sum(std::size_t first, std::size_t last) const { return sums_[last] - sums_[first]; }
+  double count(std::size_t first, std::size_t last) const { return below_[last] - below_[first]; }
+  double lower_end(double lower) const { return edges_[first_from(lower)]; }
+  double upper_end(double upper) const {
+    return std::isfinite(upper) ? edges_[first_above(upper)] : upper;
+  }
+  /// Index of the first edge at or above y, or of the last one at or below it.
+  std::size_t first_from(double y) const {
+    const auto at = std::lower_bound(edges_.begin(), edges_.end() - 1, y - rounding);
+    return static_cast<std::size_t>(at - edges_.begin());
+  }
+  std::size_t first_above(double y) const {
+    const auto at = std::upper_bound(edges_.begin() + 1, edges_.end(), y + rounding);
+    return static_cast<std::size_t>(at - edges_.begin()) - 1;
+  }
+  CountedEdges points(std::size_t first, std::size_t last) const {
+    return {edges_.data() + first, below_.data() + first, last - first + 1};
+  }
+
+ private:
+  static constexpr double rounding = 1e-12;  // of logarithms
+
+  std::vector<double>::const_iterator edge(std::vector<double>::const_iterator below) const {
+    return edges_.begin() + (below - below_.begin());
+  }
+
+  const std::vector<double> &edges_;
+  std::vector<double> below_, sums_;
 };
 
 // Power law on [lower, lower + length] in logarithms: density in u ~ exp(b u).
@@ -90,11 +154,14 @@ struct Estimate {
   bool usable;  // an interior optimum exists
 };
 
-Estimate estimate(const LogSample &sample, double lower, double upper) {
-  Estimate e{
-      sample.first_from(lower), sample.first_above(upper), {lower, upper - lower, 0.0}, 0.0, false};
-  if (e.last <= e.first) return e;
-  e.mean_u = sample.sum(e.first, e.last) / static_cast<double>(e.last - e.first) - lower;
+template <class Sample>
+Estimate estimate(const Sample &sample, double lower, double upper) {
+  const std::size_t first = sample.first_from(lower), last = sample.first_above(upper);
+  lower = sample.lower_end(lower);
+  upper = sample.upper_end(upper);
+  Estimate e{first, last, {lower, upper - lower, 0.0}, 0.0, false};
+  if (last <= first || !(sample.count(first, last) > 0.0)) return e;
+  e.mean_u = sample.sum(first, last) / sample.count(first, last) - lower;
   if (e.law.finite()) {
     const double mean = e.mean_u / e.law.length;
     e.usable = mean > 1e-9 && mean < 1.0 - 1e-9;
@@ -113,10 +180,11 @@ double standard_error(const Estimate &e) {
 }
 
 // Kolmogorov-Smirnov distance between the sample and the law on the range, exact up to give_up.
-double distance(const LogSample &sample, const Estimate &e,
+template <class Sample>
+double distance(const Sample &sample, const Estimate &e,
                 double give_up = std::numeric_limits<double>::infinity()) {
   const auto cdf = [&e](double y) { return e.law.cdf(y); };
-  return KsDistance(sample.y().data() + e.first, e.last - e.first, cdf)(give_up);
+  return KsDistance(sample.points(e.first, e.last), cdf)(give_up);
 }
 
 struct Range {
@@ -131,10 +199,11 @@ double candidate(double first, double last, int k, int count) {
 }
 
 // The range, in logarithms, of least distance; infinite distance if none qualifies.
-Range best_range(const LogSample &sample, const RangeSearch &search) {
+template <class Sample>
+Range best_range(const Sample &sample, const RangeSearch &search) {
   Range best;
   if (sample.size() == 0) return best;
-  const double first = sample.y().front(), last = sample.y().back();
+  const double first = sample.front(), last = sample.back();
   const double log_ratio = std::log(search.min_ratio);
   const int lowers = search.lower ? search.candidates : 1;
   const int uppers = search.upper ? search.candidates : 1;
@@ -146,7 +215,8 @@ Range best_range(const LogSample &sample, const RangeSearch &search) {
           search.upper ? candidate(first, last, j, search.candidates) : std::log(search.hi);
       if (!(upper > lower) || upper - lower < log_ratio) continue;
       const Estimate e = estimate(sample, lower, upper);
-      if (!e.usable || static_cast<std::int64_t>(e.last - e.first) < search.min_events) continue;
+      if (!e.usable || sample.count(e.first, e.last) < static_cast<double>(search.min_events))
+        continue;
       const double d = distance(sample, e, best.distance);
       if (d < best.distance) best = {lower, upper, d};
     }
@@ -190,8 +260,6 @@ void check_search(const RangeSearch &search) {
                                 ", expected a positive number");
 }
 
-using Rng = std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)>;
-
 // Appends count numbers drawn from [0, 1), already in ascending order, turned into values: the
 // gaps between ordered uniform numbers are exponential variables over their sum.
 template <class Transform>
@@ -205,6 +273,28 @@ void append_ordered(std::vector<double> &out, std::size_t count, gsl_rng *rng,
   }
   sum -= std::log(gsl_rng_uniform_pos(rng));
   for (std::size_t i = start; i < out.size(); ++i) out[i] = transform(out[i] / sum);
+}
+
+// Cells of what replicas are drawn from: the law within its range, the data outside of it.
+Cells cells_of(const LogSample &data, const Law &law, const double (&parts)[3]) {
+  const double upper = law.lower + law.length;
+  const auto n = static_cast<double>(data.size());
+  const auto survival = [&](double y) {
+    if (y < law.lower || y > upper) return 1.0 - static_cast<double>(data.first_from(y)) / n;
+    return parts[2] + parts[1] * (1.0 - law.cdf(y));
+  };
+  std::vector<double> edges = {law.lower};
+  // Just beyond the data, so that the least and the greatest are within a cell.
+  const auto room = [](double y) { return 1e-9 * (1.0 + std::fabs(y)); };
+  if (parts[0] > 0.0) edges.insert(edges.begin(), data.front() - room(data.front()));
+  if (law.finite()) edges.push_back(upper);
+  if (!law.finite() || parts[2] > 0.0) {
+    // Without an end, to where a thousandth of a value is left.
+    const double end =
+        law.finite() ? data.back() : std::max(data.back(), law.quantile(1.0 - 1e-3 / n));
+    edges.push_back(end + room(end));
+  }
+  return Cells(survival, edges, n);
 }
 
 void append_resampled(std::vector<double> &out, const std::vector<double> &y, std::size_t first,
@@ -297,26 +387,37 @@ double p_value(const PowerLawFit &fit, const std::vector<double> &sorted, int re
   const auto n = static_cast<double>(data.size());
   const double parts[3] = {static_cast<double>(first) / n, static_cast<double>(last - first) / n,
                            static_cast<double>(data.size() - last) / n};
-  const Rng rng(gsl_rng_alloc(gsl_rng_mt19937), gsl_rng_free);
-  gsl_rng_set(rng.get(), static_cast<unsigned long>(seed));
-  int worse = 0;
-  for (int replica = 0; replica < replicas; ++replica) {
-    unsigned int counts[3];
-    gsl_ran_multinomial(rng.get(), 3, static_cast<unsigned int>(data.size()), parts, counts);
-    std::vector<double> logs;
-    logs.reserve(data.size());
-    append_resampled(logs, data.y(), 0, first, counts[0], rng.get());
-    append_ordered(logs, counts[1], rng.get(), [&](double u) { return law.quantile(u); });
-    append_resampled(logs, data.y(), last, data.size(), counts[2], rng.get());
-    const LogSample sample(std::move(logs));
-    double d = 0.0;
-    if (fit.searched) {
-      d = best_range(sample, fit.search).distance;
-    } else {
-      const Estimate e = estimate(sample, law.lower, law.lower + law.length);
-      d = e.usable ? distance(sample, e) : std::numeric_limits<double>::infinity();
-    }
-    if (d >= fit.ks) ++worse;
+  // Distance of the best fit to a sample, found as that of the data was.
+  const auto distance_of = [&](const auto &sample) {
+    if (fit.searched) return best_range(sample, fit.search).distance;
+    const Estimate e = estimate(sample, law.lower, law.lower + law.length);
+    return e.usable ? distance(sample, e) : std::numeric_limits<double>::infinity();
+  };
+  std::atomic<int> worse{0};
+  if (data.size() > static_cast<std::size_t>(largest_exact_sample)) {
+    const Cells cells = cells_of(data, law, parts);
+    const double found = distance_of(CountedLogs(cells, cells.count(data.y())));
+    for_each_replica(replicas, [&](int replica) {
+      const Rng rng = generator(seed_of_replica(seed, replica));
+      if (distance_of(CountedLogs(cells, cells.draw(rng.get(), data.size()))) >= found) ++worse;
+    });
+  } else {
+    // One after the other from one stream, whoever takes them.
+    const Rng rng = generator(seed);
+    std::mutex drawing;
+    for_each_replica(replicas, [&](int) {
+      std::vector<double> logs;
+      logs.reserve(data.size());
+      {
+        const std::lock_guard<std::mutex> lock(drawing);
+        unsigned int counts[3];
+        gsl_ran_multinomial(rng.get(), 3, static_cast<unsigned int>(data.size()), parts, counts);
+        append_resampled(logs, data.y(), 0, first, counts[0], rng.get());
+        append_ordered(logs, counts[1], rng.get(), [&](double u) { return law.quantile(u); });
+        append_resampled(logs, data.y(), last, data.size(), counts[2], rng.get());
+      }
+      if (distance_of(LogSample(std::move(logs))) >= fit.ks) ++worse;
+    });
   }
   return (worse + 1.0) / (replicas + 1.0);
 }

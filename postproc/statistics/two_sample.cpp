@@ -2,7 +2,9 @@
 #include "two_sample.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <mutex>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -11,10 +13,14 @@
 #include "finite_size.h"
 #include "lsm_random.h"
 #include "lsm_sum.h"
+#include "replicas.h"
 
 namespace LSM::postproc {
 
 namespace {
+
+// Of both series, where divisions are taken by classes.
+constexpr std::size_t most_blocks = 2048;
 
 // Both samples in one list; a division says which side each value is on.
 class Joined {
@@ -39,6 +45,17 @@ class Joined {
       largest = std::max(largest, std::fabs(below1 / n1 - below2 / n2));
     }
     return largest;
+  }
+
+  // The class of each value, where all values together are divided into classes of consecutive
+  // ranks, as equal as can be; equal values are in one class.
+  std::vector<std::size_t> classes(std::size_t count) const {
+    std::vector<std::size_t> classes(values_.size());
+    for (std::size_t k = 0; k < order_.size(); ++k)
+      classes[order_[k]] = k > 0 && values_[order_[k]] == values_[order_[k - 1]]
+                               ? classes[order_[k - 1]]
+                               : k * count / order_.size();
+    return classes;
   }
 
   // Ranks in (-1, 1) in the order of the list; equal values have their mean rank.
@@ -77,6 +94,60 @@ std::vector<double> centred(std::vector<double> values) {
   return values;
 }
 
+struct Block {
+  std::size_t from, to;
+};
+
+// Blocks of the first series, then of the second one, behind it in the list.
+std::vector<Block> blocks_of_both(std::size_t n1, std::size_t n2, int block) {
+  std::vector<Block> blocks;
+  const std::vector<std::size_t> starts1 = blocks_of(n1, block), starts2 = blocks_of(n2, block);
+  for (std::size_t i = 0; i + 1 < starts1.size(); ++i)
+    blocks.push_back({starts1[i], starts1[i + 1]});
+  for (std::size_t i = 0; i + 1 < starts2.size(); ++i)
+    blocks.push_back({n1 + starts2[i], n1 + starts2[i + 1]});
+  return blocks;
+}
+
+// How many values of each class are in each block, so that the distance of a division costs no
+// more for more values.
+class ClassCounts {
+ public:
+  ClassCounts(const Joined &joined, const std::vector<Block> &blocks)
+      : counts_(blocks.size() * classes), all_(classes) {
+    const std::vector<std::size_t> class_of = joined.classes(classes);
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+      for (std::size_t i = blocks[b].from; i < blocks[b].to; ++i) {
+        ++counts_[b * classes + class_of[i]];
+        ++all_[class_of[i]];
+      }
+  }
+
+  // \param first blocks on the side of the first sample
+  double distance(const std::size_t *first, std::size_t count) const {
+    std::vector<std::uint32_t> sums(classes);
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::uint32_t *const block = counts_.data() + first[k] * classes;
+      for (std::size_t c = 0; c < classes; ++c) sums[c] += block[c];
+    }
+    double n1 = 0.0, n2 = 0.0, below1 = 0.0, below2 = 0.0, largest = 0.0;
+    for (std::size_t c = 0; c < classes; ++c) {
+      n1 += sums[c];
+      n2 += all_[c] - sums[c];
+    }
+    for (std::size_t c = 0; c < classes; ++c) {
+      below1 += sums[c];
+      below2 += all_[c] - sums[c];
+      largest = std::max(largest, std::fabs(below1 / n1 - below2 / n2));
+    }
+    return largest;
+  }
+
+ private:
+  static constexpr std::size_t classes = 512;
+  std::vector<std::uint32_t> counts_, all_;
+};
+
 BlockMean block_mean(const std::vector<double> &values, int block) {
   BlockMean result;
   result.mean = mean_of(values, 0, values.size());
@@ -112,6 +183,8 @@ TwoSampleTest two_sample_test(const std::vector<double> &first, const std::vecto
   TwoSampleTest test;
   test.n = {static_cast<std::int64_t>(first.size()), static_cast<std::int64_t>(second.size())};
   const Joined joined(first, second);
+  const std::size_t n = first.size() + second.size();
+  const bool by_classes = block == 0 && n > 2 * static_cast<std::size_t>(largest_exact_sample);
   if (block == 0) {
     const std::vector<double> ranks = joined.ranks();
     const auto middle = ranks.begin() + static_cast<std::ptrdiff_t>(first.size());
@@ -119,6 +192,8 @@ TwoSampleTest two_sample_test(const std::vector<double> &first, const std::vecto
         std::max(block_length(centred(std::vector<double>(ranks.begin(), middle))),
                  block_length(centred(std::vector<double>(middle, ranks.end()))));
     block = std::max(1, static_cast<int>(std::lround(longer)));
+    // Longer blocks are as sound.
+    if (by_classes) block = std::max(block, static_cast<int>(n / most_blocks));
   }
   test.block = block;
   test.means = {block_mean(first, block), block_mean(second, block)};
@@ -126,37 +201,40 @@ TwoSampleTest two_sample_test(const std::vector<double> &first, const std::vecto
   test.ratio_error = std::fabs(test.ratio) * std::hypot(test.means[0].error / test.means[0].mean,
                                                         test.means[1].error / test.means[1].mean);
 
-  struct Block {
-    std::size_t from, to;
-  };
-  std::vector<Block> blocks;
-  const std::vector<std::size_t> starts1 = blocks_of(first.size(), block);
-  const std::vector<std::size_t> starts2 = blocks_of(second.size(), block);
-  for (std::size_t i = 0; i + 1 < starts1.size(); ++i)
-    blocks.push_back({starts1[i], starts1[i + 1]});
-  const std::size_t of_first = blocks.size();
-  for (std::size_t i = 0; i + 1 < starts2.size(); ++i)
-    blocks.push_back({first.size() + starts2[i], first.size() + starts2[i + 1]});
-
-  std::vector<char> side(first.size() + second.size());
-  const auto divide = [&] {
-    std::fill(side.begin(), side.end(), 1);
+  const std::vector<Block> blocks = blocks_of_both(first.size(), second.size(), block);
+  const auto of_first = static_cast<std::size_t>(std::count_if(
+      blocks.begin(), blocks.end(), [&first](const Block &b) { return b.to <= first.size(); }));
+  std::vector<std::size_t> order(blocks.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto exact = [&](const std::vector<std::size_t> &divided) {
+    std::vector<char> side(n, 1);
     for (std::size_t i = 0; i < of_first; ++i)
-      std::fill(side.begin() + static_cast<std::ptrdiff_t>(blocks[i].from),
-                side.begin() + static_cast<std::ptrdiff_t>(blocks[i].to), 0);
+      std::fill(side.begin() + static_cast<std::ptrdiff_t>(blocks[divided[i]].from),
+                side.begin() + static_cast<std::ptrdiff_t>(blocks[divided[i]].to), 0);
     return joined.distance(side);
   };
-  test.distance = divide();
-  Random random(seed);
-  int as_large = 1;
+  test.distance = exact(order);
+  const ClassCounts counts(joined, by_classes ? blocks : std::vector<Block>{});
+  const auto distance = [&](const std::vector<std::size_t> &divided) {
+    return by_classes ? counts.distance(divided.data(), of_first) : exact(divided);
+  };
   // Sums of counts over counts are exact to rounding only.
-  const double least = test.distance * (1.0 - 1e-12);
-  for (int r = 0; r < replicas; ++r) {
-    for (std::size_t i = blocks.size() - 1; i > 0; --i)
-      std::swap(blocks[i],
-                blocks[static_cast<std::size_t>(random.uniform() * static_cast<double>(i + 1))]);
-    if (divide() >= least) ++as_large;
-  }
+  const double least = distance(order) * (1.0 - 1e-12);
+  std::atomic<int> as_large{1};
+  // One division after the other from one stream, whoever takes them.
+  Random random(seed);
+  std::mutex drawing;
+  for_each_replica(replicas, [&](int) {
+    std::vector<std::size_t> divided;
+    {
+      const std::lock_guard<std::mutex> lock(drawing);
+      for (std::size_t i = order.size() - 1; i > 0; --i)
+        std::swap(order[i],
+                  order[static_cast<std::size_t>(random.uniform() * static_cast<double>(i + 1))]);
+      divided = order;
+    }
+    if (distance(divided) >= least) ++as_large;
+  });
   test.p = static_cast<double>(as_large) / (replicas + 1.0);
   test.p_error = std::sqrt(test.p * (1.0 - test.p) / (replicas + 1.0));
   return test;

@@ -36,10 +36,13 @@ double two_sample_distance(std::vector<double> first, std::vector<double> second
 /// Permutation test of the Kolmogorov-Smirnov distance. Events come in sequences, so that blocks of
 /// consecutive values change sides, not single ones: with single ones, series that depend on their
 /// past differ too often.
-/// \param first, second positive values in the order of time
-/// \param replicas random divisions, at least 1
-/// \param block values in a block, at least 1; 0: the longer of the two block_length() of the ranks
-/// \throws std::invalid_argument for fewer than 10 values in a series, or impossible settings
+/// More than 16384 values of both series together: at most 2048 blocks, and the distance that p is
+/// reckoned from, of the series as of their divisions, is that at 511 ranks; test.distance is
+/// exact. \param first, second positive values in the order of time \param replicas random
+/// divisions, at least 1 \param block values in a block, at least 1; 0: the longer of the two
+/// block_length() of the ranks; with a length given, the cost of a division grows with the number
+/// of values \throws std::invalid_argument for fewer than 10 values in a series, or impossible
+/// settings
 TwoSampleTest two_sample_test(const std::vector<double> &first, const std::vector<double> &second,
                               int replicas, std::uint64_t seed, int block = 0);
 

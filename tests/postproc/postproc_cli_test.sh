@@ -206,6 +206,10 @@ compare)
   cp d.csv before.csv
   must_run compare a.csv b.csv c.csv -o d
   cmp d.csv before.csv || fail "not the same twice"
+  # Times twice as long have the same form.
+  made twice.csv 10 400
+  must_run compare a.csv twice.csv --rescale -o d
+  [ "$(grep -c 'no difference seen' out.txt)" = 2 ] || fail "--rescale: $(cat out.txt)"
   # Half the velocity, so twice the time for the same way.
   for velocity in 0.5 -1; do
     f=a.csv; [ "$velocity" = -1 ] || f=c.csv
@@ -337,6 +341,256 @@ aftershocks)
   refused "c held at 0.000000, expected 0 or more (0 needs a first time above 0)" aftershocks omori.csv -o x --hold-c 0 --main-size 50
   refused "excludes --main-s" aftershocks omori.csv -o x --main-size 1 --main-share 0.1
   ;;
+compressed)
+  # What comes out is the same however the file lies there, whatever its name.
+  catalogue events.csv
+  series pe.csv
+  must_run pick pe.csv -o pick-text.csv
+  # The binary series of the same samples, written by hand.
+  { grep '^# .* = ' pe.csv > header.txt
+    printf 'lsm-pe-series-1\n'
+    perl -e 'print pack("q<", -s "header.txt")'
+    cat header.txt
+    perl -F, -lane 'BEGIN { $\ = "" } print pack("q<d<", $F[0], $F[2]) if /^[0-9]/' pe.csv; } > pe.bin
+  must_run pick pe.bin -o pick-binary.csv
+  cmp <(rows pick-text.csv) <(rows pick-binary.csv) || fail "binary series"
+  must_run export events.csv -o plain.csv
+  for way in "gzip -c" "xz -c" "gzip -1c" "xz --check=crc32 -c" "sed s/$/\r/" "printf \\xef\\xbb\\xbf"; do
+    for file in events.csv pe.csv pe.bin; do
+      case $way in
+      printf*) { $way; cat $file; } > packed-$file ;;
+      *) $way < $file > packed-$file ;;
+      esac
+    done
+    must_run export packed-events.csv -o other.csv --force
+    cmp plain.csv other.csv || fail "$way: another table"
+    must_run histograms packed-events.csv --no-picture -o other
+    must_run pick packed-pe.csv -o other.csv --force
+    cmp pick-text.csv other.csv || fail "$way: other events"
+    case $way in
+    *z*)
+      must_run pick packed-pe.bin -o other.csv --force
+      cmp pick-binary.csv other.csv || fail "$way: other events of the binary series"
+      # Two halves compressed one after the other are one file.
+      { head -n 7 events.csv | $way; tail -n +8 events.csv | $way; } > halves
+      must_run export halves -o other.csv --force
+      cmp plain.csv other.csv || fail "$way: halves"
+      # Through a pipe.
+      must_run export <($way < events.csv) -o other.csv --force
+      cmp plain.csv other.csv || fail "$way: pipe"
+      ;;
+    esac
+  done
+  for packer in gzip xz; do
+    $packer -c events.csv > whole
+    head -c -5 whole > torn
+    refused "^postproc: torn: truncated $packer file" export torn -o x
+    head -c 40 whole > torn
+    refused "^postproc: torn: truncated $packer file" histograms torn -o x --lenient
+    # A bit within the data or its checksum.
+    for at in 60 $(($(stat -c %s whole) - 10)); do
+      { head -c "$at" whole; printf '\125'; tail -c +$((at + 2)) whole; } > flipped
+      refused "^postproc: flipped: \(damaged\|truncated\) $packer file" export flipped -o x
+    done
+    head -c -5 pe.bin | $packer > torn
+    refused "torn: truncated record 5000" pick torn -o x
+    must_run pick torn -o other.csv --force --lenient
+    grep -q "dropped a truncated last sample" err.txt || fail "$(cat err.txt)"
+  done
+  printf 'BZh91AY' > other
+  refused "other: compressed by bzip2, expected gzip, xz or a file that is not compressed" export other -o x
+  ;;
+explore)
+  # A run as a simulation leaves it: the catalogue is picked from the series, whose files are found by their names.
+  series run.pe.csv
+  must_run pick run.pe.csv -o run.catalogue.csv
+  must_run explore run.catalogue.csv -o page.html --title 'A < B'
+  grep -q 'run.pe.csv: 5000 samples' out.txt || fail "the series was not found: $(cat out.txt)"
+  grep -q '<title>A &lt; B</title>' page.html || fail "no title"
+  grep -q '"samples":5000' page.html || fail "no samples in the page"
+  [ "$(grep -c '^<script type="text/plain"' page.html)" = 2 ] || fail "not the elements of events and series"
+  must_run explore run.catalogue.csv --series none -o bare.html
+  ! grep -q samples out.txt || fail "--series none: $(cat out.txt)"
+  grep -q '"series":null' bare.html || fail "--series none: a series in the page"
+  mv run.pe.csv moved.csv
+  must_run explore run.catalogue.csv --series moved.csv -o moved.html
+  grep -q 'moved.csv: 5000 samples' out.txt || fail "--series: $(cat out.txt)"
+  xz -k moved.csv && mv moved.csv.xz run.pe.csv.xz
+  must_run explore run.catalogue.csv -o page.html
+  grep -q 'run.pe.csv.xz: 5000 samples' out.txt || fail "the compressed series was not found: $(cat out.txt)"
+  rm run.pe.csv.xz
+  # Two runs, one of them without a series.
+  mv moved.csv run.pe.csv
+  catalogue other.csv
+  must_run explore run.catalogue.csv other.csv -o two.html
+  grep -q 'other.csv: .* events' out.txt || fail "two runs: $(cat out.txt)"
+  refused "--series given 1 times, expected once per catalogue (2)" explore run.catalogue.csv other.csv --series run.pe.csv -o x
+  refused "is read by this command" explore run.catalogue.csv -o run.pe.csv
+  refused "is read by this command" explore run.catalogue.csv -o run.catalogue.csv
+  refused "nowhere.bin: cannot open" explore run.catalogue.csv --history nowhere.bin -o x
+  refused "nowhere.csv: cannot open" explore run.catalogue.csv --ruptures nowhere.csv -o x
+  refused "no events, expected at least one" explore run.catalogue.csv --from 1e9 -o x
+  head -c -3 run.pe.csv > torn.csv
+  refused "torn.csv:.*truncated" explore run.catalogue.csv --series torn.csv -o x
+  must_run explore run.catalogue.csv --series torn.csv --lenient -o page.html
+  ;;
+match)
+  # The second catalogue at a tenth of the velocity, its plates begin to move at time 100, too; every other event is the same.
+  table() { # VELOCITY FACTOR
+    printf '# lsm-catalogue 1\n# model = lsm\n# length = 40\n# velocity = %s\n' "$1"
+    echo event_id,t_start,t_end,step_start,step_end,size,pe_start,pe_end
+    awk -v f="$2" 'BEGIN { for (k = 1; k <= 40; k++) { t = 100 + f * (1000 * k + (f > 1 && k % 2 ? 300 : 0))
+      printf "%d,%.6f,%.6f,%d,%d,1,2,1\n", k, t, t + 1, k, k } }'
+  }
+  table 1e-3 1 > a.csv
+  table 1e-4 10 > b.csv
+  must_run match a.csv b.csv --displacement --origin 100 --threshold 0.5 --within 0.1 --json m.json
+  # From 1.3 to 40: 39 of the first (2 to 40), of which the even ones are there. Of the seven shifts by eighths of 38.7 the second,
+  # fourth and sixth find 5, 10 and 19.
+  grep -q ': 20 of 39 events of size 0.5 or larger are in .* (of 40), by chance 4.857' out.txt || fail "$(cat out.txt)"
+  grep -q '"same": 20' m.json || fail "$(cat m.json)"
+  must_run match a.csv a.csv --threshold 0.5 --within 0.1
+  grep -q ': 40 of 40 ' out.txt || fail "$(cat out.txt)"
+  refused "at least two" match a.csv --threshold 0.5 --within 0.1
+  refused "threshold is required" match a.csv b.csv --within 0.1
+  refused "a catalogue without events" match a.csv b.csv --threshold 0.5 --within 0.1 --displacement --to 0.01
+  ;;
+json)
+  catalogue c.csv
+  # Twice the same numbers: in the table as text and in JSON.
+  same_numbers() { # CSV JSON TABLE
+    python3 - "$@" << 'END' || fail "$1 and $2 differ"
+import csv, json, sys
+rows = list(csv.DictReader(line for line in open(sys.argv[1]) if line[0] != "#"))
+found = json.load(open(sys.argv[2]))[sys.argv[3]]
+rows = [row for row in rows if row.get("origin") != "printed"]
+assert len(rows) == len(found) > 0, (len(rows), len(found))
+for row, other in zip(rows, found):
+    assert list(row) == list(other)
+    for key, text in row.items():
+        value = other[key]
+        assert (value is None and text == "") or value == text or float(text) == value, (key, text, value)
+END
+  }
+  command -v python3 > /dev/null || { echo "skipped: no python3"; exit 77; }
+  must_run histograms c.csv --no-picture -o h --json h.json
+  same_numbers h.csv h.json densities
+  must_run intervals c.csv --no-picture -o i --replicas 0 --json i.json
+  same_numbers i.table1.csv i.json fits
+  same_numbers i.csv i.json densities
+  must_run magnitudes c.csv --no-picture -o m --json m.json
+  same_numbers m.bvalues.csv m.json b_values
+  series pe.csv
+  must_run spectrum pe.csv --no-picture -o s --json s.json
+  same_numbers s.csv s.json spectra
+  must_run series pe.csv --no-picture -o r --json r.json
+  same_numbers r-events.csv r.json events
+  must_run pick pe.csv -o picked.csv --json p.json
+  [ "$(rows picked.csv | wc -l)" = "$(sed -n 's/.*"events": \([0-9]*\).*/\1/p' p.json)" ] || fail "$(cat p.json)"
+  must_run compare picked.csv picked.csv --threshold 1e-7 --replicas 10 -o v --json v.json
+  same_numbers v.csv v.json tests
+  must_run export c.csv -o e.csv --json e.json
+  grep -q '"events": 4' e.json && grep -q '"without_magnitude": 0' e.json || fail "$(cat e.json)"
+  # With - JSON is all there is on standard output.
+  must_run count c.csv --size 0.001 --size 1 --brief 50 --json -
+  python3 - << 'END' || fail "$(cat out.txt)"
+import json
+found = json.load(open("out.txt"))
+sizes, one = found["sizes"], found["catalogues"][0]
+assert [row["events"] for row in sizes] == [3, 2], sizes
+assert [row["brief"] for row in sizes] == [2, 1], sizes
+assert abs(sizes[0]["released"] - 1001.001) < 1e-9 and one["events"] == 4 and one["largest"] == 1000 and one["last_step"] == 390, found
+END
+  refused "is read by this command" count c.csv --json c.csv
+  ;;
+faults)
+  # Killed at each system call that has to do with files, or refused it: what was there stays, or the new file is whole.
+  need_strace
+  catalogue events.csv
+  series pe.csv 500
+  sed 's/$/ of before/' events.csv > before
+  for words in "export events.csv --force -o" "pick pe.csv --force -o" "fit events.csv --replicas 0 --range 1e-7:1e4 --no-picture -o fit --json"; do
+    # shellcheck disable=SC2086
+    must_run $words whole
+    cp before part
+    # shellcheck disable=SC2086
+    system_calls part $words part > calls
+    grep -q '^rename' calls && grep -q '^write' calls || fail "not the calls of $words: $(cat calls)"
+    while read -r name n; do
+      for fault in signal=KILL error=ENOSPC; do
+        cp before part
+        # shellcheck disable=SC2086
+        with_fault "$name" "$n" $fault $words part
+        status=$?
+        case $name$fault in closeerror* | flockerror*) continue ;; esac
+        cmp -s part whole || { cmp -s part before && [ $status != 0 ]; } || fail "$words: $fault at $name $n: status $status, half a file"
+        [ $fault = signal=KILL ] || [ $status = 0 ] || { [ "$(wc -l < err.txt)" = 1 ] && grep -q '^postproc: ' err.txt; } ||
+          fail "$words: $fault at $name $n: '$(cat err.txt)'"
+        # shellcheck disable=SC2086
+        must_run $words part
+        cmp part whole || fail "$words: again, after $fault at $name $n"
+      done
+    done < calls
+  done
+  ;;
+progress)
+  # A terminal shows how far a test that takes long is; a file or a pipe is not filled with that.
+  command -v script > /dev/null || { echo "skipped: no script(1), which makes a terminal"; exit 77; }
+  {
+    printf '# lsm-catalogue 1\n# model = lsm\n# length = 40\n'
+    echo event_id,t_start,t_end,step_start,step_end,size,pe_start,pe_end
+    awk 'BEGIN { srand(3); for (i = 1; i <= 2000; ++i) { t -= log(1 - rand()); printf "%d,%.17g,%.17g,%d,%d,1,2,1\n", i, t, t, i, i } }'
+  } > many.csv
+  must_run intervals many.csv --no-picture --replicas 50 -o x
+  [ ! -s err.txt ] || fail "on standard error: $(cat err.txt)"
+  script -qefc "exec '$program' intervals many.csv --no-picture --replicas 100000000 -o y" terminal.log > /dev/null &
+  child=$!
+  for _ in $(seq 600); do grep -q 'Monte Carlo replica [0-9]* of 100000000' terminal.log 2> /dev/null && break; sleep 0.1; done
+  kill $child
+  wait $child 2> /dev/null
+  grep -q 'Monte Carlo replica [0-9]* of 100000000' terminal.log || fail "no progress: $(cat terminal.log)"
+  ;;
+summary)
+  # Sizes over four decades, uneven times; every seventh event lasts one step.
+  awk 'BEGIN {
+    print "# lsm-catalogue 1\n# model = lsm\n# dt = 0.5\n# length = 40\n# kt = 0.2"
+    print "event_id,t_start,t_end,step_start,step_end,size,pe_start,pe_end"
+    srand(3)
+    for (i = 1; i <= 400; i++) {
+      t += 1 + int(-40 * log(1 - rand())) / 2
+      long = i % 7 ? 8 : 1
+      s = 1e-5 * exp(9.2 * rand())
+      printf "%d,%.17g,%.17g,%d,%d,%.17g,%.17g,2\n", i, t, t + long * 0.5, t * 2, t * 2 + long, s, 2 + s
+      t += long * 0.5
+    }
+  }' > c.csv
+  must_run summary c.csv --threshold 0 1e-3 --range 1e-4:1e-2 --parameter kt seed --window 10:20 -o s.csv
+  # field NAME: of the only row
+  field() {
+    awk -F, -v name="$1" '/^#/ { next } !n++ { for (i = 1; i <= NF; i++) if ($i == name) at = i; next }
+      at { gsub("\"", "", $at); print $at }' rows.csv
+  }
+  sed 's/"fault, length 40"/fault/' s.csv > rows.csv
+  [ "$(field kt)" = 0.2 ] && [ -z "$(field seed)" ] || fail "parameters: $(cat s.csv)"
+  rows c.csv | awk -F, -v events="$(field events_0.001)" -v mean="$(field mean_time_0.001)" -v share="$(field share_10:20_0.001)" \
+    -v brief="$(field brief)" -v largest="$(field largest)" -v released="$(field released)" '
+    function off(a, b) { return a == "" || (a - b) ^ 2 > (1e-5 * b) ^ 2 }
+    { all++; sum += $6; few += $5 - $4 <= 3; if ($6 > top) top = $6 }
+    $6 >= 1e-3 { if (n++) { d = $2 - before; total += d; inside += d >= 10 && d < 20 } before = $2 }
+    END {
+      exit off(events, n) || off(mean, total / (n - 1)) || off(share, inside / (n - 1)) || off(brief, few / all) ||
+        off(largest, top) || off(released, sum)
+    }' || fail "numbers: $(cat s.csv)"
+  # The estimators are those of fit and intervals.
+  must_run fit c.csv --range 1e-4:1e-2 --replicas 0 --no-comparison --json fit.json --no-picture
+  must_run intervals c.csv --threshold 1e-3 --method likelihood --delta 1 --replicas 0 -o times --no-picture
+  near() { awk -v a="$1" -v b="$2" 'BEGIN { exit !(a != "" && (a - b) ^ 2 < (1e-5 * b) ^ 2) }'; }
+  near "$(field exponent_1e-4:1e-2)" "$(grep -m 1 -oP '"exponent": \K[-0-9.e]+' fit.json)" || fail "exponent: $(cat s.csv fit.json)"
+  gamma=$(awk -F, '/^#/ { next } !n++ { for (i = 1; i <= NF; i++) if ($i == "gamma") at = i; next } /^ours/ { print $at }' times.table1.csv)
+  near "$(field gamma_0.001)" "$gamma" || fail "gamma: $(field gamma_0.001), intervals say $gamma"
+  refused "c.csv: is read by this command" summary c.csv -o c.csv
+  refused "--range '2', expected LO:HI" summary c.csv --range 2
+  ;;
 bad_input)
   catalogue good.csv
   # What is read is not replaced, whichever of the outputs would do it.
@@ -354,6 +608,14 @@ bad_input)
   refused "is read by this command" series pe.csv -o pe
   refused "is read by this command" series own-events.csv -o own
   refused "is read by this command" spectrum pe.csv -o pe
+  for path in x.csv ./x.fits.csv "$PWD/x.gp"; do
+    refused "are the same file" fit good.csv -o x --json "$path"
+  done
+  for seed in -1 18446744073709551616 1.5; do
+    refused "seed: expected a whole number from 0 to 18446744073709551615, not '$seed'" intervals good.csv "--seed=$seed" -o x
+  done
+  cp good.csv part.csv.part
+  refused "is read by this command" export part.csv.part -o part.csv
   for command in histograms intervals fit magnitudes aftershocks; do
     refused "ends with a folder, expected a file name" $command good.csv -o ./
     refused "threshold: expected a number of 0 or more, not '-1'" $command good.csv --threshold -1 -o x
@@ -363,7 +625,7 @@ bad_input)
   refused "subcommand" # none
   refused "help lists the options" smooth good.csv
   refused "is required" pick good.csv
-  for command in pick histograms intervals fit series spectrum magnitudes aftershocks export report; do
+  for command in pick histograms intervals fit series spectrum magnitudes aftershocks export report explore; do
     run $command --help || fail "$command --help"
     grep -q -- "--output" out.txt || fail "$command --help does not tell of --output"
     refused "nowhere.csv: cannot open" $command nowhere.csv -o x
@@ -386,6 +648,42 @@ bad_input)
     grep -q "passed over events out of order: 1" err.txt || fail "repairs are not stated: $(cat err.txt)"
   [ "$(wc -l < repaired.csv)" = 3 ] || fail "$(wc -l < repaired.csv) lines, expected 3"
   refused "from 3 --to 2: expected --from before --to" export good.csv -o x --from 3 --to 2
+  ;;
+earthquakes)
+  inputs=$(dirname "${BASH_SOURCE[0]}")/../../inputs
+  california=$inputs/seismicity/southern-california.csv.xz
+  # Values and errors measured on the same data by another program, from the first release of this extract on.
+  while read -r from to magnitude times gamma error b; do
+    must_run intervals "$california" --from "$from" --to "$to" --min-magnitude "$magnitude" --rescale --shortest 0.05 --delta 1 \
+      --method likelihood --replicas 0 --shuffles 20 --no-picture -o times
+    grep -q ", magnitudes from $magnitude: $times inter-event times" out.txt || fail "$from: $(head -n 1 out.txt)"
+    awk -F, -v gamma="$gamma" -v error="$error" -v b="$b" '/^ours/ { found = 1
+      if ($4 < gamma - error || $4 > gamma + error || $5 < 0.9 * error || $5 > 1.1 * error || $8 < b - 0.03 || $8 > b + 0.03) bad = 1 }
+      END { exit bad || !found }' times.table1.csv || fail "$from: $(grep ^ours times.table1.csv), expected gamma $gamma, B $b"
+  done <<'END'
+1984-01-01 1986-07-02T12:00 2 6620 0.667 0.021 1.51
+1988-01-01 1992-01-01 2.5 3560 0.647 0.028 1.59
+2011-01-01 2019-01-01 2 10377 0.659 0.016 1.60
+END
+  # clustered: variation 1.23, memory 0.13 in the first stretch
+  must_run intervals "$california" --from 1984-01-01 --to 1986-07-02T12:00 --shuffles 50 --method likelihood --delta 1 --replicas 0 --no-picture -o times
+  awk -F, '/^#/ { next } !head { head = 1; for (i = 1; i <= NF; i++) c[$i] = i; next }
+    { v = $c["variation"]; m = $c["memory"]; exit !(v > 1.225 && v < 1.235 && m > 0.125 && m < 0.135 && $c["memory_p"] < 0.05) }' \
+    times.clustering.csv || fail "clustering: $(tail -n 1 times.clustering.csv)"
+  # the rank of models; a catalogue is no way off from itself
+  must_run nature "$california" "$inputs/results/catalogues/fault_120.catalogue.csv.xz" \
+    "$inputs/results/catalogues/fault_120_seed_2.catalogue.csv.xz" "$california" --label nature --label fault --label fault --label again \
+    --from 1984-01-01 --to 1986-07-02T12:00 --from 4200 --reference M2 --reference M2.5 --threshold 1e-2 --replicas 20 --no-picture -o beside
+  awk -F, '/^#/ { next } !head { head = 1; for (i = 1; i <= NF; i++) c[$i] = i; next }
+    { n++; name[n] = $1; d[n] = $c["distance"]; k[n] = $c["catalogues"]; e[n] = $c["distance_error"] }
+    END { exit !(n == 5 && name[1] == "nature" && d[1] == "" && name[2] == "again" && d[2] == 0 && d[3] < 0.05 && name[5] == "fault" &&
+                 k[5] == 2 && d[5] > 0.1 && e[5] > 0 && e[5] < d[5]) }' beside.table.csv || fail "ranks: $(cat beside.table.csv)"
+  refused "fault_120.catalogue.csv.xz: catalogue of a model, expected one of earthquakes first" nature \
+    "$inputs/results/catalogues/fault_120.catalogue.csv.xz" "$california" -o x
+  refused "is a date, but no catalogue is of earthquakes" intervals "$inputs/results/catalogues/fault_120.catalogue.csv.xz" --from 1984-01-01 -o x
+  refused "is a number, but all catalogues are of earthquakes, expected a date" intervals "$california" --from 1984 -o x
+  refused "from 'monday': expected a model time, or for earthquakes a date" intervals "$california" --from monday -o x
+  refused "expected W/E/S/N in degrees" intervals "$california" --region 1/2/3 -o x
   ;;
 *)
   fail "no case $2"

@@ -33,6 +33,17 @@ power() {
       printf "%d %.17g\n", 10 * i, s } }'
 }
 
+# Moment 0.1 L^2 and drops of PE 0.05 of the moment, one after the other; two more
+# at the same time as the largest.
+ruptures() {
+  printf '# lsm-catalogue 1\n# model = lsm\n# length = 120\n# events = ruptures\n'
+  echo event_id,t_start,t_end,step_start,step_end,size,pe_start,pe_end,slip_moment,x_centroid,rupture_length,x_hypocentre,x_begin,mean_slip,stress_drop
+  awk 'BEGIN { for (i = 1; i <= 39; ++i) print 10 * i, 10 * i + 5, i, 0.005 * i * i
+         print "402 404.5 30 0.4\n400 405 40 8\n401 405 25 -0.2\n500 505 120 72" }' |
+    awk '{ m = 0.1 * $3 * $3
+       printf "%d,%s,%s,%d,%d,%.17g,100,%.17g,%.17g,60,%d,60.5,60,%g,0.003\n", NR, $1, $2, NR, NR, m / 100, 100 - $4, m, $3, 0.1 * $3 }'
+}
+
 case $2 in
 histograms)
   # 90 events in the bin from 1e-3 to 10^-2.9, 10 in the one from 1e-2 to 10^-1.9, 7 too small.
@@ -78,7 +89,7 @@ intervals)
       if ($7 != (n == 1 ? 100 : 50)) exit 1
       t = n == 1 ? 5 : 50; if (!($4 <= t && t < $5)) exit 1 }
     END { exit n != 2 }' i.csv || fail "densities: $(cat i.csv)"
-  grep -q '150 inter-event times, mean 20 model time, standard deviation 1.064 of the mean' out.txt ||
+  grep -q '150 inter-event times, mean 20 model time, standard deviation 1.064 of the mean, burstiness 0.03111$' out.txt ||
     fail "mean: $(cat out.txt)"
   grep -q 'LSM .*0.995 .*1.00 .*15.21 .*0.0573' out.txt || fail "printed Table 1: $(cat out.txt)"
   grep -q '^printed,,,0.0,,1.00,,100.0,,0.25,,,,,,,Block-Slider,' i.table1.csv || fail "$(cat i.table1.csv)"
@@ -100,7 +111,7 @@ intervals)
   must_run intervals a.csv --delta 1 --method likelihood --replicas 20 --seed 3 -o p --no-picture
   grep -q 'p ≤ 0.048, rejected' out.txt || fail "two times only are no gamma density: $(cat out.txt)"
   grep -q 'rejected: p below 0.05' out.txt || fail "no rule: $(cat out.txt)"
-  must_run intervals a.csv --delta 1 --method likelihood --replicas 0 -o p --no-picture
+  must_run intervals a.csv --delta 1 --method likelihood --replicas 0 --shuffles 0 -o p --no-picture
   grep -q ', p [=≤]' out.txt && fail "a p-value without replicas: $(cat out.txt)"
   refused 'replicas' intervals a.csv --replicas -1 -o x
   refused "expected 'free' or a positive number" intervals a.csv --delta x -o x
@@ -302,7 +313,7 @@ seismology)
   power 1.2 1e-3 1e3 2000 | catalogue b.csv 240
   must_run magnitudes a.csv b.csv --threshold 1e-3 --label 'a_{x}' --label b -o m
   pictures m
-  grep -q 'b = 1.' m.gp && grep -qF 'a\_\{x\}' m.gp || fail "titles: $(grep title m.gp)"
+  grep -q 'b = 1.' m.gp && grep -qF 'a_{x} (2000 events)' m.svg || fail "titles: $(grep title m.gp)"
   must_run aftershocks a.csv b.csv -o s --replicas 10
   pictures s
   grep -q filledcurves s.gp || fail "no band of Poisson catalogues"
@@ -339,16 +350,61 @@ few)
   must_run report none.csv -o e.html
   grep -q 'no events' e.html || fail "the empty catalogue is not said to be empty"
   ;;
+names)
+  # Whatever a name or a label holds, nothing is run and all is drawn.
+  power 1.2 1e-3 10 300 | catalogue a.csv 120
+  power 1.2 1e-3 10 300 | catalogue b.csv 240
+  ruptures > r.csv
+  awk 'BEGIN { print "# lsm-pe-series 1\n# model = lsm\n# dt = 1\n# step0 = 0\n# time0 = 0\n# stride = 1"
+    print "# length = 40\n# picker = literal\n# lambda = 0\nstep,time,pe"
+    for (i = 0; i <= 2000; ++i) { printf "%d,%d,%.17g\n", i, i, x; x += i % 99 < 90 ? 1 : -10 } }' > pe.csv
+  draw() { # COMMAND OUTPUT [OPTION...]: every command that draws, with as little work as it can do
+    local command=$1 output=$2
+    shift 2
+    case $command in
+    histograms) must_run histograms a.csv b.csv "--output=$output" "$@" ;;
+    intervals) must_run intervals a.csv b.csv --replicas 0 "--output=$output" "$@" ;;
+    fit) must_run fit a.csv b.csv --replicas 0 --scaling --bootstrap 2 --range 1e-2:1 "--output=$output" "$@" ;;
+    magnitudes) must_run magnitudes a.csv b.csv --threshold 1e-3 "--output=$output" "$@" ;;
+    aftershocks) must_run aftershocks a.csv b.csv --replicas 0 "--output=$output" "$@" ;;
+    rupture) must_run rupture r.csv r.csv "--output=$output" "$@" ;;
+    spectrum) must_run spectrum pe.csv "--output=$output" ;;
+    series) must_run series pe.csv "--output=$output" ;;
+    esac
+  }
+  commands="histograms intervals fit magnitudes aftershocks rupture spectrum series"
+  for command in $commands; do
+    outputs=("<touch marker;cat y" "|touch marker")
+    [ $command != histograms ] || outputs+=(-x --version "-e '1'" + - "a'b" 'a"b' '`touch marker`' '$(touch marker)' "#a" '~' "a\\" '{' 'ä b')
+    for output in "${outputs[@]}"; do
+      before=$(ls -A | wc -l)
+      draw $command "$output"
+      [ -e marker ] && fail "$command -o '$output' ran a command"
+      case $command in
+      rupture) pictures "$output-length" ;;
+      series) pictures "$output"; [ -s "$output-events.csv" ] || fail "no events of series -o '$output'" ;;
+      *) pictures "$output" ;;
+      esac
+      [ "$(ls -A | wc -l)" -gt "$before" ] || fail "$command -o '$output' wrote nothing here"
+      rm -f -- "$output".* "$output"-*
+    done
+  done
+  # The first is 'old' as a quotation; the others are what else strings, markup and tables stumble over.
+  for label in "'old' run" "run ''" "''" '"q" "' '#1' '}{' '`touch marker`' "a\\" '@a &b ~c ^{d}_e' '%d $1 \n'; do
+    for command in histograms intervals fit magnitudes aftershocks rupture; do
+      [ "$label" = "'old' run" ] || [ $command = histograms ] || continue
+      draw $command l --label "$label" --label other
+      [ -e marker ] && fail "label $label of $command ran a command"
+      page=l.svg
+      [ $command != rupture ] || page=l-length.svg
+      sed 's/&lt;/</g; s/&gt;/>/g; s/&quot;/"/g; s/&amp;/\&/g' $page | grep -qF -- "$label" || fail "label $label is not in $page"
+    done
+    must_run report a.csv --label "$label" --replicas 0 --interval-replicas 0 --bootstrap 2 -o l.html
+    sed 's/&lt;/</g; s/&gt;/>/g; s/&quot;/"/g; s/&#39;/'"'"'/g; s/&amp;/\&/g' l.html | grep -qF -- "$label" || fail "label $label is not on the page"
+  done
+  ;;
 rupture)
-  # Moment 0.1 L^2 and drops of PE 0.05 of the moment, one after the other; two more at the same time as the largest.
-  {
-    printf '# lsm-catalogue 1\n# model = lsm\n# length = 120\n# events = ruptures\n'
-    echo event_id,t_start,t_end,step_start,step_end,size,pe_start,pe_end,slip_moment,x_centroid,rupture_length,x_hypocentre,x_begin,mean_slip,stress_drop
-    awk 'BEGIN { for (i = 1; i <= 39; ++i) print 10 * i, 10 * i + 5, i, 0.005 * i * i
-                 print "402 404.5 30 0.4\n400 405 40 8\n401 405 25 -0.2\n500 505 120 72" }' |
-      awk '{ m = 0.1 * $3 * $3
-             printf "%d,%s,%s,%d,%d,%.17g,100,%.17g,%.17g,60,%d,60.5,60,%g,0.003\n", NR, $1, $2, NR, NR, m / 100, 100 - $4, m, $3, 0.1 * $3 }'
-  } > a.csv
+  ruptures > a.csv
   must_run rupture a.csv --label a -o r
   for name in lengths moments length pe stress; do pictures r-$name; done
   # Lengths 1 to 39 once each, and 40, 30, 25, 120: 43 in all; 8 from 25 to 30; T = 495.

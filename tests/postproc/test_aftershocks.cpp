@@ -90,6 +90,8 @@ TEST(Sequences, MainShocksByHand) {
   EXPECT_EQ(s.main_shocks, 3);
   // 105 begins before the end; 120 is too small.
   EXPECT_EQ(s.times, (std::vector<double>{1, 1, 2, 10}));
+  // Nothing ends within 20 before 100 and 300, nor before 200.
+  EXPECT_TRUE(s.before.empty());
   rule.first = 1.5;
   EXPECT_EQ(stack_sequences(table, rule).times, (std::vector<double>{2, 10}));
   rule.first = 0.0;
@@ -103,6 +105,27 @@ TEST(Sequences, MainShocksByHand) {
   EXPECT_THROW(stack_sequences(table, rule), std::invalid_argument);
   rule.window = rule.first = 1.0;
   EXPECT_THROW(stack_sequences(table, rule), std::invalid_argument);
+}
+
+TEST(Sequences, BeforeMainShocksByHand) {
+  // The main shock is at 100; 99 still goes on then, 97 is too small, 79 is too early.
+  const EventTable table =
+      events({0, 79, 90, 95, 97, 98, 99, 100, 104, 200}, {0, 0, 2, 1, 0, 0, 5, 1, 0, 0},
+             {1, 1, 1, 1, 0.1, 1, 1, 50, 1, 1});
+  SequenceRule rule;
+  rule.main_size = 50;
+  rule.least_size = 1;
+  rule.window = 20;
+  EXPECT_EQ(stack_sequences(table, rule).before, (std::vector<double>{8, 4, 2}));
+  rule.first = 5;
+  EXPECT_EQ(stack_sequences(table, rule).before, (std::vector<double>{8}));
+  rule.first = 1;
+  const Aftershocks found = aftershocks_of(table, rule, 0.0, 3.0, 0, 1);
+  ASSERT_EQ(found.bins.size(), 2u);  // 1 to 3, 3 to 9
+  EXPECT_EQ(found.bins[0].before, 1);
+  EXPECT_EQ(found.bins[0].count, 0);
+  EXPECT_EQ(found.bins[1].before, 2);
+  EXPECT_EQ(found.bins[1].count, 1);
 }
 
 TEST(Omori, MaximumOfAnIndependentLikelihood) {
@@ -159,6 +182,25 @@ TEST(Omori, ErrorsCoverTheTruth) {
     background.expect("background");
     if (std::isnan(one.hold_c)) ln_c.expect("ln c");
   }
+}
+
+// Twice the same sequences, then so many times that they are taken together where they lie close.
+TEST(Omori, ManyTimesAreTakenTogether) {
+  const Sequences once = omori_sequences({2.0, 0.5, 1.2, 0.02}, 800, 0.0, 100.0, 3);
+  ASSERT_GT(once.times.size(), 4200U);
+  ASSERT_LT(once.times.size(), 8192U);
+  Sequences twice = once;
+  twice.main_shocks *= 2;
+  twice.times.insert(twice.times.end(), once.times.begin(), once.times.end());
+  std::sort(twice.times.begin(), twice.times.end());
+  const OmoriFit a = fit_omori(once), b = fit_omori(twice);
+  ASSERT_FALSE(a.degenerate) << a.why;
+  ASSERT_FALSE(b.degenerate) << b.why;
+  EXPECT_NEAR(b.p, a.p, 1e-3 * a.se_p);
+  EXPECT_NEAR(b.c, a.c, 1e-3 * a.se_c);
+  EXPECT_NEAR(b.K, a.K, 1e-3 * a.se_K);
+  EXPECT_NEAR(b.likelihood_ratio / a.likelihood_ratio, 2.0, 1e-4);
+  EXPECT_NEAR(b.se_p * std::sqrt(2.0) / a.se_p, 1.0, 1e-3);
 }
 
 TEST(Omori, WithoutBackgroundItIsZero) {

@@ -5,6 +5,7 @@
 #include <gsl/gsl_rng.h>
 #include <gsl/gsl_sf.h>
 #include <gtest/gtest.h>
+#include <sched.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +18,7 @@
 #include "coverage.h"
 #include "generalised_gamma.h"
 #include "log_histogram.h"
+#include "replicas.h"
 
 namespace {
 
@@ -457,6 +459,69 @@ TEST(GoodnessOfFit, AFalseLawIsRejectedWhereTheTableForGivenParametersPassesIt) 
       rejections(100, 0.0, delta_one(), [&] { return source.log_normal(300); });
   EXPECT_GT(normal.by_monte_carlo, 95);
   EXPECT_LT(normal.by_table, 85);
+}
+
+// Samples that the test takes by cells: as sound as one of single values, and no less sharp.
+TEST(GoodnessOfFit, ManyValues) {
+  Source source(77);
+  const std::size_t n = 10000;
+  ASSERT_GT(n, static_cast<std::size_t>(largest_exact_sample));
+  GeneralisedGammaOptions options;
+  int below_tenth = 0, below_half = 0;
+  constexpr int trials = 150;
+  for (int i = 0; i < trials; ++i) {
+    // delta is free, and there is a truncation, now and then: these take longer.
+    const bool free = i % 10 == 0, cut = i % 10 == 1;
+    options.fix_delta = free ? std::nan("") : 1.0;
+    const GeneralisedGammaFit fit =
+        fit_maximum_likelihood(source.sample(n, corral, cut ? 0.3 : 0.0), cut ? 0.3 : 0.0, options);
+    ASSERT_FALSE(fit.degenerate) << fit.why;
+    EXPECT_NEAR(fit.ks_by_cells, fit.ks, 0.2 / std::sqrt(static_cast<double>(n)));
+    const double p = p_value(fit, 39, static_cast<std::uint64_t>(i));
+    below_tenth += p <= 0.1;
+    below_half += p <= 0.5;
+  }
+  expect_binomial(below_tenth, trials, 0.1, "0.1");
+  expect_binomial(below_half, trials, 0.5, "0.5");
+  // A twentieth of the values is three times as long.
+  std::vector<double> mixed = source.sample(n - n / 20, corral);
+  for (const double theta : source.sample(n / 20, corral)) mixed.push_back(3.0 * theta);
+  options.fix_delta = 1.0;
+  EXPECT_LT(p_value(fit_maximum_likelihood(mixed, 0.0, options), 99, 1), 0.03);
+}
+
+TEST(GoodnessOfFit, NumberOfCoresDoesNotMatter) {
+  Source source(5);
+  const GeneralisedGammaFit few = fit_maximum_likelihood(source.sample(200, corral)),
+                            many = fit_maximum_likelihood(source.sample(9000, corral));
+  const double p_few = p_value(few, 50, 3), p_many = p_value(many, 50, 3);
+  cpu_set_t before, one;
+  ASSERT_EQ(sched_getaffinity(0, sizeof before, &before), 0);
+  CPU_ZERO(&one);
+  for (int cpu = 0; CPU_COUNT(&one) == 0; ++cpu)
+    if (CPU_ISSET(cpu, &before)) CPU_SET(cpu, &one);
+  ASSERT_EQ(sched_setaffinity(0, sizeof one, &one), 0);
+  EXPECT_EQ(p_value(few, 50, 3), p_few);
+  EXPECT_EQ(p_value(many, 50, 3), p_many);
+  sched_setaffinity(0, sizeof before, &before);
+}
+
+TEST(Replicas, EachOnceAndErrorsAreHandedOn) {
+  std::vector<int> calls(1000);
+  std::vector<int> told;
+  watch_replicas([&told](int done, int) { told.push_back(done); });
+  for_each_replica(1000, [&calls](int k) { ++calls[static_cast<std::size_t>(k)]; });
+  watch_replicas({});
+  EXPECT_EQ(calls, std::vector<int>(1000, 1));
+  ASSERT_EQ(told.size(), 1000U);
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  for_each_replica(0, [](int) { FAIL(); });
+  EXPECT_THROW(for_each_replica(10,
+                                [](int k) {
+                                  if (k == 7) throw std::runtime_error("seven");
+                                }),
+               std::runtime_error);
+  EXPECT_NE(seed_of_replica(1, 1), seed_of_replica(2, 0));
 }
 
 TEST(GoodnessOfFit, SeedAndReplicas) {

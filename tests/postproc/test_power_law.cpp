@@ -18,6 +18,7 @@
 #include "ks_distance.h"
 #include "lsm_random.h"
 #include "power_law.h"
+#include "replicas.h"
 #include "truncated_family.h"
 
 namespace {
@@ -236,9 +237,45 @@ TEST(PowerLaw, ProbabilityIsUniformUnderTheNull) {
     }
     std::sort(p.begin(), p.end());
     // p takes the values 0.01 ... 1; the 0.3 % point of the distance is 1.8 / sqrt(300).
-    const double distance = KsDistance(p.data(), p.size(), [](double x) { return x - 0.005; })();
+    const double distance =
+        KsDistance(SortedValues(p.data(), p.size()), [](double x) { return x - 0.005; })();
     EXPECT_LT(distance, 1.8 / std::sqrt(300.0));
   }
+}
+
+// Samples that the test takes by cells: as sound as one of single values, and no less sharp.
+TEST(PowerLaw, ProbabilityOfManyValues) {
+  LSM::Random random(12);
+  const std::size_t n = 12000;
+  ASSERT_GT(n, static_cast<std::size_t>(largest_exact_sample));
+  constexpr int trials = 200;
+  for (const bool searched : {false, true}) {
+    RangeSearch search;
+    search.upper = true;
+    search.candidates = 6;
+    search.min_events = 2000;
+    search.lo = 1.0;
+    int below_tenth = 0, below_half = 0, count = 0;
+    for (int i = 0; i < (searched ? trials / 4 : trials); ++i) {
+      const std::vector<double> sample = power_law_sample(n, 1.3, 1.0, 1e3, random);
+      const PowerLawFit fit =
+          searched ? search_range(sample, search) : fit_power_law(sample, 1.0, 1e3);
+      ASSERT_FALSE(fit.degenerate);
+      const double p = p_value(fit, sample, 39, static_cast<std::uint64_t>(i));
+      below_tenth += p <= 0.1;
+      below_half += p <= 0.5;
+      ++count;
+    }
+    expect_binomial(below_tenth, count, 0.1, searched ? "0.1, searched" : "0.1");
+    expect_binomial(below_half, count, 0.5, searched ? "0.5, searched" : "0.5");
+  }
+  // One of ten is from another law: seen in 12000 values, and no more in 1200 of them than by
+  // chance.
+  std::vector<double> mixed = power_law_sample(n - n / 10, 1.3, 1.0, 1e3, random);
+  const std::vector<double> other = power_law_sample(n / 10, 2.5, 1.0, 1e3, random);
+  mixed.insert(mixed.end(), other.begin(), other.end());
+  std::sort(mixed.begin(), mixed.end());
+  EXPECT_LT(p_value(fit_power_law(mixed, 1.0, 1e3), mixed, 99, 1), 0.03);
 }
 
 TEST(PowerLaw, ProbabilityIsTheShareOfSamplesThatFitWorse) {

@@ -62,6 +62,29 @@ TEST(TwoSample, FalseAlarmsAsOftenAsStated) {
   EXPECT_NEAR(alarms(trials, 0.6, 0), 0.05 * trials, slack);
 }
 
+// So many that divisions are taken by classes of ranks.
+TEST(TwoSample, ManyValues) {
+  LSM::Random random(9);
+  const int trials = 100;
+  for (const double memory : {0.0, 0.8}) {
+    int count = 0;
+    for (int i = 0; i < trials; ++i) {
+      const auto a = series(random, 9000, memory), b = series(random, 9000, memory);
+      const TwoSampleTest test = two_sample_test(a, b, 99, 1);
+      EXPECT_NEAR(test.distance, two_sample_distance(a, b), 1e-12);
+      if (test.p < 0.055) ++count;
+    }
+    EXPECT_NEAR(count, 0.05 * trials, 3.0 * std::sqrt(trials * 0.05 * 0.95)) << memory;
+  }
+  EXPECT_LT(two_sample_test(series(random, 9000, 0.0), series(random, 9000, 0.0, 0.1), 99, 1).p,
+            0.03);
+  // Sizes of one kind only, half of them.
+  std::vector<double> same(20000, 1.0), half = same;
+  for (std::size_t i = 0; i < half.size(); i += 2) half[i] = 2.0;
+  EXPECT_EQ(two_sample_test(same, same, 49, 1).p, 1.0);
+  EXPECT_EQ(two_sample_test(same, half, 49, 1).p, 0.02);
+}
+
 TEST(TwoSample, FindsDifferences) {
   LSM::Random random(3);
   const auto a = series(random, 500, 0.3), b = series(random, 500, 0.3, 0.5);

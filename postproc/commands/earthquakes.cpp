@@ -1,0 +1,391 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "earthquakes.h"
+
+#include <date/date.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <pugixml.hpp>
+#include <stdexcept>
+
+#include "lsm_catalogue.h"
+#include "lsm_text_io.h"
+
+namespace LSM::postproc {
+
+namespace {
+
+using Fields = std::vector<std::string>;
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// Takes `digits` digits from the front of text.
+bool take(std::string_view &text, std::size_t digits, int &value) {
+  if (text.size() < digits) return false;
+  value = 0;
+  for (const char c : text.substr(0, digits)) {
+    if (!is_digit(c)) return false;
+    value = 10 * value + (c - '0');
+  }
+  text.remove_prefix(digits);
+  return true;
+}
+
+bool take(std::string_view &text, std::string_view one_of) {
+  if (text.empty() || one_of.find(text.front()) == std::string_view::npos) return false;
+  text.remove_prefix(1);
+  return true;
+}
+
+/// Days since 1970, or nothing; seconds may be 60 and more, as in leap seconds and in
+/// what SCEDC rounds.
+std::optional<double> days(int year, int month, int day, int hour, int minute, double second) {
+  const date::year_month_day when{date::year(year), date::month(static_cast<unsigned>(month)),
+                                  date::day(static_cast<unsigned>(day))};
+  if (!when.ok() || hour > 24 || minute > 59 || !(second >= 0.0 && second < 61.0)) return {};
+  const auto whole = static_cast<double>(date::sys_days(when).time_since_epoch().count());
+  return whole + (hour * 3600.0 + minute * 60.0 + second) / 86400.0;
+}
+
+/// "hh:mm[:ss[.fff]]" from the front of text, in seconds.
+bool take_clock(std::string_view &text, int &hour, int &minute, double &second) {
+  if (!take(text, 2, hour) || !take(text, ":") || !take(text, 2, minute)) return false;
+  if (!take(text, ":")) return true;
+  const std::size_t end = text.find_first_not_of("0123456789.");
+  const bool good = text_io::parse(text.substr(0, end), second);
+  text.remove_prefix(std::min(end, text.size()));
+  return good;
+}
+
+/// Zone at the end of a time, in minutes ahead of UTC.
+bool take_zone(std::string_view &text, int &ahead) {
+  if (text.empty() || take(text, "Zz")) return true;
+  const bool behind = text.front() == '-';
+  int hours = 0, minutes = 0;
+  if (!take(text, "+-") || !take(text, 2, hours)) return false;
+  take(text, ":");
+  if (!text.empty() && !take(text, 2, minutes)) return false;
+  ahead = (behind ? -1 : 1) * (60 * hours + minutes);
+  return true;
+}
+
+bool is_earthquake(std::string type) {
+  for (char &c : type)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  for (const char *name :
+       {"", "earthquake", "induced or triggered event", "eq", "eql", "eqr", "le", "re", "ts"})
+    if (type == name) return true;
+  return false;
+}
+
+/// One event as its line says it; empty fields are those the file does not have.
+struct Row {
+  std::string_view time, latitude, longitude, magnitude, type;
+  std::optional<double> at;  ///< where the time is several numbers
+};
+
+/// Fills a list from the lines or elements of a file.
+class Collector {
+ public:
+  Collector(std::string path, bool lenient) : path_(std::move(path)), lenient_(lenient) {}
+
+  void add(const Row &row, std::int64_t line) {
+    Earthquake event;
+    const auto number = [&](std::string_view text, const char *name, double most, double &value) {
+      if (text_io::parse(text, value) && std::fabs(value) <= most) return true;
+      bad(line, std::string(name) + " is " + text_io::in_quotes(text) + ", expected a number");
+      return false;
+    };
+    const std::optional<double> at = row.at ? row.at : parse_date(row.time);
+    if (!at)
+      return bad(line, "time is " + text_io::in_quotes(row.time) +
+                           ", expected a date and time such as 1994-01-17T12:30:55.39Z");
+    event.time = *at;
+    if (!number(row.latitude, "latitude", 90.0, event.latitude) ||
+        !number(row.longitude, "longitude", 360.0, event.longitude))
+      return;
+    if (!is_earthquake(std::string(row.type))) {
+      ++list_.others[std::string(row.type)];
+      return;
+    }
+    if (row.magnitude.empty()) {
+      ++list_.without_magnitude;
+      return;
+    }
+    if (number(row.magnitude, "magnitude", 12.0, event.magnitude)) list_.events.push_back(event);
+  }
+
+  void bad(std::int64_t line, const std::string &what) {
+    const std::string message = text_io::where(path_, line) + what;
+    if (!lenient_) throw CatalogueError(message);
+    if (list_.bad_lines++ == 0) list_.first_problem = message;
+  }
+
+  EarthquakeList finish() {
+    std::stable_sort(list_.events.begin(), list_.events.end(),
+                     [](const Earthquake &a, const Earthquake &b) { return a.time < b.time; });
+    return std::move(list_);
+  }
+
+ private:
+  std::string path_;
+  bool lenient_;
+  EarthquakeList list_;
+};
+
+/// Calls use(line without its end, number) for each line.
+void for_each_line(std::string_view content,
+                   const std::function<void(std::string_view, std::int64_t)> &use) {
+  for (std::int64_t number = 1; !content.empty(); ++number) {
+    const std::size_t end = content.find('\n');
+    use(text_io::trim(content.substr(0, end)), number);
+    content.remove_prefix(end == std::string_view::npos ? content.size() : end + 1);
+  }
+}
+
+/// Fields between commas; those in double quotes may hold commas (RFC 4180).
+Fields split_csv(std::string_view line) {
+  Fields fields(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '"') {
+      const bool doubled = quoted && i + 1 < line.size() && line[i + 1] == '"';
+      if (doubled) fields.back() += line[i++];
+      if (!doubled) quoted = !quoted;
+    } else if (line[i] == ',' && !quoted) {
+      fields.emplace_back();
+    } else {
+      fields.back() += line[i];
+    }
+  }
+  return fields;
+}
+
+Fields split_blanks(std::string_view line) {
+  Fields fields;
+  for (;;) {
+    const std::size_t begin = line.find_first_not_of(" \t,");
+    if (begin == std::string_view::npos) return fields;
+    line.remove_prefix(begin);
+    const std::size_t end = std::min(line.find_first_of(" \t,"), line.size());
+    fields.emplace_back(line.substr(0, end));
+    line.remove_prefix(end);
+  }
+}
+
+/// Place of a column, by the first of its names; none: -1.
+int column(const Fields &names, std::initializer_list<std::string_view> wanted) {
+  for (const std::string_view one : wanted)
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (names[i] == one) return static_cast<int>(i);
+  return -1;
+}
+
+struct CsvColumns {
+  explicit CsvColumns(const Fields &names)
+      : time(column(names, {"time"})),
+        latitude(column(names, {"latitude"})),
+        longitude(column(names, {"longitude"})),
+        magnitude(column(names, {"mag", "magnitude"})),
+        type(column(names, {"type", "event_type"})),
+        count(names.size()) {}
+  bool complete() const { return time >= 0 && latitude >= 0 && longitude >= 0 && magnitude >= 0; }
+  int time, latitude, longitude, magnitude, type;
+  std::size_t count;
+};
+
+void read_csv(std::string_view content, Collector &out, const std::string &path) {
+  std::optional<CsvColumns> columns;
+  for_each_line(content, [&](std::string_view line, std::int64_t number) {
+    if (line.empty() || line.front() == '#') return;
+    const Fields fields = split_csv(line);
+    if (!columns) {
+      columns.emplace(fields);
+      if (!columns->complete())
+        throw CatalogueError(
+            text_io::where(path, number) +
+            "column names without time, latitude, longitude and mag, expected those of ComCat");
+      return;
+    }
+    if (fields.size() != columns->count)
+      return out.bad(number, std::to_string(fields.size()) + " fields, expected " +
+                                 std::to_string(columns->count));
+    const auto field = [&fields](int c) -> std::string_view {
+      return c < 0 ? std::string_view() : text_io::trim(fields[static_cast<std::size_t>(c)]);
+    };
+    out.add({field(columns->time),
+             field(columns->latitude),
+             field(columns->longitude),
+             field(columns->magnitude),
+             field(columns->type),
+             {}},
+            number);
+  });
+}
+
+/// Date, clock, type, type of place, magnitude, its type, latitude, longitude, ...
+void read_scedc(std::string_view content, Collector &out) {
+  for_each_line(content, [&](std::string_view line, std::int64_t number) {
+    if (line.empty() || line.front() == '#') return;
+    const Fields f = split_blanks(line);
+    if (f.size() < 9)
+      return out.bad(number, std::to_string(f.size()) +
+                                 " fields, expected date, time, event type, place type, magnitude, "
+                                 "its type, latitude, longitude, depth, ...");
+    const std::string time = f[0] + ' ' + f[1];
+    out.add({time, f[6], f[7], f[4], f[2], {}}, number);
+  });
+}
+
+/// longitude, latitude, year, month, day, magnitude, depth, hour, minute[, second]; the year may
+/// have a fraction, which repeats month and day.
+void read_zmap(std::string_view content, Collector &out) {
+  for_each_line(content, [&](std::string_view line, std::int64_t number) {
+    if (line.empty() || line.front() == '#' || line.front() == '%') return;
+    const Fields f = split_blanks(line);
+    std::array<double, 10> v{};
+    bool good = f.size() >= 9;
+    for (std::size_t i = 0; good && i < std::min(f.size(), v.size()); ++i)
+      good = text_io::parse(f[i], v[i]) || (i == 5 && f[i] == "NaN");
+    for (const std::size_t whole : {3u, 4u, 7u, 8u})
+      good = good && v[whole] >= 0.0 && v[whole] <= 60.0 && v[whole] == std::floor(v[whole]);
+    const auto at =
+        !good || std::fabs(v[2]) > 1e4
+            ? std::nullopt
+            : days(static_cast<int>(v[2]), static_cast<int>(v[3]), static_cast<int>(v[4]),
+                   static_cast<int>(v[7]), static_cast<int>(v[8]), v[9]);
+    if (!at)
+      return out.bad(number,
+                     "no event of ZMAP, expected longitude, latitude, year, month, day, magnitude, "
+                     "depth, hour, minute and, if known, second");
+    out.add({{}, f[1], f[0], f[5] == "NaN" ? std::string_view() : std::string_view(f[5]), {}, at},
+            number);
+  });
+}
+
+/// Child `name` of event whose publicID the event prefers, or the first one.
+pugi::xml_node preferred(const pugi::xml_node &event, const char *name, const char *by) {
+  const std::string_view id = text_io::trim(event.child_value(by));
+  for (const pugi::xml_node &one : event.children(name))
+    if (!id.empty() && one.attribute("publicID").value() == id) return one;
+  return event.child(name);
+}
+
+void read_quakeml(std::string_view content, Collector &out, const std::string &path) {
+  pugi::xml_document document;
+  const pugi::xml_parse_result parsed = document.load_buffer(content.data(), content.size());
+  const auto line_of = [content](std::ptrdiff_t offset) {
+    return 1 + std::count(content.begin(), content.begin() + offset, '\n');
+  };
+  if (!parsed)
+    throw CatalogueError(text_io::where(path, line_of(parsed.offset)) + parsed.description() +
+                         ", expected QuakeML");
+  const pugi::xml_node events = document.document_element().child("eventParameters");
+  if (!events) throw CatalogueError(path + ": no element eventParameters, expected QuakeML");
+  for (const pugi::xml_node &event : events.children("event")) {
+    const pugi::xml_node origin = preferred(event, "origin", "preferredOriginID");
+    const pugi::xml_node magnitude = preferred(event, "magnitude", "preferredMagnitudeID");
+    const auto value = [](const pugi::xml_node &of, const char *name) {
+      return text_io::trim(of.child(name).child_value("value"));
+    };
+    out.add({value(origin, "time"),
+             value(origin, "latitude"),
+             value(origin, "longitude"),
+             value(magnitude, "mag"),
+             text_io::trim(event.child_value("type")),
+             {}},
+            line_of(event.offset_debug()));
+  }
+}
+
+}  // namespace
+
+bool Region::contains(const Earthquake &event) const {
+  if (event.latitude < south || event.latitude > north) return false;
+  const auto eastwards = [this](double longitude) {
+    const double turn = std::fmod(longitude - west, 360.0);
+    return turn < 0.0 ? turn + 360.0 : turn;
+  };
+  return eastwards(event.longitude) <= eastwards(east);
+}
+
+double size_of_magnitude(double magnitude) { return std::pow(10.0, 1.5 * magnitude); }
+
+std::optional<double> parse_date(std::string_view text) {
+  int year = 0, month = 0, day = 0, hour = 0, minute = 0, ahead = 0;
+  double second = 0.0;
+  if (!take(text, 4, year) || !take(text, "-/") || !take(text, 2, month) || !take(text, "-/") ||
+      !take(text, 2, day))
+    return {};
+  if (!text.empty() && (!take(text, "Tt ") || !take_clock(text, hour, minute, second) ||
+                        !take_zone(text, ahead) || !text.empty()))
+    return {};
+  const auto local = days(year, month, day, hour, minute, second);
+  if (!local) return {};
+  return *local - ahead / 1440.0;
+}
+
+std::string date_text(double days) {
+  return date::format("%FT%RZ", date::sys_time<std::chrono::minutes>(
+                                    std::chrono::minutes(std::llround(days * 1440.0))));
+}
+
+Region parse_region(std::string_view text) {
+  std::array<double, 4> v{};
+  std::string_view rest = text;
+  bool good = true;
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    const std::size_t slash = rest.find('/');
+    good = good && (slash == std::string_view::npos) == (i == 3) &&
+           text_io::parse(rest.substr(0, slash), v[i]);
+    rest.remove_prefix(slash == std::string_view::npos ? rest.size() : slash + 1);
+  }
+  if (!good || !(v[2] < v[3]) || std::fabs(v[2]) > 90.0 || std::fabs(v[3]) > 90.0 ||
+      std::fabs(v[0]) > 360.0 || std::fabs(v[1]) > 360.0 || v[0] == v[1])
+    throw std::invalid_argument("--region " + text_io::in_quotes(text) +
+                                ", expected W/E/S/N in degrees, such as -122/-114/32/37");
+  return {v[0], v[1], v[2], v[3]};
+}
+
+CatalogueFormat detect_format(std::string_view content) {
+  CatalogueFormat found = CatalogueFormat::models;
+  bool known = false;
+  for_each_line(content.substr(0, 1 << 16), [&](std::string_view line, std::int64_t) {
+    if (known || line.empty()) return;
+    if (line.front() == '#' || line.front() == '%') {
+      known = line.substr(0, catalogue_detail::magic.size()) == catalogue_detail::magic;
+      return;
+    }
+    known = true;
+    if (line.front() == '<') {
+      found = CatalogueFormat::quakeml;
+    } else if (CsvColumns(split_csv(line)).complete()) {
+      found = CatalogueFormat::csv;
+    } else if (line.size() > 10 && line[4] == '/' && parse_date(line.substr(0, 10))) {
+      found = CatalogueFormat::scedc;
+    } else {
+      const Fields fields = split_blanks(line);
+      double number = 0.0;
+      if (fields.size() >= 9 && std::all_of(fields.begin(), fields.begin() + 5, [&](auto &field) {
+            return text_io::parse(field, number);
+          }))
+        found = CatalogueFormat::zmap;
+    }
+  });
+  return found;
+}
+
+EarthquakeList read_earthquakes(std::string_view content, CatalogueFormat format,
+                                const std::string &path, bool lenient) {
+  Collector out(path, lenient);
+  if (format == CatalogueFormat::csv) read_csv(content, out, path);
+  if (format == CatalogueFormat::quakeml) read_quakeml(content, out, path);
+  if (format == CatalogueFormat::zmap) read_zmap(content, out);
+  if (format == CatalogueFormat::scedc) read_scedc(content, out);
+  return out.finish();
+}
+
+}  // namespace LSM::postproc

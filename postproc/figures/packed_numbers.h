@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file packed_numbers.h
+/// Long columns of numbers as text within a page: bytes, compressed by zlib, in base 64. The page
+/// undoes it with what every browser has (explore/data.js).
+#ifndef LSM_POSTPROC_PACKED_NUMBERS_H
+#define LSM_POSTPROC_PACKED_NUMBERS_H
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace LSM::postproc {
+
+/// \throws std::runtime_error if zlib cannot compress
+std::string packed(std::string_view bytes);
+
+/// Doubles to the last bit: their first bytes, their second bytes, and so on, which compress
+/// better.
+std::string packed(const std::vector<double> &values);
+std::string packed(const std::vector<float> &values);
+
+/// A series of numbers as one byte for each, with errors that are small beside what is seen at any
+/// zoom: a number is predicted by going on straight from the two before it, and the byte says by
+/// how much the prediction is off, on a logarithmic scale. What was off in one number is made good
+/// in the next (the prediction goes on from the decoded numbers), so errors do not add up: they
+/// stay below half of the largest change of slope nearby.
+struct SeriesCode {
+  static constexpr int steps = 127;
+  double first = 0.0, second = 0.0;     ///< as they are
+  std::array<double, steps + 1> off{};  ///< what byte k adds, byte -k takes away; off[0] is 0
+  std::vector<std::int8_t> bytes;       ///< of the third number on
+};
+SeriesCode encode(const std::vector<double> &values);
+/// What the page makes of it, to the last bit.
+std::vector<double> decode(const SeriesCode &code);
+
+}  // namespace LSM::postproc
+
+#endif

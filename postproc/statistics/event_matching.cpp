@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "event_matching.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+namespace LSM::postproc {
+
+namespace {
+
+struct Start {
+  double time, log_size;
+};
+
+std::vector<Start> starts_of(const EventTable &events, double least_size, double from, double to) {
+  std::vector<Start> out;
+  for (std::size_t i = 0; i < events.size.size(); ++i)
+    if (events.size[i] >= least_size && events.t_start[i] >= from && events.t_start[i] < to)
+      out.push_back({events.t_start[i], std::log(events.size[i])});
+  return out;
+}
+
+std::int64_t count_matches(const std::vector<Start> &first, const std::vector<Start> &second,
+                           const MatchRule &rule) {
+  std::vector<bool> taken(second.size(), false);
+  std::int64_t found = 0;
+  for (const Start &event : first) {
+    auto near = std::lower_bound(second.begin(), second.end(), event.time - rule.within,
+                                 [](const Start &a, double time) { return a.time < time; });
+    double least = rule.within;
+    auto best = second.end();
+    for (; near != second.end() && near->time < event.time + rule.within; ++near) {
+      const double apart = std::fabs(near->time - event.time);
+      if (apart < least && !taken[static_cast<std::size_t>(near - second.begin())] &&
+          std::fabs(near->log_size - event.log_size) < std::log(rule.factor)) {
+        least = apart;
+        best = near;
+      }
+    }
+    if (best == second.end()) continue;
+    taken[static_cast<std::size_t>(best - second.begin())] = true;
+    ++found;
+  }
+  return found;
+}
+
+}  // namespace
+
+EventMatches match_events(const EventTable &first, const EventTable &second,
+                          const MatchRule &rule) {
+  if (!(rule.factor > 1.0) || !(rule.within > 0.0) || !(rule.least_size > 0.0) || rule.shifts < 1)
+    throw std::invalid_argument(
+        "matching: expected a factor above 1, and a size and a time above 0");
+  if (first.t_start.empty() || second.t_start.empty())
+    throw std::invalid_argument("matching: a catalogue without events");
+  const double from = std::max(first.t_start.front(), second.t_start.front());
+  const double to = std::min(first.last_end, second.last_end);
+  if (!(to > from)) throw std::invalid_argument("matching: catalogues have no time in common");
+  const std::vector<Start> one = starts_of(first, rule.least_size, from, to);
+  const std::vector<Start> other = starts_of(second, rule.least_size, from, to);
+  EventMatches matches{static_cast<std::int64_t>(one.size()),
+                       static_cast<std::int64_t>(other.size()), count_matches(one, other, rule),
+                       0.0};
+  for (int k = 1; k <= rule.shifts; ++k) {
+    const double shift = (to - from) * k / (rule.shifts + 1);
+    std::vector<Start> shifted = one;
+    for (Start &event : shifted) {
+      event.time += shift;
+      if (event.time >= to) event.time -= to - from;
+    }
+    std::sort(shifted.begin(), shifted.end(),
+              [](const Start &a, const Start &b) { return a.time < b.time; });
+    matches.chance += static_cast<double>(count_matches(shifted, other, rule)) / rule.shifts;
+  }
+  return matches;
+}
+
+}  // namespace LSM::postproc

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file replicas.h
+/// The replicas of Monte Carlo tests: several at a time, with random numbers that do not depend on
+/// the number of cores.
+#ifndef LSM_POSTPROC_REPLICAS_H
+#define LSM_POSTPROC_REPLICAS_H
+
+#include <gsl/gsl_rng.h>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+namespace LSM::postproc {
+
+/// Samples of up to so many values are taken as they are by tests that refit them; larger ones by
+/// cells (see cells.h), so that a refit costs no more.
+constexpr std::int64_t largest_exact_sample = 8192;
+
+/// Seed of one replica; neighbouring seeds and replicas have nothing in common.
+std::uint64_t seed_of_replica(std::uint64_t seed, int replica);
+
+using Rng = std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)>;
+
+/// Mersenne Twister.
+Rng generator(std::uint64_t seed);
+
+/// Calls task(0) to task(count - 1) on all cores that the process may use. \throws what the first
+/// task throws that does
+void for_each_replica(int count, const std::function<void(int)> &task);
+
+/// Is told between replicas how many of how many are done, by one thread at a time; at the end
+/// count of count. Empty: nobody is told.
+void watch_replicas(std::function<void(int done, int count)> observer);
+
+}  // namespace LSM::postproc
+
+#endif

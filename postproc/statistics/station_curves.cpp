@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "station_curves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace LSM {
+
+double interpolate(const std::vector<double> &t, const std::vector<double> &y, double time) {
+  const auto above = std::upper_bound(t.begin(), t.end(), time);
+  if (above == t.begin()) return y.front();
+  if (above == t.end()) return y.back();
+  const auto n = static_cast<std::size_t>(above - t.begin());
+  return y[n - 1] + (y[n] - y[n - 1]) * (time - t[n - 1]) / (t[n] - t[n - 1]);
+}
+
+double arrival(const StationCurve &curve, double rate) {
+  for (std::size_t n = 0; n < curve.t.size(); ++n) {
+    if (!(curve.rate[n] > rate)) continue;
+    if (n == 0) return curve.t[0];
+    const double part = (rate - curve.rate[n - 1]) / (curve.rate[n] - curve.rate[n - 1]);
+    return curve.t[n - 1] + part * (curve.t[n] - curve.t[n - 1]);
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+StationMisfit misfit(const StationCurve &curve, const StationCurve &reference, double rate,
+                     double until) {
+  const double from = std::max(curve.t.front(), reference.t.front());
+  const double to = std::min({curve.t.back(), reference.t.back(), until});
+  if (!(to > from)) throw std::invalid_argument("no time in common with the reference");
+  StationMisfit m;
+  m.x = curve.x;
+  m.arrival = arrival(curve, rate);
+  m.reference_arrival = arrival(reference, rate);
+  m.end_slip = interpolate(curve.t, curve.slip, to);
+  m.reference_end_slip = interpolate(reference.t, reference.slip, to);
+
+  // at the times of the finer of the two, so that nothing of either is passed over
+  const std::vector<double> &times = curve.t.size() > reference.t.size() ? curve.t : reference.t;
+  double slip_off = 0.0, slip_all = 0.0, rate_off = 0.0, rate_all = 0.0;
+  double before = from;
+  for (const double t : times) {
+    if (t <= from || t > to) continue;
+    const double share = t - before;
+    before = t;
+    const double slip = interpolate(reference.t, reference.slip, t);
+    const double velocity = interpolate(reference.t, reference.rate, t);
+    const double own = interpolate(curve.t, curve.rate, t);
+    slip_off += share * std::pow(interpolate(curve.t, curve.slip, t) - slip, 2);
+    slip_all += share * slip * slip;
+    rate_off += share * std::pow(own - velocity, 2);
+    rate_all += share * velocity * velocity;
+    m.peak = std::max(m.peak, own);
+    m.reference_peak = std::max(m.reference_peak, velocity);
+  }
+  m.slip_l2 = std::sqrt(slip_off / slip_all);
+  m.rate_l2 = std::sqrt(rate_off / rate_all);
+  return m;
+}
+
+MisfitSummary summary(const std::vector<StationMisfit> &stations) {
+  MisfitSummary s;
+  double arrivals = 0.0, off = 0.0, all = 0.0;
+  for (const StationMisfit &m : stations) {
+    const double late = m.arrival - m.reference_arrival;
+    if (std::isfinite(late)) {
+      arrivals += 1.0;
+      s.arrival += late * late;
+      s.largest_arrival = std::max(s.largest_arrival, std::fabs(late));
+    }
+    const double more = m.end_slip - m.reference_end_slip;
+    off += more * more;
+    all += m.reference_end_slip * m.reference_end_slip;
+    s.largest_end_slip = std::max(s.largest_end_slip, std::fabs(more / m.reference_end_slip));
+    s.slip_l2 += m.slip_l2 * m.slip_l2;
+    s.rate_l2 += m.rate_l2 * m.rate_l2;
+    s.peak += std::pow(m.peak / m.reference_peak - 1.0, 2);
+  }
+  const auto n = static_cast<double>(stations.size());
+  s.arrival = std::sqrt(s.arrival / arrivals);
+  s.end_slip = std::sqrt(off / all);
+  s.slip_l2 = std::sqrt(s.slip_l2 / n);
+  s.rate_l2 = std::sqrt(s.rate_l2 / n);
+  s.peak = std::sqrt(s.peak / n);
+  return s;
+}
+
+double order(double coarse_error, double fine_error, double coarse_spacing, double fine_spacing) {
+  return std::log(coarse_error / fine_error) / std::log(coarse_spacing / fine_spacing);
+}
+
+}  // namespace LSM

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "threshold_scan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "lsm_text_io.h"
+#include "size_fits.h"
+
+namespace LSM::postproc {
+
+namespace {
+
+constexpr int most_decades = 12;
+
+/// mantissa x 10^decade as a reader of numbers would have it: 1.3e-3 is not 1.3 * 1e-3.
+double decimal(double mantissa, int decade) {
+  double value = 0.0;
+  text_io::parse(fmt::format("{:.1f}e{}", mantissa, decade), value);
+  return value;
+}
+
+PowerLawFit fit_one(const EventTable &table, const SizeFitSettings &settings) {
+  return fit_sizes({table}, settings).front().fit;
+}
+
+}  // namespace
+
+std::vector<double> threshold_grid(const EventTable &table, std::int64_t fewest) {
+  std::vector<double> sorted;
+  for (const double size : table.size)
+    if (size > 0.0) sorted.push_back(size);
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<double> grid;
+  if (static_cast<std::int64_t>(sorted.size()) < fewest) return grid;
+  const double last = sorted[sorted.size() - static_cast<std::size_t>(fewest)];
+  const int highest = static_cast<int>(std::floor(std::log10(last)));
+  const int lowest = std::max(static_cast<int>(std::floor(std::log10(sorted.front()))),
+                              highest - most_decades + 1);
+  for (int decade = lowest; decade <= highest; ++decade)
+    for (const double mantissa : {1.0, 1.3, 1.6, 2.0, 2.5, 3.2, 4.0, 5.0, 6.3, 7.9}) {
+      const double size = decimal(mantissa, decade);
+      if (size >= sorted.front() && size <= last) grid.push_back(size);
+    }
+  const double usual = Threshold().complete_in(table).size;
+  if (usual <= last) grid.push_back(usual);
+  std::sort(grid.begin(), grid.end());
+  grid.erase(std::unique(grid.begin(), grid.end()), grid.end());
+  return grid;
+}
+
+std::vector<ThresholdResult> scan_thresholds(const EventTable &table,
+                                             const std::vector<double> &thresholds) {
+  std::vector<ThresholdResult> results;
+  if (thresholds.empty()) return results;
+  const double largest = *std::max_element(table.size.begin(), table.size.end());
+  IntervalSettings times;
+  times.thresholds = thresholds;
+  times.replicas = 0;
+  std::vector<IntervalCurve> curves = interval_curves({table}, times);
+  for (std::size_t k = 0; k < thresholds.size(); ++k) {
+    ThresholdResult result;
+    result.threshold = thresholds[k];
+    SizeFitSettings sizes;
+    sizes.replicas = 0;
+    sizes.compare = false;
+    sizes.search.upper = true;
+    sizes.threshold = Threshold(thresholds[k]);
+    result.searched = fit_one(table, sizes);
+    sizes.ranges = {{thresholds[k], largest}};
+    result.to_largest = fit_one(table, sizes);
+    result.intervals = std::move(curves[k]);
+    results.push_back(std::move(result));
+  }
+  return results;
+}
+
+}  // namespace LSM::postproc

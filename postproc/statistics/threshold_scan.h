@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file threshold_scan.h
+/// Exponents and inter-event times of one catalogue over many smallest sizes (ours: the paper has
+/// one). Each entry is what `postproc fit` and `postproc intervals` find for that threshold.
+#ifndef LSM_POSTPROC_THRESHOLD_SCAN_H
+#define LSM_POSTPROC_THRESHOLD_SCAN_H
+
+#include <vector>
+
+#include "event_table.h"
+#include "intervals.h"
+#include "power_law.h"
+
+namespace LSM::postproc {
+
+/// One catalogue above one threshold.
+struct ThresholdResult {
+  double threshold = 0.0;   ///< smallest size (model energy)
+  PowerLawFit searched;     ///< on the range that is found above the threshold
+  PowerLawFit to_largest;   ///< from the threshold to the largest size
+  IntervalCurve intervals;  ///< least squares and maximum likelihood, delta free and 1, no p-values
+};
+
+/// Ten sizes a decade with two digits (1, 1.3, 1.6, 2, ...), so that one can type them, from the
+/// smallest event of the table to the largest size with at least `fewest` events, and the threshold
+/// that the commands use where none is given. In ascending order; empty if the table has fewer
+/// events than that.
+std::vector<double> threshold_grid(const EventTable &table, std::int64_t fewest = 20);
+
+/// \throws std::invalid_argument for impossible thresholds
+std::vector<ThresholdResult> scan_thresholds(const EventTable &table,
+                                             const std::vector<double> &thresholds);
+
+}  // namespace LSM::postproc
+
+#endif

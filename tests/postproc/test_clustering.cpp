@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "clustering.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "lsm_random.h"
+
+using namespace LSM;
+using namespace LSM::postproc;
+
+namespace {
+
+std::vector<double> exponential(std::size_t n, Random &random) {
+  std::vector<double> times(n);
+  for (double &time : times) time = -std::log1p(-random.uniform());
+  return times;
+}
+
+std::vector<double> starts_of(const std::vector<double> &times) {
+  std::vector<double> starts{0.0};
+  for (const double time : times) starts.push_back(starts.back() + time);
+  return starts;
+}
+
+// Of times with a known mean and deviation.
+TEST(Clustering, ClosedForms) {
+  std::vector<double> times;
+  for (int i = 0; i < 20; ++i) times.push_back(i % 2 ? 3.0 : 1.0);
+  const Clustering c = clustering(times, 50, 1);
+  EXPECT_EQ(c.n, 20);
+  EXPECT_NEAR(c.variation.value, 0.5, 1e-14);
+  EXPECT_NEAR(c.burstiness, -1.0 / 3.0, 1e-14);
+  const double up = std::sqrt(21.0), down = std::sqrt(19.0);
+  EXPECT_NEAR(c.finite_burstiness.value, (0.5 * up - down) / (0.5 * (up - 2.0) + down), 1e-14);
+  EXPECT_NEAR(c.memory.value, -1.0, 1e-14);
+  EXPECT_LT(c.memory.p, 0.05);
+}
+
+// All but one of the times 0: the finite form is 1, whatever n; periodic times: -1.
+TEST(Clustering, FiniteBurstinessReachesItsEnds) {
+  for (const std::size_t n : {12u, 100u}) {
+    std::vector<double> times(n, 0.0);
+    times[5] = 1.0;
+    EXPECT_NEAR(clustering(times, 2, 1).finite_burstiness.value, 1.0, 1e-12);
+    EXPECT_LT(clustering(times, 2, 1).burstiness, 0.85);
+    EXPECT_EQ(clustering(std::vector<double>(n, 2.0), 2, 1).finite_burstiness.value, -1.0);
+  }
+}
+
+// Independent times: no number is off chance more often than it should be.
+TEST(Clustering, IndependentTimesAreSeenAsSuch) {
+  Random random(5);
+  int off = 0, trials = 0;
+  for (int k = 0; k < 100; ++k) {
+    const Clustering c = clustering(exponential(100, random), 99, 7);
+    for (const AgainstChance &one :
+         {c.variation, c.finite_burstiness, c.memory, c.after[0], c.after[2]}) {
+      ++trials;
+      if (one.p <= 0.05) ++off;
+    }
+  }
+  EXPECT_GT(off, 0.01 * trials);
+  EXPECT_LT(off, 0.10 * trials);
+}
+
+// Runs of short and of long times: memory, short after short and long after long.
+TEST(Clustering, RunsHaveMemory) {
+  Random random(3);
+  std::vector<double> times = exponential(2000, random);
+  for (std::size_t i = 0; i < times.size(); ++i) times[i] *= (i / 20) % 2 ? 5.0 : 0.2;
+  const Clustering c = clustering(times, 99, 1);
+  EXPECT_GT(c.memory.value, 0.2);
+  EXPECT_LE(c.memory.p, 0.01);
+  EXPECT_LT(c.after[0].value, 0.6);
+  EXPECT_GT(c.after[2].value, 1.4);
+  EXPECT_NEAR(c.after[0].mean, 1.0, 0.03);
+  EXPECT_GT(c.finite_burstiness.value, 0.2);
+}
+
+TEST(Steadiness, TellsASteadyRateFromOneThatChanges) {
+  Random random(2);
+  std::vector<double> times = exponential(3000, random);
+  EXPECT_GT(steadiness(starts_of(times), 0.05, 500, 99, 1).p, 0.05);
+  for (std::size_t i = 2000; i < times.size(); ++i) times[i] *= 0.1;
+  const auto starts = starts_of(times);
+  const Steadiness s = steadiness(starts, 0.05, 500, 99, 1);
+  EXPECT_LE(s.p, 0.01);
+  EXPECT_GT(s.whole.departure, 0.2);
+  // both parts are proposed, the longer one first
+  ASSERT_EQ(s.steady.size(), 2u);
+  EXPECT_GT(s.steady[0].n, 1600);
+  EXPECT_GE(s.steady[1].n, 500);
+  EXPECT_LE(s.steady[0].to, starts[2200]);
+  EXPECT_GE(s.steady[1].from, starts[1700]);
+  for (const Stretch &one : s.steady) EXPECT_LE(one.departure, 0.05);
+}
+
+TEST(Steadiness, DepartureOfAKnownSeries) {
+  // ten events in the first tenth of the time, ten in the rest
+  std::vector<double> starts;
+  for (int i = 0; i < 10; ++i) starts.push_back(i);
+  for (int i = 1; i <= 10; ++i) starts.push_back(9.0 + 8.1 * i);
+  EXPECT_NEAR(steadiness(starts, 0.05, 500, 9, 1).whole.departure, 0.5 - 0.1, 0.011);
+}
+
+TEST(AroundLarge, CountsBeforeAndAfter) {
+  // a large event in every tenth place, followed by three soon and preceded by none
+  std::vector<double> starts, sizes;
+  for (int k = 0; k < 50; ++k)
+    for (int i = 0; i < 10; ++i) {
+      starts.push_back(k * 100.0 + (i < 4 ? 0.01 * i : 9.0 * i));
+      sizes.push_back(i == 0 ? 10.0 : 1.0);
+    }
+  const AroundLarge around = around_large(starts, sizes, 49.5 / 499.0);
+  EXPECT_EQ(around.large, 50);
+  EXPECT_NEAR(around.after, 3.0, 1e-12);
+  EXPECT_EQ(around.before, 0.0);
+}
+
+TEST(RescaledDistance, SeesTheLawAndNotTheUnit) {
+  Random random(4);
+  const auto a = exponential(1000, random);
+  auto b = exponential(1000, random);
+  for (double &time : b) time *= 50.0;
+  const RescaledDistance same = rescaled_distance(a, b, 100, 1);
+  EXPECT_LT(same.distance, 0.07);
+  EXPECT_GT(same.error, 0.005);
+  EXPECT_LT(same.error, 0.03);
+  for (double &time : b) time = time * time;
+  EXPECT_GT(rescaled_distance(a, b, 100, 1).distance, 0.15);
+}
+
+}  // namespace

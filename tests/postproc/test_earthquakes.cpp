@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "earthquakes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "catalogue_input.h"
+#include "unit_files.h"
+
+using namespace LSM;
+using namespace LSM::postproc;
+using unit::contains;
+using unit::message_of;
+using unit::spill;
+
+namespace {
+
+// The same four events in each format: Northridge, an aftershock, a quarry blast, and one before
+// both; in ComCat newest first, as it comes.
+const std::string csv =
+    "time,latitude,longitude,depth,mag,magType,nst,id,updated,place,type\n"
+    "1994-01-17T12:31:58.12Z,34.275,-118.493,5.3,5.89,mw,,ci3,2016,\"1km NNE of Granada Hills, "
+    "CA\",earthquake\n"
+    "1994-01-17T12:30:55.39Z,34.213,-118.537,18.2,6.7,mw,,ci1,2016,\"1km NNW of Reseda, "
+    "\"\"CA\"\"\",earthquake\n"
+    "1994-01-16T20:00:00.00Z,34.8,-116.7,0,1.5,mc,,ci4,2016,\"near Barstow, CA\",quarry blast\n"
+    "1994-01-15T00:00:00.00Z,33.5,-116.5,5,2.01,mc,,ci5,2016,\"Anza, CA\",earthquake\n";
+const std::string scedc =
+    "#YYY/MM/DD HH:mm:SS.ss ET GT MAG  M    LAT     LON     DEPTH Q  EVID      NPH NGRM\n"
+    "1994/01/15 00:00:00.00 eq  l 2.01 c    33.500 -116.500   5.0 A  5          10   20\n"
+    "1994/01/16 20:00:00.00 qb  l 1.50 c    34.800 -116.700   0.0 A  4          10   20\n"
+    "1994/01/17 12:30:55.39 eq  l 6.70 w    34.213 -118.537  18.2 A  1         100  200\n"
+    "1994/01/17 12:31:58.12 eq  l 5.89 w    34.275 -118.493   5.3 A  3          50   60\n"
+    "\n# Number of rows returned (1): 4\n";
+const std::string zmap =
+    "-116.500\t33.500\t1994.0383562\t1\t15\t2.01\t5.0\t0\t0\t0\n"
+    "-118.537 34.213 1994 01 17 6.7 18.2 12 30 55.39\n"
+    "-118.493 34.275 1994 1 17 5.89 5.3 12 31 58.12\n";
+const std::string quakeml =
+    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+    "<q:quakeml xmlns=\"http://quakeml.org/xmlns/bed/1.2\" "
+    "xmlns:q=\"http://quakeml.org/xmlns/quakeml/1.2\">\n"
+    "<eventParameters publicID=\"quakeml:x\">\n"
+    "<event publicID=\"quakeml:1\"><type>earthquake</type>\n"
+    " <preferredOriginID>quakeml:o2</preferredOriginID>\n"
+    " <preferredMagnitudeID>quakeml:m2</preferredMagnitudeID>\n"
+    " <origin publicID=\"quakeml:o1\"><time><value>1900-01-01T00:00:00Z</value></time>"
+    "<latitude><value>0</value></latitude><longitude><value>0</value></longitude></origin>\n"
+    " <origin publicID=\"quakeml:o2\"><time><value>1994-01-17T12:30:55.390000Z</value></time>"
+    "<latitude><value>34.213</value></latitude><longitude><value>-118.537</value></longitude>"
+    "</origin>\n"
+    " <magnitude publicID=\"quakeml:m1\"><mag><value>6.4</value></mag></magnitude>\n"
+    " <magnitude publicID=\"quakeml:m2\"><mag><value>6.7</value></mag></magnitude>\n"
+    "</event>\n"
+    "<event publicID=\"quakeml:3\"><origin "
+    "publicID=\"quakeml:o3\"><time><value>1994-01-17T12:31:58.12</value></time>"
+    "<latitude><value>34.275</value></latitude><longitude><value>-118.493</value></longitude>"
+    "</origin><magnitude><mag><value>5.89</value></mag></magnitude></event>\n"
+    "<event publicID=\"quakeml:4\"><type>quarry blast</type><origin>"
+    "<time><value>1994-01-16T20:00:00Z</value></time><latitude><value>34.8</value></latitude>"
+    "<longitude><value>-116.7</value></longitude></origin></event>\n"
+    "<event publicID=\"quakeml:5\"><type>earthquake</type><origin>"
+    "<time><value>1994-01-15T00:00:00Z</value></time><latitude><value>33.5</value></latitude>"
+    "<longitude><value>-116.5</value></longitude></origin>"
+    "<magnitude><mag><value>2.01</value></mag></magnitude></event>\n"
+    "</eventParameters></q:quakeml>\n";
+
+EarthquakeList read(const std::string &content, bool lenient = false) {
+  return read_earthquakes(content, detect_format(content), "file", lenient);
+}
+
+TEST(Earthquakes, FormatsAreDetected) {
+  EXPECT_EQ(detect_format(csv), CatalogueFormat::csv);
+  EXPECT_EQ(detect_format(scedc), CatalogueFormat::scedc);
+  EXPECT_EQ(detect_format(zmap), CatalogueFormat::zmap);
+  EXPECT_EQ(detect_format(quakeml), CatalogueFormat::quakeml);
+  EXPECT_EQ(detect_format("# lsm-catalogue 1\n# model = lsm\n"), CatalogueFormat::models);
+  EXPECT_EQ(detect_format(""), CatalogueFormat::models);
+  EXPECT_EQ(detect_format("a,b\n1,2\n"), CatalogueFormat::models);
+}
+
+TEST(Earthquakes, AllFormatsHoldTheSameEvents) {
+  const double seconds = 86400.0, day = 8779.0;  // 1994-01-14, days after 1970-01-01
+  for (const std::string &content : {csv, scedc, zmap, quakeml}) {
+    const EarthquakeList list = read(content);
+    ASSERT_EQ(list.events.size(), 3u) << content;
+    EXPECT_NEAR((list.events[0].time - day - 1) * seconds, 0.0, 1e-4);
+    EXPECT_NEAR((list.events[1].time - day - 3) * seconds, 12 * 3600 + 30 * 60 + 55.39, 1e-4);
+    EXPECT_NEAR((list.events[2].time - day - 3) * seconds, 12 * 3600 + 31 * 60 + 58.12, 1e-4);
+    EXPECT_EQ(list.events[1].magnitude, 6.7);
+    EXPECT_EQ(list.events[1].latitude, 34.213);
+    EXPECT_EQ(list.events[1].longitude, -118.537);
+    if (&content != &zmap && content != zmap) {
+      ASSERT_EQ(list.others.size(), 1u);
+      EXPECT_EQ(list.others.begin()->second, 1);
+    }
+  }
+}
+
+TEST(Earthquakes, DatesAndTimes) {
+  EXPECT_EQ(parse_date("1970-01-01"), 0.0);
+  EXPECT_EQ(parse_date("2000-03-01T06:00"), 11017.25);
+  EXPECT_EQ(parse_date("2000/03/01 06:00:00.0Z"), 11017.25);
+  EXPECT_EQ(parse_date("2000-03-01T06:00:00+06:00"), 11017.0);
+  EXPECT_EQ(parse_date("2000-02-29T18:00:00-0600"), 11017.0);
+  EXPECT_EQ(parse_date("2016-12-31T23:59:60Z"), 17167.0);  // a leap second
+  EXPECT_NEAR(*parse_date("1999-10-17T23:24:60.99Z"),
+              10881.0 + (23 * 60 + 25) / 1440.0 + 0.99 / 86400, 1e-9);
+  for (const char *bad :
+       {"", "2000", "2000-13-01", "2001-02-29", "2000-03-01T25:00", "2000-03-01T06",
+        "2000-03-01T06:61", "2000-03-01T06:00:61", "2000-03-01T06:00x", "2000-3-1", "yesterday"})
+    EXPECT_FALSE(parse_date(bad)) << bad;
+  EXPECT_EQ(date_text(11017.25), "2000-03-01T06:00Z");
+}
+
+TEST(Earthquakes, WhatCannotBeReadIsNamed) {
+  const struct {
+    std::string content, says;
+  } cases[] = {
+      {"time,latitude,longitude,mag\n1994-01-17T12:30:55Z,34,-118,6.7\nmonday,34,-118,2\n",
+       "file:3: time is 'monday', expected a date and time such as"},
+      {"time,latitude,longitude,mag\n1994-01-17T12:30:55Z,34,-118\n",
+       "file:2: 3 fields, expected 4"},
+      {"time,latitude,longitude,mag\n1994-01-17T12:30:55Z,north,-118,3\n",
+       "file:2: latitude is 'north', expected a number"},
+      {"time,latitude,longitude,mag\n1994-01-17T12:30:55Z,94,-118,3\n",
+       "file:2: latitude is '94', expected a number"},
+      {"time,latitude,longitude,mag\n1994-01-17T12:30:55Z,34,-118,large\n",
+       "file:2: magnitude is 'large', expected a number"},
+      {"1994/01/17 12:30:55.39 eq l 6.7\n", "file:1: 5 fields, expected date, time, event type"},
+      {zmap + "-118 34 1994 13 1 2 5 0 0 0\n", "file:4: no event of ZMAP, expected longitude"},
+      {"<quakeml>\n<eventParameters>\n<event>\n</eventParameters></quakeml>\n", "expected QuakeML"},
+      {"<quakeml/>\n", "file: no element eventParameters, expected QuakeML"},
+      {"<quakeml><eventParameters>\n<event><type>earthquake</type></event>\n"
+       "</eventParameters></quakeml>\n",
+       "file:2: time is '', expected a date and time"}};
+  for (const auto &one : cases)
+    EXPECT_TRUE(contains(message_of<CatalogueError>([&] { read(one.content); }), one.says))
+        << message_of<CatalogueError>([&] { read(one.content); });
+  EXPECT_TRUE(contains(message_of<CatalogueError>([] {
+                         read_earthquakes("a,b\n1,2\n", CatalogueFormat::csv, "file", false);
+                       }),
+                       "file:1: column names without time, latitude, longitude and mag"));
+  const EarthquakeList list = read(csv + "nonsense\nmore\n", true);
+  EXPECT_EQ(list.events.size(), 3u);
+  EXPECT_EQ(list.bad_lines, 2);
+  EXPECT_TRUE(contains(list.first_problem, "file:6: 1 fields, expected 11"));
+}
+
+TEST(Earthquakes, EventsWithoutMagnitudeAreCounted) {
+  const EarthquakeList list = read("time,latitude,longitude,mag\n1994-01-17T12:30:55Z,34,-118,\n");
+  EXPECT_TRUE(list.events.empty());
+  EXPECT_EQ(list.without_magnitude, 1);
+}
+
+TEST(Earthquakes, Regions) {
+  const auto holds = [](const char *region, double longitude, double latitude) {
+    Earthquake event;
+    event.longitude = longitude;
+    event.latitude = latitude;
+    return parse_region(region).contains(event);
+  };
+  EXPECT_TRUE(holds("-122/-114/32/37", -118, 34));
+  EXPECT_TRUE(holds("238/246/32/37", -118, 34));
+  EXPECT_FALSE(holds("-122/-114/32/37", -113, 34));
+  EXPECT_FALSE(holds("-122/-114/32/37", -118, 38));
+  EXPECT_TRUE(holds("170/-170/-30/0", 175, -20));
+  EXPECT_TRUE(holds("170/-170/-30/0", -175, -20));
+  EXPECT_FALSE(holds("170/-170/-30/0", 0, -20));
+  for (const char *bad : {"", "1/2/3", "1/2/3/4/5", "1/2/4/3", "1/2/3/91", "a/2/3/4", "1/1/2/3"})
+    EXPECT_THROW(parse_region(bad), std::invalid_argument) << bad;
+}
+
+class EarthquakeInput : public unit::Files {
+ protected:
+  std::string file(const std::string &content) {
+    const std::string name = path("quakes.csv");
+    spill(name, content);
+    return name;
+  }
+};
+
+TEST_F(EarthquakeInput, TableOfDaysAndMagnitudes) {
+  const EventTable table = load_catalogue(file(csv), {});
+  ASSERT_EQ(table.size.size(), 3u);
+  EXPECT_TRUE(table.earthquakes());
+  EXPECT_EQ(table.label, "quakes");
+  EXPECT_EQ(table.t_start[0], 8780.0);
+  EXPECT_EQ(std::log10(table.size[1]) / 1.5, 6.7);
+  ASSERT_EQ(table.repairs.size(), 1u);
+  EXPECT_TRUE(contains(table.repairs[0], "left out 1 of type 'quarry blast'"));
+  EXPECT_EQ(Threshold().of(table), size_of_magnitude(2.01));
+}
+
+TEST_F(EarthquakeInput, Selection) {
+  CatalogueOptions options;
+  options.min_size = size_of_magnitude(5.89);
+  EXPECT_EQ(load_catalogue(file(csv), options).size.size(), 2u);
+  options.to_day = *parse_date("1994-01-17T12:31");
+  EXPECT_EQ(load_catalogue(file(csv), options).size.size(), 1u);
+  options = {};
+  options.paths = {file(csv)};
+  options.regions = {"-119/-118/34/35", "-117/-116/33/34"};
+  const auto tables = load_catalogues(options);
+  ASSERT_EQ(tables.size(), 2u);
+  EXPECT_EQ(tables[0].size.size(), 2u);
+  EXPECT_EQ(tables[1].size.size(), 1u);
+  EXPECT_TRUE(contains(tables[1].repairs.back(), "left out 2 outside of -117/-116/33/34"));
+  options = {};
+  options.paths = {file(csv)};
+  options.from_time = 1984;
+  EXPECT_TRUE(contains(message_of<std::invalid_argument>([&] { load_catalogues(options); }),
+                       "all catalogues are of earthquakes, expected a date such as 1984-01-01"));
+}
+
+}  // namespace

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "explore_page.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "packed_numbers.h"
+#include "size_fits.h"
+#include "unit_files.h"
+
+namespace {
+
+using namespace LSM;
+using namespace LSM::postproc;
+using unit::contains;
+using unit::message_of;
+
+/// A saw-tooth with drops of all sizes, ripples on it, and a long rest.
+std::vector<double> saw_tooth(std::size_t n) {
+  std::mt19937_64 random(1);
+  std::vector<double> values;
+  double pe = 1.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double u = static_cast<double>(random() >> 11) * 0x1p-53;
+    if (u < 0.01)
+      pe -= std::pow(10.0, -1.0 - 800.0 * u);
+    else if (i < n / 2)
+      pe += 1e-4;
+    values.push_back(pe + 1e-6 * std::sin(0.3 * static_cast<double>(i)));
+  }
+  return values;
+}
+
+TEST(SeriesCode, ErrorsAreBelowHalfOfTheBendNearby) {
+  const std::vector<double> values = saw_tooth(20000);
+  const std::vector<double> found = decode(encode(values));
+  ASSERT_EQ(found.size(), values.size());
+  double most = 0.0;
+  for (std::size_t i = 2; i < values.size(); ++i) {
+    double bend = 1e-15;
+    for (std::size_t k = i < 14 ? 2 : i - 12; k <= i; ++k)
+      bend = std::max(bend, std::fabs(values[k] - 2.0 * values[k - 1] + values[k - 2]));
+    ASSERT_LE(std::fabs(found[i] - values[i]), 0.5 * bend) << i;
+    most = std::max(most, std::fabs(found[i] - values[i]));
+  }
+  EXPECT_GT(most, 1e-6);  // or it would be no code
+}
+
+TEST(SeriesCode, ConstantAndStraightSeriesAreExact) {
+  const std::vector<double> rest(100, 3.7);
+  EXPECT_EQ(decode(encode(rest)), rest);
+  std::vector<double> straight;
+  for (int i = 0; i < 100; ++i) straight.push_back(0.25 * i);
+  EXPECT_EQ(decode(encode(straight)), straight);
+}
+
+TEST(ExploreSeries, ThinnedKeepsSmallestAndLargest) {
+  ExploreSeries series;
+  series.info.dt = 0.5;
+  series.info.stride = 2;
+  series.first_step = 10;
+  series.info.step0 = 10;
+  series.pe = saw_tooth(1001);
+  series.pe[700] = -5.0;
+  series.pe[701] = 9.0;
+  series.thin(1001);
+  EXPECT_EQ(series.pe.size(), 1001U);
+  EXPECT_TRUE(series.times.empty());
+  series.thin(100);
+  EXPECT_LE(series.pe.size(), 100U);
+  ASSERT_EQ(series.times.size(), series.pe.size());
+  EXPECT_TRUE(std::is_sorted(series.times.begin(), series.times.end()));
+  const auto low = std::min_element(series.pe.begin(), series.pe.end());
+  EXPECT_EQ(*low, -5.0);
+  EXPECT_EQ(series.times[static_cast<std::size_t>(low - series.pe.begin())], 700.0);
+  EXPECT_EQ(*std::max_element(series.pe.begin(), series.pe.end()), 9.0);
+}
+
+EventTable power_law(std::int64_t n, const std::string &note = "") {
+  std::mt19937_64 random(7);
+  EventTable table;
+  table.info.model = "lsm";
+  table.info.parameters = {{"length", "120"}, {"note", note}};
+  double time = 0.0;
+  for (std::int64_t i = 0; i < n; ++i) {
+    const double u = (static_cast<double>(random() >> 11) + 0.5) * 0x1p-53;
+    table.size.push_back(1e-5 * std::pow(1e5, u));
+    time += -10.0 * std::log((static_cast<double>(random() >> 11) + 0.5) * 0x1p-53);
+    table.t_start.push_back(time);
+    table.t_end.push_back(time + 0.1);
+  }
+  return table;
+}
+
+TEST(Thresholds, GridHasRoundNumbersAndTheUsualOne) {
+  EventTable table = power_law(2000);
+  table.completeness = 2.7e-4;
+  const std::vector<double> grid = threshold_grid(table);
+  EXPECT_TRUE(std::is_sorted(grid.begin(), grid.end()));
+  for (const double size : {1.3e-5, 1e-4, 2.7e-4, 1.6e-3, 0.05})
+    EXPECT_NE(std::find(grid.begin(), grid.end(), size), grid.end()) << size;
+  const auto above = [&table](double size) {
+    return std::count_if(table.size.begin(), table.size.end(),
+                         [size](double s) { return s >= size; });
+  };
+  EXPECT_GE(above(grid.back()), 20);
+  EXPECT_LT(above(1.35 * grid.back()), 20);
+  EXPECT_TRUE(threshold_grid(power_law(19)).empty());
+}
+
+TEST(Thresholds, EachIsWhatTheEstimatorsFind) {
+  const EventTable table = power_law(600);
+  const std::vector<ThresholdResult> results = scan_thresholds(table, {1e-4, 1e-3});
+  ASSERT_EQ(results.size(), 2U);
+  for (const ThresholdResult &result : results) {
+    SizeFitSettings sizes;
+    sizes.replicas = 0;
+    sizes.search.upper = true;
+    sizes.threshold = Threshold(result.threshold);
+    EXPECT_EQ(result.searched.alpha, fit_sizes({table}, sizes)[0].fit.alpha);
+    EXPECT_NEAR(result.to_largest.alpha, 1.0, 4.0 * result.to_largest.standard_error);
+    EXPECT_EQ(result.to_largest.lo, result.threshold);
+    IntervalSettings times;
+    times.thresholds = {result.threshold};
+    times.replicas = 0;
+    const IntervalCurve curve = interval_curves({table}, times)[0];
+    EXPECT_EQ(result.intervals.variation, curve.variation);
+    ASSERT_EQ(result.intervals.fits.size(), curve.fits.size());
+    EXPECT_EQ(result.intervals.fits.back().fit.gamma, curve.fits.back().fit.gamma);
+    EXPECT_NEAR(curve.burstiness(), (curve.variation - 1) / (curve.variation + 1), 1e-15);
+  }
+}
+
+class SlipImages : public unit::Files {};
+
+TEST_F(SlipImages, SlipOfEachPlaceIsKept) {
+  SlipHistoryInfo info;
+  info.grid.bins = 7;
+  info.grid.width = 2.0;
+  info.grid.interval = 4;
+  info.grid.dt = 0.25;
+  info.ruptures.velocity = 0.005;
+  info.driving = 0.001;
+  info.quiet = 3;
+  std::vector<double> slip(7, 0.0);
+  {
+    SlipHistoryWriter writer;
+    writer.create(path("run.slip.bin"), info, 0, 0.0, FaultRow(7).stress);
+    for (std::int64_t n = 0; n < 200; ++n) {
+      FaultRow row(7);
+      for (std::size_t b = 0; b < 7; ++b) {
+        const double phase = static_cast<double>(n) / 20.0 - static_cast<double>(b);
+        row.slip[b] = phase > 0.0 && phase < 3.0 ? static_cast<float>(0.3 * std::sin(phase)) : 0.0F;
+        slip[b] += static_cast<double>(row.slip[b]);
+      }
+      writer.add(4 * (n + 1), 0.0, row, true);
+    }
+  }
+  const auto slip_of = [](const SlipImage &image) {
+    std::vector<double> sums(static_cast<std::size_t>(image.columns), 0.0);
+    double before = image.begin;
+    for (std::size_t row = 0; row < image.ends.size(); ++row) {
+      for (std::size_t c = 0; c < sums.size(); ++c) {
+        const int byte = image.cells[row * sums.size() + c];
+        const double velocity = image.velocity[static_cast<std::size_t>(std::abs(byte))];
+        sums[c] += (byte < 0 ? -velocity : velocity) * 0.001 * (image.ends[row] - before);
+      }
+      before = image.ends[row];
+    }
+    return sums;
+  };
+  const SlipImage whole = load_slip_image(path("run.slip.bin"));
+  ASSERT_EQ(whole.columns, 7);
+  ASSERT_EQ(whole.ends.size(), 200U);
+  for (std::size_t b = 0; b < 7; ++b) EXPECT_NEAR(slip_of(whole)[b], slip[b], 0.01 * slip[b]) << b;
+  // Locked places do not seem to move.
+  for (std::size_t row = 0; row < 10; ++row)
+    for (std::size_t b = 1; b < 7; ++b) EXPECT_EQ(whole.cells[row * 7 + b], 0);
+
+  const SlipImage joined = load_slip_image(path("run.slip.bin"), false, 0.0, 1e9, 4, 100);
+  ASSERT_EQ(joined.columns, 4);
+  EXPECT_EQ(joined.bins_per_column, 2);
+  EXPECT_LE(joined.cells.size(), 110U);
+  EXPECT_DOUBLE_EQ(joined.ends.back(), 200.0);
+  EXPECT_NEAR(slip_of(joined)[0], 0.5 * (slip[0] + slip[1]), 0.03 * slip[0]);
+  EXPECT_NEAR(slip_of(joined)[3], slip[6], 0.03 * slip[6]);
+  EXPECT_TRUE(contains(
+      message_of<std::runtime_error>([&] { load_slip_image(path("run.slip.bin"), false, 1e6); }),
+      "nothing in the window of time"));
+}
+
+ExploreRun run_of(const std::string &note) {
+  ExploreEvents kind;
+  kind.table = power_law(100, note);
+  kind.table.label = note;
+  for (std::size_t i = 0; i < 100; ++i) {
+    Event event;
+    event.id = static_cast<std::int64_t>(i + 1);
+    event.size = kind.table.size[i];
+    event.t_start = kind.table.t_start[i];
+    event.t_end = kind.table.t_end[i];
+    kind.events.push_back(event);
+  }
+  ExploreRun run;
+  run.kinds.push_back(kind);
+  return run;
+}
+
+TEST(ExplorePage, TextOfCataloguesEndsNoElement) {
+  const std::string hostile = "</script><!--<script>alert(1)</script>\xff\"'&";
+  const std::string page = explore_html({run_of(hostile)}, {}),
+                    plain = explore_html({run_of("x")}, {});
+  const auto count = [](const std::string &text, const std::string &what) {
+    std::size_t n = 0;
+    for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; ++at) ++n;
+    return n;
+  };
+  for (const char *const mark : {"<script", "</script", "<!--", "<style"})
+    EXPECT_EQ(count(page, mark), count(plain, mark)) << mark;
+  EXPECT_EQ(page.find("alert(1)<"), std::string::npos);
+}
+
+TEST(ExplorePage, NamesNoOtherFile) {
+  const std::string page = explore_html({run_of("x")}, {});
+  for (const char *const mark : {" src=\"", "href=\"h", "href=\"e", "href=\"d.", "{{title",
+                                 "{{data", "@import", "sourceMappingURL"})
+    EXPECT_EQ(page.find(mark), std::string::npos) << mark;
+  EXPECT_NE(page.find("Permission is hereby granted, free of charge"), std::string::npos);
+  EXPECT_NE(page.find("Dan Vanderkam"), std::string::npos);
+  EXPECT_THROW(explore_file("nothing.js"), std::logic_error);
+}
+
+TEST(ExplorePage, LargestEventsStay) {
+  ExploreEvents kind = run_of("x").kinds[0];
+  std::vector<double> sizes = kind.table.size;
+  std::sort(sizes.begin(), sizes.end());
+  kind.thin(30);
+  ASSERT_EQ(kind.events.size(), 30U);
+  for (const Event &event : kind.events) EXPECT_GE(event.size, sizes[70]);
+  EXPECT_TRUE(std::is_sorted(kind.events.begin(), kind.events.end(),
+                             [](const Event &a, const Event &b) { return a.t_start < b.t_start; }));
+}
+
+}  // namespace
