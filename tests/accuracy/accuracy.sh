@@ -45,9 +45,11 @@ if wanted extremes; then
   { printf "case\toutcome\n"; sed -n "s/^EXTREME\t//p" "$out/work/extremes.txt"; } >"$out/extremes.tsv"
 fi
 
-# Those of catalogues.sh, if they are there
-for suffix in csv png svg; do
-  [ ! -e "$out/../work-precision/catalogues.$suffix" ] || cp "$out/../work-precision/catalogues.$suffix" "$out/fault_catalogues.$suffix"
+# Those of the study work-precision, if they are there
+study=$out/../studies/work-precision
+[ ! -e "$study/differences.csv" ] || cp "$study/differences.csv" "$out/fault_catalogues.csv"
+for suffix in png svg; do
+  [ ! -e "$study/work-precision.$suffix" ] || cp "$study/work-precision.$suffix" "$out/fault_catalogues.$suffix"
 done
 
 # ---- diagrams -----------------------------------------------------------------------------------
@@ -320,7 +322,7 @@ $(markdown fault_picker.csv)
 
 ## Fault: catalogues, error against run time
 
-By \`tests/accuracy/catalogues.sh\`, which takes 40 minutes of CPU time and is no part of this report's own runs.
+By \`inputs/study.sh work-precision\`, which takes 40 minutes of CPU time and is no part of this report's own runs.
 
 $(remarks fault_catalogues.csv)
 

@@ -548,6 +548,7 @@ struct LongRun {
 
 void start(LongRun &w) {
   const Variables variables = {{"length", text(length)},
+                               {"choices", "first"},
                                {"prefix", w.prefix()},
                                {"loose", w.loose},
                                {"dt", text(w.dt)},
@@ -917,6 +918,7 @@ void leaps() {
     const std::string name = w.name();
     w.seconds = run(inputs + "/fault.in",
                     {{"length", text(length)},
+                     {"choices", "first"},
                      {"prefix", name},
                      {"velocity", text(w.velocity)},
                      {"leap", w.fast > 0.0 ? "yes" : "no"},

@@ -65,12 +65,12 @@ die() {
   exit 1
 }
 
-# scene LENGTH: fault_LENGTH.restart and .data, and what other programs read
+# scene LENGTH [VARIABLES]: fault_LENGTH.restart and .data, and what other programs read; with VARIABLES fault_LENGTH_all
 scene() {
-  local name=fault_$1
+  local name=fault_$1${2:+_all}
   if [ "$name.restart" -nt "$lmp" ] && [ "$name.geo" -nt "$here/convert.awk" ]; then return; fi
   echo "making the fault of length $1" >&2
-  mpirun -np "$most" "$lmp" -in "$here/make.in" -var length "$1" -var name "$name" -log make.log -screen none ||
+  mpirun -np "$most" "$lmp" -in "$here/make.in" -var length "$1" -var name "$name" "${@:2}" -log make.log -screen none ||
     die "making the fault failed, see $folder/make.log"
   awk -v name="$name" -f "$here/convert.awk" "$name.data"
 }
@@ -98,11 +98,11 @@ note() {
     }' "$6" "$7" >> $timings || die "no timing of $2 in $folder/$6"
 }
 
-# ours TABLE LABEL LENGTH RANKS ROUND VARIABLES...
+# ours TABLE LABEL LENGTH RANKS ROUND VARIABLES...; of fault_LENGTH, or of $fault
 ours() {
   local table=$1 label=$2 size=$3 ranks=$4 round=$5
   shift 5
-  mpirun -np "$ranks" "${measure[@]}" "$lmp" -in "$here/ours.in" -var name "fault_$size" -var steps "$(steps "$size" $((60 * ranks)))" "$@" \
+  mpirun -np "$ranks" "${measure[@]}" "$lmp" -in "$here/ours.in" -var name "${fault:-fault_$size}" -var steps "$(steps "$size" $((60 * ranks)))" "$@" \
     -log ours.log -screen none > ours.out 2>&1 || die "$label failed, see $folder/ours.log"
   note "$table" "$label" "$size" "$ranks" "$round" ours.log ours.out
 }
@@ -173,6 +173,7 @@ fi
 
 if wanted features; then
   scene "$length"
+  scene "$length" -var within yes
   # Each takes turns with the base.
   feature() {
     local label=$1
@@ -190,6 +191,9 @@ if wanted features; then
     feature "energy ledger" -var ledger yes
     feature "ranks sum PE every step" -var block 1
     feature "no friction (lsm/free)" -var contacts lsm/free
+    # A fault of its own, as discs that overlap would fly apart.
+    ours features "base of contacts of all discs" "$length" "$most" "$round"
+    fault=fault_${length}_all ours features "contacts of all discs" "$length" "$most" "$round" -var within yes
     feature "static friction above dynamic" -var mus 0.7
     feature "slip weakening" -var otherlaw yes -var law slip-weakening -var friction "mu 0.5 mu_static 0.6 dc 0.002 heal 5"
     feature "velocity weakening" -var otherlaw yes -var law velocity-weakening -var friction "mu 0.6 vc 0.02"

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # A fault in ESyS-Particle as inputs/fault.in has it with hold = position: masses r^2, viscosity, friction between the blocks, plates
-# driven at constant speed. NAME.geo, length, time step, viscosity, driving velocity of each plate, CPU seconds of the worker, most steps.
-# Ends when the worker has used so much time; PE of links and contacts at every step in NAME.esys.links and NAME.esys.contacts.
+# driven at constant speed. NAME.geo, length, time step, viscosity, driving velocity of each plate, friction, its spring, steps.
+# PE of links and contacts at every step in NAME.esys.links and NAME.esys.contacts, CPU time in NAME.esys.json.
+import json
 import math
 import os
 import sys
@@ -9,8 +10,8 @@ from esys.lsm import (DampingPrms, InteractionScalarFieldSaverPrms, LsmMpi, NRot
 from esys.lsm.util import BoundingBox, Vec3
 
 name = sys.argv[1]
-length, dt, viscosity, velocity, seconds = map(float, sys.argv[2:7])
-steps = int(sys.argv[7])
+length, dt, viscosity, velocity, mu, kt = map(float, sys.argv[2:8])
+steps = int(sys.argv[8])
 ramp = 150
 
 
@@ -43,7 +44,7 @@ for tag in range(1, 7):
 simulation.createInteractionGroup(NRotBondPrms(name="links", normalK=1.0, breakDistance=10.0, tag=0, scaling=False))
 # createInteractionGroupTagged takes no notice of tags with this friction (version 2.3.5), so that contacts are those of all discs
 # that no link joins, as with contacts = all in inputs/fault.in.
-simulation.createInteractionGroup(NRotFrictionPrms(name="contacts", normalK=1.0, dynamicMu=0.6, shearK=1.0, scaling=False))
+simulation.createInteractionGroup(NRotFrictionPrms(name="contacts", normalK=1.0, dynamicMu=mu, shearK=kt, scaling=False))
 simulation.createExclusion("links", "contacts")
 simulation.createInteractionGroup(DampingPrms(type="Damping", name="viscosity", viscosity=viscosity, maxIterations=50))
 for group in ("links", "contacts"):
@@ -51,13 +52,14 @@ for group in ("links", "contacts"):
         InteractionScalarFieldSaverPrms(interactionName=group, fieldName="potential_energy", fileName=name + ".esys." + group,
                                         fileFormat="SUM", beginTimeStep=0, endTimeStep=steps, timeStepIncr=1))
 simulation.setNumTimeSteps(steps)
-step = 0
-while step < steps and (step % 50 or worker_time() < seconds):
+for step in range(steps):
     if step % 5 == 0:  # damping slows the plates down, too
         share = min(1.0, step * dt / ramp) * (1 + 2.5 * viscosity * dt)
         for tag, side in ((5, -1), (6, 1)):
             simulation.setTaggedParticleVelocity(tag, Vec3(side * share * velocity, 0, 0))
+    if step % 1000 == 0:
+        print("step %d of %d" % (step, steps), flush=True)
     simulation.runTimeStep()
-    step += 1
-print("worker %.1f s for %d steps" % (worker_time(), step), flush=True)
+with open(name + ".esys.json", "w") as summary:
+    json.dump({"steps": steps, "cpu_s": worker_time()}, summary)
 simulation.exit()

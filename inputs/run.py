@@ -1,0 +1,242 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Starts one run of a study, or goes on with it where it was stopped.
+
+run.py FOLDER fault|slider|esys RANKS CHECKPOINT BIN NAME=VALUE...
+
+FOLDER holds settings.txt (what the run was begun with; other settings need another folder), output.txt (what the
+program said), the files of the program, and done.json once the run is done. SIGTERM, or the time LSM_UNTIL
+(seconds since 1970): the run ends with its next restart file or checkpoint; SIGINT, SIGHUP or the end of the
+caller: at once, and the steps since the last one are taken again. Neither loses an event. A fault by ESyS-Particle (esys)
+begins again. Exit status: 0 done, 75 stopped, go on later, 1 failed.
+"""
+import ctypes
+import fcntl
+import hashlib
+import json
+import os
+import re
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+STOPPED = 75
+INPUTS = Path(__file__).resolve().parent
+EXPORTS = re.findall(r"^export (.*)$", (INPUTS / "mpi-settings.sh").read_text(), re.M)
+MPI = dict(word.split("=", 1) for line in EXPORTS for word in line.split())
+
+
+class Failed(Exception):
+    pass
+
+
+def die_with_parent(number=signal.SIGHUP):
+    ctypes.CDLL(None).prctl(1, int(number))  # PR_SET_PDEATHSIG
+
+
+def replace(path, text):
+    new = path.with_name(path.name + ".new")
+    new.write_text(text)
+    new.replace(path)
+
+
+def alone_in(folder):
+    """The folder's lock. The ranks of a run that was killed may live a little longer; each holds it, too."""
+    lock = open(folder / "lock", "a")
+    for _ in range(600):
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            fcntl.flock(lock, fcntl.LOCK_SH)
+            return lock
+        except BlockingIOError:
+            time.sleep(0.1)
+    raise Failed(f"{folder}: another run works in it")
+
+
+def events_in(catalogue):
+    with open(catalogue) as lines:
+        return sum(line[0] not in "#e" and line.endswith("\n") for line in lines)
+
+
+class Fault:
+    catalogue = "fault.catalogue.csv"
+
+    def __init__(self, folder, ranks, checkpoint, binaries, settings):
+        self.folder, self.settings, self.checkpoint = folder, settings, checkpoint
+        self.start = ["mpirun", "-np", ranks, "flock", "-n", "-s", "-F", "lock", f"{binaries}/lmp", "-in",
+                      f"{INPUTS}/fault.in", "-log", "none"]
+
+    def restart(self):
+        """Newest restart file that was written to its end; lmp looks whether it is whole and of the same run."""
+        steps = [int(info.name.split(".")[2]) for info in self.folder.glob("fault.restart.*.info") if info.name.split(".")[2].isdigit()]
+        return f"fault.restart.{max(steps)}" if steps else None
+
+    def command(self):
+        name = self.restart()
+        pairs = [f"restart={name}" if name else "overwrite=yes", "prefix=fault", f"checkpoint={self.checkpoint}", *self.settings]
+        return self.start + [word for pair in pairs for word in ("-var", *pair.split("=", 1))]
+
+    def stop(self, _):
+        # looked for when a restart file has been written, see fault.in
+        (self.folder / "fault.stop").touch()
+
+    def steps(self):
+        """Steps of shear, None unless all are done."""
+        info = self.folder / "fault.restart.end.info"
+        if not info.exists():
+            return None
+        told = dict(line.split(" = ", 1) for line in info.read_text().splitlines() if " = " in line)
+        return int(told["step"]) - int(told["settle"])
+
+
+class Slider:
+    catalogue = "catalogue.csv"
+
+    def __init__(self, folder, ranks, checkpoint, binaries, settings):
+        self.folder, self.settings, self.binaries = folder, settings, binaries
+
+    def command(self):
+        words = []
+        for pair in self.settings:
+            key, value = pair.split("=", 1)
+            words += [f"--{key}"] if value == "yes" else [f"--{key}", value]
+        resumed = (self.folder / "checkpoint.bin").exists()
+        if resumed and not (self.folder / self.catalogue).exists():
+            raise Failed(f"{self.folder}/{self.catalogue} is missing, but there is a checkpoint; move the folder away to begin again")
+        return ["flock", "-n", "-s", "-F", "lock", f"{self.binaries}/slider_cli", *words, "--catalogue", self.catalogue,
+                "--checkpoint", "checkpoint.bin", "--json", "summary.json", "--progress",
+                "--resume" if resumed else "--overwrite"]
+
+    def stop(self, child):
+        child.send_signal(signal.SIGTERM)
+
+    def steps(self):
+        path = self.folder / "summary.json"
+        summary = json.loads(path.read_text()) if path.exists() else {"interrupted": True}
+        return None if summary["interrupted"] else summary["steps"]
+
+
+class Esys:
+    """A fault by ESyS-Particle; its steps of shear and its CPU time are in summary.json once all are done."""
+    catalogue = "fault.catalogue.csv"
+
+    def __init__(self, folder, ranks, checkpoint, binaries, settings):
+        self.folder, self.settings, self.binaries = folder, settings, binaries
+
+    def command(self):
+        return ["flock", "-n", "-s", "-F", "lock", f"{INPUTS.parent}/tests/bench/esys_fault.sh", str(self.binaries), *self.settings]
+
+    def stop(self, child):
+        child.terminate()
+
+    def told(self):
+        path = self.folder / "summary.json"
+        return json.loads(path.read_text()) if path.exists() else {}
+
+    def steps(self):
+        return self.told().get("steps")
+
+
+PROGRAMS = {"fault": Fault, "slider": Slider, "esys": Esys}
+
+
+def begin(folder, settings):
+    """Writes down with what the run begins; a run that was begun with something else is left alone."""
+    path, text = folder / "settings.txt", "\n".join(settings) + "\n"
+    if path.exists() and path.read_text() == text:
+        return
+    begun = [f for pattern in ("*.restart.*.info", "checkpoint.bin", "done.json") for f in folder.glob(pattern)]
+    if path.exists() and begun:
+        raise Failed(f"{folder} was begun with other settings ({' '.join(path.read_text().split())}), expected "
+                     f"{' '.join(settings)}; move it away, or give the study another output")
+    replace(path, text)
+
+
+def seconds_left():
+    """Until the time that LSM_UNTIL says, in seconds since 1970."""
+    return float(os.environ.get("LSM_UNTIL", "inf")) - time.time()
+
+
+def work(job, folder):
+    """Lets the program work until it ends. Returns its exit status, whether it was told to stop, and what it said."""
+    output = folder / "output.txt"
+    said = output.stat().st_size if output.exists() else 0
+    # A session folder of its own: two mpirun that begin at the same moment get in each other's way in a common one.
+    session = Path(tempfile.gettempdir()) / f"lsm-{os.getuid()}-{hashlib.sha256(str(folder).encode()).hexdigest()[:12]}"
+    shutil.rmtree(session, ignore_errors=True)
+    session.mkdir(mode=0o700)
+    told = []
+    with open(output, "ab") as file:
+        child = subprocess.Popen(job.command(), cwd=folder, stdin=subprocess.DEVNULL, stdout=file, stderr=file,
+                                 env={**os.environ, **MPI, "OMPI_MCA_orte_tmpdir_base": str(session)},
+                                 start_new_session=True, preexec_fn=lambda: die_with_parent(signal.SIGTERM))
+
+    def stop(number, _):
+        told.append(number)
+        if number in (signal.SIGTERM, signal.SIGALRM):
+            job.stop(child)
+        else:
+            child.terminate()
+    for number in (signal.SIGTERM, signal.SIGALRM, signal.SIGINT, signal.SIGHUP):
+        signal.signal(number, stop)
+    if seconds_left() < 1e9:
+        signal.setitimer(signal.ITIMER_REAL, max(0.001, seconds_left()))
+    code = child.wait()
+    shutil.rmtree(session, ignore_errors=True)
+    return code, bool(told), output.read_bytes()[said:].decode(errors="replace")
+
+
+def count_cpu(folder):
+    """Adds the CPU time of this part of the run to that of those before it; a part that was killed is not counted."""
+    path = folder / "cpu.txt"
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    replace(path, f"{(float(path.read_text()) if path.exists() else 0.0) + used.ru_utime + used.ru_stime:.2f}\n")
+
+
+def run(folder, kind, ranks, checkpoint, binaries, *settings):
+    folder = Path(folder).resolve()
+    if kind not in PROGRAMS:
+        raise Failed(f"program {kind!r}, expected {' or '.join(PROGRAMS)}")
+    folder.mkdir(parents=True, exist_ok=True)
+    lock = alone_in(folder)
+    begin(folder, [f"program={kind}", *settings])
+    job = PROGRAMS[kind](folder, ranks, checkpoint, Path(binaries).resolve(), list(settings))
+    for name in ("fault.stop", "fault.stopping"):
+        (folder / name).unlink(missing_ok=True)
+    if job.steps() is None:
+        if seconds_left() < 0:
+            return STOPPED
+        code, told, said = work(job, folder)
+        count_cpu(folder)
+        if (code != 0 or job.steps() is None) and told:
+            return STOPPED
+        if code != 0:
+            why = re.search(r"^(ERROR.*|slider_cli: .*)$", said, re.M)
+            why = why.group(1) if why else f"its program ended with {code}, see output.txt"
+            if "link is strained" not in why:
+                raise Failed(f"{folder}: {why}" + ("; no space left on the disk" if shutil.disk_usage(folder).free < 2**20 else ""))
+            # what these settings lead to, and would again
+            print(f"run.py: {folder}: {why}", file=sys.stderr)
+            replace(folder / "done.json", json.dumps({"failed": why}) + "\n")
+            return 0
+    cpu = folder / "cpu.txt"
+    done = {"steps": job.steps(), "events": events_in(folder / job.catalogue), "cpu_s": float(cpu.read_text()) if cpu.exists() else None}
+    if kind == "esys":
+        done["cpu_s"] = job.told()["cpu_s"]  # its master process waits by asking all the time, which does not count
+    replace(folder / "done.json", json.dumps(done) + "\n")
+    lock.close()
+    return 0
+
+
+if __name__ == "__main__":
+    die_with_parent()
+    try:
+        sys.exit(run(*sys.argv[1:]))
+    except (Failed, OSError) as error:
+        print(f"run.py: {error}", file=sys.stderr)
+        sys.exit(1)

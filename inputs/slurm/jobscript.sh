@@ -1,0 +1,12 @@
+#!/bin/bash
+# properties = {properties}
+# Told to end: so is the run, which ends with its next restart file; then the job is queued again, unless it was cancelled.
+told=
+trap 'told=is-$(squeue -h -j "$SLURM_JOB_ID" -o %T); kill -TERM -- -$child' TERM
+set -m
+( {exec_job} ) &
+child=$!
+wait $child; code=$?
+while [ -n "$told" ] && kill -0 $child 2>/dev/null; do wait $child; code=$?; done
+[ "$told" != is-RUNNING ] || [ $code = 0 ] || scontrol requeue "$SLURM_JOB_ID"
+exit $code

@@ -1,0 +1,304 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Which values of what the paper does not print give the statements that it does.
+
+calibrate.py collect BIN OUT.csv FOLDER...   numbers of the runs of a study, one row for each run and memory of the picker
+calibrate.py sliders BIN OUT.csv FOLDER...   the same numbers of block-sliders, one row for each run, smallest size and warm-up
+calibrate.py figure POINTS.csv OUT           distances over what is not printed: OUT.png and OUT.svg
+
+The tables of results/calibration.md are made of the same functions by results/tables.py.
+
+Approximate Bayesian computation by rejection (Pritchard et al. 1999): points of the prior are run, each statement gives a
+deviation in units of its tolerance, the distance is their root mean square, and the points nearest to the paper are kept.
+"""
+import csv
+import lzma
+import math
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+MEMORIES = (0.2, 0.35, 0.5, 0.7, 1, 1.4, 2, 5)  # time units; 0.99 a step is a memory of 100 steps: time steps of 0.002 to 0.05
+LOADING = 4500  # time units that are left out: compression, and PE rising for the first time
+SETTINGS = {"length": "120", "seed": "1", "stress": "0.02", "viscosity": "0.015", "damped": "blocks", "contacts": "fault",
+            "mus": "0.6", "kt": "1", "mass": "r2", "hold": "stress", "impedance": "0.6", "loose": "remove", "linkgap": "1e-5",
+            "dt": "0.12", "steps": ""}
+RANGES = ("1e-4:1e-1", "1e-4:1e-3", "1e-3:1e-2", "1e-2:1e-1")
+WINDOWS = ("16:22", "22:28", "30:36", "38:44")
+WAVE_SPEED = {"r2": 2.08, "r3": 2.53}  # of P-waves in the packing, see p_wave_packing.in
+
+SLIDER_WARMUPS, SLIDER_SIZES = (0, 12000), ("0.0001", "0.01")
+
+
+def number(row, key):
+    return float(row[key]) if row.get(key) else math.nan
+
+
+def outside(value, low, high):
+    """How far a value is from an interval; 0 within."""
+    return max(low - value, 0.0, value - high) if math.isfinite(value) else math.nan
+
+
+def decades(row):
+    parts = [number(row, f"exponent_{text}") - 1.07 for text in RANGES[1:]]
+    return math.sqrt(sum(part * part for part in parts) / len(parts))
+
+
+def swings(row):
+    """Share of the times that are a period of the blocks between the plates, beyond that of other times of this length."""
+    beside = 0.5 * (number(row, "share_16:22_0.0001") + number(row, "share_38:44_0.0001"))
+    return max(number(row, "share_22:28_0.0001"), number(row, "share_30:36_0.0001")) - beside
+
+
+def memories(row):
+    """Mean time between events in memories of the picker, which is 100 steps: needs no clock."""
+    return number(row, "mean_time_0.0001") / float(row["memory"])
+
+
+# name, what is printed (or ours), value of a row, its deviation, tolerance
+STATEMENTS = (
+    ("exponent", "sizes go as s^-1.07 from 1e-4 over three decades", lambda r: number(r, "exponent_1e-4:1e-1"),
+     lambda v: abs(v - 1.07), 0.07),
+    ("decades", "so in each of these decades (no second population)", decades, abs, 0.3),
+    ("gamma", "times between events from 1e-4: gamma 0.995, delta 1", lambda r: number(r, "gamma_0.0001"),
+     lambda v: abs(v - 0.995), 0.1),
+    ("rate", "3000 to 8000 events in 1e7 to 3e7 steps, a memory being 100 steps: 12.5 to 100 memories from one to the next",
+     memories, lambda v: outside(math.log(v), math.log(12.5), math.log(100)), 0.3),
+    ("stick-slip", "PE rises while the fault is locked: it falls in less than a third of the time",
+     lambda r: number(r, "in_events"), lambda v: outside(v, 0.0, 0.33), 0.03),
+    ("waves", "P-waves run at 2.1", lambda r: WAVE_SPEED[r["mass"]], lambda v: abs(v - 2.12), 0.1),
+    ("steps", "events are resolved (ours): at most 2 % last 3 steps or less", lambda r: number(r, "brief"),
+     lambda v: outside(v, 0.0, 0.02), 0.02),
+    ("swings", "events are slip (ours): few times are a swing of the blocks between the plates", swings,
+     lambda v: outside(v, 0.0, 0.02), 0.03),
+)
+
+
+def deviations(row, statements=STATEMENTS):
+    """In units of the tolerances; a statement that cannot be evaluated, for want of events, is missed by ten."""
+    result = []
+    for name, _, value, off, tolerance in statements:
+        v = value(row)
+        z = off(v) / tolerance if math.isfinite(v) and not (name in ("B", "events") and v <= 0) else math.nan
+        result.append(min(z, 10.0) if math.isfinite(z) else 10.0)
+    return result
+
+
+def distance(row, statements=STATEMENTS):
+    parts = deviations(row, statements)
+    return math.sqrt(sum(part * part for part in parts) / len(parts))
+
+
+def read(path):
+    path = Path(path)
+    with (lzma.open if path.suffix == ".xz" else open)(path, "rt") as lines:
+        return list(csv.DictReader(line for line in lines if not line.startswith("#")))
+
+
+# Of the block-slider; each is asked at each of the five lengths.
+SLIDER_STATEMENTS = (
+    ("events", "3000 to 5000 in 1e7 steps", lambda r: number(r, "events"),
+     lambda v: outside(math.log(v), math.log(3000), math.log(5000)), 0.3),
+    ("small", "exponent 0.5 below size 1", lambda r: number(r, "exponent_1e-2:1"), lambda v: abs(v - 0.5), 0.1),
+    ("large", "exponent 1.0 above", lambda r: number(r, "exponent_1:1e2"), lambda v: abs(v - 1.0), 0.1),
+    ("gamma", "0.0", lambda r: number(r, "gamma"), abs, 0.1),
+    ("B", "100 (a factor of 2)", lambda r: number(r, "B"), lambda v: abs(math.log(v / 100)), math.log(2)),
+    ("C", "0.25", lambda r: number(r, "C"), lambda v: abs(v - 0.25), 0.05),
+)
+
+
+# ---- collect
+
+
+def summary(postproc, folder, memory, work):
+    picked = work / "picked.csv"
+    common = dict(check=True, capture_output=True, text=True)
+    series = next(folder.glob("*.pe.bin"))
+    subprocess.run([postproc, "pick", series, "-o", picked, "--force", "--memory-time", str(memory)], **common)
+    words = [word for text in RANGES for word in ("--range", text)] + [word for text in WINDOWS for word in ("--window", text)]
+    said = subprocess.run([postproc, "summary", picked, "--from", str(LOADING), *words], **common).stdout
+    return next(csv.DictReader(line for line in said.splitlines() if not line.startswith("#")))
+
+
+def collect(binaries, output, folders):
+    rows = []
+    with tempfile.TemporaryDirectory() as work:
+        for folder in map(Path, folders):
+            words = dict(line.split("=", 1) for line in (folder / "settings.txt").read_text().split("\n") if "=" in line)
+            settings = {"point": folder.name, **{key: words.get(key, value) for key, value in SETTINGS.items()}}
+            if not (folder / "done.json").exists():
+                rows.append({**settings, "memory": "", "stopped": "yes"})
+                continue
+            for memory in MEMORIES:
+                numbers = summary(Path(binaries) / "postproc", folder, memory, Path(work))
+                numbers.pop("label")
+                rows.append({**settings, "memory": str(memory), "stopped": "no", **numbers})
+    write(output, "# One row for each point and memory of the picker; stopped: a link was strained by half its length", rows)
+
+
+def write(output, comment, rows):
+    columns = list(dict.fromkeys(key for row in rows for key in row))
+    with open(output, "w") as file:
+        file.write(comment + "\n")
+        table = csv.DictWriter(file, columns, lineterminator="\n")
+        table.writeheader()
+        table.writerows(rows)
+
+
+def collect_sliders(binaries, output, folders):
+    rows = []
+    for folder in map(Path, folders):
+        words = dict(line.split("=", 1) for line in (folder / "settings.txt").read_text().split("\n") if "=" in line)
+        settings = {key: words.get(key, "") for key in ("blocks", "scheme", "dt", "picker", "picker-lambda", "picker-memory-time")}
+        for warmup in SLIDER_WARMUPS:
+            said = subprocess.run([Path(binaries) / "postproc", "summary", folder / "catalogue.csv", "--from", str(warmup), "--method",
+                                   "least-squares", "--range", "1e-2:1", "--range", "1:1e2", "--threshold", *SLIDER_SIZES],
+                                  check=True, capture_output=True, text=True).stdout
+            numbers = next(csv.DictReader(line for line in said.splitlines() if not line.startswith("#")))
+            for size in SLIDER_SIZES:
+                own = {key: numbers[f"{key}_{size}"] for key in ("events", "mean_time", "gamma", "gamma_error", "B", "C")}
+                rows.append({**settings, "warmup": str(warmup), "smallest": size, "exponent_1e-2:1": numbers["exponent_1e-2:1"],
+                             "exponent_1:1e2": numbers["exponent_1:1e2"], **own})
+    write(output, "# One row for each run, smallest size of the events and warm-up; 1e7 steps each", rows)
+
+
+# ---- report
+
+
+def nearest(rows, share=0.1):
+    """The share of the points, of each its best memory, that are nearest to the paper."""
+    best = {}
+    for row in rows:
+        if row["point"] not in best or distance(row) < distance(best[row["point"]]):
+            best[row["point"]] = row
+    ordered = sorted(best.values(), key=distance)
+    return ordered[:max(1, round(share * len(ordered)))], ordered
+
+
+def span(rows, key):
+    """Values of the points: the smallest and largest, or the words and how many have each."""
+    words = [row[key] for row in rows]
+    try:
+        values = sorted(float(word) for word in words)
+        return f"{values[0]:.2g} to {values[-1]:.2g}"
+    except ValueError:
+        return ", ".join(f"{word} {words.count(word)}" for word in sorted(set(words)))
+
+
+def table(head, rows):
+    return "\n".join(["| " + " | ".join(head) + " |", "|---" * len(head) + "|"] + ["| " + " | ".join(row) + " |" for row in rows])
+
+
+def points(path):
+    """Rows of the points that ran to their end, and how many were stopped."""
+    rows = read(path)
+    return [row for row in rows if row["stopped"] == "no"], sum(row["stopped"] == "yes" for row in rows)
+
+
+def statements_table(path):
+    rows, stopped = points(path)
+    accepted, ordered = nearest(rows)
+    out = []
+    for n, (name, text, _, _, tolerance) in enumerate(STATEMENTS):
+        met = {row["point"] for row in rows if deviations(row)[n] <= 1.0}
+        out.append([name, text, f"{tolerance:g}", str(len(met)), str(sum(deviations(row)[n] <= 1.0 for row in accepted))])
+    head = ["", "statement", "tolerance", f"of {len(ordered)} points meet it", f"of the {len(accepted)} accepted"]
+    return table(head, out) + f"\n\n{stopped} more points stopped, as links were strained by half their length."
+
+
+def pairs_table(path):
+    rows, _ = points(path)
+    shown = [(n, name) for n, (name, *_) in enumerate(STATEMENTS) if name != "waves"]
+
+    def both(i, j):
+        return str(len({row["point"] for row in rows if max(deviations(row)[i], deviations(row)[j]) <= 1.0}))
+    return table([""] + [name for _, name in shown], [[name] + [both(i, j) for j, _ in shown] for i, name in shown])
+
+
+def ranges_table(path):
+    rows, _ = points(path)
+    accepted, ordered = nearest(rows)
+    keys = ("stress", "viscosity", "damped", "contacts", "mus", "kt", "mass", "hold", "impedance", "loose", "linkgap", "memory")
+    return table(["not printed", "sampled", "accepted"],
+                 [[key, span(rows if key == "memory" else ordered, key), span(accepted, key)] for key in keys])
+
+
+def accepted_table(path):
+    accepted, _ = nearest(points(path)[0])
+    keys = ("point", "seed", "stress", "viscosity", "contacts", "mus", "kt", "hold", "impedance", "loose", "memory")
+    shown = [(name, value) for name, _, value, _, _ in STATEMENTS if name != "waves"]
+    head = [*keys, *(name for name, _ in shown), "gamma from 1e-3", "1e-2", "mean time", "largest", "distance"]
+    return table(head, [[row[key] for key in keys] + [f"{value(row):.2f}" for _, value in shown] +
+                        [f"{number(row, 'gamma_0.001'):.2f}", f"{number(row, 'gamma_0.01'):.2f}",
+                         f"{number(row, 'mean_time_0.0001'):.0f}", f"{number(row, 'largest'):.2f}", f"{distance(row):.2f}"]
+                        for row in accepted])
+
+
+def figure(path, base):
+    accepted, ordered = nearest(points(path)[0])
+    taken = {row["point"] for row in accepted}
+
+    def block(x, y, which):
+        lines = [f"{x(row):.6g} {y(row):.6g}" for row in ordered if (row["point"] in taken) == which]
+        return "\n".join(lines or ["nan nan"]) + "\ne\n"
+    panels = [("exponent, 1e-4 to 0.1", "gamma from 1e-4", lambda r: number(r, "exponent_1e-4:1e-1"),
+               lambda r: number(r, "gamma_0.0001"), "unset logscale; set xrange [0.4:2.4]; set yrange [0:2]; "
+               "set object 1 rect from 1.0,0.895 to 1.14,1.095 fs empty border rgb 'black' lw 2")]
+    for key, label in (("stress", "normal stress"), ("viscosity", "viscosity"), ("kt", "tangential stiffness"),
+                       ("impedance", "impedance of the plates"), ("memory", "memory of the picker")):
+        scale = "unset logscale; " if key == "impedance" else "set logscale x; "
+        low = {"viscosity": 5e-4}.get(key, 0.0)
+        panels.append((label, "distance", lambda r, key=key, low=low: max(float(r[key]), low), distance,
+                       f"unset object 1; {scale}set xrange [*:*]; set yrange [0:*]"))
+    script = "set multiplot layout 2,3\nunset key\nset tics nomirror\nset border 3\n"
+    for x, y, fx, fy, how in panels:
+        script += f"{how}\nset xlabel '{x}'\nset ylabel '{y}'\n"
+        script += "plot '-' w p pt 6 ps 0.6 lc rgb '#999999', '-' w p pt 7 ps 1 lc rgb '#d55e00'\n"
+        script += block(fx, fy, False) + block(fx, fy, True)
+    script += "unset multiplot\n"
+    heads = [f"set terminal pngcairo size 1500,900 font 'DejaVu Sans,13'\nset output '{base}.png'\n",
+             f"set terminal svg size 1000,600 font 'DejaVu Sans,11'\nset output '{base}.svg'\n"]
+    subprocess.run(["gnuplot"], input="".join(head + script + "unset output\nreset\n" for head in heads), text=True, check=True)
+
+
+def short(value):
+    return f"{value:.0f}" if abs(value) >= 10 else f"{value:.2f}"
+
+
+def slider_table(path):
+    """The nearest settings of each scheme and time step, over all lengths."""
+    groups = {}
+    for row in read(path):
+        key = tuple(row[name] for name in ("scheme", "dt", "picker", "picker-lambda", "picker-memory-time", "warmup", "smallest"))
+        groups.setdefault(key, []).append(row)
+
+    def mean(key):
+        return math.sqrt(sum(distance(row, SLIDER_STATEMENTS) ** 2 for row in groups[key]) / len(groups[key]))
+
+    def cells(key):
+        rows = sorted(groups[key], key=lambda row: int(row["blocks"]))
+        scheme, dt, picker, leak, memory, warmup, smallest = key
+        out = [scheme, dt, f"{picker}, " + (f"lambda {leak}" if leak else f"memory {memory}"), warmup, smallest]
+        for _, _, value, _, _ in SLIDER_STATEMENTS:
+            out.append(", ".join("-" if math.isnan(value(row)) else short(value(row)) for row in rows))
+        met = sum(z <= 1.0 for row in rows for z in deviations(row, SLIDER_STATEMENTS))
+        return out + [f"{met} of {len(rows) * len(SLIDER_STATEMENTS)}", f"{mean(key):.2f}"]
+    best = {}
+    for key in sorted(groups, key=mean):
+        best.setdefault(key[:2], key)
+    keys = [key for key in best.values() if float(key[1]) >= 0.005]  # shorter ones see the loading only
+    head = ["scheme", "dt", "reading", "warm-up", "smallest", *(f"{name}: {text}" for name, text, *_ in SLIDER_STATEMENTS), "met",
+            "distance"]
+    return table(head, map(cells, keys))
+
+
+if __name__ == "__main__":
+    if sys.argv[1:2] == ["collect"] and len(sys.argv) > 4:
+        collect(*sys.argv[2:4], sys.argv[4:])
+    elif sys.argv[1:2] == ["figure"] and len(sys.argv) == 4:
+        figure(*sys.argv[2:])
+    elif sys.argv[1:2] == ["sliders"] and len(sys.argv) > 4:
+        collect_sliders(*sys.argv[2:4], sys.argv[4:])
+    else:
+        sys.exit(__doc__)

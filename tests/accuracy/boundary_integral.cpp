@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Spontaneous mode II rupture between two elastic half-spaces by a spectral boundary integral: the
+// reference for the ruptures of the lattice, with no mesh, no borders and no waves to follow
+// through the blocks.
+//
+// On the fault (Perrin, Rice and Zheng 1995; Geubelle and Rice 1995; Cochard and Rice 1997)
+//   tau(x, t) = tau0 + f(x, t) - mu / (2 cs) V,
+// where f has the Fourier coefficients
+//   F(k, t) = -(mu |k| / 2) integral_0^t C(|k| cs s) D(k, t - s) |k| cs ds,
+//   C(T) = J1(T) / T + 4 T (W(kappa T) - W(T)) + 3 J0(T) - (4 / kappa) J0(kappa T),
+//   W(T) = 1 - integral_0^T J1(u) / u du, kappa = cp / cs, D: slip.
+// D is taken as linear in each time step, and the kernel integrated over it; slip goes on by Heun's
+// scheme.
+//
+//   lsm_boundary_integral PROBLEM SPACING END EVERY > CSV, with PROBLEM tpv205 or tpv3, in metres
+//   and seconds
+
+#include <fftw3.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <vector>
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double rho = 2670.0, cp = 6000.0, mu_static = 0.677, mu_dynamic = 0.525, dc = 0.4;
+constexpr double normal_stress = 120e6, half_fault = 15000.0, period = 102400.0;
+const double cs = cp / std::sqrt(3.0), mu = rho * cs * cs, kappa = cp / cs;
+
+/// C on a fine grid of its argument.
+class Kernel {
+ public:
+  explicit Kernel(double end) {
+    const auto n = static_cast<std::size_t>(kappa * end / step) + 3;
+    std::vector<double> w(n);
+    w[0] = 1.0;
+    const auto slope = [](double u) { return u > 0.0 ? j1(u) / u : 0.5; };
+    for (std::size_t i = 1; i < n; ++i) {
+      const double a = static_cast<double>(i - 1) * step;
+      w[i] = w[i - 1] - step / 6.0 * (slope(a) + 4.0 * slope(a + 0.5 * step) + slope(a + step));
+    }
+    const auto at = [&w](double u) {
+      const auto i = static_cast<std::size_t>(u / step);
+      const double part = u / step - static_cast<double>(i);
+      return w[i] + part * (w[i + 1] - w[i]);
+    };
+    for (double u = 0.0; u < end + 2.0 * step; u = step * static_cast<double>(values_.size()))
+      values_.push_back(slope(u) + 4.0 * u * (at(kappa * u) - at(u)) + 3.0 * j0(u) -
+                        4.0 / kappa * j0(kappa * u));
+  }
+  double operator()(double u) const {
+    const auto i = static_cast<std::size_t>(u / step);
+    const double part = u / step - static_cast<double>(i);
+    return values_[i] + part * (values_[i + 1] - values_[i]);
+  }
+
+ private:
+  static constexpr double step = 0.002;
+  std::vector<double> values_;
+};
+
+class Fault {
+ public:
+  Fault(bool patches, double spacing, double end)
+      : n_(static_cast<std::size_t>(std::lround(period / spacing))),
+        modes_(n_ / 2 + 1),
+        dx_(period / static_cast<double>(n_)),
+        dt_(0.4 * dx_ / cs),
+        steps_(static_cast<std::size_t>(std::ceil(end / dt_))),
+        slip(n_),
+        rate(n_),
+        initial_(n_),
+        breaks_(n_),
+        real_(n_),
+        spectrum_(modes_) {
+    for (std::size_t i = 0; i < n_; ++i) {
+      const double at = x(i), e = 0.01 * dx_;
+      // a place at the edge of a patch has the mean of both sides
+      const auto within = [at, e](double lo, double hi) {
+        return 0.5 * ((at > lo + e && at < hi - e) + (at > lo - e && at < hi + e));
+      };
+      initial_[i] = 70e6 + 11.6e6 * within(-1500.0, 1500.0);
+      if (patches) initial_[i] += 8e6 * within(-9000.0, -6000.0) - 8e6 * within(6000.0, 9000.0);
+      breaks_[i] = std::fabs(at) < half_fault - e;
+    }
+    auto *const out = reinterpret_cast<fftw_complex *>(spectrum_.data());
+    const auto size = static_cast<int>(n_);
+    forward_ = fftw_plan_dft_r2c_1d(size, real_.data(), out, FFTW_ESTIMATE);
+    back_ = fftw_plan_dft_c2r_1d(size, out, real_.data(), FFTW_ESTIMATE);
+    make_weights();
+    for (auto &part : history_) part.assign(modes_ * (steps_ + 2), 0.0);
+  }
+  Fault(const Fault &) = delete;
+  ~Fault() {
+    fftw_destroy_plan(forward_);
+    fftw_destroy_plan(back_);
+  }
+
+  double x(std::size_t i) const {
+    return (static_cast<double>(i) - 0.5 * static_cast<double>(n_)) * dx_;
+  }
+  std::size_t nearest(double at) const {
+    return static_cast<std::size_t>(std::lround(at / dx_ + 0.5 * static_cast<double>(n_)));
+  }
+  double dt() const { return dt_; }
+  std::size_t steps() const { return steps_; }
+
+  /// Sets the slip rates of a step, then the slip of the next.
+  void step(std::size_t n) {
+    find_rate(n, slip, rate);
+    std::vector<double> tried = slip, then(n_);
+    for (std::size_t i = 0; i < n_; ++i) tried[i] += dt_ * rate[i];
+    find_rate(n + 1, tried, then);
+    after_.resize(n_);
+    for (std::size_t i = 0; i < n_; ++i) after_[i] = slip[i] + 0.5 * dt_ * (rate[i] + then[i]);
+  }
+  void advance() { slip = after_; }
+
+ private:
+  /// Weights of the slip m steps ago: integral of the kernel times a hat function.
+  void make_weights() {
+    const Kernel kernel(pi / dx_ * cs * dt_ * static_cast<double>(steps_ + 2));
+    weights_.assign(modes_ * (steps_ + 2), 0.0);
+    constexpr std::array<double, 4> place = {0.06943184420297371, 0.33000947820757187,
+                                             0.66999052179242813, 0.93056815579702629};
+    constexpr std::array<double, 4> weight = {0.17392742256872693, 0.32607257743127307,
+                                              0.32607257743127307, 0.17392742256872693};
+    for (std::size_t k = 1; k < modes_; ++k) {
+      const double q = 2.0 * pi * static_cast<double>(k) / period, turn = q * cs * dt_;
+      double *const w = &weights_[k * (steps_ + 2)];
+      for (std::size_t m = 0; m <= steps_; ++m)
+        for (std::size_t g = 0; g < place.size(); ++g) {
+          const double part =
+              0.5 * mu * q * turn * weight[g] * kernel(turn * (static_cast<double>(m) + place[g]));
+          w[m] += part * (1.0 - place[g]);
+          w[m + 1] += part * place[g];
+        }
+    }
+  }
+
+  /// Slip rate of step n with the slip d, which goes into the history.
+  void find_rate(std::size_t n, const std::vector<double> &d, std::vector<double> &v) {
+    real_ = d;
+    fftw_execute(forward_);
+    const std::size_t row = steps_ + 2;
+    for (std::size_t k = 0; k < modes_; ++k) {
+      // the latest slip last in memory, the weights the other way round
+      history_[0][k * row + row - 1 - n] = spectrum_[k].real();
+      history_[1][k * row + row - 1 - n] = spectrum_[k].imag();
+    }
+    for (std::size_t k = 1; k < modes_; ++k) {
+      const double *const w = &weights_[k * row];
+      double sum[2];
+      for (int part : {0, 1}) {
+        const double *const h = &history_[static_cast<std::size_t>(part)][k * row + row - 1 - n];
+        double lane[8] = {0.0};
+        std::size_t m = 0;
+        for (; m + 8 <= n + 1; m += 8)
+          for (std::size_t l = 0; l < 8; ++l) lane[l] += w[m + l] * h[m + l];
+        for (; m <= n; ++m) lane[0] += w[m] * h[m];
+        sum[part] = ((lane[0] + lane[1]) + (lane[2] + lane[3])) +
+                    ((lane[4] + lane[5]) + (lane[6] + lane[7]));
+      }
+      spectrum_[k] = -std::complex<double>(sum[0], sum[1]) / static_cast<double>(n_);
+    }
+    spectrum_[0] = 0.0;
+    fftw_execute(back_);
+    for (std::size_t i = 0; i < n_; ++i) {
+      const double load = initial_[i] + real_[i];
+      const double friction = mu_static - (mu_static - mu_dynamic) * std::min(1.0, d[i] / dc);
+      v[i] = breaks_[i] ? std::max(0.0, (load - normal_stress * friction) * 2.0 * cs / mu) : 0.0;
+    }
+  }
+
+  std::size_t n_, modes_;
+  double dx_, dt_;
+  std::size_t steps_;
+
+ public:
+  std::vector<double> slip, rate;
+
+ private:
+  std::vector<double> initial_, after_;
+  std::vector<char> breaks_;
+  std::vector<double> real_;
+  std::vector<std::complex<double>> spectrum_;
+  fftw_plan forward_, back_;
+  std::vector<double> weights_;
+  std::array<std::vector<double>, 2> history_;  // by mode, then by step, the latest first
+};
+
+/// Samples of a place, thinned out to what straight lines between them leave out by less than a
+/// thousandth.
+struct Station {
+  std::size_t place;
+  std::vector<std::array<double, 3>> all;  // time, slip, slip rate
+
+  void print(const std::string &name, double x) const {
+    double most[2] = {0.0, 0.0};
+    for (const auto &s : all)
+      for (std::size_t c : {0, 1}) most[c] = std::max(most[c], std::fabs(s[c + 1]));
+    std::size_t last = 0;
+    const auto write = [&](std::size_t n) {
+      std::printf("%s,%g,%.6g,%.5g,%.5g\n", name.c_str(), x, all[n][0], all[n][1], all[n][2]);
+      last = n;
+    };
+    write(0);
+    for (std::size_t n = 2; n < all.size(); ++n) {
+      bool straight = true;
+      for (std::size_t m = last + 1; m < n && straight; ++m)
+        for (std::size_t c : {1, 2}) {
+          const double part = (all[m][0] - all[last][0]) / (all[n][0] - all[last][0]);
+          const double line = all[last][c] + part * (all[n][c] - all[last][c]);
+          straight = straight && std::fabs(line - all[m][c]) <= 2e-3 * most[c - 1];
+        }
+      if (!straight) write(n - 1);
+    }
+    write(all.size() - 1);
+  }
+};
+
+}  // namespace
+
+int main(int argc, char **argv) {
+  const bool known =
+      argc == 5 && (!std::strcmp(argv[1], "tpv205") || !std::strcmp(argv[1], "tpv3"));
+  const double spacing = known ? std::atof(argv[2]) : 0.0, end = known ? std::atof(argv[3]) : 0.0;
+  const double every = known ? std::atof(argv[4]) : 0.0;
+  if (!(spacing >= 5.0 && spacing <= 1000.0 && end > 0.0 && end <= 12.0 && every >= 100.0)) {
+    std::fprintf(stderr,
+                 "usage: lsm_boundary_integral tpv205|tpv3 SPACING END EVERY: spacing 5 to 1000 m, "
+                 "end up to 12 s, "
+                 "stations every so many metres, at least 100\n");
+    return 1;
+  }
+  Fault fault(!std::strcmp(argv[1], "tpv205"), spacing, end);
+  std::vector<Station> stations;
+  const int side = static_cast<int>(half_fault / every);
+  for (int n = -side; n <= side; ++n)
+    if (std::fabs(n * every) < half_fault) stations.push_back({fault.nearest(n * every), {}});
+  for (std::size_t n = 0; n <= fault.steps(); ++n) {
+    fault.step(n);
+    for (Station &s : stations)
+      s.all.push_back(
+          {static_cast<double>(n) * fault.dt(), fault.slip[s.place], fault.rate[s.place]});
+    fault.advance();
+  }
+  char name[64];
+  std::snprintf(name, sizeof name, "boundary integral %g m", spacing);
+  std::printf(
+      "# %s: spectral boundary integral, spacing %g m (tests/accuracy/boundary_integral.cpp); m, "
+      "s\n",
+      argv[1], spacing);
+  std::printf("curve,x,t,slip,slip_rate\n");
+  for (const Station &s : stations) s.print(name, fault.x(s.place));
+  return 0;
+}
