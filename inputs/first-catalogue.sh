@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
 # From a fresh Debian 12 to a first earthquake catalogue: installs what is missing, builds LAMMPS with
-# the package, runs the fault of length 120 on two ranks, prints its largest events and draws the
-# potential energy with the picked events.
+# the package, runs the fault of length 120 on two ranks, prints its largest events, draws the
+# potential energy with the picked events, and makes a page on which one explores the run.
 #
 # usage: inputs/first-catalogue.sh [STEPS]      (default 240000)
 # Build folder: build (LSM_BUILD_DIR replaces it). Results: first-catalogue/ in the build folder.
@@ -29,7 +29,7 @@ mkdir -p "$run"
 cd "$run"
 rm -f first.*
 echo "Running the fault of length 120 for $steps steps of shear in $run"
-mpirun -np 2 "$build/bin/lmp" -in "$root/inputs/fault_120.in" -var steps "$steps" -var prefix first </dev/null
+mpirun -np 2 "$build/bin/lmp" -in "$root/inputs/fault_120.in" -var steps "$steps" -var prefix first -var ruptures yes </dev/null
 
 catalogue=first.catalogue.csv
 series=first.pe.bin
@@ -61,7 +61,9 @@ if [ "$count" -gt 1 ]; then
   "$build/bin/postproc" series $series --output first.largest --from "$from" --to "$to" \
     --title "Fault of length 120: around the largest event"
 fi
+"$build/bin/postproc" explore $catalogue --output first.html --title "Fault of length 120"
 echo "Catalogue, series and pictures are in $run"
+echo "Open in a browser to explore the run: file://$run/first.html"
 if [ "$count" -lt 100 ]; then
   echo "Only $count events, expected at least 100: give more than $steps steps" >&2
   exit 1
