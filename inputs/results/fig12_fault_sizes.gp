@@ -1,5 +1,5 @@
-# Draws fig12_fault_sizes.png and fig12_fault_sizes.svg from fig12_fault_sizes.csv: run `gnuplot fig12_fault_sizes.gp` in this folder.
-base = 'fig12_fault_sizes'
+# Draws fig12_fault_sizes.png and fig12_fault_sizes.svg from fig12_fault_sizes.csv: run `gnuplot ./fig12_fault_sizes.gp` in this folder.
+base = "./fig12\137fault\137sizes"
 table = base.".csv"
 if (!exists("formats")) formats = "png svg"
 
@@ -36,13 +36,13 @@ set tics out nomirror
 set grid xtics ytics lt 1 dt 1 lw 0.5 lc rgb "#d8d8d8"
 set key outside bottom center horizontal samplen 3 spacing 1.15 maxcols 2 width -3 Left reverse height 1
 set output base.".".format
-set xlabel 'event size s (energy, model units)'
+set xlabel "event size s (energy, model units)"
 set logscale x
 set format x "10^{%L}"
 set xtics 10
 set mxtics 10
 set xrange [0.0001:10]
-set ylabel 'probability density p(s) (1 / energy)'
+set ylabel "probability density p(s) (1 / energy)"
 set logscale y
 set format y "10^{%L}"
 set ytics 10
@@ -53,27 +53,27 @@ low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y
 plot table using (row(1)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \
      table using (row(1)):8 with lines lt 1 lw 1.2 notitle, \
      table using (row(1)):8 with points lt 1 notitle, \
-     keyentry with linespoints lt 1 title 'fault 120 (1312 events)', \
+     keyentry with linespoints lt 1 title "fault 120 (1312 events)", \
      table using (row(2)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 2 dt 1 lw 0.8 notitle, \
      table using (row(2)):8 with lines lt 2 lw 1.2 notitle, \
      table using (row(2)):8 with points lt 2 notitle, \
-     keyentry with linespoints lt 2 title 'fault 240 (1935 events)', \
+     keyentry with linespoints lt 2 title "fault 240 (1935 events)", \
      table using (row(3)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 3 dt 1 lw 0.8 notitle, \
      table using (row(3)):8 with lines lt 3 lw 1.2 notitle, \
      table using (row(3)):8 with points lt 3 notitle, \
-     keyentry with linespoints lt 3 title 'fault 480 (2590 events)', \
+     keyentry with linespoints lt 3 title "fault 480 (2591 events)", \
      table using (row(4)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 4 dt 1 lw 0.8 notitle, \
      table using (row(4)):8 with lines lt 4 lw 1.2 notitle, \
      table using (row(4)):8 with points lt 4 notitle, \
-     keyentry with linespoints lt 4 title 'fault 945 (2894 events)', \
+     keyentry with linespoints lt 4 title "fault 945 (2910 events)", \
      table using (row(5)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 5 dt 1 lw 0.8 notitle, \
      table using (row(5)):8 with lines lt 5 lw 1.2 notitle, \
      table using (row(5)):8 with points lt 5 notitle, \
-     keyentry with linespoints lt 5 title 'fault 1440 (3461 events)', \
+     keyentry with linespoints lt 5 title "fault 1440 (3490 events)", \
      table using (row(6)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 6 dt 1 lw 0.8 notitle, \
      table using (row(6)):8 with lines lt 6 lw 1.2 notitle, \
      table using (row(6)):8 with points lt 6 notitle, \
-     keyentry with linespoints lt 6 title 'fault 1890 (3510 events)', \
-     [0.001:1] '+' using 1:(0.19949656620624309*$1**(-1.0700000000000001)) with lines lt 8 dt 2 lw 2.2 title 'slope -1.07'
+     keyentry with linespoints lt 6 title "fault 1890 (3527 events)", \
+     [0.001:1] '+' using 1:(0.19949656620624309*$1**(-1.0700000000000001)) with lines lt 8 dt 2 lw 2.2 title "slope -1.07"
 unset output
 }
