@@ -9,7 +9,8 @@ build=${LSM_BUILD_DIR:-$root/build}
 
 . "$root/lammps-pkg/cmake/debian-packages.sh"
 install_debian_packages $lammps_packages $plot_packages $postproc_packages libgtest-dev libgmock-dev \
-  libbenchmark-dev help2man python3-sphinx python3-pandas clang-format file
+  libbenchmark-dev help2man python3-sphinx python3-pandas clang-format file strace chromium chromium-driver python3-selenium \
+  snakemake slurm-wlm munge
 
 cmake -S "$root" -B "$build" -G Ninja -DLSM_BUILD_LAMMPS=ON -DLSM_BUILD_SLIDER=ON -DLSM_BUILD_POSTPROC=ON \
   -DLSM_BUILD_TESTS=ON

@@ -55,3 +55,14 @@ if "$lmp" -in "$source/inputs/fault_120.in" -var picker median -var settle 0 -va
 fi
 grep -q "picker is 'median', but must be exponential, average or literal" out || fail "no clear message about the picker"
 [ "$before" = "$(cksum <short.catalogue.csv)" ] || fail "the older catalogue was touched"
+
+# One variable chooses the law of friction; its words are in the headers, and a run goes on with it.
+law="slip-weakening mu 0.5 mu_static 0.6 dc 0.002 heal 5"
+short() { "$lmp" -in "$source/inputs/fault_120.in" -var settle 0 -var checkpoint 10 -var ruptures yes -var prefix law "$@" </dev/null >out 2>&1; }
+short -var law "$law" -var steps 10 || fail "law $law"
+for file in law.catalogue.csv law.ruptures.csv; do
+  grep -qx "# law = $law" $file || fail "$file does not say the law"
+done
+short -var law "$law" -var steps 20 -var restart law.restart.end || fail "law $law, going on"
+if short -var law "slip-weakening mu 0.5" -var steps 10 -var overwrite yes; then fail "a law without its coefficients was accepted"; fi
+grep -q "expects 'pair_coeff I J k kt mu VALUE mu_static VALUE dc VALUE \[heal VALUE\]'" out || fail "no clear message about the law"

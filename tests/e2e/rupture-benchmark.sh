@@ -1,0 +1,43 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-2.0-or-later
+# TPV205-2D at 200 m until 6 s beside the references: slip, arrivals, table and picture.
+# usage: rupture-benchmark.sh LMP POSTPROC SOURCE_DIR
+set -euo pipefail
+export LC_ALL=C
+lmp=$1 postproc=$2 source=$3
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+fail() { echo "FAILED: $*" >&2; [ -f out ] && tail -n 20 out >&2; exit 1; }
+
+"$lmp" -in "$source/inputs/rupture_tpv205.in" -log none -var dx 200 -var length 60000 -var width 30000 -var tend 6 \
+  -var prefix run </dev/null >out 2>&1 || fail "rupture_tpv205.in"
+command -v gnuplot >/dev/null && picture= || picture=--no-picture
+"$postproc" benchmark run.slip.bin --reference "$source/inputs/reference/tpv205.csv" -o beside $picture >out 2>&1 ||
+  fail "postproc benchmark"
+[ -n "$picture" ] || { [ -s beside.png ] && [ -s beside.svg ]; } || fail "no picture"
+
+# Slip within 1.5 % and arrivals within 0.15 s, up to 12 km, against both references.
+awk -F, '/^#|^run,/ { next }
+  $4 >= -12000 && $4 <= 12000 {
+    late = $5 - $6; more = $7 / $8 - 1; n[$3]++
+    if (late < 0) late = -late
+    if (more < 0) more = -more
+    if (late > worst_late) worst_late = late
+    if (more > worst_more) worst_more = more
+  }
+  END {
+    printf "arrivals within %.4f s, slip within %.3f %%\n", worst_late, 100 * worst_more
+    exit !(n["PyLith 200 m"] == 5 && n["boundary integral 25 m"] == 17 && worst_late < 0.15 && worst_more < 0.015)
+  }' beside-stations.csv || fail "arrivals or slip are off"
+
+# A place between two bins, a file of columns, and what is refused.
+printf '# t slip rate\n0 0 0\n3 1.5 2 99\n6 5.3 0.5\n' >columns
+"$postproc" benchmark run.slip.bin --curve 1234=columns -o one --no-picture >out || fail "--curve"
+grep -q "against reference" out || fail "a curve without a name"
+! "$postproc" benchmark run.slip.bin --curve 99999=columns -o two --no-picture >out 2>&1 || fail "a place beyond the fault"
+grep -q "no slip at x = 99999" out || fail "message of a place beyond the fault"
+printf '1 2 3\n1 2 3\n' >columns
+! "$postproc" benchmark run.slip.bin --curve 0=columns -o two --no-picture >out 2>&1 || fail "times that stand"
+grep -q "columns:2: expected increasing times" out || fail "message of times that stand: $(cat out)"
+[ ! -e two.csv ] || fail "half-written output"
