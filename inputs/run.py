@@ -173,7 +173,8 @@ def work(job, folder):
     told = []
     with open(output, "ab") as file:
         child = subprocess.Popen(job.command(), cwd=folder, stdin=subprocess.DEVNULL, stdout=file, stderr=file,
-                                 env={**os.environ, **MPI, "OMPI_MCA_orte_tmpdir_base": str(session)},
+                                 env={**os.environ, **MPI, "OMPI_MCA_orte_create_session_dirs": "1",
+                                      "OMPI_MCA_orte_tmpdir_base": str(session)},
                                  start_new_session=True, preexec_fn=lambda: die_with_parent(signal.SIGTERM))
 
     def stop(number, _):

@@ -266,18 +266,24 @@ slurm)
   for ((p = 0; p < 300; p++)); do [ "$(waiting PD 'fault\|slider')" = 3 ] && break; sleep 0.1; done
   [ "$(waiting PD 'fault\|slider')" = 3 ] || fail "three jobs do not wait"
   scancel "$other"
-  # One is cancelled by hand, one is told to end as before its time limit.
-  checkpointed() { for ((p = 0; p < 300; p++)); do compgen -G "there/$1/fault.restart.*.info" >/dev/null && return; sleep 0.1; done; fail "$1 has no restart file"; }
+  # The fault that Slurm begins first is cancelled by hand, the other is told to end as before its time limit.
+  begun() { # the first of the faults named that runs and has a restart file
+    for ((p = 0; p < 600; p++)); do
+      for fault in "$@"; do compgen -G "there/$fault/fault.restart.*.info" >/dev/null && return; done
+      sleep 0.1
+    done
+    fail "no restart file of $*"
+  }
   job() { squeue -h -o '%i %j' | sed -n "s/ fault.$1$//p"; }
-  checkpointed fault_1
-  first=$(job fault_1)
-  scancel "$first"
-  checkpointed fault_2
-  second=$(job fault_2)
-  scancel --signal=TERM --batch "$second"
+  begun fault_1 fault_2
+  first=$fault
+  scancel "$(job "$first")" || fail "$first has ended before it was cancelled"
+  [ "$first" = fault_1 ] && begun fault_2 || begun fault_1
+  second=$(job "$fault")
+  scancel --signal=TERM --batch "$second" || fail "$fault has ended before it was told to"
   for ((p = 0; p < 300; p++)); do [ "$(squeue -h -j "$second" -o %T)" = PENDING ] && break; sleep 0.1; done
   [ "$(squeue -h -j "$second" -o %T)" = PENDING ] || fail "not queued again"
-  [ ! -e there/fault_2/done.json ] || fail "told to end, but ended by itself"
+  [ ! -e "there/$fault/done.json" ] || fail "told to end, but ended by itself"
   scontrol update JobId="$second" StartTime=now # Slurm waits for two minutes otherwise
   wait $child || fail "the study through Slurm ended with $?"
   grep -q 'Trying to restart job' out.txt || fail "the cancelled job was not queued again"
