@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# usage: inputs/study.sh TABLE [NAME=VALUE...] [SNAKEMAKE OPTIONS]      (README.md, "Studies")
+# usage: inputs/study.sh TABLE [NAME=VALUE...] [SNAKEMAKE OPTIONS]      (studies.md)
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd) build=${LSM_BUILD_DIR:-}
 build=${build:-$root/build}

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# 'from lammps import lammps' with the package: the fault run from Python leaves the files that lmp leaves, errors are
-# exceptions, and what an object had locked is free again.
+# 'from lammps import lammps' with the package: the fault run from Python leaves the files that lmp
+# leaves, errors are exceptions, files are unlocked again, and the lines of python.md do what they say.
 # usage: check-python.sh MODULES LMP INPUTS [MPIRUN]
 set -euo pipefail
 export LC_ALL=C
@@ -54,4 +54,23 @@ done
 if [ -n "$mpirun" ]; then
   rm ./*.csv ./*.bin ./*.restart.*
   "$mpirun" --oversubscribe -np 2 "${python[@]}" </dev/null >out 2>&1 || fail "fault.py on two ranks"
+fi
+
+# The page: a fault, its catalogue, series, ruptures and slip, read by pandas where that is installed
+if python3 -c 'import pandas' 2>/dev/null; then
+  mkdir page
+  ln -s "$inputs" page/inputs
+  sed -n '/^```python$/,/^```$/{/^```/d;p}' "$inputs/python.md" > page/page.py
+  cat >>page/page.py <<'END'
+assert list(events.columns)[:6] == ["event_id", "t_start", "t_end", "step_start", "step_end", "size"]
+assert len(events) > 0 and (events["size"] > 0).all() and len(series) > 3000
+drop = series.set_index("step")["pe"]
+assert np.allclose(drop[events["step_start"]].values - drop[events["step_end"]].values, events["size"], rtol=1e-9, atol=1e-15)
+assert np.allclose(series["time"].values, series["step"] * float(header["dt"]))
+assert history["step_end"].max() <= 3100 and slip.shape == (bins,) and velocity.shape[1] == bins
+assert len(ruptures) > 0 and slip.mean() > 0
+END
+  (cd page && PYTHONPATH="$modules" python3 page.py >out 2>&1) || { cat page/out; fail "the lines of python.md"; }
+else
+  echo "no pandas (Debian package python3-pandas): the lines of python.md were not run"
 fi

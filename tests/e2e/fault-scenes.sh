@@ -20,7 +20,7 @@ events=$(grep -cv '^[#e]' short.catalogue.csv || true)
 awk -F, '!/^[#e]/ && !($6 > 0 && $9 >= 0 && $10 >= 0 && $10 <= 120 && $11 <= 120) { bad = 1 } END { exit bad }' \
   short.catalogue.csv || fail "an event has an impossible size or place"
 # The fault carries about the shear stress that friction allows.
-ratio=$(awk '/^ *Step .*c_events/ { on = 1; next } /^Loop/ { on = 0 } on && NF == 8 { r = $7 } END { print r }' log.lammps)
+ratio=$(awk '/^ *Step .*Events/ { on = 1; next } /^Loop/ { on = 0 } on && NF == 8 { r = $7 } END { print r }' log.lammps)
 awk -v r="$ratio" 'BEGIN { exit !(r > 0.5 && r < 0.8) }' || fail "shear/normal stress ratio $ratio, expected 0.5 to 0.8"
 echo "fault_120.in: $events events, shear/normal stress $ratio"
 
