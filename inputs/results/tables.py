@@ -1,17 +1,23 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Writes the tables of this folder's pages from the catalogues in it.
+"""Writes the tables of the pages about results from the catalogues in this folder.
 
-tables.py POSTPROC          says which tables are not what the catalogues give; exit status 1 if there is one
-tables.py POSTPROC --write  writes them into the pages
+tables.py POSTPROC            says which tables are not what the catalogues give; exit status 1 if there is one
+tables.py POSTPROC --write    writes them into the pages
+tables.py POSTPROC --figures  draws the figures of calibration.md and faults.md from the same numbers
 
-A table stands between the lines <!-- table NAME --> and <!-- end -->.
+A table stands between the lines <!-- table NAME --> and <!-- end -->, in a page of this folder or the project's README.md.
 """
 import csv
 import difflib
+import functools
+import json
+import math
 import re
+import statistics
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 FOLDER = Path(__file__).resolve().parent
@@ -19,13 +25,25 @@ sys.path.insert(0, str(FOLDER.parent / "studies"))
 import calibrate  # noqa: E402
 
 POINTS, SLIDERS = FOLDER / "calibration/points.csv.xz", FOLDER / "calibration/sliders.csv.xz"
-LOADING = "4500"  # time units that are left out: compression, and PE rising for the first time
+VALIDATION, SUPERPOSED, LOADED = FOLDER / "validation", FOLDER / "superposed", FOLDER / "loading"
+LOADING = 4500  # time units that are left out: compression, and PE rising for the first time
+SETTLE = 1200  # of them: compression
 SIZES = ("0.0001", "0.001", "0.01", "0.1")
+PAPER = {"exponent": 1.07, "gamma": 0.995}
+USED, USED_SEEDS = 120, 3  # length and packings at which the default was calibrated
+SIGNIFICANT = 0.05
+MEMORY = 2.0  # time units, of the picker
 
 
-def summary(postproc, paths, *words):
+# ---- numbers of catalogues
+
+
+def summary(postproc, paths, *words, begin=LOADING):
     """Rows of postproc summary, with the path of each catalogue."""
-    said = subprocess.run([postproc, "summary", *paths, "--from", LOADING, "--parameter", "length", "seed", *words],
+    paths = [str(path) for path in paths]
+    if not paths:
+        return []
+    said = subprocess.run([postproc, "summary", *paths, "--from", str(begin), "--parameter", "length", "seed", "width", "dt", *words],
                           check=True, capture_output=True, text=True).stdout
     rows = list(csv.DictReader(line for line in said.splitlines() if not line.startswith("#")))
     for path, row in zip(paths, rows):
@@ -41,8 +59,39 @@ def with_error(row, key, error, digits=2):
     return f"{value(row, key, digits)} ± {value(row, error, digits)}" if row[key] else "-"
 
 
+def number(row, key):
+    return float(row[key]) if row.get(key) else math.nan
+
+
+def values(rows, key):
+    return [x for x in (number(row, key) for row in rows) if math.isfinite(x)]
+
+
+def spread(found, digits):
+    """Mean and standard deviation between the packings."""
+    if not found:
+        return "-"
+    mean = f"{statistics.mean(found):.{digits}f}"
+    return f"{mean} ± {statistics.stdev(found):.{digits}f}" if len(found) > 1 else mean
+
+
+def enough(rows, size, least=15):
+    """Rows with so many events of this size, for their times to be fitted."""
+    return [row for row in rows if number(row, f"events_{size}") >= least]
+
+
 def order(row):
     return float(row["length"]), int(row["seed"])
+
+
+def grouped(rows, key="length"):
+    groups = {}
+    for row in sorted(rows, key=lambda row: float(row[key])):
+        groups.setdefault(row[key], []).append(row)
+    return groups
+
+
+# ---- faults
 
 
 def sizes_and_times(rows):
@@ -55,24 +104,292 @@ def sizes_and_times(rows):
                         [value(row, f"mean_time_{s}", 0) for s in SIZES] for row in sorted(rows, key=order)])
 
 
-def faults(postproc, pattern):
-    return sizes_and_times(summary(postproc, sorted(map(str, FOLDER.glob(pattern)))))
+def campaign_table(postproc):
+    return sizes_and_times(summary(postproc, sorted(FOLDER.glob("catalogues/fault_[0-9]*.catalogue.csv.xz"))))
+
+
+@functools.cache
+def packings(postproc):
+    """Rows of the faults with the default choices, one for each length and packing."""
+    return sorted(summary(postproc, sorted(VALIDATION.glob("fault_*[0-9]_[0-9].catalogue.csv.xz"))), key=order)
+
+
+def packings_table(postproc):
+    return sizes_and_times(packings(postproc))
+
+
+def by_use(postproc):
+    """(length, rows, were they used to calibrate?): the packings of the calibration apart from others of that length."""
+    for length, rows in grouped(packings(postproc)).items():
+        used = [row for row in rows if float(length) == USED and int(row["seed"]) <= USED_SEEDS]
+        for part in (used, [row for row in rows if row not in used]):
+            if part:
+                yield length, part, part is used
+
+
+def validation_table(postproc):
+    out = []
+    for length, rows, used in by_use(postproc):
+        out.append([length, str(len(rows)), f"{statistics.mean(values(rows, 'time')):.0f}",
+                    f"{statistics.mean(values(rows, 'events_0.0001')):.0f}",
+                    f"{100 * statistics.mean(values(rows, 'brief')):.1f} %", spread(values(rows, "exponent_1e-4:1e-1"), 2),
+                    spread(values(rows, "exponent_1e-3:1"), 2), spread(values(rows, "largest"), 2),
+                    spread(values(rows, "gamma_0.0001"), 2), spread(values(rows, "mean_time_0.0001"), 0),
+                    "used" if used else "predicted"])
+    head = ["length", "packings", "time units each", "events from 1e-4", "of 3 steps or less", "exponent 1e-4 to 0.1", "1e-3 to 1",
+            "largest", "gamma from 1e-4", "mean time", ""]
+    return calibrate.table(head, out)
+
+
+def thresholds_table(postproc):
+    """gamma, B and the dependence of successive times, each against the smallest size."""
+    out = []
+    for name, column, digits in (("gamma", "gamma", 2), ("B", "B", 0), ("mean time", "mean_time", 0),
+                                 ("Spearman", "spearman", 2)):
+        for length, rows in grouped(packings(postproc)).items():
+            cells = [spread(values(enough(rows, s), f"{column}_{s}"), digits) for s in SIZES]
+            if column == "spearman":
+                few = [sum(p < SIGNIFICANT for p in values(enough(rows, s), f"spearman_p_{s}")) for s in SIZES]
+                cells = [cell if cell == "-" else f"{cell} ({n} of {len(enough(rows, s))})" for cell, n, s in zip(cells, few, SIZES)]
+            out.append([name, length, *cells])
+    return calibrate.table(["", "length", "from 1e-4", "1e-3", "1e-2", "0.1"], out)
+
+
+def ruptures_table(_):
+    """Ruptures of the same faults: connected places that slip, see compute lsm/events."""
+    groups, out = {}, []
+    for path in VALIDATION.glob("fault_*.ruptures.csv.xz"):
+        groups.setdefault(int(path.name.split("_")[1]), []).append(calibrate.read(path))
+    for length, packs in sorted(groups.items()):
+        counted = [[row for row in rows if float(row["t_start"]) >= LOADING] for rows in packs]
+        area = sum(float(rows[-1]["t_end"]) - LOADING for rows in counted) * length / 1e5
+        numbers = [f"{sum(test(row) for rows in counted for row in rows) / area:.2f}"
+                   for test in (lambda row: float(row["size"]) >= 1e-2, lambda row: float(row["rupture_length"]) > 10)]
+        longest, moment = ([max(float(row[key]) for row in rows) for rows in counted] for key in ("rupture_length", "slip_moment"))
+        out.append([str(length), str(len(packs)), *numbers, spread(longest, 0), f"{max(longest):.0f}", spread(moment, 1)])
+    return calibrate.table(["length", "packings", "ruptures from 1e-2 in 1e5 time units, for each unit of length", "longer than 10",
+                            "longest of a packing", "of all", "largest moment of a packing"], out)
+
+
+def compare(postproc, first, others, size):
+    """p-values of the times, each divided by its mean, of the first catalogue against the others."""
+    with tempfile.TemporaryDirectory() as work:
+        said = subprocess.run([postproc, "compare", first, *others, "--from", str(LOADING), "--rescale", "--replicas", "400",
+                               "--threshold", size, "-o", f"{work}/compare", "--json", f"{work}/compare.json"],
+                              capture_output=True, text=True)
+        if said.returncode:
+            raise RuntimeError(said.stderr)
+        return [test["p"] for test in json.loads(Path(f"{work}/compare.json").read_text())["tests"] if test["quantity"] == "time"]
+
+
+def collapse_table(postproc):
+    """Do the times of each length, over their mean, have the law of those of the length that was used?"""
+    groups, out = grouped(packings(postproc)), []
+    base = groups[str(USED)]
+    for length, rows in groups.items():
+        cells = []
+        for size in SIZES:
+            found = []
+            for n, row in enumerate(enough(rows, size)):
+                others = enough(base[:n] if rows is base else base, size)
+                if others:
+                    found += compare(postproc, row["path"], [other["path"] for other in others], size)
+            cells.append(f"{statistics.median(found):.2f} ({sum(p < SIGNIFICANT for p in found)} of {len(found)})" if found else "-")
+        out.append([length, *cells])
+    return calibrate.table(["length", "from 1e-4", "1e-3", "1e-2", "0.1"], out)
+
+
+def widths_table(postproc):
+    rows = summary(postproc, sorted(VALIDATION.glob("fault_120_width_*.xz")) + [VALIDATION / "fault_120_1.catalogue.csv.xz"])
+    head = ["width", "time units", "events from 1e-4", "of 3 steps or less", "exponent 1e-4 to 0.1", "1e-3 to 1", "largest", "gamma from 1e-4", "1e-3",
+            "mean time from 1e-4", "1e-2"]
+    return calibrate.table(head, [[row["width"], value(row, "time", 0), row["events_0.0001"], f"{100 * float(row['brief']):.1f} %",
+                                   with_error(row, "exponent_1e-4:1e-1", "error_1e-4:1e-1"), with_error(row, "exponent_1e-3:1", "error_1e-3:1"),
+                                   value(row, "largest", 2), with_error(row, "gamma_0.0001", "gamma_error_0.0001"),
+                                   with_error(row, "gamma_0.001", "gamma_error_0.001"), value(row, "mean_time_0.0001", 0),
+                                   value(row, "mean_time_0.01", 0)] for row in sorted(rows, key=lambda row: float(row["width"]))])
+
+
+def steps_table(postproc):
+    """Time step 0.06 with all masses r^2 beside the default of 0.12, the same packings."""
+    out = []
+    halved = {order(row): row for row in summary(postproc, sorted(VALIDATION.glob("fault_*_step_*.xz")))}
+    for length, rows in grouped([row for row in packings(postproc) if order(row) in halved]).items():
+        for dt, chosen in (("0.12", rows), ("0.06", [halved[order(row)] for row in rows])):
+            per = [10000 * number(row, "events_0.0001") / number(row, "time") for row in chosen]
+            large = [10000 * number(row, "events_0.001") / number(row, "time") for row in chosen]
+            out.append([length, dt, str(len(chosen)), spread(per, 0), spread(large, 0),
+                        f"{100 * statistics.mean(values(chosen, 'brief')):.1f} %", spread(values(chosen, "exponent_1e-4:1e-1"), 2),
+                        spread(values(chosen, "gamma_0.0001"), 2), spread(values(chosen, "gamma_0.001"), 2)])
+    return calibrate.table(["length", "time step", "packings", "events from 1e-4 in 1e4 time units", "1e-3", "of 3 steps or less",
+                            "exponent 1e-4 to 0.1", "gamma from 1e-4", "1e-3"], out)
+
+
+# ---- why gamma falls
+
+
+def shape(rows):
+    return [str(len(rows)), spread(values(rows, "gamma_0.0001"), 2), spread(values(rows, "gamma_0.001"), 2),
+            spread(values(rows, "mean_time_0.0001"), 0), f"{100 * statistics.mean(values(rows, 'brief')):.1f} %",
+            spread(values(rows, "exponent_1e-4:1e-1"), 2), spread(values(rows, "largest"), 2)]
+
+
+SHAPE = ["", "gamma from 1e-4", "1e-3", "mean time", "of 3 steps or less", "exponent 1e-4 to 0.1", "largest"]
+
+
+def superposition_table(postproc):
+    faults = grouped(packings(postproc))
+    out = [[str(USED), "the fault", *shape(faults[str(USED)])]]
+    near = {"240": "240", "480": "480", "960": "945", "1920": "1890"}
+    for length, other in near.items():
+        if other in faults:
+            out.append([other, "the fault", *shape(faults[other])])
+        for name, what in (("sum", f"{int(length) // USED} stretches of 120 together"),
+                           ("load", f"one stretch of 120 with the load of {int(length) // USED - 1} more")):
+            paths = sorted(SUPERPOSED.glob(f"{name}_{length}_*.xz"))
+            if paths:
+                out.append([length, what, *shape(summary(postproc, paths, begin=0))])
+    return calibrate.table(["length", "", *SHAPE], out)
+
+
+VELOCITY = 2.5e-4  # of each plate, in the paper
+OTHERS = (("fast_120", 1e-3), ("slow_240", 1.25e-4), ("slow_480", 6.25e-5))
+
+
+@functools.cache
+def other_velocities(postproc):
+    """(length, velocity, rows) of the faults whose plates move at another velocity."""
+    found = []
+    for name, velocity in OTHERS:
+        rows = summary(postproc, sorted(LOADED.glob(f"{name}_*.xz")), begin=SETTLE + (LOADING - SETTLE) * VELOCITY / velocity)
+        if rows:
+            found.append((float(rows[0]["length"]), velocity, rows))
+    return found
+
+
+def loading_table(postproc):
+    """The same length times velocity has the same statistics?"""
+    faults = grouped(packings(postproc))
+    lines = [(float(length), VELOCITY, faults[length]) for length in ("120", "240", "480") if length in faults] + other_velocities(postproc)
+    lines.sort(key=lambda line: (line[0] * line[1], line[0]))
+    return calibrate.table(["length", "velocity of each plate", "length times velocity", *SHAPE],
+                           [[f"{length:g}", f"{velocity:g}", f"{length * velocity:.3g}", *shape(rows)] for length, velocity, rows in lines])
+
+
+# ---- beside the paper
+
+
+def within(groups, of, low, high):
+    """Are the means of all groups between these, within two of their standard errors?"""
+    off = []
+    for name, rows in groups.items():
+        found = of(rows)
+        slack = 2.0 * statistics.stdev(found) / math.sqrt(len(found)) if len(found) > 1 else 0.0
+        if not low - slack <= statistics.mean(found) <= high + slack:
+            off.append(name)
+    if not off:
+        return "predicted, agrees"
+    return "predicted, **differs**" + ("" if len(off) == len(groups) else f" at {'; '.join(off)}")
+
+
+def verdict(groups, key, target, tolerance):
+    return within(groups, lambda rows: values(rows, key), target - tolerance, target + tolerance)
+
+
+def by_length(groups, key, digits=2):
+    return "; ".join(f"{length}: {spread(values(rows, key), digits)}" for length, rows in groups.items())
+
+
+def slider_rows():
+    """Settings of the block-slider nearest to the paper over all lengths, as calibrate.slider_table() has them."""
+    groups = {}
+    for row in calibrate.read(SLIDERS):
+        if float(row["dt"]) >= 0.005:
+            groups.setdefault(tuple(row[key] for key in calibrate.SLIDER_KEYS), []).append(row)
+    return min(groups.values(), key=lambda rows: sum(calibrate.distance(row, calibrate.SLIDER_STATEMENTS) ** 2 for row in rows))
+
+
+def paper_table(postproc):
+    every = grouped(packings(postproc))
+    used = next(rows for _, rows, was in by_use(postproc) if was)
+    groups = {(f"{length}, other packings" if float(length) == USED else length): rows for length, rows, was in by_use(postproc) if not was}
+    tolerance = {name: bound for name, _, _, _, bound in calibrate.STATEMENTS}
+
+    def falling(rows):
+        return values(rows, "in_events")
+
+    def apart(rows):
+        return [x / MEMORY for x in values(rows, "mean_time_0.0001")]
+    out = [
+        ["fault of 120: exponent from 1e-4 over three decades", "1.07", spread(values(used, "exponent_1e-4:1e-1"), 2), "used to calibrate"],
+        ["fault of 120: gamma of the times from 1e-4", "0.995", spread(values(used, "gamma_0.0001"), 2), "used to calibrate"],
+        ["fault of 120: time from one event to the next, in memories of the picker (100 steps)", "12.5 to 100", spread(apart(used), 0),
+         "used to calibrate"],
+        ["fault of 120: PE falls in less than a third of the time (stick-slip)", "yes",
+         spread([100 * x for x in falling(used)], 0) + " % of the time", "used to calibrate"],
+        ["speed of P-waves", "2.1", f"{calibrate.WAVE_SPEED['r2']:g}", "used to calibrate"],
+        ["others: exponent from 1e-4", "1.07 at all lengths", by_length(groups, "exponent_1e-4:1e-1"),
+         verdict(groups, "exponent_1e-4:1e-1", PAPER["exponent"], tolerance["exponent"])],
+        ["others: gamma from 1e-4", "0.995 at all lengths", by_length(groups, "gamma_0.0001"),
+         verdict(groups, "gamma_0.0001", PAPER["gamma"], tolerance["gamma"])],
+        ["gamma from 1e-3", "0.995 at all lengths, if events begin there", by_length(every, "gamma_0.001"),
+         verdict(every, "gamma_0.001", PAPER["gamma"], tolerance["gamma"])],
+        ["others: memories of the picker from one event to the next", "12.5 to 100",
+         "; ".join(f"{length}: {spread(apart(rows), 0)}" for length, rows in groups.items()),
+         within(groups, apart, 12.5, 100)],
+        ["roll-off recedes with the length: largest event", "yes", by_length(every, "largest"),
+         "predicted, agrees" if rises(every, "largest") else "predicted, **differs**"],
+        ["others: PE falls in less than a third of the time", "yes",
+         "; ".join(f"{length}: {100 * statistics.mean(falling(rows)):.0f} %" for length, rows in groups.items()),
+         within(groups, falling, 0.0, 0.33 + tolerance["stick-slip"])],
+    ]
+    rows = sorted(slider_rows(), key=lambda row: int(row["blocks"]))
+    setting = f"{rows[0]['scheme']}, time step {rows[0]['dt']}"
+    texts = {"events": "events in 1e7 steps", "small": "exponent below size 1", "large": "exponent above", "gamma": "gamma", "B": "B",
+             "C": "C"}
+    printed = {"events": "3000 to 5000", "small": "0.5", "large": "1.0", "gamma": "0.0", "B": "100", "C": "0.25"}
+    for n, (name, _, of, _, _) in enumerate(calibrate.SLIDER_STATEMENTS):
+        met = sum(calibrate.deviations(row, calibrate.SLIDER_STATEMENTS)[n] <= 1.0 for row in rows)
+        out.append([f"block-slider: {texts[name]}", printed[name],
+                    ", ".join("-" if math.isnan(of(row)) else calibrate.short(of(row)) for row in rows) + (f" ({setting})" if n == 0 else ""),
+                    "agrees" if met == len(rows) else f"agrees at {met} of {len(rows)} lengths" if met else "**differs**"])
+    return calibrate.table(["", "paper", "here (mean and standard deviation between packings)", ""], out)
+
+
+def rises(groups, key):
+    means = [statistics.mean(values(rows, key)) for rows in groups.values()]
+    return all(a < b for a, b in zip(means, means[1:]))
 
 
 TABLES = {
+    "paper": paper_table,
     "statements": lambda _: calibrate.statements_table(POINTS),
     "pairs": lambda _: calibrate.pairs_table(POINTS),
     "ranges": lambda _: calibrate.ranges_table(POINTS),
     "accepted": lambda _: calibrate.accepted_table(POINTS),
+    "ringing": lambda _: calibrate.ringing_table(POINTS),
+    "lines": lambda _: calibrate.lines_table(POINTS),
     "sliders": lambda _: calibrate.slider_table(SLIDERS),
-    "campaign": lambda postproc: faults(postproc, "catalogues/fault_[0-9]*.catalogue.csv.xz"),
-    "validation": lambda postproc: faults(postproc, "calibration/fault_*.catalogue.csv.xz"),
+    "campaign": campaign_table,
+    "packings": packings_table,
+    "validation": validation_table,
+    "thresholds": thresholds_table,
+    "collapse": collapse_table,
+    "ruptures": ruptures_table,
+    "widths": widths_table,
+    "steps": steps_table,
+    "superposition": superposition_table,
+    "loading": loading_table,
 }
+
+
+def pages():
+    return sorted(FOLDER.glob("*.md")) + [FOLDER.parent.parent / "README.md"]
 
 
 def main(postproc, write):
     wrong = 0
-    for page in sorted(FOLDER.glob("*.md")):
+    for page in pages():
         text = page.read_text()
 
         def replace(match):
@@ -90,7 +407,52 @@ def main(postproc, write):
     return wrong
 
 
+# ---- figures
+
+
+def length_figure(postproc, base):
+    """gamma, exponent and share of brief events against length times velocity: faults, sums, other velocities."""
+    faults = [(float(length), rows) for length, rows in grouped(packings(postproc)).items()]
+    sums = {}
+    for path in sorted(SUPERPOSED.glob("sum_*.xz")):
+        sums.setdefault(float(path.name.split("_")[1]), []).append(path)
+    groups = [("faults, plates at 2.5e-4", "#0072b2", 7, [(length * VELOCITY, rows) for length, rows in faults]),
+              ("faults, plates at other velocities", "#d55e00", 5, [(length * v, rows) for length, v, rows in other_velocities(postproc)]),
+              ("PE of faults of 120 added up", "#999999", 6,
+               [(length * VELOCITY, summary(postproc, paths, begin=0)) for length, paths in sorted(sums.items())])]
+    script = "set multiplot layout 1,3\nset tics nomirror\nset border 3\nset logscale x\nset xlabel 'length times velocity'\n"
+    script += "set xrange [0.02:0.7]\nset key bottom left Left reverse samplen 1\n"
+    for label, key, of_paper, scale, span in (("gamma from 1e-4", "gamma_0.0001", PAPER["gamma"], 1, "[0:1.2]"),
+                                              ("exponent, 1e-4 to 0.1", "exponent_1e-4:1e-1", PAPER["exponent"], 1, "[0.8:1.4]"),
+                                              ("events of 3 steps or less, %", "brief", None, 100, "[0:20]")):
+        blocks, plots = "", []
+        for n, (name, colour, point, members) in enumerate(groups):
+            lines = [f"{x * 1.03 ** (n - 1):.6g} {scale * statistics.mean(found):.6g} {scale * (statistics.stdev(found) if len(found) > 1 else 0):.6g}"
+                     for x, rows in members if (found := values(rows, key))]
+            blocks += f"$d{n} << EOD\n" + "\n".join(lines or ["nan nan nan"]) + "\nEOD\n"
+            plots.append(f"$d{n} with yerrorbars pt {point} ps 1.2 lw 1.5 lc rgb '{colour}' title '{name}'")
+        if of_paper is not None:
+            plots.append(f"{of_paper} with lines dt 2 lc rgb 'black' title 'paper'")
+        script += blocks + f"set ylabel '{label}'\nset yrange {span}\nplot " + ", ".join(plots) + "\nunset key\n"
+    script += "unset multiplot\n"
+    heads = [f"set terminal pngcairo size 1500,480 font 'DejaVu Sans,13'\nset output '{base}.png'\n",
+             f"set terminal svg size 1200,400 font 'DejaVu Sans,11'\nset output '{base}.svg'\n"]
+    subprocess.run(["gnuplot"], input="".join(head + script + "unset output\nreset\n" for head in heads), text=True, check=True)
+
+
+def figures(postproc):
+    one_each = sorted(VALIDATION.glob("fault_[0-9]*_1.catalogue.csv.xz"), key=lambda path: int(path.name.split("_")[1]))
+    common = [*map(str, one_each), "--from", str(LOADING), "--threshold", "1e-4"]
+    subprocess.run([postproc, "histograms", *common, "--guide=-1.07:1e-4:0.1", "-o", FOLDER / "fig12_fault_sizes"], check=True)
+    subprocess.run([postproc, "intervals", *common, "--delta", "1", "-o", FOLDER / "fig14_fault_intervals"], check=True)
+    for name in ("fig12_fault_sizes.svg", "fig14_fault_intervals.svg", "fig14_fault_intervals.clustering.csv"):
+        (FOLDER / name).unlink(missing_ok=True)
+    length_figure(postproc, FOLDER / "gamma-length")
+    calibrate.figure(POINTS, FOLDER / "calibration")
+    return 0
+
+
 if __name__ == "__main__":
-    if len(sys.argv) not in (2, 3) or sys.argv[2:] not in ([], ["--write"]):
+    if len(sys.argv) not in (2, 3) or sys.argv[2:] not in ([], ["--write"], ["--figures"]):
         sys.exit(__doc__)
-    sys.exit(main(sys.argv[1], len(sys.argv) == 3))
+    sys.exit(figures(sys.argv[1]) if sys.argv[2:] == ["--figures"] else main(sys.argv[1], len(sys.argv) == 3))

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Which values of what the paper does not print give the statements that it does.
 
-calibrate.py collect BIN OUT.csv FOLDER...   numbers of the runs of a study, one row for each run and memory of the picker
+calibrate.py collect BIN OUT.csv FOLDER...   numbers of the runs of a study, one row for each run and memory of the picker; other
+                                             rows that OUT.csv has stay
 calibrate.py sliders BIN OUT.csv FOLDER...   the same numbers of block-sliders, one row for each run, smallest size and warm-up
 calibrate.py figure POINTS.csv OUT           distances over what is not printed: OUT.png and OUT.svg
 
@@ -12,8 +13,10 @@ Approximate Bayesian computation by rejection (Pritchard et al. 1999): points of
 deviation in units of its tolerance, the distance is their root mean square, and the points nearest to the paper are kept.
 """
 import csv
+import json
 import lzma
 import math
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -28,6 +31,7 @@ RANGES = ("1e-4:1e-1", "1e-4:1e-3", "1e-3:1e-2", "1e-2:1e-1")
 WINDOWS = ("16:22", "22:28", "30:36", "38:44")
 WAVE_SPEED = {"r2": 2.08, "r3": 2.53}  # of P-waves in the packing, see p_wave_packing.in
 
+SLIDER_KEYS = ("scheme", "dt", "picker", "picker-lambda", "picker-memory-time", "warmup", "smallest")
 SLIDER_WARMUPS, SLIDER_SIZES = (0, 12000), ("0.0001", "0.01")
 
 
@@ -123,11 +127,14 @@ def summary(postproc, folder, memory, work):
 
 def collect(binaries, output, folders):
     rows = []
+    if Path(output).exists():
+        names = {Path(folder).name for folder in folders}
+        rows = [row for row in read(output) if row["point"] not in names]
     with tempfile.TemporaryDirectory() as work:
         for folder in map(Path, folders):
             words = dict(line.split("=", 1) for line in (folder / "settings.txt").read_text().split("\n") if "=" in line)
             settings = {"point": folder.name, **{key: words.get(key, value) for key, value in SETTINGS.items()}}
-            if not (folder / "done.json").exists():
+            if "failed" in json.loads((folder / "done.json").read_text()):
                 rows.append({**settings, "memory": "", "stopped": "yes"})
                 continue
             for memory in MEMORIES:
@@ -139,7 +146,7 @@ def collect(binaries, output, folders):
 
 def write(output, comment, rows):
     columns = list(dict.fromkeys(key for row in rows for key in row))
-    with open(output, "w") as file:
+    with (lzma.open if str(output).endswith(".xz") else open)(output, "wt") as file:
         file.write(comment + "\n")
         table = csv.DictWriter(file, columns, lineterminator="\n")
         table.writeheader()
@@ -235,6 +242,36 @@ def accepted_table(path):
                         for row in accepted])
 
 
+def ringing_table(path):
+    """Swings of the blocks between the plates, at a memory of 1, where the fault sticks and slips."""
+    rows = [row for row in points(path)[0] if row["memory"] == "1" and row["mass"] == "r2" and float(row["stress"]) > 0.013]
+    bounds = (0, 0.03, 0.12, 0.25, 1.01)
+    groups = {"stay in place": [row for row in rows if row["hold"] == "position"]}
+    for low, high in zip(bounds, bounds[1:]):
+        name = f"hold the stress, impedance {low:g} to {min(high, 1):g}"
+        groups[name] = [row for row in rows if row["hold"] == "stress" and low <= float(row["impedance"]) < high]
+    out = []
+    for name, group in groups.items():
+        shares = sorted(100 * x for x in map(swings, group) if math.isfinite(x))
+        if shares:
+            out.append([name, str(len(shares)), f"{statistics.median(shares):.0f} %", f"{shares[0]:.0f} to {shares[-1]:.0f} %"])
+    return table(["plates", "points", "share of the times, median", "range"], out)
+
+
+def lines_table(path):
+    """One choice at a time about the default: what differs from it, and the statements, at its memory of 2."""
+    shown = [(name, of) for name, _, of, _, _ in STATEMENTS if name != "waves"]
+    chosen = [row for row in points(path)[0] if row["memory"] == "2" and row["point"].startswith(("c120_1", "d"))]
+    default = next(row for row in chosen if row["point"] == "c120_1")
+    keys = ("stress", "viscosity", "damped", "contacts", "mus", "kt", "mass", "hold", "impedance", "loose", "linkgap")
+    out = []
+    for row in sorted(chosen, key=lambda row: row["point"]):
+        other = [f"{key} {row[key]}" for key in keys if row[key] != default[key]]
+        out.append([", ".join(other) or "the default, packing 1", *(f"{of(row):.2f}" for _, of in shown), f"{number(row, 'gamma_0.001'):.2f}",
+                    f"{number(row, 'largest'):.2f}", f"{distance(row):.2f}"])
+    return table(["", *(name for name, _ in shown), "gamma from 1e-3", "largest", "distance"], out)
+
+
 def figure(path, base):
     accepted, ordered = nearest(points(path)[0])
     taken = {row["point"] for row in accepted}
@@ -270,7 +307,7 @@ def slider_table(path):
     """The nearest settings of each scheme and time step, over all lengths."""
     groups = {}
     for row in read(path):
-        key = tuple(row[name] for name in ("scheme", "dt", "picker", "picker-lambda", "picker-memory-time", "warmup", "smallest"))
+        key = tuple(row[name] for name in SLIDER_KEYS)
         groups.setdefault(key, []).append(row)
 
     def mean(key):

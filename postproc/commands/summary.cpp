@@ -81,6 +81,7 @@ void add_threshold(Row &row, const EventTable &table, double threshold, const Op
                     : sum_pairwise(times.data(), times.size()) / static_cast<double>(times.size()));
   for (const std::string &window : options.windows)
     add(row, "share_" + window + "_" + name, share_within(times, parse_range("--window", window)));
+  const RankCorrelation successive = successive_rank_correlation(times);
   // Events of zero length can start at the same time.
   times.erase(std::remove_if(times.begin(), times.end(), [](double time) { return !(time > 0.0); }),
               times.end());
@@ -89,6 +90,8 @@ void add_threshold(Row &row, const EventTable &table, double threshold, const Op
   add(row, "gamma_error_" + name, fit.se_gamma);
   add(row, "B_" + name, fit.B);
   add(row, "C_" + name, fit.C);
+  add(row, "spearman_" + name, successive.rho);
+  add(row, "spearman_p_" + name, successive.p);
 }
 
 /// Share of the events of the smallest threshold that last so few steps.
@@ -138,7 +141,7 @@ void run(Options &options) {
   out.comment("sizes in energy units, times from start to start; exponents by maximum likelihood,");
   out.comment("gamma, B and C (delta = 1) by " + options.method +
               "; brief: share of the events that last " + short_number(options.brief) +
-              " steps or less");
+              " steps or less; spearman: rank correlation of successive times, with its p");
   for (const Row &row : rows) {
     for (const auto &[column, value] : row) out.add(value);
     out.end_row();

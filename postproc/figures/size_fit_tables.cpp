@@ -167,6 +167,30 @@ std::string name_of(const Scaling &scaling) {
   return scaling.ruptures ? name + ", ruptures" : name;
 }
 
+/// What the bends that are not worse than the best by more than 4 in chi2 give.
+std::string range_of_bends(const ScalingFit &fit) {
+  double best = HUGE_VAL;
+  for (const Saturation &end : fit.bends)
+    if (!end.degenerate) best = std::min(best, end.chi2);
+  double sharpest = 0.0, roundest = HUGE_VAL, shortest = HUGE_VAL, longest = 0.0;
+  double least = HUGE_VAL, most = -HUGE_VAL;
+  for (const Saturation &end : fit.bends) {
+    if (end.degenerate || !(end.chi2 <= best + 4.0)) continue;
+    roundest = std::min(roundest, end.m);
+    sharpest = std::max(sharpest, end.m);
+    shortest = std::min(shortest, end.L_c);
+    longest = std::max(longest, end.L_c);
+    least = std::min(least, end.D);
+    most = std::max(most, end.D);
+  }
+  if (!(sharpest > roundest)) return {};
+  return fmt::format(
+      "; bends from {} to {} in place of {} fit as well, with L_c = {} to {}, D = {} "
+      "to {}",
+      roundest, sharpest, Saturation::sharpness, short_number(shortest, 3),
+      short_number(longest, 3), short_number(least, 2), short_number(most, 2));
+}
+
 std::string verdict(const Scaling &scaling) {
   const ScalingFit &fit = scaling.fit;
   if (fit.degenerate) return "degenerate: " + fit.why;
@@ -182,10 +206,10 @@ std::string verdict(const Scaling &scaling) {
       end.degenerate
           ? "degenerate: " + end.why
           : fmt::format(
-                "AICc {} with L_c = {}, s_inf = {}, D = {}, chi2 {} on {} degrees of freedom",
+                "AICc {} with L_c = {}, s_inf = {}, D = {}, chi2 {} on {} degrees of freedom{}",
                 short_number(end.aicc), with_error(end.L_c, end.se_L_c),
                 with_error(end.s_inf, end.se_s_inf), with_error(end.D, end.se_D),
-                short_number(end.chi2), fit.points - 3);
+                short_number(end.chi2), fit.points - 3, range_of_bends(fit));
   const char *statement = "does not tell whether it depends on the length";
   if (fit.preferred == SizeDependence::none)
     statement = "shows no significant dependence on the length";
@@ -279,6 +303,15 @@ nlohmann::json to_json(const Scaling &scaling) {
     json["chi2_saturation"] = end.chi2;
     json["aicc_saturation"] = end.aicc;
   }
+  for (const Saturation &one : fit.bends)
+    if (!one.degenerate)
+      json["bends"].push_back({{"m", one.m},
+                               {"L_c", one.L_c},
+                               {"L_c_error", one.se_L_c},
+                               {"s_inf", one.s_inf},
+                               {"D", one.D},
+                               {"D_error", one.se_D},
+                               {"chi2", one.chi2}});
   json["preferred"] = to_string(fit.preferred);
   return json;
 }

@@ -29,6 +29,7 @@ double corrected_aic(double chi2, int k, int points) {
 // Usable points: logarithms of length and s*, weights of the latter.
 struct LogPoints {
   std::vector<double> x, y, weight;
+  double sharpness = Saturation::sharpness;
 };
 
 // Parameters ln s_inf, ln L_c, D. Either array may be null.
@@ -36,13 +37,12 @@ int saturating(const gsl_vector *p, const LogPoints &points, gsl_vector *residua
                gsl_matrix *jacobian) {
   const double a = gsl_vector_get(p, 0), c = gsl_vector_get(p, 1), D = gsl_vector_get(p, 2);
   for (std::size_t i = 0; i < points.x.size(); ++i) {
-    const double below = c - points.x[i], z = Saturation::sharpness * D * below;
+    const double below = c - points.x[i], z = points.sharpness * D * below;
     if (!std::isfinite(z)) return GSL_EDOM;
     const double small = std::exp(-std::fabs(z));  // ln(1 + e^z) without overflow
     if (residuals)
-      gsl_vector_set(
-          residuals, i,
-          a - (std::max(z, 0.0) + std::log1p(small)) / Saturation::sharpness - points.y[i]);
+      gsl_vector_set(residuals, i,
+                     a - (std::max(z, 0.0) + std::log1p(small)) / points.sharpness - points.y[i]);
     if (!jacobian) continue;
     const double share = (z > 0.0 ? 1.0 : small) / (1.0 + small);
     gsl_matrix_set(jacobian, i, 0, 1.0);
@@ -52,8 +52,9 @@ int saturating(const gsl_vector *p, const LogPoints &points, gsl_vector *residua
   return GSL_SUCCESS;
 }
 
-Saturation fit_saturation(LogPoints points) {
+Saturation fit_saturation(LogPoints points, double sharpness) {
   Saturation fit;
+  fit.m = points.sharpness = sharpness;
   const std::size_t n = points.x.size();
   if (n < 5) {
     fit.why = std::to_string(n) + " usable points, at least 5 needed";
@@ -349,7 +350,7 @@ const char *to_string(SizeDependence dependence) {
 
 ScalingFit fit_scaling(const std::vector<SizePoint> &points) {
   LogPoints usable;
-  auto &[x, y, weight] = usable;
+  std::vector<double> &x = usable.x, &y = usable.y, &weight = usable.weight;
   for (const SizePoint &point : points) {
     if (point.degenerate || !(point.error > 0.0)) continue;
     x.push_back(std::log(point.length));
@@ -389,7 +390,9 @@ ScalingFit fit_scaling(const std::vector<SizePoint> &points) {
 
   fit.aicc = corrected_aic(fit.chi2, 2, fit.points);
   fit.aicc_constant = corrected_aic(fit.chi2_constant, 1, fit.points);
-  fit.saturation = fit_saturation(usable);
+  for (const double sharpness : {1.0, 2.0, Saturation::sharpness, 8.0, 16.0})
+    fit.bends.push_back(fit_saturation(usable, sharpness));
+  fit.saturation = fit.bends[2];
   if (fit.saturation.aicc < std::min(fit.aicc, fit.aicc_constant) - 2.0)
     fit.preferred = SizeDependence::saturates;
   else if (fit.aicc < fit.aicc_constant - 2.0)

@@ -63,9 +63,10 @@ const char *to_string(SizeDependence dependence);
 /// Growth that ends: s* = s_inf [1 + (L_c / L)^(D m)]^(-1/m), which is s_inf (L / L_c)^D far below
 /// L_c and s_inf far above. Errors from the curvature at the best fit.
 struct Saturation {
-  /// m, how sharp the bend is. Fixed, as few lengths lie in it. D leans on it: ruptures of the
-  /// block-slider, which 4 fits best, give D = 0.80, 0.68, 0.65 with m = 2, 4, 8.
+  /// m, how sharp the bend is. Fixed, as few lengths lie in it; L_c and D lean on it by more than
+  /// their errors, see ScalingFit::bends.
   static constexpr double sharpness = 4.0;
+  double m = sharpness;
   double s_inf = std::numeric_limits<double>::quiet_NaN(), se_s_inf = s_inf;
   double L_c = s_inf, se_L_c = s_inf;
   double D = s_inf, se_D = s_inf;
@@ -87,6 +88,9 @@ struct ScalingFit {
   double aicc = A, aicc_constant = A;  ///< chi2 + 2 k + 2 k (k + 1) / (points - k - 1)
   int points = 0;
   Saturation saturation;
+  /// The same with bends from round (m = 1) to sharp (m = 16), `saturation` among them: what the
+  /// form, which is ours, adds to the errors of L_c, s_inf and D.
+  std::vector<Saturation> bends;
   /// Saturates where its AICc is lower than both others by more than 2. Else the one of power law
   /// and constant whose AICc is lower by more than 2; the constant only where D = 0 lies within the
   /// 95 % interval of D, since with few points AICc alone takes it up to 2.2 standard errors off.

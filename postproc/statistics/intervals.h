@@ -75,7 +75,16 @@ std::vector<double> starts_of(const EventTable &events, double threshold);
 /// left out (model time).
 std::vector<double> inter_event_times(const EventTable &events, double threshold);
 
-/// The same for events that rupture a place, for `places` of them, equally spaced along the fault
+/// Do successive times depend on each other? Spearman's correlation of each time with the next one,
+/// which tells clusters and regular sequences from independent events whatever their density is,
+/// and the share of independent series with one as far from 0 (Student's t). Fewer than 4 pairs, or
+/// times that are all equal: NaN.
+struct RankCorrelation {
+  double rho = std::numeric_limits<double>::quiet_NaN(), p = rho;
+};
+RankCorrelation successive_rank_correlation(const std::vector<double> &times);
+
+/// Times between events that rupture a place, for `places` of them, equally spaced along the fault
 /// from half a space on, one after the other. Places closer to each other than events are long
 /// share events, so that their times are not independent. \throws std::invalid_argument if the
 /// table does not say where its events ruptured

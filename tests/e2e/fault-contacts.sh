@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # Discs of one block cannot pass through those of the other, whether they are at the fault or behind it: the upper block
 # is pushed into the lower one and the face of that into what lies behind, and each pair of both blocks that overlaps has to
-# repel; those of one block too, unless contacts are those of the fault only.
+# repel; those of one block too, unless contacts are those of the fault only, and with friction unless they are smooth.
 # usage: fault-contacts.sh LMP SOURCE_DIR
 set -euo pipefail
 export LC_ALL=C
@@ -18,8 +18,8 @@ displace_atoms above move 0 -0.5 0
 group face type 3
 displace_atoms face move 0.02 -0.05 0
 compute types all property/local ptype1 ptype2 cutoff radius
-compute push all pair/local force cutoff radius
-dump probe all local 1 ${prefix}.pairs c_types[1] c_types[2] c_push
+compute push all pair/local force p2 cutoff radius
+dump probe all local 1 ${prefix}.pairs c_types[1] c_types[2] c_push[1] c_push[2]
 END
 # pairs NAME VARIABLES...: rows "types, overlapping pairs, those that repel", of the first step
 pairs() {
@@ -39,3 +39,16 @@ done
 awk '$1 == "1-3" && $2 > 0 && $3 == 0 { good = 1 } END { exit !good }' fault.rows || fail "discs of one block, contacts fault"
 pairs all
 awk '$1 == "1-3" && $2 > 0 { found = 1 } $3 != $2 { bad = 1 } END { exit bad || !found }' all.rows || fail "contacts all"
+# Smooth: as many repel; with friction those of both blocks only.
+pairs smooth -var contacts smooth
+awk '$1 == "1-3" && $2 > 0 { found = 1 } $3 != $2 { bad = 1 } END { exit bad || !found }' smooth.rows || fail "contacts smooth"
+# friction NAME: rows "within or between the blocks, pairs with a tangential force", of the last step
+friction() {
+  awk '/^ITEM: TIMESTEP/ { split("", n) } /^ITEM/ { on = /ITEM: ENTRIES/; next }
+    on && $4 != 0 { n[($1 - $2) % 2 ? "between" : "within"]++ }
+    END { print "within", n["within"] + 0; print "between", n["between"] + 0 }' "$1.pairs"
+}
+friction all >rows
+awk '$2 == 0 { bad = 1 } END { exit bad }' rows || fail "friction, contacts all: $(cat rows)"
+friction smooth >rows
+awk '($1 == "within") != ($2 == 0) { bad = 1 } END { exit bad }' rows || fail "friction, contacts smooth: $(cat rows)"

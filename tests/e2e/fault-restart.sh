@@ -33,7 +33,7 @@ case $1 in
     done <<'EOF'
 preset Single statistics or single
 hold Position stress or position
-contacts ALL fault or all
+contacts ALL fault, all or smooth
 ruptures Yes no or yes
 leap on no or yes
 series foo yes or no

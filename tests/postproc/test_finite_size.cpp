@@ -357,6 +357,32 @@ TEST(Saturation, ExactCurve) {
   EXPECT_EQ(fit.preferred, SizeDependence::saturates);
 }
 
+// Points on a round bend: a sharper curve through them is worse, and finds another L_c and D.
+TEST(Saturation, BendsTellTheForm) {
+  std::vector<SizePoint> points;
+  for (double length : {50, 100, 200, 400, 800, 1600, 3200, 6400}) {
+    const double s = 8000.0 * std::pow(1.0 + std::pow(700.0 / length, 1.4), -0.5);
+    points.push_back(point(length, s, 0.01 * s));
+  }
+  const ScalingFit fit = fit_scaling(points);
+  ASSERT_EQ(fit.bends.size(), 5u);
+  for (const Saturation &end : fit.bends) {
+    ASSERT_FALSE(end.degenerate) << end.m << ": " << end.why;
+    if (end.m == 2.0) {
+      EXPECT_NEAR(end.L_c, 700.0, 1e-3);
+      EXPECT_NEAR(end.D, 0.7, 1e-6);
+      EXPECT_NEAR(end.chi2, 0.0, 1e-9);
+    } else {
+      EXPECT_GT(end.chi2, 1.0) << end.m;
+      EXPECT_GT(std::fabs(end.L_c - 700.0), end.se_L_c) << end.m;
+    }
+    if (end.m == Saturation::sharpness) {
+      EXPECT_EQ(end.L_c, fit.saturation.L_c);
+    }
+  }
+  EXPECT_LT(fit.bends.back().D, fit.bends.front().D);
+}
+
 TEST(Saturation, IsRecognisedAndItsErrorsCover) {
   gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
   const double s_inf = 8000.0, L_c = 2400.0, D = 0.7;

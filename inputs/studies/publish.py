@@ -1,0 +1,40 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Catalogues of runs as they are published in results: compressed, without the smallest events, which their header says.
+
+publish.py OUT FOLDER...
+
+OUT/NAME.catalogue.csv.xz has the events from 1e-4 on of each folder NAME of a study of faults, OUT/NAME.ruptures.csv.xz the
+ruptures from 1e-3 on where there are any.
+"""
+import lzma
+import sys
+from pathlib import Path
+
+EVENTS, RUPTURES = 1e-4, 1e-3
+
+
+def publish(source, out, least=EVENTS):
+    """A catalogue without events smaller than `least`; all other lines are as they were."""
+    kept = []
+    for line in Path(source).read_text().splitlines(keepends=True):
+        if line.startswith("# min_size = "):
+            line = f"# min_size = {least:g}\n# thinned = sizes below {least:g} left out\n"
+        elif line[0] not in "#e" and float(line.split(",")[5]) < least:
+            continue
+        kept.append(line)
+    Path(out).write_bytes(lzma.compress("".join(kept).encode(), preset=9))
+
+
+def main(out, folders):
+    Path(out).mkdir(parents=True, exist_ok=True)
+    for folder in map(Path, folders):
+        publish(folder / "fault.catalogue.csv", Path(out) / f"{folder.name}.catalogue.csv.xz")
+        if (folder / "fault.ruptures.csv").exists():
+            publish(folder / "fault.ruptures.csv", Path(out) / f"{folder.name}.ruptures.csv.xz", RUPTURES)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 3:
+        sys.exit(__doc__)
+    main(sys.argv[1], sys.argv[2:])
