@@ -36,8 +36,8 @@ static constexpr double NEARLY_CLOSED =
 FixLSMNVE::FixLSMNVE(LAMMPS *_lmp, int narg, char **arg) :
     Fix(_lmp, narg, arg), record_work(false), work_viscosity(0.0), nu_least(0.0),
     nu(atom->ntypes + 1, 0.0), decay(atom->ntypes + 1, 1.0), viscous(false), dtv(0.0), dtf(0.0),
-    check(ERROR), omega(0.0), dt_limit(0.0), clears(false), pending(false), initial_chosen(nullptr),
-    final_chosen(nullptr), both_chosen(nullptr)
+    check(ERROR), omega(0.0), dt_limit(0.0), clears(false), measures(false), fastest(-1.0),
+    pending(false), initial_chosen(nullptr), final_chosen(nullptr), both_chosen(nullptr)
 {
   time_integrate = 1;
   dynamic_group_allow = 1;
@@ -119,6 +119,8 @@ void FixLSMNVE::init()
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix lsm/nve does not work with run_style respa");
   LSMScene::refuse_changing_radii(lmp, "Fix lsm/nve");
+  measures = false;
+  fastest = -1.0;
   reset_dt();
 }
 
@@ -184,19 +186,25 @@ void FixLSMNVE::post_neighbor()
 
 template <bool DIM3, bool CLEARS> void FixLSMNVE::choose_for()
 {
+  measures ? choose_for<DIM3, CLEARS, MEASURE>() : choose_for<DIM3, CLEARS, 0>();
+}
+
+template <bool DIM3, bool CLEARS, int MEASURED> void FixLSMNVE::choose_for()
+{
+  constexpr int FIRST = INITIAL | MEASURED, BOTH = FINAL | INITIAL | MEASURED;
   const bool slows = viscous || nu_least > 0.0;
   if (slows && record_work) {
-    initial_chosen = &FixLSMNVE::move<INITIAL, true, true, DIM3, CLEARS>;
+    initial_chosen = &FixLSMNVE::move<FIRST, true, true, DIM3, CLEARS>;
     final_chosen = &FixLSMNVE::move<FINAL, true, true, DIM3, false>;
     both_chosen = nullptr;
   } else if (slows) {
-    initial_chosen = &FixLSMNVE::move<INITIAL, true, false, DIM3, CLEARS>;
+    initial_chosen = &FixLSMNVE::move<FIRST, true, false, DIM3, CLEARS>;
     final_chosen = &FixLSMNVE::move<FINAL, true, false, DIM3, false>;
-    both_chosen = &FixLSMNVE::move<FINAL | INITIAL, true, false, DIM3, CLEARS>;
+    both_chosen = &FixLSMNVE::move<BOTH, true, false, DIM3, CLEARS>;
   } else {
-    initial_chosen = &FixLSMNVE::move<INITIAL, false, false, DIM3, CLEARS>;
+    initial_chosen = &FixLSMNVE::move<FIRST, false, false, DIM3, CLEARS>;
     final_chosen = &FixLSMNVE::move<FINAL, false, false, DIM3, false>;
-    both_chosen = &FixLSMNVE::move<FINAL | INITIAL, false, false, DIM3, CLEARS>;
+    both_chosen = &FixLSMNVE::move<BOTH, false, false, DIM3, CLEARS>;
   }
 
   // fixes that may look at velocities between the end of a step and the begin of the next
@@ -273,6 +281,7 @@ void FixLSMNVE::setup(int /*vflag*/)
 template <int PARTS, bool VISCOUS, bool WORK, bool DIM3, bool CLEARS> void FixLSMNVE::move()
 {
   constexpr int DIM = DIM3 ? 3 : 2;
+  double most = 0.0;
 
   for (const Run &run : runs) {
     const double factor = run.decay;
@@ -299,6 +308,11 @@ template <int PARTS, bool VISCOUS, bool WORK, bool DIM3, bool CLEARS> void FixLS
         if constexpr (VISCOUS)
           for (int c = 0; c < DIM; c++) w[c] *= factor;
         for (int c = 0; c < DIM; c++) w[c] += *kick * f[c];
+        if constexpr (PARTS & MEASURE) {
+          double square = 0.0;
+          for (int c = 0; c < DIM; c++) square += w[c] * w[c];
+          most = MAX(most, square);
+        }
         double to[DIM];
         for (int c = 0; c < DIM; c++) to[c] = x[c] + dtv * w[c];
         for (int c = 0; c < DIM; c++) x[c] = to[c];
@@ -310,6 +324,21 @@ template <int PARTS, bool VISCOUS, bool WORK, bool DIM3, bool CLEARS> void FixLS
     }
     if constexpr (WORK) work_viscosity += 0.5 * (1.0 - factor * factor) * lost;
   }
+  if constexpr (PARTS & MEASURE) fastest = most;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixLSMNVE::measure_moves()
+{
+  if (measures) return;
+  measures = true;
+  if (initial_chosen) choose();
+}
+
+double FixLSMNVE::longest_move() const
+{
+  return fastest < 0.0 ? INFINITY : dtv * sqrt(fastest);
 }
 
 /* ---------------------------------------------------------------------- */

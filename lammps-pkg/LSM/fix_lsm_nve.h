@@ -51,6 +51,10 @@ class FixLSMNVE : public Fix {
   void complete_step();
   /// Whether the second half of the last step is still to be done.
   bool has_put_off() const { return pending; }
+  /// Keeps the longest move of each step from the next one on, until the next init().
+  void measure_moves();
+  /// It moved no particle of this rank farther in this step; infinite if that was not measured.
+  double longest_move() const;
   void raise_viscosity(double least);    // to at least this, for now; 0: as it was given
   std::string viscosity() const;         // one value, or one per type
 
@@ -83,8 +87,11 @@ class FixLSMNVE : public Fix {
   bool clears;
   std::vector<std::pair<int, int>> others;    // particles between the runs: first, last
 
-  enum { FINAL = 1, INITIAL = 2 };    // halves of a step
-  bool pending;                       // the second half of the last step is still to be done
+  bool measures;     // the square of the largest velocity in this step is kept
+  double fastest;    // it, or -1 if it is not known
+
+  enum { FINAL = 1, INITIAL = 2, MEASURE = 4 };    // halves of a step, and whether to measure
+  bool pending;    // the second half of the last step is still to be done
   std::vector<Fix *> onlookers;
   void (FixLSMNVE::*initial_chosen)();
   void (FixLSMNVE::*final_chosen)();
@@ -92,6 +99,7 @@ class FixLSMNVE : public Fix {
 
   template <int PARTS, bool VISCOUS, bool WORK, bool DIM3, bool CLEARS> void move();
   template <bool DIM3, bool CLEARS> void choose_for();
+  template <bool DIM3, bool CLEARS, int MEASURED> void choose_for();
   void choose();
   void collect();
   bool may_clear() const;

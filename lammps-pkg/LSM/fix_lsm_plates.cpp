@@ -271,6 +271,7 @@ void FixLSMPlates::initial_integrate(int /*vflag*/)
   const double vx = dux / dt;
   double **x = atom->x;
   double **v = atom->v;
+  longest = 0.0;
 
   for (Plate &p : plate) {
     double duy = 0.0;
@@ -285,6 +286,7 @@ void FixLSMPlates::initial_integrate(int /*vflag*/)
         work_mine += -p.side * 0.5 * (stress_at(elapsed) + stress_at(elapsed + dt)) * length * duy;
     }
     p.uy += duy;
+    longest = MAX(longest, sqrt(dux * dux + duy * duy));
     work_mine -= 0.5 * p.fx * p.side * dux;
     for (int i : p.atoms) {
       v[i][0] = p.side * vx;

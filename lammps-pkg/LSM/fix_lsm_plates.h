@@ -39,6 +39,9 @@ class FixLSMPlates : public Fix {
   /// Velocities and positions of the same time.
   void complete_step();
 
+  /// No particle of the plates moved farther in this step.
+  double longest_move() const { return longest; }
+
   double loading;    // factor of the driving velocity now, set by fix lsm/leap
   double driving_velocity() const { return speed; }
   int plate_bits() const { return plate[0].bit | plate[1].bit; }
@@ -80,6 +83,7 @@ class FixLSMPlates : public Fix {
   MPI_Request request;
   double across_mine[2], across[2];    // they, of this rank and of all
   double moved, along;                 // shear displacement and velocity of the last step
+  double longest = 0.0;                // move of the last step
 
   double sums[4];    // fx, fy of both plates over all ranks, at step summed_at
   bigint summed_at;

@@ -8,38 +8,75 @@
 
 #include "lmptype.h"
 
+#include <limits>
 #include <vector>
 
 namespace LAMMPS_NS {
 
 class NeighList;
 
-/// Most pairs in the neighbor list of a filled block never touch. Looked at in each step are those that may come within reach before particles have moved by a small skin
-/// against each other: no pair is missed, so forces are the same to the last bit.
+/// Most pairs in the neighbor list of a filled block never touch. Kept are those that may come within reach before
+/// particles have moved by a small skin against each other, and in each step those of them are given that are within
+/// reach: no pair is missed, so forces are the same to the last bit.
 class LSMNearPairs {
  public:
-  /// Pairs of i: places in its part of the neighbor list, from pairs[first] to before pairs[last], as they stand there.
-  struct Particle {
-    int i, first, last;
+  struct Pair {
+    int i, jj;    ///< a particle, and the place of its partner in its part of the neighbor list
   };
-  std::vector<Particle> particles;
-  std::vector<int> pairs;
 
-  /// Looks for the pairs again where that is needed.
-  /// \param build  number of the build of the neighbor list
-  /// \param x      positions of all particles with ghosts, `count` of them
-  /// \param reach  pairs are within reach up to this distance, in sums of radii
-  /// \param touch  flags of pairs to be kept in any case, as in the neighbor list, or null
-  void update(bigint build, const NeighList &, const double *x, int count, const double *radius,
-              double reach, const int *const *touch);
+  /// Looks at all pairs again where that is needed, and finds those within reach.
+  /// \param build     number of the build of the neighbor list
+  /// \param x         positions of all particles with ghosts, `count` of them, `nlocal` without
+  /// \param reach     pairs are within reach up to this distance, in sums of radii
+  /// \param touch     flags of pairs that count as within reach at any distance, as in the neighbor list, or null
+  /// \param farthest  no particle of this rank has moved farther since the last call, infinite if unknown
+  /// \return whether other pairs were kept than before
+  bool update(bigint build, const NeighList &, const double *x, int nlocal, int count,
+              const double *radius, double reach, const int *const *touch, double farthest);
+  /// Those that are kept, in the order of the neighbor list.
+  const std::vector<Pair> &kept() const { return pairs; }
+  /// How many of them are within reach, and the place in kept() of the n-th of these, in the same order.
+  int size() const { return number; }
+  int operator[](int n) const { return found[n]; }
+  /// Whether a pair, by its place in kept(), is touching; to be told when that changes.
+  bool is_touching(int place) const
+  {
+    return limit[place] == std::numeric_limits<double>::infinity();
+  }
+  void set_touching(int place, bool yes)
+  {
+    limit[place] = yes ? std::numeric_limits<double>::infinity() : within[place];
+  }
+  /// Whether it is of use to know how far particles move.
+  bool asks_for_moves() const { return !held.empty(); }
   /// Forgets all, for a list of another kind.
   void clear() { built = -1; }
 
  private:
-  bigint built = -1;
-  std::vector<double> held;    // positions when the pairs were looked for; empty where all are kept
+  struct Ends {
+    int i, j;    // places of their coordinates
+  };
+  struct Range {
+    double low[3], high[3];
+  };
+  std::vector<Pair> pairs;
+  std::vector<Ends> ends;        // of the pairs, as are the following
+  std::vector<double> within;    // square of the distance up to which a pair is within reach
+  std::vector<double> limit;     // the same, infinite where it is touching
+  std::vector<int> found;        // the first `number` of them are within reach now
+  int number = 0;
 
-  bool outdated(const double *x) const;
+  bigint built = -1;
+  std::vector<double> held;    // positions when the pairs were chosen; empty where all are kept
+  Range
+      moved;    // displacements of this rank's particles since then, when they were looked at last
+  double travelled = 0.0;    // no particle of this rank has moved farther after that
+
+  Range displacements(const double *x, size_t first, size_t last) const;
+  bool outdated(const double *x, int nlocal, double farthest);
+  void choose(const NeighList &, const double *x, const double *radius, double reach,
+              const int *const *touch);
+  void find(const double *x);
 };
 
 }    // namespace LAMMPS_NS

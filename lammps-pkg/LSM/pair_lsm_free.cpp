@@ -30,7 +30,7 @@ using namespace LAMMPS_NS;
 
 PairLSMFree::PairLSMFree(LAMMPS *_lmp) :
     Pair(_lmp), k(nullptr), on(nullptr), active(nullptr), maxrad(nullptr), newton_pair(0),
-    screened(false), own_radii(-1)
+    travel(_lmp), screened(false), own_radii(-1)
 {
   single_enable = 1;
   no_virial_fdotr_compute = 1;
@@ -59,14 +59,20 @@ void PairLSMFree::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
   if (screened) check_special();
-  near.update(neighbor->ncalls, *list, atom->x[0], atom->nlocal + atom->nghost, contact_radii(),
-              1.0, nullptr);
+  find_near(1.0, nullptr);
   if (evflag)
     loop<LSMRecordAndTally>();
   else if (record_what)
     loop<LSMRecordEnergies>();
   else
     loop<LSMRecordNothing>();
+}
+
+bool PairLSMFree::find_near(double reach, const int *const *touch)
+{
+  const double farthest = travel.since_last(near.asks_for_moves());
+  return near.update(neighbor->ncalls, *list, atom->x[0], atom->nlocal, atom->nlocal + atom->nghost,
+                     contact_radii(), reach, touch, farthest);
 }
 
 template <class Recorder> void PairLSMFree::loop()
@@ -88,44 +94,39 @@ template <class Recorder, bool DIM3> void PairLSMFree::loop()
   const int nlocal = atom->nlocal;
   Recorder recorder(*this, update->setupflag != 0, domain->boxlo[0], domain->prd[0]);
 
-  for (const LSMNearPairs::Particle &one : near.particles) {
-    const int i = one.i;
-    const int *jlist = list->firstneigh[i];
-    const double *ki = k[type[i]];
+  for (int n = 0; n < near.size(); n++) {
+    const LSMNearPairs::Pair &pair = near.kept()[near[n]];
+    const int i = pair.i, entry = list->firstneigh[i][pair.jj], j = entry & NEIGHMASK;
+    const double delx = x[i][0] - x[j][0];
+    const double dely = x[i][1] - x[j][1];
+    double delz = 0.0;
+    double rsq = delx * delx + dely * dely;
+    if constexpr (DIM3) {
+      delz = x[i][2] - x[j][2];
+      rsq += delz * delz;
+    }
+    const double r0 = radius[i] + radius[j];
+    if (rsq >= r0 * r0) continue;
+    if (screened && left_out(entry, type[i], type[j])) continue;
 
-    for (int m = one.first; m < one.last; m++) {
-      const int jj = near.pairs[m], j = jlist[jj] & NEIGHMASK;
-      const double delx = x[i][0] - x[j][0];
-      const double dely = x[i][1] - x[j][1];
-      double delz = 0.0;
-      double rsq = delx * delx + dely * dely;
-      if constexpr (DIM3) {
-        delz = x[i][2] - x[j][2];
-        rsq += delz * delz;
-      }
-      const double r0 = radius[i] + radius[j];
-      if (rsq >= r0 * r0) continue;
-      if (screened && left_out(jlist[jj], type[i], type[j])) continue;
+    const double kij = k[type[i]][type[j]];
+    const double r = sqrt(rsq);
+    const double fpair = r > 0.0 ? -LSM::Spring::force(kij, r - r0) / r : 0.0;
+    const bool both = newton_pair || j < nlocal;
 
-      const double kij = ki[type[j]];
-      const double r = sqrt(rsq);
-      const double fpair = r > 0.0 ? -LSM::Spring::force(kij, r - r0) / r : 0.0;
-      const bool both = newton_pair || j < nlocal;
-
-      f[i][0] += delx * fpair;
-      f[i][1] += dely * fpair;
-      if constexpr (DIM3) f[i][2] += delz * fpair;
-      if (both) {
-        f[j][0] -= delx * fpair;
-        f[j][1] -= dely * fpair;
-        if constexpr (DIM3) f[j][2] -= delz * fpair;
-      }
-      if constexpr (Recorder::records) {
-        const double e = LSM::Spring::energy(kij, r - r0);
-        recorder.springs(both ? 1.0 : 0.5, e, 0.0);
-        if constexpr (Recorder::tallies)
-          ev_tally(i, j, nlocal, newton_pair, e, 0.0, fpair, delx, dely, delz);
-      }
+    f[i][0] += delx * fpair;
+    f[i][1] += dely * fpair;
+    if constexpr (DIM3) f[i][2] += delz * fpair;
+    if (both) {
+      f[j][0] -= delx * fpair;
+      f[j][1] -= dely * fpair;
+      if constexpr (DIM3) f[j][2] -= delz * fpair;
+    }
+    if constexpr (Recorder::records) {
+      const double e = LSM::Spring::energy(kij, r - r0);
+      recorder.springs(both ? 1.0 : 0.5, e, 0.0);
+      if constexpr (Recorder::tallies)
+        ev_tally(i, j, nlocal, newton_pair, e, 0.0, fpair, delx, dely, delz);
     }
   }
   recorder.finish();

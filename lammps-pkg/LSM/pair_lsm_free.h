@@ -14,6 +14,7 @@ PairStyle(lsm/free,PairLSMFree);
 
 #include "lsm_energy.h"
 #include "lsm_near_pairs.h"
+#include "lsm_travel.h"
 #include "pair.h"
 
 namespace LAMMPS_NS {
@@ -62,10 +63,12 @@ class PairLSMFree : public Pair, public LSMEnergySource {
   double *maxrad;    // largest radius of each type
   int newton_pair;
   LSMNearPairs near;
+  LSMTravel travel;
   bool screened;    // lists hold pairs that must not interact
   int own_radii;    // index of the radii of the contacts, where fix lsm/traction has made them others, or -1
 
   const double *contact_radii() const;
+  bool find_near(double reach, const int *const *touch);
 
   bool left_out(int entry, int itype, int jtype) const;
   void check_special() const;

@@ -27,6 +27,8 @@
 #include <limits>
 #include <utility>
 
+#define LSM_LAMBDA __attribute__((always_inline))
+
 using namespace LAMMPS_NS;
 
 // values stored per pair: elongation of the tangential spring along the tangent (-ny,nx), the vector from j
@@ -154,20 +156,31 @@ void PairLSMFriction::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
   if (screened) check_special();
-  near.update(neighbor->ncalls, *list, atom->x[0], atom->nlocal + atom->nghost, contact_radii(),
-              locate_onset ? NEAR_REACH : 1.0, fix_history->firstflag);
+  if (find_near(locate_onset ? NEAR_REACH : 1.0, fix_history->firstflag)) collect_sites();
   (this->*(evflag        ? running->loop_tally
            : record_what ? running->loop_energies
                          : running->loop_nothing))();
+}
+
+void PairLSMFriction::collect_sites()
+{
+  const double *const radius = contact_radii();
+  sites.clear();
+  for (const LSMNearPairs::Pair &pair : near.kept()) {
+    const int i = pair.i, entry = list->firstneigh[i][pair.jj], j = entry & NEIGHMASK;
+    sites.push_back({fix_history->firstvalue[i] + size_history() * pair.jj,
+                     fix_history->firstflag[i] + pair.jj, radius[i] + radius[j], i, j, entry,
+                     atom->type[i], atom->type[j]});
+  }
 }
 
 /* ----------------------------------------------------------------------
    a pair without contact: the vector is kept while it is near, forgotten otherwise
 ------------------------------------------------------------------------- */
 
-static inline void keep_near(bool near, double delx, double dely, int &touch, double *h)
+static inline void keep_near(bool near, double delx, double dely, bool &touch, double *h)
 {
-  touch = near ? 1 : 0;
+  touch = near;
   h[XI] = 0.0;
   h[DX] = near ? delx : 0.0;
   h[DY] = near ? dely : 0.0;
@@ -182,14 +195,10 @@ static inline void keep_near(bool near, double delx, double dely, int &touch, do
 
 template <class Law, class Recorder> void PairLSMFriction::loop()
 {
-  constexpr int size = LAW_STATE + Law::state_size;
   double **x = atom->x;
   double **f = atom->f;
   const double *radius = contact_radii();
-  const int *type = atom->type;
   const int nlocal = atom->nlocal;
-  int **firsttouch = fix_history->firstflag;
-  double **firsthistory = fix_history->firstvalue;
   const double reach_sq = locate_onset ? NEAR_REACH * NEAR_REACH : 0.0;
   [[maybe_unused]] const double dt = update->dt * pace;
 
@@ -204,116 +213,126 @@ template <class Law, class Recorder> void PairLSMFriction::loop()
   const double rounding = 16.0 * std::numeric_limits<double>::epsilon() * farthest;
   Recorder recorder(*this, setup, domain->boxlo[0], domain->prd[0]);
 
-  for (const LSMNearPairs::Particle &one : near.particles) {
-    const int i = one.i;
-    const int *jlist = list->firstneigh[i];
-    int *touch = firsttouch[i];
-    double *allhistory = firsthistory[i];
-    const int itype = type[i];
-    const double *const ki = k[itype];
-    const double *row[std::size(Law::parameters)];
-    for (std::size_t n = 0; n < std::size(Law::parameters); n++) row[n] = coefficient[n][itype];
+  const auto evaluate = [&](const Site &site, bool &touch) LSM_LAMBDA {
+    const int i = site.i, j = site.j, itype = site.itype, jtype = site.jtype;
+    double *const h = site.history;
+    const double delx = x[i][0] - x[j][0];
+    const double dely = x[i][1] - x[j][1];
+    const double rsq = delx * delx + dely * dely;
+    const double r0 = site.r0;
+    const bool apart = rsq >= r0 * r0;
+    if (apart && !touch && rsq > reach_sq * r0 * r0) return;
+    if (screened && left_out(site.entry, itype, jtype)) {
+      touch = false;
+      return;
+    }
 
-    for (int m = one.first; m < one.last; m++) {
-      const int jj = near.pairs[m];
-      const int j = jlist[jj] & NEIGHMASK;
-      const double delx = x[i][0] - x[j][0];
-      const double dely = x[i][1] - x[j][1];
-      const double rsq = delx * delx + dely * dely;
-      const double r0 = radius[i] + radius[j];
-      const bool apart = rsq >= r0 * r0;
-      if (apart && !touch[jj] && rsq > reach_sq * r0 * r0) continue;
-      if (screened && left_out(jlist[jj], itype, type[j])) {
-        touch[jj] = 0;
-        continue;
-      }
+    const bool was_near = touch && h[STATUS] == NEAR;
+    if (apart && (!touch || was_near)) {
+      keep_near(rsq <= reach_sq * r0 * r0, delx, dely, touch, h);
+      return;
+    }
+    const double r = sqrt(rsq);
+    const double rinv = r > 0.0 ? 1.0 / r : 0.0;
+    const double nx = delx * rinv, ny = dely * rinv;
+    const auto c = coefficients_of<Law>(
+        [this, itype, jtype](std::size_t p) { return coefficient[p][itype][jtype]; },
+        parameters_of<Law>);
 
-      double *h = &allhistory[size * jj];
-      const bool was_near = touch[jj] && h[STATUS] == NEAR;
-      if (apart && (!touch[jj] || was_near)) {
-        keep_near(rsq <= reach_sq * r0 * r0, delx, dely, touch[jj], h);
-        continue;
-      }
-      const int jtype = type[j];
-      const double r = sqrt(rsq);
-      const double rinv = r > 0.0 ? 1.0 / r : 0.0;
-      const double nx = delx * rinv, ny = dely * rinv;
-      const auto c = coefficients_of<Law>([&row, jtype](std::size_t n) { return row[n][jtype]; },
-                                          parameters_of<Law>);
+    LSM::FrictionContact contact{0.0, 0.0, 0.0, 0.0, false};
+    bool moved = !setup;
+    if (touch) {
+      if (setup) moved = fabs(delx - h[DX]) > rounding || fabs(dely - h[DY]) > rounding;
 
-      LSM::FrictionContact contact{0.0, 0.0, 0.0, 0.0, false};
-      bool moved = !setup;
-      if (touch[jj]) {
-        if (setup) moved = fabs(delx - h[DX]) > rounding || fabs(dely - h[DY]) > rounding;
+      // tangent of the middle of the step, so that the increment is of second order
 
-        // tangent of the middle of the step, so that the increment is of second order
-
-        const double mx = delx + h[DX], my = dely + h[DY];
-        const double msq = mx * mx + my * my;
-        const double minv = msq > 0.0 ? 1.0 / sqrt(msq) : 0.0;
-        contact.dxi = (my * (h[DX] - delx) + mx * (dely - h[DY])) * minv;
-        if constexpr (Law::needs_time) contact.time = dt;
-        if (was_near) {
-          const double before = sqrt(h[DX] * h[DX] + h[DY] * h[DY]);
-          const double share = locate_onset ? LSM::share_in_contact(before, r, r0) : 0.0;
-          contact.dxi *= share;
-          if constexpr (Law::needs_time) contact.time *= share;
-          h[STATUS] = STICKS;
-          Law::begin(c, h + LAW_STATE);
-        }
-      } else {
-        touch[jj] = 1;
-        h[XI] = 0.0;
+      const double mx = delx + h[DX], my = dely + h[DY];
+      const double msq = mx * mx + my * my;
+      const double minv = msq > 0.0 ? 1.0 / sqrt(msq) : 0.0;
+      contact.dxi = (my * (h[DX] - delx) + mx * (dely - h[DY])) * minv;
+      if constexpr (Law::needs_time) contact.time = dt;
+      if (was_near) {
+        const double before = sqrt(h[DX] * h[DX] + h[DY] * h[DY]);
+        const double share = locate_onset ? LSM::share_in_contact(before, r, r0) : 0.0;
+        contact.dxi *= share;
+        if constexpr (Law::needs_time) contact.time *= share;
         h[STATUS] = STICKS;
         Law::begin(c, h + LAW_STATE);
       }
-
-      const double kij = ki[jtype];
-      contact.fn = LSM::contact_normal_force(kij, r, r0);
-      contact.xi = h[XI];
-      if constexpr (Law::needs_sliding) contact.sliding = h[STATUS] == SLIDES;
-      const LSM::FrictionStep s =
-          !moved && !apart ? LSM::FrictionStep{h[XI], c.kt * h[XI], 0.0, 0.0, contact.sliding}
-                           : LSM::friction_step<Law>(c, contact, h + LAW_STATE);
-
-      const bool both = newton_pair || j < nlocal;
-      if constexpr (Recorder::records) {
-        const double share = both ? 1.0 : 0.5;
-        recorder.springs(share, apart ? 0.0 : LSM::Spring::energy(kij, r - r0),
-                         LSM::Spring::energy(c.kt, s.xi));
-        recorder.dissipation(share, s.dissipated);
-        if (s.slip != 0.0)
-          recorder.slip(share, 0.5 * (x[i][0] + x[j][0]),
-                        fabs(s.slip) * LSM::contact_size(radius[i], radius[j]));
-        if (recorder.wants_contacts()) {
-          const double along = apart ? 0.0 : contact.fn * nx + s.force * ny;
-          recorder.contact({0.5 * (x[i][0] + x[j][0]), -s.slip * fabs(ny), s.dissipated,
-                            ny > 0.0 ? -along : along, share});
-        }
-      }
-
-      if (apart) {
-        keep_near(rsq <= reach_sq * r0 * r0, delx, dely, touch[jj], h);
-        continue;
-      }
-      h[XI] = s.xi;
-      h[DX] = delx;
-      h[DY] = dely;
-      if constexpr (Law::needs_sliding) h[STATUS] = s.sliding ? SLIDES : STICKS;
-
-      const double fx = contact.fn * nx + s.force * ny;
-      const double fy = contact.fn * ny - s.force * nx;
-      f[i][0] += fx;
-      f[i][1] += fy;
-      if (both) {
-        f[j][0] -= fx;
-        f[j][1] -= fy;
-      }
-      if constexpr (Recorder::tallies)
-        ev_tally_xyz(i, j, nlocal, newton_pair,
-                     LSM::Spring::energy(kij, r - r0) + LSM::Spring::energy(c.kt, s.xi), 0.0, fx,
-                     fy, 0.0, delx, dely, 0.0);
+    } else {
+      touch = true;
+      h[XI] = 0.0;
+      h[STATUS] = STICKS;
+      Law::begin(c, h + LAW_STATE);
     }
+
+    const double kij = k[itype][jtype];
+    contact.fn = LSM::contact_normal_force(kij, r, r0);
+    contact.xi = h[XI];
+    if constexpr (Law::needs_sliding) contact.sliding = h[STATUS] == SLIDES;
+    const LSM::FrictionStep s =
+        !moved && !apart ? LSM::FrictionStep{h[XI], c.kt * h[XI], 0.0, 0.0, contact.sliding}
+                         : LSM::friction_step<Law>(c, contact, h + LAW_STATE);
+
+    const bool both = newton_pair || j < nlocal;
+    if constexpr (Recorder::records) {
+      const double share = both ? 1.0 : 0.5;
+      recorder.springs(share, apart ? 0.0 : LSM::Spring::energy(kij, r - r0),
+                       LSM::Spring::energy(c.kt, s.xi));
+      recorder.dissipation(share, s.dissipated);
+      if (s.slip != 0.0)
+        recorder.slip(share, 0.5 * (x[i][0] + x[j][0]),
+                      fabs(s.slip) * LSM::contact_size(radius[i], radius[j]));
+      if (recorder.wants_contacts()) {
+        const double along = apart ? 0.0 : contact.fn * nx + s.force * ny;
+        recorder.contact({0.5 * (x[i][0] + x[j][0]), -s.slip * fabs(ny), s.dissipated,
+                          ny > 0.0 ? -along : along, share});
+      }
+    }
+
+    if (apart) {
+      keep_near(rsq <= reach_sq * r0 * r0, delx, dely, touch, h);
+      return;
+    }
+    h[XI] = s.xi;
+    h[DX] = delx;
+    h[DY] = dely;
+    if constexpr (Law::needs_sliding) h[STATUS] = s.sliding ? SLIDES : STICKS;
+
+    const double fx = contact.fn * nx + s.force * ny;
+    const double fy = contact.fn * ny - s.force * nx;
+    f[i][0] += fx;
+    f[i][1] += fy;
+    if (both) {
+      f[j][0] -= fx;
+      f[j][1] -= fy;
+    }
+    if constexpr (Recorder::tallies)
+      ev_tally_xyz(i, j, nlocal, newton_pair,
+                   LSM::Spring::energy(kij, r - r0) + LSM::Spring::energy(c.kt, s.xi), 0.0, fx, fy,
+                   0.0, delx, dely, 0.0);
+  };
+
+  // The pairs within reach are far from each other in memory: what they need is fetched some pairs ahead.
+
+  constexpr int AHEAD = 8;
+  const int count = near.size();
+  for (int n = 0; n < count; n++) {
+    if (n + AHEAD < count) {
+      const Site &site = sites[near[n + AHEAD]];
+      __builtin_prefetch(site.history, 1);
+      for (const int i : {site.i, site.j}) {
+        __builtin_prefetch(x[i]);
+        __builtin_prefetch(f[i], 1);
+      }
+    }
+    const int place = near[n];
+    const bool before = near.is_touching(place);
+    bool touch = before;
+    evaluate(sites[place], touch);
+    if (touch == before) continue;
+    *sites[place].touch = touch;
+    near.set_touching(place, touch);
   }
   recorder.finish();
 }
@@ -322,6 +341,7 @@ template <class Law, class Recorder> void PairLSMFriction::loop()
 
 void PairLSMFriction::load_contacts(const double *shear)
 {
+  near.clear();    // it knows which pairs touch
   double **x = atom->x;
   const double *radius = contact_radii();
   for (int ii = 0; ii < list->inum; ii++) {

@@ -16,6 +16,7 @@ PairStyle(lsm/friction,PairLSMFriction);
 #include "pair_lsm_free.h"
 
 #include <string>
+#include <vector>
 
 namespace LSM {
 struct Parameter;
@@ -69,6 +70,17 @@ class PairLSMFriction : public PairLSMFree {
   static const Law laws[];
   static constexpr int MAX_PARAMETERS = 8;
 
+  // A pair that is kept near, with what is known of it until other pairs are kept: scattered over LAMMPS' arrays it
+  // would lie on a dozen cache lines
+
+  struct Site {
+    double *history;
+    int *touch;
+    double r0;    // sum of the radii
+    int i, j, entry, itype, jtype;
+  };
+  std::vector<Site> sites;
+
   const Law *law;                          // first one of the name that was chosen
   const Law *running;                      // of these, the first that fits all coefficients
   double **coefficient[MAX_PARAMETERS];    // by parameter of the law, then by types
@@ -84,6 +96,7 @@ class PairLSMFriction : public PairLSMFree {
   template <class> static Law entry();
   template <class, class> void loop();
   void choose(const Law *);
+  void collect_sites();
   void create_coefficients();
   void destroy_coefficients();
   void check(int, double, const double *, const std::string &) const;
