@@ -283,7 +283,7 @@ if wanted analysis; then
     awk -v n=$events -f "$here/catalogue.awk" > analysis.catalogue.csv
     for ((round = 1; round <= few; ++round)); do
       say "analysis, round $round of $few"
-      for command in histograms magnitudes "fit --replicas 0 --no-comparison" "intervals --replicas 0"; do
+      for command in histograms magnitudes "fit --replicas 0 --no-comparison" "intervals --replicas 0 --shuffles 0"; do
         # shellcheck disable=SC2086
         /usr/bin/time -o analysis.time -f "%e,%M" "$postproc" $command analysis.catalogue.csv --no-picture -o analysed > analysis.out 2>&1 ||
           die "postproc $command failed, see $folder/analysis.out"
