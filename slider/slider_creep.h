@@ -9,7 +9,7 @@
 /// positive and grow with each block that joins, so that no block leaves until something runs away,
 /// and the whole motion is one of straight pieces between one block that joins and the next.
 ///
-/// In truth a run of neighbouring blocks that creep stops and starts: it swings once about the
+/// A run of neighbouring creeping blocks sticks and slips about the mean: it swings once about the
 /// creep, from rest to rest, and friction that falls with velocity makes that swing grow. Creep is
 /// the mean of these slips. With x the shape of a swing and
 ///   k = x K x - x W x,  d = x G x,  m = M x x,  W = weakening with slip, G = mu_0i (Eq. 6),

@@ -94,9 +94,10 @@ void add_model(CLI::App &app, Settings &s, Added &o) {
 void add_integration(CLI::App &app, Settings &s, Added &o) {
   Parameters &p = s.run.parameters;
   const std::string how = "Integration";
-  o.paper = app.add_flag("--paper", s.paper,
-                         "Exactly what is printed: --scheme printed --dt 0.01 --steps 1e7 "
-                         "--picker literal --picker-lambda 0.99 --warmup 0");
+  o.paper =
+      app.add_flag("--paper", s.paper,
+                   "What is printed, with a time step of our choice: --scheme printed --dt 0.01 "
+                   "--steps 1e7 --picker literal --picker-lambda 0.99 --warmup 0");
   o.paper->group(how);
   o.steps = app.add_option("--steps", s.steps, "Number of time steps (instead of --time)");
   o.steps->group(how);
@@ -122,15 +123,14 @@ void add_integration(CLI::App &app, Settings &s, Added &o) {
       ->group(how);
   o.leap = app.add_option(
       "--leap", s.run.leap_speed,
-      "Leap over slow loading (ours): while no block has been faster than this for the time "
+      "Leap over slow loading (ours): once no block has been faster than this for the time "
       "--leap-calm, blocks at their limit creep without steps, in the limit of a slow plate, until "
-      "some are about to get as fast; 1e-3 is sound for V up to 1e-3; 0: never. Model time and "
-      "steps "
-      "go on; needs --kernel active or dense (length/time)");
+      "some are about to exceed it; 1e-3 is sound for V up to 1e-3; 0: never. Model time and steps "
+      "continue; needs --kernel active or dense (length/time)");
   o.leap->group(how);
   o.calm = app.add_option("--leap-calm", s.run.leap_calm,
-                          "Time of steps before each leap, long enough for blocks that run away "
-                          "to become fast (time)");
+                          "Time of steps before each leap, long enough for a runaway of blocks "
+                          "to become visible (time)");
   o.calm->group(how);
   app.add_option("--isa", s.isa,
                  "Instruction set: auto, avx512, avx2, x86-64; all give the same catalogue")
@@ -139,12 +139,13 @@ void add_integration(CLI::App &app, Settings &s, Added &o) {
 
 void add_events(CLI::App &app, Settings &s, Added &o) {
   const std::string events = "Events";
-  app.add_option("--events", s.events,
-                 "What an event is: pe, a drop of the PE of the whole chain (paper); ruptures, a "
-                 "set of sliding blocks connected in space and time (ours): each is local, so "
-                 "those far apart stay apart in long chains, and events can overlap. Their size is "
-                 "the work of the springs on the blocks; they are written in the order in which "
-                 "they end; the options of the picker have no effect on them")
+  app.add_option(
+         "--events", s.events,
+         "What an event is: pe, a drop of the PE of the whole chain (paper); ruptures, a "
+         "set of sliding blocks connected in space and time (ours): each is local, so that those "
+         "far apart stay separate in long chains, and events can overlap. Their size is "
+         "the work of the springs on the blocks; they are written in the order in which "
+         "they end; the options of the picker have no effect on them")
       ->group(events);
   o.gap = app.add_option("--rupture-gap", s.rupture_gap,
                          "With --events ruptures: time for which a block at rest still "
@@ -169,7 +170,7 @@ void add_files(CLI::App &app, Settings &s) {
   app.add_option("--catalogue", s.run.catalogue, "Catalogue to write")->group(files);
   app.add_option("--columns", s.columns,
                  "Further columns: centroid, length, or both with a comma; slip_moment (sum of the "
-                 "slips of all blocks) is always there")
+                 "slips of all blocks) is always written")
       ->group(files);
   app.add_option("--pe-series", s.run.series, "Series of PE to write (default: none)")
       ->group(files);
@@ -184,7 +185,7 @@ void add_files(CLI::App &app, Settings &s) {
                  "Steps between checkpoints; 0: only when interrupted and at the end (steps)")
       ->group(files);
   app.add_flag("--resume", s.run.resume,
-               "Go on from the checkpoint; the catalogue ends as if never interrupted")
+               "Continue from the checkpoint; the catalogue ends as if never interrupted")
       ->group(files);
   app.add_flag("--overwrite", s.run.overwrite,
                "Replace catalogue, series and checkpoint of an earlier run, which is refused "

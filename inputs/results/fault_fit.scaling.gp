@@ -1,5 +1,5 @@
-# Draws fault_fit.scaling.png and fault_fit.scaling.svg from fault_fit.scaling.csv: run `gnuplot fault_fit.scaling.gp` in this folder.
-base = 'fault_fit.scaling'
+# Draws fault_fit.scaling.png and fault_fit.scaling.svg from fault_fit.scaling.csv: run `gnuplot ./fault_fit.scaling.gp` in this folder.
+base = "./fault_fit.scaling"
 table = base.".csv"
 if (!exists("formats")) formats = "png svg"
 
@@ -36,18 +36,18 @@ set tics out nomirror
 set grid xtics ytics lt 1 dt 1 lw 0.5 lc rgb "#d8d8d8"
 set key outside bottom center horizontal samplen 3 spacing 1.15 maxcols 2 width -3 Left reverse height 1
 set output base.".".format
-set xlabel 'length of the fault, number of blocks'
+set xlabel "length of the fault"
 set logscale x
 set xtics ("100" 100, "200" 200, "500" 500, "1000" 1000, "2000" 2000, "5000" 5000)
 set xrange [100:5000]
-set ylabel 'characteristic size s* (energy)'
+set ylabel "characteristic size s* (energy)"
 set logscale y
 set ytics ("0.2" 0.2, "0.5" 0.5, "1" 1, "2" 2, "5" 5)
 set yrange [0.20000000000000001:5]
 low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y
 plot table using ($1 == 1 ? $3 : NaN):(low($4,$5)):(0):($4+$5-low($4,$5)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \
-     table using ($1 == 1 ? $3 : NaN):4 with points lt 1 title 'fault: s*', \
-     [102:2223.5294117647059] '+' using 1:(0.012886668624125073*$1**(0.67517863706955772)) with lines lt 1 title 'A L^D with D = 0.675 ± 0.025', \
-     [102:2223.5294117647059] '+' using 1:(0.65632816182424569) with lines lt 8 dt 2 title 'constant'
+     table using ($1 == 1 ? $3 : NaN):4 with points lt 1 title "fault: s*", \
+     [102:2223.5294117647059] '+' using 1:(0.012154953831216408*$1**(0.68809716507089624)) with lines lt 1 title "A L^D with D = 0.688 ± 0.024", \
+     [102:2223.5294117647059] '+' using 1:(0.67904843177714125) with lines lt 8 dt 2 title 'constant'
 unset output
 }

@@ -1,5 +1,5 @@
-# Draws fault_rupture_fit.scaling.png and fault_rupture_fit.scaling.svg from fault_rupture_fit.scaling.csv: run `gnuplot fault_rupture_fit.scaling.gp` in this folder.
-base = 'fault_rupture_fit.scaling'
+# Draws fault_rupture_fit.scaling.png and fault_rupture_fit.scaling.svg from fault_rupture_fit.scaling.csv: run `gnuplot ./fault_rupture_fit.scaling.gp` in this folder.
+base = "./fault_rupture_fit.scaling"
 table = base.".csv"
 if (!exists("formats")) formats = "png svg"
 
@@ -36,20 +36,20 @@ set tics out nomirror
 set grid xtics ytics lt 1 dt 1 lw 0.5 lc rgb "#d8d8d8"
 set key outside bottom center horizontal samplen 3 spacing 1.15 maxcols 2 width -3 Left reverse height 1
 set output base.".".format
-set xlabel 'length of the fault, number of blocks'
+set xlabel "length of the fault"
 set logscale x
 set format x "10^{%L}"
 set xtics 10
 set mxtics 10
 set xrange [100:10000]
-set ylabel 'characteristic size s* (energy)'
+set ylabel "characteristic size s* (energy)"
 set logscale y
 set ytics ("0.2" 0.2, "0.5" 0.5)
 set yrange [0.20000000000000001:0.5]
 low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y
 plot table using ($1 == 1 ? $3 : NaN):(low($4,$5)):(0):($4+$5-low($4,$5)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \
-     table using ($1 == 1 ? $3 : NaN):4 with points lt 1 title 'fault, ruptures: s*', \
-     [102:4447.0588235294117] '+' using 1:(0.31165667206738329*$1**(0.01521195871780418)) with lines lt 1 title 'A L^D with D = 0.015 ± 0.016', \
-     [102:4447.0588235294117] '+' using 1:(0.34357182777479567) with lines lt 8 dt 2 title 'constant'
+     table using ($1 == 1 ? $3 : NaN):4 with points lt 1 title "fault, ruptures: s*", \
+     [102:4447.0588235294117] '+' using 1:(0.31098056802499846*$1**(0.022626385897842383)) with lines lt 1 title "A L^D with D = 0.023 ± 0.016", \
+     [102:4447.0588235294117] '+' using 1:(0.35893734621091655) with lines lt 8 dt 2 title 'constant'
 unset output
 }

@@ -1,15 +1,15 @@
-# Draws fig15_slider_intervals.png and fig15_slider_intervals.svg from fig15_slider_intervals.csv: run `gnuplot fig15_slider_intervals.gp` in this folder.
-base = 'fig15_slider_intervals'
+# Draws fig15_slider_intervals.png and fig15_slider_intervals.svg from fig15_slider_intervals.csv: run `gnuplot ./fig15_slider_intervals.gp` in this folder.
+base = "./fig15_slider_intervals"
 table = base.".csv"
 if (!exists("formats")) formats = "png svg"
 
 do for [format in formats] {
 if (format eq "png") {
 point = 1.0
-set terminal pngcairo size 1800,1146 enhanced font "DejaVu Sans,26" linewidth 2 pointscale 2 background "#ffffff"
+set terminal pngcairo size 1800,1192 enhanced font "DejaVu Sans,26" linewidth 2 pointscale 2 background "#ffffff"
 } else {
 point = 0.65
-set terminal svg size 900,573 dynamic enhanced font "DejaVu Sans,13" background "#ffffff"
+set terminal svg size 900,596 dynamic enhanced font "DejaVu Sans,13" background "#ffffff"
 }
 
 set datafile separator comma
@@ -36,13 +36,13 @@ set tics out nomirror
 set grid xtics ytics lt 1 dt 1 lw 0.5 lc rgb "#d8d8d8"
 set key outside bottom center horizontal samplen 3 spacing 1.15 maxcols 2 width -3 Left reverse height 1
 set output base.".".format
-set xlabel 'inter-event time θ (model time units)'
+set xlabel "inter-event time θ (model time units)"
 set logscale x
 set format x "10^{%L}"
 set xtics 10
 set mxtics 10
 set xrange [0.10000000000000001:10000]
-set ylabel 'probability density f(θ) (1 / model time)'
+set ylabel "probability density f(θ) (1 / model time)"
 set logscale y
 set format y "10^{%L}"
 set ytics 10
@@ -53,24 +53,24 @@ low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y
 set samples 400
 plot table using (row(1)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \
      table using (row(1)):8 with points lt 1 notitle, \
-     keyentry with linespoints lt 1 title 'slider 256, seed 1 (1459 times)', \
+     keyentry with linespoints lt 1 title "block-slider, N = 256 (1459 times)", \
      table using (row(2)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 2 dt 1 lw 0.8 notitle, \
      table using (row(2)):8 with points lt 2 notitle, \
-     keyentry with linespoints lt 2 title 'slider 614, seed 1 (2483 times)', \
+     keyentry with linespoints lt 2 title "block-slider, N = 614 (2483 times)", \
      table using (row(3)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 3 dt 1 lw 0.8 notitle, \
      table using (row(3)):8 with points lt 3 notitle, \
-     keyentry with linespoints lt 3 title 'slider 972, seed 1 (3918 times)', \
+     keyentry with linespoints lt 3 title "block-slider, N = 972 (3918 times)", \
      table using (row(4)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 4 dt 1 lw 0.8 notitle, \
      table using (row(4)):8 with points lt 4 notitle, \
-     keyentry with linespoints lt 4 title 'slider 1450, seed 1 (5413 times)', \
+     keyentry with linespoints lt 4 title "block-slider, N = 1450 (5413 times)", \
      table using (row(5)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 5 dt 1 lw 0.8 notitle, \
      table using (row(5)):8 with points lt 5 notitle, \
-     keyentry with linespoints lt 5 title 'slider 1928, seed 1 (8231 times)', \
-     [0.39810717055349715:7943.2823472428327] '+' using 1:(0.04746675296759021*$1**(-0.77171587127271313)*exp(-$1**(1)/1461.8395604249004)) with lines lt 1 notitle, \
-     [0.19952623149688789:7943.2823472428327] '+' using 1:(0.26837618921982909*$1**(-1.127603198682392)*exp(-$1**(1)/3942.2312418506949)) with lines lt 2 notitle, \
-     [0.19952623149688789:6309.5734448019457] '+' using 1:(0.32439622623916992*$1**(-1.1676660589855954)*exp(-$1**(1)/2475.7758139919492)) with lines lt 3 notitle, \
-     [0.2511886431509579:6309.5734448019457] '+' using 1:(0.33923302690159263*$1**(-1.1853169493922049)*exp(-$1**(1)/1648.6856908533759)) with lines lt 4 notitle, \
-     [0.19952623149688789:5011.8723362727333] '+' using 1:(0.36082031407516346*$1**(-1.1899424434818056)*exp(-$1**(1)/988.46506344838713)) with lines lt 5 notitle, \
-     keyentry with lines lt 8 title 'lines: fitted generalised gamma'
+     keyentry with linespoints lt 5 title "block-slider, N = 1928 (8231 times)", \
+     [0.39810717055349715:7943.2823472428327] '+' using 1:(0.04746675296759021*$1**(-0.77171587127271313)*exp(-$1**(1)/1461.8395604249004)) with lines lt 1 dt 3 lw 0.7 notitle, \
+     [0.19952623149688789:7943.2823472428327] '+' using 1:(0.26837618921982909*$1**(-1.127603198682392)*exp(-$1**(1)/3942.2312418506949)) with lines lt 2 dt 3 lw 0.7 notitle, \
+     [0.19952623149688789:6309.5734448019457] '+' using 1:(0.32439622623916992*$1**(-1.1676660589855954)*exp(-$1**(1)/2475.7758139919492)) with lines lt 3 dt 3 lw 0.7 notitle, \
+     [0.2511886431509579:6309.5734448019457] '+' using 1:(0.33923302690159263*$1**(-1.1853169493922049)*exp(-$1**(1)/1648.6856908533759)) with lines lt 4 dt 3 lw 0.7 notitle, \
+     [0.19952623149688789:5011.8723362727333] '+' using 1:(0.36082031407516346*$1**(-1.1899424434818056)*exp(-$1**(1)/988.46506344838713)) with lines lt 5 dt 3 lw 0.7 notitle, \
+     keyentry with lines lt 8 dt 3 lw 0.7 title 'fit rejected (p < 0.05)'
 unset output
 }

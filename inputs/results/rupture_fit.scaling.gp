@@ -1,5 +1,5 @@
-# Draws rupture_fit.scaling.png and rupture_fit.scaling.svg from rupture_fit.scaling.csv: run `gnuplot rupture_fit.scaling.gp` in this folder.
-base = 'rupture_fit.scaling'
+# Draws rupture_fit.scaling.png and rupture_fit.scaling.svg from rupture_fit.scaling.csv: run `gnuplot ./rupture_fit.scaling.gp` in this folder.
+base = "./rupture_fit.scaling"
 table = base.".csv"
 if (!exists("formats")) formats = "png svg"
 
@@ -36,21 +36,21 @@ set tics out nomirror
 set grid xtics ytics lt 1 dt 1 lw 0.5 lc rgb "#d8d8d8"
 set key outside bottom center horizontal samplen 3 spacing 1.15 maxcols 2 width -3 Left reverse height 1
 set output base.".".format
-set xlabel 'length of the fault, number of blocks'
+set xlabel "number of blocks"
 set logscale x
 set format x "10^{%L}"
 set xtics 10
 set mxtics 10
 set xrange [100:1000000]
-set ylabel 'characteristic size s* (energy)'
+set ylabel "characteristic size s* (energy)"
 set logscale y
 set ytics ("1000" 1000, "2000" 2000, "5000" 5000, "10000" 10000)
 set yrange [1000:10000]
 low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y
 plot table using ($1 == 1 ? $3 : NaN):(low($4,$5)):(0):($4+$5-low($4,$5)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \
-     table using ($1 == 1 ? $3 : NaN):4 with points lt 1 title 'block-slider, Kl = 0.01: s*', \
-     [217.59999999999999:150588.23529411765] '+' using 1:(521.39389528276843*$1**(0.26301688906608661)) with lines lt 1 title 'A L^D with D = 0.2630 ± 0.0031', \
-     [217.59999999999999:150588.23529411765] '+' using 1:(3711.8245541341389) with lines lt 8 dt 2 title 'constant', \
-     [1:2] '+' using (x = 217.59999999999999*692.04152249134961**($1-1)):(7717.6667174410131*(1+(2181.9447845540062/x)**(2.7955676558519107))**(-0.25)) with lines lt 1 dt 4 lw 2 title 'growth up to L_c = 2182 ± 91, s_{∞} = 7718 ± 93'
+     table using ($1 == 1 ? $3 : NaN):4 with points lt 1 title "block-slider, Kl = 0.01, ruptures: s*", \
+     [217.59999999999999:150588.23529411765] '+' using 1:(516.1825377984984*$1**(0.26450469212569677)) with lines lt 1 title "A L^D with D = 0.2645 ± 0.0030", \
+     [217.59999999999999:150588.23529411765] '+' using 1:(3659.0822470170633) with lines lt 8 dt 2 title 'constant', \
+     [1:2] '+' using (x = 217.59999999999999*692.04152249134961**($1-1)):(7726.3472056363244*(1+(2188.043618288767/x)**(2.7931996475229859))**(-0.25)) with lines lt 1 dt 4 lw 2 title "growth up to L_c = 2188 ± 89, s_{∞} = 7726 ± 92"
 unset output
 }

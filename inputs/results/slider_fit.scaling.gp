@@ -1,5 +1,5 @@
-# Draws slider_fit.scaling.png and slider_fit.scaling.svg from slider_fit.scaling.csv: run `gnuplot slider_fit.scaling.gp` in this folder.
-base = 'slider_fit.scaling'
+# Draws slider_fit.scaling.png and slider_fit.scaling.svg from slider_fit.scaling.csv: run `gnuplot ./slider_fit.scaling.gp` in this folder.
+base = "./slider_fit.scaling"
 table = base.".csv"
 if (!exists("formats")) formats = "png svg"
 
@@ -36,18 +36,18 @@ set tics out nomirror
 set grid xtics ytics lt 1 dt 1 lw 0.5 lc rgb "#d8d8d8"
 set key outside bottom center horizontal samplen 3 spacing 1.15 maxcols 2 width -3 Left reverse height 1
 set output base.".".format
-set xlabel 'length of the fault, number of blocks'
+set xlabel "number of blocks"
 set logscale x
 set xtics ("200" 200, "500" 500, "1000" 1000, "2000" 2000, "5000" 5000)
 set xrange [200:5000]
-set ylabel 'characteristic size s* (energy)'
+set ylabel "characteristic size s* (energy)"
 set logscale y
 set ytics ("1000" 1000, "2000" 2000)
 set yrange [1000:2000]
 low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y
 plot table using ($1 == 1 ? $3 : NaN):(low($4,$5)):(0):($4+$5-low($4,$5)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \
-     table using ($1 == 1 ? $3 : NaN):4 with points lt 1 title 'block-slider, Kl = 0.01: s*', \
-     [217.59999999999999:2268.2352941176473] '+' using 1:(895.14711391619289*$1**(0.047082676340678066)) with lines lt 1 title 'A L^D with D = 0.047 ± 0.028', \
-     [217.59999999999999:2268.2352941176473] '+' using 1:(1218.9891708763141) with lines lt 8 dt 2 title 'constant'
+     table using ($1 == 1 ? $3 : NaN):4 with points lt 1 title "block-slider, Kl = 0.01: s*", \
+     [217.59999999999999:2268.2352941176473] '+' using 1:(886.07178471814632*$1**(0.048838712370314535)) with lines lt 1 title "A L^D with D = 0.049 ± 0.025", \
+     [217.59999999999999:2268.2352941176473] '+' using 1:(1207.3588198748764) with lines lt 8 dt 2 title 'constant'
 unset output
 }

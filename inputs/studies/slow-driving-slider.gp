@@ -1,42 +1,43 @@
-# Draws slow-driving-slider.png and slow-driving-slider.svg from table.csv
+# Draws slow-driving-slider.png and slow-driving-slider.svg from table.csv, runs with a displacement of at least 400
 set datafile separator ","
 set datafile columnheaders
+if (!exists("table")) { table = "table.csv" }
 $line << END_OF_LINE
 velocity,steps
 1e-6,4.5e8
 1e-2,4.5e4
 END_OF_LINE
 do for [kind in "png svg"] {
-if (kind eq "png") { set terminal pngcairo size 1800,650 font "DejaVu Sans,21" linewidth 2 pointscale 2 background "#ffffff" } \
-else { set terminal svg size 900,325 dynamic font "DejaVu Sans,10.5" background "#ffffff" }
+if (kind eq "png") { set terminal pngcairo size 1800,820 font "DejaVu Sans,21" linewidth 2 pointscale 2 background "#ffffff" } \
+else { set terminal svg size 900,410 dynamic font "DejaVu Sans,10.5" background "#ffffff" }
 set output "slow-driving-slider.".kind
 set encoding utf8
 set border lw 1.0 lc rgb "#333333"
 set tics out nomirror
 set grid xtics ytics lt 1 lw 0.5 lc rgb "#d8d8d8"
-set multiplot layout 1,2 margins 0.095,0.98,0.17,0.88 spacing 0.11,0
-is(n, c, leaps) = column("blocks") == n && strcol("leap") eq (leaps ? "1e-3" : "0") ? column(c) : NaN
+set multiplot layout 1,2 margins 0.085,0.985,0.34,0.91 spacing 0.10,0
+is(n, c, leaps) = column("blocks") == n && column("way") >= 400 && strcol("leap") eq (leaps ? "1e-3" : "0") ? column(c) : NaN
 set logscale xy
 set format x "10^{%L}"
 set xrange [5e-8:2e-2]
 set xlabel "driving velocity of the plate"
 set format y "%g"
-unset key
-set title "Events for a way of 1000"
+set key at screen 0.085,0.155 left top Left reverse samplen 1 maxrows 2 width -1
+set title "Events per displacement of 1000"
 set ylabel "number of events" offset 0.5
-set yrange [20:9999]
-set key top right reverse Left samplen 1
-plot "table.csv" using "velocity":(is(256, "events_1", 1)) with points pt 7 lc rgb "#0072B2" title "256 blocks, from 1, leaps", "" using "velocity":(is(256, "events_1", 0)) with points pt 6 lc rgb "#0072B2" title "without leaps", \
-  "" using "velocity":(is(256, "events_100", 1)) with points pt 5 lc rgb "#D55E00" title "from 100", "" using "velocity":(is(256, "events_100", 0)) with points pt 4 lc rgb "#D55E00" notitle, \
-  "" using "velocity":(is(1928, "events_1", 1)) with points pt 9 lc rgb "#009E73" title "1928 blocks, from 1", "" using "velocity":(is(1928, "events_1", 0)) with points pt 8 lc rgb "#009E73" notitle, \
-  "" using "velocity":(is(1928, "events_100", 1)) with points pt 13 lc rgb "#CC79A7" title "from 100", "" using "velocity":(is(1928, "events_100", 0)) with points pt 12 lc rgb "#CC79A7" notitle
-set title "Cost of an event of 100 and more"
+set yrange [20:2999]
+plot table using "velocity":(is(256, "events_1", 1)) with points pt 7 lc rgb "#0072B2" title "256 blocks, sizes ≥ 1", "" using "velocity":(is(256, "events_1", 0)) with points pt 6 lc rgb "#0072B2" notitle, \
+  "" using "velocity":(is(256, "events_100", 1)) with points pt 5 lc rgb "#0072B2" title "256 blocks, sizes ≥ 100", "" using "velocity":(is(256, "events_100", 0)) with points pt 4 lc rgb "#0072B2" notitle, \
+  "" using "velocity":(is(1928, "events_1", 1)) with points pt 7 lc rgb "#D55E00" title "1928 blocks, sizes ≥ 1", "" using "velocity":(is(1928, "events_1", 0)) with points pt 6 lc rgb "#D55E00" notitle, \
+  "" using "velocity":(is(1928, "events_100", 1)) with points pt 5 lc rgb "#D55E00" title "1928 blocks, sizes ≥ 100", "" using "velocity":(is(1928, "events_100", 0)) with points pt 4 lc rgb "#D55E00" notitle
+set title "Cost of an event ≥ 100"
 set ylabel "steps" offset 1
 set yrange [1e3:1e10]
 set format y "10^{%L}"
-plot "table.csv" using "velocity":(is(256, "steps_per_100", 1)) with points pt 7 lc rgb "#0072B2" title "256 blocks, leaps", "" using "velocity":(is(256, "steps_per_100", 0)) with points pt 6 lc rgb "#0072B2" title "without leaps", \
-  "" using "velocity":(is(1928, "steps_per_100", 1)) with points pt 9 lc rgb "#009E73" title "1928 blocks, leaps", "" using "velocity":(is(1928, "steps_per_100", 0)) with points pt 8 lc rgb "#009E73" notitle, \
-  $line using 1:2 with lines lc rgb "#0072B2" dt (4,4) title "as 1 / velocity"
+set key at screen 0.62,0.155 left top Left reverse samplen 1 maxrows 2 width -1
+plot table using "velocity":(is(256, "steps_per_100", 1)) with points pt 7 lc rgb "#0072B2" title "256 blocks", "" using "velocity":(is(256, "steps_per_100", 0)) with points pt 6 lc rgb "#0072B2" notitle, \
+  "" using "velocity":(is(1928, "steps_per_100", 1)) with points pt 7 lc rgb "#D55E00" title "1928 blocks", "" using "velocity":(is(1928, "steps_per_100", 0)) with points pt 6 lc rgb "#D55E00" notitle, \
+  $line using 1:2 with lines lc rgb "#777777" dt (4,4) title "as 1 / velocity"
 unset multiplot
 set output
 }

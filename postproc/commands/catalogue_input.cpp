@@ -38,10 +38,11 @@ void CatalogueOptions::add_to(CLI::App *command) {
       ->default_str("")
       ->group(group);
   command
-      ->add_flag("--lenient", lenient,
-                 "Pass over lines that cannot be read (truncated last line, missing columns, NaN, "
-                 "events out of order), count them and say so on standard error; without it the "
-                 "first of them is an error. A wrong version or header is always one")
+      ->add_flag(
+          "--lenient", lenient,
+          "Pass over lines that cannot be read (truncated last line, missing columns, NaN, "
+          "events out of order), count them and report this on standard error; without it the "
+          "first of them is an error. A wrong version or header is always one")
       ->group(group);
   command
       ->add_option("--min-size", min_size,
@@ -66,7 +67,7 @@ void CatalogueOptions::add_to(CLI::App *command) {
                    "What the files are: detect (by their begin, pipes are models: '<' is quakeml, "
                    "'# lsm-catalogue' "
                    "models, column names with time and mag csv, YYYY/MM/DD scedc, nine numbers "
-                   "zmap), or one of these. Of earthquakes only events of that type are taken; "
+                   "zmap), or one of these. Of earthquakes only events of that type are used; "
                    "blasts and others are counted on standard error")
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, CatalogueFormat>{{"detect", CatalogueFormat::detect},

@@ -87,8 +87,8 @@ void run(Options &options) {
 void add_count(CLI::App &app) {
   CLI::App *command =
       app.add_subcommand("count",
-                         "How many events catalogues have from some sizes on, what these release "
-                         "in all, and the share of the time that events take (ours)");
+                         "Number of events above several sizes, the total energy that these "
+                         "release, and the share of the time that events last (ours)");
   auto options = std::make_shared<Options>();
   options->catalogues.add_to(command);
   options->catalogues.add_displacement(command);

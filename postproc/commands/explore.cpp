@@ -170,7 +170,7 @@ void run(const Options &options) {
 void add_explore(CLI::App &app) {
   CLI::App *command = app.add_subcommand(
       "explore",
-      "One self-contained page on which a person explores runs in a browser (ours): PE with its "
+      "One self-contained page to explore runs in a browser (ours): PE with its "
       "events from the whole run to single steps, a table of the events, each event with its slip, "
       "and size exponent, gamma and burstiness against a threshold that is dragged");
   auto options = std::make_shared<Options>();

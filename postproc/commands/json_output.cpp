@@ -21,7 +21,7 @@ void JsonOutput::add_to(CLI::App *command) {
             standard_output_ = dup(STDOUT_FILENO);
             dup2(STDERR_FILENO, STDOUT_FILENO);
           },
-          "Also write the numbers to this file, as JSON; -: to standard output, and all else to "
+          "Also write the numbers to this file, as JSON; -: to standard output, everything else to "
           "standard error")
       ->type_name("FILE")
       ->default_str("");

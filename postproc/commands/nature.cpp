@@ -48,8 +48,8 @@ void add_nature(CLI::App &app) {
   CLI::App *command = app.add_subcommand(
       "nature",
       "Models beside nature: catalogues of models ranked by the distance of their inter-event "
-      "times, over their mean, to those of earthquakes, with sizes, clustering and what surrounds "
-      "large events. The first catalogue is that of the earthquakes. Catalogues of the same "
+      "times, over their mean, to those of earthquakes, with sizes, clustering and the events "
+      "around large ones. The first catalogue is that of the earthquakes. Catalogues of the same "
       "--label are samples of one model, whose scatter gives the errors (ours)");
   auto options = std::make_shared<Options>();
   options->catalogues.add_to(command);

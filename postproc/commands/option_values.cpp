@@ -25,7 +25,7 @@ CLI::Validator zero_or_more() {
 }
 
 CLI::Option *add_seed(CLI::App *command, std::uint64_t &seed) {
-  return command->add_option("--seed", seed, "Of the random numbers")->check(whole_number());
+  return command->add_option("--seed", seed, "Seed of the random numbers")->check(whole_number());
 }
 
 CLI::Validator size_or_magnitude() {
@@ -84,13 +84,17 @@ double parse_block(const std::string &text) {
 
 void add_wave_speeds(CLI::App *command, double &p_speed, double &s_speed,
                      const std::string &group) {
-  command->add_option("--p-speed", p_speed, "Speed of P-waves (paper, Eq. 4: 2.12 for k = m0 = 1)")
+  command
+      ->add_option(
+          "--p-speed", p_speed,
+          "Speed of P-waves (paper, Eq. 4: 2.12 for k = m0 = 1, the regular lattice; 2.0 to 2.1 in "
+          "packings of create_lsm_fault)")
       ->check(CLI::PositiveNumber)
       ->group(group);
   command
       ->add_option("--s-speed", s_speed,
                    "Speed of S-waves (ours: that of P-waves over the root of 3, as in the regular "
-                   "lattice)")
+                   "lattice; 1.0 to 1.1 in packings)")
       ->check(CLI::PositiveNumber)
       ->group(group);
 }

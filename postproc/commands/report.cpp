@@ -66,7 +66,7 @@ void add_report(CLI::App &app) {
   CLI::App *command = app.add_subcommand(
       "report",
       "One self-contained HTML page about a set of catalogues: parameters, counts, figures (SVG), "
-      "fits, finite-size scaling, Table 1, and what of it is the paper's and what is ours");
+      "fits, finite-size scaling, Table 1, and which of it is the paper's and which is ours");
   auto options = std::make_shared<Options>();
   options->catalogues.add_to(command);
   ReportSettings &report = options->report;

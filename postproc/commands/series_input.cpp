@@ -12,7 +12,7 @@ namespace LSM::postproc {
 
 void SeriesOptions::add_to(CLI::App *command, bool window) {
   command->add_flag("--lenient", lenient,
-                    "Drop a truncated last sample, as a killed run leaves it, and say so on "
+                    "Drop a truncated last sample, as a killed run leaves it, and report this on "
                     "standard error; without it that is an error. Anything else wrong in a series "
                     "always is: a missing sample would change what follows");
   if (!window) return;

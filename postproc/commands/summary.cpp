@@ -160,7 +160,7 @@ void add_summary(CLI::App &app) {
   CLI::App *command = app.add_subcommand(
       "summary",
       "One row of numbers for each catalogue: events, exponents, inter-event times above several "
-      "sizes, as CSV (ours; what a study compares)");
+      "sizes, as CSV (ours; for studies)");
   auto options = std::make_shared<Options>();
   options->catalogues.add_to(command);
   command->add_option("--output,-o", options->output, "File to write; without it standard output");
@@ -175,7 +175,7 @@ void add_summary(CLI::App &app) {
       ->default_str("1e-4:1e-1 1e-3:1");
   command
       ->add_option("--threshold", options->thresholds,
-                   "Smallest sizes of the events whose times are taken")
+                   "Smallest sizes of the events whose times are used")
       ->default_str("1e-4 1e-3 1e-2 1e-1")
       ->check(zero_or_more());
   command

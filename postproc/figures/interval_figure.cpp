@@ -34,6 +34,7 @@ Figure interval_figure(const std::vector<IntervalCurve> &curves, bool rescaled, 
   std::set<double> thresholds;
   for (const IntervalCurve &curve : curves) thresholds.insert(curve.threshold.size);
   std::int64_t number = 0;
+  bool any_accepted = false, any_rejected = false;
   for (const IntervalCurve &curve : curves) {
     if (curve.bins.empty()) continue;
     ++number;
@@ -57,15 +58,19 @@ Figure interval_figure(const std::vector<IntervalCurve> &curves, bool rescaled, 
         quote(fmt::format("{} ({} times)", title, curve.n)));
     titles.push_back(title + " (00000 times)");
     const GeneralisedGammaFit *const fit = curve.drawn();
+    bool rejected = false;
+    for (const IntervalFit &candidate : curve.fits)
+      if (&candidate.fit == fit) rejected = candidate.p < 0.05;
+    any_rejected = any_rejected || rejected;
+    any_accepted = any_accepted || (fit && !rejected);
     if (fit)
       lines += fmt::format(
-          ", \\\n     [{}:{}] '+' using 1:({}*$1**({})*exp(-$1**({})/{})) with lines lt {} "
+          ", \\\n     [{}:{}] '+' using 1:({}*$1**({})*exp(-$1**({})/{})) with lines lt {}{} "
           "notitle",
           text_io::number(curve.bins.front().lo), text_io::number(curve.bins.back().hi),
           text_io::number(fit->C), text_io::number(fit->gamma - 1.0), text_io::number(fit->delta),
-          text_io::number(fit->B), number);
+          text_io::number(fit->B), number, rejected ? " dt 3 lw 0.7" : "");
   }
-  const bool fitted = !lines.empty();
   if (rescaled) {
     lines += fmt::format(
         ", \\\n     [{}:{}] '+' using 1:(0.5*$1**(-0.33)*exp(-$1/1.58)) with lines lt 8 dt (6,4) "
@@ -74,8 +79,12 @@ Figure interval_figure(const std::vector<IntervalCurve> &curves, bool rescaled, 
         text_io::number(first), text_io::number(last));
     titles.emplace_back("earthquakes, Corral (2004)");
   }
-  if (fitted)
+  if (any_accepted)
     lines += ", \\\n     keyentry with lines lt 8 title 'lines: fitted generalised gamma'";
+  if (any_rejected) {
+    lines += ", \\\n     keyentry with lines lt 8 dt 3 lw 0.7 title 'fit rejected (p < 0.05)'";
+    titles.emplace_back();
+  }
   titles.emplace_back();
   figure.size = size_with_key(titles, width);
   if (number == 0)

@@ -41,6 +41,19 @@ std::vector<LogBin> length_bins(const RuptureTable &table, double bin) {
   return bins;
 }
 
+/// Moment of a rupture of one bin that slips as slowly as counts for one interval: modulus, slip
+/// velocity, time and width; 0 if the header does not say them all.
+double smallest_moment(const CatalogueInfo &info) {
+  double moment = 1.0;
+  for (const char *const key : {"modulus", "slip_velocity", "interval", "dt", "slip_bin"}) {
+    const std::string *const text = info.find(key);
+    double value = 0.0;
+    if (!text || !text_io::parse(*text, value) || !(value > 0.0)) return 0.0;
+    moment *= value;
+  }
+  return moment;
+}
+
 }  // namespace
 
 std::vector<LogBin> rupture_densities(const RuptureTable &table, RuptureQuantity quantity) {
@@ -106,13 +119,25 @@ Figure rupture_density_figure(const std::vector<RuptureTable> &tables, RuptureQu
                          error_bars(row, "$7", "$8", number), row, number, quote(titles.back()));
   }
   if (number == 0) throw std::runtime_error("no ruptures in any catalogue, nothing to draw");
+  const double limit = length ? 0.0 : smallest_moment(tables.front().head.info);
+  if (limit > values.lo) {
+    plots += fmt::format(
+        ", \\\n     '+' using ({0}):({1}):(0):({2}) every ::::0 with vectors nohead lc rgb "
+        "'#777777' lw 1.6 dt (6,4) notitle, \\\n     keyentry with lines lc rgb '#777777' lw 1.6 "
+        "dt "
+        "(6,4) title 'detection limit: one bin in one interval'",
+        text_io::number(limit), text_io::number(heights.lo),
+        text_io::number(heights.hi - heights.lo));
+    titles.emplace_back("detection limit: one bin in one interval");
+    figure.table.comment(fmt::format("detection limit, one bin in one interval: {}", limit));
+  }
   figure.size = size_with_key(titles);
   figure.script =
       axis("x", length ? "Length of the rupture (model units)" : "Slip moment (model units)", true,
            values.lo, values.hi) +
       axis("y",
-           length ? "Ruptures / (time · length of the fault · length)"
-                  : "Ruptures / (time · length of the fault · moment)",
+           length ? "Ruptures per time, fault length and length"
+                  : "Ruptures per time, fault length and moment",
            true, heights.lo, heights.hi) +
       "row(k) = $1 == k && $6 > 0 ? $5 : NaN\n" + std::string(error_bar_function) + plots + "\n";
   return figure;

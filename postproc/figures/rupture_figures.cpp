@@ -38,6 +38,11 @@ std::string fit_text(const LogFit &fit, const std::string &what) {
                      fit.n);
 }
 
+/// The same for a legend, which has less room.
+std::string short_fit_text(const LogFit &fit, const std::string &what) {
+  return fmt::format("{}: slope {}", what, with_error(fit.slope, fit.slope_error, " ± "));
+}
+
 /// Adds the columns that say which event of which catalogue a row is.
 void add_event(Table &table, std::size_t curve, const RuptureTable &of, const Event &event) {
   table.add(static_cast<std::int64_t>(curve + 1)).add(of.head.label).add(event.id);
@@ -73,12 +78,19 @@ class Shown {
   double large_ = 0.0;
 };
 
-/// Scatter of one curve per catalogue, from the columns x and y of the table.
+/// Scatter of one curve per catalogue, from the columns x and y of the table. The curves are drawn
+/// in turns, a fifth of each at a time, so that none hides the others.
 std::string points(const std::vector<RuptureTable> &tables, int x, int y) {
   std::string out;
+  const std::size_t layers = tables.size() > 1 ? 5 : 1;
+  for (std::size_t layer = 0; layer < layers; ++layer)
+    for (std::size_t k = 0; k < tables.size(); ++k)
+      out += fmt::format(
+          "{}table every {}::{} using ($1 == {} ? ${} : NaN):{} with points lt {} ps 0.6*point "
+          "notitle",
+          out.empty() ? "" : ", \\\n     ", layers, layer, k + 1, x, y, k % 16 + 1);
   for (std::size_t k = 0; k < tables.size(); ++k)
-    out += fmt::format("{}table using ($1 == {} ? ${} : NaN):{} with points lt {} title {}",
-                       k > 0 ? ", \\\n     " : "", k + 1, x, y, k % 16 + 1,
+    out += fmt::format(", \\\n     keyentry with points lt {} title {}", k % 16 + 1,
                        quote(fmt::format("{} ({} ruptures{})", tables[k].head.label,
                                          tables[k].events.size(), Shown(tables[k]).text())));
   return out;
@@ -112,7 +124,7 @@ class Image {
     for (const SlipRecord &record : window.records) fill(record);
   }
 
-  /// \param shift bins by which the picture begins behind the begin of the fault
+  /// \param shift bins by which the picture is shifted along the fault
   void write(Table &table, std::int64_t shift, double x0, double t0) const {
     const double width = window_.info.grid.length() / static_cast<double>(columns_);
     for (std::int64_t row = 0; row < rows_; ++row)
@@ -154,7 +166,7 @@ class Image {
 };
 
 /// The outline of a rupture as closed lines, split where the picture ends.
-/// \param shift bins by which the picture begins behind the begin of the fault
+/// \param shift bins by which the picture is shifted along the fault
 void add_outline(Table &table, const SlipHistoryInfo &info, const Outline &outline,
                  std::int64_t number, std::int64_t shift, double x0, double t0) {
   const FaultGrid &grid = info.grid;
@@ -290,10 +302,11 @@ Figure moment_length_figure(const std::vector<RuptureTable> &tables) {
   const LogFit fit = fit_logarithms(fitted);
   const std::string text = fit_text(fit, "fit, without those of the whole fault");
   figure.table.comment(text);
-  figure.script += ", \\\n     " + line_of(fit, "#000000", text) +
+  figure.script += ", \\\n     " +
+                   line_of(fit, "#000000", short_fit_text(fit, "fit, whole fault excluded")) +
                    fmt::format(
                        ", \\\n     {} * x**2 with lines lc rgb '#777777' dt (4,4) title "
-                       "'slope 2: the same stress drop for all'\n",
+                       "'slope 2: constant stress drop'\n",
                        text_io::number(std::pow(10.0, fit.intercept + fit.slope * 1.0) / 100.0));
   return figure;
 }
@@ -343,22 +356,21 @@ Figure moment_pe_figure(const std::vector<RuptureTable> &tables) {
                   axis("y", "Drop of the total PE (model units)", true, drops.lo, drops.hi) +
                   "plot " + points(tables, 4, 5) +
                   ", \\\n     table using ($6 == 1 && $5 > 0 ? $4 : NaN):5 with points pt 6 ps "
-                  "1.5*point lc rgb '#000000' title 'alone in time', \\\n     " +
-                  line_of(fit_all, "#777777", fit_text(fit_all, "all"));
+                  "1.5*point lc rgb '#000000' title 'isolated in time', \\\n     " +
+                  line_of(fit_all, "#777777", short_fit_text(fit_all, "all"));
   const LogFit *proportional = &fit_all;
   LogFit fit_alone;
   if (alone.size() >= 3) {
     fit_alone = fit_logarithms(alone);
-    describe(fit_alone, "fit of those alone in time");
-    figure.script += ", \\\n     " + line_of(fit_alone, "#000000", fit_text(fit_alone, "alone"));
+    describe(fit_alone, "fit of those isolated in time");
+    figure.script +=
+        ", \\\n     " + line_of(fit_alone, "#000000", short_fit_text(fit_alone, "isolated"));
     proportional = &fit_alone;
   }
-  figure.script +=
-      fmt::format(", \\\n     {} * x with lines lc rgb '#D55E00' dt (6,4) title {}\n",
-                  text_io::number(proportional->ratio),
-                  quote(fmt::format("proportional: PE drop = {} x moment, scatter {} decades",
-                                    short_number(proportional->ratio, 2),
-                                    short_number(proportional->ratio_scatter, 2))));
+  figure.script += fmt::format(
+      ", \\\n     {} * x with lines lc rgb '#D55E00' dt (6,4) title {}\n",
+      text_io::number(proportional->ratio),
+      quote(fmt::format("proportional: {} x moment", short_number(proportional->ratio, 2))));
   return figure;
 }
 
@@ -464,7 +476,7 @@ HistoryWindow load_history(const std::string &path, bool lenient, double from, d
     }
     sets.end_step(nothing, keep);
   }
-  // Those still open, too: a picture shows what it has.
+  // Open ones as well: a picture shows what there is.
   sets.begin_step(last + window.info.ruptures.memory + 1);
   sets.end_step(nothing, keep);
   if (window.records.empty() || window.records.front().step_begin == window.records.back().step_end)
@@ -492,7 +504,7 @@ Figure space_time_figure(const HistoryWindow &window, Table &outlines) {
       fmt::format("outlines of the {} largest of {} ruptures", number, window.outlines.size()));
   figure.script = std::string(colours) +
                   fmt::format(
-                      "set xlabel 'Place along the fault (model units)'\n"
+                      "set xlabel 'Position along the fault (model units)'\n"
                       "set ylabel 'Time (model units)'\n"
                       "set xrange [{}:{}]\nset yrange [{}:{}]\nset format y '%.7g'\n"
                       "set key off\n"
@@ -542,7 +554,7 @@ Figure slip_lines_figure(const HistoryWindow &window, double locked, double slip
     }
   }
   figure.script = fmt::format(
-      "set xlabel 'Place along the fault (model units)'\n"
+      "set xlabel 'Position along the fault (model units)'\n"
       "set ylabel 'Slip since time {} (model units)'\n"
       "set xrange [{}:{}]\nset yrange [0:{}]\n"
       "plot table using ($3 == 1 ? $4 : NaN):5 with lines lc rgb '#D55E00' lw 0.6 dt 1 title {}, "
@@ -607,15 +619,15 @@ Figure rupture_detail_figure(const HistoryWindow &window, const Event &event, do
       fmt::format(
           R"(lines = base.'-lines.csv'
 set multiplot
-set lmargin at screen 0.11
+set lmargin at screen 0.12
 set rmargin at screen 0.83
 set xrange [{x0}:{x1}]
-set tmargin at screen 0.92
+set tmargin at screen 0.915
 set bmargin at screen 0.36
 set format x ''
-set ylabel 'Time since its begin (model units)'
+set ylabel 'Time since its beginning (model units)'
 set yrange [{t0}:{t1}]
-set key at screen 0.47,0.99 center top horizontal maxcols 2
+set key at screen 0.47,0.985 center top horizontal maxcols 2
 plot table using 1:2:3 with image notitle, \
      lines using ($1 == 1 ? $2 : NaN):3 with lines lc rgb '#0072B2' lw 1 dt 1 title 'rupture', \
      lines using ($1 == 2 ? $2 : NaN):3 with lines lc rgb '#000000' lw 1.6 dt 1 title {p}, \
@@ -623,7 +635,7 @@ plot table using 1:2:3 with image notitle, \
 set tmargin at screen 0.33
 set bmargin at screen 0.09
 set format x '%g'
-set xlabel 'Distance from its first place along the fault (model units)'
+set xlabel 'Distance from the hypocentre along the fault (model units)'
 set ylabel 'Slip (model units)'
 set yrange [*:*]
 unset key

@@ -116,7 +116,7 @@ unset multiplot
       fmt::arg("change_range", roomy(change)), fmt::arg("smoothed_range", roomy(smoothed)),
       fmt::arg("smoothed_label",
                fmt::format("'smoothed ({}, {{/Symbol l}} = {}); an event where negative'",
-                           to_string(picker.reading), short_number(picker.lambda, 6))));
+                           to_string(picker.reading), short_number(picker.lambda, 3))));
 }
 
 }  // namespace LSM::postproc

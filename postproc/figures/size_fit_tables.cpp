@@ -380,10 +380,15 @@ Figure scaling_figure(const std::vector<Scaling> &scalings, int width) {
   if (plots.empty())
     throw std::runtime_error("finite-size scaling: no catalogue gives a characteristic size");
   figure.size = size_with_key(std::vector<std::string>(4 * scalings.size()), width);
-  figure.script =
-      axis("x", "length of the fault, number of blocks", true, 0.9 * shortest, 1.1 * longest) +
-      axis("y", "characteristic size s* (energy)", true, lowest, highest) +
-      std::string(error_bar_function) + plots + lines + "\n";
+  bool faults = false, chains = false;
+  for (const Scaling &scaling : scalings)
+    (scaling.model == "lsm" ? faults : chains) = true;
+  const char *const name = faults && chains ? "length of the fault, or number of blocks"
+                           : faults         ? "length of the fault"
+                                            : "number of blocks";
+  figure.script = axis("x", name, true, 0.9 * shortest, 1.1 * longest) +
+                  axis("y", "characteristic size s* (energy)", true, lowest, highest) +
+                  std::string(error_bar_function) + plots + lines + "\n";
   return figure;
 }
 

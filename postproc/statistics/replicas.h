@@ -30,7 +30,7 @@ Rng generator(std::uint64_t seed);
 void for_each_replica(int count, const std::function<void(int)> &task);
 
 /// Is told between replicas how many of how many are done, by one thread at a time; at the end
-/// count of count. Empty: nobody is told.
+/// count of count. Empty: no report.
 void watch_replicas(std::function<void(int done, int count)> observer);
 
 }  // namespace LSM::postproc

@@ -266,7 +266,7 @@ $(markdown fault_event.csv)
 Place & Mora (1999) solve static friction at half steps instead of giving the contact a tangential spring. Tried here in
 a small program that has the same fault without LAMMPS (\`friction_schemes.h\`): impulses at each half step that stop the
 tangential motion of every contact, or as much of it as mu F_n dt can, by projected Gauss-Seidel sweeps until no velocity
-changes by more than 1e-12, beside the tangential spring with the begin of contacts located.
+changes by more than 1e-12, beside the tangential spring with the onset of contacts located.
 
 $(remarks fault_friction.csv)
 

@@ -192,7 +192,7 @@ class SmallFault {
   double moved_ = 0.0;
 };
 
-/// Friction with a tangential spring, begin of a contact located within the step.
+/// Friction with a tangential spring, onset of a contact located within the step.
 class SpringFault : public SmallFault {
  public:
   SpringFault(Scene scene, double dt) : SmallFault(std::move(scene)), dt_(dt) {

@@ -200,7 +200,7 @@ EOF
           if [ $injected = error=ENOSPC ] && [ $status -ne 0 ]; then
             [ "$(grep ERROR out | grep -c 'cannot .* a\.\|a\..*cannot\|writing restart')" = 1 ] || fail "not one line about $call $at"
           fi
-          # What cannot be removed is in nobody's way.
+          # What cannot be removed does no harm.
           [ $status -ne 0 ] || [ $call$injected = unlinkerror=ENOSPC ] || fail "$call $at, $injected: no word"
           if [ ! -f a.restart.end.info ]; then
             newest=$(ls a.restart.*.info 2>/dev/null | sort -t . -k 3n | tail -n 1 || true)

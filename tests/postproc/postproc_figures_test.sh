@@ -417,7 +417,7 @@ rupture)
   [ "$(awk -F, '$6 == 1' r-length.csv | wc -l)" = 1 ] || fail "ruptures of the whole fault"
   # PE rose during one; of the others but those with another one beside them the drop is 0.05 times the moment.
   grep -q '^# PE rose during 1 of 43 ruptures' r-pe.csv || fail "$(head -5 r-pe.csv)"
-  grep '^# fit of those alone in time: slope 1' r-pe.csv | grep -q 'n = 40.*ratio 0.05, scatter' || fail "$(head -5 r-pe.csv)"
+  grep '^# fit of those isolated in time: slope 1' r-pe.csv | grep -q 'n = 40.*ratio 0.05, scatter' || fail "$(head -5 r-pe.csv)"
   awk -F, '!/^#/ && $6 == 0 { ++n; if ($4 != 160 && $4 != 90 && $4 != 62.5) exit 1 } END { exit n != 3 }' r-pe.csv ||
     fail "ruptures at the same time: $(awk -F, '$6 == 0' r-pe.csv)"
   grep -q 'means of half decades' r-stress.svg || fail "no means"

@@ -516,7 +516,7 @@ outputs)
   done
   kill -9 $child
   wait $child 2> /dev/null
-  # What a killed run leaves of its locks keeps nobody.
+  # Lock files that a killed run leaves behind block no other run.
   part=(--blocks 100 --steps 200000 --dt 0.05 --velocity 0.05 --warmup 0 --catalogue q.csv --checkpoint q.chk --checkpoint-interval 1000)
   "$program" "${part[@]}" > ../out.txt 2> ../err.txt || fail "$(cat ../err.txt)"
   ls ./*.lock > /dev/null 2>&1 && rm p.csv.lock p.pe.lock p.chk.lock 2> /dev/null

@@ -312,7 +312,7 @@ TEST(SliderLeaps, KnowTheEnergyWithin) {
   const auto mu = random_friction(p.blocks, 0.5, 1.0, 12);
   Chain chain(p, mu, false, InstructionSet::automatic);
   const std::vector<double> u0(mu.size(), 0.0);
-  const std::int64_t last = 1600000;  // a way of 80
+  const std::int64_t last = 1600000;  // a plate displacement of 80
   EXPECT_FALSE(chain.leap(last, last + 1, never_fast, true, true));
   EXPECT_FALSE(chain.leap(last, 1, never_fast, true, false));
   EXPECT_EQ(chain.step(), 0);

@@ -179,7 +179,7 @@ TEST_F(OutputClaims, WithoutFlockStaleOnesAreToldApart) {
                          ", or remove " + lock + " if it has ended"));
     EXPECT_EQ(slurp(lock), text);
   }
-  // With flock nobody holds it.
+  // With flock no process holds it.
   { const FileLock held(path("a.csv")); }
   EXPECT_FALSE(fs::exists(lock));
 }

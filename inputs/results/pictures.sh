@@ -1,0 +1,64 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-2.0-or-later
+# Pictures of these pages from the published catalogues, and from two short runs of the fault of
+# length 120: the default (PE, tutorial, a film frame) and, of ruptures, the choices before the
+# calibration. POSTPROC and LMP: the programs, those of build/bin by default.
+# usage: pictures.sh [catalogues|run|studies]...
+set -euo pipefail
+cd "$(dirname "$0")"
+root=$(cd ../.. && pwd)
+postproc=${POSTPROC:-$root/build/bin/postproc} lmp=${LMP:-$root/build/bin/lmp}
+[ $# -gt 0 ] || set -- catalogues run studies
+new=$(mktemp -d)
+trap 'rm -rf "$new"' EXIT
+
+for part; do
+  case $part in
+    catalogues)
+      ruptures=() labels=()
+      for length in 120 240 480 945 1440 1890 3780; do
+        ruptures+=(catalogues/fault_ruptures_$length.catalogue.csv.xz) labels+=(--label "fault $length")
+      done
+      "$postproc" rupture "${ruptures[@]}" "${labels[@]}" -o "$new/rupture"
+      for name in lengths moments length pe stress; do cp "$new/rupture-$name.png" rupture_$name.png; done
+      sliders=()
+      for blocks in 256 614 972 1450 1928; do sliders+=(catalogues/slider_ours_${blocks}_seed_1.catalogue.csv.xz); done
+      "$postproc" intervals "${sliders[@]}" -o "$new/fig15_slider_intervals"
+      "$postproc" fit "${sliders[@]}" --scaling --range 0.01:1 --range 1:100 --replicas 0 --no-comparison -o "$new/slider_fit"
+      "$postproc" fit catalogues/slider_ruptures_*.xz --scaling --range 1:100 --from 40000 --threshold 1 --replicas 0 \
+        --no-comparison -o "$new/rupture_fit"
+      "$postproc" fit catalogues/fault_[0-9]*.xz --scaling --threshold 1e-3 --from 4500 --range 1e-3:1 --replicas 0 \
+        --no-comparison -o "$new/fault_fit"
+      "$postproc" fit catalogues/fault_ruptures_*.xz --scaling --threshold 1e-2 --from 6000 --range 1e-2:1 --replicas 0 \
+        --no-comparison -o "$new/fault_rupture_fit"
+      for fit in slider_fit rupture_fit fault_fit fault_rupture_fit; do
+        for kind in csv gp png; do cp "$new/$fit.scaling.$kind" .; done
+      done
+      for kind in csv gp png table1.csv; do cp "$new/fig15_slider_intervals.$kind" .; done
+      ;;
+    run)
+      . ../mpi-settings.sh
+      cd "$new"
+      mpirun -np 2 "$lmp" -in "$root/inputs/fault_120.in" -var steps 240000 -var prefix first -var ruptures yes </dev/null >out
+      mpirun -np 2 "$lmp" -in "$root/inputs/fault_120.in" -var steps 240000 -var prefix before -var ruptures yes -var choices first \
+        </dev/null >out
+      "$postproc" series first.pe.bin --from 15000 --to 21000 --title "Fault of length 120" -o series
+      "$postproc" histograms first.catalogue.csv --guide=-1.07:1e-4:0.1 -o sizes
+      "$postproc" rupture before.ruptures.csv --history before.slip.bin --from 15000 --to 21000 --p-speed 2.08 --s-speed 1.06 \
+        -o rupture
+      cd - >/dev/null
+      cp "$new/series.png" fig8_to_11_series.png
+      cp "$new/series.png" tutorial_series.png
+      cp "$new/sizes.png" tutorial_sizes.png
+      for name in event spacetime; do cp "$new/rupture-$name.png" rupture_$name.png; done
+      ;;
+    studies)
+      gnuplot -e "table = 'slow-driving.csv'; around = 'slow-driving-aftershocks.csv'" ../studies/slow-driving.gp
+      gnuplot -e "table = 'slow-driving-slider.csv'" ../studies/slow-driving-slider.gp
+      gnuplot -e "table = 'accuracy_catalogues.csv'; name = 'accuracy_catalogues'" ../studies/work-precision.gp
+      gnuplot -e "table = 'regime-map.csv'" ../studies/regime-map.gp
+      rm -f regime-map.svg
+      ;;
+    *) echo "pictures.sh: part '$part', expected catalogues, run or studies" >&2; exit 2 ;;
+  esac
+done
