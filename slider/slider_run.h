@@ -72,7 +72,8 @@ struct RunResult {
   int interrupted = 0;  ///< signal number, or 0
 };
 
-/// \throws std::invalid_argument with one line for ruptures where the chain does not report which block slides.
+/// \throws std::invalid_argument with one line for ruptures where the chain does not report which
+/// block slides.
 void check_events(const RunOptions &options);
 
 /// \throws std::invalid_argument with one line for leaps that make no sense, or with a scheme or

@@ -166,8 +166,8 @@ void check_name(const fs::path &base) {
 }
 
 /// gnuplot runs what stands in backquotes or follows a pipe, ends strings at quotes, takes two
-/// quotes at the beginning of a string for an empty one, and counts braces: all but what is harmless is
-/// written as octal numbers.
+/// quotes at the beginning of a string for an empty one, and counts braces: all but what is
+/// harmless is written as octal numbers.
 std::string escape(std::string_view text, bool markup) {
   // Markup of our own is there to be read.
   const std::string_view harmless = markup ? " .,:;()=+-/*%<>!?" : " .,:;()=+-/*%<>!?_^{}";

@@ -381,8 +381,7 @@ Figure scaling_figure(const std::vector<Scaling> &scalings, int width) {
     throw std::runtime_error("finite-size scaling: no catalogue gives a characteristic size");
   figure.size = size_with_key(std::vector<std::string>(4 * scalings.size()), width);
   bool faults = false, chains = false;
-  for (const Scaling &scaling : scalings)
-    (scaling.model == "lsm" ? faults : chains) = true;
+  for (const Scaling &scaling : scalings) (scaling.model == "lsm" ? faults : chains) = true;
   const char *const name = faults && chains ? "length of the fault, or number of blocks"
                            : faults         ? "length of the fault"
                                             : "number of blocks";
