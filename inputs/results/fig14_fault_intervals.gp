@@ -6,10 +6,10 @@ if (!exists("formats")) formats = "png svg"
 do for [format in formats] {
 if (format eq "png") {
 point = 1.0
-set terminal pngcairo size 1800,1100 enhanced font "DejaVu Sans,26" linewidth 2 pointscale 2 background "#ffffff"
+set terminal pngcairo size 1800,1192 enhanced font "DejaVu Sans,26" linewidth 2 pointscale 2 background "#ffffff"
 } else {
 point = 0.65
-set terminal svg size 900,550 dynamic enhanced font "DejaVu Sans,13" background "#ffffff"
+set terminal svg size 900,596 dynamic enhanced font "DejaVu Sans,13" background "#ffffff"
 }
 
 set datafile separator comma
@@ -56,13 +56,25 @@ plot table using (row(1)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads
      keyentry with linespoints lt 1 title "fault, length 120 (229 times)", \
      table using (row(2)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 2 dt 1 lw 0.8 notitle, \
      table using (row(2)):8 with points lt 2 notitle, \
-     keyentry with linespoints lt 2 title "fault, length 945 (195 times)", \
+     keyentry with linespoints lt 2 title "fault, length 240 (213 times)", \
      table using (row(3)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 3 dt 1 lw 0.8 notitle, \
      table using (row(3)):8 with points lt 3 notitle, \
-     keyentry with linespoints lt 3 title "fault, length 1440 (135 times)", \
+     keyentry with linespoints lt 3 title "fault, length 480 (257 times)", \
+     table using (row(4)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 4 dt 1 lw 0.8 notitle, \
+     table using (row(4)):8 with points lt 4 notitle, \
+     keyentry with linespoints lt 4 title "fault, length 945 (195 times)", \
+     table using (row(5)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 5 dt 1 lw 0.8 notitle, \
+     table using (row(5)):8 with points lt 5 notitle, \
+     keyentry with linespoints lt 5 title "fault, length 1440 (135 times)", \
+     table using (row(6)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 6 dt 1 lw 0.8 notitle, \
+     table using (row(6)):8 with points lt 6 notitle, \
+     keyentry with linespoints lt 6 title "fault, length 1890 (92 times)", \
      [1:1258.9254117941693] '+' using 1:(0.019962577161496409*$1**(-0.23807880415622862)*exp(-$1**(1)/142.79627064125046)) with lines lt 1 notitle, \
-     [0.31622776601683783:1000.0000000000017] '+' using 1:(0.12046205550855529*$1**(-0.7431024708987698)*exp(-$1**(1)/216.65562691633136)) with lines lt 2 notitle, \
-     [0.50118723362727224:1000.0000000000017] '+' using 1:(0.042680157164551362*$1**(-0.48458242253698169)*exp(-$1**(1)/158.61486387657143)) with lines lt 3 notitle, \
+     [0.79432823472428149:794.32823472428277] '+' using 1:(0.03830760890680978*$1**(-0.42804266532883495)*exp(-$1**(1)/206.59216600887481)) with lines lt 2 notitle, \
+     [0.79432823472428149:1000.0000000000017] '+' using 1:(0.068182000044574503*$1**(-0.63376579731705673)*exp(-$1**(1)/266.44941607218482)) with lines lt 3 notitle, \
+     [0.31622776601683783:1000.0000000000017] '+' using 1:(0.12046205550855529*$1**(-0.7431024708987698)*exp(-$1**(1)/216.65562691633136)) with lines lt 4 notitle, \
+     [0.50118723362727224:1000.0000000000017] '+' using 1:(0.042680157164551362*$1**(-0.48458242253698169)*exp(-$1**(1)/158.61486387657143)) with lines lt 5 notitle, \
+     [0.39810717055349715:794.32823472428277] '+' using 1:(0.035176874807281051*$1**(-0.48490956126768925)*exp(-$1**(1)/231.33295115631748)) with lines lt 6 notitle, \
      keyentry with lines lt 8 title 'lines: fitted generalised gamma'
 unset output
 }

@@ -8,6 +8,10 @@ Adds PE series (binary, as compute lsm/events writes them) between the times FRO
 sum as a series that begins at time 0: the PE of a fault made of independent pieces. Its length is that of all pieces. --load adds
 RATE to the slope: pieces that only load. All stretches need as many samples, and the same time step.
 
+superpose.py every N OUT.pe.bin SERIES
+
+Takes every Nth step of a series, as if the time step were N times as long and the fault the same; the picker keeps its memory.
+
 superpose.py study POSTPROC OUT FOLDER...
 
 Does so for the runs in these folders (settings of each the same, but for the packing): sums of 2 to 16 stretches, and single
@@ -93,6 +97,13 @@ def superpose(out, parts, load=0.0, number=1):
     write(out, info, total)
 
 
+def every(number, out, path):
+    info, first, pe = read(path)
+    dt = float(info["dt"])
+    start = repr(float(info["time0"]) + (first - int(info["step0"])) * dt)
+    write(out, dict(info, dt=repr(dt * number), step0="0", time0=start, **{"lambda": repr(float(info["lambda"]) ** number)}), pe[::number])
+
+
 def loading(path, begin, end):
     """Rate at which PE rises while the fault is locked, which it is most of the time: the median of its slope."""
     info, pe = stretch(path, begin, end)
@@ -130,6 +141,8 @@ def study(postproc, out, folders):
 
 
 def main(words):
+    if words[:1] == ["every"] and len(words) == 4:
+        return every(int(words[1]), *words[2:])
     if words[:1] == ["study"] and len(words) > 3:
         return study(words[1], words[2], words[3:])
     load = 0.0
