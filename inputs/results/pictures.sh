@@ -46,7 +46,10 @@ for part; do
       "$postproc" histograms first.catalogue.csv --guide=-1.07:1e-4:0.1 -o sizes
       "$postproc" rupture before.ruptures.csv --history before.slip.bin --from 15000 --to 21000 --p-speed 2.08 --s-speed 1.06 \
         -o rupture
+      "$lmp" -in "$root/inputs/fault.in" -var extra fault_image -var restart first.restart.210000 -var prefix look -var ruptures no \
+        -var steps 206000 -var from 214900 -var to 214900 -var every 1000 </dev/null >out
       cd - >/dev/null
+      gnuplot -e "frame = '$new/look.000214900.png'" fault_event.gp
       cp "$new/series.png" fig8_to_11_series.png
       cp "$new/series.png" tutorial_series.png
       cp "$new/sizes.png" tutorial_sizes.png

@@ -76,9 +76,11 @@ draw() {  # NAME GNUPLOT-COMMANDS; nothing where a table is missing
   gnuplot -e "set terminal pngcairo size 1000,600 font 'sans,13'; set output '$1.png'; load 'work/$1.gp'"
   gnuplot -e "set terminal svg size 1000,600 font 'sans,13'; set output '$1.svg'; load 'work/$1.gp'"
 }
-# A line of a diagram: FILE 'awk condition' X-COLUMN Y-COLUMN TITLE STYLE
+# A line of a diagram: FILE 'awk condition' X-COLUMN Y-COLUMN TITLE STYLE [COLUMN OF THE TIME STEP, written beside the points]
 line() {
-  echo "'< awk -F, '\''!/^#/ && FNR > 1 && ($2)'\'' $1' using $3:$4 with linespoints lt $6 title '$5'"
+  local rows="'< awk -F, '\''!/^#/ && FNR > 1 && ($2)'\'' $1'"
+  echo "$rows using $3:$4 with linespoints lt $6 title '$5'"
+  [ -z "${7:-}" ] || echo ", $rows using $3:$4:(sprintf('%g', \$$7)) with labels left offset 0.7,0.5 font ',9' tc lt $6 notitle"
 }
 quoted() { printf '%s' "${1//\'\\\'\'/\'\'}"; }
 join() {
@@ -94,7 +96,7 @@ schemes=(printed semi-implicit verlet rk4)
 lines=() sizes=()
 for n in 0 1 2 3; do
   s=${schemes[$n]}
-  lines+=("$(line slider_event.csv "\$1 == \"$s\"" 3 4 "$s" $((n + 1)))")
+  lines+=("$(line slider_event.csv "\$1 == \"$s\"" 3 4 "$s" $((n + 1)) 2)")
   sizes+=("$(line slider_event.csv "\$1 == \"$s\"" 3 5 "$s" $((n + 1)))")
 done
 draw slider_event_profile "set title 'Block-slider, one event: slip profile'
@@ -130,7 +132,7 @@ for quantity in profile:7:'rms error of displacement at the fault / rms displace
       m=${methods[$n]}
       awk -F, -v v="$v" -v m="$m" -v c="$column" '$1 == v && $4 == m && $c != "nan" {found = 1} END {exit !found}' \
         fault_event.csv || continue
-      lines+=("$(line fault_event.csv "\$1 == \"$v\" && \$4 == \"$m\"" 6 "$column" "${label[$m]}" $((n + 1)))")
+      lines+=("$(line fault_event.csv "\$1 == \"$v\" && \$4 == \"$m\"" 6 "$column" "${label[$m]}" $((n + 1)) 5)")
     done
     draw "fault_event_${name}_$v" "set title 'Fault, one event ($v)'
 set xlabel 'CPU time (s)'; set ylabel '$axis'
