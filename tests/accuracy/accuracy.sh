@@ -79,8 +79,8 @@ draw() {  # NAME GNUPLOT-COMMANDS; nothing where a table is missing
 # A line of a diagram: FILE 'awk condition' X-COLUMN Y-COLUMN TITLE STYLE [COLUMN OF THE TIME STEP, written beside the points]
 line() {
   local rows="'< awk -F, '\''!/^#/ && FNR > 1 && ($2)'\'' $1'"
-  echo "$rows using $3:$4 with linespoints lt $6 title '$5'"
-  [ -z "${7:-}" ] || echo ", $rows using $3:$4:(sprintf('%g', \$$7)) with labels left offset 0.7,0.5 font ',9' tc lt $6 notitle"
+  printf '%s' "$rows using $3:$4 with linespoints lt $6 title '$5'"
+  [ -z "${7:-}" ] || printf '%s' ", $rows using $3:$4:(sprintf('%g', \$$7)) with labels left offset 0.7,0.5 font ',9' tc lt $6 notitle"
 }
 quoted() { printf '%s' "${1//\'\\\'\'/\'\'}"; }
 join() {
@@ -100,7 +100,7 @@ for n in 0 1 2 3; do
   sizes+=("$(line slider_event.csv "\$1 == \"$s\"" 3 5 "$s" $((n + 1)))")
 done
 draw slider_event_profile "set title 'Block-slider, one event: slip profile'
-set xlabel 'run time (s)'; set ylabel 'largest error of slip / largest slip'; set yrange [1e-11:10]
+set xlabel 'run time (s)'; set ylabel 'largest error of slip / largest slip'; set yrange [1e-11:10]; set xrange [1e-5:1e-1]
 $(join "${lines[@]}")"
 draw slider_event_size "set title 'Block-slider, one event: drop of potential energy'
 set xlabel 'run time (s)'; set ylabel 'relative error of the drop of PE'; set yrange [1e-11:10]
