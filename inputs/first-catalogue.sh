@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# From a fresh Debian 12 to a first earthquake catalogue: installs what is missing, builds LAMMPS with
-# the package, runs the fault of length 120 on two ranks, prints its largest events, draws the
+# From a fresh Debian 12 to a first earthquake catalogue: installs what is missing, builds LAMMPS
+# with the package, runs the fault of length 120 on two ranks, prints its largest events, draws the
 # potential energy with the picked events, and makes a page on which one explores the run.
 #
 # usage: inputs/first-catalogue.sh [STEPS]      (default 240000)

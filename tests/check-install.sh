@@ -1,6 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# The Debian package, unpacked into an empty root and used from there: programs, plugin, scenes, headers, manual pages.
+# The Debian package, unpacked into an empty root and used from there: programs, plugin, scenes,
+# headers, manual pages.
 # usage: check-install.sh BUILD STOCK_LMP CXX VERSION
 set -euo pipefail
 export LC_ALL=C

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# The pair styles compile with the Pair of LAMMPS 4 Feb 2025, which has atom2cut and radii2cut, and with that of
-# 4 Jul 2026, which has not. No warning either way, whatever is said about 'override'.
+# The pair styles compile with the Pair of LAMMPS 4 Feb 2025, which has atom2cut and radii2cut, and
+# with that of 4 Jul 2026, which has not. No warning either way, whatever is said about 'override'.
 # usage: check-other-pair.sh COMPILER LAMMPS_SRC PACKAGE_FOLDER FLAGS...
 set -euo pipefail
 compiler=$1 source=$2 package=$3

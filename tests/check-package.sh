@@ -53,7 +53,8 @@ case $way in
     done
     ;;
   refused)
-    # not_loaded PROGRAM PLUGIN PATTERN: one line that matches, no style registered, and the program goes on
+    # not_loaded PROGRAM PLUGIN PATTERN: one line that matches, no style registered, and the program
+    # goes on
     not_loaded() {
       { echo "plugin load $2"; echo "plugin list"; echo 'print "went on"'; } >in.refused
       "$1" -in in.refused -log none >out 2>&1 || fail "plugin load ends with an error"
@@ -115,8 +116,8 @@ EOF
 # Kinetic 2 * 0.5 * 0.25 * 0.1^2 plus link 0.5 * 0.05^2.
 awk '/^ENERGY/ { d = $4 - 0.00375; if (d < -1e-5 || d > 1e-5) bad = 1; n++ }
      END { exit bad || n != 2 }' out || fail "the energy of the scene is not 0.00375"
-# A sheared fault with friction, plates and events; a restart in the middle of it gives the same files.
-# fault LOAD NAME GEOMETRY RUNS: lines of the input
+# A sheared fault with friction, plates and events; a restart in the middle of it gives the same
+# files. fault LOAD NAME GEOMETRY RUNS: lines of the input
 fault() {
   local name=$2
   echo "$1"
@@ -151,7 +152,8 @@ $4
 EOF
 }
 geometry="create_lsm_fault length 20 width 14 seed 3 failures 300"
-# Pieces, as in fault.in: each run sorts the particles, so that a restart between two gives the same digits.
+# Pieces, as in fault.in: each run sorts the particles, so that a restart between two gives the same
+# digits.
 two_runs="run 2000
 write_restart state
 run"

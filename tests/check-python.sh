@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
 # 'from lammps import lammps' with the package: the fault run from Python leaves the files that lmp
-# leaves, errors are exceptions, files are unlocked again, and the lines of python.md do what they say.
+# leaves, errors are exceptions, files are unlocked again, and the lines of python.md do what they
+# say.
 # usage: check-python.sh MODULES LMP INPUTS [MPIRUN]
 set -euo pipefail
 export LC_ALL=C
@@ -56,7 +57,8 @@ if [ -n "$mpirun" ]; then
   "$mpirun" --oversubscribe -np 2 "${python[@]}" </dev/null >out 2>&1 || fail "fault.py on two ranks"
 fi
 
-# The page: a fault, its catalogue, series, ruptures and slip, read by pandas where that is installed
+# The page: a fault, its catalogue, series, ruptures and slip, read by pandas where that is
+# installed
 if python3 -c 'import pandas' 2>/dev/null; then
   mkdir page
   ln -s "$inputs" page/inputs

@@ -19,8 +19,8 @@ need_strace() {
   command -v strace > /dev/null || { echo "skipped: no strace"; exit 77; }
   strace -o /dev/null true 2> /dev/null || { echo "skipped: strace may not trace here"; exit 77; }
 }
-# system_calls PATTERN ARGUMENTS...: runs the program and prints those of its system calls that change files, as NAME N,
-# the N-th of its name, from the first on that names PATTERN.
+# system_calls PATTERN ARGUMENTS...: runs the program and prints those of its system calls that
+# change files, as NAME N, the N-th of its name, from the first on that names PATTERN.
 system_calls() {
   local pattern=$1
   shift
@@ -32,7 +32,8 @@ system_calls() {
     index($0, pattern) { seen = 1 }
     seen { print name, n[name] }' calls.log
 }
-# with_fault NAME N WHAT ARGUMENTS...: the program, where the N-th call of that name meets WHAT (signal=KILL, error=ENOSPC).
+# with_fault NAME N WHAT ARGUMENTS...: the program, where the N-th call of that name meets WHAT
+# (signal=KILL, error=ENOSPC).
 with_fault() {
   local where="$1:$3:when=$2"
   shift 3

@@ -1,5 +1,5 @@
-# Draws fault_event.png from a picture of fault_image.in (frame), with the scale of its colours: the speed of the discs from slowest to
-# fastest, logarithmic, in the upper and in the lower block
+# Draws fault_event.png from a picture of fault_image.in (frame), with the scale of its colours: the
+# speed of the discs from slowest to fastest, logarithmic, in the upper and in the lower block
 if (!exists("frame")) { frame = "look.000214900.png" }
 slowest = 0.0003
 fastest = 0.004

@@ -1,4 +1,5 @@
-# Draws fault_rupture_fit.scaling.png and fault_rupture_fit.scaling.svg from fault_rupture_fit.scaling.csv: run `gnuplot ./fault_rupture_fit.scaling.gp` in this folder.
+# Draws fault_rupture_fit.scaling.png and fault_rupture_fit.scaling.svg from
+# fault_rupture_fit.scaling.csv: run `gnuplot ./fault_rupture_fit.scaling.gp` in this folder.
 base = "./fault_rupture_fit.scaling"
 table = base.".csv"
 if (!exists("formats")) formats = "png svg"

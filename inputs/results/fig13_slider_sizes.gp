@@ -1,4 +1,5 @@
-# Draws fig13_slider_sizes.png and fig13_slider_sizes.svg from fig13_slider_sizes.csv: run `gnuplot fig13_slider_sizes.gp` in this folder.
+# Draws fig13_slider_sizes.png and fig13_slider_sizes.svg from fig13_slider_sizes.csv: run `gnuplot
+# fig13_slider_sizes.gp` in this folder.
 base = 'fig13_slider_sizes'
 table = base.".csv"
 if (!exists("formats")) formats = "png svg"

@@ -1,4 +1,5 @@
-# Draws fig15_slider_intervals.png and fig15_slider_intervals.svg from fig15_slider_intervals.csv: run `gnuplot ./fig15_slider_intervals.gp` in this folder.
+# Draws fig15_slider_intervals.png and fig15_slider_intervals.svg from fig15_slider_intervals.csv:
+# run `gnuplot ./fig15_slider_intervals.gp` in this folder.
 base = "./fig15_slider_intervals"
 table = base.".csv"
 if (!exists("formats")) formats = "png svg"

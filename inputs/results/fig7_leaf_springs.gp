@@ -1,4 +1,5 @@
-# Draws fig7_leaf_springs.png and fig7_leaf_springs.svg from fig7_leaf_springs.csv: run `gnuplot fig7_leaf_springs.gp` in this folder.
+# Draws fig7_leaf_springs.png and fig7_leaf_springs.svg from fig7_leaf_springs.csv: run `gnuplot
+# fig7_leaf_springs.gp` in this folder.
 base = 'fig7_leaf_springs'
 table = base.".csv"
 if (!exists("formats")) formats = "png svg"

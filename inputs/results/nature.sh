@@ -1,6 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Tables and figure of nature.md from the published catalogues. POSTPROC: the program, build/bin/postproc by default.
+# Tables and figure of nature.md from the published catalogues. POSTPROC: the program,
+# build/bin/postproc by default.
 set -euo pipefail
 cd "$(dirname "$0")"
 postproc=${POSTPROC:-../../build/bin/postproc}

@@ -1,4 +1,5 @@
-# Draws slider_fit.scaling.png and slider_fit.scaling.svg from slider_fit.scaling.csv: run `gnuplot ./slider_fit.scaling.gp` in this folder.
+# Draws slider_fit.scaling.png and slider_fit.scaling.svg from slider_fit.scaling.csv: run `gnuplot
+# ./slider_fit.scaling.gp` in this folder.
 base = "./slider_fit.scaling"
 table = base.".csv"
 if (!exists("formats")) formats = "png svg"

@@ -1,4 +1,5 @@
-# Draws regime-map.png and regime-map.svg from table.csv: the saw-tooth number over stress and viscosity, length 120
+# Draws regime-map.png and regime-map.svg from table.csv: the saw-tooth number over stress and
+# viscosity, length 120
 set datafile separator ","
 set datafile columnheaders
 set encoding utf8

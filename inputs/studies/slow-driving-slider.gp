@@ -1,4 +1,5 @@
-# Draws slow-driving-slider.png and slow-driving-slider.svg from table.csv, runs with a displacement of at least 400
+# Draws slow-driving-slider.png and slow-driving-slider.svg from table.csv, runs with a displacement
+# of at least 400
 set datafile separator ","
 set datafile columnheaders
 if (!exists("table")) { table = "table.csv" }

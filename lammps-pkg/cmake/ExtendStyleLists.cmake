@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # Script (cmake -P): copies LAMMPS' generated lists of styles and appends a package's headers.
-# Variables: FROM (folder styles of the LAMMPS build), TO, PACKAGE (name of the package), and one list per category
-# with '|' between the headers: HEADERS_pair, HEADERS_bond, HEADERS_fix, HEADERS_compute, HEADERS_command.
+# Variables: FROM (folder styles of the LAMMPS build), TO, PACKAGE (name of the package), and one
+# list per category with '|' between the headers: HEADERS_pair, HEADERS_bond, HEADERS_fix,
+# HEADERS_compute, HEADERS_command.
 
 file(MAKE_DIRECTORY ${TO})
 foreach(category IN ITEMS pair bond fix compute command)

@@ -36,8 +36,8 @@ function(lsm_lammps_version dir out)
   set(${out} "${version}" PARENT_SCOPE)
 endfunction()
 
-# Unpacks what a build needs; the rest of the archive (documentation, examples) is left out. Some archives hold one
-# folder with everything in it, others everything at the top.
+# Unpacks what a build needs; the rest of the archive (documentation, examples) is left out. Some
+# archives hold one folder with everything in it, others everything at the top.
 function(lsm_unpack_lammps tarball dir)
   message(STATUS "Unpacking ${tarball}")
   file(REMOVE_RECURSE ${dir} ${dir}.part)

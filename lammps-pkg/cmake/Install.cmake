@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# cmake --install, the manual pages, and a Debian package by cpack. To be included by the root CMakeLists.txt, last.
+# cmake --install, the manual pages, and a Debian package by cpack. To be included by the root
+# CMakeLists.txt, last.
 include(GNUInstallDirs)
 set(share ${CMAKE_INSTALL_DATADIR}/lsm-fault)
 set(LSM_PYTHON_DIR lib/python3/dist-packages CACHE STRING "Folder of Python modules below the prefix; Python looks there if it is /usr")

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# The pages of the package as HTML: cmake --build BUILD --target pages. Links to pages of LAMMPS itself go to its manual.
+# The pages of the package as HTML: cmake --build BUILD --target pages. Links to pages of LAMMPS
+# itself go to its manual.
 import os
 import re
 

@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Speed of the fault in LAMMPS beside other programs, cost of its parts and features, cost against length, set-up.
-# Runs that are compared take turns, in rounds; tables hold medians over the rounds, and medians of the ratios within
-# each round. --help has the options.
+# Speed of the fault in LAMMPS beside other programs, cost of its parts and features, cost against
+# length, set-up. Runs that are compared take turns, in rounds; tables hold medians over the rounds,
+# and medians of the ratios within each round. --help has the options.
 set -euo pipefail
 export LC_ALL=C
 here=$(cd "$(dirname "$0")" && pwd)
@@ -65,7 +65,8 @@ die() {
   exit 1
 }
 
-# scene LENGTH [VARIABLES]: fault_LENGTH.restart and .data, and what other programs read; with VARIABLES fault_LENGTH_all
+# scene LENGTH [VARIABLES]: fault_LENGTH.restart and .data, and what other programs read; with
+# VARIABLES fault_LENGTH_all
 scene() {
   local name=fault_$1${2:+_all}
   if [ "$name.restart" -nt "$lmp" ] && [ "$name.geo" -nt "$here/convert.awk" ]; then return; fi
@@ -81,7 +82,8 @@ steps() {
     n = int(rate * 1e6 * s / (65.2 * length_of_fault)); print n < 20 ? 20 : n }'
 }
 
-# note TABLE LABEL LENGTH RANKS ROUND LOG OUTPUT: one line of timings.csv from what a program printed
+# note TABLE LABEL LENGTH RANKS ROUND LOG OUTPUT: one line of timings.csv from what a program
+# printed
 note() {
   awk -v start="$1,$2,$3,$4,$5" '
     /^Loop time of/ { seconds = $4; for (i = 5; i < NF; i++) if ($(i + 1) == "steps") steps = $i
@@ -233,7 +235,8 @@ if wanted lengths; then
   fi
 fi
 
-# What ranks send each other, counted, not timed: the difference of two runs, so that set-up does not count.
+# What ranks send each other, counted, not timed: the difference of two runs, so that set-up does
+# not count.
 echo "length,ranks,particles,largest_share,ghosts,messages,bytes,collectives,nonblocking,pe" > scale.csv
 if wanted scale; then
   if mpicc -O2 -shared -fPIC -o count_mpi.so "$here/count_mpi.c" 2> count_mpi.err; then

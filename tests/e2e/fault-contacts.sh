@@ -1,8 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Discs of one block cannot pass through those of the other, whether they are at the fault or behind it: the upper block
-# is pushed into the lower one and the face of that into what lies behind, and each pair of both blocks that overlaps has to
-# repel; those of one block too, unless contacts are those of the fault only, and with friction unless they are smooth.
+# Discs of one block cannot pass through those of the other, whether they are at the fault or behind
+# it: the upper block is pushed into the lower one and the face of that into what lies behind, and
+# each pair of both blocks that overlaps has to repel; those of one block too, unless contacts are
+# those of the fault only, and with friction unless they are smooth.
 # usage: fault-contacts.sh LMP SOURCE_DIR
 set -euo pipefail
 export LC_ALL=C
@@ -42,7 +43,8 @@ awk '$1 == "1-3" && $2 > 0 { found = 1 } $3 != $2 { bad = 1 } END { exit bad || 
 # Smooth: as many repel; with friction those of both blocks only.
 pairs smooth -var contacts smooth
 awk '$1 == "1-3" && $2 > 0 { found = 1 } $3 != $2 { bad = 1 } END { exit bad || !found }' smooth.rows || fail "contacts smooth"
-# friction NAME: rows "within or between the blocks, pairs with a tangential force", of the last step
+# friction NAME: rows "within or between the blocks, pairs with a tangential force", of the last
+# step
 friction() {
   awk '/^ITEM: TIMESTEP/ { split("", n) } /^ITEM/ { on = /ITEM: ENTRIES/; next }
     on && $4 != 0 { n[($1 - $2) % 2 ? "between" : "within"]++ }

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# What survives what: restart files that are damaged, kills while they are written, two runs with the same files, and
-# words and values that a run cannot have.
+# What survives what: restart files that are damaged, kills while they are written, two runs with
+# the same files, and words and values that a run cannot have.
 # usage: fault-restart.sh words|values|damaged|killed|walk|twice LMP SOURCE_DIR
 set -euo pipefail
 export LC_ALL=C
@@ -170,7 +170,8 @@ EOF
     echo "killed $((rounds - 1)) times"
     ;;
   walk)
-    # Killed at, or told that the disk is full by, system calls on the run's files, a few of each kind.
+    # Killed at, or told that the disk is full by, system calls on the run's files, a few of each
+    # kind.
     one=(-var checkpoint 100 -var prefix a -var steps 300 -var ruptures yes "${small[@]}")
     calls=write,pwrite64,rename,unlink,ftruncate,fsync
     paths=()

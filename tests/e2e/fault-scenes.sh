@@ -41,7 +41,8 @@ for length in 120 240 480 945 1440 1890; do
   "$lmp" -in fault_$length.in -var settle 0 -var steps 2 -var prefix "$work/l$length" -log "$work/log.$length" </dev/null >"$work/out" 2>&1 ||
     { cd "$work"; fail "fault_$length.in"; }
   particles=$(sed -n 's/^Created \([0-9]*\) particles.*/\1/p' "$work/log.$length")
-  # The paper has "about 7800" for length 120; ours lacks the 260 loose ones. Proportional to the length
+  # The paper has "about 7800" for length 120; ours lacks the 260 loose ones. Proportional to the
+  # length
   awk -v n="$particles" -v l=$length 'BEGIN { exit !(n > 61 * l && n < 65 * l) }' ||
     { cd "$work"; fail "fault_$length.in has $particles particles"; }
   echo "fault_$length.in: $particles particles"

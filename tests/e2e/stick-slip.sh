@@ -10,7 +10,8 @@ trap 'rm -rf "$work"' EXIT
 cd "$work"
 fail() { echo "FAILED: $*" >&2; tail -n 20 out >&2; exit 1; }
 
-# regime NAME VARIABLES...: runs half the shortest fault of the paper; word, saw_tooth and in_events from postproc series
+# regime NAME VARIABLES...: runs half the shortest fault of the paper; word, saw_tooth and in_events
+# from postproc series
 regime() {
   local name=$1 line
   shift

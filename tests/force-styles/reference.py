@@ -164,7 +164,8 @@ class Model:
         xi, state = 0.0, "sticks"
         if before and not first:
             xi, old, state = before
-            # the component of the displacement along the tangent of the middle of the step, tangent = normal turned left
+            # the component of the displacement along the tangent of the middle of the step, tangent
+            # = normal turned left
             m = [a + b for a, b in zip(d, old)]
             length = math.hypot(m[0], m[1])
             step = ((d[0] - old[0]) * -m[1] + (d[1] - old[1]) * m[0]) / length
@@ -285,7 +286,8 @@ def fix_test(folder, name, scene, links, pairs, options, moving, viscosity, post
         model.step(0.25, viscosity, moving)
     if not expected <= model.seen:
         raise SystemExit(f"{name}: nothing in the scene did: {expected - model.seen}")
-    # an error of rounding per step in each position, and what it makes of velocities, does not grow much in 8 steps
+    # an error of rounding per step in each position, and what it makes of velocities, does not grow
+    # much in 8 steps
     reach = 0.5 * max(scene.box)
     epsilon = max(8.0 * ROUNDING * reach / abs(c) for values in (model.x, model.v) for v in values for c in v[:2])
     if not epsilon < 1e-10:

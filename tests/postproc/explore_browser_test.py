@@ -71,7 +71,8 @@ class Page(unittest.TestCase):
         os.chdir(cls.folder.name)
         if fault:
             lmp, scene, *launcher = fault
-            # Stiff contacts, so that almost all of the slip is in ruptures; soft ones also slip slowly between them.
+            # Stiff contacts, so that almost all of the slip is in ruptures; soft ones also slip
+            # slowly between them.
             run(*launcher, lmp, "-in", scene, "-log", "none", "-var", "length", "30", "-var", "steps", "50000",
                 "-var", "choices", "first", "-var", "ruptures", "yes", "-var", "prefix", "run")
         else:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# To be sourced. slurm_begin FOLDER [OPTION=VALUE...]: a Slurm of one node with two cores on this machine, all of it in FOLDER, with further
-# lines of slurm.conf; returns 1 with the reason in slurm_missing. slurm_end ends what was begun.
+# To be sourced. slurm_begin FOLDER [OPTION=VALUE...]: a Slurm of one node with two cores on this
+# machine, all of it in FOLDER, with further lines of slurm.conf; returns 1 with the reason in
+# slurm_missing. slurm_end ends what was begun.
 slurm_begin() {
   local folder=$1 host program
   host=$(hostname -s)
