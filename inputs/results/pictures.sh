@@ -40,11 +40,10 @@ for part; do
       . ../mpi-settings.sh
       cd "$new"
       mpirun -np 2 "$lmp" -in "$root/inputs/fault_120.in" -var steps 240000 -var prefix first -var ruptures yes </dev/null >out
-      mpirun -np 2 "$lmp" -in "$root/inputs/fault_120.in" -var steps 240000 -var prefix before -var ruptures yes -var choices first \
-        </dev/null >out
+      "$lmp" -in "$root/inputs/fault_120.in" -var steps 80000 -var prefix before -var ruptures yes -var choices first </dev/null >out
       "$postproc" series first.pe.bin --from 15000 --to 21000 --title "Fault of length 120" -o series
       "$postproc" histograms first.catalogue.csv --guide=-1.07:1e-4:0.1 -o sizes
-      "$postproc" rupture before.ruptures.csv --history before.slip.bin --from 15000 --to 21000 --p-speed 2.08 --s-speed 1.06 \
+      "$postproc" rupture before.ruptures.csv --history before.slip.bin --from 4000 --to 10800 --p-speed 2.08 --s-speed 1.06 \
         -o rupture
       "$lmp" -in "$root/inputs/fault.in" -var extra fault_image -var restart first.restart.210000 -var prefix look -var ruptures no \
         -var steps 206000 -var from 214900 -var to 214900 -var every 1000 </dev/null >out
