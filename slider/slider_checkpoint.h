@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file slider_checkpoint.h
-/// Checkpoints of a run: all that it has to know to go on to the last digit, as CBOR (RFC 8949)
+/// Checkpoints of a run: all that it needs to continue to the last digit, as CBOR (RFC 8949)
 /// with a CRC-32 of it.
 #ifndef SLIDER_CHECKPOINT_H
 #define SLIDER_CHECKPOINT_H

@@ -15,7 +15,7 @@ Outputs::Outputs(const RunOptions &o)
       series_path_(o.series),
       binary_(o.series_binary),
       stride_(o.series_stride) {
-  // Before anything is looked at: what is there now, another run may have written just before.
+  // Before anything is read: another run may have written what is there now.
   claim_.claim(outputs_of(o));
   check_replaced(o);
   probe(o.series, "--pe-series");

@@ -23,7 +23,7 @@ class Outputs {
 
   /// Starts new files, with the sample of step 0.
   void create(double pe);
-  /// Goes on behind the given step with a catalogue of so many events.
+  /// Continues after the given step with a catalogue of so many events.
   /// \param late steps by which an event can be found after its end
   void resume(std::int64_t step, std::int64_t events, std::int64_t late);
 

@@ -48,7 +48,8 @@ using RuptureState = LSM::SlipSetsState<Rupture>;
 /// Puts slips together to ruptures as they come.
 ///
 /// Call begin_step(), slide() for each block that slides in ascending order, end_step(). The result
-/// depends on nothing but these calls; a tracker restored by set_state() goes on to the last digit.
+/// depends on nothing but these calls; a tracker restored by set_state() continues to the last
+/// digit.
 class RuptureTracker {
  public:
   static constexpr bool watches = true;

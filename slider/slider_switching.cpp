@@ -139,7 +139,7 @@ void SwitchingChain::derive(double t, const double *y, double *dy) const {
   for (std::size_t i = 0; i < n_; ++i) {
     const double v = y[n_ + i];
     if (slides_[i]) {
-      // Stages may overshoot to v < 0 just before the block sticks; the law goes on smoothly.
+      // Stages may overshoot to v < 0 just before the block sticks; the law continues smoothly.
       const double friction = p_.friction.force(mu_[i], v, y[i] - rest_[i]);
       dy[i] = v;
       dy[n_ + i] = (force(y, i, plate) - friction) / p_.mass;

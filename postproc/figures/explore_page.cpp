@@ -71,7 +71,7 @@ json series_json(const ExploreSeries &series, const std::string &id, PageData &d
               {"bytes", data.packed_element(id + "-pe", packed(bytes_of(code.bytes)))}};
   if (!series.times.empty()) {
     out["begin"] = series.times.front();
-    // Each number goes on from the rounded ones before it, so that rounding does not add up.
+    // Each number continues from the rounded ones before it, so that rounding does not add up.
     std::vector<float> gaps;
     double time = series.times.front();
     for (std::size_t i = 1; i < series.times.size(); ++i) {

@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Line types: Okabe and Ito's colours (told apart with any kind of colour vision), each with its
+// Line types: Okabe and Ito's colours (safe for any kind of colour vision), each with its
 // own point type and dashes so that a print in black and white still tells the curves apart.
 constexpr std::string_view prelude = R"(
 set datafile separator comma
@@ -172,7 +172,7 @@ std::string escape(std::string_view text, bool markup) {
   // Markup of our own is there to be read.
   const std::string_view harmless = markup ? " .,:;()=+-/*%<>!?" : " .,:;()=+-/*%<>!?_^{}";
   std::string out = "\"";
-  bool number = false;  // goes on with the next digit, however long it is
+  bool number = false;  // continues with the next digit, however long it is
   for (const char c : text) {
     const auto code = static_cast<unsigned char>(c < 0x20 && c >= 0 ? ' ' : c);
     if (markup && std::string_view("\\{}^_@&~").find(c) != std::string_view::npos) out += "\\134";

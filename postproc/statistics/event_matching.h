@@ -26,7 +26,7 @@ struct EventMatches {
 };
 
 /// Each event of the first, in order of time, takes the nearest one of the second that is free.
-/// Shifted catalogues go on at their begin: k / (shifts + 1) of the common time, k = 1, 2, ...
+/// Shifted catalogues wrap around: k / (shifts + 1) of the common time, k = 1, 2, ...
 /// \throws std::invalid_argument for an impossible rule, or catalogues without a common time
 EventMatches match_events(const EventTable &first, const EventTable &second, const MatchRule &rule);
 

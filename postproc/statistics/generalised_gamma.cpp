@@ -499,7 +499,7 @@ Solution solve(BinnedData &data) {
   return solution;
 }
 
-// GSL's default handler ends the program; here every status is looked at instead.
+// GSL's default handler ends the program; here every status is checked instead.
 class QuietGsl {
  public:
   QuietGsl() : old_(gsl_set_error_handler_off()) {}

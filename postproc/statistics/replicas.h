@@ -13,7 +13,7 @@
 
 namespace LSM::postproc {
 
-/// Samples of up to so many values are taken as they are by tests that refit them; larger ones by
+/// Samples of up to this many values are used as they are by tests that refit them; larger ones by
 /// cells (see cells.h), so that a refit costs no more.
 constexpr std::int64_t largest_exact_sample = 8192;
 

@@ -16,7 +16,7 @@ struct StationCurve {
   std::vector<double> t, slip, rate;
 };
 
-/// Values of a curve at a time; its ends go on.
+/// Values of a curve at a time; constant beyond its ends.
 double interpolate(const std::vector<double> &t, const std::vector<double> &y, double time);
 
 /// First time at which the slip rate exceeds that, or NaN.

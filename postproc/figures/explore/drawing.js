@@ -2,7 +2,7 @@
 // Colours, numbers and small shapes that the pictures share.
 'use strict';
 
-// Okabe and Ito: told apart by colour-blind people; runs differ in shape and dashes as well.
+// Okabe and Ito: safe for colour-blind readers; runs differ in shape and dashes as well.
 const colours = ['#0072B2', '#D55E00', '#009E73', '#CC79A7', '#56B4E9', '#E69F00', '#000000'];
 const dashes = [[], [8, 4], [2, 3], [8, 3, 2, 3], [12, 4], [4, 4], [1, 2]];
 const shapes = ['circle', 'square', 'triangle', 'diamond', 'cross', 'ring', 'bar'];

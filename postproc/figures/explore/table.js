@@ -41,7 +41,7 @@ class EventTable {
       from = Math.max(from, view[0]);
       to = Math.min(to, view[1]);
     }
-    // A stretch that begins behind its end goes on across the border of the periodic fault.
+    // A stretch that begins behind its end continues across the border of the periodic fault.
     const there = x => left <= right ? x >= left && x <= right : x >= left || x <= right;
     const out = [];
     for (const i of events.bySize)
