@@ -9,6 +9,7 @@
 #include "domain.h"
 #include "error.h"
 #include "fix.h"
+#include "fix_lsm_velocity.h"
 #include "force.h"
 #include "memory.h"
 #include "modify.h"
@@ -17,6 +18,7 @@
 
 #include "lsm_force_laws.h"
 #include "lsm_scene.h"
+#include "lsm_text_io.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,8 +32,8 @@ using namespace LAMMPS_NS;
 /* ---------------------------------------------------------------------- */
 
 BondLSMLinked::BondLSMLinked(LAMMPS *_lmp) :
-    Bond(_lmp), k(nullptr), ratio(nullptr), breakable(0), maxrad(0.0),
-    avx2(LSMLinkKernel::has_avx2()), collected_at(-1)
+    Bond(_lmp), k(nullptr), ratio(nullptr), delay(nullptr), breakable(0), maxrad(0.0),
+    avx2(LSMLinkKernel::has_avx2()), collected_at(-1), velocity(nullptr)
 {
   writedata = 1;
 }
@@ -45,6 +47,7 @@ BondLSMLinked::~BondLSMLinked()
     memory->destroy(setflag);
     memory->destroy(k);
     memory->destroy(ratio);
+    memory->destroy(delay);
   }
 }
 
@@ -146,6 +149,14 @@ template <int DIM> void BondLSMLinked::eval()
 
 template <int DIM, class Law> double BondLSMLinked::forces_of(const Segment &s, const Law &law)
 {
+  if (velocity && delay[s.type] > 0.0)
+    return add_forces<DIM>(s, LSMLinkKernel::KelvinVoigt<Law>{law, k[s.type] * delay[s.type],
+                                                              velocity->now[0], &velocity->power});
+  return add_forces<DIM>(s, law);
+}
+
+template <int DIM, class Law> double BondLSMLinked::add_forces(const Segment &s, const Law &law)
+{
   return LSMLinkKernel::forces<DIM>(s.rows, law, s.first_only, atom->x[0], atom->f[0], broken_now,
                                     avx2);
 }
@@ -197,6 +208,19 @@ void BondLSMLinked::tally()
   }
 }
 
+/* ----------------------------------------------------------------------
+   attraction by the dashpot of a link along d, the vector from j to i, of length r
+------------------------------------------------------------------------- */
+
+double BondLSMLinked::drag(int type, int i, int j, const double *d, double r) const
+{
+  if (!velocity || delay[type] == 0.0) return 0.0;
+  const double *const vi = velocity->now[i], *const vj = velocity->now[j];
+  double rate = 0.0;
+  for (int c = 0; c < domain->dimension; c++) rate += d[c] * (vi[c] - vj[c]) / r;
+  return LSM::Dashpot::force(k[type] * delay[type], rate);
+}
+
 /* ---------------------------------------------------------------------- */
 
 template <class Act> void BondLSMLinked::for_each_link(const Act &act) const
@@ -232,8 +256,27 @@ std::vector<BondLSMLinked::Held> BondLSMLinked::held() const
 {
   std::vector<Held> all;
   all.reserve(neighbor->nbondlist);
-  for_each_link([&](const Segment &s, int i, int j, double) { all.push_back({i, j, k[s.type]}); });
+  for_each_link([&](const Segment &s, int i, int j, double) {
+    all.push_back({i, j, k[s.type], k[s.type] * delay[s.type]});
+  });
   return all;
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool BondLSMLinked::any_delay() const
+{
+  return allocated && std::any_of(delay + 1, delay + atom->nbondtypes + 1,
+                                  [](double value) { return value > 0.0; });
+}
+
+std::string BondLSMLinked::retardation() const
+{
+  std::string text;
+  if (!any_delay()) return text;
+  for (int i = 1; i <= atom->nbondtypes; i++)
+    text += (i > 1 ? " " : "") + LSM::text_io::number(delay[i]);
+  return text;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -244,10 +287,11 @@ void BondLSMLinked::allocate()
   const int n = atom->nbondtypes + 1;
   memory->create(k, n, "bond:k");
   memory->create(ratio, n, "bond:ratio");
+  memory->create(delay, n, "bond:delay");
   memory->create(setflag, n, "bond:setflag");
   for (int i = 0; i < n; i++) {
     setflag[i] = 0;
-    k[i] = ratio[i] = 0.0;
+    k[i] = ratio[i] = delay[i] = 0.0;
   }
 }
 
@@ -263,9 +307,11 @@ void BondLSMLinked::settings(int narg, char ** /*arg*/)
 
 void BondLSMLinked::coeff(int narg, char **arg)
 {
+  const double delay_one = LSMScene::take_retardation(lmp, "Bond lsm/linked", narg, arg);
   if (narg != 2 && narg != 3)
-    error->all(FLERR, "Bond style lsm/linked expects 'bond_coeff N k [ratio]' with the breaking "
-                      "distance ratio = r_cut/r0 > 1, or no ratio for links that never break");
+    error->all(FLERR, "Bond style lsm/linked expects 'bond_coeff N k [ratio] [kelvin-voigt TIME]' "
+                      "with the breaking distance ratio = r_cut/r0 > 1, or no ratio for links that "
+                      "never break");
   if (!allocated) allocate();
 
   int ilo, ihi;
@@ -280,6 +326,7 @@ void BondLSMLinked::coeff(int narg, char **arg)
   for (int i = ilo; i <= ihi; i++) {
     k[i] = k_one;
     ratio[i] = ratio_one;
+    delay[i] = delay_one;
     setflag[i] = 1;
     count++;
   }
@@ -306,6 +353,10 @@ void BondLSMLinked::init_style()
           other->id, other->style);
   collected_at = -1;
 
+  // a minimizer knows no velocities
+
+  velocity = any_delay() && update->whichflag != 2 ? FixLSMVelocity::ask_for(lmp) : nullptr;
+
   double mine = 0.0;
   for (int i = 0; i < atom->nlocal; i++) mine = MAX(mine, atom->radius[i]);
   MPI_Allreduce(&mine, &maxrad, 1, MPI_DOUBLE, MPI_MAX, world);
@@ -326,8 +377,16 @@ double BondLSMLinked::equilibrium_distance(int /*i*/)
 
 /* ---------------------------------------------------------------------- */
 
+// Retardation times stand in front, behind a number that no stiffness is, if there are any.
+
+static constexpr double TIMES_FOLLOW = -1.0;
+
 void BondLSMLinked::write_restart(FILE *fp)
 {
+  if (any_delay()) {
+    fwrite(&TIMES_FOLLOW, sizeof(double), 1, fp);
+    fwrite(&delay[1], sizeof(double), atom->nbondtypes, fp);
+  }
   fwrite(&k[1], sizeof(double), atom->nbondtypes, fp);
   fwrite(&ratio[1], sizeof(double), atom->nbondtypes, fp);
 }
@@ -339,11 +398,17 @@ void BondLSMLinked::read_restart(FILE *fp)
   allocate();
   const int n = atom->nbondtypes;
   if (comm->me == 0) {
+    utils::sfread(FLERR, &k[1], sizeof(double), 1, fp, nullptr, error);
+    if (k[1] == TIMES_FOLLOW)
+      utils::sfread(FLERR, &delay[1], sizeof(double), n, fp, nullptr, error);
+    else
+      fseek(fp, -static_cast<long>(sizeof(double)), SEEK_CUR);
     utils::sfread(FLERR, &k[1], sizeof(double), n, fp, nullptr, error);
     utils::sfread(FLERR, &ratio[1], sizeof(double), n, fp, nullptr, error);
   }
   MPI_Bcast(&k[1], n, MPI_DOUBLE, 0, world);
   MPI_Bcast(&ratio[1], n, MPI_DOUBLE, 0, world);
+  MPI_Bcast(&delay[1], n, MPI_DOUBLE, 0, world);
   for (int i = 1; i <= n; i++) {
     setflag[i] = 1;
     if (ratio[i] > 0.0) breakable = 1;
@@ -354,11 +419,12 @@ void BondLSMLinked::read_restart(FILE *fp)
 
 void BondLSMLinked::write_data(FILE *fp)
 {
-  for (int i = 1; i <= atom->nbondtypes; i++)
-    if (ratio[i] > 0.0)
-      fprintf(fp, "%d %.17g %.17g\n", i, k[i], ratio[i]);
-    else
-      fprintf(fp, "%d %.17g\n", i, k[i]);
+  for (int i = 1; i <= atom->nbondtypes; i++) {
+    fprintf(fp, "%d %.17g", i, k[i]);
+    if (ratio[i] > 0.0) fprintf(fp, " %.17g", ratio[i]);
+    if (delay[i] > 0.0) fprintf(fp, " kelvin-voigt %.17g", delay[i]);
+    fputs("\n", fp);
+  }
 }
 
 /* ---------------------------------------------------------------------- */
@@ -367,7 +433,13 @@ double BondLSMLinked::single(int type, double rsq, int i, int j, double &fforce)
 {
   const double r = sqrt(rsq);
   const double stretch = r - (atom->radius[i] + atom->radius[j]);
-  fforce = r > 0.0 ? -LSM::Spring::force(k[type], stretch) / r : 0.0;
+  double pull = LSM::Spring::force(k[type], stretch);
+  if (velocity && r > 0.0) {
+    const double *const xi = atom->x[i], *const xj = atom->x[domain->closest_image(i, j)];
+    const double d[3] = {xi[0] - xj[0], xi[1] - xj[1], xi[2] - xj[2]};
+    pull += drag(type, i, j, d, r);
+  }
+  fforce = r > 0.0 ? -pull / r : 0.0;
   return LSM::Spring::energy(k[type], stretch);
 }
 
@@ -377,5 +449,6 @@ void *BondLSMLinked::extract(const char *str, int &dim)
 {
   dim = 1;
   if (strcmp(str, "k") == 0) return (void *) k;
+  if (strcmp(str, "kelvin-voigt") == 0) return (void *) delay;
   return nullptr;
 }

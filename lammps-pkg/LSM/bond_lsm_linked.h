@@ -16,6 +16,7 @@ BondStyle(lsm/linked,BondLSMLinked);
 #include "lsm_energy.h"
 #include "lsm_link_kernel.h"
 
+#include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -40,16 +41,19 @@ class BondLSMLinked : public Bond, public LSMEnergySource {
 
   struct Held {
     int i, j;    ///< local indices
-    double stiffness;
+    double stiffness, viscosity;
   };
   /// Links of the last force evaluation, those of this style only under bond_style hybrid.
   std::vector<Held> held() const;
   /// Largest |r - r0| / r0 among them.
   double max_strain() const;
+  /// Retardation times of the types, empty if all are 0.
+  std::string retardation() const;
 
  protected:
   double *k;        // link stiffness of each bond type
   double *ratio;    // breaking distance over rest length; 0 if the link cannot break
+  double *delay;    // retardation time: viscosity over stiffness; 0 if there is none
   int breakable;    // 1 if any type of link can break
   double maxrad;
 
@@ -67,10 +71,15 @@ class BondLSMLinked : public Bond, public LSMEnergySource {
       broken_now;         // links of a segment that broke in this evaluation
   bigint collected_at;    // step of the neighbour list they were taken from, -1 if outdated
 
+  class FixLSMVelocity *velocity;    // of this run, null if no link is viscous in it
+
+  bool any_delay() const;
+  double drag(int type, int i, int j, const double *d, double r) const;
   std::vector<int> owned_by_id() const;
   void collect();
   template <int DIM> void eval();
   template <int DIM, class Law> double forces_of(const Segment &, const Law &);
+  template <int DIM, class Law> double add_forces(const Segment &, const Law &);
   void note_broken(Segment &);
   template <class Act> void for_each_link(const Act &) const;
   void tally();

@@ -9,6 +9,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "fix_lsm_velocity.h"
 #include "force.h"
 #include "group.h"
 #include "integrate.h"
@@ -37,7 +38,8 @@ FixLSMNVE::FixLSMNVE(LAMMPS *_lmp, int narg, char **arg) :
     Fix(_lmp, narg, arg), record_work(false), work_viscosity(0.0), nu_least(0.0),
     nu(atom->ntypes + 1, 0.0), decay(atom->ntypes + 1, 1.0), viscous(false), dtv(0.0), dtf(0.0),
     check(ERROR), omega(0.0), dt_limit(0.0), clears(false), measures(false), fastest(-1.0),
-    pending(false), initial_chosen(nullptr), final_chosen(nullptr), both_chosen(nullptr)
+    pending(false), ahead(nullptr), initial_chosen(nullptr), final_chosen(nullptr),
+    both_chosen(nullptr)
 {
   time_integrate = 1;
   dynamic_group_allow = 1;
@@ -186,12 +188,15 @@ void FixLSMNVE::post_neighbor()
 
 template <bool DIM3, bool CLEARS> void FixLSMNVE::choose_for()
 {
-  measures ? choose_for<DIM3, CLEARS, MEASURE>() : choose_for<DIM3, CLEARS, 0>();
+  if (ahead)
+    measures ? choose_for<DIM3, CLEARS, MEASURE | AHEAD>() : choose_for<DIM3, CLEARS, AHEAD>();
+  else
+    measures ? choose_for<DIM3, CLEARS, MEASURE>() : choose_for<DIM3, CLEARS, 0>();
 }
 
-template <bool DIM3, bool CLEARS, int MEASURED> void FixLSMNVE::choose_for()
+template <bool DIM3, bool CLEARS, int MORE> void FixLSMNVE::choose_for()
 {
-  constexpr int FIRST = INITIAL | MEASURED, BOTH = FINAL | INITIAL | MEASURED;
+  constexpr int FIRST = INITIAL | MORE, BOTH = FINAL | INITIAL | MORE;
   const bool slows = viscous || nu_least > 0.0;
   if (slows && record_work) {
     initial_chosen = &FixLSMNVE::move<FIRST, true, true, DIM3, CLEARS>;
@@ -233,6 +238,7 @@ void FixLSMNVE::choose()
 
 void FixLSMNVE::setup(int /*vflag*/)
 {
+  ahead = FixLSMVelocity::in_use(lmp);
   choose();
 
   if (check == OFF) return;
@@ -241,41 +247,44 @@ void FixLSMNVE::setup(int /*vflag*/)
     error->warning(FLERR,
                    "Fix lsm/nve {}: the stability limit of the time step does not know of {}", id,
                    foreign);
-  omega = highest_frequency(NEARLY_CLOSED);
-  dt_limit = omega > 0.0 ? 2.0 / omega : 0.0;
+  dt_limit = time_step_limit(NEARLY_CLOSED, omega);
   const bool went_on = goes_on;
   goes_on = true;
-  if (omega == 0.0 || update->dt <= dt_limit) return;
+  if (dt_limit == 0.0 || update->dt <= dt_limit) return;
+  const std::string what = ahead ? "links and contacts with kelvin-voigt" : "links and contacts";
 
   // foresight may refuse a start, but not a run that has come far already
 
   if (went_on && check == ERROR) {
-    const double closed = highest_frequency(1.0);
-    if (closed == 0.0 || update->dt <= 2.0 / closed) {
+    double frequency;
+    const double closed = time_step_limit(1.0, frequency);
+    if (closed == 0.0 || update->dt <= closed) {
       if (comm->me == 0)
         error->warning(
             FLERR,
             "Time step {} is above the stability limit {:.6g} with the contacts that are nearly "
             "closed, below that of the closed ones, {:.6g}; this run goes on",
-            update->dt, dt_limit, closed > 0.0 ? 2.0 / closed : INFINITY);
+            update->dt, dt_limit, closed > 0.0 ? closed : INFINITY);
       return;
     }
   }
   if (check == ERROR)
     error->all(FLERR,
-               "Time step {} is above the stability limit {:.6g} of the links and contacts (2 / "
-               "highest frequency "
+               "Time step {} is above the stability limit {:.6g} of the {} ({}highest frequency "
                "{:.6g}); use a smaller time step or fix lsm/nve dtcheck warn",
-               update->dt, dt_limit, omega);
+               update->dt, dt_limit, what, ahead ? "" : "2 / ", omega);
   if (comm->me == 0)
-    error->warning(FLERR,
-                   "Time step {} is above the stability limit {:.6g} of the links and contacts",
-                   update->dt, dt_limit);
+    error->warning(FLERR, "Time step {} is above the stability limit {:.6g} of the {}", update->dt,
+                   dt_limit, what);
 }
 
 /* ----------------------------------------------------------------------
    Viscosity by Strang splitting: exact decay of the velocities for half a step before and after the
    velocity Verlet step. Second order, stable for any viscosity, and the work it takes is known exactly.
+
+   AHEAD: dashpots of links and contacts need velocities when forces are evaluated, before the kick by these forces. Those of
+   that time are found with the forces of the step before, which is the same as to go on in a straight line through the
+   velocities of the last two half steps: of second order, and nothing more has to be kept.
 ------------------------------------------------------------------------- */
 
 template <int PARTS, bool VISCOUS, bool WORK, bool DIM3, bool CLEARS> void FixLSMNVE::move()
@@ -289,6 +298,8 @@ template <int PARTS, bool VISCOUS, bool WORK, bool DIM3, bool CLEARS> void FixLS
     double *x = atom->x[run.first];
     double *v = atom->v[run.first];
     double *f = atom->f[run.first];
+    [[maybe_unused]] double *next = nullptr;
+    if constexpr (PARTS & AHEAD) next = ahead->now[run.first];
     const double *kick = &half_kick[run.first];
     const double *const end = &half_kick[0] + run.last;
 
@@ -316,6 +327,12 @@ template <int PARTS, bool VISCOUS, bool WORK, bool DIM3, bool CLEARS> void FixLS
         double to[DIM];
         for (int c = 0; c < DIM; c++) to[c] = x[c] + dtv * w[c];
         for (int c = 0; c < DIM; c++) x[c] = to[c];
+        if constexpr (PARTS & AHEAD) {
+          for (int c = 0; c < DIM; c++) next[c] = w[c] + *kick * f[c];
+          if constexpr (VISCOUS)
+            for (int c = 0; c < DIM; c++) next[c] *= factor;
+          next += 3;
+        }
       }
       for (int c = 0; c < DIM; c++) v[c] = w[c];
       if constexpr (CLEARS)
@@ -449,16 +466,35 @@ void FixLSMNVE::post_run()
 }
 
 /* ----------------------------------------------------------------------
-   Bound of the highest frequency of the network of links and contacts, see lsm_frequency.h. Pairs closer
-   than reach_factor of touching count as contacts that are there.
+   Bound of the time step and of the highest frequency of the network of links and contacts, see lsm_frequency.h; 0
+   without springs. Pairs closer than reach_factor of touching count as contacts that are there.
+
+   With velocities that go on in a straight line through those of two half steps, the scheme is stable while
+   dt^2 w^2 + 4 dt g < 4 for all motions, where w^2 and g are the Rayleigh quotients of stiffness and viscosity over
+   mass: the recurrence of the oscillator has its first root of modulus 1 there, at -1. The largest of
+   both bound it, and are those of one motion where all retardation times are the same.
 ------------------------------------------------------------------------- */
 
-double FixLSMNVE::highest_frequency(double reach_factor)
+double FixLSMNVE::time_step_limit(double reach_factor, double &frequency)
+{
+  std::vector<LSM::PairSpring> springs = LSMScene::springs(lmp, reach_factor);
+  const double w2 = highest_eigenvalue(springs);
+  frequency = sqrt(w2);
+  if (!ahead) return w2 > 0.0 ? 2.0 / frequency : 0.0;
+  for (LSM::PairSpring &s : springs) {
+    s.k = s.viscosity;
+    s.kt = 0.0;
+  }
+  const double g = highest_eigenvalue(springs);
+  return w2 > 0.0 ? 2.0 / (sqrt(g * g + w2) + g) : 0.0;
+}
+
+double FixLSMNVE::highest_eigenvalue(const std::vector<LSM::PairSpring> &springs)
 {
   LSM::SpringNetwork network;
   network.dim = comm_forward;
   network.ghosts = atom->nghost;
-  network.springs = LSMScene::springs(lmp, reach_factor);
+  network.springs = springs;
   for (int i = 0; i < atom->nlocal; i++) {
     network.mass.push_back(atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]);
     network.id.push_back(atom->tag[i]);
@@ -477,7 +513,7 @@ double FixLSMNVE::highest_frequency(double reach_factor)
                                      trial, image, to_ghosts, from_ghosts, sum);
   trial.clear();
   image.clear();
-  return sqrt(largest.bound);
+  return largest.bound;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -13,6 +13,7 @@ FixStyle(lsm/nve,FixLSMNVE);
 #define LMP_FIX_LSM_NVE_H
 
 #include "fix.h"
+#include "lsm_frequency.h"
 
 #include <string>
 #include <utility>
@@ -67,7 +68,7 @@ class FixLSMNVE : public Fix {
   double dtv, dtf;
   int check;                           // what to do when the time step is above the stability limit
   double omega;                        // bound of the highest frequency found at setup
-  double dt_limit;                     // 2/omega
+  double dt_limit;                     // of a stable time step, 0 if there is none
   bool goes_on = false;                // after another run, or from a restart file
   std::vector<double> trial, image;    // displacements and forces, 2 or 3 values an atom
 
@@ -90,23 +91,25 @@ class FixLSMNVE : public Fix {
   bool measures;     // the square of the largest velocity in this step is kept
   double fastest;    // it, or -1 if it is not known
 
-  enum { FINAL = 1, INITIAL = 2, MEASURE = 4 };    // halves of a step, and whether to measure
+  enum { FINAL = 1, INITIAL = 2, MEASURE = 4, AHEAD = 8 };    // halves of a step, and what else
   bool pending;    // the second half of the last step is still to be done
   std::vector<Fix *> onlookers;
+  class FixLSMVelocity *ahead;    // wants the velocities of the time of the next forces, or null
   void (FixLSMNVE::*initial_chosen)();
   void (FixLSMNVE::*final_chosen)();
   void (FixLSMNVE::*both_chosen)();    // null if no half may be put off
 
   template <int PARTS, bool VISCOUS, bool WORK, bool DIM3, bool CLEARS> void move();
   template <bool DIM3, bool CLEARS> void choose_for();
-  template <bool DIM3, bool CLEARS, int MEASURED> void choose_for();
+  template <bool DIM3, bool CLEARS, int MORE> void choose_for();
   void choose();
   void collect();
   bool may_clear() const;
   void leave_clearing_to_integrator();
   void clear_all();
   double viscosity_from(const char *);
-  double highest_frequency(double reach_factor);
+  double time_step_limit(double reach_factor, double &frequency);
+  double highest_eigenvalue(const std::vector<LSM::PairSpring> &);
 };
 
 }    // namespace LAMMPS_NS

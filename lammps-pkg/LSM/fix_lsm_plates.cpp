@@ -9,6 +9,7 @@
 #include "domain.h"
 #include "error.h"
 #include "fix_lsm_nve.h"
+#include "fix_lsm_velocity.h"
 #include "force.h"
 #include "group.h"
 #include "lsm_scene.h"
@@ -29,8 +30,8 @@ enum { LOWER, UPPER };
 FixLSMPlates::FixLSMPlates(LAMMPS *_lmp, int narg, char **arg) :
     Fix(_lmp, narg, arg), loading(1.0), speed(0.0), ramp(0.0), servo(false), stress(0.0),
     stress_ramp(0.0), damping(0.0), impedance(0.0), vy_known(false), elapsed(0.0), ux(0.0),
-    work_mine(0.0), dt(update->dt), pending(false), reducing(false), moved(0.0), along(0.0),
-    summed_at(-1)
+    work_mine(0.0), dt(update->dt), ahead(nullptr), pending(false), reducing(false), moved(0.0),
+    along(0.0), summed_at(-1)
 {
   scalar_flag = 1;
   vector_flag = 1;
@@ -247,6 +248,7 @@ void FixLSMPlates::finish_sum()
 
 void FixLSMPlates::setup(int /*vflag*/)
 {
+  ahead = FixLSMVelocity::in_use(lmp);
   start_sum();
   finish_sum();
   summed_at = -1;
@@ -285,12 +287,17 @@ void FixLSMPlates::initial_integrate(int /*vflag*/)
       if (comm->me == 0)
         work_mine += -p.side * 0.5 * (stress_at(elapsed) + stress_at(elapsed + dt)) * length * duy;
     }
+    double now[2] = {p.side * velocity_at(elapsed + dt), p.vy};
+    if (servo && ahead)
+      now[1] =
+          (p.vy + 0.5 * dt * (-p.side * stress_at(elapsed) * length + p.fy) / p.mass) * decay_of(p);
     p.uy += duy;
     longest = MAX(longest, sqrt(dux * dux + duy * duy));
     work_mine -= 0.5 * p.fx * p.side * dux;
     for (int i : p.atoms) {
       v[i][0] = p.side * vx;
       v[i][1] = p.vy;
+      if (ahead) std::copy_n(now, 2, ahead->now[i]);
       x[i][0] += p.side * dux;
       x[i][1] += duy;
     }

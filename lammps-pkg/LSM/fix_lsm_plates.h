@@ -78,8 +78,9 @@ class FixLSMPlates : public Fix {
   double dt;
 
   std::vector<class FixLSMNVE *> integrators;
-  bool pending;     // the second half of the last step is still to be done
-  bool reducing;    // forces across the fault are on their way to all ranks
+  class FixLSMVelocity *ahead;    // wants the velocities of the time of the next forces, or null
+  bool pending;                   // the second half of the last step is still to be done
+  bool reducing;                  // forces across the fault are on their way to all ranks
   MPI_Request request;
   double across_mine[2], across[2];    // they, of this rank and of all
   double moved, along;                 // shear displacement and velocity of the last step

@@ -39,7 +39,8 @@ class LSMWorkSource {
   virtual ~LSMWorkSource() noexcept(false) {}
 
   double work_outside = 0.0;     ///< done on the particles by given forces, accumulated
-  double work_absorbed = 0.0;    ///< lost to dashpots, accumulated
+  double work_absorbed = 0.0;    ///< lost to dashpots at borders, accumulated
+  double work_dashpots = 0.0;    ///< lost to those of links and contacts, accumulated
 };
 
 }    // namespace LAMMPS_NS

@@ -223,6 +223,7 @@ LSM::EnergyTerms LSMEventSources::energies() const
   for (const auto *p : works_) {
     outside += p->work_outside;
     absorbed += p->work_absorbed;
+    viscosity += p->work_dashpots;
   }
   LSM::EnergyTerms terms;
   terms.kinetic = kinetic();
@@ -253,6 +254,8 @@ LSM::SceneInfo LSMEventSources::scene() const
   for (size_t n = 0; n < integrators_.size(); n++)
     info.parameters.emplace_back(n ? "viscosity_" + std::to_string(n + 1) : "viscosity",
                                  integrators_[n]->viscosity());
+  const std::string retardation = links_ ? links_->retardation() : "";
+  if (!retardation.empty()) info.parameters.emplace_back("kelvin_voigt", retardation);
   if (leap_) info.parameters.emplace_back("leap", leap_->settings());
   return info;
 }

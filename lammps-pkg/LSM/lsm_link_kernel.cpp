@@ -88,7 +88,13 @@ namespace LSMLinkKernel {
 
   // What is known of the links of a slice on its way.
 
-  template <int DIM, int LENGTH> struct Stage {
+  template <int LENGTH, bool VISCOUS> struct Rates {
+  };
+  template <int LENGTH> struct Rates<LENGTH, true> {
+    Lanes rate[LENGTH];    // of the length, times the length
+  };
+
+  template <int DIM, int LENGTH, bool VISCOUS> struct Stage : Rates<LENGTH, VISCOUS> {
     Lanes d[LENGTH][DIM];    // from the partner to the particle of the row
     Lanes r[LENGTH];         // square of its length, length, force over length
   };
@@ -113,16 +119,20 @@ namespace LSMLinkKernel {
                                    const double *x, double *f, std::vector<Place> &broken)
   {
     constexpr int STAGES = 4;
-    Stage<DIM, LENGTH> ring[STAGES];
+    using Known = Stage<DIM, LENGTH, Law::viscous>;
+    Known ring[STAGES];
     const int *row_in = &rows.particle[run.row], *row_out = row_in;
     const int *other_in = &rows.other[run.link], *other_out = other_in;
     const double *rest = &rows.rest[run.link];
-    Lanes twice{};    // the energy
+    Lanes twice{};                    // the energy
+    [[maybe_unused]] Lanes lost{};    // the power
 
     const auto vectors = [&](int slice) LSM_LAMBDA {
-      Stage<DIM, LENGTH> &s = ring[slice % STAGES];
+      Known &s = ring[slice % STAGES];
       Lanes at[DIM];
       gather<DIM>(x, row_in, at);
+      [[maybe_unused]] Lanes moves[DIM];
+      if constexpr (Law::viscous) gather<DIM>(law.velocity, row_in, moves);
       row_in += LANES;
 #pragma GCC unroll 4
       for (int n = 0; n < LENGTH; n++, other_in += LANES) {
@@ -131,11 +141,17 @@ namespace LSMLinkKernel {
         for (int c = 0; c < DIM; c++) s.d[n][c] = at[c] - to[c];
         s.r[n] = s.d[n][0] * s.d[n][0] + s.d[n][1] * s.d[n][1];
         if constexpr (DIM == 3) s.r[n] += s.d[n][2] * s.d[n][2];
+        if constexpr (Law::viscous) {
+          Lanes other[DIM];
+          gather<DIM>(law.velocity, other_in, other);
+          s.rate[n] = s.d[n][0] * (moves[0] - other[0]) + s.d[n][1] * (moves[1] - other[1]);
+          if constexpr (DIM == 3) s.rate[n] += s.d[n][2] * (moves[2] - other[2]);
+        }
       }
     };
 
     const auto lengths = [&](int slice) LSM_LAMBDA {
-      Stage<DIM, LENGTH> &s = ring[slice % STAGES];
+      Known &s = ring[slice % STAGES];
 #pragma GCC unroll 4
       for (int n = 0; n < LENGTH; n++) {
         const Lanes q = s.r[n];
@@ -144,7 +160,7 @@ namespace LSMLinkKernel {
     };
 
     const auto springs = [&](int slice) LSM_LAMBDA {
-      Stage<DIM, LENGTH> &s = ring[slice % STAGES];
+      Known &s = ring[slice % STAGES];
       if constexpr (Law::breaks) {
         auto any = law.is_broken(s.r[0], load<Lanes>(rest));
         for (int n = 1; n < LENGTH; n++)
@@ -159,14 +175,22 @@ namespace LSMLinkKernel {
         Lanes stretch = r - r0;
         if constexpr (FILLED_UP) stretch = r0 < LSMLinkRows::NO_LINK ? stretch : Lanes{};
         if constexpr (Law::breaks) stretch = law.is_broken(r, r0) ? Lanes{} : stretch;
-        const Lanes force = law.force(stretch);
+        Lanes force = law.force(stretch);
         twice += force * stretch;
+        if constexpr (Law::viscous) {
+          Lanes rate = s.rate[n] / r;
+          if constexpr (FILLED_UP) rate = r0 < LSMLinkRows::NO_LINK ? rate : Lanes{};
+          if constexpr (Law::breaks) rate = law.is_broken(r, r0) ? Lanes{} : rate;
+          const Lanes drag = law.drag(rate);
+          lost += drag * rate;
+          force += drag;
+        }
         s.r[n] = force / r;
       }
     };
 
     const auto sums = [&](int slice) LSM_LAMBDA {
-      const Stage<DIM, LENGTH> &s = ring[slice % STAGES];
+      const Known &s = ring[slice % STAGES];
       Lanes sum[DIM];
 #pragma GCC unroll 4
       for (int n = 0; n < LENGTH; n++, other_out += LANES) {
@@ -186,6 +210,7 @@ namespace LSMLinkKernel {
       for (; count > 0 && fetch < run.fetch_end; count--, fetch++) {
         __builtin_prefetch(x + rows.to_fetch[fetch]);
         __builtin_prefetch(f + rows.to_fetch[fetch], 1);
+        if constexpr (Law::viscous) __builtin_prefetch(law.velocity + rows.to_fetch[fetch]);
       }
     };
 
@@ -200,6 +225,8 @@ namespace LSMLinkKernel {
       if (n >= 2 && n - 2 < slices) springs(n - 2);
       if (n >= 3) sums(n - 3);
     }
+    if constexpr (Law::viscous)
+      *law.lost += (BOTH ? 1.0 : 0.5) * ((lost[0] + lost[2]) + (lost[1] + lost[3]));
     return (twice[0] + twice[2]) + (twice[1] + twice[3]);
   }
 
@@ -263,6 +290,10 @@ namespace LSMLinkKernel {
   LSM_INSTANTIATE(3, Elastic);
   LSM_INSTANTIATE(2, Breakable);
   LSM_INSTANTIATE(3, Breakable);
+  LSM_INSTANTIATE(2, KelvinVoigt<Elastic>);
+  LSM_INSTANTIATE(3, KelvinVoigt<Elastic>);
+  LSM_INSTANTIATE(2, KelvinVoigt<Breakable>);
+  LSM_INSTANTIATE(3, KelvinVoigt<Breakable>);
 
 }    // namespace LSMLinkKernel
 }    // namespace LAMMPS_NS

@@ -20,7 +20,7 @@ namespace LSMLinkKernel {
 
   /// Linear spring.
   struct Elastic {
-    static constexpr bool breaks = false;
+    static constexpr bool breaks = false, viscous = false;
     double stiffness;
     /// Attraction by the spring, which stores half of its product with the stretch.
     template <class Number> [[gnu::always_inline]] Number force(const Number &stretch) const
@@ -37,6 +37,19 @@ namespace LSMLinkKernel {
     [[gnu::always_inline]] auto is_broken(const Number &r, const Number &rest) const
     {
       return LSM::link_is_broken(r, rest, ratio);
+    }
+  };
+
+  /// A dashpot beside the spring.
+  template <class Spring> struct KelvinVoigt : Spring {
+    static constexpr bool viscous = true;
+    double viscosity;
+    const double *velocity;    // of the time of the positions, and in their order
+    double *lost;              // the power that the dashpots take is added
+    /// Attraction by the dashpot.
+    template <class Number> [[gnu::always_inline]] Number drag(const Number &rate) const
+    {
+      return LSM::Dashpot::force(viscosity, rate);
     }
   };
 

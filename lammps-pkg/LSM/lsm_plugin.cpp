@@ -27,6 +27,7 @@
 #include "fix_lsm_plates.h"
 #include "fix_lsm_record.h"
 #include "fix_lsm_traction.h"
+#include "fix_lsm_velocity.h"
 #include "include_beside.h"
 #include "pair_lsm_free.h"
 #include "pair_lsm_friction.h"
@@ -178,6 +179,7 @@ extern "C" void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   styles.add_with_args<Fix, FixLSMRecord>("fix", "LSM_RECORD", "fix style LSM_RECORD");
   styles.add_with_args<Fix, FixLSMHistory>("fix", "LSM_HISTORY", "fix style LSM_HISTORY");
   styles.add_with_args<Fix, FixLSMBreak>("fix", "LSM_BREAK", "fix style LSM_BREAK");
+  styles.add_with_args<Fix, FixLSMVelocity>("fix", "LSM_VELOCITY", "fix style LSM_VELOCITY");
   styles.add_with_args<Compute, ComputeLSMEvents>("compute", "lsm/events",
                                                   "compute style lsm/events");
   styles.add<Command, CreateLSMFault>("command", "create_lsm_fault", "command create_lsm_fault");

@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace LAMMPS_NS {
 namespace LSMScene {
@@ -62,9 +63,10 @@ namespace LSMScene {
     std::vector<LSM::PairSpring> all;
     double **x = atom->x;
 
-    auto add = [&](int i, int j, bool newton, double k, double kt) {
-      LSM::PairSpring s{i, j,  newton || j < atom->nlocal,
-                        k, kt, {x[i][0] - x[j][0], x[i][1] - x[j][1], x[i][2] - x[j][2]}};
+    auto add = [&](int i, int j, bool newton, double k, double kt, double viscosity) {
+      LSM::PairSpring s{i,        j,  newton || j < atom->nlocal,
+                        k,        kt, {x[i][0] - x[j][0], x[i][1] - x[j][1], x[i][2] - x[j][2]},
+                        viscosity};
       const double r = sqrt(s.n[0] * s.n[0] + s.n[1] * s.n[1] + s.n[2] * s.n[2]);
       if (r == 0.0) return;
       for (double &c : s.n) c /= r;
@@ -73,7 +75,7 @@ namespace LSMScene {
 
     if (auto links = dynamic_cast<BondLSMLinked *>(force->bond_match("lsm/linked")))
       for (const auto &link : links->held())
-        add(link.i, link.j, force->newton_bond, link.stiffness, 0.0);
+        add(link.i, link.j, force->newton_bond, link.stiffness, 0.0, link.viscosity);
     for (PairLSMFree *contacts : contact_styles(force)) {
       if (!contacts->list) continue;
       int d = 0;
@@ -89,7 +91,9 @@ namespace LSMScene {
           const double dx = x[i][0] - x[j][0], dy = x[i][1] - x[j][1], dz = x[i][2] - x[j][2];
           if (dx * dx + dy * dy + dz * dz > reach * reach) continue;
           const int it = atom->type[i], jt = atom->type[j];
-          if (on[it][jt]) add(i, j, force->newton_pair, k[it][jt], kt ? kt[it][jt] : 0.0);
+          if (on[it][jt])
+            add(i, j, force->newton_pair, k[it][jt], kt ? kt[it][jt] : 0.0,
+                contacts->viscosity(it, jt));
         }
       }
     }
@@ -136,6 +140,21 @@ namespace LSMScene {
             "{}: fix {} changes the diameters of particles during a run, but radii and masses are "
             "read at its begin and with the neighbor lists; change them between two runs",
             who, fix->id);
+  }
+
+  double take_retardation(LAMMPS *lmp, const std::string &who, int &narg, char **arg)
+  {
+    int at = 0;
+    while (at < narg && strcmp(arg[at], "kelvin-voigt") != 0) at++;
+    if (at == narg) return 0.0;
+    if (at + 2 != narg)
+      lmp->error->all(FLERR, "{}: kelvin-voigt must be the last word but one, before its time",
+                      who);
+    const double time = utils::numeric(FLERR, arg[at + 1], false, lmp);
+    if (!(time >= 0.0) || !std::isfinite(time))
+      lmp->error->all(FLERR, "{} kelvin-voigt is {}, but must be a time >= 0", who, time);
+    narg -= 2;
+    return time;
   }
 
 }    // namespace LSMScene

@@ -45,6 +45,10 @@ namespace LSMScene {
   /// Stops if a fix changes particle radii during a run; `who` begins the message.
   void refuse_changing_radii(LAMMPS *, const std::string &who);
 
+  /// The retardation time of the last two of the words of a line of coefficients, 'kelvin-voigt TIME', which are taken away,
+  /// or 0; `who` begins the message.
+  double take_retardation(LAMMPS *, const std::string &who, int &narg, char **arg);
+
 }    // namespace LSMScene
 }    // namespace LAMMPS_NS
 

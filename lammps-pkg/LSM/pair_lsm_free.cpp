@@ -9,6 +9,7 @@
 #include "domain.h"
 #include "error.h"
 #include "fix.h"
+#include "fix_lsm_velocity.h"
 #include "force.h"
 #include "memory.h"
 #include "modify.h"
@@ -29,8 +30,8 @@ using namespace LAMMPS_NS;
 /* ---------------------------------------------------------------------- */
 
 PairLSMFree::PairLSMFree(LAMMPS *_lmp) :
-    Pair(_lmp), k(nullptr), on(nullptr), active(nullptr), maxrad(nullptr), newton_pair(0),
-    travel(_lmp), screened(false), own_radii(-1)
+    Pair(_lmp), k(nullptr), delay(nullptr), on(nullptr), active(nullptr), maxrad(nullptr),
+    newton_pair(0), travel(_lmp), screened(false), own_radii(-1), velocity(nullptr)
 {
   single_enable = 1;
   no_virial_fdotr_compute = 1;
@@ -47,6 +48,7 @@ PairLSMFree::~PairLSMFree()
     memory->destroy(setflag);
     memory->destroy(cutsq);
     memory->destroy(k);
+    memory->destroy(delay);
     memory->destroy(on);
     memory->destroy(active);
     delete[] maxrad;
@@ -111,8 +113,14 @@ template <class Recorder, bool DIM3> void PairLSMFree::loop()
 
     const double kij = k[type[i]][type[j]];
     const double r = sqrt(rsq);
-    const double fpair = r > 0.0 ? -LSM::Spring::force(kij, r - r0) / r : 0.0;
+    double fpair = r > 0.0 ? -LSM::Spring::force(kij, r - r0) / r : 0.0;
     const bool both = newton_pair || j < nlocal;
+    if (velocity && r > 0.0) {
+      double rate;
+      const double more = dashpot(i, j, delx, dely, delz, r, fpair * r, rate);
+      fpair += more / r;
+      velocity->power -= (both ? 1.0 : 0.5) * more * rate;
+    }
 
     f[i][0] += delx * fpair;
     f[i][1] += dely * fpair;
@@ -137,6 +145,26 @@ template <class Recorder, bool DIM3> void PairLSMFree::loop()
 const double *PairLSMFree::contact_radii() const
 {
   return own_radii < 0 ? atom->radius : atom->dvector[own_radii];
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool PairLSMFree::any_delay() const
+{
+  for (int i = 1; allocated && i <= atom->ntypes; i++)
+    for (int j = i; j <= atom->ntypes; j++)
+      if (setflag[i][j] && delay[i][j] > 0.0) return true;
+  return false;
+}
+
+double PairLSMFree::dashpot(int i, int j, double delx, double dely, double delz, double r,
+                            double spring, double &rate) const
+{
+  const double *const vi = velocity->now[i], *const vj = velocity->now[j];
+  rate = delx * (vi[0] - vj[0]) + dely * (vi[1] - vj[1]);
+  if (domain->dimension == 3) rate += delz * (vi[2] - vj[2]);
+  rate /= r;
+  return LSM::contact_dashpot_force(viscosity(atom->type[i], atom->type[j]), rate, spring);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -171,13 +199,14 @@ void PairLSMFree::allocate()
   memory->create(setflag, n, n, "pair:setflag");
   memory->create(cutsq, n, n, "pair:cutsq");
   memory->create(k, n, n, "pair:k");
+  memory->create(delay, n, n, "pair:delay");
   memory->create(on, n, n, "pair:on");
   memory->create(active, n, n, "pair:active");
   maxrad = new double[n];
   for (int i = 0; i < n; i++)
     for (int j = 0; j < n; j++) {
       setflag[i][j] = on[i][j] = active[i][j] = 0;
-      k[i][j] = 0.0;
+      k[i][j] = delay[i][j] = 0.0;
     }
 }
 
@@ -210,8 +239,10 @@ bool PairLSMFree::parse_off(int narg, char **arg, int ilo, int ihi, int jlo, int
 
 void PairLSMFree::coeff(int narg, char **arg)
 {
+  const double delay_one = LSMScene::take_retardation(lmp, "Pair lsm/free", narg, arg);
   if (narg != 3)
-    error->all(FLERR, "Pair style lsm/free expects 'pair_coeff I J k' or 'pair_coeff I J off'");
+    error->all(FLERR, "Pair style lsm/free expects 'pair_coeff I J k [kelvin-voigt TIME]' or "
+                      "'pair_coeff I J off'");
   if (!allocated) allocate();
 
   int ilo, ihi, jlo, jhi;
@@ -226,6 +257,7 @@ void PairLSMFree::coeff(int narg, char **arg)
   for (int i = ilo; i <= ihi; i++)
     for (int j = MAX(jlo, i); j <= jhi; j++) {
       k[i][j] = k_one;
+      delay[i][j] = delay_one;
       on[i][j] = setflag[i][j] = 1;
       count++;
     }
@@ -247,6 +279,7 @@ void PairLSMFree::init_style()
   if (!atom->radius_flag)
     error->all(FLERR, "Pair style lsm/* needs particle radii: use atom_style hybrid bond sphere");
   record_what = NONE;
+  velocity = any_delay() && update->whichflag != 2 ? FixLSMVelocity::ask_for(lmp) : nullptr;
   near.clear();    // the list may be another, and its builds are counted anew
   int flag, columns;
   own_radii = atom->find_custom("lsm_contact_radius", flag, columns);
@@ -349,6 +382,7 @@ double PairLSMFree::init_one(int i, int j)
         "Pair lsm/*: coefficients of types {} {} are not set; use 'off' for types that never touch",
         i, j);
   k[j][i] = k[i][j];
+  delay[j][i] = delay[i][j];
   on[j][i] = active[i][j] = active[j][i] = on[i][j];
   return maxrad[i] + maxrad[j];
 }
@@ -376,10 +410,24 @@ void PairLSMFree::print_coeff(FILE *fp, int i, int j)
   fprintf(fp, " %.17g", k[i][j]);
 }
 
-/* ---------------------------------------------------------------------- */
+void PairLSMFree::print_delay(FILE *fp, int i, int j)
+{
+  if (delay[i][j] > 0.0) fprintf(fp, " kelvin-voigt %.17g", delay[i][j]);
+}
+
+/* ----------------------------------------------------------------------
+   Retardation times stand in front, behind a number that nothing else begins with, if there are any.
+------------------------------------------------------------------------- */
+
+static constexpr int TIMES_FOLLOW = -2;
 
 void PairLSMFree::write_restart(FILE *fp)
 {
+  if (any_delay()) {
+    fwrite(&TIMES_FOLLOW, sizeof(int), 1, fp);
+    for (int i = 1; i <= atom->ntypes; i++)
+      fwrite(&delay[i][i], sizeof(double), atom->ntypes - i + 1, fp);
+  }
   for (int i = 1; i <= atom->ntypes; i++)
     for (int j = i; j <= atom->ntypes; j++) {
       fwrite(&setflag[i][j], sizeof(int), 1, fp);
@@ -392,6 +440,18 @@ void PairLSMFree::write_restart(FILE *fp)
 void PairLSMFree::read_restart(FILE *fp)
 {
   if (!allocated) allocate();
+  int mark = 0;
+  if (comm->me == 0) {
+    utils::sfread(FLERR, &mark, sizeof(int), 1, fp, nullptr, error);
+    if (mark != TIMES_FOLLOW) fseek(fp, -static_cast<long>(sizeof(int)), SEEK_CUR);
+  }
+  MPI_Bcast(&mark, 1, MPI_INT, 0, world);
+  for (int i = 1; i <= atom->ntypes && mark == TIMES_FOLLOW; i++) {
+    const int count = atom->ntypes - i + 1;
+    if (comm->me == 0)
+      utils::sfread(FLERR, &delay[i][i], sizeof(double), count, fp, nullptr, error);
+    MPI_Bcast(&delay[i][i], count, MPI_DOUBLE, 0, world);
+  }
   for (int i = 1; i <= atom->ntypes; i++)
     for (int j = i; j <= atom->ntypes; j++) {
       if (comm->me == 0) utils::sfread(FLERR, &setflag[i][j], sizeof(int), 1, fp, nullptr, error);
@@ -406,9 +466,10 @@ void PairLSMFree::write_data(FILE *fp)
 {
   for (int i = 1; i <= atom->ntypes; i++) {
     fprintf(fp, "%d", i);
-    if (on[i][i])
+    if (on[i][i]) {
       print_coeff(fp, i, i);
-    else
+      print_delay(fp, i, i);
+    } else
       fputs(" off", fp);
     fputs("\n", fp);
   }
@@ -421,9 +482,10 @@ void PairLSMFree::write_data_all(FILE *fp)
   for (int i = 1; i <= atom->ntypes; i++)
     for (int j = i; j <= atom->ntypes; j++) {
       fprintf(fp, "%d %d", i, j);
-      if (on[i][j])
+      if (on[i][j]) {
         print_coeff(fp, i, j);
-      else
+        print_delay(fp, i, j);
+      } else
         fputs(" off", fp);
       fputs("\n", fp);
     }
@@ -439,7 +501,12 @@ double PairLSMFree::single(int i, int j, int itype, int jtype, double rsq, doubl
   const double r0 = contact_radii()[i] + contact_radii()[j];
   const int lo = MIN(itype, jtype), hi = MAX(itype, jtype);
   if (!active[lo][hi] || r >= r0 || r == 0.0) return 0.0;
-  fforce = -LSM::Spring::force(k[lo][hi], r - r0) / r;
+  double push = -LSM::Spring::force(k[lo][hi], r - r0), rate;
+  if (velocity) {
+    const double *const xi = atom->x[i], *const xj = atom->x[domain->closest_image(i, j)];
+    push += dashpot(i, j, xi[0] - xj[0], xi[1] - xj[1], xi[2] - xj[2], r, push, rate);
+  }
+  fforce = push / r;
   return LSM::Spring::energy(k[lo][hi], r - r0);
 }
 
@@ -450,6 +517,7 @@ void *PairLSMFree::extract(const char *str, int &dim)
   dim = 2;
   if (strcmp(str, "k") == 0) return (void *) k;
   if (strcmp(str, "on") == 0) return (void *) active;
+  if (strcmp(str, "kelvin-voigt") == 0) return (void *) delay;
   return nullptr;
 }
 

@@ -41,6 +41,12 @@ class PairLSMFree : public Pair, public LSMEnergySource {
     return active[itype][jtype] ? k[itype][jtype] : 0.0;
   }
 
+  /// Viscosity of these contacts: stiffness times retardation time.
+  double viscosity(int itype, int jtype) const
+  {
+    return stiffness(itype, jtype) * delay[itype][jtype];
+  }
+
   // virtual functions of Pair in LAMMPS 4Feb2025, which 4Jul2026 has no more: no 'override', and no warning of that
 
 #if defined(__GNUC__)
@@ -58,6 +64,7 @@ class PairLSMFree : public Pair, public LSMEnergySource {
 
  protected:
   double **k;        // contact stiffness
+  double **delay;    // retardation time: viscosity over stiffness; 0 if there is none
   int **on;          // 1 if the pair of types interacts at all
   int **active;      // on, and not 'none' under hybrid, since the last init
   double *maxrad;    // largest radius of each type
@@ -67,8 +74,14 @@ class PairLSMFree : public Pair, public LSMEnergySource {
   bool screened;    // lists hold pairs that must not interact
   int own_radii;    // index of the radii of the contacts, where fix lsm/traction has made them others, or -1
 
+  class FixLSMVelocity *velocity;    // of this run, null if no contact is viscous in it
+
   const double *contact_radii() const;
   bool find_near(double reach, const int *const *touch);
+  /// Repulsion by the dashpot of a contact, along del from j to i of length r; the spring repels with `spring`. rate: of r.
+  double dashpot(int i, int j, double delx, double dely, double delz, double r, double spring,
+                 double &rate) const;
+  bool any_delay() const;
 
   bool left_out(int entry, int itype, int jtype) const;
   void check_special() const;
@@ -79,6 +92,7 @@ class PairLSMFree : public Pair, public LSMEnergySource {
   virtual void write_coeff(FILE *, int, int);
   virtual void read_coeff(FILE *, int, int);
   virtual void print_coeff(FILE *, int, int);
+  void print_delay(FILE *, int, int);
 
  private:
   template <class Recorder> void loop();

@@ -9,6 +9,7 @@
 #include "domain.h"
 #include "error.h"
 #include "fix_dummy.h"
+#include "fix_lsm_velocity.h"
 #include "fix_neigh_history.h"
 #include "force.h"
 #include "memory.h"
@@ -20,6 +21,7 @@
 #include "laws/friction_laws.h"
 #include "lsm_contact_recorder.h"
 #include "lsm_force_laws.h"
+#include "lsm_scene.h"
 
 #include <cmath>
 #include <cstring>
@@ -268,6 +270,12 @@ template <class Law, class Recorder> void PairLSMFriction::loop()
 
     const double kij = k[itype][jtype];
     contact.fn = LSM::contact_normal_force(kij, r, r0);
+    if (velocity && !apart && r > 0.0) {
+      double rate;
+      const double more = dashpot(i, j, delx, dely, 0.0, r, contact.fn, rate);
+      contact.fn += more;
+      velocity->power -= (newton_pair || j < nlocal ? 1.0 : 0.5) * more * rate;
+    }
     contact.xi = h[XI];
     if constexpr (Law::needs_sliding) contact.sliding = h[STATUS] == SLIDES;
     const LSM::FrictionStep s =
@@ -466,7 +474,9 @@ void PairLSMFriction::check(int p, double value, const double *values,
 
 void PairLSMFriction::coeff(int narg, char **arg)
 {
-  // what is expected: 'k kt mu [mu_static]', or 'k kt mu VALUE ... [theta VALUE]'
+  // what is expected: 'k kt mu [mu_static]', or 'k kt mu VALUE ... [theta VALUE]'; then, maybe, 'kelvin-voigt TIME'
+
+  const double delay_one = LSMScene::take_retardation(lmp, "Pair lsm/friction", narg, arg);
 
   std::string expected = "k kt";
   int required = 0;
@@ -482,7 +492,8 @@ void PairLSMFriction::coeff(int narg, char **arg)
   const int each = law->named ? 2 : 1, most = 4 + each * (law->count - 1);
   const bool off_only = narg == 3;
   if (!off_only && (narg < 4 + each * required || narg > most || (narg - 4) % each))
-    error->all(FLERR, "{} expects 'pair_coeff I J {}' or 'pair_coeff I J off'", what, expected);
+    error->all(FLERR, "{} expects 'pair_coeff I J {} [kelvin-voigt TIME]' or 'pair_coeff I J off'",
+               what, expected);
   if (!allocated) allocate();
 
   int ilo, ihi, jlo, jhi;
@@ -522,6 +533,7 @@ void PairLSMFriction::coeff(int narg, char **arg)
   for (int i = ilo; i <= ihi; i++)
     for (int j = MAX(jlo, i); j <= jhi; j++) {
       k[i][j] = k_one;
+      delay[i][j] = delay_one;
       for (int p = 0; p < law->count; p++) {
         coefficient[p][i][j] = value[p];
         given[p][i][j] = is_given[p];

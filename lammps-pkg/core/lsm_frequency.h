@@ -22,12 +22,14 @@
 namespace LSM {
 
 /// A spring between particles i and j along the unit vector n, with stiffness k along it and kt
-/// across it. If not both, the force on j is not added: it is added where j is at home.
+/// across it, and the viscosity of a dashpot along it. If not both, the force on j is not added: it
+/// is added where j is at home.
 struct PairSpring {
   int i, j;
   bool both;
   double k, kt;
   std::array<double, 3> n;
+  double viscosity = 0.0;
 };
 
 /// Adds the forces of the springs against the displacements to force; axes values a particle.

@@ -246,4 +246,86 @@ TEST(LinkKernel, InstructionSetsGiveTheSameDigits) {
   instruction_sets_agree<3>(Breakable{{0.7}, 1.2});
 }
 
+using LSMLinkKernel::KelvinVoigt;
+
+std::vector<double> velocities_of(const Network &net) {
+  LSM::Random random(41);
+  std::vector<double> v(net.x.size());
+  for (double &one : v) one = random.uniform(-0.5, 0.5);
+  return v;
+}
+
+template <int DIM, class Spring>
+void dashpots_agree(const Network &net, const Spring &spring, double ratio, bool first_only) {
+  const double viscosity = 0.3;
+  const std::vector<double> v = velocities_of(net);
+  double lost = 1.0;
+  const Evaluation got =
+      evaluate<DIM>(net, rows_of(net, first_only),
+                    KelvinVoigt<Spring>{spring, viscosity, v.data(), &lost}, first_only);
+  Evaluation expected = plain(net, 0.7, ratio, first_only);
+  double power = 0.0;
+  for (const Link &link : net.links) {
+    double d[3], r = 0.0, rate = 0.0;
+    for (int c = 0; c < DIM; ++c) {
+      d[c] = net.x[3 * link.i + c] - net.x[3 * link.j + c];
+      r += d[c] * d[c];
+      rate += d[c] * (v[3 * link.i + c] - v[3 * link.j + c]);
+    }
+    r = std::sqrt(r);
+    rate /= r;
+    if (ratio > 0.0 && r > ratio * link.rest) continue;
+    power += (first_only ? 0.5 : 1.0) * viscosity * rate * rate;
+    for (int c = 0; c < DIM; ++c) {
+      expected.f[3 * link.i + c] -= viscosity * rate * d[c] / r;
+      if (!first_only) expected.f[3 * link.j + c] += viscosity * rate * d[c] / r;
+    }
+  }
+  expect_near(got, expected);
+  EXPECT_NEAR(lost, 1.0 + power, 1e-12 * power);
+  if (net.links.size() > 1000) {
+    EXPECT_GT(power, 10.0);
+  }
+
+  // at rest nothing is added, to the last bit
+  const std::vector<double> rest(net.x.size(), 0.0);
+  double none = 0.0;
+  const Evaluation still =
+      evaluate<DIM>(net, rows_of(net, first_only),
+                    KelvinVoigt<Spring>{spring, viscosity, rest.data(), &none}, first_only);
+  const Evaluation elastic = evaluate<DIM>(net, rows_of(net, first_only), spring, first_only);
+  EXPECT_EQ(still.energy, elastic.energy);
+  EXPECT_EQ(still.f, elastic.f);
+  EXPECT_EQ(none, 0.0);
+}
+
+TEST(LinkKernel, DashpotsOfAPlainLoop) {
+  for (int side : {1, 2, 3, 6, 40}) {
+    SCOPED_TRACE(side);
+    const Network flat = make_network(side, 2, 17), deep = make_network(side, 3, 17);
+    dashpots_agree<2>(flat, Elastic{0.7}, 0.0, false);
+    dashpots_agree<3>(deep, Elastic{0.7}, 0.0, false);
+    dashpots_agree<2>(flat, Breakable{{0.7}, 1.2}, 1.2, false);
+    dashpots_agree<3>(deep, Breakable{{0.7}, 1.2}, 1.2, false);
+    dashpots_agree<2>(links_to_ghosts(flat), Elastic{0.7}, 0.0, true);
+    dashpots_agree<3>(links_to_ghosts(deep), Breakable{{0.7}, 1.2}, 1.2, true);
+  }
+}
+
+TEST(LinkKernel, InstructionSetsGiveTheSameDigitsWithDashpots) {
+  if (!LSMLinkKernel::has_avx2()) GTEST_SKIP() << "this processor has no AVX2";
+  const Network net = make_network(60, 2, 37);
+  const std::vector<double> v = velocities_of(net);
+  double lost[2] = {0.0, 0.0};
+  const Rows rows = rows_of(net);
+  std::vector<double> f[2];
+  for (const bool avx2 : {false, true})
+    f[avx2] =
+        evaluate<2>(net, rows, KelvinVoigt<Breakable>{{{0.7}, 1.2}, 0.3, v.data(), &lost[avx2]},
+                    false, avx2)
+            .f;
+  EXPECT_EQ(lost[0], lost[1]);
+  EXPECT_EQ(f[0], f[1]);
+}
+
 }  // namespace

@@ -21,6 +21,15 @@ struct Spring {
   static double energy(double k, double stretch) { return 0.5 * k * stretch * stretch; }
 };
 
+/// Kelvin-Voigt: a dashpot beside the spring, whose viscosity is the stiffness times a retardation
+/// time (ours). Attractive force at the given rate of the stretch.
+struct Dashpot {
+  template <class Number>
+  [[gnu::always_inline]] static Number force(double viscosity, const Number &rate) {
+    return viscosity * rate;
+  }
+};
+
 /// Eq. (1): a link holds while r <= r_cut; here r_cut = ratio * r0.
 template <class Number>
 [[gnu::always_inline]] inline auto link_is_broken(const Number &r, const Number &r0, double ratio) {
@@ -30,6 +39,13 @@ template <class Number>
 /// Eq. (2): magnitude of the repulsion of an unlinked pair, zero when apart.
 inline double contact_normal_force(double k, double r, double r0) {
   return r < r0 ? k * (r0 - r) : 0.0;
+}
+
+/// Repulsion by the dashpot beside the spring of an unlinked pair, which repels with `spring`;
+/// rate: of the distance. Both together do not attract.
+inline double contact_dashpot_force(double viscosity, double rate, double spring) {
+  const double dashpot = -Dashpot::force(viscosity, rate);
+  return dashpot < -spring ? -spring : dashpot;
 }
 
 }  // namespace LSM

@@ -1,0 +1,299 @@
+/* ----------------------------------------------------------------------
+   SPDX-License-Identifier: GPL-2.0-or-later
+------------------------------------------------------------------------- */
+
+#include "fix_lsm_velocity.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "fix_lsm_nve.h"
+#include "fix_lsm_plates.h"
+#include "lsm_scene.h"
+#include "memory.h"
+#include "modify.h"
+#include "update.h"
+
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+
+static constexpr const char *ID = "LSM_VELOCITY";
+
+/* ---------------------------------------------------------------------- */
+
+FixLSMVelocity::FixLSMVelocity(LAMMPS *_lmp, int narg, char **arg) :
+    Fix(_lmp, narg, arg), now(nullptr), power(0.0), asked(false), used(false), extrapolated(0),
+    power_before(0.0), known(0)
+{
+  if (narg != 3)
+    error->all(FLERR, "Fix LSM_VELOCITY is internal to viscous links and contacts of the package");
+  scalar_flag = 1;
+  extscalar = 1;
+  global_freq = 1;
+  restart_global = 1;
+  restart_peratom = 1;
+  create_attribute = 1;
+  comm_forward = domain->dimension;
+  FixLSMVelocity::grow_arrays(atom->nmax);
+  for (int i = 0; i < atom->nlocal; i++) FixLSMVelocity::set_arrays(i);
+  atom->add_callback(Atom::GROW);
+  atom->add_callback(Atom::RESTART);
+}
+
+FixLSMVelocity::~FixLSMVelocity()
+{
+  if (atom) {
+    atom->delete_callback(id, Atom::GROW);
+    atom->delete_callback(id, Atom::RESTART);
+  }
+  memory->destroy(now);
+}
+
+/* ---------------------------------------------------------------------- */
+
+FixLSMVelocity *FixLSMVelocity::ask_for(LAMMPS *lmp)
+{
+  Modify *const modify = lmp->modify;
+  Fix *any = modify->get_fix_by_id(ID);
+  if (!any) any = modify->add_fix(std::string(ID) + " all LSM_VELOCITY");
+  auto *const one = dynamic_cast<FixLSMVelocity *>(any);
+  if (!one)
+    lmp->error->all(FLERR, "Fix {} must be of style LSM_VELOCITY, which makes it itself", ID);
+  one->asked = true;
+  return one;
+}
+
+FixLSMVelocity *FixLSMVelocity::in_use(LAMMPS *lmp)
+{
+  auto *const one = dynamic_cast<FixLSMVelocity *>(lmp->modify->get_fix_by_id(ID));
+  return one && one->used ? one : nullptr;
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixLSMVelocity::setmask()
+{
+  return POST_INTEGRATE | PRE_FORCE | POST_FORCE | POST_RUN;
+}
+
+/* ----------------------------------------------------------------------
+   force styles have asked for it just now, if they are viscous
+------------------------------------------------------------------------- */
+
+void FixLSMVelocity::init()
+{
+  used = asked;
+  asked = false;
+  extrapolated = 0;
+  if (!used || update->whichflag != 1) return;
+  for (const auto &other : modify->get_fix_list()) {
+    if (utils::strmatch(other->style, "^lsm/leap"))
+      error->all(FLERR,
+                 "Links and contacts with kelvin-voigt do not work with fix {} of style lsm/leap, "
+                 "whose blocks move faster than their model time tells",
+                 other->id);
+    if (dynamic_cast<FixLSMNVE *>(other)) extrapolated |= other->groupbit;
+    if (auto p = dynamic_cast<FixLSMPlates *>(other)) extrapolated |= p->plate_bits();
+  }
+  if (LSMScene::integrators(modify).empty() && !LSMScene::is_rerun(update))
+    error->all(FLERR, "Links and contacts with kelvin-voigt need fix lsm/nve, which knows the "
+                      "velocities of the time of the forces");
+}
+
+/* ----------------------------------------------------------------------
+   Where the velocities are those of the end of the run before, or of the restart file, forces are those of that end to
+   the last bit; where a command changed them, those of the velocities as they are.
+------------------------------------------------------------------------- */
+
+void FixLSMVelocity::setup_pre_force(int /*vflag*/)
+{
+  if (!used) return;
+  if (fingerprint() != known) take_velocities(0);
+  pre_force(0);
+}
+
+/* ----------------------------------------------------------------------
+   those that others move have no better ones
+------------------------------------------------------------------------- */
+
+void FixLSMVelocity::post_integrate()
+{
+  if (used) take_velocities(extrapolated);
+}
+
+void FixLSMVelocity::take_velocities(int unless)
+{
+  for (int i = 0; i < atom->nlocal; i++)
+    if (!(atom->mask[i] & unless)) set_arrays(i);
+}
+
+void FixLSMVelocity::pre_force(int /*vflag*/)
+{
+  if (!used) return;
+  power = 0.0;
+  comm->forward_comm(this);
+}
+
+/* ----------------------------------------------------------------------
+   work: trapezoidal rule over the step
+------------------------------------------------------------------------- */
+
+void FixLSMVelocity::setup(int /*vflag*/)
+{
+  power_before = power;
+}
+
+void FixLSMVelocity::post_force(int /*vflag*/)
+{
+  if (!used) return;
+  work_dashpots += 0.5 * update->dt * (power_before + power);
+  power_before = power;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixLSMVelocity::post_run()
+{
+  if (!used) return;
+  for (const auto &other : modify->get_fix_list()) {
+    if (auto p = dynamic_cast<FixLSMNVE *>(other)) p->complete_step();
+    if (auto p = dynamic_cast<FixLSMPlates *>(other)) p->complete_step();
+  }
+  known = fingerprint();
+}
+
+/* ----------------------------------------------------------------------
+   sum of numbers that mix the bits of ID and velocity of each particle: the order does not matter
+------------------------------------------------------------------------- */
+
+std::uint64_t FixLSMVelocity::fingerprint() const
+{
+  std::uint64_t mine = 0, all = 0;
+  for (int i = 0; i < atom->nlocal; i++) {
+    std::uint64_t mixed = static_cast<std::uint64_t>(atom->tag[i]);
+    for (int c = 0; c < 3; c++) {
+      std::uint64_t bits;
+      memcpy(&bits, &atom->v[i][c], sizeof(bits));
+      mixed = (mixed ^ bits) * 0x9e3779b97f4a7c15ULL;
+      mixed ^= mixed >> 29;
+    }
+    mine += mixed;
+  }
+  MPI_Allreduce(&mine, &all, 1, MPI_UINT64_T, MPI_SUM, world);
+  return all;
+}
+
+/* ----------------------------------------------------------------------
+   scalar = energy that the dashpots took
+------------------------------------------------------------------------- */
+
+double FixLSMVelocity::compute_scalar()
+{
+  double all;
+  MPI_Allreduce(&work_dashpots, &all, 1, MPI_DOUBLE, MPI_SUM, world);
+  return all;
+}
+
+double FixLSMVelocity::memory_usage()
+{
+  return 3.0 * atom->nmax * sizeof(double);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixLSMVelocity::grow_arrays(int nmax)
+{
+  memory->grow(now, nmax, 3, "lsm/velocity:now");
+}
+
+void FixLSMVelocity::copy_arrays(int i, int j, int /*delflag*/)
+{
+  memcpy(now[j], now[i], 3 * sizeof(double));
+}
+
+void FixLSMVelocity::set_arrays(int i)
+{
+  memcpy(now[i], atom->v[i], 3 * sizeof(double));
+}
+
+int FixLSMVelocity::pack_exchange(int i, double *buf)
+{
+  memcpy(buf, now[i], 3 * sizeof(double));
+  return 3;
+}
+
+int FixLSMVelocity::unpack_exchange(int nlocal, double *buf)
+{
+  memcpy(now[nlocal], buf, 3 * sizeof(double));
+  return 3;
+}
+
+int FixLSMVelocity::pack_forward_comm(int n, int *list, double *buf, int /*pbc_flag*/,
+                                      int * /*pbc*/)
+{
+  int m = 0;
+  for (int i = 0; i < n; i++)
+    for (int c = 0; c < comm_forward; c++) buf[m++] = now[list[i]][c];
+  return m;
+}
+
+void FixLSMVelocity::unpack_forward_comm(int n, int first, double *buf)
+{
+  int m = 0;
+  for (int i = first; i < first + n; i++)
+    for (int c = 0; c < comm_forward; c++) now[i][c] = buf[m++];
+}
+
+/* ----------------------------------------------------------------------
+   velocities are complete when a restart file is written
+------------------------------------------------------------------------- */
+
+struct Saved {
+  double work;
+  std::uint64_t known;
+};
+
+void FixLSMVelocity::write_restart(FILE *fp)
+{
+  const Saved saved = {compute_scalar(), fingerprint()};
+  if (comm->me) return;
+  const int size = sizeof(saved);
+  fwrite(&size, sizeof(int), 1, fp);
+  fwrite(&saved, sizeof(saved), 1, fp);
+}
+
+void FixLSMVelocity::restart(char *buf)
+{
+  Saved saved;
+  memcpy(&saved, buf, sizeof(saved));
+  known = saved.known;
+  work_dashpots = comm->me == 0 ? saved.work : 0.0;
+}
+
+int FixLSMVelocity::pack_restart(int i, double *buf)
+{
+  buf[0] = size_restart(i);
+  memcpy(buf + 1, now[i], 3 * sizeof(double));
+  return size_restart(i);
+}
+
+void FixLSMVelocity::unpack_restart(int nlocal, int nth)
+{
+  const double *extra = atom->extra[nlocal];
+  int m = 0;
+  for (int i = 0; i < nth; i++) m += static_cast<int>(extra[m]);
+  memcpy(now[nlocal], extra + m + 1, 3 * sizeof(double));
+}
+
+int FixLSMVelocity::maxsize_restart()
+{
+  return size_restart(0);
+}
+
+int FixLSMVelocity::size_restart(int /*nlocal*/)
+{
+  return 4;
+}

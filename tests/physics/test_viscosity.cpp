@@ -1,0 +1,411 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Dashpots of links and contacts (kelvin-voigt): closed forms, order, stability limit, energy, and
+// what else a run may do with them.
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "disc_scene.h"
+#include "lmp_runner.h"
+
+using namespace physics;
+
+using Viscosity = Lmp;
+
+namespace {
+
+constexpr double stiffness = 1.5;
+
+/// Two discs of mass 1 that touch, apart with the velocity `apart`.
+std::string two_discs(const std::string &apart, bool linked) {
+  std::string text = discs({{"-1", "0.3"}, {"1", "0.3"}});
+  if (linked) text += "create_bonds single/bond 1 1 2\nbond_style lsm/linked\n";
+  return text + "group left id 1\ngroup right id 2\nvelocity left set $(-0.5*" + apart +
+         ") 0 0\nvelocity right set $(0.5*" + apart + ") 0 0\n";
+}
+
+const char *const two_end = R"(
+timestep          ${dt}
+fix               move all lsm/nve
+variable          s equal x[2]-x[1]-2
+variable          limit equal f_move[2]
+compute           events all lsm/events ledger yes progress no
+thermo_style      custom step v_s v_limit ke c_events[5] c_events[11] c_events[12] c_events[13]
+thermo_modify     norm no format float %.17g
+run               0
+run               $(round(v_end/v_dt):%.0f)
+)";
+
+/// Stretch of an oscillator that begins at 0 with the given velocity: two masses of 1.
+double damped(double velocity, double retardation, double t) {
+  const double w2 = 2.0 * stiffness, half = 0.5 * w2 * retardation, turn = w2 - half * half;
+  const double decay = velocity * std::exp(-half * t);
+  if (turn > 0.0) return decay * std::sin(std::sqrt(turn) * t) / std::sqrt(turn);
+  return decay * std::sinh(std::sqrt(-turn) * t) / std::sqrt(-turn);
+}
+
+std::string linked(const std::string &apart = "0.02") {
+  return two_discs(apart, true) +
+         "bond_coeff 1 1.5 ${retardation}\npair_style lsm/free\npair_coeff * * 1.0\n" + two_end;
+}
+
+}  // namespace
+
+TEST_F(Viscosity, TwoLinkedDiscsAsInTheClosedForm) {
+  // swinging, and creeping back
+  for (const char *time : {"0.2", "2.0"}) {
+    std::vector<double> off, residual;
+    for (const double dt : {0.08, 0.04, 0.02}) {
+      const Result r = run_text(
+          linked(),
+          {{"dt", text(dt)}, {"end", "3.2"}, {"retardation", "kelvin-voigt " + std::string(time)}});
+      ASSERT_TRUE(succeeded(r));
+      off.push_back(r.last("v_s") - damped(0.02, std::stod(time), 3.2));
+      residual.push_back(r.last("c_events[13]"));
+      EXPECT_GT(r.last("c_events[12]"), 1e-5);
+    }
+    std::printf("retardation time %s: off by %.3g, order %.3f, %.3f; ledger %.3g, order %.3f\n",
+                time, off[2], std::log2(off[0] / off[1]), std::log2(off[1] / off[2]), residual[2],
+                std::log2(residual[1] / residual[2]));
+    EXPECT_NEAR(std::log2(off[1] / off[2]), 2.0, 0.15);
+    EXPECT_LT(std::fabs(off[2]), 1e-3 * 0.02);
+    // of the 1e-4 that the discs begin with
+    EXPECT_LT(std::fabs(residual[2]), 5e-3 * 1e-4);
+    EXPECT_NEAR(std::log2(residual[1] / residual[2]), 2.0, 0.3);
+  }
+}
+
+TEST_F(Viscosity, BesideThatOfTheParticles) {
+  // both viscosities: the mass-proportional one adds its rate
+  std::vector<double> off;
+  const double t = 3.2, nu = 0.3, time = 0.2;
+  const double w2 = 2.0 * stiffness, half = 0.5 * (w2 * time + nu);
+  const double turn = std::sqrt(w2 - half * half);
+  for (const double dt : {0.04, 0.02}) {
+    std::string script = linked();
+    const std::string fix = "all lsm/nve";
+    script.replace(script.find(fix), fix.size(), fix + " viscosity 0.3");
+    const Result r =
+        run_text(script, {{"dt", text(dt)}, {"end", "3.2"}, {"retardation", "kelvin-voigt 0.2"}});
+    ASSERT_TRUE(succeeded(r));
+    off.push_back(r.last("v_s") - 0.02 * std::exp(-half * t) * std::sin(turn * t) / turn);
+  }
+  EXPECT_LT(std::fabs(off[1]), 1e-3 * 0.02);
+  EXPECT_NEAR(std::log2(off[0] / off[1]), 2.0, 0.2);
+}
+
+TEST_F(Viscosity, LimitOfTheTimeStepIsSharp) {
+  for (const double time : {0.1, 1.0, 20.0}) {
+    const double w = std::sqrt(2.0 * stiffness), g = w * w * time;
+    const double limit = 2.0 / (std::sqrt(w * w + g * g) + g);
+    for (const double share : {0.99, 1.01}) {
+      const Variables variables = {{"dt", text(share * limit)},
+                                   {"end", text(3000.0 * share * limit)},
+                                   {"retardation", "kelvin-voigt " + text(time)}};
+      const Result refused = run_text(linked("1e-9"), variables);
+      if (share < 1.0) {
+        ASSERT_TRUE(succeeded(refused));
+        EXPECT_NEAR(refused.last("v_limit"), limit, 1e-6 * limit);
+        EXPECT_LT(std::fabs(refused.last("v_s")), 1e-9);
+        continue;
+      }
+      EXPECT_TRUE(failed_with(refused, {"above the stability limit", "kelvin-voigt"}));
+      std::string script = linked("1e-9");
+      const std::string fix = "all lsm/nve";
+      script.replace(script.find(fix), fix.size(), fix + " dtcheck off");
+      const Result grown = run_text(script + "thermo 1\n", variables);
+      double most = 0.0;
+      for (const auto &row : grown.thermo) most = std::max(most, std::fabs(row.at("v_s")));
+      EXPECT_TRUE(grown.exit_code != 0 || most > 1e-6) << most;
+    }
+  }
+}
+
+TEST_F(Viscosity, ContactsAsLinksButTheyDoNotPull) {
+  // two discs meet and part again: while they touch they are a link; both pair styles
+  for (const char *style :
+       {"lsm/free\npair_coeff * * 1.5", "lsm/friction\npair_coeff * * 1.5 1.0 0.5"}) {
+    const std::string begin = two_discs("-0.02", false) + "pair_style " + style;
+    std::vector<double> off;
+    for (const double dt : {0.04, 0.02}) {
+      const Result r =
+          run_text(begin + " kelvin-voigt 0.2\n" + two_end, {{"dt", text(dt)}, {"end", "1.2"}});
+      ASSERT_TRUE(succeeded(r));
+      off.push_back(r.last("v_s") - damped(-0.02, 0.2, 1.2));
+      EXPECT_LT(std::fabs(r.last("c_events[13]")), 5e-3 * 1e-4);
+    }
+    // the first step begins with the force of a dashpot that was not there before: first order
+    EXPECT_LT(std::fabs(off[1]), 5e-3 * 0.02) << style;
+    EXPECT_GT(std::log2(off[0] / off[1]), 0.8) << style;
+
+    // where the spring would be overtaken by the dashpot they let go, and what is left is kinetic
+    const Result parted =
+        run_text(begin + " kelvin-voigt 1.0\n" + two_end, {{"dt", "0.01"}, {"end", "8"}});
+    ASSERT_TRUE(succeeded(parted));
+    EXPECT_GT(parted.last("v_s"), 0.0) << style;
+    EXPECT_GT(parted.last("KinEng"), 0.0) << style;
+    EXPECT_LT(parted.last("KinEng"), 0.1 * 1e-4) << style;
+    EXPECT_NEAR(parted.last("KinEng") + parted.last("c_events[12]"), 1e-4, 2e-3 * 1e-4) << style;
+    // never faster than the dashpot lets them: the overlap shrinks at most as exp(-t/time)
+    EXPECT_LT(parted.last("v_s"), 0.02 * 8) << style;
+  }
+}
+
+namespace {
+
+/// Waves in a periodic lattice of discs with diameter 2; `direction` chooses wave and polarisation.
+std::string wave(const std::string &velocity, const std::string &dimension_2 = "2") {
+  return "units lj\ndimension " + dimension_2 +
+         "\nboundary p p p\natom_style hybrid bond sphere\natom_modify map array\n"
+         "comm_modify mode single cutoff 4\nspecial_bonds lj/coul 0 1 1\n"
+         "lattice hex $(1/(2*sqrt(3)):%.17g)\nregion box block 0 16 0 4 -0.1 0.1\n"
+         "create_box 1 box bond/types 1 extra/bond/per/atom 6 extra/special/per/atom 6\n"
+         "create_atoms 1 box\nset type 1 diameter 2.0\nset type 1 mass 1.0\n"
+         "bond_style lsm/linked\nbond_coeff 1 1.0 ${retardation}\npair_style zero 2.2\n"
+         "pair_coeff * *\ncreate_bonds many all all 1 1.99 2.01\n" +
+         velocity +
+         "timestep 0.01\nfix move all lsm/nve\nthermo_style custom step ke\n"
+         "thermo_modify norm no format float %.17g\nthermo 1\n";
+}
+
+}  // namespace
+
+TEST_F(Viscosity, PlaneWavesDecayByTheSquareOfTheFrequency) {
+  // a standing wave along the rows: one motion of the lattice, Q = 1 / (frequency * time)
+  struct Wave {
+    const char *velocity;
+    double waves;  // in the period of 16 discs, 32 long
+    double w2;     // of the lattice: k / m = 1, links along x and at 60 degrees
+  };
+  const auto along = [](double n) {  // longitudinal
+    const double q = 2.0 * std::acos(-1.0) * n / 32.0;
+    return 4.0 * std::pow(std::sin(q), 2) + 2.0 * std::pow(std::sin(0.5 * q), 2);
+  };
+  const auto across = [](double n) {
+    const double q = 2.0 * std::acos(-1.0) * n / 32.0;
+    return 6.0 * std::pow(std::sin(0.5 * q), 2);
+  };
+  for (const double n : {1.0, 2.0, 4.0})
+    for (const bool longitudinal : {true, false}) {
+      const double w2 = longitudinal ? along(n) : across(n), time = 0.1;
+      const std::string pattern = "variable u atom 1e-7*sin(2*PI*" + text(n) + "*x/32)\n";
+      const std::string velocity =
+          pattern + (longitudinal ? "velocity all set v_u 0 0\n" : "velocity all set 0 v_u 0\n");
+      // kinetic energy after whole periods of the damped swing
+      const double half = 0.5 * w2 * time, turn = std::sqrt(w2 - half * half);
+      const int periods = 3;
+      const double t = periods * 2.0 * std::acos(-1.0) / turn;
+      const int steps = static_cast<int>(std::lround(t / 0.01));
+      const Result r = run_text(wave(velocity) + "run " + std::to_string(steps) + "\n",
+                                {{"retardation", "kelvin-voigt 0.1"}});
+      ASSERT_TRUE(succeeded(r));
+      const double begin = r.thermo.front().at("KinEng");
+      // largest kinetic energy near that time: a whole swing further, so only the decay is left
+      const double left = std::log(begin / r.last("KinEng"));
+      const double q = turn * t / left, expected = turn / (2.0 * half);
+      std::printf("%s wave, %g discs long: Q = %.3f, theory %.3f\n",
+                  longitudinal ? "longitudinal" : "transverse", 16.0 / n, q, expected);
+      EXPECT_NEAR(q, expected, 0.01 * expected);
+    }
+}
+
+namespace {
+
+/// A patch of a fault that breaks, links and contacts with dashpots.
+std::string fault(const std::string &begin, const std::string &newton = "off") {
+  return "units lj\ndimension 2\nboundary f f p\nnewton " + newton +
+         "\natom_style hybrid bond sphere\natom_modify map array\nspecial_bonds lj/coul 0 1 1\n" +
+         begin +
+         "\ncomm_modify mode single cutoff 1.8\nneighbor 0.1 bin\n"
+         "group lower type 3\ngroup upper type 4\ngroup caps type 5 6\n"
+         "bond_style lsm/linked\nbond_coeff 1 1.0 kelvin-voigt 0.1\n"
+         "bond_coeff 2 0.5 1.5 kelvin-voigt 0.2\n"
+         "pair_style lsm/friction slip-weakening\npair_coeff * * off\n"
+         "pair_coeff 3 4 1.0 10.0 mu 0.5 mu_static 0.7 dc 3e-4 kelvin-voigt 0.05\n"
+         "variable shear atom 6e-4+1.2e-4*(abs(x)<4)\n"
+         "fix load all lsm/traction lower upper 1e-3 v_shear\n"
+         "fix caps caps lsm/absorb y 1.2 0.7 1.0\nfix move all lsm/nve\ntimestep 0.1\n"
+         "compute events all lsm/events ledger yes progress no\n"
+         "thermo_style custom step ke c_events[6] c_events[11] c_events[12] c_events[13] "
+         "c_events[15] c_events[16]\n"
+         "thermo_modify norm no format float %.17g\nthermo 100\n";
+}
+const std::string created = "create_lsm_fault lattice length 41 width 16 spacing 1.0 mass r2 4.0";
+const std::vector<std::string> energies = {"KinEng",       "c_events[6]",  "c_events[11]",
+                                           "c_events[12]", "c_events[15]", "c_events[16]"};
+
+}  // namespace
+
+TEST_F(Viscosity, RanksAndNewtonAgree) {
+  const Result one = run_text(fault(created) + "run 400\n");
+  ASSERT_TRUE(succeeded(one));
+  EXPECT_GT(one.last("c_events[11]"), 1e-6);
+  EXPECT_GT(one.last("c_events[12]"), 1e-2 * one.last("c_events[11]"));
+  EXPECT_LT(std::fabs(one.last("c_events[13]")), 1e-3 * one.last("c_events[11]"));
+  for (const char *newton : {"off", "on"})
+    for (const int ranks : {1, 2, 4}) {
+      const Result other = run_text(fault(created, newton) + "run 400\n", {}, ranks);
+      ASSERT_TRUE(succeeded(other));
+      EXPECT_LT(thermo_difference(one, other, energies), 1e-10)
+          << "newton " << newton << ", " << ranks << " ranks";
+    }
+}
+
+TEST_F(Viscosity, InPiecesAndFromARestartFile) {
+  const std::string restarted = "read_restart half.restart";
+  for (const int ranks : {1, 2}) {
+    const Result whole = run_text(fault(created) + "run 400\n", {}, ranks);
+    ASSERT_TRUE(succeeded(whole));
+    const Result pieces = run_text(fault(created) + "run 133\nrun 67\nrun 200\n", {}, ranks);
+    ASSERT_TRUE(succeeded(pieces));
+    const Result half =
+        run_text(fault(created) + "run 200\nwrite_restart half.restart\n", {}, ranks);
+    ASSERT_TRUE(succeeded(half));
+    // coefficients of the file, and those of the script
+    std::string of_file = fault(restarted);
+    const auto from = of_file.find("bond_style"), to = of_file.find("variable shear");
+    of_file.erase(from, to - from);
+    for (const std::string &script : {fault(restarted), of_file}) {
+      const Result rest = run_text(script + "run 200\n", {}, ranks);
+      ASSERT_TRUE(succeeded(rest));
+      for (const std::string &column : energies) {
+        EXPECT_NEAR(rest.last(column), whole.last(column), 1e-11 * std::fabs(whole.last(column)))
+            << column << ", " << ranks << " ranks, from the file";
+        EXPECT_NEAR(pieces.last(column), whole.last(column), 1e-11 * std::fabs(whole.last(column)))
+            << column << ", " << ranks << " ranks, in pieces";
+      }
+    }
+  }
+}
+
+TEST_F(Viscosity, VelocitiesSetBetweenRunsCount) {
+  // as a run that begins with them: the dashpots do not go on with those of before
+  const Variables variables = {{"dt", "0.02"}, {"end", "0.4"}, {"retardation", "kelvin-voigt 0.5"}};
+  const Result begun = run_text(linked("0.05"), variables);
+  const Result changed = run_text(linked("0.02") +
+                                      "velocity left set -0.025 0 0\nvelocity right set 0.025 0 0\n"
+                                      "set atom 1 x -1\nset atom 2 x 1\nrun 20\n",
+                                  variables);
+  ASSERT_TRUE(succeeded(begun));
+  ASSERT_TRUE(succeeded(changed));
+  EXPECT_NEAR(changed.last("v_s"), begun.last("v_s"), 1e-12);
+}
+
+TEST_F(Viscosity, ThreeDimensions) {
+  // three discs at an angle: what the dashpots take is what is lost, and the momentum stays
+  const std::string script =
+      "units lj\nboundary f f f\nnewton ${newton}\natom_style hybrid bond sphere\n"
+      "atom_modify map array\ncomm_modify mode single cutoff 4.5\nspecial_bonds lj/coul 0 1 1\n"
+      "region box block -10 10 -10 10 -10 10\n"
+      "create_box 1 box bond/types 1 extra/bond/per/atom 6 extra/special/per/atom 12\n"
+      "create_atoms 1 single -1 0 0.1\ncreate_atoms 1 single 0.7 0.4 1.1\n"
+      "create_atoms 1 single 0.6 0.9 -0.8\nset group all diameter 2.0\nset group all mass 1.0\n"
+      "create_bonds single/bond 1 1 2\ncreate_bonds single/bond 1 2 3\n"
+      "create_bonds single/bond 1 1 3\nbond_style lsm/linked\nbond_coeff 1 1.5 kelvin-voigt 0.3\n"
+      "pair_style lsm/free\npair_coeff * * 1.0\nvelocity all create 0.001 87 loop geom\n"
+      "timestep 0.005\nfix move all lsm/nve\n"
+      "compute events all lsm/events ledger yes progress no\nvariable px equal vcm(all,x)\n"
+      "thermo_style custom step ke v_px c_events[6] c_events[12] c_events[13]\n"
+      "thermo_modify norm no format float %.17g\nthermo 200\nrun 600\n";
+  const Result one = run_text(script, {{"newton", "on"}});
+  ASSERT_TRUE(succeeded(one));
+  EXPECT_GT(one.last("c_events[12]"), 1e-3);
+  EXPECT_LT(std::fabs(one.last("c_events[13]")), 1e-3 * one.last("c_events[12]"));
+  EXPECT_NEAR(one.last("v_px"), one.thermo.front().at("v_px"), 1e-13);
+  const Result two = run_text(script, {{"newton", "off"}}, 2);
+  ASSERT_TRUE(succeeded(two));
+  EXPECT_LT(thermo_difference(one, two, {"KinEng", "c_events[6]", "c_events[12]"}), 1e-10);
+}
+
+TEST_F(Viscosity, OtherCommandsKnowIt) {
+  const Variables variables = {{"dt", "0.02"}, {"end", "0.4"}, {"retardation", "kelvin-voigt 0.5"}};
+  // force of compute bond/local and the virial hold the dashpot
+  std::string script =
+      two_discs("0.02", true) +
+      "bond_coeff 1 1.5 kelvin-voigt 0.5\npair_style lsm/free\npair_coeff * * 1\n"
+      "timestep 0.02\nfix move all lsm/nve\ncompute p all bond/local force\n"
+      "compute f all reduce max c_p inputs local\ncompute pull right reduce max fx\n"
+      "compute virial all pressure NULL virial\n"
+      "variable virial equal c_virial[1]*vol\nvariable r equal x[2]-x[1]\n"
+      "thermo_style custom step c_f c_pull v_virial v_r\n"
+      "thermo_modify norm no format float %.17g\nrun 30\n";
+  const Result r = run_text(script, variables);
+  ASSERT_TRUE(succeeded(r));
+  EXPECT_GT(std::fabs(r.last("c_pull")), 1e-4);
+  EXPECT_NEAR(r.last("c_f"), r.last("c_pull"), 1e-15);
+  EXPECT_NEAR(r.last("v_virial"), r.last("c_pull") * r.last("v_r"), 1e-12);
+
+  // data files hold the time
+  const Result data = run_text(linked() + "write_data viscous.data\n", variables);
+  ASSERT_TRUE(succeeded(data));
+  EXPECT_NE(read_file(path("viscous.data")).find("1 1.5 kelvin-voigt 0.5"), std::string::npos);
+
+  // a minimizer does not feel it, and the run after it does
+  const auto minimized = [&](const std::string &time) {
+    Variables with = variables;
+    with.back().second = time;
+    return run_text(linked() +
+                        "uncompute events\nthermo_style custom step v_s pe\n"
+                        "displace_atoms right move 0.1 0 0\nminimize 0 1e-12 100 100\n",
+                    with);
+  };
+  const Result with = minimized("kelvin-voigt 0.5"), without = minimized("1000");
+  ASSERT_TRUE(succeeded(with));
+  ASSERT_TRUE(succeeded(without));
+  EXPECT_NEAR(with.last("v_s"), 0.0, 1e-9);
+
+  // snapshots with velocities
+  const Result again =
+      run_text(linked() +
+                   "dump d all custom 10 viscous.dump id x y vx vy\n"
+                   "dump_modify d sort id format float %.17g\nuncompute events\n"
+                   "compute pull right reduce max fx\nthermo_style custom step c_pull\nthermo 10\n"
+                   "thermo_modify norm no format float %.17g\nrun 20\nundump d\n"
+                   "rerun viscous.dump dump x y vx vy\n",
+               variables);
+  ASSERT_TRUE(succeeded(again));
+  // the velocity of the dump is that of the end of the step, what the run used is extrapolated
+  const std::size_t rows = again.thermo.size();
+  ASSERT_GE(rows, 6u);
+  EXPECT_NEAR(again.thermo[rows - 1].at("c_pull"), again.thermo[rows - 4].at("c_pull"),
+              1e-3 * std::fabs(again.thermo[rows - 4].at("c_pull")));
+}
+
+TEST_F(Viscosity, UnderHybridStyles) {
+  const Variables variables = {{"dt", "0.02"}, {"end", "2"}, {"retardation", "kelvin-voigt 0.5"}};
+  const Result plain = run_text(linked(), variables);
+  ASSERT_TRUE(succeeded(plain));
+  std::string script = linked();
+  const auto replace = [&script](const std::string &from, const std::string &to) {
+    script.replace(script.find(from), from.size(), to);
+  };
+  replace("bond_style lsm/linked", "bond_style hybrid lsm/linked");
+  replace("bond_coeff 1 1.5", "bond_coeff 1 lsm/linked 1.5");
+  replace("pair_style lsm/free\npair_coeff * * 1.0",
+          "pair_style hybrid/overlay lsm/free zero 1.0\npair_coeff * * zero\n"
+          "pair_coeff * * lsm/free 1.0");
+  const Result hybrid = run_text(script, variables);
+  ASSERT_TRUE(succeeded(hybrid));
+  EXPECT_LT(thermo_difference(plain, hybrid, {"v_s", "KinEng", "c_events[12]"}), 1e-14);
+}
+
+TEST_F(Viscosity, WrongInputIsNamed) {
+  const auto with = [&](const std::string &words, const std::string &more = "") {
+    std::string script = linked();
+    if (!more.empty()) {
+      const std::string fix = "fix               move all lsm/nve";
+      script.replace(script.find(fix), fix.size(), more);
+    }
+    return run_text(script, {{"dt", "0.02"}, {"end", "0.2"}, {"retardation", words}});
+  };
+  EXPECT_TRUE(failed_with(with("kelvin-voigt -1"), {"kelvin-voigt is -1", ">= 0"}));
+  EXPECT_TRUE(failed_with(with("kelvin-voigt"), {"kelvin-voigt", "last word but one"}));
+  EXPECT_TRUE(failed_with(with("kelvin-voigt 1 1.5"), {"kelvin-voigt", "last word but one"}));
+  EXPECT_TRUE(failed_with(with("kelvin-voigt x"), {"x"}));
+  EXPECT_TRUE(failed_with(with("kelvin-voigt 0.1", "fix move all nve\nvariable x index 0"),
+                          {"kelvin-voigt need fix lsm/nve"}));
+  EXPECT_TRUE(
+      failed_with(with("kelvin-voigt 0.1", "fix LSM_VELOCITY all nve\nfix move all lsm/nve"),
+                  {"LSM_VELOCITY must be of style LSM_VELOCITY"}));
+}
