@@ -4,7 +4,7 @@
 # Usage: accuracy.sh full|quick FOLDER SLIDER_PROGRAM FAULT_PROGRAM PHYSICS_TESTS LMP INPUTS SCENES MPIEXEC...
 # full takes some 20 minutes on 2 cores, quick about 3. The report is FOLDER/report.md.
 # LSM_ACCURACY_PARTS="long runs,sums" runs only those parts (slider, single events, friction, waves, long runs, leaps,
-# sums, extremes, or text: none) and keeps what is in FOLDER: tables of the other parts, long runs that have ended. The report
+# sums, ruptures, extremes, or text: none) and keeps what is in FOLDER: tables of the other parts, long runs that have ended. The report
 # says what is missing.
 set -euo pipefail
 export LC_ALL=C
@@ -16,11 +16,11 @@ mode=$1 out=$2 slider=$3 fault=$4 tests=$5 lmp=$6 inputs=$7 scenes=$8
 shift 8
 command -v gnuplot >/dev/null || { echo "accuracy: gnuplot not found (Debian package gnuplot-nox)" >&2; exit 1; }
 fault_parts="single events,friction,waves,long runs,leaps,sums"
-parts=${LSM_ACCURACY_PARTS:-slider,$fault_parts,extremes}
+parts=${LSM_ACCURACY_PARTS:-slider,$fault_parts,ruptures,extremes}
 IFS=, read -ra names <<<"$parts"
 for name in "${names[@]}"; do
-  [[ ,slider,$fault_parts,extremes,text, == *",$name,"* ]] || {
-    echo "accuracy: LSM_ACCURACY_PARTS: no part is called '$name'; there are slider,$fault_parts,extremes,text" >&2
+  [[ ,slider,$fault_parts,ruptures,extremes,text, == *",$name,"* ]] || {
+    echo "accuracy: LSM_ACCURACY_PARTS: no part is called '$name'; there are slider,$fault_parts,ruptures,extremes,text" >&2
     exit 2
   }
 done
@@ -35,6 +35,15 @@ if wanted slider; then
 fi
 echo "== lattice solid fault"
 "$fault" "$out" "$mode" "$lmp" "$inputs" "$scenes" "$@"
+if wanted ruptures; then
+  echo "== ruptures of a flat fault"
+  spacings=(200 100 50)
+  [ "$mode" = full ] || spacings=(200)
+  mkdir -p "$out/work/ruptures"
+  (cd "$out/work/ruptures" && bash "$scenes/ruptures.sh" "$lmp" "$(dirname "$lmp")/postproc" "$inputs" "${spacings[@]}") \
+    >"$out/ruptures.txt"
+  for scene in tpv205 tpv3; do cp "$out/work/ruptures/$scene".{png,svg} "$out/"; done
+fi
 if wanted extremes; then
   echo "== extreme cases"
   [ "$mode" = quick ] || export LSM_REST_STEPS=100000000
@@ -343,6 +352,18 @@ $(markdown fault_leaps.csv)
 $(remarks fault_leaps_first.csv)
 
 $(markdown fault_leaps_first.csv)
+
+## Ruptures of a flat fault
+
+The community benchmarks TPV205-2D and TPV3-2D until 6 s beside a boundary integral, and the self-similar crack
+(\`tests/accuracy/ruptures.sh\`, one rank).
+
+![TPV205-2D](tpv205.png)
+![TPV3-2D](tpv3.png)
+
+\`\`\`
+$(cat ruptures.txt 2>/dev/null || echo '(not run)')
+\`\`\`
 
 ## Sums
 

@@ -1,15 +1,15 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Error against run time of the rupture benchmark TPV205-2D, and the self-similar crack: some minutes of CPU time.
+# Error against run time of the rupture benchmarks TPV205-2D and TPV3-2D, and the self-similar crack: some minutes of CPU
+# time.
 # usage: ruptures.sh LMP POSTPROC INPUTS [SPACING ...]   in an empty folder; spacings 200 100 50
 set -euo pipefail
 export LC_ALL=C
 lmp=$1 postproc=$2 inputs=$3
 shift 3
 [ $# -gt 0 ] || set -- 200 100 50
-histories=()
 for dx in "$@"; do
-  for scene in tpv205 crack; do
+  for scene in tpv205 tpv3 crack; do
     limits=()
     [ "$scene" = crack ] || limits=(-var length 60000 -var width 36000 -var tend 6)
     "$lmp" -in "$inputs/rupture_$scene.in" -log "$scene.$dx.log" -screen none -var dx "$dx" "${limits[@]}" \
@@ -17,6 +17,8 @@ for dx in "$@"; do
     awk -v scene="$scene" -v dx="$dx" '/^Loop time of/ { t += $4; n = $(NF - 1) }
       END { printf "%s, spacing %g m: %d discs, %.1f s\n", scene, dx, n, t }' "$scene.$dx.log"
   done
-  histories+=("tpv205.$dx.slip.bin")
 done
-"$postproc" benchmark "${histories[@]}" --reference "$inputs/reference/tpv205.csv" --until 6 -o tpv205
+for scene in tpv205 tpv3; do
+  histories=("${@/#/$scene.}")
+  "$postproc" benchmark "${histories[@]/%/.slip.bin}" --reference "$inputs/reference/$scene.csv" --until 6 -o "$scene"
+done

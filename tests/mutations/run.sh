@@ -83,7 +83,7 @@ mkdir -p "$tree" "$build"
   done
 lammps=OFF programs=
 for i in "${chosen[@]}"; do
-  [[ ${tests[$i]} = lsm_physics_tests* ]] && lammps=ON
+  [[ ${tests[$i]} = lsm_physics_tests* || ${tests[$i]} = lsm_benchmark_tests* ]] && lammps=ON
   [[ ${tests[$i]} = *.cpp\ * ]] || programs=yes
 done
 grep -q '^LSM_BUILD_LAMMPS:BOOL=ON' "$build/CMakeCache.txt" 2> /dev/null && lammps=ON
