@@ -31,6 +31,11 @@ for part; do
         --no-comparison -o "$new/fault_fit"
       "$postproc" fit catalogues/fault_ruptures_*.xz --scaling --threshold 1e-2 --from 6000 --range 1e-2:1 --replicas 0 \
         --no-comparison -o "$new/fault_rupture_fit"
+      faults=()
+      for length in 120 240 480 945 1440 1890; do faults+=(validation/fault_${length}_1.catalogue.csv.xz); done
+      "$postproc" report "${faults[@]}" "${sliders[@]}" --from 4500 -o "$new/report.html" \
+        --title "Faults with the calibrated values, block-sliders in the default settings"
+      cp "$new/report.html" .
       for fit in slider_fit rupture_fit fault_fit fault_rupture_fit; do
         for kind in csv gp png; do cp "$new/$fit.scaling.$kind" .; done
       done
