@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Starts one run of a study, or goes on with it where it was stopped.
 
-run.py FOLDER fault|slider|esys RANKS CHECKPOINT BIN NAME=VALUE...
+run.py FOLDER fault|slider|esys|catalogue RANKS CHECKPOINT BIN NAME=VALUE...
 
 FOLDER holds settings.txt (what the run was begun with; other settings need another folder), output.txt (what the
 program said), the files of the program, and done.json once the run is done. SIGTERM, or the time LSM_UNTIL
@@ -14,6 +14,7 @@ import ctypes
 import fcntl
 import hashlib
 import json
+import lzma
 import os
 import re
 import resource
@@ -59,7 +60,7 @@ def alone_in(folder):
 
 
 def events_in(catalogue):
-    with open(catalogue) as lines:
+    with (lzma.open if catalogue.resolve().suffix == ".xz" else open)(catalogue, "rt") as lines:
         return sum(line[0] not in "#e" and line.endswith("\n") for line in lines)
 
 
@@ -142,7 +143,26 @@ class Esys:
         return self.told().get("steps")
 
 
-PROGRAMS = {"fault": Fault, "slider": Slider, "esys": Esys}
+class Published:
+    """A catalogue that is there already: `file`, a path from this folder. The run is a link to it."""
+    catalogue = "catalogue.csv"
+
+    def __init__(self, folder, ranks, checkpoint, binaries, settings):
+        self.folder, self.file = folder, INPUTS / dict(pair.split("=", 1) for pair in settings).get("file", "")
+
+    def command(self):
+        if not self.file.is_file():
+            raise Failed(f"{self.file}: no such catalogue, expected one in the column 'file'")
+        return ["ln", "-sfn", str(self.file), self.catalogue]
+
+    def stop(self, child):
+        child.terminate()
+
+    def steps(self):
+        return 0 if (self.folder / self.catalogue).is_file() else None
+
+
+PROGRAMS = {"fault": Fault, "slider": Slider, "esys": Esys, "catalogue": Published}
 
 
 def begin(folder, settings):

@@ -374,7 +374,98 @@ def rises(groups, key):
     return all(a < b for a, b in zip(means, means[1:]))
 
 
+# ---- beside nature
+
+
+def rows_of(name):
+    with open(FOLDER / name) as lines:
+        return list(csv.DictReader(line for line in lines if not line.startswith("#")))
+
+
+def as_number(text):
+    return float(text) if text else math.nan
+
+
+def brief(value, error=math.nan, digits=2):
+    """0.667(21): the error in units of the last digits; without one so many digits."""
+    if math.isnan(value):
+        return "-"
+    if not error > 0:
+        return f"{value:.{digits}f}"
+    last = math.floor(math.log10(error))
+    places = max(0, -last + (1 if error / 10**last < 3.5 else 0))
+    return f"{value:.{places}f}({error * 10**places:.0f})"
+
+
+def measured(row, key):
+    return brief(as_number(row[key]), as_number(row[f"{key}_error"]))
+
+
+def size_text(row):
+    size = float(row["threshold"])
+    return f"M from {math.log10(size) / 1.5:.3g}" if row["label"] == "Southern California" else f"from {size:g}"
+
+
+def ranking(_):
+    head = ["times ranked by distance", "catalogues, events", "distance", "gamma", "burstiness", "memory", "after large", "b"]
+    return calibrate.table(head, [[f"{row['label']}, {size_text(row)}", f"{row['catalogues']}, {row['events']}"] +
+                                  [measured(row, key) for key in ("distance", "gamma", "burstiness", "memory", "after", "b")]
+                                  for row in rows_of("nature.table.csv")])
+
+
+def table1(_):
+    """The paper's Table 1, its columns and four of ours."""
+    rows = rows_of("nature.table1.csv")
+    ours = [next(row for row in rows if (row["source"], row["threshold"]) == (label, size) and "held" not in row["method"])
+            for label, size in TABLE1]
+    head = [""] + [f"{row['source']}" for row in rows if row["origin"] == "printed"]
+    head += [f"{row['source']}, " + size_text(dict(row, label=row["source"])) for row in ours]
+    lines = []
+    for key in ("gamma", "delta", "B", "C"):
+        lines.append([key] + [row[key] for row in rows if row["origin"] == "printed"] + [measured(row, key) for row in ours])
+    return calibrate.table(head, lines)
+
+
+TABLE1 = (("Southern California", "1000"), ("fault 120", "0.0001"), ("slider 1928", "1"), ("ruptures of slider 1928", "1"))
+
+
+LAWS = {"coulomb": "Coulomb, 0.6", "static": "static 0.7 above 0.6", "slip-weakening": "slip weakening, 0.7 to 0.6, heals in 5",
+        "velocity-weakening": "velocity weakening, vc 0.1", "slip-law": "rate and state, slip law", "ageing": "rate and state, ageing",
+        "first-coulomb": "Coulomb, first choices", "first-ageing": "ageing, first choices"}
+
+
+def over_packings(rows, key, digits=2):
+    """Mean over the packings; its error from their scatter, and not below that of their own errors."""
+    values = [(as_number(row[key]), as_number(row.get(f"{key}_error", ""))) for row in rows if row[key]]
+    if len(values) < 2:
+        return brief(*(values[0] if values else (math.nan,)), digits=digits)
+    n, mean = len(values), sum(value for value, _ in values) / len(values)
+    scatter = sum((value - mean) ** 2 for value, _ in values) / (n - 1) / n
+    own = sum(error**2 for _, error in values if error > 0) / n**2
+    return brief(mean, math.sqrt(max(scatter, own)), digits)
+
+
+def laws(_):
+    """Each law over its packings, p of each of them."""
+    runs, out = rows_of("laws.csv"), []
+    for name, text in LAWS.items():
+        rows = [row for row in runs if row["run"].rsplit("_", 1)[0] == name]
+        if not rows:
+            continue
+        p = ", ".join(measured(row, "omori_p") if row["omori_p"] else "none" for row in rows)
+        out.append([text, f"{len(rows)}, {sum(int(row['events']) for row in rows)}"] +
+                   [over_packings(rows, key, 1) for key in ("saw_tooth", "exponent", "gamma", "burstiness", "memory")] +
+                   [f"{over_packings(rows, f'before_{part}')}, {over_packings(rows, f'after_{part}')}" for part in ("near", "far")] +
+                   [", ".join(row["aftershocks"] or "0" for row in rows), p, over_packings(rows, "distance")])
+    head = ["law", "packings, events", "saw-tooth", "exponent", "gamma", "burstiness", "memory", "before, after, to 300",
+            "before, after, 300 to 3e4", "aftershocks", "Omori p", "distance"]
+    return calibrate.table(head, out)
+
+
 TABLES = {
+    "laws": laws,
+    "ranking": ranking,
+    "table1": table1,
     "paper": paper_table,
     "statements": lambda _: calibrate.statements_table(POINTS),
     "pairs": lambda _: calibrate.pairs_table(POINTS),

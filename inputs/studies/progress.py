@@ -16,11 +16,11 @@ class RunProgress:
         # estimated core seconds: 65 discs for a unit of length, 44 million steps of a disc in a second; a chain likewise
         # ESyS-Particle takes 30 times as long
         size = float(run.settings.get("blocks" if run.program == "slider" else "length", 120))
-        self.cost = self.steps * {"fault": 65 * size / 44e6, "slider": 2e-7 + 3e-10 * size, "esys": 65 * size / 1.4e6}[run.program]
+        self.cost = self.steps * {"fault": 65 * size / 44e6, "slider": 2e-7 + 3e-10 * size, "esys": 65 * size / 1.4e6, "catalogue": 1e-9}[run.program]
 
     def count_events(self):
         path = Path(self.run.catalogue)
-        if not path.exists():
+        if not path.exists() or self.run.program == "catalogue":
             return self.events
         if path.stat().st_size < self.seen:
             self.events, self.seen = 0, 0

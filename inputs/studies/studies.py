@@ -11,7 +11,8 @@ from pathlib import Path
 
 import yaml
 
-PROGRAMS = ("fault", "slider", "esys")  # esys: a fault by ESyS-Particle
+INPUTS = Path(__file__).resolve().parent.parent
+PROGRAMS = ("fault", "slider", "esys", "catalogue")  # esys: a fault by ESyS-Particle; catalogue: one that is there, see `file`
 RESERVED = ("run", "program", "ranks", "settings")
 # what an expression ends with where a run has not the numbers in it
 MISSING = (AttributeError, IndexError, KeyError, NameError, TypeError, ValueError, ZeroDivisionError)
@@ -42,7 +43,7 @@ class Run:
         if self.program == "esys":
             self.ranks = 2  # one process computes, one leads it
         self.words = [f"{key}={value}" for key, value in self.settings.items()]
-        self.catalogue = f"{name}/" + ("catalogue.csv" if self.program == "slider" else "fault.catalogue.csv")
+        self.catalogue = f"{name}/" + ("catalogue.csv" if self.program in ("slider", "catalogue") else "fault.catalogue.csv")
 
     def values(self):
         """Settings as numbers, where they are."""
@@ -87,11 +88,13 @@ def runs_of_row(row, config):
     columns = [key for key in row if key not in ("run", "settings")]
     for values in itertools.product(*(cell_values(key, row[key], config) for key in columns)):
         one = dict(zip(columns, values), settings=row.get("settings", ""))
-        own = [f"{key}-{one[key]}" for key in columns if one[key] and key not in RESERVED] + one["settings"].replace("=", "-").split()
+        own = [f"{key}-{one[key]}" for key in columns if one[key] and key not in RESERVED] + shlex.split(one["settings"])
         try:
-            name = row["run"].format(**one) if row.get("run") else "_".join([one["program"]] + own)
+            name = row["run"].format(**one) if row.get("run") else "_".join([one["program"]] + [re.sub(r"[=\s]+", "-", word) for word in own])
         except (KeyError, ValueError, IndexError) as error:
             raise TableError(f"run '{row['run']}', expected a name with columns in braces (not {error})")
+        if one.get("file"):
+            one["file"] = one["file"].format(**one)
         if not re.fullmatch(r"\w[\w.+-]*", name):
             raise TableError(f"run '{name}', expected letters, digits, '.', '_', '+' and '-'")
         yield Run(name, one, config)
@@ -145,7 +148,7 @@ class Study:
         self.recipe = yaml.safe_load((recipe if recipe.exists() else default).read_text())
         if "like" in self.recipe:
             self.recipe = yaml.safe_load(default.with_name(self.recipe["like"] + ".yaml").read_text())
-        self.common = dict(math.__dict__, postproc=f"{config['bin']}/postproc", shorten=float(config.get("shorten") or 1))
+        self.common = dict(math.__dict__, postproc=f"{config['bin']}/postproc", inputs=str(INPUTS), shorten=float(config.get("shorten") or 1))
 
     def part(self, name):
         return self.recipe.get(name) or {}
@@ -189,6 +192,10 @@ class Study:
         if self.reference(run):
             commands.update(self.part("comparisons"))
         return commands
+
+    def label(self, recipe, run):
+        """Name of the curve of a run; runs of one label are samples of one model where a command says so."""
+        return str(eval(recipe["label"], self.names(run.values()))) if "label" in recipe else run.name.replace("_", " ")
 
     def command(self, run, name):
         other = self.reference(run)

@@ -204,6 +204,11 @@ class CatalogueReader {
   explicit CatalogueReader(const std::string &path, bool lenient = false,
                            text_io::OpenBytes open = text_io::open_plain)
       : CatalogueReader(path, lenient, open, false) {}
+  /// Of a file that is open: what comes through a pipe can be opened once only. \throws the same
+  CatalogueReader(std::unique_ptr<text_io::Bytes> bytes, bool lenient)
+      : reader_(std::move(bytes)), lenient_(lenient) {
+    read_header();
+  }
 
   const CatalogueInfo &info() const { return info_; }
 

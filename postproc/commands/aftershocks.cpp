@@ -67,16 +67,21 @@ void run(Options &options) {
     curves.push_back({table.label, table.info.model,
                       aftershocks_of(table, rule_for(table, options), options.hold_c,
                                      options.factor, options.replicas, options.seed)});
-  const Figure figure = aftershock_figure(curves);
+  // A catalogue without aftershocks is a result as well, only there is nothing to draw.
+  const bool none = std::all_of(curves.begin(), curves.end(), [](const AftershockCurve &curve) {
+    return curve.aftershocks.bins.empty();
+  });
+  std::optional<Figure> figure;
+  if (!none || !options.picture.no_picture) figure = aftershock_figure(curves);
   for (const std::string &line : texts(options.threshold, tables)) fmt::print("{}\n", line);
   fmt::print("{}", aftershocks_text(curves));
   const std::string table = options.picture.output + ".omori.csv";
   const Table laws = aftershocks_csv(curves);
   laws.write(table);
   fmt::print("wrote {}\n", table);
-  make(figure, options.picture);
+  if (figure) make(*figure, options.picture);
   options.json.add("laws", laws);
-  options.json.add("rates", figure.table);
+  if (figure) options.json.add("rates", figure->table);
   options.json.write();
 }
 

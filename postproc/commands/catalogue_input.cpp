@@ -64,7 +64,7 @@ void CatalogueOptions::add_to(CLI::App *command) {
            "Leave out events that start at this time or later (as --from)");
   command
       ->add_option("--format", format,
-                   "What the files are: detect (by their begin, pipes are models: '<' is quakeml, "
+                   "What the files are: detect (by their begin: '<' is quakeml, "
                    "'# lsm-catalogue' "
                    "models, column names with time and mag csv, YYYY/MM/DD scedc, nine numbers "
                    "zmap), or one of these. Of earthquakes only events of that type are used; "
@@ -157,17 +157,31 @@ void sort_by_start(EventTable &table) {
 
 }  // namespace
 
+namespace {
+
+CLI::Option *as_threshold(CLI::Option *option) {
+  return option->transform(size_or_magnitude())->check(zero_or_more())->default_str("1e-4");
+}
+
+std::string threshold_help(const std::string &what, const std::string &more) {
+  return "Smallest size of " + what + " (model energy; M2.5: magnitude 2.5)" + more +
+         "; without it 1e-4, as in the paper's Figs. 12 and 13 (for times it states none), or the "
+         "largest 'completeness' in the headers of a model where that is larger (ours)";
+}
+
+}  // namespace
+
 CLI::Option *add_threshold(CLI::App *command, Threshold &threshold, const std::string &what) {
-  return command
-      ->add_option_function<double>(
-          "--threshold", [&threshold](const double &size) { threshold = Threshold(size); },
-          "Smallest size of " + what +
-              " (model energy; M2.5: magnitude 2.5); without it 1e-4, as in the paper's Figs. 12 "
-              "and 13, or the largest "
-              "'completeness' in the headers of a model where that is larger (ours)")
-      ->transform(size_or_magnitude())
-      ->check(zero_or_more())
-      ->default_str("1e-4");
+  return as_threshold(command->add_option_function<double>(
+      "--threshold", [&threshold](const double &size) { threshold = Threshold(size); },
+      threshold_help(what, "")));
+}
+
+CLI::Option *add_thresholds(CLI::App *command, std::vector<double> &thresholds,
+                            const std::string &what) {
+  return as_threshold(
+      command->add_option("--threshold", thresholds, threshold_help(what, ", several allowed"))
+          ->allow_extra_args(false));
 }
 
 void check(const CatalogueOptions &options) {
@@ -190,14 +204,13 @@ namespace {
 
 constexpr std::size_t head_size = 1 << 16;  // enough to know a format by
 
-/// The bytes of a file, at most so many. \throws FileError
-std::string bytes_of(const std::string &path, std::size_t most) {
-  const auto bytes = open_input(path);
+/// All bytes of a file. \throws FileError
+std::string all_of(text_io::Bytes &bytes) {
   std::string out;
-  for (std::size_t got = 1; got > 0 && out.size() < most;) {
+  for (std::size_t got = 1; got > 0;) {
     const std::size_t known = out.size();
-    out.resize(std::min(most, known + head_size));
-    got = bytes->read(out.data() + known, out.size() - known);
+    out.resize(known + head_size);
+    got = bytes.read(out.data() + known, head_size);
     out.resize(known + got);
   }
   return out;
@@ -217,14 +230,14 @@ void choose(const Event &event, double from, double to, const CatalogueOptions &
   }
 }
 
-EventTable read_earthquake_events(const std::string &path, CatalogueFormat format,
+EventTable read_earthquake_events(text_io::Bytes &bytes, CatalogueFormat format,
                                   const CatalogueOptions &options,
                                   const std::function<void(const Event &)> &use) {
+  const std::string &path = bytes.path();
   if (options.displacement)
     throw CatalogueError(path +
                          ": earthquakes, expected a catalogue of a model for --displacement");
-  const EarthquakeList list = read_earthquakes(
-      bytes_of(path, std::numeric_limits<std::size_t>::max()), format, path, options.lenient);
+  const EarthquakeList list = read_earthquakes(all_of(bytes), format, path, options.lenient);
   EventTable table;
   table.path = path;
   table.info.model = seismicity;
@@ -259,9 +272,10 @@ EventTable read_earthquake_events(const std::string &path, CatalogueFormat forma
   return table;
 }
 
-EventTable read_model_events(const std::string &path, const CatalogueOptions &options,
+EventTable read_model_events(std::unique_ptr<text_io::Bytes> bytes, const CatalogueOptions &options,
                              const std::function<void(const Event &)> &use) {
-  CatalogueReader reader(path, options.lenient, open_input);
+  const std::string path = bytes->path();
+  CatalogueReader reader(std::move(bytes), options.lenient);
   EventTable table;
   table.path = path;
   table.info = reader.info();
@@ -288,15 +302,13 @@ EventTable read_model_events(const std::string &path, const CatalogueOptions &op
 
 EventTable read_events(const std::string &path, const CatalogueOptions &options,
                        const std::function<void(const Event &)> &use) {
-  CatalogueFormat format = options.format;
-  std::error_code unknown;
-  // What comes through a pipe can be read only once.
-  if (format == CatalogueFormat::detect)
-    format = std::filesystem::is_regular_file(path, unknown)
-                 ? detect_format(bytes_of(path, head_size))
-                 : CatalogueFormat::models;
-  return format == CatalogueFormat::models ? read_model_events(path, options, use)
-                                           : read_earthquake_events(path, format, options, use);
+  // Opened once, as a pipe can be read only once.
+  std::unique_ptr<text_io::Bytes> bytes = open_input(path);
+  const CatalogueFormat format = options.format == CatalogueFormat::detect
+                                     ? detect_format(bytes->peek(head_size))
+                                     : options.format;
+  return format == CatalogueFormat::models ? read_model_events(std::move(bytes), options, use)
+                                           : read_earthquake_events(*bytes, format, options, use);
 }
 
 EventTable load_catalogue(const std::string &path, const CatalogueOptions &options) {

@@ -44,6 +44,9 @@ struct CatalogueOptions {
 
 /// Adds --threshold. \param what beside "smallest size of"
 CLI::Option *add_threshold(CLI::App *command, Threshold &threshold, const std::string &what);
+/// The same, given once or several times.
+CLI::Option *add_thresholds(CLI::App *command, std::vector<double> &thresholds,
+                            const std::string &what);
 
 /// Gives each event of a catalogue that the options choose to use, which need not keep it; returns
 /// the table without the columns. \throws CatalogueError "file:line: what, expected ..."

@@ -22,6 +22,7 @@ void add_compare(CLI::App &app);      ///< do catalogues agree? (ours)
 void add_nature(CLI::App &app);       ///< models ranked by their distance to earthquakes (ours)
 void add_spectrum(CLI::App &app);     ///< power spectrum of PE (ours)
 void add_export(CLI::App &app);       ///< tables for earthquake catalogue tools
+void add_select(CLI::App &app);       ///< part of a catalogue as a catalogue (ours)
 void add_report(CLI::App &app);       ///< one page about a set of catalogues
 void add_rupture(CLI::App &app);      ///< ruptures of a fault in space and time (ours)
 void add_explore(CLI::App &app);      ///< a page on which a person explores runs (ours)

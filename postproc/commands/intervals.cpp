@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "catalogue_input.h"
+#include "clustering_figures.h"
 #include "clustering_tables.h"
 #include "commands.h"
 #include "interval_figure.h"
@@ -36,8 +37,11 @@ struct Options {
 };
 
 void run(Options &options) {
-  options.picture.check(options.catalogues.paths, {".table1.csv", ".clustering.csv"},
-                        {options.json.output()});
+  std::vector<std::string> outputs = {".table1.csv", ".clustering.csv"};
+  for (const char *const name : {".rate", ".conditional"})
+    for (const char *const kind : {".csv", ".gp", ".png", ".svg"})
+      outputs.push_back(std::string(name) + kind);
+  options.picture.check(options.catalogues.paths, outputs, {options.json.output()});
   options.json.check(options.catalogues.paths);
   IntervalSettings &settings = options.intervals;
   settings.least_squares = options.method != "likelihood";
@@ -81,6 +85,9 @@ void run(Options &options) {
         "errors and p are too small\n",
         settings.places);
   fmt::print("{}", table1_text(rows, settings.rescale));
+  if (settings.shortest > 0.0)
+    fmt::print("  fits without times below {} of the mean (--shortest)\n",
+               short_number(settings.shortest));
   table1_csv(rows, settings.rescale).write(options.picture.output + ".table1.csv");
   fmt::print("wrote {}.table1.csv\n", options.picture.output);
   fmt::print("{}", clustering_text(curves, date_text));
@@ -88,6 +95,14 @@ void run(Options &options) {
   clusters.write(options.picture.output + ".clustering.csv");
   fmt::print("wrote {}.clustering.csv\n", options.picture.output);
   make(figure, options.picture);
+  const bool clustered = std::any_of(curves.begin(), curves.end(), has_clustering);
+  if (clustered) {
+    const Figure rate = rate_figure(curves), conditional = conditional_figure(curves);
+    make(rate, named(options.picture, ".rate"));
+    make(conditional, named(options.picture, ".conditional"));
+    options.json.add("rate", rate.table);
+    options.json.add("conditional", conditional.table);
+  }
   std::vector<Table1Row> ours;
   std::copy_if(rows.begin(), rows.end(), std::back_inserter(ours),
                [](const Table1Row &row) { return !row.printed; });
@@ -111,17 +126,7 @@ void add_intervals(CLI::App &app) {
   add_picture_options(command, options->picture, "intervals");
   IntervalSettings &intervals = options->intervals;
   const std::string group = "Inter-event times";
-  command
-      ->add_option("--threshold", intervals.thresholds,
-                   "Smallest size of the events (model energy; M2.5: magnitude 2.5), several "
-                   "allowed; without it 1e-4, which is "
-                   "that of the paper's size densities (for times it states none), or the largest "
-                   "'completeness' in the headers of a model where that is larger (ours)")
-      ->default_str("1e-4")
-      ->allow_extra_args(false)
-      ->transform(size_or_magnitude())
-      ->check(zero_or_more())
-      ->group(group);
+  add_thresholds(command, intervals.thresholds, "the events")->group(group);
   command
       ->add_option("--places", intervals.places,
                    "Times between ruptures that reach the same place, for this number of places "
@@ -150,8 +155,10 @@ void add_intervals(CLI::App &app) {
       ->group(group);
   command
       ->add_option("--shortest", intervals.shortest,
-                   "Leave shorter times out of the fits (model time, or multiples of the mean with "
-                   "--rescale); by likelihood gamma <= 0 needs this")
+                   "Leave times shorter than this multiple of their mean out of the fits, as those "
+                   "within sequences (ours); 0: none, as in the paper. By likelihood gamma <= 0 "
+                   "needs more than 0")
+      ->check(zero_or_more())
       ->group(group);
   command
       ->add_option("--replicas", intervals.replicas,

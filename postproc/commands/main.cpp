@@ -79,7 +79,7 @@ int main(int argc, char **argv) {
     for (const auto add :
          {add_pick, add_series, add_histograms, add_intervals, add_fit, add_magnitudes,
           add_aftershocks, add_count, add_match, add_compare, add_nature, add_spectrum, add_export,
-          add_report, add_rupture, add_explore, add_benchmark, add_summary})
+          add_select, add_report, add_rupture, add_explore, add_benchmark, add_summary})
       add(app);
     try {
       app.parse(argc, argv);

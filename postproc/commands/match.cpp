@@ -24,6 +24,7 @@ struct Options {
   CatalogueOptions catalogues;
   JsonOutput json;
   MatchRule rule;
+  Threshold threshold;
   double origin = 0.0;
 };
 
@@ -41,6 +42,7 @@ void run(Options &options) {
   if (options.catalogues.paths.size() < 2)
     throw std::invalid_argument("one catalogue, expected at least two to compare");
   options.json.check(options.catalogues.paths);
+  options.rule.least_size = options.threshold.given_or_paper();
   std::vector<EventTable> tables = load_catalogues(options.catalogues);
   Table out({"first", "second", "smallest_size", "n_first", "n_second", "same", "chance"});
   for (EventTable &table : tables)
@@ -76,10 +78,10 @@ void add_match(CLI::App &app) {
   options->catalogues.add_to(command);
   options->catalogues.add_displacement(command);
   options->json.add_to(command);
-  command
-      ->add_option("--threshold", options->rule.least_size,
-                   "Smallest size of the events (model energy)")
+  add_threshold(command, options->threshold, "the events")
+      ->description("Smallest size of the events (model energy)")
       ->check(CLI::PositiveNumber)
+      ->default_str("")
       ->required();
   command
       ->add_option("--within", options->rule.within,

@@ -10,6 +10,7 @@
 #include "nature_figure.h"
 #include "option_values.h"
 #include "picture_options.h"
+#include "table1.h"
 
 namespace LSM::postproc {
 
@@ -23,7 +24,8 @@ struct Options {
 };
 
 void run(Options &options) {
-  options.picture.check(options.catalogues.paths, {".table.csv"}, {options.json.output()});
+  options.picture.check(options.catalogues.paths, {".table.csv", ".table1.csv"},
+                        {options.json.output()});
   options.json.check(options.catalogues.paths);
   const std::vector<EventTable> tables = load_catalogues(options.catalogues);
   if (tables.size() < 2)
@@ -37,8 +39,14 @@ void run(Options &options) {
   const Table numbers = nature_csv(rows);
   numbers.write(table);
   fmt::print("wrote {}\n", table);
+  const std::vector<Table1Row> parameters = nature_table1(rows);
+  fmt::print("{}", table1_text(parameters, true));
+  const Table table1 = table1_csv(parameters, true);
+  table1.write(options.picture.output + ".table1.csv");
+  fmt::print("wrote {}.table1.csv\n", options.picture.output);
   make(nature_figure(rows), options.picture);
   options.json.add("models", numbers);
+  options.json.add("table1", table1);
   options.json.write();
 }
 
@@ -57,14 +65,7 @@ void add_nature(CLI::App &app) {
   add_picture_options(command, options->picture, "nature");
   NatureSettings &nature = options->nature;
   const std::string group = "Comparison (ours)";
-  command
-      ->add_option("--threshold", nature.thresholds,
-                   "Smallest size of the models' events, several allowed (energy)")
-      ->allow_extra_args(false)
-      ->transform(size_or_magnitude())
-      ->check(zero_or_more())
-      ->default_str("the completeness in the headers")
-      ->group(group);
+  add_thresholds(command, nature.thresholds, "the models' events")->group(group);
   command
       ->add_option("--reference", nature.reference,
                    "Smallest size of the earthquakes, such as M2.5; several allowed, the least is "

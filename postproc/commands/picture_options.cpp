@@ -15,4 +15,10 @@ void add_picture_options(CLI::App *command, PictureOptions &picture, const std::
                     "Write the table and the script, do not run gnuplot");
 }
 
+PictureOptions named(const PictureOptions &options, const std::string &name) {
+  PictureOptions one = options;
+  one.output += name;
+  return one;
+}
+
 }  // namespace LSM::postproc

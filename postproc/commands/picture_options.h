@@ -15,6 +15,9 @@ namespace LSM::postproc {
 /// \param base default of --output
 void add_picture_options(CLI::App *command, PictureOptions &picture, const std::string &base);
 
+/// For a further picture of a command: BASE + name.
+PictureOptions named(const PictureOptions &options, const std::string &name);
+
 }  // namespace LSM::postproc
 
 #endif

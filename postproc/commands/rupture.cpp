@@ -32,12 +32,6 @@ struct Options {
   double p_speed = 2.12, s_speed = 1.22;
 };
 
-PictureOptions named(const PictureOptions &options, const std::string &name) {
-  PictureOptions one = options;
-  one.output += name;
-  return one;
-}
-
 /// \throws CatalogueError; std::runtime_error unless it is a catalogue of ruptures of a fault
 RuptureTable load_ruptures(const std::string &path, const CatalogueOptions &options) {
   RuptureTable table;

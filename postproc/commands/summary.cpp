@@ -61,12 +61,16 @@ double share_within(const std::vector<double> &times, const Range &window) {
 GeneralisedGammaFit fit_times(const std::vector<double> &times, const Options &options) {
   GeneralisedGammaOptions fixed;
   fixed.fix_delta = 1.0;
-  if (options.method == "likelihood") return fit_maximum_likelihood(times, options.shortest, fixed);
+  const double shortest = times.empty() || options.shortest == 0.0
+                              ? 0.0
+                              : options.shortest * sum_pairwise(times.data(), times.size()) /
+                                    static_cast<double>(times.size());
+  if (options.method == "likelihood") return fit_with_share(times, shortest, fixed);
   LogHistogram histogram;
   for (const double time : times) histogram.add(time);
   std::vector<LogBin> fitted;
   for (const LogBin &bin : histogram.bins())
-    if (bin.lo >= options.shortest) fitted.push_back(bin);
+    if (bin.lo >= shortest) fitted.push_back(bin);
   return fit_least_squares(fitted, fixed);
 }
 
@@ -188,8 +192,10 @@ void add_summary(CLI::App &app) {
       ->add_option("--brief", options->brief, "Steps that an event lasts at most to count as brief")
       ->check(zero_or_more());
   command
-      ->add_option("--shortest", options->shortest,
-                   "Leave shorter times out of the fits (model time); gamma <= 0 needs this")
+      ->add_option(
+          "--shortest", options->shortest,
+          "Leave times shorter than this multiple of their mean out of the fits; gamma <= 0 "
+          "needs more than 0")
       ->check(zero_or_more());
   command
       ->add_option("--method", options->method,

@@ -67,7 +67,9 @@ Table aftershocks_csv(const std::vector<AftershockCurve> &curves) {
                "likelihood_ratio",
                "poisson_p",
                "label",
-               "degenerate"});
+               "degenerate",
+               "before"});
+  table.comment("before: events as long before the main shocks");
   table.comment("n(t) = K (t + c)^-p + background after the end of a main shock, model time");
   table.comment("poisson_p: share of Poisson catalogues whose likelihood ratio is as large");
   for (const AftershockCurve &curve : curves) {
@@ -78,7 +80,8 @@ Table aftershocks_csv(const std::vector<AftershockCurve> &curves) {
          {a.fit.constant, a.fit.se_constant, a.fit.p, a.fit.se_p, a.fit.c, a.fit.se_c, a.fit.K,
           a.fit.se_K, a.fit.background, a.fit.se_background, a.fit.likelihood_ratio, a.p})
       table.add(value);
-    table.add(curve.label).add(a.fit.why).end_row();
+    table.add(curve.label).add(a.fit.why);
+    table.add(static_cast<std::int64_t>(a.sequences.before.size())).end_row();
   }
   return table;
 }

@@ -25,7 +25,9 @@ std::vector<Named> numbers_of(const Clustering &c) {
           {"memory", "memory coefficient; shuffled", c.memory},
           {"after_short", "mean time after the shortest third / mean; shuffled", c.after[0]},
           {"after_middle", "after the middle third; shuffled", c.after[1]},
-          {"after_long", "after the longest third; shuffled", c.after[2]}};
+          {"after_long", "after the longest third; shuffled", c.after[2]},
+          {"after_distance", "distance between times after short and long ones; shuffled",
+           c.after_distance}};
 }
 
 }  // namespace
@@ -54,7 +56,7 @@ std::string clustering_text(const std::vector<IntervalCurve> &curves, const Date
     out += fmt::format("  burstiness {}\n", short_number(c.burstiness, 3));
     for (const Named &one : numbers_of(c))
       out += fmt::format(
-          "  {:<58} {:>8}; {} (p = {})\n", one.text, short_number(one.number.value, 3),
+          "  {:<60} {:>8}; {} (p = {})\n", one.text, short_number(one.number.value, 3),
           with_error(one.number.mean, one.number.deviation), short_number(one.number.p, 2));
   }
   if (!out.empty())

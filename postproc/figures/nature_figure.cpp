@@ -24,6 +24,7 @@ namespace {
 struct Sample {
   std::vector<double> times, magnitudes;
   std::vector<std::pair<Measured NatureRow::*, Measured>> numbers;  // the same of all samples
+  std::string why;                                                  // delta cannot be fitted
 };
 
 std::vector<double> rescaled(std::vector<double> times) {
@@ -50,10 +51,23 @@ Sample sample_of(const EventTable &table, double threshold, const Sample *refere
   out.numbers.push_back({&NatureRow::after_short, {c.after[0].value}});
   const BValue b = b_value(out.magnitudes, 0.0);
   out.numbers.push_back({&NatureRow::b, {b.b, b.error}});
+  // Events of zero length can start at the same time.
+  std::vector<double> positive = out.times;
+  positive.erase(
+      std::remove_if(positive.begin(), positive.end(), [](double t) { return !(t > 0); }),
+      positive.end());
   GeneralisedGammaOptions held;
   held.fix_delta = 1.0;
-  const GeneralisedGammaFit fit = fit_maximum_likelihood(out.times, settings.shortest, held);
+  const GeneralisedGammaFit fit = fit_with_share(positive, settings.shortest, held);
   out.numbers.push_back({&NatureRow::gamma, {fit.gamma, fit.se_gamma}});
+  out.numbers.push_back({&NatureRow::B, {fit.B, fit.se_B}});
+  out.numbers.push_back({&NatureRow::C, {fit.C, fit.se_C}});
+  const GeneralisedGammaFit free = fit_with_share(positive, settings.shortest, {});
+  out.numbers.push_back({&NatureRow::free_gamma, {free.gamma, free.se_gamma}});
+  out.numbers.push_back({&NatureRow::free_delta, {free.delta, free.se_delta}});
+  out.numbers.push_back({&NatureRow::free_B, {free.B, free.se_B}});
+  out.numbers.push_back({&NatureRow::free_C, {free.C, free.se_C}});
+  if (free.degenerate) out.why = free.why;
   const AroundLarge around = around_large(starts_of(table, threshold), sizes, settings.share);
   out.numbers.push_back({&NatureRow::before, {around.before}});
   out.numbers.push_back({&NatureRow::after, {around.after}});
@@ -93,6 +107,10 @@ NatureRow row_of(const std::vector<Sample> &samples) {
     row.times.insert(row.times.end(), sample.times.begin(), sample.times.end());
     row.magnitudes.insert(row.magnitudes.end(), sample.magnitudes.begin(), sample.magnitudes.end());
     for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i].push_back(sample.numbers[i].second);
+    if (!sample.why.empty()) {
+      ++row.without_delta;
+      row.why = sample.why;
+    }
   }
   for (std::size_t i = 0; i < numbers.size(); ++i)
     row.*(samples.front().numbers[i].first) = mean_of(numbers[i]);
@@ -224,19 +242,88 @@ Table nature_csv(const std::vector<NatureRow> &rows) {
   return table;
 }
 
+std::vector<Table1Row> nature_table1(const std::vector<NatureRow> &rows,
+                                     const std::string &plus_minus) {
+  std::vector<Table1Row> out = table1({}, plus_minus);
+  for (const NatureRow &row : rows)
+    for (const bool held : {false, true}) {
+      Table1Row one;
+      one.source = row.label;
+      one.from = row.from;
+      one.method = fmt::format("maximum likelihood{}, {} catalogue{}", held ? ", δ = 1 held" : "",
+                               row.catalogues, row.catalogues == 1 ? "" : "s");
+      one.threshold = row.threshold;
+      one.n = row.n;
+      const std::array<Measured, 4> numbers =
+          held ? std::array<Measured, 4>{row.gamma, {1.0, 0.0}, row.B, row.C}
+               : std::array<Measured, 4>{row.free_gamma, row.free_delta, row.free_B, row.free_C};
+      if (!held && row.without_delta > 0)
+        one.why = row.catalogues == 1 ? row.why
+                                      : fmt::format("in {} of {} catalogues: {}", row.without_delta,
+                                                    row.catalogues, row.why);
+      else if (std::isnan(row.gamma.value))
+        one.why = "the times do not determine it";
+      for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const Measured number = one.why.empty() ? numbers[i] : Measured();
+        one.values[i] = number.value;
+        one.errors[i] = number.error;
+        if (one.why.empty()) one.parameters[i] = with_error(number.value, number.error, plus_minus);
+      }
+      out.push_back(std::move(one));
+    }
+  return out;
+}
+
 Figure nature_figure(const std::vector<NatureRow> &rows) {
-  Figure figure{Table({"panel", "curve", "x", "y", "error", "label"}), {}, {1100, 900}};
+  // All rows are ranked; what is drawn beside them is the nearest row of each label, as more curves
+  // would hide each other. Colours tell labels, symbols smallest sizes.
+  std::vector<std::string> labels;
+  std::vector<double> sizes_of_models;
+  std::vector<bool> nearest;
+  for (const NatureRow &row : rows) {
+    nearest.push_back(std::find(labels.begin(), labels.end(), row.label) == labels.end());
+    if (nearest.back()) labels.push_back(row.label);
+    if (!row.earthquakes) sizes_of_models.push_back(row.threshold);
+  }
+  std::sort(sizes_of_models.begin(), sizes_of_models.end());
+  sizes_of_models.erase(std::unique(sizes_of_models.begin(), sizes_of_models.end()),
+                        sizes_of_models.end());
+  const int height = std::max(700, 130 + 34 * static_cast<int>(rows.size()));
+  Figure figure{Table({"panel", "curve", "x", "y", "error", "label"}), {}, {1150, height}};
   figure.table.comment(
-      "panels: times (density over time / mean), sizes (share of the events with magnitudes of at "
-      "least x above the smallest), plane (burstiness, memory), distance (rank)");
+      "panels: distance (rank), and of the nearest row of each label times (density over time / "
+      "mean), sizes (share of the events with magnitudes of at least x above the smallest), plane "
+      "(burstiness, memory)");
   const auto add = [&figure](const char *panel, std::size_t curve, double x, double y, double error,
                              const std::string &label) {
-    figure.table.add(panel).add(static_cast<std::int64_t>(curve)).add(x).add(y).add(error);
+    // gnuplot passes over points with an empty error
+    figure.table.add(panel).add(static_cast<std::int64_t>(curve)).add(x).add(y);
+    figure.table.add(std::isnan(error) ? 0.0 : error);
     figure.table.add(label).end_row();
   };
   std::string times, sizes, plane, distances, ticks;
   for (std::size_t k = 1; k <= rows.size(); ++k) {
     const NatureRow &row = rows[k - 1];
+    const auto label = std::find(labels.begin(), labels.end(), row.label) - labels.begin();
+    constexpr std::array<int, 6> symbols = {7, 5, 9, 11, 13, 15};
+    const auto size =
+        std::lower_bound(sizes_of_models.begin(), sizes_of_models.end(), row.threshold) -
+        sizes_of_models.begin();
+    const std::string colour =
+        row.earthquakes
+            ? fmt::format("lc rgb '#000000' lw {} dt 1 pt {}", k == 1 ? 2 : 1, k == 1 ? 7 : 6)
+            : fmt::format("lt {} dt 1 pt {}", (label - 1) % 7 + 1,
+                          symbols[static_cast<std::size_t>(size) % symbols.size()]);
+    if (k > 1) {
+      add("distance", k, row.distance.value, -1.0 * static_cast<double>(k), row.distance.error,
+          name_of(row));
+      distances +=
+          fmt::format("{}table using (at('distance', {})):4:5 with xerrorbars {} ps 1.3 notitle",
+                      k == 2 ? "plot " : ", \\\n     ", k, colour);
+      ticks +=
+          fmt::format("{}{} {}", k == 2 ? "" : ", ", quote(name_of(row)), -static_cast<int>(k));
+    }
+    if (!nearest[k - 1]) continue;
     LogHistogram histogram(std::pow(10.0, 0.2));
     for (const double time : row.times)
       if (time > 0.0) histogram.add(time);
@@ -250,24 +337,13 @@ Figure nature_figure(const std::vector<NatureRow> &rows) {
       add("sizes", k, m, above / static_cast<double>(sorted.size()), 0.0, name_of(row));
     }
     add("plane", k, row.memory.value, row.burstiness.value, row.burstiness.error, name_of(row));
-    if (k > 1) add("distance", k, row.distance.value, -1.0 * k, row.distance.error, name_of(row));
-    const std::string colour = row.earthquakes
-                                   ? fmt::format("lc rgb '#000000' pt {}", k == 1 ? 7 : 6)
-                                   : fmt::format("lt {}", (k - 2) % 7 + 1);
     const char *const start = k == 1 ? "plot " : ", \\\n     ";
-    times += fmt::format("{}table using (at('times', {})):4 with linespoints {} title {}", start, k,
-                         colour, quote(name_of(row)));
+    times += fmt::format("{}table using (at('times', {})):4 with linespoints {} ps 0.7 notitle",
+                         start, k, colour);
     sizes +=
         fmt::format("{}table using (at('sizes', {})):4 with lines {} notitle", start, k, colour);
-    plane += fmt::format("{}table using (at('plane', {})):4 with points {} ps 1.6 notitle", start,
-                         k, colour);
-    if (k > 1) {
-      distances +=
-          fmt::format("{}table using (at('distance', {})):4:5 with xerrorbars {} ps 1.3 notitle",
-                      k == 2 ? "plot " : ", \\\n     ", k, colour);
-      ticks +=
-          fmt::format("{}{} {}", k == 2 ? "" : ", ", quote(name_of(row)), -static_cast<int>(k));
-    }
+    plane += fmt::format("{}table using (at('plane', {})):4:5 with yerrorbars {} ps 1.4 notitle",
+                         start, k, colour);
   }
   const auto panel = [](const char *margins) {
     return fmt::format(

@@ -12,6 +12,7 @@
 
 #include "event_table.h"
 #include "plot.h"
+#include "table1.h"
 
 namespace LSM::postproc {
 
@@ -37,7 +38,12 @@ struct NatureRow {
   bool earthquakes = false;
   double threshold = 0.0;
   std::int64_t catalogues = 0, n = 0;  ///< n: events of all of them
-  Measured b, gamma, variation, burstiness, memory, after_short, before, after;
+  Measured b, variation, burstiness, memory, after_short, before, after;
+  /// Of the generalised gamma density of the times over their mean, with delta = 1 and with a free
+  /// one.
+  Measured gamma, B, C, free_gamma, free_delta, free_B, free_C;
+  std::int64_t without_delta = 0;  ///< catalogues that do not determine a free delta
+  std::string why;                 ///< of one of them
   /// Of the times over their mean, and of the magnitudes above the smallest, to those of the first
   /// row of earthquakes: Kolmogorov-Smirnov.
   Measured distance, size_distance;
@@ -52,6 +58,9 @@ std::vector<NatureRow> nature_rows(const std::vector<EventTable> &tables,
                                    const NatureSettings &settings);
 
 std::string nature_text(const std::vector<NatureRow> &rows);
+/// The paper's Table 1 with a line for each row, delta free and held at 1; errors as in the rows.
+std::vector<Table1Row> nature_table1(const std::vector<NatureRow> &rows,
+                                     const std::string &plus_minus = " +- ");
 Table nature_csv(const std::vector<NatureRow> &rows);
 Figure nature_figure(const std::vector<NatureRow> &rows);
 

@@ -21,14 +21,6 @@ double mean_of(const std::vector<double> &values) {
   return sum_pairwise(values.data(), values.size()) / static_cast<double>(values.size());
 }
 
-/// Standard deviation (of the series, not of a law behind it) over mean.
-double ratio_of(const std::vector<double> &times) {
-  const double mean = mean_of(times);
-  NeumaierSum squares;
-  for (const double time : times) squares.add((time - mean) * (time - mean));
-  return std::sqrt(squares.value() / static_cast<double>(times.size())) / mean;
-}
-
 double finite_burstiness(double r, double n) {
   const double up = std::sqrt(n + 1.0), down = std::sqrt(n - 1.0);
   return (up * r - down) / ((up - 2.0) * r + down);
@@ -49,19 +41,81 @@ double memory_of(const std::vector<double> &times) {
   return product.value() / std::sqrt(squares1.value() * squares2.value());
 }
 
-/// Mean of the times that follow each third of the times, over the mean of all.
-std::array<double, 3> conditional_means(const std::vector<double> &times, double shorter,
-                                        double longer) {
-  std::array<NeumaierSum, 3> sums;
-  std::array<double, 3> counts{};
-  for (std::size_t i = 0; i + 1 < times.size(); ++i) {
-    const std::size_t third = times[i] < shorter ? 0 : times[i] < longer ? 1 : 2;
-    sums[third].add(times[i + 1]);
-    counts[third] += 1.0;
+/// Cells of equally many times: what a time is followed by depends on its cell. Thirds and eighths
+/// are whole numbers of them.
+constexpr std::size_t cells = 480, groups = 24;
+static_assert(cells % groups == 0 && groups % thirds == 0 && groups % eighths == 0);
+
+struct CelledTime {
+  double time;
+  std::size_t cell;
+};
+
+std::vector<double> cell_edges(std::vector<double> times) {
+  std::sort(times.begin(), times.end());
+  std::vector<double> edges;
+  for (std::size_t k = 1; k < cells; ++k) edges.push_back(times[times.size() * k / cells]);
+  return edges;
+}
+
+/// Times in the order of the series, each with its cell; equal times share one.
+std::vector<CelledTime> celled(const std::vector<double> &times) {
+  const std::vector<double> edges = cell_edges(times);
+  std::vector<CelledTime> out;
+  out.reserve(times.size());
+  for (const double time : times)
+    out.push_back({time, static_cast<std::size_t>(
+                             std::upper_bound(edges.begin(), edges.end(), time) - edges.begin())});
+  return out;
+}
+
+/// What follows short and long times in one order of the series.
+struct Conditional {
+  std::array<double, thirds> after_third;
+  std::array<double, eighths> after_eighth;
+  double distance;
+};
+
+Conditional conditional_of(const std::vector<CelledTime> &series, double mean) {
+  std::array<NeumaierSum, groups> sums;
+  std::array<double, groups> counts{};
+  std::array<std::array<double, cells>, thirds> followers{};
+  for (std::size_t i = 0; i + 1 < series.size(); ++i) {
+    const std::size_t group = series[i].cell / (cells / groups);
+    sums[group].add(series[i + 1].time);
+    counts[group] += 1.0;
+    followers[series[i].cell / (cells / thirds)][series[i + 1].cell] += 1.0;
   }
-  const double mean = mean_of(times);
-  return {sums[0].value() / counts[0] / mean, sums[1].value() / counts[1] / mean,
-          sums[2].value() / counts[2] / mean};
+  const auto mean_in = [&](std::size_t from, std::size_t count) {
+    NeumaierSum sum;
+    double n = 0.0;
+    for (std::size_t g = from; g < from + count; ++g) {
+      sum.add(sums[g].value());
+      n += counts[g];
+    }
+    return sum.value() / n / mean;
+  };
+  Conditional out{};
+  for (std::size_t k = 0; k < thirds; ++k)
+    out.after_third[k] = mean_in(k * (groups / thirds), groups / thirds);
+  for (std::size_t k = 0; k < eighths; ++k)
+    out.after_eighth[k] = mean_in(k * (groups / eighths), groups / eighths);
+  std::array<double, 2> all{}, below{};
+  for (std::size_t c = 0; c < cells; ++c) {
+    all[0] += followers.front()[c];
+    all[1] += followers.back()[c];
+  }
+  // Series of few different times may leave a third empty.
+  if (!(all[0] > 0.0 && all[1] > 0.0)) {
+    out.distance = std::numeric_limits<double>::quiet_NaN();
+    return out;
+  }
+  for (std::size_t c = 0; c < cells; ++c) {
+    below[0] += followers.front()[c] / all[0];
+    below[1] += followers.back()[c] / all[1];
+    out.distance = std::max(out.distance, std::fabs(below[0] - below[1]));
+  }
+  return out;
 }
 
 AgainstChance against(double value, const std::vector<double> &random) {
@@ -184,35 +238,62 @@ std::vector<Stretch> steady_stretches(const std::vector<double> &starts, double 
 
 }  // namespace
 
+double variation_of(const std::vector<double> &times) {
+  if (times.size() < 2) return std::numeric_limits<double>::quiet_NaN();
+  const double mean = mean_of(times);
+  NeumaierSum squares;
+  for (const double time : times) squares.add((time - mean) * (time - mean));
+  return std::sqrt(squares.value() / static_cast<double>(times.size())) / mean;
+}
+
+double burstiness_of(double variation) { return (variation - 1.0) / (variation + 1.0); }
+
 Clustering clustering(const std::vector<double> &times, int replicas, std::uint64_t seed) {
   Clustering out;
   out.n = static_cast<std::int64_t>(times.size());
   if (times.size() < fewest_times || !(mean_of(times) > 0.0)) return out;
   const auto n = static_cast<double>(times.size());
-  const double r = ratio_of(times);
-  out.burstiness = (r - 1.0) / (r + 1.0);
+  const double r = variation_of(times);
+  out.burstiness = burstiness_of(r);
 
-  std::vector<double> sorted = times;
-  std::sort(sorted.begin(), sorted.end());
-  const double shorter = sorted[times.size() / 3], longer = sorted[2 * times.size() / 3];
-  const std::array<double, 3> after = conditional_means(times, shorter, longer);
+  std::vector<CelledTime> series = celled(times);
+  const double mean = mean_of(times);
+  const Conditional own = conditional_of(series, mean);
 
   Random random(seed);
-  std::vector<double> series = times, independent(times.size()), ratios, bursts, memories;
-  std::array<std::vector<double>, 3> means;
+  std::vector<double> independent(times.size()), shuffled(times.size()), ratios, bursts, memories,
+      distances;
+  std::array<std::vector<double>, thirds> after_third;
+  std::array<std::vector<double>, eighths> after_eighth;
   for (int k = 0; k < replicas; ++k) {
     for (double &time : independent) time = -std::log1p(-random.uniform());
-    ratios.push_back(ratio_of(independent));
+    ratios.push_back(variation_of(independent));
     bursts.push_back(finite_burstiness(ratios.back(), n));
     shuffle(series, random);
-    memories.push_back(memory_of(series));
-    const std::array<double, 3> one = conditional_means(series, shorter, longer);
-    for (std::size_t i = 0; i < means.size(); ++i) means[i].push_back(one[i]);
+    for (std::size_t i = 0; i < series.size(); ++i) shuffled[i] = series[i].time;
+    memories.push_back(memory_of(shuffled));
+    const Conditional one = conditional_of(series, mean);
+    for (std::size_t i = 0; i < thirds; ++i) after_third[i].push_back(one.after_third[i]);
+    for (std::size_t i = 0; i < eighths; ++i) after_eighth[i].push_back(one.after_eighth[i]);
+    distances.push_back(one.distance);
   }
   out.variation = against(r, ratios);
   out.finite_burstiness = against(finite_burstiness(r, n), bursts);
   out.memory = against(memory_of(times), memories);
-  for (std::size_t i = 0; i < means.size(); ++i) out.after[i] = against(after[i], means[i]);
+  for (std::size_t i = 0; i < thirds; ++i)
+    out.after[i] = against(own.after_third[i], after_third[i]);
+  for (std::size_t i = 0; i < eighths; ++i)
+    out.after_eighth[i] = against(own.after_eighth[i], after_eighth[i]);
+  out.after_distance = against(own.distance, distances);
+  return out;
+}
+
+std::array<std::vector<double>, thirds> times_after_thirds(const std::vector<double> &times) {
+  std::array<std::vector<double>, thirds> out;
+  if (times.size() < 2) return out;
+  const std::vector<CelledTime> series = celled(times);
+  for (std::size_t i = 0; i + 1 < series.size(); ++i)
+    out[series[i].cell / (cells / thirds)].push_back(series[i + 1].time);
   return out;
 }
 

@@ -16,6 +16,16 @@
 
 namespace LSM::postproc {
 
+/// Groups of the times by length, equally many in each.
+constexpr std::size_t thirds = 3, eighths = 8;
+
+/// Standard deviation of a series (its own, not that of a law behind it: the sum of squares is
+/// divided by n) over its mean; NaN for fewer than two values.
+double variation_of(const std::vector<double> &times);
+
+/// (r - 1) / (r + 1) of a variation r: -1 periodic, 0 independent, to 1 clustered.
+double burstiness_of(double variation);
+
 /// A number of a series beside the same of random ones.
 struct AgainstChance {
   double value = std::numeric_limits<double>::quiet_NaN();
@@ -29,7 +39,6 @@ struct Clustering {
   std::int64_t n = 0;  ///< times
   /// Standard deviation over mean, r. Random: independent exponential times.
   AgainstChance variation;
-  /// (r - 1) / (r + 1): -1 periodic, 0 independent, to 1 clustered.
   double burstiness = std::numeric_limits<double>::quiet_NaN();
   /// ((n + 1)^(1/2) r - (n - 1)^(1/2)) / (((n + 1)^(1/2) - 2) r + (n - 1)^(1/2)), 0 for independent
   /// times whatever n is, 1 where all events but one come at once. Random: as above.
@@ -38,13 +47,21 @@ struct Clustering {
   AgainstChance memory;
   /// Mean of the times that follow the shortest, the middle and the longest third, over the mean of
   /// all. Random: the times in random order.
-  std::array<AgainstChance, 3> after;
+  std::array<AgainstChance, thirds> after;
+  /// The same of each eighth, from the shortest on (Livina et al. 2005 divide so).
+  std::array<AgainstChance, eighths> after_eighth;
+  /// Kolmogorov-Smirnov distance between the times after the shortest third and those after the
+  /// longest, seen at the edges of 480 cells of equally many times. Random: in random order.
+  AgainstChance after_distance;
 };
 
 /// \param times consecutive inter-event times, none negative
 /// \param replicas random series, at least 1
 /// Fewer than 12 times, or all of them 0: NaN.
 Clustering clustering(const std::vector<double> &times, int replicas, std::uint64_t seed);
+
+/// The times that follow the shortest, the middle and the longest third of the times.
+std::array<std::vector<double>, thirds> times_after_thirds(const std::vector<double> &times);
 
 /// A stretch of time and how steadily events came in it.
 struct Stretch {

@@ -74,23 +74,19 @@ std::vector<double> times_at_places(const EventTable &events, double threshold, 
   return times;
 }
 
-namespace {
-
-double variation_of(const std::vector<double> &times, double mean) {
-  if (times.size() < 2) return std::nan("");
-  std::vector<double> squares;
-  for (const double time : times) squares.push_back((time - mean) * (time - mean));
-  return std::sqrt(sum_pairwise(squares.data(), squares.size()) /
-                   static_cast<double>(squares.size() - 1)) /
-         mean;
+GeneralisedGammaFit fit_with_share(const std::vector<double> &times, double shortest,
+                                   const GeneralisedGammaOptions &options) {
+  GeneralisedGammaFit fit = fit_maximum_likelihood(times, shortest, options);
+  const double share = static_cast<double>(fit.n) / static_cast<double>(times.size());
+  fit.C *= share;
+  fit.se_C *= share;
+  return fit;
 }
-
-}  // namespace
 
 std::vector<IntervalCurve> interval_curves(const std::vector<EventTable> &tables,
                                            const IntervalSettings &settings) {
   if (!(settings.shortest >= 0.0) || !std::isfinite(settings.shortest))
-    throw std::invalid_argument("--shortest: expected a time of zero or more");
+    throw std::invalid_argument("--shortest: expected a multiple of the mean of zero or more");
   if (settings.places < 0) throw std::invalid_argument("--places: expected 0 or more");
   if (settings.replicas < 0) throw std::invalid_argument("--replicas: expected 0 or more");
   std::vector<IntervalCurve> curves;
@@ -109,11 +105,19 @@ std::vector<IntervalCurve> interval_curves(const std::vector<EventTable> &tables
                               : inter_event_times(table, curve.threshold.size);
       curve.n = static_cast<std::int64_t>(times.size());
       curve.mean = sum_pairwise(times.data(), times.size()) / static_cast<double>(times.size());
-      curve.variation = variation_of(times, curve.mean);
+      curve.variation = variation_of(times);
       if (settings.shuffles > 0 && settings.places == 0) {
         curve.clustering = clustering(times, settings.shuffles, settings.seed);
-        curve.steadiness = steadiness(starts_of(table, curve.threshold.size), settings.steady,
-                                      settings.steady_events, settings.shuffles, settings.seed);
+        curve.starts = starts_of(table, curve.threshold.size);
+        curve.steadiness = steadiness(curve.starts, settings.steady, settings.steady_events,
+                                      settings.shuffles, settings.seed);
+        const auto after = times_after_thirds(times);
+        for (std::size_t k = 0; k < after.size(); ++k) {
+          LogHistogram histogram(std::pow(10.0, 0.2));
+          for (const double time : after[k])
+            if (time > 0.0) histogram.add(time / curve.mean);
+          curve.after[k] = histogram.bins();
+        }
       }
       // Events of zero length can start at the same time.
       times.erase(std::remove_if(times.begin(), times.end(), [](double t) { return !(t > 0.0); }),
@@ -124,18 +128,20 @@ std::vector<IntervalCurve> interval_curves(const std::vector<EventTable> &tables
         histogram.add(time);
       }
       curve.bins = histogram.bins();
+      const double shortest =
+          times.empty() ? 0.0 : settings.shortest * (settings.rescale ? 1.0 : curve.mean);
       // Fitted bins keep the normalisation of the whole density, as C belongs to it.
       std::vector<LogBin> fitted;
       for (const LogBin &bin : curve.bins)
-        if (bin.lo >= settings.shortest) fitted.push_back(bin);
+        if (bin.lo >= shortest) fitted.push_back(bin);
       for (const double delta : settings.deltas) {
         GeneralisedGammaOptions options;
         options.fix_delta = delta;
         if (settings.least_squares)
           curve.fits.push_back({"least squares", delta, fit_least_squares(fitted, options)});
         if (settings.maximum_likelihood)
-          curve.fits.push_back({"maximum likelihood", delta,
-                                fit_maximum_likelihood(times, settings.shortest, options)});
+          curve.fits.push_back(
+              {"maximum likelihood", delta, fit_with_share(times, shortest, options)});
       }
       for (IntervalFit &fit : curve.fits) {
         if (fit.fit.degenerate) continue;

@@ -4,6 +4,7 @@
 #ifndef LSM_POSTPROC_INTERVALS_H
 #define LSM_POSTPROC_INTERVALS_H
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -24,7 +25,9 @@ struct IntervalSettings {
   int places = 0;
   bool rescale = false;                          ///< times divided by their mean
   double factor = LogHistogram::default_factor;  ///< ratio of the edges of a bin
-  double shortest = 0.0;  ///< shorter times are not fitted, in the unit of the picture; 0: none
+  /// Times shorter than this multiple of their mean are not fitted: below it they are those within
+  /// sequences, where catalogues also miss events (ours).
+  double shortest = 0.05;
   bool least_squares = true, maximum_likelihood = true;
   int replicas = 1000;  ///< of the Monte Carlo p-values of maximum likelihood; 0: none
   std::uint64_t seed = 1;
@@ -56,11 +59,15 @@ struct IntervalCurve {
   /// ones, above 1 for clusters; NaN if there are fewer than two times.
   double variation = 0.0;
   /// The same from -1, periodic, to 1: 0 for independent events (Goh & Barabasi 2008).
-  double burstiness() const { return (variation - 1.0) / (variation + 1.0); }
+  double burstiness() const { return burstiness_of(variation); }
   std::vector<LogBin> bins;
   std::vector<IntervalFit> fits;
-  Clustering clustering;  ///< if asked for, and times are those between any two events
-  Steadiness steadiness;  ///< likewise
+  Clustering clustering;       ///< if asked for, and times are those between any two events
+  Steadiness steadiness;       ///< likewise
+  std::vector<double> starts;  ///< likewise, of the events
+  /// Likewise: densities, over the mean, of the times that follow the shortest, the middle and the
+  /// longest third.
+  std::array<std::vector<LogBin>, thirds> after;
 
   /// The fit that is drawn: the first that is not degenerate, or nullptr.
   const GeneralisedGammaFit *drawn() const;
@@ -89,6 +96,11 @@ RankCorrelation successive_rank_correlation(const std::vector<double> &times);
 /// share events, so that their times are not independent. \throws std::invalid_argument if the
 /// table does not say where its events ruptured
 std::vector<double> times_at_places(const EventTable &events, double threshold, int places);
+
+/// fit_maximum_likelihood() with C such that the density is that of all times: over those from
+/// `shortest` on it integrates to their share.
+GeneralisedGammaFit fit_with_share(const std::vector<double> &times, double shortest,
+                                   const GeneralisedGammaOptions &options);
 
 /// \throws std::invalid_argument for impossible settings
 std::vector<IntervalCurve> interval_curves(const std::vector<EventTable> &tables,

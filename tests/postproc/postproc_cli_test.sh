@@ -583,7 +583,7 @@ summary)
     }' || fail "numbers: $(cat s.csv)"
   # The estimators are those of fit and intervals.
   must_run fit c.csv --range 1e-4:1e-2 --replicas 0 --no-comparison --json fit.json --no-picture
-  must_run intervals c.csv --threshold 1e-3 --method likelihood --delta 1 --replicas 0 -o times --no-picture
+  must_run intervals c.csv --threshold 1e-3 --method likelihood --delta 1 --shortest 0 --replicas 0 -o times --no-picture
   near() { awk -v a="$1" -v b="$2" 'BEGIN { exit !(a != "" && (a - b) ^ 2 < (1e-5 * b) ^ 2) }'; }
   near "$(field exponent_1e-4:1e-2)" "$(grep -m 1 -oP '"exponent": \K[-0-9.e]+' fit.json)" || fail "exponent: $(cat s.csv fit.json)"
   gamma=$(awk -F, '/^#/ { next } !n++ { for (i = 1; i <= NF; i++) if ($i == "gamma") at = i; next } /^ours/ { print $at }' times.table1.csv)
@@ -649,12 +649,36 @@ bad_input)
   [ "$(wc -l < repaired.csv)" = 3 ] || fail "$(wc -l < repaired.csv) lines, expected 3"
   refused "from 3 --to 2: expected --from before --to" export good.csv -o x --from 3 --to 2
   ;;
+select)
+  catalogue c.csv
+  must_run select c.csv -o all.csv
+  paste -d, <(rows c.csv) <(rows all.csv) | awk -F, '{ for (i = 1; i <= 10; i++) if ($i + 0 != $(i + 10) + 0) exit 1; n++ }
+    END { exit n != 5 || NF != 20 }' || fail "all events: $(cat all.csv)"
+  grep -q '^# selected = all events$' all.csv || fail "header: $(head all.csv)"
+  must_run select c.csv --from 2 --to 86404 --min-size 1e-3 -o part.csv
+  [ "$(rows part.csv | cut -d, -f1 | paste -sd' ')" = "2 3" ] || fail "$(cat part.csv)"
+  grep -q '2 events; left out: 2 by time, 1 by size' out.txt || fail "$(cat out.txt)"
+  grep -q '^# selected = t_start from 2, t_start below 86404, size from 0.001$' part.csv && grep -q '^# min_size = 0.001$' part.csv &&
+    grep -q '^# length = 40$' part.csv || fail "header: $(head part.csv)"
+  rows all.csv | grep -Fxq "$(rows part.csv | tail -n 1)" || fail "numbers are not those of the original"
+  # twice: the header says both
+  must_run select part.csv --min-size 1 -o twice.csv
+  grep -q '^# selected = t_start from 2, .*size from 0.001; size from 1$' twice.csv || fail "header: $(head twice.csv)"
+  # ruptures stay in order of their ends
+  sed 's/^# length = 40/&\n# events = ruptures/; s/^2,2,3/2,0.5,3/; s/^1,0,1.5/1,1,1.5/' c.csv > ruptures.csv
+  must_run select ruptures.csv --min-size 1e-3 -o r.csv
+  [ "$(rows r.csv | cut -d, -f1 | paste -sd' ')" = "1 2 3" ] || fail "$(cat r.csv)"
+  refused "exists" select c.csv -o part.csv
+  refused "is read by this command" select c.csv -o c.csv --force
+  refused "2 catalogues, expected one" select c.csv part.csv -o x.csv
+  refused "earthquakes, expected a catalogue of a model" select "$(dirname "${BASH_SOURCE[0]}")/../../inputs/seismicity/southern-california.csv.xz" -o x.csv
+  ;;
 earthquakes)
   inputs=$(dirname "${BASH_SOURCE[0]}")/../../inputs
   california=$inputs/seismicity/southern-california.csv.xz
   # Values and errors measured on the same data by another program, from the first release of this extract on.
   while read -r from to magnitude times gamma error b; do
-    must_run intervals "$california" --from "$from" --to "$to" --min-magnitude "$magnitude" --rescale --shortest 0.05 --delta 1 \
+    must_run intervals "$california" --from "$from" --to "$to" --min-magnitude "$magnitude" --rescale --delta 1 \
       --method likelihood --replicas 0 --shuffles 20 --no-picture -o times
     grep -q ", magnitudes from $magnitude: $times inter-event times" out.txt || fail "$from: $(head -n 1 out.txt)"
     awk -F, -v gamma="$gamma" -v error="$error" -v b="$b" '/^ours/ { found = 1
@@ -670,6 +694,22 @@ END
   awk -F, '/^#/ { next } !head { head = 1; for (i = 1; i <= NF; i++) c[$i] = i; next }
     { v = $c["variation"]; m = $c["memory"]; exit !(v > 1.225 && v < 1.235 && m > 0.125 && m < 0.135 && $c["memory_p"] < 0.05) }' \
     times.clustering.csv || fail "clustering: $(tail -n 1 times.clustering.csv)"
+  # through a pipe, whatever the format: what it is, the first bytes tell there, too
+  xzcat "$california" | head -n 3000 > part.csv
+  printf '%s\n' '1984/01/01 00:00:01.00 eq l 2.10 l 33.0 -116.0 5.0 A' '1984/01/03 00:00:01.00 eq l 2.30 l 33.0 -116.0 5.0 A' > part.scedc
+  printf '%s\n' '-116 33 1984 1 1 2.1 5 0 0 1' '-116 33 1984 1 3 2.3 5 0 0 1' > part.zmap
+  quake() { echo "<event><origin><time><value>$1</value></time><latitude><value>33</value></latitude><longitude><value>-116</value></longitude></origin><magnitude><mag><value>2</value></mag></magnitude></event>"; }
+  { echo '<quakeml><eventParameters>'; quake 1984-01-01T00:00:01; quake 1984-01-03T00:00:01; echo '</eventParameters></quakeml>'; } > part.xml
+  for file in part.csv part.scedc part.zmap part.xml; do
+    must_run count $file --json whole.json
+    must_run count <(cat $file) --label "${file%.*}" --json piped.json
+    sed 's/"label": "[^"]*"/"label": ""/' whole.json > a.json
+    sed 's/"label": "[^"]*"/"label": ""/' piped.json | cmp a.json - || fail "$file through a pipe: $(cat piped.json)"
+    grep -q '"events": [1-9]' whole.json || fail "$file: $(cat whole.json)"
+    must_run count <(xz < $file) --json packed.json
+    sed 's/"label": "[^"]*"/"label": ""/' packed.json | cmp a.json - || fail "$file through a pipe, compressed: $(cat packed.json)"
+  done
+  must_run count <(xzcat "$inputs/results/catalogues/fault_120.catalogue.csv.xz")
   # the rank of models; a catalogue is no way off from itself
   must_run nature "$california" "$inputs/results/catalogues/fault_120.catalogue.csv.xz" \
     "$inputs/results/catalogues/fault_120_seed_2.catalogue.csv.xz" "$california" --label nature --label fault --label fault --label again \
@@ -678,6 +718,13 @@ END
     { n++; name[n] = $1; d[n] = $c["distance"]; k[n] = $c["catalogues"]; e[n] = $c["distance_error"] }
     END { exit !(n == 5 && name[1] == "nature" && d[1] == "" && name[2] == "again" && d[2] == 0 && d[3] < 0.05 && name[5] == "fault" &&
                  k[5] == 2 && d[5] > 0.1 && e[5] > 0 && e[5] < d[5]) }' beside.table.csv || fail "ranks: $(cat beside.table.csv)"
+  # Table 1: gamma, delta, B and C of each, as intervals has them
+  must_run intervals "$california" --from 1984-01-01 --to 1986-07-02T12:00 --min-magnitude 2 --rescale --method likelihood --replicas 0 --no-picture -o times
+  for method in 'maximum likelihood' 'maximum likelihood, δ = 1 held'; do
+    values() { awk -F, -v q='"' -v m="$2" -v n="$3" '/^ours/ { line = $0; gsub(q, "", line); if (index(line, n "," m)) { print $4, $6, $8, $10; exit } }' "$1"; }
+    [ "$(values times.table1.csv "$method" southern-california)" = "$(values beside.table1.csv "$method, 1 catalogue" nature)" ] &&
+      [ -n "$(values times.table1.csv "$method" southern-california)" ] || fail "Table 1, $method: $(cat times.table1.csv beside.table1.csv)"
+  done
   refused "fault_120.catalogue.csv.xz: catalogue of a model, expected one of earthquakes first" nature \
     "$inputs/results/catalogues/fault_120.catalogue.csv.xz" "$california" -o x
   refused "is a date, but no catalogue is of earthquakes" intervals "$inputs/results/catalogues/fault_120.catalogue.csv.xz" --from 1984-01-01 -o x

@@ -84,12 +84,19 @@ intervals)
     catalogue a.csv 120
   must_run intervals a.csv -o i
   pictures i
+  pictures i.rate
+  pictures i.conditional
+  # The cumulative number ends with all events; the first hundred times are a steady stretch on their own.
+  awk -F, '$2 == "count" { n = $5; t = $3 } END { exit !(n == 151 && t == 3000) }' i.rate.csv || fail "$(tail -n 3 i.rate.csv)"
+  must_run intervals a.csv --steady-events 60 --no-picture -o steady
+  awk -F, '$2 == "steady" && $3 == 0 && $4 >= 450 && $4 <= 550 && $5 > 90 { found = 1 } END { exit !found }' steady.rate.csv ||
+    fail "$(grep steady steady.rate.csv)"
   awk -F, '/^#/ || /^curve/ || !($7 > 0) { next }
     { ++n; d = $7 / (150 * ($5 - $4)); if (($8 / d - 1) ^ 2 > 1e-18) exit 1
       if ($7 != (n == 1 ? 100 : 50)) exit 1
       t = n == 1 ? 5 : 50; if (!($4 <= t && t < $5)) exit 1 }
     END { exit n != 2 }' i.csv || fail "densities: $(cat i.csv)"
-  grep -q '150 inter-event times, mean 20 model time, standard deviation 1.064 of the mean, burstiness 0.03111$' out.txt ||
+  grep -q '150 inter-event times, mean 20 model time, standard deviation 1.061 of the mean, burstiness 0.02944$' out.txt ||
     fail "mean: $(cat out.txt)"
   grep -q 'LSM .*0.995 .*1.00 .*15.21 .*0.0573' out.txt || fail "printed Table 1: $(cat out.txt)"
   grep -q '^printed,,,0.0,,1.00,,100.0,,0.25,,,,,,,Block-Slider,' i.table1.csv || fail "$(cat i.table1.csv)"

@@ -78,6 +78,33 @@ TEST(Clustering, RunsHaveMemory) {
   EXPECT_GT(c.after[2].value, 1.4);
   EXPECT_NEAR(c.after[0].mean, 1.0, 0.03);
   EXPECT_GT(c.finite_burstiness.value, 0.2);
+  // the same by eighths, and in the whole distribution of the times
+  EXPECT_LT(c.after_eighth.front().value, 0.6);
+  EXPECT_GT(c.after_eighth.back().value, 1.4);
+  EXPECT_LE(c.after_eighth.back().p, 0.01);
+  EXPECT_NEAR(c.after_eighth.back().mean, 1.0, 0.03);
+  EXPECT_GT(c.after_distance.value, 0.4);
+  EXPECT_LE(c.after_distance.p, 0.01);
+  EXPECT_LT(c.after_distance.mean, 0.1);
+}
+
+// Each time but the last is in one third; what follows it is given with that third.
+TEST(Clustering, TimesAfterThirds) {
+  const std::vector<double> times = {1.0, 9.0, 5.0, 2.0, 8.0, 4.0, 3.0, 7.0, 6.0};
+  const auto after = times_after_thirds(times);
+  EXPECT_EQ(after[0], (std::vector<double>{9.0, 8.0, 7.0}));
+  EXPECT_EQ(after[1], (std::vector<double>{2.0, 3.0}));
+  EXPECT_EQ(after[2], (std::vector<double>{5.0, 4.0, 6.0}));
+}
+
+// Independent times: the distance after short and long ones is that of chance.
+TEST(Clustering, DistanceOfIndependentTimesIsThatOfChance) {
+  Random random(8);
+  int off = 0;
+  for (int k = 0; k < 100; ++k)
+    if (clustering(exponential(200, random), 99, 7).after_distance.p <= 0.05) ++off;
+  EXPECT_GE(off, 1);
+  EXPECT_LE(off, 12);
 }
 
 TEST(Steadiness, TellsASteadyRateFromOneThatChanges) {

@@ -54,8 +54,8 @@ TEST(Intervals, VariationOfRegularIndependentAndClusteredTimes) {
     return interval_curves({table}, settings)[0].variation;
   };
   EXPECT_DOUBLE_EQ(variation(events({0.0, 2.0, 4.0, 6.0}, {1.0, 1.0, 1.0, 1.0})), 0.0);
-  // 1, 3: mean 2, sample standard deviation root 2
-  EXPECT_DOUBLE_EQ(variation(events({0.0, 1.0, 4.0}, {1.0, 1.0, 1.0})), std::sqrt(2.0) / 2.0);
+  // 1, 3: mean 2, standard deviation 1
+  EXPECT_DOUBLE_EQ(variation(events({0.0, 1.0, 4.0}, {1.0, 1.0, 1.0})), 0.5);
   EXPECT_TRUE(std::isnan(variation(events({0.0, 1.0}, {1.0, 1.0}))));
   // a gamma density of shape k has 1 / root k
   EXPECT_NEAR(variation(gamma_events(4.0, 1.0, 40000)), 0.5, 0.01);
@@ -73,6 +73,45 @@ TEST(Intervals, RankCorrelationOfSuccessiveTimes) {
   EXPECT_LT(rising.p, 1e-6);
   EXPECT_TRUE(std::isnan(successive_rank_correlation({1.0, 2.0, 3.0, 4.0}).rho));
   EXPECT_TRUE(std::isnan(successive_rank_correlation(std::vector<double>(9, 1.0)).rho));
+}
+
+// What is printed beside each other comes from one deviation.
+TEST(Intervals, BurstinessOfCurveAndOfClusteringAreOne) {
+  IntervalSettings settings;
+  settings.thresholds = {0.0};
+  settings.deltas.clear();
+  settings.shuffles = 3;
+  const IntervalCurve curve = interval_curves({gamma_events(0.5, 1.0, 30)}, settings)[0];
+  EXPECT_EQ(curve.variation, curve.clustering.variation.value);
+  EXPECT_EQ(curve.burstiness(), curve.clustering.burstiness);
+}
+
+// Short times are left out of the fit, in multiples of the mean whatever the unit is, and C is that
+// of the density of all times.
+TEST(Intervals, FitFromALowerEndOn) {
+  const EventTable table = gamma_events(0.7, 20.0, 20000);  // mean 14
+  IntervalSettings settings;
+  settings.thresholds = {0.0};
+  settings.deltas = {1.0};
+  settings.least_squares = false;
+  settings.replicas = 0;
+  EXPECT_EQ(settings.shortest, 0.05);
+  for (const double shortest : {0.0, 0.05, 0.3}) {
+    settings.shortest = shortest;
+    settings.rescale = false;
+    const IntervalCurve curve = interval_curves({table}, settings)[0];
+    const GeneralisedGammaFit fit = curve.fits[0].fit;
+    EXPECT_NEAR(fit.lo, shortest * curve.mean, 1e-12);
+    EXPECT_NEAR(fit.gamma, 0.7, 4.0 * fit.se_gamma);
+    EXPECT_LT(fit.se_gamma, 0.03);
+    EXPECT_NEAR(fit.C, 1.0 / (std::pow(20.0, 0.7) * std::tgamma(0.7)), 4.0 * fit.se_C);
+    EXPECT_LT(fit.se_C, 0.1 * fit.C);
+    settings.rescale = true;
+    const GeneralisedGammaFit again = interval_curves({table}, settings)[0].fits[0].fit;
+    EXPECT_NEAR(again.gamma, fit.gamma, 1e-5);
+    EXPECT_NEAR(again.B * curve.mean, fit.B, 1e-4 * fit.B);
+    EXPECT_EQ(again.n, fit.n);
+  }
 }
 
 TEST(Intervals, AtOnePlaceOnly) {
@@ -144,6 +183,7 @@ TEST(Table1, GammaTimesGiveTheirParameters) {
 
 TEST(Table1, PoorFitsAreRejected) {
   IntervalSettings settings;
+  settings.shortest = 0.0;
   settings.deltas = {1.0};
   settings.replicas = 100;
   const auto good = table1(interval_curves({gamma_events(0.7, 20.0, 5000)}, settings));
@@ -216,6 +256,7 @@ TEST(Table1, CompletenessIsTheDefaultThreshold) {
 
 TEST(Table1, RescaledTimesHaveMeanOne) {
   IntervalSettings settings;
+  settings.shortest = 0.0;
   settings.deltas = {1.0};
   settings.rescale = true;
   settings.replicas = 0;

@@ -188,11 +188,18 @@ assert list(found) == ["s_100_1", "s_100_2", "s_200_1", "s_200_2"], list(found)
 assert found["s_200_2"].words == ["blocks=200", "seed=2", "steps=10000", "paper=yes"], found["s_200_2"].words
 found = runs("program,length,ranks\nfault,40 240 1890,\nfault,50,3\n", only="length-[245]")
 assert {name: run.ranks for name, run in found.items()} == {"fault_length-40": 1, "fault_length-240": 4, "fault_length-50": 3}, found
+# Values of several words are quoted; a run without a name is called by them without blanks.
+words = "leap=yes 'leaping=slip 1.5 grow 60'"
+found = runs(f"run,program,law,settings\nl_{{law}},fault,coulomb,{words}\n,fault,'coulomb 0.6 0.7' 'velocity-weakening mu 0.6',{words}\n".replace("l_{law}", "l"))
+assert list(found) == ["l", "fault_law-coulomb-0.6-0.7_leap-yes_leaping-slip-1.5-grow-60",
+                       "fault_law-velocity-weakening-mu-0.6_leap-yes_leaping-slip-1.5-grow-60"], list(found)
+assert found["l"].words == ["law=coulomb", "leap=yes", "leaping=slip 1.5 grow 60"], found["l"].words
+assert list(found.values())[2].words[0] == "law=velocity-weakening mu 0.6"
 for text, said in [
         ("", "t.csv: empty, expected a table of runs"),
         ("run,steps\n", "t.csv:1: no column 'program', expected one"),
         (head + "s,slider,100\n", "t.csv:2: 3 cells, expected 6 as in the first line"),
-        (head + "s,chain,100,1,1e5,\n", "t.csv:2: program 'chain', expected fault, slider or esys"),
+        (head + "s,chain,100,1,1e5,\n", "t.csv:2: program 'chain', expected fault, slider, esys or catalogue"),
         (head + "s,slider,100 200,1,1e5,\n", "t.csv:2: there is a run 's' already, expected another name"),
         (head + "s_{size},slider,100,1,1e5,\n", "t.csv:2: run 's_{size}', expected a name with columns in braces (not 'size')"),
         (head + "a/b,slider,100,1,1e5,\n", "t.csv:2: run 'a/b', expected letters, digits, '.', '_', '+' and '-'"),
@@ -214,6 +221,29 @@ import csv
 for row in csv.DictReader(open("own/table.csv")):
     lines = [line for line in open(f"own/{row['run']}/catalogue.csv") if line[0] not in "#e"]
     assert int(row["events"]) == len(lines) and 0.3 < float(row["exponent"]) < 2, row
+END
+  # Settings of several words reach the program, also where the run goes on.
+  printf '%s\n' 'run,program,length,steps,velocity,law,settings' \
+    "l,fault,40,3000,1e-3,'slip-weakening mu 0.5 mu_static 0.6 dc 0.002 heal 5',width=20 settle=500 leap=yes fast=0.01 'leaping=slip 1.5 grow 60'" >laws.csv
+  table=laws.csv study laws checkpoint=1000 l/done.json || fail "ended with $?"
+  grep -q '^# law = slip-weakening mu 0.5 mu_static 0.6 dc 0.002 heal 5$' laws/l/fault.catalogue.csv &&
+    grep -q '^# leap = fast 0.01 slip 1.5 .* grow 60 ' laws/l/fault.catalogue.csv || fail "header: $(grep '^#' laws/l/fault.catalogue.csv)"
+  cp laws/l/fault.catalogue.csv whole.csv
+  rm laws/l/done.json laws/l/fault.restart.end* laws/l/fault.restart.3500*
+  table=laws.csv study laws checkpoint=1000 l/done.json || fail "gone on with $?"
+  cmp whole.csv laws/l/fault.catalogue.csv || fail "another catalogue after going on"
+  # Catalogues that are there: the same numbers as of the runs they came from.
+  xz -k <own/c_1/catalogue.csv >c_1.csv.xz
+  printf '%s\n' 'run,program,file' "again,catalogue,$work/c_1.csv.xz" "nowhere,catalogue,$work/nowhere.csv" >published.csv
+  table=published.csv study published && fail "a catalogue that is not there"
+  grep -q "nowhere.csv: no such catalogue, expected one in the column 'file'" out.txt || fail "no message about the missing file"
+  sed -i '$d' published.csv
+  table=published.csv study published || fail "ended with $?"
+  python3 - <<'END' 2>err.txt || fail "$(cat err.txt)"
+import csv
+first, again = (next(csv.DictReader(open(f"{name}/table.csv"))) for name in ("own", "published"))
+for key in ("events", "exponent", "gamma", "last_time"):
+    assert first[key] == again[key] != "", (key, first, again)
 END
   table=own.csv study own -n && grep -q 'Nothing to be done' out.txt || fail "done, but to be done again"
   ;;
