@@ -147,6 +147,11 @@ constexpr std::array<Column, 10> columns = {
 
 std::string name_of(const NatureRow &row) { return row.label + ", " + row.from; }
 
+/// The same in fewer words, for an axis.
+std::string short_name_of(const NatureRow &row) {
+  return row.label + (row.earthquakes ? ", M" : ",") + row.from.substr(row.from.find(' '));
+}
+
 }  // namespace
 
 std::vector<NatureRow> nature_rows(const std::vector<EventTable> &tables,
@@ -320,8 +325,8 @@ Figure nature_figure(const std::vector<NatureRow> &rows) {
       distances +=
           fmt::format("{}table using (at('distance', {})):4:5 with xerrorbars {} ps 1.3 notitle",
                       k == 2 ? "plot " : ", \\\n     ", k, colour);
-      ticks +=
-          fmt::format("{}{} {}", k == 2 ? "" : ", ", quote(name_of(row)), -static_cast<int>(k));
+      ticks += fmt::format("{}{} {}", k == 2 ? "" : ", ", quote(short_name_of(row)),
+                           -static_cast<int>(k));
     }
     if (!nearest[k - 1]) continue;
     LogHistogram histogram(std::pow(10.0, 0.2));
@@ -359,7 +364,7 @@ Figure nature_figure(const std::vector<NatureRow> &rows) {
           "set tmargin at screen 0.97") +
       axis("x", "distance of the times to those of the first", false, 0.0, free_end) +
       axis("y", "", false, -static_cast<double>(rows.size()) - 0.7, -1.3) + "set ytics (" + ticks +
-      ")\n" + distances + "\n" +
+      ")\nset xtics 0.1\n" + distances + "\n" +
       panel(
           "set lmargin at screen 0.68; set rmargin at screen 0.98; set bmargin at screen 0.77; "
           "set tmargin at screen 0.97") +
