@@ -95,8 +95,8 @@ def grouped(rows, key="length"):
 
 
 def sizes_and_times(rows):
-    head = ["length", "seed", "time units", "events from 1e-4", "1e-3", "1e-2", "of 3 steps or less", "exponent 1e-4 to 0.1",
-            "1e-3 to 1", "largest", "gamma from 1e-4", "1e-3", "1e-2", "0.1", "mean time from 1e-4", "1e-3", "1e-2", "0.1"]
+    head = ["length", "seed", "time units", "events >= 1e-4", "1e-3", "1e-2", "of 3 steps or less", "exponent 1e-4 to 0.1",
+            "1e-3 to 1", "largest", "gamma >= 1e-4", "1e-3", "1e-2", "0.1", "mean time >= 1e-4", "1e-3", "1e-2", "0.1"]
     return calibrate.table(head, [[row["length"], row["seed"], value(row, "time", 0)] + [row[f"events_{s}"] for s in SIZES[:3]] +
                         [f"{100 * float(row['brief']):.1f} %", with_error(row, "exponent_1e-4:1e-1", "error_1e-4:1e-1"),
                          with_error(row, "exponent_1e-3:1", "error_1e-3:1"), value(row, "largest", 2)] +
@@ -136,8 +136,8 @@ def validation_table(postproc):
                     spread(values(rows, "exponent_1e-3:1"), 2), spread(values(rows, "largest"), 2),
                     spread(values(rows, "gamma_0.0001"), 2), spread(values(rows, "mean_time_0.0001"), 0),
                     "used" if used else "predicted"])
-    head = ["length", "packings", "time units each", "events from 1e-4", "of 3 steps or less", "exponent 1e-4 to 0.1", "1e-3 to 1",
-            "largest", "gamma from 1e-4", "mean time", ""]
+    head = ["length", "packings", "time units each", "events >= 1e-4", "of 3 steps or less", "exponent 1e-4 to 0.1", "1e-3 to 1",
+            "largest", "gamma >= 1e-4", "mean time", ""]
     return calibrate.table(head, out)
 
 
@@ -147,7 +147,7 @@ def thresholds_table(postproc):
     for length, rows in grouped(packings(postproc)).items():
         both = [(values(enough(rows, s), f"gamma_{s}"), values(enough(rows, s), f"B_{s}")) for s in SIZES]
         out.append([length, *(f"{spread(gamma, 2)}; {spread(b, 0)}" if gamma else "-" for gamma, b in both)])
-    return calibrate.table(["gamma; B at length", "from 1e-4", "1e-3", "1e-2", "0.1"], out)
+    return calibrate.table(["gamma; B at length", ">= 1e-4", "1e-3", "1e-2", "0.1"], out)
 
 
 def ruptures_table(_):
@@ -162,7 +162,7 @@ def ruptures_table(_):
                    for test in (lambda row: float(row["size"]) >= 1e-2, lambda row: float(row["rupture_length"]) > 10)]
         longest, moment = ([max(float(row[key]) for row in rows) for rows in counted] for key in ("rupture_length", "slip_moment"))
         out.append([str(length), str(len(packs)), *numbers, spread(longest, 0), f"{max(longest):.0f}", spread(moment, 1)])
-    return calibrate.table(["length", "packings", "ruptures from 1e-2 in 1e5 time units, for each unit of length", "longer than 10",
+    return calibrate.table(["length", "packings", "ruptures >= 1e-2 in 1e5 time units and per unit of length", "longer than 10",
                             "longest of a packing", "of all", "largest moment of a packing"], out)
 
 
@@ -193,13 +193,13 @@ def collapse_table(postproc):
             cells.append(f"{statistics.median(found):.2f} ({sum(p < SIGNIFICANT for p in found)} of {len(found)}); "
                          f"{statistics.mean(values(chosen, f'spearman_{size}')):.2f} ({few} of {len(chosen)})" if found else "-")
         out.append([length, *cells])
-    return calibrate.table(["p; Spearman at length", "from 1e-4", "1e-3", "1e-2", "0.1"], out)
+    return calibrate.table(["p; Spearman at length", ">= 1e-4", "1e-3", "1e-2", "0.1"], out)
 
 
 def widths_table(postproc):
     rows = summary(postproc, sorted(VALIDATION.glob("fault_120_width_*.xz")) + [VALIDATION / "fault_120_1.catalogue.csv.xz"])
-    head = ["width", "time units", "events from 1e-4", "of 3 steps or less", "exponent 1e-4 to 0.1", "1e-3 to 1", "largest", "gamma from 1e-4", "1e-3",
-            "mean time from 1e-4", "1e-2"]
+    head = ["width", "time units", "events >= 1e-4", "of 3 steps or less", "exponent 1e-4 to 0.1", "1e-3 to 1", "largest", "gamma >= 1e-4", "1e-3",
+            "mean time >= 1e-4", "1e-2"]
     return calibrate.table(head, [[row["width"], value(row, "time", 0), row["events_0.0001"], f"{100 * float(row['brief']):.1f} %",
                                    with_error(row, "exponent_1e-4:1e-1", "error_1e-4:1e-1"), with_error(row, "exponent_1e-3:1", "error_1e-3:1"),
                                    value(row, "largest", 2), with_error(row, "gamma_0.0001", "gamma_error_0.0001"),
@@ -219,8 +219,8 @@ def steps_table(postproc):
             if rows:
                 out.append([length, what, str(len(rows)), *(str(sum(int(row[f"events_{float(s):g}"]) for row in rows)) for s in sizes),
                             spread(values(rows, "exponent_1e-4:1e-1"), 2), *(spread(values(rows, f"gamma_{float(s):g}"), 2) for s in sizes)])
-    return calibrate.table(["length", "time step", "packings", *(f"{'events from ' if s == sizes[0] else ''}{s}" for s in sizes),
-                            "exponent 1e-4 to 0.1", *(f"{'gamma from ' if s == sizes[0] else ''}{s}" for s in sizes)], out)
+    return calibrate.table(["length", "time step", "packings", *(f"{'events >= ' if s == sizes[0] else ''}{s}" for s in sizes),
+                            "exponent 1e-4 to 0.1", *(f"{'gamma >= ' if s == sizes[0] else ''}{s}" for s in sizes)], out)
 
 
 # ---- why gamma falls
@@ -232,7 +232,7 @@ def shape(rows):
             spread(values(rows, "exponent_1e-4:1e-1"), 2), spread(values(rows, "largest"), 2)]
 
 
-SHAPE = ["", "gamma from 1e-4", "1e-3", "mean time", "of 3 steps or less", "exponent 1e-4 to 0.1", "largest"]
+SHAPE = ["", "gamma >= 1e-4", "1e-3", "mean time", "of 3 steps or less", "exponent 1e-4 to 0.1", "largest"]
 
 
 def superposition_table(postproc):
@@ -262,7 +262,7 @@ def remedies_table(postproc):
         paths = sorted(SUPERPOSED.glob(f"memory_{length}_{memory}_*.xz")) if memory != MEMORY else [
             Path(row["path"]) for row in packings(postproc) if row["length"] == length]
         out.append(line(length, memory, size, paths))
-    return calibrate.table(["length", "memory", "events from", "packings", "gamma", "exponent, to 0.1"], out)
+    return calibrate.table(["length", "memory", "events above", "packings", "gamma", "exponent, to 0.1"], out)
 
 
 VELOCITY = 2.5e-4  # of each plate, in the paper
@@ -334,18 +334,18 @@ def paper_table(postproc):
     def apart(rows):
         return [x / MEMORY for x in values(rows, "mean_time_0.0001")]
     out = [
-        ["fault of 120: exponent from 1e-4 over three decades", "1.07", spread(values(used, "exponent_1e-4:1e-1"), 2), "used to calibrate"],
-        ["fault of 120: gamma of the times from 1e-4", "0.995", spread(values(used, "gamma_0.0001"), 2), "used to calibrate"],
+        ["fault of 120: exponent >= 1e-4 over three decades", "1.07", spread(values(used, "exponent_1e-4:1e-1"), 2), "used to calibrate"],
+        ["fault of 120: gamma of the inter-event times >= 1e-4", "0.995", spread(values(used, "gamma_0.0001"), 2), "used to calibrate"],
         ["fault of 120: time from one event to the next, in memories of the picker (100 steps)", "12.5 to 100", spread(apart(used), 0),
          "used to calibrate"],
         ["fault of 120: PE falls in less than a third of the time (stick-slip)", "yes",
          spread([100 * x for x in falling(used)], 0) + " % of the time", "used to calibrate"],
         ["speed of P-waves", "2.1", f"{calibrate.WAVE_SPEED['r2']:g}", "used to calibrate"],
-        ["others: exponent from 1e-4", "1.07 at all lengths", by_length(groups, "exponent_1e-4:1e-1"),
+        ["others: exponent >= 1e-4", "1.07 at all lengths", by_length(groups, "exponent_1e-4:1e-1"),
          verdict(groups, "exponent_1e-4:1e-1", PAPER["exponent"], tolerance["exponent"])],
-        ["others: gamma from 1e-4", "0.995 at all lengths", by_length(groups, "gamma_0.0001"),
+        ["others: gamma >= 1e-4", "0.995 at all lengths", by_length(groups, "gamma_0.0001"),
          verdict(groups, "gamma_0.0001", PAPER["gamma"], tolerance["gamma"])],
-        ["gamma from 1e-3", "0.995 at all lengths, if events begin there", by_length(every, "gamma_0.001"),
+        ["gamma >= 1e-3", "0.995 at all lengths, if events begin there", by_length(every, "gamma_0.001"),
          verdict(every, "gamma_0.001", PAPER["gamma"], tolerance["gamma"])],
         ["others: memories of the picker from one event to the next", "12.5 to 100",
          "; ".join(f"{length}: {spread(apart(rows), 0)}" for length, rows in groups.items()),
@@ -535,7 +535,7 @@ def length_figure(postproc, base):
                [(length * VELOCITY, summary(postproc, paths, begin=0)) for length, paths in sorted(sums.items())])]
     script = "set multiplot layout 1,3\nset tics nomirror\nset border 3\nset logscale x\nset xlabel 'length times velocity'\n"
     script += "set xrange [0.02:0.7]\nset xtics (0.03, 0.06, 0.12, 0.24, 0.48)\nset key bottom left Left reverse samplen 1\n"
-    for label, key, of_paper, scale, span in (("gamma from 1e-4", "gamma_0.0001", PAPER["gamma"], 1, "[0:1.2]"),
+    for label, key, of_paper, scale, span in (("gamma >= 1e-4", "gamma_0.0001", PAPER["gamma"], 1, "[0:1.2]"),
                                               ("exponent, 1e-4 to 0.1", "exponent_1e-4:1e-1", PAPER["exponent"], 1, "[0.8:1.4]"),
                                               ("events of 3 steps or less, %", "brief", None, 100, "[0:20]")):
         blocks, plots = "", []

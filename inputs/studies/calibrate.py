@@ -65,7 +65,7 @@ STATEMENTS = (
     ("exponent", "sizes go as s^-1.07 from 1e-4 over three decades", lambda r: number(r, "exponent_1e-4:1e-1"),
      lambda v: abs(v - 1.07), 0.07),
     ("decades", "so in each of these decades (no second population)", decades, abs, 0.3),
-    ("gamma", "times between events from 1e-4: gamma 0.995, delta 1", lambda r: number(r, "gamma_0.0001"),
+    ("gamma", "inter-event times >= 1e-4: gamma 0.995, delta 1", lambda r: number(r, "gamma_0.0001"),
      lambda v: abs(v - 0.995), 0.1),
     ("rate", "3000 to 8000 events in 1e7 to 3e7 steps, a memory being 100 steps: 12.5 to 100 memories from one to the next",
      memories, lambda v: outside(math.log(v), math.log(12.5), math.log(100)), 0.3),
@@ -235,7 +235,7 @@ def accepted_table(path):
     accepted, _ = nearest(points(path)[0])
     keys = ("point", "seed", "stress", "viscosity", "contacts", "mus", "kt", "hold", "impedance", "loose", "memory")
     shown = [(name, value) for name, _, value, _, _ in STATEMENTS if name != "waves"]
-    head = [*keys, *(name for name, _ in shown), "gamma from 1e-3", "1e-2", "mean time", "largest", "distance"]
+    head = [*keys, *(name for name, _ in shown), "gamma >= 1e-3", "1e-2", "mean time", "largest", "distance"]
     return table(head, [[row[key] for key in keys] + [f"{value(row):.2f}" for _, value in shown] +
                         [f"{number(row, 'gamma_0.001'):.2f}", f"{number(row, 'gamma_0.01'):.2f}",
                          f"{number(row, 'mean_time_0.0001'):.0f}", f"{number(row, 'largest'):.2f}", f"{distance(row):.2f}"]
@@ -269,7 +269,7 @@ def lines_table(path):
         other = [f"{key} {row[key]}" for key in keys if row[key] != default[key]]
         out.append([", ".join(other) or "the default, packing 1", *(f"{of(row):.2f}" for _, of in shown), f"{number(row, 'gamma_0.001'):.2f}",
                     f"{number(row, 'largest'):.2f}", f"{distance(row):.2f}"])
-    return table(["", *(name for name, _ in shown), "gamma from 1e-3", "largest", "distance"], out)
+    return table(["", *(name for name, _ in shown), "gamma >= 1e-3", "largest", "distance"], out)
 
 
 def figure(path, base):
@@ -279,7 +279,7 @@ def figure(path, base):
     def block(x, y, which):
         lines = [f"{x(row):.6g} {y(row):.6g}" for row in ordered if (row["point"] in taken) == which]
         return "\n".join(lines or ["nan nan"]) + "\ne\n"
-    panels = [("exponent, 1e-4 to 0.1", "gamma from 1e-4", lambda r: number(r, "exponent_1e-4:1e-1"),
+    panels = [("exponent, 1e-4 to 0.1", "gamma >= 1e-4", lambda r: number(r, "exponent_1e-4:1e-1"),
                lambda r: number(r, "gamma_0.0001"), "unset logscale; set xrange [0.4:2.4]; set yrange [0:2]; "
                "set object 1 rect from 1.0,0.895 to 1.14,1.095 fs empty border rgb 'black' lw 2")]
     for key, label in (("stress", "normal stress"), ("viscosity", "viscosity"), ("kt", "tangential stiffness"),
