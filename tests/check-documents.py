@@ -192,7 +192,7 @@ def main(root, programs, write):
         elif not page.exists() or page.read_text() != text:
             problem(f"{page.relative_to(root)} is not what {Path(program).name} --help prints: {Path(__file__).name} ... --write makes it")
     check_markdown(root)
-    # check_comments(root)
+    check_comments(root)
     check_variables(root)
     check_styles(root)
     print("\n".join(PROBLEMS) or "the documents agree with the programs")

@@ -387,14 +387,14 @@ def as_number(text):
 
 
 def brief(value, error=math.nan, digits=2):
-    """0.667(21): the error in units of the last digits; without one so many digits."""
+    """0.667 ± 0.021: the error with one digit, or two below 3.5; without one this many digits."""
     if math.isnan(value):
         return "-"
     if not error > 0:
         return f"{value:.{digits}f}"
     last = math.floor(math.log10(error))
     places = max(0, -last + (1 if error / 10**last < 3.5 else 0))
-    return f"{value:.{places}f}({error * 10**places:.0f})"
+    return f"{value:.{places}f} ± {error:.{places}f}"
 
 
 def measured(row, key):
@@ -403,7 +403,7 @@ def measured(row, key):
 
 def size_text(row):
     size = float(row["threshold"])
-    return f"M from {math.log10(size) / 1.5:.3g}" if row["label"] == "Southern California" else f"from {size:g}"
+    return f"M >= {math.log10(size) / 1.5:.3g}" if row["label"] == "Southern California" else f">= {size:g}"
 
 
 def nearest_of_each(rows):
