@@ -166,12 +166,14 @@ void add_intervals(CLI::App &app) {
                    "as the data were; 0: none")
       ->check(zero_or_more())
       ->group(group);
-  intervals.shuffles = 200;
+  intervals.shuffles = -1;
   command
       ->add_option(
           "--shuffles", intervals.shuffles,
           "Random series that burstiness, memory, times after short and long ones, and the "
-          "steadiness of the rate are compared with; 0: without these")
+          "steadiness of the rate are compared with (of more than 1e5 times 2e7 times in all, at "
+          "least 19 series, unless a number is given); 0: without these")
+      ->default_str("200")
       ->check(zero_or_more())
       ->group(group);
   command

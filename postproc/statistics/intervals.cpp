@@ -83,6 +83,11 @@ GeneralisedGammaFit fit_with_share(const std::vector<double> &times, double shor
   return fit;
 }
 
+int shuffles_for(std::size_t times) {
+  return static_cast<int>(
+      std::clamp<std::size_t>(20'000'000 / std::max<std::size_t>(times, 1), 19, 200));
+}
+
 std::vector<IntervalCurve> interval_curves(const std::vector<EventTable> &tables,
                                            const IntervalSettings &settings) {
   if (!(settings.shortest >= 0.0) || !std::isfinite(settings.shortest))
@@ -106,11 +111,12 @@ std::vector<IntervalCurve> interval_curves(const std::vector<EventTable> &tables
       curve.n = static_cast<std::int64_t>(times.size());
       curve.mean = sum_pairwise(times.data(), times.size()) / static_cast<double>(times.size());
       curve.variation = variation_of(times);
-      if (settings.shuffles > 0 && settings.places == 0) {
-        curve.clustering = clustering(times, settings.shuffles, settings.seed);
+      const int shuffles = settings.shuffles < 0 ? shuffles_for(times.size()) : settings.shuffles;
+      if (shuffles > 0 && settings.places == 0) {
+        curve.clustering = clustering(times, shuffles, settings.seed);
         curve.starts = starts_of(table, curve.threshold.size);
         curve.steadiness = steadiness(curve.starts, settings.steady, settings.steady_events,
-                                      settings.shuffles, settings.seed);
+                                      shuffles, settings.seed);
         const auto after = times_after_thirds(times);
         for (std::size_t k = 0; k < after.size(); ++k) {
           LogHistogram histogram(std::pow(10.0, 0.2));

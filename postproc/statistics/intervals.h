@@ -31,12 +31,17 @@ struct IntervalSettings {
   bool least_squares = true, maximum_likelihood = true;
   int replicas = 1000;  ///< of the Monte Carlo p-values of maximum likelihood; 0: none
   std::uint64_t seed = 1;
-  /// Random series that clustering() and steadiness() compare with; 0: without these.
+  /// Random series that clustering() and steadiness() compare with; 0: without these, negative:
+  /// shuffles_for().
   int shuffles = 0;
   double steady = 0.05;              ///< departure that a steady stretch may have
   std::int64_t steady_events = 500;  ///< and its smallest number of events
   std::vector<double> deltas = {std::numeric_limits<double>::quiet_NaN(), 1.0};  ///< NaN: free
 };
+
+/// Random series beside this many times: 200, fewer of more than 1e5 times (2e7 times in all, at
+/// least 19, so that p can be 0.05), as the random numbers of longer series scatter less.
+int shuffles_for(std::size_t times);
 
 struct IntervalFit {
   std::string method;  ///< "least squares" or "maximum likelihood"
