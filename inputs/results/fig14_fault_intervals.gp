@@ -1,5 +1,5 @@
-# Draws fig14_fault_intervals.png and fig14_fault_intervals.svg from fig14_fault_intervals.csv: run
-# `gnuplot ./fig14_fault_intervals.gp` in this folder.
+# Draws fig14_fault_intervals.png and fig14_fault_intervals.svg from fig14_fault_intervals.csv:
+# run `gnuplot ./fig14_fault_intervals.gp` in this folder.
 base = "./fig14_fault_intervals"
 table = base.".csv"
 if (!exists("formats")) formats = "png svg"
@@ -71,11 +71,12 @@ plot table using (row(1)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads
      table using (row(6)):8 with points lt 6 notitle, \
      keyentry with linespoints lt 6 title "fault, length 1890 (92 times)", \
      [1:1258.9254117941693] '+' using 1:(0.019962577161496409*$1**(-0.23807880415622862)*exp(-$1**(1)/142.79627064125046)) with lines lt 1 notitle, \
-     [0.79432823472428149:794.32823472428277] '+' using 1:(0.03830760890680978*$1**(-0.42804266532883495)*exp(-$1**(1)/206.59216600887481)) with lines lt 2 notitle, \
+     [0.79432823472428149:794.32823472428277] '+' using 1:(0.03830760890680978*$1**(-0.42804266532883495)*exp(-$1**(1)/206.59216600887481)) with lines lt 2 dt 3 lw 0.7 notitle, \
      [0.79432823472428149:1000.0000000000017] '+' using 1:(0.068182000044574503*$1**(-0.63376579731705673)*exp(-$1**(1)/266.44941607218482)) with lines lt 3 notitle, \
      [0.31622776601683783:1000.0000000000017] '+' using 1:(0.12046205550855529*$1**(-0.7431024708987698)*exp(-$1**(1)/216.65562691633136)) with lines lt 4 notitle, \
-     [0.50118723362727224:1000.0000000000017] '+' using 1:(0.042680157164551362*$1**(-0.48458242253698169)*exp(-$1**(1)/158.61486387657143)) with lines lt 5 notitle, \
+     [0.50118723362727224:1000.0000000000017] '+' using 1:(0.042680157164551362*$1**(-0.48458242253698169)*exp(-$1**(1)/158.61486387657143)) with lines lt 5 dt 3 lw 0.7 notitle, \
      [0.39810717055349715:794.32823472428277] '+' using 1:(0.035176874807281051*$1**(-0.48490956126768925)*exp(-$1**(1)/231.33295115631748)) with lines lt 6 notitle, \
-     keyentry with lines lt 8 title 'lines: fitted generalised gamma'
+     keyentry with lines lt 8 title 'lines: fitted generalised gamma', \
+     keyentry with lines lt 8 dt 3 lw 0.7 title 'fit rejected (p < 0.05)'
 unset output
 }

@@ -12,6 +12,10 @@ superpose.py every N OUT.pe.bin SERIES
 
 Takes every Nth step of a series, as if the time step were N times as long and the fault the same; the picker keeps its memory.
 
+superpose.py second POSTPROC OUT FOLDER...
+
+Picks events from every second step of the runs in these folders, and publishes them in OUT: NAME_step_SEED as NAME_every_SEED.
+
 superpose.py study POSTPROC OUT FOLDER...
 
 Does so for the runs in these folders (settings of each the same, but for the packing): sums of 2 to 16 stretches, and single
@@ -122,27 +126,40 @@ def stretches(folders):
     return [one[1:] for one in sorted(found, key=lambda one: one[0])]
 
 
+def pick(postproc, series, out):
+    with tempfile.TemporaryDirectory() as work:
+        picked = Path(work) / "picked.csv"
+        subprocess.run([postproc, "pick", series, "-o", picked, "--force"], check=True, stdout=subprocess.DEVNULL)
+        publish(picked, f"{out}.catalogue.csv.xz")
+
+
+def second(postproc, out, folders):
+    for folder in map(Path, folders):
+        with tempfile.TemporaryDirectory() as work:
+            series = Path(work) / "second.pe.bin"
+            every(2, series, next(folder.glob("*.pe.bin")))
+            pick(postproc, series, Path(out) / folder.name.replace("_step_", "_every_"))
+
+
 def study(postproc, out, folders):
     parts = stretches(folders)
     Path(out).mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as work:
-        series, picked = Path(work) / "sum.pe.bin", Path(work) / "picked.csv"
-
-        def pick(name):
-            subprocess.run([postproc, "pick", series, "-o", picked, "--force"], check=True, stdout=subprocess.DEVNULL)
-            publish(picked, Path(out) / f"{name}.catalogue.csv.xz")
+        series = Path(work) / "sum.pe.bin"
         for number in NUMBERS:
             for group in range(min(GROUPS, len(parts) // number)):
                 superpose(series, parts[group * number:(group + 1) * number])
-                pick(f"sum_{read(series)[0]['length']}_{group + 1}")
+                pick(postproc, series, Path(out) / f"sum_{read(series)[0]['length']}_{group + 1}")
             for n, part in enumerate(parts[:GROUPS], 1):
                 superpose(series, [part], (number - 1) * loading(*part), number)
-                pick(f"load_{read(series)[0]['length']}_{n}")
+                pick(postproc, series, Path(out) / f"load_{read(series)[0]['length']}_{n}")
 
 
 def main(words):
     if words[:1] == ["every"] and len(words) == 4:
         return every(int(words[1]), *words[2:])
+    if words[:1] == ["second"] and len(words) > 3:
+        return second(words[1], words[2], words[3:])
     if words[:1] == ["study"] and len(words) > 3:
         return study(words[1], words[2], words[3:])
     load = 0.0

@@ -131,7 +131,7 @@ std::vector<double> ticks_around(double lo, double hi) {
 
 std::string whole_script(const std::string &name, std::string_view body, PictureSize size) {
   std::string script = fmt::format(
-      "# Draws {0}.png and {0}.svg from {0}.csv: run `gnuplot ./{0}.gp` in this folder.\n"
+      "# Draws {0}.png and {0}.svg from {0}.csv:\n# run `gnuplot ./{0}.gp` in this folder.\n"
       "base = {1}\ntable = base.\".csv\"\nif (!exists(\"formats\")) formats = \"png svg\"\n",
       name, quote_plain("./" + name));
   script += fmt::format(
