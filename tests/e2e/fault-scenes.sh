@@ -66,4 +66,4 @@ for file in law.catalogue.csv law.ruptures.csv; do
 done
 short -var law "$law" -var steps 20 -var restart law.restart.end || fail "law $law, going on"
 if short -var law "slip-weakening mu 0.5" -var steps 10 -var overwrite yes; then fail "a law without its coefficients was accepted"; fi
-grep -q "expects 'pair_coeff I J k kt mu VALUE mu_static VALUE dc VALUE \[heal VALUE\]'" out || fail "no clear message about the law"
+grep -q "expects 'pair_coeff I J k kt mu VALUE mu_static VALUE dc VALUE \[heal VALUE\] \[kelvin-voigt TIME\]'" out || fail "no clear message about the law"
