@@ -28,7 +28,7 @@ for f in "$here"/LSM/*.h "$here"/LSM/*.cpp "$here"/core/*.h; do
   # The plugin's entry point has no place in a package that is compiled in.
   [ "$(basename "$f")" = lsm_plugin.cpp ] || cp "$f" "$lammps/src/LSM/"
 done
-cp -r "$here"/core/laws "$lammps/src/LSM/"
+cp -r "$here"/core/laws "$here"/core/events "$lammps/src/LSM/"
 if ! grep -q '^  LSM$' "$list"; then
   sed -i 's/^set(STANDARD_PACKAGES$/&\n  LSM/' "$list"
 fi

@@ -117,11 +117,13 @@ STYLES = {
     "fix_lsm_nve": (["fix_lsm_nve.cpp"], ["error", "warn", "off"], [], {}),
     "fix_lsm_plates": (["fix_lsm_plates.cpp"], [], [], {}),
     "fix_lsm_leap": (["fix_lsm_leap.cpp"], [], ["LSM/fix_lsm_leap.cpp"], {"settle": "viscosity", "look": "between"}),
-    "compute_lsm_events": (["lsm_event_options.cpp"], RUPTURES, ["core/lsm_event_settings.h", "LSM/lsm_event_options.h", "core/lsm_watchdog.h", "core/lsm_event_picker.h"],
-                           {"stride": "series_stride", "bin": "bin_width", "fraction": "bin_fraction", "strainlimit": "strain_limit",
-                            "check": "every", "minsize": "min_size"}),
-    "compute_lsm_events_ruptures": (["lsm_event_options.cpp"], ["events", "picker", "lambda", "memory", "location", "fraction"],
-                                    ["core/lsm_event_settings.h"], {"bin": "bin_width"}),
+    "compute_lsm_events": (["lsm_event_options.cpp", "../core/events/pe_drops.h"], RUPTURES,
+                           ["core/events/event_kind.h", "core/events/pe_drops.h", "LSM/lsm_event_options.h", "core/lsm_watchdog.h",
+                            "core/lsm_event_picker.h"],
+                           {"stride": "series_stride", "bin": "bin_width", "strainlimit": "strain_limit", "check": "every",
+                            "minsize": "min_size"}),
+    "compute_lsm_events_ruptures": (["lsm_event_options.cpp", "../core/events/ruptures.h"], ["events", "picker", "lambda", "memory"],
+                                    ["core/events/event_kind.h", "core/events/ruptures.h"], {"bin": "bin_width"}),
     "check_restart": (["check_restart.cpp"], [], [], {}),
     "check_variable": (["check_variable.cpp"], ["among"], [], {}),
 }
@@ -132,10 +134,9 @@ def check_styles(root):
     for page, (sources, others, headers, members) in STYLES.items():
         text = (package / f"doc/{page}.rst").read_text()
         code = "".join((package / "LSM" / source).read_text() for source in sources)
-        keywords = set(re.findall(r'(?:key|keyword|kind|in\.key) == "([a-z/0-9]+)"', code))
+        keywords = set(re.findall(r'(?:key|keyword|kind|in\.key\(\)) == "([a-z/0-9]+)"', code))
         keywords |= set(re.findall(r'strcmp\(arg\[\w+\], "([a-z/]+)"\) == 0', code))
-        if page == "fix_lsm_leap":
-            keywords |= set(re.findall(r'\{"([a-z]+)", &\w+, (?:true|false)\}', code))
+        keywords |= set(re.findall(r'\{"([a-z]+)", &[\w.]+(?:, Must::\w+)?\}', code))
         keywords -= set(others)
         said = set(re.findall(r"^       \*([a-z/]+)\* (?:value|=)", text, re.M)) | set(re.findall(r"^       \*([a-z/]+)\* values", text, re.M))
         assert len(keywords) > 1, (page, keywords)

@@ -18,6 +18,7 @@
 #include "write_restart.h"
 
 #include <cmath>
+#include <cstring>
 #include <exception>
 
 #include <unistd.h>
@@ -51,7 +52,7 @@ enum {
 
 ComputeLSMEvents::ComputeLSMEvents(LAMMPS *_lmp, int narg, char **arg) :
     Compute(_lmp, narg, arg), options(_lmp, 3, narg, arg), settings(options.events),
-    recorder(nullptr), sources(_lmp, settings), gather(world, settings.location),
+    recorder(nullptr), sources(_lmp, settings), gather(world, settings.kind->wants_slips()),
     watchdog(options.watchdog), last_recorded(-1), opened(false), fault_begun(false), widest(0.0),
     shown_at(0.0), started_at(0.0), begin(0.0), period(0.0)
 {
@@ -97,7 +98,7 @@ void ComputeLSMEvents::init()
   int same = 0;
   for (const auto &other : modify->get_compute_by_style("lsm/events"))
     if (auto p = dynamic_cast<ComputeLSMEvents *>(other))
-      same += p->settings.ruptures == settings.ruptures;
+      same += strcmp(p->settings.kind->name(), settings.kind->name()) == 0;
   if (same > 1 && comm->me == 0)
     error->warning(FLERR, "More than one compute lsm/events with the same kind of events");
 
@@ -123,7 +124,7 @@ void ComputeLSMEvents::init()
 
   // the first run decides, as the headers of the files hold it
 
-  if (settings.ruptures && !opened && update->whichflag != 0) sources.find_driving(settings);
+  if (in_intervals() && !opened && update->whichflag != 0) sources.find_driving(settings);
   set_memory();
   sampler.resize(options.block);
 }
@@ -154,7 +155,7 @@ void ComputeLSMEvents::open_files()
     }
   }
   stop_on_failure();
-  if (settings.ruptures) make_grid();
+  if (in_intervals()) make_grid();
   if (from_restart) unpack_state(recorder->restart_state);
   change_dt();
   on_rank_0([this, from_restart] {
@@ -245,7 +246,7 @@ void ComputeLSMEvents::setup_record()
   check_box();
   change_dt();
   leave_out_jump();
-  if (settings.ruptures && !fault_begun) begin_fault();
+  if (in_intervals() && !fault_begun) begin_fault();
   if (options.ledger && !ledger.begun()) ledger.begin(energies());
   if (last_recorded != update->ntimestep) record();
 }
@@ -256,13 +257,13 @@ void ComputeLSMEvents::setup_record()
 
 void ComputeLSMEvents::check_box()
 {
-  const bool placed = settings.ruptures || settings.location;
+  const bool placed = in_intervals() || settings.kind->wants_slips();
   if (placed)
     for (const auto &ifix : modify->get_fix_list())
       if (ifix->box_change & Fix::BOX_CHANGE_X)
         error->all(FLERR,
                    "Compute lsm/events {}: fix {} changes the box along x, which {} cannot follow",
-                   id, ifix->id, settings.ruptures ? "events ruptures" : "location yes");
+                   id, ifix->id, settings.kind->asked_by());
   if (period == 0.0) {
     begin = domain->boxlo[0];
     period = domain->prd[0];
@@ -300,8 +301,8 @@ void ComputeLSMEvents::change_dt()
   const double ratio = clock.dt > 0.0 ? update->dt / clock.dt : 0.0;
   clock = {time_of(update->ntimestep), update->ntimestep, update->dt};
   set_memory();
-  if (settings.ruptures) make_grid();
-  if (settings.ruptures && opened) begin_fault();
+  if (in_intervals()) make_grid();
+  if (in_intervals() && opened) begin_fault();
   on_rank_0([this, ratio] { stream->change_picker(settings.picker, ratio); });
 }
 
@@ -315,9 +316,9 @@ double ComputeLSMEvents::time_of(bigint step) const
 void ComputeLSMEvents::record()
 {
   const bigint step = update->ntimestep;
-  if (settings.location)
+  if (settings.kind->wants_slips())
     for (const auto *style : sources.styles()) sampler.add_slip(style->slip, settings.bin_width);
-  if (settings.ruptures && step != fault.grid().step0) {
+  if (in_intervals() && step != fault.grid().step0) {
     for (const auto *style : sources.styles()) fault.add(style->contacts);
     if (fault.grid().ends_interval(step)) {
       sampler.add_interval(fault.sums());
@@ -529,7 +530,8 @@ void ComputeLSMEvents::show_progress(bigint step)
    numbers of this class, then those of the stream
 ------------------------------------------------------------------------- */
 
-static constexpr double WITH_PE = 3.0, WITH_RUPTURES = 4.0;    // versions of the state
+static constexpr double FIRST_KIND =
+    3.0;    // version of a state of the first kind of events, and so on
 static constexpr size_t OWN = 9;
 
 std::vector<double> ComputeLSMEvents::pack_state()
@@ -537,8 +539,8 @@ std::vector<double> ComputeLSMEvents::pack_state()
   if (!opened) return recorder->restart_state;
   flush();
   const LSM::EnergyTerms now = energies();
-  const std::vector<double> open_sums = settings.ruptures ? fault_sums() : std::vector<double>();
-  std::vector<double> state = {settings.ruptures ? WITH_RUPTURES : WITH_PE,
+  const std::vector<double> open_sums = in_intervals() ? fault_sums() : std::vector<double>();
+  std::vector<double> state = {FIRST_KIND + static_cast<double>(LSM::number_of(*settings.kind)),
                                static_cast<double>(last_recorded),
                                ledger.begun() ? 1.0 : 0.0,
                                ledger.start(),
@@ -555,28 +557,29 @@ std::vector<double> ComputeLSMEvents::pack_state()
 }
 
 /* ----------------------------------------------------------------------
-   another time step, interval or number of bins: the numbers of the ruptures go on, what was open is lost
+   another time step, interval or number of bins: the numbers of the events go on, what was open is lost
 ------------------------------------------------------------------------- */
 
 void ComputeLSMEvents::unpack_state(const std::vector<double> &state)
 {
   LSM::SavedStream saved;
-  if (state.size() < OWN || (state[0] != WITH_PE && state[0] != WITH_RUPTURES) ||
-      !saved.read(state, OWN, state[0] == WITH_RUPTURES))
+  const double kind = state.empty() ? -1.0 : state[0] - FIRST_KIND;
+  const auto kinds = static_cast<double>(LSM::all_event_kinds().size());
+  if (state.size() < OWN || !(kind >= 0.0 && kind < kinds) || kind != std::floor(kind) ||
+      !saved.read(state, OWN, static_cast<size_t>(kind)))
     error->all(FLERR, "Compute lsm/events {}: the restart file holds a state of another version",
                id);
   last_recorded = static_cast<bigint>(state[1]);
   ledger.set_state(state[2] != 0.0, state[3], state[4], state[5]);
   clock = {state[6], static_cast<bigint>(state[7]), state[8]};
   on_rank_0([&] { stream->set_state(saved); });
-  if (!settings.ruptures || !saved.ruptures) return;
-  if (!saved.goes_on_with(fault.grid())) {
+  if (!in_intervals() || saved.kind != LSM::number_of(*settings.kind)) return;
+  if (!saved.goes_on_with(saved.kind, fault.grid())) {
     if (comm->me == 0)
       error->warning(FLERR,
-                     "Compute lsm/events {}: the restart file holds ruptures of another time step, "
-                     "interval or "
-                     "number of bins; those that were open are lost",
-                     id);
+                     "Compute lsm/events {}: the restart file holds {} of another time step, "
+                     "interval or number of bins; those that were open are lost",
+                     id, settings.kind->name());
     return;
   }
   LSM::FaultGrid grid = fault.grid();

@@ -77,6 +77,7 @@ class ComputeLSMEvents : public Compute {
 
   double begin, period;    // of the box along x at the first run
 
+  bool in_intervals() const { return settings.kind->wants_intervals(); }
   void set_memory();
   void open_files();
   std::vector<LSM::Output> restart_files() const;

@@ -12,6 +12,7 @@
 #include "fix_lsm_plates.h"
 #include "force.h"
 #include "lsm_energy.h"
+#include "lsm_keyword_reader.h"
 #include "lsm_scene.h"
 #include "lsm_text_io.h"
 #include "modify.h"
@@ -47,30 +48,18 @@ FixLSMLeap::FixLSMLeap(LAMMPS *_lmp, int narg, char **arg) :
   if (narg < 4)
     error->all(FLERR, "Fix lsm/leap expects 'fix ID group lsm/leap plates-ID keyword value ...'");
   plates_id = arg[3];
-  struct Keyword {
-    const char *name;
-    double *value;
-    bool zero;    // whether 0 is accepted
-  };
-  const Keyword keywords[] = {{"fast", &fast, false},       {"slip", &slip, false},
-                              {"calm", &calm, true},        {"rest", &rest, false},
-                              {"settle", &viscosity, true}, {"ramp", &ramp, true},
-                              {"grow", &grow, true},        {"look", &between, false}};
-  for (int iarg = 4; iarg < narg; iarg += 2) {
-    const Keyword *which = nullptr;
-    for (const auto &k : keywords)
-      if (strcmp(arg[iarg], k.name) == 0) which = &k;
-    if (!which)
-      error->all(FLERR,
-                 "Unknown fix lsm/leap keyword '{}'; accepted are fast, slip, calm, rest, settle, "
-                 "ramp, grow and look",
-                 arg[iarg]);
-    if (iarg + 1 >= narg) error->all(FLERR, "Fix lsm/leap keyword {} needs a value", arg[iarg]);
-    *which->value = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
-    if (!(*which->value > 0.0 || (which->zero && *which->value == 0.0)))
-      error->all(FLERR, "Fix lsm/leap {} is {}, but must be {} 0", which->name, *which->value,
-                 which->zero ? ">=" : ">");
-  }
+  using LSM::Must;
+  const LSM::Keywords keywords = {{"fast", &fast, Must::positive},
+                                  {"slip", &slip, Must::positive},
+                                  {"calm", &calm, Must::not_negative},
+                                  {"rest", &rest, Must::positive},
+                                  {"settle", &viscosity, Must::not_negative},
+                                  {"ramp", &ramp, Must::not_negative},
+                                  {"grow", &grow, Must::not_negative},
+                                  {"look", &between, Must::positive}};
+  LSMKeywordReader in(lmp, "Fix lsm/leap", 4, narg, arg);
+  while (in.next())
+    if (!in.read(keywords)) in.unknown(keywords);
   reset_dt();
 }
 

@@ -4,227 +4,139 @@
 
 #include "lsm_event_options.h"
 
-#include "error.h"
-#include "pointers.h"
-#include "utils.h"
+#include "lsm_keyword_reader.h"
+
+#include <algorithm>
 
 using namespace LAMMPS_NS;
+using LSM::EventKind;
+using LSM::Keywords;
+using LSM::Must;
 
-/// A keyword and its values.
-class LSMEventOptions::Reader : protected Pointers {
- public:
-  std::string key;
-  int used = 0;    // words taken, with the keyword
-
-  Reader(LAMMPS *_lmp, int at, int narg, char **arg) :
-      Pointers(_lmp), at_(at), narg_(narg), arg_(arg)
-  {
-  }
-
-  bool next()
-  {
-    at_ += used;
-    if (at_ >= narg_) return false;
-    key = arg_[at_];
-    need(1);
-    used = 2;
-    return true;
-  }
-  void need(int values)
-  {
-    if (at_ + values >= narg_)
-      error->all(FLERR, "Compute lsm/events keyword {} needs {} value{}", key, values,
-                 values > 1 ? "s" : "");
-    used = values + 1;
-  }
-  const char *text(int n = 1) const { return arg_[at_ + n]; }
-  double number() const { return utils::numeric(FLERR, text(), false, lmp); }
-  double positive() const
-  {
-    const double value = number();
-    if (!(value > 0.0)) refuse("> 0");
-    return value;
-  }
-  double no_less_than_zero() const
-  {
-    const double value = number();
-    if (!(value >= 0.0)) refuse(">= 0");
-    return value;
-  }
-  double part() const
-  {
-    const double value = number();
-    if (!(value >= 0.0 && value < 1.0)) refuse("at least 0 and less than 1");
-    return value;
-  }
-  int count() const
-  {
-    const int value = utils::inumeric(FLERR, text(), false, lmp);
-    if (value < 1) refuse("at least 1");
-    return value;
-  }
-  bool yes() const { return utils::logical(FLERR, text(), false, lmp) != 0; }
-  void refuse(const std::string &expected) const
-  {
-    error->all(FLERR, "Compute lsm/events {} is {}, but must be {}", key, text(), expected);
-  }
-  [[noreturn]] void unknown() const
-  {
-    error->all(
-        FLERR,
-        "Unknown compute lsm/events keyword '{}'; accepted are events, catalogue, series, "
-        "stride, "
-        "picker, lambda, memory, minsize, nonpositive, block, tangential, location, bin, "
-        "fraction, history, slipping, driving, interval, gap, pause, modulus, quiet, unfinished, "
-        "ledger, "
-        "tolerance, strainlimit, check, emergency, resume, overwrite, progress and parameter",
-        key);
-  }
-  /// 0 and 1 as the words for them, for one of two.
-  bool is_first(const char *what, const char *first, const char *second, int n = 1) const
-  {
-    const std::string word = text(n);
-    if (word != first && word != second)
-      error->all(FLERR, "Compute lsm/events {} is '{}', but must be {} or {}", what, word, first,
-                 second);
-    return word == first;
-  }
-  [[noreturn]] void stop(const std::string &message) const
-  {
-    error->all(FLERR, "Compute lsm/events {}", message);
-  }
-
- private:
-  int at_, narg_;
-  char **arg_;
-};
+static const std::string STYLE = "Compute lsm/events";
+static const std::string SPECIAL = "events, series, picker, tolerance, emergency, parameter";
 
 /* ---------------------------------------------------------------------- */
+
+static void take_all_values(LSMKeywordReader &in)
+{
+  if (in.key() == "series" || in.key() == "parameter") in.need(2);
+}
+
+/// The kind is wanted first: which keywords there are depends on it.
+static std::shared_ptr<EventKind> kind_of_events(LAMMPS *lmp, int first, int narg, char **arg)
+{
+  LSMKeywordReader in(lmp, STYLE, first, narg, arg);
+  auto kind = LSM::all_event_kinds().front();
+  while (in.next()) {
+    take_all_values(in);
+    if (in.key() != "events") continue;
+    kind = LSM::make_event_kind(in.text());
+    if (!kind)
+      in.stop(std::string("events is '") + in.text() + "', but must be " +
+              LSM::names_of_kinds([](const EventKind &) { return true; }));
+  }
+  return kind;
+}
 
 LSMEventOptions::LSMEventOptions(LAMMPS *lmp, int first, int narg, char **arg)
 {
-  Reader in(lmp, first, narg, arg);
-  std::string only_ruptures;
+  events.kind = kind_of_events(lmp, first, narg, arg);
+  Keywords table = of_all();
+  for (const Keywords &more :
+       {events.kind->keywords(), events.kind->wants_intervals() ? of_intervals() : Keywords()})
+    table.insert(table.end(), more.begin(), more.end());
+  LSMKeywordReader in(lmp, STYLE, first, narg, arg);
   while (in.next()) {
-    if (read_ruptures(in))
-      only_ruptures = in.key;
-    else if (!read_events(in) && !read_files(in) && !read_run(in))
-      in.unknown();
+    take_all_values(in);
+    if (!in.read(table) && !read_special(in)) no_such_keyword(in);
   }
-  if (!only_ruptures.empty() && !events.ruptures)
-    in.stop("keyword " + only_ruptures + " needs events ruptures");
-  if (events.ruptures && events.location)
-    in.stop("location yes needs events pe; ruptures have columns of their own");
 }
 
 /* ---------------------------------------------------------------------- */
 
-bool LSMEventOptions::read_events(Reader &in)
+Keywords LSMEventOptions::of_all()
 {
-  if (in.key == "events") {
-    events.ruptures = !in.is_first("events", "pe", "ruptures");
-  } else if (in.key == "picker") {
-    if (!LSM::from_string(in.text(), events.picker.reading))
-      in.stop(
-          fmt::format("picker is '{}', but must be exponential, average or literal", in.text()));
-  } else if (in.key == "lambda") {
-    events.picker.lambda = in.part();
-  } else if (in.key == "memory") {
-    memory_time = in.positive();
-  } else if (in.key == "minsize") {
-    events.picker.min_size = in.no_less_than_zero();
-  } else if (in.key == "nonpositive") {
-    events.picker.keep_nonpositive = in.yes();
-  } else if (in.key == "tangential") {
-    events.tangential = in.yes();
-  } else if (in.key == "location") {
-    events.location = in.yes();
-  } else if (in.key == "bin") {
-    events.bin_width = in.positive();
-  } else if (in.key == "fraction") {
-    events.bin_fraction = in.part();
-  } else
-    return false;
-  return true;
+  return {{"lambda", &events.picker.lambda, Must::part},
+          {"memory", &memory_time, Must::positive},
+          {"minsize", &events.picker.min_size, Must::not_negative},
+          {"nonpositive", &events.picker.keep_nonpositive},
+          {"tangential", &events.tangential},
+          {"bin", &events.bin_width, Must::positive},
+          {"catalogue", &events.catalogue_file},
+          {"stride", &events.series_stride, Must::positive},
+          {"resume", &events.resume},
+          {"overwrite", &events.overwrite},
+          {"block", &block, Must::positive},
+          {"ledger", &ledger},
+          {"strainlimit", &watchdog.strain_limit, Must::positive},
+          {"check", &watchdog.every, Must::positive},
+          {"progress", &progress}};
 }
 
 /* ----------------------------------------------------------------------
-   what only ruptures have
+   of kinds that want the fault in intervals
 ------------------------------------------------------------------------- */
 
-bool LSMEventOptions::read_ruptures(Reader &in)
+Keywords LSMEventOptions::of_intervals()
 {
-  if (in.key == "history") {
-    events.history_file = in.text();
-  } else if (in.key == "slipping") {
-    events.slipping = in.no_less_than_zero();
-  } else if (in.key == "driving") {
-    events.driving = in.positive();
-  } else if (in.key == "interval") {
-    events.interval = in.count();
-  } else if (in.key == "gap") {
-    const double value = in.no_less_than_zero();
-    events.gap = static_cast<int>(MIN(value, 1e6));
-    if (events.gap != value) in.refuse("a number of bins");
-  } else if (in.key == "pause") {
-    events.pause = in.no_less_than_zero();
-  } else if (in.key == "modulus") {
-    events.modulus = in.positive();
-  } else if (in.key == "quiet") {
-    events.quiet = in.count();
-  } else if (in.key == "unfinished") {
-    unfinished = in.yes();
-  } else
-    return false;
-  return true;
+  return {{"history", &events.history_file},
+          {"quiet", &events.quiet, Must::positive},
+          {"driving", &events.driving, Must::positive},
+          {"interval", &events.interval, Must::positive},
+          {"modulus", &events.modulus, Must::positive},
+          {"unfinished", &unfinished}};
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   what is more than one value of one type
+------------------------------------------------------------------------- */
 
-bool LSMEventOptions::read_files(Reader &in)
+bool LSMEventOptions::read_special(LSMKeywordReader &in)
 {
-  if (in.key == "catalogue") {
-    events.catalogue_file = in.text();
-  } else if (in.key == "series") {
-    in.need(2);
+  if (in.key() == "series") {
+    const std::string format = in.text(2);
+    if (format != "binary" && format != "text")
+      in.stop("series format is '" + format + "', but must be binary or text");
     events.series_file = in.text();
-    events.series_binary = in.is_first("series format", "binary", "text", 2);
-  } else if (in.key == "stride") {
-    events.series_stride = in.count();
-  } else if (in.key == "resume") {
-    events.resume = in.yes();
-  } else if (in.key == "overwrite") {
-    events.overwrite = in.yes();
-  } else if (in.key == "parameter") {
-    in.need(2);
-    events.parameters.emplace_back(in.text(1), in.text(2));
-  } else
-    return false;
-  return true;
-}
-
-/* ---------------------------------------------------------------------- */
-
-bool LSMEventOptions::read_run(Reader &in)
-{
-  if (in.key == "block") {
-    block = in.count();
-  } else if (in.key == "ledger") {
-    ledger = in.yes();
-  } else if (in.key == "tolerance") {
-    watchdog.tolerance = in.positive();
+    events.series_binary = format == "binary";
+  } else if (in.key() == "picker") {
+    if (!LSM::from_string(in.text(), events.picker.reading))
+      in.stop(std::string("picker is '") + in.text() + "', but must be " +
+              LSM::choices(events.picker.reading));
+  } else if (in.key() == "tolerance") {
+    in.read(Keywords{{"tolerance", &watchdog.tolerance, Must::positive}});
     ledger = true;
-  } else if (in.key == "strainlimit") {
-    watchdog.strain_limit = in.positive();
-  } else if (in.key == "check") {
-    watchdog.every = in.count();
-  } else if (in.key == "emergency") {
+  } else if (in.key() == "emergency") {
     emergency_file = in.text();
     if (emergency_file.find_first_of("*%") != std::string::npos)
       in.refuse("the name of one file, without * and %");
-  } else if (in.key == "progress") {
-    progress = in.yes();
+  } else if (in.key() == "parameter") {
+    events.parameters.emplace_back(in.text(1), in.text(2));
   } else
-    return false;
+    return in.key() == "events";
   return true;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void LSMEventOptions::no_such_keyword(const LSMKeywordReader &in)
+{
+  const auto holds = [&in](const Keywords &table) {
+    return std::any_of(table.begin(), table.end(),
+                       [&in](const LSM::Keyword &k) { return in.key() == k.name; });
+  };
+  const std::string needed = LSM::names_of_kinds([&](EventKind &kind) {
+    return holds(kind.keywords()) || (kind.wants_intervals() && holds(of_intervals()));
+  });
+  if (!needed.empty()) in.stop("keyword " + in.key() + " needs events " + needed);
+
+  Keywords all = of_all();
+  const auto add = [&all](const Keywords &more) {
+    all.insert(all.end(), more.begin(), more.end());
+  };
+  add(of_intervals());
+  const auto kinds = LSM::all_event_kinds();
+  for (const auto &kind : kinds) add(kind->keywords());
+  in.unknown(all, SPECIAL);
 }

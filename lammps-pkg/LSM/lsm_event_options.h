@@ -13,6 +13,7 @@
 
 namespace LAMMPS_NS {
 class LAMMPS;
+class LSMKeywordReader;
 
 struct LSMEventOptions {
   LSM::EventSettings events;
@@ -22,17 +23,16 @@ struct LSMEventOptions {
   int block = 100;             ///< steps collected before ranks talk to each other
   bool ledger = false;
   bool progress = true;
-  bool unfinished = false;    ///< ruptures that are open in the end are written
+  bool unfinished = false;    ///< events that are open in the end are written
 
   /// From the words behind the style's name, which begin at arg[first]. Stops at the first that is wrong.
   LSMEventOptions(LAMMPS *, int first, int narg, char **arg);
 
  private:
-  class Reader;
-  bool read_events(Reader &);
-  bool read_ruptures(Reader &);
-  bool read_files(Reader &);
-  bool read_run(Reader &);
+  LSM::Keywords of_all();
+  LSM::Keywords of_intervals();
+  bool read_special(LSMKeywordReader &);
+  [[noreturn]] void no_such_keyword(const LSMKeywordReader &);
 };
 
 }    // namespace LAMMPS_NS

@@ -81,21 +81,19 @@ void LSMEventSources::find(bool ledger)
   if (!links_ && contacts.empty())
     error->all(FLERR, "Compute lsm/events needs bond style lsm/linked or pair style lsm/free or "
                       "lsm/friction");
-  const char *const what = settings_.location   ? "location yes"
-                           : settings_.ruptures ? "events ruptures"
-                                                : nullptr;
-  if (what && !force->pair_match("lsm/friction", 1))
-    error->all(FLERR, "Compute lsm/events {} needs pair style lsm/friction", what);
-  if (settings_.location && !domain->xperiodic)
-    error->all(FLERR, "Compute lsm/events {} needs a box that is periodic in x", what);
+  const LSM::EventKind &kind = *settings_.kind;
+  const bool slips = kind.wants_slips(), intervals = kind.wants_intervals();
+  if ((slips || intervals) && !force->pair_match("lsm/friction", 1))
+    error->all(FLERR, "Compute lsm/events {} needs pair style lsm/friction", kind.asked_by());
+  if (slips && !domain->xperiodic)
+    error->all(FLERR, "Compute lsm/events {} needs a box that is periodic in x", kind.asked_by());
 
   styles_.clear();
   if (links_) styles_.push_back(links_);
   styles_.insert(styles_.end(), contacts.begin(), contacts.end());
   for (auto *style : styles_) {
-    style->record_what |= LSMEnergySource::ENERGY |
-                          (settings_.location ? LSMEnergySource::SLIP : 0) |
-                          (settings_.ruptures ? LSMEnergySource::CONTACTS : 0);
+    style->record_what |= LSMEnergySource::ENERGY | (slips ? LSMEnergySource::SLIP : 0) |
+                          (intervals ? LSMEnergySource::CONTACTS : 0);
   }
 
   plates_ = nullptr;
@@ -137,13 +135,13 @@ void LSMEventSources::find_driving(LSM::EventSettings &settings) const
   if (settings.driving == 0.0 && leap_) settings.driving = 2.0 * leap_->fastest();
   if (settings.driving == 0.0 && plates_) settings.driving = fabs(plates_->driving());
   if (settings.driving == 0.0)
-    error->all(FLERR, "Compute lsm/events events ruptures needs {}, or the keyword driving",
+    error->all(FLERR, "Compute lsm/events {} needs {}, or the keyword driving",
+               settings.kind->asked_by(),
                plates_ ? "a velocity of fix lsm/plates that is not 0" : "fix lsm/plates");
   if (settings.modulus > 0.0) return;
   if (!links_)
-    error->all(
-        FLERR,
-        "Compute lsm/events events ruptures needs bond style lsm/linked, or the keyword modulus");
+    error->all(FLERR, "Compute lsm/events {} needs bond style lsm/linked, or the keyword modulus",
+               settings.kind->asked_by());
   int dim;
   const auto *stiffness = static_cast<const double *>(links_->extract("k", dim));
   settings.modulus = 0.25 * sqrt(3.0) * stiffness[1];    // of the regular lattice of equal discs

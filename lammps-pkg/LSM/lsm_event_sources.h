@@ -31,7 +31,7 @@ class LSMEventSources : protected Pointers {
   void find(bool ledger);
   /// Makes them record nothing; those that are left.
   void release();
-  /// Settings of ruptures that the scene decides where the keywords do not.
+  /// Settings of the fault in intervals that the scene decides where the keywords do not.
   void find_driving(LSM::EventSettings &) const;
 
   /// Those that record slips and contacts.

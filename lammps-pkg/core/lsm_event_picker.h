@@ -81,6 +81,16 @@ struct PickerState {
 static_assert(std::is_trivially_copyable<PickerState>::value, "PickerState goes into restarts");
 static_assert(sizeof(PickerState) == 13 * 8, "PickerState must have no padding");
 
+/// Whether an event of that size is not to be reported; counts it then.
+inline bool is_left_out(double size, const PickerSettings &settings, PickerState &counts) {
+  if (!(size > 0.0)) {
+    counts.dropped_nonpositive += settings.keep_nonpositive ? 0 : 1;
+    return !settings.keep_nonpositive;
+  }
+  counts.dropped_small += size < settings.min_size ? 1 : 0;
+  return size < settings.min_size;
+}
+
 /// Streaming picker: push one PE sample after the other, in order of time.
 ///
 /// With x = PE(t+1) - PE(t) and A updated with x, an event commences at sample t when A turns from
@@ -196,18 +206,10 @@ class EventPicker {
 
   /// The event ceased at the sample still in state_.
   bool finish(Event &out) {
+    // No size is 0 or less in exact arithmetic: the changes between commencement and cessation sum
+    // to a weighted sum of the negative A in between. Rounding of a large PE can make it so.
     const double size = state_.pe_start - state_.pe;
-    if (size <= 0.0) {
-      // Cannot be in exact arithmetic: the changes between commencement and cessation sum to a
-      // weighted sum of the negative A in between. Rounding of a large PE can make it so.
-      if (!settings_.keep_nonpositive) {
-        ++state_.dropped_nonpositive;
-        return false;
-      }
-    } else if (size < settings_.min_size) {
-      ++state_.dropped_small;
-      return false;
-    }
+    if (is_left_out(size, settings_, state_)) return false;
     out = Event();
     out.id = ++state_.events;
     out.t_start = state_.t_start;

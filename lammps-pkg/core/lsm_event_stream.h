@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file lsm_event_stream.h
-/// From samples to files, on the rank that has them all: PE to the series, to the picker and its
-/// events to the catalogue; sums of the fault's contacts to ruptures, their catalogue and the slip
-/// history.
+/// From samples to files, on the rank that has them all: PE to the series, sums of the fault's
+/// contacts to the slip history, both to the finder of the kind of events, and what it finds to the
+/// catalogue.
 #ifndef LSM_EVENT_STREAM_H
 #define LSM_EVENT_STREAM_H
 
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <memory>
 #include <stdexcept>
@@ -22,6 +21,7 @@
 #include "lsm_event_settings.h"
 #include "lsm_output_claim.h"
 #include "lsm_slip_recorder.h"
+#include "lsm_state.h"
 
 namespace LSM {
 
@@ -31,58 +31,53 @@ class EventStreamError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What a restart file holds of a picker, of ruptures and of an open event, read from the numbers
-/// that EventStream::state() gave.
+/// What a restart file holds of a stream, read from the numbers that EventStream::state() gave.
 struct SavedStream {
-  PickerState picker;
-  bool ruptures = false;           ///< the events were ruptures; only then:
-  FaultGrid grid;                  ///< only step0, interval, bins, time0 and dt
-  PickerState counts;              ///< only the numbers of events
-  std::vector<double> open_sums;   ///< of the interval that was not complete
-  std::vector<double> finder;      ///< RuptureFinder::state()
-  std::vector<double> history;     ///< SlipHistoryWriter::state(), empty if there was none
-  std::vector<double> open_event;  ///< EventLocator::state()
+  std::size_t kind = 0;           ///< number of the kind of events; drops of PE have only:
+  std::vector<double> drops;      ///< PeDropFinder::state()
+  FaultGrid grid;                 ///< only step0, interval, bins, time0 and dt
+  PickerState counts;             ///< only the numbers of events
+  std::vector<double> open_sums;  ///< of the interval that was not complete
+  std::vector<double> finder;     ///< EventFinder::state()
+  std::vector<double> history;    ///< SlipHistoryWriter::state(), empty if there was none
 
   static constexpr std::size_t picker_words = sizeof(PickerState) / sizeof(double);
-  static constexpr std::size_t rupture_words = 9;
 
-  /// From place `at` of the numbers on. with_ruptures: the events were ruptures. False: this is no
-  /// such state.
-  bool read(const std::vector<double> &from, std::size_t at, bool with_ruptures) {
-    if (from.size() < at + picker_words) return false;
-    std::memcpy(static_cast<void *>(&picker), &from[at], sizeof picker);
-    at += picker_words;
-    ruptures = with_ruptures;
-    if (!ruptures) {
-      open_event.assign(from.begin() + static_cast<std::ptrdiff_t>(at), from.end());
-      return true;
-    }
-    if (at + rupture_words > from.size()) return false;
-    const double *const saved = &from[at];
-    grid.step0 = static_cast<std::int64_t>(saved[0]);
-    grid.time0 = saved[1];
-    grid.dt = saved[2];
-    grid.interval = static_cast<std::int64_t>(saved[3]);
-    grid.bins = static_cast<int>(saved[4]);
-    counts.events = static_cast<std::int64_t>(saved[5]);
-    counts.dropped_nonpositive = static_cast<std::int64_t>(saved[6]);
-    counts.dropped_small = static_cast<std::int64_t>(saved[7]);
-    counts.last_size = saved[8];
-    at += rupture_words;
-    for (std::vector<double> *list : {&open_sums, &finder, &history}) {
-      if (at >= from.size()) return false;
-      const auto length = static_cast<std::size_t>(from[at++]);
-      if (length > from.size() - at) return false;
-      const auto begin = from.begin() + static_cast<std::ptrdiff_t>(at);
-      list->assign(begin, begin + static_cast<std::ptrdiff_t>(length));
-      at += length;
-    }
-    return at == from.size();
+  /// What there is of kinds other than drops of PE.
+  template <class Self, class State>
+  static void visit(Self &self, State &state) {
+    auto &grid = self.grid;
+    auto &counts = self.counts;
+    state(grid.step0, grid.time0, grid.dt, grid.interval, grid.bins);
+    state(counts.events, counts.dropped_nonpositive, counts.dropped_small, counts.last_size);
+    state.list(self.open_sums);
+    state.list(self.finder);
+    state.list(self.history);
   }
 
-  /// Whether ruptures on that grid can go on; else their numbers do, and what was open is lost.
-  bool goes_on_with(const FaultGrid &other) const {
-    return ruptures && grid.dt == other.dt && grid.interval == other.interval &&
+  /// From place `at` of the numbers on, of a kind with that number. False: this is no such state.
+  bool read(const std::vector<double> &from, std::size_t at, std::size_t of_kind) {
+    if (from.size() < at + picker_words) return false;
+    kind = of_kind;
+    const auto begin = from.begin() + static_cast<std::ptrdiff_t>(at);
+    if (kind == 0) {
+      drops.assign(begin, from.end());
+      return true;
+    }
+    drops.assign(begin, begin + static_cast<std::ptrdiff_t>(picker_words));
+    try {
+      StateReader in(from, at + picker_words);
+      visit(*this, in);
+      return in.left() == 0;
+    } catch (const std::invalid_argument &) {
+      return false;
+    }
+  }
+
+  /// Whether events of that kind on that grid can go on; else their numbers do, and what was open
+  /// is lost.
+  bool goes_on_with(std::size_t other_kind, const FaultGrid &other) const {
+    return kind == other_kind && grid.dt == other.dt && grid.interval == other.interval &&
            grid.bins == other.bins;
   }
 };
@@ -91,53 +86,43 @@ class EventStream {
  public:
   /// \throws std::invalid_argument for settings out of range
   explicit EventStream(const EventSettings &settings)
-      : settings_(settings),
-        picker_(settings.picker),
-        locator_(settings.bin_width, settings.bin_fraction) {}
+      : settings_(settings), kind_(number_of(*settings.kind)), drops_(settings) {
+    if (!settings.kind->wants_intervals()) finder_ = settings.kind->finder(settings, FaultGrid());
+  }
 
   /// A fault whose first interval is still to come. \throws std::invalid_argument
   void set_grid(const FaultGrid &grid) {
     grid_ = grid;
-    finder_ = std::make_unique<RuptureFinder>(grid, settings_.rupture_settings(grid.dt));
-    ruptures_go_on_ = false;
+    finder_ = settings_.kind->finder(settings_, grid);
+    goes_on_ = false;
   }
 
   /// Goes on from a restart file, after set_grid(). \throws std::invalid_argument
   void set_state(const SavedStream &saved) {
-    picker_.set_state(saved.picker);
-    locator_.set_state(saved.open_event, 0);
-    if (!settings_.ruptures) return;
-    rupture_counts_ = saved.counts;
-    if (!saved.goes_on_with(grid_)) return;
+    drops_.set_state(saved.drops);
+    if (kind_ == 0 || saved.kind != kind_) return;
+    counts_ = saved.counts;
+    if (!saved.goes_on_with(kind_, grid_)) return;
     grid_.step0 = saved.grid.step0;
     grid_.time0 = saved.grid.time0;
-    finder_ = std::make_unique<RuptureFinder>(grid_, settings_.rupture_settings(grid_.dt));
+    finder_ = settings_.kind->finder(settings_, grid_);
     finder_->set_state(saved.finder);
     saved_history_ = saved.history;
-    ruptures_go_on_ = true;
+    goes_on_ = true;
   }
 
   /// For restarts: numbers for SavedStream. open_sums: of the interval that is not complete.
   std::vector<double> state(const std::vector<double> &open_sums) const {
-    std::vector<double> out(SavedStream::picker_words);
-    std::memcpy(out.data(), &picker_.state(), sizeof(PickerState));
-    if (!settings_.ruptures) {
-      const std::vector<double> open_event = locator_.state();
-      out.insert(out.end(), open_event.begin(), open_event.end());
-      return out;
-    }
-    out.insert(out.end(),
-               {static_cast<double>(grid_.step0), grid_.time0, grid_.dt,
-                static_cast<double>(grid_.interval), static_cast<double>(grid_.bins),
-                static_cast<double>(rupture_counts_.events),
-                static_cast<double>(rupture_counts_.dropped_nonpositive),
-                static_cast<double>(rupture_counts_.dropped_small), rupture_counts_.last_size});
-    const std::vector<double> written =
-        history_ && history_->is_open() ? history_->state() : std::vector<double>();
-    for (const auto &list : {open_sums, finder_->state(), written}) {
-      out.push_back(static_cast<double>(list.size()));
-      out.insert(out.end(), list.begin(), list.end());
-    }
+    std::vector<double> out = drops_.state();
+    if (kind_ == 0) return out;
+    SavedStream now;
+    now.grid = grid_;
+    now.counts = counts_;
+    now.open_sums = open_sums;
+    now.finder = finder_->state();
+    if (history_ && history_->is_open()) now.history = history_->state();
+    StateWriter to(out);
+    SavedStream::visit(now, to);
     return out;
   }
 
@@ -170,23 +155,25 @@ class EventStream {
   /// \throws EventStreamError or what the writers throw, at the first sample that is at fault
   template <class TimeOf>
   void add_block(const GatheredBlock &block, TimeOf &&time_of, double x0, double length) {
+    const bool with_slips = settings_.kind->wants_slips();
+    const bool with_intervals = settings_.kind->wants_intervals();
     std::vector<std::vector<BinSlip>> slips;
-    if (settings_.location) slips = block.slip_by_step();
+    if (with_slips) slips = block.slip_by_step();
     const double *sums = block.intervals.data();
     for (int n = 0; n < block.count; ++n) {
       const std::int64_t step = block.first + n;
       const double pe = block.total(n);
-      add_sample(step, time_of(step), pe,
-                 settings_.location ? &slips[static_cast<std::size_t>(n)] : nullptr, x0, length);
-      if (!settings_.ruptures || !grid_.ends_interval(step)) continue;
+      add_sample({step, time_of(step), pe,
+                  with_slips ? &slips[static_cast<std::size_t>(n)] : nullptr, x0, length});
+      if (!with_intervals || !grid_.ends_interval(step)) continue;
       add_interval(step, pe, sums, time_of);
       sums += FaultSums::fields * static_cast<std::size_t>(grid_.bins);
     }
   }
 
-  /// Writes open ruptures with the end that they have by now; nothing may be added afterwards.
+  /// Writes open events with the end that they have by now; nothing may be added afterwards.
   void write_unfinished() {
-    if (finder_) finder_->each_open_as_ended([this](const Event &rupture) { finish(rupture); });
+    if (finder_) finder_->each_open_as_ended([this](const Event &event) { finish(event); });
   }
 
   /// Hands all samples so far to the system.
@@ -194,50 +181,27 @@ class EventStream {
     if (series_) series_->flush();
   }
 
-  /// Another time step: the picker goes on with these settings; its rate is one per step, so it is
-  /// multiplied by the ratio of the steps.
+  /// Another time step, see PeDropFinder.
   void change_picker(const PickerSettings &settings, double ratio) {
     settings_.picker = settings;
-    PickerState state = picker_.state();
-    state.rate *= ratio;
-    picker_ = EventPicker(settings);
-    picker_.set_state(state);
+    drops_.change_picker(settings, ratio);
   }
-  /// PE changed by that much since the last sample, without a step.
-  void leave_out_jump(double jump) {
-    PickerState state = picker_.state();
-    state.pe += jump;
-    state.pe_start += jump;
-    picker_.set_state(state);
-  }
+  void leave_out_jump(double jump) { drops_.leave_out_jump(jump); }
 
-  const EventPicker &picker() const { return picker_; }
+  const EventPicker &picker() const { return drops_.picker(); }
   /// Numbers of events of the kind that is written.
-  const PickerState &counts() const {
-    return settings_.ruptures ? rupture_counts_ : picker_.state();
-  }
-  /// Events, or ruptures, that have begun and not ended.
-  std::int64_t open() const {
-    return settings_.ruptures ? finder_->open() : picker_.in_event() ? 1 : 0;
-  }
+  const PickerState &counts() const { return kind_ == 0 ? picker().state() : counts_; }
+  /// Events that have begun and not ended.
+  std::int64_t open() const { return events().open(); }
 
  private:
-  /// Step up to which the ends of events are known at a restart.
-  std::int64_t last_known_end(std::int64_t step) const {
-    // A rupture is known to have ended when its pause is over.
-    if (settings_.ruptures)
-      return interval_end(finder_->intervals() - settings_.rupture_settings(grid_.dt).memory);
-    // An event that ended at the restart step is only known one step later, and comes again.
-    return step - 1;
+  const EventFinder &events() const {
+    return finder_ ? *finder_ : static_cast<const EventFinder &>(drops_);
   }
 
   bool goes_on(const std::string &file) const {
     std::error_code code;
     return settings_.resume && !file.empty() && std::filesystem::exists(file, code);
-  }
-
-  std::int64_t interval_end(std::int64_t intervals) const {
-    return grid_.step0 + intervals * grid_.interval;
   }
 
   void check_files(bool from_restart) const {
@@ -252,10 +216,10 @@ class EventStream {
         throw EventStreamError(who + "resume yes: file " + file +
                                " exists, but the restart file holds no picker state of compute " +
                                name + "; read a restart written while it was active");
-      if (goes_on(file) && settings_.ruptures && !ruptures_go_on_ && file != settings_.series_file)
+      if (goes_on(file) && kind_ != 0 && !goes_on_ && file != settings_.series_file)
         throw EventStreamError(who + "resume yes: file " + file +
-                               " exists, but the restart file holds no ruptures of compute " +
-                               name +
+                               " exists, but the restart file holds no " + settings_.kind->name() +
+                               " of compute " + name +
                                " with these bins and intervals; give another name, or replace it "
                                "with overwrite yes and resume no");
       if (!goes_on(file) && !settings_.overwrite && text_io::holds_data(file))
@@ -274,12 +238,12 @@ class EventStream {
     const bool series_goes_on = goes_on(settings_.series_file);
     const std::vector<std::string> free_to_change = {"program", "ranks", "links"};
     const CatalogueInfo catalogue_info =
-        catalogue_header(settings_, scene, settings_.ruptures, grid_.width);
+        catalogue_header(settings_, *settings_.kind, scene, grid_.width);
     PeSeriesInfo series_info;
     if (!settings_.catalogue_file.empty()) {
       catalogue_ = std::make_unique<CatalogueWriter>();
       if (catalogue_goes_on)
-        catalogue_->find_cut(settings_.catalogue_file, catalogue_info, last_known_end(step),
+        catalogue_->find_cut(settings_.catalogue_file, catalogue_info, events().known_until(step),
                              free_to_change, counts().events);
     }
     if (!settings_.series_file.empty()) {
@@ -303,67 +267,58 @@ class EventStream {
     if (series_)
       series_goes_on ? static_cast<void>(series_->cut())
                      : series_->create(settings_.series_file, series_info, settings_.series_binary);
-    if (history_ && !history_->is_open() && ruptures_go_on_)
-      history_->create(settings_.history_file, history_info_, interval_end(finder_->intervals()),
-                       finder_->pe(), finder_->stress());
+    if (history_ && !history_->is_open() && goes_on_) {
+      const FaultMoment last = finder_->last_interval();
+      history_->create(settings_.history_file, history_info_,
+                       grid_.step0 + last.intervals * grid_.interval, last.pe, last.stress);
+    }
   }
 
-  void add_sample(std::int64_t step, double time, double pe, const std::vector<BinSlip> *slips,
-                  double x0, double length) {
-    if (!std::isfinite(pe)) {
+  void add_sample(const EventSample &sample) {
+    if (!std::isfinite(sample.pe)) {
       if (series_) series_->flush();
-      throw EventStreamError("Potential energy is not finite at step " + std::to_string(step) +
+      throw EventStreamError("Potential energy is not finite at step " +
+                             std::to_string(sample.step) +
                              "; the catalogue ends with the last event before it. Use a smaller "
                              "time step or start from an earlier restart");
     }
-    if (series_ && step % settings_.series_stride == 0) series_->write(step, time, pe);
-
-    Event event;
-    const bool was_open = picker_.in_event();
-    const bool ended = picker_.push(step, time, pe, event);
-    if (ended && slips) locator_.locate(x0, length, event);
-    if (ended && catalogue_ && !settings_.ruptures) catalogue_->write(event);
-    if (!slips) return;
-    if (was_open && !picker_.in_event()) locator_.clear();
-    if (picker_.in_event()) locator_.add(*slips);
+    if (series_ && sample.step % settings_.series_stride == 0)
+      series_->write(sample.step, sample.time, sample.pe);
+    drops_.add_sample(sample, [this](const Event &event) {
+      if (catalogue_ && kind_ == 0) catalogue_->write(event);
+    });
+    if (finder_) finder_->add_sample(sample, [this](const Event &event) { finish(event); });
   }
 
   template <class TimeOf>
   void add_interval(std::int64_t step, double pe, const double *sums, TimeOf &&time_of) {
     const FaultRow row = fault_row(grid_, sums, grid_.interval);
-    finder_->add(pe, row, [this, &time_of](Event rupture) {
+    finder_->add(pe, row, [this, &time_of](Event event) {
       if (settings_.own_times) {
-        rupture.t_start = time_of(rupture.step_start);
-        rupture.t_end = time_of(rupture.step_end);
+        event.t_start = time_of(event.step_start);
+        event.t_end = time_of(event.step_end);
       }
-      finish(rupture);
+      finish(event);
     });
     if (history_) history_->add(step, pe, row, finder_->active());
   }
 
-  void finish(Event rupture) {
-    if (!(rupture.size > 0.0)) {
-      if (!settings_.picker.keep_nonpositive) {
-        ++rupture_counts_.dropped_nonpositive;
-        return;
-      }
-    } else if (rupture.size < settings_.picker.min_size) {
-      ++rupture_counts_.dropped_small;
-      return;
-    }
-    rupture.id = ++rupture_counts_.events;
-    rupture_counts_.last_size = rupture.size;
-    if (catalogue_) catalogue_->write(rupture);
+  void finish(Event event) {
+    if (is_left_out(event.size, settings_.picker, counts_)) return;
+    event.id = ++counts_.events;
+    counts_.last_size = event.size;
+    if (catalogue_) catalogue_->write(event);
   }
 
   EventSettings settings_;
-  EventPicker picker_;
-  EventLocator locator_;
+  std::size_t kind_;
+  PeDropFinder drops_;
 
+  // Of other kinds:
   FaultGrid grid_;
-  std::unique_ptr<RuptureFinder> finder_;
-  PickerState rupture_counts_;  // only the numbers of events
-  bool ruptures_go_on_ = false;
+  std::unique_ptr<EventFinder> finder_;
+  PickerState counts_;    // only the numbers of events
+  bool goes_on_ = false;  // with the state of a restart file
   std::vector<double> saved_history_;
 
   OutputClaim claim_;  // outlives the writers

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file lsm_slip_history.h
 /// Slip of a fault in space and time, for pictures and for finding its ruptures again (ours): the
-/// bins of lsm_ruptures.h, interval by interval while anything slips, many intervals in one record
-/// else.
+/// bins of lsm_fault_grid.h, interval by interval while anything slips, many intervals in one
+/// record else.
 ///
 /// Binary: 16 bytes "lsm-slip-hist-1\n", int64 length of the header, the header (lines
 /// "# key = value"), then records of
@@ -32,7 +32,7 @@
 #include <vector>
 
 #include "lsm_binary_io.h"
-#include "lsm_ruptures.h"
+#include "lsm_fault_grid.h"
 #include "lsm_text_io.h"
 
 namespace LSM {

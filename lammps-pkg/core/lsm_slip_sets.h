@@ -51,6 +51,11 @@ inline void extend(SlipSet &set, std::int64_t begin, std::int64_t length, std::i
 struct RecentSlip {
   std::int64_t place = 0, step = 0;
   std::int64_t set = 0;  ///< index of its set
+
+  template <class Self, class State>
+  static void visit(Self &self, State &state) {
+    state(self.place, self.step, self.set);
+  }
 };
 
 /// Everything that has to be remembered between steps.

@@ -14,6 +14,7 @@
 #include "event_table.h"
 #include "lsm_catalogue.h"
 #include "lsm_slip_history.h"
+#include "lsm_slip_sets.h"
 #include "plot.h"
 
 namespace LSM::postproc {

@@ -45,21 +45,23 @@ struct MadeUpRun {
   explicit MadeUpRun(const EventSettings &s) : settings(s) {
     stream = std::make_unique<EventStream>(settings);
     grid = settings.grid(0.0, length, 0, 100.0, dt);
-    if (settings.ruptures) stream->set_grid(grid);
+    if (in_intervals()) stream->set_grid(grid);
     sums = LSM::FaultSums(grid).values();
   }
 
+  bool in_intervals() const { return settings.kind->wants_intervals(); }
+
   void begin() {
     stream->begin_files(0, false, scene, clock);
-    if (settings.ruptures) stream->begin_fault(pe_at(0), sums);
+    if (in_intervals()) stream->begin_fault(pe_at(0), sums);
   }
   void restart(std::int64_t step, const std::vector<double> &state) {
     SavedStream saved;
-    ASSERT_TRUE(saved.read(state, 0, settings.ruptures));
+    ASSERT_TRUE(saved.read(state, 0, LSM::number_of(*settings.kind)));
     grid = settings.grid(0.0, length, step, clock.at(step), dt);
-    if (settings.ruptures) stream->set_grid(grid);
+    if (in_intervals()) stream->set_grid(grid);
     stream->set_state(saved);
-    if (settings.ruptures) {
+    if (in_intervals()) {
       grid.step0 = saved.grid.step0;
       sums = saved.open_sums;
     }
@@ -92,7 +94,7 @@ struct MadeUpRun {
         block.pe[static_cast<std::size_t>(block.count + n)] = pe_at(step) - part;
         block.slip.insert(block.slip.end(), {static_cast<double>(n), 4.0, 0.125});
         if (slides(step)) block.slip.insert(block.slip.end(), {static_cast<double>(n), 5.0, 1.0});
-        if (step > 0 && settings.ruptures) add_contacts(step);
+        if (step > 0 && in_intervals()) add_contacts(step);
         if (!grid.ends_interval(step)) continue;
         block.intervals.insert(block.intervals.end(), sums.begin(), sums.end());
         std::fill(sums.begin(), sums.end(), 0.0);
@@ -106,8 +108,12 @@ struct MadeUpRun {
 
 class EventStreamFiles : public unit::Files {
  protected:
-  EventSettings pe_settings(const std::string &name) const {
+  EventSettings pe_settings(const std::string &name, bool location = false) const {
     EventSettings s;
+    auto drops = std::make_shared<LSM::PeDrops>();
+    drops->location = location;
+    drops->fraction = 0.5;
+    s.kind = drops;
     s.name = "events";
     s.picker.lambda = 0.5;
     s.catalogue_file = path(name + ".csv");
@@ -117,13 +123,14 @@ class EventStreamFiles : public unit::Files {
   }
   EventSettings rupture_settings(const std::string &name) const {
     EventSettings s = pe_settings(name);
-    s.ruptures = true;
+    auto kind = std::make_shared<LSM::Ruptures>();
+    kind->gap = 0;
+    s.kind = kind;
     s.history_file = path(name + ".slip");
     s.driving = 0.001;
     s.interval = 4;
     s.modulus = 0.4;
     s.quiet = 3;
-    s.gap = 0;
     return s;
   }
   void expect_same_files(const EventSettings &a, const EventSettings &b) const {
@@ -173,8 +180,7 @@ TEST_F(EventStreamFiles, BlocksLeaveNoTrace) {
     std::vector<EventSettings> done;
     for (const int block : {1, 7, 100}) {
       const std::string name = (ruptures ? "r" : "p") + std::to_string(block);
-      EventSettings settings = ruptures ? rupture_settings(name) : pe_settings(name);
-      settings.location = !ruptures;
+      EventSettings settings = ruptures ? rupture_settings(name) : pe_settings(name, true);
       MadeUpRun run(settings);
       run.begin();
       run.run(0, 500, block);
@@ -187,9 +193,7 @@ TEST_F(EventStreamFiles, BlocksLeaveNoTrace) {
 }
 
 TEST_F(EventStreamFiles, SlipCountsWhileItsEventIsOpen) {
-  EventSettings settings = pe_settings("a");
-  settings.location = true;
-  settings.bin_fraction = 0.5;
+  const EventSettings settings = pe_settings("a", true);
   MadeUpRun run(settings);
   run.begin();
   run.run(0, 500, 50);
@@ -217,14 +221,13 @@ TEST_F(EventStreamFiles, GoesOnFromItsStateByteForByte) {
     for (const std::int64_t stop : {std::int64_t{60}, std::int64_t{75}, std::int64_t{83}, end,
                                     std::int64_t{161}, std::int64_t{236}}) {
       const std::string at = (ruptures ? "r" : "p") + std::to_string(stop);
-      EventSettings whole = ruptures ? rupture_settings(at) : pe_settings(at);
-      whole.location = !ruptures;
+      EventSettings whole = ruptures ? rupture_settings(at) : pe_settings(at, true);
       MadeUpRun uninterrupted(whole);
       uninterrupted.begin();
       uninterrupted.run(0, 400, 20);
 
-      EventSettings part = ruptures ? rupture_settings(at + "part") : pe_settings(at + "part");
-      part.location = whole.location;
+      EventSettings part =
+          ruptures ? rupture_settings(at + "part") : pe_settings(at + "part", true);
       MadeUpRun first(part);
       first.begin();
       first.run(0, stop, 20);
@@ -272,7 +275,7 @@ TEST_F(EventStreamFiles, RupturesOfOtherBinsDoNotGoOn) {
   first.begin();
   first.run(0, 236, 20);
   SavedStream saved;
-  ASSERT_TRUE(saved.read(first.stream->state(first.sums), 0, true));
+  ASSERT_TRUE(saved.read(first.stream->state(first.sums), 0, 1));
   const auto events = first.stream->counts().events;
   ASSERT_GT(events, 0);
   first.stream.reset();
@@ -280,7 +283,7 @@ TEST_F(EventStreamFiles, RupturesOfOtherBinsDoNotGoOn) {
   settings.bin_width = 2.0;
   settings.resume = true;
   MadeUpRun second(settings);
-  EXPECT_FALSE(saved.goes_on_with(second.grid));
+  EXPECT_FALSE(saved.goes_on_with(1, second.grid));
   second.stream->set_state(saved);
   EXPECT_EQ(second.stream->counts().events, events);  // the numbers go on
   EXPECT_EQ(second.stream->open(), 0);
@@ -297,18 +300,17 @@ TEST_F(EventStreamFiles, DamagedStatesAreRefused) {
   ASSERT_GT(run.stream->open(), 0);
   std::vector<double> state = run.stream->state(run.sums);
   SavedStream saved;
-  EXPECT_TRUE(saved.read(state, 0, true));
+  EXPECT_TRUE(saved.read(state, 0, 1));
   for (const std::size_t length_left : {std::size_t{0}, SavedStream::picker_words - 1,
                                         SavedStream::picker_words + 4, state.size() - 1})
-    EXPECT_FALSE(
-        saved.read({state.begin(), state.begin() + static_cast<long>(length_left)}, 0, true))
+    EXPECT_FALSE(saved.read({state.begin(), state.begin() + static_cast<long>(length_left)}, 0, 1))
         << length_left;
   state.push_back(0.0);
-  EXPECT_FALSE(saved.read(state, 0, true));
+  EXPECT_FALSE(saved.read(state, 0, 1));
   state.pop_back();
 
   // Lists of the right lengths that no fault can have written.
-  ASSERT_TRUE(saved.read(state, 0, true));
+  ASSERT_TRUE(saved.read(state, 0, 1));
   saved.finder.back() = 1000.0;
   MadeUpRun other(rupture_settings("b"));
   EXPECT_THROW(other.stream->set_state(saved), std::invalid_argument);
@@ -336,6 +338,7 @@ TEST_F(EventStreamFiles, TheSeriesEndsBeforeAnEnergyThatIsNotFinite) {
 
 TEST(EventStream, WhatTheOutsideChangesIsNoEvent) {
   EventSettings settings;
+  settings.kind = LSM::make_event_kind("pe");
   settings.picker.lambda = 0.5;
   EventStream stream(settings);
   const auto add = [&](std::int64_t first, const std::vector<double> &pe) {
@@ -363,6 +366,7 @@ TEST(EventStream, WhatTheOutsideChangesIsNoEvent) {
 
 TEST(EventStream, AJumpWithinAnEventIsNoPartOfItsSize) {
   EventSettings settings;
+  settings.kind = LSM::make_event_kind("pe");
   settings.picker.lambda = 0.5;
   EventStream smooth(settings), jumps(settings);
   for (std::int64_t step = 0; step < 60; ++step) {
@@ -386,18 +390,18 @@ TEST(EventStream, AJumpWithinAnEventIsNoPartOfItsSize) {
 
 TEST(EventSettings, HeadersSayEachParameterOnce) {
   EventSettings settings;
-  settings.ruptures = true;
+  settings.kind = std::make_shared<LSM::Ruptures>();
   settings.driving = 0.0005;
   settings.modulus = 0.4;
   settings.parameters = {{"seed", "3"}, {"links", "many"}};
   const LSM::SceneInfo scene{{{"program", "p"}, {"links", "7"}, {"dt", "0.5"}}, 2, 0.5};
-  const auto pe = LSM::catalogue_header(settings, scene, false, 0.0);
+  const auto pe = LSM::catalogue_header(settings, LSM::PeDrops(), scene, 0.0);
   EXPECT_EQ(*pe.find("links"), "many");  // what the user says stands, behind the others
   EXPECT_EQ(pe.parameters.back().first, "links");
   EXPECT_EQ(*pe.find("ranks"), "2");
   EXPECT_NE(pe.find("picker"), nullptr);
   EXPECT_FALSE(pe.stress_drop);
-  const auto ruptures = LSM::catalogue_header(settings, scene, true, 1.25);
+  const auto ruptures = LSM::catalogue_header(settings, *settings.kind, scene, 1.25);
   EXPECT_EQ(*ruptures.find("slip_bin"), "1.25");
   EXPECT_EQ(*ruptures.find("slip_velocity"), "0.0025000000000000001");
   EXPECT_EQ(ruptures.find("picker"), nullptr);
@@ -406,7 +410,7 @@ TEST(EventSettings, HeadersSayEachParameterOnce) {
   const auto series = LSM::series_header(settings, scene, {100.0, 50, 0.5});
   EXPECT_EQ(series.find("dt"), nullptr);
   EXPECT_EQ(series.time(60), 105.0);
-  settings.ruptures = false;
+  settings.kind = LSM::make_event_kind("pe");
   EXPECT_EQ(LSM::series_header(settings, scene, {100.0, 50, 0.5}).parameters, series.parameters);
 }
 
@@ -420,10 +424,11 @@ TEST(EventSettings, BinsFillTheFault) {
   EXPECT_EQ(settings.grid(0.0, 0.3, 0, 0.0, 1.0).bins, 3);  // 2.9999999999999996 widths
   settings.bin_width = 50.0;
   EXPECT_EQ(settings.grid(0.0, 20.0, 0, 0.0, 1.0).bins, 1);
-  settings.pause = 0.0;
-  EXPECT_EQ(settings.rupture_settings(0.5).memory, 1);
-  settings.pause = 12.0;
-  EXPECT_EQ(settings.rupture_settings(0.5).memory, 2);  // intervals of 10 steps of 0.5
+  LSM::Ruptures kind;
+  kind.pause = 0.0;
+  EXPECT_EQ(kind.rupture_settings(settings, 0.5).memory, 1);
+  kind.pause = 12.0;
+  EXPECT_EQ(kind.rupture_settings(settings, 0.5).memory, 2);  // intervals of 10 steps of 0.5
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "lsm_random.h"
-#include "lsm_ruptures.h"
+#include "events/ruptures.h"
 #include "slow_ruptures.h"
 
 namespace {

@@ -5,6 +5,8 @@
 
 #include <vector>
 
+#include "events/pe_drops.h"
+
 namespace {
 
 using LSM::Event;

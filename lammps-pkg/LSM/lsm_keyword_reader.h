@@ -1,0 +1,49 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   SPDX-License-Identifier: GPL-2.0-or-later
+   Keywords of a style and their values, from tables of what there is
+------------------------------------------------------------------------- */
+
+#ifndef LMP_LSM_KEYWORD_READER_H
+#define LMP_LSM_KEYWORD_READER_H
+
+#include "lsm_keywords.h"
+#include "pointers.h"
+
+#include <string>
+
+namespace LAMMPS_NS {
+
+/// Goes through the words behind a style's name. Whatever is wrong stops LAMMPS with one line.
+class LSMKeywordReader : protected Pointers {
+ public:
+  /// style: as messages begin, "Fix lsm/leap"; the words begin at arg[first]
+  LSMKeywordReader(LAMMPS *, const std::string &style, int first, int narg, char **arg);
+
+  /// Goes on to the next keyword, which has one value at least. False: there is none.
+  bool next();
+  const std::string &key() const { return key_; }
+  /// The keyword has so many values.
+  void need(int values);
+  const char *text(int n = 1) const { return arg_[at_ + n]; }
+  /// Reads the value if the keyword is in the table.
+  bool read(const LSM::Keywords &) const;
+
+  [[noreturn]] void refuse(const std::string &expected) const;
+  [[noreturn]] void stop(const std::string &message) const;
+  /// also: keywords that are in no table, separated by a comma and a blank
+  [[noreturn]] void unknown(const LSM::Keywords &, const std::string &also = "") const;
+
+ private:
+  const std::string style_;
+  int at_, narg_;
+  char **arg_;
+  int used_ = 0;    // words of the keyword, with itself
+  std::string key_;
+
+  void read_number(double &, LSM::Must) const;
+  void read_whole(int &, LSM::Must) const;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file pe_drops.h
+/// Events as drops of the potential energy (PE) of the whole model (the paper's), with the places
+/// of their slip (ours).
+#ifndef LSM_PE_DROPS_H
+#define LSM_PE_DROPS_H
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "events/event_kind.h"
+#include "lsm_state.h"
+
+namespace LSM {
+
+/// Moment of the bins since the open event commenced, and what follows from it for the event.
+class EventLocator {
+ public:
+  /// bin_width > 0; fraction: bins with at most this part of the largest moment are not ruptured.
+  EventLocator(double bin_width, double fraction) : bin_width_(bin_width), fraction_(fraction) {}
+
+  void add(const std::vector<BinSlip> &slips) {
+    for (const BinSlip &s : slips) moment_[static_cast<int>(s.bin)] += s.moment;
+  }
+  void clear() { moment_.clear(); }
+
+  /// Sets slip moment, centroid and rupture length; the fault begins at x0 and has that length as
+  /// its period. Centroid: direction of the mean of the bins on the circle that the period makes.
+  void locate(double x0, double length, Event &event) const {
+    double largest = 0.0, sum = 0.0, c = 0.0, s = 0.0;
+    for (const auto &[bin, moment] : moment_) {
+      const double angle = 2.0 * pi * (bin + 0.5) * bin_width_ / length;
+      largest = std::max(largest, moment);
+      sum += moment;
+      c += moment * std::cos(angle);
+      s += moment * std::sin(angle);
+    }
+    int ruptured = 0;
+    for (const auto &bin : moment_)
+      if (bin.second > fraction_ * largest) ++ruptured;
+    double along = std::atan2(s, c) / (2.0 * pi);
+    if (along < 0.0) along += 1.0;
+    event.slip_moment = sum;
+    event.x_centroid = x0 + along * length;
+    event.rupture_length = std::min(ruptured * bin_width_, length);
+  }
+
+  /// For restarts: pairs of bin and moment.
+  std::vector<double> state() const {
+    std::vector<double> out;
+    for (const auto &[bin, moment] : moment_) {
+      out.push_back(bin);
+      out.push_back(moment);
+    }
+    return out;
+  }
+  /// The pairs in saved from place `at` on.
+  void set_state(const std::vector<double> &saved, std::size_t at) {
+    moment_.clear();
+    for (std::size_t n = at; n + 1 < saved.size(); n += 2)
+      moment_[static_cast<int>(saved[n])] = saved[n + 1];
+  }
+
+ private:
+  static constexpr double pi = 3.14159265358979323846;
+
+  double bin_width_, fraction_;
+  std::map<int, double> moment_;
+};
+
+class PeDrops : public EventKind {
+ public:
+  bool location = false;   ///< slip moment, centroid and rupture length of each event
+  double fraction = 0.05;  ///< bins with at most this part of the largest slip are not ruptured
+
+  const char *name() const override { return "pe"; }
+  Keywords keywords() override {
+    return {{"location", &location}, {"fraction", &fraction, Must::part}};
+  }
+  bool wants_slips() const override { return location; }
+  std::string asked_by() const override { return "location yes"; }
+
+  void describe(const EventSettings &settings, double, const AddParameter &add,
+                CatalogueInfo &info) const override {
+    if (location) {
+      add("slip_bin", text_io::number(settings.bin_width));
+      add("rupture_fraction", text_io::number(fraction));
+    }
+    info.slip_moment = info.x_centroid = info.rupture_length = location;
+  }
+  std::unique_ptr<EventFinder> finder(const EventSettings &, const FaultGrid &) const override {
+    return {};
+  }
+};
+
+/// The picker, and the places of what it finds. Its events have their ids, and those left out are
+/// counted.
+class PeDropFinder : public EventFinder {
+ public:
+  /// \throws std::invalid_argument for settings out of range
+  explicit PeDropFinder(const EventSettings &settings)
+      : picker_(settings.picker), locator_(settings.bin_width, fraction_of(*settings.kind)) {}
+
+  const EventPicker &picker() const { return picker_; }
+
+  void add_sample(const EventSample &sample, const Report &report) override {
+    Event event;
+    const bool was_open = picker_.in_event();
+    if (picker_.push(sample.step, sample.time, sample.pe, event)) {
+      if (sample.slips) locator_.locate(sample.x0, sample.length, event);
+      report(event);
+    }
+    if (!sample.slips) return;
+    if (was_open && !picker_.in_event()) locator_.clear();
+    if (picker_.in_event()) locator_.add(*sample.slips);
+  }
+  std::int64_t open() const override { return picker_.in_event() ? 1 : 0; }
+  // An event that ended at this step is only known one step later, and comes again.
+  std::int64_t known_until(std::int64_t step) const override { return step - 1; }
+
+  /// The picker goes on with these settings; its rate is one per step, so it is multiplied by the
+  /// ratio of the steps.
+  void change_picker(const PickerSettings &settings, double ratio) {
+    PickerState state = picker_.state();
+    state.rate *= ratio;
+    picker_ = EventPicker(settings);
+    picker_.set_state(state);
+  }
+  /// PE changed by that much since the last sample, without a step.
+  void leave_out_jump(double jump) {
+    PickerState state = picker_.state();
+    state.pe += jump;
+    state.pe_start += jump;
+    picker_.set_state(state);
+  }
+
+  std::vector<double> state() const override {
+    std::vector<double> out;
+    StateWriter(out).raw(picker_.state());
+    const std::vector<double> places = locator_.state();
+    out.insert(out.end(), places.begin(), places.end());
+    return out;
+  }
+  void set_state(const std::vector<double> &saved) override {
+    PickerState state;
+    StateReader in(saved);
+    in.raw(state);
+    picker_.set_state(state);
+    locator_.set_state(saved, saved.size() - in.left());
+  }
+
+ private:
+  static double fraction_of(const EventKind &kind) {
+    const auto *drops = dynamic_cast<const PeDrops *>(&kind);
+    return drops ? drops->fraction : 0.0;
+  }
+
+  EventPicker picker_;
+  EventLocator locator_;
+};
+
+}  // namespace LSM
+
+#endif

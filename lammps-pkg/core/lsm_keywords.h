@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file lsm_keywords.h
+/// Keywords of an input with one value each, in a table: where the value goes and what it must be.
+#ifndef LSM_KEYWORDS_H
+#define LSM_KEYWORDS_H
+
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace LSM {
+
+/// What a number must be; positive: of whole numbers at least 1; part: at least 0 and less than 1.
+enum class Must { anything, positive, not_negative, part };
+
+struct Keyword {
+  const char *name;
+  std::variant<double *, int *, bool *, std::string *> value;
+  Must must = Must::anything;
+};
+using Keywords = std::vector<Keyword>;
+
+}  // namespace LSM
+
+#endif

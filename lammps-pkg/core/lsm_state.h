@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file lsm_state.h
+/// What a restart file holds of something, as numbers, written and read by one list of it:
+///
+///     template <class Self, class State>
+///     static void visit(Self &self, State &state) { state(self.step, self.pe); }
+///
+/// Self: const where it is written. What has visit() can be part of others and be in lists. Whole
+/// numbers and truths are held as doubles, exact below 2^53.
+#ifndef LSM_STATE_H
+#define LSM_STATE_H
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <stdexcept>
+#include <type_traits>
+#include <vector>
+
+namespace LSM {
+
+namespace state_detail {
+
+/// What writing and reading share; Derived has one(number) and raw_words(pointer, words).
+template <class Derived>
+class StateVisitor {
+ public:
+  template <class... Values>
+  void operator()(Values &...values) {
+    (any(values), ...);
+  }
+  /// A vector of a length that is known.
+  template <class Vector>
+  void fixed(Vector &values) {
+    for (auto &value : values) any(value);
+  }
+  /// A vector behind its length.
+  template <class Vector>
+  void list(Vector &values) {
+    list(values, [](auto &) {});
+  }
+  /// Each element is first made ready to be read, by prepare(element).
+  template <class Vector, class Prepare>
+  void list(Vector &values, Prepare &&prepare) {
+    auto length = static_cast<std::int64_t>(values.size());
+    self().one(length);
+    if constexpr (!std::is_const_v<Vector>) {
+      self().expect(length);
+      values.resize(static_cast<std::size_t>(length));
+    }
+    for (auto &value : values) prepare(value);
+    fixed(values);
+  }
+  /// The bytes of a struct of eight-byte words, as they are.
+  template <class Plain>
+  void raw(Plain &plain) {
+    static_assert(std::is_trivially_copyable_v<Plain> && sizeof(Plain) % sizeof(double) == 0);
+    self().raw_words(&plain, sizeof(Plain) / sizeof(double));
+  }
+
+ private:
+  Derived &self() { return static_cast<Derived &>(*this); }
+  template <class Value>
+  void any(Value &value) {
+    if constexpr (std::is_arithmetic_v<Value>)
+      self().one(value);
+    else
+      Value::visit(value, self());
+  }
+};
+
+}  // namespace state_detail
+
+/// Writes.
+class StateWriter : public state_detail::StateVisitor<StateWriter> {
+ public:
+  explicit StateWriter(std::vector<double> &to) : to_(to) {}
+
+  template <class Value>
+  void one(const Value &value) {
+    to_.push_back(static_cast<double>(value));
+  }
+  void expect(std::int64_t) {}
+  void raw_words(const void *from, std::size_t words) {
+    to_.resize(to_.size() + words);
+    std::memcpy(&to_[to_.size() - words], from, words * sizeof(double));
+  }
+
+ private:
+  std::vector<double> &to_;
+};
+
+/// Reads. \throws std::invalid_argument where numbers are missing
+class StateReader : public state_detail::StateVisitor<StateReader> {
+ public:
+  explicit StateReader(const std::vector<double> &from, std::size_t at = 0)
+      : from_(from), at_(at) {}
+
+  template <class Value>
+  void one(Value &value) {
+    expect(1);
+    value = static_cast<Value>(from_[at_++]);
+  }
+  /// So many numbers at least are still to come.
+  void expect(std::int64_t numbers) const {
+    if (numbers < 0 || static_cast<std::uint64_t>(numbers) > from_.size() - at_)
+      throw std::invalid_argument("saved state is incomplete");
+  }
+  void raw_words(void *to, std::size_t words) {
+    expect(static_cast<std::int64_t>(words));
+    std::memcpy(to, &from_[at_], words * sizeof(double));
+    at_ += words;
+  }
+  /// Numbers that nothing has asked for.
+  std::size_t left() const { return from_.size() - at_; }
+
+ private:
+  const std::vector<double> &from_;
+  std::size_t at_;
+};
+
+}  // namespace LSM
+
+#endif
