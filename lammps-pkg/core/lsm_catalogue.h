@@ -7,16 +7,19 @@
 ///     # key = value ...
 ///     event_id,t_start,t_end,step_start,step_end,size,pe_start,pe_end[,slip_moment][,x_centroid]...
 ///
-/// Columns that may follow, in this order: slip_moment, x_centroid, rupture_length, x_hypocentre,
-/// x_begin, mean_slip, stress_drop. What they mean is said by the program that writes them.
+/// Columns that may follow: slip_moment, x_centroid, rupture_length, x_hypocentre, x_begin,
+/// mean_slip, stress_drop. What they mean is said by the program that writes them. They are written
+/// in this order; a reader finds columns by their names and passes over those it does not know.
 /// Times in model time, sizes in model energy, 17 significant digits. Events are in order of time
-/// and do not overlap; identifiers increase. With the parameter `events = ruptures`, events are
-/// local: they may overlap in time, and are in order of their ends. The parameter `completeness` is
+/// and do not overlap; identifiers increase. Those of a kind other than drops of PE, which the
+/// parameter `events` names, may overlap in time, and are in order of their ends. The parameter
+/// `completeness` is
 /// a size: events smaller than it are not claimed to be independent of the time step. (The format
 /// is ours.)
 #ifndef LSM_CATALOGUE_H
 #define LSM_CATALOGUE_H
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -54,7 +57,7 @@ struct CatalogueInfo {
   /// Whether events may overlap in time; they are in order of their ends then.
   bool overlapping() const {
     const std::string *events = find("events");
-    return events && *events == "ruptures";
+    return events && *events != "pe";
   }
 
   /// Size below which events are not claimed to be independent of the time step; 0: not said.
@@ -70,14 +73,14 @@ namespace catalogue_detail {
 constexpr std::string_view first_line = "# lsm-catalogue 1";
 constexpr std::string_view magic = "# lsm-catalogue ";
 
-/// A column of the table and where it is in an event: a number or an integer.
+/// A column of the table and where it is in an event: a number, an integer or nowhere.
 struct Column {
   std::string_view name;
   double Event::*number;
   std::int64_t Event::*integer;
 };
 
-/// In the order of the file; those behind the first `required` are optional.
+/// In the order in which they are written; those behind the first `required` are optional.
 constexpr std::array<Column, 15> all_columns = {
     {{"event_id", nullptr, &Event::id},
      {"t_start", &Event::t_start, nullptr},
@@ -117,13 +120,6 @@ inline std::string column_line(const CatalogueInfo &info) {
     if (!out.empty()) out += ',';
     out += column.name;
   }
-  return out;
-}
-
-inline std::string optional_names() {
-  std::string out;
-  for (std::size_t i = required; i < all_columns.size(); ++i)
-    out += (out.empty() ? "" : ", ") + std::string(all_columns[i].name);
   return out;
 }
 
@@ -329,24 +325,23 @@ class CatalogueReader {
     using namespace catalogue_detail;
     if (!reader_.complete()) reader_.fail("truncated line of column names, expected a line end");
     text_io::split(line_, fields_);
-    for (std::size_t i = 0; i < required; ++i) {
-      const std::string name(all_columns[i].name);
-      if (i >= fields_.size())
-        reader_.fail("column " + std::to_string(i + 1) + " is missing, expected '" + name + "'");
-      if (fields_[i] != name)
-        reader_.fail("column " + std::to_string(i + 1) + " is " + text_io::in_quotes(fields_[i]) +
-                     ", expected '" + name + "'");
+    column_line_ = line_;
+    std::array<bool, all_columns.size()> found{};
+    for (const std::string_view name : fields_) {
+      const auto known = std::find_if(all_columns.begin(), all_columns.end(),
+                                      [name](const Column &column) { return column.name == name; });
+      columns_.push_back(known == all_columns.end() ? Column{"", nullptr, nullptr} : *known);
+      if (known == all_columns.end()) continue;
+      const auto i = static_cast<std::size_t>(known - all_columns.begin());
+      if (found[i])
+        reader_.fail("column " + text_io::in_quotes(name) + " is there twice, expected once");
+      found[i] = true;
+      if (i >= required) info_.*optional_columns[i - required] = true;
     }
-    std::size_t candidate = required;
-    for (std::size_t i = required; i < fields_.size(); ++i, ++candidate) {
-      while (candidate < all_columns.size() && all_columns[candidate].name != fields_[i])
-        ++candidate;
-      if (candidate == all_columns.size())
-        reader_.fail("column " + std::to_string(i + 1) + " is " + text_io::in_quotes(fields_[i]) +
-                     ", expected " + optional_names() + ", in this order");
-      info_.*optional_columns[candidate - required] = true;
-    }
-    columns_ = columns_of(info_);
+    for (std::size_t i = 0; i < required; ++i)
+      if (!found[i])
+        reader_.fail("column " + text_io::in_quotes(all_columns[i].name) +
+                     " is missing, expected '" + column_line(CatalogueInfo()) + "'");
     overlapping_ = info_.overlapping();
   }
 
@@ -364,9 +359,11 @@ class CatalogueReader {
       if (column.number) {
         parsed = std::from_chars(at, end, event.*column.number);
         if (parsed.ec != std::errc() || !std::isfinite(event.*column.number)) return false;
-      } else {
+      } else if (column.integer) {
         parsed = std::from_chars(at, end, event.*column.integer);
         if (parsed.ec != std::errc()) return false;
+      } else {
+        parsed.ptr = std::find(at, end, ',');
       }
       at = parsed.ptr;
     }
@@ -378,15 +375,15 @@ class CatalogueReader {
     text_io::split(line_, fields_);
     if (fields_.size() != columns_.size()) {
       report(columns, std::to_string(line_.empty() ? 0 : fields_.size()) + " columns, expected " +
-                          std::to_string(columns_.size()) + " (" +
-                          catalogue_detail::column_line(info_) + ")");
+                          std::to_string(columns_.size()) + " (" + column_line_ + ")");
       return;
     }
     for (std::size_t i = 0; i < fields_.size(); ++i) {
       double any_number = 0.0;
       std::int64_t any_integer = 0;
-      if (columns_[i].number ? text_io::parse(fields_[i], any_number)
-                             : text_io::parse(fields_[i], any_integer))
+      if (columns_[i].number    ? text_io::parse(fields_[i], any_number)
+          : columns_[i].integer ? text_io::parse(fields_[i], any_integer)
+                                : true)
         continue;
       report(number, "column '" + std::string(columns_[i].name) + "' is " +
                          text_io::in_quotes(fields_[i]) + ", expected " +
@@ -400,9 +397,10 @@ class CatalogueReader {
   bool resuming_ = false;  // a torn last line ends the file quietly
   CatalogueInfo info_;
   bool overlapping_ = false;
-  std::vector<catalogue_detail::Column> columns_;
-  std::string_view line_;                 // valid until the next one is read
-  std::vector<std::string_view> fields_;  // views into line_
+  std::string column_line_;
+  std::vector<catalogue_detail::Column> columns_;  // in the order of the file
+  std::string_view line_;                          // valid until the next one is read
+  std::vector<std::string_view> fields_;           // views into line_
   Event last_;
   bool has_last_ = false;
   std::array<std::int64_t, kinds> counts_{};
@@ -475,9 +473,8 @@ class CatalogueWriter {
     if (found.model != info.model)
       problem = "model is '" + found.model + "' in the file, expected '" + info.model + "'";
     else if (const std::string columns = catalogue_detail::column_line(info);
-             catalogue_detail::column_line(found) != columns)
-      problem = "columns are '" + catalogue_detail::column_line(found) +
-                "' in the file, expected '" + columns + "'";
+             reader.column_line_ != columns)
+      problem = "columns are '" + reader.column_line_ + "' in the file, expected '" + columns + "'";
     else
       problem = text_io::difference(found.parameters, info.parameters, ignore);
     if (!problem.empty()) throw CatalogueError(path + ": cannot resume: " + problem);

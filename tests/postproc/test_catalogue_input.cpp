@@ -223,7 +223,7 @@ TEST_F(CatalogueInput, WhatCannotBeRepairedIsRefused) {
           ":1: catalogue version '2', expected version 1");
   refused("id,time\n", ":1: not a catalogue");
   refused("# lsm-catalogue 1\n# model = lsm\nevent_id,t_start,t_end\n",
-          ":3: column 4 is missing, expected 'step_start'");
+          ":3: column 'step_start' is missing, expected 'event_id,");
   refused("# lsm-catalogue 1\n# model = lsm\n" + columns, ":3: truncated line of column names");
   refused("# lsm-catalogue 1\n" + columns + "\n", ":2: no model in the header");
   refused("# lsm-catalogue 1\n# model = lsm\n" + std::string(2000000, '#'),
