@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file slider_chain.h
-/// The chain of blocks under the one-force-per-step schemes, stepped chunk by chunk: all chunks
+/// The chain of blocks, stepped chunk by chunk: all chunks
 /// (the dense oracle) or only those where something moves or may start to (the active set).
 ///
 /// Both give the same numbers to the last digit: a chunk left out would have added zeros to sums
@@ -33,15 +33,6 @@
 
 namespace Slider {
 
-/// What the schemes with located switches need besides.
-struct SwitchingState {
-  std::vector<std::uint8_t> sliding;  ///< which blocks slide; empty: those with a velocity
-  double friction_loss = 0.0;
-  double pe_start = 0.0;    ///< PE that the energy ledger begins with
-  double inner_step = 0.0;  ///< next step of the adaptive scheme; 0: not known yet
-  std::int64_t switches = 0;
-};
-
 /// What is needed to go on from a step, besides the parameters.
 struct ChainState {
   std::int64_t step = 0;
@@ -52,7 +43,6 @@ struct ChainState {
   std::int64_t moved = 0;                        ///< block-steps with motion so far
   double dpe = 0.0;                              ///< change of PE over the last step
   std::vector<double> u, v;
-  SwitchingState switching;
   std::vector<double>
       rest;  ///< where blocks last rested, if the law needs it; empty: where they are
 };
@@ -101,8 +91,7 @@ class Chain {
       : p_(p), dense_(dense), plate_step_(p.velocity * p.dt) {
     if (mu.size() != static_cast<std::size_t>(p.blocks))
       throw std::invalid_argument("number of friction coefficients differs from --blocks");
-    const int scheme = p.scheme == Scheme::printed ? 0 : p.scheme == Scheme::semi_implicit ? 1 : 2;
-    function_ = step_function(scheme, p.friction.law, set);
+    function_ = step_function(p.scheme, p.friction.law, set);
     chunks_ = (p.blocks + chunk_size - 1) / chunk_size;
     const std::size_t room = static_cast<std::size_t>(chunks_ + 2) * chunk_size;
     for (auto *a : {&u_, &v_, &force_}) a->assign(room, 0.0);

@@ -76,11 +76,9 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PickerState, samples, step, time, pe, rate, i
 
 namespace Slider {
 
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SwitchingState, sliding, friction_loss, pe_start, inner_step,
-                                   switches)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ChainState, step, slip_sum, slip_compensation, pe_sum,
                                    pe_compensation, quiet_since, pe_anchor, loading_anchor, moved,
-                                   dpe, u, v, rest, switching)
+                                   dpe, u, v, rest)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunState, chain, picker, events, before_warmup, slip_start,
                                    largest, u_start, ruptures)
 
@@ -127,6 +125,12 @@ void compare(const std::string &path, const std::vector<std::string> &found,
 void write_checkpoint(const std::string &path, const std::vector<std::string> &settings,
                       const RunState &state) {
   json content = {{"settings", settings}, {"state", state}};
+  // Version 2 has a place for schemes that there are no more.
+  content["state"]["chain"]["switching"] = {{"friction_loss", 0.0},
+                                            {"inner_step", 0.0},
+                                            {"pe_start", 0.0},
+                                            {"sliding", json::array()},
+                                            {"switches", 0}};
   // Apart, so that a run without leaps writes what it wrote before there were any.
   if (state.calm_since != 0) content["calm_since"] = state.calm_since;
   const std::vector<std::uint8_t> run = json::to_cbor(content);

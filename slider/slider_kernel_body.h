@@ -23,8 +23,11 @@ inline __attribute__((always_inline)) Register square_root(Register a) {
   return (Register)_mm512_maskz_sqrt_pd(0xff, (__m512d)a);
 #elif SLIDER_LANES == 4
   return (Register)_mm256_sqrt_pd((__m256d)a);
-#else
+#elif defined(__x86_64__)
   return (Register)_mm_sqrt_pd((__m128d)a);
+#else
+  for (int l = 0; l < SLIDER_LANES; ++l) a[l] = __builtin_sqrt(a[l]);
+  return a;
 #endif
 }
 inline __attribute__((always_inline)) unsigned bits(Mask m) {
@@ -32,8 +35,12 @@ inline __attribute__((always_inline)) unsigned bits(Mask m) {
   return _mm512_movepi64_mask((__m512i)m);
 #elif SLIDER_LANES == 4
   return static_cast<unsigned>(_mm256_movemask_pd((__m256d)m));
-#else
+#elif defined(__x86_64__)
   return static_cast<unsigned>(_mm_movemask_pd((__m128d)m));
+#else
+  unsigned found = 0;
+  for (int l = 0; l < SLIDER_LANES; ++l) found |= static_cast<unsigned>(m[l] & 1) << l;
+  return found;
 #endif
 }
 
@@ -52,8 +59,7 @@ inline __attribute__((always_inline)) Register friction(const ChainView &chain, 
   }
 }
 
-// Scheme: 0 printed, 1 semi-implicit, 2 verlet.
-template <int scheme, Law law>
+template <Scheme scheme, Law law>
 StepSums step(const ChainView &chain, const std::int32_t *list, int count, double x_new,
               std::uint8_t *hot) {
   const Register zero = {};
@@ -88,9 +94,9 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
       // A stuck block has v = 0, so f <= mu leaves it stuck without a branch, and a block whose
       // velocity would turn negative sticks.
       const Register push = f.r[r] - friction<law>(chain, m.r[r], v.r[r], f.r[r], slid);
-      Register w = v.r[r] + (scheme == 2 ? half_h_m : h_m) * push;
+      Register w = v.r[r] + (scheme == Scheme::verlet ? half_h_m : h_m) * push;
       w = w > zero ? w : zero;
-      const Register moved = scheme == 0 ? half_h * (v.r[r] + w) : h * w;
+      const Register moved = scheme == Scheme::printed ? half_h * (v.r[r] + w) : h * w;
       const Register next = x.r[r] + moved;
       change.r[r] = next - x.r[r];
       x.r[r] = next;
@@ -112,14 +118,14 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
     unsigned lanes = 0;
     for (int r = 0; r < registers; ++r) {
       f.r[r] = kc * ((left.r[r] - x.r[r]) + (right.r[r] - x.r[r])) + kl * (x_new - x.r[r]);
-      if (scheme == 2 && law != Law::velocity_weakening) {
+      if (scheme == Scheme::verlet && law != Law::velocity_weakening) {
         // A block that came to rest in the first half of the step has healed.
         Register slid = zero;
         if constexpr (needs_rest) slid = v.r[r] > zero ? x.r[r] - rest.r[r] : zero;
         const Register w =
             v.r[r] + half_h_m * (f.r[r] - friction<law>(chain, m.r[r], v.r[r], f.r[r], slid));
         v.r[r] = w > zero ? w : zero;
-      } else if (scheme == 2) {
+      } else if (scheme == Scheme::verlet) {
         // w = v_half + h/2 (f - mu / (1 + w)) / m is quadratic in w; its larger root is written so
         // that nothing cancels and its sign is that of c - b.
         const Register c = v.r[r] + half_h_m * f.r[r];
@@ -140,7 +146,7 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
       slip.r[r] += change.r[r];
     }
     store(force + i, f);
-    if (scheme == 2) store(velocity + i, v);
+    if (scheme == Scheme::verlet) store(velocity + i, v);
     if constexpr (needs_rest) store(chain.rest + i, rest);
     hot[k] = static_cast<std::uint8_t>(lanes);
     sums.hot += __builtin_popcount(lanes);
@@ -176,9 +182,14 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
   return sums;
 }
 
-// By law and scheme.
-constexpr StepFunction functions[][3] = {
-    {step<0, Law::velocity_weakening>, step<1, Law::velocity_weakening>,
-     step<2, Law::velocity_weakening>},
-    {step<0, Law::coulomb>, step<1, Law::coulomb>, step<2, Law::coulomb>},
-    {step<0, Law::slip_weakening>, step<1, Law::slip_weakening>, step<2, Law::slip_weakening>}};
+template <Law law>
+StepFunction function_of(Scheme scheme) {
+  return scheme == Scheme::printed         ? step<Scheme::printed, law>
+         : scheme == Scheme::semi_implicit ? step<Scheme::semi_implicit, law>
+                                           : step<Scheme::verlet, law>;
+}
+inline StepFunction function_of(Scheme scheme, Law law) {
+  return law == Law::coulomb          ? function_of<Law::coulomb>(scheme)
+         : law == Law::slip_weakening ? function_of<Law::slip_weakening>(scheme)
+                                      : function_of<Law::velocity_weakening>(scheme);
+}

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "slider_kernels.h"
 
+#ifdef __x86_64__
 #include <immintrin.h>
+#endif
 
 #include <cstring>
 #include <stdexcept>
@@ -11,12 +13,13 @@
 
 namespace Slider {
 
-namespace KernelX86 {
+namespace KernelBaseline {
 #define SLIDER_LANES 2
 #include "slider_kernel_body.h"
 #undef SLIDER_LANES
-}  // namespace KernelX86
+}  // namespace KernelBaseline
 
+#ifdef __x86_64__
 #pragma GCC push_options
 #pragma GCC target("avx2,popcnt")
 namespace KernelAvx2 {
@@ -34,39 +37,50 @@ namespace KernelAvx512 {
 #undef SLIDER_LANES
 }  // namespace KernelAvx512
 #pragma GCC pop_options
+#endif
 
-namespace {
-bool has(InstructionSet set) {
+const char *to_string(InstructionSet set) {
   switch (set) {
+    case InstructionSet::automatic:
+      return "auto";
     case InstructionSet::avx512:
-      return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-             __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw");
+      return "avx512";
     case InstructionSet::avx2:
-      return __builtin_cpu_supports("avx2");
-    default:
-      return true;
+      return "avx2";
+    case InstructionSet::baseline:
+      break;
   }
+#ifdef __x86_64__
+  return "x86-64";
+#else
+  return "baseline";
+#endif
 }
-}  // namespace
 
-InstructionSet resolve(InstructionSet wanted) {
-  if (wanted != InstructionSet::automatic) {
-    if (!has(wanted))
-      throw std::invalid_argument(std::string("--isa = ") + to_string(wanted) +
-                                  ", expected an instruction set this processor has");
-    return wanted;
-  }
+bool has(InstructionSet set) {
+#ifdef __x86_64__
+  if (set == InstructionSet::avx512)
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+           __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw");
+  if (set == InstructionSet::avx2) return __builtin_cpu_supports("avx2");
+#endif
+  return set == InstructionSet::automatic || set == InstructionSet::baseline;
+}
+
+InstructionSet widest_instruction_set() {
   for (InstructionSet set : {InstructionSet::avx512, InstructionSet::avx2})
     if (has(set)) return set;
-  return InstructionSet::x86_64;
+  return InstructionSet::baseline;
 }
 
-StepFunction step_function(int scheme, Law law, InstructionSet set) {
-  const InstructionSet found = resolve(set);
-  const int row = static_cast<int>(law);
-  return found == InstructionSet::avx512 ? KernelAvx512::functions[row][scheme]
-         : found == InstructionSet::avx2 ? KernelAvx2::functions[row][scheme]
-                                         : KernelX86::functions[row][scheme];
+StepFunction step_function(Scheme scheme, Law law, InstructionSet set) {
+  if (!has(set)) throw std::invalid_argument(std::string("no instruction set ") + to_string(set));
+  if (set == InstructionSet::automatic) set = widest_instruction_set();
+#ifdef __x86_64__
+  if (set == InstructionSet::avx512) return KernelAvx512::function_of(scheme, law);
+  if (set == InstructionSet::avx2) return KernelAvx2::function_of(scheme, law);
+#endif
+  return KernelBaseline::function_of(scheme, law);
 }
 
 }  // namespace Slider

@@ -7,9 +7,8 @@
 #define SLIDER_KERNELS_H
 
 #include <cstdint>
-#include <string>
 
-#include "slider_laws.h"
+#include "slider_parameters.h"
 
 namespace Slider {
 
@@ -43,37 +42,16 @@ struct StepSums {
 using StepFunction = StepSums (*)(const ChainView &chain, const std::int32_t *list, int count,
                                   double x_new, std::uint8_t *hot);
 
-enum class InstructionSet { automatic, avx512, avx2, x86_64 };
-inline const char *to_string(InstructionSet set) {
-  switch (set) {
-    case InstructionSet::automatic:
-      return "auto";
-    case InstructionSet::avx512:
-      return "avx512";
-    case InstructionSet::avx2:
-      return "avx2";
-    case InstructionSet::x86_64:
-      return "x86-64";
-  }
-  return "unknown";
-}
-inline bool from_string(const std::string &name, InstructionSet &set) {
-  for (InstructionSet candidate : {InstructionSet::automatic, InstructionSet::avx512,
-                                   InstructionSet::avx2, InstructionSet::x86_64}) {
-    if (name == to_string(candidate)) {
-      set = candidate;
-      return true;
-    }
-  }
-  return false;
-}
+/// What a step is compiled for: the set that all processors of the platform have, or wider ones.
+enum class InstructionSet { automatic, avx512, avx2, baseline };
+const char *to_string(InstructionSet set);
 
-/// The widest set this processor has, or the one asked for.
+/// Whether this processor has it.
+bool has(InstructionSet set);
+InstructionSet widest_instruction_set();
+
 /// \throws std::invalid_argument if the processor lacks the set asked for.
-InstructionSet resolve(InstructionSet wanted);
-
-/// scheme: 0 printed, 1 semi-implicit, 2 verlet.
-StepFunction step_function(int scheme, Law law, InstructionSet set);
+StepFunction step_function(Scheme scheme, Law law, InstructionSet set);
 
 }  // namespace Slider
 

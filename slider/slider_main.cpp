@@ -15,6 +15,7 @@
 #include <thread>
 #include <vector>
 
+#include "slider_kernels.h"
 #include "slider_options.h"
 
 namespace {
@@ -48,7 +49,7 @@ nlohmann::ordered_json summary(const Settings &s, const Slider::RunResult &r) {
     j["steps_leapt"] = r.leapt;
   }
   j["kernel"] = Slider::to_string(s.run.kernel);
-  j["instruction_set"] = Slider::to_string(Slider::resolve(s.run.isa));
+  j["instruction_set"] = Slider::to_string(Slider::widest_instruction_set());
   j["seconds"] = r.seconds;
   j["nanoseconds_per_step"] =
       r.seconds * 1e9 / static_cast<double>(std::max<std::int64_t>(1, r.steps - r.first_step));

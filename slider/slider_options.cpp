@@ -108,33 +108,27 @@ void add_integration(CLI::App &app, Settings &s, Added &o) {
       ->group(how);
   auto *dt = app.add_option("--dt", p.dt, "Time step h (time; ours, the paper gives none)");
   dt->excludes(o.paper)->group(how);
-  app.add_option(
-         "--scheme", s.scheme,
-         "printed: Eqs. 7 and 8, order 1, unstable in the long run: warns above dt 0.01, "
-         "refused from 0.12; ours: semi-implicit (order 1), verlet (order 2), rk4 (order 4, "
-         "located stick/slip switches), reference (adaptive GSL rk8pd, short runs)")
+  app.add_option("--scheme", s.scheme,
+                 "printed: Eqs. 7 and 8, order 1, unstable in the long run: warns above dt 0.01, "
+                 "refused from 0.12; ours: semi-implicit (order 1), verlet (order 2)")
       ->excludes(o.paper)
       ->group(how);
   app.add_flag("--force", s.force, "Run the printed scheme at time steps where it is unsound")
       ->group(how);
   app.add_option("--kernel", s.kernel,
-                 "For the first three schemes: active (only moving chunks of blocks), dense (all "
-                 "blocks; same catalogue), scalar (the straightforward loop)")
+                 "active (only moving chunks of blocks) or dense (all blocks; same catalogue)")
       ->group(how);
   o.leap = app.add_option(
       "--leap", s.run.leap_speed,
       "Leap over slow loading (ours): once no block has been faster than this for the time "
       "--leap-calm, blocks at their limit creep without steps, in the limit of a slow plate, until "
       "some are about to exceed it; 1e-3 is sound for V up to 1e-3; 0: never. Model time and steps "
-      "continue; needs --kernel active or dense (length/time)");
+      "continue (length/time)");
   o.leap->group(how);
   o.calm = app.add_option("--leap-calm", s.run.leap_calm,
                           "Time of steps before each leap, long enough for a runaway of blocks "
                           "to become visible (time)");
   o.calm->group(how);
-  app.add_option("--isa", s.isa,
-                 "Instruction set: auto, avx512, avx2, x86-64; all give the same catalogue")
-      ->group(how);
 }
 
 void add_events(CLI::App &app, Settings &s, Added &o) {
@@ -152,12 +146,10 @@ void add_events(CLI::App &app, Settings &s, Added &o) {
                          "connects, beyond the one time step that forces take (time; ours)");
   o.gap->group(events);
   const LSM::PickerOptions::Added picker = s.picker.add_to(&app, events, "picker-");
-  for (CLI::Option *option :
-       {picker.reading, picker.lambda, picker.memory_time, picker.memory_steps})
+  for (CLI::Option *option : {picker.reading, picker.lambda, picker.memory_time})
     option->excludes(o.paper);
   picker.reading->default_str("exponential");
   picker.lambda->default_str("from --picker-memory-time");
-  picker.memory_steps->default_str("from --picker-memory-time");
   picker.memory_time->default_str("1");
   picker.min_size->default_str("0");
   app.add_option("--warmup", s.run.warmup, "Drop events that start before this time (time; ours)")
@@ -282,14 +274,10 @@ void interpret_integration(Settings &s, const Added &o) {
   choose("--scheme", s.scheme, p.scheme);
   choose("--kernel", s.kernel, s.run.kernel);
   choose("--events", s.events, s.run.events);
-  if (!from_string(s.isa, s.run.isa))
-    throw std::invalid_argument("--isa = '" + s.isa + "', expected auto, avx512, avx2 or x86-64");
   check(p, s.force);
-  check_events(s.run);
   if (o.calm->count() > 0 && o.leap->count() == 0)
     throw std::invalid_argument("--leap-calm needs --leap");
   check_leaps(s.run);
-  resolve(s.run.isa);
   if (o.steps->count() > 0 || s.paper) {
     s.run.steps = whole("--steps", s.steps, 1);
   } else {

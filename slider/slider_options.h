@@ -17,7 +17,7 @@ namespace Slider {
 /// What the command line says; run is what it means.
 struct Settings {
   RunOptions run;
-  std::string scheme = "verlet", kernel = "active", isa = "auto", events = "pe";
+  std::string scheme = "verlet", kernel = "active", events = "pe";
   LSM::PickerOptions picker;
   double steps = 1e7, time = 1e5;
   std::vector<double> friction = {0.5, 1.0};

@@ -27,17 +27,13 @@ using LSM::to_string;
 enum class Scheme {
   printed,        ///< Eqs. 7 and 8: x += h v + h^2/2 a, v += h a, force of the old time
   semi_implicit,  ///< v += h a, x += h v (symplectic Euler), order 1
-  verlet,         ///< velocity Verlet, friction of the new velocity solved in closed form, order 2
-  rk4,            ///< classical Runge-Kutta with located stick/slip switches, order 4
-  reference       ///< adaptive GSL rk8pd with located switches, for short runs
+  verlet          ///< velocity Verlet, friction of the new velocity solved in closed form, order 2
 };
 
-constexpr std::array<LSM::Named<Scheme>, 5> names_of(Scheme) {
+constexpr std::array<LSM::Named<Scheme>, 3> names_of(Scheme) {
   return {{{Scheme::printed, "printed"},
            {Scheme::semi_implicit, "semi-implicit"},
-           {Scheme::verlet, "verlet"},
-           {Scheme::rk4, "rk4"},
-           {Scheme::reference, "reference"}}};
+           {Scheme::verlet, "verlet"}}};
 }
 
 /// Parameters of one chain, in model units (paper values unless marked ours).
@@ -62,19 +58,7 @@ inline double highest_frequency(const Parameters &p) {
 /// Time step above which the scheme blows up on an undamped spring. The printed scheme grows at
 /// any step (rate h w^2 / 4); its limit is where that beats friction, 0.12 for the paper's springs.
 inline double stability_limit(const Parameters &p) {
-  const double w = highest_frequency(p);
-  switch (p.scheme) {
-    case Scheme::printed:
-      return 0.12 * std::sqrt(4.01) / w;
-    case Scheme::semi_implicit:
-    case Scheme::verlet:
-      return 2.0 / w;
-    case Scheme::rk4:
-      return 2.0 * std::sqrt(2.0) / w;
-    case Scheme::reference:
-      return HUGE_VAL;
-  }
-  return 0.0;
+  return (p.scheme == Scheme::printed ? 0.12 * std::sqrt(4.01) : 2.0) / highest_frequency(p);
 }
 
 /// Time step above which the growth of the printed scheme was seen to change the statistics.

@@ -9,7 +9,6 @@
 #include <cstring>
 #include <limits>
 #include <stdexcept>
-#include <type_traits>
 
 #include "lsm_circular_mean.h"
 #include "lsm_text_io.h"
@@ -17,21 +16,8 @@
 #include "slider_checkpoint.h"
 #include "slider_output.h"
 #include "slider_ruptures.h"
-#include "slider_scalar.h"
-#include "slider_switching.h"
 
 namespace Slider {
-
-void check_events(const RunOptions &o) {
-  if (o.events != Events::ruptures) return;
-  if (o.parameters.scheme == Scheme::rk4 || o.parameters.scheme == Scheme::reference)
-    throw std::invalid_argument(std::string("--events = ruptures with --scheme ") +
-                                to_string(o.parameters.scheme) +
-                                ", expected the scheme printed, semi-implicit or verlet");
-  if (o.kernel == Kernel::scalar)
-    throw std::invalid_argument(
-        "--events = ruptures with --kernel scalar, expected the kernel active or dense");
-}
 
 void check_leaps(const RunOptions &o) {
   const auto fail = [](const char *option, double value, const char *expected) {
@@ -44,12 +30,6 @@ void check_leaps(const RunOptions &o) {
   if (o.leap_speed == 0.0) return;
   if (!(o.leap_calm > 0.0) || !(o.leap_calm < 1e15 * o.parameters.dt))
     fail("--leap-calm", o.leap_calm, "a positive number, less than 1e15 time steps");
-  if (o.parameters.scheme == Scheme::rk4 || o.parameters.scheme == Scheme::reference)
-    throw std::invalid_argument(std::string("--leap with --scheme ") +
-                                to_string(o.parameters.scheme) +
-                                ", expected the scheme printed, semi-implicit or verlet");
-  if (o.kernel == Kernel::scalar)
-    throw std::invalid_argument("--leap with --kernel scalar, expected the kernel active or dense");
 }
 
 void probe(const std::string &path, const std::string &option) {
@@ -131,24 +111,14 @@ class Leaps {
   double bound_ = 0.0;
 };
 
-/// Chains that cannot leap.
-struct NoLeaps {
-  template <class... Any>
-  explicit NoLeaps(Any &&...) {}
-  bool due(bool) const { return false; }
-  bool leap(bool, bool) const { return false; }
-};
-template <class C>
-using LeapsOf = std::conditional_t<std::is_same_v<C, Chain>, Leaps, NoLeaps>;
-
 /// Events are drops of the PE of the whole chain.
-template <class C>
 class PeRecorder {
  public:
   /// Samples after its end in which an event is found.
   static constexpr std::int64_t late = 1;
 
-  PeRecorder(const RunOptions &o, C &chain, RunState &state, Outputs &outputs, RunResult &result)
+  PeRecorder(const RunOptions &o, Chain &chain, RunState &state, Outputs &outputs,
+             RunResult &result)
       : o_(o),
         chain_(chain),
         state_(state),
@@ -257,11 +227,11 @@ class PeRecorder {
   }
 
   const RunOptions &o_;
-  C &chain_;
+  Chain &chain_;
   RunState &state_;
   Outputs &outputs_;
   RunResult &result_;
-  LeapsOf<C> leaps_;
+  Leaps leaps_;
   LSM::EventPicker picker_;
   LSM::Event event_;
   std::int64_t replay_ = 0;
@@ -314,15 +284,7 @@ class RuptureRecorder {
  private:
   void finish(const Rupture &rupture) {
     LSM::Event e = tracker_.event(rupture, o_.parameters.dt);
-    if (!(e.size > 0.0)) {
-      if (!o_.picker.keep_nonpositive) {
-        ++state_.picker.dropped_nonpositive;
-        return;
-      }
-    } else if (e.size < o_.picker.min_size) {
-      ++state_.picker.dropped_small;
-      return;
-    }
+    if (LSM::is_left_out(e.size, o_.picker, state_.picker)) return;
     if (e.t_start < o_.warmup) {
       ++state_.before_warmup;
       return;
@@ -345,8 +307,7 @@ class RuptureRecorder {
 std::vector<std::string> settings_of(const RunOptions &o) {
   std::vector<std::string> lines;
   for (const auto &[key, value] : o.header) lines.push_back(key + " = " + value);
-  // The straightforward loop keeps none of the sums that the others go on from.
-  lines.emplace_back(o.kernel == Kernel::scalar ? "kernel = scalar" : "kernel = active or dense");
+  lines.emplace_back("kernel = active or dense");
   return lines;
 }
 
@@ -367,9 +328,10 @@ class Progress {
   Clock::time_point told_ = Clock::now();
 };
 
-template <class Recorder, class C>
-RunResult run_chain(const RunOptions &o, C &chain) {
+template <class Recorder>
+RunResult run_chain(const RunOptions &o) {
   const Clock::time_point begin = Clock::now();
+  Chain chain(o.parameters, o.mu, o.kernel == Kernel::dense, InstructionSet::automatic);
   RunState state;
   RunResult result;
   Outputs outputs(o);
@@ -436,19 +398,7 @@ RunResult run_chain(const RunOptions &o, C &chain) {
 }  // namespace
 
 RunResult run(const RunOptions &o) {
-  const Parameters &p = o.parameters;
-  check_events(o);
-  if (p.scheme == Scheme::rk4 || p.scheme == Scheme::reference) {
-    SwitchingChain chain(p, o.mu);
-    return run_chain<PeRecorder<SwitchingChain>>(o, chain);
-  }
-  if (o.kernel == Kernel::scalar) {
-    ScalarChain chain(p, o.mu);
-    return run_chain<PeRecorder<ScalarChain>>(o, chain);
-  }
-  Chain chain(p, o.mu, o.kernel == Kernel::dense, o.isa);
-  return o.events == Events::ruptures ? run_chain<RuptureRecorder>(o, chain)
-                                      : run_chain<PeRecorder<Chain>>(o, chain);
+  return o.events == Events::ruptures ? run_chain<RuptureRecorder>(o) : run_chain<PeRecorder>(o);
 }
 
 }  // namespace Slider

@@ -14,15 +14,14 @@
 #include "lsm_event_picker.h"
 #include "lsm_names.h"
 #include "lsm_output_claim.h"
-#include "slider_kernels.h"
 #include "slider_parameters.h"
 
 namespace Slider {
 
-/// How the schemes printed, semi-implicit and verlet are run.
-enum class Kernel { active, dense, scalar };
-constexpr std::array<LSM::Named<Kernel>, 3> names_of(Kernel) {
-  return {{{Kernel::active, "active"}, {Kernel::dense, "dense"}, {Kernel::scalar, "scalar"}}};
+/// Which chunks of blocks are stepped: those that may move, or all.
+enum class Kernel { active, dense };
+constexpr std::array<LSM::Named<Kernel>, 2> names_of(Kernel) {
+  return {{{Kernel::active, "active"}, {Kernel::dense, "dense"}}};
 }
 
 /// What an event is: a drop of the PE of the whole chain (paper), or a connected set of sliding
@@ -43,7 +42,6 @@ struct RunOptions {
   double leap_calm = 50.0;          ///< time for which none has to be so before a leap
   double warmup = 0.0;              ///< events that start before this time are not written
   Kernel kernel = Kernel::active;
-  InstructionSet isa = InstructionSet::automatic;
   std::string catalogue;  ///< empty: none
   bool x_centroid = false, rupture_length = false;
   std::string series;  ///< empty: none
@@ -72,12 +70,7 @@ struct RunResult {
   int interrupted = 0;  ///< signal number, or 0
 };
 
-/// \throws std::invalid_argument with one line for ruptures where the chain does not report which
-/// block slides.
-void check_events(const RunOptions &options);
-
-/// \throws std::invalid_argument with one line for leaps that make no sense, or with a scheme or
-/// kernel that has none.
+/// \throws std::invalid_argument with one line for leaps that make no sense.
 void check_leaps(const RunOptions &options);
 
 /// Finds out early whether an output can be written; an empty path is none.

@@ -11,17 +11,17 @@
 
 #include "event_statistics.h"
 #include "lsm_event_picker.h"
+#include "scalar_chain.h"
 #include "slider_chain.h"
-#include "slider_scalar.h"
-#include "slider_switching.h"
+#include "switching_chain.h"
 
 using namespace Slider;
 
 namespace {
 
 constexpr double event_time = 51.2;
-constexpr Scheme all_schemes[] = {Scheme::printed, Scheme::semi_implicit, Scheme::verlet,
-                                  Scheme::rk4};
+constexpr AnyScheme rk4 = Located::rk4, reference = Located::reference;
+constexpr AnyScheme all_schemes[] = {Scheme::printed, Scheme::semi_implicit, Scheme::verlet, rk4};
 
 class Table {
  public:
@@ -101,30 +101,22 @@ struct Outcome {
   double pe = 0.0;
 };
 
-Outcome run(const Start &start, Scheme scheme, double h, double time) {
+Outcome run(const Start &start, const AnyScheme &scheme, double h, double time) {
   Parameters p = start.p;
-  p.scheme = scheme;
   p.dt = h;
-  const long steps = std::lround(time / h);
-  auto go = [&](auto &chain) -> Outcome {
+  return with_chain(p, start.mu, scheme, [&](auto &chain) -> Outcome {
     put(chain, start);
-    for (long n = 0; n < steps; ++n) chain.advance();
+    for (long n = 0; n < std::lround(time / h); ++n) chain.advance();
     return {chain.displacements(), direct_energy(p, chain.displacements(), p.velocity * time)};
-  };
-  if (scheme == Scheme::rk4 || scheme == Scheme::reference) {
-    SwitchingChain chain(p, start.mu);
-    return go(chain);
-  }
-  Chain chain(p, start.mu, false, InstructionSet::automatic);
-  return go(chain);
+  });
 }
 
 /// Gap of the ledger over the event, relative to the friction loss.
-double ledger_gap(const Start &start, Scheme scheme, double h, double time) {
+double ledger_gap(const Start &start, const AnyScheme &scheme, double h, double time) {
+  if (scheme == rk4) return NAN;  // its ledger takes the work of the plate from the balance
   Parameters p = start.p;
-  p.scheme = scheme;
+  p.scheme = std::get<Scheme>(scheme);
   p.dt = h;
-  if (scheme == Scheme::rk4) return NAN;  // its ledger takes the work of the plate from the balance
   ScalarChain chain(p, start.mu, true);
   put(chain, start);
   double kinetic = 0.0;
@@ -138,7 +130,7 @@ double ledger_gap(const Start &start, Scheme scheme, double h, double time) {
 void one_event(const std::string &folder, bool quick) {
   const Start start = before_large_event();
   const double time = event_time;
-  const Outcome exact = run(start, Scheme::reference, 0.1, time);
+  const Outcome exact = run(start, reference, 0.1, time);
   const double size = start.pe - exact.pe;
   double slip = 0.0;
   for (std::size_t i = 0; i < exact.u.size(); ++i) slip = std::max(slip, exact.u[i] - start.u[i]);
@@ -151,18 +143,18 @@ void one_event(const std::string &folder, bool quick) {
   };
   Table table(folder + "/slider_event.csv",
               "scheme,dt,seconds,error_profile,error_size,error_ledger");
-  const Outcome again = run(start, Scheme::reference, 0.025, time);
+  const Outcome again = run(start, reference, 0.025, time);
   std::fprintf(table.file(), "# blocks %d, time %g, largest slip %.6g, drop of PE %.6g\n",
                start.p.blocks, time, slip, size);
   std::fprintf(table.file(),
                "# reference against itself with another step: %.3g of the largest slip\n",
                profile_error(again.u));
-  for (Scheme scheme : all_schemes)
+  for (const AnyScheme &scheme : all_schemes)
     for (double h = 0.4; h > (quick ? 0.01 : 0.0015); h /= 2.0) {
-      if (scheme == Scheme::rk4 && h < 0.006) continue;  // at the rounding of the reference
+      if (scheme == rk4 && h < 0.006) continue;  // at the rounding of the reference
       const Outcome o = run(start, scheme, h, time);
       const double took = seconds([&] { run(start, scheme, h, time); });
-      std::fprintf(table.file(), "%s,%.6g,%.4g,%.4g,%.4g,%.4g\n", to_string(scheme), h, took,
+      std::fprintf(table.file(), "%s,%.6g,%.4g,%.4g,%.4g,%.4g\n", name_of(scheme), h, took,
                    profile_error(o.u), std::fabs(start.pe - o.pe - size) / size,
                    ledger_gap(start, scheme, h, time));
     }
@@ -217,10 +209,9 @@ void long_runs(const std::string &folder, bool quick) {
       "alpha_large,alpha_large_error");
   std::fprintf(table.file(), "# 256 blocks, time %g, events of size 1e-3 and more after time %g\n",
                time, warmup);
-  auto one = [&](Scheme scheme, double h, double end) {
+  auto one = [&](const AnyScheme &scheme, double h, double end) {
     Parameters p;
     p.blocks = 256;
-    p.scheme = scheme;
     p.dt = h;
     const auto mu = random_friction(p.blocks, 0.5, 1.0, 1);
     LSM::PickerSettings settings;
@@ -228,7 +219,8 @@ void long_runs(const std::string &folder, bool quick) {
     settings.min_size = 1e-3;
     LSM::EventPicker picker(settings);
     std::vector<double> sizes;
-    auto go = [&](auto &chain) {
+    const auto start = std::chrono::steady_clock::now();
+    with_chain(p, mu, scheme, [&](auto &chain) {
       const auto last = static_cast<std::int64_t>(std::lround(end / h));
       LSM::Event event;
       picker.push_change(0, 0.0, chain.pe(), 0.0, event);
@@ -238,22 +230,14 @@ void long_runs(const std::string &folder, bool quick) {
             event.t_start >= warmup)
           sizes.push_back(event.size);
       }
-    };
-    const auto start = std::chrono::steady_clock::now();
-    if (scheme == Scheme::rk4) {
-      SwitchingChain chain(p, mu);
-      go(chain);
-    } else {
-      Chain chain(p, mu, false, InstructionSet::automatic);
-      go(chain);
-    }
+    });
     const double took =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const auto mean = Accuracy::mean(sizes), star = Accuracy::characteristic_size(sizes),
                small = Accuracy::exponent(sizes, 0.01, 1.0),
                large = Accuracy::exponent(sizes, 1.0, 100.0);
     std::fprintf(table.file(), "%s,%g,%.3f,%zu,%.4g,%.2g,%.4g,%.2g,%.3f,%.3f,%.3f,%.3f\n",
-                 to_string(scheme), h, took, sizes.size(), mean.value, mean.error, star.value,
+                 name_of(scheme), h, took, sizes.size(), mean.value, mean.error, star.value,
                  star.error, small.value, small.error, large.value, large.error);
     std::fflush(table.file());
   };
@@ -262,7 +246,7 @@ void long_runs(const std::string &folder, bool quick) {
       if (scheme == Scheme::printed && h > 0.1) continue;  // overflows
       one(scheme, h, time);
     }
-  one(Scheme::rk4, 0.1, quick ? 20000.0 : time);
+  one(rk4, 0.1, quick ? 20000.0 : time);
 }
 
 }  // namespace

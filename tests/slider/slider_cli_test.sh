@@ -72,19 +72,6 @@ kernels)
   done
   same active.csv dense.csv
   ;;
-isa)
-  must_run "${short[@]}" --steps 300000 --isa x86-64 --catalogue plain.csv
-  tested=0
-  for isa in avx2 avx512; do
-    if run "${short[@]}" --steps 300000 --isa $isa --catalogue wide.csv; then
-      same plain.csv wide.csv
-      tested=1
-    else
-      grep -q 'instruction set this processor has' err.txt || fail "$(cat err.txt)"
-    fi
-  done
-  [ $tested = 1 ] || exit 77
-  ;;
 resume | terminate | kill)
   settings=("${short[@]}" --steps 6000000 --pe-stride 1000 --columns centroid,length)
   [ "$2" = resume ] && settings=("${short[@]}" --steps 1000000 --pe-stride 7 --columns length)
@@ -99,27 +86,21 @@ resume | terminate | kill)
     same whole.csv part.csv
     cmp whole.pe part.pe || fail "PE series differ"
     cp part.csv keep.csv
-    # The other kernels and rk4, killed and resumed.
+    # The other kernel, killed and resumed by either.
     more=(--velocity 0.05 --blocks 24 --dt 0.05 --warmup 0 --seed 3 --steps 100000)
-    for way in "--scheme rk4" "--kernel scalar" "--kernel dense"; do
-      must_run "${more[@]}" $way --catalogue whole2.csv
-      rm -f part2.chk
-      "$program" "${more[@]}" $way --overwrite --catalogue part2.csv --checkpoint part2.chk \
-        --checkpoint-interval 1000 > out.txt 2> err.txt &
-      child=$!
-      while [ ! -e part2.chk ] && kill -0 $child 2> /dev/null; do :; done
-      kill -9 $child 2> /dev/null
-      wait $child 2> /dev/null
-      [ $? = 137 ] || fail "$way was never interrupted"
-      must_run "${more[@]}" $way --catalogue part2.csv --checkpoint part2.chk \
-        --checkpoint-interval 1000 --resume
-      same whole2.csv part2.csv 5
-    done
+    must_run "${more[@]}" --kernel dense --catalogue whole2.csv
+    rm -f part2.chk
+    "$program" "${more[@]}" --kernel dense --overwrite --catalogue part2.csv --checkpoint part2.chk \
+      --checkpoint-interval 1000 > out.txt 2> err.txt &
+    child=$!
+    while [ ! -e part2.chk ] && kill -0 $child 2> /dev/null; do :; done
+    kill -9 $child 2> /dev/null
+    wait $child 2> /dev/null
+    [ $? = 137 ] || fail "the dense kernel was never interrupted"
+    must_run "${more[@]}" --kernel dense --catalogue part2.csv --checkpoint part2.chk \
+      --checkpoint-interval 1000 --resume
+    same whole2.csv part2.csv 5
     must_run "${more[@]}" --kernel active --catalogue part2.csv --checkpoint part2.chk --resume
-    must_run "${more[@]}" --kernel scalar --catalogue part2.csv --checkpoint part2.chk
-    run "${more[@]}" --catalogue part2.csv --checkpoint part2.chk --resume &&
-      fail "resumed from the checkpoint of the straightforward loop"
-    grep -q "kernel = scalar" err.txt || fail "message: $(cat err.txt)"
     run "${part[@]}" --resume --kl 0.02 && fail "resumed with another --kl"
     grep -q "kl = 0.01.*expected.*kl = 0.02" err.txt || fail "message: $(cat err.txt)"
     cmp keep.csv part.csv || fail "a refused resume changed the catalogue"
@@ -220,7 +201,7 @@ laws)
       exit !(d < tolerance && d > -tolerance) }" || fail "$1: period $period, expected $2"
   }
   # Coulomb: loading over twice the drop of strength, D = 0.8 - 0.6, then half a swing and a little: (Fs - Fd) w / (K V)
-  for scheme in verlet semi-implicit rk4; do
+  for scheme in verlet semi-implicit; do
     period --law coulomb --dynamic-friction 0.75 --kl 0.05 --time 80000 --dt 0.05 --scheme $scheme
     near "coulomb, $scheme" "2 * 0.2 / (0.05 * 0.001) + 2 / sqrt(0.05) * (pi - atan2(0.2 * sqrt(0.05), 0.05 * 0.001))" 1e-4
   done
@@ -245,20 +226,13 @@ laws)
   period --law slip-weakening --dynamic-friction 0.75 --slip-distance 0.5 --kl 0.1 --time 100000 --dt 0.05
   # The drop less what the weakening takes, 0.2 x 0.5 / 2, decides how far: 0.2 D - K D^2 / 2 = 0.05.
   near "slip weakening, stiffness 0.1" "(0.2 + sqrt(0.2 ^ 2 - 2 * 0.1 * 0.05)) / 0.1 / 0.001" 0.02
-  found=$period
-  period --law slip-weakening --dynamic-friction 0.75 --slip-distance 0.5 --kl 0.1 --time 100000 --dt 0.05 --scheme reference
-  near "its reference" "$found" 1e-3
   awk -v s="$stable" -v most="$(largest)" 'BEGIN { exit !(most > 100 * s) }' ||
     fail "slips below the critical stiffness are no larger than above"
-  # Eq. 6 is the default, and its reference is by GSL.
+  # Eq. 6 is the default.
   must_run "${short[@]}" --steps 100000 --catalogue default.csv
   must_run "${short[@]}" --steps 100000 --law velocity-weakening --catalogue named.csv
   same default.csv named.csv
-  period --kl 0.05 --time 60000 --dt 0.05
-  found=$period
-  period --kl 0.05 --time 60000 --dt 0.05 --scheme reference
-  near "Eq. 6" "$found" 1e-3
-  # A chain, interrupted and resumed, and on the straightforward loop; the header has the law.
+  # A chain, interrupted and resumed; the header has the law.
   for law in coulomb slip-weakening; do
     chain=("${short[@]}" --law $law --steps 200000 --scheme verlet)
     must_run "${chain[@]}" --catalogue active.csv --checkpoint whole.chk
@@ -534,13 +508,12 @@ ruptures)
   grep -q '^# events\|^# rupture' pe.csv && fail "the header of pe events has changed"
   must_run "${short[@]}" --steps 300000 --events pe --catalogue pe2.csv
   same pe.csv pe2.csv
-  # Kernels and instruction sets, with ruptures that join over a gap.
+  # Both kernels, with ruptures that join over a gap.
   for more in "" "--rupture-gap 0.5" "--scheme semi-implicit" "--scheme printed --dt 0.01"; do
     for kernel in active dense; do
       # shellcheck disable=SC2086
       must_run "${short[@]}" --events ruptures --columns centroid,length --steps 300000 $more \
-        --kernel $kernel --isa "$([ $kernel = active ] && echo auto || echo x86-64)" \
-        --catalogue $kernel.csv
+        --kernel $kernel --catalogue $kernel.csv
     done
     same active.csv dense.csv 100
   done
@@ -573,10 +546,6 @@ ruptures)
   refused "--rupture-gap needs --events ruptures" --rupture-gap 1
   refused "--rupture-gap = -1, expected" --events ruptures --rupture-gap -1
   refused "--rupture-gap = nan, expected" --events ruptures --rupture-gap nan
-  refused "--events = ruptures with --scheme rk4, expected" --events ruptures --scheme rk4
-  refused "--events = ruptures with --scheme reference, expected" --events ruptures \
-    --scheme reference
-  refused "--events = ruptures with --kernel scalar, expected" --events ruptures --kernel scalar
   run --blocks 64 --steps 3000000 --scheme printed --dt 0.9 --velocity 1 --force --warmup 0 \
     --friction-range 0 0.1 --events ruptures --catalogue burst.csv &&
     fail "the printed scheme survived dt 0.9"
@@ -585,7 +554,7 @@ ruptures)
 leap)
   slow=(--blocks 256 --velocity 1e-3 --warmup 0 --seed 3 --time 250000 --leap 1e-3)
   must_run "${slow[@]}" --catalogue active.csv --json leap.json
-  must_run "${slow[@]}" --catalogue dense.csv --kernel dense --isa x86-64
+  must_run "${slow[@]}" --catalogue dense.csv --kernel dense
   same active.csv dense.csv
   grep -q '^# leap = 0.001$' active.csv || fail "no leap in the header"
   grep -q '^# leap_calm = 50$' active.csv || fail "no calm in the header"
@@ -632,9 +601,7 @@ leap)
   refused "--leap = nan, expected" --leap nan
   refused "--leap-calm = 0, expected a positive number" --leap 1e-3 --leap-calm 0
   refused "--leap-calm needs --leap" --leap-calm 10
-  refused "--leap with --scheme rk4, expected" --leap 1e-3 --scheme rk4
-  refused "--leap with --scheme reference, expected" --leap 1e-3 --scheme reference
-  refused "--leap with --kernel scalar, expected the kernel active or dense" --leap 1e-3 --kernel scalar
+  refused "--kernel = 'scalar', expected active or dense" --kernel scalar
   ;;
 *)
   fail "no case $2"

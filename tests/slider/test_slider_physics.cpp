@@ -4,9 +4,9 @@
 #include <cmath>
 #include <vector>
 
+#include "scalar_chain.h"
 #include "slider_chain.h"
-#include "slider_scalar.h"
-#include "slider_switching.h"
+#include "switching_chain.h"
 
 namespace Slider {
 namespace {
@@ -14,22 +14,14 @@ namespace {
 constexpr Scheme stepped[] = {Scheme::printed, Scheme::semi_implicit, Scheme::verlet};
 
 // Displacements at the end of a run of any scheme.
-std::vector<double> final_state(Parameters p, Scheme scheme, double h, double time,
+std::vector<double> final_state(Parameters p, const AnyScheme &scheme, double h, double time,
                                 const std::vector<double> &mu, const std::vector<double> &start) {
-  p.scheme = scheme;
   p.dt = h;
-  const long steps = std::lround(time / h);
-  auto go = [&](auto &chain) {
+  return with_chain(p, mu, scheme, [&](auto &chain) {
     chain.set_displacements(start);
-    for (long n = 0; n < steps; ++n) chain.advance();
+    for (long n = 0; n < std::lround(time / h); ++n) chain.advance();
     return chain.displacements();
-  };
-  if (scheme == Scheme::rk4 || scheme == Scheme::reference) {
-    SwitchingChain chain(p, mu);
-    return go(chain);
-  }
-  Chain chain(p, mu, false, InstructionSet::automatic);
-  return go(chain);
+  });
 }
 
 double largest_difference(const std::vector<double> &a, const std::vector<double> &b) {
@@ -68,8 +60,8 @@ TEST(SliderPhysics, FrictionlessBlockFollowsClosedForm) {
   for (int k = 0; k < 3; ++k)
     EXPECT_NEAR(final_state(p, stepped[k], 0.002, time, {0.0}, {0.0})[0], exact, tolerance[k])
         << to_string(stepped[k]);
-  EXPECT_NEAR(final_state(p, Scheme::rk4, 0.01, time, {0.0}, {0.0})[0], exact, 1e-10);
-  EXPECT_NEAR(final_state(p, Scheme::reference, 0.1, time, {0.0}, {0.0})[0], exact, 1e-12);
+  EXPECT_NEAR(final_state(p, Located::rk4, 0.01, time, {0.0}, {0.0})[0], exact, 1e-10);
+  EXPECT_NEAR(final_state(p, Located::reference, 0.1, time, {0.0}, {0.0})[0], exact, 1e-12);
 }
 
 TEST(SliderPhysics, BlockBetweenStuckNeighboursFollowsClosedForm) {
@@ -87,7 +79,7 @@ TEST(SliderPhysics, BlockBetweenStuckNeighboursFollowsClosedForm) {
     const std::vector<double> u = final_state(p, Scheme::verlet, 0.001, time, mu, start);
     EXPECT_NEAR(u[0], exact, 1e-7);
     for (std::size_t i = 1; i < u.size(); ++i) EXPECT_EQ(u[i], 0.0);
-    EXPECT_NEAR(final_state(p, Scheme::rk4, 0.01, time, mu, start)[0], exact, 1e-10);
+    EXPECT_NEAR(final_state(p, Located::rk4, 0.01, time, mu, start)[0], exact, 1e-10);
   }
 }
 
@@ -129,15 +121,16 @@ TEST(SliderPhysics, EqualBlocksMoveAsOne) {
 
 TEST(SliderPhysics, ConvergenceOrdersOnOneEvent) {
   const OneEvent e;
-  const std::vector<double> exact = final_state(e.p, Scheme::reference, 0.1, e.time, e.mu, e.start);
+  const std::vector<double> exact =
+      final_state(e.p, Located::reference, 0.1, e.time, e.mu, e.start);
   const double slip = largest_difference(exact, e.start);
   ASSERT_GT(slip, 1.0);  // there is an event
   struct Case {
-    Scheme scheme;
+    AnyScheme scheme;
     double order;
   };
   for (const Case &c : {Case{Scheme::printed, 1.0}, Case{Scheme::semi_implicit, 1.0},
-                        Case{Scheme::verlet, 2.0}, Case{Scheme::rk4, 4.0}}) {
+                        Case{Scheme::verlet, 2.0}, Case{Located::rk4, 4.0}}) {
     // Slope of log error over log h by least squares.
     double sx = 0, sy = 0, sxx = 0, sxy = 0;
     int n = 0;
@@ -151,18 +144,18 @@ TEST(SliderPhysics, ConvergenceOrdersOnOneEvent) {
       sxy += x * y;
     }
     const double order = (n * sxy - sx * sy) / (n * sxx - sx * sx);
-    RecordProperty(to_string(c.scheme), std::to_string(order));
-    std::printf("%s: order %.2f, relative error %.2g at h = %.4g\n", to_string(c.scheme), order,
-                last, 0.1 / 32);
-    EXPECT_NEAR(order, c.order, 0.25) << to_string(c.scheme);
-    EXPECT_LT(last, c.order < 1.5 ? 2e-2 : c.order < 3.0 ? 1e-4 : 1e-8) << to_string(c.scheme);
+    RecordProperty(name_of(c.scheme), std::to_string(order));
+    std::printf("%s: order %.2f, relative error %.2g at h = %.4g\n", name_of(c.scheme), order, last,
+                0.1 / 32);
+    EXPECT_NEAR(order, c.order, 0.25) << name_of(c.scheme);
+    EXPECT_LT(last, c.order < 1.5 ? 2e-2 : c.order < 3.0 ? 1e-4 : 1e-8) << name_of(c.scheme);
   }
 }
 
 TEST(SliderPhysics, ReferenceAgreesWithItselfAtAnotherStep) {
   const OneEvent e;
-  const auto a = final_state(e.p, Scheme::reference, 0.1, e.time, e.mu, e.start);
-  const auto b = final_state(e.p, Scheme::reference, 0.025, e.time, e.mu, e.start);
+  const auto a = final_state(e.p, Located::reference, 0.1, e.time, e.mu, e.start);
+  const auto b = final_state(e.p, Located::reference, 0.025, e.time, e.mu, e.start);
   EXPECT_LT(largest_difference(a, b), 1e-11);
 }
 
@@ -172,9 +165,9 @@ TEST(SliderPhysics, NoBackSlip) {
   p.velocity = 0.1;
   p.dt = 0.05;
   const auto mu = random_friction(p.blocks, 0.5, 1.0, 3);
-  for (Scheme scheme : {Scheme::printed, Scheme::semi_implicit, Scheme::verlet, Scheme::rk4}) {
-    p.scheme = scheme;
-    auto watch = [&](auto &chain) {
+  for (const AnyScheme scheme : {AnyScheme(Scheme::printed), AnyScheme(Scheme::semi_implicit),
+                                 AnyScheme(Scheme::verlet), AnyScheme(Located::rk4)}) {
+    with_chain(p, mu, scheme, [&](auto &chain) {
       std::vector<double> before = chain.displacements();
       int stops = 0;
       std::vector<double> v_before = chain.velocities();
@@ -183,22 +176,15 @@ TEST(SliderPhysics, NoBackSlip) {
         const auto u = chain.displacements(), v = chain.velocities();
         for (std::size_t i = 0; i < u.size(); ++i) {
           // Located switches leave rounding of the last digit at most.
-          ASSERT_GE(u[i], before[i] - 1e-12) << to_string(scheme) << " step " << n;
-          ASSERT_GE(v[i], 0.0) << to_string(scheme) << " step " << n;
+          ASSERT_GE(u[i], before[i] - 1e-12) << name_of(scheme) << " step " << n;
+          ASSERT_GE(v[i], 0.0) << name_of(scheme) << " step " << n;
           stops += v[i] == 0.0 && v_before[i] > 0.0;
         }
         before = u;
         v_before = v;
       }
-      EXPECT_GT(stops, 20) << to_string(scheme);
-    };
-    if (scheme == Scheme::rk4) {
-      SwitchingChain chain(p, mu);
-      watch(chain);
-    } else {
-      Chain chain(p, mu, false, InstructionSet::automatic);
-      watch(chain);
-    }
+      EXPECT_GT(stops, 20) << name_of(scheme);
+    });
   }
 }
 
@@ -244,9 +230,8 @@ TEST(SliderPhysics, LedgerOfLocatedScheme) {
   // PE follows from the forces at the ends of each step, friction is integrated along with the
   // motion, and the work of the plate is summed here: three separate ways.
   OneEvent e;
-  e.p.scheme = Scheme::rk4;
   e.p.dt = 0.005;
-  SwitchingChain chain(e.p, e.mu);
+  SwitchingChain chain(e.p, e.mu, Located::rk4);
   chain.set_displacements(e.start);
   const double pe_start = chain.pe();
   double plate = 0.0, old_power = 0.0;
@@ -266,6 +251,42 @@ TEST(SliderPhysics, LedgerOfLocatedScheme) {
   EXPECT_NEAR(plate, chain.pe() - pe_start + l.kinetic + l.friction, 1e-5 * l.friction);
   EXPECT_NEAR(chain.pe(), direct_energy(e.p, chain.displacements(), chain.time() * e.p.velocity),
               1e-10);
+}
+
+TEST(SliderPhysics, PeriodsOfOneBlockAreThoseOfTheReference) {
+  struct Case {
+    Friction friction;
+    double kl;
+  };
+  for (const Case &c :
+       {Case{{Law::velocity_weakening, 1.0, 1.0}, 0.05},
+        Case{{Law::slip_weakening, 0.75, 0.5}, 0.1}, Case{{Law::coulomb, 0.75, 1.0}, 0.05}}) {
+    Parameters p;
+    p.blocks = 1;
+    p.velocity = 0.01;
+    p.kl = c.kl;
+    p.dt = 0.05;
+    p.friction = c.friction;
+    std::vector<double> periods;
+    for (const AnyScheme scheme : {AnyScheme(Scheme::verlet), AnyScheme(Located::reference)}) {
+      // Starts of slips that are preceded by rest.
+      const std::vector<double> starts = with_chain(p, {0.8}, scheme, [](auto &chain) {
+        std::vector<double> found;
+        bool rested = true;
+        while (found.size() < 4 && chain.time() < 50000.0) {
+          const double before = chain.slip_sum();
+          chain.advance();
+          const bool slides = chain.slip_sum() - before > 1e-4;
+          if (slides && rested) found.push_back(chain.time());
+          rested = !slides;
+        }
+        return found;
+      });
+      ASSERT_EQ(starts.size(), 4U) << name_of(scheme);
+      periods.push_back((starts[3] - starts[1]) / 2.0);
+    }
+    EXPECT_NEAR(periods[0] / periods[1], 1.0, 1e-3) << to_string(c.friction.law);
+  }
 }
 
 TEST(SliderPhysics, ExtremeParametersStayFinite) {

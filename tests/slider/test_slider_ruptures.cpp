@@ -433,18 +433,5 @@ TEST(RupturesOfTheChain, ResumeFindsTheRowsOfTheCheckpoint) {
   }
 }
 
-TEST(RupturesOfTheChain, OnlyWhereSomeoneTellsWhatSlides) {
-  RunOptions o = options("none", Events::ruptures);
-  o.catalogue = testing::TempDir() + "slider_refused.csv";
-  o.kernel = Kernel::scalar;
-  EXPECT_THROW(run(o), std::invalid_argument);
-  o.kernel = Kernel::active;
-  for (const Scheme scheme : {Scheme::rk4, Scheme::reference}) {
-    o.parameters.scheme = scheme;
-    EXPECT_THROW(run(o), std::invalid_argument);
-  }
-  EXPECT_FALSE(std::ifstream(o.catalogue).good());
-}
-
 }  // namespace
 }  // namespace Slider

@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # Speed of the block-slider on one core: the straightforward loop over all blocks, the dense kernel
 # and the active set, run in turn so that all see the same machine; then the cost against the number
-# of blocks. Usage: bench_slider.sh SLIDER_CLI [STEPS [ROUNDS]]
+# of blocks. Usage: bench_slider.sh SLIDER_CLI PLAIN_LOOP [STEPS [ROUNDS]]
 set -eu
 export LC_ALL=C
 program=$1
-steps=${2:-1e7}
-rounds=${3:-3}
+plain_loop=$2
+steps=${3:-1e7}
+rounds=${4:-3}
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 seconds() {
@@ -17,7 +18,8 @@ echo "N = 1928, $steps steps, dt 0.01, PE every step; seconds"
 for scheme in printed semi-implicit verlet; do
   for kernel in scalar dense active; do : > "$folder/$kernel"; done
   for ((round = 1; round <= rounds; ++round)); do
-    for kernel in scalar dense active; do
+    "$plain_loop" $scheme 1928 0.01 "$steps" >> "$folder/scalar"
+    for kernel in dense active; do
       seconds --blocks 1928 --dt 0.01 --steps "$steps" --picker-lambda 0.99 --scheme $scheme \
         --kernel $kernel >> "$folder/$kernel"
     done

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// \file slider_scalar.h
-/// The straightforward loop over all blocks, one after the other, PE summed directly every step:
-/// what the paper describes, the yardstick for speed and, with the ledger, for energy.
-#ifndef SLIDER_SCALAR_H
-#define SLIDER_SCALAR_H
+// The straightforward loop over all blocks, one after the other, PE summed directly every step:
+// what the paper describes, and the yardstick for the chain of slider_cli and, with the ledger, for
+// energy.
+#ifndef LSM_TESTS_SCALAR_CHAIN_H
+#define LSM_TESTS_SCALAR_CHAIN_H
 
 #include <cmath>
 #include <cstdint>
@@ -23,8 +23,6 @@ class ScalarChain {
  public:
   ScalarChain(const Parameters &p, std::vector<double> mu, bool ledger = false)
       : p_(p), mu_(std::move(mu)), keep_ledger_(ledger) {
-    if (mu_.size() != static_cast<std::size_t>(p.blocks))
-      throw std::invalid_argument("number of friction coefficients differs from --blocks");
     u_.assign(mu_.size(), 0.0);
     v_ = u_;
     force_ = u_;
@@ -40,30 +38,12 @@ class ScalarChain {
     for (double x : u_) sum += x;
     return sum;
   }
-  std::int64_t moved() const { return moved_; }
   std::vector<double> displacements() const { return u_; }
   std::vector<double> velocities() const { return v_; }
   const EnergyLedger &ledger() const { return ledger_; }
-  std::int64_t quiet_until() const { return step_; }
-  double quiet_change(std::int64_t) const { return 0.0; }
-  void jump(std::int64_t) {}
 
-  ChainState state() const {
-    ChainState s;
-    s.step = step_;
-    s.pe_sum = pe_;
-    s.moved = moved_;
-    s.dpe = dpe_;
-    s.u = u_;
-    s.v = v_;
-    if (p_.friction.needs_rest()) s.rest = rest_;
-    return s;
-  }
   void set_state(const ChainState &s) {
-    if (s.u.size() != u_.size() || s.v.size() != v_.size() || s.step < 0)
-      throw std::invalid_argument("saved chain does not fit --blocks");
     step_ = s.step;
-    moved_ = s.moved;
     u_ = s.u;
     v_ = s.v;
     rest_ = s.rest.empty() ? u_ : s.rest;
@@ -99,7 +79,6 @@ class ScalarChain {
       if (v < 0.0) v = 0.0;  // no back-slip
       u_[i] += p_.scheme == Scheme::printed ? half * (v_[i] + v) : h * v;
       v_[i] = v;
-      ++moved_;
     }
     ++step_;
     const double pe = set_forces();
@@ -177,7 +156,7 @@ class ScalarChain {
   std::vector<double> mu_, u_, v_, force_, rest_, saved_u_, saved_v_;
   bool keep_ledger_;
   EnergyLedger ledger_;
-  std::int64_t step_ = 0, moved_ = 0;
+  std::int64_t step_ = 0;
   double pe_ = 0.0, dpe_ = 0.0;
 };
 

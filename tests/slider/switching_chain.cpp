@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "slider_switching.h"
+#include "switching_chain.h"
 
 #include <gsl/gsl_errno.h>
 
@@ -16,15 +16,13 @@ std::ptrdiff_t offset(std::size_t n) { return static_cast<std::ptrdiff_t>(n); }
 
 }  // namespace
 
-SwitchingChain::SwitchingChain(const Parameters &p, std::vector<double> mu)
-    : p_(p), mu_(std::move(mu)) {
-  if (mu_.size() != static_cast<std::size_t>(p.blocks))
-    throw std::invalid_argument("number of friction coefficients differs from --blocks");
+SwitchingChain::SwitchingChain(const Parameters &p, std::vector<double> mu, Located scheme)
+    : p_(p), scheme_(scheme), mu_(std::move(mu)) {
   n_ = mu_.size();
   y_.assign(2 * n_ + 1, 0.0);
   slides_.assign(n_, 0);
   rest_.assign(n_, 0.0);
-  if (p.scheme == Scheme::reference) {
+  if (scheme == Located::reference) {
     system_ = {&SwitchingChain::derivative, nullptr, 2 * n_ + 1, this};
     stepper_.reset(gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, 2 * n_ + 1));
     if (!stepper_) throw std::runtime_error("out of memory for the reference scheme");
@@ -47,41 +45,13 @@ std::vector<double> SwitchingChain::velocities() const {
   return {y_.begin() + offset(n_), y_.begin() + offset(2 * n_)};
 }
 
-ChainState SwitchingChain::state() const {
-  ChainState s;
-  s.step = step_;
-  s.pe_sum = pe_;
-  s.moved = moved_;
-  s.dpe = dpe_;
-  s.u = displacements();
-  s.v = velocities();
-  s.switching.sliding = slides_;
-  s.switching.friction_loss = y_[2 * n_];
-  s.switching.pe_start = pe_start_;
-  s.switching.inner_step = inner_;
-  s.switching.switches = switches_;
-  if (p_.friction.needs_rest()) s.rest = rest_;
-  return s;
-}
-
 void SwitchingChain::set_state(const ChainState &s) {
-  const std::vector<std::uint8_t> &sliding = s.switching.sliding;
-  if (s.u.size() != n_ || s.v.size() != n_ || s.step < 0 ||
-      (!sliding.empty() && sliding.size() != n_))
-    throw std::invalid_argument("saved chain does not fit --blocks");
   step_ = s.step;
-  pe_ = s.pe_sum;
-  moved_ = s.moved;
-  dpe_ = s.dpe;
+  pe_ = pe_start_ = s.pe_sum;
   std::copy(s.u.begin(), s.u.end(), y_.begin());
   std::copy(s.v.begin(), s.v.end(), y_.begin() + offset(n_));
-  y_[2 * n_] = s.switching.friction_loss;
-  for (std::size_t i = 0; i < n_; ++i)
-    slides_[i] = sliding.empty() ? s.v[i] != 0.0 : sliding[i] != 0;
-  pe_start_ = s.switching.pe_start;
-  if (s.switching.inner_step > 0.0) inner_ = s.switching.inner_step;
-  switches_ = s.switching.switches;
-  if (!s.rest.empty()) rest_ = s.rest;
+  for (std::size_t i = 0; i < n_; ++i) slides_[i] = s.v[i] != 0.0;
+  rest_ = s.u;
 }
 
 EnergyLedger SwitchingChain::ledger() const {
@@ -106,7 +76,7 @@ void SwitchingChain::advance() {
   std::int64_t here = 0;
   const std::int64_t most = 1000 + 100 * static_cast<std::int64_t>(n_);
   while (t < end) {
-    const double h = p_.scheme == Scheme::reference ? std::min(inner_, end - t) : end - t;
+    const double h = scheme_ == Located::reference ? std::min(inner_, end - t) : end - t;
     const double taken = advance_to_switch(t, h);
     const bool done = taken >= end - t;
     t = done ? end : t + taken;
@@ -122,7 +92,6 @@ void SwitchingChain::advance() {
   for (std::size_t i = 0; i < n_; ++i) {
     change -= 0.5 * (force(before.data(), i, x0) + force(y_.data(), i, x1)) * (y_[i] - before[i]);
     change += 0.5 * p_.kl * ((x0 - before[i]) + (x1 - y_[i])) * (x1 - x0);
-    moved_ += slides_[i];
   }
   dpe_ = change;
   pe_ += change;
@@ -159,7 +128,7 @@ int SwitchingChain::derivative(double t, const double *y, double *dy, void *self
 /// y after time h from (t, y_) with no switch. Returns false if the error estimate is too large.
 bool SwitchingChain::propagate(double t, double h, std::vector<double> &out) {
   out = y_;
-  if (p_.scheme == Scheme::reference) {
+  if (scheme_ == Located::reference) {
     gsl_odeiv2_step_reset(stepper_.get());
     if (gsl_odeiv2_step_apply(stepper_.get(), t, h, out.data(), error_.data(), nullptr, nullptr,
                               &system_) != GSL_SUCCESS)
@@ -192,7 +161,6 @@ void SwitchingChain::flip(std::size_t i) {
   slides_[i] = !slides_[i];
   rest_[i] = y_[i];
   y_[n_ + i] = 0.0;
-  ++switches_;
 }
 
 /// Goes on by at most h, to the first switch if one lies there. Returns the time gone.
@@ -202,7 +170,7 @@ double SwitchingChain::advance_to_switch(double t, double h) {
     h *= 0.5;
     if (h < 1e-12) throw std::runtime_error("the reference scheme cannot reach its tolerance");
   }
-  if (p_.scheme == Scheme::reference) inner_ = std::min(p_.dt, 2.0 * h);
+  if (scheme_ == Located::reference) inner_ = std::min(p_.dt, 2.0 * h);
   double high = h;
   std::vector<std::size_t> &late = late_;
   late.clear();

@@ -1,42 +1,41 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// \file slider_switching.h
-/// Schemes that locate every change between stick and slip in time (ours): classical Runge-Kutta of
-/// order 4 with the given step, and GSL's adaptive rk8pd as a reference for short runs.
-#ifndef SLIDER_SWITCHING_H
-#define SLIDER_SWITCHING_H
+// Schemes that locate every change between stick and slip in time: what those of slider_cli are
+// compared with.
+#ifndef LSM_TESTS_SWITCHING_CHAIN_H
+#define LSM_TESTS_SWITCHING_CHAIN_H
 
 #include <gsl/gsl_odeiv2.h>
 
 #include <cstdint>
 #include <memory>
+#include <variant>
 #include <vector>
 
+#include "scalar_chain.h"
 #include "slider_chain.h"
 #include "slider_parameters.h"
-#include "slider_scalar.h"
 
 namespace Slider {
+
+enum class Located {
+  rk4,       ///< classical Runge-Kutta of order 4 with the given step
+  reference  ///< GSL's adaptive rk8pd
+};
 
 /// The chain as ordinary differential equations between switches. State: u, v of every block, then
 /// the friction loss (for the ledger).
 class SwitchingChain {
  public:
-  SwitchingChain(const Parameters &p, std::vector<double> mu);
+  SwitchingChain(const Parameters &p, std::vector<double> mu, Located scheme);
 
   std::int64_t step() const { return step_; }
   double pe() const { return pe_; }
   double dpe() const { return dpe_; }
   double slip_sum() const;
-  std::int64_t moved() const { return moved_; }
   std::vector<double> displacements() const;
   std::vector<double> velocities() const;
-  std::int64_t quiet_until() const { return step_; }
-  double quiet_change(std::int64_t) const { return 0.0; }
-  void jump(std::int64_t) {}
-  std::int64_t switches() const { return switches_; }
 
-  ChainState state() const;
-  /// \throws std::invalid_argument if the state is one of another number of blocks
+  /// Blocks with a velocity slide.
   void set_state(const ChainState &s);
 
   EnergyLedger ledger() const;
@@ -60,6 +59,7 @@ class SwitchingChain {
   };
 
   Parameters p_;
+  Located scheme_;
   std::vector<double> mu_;
   std::vector<double> y_;     // u, v of every block, then the friction loss
   std::vector<double> rest_;  // where each block last rested
@@ -68,11 +68,31 @@ class SwitchingChain {
   std::vector<std::uint8_t> slides_;
   std::vector<std::size_t> late_;
   std::size_t n_ = 0;
-  std::int64_t step_ = 0, moved_ = 0, switches_ = 0;
+  std::int64_t step_ = 0;
   double pe_ = 0.0, dpe_ = 0.0, pe_start_ = 0.0, inner_ = 0.0;
   gsl_odeiv2_system system_{};
   std::unique_ptr<gsl_odeiv2_step, FreeStep> stepper_;
 };
+
+/// A scheme of slider_cli, or one of those above.
+using AnyScheme = std::variant<Scheme, Located>;
+
+inline const char *name_of(const AnyScheme &scheme) {
+  if (const auto *stepped = std::get_if<Scheme>(&scheme)) return to_string(*stepped);
+  return std::get<Located>(scheme) == Located::rk4 ? "rk4" : "reference";
+}
+
+/// What work gives of a chain with that scheme.
+template <class Work>
+auto with_chain(Parameters p, const std::vector<double> &mu, const AnyScheme &scheme, Work &&work) {
+  if (const auto *located = std::get_if<Located>(&scheme)) {
+    SwitchingChain chain(p, mu, *located);
+    return work(chain);
+  }
+  p.scheme = std::get<Scheme>(scheme);
+  Chain chain(p, mu, false, InstructionSet::automatic);
+  return work(chain);
+}
 
 }  // namespace Slider
 
