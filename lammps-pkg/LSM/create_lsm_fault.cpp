@@ -247,8 +247,6 @@ void CreateLSMFault::parse(int narg, char **arg, LSM::PackingSettings &settings)
       settings.link_gap = utils::numeric(FLERR, value, false, lmp);
     } else if (key == "faultzone") {
       settings.fault_zone = utils::numeric(FLERR, value, false, lmp);
-    } else if (key == "hexseeds") {
-      settings.hexagonal_seeds = utils::logical(FLERR, value, false, lmp) != 0;
     } else if (key == "loose") {
       if (strcmp(value, "remove") == 0)
         settings.remove_loose = true;
@@ -278,7 +276,7 @@ void CreateLSMFault::parse(int narg, char **arg, LSM::PackingSettings &settings)
     } else
       error->all(FLERR,
                  "Create_lsm_fault: unknown keyword {}, expected length, width, seed, rmin, rmax, "
-                 "failures, tolerance, linkgap, faultzone, hexseeds, loose, mass, massfloor, "
+                 "failures, tolerance, linkgap, faultzone, loose, mass, massfloor, "
                  "massstep, margin "
                  "or stiffness",
                  key);
@@ -573,10 +571,4 @@ void CreateLSMFault::report(const LSM::PackingSettings &settings, const LSM::Pac
     utils::logmesg(lmp, "  {}: {} particles raised, {:.2f} % more mass in all\n", what, count,
                    100.0 * raised / sum);
   }
-
-  const double omega = LSM::frequency_bound(packing, settings.length, masses, stiffness);
-  utils::logmesg(lmp,
-                 "  highest link frequency <= {:.4f} (bound for stiffness {:g}, no contacts): "
-                 "time steps up to {:.5f} are stable\n",
-                 omega, stiffness, 2.0 / omega);
 }

@@ -37,7 +37,7 @@ class CreateLSMFault : public Command {
   double step;          // masses are raised so that it is stable with any contacts; 0: not
   double step_kt;       // tangential stiffness of these
   double margin;        // empty space beyond each plate
-  double stiffness;     // of the links, for the estimate of the time step only
+  double stiffness;     // of links and contacts, for step
   bool lattice;         // mirrored rows of equal discs, not a random packing
   int types;            // of atoms
 

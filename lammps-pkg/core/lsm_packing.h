@@ -22,15 +22,14 @@ namespace LSM {
 
 /// What make_packing() is asked for. Lengths in model units.
 struct PackingSettings {
-  double length = 120.0;        ///< period along the fault (x); at least 8 rmax
-  double width = 30.0;          ///< size across the fault (y); the fault is the line y = width/2
-  double rmin = 0.1;            ///< smallest radius
-  double rmax = 1.0;            ///< largest radius
-  uint64_t seed = 1;            ///< seed of the random numbers
-  int max_failures = 5000;      ///< a stretch of a block is full after so many failures in a row
-  double tolerance = 1e-8;      ///< accepted overlap of two discs, relative to the sum of the radii
-  double link_gap = 1e-5;       ///< discs (and lines) closer than this count as tangent
-  bool hexagonal_seeds = true;  ///< first discs on a hexagonal grid (false: at random points)
+  double length = 120.0;     ///< period along the fault (x); at least 8 rmax
+  double width = 30.0;       ///< size across the fault (y); the fault is the line y = width/2
+  double rmin = 0.1;         ///< smallest radius
+  double rmax = 1.0;         ///< largest radius
+  uint64_t seed = 1;         ///< seed of the random numbers
+  int max_failures = 5000;   ///< a stretch of a block is full after so many failures in a row
+  double tolerance = 1e-8;   ///< accepted overlap of two discs, relative to the sum of the radii
+  double link_gap = 1e-5;    ///< discs (and lines) closer than this count as tangent
   double fault_zone = 0.25;  ///< ours: discs with a surface so close to the fault line are flagged
   bool remove_loose =
       true;  ///< ours: take out discs that their links do not hold, see Packing::loose
@@ -173,12 +172,7 @@ class BlockPacker {
     const double yfirst = gaps > 0 ? ylo_ + set_.rmax : 0.5 * (ylo_ + yhi_);
     for (int j = 0; j <= gaps; ++j)
       for (int i = 0; i < ncol; ++i) {
-        double x = (i + (j % 2 ? 0.75 : 0.25)) * xstep, y = yfirst + j * ystep;
-        if (!set_.hexagonal_seeds) {
-          x = random_.uniform(0.0, set_.length);
-          y = random_.uniform(ylo_, yhi_);
-        }
-        x = wrap(x);
+        const double x = wrap((i + (j % 2 ? 0.75 : 0.25)) * xstep), y = yfirst + j * ystep;
         const double r = random_.uniform(set_.rmin, set_.rmax);
         if (fits(x, y, r)) insert(x, y, r);
       }
@@ -652,50 +646,6 @@ inline Packing make_packing(const PackingSettings &settings) {
                                block == 0 ? "lower block is left" : "upper block is left");
   packing_detail::measure(settings, result);
   return result;
-}
-
-/// Upper bound of the highest angular frequency of the link network at rest (no contacts).
-///
-/// The non-zero eigenvalues of M^-1 K are those of the matrix over links
-/// G_ef = +- k n_e . n_f / m (summed over the discs that e and f share); the bound is the largest
-/// row sum of |G_ef| (Gershgorin). Velocity Verlet is stable below dt = 2 / frequency.
-/// @param masses one per disc
-inline double frequency_bound(const Packing &packing, double length,
-                              const std::vector<double> &masses, double stiffness) {
-  const std::size_t n = packing.discs.size(), m = packing.links.size();
-  std::vector<std::pair<double, double>> normal(m);
-  std::vector<std::size_t> first(n + 1, 0), at(2 * m);
-  for (const auto &l : packing.links) {
-    ++first[static_cast<std::size_t>(l.first) + 1];
-    ++first[static_cast<std::size_t>(l.second) + 1];
-  }
-  for (std::size_t i = 0; i < n; ++i) first[i + 1] += first[i];
-  std::vector<std::size_t> fill(first.begin(), first.end() - 1);
-  for (std::size_t e = 0; e < m; ++e) {
-    const auto i = static_cast<std::size_t>(packing.links[e].first);
-    const auto j = static_cast<std::size_t>(packing.links[e].second);
-    const auto [ex, ey] = packing_detail::link_vector(length, packing.discs[i], packing.discs[j]);
-    const double d = std::sqrt(ex * ex + ey * ey);
-    normal[e] = {ex / d, ey / d};
-    at[fill[i]++] = e;
-    at[fill[j]++] = e;
-  }
-  double largest = 0.0;
-  for (std::size_t e = 0; e < m; ++e) {
-    double sum = 0.0;
-    for (const int disc : {packing.links[e].first, packing.links[e].second}) {
-      const auto i = static_cast<std::size_t>(disc);
-      double part = 0.0;
-      for (std::size_t k = first[i]; k < first[i + 1]; ++k) {
-        const double dot =
-            normal[e].first * normal[at[k]].first + normal[e].second * normal[at[k]].second;
-        part += dot < 0.0 ? -dot : dot;
-      }
-      sum += part * stiffness / masses[i];
-    }
-    largest = std::max(largest, sum);
-  }
-  return std::sqrt(largest);
 }
 
 /// Discs of radius r that fit around one of radius `radius` at most, 0 < r: as many as leave room

@@ -21,20 +21,19 @@ namespace LSM {
 class PickerOptions {
  public:
   std::optional<std::string> reading;
-  std::optional<double> lambda, memory_time, memory_steps, min_size;
+  std::optional<double> lambda, memory_time, min_size;
   bool keep_nonpositive = false;
 
   /// Options as they were added, for default texts and for what excludes them.
   struct Added {
-    CLI::Option *reading, *lambda, *memory_time, *memory_steps, *min_size, *keep_nonpositive;
+    CLI::Option *reading, *lambda, *memory_time, *min_size, *keep_nonpositive;
   };
 
-  /// Adds --picker and, with prefix between the dashes and the name, lambda, memory-time and
-  /// memory-steps; and --min-size, --keep-nonpositive.
+  /// Adds --picker and, with prefix between the dashes and the name, lambda and memory-time; and
+  /// --min-size, --keep-nonpositive.
   Added add_to(CLI::App *command, const std::string &group, const std::string &prefix = "") {
     lambda_name_ = "--" + prefix + "lambda";
     time_name_ = "--" + prefix + "memory-time";
-    steps_name_ = "--" + prefix + "memory-steps";
     Added o;
     o.reading = command->add_option(
         "--picker", reading,
@@ -48,24 +47,19 @@ class PickerOptions {
     o.memory_time = command->add_option(
         time_name_, memory_time,
         "Memory of the picker, lambda = exp(-interval of the samples / memory) (model time; ours)");
-    o.memory_steps = command->add_option(
-        steps_name_, memory_steps,
-        "Memory of the picker, lambda = 1 - 1/memory (samples, at least 1; ours)");
     o.min_size = command->add_option(
         "--min-size", min_size, "Events of smaller size are counted, not written (energy; ours)");
     o.keep_nonpositive = command->add_flag("--keep-nonpositive", keep_nonpositive,
                                            "Write events of size <= 0, too, whatever --min-size is "
                                            "(ours); otherwise they are counted");
     o.memory_time->excludes(o.lambda);
-    o.memory_steps->excludes(o.lambda)->excludes(o.memory_time);
-    for (CLI::Option *option :
-         {o.reading, o.lambda, o.memory_time, o.memory_steps, o.min_size, o.keep_nonpositive})
+    for (CLI::Option *option : {o.reading, o.lambda, o.memory_time, o.min_size, o.keep_nonpositive})
       option->group(group);
     return o;
   }
 
   /// Whether the leakiness is said, in one way or another.
-  bool says_lambda() const { return lambda || memory_time || memory_steps; }
+  bool says_lambda() const { return lambda || memory_time; }
 
   /// The settings, those that nothing is said about as they are in settings.
   /// \param interval time between samples (model time)
@@ -77,10 +71,6 @@ class PickerOptions {
       if (!(*lambda >= 0.0 && *lambda < 1.0))
         fail(lambda_name_, shown(*lambda), "at least 0 and less than 1");
       settings.lambda = *lambda;
-    } else if (memory_steps) {
-      if (!(*memory_steps >= 1.0 && *memory_steps < 1e15))
-        fail(steps_name_, shown(*memory_steps), "at least 1 sample and less than 1e15");
-      settings.lambda = 1.0 - 1.0 / *memory_steps;
     } else if (memory_time) {
       if (!std::isfinite(*memory_time) || !(*memory_time > 0.0))
         fail(time_name_, shown(*memory_time), "a positive time");
@@ -96,7 +86,6 @@ class PickerOptions {
   }
 
   const std::string &time_name() const { return time_name_; }
-  const std::string &steps_name() const { return steps_name_; }
 
  private:
   [[noreturn]] static void fail(const std::string &option, const std::string &value,
@@ -109,8 +98,7 @@ class PickerOptions {
     return text;
   }
 
-  std::string lambda_name_ = "--lambda", time_name_ = "--memory-time",
-              steps_name_ = "--memory-steps";
+  std::string lambda_name_ = "--lambda", time_name_ = "--memory-time";
 };
 
 }  // namespace LSM

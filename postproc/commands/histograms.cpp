@@ -82,12 +82,6 @@ void add_histograms(CLI::App &app) {
       ->check(CLI::IsMember({"density", "counts"}))
       ->group(group);
   command
-      ->add_option(
-          "--collapse", densities.collapse,
-          "D (ours): sizes divided by length^D and densities multiplied by it; curves whose "
-          "roll-off grows as length^D then lie on each other")
-      ->group(group);
-  command
       ->add_option("--guide", options->guides,
                    "SLOPE or SLOPE:LO:HI, a straight line above the points, e.g. -1.07 (paper, "
                    "fault) or -0.5:1e-3:1 (paper, small events of the block-slider)")

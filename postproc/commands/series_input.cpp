@@ -51,10 +51,9 @@ PickerSettings picker_settings(const PickerOptions &options, const text_io::Para
   if (const std::string *text = text_io::find(parameters, "picker")) from_string(*text, s.reading);
   if (options.reading) from_string(*options.reading, s.reading);
   const bool exponential = s.reading == PickerReading::exponential;
-  if ((options.memory_time || options.memory_steps) && !exponential)
-    throw std::invalid_argument(fmt::format(
-        "{} with the reading '{}', expected 'exponential'",
-        options.memory_time ? options.time_name() : options.steps_name(), to_string(s.reading)));
+  if (options.memory_time && !exponential)
+    throw std::invalid_argument(fmt::format("{} with the reading '{}', expected 'exponential'",
+                                            options.time_name(), to_string(s.reading)));
   // Of every stride-th sample the memory is as long in steps.
   const std::string *lambda = text_io::find(parameters, "lambda");
   if (lambda && text_io::parse(*lambda, s.lambda) && exponential && info.stride > 1)

@@ -143,13 +143,6 @@ void add_spectrum(CLI::App &app) {
       ->default_str("hann")
       ->group(group);
   command
-      ->add_option("--detrend", options->spectrum.detrend,
-                   "What is taken off each segment first: none, mean, linear (straight line)")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, Detrend>{
-          {"none", Detrend::none}, {"mean", Detrend::mean}, {"linear", Detrend::linear}}))
-      ->default_str("linear")
-      ->group(group);
-  command
       ->add_option(
           "--per-decade", options->per_decade,
           "Neighbouring frequencies are averaged to at most so many points in a decade; 0: "

@@ -19,15 +19,6 @@ struct Curve {
   std::vector<LogBin> bins;
 };
 
-double unit_of_size(const EventTable &table, double collapse) {
-  if (collapse == 0.0) return 1.0;
-  const double length = table.length();
-  if (std::isnan(length))
-    throw std::invalid_argument(
-        table.path + ": the header gives neither length nor blocks, which --collapse needs");
-  return std::pow(length, collapse);
-}
-
 }  // namespace
 
 Figure size_density_figure(const std::vector<EventTable> &tables,
@@ -42,9 +33,6 @@ Figure size_density_figure(const std::vector<EventTable> &tables,
                        settings.counts ? "events" : "density", "error", "label"}),
                 {},
                 {}};
-  if (settings.collapse != 0.0)
-    figure.table.comment(fmt::format(
-        "sizes divided by length^{0}, densities multiplied by length^{0}", settings.collapse));
   figure.table.comment(
       "units: sizes in model energy, densities in 1 / model energy; errors: Poisson");
   for (const std::string &line : texts(settings.threshold, tables)) figure.table.comment(line);
@@ -54,7 +42,6 @@ Figure size_density_figure(const std::vector<EventTable> &tables,
   Extent sizes, heights;
   for (std::size_t i = 0; i < tables.size(); ++i) {
     const EventTable &table = tables[i];
-    const double unit = unit_of_size(table, settings.collapse);
     LogHistogram histogram(settings.factor);
     for (const double size : table.size) histogram.add(size);
     // The range applies to the sizes as they are in the catalogue.
@@ -62,11 +49,6 @@ Figure size_density_figure(const std::vector<EventTable> &tables,
     std::int64_t events = 0;
     for (LogBin &bin : curve.bins) {
       events += bin.count;
-      bin.lo /= unit;
-      bin.hi /= unit;
-      bin.centre /= unit;
-      bin.density *= unit;
-      bin.error *= unit;
       if (settings.counts) {
         bin.density = static_cast<double>(bin.count);
         bin.error = std::sqrt(bin.density);
@@ -98,13 +80,9 @@ Figure size_density_figure(const std::vector<EventTable> &tables,
         "no event of size {} or larger in any catalogue, nothing to draw", short_number(least)));
   }
 
-  std::string x_label = "event size s (energy, model units)";
-  std::string y_label = "probability density p(s) (1 / energy)";
-  if (settings.collapse != 0.0) {
-    x_label = fmt::format("s / L^{{{}}} (model units)", short_number(settings.collapse));
-    y_label = fmt::format("p(s) L^{{{}}} (model units)", short_number(settings.collapse));
-  }
-  if (settings.counts) y_label = "events per bin";
+  const std::string x_label = "event size s (energy, model units)";
+  const std::string y_label =
+      settings.counts ? "events per bin" : "probability density p(s) (1 / energy)";
 
   std::string plots;
   std::vector<std::string> titles;

@@ -32,9 +32,6 @@ struct SizeDensitySettings {
   double upto = std::numeric_limits<double>::infinity();  ///< largest size
   double factor = LogHistogram::default_factor;           ///< ratio of the edges of a bin
   bool counts = false;                                    ///< events per bin instead of densities
-  /// Ours: sizes divided by length^collapse, densities multiplied by it, so that curves with a
-  /// roll-off at s* ~ length^collapse lie on each other; 0: as they are.
-  double collapse = 0.0;
   std::vector<PowerLine> lines;
   int width = 900;  ///< of the picture
 };

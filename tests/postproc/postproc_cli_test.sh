@@ -73,11 +73,9 @@ pick)
   [ "$(grep -A 1 '^# dt' fault_picked.csv | tail -n 1)" = "# viscosity = 0.1" ] || fail "$(head -n 9 fault_picked.csv)"
   grep -q '^# length = 40$' picked.csv && grep -q '^# dt = 0.029999999999999999$' picked.csv ||
     fail "parameters are not carried over"
-  # Memory, in time and in samples; lambda = exp(-0.03/3), 1 - 1/100
+  # Memory in time; lambda = exp(-0.03/3)
   must_run pick pe.csv -o a.csv --picker exponential --memory-time 3
   grep -q '^# lambda = 0.99004983374916' a.csv || fail "--memory-time gives $(grep lambda a.csv)"
-  must_run pick pe.csv -o b.csv --picker exponential --memory-steps 100
-  grep -q '^# lambda = 0.99$' b.csv || fail "--memory-steps gives $(grep lambda b.csv)"
   # Warm-up: identifiers begin with 1 behind it.
   must_run pick pe.csv -o c.csv --warmup 75
   reference literal 0.5 0 pe.csv | awk -F, '$2 >= 75' | cut -d, -f2- | diff - <(rows c.csv | cut -d, -f2-) > /dev/null ||
@@ -113,9 +111,8 @@ pick)
   refused "lambda = 1, expected at least 0 and less than 1" pick pe.csv -o x.csv --lambda 1
   sed 's/^# lambda = .*/# lambda = 1.5/' pe.csv > leaky.csv
   refused "lambda in the header of the series is 1.5, expected at least 0" pick leaky.csv -o x.csv
-  refused "memory-steps = 0.5, expected at least 1 sample" pick pe.csv -o x.csv --picker exponential --memory-steps 0.5
   refused "memory-time with the reading 'literal', expected 'exponential'" pick pe.csv -o x.csv --memory-time 3
-  refused "lambda excludes" pick pe.csv -o x.csv --memory-steps 10 --lambda 0.5
+  refused "lambda excludes" pick pe.csv -o x.csv --memory-time 10 --lambda 0.5
   refused "min-size = -1, expected a finite size of at least 0" pick pe.csv -o x.csv --min-size -1
   refused "picker = .median., expected exponential, average or literal" pick pe.csv -o x.csv --picker median
   ;;
@@ -173,7 +170,7 @@ spectrum)
   awk -F, '/^[#c]/ { next } { v += $4 * $5; if ($5 > big) { big = $5; at = $3 } }
     END { exit !(v > 1.999 && v < 2.001 && at > 0.07812 && at < 0.07813) }' sine_spectrum.csv || fail "variance or frequency"
   grep -q "4096 samples, 7 segments" out.txt || fail "segments: $(cat out.txt)"
-  must_run spectrum sine --segment 1024 --of change --window blackman --detrend mean --no-picture -o change
+  must_run spectrum sine --segment 1024 --of change --window blackman --no-picture -o change
   # change: amplitude 4 sin(pi/25.6), variance 0.11982 (8 sin^2)
   awk -F, '/^[#c]/ { next } { v += $4 * $5 } END { exit !(v > 0.1197 && v < 0.1200) }' change.csv || fail "variance of the change"
   if command -v gnuplot > /dev/null; then

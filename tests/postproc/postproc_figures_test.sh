@@ -70,9 +70,6 @@ histograms)
   [ -e c.png ] && fail "--no-picture drew a picture"
   awk -F, '!/^#/ && !/^curve/ && $8 != $7 { exit 1 } { total += $7 } END { exit total != 107 }' c.csv ||
     fail "counts: $(cat c.csv)"
-  # Sizes divided by the length.
-  must_run histograms a.csv b.csv --collapse 1 -o d --no-picture
-  awk -F, '$1 == 1 && $7 == 90 { good = ($4 * 120 / 1e-3 - 1) ^ 2 < 1e-18 } END { exit !good }' d.csv || fail "--collapse"
   refused 'expected SLOPE' histograms a.csv --guide steep -o x
   refused 'expected LO:HI' histograms a.csv --range 3 -o x
   refused 'nothing to draw' histograms a.csv --threshold 1 -o x

@@ -333,18 +333,15 @@ TEST(Packing, FewFailuresGiveALooserPacking) {
 TEST(Packing, SmallestLengthAndOtherSizesHaveNoOverlap) {
   struct Case {
     double length, width, rmin, rmax;
-    bool hexagonal;
   };
-  const Case cases[] = {{8.0, 4.51, 0.1, 1.0, true},  {8.0, 30.0, 0.1, 1.0, false},
-                        {9.99, 10.0, 0.3, 0.7, true}, {17.3, 12.0, 0.2, 2.0, true},
-                        {20.0, 9.0, 0.9, 1.0, false}, {8.0, 20.0, 0.05, 0.5, true}};
+  const Case cases[] = {{8.0, 4.51, 0.1, 1.0},  {8.0, 30.0, 0.1, 1.0}, {9.99, 10.0, 0.3, 0.7},
+                        {17.3, 12.0, 0.2, 2.0}, {20.0, 9.0, 0.9, 1.0}, {8.0, 20.0, 0.05, 0.5}};
   for (const Case &c : cases) {
     LSM::PackingSettings s;
     s.length = c.length;
     s.width = c.width;
     s.rmin = c.rmin;
     s.rmax = c.rmax;
-    s.hexagonal_seeds = c.hexagonal;
     s.remove_loose = false;  // in some of these no disc would be left
     const LSM::Packing p = LSM::make_packing(s);
     ASSERT_GT(p.discs.size(), 10u);
@@ -364,67 +361,6 @@ TEST(Packing, SmallestLengthAndOtherSizesHaveNoOverlap) {
     }
     EXPECT_EQ(tangent, p.links.size());
   }
-}
-
-TEST(Packing, FrequencyBoundOfTwoDiscsIsExact) {
-  LSM::Packing p;
-  p.discs = {{1.0, 1.0, 0.5, 0, false, false}, {9.5, 1.0, 1.0, 0, false, false}};
-  p.links = {{0, 1}};
-  // reduced mass 2 * 3 / 5: omega^2 = k / mu
-  EXPECT_NEAR(LSM::frequency_bound(p, 10.0, {2.0, 3.0}, 4.0), std::sqrt(4.0 * 5.0 / 6.0), 1e-14);
-}
-
-TEST(Packing, FrequencyBoundLimitsAChain) {
-  // a periodic chain of equal masses has the highest frequency 2 sqrt(k / m), and the bound is
-  // sharp
-  LSM::Packing p;
-  const int n = 12;
-  for (int i = 0; i < n; ++i) {
-    p.discs.push_back({static_cast<double>(i), 1.0, 0.5, 0, false, false});
-    p.links.emplace_back(std::min(i, (i + 1) % n), std::max(i, (i + 1) % n));
-  }
-  EXPECT_NEAR(LSM::frequency_bound(p, n, std::vector<double>(n, 0.25), 1.0), 4.0, 1e-12);
-}
-
-TEST(Packing, FrequencyBoundIsAboveTheRayleighQuotient) {
-  const double length = 20.0;
-  const LSM::Packing p = LSM::make_packing(settings(length));
-  std::vector<double> mass;
-  for (const auto &d : p.discs) mass.push_back(d.r * d.r);
-  // power iteration on M^-1 K gives the true highest frequency from below
-  std::vector<double> u(2 * p.discs.size()), f(u.size());
-  LSM::Random random(3);
-  for (double &v : u) v = random.uniform(-1.0, 1.0);
-  double omega2 = 0.0;
-  for (int iter = 0; iter < 300; ++iter) {
-    std::fill(f.begin(), f.end(), 0.0);
-    for (const auto &l : p.links) {
-      const auto i = static_cast<std::size_t>(l.first), j = static_cast<std::size_t>(l.second);
-      double dx = p.discs[j].x - p.discs[i].x;
-      dx -= length * std::floor(dx / length + 0.5);
-      const double dy = p.discs[j].y - p.discs[i].y, d = std::hypot(dx, dy);
-      const double e = ((u[2 * j] - u[2 * i]) * dx + (u[2 * j + 1] - u[2 * i + 1]) * dy) / d;
-      f[2 * i] -= e * dx / d;
-      f[2 * i + 1] -= e * dy / d;
-      f[2 * j] += e * dx / d;
-      f[2 * j + 1] += e * dy / d;
-    }
-    double uku = 0.0, umu = 0.0, norm = 0.0;
-    for (std::size_t k = 0; k < u.size(); ++k) {
-      uku += u[k] * f[k];
-      umu += u[k] * u[k] * mass[k / 2];
-    }
-    omega2 = uku / umu;
-    for (std::size_t k = 0; k < u.size(); ++k) {
-      u[k] = f[k] / mass[k / 2];
-      norm = std::max(norm, std::fabs(u[k]));
-    }
-    for (double &v : u) v /= norm;
-  }
-  const double bound = LSM::frequency_bound(p, length, mass, 1.0);
-  EXPECT_GT(std::sqrt(omega2), 12.0);
-  EXPECT_GE(bound, std::sqrt(omega2));
-  EXPECT_LT(bound, 1.6 * std::sqrt(omega2));
 }
 
 // The largest time step for the links and the contacts (k = kt = 1) that there are when the upper
