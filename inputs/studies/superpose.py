@@ -99,6 +99,7 @@ def superpose(out, parts, load=0.0, number=1):
         total = array.array("d", (x + load * dt * n for n, x in enumerate(total)))
     info = dict(first, step0="0", time0="0", length=f"{length:g}", superposed=str(len(parts)), load=f"{load:.6g}")
     write(out, info, total)
+    return info["length"]
 
 
 def every(number, out, path):
@@ -148,11 +149,11 @@ def study(postproc, out, folders):
         series = Path(work) / "sum.pe.bin"
         for number in NUMBERS:
             for group in range(min(GROUPS, len(parts) // number)):
-                superpose(series, parts[group * number:(group + 1) * number])
-                pick(postproc, series, Path(out) / f"sum_{read(series)[0]['length']}_{group + 1}")
+                length = superpose(series, parts[group * number:(group + 1) * number])
+                pick(postproc, series, Path(out) / f"sum_{length}_{group + 1}")
             for n, part in enumerate(parts[:GROUPS], 1):
-                superpose(series, [part], (number - 1) * loading(*part), number)
-                pick(postproc, series, Path(out) / f"load_{read(series)[0]['length']}_{n}")
+                length = superpose(series, [part], (number - 1) * loading(*part), number)
+                pick(postproc, series, Path(out) / f"load_{length}_{n}")
 
 
 def main(words):

@@ -294,20 +294,15 @@ bad_input)
   refused "--paper" --paper --scheme verlet
   refused "--friction-range" --friction-range 0.5 1.0 --friction-range 0.8 0.7
   refused "none.ini" --config none.ini
-  printf 'blocsk = 12\n' > wrong.ini
-  refused "blocsk" --config wrong.ini
-  printf 'seed = 3\ndt = 0.05\nseed = 4\n' > wrong.ini
-  refused "wrong.ini:3: 'seed' given twice, expected once" --config wrong.ini
-  printf 'seed = 3\nseed=3\n' > wrong.ini
-  refused "wrong.ini:2: 'seed' given twice, expected once" --config wrong.ini
-  printf 'steps = 100 200\n' > wrong.ini
-  refused "wrong.ini:1: 'steps' is '100 200', expected one value" --config wrong.ini
-  printf 'seed = -1\n' > wrong.ini
-  refused "not '-1'" --config wrong.ini
-  printf '\357\273\277seed = 1\n' > wrong.ini
-  refused "wrong.ini: begins with a byte order mark" --config wrong.ini
-  printf 's\0e\0e\0d\0' > wrong.ini
-  refused "wrong.ini: not a text file" --config wrong.ini
+  # refused_file FORMAT PATTERN: a file with this text
+  refused_file() { printf "$1" > wrong.ini; refused "$2" --config wrong.ini; }
+  refused_file 'blocsk = 12\n' "blocsk"
+  refused_file 'seed = 3\ndt = 0.05\nseed = 4\n' "wrong.ini:3: 'seed' given twice, expected once"
+  refused_file 'seed = 3\nseed=3\n' "wrong.ini:2: 'seed' given twice, expected once"
+  refused_file 'steps = 100 200\n' "wrong.ini:1: 'steps' is '100 200', expected one value"
+  refused_file 'seed = -1\n' "not '-1'"
+  refused_file '\357\273\277seed = 1\n' "wrong.ini: begins with a byte order mark"
+  refused_file 's\0e\0e\0d\0' "wrong.ini: not a text file"
   refused "slider_cli: not a text file" --config "$program"
   # Above dt 0.01 the printed scheme runs, with a warning.
   must_run --blocks 16 --steps 100 --scheme printed --dt 0.05 --catalogue warned.csv
