@@ -43,8 +43,8 @@ struct ChainState {
   std::int64_t moved = 0;                        ///< block-steps with motion so far
   double dpe = 0.0;                              ///< change of PE over the last step
   std::vector<double> u, v;
-  std::vector<double>
-      rest;  ///< where blocks last rested, if the law needs it; empty: where they are
+  /// where blocks last rested, if the law needs it; empty: where they are
+  std::vector<double> rest;
 };
 
 /// PE of all springs, summed directly; used to set and to check the work formula.

@@ -67,8 +67,8 @@ class BondLSMLinked : public Bond, public LSMEnergySource {
     LSMLinkRows::Rows rows;
   };
   std::vector<Segment> segments;
-  std::vector<LSMLinkKernel::Place>
-      broken_now;         // links of a segment that broke in this evaluation
+  // links of a segment that broke in this evaluation
+  std::vector<LSMLinkKernel::Place> broken_now;
   bigint collected_at;    // step of the neighbour list they were taken from, -1 if outdated
 
   class FixLSMVelocity *velocity;    // of this run, null if no link is viscous in it

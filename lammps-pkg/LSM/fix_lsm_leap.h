@@ -45,11 +45,11 @@ class FixLSMLeap : public Fix {
 
   std::string plates_id;
   double fast;    // driving velocity while nothing slips
-  double
-      slip;    // rate of slip moment over that of the whole fault at the fast velocity: above it is an event
+  // rate of slip moment over that of the whole fault at the fast velocity: above it is an event
+  double slip;
   double calm;    // time without such slip after which the blocks settle
-  double
-      rest;    // kinetic energy over that of the loading motion at the fast velocity: below it they are at rest
+  // kinetic energy over that of the loading motion at the fast velocity: below it they are at rest
+  double rest;
   double viscosity;    // while they settle, at least; 0: no more than always
   double ramp;         // time from the slow to the fast velocity
   double grow;       // model time of a leap in which the factor rises by 1; 0: as fast as the ramp

@@ -29,8 +29,8 @@ class LSMEnergySource {
   double work_broken = 0.0;      ///< energy of the links that broke, accumulated
   double slip_moment = 0.0;      ///< sum of |slip| times contact size, accumulated (SLIP_RATE)
   std::vector<LSM::ContactSlip> slip;    ///< contacts that slid in the last force evaluation
-  std::vector<LSM::FaultContact>
-      contacts;    ///< all contacts of the last force evaluation, with friction
+  /// all contacts of the last force evaluation, with friction
+  std::vector<LSM::FaultContact> contacts;
 };
 
 /// Base of the fixes that do work on particles, other than by plates. This rank's share; a restart goes on with it.

@@ -68,8 +68,8 @@ class LSMNearPairs {
 
   bigint built = -1;
   std::vector<double> held;    // positions when the pairs were chosen; empty where all are kept
-  Range
-      moved;    // displacements of this rank's particles since then, when they were looked at last
+  // displacements of this rank's particles since then, when they were looked at last
+  Range moved;
   double travelled = 0.0;    // no particle of this rank has moved farther after that
 
   Range displacements(const double *x, size_t first, size_t last) const;

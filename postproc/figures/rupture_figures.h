@@ -56,8 +56,8 @@ struct Outline : SlipSet {
 struct HistoryWindow {
   SlipHistoryInfo info;
   std::vector<SlipRecord> records;  ///< those that overlap with the window
-  std::vector<Outline>
-      outlines;                 ///< of the ruptures within, the largest first; steps, not intervals
+  /// of the ruptures within, the largest first; steps, not intervals
+  std::vector<Outline> outlines;
   double from = 0.0, to = 0.0;  ///< ends of the window, within the history (model time)
 };
 /// \throws SlipHistoryError; std::runtime_error if there is nothing in the window

@@ -15,8 +15,8 @@ struct FrictionContact {
   double fn;  ///< magnitude of the normal force now; 0 when contact was lost: all of xi is released
   double xi;  ///< elongation of the tangential spring before the step
   double dxi;  ///< tangential displacement of particle i relative to j in this step
-  double
-      time;  ///< time that the displacement took, may be 0 where dxi is; set if the law needs_time
+  /// time that the displacement took, may be 0 where dxi is; set if the law needs_time
+  double time;
   bool sliding;  ///< in: whether the contact slid in the step before, set if the law needs_sliding;
                  ///< out: slides now
 
