@@ -24,10 +24,9 @@ grep -q '^set(STANDARD_PACKAGES' "$list" ||
 # A file of an older version of the package that is gone since must not stay behind.
 rm -rf "$lammps/src/LSM"
 mkdir "$lammps/src/LSM"
-for f in "$here"/LSM/*.h "$here"/LSM/*.cpp "$here"/core/*.h; do
-  # The plugin's entry point has no place in a package that is compiled in.
-  [ "$(basename "$f")" = lsm_plugin.cpp ] || cp "$f" "$lammps/src/LSM/"
-done
+# LAMMPS looks for sources in the folder of the package only. The plugin's entry point has no place in
+# a package that is compiled in.
+cp "$here"/LSM/*.h "$here"/LSM/*.cpp "$here"/LSM/support/* "$here"/core/*.h "$lammps/src/LSM/"
 cp -r "$here"/core/laws "$here"/core/events "$lammps/src/LSM/"
 if ! grep -q '^  LSM$' "$list"; then
   sed -i 's/^set(STANDARD_PACKAGES$/&\n  LSM/' "$list"

@@ -20,7 +20,7 @@ fi
 [ "$(grep -c 'virtual double \(atom2cut\|radii2cut\)' "$work/with/pair.h")" = 2 ] || { echo "FAILED: no pair.h with the two functions"; exit 1; }
 ! grep -q 'atom2cut\|radii2cut' "$work/without/pair.h" || { echo "FAILED: no pair.h without the two functions"; exit 1; }
 for way in with without; do
-  "$compiler" -std=c++17 -fsyntax-only -Wall -Wextra -Wsuggest-override -Werror "$@" -I "$package/LSM" -I "$package/core" \
+  "$compiler" -std=c++17 -fsyntax-only -Wall -Wextra -Wsuggest-override -Werror "$@" -I "$package/LSM" -I "$package/LSM/support" -I "$package/core" \
     -isystem "$work/$way" -isystem "$source" "$package/LSM/pair_lsm_free.cpp" ||
     { echo "FAILED: pair_lsm_free.cpp $way Pair::atom2cut and radii2cut"; exit 1; }
 done
