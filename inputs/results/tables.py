@@ -13,6 +13,7 @@ import difflib
 import functools
 import json
 import math
+import random
 import re
 import statistics
 import subprocess
@@ -23,6 +24,7 @@ from pathlib import Path
 FOLDER = Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parent / "studies"))
 import calibrate  # noqa: E402
+import superpose  # noqa: E402
 
 POINTS, SLIDERS = FOLDER / "calibration/points.csv.xz", FOLDER / "calibration/sliders.csv.xz"
 VALIDATION, SUPERPOSED, LOADED = FOLDER / "validation", FOLDER / "superposed", FOLDER / "loading"
@@ -73,6 +75,20 @@ def spread(found, digits):
         return "-"
     mean = f"{statistics.mean(found):.{digits}f}"
     return f"{mean} ± {statistics.stdev(found):.{digits}f}" if len(found) > 1 else mean
+
+
+def gamma_of(times):
+    """Maximum likelihood of gamma with delta = 1, as postproc summary has it, of times that need not begin with events."""
+    times = [time for time in times if time > 0]
+    if len(times) < 2:
+        return math.nan
+    wanted = math.log(statistics.mean(times)) - statistics.mean(map(math.log, times))  # = log(gamma) - digamma(gamma)
+    low, high, h = 1e-3, 1e3, 1e-4
+    while high / low > 1 + 1e-9:
+        middle = math.sqrt(low * high)
+        digamma = (math.lgamma(middle * (1 + h)) - math.lgamma(middle * (1 - h))) / (2 * middle * h)
+        low, high = (middle, high) if math.log(middle) - digamma > wanted else (low, middle)
+    return low
 
 
 def enough(rows, size, least=15):
@@ -248,6 +264,57 @@ def superposition_table(postproc):
             if paths:
                 out.append([length, what, *shape(summary(postproc, paths, begin=0))])
     return calibrate.table(["length", "", *SHAPE], out)
+
+
+def events(path, least, begin=0.0, end=math.inf):
+    """(begin, end, size) of the events of a catalogue from this size on and within these times, which are counted from `begin`."""
+    return [(float(row["t_start"]) - begin, float(row["t_end"]) - begin, float(row["size"])) for row in calibrate.read(path)
+            if float(row["size"]) >= least and begin <= float(row["t_start"]) and float(row["t_end"]) <= end]
+
+
+def from_begin(found):
+    return [b[0] - a[0] for a, b in zip(found, found[1:])]
+
+
+def from_end(found):
+    return [b[0] - a[1] for a, b in zip(found, found[1:])]
+
+
+def shuffled(found, least):
+    """Times between the events that are this large once all sizes have been dealt out again."""
+    sizes = [size for _, _, size in found]
+    random.Random(1).shuffle(sizes)
+    return from_begin([one for one, size in zip(found, sizes) if size >= least])
+
+
+def stretches(number):
+    """Events of the faults that each superposed/sum_*_GROUP has together, (path, begin): superpose.py adds the same stretches up."""
+    parts = [(path, superpose.LOADING + n * superpose.DURATION) for n in range(2) for path in sorted(VALIDATION.glob("fault_120_[0-9].catalogue.csv.xz"))]
+    return [parts[group * number:(group + 1) * number] for group in range(min(superpose.GROUPS, len(parts) // number))]
+
+
+def gaps_table(postproc):
+    """Why gamma >= 1e-3 is above one: times from the end of an event, sizes shuffled, and a picker for each of several faults."""
+    least, all_sizes, out = 1e-3, 1e-4, []
+
+    def line(length, what, catalogues):
+        chosen = [[one for one in found if one[2] >= least] for found in catalogues]
+        gamma = [spread([gamma_of(times(found)) for found in group], 2) for times, group in
+                 ((from_begin, catalogues), (from_begin, chosen), (from_end, chosen), (lambda found: shuffled(found, least), catalogues))]
+        mean = [statistics.mean(statistics.mean(x) for x in group) for group in
+                ([from_begin(found) for found in chosen], [[end - begin for begin, end, _ in found] for found in chosen])]
+        if "each" in what:
+            gamma[2] = "-"  # these overlap
+        out.append([length, what, str(len(catalogues)), *gamma, *(f"{x:.0f}" for x in mean)])
+    for length, rows in grouped(packings(postproc)).items():
+        line(length, "the fault", [events(row["path"], all_sizes, LOADING) for row in rows])
+    for number in superpose.NUMBERS:
+        length, groups = str(number * USED), stretches(number)
+        line(length, f"{number} stretches of 120, one picker", [events(path, all_sizes) for path in sorted(SUPERPOSED.glob(f"sum_{length}_*.xz"))])
+        apart = [sorted(one for path, begin in group for one in events(path, all_sizes, begin, begin + superpose.DURATION)) for group in groups]
+        line(length, f"{number} stretches of 120, a picker each", apart)
+    return calibrate.table(["length", "", "packings or sums", "gamma >= 1e-4", ">= 1e-3", ">= 1e-3, from end to begin",
+                            ">= 1e-3, sizes shuffled", "mean time >= 1e-3", "mean duration"], out)
 
 
 def remedies_table(postproc):
@@ -491,6 +558,7 @@ TABLES = {
     "widths": widths_table,
     "steps": steps_table,
     "superposition": superposition_table,
+    "gaps": gaps_table,
     "loading": loading_table,
     "remedies": remedies_table,
 }
