@@ -3,7 +3,8 @@
 # Discs of one block cannot pass through those of the other, whether they are at the fault or behind
 # it: the upper block is pushed into the lower one and the face of that into what lies behind, and
 # each pair of both blocks that overlaps has to repel; those of one block too, unless contacts are
-# those of the fault only, and with friction unless they are smooth.
+# those of the fault only, and with friction unless they are smooth. With a retardation time links
+# and contacts have dashpots.
 # usage: fault-contacts.sh LMP SOURCE_DIR
 set -euo pipefail
 export LC_ALL=C
@@ -54,3 +55,20 @@ friction all >rows
 awk '$2 == 0 { bad = 1 } END { exit bad }' rows || fail "friction, contacts all: $(cat rows)"
 friction smooth >rows
 awk '($1 == "within") != ($2 == 0) { bad = 1 } END { exit bad }' rows || fail "friction, contacts smooth: $(cat rows)"
+# Dashpots: in all links and contacts, also after a restart, and not with too long a time step.
+printf 'write_coeff ${prefix}.coeff\n' >scene/coefficients.in
+damped() { "$lmp" -in scene/fault.in -var settle 0 -var prefix damped -var extra coefficients "$@" </dev/null >out 2>&1; }
+dashpots() {
+  awk '/^(pair|bond)_coeff/ && !/off$/ { n[$1]++; if (!/ kelvin-voigt 0\.05/) bad = 1 }
+    END { exit bad || !n["pair_coeff"] || !n["bond_coeff"] }' damped.coeff
+}
+for contacts in all smooth fault; do
+  damped -var length 30 -var steps 10 -var overwrite yes -var retardation 0.05 -var dt 0.03 -var contacts $contacts ||
+    fail "dashpots, contacts $contacts"
+  dashpots || fail "a link or contact without dashpot, contacts $contacts: $(cat damped.coeff)"
+done
+grep -q "^# kelvin_voigt = 0.05" damped.catalogue.csv || fail "the header does not say the dashpots"
+damped -var steps 20 -var restart damped.restart.end || fail "dashpots, going on"
+dashpots || fail "a restart loses dashpots"
+if damped -var length 30 -var steps 10 -var overwrite yes -var retardation 0.5; then fail "a time step too long for the dashpots was accepted"; fi
+grep -q "above the stability limit .* with kelvin-voigt" out || fail "no clear message about the time step"
