@@ -182,6 +182,114 @@ def ruptures_table(_):
                             "longest of a packing", "of all", "largest moment of a packing"], out)
 
 
+# ---- ruptures
+
+
+def characteristic_sizes(postproc, paths, least, begin, highest="1"):
+    """Of `postproc fit --scaling`: exponents of these catalogues, and their characteristic sizes with the law of growth."""
+    with tempfile.TemporaryDirectory() as work:
+        said = subprocess.run([postproc, "fit", *map(str, paths), "--scaling", "--threshold", least, "--from", str(begin), "--range",
+                               f"{least}:{highest}", "--replicas", "0", "--no-comparison", "--no-picture", "-o", f"{work}/fit", "--json",
+                               f"{work}/fit.json"], capture_output=True, text=True)
+        if said.returncode:
+            raise RuntimeError(said.stderr)
+        told = json.loads(Path(f"{work}/fit.json").read_text())
+    return told["fits"], told["scaling"][0]
+
+
+def growth(scaling, what="s*"):
+    """How the characteristic size depends on the length, in a line."""
+    return (f"{what} goes as L^({scaling['D']:.3f} ± {scaling['D_error']:.3f}), chi^2 {scaling['chi2']:.0f} on {len(scaling['points']) - 2} "
+            f"degrees of freedom; AICc {scaling['aicc']:.1f}, of a constant {scaling['aicc_constant']:.1f}.")
+
+
+def scatter(times):
+    """Mean of these times, and their standard deviation over it."""
+    mean = statistics.mean(times)
+    return f"{mean:.0f}, {statistics.stdev(times) / mean:.2f}"
+
+
+PLACES = 8  # on each fault, at which ruptures are counted
+
+
+def returns(rows, length):
+    """Times after which a place ruptures again."""
+    found = []
+    for n in range(PLACES):
+        place = (n + 0.5) * length / PLACES
+        times = sorted(float(row["t_start"]) for row in rows if (place - float(row["x_begin"])) % length < float(row["rupture_length"]))
+        found += [b - a for a, b in zip(times, times[1:])]
+    return found
+
+
+def single_ruptures(postproc, paths, begin):
+    """Ruptures >= 1e-2 of each fault, of whatever choices."""
+    paths = sorted(paths)  # as pictures.sh has them
+    fits, scaling = characteristic_sizes(postproc, paths, "1e-2", begin)
+    out = []
+    for path, fit, point in sorted(zip(paths, fits, scaling["points"]), key=lambda one: length_and_seed(one[0])):
+        length, seed = length_and_seed(path)
+        rows = [row for row in calibrate.read(path) if float(row["t_start"]) >= begin and float(row["size"]) >= 1e-2]
+        time = max(float(row["t_end"]) for row in rows) - begin
+        lengths = [float(row["rupture_length"]) for row in rows]
+        starts = sorted(float(row["t_start"]) for row in rows)
+        out.append([f"{length}, {seed}", f"{time:.0f}", f"{sum(x > 10 for x in lengths) / time / length * 1e5:.1f}",
+                    f"{fit['exponent']:.2f} ± {fit['standard_error']:.2f}", f"{point['s_star']:.3f} ± {point['error']:.3f}",
+                    f"{max(lengths):.0f}", str(sum(x >= length for x in lengths)), f"{max(float(row['slip_moment']) for row in rows):.0f}",
+                    scatter(returns(rows, length)), scatter([b - a for a, b in zip(starts, starts[1:])])])
+    head = ["length, seed", "time units", "longer than 10, per 1e5 time units and unit of length", "exponent 1e-2 to 1", "s*", "longest",
+            "of the whole fault", "largest moment", f"time until one of {PLACES} places ruptures again: mean, deviation over it", "the same of the whole fault"]
+    return calibrate.table(head, out) + "\n\n" + growth(scaling)
+
+
+def length_and_seed(path):
+    words = re.findall(r"\d+", path.name.split(".")[0])
+    return int(words[0]), int(words[1]) if len(words) > 1 else 1
+
+
+def ruptures_before_table(postproc):
+    return single_ruptures(postproc, FOLDER.glob("catalogues/fault_ruptures_*.catalogue.csv.xz"), 6000)
+
+
+def power_law(points):
+    """Number of points, exponent with its error and scatter in decades of y = a x^b by least squares on the logarithms."""
+    logs = [(math.log10(x), math.log10(y)) for x, y in points]
+    n, mx, my = len(logs), statistics.mean(x for x, _ in logs), statistics.mean(y for _, y in logs)
+    sxx = math.fsum((x - mx) ** 2 for x, _ in logs)
+    b = math.fsum((x - mx) * (y - my) for x, y in logs) / sxx
+    off = math.sqrt(math.fsum((y - my - b * (x - mx)) ** 2 for x, y in logs) / (n - 2))
+    return [str(n), f"{b:.3f} ± {off / math.sqrt(sxx):.3f}", f"{off:.2f}"]
+
+
+def laws_of_ruptures(postproc, paths):
+    """Moment against length, and drop of the total PE against moment, of ruptures that did not break the whole fault."""
+    with tempfile.TemporaryDirectory() as work:
+        subprocess.run([postproc, "rupture", *map(str, paths), "--no-picture", "-o", f"{work}/rupture", "--json", f"{work}/rupture.json"],
+                       check=True, capture_output=True)
+        told = json.loads(Path(f"{work}/rupture.json").read_text())
+    lengths = [(row["length"], row["moment"]) for row in told["length"] if not row["whole_fault"] and row["moment"] > 0]
+    drops = [(row["moment"], row["pe_drop"], row["alone"]) for row in told["pe"] if row["moment"] > 0 and (row["pe_drop"] or 0) > 0]
+    rows = [["moment against length", *power_law(lengths)],
+            ["of ruptures of 30 or longer", *power_law([one for one in lengths if one[0] >= 30])],
+            ["drop of PE against moment, isolated ruptures", *power_law([one[:2] for one in drops if one[2]])],
+            ["all for which PE drops", *power_law([one[:2] for one in drops])]]
+    return calibrate.table(["", "ruptures", "exponent", "scatter in decades"], rows)
+
+
+def rupture_laws_before_table(postproc):
+    return laws_of_ruptures(postproc, [path for path in FOLDER.glob("catalogues/fault_ruptures_*.catalogue.csv.xz") if "seed" not in path.name])
+
+
+def drops_before_table(postproc):
+    """Characteristic sizes of drops of the total PE."""
+    paths = sorted(FOLDER.glob("catalogues/fault_[0-9]*.catalogue.csv.xz"))
+    _, scaling = characteristic_sizes(postproc, paths, "1e-3", LOADING)
+    groups = {}
+    for path, point in sorted(zip(paths, scaling["points"]), key=lambda one: length_and_seed(one[0])):
+        groups.setdefault(str(length_and_seed(path)[0]), []).append(f"{point['s_star']:.2f} ± {point['error']:.2f}")
+    return calibrate.table(["length", *groups], [["s* (sizes >= 1e-3)", *("; ".join(found) for found in groups.values())]]) + "\n\n" + growth(scaling)
+
+
 def compare(postproc, first, others, size):
     """p-values of the times, each divided by its mean, of the first catalogue against the others."""
     with tempfile.TemporaryDirectory() as work:
@@ -555,6 +663,9 @@ TABLES = {
     "thresholds": thresholds_table,
     "collapse": collapse_table,
     "ruptures": ruptures_table,
+    "ruptures-before": ruptures_before_table,
+    "rupture-laws-before": rupture_laws_before_table,
+    "drops-before": drops_before_table,
     "widths": widths_table,
     "steps": steps_table,
     "superposition": superposition_table,
