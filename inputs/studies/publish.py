@@ -5,21 +5,36 @@
 publish.py OUT FOLDER...
 
 OUT/NAME.catalogue.csv.xz has the events from 1e-4 on of each folder NAME of a study of faults, OUT/NAME.ruptures.csv.xz the
-ruptures from 1e-3 on where there are any.
+ruptures from 1e-3 on where there are any. Catalogues of long faults are complete from a larger size than fault.in says, which their
+header then has.
 """
 import lzma
 import sys
 from pathlib import Path
 
 EVENTS, RUPTURES = 1e-4, 1e-3
+# Length of a fault, and size from which the number of its events does not depend on the steps of the picker: results/calibration-tables.md
+COMPLETE = ((900, "1e-3"), (480, "3e-4"))
+
+
+def complete(line, length):
+    """Line of a header that says from which size on the catalogue of a fault of this length is complete."""
+    for shortest, size in COMPLETE:
+        if length >= shortest and float(line.split("=")[1]) < float(size):
+            return f"# completeness = {size}\n"
+    return line
 
 
 def publish(source, out, least=EVENTS):
     """A catalogue without events smaller than `least`; all other lines are as they were."""
-    kept = []
+    kept, length = [], 0.0
     for line in Path(source).read_text().splitlines(keepends=True):
         if line.startswith("# min_size = "):
             line = f"# min_size = {least:g}\n# thinned = sizes below {least:g} left out\n"
+        elif line.startswith("# length = "):
+            length = float(line.split("=")[1])
+        elif line.startswith("# completeness = "):
+            line = complete(line, length)
         elif line[0] not in "#e" and float(line.split(",")[5]) < least:
             continue
         kept.append(line)

@@ -16,6 +16,11 @@ superpose.py second POSTPROC OUT FOLDER...
 
 Picks events from every second step of the runs in these folders, and publishes them in OUT: NAME_step_SEED as NAME_every_SEED.
 
+superpose.py memory TIME POSTPROC OUT FOLDER...
+
+Picks events of the runs in these folders with another memory of the picker, and publishes them in OUT: fault_LENGTH_SEED as
+memory_LENGTH_TIME_SEED.
+
 superpose.py study POSTPROC OUT FOLDER...
 
 Does so for the runs in these folders (settings of each the same, but for the packing): sums of 2 to 16 stretches, and single
@@ -127,10 +132,10 @@ def stretches(folders):
     return [one[1:] for one in sorted(found, key=lambda one: one[0])]
 
 
-def pick(postproc, series, out):
+def pick(postproc, series, out, *words):
     with tempfile.TemporaryDirectory() as work:
         picked = Path(work) / "picked.csv"
-        subprocess.run([postproc, "pick", series, "-o", picked, "--force"], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run([postproc, "pick", series, "-o", picked, "--force", *words], check=True, stdout=subprocess.DEVNULL)
         publish(picked, f"{out}.catalogue.csv.xz")
 
 
@@ -140,6 +145,13 @@ def second(postproc, out, folders):
             series = Path(work) / "second.pe.bin"
             every(2, series, next(folder.glob("*.pe.bin")))
             pick(postproc, series, Path(out) / folder.name.replace("_step_", "_every_"))
+
+
+def with_memory(time, postproc, out, folders):
+    Path(out).mkdir(parents=True, exist_ok=True)
+    for folder in map(Path, folders):
+        _, length, seed = folder.name.split("_")
+        pick(postproc, next(folder.glob("*.pe.bin")), Path(out) / f"memory_{length}_{time}_{seed}", "--memory-time", time)
 
 
 def study(postproc, out, folders):
@@ -161,6 +173,8 @@ def main(words):
         return every(int(words[1]), *words[2:])
     if words[:1] == ["second"] and len(words) > 3:
         return second(words[1], words[2], words[3:])
+    if words[:1] == ["memory"] and len(words) > 4:
+        return with_memory(words[1], words[2], words[3], words[4:])
     if words[:1] == ["study"] and len(words) > 3:
         return study(words[1], words[2], words[3:])
     load = 0.0
