@@ -61,7 +61,8 @@ if [ "$count" -gt 1 ]; then
   "$build/bin/postproc" series $series --output first.largest --from "$from" --to "$to" \
     --title "Fault of length 120: around the largest event"
 fi
-"$build/bin/postproc" explore $catalogue --output first.html --title "Fault of length 120"
+# Waves run at these speeds in the packing.
+"$build/bin/postproc" explore $catalogue --p-speed 2.08 --s-speed 1.06 --output first.html --title "Fault of length 120"
 echo "Catalogue, series and pictures are in $run"
 echo "Open in a browser to explore the run: file://$run/first.html"
 if [ "$count" -lt 100 ]; then

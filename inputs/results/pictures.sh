@@ -1,8 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Pictures of these pages from the published catalogues, and from two short runs of the fault of
-# length 120: the default (PE, tutorial, a film frame) and, of ruptures, the choices before the
-# calibration. POSTPROC and LMP: the programs, those of build/bin by default.
+# Pictures of these pages from the published catalogues, and from three short runs of the fault of
+# length 120: the default (PE, tutorial, page of postproc explore, a film frame), more static
+# friction (tutorial), and the choices before the calibration (ruptures). POSTPROC and LMP: the
+# programs, those of build/bin by default. Needs gnuplot, and chromium for the page.
 # usage: pictures.sh [catalogues|run|studies]...
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -47,7 +48,13 @@ for part; do
       mpirun -np 2 "$lmp" -in "$root/inputs/fault_120.in" -var steps 240000 -var prefix first -var ruptures yes </dev/null >out
       "$lmp" -in "$root/inputs/fault_120.in" -var steps 80000 -var prefix before -var ruptures yes -var choices first </dev/null >out
       "$postproc" series first.pe.bin --from 15000 --to 21000 --title "Fault of length 120" -o series
+      "$postproc" series first.pe.bin --from 6475 --to 7857 --title "Fault of length 120: around the largest event" -o largest
       "$postproc" histograms first.catalogue.csv --guide=-1.07:1e-4:0.1 -o sizes
+      "$lmp" -in "$root/inputs/fault_120.in" -var steps 240000 -var mus 0.8 -var prefix mus_0.8 </dev/null >out
+      "$postproc" histograms first.catalogue.csv mus_0.8.catalogue.csv --label "mus 0.6" --label "mus 0.8" -o compare
+      "$postproc" explore first.catalogue.csv --p-speed 2.08 --s-speed 1.06 --title "Fault of length 120" -o page.html
+      chromium --headless --no-sandbox --hide-scrollbars --window-size=1400,2335 --virtual-time-budget=20000 \
+        --screenshot=page.png "file://$new/page.html" >out 2>&1
       "$postproc" rupture before.ruptures.csv --history before.slip.bin --from 4000 --to 10800 --p-speed 2.08 --s-speed 1.06 \
         -o rupture
       "$lmp" -in "$root/inputs/fault.in" -var extra fault_image -var restart first.restart.210000 -var prefix look -var ruptures no \
@@ -55,8 +62,10 @@ for part; do
       cd - >/dev/null
       gnuplot -e "frame = '$new/look.000214900.png'" fault_event.gp
       cp "$new/series.png" fig8_to_11_series.png
-      cp "$new/series.png" tutorial_series.png
+      cp "$new/largest.png" tutorial_series.png
       cp "$new/sizes.png" tutorial_sizes.png
+      cp "$new/compare.png" tutorial_compare.png
+      cp "$new/page.png" explore.png
       for name in event spacetime; do cp "$new/rupture-$name.png" rupture_$name.png; done
       ;;
     studies)
