@@ -69,7 +69,7 @@ def check_markdown(root):
 
 
 def check_comments(root):
-    names = subprocess.run(["git", "ls-files", "*.in", "*.ini", "*.gp", "inputs/studies/*.csv", "inputs/*.sh"], cwd=root, capture_output=True,
+    names = subprocess.run(["git", "ls-files", "*.in", "*.ini", "*.gp", "inputs/studies/*.csv", "inputs/*.yaml", "inputs/*.sh"], cwd=root, capture_output=True,
                            text=True).stdout.split()
     for name in names:
         for number, line in enumerate((root / name).read_text().splitlines(), 1):

@@ -7,6 +7,12 @@ if (!exists("table")) { table = "table.csv" }
 # a study's table has the settings of each run, the published one those that differ from the grid
 grid(setting) = setting eq "choices=first" || setting eq "dt=0.06 massfloor=0"
 others = system("grep -q ',others,' ".table." && echo others || echo settings")
+stats table using (column("stress")) nooutput
+least = STATS_min
+most = STATS_max
+ring(_) = column("stress") == 0.02 && column("viscosity") == 0.015
+stats table using (grid(strcol(others)) && ring(0) ? column(0) : NaN) nooutput
+first = STATS_min # the settings of the ring may be there twice
 do for [kind in "png svg"] {
 if (kind eq "png") { set terminal pngcairo size 1800,1280 font "DejaVu Sans,24" pointscale 2 linewidth 2 background "#ffffff" } else { set terminal svg size 900,640 font "DejaVu Sans,12" background "#ffffff" }
 set output "regime-map.".kind
@@ -14,7 +20,7 @@ set logscale xy
 set logscale cb
 set xlabel "normal stress"
 set ylabel "viscosity"
-set xrange [0.0022:*<0.068]
+set xrange [least/1.35:most*1.4]
 set yrange [0.0012:0.17]
 set cblabel "saw-tooth number (rate of fall / rate of rise of PE)"
 set cbrange [0.8:13]
@@ -24,7 +30,7 @@ set title "Saw-tooth number at length 120: creep below 3, stick-slip above; belo
 set key off
 set xtics (0.003, 0.006, 0.01, 0.015, 0.02, 0.03, 0.05)
 set ytics (0.002, 0.005, 0.015, 0.05, 0.1)
-viscosity(torn) = column("length") == 120 && grid(strcol(others)) && (strlen(strcol("saw_tooth")) == 0) == torn ? column("viscosity") : NaN
+viscosity(torn) = column("length") == 120 && grid(strcol(others)) && !(ring(0) && column(0) > first) && (strlen(strcol("saw_tooth")) == 0) == torn ? column("viscosity") : NaN
 plot table using "stress":(viscosity(0)):"saw_tooth" with points pt 7 ps 6 lc palette, \
      "" using "stress":(viscosity(0)):(sprintf("%.1f", column("saw_tooth"))) with labels font ",22", \
      "" using "stress":(viscosity(0)):(strlen(strcol("exponent_3")) ? sprintf("%.2f", column("exponent_3")) : "") with labels offset 0,-1.9 font ",18", \

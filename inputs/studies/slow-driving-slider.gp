@@ -17,7 +17,7 @@ set border lw 1.0 lc rgb "#333333"
 set tics out nomirror
 set grid xtics ytics lt 1 lw 0.5 lc rgb "#d8d8d8"
 set multiplot layout 1,2 margins 0.085,0.985,0.34,0.91 spacing 0.10,0
-is(n, c, leaps) = column("blocks") == n && column("way") >= 400 && strcol("leap") eq (leaps ? "1e-3" : "0") ? column(c) : NaN
+is(n, c, leaps) = column("blocks") == n && column("displacement") >= 400 && strcol("leap") eq (leaps ? "1e-3" : "0") ? column(c) : NaN
 set logscale xy
 set format x "10^{%L}"
 set xrange [5e-8:2e-2]
@@ -26,7 +26,8 @@ set format y "%g"
 set key at screen 0.085,0.155 left top Left reverse samplen 1 maxrows 2 width -1
 set title "Events per displacement of 1000"
 set ylabel "number of events" offset 0.5
-set yrange [20:2999]
+set yrange [20:3000]
+set ytics (20, 50, 100, 200, 500, 1000, 2000)
 plot table using "velocity":(is(256, "events_1", 1)) with points pt 7 lc rgb "#0072B2" title "256 blocks, sizes ≥ 1", "" using "velocity":(is(256, "events_1", 0)) with points pt 6 lc rgb "#0072B2" notitle, \
   "" using "velocity":(is(256, "events_100", 1)) with points pt 5 lc rgb "#0072B2" title "256 blocks, sizes ≥ 100", "" using "velocity":(is(256, "events_100", 0)) with points pt 4 lc rgb "#0072B2" notitle, \
   "" using "velocity":(is(1928, "events_1", 1)) with points pt 7 lc rgb "#D55E00" title "1928 blocks, sizes ≥ 1", "" using "velocity":(is(1928, "events_1", 0)) with points pt 6 lc rgb "#D55E00" notitle, \
@@ -34,6 +35,7 @@ plot table using "velocity":(is(256, "events_1", 1)) with points pt 7 lc rgb "#0
 set title "Cost of an event ≥ 100"
 set ylabel "steps" offset 1
 set yrange [1e3:1e10]
+set ytics auto
 set format y "10^{%L}"
 set key at screen 0.62,0.155 left top Left reverse samplen 1 maxrows 2 width -1
 plot table using "velocity":(is(256, "steps_per_100", 1)) with points pt 7 lc rgb "#0072B2" title "256 blocks", "" using "velocity":(is(256, "steps_per_100", 0)) with points pt 6 lc rgb "#0072B2" notitle, \
