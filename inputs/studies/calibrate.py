@@ -26,7 +26,7 @@ MEMORIES = (0.2, 0.35, 0.5, 0.7, 1, 1.4, 2, 5)  # time units; 0.99 a step is a m
 LOADING = 4500  # time units that are left out: compression, and PE rising for the first time
 SETTINGS = {"length": "120", "seed": "1", "stress": "0.02", "viscosity": "0.015", "damped": "blocks", "contacts": "fault",
             "mus": "0.6", "kt": "1", "mass": "r2", "hold": "stress", "impedance": "0.6", "loose": "remove", "linkgap": "1e-5",
-            "dt": "0.12", "steps": ""}
+            "retardation": "0", "dt": "0.12", "steps": ""}
 RANGES = ("1e-4:1e-1", "1e-4:1e-3", "1e-3:1e-2", "1e-2:1e-1")
 WINDOWS = ("16:22", "22:28", "30:36", "38:44")
 WAVE_SPEED = {"r2": 2.08, "r3": 2.53}  # of P-waves in the packing, see p_wave_packing.in
@@ -197,9 +197,10 @@ def table(head, rows):
     return "\n".join(["| " + " | ".join(head) + " |", "|---" * len(head) + "|"] + ["| " + " | ".join(row) + " |" for row in rows])
 
 
-def points(path):
-    """Rows of the points that ran to their end, and how many were stopped."""
-    rows = read(path)
+def points(path, length="120"):
+    """Rows of the points of this length that ran to their end, and how many were stopped."""
+    rows = [{**row, **{key: row.get(key) or value for key, value in SETTINGS.items()}} for row in read(path)]
+    rows = [row for row in rows if row["length"] == length]
     return [row for row in rows if row["stopped"] == "no"], sum(row["stopped"] == "yes" for row in rows)
 
 
@@ -226,7 +227,7 @@ def pairs_table(path):
 def ranges_table(path):
     rows, _ = points(path)
     accepted, ordered = nearest(rows)
-    keys = ("stress", "viscosity", "damped", "contacts", "mus", "kt", "mass", "hold", "impedance", "loose", "linkgap", "memory")
+    keys = ("stress", "viscosity", "retardation", "damped", "contacts", "mus", "kt", "mass", "hold", "impedance", "loose", "linkgap", "memory")
     return table(["not printed", "sampled", "accepted"],
                  [[key, span(rows if key == "memory" else ordered, key), span(accepted, key)] for key in keys])
 
@@ -261,15 +262,30 @@ def ringing_table(path):
 def lines_table(path):
     """One choice at a time about the default: what differs from it, and the statements, at its memory of 2."""
     shown = [(name, of) for name, _, of, _, _ in STATEMENTS if name != "waves"]
-    chosen = [row for row in points(path)[0] if row["memory"] == "2" and row["point"].startswith(("c120_1", "d"))]
+    chosen = [row for row in points(path)[0] if row["memory"] == "2" and row["point"].startswith(("c120_1", "d", "v"))]
     default = next(row for row in chosen if row["point"] == "c120_1")
-    keys = ("stress", "viscosity", "damped", "contacts", "mus", "kt", "mass", "hold", "impedance", "loose", "linkgap")
+    keys = ("stress", "viscosity", "retardation", "damped", "contacts", "mus", "kt", "mass", "hold", "impedance", "loose", "linkgap")
     out = []
     for row in sorted(chosen, key=lambda row: row["point"]):
         other = [f"{key} {row[key]}" for key in keys if row[key] != default[key]]
         out.append([", ".join(other) or "the default, packing 1", *(f"{of(row):.2f}" for _, of in shown), f"{number(row, 'gamma_0.001'):.2f}",
                     f"{number(row, 'largest'):.2f}", f"{distance(row):.2f}"])
     return table(["", *(name for name, _ in shown), "gamma >= 1e-3", "largest", "distance"], out)
+
+
+def twice_table(path):
+    """Accepted points at length 120 and the same at 240."""
+    shown = [(name, of) for name, _, of, _, _ in STATEMENTS if name != "waves"]
+    best = {row["point"]: row for row in nearest(points(path)[0], 1.0)[0]}
+    out = []
+    for row in points(path, "240")[0]:
+        first = best[row["point"].removeprefix("l_")]
+        if row["memory"] != first["memory"]:
+            continue
+        for one in (first, row):
+            out.append([first["point"], one["length"], one["memory"], *(f"{of(one):.2f}" for _, of in shown),
+                        f"{number(one, 'gamma_0.001'):.2f}", f"{number(one, 'largest'):.2f}", f"{distance(one):.2f}"])
+    return table(["point", "length", "memory", *(name for name, _ in shown), "gamma >= 1e-3", "largest", "distance"], out)
 
 
 def figure(path, base):

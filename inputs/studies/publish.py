@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Catalogues of runs as they are published in results: compressed, without the smallest events, which their header says.
 
-publish.py OUT FOLDER...
+publish.py [--ruptures SIZE] OUT FOLDER...
 
 OUT/NAME.catalogue.csv.xz has the events from 1e-4 on of each folder NAME of a study of faults, OUT/NAME.ruptures.csv.xz the
-ruptures from 1e-3 on where there are any. Catalogues of long faults are complete from a larger size than fault.in says, which their
+ruptures from SIZE (1e-3) on where there are any. Catalogues of long faults are complete from a larger size than fault.in says, which their
 header then has.
 """
 import lzma
@@ -41,15 +41,18 @@ def publish(source, out, least=EVENTS):
     Path(out).write_bytes(lzma.compress("".join(kept).encode(), preset=9))
 
 
-def main(out, folders):
+def main(out, folders, ruptures=RUPTURES):
     Path(out).mkdir(parents=True, exist_ok=True)
     for folder in map(Path, folders):
         publish(folder / "fault.catalogue.csv", Path(out) / f"{folder.name}.catalogue.csv.xz")
         if (folder / "fault.ruptures.csv").exists():
-            publish(folder / "fault.ruptures.csv", Path(out) / f"{folder.name}.ruptures.csv.xz", RUPTURES)
+            publish(folder / "fault.ruptures.csv", Path(out) / f"{folder.name}.ruptures.csv.xz", ruptures)
 
 
 if __name__ == "__main__":
-    if len(sys.argv) < 3:
+    words, least = sys.argv[1:], RUPTURES
+    if words[:1] == ["--ruptures"] and len(words) > 1:
+        words, least = words[2:], float(words[1])
+    if len(words) < 2:
         sys.exit(__doc__)
-    main(sys.argv[1], sys.argv[2:])
+    main(words[0], words[1:], least)

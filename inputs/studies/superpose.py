@@ -14,7 +14,8 @@ Takes every Nth step of a series, as if the time step were N times as long and t
 
 superpose.py second POSTPROC OUT FOLDER...
 
-Picks events from every second step of the runs in these folders, and publishes them in OUT: NAME_step_SEED as NAME_every_SEED.
+Picks events from every second step of the runs in these folders, and publishes them in OUT: NAME_SEED, or NAME_step_SEED, as
+NAME_every_SEED.
 
 superpose.py memory TIME POSTPROC OUT FOLDER...
 
@@ -144,7 +145,8 @@ def second(postproc, out, folders):
         with tempfile.TemporaryDirectory() as work:
             series = Path(work) / "second.pe.bin"
             every(2, series, next(folder.glob("*.pe.bin")))
-            pick(postproc, series, Path(out) / folder.name.replace("_step_", "_every_"))
+            name, seed = folder.name.removesuffix("/").rsplit("_", 1)
+            pick(postproc, series, Path(out) / f"{name.removesuffix('_step')}_every_{seed}")
 
 
 def with_memory(time, postproc, out, folders):

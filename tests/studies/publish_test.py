@@ -66,6 +66,8 @@ class Published(unittest.TestCase):
             self.assertTrue(wanted)
             self.assertEqual(rows(out), wanted)
             self.assertEqual(header(out)["thinned"], f"sizes below {least:g} left out")
+        subprocess.run([f"{SOURCE}/inputs/studies/publish.py", "--ruptures", "0.01", self.work / "out", self.faults[0]], check=True)
+        self.assertEqual(header(self.work / "out/fault_24_1.ruptures.csv.xz")["min_size"], "0.01")
         publish.publish(source, self.work / "half.xz", sizes[len(sizes) // 2])
         self.assertEqual(len(rows(self.work / "half.xz")), len(sizes) - len(sizes) // 2)
 
@@ -115,8 +117,9 @@ class Published(unittest.TestCase):
         self.assertAlmostEqual(float(other["dt"]), 2 * float(info["dt"]))
         self.assertAlmostEqual(float(other["lambda"]), float(info["lambda"]) ** 2)
         self.assertAlmostEqual(float(other["time0"]), float(info["time0"]) + (first - int(info["step0"])) * float(info["dt"]))
-        shutil.copytree(self.faults[0], self.work / "fault_24_step_1")
-        superpose.main(["second", POSTPROC, str(self.work), str(self.work / "fault_24_step_1")])
+        shutil.copytree(self.faults[0], self.work / "fault_24_step_5")
+        superpose.main(["second", POSTPROC, str(self.work), str(self.faults[0]), str(self.work / "fault_24_step_5")])
+        self.assertEqual(rows(self.work / "fault_24_every_5.catalogue.csv.xz"), rows(self.work / "fault_24_every_1.catalogue.csv.xz"))
         wanted = [row for row in picked(self.work / "second.pe.bin", self.work / "second.csv") if float(row[5]) >= publish.EVENTS]
         self.assertTrue(wanted)
         self.assertEqual([line.split(",")[:6] for line in rows(self.work / "fault_24_every_1.catalogue.csv.xz")], wanted)
