@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Starts one run of a study, or goes on with it where it was stopped.
+"""Starts one run of a study, or continues it where it was stopped.
 
 run.py FOLDER fault|slider|esys|catalogue RANKS CHECKPOINT BIN NAME=VALUE...
 
-FOLDER holds settings.txt (what the run was begun with; other settings need another folder), output.txt (what the
-program said), the files of the program, and done.json once the run is done. SIGTERM, or the time LSM_UNTIL
-(seconds since 1970): the run ends with its next restart file or checkpoint; SIGINT, SIGHUP or the end of the
-caller: at once, and the steps since the last one are taken again. Neither loses an event. A fault by ESyS-Particle (esys)
-begins again. Exit status: 0 done, 75 stopped, go on later, 1 failed.
+FOLDER has settings.txt (the settings of the run; others need another folder), output.txt (the output of the
+program), the files of the program, and done.json once the run is done. SIGTERM, or the time LSM_UNTIL (seconds
+since 1970), ends the run at its next restart file or checkpoint. SIGINT, SIGHUP or the end of the caller ends it
+at once, and the steps since the last restart file are repeated. Neither loses an event. A fault by ESyS-Particle
+(esys) starts over. Exit status: 0 done, 75 stopped, to be continued, 1 failed.
 """
 import ctypes
 import fcntl
@@ -47,7 +47,7 @@ def replace(path, text):
 
 
 def alone_in(folder):
-    """The folder's lock. The ranks of a run that was killed may live a little longer; each holds it, too."""
+    """The lock of the folder. The ranks of a killed run may live a little longer; they hold it as well."""
     lock = open(folder / "lock", "a")
     for _ in range(600):
         try:
@@ -73,7 +73,7 @@ class Fault:
                       f"{INPUTS}/fault.in", "-log", "none"]
 
     def restart(self):
-        """Newest restart file that was written to its end; lmp looks whether it is whole and of the same run."""
+        """Newest complete restart file; lmp checks that it is intact and of the same run."""
         steps = [int(info.name.split(".")[2]) for info in self.folder.glob("fault.restart.*.info") if info.name.split(".")[2].isdigit()]
         return f"fault.restart.{max(steps)}" if steps else None
 
@@ -83,7 +83,7 @@ class Fault:
         return self.start + [word for pair in pairs for word in ("-var", *pair.split("=", 1))]
 
     def stop(self, _):
-        # looked for when a restart file has been written, see fault.in
+        # fault.in checks for this file after each restart file
         (self.folder / "fault.stop").touch()
 
     def steps(self):
@@ -123,7 +123,7 @@ class Slider:
 
 
 class Esys:
-    """A fault by ESyS-Particle; its steps of shear and its CPU time are in summary.json once all are done."""
+    """A fault by ESyS-Particle; once it is done, summary.json has its steps of shear and its CPU time."""
     catalogue = "fault.catalogue.csv"
 
     def __init__(self, folder, ranks, checkpoint, binaries, settings):
@@ -144,7 +144,7 @@ class Esys:
 
 
 class Published:
-    """A catalogue that is there already: `file`, a path from this folder. The run is a link to it."""
+    """An existing catalogue: `file`, a path from this folder. The run is a link to it."""
     catalogue = "catalogue.csv"
 
     def __init__(self, folder, ranks, checkpoint, binaries, settings):
@@ -166,7 +166,7 @@ PROGRAMS = {"fault": Fault, "slider": Slider, "esys": Esys, "catalogue": Publish
 
 
 def begin(folder, settings):
-    """Writes down with what the run begins; a run that was begun with something else is left alone."""
+    """Records the settings of the run; a run with other settings is left alone."""
     path, text = folder / "settings.txt", "\n".join(settings) + "\n"
     if path.exists() and path.read_text() == text:
         return
@@ -178,15 +178,15 @@ def begin(folder, settings):
 
 
 def seconds_left():
-    """Until the time that LSM_UNTIL says, in seconds since 1970."""
+    """Seconds until the time LSM_UNTIL (in seconds since 1970)."""
     return float(os.environ.get("LSM_UNTIL", "inf")) - time.time()
 
 
 def work(job, folder):
-    """Lets the program work until it ends. Returns its exit status, whether it was told to stop, and what it said."""
+    """Runs the program until it ends. Returns its exit status, whether it was told to stop, and its output."""
     output = folder / "output.txt"
     said = output.stat().st_size if output.exists() else 0
-    # A session folder of its own: two mpirun that begin at the same moment get in each other's way in a common one.
+    # A session folder of its own: in a common one, two mpirun that start at the same moment interfere.
     session = Path(tempfile.gettempdir()) / f"lsm-{os.getuid()}-{hashlib.sha256(str(folder).encode()).hexdigest()[:12]}"
     shutil.rmtree(session, ignore_errors=True)
     session.mkdir(mode=0o700)
@@ -213,7 +213,7 @@ def work(job, folder):
 
 
 def count_cpu(folder):
-    """Adds the CPU time of this part of the run to that of those before it; a part that was killed is not counted."""
+    """Adds the CPU time of this part of the run to that of earlier parts; a part that was killed does not count."""
     path = folder / "cpu.txt"
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
     replace(path, f"{(float(path.read_text()) if path.exists() else 0.0) + used.ru_utime + used.ru_stime:.2f}\n")
@@ -241,14 +241,14 @@ def run(folder, kind, ranks, checkpoint, binaries, *settings):
             why = why.group(1) if why else f"its program ended with {code}, see output.txt"
             if "link is strained" not in why:
                 raise Failed(f"{folder}: {why}" + ("; no space left on the disk" if shutil.disk_usage(folder).free < 2**20 else ""))
-            # what these settings lead to, and would again
+            # these settings would lead to the same error again
             print(f"run.py: {folder}: {why}", file=sys.stderr)
             replace(folder / "done.json", json.dumps({"failed": why}) + "\n")
             return 0
     cpu = folder / "cpu.txt"
     done = {"steps": job.steps(), "events": events_in(folder / job.catalogue), "cpu_s": float(cpu.read_text()) if cpu.exists() else None}
     if kind == "esys":
-        done["cpu_s"] = job.told()["cpu_s"]  # its master process waits by asking all the time, which does not count
+        done["cpu_s"] = job.told()["cpu_s"]  # without its master process, which only waits, in a busy loop
     replace(folder / "done.json", json.dumps(done) + "\n")
     lock.close()
     return 0

@@ -8,7 +8,7 @@ from pathlib import Path
 
 
 class RunProgress:
-    """Looks at the files of one run, at what is new in them only."""
+    """Progress of one run; reads only what is new in its files."""
 
     def __init__(self, run):
         self.run, self.events, self.seen = run, 0, 0
@@ -58,7 +58,7 @@ def length_of_time(seconds):
 
 
 def line_of(runs, begun, elapsed):
-    """The line; begun: share of the work that was done at the start, elapsed: seconds since then."""
+    """The progress line; begun: share of the work done at the start, elapsed: seconds since then."""
     shares = [run.share() for run in runs]
     share = share_of_work(runs, shares)
     done = sum(share == 1.0 for share in shares)
@@ -72,7 +72,7 @@ def share_of_work(runs, shares=None):
 
 
 def report_progress(study, minutes):
-    """A line on standard error now and every so many minutes, until the program ends."""
+    """Prints a line on standard error now and every `minutes` minutes, until the program ends."""
     runs = [RunProgress(run) for run in study.runs.values()]
     begun, start = share_of_work(runs), time.monotonic()
 

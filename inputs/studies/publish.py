@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Catalogues of runs as they are published in results: compressed, without the smallest events, which their header says.
+"""Publishes catalogues in results: compressed and, as their header says, without the smallest events.
 
 publish.py [--ruptures SIZE] OUT FOLDER...
 
-OUT/NAME.catalogue.csv.xz has the events from 1e-4 on of each folder NAME of a study of faults, OUT/NAME.ruptures.csv.xz the
-ruptures from SIZE (1e-3) on where there are any. Catalogues of long faults are complete from a larger size than fault.in says, which their
-header then has.
+OUT/NAME.catalogue.csv.xz has the events >= 1e-4 of each folder NAME of a study of faults,
+OUT/NAME.ruptures.csv.xz the ruptures >= SIZE (1e-3) if there are any. The header of a long fault has the size from
+which it is complete, which is larger than that in fault.in.
 """
 import lzma
 import sys
@@ -18,7 +18,7 @@ COMPLETE = ((900, "1e-3"), (480, "3e-4"))
 
 
 def complete(line, length):
-    """Line of a header that says from which size on the catalogue of a fault of this length is complete."""
+    """Header line with the size above which the catalogue of a fault of this length is complete."""
     for shortest, size in COMPLETE:
         if length >= shortest and float(line.split("=")[1]) < float(size):
             return f"# completeness = {size}\n"
@@ -26,7 +26,7 @@ def complete(line, length):
 
 
 def publish(source, out, least=EVENTS):
-    """A catalogue without events smaller than `least`; all other lines are as they were."""
+    """A catalogue without events smaller than `least`; all other lines are unchanged."""
     kept, length = [], 0.0
     for line in Path(source).read_text().splitlines(keepends=True):
         if line.startswith("# min_size = "):

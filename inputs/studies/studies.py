@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What a study is: its table of runs (NAME.csv), and what is made of them (NAME.yaml beside it, or default.yaml)."""
+"""A study: its table of runs (NAME.csv) and its recipe (NAME.yaml beside it, or default.yaml)."""
 import csv
 import itertools
 import json
@@ -12,9 +12,9 @@ from pathlib import Path
 import yaml
 
 INPUTS = Path(__file__).resolve().parent.parent
-PROGRAMS = ("fault", "slider", "esys", "catalogue")  # esys: a fault by ESyS-Particle; catalogue: one that is there, see `file`
+PROGRAMS = ("fault", "slider", "esys", "catalogue")  # esys: a fault by ESyS-Particle; catalogue: an existing one, see `file`
 RESERVED = ("run", "program", "ranks", "settings")
-# what an expression ends with where a run has not the numbers in it
+# what an expression raises if a run lacks its numbers
 MISSING = (AttributeError, IndexError, KeyError, NameError, TypeError, ValueError, ZeroDivisionError)
 
 
@@ -23,7 +23,7 @@ class TableError(Exception):
 
 
 class Found(dict):
-    """Numbers that JSON files hold, as a.b[0].c."""
+    """Numbers of JSON files, accessible as a.b[0].c."""
 
     def __getattr__(self, name):
         return self[name]
@@ -41,12 +41,12 @@ class Run:
         length = float(self.settings.get("length", 120)) if self.program == "fault" else 0
         self.ranks = int(ranks) if ranks else max(1, int(length / 60))
         if self.program == "esys":
-            self.ranks = 2  # one process computes, one leads it
+            self.ranks = 2  # one process computes, one directs it
         self.words = [f"{key}={value}" for key, value in self.settings.items()]
         self.catalogue = f"{name}/" + ("catalogue.csv" if self.program in ("slider", "catalogue") else "fault.catalogue.csv")
 
     def values(self):
-        """Settings as numbers, where they are."""
+        """Settings, as numbers where possible."""
         values = dict(run=self.name, folder=self.name, catalogue=self.catalogue)
         for key, value in self.settings.items():
             try:
@@ -163,7 +163,7 @@ class Study:
         return [run for name, run in self.runs.items() if re.search(pattern or "", name)]
 
     def names(self, values):
-        """What expressions may use: functions of math, `shorten`, these values, and the part `values` of the recipe."""
+        """Names for expressions: functions of math, `shorten`, these values, and the part `values` of the recipe."""
         names = dict(self.common, **values)
         for key, expression in self.part("values").items():
             try:
@@ -173,7 +173,7 @@ class Study:
         return names
 
     def fill(self, text, values):
-        """The text with what is in braces computed."""
+        """The text with the expressions in braces evaluated."""
         names = self.names(values)
 
         def computed(braces):
@@ -274,7 +274,7 @@ class Study:
                 out.writerow(line)
 
     def results(self):
-        """The files that a study ends with."""
+        """The files that a study makes."""
         figures = [f"figures/{name}.png" for name, one in self.part("figures").items() if self.matching(one.get("runs"))]
         pages = [f"{name}.html" for name, one in self.part("pages").items() if self.matching(one.get("runs"))]
         tables = [f"{name}.csv" for name in ("table", "costs", "differences") if self.part(name)]
