@@ -1,6 +1,6 @@
-# Draws fault_fit.scaling.png and fault_fit.scaling.svg from fault_fit.scaling.csv: run `gnuplot
-# ./fault_fit.scaling.gp` in this folder.
-base = "./fault_fit.scaling"
+# Draws fault_first_fit.scaling.png and fault_first_fit.scaling.svg from
+# fault_first_fit.scaling.csv: run `gnuplot ./fault_first_fit.scaling.gp` in this folder.
+base = "./fault_first_fit.scaling"
 table = base.".csv"
 if (!exists("formats")) formats = "png svg"
 
