@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file lsm_energy_ledger.h
-/// Balance of the energies and works of a run: what is out of balance comes from the integration.
+/// Balance of the energies and works of a run; any residual comes from the integration.
 #ifndef LSM_ENERGY_LEDGER_H
 #define LSM_ENERGY_LEDGER_H
 
@@ -12,8 +12,8 @@ namespace LSM {
 
 /// Energies at one moment and works since the first run, of all ranks.
 struct EnergyTerms {
-  double kinetic = 0.0;     ///< the driven motion of the plates left out
-  double potential = 0.0;   ///< all springs, whatever counts as PE
+  double kinetic = 0.0;     ///< without the driven motion of the plates
+  double potential = 0.0;   ///< of all springs, whether they count as PE or not
   double friction = 0.0;    ///< lost
   double viscosity = 0.0;   ///< lost
   double broken = 0.0;      ///< lost with links that broke
@@ -25,12 +25,11 @@ struct EnergyTerms {
   double balance() const {
     return kinetic + potential + friction + viscosity + broken + absorbed - plates - outside;
   }
-  /// What an error is compared with.
+  /// Scale for an error.
   double scale() const { return friction + viscosity + absorbed + kinetic + std::fabs(counted_pe); }
 };
 
-/// Whether a change is more than that of the same energy computed from positions that were rounded
-/// otherwise; floor: of positions near zero energy.
+/// Whether a change exceeds that by rounding of positions; floor: for positions near zero energy.
 inline bool is_jump(double change, double energy, double floor) {
   return std::fabs(change) > std::max(floor, 1e-9 * energy);
 }
@@ -38,22 +37,22 @@ inline bool is_jump(double change, double energy, double floor) {
 class EnergyLedger {
  public:
   bool begun() const { return begun_; }
-  /// The balance is counted from here.
+  /// The balance starts here.
   void begin(const EnergyTerms &now) {
     start_ = now.balance();
     begun_ = true;
   }
 
-  /// Energy that came from nowhere since begin().
+  /// Unaccounted energy since begin().
   double residual(const EnergyTerms &now) const { return now.balance() - start_; }
 
-  /// Remembers the end of a run.
+  /// Records the end of a run.
   void end_run(std::int64_t step, const EnergyTerms &now) {
     if (begun_) residual_at_end_ = residual(now);
     ended_at_ = step;
   }
-  /// Takes a jump since the end of the run before, of something that happened between two runs, out
-  /// of the balance. Returns it, or 0. now() is asked where there is something to compare with.
+  /// Removes a jump since the end of the previous run, caused between two runs, from the balance.
+  /// Returns it, or 0. now() is called only if there is something to compare with.
   template <class Now>
   double leave_out_jump(std::int64_t step, double floor, Now &&now) {
     if (!begun_ || ended_at_ != step) return 0.0;
@@ -65,8 +64,8 @@ class EnergyLedger {
   }
 
   double start() const { return start_; }
-  /// Goes on with the ledger of a restart file. friction, broken: works until then, which the
-  /// styles of the new run do not know.
+  /// Continues the ledger of a restart file. friction, broken: works until then, which the styles
+  /// of the new run do not know.
   void set_state(bool begun, double start, double friction, double broken) {
     begun_ = begun;
     start_ = start;

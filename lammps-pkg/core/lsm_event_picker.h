@@ -37,7 +37,7 @@ struct PickerSettings {
   bool keep_nonpositive = false;  ///< report events of size <= 0 too, whatever min_size is (ours)
 };
 
-/// Leakiness for which the exponential reading forgets over memory_time, whatever the sampling
+/// Leakiness that gives the exponential reading the memory memory_time, whatever the sampling
 /// interval dt (same units): exp(-dt/memory_time) (ours).
 /// \throws std::invalid_argument unless both are positive and finite.
 inline double lambda_from_memory_time(double memory_time, double dt) {
@@ -49,8 +49,8 @@ inline double lambda_from_memory_time(double memory_time, double dt) {
 }
 
 /// One event. Times in model time, steps as pushed, energies in model energy.
-/// The picker fills all but those from slip_moment on, which belong to the program that knows about
-/// slip.
+/// The picker fills all but slip_moment and the members after it, which belong to the program that
+/// knows the slip.
 struct Event {
   std::int64_t id = 0;  ///< 1, 2, ... over the reported events
   double t_start = 0.0, t_end = 0.0;
@@ -61,15 +61,15 @@ struct Event {
   double x_hypocentre = 0.0, x_begin = 0.0, mean_slip = 0.0, stress_drop = 0.0;  ///< of ruptures
 };
 
-/// Everything a picker has to remember besides its settings. Plain old data without padding, so it
-/// can be copied byte by byte into a restart file of the same machine type.
+/// The whole state of a picker besides its settings. Plain old data without padding, so it can be
+/// copied byte by byte into a restart file of the same machine type.
 struct PickerState {
   std::int64_t samples = 0;   ///< samples pushed so far
   std::int64_t step = 0;      ///< last sample
   double time = 0.0;          ///< last sample
   double pe = 0.0;            ///< last sample
   double rate = 0.0;          ///< A
-  std::int64_t in_event = 0;  ///< 1 between commencement and cessation
+  std::int64_t in_event = 0;  ///< 1 from beginning to end of an event
   std::int64_t step_start = 0;
   double t_start = 0.0;
   double pe_start = 0.0;
@@ -81,7 +81,7 @@ struct PickerState {
 static_assert(std::is_trivially_copyable<PickerState>::value, "PickerState goes into restarts");
 static_assert(sizeof(PickerState) == 13 * 8, "PickerState must have no padding");
 
-/// Whether an event of that size is not to be reported; counts it then.
+/// Whether an event of this size is left out; if so, counts it.
 inline bool is_left_out(double size, const PickerSettings &settings, PickerState &counts) {
   if (!(size > 0.0)) {
     counts.dropped_nonpositive += settings.keep_nonpositive ? 0 : 1;
@@ -93,8 +93,8 @@ inline bool is_left_out(double size, const PickerSettings &settings, PickerState
 
 /// Streaming picker: push one PE sample after the other, in order of time.
 ///
-/// With x = PE(t+1) - PE(t) and A updated with x, an event commences at sample t when A turns from
-/// >= 0 to < 0, and ceases at sample t when A turns to > 0; A == 0 keeps an open event open. The
+/// With x = PE(t+1) - PE(t) and A updated with x, an event begins at sample t when A turns from
+///>= 0 to < 0, and ends at sample t when A turns to > 0; A == 0 keeps an open event open. The
 /// size, PE(start) - PE(end), comes from the raw series. The first sample only sets PE; A starts at
 /// 0. An event still open after the last sample is not reported.
 class EventPicker {
@@ -107,18 +107,18 @@ class EventPicker {
       throw std::invalid_argument("picker minimum size must be a finite number >= 0");
   }
 
-  /// Adds the sample PE(step) = pe. Returns true, and fills out, when an event that is to be
-  /// reported ceased at the sample before this one; otherwise leaves out alone.
+  /// Adds the sample PE(step) = pe. Returns true, and fills out, if an event to be reported ended
+  /// at the sample before this one; otherwise out is unchanged.
   /// Samples may be a decimated series; steps and times are reported as given.
-  /// \throws std::invalid_argument (and forgets the sample) if step or time do not advance or a
+  /// \throws std::invalid_argument (and drops the sample) if step or time do not advance or a
   /// number is not finite, e.g. because a simulation blew up.
   bool push(std::int64_t step, double time, double pe, Event &out) {
     return push_change(step, time, pe, pe - state_.pe, out);
   }
 
-  /// As push(), with the change dpe since the sample before given by the caller, who may know it
-  /// better than the difference of two large sums tells. pe itself is used for the sizes and may be
-  /// the accumulated dpe. The dpe of the first sample is ignored.
+  /// As push(), with the change dpe since the previous sample given by the caller, who may know it
+  /// more accurately than the difference of two large sums. pe is used for the sizes and may be the
+  /// accumulated dpe. The dpe of the first sample is ignored.
   bool push_change(std::int64_t step, double time, double pe, double dpe, Event &out) {
     check(step, time, pe, dpe);
     const bool first = state_.samples == 0;
@@ -153,7 +153,7 @@ class EventPicker {
   double last_size() const { return state_.last_size; }  ///< last reported event; 0 before any
 
   const PickerState &state() const { return state_; }
-  /// Goes on from a saved state, in mid-event too; the settings must be those it was saved under.
+  /// Continues from a saved state, even within an event; the settings must be those of that state.
   /// \throws std::invalid_argument if no picker can be in that state.
   void set_state(const PickerState &state) {
     const bool sane =
@@ -204,10 +204,10 @@ class EventPicker {
     }
   }
 
-  /// The event ceased at the sample still in state_.
+  /// The event ended at the sample still in state_.
   bool finish(Event &out) {
-    // No size is 0 or less in exact arithmetic: the changes between commencement and cessation sum
-    // to a weighted sum of the negative A in between. Rounding of a large PE can make it so.
+    // No size is 0 or less in exact arithmetic: the changes within an event sum to a weighted sum
+    // of the negative A in between. Rounding of a large PE can make it so.
     const double size = state_.pe_start - state_.pe;
     if (is_left_out(size, settings_, state_)) return false;
     out = Event();

@@ -2,9 +2,9 @@
 /// \file lsm_fault_grid.h
 /// A fault in bins along it and in intervals of so many steps: what its contacts did in each.
 ///
-/// What is known of a bin and interval is kept with the precision of a float: the slip history
-/// holds the numbers that the events were found from, and sums over several ranks, which differ in
-/// the order of the additions, are the same numbers.
+/// Values of a bin and interval are kept as floats: the slip history has the numbers that the
+/// events were found from, and sums over several ranks, which differ in the order of the additions,
+/// give the same numbers.
 #ifndef LSM_FAULT_GRID_H
 #define LSM_FAULT_GRID_H
 
@@ -79,8 +79,8 @@ class FaultSums {
   std::vector<double> values_;
 };
 
-/// The row of an interval of so many steps from FaultSums::values(). A bin without contacts moves
-/// as its neighbours with contacts: linear between the nearest two (periodic).
+/// The row of an interval of so many steps from FaultSums::values(). The slip of a bin without
+/// contacts is interpolated linearly between the nearest two with contacts (periodic).
 inline FaultRow fault_row(const FaultGrid &grid, const double *sums, std::int64_t steps) {
   FaultRow row(grid.bins);
   const auto bins = static_cast<std::size_t>(grid.bins);
@@ -113,7 +113,7 @@ inline FaultRow fault_row(const FaultGrid &grid, const double *sums, std::int64_
   return row;
 }
 
-/// What slips, and what of it is connected; a slip history holds it.
+/// What slips and what is connected; part of a slip history.
 struct RuptureSettings {
   double velocity = 0.0;    ///< bins whose slip velocity exceeds this slip
   int gap = 0;              ///< bins that may lie between two that are connected
@@ -121,7 +121,7 @@ struct RuptureSettings {
   double modulus = 1.0;     ///< shear modulus
 };
 
-/// Slip of a bin in an interval above which it slips; the same number wherever ruptures are found.
+/// Displacement of a bin in an interval above which it slips; the same wherever ruptures are found.
 inline double slipping_above(const FaultGrid &grid, double velocity) {
   return velocity * grid.duration();
 }

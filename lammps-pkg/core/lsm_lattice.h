@@ -28,9 +28,9 @@ struct LatticeSettings {
   double half_width() const { return 0.5 * spacing + (rows() - 1) * row_height(); }
 };
 
-/// Whether a link lies in a straight border of a block: half of what surrounds the others is
-/// missing there, so with half the stiffness, and half the mass of its discs, the blocks are what
-/// linear triangular finite elements are.
+/// Whether a link lies in a straight border of a block. Half of the surroundings are missing there;
+/// with half the stiffness, and half the mass of its discs, the blocks are linear triangular finite
+/// elements.
 inline bool in_border(const Packing &packing, const std::pair<int, int> &link) {
   const Disc &a = packing.discs[static_cast<std::size_t>(link.first)];
   const Disc &b = packing.discs[static_cast<std::size_t>(link.second)];

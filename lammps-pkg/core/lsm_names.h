@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file lsm_names.h
-/// Enumerators and the words that options and headers have for them, in one list: for an
-/// enumeration with a function names_of(Enum) that gives it, to_string() and from_string() follow.
+/// Enumerators and their words in options and headers, in one list: for an enumeration with a
+/// function names_of(Enum), to_string() and from_string() follow.
 #ifndef LSM_NAMES_H
 #define LSM_NAMES_H
 
@@ -23,7 +23,7 @@ constexpr auto to_string(Enum value) -> decltype(names_of(value)[0].name) {
   return "unknown";
 }
 
-/// Returns false, and leaves value alone, if name is none of the words.
+/// Returns false, and leaves value unchanged, if name is none of the words.
 template <class Enum>
 constexpr auto from_string(std::string_view name, Enum &value)
     -> decltype(names_of(value)[0].name, bool()) {

@@ -3,10 +3,10 @@
 /// The files that a run is about to write: no two of them may be one file, whatever its names, and
 /// no other run may write them at the same time. (Ours.)
 ///
-/// A run holds FILE.lock for as long as it writes FILE: locked by flock, so that a killed run lets
-/// go of it, and with the host and process for the message of the next one. Where the file system
-/// has no flock the file itself is the lock: one left behind on this host is told from one that is
-/// held, one of another host has to be removed by hand.
+/// A run holds FILE.lock for as long as it writes FILE: locked by flock, so that a killed run
+/// releases it, and with host and process for the message of the next run. On file systems without
+/// flock the file itself is the lock: a stale one of this host is recognized, one of another host
+/// has to be removed by hand.
 #ifndef LSM_OUTPUT_CLAIM_H
 #define LSM_OUTPUT_CLAIM_H
 
@@ -48,7 +48,7 @@ namespace output_claim_detail {
 
 namespace fs = std::filesystem;
 
-/// The file that a path leads to, links followed, also where there is none yet.
+/// The file that a path leads to, through links, even if it does not exist yet.
 inline fs::path target_of(const std::string &path) {
   constexpr int most_links = 40;  // as the system
   std::error_code code;
@@ -62,7 +62,7 @@ inline fs::path target_of(const std::string &path) {
   return folder / at.filename();
 }
 
-/// The process that holds a lock, as its file tells.
+/// The process that holds a lock, from its file.
 struct Holder {
   std::string host, boot, started;
   std::int64_t process = 0, begun = 0;
@@ -75,12 +75,11 @@ inline std::string first_line_of(const std::string &path) {
   return line;
 }
 
-/// When a process began, in the system's ticks since its start; 0 if there is none, -1 if the
-/// system does not tell.
+/// When a process started, in ticks since boot; 0 if there is none, -1 if unknown.
 inline std::int64_t begin_of(std::int64_t process) {
   if (kill(static_cast<pid_t>(process), 0) != 0 && errno == ESRCH) return 0;
   const std::string line = first_line_of("/proc/" + std::to_string(process) + "/stat");
-  // The name of the program, in brackets, may hold anything. The begin is the 20th field behind it.
+  // The name of the program, in brackets, may be anything. The start is the 20th field after it.
   std::size_t at = line.rfind(')');
   for (int field = 0; field < 20 && at != std::string::npos; ++field) at = line.find(' ', at + 1);
   if (at == std::string::npos) return -1;
@@ -145,7 +144,7 @@ inline bool from_text(const std::string &text, Holder &holder) {
 inline bool may_live(const Holder &holder) {
   const Holder me = this_process();
   if (holder.host != me.host) return true;
-  // Started again since, or another container of the same name, whose end cannot be seen.
+  // Rebooted since, or another container of the same name, whose end cannot be seen.
   if (holder.boot != me.boot)
     return holder.boot.substr(0, holder.boot.find(' ')) == me.boot.substr(0, me.boot.find(' '));
   const std::int64_t begun = begin_of(holder.process);
@@ -154,8 +153,8 @@ inline bool may_live(const Holder &holder) {
 
 }  // namespace output_claim_detail
 
-/// The same text for two paths if they lead to one file: "./a" and "a", links of both kinds, also
-/// for files that are still to come. "" for devices such as /dev/null, which any number may write.
+/// The same text for two paths that lead to one file: "./a" and "a", hard and symbolic links, even
+/// for files that do not exist yet. "" for devices such as /dev/null, which any number may write.
 inline std::string file_identity(const std::string &path) {
   struct stat found {};
   if (stat(path.c_str(), &found) != 0) return output_claim_detail::target_of(path).string();
@@ -163,7 +162,7 @@ inline std::string file_identity(const std::string &path) {
   return std::to_string(found.st_dev) + ":" + std::to_string(found.st_ino);
 }
 
-/// Whether this process has a file open for writing already, under whatever name: a log, a file of
+/// Whether this process already has a file open for writing, under any name: a log, a file of
 /// another part of the program.
 inline bool is_open_for_writing(const std::string &path) {
   struct stat wanted {
@@ -182,7 +181,7 @@ inline bool is_open_for_writing(const std::string &path) {
   return false;
 }
 
-/// What is wrong with the names of a run's outputs, or "". Empty paths are passed over.
+/// What is wrong with the names of a run's outputs, or "". Empty paths are skipped.
 inline std::string bad_outputs(const std::vector<Output> &outputs) {
   std::unordered_map<std::string, const Output *> before;
   for (const Output &one : outputs) {
@@ -278,7 +277,7 @@ class FileLock {
                     std::generic_category().message(reason));
   }
 
-  /// The name still leads to the file that is open.
+  /// Whether the name still leads to the open file.
   bool is_there() const {
     struct stat opened {
     }, named{};
@@ -286,7 +285,7 @@ class FileLock {
            opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
   }
 
-  /// What the file says; a process that made it is given time to sign it.
+  /// The content of the file; a process that has just made it is given time to write it.
   std::string read() const {
     for (int attempt = 0;; ++attempt) {
       std::array<char, 1024> text{};
@@ -307,7 +306,7 @@ class FileLock {
     fail(path, "cannot write", reason);
   }
 
-  /// A file of that name that is no lock is somebody's.
+  /// A file of that name that is no lock belongs to somebody.
   void check_content(const std::string &path) {
     struct stat opened {};
     if (fstat(descriptor_, &opened) != 0 || opened.st_size == 0) return;
@@ -333,7 +332,7 @@ class FileLock {
                     hint);
   }
 
-  /// Without flock: takes away the file of a run that has ended.
+  /// Without flock: removes the file of a run that has ended.
   void remove_stale(const std::string &path) {
     using namespace output_claim_detail;
     if (read().size() > 0) check_content(path);
@@ -341,7 +340,7 @@ class FileLock {
     const std::string text = read();
     if (from_text(text, holder) && may_live(holder))
       refuse(path, text, ", or remove " + lock_ + " if it has ended");
-    // Another one may have done so a moment ago, and made its own.
+    // Another process may just have done so, and made its own.
     const std::string aside = lock_ + "." + std::to_string(getpid());
     if (rename(lock_.c_str(), aside.c_str()) == 0) {
       struct stat opened {
@@ -360,8 +359,8 @@ class FileLock {
 /// The outputs of a run, from before the first is written until the last is closed.
 class OutputClaim {
  public:
-  /// Lets go of what it had before. Empty paths are passed over. others: files that something else
-  /// writes, which are compared and not locked.
+  /// Releases its former locks. Empty paths are skipped. others: files that something else writes,
+  /// which are compared but not locked.
   /// \throws FileError before anything is written: two outputs are one file, another run writes one
   void claim(const std::vector<Output> &outputs, const std::vector<Output> &others = {}) {
     release();
@@ -382,7 +381,7 @@ class OutputClaim {
   void release() { locks_.clear(); }
 
  private:
-  /// Devices and pipes have readers of their own.
+  /// Devices and pipes need no lock.
   static bool needs_lock(const std::string &path) {
     if (path.empty()) return false;
     std::error_code code;

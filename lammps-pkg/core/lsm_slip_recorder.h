@@ -13,7 +13,8 @@ namespace LSM {
 
 /// Slip of one contact during one step.
 struct ContactSlip {
-  double along;   ///< its place: distance along x from the begin of the fault, less than its length
+  double
+      along;  ///< its place: distance along x from the beginning of the fault, less than its length
   double moment;  ///< |slip| times contact size
 };
 
@@ -23,17 +24,17 @@ struct BinSlip {
   double moment;  ///< sum of |slip| times contact size
 };
 
-/// A contact in one force evaluation, seen as part of a fault along x: what the upper particle does
-/// to the lower one.
+/// A contact in one force evaluation, as part of a fault along x: action of the upper particle on
+/// the lower one.
 struct FaultContact {
   double x;      ///< middle between the two centres
-  double slip;   ///< of the upper particle along x; only the irreversible part
+  double slip;   ///< of the upper particle along x, the irreversible part only
   double work;   ///< lost to friction
   double force;  ///< on the lower particle along x
   double share;  ///< 1, or 0.5 where another rank has the contact as well
 };
 
-/// Sums up one rank's contacts over the intervals of a fault.
+/// Sums of one rank's contacts over the intervals of a fault.
 class SlipRecorder {
  public:
   /// forward: direction in which the upper side is driven along x, 1 or -1.
@@ -44,11 +45,11 @@ class SlipRecorder {
   }
 
   const FaultGrid &grid() const { return grid_; }
-  /// The sums of the interval that is not complete.
+  /// The sums of the incomplete interval.
   std::vector<double> &sums() { return sums_.values(); }
   void clear() { sums_.clear(); }
 
-  /// Contacts of the state before the first interval, of which only the forces count.
+  /// Contacts of the state before the first interval; only their forces count.
   void add_forces(const std::vector<FaultContact> &contacts) {
     for (const FaultContact &c : contacts) sums_.add(c.x, 0.0, 0.0, forward_ * c.force, c.share);
   }

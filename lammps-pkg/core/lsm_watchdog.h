@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file lsm_watchdog.h
-/// Finds runs that went bad: energies that are not finite, links strained too far, a ledger out of
+/// Detects failed runs: energies that are not finite, links strained too far, a ledger out of
 /// balance.
 #ifndef LSM_WATCHDOG_H
 #define LSM_WATCHDOG_H
@@ -16,8 +16,8 @@ namespace LSM {
 
 struct WatchdogSettings {
   double strain_limit = 0.5;  ///< of a link
-  double tolerance = 0.0;     ///< residual of the ledger over its scale; 0: not looked at
-  int every = 1000;           ///< steps between two looks
+  double tolerance = 0.0;     ///< residual of the ledger over its scale; 0: not checked
+  int every = 1000;           ///< steps between two checks
 };
 
 class Watchdog {
@@ -30,22 +30,22 @@ class Watchdog {
 
   explicit Watchdog(const WatchdogSettings &settings) : settings_(settings) {}
 
-  /// Strain for a maximum over ranks, which would lose what is not a number.
+  /// Strain for a maximum over ranks, which would lose a NaN.
   static double comparable(double strain) { return std::isfinite(strain) ? strain : not_finite; }
 
   void calm_down() { alarmed_ = false; }
   bool due(std::int64_t step) const { return alarmed_ || step % settings_.every == 0; }
 
-  /// In the middle of a step, before links can be torn beyond the ghosts. Remembers to look at the
-  /// end of the step; says what is wrong if the most strained link may not reach that far: the
-  /// largest distance between two linked particles at rest, and that of the ghosts.
+  /// In the middle of a step, before links can be torn beyond the ghosts. Schedules a check at the
+  /// end of the step; returns what is wrong if the most strained link may be longer than the ghosts
+  /// reach. Takes the largest rest length of a link, and the reach of the ghosts.
   std::string look_early(double strain, double widest, double reach) {
     alarmed_ = strain > settings_.strain_limit;
     if (!alarmed_ || (1.0 + strain) * widest <= reach) return {};
     return strain >= not_finite ? "positions are not finite" : strained(strain);
   }
 
-  /// At the end of a step; terms() gives the energies for the ledger, where it is looked at.
+  /// At the end of a step; terms() gives the energies for the ledger, if it is checked.
   template <class Terms>
   Finding look(bool pe_finite, double strain, const EnergyLedger &ledger, Terms &&terms) {
     alarmed_ = false;
@@ -74,7 +74,7 @@ class Watchdog {
   }
 
   WatchdogSettings settings_;
-  bool alarmed_ = false;  // something looked wrong within the step
+  bool alarmed_ = false;  // something was wrong within the step
 };
 
 }  // namespace LSM

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file event_kind.h
-/// Kinds of events and what finds them. A kind is a class here: its name behind the keyword
-/// `events`, its own keywords, what it needs recorded, what it adds to headers, and its finder.
-/// event_kinds.h lists all of them; nothing else knows one from another.
+/// Kinds of events and their finders. A kind is a class: its name after the keyword `events`, its
+/// own keywords, what it needs recorded, what it adds to headers, and its finder. event_kinds.h
+/// lists all of them; nothing else distinguishes them.
 ///
-/// Drops of PE, which the paper has, are found in every run: their picker tells the rate of PE.
+/// Drops of PE, the paper's events, are found in every run: their picker has the rate of PE.
 #ifndef LSM_EVENT_KIND_H
 #define LSM_EVENT_KIND_H
 
@@ -32,8 +32,8 @@ struct EventSettings {
   std::string catalogue_file, series_file, history_file;  ///< empty: not written
   bool series_binary = true;
   int series_stride = 1;
-  bool resume = false;     ///< go on with files that exist, from a restart
-  bool overwrite = false;  ///< replace files that exist
+  bool resume = false;     ///< continue existing files, after a restart
+  bool overwrite = false;  ///< replace existing files
 
   std::shared_ptr<EventKind> kind;  ///< never empty, see make_event_kind()
   bool own_times = false;           ///< steps and time are not proportional
@@ -42,13 +42,13 @@ struct EventSettings {
   double bin_width = 1.0;  ///< of the bins along the fault
 
   // Of the fault in intervals, for kinds that ask for it:
-  double driving = 0.0;  ///< velocity that slip counts against
+  double driving = 0.0;  ///< velocity that slip is compared with
   double forward = 1.0;  ///< direction of the upper side along x: 1 or -1
-  int interval = 10;     ///< steps over which the slip of a bin is taken together
+  int interval = 10;     ///< steps over which the slip of a bin is summed
   double modulus = 0.0;  ///< shear modulus
   int quiet = 100;       ///< intervals in one record of the history while nothing slips
 
-  /// For the headers; they take the place of ours of the same name.
+  /// For the headers; they replace those of the same name.
   text_io::Parameters parameters;
 
   /// The fault from a step on.
@@ -80,9 +80,9 @@ struct EventSample {
   double x0, length;                  ///< begin and length of the fault
 };
 
-/// Finds events in what is recorded, on the rank that has it all. Those that it reports need no id;
-/// they must be in order of their ends. It is fed with the samples of all steps and, where its kind
-/// asks for them, with the intervals of the fault.
+/// Finds events in the record, on the rank that has all of it. Reported events need no id; they
+/// must be in order of their ends. It is given the samples of all steps and, if its kind asks for
+/// them, the intervals of the fault.
 class EventFinder {
  public:
   using Report = std::function<void(const Event &)>;
@@ -98,7 +98,7 @@ class EventFinder {
   virtual void each_open_as_ended(const Report &) const {}
 
   virtual std::int64_t open() const = 0;
-  /// Something slips, so that the slip history has a record of the last interval alone.
+  /// Something slips, so that the slip history gives the last interval a record of its own.
   virtual bool active() const { return open() > 0; }
   virtual FaultMoment last_interval() const { return {}; }
   /// Step up to which the ends of events are known at the end of the given one.
@@ -117,25 +117,25 @@ class EventKind {
   virtual ~EventKind() = default;
 
   virtual const char *name() const = 0;
-  /// The keywords that it has alone.
+  /// Its own keywords.
   virtual Keywords keywords() { return {}; }
 
   /// Whether it needs the slips of contacts in each step, which a periodic fault has.
   virtual bool wants_slips() const { return false; }
   /// Whether it needs the fault in bins and intervals.
   virtual bool wants_intervals() const { return false; }
-  /// What of the input asks for these, for messages.
+  /// The input that asks for these, for messages.
   virtual std::string asked_by() const { return std::string("events ") + name(); }
 
-  /// What the header of its catalogues holds beside what all have. The parameter `events`, with its
-  /// name, says that events may overlap. slip_bin: width of the bins as the grid has it.
+  /// What the header of its catalogues has in addition. The parameter `events`, with its name, says
+  /// that events may overlap. slip_bin: width of the bins of the grid.
   virtual void describe(const EventSettings &, double slip_bin, const AddParameter &,
                         CatalogueInfo &) const = 0;
-  /// What slips and what is connected, of which a slip history tells.
+  /// What slips and what is connected, for the slip history.
   virtual RuptureSettings rupture_settings(const EventSettings &, double /*dt*/) const {
     return {};
   }
-  /// Empty: events are the drops of PE that are found in any case.
+  /// Null if events are the drops of PE, which are found in any case.
   /// \throws std::invalid_argument for settings out of range
   virtual std::unique_ptr<EventFinder> finder(const EventSettings &, const FaultGrid &) const = 0;
 };

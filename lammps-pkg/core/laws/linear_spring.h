@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file linear_spring.h
 /// Linear spring along the line of centres, Eqs. (1) and (2) of Weatherley & Abe 2004: links that
-/// hold and break, contacts that only repel. A positive force is attraction. The rest length of a
+/// may break, contacts that only repel. A positive force is attraction. The rest length of a
 /// pair is the sum of the two radii (ours: nothing per link is stored).
 #ifndef LSM_LAW_LINEAR_SPRING_H
 #define LSM_LAW_LINEAR_SPRING_H
 
 namespace LSM {
 
-// Templates take one number or, in the loop over links, a vector of the machine; always inlined, as
-// functions with other instruction sets pass such vectors differently.
+// Templates take one number or, in the loop over links, a SIMD vector; always inlined, as functions
+// with other instruction sets pass such vectors differently.
 
 struct Spring {
   /// Attractive force at the given stretch r - r0.
@@ -21,8 +21,8 @@ struct Spring {
   static double energy(double k, double stretch) { return 0.5 * k * stretch * stretch; }
 };
 
-/// Kelvin-Voigt: a dashpot beside the spring, whose viscosity is the stiffness times a retardation
-/// time (ours). Attractive force at the given rate of the stretch.
+/// Kelvin-Voigt: a dashpot parallel to the spring, whose viscosity is the stiffness times a
+/// retardation time (ours). Attractive force at the given rate of the stretch.
 struct Dashpot {
   template <class Number>
   [[gnu::always_inline]] static Number force(double viscosity, const Number &rate) {
@@ -41,8 +41,8 @@ inline double contact_normal_force(double k, double r, double r0) {
   return r < r0 ? k * (r0 - r) : 0.0;
 }
 
-/// Repulsion by the dashpot beside the spring of an unlinked pair, which repels with `spring`;
-/// rate: of the distance. Both together do not attract.
+/// Repulsion by the dashpot parallel to the spring of an unlinked pair, which repels with `spring`;
+/// rate: of the distance. Together they never attract.
 inline double contact_dashpot_force(double viscosity, double rate, double spring) {
   const double dashpot = -Dashpot::force(viscosity, rate);
   return dashpot < -spring ? -spring : dashpot;

@@ -31,14 +31,14 @@ struct RateState : FrictionLaw {
   static constexpr bool needs_time = true;
   static constexpr int state_size = 1;  // theta
 
-  /// Without a theta the contact begins as if it had slid at v0 for long (ours).
+  /// Without a theta the contact begins as after long sliding at v0 (ours).
   static void begin(const Coefficients &c, double *theta) {
     *theta = c.theta > 0.0 ? c.theta : c.dc / c.v0;
   }
 
-  /// Slip never stops, and the velocity that friction and spring agree on at the end of the step is
+  /// Slip never stops. The velocity at which friction and spring balance at the end of the step is
   /// solved for, as an explicit one would be unstable: with q = force/(fn a), 2 v0 sinh(q) exp(-E)
-  /// time = trial - q fn a/kt. Theta is that of the begin; over the step it evolves exactly for
+  /// time = trial - q fn a/kt. Theta is that at the beginning; over the step it evolves exactly for
   /// that velocity.
   static double elongation(const Coefficients &c, FrictionContact &s, double *theta) {
     s.sliding = true;
@@ -49,7 +49,9 @@ struct RateState : FrictionLaw {
     const double w = std::log(2.0 * c.v0 * s.time / unit) - E;  // q + exp(w) sinh(q) = most
     const double z = std::log(2.0 * most) - w;
     double q = std::fmin(
-        most, z > 40.0 ? z : std::log1p(std::exp(z)));  // not below the root: Newton goes straight
+        most, z > 40.0
+                  ? z
+                  : std::log1p(std::exp(z)));  // not below the root: Newton converges monotonically
     for (int n = 0; n < 40; n++) {
       const double up = 0.5 * std::exp(w + q), down = 0.5 * std::exp(w - q);
       const double change = (q + (up - down) - most) / (1.0 + (up + down));
