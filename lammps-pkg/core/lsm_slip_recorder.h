@@ -13,8 +13,7 @@ namespace LSM {
 
 /// Slip of one contact during one step.
 struct ContactSlip {
-  double
-      along;  ///< its place: distance along x from the beginning of the fault, less than its length
+  double along;   ///< distance along x from the beginning of the fault, less than its length
   double moment;  ///< |slip| times contact size
 };
 

@@ -49,9 +49,7 @@ struct RateState : FrictionLaw {
     const double w = std::log(2.0 * c.v0 * s.time / unit) - E;  // q + exp(w) sinh(q) = most
     const double z = std::log(2.0 * most) - w;
     double q = std::fmin(
-        most, z > 40.0
-                  ? z
-                  : std::log1p(std::exp(z)));  // not below the root: Newton converges monotonically
+        most, z > 40.0 ? z : std::log1p(std::exp(z)));  // above the root: Newton is monotone
     for (int n = 0; n < 40; n++) {
       const double up = 0.5 * std::exp(w + q), down = 0.5 * std::exp(w - q);
       const double change = (q + (up - down) - most) / (1.0 + (up + down));
