@@ -10,6 +10,8 @@
 #include "error.h"
 #include "fix_lsm_leap.h"
 #include "fix_lsm_record.h"
+#include "lsm_fix_state.h"
+#include "lsm_mover.h"
 #include "modify.h"
 #include "output.h"
 #include "platform.h"
@@ -369,7 +371,7 @@ void ComputeLSMEvents::flush()
 void ComputeLSMEvents::end_run()
 {
   flush();
-  sources.complete_steps();
+  LSMMover::complete_steps(modify);
   ledger.end_run(update->ntimestep, ledger.begun() ? energies() : LSM::EnergyTerms());
 }
 
@@ -439,10 +441,7 @@ void ComputeLSMEvents::leave_out_jump()
 
 double ComputeLSMEvents::total_pe() const
 {
-  const double mine = sources.pe();
-  double all;
-  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
-  return all;
+  return lsm_total(sources.pe(), world);
 }
 
 LSM::EnergyTerms ComputeLSMEvents::energies() const
@@ -482,7 +481,7 @@ void ComputeLSMEvents::check_health()
   double all[2];
   MPI_Allreduce(mine, all, 2, MPI_DOUBLE, MPI_MAX, world);
   const auto found = watchdog.look(all[0] == 0.0, all[1], ledger, [this] {
-    sources.complete_steps();
+    LSMMover::complete_steps(modify);
     return energies();
   });
   if (found.what.empty()) return;
@@ -497,7 +496,7 @@ void ComputeLSMEvents::check_health()
         "smaller time step or start from an earlier restart",
         update->ntimestep, found.what);
 
-  sources.complete_steps();
+  LSMMover::complete_steps(modify);
   SaveRestart(lmp).save(options.emergency_file, {}, [this](const std::string &file) {
     WriteRestart writer(lmp);
     writer.multiproc_options(0, 0, nullptr);
@@ -530,9 +529,23 @@ void ComputeLSMEvents::show_progress(bigint step)
    numbers of this class, then those of the stream
 ------------------------------------------------------------------------- */
 
-static constexpr double FIRST_KIND =
-    3.0;    // version of a state of the first kind of events, and so on
-static constexpr size_t OWN = 9;
+namespace {
+struct Own {
+  double version = -1.0;
+  bigint last_recorded = 0;
+  bool balanced = false;    // the ledger has begun
+  double start = 0.0, friction = 0.0, broken = 0.0;
+  LSM::StepClock clock;
+
+  static constexpr double FIRST_KIND = 3.0;    // version of the first kind of events, and so on
+  static constexpr size_t NUMBERS = 9;
+  template <class Self, class State> static void visit(Self &self, State &state)
+  {
+    state(self.version, self.last_recorded, self.balanced, self.start, self.friction, self.broken,
+          self.clock.time, self.clock.step, self.clock.dt);
+  }
+};
+}    // namespace
 
 std::vector<double> ComputeLSMEvents::pack_state()
 {
@@ -540,15 +553,16 @@ std::vector<double> ComputeLSMEvents::pack_state()
   flush();
   const LSM::EnergyTerms now = energies();
   const std::vector<double> open_sums = in_intervals() ? fault_sums() : std::vector<double>();
-  std::vector<double> state = {FIRST_KIND + static_cast<double>(LSM::number_of(*settings.kind)),
-                               static_cast<double>(last_recorded),
-                               ledger.begun() ? 1.0 : 0.0,
-                               ledger.start(),
-                               now.friction,
-                               now.broken,
-                               clock.time,
-                               static_cast<double>(clock.step),
-                               clock.dt};
+  std::vector<double> state;
+  const Own own = {Own::FIRST_KIND + static_cast<double>(LSM::number_of(*settings.kind)),
+                   last_recorded,
+                   ledger.begun(),
+                   ledger.start(),
+                   now.friction,
+                   now.broken,
+                   clock};
+  LSM::StateWriter to(state);
+  Own::visit(own, to);
   if (comm->me == 0) {
     const std::vector<double> rest = stream->state(open_sums);
     state.insert(state.end(), rest.begin(), rest.end());
@@ -562,16 +576,21 @@ std::vector<double> ComputeLSMEvents::pack_state()
 
 void ComputeLSMEvents::unpack_state(const std::vector<double> &state)
 {
+  Own own;
   LSM::SavedStream saved;
-  const double kind = state.empty() ? -1.0 : state[0] - FIRST_KIND;
+  if (state.size() >= Own::NUMBERS) {
+    LSM::StateReader from(state);
+    Own::visit(own, from);
+  }
+  const double kind = own.version - Own::FIRST_KIND;
   const auto kinds = static_cast<double>(LSM::all_event_kinds().size());
-  if (state.size() < OWN || !(kind >= 0.0 && kind < kinds) || kind != std::floor(kind) ||
-      !saved.read(state, OWN, static_cast<size_t>(kind)))
+  if (!(kind >= 0.0 && kind < kinds) || kind != std::floor(kind) ||
+      !saved.read(state, Own::NUMBERS, static_cast<size_t>(kind)))
     error->all(FLERR, "Compute lsm/events {}: the restart file holds a state of another version",
                id);
-  last_recorded = static_cast<bigint>(state[1]);
-  ledger.set_state(state[2] != 0.0, state[3], state[4], state[5]);
-  clock = {state[6], static_cast<bigint>(state[7]), state[8]};
+  last_recorded = own.last_recorded;
+  ledger.set_state(own.balanced, own.start, own.friction, own.broken);
+  clock = own.clock;
   on_rank_0([&] { stream->set_state(saved); });
   if (!in_intervals() || saved.kind != LSM::number_of(*settings.kind)) return;
   if (!saved.goes_on_with(saved.kind, fault.grid())) {

@@ -9,6 +9,7 @@
 #include "comm.h"
 #include "error.h"
 #include "force.h"
+#include "lsm_fix_state.h"
 #include "lsm_scene.h"
 #include "update.h"
 
@@ -165,13 +166,10 @@ double FixLSMBreak::compute_scalar()
 
 void FixLSMBreak::write_restart(FILE *fp)
 {
-  if (comm->me) return;
-  const int size = sizeof(bigint);
-  fwrite(&size, sizeof(int), 1, fp);
-  fwrite(&total, sizeof(bigint), 1, fp);
+  lsm_write_state(*this, fp, world);
 }
 
 void FixLSMBreak::restart(char *buf)
 {
-  memcpy(&total, buf, sizeof(bigint));
+  lsm_read_state(*this, buf, world);
 }

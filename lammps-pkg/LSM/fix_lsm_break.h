@@ -29,6 +29,10 @@ class FixLSMBreak : public Fix {
   double compute_scalar() override;
   void write_restart(FILE *) override;
   void restart(char *) override;
+  template <class Self, class State> static void visit(Self &self, State &state)
+  {
+    state.raw(self.total);
+  }
 
  private:
   class BondLSMLinked *links;

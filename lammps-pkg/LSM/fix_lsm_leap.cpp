@@ -12,6 +12,7 @@
 #include "fix_lsm_plates.h"
 #include "force.h"
 #include "lsm_energy.h"
+#include "lsm_fix_state.h"
 #include "lsm_keyword_reader.h"
 #include "lsm_scene.h"
 #include "lsm_text_io.h"
@@ -26,7 +27,6 @@
 using namespace LAMMPS_NS;
 using namespace FixConst;
 
-static constexpr double RESTART_WITH_CHANGES = -2.0;    // where others had a time
 static constexpr bigint KEPT_STEPS =
     20000;    // of changes of the rate, for steps that are looked at later
 
@@ -136,11 +136,10 @@ void FixLSMLeap::setup(int /*vflag*/)
 
   // uniform shear between the plates: v grows from -fast to fast over the width
 
-  double mass = 0.0, all;
+  double mass = 0.0;
   for (int i = 0; i < atom->nlocal; i++)
     mass += atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
-  MPI_Allreduce(&mass, &all, 1, MPI_DOUBLE, MPI_SUM, world);
-  loading_energy = 0.5 * all * fast * fast / 3.0;
+  loading_energy = 0.5 * lsm_total(mass, world) * fast * fast / 3.0;
 
   if (changes.empty()) {
     const double now =
@@ -198,7 +197,7 @@ void FixLSMLeap::set_factor(double value)
 
 double FixLSMLeap::kinetic() const
 {
-  const int skip = plates->plate_bits();
+  const int skip = plates->moved_bits();
   double **v = atom->v;
   double sum = 0.0;
   for (int i = 0; i < atom->nlocal; i++) {
@@ -223,8 +222,7 @@ void FixLSMLeap::end_of_step()
     steps_time += span;
     return;
   }
-  if (state == SETTLE)
-    for (auto *p : integrators) p->complete_step();
+  if (state == SETTLE) LSMMover::complete_steps(modify);
   double mine[2] = {0.0, state == SETTLE ? kinetic() : 0.0}, all[2];
   for (auto *p : contacts) {
     mine[0] += p->slip_moment;
@@ -279,46 +277,26 @@ double FixLSMLeap::compute_vector(int n)
 
 void FixLSMLeap::write_restart(FILE *fp)
 {
-  if (comm->me != 0) return;
-  std::vector<double> values = {RESTART_WITH_CHANGES,
-                                model_time(update->ntimestep),
-                                static_cast<double>(state),
-                                factor,
-                                since,
-                                steps_time,
-                                leap_time,
-                                stops,
-                                static_cast<double>(changes.size())};
-  for (const Change &c : changes)
-    values.insert(values.end(), {static_cast<double>(c.step), c.time, c.rate});
-  const int size = static_cast<int>(values.size() * sizeof(double));
-  fwrite(&size, sizeof(int), 1, fp);
-  fwrite(values.data(), sizeof(double), values.size(), fp);
+  lsm_write_state(*this, fp, world);
+}
+
+void FixLSMLeap::restart(char *buf)
+{
+  lsm_read_state(*this, buf, world);
 }
 
 /* ----------------------------------------------------------------------
    events that are still open began before the restart, so that earlier changes of the rate count
 ------------------------------------------------------------------------- */
 
-void FixLSMLeap::restart(char *buf)
+template <class Self, class State> void FixLSMLeap::visit(Self &self, State &state)
 {
-  double values[9];
-  memcpy(values, buf, sizeof(double));
-  if (values[0] != RESTART_WITH_CHANGES)
-    error->all(FLERR, "Fix lsm/leap {}: the restart file is of an older version of the package",
-               id);
-  memcpy(values, buf, sizeof(values));
-  state = static_cast<int>(values[2]);
-  factor = values[3];
-  since = values[4];
-  steps_time = values[5];
-  leap_time = values[6];
-  stops = values[7];
-  changes.clear();
-  const char *from = buf + sizeof(values);
-  for (int n = 0; n < static_cast<int>(values[8]); n++, from += 3 * sizeof(double)) {
-    double change[3];
-    memcpy(change, from, sizeof(change));
-    changes.push_back({static_cast<bigint>(change[0]), change[1], change[2]});
-  }
+  constexpr double with_changes = -2.0;    // where earlier versions had a time
+  double version = with_changes, now = self.model_time(self.update->ntimestep);
+  state(version);
+  if (version != with_changes)
+    self.error->all(
+        FLERR, "Fix lsm/leap {}: the restart file is of an older version of the package", self.id);
+  state(now, self.state, self.factor, self.since, self.steps_time, self.leap_time, self.stops);
+  state.list(self.changes);
 }

@@ -37,6 +37,7 @@ class FixLSMLeap : public Fix {
   double model_time(bigint step) const;    // at a step that was done in the last 10 000 steps or so
   std::string settings() const;            // for headers of files
   double fastest() const { return fast; }
+  template <class Self, class State> static void visit(Self &, State &);
 
  private:
   enum { EVENT, SETTLE, LEAP };
@@ -65,6 +66,10 @@ class FixLSMLeap : public Fix {
   struct Change {
     bigint step;
     double time, rate;    // rate: model time of a step
+    template <class Self, class State> static void visit(Self &self, State &state)
+    {
+      state(self.step, self.time, self.rate);
+    }
   };
   std::deque<Change> changes;
   int state;

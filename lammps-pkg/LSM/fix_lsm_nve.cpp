@@ -13,6 +13,7 @@
 #include "force.h"
 #include "group.h"
 #include "integrate.h"
+#include "lsm_fix_state.h"
 #include "lsm_frequency.h"
 #include "lsm_scene.h"
 #include "lsm_text_io.h"
@@ -38,8 +39,7 @@ FixLSMNVE::FixLSMNVE(LAMMPS *_lmp, int narg, char **arg) :
     Fix(_lmp, narg, arg), record_work(false), work_viscosity(0.0), nu_least(0.0),
     nu(atom->ntypes + 1, 0.0), decay(atom->ntypes + 1, 1.0), viscous(false), dtv(0.0), dtf(0.0),
     check(ERROR), omega(0.0), dt_limit(0.0), clears(false), measures(false), fastest(-1.0),
-    pending(false), ahead(nullptr), initial_chosen(nullptr), final_chosen(nullptr),
-    both_chosen(nullptr)
+    ahead(nullptr), initial_chosen(nullptr), final_chosen(nullptr), both_chosen(nullptr)
 {
   time_integrate = 1;
   dynamic_group_allow = 1;
@@ -499,11 +499,7 @@ double FixLSMNVE::highest_eigenvalue(const std::vector<LSM::PairSpring> &springs
     network.mass.push_back(atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]);
     network.id.push_back(atom->tag[i]);
   }
-  const auto sum = [this](double mine) {
-    double total;
-    MPI_Allreduce(&mine, &total, 1, MPI_DOUBLE, MPI_SUM, world);
-    return total;
-  };
+  const auto sum = [this](double mine) { return lsm_total(mine, world); };
   const auto to_ghosts = [this] { comm->forward_comm(this); };
   const auto from_ghosts = [this] {
     if (force->newton) comm->reverse_comm(this);
@@ -555,9 +551,7 @@ void FixLSMNVE::unpack_reverse_comm(int n, int *list, double *buf)
 
 double FixLSMNVE::compute_scalar()
 {
-  double all = 0.0;
-  MPI_Allreduce(&work_viscosity, &all, 1, MPI_DOUBLE, MPI_SUM, world);
-  return all;
+  return lsm_total(work_viscosity, world);
 }
 
 double FixLSMNVE::compute_vector(int n)
@@ -569,20 +563,13 @@ double FixLSMNVE::compute_vector(int n)
 
 void FixLSMNVE::write_restart(FILE *fp)
 {
-  double total = compute_scalar();
-  if (comm->me == 0) {
-    const int size = sizeof(double);
-    fwrite(&size, sizeof(int), 1, fp);
-    fwrite(&total, sizeof(double), 1, fp);
-  }
+  lsm_write_state(*this, fp, world);
 }
 
 void FixLSMNVE::restart(char *buf)
 {
-  double total;
-  memcpy(&total, buf, sizeof(double));
+  lsm_read_state(*this, buf, world);
   goes_on = true;
-  work_viscosity = comm->me == 0 ? total : 0.0;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -14,6 +14,7 @@ FixStyle(lsm/nve,FixLSMNVE);
 
 #include "fix.h"
 #include "lsm_frequency.h"
+#include "lsm_mover.h"
 
 #include <string>
 #include <utility>
@@ -21,7 +22,7 @@ FixStyle(lsm/nve,FixLSMNVE);
 
 namespace LAMMPS_NS {
 
-class FixLSMNVE : public Fix {
+class FixLSMNVE : public Fix, public LSMMover {
  public:
   FixLSMNVE(class LAMMPS *, int, char **);
   ~FixLSMNVE() override;
@@ -48,16 +49,16 @@ class FixLSMNVE : public Fix {
 
   bool record_work;         // set by compute lsm/events when it keeps the energy ledger
   double work_viscosity;    // work lost to viscosity, this rank, accumulated
-  /// Velocities and positions of the same time, where the second half of a step was put off.
-  void complete_step();
-  /// Whether the second half of the last step is still to be done.
-  bool has_put_off() const { return pending; }
-  /// Keeps the longest move of each step from the next one on, until the next init().
-  void measure_moves();
-  /// It moved no particle of this rank farther in this step; infinite if that was not measured.
-  double longest_move() const;
+  void complete_step() override;
+  int moved_bits() const override { return groupbit; }
+  void measure_moves() override;    // until the next init()
+  double longest_move() const override;
   void raise_viscosity(double least);    // to at least this, for now; 0: as it was given
   std::string viscosity() const;         // one value, or one per type
+  template <class Self, class State> static void visit(Self &self, State &state)
+  {
+    state.sum(self.work_viscosity);
+  }
 
  private:
   enum { ERROR, WARN, OFF };
@@ -92,7 +93,6 @@ class FixLSMNVE : public Fix {
   double fastest;    // it, or -1 if it is not known
 
   enum { FINAL = 1, INITIAL = 2, MEASURE = 4, AHEAD = 8 };    // halves of a step, and what else
-  bool pending;    // the second half of the last step is still to be done
   std::vector<Fix *> onlookers;
   class FixLSMVelocity *ahead;    // wants the velocities of the time of the next forces, or null
   void (FixLSMNVE::*initial_chosen)();

@@ -12,6 +12,7 @@
 #include "fix_lsm_velocity.h"
 #include "force.h"
 #include "group.h"
+#include "lsm_fix_state.h"
 #include "lsm_scene.h"
 #include "modify.h"
 #include "update.h"
@@ -30,8 +31,8 @@ enum { LOWER, UPPER };
 FixLSMPlates::FixLSMPlates(LAMMPS *_lmp, int narg, char **arg) :
     Fix(_lmp, narg, arg), loading(1.0), speed(0.0), ramp(0.0), servo(false), stress(0.0),
     stress_ramp(0.0), damping(0.0), impedance(0.0), vy_known(false), elapsed(0.0), ux(0.0),
-    work_mine(0.0), dt(update->dt), ahead(nullptr), pending(false), reducing(false), moved(0.0),
-    along(0.0), summed_at(-1)
+    work_mine(0.0), dt(update->dt), ahead(nullptr), reducing(false), moved(0.0), along(0.0),
+    summed_at(-1)
 {
   scalar_flag = 1;
   vector_flag = 1;
@@ -155,10 +156,10 @@ void FixLSMPlates::init()
   for (const auto &other : modify->get_fix_list())
     if (other != this && (other->time_integrate || strcmp(other->style, style) == 0)) {
       const auto twin = dynamic_cast<FixLSMPlates *>(other);
-      const int bits = twin ? twin->plate_bits() : other->groupbit;
+      const int bits = twin ? twin->moved_bits() : other->groupbit;
       int both = 0, any = 0;
       for (int i = 0; i < atom->nlocal; i++)
-        if ((atom->mask[i] & bits) && (atom->mask[i] & plate_bits())) both = 1;
+        if ((atom->mask[i] & bits) && (atom->mask[i] & moved_bits())) both = 1;
       MPI_Allreduce(&both, &any, 1, MPI_INT, MPI_MAX, world);
       if (any)
         error->all(
@@ -379,9 +380,7 @@ double FixLSMPlates::kinetic() const
 double FixLSMPlates::work()
 {
   complete_step();
-  double all;
-  MPI_Allreduce(&work_mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
-  return all;
+  return lsm_total(work_mine, world);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -434,25 +433,12 @@ double FixLSMPlates::compute_vector(int n)
 
 void FixLSMPlates::write_restart(FILE *fp)
 {
-  const double values[7] = {elapsed,     ux,          plate[0].uy, plate[1].uy,
-                            plate[0].vy, plate[1].vy, work()};
-  if (comm->me == 0) {
-    const int size = sizeof(values);
-    fwrite(&size, sizeof(int), 1, fp);
-    fwrite(values, sizeof(double), 7, fp);
-  }
+  complete_step();
+  lsm_write_state(*this, fp, world);
 }
 
 void FixLSMPlates::restart(char *buf)
 {
-  double values[7];
-  memcpy(values, buf, sizeof(values));
-  elapsed = values[0];
-  ux = values[1];
-  plate[0].uy = values[2];
-  plate[1].uy = values[3];
-  plate[0].vy = values[4];
-  plate[1].vy = values[5];
+  lsm_read_state(*this, buf, world);
   vy_known = true;
-  work_mine = comm->me == 0 ? values[6] : 0.0;
 }

@@ -13,12 +13,13 @@ FixStyle(lsm/plates,FixLSMPlates);
 #define LMP_FIX_LSM_PLATES_H
 
 #include "fix.h"
+#include "lsm_mover.h"
 
 #include <vector>
 
 namespace LAMMPS_NS {
 
-class FixLSMPlates : public Fix {
+class FixLSMPlates : public Fix, public LSMMover {
  public:
   FixLSMPlates(class LAMMPS *, int, char **);
   ~FixLSMPlates() override;
@@ -36,21 +37,24 @@ class FixLSMPlates : public Fix {
   void write_restart(FILE *) override;
   void restart(char *) override;
 
-  /// Velocities and positions of the same time.
-  void complete_step();
-
-  /// No particle of the plates moved farther in this step.
-  double longest_move() const { return longest; }
+  void complete_step() override;
+  int moved_bits() const override { return plate[0].bit | plate[1].bit; }
+  double longest_move() const override { return longest; }
 
   double loading;    // factor of the driving velocity now, set by fix lsm/leap
   double driving_velocity() const { return speed; }
-  int plate_bits() const { return plate[0].bit | plate[1].bit; }
   double work();    // work of the plates on the blocks, all ranks, accumulated
   double driving() const
   {
     return 2.0 * speed;
   }                          // velocity of the upper plate relative to the lower one, in the end
   double kinetic() const;    // kinetic energy of the motion of the plates across the fault
+  template <class Self, class State> static void visit(Self &self, State &state)
+  {
+    auto &lower = self.plate[0], &upper = self.plate[1];
+    state(self.elapsed, self.ux, lower.uy, upper.uy, lower.vy, upper.vy);
+    state.sum(self.work_mine);
+  }
 
  private:
   struct Plate {
@@ -79,7 +83,6 @@ class FixLSMPlates : public Fix {
 
   std::vector<class FixLSMNVE *> integrators;
   class FixLSMVelocity *ahead;    // wants the velocities of the time of the next forces, or null
-  bool pending;                   // the second half of the last step is still to be done
   bool reducing;                  // forces across the fault are on their way to all ranks
   MPI_Request request;
   double across_mine[2], across[2];    // they, of this rank and of all

@@ -7,6 +7,7 @@
 #include "comm.h"
 #include "compute_lsm_events.h"
 #include "error.h"
+#include "lsm_fix_state.h"
 #include "update.h"
 
 #include <cstring>
@@ -62,22 +63,24 @@ void FixLSMRecord::reset_dt()
 
 /* ---------------------------------------------------------------------- */
 
+namespace {
+struct Saved {
+  std::vector<double> numbers;
+  template <class Self, class State> static void visit(Self &self, State &state)
+  {
+    state.list(self.numbers);
+  }
+};
+}    // namespace
+
 void FixLSMRecord::write_restart(FILE *fp)
 {
-  const std::vector<double> state = owner->pack_state();
-  if (comm->me == 0) {
-    const int size = static_cast<int>((state.size() + 1) * sizeof(double));
-    const auto count = static_cast<double>(state.size());
-    fwrite(&size, sizeof(int), 1, fp);
-    fwrite(&count, sizeof(double), 1, fp);
-    fwrite(state.data(), sizeof(double), state.size(), fp);
-  }
+  lsm_write_state(Saved{owner->pack_state()}, fp, world);
 }
 
 void FixLSMRecord::restart(char *buf)
 {
-  double count;
-  memcpy(&count, buf, sizeof(double));
-  restart_state.resize(static_cast<size_t>(count));
-  memcpy(restart_state.data(), buf + sizeof(double), restart_state.size() * sizeof(double));
+  Saved saved;
+  lsm_read_state(saved, buf, world);
+  restart_state = saved.numbers;
 }

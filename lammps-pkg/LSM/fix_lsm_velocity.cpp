@@ -8,8 +8,8 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
-#include "fix_lsm_nve.h"
-#include "fix_lsm_plates.h"
+#include "lsm_fix_state.h"
+#include "lsm_mover.h"
 #include "lsm_scene.h"
 #include "memory.h"
 #include "modify.h"
@@ -89,15 +89,12 @@ void FixLSMVelocity::init()
   asked = false;
   extrapolated = 0;
   if (!used || update->whichflag != 1) return;
-  for (const auto &other : modify->get_fix_list()) {
-    if (utils::strmatch(other->style, "^lsm/leap"))
-      error->all(FLERR,
-                 "Links and contacts with kelvin-voigt do not work with fix {} of style lsm/leap, "
-                 "whose blocks move faster than their model time tells",
-                 other->id);
-    if (dynamic_cast<FixLSMNVE *>(other)) extrapolated |= other->groupbit;
-    if (auto p = dynamic_cast<FixLSMPlates *>(other)) extrapolated |= p->plate_bits();
-  }
+  for (const auto &leap : modify->get_fix_by_style("^lsm/leap"))
+    error->all(FLERR,
+               "Links and contacts with kelvin-voigt do not work with fix {} of style lsm/leap, "
+               "whose blocks move faster than their model time tells",
+               leap->id);
+  for (const auto *mover : LSMMover::all(modify)) extrapolated |= mover->moved_bits();
   if (LSMScene::integrators(modify).empty() && !LSMScene::is_rerun(update))
     error->all(FLERR, "Links and contacts with kelvin-voigt need fix lsm/nve, which knows the "
                       "velocities of the time of the forces");
@@ -158,10 +155,7 @@ void FixLSMVelocity::post_force(int /*vflag*/)
 void FixLSMVelocity::post_run()
 {
   if (!used) return;
-  for (const auto &other : modify->get_fix_list()) {
-    if (auto p = dynamic_cast<FixLSMNVE *>(other)) p->complete_step();
-    if (auto p = dynamic_cast<FixLSMPlates *>(other)) p->complete_step();
-  }
+  LSMMover::complete_steps(modify);
   known = fingerprint();
 }
 
@@ -192,9 +186,7 @@ std::uint64_t FixLSMVelocity::fingerprint() const
 
 double FixLSMVelocity::compute_scalar()
 {
-  double all;
-  MPI_Allreduce(&work_dashpots, &all, 1, MPI_DOUBLE, MPI_SUM, world);
-  return all;
+  return lsm_total(work_dashpots, world);
 }
 
 double FixLSMVelocity::memory_usage()
@@ -254,23 +246,24 @@ void FixLSMVelocity::unpack_forward_comm(int n, int first, double *buf)
 struct Saved {
   double work;
   std::uint64_t known;
+  template <class Self, class State> static void visit(Self &self, State &state)
+  {
+    state.sum(self.work);
+    state.raw(self.known);
+  }
 };
 
 void FixLSMVelocity::write_restart(FILE *fp)
 {
-  const Saved saved = {compute_scalar(), fingerprint()};
-  if (comm->me) return;
-  const int size = sizeof(saved);
-  fwrite(&size, sizeof(int), 1, fp);
-  fwrite(&saved, sizeof(saved), 1, fp);
+  lsm_write_state(Saved{work_dashpots, fingerprint()}, fp, world);
 }
 
 void FixLSMVelocity::restart(char *buf)
 {
   Saved saved;
-  memcpy(&saved, buf, sizeof(saved));
+  lsm_read_state(saved, buf, world);
   known = saved.known;
-  work_dashpots = comm->me == 0 ? saved.work : 0.0;
+  work_dashpots = saved.work;
 }
 
 int FixLSMVelocity::pack_restart(int i, double *buf)

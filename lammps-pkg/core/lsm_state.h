@@ -94,29 +94,33 @@ class StateWriter : public state_detail::StateVisitor<StateWriter> {
 class StateReader : public state_detail::StateVisitor<StateReader> {
  public:
   explicit StateReader(const std::vector<double> &from, std::size_t at = 0)
-      : from_(from), at_(at) {}
+      : from_(from.data() + at), left_(from.size() - at) {}
+  /// Of numbers that are known to be enough.
+  explicit StateReader(const double *from) : from_(from), left_(SIZE_MAX) {}
 
   template <class Value>
   void one(Value &value) {
     expect(1);
-    value = static_cast<Value>(from_[at_++]);
+    value = static_cast<Value>(*from_++);
+    --left_;
   }
   /// So many numbers at least are still to come.
   void expect(std::int64_t numbers) const {
-    if (numbers < 0 || static_cast<std::uint64_t>(numbers) > from_.size() - at_)
+    if (numbers < 0 || static_cast<std::uint64_t>(numbers) > left_)
       throw std::invalid_argument("saved state is incomplete");
   }
   void raw_words(void *to, std::size_t words) {
     expect(static_cast<std::int64_t>(words));
-    std::memcpy(to, &from_[at_], words * sizeof(double));
-    at_ += words;
+    std::memcpy(to, from_, words * sizeof(double));
+    from_ += words;
+    left_ -= words;
   }
   /// Numbers that nothing has asked for.
-  std::size_t left() const { return from_.size() - at_; }
+  std::size_t left() const { return left_; }
 
  private:
-  const std::vector<double> &from_;
-  std::size_t at_;
+  const double *from_;
+  std::size_t left_;
 };
 
 }  // namespace LSM

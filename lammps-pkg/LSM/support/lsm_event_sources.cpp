@@ -18,6 +18,7 @@
 #include "pair_lsm_free.h"
 #include "update.h"
 
+#include "lsm_fix_state.h"
 #include "lsm_scene.h"
 #include "lsm_sum.h"
 #include "lsm_text_io.h"
@@ -174,28 +175,13 @@ double LSMEventSources::max_strain() const
   return links_ ? links_->max_strain() : 0.0;
 }
 
-void LSMEventSources::complete_steps() const
-{
-  for (auto *p : integrators_) p->complete_step();
-  if (plates_) plates_->complete_step();
-}
-
-/* ---------------------------------------------------------------------- */
-
-static double total(double mine, MPI_Comm world)
-{
-  double all;
-  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
-  return all;
-}
-
 /* ----------------------------------------------------------------------
    plates: only their motion across the fault, as the energy of the driven motion is no part of the balance
 ------------------------------------------------------------------------- */
 
 double LSMEventSources::kinetic() const
 {
-  const int skip = plates_ ? plates_->plate_bits() : 0;
+  const int skip = plates_ ? plates_->moved_bits() : 0;
   double **v = atom->v;
   LSM::NeumaierSum sum;
   for (int i = 0; i < atom->nlocal; i++) {
@@ -203,7 +189,7 @@ double LSMEventSources::kinetic() const
     const double m = atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
     sum.add(m * (v[i][0] * v[i][0] + v[i][1] * v[i][1] + v[i][2] * v[i][2]));
   }
-  return 0.5 * total(sum.value(), world) + (plates_ ? plates_->kinetic() : 0.0);
+  return 0.5 * lsm_total(sum.value(), world) + (plates_ ? plates_->kinetic() : 0.0);
 }
 
 /* ----------------------------------------------------------------------
@@ -225,14 +211,14 @@ LSM::EnergyTerms LSMEventSources::energies() const
   }
   LSM::EnergyTerms terms;
   terms.kinetic = kinetic();
-  terms.potential = total(potential, world);
-  terms.friction = total(friction, world);
-  terms.viscosity = total(viscosity, world);
-  terms.broken = links_ ? total(links_->work_broken, world) : 0.0;
+  terms.potential = lsm_total(potential, world);
+  terms.friction = lsm_total(friction, world);
+  terms.viscosity = lsm_total(viscosity, world);
+  terms.broken = links_ ? lsm_total(links_->work_broken, world) : 0.0;
   terms.plates = plates_ ? plates_->work() : 0.0;
-  terms.outside = total(outside, world);
-  terms.absorbed = total(absorbed, world);
-  terms.counted_pe = total(pe(), world);
+  terms.outside = lsm_total(outside, world);
+  terms.absorbed = lsm_total(absorbed, world);
+  terms.counted_pe = lsm_total(pe(), world);
   return terms;
 }
 

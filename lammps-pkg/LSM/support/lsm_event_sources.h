@@ -44,7 +44,6 @@ class LSMEventSources : protected Pointers {
   void pe_by_kind(double *) const;
   double max_strain() const;            ///< of this rank's links
   LSM::EnergyTerms energies() const;    ///< of all ranks; works since these styles began
-  void complete_steps() const;          ///< velocities and positions of the same time
   LSM::SceneInfo scene() const;
 
  private:

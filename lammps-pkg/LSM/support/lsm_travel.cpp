@@ -5,8 +5,7 @@
 #include "lsm_travel.h"
 
 #include "domain.h"
-#include "fix_lsm_nve.h"
-#include "fix_lsm_plates.h"
+#include "fix.h"
 #include "lsm_scene.h"
 #include "modify.h"
 #include "update.h"
@@ -19,13 +18,10 @@ using namespace LAMMPS_NS;
 
 void LSMTravel::look_for_movers()
 {
-  integrators = LSMScene::integrators(modify);
-  plates.clear();
+  movers = LSMMover::all(modify);
   known = update->whichflag == 1;
-  for (const auto &fix : modify->get_fix_list()) {
+  for (const auto &fix : modify->get_fix_list())
     known = known && (LSMScene::is_ours(fix) || utils::strmatch(fix->style, "^NEIGH_HISTORY"));
-    if (auto p = dynamic_cast<FixLSMPlates *>(fix)) plates.push_back(p);
-  }
 }
 
 /* ----------------------------------------------------------------------
@@ -42,11 +38,10 @@ double LSMTravel::since_last(bool wanted)
   if (!known) return INFINITY;
 
   double farthest = 0.0;    // if all of them moved it
-  for (FixLSMNVE *fix : integrators) {
-    if (wanted) fix->measure_moves();
-    farthest += fix->longest_move();
+  for (LSMMover *mover : movers) {
+    if (wanted) mover->measure_moves();
+    farthest += mover->longest_move();
   }
-  for (const FixLSMPlates *fix : plates) farthest += fix->longest_move();
   if (!follows) return INFINITY;
 
   double largest = 0.0;    // coordinate, to which positions are rounded

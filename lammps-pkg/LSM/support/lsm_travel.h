@@ -7,14 +7,12 @@
 #define LMP_LSM_TRAVEL_H
 
 #include "lmptype.h"
+#include "lsm_mover.h"
 #include "pointers.h"
 
 #include <vector>
 
 namespace LAMMPS_NS {
-
-class FixLSMNVE;
-class FixLSMPlates;
 
 /// The longest way of a particle of this rank in a step, as told by the fixes that move them: they have the velocities
 /// at hand, while comparing positions with older ones reads both from memory.
@@ -28,8 +26,7 @@ class LSMTravel : protected Pointers {
 
  private:
   bool known = false;    // all that move particles are these
-  std::vector<FixLSMNVE *> integrators;
-  std::vector<FixLSMPlates *> plates;
+  std::vector<LSMMover *> movers;
   bigint step = -1, first_step = -1;    // of the last call and of its run
 
   void look_for_movers();

@@ -1,0 +1,75 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   SPDX-License-Identifier: GPL-2.0-or-later
+   What a fix keeps in restart files, by its visit(): see lsm_state.h
+------------------------------------------------------------------------- */
+
+#ifndef LMP_LSM_FIX_STATE_H
+#define LMP_LSM_FIX_STATE_H
+
+#include "lsm_state.h"
+
+#include <cstdio>
+#include <mpi.h>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+inline double lsm_total(double mine, MPI_Comm world)
+{
+  double all = 0.0;
+  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
+  return all;
+}
+
+/// Beside what both have, sum(mine): the total of a number of which each rank has a part. Rank 0 goes on with all of it.
+class LSMStateWriter : public LSM::StateWriter {
+ public:
+  LSMStateWriter(std::vector<double> &to, MPI_Comm world) : StateWriter(to), world_(world) {}
+  void sum(double mine) { one(lsm_total(mine, world_)); }
+
+ private:
+  MPI_Comm world_;
+};
+
+class LSMStateReader : public LSM::StateReader {
+ public:
+  LSMStateReader(const char *buf, bool first) :
+      StateReader(reinterpret_cast<const double *>(buf)), first_(first)
+  {
+  }
+  void sum(double &mine)
+  {
+    one(mine);
+    if (!first_) mine = 0.0;
+  }
+
+ private:
+  bool first_;
+};
+
+/// For Fix::write_restart(), on all ranks.
+template <class State> void lsm_write_state(const State &state, FILE *fp, MPI_Comm world)
+{
+  std::vector<double> numbers;
+  LSMStateWriter to(numbers, world);
+  State::visit(state, to);
+  int me;
+  MPI_Comm_rank(world, &me);
+  if (me) return;
+  const int size = static_cast<int>(numbers.size() * sizeof(double));
+  fwrite(&size, sizeof(int), 1, fp);
+  fwrite(numbers.data(), sizeof(double), numbers.size(), fp);
+}
+
+/// For Fix::restart().
+template <class State> void lsm_read_state(State &state, const char *buf, MPI_Comm world)
+{
+  int me;
+  MPI_Comm_rank(world, &me);
+  LSMStateReader from(buf, me == 0);
+  State::visit(state, from);
+}
+
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,41 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   SPDX-License-Identifier: GPL-2.0-or-later
+   What moves particles of the package, to be asked by what looks at them
+------------------------------------------------------------------------- */
+
+#ifndef LMP_LSM_MOVER_H
+#define LMP_LSM_MOVER_H
+
+#include <vector>
+
+namespace LAMMPS_NS {
+class Modify;
+
+/// Base of the fixes that move particles. They may put off the second half of a step to the first half of the next, so that
+/// both go through memory together or messages travel meanwhile: who looks at velocities calls complete_steps() before.
+class LSMMover {
+ public:
+  virtual ~LSMMover() noexcept(false) {}    // as LAMMPS' own base classes
+
+  /// Velocities and positions of the same time from now on.
+  virtual void complete_step() = 0;
+  /// Whether the second half of the last step is still to be done.
+  bool has_put_off() const { return pending; }
+  /// Bits of the groups that it moves.
+  virtual int moved_bits() const = 0;
+  /// It moved no particle of this rank farther in this step; infinite if that was not measured.
+  virtual double longest_move() const = 0;
+  /// Has longest_move() measured from the next step on.
+  virtual void measure_moves() {}
+
+  /// Those of the scene, in the order of the fixes.
+  static std::vector<LSMMover *> all(Modify *);
+  static void complete_steps(Modify *);
+
+ protected:
+  bool pending = false;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
