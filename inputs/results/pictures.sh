@@ -73,6 +73,7 @@ for part; do
       gnuplot -e "table = 'slow-driving-slider.csv'" ../studies/slow-driving-slider.gp
       gnuplot -e "table = 'accuracy_catalogues.csv'; name = 'accuracy_catalogues'" ../studies/work-precision.gp
       gnuplot -e "table = 'regime-map.csv'" ../studies/regime-map.gp
+      gnuplot accuracy.gp
       rm -f regime-map.svg
       ;;
     *) echo "pictures.sh: part '$part', expected catalogues, run or studies" >&2; exit 2 ;;

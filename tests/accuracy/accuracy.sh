@@ -87,9 +87,10 @@ draw() {  # NAME GNUPLOT-COMMANDS; nothing where a table is missing
 }
 # A line of a diagram: FILE 'awk condition' X-COLUMN Y-COLUMN TITLE STYLE [COLUMN OF THE TIME STEP, written beside the points]
 line() {
-  local rows="'< awk -F, '\''!/^#/ && FNR > 1 && ($2)'\'' $1'"
+  local rows="'< awk -F, '\''!/^#/ && FNR > 1 && ($2)'\'' $1'" up=0.5
+  [ $(($6 % 2)) = 1 ] || up=-0.5 # labels of two lines that lie close together
   printf '%s' "$rows using $3:$4 with linespoints lt $6 title '$5'"
-  [ -z "${7:-}" ] || printf '%s' ", $rows using $3:$4:(sprintf('%g', \$$7)) with labels left offset 0.7,0.5 font ',9' tc lt $6 notitle"
+  [ -z "${7:-}" ] || printf '%s' ", $rows using $3:$4:(sprintf('%g', \$$7)) with labels left offset 0.7,$up font ',9' tc lt $6 notitle"
 }
 quoted() { printf '%s' "${1//\'\\\'\'/\'\'}"; }
 join() {
