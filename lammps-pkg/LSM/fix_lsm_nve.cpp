@@ -15,6 +15,7 @@
 #include "integrate.h"
 #include "lsm_fix_state.h"
 #include "lsm_frequency.h"
+#include "lsm_keyword_reader.h"
 #include "lsm_scene.h"
 #include "lsm_text_io.h"
 #include "modify.h"
@@ -52,35 +53,16 @@ FixLSMNVE::FixLSMNVE(LAMMPS *_lmp, int narg, char **arg) :
   restart_global = 1;
   comm_forward = comm_reverse = domain->dimension == 3 ? 3 : 2;
 
-  int iarg = 3;
-  while (iarg < narg) {
-    if (iarg + 1 >= narg) error->all(FLERR, "Fix lsm/nve keyword {} needs a value", arg[iarg]);
-    if (strcmp(arg[iarg], "viscosity") == 0) {
-      nu.assign(atom->ntypes + 1, viscosity_from(arg[iarg + 1]));
-    } else if (strcmp(arg[iarg], "viscosity/type") == 0) {
-      if (iarg + 2 >= narg)
-        error->all(FLERR, "Fix lsm/nve keyword viscosity/type needs types and a value");
-      int lo, hi;
-      utils::bounds(FLERR, arg[iarg + 1], 1, atom->ntypes, lo, hi, error);
-      const double value = viscosity_from(arg[iarg + 2]);
-      for (int itype = lo; itype <= hi; itype++) nu[itype] = value;
-      iarg++;
-    } else if (strcmp(arg[iarg], "dtcheck") == 0) {
-      if (strcmp(arg[iarg + 1], "error") == 0)
-        check = ERROR;
-      else if (strcmp(arg[iarg + 1], "warn") == 0)
-        check = WARN;
-      else if (strcmp(arg[iarg + 1], "off") == 0)
-        check = OFF;
-      else
-        error->all(FLERR, "Fix lsm/nve dtcheck is '{}', but must be error, warn or off",
-                   arg[iarg + 1]);
-    } else
-      error->all(
-          FLERR,
-          "Unknown fix lsm/nve keyword '{}'; accepted are viscosity, viscosity/type and dtcheck",
-          arg[iarg]);
-    iarg += 2;
+  const LSM::Keywords keywords = {{"dtcheck", LSM::Words{&check, {"error", "warn", "off"}}}};
+  LSMKeywordReader in(lmp, "Fix lsm/nve", 3, narg, arg);
+  while (in.next()) {
+    if (in.read(keywords)) continue;
+    const bool of_types = in.key() == "viscosity/type";
+    if (!of_types && in.key() != "viscosity") in.unknown(keywords, "viscosity, viscosity/type");
+    in.need(of_types ? 2 : 1);
+    int lo = 1, hi = atom->ntypes;
+    if (of_types) utils::bounds(FLERR, in.text(), 1, atom->ntypes, lo, hi, error);
+    std::fill(&nu[lo], &nu[hi] + 1, in.number(LSM::Must::not_negative));
   }
   for (double value : nu) viscous = viscous || value > 0.0;
 }
@@ -88,13 +70,6 @@ FixLSMNVE::FixLSMNVE(LAMMPS *_lmp, int narg, char **arg) :
 FixLSMNVE::~FixLSMNVE()
 {
   leave_clearing_to_integrator();
-}
-
-double FixLSMNVE::viscosity_from(const char *text)
-{
-  const double value = utils::numeric(FLERR, text, false, lmp);
-  if (!(value >= 0.0)) error->all(FLERR, "Fix lsm/nve viscosity is {}, but must be >= 0", value);
-  return value;
 }
 
 std::string FixLSMNVE::viscosity() const

@@ -107,7 +107,6 @@ class FixLSMNVE : public Fix, public LSMMover {
   bool may_clear() const;
   void leave_clearing_to_integrator();
   void clear_all();
-  double viscosity_from(const char *);
   double time_step_limit(double reach_factor, double &frequency);
   double highest_eigenvalue(const std::vector<LSM::PairSpring> &);
 };
