@@ -10,8 +10,9 @@
 #include "error.h"
 #include "fix_lsm_leap.h"
 #include "fix_lsm_record.h"
-#include "lsm_fix_state.h"
 #include "lsm_mover.h"
+#include "lsm_ranks.h"
+#include "lsm_state.h"
 #include "modify.h"
 #include "output.h"
 #include "platform.h"
@@ -223,11 +224,8 @@ template <class Task> void ComputeLSMEvents::on_rank_0(Task &&task)
 
 void ComputeLSMEvents::stop_on_failure()
 {
-  int length = static_cast<int>(failure.size());
-  MPI_Bcast(&length, 1, MPI_INT, 0, world);
-  if (length == 0) return;
-  failure.resize(length);
-  MPI_Bcast(&failure[0], length, MPI_CHAR, 0, world);
+  lsm_share(failure, world);
+  if (failure.empty()) return;
   const std::string what = failure;
   failure.clear();
   error->all(FLERR, "{}", what);
@@ -271,8 +269,7 @@ void ComputeLSMEvents::check_box()
     period = domain->prd[0];
   }
   if (begin == domain->boxlo[0] && period == domain->prd[0]) return;
-  for (const std::string &file :
-       {settings.catalogue_file, settings.series_file, settings.history_file})
+  for (const auto &[key, file] : LSM::files_of(settings))
     if (placed || !file.empty())
       error->all(
           FLERR,
@@ -290,8 +287,7 @@ void ComputeLSMEvents::check_box()
 void ComputeLSMEvents::change_dt()
 {
   if (update->dt == clock.dt) return;
-  for (const std::string &file :
-       {settings.catalogue_file, settings.series_file, settings.history_file})
+  for (const auto &[key, file] : LSM::files_of(settings))
     if (opened && !file.empty())
       error->all(
           FLERR,
@@ -652,11 +648,4 @@ void ComputeLSMEvents::compute_vector()
   vector[WORK_BROKEN] = now.broken;
   vector[WORK_OUTSIDE] = now.outside;
   vector[WORK_ABSORBED] = now.absorbed;
-}
-
-/* ---------------------------------------------------------------------- */
-
-double ComputeLSMEvents::memory_usage()
-{
-  return static_cast<double>(sampler.bytes()) + gather.bytes();
 }

@@ -37,7 +37,6 @@ class ComputeLSMEvents : public Compute {
   void init() override;
   double compute_scalar() override;
   void compute_vector() override;
-  double memory_usage() override;
 
   // called by fix LSM_RECORD
 

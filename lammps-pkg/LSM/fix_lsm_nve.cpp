@@ -26,7 +26,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <type_traits>
 #include <utility>
+#include <variant>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -161,31 +163,26 @@ void FixLSMNVE::post_neighbor()
 
 /* ---------------------------------------------------------------------- */
 
-template <bool DIM3, bool CLEARS> void FixLSMNVE::choose_for()
+using Flag = std::variant<std::false_type, std::true_type>;
+static Flag flag(bool yes)
 {
-  if (ahead)
-    measures ? choose_for<DIM3, CLEARS, MEASURE | AHEAD>() : choose_for<DIM3, CLEARS, AHEAD>();
-  else
-    measures ? choose_for<DIM3, CLEARS, MEASURE>() : choose_for<DIM3, CLEARS, 0>();
+  return yes ? Flag(std::true_type()) : Flag(std::false_type());
 }
 
-template <bool DIM3, bool CLEARS, int MORE> void FixLSMNVE::choose_for()
+void FixLSMNVE::choose()
 {
-  constexpr int FIRST = INITIAL | MORE, BOTH = FINAL | INITIAL | MORE;
   const bool slows = viscous || nu_least > 0.0;
-  if (slows && record_work) {
-    initial_chosen = &FixLSMNVE::move<FIRST, true, true, DIM3, CLEARS>;
-    final_chosen = &FixLSMNVE::move<FINAL, true, true, DIM3, false>;
-    both_chosen = nullptr;
-  } else if (slows) {
-    initial_chosen = &FixLSMNVE::move<FIRST, true, false, DIM3, CLEARS>;
-    final_chosen = &FixLSMNVE::move<FINAL, true, false, DIM3, false>;
-    both_chosen = &FixLSMNVE::move<BOTH, true, false, DIM3, CLEARS>;
-  } else {
-    initial_chosen = &FixLSMNVE::move<FIRST, false, false, DIM3, CLEARS>;
-    final_chosen = &FixLSMNVE::move<FINAL, false, false, DIM3, false>;
-    both_chosen = &FixLSMNVE::move<BOTH, false, false, DIM3, CLEARS>;
-  }
+  std::visit(
+      [this](auto slow, auto work, auto dim3, auto clear, auto measure, auto next) {
+        constexpr int MORE = (measure.value ? MEASURE : 0) | (next.value ? AHEAD : 0);
+        constexpr bool SLOW = slow.value, WORK = SLOW && work.value, DIM3 = dim3.value;
+        initial_chosen = &FixLSMNVE::move<INITIAL | MORE, SLOW, WORK, DIM3, clear.value>;
+        final_chosen = &FixLSMNVE::move<FINAL, SLOW, WORK, DIM3, false>;
+        both_chosen = &FixLSMNVE::move<FINAL | INITIAL | MORE, SLOW, WORK, DIM3, clear.value>;
+      },
+      flag(slows), flag(record_work), flag(domain->dimension == 3), flag(clears), flag(measures),
+      flag(ahead != nullptr));
+  if (slows && record_work) both_chosen = nullptr;
 
   // fixes that may look at velocities between the end of a step and the begin of the next
 
@@ -197,16 +194,6 @@ template <bool DIM3, bool CLEARS, int MORE> void FixLSMNVE::choose_for()
     if (when & END_OF_STEP) onlookers.push_back(other);
   }
   if (group->dynamic[igroup]) both_chosen = nullptr;
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FixLSMNVE::choose()
-{
-  if (domain->dimension == 3)
-    clears ? choose_for<true, true>() : choose_for<true, false>();
-  else
-    clears ? choose_for<false, true>() : choose_for<false, false>();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -545,11 +532,4 @@ void FixLSMNVE::restart(char *buf)
 {
   lsm_read_state(*this, buf, world);
   goes_on = true;
-}
-
-/* ---------------------------------------------------------------------- */
-
-double FixLSMNVE::memory_usage()
-{
-  return static_cast<double>(trial.capacity() + image.capacity()) * sizeof(double);
 }

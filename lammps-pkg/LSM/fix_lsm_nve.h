@@ -45,7 +45,6 @@ class FixLSMNVE : public Fix, public LSMMover {
   void unpack_forward_comm(int, int, double *) override;
   int pack_reverse_comm(int, int, double *) override;
   void unpack_reverse_comm(int, int *, double *) override;
-  double memory_usage() override;
 
   bool record_work;         // set by compute lsm/events when it keeps the energy ledger
   double work_viscosity;    // work lost to viscosity, this rank, accumulated
@@ -100,8 +99,6 @@ class FixLSMNVE : public Fix, public LSMMover {
   void (FixLSMNVE::*both_chosen)();    // null if no half may be put off
 
   template <int PARTS, bool VISCOUS, bool WORK, bool DIM3, bool CLEARS> void move();
-  template <bool DIM3, bool CLEARS> void choose_for();
-  template <bool DIM3, bool CLEARS, int MORE> void choose_for();
   void choose();
   void collect();
   bool may_clear() const;
