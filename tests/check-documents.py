@@ -116,7 +116,7 @@ STYLES = {
                          {"failures": "max_failures", "linkgap": "link_gap", "faultzone": "fault_zone"}),
     "fix_lsm_nve": (["fix_lsm_nve.cpp"], ["error", "warn", "off"], [], {}),
     "fix_lsm_plates": (["fix_lsm_plates.cpp"], [], [], {}),
-    "fix_lsm_leap": (["fix_lsm_leap.cpp"], [], ["LSM/fix_lsm_leap.cpp"], {"settle": "viscosity", "look": "between"}),
+    "fix_lsm_leap": (["fix_lsm_leap.cpp"], [], ["LSM/fix_lsm_leap.h"], {"settle": "viscosity", "look": "between"}),
     "compute_lsm_events": (["support/lsm_event_options.cpp", "../core/events/pe_drops.h"], RUPTURES,
                            ["core/events/event_kind.h", "core/events/pe_drops.h", "LSM/support/lsm_event_options.h", "core/lsm_watchdog.h",
                             "core/lsm_event_picker.h"],

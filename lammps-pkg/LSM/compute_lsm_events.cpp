@@ -55,9 +55,7 @@ enum {
 
 ComputeLSMEvents::ComputeLSMEvents(LAMMPS *_lmp, int narg, char **arg) :
     Compute(_lmp, narg, arg), options(_lmp, 3, narg, arg), settings(options.events),
-    recorder(nullptr), sources(_lmp, settings), gather(world, settings.kind->wants_slips()),
-    watchdog(options.watchdog), last_recorded(-1), opened(false), fault_begun(false), widest(0.0),
-    shown_at(0.0), started_at(0.0), begin(0.0), period(0.0)
+    sources(_lmp, settings), gather(world, settings.kind->wants_slips()), watchdog(options.watchdog)
 {
   if (igroup) error->all(FLERR, "Compute lsm/events must use group all");
   scalar_flag = 1;

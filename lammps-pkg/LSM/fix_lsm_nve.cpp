@@ -39,10 +39,7 @@ static constexpr double NEARLY_CLOSED =
 /* ---------------------------------------------------------------------- */
 
 FixLSMNVE::FixLSMNVE(LAMMPS *_lmp, int narg, char **arg) :
-    Fix(_lmp, narg, arg), record_work(false), work_viscosity(0.0), nu_least(0.0),
-    nu(atom->ntypes + 1, 0.0), decay(atom->ntypes + 1, 1.0), viscous(false), dtv(0.0), dtf(0.0),
-    check(ERROR), omega(0.0), dt_limit(0.0), clears(false), measures(false), fastest(-1.0),
-    ahead(nullptr), initial_chosen(nullptr), final_chosen(nullptr), both_chosen(nullptr)
+    Fix(_lmp, narg, arg), nu(atom->ntypes + 1, 0.0), decay(atom->ntypes + 1, 1.0)
 {
   time_integrate = 1;
   dynamic_group_allow = 1;

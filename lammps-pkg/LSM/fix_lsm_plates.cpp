@@ -30,10 +30,7 @@ enum { LOWER, UPPER };
 /* ---------------------------------------------------------------------- */
 
 FixLSMPlates::FixLSMPlates(LAMMPS *_lmp, int narg, char **arg) :
-    Fix(_lmp, narg, arg), loading(1.0), speed(0.0), ramp(0.0), servo(false), stress(0.0),
-    stress_ramp(0.0), damping(0.0), impedance(0.0), vy_known(false), elapsed(0.0), ux(0.0),
-    work_mine(0.0), dt(update->dt), ahead(nullptr), reducing(false), moved(0.0), along(0.0),
-    summed_at(-1)
+    Fix(_lmp, narg, arg), dt(update->dt)
 {
   scalar_flag = 1;
   vector_flag = 1;
@@ -53,7 +50,6 @@ FixLSMPlates::FixLSMPlates(LAMMPS *_lmp, int narg, char **arg) :
                  arg[3 + p]);
     plate[p].bit = group->bitmask[plate[p].group];
     plate[p].side = p == LOWER ? -1.0 : 1.0;
-    plate[p].mass = plate[p].vy = plate[p].uy = plate[p].fx = plate[p].fy = 0.0;
   }
 
   using LSM::Must;
