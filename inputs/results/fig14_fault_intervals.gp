@@ -48,35 +48,34 @@ set logscale y
 set format y "10^{%L}"
 set ytics 10
 set mytics 10
-set yrange [9.9999999999999995e-07:1]
+set yrange [9.9999999999999995e-08:1]
 row(k) = $1 == k && $7 > 0 ? $6 : NaN
 low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y
 set samples 400
 plot table using (row(1)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \
      table using (row(1)):8 with points lt 1 notitle, \
-     keyentry with linespoints lt 1 title "fault, length 120 (229 times)", \
+     keyentry with linespoints lt 1 title "fault, length 120 (1130 times)", \
      table using (row(2)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 2 dt 1 lw 0.8 notitle, \
      table using (row(2)):8 with points lt 2 notitle, \
-     keyentry with linespoints lt 2 title "fault, length 240 (213 times)", \
+     keyentry with linespoints lt 2 title "fault, length 240 (1104 times)", \
      table using (row(3)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 3 dt 1 lw 0.8 notitle, \
      table using (row(3)):8 with points lt 3 notitle, \
-     keyentry with linespoints lt 3 title "fault, length 480 (257 times)", \
+     keyentry with linespoints lt 3 title "fault, length 480 (1388 times)", \
      table using (row(4)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 4 dt 1 lw 0.8 notitle, \
      table using (row(4)):8 with points lt 4 notitle, \
-     keyentry with linespoints lt 4 title "fault, length 945 (195 times)", \
+     keyentry with linespoints lt 4 title "fault, length 945 (1506 times)", \
      table using (row(5)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 5 dt 1 lw 0.8 notitle, \
      table using (row(5)):8 with points lt 5 notitle, \
-     keyentry with linespoints lt 5 title "fault, length 1440 (135 times)", \
+     keyentry with linespoints lt 5 title "fault, length 1440 (1361 times)", \
      table using (row(6)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 6 dt 1 lw 0.8 notitle, \
      table using (row(6)):8 with points lt 6 notitle, \
-     keyentry with linespoints lt 6 title "fault, length 1890 (92 times)", \
-     [1:1258.9254117941693] '+' using 1:(0.019962577161496409*$1**(-0.23807880415622862)*exp(-$1**(1)/142.79627064125046)) with lines lt 1 notitle, \
-     [0.79432823472428149:794.32823472428277] '+' using 1:(0.03830760890680978*$1**(-0.42804266532883495)*exp(-$1**(1)/206.59216600887481)) with lines lt 2 dt 3 lw 0.7 notitle, \
-     [0.79432823472428149:1000.0000000000017] '+' using 1:(0.068182000044574503*$1**(-0.63376579731705673)*exp(-$1**(1)/266.44941607218482)) with lines lt 3 notitle, \
-     [0.31622776601683783:1000.0000000000017] '+' using 1:(0.12046205550855529*$1**(-0.7431024708987698)*exp(-$1**(1)/216.65562691633136)) with lines lt 4 notitle, \
-     [0.50118723362727224:1000.0000000000017] '+' using 1:(0.042680157164551362*$1**(-0.48458242253698169)*exp(-$1**(1)/158.61486387657143)) with lines lt 5 dt 3 lw 0.7 notitle, \
-     [0.39810717055349715:794.32823472428277] '+' using 1:(0.035176874807281051*$1**(-0.48490956126768925)*exp(-$1**(1)/231.33295115631748)) with lines lt 6 notitle, \
-     keyentry with lines lt 8 title 'lines: fitted generalised gamma', \
+     keyentry with linespoints lt 6 title "fault, length 1890 (1472 times)", \
+     [0.50118723362727224:1258.9254117941693] '+' using 1:(0.017819179112133286*$1**(-0.21843952390416754)*exp(-$1**(1)/154.70490020054996)) with lines lt 1 dt 3 lw 0.7 notitle, \
+     [0.63095734448019314:1258.9254117941693] '+' using 1:(0.019910489433201853*$1**(-0.28357481887959635)*exp(-$1**(1)/179.95884367800539)) with lines lt 2 dt 3 lw 0.7 notitle, \
+     [0.50118723362727224:1000.0000000000017] '+' using 1:(0.041164755426826516*$1**(-0.46484833565158457)*exp(-$1**(1)/179.50323058675815)) with lines lt 3 dt 3 lw 0.7 notitle, \
+     [0.31622776601683783:1258.9254117941693] '+' using 1:(0.063137985038525177*$1**(-0.60959776036727709)*exp(-$1**(1)/214.98509930809078)) with lines lt 4 dt 3 lw 0.7 notitle, \
+     [0.31622776601683783:1584.8931924611163] '+' using 1:(0.092377278619590344*$1**(-0.75743684438808889)*exp(-$1**(1)/318.58322745744715)) with lines lt 5 dt 3 lw 0.7 notitle, \
+     [0.19952623149688789:1258.9254117941693] '+' using 1:(0.080050382237663253*$1**(-0.69774224270452545)*exp(-$1**(1)/254.8012075004473)) with lines lt 6 dt 3 lw 0.7 notitle, \
      keyentry with lines lt 8 dt 3 lw 0.7 title 'fit rejected (p < 0.05)'
 unset output
 }

@@ -29,15 +29,17 @@ for part; do
       "$postproc" fit catalogues/slider_ruptures_*.xz --scaling --range 1:100 --from 40000 --threshold 1 --replicas 0 \
         --no-comparison -o "$new/rupture_fit"
       "$postproc" fit catalogues/fault_[0-9]*.xz --scaling --threshold 1e-3 --from 4500 --range 1e-3:1 --replicas 0 \
+        --no-comparison -o "$new/fault_first_fit"
+      "$postproc" fit campaign/fault_*[0-9]_[0-9].catalogue.csv.xz --scaling --threshold 1e-3 --from 4500 --range 1e-3:1 --replicas 0 \
         --no-comparison -o "$new/fault_fit"
       "$postproc" fit catalogues/fault_ruptures_*.xz --scaling --threshold 1e-2 --from 6000 --range 1e-2:1 --replicas 0 \
         --no-comparison -o "$new/fault_rupture_fit"
       faults=()
-      for length in 120 240 480 945 1440 1890; do faults+=(validation/fault_${length}_1.catalogue.csv.xz); done
+      for length in 120 240 480 945 1440 1890; do faults+=(campaign/fault_${length}_1.catalogue.csv.xz); done
       "$postproc" report "${faults[@]}" "${sliders[@]}" --from 4500 -o "$new/report.html" \
         --title "Faults with the calibrated values, block-sliders in the default settings"
       cp "$new/report.html" .
-      for fit in slider_fit rupture_fit fault_fit fault_rupture_fit; do
+      for fit in slider_fit rupture_fit fault_fit fault_first_fit fault_rupture_fit; do
         for kind in csv gp png; do cp "$new/$fit.scaling.$kind" .; done
       done
       for kind in csv gp png table1.csv; do cp "$new/fig15_slider_intervals.$kind" .; done

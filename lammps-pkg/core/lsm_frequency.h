@@ -19,8 +19,6 @@
 #include <utility>
 #include <vector>
 
-#include "lsm_circular_mean.h"
-
 namespace LSM {
 
 /// A spring between particles i and j along the unit vector n, with stiffness k along it and kt
@@ -79,7 +77,7 @@ inline std::pair<double, double> normal_pair(std::uint64_t key, std::uint64_t ax
   };
   state = static_cast<std::uint64_t>(uniform() * 0x1.0p53);
   const double length = std::sqrt(-2.0 * std::log(uniform()));
-  const double angle = 2.0 * pi * uniform();
+  const double angle = 2.0 * 3.14159265358979323846 * uniform();
   return {length * std::cos(angle), length * std::sin(angle)};
 }
 

@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "events/event_kind.h"
-#include "lsm_circular_mean.h"
 #include "lsm_state.h"
 
 namespace LSM {
@@ -44,8 +43,10 @@ class EventLocator {
     int ruptured = 0;
     for (const auto &bin : moment_)
       if (bin.second > fraction_ * largest) ++ruptured;
+    double along = std::atan2(s, c) / (2.0 * pi);
+    if (along < 0.0) along += 1.0;
     event.slip_moment = sum;
-    event.x_centroid = x0 + part_of_ring(s, c) * length;
+    event.x_centroid = x0 + along * length;
     event.rupture_length = std::min(ruptured * bin_width_, length);
   }
 
@@ -66,6 +67,8 @@ class EventLocator {
   }
 
  private:
+  static constexpr double pi = 3.14159265358979323846;
+
   double bin_width_, fraction_;
   std::map<int, double> moment_;
 };
