@@ -116,7 +116,7 @@ STYLES = {
                          {"failures": "max_failures", "linkgap": "link_gap", "faultzone": "fault_zone"}),
     "fix_lsm_nve": (["fix_lsm_nve.cpp"], ["error", "warn", "off"], [], {}),
     "fix_lsm_plates": (["fix_lsm_plates.cpp"], [], [], {}),
-    "fix_lsm_leap": (["fix_lsm_leap.cpp"], [], ["LSM/fix_lsm_leap.cpp"], {"settle": "viscosity", "look": "between"}),
+    "fix_lsm_leap": (["fix_lsm_leap.cpp"], [], ["LSM/fix_lsm_leap.h"], {"settle": "viscosity", "look": "between"}),
     "compute_lsm_events": (["support/lsm_event_options.cpp", "../core/events/pe_drops.h"], RUPTURES,
                            ["core/events/event_kind.h", "core/events/pe_drops.h", "LSM/support/lsm_event_options.h", "core/lsm_watchdog.h",
                             "core/lsm_event_picker.h"],
@@ -134,9 +134,9 @@ def check_styles(root):
     for page, (sources, others, headers, members) in STYLES.items():
         text = (package / f"doc/{page}.rst").read_text()
         code = "".join((package / "LSM" / source).read_text() for source in sources)
-        keywords = set(re.findall(r'(?:key|keyword|kind|in\.key\(\)) == "([a-z/0-9]+)"', code))
+        keywords = set(re.findall(r'(?:key|keyword|kind|in\.key\(\)) [=!]= "([a-z/0-9]+)"', code))
         keywords |= set(re.findall(r'strcmp\(arg\[\w+\], "([a-z/]+)"\) == 0', code))
-        keywords |= set(re.findall(r'\{"([a-z]+)", &[\w.]+(?:, Must::\w+)?\}', code))
+        keywords |= set(re.findall(r'\{"([a-z]+)", (?:&[\w.]+(?:, Must::\w+)?\}|(?:LSM::)?(?:Words|Flag)\{)', code))
         keywords -= set(others)
         said = set(re.findall(r"^       \*([a-z/]+)\* (?:value|=)", text, re.M)) | set(re.findall(r"^       \*([a-z/]+)\* values", text, re.M))
         assert len(keywords) > 1, (page, keywords)

@@ -45,7 +45,7 @@ set mxtics 10
 set xrange [100:10000]
 set ylabel "characteristic size s* (energy)"
 set logscale y
-set ytics ("0.2" 0.2, "0.5" 0.5)
+set ytics ("0.2" 0.2, "0.3" 0.3, "0.4" 0.4, "0.5" 0.5)
 set yrange [0.20000000000000001:0.5]
 low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y
 plot table using ($1 == 1 ? $3 : NaN):(low($4,$5)):(0):($4+$5-low($4,$5)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \

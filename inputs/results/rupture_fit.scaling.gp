@@ -1,5 +1,5 @@
-# Draws rupture_fit.scaling.png and rupture_fit.scaling.svg from rupture_fit.scaling.csv:
-# run `gnuplot ./rupture_fit.scaling.gp` in this folder.
+# Draws rupture_fit.scaling.png and rupture_fit.scaling.svg from rupture_fit.scaling.csv: run
+# `gnuplot ./rupture_fit.scaling.gp` in this folder.
 base = "./rupture_fit.scaling"
 table = base.".csv"
 if (!exists("formats")) formats = "png svg"

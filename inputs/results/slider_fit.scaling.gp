@@ -1,5 +1,5 @@
-# Draws slider_fit.scaling.png and slider_fit.scaling.svg from slider_fit.scaling.csv:
-# run `gnuplot ./slider_fit.scaling.gp` in this folder.
+# Draws slider_fit.scaling.png and slider_fit.scaling.svg from
+# slider_fit.scaling.csv: run `gnuplot ./slider_fit.scaling.gp` in this folder.
 base = "./slider_fit.scaling"
 table = base.".csv"
 if (!exists("formats")) formats = "png svg"
@@ -43,8 +43,8 @@ set xtics ("200" 200, "500" 500, "1000" 1000, "2000" 2000, "5000" 5000)
 set xrange [200:5000]
 set ylabel "characteristic size s* (energy)"
 set logscale y
-set ytics ("1000" 1000, "2000" 2000)
-set yrange [1000:2000]
+set ytics ("1000" 1000, "1200" 1200, "1400" 1400)
+set yrange [1000:1400]
 low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y
 plot table using ($1 == 1 ? $3 : NaN):(low($4,$5)):(0):($4+$5-low($4,$5)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \
      table using ($1 == 1 ? $3 : NaN):4 with points lt 1 title "block-slider, Kl = 0.01: s*", \

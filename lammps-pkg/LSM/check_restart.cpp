@@ -9,6 +9,7 @@
 #include "input.h"
 #include "variable.h"
 
+#include "lsm_ranks.h"
 #include "lsm_restart_info.h"
 
 #include <cstring>
@@ -35,9 +36,9 @@ void CheckRestart::command(int narg, char **arg)
       problem = e.what();
     }
   }
-  share(problem);
+  lsm_share(problem, world);
   if (!problem.empty()) error->all(FLERR, "check_restart: {}", problem);
-  share(lines);
+  lsm_share(lines, world);
   LSM::text_io::Parameters settings;
   for (size_t at = 0; at < lines.size();) {
     const size_t equals = lines.find('=', at), end = lines.find('\n', equals);
@@ -57,16 +58,6 @@ void CheckRestart::command(int narg, char **arg)
       error->all(FLERR, "check_restart expects the keyword fixed or free before '{}'", arg[n]);
     take(file, arg[n], LSM::text_io::find(settings, arg[n]), fixed);
   }
-}
-
-/* ---------------------------------------------------------------------- */
-
-void CheckRestart::share(std::string &text) const
-{
-  int length = static_cast<int>(text.size());
-  MPI_Bcast(&length, 1, MPI_INT, 0, world);
-  text.resize(length);
-  if (length) MPI_Bcast(&text[0], length, MPI_CHAR, 0, world);
 }
 
 /* ----------------------------------------------------------------------

@@ -26,7 +26,6 @@ class CheckRestart : public Command {
   void command(int, char **) override;
 
  private:
-  void share(std::string &) const;
   void set(std::vector<std::string> words);
   void take(const std::string &file, const std::string &name, const std::string *value, bool fixed);
 };

@@ -10,8 +10,9 @@
 #include "error.h"
 #include "fix_lsm_leap.h"
 #include "fix_lsm_record.h"
-#include "lsm_fix_state.h"
 #include "lsm_mover.h"
+#include "lsm_ranks.h"
+#include "lsm_state.h"
 #include "modify.h"
 #include "output.h"
 #include "platform.h"
@@ -54,9 +55,7 @@ enum {
 
 ComputeLSMEvents::ComputeLSMEvents(LAMMPS *_lmp, int narg, char **arg) :
     Compute(_lmp, narg, arg), options(_lmp, 3, narg, arg), settings(options.events),
-    recorder(nullptr), sources(_lmp, settings), gather(world, settings.kind->wants_slips()),
-    watchdog(options.watchdog), last_recorded(-1), opened(false), fault_begun(false), widest(0.0),
-    shown_at(0.0), started_at(0.0), begin(0.0), period(0.0)
+    sources(_lmp, settings), gather(world, settings.kind->wants_slips()), watchdog(options.watchdog)
 {
   if (igroup) error->all(FLERR, "Compute lsm/events must use group all");
   scalar_flag = 1;
@@ -223,11 +222,8 @@ template <class Task> void ComputeLSMEvents::on_rank_0(Task &&task)
 
 void ComputeLSMEvents::stop_on_failure()
 {
-  int length = static_cast<int>(failure.size());
-  MPI_Bcast(&length, 1, MPI_INT, 0, world);
-  if (length == 0) return;
-  failure.resize(length);
-  MPI_Bcast(&failure[0], length, MPI_CHAR, 0, world);
+  lsm_share(failure, world);
+  if (failure.empty()) return;
   const std::string what = failure;
   failure.clear();
   error->all(FLERR, "{}", what);
@@ -271,8 +267,7 @@ void ComputeLSMEvents::check_box()
     period = domain->prd[0];
   }
   if (begin == domain->boxlo[0] && period == domain->prd[0]) return;
-  for (const std::string &file :
-       {settings.catalogue_file, settings.series_file, settings.history_file})
+  for (const auto &[key, file] : LSM::files_of(settings))
     if (placed || !file.empty())
       error->all(
           FLERR,
@@ -290,8 +285,7 @@ void ComputeLSMEvents::check_box()
 void ComputeLSMEvents::change_dt()
 {
   if (update->dt == clock.dt) return;
-  for (const std::string &file :
-       {settings.catalogue_file, settings.series_file, settings.history_file})
+  for (const auto &[key, file] : LSM::files_of(settings))
     if (opened && !file.empty())
       error->all(
           FLERR,
@@ -652,11 +646,4 @@ void ComputeLSMEvents::compute_vector()
   vector[WORK_BROKEN] = now.broken;
   vector[WORK_OUTSIDE] = now.outside;
   vector[WORK_ABSORBED] = now.absorbed;
-}
-
-/* ---------------------------------------------------------------------- */
-
-double ComputeLSMEvents::memory_usage()
-{
-  return static_cast<double>(sampler.bytes()) + gather.bytes();
 }

@@ -37,7 +37,6 @@ class ComputeLSMEvents : public Compute {
   void init() override;
   double compute_scalar() override;
   void compute_vector() override;
-  double memory_usage() override;
 
   // called by fix LSM_RECORD
 
@@ -53,7 +52,7 @@ class ComputeLSMEvents : public Compute {
   LSMEventOptions options;
   LSM::EventSettings &settings;    // those of the options
 
-  class FixLSMRecord *recorder;
+  class FixLSMRecord *recorder = nullptr;
   LSMEventSources sources;
 
   // all ranks
@@ -64,18 +63,18 @@ class ComputeLSMEvents : public Compute {
   LSM::EnergyLedger ledger;
   LSM::Watchdog watchdog;
   LSM::StepClock clock;
-  bigint last_recorded;
-  bool opened;
-  bool fault_begun;    // its state before the first interval is known
-  double widest;       // largest diameter
+  bigint last_recorded = -1;
+  bool opened = false;
+  bool fault_begun = false;    // its state before the first interval is known
+  double widest = 0.0;         // largest diameter
 
   // rank 0
 
   std::unique_ptr<LSM::EventStream> stream;
   std::string failure;    // what went wrong on rank 0, which the others have to hear of
-  double shown_at, started_at;
+  double shown_at = 0.0, started_at = 0.0;
 
-  double begin, period;    // of the box along x at the first run
+  double begin = 0.0, period = 0.0;    // of the box along x at the first run
 
   bool in_intervals() const { return settings.kind->wants_intervals(); }
   void set_memory();

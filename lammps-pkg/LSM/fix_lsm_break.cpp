@@ -85,26 +85,27 @@ void FixLSMBreak::pre_reverse(int /*eflag*/, int /*vflag*/)
   next_reneighbor = update->ntimestep + 1;
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   IDs of both ends and type of each link once, as two ranks may report the same
+------------------------------------------------------------------------- */
+
+using Link = std::tuple<tagint, tagint, int>;
+
+static std::vector<Link> each_once(const std::vector<tagint> &broken)
+{
+  std::vector<Link> links;
+  for (size_t n = 0; n + 2 < broken.size(); n += 3) {
+    const auto [low, high] = std::minmax(broken[n], broken[n + 1]);
+    links.emplace_back(low, high, static_cast<int>(broken[n + 2]));
+  }
+  std::sort(links.begin(), links.end());
+  links.erase(std::unique(links.begin(), links.end()), links.end());
+  return links;
+}
 
 void FixLSMBreak::remove(const std::vector<tagint> &broken)
 {
-  // two ranks may report the same link
-
-  struct Link {
-    tagint low, high;
-    int type;
-  };
-  std::vector<Link> unique;
-  for (size_t n = 0; n + 2 < broken.size(); n += 3)
-    unique.push_back({std::min(broken[n], broken[n + 1]), std::max(broken[n], broken[n + 1]),
-                      static_cast<int>(broken[n + 2])});
-  const auto key = [](const Link &l) { return std::make_tuple(l.low, l.high, l.type); };
-  std::sort(unique.begin(), unique.end(),
-            [&](const Link &a, const Link &b) { return key(a) < key(b); });
-  unique.erase(std::unique(unique.begin(), unique.end(),
-                           [&](const Link &a, const Link &b) { return key(a) == key(b); }),
-               unique.end());
+  const std::vector<Link> unique = each_once(broken);
 
   // with newton_bond on one of the two ranks has the link; another link of the pair keeps it out of contact
 
@@ -113,14 +114,15 @@ void FixLSMBreak::remove(const std::vector<tagint> &broken)
   auto for_each_end = [&](const auto &act) {
     for (size_t n = 0; n < unique.size(); n++)
       for (int side = 0; side < 2; side++) {
-        const tagint other = side ? unique[n].low : unique[n].high;
-        const int i = atom->map(side ? unique[n].high : unique[n].low);
+        const auto [low, high, type] = unique[n];
+        const tagint other = side ? low : high;
+        const int i = atom->map(side ? high : low);
         if (i >= 0 && i < atom->nlocal) act(n, i, other);
       }
   };
   for_each_end([&](size_t n, int i, tagint other) {
     for (int m = 0; m < atom->num_bond[i]; m++)
-      if (atom->bond_atom[i][m] == other && atom->bond_type[i][m] == unique[n].type) {
+      if (atom->bond_atom[i][m] == other && atom->bond_type[i][m] == std::get<2>(unique[n])) {
         const int last = --atom->num_bond[i];
         atom->bond_atom[i][m] = atom->bond_atom[i][last];
         atom->bond_type[i][m] = atom->bond_type[i][last];

@@ -32,10 +32,7 @@ static constexpr bigint KEPT_STEPS =
 
 /* ---------------------------------------------------------------------- */
 
-FixLSMLeap::FixLSMLeap(LAMMPS *_lmp, int narg, char **arg) :
-    Fix(_lmp, narg, arg), fast(0.00025), slip(0.5), calm(10.0), rest(10.0), viscosity(0.0),
-    ramp(15.0), grow(0.0), between(1.5), plates(nullptr), dt(update->dt), loading_energy(0.0),
-    state(EVENT), factor(1.0), since(0.0), steps_time(0.0), leap_time(0.0), stops(0.0), begun(false)
+FixLSMLeap::FixLSMLeap(LAMMPS *_lmp, int narg, char **arg) : Fix(_lmp, narg, arg), dt(update->dt)
 {
   scalar_flag = 1;
   vector_flag = 1;

@@ -45,21 +45,21 @@ class FixLSMLeap : public Fix {
   // settings
 
   std::string plates_id;
-  double fast;    // driving velocity while nothing slips
+  double fast = 0.00025;    // driving velocity while nothing slips
   // rate of slip moment over that of the whole fault at the fast velocity: above it is an event
-  double slip;
-  double calm;    // time without such slip after which the blocks settle
+  double slip = 0.5;
+  double calm = 10.0;    // time without such slip after which the blocks settle
   // kinetic energy over that of the loading motion at the fast velocity: below it they are at rest
-  double rest;
-  double viscosity;    // while they settle, at least; 0: no more than always
-  double ramp;         // time from the slow to the fast velocity
-  double grow;       // model time of a leap in which the factor rises by 1; 0: as fast as the ramp
-  double between;    // time between two looks
+  double rest = 10.0;
+  double viscosity = 0.0;    // while they settle, at least; 0: no more than always
+  double ramp = 15.0;        // time from the slow to the fast velocity
+  double grow = 0.0;         // model time in which the factor rises by 1; 0: as fast as the ramp
+  double between = 1.5;      // time between two looks
 
-  class FixLSMPlates *plates;
+  class FixLSMPlates *plates = nullptr;
   std::vector<class FixLSMNVE *> integrators;
   std::vector<class PairLSMFriction *> contacts;
-  double dt, loading_energy;
+  double dt, loading_energy = 0.0;
 
   // state; the model time goes on from the last change of its rate
 
@@ -72,13 +72,13 @@ class FixLSMLeap : public Fix {
     }
   };
   std::deque<Change> changes;
-  int state;
-  double factor;        // of the driving velocity now
-  double since;         // time since the last slip above the bound
-  double steps_time;    // time of the steps done under this fix
-  double leap_time;     // those of them while leaping
-  double stops;         // leaps that ended
-  bool begun;           // the time step is fixed
+  int state = EVENT;
+  double factor = 1.0;        // of the driving velocity now
+  double since = 0.0;         // time since the last slip above the bound
+  double steps_time = 0.0;    // time of the steps done under this fix
+  double leap_time = 0.0;     // those of them while leaping
+  double stops = 0.0;         // leaps that ended
+  bool begun = false;         // the time step is fixed
 
   bool leaps() const;    // there is a faster velocity, and a velocity at all
   double kinetic() const;

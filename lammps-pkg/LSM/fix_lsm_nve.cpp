@@ -15,6 +15,7 @@
 #include "integrate.h"
 #include "lsm_fix_state.h"
 #include "lsm_frequency.h"
+#include "lsm_keyword_reader.h"
 #include "lsm_scene.h"
 #include "lsm_text_io.h"
 #include "modify.h"
@@ -25,7 +26,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <type_traits>
 #include <utility>
+#include <variant>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -36,10 +39,7 @@ static constexpr double NEARLY_CLOSED =
 /* ---------------------------------------------------------------------- */
 
 FixLSMNVE::FixLSMNVE(LAMMPS *_lmp, int narg, char **arg) :
-    Fix(_lmp, narg, arg), record_work(false), work_viscosity(0.0), nu_least(0.0),
-    nu(atom->ntypes + 1, 0.0), decay(atom->ntypes + 1, 1.0), viscous(false), dtv(0.0), dtf(0.0),
-    check(ERROR), omega(0.0), dt_limit(0.0), clears(false), measures(false), fastest(-1.0),
-    ahead(nullptr), initial_chosen(nullptr), final_chosen(nullptr), both_chosen(nullptr)
+    Fix(_lmp, narg, arg), nu(atom->ntypes + 1, 0.0), decay(atom->ntypes + 1, 1.0)
 {
   time_integrate = 1;
   dynamic_group_allow = 1;
@@ -52,35 +52,16 @@ FixLSMNVE::FixLSMNVE(LAMMPS *_lmp, int narg, char **arg) :
   restart_global = 1;
   comm_forward = comm_reverse = domain->dimension == 3 ? 3 : 2;
 
-  int iarg = 3;
-  while (iarg < narg) {
-    if (iarg + 1 >= narg) error->all(FLERR, "Fix lsm/nve keyword {} needs a value", arg[iarg]);
-    if (strcmp(arg[iarg], "viscosity") == 0) {
-      nu.assign(atom->ntypes + 1, viscosity_from(arg[iarg + 1]));
-    } else if (strcmp(arg[iarg], "viscosity/type") == 0) {
-      if (iarg + 2 >= narg)
-        error->all(FLERR, "Fix lsm/nve keyword viscosity/type needs types and a value");
-      int lo, hi;
-      utils::bounds(FLERR, arg[iarg + 1], 1, atom->ntypes, lo, hi, error);
-      const double value = viscosity_from(arg[iarg + 2]);
-      for (int itype = lo; itype <= hi; itype++) nu[itype] = value;
-      iarg++;
-    } else if (strcmp(arg[iarg], "dtcheck") == 0) {
-      if (strcmp(arg[iarg + 1], "error") == 0)
-        check = ERROR;
-      else if (strcmp(arg[iarg + 1], "warn") == 0)
-        check = WARN;
-      else if (strcmp(arg[iarg + 1], "off") == 0)
-        check = OFF;
-      else
-        error->all(FLERR, "Fix lsm/nve dtcheck is '{}', but must be error, warn or off",
-                   arg[iarg + 1]);
-    } else
-      error->all(
-          FLERR,
-          "Unknown fix lsm/nve keyword '{}'; accepted are viscosity, viscosity/type and dtcheck",
-          arg[iarg]);
-    iarg += 2;
+  const LSM::Keywords keywords = {{"dtcheck", LSM::Words{&check, {"error", "warn", "off"}}}};
+  LSMKeywordReader in(lmp, "Fix lsm/nve", 3, narg, arg);
+  while (in.next()) {
+    if (in.read(keywords)) continue;
+    const bool of_types = in.key() == "viscosity/type";
+    if (!of_types && in.key() != "viscosity") in.unknown(keywords, "viscosity, viscosity/type");
+    in.need(of_types ? 2 : 1);
+    int lo = 1, hi = atom->ntypes;
+    if (of_types) utils::bounds(FLERR, in.text(), 1, atom->ntypes, lo, hi, error);
+    std::fill(&nu[lo], &nu[hi] + 1, in.number(LSM::Must::not_negative));
   }
   for (double value : nu) viscous = viscous || value > 0.0;
 }
@@ -88,13 +69,6 @@ FixLSMNVE::FixLSMNVE(LAMMPS *_lmp, int narg, char **arg) :
 FixLSMNVE::~FixLSMNVE()
 {
   leave_clearing_to_integrator();
-}
-
-double FixLSMNVE::viscosity_from(const char *text)
-{
-  const double value = utils::numeric(FLERR, text, false, lmp);
-  if (!(value >= 0.0)) error->all(FLERR, "Fix lsm/nve viscosity is {}, but must be >= 0", value);
-  return value;
 }
 
 std::string FixLSMNVE::viscosity() const
@@ -186,31 +160,26 @@ void FixLSMNVE::post_neighbor()
 
 /* ---------------------------------------------------------------------- */
 
-template <bool DIM3, bool CLEARS> void FixLSMNVE::choose_for()
+using Flag = std::variant<std::false_type, std::true_type>;
+static Flag flag(bool yes)
 {
-  if (ahead)
-    measures ? choose_for<DIM3, CLEARS, MEASURE | AHEAD>() : choose_for<DIM3, CLEARS, AHEAD>();
-  else
-    measures ? choose_for<DIM3, CLEARS, MEASURE>() : choose_for<DIM3, CLEARS, 0>();
+  return yes ? Flag(std::true_type()) : Flag(std::false_type());
 }
 
-template <bool DIM3, bool CLEARS, int MORE> void FixLSMNVE::choose_for()
+void FixLSMNVE::choose()
 {
-  constexpr int FIRST = INITIAL | MORE, BOTH = FINAL | INITIAL | MORE;
   const bool slows = viscous || nu_least > 0.0;
-  if (slows && record_work) {
-    initial_chosen = &FixLSMNVE::move<FIRST, true, true, DIM3, CLEARS>;
-    final_chosen = &FixLSMNVE::move<FINAL, true, true, DIM3, false>;
-    both_chosen = nullptr;
-  } else if (slows) {
-    initial_chosen = &FixLSMNVE::move<FIRST, true, false, DIM3, CLEARS>;
-    final_chosen = &FixLSMNVE::move<FINAL, true, false, DIM3, false>;
-    both_chosen = &FixLSMNVE::move<BOTH, true, false, DIM3, CLEARS>;
-  } else {
-    initial_chosen = &FixLSMNVE::move<FIRST, false, false, DIM3, CLEARS>;
-    final_chosen = &FixLSMNVE::move<FINAL, false, false, DIM3, false>;
-    both_chosen = &FixLSMNVE::move<BOTH, false, false, DIM3, CLEARS>;
-  }
+  std::visit(
+      [this](auto slow, auto work, auto dim3, auto clear, auto measure, auto next) {
+        constexpr int MORE = (measure.value ? MEASURE : 0) | (next.value ? AHEAD : 0);
+        constexpr bool SLOW = slow.value, WORK = SLOW && work.value, DIM3 = dim3.value;
+        initial_chosen = &FixLSMNVE::move<INITIAL | MORE, SLOW, WORK, DIM3, clear.value>;
+        final_chosen = &FixLSMNVE::move<FINAL, SLOW, WORK, DIM3, false>;
+        both_chosen = &FixLSMNVE::move<FINAL | INITIAL | MORE, SLOW, WORK, DIM3, clear.value>;
+      },
+      flag(slows), flag(record_work), flag(domain->dimension == 3), flag(clears), flag(measures),
+      flag(ahead != nullptr));
+  if (slows && record_work) both_chosen = nullptr;
 
   // fixes that may look at velocities between the end of a step and the begin of the next
 
@@ -222,16 +191,6 @@ template <bool DIM3, bool CLEARS, int MORE> void FixLSMNVE::choose_for()
     if (when & END_OF_STEP) onlookers.push_back(other);
   }
   if (group->dynamic[igroup]) both_chosen = nullptr;
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FixLSMNVE::choose()
-{
-  if (domain->dimension == 3)
-    clears ? choose_for<true, true>() : choose_for<true, false>();
-  else
-    clears ? choose_for<false, true>() : choose_for<false, false>();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -570,11 +529,4 @@ void FixLSMNVE::restart(char *buf)
 {
   lsm_read_state(*this, buf, world);
   goes_on = true;
-}
-
-/* ---------------------------------------------------------------------- */
-
-double FixLSMNVE::memory_usage()
-{
-  return static_cast<double>(trial.capacity() + image.capacity()) * sizeof(double);
 }

@@ -45,10 +45,9 @@ class FixLSMNVE : public Fix, public LSMMover {
   void unpack_forward_comm(int, int, double *) override;
   int pack_reverse_comm(int, int, double *) override;
   void unpack_reverse_comm(int, int *, double *) override;
-  double memory_usage() override;
 
-  bool record_work;         // set by compute lsm/events when it keeps the energy ledger
-  double work_viscosity;    // work lost to viscosity, this rank, accumulated
+  bool record_work = false;       // set by compute lsm/events when it keeps the energy ledger
+  double work_viscosity = 0.0;    // work lost to viscosity, this rank, accumulated
   void complete_step() override;
   int moved_bits() const override { return groupbit; }
   void measure_moves() override;    // until the next init()
@@ -62,14 +61,14 @@ class FixLSMNVE : public Fix, public LSMMover {
 
  private:
   enum { ERROR, WARN, OFF };
-  double nu_least;              // raised to it for now
+  double nu_least = 0.0;        // raised to it for now
   std::vector<double> nu;       // force -nu m v, one value per type
   std::vector<double> decay;    // factor of the velocities in half a step of viscosity, per type
-  bool viscous;                 // some nu is not 0
-  double dtv, dtf;
-  int check;                           // what to do when the time step is above the stability limit
-  double omega;                        // bound of the highest frequency found at setup
-  double dt_limit;                     // of a stable time step, 0 if there is none
+  bool viscous = false;         // some nu is not 0
+  double dtv = 0.0, dtf = 0.0;
+  int check = ERROR;                   // what to do when the time step is above the stability limit
+  double omega = 0.0;                  // bound of the highest frequency found at setup
+  double dt_limit = 0.0;               // of a stable time step, 0 if there is none
   bool goes_on = false;                // after another run, or from a restart file
   std::vector<double> trial, image;    // displacements and forces, 2 or 3 values an atom
 
@@ -86,28 +85,25 @@ class FixLSMNVE : public Fix, public LSMMover {
   // Forces are set to 0 while they are in the cache, as the particles move, instead of by the integrator
   // afterwards, unless somebody may look at them in between or needs torques
 
-  bool clears;
+  bool clears = false;
   std::vector<std::pair<int, int>> others;    // particles between the runs: first, last
 
-  bool measures;     // the square of the largest velocity in this step is kept
-  double fastest;    // it, or -1 if it is not known
+  bool measures = false;    // the square of the largest velocity in this step is kept
+  double fastest = -1.0;    // it, or -1 if it is not known
 
   enum { FINAL = 1, INITIAL = 2, MEASURE = 4, AHEAD = 8 };    // halves of a step, and what else
   std::vector<Fix *> onlookers;
-  class FixLSMVelocity *ahead;    // wants the velocities of the time of the next forces, or null
-  void (FixLSMNVE::*initial_chosen)();
-  void (FixLSMNVE::*final_chosen)();
-  void (FixLSMNVE::*both_chosen)();    // null if no half may be put off
+  class FixLSMVelocity *ahead = nullptr;    // wants velocities of the time of the next forces
+  void (FixLSMNVE::*initial_chosen)() = nullptr;
+  void (FixLSMNVE::*final_chosen)() = nullptr;
+  void (FixLSMNVE::*both_chosen)() = nullptr;    // null if no half may be put off
 
   template <int PARTS, bool VISCOUS, bool WORK, bool DIM3, bool CLEARS> void move();
-  template <bool DIM3, bool CLEARS> void choose_for();
-  template <bool DIM3, bool CLEARS, int MORE> void choose_for();
   void choose();
   void collect();
   bool may_clear() const;
   void leave_clearing_to_integrator();
   void clear_all();
-  double viscosity_from(const char *);
   double time_step_limit(double reach_factor, double &frequency);
   double highest_eigenvalue(const std::vector<LSM::PairSpring> &);
 };

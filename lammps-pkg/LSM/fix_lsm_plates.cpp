@@ -13,6 +13,7 @@
 #include "force.h"
 #include "group.h"
 #include "lsm_fix_state.h"
+#include "lsm_keyword_reader.h"
 #include "lsm_scene.h"
 #include "modify.h"
 #include "update.h"
@@ -29,10 +30,7 @@ enum { LOWER, UPPER };
 /* ---------------------------------------------------------------------- */
 
 FixLSMPlates::FixLSMPlates(LAMMPS *_lmp, int narg, char **arg) :
-    Fix(_lmp, narg, arg), loading(1.0), speed(0.0), ramp(0.0), servo(false), stress(0.0),
-    stress_ramp(0.0), damping(0.0), impedance(0.0), vy_known(false), elapsed(0.0), ux(0.0),
-    work_mine(0.0), dt(update->dt), ahead(nullptr), reducing(false), moved(0.0), along(0.0),
-    summed_at(-1)
+    Fix(_lmp, narg, arg), dt(update->dt)
 {
   scalar_flag = 1;
   vector_flag = 1;
@@ -52,44 +50,23 @@ FixLSMPlates::FixLSMPlates(LAMMPS *_lmp, int narg, char **arg) :
                  arg[3 + p]);
     plate[p].bit = group->bitmask[plate[p].group];
     plate[p].side = p == LOWER ? -1.0 : 1.0;
-    plate[p].mass = plate[p].vy = plate[p].uy = plate[p].fx = plate[p].fy = 0.0;
   }
 
-  bool mode_given = false;
-  int iarg = 5;
-  while (iarg < narg) {
-    const std::string keyword = arg[iarg];
-    if (keyword == "position") {
-      servo = false;
-      mode_given = true;
-      iarg++;
-      continue;
-    }
-    if (iarg + 1 >= narg) error->all(FLERR, "Fix lsm/plates keyword {} needs a value", keyword);
-    const double value = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
-    if (keyword == "velocity")
-      speed = value;
-    else if (keyword == "ramp")
-      ramp = value;
-    else if (keyword == "stress") {
-      stress = value;
-      servo = mode_given = true;
-    } else if (keyword == "stressramp")
-      stress_ramp = value;
-    else if (keyword == "damping")
-      damping = value;
-    else if (keyword == "impedance")
-      impedance = value;
-    else
-      error->all(FLERR,
-                 "Unknown fix lsm/plates keyword '{}'; accepted are velocity, ramp, stress, "
-                 "stressramp, damping, impedance and position",
-                 keyword);
-    if (keyword != "velocity" && value < 0.0)
-      error->all(FLERR, "Fix lsm/plates {} is {}, but must be >= 0", keyword, value);
-    iarg += 2;
+  using LSM::Must;
+  bool position = false;
+  const LSM::Keywords keywords = {{"velocity", &speed},
+                                  {"ramp", &ramp, Must::not_negative},
+                                  {"stress", &stress, Must::not_negative},
+                                  {"stressramp", &stress_ramp, Must::not_negative},
+                                  {"damping", &damping, Must::not_negative},
+                                  {"impedance", &impedance, Must::not_negative},
+                                  {"position", LSM::Flag{&position}}};
+  LSMKeywordReader in(lmp, "Fix lsm/plates", 5, narg, arg);
+  while (in.next()) {
+    if (!in.read(keywords)) in.unknown(keywords);
+    if (in.key() == "stress" || in.key() == "position") servo = in.key() == "stress";
   }
-  if (!mode_given)
+  if (!servo && !position)
     error->all(FLERR, "Fix lsm/plates needs either 'stress value' (normal stress held) or "
                       "'position' (plates do not move across the fault)");
 }

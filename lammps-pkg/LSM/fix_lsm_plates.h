@@ -41,7 +41,7 @@ class FixLSMPlates : public Fix, public LSMMover {
   int moved_bits() const override { return plate[0].bit | plate[1].bit; }
   double longest_move() const override { return longest; }
 
-  double loading;    // factor of the driving velocity now, set by fix lsm/leap
+  double loading = 1.0;    // factor of the driving velocity now, set by fix lsm/leap
   double driving_velocity() const { return speed; }
   double work();    // work of the plates on the blocks, all ranks, accumulated
   double driving() const
@@ -59,38 +59,39 @@ class FixLSMPlates : public Fix, public LSMMover {
  private:
   struct Plate {
     int group, bit;
-    double side;      // -1 lower, +1 upper
-    double mass;      // of all particles of the plate
-    double vy;        // velocity across the fault
-    double uy;        // displacement across the fault since the fix was made
-    double fx, fy;    // force of the block on the plate: fx this rank, fy all ranks with servo
+    double side;          // -1 lower, +1 upper
+    double mass = 0.0;    // of all particles of the plate
+    double vy = 0.0;      // velocity across the fault
+    double uy = 0.0;      // displacement across the fault since the fix was made
+    double fx = 0.0,
+           fy = 0.0;    // force of the block on the plate: fx this rank, fy all ranks with servo
     std::vector<int> atoms;    // this rank's particles
   };
   Plate plate[2];
 
-  double speed;          // driving velocity of each plate in the end
-  double ramp;           // time over which it is reached
-  bool servo;            // normal stress held, or position held
-  double stress;         // normal stress in the end
-  double stress_ramp;    // time over which it is reached
-  double damping;        // -damping * mass * vy on each plate with servo
-  double impedance;      // -impedance * length * vy on each plate with servo
-  bool vy_known;         // velocities across the fault were set by a former run or a restart
-  double elapsed;        // time since the fix was made
-  double ux;             // shear displacement of each plate
-  double work_mine;      // this rank's part of the work
+  double speed = 0.0;          // driving velocity of each plate in the end
+  double ramp = 0.0;           // time over which it is reached
+  bool servo = false;          // normal stress held, or position held
+  double stress = 0.0;         // normal stress in the end
+  double stress_ramp = 0.0;    // time over which it is reached
+  double damping = 0.0;        // -damping * mass * vy on each plate with servo
+  double impedance = 0.0;      // -impedance * length * vy on each plate with servo
+  bool vy_known = false;       // velocities across the fault were set by a former run or a restart
+  double elapsed = 0.0;        // time since the fix was made
+  double ux = 0.0;             // shear displacement of each plate
+  double work_mine = 0.0;      // this rank's part of the work
   double dt;
 
   std::vector<class FixLSMNVE *> integrators;
-  class FixLSMVelocity *ahead;    // wants the velocities of the time of the next forces, or null
-  bool reducing;                  // forces across the fault are on their way to all ranks
+  class FixLSMVelocity *ahead = nullptr;    // wants velocities of the time of the next forces
+  bool reducing = false;                    // forces across the fault are on their way to all ranks
   MPI_Request request;
   double across_mine[2], across[2];    // they, of this rank and of all
-  double moved, along;                 // shear displacement and velocity of the last step
+  double moved = 0.0, along = 0.0;     // shear displacement and velocity of the last step
   double longest = 0.0;                // move of the last step
 
   double sums[4];    // fx, fy of both plates over all ranks, at step summed_at
-  bigint summed_at;
+  bigint summed_at = -1;
 
   double decay_of(const Plate &p) const;
   double velocity_at(double t) const;

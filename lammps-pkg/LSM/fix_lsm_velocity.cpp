@@ -24,9 +24,7 @@ static constexpr const char *ID = "LSM_VELOCITY";
 
 /* ---------------------------------------------------------------------- */
 
-FixLSMVelocity::FixLSMVelocity(LAMMPS *_lmp, int narg, char **arg) :
-    Fix(_lmp, narg, arg), now(nullptr), power(0.0), asked(false), used(false), extrapolated(0),
-    power_before(0.0), known(0)
+FixLSMVelocity::FixLSMVelocity(LAMMPS *_lmp, int narg, char **arg) : Fix(_lmp, narg, arg)
 {
   if (narg != 3)
     error->all(FLERR, "Fix LSM_VELOCITY is internal to viscous links and contacts of the package");

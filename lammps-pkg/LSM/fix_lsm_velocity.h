@@ -32,9 +32,9 @@ class FixLSMVelocity : public Fix, public LSMWorkSource {
 
   /// Velocities of the time of the positions, particles of this rank and ghosts. Between two evaluations of the forces those
   /// that move particles set them: velocities themselves are those of half a step before when forces are evaluated.
-  double **now;
+  double **now = nullptr;
   /// What the dashpots take in this evaluation, this rank's share: force styles add to it.
-  double power;
+  double power = 0.0;
 
   int setmask() override;
   void init() override;
@@ -62,10 +62,10 @@ class FixLSMVelocity : public Fix, public LSMWorkSource {
   int size_restart(int) override;
 
  private:
-  bool asked, used;
-  int extrapolated;       // groups of the particles whose velocities are set by who moves them
-  double power_before;    // of the evaluation before
-  std::uint64_t known;    // fingerprint of the velocities that belong to `now`
+  bool asked = false, used = false;
+  int extrapolated = 0;    // groups of the particles whose velocities are set by who moves them
+  double power_before = 0.0;    // of the evaluation before
+  std::uint64_t known = 0;      // fingerprint of the velocities that belong to `now`
   std::uint64_t fingerprint() const;
   void take_velocities(int unless);
 };

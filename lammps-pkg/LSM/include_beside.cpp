@@ -7,9 +7,10 @@
 #include "comm.h"
 #include "error.h"
 #include "input.h"
+#include "lsm_ranks.h"
 #include "platform.h"
 
-#include <cstring>
+#include <string>
 
 using namespace LAMMPS_NS;
 
@@ -22,21 +23,16 @@ void IncludeBeside::command(int narg, char **arg)
 {
   if (narg != 1) error->all(FLERR, "include_beside expects one file name, but got {} words", narg);
 
-  char path[4096] = "";
-  int readable = 1;
-  if (comm->me == 0) {
-    std::string full = arg[0];
-    if (infile && infile != stdin && !full.empty() && full.front() != '/') {
-      char script[2048];
-      const std::string name = platform::guesspath(infile, script, sizeof(script));
-      const auto slash = name.find_last_of('/');
-      if (slash != std::string::npos) full = name.substr(0, slash + 1) + full;
-    }
-    readable = full.size() < sizeof(path) && platform::file_is_readable(full);
-    strncpy(path, full.c_str(), sizeof(path) - 1);
+  std::string path = arg[0];
+  if (comm->me == 0 && infile && infile != stdin && !path.empty() && path.front() != '/') {
+    char script[2048];
+    const std::string name = platform::guesspath(infile, script, sizeof(script));
+    const auto slash = name.find_last_of('/');
+    if (slash != std::string::npos) path = name.substr(0, slash + 1) + path;
   }
-  MPI_Bcast(path, sizeof(path), MPI_CHAR, 0, world);
+  lsm_share(path, world);
+  int readable = comm->me == 0 && platform::file_is_readable(path);
   MPI_Bcast(&readable, 1, MPI_INT, 0, world);
   if (!readable) error->all(FLERR, "include_beside: cannot read file {}", path);
-  input->one(std::string("include \"") + path + "\"");
+  input->one("include \"" + path + "\"");
 }

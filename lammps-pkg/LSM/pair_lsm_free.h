@@ -13,8 +13,8 @@ PairStyle(lsm/free,PairLSMFree);
 #define LMP_PAIR_LSM_FREE_H
 
 #include "lsm_energy.h"
+#include "lsm_mover.h"
 #include "lsm_near_pairs.h"
-#include "lsm_travel.h"
 #include "pair.h"
 
 namespace LAMMPS_NS {

@@ -11,6 +11,7 @@
 #include "variable.h"
 #include "write_restart.h"
 
+#include "lsm_ranks.h"
 #include "lsm_restart_info.h"
 
 #include <exception>
@@ -90,13 +91,7 @@ void SaveRestart::save(const std::string &file, const LSM::text_io::Parameters &
       problem = e.what();
     }
   }
-  int failed = !problem.empty();
-  MPI_Bcast(&failed, 1, MPI_INT, 0, world);
-  if (!failed) return;
-  std::string message = problem;
-  int length = static_cast<int>(message.size());
-  MPI_Bcast(&length, 1, MPI_INT, 0, world);
-  message.resize(length);
-  MPI_Bcast(&message[0], length, MPI_CHAR, 0, world);
-  error->all(FLERR, "save_restart: cannot write restart file {}: {}", file, message);
+  lsm_share(problem, world);
+  if (!problem.empty())
+    error->all(FLERR, "save_restart: cannot write restart file {}: {}", file, problem);
 }

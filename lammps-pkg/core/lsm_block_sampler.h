@@ -69,13 +69,6 @@ class BlockSampler {
     return handed_over_;
   }
 
-  std::size_t bytes() const {
-    std::size_t numbers = 0;
-    for (const SampleBlock *block : {&filling_, &handed_over_})
-      numbers += block->pe.capacity() + block->slip.capacity() + block->intervals.capacity();
-    return numbers * sizeof(double);
-  }
-
  private:
   int steps_ = 1;
   SampleBlock filling_, handed_over_;

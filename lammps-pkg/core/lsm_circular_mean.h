@@ -8,6 +8,15 @@
 
 namespace LSM {
 
+constexpr double pi = 3.14159265358979323846;
+
+/// A direction as a part of the whole ring, from 0 to less than 1.
+inline double part_of_ring(double sine, double cosine) {
+  double part = std::atan2(sine, cosine) / (2.0 * pi);
+  if (part < 0.0) part += 1.0;
+  return part < 1.0 ? part : 0.0;  // of -1e-17
+}
+
 class CircularMean {
  public:
   /// \param length of the ring, > 0
@@ -25,7 +34,6 @@ class CircularMean {
   }
 
  private:
-  static constexpr double pi = 3.14159265358979323846;
   double length_, circle_, cosine_ = 0.0, sine_ = 0.0;
 };
 

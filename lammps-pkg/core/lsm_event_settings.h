@@ -9,10 +9,12 @@
 #include <initializer_list>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "events/event_kinds.h"
 #include "lsm_catalogue.h"
 #include "lsm_event_picker.h"
+#include "lsm_output_claim.h"
 #include "lsm_pe_series.h"
 #include "lsm_slip_history.h"
 #include "lsm_text_io.h"
@@ -34,6 +36,13 @@ struct StepClock {
   double dt = 0.0;
   double at(std::int64_t later) const { return time + static_cast<double>(later - step) * dt; }
 };
+
+/// What it writes, by keywords; paths are empty where it is not written.
+inline std::vector<Output> files_of(const EventSettings &settings) {
+  return {{"catalogue", settings.catalogue_file},
+          {"series", settings.series_file},
+          {"history", settings.history_file}};
+}
 
 namespace event_settings_detail {
 

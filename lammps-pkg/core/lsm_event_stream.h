@@ -131,10 +131,7 @@ class EventStream {
   /// something else writes. \throws EventStreamError or what the writers throw
   void begin_files(std::int64_t step, bool from_restart, const SceneInfo &scene,
                    const StepClock &clock, const std::vector<Output> &others = {}) {
-    claim_.claim({{"catalogue", settings_.catalogue_file},
-                  {"series", settings_.series_file},
-                  {"history", settings_.history_file}},
-                 others);
+    claim_.claim(files_of(settings_), others);
     try {
       open_files(step, from_restart, scene, clock);
     } catch (...) {
@@ -207,10 +204,7 @@ class EventStream {
   void check_files(bool from_restart) const {
     const std::string who = "Compute lsm/events ";
     const std::string &name = settings_.name;
-    for (const auto &[file, key] :
-         {std::pair<const std::string &, const char *>{settings_.catalogue_file, "catalogue"},
-          {settings_.series_file, "series"},
-          {settings_.history_file, "history"}}) {
+    for (const auto &[key, file] : files_of(settings_)) {
       if (file.empty()) continue;
       if (goes_on(file) && !from_restart)
         throw EventStreamError(who + "resume yes: file " + file +

@@ -19,6 +19,8 @@
 #include <utility>
 #include <vector>
 
+#include "lsm_circular_mean.h"
+
 namespace LSM {
 
 /// A spring between particles i and j along the unit vector n, with stiffness k along it and kt
@@ -77,7 +79,7 @@ inline std::pair<double, double> normal_pair(std::uint64_t key, std::uint64_t ax
   };
   state = static_cast<std::uint64_t>(uniform() * 0x1.0p53);
   const double length = std::sqrt(-2.0 * std::log(uniform()));
-  const double angle = 2.0 * 3.14159265358979323846 * uniform();
+  const double angle = 2.0 * pi * uniform();
   return {length * std::cos(angle), length * std::sin(angle)};
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file lsm_keywords.h
-/// Keywords of an input with one value each, in a table: where the value goes and what it must be.
+/// Keywords of an input with one value each, or none, in a table: where the value goes and what it
+/// must be.
 #ifndef LSM_KEYWORDS_H
 #define LSM_KEYWORDS_H
 
@@ -13,9 +14,20 @@ namespace LSM {
 /// What a number must be; positive: of whole numbers at least 1; part: at least 0 and less than 1.
 enum class Must { anything, positive, not_negative, part };
 
+/// The value is one of some words, whose place in the list is taken.
+struct Words {
+  int *place;
+  std::vector<const char *> list;
+};
+
+/// There is no value: the keyword itself makes it true.
+struct Flag {
+  bool *value;
+};
+
 struct Keyword {
   const char *name;
-  std::variant<double *, int *, bool *, std::string *> value;
+  std::variant<double *, int *, bool *, std::string *, Words, Flag> value;
   Must must = Must::anything;
 };
 using Keywords = std::vector<Keyword>;

@@ -5,6 +5,7 @@
 #ifndef LSM_PACKING_H
 #define LSM_PACKING_H
 
+#include "lsm_circular_mean.h"
 #include "lsm_random.h"
 
 #include <algorithm>
@@ -610,7 +611,7 @@ inline void measure(const PackingSettings &s, Packing &result) {
     result.weakest = first ? softest : std::min(result.weakest, softest);
     first = false;
   }
-  result.area_fraction = 3.14159265358979323846 * area / (s.length * s.width);
+  result.area_fraction = pi * area / (s.length * s.width);
   const auto n = static_cast<double>(result.discs.size());
   result.coordination = n > 0 ? 2.0 * static_cast<double>(result.links.size()) / n : 0.0;
 }
@@ -652,7 +653,7 @@ inline Packing make_packing(const PackingSettings &settings) {
 /// for each other, with overlaps of a tenth of r allowed.
 inline int most_neighbours(double radius, double r) {
   const double least = 0.9 * r;
-  return static_cast<int>(3.14159265358979323846 / std::asin(least / (radius + least)));
+  return static_cast<int>(pi / std::asin(least / (radius + least)));
 }
 
 /// Masses that are enough for a time step whatever contacts the discs get.

@@ -179,7 +179,7 @@ class PeSeriesReader {
     using namespace pe_series_detail;
     open_ = false;
     lenient_ = lenient;
-    torn_ = has_last_ = false;
+    torn_ = false;
     path_ = bytes->path();
     records_ = used_ = filled_ = 0;
     const std::string_view begin = bytes->peek(binary_magic.size());
@@ -263,24 +263,34 @@ class PeSeriesReader {
     if (!text_io::parse(fields_[0], new_step)) bad_column("step", 0, "an integer");
     if (!text_io::parse(fields_[1], new_time)) bad_column("time", 1, "a finite number");
     if (!text_io::parse(fields_[2], new_pe)) bad_column("pe", 2, "a finite number");
-    if (has_last_ && new_step <= last_step_)
-      lines_->fail("step " + std::to_string(new_step) + " after step " +
-                   std::to_string(last_step_) + ", expected increasing steps");
+    check_step(new_step);
     const double expected = info_.own_times ? new_time : info_.time(new_step);
     // Rounding may differ between the programs; a wrong dt or step0 is off by far more.
     if (!(std::fabs(new_time - expected) <= 1e-9 * (std::fabs(expected) + info_.dt)))
       lines_->fail("time " + text_io::number(new_time) + " at step " + std::to_string(new_step) +
                    ", expected " + text_io::number(expected) + " from time0, step0 and dt");
-    if (has_last_ && new_time < last_time_)
-      lines_->fail("time " + text_io::number(new_time) + " after time " +
-                   text_io::number(last_time_) + ", expected increasing times");
-    step = new_step;
-    time = new_time;
+    check_time(new_time);
+    step = last_step_ = new_step;
+    time = last_time_ = new_time;
     pe = new_pe;
     kept_end_ = lines_->end();
-    last_time_ = time;
-    remember(step);
+    ++records_;
     return true;
+  }
+
+  [[noreturn]] void fail(const std::string &what) const {
+    if (!binary_) lines_->fail(what);
+    throw PeSeriesError(path_ + ": record " + std::to_string(records_ + 1) + ": " + what);
+  }
+  void check_step(std::int64_t step) const {
+    if (records_ > 0 && step <= last_step_)
+      fail("step " + std::to_string(step) + " after step " + std::to_string(last_step_) +
+           ", expected increasing steps");
+  }
+  void check_time(double time) const {
+    if (records_ > 0 && time < last_time_)
+      fail("time " + text_io::number(time) + " after time " + text_io::number(last_time_) +
+           ", expected increasing times");
   }
 
   [[noreturn]] void bad_column(const char *name, std::size_t column, const char *expected) const {
@@ -305,40 +315,23 @@ class PeSeriesReader {
     const double new_pe = double_from_bytes(record + record_bytes_ - 8);
     const double new_time = info_.own_times ? double_from_bytes(record + 8) : info_.time(new_step);
     if (!std::isfinite(new_time))
-      throw PeSeriesError(path_ + ": record " + std::to_string(records_ + 1) + ": time of step " +
-                          std::to_string(new_step) + " is not finite, expected a finite number");
-    if (!std::isfinite(new_pe))
-      throw PeSeriesError(path_ + ": record " + std::to_string(records_ + 1) +
-                          ": pe is not finite, expected a finite number");
-    if (has_last_ && new_step <= last_step_)
-      throw PeSeriesError(path_ + ": record " + std::to_string(records_ + 1) + ": step " +
-                          std::to_string(new_step) + " after step " + std::to_string(last_step_) +
-                          ", expected increasing steps");
-    if (has_last_ && new_time < last_time_)
-      throw PeSeriesError(path_ + ": record " + std::to_string(records_ + 1) + ": time " +
-                          text_io::number(new_time) + " after time " + text_io::number(last_time_) +
-                          ", expected increasing times");
+      fail("time of step " + std::to_string(new_step) + " is not finite, expected a finite number");
+    if (!std::isfinite(new_pe)) fail("pe is not finite, expected a finite number");
+    check_step(new_step);
+    check_time(new_time);
     used_ += record_bytes_;
-    step = new_step;
-    time = new_time;
+    step = last_step_ = new_step;
+    time = last_time_ = new_time;
     pe = new_pe;
-    last_time_ = time;
     kept_end_ += record_bytes_;
-    remember(step);
-    return true;
-  }
-
-  void remember(std::int64_t step) {
-    last_step_ = step;
-    has_last_ = true;
     ++records_;
+    return true;
   }
 
   std::string path_;
   PeSeriesInfo info_;
   bool open_ = false, binary_ = false;
   bool lenient_ = false, torn_ = false;
-  bool has_last_ = false;
   std::int64_t last_step_ = 0;
   double last_time_ = 0.0;
   std::int64_t records_ = 0;   // samples read
@@ -453,20 +446,16 @@ class PeSeriesWriter {
     using namespace pe_series_detail;
     if (!file_.is_open()) throw PeSeriesError("PE series is not open");
     if (!info_.own_times) time = info_.time(step);
-    if (!std::isfinite(time))
-      throw PeSeriesError(file_.path() + ": cannot write step " + std::to_string(step) +
-                          ": time is not finite, expected a finite number");
+    const auto fail = [this, step](const std::string &what) {
+      throw PeSeriesError(file_.path() + ": cannot write step " + std::to_string(step) + what);
+    };
+    if (!std::isfinite(time)) fail(": time is not finite, expected a finite number");
     if (rows_ > 0 && info_.own_times && time < last_time_)
-      throw PeSeriesError(file_.path() + ": cannot write time " + text_io::number(time) +
-                          " after time " + text_io::number(last_time_) +
-                          ", expected increasing times");
-    if (!std::isfinite(pe))
-      throw PeSeriesError(file_.path() + ": cannot write step " + std::to_string(step) +
-                          ": pe is not finite, expected a finite number");
+      fail(" of time " + text_io::number(time) + " after time " + text_io::number(last_time_) +
+           ", expected increasing times");
+    if (!std::isfinite(pe)) fail(": pe is not finite, expected a finite number");
     if (rows_ > 0 && step <= last_step_)
-      throw PeSeriesError(file_.path() + ": cannot write step " + std::to_string(step) +
-                          " after step " + std::to_string(last_step_) +
-                          ", expected increasing steps");
+      fail(" after step " + std::to_string(last_step_) + ", expected increasing steps");
     if (binary_) {
       append_bytes(buffer_, static_cast<std::uint64_t>(step));
       if (info_.own_times) append_bytes(buffer_, time);

@@ -6,9 +6,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <istream>
-#include <locale>
-#include <ostream>
 #include <random>
 
 namespace LSM {
@@ -31,27 +28,6 @@ class Random {
     // The product may round up to hi, which the half-open interval excludes.
     if (value >= hi && hi > lo) return std::nextafter(hi, lo);
     return value;
-  }
-
-  friend bool operator==(const Random &a, const Random &b) { return a.engine_ == b.engine_; }
-  friend bool operator!=(const Random &a, const Random &b) { return !(a == b); }
-
-  /// Writes the full state as decimal integers separated by blanks.
-  friend std::ostream &operator<<(std::ostream &os, const Random &random) {
-    // A locale with digit grouping would make the state unreadable.
-    const std::locale before = os.imbue(std::locale::classic());
-    os << random.engine_;
-    os.imbue(before);
-    return os;
-  }
-
-  /// Reads a state written by operator<<; sets failbit and keeps the old state if it is malformed.
-  friend std::istream &operator>>(std::istream &is, Random &random) {
-    const std::locale before = is.imbue(std::locale::classic());
-    std::mt19937_64 engine;
-    if (is >> engine) random.engine_ = engine;
-    is.imbue(before);
-    return is;
   }
 
  private:

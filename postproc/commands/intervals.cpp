@@ -76,7 +76,7 @@ void run(Options &options) {
       fmt::print(
           "{}, {}: {} inter-event times, mean {} {}, standard deviation {} of the mean, burstiness "
           "{}\n",
-          curve.label, curve.earthquakes ? curve.from() : "sizes from " + text(curve.threshold),
+          curve.label, curve.earthquakes ? curve.from() : "sizes >= " + text(curve.threshold),
           curve.n, short_number(curve.mean, 6), curve.unit, short_number(curve.variation),
           short_number(curve.burstiness()));
   if (settings.places > 0)

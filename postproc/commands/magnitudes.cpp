@@ -70,7 +70,7 @@ void set_completeness(MagnitudeCurve &curve, const EventTable &table, const Opti
     if (!(smallest.size > 0.0))
       throw std::invalid_argument("--threshold 0 has no magnitude, expected a larger size");
     curve.completeness = m.scale.of(smallest.size);
-    curve.completeness_text = "sizes from " + text(smallest);
+    curve.completeness_text = "sizes >= " + text(smallest);
   } else {
     throw std::invalid_argument("--complete-from " + text_io::in_quotes(options.complete) +
                                 ", expected 'header', 'curvature' or a magnitude");

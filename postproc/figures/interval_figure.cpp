@@ -25,8 +25,8 @@ Figure interval_figure(const std::vector<IntervalCurve> &curves, bool rescaled, 
             "in 1 / model time; errors: Poisson");
   std::set<std::string> sources;
   for (const IntervalCurve &curve : curves)
-    sources.insert(curve.earthquakes ? curve.from() : text(curve.threshold));
-  for (const std::string &source : sources) figure.table.comment("sizes from " + source);
+    sources.insert(curve.earthquakes ? curve.from() : "sizes >= " + text(curve.threshold));
+  for (const std::string &source : sources) figure.table.comment(source);
   std::string points, lines;
   std::vector<std::string> titles;
   double lowest = std::numeric_limits<double>::infinity(), highest = 0.0, first = lowest,

@@ -362,7 +362,7 @@ Figure nature_figure(const std::vector<NatureRow> &rows) {
       panel(
           "set lmargin at screen 0.36; set rmargin at screen 0.58; set bmargin at screen 0.1; "
           "set tmargin at screen 0.97") +
-      axis("x", "distance of the times to those of the first", false, 0.0, free_end) +
+      axis("x", "distance of the inter-event times", false, 0.0, free_end) +
       axis("y", "", false, -static_cast<double>(rows.size()) - 0.7, -1.3) + "set ytics (" + ticks +
       ")\nset xtics 0.1\n" + distances + "\n" +
       panel(

@@ -116,11 +116,11 @@ void run_gnuplot(const std::string &folder, std::vector<std::string> arguments) 
   throw PlotError("gnuplot failed: " + gnuplot_message(messages));
 }
 
-/// 1, 2 and 5 times powers of ten, from the last one below lo to the first one above hi.
-std::vector<double> ticks_around(double lo, double hi) {
+/// These digits times powers of ten, from the last one below lo to the first one above hi.
+std::vector<double> ticks_around(double lo, double hi, const std::vector<double> &digits) {
   std::vector<double> ticks;
   for (int n = static_cast<int>(std::floor(std::log10(lo))) - 1;; ++n) {
-    for (const int digit : {1, 2, 5}) {
+    for (const double digit : digits) {
       const double tick = digit * std::pow(10.0, n);
       if (tick < lo) ticks.clear();
       ticks.push_back(tick);
@@ -129,9 +129,21 @@ std::vector<double> ticks_around(double lo, double hi) {
   }
 }
 
+/// As few digits as give four ticks.
+std::vector<double> ticks_around(double lo, double hi) {
+  std::vector<double> ticks;
+  for (const auto &digits :
+       {std::vector<double>{1, 2, 5}, std::vector<double>{1, 2, 3, 4, 5, 7},
+        std::vector<double>{1, 1.2, 1.4, 1.6, 1.8, 2, 2.5, 3, 3.5, 4, 5, 6, 7, 8, 9}}) {
+    ticks = ticks_around(lo, hi, digits);
+    if (ticks.size() >= 4) break;
+  }
+  return ticks;
+}
+
 std::string whole_script(const std::string &name, std::string_view body, PictureSize size) {
   std::string script = fmt::format(
-      "# Draws {0}.png and {0}.svg from {0}.csv:\n# run `gnuplot ./{0}.gp` in this folder.\n"
+      "# Draws {0}.png and {0}.svg from\n# {0}.csv: run `gnuplot ./{0}.gp` in this folder.\n"
       "base = {1}\ntable = base.\".csv\"\nif (!exists(\"formats\")) formats = \"png svg\"\n",
       name, quote_plain("./" + name));
   script += fmt::format(

@@ -234,7 +234,7 @@ std::string verdict(const Scaling &scaling) {
 
 std::string scaling_text(const Scaling &scaling) {
   std::string out = fmt::format(
-      "finite-size scaling, {}: characteristic size s* = <s^2>/<s>, sizes from {} (bootstrap "
+      "finite-size scaling, {}: characteristic size s* = <s^2>/<s>, sizes >= {} (bootstrap "
       "errors, {})\n",
       name_of(scaling), text(scaling.threshold),
       scaling.by_event() ? "events one by one as if independent" : "blocks of time");

@@ -22,8 +22,8 @@ const GeneralisedGammaFit *IntervalCurve::drawn() const {
 }
 
 std::string IntervalCurve::from() const {
-  return earthquakes ? fmt::format("magnitudes from {:.3g}", std::log10(threshold.size) / 1.5)
-                     : fmt::format("sizes from {:.4g}", threshold.size);
+  return earthquakes ? fmt::format("magnitudes >= {:.3g}", std::log10(threshold.size) / 1.5)
+                     : fmt::format("sizes >= {:.4g}", threshold.size);
 }
 
 std::vector<double> starts_of(const EventTable &events, double threshold) {

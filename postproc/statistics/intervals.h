@@ -76,7 +76,7 @@ struct IntervalCurve {
 
   /// The fit that is drawn: the first that is not degenerate, or nullptr.
   const GeneralisedGammaFit *drawn() const;
-  /// "sizes from 0.001", of earthquakes "magnitudes from 2"
+  /// "sizes >= 0.001", of earthquakes "magnitudes >= 2"
   std::string from() const;
 };
 

@@ -288,6 +288,18 @@ class Page(unittest.TestCase):
             if int(event["event_id"]) in self.shown_ids():
                 self.assertTrue(left <= event["t_start"] <= right)
 
+    def test_print_says_how_many_rows_it_has(self):
+        self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+        try:
+            rows = [row for row in self.driver.find_elements(By.CSS_SELECTOR, "#rows tbody tr") if row.is_displayed()]
+            count = self.text("#table-count")
+        finally:
+            self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
+        self.assertEqual(len(rows), 25)
+        self.assertEqual(count, f"{len(self.events)} of {len(self.events)} events, the first 25 printed")
+        if len(self.events) > 100:
+            self.assertIn(", the first 100 shown", self.text("#table-count"))
+
     def test_a_row_shows_its_event(self):
         third = sorted(self.events, key=lambda event: -event["size"])[2]
         self.click("#rows tbody tr:nth-child(3) td")

@@ -677,7 +677,7 @@ earthquakes)
   while read -r from to magnitude times gamma error b; do
     must_run intervals "$california" --from "$from" --to "$to" --min-magnitude "$magnitude" --rescale --delta 1 \
       --method likelihood --replicas 0 --shuffles 20 --no-picture -o times
-    grep -q ", magnitudes from $magnitude: $times inter-event times" out.txt || fail "$from: $(head -n 1 out.txt)"
+    grep -q ", magnitudes >= $magnitude: $times inter-event times" out.txt || fail "$from: $(head -n 1 out.txt)"
     awk -F, -v gamma="$gamma" -v error="$error" -v b="$b" '/^ours/ { found = 1
       if ($4 < gamma - error || $4 > gamma + error || $5 < 0.9 * error || $5 > 1.1 * error || $8 < b - 0.03 || $8 > b + 0.03) bad = 1 }
       END { exit bad || !found }' times.table1.csv || fail "$from: $(grep ^ours times.table1.csv), expected gamma $gamma, B $b"

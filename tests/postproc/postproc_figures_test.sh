@@ -209,10 +209,10 @@ completeness)
   must_run histograms known.csv -o h --no-picture --range :1
   [ "$(counts h.csv 1)" = "$above" ] || fail "--range :1 $(cat h.csv)"
   must_run intervals known.csv -o i --no-picture --replicas 0
-  grep -q "sizes from 0.01, completeness in the header of known.csv: $((above - 1)) inter-event times" out.txt || fail "$(cat out.txt)"
-  grep -q '^# sizes from 0.01, completeness in the header' i.csv && grep -q "^ours,0.01,$((above - 1))," i.table1.csv || fail "$(cat i.csv)"
+  grep -q "sizes >= 0.01, completeness in the header of known.csv: $((above - 1)) inter-event times" out.txt || fail "$(cat out.txt)"
+  grep -q '^# sizes >= 0.01, completeness in the header' i.csv && grep -q "^ours,0.01,$((above - 1))," i.table1.csv || fail "$(cat i.csv)"
   must_run intervals known.csv -o i --no-picture --replicas 0 --threshold 1e-4
-  grep -q "sizes from 0.0001, as given: 999 inter-event times" out.txt || fail "$(cat out.txt)"
+  grep -q "sizes >= 0.0001, as given: 999 inter-event times" out.txt || fail "$(cat out.txt)"
   must_run fit known.csv --replicas 0 --scaling -o f --no-picture --json f.json
   grep -q 'smallest size, fault: 0.01, completeness in the header' out.txt || fail "$(cat out.txt)"
   awk -F, '$1 == "lsm" && !($2 >= 0.01) { exit 1 }' f.fits.csv || fail "the search begins too low: $(cat f.fits.csv)"

@@ -194,7 +194,13 @@ TEST_F(Plot, AxisOfPowersOfTen) {
   // Too short for powers of ten: 1, 2 and 5 around the data.
   const std::string brief = axis("y", "y", true, 1100.0, 1900.0);
   EXPECT_TRUE(contains(brief, "set yrange [1000:2000]"));
-  EXPECT_TRUE(contains(brief, "\"1000\" 1000, \"2000\" 2000"));
+  EXPECT_TRUE(contains(
+      brief,
+      "(\"1000\" 1000, \"1200\" 1200, \"1400\" 1400, \"1600\" 1600, \"1800\" 1800, \"2000\" 2000)"));
+  EXPECT_TRUE(contains(axis("y", "y", true, 0.28, 0.46),
+                       "(\"0.2\" 0.2, \"0.3\" 0.3, \"0.4\" 0.4, \"0.5\" 0.5)"));
+  EXPECT_TRUE(contains(axis("y", "y", true, 11.0, 190.0),
+                       "(\"10\" 10, \"20\" 20, \"50\" 50, \"100\" 100, \"200\" 200)"));
 }
 
 TEST_F(Plot, NumbersWithErrors) {

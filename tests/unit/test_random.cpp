@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <sstream>
 #include <string>
 
 #include "lsm_random.h"
@@ -63,34 +62,6 @@ TEST(Random, SeedsDiffer) {
   const std::uint64_t first = one.next();
   EXPECT_NE(first, two.next());
   EXPECT_EQ(first, again.next());
-}
-
-TEST(Random, StateGoesThroughAStream) {
-  LSM::Random random(11);
-  for (int i = 0; i < 1000; ++i) random.next();
-  std::stringstream stream;
-  // The stream takes the global locale, whose grouping must not reach the numbers.
-  {
-    const unit::CommaLocale locale;
-    std::stringstream with_locale;
-    with_locale << random;
-    EXPECT_EQ(with_locale.str().find('.'), std::string::npos);
-    stream << with_locale.str();
-  }
-  LSM::Random restored(1);
-  EXPECT_NE(restored, random);
-  stream >> restored;
-  ASSERT_TRUE(stream);
-  EXPECT_EQ(restored, random);
-  for (int i = 0; i < 1000; ++i) ASSERT_EQ(restored.next(), random.next());
-}
-
-TEST(Random, MalformedStateLeavesTheGeneratorAlone) {
-  LSM::Random random(11), same(11);
-  std::stringstream stream("1 2 3 rubbish");
-  stream >> random;
-  EXPECT_FALSE(stream);
-  EXPECT_EQ(random, same);
 }
 
 }  // namespace

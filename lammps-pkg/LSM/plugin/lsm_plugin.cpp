@@ -13,6 +13,7 @@
 #include <cstring>
 #include <dlfcn.h>
 #include <string>
+#include <type_traits>
 
 #include "bond_lsm_linked.h"
 #include "check_restart.h"
@@ -38,14 +39,10 @@ using namespace LAMMPS_NS;
 namespace {
 
 // The factories must return the base class: LAMMPS calls them through a pointer of that type.
-template <class Base, class Style> Base *make(LAMMPS *lmp)
+template <class Base, class Style, class... Arguments>
+Base *make(LAMMPS *lmp, Arguments... arguments)
 {
-  return new Style(lmp);
-}
-
-template <class Base, class Style> Base *make_with_args(LAMMPS *lmp, int narg, char **arg)
-{
-  return new Style(lmp, narg, arg);
+  return new Style(lmp, arguments...);
 }
 
 class Registrar {
@@ -61,26 +58,18 @@ class Registrar {
   template <class Base, class Style>
   void add(const char *category, const char *name, const char *info)
   {
-    plugin_.creator.v1 = reinterpret_cast<lammpsplugin_factory1 *>(&make<Base, Style>);
-    enter(category, name, info);
-  }
-
-  template <class Base, class Style>
-  void add_with_args(const char *category, const char *name, const char *info)
-  {
-    plugin_.creator.v2 = reinterpret_cast<lammpsplugin_factory2 *>(&make_with_args<Base, Style>);
-    enter(category, name, info);
-  }
-
- private:
-  void enter(const char *category, const char *name, const char *info)
-  {
+    if constexpr (std::is_constructible_v<Style, LAMMPS *, int, char **>)
+      plugin_.creator.v2 =
+          reinterpret_cast<lammpsplugin_factory2 *>(&make<Base, Style, int, char **>);
+    else
+      plugin_.creator.v1 = reinterpret_cast<lammpsplugin_factory1 *>(&make<Base, Style>);
     plugin_.style = category;
     plugin_.name = name;
     plugin_.info = info;
     (*register_)(&plugin_, lmp_);
   }
 
+ private:
   void *lmp_;
   lammpsplugin_regfunc register_;
   lammpsplugin_t plugin_{};
@@ -170,18 +159,17 @@ extern "C" void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   styles.add<Bond, BondLSMLinked>("bond", "lsm/linked", "bond style lsm/linked");
   styles.add<Pair, PairLSMFree>("pair", "lsm/free", "pair style lsm/free");
   styles.add<Pair, PairLSMFriction>("pair", "lsm/friction", "pair style lsm/friction");
-  styles.add_with_args<Fix, FixLSMNVE>("fix", "lsm/nve", "fix style lsm/nve");
-  styles.add_with_args<Fix, FixLSMLeap>("fix", "lsm/leap", "fix style lsm/leap");
-  styles.add_with_args<Fix, FixLSMPlates>("fix", "lsm/plates", "fix style lsm/plates");
-  styles.add_with_args<Fix, FixLSMAbsorb>("fix", "lsm/absorb", "fix style lsm/absorb");
-  styles.add_with_args<Fix, FixLSMTraction>("fix", "lsm/traction", "fix style lsm/traction");
+  styles.add<Fix, FixLSMNVE>("fix", "lsm/nve", "fix style lsm/nve");
+  styles.add<Fix, FixLSMLeap>("fix", "lsm/leap", "fix style lsm/leap");
+  styles.add<Fix, FixLSMPlates>("fix", "lsm/plates", "fix style lsm/plates");
+  styles.add<Fix, FixLSMAbsorb>("fix", "lsm/absorb", "fix style lsm/absorb");
+  styles.add<Fix, FixLSMTraction>("fix", "lsm/traction", "fix style lsm/traction");
   // Created by the other styles for their own use.
-  styles.add_with_args<Fix, FixLSMRecord>("fix", "LSM_RECORD", "fix style LSM_RECORD");
-  styles.add_with_args<Fix, FixLSMHistory>("fix", "LSM_HISTORY", "fix style LSM_HISTORY");
-  styles.add_with_args<Fix, FixLSMBreak>("fix", "LSM_BREAK", "fix style LSM_BREAK");
-  styles.add_with_args<Fix, FixLSMVelocity>("fix", "LSM_VELOCITY", "fix style LSM_VELOCITY");
-  styles.add_with_args<Compute, ComputeLSMEvents>("compute", "lsm/events",
-                                                  "compute style lsm/events");
+  styles.add<Fix, FixLSMRecord>("fix", "LSM_RECORD", "fix style LSM_RECORD");
+  styles.add<Fix, FixLSMHistory>("fix", "LSM_HISTORY", "fix style LSM_HISTORY");
+  styles.add<Fix, FixLSMBreak>("fix", "LSM_BREAK", "fix style LSM_BREAK");
+  styles.add<Fix, FixLSMVelocity>("fix", "LSM_VELOCITY", "fix style LSM_VELOCITY");
+  styles.add<Compute, ComputeLSMEvents>("compute", "lsm/events", "compute style lsm/events");
   styles.add<Command, CreateLSMFault>("command", "create_lsm_fault", "command create_lsm_fault");
   styles.add<Command, IncludeBeside>("command", "include_beside", "command include_beside");
   styles.add<Command, CheckVariable>("command", "check_variable", "command check_variable");

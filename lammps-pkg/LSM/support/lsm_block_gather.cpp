@@ -66,10 +66,3 @@ bool LSMBlockGather::finish()
   pending_ = false;
   return true;
 }
-
-double LSMBlockGather::bytes() const
-{
-  return static_cast<double>(block_.pe.capacity() + block_.slip.capacity() +
-                             block_.intervals.capacity()) *
-         sizeof(double);
-}

@@ -27,7 +27,6 @@ class LSMBlockGather {
   /// Waits for what was sent last; false if there is nothing. On rank 0 the block is complete then.
   bool finish();
   const LSM::GatheredBlock &block() const { return block_; }
-  double bytes() const;
 
  private:
   MPI_Comm world_;

@@ -20,7 +20,7 @@ static const std::string SPECIAL = "events, series, picker, tolerance, emergency
 
 static void take_all_values(LSMKeywordReader &in)
 {
-  if (in.key() == "series" || in.key() == "parameter") in.need(2);
+  in.need(in.key() == "series" || in.key() == "parameter" ? 2 : 1);
 }
 
 /// The kind is wanted first: which keywords there are depends on it.

@@ -18,7 +18,7 @@
 #include "pair_lsm_free.h"
 #include "update.h"
 
-#include "lsm_fix_state.h"
+#include "lsm_ranks.h"
 #include "lsm_scene.h"
 #include "lsm_sum.h"
 #include "lsm_text_io.h"

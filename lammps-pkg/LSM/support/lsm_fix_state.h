@@ -6,20 +6,13 @@
 #ifndef LMP_LSM_FIX_STATE_H
 #define LMP_LSM_FIX_STATE_H
 
+#include "lsm_ranks.h"
 #include "lsm_state.h"
 
 #include <cstdio>
-#include <mpi.h>
 #include <vector>
 
 namespace LAMMPS_NS {
-
-inline double lsm_total(double mine, MPI_Comm world)
-{
-  double all = 0.0;
-  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
-  return all;
-}
 
 /// Beside what both have, sum(mine): the total of a number of which each rank has a part. Rank 0 goes on with all of it.
 class LSMStateWriter : public LSM::StateWriter {

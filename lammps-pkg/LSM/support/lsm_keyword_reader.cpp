@@ -26,7 +26,7 @@ bool LSMKeywordReader::next()
   at_ += used_;
   if (at_ >= narg_) return false;
   key_ = arg_[at_];
-  need(1);
+  used_ = 1;
   return true;
 }
 
@@ -40,16 +40,23 @@ void LSMKeywordReader::need(int values)
 
 /* ---------------------------------------------------------------------- */
 
-bool LSMKeywordReader::read(const LSM::Keywords &table) const
+bool LSMKeywordReader::read(const LSM::Keywords &table)
 {
   for (const LSM::Keyword &keyword : table) {
     if (key_ != keyword.name) continue;
-    if (auto number = std::get_if<double *>(&keyword.value))
-      read_number(**number, keyword.must);
+    if (auto flag = std::get_if<LSM::Flag>(&keyword.value)) {
+      *flag->value = true;
+      return true;
+    }
+    need(1);
+    if (auto to = std::get_if<double *>(&keyword.value))
+      **to = number(keyword.must);
     else if (auto whole = std::get_if<int *>(&keyword.value))
-      read_whole(**whole, keyword.must);
+      **whole = whole_number(keyword.must);
     else if (auto yes = std::get_if<bool *>(&keyword.value))
       **yes = utils::logical(FLERR, text(), false, lmp) != 0;
+    else if (auto words = std::get_if<LSM::Words>(&keyword.value))
+      *words->place = place_in(words->list);
     else
       *std::get<std::string *>(keyword.value) = text();
     return true;
@@ -57,15 +64,16 @@ bool LSMKeywordReader::read(const LSM::Keywords &table) const
   return false;
 }
 
-void LSMKeywordReader::read_number(double &value, Must must) const
+double LSMKeywordReader::number(Must must) const
 {
-  value = utils::numeric(FLERR, text(), false, lmp);
+  const double value = utils::numeric(FLERR, text(used_ - 1), false, lmp);
   if (must == Must::positive && !(value > 0.0)) refuse("> 0");
   if (must == Must::not_negative && !(value >= 0.0)) refuse(">= 0");
   if (must == Must::part && !(value >= 0.0 && value < 1.0)) refuse("at least 0 and less than 1");
+  return value;
 }
 
-void LSMKeywordReader::read_whole(int &value, Must must) const
+int LSMKeywordReader::whole_number(Must must) const
 {
   const double number = utils::numeric(FLERR, text(), false, lmp);
   const double least = must == Must::positive ? 1.0 : 0.0;
@@ -73,14 +81,24 @@ void LSMKeywordReader::read_whole(int &value, Must must) const
       number > std::numeric_limits<int>::max())
     refuse(must == Must::positive ? "a whole number of at least 1"
                                   : "a whole number of at least 0");
-  value = static_cast<int>(number);
+  return static_cast<int>(number);
+}
+
+int LSMKeywordReader::place_in(const std::vector<const char *> &list) const
+{
+  std::string all;
+  for (size_t n = 0; n < list.size(); n++) {
+    if (list[n] == std::string(text())) return static_cast<int>(n);
+    all += (n == 0 ? "" : n + 1 < list.size() ? ", " : " or ") + std::string(list[n]);
+  }
+  stop(key_ + " is '" + text() + "', but must be " + all);
 }
 
 /* ---------------------------------------------------------------------- */
 
 void LSMKeywordReader::refuse(const std::string &expected) const
 {
-  stop(key_ + " is " + text() + ", but must be " + expected);
+  stop(key_ + " is " + text(used_ - 1) + ", but must be " + expected);
 }
 
 void LSMKeywordReader::stop(const std::string &message) const

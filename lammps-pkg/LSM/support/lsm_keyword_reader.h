@@ -19,14 +19,16 @@ class LSMKeywordReader : protected Pointers {
   /// style: as messages begin, "Fix lsm/leap"; the words begin at arg[first]
   LSMKeywordReader(LAMMPS *, const std::string &style, int first, int narg, char **arg);
 
-  /// Goes on to the next keyword, which has one value at least. False: there is none.
+  /// Goes on to the next keyword. False: there is none.
   bool next();
   const std::string &key() const { return key_; }
-  /// The keyword has so many values.
+  /// The keyword has so many values: to be called before they are asked for, if the keyword is not read from a table.
   void need(int values);
   const char *text(int n = 1) const { return arg_[at_ + n]; }
   /// Reads the value if the keyword is in the table.
-  bool read(const LSM::Keywords &) const;
+  bool read(const LSM::Keywords &);
+  /// The last value.
+  double number(LSM::Must) const;
 
   [[noreturn]] void refuse(const std::string &expected) const;
   [[noreturn]] void stop(const std::string &message) const;
@@ -40,8 +42,8 @@ class LSMKeywordReader : protected Pointers {
   int used_ = 0;    // words of the keyword, with itself
   std::string key_;
 
-  void read_number(double &, LSM::Must) const;
-  void read_whole(int &, LSM::Must) const;
+  int whole_number(LSM::Must) const;
+  int place_in(const std::vector<const char *> &) const;
 };
 
 }    // namespace LAMMPS_NS

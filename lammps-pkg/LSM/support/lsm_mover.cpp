@@ -4,8 +4,15 @@
 
 #include "lsm_mover.h"
 
+#include "domain.h"
 #include "fix.h"
+#include "lsm_scene.h"
 #include "modify.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
 using namespace LAMMPS_NS;
 
@@ -20,4 +27,41 @@ std::vector<LSMMover *> LSMMover::all(Modify *modify)
 void LSMMover::complete_steps(Modify *modify)
 {
   for (auto *p : all(modify)) p->complete_step();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void LSMTravel::look_for_movers()
+{
+  movers = LSMMover::all(modify);
+  known = update->whichflag == 1;
+  for (const auto &fix : modify->get_fix_list())
+    known = known && (LSMScene::is_ours(fix) || utils::strmatch(fix->style, "^NEIGH_HISTORY"));
+}
+
+/* ----------------------------------------------------------------------
+   Before a run, and between runs that follow without a set-up, commands may have moved particles.
+------------------------------------------------------------------------- */
+
+double LSMTravel::since_last(bool wanted)
+{
+  const bool follows =
+      !update->setupflag && update->ntimestep == step + 1 && update->firststep == first_step;
+  step = update->ntimestep;
+  first_step = update->firststep;
+  if (update->setupflag) look_for_movers();
+  if (!known) return INFINITY;
+
+  double farthest = 0.0;    // if all of them moved it
+  for (LSMMover *mover : movers) {
+    if (wanted) mover->measure_moves();
+    farthest += mover->longest_move();
+  }
+  if (!follows) return INFINITY;
+
+  double largest = 0.0;    // coordinate, to which positions are rounded
+  for (int c = 0; c < 3; c++)
+    largest = std::max({largest, std::fabs(domain->boxlo[c]), std::fabs(domain->boxhi[c])});
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  return farthest * (1.0 + 16.0 * epsilon) + 2.0 * epsilon * largest;
 }

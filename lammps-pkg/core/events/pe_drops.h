@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "events/event_kind.h"
+#include "lsm_circular_mean.h"
 #include "lsm_state.h"
 
 namespace LSM {
@@ -43,10 +44,8 @@ class EventLocator {
     int ruptured = 0;
     for (const auto &bin : moment_)
       if (bin.second > fraction_ * largest) ++ruptured;
-    double along = std::atan2(s, c) / (2.0 * pi);
-    if (along < 0.0) along += 1.0;
     event.slip_moment = sum;
-    event.x_centroid = x0 + along * length;
+    event.x_centroid = x0 + part_of_ring(s, c) * length;
     event.rupture_length = std::min(ruptured * bin_width_, length);
   }
 
@@ -67,8 +66,6 @@ class EventLocator {
   }
 
  private:
-  static constexpr double pi = 3.14159265358979323846;
-
   double bin_width_, fraction_;
   std::map<int, double> moment_;
 };

@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "events/event_kind.h"
+#include "lsm_circular_mean.h"
 #include "lsm_slip_sets.h"
 #include "lsm_state.h"
 
@@ -168,8 +169,6 @@ class RuptureFinder : public EventFinder {
   }
 
  private:
-  static constexpr double pi = 3.14159265358979323846;
-
   /// The stresses at the end of an interval.
   struct Snapshot {
     std::int64_t interval = 0;
@@ -243,10 +242,8 @@ class RuptureFinder : public EventFinder {
     e.pe_start = r.pe_start;
     e.pe_end = r.pe_end;
     e.slip_moment = settings_.modulus * r.slip * grid_.width;
-    double along = grid_.ring ? std::atan2(r.slip_sin, r.slip_cos) / (2.0 * pi)
-                              : r.slip_cos / r.slip_sin / grid_.bins;
-    if (along < 0.0) along += 1.0;
-    if (!(along < 1.0)) along = 0.0;  // of -1e-17
+    const double along =
+        grid_.ring ? part_of_ring(r.slip_sin, r.slip_cos) : r.slip_cos / r.slip_sin / grid_.bins;
     e.x_centroid = grid_.x0 + along * grid_.length();
     e.rupture_length = static_cast<double>(r.length) * grid_.width;
     e.x_hypocentre = grid_.centre(r.hypocentre);
