@@ -69,12 +69,12 @@ case $way in
     [ "$version" = "4 Feb 2025" ] || [ "$version" = "4 Jul 2026" ] || fail "the stock lmp is of version '$version'"
     LC_ALL=C sed "s/$version/5 Mar 2019/g" "$plugin" >other.so
     ! cmp -s "$plugin" other.so || fail "the plugin does not hold its version"
-    not_loaded "$stock" ./other.so "compiled for LAMMPS 5 Mar 2019, and this is LAMMPS $version;"
+    not_loaded "$stock" ./other.so "compiled for LAMMPS 5 Mar 2019, but this is LAMMPS $version;"
     bits="64, 32 and 32" other="64, 64 and 64"
     if grep -q 'LAMMPS_BIGBIG' <<<"$("$stock" -h)"; then
       bits="64, 64 and 64" other="64, 32 and 32"
     fi
-    not_loaded "$stock" "$other_integers" "tagint and imageint of $other bits, and this LAMMPS has .* $bits bits;"
+    not_loaded "$stock" "$other_integers" "tagint and imageint of $other bits, but this LAMMPS has .* $bits bits;"
     not_loaded "$lmp" "$plugin" "the package is compiled into this LAMMPS already"
     # Loaded twice by the stock program: LAMMPS' own message.
     printf 'plugin load %s\nplugin load %s\n' "$plugin" "$plugin" >in.twice

@@ -133,7 +133,7 @@ std::vector<int> BondLSMLinked::owned_by_id() const
 
 template <int DIM> void BondLSMLinked::eval()
 {
-  // a minimizer tries positions that it takes back
+  // a minimizer may reject positions that it tried
 
   const bool minimizing = update->whichflag == 2;
   pe_link = 0.0;
@@ -162,8 +162,8 @@ template <int DIM, class Law> double BondLSMLinked::add_forces(const Segment &s,
 }
 
 /* ----------------------------------------------------------------------
-   Broken links are noted for fix LSM_BREAK; before the forces are evaluated again the list is collected
-   without them.
+   Broken links are noted for fix LSM_BREAK; before the next evaluation of the forces the list is
+   collected without them.
 ------------------------------------------------------------------------- */
 
 void BondLSMLinked::note_broken(Segment &segment)
@@ -348,12 +348,12 @@ void BondLSMLinked::init_style()
     for (const auto &other : modify->get_fix_by_style(makes_or_breaks))
       error->all(
           FLERR,
-          "Bond style lsm/linked does not work with fix {} of style {}, as nobody would count "
-          "the energy of its bonds; let links break by the ratio of bond_coeff",
+          "Bond style lsm/linked does not work with fix {} of style {}, as the energy of its "
+          "bonds would not be counted; use the breaking ratio of bond_coeff",
           other->id, other->style);
   collected_at = -1;
 
-  // a minimizer knows no velocities
+  // a minimizer has no velocities
 
   velocity = any_delay() && update->whichflag != 2 ? FixLSMVelocity::ask_for(lmp) : nullptr;
 
@@ -377,7 +377,7 @@ double BondLSMLinked::equilibrium_distance(int /*i*/)
 
 /* ---------------------------------------------------------------------- */
 
-// Retardation times stand in front, behind a number that no stiffness is, if there are any.
+// Retardation times, if any, come first, after a number that cannot be a stiffness.
 
 static constexpr double TIMES_FOLLOW = -1.0;
 

@@ -69,7 +69,7 @@ void CheckRestart::take(const std::string &file, const std::string &name, const 
 {
   if (!value) {
     if (fixed && comm->me == 0)
-      error->warning(FLERR, "Restart file {} does not say its {}: it is taken as given", file,
+      error->warning(FLERR, "Restart file {} has no value of {}: the given one is used", file,
                      name);
     return;
   }
@@ -84,7 +84,7 @@ void CheckRestart::take(const std::string &file, const std::string &name, const 
                  name, given, file, name, *value);
     if (!same) return;
 
-    // written in another way: as before, for the headers of files that go on
+    // the same number, written differently: as before, for the headers of continued files
 
     set({name, "delete"});
   }

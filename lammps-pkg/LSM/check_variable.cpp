@@ -19,7 +19,7 @@
 using namespace LAMMPS_NS;
 
 /* ----------------------------------------------------------------------
-   a name typed wrong on the command line is a variable that nothing reads
+   a name misspelt on the command line is a variable that nothing reads
 ------------------------------------------------------------------------- */
 
 void CheckVariable::warn_of_others(int narg, char **arg)
@@ -28,7 +28,7 @@ void CheckVariable::warn_of_others(int narg, char **arg)
   for (int n = 0; n < input->variable->nvar; n++) {
     const std::string name = input->variable->names[n];
     if (std::none_of(arg, arg + narg, [&name](const char *known) { return name == known; }))
-      error->warning(FLERR, "Variable {} is none that this script reads", name);
+      error->warning(FLERR, "Variable {} is not used by this script", name);
   }
 }
 
@@ -63,8 +63,8 @@ void CheckVariable::command(int narg, char **arg)
   } else if (kind == "file") {
     good = !value.empty() && value.front() != '-' &&
            value.find_first_of(" \t\n\"'&#$*%") == std::string::npos;
-    expected = "a file name without blanks, quotes, &, #, $, *, % and without - at its begin "
-               "(./-name does)";
+    expected = "a file name without blanks, quotes, &, #, $, * and %, not beginning with - "
+               "(./-name is accepted)";
   } else {
     const double least = utils::numeric(FLERR, arg[2], false, lmp);
     double number = 0.0;

@@ -67,13 +67,12 @@ ComputeLSMEvents::ComputeLSMEvents(LAMMPS *_lmp, int narg, char **arg) :
 
   const std::string id_fix = std::string(id) + "_record";
   if (modify->get_fix_by_id(id_fix))
-    error->all(FLERR, "Compute lsm/events {} needs a fix of the ID {}, which exists already", id,
-               id_fix);
+    error->all(FLERR, "Compute lsm/events {} needs the fix ID {}, which is in use", id, id_fix);
   recorder = dynamic_cast<FixLSMRecord *>(modify->add_fix(id_fix + " all LSM_RECORD"));
   if (!recorder) error->all(FLERR, "Compute lsm/events could not create fix LSM_RECORD");
   recorder->owner = this;
   update->first_update = 0;
-  vector = new double[size_vector];    // last: a constructor that stops is not destroyed
+  vector = new double[size_vector];    // last: the destructor does not run if the constructor stops
 }
 
 /* ---------------------------------------------------------------------- */
@@ -84,7 +83,7 @@ ComputeLSMEvents::~ComputeLSMEvents()
   if (options.unfinished) on_rank_0([this] { stream->write_unfinished(); });
   sources.release();
 
-  // LAMMPS' lists of fixes and what the styles record are made at an init: 'run N pre no' needs one, too
+  // an init sets up LAMMPS' lists of fixes and what the styles record: 'run N pre no' needs one as well
 
   if (update) update->first_update = 0;
   const std::string id_fix = std::string(id) + "_record";
@@ -113,17 +112,17 @@ void ComputeLSMEvents::init()
   if (leaps && !settings.history_file.empty())
     error->all(
         FLERR,
-        "Compute lsm/events {}: history does not work with fix lsm/leap, as the intervals of "
-        "a slip history are all as long; leave it out",
+        "Compute lsm/events {}: history does not work with fix lsm/leap, as all intervals of a "
+        "slip history have the same length; leave it out",
         id);
   if (opened && leaps != settings.own_times)
     error->all(FLERR,
-               "Compute lsm/events {}: fix lsm/leap {} since the files of this compute were begun; "
-               "uncompute it before, and begin others",
+               "Compute lsm/events {}: fix lsm/leap {} since the files of this compute were "
+               "opened; uncompute it first, and use other files",
                id, leaps ? "was defined" : "is gone");
   settings.own_times = leaps;
 
-  // the first run decides, as the headers of the files hold it
+  // fixed by the first run, as the headers of the files have it
 
   if (in_intervals() && !opened && update->whichflag != 0) sources.find_driving(settings);
   set_memory();
@@ -167,7 +166,7 @@ void ComputeLSMEvents::open_files()
 }
 
 /* ----------------------------------------------------------------------
-   names with a step or a processor in them are no other file's
+   names with a step or a processor in them cannot be those of other files
 ------------------------------------------------------------------------- */
 
 std::vector<LSM::Output> ComputeLSMEvents::restart_files() const
@@ -201,7 +200,7 @@ void ComputeLSMEvents::make_grid()
 }
 
 /* ----------------------------------------------------------------------
-   does something with the stream, if there is one; what goes wrong waits for stop_on_failure()
+   does something with the stream, if there is one; an error waits for stop_on_failure()
 ------------------------------------------------------------------------- */
 
 template <class Task> void ComputeLSMEvents::on_rank_0(Task &&task)
@@ -230,8 +229,8 @@ void ComputeLSMEvents::stop_on_failure()
 }
 
 /* ----------------------------------------------------------------------
-   called at the begin of each run: the state at this step is the first sample, unless the run before
-   or the restart had it
+   called at the beginning of each run: the state at this step is the first sample, unless the
+   previous run or the restart had it
 ------------------------------------------------------------------------- */
 
 void ComputeLSMEvents::setup_record()
@@ -272,14 +271,14 @@ void ComputeLSMEvents::check_box()
       error->all(
           FLERR,
           "Compute lsm/events {}: the box along x was {} to {} when it began and is {} to {} "
-          "now, which {} cannot follow; uncompute it before, and begin another with other files",
+          "now, which {} cannot follow; uncompute it first, and define another with other files",
           id, begin, begin + period, domain->boxlo[0], domain->boxhi[0],
           placed ? "the places of events" : "the header of file " + file);
 }
 
 /* ----------------------------------------------------------------------
-   looks whether the time step is another one: times go on from here, and the picker's rate is one per step
-   headers of files hold one time step, so it must not change once they are open
+   checks whether the time step has changed: times continue from here, and the picker's rate is per step
+   headers of files have one time step, so it must not change once they are open
 ------------------------------------------------------------------------- */
 
 void ComputeLSMEvents::change_dt()
@@ -289,9 +288,8 @@ void ComputeLSMEvents::change_dt()
     if (opened && !file.empty())
       error->all(
           FLERR,
-          "Compute lsm/events {}: the time step changed from {} to {}, but the header of file "
-          "{} holds one time "
-          "step; go on from a restart file with other files",
+          "Compute lsm/events {}: the time step changed from {} to {}, but the header of file {} "
+          "has one time step; continue from a restart file with other files",
           id, clock.dt, update->dt, file);
   flush();
   const double ratio = clock.dt > 0.0 ? update->dt / clock.dt : 0.0;
@@ -328,7 +326,7 @@ void ComputeLSMEvents::record()
 }
 
 /* ----------------------------------------------------------------------
-   hands the filled block to rank 0 and goes on; rank 0 looks at it when the next block is full
+   sends the filled block to rank 0 and continues; rank 0 processes it when the next block is full
 ------------------------------------------------------------------------- */
 
 void ComputeLSMEvents::start_gather()
@@ -398,8 +396,8 @@ void ComputeLSMEvents::begin_fault()
 }
 
 /* ----------------------------------------------------------------------
-   Commands between two runs (displace_atoms, delete_atoms, velocity, other coefficients) change energies at
-   once. That is no event and no loss of the model: both go on from the energies that are found.
+   Commands between two runs (displace_atoms, delete_atoms, velocity, other coefficients) change energies.
+   This is no event and no loss of the model: both continue from the energies found.
 ------------------------------------------------------------------------- */
 
 void ComputeLSMEvents::leave_out_jump()
@@ -407,7 +405,7 @@ void ComputeLSMEvents::leave_out_jump()
   const bigint step = update->ntimestep;
   const double size = MAX(domain->prd[0], domain->prd[1]);
   const double floor =
-      1e-22 * static_cast<double>(atom->natoms) * size * size;    // positions rounded otherwise
+      1e-22 * static_cast<double>(atom->natoms) * size * size;    // rounding of positions
   double change = 0.0;
 
   if (last_recorded == step) {
@@ -445,8 +443,8 @@ LSM::EnergyTerms ComputeLSMEvents::energies() const
 
 /* ----------------------------------------------------------------------
    Before neighbor lists are built: a link torn beyond the ghosts would stop LAMMPS with 'Bond atoms missing'.
-   In the middle of a step there is no energy to check and nothing worth a restart file, so what can wait is
-   checked when the step is complete.
+   In the middle of a step there is no energy to check and no state for a restart file, so all that can
+   wait is checked when the step is complete.
 ------------------------------------------------------------------------- */
 
 void ComputeLSMEvents::look_early()
@@ -465,7 +463,7 @@ void ComputeLSMEvents::look_early()
 }
 
 /* ----------------------------------------------------------------------
-   at the end of a step; stops a run that went bad: everything recorded so far is written, then a restart file
+   at the end of a step; stops a failed run: everything recorded so far is written, then a restart file
 ------------------------------------------------------------------------- */
 
 void ComputeLSMEvents::check_health()
@@ -480,7 +478,7 @@ void ComputeLSMEvents::check_health()
   });
   if (found.what.empty()) return;
 
-  // a restart file of such a state would be of no use, and would replace an older one
+  // a restart file of such a state would be useless, and would replace an older one
 
   flush();
   if (!found.finite)
@@ -527,7 +525,7 @@ namespace {
 struct Own {
   double version = -1.0;
   bigint last_recorded = 0;
-  bool balanced = false;    // the ledger has begun
+  bool balanced = false;    // the ledger has started
   double start = 0.0, friction = 0.0, broken = 0.0;
   LSM::StepClock clock;
 
@@ -565,7 +563,7 @@ std::vector<double> ComputeLSMEvents::pack_state()
 }
 
 /* ----------------------------------------------------------------------
-   another time step, interval or number of bins: the numbers of the events go on, what was open is lost
+   another time step, interval or number of bins: the numbers of the events continue, open events are lost
 ------------------------------------------------------------------------- */
 
 void ComputeLSMEvents::unpack_state(const std::vector<double> &state)

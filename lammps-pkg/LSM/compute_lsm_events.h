@@ -71,7 +71,7 @@ class ComputeLSMEvents : public Compute {
   // rank 0
 
   std::unique_ptr<LSM::EventStream> stream;
-  std::string failure;    // what went wrong on rank 0, which the others have to hear of
+  std::string failure;    // error on rank 0, which the others have to be told
   double shown_at = 0.0, started_at = 0.0;
 
   double begin = 0.0, period = 0.0;    // of the box along x at the first run

@@ -103,7 +103,7 @@ void FixLSMAbsorb::post_force(int /*vflag*/)
 }
 
 /* ----------------------------------------------------------------------
-   scalar = energy that has left
+   scalar = absorbed energy
 ------------------------------------------------------------------------- */
 
 double FixLSMAbsorb::compute_scalar()

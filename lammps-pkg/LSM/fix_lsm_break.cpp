@@ -58,9 +58,9 @@ void FixLSMBreak::init()
 }
 
 /* ----------------------------------------------------------------------
-   A link that broke in this force evaluation leaves the topology at once, before anybody can write a restart
-   file. It is gone from every list before the forces of the next step: its length exceeds the rest length
-   now, so the pair cannot have touched in between.
+   A link that broke in this force evaluation leaves the topology at once, before a restart file can be
+   written. It is gone from every list before the forces of the next step: its length exceeds the rest
+   length now, so the pair cannot have touched in between.
 ------------------------------------------------------------------------- */
 
 void FixLSMBreak::setup_pre_reverse(int eflag, int vflag)

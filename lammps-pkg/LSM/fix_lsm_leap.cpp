@@ -28,7 +28,7 @@ using namespace LAMMPS_NS;
 using namespace FixConst;
 
 static constexpr bigint KEPT_STEPS =
-    20000;    // of changes of the rate, for steps that are looked at later
+    20000;    // of changes of the rate, for steps that are processed later
 
 /* ---------------------------------------------------------------------- */
 
@@ -62,7 +62,7 @@ FixLSMLeap::FixLSMLeap(LAMMPS *_lmp, int narg, char **arg) : Fix(_lmp, narg, arg
 
 FixLSMLeap::~FixLSMLeap()
 {
-  // the other fixes may be gone already
+  // the other fixes may already be gone
 
   if (auto p = dynamic_cast<FixLSMPlates *>(modify->get_fix_by_id(plates_id))) p->loading = 1.0;
   for (auto *p : LSMScene::integrators(modify)) p->raise_viscosity(0.0);
@@ -94,9 +94,9 @@ void FixLSMLeap::init()
         fast, fabs(plates->driving_velocity()), plates_id);
   if (leaps() && slip * fast < 2.0 * fabs(plates->driving_velocity()) && comm->me == 0)
     error->warning(FLERR,
-                   "Fix lsm/leap {}: slip {} times fast {} is less than twice the driving velocity "
-                   "{}: a fault that only follows its plates ends leaps, and events are cut into "
-                   "pieces; take a larger fast, or no leaps",
+                   "Fix lsm/leap {}: slip {} times fast {} is less than twice the driving "
+                   "velocity {}: a fault that only follows its plates ends leaps, and events are "
+                   "cut into pieces; use a larger fast, or no leaps",
                    id, slip, fast, fabs(plates->driving_velocity()));
   if (modify->get_fix_by_style("^lsm/leap").size() > 1)
     error->all(FLERR, "More than one fix lsm/leap");
@@ -145,7 +145,7 @@ void FixLSMLeap::setup(int /*vflag*/)
   } else {
     changes.push_back({update->ntimestep, model_time(update->ntimestep), factor * dt});
   }
-  if (!leaps()) state = EVENT;    // a restart may go on with another velocity
+  if (!leaps()) state = EVENT;    // a restart may continue with another velocity
   set_factor(leaps() ? MIN(factor, fast / fabs(plates->driving_velocity())) : 1.0);
   plates->loading = factor;
   for (auto *p : contacts) p->pace = factor;
@@ -207,7 +207,7 @@ double FixLSMLeap::kinetic() const
 
 /* ----------------------------------------------------------------------
    without a faster velocity there is nothing to do
-   event: plates as slow as they are driven, until nothing slipped for a while
+   event: plates at the driving velocity, until nothing has slipped for a while
    settle: more viscosity, until the blocks are at rest
    leap: plates fast, until something slips
 ------------------------------------------------------------------------- */
@@ -288,7 +288,7 @@ void FixLSMLeap::restart(char *buf)
 
 template <class Self, class State> void FixLSMLeap::visit(Self &self, State &state)
 {
-  constexpr double with_changes = -2.0;    // where earlier versions had a time
+  constexpr double with_changes = -2.0;    // in place of the time of earlier versions
   double version = with_changes, now = self.model_time(self.update->ntimestep);
   state(version);
   if (version != with_changes)

@@ -116,7 +116,7 @@ void FixLSMNVE::reset_dt()
 void FixLSMNVE::raise_viscosity(double least)
 {
   if (least == nu_least) return;
-  complete_step();    // a half that was put off has the old one
+  complete_step();    // a deferred half kick has the old one
   nu_least = least;
   reset_dt();
   if (initial_chosen) choose();
@@ -181,7 +181,7 @@ void FixLSMNVE::choose()
       flag(ahead != nullptr));
   if (slows && record_work) both_chosen = nullptr;
 
-  // fixes that may look at velocities between the end of a step and the begin of the next
+  // fixes that may read velocities between the end of a step and the beginning of the next
 
   onlookers.clear();
   for (const auto &other : modify->get_fix_list()) {
@@ -204,7 +204,7 @@ void FixLSMNVE::setup(int /*vflag*/)
   const std::string foreign = LSMScene::foreign_forces(force);
   if (!foreign.empty() && comm->me == 0)
     error->warning(FLERR,
-                   "Fix lsm/nve {}: the stability limit of the time step does not know of {}", id,
+                   "Fix lsm/nve {}: the stability limit of the time step does not include {}", id,
                    foreign);
   dt_limit = time_step_limit(NEARLY_CLOSED, omega);
   const bool went_on = goes_on;
@@ -212,7 +212,7 @@ void FixLSMNVE::setup(int /*vflag*/)
   if (dt_limit == 0.0 || update->dt <= dt_limit) return;
   const std::string what = ahead ? "links and contacts with kelvin-voigt" : "links and contacts";
 
-  // foresight may refuse a start, but not a run that has come far already
+  // nearly closed contacts may refuse the start of a run, but not its continuation
 
   if (went_on && check == ERROR) {
     double frequency;
@@ -222,7 +222,7 @@ void FixLSMNVE::setup(int /*vflag*/)
         error->warning(
             FLERR,
             "Time step {} is above the stability limit {:.6g} with the contacts that are nearly "
-            "closed, below that of the closed ones, {:.6g}; this run goes on",
+            "closed, below that of the closed ones, {:.6g}; the run continues",
             update->dt, dt_limit, closed > 0.0 ? closed : INFINITY);
       return;
     }
@@ -327,8 +327,9 @@ void FixLSMNVE::initial_integrate(int /*vflag*/)
 }
 
 /* ----------------------------------------------------------------------
-   The second half of a step waits for the first half of the next, so that both go through memory together,
-   unless somebody may look at the velocities in between. The same operations in the same order either way.
+   The second half kick of a step is deferred to the first one of the next, so that both take one pass
+   through memory, unless another fix may read the velocities in between. The operations and their order
+   are the same either way.
 ------------------------------------------------------------------------- */
 
 void FixLSMNVE::final_integrate()
@@ -343,8 +344,8 @@ void FixLSMNVE::final_integrate()
 }
 
 /* ----------------------------------------------------------------------
-   Whether nobody else looks at forces, or adds to them, between the begin of a step and the interactions, and
-   nobody needs the torques that the integrator would clear with them
+   Whether no other fix reads forces, or adds to them, between the beginning of a step and the
+   interactions, and none needs the torques that the integrator would clear with them
 ------------------------------------------------------------------------- */
 
 bool FixLSMNVE::may_clear() const
@@ -360,8 +361,8 @@ bool FixLSMNVE::may_clear() const
 }
 
 /* ----------------------------------------------------------------------
-   Integrate::external_force_clear is there for such a purpose, but no fix of LAMMPS has it: only classes derived
-   from Integrate may name it.
+   Integrate::external_force_clear exists for this purpose, but no fix of LAMMPS uses it: only classes
+   derived from Integrate may name it.
 ------------------------------------------------------------------------- */
 
 struct Clearing : public Integrate {
@@ -373,7 +374,7 @@ struct Clearing : public Integrate {
 
 void FixLSMNVE::leave_clearing_to_integrator()
 {
-  // When LAMMPS itself ends, update is gone before its fixes.
+  // When LAMMPS exits, update is destroyed before its fixes.
   if (clears && update && update->integrate) Clearing::is_external(update->integrate, 0);
   clears = false;
 }
@@ -399,7 +400,7 @@ void FixLSMNVE::setup_pre_force(int /*vflag*/)
   clear_all();
 }
 
-// When the lists were built other particles have the places of these.
+// After the lists have been built, other particles have these places.
 
 void FixLSMNVE::pre_force(int /*vflag*/)
 {
@@ -426,9 +427,9 @@ void FixLSMNVE::post_run()
 
 /* ----------------------------------------------------------------------
    Bound of the time step and of the highest frequency of the network of links and contacts, see lsm_frequency.h; 0
-   without springs. Pairs closer than reach_factor of touching count as contacts that are there.
+   without springs. Pairs closer than reach_factor times the contact distance count as contacts.
 
-   With velocities that go on in a straight line through those of two half steps, the scheme is stable while
+   With velocities extrapolated linearly from those of two half steps, the scheme is stable while
    dt^2 w^2 + 4 dt g < 4 for all motions, where w^2 and g are the Rayleigh quotients of stiffness and viscosity over
    mass: the recurrence of the oscillator has its first root of modulus 1 there, at -1. The largest of
    both bound it, and are those of one motion where all retardation times are the same.

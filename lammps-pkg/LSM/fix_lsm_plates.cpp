@@ -75,7 +75,7 @@ FixLSMPlates::FixLSMPlates(LAMMPS *_lmp, int narg, char **arg) :
 
 FixLSMPlates::~FixLSMPlates()
 {
-  // an error between two steps leaves a sum on its way, on all ranks
+  // after an error between two steps a sum may still be in transit, on all ranks
 
   if (reducing) MPI_Wait(&request, MPI_STATUS_IGNORE);
 }
@@ -100,8 +100,8 @@ void FixLSMPlates::init()
     error->all(FLERR, "Fix lsm/plates does not work with run_style respa");
   dt = update->dt;
 
-  // plates keep the velocity across the fault that their particles have, so that one fix can follow
-  // another; the fix itself remembers it from one run to the next and in a restart
+  // plates take over the velocity across the fault of their particles, so that one fix can follow
+  // another; the fix itself keeps it from one run to the next and in a restart
 
   double sum[4] = {0.0, 0.0, 0.0, 0.0}, all[4];
   tagint in_both = 0, shared = 0;
@@ -284,8 +284,8 @@ void FixLSMPlates::initial_integrate(int /*vflag*/)
 }
 
 /* ----------------------------------------------------------------------
-   While the sum of the forces over all ranks is on its way, particles of the blocks move on where fix lsm/nve has put off
-   the second half of its step (see there), as nobody looks at velocities then.
+   While the sum of the forces over all ranks is being communicated, particles of the blocks move on if fix
+   lsm/nve has deferred its second half kick (see there), as then no fix reads velocities.
 ------------------------------------------------------------------------- */
 
 void FixLSMPlates::final_integrate()

@@ -54,7 +54,7 @@ void FixLSMRecord::post_run()
   owner->end_run();
 }
 
-// within a run; between two runs the next one finds out
+// within a run; between two runs the next run notices
 
 void FixLSMRecord::reset_dt()
 {

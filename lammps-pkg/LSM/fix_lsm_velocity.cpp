@@ -59,7 +59,10 @@ FixLSMVelocity *FixLSMVelocity::ask_for(LAMMPS *lmp)
   if (!any) any = modify->add_fix(std::string(ID) + " all LSM_VELOCITY");
   auto *const one = dynamic_cast<FixLSMVelocity *>(any);
   if (!one)
-    lmp->error->all(FLERR, "Fix {} must be of style LSM_VELOCITY, which makes it itself", ID);
+    lmp->error->all(FLERR,
+                    "Fix {} must be of style LSM_VELOCITY, which the package creates "
+                    "itself",
+                    ID);
   one->asked = true;
   return one;
 }
@@ -78,7 +81,7 @@ int FixLSMVelocity::setmask()
 }
 
 /* ----------------------------------------------------------------------
-   force styles have asked for it just now, if they are viscous
+   viscous force styles have just asked for it
 ------------------------------------------------------------------------- */
 
 void FixLSMVelocity::init()
@@ -90,12 +93,12 @@ void FixLSMVelocity::init()
   for (const auto &leap : modify->get_fix_by_style("^lsm/leap"))
     error->all(FLERR,
                "Links and contacts with kelvin-voigt do not work with fix {} of style lsm/leap, "
-               "whose blocks move faster than their model time tells",
+               "whose blocks move faster than in model time",
                leap->id);
   for (const auto *mover : LSMMover::all(modify)) extrapolated |= mover->moved_bits();
   if (LSMScene::integrators(modify).empty() && !LSMScene::is_rerun(update))
-    error->all(FLERR, "Links and contacts with kelvin-voigt need fix lsm/nve, which knows the "
-                      "velocities of the time of the forces");
+    error->all(FLERR, "Links and contacts with kelvin-voigt need fix lsm/nve, which extrapolates "
+                      "velocities to the time of the forces");
 }
 
 /* ----------------------------------------------------------------------
@@ -111,7 +114,7 @@ void FixLSMVelocity::setup_pre_force(int /*vflag*/)
 }
 
 /* ----------------------------------------------------------------------
-   those that others move have no better ones
+   there are no better ones for particles moved by other fixes
 ------------------------------------------------------------------------- */
 
 void FixLSMVelocity::post_integrate()
@@ -179,7 +182,7 @@ std::uint64_t FixLSMVelocity::fingerprint() const
 }
 
 /* ----------------------------------------------------------------------
-   scalar = energy that the dashpots took
+   scalar = energy dissipated by the dashpots
 ------------------------------------------------------------------------- */
 
 double FixLSMVelocity::compute_scalar()

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file lsm_block_sampler.h
-/// What is recorded at every step, taken together in blocks, so that ranks talk to each other once
-/// a block: one block is filled while the one before is on its way to rank 0.
+/// Records of every step, collected in blocks, so that ranks communicate once per block: one block
+/// is filled while the previous one is on its way to rank 0.
 #ifndef LSM_BLOCK_SAMPLER_H
 #define LSM_BLOCK_SAMPLER_H
 
@@ -16,7 +16,7 @@
 
 namespace LSM {
 
-/// One rank's share of the samples of steps that follow each other.
+/// One rank's share of the samples of consecutive steps.
 struct SampleBlock {
   std::int64_t first = 0;  ///< step of the first sample
   int count = 0;           ///< samples
@@ -33,7 +33,7 @@ struct SampleBlock {
   }
 };
 
-/// Fills blocks. The one handed over stays as it is until the next one is.
+/// Fills blocks. A block handed over stays valid until the next one is.
 class BlockSampler {
  public:
   /// steps in a block, at least 1; nothing may have been sampled since the last hand_over()
@@ -74,12 +74,12 @@ class BlockSampler {
   SampleBlock filling_, handed_over_;
 };
 
-/// The blocks of all ranks as rank 0 has them.
+/// The blocks of all ranks, on rank 0.
 struct GatheredBlock {
   std::int64_t first = 0;
   int count = 0, ranks = 1;
-  std::vector<double> pe;         ///< count samples of each rank, one rank behind the other
-  std::vector<double> slip;       ///< as in SampleBlock, one rank behind the other
+  std::vector<double> pe;         ///< count samples of each rank, one rank after the other
+  std::vector<double> slip;       ///< as in SampleBlock, one rank after the other
   std::vector<double> intervals;  ///< sums over the ranks
 
   /// Total of a sample; n: its place in the block.

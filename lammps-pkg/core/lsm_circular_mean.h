@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file lsm_circular_mean.h
-/// Mean of places on a ring, which a seam must not pull apart: that of their directions.
+/// Circular mean of places on a ring, independent of its seam.
 #ifndef LSM_CIRCULAR_MEAN_H
 #define LSM_CIRCULAR_MEAN_H
 

@@ -28,8 +28,8 @@ struct SceneInfo {
   double dt = 1.0;
 };
 
-/// The times of steps: a restart file holds these numbers, so that a run that goes on gives the
-/// same ones.
+/// The times of steps: a restart file has these numbers, so that a continued run gives the same
+/// times.
 struct StepClock {
   double time = 0.0;  ///< at the step
   std::int64_t step = 0;
@@ -81,8 +81,8 @@ inline CatalogueInfo catalogue_header(const EventSettings &settings, const Event
   return info;
 }
 
-/// Header of the PE series, which is the same whatever the events are. Holds the numbers that times
-/// are computed from, so that a reader gets the times of the catalogue.
+/// Header of the PE series, the same for all kinds of events. It has the numbers that times are
+/// computed from, so that a reader gets the times of the catalogue.
 inline PeSeriesInfo series_header(const EventSettings &settings, const SceneInfo &scene,
                                   const StepClock &clock) {
   PeSeriesInfo info;

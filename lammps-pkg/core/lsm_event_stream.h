@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file lsm_event_stream.h
-/// From samples to files, on the rank that has them all: PE to the series, sums of the fault's
-/// contacts to the slip history, both to the finder of the kind of events, and what it finds to the
-/// catalogue.
+/// From samples to files, on the rank that has all of them: PE goes to the series, sums of the
+/// fault's contacts to the slip history, both to the finder of the kind of events, and its events
+/// to the catalogue.
 #ifndef LSM_EVENT_STREAM_H
 #define LSM_EVENT_STREAM_H
 
@@ -25,13 +25,13 @@
 
 namespace LSM {
 
-/// A run that cannot go on; the message is a sentence of its own, for the user.
+/// A run that cannot continue; the message is a complete sentence for the user.
 class EventStreamError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// What a restart file holds of a stream, read from the numbers that EventStream::state() gave.
+/// State of a stream in a restart file, read from the numbers of EventStream::state().
 struct SavedStream {
   std::size_t kind = 0;           ///< number of the kind of events; drops of PE have only:
   std::vector<double> drops;      ///< PeDropFinder::state()
@@ -43,7 +43,7 @@ struct SavedStream {
 
   static constexpr std::size_t picker_words = sizeof(PickerState) / sizeof(double);
 
-  /// What there is of kinds other than drops of PE.
+  /// State of kinds other than drops of PE.
   template <class Self, class State>
   static void visit(Self &self, State &state) {
     auto &grid = self.grid;
@@ -55,7 +55,7 @@ struct SavedStream {
     state.list(self.history);
   }
 
-  /// From place `at` of the numbers on, of a kind with that number. False: this is no such state.
+  /// From index `at` of the numbers on, of the kind with this number. False: this is no such state.
   bool read(const std::vector<double> &from, std::size_t at, std::size_t of_kind) {
     if (from.size() < at + picker_words) return false;
     kind = of_kind;
@@ -74,8 +74,8 @@ struct SavedStream {
     }
   }
 
-  /// Whether events of that kind on that grid can go on; else their numbers do, and what was open
-  /// is lost.
+  /// Whether events of this kind on this grid can continue; if not, their numbers do, and open
+  /// events are lost.
   bool goes_on_with(std::size_t other_kind, const FaultGrid &other) const {
     return kind == other_kind && grid.dt == other.dt && grid.interval == other.interval &&
            grid.bins == other.bins;
@@ -90,14 +90,14 @@ class EventStream {
     if (!settings.kind->wants_intervals()) finder_ = settings.kind->finder(settings, FaultGrid());
   }
 
-  /// A fault whose first interval is still to come. \throws std::invalid_argument
+  /// A fault before its first interval. \throws std::invalid_argument
   void set_grid(const FaultGrid &grid) {
     grid_ = grid;
     finder_ = settings_.kind->finder(settings_, grid);
     goes_on_ = false;
   }
 
-  /// Goes on from a restart file, after set_grid(). \throws std::invalid_argument
+  /// Continues from a restart file, after set_grid(). \throws std::invalid_argument
   void set_state(const SavedStream &saved) {
     drops_.set_state(saved.drops);
     if (kind_ == 0 || saved.kind != kind_) return;
@@ -126,7 +126,7 @@ class EventStream {
     return out;
   }
 
-  /// Begins the files, or goes on with them: what is in the way is found before the first one is
+  /// Starts the files or continues them; anything that prevents it is found before the first one is
   /// touched. from_restart: set_state() was called; clock: for the series; others: files that
   /// something else writes. \throws EventStreamError or what the writers throw
   void begin_files(std::int64_t step, bool from_restart, const SceneInfo &scene,
@@ -149,7 +149,7 @@ class EventStream {
   }
 
   /// The samples of a block. time_of(step): model time; the fault begins at x0 and has that length.
-  /// \throws EventStreamError or what the writers throw, at the first sample that is at fault
+  /// \throws EventStreamError or what the writers throw, at the first offending sample
   template <class TimeOf>
   void add_block(const GatheredBlock &block, TimeOf &&time_of, double x0, double length) {
     const bool with_slips = settings_.kind->wants_slips();
@@ -168,7 +168,7 @@ class EventStream {
     }
   }
 
-  /// Writes open events with the end that they have by now; nothing may be added afterwards.
+  /// Writes open events with their end so far; nothing may be added afterwards.
   void write_unfinished() {
     if (finder_) finder_->each_open_as_ended([this](const Event &event) { finish(event); });
   }
@@ -219,7 +219,7 @@ class EventStream {
       if (!goes_on(file) && !settings_.overwrite && text_io::holds_data(file))
         throw EventStreamError(who + key + ": file " + file +
                                " exists; give another name, or replace it with overwrite yes" +
-                               (from_restart ? ", or go on with it with resume yes" : ""));
+                               (from_restart ? ", or continue it with resume yes" : ""));
       const std::string problem = text_io::why_not_writable(file);
       if (!problem.empty()) throw EventStreamError(problem);
     }

@@ -3,10 +3,10 @@
 /// Upper bound of the highest frequency of masses and springs, for the time step check.
 ///
 /// Lanczos iteration from a random start. The largest Ritz value approaches the largest eigenvalue
-/// from below, and no residual tells whether a mode that sits on a few discs has been missed. What
-/// bounds it is the start: after k steps in n dimensions the largest eigenvalue of a positive
-/// semi-definite matrix exceeds the Ritz value by more than a share e of itself with a probability
-/// of at most 1.648 sqrt(n) ((1 - sqrt e) / (1 + sqrt e))^(k - 1/2), whatever the matrix is
+/// from below, and no residual tells whether a mode confined to a few discs has been missed. The
+/// random start gives the bound: after k steps in n dimensions the largest eigenvalue of a positive
+/// semi-definite matrix exceeds the Ritz value by more than a fraction e of itself with a
+/// probability of at most 1.648 sqrt(n) ((1 - sqrt e) / (1 + sqrt e))^(k - 1/2), for any matrix
 /// (Kuczynski and Wozniakowski, SIAM J. Matrix Anal. Appl. 13, 1094, 1992, Theorem 4.2).
 #ifndef LSM_FREQUENCY_H
 #define LSM_FREQUENCY_H
@@ -24,8 +24,8 @@
 namespace LSM {
 
 /// A spring between particles i and j along the unit vector n, with stiffness k along it and kt
-/// across it, and the viscosity of a dashpot along it. If not both, the force on j is not added: it
-/// is added where j is at home.
+/// across it, and the viscosity of a dashpot along it. Unless `both`, the force on j is not added;
+/// the rank that owns j adds it.
 struct PairSpring {
   int i, j;
   bool both;
@@ -65,8 +65,8 @@ inline void add_spring_forces(const std::vector<PairSpring> &springs, int dim,
     add_spring_forces<2>(springs, displacement, force);
 }
 
-/// Two independent numbers of the normal distribution; key and axis choose them, so that a start
-/// vector does not depend on the order of the particles and on who has them.
+/// Two independent normal random numbers, chosen by key and axis, so that a start vector does not
+/// depend on the order of the particles and on the ranks that own them.
 inline std::pair<double, double> normal_pair(std::uint64_t key, std::uint64_t axis) {
   std::uint64_t state = key * 4 + axis;
   auto uniform = [&state] {  // splitmix64; in (0, 1]
@@ -116,12 +116,12 @@ struct LargestEigenvalue {
   int steps = 0;       ///< products with the matrix
 };
 
-/// Share of itself by which the eigenvalue may exceed the Ritz value, and probability that it does
-/// all the same.
+/// Fraction by which the eigenvalue may exceed the Ritz value, and probability that it exceeds it
+/// by more.
 constexpr double eigenvalue_share = 0.05;
 constexpr double eigenvalue_risk = 1e-12;
 
-/// Steps after which the Ritz value is good for eigenvalue_share in that many dimensions.
+/// Steps after which the Ritz value is accurate to eigenvalue_share in that many dimensions.
 inline int lanczos_steps(double dimensions) {
   const double root = std::sqrt(eigenvalue_share);
   return static_cast<int>(
@@ -170,8 +170,8 @@ LargestEigenvalue largest_eigenvalue(std::vector<double> start, double dimension
   return result;
 }
 
-/// One rank's masses and springs. Particles are numbered: those at home, then the ghosts, which are
-/// at home on another rank or are the same particles beyond a periodic boundary.
+/// One rank's masses and springs. Particles are numbered: first those owned, then the ghosts, which
+/// another rank owns or which are images beyond a periodic boundary.
 struct SpringNetwork {
   int dim = 2;                    ///< 2 or 3
   std::vector<double> mass;       ///< of those at home
@@ -184,10 +184,10 @@ struct SpringNetwork {
 };
 
 /// Square of the highest frequency: largest eigenvalue of M^-1/2 K M^-1/2, in so many dimensions on
-/// all ranks. displacement and force belong to the caller, `dim` values a particle: to_ghosts() has
-/// to copy displacements of particles at home to their ghosts, from_ghosts() to add the forces of
-/// ghosts to those at home, or to do nothing where no spring gave them any. sum(a) adds up over
-/// ranks.
+/// all ranks. displacement and force belong to the caller, `dim` values per particle: to_ghosts()
+/// has to copy displacements of owned particles to their ghosts, from_ghosts() to add the forces of
+/// ghosts to those of owned particles, or to do nothing if no spring gave them any. sum(a) adds up
+/// over ranks.
 template <class ToGhosts, class FromGhosts, class Sum>
 LargestEigenvalue highest_frequency_squared(const SpringNetwork &network, double dimensions,
                                             std::vector<double> &displacement,

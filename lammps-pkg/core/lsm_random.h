@@ -10,8 +10,8 @@
 
 namespace LSM {
 
-/// std::mt19937_64 with conversions to double of our own: the sequence of the engine is fixed by
-/// the C++ standard, that of std::uniform_real_distribution is not.
+/// std::mt19937_64 with our own conversion to double: the C++ standard fixes the sequence of the
+/// engine, but not that of std::uniform_real_distribution.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file lsm_state.h
-/// What a restart file holds of something, as numbers, written and read by one list of it:
+/// State in a restart file, as numbers that one list writes and reads:
 ///
 ///     template <class Self, class State>
 ///     static void visit(Self &self, State &state) { state(self.step, self.pe); }
 ///
-/// Self: const where it is written. What has visit() can be part of others and be in lists. Whole
-/// numbers and truths are held as doubles, exact below 2^53.
+/// Self is const when writing. Types with visit() can be members of others and elements of vectors.
+/// Integers and booleans are stored as doubles, exact below 2^53.
 #ifndef LSM_STATE_H
 #define LSM_STATE_H
 
@@ -21,7 +21,7 @@ namespace LSM {
 
 namespace state_detail {
 
-/// What writing and reading share; Derived has one(number) and raw_words(pointer, words).
+/// Shared by writing and reading; Derived has one(number) and raw_words(pointer, words).
 template <class Derived>
 class StateVisitor {
  public:
@@ -29,17 +29,17 @@ class StateVisitor {
   void operator()(Values &...values) {
     (any(values), ...);
   }
-  /// A vector of a length that is known.
+  /// A vector of known length.
   template <class Vector>
   void fixed(Vector &values) {
     for (auto &value : values) any(value);
   }
-  /// A vector behind its length.
+  /// A vector, after its length.
   template <class Vector>
   void list(Vector &values) {
     list(values, [](auto &) {});
   }
-  /// Each element is first made ready to be read, by prepare(element).
+  /// prepare(element) is called before each element is read.
   template <class Vector, class Prepare>
   void list(Vector &values, Prepare &&prepare) {
     auto length = static_cast<std::int64_t>(values.size());
@@ -51,7 +51,7 @@ class StateVisitor {
     for (auto &value : values) prepare(value);
     fixed(values);
   }
-  /// The bytes of a struct of eight-byte words, as they are.
+  /// The bytes of a struct of eight-byte words, unchanged.
   template <class Plain>
   void raw(Plain &plain) {
     static_assert(std::is_trivially_copyable_v<Plain> && sizeof(Plain) % sizeof(double) == 0);
@@ -90,7 +90,7 @@ class StateWriter : public state_detail::StateVisitor<StateWriter> {
   std::vector<double> &to_;
 };
 
-/// Reads. \throws std::invalid_argument where numbers are missing
+/// Reads. \throws std::invalid_argument if numbers are missing
 class StateReader : public state_detail::StateVisitor<StateReader> {
  public:
   explicit StateReader(const std::vector<double> &from, std::size_t at = 0)
@@ -104,7 +104,7 @@ class StateReader : public state_detail::StateVisitor<StateReader> {
     value = static_cast<Value>(*from_++);
     --left_;
   }
-  /// So many numbers at least are still to come.
+  /// Checks that at least so many numbers are left.
   void expect(std::int64_t numbers) const {
     if (numbers < 0 || static_cast<std::uint64_t>(numbers) > left_)
       throw std::invalid_argument("saved state is incomplete");
@@ -115,7 +115,7 @@ class StateReader : public state_detail::StateVisitor<StateReader> {
     from_ += words;
     left_ -= words;
   }
-  /// Numbers that nothing has asked for.
+  /// Numbers that have not been read.
   std::size_t left() const { return left_; }
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file lsm_whole_number.h
-/// A check for options of unsigned type, which the programs have in common: CLI11 makes huge
-/// numbers of negative ones, and of those that are too large the largest there is.
+/// A check for options of unsigned type, shared by the programs: CLI11 turns negative numbers into
+/// huge ones, and numbers that are too large into the largest one.
 #ifndef LSM_WHOLE_NUMBER_H
 #define LSM_WHOLE_NUMBER_H
 

@@ -54,13 +54,13 @@ EOF
     refused "Variable prefix is 'a b', but must be a file name without blanks" "${small[@]}" -var prefix 'a b'
     # One that nothing reads.
     fault -var stres 0.03 "${small[@]}" -var prefix known -var steps 1 || fail "a variable more"
-    [ "$(grep -c 'WARNING: Variable .* is none' out)" = 1 ] && grep -q 'Variable stres is none that this script reads' out ||
+    [ "$(grep -c 'WARNING: Variable .* is not used' out)" = 1 ] && grep -q 'Variable stres is not used by this script' out ||
       fail "no warning about stres"
     rm known.*
     # LAMMPS itself takes a word with '-' for an option; a script may set the variable.
     printf 'variable prefix string -x\ninclude %s/inputs/fault.in\n' "$source" >in.dash
     ! "$lmp" -in in.dash "${small[@]}" </dev/null >out 2>&1 || fail "accepted: a prefix that begins with -"
-    grep -q "ERROR: Variable prefix is '-x', but must be .* without - at its begin" out || fail "no clear line about -x"
+    grep -q "ERROR: Variable prefix is '-x', but must be .* not beginning with -" out || fail "no clear line about -x"
     [ -z "$(ls | grep -v '^out$\|^in.dash$')" ] || fail "files left behind: $(ls)"
     ;;
   values)
@@ -132,7 +132,7 @@ EOF
     # For a file of another origin the line of cksum will do.
     cksum bare >bare.info
     fault "${small[@]}" -var restart bare -var prefix a -var steps 1000 || fail "with a line of cksum"
-    grep -q "WARNING: Restart file bare does not say its seed" out || fail "no warning"
+    grep -q "WARNING: Restart file bare has no value of seed" out || fail "no warning"
     ;;
   killed)
     # Most of the time goes into restart files.

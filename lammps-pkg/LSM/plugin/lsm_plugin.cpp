@@ -117,21 +117,21 @@ std::string mismatch(void *lmp)
 {
   const auto version = in_program<int (*)(void *)>("lammps_version");
   const auto setting = in_program<int (*)(void *, const char *)>("lammps_extract_setting");
-  if (!version || !setting) return "the program does not tell its version to plugins";
+  if (!version || !setting) return "the program does not pass its version to plugins";
   const int found = version(lmp);
   if (found != number_of(LAMMPS_VERSION))
-    return std::string("it was compiled for LAMMPS ") + LAMMPS_VERSION + ", and this is LAMMPS " +
+    return std::string("it was compiled for LAMMPS ") + LAMMPS_VERSION + ", but this is LAMMPS " +
            name_of(found) + "; compile it with the source of this LAMMPS";
   const int big = setting(lmp, "bigint"), tag = setting(lmp, "tagint"),
             image = setting(lmp, "imageint");
   if (big != sizeof(bigint) || tag != sizeof(tagint) || image != sizeof(imageint))
     return "it was compiled for " + sizes(sizeof(bigint), sizeof(tagint), sizeof(imageint)) +
-           ", and this LAMMPS has " + sizes(big, tag, image) +
+           ", but this LAMMPS has " + sizes(big, tag, image) +
            "; compile it with the same LAMMPS_SIZES";
   return {};
 }
 
-/// Whether the program has the styles already, and not from this plugin.
+/// Whether the program already has the styles, and not from this plugin.
 bool compiled_in(LAMMPS *lmp)
 {
   const auto found = lmp->force->pair_map->find("lsm/free");

@@ -14,7 +14,7 @@ LSMBlockGather::LSMBlockGather(MPI_Comm world, bool slip) : world_(world), me_(0
 
 LSMBlockGather::~LSMBlockGather()
 {
-  // an error between two steps leaves a block on its way, on all ranks
+  // after an error between two steps a block may still be in transit, on all ranks
 
   if (pending_) MPI_Wait(&request_, MPI_STATUS_IGNORE);
 }

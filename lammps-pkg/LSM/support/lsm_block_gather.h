@@ -22,7 +22,7 @@ class LSMBlockGather {
   LSMBlockGather(const LSMBlockGather &) = delete;
   LSMBlockGather &operator=(const LSMBlockGather &) = delete;
 
-  /// Sends a block, which has to stay as it is until finish().
+  /// Sends a block, which must not change until finish().
   void start(const LSM::SampleBlock &);
   /// Waits for what was sent last; false if there is nothing. On rank 0 the block is complete then.
   bool finish();

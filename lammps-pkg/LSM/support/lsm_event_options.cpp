@@ -23,7 +23,7 @@ static void take_all_values(LSMKeywordReader &in)
   in.need(in.key() == "series" || in.key() == "parameter" ? 2 : 1);
 }
 
-/// The kind is wanted first: which keywords there are depends on it.
+/// The kind comes first, as the keywords depend on it.
 static std::shared_ptr<EventKind> kind_of_events(LAMMPS *lmp, int first, int narg, char **arg)
 {
   LSMKeywordReader in(lmp, STYLE, first, narg, arg);

@@ -25,7 +25,7 @@ struct LSMEventOptions {
   bool progress = true;
   bool unfinished = false;    ///< events that are open in the end are written
 
-  /// From the words behind the style's name, which begin at arg[first]. Stops at the first that is wrong.
+  /// From the words after the style's name, which begin at arg[first]. Stops at the first error.
   LSMEventOptions(LAMMPS *, int first, int narg, char **arg);
 
  private:

@@ -42,13 +42,13 @@ void LSMEventSources::check(const Fix *recorder, bool ledger) const
   if (update->whichflag == 0) return;
   if (update->whichflag == 2)
     error->all(FLERR, "Compute lsm/events does not work with minimize: it records the steps of a "
-                      "run; uncompute it before");
+                      "run; uncompute it first");
   if (LSMScene::is_rerun(update))
     error->all(FLERR, "Compute lsm/events does not work with rerun: it records the steps of a run; "
                       "use thermo keyword pe "
                       "for the energies of snapshots");
 
-  // the strain of links is looked at before particles move to other ranks
+  // the strain of links is checked before particles move to other ranks
 
   for (const auto &ifix : modify->get_fix_list()) {
     if (ifix == recorder) break;
@@ -63,14 +63,14 @@ void LSMEventSources::check(const Fix *recorder, bool ledger) const
       for (const auto &other : modify->get_fix_by_style(adds_or_takes))
         error->all(
             FLERR,
-            "Compute lsm/events {}: the energy ledger does not know the particles that fix {} "
-            "adds or takes away; use ledger no and no tolerance",
+            "Compute lsm/events {}: the energy ledger does not include the particles that fix {} "
+            "adds or removes; use ledger no and no tolerance",
             id, other->id);
   const std::string foreign = LSMScene::foreign_forces(force);
   if (!foreign.empty() && comm->me == 0)
     error->warning(FLERR,
-                   "Compute lsm/events {}: PE, events and ledger do not hold the energy of {}", id,
-                   foreign);
+                   "Compute lsm/events {}: PE, events and ledger do not include the energy of {}",
+                   id, foreign);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -111,7 +111,7 @@ void LSMEventSources::find(bool ledger)
 }
 
 /* ----------------------------------------------------------------------
-   the styles may have been deleted since, so they are looked for again
+   the styles may have been deleted since, so they are searched again
 ------------------------------------------------------------------------- */
 
 void LSMEventSources::release()
@@ -127,7 +127,7 @@ void LSMEventSources::release()
 }
 
 /* ----------------------------------------------------------------------
-   what the slip of the fault is measured against: velocity and direction of the plates, stiffness of the links
+   references for the slip of the fault: velocity and direction of the plates, stiffness of the links
 ------------------------------------------------------------------------- */
 
 void LSMEventSources::find_driving(LSM::EventSettings &settings) const

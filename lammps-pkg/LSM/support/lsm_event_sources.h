@@ -24,12 +24,12 @@ class FixLSMPlates;
 class LSMEventSources : protected Pointers {
  public:
   LSMEventSources(LAMMPS *, const LSM::EventSettings &);
-  /// Stops if something in the scene does not go together with recording, and warns of energies that are not recorded.
+  /// Stops if something in the scene does not work with recording, and warns of energies that are not recorded.
   /// recorder: the fix that calls the compute.
   void check(const Fix *recorder, bool ledger) const;
-  /// Stops if the scene has not what the settings need; makes the styles record what they ask for.
+  /// Stops if the scene lacks something that the settings need; makes the styles record what they require.
   void find(bool ledger);
-  /// Makes them record nothing; those that are left.
+  /// Stops recording in the styles that are left.
   void release();
   /// Settings of the fault in intervals that the scene decides where the keywords do not.
   void find_driving(LSM::EventSettings &) const;

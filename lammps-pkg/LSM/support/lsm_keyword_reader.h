@@ -13,7 +13,7 @@
 
 namespace LAMMPS_NS {
 
-/// Goes through the words behind a style's name. Whatever is wrong stops LAMMPS with one line.
+/// Goes through the words after a style's name. Any error stops LAMMPS with one line.
 class LSMKeywordReader : protected Pointers {
  public:
   /// style: as messages begin, "Fix lsm/leap"; the words begin at arg[first]

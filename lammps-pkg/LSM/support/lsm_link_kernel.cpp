@@ -56,7 +56,7 @@ namespace LSMLinkKernel {
 #endif
   }
 
-  // Positions of four particles, two coordinates by one load each.
+  // Positions of four particles, two coordinates per load.
 
   template <int DIM>
   LSM_INLINE static void gather(const double *x, const int *place, Lanes (&to)[DIM])
@@ -86,7 +86,7 @@ namespace LSMLinkKernel {
     }
   }
 
-  // What is known of the links of a slice on its way.
+  // State of the links of a slice in the pipeline.
 
   template <int LENGTH, bool VISCOUS> struct Rates {
   };
@@ -99,7 +99,7 @@ namespace LSMLinkKernel {
     Lanes r[LENGTH];         // square of its length, length, force over length
   };
 
-  // Few links ever break: not worth a place in the loop.
+  // Links rarely break: not worth code in the loop.
 
   template <class Law>
   __attribute__((noinline, cold)) static void note_broken(const Law &law, int length,
@@ -110,9 +110,10 @@ namespace LSMLinkKernel {
       if (law.is_broken(r[n], rest[n])) broken.push_back({first.row + n % LANES, first.link + n});
   }
 
-  // Slices go through four stations, each of which works on another slice, so that every instruction finds its
-  // operands ready: what waits for a root or a quotient holds up the hundred or so instructions behind it.
-  // Stations are lambdas over local variables, as members of a class would be kept in memory.
+  // Software pipeline: slices pass four stations, each of which works on another slice, so that every
+  // instruction finds its operands ready; one that waits for a root or a quotient would hold up the hundred
+  // or so instructions after it. Stations are lambdas over local variables, as members of a class would be
+  // kept in memory.
 
   template <int DIM, int LENGTH, bool FILLED_UP, bool BOTH, class Law>
   LSM_INLINE static double work_on(const Run &run, const Rows &rows, const Law &law,

@@ -15,8 +15,8 @@
 namespace LAMMPS_NS {
 namespace LSMLinkKernel {
 
-  // The laws of links: what the loop over links, which is written once, asks about those that it works on side by
-  // side. A Number is a vector of the machine, see linear_spring.h.
+  // The laws of links, for the single loop over links, which handles several side by side. A Number is a
+  // SIMD vector, see linear_spring.h.
 
   /// Linear spring.
   struct Elastic {
@@ -40,12 +40,12 @@ namespace LSMLinkKernel {
     }
   };
 
-  /// A dashpot beside the spring.
+  /// A dashpot parallel to the spring.
   template <class Spring> struct KelvinVoigt : Spring {
     static constexpr bool viscous = true;
     double viscosity;
     const double *velocity;    // of the time of the positions, and in their order
-    double *lost;              // the power that the dashpots take is added
+    double *lost;              // the power dissipated by the dashpots is added
     /// Attraction by the dashpot.
     template <class Number> [[gnu::always_inline]] Number drag(const Number &rate) const
     {

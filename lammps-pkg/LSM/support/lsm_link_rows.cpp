@@ -65,7 +65,7 @@ namespace LSMLinkRows {
     }
   }
 
-  // The rows of the particles of a window, the longest first; what does not fill a slice makes one of mixed lengths.
+  // The rows of the particles of a window, the longest first; rows that do not fill a slice form one of mixed lengths.
 
   static void add_window(Rows &o, const Owners &of, const int *first, const int *last, bool mixed)
   {
@@ -90,8 +90,8 @@ namespace LSMLinkRows {
     add_run(o, of, left, LONGEST, true);
   }
 
-  // Cache lines that the runs from `first` on use and those of the window before did not. They are fetched
-  // while those are worked on, evenly: one by one when they are needed would take longer than all arithmetic.
+  // Cache lines used by the runs from `first` on and not by those of the previous window. They are prefetched
+  // evenly during the previous window: waiting for each when it is needed would take longer than the arithmetic.
 
   static void fetch_ahead(Rows &o, std::size_t before, std::size_t first, std::vector<int> &used,
                           int window)

@@ -40,13 +40,13 @@ class LSMMover {
   bool pending = false;
 };
 
-/// The longest way of a particle of this rank in a step, as told by the fixes that move them: they have the velocities
-/// at hand, while comparing positions with older ones reads both from memory.
+/// The largest displacement of a particle of this rank in a step, as told by the fixes that move them: they
+/// have the velocities at hand, while comparing positions with older ones would read both from memory.
 class LSMTravel : protected Pointers {
  public:
   LSMTravel(LAMMPS *_lmp) : Pointers(_lmp) {}
-  /// To be called once in each step, after particles have moved. No particle of this rank has moved farther since the
-  /// last call; infinite if that is not known, as something else may have moved particles.
+  /// To be called once in each step, after particles have moved. Bound of the displacement of any particle of
+  /// this rank since the last call; infinite if unknown, as something else may have moved particles.
   /// \param wanted  whether the fixes are to measure it from the next step on
   double since_last(bool wanted);
 

@@ -137,8 +137,9 @@ namespace LSMScene {
       if (fix->diam_flag)
         lmp->error->all(
             FLERR,
-            "{}: fix {} changes the diameters of particles during a run, but radii and masses are "
-            "read at its begin and with the neighbor lists; change them between two runs",
+            "{}: fix {} changes the diameters of particles during a run, but radii and masses "
+            "are read at its beginning and when neighbor lists are built; change them between "
+            "two runs",
             who, fix->id);
   }
 
@@ -147,9 +148,7 @@ namespace LSMScene {
     int at = 0;
     while (at < narg && strcmp(arg[at], "kelvin-voigt") != 0) at++;
     if (at == narg) return 0.0;
-    if (at + 2 != narg)
-      lmp->error->all(FLERR, "{}: kelvin-voigt must be the last word but one, before its time",
-                      who);
+    if (at + 2 != narg) lmp->error->all(FLERR, "{}: kelvin-voigt and its time must come last", who);
     const double time = utils::numeric(FLERR, arg[at + 1], false, lmp);
     if (!(time >= 0.0) || !std::isfinite(time))
       lmp->error->all(FLERR, "{} kelvin-voigt is {}, but must be a time >= 0", who, time);

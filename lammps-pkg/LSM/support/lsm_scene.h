@@ -38,15 +38,15 @@ namespace LSMScene {
   /// Force styles in use that are not of the package, as "bond harmonic, pair lj/cut"; empty if there is none.
   std::string foreign_forces(Force *);
 
-  /// Whether the command rerun evaluates snapshots. Nothing in LAMMPS says so: its steps do not follow each other as
-  /// those of a run, which begins at the step that is reached and has the length it was given.
+  /// Whether the command rerun evaluates snapshots. LAMMPS has no flag for it, but its steps are not consecutive
+  /// as those of a run, which begins at the present step and has the given length.
   bool is_rerun(const Update *);
 
   /// Stops if a fix changes particle radii during a run; `who` begins the message.
   void refuse_changing_radii(LAMMPS *, const std::string &who);
 
-  /// The retardation time of the last two of the words of a line of coefficients, 'kelvin-voigt TIME', which are taken away,
-  /// or 0; `who` begins the message.
+  /// The retardation time in the last two words of a line of coefficients, 'kelvin-voigt TIME', which are
+  /// removed, or 0; `who` begins the message.
   double take_retardation(LAMMPS *, const std::string &who, int &narg, char **arg);
 
 }    // namespace LSMScene

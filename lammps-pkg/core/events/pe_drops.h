@@ -19,10 +19,11 @@
 
 namespace LSM {
 
-/// Moment of the bins since the open event commenced, and what follows from it for the event.
+/// Moment of the bins since the open event began, and what follows from it for the event.
 class EventLocator {
  public:
-  /// bin_width > 0; fraction: bins with at most this part of the largest moment are not ruptured.
+  /// bin_width > 0; fraction: bins with at most this fraction of the largest moment are not
+  /// ruptured.
   EventLocator(double bin_width, double fraction) : bin_width_(bin_width), fraction_(fraction) {}
 
   void add(const std::vector<BinSlip> &slips) {
@@ -30,8 +31,8 @@ class EventLocator {
   }
   void clear() { moment_.clear(); }
 
-  /// Sets slip moment, centroid and rupture length; the fault begins at x0 and has that length as
-  /// its period. Centroid: direction of the mean of the bins on the circle that the period makes.
+  /// Sets slip moment, centroid and rupture length; the fault begins at x0 and has this length as
+  /// its period. Centroid: circular mean of the bins over the period.
   void locate(double x0, double length, Event &event) const {
     double largest = 0.0, sum = 0.0, c = 0.0, s = 0.0;
     for (const auto &[bin, moment] : moment_) {
@@ -58,7 +59,7 @@ class EventLocator {
     }
     return out;
   }
-  /// The pairs in saved from place `at` on.
+  /// The pairs in saved, starting at index `at`.
   void set_state(const std::vector<double> &saved, std::size_t at) {
     moment_.clear();
     for (std::size_t n = at; n + 1 < saved.size(); n += 2)
@@ -73,7 +74,7 @@ class EventLocator {
 class PeDrops : public EventKind {
  public:
   bool location = false;   ///< slip moment, centroid and rupture length of each event
-  double fraction = 0.05;  ///< bins with at most this part of the largest slip are not ruptured
+  double fraction = 0.05;  ///< bins with at most this fraction of the largest slip are not ruptured
 
   const char *name() const override { return "pe"; }
   Keywords keywords() override {
@@ -95,8 +96,7 @@ class PeDrops : public EventKind {
   }
 };
 
-/// The picker, and the places of what it finds. Its events have their ids, and those left out are
-/// counted.
+/// The picker, and the places of its events. The events have ids, and those left out are counted.
 class PeDropFinder : public EventFinder {
  public:
   /// \throws std::invalid_argument for settings out of range
@@ -117,10 +117,10 @@ class PeDropFinder : public EventFinder {
     if (picker_.in_event()) locator_.add(*sample.slips);
   }
   std::int64_t open() const override { return picker_.in_event() ? 1 : 0; }
-  // An event that ended at this step is only known one step later, and comes again.
+  // An event that ended at this step is known only one step later, and is found again.
   std::int64_t known_until(std::int64_t step) const override { return step - 1; }
 
-  /// The picker goes on with these settings; its rate is one per step, so it is multiplied by the
+  /// The picker continues with these settings; its rate is one per step, so it is multiplied by the
   /// ratio of the steps.
   void change_picker(const PickerSettings &settings, double ratio) {
     PickerState state = picker_.state();
