@@ -1,6 +1,4 @@
-/* ----------------------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
 
 #include "bond_lsm_linked.h"
 
@@ -29,16 +27,12 @@
 
 using namespace LAMMPS_NS;
 
-/* ---------------------------------------------------------------------- */
-
 BondLSMLinked::BondLSMLinked(LAMMPS *_lmp) :
     Bond(_lmp), k(nullptr), ratio(nullptr), delay(nullptr), breakable(0), maxrad(0.0),
     avx2(LSMLinkKernel::has_avx2()), collected_at(-1), velocity(nullptr)
 {
   writedata = 1;
 }
-
-/* ---------------------------------------------------------------------- */
 
 BondLSMLinked::~BondLSMLinked()
 {
@@ -51,8 +45,6 @@ BondLSMLinked::~BondLSMLinked()
   }
 }
 
-/* ---------------------------------------------------------------------- */
-
 void BondLSMLinked::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
@@ -61,15 +53,12 @@ void BondLSMLinked::compute(int eflag, int vflag)
   if (evflag) tally();
 }
 
-/* ----------------------------------------------------------------------
-   The links of this rank in rows, in an order that follows from the particle IDs alone: a run that goes on from a
-   restart file sums in the same order, and links that follow each other touch the same stretch of memory if
-   IDs follow the particles in space. Links that are treated differently stand in segments of their own:
-   by type, and by whether the force on the second particle is added here.
-   With newton_bond off the first particle of a link is always owned, and a link to a ghost stands in the
-   list of both ranks: half of its energy is counted on each.
-------------------------------------------------------------------------- */
-
+// The links of this rank in rows, in an order that follows from the particle IDs alone: a run that goes on from a
+// restart file sums in the same order, and links that follow each other touch the same stretch of memory if
+// IDs follow the particles in space. Links that are treated differently stand in segments of their own:
+// by type, and by whether the force on the second particle is added here.
+// With newton_bond off the first particle of a link is always owned, and a link to a ghost stands in the
+// list of both ranks: half of its energy is counted on each.
 void BondLSMLinked::collect()
 {
   struct Link {
@@ -117,8 +106,6 @@ void BondLSMLinked::collect()
   collected_at = neighbor->lastcall;
 }
 
-/* ---------------------------------------------------------------------- */
-
 std::vector<int> BondLSMLinked::owned_by_id() const
 {
   const tagint *const tag = atom->tag;
@@ -129,12 +116,9 @@ std::vector<int> BondLSMLinked::owned_by_id() const
   return owned;
 }
 
-/* ---------------------------------------------------------------------- */
-
 template <int DIM> void BondLSMLinked::eval()
 {
   // a minimizer may reject positions that it tried
-
   const bool minimizing = update->whichflag == 2;
   pe_link = 0.0;
   for (Segment &s : segments) {
@@ -161,11 +145,8 @@ template <int DIM, class Law> double BondLSMLinked::add_forces(const Segment &s,
                                     avx2);
 }
 
-/* ----------------------------------------------------------------------
-   Broken links are noted for fix LSM_BREAK; before the next evaluation of the forces the list is
-   collected without them.
-------------------------------------------------------------------------- */
-
+// Broken links are noted for fix LSM_BREAK; before the next evaluation of the forces the list is
+// collected without them.
 void BondLSMLinked::note_broken(Segment &segment)
 {
   for (const LSMLinkKernel::Place &place : broken_now) {
@@ -190,10 +171,7 @@ void BondLSMLinked::note_broken(Segment &segment)
   }
 }
 
-/* ----------------------------------------------------------------------
-   energy and virial for LAMMPS, in steps that ask for them
-------------------------------------------------------------------------- */
-
+// energy and virial for LAMMPS, in steps that ask for them
 void BondLSMLinked::tally()
 {
   double **x = atom->x;
@@ -208,10 +186,7 @@ void BondLSMLinked::tally()
   }
 }
 
-/* ----------------------------------------------------------------------
-   attraction by the dashpot of a link along d, the vector from j to i, of length r
-------------------------------------------------------------------------- */
-
+// attraction by the dashpot of a link along d, the vector from j to i, of length r
 double BondLSMLinked::drag(int type, int i, int j, const double *d, double r) const
 {
   if (!velocity || delay[type] == 0.0) return 0.0;
@@ -220,8 +195,6 @@ double BondLSMLinked::drag(int type, int i, int j, const double *d, double r) co
   for (int c = 0; c < domain->dimension; c++) rate += d[c] * (vi[c] - vj[c]) / r;
   return LSM::Dashpot::force(k[type] * delay[type], rate);
 }
-
-/* ---------------------------------------------------------------------- */
 
 template <class Act> void BondLSMLinked::for_each_link(const Act &act) const
 {
@@ -236,8 +209,6 @@ template <class Act> void BondLSMLinked::for_each_link(const Act &act) const
       }
 }
 
-/* ---------------------------------------------------------------------- */
-
 double BondLSMLinked::max_strain() const
 {
   double **x = atom->x;
@@ -250,8 +221,6 @@ double BondLSMLinked::max_strain() const
   return worst;
 }
 
-/* ---------------------------------------------------------------------- */
-
 std::vector<BondLSMLinked::Held> BondLSMLinked::held() const
 {
   std::vector<Held> all;
@@ -261,8 +230,6 @@ std::vector<BondLSMLinked::Held> BondLSMLinked::held() const
   });
   return all;
 }
-
-/* ---------------------------------------------------------------------- */
 
 bool BondLSMLinked::any_delay() const
 {
@@ -279,8 +246,6 @@ std::string BondLSMLinked::retardation() const
   return text;
 }
 
-/* ---------------------------------------------------------------------- */
-
 void BondLSMLinked::allocate()
 {
   allocated = 1;
@@ -295,15 +260,11 @@ void BondLSMLinked::allocate()
   }
 }
 
-/* ---------------------------------------------------------------------- */
-
 void BondLSMLinked::settings(int narg, char ** /*arg*/)
 {
   if (narg != 0)
     error->all(FLERR, "Bond style lsm/linked takes no arguments, but {} were given", narg);
 }
-
-/* ---------------------------------------------------------------------- */
 
 void BondLSMLinked::coeff(int narg, char **arg)
 {
@@ -336,8 +297,6 @@ void BondLSMLinked::coeff(int narg, char **arg)
     if (ratio[i] > 0.0) breakable = 1;
 }
 
-/* ---------------------------------------------------------------------- */
-
 void BondLSMLinked::init_style()
 {
   if (!atom->radius_flag)
@@ -354,7 +313,6 @@ void BondLSMLinked::init_style()
   collected_at = -1;
 
   // a minimizer has no velocities
-
   velocity = any_delay() && update->whichflag != 2 ? FixLSMVelocity::ask_for(lmp) : nullptr;
 
   double mine = 0.0;
@@ -362,20 +320,14 @@ void BondLSMLinked::init_style()
   MPI_Allreduce(&mine, &maxrad, 1, MPI_DOUBLE, MPI_MAX, world);
 
   // only links that can break need the fix that tells the other ranks and updates the topology
-
   if (breakable && !modify->get_fix_by_id("LSM_BREAK")) modify->add_fix("LSM_BREAK all LSM_BREAK");
 }
 
-/* ----------------------------------------------------------------------
-   the rest length is r_i + r_j; LAMMPS asks for one number a type
-------------------------------------------------------------------------- */
-
+// the rest length is r_i + r_j; LAMMPS asks for one number a type
 double BondLSMLinked::equilibrium_distance(int /*i*/)
 {
   return 2.0 * maxrad;
 }
-
-/* ---------------------------------------------------------------------- */
 
 // Retardation times, if any, come first, after a number that cannot be a stiffness.
 
@@ -390,8 +342,6 @@ void BondLSMLinked::write_restart(FILE *fp)
   fwrite(&k[1], sizeof(double), atom->nbondtypes, fp);
   fwrite(&ratio[1], sizeof(double), atom->nbondtypes, fp);
 }
-
-/* ---------------------------------------------------------------------- */
 
 void BondLSMLinked::read_restart(FILE *fp)
 {
@@ -415,8 +365,6 @@ void BondLSMLinked::read_restart(FILE *fp)
   }
 }
 
-/* ---------------------------------------------------------------------- */
-
 void BondLSMLinked::write_data(FILE *fp)
 {
   for (int i = 1; i <= atom->nbondtypes; i++) {
@@ -426,8 +374,6 @@ void BondLSMLinked::write_data(FILE *fp)
     fputs("\n", fp);
   }
 }
-
-/* ---------------------------------------------------------------------- */
 
 double BondLSMLinked::single(int type, double rsq, int i, int j, double &fforce)
 {
@@ -442,8 +388,6 @@ double BondLSMLinked::single(int type, double rsq, int i, int j, double &fforce)
   fforce = r > 0.0 ? -pull / r : 0.0;
   return LSM::Spring::energy(k[type], stretch);
 }
-
-/* ---------------------------------------------------------------------- */
 
 void *BondLSMLinked::extract(const char *str, int &dim)
 {

@@ -1,7 +1,5 @@
-/* -*- c++ -*- ----------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-   Lattice Solid Model: elastic link between two particles, Eq. (1)
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Lattice Solid Model: elastic link between two particles, Eq. (1)
 
 #ifdef BOND_CLASS
 // clang-format off

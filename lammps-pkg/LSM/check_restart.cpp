@@ -1,6 +1,4 @@
-/* ----------------------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
 
 #include "check_restart.h"
 
@@ -17,17 +15,13 @@
 
 using namespace LAMMPS_NS;
 
-/* ----------------------------------------------------------------------
-   check_restart FILE [free NAME ...] [fixed NAME ...]
-------------------------------------------------------------------------- */
-
+// check_restart FILE [free NAME ...] [fixed NAME ...]
 void CheckRestart::command(int narg, char **arg)
 {
   if (narg < 1) error->all(FLERR, "check_restart expects a file name");
   const std::string file = arg[0];
 
   // rank 0 reads; the settings go to the others as lines of key and value
-
   std::string problem, lines;
   if (comm->me == 0) {
     try {
@@ -60,10 +54,7 @@ void CheckRestart::command(int narg, char **arg)
   }
 }
 
-/* ----------------------------------------------------------------------
-   a variable that is there was set on the command line, or by a script that includes this one
-------------------------------------------------------------------------- */
-
+// a variable that is there was set on the command line, or by a script that includes this one
 void CheckRestart::take(const std::string &file, const std::string &name, const std::string *value,
                         bool fixed)
 {
@@ -85,13 +76,10 @@ void CheckRestart::take(const std::string &file, const std::string &name, const 
     if (!same) return;
 
     // the same number, written differently: as before, for the headers of continued files
-
     set({name, "delete"});
   }
   if (!input->variable->retrieve(name.c_str())) set({name, "index", *value});
 }
-
-/* ---------------------------------------------------------------------- */
 
 void CheckRestart::set(std::vector<std::string> words)
 {

@@ -1,8 +1,6 @@
-/* -*- c++ -*- ----------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-   compare a restart file with its checksum before it is read, and take
-   over the values of variables that stand beside it
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
+// compare a restart file with its checksum before it is read, and take
+// over the values of variables that stand beside it
 
 #ifdef COMMAND_CLASS
 // clang-format off

@@ -1,6 +1,4 @@
-/* ----------------------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
 
 #include "check_variable.h"
 
@@ -18,10 +16,7 @@
 
 using namespace LAMMPS_NS;
 
-/* ----------------------------------------------------------------------
-   a name misspelt on the command line is a variable that nothing reads
-------------------------------------------------------------------------- */
-
+// a name misspelt on the command line is a variable that nothing reads
 void CheckVariable::warn_of_others(int narg, char **arg)
 {
   if (comm->me != 0) return;
@@ -32,11 +27,8 @@ void CheckVariable::warn_of_others(int narg, char **arg)
   }
 }
 
-/* ----------------------------------------------------------------------
-   check_variable * among NAME ...
-   check_variable NAME words WORD ... | above NUMBER | whole NUMBER | file
-------------------------------------------------------------------------- */
-
+// check_variable * among NAME ...
+// check_variable NAME words WORD ... | above NUMBER | whole NUMBER | file
 void CheckVariable::command(int narg, char **arg)
 {
   const std::string kind = narg > 1 ? arg[1] : "";

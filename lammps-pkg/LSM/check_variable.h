@@ -1,7 +1,5 @@
-/* -*- c++ -*- ----------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-   stop if a variable is not what a script can use
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
+// stop if a variable is not what a script can use
 
 #ifdef COMMAND_CLASS
 // clang-format off

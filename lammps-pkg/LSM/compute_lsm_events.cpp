@@ -1,6 +1,4 @@
-/* ----------------------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
 
 #include "compute_lsm_events.h"
 
@@ -51,8 +49,6 @@ enum {
   NLEDGER
 };
 
-/* ---------------------------------------------------------------------- */
-
 ComputeLSMEvents::ComputeLSMEvents(LAMMPS *_lmp, int narg, char **arg) :
     Compute(_lmp, narg, arg), options(_lmp, 3, narg, arg), settings(options.events),
     sources(_lmp, settings), gather(world, settings.kind->wants_slips()), watchdog(options.watchdog)
@@ -75,8 +71,6 @@ ComputeLSMEvents::ComputeLSMEvents(LAMMPS *_lmp, int narg, char **arg) :
   vector = new double[size_vector];    // last: the destructor does not run if the constructor stops
 }
 
-/* ---------------------------------------------------------------------- */
-
 ComputeLSMEvents::~ComputeLSMEvents()
 {
   // the first processor has all complete intervals since the end of the last run
@@ -84,14 +78,11 @@ ComputeLSMEvents::~ComputeLSMEvents()
   sources.release();
 
   // an init sets up LAMMPS' lists of fixes and what the styles record: 'run N pre no' needs one as well
-
   if (update) update->first_update = 0;
   const std::string id_fix = std::string(id) + "_record";
   if (recorder && modify && modify->get_fix_by_id(id_fix)) modify->delete_fix(id_fix);
   delete[] vector;
 }
-
-/* ---------------------------------------------------------------------- */
 
 void ComputeLSMEvents::init()
 {
@@ -123,13 +114,10 @@ void ComputeLSMEvents::init()
   settings.own_times = leaps;
 
   // fixed by the first run, as the headers of the files have it
-
   if (in_intervals() && !opened && update->whichflag != 0) sources.find_driving(settings);
   set_memory();
   sampler.resize(options.block);
 }
-
-/* ---------------------------------------------------------------------- */
 
 void ComputeLSMEvents::set_memory()
 {
@@ -138,10 +126,7 @@ void ComputeLSMEvents::set_memory()
   settings.picker.lambda = LSM::lambda_from_memory_time(options.memory_time, update->dt);
 }
 
-/* ----------------------------------------------------------------------
-   Files are opened at the first run, so that a mistake earlier in the input touches no older catalogue.
-------------------------------------------------------------------------- */
-
+// Files are opened at the first run, so that a mistake earlier in the input touches no older catalogue.
 void ComputeLSMEvents::open_files()
 {
   const bool from_restart = !recorder->restart_state.empty();
@@ -165,10 +150,7 @@ void ComputeLSMEvents::open_files()
   opened = true;
 }
 
-/* ----------------------------------------------------------------------
-   names with a step or a processor in them cannot be those of other files
-------------------------------------------------------------------------- */
-
+// names with a step or a processor in them cannot be those of other files
 std::vector<LSM::Output> ComputeLSMEvents::restart_files() const
 {
   std::vector<LSM::Output> files = {{"emergency", options.emergency_file}};
@@ -178,8 +160,6 @@ std::vector<LSM::Output> ComputeLSMEvents::restart_files() const
   }
   return files;
 }
-
-/* ---------------------------------------------------------------------- */
 
 void ComputeLSMEvents::make_grid()
 {
@@ -199,10 +179,7 @@ void ComputeLSMEvents::make_grid()
   on_rank_0([this] { stream->set_grid(fault.grid()); });
 }
 
-/* ----------------------------------------------------------------------
-   does something with the stream, if there is one; an error waits for stop_on_failure()
-------------------------------------------------------------------------- */
-
+// does something with the stream, if there is one; an error waits for stop_on_failure()
 template <class Task> void ComputeLSMEvents::on_rank_0(Task &&task)
 {
   if (!stream || !failure.empty()) return;
@@ -215,10 +192,7 @@ template <class Task> void ComputeLSMEvents::on_rank_0(Task &&task)
   }
 }
 
-/* ----------------------------------------------------------------------
-   all ranks stop with what went wrong on rank 0, so that none waits for it
-------------------------------------------------------------------------- */
-
+// all ranks stop with what went wrong on rank 0, so that none waits for it
 void ComputeLSMEvents::stop_on_failure()
 {
   lsm_share(failure, world);
@@ -228,11 +202,8 @@ void ComputeLSMEvents::stop_on_failure()
   error->all(FLERR, "{}", what);
 }
 
-/* ----------------------------------------------------------------------
-   called at the beginning of each run: the state at this step is the first sample, unless the
-   previous run or the restart had it
-------------------------------------------------------------------------- */
-
+// called at the beginning of each run: the state at this step is the first sample, unless the
+// previous run or the restart had it
 void ComputeLSMEvents::setup_record()
 {
   double mine = 0.0;
@@ -248,10 +219,7 @@ void ComputeLSMEvents::setup_record()
   if (last_recorded != update->ntimestep) record();
 }
 
-/* ----------------------------------------------------------------------
-   places along the fault are counted from the box as it was, and headers hold its length
-------------------------------------------------------------------------- */
-
+// places along the fault are counted from the box as it was, and headers hold its length
 void ComputeLSMEvents::check_box()
 {
   const bool placed = in_intervals() || settings.kind->wants_slips();
@@ -276,11 +244,8 @@ void ComputeLSMEvents::check_box()
           placed ? "the places of events" : "the header of file " + file);
 }
 
-/* ----------------------------------------------------------------------
-   checks whether the time step has changed: times continue from here, and the picker's rate is per step
-   headers of files have one time step, so it must not change once they are open
-------------------------------------------------------------------------- */
-
+// checks whether the time step has changed: times continue from here, and the picker's rate is per step
+// headers of files have one time step, so it must not change once they are open
 void ComputeLSMEvents::change_dt()
 {
   if (update->dt == clock.dt) return;
@@ -305,8 +270,6 @@ double ComputeLSMEvents::time_of(bigint step) const
   return sources.leap() ? sources.leap()->model_time(step) : clock.at(step);
 }
 
-/* ---------------------------------------------------------------------- */
-
 void ComputeLSMEvents::record()
 {
   const bigint step = update->ntimestep;
@@ -325,10 +288,7 @@ void ComputeLSMEvents::record()
   if (watchdog.due(step)) check_health();
 }
 
-/* ----------------------------------------------------------------------
-   sends the filled block to rank 0 and continues; rank 0 processes it when the next block is full
-------------------------------------------------------------------------- */
-
+// sends the filled block to rank 0 and continues; rank 0 processes it when the next block is full
 void ComputeLSMEvents::start_gather()
 {
   finish_gather();
@@ -348,8 +308,6 @@ void ComputeLSMEvents::finish_gather()
   stop_on_failure();
 }
 
-/* ---------------------------------------------------------------------- */
-
 void ComputeLSMEvents::flush()
 {
   start_gather();
@@ -358,8 +316,6 @@ void ComputeLSMEvents::flush()
   stop_on_failure();
 }
 
-/* ---------------------------------------------------------------------- */
-
 void ComputeLSMEvents::end_run()
 {
   flush();
@@ -367,10 +323,7 @@ void ComputeLSMEvents::end_run()
   ledger.end_run(update->ntimestep, ledger.begun() ? energies() : LSM::EnergyTerms());
 }
 
-/* ----------------------------------------------------------------------
-   sums of the interval that is not complete over all ranks, on rank 0
-------------------------------------------------------------------------- */
-
+// sums of the interval that is not complete over all ranks, on rank 0
 std::vector<double> ComputeLSMEvents::fault_sums()
 {
   std::vector<double> all(fault.sums().size());
@@ -379,10 +332,7 @@ std::vector<double> ComputeLSMEvents::fault_sums()
   return all;
 }
 
-/* ----------------------------------------------------------------------
-   the state before the first interval: only the forces count
-------------------------------------------------------------------------- */
-
+// the state before the first interval: only the forces count
 void ComputeLSMEvents::begin_fault()
 {
   fault_begun = true;
@@ -395,11 +345,8 @@ void ComputeLSMEvents::begin_fault()
   stop_on_failure();
 }
 
-/* ----------------------------------------------------------------------
-   Commands between two runs (displace_atoms, delete_atoms, velocity, other coefficients) change energies.
-   This is no event and no loss of the model: both continue from the energies found.
-------------------------------------------------------------------------- */
-
+// Commands between two runs (displace_atoms, delete_atoms, velocity, other coefficients) change energies.
+// This is no event and no loss of the model: both continue from the energies found.
 void ComputeLSMEvents::leave_out_jump()
 {
   const bigint step = update->ntimestep;
@@ -429,8 +376,6 @@ void ComputeLSMEvents::leave_out_jump()
                    id, change);
 }
 
-/* ---------------------------------------------------------------------- */
-
 double ComputeLSMEvents::total_pe() const
 {
   return lsm_total(sources.pe(), world);
@@ -441,12 +386,9 @@ LSM::EnergyTerms ComputeLSMEvents::energies() const
   return ledger.with_earlier_works(sources.energies());
 }
 
-/* ----------------------------------------------------------------------
-   Before neighbor lists are built: a link torn beyond the ghosts would stop LAMMPS with 'Bond atoms missing'.
-   In the middle of a step there is no energy to check and no state for a restart file, so all that can
-   wait is checked when the step is complete.
-------------------------------------------------------------------------- */
-
+// Before neighbor lists are built: a link torn beyond the ghosts would stop LAMMPS with 'Bond atoms missing'.
+// In the middle of a step there is no energy to check and no state for a restart file, so all that can
+// wait is checked when the step is complete.
 void ComputeLSMEvents::look_early()
 {
   if (!sources.has_links()) return;
@@ -462,10 +404,7 @@ void ComputeLSMEvents::look_early()
              update->ntimestep, what);
 }
 
-/* ----------------------------------------------------------------------
-   at the end of a step; stops a failed run: everything recorded so far is written, then a restart file
-------------------------------------------------------------------------- */
-
+// at the end of a step; stops a failed run: everything recorded so far is written, then a restart file
 void ComputeLSMEvents::check_health()
 {
   const double mine[2] = {std::isfinite(sources.pe()) ? 0.0 : 1.0,
@@ -479,7 +418,6 @@ void ComputeLSMEvents::check_health()
   if (found.what.empty()) return;
 
   // a restart file of such a state would be useless, and would replace an older one
-
   flush();
   if (!found.finite)
     error->all(
@@ -500,10 +438,7 @@ void ComputeLSMEvents::check_health()
              update->ntimestep, found.what, options.emergency_file);
 }
 
-/* ----------------------------------------------------------------------
-   one line on a terminal, rewritten every few seconds; nothing in a pipe
-------------------------------------------------------------------------- */
-
+// one line on a terminal, rewritten every few seconds; nothing in a pipe
 void ComputeLSMEvents::show_progress(bigint step)
 {
   const double now = platform::walltime();
@@ -517,10 +452,7 @@ void ComputeLSMEvents::show_progress(bigint step)
           step, update->laststep, static_cast<long long>(stream->counts().events), seconds);
 }
 
-/* ----------------------------------------------------------------------
-   numbers of this class, then those of the stream
-------------------------------------------------------------------------- */
-
+// numbers of this class, then those of the stream
 namespace {
 struct Own {
   double version = -1.0;
@@ -562,10 +494,7 @@ std::vector<double> ComputeLSMEvents::pack_state()
   return state;
 }
 
-/* ----------------------------------------------------------------------
-   another time step, interval or number of bins: the numbers of the events continue, open events are lost
-------------------------------------------------------------------------- */
-
+// another time step, interval or number of bins: the numbers of the events continue, open events are lost
 void ComputeLSMEvents::unpack_state(const std::vector<double> &state)
 {
   Own own;
@@ -601,8 +530,6 @@ void ComputeLSMEvents::unpack_state(const std::vector<double> &state)
   fault_begun = true;
 }
 
-/* ---------------------------------------------------------------------- */
-
 double ComputeLSMEvents::compute_scalar()
 {
   invoked_scalar = update->ntimestep;
@@ -612,8 +539,6 @@ double ComputeLSMEvents::compute_scalar()
   scalar = events;
   return scalar;
 }
-
-/* ---------------------------------------------------------------------- */
 
 void ComputeLSMEvents::compute_vector()
 {

@@ -1,6 +1,4 @@
-/* ----------------------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
 
 #include "fix_lsm_break.h"
 
@@ -21,8 +19,6 @@
 using namespace LAMMPS_NS;
 using namespace FixConst;
 
-/* ---------------------------------------------------------------------- */
-
 FixLSMBreak::FixLSMBreak(LAMMPS *_lmp, int narg, char **arg) :
     Fix(_lmp, narg, arg), links(nullptr), total(0)
 {
@@ -35,14 +31,10 @@ FixLSMBreak::FixLSMBreak(LAMMPS *_lmp, int narg, char **arg) :
   next_reneighbor = -1;
 }
 
-/* ---------------------------------------------------------------------- */
-
 int FixLSMBreak::setmask()
 {
   return PRE_REVERSE;
 }
-
-/* ---------------------------------------------------------------------- */
 
 void FixLSMBreak::init()
 {
@@ -57,12 +49,9 @@ void FixLSMBreak::init()
                       "snapshots before; give bond_coeff without a breaking ratio");
 }
 
-/* ----------------------------------------------------------------------
-   A link that broke in this force evaluation leaves the topology at once, before a restart file can be
-   written. It is gone from every list before the forces of the next step: its length exceeds the rest
-   length now, so the pair cannot have touched in between.
-------------------------------------------------------------------------- */
-
+// A link that broke in this force evaluation leaves the topology at once, before a restart file can be
+// written. It is gone from every list before the forces of the next step: its length exceeds the rest
+// length now, so the pair cannot have touched in between.
 void FixLSMBreak::setup_pre_reverse(int eflag, int vflag)
 {
   pre_reverse(eflag, vflag);
@@ -85,10 +74,7 @@ void FixLSMBreak::pre_reverse(int /*eflag*/, int /*vflag*/)
   next_reneighbor = update->ntimestep + 1;
 }
 
-/* ----------------------------------------------------------------------
-   IDs of both ends and type of each link once, as two ranks may report the same
-------------------------------------------------------------------------- */
-
+// IDs of both ends and type of each link once, as two ranks may report the same
 using Link = std::tuple<tagint, tagint, int>;
 
 static std::vector<Link> each_once(const std::vector<tagint> &broken)
@@ -108,7 +94,6 @@ void FixLSMBreak::remove(const std::vector<tagint> &broken)
   const std::vector<Link> unique = each_once(broken);
 
   // with newton_bond on one of the two ranks has the link; another link of the pair keeps it out of contact
-
   bigint removed = 0;
   std::vector<int> mine(unique.size(), 0), remaining(unique.size(), 0);
   auto for_each_end = [&](const auto &act) {
@@ -136,7 +121,6 @@ void FixLSMBreak::remove(const std::vector<tagint> &broken)
                 world);
 
   // 1-2 neighbours are the first nspecial[0]; what follows moves up
-
   for_each_end([&](size_t n, int i, tagint other) {
     if (remaining[n]) return;
     tagint *special = atom->special[i];
@@ -157,14 +141,10 @@ void FixLSMBreak::remove(const std::vector<tagint> &broken)
   total += links_removed;
 }
 
-/* ---------------------------------------------------------------------- */
-
 double FixLSMBreak::compute_scalar()
 {
   return static_cast<double>(total);
 }
-
-/* ---------------------------------------------------------------------- */
 
 void FixLSMBreak::write_restart(FILE *fp)
 {

@@ -1,8 +1,6 @@
-/* -*- c++ -*- ----------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-   Internal helper of bond style lsm/linked: removes broken links from the
-   topology of every rank and lets the pair become a contact pair
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Internal helper of bond style lsm/linked: removes broken links from the
+// topology of every rank and lets the pair become a contact pair
 
 #ifdef FIX_CLASS
 // clang-format off

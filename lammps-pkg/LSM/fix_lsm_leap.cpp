@@ -1,6 +1,4 @@
-/* ----------------------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
 
 #include "fix_lsm_leap.h"
 
@@ -29,8 +27,6 @@ using namespace FixConst;
 
 static constexpr bigint KEPT_STEPS =
     20000;    // of changes of the rate, for steps that are processed later
-
-/* ---------------------------------------------------------------------- */
 
 FixLSMLeap::FixLSMLeap(LAMMPS *_lmp, int narg, char **arg) : Fix(_lmp, narg, arg), dt(update->dt)
 {
@@ -63,19 +59,14 @@ FixLSMLeap::FixLSMLeap(LAMMPS *_lmp, int narg, char **arg) : Fix(_lmp, narg, arg
 FixLSMLeap::~FixLSMLeap()
 {
   // the other fixes may already be gone
-
   if (auto p = dynamic_cast<FixLSMPlates *>(modify->get_fix_by_id(plates_id))) p->loading = 1.0;
   for (auto *p : LSMScene::integrators(modify)) p->raise_viscosity(0.0);
 }
-
-/* ---------------------------------------------------------------------- */
 
 int FixLSMLeap::setmask()
 {
   return END_OF_STEP;
 }
-
-/* ---------------------------------------------------------------------- */
 
 void FixLSMLeap::init()
 {
@@ -125,14 +116,11 @@ void FixLSMLeap::reset_dt()
   nevery = MAX(1, static_cast<int>(std::lround(between / dt)));
 }
 
-/* ---------------------------------------------------------------------- */
-
 void FixLSMLeap::setup(int /*vflag*/)
 {
   begun = true;
 
   // uniform shear between the plates: v grows from -fast to fast over the width
-
   double mass = 0.0;
   for (int i = 0; i < atom->nlocal; i++)
     mass += atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
@@ -151,8 +139,6 @@ void FixLSMLeap::setup(int /*vflag*/)
   for (auto *p : contacts) p->pace = factor;
   for (auto *p : integrators) p->raise_viscosity(state == SETTLE ? viscosity : 0.0);
 }
-
-/* ---------------------------------------------------------------------- */
 
 bool FixLSMLeap::leaps() const
 {
@@ -176,8 +162,6 @@ std::string FixLSMLeap::settings() const
          number(grow) + " look " + number(between);
 }
 
-/* ---------------------------------------------------------------------- */
-
 void FixLSMLeap::set_factor(double value)
 {
   if (value == factor) return;
@@ -188,10 +172,7 @@ void FixLSMLeap::set_factor(double value)
   for (auto *p : contacts) p->pace = value;
 }
 
-/* ----------------------------------------------------------------------
-   the blocks only: plates move as they are driven
-------------------------------------------------------------------------- */
-
+// the blocks only: plates move as they are driven
 double FixLSMLeap::kinetic() const
 {
   const int skip = plates->moved_bits();
@@ -205,13 +186,10 @@ double FixLSMLeap::kinetic() const
   return 0.5 * sum;
 }
 
-/* ----------------------------------------------------------------------
-   without a faster velocity there is nothing to do
-   event: plates at the driving velocity, until nothing has slipped for a while
-   settle: more viscosity, until the blocks are at rest
-   leap: plates fast, until something slips
-------------------------------------------------------------------------- */
-
+// without a faster velocity there is nothing to do
+// event: plates at the driving velocity, until nothing has slipped for a while
+// settle: more viscosity, until the blocks are at rest
+// leap: plates fast, until something slips
 void FixLSMLeap::end_of_step()
 {
   const double span = nevery * dt;
@@ -250,12 +228,9 @@ void FixLSMLeap::end_of_step()
   set_factor(state == LEAP ? MIN(most, factor + rise) : MAX(1.0, MIN(most, factor) - change));
 }
 
-/* ----------------------------------------------------------------------
-   scalar = model time
-   vector = factor of the driving velocity, state (0 event, 1 settle, 2 leap), time of the steps, part of it in leaps,
-            model time beyond the time of the steps, leaps that ended
-------------------------------------------------------------------------- */
-
+// scalar = model time
+// vector = factor of the driving velocity, state (0 event, 1 settle, 2 leap), time of the steps, part of it in leaps,
+// model time beyond the time of the steps, leaps that ended
 double FixLSMLeap::compute_scalar()
 {
   return model_time(update->ntimestep);
@@ -270,8 +245,6 @@ double FixLSMLeap::compute_vector(int n)
   return values[n];
 }
 
-/* ---------------------------------------------------------------------- */
-
 void FixLSMLeap::write_restart(FILE *fp)
 {
   lsm_write_state(*this, fp, world);
@@ -282,10 +255,7 @@ void FixLSMLeap::restart(char *buf)
   lsm_read_state(*this, buf, world);
 }
 
-/* ----------------------------------------------------------------------
-   events that are still open began before the restart, so that earlier changes of the rate count
-------------------------------------------------------------------------- */
-
+// events that are still open began before the restart, so that earlier changes of the rate count
 template <class Self, class State> void FixLSMLeap::visit(Self &self, State &state)
 {
   constexpr double with_changes = -2.0;    // in place of the time of earlier versions

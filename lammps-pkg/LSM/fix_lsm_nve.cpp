@@ -1,6 +1,4 @@
-/* ----------------------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
 
 #include "fix_lsm_nve.h"
 
@@ -35,8 +33,6 @@ using namespace FixConst;
 
 static constexpr double NEARLY_CLOSED =
     1.05;    // distance over sum of radii of contacts that may close soon
-
-/* ---------------------------------------------------------------------- */
 
 FixLSMNVE::FixLSMNVE(LAMMPS *_lmp, int narg, char **arg) :
     Fix(_lmp, narg, arg), nu(atom->ntypes + 1, 0.0), decay(atom->ntypes + 1, 1.0)
@@ -81,14 +77,10 @@ std::string FixLSMNVE::viscosity() const
   return text;
 }
 
-/* ---------------------------------------------------------------------- */
-
 int FixLSMNVE::setmask()
 {
   return INITIAL_INTEGRATE | FINAL_INTEGRATE | POST_NEIGHBOR | PRE_FORCE | POST_RUN;
 }
-
-/* ---------------------------------------------------------------------- */
 
 void FixLSMNVE::init()
 {
@@ -100,8 +92,6 @@ void FixLSMNVE::init()
   reset_dt();
 }
 
-/* ---------------------------------------------------------------------- */
-
 void FixLSMNVE::reset_dt()
 {
   dtv = update->dt;
@@ -110,8 +100,6 @@ void FixLSMNVE::reset_dt()
     decay[itype] = exp(-0.5 * MAX(nu[itype], nu_least) * update->dt);
   collect();
 }
-
-/* ---------------------------------------------------------------------- */
 
 void FixLSMNVE::raise_viscosity(double least)
 {
@@ -122,10 +110,7 @@ void FixLSMNVE::raise_viscosity(double least)
   if (initial_chosen) choose();
 }
 
-/* ----------------------------------------------------------------------
-   the particles of the group in memory, and half a time step over the mass of each
-------------------------------------------------------------------------- */
-
+// the particles of the group in memory, and half a time step over the mass of each
 void FixLSMNVE::collect()
 {
   const int nlocal = atom->nlocal;
@@ -158,8 +143,6 @@ void FixLSMNVE::post_neighbor()
   collect();
 }
 
-/* ---------------------------------------------------------------------- */
-
 using Flag = std::variant<std::false_type, std::true_type>;
 static Flag flag(bool yes)
 {
@@ -182,7 +165,6 @@ void FixLSMNVE::choose()
   if (slows && record_work) both_chosen = nullptr;
 
   // fixes that may read velocities between the end of a step and the beginning of the next
-
   onlookers.clear();
   for (const auto &other : modify->get_fix_list()) {
     if (LSMScene::is_ours(other)) continue;
@@ -192,8 +174,6 @@ void FixLSMNVE::choose()
   }
   if (group->dynamic[igroup]) both_chosen = nullptr;
 }
-
-/* ---------------------------------------------------------------------- */
 
 void FixLSMNVE::setup(int /*vflag*/)
 {
@@ -213,7 +193,6 @@ void FixLSMNVE::setup(int /*vflag*/)
   const std::string what = ahead ? "links and contacts with kelvin-voigt" : "links and contacts";
 
   // nearly closed contacts may refuse the start of a run, but not its continuation
-
   if (went_on && check == ERROR) {
     double frequency;
     const double closed = time_step_limit(1.0, frequency);
@@ -237,15 +216,12 @@ void FixLSMNVE::setup(int /*vflag*/)
                    dt_limit, what);
 }
 
-/* ----------------------------------------------------------------------
-   Viscosity by Strang splitting: exact decay of the velocities for half a step before and after the
-   velocity Verlet step. Second order, stable for any viscosity, and the work it takes is known exactly.
-
-   AHEAD: dashpots of links and contacts need velocities when forces are evaluated, before the kick by these forces. Those of
-   that time are found with the forces of the step before, which is the same as to go on in a straight line through the
-   velocities of the last two half steps: of second order, and nothing more has to be kept.
-------------------------------------------------------------------------- */
-
+// Viscosity by Strang splitting: exact decay of the velocities for half a step before and after the
+// velocity Verlet step. Second order, stable for any viscosity, and the work it takes is known exactly.
+//
+// AHEAD: dashpots of links and contacts need velocities when forces are evaluated, before the kick by these forces. Those of
+// that time are found with the forces of the step before, which is the same as to go on in a straight line through the
+// velocities of the last two half steps: of second order, and nothing more has to be kept.
 template <int PARTS, bool VISCOUS, bool WORK, bool DIM3, bool CLEARS> void FixLSMNVE::move()
 {
   constexpr int DIM = DIM3 ? 3 : 2;
@@ -303,8 +279,6 @@ template <int PARTS, bool VISCOUS, bool WORK, bool DIM3, bool CLEARS> void FixLS
   if constexpr (PARTS & MEASURE) fastest = most;
 }
 
-/* ---------------------------------------------------------------------- */
-
 void FixLSMNVE::measure_moves()
 {
   if (measures) return;
@@ -317,8 +291,6 @@ double FixLSMNVE::longest_move() const
   return fastest < 0.0 ? INFINITY : dtv * sqrt(fastest);
 }
 
-/* ---------------------------------------------------------------------- */
-
 void FixLSMNVE::initial_integrate(int /*vflag*/)
 {
   if (group->dynamic[igroup]) collect();
@@ -326,12 +298,9 @@ void FixLSMNVE::initial_integrate(int /*vflag*/)
   pending = false;
 }
 
-/* ----------------------------------------------------------------------
-   The second half kick of a step is deferred to the first one of the next, so that both take one pass
-   through memory, unless another fix may read the velocities in between. The operations and their order
-   are the same either way.
-------------------------------------------------------------------------- */
-
+// The second half kick of a step is deferred to the first one of the next, so that both take one pass
+// through memory, unless another fix may read the velocities in between. The operations and their order
+// are the same either way.
 void FixLSMNVE::final_integrate()
 {
   const bigint step = update->ntimestep;
@@ -343,11 +312,8 @@ void FixLSMNVE::final_integrate()
   (this->*final_chosen)();
 }
 
-/* ----------------------------------------------------------------------
-   Whether no other fix reads forces, or adds to them, between the beginning of a step and the
-   interactions, and none needs the torques that the integrator would clear with them
-------------------------------------------------------------------------- */
-
+// Whether no other fix reads forces, or adds to them, between the beginning of a step and the
+// interactions, and none needs the torques that the integrator would clear with them
 bool FixLSMNVE::may_clear() const
 {
   if (strcmp(update->integrate_style, "verlet") != 0 || group->dynamic[igroup] ||
@@ -360,11 +326,8 @@ bool FixLSMNVE::may_clear() const
   return true;
 }
 
-/* ----------------------------------------------------------------------
-   Integrate::external_force_clear exists for this purpose, but no fix of LAMMPS uses it: only classes
-   derived from Integrate may name it.
-------------------------------------------------------------------------- */
-
+// Integrate::external_force_clear exists for this purpose, but no fix of LAMMPS uses it: only classes
+// derived from Integrate may name it.
 struct Clearing : public Integrate {
   static void is_external(Integrate *integrate, int yes)
   {
@@ -425,16 +388,13 @@ void FixLSMNVE::post_run()
   leave_clearing_to_integrator();
 }
 
-/* ----------------------------------------------------------------------
-   Bound of the time step and of the highest frequency of the network of links and contacts, see lsm_frequency.h; 0
-   without springs. Pairs closer than reach_factor times the contact distance count as contacts.
-
-   With velocities extrapolated linearly from those of two half steps, the scheme is stable while
-   dt^2 w^2 + 4 dt g < 4 for all motions, where w^2 and g are the Rayleigh quotients of stiffness and viscosity over
-   mass: the recurrence of the oscillator has its first root of modulus 1 there, at -1. The largest of
-   both bound it, and are those of one motion where all retardation times are the same.
-------------------------------------------------------------------------- */
-
+// Bound of the time step and of the highest frequency of the network of links and contacts, see lsm_frequency.h; 0
+// without springs. Pairs closer than reach_factor times the contact distance count as contacts.
+//
+// With velocities extrapolated linearly from those of two half steps, the scheme is stable while
+// dt^2 w^2 + 4 dt g < 4 for all motions, where w^2 and g are the Rayleigh quotients of stiffness and viscosity over
+// mass: the recurrence of the oscillator has its first root of modulus 1 there, at -1. The largest of
+// both bound it, and are those of one motion where all retardation times are the same.
 double FixLSMNVE::time_step_limit(double reach_factor, double &frequency)
 {
   std::vector<LSM::PairSpring> springs = LSMScene::springs(lmp, reach_factor);
@@ -472,8 +432,6 @@ double FixLSMNVE::highest_eigenvalue(const std::vector<LSM::PairSpring> &springs
   return largest.bound;
 }
 
-/* ---------------------------------------------------------------------- */
-
 int FixLSMNVE::pack_forward_comm(int n, int *list, double *buf, int /*pbc_flag*/, int * /*pbc*/)
 {
   int m = 0;
@@ -504,11 +462,8 @@ void FixLSMNVE::unpack_reverse_comm(int n, int *list, double *buf)
     for (int c = 0; c < comm_reverse; c++) image[list[i] * comm_reverse + c] += buf[m++];
 }
 
-/* ----------------------------------------------------------------------
-   scalar = work lost to viscosity (only counted while a compute keeps the ledger)
-   vector = highest frequency and stability limit found at setup
-------------------------------------------------------------------------- */
-
+// scalar = work lost to viscosity (only counted while a compute keeps the ledger)
+// vector = highest frequency and stability limit found at setup
 double FixLSMNVE::compute_scalar()
 {
   return lsm_total(work_viscosity, world);
@@ -518,8 +473,6 @@ double FixLSMNVE::compute_vector(int n)
 {
   return n == 0 ? omega : dt_limit;
 }
-
-/* ---------------------------------------------------------------------- */
 
 void FixLSMNVE::write_restart(FILE *fp)
 {

@@ -1,7 +1,5 @@
-/* -*- c++ -*- ----------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-   Velocity Verlet for the Lattice Solid Model with optional viscosity
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Velocity Verlet for the Lattice Solid Model with optional viscosity
 
 #ifdef FIX_CLASS
 // clang-format off

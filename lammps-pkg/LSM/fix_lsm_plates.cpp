@@ -1,6 +1,4 @@
-/* ----------------------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
 
 #include "fix_lsm_plates.h"
 
@@ -26,8 +24,6 @@ using namespace LAMMPS_NS;
 using namespace FixConst;
 
 enum { LOWER, UPPER };
-
-/* ---------------------------------------------------------------------- */
 
 FixLSMPlates::FixLSMPlates(LAMMPS *_lmp, int narg, char **arg) :
     Fix(_lmp, narg, arg), dt(update->dt)
@@ -71,23 +67,16 @@ FixLSMPlates::FixLSMPlates(LAMMPS *_lmp, int narg, char **arg) :
                       "'position' (plates do not move across the fault)");
 }
 
-/* ---------------------------------------------------------------------- */
-
 FixLSMPlates::~FixLSMPlates()
 {
   // after an error between two steps a sum may still be in transit, on all ranks
-
   if (reducing) MPI_Wait(&request, MPI_STATUS_IGNORE);
 }
-
-/* ---------------------------------------------------------------------- */
 
 int FixLSMPlates::setmask()
 {
   return INITIAL_INTEGRATE | FINAL_INTEGRATE | POST_NEIGHBOR | POST_RUN;
 }
-
-/* ---------------------------------------------------------------------- */
 
 void FixLSMPlates::init()
 {
@@ -102,7 +91,6 @@ void FixLSMPlates::init()
 
   // plates take over the velocity across the fault of their particles, so that one fix can follow
   // another; the fix itself keeps it from one run to the next and in a restart
-
   double sum[4] = {0.0, 0.0, 0.0, 0.0}, all[4];
   tagint in_both = 0, shared = 0;
   for (int i = 0; i < atom->nlocal; i++)
@@ -147,14 +135,10 @@ void FixLSMPlates::init()
     }
 }
 
-/* ---------------------------------------------------------------------- */
-
 void FixLSMPlates::reset_dt()
 {
   dt = update->dt;
 }
-
-/* ---------------------------------------------------------------------- */
 
 void FixLSMPlates::collect()
 {
@@ -164,7 +148,6 @@ void FixLSMPlates::collect()
       if (atom->mask[i] & p.bit) p.atoms.push_back(i);
 
     // by ID, so that a run that goes on from a restart file sums in the same order
-
     std::sort(p.atoms.begin(), p.atoms.end(),
               [this](int a, int b) { return atom->tag[a] < atom->tag[b]; });
   }
@@ -180,10 +163,7 @@ void FixLSMPlates::post_neighbor()
   collect();
 }
 
-/* ----------------------------------------------------------------------
-   linear ramps
-------------------------------------------------------------------------- */
-
+// linear ramps
 double FixLSMPlates::velocity_at(double t) const
 {
   return loading * (t < ramp ? speed * t / ramp : speed);
@@ -194,10 +174,7 @@ double FixLSMPlates::stress_at(double t) const
   return t < stress_ramp ? stress * t / stress_ramp : stress;
 }
 
-/* ----------------------------------------------------------------------
-   force of the blocks on the plates; only the motion across the fault needs it from all ranks
-------------------------------------------------------------------------- */
-
+// force of the blocks on the plates; only the motion across the fault needs it from all ranks
 void FixLSMPlates::start_sum()
 {
   double **f = atom->f;
@@ -222,8 +199,6 @@ void FixLSMPlates::finish_sum()
   plate[UPPER].fy = across[UPPER];
 }
 
-/* ---------------------------------------------------------------------- */
-
 void FixLSMPlates::setup(int /*vflag*/)
 {
   ahead = FixLSMVelocity::in_use(lmp);
@@ -237,12 +212,9 @@ void FixLSMPlates::setup(int /*vflag*/)
     }
 }
 
-/* ----------------------------------------------------------------------
-   Shear: prescribed, the particles move with the velocity of the middle of the step. Across the fault: Newton's
-   law for the rigid plate under the applied stress, the force of the block and the damping, velocity
-   Verlet with the same splitting as fix lsm/nve. Work: trapezoidal rule over the step.
-------------------------------------------------------------------------- */
-
+// Shear: prescribed, the particles move with the velocity of the middle of the step. Across the fault: Newton's
+// law for the rigid plate under the applied stress, the force of the block and the damping, velocity
+// Verlet with the same splitting as fix lsm/nve. Work: trapezoidal rule over the step.
 void FixLSMPlates::initial_integrate(int /*vflag*/)
 {
   if (pending) finish_step();
@@ -283,11 +255,8 @@ void FixLSMPlates::initial_integrate(int /*vflag*/)
   ux += dux;
 }
 
-/* ----------------------------------------------------------------------
-   While the sum of the forces over all ranks is being communicated, particles of the blocks move on if fix
-   lsm/nve has deferred its second half kick (see there), as then no fix reads velocities.
-------------------------------------------------------------------------- */
-
+// While the sum of the forces over all ranks is being communicated, particles of the blocks move on if fix
+// lsm/nve has deferred its second half kick (see there), as then no fix reads velocities.
 void FixLSMPlates::final_integrate()
 {
   moved = dt * velocity_at(elapsed + 0.5 * dt);
@@ -299,8 +268,6 @@ void FixLSMPlates::final_integrate()
   for (const auto *p : integrators) in_time = in_time && p->has_put_off();
   if (!in_time) complete_step();
 }
-
-/* ---------------------------------------------------------------------- */
 
 void FixLSMPlates::finish_step()
 {
@@ -336,16 +303,12 @@ void FixLSMPlates::post_run()
   complete_step();
 }
 
-/* ---------------------------------------------------------------------- */
-
 // factor of the velocity across the fault in half a step
 
 double FixLSMPlates::decay_of(const Plate &p) const
 {
   return exp(-0.5 * (damping + impedance * domain->prd[0] / p.mass) * dt);
 }
-
-/* ---------------------------------------------------------------------- */
 
 double FixLSMPlates::kinetic() const
 {
@@ -360,8 +323,6 @@ double FixLSMPlates::work()
   return lsm_total(work_mine, world);
 }
 
-/* ---------------------------------------------------------------------- */
-
 void FixLSMPlates::sum_for_output()
 {
   complete_step();
@@ -372,13 +333,10 @@ void FixLSMPlates::sum_for_output()
   summed_at = update->ntimestep;
 }
 
-/* ----------------------------------------------------------------------
-   scalar = work of the plates
-   vector = mean shear stress, mean normal stress, their ratio, shear stress lower and upper, normal stress
-            lower and upper, shear displacement of the plates against each other, approach of the plates,
-            kinetic energy of their motion across the fault
-------------------------------------------------------------------------- */
-
+// scalar = work of the plates
+// vector = mean shear stress, mean normal stress, their ratio, shear stress lower and upper, normal stress
+// lower and upper, shear displacement of the plates against each other, approach of the plates,
+// kinetic energy of their motion across the fault
 double FixLSMPlates::compute_scalar()
 {
   return work();
@@ -405,8 +363,6 @@ double FixLSMPlates::compute_vector(int n)
     default: return kinetic();
   }
 }
-
-/* ---------------------------------------------------------------------- */
 
 void FixLSMPlates::write_restart(FILE *fp)
 {

@@ -1,6 +1,4 @@
-/* ----------------------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
 
 #include "fix_lsm_record.h"
 
@@ -15,8 +13,6 @@
 using namespace LAMMPS_NS;
 using namespace FixConst;
 
-/* ---------------------------------------------------------------------- */
-
 FixLSMRecord::FixLSMRecord(LAMMPS *_lmp, int narg, char **arg) :
     Fix(_lmp, narg, arg), owner(nullptr)
 {
@@ -25,14 +21,10 @@ FixLSMRecord::FixLSMRecord(LAMMPS *_lmp, int narg, char **arg) :
   restart_global = 1;
 }
 
-/* ---------------------------------------------------------------------- */
-
 int FixLSMRecord::setmask()
 {
   return PRE_EXCHANGE | END_OF_STEP | POST_RUN;
 }
-
-/* ---------------------------------------------------------------------- */
 
 void FixLSMRecord::setup(int /*vflag*/)
 {
@@ -60,8 +52,6 @@ void FixLSMRecord::reset_dt()
 {
   if (update->whichflag) owner->change_dt();
 }
-
-/* ---------------------------------------------------------------------- */
 
 namespace {
 struct Saved {

@@ -1,8 +1,6 @@
-/* -*- c++ -*- ----------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-   Internal helper of compute lsm/events: calls it at every step and keeps
-   its state in restart files
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Internal helper of compute lsm/events: calls it at every step and keeps
+// its state in restart files
 
 #ifdef FIX_CLASS
 // clang-format off

@@ -1,6 +1,4 @@
-/* ----------------------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
 
 #include "fix_lsm_velocity.h"
 
@@ -21,8 +19,6 @@ using namespace LAMMPS_NS;
 using namespace FixConst;
 
 static constexpr const char *ID = "LSM_VELOCITY";
-
-/* ---------------------------------------------------------------------- */
 
 FixLSMVelocity::FixLSMVelocity(LAMMPS *_lmp, int narg, char **arg) : Fix(_lmp, narg, arg)
 {
@@ -50,8 +46,6 @@ FixLSMVelocity::~FixLSMVelocity()
   memory->destroy(now);
 }
 
-/* ---------------------------------------------------------------------- */
-
 FixLSMVelocity *FixLSMVelocity::ask_for(LAMMPS *lmp)
 {
   Modify *const modify = lmp->modify;
@@ -73,17 +67,12 @@ FixLSMVelocity *FixLSMVelocity::in_use(LAMMPS *lmp)
   return one && one->used ? one : nullptr;
 }
 
-/* ---------------------------------------------------------------------- */
-
 int FixLSMVelocity::setmask()
 {
   return POST_INTEGRATE | PRE_FORCE | POST_FORCE | POST_RUN;
 }
 
-/* ----------------------------------------------------------------------
-   viscous force styles have just asked for it
-------------------------------------------------------------------------- */
-
+// viscous force styles have just asked for it
 void FixLSMVelocity::init()
 {
   used = asked;
@@ -101,11 +90,8 @@ void FixLSMVelocity::init()
                       "velocities to the time of the forces");
 }
 
-/* ----------------------------------------------------------------------
-   Where the velocities are those of the end of the run before, or of the restart file, forces are those of that end to
-   the last bit; where a command changed them, those of the velocities as they are.
-------------------------------------------------------------------------- */
-
+// Where the velocities are those of the end of the run before, or of the restart file, forces are those of that end to
+// the last bit; where a command changed them, those of the velocities as they are.
 void FixLSMVelocity::setup_pre_force(int /*vflag*/)
 {
   if (!used) return;
@@ -113,10 +99,7 @@ void FixLSMVelocity::setup_pre_force(int /*vflag*/)
   pre_force(0);
 }
 
-/* ----------------------------------------------------------------------
-   there are no better ones for particles moved by other fixes
-------------------------------------------------------------------------- */
-
+// there are no better ones for particles moved by other fixes
 void FixLSMVelocity::post_integrate()
 {
   if (used) take_velocities(extrapolated);
@@ -135,10 +118,7 @@ void FixLSMVelocity::pre_force(int /*vflag*/)
   comm->forward_comm(this);
 }
 
-/* ----------------------------------------------------------------------
-   work: trapezoidal rule over the step
-------------------------------------------------------------------------- */
-
+// work: trapezoidal rule over the step
 void FixLSMVelocity::setup(int /*vflag*/)
 {
   power_before = power;
@@ -151,8 +131,6 @@ void FixLSMVelocity::post_force(int /*vflag*/)
   power_before = power;
 }
 
-/* ---------------------------------------------------------------------- */
-
 void FixLSMVelocity::post_run()
 {
   if (!used) return;
@@ -160,10 +138,7 @@ void FixLSMVelocity::post_run()
   known = fingerprint();
 }
 
-/* ----------------------------------------------------------------------
-   sum of numbers that mix the bits of ID and velocity of each particle: the order does not matter
-------------------------------------------------------------------------- */
-
+// sum of numbers that mix the bits of ID and velocity of each particle: the order does not matter
 std::uint64_t FixLSMVelocity::fingerprint() const
 {
   std::uint64_t mine = 0, all = 0;
@@ -181,10 +156,7 @@ std::uint64_t FixLSMVelocity::fingerprint() const
   return all;
 }
 
-/* ----------------------------------------------------------------------
-   scalar = energy dissipated by the dashpots
-------------------------------------------------------------------------- */
-
+// scalar = energy dissipated by the dashpots
 double FixLSMVelocity::compute_scalar()
 {
   return lsm_total(work_dashpots, world);
@@ -194,8 +166,6 @@ double FixLSMVelocity::memory_usage()
 {
   return 3.0 * atom->nmax * sizeof(double);
 }
-
-/* ---------------------------------------------------------------------- */
 
 void FixLSMVelocity::grow_arrays(int nmax)
 {
@@ -240,10 +210,7 @@ void FixLSMVelocity::unpack_forward_comm(int n, int first, double *buf)
     for (int c = 0; c < comm_forward; c++) now[i][c] = buf[m++];
 }
 
-/* ----------------------------------------------------------------------
-   velocities are complete when a restart file is written
-------------------------------------------------------------------------- */
-
+// velocities are complete when a restart file is written
 struct Saved {
   double work;
   std::uint64_t known;

@@ -1,8 +1,6 @@
-/* -*- c++ -*- ----------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-   Internal helper of viscous links and contacts: velocities of the time at
-   which forces are evaluated, and the energy that the dashpots take
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Internal helper of viscous links and contacts: velocities of the time at
+// which forces are evaluated, and the energy that the dashpots take
 
 #ifdef FIX_CLASS
 // clang-format off

@@ -1,6 +1,4 @@
-/* ----------------------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
 
 #include "include_beside.h"
 
@@ -14,11 +12,8 @@
 
 using namespace LAMMPS_NS;
 
-/* ----------------------------------------------------------------------
-   The folder of the script is known only if it was given with -in; a script read from standard input
-   looks in the current folder.
-------------------------------------------------------------------------- */
-
+// The folder of the script is known only if it was given with -in; a script read from standard input
+// looks in the current folder.
 void IncludeBeside::command(int narg, char **arg)
 {
   if (narg != 1) error->all(FLERR, "include_beside expects one file name, but got {} words", narg);

@@ -1,8 +1,6 @@
-/* -*- c++ -*- ----------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-   include a file that lies beside the input script, wherever LAMMPS was
-   started
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
+// include a file that lies beside the input script, wherever LAMMPS was
+// started
 
 #ifdef COMMAND_CLASS
 // clang-format off

@@ -1,6 +1,4 @@
-/* ----------------------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
 
 #include "lsm_block_gather.h"
 
@@ -15,11 +13,8 @@ LSMBlockGather::LSMBlockGather(MPI_Comm world, bool slip) : world_(world), me_(0
 LSMBlockGather::~LSMBlockGather()
 {
   // after an error between two steps a block may still be in transit, on all ranks
-
   if (pending_) MPI_Wait(&request_, MPI_STATUS_IGNORE);
 }
-
-/* ---------------------------------------------------------------------- */
 
 void LSMBlockGather::start(const LSM::SampleBlock &mine)
 {
@@ -32,15 +27,12 @@ void LSMBlockGather::start(const LSM::SampleBlock &mine)
   pending_ = true;
 
   // the intervals end at the same steps on all ranks
-
   block_.intervals.resize(me_ == 0 ? mine.intervals.size() : 0);
   if (!mine.intervals.empty())
     MPI_Reduce(mine.intervals.data(), block_.intervals.data(),
                static_cast<int>(mine.intervals.size()), MPI_DOUBLE, MPI_SUM, 0, world_);
   if (slip_) gather_slip(mine.slip);
 }
-
-/* ---------------------------------------------------------------------- */
 
 void LSMBlockGather::gather_slip(const std::vector<double> &mine)
 {
@@ -56,8 +48,6 @@ void LSMBlockGather::gather_slip(const std::vector<double> &mine)
   MPI_Gatherv(mine.data(), n, MPI_DOUBLE, block_.slip.data(), counts.data(), offsets.data(),
               MPI_DOUBLE, 0, world_);
 }
-
-/* ---------------------------------------------------------------------- */
 
 bool LSMBlockGather::finish()
 {

@@ -1,8 +1,6 @@
-/* -*- c++ -*- ----------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-   Blocks of samples of all ranks on rank 0. Their energies travel while
-   the ranks go on.
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Blocks of samples of all ranks on rank 0. Their energies travel while
+// the ranks go on.
 
 #ifndef LMP_LSM_BLOCK_GATHER_H
 #define LMP_LSM_BLOCK_GATHER_H

@@ -1,8 +1,6 @@
-/* -*- c++ -*- ----------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-   What a contact loop records of the contacts it passes. A loop is compiled
-   once with each recorder, so that a run that records nothing pays nothing.
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a contact loop records of the contacts it passes. A loop is compiled
+// once with each recorder, so that a run that records nothing pays nothing.
 
 #ifndef LMP_LSM_CONTACT_RECORDER_H
 #define LMP_LSM_CONTACT_RECORDER_H

@@ -1,8 +1,6 @@
-/* -*- c++ -*- ----------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-   Energies that the LSM force styles record at every force evaluation,
-   without LAMMPS' energy and virial machinery, when a compute asks for them.
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Energies that the LSM force styles record at every force evaluation,
+// without LAMMPS' energy and virial machinery, when a compute asks for them.
 
 #ifndef LMP_LSM_ENERGY_H
 #define LMP_LSM_ENERGY_H

@@ -1,6 +1,4 @@
-/* ----------------------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
 
 #include "lsm_event_options.h"
 
@@ -15,8 +13,6 @@ using LSM::Must;
 
 static const std::string STYLE = "Compute lsm/events";
 static const std::string SPECIAL = "events, series, picker, tolerance, emergency, parameter";
-
-/* ---------------------------------------------------------------------- */
 
 static void take_all_values(LSMKeywordReader &in)
 {
@@ -53,8 +49,6 @@ LSMEventOptions::LSMEventOptions(LAMMPS *lmp, int first, int narg, char **arg)
   }
 }
 
-/* ---------------------------------------------------------------------- */
-
 Keywords LSMEventOptions::of_all()
 {
   return {{"lambda", &events.picker.lambda, Must::part},
@@ -74,10 +68,7 @@ Keywords LSMEventOptions::of_all()
           {"progress", &progress}};
 }
 
-/* ----------------------------------------------------------------------
-   of kinds that want the fault in intervals
-------------------------------------------------------------------------- */
-
+// of kinds that want the fault in intervals
 Keywords LSMEventOptions::of_intervals()
 {
   return {{"history", &events.history_file},
@@ -88,10 +79,7 @@ Keywords LSMEventOptions::of_intervals()
           {"unfinished", &unfinished}};
 }
 
-/* ----------------------------------------------------------------------
-   what is more than one value of one type
-------------------------------------------------------------------------- */
-
+// what is more than one value of one type
 bool LSMEventOptions::read_special(LSMKeywordReader &in)
 {
   if (in.key() == "series") {
@@ -117,8 +105,6 @@ bool LSMEventOptions::read_special(LSMKeywordReader &in)
     return in.key() == "events";
   return true;
 }
-
-/* ---------------------------------------------------------------------- */
 
 void LSMEventOptions::no_such_keyword(const LSMKeywordReader &in)
 {

@@ -1,7 +1,5 @@
-/* -*- c++ -*- ----------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-   Keywords of compute lsm/events
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Keywords of compute lsm/events
 
 #ifndef LMP_LSM_EVENT_OPTIONS_H
 #define LMP_LSM_EVENT_OPTIONS_H

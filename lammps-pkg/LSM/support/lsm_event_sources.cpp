@@ -1,6 +1,4 @@
-/* ----------------------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
 
 #include "lsm_event_sources.h"
 
@@ -27,14 +25,10 @@
 
 using namespace LAMMPS_NS;
 
-/* ---------------------------------------------------------------------- */
-
 LSMEventSources::LSMEventSources(LAMMPS *_lmp, const LSM::EventSettings &settings) :
     Pointers(_lmp), settings_(settings)
 {
 }
-
-/* ---------------------------------------------------------------------- */
 
 void LSMEventSources::check(const Fix *recorder, bool ledger) const
 {
@@ -49,7 +43,6 @@ void LSMEventSources::check(const Fix *recorder, bool ledger) const
                       "for the energies of snapshots");
 
   // the strain of links is checked before particles move to other ranks
-
   for (const auto &ifix : modify->get_fix_list()) {
     if (ifix == recorder) break;
     if (ifix->pre_exchange_migrate)
@@ -72,8 +65,6 @@ void LSMEventSources::check(const Fix *recorder, bool ledger) const
                    "Compute lsm/events {}: PE, events and ledger do not include the energy of {}",
                    id, foreign);
 }
-
-/* ---------------------------------------------------------------------- */
 
 void LSMEventSources::find(bool ledger)
 {
@@ -110,10 +101,7 @@ void LSMEventSources::find(bool ledger)
     for (auto *p : integrators_) p->record_work = true;
 }
 
-/* ----------------------------------------------------------------------
-   the styles may have been deleted since, so they are searched again
-------------------------------------------------------------------------- */
-
+// the styles may have been deleted since, so they are searched again
 void LSMEventSources::release()
 {
   if (force) {
@@ -126,10 +114,7 @@ void LSMEventSources::release()
     for (auto *p : LSMScene::integrators(modify)) p->record_work = false;
 }
 
-/* ----------------------------------------------------------------------
-   references for the slip of the fault: velocity and direction of the plates, stiffness of the links
-------------------------------------------------------------------------- */
-
+// references for the slip of the fault: velocity and direction of the plates, stiffness of the links
 void LSMEventSources::find_driving(LSM::EventSettings &settings) const
 {
   if (plates_ && plates_->driving() < 0.0) settings.forward = -1.0;
@@ -147,8 +132,6 @@ void LSMEventSources::find_driving(LSM::EventSettings &settings) const
   const auto *stiffness = static_cast<const double *>(links_->extract("k", dim));
   settings.modulus = 0.25 * sqrt(3.0) * stiffness[1];    // of the regular lattice of equal discs
 }
-
-/* ---------------------------------------------------------------------- */
 
 double LSMEventSources::pe() const
 {
@@ -175,10 +158,7 @@ double LSMEventSources::max_strain() const
   return links_ ? links_->max_strain() : 0.0;
 }
 
-/* ----------------------------------------------------------------------
-   plates: only their motion across the fault, as the energy of the driven motion is no part of the balance
-------------------------------------------------------------------------- */
-
+// plates: only their motion across the fault, as the energy of the driven motion is no part of the balance
 double LSMEventSources::kinetic() const
 {
   const int skip = plates_ ? plates_->moved_bits() : 0;
@@ -192,10 +172,7 @@ double LSMEventSources::kinetic() const
   return 0.5 * lsm_total(sum.value(), world) + (plates_ ? plates_->kinetic() : 0.0);
 }
 
-/* ----------------------------------------------------------------------
-   the tangential springs belong to the balance even if they are not counted as potential energy
-------------------------------------------------------------------------- */
-
+// the tangential springs belong to the balance even if they are not counted as potential energy
 LSM::EnergyTerms LSMEventSources::energies() const
 {
   double potential = 0.0, friction = 0.0, viscosity = 0.0, outside = 0.0, absorbed = 0.0;
@@ -221,8 +198,6 @@ LSM::EnergyTerms LSMEventSources::energies() const
   terms.counted_pe = lsm_total(pe(), world);
   return terms;
 }
-
-/* ---------------------------------------------------------------------- */
 
 LSM::SceneInfo LSMEventSources::scene() const
 {

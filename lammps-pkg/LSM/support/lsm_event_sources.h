@@ -1,8 +1,6 @@
-/* -*- c++ -*- ----------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-   What compute lsm/events records of a scene: the styles that have its
-   energies and works, found anew for each run
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What compute lsm/events records of a scene: the styles that have its
+// energies and works, found anew for each run
 
 #ifndef LMP_LSM_EVENT_SOURCES_H
 #define LMP_LSM_EVENT_SOURCES_H

@@ -1,7 +1,5 @@
-/* -*- c++ -*- ----------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-   What a fix keeps in restart files, by its visit(): see lsm_state.h
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a fix keeps in restart files, by its visit(): see lsm_state.h
 
 #ifndef LMP_LSM_FIX_STATE_H
 #define LMP_LSM_FIX_STATE_H

@@ -1,6 +1,4 @@
-/* ----------------------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
 
 #include "lsm_keyword_reader.h"
 
@@ -37,8 +35,6 @@ void LSMKeywordReader::need(int values)
                values > 1 ? std::to_string(values) + " values" : "a value");
   used_ = values + 1;
 }
-
-/* ---------------------------------------------------------------------- */
 
 bool LSMKeywordReader::read(const LSM::Keywords &table)
 {
@@ -93,8 +89,6 @@ int LSMKeywordReader::place_in(const std::vector<const char *> &list) const
   }
   stop(key_ + " is '" + text() + "', but must be " + all);
 }
-
-/* ---------------------------------------------------------------------- */
 
 void LSMKeywordReader::refuse(const std::string &expected) const
 {

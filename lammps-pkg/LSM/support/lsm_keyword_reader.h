@@ -1,7 +1,5 @@
-/* -*- c++ -*- ----------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-   Keywords of a style and their values, from tables of what there is
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Keywords of a style and their values, from tables of what there is
 
 #ifndef LMP_LSM_KEYWORD_READER_H
 #define LMP_LSM_KEYWORD_READER_H

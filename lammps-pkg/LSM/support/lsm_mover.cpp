@@ -1,6 +1,4 @@
-/* ----------------------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
 
 #include "lsm_mover.h"
 
@@ -29,8 +27,6 @@ void LSMMover::complete_steps(Modify *modify)
   for (auto *p : all(modify)) p->complete_step();
 }
 
-/* ---------------------------------------------------------------------- */
-
 void LSMTravel::look_for_movers()
 {
   movers = LSMMover::all(modify);
@@ -39,10 +35,7 @@ void LSMTravel::look_for_movers()
     known = known && (LSMScene::is_ours(fix) || utils::strmatch(fix->style, "^NEIGH_HISTORY"));
 }
 
-/* ----------------------------------------------------------------------
-   Before a run, and between runs that follow without a set-up, commands may have moved particles.
-------------------------------------------------------------------------- */
-
+// Before a run, and between runs that follow without a set-up, commands may have moved particles.
 double LSMTravel::since_last(bool wanted)
 {
   const bool follows =

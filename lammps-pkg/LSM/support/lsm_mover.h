@@ -1,8 +1,6 @@
-/* -*- c++ -*- ----------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-   What moves particles of the package, to be asked by what looks at them,
-   and how far they move from one step of a run to the next
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What moves particles of the package, to be asked by what looks at them,
+// and how far they move from one step of a run to the next
 
 #ifndef LMP_LSM_MOVER_H
 #define LMP_LSM_MOVER_H

@@ -1,7 +1,5 @@
-/* -*- c++ -*- ----------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-   What ranks tell each other
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What ranks tell each other
 
 #ifndef LMP_LSM_RANKS_H
 #define LMP_LSM_RANKS_H

@@ -1,6 +1,4 @@
-/* ----------------------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
 
 #include "lsm_scene.h"
 
@@ -109,7 +107,6 @@ namespace LSMScene {
     };
 
     // a pattern that matches hybrid would give the hybrid style and not its parts
-
     for (const char *pattern : {"^[^h]", "^h[^y]"})
       for (Pair *one : sub_styles(force, pattern)) add("pair", force->pair_match_ptr(one));
     if (force->bond) {

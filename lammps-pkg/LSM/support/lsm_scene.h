@@ -1,8 +1,6 @@
-/* -*- c++ -*- ----------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-   What else is in the scene: asked by the styles of the package, so that
-   a combination that they cannot handle is named and not missed
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What else is in the scene: asked by the styles of the package, so that
+// a combination that they cannot handle is named and not missed
 
 #ifndef LMP_LSM_SCENE_H
 #define LMP_LSM_SCENE_H
