@@ -72,7 +72,7 @@ class Table {
   std::FILE *file_;
 };
 
-/// What one run of lmp printed.
+/// Output of one run of lmp.
 struct Run {
   double seconds = 0.0;                   ///< CPU time of the last 'run' command on one rank
   double cpu = 0.0;                       ///< CPU time of all of it on all ranks, if it has a name
@@ -183,20 +183,20 @@ struct Variant {
 };
 constexpr Variant standard = {"standard", 1.0, 0.015};
 
-/// A saved state before the first large event, and what to compare.
+/// A saved state before the first large event, and the quantities to compare.
 struct Saved {
   std::string state;
   double time = 0.0, station = 0.0, duration = 0.0;
 };
 
-/// Loads a fault until its first event of 0.01 or more; the state lies 6 time units and more before
-/// its begin.
+/// Loads a fault until its first event of 0.01 or more; the state is at least 6 time units before
+/// its start.
 Saved prepare(const Variant &v) {
   static std::map<std::string, Saved> known;
   if (known.count(v.name)) return known[v.name];
   const std::string prefix = std::string("load_") + v.name;
   const double large = 1e-2, dt = 0.03;
-  // States come seldom at first, then from the last of them on often.
+  // States are saved rarely at first, then often, starting from the last of them.
   const std::int64_t seldom = 8192, often = 512;
   Variables variables = {{"kt", text(v.kt)},
                          {"viscosity", text(v.viscosity)},
@@ -337,8 +337,8 @@ void single_events() {
     sweep("step", "step", "split", time_steps);
     if (v.name != standard.name) continue;
     sweep("force", "located", "force", time_steps);  // several times the run time
-    // What the preset for statistics does to one event: larger masses delay it, so look at it for
-    // longer.
+    // Effect of the preset for statistics on one event: larger masses delay it, so it is recorded
+    // for longer.
     saved.time += 24.0;
     exact = one_event(saved, v, "located", "split", finest);
     slip = slip_of(exact);
@@ -421,7 +421,7 @@ Small run_small(Fault &fault, double time, double dt) {
   return result;
 }
 
-/// Rms distance at the fault between two ends, and of an end from its begin.
+/// Rms distance at the fault between two final states, and of a final state from its start.
 double apart(const std::vector<Accuracy::Disc> &a, const std::vector<Accuracy::Disc> &b) {
   double sum = 0.0, discs = 0.0;
   for (std::size_t n = 0; n < a.size(); ++n)
@@ -567,7 +567,7 @@ void start(LongRun &w) {
       w.events.end());
 }
 
-/// What a catalogue says of the events from a threshold on.
+/// Statistics of the events of a catalogue from a threshold on.
 struct Sample {
   std::vector<double> starts, sizes, intervals;
   Accuracy::Estimate count, exponent;
@@ -638,7 +638,7 @@ void compare(const std::vector<const LongRun *> &runs, Table &table) {
   }
 }
 
-/// From which size on do these runs agree?
+/// Size from which on these runs agree.
 void judge(const std::vector<const LongRun *> &runs, double up_to, double shortest,
            Table &verdicts) {
   constexpr std::size_t least_events = 30;
@@ -745,7 +745,7 @@ void long_runs() {
     w.time = quick ? 15000.0 : 90000.0;
     if (std::string(w.loose) == "keep") w.time /= 2.0;
   }
-  // Runs on one rank two at a time, those on more by themselves.
+  // Runs on one rank two at a time, those on more one after the other.
   std::atomic<std::size_t> next{0};
   std::array<std::string, 2> errors;
   auto lane = [&](std::string &error) {
@@ -829,13 +829,13 @@ struct SlowRun {
   std::vector<LSM::Event> events = {}, large_events = {};
   double seconds = 0.0;
   std::string name() const { return "slow_" + text(velocity) + "_" + text(fast); }
-  /// Times as the way of the plates, in time units of the paper's driving.
+  /// Times as the displacement of the plates, in time units of the paper's driving.
   double unit() const { return velocity / paper_velocity; }
 };
 
-/// For each large event of one run that of the other that is nearest and of similar size, within
-/// half the mean time between them and a factor of 2; SIZE_MAX: none. Events of the last bit of
-/// time are left out.
+/// For each large event of one run the nearest one of the other that is of similar size, within
+/// half the mean time between them and a factor of 2; SIZE_MAX: none. Events near the end of the
+/// run are left out.
 std::vector<std::size_t> partners(const std::vector<LSM::Event> &first,
                                   const std::vector<LSM::Event> &second) {
   const double near =
@@ -888,8 +888,8 @@ bool same_events(const std::vector<LSM::Event> &a, const std::vector<LSM::Event>
 /// The same large events with and without leaps, long catalogues by two-sample tests, and what a
 /// large event costs.
 void leaps() {
-  // The first without leaps; those with its velocity are held against it. Pairs of other
-  // velocities follow each other, without leaps and with.
+  // The first is without leaps; those with its velocity are compared with it. Pairs of other
+  // velocities follow, without leaps and with.
   std::vector<SlowRun> runs = {{2.5e-5, 0.0, 350000},   {2.5e-5, 2.5e-4, 60000},
                                {2.5e-5, 5e-5, 200000},  {2.5e-4, 0.0, 60000},
                                {2.5e-4, 2.5e-4, 60000}, {2.5e-8, 2.5e-4, 60000}};
@@ -972,7 +972,7 @@ void leaps() {
               Accuracy::two_sample(first.first, mine.first).p,
               Accuracy::two_sample(first.second, mine.second).p);
   }
-  // With plates that are as fast as they can be there is nothing to leap over.
+  // With plates at their fastest there is nothing to leap over.
   for (const SlowRun &a : runs)
     for (const SlowRun &b : runs)
       if (a.velocity == b.velocity && a.fast == 0.0 && b.fast == b.velocity)
@@ -1067,7 +1067,7 @@ run 300
     }
   }
 
-  // A series disturbed by far more than that gives the same catalogue.
+  // A series disturbed by much more than that gives the same catalogue.
   Table disturbed("precision_picker.csv",
                   "disturbance_relative_to_pe,events,same_begin_and_end,largest_change_of_size");
   auto pick = [&](double relative) {

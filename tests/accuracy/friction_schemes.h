@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file friction_schemes.h
-/// A small fault without LAMMPS, one core, to try ways of solving friction against each other: the
+/// A small fault without LAMMPS, on one core, to compare two ways of solving friction: the
 /// tangential spring of pair lsm/friction, and friction without a spring, solved at half steps as
 /// in Place & Mora (1999) by projected Gauss-Seidel sweeps. Forces, plates and integrator are those
 /// of the LAMMPS styles, so that the spring gives their trajectory.
@@ -41,7 +41,7 @@ struct Constants {
 };
 
 /// A pair across the fault that touches or may touch soon; the elongation xi and the vector of the
-/// step before are used by the spring, the impulse by the rigid law.
+/// previous step are used by the spring, the impulse by the rigid law.
 struct Contact {
   int i = 0, j = 0;
   bool touches = false;
@@ -59,7 +59,7 @@ struct Scene {
   std::vector<Contact> contacts;
 };
 
-/// What both laws share: links, normal forces, plates, viscosity and the list of contacts.
+/// Shared by both laws: links, normal forces, plates, viscosity and the list of contacts.
 class SmallFault {
  public:
   explicit SmallFault(Scene scene) : s_(std::move(scene)), c_(s_.constants) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The loop over links by itself, on the packing of a fault: time for a particle, beside a plain
-// loop over the same links. Options are those of Google Benchmark (--help).
+// The loop over links on the packing of a fault: time per particle, compared with a plain loop over
+// the same links. Options are those of Google Benchmark (--help).
 #include <benchmark/benchmark.h>
 
 #include <cmath>

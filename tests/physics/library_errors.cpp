@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// LAMMPS as a library on several ranks: what goes wrong on one of them has to stop all of them, and
-// the program has to be able to go on. usage: mpirun -np N library_errors
+// LAMMPS as a library on several ranks: an error on one of them has to stop all of them, and the
+// program has to be able to continue. usage: mpirun -np N library_errors
 #include <mpi.h>
 #include <signal.h>
 #include <sys/resource.h>
@@ -101,7 +101,7 @@ int main(int argc, char **argv) {
       "stress 1\nrun 1\n",
       "is in both plates");
 
-  // A catalogue that is there.
+  // A catalogue that exists.
   if (rank == 0) std::ofstream("there.csv") << "events\n";
   MPI_Barrier(MPI_COMM_WORLD);
   Session().fails(
@@ -116,7 +116,7 @@ int main(int argc, char **argv) {
     }
   }
 
-  // A disk that is full in the middle of a run, found by rank 0 only.
+  // A disk that becomes full during a run, noticed by rank 0 only.
   {
     Session session;
     if (rank == 0) {
@@ -137,7 +137,7 @@ int main(int argc, char **argv) {
           "neigh_modify every 1000000 delay 1000000 check no\ntimestep 1e200\nfix move all lsm/nve "
           "dtcheck off\nrun 250\n",
       "not finite");
-  // A block on its way when another command fails between two steps.
+  // A block in transit when another command fails between two steps.
   {
     Session session;
     session.fails(start +
@@ -145,7 +145,7 @@ int main(int argc, char **argv) {
                       "fix print all print 5 '${bad}' screen no\nrun 1000\n",
                   "Divide by 0");
   }
-  // The program goes on.
+  // The program continues.
   {
     Session session;
     session.run(start + "compute events all lsm/events\nrun 200\n");

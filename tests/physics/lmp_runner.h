@@ -33,7 +33,7 @@ inline std::string read_file(const std::string &path) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-/// 17 significant digits: a double survives the way into a script and back.
+/// 17 significant digits: a double survives being written to a script and read back.
 inline std::string text(double value) {
   std::ostringstream out;
   out.precision(17);
@@ -41,7 +41,7 @@ inline std::string text(double value) {
   return out.str();
 }
 
-/// What a run left behind.
+/// Results of a run.
 struct Result {
   int exit_code = -1;                                 ///< 128 + signal if killed
   std::string output;                                 ///< standard output and error
@@ -64,7 +64,7 @@ struct Result {
     ADD_FAILURE() << "no line '" << name << " = ' in:\n" << output;
     return std::numeric_limits<double>::quiet_NaN();
   }
-  /// Lines of the output that hold the given text.
+  /// Lines of the output that contain the given text.
   std::vector<std::string> lines_with(const std::string &part) const {
     std::vector<std::string> found;
     std::istringstream in(output);
@@ -171,13 +171,13 @@ inline ::testing::AssertionResult succeeded(const Result &result) {
   return ::testing::AssertionFailure() << "exit code " << result.exit_code << "\n" << result.output;
 }
 
-/// The run failed with one line of error that holds all the given parts.
+/// The run failed with one error line that contains all the given parts.
 inline ::testing::AssertionResult failed_with(const Result &result,
                                               const std::vector<std::string> &parts) {
   if (result.exit_code == 0)
     return ::testing::AssertionFailure() << "the run succeeded:\n" << result.output;
   auto lines = result.lines_with("ERROR");
-  // Open MPI sometimes complains of its own when one rank aborts.
+  // Open MPI sometimes adds lines of its own when one rank aborts.
   lines.erase(std::remove_if(lines.begin(), lines.end(),
                              [](const std::string &line) {
                                return line.find("ORTE_ERROR_LOG") != std::string::npos;
@@ -192,7 +192,7 @@ inline ::testing::AssertionResult failed_with(const Result &result,
 }
 
 /// Differences of all columns of two thermo tables, relative to the largest value of the column. A
-/// column that is zero throughout in both says nothing, and fails the test.
+/// column that is zero throughout in both proves nothing, and fails the test.
 inline double thermo_difference(const Result &a, const Result &b,
                                 const std::vector<std::string> &columns) {
   EXPECT_EQ(a.thermo.size(), b.thermo.size());

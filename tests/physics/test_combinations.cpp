@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Styles of the package together with what else LAMMPS offers: each combination works, or one line
-// says by name why it does not.
+// Styles of the package combined with others of LAMMPS: each combination works, or one line names
+// the reason why it does not.
 #include <cstdlib>
 #include <fstream>
 
@@ -61,7 +61,7 @@ TEST_F(Hybrid, PairsThatAreOffDoNotTouch) {
   }
 }
 
-// As in stock LAMMPS 'none' takes back what '* *' said.
+// As in stock LAMMPS, 'none' reverts '* *'.
 TEST_F(Hybrid, NoneAfterStarDoesNotTouch) {
   for (const char *style : {"lsm/free", "lsm/friction"})
     for (const char *more : {"", " zero 1.0"}) {
@@ -109,7 +109,7 @@ TEST_F(Hybrid, TimeStepIsCheckedWithLinksUnderBondHybrid) {
   // one link of stiffness 1 between two masses of 1: w^2 = 2
   EXPECT_LE(r.value("limit"), std::sqrt(2.0));
   EXPECT_GT(r.value("limit"), 0.94 * std::sqrt(2.0));
-  // what the check does not know is named
+  // the message names what the check does not include
   EXPECT_EQ(r.lines_with("WARNING: Fix lsm/nve").size(), 1u) << r.output;
   EXPECT_NE(r.output.find("bond harmonic"), std::string::npos);
 }
@@ -199,19 +199,19 @@ TEST_F(BetweenRuns, DisplacedParticlesLoadTangentialSprings) {
         run_text(scene + "run 0\ndisplace_atoms top move 0.01 0 0 units box\nrun 0\n", {}, ranks);
     ASSERT_TRUE(succeeded(r));
     EXPECT_NEAR(r.last("c_events[8]"), 0.5 * 0.01 * 0.01, 1e-8);
-    // no work of friction was done by the model, and the ledger begins anew with one line that says
-    // so
+    // no work of friction was done by the model, and the ledger starts anew, with one line that
+    // says so
     EXPECT_EQ(r.last("c_events[11]"), 0.0);
     EXPECT_NEAR(r.last("c_events[13]"), 0.0, 1e-15);
     EXPECT_EQ(r.lines_with("WARNING: Compute lsm/events").size(), 1u) << r.output;
 
-    // beyond mu F_n it slides: the spring keeps what friction holds
+    // beyond mu F_n it slides: the spring keeps the elongation that friction supports
     const Result far =
         run_text(scene + "run 0\ndisplace_atoms top move 0.2 0 0 units box\nrun 0\n", {}, ranks);
     ASSERT_TRUE(succeeded(far));
     const double overlap = 2.0 - std::sqrt(1.9 * 1.9 + 0.2 * 0.2);
     EXPECT_NEAR(far.last("c_events[8]"), 0.5 * std::pow(0.6 * overlap, 2), 1e-12);
-    EXPECT_EQ(far.last("c_events[11]"), 0.0);  // what slid was moved, not lost in a step
+    EXPECT_EQ(far.last("c_events[11]"), 0.0);  // the slip was imposed, not dissipated in a step
   }
 }
 
@@ -231,7 +231,7 @@ TEST_F(BetweenRuns, PiecesOfARunStayAsTheyWere) {
 }
 
 TEST_F(BetweenRuns, CommandsThatChangeEnergyAreNoEventsAndNoResidual) {
-  // two contacts whose load rises throughout; each command takes or gives energy at once
+  // two contacts whose load rises throughout; each command takes or adds energy
   const std::string scene = discs({{"0", "0"}, {"0", "1.9"}, {"5", "0"}, {"5", "1.9"}}) + R"(
 pair_style        lsm/friction
 pair_coeff        1 1 1.0 1.0 0.6
@@ -274,7 +274,7 @@ fix               move all lsm/nve
 }
 
 TEST_F(BetweenRuns, LinksTurnedOffLeaveContacts) {
-  // a pair without a link that is kept from touching passes through: said in one line
+  // a pair without a link that is excluded from contact interpenetrates: one line says so
   const std::string scene = linked_pair() + recorded() + "thermo 10\n";
   const Result left = run_text(scene + "run 10\ndelete_bonds all bond 1\nrun 10\n");
   EXPECT_EQ(left.lines_with("WARNING: Pair style lsm/").size(), 1u) << left.output;
@@ -330,8 +330,8 @@ TEST_F(Refused, MinimizeWithFriction) {
 }
 
 TEST_F(Refused, LinksHoldWhileEnergyIsMinimized) {
-  // a trial of the line search beyond the breaking distance breaks nothing; what is too long at the
-  // end breaks then
+  // a trial of the line search beyond the breaking distance breaks nothing; a link that is too long
+  // at the end breaks then
   const std::string scene = discs({{"0", "0"}, {"2.1", "0"}}) + R"(
 create_bonds      single/bond 1 1 2
 bond_style        lsm/linked
@@ -356,8 +356,7 @@ thermo_modify     norm no format float %.17g
 
 namespace {
 
-/// A floor of discs of radius 0.45 that is held, gravity, and a fix that lets others of radius 0.5
-/// fall on it.
+/// A fixed floor of discs of radius 0.45, gravity, and a fix that drops others of radius 0.5 on it.
 std::string rain(const std::string &insert) {
   std::vector<std::pair<std::string, std::string>> floor;
   for (int n = 0; n < 60; ++n) floor.emplace_back(text(n - 29.5), "-8");
@@ -408,7 +407,7 @@ TEST_F(Refused, SpecialBonds) {
     EXPECT_TRUE(failed_with(run_text(scene + "special_bonds " + setting + "\nrun 1\n"),
                             {"special_bonds", "0 1 1"}))
         << setting;
-  // 1-2 neighbours stay in the list for the sake of charges: they must not touch all the same
+  // 1-2 neighbours stay in the list because of charges: they must not interact as contacts
   const Result r = run_text(scene + "special_bonds lj 0 1 1 coul 1 1 1\n" + recorded() + "run 1\n");
   ASSERT_TRUE(succeeded(r));
   EXPECT_EQ(r.last("c_events[7]"), 0.0);
@@ -472,7 +471,7 @@ TEST_F(Refused, LedgerOfParticlesThatCome) {
 
 namespace {
 
-/// Two linked pairs that rub on each other, one more contact across the period.
+/// Two linked pairs that rub against each other, one more contact across the period.
 std::string rubbing(
     const std::string &pair = "pair_style lsm/friction\npair_coeff * * 1.0 1.0 0.6\n") {
   std::string text = discs(
@@ -531,7 +530,7 @@ TEST_F(Works, ParticlesThatComeTouchWhatIsThere) {
                                   "thermo 400\nrun 1200\n",
                               {}, ranks));
       ASSERT_TRUE(succeeded(runs.back())) << insert;
-      // larger than those of the floor, and found all the same: nothing falls through
+      // larger than those of the floor, and still found: nothing falls through
       EXPECT_EQ(runs.back().last("Atoms"), 80.0) << insert;
       EXPECT_EQ(runs.back().last("v_low"), -8.0) << insert;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Mistakes in the input, and runs that go bad.
+// Errors in the input, and runs that fail.
 #include "fault_scene.h"
 #include "lsm_catalogue.h"
 #include "lsm_event_picker.h"
@@ -90,8 +90,8 @@ TEST_F(BlowUp, StopsWithAMessageAndACleanCatalogue) {
       EXPECT_TRUE(lines[0].find("strained") != std::string::npos ||
                   lines[0].find("not finite") != std::string::npos)
           << lines[0];
-      // the strict readers refuse anything that is not finite; what is there is what the series
-      // says
+      // the strict readers refuse anything that is not finite; the catalogue agrees with the
+      // series
       const auto found = LSM::read_catalogue(path("blown.csv")).events;
       LSM::PeSeriesReader series(path("blown.pe"));
       LSM::PickerSettings settings;
@@ -106,7 +106,7 @@ TEST_F(BlowUp, StopsWithAMessageAndACleanCatalogue) {
         EXPECT_EQ(step, samples++);
         if (later.push(step, time, pe, event)) expected.push_back(event);
       }
-      // far above the limit there is no time for an event
+      // far above the limit the run fails before the first event
       EXPECT_GT(samples, 5) << dt;
       if (dt == std::string("0.13")) {
         EXPECT_GT(expected.size(), 0u);
@@ -117,7 +117,7 @@ TEST_F(BlowUp, StopsWithAMessageAndACleanCatalogue) {
     }
 }
 
-// A name that leads to a file of another output, whatever it looks like: nothing is written to it.
+// A name that leads to a file of another output, in any spelling: nothing is written to it.
 TEST_F(BadInput, OneFileForTwoOutputs) {
   const std::string shear = fault_read() + fault_shear("emergency e.state ${files}");
   std::ofstream(path("there.csv")) << "somebody's data\n";
@@ -173,11 +173,11 @@ TEST_F(BadInput, AnotherRunWritesTheFile) {
   EXPECT_FALSE(std::filesystem::exists(path("held.csv.lock")));
 }
 
-// New neighbor lists every so often, which is in the middle of a step.
+// New neighbor lists from time to time, which are built in the middle of a step.
 static const std::string often = "neigh_modify delay 0 every 10 check no\n";
 
-// A tolerance that every step keeps stops nothing, neither every step nor where lists are built; a
-// tenth of what the worst step shows does.
+// A tolerance that no step exceeds stops nothing, whether checked in every step or when lists are
+// built; a tenth of the error of the worst step does.
 TEST_F(BlowUp, LedgerIsCheckedForWholeSteps) {
   for (int ranks : {1, 2})
     for (const char *viscosity : {"0", "0.02"}) {
@@ -214,14 +214,14 @@ TEST_F(BlowUp, LedgerIsCheckedForWholeSteps) {
     }
 }
 
-// The restart file of a run that was stopped holds a whole step, whatever stopped it.
+// The restart file of a run that was stopped has a complete step, whatever stopped it.
 TEST_F(BlowUp, EmergencyRestartHoldsAWholeStep) {
   const std::string dump =
       "write_dump all custom ${file} id x y vx vy modify sort id format float %.17g\n";
   for (int ranks : {1, 2})
     for (const char *why : {"tolerance 1e-12 check 100", "tolerance 1e-12 check 133",
                             "strainlimit 0.05 check 1000000"}) {
-      // without viscosity, fix lsm/nve puts off the second half of steps
+      // without viscosity, fix lsm/nve defers the second half of steps
       const bool by_ledger = why[0] == 't';
       const std::string viscosity = by_ledger ? "0.02" : "0",
                         velocity = by_ledger ? "0.005" : "0.05";
@@ -251,7 +251,7 @@ TEST_F(BlowUp, EmergencyRestartHoldsAWholeStep) {
     }
 }
 
-// Nothing that holds events is replaced unless asked, on any number of ranks.
+// No file with events is replaced unless asked for, on any number of ranks.
 TEST_F(BadInput, OlderFilesAreKept) {
   const std::string shear = fault_read() + R"(
 fix               move blocks lsm/nve
@@ -301,7 +301,7 @@ write_restart     kept.state
         run_text(shear, {{"files", "catalogue new.csv series no/folder/s.pe text"}}, ranks),
         {"no/folder/s.pe"}));
     EXPECT_TRUE(unchanged());
-    // asked to, it does
+    // it does if asked to
     ASSERT_TRUE(succeeded(run_text(shear, {{"files", both + " overwrite yes"}}, ranks)));
     EXPECT_TRUE(unchanged());
     ASSERT_TRUE(succeeded(run_text(again, {{"files", both + " overwrite yes"}}, ranks)));

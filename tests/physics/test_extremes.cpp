@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Stiff and extreme cases: each is either right (ledger, momentum, bounds) or refused with a clear
-// message. Lines "EXTREME case outcome", separated by tabs, become a table of the accuracy report.
+// Stiff and extreme cases: each is either correct (ledger, momentum, bounds) or refused with a
+// clear message. Lines "EXTREME case outcome", separated by tabs, become a table of the accuracy
+// report.
 #include <cstdlib>
 
 #include "fault_scene.h"
@@ -23,8 +24,8 @@ std::string brief(double value) {
   return buffer;
 }
 
-/// A fault of a few hundred discs, loose ones among them, compressed and sheared fast. The time
-/// step is a part of the limit that fix lsm/nve finds.
+/// A fault of a few hundred discs, some of them loose, compressed and sheared fast. The time step
+/// is a fraction of the limit that fix lsm/nve finds.
 std::string small_fault() {
   return R"(
 variable rmin      index 0.1
@@ -75,7 +76,7 @@ run               ${steps}
 )";
 }
 
-/// Largest residual of the ledger over the run, in parts of the largest energy that took part.
+/// Largest residual of the ledger over the run, relative to the largest energy in it.
 double ledger_error(const Result &r) {
   double most = 0.0, scale = 0.0;
   for (const auto &row : r.thermo) {
@@ -95,7 +96,8 @@ bool finite(const Result &r) {
   return true;
 }
 
-/// Right: ends well, everything finite, the ledger balances, the files pass the strict readers.
+/// Correct: the run ends without error, everything is finite, the ledger balances, the strict
+/// /// readers accept the files.
 class Right {
  public:
   Right(const Result &r, const std::string &name, double tolerance, const std::string &catalogue) {
@@ -171,7 +173,7 @@ TEST_F(Extremes, RefusedOrStopped) {
     EXPECT_FALSE(std::filesystem::exists(path("extreme.csv"))) << name;
     EXPECT_TRUE(finite(r)) << name;
     const auto lines = r.lines_with("ERROR");
-    // caught as soon as it is above the limit, where it grows slowly
+    // stopped as soon as it is above the limit, where it grows slowly
     const std::string by = "strained by ";
     if (std::string(name).find("stress") != std::string::npos && lines.size() == 1 &&
         lines[0].find(by) != std::string::npos) {
@@ -284,7 +286,7 @@ TEST_F(Extremes, ContactsThatMayCloseRefuseAStartButNotARunThatGoesOn) {
   const Result far = run_text(discs("2.2") + on);
   EXPECT_TRUE(succeeded(far));
   EXPECT_EQ(far.output.find("nearly closed"), std::string::npos);
-  // A restart file goes on, too.
+  // So does a run from a restart file.
   const std::string rest = "timestep 1.0\nrun 1\nwrite_restart two.restart\n";
   ASSERT_TRUE(succeeded(run_text(discs("2.04") + rest)));
   std::string again = discs("2.04");
@@ -419,9 +421,9 @@ write_dump        all custom state.${sort} id x y vx vy modify sort id format fl
     EXPECT_EQ(runs[0].thermo[n].at("c_events[5]"), runs[1].thermo[n].at("c_events[5]")) << n;
 }
 
-// Fix lsm/nve sets forces to 0 as particles move; the integrator does, before the interactions,
-// where a fix of another package acts on forces. Either way they are whole when somebody looks, and
-// in the runs after.
+// Fix lsm/nve sets forces to 0 as particles move; the integrator does so, before the interactions,
+// if a fix of another package acts on forces. Either way they are complete when they are read, and
+// in later runs.
 TEST_F(Reproducible, ForcesAreClearedByEither) {
   const std::string runs = fault_read() + R"(
 fix               move blocks lsm/nve viscosity 0.02
@@ -458,8 +460,8 @@ write_dump        all custom after.FILE id x y fx fy fz tqx tqz modify sort id f
 }
 
 TEST_F(Reproducible, PairsThatAreNotLookedAtDoNotTouch) {
-  // A gas of discs: with a list built anew in each step all pairs are looked at, with lists that
-  // stay for long only those that may touch soon. nsq lists pairs in the same order each time.
+  // A gas of discs: with a list built anew in each step all pairs are examined, with long-lived
+  // lists only those that may touch soon. nsq lists pairs in the same order each time.
   for (const char *pair : {"lsm/friction", "lsm/friction onset step", "lsm/free"}) {
     const std::string script = R"(
 variable          check index yes
@@ -510,8 +512,8 @@ run               3000
   }
 }
 
-// Fix lsm/nve joins the two half steps that meet between two time steps, unless somebody may look
-// in between.
+// Fix lsm/nve joins the two half kicks that meet between two time steps, unless velocities may be
+// read in between.
 TEST_F(Reproducible, OnlookersChangeNothingAndSeeWholeSteps) {
   const std::string shear = fault_read() + R"(
 fix               move blocks lsm/nve viscosity 0.02

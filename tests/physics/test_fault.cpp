@@ -51,7 +51,7 @@ TEST_F(Ledger, BalancesAndFallsWithTheTimeStep) {
 }
 
 TEST_F(Ledger, SecondOrderBeforeTheFaultSlips) {
-  // plates that approach each other at first: contacts hold, nothing switches
+  // plates that approach each other at first: contacts stick, nothing switches
   std::vector<double> off;
   for (double dt : {0.04, 0.02, 0.01}) {
     const Result r =
@@ -77,7 +77,7 @@ static std::string shear_from_data() {
 TEST_F(Restart, EqualsTheUninterruptedRun) {
   for (int ranks : {1, 2}) {
     const std::string tag = std::to_string(ranks);
-    // the state is written on the way; the run goes on
+    // the state is written during the run, which continues
     const Result whole = run_text(shear_from_data() + "restart 3000 half." + tag + ".*\nrun 5000\n",
                                   {{"prefix", "whole" + tag}}, ranks);
     ASSERT_TRUE(succeeded(whole));
@@ -174,7 +174,7 @@ TEST_F(Restart, PickerFollowsTheTimeStep) {
                         (1.0 - lambda) * (second.at("c_events[5]") - first.at("c_events[5]")),
                     1e-9 * std::fabs(rate));
 
-      // times go on from 60, and so do the numbers of the events
+      // times continue from 60, and so do the numbers of the events
       const double old_events = before.last("c_events");
       const auto fast = LSM::read_catalogue(path("fast.csv"));
       ASSERT_GT(fast.events.size(), 1u);
@@ -192,7 +192,7 @@ TEST_F(Restart, PickerFollowsTheTimeStep) {
     }
 }
 
-// A PE series that does not fit is found before the catalogue is cut back, and the other way round.
+// A PE series that does not match is found before the catalogue is cut back, and vice versa.
 TEST_F(Restart, NothingIsCutWhereOneFileDoesNotFit) {
   const std::string events = "resume yes catalogue pair.csv series pair.pe text";
   const std::string again = sheared_state("0.03", events) + "run 1\n";
@@ -217,7 +217,7 @@ TEST_F(Restart, NothingIsCutWhereOneFileDoesNotFit) {
     }
 }
 
-// The header of a file holds one time step.
+// The header of a file has one time step.
 TEST_F(Restart, TimeStepOfOpenFilesIsKept) {
   const std::string shear = fault_read() + fault_shear("${files}") + "thermo 100\nrun 200\n";
   for (const char *files : {"catalogue one.csv", "series one.pe binary"})
@@ -270,8 +270,8 @@ TEST_F(Events, PickedOnlineEqualThosePickedLater) {
       }
 }
 
-// Slip, place and length of each event against the work lost to friction and the meaning of the
-// columns.
+// Slip, place and length of each event against the work lost to friction and the definitions of
+// the columns.
 TEST_F(Events, SlipAndCentroidLieOnTheFault) {
   const std::string script = fault_read() + fault_shear("catalogue located.csv location yes") +
                              "thermo ${thermo}\nrun 5000\n";
@@ -287,7 +287,7 @@ TEST_F(Events, SlipAndCentroidLieOnTheFault) {
               static_cast<double>(e.step_end));
     const double lost = r.thermo[static_cast<std::size_t>(e.step_end)].at("c_events[11]") -
                         r.thermo[static_cast<std::size_t>(e.step_start)].at("c_events[11]");
-    // something slides exactly where friction takes energy
+    // something slides if and only if friction dissipates energy
     EXPECT_EQ(e.slip_moment > 0.0, lost > 0.0) << "event " << e.id;
     EXPECT_EQ(e.rupture_length > 0.0, e.slip_moment > 0.0) << "event " << e.id;
     if (!(e.slip_moment > 0.0)) continue;
@@ -306,7 +306,7 @@ TEST_F(Events, SlipAndCentroidLieOnTheFault) {
   EXPECT_GT(slid, 2u);
   EXPECT_GT(elsewhere, 0u) << "every event is at the same place";
 
-  // the slip that two ranks gather
+  // the slip gathered from two ranks
   ASSERT_TRUE(succeeded(run_text(script, {{"thermo", "1000"}}, 2)));
   const auto two = LSM::read_catalogue(path("located.csv"));
   expect_same_events(catalogue.events, two.events, 1e-9);
@@ -361,7 +361,8 @@ TEST_F(Ranks, GeometryDoesNotDependOnThem) {
 }
 
 TEST_F(MassFloor, MassesForAStepMakeItStableWithContacts) {
-  // the upper block pressed into the lower one: many contacts at once, as stiff across as along
+  // the upper block pressed into the lower one: many contacts at once, equally stiff in both
+  // // directions
   const std::string script = fault_start() +
                              "create_lsm_fault length 40 width 20 seed 3 failures 500 massstep "
                              "${step} 1.0\n" +

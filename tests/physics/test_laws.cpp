@@ -21,11 +21,11 @@ using namespace physics;
 
 namespace {
 
-/// Mass 1, pressed with 1, normal stiffness 100. Moved at `speed` by force for the time `before`,
-/// then let go with the velocity `begin` on a spring of `stiffness` whose force is then `pull` and
-/// whose end goes on at `speed`.
+/// Mass 1, normal load 1, normal stiffness 100. Moved at a prescribed `speed` for the time
+/// `before`, then released with the velocity `begin` on a spring of `stiffness` whose force is then
+/// `pull` and whose end continues at `speed`.
 struct Slider {
-  std::string law, coefficients;  // behind kt
+  std::string law, coefficients;  // after kt
   double kt = 100.0, stiffness = 1.0, speed = 1e-3, viscosity = 0.0, dt = 0.02;
   double before = 0.0, begin = 0.0, pull = 0.0, time = 100.0, every = 1.0;
 
@@ -98,7 +98,7 @@ double mean_period(const std::vector<double> &at) {
   return at.size() < 2 ? NAN : (at.back() - at.front()) / static_cast<double>(at.size() - 1);
 }
 
-/// Adaptive rk8pd; the right side is free to be a closure.
+/// Adaptive rk8pd; the right-hand side may be a closure.
 Motion integrate(std::vector<double> y, double end, double every,
                  const std::function<void(double, const double *, double *)> &derive) {
   using Derive = std::function<void(double, const double *, double *)>;
@@ -147,7 +147,7 @@ class Laws : public Lmp {
 // tiny distance ----
 
 /// Distance of a slip that begins at the strength `high` with the velocity v0 under the friction
-/// `low`, when the spring's end moves on: the damped oscillator up to its first rest.
+/// `low`, while the spring's end moves: the damped oscillator up to its first rest.
 static double slip_distance(const Slider &s, double high, double low, double v0) {
   // with w = pull - low - viscosity v (mass 1): u'' = high - low + K (V t - u) - nu u'
   const double nu = s.viscosity, K = s.stiffness, V = s.speed;
@@ -177,7 +177,7 @@ TEST_F(Laws, StickSlipPeriodOfTwoStrengths) {
     s.speed = 2e-3;
     s.time = 1000.0;
     s.every = 0.1;
-    // the period is that in which the plate moves by a slip and by what the contact gives way
+    // the period is that in which the plate moves by a slip and by the deformation of the contact
     // before it slips again
     const double creep = s.speed * s.stiffness / (s.stiffness + s.kt);
     const double theory = (slip_distance(s, 0.8, 0.6, creep) + 0.2 / s.kt) / s.speed;
@@ -200,12 +200,12 @@ TEST_F(Laws, SlipWeakeningIsStableAboveTheCriticalStiffnessOnly) {
     s.every = 0.5;
     const double weakening = 1.0 / (1.0 - 1.0 / s.kt);
     const double creep = s.speed * stiffness / (stiffness + s.kt);
-    s.begin = creep;  // so that the contact is loaded without a swing
+    s.begin = creep;  // so that the contact is loaded without oscillation
     const double breaks = 0.8 * (1.0 / stiffness + 1.0 / s.kt) / s.speed;
     s.time = std::ceil(breaks) + 60.0;
     const Motion m = run_slider(s);
 
-    // from the break on: y'' = K V t - (K - W) y
+    // from failure on: y'' = K V t - (K - W) y
     const double rest = stiffness - weakening, rate = std::sqrt(std::fabs(rest));
     const double drift = s.speed * stiffness / rest;
     double largest = 0.0, worst = 0.0, fastest = 0.0;
@@ -237,8 +237,8 @@ TEST_F(Laws, SlipWeakeningIsStableAboveTheCriticalStiffnessOnly) {
 // ---- velocity weakening ----
 
 TEST_F(Laws, VelocityWeakeningGrowsAtTheRateOfItsWeakening) {
-  // sliding at V, |d force / d v| = mu fn / (1 + V)^2 feeds the swing that the viscosity takes
-  // from: both over 2 m
+  // sliding at V, |d force / d v| = mu fn / (1 + V)^2 feeds the oscillation that the viscosity
+  // damps: both over 2 m
   const double V = 0.2, W = 0.6 / (1.2 * 1.2);
   for (double viscosity : {0.2, W, 0.6}) {
     Slider s;
@@ -250,11 +250,12 @@ TEST_F(Laws, VelocityWeakeningGrowsAtTheRateOfItsWeakening) {
     s.dt = 0.002;
     s.before = 0.4;
     s.begin = V;
-    s.pull = 0.6 / (1.0 + V) + viscosity * V + 1e-3 * 25.0;  // a swing of 1e-3, V/5 fast at most
+    s.pull = 0.6 / (1.0 + V) + viscosity * V +
+             1e-3 * 25.0;  // an oscillation of 1e-3, with velocities of V/5 at most
     s.time = 12.0;
     s.every = 0.01;
     const Motion m = run_slider(s);
-    // envelope from energy: u - V t swings around the steady distance
+    // envelope from energy: u - V t oscillates around the steady distance
     auto size = [&](std::size_t n) {
       const double x = m.u[n] - V * m.t[n] - 1e-3, v = m.v[n] - V;
       return std::sqrt(x * x + v * v / 25.0);
@@ -274,7 +275,7 @@ TEST_F(Laws, VelocityWeakeningGrowsAtTheRateOfItsWeakening) {
 
 TEST_F(Laws, VelocityWeakeningStickSlipAsTheBlockSlider) {
   // one block of Sect. 3: K_l = 0.01, V = 0.01, M = 1; the contact's spring is stiff, and a little
-  // viscosity ends its swing before the next slip
+  // viscosity damps its oscillation before the next slip
   Slider s;
   s.law = "velocity-weakening";
   s.coefficients = "mu 0.8 vc 1";
@@ -297,8 +298,8 @@ TEST_F(Laws, VelocityWeakeningStickSlipAsTheBlockSlider) {
   for (std::size_t n = 1; n < slip.t.size() && distance == 0.0; ++n)
     if (slip.t[n] > 1.0 && slip.v[n] <= 0.0) distance = slip.u[n];
   ASSERT_GT(distance, 0.1);
-  // the velocity of the contact's spring when it breaks starts the slip sooner, but the distance is
-  // the same
+  // the velocity of the contact's spring at failure starts the slip sooner, but the distance is the
+  // same
   const double theory = distance / s.speed;
   std::printf("period %.3f, reference %.3f\n", period, theory);
   EXPECT_NEAR(period, theory, 0.005 * theory);
@@ -330,7 +331,7 @@ Slider rate_state_slider(const char *evolution, double of_critical, double speed
   Slider s;
   s.law = std::string("rate-state-") + evolution;
   s.coefficients = "mu 0.6 a 0.01 b 0.015 dc 0.005 v0 " + text(speed);
-  // critical: (b - a) fn / dc = 1 for the springs of slider and contact in a row
+  // critical: (b - a) fn / dc = 1 for the springs of slider and contact in series
   s.stiffness = of_critical / (1.0 - of_critical / s.kt);
   s.speed = s.begin = speed;
   s.before = 0.06 / speed;  // to the steady state
@@ -350,7 +351,7 @@ TEST_F(Laws, RateStateIsStableAboveTheCriticalStiffnessOnly) {
       const Motion m = run_slider(s),
                    reference = rate_state_reference(s, s.law == "rate-state-ageing");
       ASSERT_EQ(m.t.size(), reference.t.size());
-      // largest velocity above the mean in the first and the last turn
+      // largest velocity above the mean in the first and the last cycle
       const double K = s.stiffness * s.kt / (s.stiffness + s.kt);
       const double turn = 2.0 * M_PI / (1e-3 * std::sqrt(K / (kA * kDc)));
       double early = 0.0, late = 0.0, worst = 0.0, largest = 0.0;
@@ -479,7 +480,7 @@ TEST_F(LawsOnFault, BalanceTheirEnergyOnAnyRanksUnderHybridAndFromRestartFiles) 
     ASSERT_TRUE(succeeded(hybrid)) << name;
     EXPECT_LT(thermo_difference(whole, hybrid, law_columns), 1e-9) << name;
 
-    // a restart file knows the law; under hybrid it does not know the coefficients
+    // a restart file has the law; under hybrid it does not have the coefficients
     Result tail = whole;
     tail.thermo.erase(tail.thermo.begin(), tail.thermo.end() - 2);
     const std::string again = "pair_coeff * * lsm/free off\npair_coeff 3 4 lsm/friction 1.0 1.0 " +
@@ -575,7 +576,7 @@ TEST_F(LawsOnFault, MistakesAreNamedInOneLine) {
         one.parts))
         << one.law << " " << one.coefficients;
 
-  // contacts of one law are no contacts of another
+  // contacts of one law are not those of another
   const FaultLaw other = fault_laws[3];
   EXPECT_TRUE(failed_with(
       run_text(from_data(plain(fault_laws[0]), "") + "run 5\n" + plain(other) + "run 0\n"),
@@ -587,7 +588,7 @@ TEST_F(LawsOnFault, MistakesAreNamedInOneLine) {
   EXPECT_TRUE(failed_with(run_text(from_data(plain(fault_laws[0]), "") +
                                    "pair_style lsm/friction " + other.name + "\nrun 5\n"),
                           {"pair coeffs are not set"}));
-  // what fix adapt does is checked as well
+  // changes by fix adapt are checked as well
   const std::string adapt =
       "variable a equal -0.001*(step+1)\nfix a all adapt 1 pair lsm/friction b 3 4 v_a\nrun 3\n";
   EXPECT_TRUE(

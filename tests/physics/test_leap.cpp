@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Leaps over the loading: model time, nothing changed where nothing is leapt, restart, ranks,
-// refusals.
+// Leaps over the loading: model time, no change without leaps, restart, ranks, refusals.
 #include <cmath>
 #include <set>
 #include <sstream>
@@ -31,7 +30,7 @@ thermo            100
 )";
 }
 
-// Neither velocity nor viscosity: at rest or not, there is nothing to leap to.
+// Neither velocity nor viscosity: there is nothing to leap to, at rest or not.
 TEST_F(Leap, WithoutAFasterVelocityNothingChanges) {
   for (const char *velocity : {"0.0005", "0"}) {
     const Variables variables = {{"prefix", "nothing"}, {"dt", "0.03"}, {"velocity", velocity}};
@@ -82,13 +81,13 @@ TEST_F(Leap, PlatesMayMoveTheOtherWay) {
   EXPECT_LT(std::fabs(r.last("c_events[13]")), 2e-3 * r.last("f_plates"));
 }
 
-// The displacement of the plates is their velocity times the model time; PE that is loaded without
-// slip is the same at the same model time, the better the slower the plates leap.
+// The displacement of the plates is their velocity times the model time; without slip PE is the
+// same at the same model time, the more exactly the slower the plates are in leaps.
 TEST_F(Leap, LoadsAsSlowPlatesDo) {
   const std::string columns =
       "c_events[5] f_plates[8] f_leap f_leap[1] f_leap[2] c_events[13] f_plates";
   const auto loaded = [&](const std::string &fast, double steps) {
-    // friction that holds: nothing slips
+    // high friction: nothing slips
     const Result r = run_text(
         slow("fix leap all lsm/leap plates calm 3 rest 1e9 settle 0 ramp 6 fast " + fast + "\n",
              columns) +
@@ -121,9 +120,9 @@ TEST_F(Leap, LoadsAsSlowPlatesDo) {
   EXPECT_NEAR(b / a, 1.0, 0.05);
 }
 
-// Blocks that move as plates with the driving velocity do load them are at rest if 'rest' allows
-// for that; what the plates themselves have, a quarter more, does not count. Until then nothing
-// leaps.
+// Blocks that shear uniformly with the driving velocity of the plates are at rest if 'rest' allows
+// for that; the kinetic energy of the plates, a quarter more, does not count. Until then there are
+// no leaps.
 TEST_F(Leap, WaitsUntilTheBlocksAreAtRest) {
   const auto leapt = [&](const std::string &rest) {
     const Result r =
@@ -144,8 +143,8 @@ TEST_F(Leap, WaitsUntilTheBlocksAreAtRest) {
   EXPECT_GT(leapt("0.28").last("f_leap[4]"), 10.0);
 }
 
-// A fault that slips all the time leaps all the time, as friction does not ask how fast; it is as
-// strong and as strained.
+// A fault that always slips leaps all the time, as Coulomb friction is independent of velocity; its
+// strength and strain are the same.
 TEST_F(Leap, FaultThatCreepsGoesOnCreeping) {
   const auto creep = [&](const std::string &leap, const std::string &steps) {
     const Result r = run_text(slow(leap, "c_events[5] c_events[11] c_events[13] f_plates[8]") +
@@ -182,7 +181,7 @@ TEST_F(Leap, FaultThatCreepsGoesOnCreeping) {
 }
 
 // A velocity-strengthening fault creeps under the stress of slow plates, sigma (mu + a ln(v / v0)),
-// also where they leap: a law that depends on time is given model time.
+// also during leaps: a law that depends on time is given model time.
 TEST_F(Leap, LawsOfTimeAreGivenModelTime) {
   const std::string law =
       "pair_style none\nrun 0\npair_style lsm/friction rate-state-ageing\npair_coeff * * off\n"
@@ -210,7 +209,7 @@ TEST_F(Leap, LawsOfTimeAreGivenModelTime) {
                    stress("0.0005", "fix leap all lsm/leap plates fast 0.002 slip 3\n", "10000");
   std::printf("stress of creep: %.4f, %.4f by leaps; %.4f at four times the velocity\n", slowly,
               leapt, fast);
-  EXPECT_GT(fast - slowly, 0.06);  // a ln 4 = 0.14 where all contacts are level
+  EXPECT_GT(fast - slowly, 0.06);  // a ln 4 = 0.14 if all contacts are level
   EXPECT_NEAR(leapt, slowly, 0.25 * (fast - slowly));
 }
 
@@ -249,7 +248,7 @@ dump              left all local 1 ${prefix}.links c_left[1] c_left[2]
 run               0
 )";
   const auto left = [&](const std::string &name, const std::string &leap, double &before) {
-    // what breaks at once rings down first; then both start from the same state
+    // links that break at once ring down first; then both start from the same state
     std::string all_of_it = scene;
     all_of_it.replace(all_of_it.find("LEAP"), 4, "run 6000\n" + leap);
     const Result r = run_text(
@@ -305,7 +304,7 @@ TEST_F(Leap, RestartAndRanks) {
     EXPECT_NEAR(second.last(column), whole.last(column), 1e-7 * std::fabs(whole.last(column)))
         << column;
 
-  // the run may go on with another velocity: none of the former is left over
+  // the run may continue with another velocity: nothing of the former is left
   again.replace(again.find("fast 0.005"), 10, "fast 0.0005");
   const Result slower = run_text(again + "run 300\n", {{"prefix", "slower"}, {"dt", "0.03"}});
   ASSERT_TRUE(succeeded(slower));
@@ -322,9 +321,9 @@ TEST_F(Leap, RestartAndRanks) {
   }
 }
 
-// What an event left moving comes to rest before the plates leap: kinetic energy of the blocks
+// The motion left by an event comes to rest before the plates leap: kinetic energy of the blocks
 // below `rest` times that of a uniform shear between plates as fast as in leaps. Plates do not
-// count: theirs is 0.14 of the limit here, as they are driven all the time.
+// count: theirs is 0.14 of the limit here, as they are always driven.
 TEST_F(Leap, LeapsBeginAtRest) {
   const double rest = 0.06, fast = 0.005;
   const Result r = run_text(
@@ -336,7 +335,7 @@ TEST_F(Leap, LeapsBeginAtRest) {
   ASSERT_TRUE(succeeded(r));
   const double limit = rest * 0.5 * r.last("v_mass") * fast * fast / 3.0;
   int begun = 0, waits = 0;
-  for (std::size_t n = 1; n < r.thermo.size(); ++n) {  // one row for each look of the fix
+  for (std::size_t n = 1; n < r.thermo.size(); ++n) {  // one row for each check by the fix
     if (r.thermo[n - 1].at("f_leap[2]") != 1.0) continue;
     const double kinetic = r.thermo[n].at("c_kinetic");
     if (r.thermo[n].at("f_leap[2]") == 2.0) {
@@ -375,7 +374,7 @@ TEST_F(Leap, CatalogueHasModelTimes) {
   EXPECT_TRUE(stretched);
 }
 
-// A series holds the time of each sample, ruptures have model times, and both go on as they were.
+// A series has the time of each sample, ruptures have model times, and both continue unchanged.
 TEST_F(Leap, SeriesAndRupturesHaveModelTimes) {
   const std::string recorded =
       slow("fix leap all lsm/leap plates fast 0.005 calm 3 settle 0.1 ramp 6 look 0.6\n",
@@ -412,7 +411,7 @@ TEST_F(Leap, SeriesAndRupturesHaveModelTimes) {
     EXPECT_NEAR(e.t_end, model.at(static_cast<double>(e.step_end)), 1e-12 * e.t_end);
   }
 
-  // The second half again, from the restart file: the same bytes.
+  // The second half once more, from the restart file: the same bytes.
   const std::string whole_series = read_file(path("samples.pe")),
                     whole = read_file(path("samples.csv")),
                     whole_ruptures = read_file(path("samples.ruptures"));
@@ -427,7 +426,7 @@ TEST_F(Leap, SeriesAndRupturesHaveModelTimes) {
   EXPECT_EQ(read_file(path("samples.csv")), whole);
   EXPECT_EQ(read_file(path("samples.ruptures")), whole_ruptures);
 
-  // A leap that comes or goes under open files, and a slip history, are refused.
+  // A fix lsm/leap added or removed while files are open, and a slip history, are refused.
   EXPECT_TRUE(failed_with(
       run_text(recorded + "run 1\nunfix leap\nrun 1\n", {{"prefix", "gone"}, {"dt", "0.03"}}),
       {"fix lsm/leap is gone"}));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Links that break, links that do not, and restart files written meanwhile.
+// Links that break, links that do not, and restart files written at that time.
 #include "disc_scene.h"
 #include "lmp_runner.h"
 
@@ -20,14 +20,14 @@ TEST_F(LinkTypes, UnbreakableLinksStayWhereOthersCanBreak) {
       ASSERT_TRUE(succeeded(rest));
       EXPECT_EQ(rest.last("Bonds"), 20.0);
 
-      // pulled at once: the last link (type 2) breaks, and nothing else
+      // pulled suddenly: the last link (type 2) breaks, and nothing else
       const Result pulled =
           run_text(two_link_types(21) + "velocity last set 0.1 0 0\nthermo 10\nrun 200\n",
                    {{"newton", newton}}, ranks);
       ASSERT_TRUE(succeeded(pulled));
       EXPECT_EQ(pulled.last("Bonds"), 19.0);
       EXPECT_GT(pulled.last("c_events[14]"), 0.0);
-      // the force of 0.04 is gone somewhere in a step of length 0.1 * 0.02
+      // the force of 0.04 vanishes within a step of length 0.1 * 0.02
       EXPECT_LT(std::fabs(pulled.last("c_events[13]")), 0.04 * 0.1 * 0.02);
     }
 }
@@ -70,7 +70,7 @@ fix               move all lsm/nve
 compute           events all lsm/events ledger yes strainlimit 10
 )" + std::string(disc_columns) +
                             "thermo 1\nrun 60 upto\nprint \"count = $(f_LSM_BREAK:%.0f)\"\n";
-  // before, in and after the step: by the run itself, and by a command after it
+  // before, during and after the step: by the run itself, and by a command after it
   for (int at : {step - 1, step, step + 1})
     for (bool within : {true, false})
       for (int ranks : {1, 2}) {
@@ -96,9 +96,9 @@ compute           events all lsm/events ledger yes strainlimit 10
 }
 
 TEST_F(BrokenLinks, TooLongAtTheBeginBreaksOnce) {
-  // Too long from the first force evaluation on: gone from lists and files after a run of no steps.
-  // On two ranks the link lies across their border; with newton off both have it, and half of its
-  // energy each.
+  // Too long from the first force evaluation on: absent from lists and files after a run of 0
+  // steps. On two ranks the link lies across their border; with newton off both have it, each with
+  // half of its energy.
   for (const char *newton : {"on", "off"})
     for (int ranks : {1, 2}) {
       SCOPED_TRACE(std::string("newton ") + newton + ", ranks " + std::to_string(ranks));
@@ -122,7 +122,8 @@ run               5
                                 {{"newton", newton}}, ranks);
       ASSERT_TRUE(succeeded(r));
       EXPECT_EQ(r.value("links"), 0.0);
-      EXPECT_EQ(r.thermo.front().at("c_events[6]"), 0.0);  // the energy of what broke just now
+      EXPECT_EQ(r.thermo.front().at("c_events[6]"),
+                0.0);  // the energy of the link that has just broken
       EXPECT_NEAR(r.last("c_events[14]"), 0.005, 1e-15);
     }
 }
@@ -155,9 +156,9 @@ compute           events all lsm/events ledger yes
 
 TEST_F(BrokenLinks, PartnersOfTheFormerPartnerAreTouched) {
   // One disc of a bent chain breaks away from the middle one and meets the last, until then the
-  // partner of its partner. With 'lj 0 1 1', without coul, LAMMPS lists partners of partners behind
-  // partners: the last one moves up, but is none. From which of the two the pair is looked at,
-  // follows from the numbers with nsq, and from the places with bins.
+  // partner of its partner. With 'lj 0 1 1', without coul, LAMMPS lists partners of partners after
+  // partners: the last one moves up, but is none. From which of the two the pair is seen depends on
+  // the IDs with nsq, and on the positions with bins.
   for (const char *list : {"nsq", "bin"})
     for (bool reversed : {false, true})
       for (int ranks : {1, 2}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Begin of a contact within a time step: an oblique bounce with friction.
+// Onset of a contact within a time step: an oblique bounce with friction.
 #include <cmath>
 
 #include "lmp_runner.h"
@@ -47,7 +47,7 @@ print             "py = $(v_py:%.17g)"
 };
 
 TEST_F(Onset, LocatedIsSecondOrderAtTheStepFirst) {
-  // the bounce does not depend on where in a step it begins: root mean square over several begins
+  // the bounce does not depend on where in a step it begins: root mean square over several starts
   auto error = [](const std::string &onset, double dt) {
     double sum = 0.0;
     for (int n = 0; n < 4; ++n) {

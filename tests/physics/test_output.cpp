@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What LAMMPS users take for granted: runs in pieces, data files, local computes.
+// What LAMMPS users expect: runs in pieces, data files, local computes.
 #include "fault_scene.h"
 
 using namespace physics;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Ruptures of compute lsm/events: prescribed slip, a short fault, restart; and where location yes
-// finds an event.
+// Ruptures of compute lsm/events: prescribed slip, a short fault, restart; and the places that
+// location yes gives.
 #include <cmath>
 #include <sstream>
 
@@ -48,7 +48,7 @@ compute           events all lsm/events overwrite yes )" +
          compute + "\nthermo_style      custom step c_events c_events[2] c_events[5]\n";
 }
 
-/// The upper disc of each given bin moves along x at its velocity for so many steps.
+/// The upper disc of each given bin moves along x at its velocity for the given number of steps.
 static std::string moved(const std::vector<std::pair<int, double>> &bins, int steps) {
   std::string script, after;
   for (const auto &[bin, velocity] : bins) {
@@ -68,8 +68,8 @@ static std::vector<LSM::SlipRecord> records_of(const std::string &path) {
   return records;
 }
 
-/// The file without what has to differ between numbers of ranks: their number, and the last digits
-/// of PE.
+/// The file without what must differ between numbers of ranks: their number, and the last digits of
+/// PE.
 static std::string without_ranks_and_pe(const std::string &file) {
   std::istringstream in(file);
   std::string out;
@@ -100,7 +100,7 @@ TEST_F(Ruptures, PrescribedSlipIsFoundOnAnyNumberOfRanks) {
       moved({{1, 0.04}, {10, 0.03}, {5, 0.002}}, 10) +              // 3
       moved({{12, -0.05}, {5, 0.002}}, 10) +  // 4: 10 and 12 are not neighbours
       moved({{5, 0.002}}, 60);
-  // along x, of an upper disc that went by d: the contact slips along its tangent, which turns; the
+  // along x, of an upper disc moved by d: the contact slips along its tangent, which turns; the
   // step is finite
   const auto slip = [](double d) { return 1.99 * std::atan(d / 1.99); };
   const double close = 3e-5;
@@ -133,9 +133,10 @@ TEST_F(Ruptures, PrescribedSlipIsFoundOnAnyNumberOfRanks) {
       EXPECT_NEAR(b.x_centroid, 21.0, 1e-9);
       // against the driven direction
       EXPECT_NEAR(c.slip_moment, -slip(0.05), close * 0.05);
-      // friction: mu fn slip, fn 0.0097 on the way, and half of that in the first of 20 steps
+      // friction: mu fn slip, fn 0.0097 during the motion, and half of that in the first of 20
+      // steps
       EXPECT_NEAR(b.size, 1e-5 * 0.0097 * 0.06 * 0.975, 0.01 * 6e-9);
-      // upper discs that went by d press back by fn d / 2 each, over bins of 2
+      // upper discs moved by d press back by fn d / 2 each, over bins of 2
       EXPECT_NEAR(a.stress_drop, 0.5 * 0.01 * 0.04 / 2.0, 0.05 * 1e-4);
       EXPECT_NEAR(c.stress_drop, -0.5 * 0.01 * 0.05 / 2.0, 0.1 * 1.25e-4);
       EXPECT_GT(a.pe_start, a.pe_end);
@@ -144,7 +145,7 @@ TEST_F(Ruptures, PrescribedSlipIsFoundOnAnyNumberOfRanks) {
       const LSM::SlipHistoryInfo info = LSM::SlipHistoryReader(path("moved.slip")).info();
       const auto slow = unit::slow_ruptures(info, records_of(path("moved.slip")));
       EXPECT_NEAR(slow.slip_in_ruptures, 3.0 * slip(0.04) + slip(0.06) - slip(0.05), close * 0.23);
-      // the last of the ten intervals belongs to a record that is not complete
+      // the last of the ten intervals belongs to an incomplete record
       EXPECT_NEAR(slow.slip_elsewhere, slip(0.018), close * 0.018);
       EXPECT_NEAR(a.slip_moment + b.slip_moment + c.slip_moment, 0.5 * 2.0 * slow.slip_in_ruptures,
                   1e-12);
@@ -284,8 +285,7 @@ TEST_F(Ruptures, GoOnFromARestartFile) {
       EXPECT_NEAR(x[n].pe, y[n].pe, 1e-9 * x[n].pe);
     }
   }
-  // of a compute without ruptures there is nothing to go on with, and no file that it could belong
-  // to
+  // a compute without ruptures left no state to continue, and no file that it could belong to
   const std::string state = fault_read() + fault_shear("catalogue bare.csv") +
                             "thermo 1000\nrun 100\nwrite_restart bare\n";
   ASSERT_TRUE(succeeded(run_text(state)));
@@ -325,7 +325,7 @@ TEST_F(Ruptures, OneLineOfError) {
       {"history: file h.slip exists"}));
 }
 
-// Discs that move off those below lower PE; those that move back raise it, which ends the event.
+// Discs that move off those below reduce PE; those that move back raise it, which ends the event.
 TEST_F(Located, MomentCentroidAndLengthOfAPrescribedEvent) {
   const std::string script =
       upper_and_lower("catalogue located.csv location yes bin 2 fraction 0.05 lambda 0") +
@@ -353,7 +353,7 @@ TEST_F(Located, MomentCentroidAndLengthOfAPrescribedEvent) {
                 1e-3);
     EXPECT_GE(e.x_centroid, 0.0);
     EXPECT_LT(e.x_centroid, 40.0);
-    // what the springs of the four contacts lost
+    // the energy that the springs of the four contacts lost
     double drop = 0.0;
     for (const double d : {0.06, 0.08, 0.02, 0.002})
       drop += 0.5 * (0.01 * 0.01 - std::pow(2.0 - std::hypot(d, 1.99), 2));
@@ -361,8 +361,8 @@ TEST_F(Located, MomentCentroidAndLengthOfAPrescribedEvent) {
   }
 }
 
-// A contact whose two discs lie on either side of the border of the box is in one bin, whatever
-// image of a disc it was found with.
+// A contact whose discs lie on either side of the border of the box is in one bin, whatever image
+// of a disc it was found with.
 TEST_F(Located, ContactsAcrossTheBorderOfTheBox) {
   for (const double side : {1.0, -1.0}) {
     // to the left the contact at the border joins the bin of column 19, to the right it has that of
@@ -383,7 +383,7 @@ TEST_F(Located, ContactsAcrossTheBorderOfTheBox) {
   }
 }
 
-// Contacts are recorded once, and each compute sorts them into bins of its own.
+// Contacts are recorded once, and each compute sorts them into its own bins.
 TEST_F(Located, EachComputeHasItsOwnBins) {
   const auto located = [](const char *more) {
     return upper_and_lower("catalogue own.csv location yes bin 2 fraction 0.05 lambda 0\n" +

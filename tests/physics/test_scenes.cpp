@@ -36,7 +36,7 @@ TEST_F(Collision, MomentumIsKeptOnAllRankCounts) {
 }
 
 TEST_F(Collision, EnergyErrorFallsWithTheTimeStep) {
-  // second order at least; what is left after a collision even falls as (w dt)^3
+  // second order at least; the error after a collision even falls as (w dt)^3
   // the error depends on where in a step contact begins: the largest over several gaps is compared
   auto worst = [](double dt) {
     double most = 0.0;
@@ -85,8 +85,7 @@ TEST_F(PWave, LatticeOnSeveralRanks) {
                   one, 1e-8);
 }
 
-// Position of the half of the pulse's height on its leading edge, from the first layer above y =
-// middle.
+// Position of half the pulse's height on its leading edge, from the first layer above y = middle.
 static double front(const std::vector<std::pair<double, double>> &layers, double middle) {
   std::size_t peak = 0;
   for (std::size_t n = 0; n < layers.size(); ++n)
@@ -140,7 +139,7 @@ TEST_F(Coulomb, SticksBelowTheStaticStrength) {
     const Result r = run_scene("coulomb_block.in", {{"mus", mus}, {"pull", "0.98"}});
     ASSERT_TRUE(succeeded(r));
     EXPECT_EQ(r.value("friction_work"), 0.0);
-    // held by the spring: force / kt, give or take the swing the ramp left
+    // held by the spring: force / kt, up to the oscillation left by the ramp
     const double elastic = 0.98 * std::stod(mus) * 0.01;
     EXPECT_NEAR(r.value("slip"), elastic, 0.02 * elastic);
   }
@@ -157,7 +156,7 @@ TEST_F(Coulomb, SlidesAboveItWithTheRightAcceleration) {
 }
 
 TEST_F(Coulomb, StaticStrengthIsAboveTheDynamicOne) {
-  // 0.98 x 0.8 is far above the dynamic strength and holds; once it moves, friction is the dynamic
+  // 0.98 x 0.8 is far above the dynamic strength and sticks; once it moves, friction is the dynamic
   // one
   const Result sticks = run_scene("coulomb_block.in", {{"mus", "0.8"}, {"pull", "0.98"}});
   const Result slides = run_scene("coulomb_block.in", {{"mus", "0.8"}, {"pull", "1.02"}});
@@ -195,9 +194,9 @@ TEST_F(Coulomb, RanksAndNewton) {
 
 TEST_F(Coulomb, ContactsSeenFromTheOtherSide) {
   // Two discs, one beside the other and a little higher, are sheared while both drift upwards
-  // through the bins by which LAMMPS finds pairs. It lists the left one first where both are in one
+  // through the bins by which LAMMPS finds pairs. It lists the left one first if both are in one
   // row of bins, else the lower one: the contact is seen from one side, then from the other. Listed
-  // by number it stays as it is. On two ranks their border goes across the way.
+  // by ID it is always seen from the same side. Two ranks have their border across the path.
   auto run = [](const std::string &list, const std::string &newton, int ranks) {
     return run_text("processors 1 * 1\n" + discs({{"-0.85", "0.45"}, {"0.85", "-0.45"}}) + R"in(
 variable          list index bin
@@ -249,14 +248,14 @@ print             "height = $(v_y:%.17g)"
 }
 
 TEST_F(Coulomb, SpringOfAStickingContactIsSecondOrder) {
-  // A disc moves past another on a straight line, without slip: each step adds the distance across
-  // the line between the centres, in all the integral of c / r with c the cross product of distance
-  // and velocity. While they come closer all the way, an increment taken at the end of a step, or
-  // at its begin, is off by half of what the distance changes in it, always to the same side.
+  // A disc moves past another on a straight line, without slip: each step adds the displacement
+  // across the line between the centres, in total the integral of c / r with c the cross product of
+  // distance and velocity. As they approach throughout, an increment taken at the end of a step, or
+  // at its start, is wrong by half the change of the distance in it, always with the same sign.
   const double x = 1.95, y = -0.4, vx = -0.15, vy = 0.05, time = 6.4;
   const double speed = std::hypot(vx, vy), cross = x * vy - y * vx;
   const double from = (x * vx + y * vy) / speed, to = from + speed * time;
-  ASSERT_LT(to, 0.0);  // the closest place is not reached
+  ASSERT_LT(to, 0.0);  // the point of closest approach is not reached
   const double h = std::fabs(cross) / speed;
   const double exact = h * (std::asinh(to / h) - std::asinh(from / h));
   std::vector<double> off;
@@ -328,7 +327,7 @@ TEST_F(Tension, SameOnAllRankCountsAndNewton) {
 
 // ---- plates on a lattice of discs of radius and mass 1 ------------------------------------------
 
-/// A bar of the lattice between two plates that are pressed from time 0 on; its P-waves run across
+/// A bar of the lattice between two plates that are loaded from time 0 on; its P-waves run across
 /// the rows.
 class Plates : public Lmp {
  protected:
@@ -376,8 +375,8 @@ run               4000
 };
 
 TEST_F(Plates, ImpedanceAddsToThatOfTheBlocks) {
-  // Eq. 4 times the mass per area; a plate pressed by a stress moves with the stress over the sum
-  // of the impedances until the wave from the other side is there, 138 / 2.12 = 65 time units
+  // Eq. 4 times the mass per area; a plate under a stress moves with the stress over the sum of the
+  // impedances until the wave from the other side arrives, after 138 / 2.12 = 65 time units
   const double blocks = std::sqrt(9.0 / 8.0) * 2.0 / (2.0 * std::sqrt(3.0));
   double rest = 0.0;
   for (const double impedance : {0.0, 0.3, blocks, 3.0}) {
@@ -387,8 +386,7 @@ TEST_F(Plates, ImpedanceAddsToThatOfTheBlocks) {
     const double speed =
         0.5 * (r.thermo.at(11).at("f_plates[9]") - r.thermo.at(4).at("f_plates[9]")) / 35.0;
     EXPECT_NEAR(speed / (1e-4 / (impedance + blocks)), 1.0, 0.02) << "impedance " << impedance;
-    // three crossings later: waves that were reflected are still there, those of the matching plate
-    // are gone
+    // three crossings later: reflected waves are still there, those of the matching plate are gone
     const double moving = r.thermo.at(40).at("c_moving");
     if (impedance == 0.0) rest = moving;
     std::printf("impedance %.4g: speed %.4g of theory, kinetic energy %.3g\n", impedance,
@@ -406,7 +404,7 @@ TEST_F(Plates, WorkOfAStressThatIsRamped) {
   // Plates without blocks, a disc each, from rest under a force that grows: half the square of the
   // momentum over the mass is the work. The trapezoidal rule of a step differs from what velocity
   // Verlet gives the plate by dt^2 (F_end^2 - F_begin^2) / (8 m), which adds up to the last force
-  // alone; with the stress of the begin or the end of a step the work is off by 2 dt / (3 t).
+  // alone; with the stress of the start or the end of a step the work is off by 2 dt / (3 t).
   const double stress = 1e-3, length = 4.0, ramp = 40.0, masses[] = {2.0, 3.0};
   for (double dt : {0.4, 0.1}) {
     const Result r = run_text(R"in(

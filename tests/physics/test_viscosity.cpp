@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Dashpots of links and contacts (kelvin-voigt): closed forms, order, stability limit, energy, and
-// what else a run may do with them.
+// their use in runs.
 #include <array>
 #include <cmath>
 #include <string>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double stiffness = 1.5;
 
-/// Two discs of mass 1 that touch, apart with the velocity `apart`.
+/// Two discs of mass 1 that touch and separate with the velocity `apart`.
 std::string two_discs(const std::string &apart, bool linked) {
   std::string text = discs({{"-1", "0.3"}, {"1", "0.3"}});
   if (linked) text += "create_bonds single/bond 1 1 2\nbond_style lsm/linked\n";
@@ -37,7 +37,7 @@ run               0
 run               $(round(v_end/v_dt):%.0f)
 )";
 
-/// Stretch of an oscillator that begins at 0 with the given velocity: two masses of 1.
+/// Elongation of an oscillator that starts at 0 with the given velocity: two masses of 1.
 double damped(double velocity, double retardation, double t) {
   const double w2 = 2.0 * stiffness, half = 0.5 * w2 * retardation, turn = w2 - half * half;
   const double decay = velocity * std::exp(-half * t);
@@ -53,7 +53,7 @@ std::string linked(const std::string &apart = "0.02") {
 }  // namespace
 
 TEST_F(Viscosity, TwoLinkedDiscsAsInTheClosedForm) {
-  // swinging, and creeping back
+  // underdamped and overdamped
   for (const char *time : {"0.2", "2.0"}) {
     std::vector<double> off, residual;
     for (const double dt : {0.08, 0.04, 0.02}) {
@@ -123,7 +123,7 @@ TEST_F(Viscosity, LimitOfTheTimeStepIsSharp) {
 }
 
 TEST_F(Viscosity, ContactsAsLinksButTheyDoNotPull) {
-  // two discs meet and part again: while they touch they are a link; both pair styles
+  // two discs meet and part again: while they touch they act as a link; both pair styles
   for (const char *style :
        {"lsm/free\npair_coeff * * 1.5", "lsm/friction\npair_coeff * * 1.5 1.0 0.5"}) {
     const std::string begin = two_discs("-0.02", false) + "pair_style " + style;
@@ -139,7 +139,7 @@ TEST_F(Viscosity, ContactsAsLinksButTheyDoNotPull) {
     EXPECT_LT(std::fabs(off[1]), 5e-3 * 0.02) << style;
     EXPECT_GT(std::log2(off[0] / off[1]), 0.8) << style;
 
-    // where the spring would be overtaken by the dashpot they let go, and what is left is kinetic
+    // where the dashpot would exceed the spring they separate, and the remaining energy is kinetic
     const Result parted =
         run_text(begin + " kelvin-voigt 1.0\n" + two_end, {{"dt", "0.01"}, {"end", "8"}});
     ASSERT_TRUE(succeeded(parted));
@@ -147,7 +147,7 @@ TEST_F(Viscosity, ContactsAsLinksButTheyDoNotPull) {
     EXPECT_GT(parted.last("KinEng"), 0.0) << style;
     EXPECT_LT(parted.last("KinEng"), 0.1 * 1e-4) << style;
     EXPECT_NEAR(parted.last("KinEng") + parted.last("c_events[12]"), 1e-4, 2e-3 * 1e-4) << style;
-    // never faster than the dashpot lets them: the overlap shrinks at most as exp(-t/time)
+    // never faster than the dashpot allows: the overlap shrinks at most as exp(-t/time)
     EXPECT_LT(parted.last("v_s"), 0.02 * 8) << style;
   }
 }
@@ -172,7 +172,7 @@ std::string wave(const std::string &velocity, const std::string &dimension_2 = "
 }  // namespace
 
 TEST_F(Viscosity, PlaneWavesDecayByTheSquareOfTheFrequency) {
-  // a standing wave along the rows: one motion of the lattice, Q = 1 / (frequency * time)
+  // a standing wave along the rows: one mode of the lattice, Q = 1 / (frequency * time)
   struct Wave {
     const char *velocity;
     double waves;  // in the period of 16 discs, 32 long
@@ -192,7 +192,7 @@ TEST_F(Viscosity, PlaneWavesDecayByTheSquareOfTheFrequency) {
       const std::string pattern = "variable u atom 1e-7*sin(2*PI*" + text(n) + "*x/32)\n";
       const std::string velocity =
           pattern + (longitudinal ? "velocity all set v_u 0 0\n" : "velocity all set 0 v_u 0\n");
-      // kinetic energy after whole periods of the damped swing
+      // kinetic energy after whole periods of the damped oscillation
       const double half = 0.5 * w2 * time, turn = std::sqrt(w2 - half * half);
       const int periods = 3;
       const double t = periods * 2.0 * std::acos(-1.0) / turn;
@@ -201,7 +201,7 @@ TEST_F(Viscosity, PlaneWavesDecayByTheSquareOfTheFrequency) {
                                 {{"retardation", "kelvin-voigt 0.1"}});
       ASSERT_TRUE(succeeded(r));
       const double begin = r.thermo.front().at("KinEng");
-      // largest kinetic energy near that time: a whole swing further, so only the decay is left
+      // largest kinetic energy near that time: a whole period later, so only the decay is left
       const double left = std::log(begin / r.last("KinEng"));
       const double q = turn * t / left, expected = turn / (2.0 * half);
       std::printf("%s wave, %g discs long: Q = %.3f, theory %.3f\n",
@@ -280,7 +280,7 @@ TEST_F(Viscosity, InPiecesAndFromARestartFile) {
 }
 
 TEST_F(Viscosity, VelocitiesSetBetweenRunsCount) {
-  // as a run that begins with them: the dashpots do not go on with those of before
+  // as a run that begins with them: nothing of the previous dashpots is left
   const Variables variables = {{"dt", "0.02"}, {"end", "0.4"}, {"retardation", "kelvin-voigt 0.5"}};
   const Result begun = run_text(linked("0.05"), variables);
   const Result changed = run_text(linked("0.02") +
@@ -293,7 +293,7 @@ TEST_F(Viscosity, VelocitiesSetBetweenRunsCount) {
 }
 
 TEST_F(Viscosity, ThreeDimensions) {
-  // three discs at an angle: what the dashpots take is what is lost, and the momentum stays
+  // three discs at an angle: the dashpots dissipate the energy lost, and the momentum is conserved
   const std::string script =
       "units lj\nboundary f f f\nnewton ${newton}\natom_style hybrid bond sphere\n"
       "atom_modify map array\ncomm_modify mode single cutoff 4.5\nspecial_bonds lj/coul 0 1 1\n"
@@ -320,7 +320,7 @@ TEST_F(Viscosity, ThreeDimensions) {
 
 TEST_F(Viscosity, OtherCommandsKnowIt) {
   const Variables variables = {{"dt", "0.02"}, {"end", "0.4"}, {"retardation", "kelvin-voigt 0.5"}};
-  // force of compute bond/local and the virial hold the dashpot
+  // force of compute bond/local and the virial include the dashpot
   std::string script =
       two_discs("0.02", true) +
       "bond_coeff 1 1.5 kelvin-voigt 0.5\npair_style lsm/free\npair_coeff * * 1\n"
@@ -336,12 +336,12 @@ TEST_F(Viscosity, OtherCommandsKnowIt) {
   EXPECT_NEAR(r.last("c_f"), r.last("c_pull"), 1e-15);
   EXPECT_NEAR(r.last("v_virial"), r.last("c_pull") * r.last("v_r"), 1e-12);
 
-  // data files hold the time
+  // data files have the time
   const Result data = run_text(linked() + "write_data viscous.data\n", variables);
   ASSERT_TRUE(succeeded(data));
   EXPECT_NE(read_file(path("viscous.data")).find("1 1.5 kelvin-voigt 0.5"), std::string::npos);
 
-  // a minimizer does not feel it, and the run after it does
+  // a minimizer is without it, and the run after it has it
   const auto minimized = [&](const std::string &time) {
     Variables with = variables;
     with.back().second = time;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the statistical tests share: counting how often an interval holds the truth.
+// Shared by the statistical tests: how often an interval contains the true value.
 #ifndef LSM_TESTS_POSTPROC_COVERAGE_H
 #define LSM_TESTS_POSTPROC_COVERAGE_H
 
@@ -14,7 +14,7 @@ inline void expect_binomial(int hits, int trials, double probability, const std:
   EXPECT_NEAR(hits, trials * probability, 3.0 * sigma) << what;
 }
 
-// Counts how many estimates lie within one and two standard errors of the truth.
+// Counts how many estimates lie within one and two standard errors of the true value.
 class Coverage {
  public:
   explicit Coverage(double truth) : truth_(truth) {}

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Fuzz target of the readers of catalogues, PE series and slip histories, strict and lenient.
-// Whatever the bytes, a reader gives what its description promises or throws a FileError; nothing
-// else, never a crash.
+// For any bytes a reader returns what its description promises or throws a FileError; it never
+// crashes.
 //
 // Built as a program it mutates files of its own for a bounded time:
 //   fuzz_readers [SECONDS [SEED]]        (default 2 1)
@@ -30,8 +30,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder of its own, in memory where there is such a place (files are written by the thousand);
-/// removed at the end.
+/// A folder of its own, in memory if possible (thousands of files are written); removed at the end.
 struct Folder {
   Folder() {
     const fs::path memory = "/dev/shm";
@@ -126,7 +125,7 @@ void try_catalogue(const std::string &path) {
   ++catalogues.inputs;
   ++(!a.refused ? catalogues.accepted : !b.refused ? catalogues.repaired : catalogues.refused);
   if (a.refused) return;
-  // What was read can be written, and reads back.
+  // What was read can be written and read back.
   const std::string copy = (folder().path / "copy").string();
   LSM::CatalogueInfo info;
   info.model = "lsm";
@@ -199,7 +198,7 @@ Outcome read_series(const std::string &path, bool lenient, std::vector<Sample> &
       if (!samples.empty()) {
         require(samples.back().step < s.step, "increasing steps");
         require(samples.back().time <= s.time, "increasing times");
-        // Only a change that is too large for a double is more than a picker can take.
+        // A picker may refuse only a change that is too large for a double.
         picking = picking && std::isfinite(s.pe - samples.back().pe);
       }
       if (picking) picker.push(s.step, s.time, s.pe, event);
@@ -373,12 +372,12 @@ class Mutator {
         text = text.substr(0, at) + other.substr(below(other.size() + 1));
         break;
       }
-      case 7: {  // a digit for a digit keeps the form and changes the order
+      case 7: {  // replacing a digit by a digit keeps the form and changes the order
         const std::size_t digit = text.find_first_of("0123456789", at);
         if (digit != std::string::npos) text[digit] = static_cast<char>('0' + below(10));
         break;
       }
-      default: {  // a line twice or in another place
+      default: {  // a line repeated or moved
         const std::size_t begin = text.rfind('\n', at) + 1, end = text.find('\n', begin);
         if (end == std::string::npos) break;
         const std::string line = text.substr(begin, end + 1 - begin);
@@ -413,7 +412,7 @@ int main(int argc, char **argv) {
   };
   for (const std::string &file : files) run(file);
   const auto begin = std::chrono::steady_clock::now();
-  // A slow machine still makes the first inputs, which reach all outcomes.
+  // A slow machine still runs the first inputs, which reach all outcomes.
   for (int i = 0; i < 5000 ||
                   std::chrono::steady_clock::now() - begin < std::chrono::duration<double>(seconds);
        ++i) {

@@ -25,7 +25,7 @@ std::vector<double> starts_of(const std::vector<double> &times) {
   return starts;
 }
 
-// Of times with a known mean and deviation.
+// For times of known mean and deviation.
 TEST(Clustering, ClosedForms) {
   std::vector<double> times;
   for (int i = 0; i < 20; ++i) times.push_back(i % 2 ? 3.0 : 1.0);
@@ -50,7 +50,7 @@ TEST(Clustering, FiniteBurstinessReachesItsEnds) {
   }
 }
 
-// Independent times: no number is off chance more often than it should be.
+// Independent times: no statistic deviates from chance more often than stated.
 TEST(Clustering, IndependentTimesAreSeenAsSuch) {
   Random random(5);
   int off = 0, trials = 0;
@@ -78,7 +78,7 @@ TEST(Clustering, RunsHaveMemory) {
   EXPECT_GT(c.after[2].value, 1.4);
   EXPECT_NEAR(c.after[0].mean, 1.0, 0.03);
   EXPECT_GT(c.finite_burstiness.value, 0.2);
-  // the same by eighths, and in the whole distribution of the times
+  // the same by eighths, and for the whole distribution of the times
   EXPECT_LT(c.after_eighth.front().value, 0.6);
   EXPECT_GT(c.after_eighth.back().value, 1.4);
   EXPECT_LE(c.after_eighth.back().p, 0.01);
@@ -97,7 +97,7 @@ TEST(Clustering, TimesAfterThirds) {
   EXPECT_EQ(after[2], (std::vector<double>{5.0, 4.0, 6.0}));
 }
 
-// Independent times: the distance after short and long ones is that of chance.
+// Independent times: the distance after short and long ones is that expected by chance.
 TEST(Clustering, DistanceOfIndependentTimesIsThatOfChance) {
   Random random(8);
   int off = 0;
@@ -134,7 +134,7 @@ TEST(Steadiness, DepartureOfAKnownSeries) {
 }
 
 TEST(AroundLarge, CountsBeforeAndAfter) {
-  // a large event in every tenth place, followed by three soon and preceded by none
+  // every tenth event is large, followed by three soon and preceded by none
   std::vector<double> starts, sizes;
   for (int k = 0; k < 50; ++k)
     for (int i = 0; i < 10; ++i) {

@@ -77,8 +77,8 @@ class Sequences {
     gsl_rng_set(rng_.get(), seed);
   }
   static constexpr double truth = 2.5 * 13.0 / 12.0, pause = 100.0, delay = 30.0;
-  // From the moments of a sequence: number K of events geometric, and z = s^2 - truth s, of which
-  // the sum over the catalogue divided by that of s is the deviation.
+  // From the moments of a sequence: number K of events geometric, and z = s^2 - truth s; the sum of
+  // z over the catalogue divided by that of s is the deviation.
   static double error(double sequences) {
     const double mean_k = 10.0, mean_k2 = 190.0;
     double variance = 0.0;
@@ -135,7 +135,7 @@ TEST(CharacteristicSize, ErrorCoversTheTruthThoughEventsComeInSequences) {
     length += point.block / trials;
   }
   blocks.expect("s* of sequences");
-  // The known error, of which events one by one have less than half.
+  // The known error; that of single events is less than half of it.
   const double known = Sequences::error(sequences);
   EXPECT_NEAR(error / known, 1.0, 0.06);
   EXPECT_LT(error_by_event / known, 0.5);
@@ -154,7 +154,7 @@ TEST(CharacteristicSize, BlocksOfTime) {
   const SizePoint given = at(1000.0);
   EXPECT_EQ(given.blocks, 20);
   EXPECT_NEAR(given.block, 1000.0, 30.0);
-  // The shortest blocks hold an event or none: event by event.
+  // The shortest blocks contain one event or none: event by event.
   EXPECT_NEAR(at(0.5).error / at(0.0).error, 1.0, 0.15);
   EXPECT_GT(given.error / at(0.0).error, 1.3);
   EXPECT_THROW(at(1.1e4), std::invalid_argument);
@@ -167,7 +167,7 @@ TEST(CharacteristicSize, BlocksOfTime) {
 }
 
 TEST(CharacteristicSize, BlocksGoRoundTheRing) {
-  // A pattern that repeats: every half of the ring holds five of it, wherever it begins.
+  // A pattern that repeats: every half of the ring contains five repetitions, wherever it begins.
   std::vector<double> sizes;
   for (int i = 0; i < 40; ++i) sizes.push_back(1.0 + i % 4);
   const SizePoint point =
@@ -199,7 +199,7 @@ TEST(BlockLength, OfAnAutoregressiveSeries) {
 
 TEST(BlockLength, OfASeriesWhoseCorrelationEnds) {
   // Sums of five numbers in a row: correlated up to lag 4. The same rule (Politis & White 2004),
-  // written out for that: lags up to 4 count in full, 5 to 7 less and less, 8 no more.
+  // written out for this case: lags up to 4 count in full, 5 to 7 less and less, 8 not at all.
   LSM::Random random(7);
   const std::size_t n = 4000;
   std::vector<double> noise(n + 4), x(n, 0.0);
@@ -457,7 +457,7 @@ TEST(Saturation, DegenerateInput) {
   EXPECT_EQ(reason(curve(many, 90.0, 1.0)), outside);
   EXPECT_FALSE(curve(many, 3.0, 1.0).saturation.degenerate);
   EXPECT_FALSE(curve(many, 40.0, 1.0).saturation.degenerate);
-  // The same in reverse: a fall, which has an end, but no growth.
+  // The same reversed: a fall, which has an end, but no growth.
   EXPECT_FALSE(reason(curve(many, 12.0, -1.0)).empty());
 }
 

@@ -71,7 +71,7 @@ TEST(BValue, SmallExampleByHand) {
   EXPECT_EQ(aki.n, 10);
   EXPECT_NEAR(aki.b, 1.0 / (ln10 * 0.55), 1e-12);
   EXPECT_NEAR(aki.error, ln10 * aki.b * aki.b * std::sqrt(0.825 / 90.0), 1e-12);
-  // In bins of 0.1 the bin centred at 1.0 holds 0.99, too.
+  // In bins of 0.1 the bin centred at 1.0 includes 0.99, too.
   const BValue tinti = b_value(magnitudes, 1.0, 0.1);
   EXPECT_EQ(tinti.n, 11);
   EXPECT_NEAR(tinti.b, std::log(1.0 + 0.1 * 11.0 / 5.49) / (ln10 * 0.1), 1e-12);
@@ -85,7 +85,7 @@ TEST(BValue, ErrorCoversTheTruth) {
     for (const double width : {0.0, 0.1}) {
       Coverage coverage(b);
       for (std::uint64_t seed = 1; seed <= 400; ++seed) {
-        // Bins centred at multiples of width take what lies half a bin around them.
+        // Bins centred at multiples of width include values within half a bin.
         std::vector<double> magnitudes = gutenberg_richter(b, 2.0 - 0.5 * width, 300, seed);
         for (double &m : magnitudes) m = binned(m, width);
         const BValue result = b_value(magnitudes, 2.0, width);
@@ -109,7 +109,7 @@ TEST(BValue, PositiveDifferencesHaveTheSame) {
 }
 
 TEST(BValue, PositiveDifferencesForgiveWhatIsMissedAfterLargeEvents) {
-  // An event of magnitude m hides those below m - 1, and less from event to event.
+  // An event of magnitude m hides those below m - 1; the limit decreases from event to event.
   std::vector<double> seen;
   double hidden = -1.0;
   for (const double m : gutenberg_richter(1.0, 0.0, 200000, 7)) {

@@ -69,7 +69,7 @@ double integrate(const std::function<double(double)> &density, double lo, double
   return total;
 }
 
-// Where the closed forms cancel there are series: both sides of the border, and 0.
+// Series replace the closed forms where these cancel: both sides of the border, and 0.
 TEST(PowerLaw, MeanAndVarianceAgreeWithQuadratureForAnyTilt) {
   for (double z : {0.0, 1e-9, 1e-4, 0.03, 0.07, 0.0999, 0.1001, 0.5, 3.0, 30.0}) {
     const auto moment = [&](double shift, int power) {
@@ -269,8 +269,8 @@ TEST(PowerLaw, ProbabilityOfManyValues) {
     expect_binomial(below_tenth, count, 0.1, searched ? "0.1, searched" : "0.1");
     expect_binomial(below_half, count, 0.5, searched ? "0.5, searched" : "0.5");
   }
-  // One of ten is from another law: seen in 12000 values, and no more in 1200 of them than by
-  // chance.
+  // One in ten is from another law: detected in 12000 values, but in 1200 of them no more often
+  // than by chance.
   std::vector<double> mixed = power_law_sample(n - n / 10, 1.3, 1.0, 1e3, random);
   const std::vector<double> other = power_law_sample(n / 10, 2.5, 1.0, 1e3, random);
   mixed.insert(mixed.end(), other.begin(), other.end());
@@ -282,8 +282,7 @@ TEST(PowerLaw, ProbabilityIsTheShareOfSamplesThatFitWorse) {
   LSM::Random random(31);
   constexpr int replicas = 8000;
   for (double alpha : {1.0, 2.0}) {
-    // a sample whose probability is in the middle, where a few per cent of the distance change it
-    // most
+    // a sample of medium probability, which a few per cent of the distance change most
     std::vector<double> data;
     double about = 0.0;
     for (std::uint64_t seed = 1; std::fabs(about - 0.5) > 0.2 && seed < 100; ++seed) {
@@ -366,7 +365,7 @@ TEST(PowerLaw, OtherLawsAreRejected) {
 TEST(PowerLaw, SearchFindsWhereThePowerLawBegins) {
   LSM::Random random(9);
   for (int i = 0; i < 5; ++i) {
-    // Exponent 1.5 above 1e-3; a heap just below, too narrow to be a range of its own.
+    // Exponent 1.5 above 1e-3; a cluster just below, too narrow to be a range of its own.
     std::vector<double> sample = power_law_sample(4000, 1.5, 1e-3, 1.0, random);
     for (int k = 0; k < 2000; ++k) sample.push_back(1e-3 * random.uniform(0.5, 1.0));
     std::sort(sample.begin(), sample.end());
@@ -379,7 +378,7 @@ TEST(PowerLaw, SearchFindsWhereThePowerLawBegins) {
     EXPECT_NEAR(fit.alpha, 1.5, 4.0 * fit.standard_error);
     EXPECT_EQ(fit.n, std::count_if(sample.begin(), sample.end(),
                                    [&](double x) { return x >= fit.lo && x <= fit.hi; }));
-    // Both cuts: nothing outside the law gets in.
+    // Both cuts: nothing outside the law is included.
     for (int k = 0; k < 2000; ++k) sample.push_back(random.uniform(1.0, 1.5));
     std::sort(sample.begin(), sample.end());
     search.hi = infinity;
@@ -473,8 +472,8 @@ TEST(PowerLaw, CutOffIsNotFoundWhereThereIsNone) {
       ++significant;
     }
   }
-  // At the border of the parameter half the samples prefer the power law itself, and the rest is
-  // half as often significant as p says.
+  // At the border of the parameter half the samples prefer the power law itself, and the rest are
+  // significant half as often as p states.
   expect_binomial(none, 300, 0.5, "no cut-off");
   expect_binomial(significant, 300, 0.025, "cut-off with p < 0.05");
 }

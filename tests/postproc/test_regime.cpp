@@ -24,7 +24,7 @@ void saw_tooth(RegimeMeter &meter, double up, int n, int m, int times) {
 }
 
 TEST(Regime, OfASawToothIsTheRatioOfItsSlopes) {
-  // windows of 5 samples, flanks of 200 and 10: no window holds a turn
+  // windows of 5 samples, flanks of 200 and 10: no window contains a turning point
   RegimeMeter meter(0.5, 0.1, 120);
   saw_tooth(meter, 1e-3, 200, 10, 50);
   const Regime r = meter.result();

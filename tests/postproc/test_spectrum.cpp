@@ -87,7 +87,7 @@ TEST(Spectrum, SineHasHalfTheSquareOfItsAmplitude) {
   const std::size_t n = 256;
   for (const Window window : windows) {
     WelchSpectrum spectrum({n, 0.5, window, Detrend::mean}, dt);
-    // 20 periods in a segment: all of it within the main lobe of the window.
+    // 20 periods in a segment: all power within the main lobe of the window.
     for (int i = 0; i < 4096; ++i)
       spectrum.add(3.0 + amplitude * std::sin(2.0 * pi * 20.0 * i / static_cast<double>(n)));
     const std::vector<SpectrumPoint> points = spectrum.points();

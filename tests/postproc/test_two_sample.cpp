@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Two-sample tests: distances by hand, false alarms as often as stated, for series with memory,
-// too.
+// Two-sample tests: distances by hand; false alarms as often as stated, also for series with
+// memory.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,7 +18,7 @@ double gaussian(LSM::Random &random) {
          std::cos(6.283185307179586 * random.uniform());
 }
 
-/// exp of a series in which each value remembers the one before it.
+/// exp of an autoregressive series.
 std::vector<double> series(LSM::Random &random, int n, double memory, double mean = 0.0) {
   std::vector<double> values;
   double x = gaussian(random);
@@ -29,7 +29,7 @@ std::vector<double> series(LSM::Random &random, int n, double memory, double mea
   return values;
 }
 
-/// Of `trials` pairs from the same law, how many have p < 0.05?
+/// Number of pairs from the same law, of `trials`, that have p < 0.05.
 int alarms(int trials, double memory, int block) {
   LSM::Random random(7);
   int count = 0;
@@ -62,7 +62,7 @@ TEST(TwoSample, FalseAlarmsAsOftenAsStated) {
   EXPECT_NEAR(alarms(trials, 0.6, 0), 0.05 * trials, slack);
 }
 
-// So many that divisions are taken by classes of ranks.
+// So many that the divisions are made by classes of ranks.
 TEST(TwoSample, ManyValues) {
   LSM::Random random(9);
   const int trials = 100;

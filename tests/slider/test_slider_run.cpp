@@ -72,7 +72,7 @@ TEST(SliderRun, JumpingChangesNoEvent) {
 }
 
 TEST(SliderRun, EventsAreThoseOfTheSeries) {
-  // The leaky average of Sect. 4.1, written down once more, over the series of every step.
+  // The leaky average of Sect. 4.1, implemented once more, over the series of every step.
   RunOptions o = options(50, 0.05, 400000);
   o.parameters.velocity = 0.05;
   o.catalogue = testing::TempDir() + "slider_sizes.csv";
@@ -130,7 +130,7 @@ TEST(SliderRun, EventsAreThoseOfTheSeries) {
   }
   EXPECT_EQ(largest, r.largest_event);
   EXPECT_EQ(longest, 50.0);
-  // Blocks slide while the plate raises PE faster, too, but most of the slip is in events.
+  // Blocks also slide while the plate raises PE faster, but most of the slip is in events.
   EXPECT_LE(slip, 50.0 * r.mean_slip);
   EXPECT_GT(slip, 25.0 * r.mean_slip);
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Ruptures of a slip history by search through all of space and time, written apart from the
-// finder.
+// Ruptures of a slip history by a search through all of space and time, independent of the finder.
 #ifndef LSM_UNIT_SLOW_RUPTURES_H
 #define LSM_UNIT_SLOW_RUPTURES_H
 
@@ -19,7 +18,7 @@
 namespace unit {
 
 struct SlowRuptures {
-  std::vector<LSM::Event> events;  ///< with a quiet time behind them, without identifiers
+  std::vector<LSM::Event> events;  ///< followed by a quiet time, without identifiers
   std::vector<std::set<std::pair<std::int64_t, int>>> cells;  ///< (interval, bin) of each
   double slip_in_ruptures = 0.0;  ///< sum over bins and intervals, of all ruptures
   double slip_elsewhere = 0.0;
@@ -35,7 +34,7 @@ inline SlowRuptures slow_ruptures(const LSM::SlipHistoryInfo &info,
   const auto interval_of = [&grid](std::int64_t step) {
     return (step - grid.step0) / grid.interval;
   };
-  // The record that ends with an interval, and what slips.
+  // The record that ends with an interval, and the slipping bins.
   std::vector<std::pair<std::int64_t, std::size_t>> ends;
   std::set<std::pair<std::int64_t, int>> left;
   SlowRuptures out;
@@ -93,7 +92,7 @@ inline SlowRuptures slow_ruptures(const LSM::SlipHistoryInfo &info,
         where = b;
       }
     }
-    // The largest hole in the ring of bins is where the rupture was not.
+    // The largest gap in the ring of bins is outside the rupture.
     int hole = bins - 1, begin = *rows.begin();
     for (auto it = rows.begin(); rows.size() > 1 && it != rows.end(); ++it) {
       const auto next = std::next(it);

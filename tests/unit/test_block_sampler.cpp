@@ -11,7 +11,7 @@ using LSM::BlockSampler;
 using LSM::GatheredBlock;
 using LSM::SampleBlock;
 
-/// What the ranks' blocks are on rank 0; the sums of intervals are added up.
+/// The ranks' blocks as on rank 0; the sums of intervals are added up.
 GatheredBlock gathered(const std::vector<SampleBlock> &blocks) {
   GatheredBlock all;
   all.first = blocks[0].first;

@@ -82,7 +82,7 @@ TEST(EnergyLedger, GoesOnFromARestart) {
   const EnergyTerms at_restart = terms(1.0, 2.0, 0.5, 0.25, 0.125, 1.0);
   second.set_state(first.begun(), first.start(), at_restart.friction, at_restart.broken);
   EXPECT_TRUE(second.begun());
-  // Styles begin to count anew; integrators and plates have restarts of their own.
+  // Styles start counting anew; integrators and plates have restarts of their own.
   const EnergyTerms now = second.with_earlier_works(terms(1.0, 2.0, 0.0, 0.25, 0.0, 1.0));
   EXPECT_EQ(now.friction, 0.5);
   EXPECT_EQ(now.broken, 0.125);

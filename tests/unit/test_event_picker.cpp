@@ -92,7 +92,7 @@ void check_by_hand(PickerReading reading, const Expected &expected) {
   Event event;
   for (std::size_t i = 0; i < by_hand.size(); ++i) {
     SCOPED_TRACE(i);
-    // Steps and times that cannot be mistaken for indices.
+    // Steps and times that cannot be confused with indices.
     const std::int64_t step = 1000 + static_cast<std::int64_t>(i);
     const bool reported =
         picker.push(step, 50.0 + 0.25 * static_cast<double>(i), by_hand[i], event);

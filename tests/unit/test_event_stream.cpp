@@ -25,8 +25,8 @@ using LSM::SavedStream;
 constexpr double length = 20.0;
 constexpr double dt = 0.5;
 
-/// A fault that is loaded and slips now and then, made up: PE, slips of two ranks and the sums of
-/// its contacts as functions of the step.
+/// An artificial fault that is loaded and slips from time to time: PE, slips of two ranks and the
+/// sums of its contacts as functions of the step.
 double pe_at(std::int64_t step) {
   const double phase = static_cast<double>(step % 40);
   return 10.0 + 0.01 * static_cast<double>(step % 7) +
@@ -79,7 +79,7 @@ struct MadeUpRun {
     }
   }
 
-  /// Steps from..to in blocks of that many.
+  /// Steps from..to in blocks of the given length.
   void run(std::int64_t from, std::int64_t to, int steps) {
     for (std::int64_t first = from; first <= to; first += steps) {
       GatheredBlock block;
@@ -285,7 +285,7 @@ TEST_F(EventStreamFiles, RupturesOfOtherBinsDoNotGoOn) {
   MadeUpRun second(settings);
   EXPECT_FALSE(saved.goes_on_with(1, second.grid));
   second.stream->set_state(saved);
-  EXPECT_EQ(second.stream->counts().events, events);  // the numbers go on
+  EXPECT_EQ(second.stream->counts().events, events);  // the numbers continue
   EXPECT_EQ(second.stream->open(), 0);
   EXPECT_TRUE(unit::contains(unit::message_of<EventStreamError>([&] {
                                second.stream->begin_files(236, true, second.scene, second.clock);
@@ -329,7 +329,7 @@ TEST_F(EventStreamFiles, TheSeriesEndsBeforeAnEnergyThatIsNotFinite) {
         block, [](std::int64_t step) { return 0.5 * static_cast<double>(step); }, 0.0, length);
   });
   EXPECT_TRUE(unit::contains(message, "Potential energy is not finite at step 2"));
-  LSM::PeSeriesReader series(settings.series_file);  // of a run that is still there
+  LSM::PeSeriesReader series(settings.series_file);  // of a run that still exists
   std::int64_t step, samples = 0;
   double time, pe;
   while (series.next(step, time, pe)) ++samples;
@@ -396,7 +396,7 @@ TEST(EventSettings, HeadersSayEachParameterOnce) {
   settings.parameters = {{"seed", "3"}, {"links", "many"}};
   const LSM::SceneInfo scene{{{"program", "p"}, {"links", "7"}, {"dt", "0.5"}}, 2, 0.5};
   const auto pe = LSM::catalogue_header(settings, LSM::PeDrops(), scene, 0.0);
-  EXPECT_EQ(*pe.find("links"), "many");  // what the user says stands, behind the others
+  EXPECT_EQ(*pe.find("links"), "many");  // the user's lines stay, after the others
   EXPECT_EQ(pe.parameters.back().first, "links");
   EXPECT_EQ(*pe.find("ranks"), "2");
   EXPECT_NE(pe.find("picker"), nullptr);
@@ -406,7 +406,7 @@ TEST(EventSettings, HeadersSayEachParameterOnce) {
   EXPECT_EQ(*ruptures.find("slip_velocity"), "0.0025000000000000001");
   EXPECT_EQ(ruptures.find("picker"), nullptr);
   EXPECT_TRUE(ruptures.stress_drop);
-  // The series is the same whatever the events are; what its own lines hold is not there twice.
+  // The series is the same for all kinds of events; its own lines are not repeated.
   const auto series = LSM::series_header(settings, scene, {100.0, 50, 0.5});
   EXPECT_EQ(series.find("dt"), nullptr);
   EXPECT_EQ(series.time(60), 105.0);

@@ -81,7 +81,7 @@ TEST(Friction, DissipationClosesTheEnergyBalanceOfTheTangentialSpring) {
 }
 
 TEST(Friction, SlipsTheWayTheSpringPullsWhereTheLoadFalls) {
-  // The discs move back a little, but what no longer bears the spring is the lower load.
+  // The discs move back a little, but it is the lower load that no longer supports the spring.
   const auto s = friction_step<Coulomb>({2.0, 0.5, 0.5}, {0.1, 0.4, -0.01, 0.0, false});
   EXPECT_DOUBLE_EQ(s.xi, 0.025);
   EXPECT_DOUBLE_EQ(s.slip, 0.365);
@@ -108,8 +108,8 @@ TEST(StaticFriction, HoldsUpToTheStaticLimitThenDropsToTheDynamicOne) {
   s = friction_step<CoulombStatic>(kStatic, {1.0, s.xi, 0.02, 0.0, s.sliding});  // 0.82
   EXPECT_TRUE(s.sliding);
   EXPECT_DOUBLE_EQ(s.force, 0.5);
-  s = friction_step<CoulombStatic>(kStatic,
-                                   {1.0, s.xi, 0.02, 0.0, s.sliding});  // goes on sliding below 0.8
+  s = friction_step<CoulombStatic>(
+      kStatic, {1.0, s.xi, 0.02, 0.0, s.sliding});  // continues to slide below 0.8
   EXPECT_TRUE(s.sliding);
   EXPECT_DOUBLE_EQ(s.force, 0.5);
   s = friction_step<CoulombStatic>(kStatic,

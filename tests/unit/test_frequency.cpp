@@ -216,8 +216,8 @@ TEST(Frequency, ModesThatSitOnFewDiscs) {
 }
 
 TEST(Frequency, OneModeAmongTwentyThousand) {
-  // A light mass m in a long chain of masses 1 swings alone, at 4 / (m (2 - m)). A power iteration
-  // that stopped at a change of 0.1 % found the 4 of the chain, 10 % less.
+  // A light mass m in a long chain of masses 1 has a local mode at 4 / (m (2 - m)). A power
+  // iteration that stopped at a change of 0.1 % found the 4 of the chain, 10 % less.
   for (const double light : {0.5, 0.65, 0.7, 0.8}) {
     Network network;
     const int n = 20000;
@@ -256,8 +256,8 @@ TEST(Frequency, ThreeDimensionsAndRandomStiffness) {
   expect_bounded_by_all(network, "3-D");
 }
 
-/// The network as a rank has it that owns all particles but sees every other spring's second end as
-/// a ghost; newton: ghosts give their forces back, else each of the two ends has the spring.
+/// The network of a rank that owns all particles but has the second end of every other spring as a
+/// ghost; newton: ghosts return their forces, else each of the two ends has the spring.
 LSM::LargestEigenvalue with_ghosts(const Network &network, bool newton) {
   LSM::SpringNetwork rank;
   rank.dim = network.dim;

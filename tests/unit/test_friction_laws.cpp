@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The friction laws of core/laws: what all of them keep, and each against a closed form.
+// The friction laws of core/laws: properties of all of them, and each against a closed form.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -40,7 +40,7 @@ struct Driven {
   }
 };
 
-/// Coefficients with which a law can be run.
+/// Valid coefficients of a law.
 Coulomb::Coefficients example(Coulomb) { return {2.0, 0.5, 0.5}; }
 CoulombStatic::Coefficients example(CoulombStatic) { return {2.0, 0.5, 0.8}; }
 SlipWeakening::Coefficients example(SlipWeakening) { return {2.0, 0.5, 0.8, 0.3, 0.0}; }
@@ -109,7 +109,7 @@ TEST(EveryLaw, WithoutTimeAndDisplacementNothingChanges) {
     contact.move(0.0, 0.0);
     EXPECT_EQ(contact.xi, xi) << Law::name;
     EXPECT_EQ(contact.state[0], state) << Law::name;
-    EXPECT_EQ(contact.state[1], 0.0) << Law::name;  // no more kept than is said
+    EXPECT_EQ(contact.state[1], 0.0) << Law::name;  // no more state than stated
   });
 }
 
@@ -191,7 +191,7 @@ class RateStateLaw : public ::testing::Test {};
 using Evolutions = ::testing::Types<RateStateAgeing, RateStateSlip>;
 TYPED_TEST_SUITE(RateStateLaw, Evolutions, );  // clang wants the last comma
 
-// stiff, so that the contact slips at the velocity it is moved with
+// stiff, so that the contact slips at the imposed velocity
 constexpr RateStateAgeing::Coefficients kAgeing{1e6, 0.6, 0.01, 0.015, 0.02, 1e-3, 0.0};
 template <class Law>
 typename Law::Coefficients stiff() {
@@ -264,8 +264,8 @@ TYPED_TEST(RateStateLaw, BeginsWithTheStateGivenOrThatOfSteadySlip) {
 }
 
 TYPED_TEST(RateStateLaw, ForceSpringAndVelocityAgreeForAnyStep) {
-  // the solved equation, from creep to steps much longer than dc, with coefficients that overflow a
-  // plain form
+  // the solved equation, from creep to steps much longer than dc, with coefficients for which a
+  // plain form overflows
   for (double a : {0.0008, 0.01, 0.3})
     for (double dxi : {1e-12, 1e-6, 1e-3, 0.5})
       for (double xi : {0.0, 0.2, 0.4})
@@ -286,7 +286,7 @@ TYPED_TEST(RateStateLaw, ForceSpringAndVelocityAgreeForAnyStep) {
 }
 
 TYPED_TEST(RateStateLaw, IsOfFirstOrderInTheTimeStepAtLeast) {
-  // a soft contact that is pulled, stops and is pulled back
+  // a soft contact that is pulled, stopped and pulled back
   auto work = [](int steps) {
     Driven<TypeParam> contact({2.0, 0.6, 0.01, 0.008, 0.02, 1e-3, 0.0});
     for (int n = 0; n < steps; ++n) {

@@ -23,7 +23,7 @@ using LSMLinkRows::Rows;
 /// from nlocal on are ghosts.
 struct Network {
   int nlocal, nall;
-  std::vector<double> x;  // three a particle
+  std::vector<double> x;  // three per particle
   std::vector<Link> links;
   std::vector<int> owned;
 };
@@ -65,7 +65,7 @@ struct Evaluation {
   double energy;
   std::vector<double> f;
   std::vector<LSMLinkKernel::Place> broken;
-  double virial;  // what one rounding of each length would change the energy by, over epsilon
+  double virial;  // change of the energy by one rounding of each length, over epsilon
 };
 
 template <int DIM, class Law>
@@ -205,7 +205,7 @@ TEST(LinkKernel, LinksThatMayBreakPullLikeOthers) {
 }
 
 TEST(LinkKernel, SameDigitsInAnyOrderInMemory) {
-  // particles change places, links and owned ones stay in the order of their numbers
+  // particles change places; links and owned particles stay in the order of their IDs
   const Network net = make_network(50, 2, 29);
   std::vector<int> place(net.nlocal);
   std::iota(place.begin(), place.end(), 0);

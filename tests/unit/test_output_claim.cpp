@@ -146,7 +146,7 @@ TEST_F(OutputClaims, AnotherRunIsNamedWhicheverWayTheFileIs) {
       EXPECT_EQ(message.find('\n'), std::string::npos);
     }
     end_child();
-    // Killed: its lock file is still there, and no lock any more.
+    // Killed: its lock file is still there, but no longer a lock.
     EXPECT_TRUE(fs::exists(path("a.csv.lock")));
     { const FileLock lock(path("a.csv"), flock); }
     EXPECT_FALSE(fs::exists(path("a.csv.lock")));
@@ -163,7 +163,7 @@ std::string lock_text(const std::string &key, const std::string &value) {
 
 TEST_F(OutputClaims, WithoutFlockStaleOnesAreToldApart) {
   const std::string lock = path("a.csv.lock");
-  // The number of a process that ended, given to another since; a start of the host since.
+  // The number of an ended process, since given to another; a reboot of the host since.
   for (const std::string &text :
        {lock_text("begun", "1"), lock_text("boot", "other [1]"), std::string()}) {
     spill(lock, text);

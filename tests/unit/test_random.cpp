@@ -50,7 +50,7 @@ TEST(Random, UniformStaysInTheHalfOpenInterval) {
 }
 
 TEST(Random, UpperEndIsNeverReachedByRounding) {
-  // Only two doubles in the closed interval: half of the products round up to the excluded one.
+  // Only two doubles in the closed interval: half of the products round up to the excluded end.
   const double hi = std::nextafter(1.0, 2.0);
   LSM::Random random(3);
   for (int i = 0; i < 100; ++i) ASSERT_EQ(random.uniform(1.0, hi), 1.0);

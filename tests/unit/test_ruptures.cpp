@@ -119,7 +119,7 @@ TEST(FaultRuptures, OneWithAllItsNumbers) {
   EXPECT_EQ(e.x_begin, -3.0);
   EXPECT_EQ(e.x_hypocentre, 2.0);  // bin 3 slips most in the first interval
   EXPECT_NEAR(e.mean_slip, 0.1 / 3.0, rounding);
-  // Slips 3, 4, 3 in the bins 1, 2, 3, whose middle one has its centre at 0.
+  // Slips 3, 4, 3 in the bins 1, 2, 3; the middle one has its centre at 0.
   EXPECT_NEAR(e.x_centroid, 0.0, 1e-6);
   // From interval 1, before it, to interval 5, the first after it.
   EXPECT_NEAR(e.stress_drop, 0.04, rounding);
@@ -261,7 +261,7 @@ TEST(FaultRuptures, HypocentreIsWhereMostSlippedFirst) {
   EXPECT_EQ(events[0].x_hypocentre, 4.0);
   EXPECT_EQ(events[0].rupture_length, 10.0);
 
-  // One that began later does not take it over, however much slips in its first interval.
+  // A later one does not take it over, however much it slips in its first interval.
   const std::vector<Event> later = find({"..1.......",  //
                                          "..1..9....",  //
                                          "..1111...."},

@@ -16,7 +16,7 @@
 
 namespace unit {
 
-/// A folder of its own for each test, removed afterwards.
+/// A separate folder for each test, removed afterwards.
 class Files : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -62,7 +62,7 @@ inline ::testing::AssertionResult contains(const std::string &text, const std::s
   return ::testing::AssertionFailure() << "'" << part << "' is not in: " << text;
 }
 
-/// Decimal comma and digit grouping, as in many languages.
+/// A locale with decimal comma and digit grouping, as in many languages.
 class CommaFacet : public std::numpunct<char> {
  protected:
   char do_decimal_point() const override { return ','; }
@@ -70,8 +70,8 @@ class CommaFacet : public std::numpunct<char> {
   std::string do_grouping() const override { return "\3"; }
 };
 
-/// Makes such a locale the global one for the life of the object; the C locale too, where one of
-/// the kind is installed.
+/// Makes such a locale the global one for the lifetime of the object; the C locale too, if one of
+/// this kind is installed.
 class CommaLocale {
  public:
   CommaLocale()
