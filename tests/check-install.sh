@@ -23,7 +23,7 @@ dpkg-deb -x "${deb[0]}" root
 bin=$work/root/usr/bin share=$work/root/usr/share
 ! grep -rlI -e "$build" root >out || fail "files name the build folder"
 
-# programs, as one finds them: nothing of the build folder in the surroundings
+# programs as installed: nothing of the build folder in the environment
 clean() { env -i PATH="$bin:/usr/bin:/bin" HOME="$work" "${mpi[@]}" "$@" >out 2>&1 </dev/null || fail "$*"; }
 mpi=()
 while read -r setting; do mpi+=("$setting"); done < <(env | grep '^OMP' || true)

@@ -11,7 +11,7 @@ trap 'rm -rf "$work"' EXIT
 mkdir "$work/with" "$work/without"
 sed '/virtual double atom2cut(int)\|virtual double radii2cut(double, double)/d' "$source/pair.h" >"$work/without/pair.h"
 if cmp -s "$source/pair.h" "$work/without/pair.h"; then
-  # The source is of a version without them.
+  # The source is that of a version without them.
   sed 's/^  virtual void compute(int, int) = 0;/&\n  virtual double atom2cut(int) { return 0.0; }\n  virtual double radii2cut(double, double) { return 0.0; }/' \
     "$source/pair.h" >"$work/with/pair.h"
 else

@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Checks one way of using the package, or that a plugin that does not fit is not loaded.
+# Checks one way of using the package, or that a plugin that does not match is not loaded.
 # usage: check-package.sh built-in|plugin|refused LMP STOCK_LMP PLUGIN [PLUGIN_OF_OTHER_INTEGERS]
 set -euo pipefail
 way=$1 lmp=$2 stock=$3 plugin=$4 other_integers=${5:-}
@@ -54,7 +54,7 @@ case $way in
     ;;
   refused)
     # not_loaded PROGRAM PLUGIN PATTERN: one line that matches, no style registered, and the program
-    # goes on
+    # continues
     not_loaded() {
       { echo "plugin load $2"; echo "plugin list"; echo 'print "went on"'; } >in.refused
       "$1" -in in.refused -log none >out 2>&1 || fail "plugin load ends with an error"

@@ -32,7 +32,7 @@ assert run.extract_global("natoms") > 500
 assert run.extract_compute("events", 0, 0) == run.extract_variable("events")
 links = run.extract_compute("events", 0, 1)[5]
 assert 0.0 < links < 1.0, links
-# Written by that object still.
+# Still being written by that object.
 try:
     fault(prefix="python", overwrite="yes")
 except Exception as error:

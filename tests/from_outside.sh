@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Common ground of the tests from outside, sourced with the program as first argument: a folder of
-# its own for the test, and ways to run the program there.
+# Functions of the tests from outside, sourced with the program as first argument: a separate folder
+# for the test, and ways to run the program there.
 set -u
 program=$1
 folder=$(mktemp -d)

@@ -54,7 +54,7 @@ if wanted extremes; then
   { printf "case\toutcome\n"; sed -n "s/^EXTREME\t//p" "$out/work/extremes.txt"; } >"$out/extremes.tsv"
 fi
 
-# Those of the study work-precision, if they are there
+# Those of the study work-precision, if they exist
 study=$out/../studies/work-precision
 [ ! -e "$study/differences.csv" ] || cp "$study/differences.csv" "$out/fault_catalogues.csv"
 for suffix in png svg; do
@@ -78,7 +78,7 @@ set linetype 6 lc rgb "#000000" pt 1 dt 1 lw 1
 set format "10^{%T}"
 set logscale xy
 '
-draw() {  # NAME GNUPLOT-COMMANDS; nothing where a table is missing
+draw() {  # NAME GNUPLOT-COMMANDS; nothing if a table is missing
   local table
   while read -r table; do [ -e "$table" ] || return 0; done < <(grep -o '[a-z_]*\.csv' <<<"$2")
   printf '%s\n%s\n' "$style" "$2" >"work/$1.gp"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# A fault in ESyS-Particle as inputs/fault.in has it with hold = position: masses r^2, viscosity,
+# A fault in ESyS-Particle as that of inputs/fault.in with hold = position: masses r^2, viscosity,
 # friction between the blocks, plates driven at constant speed. NAME.geo, length, time step,
 # viscosity, driving velocity of each plate, friction, its spring, steps. PE of links and contacts
 # at every step in NAME.esys.links and NAME.esys.contacts, CPU time in NAME.esys.json.
@@ -44,8 +44,8 @@ simulation.readGeometry(name + ".geo")
 for tag in range(1, 7):
     simulation.setParticleDensity(tag, -1, (1 if tag < 5 else 1e12) / math.pi)
 simulation.createInteractionGroup(NRotBondPrms(name="links", normalK=1.0, breakDistance=10.0, tag=0, scaling=False))
-# createInteractionGroupTagged takes no notice of tags with this friction (version 2.3.5), so that
-# contacts are those of all discs that no link joins, as with contacts = all in inputs/fault.in.
+# createInteractionGroupTagged ignores tags with this friction (version 2.3.5), so that contacts are
+# those of all discs that no link joins, as with contacts = all in inputs/fault.in.
 simulation.createInteractionGroup(NRotFrictionPrms(name="contacts", normalK=1.0, dynamicMu=mu, shearK=kt, scaling=False))
 simulation.createExclusion("links", "contacts")
 simulation.createInteractionGroup(DampingPrms(type="Damping", name="viscosity", viscosity=viscosity, maxIterations=50))

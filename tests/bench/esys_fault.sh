@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
 # A fault in ESyS-Particle, for inputs/run.py: the scene that inputs/fault.in makes with these
-# settings, sheared for `steps`; PE series and events (our picker) as of a run of ours, on the clock
-# of fault.in. It cannot be gone on with: killed, it begins again.
+# settings, sheared for `steps`; PE series and events (our picker) as of a run of ours, with the
+# times of fault.in. It cannot be continued: if killed, it starts again.
 # usage: esys_fault.sh BIN NAME=VALUE...     in the folder of the run
 set -euo pipefail
 export LC_ALL=C
@@ -37,8 +37,8 @@ awk -v name=fault -f "$here/convert.awk" fault.data
 call mpirun -np 2 esysparticle "$here/esys_fault.py" fault "$(value length)" "$(value dt)" "$(value viscosity)" "$(value velocity)" \
   "$(value mu)" "$(value kt)" "$steps"
 
-# PE of links and contacts as a series of this project; the first row is from before the forces are
-# there
+# PE of links and contacts as a series of this project; the first row precedes the first evaluation
+# of forces
 paste -d ' ' fault.esys.links fault.esys.contacts | awk -v dt="$(value dt)" -v n="$(value settle)" '
   BEGIN {
     print "# lsm-pe-series 1\n# model = lsm\n# dt = " dt "\n# step0 = " n "\n# time0 = " n * dt "\n# stride = 1\n# completeness = 0.001"

@@ -21,8 +21,8 @@ for tag, velocity in ((5, -0.00025), (6, 0.00025)):
     simulation.setTaggedParticleVelocity(tag, Vec3(velocity, 0, 0))
 simulation.createInteractionGroup(
     NRotBondPrms(name="links", normalK=1.0, breakDistance=10.0, tag=0, scaling=False))
-# createInteractionGroupTagged takes no notice of tags with this friction (version 2.3.5): without
-# the exclusion links would be contacts as well.
+# createInteractionGroupTagged ignores tags with this friction (version 2.3.5): without the
+# exclusion links would be contacts as well.
 simulation.createInteractionGroup(
     NRotFrictionPrms(name="contacts", normalK=1.0, dynamicMu=0.6, shearK=1.0, scaling=False))
 simulation.createExclusion("links", "contacts")

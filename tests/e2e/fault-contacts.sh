@@ -1,10 +1,10 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
 # Discs of one block cannot pass through those of the other, whether they are at the fault or behind
-# it: the upper block is pushed into the lower one and the face of that into what lies behind, and
-# each pair of both blocks that overlaps has to repel; those of one block too, unless contacts are
-# those of the fault only, and with friction unless they are smooth. With a retardation time links
-# and contacts have dashpots.
+# it: the upper block is pushed into the lower one and the face of the latter into the discs behind
+# it, and each overlapping pair of both blocks has to repel; those of one block too, unless contacts
+# are those of the fault only, and with friction unless they are smooth. With a retardation time
+# links and contacts have dashpots.
 # usage: fault-contacts.sh LMP SOURCE_DIR
 set -euo pipefail
 export LC_ALL=C

@@ -1,7 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# The dump scene: frames at the steps asked for, of a form that OVITO reads, and the same when read
-# back.
+# The dump scene: frames at the given steps, in a form that OVITO reads, and the same when read back.
 # usage: fault-dump.sh LMP SOURCE_DIR
 set -euo pipefail
 export LC_ALL=C
@@ -16,8 +15,8 @@ scene=(-in "$source/inputs/fault.in" -var length 120 -var settle 100 -var steps 
 [ "$(echo d.*.dump)" = "d.000000120.dump d.000000140.dump d.000000160.dump" ] || fail "frames: $(echo d.*.dump)"
 particles=$(sed -n 's/^Created \([0-9]*\) particles.*/\1/p' log.lammps)
 
-# The form of LAMMPS' text dumps, checked number by number: every disc once, within the box, of a
-# type and radius that there is.
+# The form of LAMMPS' text dumps, checked number by number: every disc once, within the box, of an
+# existing type and radius.
 for frame in d.*.dump; do
   awk -v step="$((10#${frame:2:9}))" -v n="$particles" '
     NR == 1 { if ($0 != "ITEM: TIMESTEP") exit bad = 1 }
@@ -57,7 +56,7 @@ END
 cmp <(sed 1,9d d.000000160.dump) <(sed 1,9d back.dump) || fail "the frame that was read back differs"
 cmp -s <(sed 1,9d d.000000120.dump) <(sed 1,9d back.dump) && fail "all frames are the same"
 
-# The dump changes nothing of the run.
+# The dump does not change the run.
 cp d.catalogue.csv with.csv
 "$lmp" "${scene[@]}" -var overwrite yes -log none </dev/null >out 2>&1 || fail "fault.in"
 cmp with.csv d.catalogue.csv || fail "the dump changes the catalogue"

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# What survives what: restart files that are damaged, kills while they are written, two runs with
-# the same files, and words and values that a run cannot have.
+# Robustness: damaged restart files, kills while they are written, two runs with the same files, and
+# words and values that a run refuses.
 # usage: fault-restart.sh words|values|damaged|killed|walk|twice LMP SOURCE_DIR
 set -euo pipefail
 export LC_ALL=C
@@ -12,7 +12,7 @@ trap '[ -z "$child" ] || kill -9 $child 2>/dev/null; rm -rf "$work"' EXIT
 cd "$work"
 fail() { echo "FAILED: $*" >&2; [ ! -f out ] || tail -n 20 out >&2; exit 1; }
 
-# The first of several -var counts.
+# Of several -var the first counts.
 small=(-log none -var length 20 -var width 15 -var settle 100 -var velocity 0.01 -var checkpoint 400 -var location yes)
 fault() { "$lmp" -in "$source/inputs/fault.in" "$@" </dev/null >out 2>&1; }
 begin() { fault "${small[@]}" "$@" || fail "the run $*"; }
@@ -66,7 +66,7 @@ EOF
   values)
     begin -var prefix a -var seed 7 -var massfloor 0.05 -var stress 0.03 -var steps 500
     cp a.catalogue.csv first.csv
-    # A variable that is none of the lists of fault.in would not come from the restart file.
+    # A variable that is in none of the lists of fault.in would not be read from the restart file.
     for name in $(sed -n '/^variable preset/,/^check_variable *loose/p' "$source/inputs/fault.in" | awk '/^variable/ && $3 == "index" { print $2 }'); do
       case $name in overwrite | thermo | extra | quote) continue ;; esac
       grep -q "^$name = " a.restart.end.info || fail "$name is not in the restart file; add it to fault or settings in fault.in"
@@ -87,7 +87,7 @@ mu 0.5 0.6
 EOF
     refused "steps = 300, but restart file a.restart.end is at step 500 of the shear" -log none -var restart a.restart.end -var steps 300
     cmp a.catalogue.csv first.csv || fail "the catalogue was changed"
-    # Nothing has to be given again, and what is given again in other digits is the same.
+    # Nothing has to be given again, and a value given again with other digits is the same.
     fault -log none -var restart a.restart.end -var steps 900 -var massfloor 5e-2 || fail "going on without the settings"
     begin -var prefix b -var seed 7 -var massfloor 0.05 -var stress 0.03 -var steps 500
     fault "${small[@]}" -var prefix b -var seed 7 -var massfloor 0.05 -var stress 0.03 -var steps 900 -var restart b.restart.end ||
@@ -154,7 +154,7 @@ EOF
       [ -z "$newest" ] || words=(-var restart "${newest%.info}")
       "$lmp" -in "$source/inputs/fault.in" "${often[@]}" "${words[@]}" </dev/null >out 2>&1 &
       child=$!
-      # Killed once some restart files more are there.
+      # Killed once there are some more restart files.
       until=$(($(sed -n 's/^step = //p' "${newest:-/dev/null}" | grep . || echo 100) + 40 + RANDOM % 20))
       while kill -0 $child 2>/dev/null; do
         for file in a.restart.[0-9]*.info; do
@@ -201,7 +201,7 @@ EOF
           if [ $injected = error=ENOSPC ] && [ $status -ne 0 ]; then
             [ "$(grep ERROR out | grep -c 'cannot .* a\.\|a\..*cannot\|writing restart')" = 1 ] || fail "not one line about $call $at"
           fi
-          # What cannot be removed does no harm.
+          # A file that cannot be removed does no harm.
           [ $status -ne 0 ] || [ $call$injected = unlinkerror=ENOSPC ] || fail "$call $at, $injected: no word"
           if [ ! -f a.restart.end.info ]; then
             newest=$(ls a.restart.*.info 2>/dev/null | sort -t . -k 3n | tail -n 1 || true)
@@ -232,7 +232,7 @@ EOF
     wait $child || { cat first.out; fail "the first run"; }
     child=""
     for file in a.catalogue.csv a.pe.bin; do cmp $file whole/$file || fail "$file differs"; done
-    # One that is killed holds nothing.
+    # A killed run keeps no lock.
     cp whole/a.* .
     "$lmp" -in "$source/inputs/fault.in" "${more[@]}" 600000 </dev/null >first.out 2>&1 &
     child=$!

@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Runs the fault scenes as the README tells, from another folder through a path.
+# Runs the fault scenes as the README describes, from another folder through a path.
 # usage: fault-scenes.sh LMP MPIRUN SOURCE_DIR [POSTPROC]
 set -euo pipefail
 export LC_ALL=C
@@ -19,7 +19,7 @@ events=$(grep -cv '^[#e]' short.catalogue.csv || true)
 # Sizes are positive and the rupture is no longer than the fault.
 awk -F, '!/^[#e]/ && !($6 > 0 && $9 >= 0 && $10 >= 0 && $10 <= 120 && $11 <= 120) { bad = 1 } END { exit bad }' \
   short.catalogue.csv || fail "an event has an impossible size or place"
-# The fault carries about the shear stress that friction allows.
+# The fault bears about the shear stress that friction allows.
 ratio=$(awk '/^ *Step .*Events/ { on = 1; next } /^Loop/ { on = 0 } on && NF == 8 { r = $7 } END { print r }' log.lammps)
 awk -v r="$ratio" 'BEGIN { exit !(r > 0.5 && r < 0.8) }' || fail "shear/normal stress ratio $ratio, expected 0.5 to 0.8"
 echo "fault_120.in: $events events, shear/normal stress $ratio"
@@ -35,7 +35,7 @@ if [ -n "$postproc" ]; then
   fi
 fi
 
-# Every length is there and is read from its own folder as well.
+# Every length exists and can be read from its own folder as well.
 cd "$source/inputs"
 for length in 120 240 480 945 1440 1890; do
   "$lmp" -in fault_$length.in -var settle 0 -var steps 2 -var prefix "$work/l$length" -log "$work/log.$length" </dev/null >"$work/out" 2>&1 ||
@@ -48,7 +48,7 @@ for length in 120 240 480 945 1440 1890; do
   echo "fault_$length.in: $particles particles"
 done
 
-# A mistake on the command line is one clear line, and touches no catalogue.
+# An error on the command line gives one clear line, and changes no catalogue.
 cd "$work"
 before=$(cksum <short.catalogue.csv)
 if "$lmp" -in "$source/inputs/fault_120.in" -var picker median -var settle 0 -var steps 1 -var prefix short </dev/null >out 2>&1; then
@@ -57,7 +57,7 @@ fi
 grep -q "picker is 'median', but must be exponential, average or literal" out || fail "no clear message about the picker"
 [ "$before" = "$(cksum <short.catalogue.csv)" ] || fail "the older catalogue was touched"
 
-# One variable chooses the law of friction; its words are in the headers, and a run goes on with it.
+# One variable chooses the law of friction; its words are in the headers, and a restart keeps it.
 law="slip-weakening mu 0.5 mu_static 0.6 dc 0.002 heal 5"
 short() { "$lmp" -in "$source/inputs/fault_120.in" -var settle 0 -var checkpoint 10 -var ruptures yes -var prefix law "$@" </dev/null >out 2>&1; }
 short -var law "$law" -var steps 10 || fail "law $law"

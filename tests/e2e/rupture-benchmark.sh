@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# TPV205-2D at 200 m until 6 s beside the references: slip, arrivals, table and picture.
+# TPV205-2D at 200 m until 6 s compared with the references: slip, arrivals, table and picture.
 # usage: rupture-benchmark.sh LMP POSTPROC SOURCE_DIR
 set -euo pipefail
 export LC_ALL=C

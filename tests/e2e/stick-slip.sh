@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# The default fault sticks and slips, and the number that says so tells a creeping one apart.
+# The default fault sticks and slips, and the measure of it distinguishes a creeping one.
 # usage: stick-slip.sh LMP POSTPROC SOURCE_DIR
 set -euo pipefail
 export LC_ALL=C
@@ -29,7 +29,7 @@ regime default
 [ "$word" = stick-slip ] || fail "the default fault is called $word"
 # Seed 1 has 6.6 and 0.26.
 awk -v s="$saw_tooth" -v t="$in_events" 'BEGIN { exit !(s > 5 && t < 0.3) }' || fail "the default fault hardly sticks"
-# A disc that the time step is too large for swings from step to step, and each swing is an event.
+# A disc for which the time step is too large oscillates from step to step, each time an event.
 brief=$(awk -F, '!/^[#e]/ && $5 - $4 <= 3 && $6 >= 1e-4' default.catalogue.csv | wc -l)
 [ "$brief" = 0 ] || fail "$brief events from 1e-4 within 3 steps: the time step of the preset is unstable"
 regime creeping -var stress 0.004

@@ -1,11 +1,11 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Breaks the code on purpose, one place at a time, and looks whether the tests notice.
+# Breaks the code on purpose, one place at a time, and checks whether the tests notice.
 # usage: tests/mutations/run.sh [-n] [REGEX]     (mutations whose name matches; all without)
 #   -n  only says whether each mutation still applies to the sources
 # Mutations are in list.txt. They are made in a copy of the tree under build-mutations/, never here.
 # Result: one line each, and build-mutations/table.md; fails if one survived that is not expected to.
-set -uof pipefail    # filters of GoogleTest are no file names
+set -uof pipefail    # filters of GoogleTest are not file names
 root=$(cd "$(dirname "$0")/../.." && pwd)
 work=${LSM_MUTATIONS_DIR:-$root/build-mutations}
 list=$root/tests/mutations/list.txt
@@ -71,7 +71,7 @@ if [ -n "$only_apply" ]; then
   exit
 fi
 
-# The copy keeps its times, so that a second run compiles what changed only.
+# The copy keeps its times, so that a second run compiles only what changed.
 tree=$work/tree
 build=$work/build
 mkdir -p "$tree" "$build"
@@ -113,7 +113,7 @@ run() {
   return 1
 }
 
-# Without a mutation all tests pass, or the rest says nothing.
+# Without a mutation all tests must pass, or the results mean nothing.
 for test in $(for i in "${chosen[@]}"; do echo "${tests[$i]}"; done | sort -u | tr ' ' '@'); do
   # shellcheck disable=SC2086
   run ${test//@/ } && continue

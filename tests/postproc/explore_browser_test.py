@@ -71,8 +71,8 @@ class Page(unittest.TestCase):
         os.chdir(cls.folder.name)
         if fault:
             lmp, scene, *launcher = fault
-            # Stiff contacts, so that almost all of the slip is in ruptures; soft ones also slip
-            # slowly between them.
+            # Stiff contacts, so that almost all of the slip is in ruptures; soft ones also slip slowly
+            # between them.
             run(*launcher, lmp, "-in", scene, "-log", "none", "-var", "length", "30", "-var", "steps", "50000",
                 "-var", "choices", "first", "-var", "ruptures", "yes", "-var", "prefix", "run")
         else:
@@ -119,7 +119,7 @@ class Page(unittest.TestCase):
         # Those of this page: the browser opens pages of its own.
         addresses = {message["params"]["request"]["url"] for message in requests
                      if message["method"] == "Network.requestWillBeSent" and message["params"]["documentURL"] == self.address}
-        # Pictures that are in the page itself have addresses, too.
+        # Pictures embedded in the page have addresses, too.
         self.assertEqual({address for address in addresses if not address.startswith("data:")}, {self.address})
         self.assertIsNone(self.js("return window.harm"))
 
@@ -165,7 +165,7 @@ class Page(unittest.TestCase):
         element.send_keys(text)
         self.settle()
 
-    # -- what a person does
+    # -- user actions
 
     def test_largest_event_is_there_at_once(self):
         for column in ("size", "t_start", "t_end", "pe_start", "pe_end", "step_start"):
@@ -247,7 +247,7 @@ class Page(unittest.TestCase):
         found = self.js("return arguments[0].map(([from, to]) => app.runs[0].series.extremes(from, to))", windows)
         for (first, last), extremes in zip(windows, found):
             self.assertEqual(extremes, [min(values[first:last]), max(values[first:last])])
-        # And of what is drawn: in a picture of few pixels.
+        # And of the drawing: in a picture of few pixels.
         for first, last in windows[:40]:
             drawn = self.js("const s = app.runs[0].series; return s.points(s.time(arguments[0]), s.time(arguments[1]), 50).map(p => p[1])",
                             first, last - 1)

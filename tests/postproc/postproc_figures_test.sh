@@ -157,7 +157,7 @@ fit)
   awk -F, '!/^#/ && $1 == 1 && !($8 == 0 && $9 == 0 && $5 > 0.8 * $7 && $5 < 1.2 * $7) { exit 1 }' b.scaling.csv || fail "--block 0: $(cat b.scaling.csv)"
   refused "block 'long', expected 'auto' or a time of 0 or more" fit g100.csv --scaling --block long -o x
   refused 'block of 20000, expected 0 or .* to half of the catalogue' fit g100.csv --scaling --block 20000 -o x
-  # Growth that is no power law: s* of 1, 1, 1, 1, 16.
+  # Growth that does not follow a power law: s* of 1, 1, 1, 1, 16.
   sed 's/^# length.*/# length = 3200/' g1600.csv > n3200.csv
   must_run fit n100.csv n200.csv n400.csv n800.csv n3200.csv --range 1e-3:0.1 --replicas 0 --scaling -o p --no-picture
   grep -q 'grows with the length, but not as a power law' out.txt || fail "growth at the end: $(cat out.txt)"
@@ -189,7 +189,7 @@ completeness)
   power 1 1e-3 1 1000 | catalogue s.csv 256 block-slider
   above=$(awk -F, '!/^[#e]/ && $6 >= 0.01 { ++n } END { print n }' plain.csv)
   [ "$above" -gt 600 ] && [ "$above" -lt 700 ] || fail "$above events from 0.01"
-  # Without it as ever.
+  # Without it as before.
   must_run histograms plain.csv -o p --no-picture
   grep -q "smallest size, fault: 0.0001, that of the paper" out.txt || fail "$(cat out.txt)"
   counts() { awk -F, -v curve="$2" '!/^#/ && $1 == curve { n += $7 } END { print n }' "$1"; }
@@ -201,7 +201,7 @@ completeness)
       grep -q 'smallest size, block-slider: 0.0001, that of the paper' $place || fail "$(cat $place)"
   done
   [ "$(counts h.csv 1) $(counts h.csv 2) $(counts h.csv 3)" = "$above $above 1000" ] || fail "$(cat h.csv)"
-  # What is given goes before.
+  # A given value takes precedence.
   must_run histograms known.csv -o h --no-picture --threshold 0.001
   [ "$(counts h.csv 1)" = 1000 ] && grep -q '0.001, as given' out.txt || fail "--threshold: $(cat out.txt h.csv)"
   must_run histograms known.csv -o h --no-picture --range 0.001:

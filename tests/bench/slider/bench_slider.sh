@@ -28,7 +28,7 @@ for scheme in printed semi-implicit verlet; do
     {printf "%-14s scalar %8.2f  dense %8.2f  active %8.2f  scalar/active %6.2f\n", scheme, $1, $2,
             $3, $1 / $3}'
 done
-# Loading up to the first slip, near t = 5000, is jumped.
+# Loading up to the first slip, near t = 5000, is skipped.
 echo "cost of the active set against N, semi-implicit, dt 0.01, the first 500 time units of slip"
 for blocks in 1000 10000 100000 1000000; do
   "$program" --blocks $blocks --dt 0.01 --steps 550000 --scheme semi-implicit --warmup 0 \
