@@ -8,6 +8,7 @@
 #include "comm.h"
 #include "error.h"
 #include "lsm_scene.h"
+#include "pair_lsm_friction.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
@@ -43,6 +44,14 @@ void FixLSMHistory::init()
                "Pair style lsm/friction does not work with rerun: snapshots do not hold the "
                "elongations of the "
                "tangential springs; use pair style lsm/free for the energy of the normal springs");
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixLSMHistory::pre_exchange()
+{
+  static_cast<PairLSMFriction *>(pair)->note_contacts();
+  FixNeighHistory::pre_exchange();
 }
 
 /* ----------------------------------------------------------------------

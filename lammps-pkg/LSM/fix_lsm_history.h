@@ -24,6 +24,7 @@ class FixLSMHistory : public FixNeighHistory {
  public:
   FixLSMHistory(class LAMMPS *, int, char **);
   void init() override;
+  void pre_exchange() override;
   void write_restart(FILE *) override;
   void restart(char *) override;
   void unpack_restart(int, int) override;

@@ -73,8 +73,15 @@ void PairLSMFree::compute(int eflag, int vflag)
 bool PairLSMFree::find_near(double reach, const int *const *touch)
 {
   const double farthest = travel.since_last(near.asks_for_moves());
-  return near.update(neighbor->ncalls, *list, atom->x[0], atom->nlocal, atom->nlocal + atom->nghost,
-                     contact_radii(), reach, touch, farthest);
+  const double *const x = atom->x[0];
+  const bool chooses =
+      near.is_due(neighbor->ncalls, *list, x, atom->nlocal, atom->nlocal + atom->nghost, farthest);
+  if (chooses) {
+    note_contacts();
+    near.choose(*list, x, contact_radii(), reach, touch);
+  }
+  near.find(x);
+  return chooses;
 }
 
 template <class Recorder> void PairLSMFree::loop()

@@ -77,7 +77,10 @@ class PairLSMFree : public Pair, public LSMEnergySource {
   class FixLSMVelocity *velocity;    // of this run, null if no contact is viscous in it
 
   const double *contact_radii() const;
+  /// Returns whether other pairs are kept than before.
   bool find_near(double reach, const int *const *touch);
+  /// Called before others are chosen, which may read what is known of those that are kept.
+  virtual void note_contacts() {}
   /// Repulsion by the dashpot of a contact, along del from j to i of length r; the spring repels with `spring`. rate: of r.
   double dashpot(int i, int j, double delx, double dely, double delz, double r, double spring,
                  double &rate) const;

@@ -23,6 +23,7 @@
 #include "lsm_force_laws.h"
 #include "lsm_scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <iterator>
@@ -107,6 +108,11 @@ std::string PairLSMFriction::law_names()
   return all;
 }
 
+double PairLSMFriction::near_reach() const
+{
+  return locate_onset ? NEAR_REACH : 0.0;
+}
+
 int PairLSMFriction::size_history() const
 {
   return LAW_STATE + law->state_size;
@@ -115,8 +121,9 @@ int PairLSMFriction::size_history() const
 /* ---------------------------------------------------------------------- */
 
 PairLSMFriction::PairLSMFriction(LAMMPS *_lmp) :
-    PairLSMFree(_lmp), pace(1.0), law(&laws[0]), running(&laws[0]), coefficient{}, given{},
-    restored(false), locate_onset(1), of_single{}, fix_dummy(nullptr), fix_history(nullptr)
+    PairLSMFree(_lmp), pace(1.0), sites_build(-1), chosen_anew(true), noted(true), law(&laws[0]),
+    running(&laws[0]), coefficient{}, given{}, restored(false), locate_onset(1), of_single{},
+    fix_dummy(nullptr), fix_history(nullptr)
 {
   centroidstressflag = CENTROID_NOTAVAIL;
   nondefault_history_transfer = 1;
@@ -158,7 +165,8 @@ void PairLSMFriction::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
   if (screened) check_special();
-  if (find_near(locate_onset ? NEAR_REACH : 1.0, fix_history->firstflag)) collect_sites();
+  chosen_anew = find_near(MAX(near_reach(), 1.0), fix_history->firstflag);
+  if (chosen_anew) collect_sites();
   (this->*(evflag        ? running->loop_tally
            : record_what ? running->loop_energies
                          : running->loop_nothing))();
@@ -167,12 +175,19 @@ void PairLSMFriction::compute(int eflag, int vflag)
 void PairLSMFriction::collect_sites()
 {
   const double *const radius = contact_radii();
+  const int size = size_history();
   sites.clear();
+  origins.clear();
+  histories.clear();
+  sites_build = neighbor->ncalls;
   for (const LSMNearPairs::Pair &pair : near.kept()) {
     const int i = pair.i, entry = list->firstneigh[i][pair.jj], j = entry & NEIGHMASK;
-    sites.push_back({fix_history->firstvalue[i] + size_history() * pair.jj,
-                     fix_history->firstflag[i] + pair.jj, radius[i] + radius[j], i, j, entry,
-                     atom->type[i], atom->type[j]});
+    double *const h = fix_history->firstvalue[i] + size * pair.jj;
+    int *const touch = fix_history->firstflag[i] + pair.jj;
+    if (*touch && h[STATUS] == NEAR) near.set_touching(static_cast<int>(sites.size()), false);
+    sites.push_back({i, j, atom->type[i], atom->type[j], radius[i] + radius[j]});
+    origins.push_back({h, touch, entry});
+    histories.insert(histories.end(), h, h + size);
   }
 }
 
@@ -190,6 +205,33 @@ static inline void keep_near(bool near, double delx, double dely, bool &touch, d
 }
 
 /* ----------------------------------------------------------------------
+   Pairs that do not touch have no memory: whether one is near follows from its vector.
+------------------------------------------------------------------------- */
+
+void PairLSMFriction::note_contacts()
+{
+  if (noted || sites_build != neighbor->ncalls) return;
+  noted = true;
+  const int size = size_history();
+  const double reach_sq = near_reach() * near_reach();
+  for (size_t n = 0; n < sites.size(); n++) {
+    const int place = static_cast<int>(n);
+    const Site &site = sites[n];
+    const Origin &origin = origins[n];
+    double *const h = &histories[n * size];
+    bool touch = near.is_touching(place);
+    if (!touch) {
+      const double *const d = near.vector(place);
+      const bool is_near = d[0] * d[0] + d[1] * d[1] <= reach_sq * site.r0 * site.r0 &&
+                           !(screened && left_out(origin.entry, site.itype, site.jtype));
+      keep_near(is_near, d[0], d[1], touch, h);
+    }
+    std::copy_n(h, size, origin.history);
+    *origin.touch = touch;
+  }
+}
+
+/* ----------------------------------------------------------------------
    The tangential increment is the change of the pair vector since the step before, not velocity times
    time step: ghost velocities need not be communicated, and evaluating the forces twice at the same
    positions (run after run, restart) changes nothing.
@@ -198,10 +240,11 @@ static inline void keep_near(bool near, double delx, double dely, bool &touch, d
 template <class Law, class Recorder> void PairLSMFriction::loop()
 {
   double **x = atom->x;
-  double **f = atom->f;
+  double *const f = atom->f[0];
   const double *radius = contact_radii();
   const int nlocal = atom->nlocal;
-  const double reach_sq = locate_onset ? NEAR_REACH * NEAR_REACH : 0.0;
+  const int size = size_history();
+  const double reach_sq = near_reach() * near_reach();
   [[maybe_unused]] const double dt = update->dt * pace;
 
   // the setup of a run evaluates the forces of a step that was done: the state of the contacts stays, so
@@ -215,16 +258,17 @@ template <class Law, class Recorder> void PairLSMFriction::loop()
   const double rounding = 16.0 * std::numeric_limits<double>::epsilon() * farthest;
   Recorder recorder(*this, setup, domain->boxlo[0], domain->prd[0]);
 
-  const auto evaluate = [&](const Site &site, bool &touch) LSM_LAMBDA {
+  const auto evaluate = [&](int place, bool &touch) LSM_LAMBDA {
+    const Site &site = sites[place];
     const int i = site.i, j = site.j, itype = site.itype, jtype = site.jtype;
-    double *const h = site.history;
-    const double delx = x[i][0] - x[j][0];
-    const double dely = x[i][1] - x[j][1];
+    double *const h = &histories[static_cast<size_t>(place) * size];
+    const double delx = near.vector(place)[0];
+    const double dely = near.vector(place)[1];
     const double rsq = delx * delx + dely * dely;
     const double r0 = site.r0;
     const bool apart = rsq >= r0 * r0;
     if (apart && !touch && rsq > reach_sq * r0 * r0) return;
-    if (screened && left_out(site.entry, itype, jtype)) {
+    if (screened && left_out(origins[place].entry, itype, jtype)) {
       touch = false;
       return;
     }
@@ -309,11 +353,12 @@ template <class Law, class Recorder> void PairLSMFriction::loop()
 
     const double fx = contact.fn * nx + s.force * ny;
     const double fy = contact.fn * ny - s.force * nx;
-    f[i][0] += fx;
-    f[i][1] += fy;
+    double *const fi = f + 3 * static_cast<size_t>(i), *const fj = f + 3 * static_cast<size_t>(j);
+    fi[0] += fx;
+    fi[1] += fy;
     if (both) {
-      f[j][0] -= fx;
-      f[j][1] -= fy;
+      fj[0] -= fx;
+      fj[1] -= fy;
     }
     if constexpr (Recorder::tallies)
       ev_tally_xyz(i, j, nlocal, newton_pair,
@@ -321,27 +366,30 @@ template <class Law, class Recorder> void PairLSMFriction::loop()
                    0.0, delx, dely, 0.0);
   };
 
-  // The pairs within reach are far from each other in memory: what they need is fetched some pairs ahead.
+  // The particles of contacts are far from each other in memory: their forces are fetched some contacts ahead.
 
   constexpr int AHEAD = 8;
   const int count = near.size();
   for (int n = 0; n < count; n++) {
     if (n + AHEAD < count) {
       const Site &site = sites[near[n + AHEAD]];
-      __builtin_prefetch(site.history, 1);
-      for (const int i : {site.i, site.j}) {
-        __builtin_prefetch(x[i]);
-        __builtin_prefetch(f[i], 1);
-      }
+      for (const int i : {site.i, site.j}) __builtin_prefetch(f + 3 * static_cast<size_t>(i), 1);
     }
     const int place = near[n];
     const bool before = near.is_touching(place);
     bool touch = before;
-    evaluate(sites[place], touch);
-    if (touch == before) continue;
-    *sites[place].touch = touch;
-    near.set_touching(place, touch);
+    double *const h = &histories[static_cast<size_t>(place) * size];
+    if (!before && !chosen_anew) {
+      const double *const d = near.vector_before(place), r0 = sites[place].r0;
+      keep_near(d[0] * d[0] + d[1] * d[1] <= reach_sq * r0 * r0, d[0], d[1], touch, h);
+    } else if (!before)
+      touch = *origins[place].touch;
+    evaluate(place, touch);
+    const bool after = touch && h[STATUS] != NEAR;
+    if (after != before) near.set_touching(place, after);
   }
+  noted = false;
+  if (screened) note_contacts();    // what is left out is known only here
   recorder.finish();
 }
 
@@ -349,6 +397,7 @@ template <class Law, class Recorder> void PairLSMFriction::loop()
 
 void PairLSMFriction::load_contacts(const double *shear)
 {
+  note_contacts();
   near.clear();    // it knows which pairs touch
   double **x = atom->x;
   const double *radius = contact_radii();
@@ -567,6 +616,7 @@ void PairLSMFriction::init_style()
         "Pair style lsm/friction does not work with fix numdiff, as friction depends on the path");
 
   pace = 1.0;
+  noted = true;     // at the end of the run before
   running = law;    // see init_one()
   PairLSMFree::init_style();
 
@@ -736,6 +786,7 @@ void PairLSMFriction::print_coeff(FILE *fp, int i, int j)
 double PairLSMFriction::single(int i, int j, int itype, int jtype, double rsq, double factor_coul,
                                double factor_lj, double &fforce)
 {
+  note_contacts();
   double energy = PairLSMFree::single(i, j, itype, jtype, rsq, factor_coul, factor_lj, fforce);
   svector[0] = svector[1] = 0.0;
   if (fforce == 0.0) return energy;

@@ -44,6 +44,8 @@ class PairLSMFriction : public PairLSMFree {
   /// Begins the contacts that the lists hold with a shear force of the upper particle on the lower one, which is given
   /// for each particle of this rank; called before forces are evaluated in a setup.
   void load_contacts(const double *shear);
+  /// Writes the contacts of the last evaluation into the history; to be called before somebody reads it.
+  void note_contacts() override;
 
  protected:
   void allocate() override;
@@ -71,15 +73,23 @@ class PairLSMFriction : public PairLSMFree {
   static constexpr int MAX_PARAMETERS = 8;
 
   // A pair that is kept near, with what is known of it until other pairs are kept: scattered over LAMMPS' arrays it
-  // would lie on a dozen cache lines
+  // would lie on a dozen cache lines. The history of all of them is copied from there and back.
 
   struct Site {
+    int i, j, itype, jtype;
+    double r0;    // sum of the radii
+  };
+  struct Origin {
     double *history;
     int *touch;
-    double r0;    // sum of the radii
-    int i, j, entry, itype, jtype;
+    int entry;
   };
   std::vector<Site> sites;
+  std::vector<Origin> origins;
+  std::vector<double> histories;
+  bigint sites_build;    // number of the build of the neighbor list that they are of
+  bool chosen_anew;      // in this step
+  bool noted;            // the history holds what they do
 
   const Law *law;                          // first one of the name that was chosen
   const Law *running;                      // of these, the first that fits all coefficients
@@ -101,6 +111,7 @@ class PairLSMFriction : public PairLSMFree {
   void destroy_coefficients();
   void check(int, double, const double *, const std::string &) const;
   int size_history() const;
+  double near_reach() const;
 };
 
 }    // namespace LAMMPS_NS

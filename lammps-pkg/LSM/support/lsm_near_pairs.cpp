@@ -28,6 +28,11 @@ static inline Two load(const double *from)
   return v;
 }
 
+static inline void store(double *to, const Two &v)
+{
+  memcpy(to, &v, sizeof(v));
+}
+
 /* ----------------------------------------------------------------------
    range of the displacements of the particles from first to before last
 ------------------------------------------------------------------------- */
@@ -98,9 +103,25 @@ bool LSMNearPairs::outdated(const double *x, int nlocal, double farthest)
 
 /* ---------------------------------------------------------------------- */
 
+bool LSMNearPairs::is_due(bigint build, const NeighList &list, const double *x, int nlocal,
+                          int count, double farthest)
+{
+  if (build == built) return !held.empty() && outdated(x, nlocal, farthest);
+  bigint all = 0;
+  for (int ii = 0; ii < list.inum; ii++) all += list.numneigh[list.ilist[ii]];
+  held.resize(all > FEW * count ? 3 * static_cast<size_t>(count) : 0);
+  built = build;
+  return true;
+}
+
+/* ---------------------------------------------------------------------- */
+
 void LSMNearPairs::choose(const NeighList &list, const double *x, const double *radius,
                           double reach, const int *const *touch)
 {
+  std::copy_n(x, held.size(), held.begin());
+  moved = Range{};
+  travelled = 0.0;
   pairs.clear();
   ends.clear();
   within.clear();
@@ -112,16 +133,17 @@ void LSMNearPairs::choose(const NeighList &list, const double *x, const double *
       const int j = list.firstneigh[i][jj] & NEIGHMASK;
       const double *const xj = x + 3 * static_cast<size_t>(j);
       const double dx = xi[0] - xj[0], dy = xi[1] - xj[1], dz = xi[2] - xj[2];
-      const double near = reach * (radius[i] + radius[j]), far = near + SKIN;
+      const double r0 = radius[i] + radius[j], far = reach * r0 + SKIN;
       const bool touching = touch && touch[i][jj];
       if (!held.empty() && dx * dx + dy * dy + dz * dz > far * far && !touching) continue;
       pairs.push_back({i, jj});
       ends.push_back({3 * i, 3 * j});
-      within.push_back(near * near * (1.0 + ROUNDING));
+      within.push_back(r0 * r0 * (1.0 + ROUNDING));
       limit.push_back(touching ? INFINITY : within.back());
     }
   }
   found.resize(pairs.size() + 1);
+  for (auto &of_a_step : vectors) of_a_step.resize(2 * pairs.size());
 }
 
 /* ----------------------------------------------------------------------
@@ -131,11 +153,15 @@ void LSMNearPairs::choose(const NeighList &list, const double *x, const double *
 void LSMNearPairs::find(const double *x)
 {
   const int n = static_cast<int>(pairs.size());
+  newest = 1 - newest;
+  double *const vector = vectors[newest].data();
   int *const to = found.data();
   int count = 0, m = 0;
   for (; m + 2 <= n; m += 2) {
     Two a = load(x + ends[m].i) - load(x + ends[m].j);
     Two b = load(x + ends[m + 1].i) - load(x + ends[m + 1].j);
+    store(vector + 2 * m, a);
+    store(vector + 2 * m + 2, b);
     a *= a;
     b *= b;
     const auto far = Two{a[0], b[0]} + Two{a[1], b[1]} > load(&limit[m]);
@@ -146,32 +172,9 @@ void LSMNearPairs::find(const double *x)
   }
   if (m < n) {
     const Two a = load(x + ends[m].i) - load(x + ends[m].j);
+    store(vector + 2 * m, a);
     to[count] = m;
     count += !(a[0] * a[0] + a[1] * a[1] > limit[m]);
   }
   number = count;
-}
-
-/* ---------------------------------------------------------------------- */
-
-bool LSMNearPairs::update(bigint build, const NeighList &list, const double *x, int nlocal,
-                          int count, const double *radius, double reach, const int *const *touch,
-                          double farthest)
-{
-  const bool built_anew = build != built;
-  if (built_anew) {
-    bigint all = 0;
-    for (int ii = 0; ii < list.inum; ii++) all += list.numneigh[list.ilist[ii]];
-    held.resize(all > FEW * count ? 3 * static_cast<size_t>(count) : 0);
-    built = build;
-  }
-  const bool chooses = built_anew || (!held.empty() && outdated(x, nlocal, farthest));
-  if (chooses) {
-    std::copy_n(x, held.size(), held.begin());
-    moved = Range{};
-    travelled = 0.0;
-    choose(list, x, radius, reach, touch);
-  }
-  find(x);
-  return chooses;
 }

@@ -15,30 +15,38 @@ namespace LAMMPS_NS {
 
 class NeighList;
 
-/// Most pairs in the neighbor list of a filled block never touch. Kept are those that may come within reach before
-/// particles have moved by a small skin against each other, and in each step those of them are given that are within
-/// reach: no pair is missed, so forces are the same to the last bit.
+/// Most pairs in the neighbor list of a filled block never touch. Kept are those that may come near before particles
+/// have moved by a small skin against each other, and in each step those of them are given that touch: no pair is
+/// missed, so forces are the same to the last bit.
 class LSMNearPairs {
  public:
   struct Pair {
     int i, jj;    ///< a particle, and the place of its partner in its part of the neighbor list
   };
 
-  /// Looks at all pairs again where that is needed, and finds those within reach.
+  /// Whether the pairs that are kept have to be chosen anew. To be asked in each step.
   /// \param build     number of the build of the neighbor list
   /// \param x         positions of all particles with ghosts, `count` of them, `nlocal` without
-  /// \param reach     pairs are within reach up to this distance, in sums of radii
-  /// \param touch     flags of pairs that count as within reach at any distance, as in the neighbor list, or null
   /// \param farthest  no particle of this rank has moved farther since the last call, infinite if unknown
-  /// \return whether other pairs were kept than before
-  bool update(bigint build, const NeighList &, const double *x, int nlocal, int count,
-              const double *radius, double reach, const int *const *touch, double farthest);
+  bool is_due(bigint build, const NeighList &, const double *x, int nlocal, int count,
+              double farthest);
+  /// Chooses the pairs that are kept.
+  /// \param reach     pairs are near up to this distance, in sums of radii
+  /// \param touch     flags of pairs that are kept and given at any distance, as in the neighbor list, or null
+  void choose(const NeighList &, const double *x, const double *radius, double reach,
+              const int *const *touch);
+  /// Finds those of them that touch.
+  void find(const double *x);
   /// Those that are kept, in the order of the neighbor list.
   const std::vector<Pair> &kept() const { return pairs; }
-  /// How many of them are within reach, and the place in kept() of the n-th of these, in the same order.
+  /// How many of them touch, or nearly so by rounding, and the place in kept() of the n-th of these, in the same order.
   int size() const { return number; }
   int operator[](int n) const { return found[n]; }
-  /// Whether a pair, by its place in kept(), is touching; to be told when that changes.
+  /// From the second to the first particle of a pair, by its place in kept(), along x and y: now, and in the step
+  /// before; the latter only if the same pairs were kept.
+  const double *vector(int place) const { return &vectors[newest][2 * place]; }
+  const double *vector_before(int place) const { return &vectors[1 - newest][2 * place]; }
+  /// Whether a pair is given at any distance; to be told when that changes.
   bool is_touching(int place) const
   {
     return limit[place] == std::numeric_limits<double>::infinity();
@@ -61,9 +69,11 @@ class LSMNearPairs {
   };
   std::vector<Pair> pairs;
   std::vector<Ends> ends;        // of the pairs, as are the following
-  std::vector<double> within;    // square of the distance up to which a pair is within reach
-  std::vector<double> limit;     // the same, infinite where it is touching
-  std::vector<int> found;        // the first `number` of them are within reach now
+  std::vector<double> within;    // square of the distance up to which a pair touches
+  std::vector<double> limit;     // the same, infinite where it is given at any distance
+  std::vector<double> vectors[2];
+  int newest = 0;
+  std::vector<int> found;    // the first `number` of them touch now
   int number = 0;
 
   bigint built = -1;
@@ -74,9 +84,6 @@ class LSMNearPairs {
 
   Range displacements(const double *x, size_t first, size_t last) const;
   bool outdated(const double *x, int nlocal, double farthest);
-  void choose(const NeighList &, const double *x, const double *radius, double reach,
-              const int *const *touch);
-  void find(const double *x);
 };
 
 }    // namespace LAMMPS_NS
