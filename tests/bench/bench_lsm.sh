@@ -17,15 +17,18 @@ FOLDER takes the scenes, which are made once for each LMP, all timings (timings.
   --rounds N         rounds of peers and of recording on or off [7, quick 2]; others have half as many, but at least 2
   --seconds S        a run takes about so long [1, quick 0.3]
   --length L         fault of the comparisons [1890]
-  --only WHAT,...    peers, parts, features, lengths, scale, setup, analysis [all]; scale runs up to 8 ranks, whatever the
-                     cores; analysis: postproc beside LMP, 1e7 events (quick 1e5)
+  --only WHAT,...    peers, parts, features, lengths, scale, setup, analysis, causes, campaign [all]; scale runs up to 8
+                     ranks, whatever the cores; analysis: postproc beside LMP, 1e7 events (quick 1e5); causes: why a step
+                     of a run of RUNS takes longer than one of these scenes; campaign: slices of all runs of RUNS
+  --runs RUNS        folder of a study with runs fault_LENGTH_1, done or under way (inputs/study.sh campaign); causes and
+                     campaign begin with the newest restart file of each, and are left out without RUNS
 END
 }
 
-rounds=0 seconds=0 length=1890 only=peers,parts,features,lengths,scale,setup,analysis quick=no
+rounds=0 seconds=0 length=1890 only=peers,parts,features,lengths,scale,setup,analysis,causes,campaign quick=no runs=
 arguments=()
 while (($#)); do
-  if [[ $1 =~ ^--(rounds|seconds|length|only)$ ]] && (($# < 2)); then
+  if [[ $1 =~ ^--(rounds|seconds|length|only|runs)$ ]] && (($# < 2)); then
     echo "bench_lsm.sh: $1 needs a value, see --help" >&2
     exit 1
   fi
@@ -35,6 +38,7 @@ while (($#)); do
     --seconds) seconds=$2; shift ;;
     --length) length=$2; shift ;;
     --only) only=$2; shift ;;
+    --runs) runs=$(realpath "$2"); shift ;;
     --help) usage; exit ;;
     -*) echo "bench_lsm.sh: unknown option $1, see --help" >&2; exit 1 ;;
     *) arguments+=("$1") ;;
@@ -202,6 +206,7 @@ if wanted features; then
     feature "rate and state (ageing)" -var otherlaw yes -var law rate-state-ageing -var friction "mu 0.6 a 0.01 b 0.015 dc 0.001 v0 0.0005"
     feature "rate and state (slip)" -var otherlaw yes -var law rate-state-slip -var friction "mu 0.6 a 0.01 b 0.015 dc 0.001 v0 0.0005"
     feature "links that can break" -var ratio 1.5
+    feature "dashpots of links and contacts" -var delay 0.02
     feature "no viscosity" -var viscosity 0
     feature "pressure every 100 steps" -var pressure 100
     feature "pressure every step" -var pressure 1
@@ -233,6 +238,85 @@ if wanted lengths; then
   else
     echo "mpicc failed, the bandwidth is left out, see $folder/triad.err" >&2
   fi
+fi
+
+# slice TABLE LABEL FOLDER RANKS ROUND [CHANGE]: a part of the run of inputs/fault.in in FOLDER,
+# from its newest restart file, with everything that it records; CHANGE is a file of commands before
+# it.
+slice() {
+  local table=$1 label=$2 ranks=$4 round=$5 info file prefix size
+  info=$(for file in "$3"/*.restart.*.info; do echo "$(awk '/^step = / {print $3}' "$file") $file"; done | sort -g | tail -1)
+  info=${info#* }
+  [ -e "$info" ] || die "$3: no restart file"
+  file=${info%.info}
+  prefix=${file%.restart.*}
+  rm -rf slice
+  mkdir slice
+  cp "$here"/../../inputs/fault{,_checkpoint}.in "$here/slice.in" "$info" "$file" slice
+  for file in "$prefix".{catalogue.csv,pe.bin,ruptures.csv,slip.bin}; do [ ! -e "$file" ] || cp "$file" slice; done
+  file=${info##*/}
+  size=$(sed -n 's/^length = //p' "$info")
+  (cd slice && SLICE_WARM=50 SLICE_STEPS=$(steps "$size" $((60 * ranks))) SLICE_CHANGE=${6:-/dev/null} \
+    mpirun -np "$ranks" "${measure[@]}" "$lmp" -in fault.in -var restart "${file%.info}" -var extra slice -log slice.log \
+    -screen none > slice.out 2>&1) || die "$label failed, see $folder/slice/slice.log"
+  note "$table" "$label" "$size" "$ranks" "$round" slice/slice.log slice/slice.out
+}
+
+if wanted causes && [ -n "$runs" ]; then
+  scene "$length"
+  scene "$length" -var within yes
+  if ! [ before/fault.restart.end.info -nt "$lmp" ]; then
+    say "making the default fault of length $length, before the shear"
+    rm -rf before
+    mkdir before
+    (cd before && mpirun -np "$most" "$lmp" -in "$here/../../inputs/fault.in" -var length "$length" -var steps 0 -var prefix fault \
+      -log make.log -screen none) || die "making the default fault failed, see $folder/before/make.log"
+  fi
+  cat > changes.blocks <<'END'
+pair_coeff * * off
+pair_coeff 1 2 1.0 ${kt} ${friction}
+pair_coeff 1 4 1.0 ${kt} ${friction}
+pair_coeff 2 3 1.0 ${kt} ${friction}
+pair_coeff 3 4 1.0 ${kt} ${friction}
+END
+  cat > changes.impedance <<'END'
+unfix plates
+fix plates all lsm/plates lower upper stress ${stress} damping ${viscosity} velocity ${velocity} ramp 150
+END
+  cat > changes.recording <<'END'
+thermo_style custom step
+uncompute events
+if "$(is_defined(compute,ruptures))" then "uncompute ruptures"
+END
+  cat > changes.place <<'END'
+thermo_style custom step
+uncompute events
+if "$(is_defined(compute,ruptures))" then "uncompute ruptures"
+compute events all lsm/events catalogue slice.catalogue.csv series slice.pe.bin binary
+END
+  echo 'neigh_modify delay 0 every 1000000 check no' > changes.lists
+  for ((round = 1; round <= few; ++round)); do
+    say "causes, round $round of $few"
+    ours causes "scene of the comparisons" "$length" "$most" "$round"
+    fault=fault_${length}_all ours causes "with contacts of all discs" "$length" "$most" "$round" -var within yes
+    slice causes "default scene before the shear" before "$most" "$round"
+    run=$runs/fault_${length}_1
+    slice causes "in shear as in the campaign" "$run" "$most" "$round"
+    slice causes "contacts between the blocks only" "$run" "$most" "$round" ../changes.blocks
+    slice causes "neither location nor ruptures" "$run" "$most" "$round" ../changes.place
+    slice causes "nothing recorded" "$run" "$most" "$round" ../changes.recording
+    slice causes "no impedance of the plates" "$run" "$most" "$round" ../changes.impedance
+    slice causes "lists never rebuilt" "$run" "$most" "$round" ../changes.lists
+  done
+fi
+
+if wanted campaign && [ -n "$runs" ]; then
+  for ((round = 1; round <= few; ++round)); do
+    say "campaign, round $round of $few"
+    for run in "$runs"/fault_*_1; do
+      for ranks in $ranks_in_turn; do slice campaign "slice" "$run" "$ranks" "$round"; done
+    done
+  done
 fi
 
 # What ranks send each other, counted, not timed: the difference of two runs, so that set-up does
@@ -293,6 +377,10 @@ if wanted analysis; then
         echo "$events,$command,$(tail -1 analysis.time)" >> analysis.csv
       done
     done
+    say "analysis, random series"
+    /usr/bin/time -o analysis.time -f "%e,%M" "$postproc" intervals --replicas 0 analysis.catalogue.csv --no-picture -o analysed > analysis.out 2>&1 ||
+      die "postproc intervals failed, see $folder/analysis.out"
+    echo "$events,intervals with random series,$(tail -1 analysis.time)" >> analysis.csv
     rm -f analysis.catalogue.csv
   else
     echo "no $postproc or no GNU time, the analysis is left out" >&2

@@ -185,6 +185,30 @@ END {
     }
   }
 
+  if (has["causes"]) {
+    printf "\n### From the scene of the comparisons to a run, %d ranks\n\n", most
+    print "| what | ns | beside the run |" " links | contacts | modify | comm | neigh | other |"
+    print "|---|---|---|---|---|---|---|---|---|"
+    for (k = 1; k <= keys; k++)
+      if (table[k] == "causes") {
+        base = "causes|in shear as in the campaign|" length_of[k] "|" ranks_of[k]
+        printf "| %s | %.2f | %.2f |%s\n", label[k], cost(order[k]), ratio(order[k], base), timers(order[k])
+      }
+  }
+
+  if (has["campaign"]) {
+    print "\n### Slices of the campaign\n"
+    print "| length | particles | ranks | ns | hours for 1.2e6 steps | links | contacts | modify | comm | neigh | other |"
+    print "|---|---|---|---|---|---|---|---|---|---|---|"
+    for (k = 1; k <= keys; k++)
+      if (table[k] == "campaign") {
+        hours = cost(order[k]) * 1e-9 * atoms[order[k]] * 1.2e6 / 3600
+        all[ranks_of[k]] += hours
+        printf "| %d | %d | %d | %.2f | %.3f |%s\n", length_of[k], atoms[order[k]], ranks_of[k], cost(order[k]), hours, timers(order[k])
+      }
+    for (r = 1; r <= most; r++) printf "\n%d ranks: %.2f hours, %.2f core-hours.\n", r, all[r], r * all[r]
+  }
+
   if (has["lengths"]) {
     print "\n### Against the length of the fault\n"
     print "| length | particles | ranks | million particle-steps/s | ns | links | contacts | modify | comm | neigh | other |" memory("memory, bytes per particle")
