@@ -16,12 +16,14 @@ build=${LSM_BUILD_DIR:-$root/build}
 . "$root/lammps-pkg/cmake/debian-packages.sh"
 # The lists are words on purpose.
 install_debian_packages $lammps_packages $plot_packages $postproc_packages
+packages_took=$SECONDS
 
 # A build folder that is there keeps its options.
 if [ ! -f "$build/CMakeCache.txt" ]; then
   cmake -S "$root" -B "$build" -G Ninja -DLSM_BUILD_SLIDER=OFF -DLSM_BUILD_TESTS=OFF
 fi
 cmake --build "$build" --target lmp postproc
+programs_took=$((SECONDS - packages_took))
 
 . "$root/inputs/mpi-settings.sh"
 run=$build/first-catalogue
@@ -30,6 +32,7 @@ cd "$run"
 rm -f first.*
 echo "Running the fault of length 120 for $steps steps of shear in $run"
 mpirun -np 2 "$build/bin/lmp" -in "$root/inputs/fault_120.in" -var steps "$steps" -var prefix first -var ruptures yes </dev/null
+fault_took=$((SECONDS - packages_took - programs_took))
 
 catalogue=first.catalogue.csv
 series=first.pe.bin
@@ -65,6 +68,8 @@ fi
 "$build/bin/postproc" explore $catalogue --p-speed 2.08 --s-speed 1.06 --output first.html --title "Fault of length 120"
 echo "Catalogue, series and pictures are in $run"
 echo "Open in a browser to explore the run: file://$run/first.html"
+echo "Time: packages $packages_took s, source and programs $programs_took s, the fault $fault_took s," \
+  "figures $((SECONDS - packages_took - programs_took - fault_took)) s"
 if [ "$count" -lt 100 ]; then
   echo "Only $count events, expected at least 100: give more than $steps steps" >&2
   exit 1
