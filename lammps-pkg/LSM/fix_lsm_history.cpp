@@ -70,8 +70,8 @@ void FixLSMHistory::write_restart(FILE *fp)
 }
 
 /* ----------------------------------------------------------------------
-   A law that keeps no state has written nothing here, and then there is nothing to be read: what the buffer holds
-   counts only for contacts of the right size, see below.
+   A law without a state writes nothing here, and then there is nothing to read: the buffer is used only for
+   contacts of the right size, see below.
 ------------------------------------------------------------------------- */
 
 void FixLSMHistory::restart(char *buf)

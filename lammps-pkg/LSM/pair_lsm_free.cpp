@@ -287,7 +287,7 @@ void PairLSMFree::init_style()
     error->all(FLERR, "Pair style lsm/* needs particle radii: use atom_style hybrid bond sphere");
   record_what = NONE;
   velocity = any_delay() && update->whichflag != 2 ? FixLSMVelocity::ask_for(lmp) : nullptr;
-  near.clear();    // the list may be another, and its builds are counted anew
+  near.clear();    // the list may have changed, and its builds are counted anew
   int flag, columns;
   own_radii = atom->find_custom("lsm_contact_radius", flag, columns);
   newton_pair = force->newton_pair;
@@ -374,8 +374,7 @@ void PairLSMFree::warn_of_missing_links() const
   if (comm->me == 0 && all[0] > all[1])
     error->warning(FLERR,
                    "Pair style lsm/*: {} pairs of particles have no link but are kept from "
-                   "touching as if they had one; "
-                   "use 'delete_bonds ... remove special'",
+                   "touching as if linked; use 'delete_bonds ... remove special'",
                    (all[0] - all[1]) / 2);
 }
 
@@ -423,7 +422,7 @@ void PairLSMFree::print_delay(FILE *fp, int i, int j)
 }
 
 /* ----------------------------------------------------------------------
-   Retardation times stand in front, behind a number that nothing else begins with, if there are any.
+   Retardation times, if any, come first, after a number that begins nothing else.
 ------------------------------------------------------------------------- */
 
 static constexpr int TIMES_FOLLOW = -2;

@@ -22,7 +22,7 @@
 using namespace LAMMPS_NS;
 
 /* ----------------------------------------------------------------------
-   LAMMPS ends a restart file with this, and does not look whether it reached the disk
+   LAMMPS ends a restart file with this, and does not check that it reached the disk
 ------------------------------------------------------------------------- */
 
 static bool ends_well(const std::string &file)
@@ -35,7 +35,7 @@ static bool ends_well(const std::string &file)
 }
 
 namespace {
-/// Takes a file that did not get its name away again.
+/// Removes a file that was not renamed.
 struct Draft {
   std::string file;
   bool mine;
@@ -85,7 +85,7 @@ void SaveRestart::save(const std::string &file, const LSM::text_io::Parameters &
                                     {"ranks", std::to_string(comm->nprocs)}};
     all.insert(all.end(), settings.begin(), settings.end());
     try {
-      if (!ends_well(draft.file)) throw LSM::RestartInfoError("the disk has not taken all of it");
+      if (!ends_well(draft.file)) throw LSM::RestartInfoError("the file on disk is incomplete");
       LSM::seal_restart(draft.file, file, all);
     } catch (std::exception &e) {
       problem = e.what();
