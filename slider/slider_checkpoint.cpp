@@ -1,78 +1,40 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "slider_checkpoint.h"
 
-#include <unistd.h>
 #include <zlib.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <tuple>
 
 #include <nlohmann/json.hpp>
 
-namespace nlohmann {
+#include "lsm_text_io.h"
 
-template <>
-struct adl_serializer<Slider::Rupture> {
-  // One list for both ways. Json: json or const json.
-  template <class Json, class Rupture, class Each>
-  static void visit(Json &j, Rupture &r, const Each &each) {
-    each(j, "step_start", r.step_start);
-    each(j, "step_end", r.step_end);
-    each(j, "first", r.first_place);
-    each(j, "begin", r.begin);
-    each(j, "length", r.length);
-    each(j, "size", r.size);
-    each(j, "slip", r.slip);
-    each(j, "slip_cos", r.slip_cos);
-    each(j, "slip_sin", r.slip_sin);
-    each(j, "pe_start", r.pe_start);
-    each(j, "pe_end", r.pe_end);
-  }
-  static void to_json(json &j, const Slider::Rupture &r) {
-    visit(j, r, [](json &to, const char *key, const auto &value) { to[key] = value; });
-  }
-  static void from_json(const json &j, Slider::Rupture &r) {
-    visit(j, r, [](const json &from, const char *key, auto &value) { from.at(key).get_to(value); });
-  }
-};
-
-template <>
-struct adl_serializer<Slider::RecentSlip> {
-  static void to_json(json &j, const Slider::RecentSlip &slip) {
-    const auto &[place, step, rupture] = slip;
-    j = {place, step, rupture};
-  }
-  static void from_json(const json &j, Slider::RecentSlip &slip) {
-    auto &[place, step, rupture] = slip;
-    j.at(0).get_to(place);
-    j.at(1).get_to(step);
-    j.at(2).get_to(rupture);
-  }
-};
-
-template <>
-struct adl_serializer<Slider::RuptureState> {
-  static void to_json(json &j, const Slider::RuptureState &state) {
-    j = {{"open", state.open}, {"recent", state.recent}};
-  }
-  static void from_json(const json &j, Slider::RuptureState &state) {
-    j.at("open").get_to(state.open);
-    j.at("recent").get_to(state.recent);
-  }
-};
-
-}  // namespace nlohmann
+// For these, nlohmann looks in the namespace of each.
+namespace Slider {
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Rupture, step_start, step_end, first, begin, length, size, slip,
+                                   slip_cos, slip_sin, pe_start, pe_end)
+}
 
 namespace LSM {
+
+using nlohmann::json;
+
+void to_json(json &j, const RecentSlip &slip) { j = {slip.place, slip.step, slip.set}; }
+void from_json(const json &j, RecentSlip &slip) {
+  std::tie(slip.place, slip.step, slip.set) =
+      j.get<std::tuple<std::int64_t, std::int64_t, std::int64_t>>();
+}
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Slider::RuptureState, open, recent)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PickerState, samples, step, time, pe, rate, in_event, step_start,
                                    t_start, pe_start, events, dropped_nonpositive, dropped_small,
                                    last_size)
-}
+
+}  // namespace LSM
 
 namespace Slider {
 
@@ -93,14 +55,6 @@ constexpr const char *version_1 = "slider-checkpoint-1\n";
 
 std::uint32_t checksum(const std::vector<std::uint8_t> &bytes) {
   return static_cast<std::uint32_t>(crc32_z(0, bytes.data(), bytes.size()));
-}
-
-bool write_whole(const std::string &path, const std::vector<std::uint8_t> &bytes) {
-  std::FILE *file = std::fopen(path.c_str(), "wb");
-  if (!file) return false;
-  const bool good = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size() &&
-                    std::fflush(file) == 0 && fsync(fileno(file)) == 0;
-  return std::fclose(file) == 0 && good;
 }
 
 [[noreturn]] void refuse_version(const std::string &path, const std::string &found) {
@@ -135,12 +89,9 @@ void write_checkpoint(const std::string &path, const std::vector<std::string> &s
   if (state.calm_since != 0) content["calm_since"] = state.calm_since;
   const std::vector<std::uint8_t> run = json::to_cbor(content);
   const json file = {{version_key, version}, {"crc32", checksum(run)}, {"run", json::binary(run)}};
-  const std::string written = path + ".new";
-  if (write_whole(written, json::to_cbor(file)) && std::rename(written.c_str(), path.c_str()) == 0)
-    return;
-  const std::string why = std::strerror(errno);
-  std::remove(written.c_str());
-  throw std::runtime_error(path + ": cannot write the checkpoint: " + why);
+  std::string bytes;
+  json::to_cbor(file, bytes);
+  LSM::text_io::write_file(path, bytes, true);
 }
 
 RunState read_checkpoint(const std::string &path, const std::vector<std::string> &settings) {

@@ -8,13 +8,13 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
-#include <fstream>
 #include <iostream>
 #include <new>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "lsm_text_io.h"
 #include "slider_kernels.h"
 #include "slider_options.h"
 
@@ -62,14 +62,7 @@ void write_json(const std::string &path, const nlohmann::ordered_json &j) {
     std::cout << j.dump(2) << '\n';
     return;
   }
-  const std::string written = path + ".new";
-  std::ofstream out(written);
-  out << j.dump(2) << '\n';
-  out.close();
-  if (!out || std::rename(written.c_str(), path.c_str()) != 0) {
-    std::remove(written.c_str());
-    throw std::runtime_error(path + ": cannot be written, expected a writable file for --json");
-  }
+  LSM::text_io::write_file(path, j.dump(2) + "\n");
 }
 
 void warn(const Settings &s) {

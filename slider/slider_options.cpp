@@ -459,7 +459,7 @@ std::vector<Settings> ensemble(const Settings &base, const std::vector<std::stri
     if (!std::ifstream(base.ensemble))
       throw std::invalid_argument("--ensemble = '" + base.ensemble +
                                   "', expected a number of runs or a readable file");
-    LSM::text_io::LineReader<LSM::FileError> in(base.ensemble);
+    LSM::text_io::LineReader in(base.ensemble);
     for (std::string_view line; in.next(line);) {
       std::istringstream words{std::string(line)};
       std::vector<std::string> extra;

@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "slider_output.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <system_error>
 
 namespace Slider {
 
@@ -55,15 +50,8 @@ void Outputs::resume(std::int64_t step, std::int64_t events, std::int64_t late) 
 void Outputs::flush() {
   if (series_.is_open()) series_.flush();
   // A checkpoint must not outlive in a failure of power what it counts on.
-  for (const std::string &path : {catalogue_path_, series_path_}) {
-    if (!LSM::text_io::holds_data(path)) continue;
-    const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    const bool lost = file < 0 || fsync(file) != 0;
-    const int why = errno;
-    if (file >= 0) ::close(file);
-    if (lost)
-      throw LSM::FileError(path + ": cannot write: " + std::generic_category().message(why));
-  }
+  for (const std::string &path : {catalogue_path_, series_path_})
+    if (LSM::text_io::holds_data(path)) LSM::text_io::sync(path);
 }
 
 void Outputs::close() {

@@ -111,7 +111,7 @@ inline std::vector<double> random_friction(int blocks, double low, double high,
 /// One static coefficient per line; blank lines and lines starting with # are skipped.
 /// \throws std::runtime_error "file:line: what, expected ..."
 inline std::vector<double> read_friction(const std::string &path) {
-  LSM::text_io::LineReader<LSM::FileError> in(path);
+  LSM::text_io::LineReader in(path);
   std::vector<double> mu;
   for (std::string_view line; in.next(line);) {
     const std::string_view word = LSM::text_io::trim(line);

@@ -85,7 +85,7 @@ void SaveRestart::save(const std::string &file, const LSM::text_io::Parameters &
                                     {"ranks", std::to_string(comm->nprocs)}};
     all.insert(all.end(), settings.begin(), settings.end());
     try {
-      if (!ends_well(draft.file)) throw LSM::RestartInfoError("the file on disk is incomplete");
+      if (!ends_well(draft.file)) throw LSM::FileError("the file on disk is incomplete");
       LSM::seal_restart(draft.file, file, all);
     } catch (std::exception &e) {
       problem = e.what();

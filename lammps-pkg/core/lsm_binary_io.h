@@ -5,12 +5,16 @@
 #ifndef LSM_BINARY_IO_H
 #define LSM_BINARY_IO_H
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "lsm_text_io.h"
 
@@ -18,45 +22,30 @@ namespace LSM::binary_io {
 
 constexpr std::int64_t longest_header = 1 << 20;
 
-inline void append_bytes(std::string &out, std::uint64_t bits) {
-  for (int i = 0; i < 8; ++i) out += static_cast<char>((bits >> (8 * i)) & 0xff);
+/// A number of the machine, as bytes of the file or back.
+template <class Bytes>
+Bytes little_endian(Bytes bytes) {
+#if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
+  std::reverse(bytes.begin(), bytes.end());
+#endif
+  return bytes;
 }
 
-inline void append_bytes(std::string &out, double value) {
-  std::uint64_t bits = 0;
-  std::memcpy(&bits, &value, sizeof(bits));
-  append_bytes(out, bits);
+template <class Number>
+void append_bytes(std::string &out, Number value) {
+  std::array<char, sizeof(Number)> bytes{};
+  std::memcpy(bytes.data(), &value, bytes.size());
+  bytes = little_endian(bytes);
+  out.append(bytes.data(), bytes.size());
 }
 
-inline void append_bytes(std::string &out, float value) {
-  std::uint32_t bits = 0;
-  std::memcpy(&bits, &value, sizeof(bits));
-  for (int i = 0; i < 4; ++i) out += static_cast<char>((bits >> (8 * i)) & 0xff);
-}
-
-template <class Bits>
-Bits bits_from_bytes(const char *bytes) {
-  Bits bits = 0;
-  for (std::size_t i = 0; i < sizeof(Bits); ++i)
-    bits |= static_cast<Bits>(static_cast<Bits>(static_cast<unsigned char>(bytes[i])) << (8 * i));
-  return bits;
-}
-
-inline std::int64_t step_from_bytes(const char *bytes) {
-  return static_cast<std::int64_t>(bits_from_bytes<std::uint64_t>(bytes));
-}
-
-inline double double_from_bytes(const char *bytes) {
-  const auto bits = bits_from_bytes<std::uint64_t>(bytes);
-  double value = 0.0;
-  std::memcpy(&value, &bits, sizeof(value));
-  return value;
-}
-
-inline float float_from_bytes(const char *bytes) {
-  const auto bits = bits_from_bytes<std::uint32_t>(bytes);
-  float value = 0.0F;
-  std::memcpy(&value, &bits, sizeof(value));
+template <class Number>
+Number from_bytes(const char *from) {
+  std::array<char, sizeof(Number)> bytes{};
+  std::memcpy(bytes.data(), from, bytes.size());
+  bytes = little_endian(bytes);
+  Number value{};
+  std::memcpy(&value, bytes.data(), bytes.size());
   return value;
 }
 
@@ -64,7 +53,7 @@ inline float float_from_bytes(const char *bytes) {
 inline std::string header_bytes(std::string_view magic, const text_io::Parameters &parameters) {
   std::string text(magic);
   const std::string lines = text_io::header_text("", parameters).substr(1);
-  append_bytes(text, static_cast<std::uint64_t>(lines.size()));
+  append_bytes(text, static_cast<std::int64_t>(lines.size()));
   return text + lines;
 }
 
@@ -76,34 +65,75 @@ struct Header {
 };
 
 /// Reads the header of a file whose first 16 bytes were read. What comes next is behind it.
-/// \throws Error naming the file
-template <class Error>
-Header read_header(text_io::Bytes &in) {
+/// \throws FileError naming the file
+inline Header read_header(text_io::Bytes &in) {
   const std::string &path = in.path();
   std::array<char, 8> bytes{};
   Header header;
   const bool whole = in.read(bytes.data(), bytes.size()) == bytes.size();
-  const std::int64_t length = step_from_bytes(bytes.data());
+  const auto length = from_bytes<std::int64_t>(bytes.data());
   header.size = in.size();
   if (!whole || length < 0 || length > longest_header || 16 + 8 + length > header.size)
-    throw Error(path + ": file ends within the binary header, expected its length and " +
-                "'# key = value' lines");
+    throw FileError(path + ": file ends within the binary header, expected its length and " +
+                    "'# key = value' lines");
   header.begin = 16 + 8 + length;
   std::string text(static_cast<std::size_t>(length), '\0');
   if (in.read(text.data(), text.size()) != text.size())
-    throw Error(path + ": cannot read the binary header");
-  std::string_view rest = text;
+    throw FileError(path + ": cannot read the binary header");
   text_io::ParameterList parameters;
-  for (std::int64_t number = 1; !rest.empty(); ++number) {
-    const std::size_t end = rest.find('\n');
-    const std::string problem = parameters.add_line(rest.substr(0, end));
-    if (!problem.empty())
-      throw Error(path + ": header line " + std::to_string(number) + ": " + problem);
-    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
-  }
+  const std::string problem = parameters.add_lines(text);
+  if (!problem.empty()) throw FileError(path + ": " + problem);
   header.parameters = parameters.all();
   return header;
 }
+
+/// The records of a file, all of one size, one after the other.
+class Records {
+ public:
+  Records() = default;
+  /// Behind the header. \throws FileError for a torn last one, which lenient drops
+  Records(std::unique_ptr<text_io::Bytes> in, const Header &header, std::int64_t record_bytes,
+          bool lenient)
+      : in_(std::move(in)), begin_(header.begin), bytes_(record_bytes) {
+    total_ = (header.size - begin_) / bytes_;
+    torn_ = (header.size - begin_) % bytes_ != 0;
+    if (torn_ && !lenient)
+      throw FileError(in_->path() + ": truncated record " + std::to_string(total_ + 1) +
+                      " at the end, expected " + std::to_string(bytes_) + " bytes per record");
+  }
+
+  /// The bytes of the next one, valid until the next call; nullptr: there is none. \throws
+  /// FileError
+  const char *next() {
+    if (read_ == total_) return nullptr;
+    ++read_;
+    if (used_ == block_.size()) {
+      const std::int64_t most = std::max<std::int64_t>(1, (1 << 16) / bytes_);
+      block_.resize(static_cast<std::size_t>(std::min(most, total_ - read_ + 1) * bytes_));
+      used_ = 0;
+      if (in_->read(block_.data(), block_.size()) != block_.size()) fail("cannot be read");
+    }
+    const char *const record = block_.data() + used_;
+    used_ += static_cast<std::size_t>(bytes_);
+    return record;
+  }
+  /// About the last one read. \throws FileError
+  [[noreturn]] void fail(const std::string &what) const {
+    throw FileError(in_->path() + ": record " + std::to_string(read_) + ": " + what);
+  }
+
+  std::int64_t total() const { return total_; }
+  bool torn() const { return torn_; }
+  /// Offset behind the last one read.
+  std::int64_t end() const { return begin_ + read_ * bytes_; }
+
+ private:
+  std::unique_ptr<text_io::Bytes> in_;
+  std::int64_t begin_ = 0, bytes_ = 1, total_ = 0, read_ = 0;
+  std::vector<char> block_;
+  std::size_t used_ = 0;
+  bool torn_ = false;
+};
 
 }  // namespace LSM::binary_io
 

@@ -37,12 +37,6 @@
 
 namespace LSM {
 
-/// Unreadable or unwritable catalogue; the message is "file:line: what, expected ...".
-class CatalogueError : public FileError {
- public:
-  using FileError::FileError;
-};
-
 /// Header of a catalogue.
 struct CatalogueInfo {
   std::string model;                                            ///< "lsm" or "block-slider"
@@ -196,7 +190,7 @@ inline void check_info(const CatalogueInfo &info) {
 /// read, throw.
 class CatalogueReader {
  public:
-  /// \throws CatalogueError if the header cannot be read.
+  /// \throws FileError if the header cannot be read.
   explicit CatalogueReader(const std::string &path, bool lenient = false,
                            text_io::OpenBytes open = text_io::open_plain)
       : CatalogueReader(path, lenient, open, false) {}
@@ -208,7 +202,7 @@ class CatalogueReader {
 
   const CatalogueInfo &info() const { return info_; }
 
-  /// Next event; false at the end of the file. \throws CatalogueError (strict).
+  /// Next event; false at the end of the file. \throws FileError (strict).
   bool next(Event &event) {
     while (reader_.next(line_)) {
       if (resuming_ && !reader_.complete()) return false;
@@ -274,8 +268,8 @@ class CatalogueReader {
   void read_header() {
     using namespace catalogue_detail;
     if (!reader_.next(line_))
-      throw CatalogueError(text_io::where(reader_.path(), 1) + "empty file, expected '" +
-                           std::string(first_line) + "'");
+      throw FileError(text_io::where(reader_.path(), 1) + "empty file, expected '" +
+                      std::string(first_line) + "'");
     if (line_ != first_line) {
       if (line_.substr(0, magic.size()) == magic)
         reader_.fail("catalogue version " + text_io::in_quotes(line_.substr(magic.size())) +
@@ -295,9 +289,9 @@ class CatalogueReader {
             "no model in the header, expected '# model = lsm' or '# model = block-slider'");
       return;
     }
-    throw CatalogueError(text_io::where(reader_.path(), reader_.line()) +
-                         "file ends within the header, expected a line of column names '" +
-                         column_line(CatalogueInfo()) + "'");
+    throw FileError(text_io::where(reader_.path(), reader_.line()) +
+                    "file ends within the header, expected a line of column names '" +
+                    column_line(CatalogueInfo()) + "'");
   }
 
   void read_parameter(text_io::ParameterList &parameters) {
@@ -392,7 +386,7 @@ class CatalogueReader {
     }
   }
 
-  text_io::LineReader<CatalogueError> reader_;
+  text_io::LineReader reader_;
   bool lenient_ = false;
   bool resuming_ = false;  // a torn last line ends the file quietly
   CatalogueInfo info_;
@@ -416,7 +410,7 @@ struct Catalogue {
   std::string first_problem;  ///< message of the first of them
 };
 
-/// \throws CatalogueError, see CatalogueReader.
+/// \throws FileError, see CatalogueReader.
 inline Catalogue read_catalogue(const std::string &path, bool lenient = false) {
   CatalogueReader reader(path, lenient);
   Catalogue catalogue;
@@ -433,8 +427,9 @@ inline Catalogue read_catalogue(const std::string &path, bool lenient = false) {
 class CatalogueWriter {
  public:
   /// Starts a new catalogue, replacing an older one (which stays if the new one cannot be written).
-  /// \throws CatalogueError; std::invalid_argument for a header that could not be read back.
-  void create(const std::string &path, const CatalogueInfo &info) {
+  /// \throws FileError; std::invalid_argument for a header that could not be read back.
+  /// whole: the file gets its name by close() only, see OutputFile.
+  void create(const std::string &path, const CatalogueInfo &info, bool whole = false) {
     catalogue_detail::check_info(info);
     std::string text(catalogue_detail::first_line);
     text += "\n# model = " + info.model + "\n";
@@ -442,7 +437,7 @@ class CatalogueWriter {
     text.append(parameters, 1, std::string::npos);
     text += catalogue_detail::column_line(info);
     text += '\n';
-    file_.create(path, text);
+    file_.create(path, text, whole);
     columns_ = catalogue_detail::columns_of(info);
     overlapping_ = info.overlapping();
     has_last_ = false;
@@ -453,7 +448,7 @@ class CatalogueWriter {
   /// create() would write (parameters named in ignore may differ; their old values stay), drops
   /// every event that ended after last_step and a torn last line. Returns the number of events
   /// kept, which has to be expected unless that is negative. The file is left as it was if this
-  /// throws. \throws CatalogueError naming the first parameter that differs, the first bad line, or
+  /// throws. \throws FileError naming the first parameter that differs, the first bad line, or
   /// the number of events.
   std::int64_t resume(const std::string &path, const CatalogueInfo &info, std::int64_t last_step,
                       const std::vector<std::string> &ignore = {}, std::int64_t expected = -1) {
@@ -477,7 +472,7 @@ class CatalogueWriter {
       problem = "columns are '" + reader.column_line_ + "' in the file, expected '" + columns + "'";
     else
       problem = text_io::difference(found.parameters, info.parameters, ignore);
-    if (!problem.empty()) throw CatalogueError(path + ": cannot resume: " + problem);
+    if (!problem.empty()) throw FileError(path + ": cannot resume: " + problem);
 
     std::int64_t kept = 0;
     std::int64_t length = reader.reader_.end();
@@ -489,10 +484,10 @@ class CatalogueWriter {
       length = reader.reader_.end();
     }
     if (reader.reader_.foreign())
-      throw CatalogueError(path + ": cannot resume: " + std::string(text_io::foreign_lines));
+      throw FileError(path + ": cannot resume: " + std::string(text_io::foreign_lines));
     if (expected >= 0 && kept != expected)
-      throw CatalogueError(path + ": cannot resume: " + std::to_string(kept) +
-                           " events up to the checkpoint, expected " + std::to_string(expected));
+      throw FileError(path + ": cannot resume: " + std::to_string(kept) +
+                      " events up to the checkpoint, expected " + std::to_string(expected));
     cut_path_ = path;
     cut_length_ = length;
     columns_ = catalogue_detail::columns_of(info);
@@ -509,15 +504,15 @@ class CatalogueWriter {
   }
 
   /// Appends one line and hands it to the system.
-  /// \throws CatalogueError if that fails, or if the event is not one a reader would accept after
+  /// \throws FileError if that fails, or if the event is not one a reader would accept after
   /// the one before (NaN, order).
   void write(const Event &event) {
     std::string problem = catalogue_detail::not_finite(event);
     if (problem.empty())
       problem = catalogue_detail::out_of_order(event, has_last_ ? &last_ : nullptr, overlapping_);
     if (!problem.empty())
-      throw CatalogueError(file_.path() + ": cannot write event " + text_io::number(event.id) +
-                           ": " + problem);
+      throw FileError(file_.path() + ": cannot write event " + text_io::number(event.id) + ": " +
+                      problem);
     line_.clear();
     for (const catalogue_detail::Column &column : columns_) {
       if (!line_.empty()) line_ += ',';
@@ -533,7 +528,7 @@ class CatalogueWriter {
     ++rows_;
   }
 
-  /// \throws CatalogueError if the system reports a late failure. Also done on destruction,
+  /// \throws FileError if the system reports a late failure. Also done on destruction,
   /// silently.
   void close() { file_.close(); }
 
@@ -541,7 +536,7 @@ class CatalogueWriter {
   std::int64_t rows() const { return rows_; }  ///< events in the file, kept ones included
 
  private:
-  text_io::OutputFile<CatalogueError> file_;
+  text_io::OutputFile file_;
   bool overlapping_ = false;
   std::vector<catalogue_detail::Column> columns_;
   Event last_;

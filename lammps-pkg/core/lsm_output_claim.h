@@ -121,22 +121,14 @@ inline std::string to_text(const Holder &holder) {
 /// False: the text is none of to_text().
 inline bool from_text(const std::string &text, Holder &holder) {
   if (text.compare(0, magic.size(), magic) != 0) return false;
-  std::string_view rest = std::string_view(text).substr(magic.size());
-  text_io::Parameters all;
-  while (!rest.empty()) {
-    const std::size_t end = std::min(rest.find('\n'), rest.size() - 1);
-    std::pair<std::string, std::string> parameter;
-    if (text_io::parse_parameter(rest.substr(0, end), parameter)) all.push_back(parameter);
-    rest.remove_prefix(end + 1);
-  }
-  for (const auto &[key, value] : {std::pair<const char *, std::string *>{"host", &holder.host},
-                                   {"boot", &holder.boot},
-                                   {"started", &holder.started}})
-    if (const std::string *found = text_io::find(all, key)) *value = *found;
-  for (const auto &[key, value] :
-       {std::pair<const char *, std::int64_t *>{"process", &holder.process},
-        {"begun", &holder.begun}})
-    if (const std::string *found = text_io::find(all, key)) text_io::parse(*found, *value);
+  text_io::ParameterList all;
+  all.add_lines(std::string_view(text).substr(magic.size()));
+  const auto read = [&all](const char *key, auto &value) { text_io::take(all.all(), key, value); };
+  read("host", holder.host);
+  read("boot", holder.boot);
+  read("started", holder.started);
+  read("process", holder.process);
+  read("begun", holder.begun);
   return holder.process > 0;
 }
 

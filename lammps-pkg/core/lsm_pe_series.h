@@ -35,12 +35,6 @@
 
 namespace LSM {
 
-/// Unreadable or unwritable PE series; the message names file and line or record.
-class PeSeriesError : public FileError {
- public:
-  using FileError::FileError;
-};
-
 /// Header of a PE series.
 struct PeSeriesInfo {
   std::string model;        ///< "lsm" or "block-slider"
@@ -69,9 +63,6 @@ constexpr std::string_view binary_magic = "lsm-pe-series-1\n";
 constexpr std::string_view binary_family = "lsm-pe-series-";
 constexpr std::string_view times_key = "times", own_times = "own";
 inline std::int64_t record_bytes(const PeSeriesInfo &info) { return info.own_times ? 24 : 16; }
-using binary_io::append_bytes;
-using binary_io::double_from_bytes;
-using binary_io::step_from_bytes;
 
 inline text_io::Parameters header(const PeSeriesInfo &info) {
   text_io::Parameters all = {{"model", info.model},
@@ -105,32 +96,19 @@ inline void check_info(const PeSeriesInfo &info) {
 /// Sorts the pairs of a header into info; returns what is wrong, or "".
 inline std::string interpret(const text_io::Parameters &all, PeSeriesInfo &info) {
   info = PeSeriesInfo();
-  for (const char *key : {"model", "dt", "step0", "time0", "stride"})
-    if (!text_io::find(all, key))
-      return "parameter '" + std::string(key) + "' is missing in the header, expected '# " + key +
-             " = value'";
-  for (const auto &[key, value] : all) {
-    bool good = true;
-    if (key == "model")
-      info.model = value;
-    else if (key == "dt")
-      good = text_io::parse(value, info.dt);
-    else if (key == "step0")
-      good = text_io::parse(value, info.step0);
-    else if (key == "time0")
-      good = text_io::parse(value, info.time0);
-    else if (key == "stride")
-      good = text_io::parse(value, info.stride);
-    else if (key == times_key) {
-      if (value != own_times)
-        return "parameter 'times' is " + text_io::in_quotes(value) + ", expected 'own' or none";
-      info.own_times = true;
-    } else
-      info.parameters.emplace_back(key, value);
-    if (!good)
-      return "parameter '" + key + "' is " + text_io::in_quotes(value) + ", expected " +
-             (key == "step0" || key == "stride" ? "an integer" : "a finite number");
+  for (const std::string &problem :
+       {text_io::take(all, "model", info.model), text_io::take(all, "dt", info.dt),
+        text_io::take(all, "step0", info.step0), text_io::take(all, "time0", info.time0),
+        text_io::take(all, "stride", info.stride)})
+    if (!problem.empty()) return problem;
+  if (const std::string *times = text_io::find(all, times_key)) {
+    if (*times != own_times)
+      return "parameter 'times' is " + text_io::in_quotes(*times) + ", expected 'own' or none";
+    info.own_times = true;
   }
+  const text_io::Parameters known = header(info);
+  for (const auto &parameter : all)
+    if (!text_io::find(known, parameter.first)) info.parameters.push_back(parameter);
   return fault(info);
 }
 
@@ -142,208 +120,149 @@ inline std::string interpret(const text_io::Parameters &all, PeSeriesInfo &info)
 class PeSeriesReader {
  public:
   PeSeriesReader() = default;
-  /// \throws PeSeriesError
+  /// \throws FileError if the file cannot be read or its header is not as it should be.
   explicit PeSeriesReader(const std::string &path, bool lenient = false,
-                          text_io::OpenBytes opener = text_io::open_plain) {
-    open(path, lenient, opener);
+                          text_io::OpenBytes opener = text_io::open_plain)
+      : path_(path), lenient_(lenient) {
+    using namespace pe_series_detail;
+    std::unique_ptr<text_io::Bytes> in = opener(path);
+    const std::string_view begin = in->peek(binary_magic.size());
+    if (begin.empty())
+      throw FileError(text_io::where(path_, 1) + "empty file, expected '" +
+                      std::string(first_line) + "' or a binary PE series");
+    if (begin.substr(0, binary_family.size()) == binary_family)
+      open_binary(std::move(in));
+    else
+      open_text(std::move(in));
   }
 
-  /// \throws PeSeriesError if the file cannot be read or its header is not as it should be.
-  void open(const std::string &path, bool lenient = false,
-            text_io::OpenBytes opener = text_io::open_plain) {
-    try {
-      open(opener(path), lenient);
-    } catch (const PeSeriesError &) {
-      throw;
-    } catch (const FileError &error) {
-      throw PeSeriesError(error.what());
-    }
-  }
   const PeSeriesInfo &info() const { return info_; }
   const std::string &path() const { return path_; }
   /// A truncated last sample was dropped (lenient); known once next() has returned false.
   bool torn() const { return torn_; }
-  bool binary() const { return binary_; }
+  bool binary() const { return !lines_; }
 
   /// Next sample; false at the end of the file. Steps increase, numbers are finite.
-  /// \throws PeSeriesError
+  /// \throws FileError
   bool next(std::int64_t &step, double &time, double &pe) {
-    if (!open_) throw PeSeriesError("PE series is not open");
-    return binary_ ? next_record(step, time, pe) : next_line(step, time, pe);
+    std::int64_t new_step = 0;
+    double new_time = 0.0, new_pe = 0.0;
+    if (!(lines_ ? read_line(new_step, new_time, new_pe) : read_record(new_step, new_time, new_pe)))
+      return false;
+    if (has_last_ && new_step <= last_step_)
+      fail("step " + std::to_string(new_step) + " after step " + std::to_string(last_step_) +
+           ", expected increasing steps");
+    const double expected = info_.own_times ? new_time : info_.time(new_step);
+    // Rounding may differ between the programs; a wrong dt or step0 is off by far more.
+    if (!(std::fabs(new_time - expected) <= 1e-9 * (std::fabs(expected) + info_.dt)))
+      fail("time " + text_io::number(new_time) + " at step " + std::to_string(new_step) +
+           ", expected " + text_io::number(expected) + " from time0, step0 and dt");
+    if (has_last_ && new_time < last_time_)
+      fail("time " + text_io::number(new_time) + " after time " + text_io::number(last_time_) +
+           ", expected increasing times");
+    step = last_step_ = new_step;
+    time = last_time_ = new_time;
+    pe = new_pe;
+    has_last_ = true;
+    return true;
   }
 
  private:
   friend class PeSeriesWriter;
 
-  void open(std::unique_ptr<text_io::Bytes> bytes, bool lenient) {
+  void open_text(std::unique_ptr<text_io::Bytes> in) {
     using namespace pe_series_detail;
-    open_ = false;
-    lenient_ = lenient;
-    torn_ = false;
-    path_ = bytes->path();
-    records_ = used_ = filled_ = 0;
-    const std::string_view begin = bytes->peek(binary_magic.size());
-    if (begin.empty())
-      throw PeSeriesError(text_io::where(path_, 1) + "empty file, expected '" +
-                          std::string(first_line) + "' or a binary PE series");
-    binary_ = begin.substr(0, binary_family.size()) == binary_family;
-    if (binary_) {
-      open_binary(std::move(bytes));
-    } else {
-      lines_ = std::make_unique<text_io::LineReader<PeSeriesError>>(std::move(bytes));
-      open_text();
-    }
-    open_ = true;
-  }
-
-  void open_text() {
-    using namespace pe_series_detail;
+    lines_ = std::make_unique<text_io::LineReader>(std::move(in));
     lines_->next(line_);
     if (line_ != first_line) {
       if (line_.substr(0, text_magic.size()) == text_magic)
-        lines_->fail("PE series version " + text_io::in_quotes(line_.substr(text_magic.size())) +
-                     ", expected version 1");
-      lines_->fail("not a PE series, expected '" + std::string(first_line) + "'");
+        fail("PE series version " + text_io::in_quotes(line_.substr(text_magic.size())) +
+             ", expected version 1");
+      fail("not a PE series, expected '" + std::string(first_line) + "'");
     }
     text_io::ParameterList parameters;
-    while (lines_->next(line_)) {
-      if (line_.empty() || line_.front() != '#') {
-        if (line_ != column_line)
-          lines_->fail("column names " + text_io::in_quotes(line_) + ", expected '" +
-                       std::string(column_line) + "'");
-        if (!lines_->complete())
-          lines_->fail("truncated line of column names, expected a line end");
-        const std::string problem = interpret(parameters.all(), info_);
-        if (!problem.empty()) lines_->fail(problem);
-        kept_end_ = lines_->end();
-        return;
-      }
-      const std::string problem = parameters.add_line(line_);
-      if (!problem.empty()) lines_->fail(problem);
+    std::string problem;
+    while (problem.empty()) {
+      if (!lines_->next(line_))
+        fail("file ends within the header, expected '" + std::string(column_line) + "'");
+      if (line_.empty() || line_.front() != '#') break;
+      problem = parameters.add_line(line_);
     }
-    lines_->fail("file ends within the header, expected '" + std::string(column_line) + "'");
+    if (problem.empty() && line_ != column_line)
+      problem = "column names " + text_io::in_quotes(line_) + ", expected '" +
+                std::string(column_line) + "'";
+    if (problem.empty() && !lines_->complete())
+      problem = "truncated line of column names, expected a line end";
+    if (problem.empty()) problem = interpret(parameters.all(), info_);
+    if (!problem.empty()) fail(problem);
   }
 
-  void open_binary(std::unique_ptr<text_io::Bytes> bytes) {
+  void open_binary(std::unique_ptr<text_io::Bytes> in) {
     using namespace pe_series_detail;
-    lines_.reset();
-    in_ = std::move(bytes);
     std::array<char, binary_magic.size()> magic{};
-    const std::size_t got = in_->read(magic.data(), magic.size());
+    const std::size_t got = in->read(magic.data(), magic.size());
     if (std::string_view(magic.data(), got) != binary_magic)
-      throw PeSeriesError(path_ + ": binary PE series of another version, expected version 1");
-    const binary_io::Header found = binary_io::read_header<PeSeriesError>(*in_);
+      throw FileError(path_ + ": binary PE series of another version, expected version 1");
+    const binary_io::Header found = binary_io::read_header(*in);
     const std::string problem = interpret(found.parameters, info_);
-    if (!problem.empty()) throw PeSeriesError(path_ + ": " + problem);
-    data_begin_ = found.begin;
-    const std::int64_t size = found.size;
-    record_bytes_ = record_bytes(info_);
-    total_ = (size - data_begin_) / record_bytes_;
-    torn_ = (size - data_begin_) % record_bytes_ != 0;
-    if (torn_ && !lenient_)
-      throw PeSeriesError(path_ + ": truncated record " + std::to_string(total_ + 1) +
-                          " at the end, expected " + std::to_string(record_bytes_) +
-                          " bytes per record");
-    kept_end_ = data_begin_;
+    if (!problem.empty()) throw FileError(path_ + ": " + problem);
+    records_ = binary_io::Records(std::move(in), found, info_.own_times ? 24 : 16, lenient_);
+    torn_ = records_.torn();
   }
 
-  bool next_line(std::int64_t &step, double &time, double &pe) {
+  bool read_line(std::int64_t &step, double &time, double &pe) {
+    asked_ = lines_->end();
     if (!lines_->next(line_)) return false;
     if (!lines_->complete()) {
       torn_ = true;
       if (lenient_) return false;
-      lines_->fail("truncated last line, expected 3 columns and a line end");
+      fail("truncated last line, expected 3 columns and a line end");
     }
     text_io::split(line_, fields_);
     if (fields_.size() != 3)
-      lines_->fail(std::to_string(line_.empty() ? 0 : fields_.size()) +
-                   " columns, expected 3 (step,time,pe)");
-    std::int64_t new_step = 0;
-    double new_time = 0.0, new_pe = 0.0;
-    if (!text_io::parse(fields_[0], new_step)) bad_column("step", 0, "an integer");
-    if (!text_io::parse(fields_[1], new_time)) bad_column("time", 1, "a finite number");
-    if (!text_io::parse(fields_[2], new_pe)) bad_column("pe", 2, "a finite number");
-    check_step(new_step);
-    const double expected = info_.own_times ? new_time : info_.time(new_step);
-    // Rounding may differ between the programs; a wrong dt or step0 is off by far more.
-    if (!(std::fabs(new_time - expected) <= 1e-9 * (std::fabs(expected) + info_.dt)))
-      lines_->fail("time " + text_io::number(new_time) + " at step " + std::to_string(new_step) +
-                   ", expected " + text_io::number(expected) + " from time0, step0 and dt");
-    check_time(new_time);
-    step = last_step_ = new_step;
-    time = last_time_ = new_time;
-    pe = new_pe;
-    kept_end_ = lines_->end();
-    ++records_;
+      fail(std::to_string(line_.empty() ? 0 : fields_.size()) +
+           " columns, expected 3 (step,time,pe)");
+    const auto bad_column = [this](const char *name, std::size_t column, const char *expected) {
+      fail("column '" + std::string(name) + "' is " + text_io::in_quotes(fields_[column]) +
+           ", expected " + expected);
+    };
+    if (!text_io::parse(fields_[0], step)) bad_column("step", 0, "an integer");
+    if (!text_io::parse(fields_[1], time)) bad_column("time", 1, "a finite number");
+    if (!text_io::parse(fields_[2], pe)) bad_column("pe", 2, "a finite number");
     return true;
   }
 
+  bool read_record(std::int64_t &step, double &time, double &pe) {
+    using binary_io::from_bytes;
+    asked_ = records_.end();
+    const char *const record = records_.next();
+    if (!record) return false;
+    step = from_bytes<std::int64_t>(record);
+    time = info_.own_times ? from_bytes<double>(record + 8) : info_.time(step);
+    pe = from_bytes<double>(record + (info_.own_times ? 16 : 8));
+    if (!std::isfinite(time))
+      fail("time of step " + std::to_string(step) + " is not finite, expected a finite number");
+    if (!std::isfinite(pe)) fail("pe is not finite, expected a finite number");
+    return true;
+  }
+
+  /// About the last line or record.
   [[noreturn]] void fail(const std::string &what) const {
-    if (!binary_) lines_->fail(what);
-    throw PeSeriesError(path_ + ": record " + std::to_string(records_ + 1) + ": " + what);
-  }
-  void check_step(std::int64_t step) const {
-    if (records_ > 0 && step <= last_step_)
-      fail("step " + std::to_string(step) + " after step " + std::to_string(last_step_) +
-           ", expected increasing steps");
-  }
-  void check_time(double time) const {
-    if (records_ > 0 && time < last_time_)
-      fail("time " + text_io::number(time) + " after time " + text_io::number(last_time_) +
-           ", expected increasing times");
-  }
-
-  [[noreturn]] void bad_column(const char *name, std::size_t column, const char *expected) const {
-    lines_->fail("column '" + std::string(name) + "' is " + text_io::in_quotes(fields_[column]) +
-                 ", expected " + expected);
-  }
-
-  bool next_record(std::int64_t &step, double &time, double &pe) {
-    using namespace pe_series_detail;
-    if (records_ == total_) return false;
-    if (used_ == filled_) {
-      block_.resize(static_cast<std::size_t>(record_bytes_) * 4096);
-      const std::int64_t wanted = std::min<std::int64_t>(4096, total_ - records_) * record_bytes_;
-      const auto bytes = static_cast<std::size_t>(wanted);
-      if (in_->read(block_.data(), bytes) != bytes)
-        throw PeSeriesError(path_ + ": cannot read record " + std::to_string(records_ + 1));
-      used_ = 0;
-      filled_ = wanted;
-    }
-    const char *const record = block_.data() + used_;
-    const std::int64_t new_step = step_from_bytes(record);
-    const double new_pe = double_from_bytes(record + record_bytes_ - 8);
-    const double new_time = info_.own_times ? double_from_bytes(record + 8) : info_.time(new_step);
-    if (!std::isfinite(new_time))
-      fail("time of step " + std::to_string(new_step) + " is not finite, expected a finite number");
-    if (!std::isfinite(new_pe)) fail("pe is not finite, expected a finite number");
-    check_step(new_step);
-    check_time(new_time);
-    used_ += record_bytes_;
-    step = last_step_ = new_step;
-    time = last_time_ = new_time;
-    pe = new_pe;
-    kept_end_ += record_bytes_;
-    ++records_;
-    return true;
+    if (lines_) lines_->fail(what);
+    records_.fail(what);
   }
 
   std::string path_;
   PeSeriesInfo info_;
-  bool open_ = false, binary_ = false;
   bool lenient_ = false, torn_ = false;
+  bool has_last_ = false;
   std::int64_t last_step_ = 0;
   double last_time_ = 0.0;
-  std::int64_t records_ = 0;   // samples read
-  std::int64_t kept_end_ = 0;  // offset behind the last sample read
-  // text
-  std::unique_ptr<text_io::LineReader<PeSeriesError>> lines_;
-  std::string_view line_;                 // valid until the next one is read
-  std::vector<std::string_view> fields_;  // views into line_
-  // binary
-  std::unique_ptr<text_io::Bytes> in_;
-  std::int64_t data_begin_ = 0, total_ = 0, used_ = 0, filled_ = 0, record_bytes_ = 16;
-  std::vector<char> block_;
+  std::int64_t asked_ = 0;  // offset in front of the sample that was last asked for
+  std::unique_ptr<text_io::LineReader> lines_;  // of a text
+  std::string_view line_;                       // valid until the next one is read
+  std::vector<std::string_view> fields_;        // views into line_
+  binary_io::Records records_;
 };
 
 /// Writes a PE series. Samples are collected and handed to the system in blocks of whole samples;
@@ -362,7 +281,7 @@ class PeSeriesWriter {
   }
 
   /// Starts a new file, replacing an older one (which stays if the new one cannot be written).
-  /// \throws PeSeriesError; std::invalid_argument for a header that could not be read back.
+  /// \throws FileError; std::invalid_argument for a header that could not be read back.
   void create(const std::string &path, const PeSeriesInfo &info, bool binary) {
     using namespace pe_series_detail;
     check_info(info);
@@ -383,7 +302,7 @@ class PeSeriesWriter {
   /// create() would write (parameters named in ignore may differ; their old values stay), drops
   /// every sample after last_step and a torn last one. Returns the number of samples kept. The file
   /// is left as it was if this throws.
-  /// \throws PeSeriesError naming the first parameter that differs, the first bad line, or the
+  /// \throws FileError naming the first parameter that differs, the first bad line, or the
   /// samples missing before last_step.
   std::int64_t resume(const std::string &path, const PeSeriesInfo &info, bool binary,
                       std::int64_t last_step, const std::vector<std::string> &ignore = {}) {
@@ -398,30 +317,28 @@ class PeSeriesWriter {
     using namespace pe_series_detail;
     check_info(info);
     close();
-    PeSeriesReader reader;
-    reader.open(path, true);
+    PeSeriesReader reader(path, true);
     if (reader.binary() != binary)
-      throw PeSeriesError(path + ": cannot resume: file is " +
-                          (reader.binary() ? "binary, expected text" : "text, expected binary"));
+      throw FileError(path + ": cannot resume: file is " +
+                      (reader.binary() ? "binary, expected text" : "text, expected binary"));
     const std::string problem = text_io::difference(header(reader.info()), header(info), ignore);
-    if (!problem.empty()) throw PeSeriesError(path + ": cannot resume: " + problem);
-    std::int64_t kept = 0, length = reader.kept_end_, last = 0, step = 0;
+    if (!problem.empty()) throw FileError(path + ": cannot resume: " + problem);
+    std::int64_t kept = 0, last = 0, step = 0;
     double time = 0.0, pe = 0.0, last_time = 0.0;
     // Steps increase, so the first one to drop is where the file is cut.
     while (reader.next(step, time, pe) && step <= last_step) {
       last = step;
       last_time = time;
       ++kept;
-      length = reader.kept_end_;
     }
     if (reader.lines_ && reader.lines_->foreign())
-      throw PeSeriesError(path + ": cannot resume: " + std::string(text_io::foreign_lines));
+      throw FileError(path + ": cannot resume: " + std::string(text_io::foreign_lines));
     const std::int64_t reached = kept > 0 ? last : info.step0;
     if (reached < last_step && last_step - info.stride >= reached)
-      throw PeSeriesError(path + ": cannot resume: samples end at step " + std::to_string(reached) +
-                          ", expected them up to step " + std::to_string(last_step));
+      throw FileError(path + ": cannot resume: samples end at step " + std::to_string(reached) +
+                      ", expected them up to step " + std::to_string(last_step));
     cut_path_ = path;
-    cut_length_ = length;
+    cut_length_ = reader.asked_;
     start(info, binary, kept, last);
     last_time_ = last_time;
   }
@@ -440,26 +357,25 @@ class PeSeriesWriter {
   }
 
   /// Adds a sample. \param time counts with own_times only
-  /// \throws PeSeriesError if a number is not finite, steps or times do not increase, or a block
+  /// \throws FileError if a number is not finite, steps or times do not increase, or a block
   /// cannot be written.
   void write(std::int64_t step, double time, double pe) {
-    using namespace pe_series_detail;
-    if (!file_.is_open()) throw PeSeriesError("PE series is not open");
+    if (!file_.is_open()) throw FileError("PE series is not open");
     if (!info_.own_times) time = info_.time(step);
-    const auto fail = [this, step](const std::string &what) {
-      throw PeSeriesError(file_.path() + ": cannot write step " + std::to_string(step) + what);
+    const auto refuse = [&](const std::string &what) {
+      throw FileError(file_.path() + ": cannot write step " + std::to_string(step) + what);
     };
-    if (!std::isfinite(time)) fail(": time is not finite, expected a finite number");
+    if (!std::isfinite(time)) refuse(": time is not finite, expected a finite number");
     if (rows_ > 0 && info_.own_times && time < last_time_)
-      fail(" of time " + text_io::number(time) + " after time " + text_io::number(last_time_) +
-           ", expected increasing times");
-    if (!std::isfinite(pe)) fail(": pe is not finite, expected a finite number");
+      refuse(": time " + text_io::number(time) + " after time " + text_io::number(last_time_) +
+             ", expected increasing times");
+    if (!std::isfinite(pe)) refuse(": pe is not finite, expected a finite number");
     if (rows_ > 0 && step <= last_step_)
-      fail(" after step " + std::to_string(last_step_) + ", expected increasing steps");
+      refuse(" after step " + std::to_string(last_step_) + ", expected increasing steps");
     if (binary_) {
-      append_bytes(buffer_, static_cast<std::uint64_t>(step));
-      if (info_.own_times) append_bytes(buffer_, time);
-      append_bytes(buffer_, pe);
+      binary_io::append_bytes(buffer_, step);
+      if (info_.own_times) binary_io::append_bytes(buffer_, time);
+      binary_io::append_bytes(buffer_, pe);
     } else {
       text_io::append(buffer_, step);
       buffer_ += ',';
@@ -474,14 +390,14 @@ class PeSeriesWriter {
     if (buffer_.size() >= buffer_limit) flush();
   }
 
-  /// Hands all samples so far to the system. \throws PeSeriesError
+  /// Hands all samples so far to the system. \throws FileError
   void flush() {
     if (buffer_.empty()) return;
     file_.write(buffer_);
     buffer_.clear();
   }
 
-  /// \throws PeSeriesError. Also done on destruction, silently.
+  /// \throws FileError. Also done on destruction, silently.
   void close() {
     if (!file_.is_open()) return;
     flush();
@@ -503,7 +419,7 @@ class PeSeriesWriter {
     buffer_.reserve(buffer_limit + 128);
   }
 
-  text_io::OutputFile<PeSeriesError> file_;
+  text_io::OutputFile file_;
   PeSeriesInfo info_;
   bool binary_ = false;
   std::int64_t rows_ = 0, last_step_ = 0;

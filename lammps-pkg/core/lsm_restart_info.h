@@ -9,13 +9,11 @@
 #ifndef LSM_RESTART_INFO_H
 #define LSM_RESTART_INFO_H
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <array>
 #include <cerrno>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -27,11 +25,6 @@
 #include "lsm_text_io.h"
 
 namespace LSM {
-
-class RestartInfoError : public FileError {
- public:
-  using FileError::FileError;
-};
 
 /// The checksum of POSIX cksum: the remainder of the bytes and of their number.
 class Cksum {
@@ -71,38 +64,21 @@ class Cksum {
 
 namespace restart_info_detail {
 
-[[noreturn]] inline void fail(const std::string &path, const char *what) {
-  throw RestartInfoError(path + ": " + what + ": " + std::generic_category().message(errno));
-}
-
 inline Cksum sum_of(const std::string &path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) fail(path, "cannot open");
+  text_io::FileBytes in(path);
   Cksum sum;
   std::string block(1 << 20, '\0');
-  do {
-    in.read(block.data(), static_cast<std::streamsize>(block.size()));
-    sum.add(std::string_view(block).substr(0, static_cast<std::size_t>(in.gcount())));
-  } while (in);
-  if (!in.eof()) fail(path, "cannot read");
+  while (const std::size_t got = in.read(block.data(), block.size()))
+    sum.add(std::string_view(block).substr(0, got));
   return sum;
 }
 
-/// All that was written of a file, or of the names in a folder, is on the disk.
-inline void sync(const std::string &path) {
-  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) fail(path, "cannot open");
-  const int failed = fsync(file);
-  close(file);
-  // Folders of some file systems cannot be synchronised.
-  if (failed != 0 && errno != EINVAL) fail(path, "cannot write");
-}
-
 inline void move(const std::string &from, const std::string &to) {
-  sync(from);
-  if (std::rename(from.c_str(), to.c_str()) != 0) fail(to, "cannot create");
+  text_io::sync(from);
+  if (std::rename(from.c_str(), to.c_str()) != 0)
+    throw FileError(to + ": cannot create: " + std::generic_category().message(errno));
   const std::string folder = std::filesystem::path(to).parent_path().string();
-  sync(folder.empty() ? "." : folder);
+  text_io::sync(folder.empty() ? "." : folder);
 }
 
 inline std::string last_line(const std::string &path, const Cksum &sum) {
@@ -114,7 +90,7 @@ inline std::string last_line(const std::string &path, const Cksum &sum) {
 
 /// Gives a restart file that was written as `written` its name and its FILE.info. Whenever this is
 /// interrupted, a file with an info is whole, and an older one of that name stays or is gone.
-/// settings: keys without '='. \throws RestartInfoError
+/// settings: keys without '='. \throws FileError
 inline void seal_restart(const std::string &written, const std::string &path,
                          const text_io::Parameters &settings) {
   using namespace restart_info_detail;
@@ -128,24 +104,19 @@ inline void seal_restart(const std::string &written, const std::string &path,
   std::error_code code;
   std::filesystem::remove(info, code);
   move(written, path);
-  {
-    text_io::OutputFile<RestartInfoError> file;
-    file.create(info, text);
-    file.close();
-  }
-  sync(info);
+  text_io::write_file(info, text, true);
 }
 
 /// Compares a restart file with its FILE.info; returns the settings in it, which are empty if it
-/// has the last line only. \throws RestartInfoError, one line that says what is wrong
+/// has the last line only. \throws FileError, one line that says what is wrong
 inline text_io::Parameters check_restart(const std::string &path) {
   using namespace restart_info_detail;
   const std::string info = path + ".info";
   const Cksum sum = sum_of(path);
   std::ifstream in(info);
   if (!in)
-    throw RestartInfoError(path + ": its checksum file " + info +
-                           " is missing, so it may not be whole; take an earlier restart file");
+    throw FileError(path + ": its checksum file " + info +
+                    " is missing, so it may not be whole; take an earlier restart file");
   text_io::Parameters settings;
   std::string line, sums, above, stated;
   while (std::getline(in, line)) {
@@ -162,19 +133,19 @@ inline text_io::Parameters check_restart(const std::string &path) {
   Cksum lines;
   lines.add(above);
   if (!settings.empty() && stated != std::to_string(lines.value()))
-    throw RestartInfoError(info + ": is damaged, or of an earlier version: the checksum of its " +
-                           "lines is not there; its last line on its own will do");
+    throw FileError(info + ": is damaged, or of an earlier version: the checksum of its " +
+                    "lines is not there; its last line on its own will do");
   std::istringstream words(sums);
   std::string expected, size;
   if (!(words >> expected >> size))
-    throw RestartInfoError(info + ": has no last line with checksum and size of " + path);
+    throw FileError(info + ": has no last line with checksum and size of " + path);
   if (size != std::to_string(sum.size()))
-    throw RestartInfoError(path + ": is damaged, it has " + std::to_string(sum.size()) +
-                           " bytes, expected " + size + " as in " + info +
-                           "; take an earlier restart file");
+    throw FileError(path + ": is damaged, it has " + std::to_string(sum.size()) +
+                    " bytes, expected " + size + " as in " + info +
+                    "; take an earlier restart file");
   if (expected != std::to_string(sum.value()))
-    throw RestartInfoError(path + ": is damaged, its checksum is not that in " + info +
-                           "; take an earlier restart file");
+    throw FileError(path + ": is damaged, its checksum is not that in " + info +
+                    "; take an earlier restart file");
   return settings;
 }
 

@@ -37,12 +37,6 @@
 
 namespace LSM {
 
-/// Unreadable or unwritable slip history; the message names file and record.
-class SlipHistoryError : public FileError {
- public:
-  using FileError::FileError;
-};
-
 /// Header of a slip history.
 struct SlipHistoryInfo {
   std::string model = "lsm";
@@ -129,21 +123,10 @@ inline std::string fault(const SlipHistoryInfo &info) {
 inline std::string interpret(const text_io::Parameters &all, SlipHistoryInfo &info) {
   info = SlipHistoryInfo();
   std::vector<std::string> known = {"model"};
-  std::string problem;
-  const std::string *model = text_io::find(all, "model");
-  if (!model) return "parameter 'model' is missing in the header, expected '# model = lsm'";
-  info.model = *model;
+  std::string problem = text_io::take(all, "model", info.model);
   each_number(info, [&](const char *name, auto &value) {
     known.emplace_back(name);
-    if (!problem.empty()) return;
-    const std::string *text = text_io::find(all, name);
-    if (!text)
-      problem = "parameter '" + std::string(name) + "' is missing in the header, expected '# " +
-                name + " = value'";
-    else if (!text_io::parse(*text, value))
-      problem = "parameter '" + std::string(name) + "' is " + text_io::in_quotes(*text) +
-                ", expected " +
-                (std::is_same_v<decltype(value), double &> ? "a finite number" : "an integer");
+    if (problem.empty()) problem = text_io::take(all, name, value);
   });
   if (!problem.empty()) return problem;
   for (const auto &parameter : all)
@@ -164,86 +147,64 @@ inline std::int64_t record_bytes(const SlipHistoryInfo &info) {
 /// which a killed run leaves behind, is dropped when asked for (lenient).
 class SlipHistoryReader {
  public:
-  /// \throws SlipHistoryError if the file cannot be read or its header is not as it should be.
+  /// \throws FileError if the file cannot be read or its header is not as it should be.
   explicit SlipHistoryReader(const std::string &path, bool lenient = false,
                              text_io::OpenBytes open = text_io::open_plain)
       : path_(path) {
-    try {
-      start(open(path), lenient);
-    } catch (const SlipHistoryError &) {
-      throw;
-    } catch (const FileError &error) {
-      throw SlipHistoryError(error.what());
-    }
+    using namespace slip_history_detail;
+    std::unique_ptr<text_io::Bytes> in = open(path);
+    std::array<char, 16> begin{};
+    const std::string_view found(begin.data(), in->read(begin.data(), begin.size()));
+    if (found != magic)
+      throw FileError(
+          path +
+          (found.substr(0, family.size()) == family
+               ? ": slip history of another version, expected version 1"
+               : ": not a slip history, expected a file that begins with 'lsm-slip-hist-1'"));
+    const binary_io::Header header = binary_io::read_header(*in);
+    const std::string problem = interpret(header.parameters, info_);
+    if (!problem.empty()) throw FileError(path + ": " + problem);
+    records_ = binary_io::Records(std::move(in), header, record_bytes(info_), lenient);
   }
 
   const SlipHistoryInfo &info() const { return info_; }
   const std::string &path() const { return path_; }
-  bool torn() const { return torn_; }  ///< a truncated last record is dropped (lenient)
-  std::int64_t records() const { return total_; }
+  bool torn() const { return records_.torn(); }  ///< a truncated last record is dropped (lenient)
+  std::int64_t records() const { return records_.total(); }
 
-  /// Next record; false at the end of the file. \throws SlipHistoryError
+  /// Next record; false at the end of the file. \throws FileError
   bool next(SlipRecord &record) {
-    using namespace binary_io;
-    if (records_ == total_) return false;
-    if (in_->read(bytes_.data(), bytes_.size()) != bytes_.size()) fail("cannot be read");
-    const char *at = bytes_.data();
-    record.step_begin = step_from_bytes(at);
-    record.step_end = step_from_bytes(at + 8);
-    record.pe = double_from_bytes(at + 16);
+    using binary_io::from_bytes;
+    const char *at = records_.next();
+    if (!at) return false;
+    record.step_begin = from_bytes<std::int64_t>(at);
+    record.step_end = from_bytes<std::int64_t>(at + 8);
+    record.pe = from_bytes<double>(at + 16);
     at += 24;
-    if (!std::isfinite(record.pe)) fail("pe is not finite, expected a finite number");
+    if (!std::isfinite(record.pe)) records_.fail("pe is not finite, expected a finite number");
     for (std::vector<float> *values : {&record.row.slip, &record.row.work, &record.row.stress}) {
       values->resize(static_cast<std::size_t>(info_.grid.bins));
       for (float &value : *values) {
-        value = float_from_bytes(at);
+        value = from_bytes<float>(at);
         at += 4;
         if (!std::isfinite(value))
-          fail("slip, work or stress of a bin is not finite, expected finite numbers");
+          records_.fail("slip, work or stress of a bin is not finite, expected finite numbers");
       }
     }
     check_steps(record);
     last_end_ = record.step_end;
-    ++records_;
-    kept_end_ += static_cast<std::int64_t>(bytes_.size());
+    has_last_ = true;
     return true;
   }
 
  private:
   friend class SlipHistoryWriter;
 
-  void start(std::unique_ptr<text_io::Bytes> bytes, bool lenient) {
-    using namespace slip_history_detail;
-    in_ = std::move(bytes);
-    std::array<char, 16> begin{};
-    const std::string_view found(begin.data(), in_->read(begin.data(), begin.size()));
-    if (found != magic)
-      throw SlipHistoryError(
-          path_ +
-          (found.substr(0, family.size()) == family
-               ? ": slip history of another version, expected version 1"
-               : ": not a slip history, expected a file that begins with 'lsm-slip-hist-1'"));
-    const binary_io::Header header = binary_io::read_header<SlipHistoryError>(*in_);
-    const std::string problem = interpret(header.parameters, info_);
-    if (!problem.empty()) throw SlipHistoryError(path_ + ": " + problem);
-    bytes_.resize(static_cast<std::size_t>(record_bytes(info_)));
-    total_ = (header.size - header.begin) / record_bytes(info_);
-    torn_ = (header.size - header.begin) % record_bytes(info_) != 0;
-    kept_end_ = header.begin;
-    if (torn_ && !lenient)
-      throw SlipHistoryError(path_ + ": truncated record " + std::to_string(total_ + 1) +
-                             " at the end, expected " + std::to_string(record_bytes(info_)) +
-                             " bytes per record");
-  }
-
-  [[noreturn]] void fail(const std::string &what) const {
-    throw SlipHistoryError(path_ + ": record " + std::to_string(records_ + 1) + ": " + what);
-  }
-
   void check_steps(const SlipRecord &record) const {
     const std::string steps =
         "steps " + std::to_string(record.step_begin) + " to " + std::to_string(record.step_end);
-    if (records_ == 0) {
+    const auto fail = [this](const std::string &what) { records_.fail(what); };
+    if (!has_last_) {
       if (record.step_begin != record.step_end)
         fail(steps + ", expected the state before the first interval");
     } else if (record.step_begin != last_end_) {
@@ -264,18 +225,16 @@ class SlipHistoryReader {
 
   std::string path_;
   SlipHistoryInfo info_;
-  std::unique_ptr<text_io::Bytes> in_;
-  std::vector<char> bytes_;
-  std::int64_t total_ = 0, records_ = 0, last_end_ = 0;
-  std::int64_t kept_end_ = 0;  // offset behind the last record read
-  bool torn_ = false;
+  binary_io::Records records_;
+  std::int64_t last_end_ = 0;
+  bool has_last_ = false;
 };
 
 /// Writes a slip history. Each record is on its way to disk when it is complete.
 class SlipHistoryWriter {
  public:
   /// Starts a new file, replacing an older one (which stays if the new one cannot be written), with
-  /// the state at the given step. \throws SlipHistoryError; std::invalid_argument for a header that
+  /// the state at the given step. \throws FileError; std::invalid_argument for a header that
   /// could not be read back.
   void create(const std::string &path, const SlipHistoryInfo &info, std::int64_t step, double pe,
               const std::vector<float> &stress) {
@@ -294,7 +253,7 @@ class SlipHistoryWriter {
   /// Goes on with the history of a run restarted with the given state(): checks that the header
   /// says what create() would write (parameters named in ignore may differ; their old values stay),
   /// and drops every record after that state and a torn last one. The file is left as it was if
-  /// this throws. \throws SlipHistoryError
+  /// this throws. \throws FileError
   void resume(const std::string &path, const SlipHistoryInfo &info,
               const std::vector<double> &saved, const std::vector<std::string> &ignore = {}) {
     using namespace slip_history_detail;
@@ -302,19 +261,19 @@ class SlipHistoryWriter {
     file_.close();
     const auto bins = static_cast<std::size_t>(info.grid.bins);
     if (saved.size() != 4 + 3 * bins)
-      throw SlipHistoryError(path + ": cannot resume: the saved state is of another fault");
+      throw FileError(path + ": cannot resume: the saved state is of another fault");
     SlipHistoryReader reader(path, true);
     const std::string problem = text_io::difference(header(reader.info()), header(info), ignore);
-    if (!problem.empty()) throw SlipHistoryError(path + ": cannot resume: " + problem);
+    if (!problem.empty()) throw FileError(path + ": cannot resume: " + problem);
     const auto wanted = static_cast<std::int64_t>(saved[0]);
     std::int64_t reached = 0, length = 0;
     SlipRecord record;
     while (reader.next(record) && record.step_end <= wanted) {
       reached = record.step_end;
-      length = reader.kept_end_;
+      length = reader.records_.end();
     }
     if (length == 0 || reached != wanted)
-      throw SlipHistoryError(
+      throw FileError(
           path + ": cannot resume: " +
           (length == 0 ? "no records" : "records end at step " + std::to_string(reached)) +
           ", expected them up to step " + std::to_string(wanted));
@@ -331,7 +290,7 @@ class SlipHistoryWriter {
   }
 
   /// The next interval, which ends at the given step. active: something slips, or did so until a
-  /// moment ago. \throws SlipHistoryError
+  /// moment ago. \throws FileError
   void add(std::int64_t step_end, double pe, const FaultRow &row, bool active) {
     if (active) finish();
     for (std::size_t b = 0; b < slip_.size(); ++b) {
@@ -355,7 +314,7 @@ class SlipHistoryWriter {
     return out;
   }
 
-  /// \throws SlipHistoryError. Also done on destruction, silently. What belongs to a record that is
+  /// \throws FileError. Also done on destruction, silently. What belongs to a record that is
   /// not complete is lost.
   void close() { file_.close(); }
   bool is_open() const { return file_.is_open(); }
@@ -393,22 +352,21 @@ class SlipHistoryWriter {
   void put(const SlipRecord &record) {
     std::string bytes;
     bytes.reserve(static_cast<std::size_t>(slip_history_detail::record_bytes(info_)));
-    binary_io::append_bytes(bytes, static_cast<std::uint64_t>(record.step_begin));
-    binary_io::append_bytes(bytes, static_cast<std::uint64_t>(record.step_end));
+    binary_io::append_bytes(bytes, record.step_begin);
+    binary_io::append_bytes(bytes, record.step_end);
     binary_io::append_bytes(bytes, record.pe);
     for (const std::vector<float> *values :
          {&record.row.slip, &record.row.work, &record.row.stress})
       for (const float value : *values) {
         if (!std::isfinite(value))
-          throw SlipHistoryError(file_.path() + ": cannot write step " +
-                                 std::to_string(record.step_end) +
-                                 ": slip, work or stress is not finite");
+          throw FileError(file_.path() + ": cannot write step " + std::to_string(record.step_end) +
+                          ": slip, work or stress is not finite");
         binary_io::append_bytes(bytes, value);
       }
     file_.write(bytes);
   }
 
-  text_io::OutputFile<SlipHistoryError> file_;
+  text_io::OutputFile file_;
   SlipHistoryInfo info_;
   std::int64_t begin_ = 0;    // of the record that is being put together
   std::int64_t pending_ = 0;  // intervals in it

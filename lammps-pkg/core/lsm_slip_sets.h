@@ -21,9 +21,9 @@ namespace LSM {
 
 /// What every set knows of itself; the rest is in what is derived from it.
 struct SlipSet {
-  std::int64_t step_start = 0;   ///< the step before the first in which a place slid
-  std::int64_t step_end = 0;     ///< the last step in which a place slid
-  std::int64_t first_place = 0;  ///< lowest of those that slid first
+  std::int64_t step_start = 0;  ///< the step before the first in which a place slid
+  std::int64_t step_end = 0;    ///< the last step in which a place slid
+  std::int64_t first = 0;       ///< lowest of those that slid first
   /// The row of places that slid, with the gaps between them: length in a row from begin on.
   std::int64_t begin = 0, length = 0;
 };
@@ -66,7 +66,7 @@ struct SlipSetsState {
 };
 
 /// Puts slips together to sets. Set is derived from SlipSet and has absorb(const Set &later), which
-/// adds what the derived class knows; its first_place and row are joined here.
+/// adds what the derived class knows; its first and row are joined here.
 ///
 /// Call begin_step(), slide() for each place that slides in ascending order, end_step(). The result
 /// depends on nothing but these calls. Memory: some words per place and per open set.
@@ -133,8 +133,8 @@ class SlipSets {
     open_.resize(kept);
     if (finished_.empty()) return;
     std::sort(finished_.begin(), finished_.end(), [](const Set &a, const Set &b) {
-      return std::tie(a.step_end, a.step_start, a.first_place) <
-             std::tie(b.step_end, b.step_start, b.first_place);
+      return std::tie(a.step_end, a.step_start, a.first) <
+             std::tie(b.step_end, b.step_start, b.first);
     });
     for (const Set &set : finished_) finished(set);
   }
@@ -221,7 +221,7 @@ class SlipSets {
     }
     Set set;
     set.step_start = step_ - 1;
-    set.first_place = i;
+    set.first = i;
     set.begin = i;
     set.length = 1;
     if (places_ <= reach_) extend(set, i, 1, places_, reach_ - 1);
@@ -232,8 +232,7 @@ class SlipSets {
 
   std::int32_t join(std::int32_t a, std::int32_t b) {
     const Set &x = nodes_[index(a)].set, &y = nodes_[index(b)].set;
-    if (std::tie(y.step_start, y.first_place) < std::tie(x.step_start, x.first_place))
-      std::swap(a, b);
+    if (std::tie(y.step_start, y.first) < std::tie(x.step_start, x.first)) std::swap(a, b);
     Node &into = nodes_[index(a)], &joined = nodes_[index(b)];
     extend(into.set, joined.set.begin, joined.set.length, places_, reach_ - 1);
     into.set.step_end = std::max(into.set.step_end, joined.set.step_end);

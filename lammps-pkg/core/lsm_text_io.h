@@ -6,6 +6,9 @@
 #ifndef LSM_TEXT_IO_H
 #define LSM_TEXT_IO_H
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
@@ -20,6 +23,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <type_traits>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -27,7 +31,7 @@
 
 namespace LSM {
 
-/// Base of the errors about files. The message is one line and names the file.
+/// Unreadable or unwritable file. The message is one line and names the file.
 class FileError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -117,6 +121,20 @@ inline const std::string *find(const Parameters &parameters, std::string_view ke
   return nullptr;
 }
 
+/// Takes the value of a parameter that has to be there; returns what is wrong, or "".
+template <class Value>
+std::string take(const Parameters &parameters, const std::string &key, Value &value) {
+  const std::string *text = find(parameters, key);
+  if (!text)
+    return "parameter '" + key + "' is missing in the header, expected '# " + key + " = value'";
+  if constexpr (std::is_same_v<Value, std::string>)
+    value = *text;
+  else if (!parse(*text, value))
+    return "parameter '" + key + "' is " + in_quotes(*text) + ", expected " +
+           (std::is_integral_v<Value> ? "an integer" : "a finite number");
+  return {};
+}
+
 /// A key or value that would not read back as it was written is a mistake of the program.
 /// \throws std::invalid_argument
 inline void check_parameters(const Parameters &parameters) {
@@ -174,6 +192,16 @@ class ParameterList {
     if (!keys_.insert(parameter.first).second)
       return "parameter " + in_quotes(parameter.first) + " given twice, expected once";
     all_.push_back(std::move(parameter));
+    return {};
+  }
+  /// The lines of a text, up to the first that is wrong.
+  std::string add_lines(std::string_view text) {
+    for (std::int64_t number = 1; !text.empty(); ++number) {
+      const std::size_t end = std::min(text.find('\n'), text.size());
+      const std::string problem = add_line(text.substr(0, end));
+      if (!problem.empty()) return "header line " + std::to_string(number) + ": " + problem;
+      text.remove_prefix(std::min(end + 1, text.size()));
+    }
     return {};
   }
   const Parameters &all() const { return all_; }
@@ -315,22 +343,24 @@ constexpr std::string_view foreign_lines =
 
 /// Lines of a file with their numbers and byte offsets, read in large blocks. A byte order mark and
 /// the '\r' of line ends of Windows are no part of them.
-template <class Error>
 class LineReader {
  public:
-  explicit LineReader(const std::string &path, OpenBytes open = open_plain) : path_(path) {
-    try {
-      start(open(path));
-    } catch (const FileError &error) {
-      throw Error(error.what());
-    }
-  }
-  explicit LineReader(std::unique_ptr<Bytes> bytes) : path_(bytes->path()) {
-    start(std::move(bytes));
+  /// \throws FileError
+  explicit LineReader(const std::string &path, OpenBytes open = open_plain)
+      : LineReader(open(path)) {}
+  explicit LineReader(std::unique_ptr<Bytes> bytes)
+      : path_(bytes->path()), bytes_(std::move(bytes)) {
+    buffer_.resize(first_size);
+    constexpr std::string_view mark = "\xef\xbb\xbf";
+    const std::string_view begin = bytes_->peek(mark.size());
+    if (begin.substr(0, 2) == "\xff\xfe" || begin.substr(0, 2) == "\xfe\xff")
+      throw FileError(path_ + ": text in UTF-16, expected UTF-8 or ASCII");
+    foreign_ = begin == mark;
+    if (foreign_) end_ = static_cast<std::int64_t>(bytes_->read(buffer_.data(), mark.size()));
   }
 
   /// Next line without its '\n', valid until the next call; false at the end of the file.
-  /// \throws Error if the file cannot be read or a line is longer than any of ours can be.
+  /// \throws FileError if the file cannot be read or a line is longer than any of ours can be.
   bool next(std::string_view &line) {
     begin_ = end_;
     std::size_t searched = 0;
@@ -366,21 +396,12 @@ class LineReader {
   /// What was read had a byte order mark or line ends of Windows: no program of ours wrote it so.
   bool foreign() const { return foreign_; }
 
-  [[noreturn]] void fail(const std::string &what) const { throw Error(where(path_, line_) + what); }
+  [[noreturn]] void fail(const std::string &what) const {
+    throw FileError(where(path_, line_) + what);
+  }
 
  private:
   static constexpr std::size_t first_size = 1 << 18, longest_line = 1 << 20;
-
-  void start(std::unique_ptr<Bytes> bytes) {
-    bytes_ = std::move(bytes);
-    buffer_.resize(first_size);
-    constexpr std::string_view mark = "\xef\xbb\xbf";
-    const std::string_view begin = bytes_->peek(mark.size());
-    if (begin.substr(0, 2) == "\xff\xfe" || begin.substr(0, 2) == "\xfe\xff")
-      throw Error(path_ + ": text in UTF-16, expected UTF-8 or ASCII");
-    foreign_ = begin == mark;
-    if (foreign_) end_ = static_cast<std::int64_t>(bytes_->read(buffer_.data(), mark.size()));
-  }
 
   /// More bytes behind the unfinished line, which moves to the front; false at the end of the file.
   bool fill() {
@@ -390,17 +411,13 @@ class LineReader {
     filled_ = rest;
     if (rest == buffer_.size()) {
       if (rest >= longest_line)
-        throw Error(where(path_, line_ + 1) + "longer than " + std::to_string(longest_line) +
-                    " bytes, expected a line of text");
+        throw FileError(where(path_, line_ + 1) + "longer than " + std::to_string(longest_line) +
+                        " bytes, expected a line of text");
       buffer_.resize(2 * rest);
     }
-    try {
-      const std::size_t got = bytes_->read(buffer_.data() + filled_, buffer_.size() - filled_);
-      filled_ += got;
-      return got > 0;
-    } catch (const FileError &error) {
-      throw Error(error.what());
-    }
+    const std::size_t got = bytes_->read(buffer_.data() + filled_, buffer_.size() - filled_);
+    filled_ += got;
+    return got > 0;
   }
 
   std::string path_;
@@ -438,9 +455,19 @@ inline std::string why_not_writable(const std::string &path) {
   return {};
 }
 
+/// All that was written of a file, or of the names in a folder, is on the disk. \throws FileError
+inline void sync(const std::string &path) {
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool failed = file < 0 || fsync(file) != 0;
+  const int reason = errno;
+  if (file >= 0) ::close(file);
+  // Folders of some file systems cannot be synchronised.
+  if (failed && (file < 0 || reason != EINVAL))
+    throw FileError(path + ": cannot write: " + std::generic_category().message(reason));
+}
+
 /// Unbuffered output file: each write() hands all its bytes to the system at once, so a process
-/// killed between two calls leaves nothing half-written.
-template <class Error>
+/// killed between two calls leaves nothing half-written. \throws FileError
 class OutputFile {
  public:
   OutputFile() = default;
@@ -448,89 +475,102 @@ class OutputFile {
   OutputFile &operator=(const OutputFile &) = delete;
   ~OutputFile() { discard(); }
 
-  /// Replaces path by a file that holds text. An older file stays untouched if that fails.
-  void create(const std::string &path, std::string_view text) {
+  /// Replaces path by a file that begins with text, written beside it; an older file stays
+  /// untouched if that fails. \param whole the file gets its name by close() only, and nothing is
+  /// left of it without
+  void create(const std::string &path, std::string_view text, bool whole = false) {
     namespace fs = std::filesystem;
     close();
     std::error_code code;
     // A link has to go on pointing to the file; devices and pipes cannot be replaced.
-    fs::path target =
-        fs::is_symlink(path, code) ? fs::weakly_canonical(path, code) : fs::path(path);
-    if (code) target = path;
-    const fs::file_status status = fs::status(target, code);
-    if (fs::is_directory(status)) throw Error(path + ": is a directory, expected a file name");
+    name_ = fs::is_symlink(path, code) ? fs::weakly_canonical(path, code).string() : path;
+    if (code) name_ = path;
+    written_ = name_;
+    const fs::file_status status = fs::status(name_, code);
+    if (fs::is_directory(status)) throw FileError(path + ": is a directory, expected a file name");
     const bool special = fs::exists(status) && !fs::is_regular_file(status);
-    const std::string written = special ? target.string() : target.string() + ".new";
-    open(path, written, "wb");
-    try {
-      write(text);
-      if (!special) {
-        fs::rename(written, target, code);
-        if (code) throw Error(path + ": cannot create: " + code.message());
-      }
-    } catch (...) {
-      discard();
-      if (!special) fs::remove(written, code);
-      throw;
-    }
+    open(path, special ? name_ : name_ + ".new", "wb");
+    write(text);
+    if (!whole) take_name();
   }
 
   /// Cuts an existing file to its first length bytes and goes on behind them.
   void append(const std::string &path, std::int64_t length) {
     close();
+    name_ = written_ = path;
     // Opened first: without the right to write nothing is cut.
     open(path, path, "ab");
     std::error_code code;
     const auto bytes = static_cast<std::uintmax_t>(length);
     if (std::filesystem::file_size(path, code) != bytes && !code)
       std::filesystem::resize_file(path, bytes, code);
-    if (code) {
-      discard();
-      throw Error(path + ": cannot truncate: " + code.message());
-    }
+    if (code) give_up("cannot truncate", code);
   }
 
   /// On failure the file is closed: lines after a half-written one would not be readable.
   void write(std::string_view text) {
-    if (!file_) throw Error("output file is not open");
+    if (!file_) throw FileError("output file is not open");
     errno = 0;
-    if (std::fwrite(text.data(), 1, text.size(), file_) == text.size() && std::fflush(file_) == 0)
-      return;
-    const int reason = errno;
-    discard();
-    throw Error(path_ + ": cannot write: " + std::generic_category().message(reason));
+    if (std::fwrite(text.data(), 1, text.size(), file_) != text.size() || std::fflush(file_) != 0)
+      give_up("cannot write");
+  }
+
+  /// What was written is on the disk.
+  void sync() {
+    if (fsync(fileno(file_)) != 0) give_up("cannot write");
   }
 
   void close() {
     if (!file_) return;
-    std::FILE *const file = file_;
-    file_ = nullptr;
     errno = 0;
-    if (std::fclose(file) != 0)
-      throw Error(path_ + ": cannot write: " + std::generic_category().message(errno));
+    if (std::fclose(std::exchange(file_, nullptr)) != 0) give_up("cannot write");
+    take_name();
   }
 
   bool is_open() const { return file_ != nullptr; }
   const std::string &path() const { return path_; }
 
  private:
+  static std::error_code reason() { return {errno, std::generic_category()}; }
+
+  void take_name() {
+    if (written_ == name_) return;
+    if (std::rename(written_.c_str(), name_.c_str()) != 0) give_up("cannot create");
+    written_ = name_;
+  }
+
+  [[noreturn]] void give_up(const char *what, std::error_code why = reason()) {
+    discard();
+    throw FileError(path_ + ": " + what + ": " + why.message());
+  }
+
   void discard() {
-    if (file_) std::fclose(file_);
-    file_ = nullptr;
+    if (file_) std::fclose(std::exchange(file_, nullptr));
+    if (written_ != name_) std::remove(written_.c_str());
+    written_ = name_;
   }
 
   void open(const std::string &shown, const std::string &opened, const char *mode) {
+    path_ = shown;
     errno = 0;
     file_ = std::fopen(opened.c_str(), mode);
-    if (!file_)
-      throw Error(shown + ": cannot open for writing: " + std::generic_category().message(errno));
+    if (!file_) give_up("cannot open for writing");
+    written_ = opened;
     std::setvbuf(file_, nullptr, _IONBF, 0);
-    path_ = shown;
   }
 
   std::FILE *file_ = nullptr;
-  std::string path_;
+  std::string path_, name_, written_;  // as asked for, where that leads to, while on the way there
 };
+
+/// Replaces path by a file that holds text, whole, or leaves it as it was. \param safe on the disk,
+/// too, so that not even a failure of power leaves less \throws FileError
+inline void write_file(const std::string &path, std::string_view text, bool safe = false) {
+  OutputFile file;
+  file.create(path, text, true);
+  if (safe) file.sync();
+  file.close();
+}
 
 }  // namespace text_io
 }  // namespace LSM

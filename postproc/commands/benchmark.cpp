@@ -52,7 +52,7 @@ void put(BenchmarkCurves &curves, const std::string &name, double x, double t, d
 
 /// Table with the columns curve, x, t, slip, slip_rate.
 void read_reference(const std::string &path, BenchmarkCurves &curves) {
-  text_io::LineReader<FileError> in(path);
+  text_io::LineReader in(path);
   std::string_view line;
   std::vector<std::string_view> fields;
   bool named = false;
@@ -96,7 +96,7 @@ void read_curve(const std::string &given, BenchmarkCurves &curves) {
     throw std::invalid_argument("--curve is " + text_io::in_quotes(given) +
                                 ", expected X=FILE or NAME:X=FILE with the place X of the station");
   const std::string path = given.substr(equals + 1);
-  text_io::LineReader<FileError> in(path);
+  text_io::LineReader in(path);
   std::string_view line;
   double last = -std::numeric_limits<double>::infinity();
   while (in.next(line)) {

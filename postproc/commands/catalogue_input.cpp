@@ -126,8 +126,8 @@ double time_unit(const CatalogueInfo &info, const std::string &path, bool displa
   double velocity = 0.0;
   const std::string *text = info.find("velocity");
   if (!text || !text_io::parse(*text, velocity) || !(std::fabs(velocity) > 0.0))
-    throw CatalogueError(path + ": " + (text ? "velocity = " + *text : "no velocity") +
-                         " in the header, expected one that is not 0 for --displacement");
+    throw FileError(path + ": " + (text ? "velocity = " + *text : "no velocity") +
+                    " in the header, expected one that is not 0 for --displacement");
   return std::fabs(velocity);
 }
 
@@ -235,8 +235,7 @@ EventTable read_earthquake_events(text_io::Bytes &bytes, CatalogueFormat format,
                                   const std::function<void(const Event &)> &use) {
   const std::string &path = bytes.path();
   if (options.displacement)
-    throw CatalogueError(path +
-                         ": earthquakes, expected a catalogue of a model for --displacement");
+    throw FileError(path + ": earthquakes, expected a catalogue of a model for --displacement");
   const EarthquakeList list = read_earthquakes(all_of(bytes), format, path, options.lenient);
   EventTable table;
   table.path = path;

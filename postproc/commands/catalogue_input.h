@@ -49,11 +49,11 @@ CLI::Option *add_thresholds(CLI::App *command, std::vector<double> &thresholds,
                             const std::string &what);
 
 /// Gives each event of a catalogue that the options choose to use, which need not keep it; returns
-/// the table without the columns. \throws CatalogueError "file:line: what, expected ..."
+/// the table without the columns. \throws FileError "file:line: what, expected ..."
 EventTable read_events(const std::string &path, const CatalogueOptions &options,
                        const std::function<void(const Event &)> &use);
 
-/// Reads one catalogue; of earthquakes those in the first region. \throws CatalogueError
+/// Reads one catalogue; of earthquakes those in the first region. \throws FileError
 /// "file:line: what, expected ..."
 EventTable load_catalogue(const std::string &path, const CatalogueOptions &options);
 
@@ -64,7 +64,7 @@ void check(const CatalogueOptions &options);
 void state_repairs(const EventTable &table);
 
 /// Reads all options.paths, labels them, and states repairs on standard error.
-/// \throws CatalogueError; std::invalid_argument for impossible options.
+/// \throws FileError; std::invalid_argument for impossible options.
 std::vector<EventTable> load_catalogues(const CatalogueOptions &options);
 
 }  // namespace LSM::postproc

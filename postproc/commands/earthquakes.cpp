@@ -120,7 +120,7 @@ class Collector {
 
   void bad(std::int64_t line, const std::string &what) {
     const std::string message = text_io::where(path_, line) + what;
-    if (!lenient_) throw CatalogueError(message);
+    if (!lenient_) throw FileError(message);
     if (list_.bad_lines++ == 0) list_.first_problem = message;
   }
 
@@ -205,7 +205,7 @@ void read_csv(std::string_view content, Collector &out, const std::string &path)
     if (!columns) {
       columns.emplace(fields);
       if (!columns->complete())
-        throw CatalogueError(
+        throw FileError(
             text_io::where(path, number) +
             "column names without time, latitude, longitude and mag, expected those of ComCat");
       return;
@@ -281,10 +281,10 @@ void read_quakeml(std::string_view content, Collector &out, const std::string &p
     return 1 + std::count(content.begin(), content.begin() + offset, '\n');
   };
   if (!parsed)
-    throw CatalogueError(text_io::where(path, line_of(parsed.offset)) + parsed.description() +
-                         ", expected QuakeML");
+    throw FileError(text_io::where(path, line_of(parsed.offset)) + parsed.description() +
+                    ", expected QuakeML");
   const pugi::xml_node events = document.document_element().child("eventParameters");
-  if (!events) throw CatalogueError(path + ": no element eventParameters, expected QuakeML");
+  if (!events) throw FileError(path + ": no element eventParameters, expected QuakeML");
   for (const pugi::xml_node &event : events.children("event")) {
     const pugi::xml_node origin = preferred(event, "origin", "preferredOriginID");
     const pugi::xml_node magnitude = preferred(event, "magnitude", "preferredMagnitudeID");

@@ -64,7 +64,7 @@ CatalogueFormat detect_format(std::string_view content);
 /// 'induced or triggered event', or SCEDC's eq, le, re, ts.
 /// \param path for messages, "path:line: what, expected ..."
 /// \param lenient pass over lines (QuakeML: events) that cannot be read, and count them
-/// \throws CatalogueError
+/// \throws FileError
 EarthquakeList read_earthquakes(std::string_view content, CatalogueFormat format,
                                 const std::string &path, bool lenient);
 

@@ -77,11 +77,12 @@ void run(Options &options) {
     throw std::invalid_argument("--degrees-per-length: expected a finite number");
   const bool csep = options.format == Format::csep;
   const std::int64_t start = parse_date(options.start);
-  NewFile file(options.output, options.force);
-  text_io::OutputFile<FileError> out;
-  out.create(file.part(),
+  const FileLock lock = claim_output(options.output, options.force);
+  text_io::OutputFile out;
+  out.create(options.output,
              csep ? "lon,lat,mag,time_string,depth,catalog_id,event_id\n"
-                  : "longitude,latitude,depth,time,magnitude,event_id,catalog_id,duration,size\n");
+                  : "longitude,latitude,depth,time,magnitude,event_id,catalog_id,duration,size\n",
+             true);
   std::string block;
   std::int64_t written = 0, without = 0;
   for (std::size_t i = 0; i < options.catalogues.paths.size(); ++i) {
@@ -118,7 +119,6 @@ void run(Options &options) {
   }
   out.write(block);
   out.close();
-  file.commit();
   fmt::print("{} events; left out: {} of {} <= 0, which have no magnitude\nwrote {}\n", written,
              without, options.magnitudes.of(), options.output);
   Table counts({"events", "without_magnitude"});

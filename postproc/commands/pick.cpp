@@ -82,9 +82,9 @@ void run(Options &options) {
   for (const auto &[key, value] : header.parameters)
     if (const std::string problem = catalogue_detail::bad_value(key, value); !problem.empty())
       throw std::invalid_argument(options.series + ": " + problem);
-  NewFile file(options.output, options.force);
+  const FileLock lock = claim_output(options.output, options.force);
   CatalogueWriter catalogue;
-  catalogue.create(file.part(), header);
+  catalogue.create(options.output, header, true);
   std::int64_t early = 0;
   Event event;
   const std::int64_t samples =
@@ -98,7 +98,6 @@ void run(Options &options) {
         catalogue.write(event);
       });
   catalogue.close();
-  file.commit();
   fmt::print(
       "{} samples, {} events; not written: {} of size <= 0, {} below the minimum size, {} "
       "before the warm-up ended{}\nwrote {}\n",

@@ -32,7 +32,7 @@ struct Options {
   double p_speed = 2.12, s_speed = 1.22;
 };
 
-/// \throws CatalogueError; std::runtime_error unless it is a catalogue of ruptures of a fault
+/// \throws FileError; std::runtime_error unless it is a catalogue of ruptures of a fault
 RuptureTable load_ruptures(const std::string &path, const CatalogueOptions &options) {
   RuptureTable table;
   table.head = read_events(path, options, [&table](const Event &e) { table.events.push_back(e); });

@@ -61,12 +61,11 @@ void run(Options &options) {
                                        [&events](const Event &event) { events.push_back(event); });
   if (table.earthquakes())
     throw std::invalid_argument(path + ": earthquakes, expected a catalogue of a model");
-  NewFile file(options.output, options.force);
+  const FileLock lock = claim_output(options.output, options.force);
   CatalogueWriter writer;
-  writer.create(file.part(), header_of(table, options.catalogues));
+  writer.create(options.output, header_of(table, options.catalogues), true);
   for (const Event &event : events) writer.write(event);
   writer.close();
-  file.commit();
   state_repairs(table);
   fmt::print("{} events; left out: {} by time, {} by size\nwrote {}\n", events.size(),
              table.left_out_time, table.left_out_small, options.output);

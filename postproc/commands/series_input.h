@@ -30,7 +30,7 @@ struct SeriesOptions {
 /// Reads a PE series in one pass; use is called with each sample from the first to the one that
 /// ends the window, those before the window too: a picker needs them. States a truncated last
 /// sample on standard error (lenient). Returns the number of samples within the window.
-/// \throws PeSeriesError; std::invalid_argument for an impossible window.
+/// \throws FileError; std::invalid_argument for an impossible window.
 std::int64_t read_series(const std::string &path, const SeriesOptions &options,
                          const std::function<void(std::int64_t step, double time, double pe)> &use);
 

@@ -53,8 +53,8 @@ SpectrumCurve measure(const std::string &path, const Options &options) {
   read_series(path, options.samples, [&](std::int64_t step, double time, double pe) {
     if (time < options.samples.from_time) return;
     if (has_before && step - last_step != info.stride)
-      throw PeSeriesError(fmt::format("{}: step {} after step {}, expected a sample every {} steps",
-                                      path, step, last_step, info.stride));
+      throw FileError(fmt::format("{}: step {} after step {}, expected a sample every {} steps",
+                                  path, step, last_step, info.stride));
     if (options.of == "pe") {
       spectrum.add(pe);
     } else if (has_before) {

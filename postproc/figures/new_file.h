@@ -12,28 +12,12 @@
 
 namespace LSM::postproc {
 
-/// A file on its way: written under part(), it gets its name by commit(). Without that, after an
-/// error, the destructor removes it and an older file of the name is as it was. Nobody else writes
-/// it meanwhile. Devices and pipes are written at once.
-class NewFile {
- public:
-  /// Missing folders are made. \throws FileError if path exists, unless replace, is a folder, or is
-  /// being written by another program of ours.
-  NewFile(const std::string &path, bool replace);
-  ~NewFile();
-  NewFile(const NewFile &) = delete;
-  NewFile &operator=(const NewFile &) = delete;
+/// Before path is written: makes missing folders, and keeps others from writing it while the lock
+/// is held. \throws FileError if path exists, unless replace, is a folder, or is being written by
+/// another program of ours.
+FileLock claim_output(const std::string &path, bool replace);
 
-  const std::string &part() const { return part_; }
-  /// Call when part() is closed. \throws FileError
-  void commit();
-
- private:
-  std::string path_, part_;
-  FileLock lock_;
-};
-
-/// Writes text to path as a NewFile that replaces an older one. \throws FileError
+/// Writes text to path, whole, in place of an older one. \throws FileError
 void write_file(const std::string &path, std::string_view text);
 
 /// \throws FileError if output, or the name under which it is on its way, is one of the files that

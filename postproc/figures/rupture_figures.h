@@ -60,7 +60,7 @@ struct HistoryWindow {
   std::vector<Outline> outlines;
   double from = 0.0, to = 0.0;  ///< ends of the window, within the history (model time)
 };
-/// \throws SlipHistoryError; std::runtime_error if there is nothing in the window
+/// \throws FileError; std::runtime_error if there is nothing in the window
 HistoryWindow load_history(const std::string &path, bool lenient, double from, double to);
 
 /// Slip velocity in space and time with the ruptures outlined.

@@ -33,7 +33,7 @@ struct SlipImage {
 /// The part of a history from one time to another. Bins and records are joined, by their mean,
 /// until there are at most `most_columns` columns and about `most_cells` cells. While a cell slips,
 /// what the byte of one row leaves over is taken into the next, so that the slip of an event,
-/// summed over its rows, is right to a few per cent of its last row. \throws SlipHistoryError;
+/// summed over its rows, is right to a few per cent of its last row. \throws FileError;
 /// std::runtime_error without a driving velocity or without records
 SlipImage load_slip_image(const std::string &path, bool lenient = false,
                           double from = -std::numeric_limits<double>::infinity(),

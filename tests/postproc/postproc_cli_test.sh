@@ -611,8 +611,8 @@ bad_input)
   for seed in -1 18446744073709551616 1.5; do
     refused "seed: expected a whole number from 0 to 18446744073709551615, not '$seed'" intervals good.csv "--seed=$seed" -o x
   done
-  cp good.csv part.csv.part
-  refused "is read by this command" export part.csv.part -o part.csv
+  cp good.csv part.csv.new
+  refused "is read by this command" export part.csv.new -o part.csv
   for command in histograms intervals fit magnitudes aftershocks; do
     refused "ends with a folder, expected a file name" $command good.csv -o ./
     refused "threshold: expected a number of 0 or more, not '-1'" $command good.csv --threshold -1 -o x

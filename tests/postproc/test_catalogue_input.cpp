@@ -71,7 +71,7 @@ TEST_F(CatalogueInput, TimesAsTheWayOfThePlate) {
   EXPECT_EQ(table.t_end, (std::vector<double>{2.0, 3.0}));
   EXPECT_EQ(table.in_events, 1.0);
   for (const char *parameter : {"length = 120", "velocity = 0", "velocity = fast"})
-    EXPECT_THROW(load_catalogue(file(good, parameter), options), CatalogueError) << parameter;
+    EXPECT_THROW(load_catalogue(file(good, parameter), options), FileError) << parameter;
 }
 
 TEST_F(CatalogueInput, ColumnsOfTheEventsChosen) {
@@ -142,7 +142,7 @@ TEST_F(CatalogueInput, CompletenessHasToBeASize) {
     try {
       load_catalogue(name, options);
       ADD_FAILURE() << bad;
-    } catch (const LSM::CatalogueError &error) {
+    } catch (const LSM::FileError &error) {
       EXPECT_EQ(std::string(error.what()),
                 name + ":3: completeness is '" + bad + "', expected a finite size of at least 0");
     }
@@ -191,9 +191,8 @@ TEST_F(CatalogueInput, BadLinesAreErrorsOrCountedByKind) {
       "6,5,6,50,60,0.25,1,0.75\n"  // order: identifier again
       "7,7,8,70,80,0.25,1,0.7";    // truncated
   const std::string name = file(rows);
-  EXPECT_TRUE(
-      contains(message_of<CatalogueError>([&] { load_catalogue(name, CatalogueOptions()); }),
-               name + ":6: column 't_end' is 'nan', expected a finite number"));
+  EXPECT_TRUE(contains(message_of<FileError>([&] { load_catalogue(name, CatalogueOptions()); }),
+                       name + ":6: column 't_end' is 'nan', expected a finite number"));
   const EventTable table = load_catalogue(name, lenient());
   EXPECT_EQ(table.size, (std::vector<double>{0.5, 0.25}));
   EXPECT_EQ(table.skipped_lines, 6);
@@ -214,8 +213,8 @@ TEST_F(CatalogueInput, WhatCannotBeRepairedIsRefused) {
     for (const bool soft : {false, true}) {
       CatalogueOptions options;
       options.lenient = soft;
-      EXPECT_TRUE(contains(message_of<CatalogueError>([&] { load_catalogue(name, options); }),
-                           name + message));
+      EXPECT_TRUE(
+          contains(message_of<FileError>([&] { load_catalogue(name, options); }), name + message));
     }
   };
   refused("", ":1: empty file, expected '# lsm-catalogue 1'");

@@ -139,9 +139,9 @@ TEST(Earthquakes, WhatCannotBeReadIsNamed) {
        "</eventParameters></quakeml>\n",
        "file:2: time is '', expected a date and time"}};
   for (const auto &one : cases)
-    EXPECT_TRUE(contains(message_of<CatalogueError>([&] { read(one.content); }), one.says))
-        << message_of<CatalogueError>([&] { read(one.content); });
-  EXPECT_TRUE(contains(message_of<CatalogueError>([] {
+    EXPECT_TRUE(contains(message_of<FileError>([&] { read(one.content); }), one.says))
+        << message_of<FileError>([&] { read(one.content); });
+  EXPECT_TRUE(contains(message_of<FileError>([] {
                          read_earthquakes("a,b\n1,2\n", CatalogueFormat::csv, "file", false);
                        }),
                        "file:1: column names without time, latitude, longitude and mag"));

@@ -135,13 +135,13 @@ TEST_F(Plot, FilesAppearWholeOrNotAtAll) {
   const std::string name = path("folder/text");
   write_file(name, "old");
   {
-    NewFile file(name, true);
-    unit::spill(file.part(), "half of the n");
+    LSM::text_io::OutputFile file;
+    file.create(name, "half of the n", true);
     EXPECT_EQ(slurp(name), "old");
   }
   EXPECT_EQ(slurp(name), "old");
-  EXPECT_FALSE(std::filesystem::exists(name + ".part"));
-  EXPECT_TRUE(contains(message_of<LSM::FileError>([&] { NewFile(name, false); }), "--force"));
+  EXPECT_FALSE(std::filesystem::exists(name + ".new"));
+  EXPECT_TRUE(contains(message_of<LSM::FileError>([&] { claim_output(name, false); }), "--force"));
   EXPECT_TRUE(contains(message_of<LSM::FileError>([&] { write_file(path("folder/"), "x"); }),
                        "is a directory, expected a file name"));
   // A link goes on pointing to the file; a device is no file to be replaced.

@@ -90,7 +90,7 @@ TEST(Ruptures, TwoThatMeetAreOne) {
                         1);
   ASSERT_EQ(f.ruptures.size(), 1U);
   EXPECT_EQ(f.ruptures[0].step_start, 0);
-  EXPECT_EQ(f.ruptures[0].first_place, 0);
+  EXPECT_EQ(f.ruptures[0].first, 0);
   EXPECT_EQ(f.ruptures[0].step_end, 4);
   EXPECT_EQ(f.ruptures[0].begin, 0);
   EXPECT_EQ(f.ruptures[0].length, 6);
@@ -176,7 +176,7 @@ std::vector<Rupture> search(const Pattern &pattern, std::int64_t memory) {
     todo.push(*left.begin());
     Rupture r;
     r.step_start = left.begin()->first - 1;
-    r.first_place = left.begin()->second;
+    r.first = left.begin()->second;
     left.erase(left.begin());
     std::set<int> distinct;
     while (!todo.empty()) {
@@ -197,8 +197,8 @@ std::vector<Rupture> search(const Pattern &pattern, std::int64_t memory) {
     out.push_back(r);
   }
   std::sort(out.begin(), out.end(), [](const Rupture &a, const Rupture &b) {
-    return std::tie(a.step_end, a.step_start, a.first_place) <
-           std::tie(b.step_end, b.step_start, b.first_place);
+    return std::tie(a.step_end, a.step_start, a.first) <
+           std::tie(b.step_end, b.step_start, b.first);
   });
   return out;
 }
@@ -222,7 +222,7 @@ TEST(Ruptures, RandomPatternsAgreeWithASearch) {
             for (std::size_t k = 0; k < found.size(); ++k) {
               ASSERT_EQ(found[k].step_start, expected[k].step_start);
               ASSERT_EQ(found[k].step_end, expected[k].step_end);
-              ASSERT_EQ(found[k].first_place, expected[k].first_place);
+              ASSERT_EQ(found[k].first, expected[k].first);
               ASSERT_EQ(found[k].length, expected[k].length);
               ASSERT_EQ(found[k].size, expected[k].size);
               ASSERT_EQ(found[k].pe_start, -static_cast<double>(expected[k].step_start));
@@ -330,7 +330,7 @@ TEST(RupturesOfTheChain, AreThoseOfTheDisplacements) {
   for (std::size_t k = 0; k < found.size(); ++k) {
     ASSERT_EQ(found[k].step_start, expected[k].step_start + 100000);
     ASSERT_EQ(found[k].step_end, expected[k].step_end + 100000);
-    ASSERT_EQ(found[k].first_place, expected[k].first_place);
+    ASSERT_EQ(found[k].first, expected[k].first);
     ASSERT_EQ(found[k].length, expected[k].length);
     longest = std::max(longest, found[k].length);
   }

@@ -20,10 +20,10 @@
 namespace {
 
 using LSM::Catalogue;
-using LSM::CatalogueError;
 using LSM::CatalogueInfo;
 using LSM::CatalogueWriter;
 using LSM::Event;
+using LSM::FileError;
 using unit::contains;
 using unit::message_of;
 using unit::slurp;
@@ -277,25 +277,25 @@ TEST_F(CatalogueWrite, FailedCreateKeepsTheOldFile) {
   const std::string before = slurp(file());
   std::filesystem::create_directory(file() + ".new");  // in the way of the temporary file
   CatalogueWriter writer;
-  EXPECT_TRUE(contains(message_of<CatalogueError>([&] { writer.create(file(), some_info()); }),
+  EXPECT_TRUE(contains(message_of<FileError>([&] { writer.create(file(), some_info()); }),
                        file() + ": cannot open for writing: "));
   EXPECT_EQ(slurp(file()), before);
   EXPECT_FALSE(writer.is_open());
-  EXPECT_THROW(writer.write(some_event(1)), CatalogueError);
+  EXPECT_THROW(writer.write(some_event(1)), FileError);
 }
 
 TEST_F(CatalogueWrite, NoSuchFolder) {
   CatalogueWriter writer;
-  EXPECT_TRUE(contains(
-      message_of<CatalogueError>([&] { writer.create(path("no/such/x.csv"), some_info()); }),
-      "no/such/x.csv: cannot open for writing: No such file"));
-  EXPECT_THROW(writer.create(folder_.string(), some_info()), CatalogueError);
+  EXPECT_TRUE(
+      contains(message_of<FileError>([&] { writer.create(path("no/such/x.csv"), some_info()); }),
+               "no/such/x.csv: cannot open for writing: No such file"));
+  EXPECT_THROW(writer.create(folder_.string(), some_info()), FileError);
 }
 
 TEST_F(CatalogueWrite, FullDisk) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
   CatalogueWriter writer;
-  EXPECT_TRUE(contains(message_of<CatalogueError>([&] { writer.create("/dev/full", some_info()); }),
+  EXPECT_TRUE(contains(message_of<FileError>([&] { writer.create("/dev/full", some_info()); }),
                        "/dev/full: cannot write: "));
   EXPECT_TRUE(std::filesystem::exists("/dev/full"));
 }
@@ -306,10 +306,10 @@ TEST_F(CatalogueWrite, RefusesEventsNoReaderWouldTake) {
   writer.write(some_event(2));
   Event event = some_event(3);
   event.size = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_TRUE(contains(message_of<CatalogueError>([&] { writer.write(event); }),
+  EXPECT_TRUE(contains(message_of<FileError>([&] { writer.write(event); }),
                        "cannot write event 3: column 'size' is not finite"));
-  EXPECT_THROW(writer.write(some_event(1)), CatalogueError);
-  EXPECT_THROW(writer.write(some_event(2)), CatalogueError);
+  EXPECT_THROW(writer.write(some_event(1)), FileError);
+  EXPECT_THROW(writer.write(some_event(2)), FileError);
   writer.write(some_event(3));
   EXPECT_EQ(LSM::read_catalogue(file()).events.size(), 2U);
 }
@@ -355,7 +355,7 @@ TEST_F(CatalogueRead, StrictRefusesBadRows) {
   for (const Bad &bad : bad_rows) {
     SCOPED_TRACE(bad.name);
     spill(file(), header + columns + row1 + bad.text + row3);
-    EXPECT_TRUE(contains(message_of<CatalogueError>([&] { LSM::read_catalogue(file()); }),
+    EXPECT_TRUE(contains(message_of<FileError>([&] { LSM::read_catalogue(file()); }),
                          file() + bad.message));
   }
 }
@@ -377,18 +377,18 @@ TEST_F(CatalogueRead, RupturesMayOverlapInOrderOfTheirEnds) {
   // Not without the parameter, nor for drops of PE.
   for (const char *other : {"", "# events = pe\n"}) {
     spill(file(), header + other + columns + rows);
-    EXPECT_TRUE(contains(message_of<CatalogueError>([&] { LSM::read_catalogue(file()); }),
+    EXPECT_TRUE(contains(message_of<FileError>([&] { LSM::read_catalogue(file()); }),
                          "t_start 2.5 is before the end of the previous event 3, expected"));
   }
   // The order of the ends is asked for.
   for (const char *bad : {"4,2,3.5,20,50,0.5,3,2.5\n", "4,2,4.5,20,35,0.5,3,2.5\n"}) {
     spill(file(), ruptures + rows + bad);
-    EXPECT_TRUE(contains(message_of<CatalogueError>([&] { LSM::read_catalogue(file()); }),
+    EXPECT_TRUE(contains(message_of<FileError>([&] { LSM::read_catalogue(file()); }),
                          "is before the end of the previous event 4, 40, expected ruptures in "
                          "order of their ends"));
   }
   spill(file(), ruptures + rows + "3,2,5,20,50,0.5,3,2.5\n");
-  EXPECT_TRUE(contains(message_of<CatalogueError>([&] { LSM::read_catalogue(file()); }),
+  EXPECT_TRUE(contains(message_of<FileError>([&] { LSM::read_catalogue(file()); }),
                        "event_id 3 after event_id 3"));
 }
 
@@ -410,14 +410,13 @@ TEST_F(CatalogueRead, LineEndsOfWindowsAndByteOrderMarks) {
     EXPECT_EQ(*catalogue.info.find("seed"), "7");
     // To go on behind it would mix two kinds of lines.
     CatalogueWriter writer;
-    EXPECT_TRUE(
-        contains(message_of<CatalogueError>([&] { writer.resume(file(), some_info(), 200); }),
-                 "cannot resume: line ends of Windows or a byte order mark, expected"));
+    EXPECT_TRUE(contains(message_of<FileError>([&] { writer.resume(file(), some_info(), 200); }),
+                         "cannot resume: line ends of Windows or a byte order mark, expected"));
     EXPECT_EQ(slurp(file()), text);
   }
   for (const char *utf16 : {"\xff\xfe#\0", "\xfe\xff\0#"}) {
     spill(file(), std::string(utf16, 4));
-    EXPECT_TRUE(contains(message_of<CatalogueError>([&] { LSM::read_catalogue(file()); }),
+    EXPECT_TRUE(contains(message_of<FileError>([&] { LSM::read_catalogue(file()); }),
                          "UTF-16, expected UTF-8"));
   }
 }
@@ -432,7 +431,7 @@ TEST_F(CatalogueRead, CompressedFilesAreRefusedByName) {
                                                         {"\x28\xb5\x2f\xfd", "zstd"}};
   for (const auto &[begin, program] : files) {
     spill(file(), begin + "and more");
-    EXPECT_EQ(message_of<CatalogueError>([&] { LSM::read_catalogue(file()); }),
+    EXPECT_EQ(message_of<FileError>([&] { LSM::read_catalogue(file()); }),
               file() + ": compressed by " + program + ", expected a file that is not");
   }
 }
@@ -462,7 +461,7 @@ TEST_F(CatalogueResume, RupturesAreCutByTheirEnds) {
   }
   event.id += 1;
   event.step_end = 54;
-  EXPECT_THROW(writer.write(event), CatalogueError);
+  EXPECT_THROW(writer.write(event), FileError);
   writer.close();
   EXPECT_EQ(CatalogueWriter().resume(file(), info, 40, {}, 3), 3);
   EXPECT_EQ(LSM::read_catalogue(file()).events.size(), 3U);
@@ -492,7 +491,7 @@ TEST_F(CatalogueRead, StrictRefusesATruncatedLastLine) {
   // Even where all columns are there: the last number may lack digits.
   for (const std::string tail : {"2,3,4,30,40,0.5,3,2.5", "2,3,4,3", "2"}) {
     spill(file(), header + columns + row1 + tail);
-    EXPECT_TRUE(contains(message_of<CatalogueError>([&] { LSM::read_catalogue(file()); }),
+    EXPECT_TRUE(contains(message_of<FileError>([&] { LSM::read_catalogue(file()); }),
                          file() + ":8: truncated last line, expected 8 columns and a line end"));
   }
 }
@@ -519,9 +518,8 @@ TEST_F(CatalogueRead, BadHeadersAreRefusedEvenIfLenient) {
     for (bool lenient : {false, true}) {
       SCOPED_TRACE(bad.name);
       spill(file(), bad.text);
-      EXPECT_TRUE(
-          contains(message_of<CatalogueError>([&] { LSM::read_catalogue(file(), lenient); }),
-                   file() + bad.message));
+      EXPECT_TRUE(contains(message_of<FileError>([&] { LSM::read_catalogue(file(), lenient); }),
+                           file() + bad.message));
     }
   }
 }
@@ -546,12 +544,12 @@ TEST_F(CatalogueRead, ColumnsAreFoundByName) {
   EXPECT_FALSE(catalogue.info.rupture_length);
   // Bad rows are told with the columns of the file; a run goes on with its own columns only.
   spill(file(), header + odd + "deep,0.5,1,2,7,1,10,20,3,,2.5\n");
-  EXPECT_TRUE(contains(message_of<CatalogueError>([&] { LSM::read_catalogue(file()); }),
+  EXPECT_TRUE(contains(message_of<FileError>([&] { LSM::read_catalogue(file()); }),
                        ":7: 11 columns, expected 12 (depth,size,event_id,"));
   spill(file(), header + odd);
   CatalogueInfo info = LSM::read_catalogue(file()).info;
   LSM::CatalogueWriter writer;
-  EXPECT_TRUE(contains(message_of<CatalogueError>([&] { writer.resume(file(), info, 100); }),
+  EXPECT_TRUE(contains(message_of<FileError>([&] { writer.resume(file(), info, 100); }),
                        "cannot resume: columns are 'depth,size,event_id,"));
 }
 
@@ -564,7 +562,7 @@ TEST_F(CatalogueRead, OddHeaderLinesAreRefusedOrSkipped) {
   for (const Bad &bad : odd) {
     SCOPED_TRACE(bad.name);
     spill(file(), start + bad.text + columns + row1);
-    EXPECT_TRUE(contains(message_of<CatalogueError>([&] { LSM::read_catalogue(file()); }),
+    EXPECT_TRUE(contains(message_of<FileError>([&] { LSM::read_catalogue(file()); }),
                          file() + bad.message));
     const Catalogue catalogue = LSM::read_catalogue(file(), true);
     EXPECT_EQ(catalogue.events.size(), 1U);
@@ -574,9 +572,9 @@ TEST_F(CatalogueRead, OddHeaderLinesAreRefusedOrSkipped) {
 }
 
 TEST_F(CatalogueRead, NoFile) {
-  EXPECT_TRUE(contains(message_of<CatalogueError>([&] { LSM::read_catalogue(file()); }),
+  EXPECT_TRUE(contains(message_of<FileError>([&] { LSM::read_catalogue(file()); }),
                        file() + ": cannot open: No such file"));
-  EXPECT_TRUE(contains(message_of<CatalogueError>([&] { LSM::read_catalogue(folder_.string()); }),
+  EXPECT_TRUE(contains(message_of<FileError>([&] { LSM::read_catalogue(folder_.string()); }),
                        ": is a directory, expected a file"));
 }
 
@@ -596,7 +594,7 @@ TEST_F(CatalogueRead, EventByEvent) {
 
 TEST_F(CatalogueRead, MessagesStayOnOneLine) {
   spill(file(), header + columns + "1,\x01\x1b" + std::string(5000, 'z') + ",2,10,20,0.5,3,2.5\n");
-  const std::string message = message_of<CatalogueError>([&] { LSM::read_catalogue(file()); });
+  const std::string message = message_of<FileError>([&] { LSM::read_catalogue(file()); });
   EXPECT_TRUE(contains(message, "is '??zzz"));
   EXPECT_LT(message.size(), file().size() + 200);
 }
@@ -631,10 +629,10 @@ TEST_F(CatalogueResume, RefusesAnotherNumberOfEventsAndLeavesTheFile) {
   const std::string before = slurp(file());
   CatalogueWriter writer;
   EXPECT_TRUE(
-      contains(message_of<CatalogueError>([&] { writer.resume(file(), some_info(), 209, {}, 2); }),
+      contains(message_of<FileError>([&] { writer.resume(file(), some_info(), 209, {}, 2); }),
                "cannot resume: 1 events up to the checkpoint, expected 2"));
   EXPECT_TRUE(
-      contains(message_of<CatalogueError>([&] { writer.resume(file(), some_info(), 209, {}, 0); }),
+      contains(message_of<FileError>([&] { writer.resume(file(), some_info(), 209, {}, 0); }),
                "cannot resume: 1 events up to the checkpoint, expected 0"));
   EXPECT_EQ(slurp(file()), before);
   EXPECT_EQ(writer.resume(file(), some_info(), 209, {}, 1), 1);
@@ -669,7 +667,7 @@ TEST_F(CatalogueResume, KeepsOrderOverTheSeam) {
   write_events(3);
   CatalogueWriter writer;
   writer.resume(file(), some_info(), 1000);
-  EXPECT_THROW(writer.write(some_event(3)), CatalogueError);
+  EXPECT_THROW(writer.write(some_event(3)), FileError);
   writer.write(some_event(4));
   EXPECT_EQ(LSM::read_catalogue(file()).events.size(), 4U);
 }
@@ -679,7 +677,7 @@ TEST_F(CatalogueResume, NamesTheParameterThatDiffers) {
   const std::string before = slurp(file());
   const auto refused = [&](const CatalogueInfo &info, const std::string &message) {
     CatalogueWriter writer;
-    EXPECT_TRUE(contains(message_of<CatalogueError>([&] { writer.resume(file(), info, 110); }),
+    EXPECT_TRUE(contains(message_of<FileError>([&] { writer.resume(file(), info, 110); }),
                          file() + ": cannot resume: " + message));
     EXPECT_FALSE(writer.is_open());
     EXPECT_EQ(slurp(file()), before);
@@ -707,7 +705,7 @@ TEST_F(CatalogueResume, IgnoredParametersMayDifferAndKeepTheirValue) {
   info.parameters[2].second = "lsm 0.2";
   info.parameters.emplace_back("steps", "200");
   CatalogueWriter writer;
-  EXPECT_THROW(writer.resume(file(), info, 110, {"program"}), CatalogueError);
+  EXPECT_THROW(writer.resume(file(), info, 110, {"program"}), FileError);
   EXPECT_EQ(writer.resume(file(), info, 110, {"program", "steps"}), 1);
   writer.close();
   EXPECT_EQ(*LSM::read_catalogue(file()).info.find("program"), "lsm 0.1 = a = b");
@@ -725,20 +723,19 @@ TEST_F(CatalogueResume, BadRowBeforeTheRestartLosesNothing) {
   const std::string text = header + columns + row1 + "2,3,4,30,40,0.5\n" + row3;
   spill(file(), text);
   CatalogueWriter writer;
-  EXPECT_TRUE(
-      contains(message_of<CatalogueError>([&] { writer.resume(file(), some_info(), 1000); }),
-               file() + ":8: 6 columns, expected 8"));
+  EXPECT_TRUE(contains(message_of<FileError>([&] { writer.resume(file(), some_info(), 1000); }),
+                       file() + ":8: 6 columns, expected 8"));
   EXPECT_EQ(slurp(file()), text);
 }
 
 TEST_F(CatalogueResume, NothingToGoOnWith) {
   CatalogueWriter writer;
-  EXPECT_THROW(writer.resume(file(), some_info(), 0), CatalogueError);
+  EXPECT_THROW(writer.resume(file(), some_info(), 0), FileError);
   EXPECT_FALSE(std::filesystem::exists(file()));
   spill(file(), "");
-  EXPECT_THROW(writer.resume(file(), some_info(), 0), CatalogueError);
+  EXPECT_THROW(writer.resume(file(), some_info(), 0), FileError);
   spill(file(), "something else\n");
-  EXPECT_THROW(writer.resume(file(), some_info(), 0), CatalogueError);
+  EXPECT_THROW(writer.resume(file(), some_info(), 0), FileError);
   EXPECT_EQ(slurp(file()), "something else\n");
 }
 

@@ -12,7 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 using LSM::check_restart;
 using LSM::Cksum;
-using LSM::RestartInfoError;
+using LSM::FileError;
 using LSM::seal_restart;
 using unit::contains;
 using unit::message_of;
@@ -28,7 +28,7 @@ class RestartInfo : public unit::Files {
     seal_restart(path("draft"), file, settings);
   }
   std::string refusal() {
-    return message_of<RestartInfoError>([&] { check_restart(file); });
+    return message_of<FileError>([&] { check_restart(file); });
   }
 
   std::string bytes;
@@ -80,12 +80,12 @@ TEST_F(RestartInfo, TheSettingsAreCheckedAsWell) {
       // Only the name at the end, which is for people, may be another.
       EXPECT_EQ(check_restart(file), settings);
       EXPECT_GT(at, text.rfind(' ')) << "place " << at << " of\n" << text;
-    } catch (const RestartInfoError &) {
+    } catch (const FileError &) {
     }
   }
   for (std::size_t length = 0; length < text.rfind(' '); ++length) {
     spill(info, text.substr(0, length));
-    EXPECT_THROW(check_restart(file), RestartInfoError) << length;
+    EXPECT_THROW(check_restart(file), FileError) << length;
   }
 }
 
@@ -107,7 +107,7 @@ TEST_F(RestartInfo, TheLineOfCksumWillDo) {
 TEST_F(RestartInfo, OlderFileOfTheNameIsReplaced) {
   spill(path("draft"), "newer");
   fs::create_directory(info + ".new");  // the info cannot be written
-  EXPECT_THROW(seal_restart(path("draft"), file, settings), RestartInfoError);
+  EXPECT_THROW(seal_restart(path("draft"), file, settings), FileError);
   EXPECT_TRUE(contains(refusal(), "is missing"));
   fs::remove(info + ".new");
   spill(path("draft"), "newest");

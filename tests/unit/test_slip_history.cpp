@@ -14,7 +14,7 @@
 namespace {
 
 using LSM::FaultRow;
-using LSM::SlipHistoryError;
+using LSM::FileError;
 using LSM::SlipHistoryInfo;
 using LSM::SlipHistoryReader;
 using LSM::SlipHistoryWriter;
@@ -179,27 +179,25 @@ TEST_F(SlipHistory, ResumeRefusesWhatDoesNotFit) {
   SlipHistoryInfo other = some_info();
   other.ruptures.gap = 2;
   EXPECT_TRUE(
-      contains(message_of<SlipHistoryError>([&] { writer.resume(file(), other, late); }),
+      contains(message_of<FileError>([&] { writer.resume(file(), other, late); }),
                "slip.bin: cannot resume: parameter 'gap' is '1' in the file, expected '2'"));
   EXPECT_NO_THROW(writer.resume(file(), other, late, {"gap"}));
   writer.close();
   other = some_info();
   other.grid.bins = 4;
-  EXPECT_TRUE(contains(message_of<SlipHistoryError>([&] { writer.resume(file(), other, late); }),
+  EXPECT_TRUE(contains(message_of<FileError>([&] { writer.resume(file(), other, late); }),
                        "saved state is of another fault"));
   EXPECT_EQ(slurp(file()), whole);
 
   create(writer);
   writer.close();
   const std::string begun = slurp(file());
-  EXPECT_TRUE(
-      contains(message_of<SlipHistoryError>([&] { writer.resume(file(), some_info(), early); }),
-               "cannot resume: records end at step 100, expected them up to step 140"));
+  EXPECT_TRUE(contains(message_of<FileError>([&] { writer.resume(file(), some_info(), early); }),
+                       "cannot resume: records end at step 100, expected them up to step 140"));
   EXPECT_EQ(slurp(file()), begun);
   spill(file(), begun.substr(0, begun.size() - 1));
-  EXPECT_TRUE(
-      contains(message_of<SlipHistoryError>([&] { writer.resume(file(), some_info(), early); }),
-               "cannot resume: no records, expected them up to step 140"));
+  EXPECT_TRUE(contains(message_of<FileError>([&] { writer.resume(file(), some_info(), early); }),
+                       "cannot resume: no records, expected them up to step 140"));
 }
 
 TEST_F(SlipHistory, BadFilesAreRefusedWithARecordAndAReason) {
@@ -213,7 +211,7 @@ TEST_F(SlipHistory, BadFilesAreRefusedWithARecordAndAReason) {
 
   const auto expect = [&](const std::string &bytes, const std::string &part) {
     spill(file(), bytes);
-    EXPECT_TRUE(contains(message_of<SlipHistoryError>([&] { read(file()); }), part));
+    EXPECT_TRUE(contains(message_of<FileError>([&] { read(file()); }), part));
   };
   expect("", "slip.bin: not a slip history");
   expect("event_id,t_start,t_end\n", "not a slip history");
@@ -267,7 +265,7 @@ TEST_F(SlipHistory, WhatCouldNotBeReadIsNotWritten) {
   create(writer);
   FaultRow row = some_row(1);
   row.slip[2] = std::numeric_limits<float>::infinity();
-  EXPECT_TRUE(contains(message_of<SlipHistoryError>([&] { writer.add(110, 0.0, row, true); }),
+  EXPECT_TRUE(contains(message_of<FileError>([&] { writer.add(110, 0.0, row, true); }),
                        "cannot write step 110"));
 }
 

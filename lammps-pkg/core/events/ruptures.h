@@ -52,9 +52,9 @@ struct FaultRupture : SlipSet {
 
   template <class Self, class State>
   static void visit(Self &self, State &state) {
-    state(self.step_start, self.step_end, self.first_place, self.begin, self.length,
-          self.hypocentre, self.first_slip, self.slip, self.slip_cos, self.slip_sin, self.work,
-          self.pe_start, self.pe_end, self.stress_after);
+    state(self.step_start, self.step_end, self.first, self.begin, self.length, self.hypocentre,
+          self.first_slip, self.slip, self.slip_cos, self.slip_sin, self.work, self.pe_start,
+          self.pe_end, self.stress_after);
   }
 };
 
@@ -95,7 +95,7 @@ class RuptureFinder : public EventFinder {
       active_ = true;
       FaultRupture &r = sets_.slide(b, [this, n](FaultRupture &begun) {
         begun.pe_start = pe_;
-        begun.hypocentre = begun.first_place;
+        begun.hypocentre = begun.first;
         if (snapshots_.empty() || snapshots_.back().interval != n - 1)
           snapshots_.push_back({n - 1, before_});
       });
@@ -123,8 +123,8 @@ class RuptureFinder : public EventFinder {
     std::vector<FaultRupture> all;
     sets_.each_open([&all](const FaultRupture &r) { all.push_back(r); });
     std::sort(all.begin(), all.end(), [](const FaultRupture &a, const FaultRupture &b) {
-      return std::tie(a.step_end, a.step_start, a.first_place) <
-             std::tie(b.step_end, b.step_start, b.first_place);
+      return std::tie(a.step_end, a.step_start, a.first) <
+             std::tie(b.step_end, b.step_start, b.first);
     });
     for (FaultRupture &r : all) {
       if (r.step_end == sets_.step()) r.stress_after = mean(before_, r);
