@@ -6,6 +6,7 @@
 #ifndef SLIDER_KERNELS_H
 #define SLIDER_KERNELS_H
 
+#include <array>
 #include <cstdint>
 
 #include "slider_parameters.h"
@@ -43,8 +44,17 @@ using StepFunction = StepSums (*)(const ChainView &chain, const std::int32_t *li
                                   double x_new, std::uint8_t *hot);
 
 /// What a step is compiled for: the set that all processors of the platform have, or wider ones.
-enum class InstructionSet { automatic, avx512, avx2, baseline };
-const char *to_string(InstructionSet set);
+enum class InstructionSet { avx512, avx2, baseline };
+constexpr std::array<LSM::Named<InstructionSet>, 3> names_of(InstructionSet) {
+#ifdef __x86_64__
+  constexpr const char *platform = "x86-64";
+#else
+  constexpr const char *platform = "baseline";
+#endif
+  return {{{InstructionSet::avx512, "avx512"},
+           {InstructionSet::avx2, "avx2"},
+           {InstructionSet::baseline, platform}}};
+}
 
 /// Whether this processor has it.
 bool has(InstructionSet set);

@@ -6,11 +6,12 @@
 #ifndef SLIDER_LAWS_H
 #define SLIDER_LAWS_H
 
-#include <string>
+#include <array>
 
 #include "laws/coulomb.h"
 #include "laws/slip_weakening.h"
 #include "laws/velocity_weakening.h"
+#include "lsm_names.h"
 
 namespace Slider {
 
@@ -19,26 +20,10 @@ enum class Law {
   coulomb,             ///< static and dynamic friction (ours)
   slip_weakening       ///< falls linearly with the slip since the block last rested (ours)
 };
-constexpr Law all_laws[] = {Law::velocity_weakening, Law::coulomb, Law::slip_weakening};
-
-inline const char *to_string(Law law) {
-  switch (law) {
-    case Law::velocity_weakening:
-      return LSM::VelocityWeakening::name;
-    case Law::coulomb:
-      return LSM::CoulombStatic::name;
-    case Law::slip_weakening:
-      return LSM::SlipWeakening::name;
-  }
-  return "unknown";
-}
-inline bool from_string(const std::string &name, Law &law) {
-  for (Law candidate : all_laws)
-    if (name == to_string(candidate)) {
-      law = candidate;
-      return true;
-    }
-  return false;
+constexpr std::array<LSM::Named<Law>, 3> names_of(Law) {
+  return {{{Law::velocity_weakening, LSM::VelocityWeakening::name},
+           {Law::coulomb, LSM::CoulombStatic::name},
+           {Law::slip_weakening, LSM::SlipWeakening::name}}};
 }
 
 /// A law with its coefficients. Each block has the static strength mu.
@@ -49,18 +34,6 @@ struct Friction {
 
   /// Whether the place where a block last rested is needed.
   bool needs_rest() const { return law == Law::slip_weakening; }
-  /// Friction of a block that moves, or starts to, after the given slip.
-  double force(double mu, double v, double slip) const {
-    switch (law) {
-      case Law::velocity_weakening:
-        return LSM::VelocityWeakening::friction(mu, v);
-      case Law::coulomb:
-        return LSM::CoulombStatic::friction(mu, dynamic * mu, true);
-      case Law::slip_weakening:
-        return LSM::SlipWeakening::strength(mu, dynamic * mu, dc, slip);
-    }
-    return mu;
-  }
 };
 
 }  // namespace Slider

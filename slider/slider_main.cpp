@@ -91,7 +91,7 @@ void for_each_index(std::size_t count, std::size_t threads, const Task &task) {
 }
 
 int run_all(const std::vector<Settings> &all, const Settings &base) {
-  if (base.summary != "-") Slider::probe(base.summary, "--json");
+  if (base.summary != "-") Slider::probe(base.summary);
   std::vector<Slider::RunResult> results(all.size());
   std::vector<std::string> errors(all.size());
   for_each_index(all.size(), base.threads, [&](std::size_t k) {
@@ -126,7 +126,7 @@ int run_all(const std::vector<Settings> &all, const Settings &base) {
 }
 
 int run_one(const Settings &s) {
-  if (s.summary != "-") Slider::probe(s.summary, "--json");
+  if (s.summary != "-") Slider::probe(s.summary);
   const Slider::RunResult r = Slider::run(s.run);
   if (s.summary != "-")
     fmt::print("{}: {} events in {} steps, {:.3g} s\n", s.run.catalogue, r.events, r.steps,

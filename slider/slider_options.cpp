@@ -52,152 +52,114 @@ void choose(const char *option, const std::string &word, Enum &value) {
         fmt::format("{} = '{}', expected {}", option, word, LSM::choices(value)));
 }
 
-/// Options that others refer to.
-struct Added {
-  CLI::Option *paper, *steps, *gap, *dynamic, *distance, *leap, *calm;
-};
-
-void add_model(CLI::App &app, Settings &s, Added &o) {
+void add_model(CLI::App &app, Settings &s) {
   Parameters &p = s.run.parameters;
-  const std::string model = "Model (defaults are the paper's values)";
-  app.add_option("--blocks", p.blocks, "Number of blocks N")->group(model);
-  app.add_option("--kc", p.kc, "Spring between neighbours K_c (force/length)")->group(model);
-  app.add_option("--kl", p.kl, "Leaf spring to the plate K_l (force/length)")->group(model);
-  app.add_option("--mass", p.mass, "Mass of a block M")->group(model);
-  app.add_option("--velocity", p.velocity, "Driving velocity of the plate V (length/time)")
-      ->group(model);
+  app.option_defaults()->group("Model (defaults are the paper's values)");
+  app.add_option("--blocks", p.blocks, "Number of blocks N");
+  app.add_option("--kc", p.kc, "Spring between neighbours K_c (force/length)");
+  app.add_option("--kl", p.kl, "Leaf spring to the plate K_l (force/length)");
+  app.add_option("--mass", p.mass, "Mass of a block M");
+  app.add_option("--velocity", p.velocity, "Driving velocity of the plate V (length/time)");
   auto *range = app.add_option("--friction-range", s.friction,
                                "Static coefficients mu_0i are uniform in [LOW, HIGH) (force)")
-                    ->expected(2)
-                    ->group(model);
+                    ->expected(2);
   app.add_option("--friction-file", s.friction_file,
                  "File with one static coefficient per line, one line per block")
-      ->excludes(range)
-      ->group(model);
-  app.add_option("--seed", s.seed, "Seed of the coefficients")
-      ->check(LSM::whole_number())
-      ->group(model);
+      ->excludes(range);
+  app.add_option("--seed", s.seed, "Seed of the coefficients")->check(LSM::whole_number());
   app.add_option("--law", s.law,
                  "Friction of a moving block: velocity-weakening, mu_0i / (1 + v), Eq. 6; ours: "
                  "coulomb, R mu_0i with the R of --dynamic-friction; slip-weakening, from mu_0i to "
-                 "R mu_0i over the slip of --slip-distance since the block last rested")
-      ->group(model);
-  o.dynamic =
-      app.add_option("--dynamic-friction", s.dynamic,
-                     "Dynamic over static coefficient, of coulomb and slip-weakening (ours)");
-  o.dynamic->group(model);
-  o.distance = app.add_option("--slip-distance", s.distance,
-                              "Slip over which slip-weakening weakens (length; ours)");
-  o.distance->group(model);
+                 "R mu_0i over the slip of --slip-distance since the block last rested");
+  app.add_option("--dynamic-friction", s.dynamic,
+                 "Dynamic over static coefficient, of coulomb and slip-weakening (ours)");
+  app.add_option("--slip-distance", s.distance,
+                 "Slip over which slip-weakening weakens (length; ours)");
 }
 
-void add_integration(CLI::App &app, Settings &s, Added &o) {
+void add_integration(CLI::App &app, Settings &s) {
   Parameters &p = s.run.parameters;
-  const std::string how = "Integration";
-  o.paper =
-      app.add_flag("--paper", s.paper,
-                   "What is printed, with a time step of our choice: --scheme printed --dt 0.01 "
-                   "--steps 1e7 --picker literal --picker-lambda 0.99 --warmup 0");
-  o.paper->group(how);
-  o.steps = app.add_option("--steps", s.steps, "Number of time steps (instead of --time)");
-  o.steps->group(how);
-  o.steps->default_str("1e7 with --paper, else from --time");
-  app.add_option("--time", s.time, "Model time to run for (time)")
-      ->excludes(o.steps)
-      ->excludes(o.paper)
-      ->group(how);
-  auto *dt = app.add_option("--dt", p.dt, "Time step h (time; ours, the paper gives none)");
-  dt->excludes(o.paper)->group(how);
+  app.option_defaults()->group("Integration");
+  app.add_flag("--paper", s.paper,
+               "What is printed, with a time step of our choice: --scheme printed --dt 0.01 "
+               "--steps 1e7 --picker literal --picker-lambda 0.99 --warmup 0");
+  auto *steps = app.add_option("--steps", s.steps, "Number of time steps (instead of --time)");
+  steps->default_str("1e7 with --paper, else from --time");
+  app.add_option("--time", s.time, "Model time to run for (time)")->excludes(steps);
+  app.add_option("--dt", p.dt, "Time step h (time; ours, the paper gives none)");
   app.add_option("--scheme", s.scheme,
                  "printed: Eqs. 7 and 8, order 1, unstable in the long run: warns above dt 0.01, "
-                 "refused from 0.12; ours: semi-implicit (order 1), verlet (order 2)")
-      ->excludes(o.paper)
-      ->group(how);
-  app.add_flag("--force", s.force, "Run the printed scheme at time steps where it is unsound")
-      ->group(how);
+                 "refused from 0.12; ours: semi-implicit (order 1), verlet (order 2)");
+  app.add_flag("--force", s.force, "Run the printed scheme at time steps where it is unsound");
   app.add_option("--kernel", s.kernel,
-                 "active (only moving chunks of blocks) or dense (all blocks; same catalogue)")
-      ->group(how);
-  o.leap = app.add_option(
+                 "active (only moving chunks of blocks) or dense (all blocks; same catalogue)");
+  app.add_option(
       "--leap", s.run.leap_speed,
       "Leap over slow loading (ours): once no block has been faster than this for the time "
       "--leap-calm, blocks at their limit creep without steps, in the limit of a slow plate, until "
       "some are about to exceed it; 1e-3 is sound for V up to 1e-3; 0: never. Model time and steps "
       "continue (length/time)");
-  o.leap->group(how);
-  o.calm = app.add_option("--leap-calm", s.run.leap_calm,
-                          "Time of steps before each leap, long enough for a runaway of blocks "
-                          "to become visible (time)");
-  o.calm->group(how);
+  app.add_option("--leap-calm", s.run.leap_calm,
+                 "Time of steps before each leap, long enough for a runaway of blocks "
+                 "to become visible (time)");
 }
 
-void add_events(CLI::App &app, Settings &s, Added &o) {
+void add_events(CLI::App &app, Settings &s) {
   const std::string events = "Events";
+  app.option_defaults()->group(events);
   app.add_option(
-         "--events", s.events,
-         "What an event is: pe, a drop of the PE of the whole chain (paper); ruptures, a "
-         "set of sliding blocks connected in space and time (ours): each is local, so that those "
-         "far apart stay separate in long chains, and events can overlap. Their size is "
-         "the work of the springs on the blocks; they are written in the order in which "
-         "they end; the options of the picker have no effect on them")
-      ->group(events);
-  o.gap = app.add_option("--rupture-gap", s.rupture_gap,
-                         "With --events ruptures: time for which a block at rest still "
-                         "connects, beyond the one time step that forces take (time; ours)");
-  o.gap->group(events);
+      "--events", s.events,
+      "What an event is: pe, a drop of the PE of the whole chain (paper); ruptures, a "
+      "set of sliding blocks connected in space and time (ours): each is local, so that those "
+      "far apart stay separate in long chains, and events can overlap. Their size is "
+      "the work of the springs on the blocks; they are written in the order in which "
+      "they end; the options of the picker have no effect on them");
+  app.add_option("--rupture-gap", s.rupture_gap,
+                 "With --events ruptures: time for which a block at rest still "
+                 "connects, beyond the one time step that forces take (time; ours)");
   const LSM::PickerOptions::Added picker = s.picker.add_to(&app, events, "picker-");
-  for (CLI::Option *option : {picker.reading, picker.lambda, picker.memory_time})
-    option->excludes(o.paper);
   picker.reading->default_str("exponential");
   picker.lambda->default_str("from --picker-memory-time");
   picker.memory_time->default_str("1");
   picker.min_size->default_str("0");
-  app.add_option("--warmup", s.run.warmup, "Drop events that start before this time (time; ours)")
-      ->excludes(o.paper)
-      ->group(events);
+  app.add_option("--warmup", s.run.warmup, "Drop events that start before this time (time; ours)");
+  for (CLI::Option *option :
+       {app.get_option("--time"), app.get_option("--dt"), app.get_option("--scheme"),
+        picker.reading, picker.lambda, picker.memory_time, app.get_option("--warmup")})
+    option->excludes(app.get_option("--paper"));
 }
 
 void add_files(CLI::App &app, Settings &s) {
-  const std::string files = "Files";
-  app.add_option("--catalogue", s.run.catalogue, "Catalogue to write")->group(files);
+  app.option_defaults()->group("Files");
+  app.add_option("--catalogue", s.run.catalogue, "Catalogue to write");
   app.add_option("--columns", s.columns,
                  "Further columns: centroid, length, or both with a comma; slip_moment (sum of the "
-                 "slips of all blocks) is always written")
-      ->group(files);
-  app.add_option("--pe-series", s.run.series, "Series of PE to write (default: none)")
-      ->group(files);
-  app.add_option("--pe-stride", s.stride, "Steps between samples of the series (steps)")
-      ->group(files);
-  app.add_option("--pe-format", s.series_format, "Format of the series: text or binary")
-      ->group(files);
+                 "slips of all blocks) is always written");
+  app.add_option("--pe-series", s.run.series, "Series of PE to write (default: none)");
+  app.add_option("--pe-stride", s.stride, "Steps between samples of the series (steps)");
+  app.add_option("--pe-format", s.series_format, "Format of the series: text or binary");
   app.add_option("--checkpoint", s.run.checkpoint,
-                 "Checkpoint to write, also on SIGINT and SIGTERM (default: none)")
-      ->group(files);
+                 "Checkpoint to write, also on SIGINT and SIGTERM (default: none)");
   app.add_option("--checkpoint-interval", s.interval,
-                 "Steps between checkpoints; 0: only when interrupted and at the end (steps)")
-      ->group(files);
+                 "Steps between checkpoints; 0: only when interrupted and at the end (steps)");
   app.add_flag("--resume", s.run.resume,
-               "Continue from the checkpoint; the catalogue ends as if never interrupted")
-      ->group(files);
+               "Continue from the checkpoint; the catalogue ends as if never interrupted");
   app.add_flag("--overwrite", s.run.overwrite,
                "Replace catalogue, series and checkpoint of an earlier run, which is refused "
-               "otherwise; with --resume, those of runs of an ensemble that have no checkpoint")
-      ->group(files);
-  app.add_option("--json", s.summary, "JSON summary to write; - is standard output")->group(files);
-  app.add_flag("--progress", s.run.progress, "Report on standard error every second")->group(files);
+               "otherwise; with --resume, those of runs of an ensemble that have no checkpoint");
+  app.add_option("--json", s.summary, "JSON summary to write; - is standard output");
+  app.add_flag("--progress", s.run.progress, "Report on standard error every second");
 }
 
 void add_ensemble(CLI::App &app, Settings &s) {
-  const std::string many = "Several runs";
+  app.option_defaults()->group("Several runs");
   app.add_option(
-         "--ensemble", s.ensemble,
-         "A number of runs with successive seeds, or a file with the options of one run per "
-         "line; '{run}' in output names is replaced by the run's number, from 1, or put "
-         "before the extension")
-      ->group(many);
+      "--ensemble", s.ensemble,
+      "A number of runs with successive seeds, or a file with the options of one run per "
+      "line; '{run}' in output names is replaced by the run's number, from 1, or put "
+      "before the extension");
   app.add_option("--threads", s.threads, "Runs at a time; 0: one per core")
-      ->check(LSM::whole_number(4096))
-      ->group(many);
+      ->check(LSM::whole_number(4096));
 }
 
 /// What is wrong with a file of 'option = value' lines, or "": CLI11 takes the last of two values
@@ -249,22 +211,22 @@ void read_arguments(CLI::App &app, std::vector<std::string> arguments) {
   }
 }
 
-void interpret_law(Settings &s, const Added &o) {
+void interpret_law(Settings &s, const CLI::App &app) {
   Friction &friction = s.run.parameters.friction;
   if (!from_string(s.law, friction.law))
     throw std::invalid_argument("--law = '" + s.law +
                                 "', expected velocity-weakening, coulomb or slip-weakening (with "
                                 "others no block rests: they "
                                 "are laws of pair_style lsm/friction)");
-  if (o.dynamic->count() > 0 && friction.law == Law::velocity_weakening)
+  if (app.count("--dynamic-friction") > 0 && friction.law == Law::velocity_weakening)
     throw std::invalid_argument("--dynamic-friction needs --law coulomb or slip-weakening");
-  if (o.distance->count() > 0 && friction.law != Law::slip_weakening)
+  if (app.count("--slip-distance") > 0 && friction.law != Law::slip_weakening)
     throw std::invalid_argument("--slip-distance needs --law slip-weakening");
   if (friction.law != Law::velocity_weakening) friction.dynamic = s.dynamic;
   if (friction.law == Law::slip_weakening) friction.dc = s.distance;
 }
 
-void interpret_integration(Settings &s, const Added &o) {
+void interpret_integration(Settings &s, const CLI::App &app) {
   Parameters &p = s.run.parameters;
   if (s.paper) {
     s.scheme = "printed";
@@ -275,10 +237,10 @@ void interpret_integration(Settings &s, const Added &o) {
   choose("--kernel", s.kernel, s.run.kernel);
   choose("--events", s.events, s.run.events);
   check(p, s.force);
-  if (o.calm->count() > 0 && o.leap->count() == 0)
+  if (app.count("--leap-calm") > 0 && app.count("--leap") == 0)
     throw std::invalid_argument("--leap-calm needs --leap");
   check_leaps(s.run);
-  if (o.steps->count() > 0 || s.paper) {
+  if (app.count("--steps") > 0 || s.paper) {
     s.run.steps = whole("--steps", s.steps, 1);
   } else {
     if (!std::isfinite(s.time) || !(s.time > 0.0))
@@ -288,7 +250,7 @@ void interpret_integration(Settings &s, const Added &o) {
   }
 }
 
-void interpret_events(Settings &s, const Added &o) {
+void interpret_events(Settings &s, const CLI::App &app) {
   if (s.paper) {
     s.picker.reading = "literal";
     s.picker.lambda = 0.99;
@@ -299,7 +261,7 @@ void interpret_events(Settings &s, const Added &o) {
     throw std::invalid_argument("--warmup = " + number(s.run.warmup) +
                                 ", expected a finite number >= 0");
   const bool ruptures = s.run.events == Events::ruptures;
-  if (o.gap->count() > 0 && !ruptures)
+  if (app.count("--rupture-gap") > 0 && !ruptures)
     throw std::invalid_argument("--rupture-gap needs --events ruptures");
   const double gap_steps = std::round(s.rupture_gap / s.run.parameters.dt);
   if (!(s.rupture_gap >= 0.0) || !(gap_steps < 1e15))
@@ -361,43 +323,36 @@ std::uint64_t friction_checksum(const std::vector<double> &mu) {
 void set_header(Settings &s) {
   const Parameters &p = s.run.parameters;
   auto &h = s.run.header;
-  h.emplace_back("program", std::string("slider_cli ") + SLIDER_VERSION);
-  h.emplace_back("blocks", std::to_string(p.blocks));
-  h.emplace_back("kc", number(p.kc));
-  h.emplace_back("kl", number(p.kl));
-  h.emplace_back("mass", number(p.mass));
-  h.emplace_back("velocity", number(p.velocity));
-  if (s.friction_file.empty()) {
-    h.emplace_back("friction_low", number(s.friction[0]));
-    h.emplace_back("friction_high", number(s.friction[1]));
-    h.emplace_back("seed", std::to_string(s.seed));
-  } else {
-    // The coefficients count, not where the file lies.
-    h.emplace_back("friction_checksum", fmt::format("{:016x}", friction_checksum(s.run.mu)));
-  }
-  if (p.friction.law != Law::velocity_weakening) {
-    h.emplace_back("law", s.law);
-    h.emplace_back("dynamic_friction", number(p.friction.dynamic));
-    if (p.friction.law == Law::slip_weakening)
-      h.emplace_back("slip_distance", number(p.friction.dc));
-  }
-  h.emplace_back("scheme", to_string(p.scheme));
-  h.emplace_back("dt", number(p.dt));
-  h.emplace_back("steps", std::to_string(s.run.steps));
-  if (s.run.leap_speed > 0.0) {
-    h.emplace_back("leap", number(s.run.leap_speed));
-    h.emplace_back("leap_calm", number(s.run.leap_calm));
-  }
-  if (s.run.events == Events::ruptures) {
-    h.emplace_back("events", "ruptures");
-    h.emplace_back("rupture_gap", number(s.rupture_gap));
-  } else {
-    h.emplace_back("picker", to_string(s.run.picker.reading));
-    h.emplace_back("lambda", number(s.run.picker.lambda));
-  }
-  h.emplace_back("min_size", number(s.run.picker.min_size));
-  h.emplace_back("keep_nonpositive", s.run.picker.keep_nonpositive ? "yes" : "no");
-  h.emplace_back("warmup", number(s.run.warmup));
+  const auto add = [&h](std::initializer_list<std::pair<std::string, std::string>> some) {
+    h.insert(h.end(), some);
+  };
+  add({{"program", std::string("slider_cli ") + SLIDER_VERSION},
+       {"blocks", std::to_string(p.blocks)},
+       {"kc", number(p.kc)},
+       {"kl", number(p.kl)},
+       {"mass", number(p.mass)},
+       {"velocity", number(p.velocity)}});
+  if (s.friction_file.empty())
+    add({{"friction_low", number(s.friction[0])},
+         {"friction_high", number(s.friction[1])},
+         {"seed", std::to_string(s.seed)}});
+  else  // The coefficients count, not where the file lies.
+    add({{"friction_checksum", fmt::format("{:016x}", friction_checksum(s.run.mu))}});
+  if (p.friction.law != Law::velocity_weakening)
+    add({{"law", s.law}, {"dynamic_friction", number(p.friction.dynamic)}});
+  if (p.friction.law == Law::slip_weakening) add({{"slip_distance", number(p.friction.dc)}});
+  add({{"scheme", to_string(p.scheme)},
+       {"dt", number(p.dt)},
+       {"steps", std::to_string(s.run.steps)}});
+  if (s.run.leap_speed > 0.0)
+    add({{"leap", number(s.run.leap_speed)}, {"leap_calm", number(s.run.leap_calm)}});
+  if (s.run.events == Events::ruptures)
+    add({{"events", "ruptures"}, {"rupture_gap", number(s.rupture_gap)}});
+  else
+    add({{"picker", to_string(s.run.picker.reading)}, {"lambda", number(s.run.picker.lambda)}});
+  add({{"min_size", number(s.run.picker.min_size)},
+       {"keep_nonpositive", s.run.picker.keep_nonpositive ? "yes" : "no"},
+       {"warmup", number(s.run.warmup)}});
 }
 
 std::string numbered(const std::string &path, std::size_t run) {
@@ -429,17 +384,16 @@ Settings parse(std::vector<std::string> arguments, const std::atomic<int> *stop)
   app.option_defaults()->always_capture_default();
   app.get_formatter()->column_width(34);
 
-  Added added{};
-  add_model(app, s, added);
-  add_integration(app, s, added);
-  add_events(app, s, added);
+  add_model(app, s);
+  add_integration(app, s);
+  add_events(app, s);
   add_files(app, s);
   add_ensemble(app, s);
   read_arguments(app, std::move(arguments));
   if (app.get_config_ptr()->count() > 0) s.config = app.get_config_ptr()->as<std::string>();
-  interpret_law(s, added);
-  interpret_integration(s, added);
-  interpret_events(s, added);
+  interpret_law(s, app);
+  interpret_integration(s, app);
+  interpret_events(s, app);
   interpret_files(s);
   set_friction(s);
   set_header(s);

@@ -13,8 +13,8 @@ Outputs::Outputs(const RunOptions &o)
   // Before anything is read: another run may have written what is there now.
   claim_.claim(outputs_of(o));
   check_replaced(o);
-  probe(o.series, "--pe-series");
-  probe(o.checkpoint, "--checkpoint");
+  probe(o.series);
+  probe(o.checkpoint);
   catalogue_info_.model = "block-slider";
   catalogue_info_.parameters = o.header;
   catalogue_info_.slip_moment = true;

@@ -2,11 +2,9 @@
 #include "slider_run.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <limits>
 #include <stdexcept>
 
@@ -32,15 +30,9 @@ void check_leaps(const RunOptions &o) {
     fail("--leap-calm", o.leap_calm, "a positive number, less than 1e15 time steps");
 }
 
-void probe(const std::string &path, const std::string &option) {
-  if (path.empty()) return;
-  const std::string trial = path + ".new";
-  std::FILE *file = std::fopen(trial.c_str(), "wb");
-  if (!file)
-    throw std::runtime_error(path + ": " + std::strerror(errno) +
-                             ", expected a writable file for " + option);
-  std::fclose(file);
-  std::remove(trial.c_str());
+void probe(const std::string &path) {
+  const std::string problem = path.empty() ? path : LSM::text_io::why_not_writable(path);
+  if (!problem.empty()) throw LSM::FileError(problem);
 }
 
 std::vector<LSM::Output> outputs_of(const RunOptions &o) {
@@ -59,73 +51,80 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// What a recorder has to tell at the end.
-struct Counts {
-  std::int64_t dropped_nonpositive = 0, dropped_small = 0;
+/// What a run consists of.
+struct Parts {
+  const RunOptions &o;
+  Chain &chain;
+  RunState &state;
+  Outputs &outputs;
+  RunResult &result;
 };
 
 /// When to leap: a block moves, so that there is nothing to jump over, and none has been fast for a
 /// while. Nothing but the state of the chain decides, looked at in the same steps in any run, so
 /// that one that goes on from a checkpoint leaps where the other did.
-class Leaps {
+class Leaps : Parts {
  public:
-  Leaps(const RunOptions &o, Chain &chain, RunState &state, Outputs &outputs, RunResult &result)
-      : chain_(chain), state_(state), outputs_(outputs), result_(result), steps_(o.steps) {
+  explicit Leaps(const Parts &parts) : Parts(parts) {
     const double dt = o.parameters.dt;
-    bound_ = o.leap_speed;
     calm_ = std::max<std::int64_t>(1, std::llround(o.leap_calm / dt));
     look_ = std::max<std::int64_t>(1, std::llround(1.0 / dt));
-    next_ = bound_ > 0.0 ? 0 : std::numeric_limits<std::int64_t>::max();
+    next_ = o.leap_speed > 0.0 ? 0 : std::numeric_limits<std::int64_t>::max();
   }
 
   /// Whether a leap may begin here. \param at_rest also when nothing moves
   bool due(bool at_rest) {
-    const std::int64_t step = chain_.step();
+    const std::int64_t step = chain.step();
     if (step < next_) return false;
     next_ = (step / look_ + 1) * look_;
     if (step % look_ != 0) return false;
-    const double v = chain_.fastest();
-    if (v > bound_) state_.calm_since = step;
-    return (v > 0.0 || at_rest) && step - state_.calm_since >= calm_;
+    const double v = chain.fastest();
+    if (v > o.leap_speed) state.calm_since = step;
+    return (v > 0.0 || at_rest) && step - state.calm_since >= calm_;
   }
   /// See Chain::leap(). A leap shorter than the calm that has to follow is worth nothing.
   bool leap(bool falls, bool rises) {
-    const std::int64_t from = chain_.step();
-    const bool done = chain_.leap(steps_, calm_, bound_, falls, rises);
-    state_.calm_since = chain_.step();
+    const std::int64_t from = chain.step();
+    const bool done = chain.leap(o.steps, calm_, o.leap_speed, falls, rises);
+    state.calm_since = chain.step();
     if (!done) return false;
-    ++result_.leaps;
-    result_.leapt += chain_.step() - from;
-    for (std::int64_t s = outputs_.next_sample(from); s < chain_.step();
-         s = outputs_.next_sample(s))
-      outputs_.sample(s, chain_.pe_in_leap(s));
+    ++result.leaps;
+    result.leapt += chain.step() - from;
+    for (std::int64_t s = outputs.next_sample(from); s < chain.step(); s = outputs.next_sample(s))
+      outputs.sample(s, chain.pe_in_leap(s));
     return true;
   }
 
  private:
-  Chain &chain_;
-  RunState &state_;
-  Outputs &outputs_;
-  RunResult &result_;
-  std::int64_t steps_, calm_ = 1, look_ = 1, next_ = 0;
-  double bound_ = 0.0;
+  std::int64_t calm_ = 1, look_ = 1, next_ = 0;
+};
+
+/// What both kinds of events have in common.
+class Recorder : protected Parts {
+ protected:
+  explicit Recorder(const Parts &parts) : Parts(parts), leaps_(parts) {}
+
+  /// An event that has ended; false: it is not written, as the warm-up had not ended before it.
+  bool count(LSM::Event &e) {
+    if (e.t_start < o.warmup) {
+      ++state.before_warmup;
+      return false;
+    }
+    e.id = ++state.events;
+    state.largest = std::max(state.largest, e.size);
+    return true;
+  }
+
+  Leaps leaps_;
 };
 
 /// Events are drops of the PE of the whole chain.
-class PeRecorder {
+class PeRecorder : Recorder {
  public:
   /// Samples after its end in which an event is found.
   static constexpr std::int64_t late = 1;
 
-  PeRecorder(const RunOptions &o, Chain &chain, RunState &state, Outputs &outputs,
-             RunResult &result)
-      : o_(o),
-        chain_(chain),
-        state_(state),
-        outputs_(outputs),
-        result_(result),
-        leaps_(o, chain, state, outputs, result),
-        picker_(o.picker) {
+  explicit PeRecorder(const Parts &parts) : Recorder(parts), picker_(o.picker) {
     // After so many steps the picker has forgotten what it was started with, to the last digit.
     const double memory = o.picker.reading == LSM::PickerReading::exponential
                               ? 45.0 / std::max(1.0 - o.picker.lambda, 1e-15)
@@ -135,41 +134,39 @@ class PeRecorder {
 
   void begin() {
     LSM::Event none;
-    picker_.push_change(0, 0.0, chain_.pe(), 0.0, none);
+    picker_.push_change(0, 0.0, chain.pe(), 0.0, none);
   }
-  void restore() { picker_.set_state(state_.picker); }
-  void save() { state_.picker = picker_.state(); }
-  Counts counts() const { return {picker_.dropped_nonpositive(), picker_.dropped_small()}; }
+  void restore() { picker_.set_state(state.picker); }
+  void save() { state.picker = picker_.state(); }
 
   /// One step, or several in which nothing slides, up to limit at most.
   void advance(std::int64_t limit) {
-    if (!picker_.in_event() && chain_.quiet_until() > chain_.step() + replay_ && jump(limit))
-      return;
+    if (!picker_.in_event() && chain.quiet_until() > chain.step() + replay_ && jump(limit)) return;
     if (leaps_.due(picker_.in_event()) && leap()) return;
-    chain_.advance();
+    chain.advance();
     const bool before = picker_.in_event();
     const bool report =
-        picker_.push_change(chain_.step(), o_.parameters.dt * static_cast<double>(chain_.step()),
-                            chain_.pe(), chain_.dpe(), event_);
+        picker_.push_change(chain.step(), o.parameters.dt * static_cast<double>(chain.step()),
+                            chain.pe(), chain.dpe(), event_);
     // Slip is taken one sample late at both ends, which is less than a time step's worth.
     if (picker_.in_event() && !before) open();
     if (report) finish();
   }
 
  private:
-  bool located() const { return o_.x_centroid || o_.rupture_length; }
+  bool located() const { return o.x_centroid || o.rupture_length; }
 
   /// Nothing slips: the plate alone changes PE, and as long as it raises PE no event can commence.
   /// With an event open the steps are taken one by one. False: no jump is worth it.
   bool jump(std::int64_t limit) {
-    const std::int64_t last = std::min(chain_.quiet_until(), limit);
+    const std::int64_t last = std::min(chain.quiet_until(), limit);
     // The sample that is due next is taken by a step.
-    const std::int64_t to = std::min(last, outputs_.next_sample(chain_.step()) - 1) - replay_;
-    if (!(to > chain_.step() && picker_.rate() >= 0.0 && chain_.quiet_change(chain_.step()) > 0.0))
+    const std::int64_t to = std::min(last, outputs.next_sample(chain.step()) - 1) - replay_;
+    if (!(to > chain.step() && picker_.rate() >= 0.0 && chain.quiet_change(chain.step()) > 0.0))
       return false;
-    const std::int64_t from = chain_.step();
-    result_.jumped += to - from;
-    chain_.jump(to);
+    const std::int64_t from = chain.step();
+    result.jumped += to - from;
+    chain.jump(to);
     gone_on(from);
     return true;
   }
@@ -177,7 +174,7 @@ class PeRecorder {
   /// PE rises, or within an event falls, from the beginning of a leap to its end.
   bool leap() {
     const bool falls = picker_.in_event();
-    const std::int64_t from = chain_.step();
+    const std::int64_t from = chain.step();
     if ((picker_.rate() < 0.0) != falls || !leaps_.leap(falls, !falls)) return false;
     gone_on(from);
     return true;
@@ -186,120 +183,91 @@ class PeRecorder {
   /// The picker has seen the same change of PE in each step since the given one.
   void gone_on(std::int64_t from) {
     LSM::PickerState s = picker_.state();
-    s.samples += chain_.step() - from;
-    s.step = chain_.step();
-    s.time = o_.parameters.dt * static_cast<double>(s.step);
-    s.pe = chain_.pe();
-    s.rate = chain_.dpe();
-    if (o_.picker.reading == LSM::PickerReading::literal)
-      s.rate /= 1.0 + o_.picker.lambda * static_cast<double>(s.samples - 2);
+    s.samples += chain.step() - from;
+    s.step = chain.step();
+    s.time = o.parameters.dt * static_cast<double>(s.step);
+    s.pe = chain.pe();
+    s.rate = chain.dpe();
+    if (o.picker.reading == LSM::PickerReading::literal)
+      s.rate /= 1.0 + o.picker.lambda * static_cast<double>(s.samples - 2);
     // A leap to where PE begins or ceases to fall ends up to a step behind; the next step tells.
     s.rate = s.in_event != 0 ? std::min(s.rate, 0.0) : std::max(s.rate, 0.0);
     picker_.set_state(s);
   }
 
   void open() {
-    state_.slip_start = chain_.slip_sum();
-    if (located()) state_.u_start = chain_.displacements();
+    state.slip_start = chain.slip_sum();
+    if (located()) state.u_start = chain.displacements();
   }
 
   void finish() {
-    if (event_.t_start < o_.warmup) {
-      ++state_.before_warmup;
-      return;
-    }
-    event_.id = ++state_.events;
-    event_.slip_moment = chain_.slip_sum() - state_.slip_start;
+    if (!count(event_)) return;
+    event_.slip_moment = chain.slip_sum() - state.slip_start;
     if (located()) locate();
-    state_.largest = std::max(state_.largest, event_.size);
-    outputs_.event(event_);
+    outputs.event(event_);
   }
 
   void locate() {
-    const std::vector<double> u = chain_.displacements();
+    const std::vector<double> u = chain.displacements();
     LSM::CircularMean mean(static_cast<double>(u.size()));
     for (std::size_t i = 0; i < u.size(); ++i) {
-      const double slip = u[i] - state_.u_start[i];
+      const double slip = u[i] - state.u_start[i];
       if (slip > 0.0) event_.rupture_length += 1.0;
       mean.add(static_cast<double>(i), slip);
     }
     event_.x_centroid = mean.position();
   }
 
-  const RunOptions &o_;
-  Chain &chain_;
-  RunState &state_;
-  Outputs &outputs_;
-  RunResult &result_;
-  Leaps leaps_;
   LSM::EventPicker picker_;
   LSM::Event event_;
   std::int64_t replay_ = 0;
 };
 
 /// Events are ruptures, see slider_ruptures.h.
-class RuptureRecorder {
+class RuptureRecorder : Recorder {
  public:
-  RuptureRecorder(const RunOptions &o, Chain &chain, RunState &state, Outputs &outputs,
-                  RunResult &result)
-      : late(o.rupture_memory),
-        o_(o),
-        chain_(chain),
-        state_(state),
-        outputs_(outputs),
-        result_(result),
-        leaps_(o, chain, state, outputs, result),
+  explicit RuptureRecorder(const Parts &parts)
+      : Recorder(parts),
+        late(o.rupture_memory),
         tracker_(o.parameters.blocks, o.rupture_memory, o.x_centroid) {}
 
   /// Steps after its end in which a rupture is found: when its memory is over.
   const std::int64_t late;
 
   void begin() {}
-  void restore() { tracker_.set_state(state_.ruptures, chain_.step()); }
-  void save() { state_.ruptures = tracker_.state(); }
-  // Counted where the picker does, for checkpoints.
-  Counts counts() const { return {state_.picker.dropped_nonpositive, state_.picker.dropped_small}; }
+  void restore() { tracker_.set_state(state.ruptures, chain.step()); }
+  void save() { state.ruptures = tracker_.state(); }
 
   /// One step, or several in which nothing slides, up to limit at most.
   void advance(std::int64_t limit) {
-    if (tracker_.idle() && chain_.quiet_until() > chain_.step() + 1) {
+    if (tracker_.idle() && chain.quiet_until() > chain.step() + 1) {
       const std::int64_t to =
-          std::min({chain_.quiet_until(), limit, outputs_.next_sample(chain_.step())});
-      result_.jumped += to - chain_.step() - 1;
-      chain_.jump(to);
+          std::min({chain.quiet_until(), limit, outputs.next_sample(chain.step())});
+      result.jumped += to - chain.step() - 1;
+      chain.jump(to);
       return;
     }
     if (leaps_.due(false) && leaps_.leap(true, true)) {
       // What slides in a leap is no rupture, and one that slid before it has ended there.
-      tracker_.begin_step(chain_.step(), chain_.pe());
+      tracker_.begin_step(chain.step(), chain.pe());
     } else {
-      chain_.advance(tracker_);
+      chain.advance(tracker_);
     }
-    if (!std::isfinite(chain_.dpe()) || !std::isfinite(chain_.pe()))
-      throw std::runtime_error("potential energy at step " + std::to_string(chain_.step()) +
+    if (!std::isfinite(chain.dpe()) || !std::isfinite(chain.pe()))
+      throw std::runtime_error("potential energy at step " + std::to_string(chain.step()) +
                                " is not a finite number");
-    tracker_.end_step(chain_.pe(), [this](const Rupture &rupture) { finish(rupture); });
+    tracker_.end_step(chain.pe(), [this](const Rupture &rupture) { finish(rupture); });
   }
 
  private:
   void finish(const Rupture &rupture) {
-    LSM::Event e = tracker_.event(rupture, o_.parameters.dt);
-    if (LSM::is_left_out(e.size, o_.picker, state_.picker)) return;
-    if (e.t_start < o_.warmup) {
-      ++state_.before_warmup;
-      return;
-    }
-    e.id = ++state_.events;
-    state_.largest = std::max(state_.largest, e.size);
-    outputs_.event(e);
+    LSM::Event e = tracker_.event(rupture, o.parameters.dt);
+    // Counted where the picker does, for checkpoints.
+    if (LSM::is_left_out(e.size, o.picker, state.picker)) return;
+    if (!count(e)) return;
+    outputs.event(e);
   }
 
-  const RunOptions &o_;
-  Chain &chain_;
-  RunState &state_;
-  Outputs &outputs_;
-  RunResult &result_;
-  Leaps leaps_;
   RuptureTracker tracker_;
 };
 
@@ -311,31 +279,14 @@ std::vector<std::string> settings_of(const RunOptions &o) {
   return lines;
 }
 
-/// Says on standard error how far the run is, once a second.
-class Progress {
- public:
-  explicit Progress(const RunOptions &o) : on_(o.progress), steps_(o.steps) {}
-  void tell(std::int64_t step, std::int64_t events) {
-    if (!on_ || !(Clock::now() - told_ > std::chrono::seconds(1))) return;
-    told_ = Clock::now();
-    std::fprintf(stderr, "step %lld of %lld, %lld events\n", static_cast<long long>(step),
-                 static_cast<long long>(steps_), static_cast<long long>(events));
-  }
-
- private:
-  bool on_;
-  std::int64_t steps_;
-  Clock::time_point told_ = Clock::now();
-};
-
-template <class Recorder>
+template <class Kind>
 RunResult run_chain(const RunOptions &o) {
   const Clock::time_point begin = Clock::now();
-  Chain chain(o.parameters, o.mu, o.kernel == Kernel::dense, InstructionSet::automatic);
+  Chain chain(o.parameters, o.mu, o.kernel == Kernel::dense);
   RunState state;
   RunResult result;
   Outputs outputs(o);
-  Recorder recorder(o, chain, state, outputs, result);
+  Kind recorder({o, chain, state, outputs, result});
   const std::vector<std::string> settings = settings_of(o);
   if (o.resume) {
     state = read_checkpoint(o.checkpoint, settings);
@@ -358,7 +309,7 @@ RunResult run_chain(const RunOptions &o) {
   const std::int64_t interval = checkpoints ? o.checkpoint_interval : 0;
   // Signals and the clock are looked at so often only.
   const std::int64_t look = std::max<std::int64_t>(16, 200000 / (o.parameters.blocks + 100));
-  Progress progress(o);
+  Clock::time_point told = begin;
   while (chain.step() < o.steps) {
     std::int64_t limit = o.steps;
     if (interval > 0) limit = std::min(limit, (chain.step() / interval + 1) * interval);
@@ -375,20 +326,23 @@ RunResult run_chain(const RunOptions &o) {
       if (checkpoints) save();
       break;
     }
-    progress.tell(chain.step(), state.events);
+    if (!o.progress || Clock::now() - told < std::chrono::seconds(1)) continue;
+    told = Clock::now();
+    std::fprintf(stderr, "step %lld of %lld, %lld events\n", static_cast<long long>(chain.step()),
+                 static_cast<long long>(o.steps), static_cast<long long>(state.events));
   }
   if (checkpoints && result.interrupted == 0) save();
+  recorder.save();
   outputs.close();
 
   result.steps = chain.step();
   result.events = state.events;
   result.before_warmup = state.before_warmup;
-  result.dropped_nonpositive = recorder.counts().dropped_nonpositive;
-  result.dropped_small = recorder.counts().dropped_small;
+  result.dropped_nonpositive = state.picker.dropped_nonpositive;
+  result.dropped_small = state.picker.dropped_small;
   result.moved = chain.moved();
   result.pe = chain.pe();
-  const double plate = o.parameters.velocity * o.parameters.dt * static_cast<double>(chain.step());
-  result.pe_direct = direct_energy(o.parameters, chain.displacements(), plate);
+  result.pe_direct = direct_energy(o.parameters, chain.displacements(), chain.plate());
   result.mean_slip = chain.slip_sum() / o.parameters.blocks;
   result.largest_event = state.largest;
   result.seconds = std::chrono::duration<double>(Clock::now() - begin).count();

@@ -74,8 +74,8 @@ struct RunResult {
 void check_leaps(const RunOptions &options);
 
 /// Finds out early whether an output can be written; an empty path is none.
-/// \throws std::runtime_error naming file and option
-void probe(const std::string &path, const std::string &option);
+/// \throws LSM::FileError
+void probe(const std::string &path);
 
 /// The files that a run writes as it goes.
 std::vector<LSM::Output> outputs_of(const RunOptions &options);

@@ -15,7 +15,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <stdexcept>
 #include <type_traits>
 #include <vector>
 
@@ -52,8 +51,6 @@ using RuptureState = LSM::SlipSetsState<Rupture>;
 /// digit.
 class RuptureTracker {
  public:
-  static constexpr bool watches = true;
-
   /// \param memory steps, see above; at least 1
   /// \param centroid whether x_centroid is wanted
   RuptureTracker(int blocks, std::int64_t memory, bool centroid) : sets_(blocks, 1, memory) {

@@ -66,7 +66,7 @@ Start before_large_event() {
   start.p.blocks = 128;
   start.p.dt = 0.02;
   start.mu = random_friction(start.p.blocks, 0.5, 1.0, 3);
-  Chain chain(start.p, start.mu, false, InstructionSet::automatic);
+  Chain chain(start.p, start.mu, false);
   Start best = start;
   double most = 0.0;
   while (chain.time() < 20000.0) {
@@ -172,7 +172,7 @@ void growth(const std::string &folder) {
       p.scheme = scheme;
       p.dt = h;
       const double w2 = (4.0 * p.kc + p.kl) / p.mass, w = std::sqrt(w2);
-      Chain chain(p, {0.0, 0.0}, false, InstructionSet::automatic);
+      Chain chain(p, {0.0, 0.0}, false);
       ChainState s = chain.state();
       const double amplitude = 1e-8;
       s.u = {0.0, 0.0};

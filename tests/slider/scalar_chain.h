@@ -14,6 +14,19 @@
 
 namespace Slider {
 
+/// Friction of a block that moves, or starts to, after the given slip.
+inline double friction_of(const Friction &law, double mu, double v, double slip) {
+  switch (law.law) {
+    case Law::velocity_weakening:
+      return LSM::VelocityWeakening::friction(mu, v);
+    case Law::coulomb:
+      return law.dynamic * mu;
+    case Law::slip_weakening:
+      return LSM::SlipWeakening::strength(mu, law.dynamic * mu, law.dc, slip);
+  }
+  return mu;
+}
+
 /// Work done and lost since the start: plate = PE + kinetic + friction up to the scheme's error.
 struct EnergyLedger {
   double plate = 0.0, friction = 0.0, kinetic = 0.0;
@@ -71,7 +84,7 @@ class ScalarChain {
     for (std::size_t i = 0; i < n; ++i) {
       double v = v_[i];
       if (v == 0.0 && force_[i] <= mu_[i]) continue;  // stuck
-      const double push = force_[i] - law.force(mu_[i], v, u_[i] - rest_[i]);
+      const double push = force_[i] - friction_of(law, mu_[i], v, u_[i] - rest_[i]);
       if (p_.scheme == Scheme::verlet)
         v += half_m * push;
       else
@@ -87,7 +100,8 @@ class ScalarChain {
         if (v_[i] == 0.0 && force_[i] <= mu_[i]) continue;
         // A block that came to rest in the first half of the step has healed.
         const double slip = v_[i] > 0.0 ? u_[i] - rest_[i] : 0.0;
-        v_[i] = std::fmax(0.0, v_[i] + half_m * (force_[i] - law.force(mu_[i], v_[i], slip)));
+        v_[i] =
+            std::fmax(0.0, v_[i] + half_m * (force_[i] - friction_of(law, mu_[i], v_[i], slip)));
       }
     } else if (p_.scheme == Scheme::verlet) {
       for (std::size_t i = 0; i < n; ++i) {
@@ -123,8 +137,8 @@ class ScalarChain {
       ledger_.plate +=
           p_.kl * 0.5 * ((old_plate - saved_u_[i]) + (plate_now - u_[i])) * (plate_now - old_plate);
       ledger_.friction += 0.5 * slip *
-                          (law.force(mu_[i], saved_v_[i], saved_u_[i] - rest_[i]) +
-                           law.force(mu_[i], v_[i], u_[i] - rest_[i]));
+                          (friction_of(law, mu_[i], saved_v_[i], saved_u_[i] - rest_[i]) +
+                           friction_of(law, mu_[i], v_[i], u_[i] - rest_[i]));
       ledger_.kinetic += 0.5 * p_.mass * v_[i] * v_[i];
     }
   }

@@ -109,7 +109,7 @@ void SwitchingChain::derive(double t, const double *y, double *dy) const {
     const double v = y[n_ + i];
     if (slides_[i]) {
       // Stages may overshoot to v < 0 just before the block sticks; the law continues smoothly.
-      const double friction = p_.friction.force(mu_[i], v, y[i] - rest_[i]);
+      const double friction = friction_of(p_.friction, mu_[i], v, y[i] - rest_[i]);
       dy[i] = v;
       dy[n_ + i] = (force(y, i, plate) - friction) / p_.mass;
       loss += friction * v;

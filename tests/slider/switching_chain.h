@@ -90,7 +90,7 @@ auto with_chain(Parameters p, const std::vector<double> &mu, const AnyScheme &sc
     return work(chain);
   }
   p.scheme = std::get<Scheme>(scheme);
-  Chain chain(p, mu, false, InstructionSet::automatic);
+  Chain chain(p, mu, false);
   return work(chain);
 }
 

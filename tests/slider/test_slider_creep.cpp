@@ -112,7 +112,7 @@ TEST(SliderCreep, IsTheLimitOfASlowPlate) {
     Parameters p = even(40);
     p.velocity = velocity;
     const auto mu = random_friction(p.blocks, 0.5, 1.0, 9);
-    Chain chain(p, mu, false, InstructionSet::automatic);
+    Chain chain(p, mu, false);
     const double way = 70.0;
     while (chain.plate() < way) chain.advance();
     const std::vector<double> u0(static_cast<std::size_t>(p.blocks), 0.0);
@@ -155,7 +155,7 @@ struct Patch {
   }
   /// Fastest block over the plate, in the first swing.
   double fastest() const {
-    Chain chain(p, mu, true, InstructionSet::automatic);
+    Chain chain(p, mu, true);
     ChainState s;
     s.u = u;
     for (double &x : s.u) x = -70.0;
@@ -310,7 +310,7 @@ TEST(SliderLeaps, KnowTheEnergyWithin) {
   Parameters p = even(50);
   p.velocity = 1e-3;
   const auto mu = random_friction(p.blocks, 0.5, 1.0, 12);
-  Chain chain(p, mu, false, InstructionSet::automatic);
+  Chain chain(p, mu, false);
   const std::vector<double> u0(mu.size(), 0.0);
   const std::int64_t last = 1600000;  // a plate displacement of 80
   EXPECT_FALSE(chain.leap(last, last + 1, never_fast, true, true));
@@ -332,7 +332,7 @@ TEST(SliderLeaps, KnowTheEnergyWithin) {
   for (double u : chain.displacements()) sum += u;
   EXPECT_NEAR(chain.slip_sum(), sum, 1e-10);
   // It goes on as a chain that is set to that state does.
-  Chain set(p, mu, true, InstructionSet::automatic);
+  Chain set(p, mu, true);
   set.set_state(chain.state());
   for (int n = 0; n < 2000; ++n) {
     chain.advance();

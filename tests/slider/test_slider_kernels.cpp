@@ -47,7 +47,7 @@ TEST(SliderKernels, OtherLawsAgreeOverKernelsAndInstructionSets) {
         p.scheme = scheme;
         p.friction = {law, 0.7, 0.3};
         const auto mu = random_friction(p.blocks, 0.5, 1.0, 11);
-        Chain active(p, mu, false, InstructionSet::automatic);
+        Chain active(p, mu, false);
         Chain dense(p, mu, true, InstructionSet::baseline);
         ScalarChain scalar(p, mu);
         for (int n = 0; n < 20000; ++n) {
@@ -74,8 +74,8 @@ TEST(SliderKernels, ActiveSetEqualsDenseToTheLastDigit) {
     for (Scheme scheme : {Scheme::printed, Scheme::semi_implicit, Scheme::verlet}) {
       const Parameters p = parameters(c, scheme);
       const auto mu = random_friction(p.blocks, 0.5, 1.0, 11);
-      Chain active(p, mu, false, InstructionSet::automatic);
-      Chain dense(p, mu, true, InstructionSet::automatic);
+      Chain active(p, mu, false);
+      Chain dense(p, mu, true);
       for (int n = 0; n < c.steps; ++n) {
         active.advance();
         dense.advance();
@@ -119,7 +119,7 @@ TEST(SliderKernels, AgreesWithStraightforwardLoop) {
     for (Scheme scheme : {Scheme::printed, Scheme::semi_implicit, Scheme::verlet}) {
       const Parameters p = parameters(c, scheme);
       const auto mu = random_friction(p.blocks, 0.5, 1.0, 13);
-      Chain active(p, mu, false, InstructionSet::automatic);
+      Chain active(p, mu, false);
       ScalarChain scalar(p, mu);
       for (int n = 0; n < 20000; ++n) {
         active.advance();
@@ -137,8 +137,8 @@ TEST(SliderKernels, QuietStretchesCanBeJumped) {
   p.dt = 0.05;
   p.velocity = 0.1;
   const auto mu = random_friction(p.blocks, 0.5, 1.0, 14);
-  Chain walks(p, mu, false, InstructionSet::automatic);
-  Chain jumps(p, mu, false, InstructionSet::automatic);
+  Chain walks(p, mu, false);
+  Chain jumps(p, mu, false);
   long long jumped = 0;
   const long long end = 200000;
   while (jumps.step() < end) {
@@ -164,12 +164,12 @@ TEST(SliderKernels, GoesOnFromAnySavedState) {
   p.dt = 0.05;
   p.velocity = 0.1;
   const auto mu = random_friction(p.blocks, 0.5, 1.0, 15);
-  Chain straight(p, mu, false, InstructionSet::automatic);
+  Chain straight(p, mu, false);
   Chain *again = nullptr;
   std::unique_ptr<Chain> holder;
   for (int n = 0; n < 60000; ++n) {
     if (n % 1777 == 0) {
-      holder = std::make_unique<Chain>(p, mu, false, InstructionSet::automatic);
+      holder = std::make_unique<Chain>(p, mu, false);
       again = holder.get();
       again->set_state(straight.state());
     }
@@ -186,7 +186,7 @@ TEST(SliderKernels, WorkFormulaMatchesSpringEnergies) {
   p.blocks = 200;
   p.dt = 0.05;
   const auto mu = random_friction(p.blocks, 0.5, 1.0, 16);
-  Chain chain(p, mu, false, InstructionSet::automatic);
+  Chain chain(p, mu, false);
   for (int n = 0; n < 400000; ++n) {
     chain.advance();
     if (n % 5000 == 0) {

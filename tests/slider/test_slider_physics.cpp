@@ -89,7 +89,7 @@ TEST(SliderPhysics, LoadingAndOnsetOfOneBlock) {
     p.blocks = 1;
     p.dt = 0.01;
     p.scheme = scheme;
-    Chain chain(p, {0.6}, false, InstructionSet::automatic);
+    Chain chain(p, {0.6}, false);
     // K_l V t exceeds mu after t = 6000.
     while (chain.displacements()[0] == 0.0 && chain.time() < 7000.0) {
       chain.advance();
@@ -107,9 +107,9 @@ TEST(SliderPhysics, EqualBlocksMoveAsOne) {
   p.dt = 0.05;
   p.blocks = 1;
   p.velocity = 0.05;
-  Chain one(p, {0.7}, false, InstructionSet::automatic);
+  Chain one(p, {0.7}, false);
   p.blocks = 37;
-  Chain many(p, std::vector<double>(37, 0.7), false, InstructionSet::automatic);
+  Chain many(p, std::vector<double>(37, 0.7), false);
   for (int n = 0; n < 100000; ++n) {
     one.advance();
     many.advance();
@@ -194,7 +194,7 @@ TEST(SliderPhysics, BlockPushedBackwardsStaysStuck) {
   p.dt = 0.01;
   for (Scheme scheme : stepped) {
     p.scheme = scheme;
-    Chain chain(p, {5.0, 5.0, 5.0}, false, InstructionSet::automatic);
+    Chain chain(p, {5.0, 5.0, 5.0}, false);
     // The first block is 2 ahead: pushed back with 4, above its coefficient in magnitude.
     chain.set_displacements({2.0, 0.0, 0.0});
     for (int n = 0; n < 1000; ++n) chain.advance();
@@ -307,7 +307,7 @@ TEST(SliderPhysics, ExtremeParametersStayFinite) {
       p.scheme = scheme;
       p.dt = stability_limit(p) * 0.999;
       p.dt = std::min(p.dt, 1.0);
-      Chain chain(p, random_friction(p.blocks, c.low, c.high, 5), false, InstructionSet::automatic);
+      Chain chain(p, random_friction(p.blocks, c.low, c.high, 5), false);
       for (int n = 0; n < 50000; ++n) chain.advance();
       const auto u = chain.displacements();
       for (double x : u) ASSERT_TRUE(std::isfinite(x) && x >= 0.0);

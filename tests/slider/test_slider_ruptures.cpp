@@ -262,8 +262,8 @@ TEST(RupturesOfTheChain, EnergiesAddUpAndNothingElseChanges) {
     for (const bool dense : {false, true}) {
       const Parameters p = parameters(61, scheme);
       const auto mu = random_friction(p.blocks, 0.5, 1.0, 4);
-      Chain chain(p, mu, dense, InstructionSet::automatic);
-      Chain alone(p, mu, false, InstructionSet::automatic);
+      Chain chain(p, mu, dense);
+      Chain alone(p, mu, false);
       RuptureTracker tracker(p.blocks, 1, false);
       double work = 0.0, slip = 0.0, plate_work = 0.0;
       std::size_t ended = 0;
@@ -304,9 +304,9 @@ TEST(RupturesOfTheChain, AreThoseOfTheDisplacements) {
   Parameters p = parameters(43, Scheme::verlet);
   p.velocity = 0.01;
   const auto mu = random_friction(p.blocks, 0.5, 1.0, 9);
-  Chain dense(p, mu, true, InstructionSet::automatic);
+  Chain dense(p, mu, true);
   for (int n = 0; n < 100000; ++n) dense.advance();
-  Chain chain(p, mu, false, InstructionSet::automatic);
+  Chain chain(p, mu, false);
   chain.set_state(dense.state());
   RuptureTracker tracker(p.blocks, 1, false);
   std::vector<Rupture> found;

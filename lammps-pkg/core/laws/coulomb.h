@@ -36,7 +36,9 @@ struct CoulombStatic : Coulomb {
   static constexpr bool needs_sliding = true;
 
   /// Also of the block-slider.
-  static double friction(double mu_static, double mu, bool sliding) {
+  template <class Number, class Truth>
+  [[gnu::always_inline]] static Number friction(const Number &mu_static, const Number &mu,
+                                                const Truth &sliding) {
     return sliding ? mu : mu_static;
   }
 

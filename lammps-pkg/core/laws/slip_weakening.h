@@ -29,7 +29,9 @@ struct SlipWeakening : FrictionLaw {
 
   static void begin(const Coefficients &, double *slip) { *slip = 0.0; }
 
-  static double strength(double mu_static, double mu, double dc, double slip) {
+  template <class Number>
+  [[gnu::always_inline]] static Number strength(const Number &mu_static, const Number &mu,
+                                                const Number &dc, const Number &slip) {
     return slip < dc ? mu_static - (mu_static - mu) * (slip / dc) : mu;
   }
 

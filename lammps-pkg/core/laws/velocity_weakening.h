@@ -23,7 +23,10 @@ struct VelocityWeakening : FrictionLaw {
   static constexpr bool needs_time = true;
 
   /// Eq. (6): friction at speed v, in units of vc, where it is mu0 at rest.
-  static double friction(double mu0, double v) { return mu0 / (1.0 + v); }
+  template <class Number>
+  [[gnu::always_inline]] static Number friction(const Number &mu0, const Number &v) {
+    return mu0 / (1.0 + v);
+  }
 
   /// The velocity is that of the particles, which have inertia, in the middle of the step. With
   /// that of the slip alone the spring would see friction rise as it relaxes, and no contact could

@@ -1,6 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Included once per instruction set by slider_kernels.cpp, inside a namespace of its own and with
-// SLIDER_LANES lanes per register; hence no include guard.
+// One time step, compiled for each instruction set SLIDER_SET with SLIDER_LANES lanes per register.
+// Nothing here calls a function that may stay one: the linker would take one set's copy for all.
+#include "slider_kernels.h"
+
+#ifdef __x86_64__
+#include <immintrin.h>
+#endif
+
+#include <cstring>
+
+namespace Slider::SLIDER_SET {
 
 typedef double Register __attribute__((vector_size(8 * SLIDER_LANES)));
 typedef long long Mask __attribute__((vector_size(8 * SLIDER_LANES)));
@@ -18,17 +27,10 @@ inline __attribute__((always_inline)) Lanes load(const double *p) {
 inline __attribute__((always_inline)) void store(double *p, const Lanes &a) {
   std::memcpy(p, &a, sizeof a);
 }
+// One instruction: the compiler is told that nobody asks for errno.
 inline __attribute__((always_inline)) Register square_root(Register a) {
-#if SLIDER_LANES == 8
-  return (Register)_mm512_maskz_sqrt_pd(0xff, (__m512d)a);
-#elif SLIDER_LANES == 4
-  return (Register)_mm256_sqrt_pd((__m256d)a);
-#elif defined(__x86_64__)
-  return (Register)_mm_sqrt_pd((__m128d)a);
-#else
   for (int l = 0; l < SLIDER_LANES; ++l) a[l] = __builtin_sqrt(a[l]);
   return a;
-#endif
 }
 inline __attribute__((always_inline)) unsigned bits(Mask m) {
 #if SLIDER_LANES == 8
@@ -44,19 +46,18 @@ inline __attribute__((always_inline)) unsigned bits(Mask m) {
 #endif
 }
 
-// Friction::force for a register of blocks, that of a block at rest with f <= m being at least f.
+// Friction of a register of blocks after the given slips, that of a block at rest with f <= m being
+// at least f.
 template <Law law>
 inline __attribute__((always_inline)) Register friction(const ChainView &chain, Register m,
                                                         Register v, Register f, Register slip) {
-  if constexpr (law == Law::coulomb) {
-    const Register zero = {}, low = chain.dynamic * m;
-    return (v > zero) | (f > m) ? low : m;
-  } else if constexpr (law == Law::slip_weakening) {
-    const Register zero = {}, low = chain.dynamic * m;
-    return slip < zero + chain.dc ? m - (m - low) * (slip / chain.dc) : low;
-  } else {
-    return m / (1.0 + v);
-  }
+  const Register zero = {}, low = chain.dynamic * m;
+  if constexpr (law == Law::coulomb)
+    return LSM::CoulombStatic::friction(m, low, (v > zero) | (f > m));
+  else if constexpr (law == Law::slip_weakening)
+    return LSM::SlipWeakening::strength(m, low, zero + chain.dc, slip);
+  else
+    return LSM::VelocityWeakening::friction(m, v);
 }
 
 template <Scheme scheme, Law law>
@@ -107,7 +108,7 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
   };
 
   Lanes work = {}, slip = {};
-  StepSums sums;
+  StepSums sums = {0.0, 0.0, 0};
   const auto pull = [&](int k, const Lanes &change) __attribute__((always_inline)) {
     const std::int64_t i = static_cast<std::int64_t>(list[k]) * chunk_size;
     const Lanes x = load(u + i), left = load(u + i - 1), right = load(u + i + 1);
@@ -137,7 +138,7 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
         const Register numerator = fast > zero ? (c - 1.0) + s : 2.0 * (c - b);
         const Register denominator = fast > zero ? one + one : (1.0 - c) + s;
         Register w = numerator / denominator;
-        w = (w > zero) & (q > zero) ? w : zero;
+        w = ((w > zero) & (q > zero)) ? w : zero;
         v.r[r] = w;
       }
       if constexpr (needs_rest) rest.r[r] = v.r[r] > zero ? rest.r[r] : x.r[r];
@@ -188,8 +189,11 @@ StepFunction function_of(Scheme scheme) {
          : scheme == Scheme::semi_implicit ? step<Scheme::semi_implicit, law>
                                            : step<Scheme::verlet, law>;
 }
-inline StepFunction function_of(Scheme scheme, Law law) {
+
+StepFunction function_of(Scheme scheme, Law law) {
   return law == Law::coulomb          ? function_of<Law::coulomb>(scheme)
          : law == Law::slip_weakening ? function_of<Law::slip_weakening>(scheme)
                                       : function_of<Law::velocity_weakening>(scheme);
 }
+
+}  // namespace Slider::SLIDER_SET

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file slider_active_set.h
+/// Which chunks of a chain are stepped: all, or those where something moves or may start to. From
+/// the positions alone it is known when the first block of any other chunk can start.
+#ifndef SLIDER_ACTIVE_SET_H
+#define SLIDER_ACTIVE_SET_H
+
+#include <cstdint>
+#include <functional>
+#include <queue>
+#include <utility>
+#include <vector>
+
+#include "slider_kernels.h"
+
+namespace Slider {
+
+class ActiveSet {
+ public:
+  /// \param plate_step way of the plate in a step \param dense all chunks, always
+  ActiveSet(const ChainView &view, double plate_step, bool dense);
+
+  /// Ascending.
+  const std::vector<std::int32_t> &list() const { return list_; }
+  /// The lanes of each listed chunk that move or are about to, for a kernel to fill in.
+  std::uint8_t *hot() { return hot_.data(); }
+
+  /// Afresh, after the given step, from displacements, velocities and forces.
+  void restart(std::int64_t step);
+  /// After a step.
+  void update(std::int64_t step);
+  /// The first step in which a chunk that is not listed has to be.
+  std::int64_t next_wake();
+
+ private:
+  static constexpr std::int64_t never = INT64_MAX;
+  using Entry = std::pair<std::int64_t, std::int32_t>;
+  using Queue = std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>>;
+
+  std::int64_t wake_step(int chunk) const;
+  void change_list_to_next(std::int64_t step);
+  void settle_idle(std::vector<std::int32_t> &list, std::int64_t step);
+  void add_extra(std::vector<std::int32_t> &list);
+  void wake_due(std::int64_t step);
+  std::int64_t &wake(std::int32_t chunk) { return wake_[static_cast<std::size_t>(chunk)]; }
+
+  ChainView view_;
+  double plate_step_;
+  bool dense_;
+  int chunks_;
+  std::uint8_t last_edge_;  // the lane of the last block
+  std::vector<std::uint8_t> hot_;
+  std::vector<std::int32_t> list_, next_list_, idle_, extra_;
+  std::vector<std::int64_t> wake_;  // 0: in the list; else the step to wake up
+  Queue queue_;                     // of these, with stale ones
+  std::int64_t next_wake_ = 0;
+};
+
+}  // namespace Slider
+
+#endif
