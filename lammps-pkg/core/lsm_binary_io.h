@@ -22,7 +22,7 @@ namespace LSM::binary_io {
 
 constexpr std::int64_t longest_header = 1 << 20;
 
-/// A number of the machine, as bytes of the file or back.
+/// A number in the byte order of the machine, as bytes of the file or back.
 template <class Bytes>
 Bytes little_endian(Bytes bytes) {
 #if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
@@ -64,7 +64,7 @@ struct Header {
   std::int64_t size = 0;   ///< of the whole file
 };
 
-/// Reads the header of a file whose first 16 bytes were read. What comes next is behind it.
+/// Reads the header of a file whose first 16 bytes were read, and stops after it.
 /// \throws FileError naming the file
 inline Header read_header(text_io::Bytes &in) {
   const std::string &path = in.path();
@@ -91,7 +91,7 @@ inline Header read_header(text_io::Bytes &in) {
 class Records {
  public:
   Records() = default;
-  /// Behind the header. \throws FileError for a torn last one, which lenient drops
+  /// After the header. \throws FileError for a truncated last one, which lenient drops
   Records(std::unique_ptr<text_io::Bytes> in, const Header &header, std::int64_t record_bytes,
           bool lenient)
       : in_(std::move(in)), begin_(header.begin), bytes_(record_bytes) {

@@ -8,14 +8,12 @@
 ///     event_id,t_start,t_end,step_start,step_end,size,pe_start,pe_end[,slip_moment][,x_centroid]...
 ///
 /// Columns that may follow: slip_moment, x_centroid, rupture_length, x_hypocentre, x_begin,
-/// mean_slip, stress_drop. What they mean is said by the program that writes them. They are written
-/// in this order; a reader finds columns by their names and passes over those it does not know.
-/// Times in model time, sizes in model energy, 17 significant digits. Events are in order of time
-/// and do not overlap; identifiers increase. Those of a kind other than drops of PE, which the
-/// parameter `events` names, may overlap in time, and are in order of their ends. The parameter
-/// `completeness` is
-/// a size: events smaller than it are not claimed to be independent of the time step. (The format
-/// is ours.)
+/// mean_slip, stress_drop. The program that writes them defines them. They are written in this
+/// order; a reader finds columns by name and ignores those it does not know. Times in model time,
+/// sizes in model energy, 17 significant digits. Events are in order of time and do not overlap;
+/// identifiers increase. Events of another kind than drops of PE, named by the parameter `events`,
+/// may overlap in time and are in order of their ends. The parameter `completeness` is a size:
+/// smaller events may depend on the time step. (The format is ours.)
 #ifndef LSM_CATALOGUE_H
 #define LSM_CATALOGUE_H
 
@@ -54,7 +52,7 @@ struct CatalogueInfo {
     return events && *events != "pe";
   }
 
-  /// Size below which events are not claimed to be independent of the time step; 0: not said.
+  /// Size below which events may depend on the time step; 0: not given.
   double completeness() const {
     double size = 0.0;
     if (const std::string *text = find("completeness")) text_io::parse(*text, size);
@@ -67,14 +65,14 @@ namespace catalogue_detail {
 constexpr std::string_view first_line = "# lsm-catalogue 1";
 constexpr std::string_view magic = "# lsm-catalogue ";
 
-/// A column of the table and where it is in an event: a number, an integer or nowhere.
+/// A column of the table and its member of an event: a number, an integer or none.
 struct Column {
   std::string_view name;
   double Event::*number;
   std::int64_t Event::*integer;
 };
 
-/// In the order in which they are written; those behind the first `required` are optional.
+/// In the order in which they are written; those after the first `required` are optional.
 constexpr std::array<Column, 15> all_columns = {
     {{"event_id", nullptr, &Event::id},
      {"t_start", &Event::t_start, nullptr},
@@ -136,7 +134,7 @@ inline std::string not_finite(const Event &event) {
   return {};
 }
 
-/// What forbids an event of finite numbers to follow the event before (nullptr: none), or "".
+/// Why an event of finite numbers must not follow the previous one (nullptr: none), or "".
 inline std::string out_of_order(const Event &event, const Event *before, bool overlapping) {
   if (event.t_end < event.t_start)
     return "t_end " + text_io::number(event.t_end) + " is before t_start " +
@@ -185,16 +183,16 @@ inline void check_info(const CatalogueInfo &info) {
 
 /// Reads a catalogue event by event.
 ///
-/// Strict (the default): anything unexpected throws. Lenient: bad lines below the first are passed
-/// over and counted by kind; a wrong first line, model or column line, without which nothing can be
-/// read, throw.
+/// Strict (the default): anything unexpected throws. Lenient: bad lines after the first are skipped
+/// and counted by kind; a wrong first line, model or column line, without which nothing can be
+/// read, throws.
 class CatalogueReader {
  public:
   /// \throws FileError if the header cannot be read.
   explicit CatalogueReader(const std::string &path, bool lenient = false,
                            text_io::OpenBytes open = text_io::open_plain)
       : CatalogueReader(path, lenient, open, false) {}
-  /// Of a file that is open: what comes through a pipe can be opened once only. \throws the same
+  /// Of an open file, as a pipe can be opened only once. \throws the same
   CatalogueReader(std::unique_ptr<text_io::Bytes> bytes, bool lenient)
       : reader_(std::move(bytes)), lenient_(lenient) {
     read_header();
@@ -231,11 +229,11 @@ class CatalogueReader {
   }
 
   std::int64_t line() const { return reader_.line(); }  ///< line of the last event read
-  std::int64_t skipped() const { return skipped_; }     ///< bad lines passed over (lenient)
-  /// Message of the first bad line passed over, or "" (lenient).
+  std::int64_t skipped() const { return skipped_; }     ///< bad lines skipped (lenient)
+  /// Message of the first bad line skipped, or "" (lenient).
   const std::string &first_problem() const { return first_problem_; }
 
-  /// One line of text for each kind of bad line passed over so far: how many (lenient).
+  /// One line of text for each kind of bad line skipped so far, with its number (lenient).
   std::vector<std::string> repairs() const {
     static constexpr std::array<const char *, kinds> texts = {
         "bad header lines", "a truncated last line", "lines with too few or too many columns",
@@ -339,7 +337,7 @@ class CatalogueReader {
     overlapping_ = info_.overlapping();
   }
 
-  /// Numbers of line_ into event; false if they are not what the columns ask for.
+  /// Numbers of line_ into event; false if they do not fit the columns.
   bool parse_row(Event &event) const {
     const char *at = line_.data();
     const char *const end = at + line_.size();
@@ -364,7 +362,7 @@ class CatalogueReader {
     return at == end;
   }
 
-  /// Says what parse_row() did not like about line_.
+  /// Says why parse_row() refused line_.
   void report_row() {
     text_io::split(line_, fields_);
     if (fields_.size() != columns_.size()) {
@@ -388,7 +386,7 @@ class CatalogueReader {
 
   text_io::LineReader reader_;
   bool lenient_ = false;
-  bool resuming_ = false;  // a torn last line ends the file quietly
+  bool resuming_ = false;  // an incomplete last line ends the file silently
   CatalogueInfo info_;
   bool overlapping_ = false;
   std::string column_line_;
@@ -497,7 +495,7 @@ class CatalogueWriter {
     rows_ = kept;
   }
 
-  /// Goes on with the file that find_cut() looked at. Returns the number of events kept.
+  /// Continues the file that find_cut() checked. Returns the number of events kept.
   std::int64_t cut() {
     file_.append(cut_path_, cut_length_);
     return rows_;

@@ -181,7 +181,7 @@ inline std::string bad_outputs(const std::vector<Output> &outputs) {
     const std::string extension = std::filesystem::path(one.path).extension().string();
     if (extension == ".lock" || extension == ".new")
       return one.what + " " + one.path + ": names that end in " + extension +
-             " are those of files on their way to another name; give another one";
+             " are reserved for temporary files; give another one";
     const std::string identity = file_identity(one.path);
     if (identity.empty()) continue;
     const auto [same, added] = before.emplace(identity, &one);

@@ -21,7 +21,7 @@
 
 namespace LSM {
 
-/// What make_packing() is asked for. Lengths in model units.
+/// Settings of make_packing(). Lengths in model units.
 struct PackingSettings {
   double length = 120.0;     ///< period along the fault (x); at least 8 rmax
   double width = 30.0;       ///< size across the fault (y); the fault is the line y = width/2
@@ -45,7 +45,8 @@ struct Disc {
 };
 
 /// Links that a disc needs to be held. Two links hold a disc that does not rotate only while it is
-/// pushed into the wedge between them (ours, measured: such discs swing and hop, see the README).
+/// pushed into the wedge between them (ours, measured: such discs oscillate and hop, see
+/// doc/create_lsm_fault.rst).
 constexpr int HELD_LINKS = 3;
 
 /// The result: discs sorted by position (columns of width 2 rmax along x, then y), links (i < j)
@@ -503,8 +504,7 @@ inline void link_discs(const PackingSettings &s, Packing &result) {
   }
 }
 
-/// Finds the loose discs, takes them out if the settings say so, and with them those that this
-/// leaves loose.
+/// Finds the loose discs and, if asked to, removes them and those that this leaves loose.
 inline void look_for_loose(const PackingSettings &s, Packing &result) {
   const std::size_t n = result.discs.size();
   std::vector<std::vector<std::size_t>> partners(n);
@@ -518,7 +518,7 @@ inline void look_for_loose(const PackingSettings &s, Packing &result) {
     links[i] = partners[i].size();
     check.push_back(i);
   }
-  // kept discs only have the links that they were made with
+  // kept discs have only the links of the packing
   while (!check.empty()) {
     const std::size_t i = check.back();
     check.pop_back();
@@ -530,7 +530,7 @@ inline void look_for_loose(const PackingSettings &s, Packing &result) {
       check.push_back(j);
     }
   }
-  // a piece that hangs on nothing
+  // a piece that is not linked to a plate
   std::vector<char> hung(n, 0);
   for (std::size_t i = 0; i < n; ++i)
     if (result.discs[i].plate) {
@@ -626,8 +626,8 @@ inline void measure(const PackingSettings &s, Packing &result) {
 /// (discs by surface distance, the two lines of the block), the circle tangent to all three, kept
 /// if its radius is in [rmin, rmax], it lies inside the block and it overlaps nothing; (3) the
 /// block is cut into tiles along x (about 15 rmax long, ours), and each tile is full when
-/// max_failures consecutive tries in it failed. The cost is linear in the length. At last (4, ours)
-/// discs that their links do not hold are taken out: see Packing::loose.
+/// max_failures consecutive tries in it failed. The cost is linear in the length. Finally (4, ours)
+/// discs that their links do not hold are removed: see Packing::loose.
 ///
 /// The result depends on the settings and the floating-point arithmetic of the platform only.
 /// @throws std::invalid_argument with one line that names the setting and what was expected
@@ -649,14 +649,14 @@ inline Packing make_packing(const PackingSettings &settings) {
   return result;
 }
 
-/// Discs of radius r that fit around one of radius `radius` at most, 0 < r: as many as leave room
-/// for each other, with overlaps of a tenth of r allowed.
+/// Largest number of discs of radius r > 0 that fit around one of radius `radius`, with overlaps of
+/// a tenth of r allowed.
 inline int most_neighbours(double radius, double r) {
   const double least = 0.9 * r;
   return static_cast<int>(pi / std::asin(least / (radius + least)));
 }
 
-/// Masses that are enough for a time step whatever contacts the discs get.
+/// Masses that make a time step stable whatever contacts the discs get.
 ///
 /// With S the stiffness that a disc feels while all others rest, u^T K u <= 2 sum of u_i^T S_i u_i
 /// for any network of springs, so that velocity Verlet is stable where m_i >= dt^2 s_i / 2 for all

@@ -153,7 +153,7 @@ class PeSeriesReader {
       fail("step " + std::to_string(new_step) + " after step " + std::to_string(last_step_) +
            ", expected increasing steps");
     const double expected = info_.own_times ? new_time : info_.time(new_step);
-    // Rounding may differ between the programs; a wrong dt or step0 is off by far more.
+    // Rounding may differ between the programs; a wrong dt or step0 differs by much more.
     if (!(std::fabs(new_time - expected) <= 1e-9 * (std::fabs(expected) + info_.dt)))
       fail("time " + text_io::number(new_time) + " at step " + std::to_string(new_step) +
            ", expected " + text_io::number(expected) + " from time0, step0 and dt");
@@ -390,7 +390,7 @@ class PeSeriesWriter {
     if (buffer_.size() >= buffer_limit) flush();
   }
 
-  /// Hands all samples so far to the system. \throws FileError
+  /// Passes all samples so far to the system. \throws FileError
   void flush() {
     if (buffer_.empty()) return;
     file_.write(buffer_);

@@ -108,7 +108,7 @@ inline void seal_restart(const std::string &written, const std::string &path,
 }
 
 /// Compares a restart file with its FILE.info; returns the settings in it, which are empty if it
-/// has the last line only. \throws FileError, one line that says what is wrong
+/// has only the last line. \throws FileError, one line with the reason
 inline text_io::Parameters check_restart(const std::string &path) {
   using namespace restart_info_detail;
   const std::string info = path + ".info";
@@ -116,7 +116,7 @@ inline text_io::Parameters check_restart(const std::string &path) {
   std::ifstream in(info);
   if (!in)
     throw FileError(path + ": its checksum file " + info +
-                    " is missing, so it may not be whole; take an earlier restart file");
+                    " is missing, so it may be incomplete; use an earlier restart file");
   text_io::Parameters settings;
   std::string line, sums, above, stated;
   while (std::getline(in, line)) {
@@ -134,7 +134,7 @@ inline text_io::Parameters check_restart(const std::string &path) {
   lines.add(above);
   if (!settings.empty() && stated != std::to_string(lines.value()))
     throw FileError(info + ": is damaged, or of an earlier version: the checksum of its " +
-                    "lines is not there; its last line on its own will do");
+                    "lines is missing; its last line alone is accepted, too");
   std::istringstream words(sums);
   std::string expected, size;
   if (!(words >> expected >> size))
@@ -142,10 +142,10 @@ inline text_io::Parameters check_restart(const std::string &path) {
   if (size != std::to_string(sum.size()))
     throw FileError(path + ": is damaged, it has " + std::to_string(sum.size()) +
                     " bytes, expected " + size + " as in " + info +
-                    "; take an earlier restart file");
+                    "; use an earlier restart file");
   if (expected != std::to_string(sum.value()))
     throw FileError(path + ": is damaged, its checksum is not that in " + info +
-                    "; take an earlier restart file");
+                    "; use an earlier restart file");
   return settings;
 }
 

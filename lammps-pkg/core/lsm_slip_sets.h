@@ -66,7 +66,7 @@ struct SlipSetsState {
 };
 
 /// Puts slips together to sets. Set is derived from SlipSet and has absorb(const Set &later), which
-/// adds what the derived class knows; its first and row are joined here.
+/// adds the values of the derived class; its first and row are joined here.
 ///
 /// Call begin_step(), slide() for each place that slides in ascending order, end_step(). The result
 /// depends on nothing but these calls. Memory: some words per place and per open set.

@@ -339,7 +339,7 @@ inline std::unique_ptr<Bytes> open_plain(const std::string &path) {
 
 /// Why a file of LineReader::foreign() lines cannot go on.
 constexpr std::string_view foreign_lines =
-    "line ends of Windows or a byte order mark, expected the file as the run wrote it";
+    "Windows line ends or a byte order mark, expected the file as the run wrote it";
 
 /// Lines of a file with their numbers and byte offsets, read in large blocks. A byte order mark and
 /// the '\r' of line ends of Windows are no part of them.
@@ -455,7 +455,7 @@ inline std::string why_not_writable(const std::string &path) {
   return {};
 }
 
-/// All that was written of a file, or of the names in a folder, is on the disk. \throws FileError
+/// Writes all data of a file, or all names of a folder, to the disk. \throws FileError
 inline void sync(const std::string &path) {
   const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
   const bool failed = file < 0 || fsync(file) != 0;
@@ -560,11 +560,11 @@ class OutputFile {
   }
 
   std::FILE *file_ = nullptr;
-  std::string path_, name_, written_;  // as asked for, where that leads to, while on the way there
+  std::string path_, name_, written_;  // as given, with links resolved, and while being written
 };
 
-/// Replaces path by a file that holds text, whole, or leaves it as it was. \param safe on the disk,
-/// too, so that not even a failure of power leaves less \throws FileError
+/// Replaces path by a file with the text, or leaves it unchanged. \param safe also writes it to the
+/// disk, so that a power failure cannot lose it \throws FileError
 inline void write_file(const std::string &path, std::string_view text, bool safe = false) {
   OutputFile file;
   file.create(path, text, true);

@@ -17,7 +17,7 @@ namespace LSM::postproc {
 /// another program of ours.
 FileLock claim_output(const std::string &path, bool replace);
 
-/// Writes text to path, whole, in place of an older one. \throws FileError
+/// Writes text to path, in place of an older file. \throws FileError
 void write_file(const std::string &path, std::string_view text);
 
 /// \throws FileError if output, or the name under which it is on its way, is one of the files that

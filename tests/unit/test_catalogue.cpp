@@ -411,7 +411,7 @@ TEST_F(CatalogueRead, LineEndsOfWindowsAndByteOrderMarks) {
     // To go on behind it would mix two kinds of lines.
     CatalogueWriter writer;
     EXPECT_TRUE(contains(message_of<FileError>([&] { writer.resume(file(), some_info(), 200); }),
-                         "cannot resume: line ends of Windows or a byte order mark, expected"));
+                         "cannot resume: Windows line ends or a byte order mark, expected"));
     EXPECT_EQ(slurp(file()), text);
   }
   for (const char *utf16 : {"\xff\xfe#\0", "\xfe\xff\0#"}) {

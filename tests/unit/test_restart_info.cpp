@@ -60,7 +60,7 @@ TEST_F(RestartInfo, EveryBitCounts) {
       other[at] = static_cast<char>(other[at] ^ (1 << bit));
       spill(file, other);
       EXPECT_EQ(refusal(), file + ": is damaged, its checksum is not that in " + info +
-                               "; take an earlier restart file");
+                               "; use an earlier restart file");
     }
   for (const std::size_t length : {std::size_t{0}, std::size_t{1}, bytes.size() - 1}) {
     spill(file, bytes.substr(0, length));
@@ -92,7 +92,7 @@ TEST_F(RestartInfo, TheSettingsAreCheckedAsWell) {
 TEST_F(RestartInfo, FilesThatAreMissing) {
   fs::remove(info);
   EXPECT_EQ(refusal(), file + ": its checksum file " + info +
-                           " is missing, so it may not be whole; take an earlier restart file");
+                           " is missing, so it may be incomplete; use an earlier restart file");
   fs::remove(file);
   EXPECT_TRUE(contains(refusal(), file + ": cannot open: No such file"));
 }

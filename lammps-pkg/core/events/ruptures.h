@@ -3,11 +3,11 @@
 /// Events of a fault as ruptures: sets of slipping contacts connected along the fault and in time
 /// (ours; the paper picks drops of the total potential energy, PE).
 ///
-/// The contacts are taken together in bins along the fault and in intervals of so many steps. A bin
+/// Contacts are summed in bins along the fault and in intervals of so many steps. A bin
 /// slips in an interval if its mean slip velocity exceeds a given one. It is then connected with
 /// the bins at most gap + 1 from it (periodic) that slip in the same interval or in one of the
 /// `memory` intervals before it; see lsm_slip_sets.h. Unlike drops of the total PE, ruptures far
-/// apart on a long fault stay apart.
+/// apart on a long fault remain separate.
 #ifndef LSM_RUPTURES_H
 #define LSM_RUPTURES_H
 
@@ -34,7 +34,7 @@ struct FaultRupture : SlipSet {
   std::int64_t hypocentre = 0;            ///< bin that slipped most in the first interval
   double first_slip = 0.0;                ///< its slip then
   double slip = 0.0;                      ///< sum over the bins and intervals
-  double slip_cos = 0.0, slip_sin = 0.0;  ///< sizes of the slips times the direction on the ring
+  double slip_cos = 0.0, slip_sin = 0.0;  ///< absolute slips times the direction on the ring
   double work = 0.0;
   double pe_start = 0.0, pe_end = 0.0;
   double stress_after = 0.0;  ///< mean over its row in the first interval after its end
@@ -58,14 +58,14 @@ struct FaultRupture : SlipSet {
   }
 };
 
-/// Puts the slips of a fault together to ruptures. Call begin(), then add() for each interval.
+/// Connects the slips of a fault to ruptures. Call begin(), then add() for each interval.
 class RuptureFinder : public EventFinder {
  public:
   /// \throws std::invalid_argument for settings out of range
   RuptureFinder(const FaultGrid &grid, const RuptureSettings &settings)
       : grid_(grid),
         settings_(settings),
-        // places behind the end in which nothing slides keep the ends apart
+        // places beyond the end, in which nothing slides, keep the ends apart
         sets_(grid.bins + (grid.ring ? 0 : settings.gap + 1), settings.gap + 1, settings.memory) {
     if (!(settings.velocity >= 0.0) || !(settings.modulus > 0.0) || settings.gap < 0)
       throw std::invalid_argument(
@@ -87,7 +87,7 @@ class RuptureFinder : public EventFinder {
     const std::int64_t n = sets_.step() + 1;
     const double least = slipping_above(grid_, settings_.velocity);
     sets_.begin_step(n);
-    active_ = !sets_.idle();  // until the interval after the end, whose stress is wanted
+    active_ = !sets_.idle();  // until the interval after the end, whose stress is needed
     for (int b = 0; b < grid_.bins; ++b) {
       const auto i = static_cast<std::size_t>(b);
       const double slip = row.slip[i], size = std::fabs(slip);
@@ -153,7 +153,7 @@ class RuptureFinder : public EventFinder {
     return out;
   }
 
-  /// Goes on to the last digit; the settings must be those the state was saved under.
+  /// Continues to the last digit; the settings must be those of the saved state.
   void set_state(const std::vector<double> &numbers) override {
     Saved saved;
     saved.bins = grid_.bins;
@@ -220,7 +220,7 @@ class RuptureFinder : public EventFinder {
     return sum / static_cast<double>(row.length);
   }
 
-  /// Stresses that no open rupture began with.
+  /// Stresses from before every open rupture.
   void forget() {
     if (snapshots_.empty()) return;
     std::vector<std::int64_t> wanted;

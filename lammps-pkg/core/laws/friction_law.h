@@ -12,7 +12,7 @@
 
 namespace LSM {
 
-/// One contact in one step, as its law sees it. What a law does not need is not set.
+/// One contact in one step, as seen by its law. Members that a law does not need are not set.
 struct FrictionContact {
   double fn;  ///< magnitude of the normal force now; 0 when contact was lost: all of xi is released
   double xi;  ///< elongation of the tangential spring before the step
@@ -26,7 +26,7 @@ struct FrictionContact {
   double speed() const { return time > 0.0 ? std::fabs(dxi) / time : 0.0; }
 };
 
-/// A coefficient of a law by its name in pair_coeff. The first of each law is "kt", and the order
+/// A coefficient of a law by its name in pair_coeff. The first one of each law is "kt"; the order
 /// is that of the members of the law's Coefficients, which are doubles.
 struct Parameter {
   enum Range { positive, not_negative };
@@ -39,11 +39,11 @@ struct Parameter {
   int least = -1;  ///< index of the parameter that it must not fall below, or -1
 };
 
-/// A law derives from this and hides what is different. It also has a name, Coefficients, their
+/// A law derives from this and hides what differs. It also has a name, Coefficients, their
 /// parameters[], and
 ///   static double elongation(const Coefficients &c, FrictionContact &s, double *state),
-/// which returns the elongation afterwards and sets s.sliding, without which it must be the trial
-/// one.
+/// which returns the new elongation and sets s.sliding; if not sliding, the elongation must be the
+/// trial one.
 struct FrictionLaw {
   static constexpr bool needs_time = false;     ///< s.time, for velocities
   static constexpr bool needs_sliding = false;  ///< s.sliding of the step before
@@ -55,8 +55,7 @@ struct FrictionLaw {
   /// State of a contact that begins.
   template <class Coefficients>
   static void begin(const Coefficients &, double * /*state*/) {}
-  /// Whether the law can be run with these; laws of the same name are tried in the order of the
-  /// list.
+  /// Whether the law applies to these; laws of the same name are tried in the order of the list.
   template <class Coefficients>
   static bool fits(const Coefficients &) {
     return true;
@@ -80,7 +79,7 @@ struct FrictionStep {
 };
 
 /// Dissipated work counts the slip only, with the mean of the tangential force before and after the
-/// step: this is the trapezoidal rule that velocity Verlet's energy balance needs.
+/// step: the trapezoidal rule, as the energy balance of velocity Verlet requires.
 template <class Law>
 inline FrictionStep friction_step(const typename Law::Coefficients &c, FrictionContact s,
                                   double *state = nullptr) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file slip_weakening.h
 /// Linear slip weakening (Ida 1972, Andrews 1976): the strength falls from mu_static fn to mu fn
-/// over the slip dc. A contact that rests forgets its slip with the time constant `heal` (ours; not
-/// at all where that is 0, as in Andrews). The block-slider takes the same strength.
+/// over the slip dc. A contact at rest forgets its slip with the time constant `heal` (ours; 0:
+/// never, as in Andrews). The block-slider uses the same strength.
 #ifdef LSM_FRICTION_LAW
 LSM_FRICTION_LAW(SlipWeakening)
 #endif
@@ -35,9 +35,9 @@ struct SlipWeakening : FrictionLaw {
     return slip < dc ? mu_static - (mu_static - mu) * (slip / dc) : mu;
   }
 
-  /// The slip of the step lowers the strength that it is reckoned with: kt (|trial| - x) =
-  /// strength(slip + x) is solved for x. Where strength falls faster than the spring relaxes,
-  /// nothing stops the slip before mu fn.
+  /// The strength is that after the slip of the step: kt (|trial| - x) = strength(slip + x) is
+  /// solved for x. Where strength falls faster than the spring relaxes, nothing stops the slip
+  /// before mu fn.
   static double elongation(const Coefficients &c, FrictionContact &s, double *slip) {
     const double fall = (c.mu_static - c.mu) * s.fn / c.dc;
     const double excess =

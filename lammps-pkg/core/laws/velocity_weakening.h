@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file velocity_weakening.h
 /// Friction of the block-slider, Eq. (6) of Weatherley & Abe 2004 (after Carlson et al. 1991): the
-/// strength is mu fn / (1 + v / vc), printed with vc = 1. The slider takes the same function.
+/// strength is mu fn / (1 + v / vc), printed with vc = 1. The slider uses the same function.
 #ifdef LSM_FRICTION_LAW
 LSM_FRICTION_LAW(VelocityWeakening)
 #endif
@@ -28,9 +28,8 @@ struct VelocityWeakening : FrictionLaw {
     return mu0 / (1.0 + v);
   }
 
-  /// The velocity is that of the particles, which have inertia, in the middle of the step. With
-  /// that of the slip alone the spring would see friction rise as it relaxes, and no contact could
-  /// slide steadily.
+  /// The velocity is that of the particles, which have inertia, in the middle of the step. With the
+  /// slip velocity, friction would rise as the spring relaxes, and no contact could slide steadily.
   static double elongation(const Coefficients &c, FrictionContact &s, double *) {
     const double strength = friction(c.mu * s.fn, s.speed() / c.vc);
     return stick_or_slide(c.kt, s, strength, strength);
