@@ -36,8 +36,8 @@ void ActiveSet::restart(std::int64_t step) {
   settle_idle(list_, step);
 }
 
-// Last step, counted from step 0, after which chunk c need not stay idle: no later than two steps
-// before its first block can start, rounding included. The plate only adds to the forces.
+// Last step, counted from step 0, up to which chunk c may stay idle: at least two steps before its
+// first block can start, rounding included. The plate only adds to the forces.
 std::int64_t ActiveSet::wake_step(int c) const {
   double first = std::numeric_limits<double>::max(), scale = 0.0;
   for (int i = c * chunk_size; i < (c + 1) * chunk_size && i < view_.blocks; ++i) {
@@ -55,7 +55,7 @@ std::int64_t ActiveSet::wake_step(int c) const {
 }
 
 // A chunk is active while a block in it moves or is about to, or the nearest block of a
-// neighbouring chunk is so, or it has to be watched because its first block will soon start.
+// neighbouring chunk does, or if its first block will soon start.
 void ActiveSet::update(std::int64_t step) {
   if (dense_) return;
   // Without branches on the lanes, which would be mispredicted half of the time.
@@ -105,7 +105,7 @@ void ActiveSet::change_list_to_next(std::int64_t step) {
   list_.swap(next_list_);
 }
 
-// Puts the chunks in idle_ to sleep until their wake step, or back into the list if that is now.
+// Puts the chunks in idle_ to rest until their wake step, or back into the list if that is now.
 void ActiveSet::settle_idle(std::vector<std::int32_t> &list, std::int64_t step) {
   for (const std::int32_t c : idle_) {
     const std::int64_t at = wake_step(c);
@@ -126,7 +126,7 @@ void ActiveSet::settle_idle(std::vector<std::int32_t> &list, std::int64_t step) 
     if (wake(c) > 0 && wake(c) < never) queue_.emplace(wake(c), c);
 }
 
-// All at once: inserting one by one would cost the length of the list each time.
+// All at once: each single insertion would cost the length of the list.
 void ActiveSet::add_extra(std::vector<std::int32_t> &list) {
   if (extra_.empty()) return;
   std::sort(extra_.begin(), extra_.end());

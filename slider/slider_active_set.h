@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file slider_active_set.h
-/// Which chunks of a chain are stepped: all, or those where something moves or may start to. From
-/// the positions alone it is known when the first block of any other chunk can start.
+/// Which chunks of a chain are stepped: all, or those where something moves or may start to. The
+/// positions give the time before which no block of any other chunk can start.
 #ifndef SLIDER_ACTIVE_SET_H
 #define SLIDER_ACTIVE_SET_H
 
@@ -17,7 +17,7 @@ namespace Slider {
 
 class ActiveSet {
  public:
-  /// \param plate_step way of the plate in a step \param dense all chunks, always
+  /// \param plate_step displacement of the plate in a step \param dense all chunks, always
   ActiveSet(const ChainView &view, double plate_step, bool dense);
 
   /// Ascending.
@@ -25,7 +25,7 @@ class ActiveSet {
   /// The lanes of each listed chunk that move or are about to, for a kernel to fill in.
   std::uint8_t *hot() { return hot_.data(); }
 
-  /// Afresh, after the given step, from displacements, velocities and forces.
+  /// Computed anew, after the given step, from displacements, velocities and forces.
   void restart(std::int64_t step);
   /// After a step.
   void update(std::int64_t step);

@@ -58,7 +58,7 @@ void Chain::take_step() {
   moved_ += sums.hot;
 }
 
-// The kernel replaces the forces that the work is reckoned with.
+// The kernel replaces the forces that the work is computed from.
 void Chain::keep_slips() {
   du_.resize(v_.size(), 0.0);
   view_.du = du_.data() + chunk_size;
@@ -166,7 +166,7 @@ void Chain::set_displacements(const std::vector<double> &u) {
   set_state(s);
 }
 
-// Sets forces and the active set afresh from u, v and the step.
+// Recomputes forces and the active set from u, v and the step.
 void Chain::restart() {
   double *const u = view_.u;
   u[-1] = u[p_.blocks - 1];

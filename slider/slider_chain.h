@@ -22,9 +22,9 @@
 
 namespace Slider {
 
-/// Memory on cache lines, so that a chunk never lies across two. Long arrays ask for huge pages: of
-/// a long chain every active chunk lies on ordinary pages of its own, one for each array, more than
-/// the processor remembers.
+/// Memory aligned to cache lines, so that a chunk never straddles two. Long arrays ask for huge
+/// pages: in a long chain every active chunk lies on ordinary pages of its own, one for each array,
+/// more than the TLB holds.
 template <class T>
 struct LineAllocator {
   using value_type = T;
@@ -74,7 +74,7 @@ class Chain {
     active_.update(step_);
   }
 
-  /// One time step, the same to the last digit; watch learns which blocks slid in it, in ascending
+  /// One time step, the same to the last digit; watch is told which blocks slid, in ascending
   /// order, and the work of the springs on each of them, (F_old + F_new) du / 2 (see
   /// RuptureTracker).
   template <class Watch>
@@ -94,13 +94,13 @@ class Chain {
     active_.update(step_);
   }
 
-  /// Up to which step nothing can move; step() itself if something does or may.
+  /// Step up to which nothing can move; the present step if something moves or may move.
   std::int64_t quiet_until() {
     return active_.list().empty() && account_.quiet() ? active_.next_wake() - 1 : step_;
   }
   /// Change of PE per step over a quiet step that starts at the given step.
   double quiet_change(std::int64_t at) const { return account_.quiet_change(at); }
-  /// Goes to a step no later than quiet_until() without looking at those between.
+  /// Jumps to a step no later than quiet_until().
   void jump(std::int64_t to) {
     step_ = to - 1;
     advance();
@@ -109,16 +109,16 @@ class Chain {
   /// Velocity of the fastest block.
   double fastest() const;
 
-  /// Creeps on without steps (see Creep), all blocks at rest at its end: to the step at which
-  /// blocks are about to get fast, or PE begins or ceases to fall, or to last. \param least steps
-  /// that are worth it \param falls,rises whether PE may fall, or rise, in it \return false, and
-  /// nothing done, if they are not
+  /// Leaps by creep without time steps (see Creep), to the step at which blocks are about to become
+  /// fast, or PE begins or ceases to fall, or to last; at its end all blocks are at rest. \param
+  /// least smallest number of steps worth a leap \param falls,rises whether PE may fall, or rise,
+  /// in it \return false, and nothing done, if there is no such leap
   bool leap(std::int64_t last, std::int64_t least, double fast, bool falls, bool rises);
   /// PE at a step within the last leap; steps must ascend.
   double pe_in_leap(std::int64_t at);
 
   ChainState state() const;
-  /// Goes on from a saved state.
+  /// Continues from a saved state.
   void set_state(const ChainState &s);
   /// Starts from given displacements (one per block) at rest, at step 0 (ours; the paper has 0).
   void set_displacements(const std::vector<double> &u);

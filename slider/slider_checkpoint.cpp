@@ -60,7 +60,7 @@ std::uint32_t checksum(const std::vector<std::uint8_t> &bytes) {
 [[noreturn]] void refuse_version(const std::string &path, const std::string &found) {
   throw std::runtime_error(path + ": checkpoint of version " + found + ", expected version " +
                            std::to_string(version) +
-                           ": finish that run with the program that began it, or start afresh");
+                           ": finish that run with the program that started it, or start anew");
 }
 
 void compare(const std::string &path, const std::vector<std::string> &found,
@@ -79,13 +79,13 @@ void compare(const std::string &path, const std::vector<std::string> &found,
 void write_checkpoint(const std::string &path, const std::vector<std::string> &settings,
                       const RunState &state) {
   json content = {{"settings", settings}, {"state", state}};
-  // Version 2 has a place for schemes that there are no more.
+  // Version 2 has a field for schemes that no longer exist.
   content["state"]["chain"]["switching"] = {{"friction_loss", 0.0},
                                             {"inner_step", 0.0},
                                             {"pe_start", 0.0},
                                             {"sliding", json::array()},
                                             {"switches", 0}};
-  // Apart, so that a run without leaps writes what it wrote before there were any.
+  // Separate, so that a run without leaps writes the same bytes as before leaps existed.
   if (state.calm_since != 0) content["calm_since"] = state.calm_since;
   const std::vector<std::uint8_t> run = json::to_cbor(content);
   const json file = {{version_key, version}, {"crc32", checksum(run)}, {"run", json::binary(run)}};
@@ -101,7 +101,7 @@ RunState read_checkpoint(const std::string &path, const std::vector<std::string>
   const std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
   if (bytes.compare(0, std::strlen(version_1), version_1) == 0) refuse_version(path, "1");
   const std::runtime_error damaged(
-      path + ": damaged checkpoint, or none of slider_cli, expected a whole file");
+      path + ": damaged checkpoint, or not one of slider_cli, expected a complete file");
   json run;
   std::vector<std::string> found;
   RunState state;

@@ -23,17 +23,18 @@ struct RunState {
   double slip_start = 0.0, largest = 0.0;
   std::vector<double> u_start;
   RuptureState ruptures;
-  std::int64_t calm_since = 0;  ///< step in which a block last was too fast for a leap, or of one
+  std::int64_t calm_since =
+      0;  ///< step in which a block was last too fast for a leap, or of a leap
 };
 
-/// Replaces the file in one go, so that there is a whole checkpoint at any moment.
+/// Replaces the file atomically, so that there is a complete checkpoint at any moment.
 /// \param settings "key = value" of everything that shapes the run
 /// \throws std::runtime_error
 void write_checkpoint(const std::string &path, const std::vector<std::string> &settings,
                       const RunState &state);
 
 /// \throws std::runtime_error with one line for a damaged file, one of another version, or one of a
-/// run with other settings, naming the first of them that differs
+/// run with other settings, naming the first that differs
 RunState read_checkpoint(const std::string &path, const std::vector<std::string> &settings);
 
 }  // namespace Slider

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file slider_creep.h
-/// Quasi-static creep of the chain: what slow loading does while no block slips faster than about
-/// the plate, solved without time steps (ours). README.md tells why blocks creep.
+/// Quasi-static creep of the chain: motion under slow loading while no block slips faster than
+/// about the plate, solved without time steps (ours). README.md explains why blocks creep.
 ///
-/// In the limit of a slow plate a block at its limit creeps with the force that it has, so that the
-/// blocks at their limit follow the plate linearly, the way of block i being r_i times that of the
-/// plate, K r = K_l on the creeping blocks, r = 0 on all others. K is an M-matrix: all r_i are
-/// positive and grow with each block that joins, so that no block leaves until something runs away,
-/// and the whole motion is one of straight pieces between one block that joins and the next.
+/// In the limit of a slow plate a block at its limit creeps at constant force, so that the blocks
+/// at their limit follow the plate linearly: the displacement of block i is r_i times that of the
+/// plate, with K r = K_l on the creeping blocks and r = 0 on all others. K is an M-matrix: all r_i
+/// are positive and grow with each block that joins, so that no block leaves until something runs
+/// away, and the motion consists of linear pieces from one block that joins to the next.
 ///
-/// A run of neighbouring creeping blocks sticks and slips about the mean: it swings once about the
-/// creep, from rest to rest, and friction that falls with velocity makes that swing grow. Creep is
-/// the mean of these slips. With x the shape of a swing and
+/// A group of neighbouring creeping blocks stick-slips about the mean: it oscillates once about the
+/// creep, from rest to rest, and friction that falls with velocity makes the oscillation grow.
+/// Creep is the mean of these slips. With x the shape of an oscillation and
 ///   k = x K x - x W x,  d = x G x,  m = M x x,  W = weakening with slip, G = mu_0i (Eq. 6),
-/// it grows as exp(a t), a = d / 2 m, and turns after pi / w, w^2 = k / m - a^2, with 1 + e^(pi a /
+/// it grows as exp(a t), a = d / 2 m, and turns after pi / w, w^2 = k / m - a^2, at 1 + e^(pi a /
 /// w) times the velocity of creep; if k < m a^2 it does not turn but runs away. It stays below 1 +
-/// g times the velocity of creep if k >= q m a^2 for all x, q = 1 + (pi / ln g)^2, which is to say
-/// that (K - W) / q - s G + s^2 M is positive definite for all s.
+/// g times the velocity of creep if k >= q m a^2 for all x, q = 1 + (pi / ln g)^2, that is, if (K -
+/// W) / q - s G + s^2 M is positive definite for all s.
 #ifndef SLIDER_CREEP_H
 #define SLIDER_CREEP_H
 
@@ -33,7 +33,7 @@
 
 namespace Slider {
 
-/// Creep from one state, the plate moving forward; all ways are counted from there.
+/// Creep from one state, the plate moving forward; all displacements are relative to that state.
 class Creep {
  public:
   static constexpr double never = std::numeric_limits<double>::infinity();
@@ -66,14 +66,14 @@ class Creep {
   }
 
   int creeping() const { return creeping_; }
-  /// Whether blocks that are at their limit from the beginning get fast.
+  /// Whether blocks that are at their limit from the beginning become fast.
   bool begins_fast() const { return begins_fast_; }
-  /// Way of the plate at which the next block comes to its limit; never: there is none.
+  /// Displacement of the plate at which the next block reaches its limit; never: there is none.
   double next() {
     while (!queue_.empty() && stale(queue_.top())) queue_.pop();
     return queue_.empty() ? never : queue_.top().way;
   }
-  /// Goes on to next(). Returns whether the run that the block joins gets fast.
+  /// Advances to next(). Returns whether the group that the block joins becomes fast.
   bool join() {
     next();
     const Coming coming = queue_.top();
@@ -95,13 +95,14 @@ class Creep {
   }
 
   double way() const { return way_; }
-  /// Goes on by less than next().
+  /// Advances by less than next().
   void to(double way) {
     pe_ += (way - way_) * (pe_rate_ + 0.5 * slope_ * (way - way_));
     pe_rate_ += slope_ * (way - way_);
     way_ = way;
   }
-  /// Change of PE with the way of the plate: now, and its own change on the present piece.
+  /// Derivative of PE with respect to the displacement of the plate: now, and its derivative on the
+  /// present piece.
   double pe_rate() const { return pe_rate_; }
   double pe_slope() const { return slope_; }
   /// Change of PE since the beginning.
@@ -112,7 +113,7 @@ class Creep {
     return at(i).u;
   }
 
-  /// Whether the blocks from first on, all of which creep, get fast.
+  /// Whether the group of creeping blocks that begins with first becomes fast.
   bool gets_fast(int first, int length) {
     double rate = 0.0, low = never, high = 0.0;
     for (int k = 0; k < length; ++k) {
@@ -121,7 +122,7 @@ class Creep {
       low = std::min(low, mu_[i]);
       high = std::max(high, mu_[i]);
     }
-    // From rest, the swing comes on top of the creep.
+    // From rest, the oscillation adds to the creep.
     const double growth = fast_ / rate - 1.0;
     if (!(growth > 1.0)) return true;
     const Friction &law = p_.friction;
@@ -134,7 +135,7 @@ class Creep {
         break;
     }
     const double turn = pi / std::log(growth), softer = 1.0 / (1.0 + turn * turn);
-    // The least value is at s = a, between these.
+    // The minimum is at s = a, between these.
     constexpr int tries = 9;
     for (int k = 0; k < tries; ++k) {
       const double s = (low + (high - low) * k / (tries - 1)) / (2.0 * p_.mass);
@@ -170,7 +171,7 @@ class Creep {
     b.way = way_;
   }
 
-  /// New rates of the run of creeping blocks that begins with first; its length.
+  /// New rates of the group of creeping blocks that begins with first; returns its length.
   int solve(int first) {
     stack_.clear();
     const double diagonal = 2.0 * p_.kc + p_.kl;
@@ -201,7 +202,7 @@ class Creep {
     return length;
   }
 
-  /// When a block that rests comes to its limit.
+  /// When a block at rest reaches its limit.
   void expect(int i) {
     Block &b = at(i);
     settle(b);
@@ -211,11 +212,11 @@ class Creep {
     queue_.push({way_ + std::max(0.0, (mu_[i] - b.force) / b.rate), i, b.version});
   }
 
-  /// Whether M s^2 + K softer - w mu is positive definite on a run: all pivots are positive.
+  /// Whether M s^2 + K softer - w mu is positive definite on a group: all pivots are positive.
   bool holds(int first, int length, double s, double w, double softer) const {
     const double inertia = p_.mass * s * s, kc = softer * p_.kc, kl = softer * p_.kl;
     if (length == n_) {
-      // A ring: enough that it holds for the leaf springs alone.
+      // A ring: it suffices that this holds for the leaf springs alone.
       for (int i = 0; i < n_; ++i)
         if (!(kl + inertia - w * mu_[i] > 0.0)) return false;
       return true;

@@ -17,17 +17,17 @@
 
 namespace Slider {
 
-/// What is needed to go on from a step, besides the parameters.
+/// The state from which a run continues, besides the parameters.
 struct ChainState {
   std::int64_t step = 0;
   double slip_sum = 0.0, slip_compensation = 0.0;  ///< sum of all U_i
   double pe_sum = 0.0, pe_compensation = 0.0;
-  std::int64_t quiet_since = -1;                 ///< step since which no block moved; -1: one does
+  std::int64_t quiet_since = -1;  ///< step since which no block has moved; -1: one moves
   double pe_anchor = 0.0, loading_anchor = 0.0;  ///< PE and sum (X - U_i) at quiet_since
   std::int64_t moved = 0;                        ///< block-steps with motion so far
   double dpe = 0.0;                              ///< change of PE over the last step
   std::vector<double> u, v;
-  /// where blocks last rested, if the law needs it; empty: where they are
+  /// where blocks last rested, if the law needs it; empty: their present places
   std::vector<double> rest;
 };
 
@@ -117,8 +117,8 @@ class PeAccount {
   }
 
  private:
-  // In quiet stretches PE follows from their first step, not from the step before, so that it does
-  // not matter which steps are looked at.
+  // In quiet periods PE follows from their first step, not from the previous one, so that it does
+  // not depend on the steps at which it is evaluated.
   double quiet_value(std::int64_t step) const {
     const double travel = plate_step_ * static_cast<double>(step - quiet_since_);
     return anchor_ + kl_ * travel * (loading_anchor_ + 0.5 * blocks_ * travel);

@@ -27,7 +27,7 @@ inline __attribute__((always_inline)) Lanes load(const double *p) {
 inline __attribute__((always_inline)) void store(double *p, const Lanes &a) {
   std::memcpy(p, &a, sizeof a);
 }
-// One instruction: the compiler is told that nobody asks for errno.
+// One instruction: the compiler is told that errno is not used.
 inline __attribute__((always_inline)) Register square_root(Register a) {
   for (int l = 0; l < SLIDER_LANES; ++l) a[l] = __builtin_sqrt(a[l]);
   return a;
@@ -76,9 +76,8 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
   constexpr bool needs_rest = law == Law::slip_weakening;
   // Blocks move (the first half of the step), then their springs pull. A chunk is pulled some
   // chunks after it was moved: its neighbours have been moved by then, its data are still in the
-  // nearest cache, and its displacements are no longer on their way there, which loads that lie
-  // across two chunks would wait for. The first chunk of the chain, a neighbour of the last, comes
-  // last.
+  // nearest cache, and the stores of its displacements have completed, so that loads across two
+  // chunks do not wait for them. The first chunk of the chain, a neighbour of the last, comes last.
   constexpr int lag = 6;
   constexpr int ahead = 12;     // chunks in the list between fetching into the cache and moving
   constexpr unsigned ring = 8;  // more than lag
@@ -127,8 +126,8 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
             v.r[r] + half_h_m * (f.r[r] - friction<law>(chain, m.r[r], v.r[r], f.r[r], slid));
         v.r[r] = w > zero ? w : zero;
       } else if (scheme == Scheme::verlet) {
-        // w = v_half + h/2 (f - mu / (1 + w)) / m is quadratic in w; its larger root is written so
-        // that nothing cancels and its sign is that of c - b.
+        // w = v_half + h/2 (f - mu / (1 + w)) / m is quadratic in w; its larger root is written
+        // without cancellation, so that its sign is that of c - b.
         const Register c = v.r[r] + half_h_m * f.r[r];
         const Register b = half_h_m * m.r[r];
         const Register q = (1.0 + c) * (1.0 + c) - 4.0 * b;

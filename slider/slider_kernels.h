@@ -16,9 +16,9 @@ namespace Slider {
 /// Blocks per chunk, the unit of the active set; lane l of chunk c is block 8 c + l.
 constexpr int chunk_size = 8;
 
-/// Arrays of the chain. Each has room for whole chunks and one further value either side of the
+/// Arrays of the chain. Each has room for whole chunks and one more value on either side of the
 /// blocks, where u keeps its periodic images u[-1] and u[blocks]. Blocks past the end have a
-/// coefficient nothing overcomes.
+/// coefficient that no force exceeds.
 struct ChainView {
   double *u = nullptr;         ///< displacement
   double *v = nullptr;         ///< velocity, >= 0
@@ -43,7 +43,7 @@ struct StepSums {
 using StepFunction = StepSums (*)(const ChainView &chain, const std::int32_t *list, int count,
                                   double x_new, std::uint8_t *hot);
 
-/// What a step is compiled for: the set that all processors of the platform have, or wider ones.
+/// Instruction sets that a step is compiled for: the baseline of the platform, or wider ones.
 enum class InstructionSet { avx512, avx2, baseline };
 constexpr std::array<LSM::Named<InstructionSet>, 3> names_of(InstructionSet) {
 #ifdef __x86_64__

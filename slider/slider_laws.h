@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file slider_laws.h
-/// The friction laws a block can have: those of lammps-pkg/core/laws under which a block at rest
-/// stays at rest until its force exceeds a strength that does not change meanwhile. README.md says
-/// why no other.
+/// The friction laws of a block: those of lammps-pkg/core/laws under which a block at rest stays at
+/// rest until its force exceeds a strength that is constant meanwhile. README.md explains why no
+/// others.
 #ifndef SLIDER_LAWS_H
 #define SLIDER_LAWS_H
 

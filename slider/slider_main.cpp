@@ -76,7 +76,7 @@ void warn(const Settings &s) {
         p.dt, Slider::printed_warning_limit(p));
 }
 
-/// Calls task(0) to task(count - 1), so many at a time; 0: one per core. A task must not throw.
+/// Calls task(0) to task(count - 1), that many at a time; 0: one per core. A task must not throw.
 template <class Task>
 void for_each_index(std::size_t count, std::size_t threads, const Task &task) {
   std::atomic<std::size_t> next{0};
@@ -137,7 +137,7 @@ int run_one(const Settings &s) {
     fmt::print(stderr, "slider_cli: stopped by signal {} at step {}; no --checkpoint was given\n",
                r.interrupted, r.steps);
   else
-    fmt::print(stderr, "slider_cli: stopped by signal {} at step {}; go on with --resume\n",
+    fmt::print(stderr, "slider_cli: stopped by signal {} at step {}; continue with --resume\n",
                r.interrupted, r.steps);
   return 128 + r.interrupted;
 }

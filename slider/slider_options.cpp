@@ -22,7 +22,7 @@ namespace {
 
 const char *const description =
     "Block-slider: a periodic chain of N blocks on a rough surface, coupled by springs K_c and "
-    "drawn\n"
+    "pulled\n"
     "by a plate of speed V through leaf springs K_l; friction mu_0i / (1 + v), no back-slip\n"
     "(Weatherley and Abe 2004, Sect. 3, after Carlson et al. 1991). Writes a catalogue of the "
     "drops\n"
@@ -33,7 +33,7 @@ const char *const description =
     "schemes,\n"
     "the time step (the paper gives none), the reading 'exponential' of the event picker, "
     "warm-up,\n"
-    "other laws of friction (--law), ruptures as another kind of events (--events ruptures).\n"
+    "other friction laws (--law), ruptures as another kind of events (--events ruptures).\n"
     "The sign of friction in Eq. 5 is read so that friction resists motion.";
 
 std::int64_t whole(const std::string &option, double value, double least) {
@@ -81,27 +81,27 @@ void add_integration(CLI::App &app, Settings &s) {
   Parameters &p = s.run.parameters;
   app.option_defaults()->group("Integration");
   app.add_flag("--paper", s.paper,
-               "What is printed, with a time step of our choice: --scheme printed --dt 0.01 "
-               "--steps 1e7 --picker literal --picker-lambda 0.99 --warmup 0");
+               "As printed in the paper, with our time step: --scheme printed --dt 0.01 --steps "
+               "1e7 --picker literal --picker-lambda 0.99 --warmup 0");
   auto *steps = app.add_option("--steps", s.steps, "Number of time steps (instead of --time)");
   steps->default_str("1e7 with --paper, else from --time");
   app.add_option("--time", s.time, "Model time to run for (time)")->excludes(steps);
   app.add_option("--dt", p.dt, "Time step h (time; ours, the paper gives none)");
   app.add_option("--scheme", s.scheme,
                  "printed: Eqs. 7 and 8, order 1, unstable in the long run: warns above dt 0.01, "
-                 "refused from 0.12; ours: semi-implicit (order 1), verlet (order 2)");
-  app.add_flag("--force", s.force, "Run the printed scheme at time steps where it is unsound");
+                 "refused at 0.12 and above; ours: semi-implicit (order 1), verlet (order 2)");
+  app.add_flag("--force", s.force, "Run the printed scheme above these limits");
   app.add_option("--kernel", s.kernel,
                  "active (only moving chunks of blocks) or dense (all blocks; same catalogue)");
   app.add_option(
       "--leap", s.run.leap_speed,
       "Leap over slow loading (ours): once no block has been faster than this for the time "
-      "--leap-calm, blocks at their limit creep without steps, in the limit of a slow plate, until "
-      "some are about to exceed it; 1e-3 is sound for V up to 1e-3; 0: never. Model time and steps "
-      "continue (length/time)");
+      "--leap-calm, blocks at their limit creep without steps, in the limit of a slow plate, "
+      "until some are about to exceed it; 1e-3 is accurate for V up to 1e-3; 0: no leaps. Model "
+      "time and steps continue (length/time)");
   app.add_option("--leap-calm", s.run.leap_calm,
-                 "Time of steps before each leap, long enough for a runaway of blocks "
-                 "to become visible (time)");
+                 "Time without a faster block before each leap, long enough for a runaway of "
+                 "blocks to become visible (time)");
 }
 
 void add_events(CLI::App &app, Settings &s) {
@@ -109,14 +109,14 @@ void add_events(CLI::App &app, Settings &s) {
   app.option_defaults()->group(events);
   app.add_option(
       "--events", s.events,
-      "What an event is: pe, a drop of the PE of the whole chain (paper); ruptures, a "
-      "set of sliding blocks connected in space and time (ours): each is local, so that those "
-      "far apart stay separate in long chains, and events can overlap. Their size is "
-      "the work of the springs on the blocks; they are written in the order in which "
-      "they end; the options of the picker have no effect on them");
+      "Definition of an event: pe, a drop of the PE of the whole chain (paper); ruptures, a set "
+      "of sliding blocks connected in space and time (ours). Ruptures far apart stay separate in "
+      "long chains, and ruptures can overlap in time; their size is the work of the springs on "
+      "the blocks, they are written in the order in which they end, and the options of the "
+      "picker do not apply");
   app.add_option("--rupture-gap", s.rupture_gap,
-                 "With --events ruptures: time for which a block at rest still "
-                 "connects, beyond the one time step that forces take (time; ours)");
+                 "With --events ruptures: time for which a block at rest still connects, in "
+                 "addition to one time step (time; ours)");
   const LSM::PickerOptions::Added picker = s.picker.add_to(&app, events, "picker-");
   picker.reading->default_str("exponential");
   picker.lambda->default_str("from --picker-memory-time");
@@ -133,8 +133,8 @@ void add_files(CLI::App &app, Settings &s) {
   app.option_defaults()->group("Files");
   app.add_option("--catalogue", s.run.catalogue, "Catalogue to write");
   app.add_option("--columns", s.columns,
-                 "Further columns: centroid, length, or both with a comma; slip_moment (sum of the "
-                 "slips of all blocks) is always written");
+                 "Further columns: centroid, length, or both separated by a comma; slip_moment "
+                 "(sum of the slips of all blocks) is always written");
   app.add_option("--pe-series", s.run.series, "Series of PE to write (default: none)");
   app.add_option("--pe-stride", s.stride, "Steps between samples of the series (steps)");
   app.add_option("--pe-format", s.series_format, "Format of the series: text or binary");
@@ -148,7 +148,7 @@ void add_files(CLI::App &app, Settings &s) {
                "Replace catalogue, series and checkpoint of an earlier run, which is refused "
                "otherwise; with --resume, those of runs of an ensemble that have no checkpoint");
   app.add_option("--json", s.summary, "JSON summary to write; - is standard output");
-  app.add_flag("--progress", s.run.progress, "Report on standard error every second");
+  app.add_flag("--progress", s.run.progress, "Show the progress on standard error every second");
 }
 
 void add_ensemble(CLI::App &app, Settings &s) {
@@ -162,8 +162,8 @@ void add_ensemble(CLI::App &app, Settings &s) {
       ->check(LSM::whole_number(4096));
 }
 
-/// What is wrong with a file of 'option = value' lines, or "": CLI11 takes the last of two values
-/// without a word.
+/// What is wrong with a file of 'option = value' lines, or "": CLI11 silently takes the last of two
+/// values.
 std::string bad_config(const CLI::App &app, const std::string &path) {
   std::ifstream in(path, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
@@ -216,8 +216,7 @@ void interpret_law(Settings &s, const CLI::App &app) {
   if (!from_string(s.law, friction.law))
     throw std::invalid_argument("--law = '" + s.law +
                                 "', expected velocity-weakening, coulomb or slip-weakening (with "
-                                "others no block rests: they "
-                                "are laws of pair_style lsm/friction)");
+                                "other laws of pair_style lsm/friction no block rests)");
   if (app.count("--dynamic-friction") > 0 && friction.law == Law::velocity_weakening)
     throw std::invalid_argument("--dynamic-friction needs --law coulomb or slip-weakening");
   if (app.count("--slip-distance") > 0 && friction.law != Law::slip_weakening)
@@ -284,7 +283,7 @@ void interpret_files(Settings &s) {
       s.run.rupture_length = true;
     else
       throw std::invalid_argument("--columns = '" + s.columns +
-                                  "', expected centroid, length or both with a comma");
+                                  "', expected centroid, length or both separated by a comma");
   }
   if (s.run.catalogue.empty())
     throw std::invalid_argument("--catalogue is empty, expected a file name");
@@ -310,7 +309,7 @@ void set_friction(Settings &s) {
   }
 }
 
-// FNV-1a, as catalogues have always had it.
+// FNV-1a, as in all earlier catalogues.
 std::uint64_t friction_checksum(const std::vector<double> &mu) {
   std::uint64_t sum = 14695981039346656037ULL;
   const auto *bytes = reinterpret_cast<const unsigned char *>(mu.data());
@@ -336,7 +335,7 @@ void set_header(Settings &s) {
     add({{"friction_low", number(s.friction[0])},
          {"friction_high", number(s.friction[1])},
          {"seed", std::to_string(s.seed)}});
-  else  // The coefficients count, not where the file lies.
+  else  // The coefficients count, not the path of the file.
     add({{"friction_checksum", fmt::format("{:016x}", friction_checksum(s.run.mu))}});
   if (p.friction.law != Law::velocity_weakening)
     add({{"law", s.law}, {"dynamic_friction", number(p.friction.dynamic)}});
@@ -437,7 +436,7 @@ std::vector<Settings> ensemble(const Settings &base, const std::vector<std::stri
     if (!given) s.run.catalogue = numbered(s.run.catalogue, k + 1);
     s.run.series = numbered(s.run.series, k + 1);
     s.run.checkpoint = numbered(s.run.checkpoint, k + 1);
-    // Those never reached before the interruption start afresh.
+    // Runs not reached before the interruption start anew.
     if (s.run.resume && !std::ifstream(s.run.checkpoint)) s.run.resume = false;
     try {
       check_replaced(s.run);

@@ -14,7 +14,7 @@
 
 namespace Slider {
 
-/// What the command line says; run is what it means.
+/// The command line as given; run is its interpretation.
 struct Settings {
   RunOptions run;
   std::string scheme = "verlet", kernel = "active", events = "pe";
@@ -42,7 +42,7 @@ Settings parse(std::vector<std::string> arguments, const std::atomic<int> *stop)
 /// \param base of the same arguments \throws as parse()
 std::vector<Settings> ensemble(const Settings &base, const std::vector<std::string> &arguments);
 
-/// One file for one purpose, in all runs together, and none of them read as well.
+/// All outputs of all runs are different files, and none of them is an input.
 /// \throws std::invalid_argument naming options and file
 void check_files(const std::vector<Settings> &all);
 

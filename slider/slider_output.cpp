@@ -10,7 +10,7 @@ Outputs::Outputs(const RunOptions &o)
       series_path_(o.series),
       binary_(o.series_binary),
       stride_(o.series_stride) {
-  // Before anything is read: another run may have written what is there now.
+  // Before anything is read: another run may have written these files.
   claim_.claim(outputs_of(o));
   check_replaced(o);
   probe(o.series);
@@ -39,7 +39,7 @@ void Outputs::create(double pe) {
 }
 
 void Outputs::resume(std::int64_t step, std::int64_t events, std::int64_t late) {
-  // Nothing is cut before both are found to fit.
+  // No file is truncated before both are found to fit.
   if (!catalogue_path_.empty())
     catalogue_.find_cut(catalogue_path_, catalogue_info_, step - late, {}, events);
   if (!series_path_.empty()) series_.find_cut(series_path_, series_info_, binary_, step);
@@ -49,7 +49,7 @@ void Outputs::resume(std::int64_t step, std::int64_t events, std::int64_t late) 
 
 void Outputs::flush() {
   if (series_.is_open()) series_.flush();
-  // A checkpoint must not outlive in a failure of power what it counts on.
+  // After a power failure there must be no checkpoint without the files it relies on.
   for (const std::string &path : {catalogue_path_, series_path_})
     if (LSM::text_io::holds_data(path)) LSM::text_io::sync(path);
 }

@@ -17,7 +17,7 @@ namespace Slider {
 
 class Outputs {
  public:
-  /// Keeps other runs from writing the files, and looks whether they can be written; writes none.
+  /// Keeps other runs from writing the files, and checks that they can be written; writes none.
   /// \throws std::runtime_error naming file and option
   explicit Outputs(const RunOptions &options);
 
@@ -30,7 +30,7 @@ class Outputs {
   void event(const LSM::Event &event) {
     if (catalogue_.is_open()) catalogue_.write(event);
   }
-  /// A step that was taken; its sample is written if it is due.
+  /// After a step; its sample is written if it is due.
   void sample(std::int64_t step, double pe) {
     if (series_.is_open() && step % stride_ == 0) series_.write(step, pe);
   }

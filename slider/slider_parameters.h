@@ -23,7 +23,7 @@ namespace Slider {
 using LSM::from_string;
 using LSM::to_string;
 
-/// How one time step is taken. All but printed are ours.
+/// Schemes of a time step. All but printed are ours.
 enum class Scheme {
   printed,        ///< Eqs. 7 and 8: x += h v + h^2/2 a, v += h a, force of the old time
   semi_implicit,  ///< v += h a, x += h v (symplectic Euler), order 1
@@ -55,13 +55,14 @@ inline double highest_frequency(const Parameters &p) {
   return std::sqrt((2.0 * p.kc * (1.0 - std::cos(phase)) + p.kl) / p.mass);
 }
 
-/// Time step above which the scheme blows up on an undamped spring. The printed scheme grows at
-/// any step (rate h w^2 / 4); its limit is where that beats friction, 0.12 for the paper's springs.
+/// Time step above which the scheme is unstable for an undamped spring. The printed scheme is
+/// unstable at any step (growth rate h w^2 / 4); its limit is where this exceeds the dissipation by
+/// friction, 0.12 for the paper's springs.
 inline double stability_limit(const Parameters &p) {
   return (p.scheme == Scheme::printed ? 0.12 * std::sqrt(4.01) : 2.0) / highest_frequency(p);
 }
 
-/// Time step above which the growth of the printed scheme was seen to change the statistics.
+/// Time step above which the growth of the printed scheme changes the statistics (measured).
 inline double printed_warning_limit(const Parameters &p) {
   return 0.01 * std::sqrt(4.01) / highest_frequency(p);
 }
@@ -91,7 +92,7 @@ inline void check(const Parameters &p, bool force) {
     if (p.dt >= limit * (1.0 - 1e-12) && !force)
       fail("--dt", p.dt,
            "less than " + std::to_string(limit) +
-               " for the printed scheme, which is unstable there (--force runs it all the same)");
+               " for the printed scheme, which is unstable there (--force runs it nevertheless)");
   } else if (p.dt > limit) {
     fail("--dt", p.dt,
          "at most " + std::to_string(limit) + ", the stability limit of the " +

@@ -44,14 +44,14 @@ void check_replaced(const RunOptions &o) {
   for (const auto &[option, path] : outputs_of(o))
     if (LSM::text_io::holds_data(path))
       throw std::runtime_error(path + ": exists, expected a new file for " + option +
-                               "; --overwrite replaces it, --resume goes on with it");
+                               "; --overwrite replaces it, --resume continues it");
 }
 
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// What a run consists of.
+/// The parts of a run.
 struct Parts {
   const RunOptions &o;
   Chain &chain;
@@ -61,8 +61,8 @@ struct Parts {
 };
 
 /// When to leap: a block moves, so that there is nothing to jump over, and none has been fast for a
-/// while. Nothing but the state of the chain decides, looked at in the same steps in any run, so
-/// that one that goes on from a checkpoint leaps where the other did.
+/// while. Only the state of the chain decides, at the same steps in every run, so that a run
+/// continued from a checkpoint leaps where the uninterrupted one does.
 class Leaps : Parts {
  public:
   explicit Leaps(const Parts &parts) : Parts(parts) {
@@ -82,7 +82,7 @@ class Leaps : Parts {
     if (v > o.leap_speed) state.calm_since = step;
     return (v > 0.0 || at_rest) && step - state.calm_since >= calm_;
   }
-  /// See Chain::leap(). A leap shorter than the calm that has to follow is worth nothing.
+  /// See Chain::leap(). A leap shorter than the calm period that has to follow is not worth it.
   bool leap(bool falls, bool rises) {
     const std::int64_t from = chain.step();
     const bool done = chain.leap(o.steps, calm_, o.leap_speed, falls, rises);
@@ -99,7 +99,7 @@ class Leaps : Parts {
   std::int64_t calm_ = 1, look_ = 1, next_ = 0;
 };
 
-/// What both kinds of events have in common.
+/// Shared by both kinds of events.
 class Recorder : protected Parts {
  protected:
   explicit Recorder(const Parts &parts) : Parts(parts), leaps_(parts) {}
@@ -121,11 +121,11 @@ class Recorder : protected Parts {
 /// Events are drops of the PE of the whole chain.
 class PeRecorder : Recorder {
  public:
-  /// Samples after its end in which an event is found.
+  /// Number of samples after its end at which an event is found.
   static constexpr std::int64_t late = 1;
 
   explicit PeRecorder(const Parts &parts) : Recorder(parts), picker_(o.picker) {
-    // After so many steps the picker has forgotten what it was started with, to the last digit.
+    // After so many steps the picker has forgotten its initial state, to the last digit.
     const double memory = o.picker.reading == LSM::PickerReading::exponential
                               ? 45.0 / std::max(1.0 - o.picker.lambda, 1e-15)
                               : 100.0;
@@ -148,7 +148,7 @@ class PeRecorder : Recorder {
     const bool report =
         picker_.push_change(chain.step(), o.parameters.dt * static_cast<double>(chain.step()),
                             chain.pe(), chain.dpe(), event_);
-    // Slip is taken one sample late at both ends, which is less than a time step's worth.
+    // Slip is sampled one step late at both ends; the error is below that of a time step.
     if (picker_.in_event() && !before) open();
     if (report) finish();
   }
@@ -156,11 +156,11 @@ class PeRecorder : Recorder {
  private:
   bool located() const { return o.x_centroid || o.rupture_length; }
 
-  /// Nothing slips: the plate alone changes PE, and as long as it raises PE no event can commence.
-  /// With an event open the steps are taken one by one. False: no jump is worth it.
+  /// Nothing slips: only the plate changes PE, and as long as it raises PE no event can begin. With
+  /// an event open the steps are taken one by one. False: no jump is worth it.
   bool jump(std::int64_t limit) {
     const std::int64_t last = std::min(chain.quiet_until(), limit);
-    // The sample that is due next is taken by a step.
+    // The next due sample is taken by a step.
     const std::int64_t to = std::min(last, outputs.next_sample(chain.step()) - 1) - replay_;
     if (!(to > chain.step() && picker_.rate() >= 0.0 && chain.quiet_change(chain.step()) > 0.0))
       return false;
@@ -180,7 +180,7 @@ class PeRecorder : Recorder {
     return true;
   }
 
-  /// The picker has seen the same change of PE in each step since the given one.
+  /// The picker has had the same change of PE in each step since the given one.
   void gone_on(std::int64_t from) {
     LSM::PickerState s = picker_.state();
     s.samples += chain.step() - from;
@@ -190,7 +190,8 @@ class PeRecorder : Recorder {
     s.rate = chain.dpe();
     if (o.picker.reading == LSM::PickerReading::literal)
       s.rate /= 1.0 + o.picker.lambda * static_cast<double>(s.samples - 2);
-    // A leap to where PE begins or ceases to fall ends up to a step behind; the next step tells.
+    // A leap to where PE begins or ceases to fall may end up to a step later; the next step shows
+    // it.
     s.rate = s.in_event != 0 ? std::min(s.rate, 0.0) : std::max(s.rate, 0.0);
     picker_.set_state(s);
   }
@@ -231,7 +232,7 @@ class RuptureRecorder : Recorder {
         late(o.rupture_memory),
         tracker_(o.parameters.blocks, o.rupture_memory, o.x_centroid) {}
 
-  /// Steps after its end in which a rupture is found: when its memory is over.
+  /// Number of steps after its end at which a rupture is found: its memory.
   const std::int64_t late;
 
   void begin() {}
@@ -248,7 +249,7 @@ class RuptureRecorder : Recorder {
       return;
     }
     if (leaps_.due(false) && leaps_.leap(true, true)) {
-      // What slides in a leap is no rupture, and one that slid before it has ended there.
+      // Slip within a leap is no rupture, and a rupture before the leap has ended.
       tracker_.begin_step(chain.step(), chain.pe());
     } else {
       chain.advance(tracker_);
@@ -262,7 +263,7 @@ class RuptureRecorder : Recorder {
  private:
   void finish(const Rupture &rupture) {
     LSM::Event e = tracker_.event(rupture, o.parameters.dt);
-    // Counted where the picker does, for checkpoints.
+    // Counted as by the picker, for checkpoints.
     if (LSM::is_left_out(e.size, o.picker, state.picker)) return;
     if (!count(e)) return;
     outputs.event(e);
@@ -307,7 +308,7 @@ RunResult run_chain(const RunOptions &o) {
   };
   const bool checkpoints = !o.checkpoint.empty();
   const std::int64_t interval = checkpoints ? o.checkpoint_interval : 0;
-  // Signals and the clock are looked at so often only.
+  // Steps between checks of signals and the clock.
   const std::int64_t look = std::max<std::int64_t>(16, 200000 / (o.parameters.blocks + 100));
   Clock::time_point told = begin;
   while (chain.step() < o.steps) {
@@ -318,7 +319,7 @@ RunResult run_chain(const RunOptions &o) {
       recorder.advance(limit);
       outputs.sample(chain.step(), chain.pe());
     }
-    // A leap may go beyond the limit.
+    // A leap may end beyond the limit.
     if (interval > 0 && chain.step() >= limit && chain.step() < o.steps) save();
     const int stopped_by = o.stop ? o.stop->load(std::memory_order_relaxed) : 0;
     if (stopped_by != 0 && chain.step() < o.steps) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file slider_run.h
-/// A run of the block-slider: what it is asked for, and what comes of it.
+/// A run of the block-slider: its settings and its results.
 #ifndef SLIDER_RUN_H
 #define SLIDER_RUN_H
 
@@ -18,14 +18,14 @@
 
 namespace Slider {
 
-/// Which chunks of blocks are stepped: those that may move, or all.
+/// Chunks of blocks that are stepped: those that may move, or all.
 enum class Kernel { active, dense };
 constexpr std::array<LSM::Named<Kernel>, 2> names_of(Kernel) {
   return {{{Kernel::active, "active"}, {Kernel::dense, "dense"}}};
 }
 
-/// What an event is: a drop of the PE of the whole chain (paper), or a connected set of sliding
-/// blocks (ours, see slider_ruptures.h).
+/// Definition of an event: a drop of the PE of the whole chain (paper), or a connected set of
+/// sliding blocks (ours, see slider_ruptures.h).
 enum class Events { pe, ruptures };
 constexpr std::array<LSM::Named<Events>, 2> names_of(Events) {
   return {{{Events::pe, "pe"}, {Events::ruptures, "ruptures"}}};
@@ -39,7 +39,7 @@ struct RunOptions {
   LSM::PickerSettings picker;       ///< for ruptures, only the sizes that are written
   std::int64_t rupture_memory = 1;  ///< steps over which slips are connected, at least 1
   double leap_speed = 0.0;          ///< leaps while no block is faster; 0: no leaps
-  double leap_calm = 50.0;          ///< time for which none has to be so before a leap
+  double leap_calm = 50.0;          ///< time without a faster block that is needed before a leap
   double warmup = 0.0;              ///< events that start before this time are not written
   Kernel kernel = Kernel::active;
   std::string catalogue;  ///< empty: none
@@ -73,18 +73,18 @@ struct RunResult {
 /// \throws std::invalid_argument with one line for leaps that make no sense.
 void check_leaps(const RunOptions &options);
 
-/// Finds out early whether an output can be written; an empty path is none.
+/// Checks early whether an output can be written; an empty path means none.
 /// \throws LSM::FileError
 void probe(const std::string &path);
 
 /// The files that a run writes as it goes.
 std::vector<LSM::Output> outputs_of(const RunOptions &options);
 
-/// A run that starts afresh replaces no file that holds something, unless asked.
+/// A new run replaces no file that is not empty, unless asked to.
 /// \throws std::runtime_error naming file and options
 void check_replaced(const RunOptions &options);
 
-/// Runs, or goes on with, one chain. \throws std::exception with one line on bad input or output.
+/// Runs or continues one chain. \throws std::exception with one line on bad input or output.
 RunResult run(const RunOptions &options);
 
 }  // namespace Slider

@@ -5,8 +5,8 @@
 ///
 /// Block i slides in step n if the step changes its displacement. It is then connected with the
 /// blocks i - 1, i and i + 1 (periodic) that slide in step n or in one of the memory steps before
-/// it. A rupture is a connected set of such pairs (i, n): it ends when no block that slides is
-/// connected with it any more, and two that meet become one. One step of memory is what causes can
+/// it. A rupture is a connected set of such pairs (i, n): it ends when no sliding block can connect
+/// with it any more, and two that meet become one. One step of memory is what causes can
 /// do: a block that stops in step n pushes its neighbour over its limit for step n + 1.
 ///
 /// Unlike drops of the total PE, ruptures far apart in a long chain stay apart.

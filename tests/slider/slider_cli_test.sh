@@ -127,7 +127,7 @@ resume | terminate | kill)
     # Those of older programs had a format of their own.
     printf 'slider-checkpoint-1\n0123456789abcdef' > old.chk
     run "${part[@]}" --checkpoint old.chk --resume && fail "resumed from an old checkpoint"
-    [ "$(cat err.txt)" = "slider_cli: old.chk: checkpoint of version 1, expected version 2: finish that run with the program that began it, or start afresh" ] || fail "message: $(cat err.txt)"
+    [ "$(cat err.txt)" = "slider_cli: old.chk: checkpoint of version 1, expected version 2: finish that run with the program that started it, or start anew" ] || fail "message: $(cat err.txt)"
     cmp keep.csv part.csv || fail "a refused resume changed the catalogue"
     run "${part[@]}" --checkpoint none.chk --resume && fail "resumed from nothing"
     grep -q "none.chk: cannot be read" err.txt || fail "message: $(cat err.txt)"
@@ -469,7 +469,7 @@ outputs)
   both --config s.ini --catalogue hard.csv --overwrite
   both --config s.ini --json s.ini
   both --ensemble runs.txt --json ./runs.txt
-  pattern='files on their way to another name'
+  pattern='reserved for temporary files'
   both --catalogue a.csv.new
   # Two runs of the same files at a time: the second is told who writes them, and changes nothing.
   part=(--blocks 100 --time 1e9 --catalogue p.csv --pe-series p.pe --pe-stride 1000 --checkpoint p.chk --checkpoint-interval 1000)
