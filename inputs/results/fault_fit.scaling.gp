@@ -48,7 +48,7 @@ set yrange [0.10000000000000001:2]
 low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y
 plot table using ($1 == 1 ? $3 : NaN):(low($4,$5)):(0):($4+$5-low($4,$5)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \
      table using ($1 == 1 ? $3 : NaN):4 with points lt 1 title "fault: s*", \
-     [102:2223.5294117647059] '+' using 1:(0.0027273913981961826*$1**(0.82833894328796032)) with lines lt 1 title "A L^D with D = 0.828 ± 0.027", \
-     [102:2223.5294117647059] '+' using 1:(0.44264743965875125) with lines lt 8 dt 2 title 'constant'
+     [102:2223.5294117647059] '+' using 1:(0.0035733454449573569*$1**(0.78630707390300725)) with lines lt 1 title "A L^D with D = 0.786 ± 0.024", \
+     [102:2223.5294117647059] '+' using 1:(0.36036724165036932) with lines lt 8 dt 2 title 'constant'
 unset output
 }
