@@ -1,8 +1,6 @@
-/* -*- c++ -*- ----------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-   Lattice Solid Model: repulsion and friction of unlinked particles,
-   Eqs. (2) and (3), two dimensions; the laws of friction are in core/laws
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Lattice Solid Model: repulsion and friction of unlinked particles,
+// Eqs. (2) and (3), two dimensions; the laws of friction are in core/laws
 
 #ifdef PAIR_CLASS
 // clang-format off
@@ -13,14 +11,10 @@ PairStyle(lsm/friction,PairLSMFriction);
 #ifndef LMP_PAIR_LSM_FRICTION_H
 #define LMP_PAIR_LSM_FRICTION_H
 
+#include "lsm_law_table.h"
 #include "pair_lsm_free.h"
 
-#include <string>
 #include <vector>
-
-namespace LSM {
-struct Parameter;
-}
 
 namespace LAMMPS_NS {
 
@@ -55,23 +49,6 @@ class PairLSMFriction : public PairLSMFree {
   void print_coeff(FILE *, int, int) override;
 
  private:
-  // what is known of a law at run time; a line of the list in core/laws/friction_laws.h gives one of these
-
-  struct Law {
-    const char *name;
-    const LSM::Parameter *parameters;
-    int count;
-    int state_size;
-    bool named;
-    bool (*fits)(const double *);
-    void (*begin)(const double *, double *);
-    void (PairLSMFriction::*loop_nothing)();
-    void (PairLSMFriction::*loop_energies)();
-    void (PairLSMFriction::*loop_tally)();
-  };
-  static const Law laws[];
-  static constexpr int MAX_PARAMETERS = 8;
-
   // A pair that is kept near, with what is known of it until other pairs are kept: scattered over LAMMPS' arrays it
   // would lie on a dozen cache lines. The history of all of them is copied from there and back.
 
@@ -91,25 +68,25 @@ class PairLSMFriction : public PairLSMFree {
   bool chosen_anew;      // in this step
   bool noted;            // the history holds what they do
 
-  const Law *law;                          // first one of the name that was chosen
-  const Law *running;                      // of these, the first that fits all coefficients
-  double **coefficient[MAX_PARAMETERS];    // by parameter of the law, then by types
-  int **given[MAX_PARAMETERS];    // 1 if the parameter was given, else it has another's value
-  bool restored;                  // law and coefficients come from a restart file
-  int locate_onset;               // 1 if the begin of a contact within a step is located
+  LSMLawTable table;
+  const LSMLaw *running;    // of those of the name, the first that fits all coefficients
+  bool restored;            // law and coefficients come from a restart file
+  int locate_onset;         // 1 if the begin of a contact within a step is located
   double of_single[2];    // what svector points to: a constructor that stops leaves nothing behind
   class FixDummy *fix_dummy;
   class FixNeighHistory *fix_history;
 
-  static const Law *find_law(const std::string &);
-  static std::string law_names();
-  template <class> static Law entry();
-  template <class, class> void loop();
-  void choose(const Law *);
+  template <class Law, class Recorder> class Loop;
+  template <class Law, class Recorder> void run_loop();
+  struct Loops {    // of a law
+    void (PairLSMFriction::*nothing)();
+    void (PairLSMFriction::*energies)();
+    void (PairLSMFriction::*tally)();
+  };
+  const Loops &loops() const;
+  void choose(const LSMLaw *);
   void collect_sites();
-  void create_coefficients();
-  void destroy_coefficients();
-  void check(int, double, const double *, const std::string &) const;
+  void check_periods() const;
   int size_history() const;
   double near_reach() const;
 };

@@ -37,6 +37,10 @@ TEST_F(BadInput, OneLineOfError) {
       {"pair_coeff 3 4 -1 1 0.6", {"k is -1"}},
       {"pair_coeff 3 4 1 1 -0.6", {"mu", "-0.6"}},
       {"pair_coeff 3 4 1 1 0.6 0.5", {"mu_static", "0.5"}},
+      {"pair_coeff 3 4 1 1", {"pair_coeff I J k kt mu [mu_static]"}},
+      {"pair_style lsm/friction onset late", {"onset", "late", "located or step"}},
+      {"pair_style lsm/friction coulomb offset step", {"offset", "onset"}},
+      {"pair_style lsm/friction cuolomb", {"cuolomb", "coulomb, slip-weakening"}},
       {"compute a all lsm/events lamda 0.9", {"lamda", "lambda"}},
       {"compute a all lsm/events lambda 1.5", {"lambda", "1.5"}},
       {"compute a all lsm/events memory 1e300\nrun 1", {"lambda"}},  // 1 to the last digit

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+
+#include "lsm_law_table.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "error.h"
+#include "memory.h"
+
+#include "laws/friction_laws.h"
+
+#include <algorithm>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using LSM::Parameter;
+
+template <class Law> static auto from(const double *values)
+{
+  return LSMLawTable::coefficients<Law>([values](std::size_t n) { return values[n]; });
+}
+
+template <class Law> static LSMLaw entry()
+{
+  return {Law::name,
+          Law::parameters,
+          static_cast<int>(std::size(Law::parameters)),
+          Law::state_size,
+          Law::named,
+          [](const double *values) { return Law::fits(from<Law>(values)); },
+          [](const double *values, double *state) { Law::begin(from<Law>(values), state); }};
+}
+
+const std::vector<LSMLaw> &LSMLawTable::all()
+{
+  static const std::vector<LSMLaw> laws = {
+#define LSM_FRICTION_LAW(law) entry<LSM::law>(),
+#include "laws/friction_laws.h"
+#undef LSM_FRICTION_LAW
+  };
+  return laws;
+}
+
+const LSMLaw *LSMLawTable::find(const std::string &name)
+{
+  for (const LSMLaw &one : all())
+    if (name == one.name) return &one;
+  return nullptr;
+}
+
+std::string LSMLawTable::names()
+{
+  std::string text;
+  for (const LSMLaw &one : all())
+    if (find(one.name) == &one) text += (text.empty() ? "" : ", ") + std::string(one.name);
+  return text;
+}
+
+LSMLawTable::LSMLawTable(LAMMPS *_lmp) : Pointers(_lmp), law(&all()[0]), coefficient{}, given{} {}
+
+LSMLawTable::~LSMLawTable()
+{
+  destroy();
+}
+
+void LSMLawTable::create()
+{
+  const int n = atom->ntypes + 1;
+  for (int p = 0; p < law->count; p++) {
+    memory->create(coefficient[p], n, n, "pair:coefficient");
+    memory->create(given[p], n, n, "pair:given");
+    std::fill_n(coefficient[p][0], n * n, 0.0);
+    std::fill_n(given[p][0], n * n, 0);
+  }
+}
+
+void LSMLawTable::destroy()
+{
+  for (int p = 0; p < MAX_PARAMETERS; p++) {
+    memory->destroy(coefficient[p]);
+    memory->destroy(given[p]);
+  }
+}
+
+std::vector<double> LSMLawTable::values(int i, int j) const
+{
+  std::vector<double> all;
+  for (int p = 0; p < law->count; p++) all.push_back(coefficient[p][i][j]);
+  return all;
+}
+
+double **LSMLawTable::find_coefficient(const char *name) const
+{
+  for (int p = 0; p < law->count; p++)
+    if (strcmp(name, law->parameters[p].name) == 0 &&
+        law->parameters[p].otherwise != Parameter::as_least)
+      return coefficient[p];
+  return nullptr;
+}
+
+// 'k kt mu [mu_static]', or 'k kt mu VALUE ... [theta VALUE]'
+std::string LSMLawTable::expected() const
+{
+  std::string text = "k kt";
+  for (int p = 1; p < law->count; p++) {
+    const std::string words = law->parameters[p].name + std::string(law->named ? " VALUE" : "");
+    text += optional(p) ? " [" + words + "]" : " " + words;
+  }
+  return text;
+}
+
+void LSMLawTable::parse(int narg, char **arg)
+{
+  const auto refuse = [this](const std::string &what) {
+    error->all(FLERR, "Pair style lsm/friction {}expects 'pair_coeff I J {} [kelvin-voigt TIME]'{}",
+               law->named ? law->name + std::string(" ") : "", expected(), what);
+  };
+  const int each = law->named ? 2 : 1;
+  if (narg < 1 || narg > 1 + each * (law->count - 1) || (narg - 1) % each)
+    refuse(" or 'pair_coeff I J off'");
+  parsed.assign(law->count, utils::numeric(FLERR, arg[0], false, lmp));
+  parsed_given.assign(law->count, false);
+  parsed_given[0] = true;
+  for (int iarg = 1, p = 1; iarg < narg; iarg += each, p++) {
+    if (law->named) {
+      for (p = 1; p < law->count && strcmp(arg[iarg], law->parameters[p].name) != 0; p++) {}
+      if (p == law->count || parsed_given[p])
+        refuse(fmt::format(", got {}'{}'", p == law->count ? "" : "a second ", arg[iarg]));
+    }
+    parsed[p] = utils::numeric(FLERR, arg[iarg + each - 1], false, lmp);
+    parsed_given[p] = true;
+  }
+  for (int p = 1; p < law->count; p++) {
+    if (parsed_given[p]) continue;
+    const Parameter &one = law->parameters[p];
+    if (!optional(p)) refuse(std::string(", but ") + one.name + " is missing");
+    parsed[p] = one.otherwise == Parameter::as_least ? parsed[one.least] : one.otherwise;
+  }
+  check(parsed, "");
+}
+
+void LSMLawTable::set(int i, int j)
+{
+  for (int p = 0; p < law->count; p++) {
+    coefficient[p][i][j] = parsed[p];
+    given[p][i][j] = parsed_given[p];
+  }
+}
+
+void LSMLawTable::mirror(int i, int j)
+{
+  for (int p = 0; p < law->count; p++) {
+    const Parameter &one = law->parameters[p];
+    if (!given[p][i][j] && one.otherwise == Parameter::as_least)
+      coefficient[p][i][j] = coefficient[one.least][i][j];
+    coefficient[p][j][i] = coefficient[p][i][j];
+  }
+}
+
+void LSMLawTable::check(const std::vector<double> &values, const std::string &where) const
+{
+  for (int p = 0; p < law->count; p++) {
+    const Parameter &one = law->parameters[p];
+    const double value = values[p];
+    const bool positive = one.range == Parameter::positive;
+    if (!(value >= 0.0) || (positive && value == 0.0))
+      error->all(FLERR, "Pair lsm/friction {}{} is {}, but must be {} 0", one.name, where, value,
+                 positive ? ">" : ">=");
+    if (one.least >= 0 && value < values[one.least])
+      error->all(FLERR, "Pair lsm/friction {}{} is {}, but must be at least {} = {}", one.name,
+                 where, value, law->parameters[one.least].name, values[one.least]);
+  }
+}
+
+void LSMLawTable::write(FILE *fp, int i, int j) const
+{
+  for (const double value : values(i, j)) fwrite(&value, sizeof(double), 1, fp);
+}
+
+void LSMLawTable::read(FILE *fp, int i, int j)
+{
+  for (int p = 0; p < law->count; p++) {
+    double *value = &coefficient[p][i][j];
+    if (comm->me == 0) utils::sfread(FLERR, value, sizeof(double), 1, fp, nullptr, error);
+    MPI_Bcast(value, 1, MPI_DOUBLE, 0, world);
+    const int least = law->parameters[p].least;
+    given[p][i][j] = least < 0 || *value > coefficient[least][i][j];
+  }
+}
+
+void LSMLawTable::print(FILE *fp, int i, int j) const
+{
+  for (int p = 0; p < law->count; p++) {
+    if (p > 0 && law->named) fprintf(fp, " %s", law->parameters[p].name);
+    fprintf(fp, " %.17g", coefficient[p][i][j]);
+  }
+}

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The friction laws at run time, and the coefficients of one of them for
+// each pair of particle types
+
+#ifndef LMP_LSM_LAW_TABLE_H
+#define LMP_LSM_LAW_TABLE_H
+
+#include "laws/friction_law.h"
+#include "pointers.h"
+
+#include <cstdio>
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+/// What is known of a law at run time; a line of the list in core/laws/friction_laws.h gives one of these.
+struct LSMLaw {
+  const char *name;
+  const LSM::Parameter *parameters;
+  int count;
+  int state_size;
+  bool named;
+  bool (*fits)(const double *);
+  void (*begin)(const double *, double *);
+};
+
+class LSMLawTable : protected Pointers {
+ public:
+  /// In the order of the list.
+  static const std::vector<LSMLaw> &all();
+  /// The first of that name, or null.
+  static const LSMLaw *find(const std::string &name);
+  static std::string names();
+
+  /// Coefficients of a law from the values of value(place).
+  template <class Law, class Value> static auto coefficients(const Value &value)
+  {
+    return made_of<Law>(value, std::make_index_sequence<std::size(Law::parameters)>());
+  }
+
+  LSMLawTable(LAMMPS *);
+  ~LSMLawTable() override;
+  LSMLawTable(const LSMLawTable &) = delete;
+  LSMLawTable &operator=(const LSMLawTable &) = delete;
+  const LSMLaw *law;    ///< the first one of the name that was chosen
+
+  void create();    ///< as many types as there are now; for another law, destroy() first
+  void destroy();
+  double **operator[](int p) const { return coefficient[p]; }
+  std::vector<double> values(int i, int j) const;
+  /// The coefficient of that name, but not one that follows another; null if there is none.
+  double **find_coefficient(const char *name) const;
+
+  /// The words that pair_coeff expects behind the types, for messages.
+  std::string expected() const;
+  /// Words behind the types and the stiffness of pair_coeff. Stops LAMMPS with one line.
+  void parse(int narg, char **arg);
+  /// Sets what was parsed.
+  void set(int i, int j);
+  /// What is set for i and j also for j and i; values that follow others do so again, as fix adapt changes coefficients.
+  void mirror(int i, int j);
+  /// Stops LAMMPS if a value is out of range. where: behind the names in messages
+  void check(const std::vector<double> &, const std::string &where) const;
+
+  void write(FILE *, int i, int j) const;
+  void read(FILE *, int i, int j);
+  void print(FILE *, int i, int j) const;
+
+ private:
+  static constexpr int MAX_PARAMETERS = 8;
+  double **coefficient[MAX_PARAMETERS];    // by parameter of the law, then by types
+  int **given[MAX_PARAMETERS];    // 1 if the parameter was given, else it has another's value
+  std::vector<double> parsed;
+  std::vector<bool> parsed_given;
+
+  template <class Law, class Value, std::size_t... n>
+  static typename Law::Coefficients made_of(const Value &value, std::index_sequence<n...>)
+  {
+    static_assert(sizeof...(n) <= MAX_PARAMETERS &&
+                      sizeof(typename Law::Coefficients) == sizeof...(n) * sizeof(double),
+                  "as many parameters as coefficients, and room for them");
+    return {value(n)...};
+  }
+  bool optional(int p) const { return law->parameters[p].otherwise != LSM::Parameter::required; }
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
