@@ -1,5 +1,5 @@
-# Draws fault_fit.scaling.png and fault_fit.scaling.svg from fault_fit.scaling.csv:
-# run `gnuplot ./fault_fit.scaling.gp` in this folder.
+# Draws fault_fit.scaling.png and fault_fit.scaling.svg from
+# fault_fit.scaling.csv: run `gnuplot ./fault_fit.scaling.gp` in this folder.
 base = "./fault_fit.scaling"
 table = base.".csv"
 if (!exists("formats")) formats = "png svg"

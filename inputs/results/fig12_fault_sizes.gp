@@ -1,5 +1,5 @@
-# Draws fig12_fault_sizes.png and fig12_fault_sizes.svg from fig12_fault_sizes.csv:
-# run `gnuplot ./fig12_fault_sizes.gp` in this folder.
+# Draws fig12_fault_sizes.png and fig12_fault_sizes.svg from
+# fig12_fault_sizes.csv: run `gnuplot ./fig12_fault_sizes.gp` in this folder.
 base = "./fig12_fault_sizes"
 table = base.".csv"
 if (!exists("formats")) formats = "png svg"

@@ -1,5 +1,5 @@
-# Draws fig14_fault_intervals.png and fig14_fault_intervals.svg from fig14_fault_intervals.csv:
-# run `gnuplot ./fig14_fault_intervals.gp` in this folder.
+# Draws fig14_fault_intervals.png and fig14_fault_intervals.svg from
+# fig14_fault_intervals.csv: run `gnuplot ./fig14_fault_intervals.gp` in this folder.
 base = "./fig14_fault_intervals"
 table = base.".csv"
 if (!exists("formats")) formats = "png svg"
