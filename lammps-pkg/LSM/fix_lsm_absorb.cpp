@@ -1,6 +1,4 @@
-/* ----------------------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
 
 #include "fix_lsm_absorb.h"
 
@@ -16,8 +14,6 @@
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
-
-/* ---------------------------------------------------------------------- */
 
 FixLSMAbsorb::FixLSMAbsorb(LAMMPS *_lmp, int narg, char **arg) :
     Fix(_lmp, narg, arg), dashpot{}, rate(0.0)
@@ -47,14 +43,10 @@ FixLSMAbsorb::FixLSMAbsorb(LAMMPS *_lmp, int narg, char **arg) :
   dashpot[1 - across] = value[1] * value[2];
 }
 
-/* ---------------------------------------------------------------------- */
-
 int FixLSMAbsorb::setmask()
 {
   return POST_FORCE;
 }
-
-/* ---------------------------------------------------------------------- */
 
 void FixLSMAbsorb::init()
 {
@@ -64,15 +56,12 @@ void FixLSMAbsorb::init()
     error->all(FLERR, "Fix lsm/absorb does not work with run_style respa");
 }
 
-/* ----------------------------------------------------------------------
-   Velocities are those of half a step before the forces, once a run goes on: the dashpot pulls against the velocity that
-   the particle has when its own pull is in the force, so that the scheme stays of second order, and stable
-   whatever the impedance. half: half a time step, 0 in the setup, where velocities and forces are of one time.
-
-   With velocity Verlet the work of a force in the two halves of the steps before and after it is force times the
-   velocity of its time, so the loss is known exactly.
-------------------------------------------------------------------------- */
-
+// Velocities are those of half a step before the forces, once a run goes on: the dashpot pulls against the velocity that
+// the particle has when its own pull is in the force, so that the scheme stays of second order, and stable
+// whatever the impedance. half: half a time step, 0 in the setup, where velocities and forces are of one time.
+//
+// With velocity Verlet the work of a force in the two halves of the steps before and after it is force times the
+// velocity of its time, so the loss is known exactly.
 void FixLSMAbsorb::add_forces(double half)
 {
   double **v = atom->v;
@@ -102,18 +91,13 @@ void FixLSMAbsorb::post_force(int /*vflag*/)
   add_forces(0.5 * update->dt);
 }
 
-/* ----------------------------------------------------------------------
-   scalar = absorbed energy
-------------------------------------------------------------------------- */
-
+// scalar = absorbed energy
 double FixLSMAbsorb::compute_scalar()
 {
   double all;
   MPI_Allreduce(&work_absorbed, &all, 1, MPI_DOUBLE, MPI_SUM, world);
   return all;
 }
-
-/* ---------------------------------------------------------------------- */
 
 void FixLSMAbsorb::write_restart(FILE *fp)
 {

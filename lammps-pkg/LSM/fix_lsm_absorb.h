@@ -1,7 +1,5 @@
-/* -*- c++ -*- ----------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-   Lattice Solid Model: border that absorbs P- and S-waves
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Lattice Solid Model: border that absorbs P- and S-waves
 
 #ifdef FIX_CLASS
 // clang-format off

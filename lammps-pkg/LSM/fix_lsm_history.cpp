@@ -1,6 +1,4 @@
-/* ----------------------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
 
 #include "fix_lsm_history.h"
 
@@ -13,24 +11,18 @@
 
 using namespace LAMMPS_NS;
 
-/* ---------------------------------------------------------------------- */
-
 FixLSMHistory::FixLSMHistory(LAMMPS *_lmp, int narg, char **arg) :
     FixNeighHistory(_lmp, MIN(narg, 4), arg), law(narg == 5 ? arg[4] : ""), law_of_file("")
 {
   if (narg > 5) error->all(FLERR, "Fix LSM_HISTORY is internal to pair style lsm/friction");
 
   // as fix NEIGH_HISTORY in restart files
-
   delete[] style;
   style = utils::strdup("NEIGH_HISTORY");
 
   // partners of a contact are kept by their ID
-
   stores_ids = 1;
 }
-
-/* ---------------------------------------------------------------------- */
 
 void FixLSMHistory::init()
 {
@@ -46,20 +38,15 @@ void FixLSMHistory::init()
                "tangential springs; use pair style lsm/free for the energy of the normal springs");
 }
 
-/* ---------------------------------------------------------------------- */
-
 void FixLSMHistory::pre_exchange()
 {
   static_cast<PairLSMFriction *>(pair)->note_contacts();
   FixNeighHistory::pre_exchange();
 }
 
-/* ----------------------------------------------------------------------
-   Fix NEIGH_HISTORY gathers the history of each particle from the neighbor list once more. The command
-   write_restart has moved particles and renewed ghosts by then, so the list names other particles. Between
-   two runs each particle has its history already, see post_run().
-------------------------------------------------------------------------- */
-
+// Fix NEIGH_HISTORY gathers the history of each particle from the neighbor list once more. The command
+// write_restart has moved particles and renewed ghosts by then, so the list names other particles. Between
+// two runs each particle has its history already, see post_run().
 void FixLSMHistory::write_restart(FILE *fp)
 {
   if (update->whichflag) pre_exchange();
@@ -69,11 +56,8 @@ void FixLSMHistory::write_restart(FILE *fp)
   fwrite(law.c_str(), 1, size, fp);
 }
 
-/* ----------------------------------------------------------------------
-   A law without a state writes nothing here, and then there is nothing to read: the buffer is used only for
-   contacts of the right size, see below.
-------------------------------------------------------------------------- */
-
+// A law without a state writes nothing here, and then there is nothing to read: the buffer is used only for
+// contacts of the right size, see below.
 void FixLSMHistory::restart(char *buf)
 {
   law_of_file = buf;

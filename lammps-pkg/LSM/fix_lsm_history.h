@@ -1,9 +1,7 @@
-/* -*- c++ -*- ----------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-   Internal helper of pair style lsm/friction: contact history that a
-   write_restart command between two runs leaves alone, and that knows the
-   law of friction it belongs to
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Internal helper of pair style lsm/friction: contact history that a
+// write_restart command between two runs leaves alone, and that knows the
+// law of friction it belongs to
 
 #ifdef FIX_CLASS
 // clang-format off

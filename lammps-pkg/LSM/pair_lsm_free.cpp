@@ -1,6 +1,4 @@
-/* ----------------------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
 
 #include "pair_lsm_free.h"
 
@@ -27,8 +25,6 @@
 
 using namespace LAMMPS_NS;
 
-/* ---------------------------------------------------------------------- */
-
 PairLSMFree::PairLSMFree(LAMMPS *_lmp) :
     Pair(_lmp), k(nullptr), delay(nullptr), on(nullptr), active(nullptr), maxrad(nullptr),
     newton_pair(0), travel(_lmp), screened(false), own_radii(-1), velocity(nullptr)
@@ -39,8 +35,6 @@ PairLSMFree::PairLSMFree(LAMMPS *_lmp) :
   writedata = 1;
   restartinfo = 1;
 }
-
-/* ---------------------------------------------------------------------- */
 
 PairLSMFree::~PairLSMFree()
 {
@@ -54,8 +48,6 @@ PairLSMFree::~PairLSMFree()
     delete[] maxrad;
   }
 }
-
-/* ---------------------------------------------------------------------- */
 
 void PairLSMFree::compute(int eflag, int vflag)
 {
@@ -91,8 +83,6 @@ template <class Recorder> void PairLSMFree::loop()
   else
     loop<Recorder, false>();
 }
-
-/* ---------------------------------------------------------------------- */
 
 template <class Recorder, bool DIM3> void PairLSMFree::loop()
 {
@@ -147,14 +137,10 @@ template <class Recorder, bool DIM3> void PairLSMFree::loop()
   recorder.finish();
 }
 
-/* ---------------------------------------------------------------------- */
-
 const double *PairLSMFree::contact_radii() const
 {
   return own_radii < 0 ? atom->radius : atom->dvector[own_radii];
 }
-
-/* ---------------------------------------------------------------------- */
 
 bool PairLSMFree::any_delay() const
 {
@@ -174,18 +160,13 @@ double PairLSMFree::dashpot(int i, int j, double delx, double dely, double delz,
   return LSM::contact_dashpot_force(viscosity(atom->type[i], atom->type[j]), rate, spring);
 }
 
-/* ---------------------------------------------------------------------- */
-
 bool PairLSMFree::left_out(int entry, int itype, int jtype) const
 {
   return !active[itype][jtype] || force->special_lj[sbmask(entry)] == 0.0;
 }
 
-/* ----------------------------------------------------------------------
-   linked particles are no contact pairs, and all others are
-   under pair_style hybrid the factors of each sub-style are known only while it computes
-------------------------------------------------------------------------- */
-
+// linked particles are no contact pairs, and all others are
+// under pair_style hybrid the factors of each sub-style are known only while it computes
 void PairLSMFree::check_special() const
 {
   const double *factor = force->special_lj;
@@ -196,8 +177,6 @@ void PairLSMFree::check_special() const
                "are no contact pairs and all others are",
                factor[1], factor[2], factor[3]);
 }
-
-/* ---------------------------------------------------------------------- */
 
 void PairLSMFree::allocate()
 {
@@ -217,18 +196,13 @@ void PairLSMFree::allocate()
     }
 }
 
-/* ---------------------------------------------------------------------- */
-
 void PairLSMFree::settings(int narg, char ** /*arg*/)
 {
   if (narg != 0)
     error->all(FLERR, "Pair style lsm/free takes no arguments, but {} were given", narg);
 }
 
-/* ----------------------------------------------------------------------
-   "pair_coeff I J off": these types never touch; costs nothing per step
-------------------------------------------------------------------------- */
-
+// "pair_coeff I J off": these types never touch; costs nothing per step
 bool PairLSMFree::parse_off(int narg, char **arg, int ilo, int ihi, int jlo, int jhi)
 {
   if (narg != 3 || strcmp(arg[2], "off") != 0) return false;
@@ -241,8 +215,6 @@ bool PairLSMFree::parse_off(int narg, char **arg, int ilo, int ihi, int jlo, int
     }
   return true;
 }
-
-/* ---------------------------------------------------------------------- */
 
 void PairLSMFree::coeff(int narg, char **arg)
 {
@@ -272,14 +244,10 @@ void PairLSMFree::coeff(int narg, char **arg)
     error->all(FLERR, "Pair lsm/free: pair_coeff {} {} names no pair of types", arg[0], arg[1]);
 }
 
-/* ---------------------------------------------------------------------- */
-
 int PairLSMFree::request_flags() const
 {
   return NeighConst::REQ_SIZE;
 }
-
-/* ---------------------------------------------------------------------- */
 
 void PairLSMFree::init_style()
 {
@@ -302,7 +270,6 @@ void PairLSMFree::init_style()
         "Pair style lsm/* does not work with pair_modify compute no; use 'pair_coeff I J off'");
 
   // the list of a sub-style of hybrid holds what hybrid wants; with charges linked pairs stay in it, too
-
   const bool under_hybrid = force->pair != this;
   screened = under_hybrid ||
              (atom->nbonds > 0 && (force->special_coul[1] != 0.0 || force->kspace != nullptr));
@@ -313,7 +280,6 @@ void PairLSMFree::init_style()
 
   // hybrid calls init_one() of the pairs of types that it gives to this style; not of those with none, which it leaves
   // in the list where both types with themselves belong to this style
-
   const int ntypes = atom->ntypes;
   for (int i = 1; i <= ntypes; i++)
     for (int j = 1; j <= ntypes; j++) active[i][j] = 0;
@@ -322,7 +288,6 @@ void PairLSMFree::init_style()
     mine[atom->type[i]] = MAX(mine[atom->type[i]], atom->radius[i]);
 
   // those that are to come
-
   for (const char *style : {"^pour", "^deposit"})
     for (const auto &source : modify->get_fix_by_style(style))
       for (int i = 1; i <= ntypes; i++) {
@@ -334,7 +299,6 @@ void PairLSMFree::init_style()
   MPI_Allreduce(&mine[1], &maxrad[1], ntypes, MPI_DOUBLE, MPI_MAX, world);
 
   // types that never touch are left out when the list is built; hybrid would replace what is asked for here
-
   auto request = neighbor->add_request(this, request_flags());
   if (under_hybrid) return;
   int any_off = 0;
@@ -356,11 +320,8 @@ void PairLSMFree::init_style()
   }
 }
 
-/* ----------------------------------------------------------------------
-   A pair whose link was turned off or removed without its entry among the special neighbors neither holds
-   together nor touches.
-------------------------------------------------------------------------- */
-
+// A pair whose link was turned off or removed without its entry among the special neighbors neither holds
+// together nor touches.
 void PairLSMFree::warn_of_missing_links() const
 {
   if (atom->molecular != Atom::MOLECULAR || !atom->nspecial) return;
@@ -378,8 +339,6 @@ void PairLSMFree::warn_of_missing_links() const
                    (all[0] - all[1]) / 2);
 }
 
-/* ---------------------------------------------------------------------- */
-
 double PairLSMFree::init_one(int i, int j)
 {
   if (setflag[i][j] == 0)
@@ -392,8 +351,6 @@ double PairLSMFree::init_one(int i, int j)
   on[j][i] = active[i][j] = active[j][i] = on[i][j];
   return maxrad[i] + maxrad[j];
 }
-
-/* ---------------------------------------------------------------------- */
 
 void PairLSMFree::write_coeff(FILE *fp, int i, int j)
 {
@@ -421,10 +378,7 @@ void PairLSMFree::print_delay(FILE *fp, int i, int j)
   if (delay[i][j] > 0.0) fprintf(fp, " kelvin-voigt %.17g", delay[i][j]);
 }
 
-/* ----------------------------------------------------------------------
-   Retardation times, if any, come first, after a number that begins nothing else.
-------------------------------------------------------------------------- */
-
+// Retardation times, if any, come first, after a number that begins nothing else.
 static constexpr int TIMES_FOLLOW = -2;
 
 void PairLSMFree::write_restart(FILE *fp)
@@ -440,8 +394,6 @@ void PairLSMFree::write_restart(FILE *fp)
       if (setflag[i][j]) write_coeff(fp, i, j);
     }
 }
-
-/* ---------------------------------------------------------------------- */
 
 void PairLSMFree::read_restart(FILE *fp)
 {
@@ -466,8 +418,6 @@ void PairLSMFree::read_restart(FILE *fp)
     }
 }
 
-/* ---------------------------------------------------------------------- */
-
 void PairLSMFree::write_data(FILE *fp)
 {
   for (int i = 1; i <= atom->ntypes; i++) {
@@ -480,8 +430,6 @@ void PairLSMFree::write_data(FILE *fp)
     fputs("\n", fp);
   }
 }
-
-/* ---------------------------------------------------------------------- */
 
 void PairLSMFree::write_data_all(FILE *fp)
 {
@@ -496,8 +444,6 @@ void PairLSMFree::write_data_all(FILE *fp)
       fputs("\n", fp);
     }
 }
-
-/* ---------------------------------------------------------------------- */
 
 double PairLSMFree::single(int i, int j, int itype, int jtype, double rsq, double /*factor_coul*/,
                            double /*factor_lj*/, double &fforce)
@@ -516,8 +462,6 @@ double PairLSMFree::single(int i, int j, int itype, int jtype, double rsq, doubl
   return LSM::Spring::energy(k[lo][hi], r - r0);
 }
 
-/* ---------------------------------------------------------------------- */
-
 void *PairLSMFree::extract(const char *str, int &dim)
 {
   dim = 2;
@@ -526,8 +470,6 @@ void *PairLSMFree::extract(const char *str, int &dim)
   if (strcmp(str, "kelvin-voigt") == 0) return (void *) delay;
   return nullptr;
 }
-
-/* ---------------------------------------------------------------------- */
 
 double PairLSMFree::atom2cut(int i)
 {

@@ -1,7 +1,5 @@
-/* -*- c++ -*- ----------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-   Lattice Solid Model: repulsion of unlinked particles, Eq. (2)
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Lattice Solid Model: repulsion of unlinked particles, Eq. (2)
 
 #ifdef PAIR_CLASS
 // clang-format off

@@ -1,6 +1,4 @@
-/* ----------------------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
 
 #include "save_restart.h"
 
@@ -21,10 +19,7 @@
 
 using namespace LAMMPS_NS;
 
-/* ----------------------------------------------------------------------
-   LAMMPS ends a restart file with this, and does not check that it reached the disk
-------------------------------------------------------------------------- */
-
+// LAMMPS ends a restart file with this, and does not check that it reached the disk
 static bool ends_well(const std::string &file)
 {
   std::ifstream in(file, std::ios::binary | std::ios::ate);
@@ -47,8 +42,6 @@ struct Draft {
 };
 }    // namespace
 
-/* ---------------------------------------------------------------------- */
-
 void SaveRestart::command(int narg, char **arg)
 {
   if (narg < 1) error->all(FLERR, "save_restart expects a file name and names of variables");
@@ -67,8 +60,6 @@ void SaveRestart::command(int narg, char **arg)
     WriteRestart(lmp).command(1, words);
   });
 }
-
-/* ---------------------------------------------------------------------- */
 
 void SaveRestart::save(const std::string &file, const LSM::text_io::Parameters &settings,
                        const std::function<void(const std::string &)> &write)

@@ -1,8 +1,6 @@
-/* -*- c++ -*- ----------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-   write a restart file that has its name only when it is whole, with its
-   checksum and the values of variables beside it
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
+// write a restart file that has its name only when it is whole, with its
+// checksum and the values of variables beside it
 
 #ifdef COMMAND_CLASS
 // clang-format off

@@ -1,6 +1,4 @@
-/* ----------------------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
 
 // Functions with other instruction sets pass vectors differently: here all that take any are inlined.
 #if defined(__GNUC__)
@@ -43,7 +41,6 @@ namespace LSMLinkKernel {
   }
 
   // four of the numbers of a and b, counted through both
-
   template <int I, int J, int K, int L, class Vector>
   LSM_INLINE static Lanes pick(const Vector &a, const Vector &b)
   {
@@ -57,7 +54,6 @@ namespace LSMLinkKernel {
   }
 
   // Positions of four particles, two coordinates per load.
-
   template <int DIM>
   LSM_INLINE static void gather(const double *x, const int *place, Lanes (&to)[DIM])
   {
@@ -72,7 +68,6 @@ namespace LSMLinkKernel {
   }
 
   // Adds SIGN times the forces g to those of four particles, one after the other: two of them may be the same.
-
   template <int SIGN, int DIM>
   LSM_INLINE static void scatter(double *f, const int *place, const Lanes (&g)[DIM])
   {
@@ -87,7 +82,6 @@ namespace LSMLinkKernel {
   }
 
   // State of the links of a slice in the pipeline.
-
   template <int LENGTH, bool VISCOUS> struct Rates {
   };
   template <int LENGTH> struct Rates<LENGTH, true> {
@@ -100,7 +94,6 @@ namespace LSMLinkKernel {
   };
 
   // Links rarely break: not worth code in the loop.
-
   template <class Law>
   __attribute__((noinline, cold)) static void note_broken(const Law &law, int length,
                                                           const double *r, const double *rest,
@@ -114,7 +107,6 @@ namespace LSMLinkKernel {
   // instruction finds its operands ready; one that waits for a root or a quotient would hold up the hundred
   // or so instructions after it. Stations are lambdas over local variables, as members of a class would be
   // kept in memory.
-
   template <int DIM, int LENGTH, bool FILLED_UP, bool BOTH, class Law>
   LSM_INLINE static double work_on(const Run &run, const Rows &rows, const Law &law,
                                    const double *x, double *f, std::vector<Place> &broken)

@@ -1,8 +1,6 @@
-/* -*- c++ -*- ----------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-   Forces and energy of links in rows, Eq. (1), with the widest vectors of
-   the machine and the same digits on each
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Forces and energy of links in rows, Eq. (1), with the widest vectors of
+// the machine and the same digits on each
 
 #ifndef LMP_LSM_LINK_KERNEL_H
 #define LMP_LSM_LINK_KERNEL_H

@@ -1,6 +1,4 @@
-/* ----------------------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
 
 #include "lsm_link_rows.h"
 
@@ -17,7 +15,6 @@ namespace LSMLinkRows {
   };
 
   // Links by the particle whose rows they are in.
-
   struct Owners {
     std::vector<int> begin;    // of the links of each particle, and the end of the last
     std::vector<int> other;
@@ -66,7 +63,6 @@ namespace LSMLinkRows {
   }
 
   // The rows of the particles of a window, the longest first; rows that do not fill a slice form one of mixed lengths.
-
   static void add_window(Rows &o, const Owners &of, const int *first, const int *last, bool mixed)
   {
     std::array<std::vector<Row>, LONGEST + 1> rows;
@@ -92,7 +88,6 @@ namespace LSMLinkRows {
 
   // Cache lines used by the runs from `first` on and not by those of the previous window. They are prefetched
   // evenly during the previous window: waiting for each when it is needed would take longer than the arithmetic.
-
   static void fetch_ahead(Rows &o, std::size_t before, std::size_t first, std::vector<int> &used,
                           int window)
   {

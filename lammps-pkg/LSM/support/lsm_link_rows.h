@@ -1,7 +1,5 @@
-/* -*- c++ -*- ----------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-   Links in the order in which lsm_link_kernel takes them
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Links in the order in which lsm_link_kernel takes them
 
 #ifndef LMP_LSM_LINK_ROWS_H
 #define LMP_LSM_LINK_ROWS_H

@@ -1,6 +1,4 @@
-/* ----------------------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
 
 #include "lsm_near_pairs.h"
 
@@ -33,10 +31,7 @@ static inline void store(double *to, const Two &v)
   memcpy(to, &v, sizeof(v));
 }
 
-/* ----------------------------------------------------------------------
-   range of the displacements of the particles from first to before last
-------------------------------------------------------------------------- */
-
+// range of the displacements of the particles from first to before last
 LSMNearPairs::Range LSMNearPairs::displacements(const double *x, size_t first, size_t last) const
 {
   // two numbers of two particles at a time: 12 of four particles stay in registers
@@ -75,12 +70,9 @@ LSMNearPairs::Range LSMNearPairs::displacements(const double *x, size_t first, s
   return range;
 }
 
-/* ----------------------------------------------------------------------
-   No two particles have moved against each other by more than the range of all displacements. Those of this rank's
-   particles are looked at only when the sum of their longest moves would be too much; ghosts are few, and others
-   move them.
-------------------------------------------------------------------------- */
-
+// No two particles have moved against each other by more than the range of all displacements. Those of this rank's
+// particles are looked at only when the sum of their longest moves would be too much; ghosts are few, and others
+// move them.
 bool LSMNearPairs::outdated(const double *x, int nlocal, double farthest)
 {
   const Range ghosts = displacements(x, nlocal, held.size() / 3);
@@ -101,8 +93,6 @@ bool LSMNearPairs::outdated(const double *x, int nlocal, double farthest)
   return too_far();
 }
 
-/* ---------------------------------------------------------------------- */
-
 bool LSMNearPairs::is_due(bigint build, const NeighList &list, const double *x, int nlocal,
                           int count, double farthest)
 {
@@ -113,8 +103,6 @@ bool LSMNearPairs::is_due(bigint build, const NeighList &list, const double *x, 
   built = build;
   return true;
 }
-
-/* ---------------------------------------------------------------------- */
 
 void LSMNearPairs::choose(const NeighList &list, const double *x, const double *radius,
                           double reach, const int *const *touch)
@@ -146,10 +134,7 @@ void LSMNearPairs::choose(const NeighList &list, const double *x, const double *
   for (auto &of_a_step : vectors) of_a_step.resize(2 * pairs.size());
 }
 
-/* ----------------------------------------------------------------------
-   Distances along x and y are enough to leave out nearly all others in three dimensions, too.
-------------------------------------------------------------------------- */
-
+// Distances along x and y are enough to leave out nearly all others in three dimensions, too.
 void LSMNearPairs::find(const double *x)
 {
   const int n = static_cast<int>(pairs.size());

@@ -1,7 +1,5 @@
-/* -*- c++ -*- ----------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-   Pairs of a neighbor list that may touch soon
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Pairs of a neighbor list that may touch soon
 
 #ifndef LMP_LSM_NEAR_PAIRS_H
 #define LMP_LSM_NEAR_PAIRS_H
