@@ -14,7 +14,8 @@
 #include <stdexcept>
 
 #include "lsm_output_claim.h"
-#include "lsm_whole_number.h"
+#include "picker_options.h"
+#include "whole_number.h"
 
 namespace Slider {
 
@@ -117,7 +118,8 @@ void add_events(CLI::App &app, Settings &s) {
   app.add_option("--rupture-gap", s.rupture_gap,
                  "With --events ruptures: time for which a block at rest still connects, in "
                  "addition to one time step (time; ours)");
-  const LSM::PickerOptions::Added picker = s.picker.add_to(&app, events, "picker-");
+  s.picker.prefix = "picker-";
+  const LSM::AddedPickerOptions picker = LSM::add_picker_options(&app, s.picker, events);
   picker.reading->default_str("exponential");
   picker.lambda->default_str("from --picker-memory-time");
   picker.memory_time->default_str("1");

@@ -21,7 +21,7 @@ done
 fix=
 [ "${1:-}" = --fix ] && { fix=yes; shift; }
 if [ $# = 0 ]; then
-  mapfile -t files < <(find lammps-pkg slider postproc tests inputs -name '*.cpp' -o -name '*.h' | sort)
+  mapfile -t files < <(find cli lammps-pkg slider postproc tests inputs -name '*.cpp' -o -name '*.h' | sort)
   if [ ${#files[@]} -lt 50 ]; then
     echo "only ${#files[@]} C++ sources found in $PWD" >&2
     exit 1

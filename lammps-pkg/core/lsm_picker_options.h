@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file lsm_picker_options.h
-/// The options of the event picker on the command line, declared once for all programs that have
-/// CLI11.
+/// What a user may say about the event picker on the command line of a program.
 #ifndef LSM_PICKER_OPTIONS_H
 #define LSM_PICKER_OPTIONS_H
 
@@ -9,8 +8,6 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-
-#include <CLI/CLI.hpp>
 
 #include "lsm_event_picker.h"
 #include "lsm_text_io.h"
@@ -20,43 +17,10 @@ namespace LSM {
 /// What a user says about the picker; what he does not say is empty.
 class PickerOptions {
  public:
+  std::string prefix;  ///< between the dashes and the name of lambda and memory-time
   std::optional<std::string> reading;
   std::optional<double> lambda, memory_time, min_size;
   bool keep_nonpositive = false;
-
-  /// Options as they were added, for default texts and for what excludes them.
-  struct Added {
-    CLI::Option *reading, *lambda, *memory_time, *min_size, *keep_nonpositive;
-  };
-
-  /// Adds --picker and, with prefix between the dashes and the name, lambda and memory-time; and
-  /// --min-size, --keep-nonpositive.
-  Added add_to(CLI::App *command, const std::string &group, const std::string &prefix = "") {
-    lambda_name_ = "--" + prefix + "lambda";
-    time_name_ = "--" + prefix + "memory-time";
-    Added o;
-    o.reading = command->add_option(
-        "--picker", reading,
-        "Reading of the paper's formula for the smoothed change A of PE (x: change): exponential, "
-        "A "
-        "<- lambda A + (1 - lambda) x (ours, the default); average, A <- (x + lambda A) / (1 + "
-        "lambda) (ours); literal, A <- (x + lambda A) / (1 + lambda t) (paper, Sect. 4.1; t: index "
-        "of the change)");
-    o.lambda = command->add_option(lambda_name_, lambda,
-                                   "Leakiness per sample, 0 to less than 1 (paper: 0.99)");
-    o.memory_time = command->add_option(
-        time_name_, memory_time,
-        "Memory of the picker, lambda = exp(-interval of the samples / memory) (model time; ours)");
-    o.min_size = command->add_option(
-        "--min-size", min_size, "Events of smaller size are counted, not written (energy; ours)");
-    o.keep_nonpositive = command->add_flag("--keep-nonpositive", keep_nonpositive,
-                                           "Write events of size <= 0, too, whatever --min-size is "
-                                           "(ours); otherwise they are counted");
-    o.memory_time->excludes(o.lambda);
-    for (CLI::Option *option : {o.reading, o.lambda, o.memory_time, o.min_size, o.keep_nonpositive})
-      option->group(group);
-    return o;
-  }
 
   /// Whether the leakiness is said, in one way or another.
   bool says_lambda() const { return lambda || memory_time; }
@@ -69,14 +33,14 @@ class PickerOptions {
       fail("--picker", text_io::in_quotes(*reading), choices(settings.reading));
     if (lambda) {
       if (!(*lambda >= 0.0 && *lambda < 1.0))
-        fail(lambda_name_, shown(*lambda), "at least 0 and less than 1");
+        fail(lambda_name(), shown(*lambda), "at least 0 and less than 1");
       settings.lambda = *lambda;
     } else if (memory_time) {
       if (!std::isfinite(*memory_time) || !(*memory_time > 0.0))
-        fail(time_name_, shown(*memory_time), "a positive time");
+        fail(time_name(), shown(*memory_time), "a positive time");
       settings.lambda = lambda_from_memory_time(*memory_time, interval);
       if (!(settings.lambda < 1.0))
-        fail(time_name_, shown(*memory_time), "less than 1e16 intervals of the samples");
+        fail(time_name(), shown(*memory_time), "less than 1e16 intervals of the samples");
     }
     if (min_size) settings.min_size = *min_size;
     if (!std::isfinite(settings.min_size) || !(settings.min_size >= 0.0))
@@ -85,7 +49,8 @@ class PickerOptions {
     return settings;
   }
 
-  const std::string &time_name() const { return time_name_; }
+  std::string lambda_name() const { return "--" + prefix + "lambda"; }
+  std::string time_name() const { return "--" + prefix + "memory-time"; }
 
  private:
   [[noreturn]] static void fail(const std::string &option, const std::string &value,
@@ -97,8 +62,6 @@ class PickerOptions {
     std::snprintf(text, sizeof text, "%.10g", value);
     return text;
   }
-
-  std::string lambda_name_ = "--lambda", time_name_ = "--memory-time";
 };
 
 }  // namespace LSM

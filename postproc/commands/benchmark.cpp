@@ -1,37 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <limits>
-#include <memory>
 #include <sstream>
 #include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "benchmark_figure.h"
-#include "commands.h"
-#include "json_output.h"
+#include "command.h"
 #include "lsm_slip_history.h"
-#include "lsm_text_io.h"
 #include "numbers.h"
-#include "picture_options.h"
 
 namespace LSM::postproc {
 
 namespace {
-
-struct Options {
-  JsonOutput json;
-  std::vector<std::string> histories, references, curves, labels;
-  std::vector<double> stations;
-  double rate = 1.0, until = std::numeric_limits<double>::infinity();
-  bool lenient = false;
-  PictureOptions picture;
-};
 
 [[noreturn]] void refuse(const std::string &path, std::int64_t line, const std::string &what) {
   throw FileError(text_io::where(path, line) + what);
@@ -151,139 +132,138 @@ std::string cell(double value, const char *format) {
   return std::isnan(value) ? "-" : fmt::format(fmt::runtime(format), value);
 }
 
-void print_stations(const NamedCurves &run, const NamedCurves &reference,
-                    const std::vector<StationMisfit> &stations) {
-  fmt::print("\n{} against {}\n", run.name, reference.name);
-  fmt::print("{:>10} {:>9} {:>9} {:>8} {:>9} {:>9} {:>8} {:>8} {:>8} {:>8} {:>8}\n", "x", "arrival",
-             "ref.", "late", "slip", "ref.", "more %", "L2 %", "peak V", "ref.", "L2(V) %");
+std::string stations_text(const NamedCurves &run, const NamedCurves &reference,
+                          const std::vector<StationMisfit> &stations) {
+  std::string out = fmt::format("\n{} against {}\n", run.name, reference.name);
+  out += fmt::format("{:>10} {:>9} {:>9} {:>8} {:>9} {:>9} {:>8} {:>8} {:>8} {:>8} {:>8}\n", "x",
+                     "arrival", "ref.", "late", "slip", "ref.", "more %", "L2 %", "peak V", "ref.",
+                     "L2(V) %");
   for (const StationMisfit &m : stations)
-    fmt::print("{:10g} {:>9} {:>9} {:>8} {:9.4f} {:9.4f} {:8.3f} {:8.3f} {:8.3f} {:8.3f} {:8.2f}\n",
-               m.x, cell(m.arrival, "{:.4f}"), cell(m.reference_arrival, "{:.4f}"),
-               cell(m.arrival - m.reference_arrival, "{:.4f}"), m.end_slip, m.reference_end_slip,
-               100.0 * (m.end_slip / m.reference_end_slip - 1.0), 100.0 * m.slip_l2, m.peak,
-               m.reference_peak, 100.0 * m.rate_l2);
+    out += fmt::format(
+        "{:10g} {:>9} {:>9} {:>8} {:9.4f} {:9.4f} {:8.3f} {:8.3f} {:8.3f} {:8.3f} {:8.2f}\n", m.x,
+        cell(m.arrival, "{:.4f}"), cell(m.reference_arrival, "{:.4f}"),
+        cell(m.arrival - m.reference_arrival, "{:.4f}"), m.end_slip, m.reference_end_slip,
+        100.0 * (m.end_slip / m.reference_end_slip - 1.0), 100.0 * m.slip_l2, m.peak,
+        m.reference_peak, 100.0 * m.rate_l2);
+  return out;
 }
 
-void print_summary(const std::vector<std::pair<const NamedCurves *, MisfitSummary>> &runs,
-                   const std::string &reference) {
-  fmt::print("\nagainst {}, over all stations\n{:>24} {:>9} {:>16} {:>16} {:>12} {:>10} {:>10}\n",
-             reference, "run", "spacing", "arrival (max)", "slip % (max)", "L2(slip) %", "peak V %",
-             "L2(V) %");
+std::string summary_text(const std::vector<std::pair<const NamedCurves *, MisfitSummary>> &runs,
+                         const std::string &reference) {
+  std::string out = fmt::format(
+      "\nagainst {}, over all stations\n{:>24} {:>9} {:>16} {:>16} {:>12} {:>10} {:>10}\n",
+      reference, "run", "spacing", "arrival (max)", "slip % (max)", "L2(slip) %", "peak V %",
+      "L2(V) %");
   for (const auto &[run, s] : runs)
-    fmt::print("{:>24} {:9g} {:>7.4f} ({:>6.4f}) {:>7.3f} ({:>6.3f}) {:12.3f} {:10.2f} {:10.2f}\n",
-               run->name, run->spacing, s.arrival, s.largest_arrival, 100.0 * s.end_slip,
-               100.0 * s.largest_end_slip, 100.0 * s.slip_l2, 100.0 * s.peak, 100.0 * s.rate_l2);
+    out += fmt::format(
+        "{:>24} {:9g} {:>7.4f} ({:>6.4f}) {:>7.3f} ({:>6.3f}) {:12.3f} {:10.2f} {:10.2f}\n",
+        run->name, run->spacing, s.arrival, s.largest_arrival, 100.0 * s.end_slip,
+        100.0 * s.largest_end_slip, 100.0 * s.slip_l2, 100.0 * s.peak, 100.0 * s.rate_l2);
   for (std::size_t n = 1; n < runs.size(); ++n) {
     const auto &[a, coarse] = runs[n - 1];
     const auto &[b, fine] = runs[n];
     if (!(a->spacing > 0.0) || !(b->spacing > 0.0) || a->spacing == b->spacing) continue;
     const double h = a->spacing, k = b->spacing;
-    fmt::print("order from {:g} to {:g}: arrival {:.2f}, slip {:.2f}, L2(V) {:.2f}\n", h, k,
-               order(coarse.arrival, fine.arrival, h, k),
-               order(coarse.end_slip, fine.end_slip, h, k),
-               order(coarse.rate_l2, fine.rate_l2, h, k));
+    out += fmt::format("order from {:g} to {:g}: arrival {:.2f}, slip {:.2f}, L2(V) {:.2f}\n", h, k,
+                       order(coarse.arrival, fine.arrival, h, k),
+                       order(coarse.end_slip, fine.end_slip, h, k),
+                       order(coarse.rate_l2, fine.rate_l2, h, k));
   }
+  return out;
 }
 
-void run(Options &options) {
-  std::vector<std::string> inputs = options.histories;
-  inputs.insert(inputs.end(), options.references.begin(), options.references.end());
-  options.picture.check(inputs, {"-stations.csv"}, {options.json.output()});
-  options.json.check(inputs);
-  if (!options.labels.empty() && options.labels.size() != options.histories.size())
-    throw std::invalid_argument(
-        fmt::format("--label given {} times, expected once per history ({})", options.labels.size(),
-                    options.histories.size()));
-  BenchmarkCurves references;
-  for (const std::string &path : options.references) read_reference(path, references);
-  for (const std::string &given : options.curves) read_curve(given, references);
-  if (references.empty())
-    throw std::invalid_argument("no reference, expected --reference FILE or --curve X=FILE");
-  std::vector<NamedCurves> runs;
-  for (std::size_t n = 0; n < options.histories.size(); ++n)
-    runs.push_back(read_history(
-        options.histories[n], options.lenient,
-        options.labels.empty() ? std::filesystem::path(options.histories[n]).filename().string()
-                               : options.labels[n]));
-  std::stable_sort(runs.begin(), runs.end(), [](const NamedCurves &a, const NamedCurves &b) {
-    return a.spacing > b.spacing;
-  });
+class Benchmark : public Analysis {
+  std::vector<std::string> histories_, references_, curves_, labels_;
+  std::vector<double> stations_;
+  double rate_ = 1.0, until_ = std::numeric_limits<double>::infinity();
+  bool lenient_ = false;
 
-  Table table = misfit_table();
-  for (const NamedCurves &reference : references) {
-    std::vector<std::pair<const NamedCurves *, MisfitSummary>> summaries;
-    for (const NamedCurves &one : runs) {
-      std::vector<StationMisfit> stations;
-      for (const StationCurve &station : reference.stations) {
-        if (!options.stations.empty() && !near_one_of(options.stations, station.x)) continue;
-        const StationMisfit found =
-            misfit(at_place(one, station.x), station, options.rate, options.until);
-        if (!(found.reference_end_slip > 0.0)) continue;  // the reference has not come so far
-        stations.push_back(found);
-        add_misfit(table, one, reference.name, stations.back());
-      }
-      if (stations.empty())
-        throw std::invalid_argument(reference.name +
-                                    ": none of the places of --station slips in it");
-      print_stations(one, reference, stations);
-      summaries.emplace_back(&one, summary(stations));
+  const char *help() const override {
+    return "Compares ruptures, as slip histories of compute lsm/events, with curves of slip and "
+           "slip rate at places of the fault (ours): arrival times, slip at the end, peak slip "
+           "rate, relative L2 differences, and the order of convergence over histories of several "
+           "spacings. Slip is divided by the parameter 'scale' of the history's header. Writes the "
+           "numbers (BASE-stations.csv) and a picture of the curves and fronts";
+  }
+
+  void add_options(CLI::App *command) override {
+    json.add_to(command);
+    OptionGroup own(command), group(command, "Reference");
+    own.add("histories", histories_, "Slip histories, one run each", required());
+    own.add("--label", labels_,
+            "Name of a run, once per history and in their order (default: file name)");
+    group.add("--reference", references_,
+              "Table with the columns curve,x,t,slip,slip_rate; several curves of several places "
+              "in one file",
+              kind("FILE"), shown("none"));
+    group.add("--curve", curves_,
+              "X=FILE or NAME:X=FILE: columns time, slip, slip rate between blanks, at place X",
+              shown("none"));
+    group.add("--station", stations_,
+              "Places that are compared and drawn (default: all; drawn: up to six that all "
+              "references have)");
+    group.add("--arrival", rate_,
+              "Slip rate from which a place counts as reached, units of the reference", positive());
+    group.add("--until", until_, "End of the comparison (model time)", positive(),
+              shown("end of the shorter record"));
+    own.flag("--lenient", lenient_, "Drop a truncated last record");
+    add_picture(command, "benchmark");
+  }
+
+  std::vector<std::string> inputs() const override {
+    std::vector<std::string> inputs = histories_;
+    inputs.insert(inputs.end(), references_.begin(), references_.end());
+    return inputs;
+  }
+  std::vector<std::string> endings() const override { return {"-stations.csv"}; }
+
+  /// The places of a reference that are compared.
+  std::vector<StationMisfit> misfits(const NamedCurves &run, const NamedCurves &reference) const {
+    std::vector<StationMisfit> stations;
+    for (const StationCurve &station : reference.stations) {
+      if (!stations_.empty() && !near_one_of(stations_, station.x)) continue;
+      const StationMisfit found = misfit(at_place(run, station.x), station, rate_, until_);
+      // else the reference has not come so far
+      if (found.reference_end_slip > 0.0) stations.push_back(found);
     }
-    print_summary(summaries, reference.name);
+    if (stations.empty())
+      throw std::invalid_argument(reference.name + ": none of the places of --station slips in it");
+    return stations;
   }
-  const Figure figure =
-      benchmark_figure(runs, references, options.stations, options.rate, options.until);
-  table.write(options.picture.output + "-stations.csv");
-  make(figure, options.picture);
-  options.json.add("stations", table);
-  options.json.write();
-}
+
+  Findings find() override {
+    const std::vector<std::string> labels = labels_of(histories_, labels_, "history");
+    BenchmarkCurves references, runs;
+    for (const std::string &path : references_) read_reference(path, references);
+    for (const std::string &given : curves_) read_curve(given, references);
+    if (references.empty())
+      throw std::invalid_argument("no reference, expected --reference FILE or --curve X=FILE");
+    for (std::size_t n = 0; n < histories_.size(); ++n)
+      runs.push_back(read_history(histories_[n], lenient_, labels[n]));
+    std::stable_sort(runs.begin(), runs.end(), [](const NamedCurves &a, const NamedCurves &b) {
+      return a.spacing > b.spacing;
+    });
+
+    Findings found;
+    Table table = misfit_table();
+    for (const NamedCurves &reference : references) {
+      std::vector<std::pair<const NamedCurves *, MisfitSummary>> summaries;
+      for (const NamedCurves &run : runs) {
+        const std::vector<StationMisfit> stations = misfits(run, reference);
+        for (const StationMisfit &m : stations) add_misfit(table, run, reference.name, m);
+        found.say(stations_text(run, reference, stations));
+        summaries.emplace_back(&run, summary(stations));
+      }
+      found.say(summary_text(summaries, reference.name));
+    }
+    found.table("stations", std::move(table), "-stations");
+    found.figure("", benchmark_figure(runs, references, stations_, rate_, until_));
+    return found;
+  }
+};
 
 }  // namespace
 
-void add_benchmark(CLI::App &app) {
-  CLI::App *command = app.add_subcommand(
-      "benchmark",
-      "Compares ruptures, as slip histories of compute lsm/events, with curves of slip and slip "
-      "rate at places of the fault (ours): arrival times, slip at the end, peak slip rate, "
-      "relative L2 differences, and the order of convergence over histories of several spacings. "
-      "Slip is divided by the parameter 'scale' of the history's header. Writes the numbers "
-      "(BASE-stations.csv) and a picture of the curves and fronts");
-  auto options = std::make_shared<Options>();
-  options->json.add_to(command);
-  command->add_option("histories", options->histories, "Slip histories, one run each")->required();
-  command->add_option("--label", options->labels,
-                      "Name of a run, once per history and in their order (default: file name)");
-  const std::string group = "Reference";
-  command
-      ->add_option("--reference", options->references,
-                   "Table with the columns curve,x,t,slip,slip_rate; several curves of several "
-                   "places in one file")
-      ->type_name("FILE")
-      ->default_str("none")
-      ->group(group);
-  command
-      ->add_option(
-          "--curve", options->curves,
-          "X=FILE or NAME:X=FILE: columns time, slip, slip rate between blanks, at place X")
-      ->default_str("none")
-      ->group(group);
-  command
-      ->add_option("--station", options->stations,
-                   "Places that are compared and drawn (default: all; drawn: up to six that all "
-                   "references have)")
-      ->group(group);
-  command
-      ->add_option("--arrival", options->rate,
-                   "Slip rate from which a place counts as reached, units of the reference")
-      ->check(CLI::PositiveNumber)
-      ->group(group);
-  command->add_option("--until", options->until, "End of the comparison (model time)")
-      ->check(CLI::PositiveNumber)
-      ->default_str("end of the shorter record")
-      ->group(group);
-  command->add_flag("--lenient", options->lenient, "Drop a truncated last record");
-  add_picture_options(command, options->picture, "benchmark");
-  command->callback([options] { run(*options); });
-}
+std::shared_ptr<Command> make_benchmark() { return std::make_shared<Benchmark>(); }
 
 }  // namespace LSM::postproc

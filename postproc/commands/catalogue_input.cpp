@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <map>
-#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -14,81 +12,14 @@
 
 #include "input_file.h"
 #include "lsm_text_io.h"
-#include "option_values.h"
 
 namespace LSM::postproc {
 
-void CatalogueOptions::add_to(CLI::App *command) {
-  const std::string group = "Catalogues";
-  command
-      ->add_option(
-          "catalogues", paths,
-          "Catalogue files, one curve each: of either model, as written by compute lsm/events, "
-          "slider_cli or postproc pick; or of earthquakes (ComCat CSV, QuakeML, ZMAP, SCEDC), with "
-          "times in days since 1970 UTC and sizes 10^(1.5 M)")
-      ->required()
-      ->type_name("FILE")
-      ->default_str("")
-      ->group(group);
-  command
-      ->add_option("--label", labels,
-                   "Name of a curve, once per catalogue and in their order (default: the model and "
-                   "its length or number of blocks, from the header)")
-      ->type_name("TEXT")
-      ->default_str("")
-      ->group(group);
-  command
-      ->add_flag(
-          "--lenient", lenient,
-          "Pass over lines that cannot be read (truncated last line, missing columns, NaN, "
-          "events out of order), count them and report this on standard error; without it the "
-          "first of them is an error. A wrong version or header is always one")
-      ->group(group);
-  command
-      ->add_option("--min-size", min_size,
-                   "Leave out events smaller than this (energy; M2.5: magnitude 2.5)")
-      ->transform(size_or_magnitude())
-      ->group(group);
-  command
-      ->add_option_function<double>(
-          "--min-magnitude",
-          [this](const double &magnitude) { min_size = size_of_magnitude(magnitude); },
-          "The same as a magnitude")
-      ->excludes("--min-size")
-      ->default_str("")
-      ->group(group);
-  add_time(command, "--from", from_time, from_day,
-           "Leave out events that start before this time, e.g. the warm-up (model time; of "
-           "earthquakes a date by ISO 8601, such as 1984-01-01 or 1984-01-01T12:00Z)");
-  add_time(command, "--to", to_time, to_day,
-           "Leave out events that start at this time or later (as --from)");
-  command
-      ->add_option("--format", format,
-                   "What the files are: detect (by their begin: '<' is quakeml, "
-                   "'# lsm-catalogue' "
-                   "models, column names with time and mag csv, YYYY/MM/DD scedc, nine numbers "
-                   "zmap), or one of these. Of earthquakes only events of that type are used; "
-                   "blasts and others are counted on standard error")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, CatalogueFormat>{{"detect", CatalogueFormat::detect},
-                                                 {"models", CatalogueFormat::models},
-                                                 {"csv", CatalogueFormat::csv},
-                                                 {"quakeml", CatalogueFormat::quakeml},
-                                                 {"zmap", CatalogueFormat::zmap},
-                                                 {"scedc", CatalogueFormat::scedc}}))
-      ->default_str("detect")
-      ->group(group);
-  command
-      ->add_option("--region", regions,
-                   "Earthquakes within W/E/S/N only (degrees); several: a curve for each")
-      ->allow_extra_args(false)
-      ->type_name("W/E/S/N")
-      ->default_str("")
-      ->group(group);
-}
+namespace {
 
-void CatalogueOptions::add_time(CLI::App *command, const char *option, double &time, double &day,
-                                const std::string &help) {
+/// Adds --from or --to: a number is a model time, a date that of earthquakes.
+void add_time(OptionGroup group, const char *option, double &time, double &day,
+              const std::string &help) {
   const auto read = [option, &time, &day](const std::vector<std::string> &texts) {
     for (const std::string &text : texts) {
       const std::optional<double> date = parse_date(text);
@@ -100,22 +31,61 @@ void CatalogueOptions::add_time(CLI::App *command, const char *option, double &t
             text_io::in_quotes(text)));
     }
   };
-  command
-      ->add_option_function<std::vector<std::string>>(option, read,
-                                                      help + "; may be given once for each")
-      ->allow_extra_args(false)
-      ->type_name("TIME")
-      ->default_str(time < 0.0 ? "start" : "end")
-      ->group("Catalogues");
+  group.texts(option, read, help + "; may be given once for each",
+              {one_each(), kind("TIME"), shown(time < 0.0 ? "start" : "end")});
+}
+
+}  // namespace
+
+void CatalogueOptions::add_to(CLI::App *command) {
+  OptionGroup group(command, "Catalogues");
+  group.add("catalogues", paths,
+            "Catalogue files, one curve each: of either model, as written by compute lsm/events, "
+            "slider_cli or postproc pick; or of earthquakes (ComCat CSV, QuakeML, ZMAP, SCEDC), "
+            "with times in days since 1970 UTC and sizes 10^(1.5 M)",
+            required(), kind("FILE"), shown(""));
+  group.add("--label", labels,
+            "Name of a curve, once per catalogue and in their order (default: the model and its "
+            "length or number of blocks, from the header)",
+            kind("TEXT"), shown(""));
+  group.flag("--lenient", lenient,
+             "Pass over lines that cannot be read (truncated last line, missing columns, NaN, "
+             "events out of order), count them and report this on standard error; without it the "
+             "first of them is an error. A wrong version or header is always one");
+  CLI::Option *const smallest = group.add(
+      "--min-size", min_size, "Leave out events smaller than this (energy; M2.5: magnitude 2.5)",
+      size_or_magnitude());
+  group.call(
+      "--min-magnitude", [this](double magnitude) { min_size = size_of_magnitude(magnitude); },
+      "The same as a magnitude", shown(""), excludes(smallest));
+  add_time(group, "--from", from_time, from_day,
+           "Leave out events that start before this time, e.g. the warm-up (model time; of "
+           "earthquakes a date by ISO 8601, such as 1984-01-01 or 1984-01-01T12:00Z)");
+  add_time(group, "--to", to_time, to_day,
+           "Leave out events that start at this time or later (as --from)");
+  group.choice<CatalogueFormat>(
+      "--format", format,
+      {{"detect", CatalogueFormat::detect},
+       {"models", CatalogueFormat::models},
+       {"csv", CatalogueFormat::csv},
+       {"quakeml", CatalogueFormat::quakeml},
+       {"zmap", CatalogueFormat::zmap},
+       {"scedc", CatalogueFormat::scedc}},
+      "What the files are: detect (by their begin: '<' is quakeml, '# lsm-catalogue' models, "
+      "column names with time and mag csv, YYYY/MM/DD scedc, nine numbers zmap), or one of these. "
+      "Of earthquakes only events of that type are used; blasts and others are counted on standard "
+      "error",
+      "detect");
+  group.add("--region", regions,
+            "Earthquakes within W/E/S/N only (degrees); several: a curve for each", one_each(),
+            kind("W/E/S/N"), shown(""));
 }
 
 void CatalogueOptions::add_displacement(CLI::App *command) {
-  command
-      ->add_flag("--displacement", displacement,
-                 "Times as the way of the driving plate, model time times the 'velocity' in the "
-                 "header, also those of --from and --to: for catalogues of different driving "
-                 "velocities (ours)")
-      ->group("Catalogues");
+  OptionGroup(command, "Catalogues")
+      .flag("--displacement", displacement,
+            "Times as the way of the driving plate, model time times the 'velocity' in the header, "
+            "also those of --from and --to: for catalogues of different driving velocities (ours)");
 }
 
 namespace {
@@ -138,30 +108,9 @@ std::string label_of(const EventTable &table) {
                                    : fmt::format("block-slider, N = {}", length);
 }
 
-// Times between events are reckoned from start to start, but ruptures come in order of their ends.
-void sort_by_start(EventTable &table) {
-  std::vector<std::size_t> order(table.size.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&table](std::size_t i, std::size_t j) {
-    return table.t_start[i] < table.t_start[j];
-  });
-  for (std::vector<double> *column :
-       {&table.t_start, &table.t_end, &table.size, &table.begin, &table.extent}) {
-    if (column->empty()) continue;
-    std::vector<double> sorted;
-    sorted.reserve(order.size());
-    for (const std::size_t i : order) sorted.push_back((*column)[i]);
-    *column = std::move(sorted);
-  }
-}
-
 }  // namespace
 
 namespace {
-
-CLI::Option *as_threshold(CLI::Option *option) {
-  return option->transform(size_or_magnitude())->check(zero_or_more())->default_str("1e-4");
-}
 
 std::string threshold_help(const std::string &what, const std::string &more) {
   return "Smallest size of " + what + " (model energy; M2.5: magnitude 2.5)" + more +
@@ -171,17 +120,25 @@ std::string threshold_help(const std::string &what, const std::string &more) {
 
 }  // namespace
 
-CLI::Option *add_threshold(CLI::App *command, Threshold &threshold, const std::string &what) {
-  return as_threshold(command->add_option_function<double>(
-      "--threshold", [&threshold](const double &size) { threshold = Threshold(size); },
-      threshold_help(what, "")));
+void add_threshold(OptionGroup group, Threshold &threshold, const std::string &what) {
+  group.call(
+      "--threshold", [&threshold](double size) { threshold = Threshold(size); },
+      threshold_help(what, ""), size_or_magnitude(), zero_or_more(), shown("1e-4"));
 }
 
-CLI::Option *add_thresholds(CLI::App *command, std::vector<double> &thresholds,
-                            const std::string &what) {
-  return as_threshold(
-      command->add_option("--threshold", thresholds, threshold_help(what, ", several allowed"))
-          ->allow_extra_args(false));
+void add_thresholds(OptionGroup group, std::vector<double> &thresholds, const std::string &what) {
+  group.add("--threshold", thresholds, threshold_help(what, ", several allowed"), one_each(),
+            size_or_magnitude(), zero_or_more(), shown("1e-4"));
+}
+
+void set_parameter(text_io::Parameters &parameters, const std::string &key,
+                   const std::string &value) {
+  for (auto &[name, old] : parameters)
+    if (name == key) {
+      old = value;
+      return;
+    }
+  parameters.emplace_back(key, value);
 }
 
 void check(const CatalogueOptions &options) {
@@ -310,23 +267,21 @@ EventTable read_events(const std::string &path, const CatalogueOptions &options,
                                            : read_earthquake_events(*bytes, format, options, use);
 }
 
+EventTable read_all(const std::string &path, const CatalogueOptions &options) {
+  std::vector<Event> events;
+  EventTable table =
+      read_events(path, options, [&events](const Event &event) { events.push_back(event); });
+  table.events = std::move(events);
+  return table;
+}
+
 EventTable load_catalogue(const std::string &path, const CatalogueOptions &options) {
-  EventTable columns;
-  EventTable table = read_events(path, options, [&columns](const Event &event) {
-    columns.t_start.push_back(event.t_start);
-    columns.t_end.push_back(event.t_end);
-    columns.size.push_back(event.size);
-    columns.begin.push_back(event.x_begin);
-    columns.extent.push_back(event.rupture_length);
-  });
-  table.t_start = std::move(columns.t_start);
-  table.t_end = std::move(columns.t_end);
-  table.size = std::move(columns.size);
-  if (table.info.x_begin && table.info.rupture_length) {
-    table.begin = std::move(columns.begin);
-    table.extent = std::move(columns.extent);
-  }
-  if (table.info.overlapping()) sort_by_start(table);
+  EventTable table = read_all(path, options);
+  // Times between events are from start to start, but those that overlap are in order of their
+  // ends.
+  if (table.info.overlapping())
+    std::stable_sort(table.events.begin(), table.events.end(),
+                     [](const Event &a, const Event &b) { return a.t_start < b.t_start; });
   return table;
 }
 
@@ -377,8 +332,7 @@ std::vector<EventTable> load_catalogues(const CatalogueOptions &options) {
   for (std::size_t i = 0; i < options.labels.size(); ++i) tables[i].label = options.labels[i];
   for (std::size_t i = 0; i < tables.size(); ++i) {
     for (const EventTable &other : tables) {
-      if (other.info.model != tables[i].info.model ||
-          other.info.overlapping() != tables[i].info.overlapping() ||
+      if (other.info.model != tables[i].info.model || other.kind() != tables[i].kind() ||
           !(other.completeness > tables[i].completeness))
         continue;
       tables[i].completeness = other.completeness;

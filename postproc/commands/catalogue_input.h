@@ -4,8 +4,6 @@
 #ifndef LSM_POSTPROC_CATALOGUE_INPUT_H
 #define LSM_POSTPROC_CATALOGUE_INPUT_H
 
-#include <CLI/CLI.hpp>
-#include <cstdint>
 #include <functional>
 #include <limits>
 #include <string>
@@ -14,6 +12,7 @@
 #include "earthquakes.h"
 #include "event_table.h"
 #include "lsm_catalogue.h"
+#include "options.h"
 
 namespace LSM::postproc {
 
@@ -36,25 +35,26 @@ struct CatalogueOptions {
   void add_to(CLI::App *command);
   /// Adds --displacement to a command that says nothing about the unit of its times.
   void add_displacement(CLI::App *command);
-
- private:
-  void add_time(CLI::App *command, const char *option, double &time, double &day,
-                const std::string &help);
 };
 
 /// Adds --threshold. \param what beside "smallest size of"
-CLI::Option *add_threshold(CLI::App *command, Threshold &threshold, const std::string &what);
+void add_threshold(OptionGroup group, Threshold &threshold, const std::string &what);
 /// The same, given once or several times.
-CLI::Option *add_thresholds(CLI::App *command, std::vector<double> &thresholds,
-                            const std::string &what);
+void add_thresholds(OptionGroup group, std::vector<double> &thresholds, const std::string &what);
+
+/// Changes a parameter of a header, or adds it at the end.
+void set_parameter(text_io::Parameters &parameters, const std::string &key,
+                   const std::string &value);
 
 /// Gives each event of a catalogue that the options choose to use, which need not keep it; returns
-/// the table without the columns. \throws FileError "file:line: what, expected ..."
+/// the table without events. \throws FileError "file:line: what, expected ..."
 EventTable read_events(const std::string &path, const CatalogueOptions &options,
                        const std::function<void(const Event &)> &use);
 
-/// Reads one catalogue; of earthquakes those in the first region. \throws FileError
-/// "file:line: what, expected ..."
+/// Reads one catalogue; of earthquakes those in the first region. Events are in the order of the
+/// file. \throws FileError "file:line: what, expected ..."
+EventTable read_all(const std::string &path, const CatalogueOptions &options);
+/// The same in order of the starts of events.
 EventTable load_catalogue(const std::string &path, const CatalogueOptions &options);
 
 /// \throws std::invalid_argument for impossible times, sizes or numbers of labels.

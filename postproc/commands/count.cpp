@@ -1,107 +1,97 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include <algorithm>
 #include <cmath>
-#include <limits>
-#include <memory>
-#include <string>
-#include <vector>
 
 #include <fmt/format.h>
 
-#include "catalogue_input.h"
-#include "commands.h"
-#include "json_output.h"
+#include "command.h"
 #include "numbers.h"
-#include "option_values.h"
-#include "plot.h"
 
 namespace LSM::postproc {
 
 namespace {
 
-struct Options {
-  CatalogueOptions catalogues;
-  JsonOutput json;
-  std::vector<double> sizes = {1e-4, 1e-3, 1e-2, 1e-1};
-  std::int64_t brief = 0;
-};
+/// Reads catalogues event by event: of all commands this one is for any number of events.
+class Count : public Analysis {
+  CatalogueOptions catalogues_;
+  std::vector<double> sizes_ = {1e-4, 1e-3, 1e-2, 1e-1};
+  std::int64_t brief_ = 0;
 
-/// Events of one catalogue from a size on.
-struct Count {
-  double size = 0.0;
-  std::int64_t events = 0, brief = 0;
-  double released = 0.0;
-};
+  /// Events of one catalogue from a size on.
+  struct From {
+    double size = 0.0;
+    std::int64_t events = 0, brief = 0;
+    double released = 0.0;
+  };
 
-void run(Options &options) {
-  options.json.check(options.catalogues.paths);
-  check(options.catalogues);
-  std::sort(options.sizes.begin(), options.sizes.end());
-  Table catalogues({"label", "events", "first_start", "last_start", "last_end", "last_step",
-                    "largest", "share_in_events"});
-  Table sizes({"label", "size", "events", "brief", "released", "mean_time"});
-  const bool labelled = !options.catalogues.labels.empty();
-  for (std::size_t i = 0; i < options.catalogues.paths.size(); ++i) {
-    std::vector<Count> counts;
-    for (const double size : options.sizes) counts.push_back({size});
-    std::int64_t events = 0, last_step = 0;
-    double first = std::numeric_limits<double>::quiet_NaN(), last = first, largest = first;
-    EventTable table =
-        read_events(options.catalogues.paths[i], options.catalogues, [&](const Event &event) {
-          if (events++ == 0) first = event.t_start;
-          last = event.t_start;
-          last_step = event.step_end;
-          largest = std::fmax(largest, event.size);
-          for (Count &count : counts)
-            if (event.size >= count.size) {
-              ++count.events;
-              count.brief += event.step_end - event.step_start <= options.brief;
-              count.released += event.size;
-            }
-        });
-    state_repairs(table);
-    const std::string label = labelled ? options.catalogues.labels[i] : table.label;
-    const double nan = std::numeric_limits<double>::quiet_NaN();
-    const double span = table.last_end - first;
-    const double share = table.info.overlapping() ? nan : table.in_events / span;
-    catalogues.add(label).add(events).add(first).add(last);
-    catalogues.add(table.last_end).add(last_step).add(largest).add(share);
-    catalogues.end_row();
-    fmt::print("{}: {} events, {} of the time, steps up to {}\n", label, events,
-               short_number(share), last_step);
-    for (const Count &count : counts) {
-      const double mean = span / static_cast<double>(count.events);
-      sizes.add(label).add(count.size).add(count.events).add(count.brief).add(count.released);
-      sizes.add(count.events > 0 ? mean : nan).end_row();
-      fmt::print("  from {}: {} events, sizes in all {}\n", short_number(count.size), count.events,
-                 short_number(count.released));
-    }
+  const char *help() const override {
+    return "Number of events above several sizes, the total energy that these release, and the "
+           "share of the time that events last (ours)";
   }
-  options.json.add("catalogues", catalogues);
-  options.json.add("sizes", sizes);
-  options.json.write();
-}
+
+  void add_options(CLI::App *command) override {
+    catalogues_.add_to(command);
+    catalogues_.add_displacement(command);
+    json.add_to(command);
+    OptionGroup group(command);
+    group.add("--size", sizes_, "Smallest size (model energy), several allowed", one_each(),
+              zero_or_more());
+    group.add("--brief", brief_,
+              "Events of at most so many steps are counted as brief, too: at time steps that are "
+              "too large, bursts of numbers gone wrong",
+              zero_or_more());
+  }
+
+  std::vector<std::string> inputs() const override { return catalogues_.paths; }
+
+  Findings find() override {
+    check(catalogues_);
+    std::sort(sizes_.begin(), sizes_.end());
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    Table catalogues(
+        "label,events,first_start,last_start,last_end,last_step,largest,"
+        "share_in_events");
+    Table sizes("label,size,events,brief,released,mean_time");
+    Findings found;
+    for (std::size_t i = 0; i < catalogues_.paths.size(); ++i) {
+      std::vector<From> counts;
+      for (const double size : sizes_) counts.push_back({size});
+      std::int64_t events = 0, last_step = 0;
+      double first = nan, last = nan, largest = nan;
+      const EventTable table =
+          read_events(catalogues_.paths[i], catalogues_, [&](const Event &event) {
+            if (events++ == 0) first = event.t_start;
+            last = event.t_start;
+            last_step = event.step_end;
+            largest = std::fmax(largest, event.size);
+            for (From &from : counts) {
+              if (event.size < from.size) break;
+              ++from.events;
+              from.brief += event.step_end - event.step_start <= brief_;
+              from.released += event.size;
+            }
+          });
+      state_repairs(table);
+      const std::string label = catalogues_.labels.empty() ? table.label : catalogues_.labels[i];
+      const double span = table.last_end - first;
+      const double share = table.info.overlapping() ? nan : table.in_events / span;
+      catalogues.row(label, events, first, last, table.last_end, last_step, largest, share);
+      found.say(fmt::format("{}: {} events, {} of the time, steps up to {}\n", label, events,
+                            short_number(share), last_step));
+      for (const From &from : counts) {
+        const double mean = from.events > 0 ? span / static_cast<double>(from.events) : nan;
+        sizes.row(label, from.size, from.events, from.brief, from.released, mean);
+        found.say(fmt::format("  from {}: {} events, sizes in all {}\n", short_number(from.size),
+                              from.events, short_number(from.released)));
+      }
+    }
+    found.numbers("catalogues", catalogues);
+    found.numbers("sizes", sizes);
+    return found;
+  }
+};
 
 }  // namespace
 
-void add_count(CLI::App &app) {
-  CLI::App *command =
-      app.add_subcommand("count",
-                         "Number of events above several sizes, the total energy that these "
-                         "release, and the share of the time that events last (ours)");
-  auto options = std::make_shared<Options>();
-  options->catalogues.add_to(command);
-  options->catalogues.add_displacement(command);
-  options->json.add_to(command);
-  command->add_option("--size", options->sizes, "Smallest size (model energy), several allowed")
-      ->allow_extra_args(false)
-      ->check(zero_or_more());
-  command
-      ->add_option("--brief", options->brief,
-                   "Events of at most so many steps are counted as brief, too: at time steps that "
-                   "are too large, bursts of numbers gone wrong")
-      ->check(zero_or_more());
-  command->callback([options] { run(*options); });
-}
+std::shared_ptr<Command> make_count() { return std::make_shared<Count>(); }
 
 }  // namespace LSM::postproc

@@ -2,16 +2,14 @@
 // postproc: from catalogues and potential energy series to the paper's figures and Table 1.
 #include <unistd.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <exception>
-#include <string>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "commands.h"
+#include "command.h"
 #include "replicas.h"
 
 namespace {
@@ -76,11 +74,12 @@ int main(int argc, char **argv) {
     app.require_subcommand(1);
     app.option_defaults()->always_capture_default();
     app.get_formatter()->column_width(34);
-    for (const auto add :
-         {add_pick, add_series, add_histograms, add_intervals, add_fit, add_magnitudes,
-          add_aftershocks, add_count, add_match, add_compare, add_nature, add_spectrum, add_export,
-          add_select, add_report, add_rupture, add_explore, add_benchmark, add_summary})
-      add(app);
+    const auto commands = all_commands();
+    for (const auto &[name, command] : commands) {
+      CLI::App *const sub = app.add_subcommand(name, command->help());
+      command->add_options(sub);
+      sub->callback([command = command] { command->run(); });
+    }
     try {
       app.parse(argc, argv);
     } catch (const CLI::Success &e) {

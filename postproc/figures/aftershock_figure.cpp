@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "aftershock_figure.h"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -47,50 +46,30 @@ std::string aftershocks_text(const std::vector<AftershockCurve> &curves) {
 }
 
 Table aftershocks_csv(const std::vector<AftershockCurve> &curves) {
-  Table table({"model",
-               "main_size",
-               "least_size",
-               "window",
-               "first",
-               "main_shocks",
-               "events",
-               "constant",
-               "constant_error",
-               "p",
-               "p_error",
-               "c",
-               "c_error",
-               "K",
-               "K_error",
-               "background",
-               "background_error",
-               "likelihood_ratio",
-               "poisson_p",
-               "label",
-               "degenerate",
-               "before"});
+  Table table(
+      "model,main_size,least_size,window,first,main_shocks,events,constant,"
+      "constant_error,p,p_error,c,c_error,K,K_error,background,background_error,"
+      "likelihood_ratio,poisson_p,label,degenerate,before");
   table.comment("before: events as long before the main shocks");
   table.comment("n(t) = K (t + c)^-p + background after the end of a main shock, model time");
   table.comment("poisson_p: share of Poisson catalogues whose likelihood ratio is as large");
   for (const AftershockCurve &curve : curves) {
     const Aftershocks &a = curve.aftershocks;
-    table.add(curve.model).add(a.rule.main_size).add(a.rule.least_size).add(a.rule.window);
-    table.add(a.rule.first).add(a.sequences.main_shocks).add(a.fit.n);
-    for (const double value :
-         {a.fit.constant, a.fit.se_constant, a.fit.p, a.fit.se_p, a.fit.c, a.fit.se_c, a.fit.K,
-          a.fit.se_K, a.fit.background, a.fit.se_background, a.fit.likelihood_ratio, a.p})
-      table.add(value);
-    table.add(curve.label).add(a.fit.why);
-    table.add(static_cast<std::int64_t>(a.sequences.before.size())).end_row();
+    const OmoriFit &f = a.fit;
+    table.row(curve.model, a.rule.main_size, a.rule.least_size, a.rule.window, a.rule.first,
+              a.sequences.main_shocks, f.n, f.constant, f.se_constant, f.p, f.se_p, f.c, f.se_c,
+              f.K, f.se_K, f.background, f.se_background, f.likelihood_ratio, a.p, curve.label,
+              f.why, a.sequences.before.size());
   }
   return table;
 }
 
 Figure aftershock_figure(const std::vector<AftershockCurve> &curves) {
-  Figure figure{Table({"curve", "model", "bin_lo", "bin_hi", "time", "count", "rate", "error",
-                       "poisson_rate", "poisson_scatter", "label", "before"}),
-                {},
-                {}};
+  Figure figure{
+      Table("curve,model,bin_lo,bin_hi,time,count,rate,error,poisson_rate,poisson_scatter,"
+            "label,before"),
+      {},
+      {}};
   figure.table.comment(
       "rate of events per main shock and model time, from the end of the main shock");
   figure.table.comment("before: events as long before the start of a main shock, by their ends");
@@ -105,9 +84,8 @@ Figure aftershock_figure(const std::vector<AftershockCurve> &curves) {
     if (a.bins.empty()) continue;
     ++number;
     for (const RateBin &bin : a.bins) {
-      figure.table.add(number).add(curve.model).add(bin.lo).add(bin.hi).add(bin.centre);
-      figure.table.add(bin.count).add(bin.rate).add(bin.error).add(bin.poisson).add(bin.scatter);
-      figure.table.add(curve.label).add(bin.before).end_row();
+      figure.table.row(number, curve.model, bin.lo, bin.hi, bin.centre, bin.count, bin.rate,
+                       bin.error, bin.poisson, bin.scatter, curve.label, bin.before);
       times.add(bin.lo);
       times.add(bin.hi);
       if (bin.count > 0) rates.add(bin.rate);

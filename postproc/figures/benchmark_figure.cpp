@@ -38,17 +38,15 @@ StationCurve at_place(const NamedCurves &run, double x) {
 }
 
 Table misfit_table() {
-  return Table({"run", "spacing", "reference", "x", "arrival", "reference_arrival", "end_slip",
-                "reference_end_slip", "slip_l2", "peak_rate", "reference_peak_rate", "rate_l2"});
+  return Table(
+      "run,spacing,reference,x,arrival,reference_arrival,end_slip,reference_end_slip,"
+      "slip_l2,peak_rate,reference_peak_rate,rate_l2");
 }
 
 void add_misfit(Table &table, const NamedCurves &run, const std::string &reference,
                 const StationMisfit &m) {
-  table.add(run.name).add(run.spacing).add(reference);
-  for (const double value : {m.x, m.arrival, m.reference_arrival, m.end_slip, m.reference_end_slip,
-                             m.slip_l2, m.peak, m.reference_peak, m.rate_l2})
-    table.add(value);
-  table.end_row();
+  table.row(run.name, run.spacing, reference, m.x, m.arrival, m.reference_arrival, m.end_slip,
+            m.reference_end_slip, m.slip_l2, m.peak, m.reference_peak, m.rate_l2);
 }
 
 namespace {
@@ -83,17 +81,12 @@ double tick(double most) {
 
 void add_curve(Table &table, std::int64_t number, const StationCurve &curve, double until) {
   for (std::size_t n = 0; n < curve.t.size() && curve.t[n] <= until; ++n)
-    table.add(number).add(curve.x).add(curve.t[n]).add(curve.slip[n]).add(curve.rate[n]).end_row();
+    table.row(number, curve.x, curve.t[n], curve.slip[n], curve.rate[n]);
 }
 
 void add_front(Table &table, std::int64_t number, const NamedCurves &curves, double rate) {
   for (const StationCurve &station : curves.stations)
-    table.add(-number)
-        .add(station.x)
-        .add(arrival(station, rate))
-        .add(std::nan(""))
-        .add(std::nan(""))
-        .end_row();
+    table.row(-number, station.x, arrival(station, rate), std::nan(""), std::nan(""));
 }
 
 /// Elements of a plot command: all curves at a place, or their fronts.
@@ -124,7 +117,7 @@ std::string plots(const BenchmarkCurves &runs, const BenchmarkCurves &references
 Figure benchmark_figure(const BenchmarkCurves &runs, const BenchmarkCurves &references,
                         const std::vector<double> &places, double rate, double until) {
   const std::vector<double> shown = places.empty() ? common_places(references) : places;
-  Table table({"number", "x", "t", "slip", "slip_rate"});
+  Table table("number,x,t,slip,slip_rate");
   table.comment("number n > 0: curve n at x; -n: arrival of curve n at x");
   std::int64_t number = 1;
   double end = 0.0;

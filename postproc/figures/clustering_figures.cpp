@@ -59,7 +59,7 @@ bool has_clustering(const IntervalCurve &curve) {
 
 Figure rate_figure(const std::vector<IntervalCurve> &curves) {
   const std::vector<const IntervalCurve *> rows = drawn(curves);
-  Figure figure{Table({"curve", "kind", "time", "to", "count", "departure", "label"}),
+  Figure figure{Table("curve,kind,time,to,count,departure,label"),
                 "set multiplot\n",
                 {900, row_height * static_cast<int>(rows.size())}};
   figure.table.comment(
@@ -76,15 +76,13 @@ Figure rate_figure(const std::vector<IntervalCurve> &curves) {
       const double time = i == points ? to : from + (to - from) * i / points;
       const auto count = static_cast<std::int64_t>(
           std::upper_bound(starts.begin(), starts.end(), time) - starts.begin());
-      figure.table.add(number).add("count").add(shown_time(curve, time)).add(nan).add(count);
-      figure.table.add(nan).add(curve.label).end_row();
+      figure.table.row(number, "count", shown_time(curve, time), nan, count, nan, curve.label);
     }
     std::string bands = "unset object\nunset label\n";
     int band = 0;
     for (const Stretch &one : curve.steadiness.steady) {
       const double left = shown_time(curve, one.from), right = shown_time(curve, one.to);
-      figure.table.add(number).add("steady").add(left).add(right).add(one.n).add(one.departure);
-      figure.table.add(curve.label).end_row();
+      figure.table.row(number, "steady", left, right, one.n, one.departure, curve.label);
       ++band;
       bands += fmt::format(
           "set object {0} rect from {1}, graph 0 to {2}, graph 1 fc rgb '#009e73' fs solid 0.18 "
@@ -119,10 +117,9 @@ Figure rate_figure(const std::vector<IntervalCurve> &curves) {
 
 Figure conditional_figure(const std::vector<IntervalCurve> &curves) {
   const std::vector<const IntervalCurve *> rows = drawn(curves);
-  Figure figure{
-      Table({"curve", "kind", "part", "x", "y", "error", "random", "random_deviation", "label"}),
-      "set multiplot\n" + std::string(error_bar_function),
-      {900, (row_height + 50) * static_cast<int>(rows.size())}};
+  Figure figure{Table("curve,kind,part,x,y,error,random,random_deviation,label"),
+                "set multiplot\n" + std::string(error_bar_function),
+                {900, (row_height + 50) * static_cast<int>(rows.size())}};
   figure.table.comment(
       "density: of the times over their mean that follow the shortest (part 1), middle (2) and "
       "longest (3) third of the times; mean: of those that follow each eighth, over the mean, "
@@ -130,23 +127,20 @@ Figure conditional_figure(const std::vector<IntervalCurve> &curves) {
   const auto add = [&figure](std::int64_t curve, const char *kind, std::size_t part, double x,
                              double y, double error, double random, double deviation,
                              const std::string &label) {
-    figure.table.add(curve).add(kind).add(static_cast<std::int64_t>(part)).add(x).add(y).add(error);
-    figure.table.add(random).add(deviation).add(label).end_row();
+    figure.table.row(curve, kind, part, x, y, error, random, deviation, label);
   };
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const IntervalCurve &curve = *rows[k];
     const auto number = static_cast<std::int64_t>(k + 1);
-    double lowest = std::numeric_limits<double>::infinity(), highest = 0.0, left = lowest,
-           right = 0.0;
+    Extent times, heights;
     for (std::size_t third = 0; third < thirds; ++third)
       for (const LogBin &bin : curve.after[third]) {
         if (bin.count == 0) continue;
         add(number, "density", third + 1, bin.centre, bin.density, bin.error, nan, nan,
             curve.label);
-        lowest = std::min(lowest, bin.density);
-        highest = std::max(highest, bin.density);
-        left = std::min(left, bin.lo);
-        right = std::max(right, bin.hi);
+        heights.add(bin.density);
+        times.add(bin.lo);
+        times.add(bin.hi);
       }
     for (std::size_t part = 0; part < eighths; ++part) {
       const AgainstChance &one = curve.clustering.after_eighth[part];
@@ -167,9 +161,10 @@ Figure conditional_figure(const std::vector<IntervalCurve> &curves) {
         linear_axes() + place(k, rows.size(), 0.1, 0.56) +
         fmt::format("set title {} offset 0,-0.6\nset key inside bottom left vertical noopaque\n",
                     quote(fmt::format("{} (p = {})", title_of(curve), short_number(apart.p, 2)))) +
-        axis("x", "inter-event time / mean", true, left, right) +
-        axis("y", "probability density", true, lowest, highest) + densities + "\n" + linear_axes() +
-        place(k, rows.size(), 0.7, 0.97) + "set key inside bottom right noopaque\n" +
+        axis("x", "inter-event time / mean", true, times.lo, times.hi) +
+        axis("y", "probability density", true, heights.lo, heights.hi) + densities + "\n" +
+        linear_axes() + place(k, rows.size(), 0.7, 0.97) +
+        "set key inside bottom right noopaque\n" +
         axis("x", "eighth of the time before", false, 0.5, 8.5) +
         axis("y", "mean after it / mean", false, 0.0, nan) +
         fmt::format(

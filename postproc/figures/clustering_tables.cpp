@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "clustering_tables.h"
 
-#include <array>
 #include <cmath>
-#include <utility>
 
 #include <fmt/format.h>
 

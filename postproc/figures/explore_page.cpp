@@ -32,19 +32,11 @@ class PageData {
   /// Headers of catalogues may hold anything: no text of theirs ends the element or begins another.
   std::string html(const json &root) const {
     std::string text;
-    for (const char c : root.dump(-1, ' ', true, json::error_handler_t::replace)) switch (c) {
-        case '<':
-          text += "\\u003c";
-          break;
-        case '>':
-          text += "\\u003e";
-          break;
-        case '&':
-          text += "\\u0026";
-          break;
-        default:
-          text += c;
-      }
+    for (const char c : root.dump(-1, ' ', true, json::error_handler_t::replace))
+      text += c == '<'   ? "\\u003c"
+              : c == '>' ? "\\u003e"
+              : c == '&' ? "\\u0026"
+                         : std::string(1, c);
     return elements_ + "<script type=\"application/json\" id=\"data\">" + text + "</script>\n";
   }
 
@@ -170,17 +162,16 @@ json events_json(const ExploreEvents &kind, const std::string &id, PageData &dat
       numbers.push_back(column.number ? event.*column.number
                                       : static_cast<double>(event.*column.integer));
   }
-  LogHistogram sizes;
-  for (const double size : kind.table.size) sizes.add(size);
+  const LogHistogram sizes(column(kind.table.events, &Event::size));
   json thresholds = json::array();
   for (const ThresholdResult &result : kind.thresholds)
     thresholds.push_back(threshold_json(result));
   const SmallestSize usual = Threshold().complete_in(kind.table);
   json parameters = json::array();
   for (const auto &[key, value] : info.parameters) parameters.push_back({key, value});
-  return {{"kind", info.overlapping() ? "ruptures" : "drops"},
+  return {{"kind", kind.table.kind() == "pe" ? "drops" : kind.table.kind()},
           {"file", kind.table.path},
-          {"count", kind.table.size.size()},
+          {"count", kind.table.events.size()},
           {"listed", kind.events.size()},
           {"columns", names},
           {"numbers", data.packed_element(id + "-events", packed(numbers))},
@@ -247,8 +238,7 @@ void ExploreSeries::thin(std::int64_t most) {
 
 void ExploreEvents::thin(std::size_t most) {
   if (events.size() <= most) return;
-  std::vector<double> sizes;
-  for (const Event &event : events) sizes.push_back(event.size);
+  std::vector<double> sizes = column(events, &Event::size);
   const auto last = sizes.begin() + static_cast<std::ptrdiff_t>(most - 1);
   std::nth_element(sizes.begin(), last, sizes.end(), std::greater<>());
   const double least = *last;

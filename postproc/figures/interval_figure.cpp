@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "interval_figure.h"
 
-#include <algorithm>
-#include <limits>
 #include <set>
 #include <stdexcept>
 
@@ -14,10 +12,8 @@
 namespace LSM::postproc {
 
 Figure interval_figure(const std::vector<IntervalCurve> &curves, bool rescaled, int width) {
-  Figure figure{Table({"curve", "model", "threshold", "bin_lo", "bin_hi", "theta", "count",
-                       "density", "error", "label"}),
-                {},
-                {}};
+  Figure figure{
+      Table("curve,model,threshold,bin_lo,bin_hi,theta,count,density,error,label"), {}, {}};
   figure.table.comment(
       rescaled
           ? "inter-event times from start to start, divided by their mean"
@@ -29,8 +25,7 @@ Figure interval_figure(const std::vector<IntervalCurve> &curves, bool rescaled, 
   for (const std::string &source : sources) figure.table.comment(source);
   std::string points, lines;
   std::vector<std::string> titles;
-  double lowest = std::numeric_limits<double>::infinity(), highest = 0.0, first = lowest,
-         last = 0.0;
+  Extent range, heights;
   std::set<double> thresholds;
   for (const IntervalCurve &curve : curves) thresholds.insert(curve.threshold.size);
   std::int64_t number = 0;
@@ -43,10 +38,9 @@ Figure interval_figure(const std::vector<IntervalCurve> &curves, bool rescaled, 
       add_bin(figure.table, bin);
       figure.table.add(curve.label).end_row();
       if (bin.count == 0) continue;
-      lowest = std::min(lowest, bin.density);
-      highest = std::max(highest, bin.density);
-      first = std::min(first, bin.lo);
-      last = std::max(last, bin.hi);
+      heights.add(bin.density);
+      range.add(bin.lo);
+      range.add(bin.hi);
     }
     std::string title = curve.label;
     if (thresholds.size() > 1) title += ", " + curve.from();
@@ -76,7 +70,7 @@ Figure interval_figure(const std::vector<IntervalCurve> &curves, bool rescaled, 
         ", \\\n     [{}:{}] '+' using 1:(0.5*$1**(-0.33)*exp(-$1/1.58)) with lines lt 8 dt (6,4) "
         "lw 2 "
         "title 'earthquakes, Corral (2004)'",
-        text_io::number(first), text_io::number(last));
+        text_io::number(range.lo), text_io::number(range.hi));
     titles.emplace_back("earthquakes, Corral (2004)");
   }
   if (any_accepted)
@@ -92,9 +86,9 @@ Figure interval_figure(const std::vector<IntervalCurve> &curves, bool rescaled, 
   figure.script =
       axis("x",
            rescaled ? "inter-event time θ (mean = 1)" : "inter-event time θ (model time units)",
-           true, first, last) +
+           true, range.lo, range.hi) +
       axis("y", rescaled ? "probability density f(θ)" : "probability density f(θ) (1 / model time)",
-           true, 0.3 * lowest, highest) +
+           true, 0.3 * heights.lo, heights.hi) +
       "row(k) = $1 == k && $7 > 0 ? $6 : NaN\n" + std::string(error_bar_function) +
       "set samples 400\n" + points + lines + "\n";
   return figure;

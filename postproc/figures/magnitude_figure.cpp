@@ -46,22 +46,22 @@ std::string magnitudes_text(const std::vector<MagnitudeCurve> &curves, const Mag
 
 Table magnitudes_csv(const std::vector<MagnitudeCurve> &curves, const MagnitudeScale &scale,
                      const std::string &of, double width) {
-  Table table({"model", "completeness", "maximum_curvature", "n", "b", "b_error", "n_positive",
-               "b_positive", "b_positive_error", "label", "degenerate", "degenerate_positive"});
+  Table table(
+      "model,completeness,maximum_curvature,n,b,b_error,n_positive,b_positive,"
+      "b_positive_error,label,degenerate,degenerate_positive");
   table.comment(scale_text(scale, of) + fmt::format(", bins of {} (0: none)", width));
   table.comment(
       "b: Aki, in bins Tinti and Mulargia; errors: Shi and Bolt; b_positive: van der Elst");
   for (const MagnitudeCurve &curve : curves) {
-    table.add(curve.model).add(curve.completeness).add(curve.curvature);
-    table.add(curve.b.n).add(curve.b.b).add(curve.b.error);
-    table.add(curve.positive.n).add(curve.positive.b).add(curve.positive.error);
-    table.add(curve.label).add(curve.b.why).add(curve.positive.why).end_row();
+    table.row(curve.model, curve.completeness, curve.curvature, curve.b.n, curve.b.b, curve.b.error,
+              curve.positive.n, curve.positive.b, curve.positive.error, curve.label, curve.b.why,
+              curve.positive.why);
   }
   return table;
 }
 
 Figure magnitude_figure(const std::vector<MagnitudeCurve> &curves, double width) {
-  Figure figure{Table({"curve", "model", "magnitude", "count", "from_here_on", "label"}), {}, {}};
+  Figure figure{Table("curve,model,magnitude,count,from_here_on,label"), {}, {}};
   figure.table.comment(
       "count: events in the bin centred at magnitude; from_here_on: in it and above");
   Extent magnitudes;
@@ -82,8 +82,7 @@ Figure magnitude_figure(const std::vector<MagnitudeCurve> &curves, double width)
       const std::int64_t count = found == counts.end() ? 0 : found->second;
       const double centre = width * static_cast<double>(bin);
       magnitudes.add(centre);
-      figure.table.add(number).add(curve.model).add(centre).add(count).add(rest);
-      figure.table.add(curve.label).end_row();
+      figure.table.row(number, curve.model, centre, count, rest, curve.label);
       rest -= count;
     }
     std::string title = fmt::format("{} ({} events)", curve.label, curve.magnitudes.size());

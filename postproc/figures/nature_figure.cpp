@@ -3,124 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "clustering.h"
-#include "generalised_gamma.h"
-#include "intervals.h"
 #include "log_histogram.h"
-#include "lsm_sum.h"
-#include "magnitudes.h"
 #include "numbers.h"
 
 namespace LSM::postproc {
 
 namespace {
-
-/// One catalogue above one smallest size.
-struct Sample {
-  std::vector<double> times, magnitudes;
-  std::vector<std::pair<Measured NatureRow::*, Measured>> numbers;  // the same of all samples
-  std::string why;                                                  // delta cannot be fitted
-};
-
-std::vector<double> rescaled(std::vector<double> times) {
-  const double mean = sum_pairwise(times.data(), times.size()) / static_cast<double>(times.size());
-  for (double &time : times) time /= mean;
-  return times;
-}
-
-Sample sample_of(const EventTable &table, double threshold, const Sample *reference,
-                 const NatureSettings &settings) {
-  Sample out;
-  std::vector<double> sizes;
-  const MagnitudeScale scale;
-  for (const double size : table.size)
-    if (size >= threshold) {
-      sizes.push_back(size);
-      out.magnitudes.push_back(scale.of(size) - scale.of(threshold));
-    }
-  out.times = rescaled(inter_event_times(table, threshold));
-  const Clustering c = clustering(out.times, 1, settings.seed);
-  out.numbers.push_back({&NatureRow::variation, {c.variation.value}});
-  out.numbers.push_back({&NatureRow::burstiness, {c.finite_burstiness.value}});
-  out.numbers.push_back({&NatureRow::memory, {c.memory.value}});
-  out.numbers.push_back({&NatureRow::after_short, {c.after[0].value}});
-  const BValue b = b_value(out.magnitudes, 0.0);
-  out.numbers.push_back({&NatureRow::b, {b.b, b.error}});
-  // Events of zero length can start at the same time.
-  std::vector<double> positive = out.times;
-  positive.erase(
-      std::remove_if(positive.begin(), positive.end(), [](double t) { return !(t > 0); }),
-      positive.end());
-  GeneralisedGammaOptions held;
-  held.fix_delta = 1.0;
-  const GeneralisedGammaFit fit = fit_with_share(positive, settings.shortest, held);
-  out.numbers.push_back({&NatureRow::gamma, {fit.gamma, fit.se_gamma}});
-  out.numbers.push_back({&NatureRow::B, {fit.B, fit.se_B}});
-  out.numbers.push_back({&NatureRow::C, {fit.C, fit.se_C}});
-  const GeneralisedGammaFit free = fit_with_share(positive, settings.shortest, {});
-  out.numbers.push_back({&NatureRow::free_gamma, {free.gamma, free.se_gamma}});
-  out.numbers.push_back({&NatureRow::free_delta, {free.delta, free.se_delta}});
-  out.numbers.push_back({&NatureRow::free_B, {free.B, free.se_B}});
-  out.numbers.push_back({&NatureRow::free_C, {free.C, free.se_C}});
-  if (free.degenerate) out.why = free.why;
-  const AroundLarge around = around_large(starts_of(table, threshold), sizes, settings.share);
-  out.numbers.push_back({&NatureRow::before, {around.before}});
-  out.numbers.push_back({&NatureRow::after, {around.after}});
-  if (!reference) return out;
-  const RescaledDistance times =
-      rescaled_distance(reference->times, out.times, settings.replicas, settings.seed);
-  out.numbers.push_back({&NatureRow::distance, {times.distance, times.error}});
-  const RescaledDistance magnitudes =
-      rescaled_distance(reference->magnitudes, out.magnitudes, settings.replicas, settings.seed);
-  out.numbers.push_back({&NatureRow::size_distance, {magnitudes.distance, magnitudes.error}});
-  return out;
-}
-
-/// Mean and its error: from the scatter of two and more, and not below that of their own errors.
-Measured mean_of(std::vector<Measured> values) {
-  values.erase(std::remove_if(values.begin(), values.end(),
-                              [](const Measured &one) { return std::isnan(one.value); }),
-               values.end());
-  if (values.empty()) return {};
-  if (values.size() == 1) return values.front();
-  const auto n = static_cast<double>(values.size());
-  double sum = 0.0, squares = 0.0, own = 0.0;
-  for (const Measured &one : values) sum += one.value;
-  for (const Measured &one : values) {
-    squares += (one.value - sum / n) * (one.value - sum / n);
-    if (one.error > 0.0) own += one.error * one.error;
-  }
-  return {sum / n, std::sqrt(std::max(squares / (n - 1.0) / n, own / n / n))};
-}
-
-NatureRow row_of(const std::vector<Sample> &samples) {
-  NatureRow row;
-  row.catalogues = static_cast<std::int64_t>(samples.size());
-  std::vector<std::vector<Measured>> numbers(samples.front().numbers.size());
-  for (const Sample &sample : samples) {
-    row.n += static_cast<std::int64_t>(sample.magnitudes.size());
-    row.times.insert(row.times.end(), sample.times.begin(), sample.times.end());
-    row.magnitudes.insert(row.magnitudes.end(), sample.magnitudes.begin(), sample.magnitudes.end());
-    for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i].push_back(sample.numbers[i].second);
-    if (!sample.why.empty()) {
-      ++row.without_delta;
-      row.why = sample.why;
-    }
-  }
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-    row.*(samples.front().numbers[i].first) = mean_of(numbers[i]);
-  return row;
-}
-
-std::int64_t events_from(const EventTable &table, double threshold) {
-  return std::count_if(table.size.begin(), table.size.end(),
-                       [threshold](double size) { return size >= threshold; });
-}
 
 std::string cell(const Measured &one) {
   return std::isnan(one.value)   ? "-"
@@ -153,60 +45,6 @@ std::string short_name_of(const NatureRow &row) {
 }
 
 }  // namespace
-
-std::vector<NatureRow> nature_rows(const std::vector<EventTable> &tables,
-                                   const NatureSettings &settings) {
-  std::vector<std::vector<const EventTable *>> groups;
-  for (const EventTable &table : tables) {
-    const auto same = std::find_if(groups.begin(), groups.end(), [&table](const auto &group) {
-      return group.front()->label == table.label;
-    });
-    if (same == groups.end())
-      groups.push_back({&table});
-    else
-      same->push_back(&table);
-  }
-  Sample reference;
-  std::vector<NatureRow> rows;
-  for (const auto &group : groups) {
-    const EventTable &first = *group.front();
-    std::vector<double> given = first.earthquakes() ? settings.reference : settings.thresholds;
-    std::sort(given.begin(), given.end());
-    std::vector<Threshold> thresholds(given.begin(), given.end());
-    if (thresholds.empty()) thresholds.emplace_back();
-    for (std::size_t i = 0; i < thresholds.size(); ++i) {
-      const double least = thresholds[i].complete_in(first).size;
-      // Where the catalogue begins above a smallest size, the next one says the same.
-      if (i + 1 < thresholds.size() &&
-          events_from(first, least) ==
-              events_from(first, thresholds[i + 1].complete_in(first).size))
-        continue;
-      std::vector<Sample> samples;
-      for (const EventTable *table : group)
-        if (events_from(*table, least) >= settings.fewest)
-          samples.push_back(
-              sample_of(*table, least, reference.times.empty() ? nullptr : &reference, settings));
-      if (samples.empty() && rows.empty())
-        throw std::runtime_error(
-            fmt::format("{}: fewer than {} events to compare with", first.path, settings.fewest));
-      if (samples.empty()) continue;
-      if (rows.empty()) reference = samples.front();
-      NatureRow row = row_of(samples);
-      row.label = first.label;
-      row.earthquakes = first.earthquakes();
-      row.threshold = least;
-      IntervalCurve words;
-      words.earthquakes = row.earthquakes;
-      words.threshold.size = least;
-      row.from = words.from();
-      rows.push_back(std::move(row));
-    }
-  }
-  std::stable_sort(rows.begin() + 1, rows.end(), [](const NatureRow &a, const NatureRow &b) {
-    return a.distance.value < b.distance.value;
-  });
-  return rows;
-}
 
 std::string nature_text(const std::vector<NatureRow> &rows) {
   std::string out = "| | catalogues, events |";
@@ -294,7 +132,7 @@ Figure nature_figure(const std::vector<NatureRow> &rows) {
   sizes_of_models.erase(std::unique(sizes_of_models.begin(), sizes_of_models.end()),
                         sizes_of_models.end());
   const int height = std::max(700, 130 + 34 * static_cast<int>(rows.size()));
-  Figure figure{Table({"panel", "curve", "x", "y", "error", "label"}), {}, {1150, height}};
+  Figure figure{Table("panel,curve,x,y,error,label"), {}, {1150, height}};
   figure.table.comment(
       "panels: distance (rank), and of the nearest row of each label times (density over time / "
       "mean), sizes (share of the events with magnitudes of at least x above the smallest), plane "
@@ -302,9 +140,7 @@ Figure nature_figure(const std::vector<NatureRow> &rows) {
   const auto add = [&figure](const char *panel, std::size_t curve, double x, double y, double error,
                              const std::string &label) {
     // gnuplot passes over points with an empty error
-    figure.table.add(panel).add(static_cast<std::int64_t>(curve)).add(x).add(y);
-    figure.table.add(std::isnan(error) ? 0.0 : error);
-    figure.table.add(label).end_row();
+    figure.table.row(panel, curve, x, y, std::isnan(error) ? 0.0 : error, label);
   };
   std::string times, sizes, plane, distances, ticks;
   for (std::size_t k = 1; k <= rows.size(); ++k) {

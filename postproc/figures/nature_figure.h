@@ -4,58 +4,14 @@
 #ifndef LSM_POSTPROC_NATURE_FIGURE_H
 #define LSM_POSTPROC_NATURE_FIGURE_H
 
-#include <array>
-#include <cstdint>
-#include <limits>
 #include <string>
 #include <vector>
 
-#include "event_table.h"
+#include "nature.h"
 #include "plot.h"
 #include "table1.h"
 
 namespace LSM::postproc {
-
-struct NatureSettings {
-  std::vector<double> thresholds;  ///< smallest sizes of the models; none: Threshold()
-  std::vector<double> reference;   ///< smallest sizes of the earthquakes; none: all of them
-  double shortest = 0.05;    ///< times over their mean below this are left out of the fits of gamma
-  double share = 0.02;       ///< of the events that count as large
-  std::int64_t fewest = 50;  ///< events of a catalogue that is looked at
-  int replicas = 200;        ///< of the errors of distances
-  std::uint64_t seed = 1;
-};
-
-/// A mean over catalogues and its standard error; of one catalogue its own, or NaN.
-struct Measured {
-  double value = std::numeric_limits<double>::quiet_NaN();
-  double error = std::numeric_limits<double>::quiet_NaN();
-};
-
-/// Catalogues of one label above one smallest size.
-struct NatureRow {
-  std::string label, from;
-  bool earthquakes = false;
-  double threshold = 0.0;
-  std::int64_t catalogues = 0, n = 0;  ///< n: events of all of them
-  Measured b, variation, burstiness, memory, after_short, before, after;
-  /// Of the generalised gamma density of the times over their mean, with delta = 1 and with a free
-  /// one.
-  Measured gamma, B, C, free_gamma, free_delta, free_B, free_C;
-  std::int64_t without_delta = 0;  ///< catalogues that do not determine a free delta
-  std::string why;                 ///< of one of them
-  /// Of the times over their mean, and of the magnitudes above the smallest, to those of the first
-  /// row of earthquakes: Kolmogorov-Smirnov.
-  Measured distance, size_distance;
-  std::vector<double> times;       ///< over their mean, of all catalogues
-  std::vector<double> magnitudes;  ///< above the smallest, of all catalogues
-};
-
-/// One row for each label and smallest size, the earthquakes first, then by distance.
-/// \param tables the first is the reference; those of the same label are samples of one model
-/// \throws std::runtime_error if the reference has too few events
-std::vector<NatureRow> nature_rows(const std::vector<EventTable> &tables,
-                                   const NatureSettings &settings);
 
 std::string nature_text(const std::vector<NatureRow> &rows);
 /// The paper's Table 1 with a line for each row, delta free and held at 1; errors as in the rows.

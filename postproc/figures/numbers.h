@@ -4,13 +4,12 @@
 #ifndef LSM_POSTPROC_NUMBERS_H
 #define LSM_POSTPROC_NUMBERS_H
 
-#include <algorithm>
-#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "event_table.h"
+#include "samples.h"
 
 namespace LSM::postproc {
 
@@ -21,16 +20,6 @@ std::string short_number(double value, int digits = 4);
 /// Without an error (NaN or 0) only the value.
 /// \param plus_minus text between the two
 std::string with_error(double value, double error, std::string_view plus_minus = " +- ");
-
-/// Smallest and largest of the values seen.
-struct Extent {
-  double lo = std::numeric_limits<double>::infinity(), hi = -lo;
-  void add(double x) {
-    lo = std::min(lo, x);
-    hi = std::max(hi, x);
-  }
-  bool empty() const { return !(hi >= lo); }
-};
 
 /// "0.01, completeness in the header of x.csv"
 std::string text(const SmallestSize &smallest);

@@ -90,15 +90,4 @@ SeriesCode encode(const std::vector<double> &values) {
   return code;
 }
 
-std::vector<double> decode(const SeriesCode &code) {
-  std::vector<double> values = {code.first, code.second};
-  for (const std::int8_t byte : code.bytes) {
-    const std::size_t n = values.size();
-    const double predicted = 2.0 * values[n - 1] - values[n - 2];
-    const double step = code.off[static_cast<std::size_t>(std::abs(byte))];
-    values.push_back(byte < 0 ? predicted - step : predicted + step);
-  }
-  return values;
-}
-
 }  // namespace LSM::postproc

@@ -33,8 +33,6 @@ struct SeriesCode {
   std::vector<std::int8_t> bytes;       ///< of the third number on
 };
 SeriesCode encode(const std::vector<double> &values);
-/// What the page makes of it, to the last bit.
-std::vector<double> decode(const SeriesCode &code);
 
 }  // namespace LSM::postproc
 

@@ -21,8 +21,8 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-#include "lsm_text_io.h"
 #include "new_file.h"
+#include "numbers.h"
 
 namespace LSM::postproc {
 
@@ -208,27 +208,16 @@ void PictureOptions::check(const std::vector<std::string> &inputs,
   check_outputs(outputs, inputs);
 }
 
-Table::Table(std::vector<std::string> columns) : columns_(std::move(columns)) {}
+Table::Table(std::string_view columns) {
+  std::vector<std::string_view> names;
+  text_io::split(columns, names);
+  columns_.assign(names.begin(), names.end());
+}
 
 void Table::comment(std::string_view text) {
   comments_ += "# ";
   for (const char c : text) comments_ += c == '\n' || c == '\r' ? ' ' : c;
   comments_ += '\n';
-}
-
-Table &Table::add(double value) {
-  cells_.emplace_back(value);
-  return *this;
-}
-
-Table &Table::add(std::int64_t value) {
-  cells_.emplace_back(value);
-  return *this;
-}
-
-Table &Table::add(std::string_view text) {
-  cells_.emplace_back(std::string(text));
-  return *this;
 }
 
 void Table::end_row() {
@@ -275,6 +264,20 @@ nlohmann::ordered_json Table::json() const {
     if (k % columns_.size() == 0) rows.push_back(nlohmann::ordered_json::object());
     std::visit([&](const auto &value) { rows.back()[columns_[k % columns_.size()]] = value; },
                cells_[k]);
+  }
+  return rows;
+}
+
+std::vector<std::vector<std::string>> Table::texts() const {
+  struct Shown {
+    std::string operator()(double value) const { return short_number(value); }
+    std::string operator()(std::int64_t value) const { return text_io::number(value); }
+    std::string operator()(const std::string &text) const { return text; }
+  };
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t k = 0; k < cells_.size(); ++k) {
+    if (k % columns_.size() == 0) rows.emplace_back();
+    rows.back().push_back(std::visit(Shown(), cells_[k]));
   }
   return rows;
 }

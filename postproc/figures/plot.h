@@ -47,21 +47,41 @@ struct PictureOptions {
 /// empty field. As JSON: an array of objects; NaN is null.
 class Table {
  public:
-  explicit Table(std::vector<std::string> columns);
+  explicit Table(std::vector<std::string> columns) : columns_(std::move(columns)) {}
+  explicit Table(std::string_view columns);  ///< names between commas
 
   void comment(std::string_view text);  ///< a "# text" line above the column names
-  Table &add(double value);
-  Table &add(std::int64_t value);
-  Table &add(std::string_view text);
+  Table &add(double value) { return put(value); }
+  Table &add(std::int64_t value) { return put(value); }
+  Table &add(std::string_view text) { return put(std::string(text)); }
+  template <class Integer, std::enable_if_t<std::is_integral_v<Integer>, int> = 0>
+  Table &add(Integer value) {
+    return add(static_cast<std::int64_t>(value));
+  }
   /// Ends the row. \throws std::logic_error unless it has one field per column.
   void end_row();
+  /// The rest of a row, or a whole one.
+  template <class... Cells>
+  void row(const Cells &...cells) {
+    (add(cells), ...);
+    end_row();
+  }
   std::int64_t rows() const { return rows_; }
+  const std::vector<std::string> &columns() const { return columns_; }
+  /// Each row for people: numbers are short, NaN is a dash.
+  std::vector<std::vector<std::string>> texts() const;
   std::string text() const;             ///< the whole file
   nlohmann::ordered_json json() const;  ///< without the comments
   /// See write_file(). \throws FileError
   void write(const std::string &path) const;
 
  private:
+  template <class Cell>
+  Table &put(Cell cell) {
+    cells_.emplace_back(std::move(cell));
+    return *this;
+  }
+
   std::string comments_;
   std::vector<std::string> columns_;
   std::vector<std::variant<double, std::int64_t, std::string>> cells_;  ///< row by row

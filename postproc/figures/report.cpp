@@ -64,8 +64,11 @@ const char *model_name(const std::string &model) {
   return model == "lsm" ? "Fault" : "Block-slider";
 }
 
-const char *kind_name(const EventTable &table) {
-  return table.info.overlapping() ? "ruptures" : "drops of PE";
+std::string kind_name(const std::string &kind) { return kind == "pe" ? "drops of PE" : kind; }
+
+/// What is said of events of a kind, if the page has words for it.
+std::string kind_part(const std::string &kind, const std::string &of) {
+  return kind == "ruptures" ? report_part("ruptures" + of) : std::string();
 }
 
 std::string catalogue_section(const std::vector<EventTable> &tables, const Threshold &least) {
@@ -74,18 +77,19 @@ std::string catalogue_section(const std::vector<EventTable> &tables, const Thres
                    "smallest to largest size (model energy)", "lines passed over"});
   for (const EventTable &events : tables) {
     const double threshold = least.of(events);
-    const auto above = std::count_if(events.size.begin(), events.size.end(),
-                                     [threshold](double size) { return size >= threshold; });
-    const auto [smallest, largest] = std::minmax_element(events.size.begin(), events.size.end());
-    const bool any = !events.size.empty();
+    const std::int64_t above = events_from(events, threshold);
+    Extent sizes;
+    for (const Event &event : events.events) sizes.add(event.size);
+    const bool any = !events.events.empty();
     table.row(html_escape(events.label),
-              {model_name(events.info.model), kind_name(events), std::to_string(events.size.size()),
+              {model_name(events.info.model), kind_name(events.kind()),
+               std::to_string(events.events.size()),
                fmt::format("{} from {}", above, short_number(threshold)),
-               any ? fmt::format("{} to {}", short_number(events.t_start.front(), 6),
-                                 short_number(events.t_start.back(), 6))
+               any ? fmt::format("{} to {}", short_number(events.events.front().t_start, 6),
+                                 short_number(events.events.back().t_start, 6))
                    : "no events",
                short_number(events.share_in_events(), 2),
-               any ? fmt::format("{} to {}", short_number(*smallest, 3), short_number(*largest, 3))
+               any ? fmt::format("{} to {}", short_number(sizes.lo, 3), short_number(sizes.hi, 3))
                    : "no events",
                std::to_string(events.skipped_lines)});
   }
@@ -230,12 +234,13 @@ std::string scaling_section(const Scaling &scaling, Figures &figures) {
   if (!scaling.fit.degenerate)
     figure = figures.add(scaling_figure({scaling}, picture_width),
                          "Characteristic size against length", report_part("scaling caption"));
-  return report_part("scaling",
-                     {{"figure", figure},
-                      {"table", table.text()},
-                      {"events", report_part(scaling.ruptures ? "ruptures" : "drops of PE")},
-                      {"verdict", scaling.fit.degenerate ? degenerate(scaling.fit.why)
-                                                         : html_escape(verdict(scaling))}});
+  return report_part(
+      "scaling",
+      {{"figure", figure},
+       {"table", table.text()},
+       {"events", scaling.kind == "pe" ? report_part("drops of PE") : kind_part(scaling.kind, "")},
+       {"verdict",
+        scaling.fit.degenerate ? degenerate(scaling.fit.why) : html_escape(verdict(scaling))}});
 }
 
 std::string table1_section(const std::vector<IntervalCurve> &curves) {
@@ -299,7 +304,57 @@ std::string size_figure(const std::vector<EventTable> &tables, const SizeDensity
   });
 }
 
-std::string model_section(const std::vector<EventTable> &all, bool lsm, bool ruptures,
+/// What a statistic found: its tables and pictures.
+std::string section_html(const ReportSection &section, const std::vector<EventTable> &tables,
+                         Figures &figures) {
+  std::string out = "<h3>" + html_escape(section.heading) + "</h3>\n";
+  return out + drawn_or_why([&] {
+           std::string body;
+           const Findings found = section.find(tables);
+           for (const Finding &one : found.all()) {
+             if (const auto *table = std::get_if<Table>(&one.what)) {
+               HtmlTable html(table->columns());
+               for (std::vector<std::string> row : table->texts()) {
+                 for (std::string &cell : row) cell = html_escape(cell);
+                 html.row(row[0], {row.begin() + 1, row.end()});
+               }
+               body += html.text();
+             } else if (const auto *figure = std::get_if<Figure>(&one.what)) {
+               body += figures.add(*figure, section.heading, "");
+             }
+           }
+           return body;
+         });
+}
+
+/// \param all_curves those of the page, for Table 1
+std::string times_section(const std::vector<EventTable> &tables, bool lsm,
+                          const ReportSettings &settings, Figures &figures,
+                          std::vector<IntervalCurve> &all_curves) {
+  const double threshold = settings.threshold.of(tables.front());
+  IntervalSettings intervals;
+  if (settings.threshold.given()) intervals.thresholds = {threshold};
+  intervals.replicas = settings.interval_replicas;
+  intervals.seed = settings.seed;
+  const std::vector<IntervalCurve> curves = interval_curves(tables, intervals);
+  std::string times = drawn_or_why([&] {
+    return figures.add(
+        interval_figure(curves, false, picture_width), "Densities of inter-event times",
+        report_part("intervals caption",
+                    {{"figure", lsm ? "14" : "15"}, {"threshold", short_number(threshold)}}));
+  });
+  intervals.rescale = true;
+  intervals.replicas = 0;  // the same fits in another unit
+  const std::vector<IntervalCurve> rescaled = interval_curves(tables, intervals);
+  times += drawn_or_why([&] {
+    return figures.add(interval_figure(rescaled, true, picture_width),
+                       "Inter-event times divided by their mean", report_part("rescaled caption"));
+  });
+  all_curves.insert(all_curves.end(), curves.begin(), curves.end());
+  return times;
+}
+
+std::string model_section(const std::vector<EventTable> &all, bool lsm, const std::string &kind,
                           const ReportSettings &settings, Figures &figures,
                           std::vector<IntervalCurve> &all_curves) {
   std::vector<EventTable> tables, fig7;
@@ -335,8 +390,7 @@ std::string model_section(const std::vector<EventTable> &all, bool lsm, bool rup
     add_range(-0.5, "paper: slope -0.5", 1e-2, 1.0);
     add_range(-1.0, "paper: slope -1.0", 1.0, 100.0);
   }
-  std::string sizes =
-      ruptures ? report_part(lsm ? "ruptures of a fault" : "ruptures of a chain") : std::string();
+  std::string sizes = kind_part(kind, lsm ? " of a fault" : " of a chain");
   sizes += size_figure(tables, densities,
                        report_part("sizes caption", {{"figure", lsm ? "12" : "13"},
                                                      {"threshold", short_number(threshold)}}),
@@ -361,27 +415,11 @@ std::string model_section(const std::vector<EventTable> &all, bool lsm, bool rup
   if (scalings.empty())
     scaling = "<p>" + degenerate("no catalogue gives its length or number of blocks") + "</p>\n";
 
-  IntervalSettings intervals;
-  if (settings.threshold.given()) intervals.thresholds = {threshold};
-  intervals.replicas = settings.interval_replicas;
-  intervals.seed = settings.seed;
-  const std::vector<IntervalCurve> curves = interval_curves(tables, intervals);
-  std::string times = drawn_or_why([&] {
-    return figures.add(
-        interval_figure(curves, false, picture_width), "Densities of inter-event times",
-        report_part("intervals caption",
-                    {{"figure", lsm ? "14" : "15"}, {"threshold", short_number(threshold)}}));
-  });
-  intervals.rescale = true;
-  intervals.replicas = 0;  // the same fits in another unit
-  const std::vector<IntervalCurve> rescaled = interval_curves(tables, intervals);
-  times += drawn_or_why([&] {
-    return figures.add(interval_figure(rescaled, true, picture_width),
-                       "Inter-event times divided by their mean", report_part("rescaled caption"));
-  });
-  all_curves.insert(all_curves.end(), curves.begin(), curves.end());
+  std::string times = times_section(tables, lsm, settings, figures, all_curves);
+  for (const ReportSection &section : settings.sections)
+    times += section_html(section, all, figures);
   return report_part("model", {{"name", std::string(model_name(lsm ? "lsm" : "block-slider")) +
-                                            (ruptures ? ": ruptures" : "")},
+                                            (kind == "pe" ? "" : ": " + kind)},
                                {"sizes", sizes},
                                {"fits", size_fit_table(fits, lsm)},
                                {"scaling", scaling},
@@ -391,27 +429,12 @@ std::string model_section(const std::vector<EventTable> &all, bool lsm, bool rup
 }  // namespace
 
 std::string html_escape(std::string_view text) {
+  constexpr std::string_view reserved = "&<>\"'";
+  constexpr const char *entities[] = {"&amp;", "&lt;", "&gt;", "&quot;", "&#39;"};
   std::string out;
   for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\'':
-        out += "&#39;";
-        break;
-      default:
-        out += c;
-    }
+    const std::size_t which = reserved.find(c);
+    which == std::string_view::npos ? out += c : out += entities[which];
   }
   return out;
 }
@@ -444,19 +467,22 @@ std::string report_html(const std::vector<EventTable> &tables, const ReportSetti
   Figures figures;
   std::vector<IntervalCurve> curves;
   std::string models, parameters;
-  for (const auto &[lsm, ruptures] :
-       {std::pair{true, false}, {true, true}, {false, false}, {false, true}}) {
-    std::vector<EventTable> chosen;
-    for (const EventTable &table : tables)
-      if ((table.info.model == "lsm") == lsm && table.info.overlapping() == ruptures)
-        chosen.push_back(table);
-    if (chosen.empty()) continue;
-    std::vector<const EventTable *> views;
-    for (const EventTable &table : chosen) views.push_back(&table);
-    parameters += fmt::format("<h3>{}{}</h3>\n{}", model_name(views.front()->info.model),
-                              ruptures ? ": ruptures" : "", parameter_section(views));
-    models += model_section(chosen, lsm, ruptures, settings, figures, curves);
-  }
+  std::vector<std::string> kinds = {"pe"};
+  for (const EventTable &table : tables)
+    if (std::find(kinds.begin(), kinds.end(), table.kind()) == kinds.end())
+      kinds.push_back(table.kind());
+  for (const bool lsm : {true, false})
+    for (const std::string &kind : kinds) {
+      std::vector<EventTable> chosen;
+      for (const EventTable &table : tables)
+        if ((table.info.model == "lsm") == lsm && table.kind() == kind) chosen.push_back(table);
+      if (chosen.empty()) continue;
+      std::vector<const EventTable *> views;
+      for (const EventTable &table : chosen) views.push_back(&table);
+      parameters += fmt::format("<h3>{}{}</h3>\n{}", model_name(views.front()->info.model),
+                                kind == "pe" ? "" : ": " + kind, parameter_section(views));
+      models += model_section(chosen, lsm, kind, settings, figures, curves);
+    }
   const auto count = [](std::int64_t n) { return std::to_string(n); };
   return report_part("page", {{"title", html_escape(settings.title)},
                               {"catalogues", catalogue_section(tables, settings.threshold)},

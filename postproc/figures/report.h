@@ -5,16 +5,24 @@
 #define LSM_POSTPROC_REPORT_H
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "event_table.h"
+#include "findings.h"
 #include "finite_size.h"
 #include "regime.h"
 
 namespace LSM::postproc {
+
+/// A section of each model that a statistic has by itself.
+struct ReportSection {
+  std::string heading;
+  std::function<Findings(const std::vector<EventTable> &)> find;
+};
 
 struct ReportSettings {
   std::string title = "Event statistics of the fault and the block-slider";
@@ -23,6 +31,7 @@ struct ReportSettings {
   int interval_replicas = 1000;  ///< the same of inter-event times
   Resampling bootstrap;          ///< of the characteristic sizes, with seed below
   std::uint64_t seed = 1;
+  std::vector<ReportSection> sections;  ///< behind those that every report has
 };
 
 /// Whether one PE series sticks and slips.

@@ -42,8 +42,7 @@ Figure size_density_figure(const std::vector<EventTable> &tables,
   Extent sizes, heights;
   for (std::size_t i = 0; i < tables.size(); ++i) {
     const EventTable &table = tables[i];
-    LogHistogram histogram(settings.factor);
-    for (const double size : table.size) histogram.add(size);
+    const LogHistogram histogram(column(table.events, &Event::size), settings.factor);
     // The range applies to the sizes as they are in the catalogue.
     Curve curve{{}, histogram.bins(settings.threshold.of(table), settings.upto)};
     std::int64_t events = 0;

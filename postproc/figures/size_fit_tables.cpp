@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -15,6 +16,8 @@
 namespace LSM::postproc {
 
 namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// JSON has neither NaN nor infinity: null stands for them.
 nlohmann::json number_or_null(double value) {
@@ -74,31 +77,25 @@ std::string size_fits_text(const std::vector<SizeFit> &fits) {
 }
 
 Table size_fits_csv(const std::vector<SizeFit> &fits) {
-  Table table({"model", "lo", "hi", "searched", "n", "exponent", "standard_error", "ks", "p",
-               "p_error", "rival", "ln_likelihood_ratio", "normalised", "rival_p", "label",
-               "degenerate"});
+  Table table(
+      "model,lo,hi,searched,n,exponent,standard_error,ks,p,p_error,rival,"
+      "ln_likelihood_ratio,normalised,rival_p,label,degenerate");
   table.comment("density C s^-exponent on [lo, hi], sizes in model energy units");
   table.comment("one line per rival; ln_likelihood_ratio > 0 favours the power law");
   for (const SizeFit &fit : fits) {
     const PowerLawFit &law = fit.fit;
-    const auto begin = [&] {
-      table.add(fit.model).add(law.lo).add(law.hi);
-      table.add(law.searched ? "yes" : "no").add(law.n).add(law.alpha).add(law.standard_error);
-      table.add(law.ks).add(fit.p).add(fit.p_error);
+    const auto row = [&](const std::string &rival, double ratio, double normalised, double p,
+                         const std::string &why) {
+      table.row(fit.model, law.lo, law.hi, law.searched ? "yes" : "no", law.n, law.alpha,
+                law.standard_error, law.ks, fit.p, fit.p_error, rival, ratio, normalised, p,
+                fit.label, why);
     };
-    if (fit.comparisons.empty()) {
-      begin();
-      table.add("").add("").add("").add("").add(fit.label).add(law.why).end_row();
-    }
-    for (const Comparison &comparison : fit.comparisons) {
-      begin();
-      table.add(comparison.rival);
-      if (comparison.degenerate)
-        table.add("").add("").add("");
+    if (fit.comparisons.empty()) row("", nan, nan, nan, law.why);
+    for (const Comparison &c : fit.comparisons)
+      if (c.degenerate)
+        row(c.rival, nan, nan, nan, c.why);
       else
-        table.add(comparison.log_likelihood_ratio).add(comparison.normalised).add(comparison.p);
-      table.add(fit.label).add(comparison.why).end_row();
-    }
+        row(c.rival, c.log_likelihood_ratio, c.normalised, c.p, c.why);
   }
   return table;
 }
@@ -112,25 +109,22 @@ nlohmann::json to_json(const SizeFit &fit) {
     json["why"] = law.why;
     return json;
   }
-  json["exponent"] = law.alpha;
-  json["standard_error"] = law.standard_error;
-  json["ks"] = law.ks;
-  json["log_likelihood"] = law.log_likelihood;
-  if (!std::isnan(fit.p)) {
-    json["p"] = fit.p;
-    json["p_error"] = fit.p_error;
-  }
-  json["comparisons"] = nlohmann::json::array();
-  for (const Comparison &comparison : fit.comparisons) {
-    nlohmann::json rival = {{"rival", comparison.rival}, {"degenerate", comparison.degenerate}};
-    if (comparison.degenerate) {
-      rival["why"] = comparison.why;
+  json.update({{"exponent", law.alpha},
+               {"standard_error", law.standard_error},
+               {"ks", law.ks},
+               {"log_likelihood", law.log_likelihood},
+               {"comparisons", nlohmann::json::array()}});
+  if (!std::isnan(fit.p)) json.update({{"p", fit.p}, {"p_error", fit.p_error}});
+  for (const Comparison &c : fit.comparisons) {
+    nlohmann::json rival = {{"rival", c.rival}, {"degenerate", c.degenerate}};
+    if (c.degenerate) {
+      rival["why"] = c.why;
     } else {
-      for (const auto &[name, value] : comparison.parameters)
+      for (const auto &[name, value] : c.parameters)
         rival["parameters"][name] = number_or_null(value);
-      rival["log_likelihood_ratio"] = number_or_null(comparison.log_likelihood_ratio);
-      rival["normalised"] = number_or_null(comparison.normalised);
-      rival["p"] = number_or_null(comparison.p);
+      rival.update({{"log_likelihood_ratio", number_or_null(c.log_likelihood_ratio)},
+                    {"normalised", number_or_null(c.normalised)},
+                    {"p", number_or_null(c.p)}});
     }
     json["comparisons"].push_back(rival);
   }
@@ -140,15 +134,15 @@ nlohmann::json to_json(const SizeFit &fit) {
 PowerLine fitted_line(const SizeFit &fit, const EventTable &table,
                       const SizeDensitySettings &settings) {
   const PowerLawFit &law = fit.fit;
-  LogHistogram histogram(settings.factor);
-  for (const double size : table.size) histogram.add(size);
+  const std::vector<double> sizes = column(table.events, &Event::size);
+  const LogHistogram histogram(sizes, settings.factor);
   std::int64_t drawn = 0;
   for (const LogBin &bin : histogram.bins(settings.threshold.of(table), settings.upto))
     drawn += bin.count;
   PowerLine line;
   line.slope = -law.alpha;
   line.lo = law.lo;
-  line.hi = std::isinf(law.hi) ? *std::max_element(table.size.begin(), table.size.end()) : law.hi;
+  line.hi = std::isinf(law.hi) ? *std::max_element(sizes.begin(), sizes.end()) : law.hi;
   // Integral of s^-alpha over the range; exp(-infinity) serves a range without an upper end.
   const double power = 1.0 - law.alpha, logs = std::log(law.hi / law.lo);
   const double integral =
@@ -164,7 +158,7 @@ PowerLine fitted_line(const SizeFit &fit, const EventTable &table,
 std::string name_of(const Scaling &scaling) {
   std::string name = scaling.model == "lsm" ? "fault" : "block-slider";
   if (!scaling.stiffness.empty()) name += ", Kl = " + scaling.stiffness;
-  return scaling.ruptures ? name + ", ruptures" : name;
+  return scaling.kind == "pe" ? name : name + ", " + scaling.kind;
 }
 
 /// What the bends that are not worse than the best by more than 4 in chi2 give.
@@ -255,7 +249,7 @@ std::string scaling_text(const Scaling &scaling) {
 nlohmann::json to_json(const Scaling &scaling) {
   nlohmann::json json = {{"model", scaling.model},
                          {"kl", scaling.stiffness},
-                         {"events", scaling.ruptures ? "ruptures" : "pe"},
+                         {"events", scaling.kind},
                          {"threshold", scaling.threshold.size},
                          {"threshold_from", text(scaling.threshold)},
                          {"points", nlohmann::json::array()},
@@ -267,42 +261,41 @@ nlohmann::json to_json(const Scaling &scaling) {
                             {"length", point.length},
                             {"n", point.n},
                             {"degenerate", point.degenerate}};
-    if (point.degenerate) {
+    if (point.degenerate)
       entry["why"] = point.why;
-    } else {
-      entry["s_star"] = point.s_star;
-      entry["error"] = point.error;
-      entry["error_independent"] = point.error_independent;
-      entry["block"] = point.block;
-      entry["blocks"] = point.blocks;
-    }
+    else
+      entry.update({{"s_star", point.s_star},
+                    {"error", point.error},
+                    {"error_independent", point.error_independent},
+                    {"block", point.block},
+                    {"blocks", point.blocks}});
     json["points"].push_back(entry);
   }
   const ScalingFit &fit = scaling.fit;
   if (fit.degenerate) return json;
-  json["A"] = fit.A;
-  json["A_error"] = fit.se_A;
-  json["D"] = fit.D;
-  json["D_error"] = fit.se_D;
-  json["chi2"] = fit.chi2;
-  json["constant"] = fit.constant;
-  json["constant_error"] = fit.se_constant;
-  json["chi2_constant"] = fit.chi2_constant;
-  json["aicc"] = fit.aicc;
-  json["aicc_constant"] = fit.aicc_constant;
+  json.update({{"A", fit.A},
+               {"A_error", fit.se_A},
+               {"D", fit.D},
+               {"D_error", fit.se_D},
+               {"chi2", fit.chi2},
+               {"constant", fit.constant},
+               {"constant_error", fit.se_constant},
+               {"chi2_constant", fit.chi2_constant},
+               {"aicc", fit.aicc},
+               {"aicc_constant", fit.aicc_constant},
+               {"preferred", to_string(fit.preferred)}});
   const Saturation &end = fit.saturation;
-  if (end.degenerate) {
+  if (end.degenerate)
     json["saturation_degenerate"] = end.why;
-  } else {
-    json["s_inf"] = end.s_inf;
-    json["s_inf_error"] = end.se_s_inf;
-    json["L_c"] = end.L_c;
-    json["L_c_error"] = end.se_L_c;
-    json["D_saturation"] = end.D;
-    json["D_saturation_error"] = end.se_D;
-    json["chi2_saturation"] = end.chi2;
-    json["aicc_saturation"] = end.aicc;
-  }
+  else
+    json.update({{"s_inf", end.s_inf},
+                 {"s_inf_error", end.se_s_inf},
+                 {"L_c", end.L_c},
+                 {"L_c_error", end.se_L_c},
+                 {"D_saturation", end.D},
+                 {"D_saturation_error", end.se_D},
+                 {"chi2_saturation", end.chi2},
+                 {"aicc_saturation", end.aicc}});
   for (const Saturation &one : fit.bends)
     if (!one.degenerate)
       json["bends"].push_back({{"m", one.m},
@@ -312,41 +305,33 @@ nlohmann::json to_json(const Scaling &scaling) {
                                {"D", one.D},
                                {"D_error", one.se_D},
                                {"chi2", one.chi2}});
-  json["preferred"] = to_string(fit.preferred);
   return json;
 }
 
 Figure scaling_figure(const std::vector<Scaling> &scalings, int width) {
-  Figure figure{Table({"curve", "model", "length", "s_star", "error", "events", "error_independent",
-                       "block", "blocks", "label"}),
-                {},
-                {}};
+  Figure figure{
+      Table("curve,model,length,s_star,error,events,error_independent,block,blocks,label"), {}, {}};
   figure.table.comment("characteristic size <s^2>/<s> in model energy units; errors: bootstrap");
   figure.table.comment(
       "block: length of the stretches of the catalogue that are resampled, model time; 0: events "
       "one by one; error_independent: if the events were independent");
   std::string plots, lines;
-  double shortest = std::numeric_limits<double>::infinity(), longest = 0.0, lowest = shortest,
-         highest = 0.0;
+  Extent lengths, heights;
   std::int64_t number = 0;
   for (const Scaling &scaling : scalings) {
     ++number;
-    double from = std::numeric_limits<double>::infinity(), to = 0.0;
+    Extent own;
     for (std::size_t i = 0; i < scaling.points.size(); ++i) {
       const SizePoint &point = scaling.points[i];
-      figure.table.add(number).add(scaling.model).add(point.length);
-      figure.table.add(point.s_star).add(point.error).add(point.n).add(point.error_independent);
-      figure.table.add(point.block).add(static_cast<std::int64_t>(point.blocks));
-      figure.table.add(scaling.labels[i]).end_row();
+      figure.table.row(number, scaling.model, point.length, point.s_star, point.error, point.n,
+                       point.error_independent, point.block, point.blocks, scaling.labels[i]);
       if (point.degenerate) continue;
-      from = std::min(from, point.length);
-      to = std::max(to, point.length);
-      lowest = std::min(lowest, std::max(point.s_star - point.error, 0.1 * point.s_star));
-      highest = std::max(highest, point.s_star + point.error);
+      own.add(point.length);
+      lengths.add(point.length);
+      heights.add(std::max(point.s_star - point.error, 0.1 * point.s_star));
+      heights.add(point.s_star + point.error);
     }
-    if (!(to > 0.0)) continue;
-    shortest = std::min(shortest, from);
-    longest = std::max(longest, to);
+    if (own.empty()) continue;
     const std::string column = fmt::format("$1 == {} ? $3 : NaN", number);
     plots +=
         fmt::format("{}{}, \\\n     table using ({}):4 with points lt {} title {}",
@@ -354,8 +339,8 @@ Figure scaling_figure(const std::vector<Scaling> &scalings, int width) {
                     column, number, quote(name_of(scaling) + ": s*"));
     const ScalingFit &fit = scaling.fit;
     if (fit.degenerate) continue;
-    const std::string where = fmt::format("[{}:{}] '+' using 1:", text_io::number(0.85 * from),
-                                          text_io::number(to / 0.85));
+    const std::string where = fmt::format("[{}:{}] '+' using 1:", text_io::number(0.85 * own.lo),
+                                          text_io::number(own.hi / 0.85));
     lines += fmt::format(
         ", \\\n     {}({}*$1**({})) with lines lt {} title {}", where, text_io::number(fit.A),
         text_io::number(fit.D), number,
@@ -369,7 +354,7 @@ Figure scaling_figure(const std::vector<Scaling> &scalings, int width) {
         ", \\\n     [1:2] '+' using (x = {}*{}**($1-1)):({}*(1+({}/x)**({}))**({})) with lines lt "
         "{} "
         "dt 4 lw 2 title {}",
-        text_io::number(0.85 * from), text_io::number(to / (0.85 * 0.85 * from)),
+        text_io::number(0.85 * own.lo), text_io::number(own.hi / (0.85 * 0.85 * own.lo)),
         text_io::number(end.s_inf), text_io::number(end.L_c),
         text_io::number(end.D * Saturation::sharpness),
         text_io::number(-1.0 / Saturation::sharpness), number,
@@ -385,8 +370,8 @@ Figure scaling_figure(const std::vector<Scaling> &scalings, int width) {
   const char *const name = faults && chains ? "length of the fault, or number of blocks"
                            : faults         ? "length of the fault"
                                             : "number of blocks";
-  figure.script = axis("x", name, true, 0.9 * shortest, 1.1 * longest) +
-                  axis("y", "characteristic size s* (energy)", true, lowest, highest) +
+  figure.script = axis("x", name, true, 0.9 * lengths.lo, 1.1 * lengths.hi) +
+                  axis("y", "characteristic size s* (energy)", true, heights.lo, heights.hi) +
                   std::string(error_bar_function) + plots + lines + "\n";
   return figure;
 }

@@ -112,9 +112,9 @@ std::string table1_text(const std::vector<Table1Row> &rows, bool rescaled) {
 }
 
 Table table1_csv(const std::vector<Table1Row> &rows, bool rescaled) {
-  Table table({"origin", "threshold", "n", "gamma", "gamma_error", "delta", "delta_error", "B",
-               "B_error", "C", "C_error", "chi2_per_dof", "ks", "p", "p_error", "rejected",
-               "source", "method", "degenerate"});
+  Table table(
+      "origin,threshold,n,gamma,gamma_error,delta,delta_error,B,B_error,C,C_error,"
+      "chi2_per_dof,ks,p,p_error,rejected,source,method,degenerate");
   table.comment("f(theta) = C theta^(gamma-1) exp(-theta^delta / B)");
   table.comment(
       fmt::format("printed: Table 1 of the paper, unit of theta not stated; ours: theta in {}",
@@ -122,21 +122,17 @@ Table table1_csv(const std::vector<Table1Row> &rows, bool rescaled) {
   table.comment(fmt::format("rejected: {}", rejection_rule));
   for (const Table1Row &row : rows) {
     table.add(row.printed ? "printed" : "ours").add(row.threshold);
-    if (row.printed)
-      table.add("");
-    else
-      table.add(row.n);
+    row.printed ? table.add("") : table.add(row.n);
     for (std::size_t i = 0; i < row.values.size(); ++i) {
       // Printed digits are kept: 1.00 is not 1.
-      if (row.printed)
-        table.add(row.parameters[i]);
-      else
-        table.add(row.values[i]);
+      row.printed ? table.add(row.parameters[i]) : table.add(row.values[i]);
       table.add(row.errors[i]);
     }
-    table.add(row.misfit).add(row.ks).add(row.p).add(row.p_error);
-    table.add(std::isnan(row.p) ? "" : row.rejected() ? "yes" : "no");
-    table.add(row.source).add(row.method).add(row.why).end_row();
+    table.row(row.misfit, row.ks, row.p, row.p_error,
+              std::isnan(row.p) ? ""
+              : row.rejected()  ? "yes"
+                                : "no",
+              row.source, row.method, row.why);
   }
   return table;
 }

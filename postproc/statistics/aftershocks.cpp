@@ -8,13 +8,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
 #include <stdexcept>
 
 #include "log_histogram.h"
 #include "lsm_random.h"
 #include "lsm_sum.h"
 #include "replicas.h"
+#include "samples.h"
 
 namespace LSM::postproc {
 
@@ -138,9 +138,7 @@ Maximum climb(const Search &search, double share, double ln_c, double p, double 
   function.f = [](const gsl_vector *x, void *data) {
     return static_cast<const Search *>(data)->cost(x);
   };
-  const std::unique_ptr<gsl_vector, decltype(&gsl_vector_free)> x(gsl_vector_alloc(size),
-                                                                  gsl_vector_free),
-      step(gsl_vector_alloc(size), gsl_vector_free);
+  const Gsl<gsl_vector> x = gsl_vector_of(size), step = gsl_vector_of(size);
   std::size_t i = 0;
   if (search.background) {
     gsl_vector_set(step.get(), i, 1.0);
@@ -153,7 +151,7 @@ Maximum climb(const Search &search, double share, double ln_c, double p, double 
   }
   gsl_vector_set(step.get(), i, 0.3);
   gsl_vector_set(x.get(), i, p);
-  const std::unique_ptr<gsl_multimin_fminimizer, decltype(&gsl_multimin_fminimizer_free)> work(
+  const Gsl<gsl_multimin_fminimizer> work(
       gsl_multimin_fminimizer_alloc(gsl_multimin_fminimizer_nmsimplex2, size),
       gsl_multimin_fminimizer_free);
   gsl_multimin_fminimizer_set(work.get(), &function, x.get(), step.get());
@@ -203,37 +201,47 @@ double error_of(const std::vector<double> &gradient, const std::vector<double> &
 
 }  // namespace
 
-Sequences stack_sequences(const EventTable &events, const SequenceRule &rule) {
+std::vector<Shock> shocks_of(const EventTable &table) {
+  std::vector<Shock> shocks;
+  shocks.reserve(table.events.size());
+  for (const Event &event : table.events)
+    shocks.push_back({event.t_start, event.t_end, event.size});
+  return shocks;
+}
+
+Sequences stack_sequences(const std::vector<Shock> &events, const SequenceRule &rule) {
   if (!(rule.window > 0.0) || !std::isfinite(rule.window))
     throw std::invalid_argument("window after main shocks: expected a positive finite time");
   if (!(rule.first >= 0.0) || !(rule.first < rule.window))
     throw std::invalid_argument(
         "first time after main shocks: expected 0 or more, below the window");
-  const std::vector<double> &start = events.t_start, &end = events.t_end, &size = events.size;
-  if (end.size() != start.size() || size.size() != start.size())
-    throw std::invalid_argument("sequences: expected one start, end and size of each event");
   Sequences stack;
   stack.first = rule.first;
   stack.window = rule.window;
   std::size_t earliest = 0;  // of the window; it moves on with the main shocks
-  for (std::size_t main = 0; main < start.size(); ++main) {
-    if (!(size[main] >= rule.main_size)) continue;
-    const double from = start[main] - rule.window, to = end[main] + rule.window;
-    if (from < start.front() || to > start.back()) continue;
-    while (start[earliest] < from) ++earliest;
+  for (std::size_t k = 0; k < events.size(); ++k) {
+    const Shock main = events[k];
+    if (!(main.size >= rule.main_size)) continue;
+    const double from = main.start - rule.window, to = main.end + rule.window;
+    if (from < events.front().start || to > events.back().start) continue;
+    while (events[earliest].start < from) ++earliest;
+    std::size_t last = earliest;
     bool largest = true;
-    for (std::size_t i = earliest; largest && i < start.size() && start[i] <= to; ++i)
-      largest = size[i] < size[main] || i == main || (size[i] == size[main] && i > main);
+    for (; largest && last < events.size() && events[last].start <= to; ++last)
+      largest = last == k || events[last].size < main.size ||
+                (events[last].size == main.size && last > k);
     if (!largest) continue;
     ++stack.main_shocks;
-    // Ruptures may overlap: an event before the main shock may as well start after its end.
-    for (std::size_t i = earliest; i < start.size() && start[i] <= to; ++i)
-      if (start[i] >= end[main] + rule.first && size[i] >= rule.least_size && i != main)
-        stack.times.push_back(std::min(start[i] - end[main], rule.window));
-    // Events that overlap with the main shock are neither before nor after it.
-    for (std::size_t i = earliest; i < main; ++i)
-      if (size[i] >= rule.least_size && start[main] - end[i] >= rule.first)
-        stack.before.push_back(start[main] - end[i]);
+    for (std::size_t i = earliest; i < last; ++i) {
+      const Shock &other = events[i];
+      if (other.size < rule.least_size || i == k) continue;
+      // Those that overlap may begin before the main shock and yet start after its end.
+      if (other.start >= main.end + rule.first)
+        stack.times.push_back(std::min(other.start - main.end, rule.window));
+      // Events that overlap with the main shock are neither before nor after it.
+      if (i < k && main.start - other.end >= rule.first)
+        stack.before.push_back(main.start - other.end);
+    }
   }
   std::sort(stack.times.begin(), stack.times.end());
   return stack;
@@ -356,76 +364,53 @@ OmoriFit fit_quietly(const Sequences &s, double hold_c) {
 }  // namespace
 
 OmoriFit fit_omori(const Sequences &sequences, double hold_c) {
-  gsl_error_handler_t *const handler = gsl_set_error_handler_off();
-  try {
-    const OmoriFit fit = fit_quietly(sequences, hold_c);
-    gsl_set_error_handler(handler);
-    return fit;
-  } catch (...) {
-    gsl_set_error_handler(handler);
-    throw;
-  }
+  const QuietGsl quiet;
+  return fit_quietly(sequences, hold_c);
 }
 
-EventTable poisson_catalogue(const EventTable &events, std::uint64_t seed) {
-  const std::size_t n = events.t_start.size();
+std::vector<Shock> poisson_catalogue(const std::vector<Shock> &events, bool overlapping,
+                                     std::uint64_t seed) {
+  const std::size_t n = events.size();
   if (n < 2) return events;
-  EventTable out;
-  out.info = events.info;
-  // An event keeps its size and duration, so one memory access brings both.
-  struct Kept {
-    double duration, size;
-  };
-  std::vector<Kept> kept(n);
-  for (std::size_t i = 0; i < n; ++i)
-    kept[i] = {events.t_end[i] - events.t_start[i], events.size[i]};
   Random random(seed);
-  for (std::size_t i = n; i > 1; --i)
-    std::swap(kept[i - 1],
-              kept[static_cast<std::size_t>(random.uniform() * static_cast<double>(i))]);
-  const double first = events.t_start.front(), last = events.t_start.back();
   const auto exponential = [&random] { return -std::log1p(-random.uniform()); };
-  out.t_start.resize(n);
-  out.t_end.resize(n);
-  out.size.resize(n);
-  double time = first;
-  if (events.info.overlapping()) {
+  std::vector<Shock> out = events;
+  shuffle(out, random);
+  const double first = events.front().start, last = events.back().start;
+  std::vector<double> starts(n);
+  double time = overlapping ? 0.0 : first;
+  if (overlapping) {
     // Ordered uniform numbers are sums of exponential ones over the sum of one more of them.
-    double sum = 0.0;
-    for (double &start : out.t_start) {
-      sum += exponential();
-      start = sum;
-    }
-    sum += exponential();
-    for (double &start : out.t_start)
-      start = std::min(last, first + (last - first) * (start / sum));
+    for (double &start : starts) start = time += exponential();
+    time += exponential();
+    for (double &start : starts) start = std::min(last, first + (last - first) * (start / time));
   } else {
     NeumaierSum gaps;
-    for (std::size_t i = 1; i < n; ++i) gaps.add(events.t_start[i] - events.t_end[i - 1]);
+    for (std::size_t i = 1; i < n; ++i) gaps.add(events[i].start - events[i - 1].end);
     const double mean = gaps.value() / static_cast<double>(n - 1);
     for (std::size_t i = 0; i < n; ++i) {
-      out.t_start[i] = time;
-      time += kept[i].duration + mean * exponential();
+      starts[i] = time;
+      time += out[i].end - out[i].start + mean * exponential();
     }
   }
   for (std::size_t i = 0; i < n; ++i) {
-    out.t_end[i] = out.t_start[i] + kept[i].duration;
-    out.size[i] = kept[i].size;
+    out[i].end = starts[i] + (out[i].end - out[i].start);
+    out[i].start = starts[i];
   }
   return out;
 }
 
-Aftershocks aftershocks_of(const EventTable &events, const SequenceRule &rule, double hold_c,
+Aftershocks aftershocks_of(const EventTable &table, const SequenceRule &rule, double hold_c,
                            double factor, int replicas, std::uint64_t seed) {
   if (replicas < 0) throw std::invalid_argument("--replicas: expected 0 or more");
+  const std::vector<Shock> events = shocks_of(table);
+  const bool overlapping = table.info.overlapping();
   Aftershocks result;
   result.rule = rule;
   result.sequences = stack_sequences(events, rule);
   result.fit = fit_omori(result.sequences, hold_c);
   const auto histogram_of = [factor, &rule](const std::vector<double> &times) {
-    LogHistogram histogram(factor);
-    for (const double time : times) histogram.add(time);
-    return histogram.bins(rule.first, rule.window);
+    return LogHistogram(times, factor).bins(rule.first, rule.window);
   };
   const auto same_lo = [](double a, double b) { return std::fabs(a - b) < 1e-9 * a; };
   const auto count_in = [&](const std::vector<double> &times, double lo) {
@@ -450,10 +435,10 @@ Aftershocks aftershocks_of(const EventTable &events, const SequenceRule &rule, d
   };
   std::vector<Replica> all(static_cast<std::size_t>(replicas));
   const std::size_t bins = result.bins.size();
-  gsl_error_handler_t *const handler = gsl_set_error_handler_off();
+  const QuietGsl quiet;
   for_each_replica(replicas, [&](int k) {
     const Sequences other =
-        stack_sequences(poisson_catalogue(events, seed_of_replica(seed, k)), rule);
+        stack_sequences(poisson_catalogue(events, overlapping, seed_of_replica(seed, k)), rule);
     if (other.main_shocks == 0) return;
     Replica &replica = all[static_cast<std::size_t>(k)];
     replica.used = true;
@@ -466,7 +451,6 @@ Aftershocks aftershocks_of(const EventTable &events, const SequenceRule &rule, d
           replica.rates[i] = static_cast<double>(bin.count) /
                              (static_cast<double>(other.main_shocks) * (bin.hi - bin.lo));
   });
-  gsl_set_error_handler(handler);
   std::vector<NeumaierSum> sums(bins), squares(bins);
   int as_large = 0, used = 0;
   for (const Replica &replica : all) {

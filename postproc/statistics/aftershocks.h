@@ -26,6 +26,12 @@ struct SequenceRule {
   double first = 0.0;       ///< events sooner than this after the end are not counted
 };
 
+/// An event as far as it counts here.
+struct Shock {
+  double start, end, size;
+};
+std::vector<Shock> shocks_of(const EventTable &table);
+
 /// Events after and before main shocks, all sequences on top of each other.
 struct Sequences {
   std::vector<double> times;   ///< starts, since the end of the main shock; ascending
@@ -37,7 +43,7 @@ struct Sequences {
 /// Main shock: an event of at least main_size that is the largest (of equals the first) of all that
 /// start from window before its start to window after its end; all of that time has to lie within
 /// the catalogue. So the windows after main shocks do not overlap. \throws std::invalid_argument
-Sequences stack_sequences(const EventTable &events, const SequenceRule &rule);
+Sequences stack_sequences(const std::vector<Shock> &events, const SequenceRule &rule);
 
 /// Rate of events after a main shock: n(t) = K (t + c)^-p + background.
 struct OmoriFit {
@@ -67,9 +73,10 @@ OmoriFit fit_omori(const Sequences &sequences,
 
 /// The same events in random order at the times of a Poisson process: independent exponential times
 /// from the end of one to the start of the next with the mean of the catalogue; where events
-/// overlap (ruptures), starts that are uniform over the catalogue. What is left of a decay in it
+/// overlap, starts that are uniform over the catalogue. What is left of a decay in it
 /// comes from the choice of the main shocks and from the durations.
-EventTable poisson_catalogue(const EventTable &events, std::uint64_t seed);
+std::vector<Shock> poisson_catalogue(const std::vector<Shock> &events, bool overlapping,
+                                     std::uint64_t seed);
 
 /// Rate after a main shock over one bin of time.
 struct RateBin {
@@ -96,7 +103,7 @@ struct Aftershocks {
 
 /// \param factor ratio of the edges of a bin \param replicas Poisson catalogues, 0: none
 /// \throws std::invalid_argument for impossible settings
-Aftershocks aftershocks_of(const EventTable &events, const SequenceRule &rule, double hold_c,
+Aftershocks aftershocks_of(const EventTable &table, const SequenceRule &rule, double hold_c,
                            double factor, int replicas, std::uint64_t seed);
 
 }  // namespace LSM::postproc

@@ -7,8 +7,7 @@
 #include <numeric>
 
 #include "finite_size.h"
-#include "lsm_random.h"
-#include "lsm_sum.h"
+#include "samples.h"
 #include "two_sample.h"
 
 namespace LSM::postproc {
@@ -16,10 +15,6 @@ namespace LSM::postproc {
 namespace {
 
 constexpr std::size_t fewest_times = 12;
-
-double mean_of(const std::vector<double> &values) {
-  return sum_pairwise(values.data(), values.size()) / static_cast<double>(values.size());
-}
 
 double finite_burstiness(double r, double n) {
   const double up = std::sqrt(n + 1.0), down = std::sqrt(n - 1.0);
@@ -29,8 +24,7 @@ double finite_burstiness(double r, double n) {
 /// Correlation of each value with the next.
 double memory_of(const std::vector<double> &times) {
   const std::size_t n = times.size() - 1;
-  const double first = sum_pairwise(times.data(), n) / static_cast<double>(n),
-               second = sum_pairwise(times.data() + 1, n) / static_cast<double>(n);
+  const double first = mean_of(times.data(), n), second = mean_of(times.data() + 1, n);
   NeumaierSum product, squares1, squares2;
   for (std::size_t i = 0; i < n; ++i) {
     const double a = times[i] - first, b = times[i + 1] - second;
@@ -134,13 +128,6 @@ AgainstChance against(double value, const std::vector<double> &random) {
   return out;
 }
 
-template <class T>
-void shuffle(std::vector<T> &values, Random &random) {
-  for (std::size_t i = values.size(); i > 1; --i)
-    std::swap(values[i - 1],
-              values[static_cast<std::size_t>(random.uniform() * static_cast<double>(i))]);
-}
-
 /// Largest departure of events from a steady rate between from and to, over their number.
 double departure_of(const std::vector<double> &starts, double from, double to) {
   const auto n = static_cast<double>(starts.size());
@@ -152,24 +139,12 @@ double departure_of(const std::vector<double> &starts, double from, double to) {
   return most;
 }
 
-std::vector<double> centred(std::vector<double> values) {
-  const double mean = mean_of(values);
-  for (double &value : values) value -= mean;
-  return values;
-}
-
-std::vector<double> rescaled(std::vector<double> values) {
-  const double mean = mean_of(values);
-  for (double &value : values) value /= mean;
-  return values;
-}
-
 /// Blocks of consecutive values from random places, the series taken as a ring.
 std::vector<double> resampled(const std::vector<double> &values, std::size_t block,
                               Random &random) {
   std::vector<double> out;
   while (out.size() < values.size()) {
-    const auto at = static_cast<std::size_t>(random.uniform() * static_cast<double>(values.size()));
+    const std::size_t at = draw_index(random, values.size());
     for (std::size_t i = 0; i < block && out.size() < values.size(); ++i)
       out.push_back(values[(at + i) % values.size()]);
   }
@@ -350,13 +325,13 @@ RescaledDistance rescaled_distance(const std::vector<double> &first,
                                    std::uint64_t seed) {
   RescaledDistance out;
   if (first.size() < fewest_times || second.size() < fewest_times) return out;
-  out.distance = two_sample_distance(rescaled(first), rescaled(second));
+  out.distance = two_sample_distance(over_mean(first), over_mean(second));
   const std::size_t block1 = block_of(first), block2 = block_of(second);
   Random random(seed);
   std::vector<double> again;
   for (int k = 0; k < replicas; ++k)
-    again.push_back(two_sample_distance(rescaled(resampled(first, block1, random)),
-                                        rescaled(resampled(second, block2, random))));
+    again.push_back(two_sample_distance(over_mean(resampled(first, block1, random)),
+                                        over_mean(resampled(second, block2, random))));
   if (replicas > 1) out.error = against(out.distance, again).deviation;
   return out;
 }

@@ -14,11 +14,11 @@ struct Start {
   double time, log_size;
 };
 
-std::vector<Start> starts_of(const EventTable &events, double least_size, double from, double to) {
+std::vector<Start> starts_of(const EventTable &table, double least_size, double from, double to) {
   std::vector<Start> out;
-  for (std::size_t i = 0; i < events.size.size(); ++i)
-    if (events.size[i] >= least_size && events.t_start[i] >= from && events.t_start[i] < to)
-      out.push_back({events.t_start[i], std::log(events.size[i])});
+  for (const Event &event : table.events)
+    if (event.size >= least_size && event.t_start >= from && event.t_start < to)
+      out.push_back({event.t_start, std::log(event.size)});
   return out;
 }
 
@@ -53,9 +53,9 @@ EventMatches match_events(const EventTable &first, const EventTable &second,
   if (!(rule.factor > 1.0) || !(rule.within > 0.0) || !(rule.least_size > 0.0) || rule.shifts < 1)
     throw std::invalid_argument(
         "matching: expected a factor above 1, and a size and a time above 0");
-  if (first.t_start.empty() || second.t_start.empty())
+  if (first.events.empty() || second.events.empty())
     throw std::invalid_argument("matching: a catalogue without events");
-  const double from = std::max(first.t_start.front(), second.t_start.front());
+  const double from = std::max(first.events.front().t_start, second.events.front().t_start);
   const double to = std::min(first.last_end, second.last_end);
   if (!(to > from)) throw std::invalid_argument("matching: catalogues have no time in common");
   const std::vector<Start> one = starts_of(first, rule.least_size, from, to);

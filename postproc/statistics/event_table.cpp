@@ -7,6 +7,11 @@
 
 namespace LSM::postproc {
 
+std::string EventTable::kind() const {
+  const std::string *name = info.find("events");
+  return name ? *name : "pe";
+}
+
 double EventTable::length() const {
   double value = 0.0;
   for (const char *key : {"length", "blocks"}) {
@@ -17,8 +22,27 @@ double EventTable::length() const {
 }
 
 double EventTable::share_in_events() const {
-  if (t_start.empty() || info.overlapping()) return std::nan("");
-  return in_events / (last_end - t_start.front());
+  if (events.empty() || info.overlapping()) return std::nan("");
+  return in_events / (last_end - events.front().t_start);
+}
+
+std::vector<double> column(const std::vector<Event> &events, double Event::*number) {
+  std::vector<double> out;
+  out.reserve(events.size());
+  for (const Event &event : events) out.push_back(event.*number);
+  return out;
+}
+
+std::vector<double> sizes_from(const EventTable &table, double least) {
+  std::vector<double> sizes;
+  for (const Event &event : table.events)
+    if (event.size >= least) sizes.push_back(event.size);
+  return sizes;
+}
+
+std::int64_t events_from(const EventTable &table, double least) {
+  return std::count_if(table.events.begin(), table.events.end(),
+                       [least](const Event &event) { return event.size >= least; });
 }
 
 SmallestSize Threshold::in(const EventTable &table) const {

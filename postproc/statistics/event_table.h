@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file event_table.h
-/// The events of a catalogue by column, as the estimators take them, and the smallest size they
-/// use.
+/// The events of a catalogue, and the smallest size that estimators use.
 #ifndef LSM_POSTPROC_EVENT_TABLE_H
 #define LSM_POSTPROC_EVENT_TABLE_H
 
@@ -22,16 +21,13 @@ struct Range {
   double lo, hi;
 };
 
-/// The events of one catalogue, by column.
+/// One catalogue.
 struct EventTable {
   std::string path, label, region;  ///< region: of earthquakes, or empty
   CatalogueInfo info;
-  std::vector<double> t_start, t_end, size;  ///< in order of t_start
-  /// Row along the fault that an event ruptured, [begin, begin + extent), which may continue across
-  /// the periodic border; both empty if the catalogue does not have these columns.
-  std::vector<double> begin, extent;
-  double in_events = 0.0;  ///< sum of the durations (model time)
-  double last_end = 0.0;   ///< t_end of the last event (model time)
+  std::vector<Event> events;  ///< in order of t_start
+  double in_events = 0.0;     ///< sum of the durations (model time)
+  double last_end = 0.0;      ///< t_end of the last event (model time)
   /// Smaller events are missing: --min-size, the picker's min_size in the header, or the smallest
   /// earthquake (energy).
   double complete_from = 0.0;
@@ -49,15 +45,25 @@ struct EventTable {
   /// "model time" or "days".
   const char *time_unit() const { return earthquakes() ? "days" : "model time"; }
 
+  /// Kind of the events by its name (core/events): "pe" unless the header says another.
+  std::string kind() const;
+
   /// Fault length, or the number of blocks of a chain, from the header; NaN if it has neither.
   double length() const;
 
   /// Part of the time from the first start to the last end that lies within events; NaN if there is
-  /// none, or events may overlap (`events = ruptures`).
+  /// none, or events may overlap (kinds other than drops of PE).
   /// Ruptures at the same time at different places are one drop of the PE of the whole model, and
   /// so one event: the longer the model, the larger this part and the more events are joined.
   double share_in_events() const;
 };
+
+/// One number of each event.
+std::vector<double> column(const std::vector<Event> &events, double Event::*number);
+
+/// Sizes of the events of at least a size, and how many these are.
+std::vector<double> sizes_from(const EventTable &table, double least);
+std::int64_t events_from(const EventTable &table, double least);
 
 /// Size below which events are left out, and why there.
 struct SmallestSize {

@@ -9,11 +9,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <stdexcept>
 
 #include "lsm_sum.h"
 #include "lsm_text_io.h"
+#include "replicas.h"
 
 namespace LSM::postproc {
 
@@ -70,9 +70,9 @@ Saturation fit_saturation(LogPoints points, double sharpness) {
     return fit;
   }
 
-  gsl_error_handler_t *const handler = gsl_set_error_handler_off();
+  const QuietGsl quiet;
   gsl_multifit_nlinear_parameters settings = gsl_multifit_nlinear_default_parameters();
-  const std::unique_ptr<gsl_multifit_nlinear_workspace, decltype(&gsl_multifit_nlinear_free)> work(
+  const Gsl<gsl_multifit_nlinear_workspace> work(
       gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &settings, n, 3),
       gsl_multifit_nlinear_free);
   gsl_multifit_nlinear_fdf functions{};
@@ -116,7 +116,6 @@ Saturation fit_saturation(LogPoints points, double sharpness) {
                 gsl_multifit_nlinear_covar(gsl_multifit_nlinear_jac(work.get()), 0.0,
                                            &covariances.matrix) == GSL_SUCCESS;
   }
-  gsl_set_error_handler(handler);
 
   fit.aicc = corrected_aic(fit.chi2, 3, static_cast<int>(n));
   if (!std::isfinite(fit.chi2) || !(best[1] > steps[1] && best[1] < steps[steps.size() - 2]))
@@ -305,9 +304,7 @@ SizePoint characteristic_size(const std::vector<double> &t_start, const std::vec
   }
 
   point.degenerate = false;
-  const std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)> rng(gsl_rng_alloc(gsl_rng_mt19937),
-                                                              gsl_rng_free);
-  gsl_rng_set(rng.get(), static_cast<unsigned long>(resampling.seed));
+  const Rng rng = generator(resampling.seed);
   const auto event_by_event = [&] {
     return ratio([&](std::size_t) { return kept[gsl_rng_uniform_int(rng.get(), kept.size())]; });
   };

@@ -15,13 +15,11 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
-#include <cstdio>
-#include <memory>
-#include <mutex>
 #include <numeric>
 #include <stdexcept>
+
+#include <fmt/format.h>
 
 #include "cells.h"
 #include "ks_distance.h"
@@ -68,8 +66,7 @@ bool invert(const Matrix &information, const Mask &free, Matrix &covariance) {
   for (std::size_t i = 0; i < parameters; ++i)
     if (free[i]) index.push_back(i);
   const std::size_t n = index.size();
-  const std::unique_ptr<gsl_matrix, decltype(&gsl_matrix_free)> scaled(gsl_matrix_alloc(n, n),
-                                                                       gsl_matrix_free),
+  const Gsl<gsl_matrix> scaled(gsl_matrix_alloc(n, n), gsl_matrix_free),
       copy(gsl_matrix_alloc(n, n), gsl_matrix_free);
   const auto root = [&](std::size_t i) { return std::sqrt(information[index[i]][index[i]]); };
   for (std::size_t i = 0; i < n; ++i) {
@@ -78,10 +75,8 @@ bool invert(const Matrix &information, const Mask &free, Matrix &covariance) {
       gsl_matrix_set(scaled.get(), i, j, information[index[i]][index[j]] / (root(i) * root(j)));
   }
   gsl_matrix_memcpy(copy.get(), scaled.get());
-  const std::unique_ptr<gsl_vector, decltype(&gsl_vector_free)> eigenvalues(gsl_vector_alloc(n),
-                                                                            gsl_vector_free);
-  const std::unique_ptr<gsl_eigen_symm_workspace, decltype(&gsl_eigen_symm_free)> work(
-      gsl_eigen_symm_alloc(n), gsl_eigen_symm_free);
+  const Gsl<gsl_vector> eigenvalues = gsl_vector_of(n);
+  const Gsl<gsl_eigen_symm_workspace> work(gsl_eigen_symm_alloc(n), gsl_eigen_symm_free);
   gsl_eigen_symm(copy.get(), eigenvalues.get(), work.get());
   const double smallest = gsl_vector_min(eigenvalues.get());
   if (!(smallest > 1e-10 * gsl_vector_max(eigenvalues.get()))) return false;
@@ -110,11 +105,8 @@ Vector slope_of_log_b(const Vector &p, double reference) {
 // Reason why the parameters are not determined by the data, or "".
 std::string ridge(const Vector &p, const Matrix &covariance, double reference) {
   const auto trade = [](const char *name, double error) {
-    char text[128];
-    std::snprintf(text, sizeof(text),
-                  "the parameters trade against each other: standard error of %s is %.2g", name,
-                  error);
-    return std::string(text);
+    return fmt::format("the parameters trade against each other: standard error of {} is {:.2g}",
+                       name, error);
   };
   const double gamma_error = std::sqrt(covariance[shape][shape]);
   const double delta_error = std::sqrt(covariance[log_delta][log_delta]);
@@ -262,8 +254,8 @@ class Likelihood {
     function.function = [](double x, void *self) {
       return -static_cast<const Likelihood *>(self)->profile(std::exp(x)).log_likelihood;
     };
-    const std::unique_ptr<gsl_min_fminimizer, decltype(&gsl_min_fminimizer_free)> minimiser(
-        gsl_min_fminimizer_alloc(gsl_min_fminimizer_brent), gsl_min_fminimizer_free);
+    const Gsl<gsl_min_fminimizer> minimiser(gsl_min_fminimizer_alloc(gsl_min_fminimizer_brent),
+                                            gsl_min_fminimizer_free);
     const double x = std::log(result.delta);
     if (gsl_min_fminimizer_set_with_values(minimiser.get(), &function, x, -top->log_likelihood,
                                            x - width, -(top - 1)->log_likelihood, x + width,
@@ -471,12 +463,10 @@ Solution solve(BinnedData &data) {
   const std::size_t n = data.bins.size();
   Solution solution;
   gsl_multifit_nlinear_parameters settings = gsl_multifit_nlinear_default_parameters();
-  const std::unique_ptr<gsl_multifit_nlinear_workspace, decltype(&gsl_multifit_nlinear_free)> work(
+  const Gsl<gsl_multifit_nlinear_workspace> work(
       gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &settings, n, free),
       gsl_multifit_nlinear_free);
-  const std::unique_ptr<gsl_vector, decltype(&gsl_vector_free)> x(gsl_vector_alloc(free),
-                                                                  gsl_vector_free),
-      weights(gsl_vector_alloc(n), gsl_vector_free);
+  const Gsl<gsl_vector> x = gsl_vector_of(free), weights = gsl_vector_of(n);
   for (std::size_t i = 0, k = 0; i < parameters; ++i)
     if (data.free[i]) gsl_vector_set(x.get(), k++, data.start[i]);
   for (std::size_t i = 0; i < n; ++i) gsl_vector_set(weights.get(), i, data.bins[i].weight);
@@ -498,18 +488,6 @@ Solution solve(BinnedData &data) {
   gsl_blas_ddot(f, f, &solution.chi2);
   return solution;
 }
-
-// GSL's default handler ends the program; here every status is checked instead.
-class QuietGsl {
- public:
-  QuietGsl() : old_(gsl_set_error_handler_off()) {}
-  ~QuietGsl() { gsl_set_error_handler(old_); }
-  QuietGsl(const QuietGsl &) = delete;
-  QuietGsl &operator=(const QuietGsl &) = delete;
-
- private:
-  gsl_error_handler_t *old_;
-};
 
 }  // namespace
 
@@ -650,9 +628,8 @@ GeneralisedGammaFit fit_least_squares(const std::vector<LogBin> &bins,
   const double reference = sum / static_cast<double>(fit.n);
 
   BinnedData data;
-  const std::unique_ptr<gsl_integration_glfixed_table,
-                        decltype(&gsl_integration_glfixed_table_free)>
-      rule(gsl_integration_glfixed_table_alloc(5), gsl_integration_glfixed_table_free);
+  const Gsl<gsl_integration_glfixed_table> rule(gsl_integration_glfixed_table_alloc(5),
+                                                gsl_integration_glfixed_table_free);
   for (const LogBin &bin : used) {
     BinnedData::Bin entry;
     // Weighted with its count, the logarithm of a Poisson number is half a count too large on
@@ -730,39 +707,28 @@ double p_value(const GeneralisedGammaFit &fit, int replicas, std::uint64_t seed)
   const QuietGsl quiet;
   const double lower = scaled_lower(fit), held = held_delta(fit);
   const auto n = static_cast<std::size_t>(fit.n);
-  std::atomic<int> worse{0};
   // Whether the data would have been called degenerate does not matter: any optimum is a fit.
   if (fit.n > largest_exact_sample) {
     const CellTest test(fit, lower, held);
-    for_each_replica(replicas, [&](int replica) {
+    return share_of_replicas(replicas, [&](int replica) {
       const Rng rng = generator(seed_of_replica(seed, replica));
-      if (!(test.distance(test.cells().draw(rng.get(), n)) < fit.ks_by_cells)) ++worse;
-    });
-  } else {
-    const Sampler draw(fit.gamma, fit.delta, lower);
-    // One after the other from one stream, whoever takes them.
-    const Rng rng = generator(seed);
-    std::mutex drawing;
-    for_each_replica(replicas, [&](int) {
-      std::vector<double> v(n);
-      {
-        const std::lock_guard<std::mutex> lock(drawing);
-        for (double &v_i : v) v_i = draw(rng.get());
-      }
-      Likelihood likelihood(std::move(v), lower);
-      const Profile best = likelihood.best(held);
-      const bool fitted = std::isfinite(best.log_likelihood);
-      const std::vector<double> &sorted = likelihood.sort();
-      if (!fitted || !(distance(SortedValues(sorted.data(), n), lower, best.gamma, best.delta,
-                                best.v0) < fit.ks))
-        ++worse;
+      return !(test.distance(test.cells().draw(rng.get(), n)) < fit.ks_by_cells);
     });
   }
-  return (worse + 1.0) / (replicas + 1.0);
-}
-
-double generalised_gamma_density(double theta, const GeneralisedGammaFit &fit) {
-  return fit.C * std::pow(theta, fit.gamma - 1.0) * std::exp(-std::pow(theta, fit.delta) / fit.B);
+  const Sampler sampler(fit.gamma, fit.delta, lower);
+  const auto draw = [&](gsl_rng *rng) {
+    std::vector<double> v(n);
+    for (double &v_i : v) v_i = sampler(rng);
+    return v;
+  };
+  return share_of_samples(replicas, seed, draw, [&](std::vector<double> v) {
+    Likelihood likelihood(std::move(v), lower);
+    const Profile best = likelihood.best(held);
+    const bool fitted = std::isfinite(best.log_likelihood);
+    const std::vector<double> &sorted = likelihood.sort();
+    return !fitted || !(distance(SortedValues(sorted.data(), n), lower, best.gamma, best.delta,
+                                 best.v0) < fit.ks);
+  });
 }
 
 }  // namespace LSM::postproc

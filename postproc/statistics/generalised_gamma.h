@@ -78,9 +78,6 @@ GeneralisedGammaFit fit_maximum_likelihood(const std::vector<double> &values, do
 /// the fit is degenerate, or for fewer than 0 replicas
 double p_value(const GeneralisedGammaFit &fit, int replicas, std::uint64_t seed);
 
-/// The density at theta > 0.
-double generalised_gamma_density(double theta, const GeneralisedGammaFit &fit);
-
 }  // namespace LSM::postproc
 
 #endif

@@ -11,7 +11,7 @@
 
 #include <fmt/format.h>
 
-#include "lsm_sum.h"
+#include "samples.h"
 
 namespace LSM::postproc {
 
@@ -26,10 +26,10 @@ std::string IntervalCurve::from() const {
                      : fmt::format("sizes >= {:.4g}", threshold.size);
 }
 
-std::vector<double> starts_of(const EventTable &events, double threshold) {
+std::vector<double> starts_of(const EventTable &table, double threshold) {
   std::vector<double> starts;
-  for (std::size_t i = 0; i < events.size.size(); ++i)
-    if (events.size[i] >= threshold) starts.push_back(events.t_start[i]);
+  for (const Event &event : table.events)
+    if (event.size >= threshold) starts.push_back(event.t_start);
   return starts;
 }
 
@@ -52,23 +52,24 @@ RankCorrelation successive_rank_correlation(const std::vector<double> &times) {
   return found;
 }
 
-std::vector<double> times_at_places(const EventTable &events, double threshold, int places) {
-  const double length = events.length();
-  if (events.begin.size() != events.size.size() || !(length > 0.0))
-    throw std::invalid_argument(events.path +
+std::vector<double> times_at_places(const EventTable &table, double threshold, int places) {
+  const double length = table.length();
+  if (!table.info.x_begin || !table.info.rupture_length || !(length > 0.0))
+    throw std::invalid_argument(table.path +
                                 ": --places: no columns x_begin and rupture_length, or no length "
                                 "in the header, expected a catalogue of ruptures of a fault");
   std::vector<double> times;
   for (int place = 0; place < places; ++place) {
     const double x = (place + 0.5) * length / places;
     double before = std::nan("");
-    for (std::size_t i = 0; i < events.size.size(); ++i) {
-      if (!(events.size[i] >= threshold)) continue;
-      double beyond = std::fmod(x - events.begin[i], length);
+    for (const Event &event : table.events) {
+      if (!(event.size >= threshold)) continue;
+      // The row that it ruptured may continue across the periodic border.
+      double beyond = std::fmod(x - event.x_begin, length);
       if (beyond < 0.0) beyond += length;
-      if (beyond >= events.extent[i]) continue;
-      if (!std::isnan(before)) times.push_back(events.t_start[i] - before);
-      before = events.t_start[i];
+      if (beyond >= event.rupture_length) continue;
+      if (!std::isnan(before)) times.push_back(event.t_start - before);
+      before = event.t_start;
     }
   }
   return times;
@@ -109,7 +110,7 @@ std::vector<IntervalCurve> interval_curves(const std::vector<EventTable> &tables
           settings.places > 0 ? times_at_places(table, curve.threshold.size, settings.places)
                               : inter_event_times(table, curve.threshold.size);
       curve.n = static_cast<std::int64_t>(times.size());
-      curve.mean = sum_pairwise(times.data(), times.size()) / static_cast<double>(times.size());
+      curve.mean = mean_of(times);
       curve.variation = variation_of(times);
       const int shuffles = settings.shuffles < 0 ? shuffles_for(times.size()) : settings.shuffles;
       if (shuffles > 0 && settings.places == 0) {
@@ -128,12 +129,9 @@ std::vector<IntervalCurve> interval_curves(const std::vector<EventTable> &tables
       // Events of zero length can start at the same time.
       times.erase(std::remove_if(times.begin(), times.end(), [](double t) { return !(t > 0.0); }),
                   times.end());
-      LogHistogram histogram(settings.factor);
-      for (double &time : times) {
-        if (settings.rescale) time /= curve.mean;
-        histogram.add(time);
-      }
-      curve.bins = histogram.bins();
+      if (settings.rescale)
+        for (double &time : times) time /= curve.mean;
+      curve.bins = LogHistogram(times, settings.factor).bins();
       const double shortest =
           times.empty() ? 0.0 : settings.shortest * (settings.rescale ? 1.0 : curve.mean);
       // Fitted bins keep the normalisation of the whole density, as C belongs to it.

@@ -30,6 +30,11 @@ class LogHistogram {
 
   /// \throws std::invalid_argument unless factor is finite and at least 1.0001
   explicit LogHistogram(double factor = default_factor);
+  /// Of all values.
+  explicit LogHistogram(const std::vector<double> &values, double factor = default_factor)
+      : LogHistogram(factor) {
+    for (const double value : values) add(value);
+  }
 
   /// Samples that are zero, negative or not finite are only counted, see outside().
   void add(double value);

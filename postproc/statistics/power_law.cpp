@@ -6,10 +6,7 @@
 #include <gsl/gsl_rng.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <mutex>
-#include <numeric>
 #include <stdexcept>
 
 #include "cells.h"
@@ -393,33 +390,27 @@ double p_value(const PowerLawFit &fit, const std::vector<double> &sorted, int re
     const Estimate e = estimate(sample, law.lower, law.lower + law.length);
     return e.usable ? distance(sample, e) : std::numeric_limits<double>::infinity();
   };
-  std::atomic<int> worse{0};
   if (data.size() > static_cast<std::size_t>(largest_exact_sample)) {
     const Cells cells = cells_of(data, law, parts);
     const double found = distance_of(CountedLogs(cells, cells.count(data.y())));
-    for_each_replica(replicas, [&](int replica) {
+    return share_of_replicas(replicas, [&](int replica) {
       const Rng rng = generator(seed_of_replica(seed, replica));
-      if (distance_of(CountedLogs(cells, cells.draw(rng.get(), data.size()))) >= found) ++worse;
-    });
-  } else {
-    // One after the other from one stream, whoever takes them.
-    const Rng rng = generator(seed);
-    std::mutex drawing;
-    for_each_replica(replicas, [&](int) {
-      std::vector<double> logs;
-      logs.reserve(data.size());
-      {
-        const std::lock_guard<std::mutex> lock(drawing);
-        unsigned int counts[3];
-        gsl_ran_multinomial(rng.get(), 3, static_cast<unsigned int>(data.size()), parts, counts);
-        append_resampled(logs, data.y(), 0, first, counts[0], rng.get());
-        append_ordered(logs, counts[1], rng.get(), [&](double u) { return law.quantile(u); });
-        append_resampled(logs, data.y(), last, data.size(), counts[2], rng.get());
-      }
-      if (distance_of(LogSample(std::move(logs))) >= fit.ks) ++worse;
+      return distance_of(CountedLogs(cells, cells.draw(rng.get(), data.size()))) >= found;
     });
   }
-  return (worse + 1.0) / (replicas + 1.0);
+  const auto draw = [&](gsl_rng *rng) {
+    std::vector<double> logs;
+    logs.reserve(data.size());
+    unsigned int counts[3];
+    gsl_ran_multinomial(rng, 3, static_cast<unsigned int>(data.size()), parts, counts);
+    append_resampled(logs, data.y(), 0, first, counts[0], rng);
+    append_ordered(logs, counts[1], rng, [&](double u) { return law.quantile(u); });
+    append_resampled(logs, data.y(), last, data.size(), counts[2], rng);
+    return logs;
+  };
+  return share_of_samples(replicas, seed, draw, [&](std::vector<double> logs) {
+    return distance_of(LogSample(std::move(logs))) >= fit.ks;
+  });
 }
 
 std::vector<Comparison> compare(const std::vector<double> &sorted, const PowerLawFit &fit) {

@@ -9,7 +9,8 @@
 
 #include <cstdint>
 #include <functional>
-#include <memory>
+
+#include "gsl_owners.h"
 
 namespace LSM::postproc {
 
@@ -20,7 +21,7 @@ constexpr std::int64_t largest_exact_sample = 8192;
 /// Seed of one replica; neighbouring seeds and replicas have nothing in common.
 std::uint64_t seed_of_replica(std::uint64_t seed, int replica);
 
-using Rng = std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)>;
+using Rng = Gsl<gsl_rng>;
 
 /// Mersenne Twister.
 Rng generator(std::uint64_t seed);
@@ -28,6 +29,13 @@ Rng generator(std::uint64_t seed);
 /// Calls task(0) to task(count - 1) on all cores that the process may use. \throws what the first
 /// task throws that does
 void for_each_replica(int count, const std::function<void(int)> &task);
+
+/// (k + 1) / (count + 1) with the number k of replicas that are as far off as the data.
+double share_of_replicas(int count, const std::function<bool(int)> &as_far);
+/// The same of samples that are drawn one after the other from one stream, whoever takes them.
+double share_of_samples(int count, std::uint64_t seed,
+                        const std::function<std::vector<double>(gsl_rng *)> &draw,
+                        const std::function<bool(std::vector<double>)> &as_far);
 
 /// Is told between replicas how many of how many are done, by one thread at a time; at the end
 /// count of count. Empty: no report.

@@ -14,7 +14,7 @@ std::vector<SizeFit> fit_sizes(const std::vector<EventTable> &tables,
   if (settings.replicas < 0) throw std::invalid_argument("--replicas: expected 0 or more");
   std::vector<SizeFit> fits;
   for (std::size_t i = 0; i < tables.size(); ++i) {
-    std::vector<double> sorted = tables[i].size;
+    std::vector<double> sorted = column(tables[i].events, &Event::size);
     std::sort(sorted.begin(), sorted.end());
     std::vector<PowerLawFit> laws;
     // Below that size the missing events would pass for a flatter law.
@@ -64,18 +64,18 @@ std::vector<Scaling> scale_sizes(const std::vector<EventTable> &tables, const Th
     const std::string stiffness = kl ? *kl : "";
     auto found = std::find_if(scalings.begin(), scalings.end(), [&](const Scaling &scaling) {
       return scaling.model == table.info.model && scaling.stiffness == stiffness &&
-             scaling.ruptures == table.info.overlapping();
+             scaling.kind == table.kind();
     });
     if (found == scalings.end()) {
       scalings.emplace_back();
       found = scalings.end() - 1;
       found->model = table.info.model;
       found->stiffness = stiffness;
-      found->ruptures = table.info.overlapping();
+      found->kind = table.kind();
       // One for all lengths, and no catalogue with less than all of its events.
       found->threshold = threshold.in(table);
       for (const EventTable &other : tables) {
-        if (other.info.model != found->model || other.info.overlapping() != found->ruptures ||
+        if (other.info.model != found->model || other.kind() != found->kind ||
             !(other.complete_from > found->threshold.size))
           continue;
         found->threshold = {other.complete_from, SmallestSize::Origin::catalogue, other.label};
@@ -85,8 +85,9 @@ std::vector<Scaling> scale_sizes(const std::vector<EventTable> &tables, const Th
     // A seed of its own for each catalogue, so that their bootstrap samples are independent.
     Resampling own = resampling;
     own.seed += found->points.size();
-    found->points.push_back(
-        characteristic_size(table.t_start, table.size, found->threshold.size, length, own));
+    found->points.push_back(characteristic_size(column(table.events, &Event::t_start),
+                                                column(table.events, &Event::size),
+                                                found->threshold.size, length, own));
   }
   for (Scaling &scaling : scalings) scaling.fit = fit_scaling(scaling.points);
   return scalings;

@@ -43,7 +43,7 @@ std::vector<SizeFit> fit_sizes(const std::vector<EventTable> &tables,
 struct Scaling {
   std::string model;
   std::string stiffness;  ///< block-slider: kl of the header; "" if there is none
-  bool ruptures = false;  ///< events are ruptures, not drops of the PE of the whole model
+  std::string kind;       ///< of the events, see EventTable::kind()
   SmallestSize threshold;
   std::vector<std::string> labels;
   std::vector<SizePoint> points;

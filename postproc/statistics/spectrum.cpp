@@ -9,11 +9,11 @@
 #include <fftw3.h>
 #include <fmt/format.h>
 
+#include "lsm_circular_mean.h"
+
 namespace LSM::postproc {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 double window_value(Window window, double phase) {
   switch (window) {

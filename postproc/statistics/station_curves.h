@@ -5,7 +5,6 @@
 #ifndef LSM_STATISTICS_STATION_CURVES_H
 #define LSM_STATISTICS_STATION_CURVES_H
 
-#include <string>
 #include <vector>
 
 namespace LSM {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 #include <fmt/format.h>
 
@@ -31,8 +30,8 @@ PowerLawFit fit_one(const EventTable &table, const SizeFitSettings &settings) {
 
 std::vector<double> threshold_grid(const EventTable &table, std::int64_t fewest) {
   std::vector<double> sorted;
-  for (const double size : table.size)
-    if (size > 0.0) sorted.push_back(size);
+  for (const Event &event : table.events)
+    if (event.size > 0.0) sorted.push_back(event.size);
   std::sort(sorted.begin(), sorted.end());
   std::vector<double> grid;
   if (static_cast<std::int64_t>(sorted.size()) < fewest) return grid;
@@ -56,7 +55,10 @@ std::vector<ThresholdResult> scan_thresholds(const EventTable &table,
                                              const std::vector<double> &thresholds) {
   std::vector<ThresholdResult> results;
   if (thresholds.empty()) return results;
-  const double largest = *std::max_element(table.size.begin(), table.size.end());
+  const double largest =
+      std::max_element(table.events.begin(), table.events.end(), [](auto &a, auto &b) {
+        return a.size < b.size;
+      })->size;
   IntervalSettings times;
   times.thresholds = thresholds;
   times.replicas = 0;

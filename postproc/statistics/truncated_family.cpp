@@ -5,7 +5,8 @@
 
 #include <algorithm>
 #include <limits>
-#include <memory>
+
+#include "gsl_owners.h"
 
 namespace LSM::postproc {
 
@@ -80,9 +81,8 @@ double tilt_of_mean(double mean) {
 TabulatedDensity tabulate(const std::function<double(double)> &log_density, double mode,
                           double lower, double upper, double feature) {
   constexpr std::size_t points = 16;
-  static const std::unique_ptr<gsl_integration_glfixed_table,
-                               decltype(&gsl_integration_glfixed_table_free)>
-      rule(gsl_integration_glfixed_table_alloc(points), gsl_integration_glfixed_table_free);
+  static const Gsl<gsl_integration_glfixed_table> rule(gsl_integration_glfixed_table_alloc(points),
+                                                       gsl_integration_glfixed_table_free);
 
   if (lower < mode) lower = edge_of_support(log_density, mode, lower, feature);
   if (upper > mode) upper = edge_of_support(log_density, mode, upper, feature);

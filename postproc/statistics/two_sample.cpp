@@ -2,18 +2,15 @@
 #include "two_sample.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <mutex>
 #include <numeric>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 #include "finite_size.h"
-#include "lsm_random.h"
-#include "lsm_sum.h"
 #include "replicas.h"
+#include "samples.h"
 
 namespace LSM::postproc {
 
@@ -84,16 +81,6 @@ std::vector<std::size_t> blocks_of(std::size_t n, int block) {
   return starts;
 }
 
-double mean_of(const std::vector<double> &values, std::size_t from, std::size_t to) {
-  return sum_pairwise(values.data() + from, to - from) / static_cast<double>(to - from);
-}
-
-std::vector<double> centred(std::vector<double> values) {
-  const double mean = mean_of(values, 0, values.size());
-  for (double &value : values) value -= mean;
-  return values;
-}
-
 struct Block {
   std::size_t from, to;
 };
@@ -150,13 +137,14 @@ class ClassCounts {
 
 BlockMean block_mean(const std::vector<double> &values, int block) {
   BlockMean result;
-  result.mean = mean_of(values, 0, values.size());
+  result.mean = mean_of(values);
   const std::vector<std::size_t> starts = blocks_of(values.size(), block);
   const auto count = static_cast<double>(starts.size() - 1);
   if (count < 2.0) return result;
   double squares = 0.0;
   for (std::size_t i = 0; i + 1 < starts.size(); ++i)
-    squares += std::pow(mean_of(values, starts[i], starts[i + 1]) - result.mean, 2);
+    squares +=
+        std::pow(mean_of(values.data() + starts[i], starts[i + 1] - starts[i]) - result.mean, 2);
   result.error = std::sqrt(squares / (count - 1.0) / count);
   return result;
 }
@@ -220,22 +208,18 @@ TwoSampleTest two_sample_test(const std::vector<double> &first, const std::vecto
   };
   // Sums of counts over counts are exact to rounding only.
   const double least = distance(order) * (1.0 - 1e-12);
-  std::atomic<int> as_large{1};
   // One division after the other from one stream, whoever takes them.
   Random random(seed);
   std::mutex drawing;
-  for_each_replica(replicas, [&](int) {
+  test.p = share_of_replicas(replicas, [&](int) {
     std::vector<std::size_t> divided;
     {
       const std::lock_guard<std::mutex> lock(drawing);
-      for (std::size_t i = order.size() - 1; i > 0; --i)
-        std::swap(order[i],
-                  order[static_cast<std::size_t>(random.uniform() * static_cast<double>(i + 1))]);
+      shuffle(order, random);
       divided = order;
     }
-    if (distance(divided) >= least) ++as_large;
+    return distance(divided) >= least;
   });
-  test.p = static_cast<double>(as_large) / (replicas + 1.0);
   test.p_error = std::sqrt(test.p * (1.0 - test.p) / (replicas + 1.0));
   return test;
 }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "coverage.h"
+#include "event_tables.h"
 
 using namespace LSM::postproc;
 
@@ -56,9 +57,9 @@ EventTable events(const std::vector<double> &starts, const std::vector<double> &
                   const std::vector<double> &sizes) {
   EventTable table;
   table.info.model = "lsm";
-  table.t_start = starts;
-  for (std::size_t i = 0; i < starts.size(); ++i) table.t_end.push_back(starts[i] + durations[i]);
-  table.size = sizes;
+  std::vector<double> ends = starts;
+  for (std::size_t i = 0; i < starts.size(); ++i) ends[i] += durations[i];
+  table.events = events_of(starts, sizes, ends);
   return table;
 }
 
@@ -85,7 +86,7 @@ TEST(Sequences, MainShocksByHand) {
   rule.main_size = 50;
   rule.least_size = 1;
   rule.window = 20;
-  const Sequences s = stack_sequences(table, rule);
+  const Sequences s = stack_sequences(shocks_of(table), rule);
   // At 100 (ends at 110), at 200 (ends at 202; the equal one at 203 comes second), at 300.
   EXPECT_EQ(s.main_shocks, 3);
   // 105 begins before the end; 120 is too small.
@@ -93,18 +94,18 @@ TEST(Sequences, MainShocksByHand) {
   // Nothing ends within 20 before 100 and 300, nor before 200.
   EXPECT_TRUE(s.before.empty());
   rule.first = 1.5;
-  EXPECT_EQ(stack_sequences(table, rule).times, (std::vector<double>{2, 10}));
+  EXPECT_EQ(stack_sequences(shocks_of(table), rule).times, (std::vector<double>{2, 10}));
   rule.first = 0.0;
   rule.window = 99;
   // 200 ends 98 before 300, which is larger; 100 ends 90 before 200, which is as large and later.
-  EXPECT_EQ(stack_sequences(table, rule).main_shocks, 2);
+  EXPECT_EQ(stack_sequences(shocks_of(table), rule).main_shocks, 2);
   // The window has to lie within the catalogue.
   rule.window = 201;
-  EXPECT_EQ(stack_sequences(table, rule).main_shocks, 0);
+  EXPECT_EQ(stack_sequences(shocks_of(table), rule).main_shocks, 0);
   rule.window = 0.0;
-  EXPECT_THROW(stack_sequences(table, rule), std::invalid_argument);
+  EXPECT_THROW(stack_sequences(shocks_of(table), rule), std::invalid_argument);
   rule.window = rule.first = 1.0;
-  EXPECT_THROW(stack_sequences(table, rule), std::invalid_argument);
+  EXPECT_THROW(stack_sequences(shocks_of(table), rule), std::invalid_argument);
 }
 
 TEST(Sequences, BeforeMainShocksByHand) {
@@ -116,9 +117,9 @@ TEST(Sequences, BeforeMainShocksByHand) {
   rule.main_size = 50;
   rule.least_size = 1;
   rule.window = 20;
-  EXPECT_EQ(stack_sequences(table, rule).before, (std::vector<double>{8, 4, 2}));
+  EXPECT_EQ(stack_sequences(shocks_of(table), rule).before, (std::vector<double>{8, 4, 2}));
   rule.first = 5;
-  EXPECT_EQ(stack_sequences(table, rule).before, (std::vector<double>{8}));
+  EXPECT_EQ(stack_sequences(shocks_of(table), rule).before, (std::vector<double>{8}));
   rule.first = 1;
   const Aftershocks found = aftershocks_of(table, rule, 0.0, 3.0, 0, 1);
   ASSERT_EQ(found.bins.size(), 2u);  // 1 to 3, 3 to 9
@@ -248,25 +249,28 @@ TEST(Omori, DegenerateAndImpossible) {
 }
 
 TEST(PoissonCatalogue, KeepsTheEventsAndForgetsTheirTimes) {
-  EventTable table = events({1, 2, 5, 9, 20}, {0.5, 1, 2, 0, 3}, {1, 2, 3, 4, 5});
-  const EventTable other = poisson_catalogue(table, 4);
-  std::vector<double> sizes = other.size;
-  std::sort(sizes.begin(), sizes.end());
-  EXPECT_EQ(sizes, table.size);
-  EXPECT_TRUE(std::is_sorted(other.t_start.begin(), other.t_start.end()));
+  const std::vector<Shock> shocks =
+      shocks_of(events({1, 2, 5, 9, 20}, {0.5, 1, 2, 0, 3}, {1, 2, 3, 4, 5}));
+  const std::vector<Shock> other = poisson_catalogue(shocks, false, 4);
+  ASSERT_EQ(other.size(), 5u);
+  std::vector<bool> seen(5);
+  bool moved = false;
   for (std::size_t i = 0; i < 5; ++i) {
-    const auto which = static_cast<std::size_t>(other.size[i]) - 1;
-    EXPECT_NEAR(other.t_end[i] - other.t_start[i], table.t_end[which] - table.t_start[which],
-                1e-12);
+    const auto which = static_cast<std::size_t>(other[i].size) - 1;
+    EXPECT_FALSE(seen.at(which));
+    seen[which] = true;
+    EXPECT_NEAR(other[i].end - other[i].start, shocks[which].end - shocks[which].start, 1e-12);
     if (i > 0) {
-      EXPECT_GE(other.t_start[i], other.t_end[i - 1]);
+      EXPECT_GE(other[i].start, other[i - 1].end);
     }
+    moved = moved || other[i].start != shocks[i].start;
   }
-  EXPECT_NE(other.t_start, table.t_start);
-  // Ruptures may overlap.
-  table.info.parameters = {{"events", "ruptures"}};
-  EXPECT_GE(poisson_catalogue(table, 4).t_start.front(), 1.0);
-  EXPECT_LE(poisson_catalogue(table, 4).t_start.back(), 20.0);
+  EXPECT_TRUE(moved);
+  const std::vector<Shock> overlapping = poisson_catalogue(shocks, true, 4);
+  EXPECT_GE(overlapping.front().start, 1.0);
+  EXPECT_LE(overlapping.back().start, 20.0);
+  EXPECT_TRUE(std::is_sorted(overlapping.begin(), overlapping.end(),
+                             [](const Shock &a, const Shock &b) { return a.start < b.start; }));
 }
 
 TEST(Aftershocks, ShareOfPoissonCatalogues) {
@@ -291,8 +295,8 @@ TEST(Aftershocks, SequencesStandOutFromPoissonCatalogues) {
   EventTable clustered = poisson(3000, 1.0, 77);
   const Rng rng = generator(5);
   std::vector<std::pair<double, double>> rows;
-  for (std::size_t i = 0; i < clustered.size.size(); ++i)
-    rows.emplace_back(clustered.t_start[i], std::min(clustered.size[i], 100.0));
+  for (const LSM::Event &event : clustered.events)
+    rows.emplace_back(event.t_start, std::min(event.size, 100.0));
   for (int main = 0; main < 29; ++main) {
     const double time = 50.0 + 100.0 * main;
     rows.emplace_back(time, 1e4);
@@ -304,13 +308,12 @@ TEST(Aftershocks, SequencesStandOutFromPoissonCatalogues) {
   rule.main_size = 1e4;
   rule.least_size = 1.0;
   rule.window = 40.0;
-  clustered.t_start.clear();
-  clustered.size.clear();
+  std::vector<double> starts, sizes;
   for (const auto &[time, size] : rows) {
-    clustered.t_start.push_back(time);
-    clustered.size.push_back(size);
+    starts.push_back(time);
+    sizes.push_back(size);
   }
-  clustered.t_end = clustered.t_start;
+  clustered.events = events_of(starts, sizes);
   const Aftershocks a = aftershocks_of(clustered, rule, std::nan(""), 1.6, 19, 1);
   EXPECT_EQ(a.sequences.main_shocks, 29);
   ASSERT_FALSE(a.fit.degenerate) << a.fit.why;

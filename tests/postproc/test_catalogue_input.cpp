@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "catalogue_input.h"
+#include "event_tables.h"
+#include "size_fit_tables.h"
 
 #include <gtest/gtest.h>
 
@@ -54,9 +56,9 @@ TEST_F(CatalogueInput, RupturesAreSortedByTheirStarts) {
       "3,1,4,10,40,0.125,1,0.75\n";
   const EventTable table =
       load_catalogue(file(rows, "events = ruptures", "block-slider"), CatalogueOptions());
-  EXPECT_EQ(table.t_start, (std::vector<double>{1, 2, 2.5}));
-  EXPECT_EQ(table.t_end, (std::vector<double>{4, 3, 3}));
-  EXPECT_EQ(table.size, (std::vector<double>{0.125, 0.5, 0.25}));
+  EXPECT_EQ(starts(table), (std::vector<double>{1, 2, 2.5}));
+  EXPECT_EQ(ends(table), (std::vector<double>{4, 3, 3}));
+  EXPECT_EQ(sizes(table), (std::vector<double>{0.125, 0.5, 0.25}));
   EXPECT_EQ(table.last_end, 4.0);
   EXPECT_TRUE(std::isnan(table.share_in_events()));
 }
@@ -67,8 +69,8 @@ TEST_F(CatalogueInput, TimesAsTheWayOfThePlate) {
   options.from_time = 1.0;  // of the way, too
   options.to_time = 3.5;
   const EventTable table = load_catalogue(file(good, "velocity = -0.5"), options);
-  EXPECT_EQ(table.t_start, (std::vector<double>{1.5, 2.5}));
-  EXPECT_EQ(table.t_end, (std::vector<double>{2.0, 3.0}));
+  EXPECT_EQ(starts(table), (std::vector<double>{1.5, 2.5}));
+  EXPECT_EQ(ends(table), (std::vector<double>{2.0, 3.0}));
   EXPECT_EQ(table.in_events, 1.0);
   for (const char *parameter : {"length = 120", "velocity = 0", "velocity = fast"})
     EXPECT_THROW(load_catalogue(file(good, parameter), options), FileError) << parameter;
@@ -81,8 +83,8 @@ TEST_F(CatalogueInput, ColumnsOfTheEventsChosen) {
     options.min_size = -1.0;
     return options;
   }());
-  EXPECT_EQ(all.size, (std::vector<double>{0.5, 1e-5, 0.25, -0.125}));
-  EXPECT_EQ(all.t_start, (std::vector<double>{1, 3, 5, 7}));
+  EXPECT_EQ(sizes(all), (std::vector<double>{0.5, 1e-5, 0.25, -0.125}));
+  EXPECT_EQ(starts(all), (std::vector<double>{1, 3, 5, 7}));
   EXPECT_EQ(all.share_in_events(), 4.0 / 7.0);
 
   CatalogueOptions options;
@@ -90,10 +92,10 @@ TEST_F(CatalogueInput, ColumnsOfTheEventsChosen) {
   options.from_time = 1.0;
   options.to_time = 5.0;  // the first start left out
   const EventTable some = load_catalogue(name, options);
-  EXPECT_EQ(some.size, std::vector<double>{0.5});
+  EXPECT_EQ(sizes(some), std::vector<double>{0.5});
   EXPECT_EQ(some.left_out_small, 1);
   EXPECT_EQ(some.left_out_time, 2);
-  EXPECT_EQ(load_catalogue(name, CatalogueOptions()).size.size(), 3u);  // none of size < 0
+  EXPECT_EQ(load_catalogue(name, CatalogueOptions()).events.size(), 3u);  // none of size < 0
 }
 
 TEST_F(CatalogueInput, KnowsWhereItIsComplete) {
@@ -133,6 +135,25 @@ TEST_F(CatalogueInput, CompletenessIsTheDefaultThreshold) {
             (std::vector<std::string>{
                 "smallest size, fault: " + text(none.in(tables[0])),
                 "smallest size, block-slider: 0.0001, that of the paper's Figs. 12 and 13"}));
+}
+
+// Events that may overlap are not all ruptures.
+TEST_F(CatalogueInput, KindsOfEventsAreToldApart) {
+  CatalogueOptions options;
+  options.paths = {file(good, "length = 8\n# events = ruptures\n# completeness = 0.003"),
+                   file(good, "length = 8\n# events = place"), file(good, "length = 8")};
+  const std::vector<EventTable> tables = load_catalogues(options);
+  ASSERT_EQ(tables.size(), 3u);
+  EXPECT_EQ(tables[0].kind(), "ruptures");
+  EXPECT_EQ(tables[1].kind(), "place");
+  EXPECT_EQ(tables[2].kind(), "pe");
+  EXPECT_EQ(tables[0].completeness, 0.003);
+  EXPECT_EQ(tables[1].completeness, 0.0);
+  const std::vector<Scaling> scalings = scale_sizes(tables, Threshold(0.0), Resampling());
+  ASSERT_EQ(scalings.size(), 3u);
+  EXPECT_EQ(name_of(scalings[0]), "fault, ruptures");
+  EXPECT_EQ(name_of(scalings[1]), "fault, place");
+  EXPECT_EQ(name_of(scalings[2]), "fault");
 }
 
 TEST_F(CatalogueInput, CompletenessHasToBeASize) {
@@ -194,7 +215,7 @@ TEST_F(CatalogueInput, BadLinesAreErrorsOrCountedByKind) {
   EXPECT_TRUE(contains(message_of<FileError>([&] { load_catalogue(name, CatalogueOptions()); }),
                        name + ":6: column 't_end' is 'nan', expected a finite number"));
   const EventTable table = load_catalogue(name, lenient());
-  EXPECT_EQ(table.size, (std::vector<double>{0.5, 0.25}));
+  EXPECT_EQ(sizes(table), (std::vector<double>{0.5, 0.25}));
   EXPECT_EQ(table.skipped_lines, 6);
   ASSERT_EQ(table.repairs.size(), 5u);
   EXPECT_EQ(table.repairs[0], name + ": passed over a truncated last line: 1");
@@ -230,8 +251,8 @@ TEST_F(CatalogueInput, WhatCannotBeRepairedIsRefused) {
 }
 
 TEST_F(CatalogueInput, OneEventOrNone) {
-  EXPECT_EQ(load_catalogue(file("1,1,2,10,20,0.5,1,0.5\n"), CatalogueOptions()).size.size(), 1u);
-  EXPECT_EQ(load_catalogue(file(""), CatalogueOptions()).size.size(), 0u);
+  EXPECT_EQ(load_catalogue(file("1,1,2,10,20,0.5,1,0.5\n"), CatalogueOptions()).events.size(), 1u);
+  EXPECT_EQ(load_catalogue(file(""), CatalogueOptions()).events.size(), 0u);
 }
 
 TEST_F(CatalogueInput, LinesAcrossTheBlocksOfTheReader) {
@@ -244,10 +265,10 @@ TEST_F(CatalogueInput, LinesAcrossTheBlocksOfTheReader) {
   spill(name, "# lsm-catalogue 1\n# model = lsm\n# note = " + std::string(300000, 'x') + "\n" +
                   columns + "\n" + rows);
   const EventTable table = load_catalogue(name, CatalogueOptions());
-  ASSERT_EQ(table.size.size(), 20000u);
-  for (std::size_t i = 0; i < table.size.size(); ++i) {
-    EXPECT_EQ(table.t_start[i], 2.0 * static_cast<double>(i + 1));
-    EXPECT_EQ(table.size[i], std::stod("0." + std::to_string(i + 1)));
+  ASSERT_EQ(sizes(table).size(), 20000u);
+  for (std::size_t i = 0; i < sizes(table).size(); ++i) {
+    EXPECT_EQ(table.events[i].t_start, 2.0 * static_cast<double>(i + 1));
+    EXPECT_EQ(table.events[i].size, std::stod("0." + std::to_string(i + 1)));
   }
   ASSERT_NE(table.info.find("note"), nullptr);
   EXPECT_EQ(table.info.find("note")->size(), 300000u);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "earthquakes.h"
+#include "event_tables.h"
 
 #include <gtest/gtest.h>
 
@@ -186,11 +187,11 @@ class EarthquakeInput : public unit::Files {
 
 TEST_F(EarthquakeInput, TableOfDaysAndMagnitudes) {
   const EventTable table = load_catalogue(file(csv), {});
-  ASSERT_EQ(table.size.size(), 3u);
+  ASSERT_EQ(table.events.size(), 3u);
   EXPECT_TRUE(table.earthquakes());
   EXPECT_EQ(table.label, "quakes");
-  EXPECT_EQ(table.t_start[0], 8780.0);
-  EXPECT_EQ(std::log10(table.size[1]) / 1.5, 6.7);
+  EXPECT_EQ(table.events[0].t_start, 8780.0);
+  EXPECT_EQ(std::log10(table.events[1].size) / 1.5, 6.7);
   ASSERT_EQ(table.repairs.size(), 1u);
   EXPECT_TRUE(contains(table.repairs[0], "left out 1 of type 'quarry blast'"));
   EXPECT_EQ(Threshold().of(table), size_of_magnitude(2.01));
@@ -199,16 +200,16 @@ TEST_F(EarthquakeInput, TableOfDaysAndMagnitudes) {
 TEST_F(EarthquakeInput, Selection) {
   CatalogueOptions options;
   options.min_size = size_of_magnitude(5.89);
-  EXPECT_EQ(load_catalogue(file(csv), options).size.size(), 2u);
+  EXPECT_EQ(load_catalogue(file(csv), options).events.size(), 2u);
   options.to_day = *parse_date("1994-01-17T12:31");
-  EXPECT_EQ(load_catalogue(file(csv), options).size.size(), 1u);
+  EXPECT_EQ(load_catalogue(file(csv), options).events.size(), 1u);
   options = {};
   options.paths = {file(csv)};
   options.regions = {"-119/-118/34/35", "-117/-116/33/34"};
   const auto tables = load_catalogues(options);
   ASSERT_EQ(tables.size(), 2u);
-  EXPECT_EQ(tables[0].size.size(), 2u);
-  EXPECT_EQ(tables[1].size.size(), 1u);
+  EXPECT_EQ(tables[0].events.size(), 2u);
+  EXPECT_EQ(tables[1].events.size(), 1u);
   EXPECT_TRUE(contains(tables[1].repairs.back(), "left out 2 outside of -117/-116/33/34"));
   options = {};
   options.paths = {file(csv)};

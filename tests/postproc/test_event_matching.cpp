@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "event_matching.h"
+#include "event_tables.h"
 #include "lsm_random.h"
 
 using namespace LSM::postproc;
@@ -13,8 +14,7 @@ namespace {
 
 EventTable events(const std::vector<double> &starts, const std::vector<double> &sizes) {
   EventTable table;
-  table.t_start = table.t_end = starts;
-  table.size = sizes;
+  table.events = events_of(starts, sizes);
   table.last_end = starts.back();
   return table;
 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "explore_page.h"
+#include "event_tables.h"
+#include "history_input.h"
 
 #include <gtest/gtest.h>
 
@@ -32,6 +34,18 @@ std::vector<double> saw_tooth(std::size_t n) {
     else if (i < n / 2)
       pe += 1e-4;
     values.push_back(pe + 1e-6 * std::sin(0.3 * static_cast<double>(i)));
+  }
+  return values;
+}
+
+/// What the page makes of it, to the last bit.
+std::vector<double> decode(const SeriesCode &code) {
+  std::vector<double> values = {code.first, code.second};
+  for (const std::int8_t byte : code.bytes) {
+    const std::size_t n = values.size();
+    const double predicted = 2.0 * values[n - 1] - values[n - 2];
+    const double step = code.off[static_cast<std::size_t>(std::abs(byte))];
+    values.push_back(byte < 0 ? predicted - step : predicted + step);
   }
   return values;
 }
@@ -89,10 +103,13 @@ EventTable power_law(std::int64_t n, const std::string &note = "") {
   double time = 0.0;
   for (std::int64_t i = 0; i < n; ++i) {
     const double u = (static_cast<double>(random() >> 11) + 0.5) * 0x1p-53;
-    table.size.push_back(1e-5 * std::pow(1e5, u));
     time += -10.0 * std::log((static_cast<double>(random() >> 11) + 0.5) * 0x1p-53);
-    table.t_start.push_back(time);
-    table.t_end.push_back(time + 0.1);
+    Event event;
+    event.id = i + 1;
+    event.size = 1e-5 * std::pow(1e5, u);
+    event.t_start = time;
+    event.t_end = time + 0.1;
+    table.events.push_back(event);
   }
   return table;
 }
@@ -104,10 +121,7 @@ TEST(Thresholds, GridHasRoundNumbersAndTheUsualOne) {
   EXPECT_TRUE(std::is_sorted(grid.begin(), grid.end()));
   for (const double size : {1.3e-5, 1e-4, 2.7e-4, 1.6e-3, 0.05})
     EXPECT_NE(std::find(grid.begin(), grid.end(), size), grid.end()) << size;
-  const auto above = [&table](double size) {
-    return std::count_if(table.size.begin(), table.size.end(),
-                         [size](double s) { return s >= size; });
-  };
+  const auto above = [&table](double size) { return events_from(table, size); };
   EXPECT_GE(above(grid.back()), 20);
   EXPECT_LT(above(1.35 * grid.back()), 20);
   EXPECT_TRUE(threshold_grid(power_law(19)).empty());
@@ -136,7 +150,14 @@ TEST(Thresholds, EachIsWhatTheEstimatorsFind) {
   }
 }
 
-class SlipImages : public unit::Files {};
+class SlipImages : public unit::Files {
+ protected:
+  template <class... Window>
+  static SlipImage image_of(const std::string &path, Window... window) {
+    SlipHistoryReader reader = open_history(path, false);
+    return with_path(path, [&] { return slip_image(reader, window...); });
+  }
+};
 
 TEST_F(SlipImages, SlipOfEachPlaceIsKept) {
   SlipHistoryInfo info;
@@ -174,7 +195,7 @@ TEST_F(SlipImages, SlipOfEachPlaceIsKept) {
     }
     return sums;
   };
-  const SlipImage whole = load_slip_image(path("run.slip.bin"));
+  const SlipImage whole = image_of(path("run.slip.bin"));
   ASSERT_EQ(whole.columns, 7);
   ASSERT_EQ(whole.ends.size(), 200U);
   for (std::size_t b = 0; b < 7; ++b) EXPECT_NEAR(slip_of(whole)[b], slip[b], 0.01 * slip[b]) << b;
@@ -182,30 +203,22 @@ TEST_F(SlipImages, SlipOfEachPlaceIsKept) {
   for (std::size_t row = 0; row < 10; ++row)
     for (std::size_t b = 1; b < 7; ++b) EXPECT_EQ(whole.cells[row * 7 + b], 0);
 
-  const SlipImage joined = load_slip_image(path("run.slip.bin"), false, 0.0, 1e9, 4, 100);
+  const SlipImage joined = image_of(path("run.slip.bin"), 0.0, 1e9, 4, 100);
   ASSERT_EQ(joined.columns, 4);
   EXPECT_EQ(joined.bins_per_column, 2);
   EXPECT_LE(joined.cells.size(), 110U);
   EXPECT_DOUBLE_EQ(joined.ends.back(), 200.0);
   EXPECT_NEAR(slip_of(joined)[0], 0.5 * (slip[0] + slip[1]), 0.03 * slip[0]);
   EXPECT_NEAR(slip_of(joined)[3], slip[6], 0.03 * slip[6]);
-  EXPECT_TRUE(contains(
-      message_of<std::runtime_error>([&] { load_slip_image(path("run.slip.bin"), false, 1e6); }),
-      "nothing in the window of time"));
+  EXPECT_TRUE(contains(message_of<std::runtime_error>([&] { image_of(path("run.slip.bin"), 1e6); }),
+                       "nothing in the window of time"));
 }
 
 ExploreRun run_of(const std::string &note) {
   ExploreEvents kind;
   kind.table = power_law(100, note);
   kind.table.label = note;
-  for (std::size_t i = 0; i < 100; ++i) {
-    Event event;
-    event.id = static_cast<std::int64_t>(i + 1);
-    event.size = kind.table.size[i];
-    event.t_start = kind.table.t_start[i];
-    event.t_end = kind.table.t_end[i];
-    kind.events.push_back(event);
-  }
+  kind.events = kind.table.events;
   ExploreRun run;
   run.kinds.push_back(kind);
   return run;
@@ -237,7 +250,7 @@ TEST(ExplorePage, NamesNoOtherFile) {
 
 TEST(ExplorePage, LargestEventsStay) {
   ExploreEvents kind = run_of("x").kinds[0];
-  std::vector<double> sizes = kind.table.size;
+  std::vector<double> sizes = column(kind.table.events, &Event::size);
   std::sort(sizes.begin(), sizes.end());
   kind.thin(30);
   ASSERT_EQ(kind.events.size(), 30U);

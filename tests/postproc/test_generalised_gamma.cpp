@@ -107,6 +107,10 @@ double log_likelihood(const std::vector<double> &values, const Truth &t, double 
   return sum;
 }
 
+double generalised_gamma_density(double theta, const GeneralisedGammaFit &fit) {
+  return fit.C * std::pow(theta, fit.gamma - 1.0) * std::exp(-std::pow(theta, fit.delta) / fit.B);
+}
+
 TEST(GeneralisedGamma, MaximumOfAnIndependentLikelihood) {
   Source source(1);
   for (double lo : {0.0, 0.05}) {

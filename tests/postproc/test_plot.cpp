@@ -11,9 +11,10 @@
 #include <utility>
 #include <vector>
 
+#include "event_tables.h"
 #include "new_file.h"
 #include "numbers.h"
-#include "option_values.h"
+#include "options.h"
 #include "plot.h"
 #include "report.h"
 #include "report_template.h"
@@ -55,6 +56,17 @@ class EmptyPath {
  private:
   std::string before_;
 };
+
+TEST(Table, RowsOfAnyCells) {
+  Table table("name,whole,flag,number");
+  table.add("a, b");
+  table.row(std::size_t{3}, true, 0.125);
+  table.row("c", -1, false, std::nan(""));
+  EXPECT_EQ(table.text(), "name,whole,flag,number\n\"a, b\",3,1,0.125\nc,-1,0,\n");
+  EXPECT_EQ(table.texts(), (std::vector<std::vector<std::string>>{{"a, b", "3", "1", "0.125"},
+                                                                  {"c", "-1", "0", "-"}}));
+  EXPECT_THROW(table.row("too few"), std::logic_error);
+}
 
 TEST_F(Plot, LabelsArePrintedAsTheyAre) {
   const std::string title = R"(a_b^c {x} @y \n "q" ~t 'r' $HOME %d é)";
@@ -180,7 +192,7 @@ TEST_F(Plot, TableQuotesTextAndKeepsDigits) {
 
 TEST_F(Plot, TableDoesNotDependOnTheLocale) {
   const unit::CommaLocale comma;
-  Table table({"value"});
+  Table table("value");
   table.add(1234.5).end_row();
   EXPECT_EQ(table.text(), "value\n1234.5\n");
   EXPECT_EQ(with_error(1234.5, 0.25), "1234.50 +- 0.25");
@@ -221,6 +233,33 @@ TEST_F(Plot, Ranges) {
     EXPECT_TRUE(contains(message_of<std::invalid_argument>([bad] { parse_range("--range", bad); }),
                          "expected LO:HI"))
         << bad;
+}
+
+TEST(Report, HasTheSectionsOfStatistics) {
+  EventTable table;
+  table.info.model = "lsm";
+  table.label = "made up";
+  std::vector<double> starts, sizes;
+  for (int k = 1; k <= 30; ++k) {
+    starts.push_back(k * k);
+    sizes.push_back(0.01 * k);
+  }
+  table.events = events_of(starts, sizes);
+  ReportSettings settings;
+  settings.replicas = settings.interval_replicas = 0;
+  settings.bootstrap.replicas = 2;
+  settings.sections = {{"First & last", [](const std::vector<EventTable> &tables) {
+                          Table numbers("label,first,last");
+                          numbers.row(tables.at(0).label + " <1>", 0.5, std::nan(""));
+                          Findings found;
+                          found.say("for the terminal");
+                          found.table("numbers", numbers, ".numbers");
+                          return found;
+                        }}};
+  const std::string page = report_html({table}, settings);
+  EXPECT_TRUE(contains(page, "<h3>First &amp; last</h3>"));
+  EXPECT_TRUE(contains(page, "made up &lt;1&gt;</th><td>0.5</td><td>-</td>"));
+  EXPECT_FALSE(contains(page, "for the terminal"));
 }
 
 TEST(ReportTemplate, PartsAreFilled) {

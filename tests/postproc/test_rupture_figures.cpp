@@ -9,7 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "history_input.h"
 #include "rupture_figures.h"
+#include "slip_figures.h"
 #include "unit_files.h"
 
 namespace {
@@ -50,6 +52,13 @@ class RuptureHistory : public unit::Files {
       writer.add(4 * static_cast<std::int64_t>(n + 1), 0.0, row, slips);
     }
   }
+
+  HistoryWindow window_of(double from, double to) const {
+    SlipHistoryReader reader = open_history(file(), false);
+    std::vector<SlipRecord> records;
+    for (SlipRecord record; reader.next(record);) records.push_back(record);
+    return with_path(file(), [&] { return history_window(reader.info(), records, from, to); });
+  }
 };
 
 /// Rows of a table by field.
@@ -71,7 +80,7 @@ TEST_F(RuptureHistory, OutlinesAreThoseOfTheSlippingBins) {
          ".........2",  //
          "....3.....",  //
          "..........", ".........."});
-  const HistoryWindow window = load_history(file(), false, -infinity, infinity);
+  const HistoryWindow window = window_of(-infinity, infinity);
   EXPECT_EQ(window.from, 50.0);
   EXPECT_EQ(window.to, 54.0);  // two quiet intervals at the end are in no record
   ASSERT_EQ(window.outlines.size(), 2U);
@@ -86,15 +95,14 @@ TEST_F(RuptureHistory, OutlinesAreThoseOfTheSlippingBins) {
   EXPECT_EQ(other.begin, 4);
   EXPECT_EQ(other.step_start, 12);
 
-  EXPECT_EQ(load_history(file(), false, 53.5, infinity).outlines.size(), 1U);
-  EXPECT_TRUE(
-      contains(message_of<std::runtime_error>([&] { load_history(file(), false, 60.0, 70.0); }),
-               "slip.bin: nothing in the window of time"));
+  EXPECT_EQ(window_of(53.5, infinity).outlines.size(), 1U);
+  EXPECT_TRUE(contains(message_of<std::runtime_error>([&] { window_of(60.0, 70.0); }),
+                       "slip.bin: nothing in the window of time"));
 }
 
 TEST_F(RuptureHistory, SpaceAndTime) {
   write({"..........", "1........2", ".........2", "....3.....", "..........", ".........."});
-  const HistoryWindow window = load_history(file(), false, -infinity, infinity);
+  const HistoryWindow window = window_of(-infinity, infinity);
   Table outlines({"curve", "x", "y"});
   const Figure figure = space_time_figure(window, outlines);
   const auto rows = rows_of(figure.table);
@@ -121,7 +129,7 @@ TEST_F(RuptureHistory, SpaceAndTime) {
 TEST_F(RuptureHistory, LinesOfSlip) {
   write({"..........", "1........2", ".........2", "....3.....", "..........", "..........",
          ".........."});
-  const HistoryWindow window = load_history(file(), false, -infinity, infinity);
+  const HistoryWindow window = window_of(-infinity, infinity);
   const auto rows = rows_of(slip_lines_figure(window, 2.0, 1.0).table);
   // Locked: times 50 (the first record) and 57; slipping: 52, 53, 54. Time 51 is before the next.
   std::vector<std::pair<std::string, double>> lines;  // time, sum of the slip
@@ -142,7 +150,7 @@ TEST_F(RuptureHistory, LinesOfSlip) {
 
 TEST_F(RuptureHistory, DetailIsCentredOnTheFirstPlace) {
   write({"..........", "1........2", ".........2", "....3.....", "..........", ".........."});
-  const HistoryWindow window = load_history(file(), false, -infinity, infinity);
+  const HistoryWindow window = window_of(-infinity, infinity);
   Event event;
   event.id = 1;
   event.step_start = 4;

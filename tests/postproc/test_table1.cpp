@@ -10,6 +10,7 @@
 #include <gsl/gsl_rng.h>
 
 #include "interval_figure.h"
+#include "event_tables.h"
 #include "intervals.h"
 #include "numbers.h"
 #include "table1.h"
@@ -24,8 +25,7 @@ EventTable events(const std::vector<double> &starts, const std::vector<double> &
   EventTable table;
   table.label = "made up";
   table.info.model = "lsm";
-  table.t_start = starts;
-  table.size = sizes;
+  table.events = events_of(starts, sizes);
   return table;
 }
 
@@ -126,8 +126,15 @@ TEST(Intervals, AtOnePlaceOnly) {
   // Four places of a fault of length 8: 1, 3, 5, 7.
   EventTable table = events({0.0, 10.0, 25.0, 45.0, 70.0}, {1.0, 1.0, 0.1, 1.0, 1.0});
   table.info.parameters = {{"length", "8"}};
-  table.begin = {0.5, 2.0, 0.0, 6.5, 1.0};   // the fourth continues across the border to 1.5
-  table.extent = {1.0, 2.0, 8.0, 3.0, 2.0};  // reaches 1; 3; all; 7 and 1; 1, as it ends before 3
+  table.info.x_begin = table.info.rupture_length = true;
+  // The fourth continues across the border to 1.5.
+  const double begin[] = {0.5, 2.0, 0.0, 6.5, 1.0};
+  // They reach 1; 3; all; 7 and 1; 1, as it ends before 3.
+  const double length[] = {1.0, 2.0, 8.0, 3.0, 2.0};
+  for (std::size_t i = 0; i < 5; ++i) {
+    table.events[i].x_begin = begin[i];
+    table.events[i].rupture_length = length[i];
+  }
   EXPECT_EQ(times_at_places(table, 0.5, 4), (std::vector<double>{45.0, 25.0}));
   // With the small one: at 1: 0, 25, 45, 70; at 3: 10, 25; at 5: 25; at 7: 25, 45.
   EXPECT_EQ(times_at_places(table, 0.0, 4), (std::vector<double>{25.0, 20.0, 25.0, 15.0, 20.0}));
@@ -138,8 +145,7 @@ TEST(Intervals, AtOnePlaceOnly) {
   const auto curves = interval_curves({table}, settings);
   EXPECT_EQ(curves[0].n, 5);
   EXPECT_DOUBLE_EQ(curves[0].mean, 21.0);
-  table.begin.clear();
-  table.extent.clear();
+  table.info.x_begin = false;
   EXPECT_THROW(times_at_places(table, 0.0, 4), std::invalid_argument);
 }
 

@@ -5,10 +5,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include <fmt/format.h>
-
-#include "input_file.h"
-
 namespace LSM::postproc {
 
 namespace {
@@ -78,15 +74,11 @@ class Rows {
 
 }  // namespace
 
-SlipImage load_slip_image(const std::string &path, bool lenient, double from, double to,
-                          int most_columns, std::int64_t most_cells) {
-  SlipHistoryReader reader(path, lenient, open_input);
-  if (reader.torn()) fmt::print(stderr, "postproc: {}: dropped a truncated last record: 1\n", path);
+SlipImage slip_image(SlipHistoryReader &reader, double from, double to, int most_columns,
+                     std::int64_t most_cells) {
   SlipImage image;
   image.info = reader.info();
   const FaultGrid &grid = image.info.grid;
-  if (!(image.info.driving > 0.0))
-    throw std::runtime_error(path + ": the driving velocity in the header is not positive");
   image.bins_per_column = (grid.bins + most_columns - 1) / most_columns;
   image.columns = (grid.bins + image.bins_per_column - 1) / image.bins_per_column;
   image.records_per_row = static_cast<int>(
@@ -100,7 +92,7 @@ SlipImage load_slip_image(const std::string &path, bool lenient, double from, do
     rows.add(record);
   }
   rows.end_row();
-  if (image.ends.empty()) throw std::runtime_error(path + ": nothing in the window of time");
+  if (image.ends.empty()) throw std::runtime_error("nothing in the window of time");
   return image;
 }
 

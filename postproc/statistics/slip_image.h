@@ -8,7 +8,6 @@
 #include <array>
 #include <cstdint>
 #include <limits>
-#include <string>
 #include <vector>
 
 #include "lsm_slip_history.h"
@@ -33,12 +32,12 @@ struct SlipImage {
 /// The part of a history from one time to another. Bins and records are joined, by their mean,
 /// until there are at most `most_columns` columns and about `most_cells` cells. While a cell slips,
 /// what the byte of one row leaves over is taken into the next, so that the slip of an event,
-/// summed over its rows, is right to a few per cent of its last row. \throws FileError;
-/// std::runtime_error without a driving velocity or without records
-SlipImage load_slip_image(const std::string &path, bool lenient = false,
-                          double from = -std::numeric_limits<double>::infinity(),
-                          double to = std::numeric_limits<double>::infinity(),
-                          int most_columns = 240, std::int64_t most_cells = 8'000'000);
+/// summed over its rows, is right to a few per cent of its last row.
+/// \throws FileError; std::runtime_error without records
+SlipImage slip_image(SlipHistoryReader &reader,
+                     double from = -std::numeric_limits<double>::infinity(),
+                     double to = std::numeric_limits<double>::infinity(), int most_columns = 240,
+                     std::int64_t most_cells = 8'000'000);
 
 }  // namespace LSM::postproc
 

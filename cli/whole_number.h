@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// \file lsm_whole_number.h
+/// \file whole_number.h
 /// A check for options of unsigned type, shared by the programs: CLI11 turns negative numbers into
 /// huge ones, and numbers that are too large into the largest one.
-#ifndef LSM_WHOLE_NUMBER_H
-#define LSM_WHOLE_NUMBER_H
+#ifndef LSM_CLI_WHOLE_NUMBER_H
+#define LSM_CLI_WHOLE_NUMBER_H
 
 #include <charconv>
 #include <cstdint>

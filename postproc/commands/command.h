@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file command.h
+/// The commands of postproc. A new one is a file that defines make_NAME() and a line of
+/// command_list.def.
+#ifndef LSM_POSTPROC_COMMAND_H
+#define LSM_POSTPROC_COMMAND_H
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "catalogue_input.h"
+#include "findings.h"
+#include "options.h"
+
+namespace LSM::postproc {
+
+class Command {
+ public:
+  virtual ~Command() = default;
+  virtual const char *help() const = 0;
+  virtual void add_options(CLI::App *command) = 0;
+  /// The work. \throws std::exception with one clear line
+  virtual void run() = 0;
+};
+
+/// A command that turns its inputs into findings: all of them are there before the first is told
+/// or written.
+class Analysis : public Command {
+ public:
+  void run() final;
+
+ protected:
+  JsonOutput json;
+  PictureOptions picture;
+
+  /// Adds --output and --no-picture.
+  void add_picture(CLI::App *command, const std::string &base);
+  /// Adds --output of a command that draws nothing.
+  void add_table(OptionGroup group, const std::string &base);
+
+  virtual std::vector<std::string> inputs() const = 0;
+  /// Endings of the files that find() may lead to, beside those of the picture BASE.
+  virtual std::vector<std::string> endings() const { return {}; }
+  /// Files of other options that find() writes itself.
+  virtual std::vector<Output> outputs() const { return {}; }
+  virtual Findings find() = 0;
+
+ private:
+  bool has_base_ = false;  ///< else findings go into no file but that of --json
+};
+
+/// A statistic of catalogues.
+class Statistic : public Analysis {
+ public:
+  /// What it finds in catalogues, also for the report. \throws std::exception
+  virtual Findings of(const std::vector<EventTable> &tables) = 0;
+  /// Heading of its section in the report of each model, nullptr: it is not there. Options are as
+  /// they are without command line.
+  virtual const char *heading() const { return nullptr; }
+
+ protected:
+  CatalogueOptions catalogues;
+
+  /// Adds catalogues, --json, --output with a default and --no-picture.
+  void add_usual(CLI::App *command, const std::string &base);
+  std::vector<std::string> inputs() const override { return catalogues.paths; }
+  Findings find() override { return of(load_catalogues(catalogues)); }
+};
+
+/// Endings of the files of further pictures.
+std::vector<std::string> picture_files(const std::vector<std::string> &names);
+
+/// All commands by their names, in the order of --help.
+std::vector<std::pair<std::string, std::shared_ptr<Command>>> all_commands();
+
+}  // namespace LSM::postproc
+
+#endif

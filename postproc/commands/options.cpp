@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "options.h"
+
+#include <unistd.h>
+
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "earthquakes.h"
+#include "lsm_text_io.h"
+#include "new_file.h"
+#include "whole_number.h"
+
+namespace LSM::postproc {
+
+namespace {
+
+Rule check(const CLI::Validator &validator) {
+  return [validator](CLI::Option &option) { option.check(validator); };
+}
+
+CLI::Option *put(CLI::Option *option, const std::string &heading, const std::vector<Rule> &rules) {
+  for (const Rule &rule : rules) rule(*option);
+  return option->group(heading);
+}
+
+/// What CLI11 calls a type in --help depends on whether it is an enumeration.
+enum class Word : int {};
+
+template <class Number>
+std::map<std::string, Number> as(const std::map<std::string, int> &words) {
+  std::map<std::string, Number> out;
+  for (const auto &[word, value] : words) out[word] = static_cast<Number>(value);
+  return out;
+}
+
+}  // namespace
+
+Rule required() {
+  return [](CLI::Option &option) { option.required(); };
+}
+Rule one_each() {
+  return [](CLI::Option &option) { option.allow_extra_args(false); };
+}
+Rule shown(const std::string &value) {
+  return [value](CLI::Option &option) { option.default_str(value); };
+}
+Rule kind(const std::string &of_value) {
+  return [of_value](CLI::Option &option) { option.type_name(of_value); };
+}
+Rule excludes(CLI::Option *other) {
+  return [other](CLI::Option &option) { option.excludes(other); };
+}
+Rule positive() { return check(CLI::PositiveNumber); }
+Rule between(double lo, double hi) { return check(CLI::Range(lo, hi)); }
+Rule between(std::int64_t lo, std::int64_t hi) { return check(CLI::Range(lo, hi)); }
+Rule among(const std::vector<std::string> &words) { return check(CLI::IsMember(words)); }
+
+Rule zero_or_more() {
+  return check(CLI::Validator(
+      [](std::string &text) {
+        double value = 0.0;
+        return text_io::parse(text, value) && value >= 0.0
+                   ? std::string()
+                   : "expected a number of 0 or more, not " + text_io::in_quotes(text);
+      },
+      ""));
+}
+
+Rule number_or(const std::map<std::string, double> &words) {
+  return [words](CLI::Option &option) { option.transform(CLI::Transformer(words)); };
+}
+
+Rule size_or_magnitude() {
+  return [](CLI::Option &option) {
+    option.transform(CLI::Validator(
+        [](std::string &text) {
+          double magnitude = 0.0;
+          if (text.empty() || text.front() != 'M') return std::string();
+          if (!text_io::parse(std::string_view(text).substr(1), magnitude))
+            return "expected a size, or M and a magnitude, not " + text_io::in_quotes(text);
+          text = text_io::number(size_of_magnitude(magnitude));
+          return std::string();
+        },
+        ""));
+  };
+}
+
+template <class Value>
+CLI::Option *OptionGroup::bind(const std::string &names, Value &value, const std::string &help,
+                               const std::vector<Rule> &rules) {
+  return put(command_->add_option(names, value, help), heading_, rules);
+}
+#define LSM_BIND(Value)                                                                      \
+  template CLI::Option *OptionGroup::bind(const std::string &, Value &, const std::string &, \
+                                          const std::vector<Rule> &);
+LSM_BIND(double)
+LSM_BIND(int)
+LSM_BIND(std::int64_t)
+LSM_BIND(std::uint64_t)
+LSM_BIND(std::string)
+LSM_BIND(std::optional<double>)
+LSM_BIND(std::vector<double>)
+LSM_BIND(std::vector<std::string>)
+#undef LSM_BIND
+
+CLI::Option *OptionGroup::bind_call(const std::string &names,
+                                    const std::function<void(const double &)> &use,
+                                    const std::string &help, const std::vector<Rule> &rules) {
+  return put(command_->add_option_function(names, use, help), heading_, rules);
+}
+
+void OptionGroup::texts(const std::string &names,
+                        const std::function<void(const std::vector<std::string> &)> &use,
+                        const std::string &help, const std::vector<Rule> &rules) {
+  put(command_->add_option_function(names, use, help), heading_, rules);
+}
+
+void OptionGroup::flag(const std::string &names, bool &value, const std::string &help) {
+  put(command_->add_flag(names, value, help), heading_, {});
+}
+
+void OptionGroup::add_choice(const std::string &names, const std::map<std::string, int> &words,
+                             const std::function<void(int)> &use, const std::string &help,
+                             const Rule &usual, bool boolean) {
+  const auto use_word = [use](const Word &word) { use(static_cast<int>(word)); };
+  const auto use_bool = [use](const bool &value) { use(value); };
+  if (boolean)
+    put(command_->add_option_function<bool>(names, use_bool, help), heading_, {usual})
+        ->transform(CLI::CheckedTransformer(as<bool>(words)));
+  else
+    put(command_->add_option_function<Word>(names, use_word, help), heading_, {usual})
+        ->transform(CLI::CheckedTransformer(as<Word>(words)));
+}
+
+void OptionGroup::remove(const char *name) { command_->remove_option(command_->get_option(name)); }
+
+void add_seed(OptionGroup group, std::uint64_t &seed) {
+  group.add("--seed", seed, "Seed of the random numbers", check(whole_number()));
+}
+
+void add_wave_speeds(OptionGroup group, double &p_speed, double &s_speed) {
+  group.add("--p-speed", p_speed,
+            "Speed of P-waves (paper, Eq. 4: 2.12 for k = m0 = 1, the regular lattice; 2.0 to 2.1 "
+            "in packings of create_lsm_fault)",
+            positive());
+  group.add("--s-speed", s_speed,
+            "Speed of S-waves (ours: that of P-waves over the root of 3, as in the regular "
+            "lattice; 1.0 to 1.1 in packings)",
+            positive());
+}
+
+void add_block(OptionGroup group, std::string &text) {
+  group.add("--block", text,
+            "Length of the stretches of time that are resampled for these errors, since events "
+            "come in sequences (model time): auto, from the correlation of each catalogue "
+            "(Politis and White 2004); or 0, events one by one as if independent");
+}
+
+double parse_block(const std::string &text) {
+  double block = std::numeric_limits<double>::quiet_NaN();
+  if (text != "auto" && !(text_io::parse(text, block) && block >= 0.0))
+    throw std::invalid_argument("--block " + text_io::in_quotes(text) +
+                                ", expected 'auto' or a time of 0 or more");
+  return block;
+}
+
+Range parse_range(const std::string &option, std::string_view text) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Range range{-infinity, infinity};
+  const std::size_t colon = text.find(':');
+  const auto end = [](std::string_view field, double &value) {
+    field = text_io::trim(field);
+    return field.empty() || text_io::parse(field, value);
+  };
+  if (colon == std::string_view::npos || !end(text.substr(0, colon), range.lo) ||
+      !end(text.substr(colon + 1), range.hi) || !(range.lo < range.hi))
+    throw std::invalid_argument(option + " " + text_io::in_quotes(text) +
+                                ", expected LO:HI with LO < HI (an end may be left out)");
+  return range;
+}
+
+PowerLine parse_guide(std::string_view text) {
+  PowerLine line;
+  const std::size_t colon = text.find(':');
+  if (!text_io::parse(text_io::trim(text.substr(0, colon)), line.slope))
+    throw std::invalid_argument("--guide " + text_io::in_quotes(text) +
+                                ", expected SLOPE or SLOPE:LO:HI");
+  if (colon != std::string_view::npos) {
+    const Range range = parse_range("--guide", text.substr(colon + 1));
+    if (!(range.lo > 0.0) || !std::isfinite(range.hi))
+      throw std::invalid_argument("--guide " + text_io::in_quotes(text) +
+                                  ", expected 0 < LO < HI after the slope");
+    line.lo = range.lo;
+    line.hi = range.hi;
+  }
+  line.title = fmt::format("slope {}", line.slope);
+  return line;
+}
+
+std::vector<std::string> labels_of(const std::vector<std::string> &paths,
+                                   const std::vector<std::string> &given, const char *input) {
+  if (!given.empty() && given.size() != paths.size())
+    throw std::invalid_argument(fmt::format("--label given {} times, expected once per {} ({})",
+                                            given.size(), input, paths.size()));
+  std::vector<std::string> labels = given;
+  for (std::size_t i = labels.size(); i < paths.size(); ++i)
+    labels.push_back(std::filesystem::path(paths[i]).filename().string());
+  return labels;
+}
+
+void MagnitudeOptions::add_to(OptionGroup group) {
+  group.choice<bool>("--magnitude-of", of_moment, {{"size", false}, {"moment", true}},
+                     "size: of the size of an event (an energy); moment: of its slip moment, a "
+                     "column that not every catalogue has",
+                     "size");
+  group.add("--magnitude-slope", scale.slope,
+            "Magnitudes per decade of that: 2/3 is the usual one for energy and moment, 1 makes M "
+            "the logarithm itself",
+            shown("2/3"));
+  group.add("--magnitude-constant", scale.constant, "Magnitude of an event of size (or moment) 1");
+  group.add("--magnitude-bin", bin,
+            "Width of the bins to whose centres, its multiples, magnitudes are rounded, halves "
+            "upwards; 0: none");
+}
+
+void MagnitudeOptions::check() const {
+  if (!std::isfinite(scale.constant))
+    throw std::invalid_argument("--magnitude-constant: expected a finite number");
+  if (!std::isfinite(scale.slope) || !(scale.slope > 0.0))
+    throw std::invalid_argument("--magnitude-slope: expected a positive finite number");
+  if (!std::isfinite(bin) || !(bin >= 0.0))
+    throw std::invalid_argument("--magnitude-bin: expected a finite number of 0 or more");
+}
+
+void MagnitudeOptions::require(const std::string &path, const CatalogueInfo &info) const {
+  if (of_moment && !info.slip_moment)
+    throw std::runtime_error(path +
+                             ": has no column slip_moment, expected one for --magnitude-of moment");
+}
+
+void OutputOption::add_to(OptionGroup group, const std::string &what) {
+  std::string first = what;
+  first[0] = static_cast<char>(std::toupper(first[0]));
+  group.add("-o,--output", path, first + " to write", required());
+  group.flag("--force", force, "Replace the " + what + " if it exists");
+}
+
+void JsonOutput::add_to(CLI::App *command) {
+  const auto given = [this](const std::string &path) {
+    path_ = path;
+    if (path != "-") return;
+    standard_output_ = dup(STDOUT_FILENO);
+    dup2(STDERR_FILENO, STDOUT_FILENO);
+  };
+  put(command->add_option_function<std::string>(
+          "--json", given,
+          "Also write the numbers to this file, as JSON; -: to standard output, everything else to "
+          "standard error"),
+      "Options", {kind("FILE"), shown("")});
+}
+
+void JsonOutput::write(const nlohmann::ordered_json &found) const {
+  if (path_.empty()) return;
+  const std::string text = found.dump(2) + "\n";
+  if (path_ != "-") {
+    write_file(path_, text);
+    fmt::print("wrote {}\n", path_);
+    return;
+  }
+  std::FILE *const out = fdopen(standard_output_, "w");
+  const bool written = out && std::fputs(text.c_str(), out) >= 0;
+  if ((out && std::fclose(out) != 0) || !written)
+    throw FileError("cannot write to standard output");
+}
+
+}  // namespace LSM::postproc

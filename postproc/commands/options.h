@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file options.h
+/// What options of several commands have in common.
+#ifndef LSM_POSTPROC_OPTIONS_H
+#define LSM_POSTPROC_OPTIONS_H
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "event_table.h"
+#include "lsm_catalogue.h"
+#include "magnitudes.h"
+#include "lsm_output_claim.h"
+#include "size_densities.h"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace LSM::postproc {
+
+/// A rule of an option: what is allowed, and how --help shows it.
+using Rule = std::function<void(CLI::Option &)>;
+Rule required();
+Rule one_each();                         ///< a value each time the option is given
+Rule shown(const std::string &value);    ///< as the default
+Rule kind(const std::string &of_value);  ///< in place of TEXT
+Rule excludes(CLI::Option *other);
+Rule positive();
+Rule zero_or_more();
+Rule between(double lo, double hi);
+Rule between(std::int64_t lo, std::int64_t hi);
+inline Rule between(int lo, int hi) { return between(std::int64_t{lo}, std::int64_t{hi}); }
+Rule among(const std::vector<std::string> &words);
+/// A number, or one of the words for numbers.
+Rule number_or(const std::map<std::string, double> &words);
+/// A size, or the magnitude M2.5 of an event of size 10^(1.5 x 2.5).
+Rule size_or_magnitude();
+
+/// Options that stand together under a heading of --help. The library of options is seen by
+/// options.cpp only: it takes long to compile.
+class OptionGroup {
+ public:
+  explicit OptionGroup(CLI::App *command, std::string heading = "Options")
+      : command_(command), heading_(std::move(heading)) {}
+
+  /// Value: double, int, std::int64_t, std::uint64_t, std::string, optional double, or a vector.
+  template <class Value, class... Rules>
+  CLI::Option *add(const std::string &names, Value &value, const std::string &help,
+                   const Rules &...rules) {
+    return bind(names, value, help, {Rule(rules)...});
+  }
+  /// An option that calls a function of a number, or of all texts it is given.
+  template <class... Rules>
+  CLI::Option *call(const std::string &names, const std::function<void(const double &)> &use,
+                    const std::string &help, const Rules &...rules) {
+    return bind_call(names, use, help, {Rule(rules)...});
+  }
+  void texts(const std::string &names,
+             const std::function<void(const std::vector<std::string> &)> &use,
+             const std::string &help, const std::vector<Rule> &rules);
+  void flag(const std::string &names, bool &value, const std::string &help);
+  /// A word for a value of an enumeration or a bool.
+  template <class Value>
+  void choice(const std::string &names, Value &value, const std::map<std::string, Value> &words,
+              const std::string &help, const std::string &usual) {
+    std::map<std::string, int> numbers;
+    for (const auto &[word, of] : words) numbers[word] = static_cast<int>(of);
+    add_choice(
+        names, numbers, [&value](int of) { value = static_cast<Value>(of); }, help, shown(usual),
+        std::is_same_v<Value, bool>);
+  }
+  void remove(const char *name);
+
+ private:
+  template <class Value>
+  CLI::Option *bind(const std::string &names, Value &value, const std::string &help,
+                    const std::vector<Rule> &rules);
+  CLI::Option *bind_call(const std::string &names, const std::function<void(const double &)> &use,
+                         const std::string &help, const std::vector<Rule> &rules);
+  void add_choice(const std::string &names, const std::map<std::string, int> &words,
+                  const std::function<void(int)> &use, const std::string &help, const Rule &usual,
+                  bool boolean);
+
+  CLI::App *command_;
+  std::string heading_;
+};
+
+/// Adds --seed of the random numbers of a command.
+void add_seed(OptionGroup group, std::uint64_t &seed);
+
+/// Adds --p-speed and --s-speed.
+void add_wave_speeds(OptionGroup group, double &p_speed, double &s_speed);
+
+/// Adds --block of a bootstrap. \param text for parse_block()
+void add_block(OptionGroup group, std::string &text);
+/// Resampling::block from "auto" or a time. \throws std::invalid_argument naming --block
+double parse_block(const std::string &text);
+
+/// "LO:HI" with LO < HI; an end left out is -infinity or infinity.
+/// \throws std::invalid_argument naming the option
+Range parse_range(const std::string &option, std::string_view text);
+
+/// "SLOPE" or "SLOPE:LO:HI". \throws std::invalid_argument
+PowerLine parse_guide(std::string_view text);
+
+/// Name of each input: the one given, or that of its file. \param input what one of them is
+/// \throws std::invalid_argument unless there is one for each
+std::vector<std::string> labels_of(const std::vector<std::string> &paths,
+                                   const std::vector<std::string> &given, const char *input);
+
+/// How the commands make magnitudes of events.
+struct MagnitudeOptions {
+  MagnitudeScale scale;
+  double bin = 0.0;        ///< width of the bins; 0: none
+  bool of_moment = false;  ///< of the slip moment, not of the size
+
+  /// Adds --magnitude-of, --magnitude-slope, --magnitude-constant and --magnitude-bin.
+  void add_to(OptionGroup group);
+  /// \throws std::invalid_argument for impossible values
+  void check() const;
+  /// Column name of what the magnitude is of.
+  std::string of() const { return of_moment ? "slip_moment" : "size"; }
+  double quantity(const Event &event) const { return of_moment ? event.slip_moment : event.size; }
+  /// \throws std::runtime_error if the catalogue lacks the column
+  void require(const std::string &path, const CatalogueInfo &info) const;
+  double magnitude(const Event &event) const { return binned(scale.of(quantity(event)), bin); }
+};
+
+/// Options of what a command writes beside its findings.
+struct OutputOption {
+  std::string path;
+  bool force = false;  ///< replace what is there
+
+  /// Adds --output and --force. \param what is written
+  void add_to(OptionGroup group, const std::string &what);
+  Output output() const { return {"--output", path}; }
+};
+
+/// Option --json: one JSON object with each table by its name, an array with an object for each
+/// row.
+class JsonOutput {
+ public:
+  /// With "-" as the file, JSON is all there is on standard output: what the command says goes to
+  /// standard error.
+  void add_to(CLI::App *command);
+  /// No path, if nothing is written or it goes to standard output.
+  Output output() const { return {"--json", path_ == "-" ? std::string() : path_}; }
+  /// Writes it, if --json was given. \throws FileError
+  void write(const nlohmann::ordered_json &found) const;
+
+ private:
+  std::string path_;
+  int standard_output_ = -1;  ///< where it led before, with "-"
+};
+
+}  // namespace LSM::postproc
+
+#endif

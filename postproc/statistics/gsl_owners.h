@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file gsl_owners.h
+/// What GSL allocates, and its handler of errors, for as long as a block lasts.
+#ifndef LSM_POSTPROC_GSL_OWNERS_H
+#define LSM_POSTPROC_GSL_OWNERS_H
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_vector.h>
+
+#include <cstddef>
+#include <memory>
+
+namespace LSM::postproc {
+
+/// Something of GSL with what frees it.
+template <class T>
+using Gsl = std::unique_ptr<T, void (*)(T *)>;
+inline Gsl<gsl_vector> gsl_vector_of(std::size_t n) {
+  return {gsl_vector_alloc(n), gsl_vector_free};
+}
+
+/// GSL's default handler ends the program; while one of these lives, every status is checked
+/// instead. It is one for all threads.
+class QuietGsl {
+ public:
+  QuietGsl() : old_(gsl_set_error_handler_off()) {}
+  ~QuietGsl() { gsl_set_error_handler(old_); }
+  QuietGsl(const QuietGsl &) = delete;
+  QuietGsl &operator=(const QuietGsl &) = delete;
+
+ private:
+  gsl_error_handler_t *old_;
+};
+
+}  // namespace LSM::postproc
+
+#endif
