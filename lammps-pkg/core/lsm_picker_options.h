@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file lsm_picker_options.h
-/// What a user may say about the event picker on the command line of a program.
+/// Settings of the event picker from the command line of a program.
 #ifndef LSM_PICKER_OPTIONS_H
 #define LSM_PICKER_OPTIONS_H
 

@@ -37,16 +37,16 @@ class AftershockRates : public Statistic {
         group.add("--main-size", main_size_, "Smallest main shock (model energy)",
                   size_or_magnitude(), positive(), shown("from --main-share"));
     group.add("--main-share", share_,
-              "Share of the counted events that are large enough for a main shock",
+              "Fraction of the counted events that are large enough for a main shock",
               between(0.0, 1.0), excludes(main_size));
     group.add("--window", window_,
-              "Time before and after a main shock without a larger event, and for which events are "
-              "counted after it (model time)",
+              "Time before and after a main shock without a larger event; events are counted for "
+              "as long after it (model time)",
               positive(), shown("1/5 of the mean time between events of the main size"));
     group.add("--first", first_,
               "Events sooner than this after the end of a main shock are not counted (model time)",
               zero_or_more());
-    group.add("--hold-c", hold_c_, "Hold c at this value (model time; 0 needs --first above 0)",
+    group.add("--hold-c", hold_c_, "Fixed value of c (model time; 0 needs --first above 0)",
               zero_or_more(), shown("fitted"));
     group.add("--bin-factor", factor_,
               "Ratio of the edges of a bin of the picture: five bins a decade");
@@ -84,7 +84,7 @@ class AftershockRates : public Statistic {
       curves.push_back(
           {table.label, table.info.model,
            aftershocks_of(table, rule_for(table), hold_c_, factor_, replicas_, seed_)});
-    // A catalogue without aftershocks is a result as well, only there is nothing to draw.
+    // A catalogue without aftershocks is a result as well, but there is nothing to draw.
     const bool none = std::all_of(curves.begin(), curves.end(), [](const AftershockCurve &curve) {
       return curve.aftershocks.bins.empty();
     });

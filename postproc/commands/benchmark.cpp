@@ -197,13 +197,14 @@ class Benchmark : public Analysis {
               "in one file",
               kind("FILE"), shown("none"));
     group.add("--curve", curves_,
-              "X=FILE or NAME:X=FILE: columns time, slip, slip rate between blanks, at place X",
+              "X=FILE or NAME:X=FILE: columns time, slip, slip rate, separated by blanks, at "
+              "place X",
               shown("none"));
     group.add("--station", stations_,
               "Places that are compared and drawn (default: all; drawn: up to six that all "
               "references have)");
     group.add("--arrival", rate_,
-              "Slip rate from which a place counts as reached, units of the reference", positive());
+              "Slip rate above which the rupture has arrived, units of the reference", positive());
     group.add("--until", until_, "End of the comparison (model time)", positive(),
               shown("end of the shorter record"));
     own.flag("--lenient", lenient_, "Drop a truncated last record");
@@ -223,11 +224,11 @@ class Benchmark : public Analysis {
     for (const StationCurve &station : reference.stations) {
       if (!stations_.empty() && !near_one_of(stations_, station.x)) continue;
       const StationMisfit found = misfit(at_place(run, station.x), station, rate_, until_);
-      // else the reference has not come so far
+      // else the reference ends before it
       if (found.reference_end_slip > 0.0) stations.push_back(found);
     }
     if (stations.empty())
-      throw std::invalid_argument(reference.name + ": none of the places of --station slips in it");
+      throw std::invalid_argument(reference.name + ": no place of --station slips in it");
     return stations;
   }
 

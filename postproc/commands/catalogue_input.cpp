@@ -31,7 +31,7 @@ void add_time(OptionGroup group, const char *option, double &time, double &day,
             text_io::in_quotes(text)));
     }
   };
-  group.texts(option, read, help + "; may be given once for each",
+  group.texts(option, read, help + "; may be given once per catalogue",
               {one_each(), kind("TIME"), shown(time < 0.0 ? "start" : "end")});
 }
 
@@ -49,18 +49,18 @@ void CatalogueOptions::add_to(CLI::App *command) {
             "length or number of blocks, from the header)",
             kind("TEXT"), shown(""));
   group.flag("--lenient", lenient,
-             "Pass over lines that cannot be read (truncated last line, missing columns, NaN, "
-             "events out of order), count them and report this on standard error; without it the "
-             "first of them is an error. A wrong version or header is always one");
+             "Skip lines that cannot be read (truncated last line, missing columns, NaN, events "
+             "out of order), count them and report this on standard error; without it the first "
+             "of them is an error. A wrong version or header is always an error");
   CLI::Option *const smallest = group.add(
       "--min-size", min_size, "Leave out events smaller than this (energy; M2.5: magnitude 2.5)",
       size_or_magnitude());
   group.call(
       "--min-magnitude", [this](double magnitude) { min_size = size_of_magnitude(magnitude); },
-      "The same as a magnitude", shown(""), excludes(smallest));
+      "The same, as a magnitude", shown(""), excludes(smallest));
   add_time(group, "--from", from_time, from_day,
-           "Leave out events that start before this time, e.g. the warm-up (model time; of "
-           "earthquakes a date by ISO 8601, such as 1984-01-01 or 1984-01-01T12:00Z)");
+           "Leave out events that start before this time, e.g. the warm-up (model time; for "
+           "earthquakes an ISO 8601 date, such as 1984-01-01 or 1984-01-01T12:00Z)");
   add_time(group, "--to", to_time, to_day,
            "Leave out events that start at this time or later (as --from)");
   group.choice<CatalogueFormat>(
@@ -71,21 +71,22 @@ void CatalogueOptions::add_to(CLI::App *command) {
        {"quakeml", CatalogueFormat::quakeml},
        {"zmap", CatalogueFormat::zmap},
        {"scedc", CatalogueFormat::scedc}},
-      "What the files are: detect (by their begin: '<' is quakeml, '# lsm-catalogue' models, "
-      "column names with time and mag csv, YYYY/MM/DD scedc, nine numbers zmap), or one of these. "
-      "Of earthquakes only events of that type are used; blasts and others are counted on standard "
-      "error",
+      "Format of the files: detect (by the first bytes: '<' is quakeml, '# lsm-catalogue' "
+      "models, column names with time and mag csv, YYYY/MM/DD scedc, nine numbers zmap), or one "
+      "of these. Only events of the type earthquake are used; blasts and others are counted on "
+      "standard error",
       "detect");
   group.add("--region", regions,
-            "Earthquakes within W/E/S/N only (degrees); several: a curve for each", one_each(),
-            kind("W/E/S/N"), shown(""));
+            "Only earthquakes within W/E/S/N (degrees); may be repeated, for one curve each",
+            one_each(), kind("W/E/S/N"), shown(""));
 }
 
 void CatalogueOptions::add_displacement(CLI::App *command) {
   OptionGroup(command, "Catalogues")
       .flag("--displacement", displacement,
-            "Times as the way of the driving plate, model time times the 'velocity' in the header, "
-            "also those of --from and --to: for catalogues of different driving velocities (ours)");
+            "Times as displacements of the driving plate, model time times the 'velocity' in the "
+            "header, those of --from and --to included: for catalogues of different driving "
+            "velocities (ours)");
 }
 
 namespace {
@@ -114,8 +115,8 @@ namespace {
 
 std::string threshold_help(const std::string &what, const std::string &more) {
   return "Smallest size of " + what + " (model energy; M2.5: magnitude 2.5)" + more +
-         "; without it 1e-4, as in the paper's Figs. 12 and 13 (for times it states none), or the "
-         "largest 'completeness' in the headers of a model where that is larger (ours)";
+         "; without it 1e-4, as in the paper's Figs. 12 and 13 (for times it states none), or "
+         "the largest 'completeness' in the headers of a model if that is larger (ours)";
 }
 
 }  // namespace
@@ -291,7 +292,7 @@ void state_repairs(const EventTable &table) {
 
 namespace {
 
-/// What only catalogues of one kind have was asked for, and one is there.
+/// An option for catalogues of one kind was used, and there is one.
 void check_kinds(const CatalogueOptions &options, std::size_t quakes, std::size_t all) {
   if (quakes == 0 && (std::isfinite(options.from_day) || std::isfinite(options.to_day)))
     throw std::invalid_argument(

@@ -28,7 +28,8 @@ struct CatalogueOptions {
   double to_day = std::numeric_limits<double>::infinity();
   CatalogueFormat format = CatalogueFormat::detect;
   std::vector<std::string> regions;  ///< of earthquakes, "W/E/S/N"; a table for each, or one
-  /// Times, from_time and to_time are those of the plates' way: model time times driving velocity.
+  /// Times, from_time and to_time are displacements of the plates: model time times driving
+  /// velocity.
   bool displacement = false;
 
   /// Adds the catalogue arguments and the options that choose events to a command.

@@ -10,7 +10,7 @@ namespace LSM::postproc {
 
 namespace {
 
-/// Tells and writes what was found. Returns what is there for programs.
+/// Prints and writes the findings. Returns them for programs.
 nlohmann::ordered_json write(const Findings &found, const PictureOptions &picture) {
   nlohmann::ordered_json json;
   for (const Finding &one : found.all()) {

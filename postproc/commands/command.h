@@ -20,11 +20,11 @@ class Command {
   virtual ~Command() = default;
   virtual const char *help() const = 0;
   virtual void add_options(CLI::App *command) = 0;
-  /// The work. \throws std::exception with one clear line
+  /// Runs the command. \throws std::exception with one clear line
   virtual void run() = 0;
 };
 
-/// A command that turns its inputs into findings: all of them are there before the first is told
+/// A command that turns its inputs into findings: all of them exist before the first is printed
 /// or written.
 class Analysis : public Command {
  public:
@@ -47,16 +47,16 @@ class Analysis : public Command {
   virtual Findings find() = 0;
 
  private:
-  bool has_base_ = false;  ///< else findings go into no file but that of --json
+  bool has_base_ = false;  ///< if not, findings go into no file but that of --json
 };
 
 /// A statistic of catalogues.
 class Statistic : public Analysis {
  public:
-  /// What it finds in catalogues, also for the report. \throws std::exception
+  /// Its findings from catalogues, also for the report. \throws std::exception
   virtual Findings of(const std::vector<EventTable> &tables) = 0;
-  /// Heading of its section in the report of each model, nullptr: it is not there. Options are as
-  /// they are without command line.
+  /// Heading of its section in the report of each model; nullptr: none. Options have their values
+  /// without a command line.
   virtual const char *heading() const { return nullptr; }
 
  protected:

@@ -21,8 +21,8 @@ class Compare : public Statistic {
 
   const char *help() const override {
     return "Do catalogues agree? Sizes, and times from start to start, of each catalogue against "
-           "the first: Kolmogorov-Smirnov distance with its p-value by random divisions in blocks "
-           "of consecutive events (ours; events come in sequences), ratio of the means with its "
+           "the first: Kolmogorov-Smirnov distance with its p-value by random permutation of "
+           "blocks of consecutive events (ours; events cluster), ratio of the means with its "
            "error";
   }
 
@@ -36,10 +36,10 @@ class Compare : public Statistic {
     group.flag("--rescale", rescale_,
                "Divide the times of each catalogue by their mean (as Corral 2004 does): do they "
                "have the same form?");
-    group.add("--replicas", replicas_, "Random divisions of each p-value", positive());
+    group.add("--replicas", replicas_, "Random permutations for each p-value", positive());
     group.add("--block", block_,
-              "Consecutive events that change sides together; 0: as many as the correlation of the "
-              "series asks for; 1: as if events were independent",
+              "Consecutive events that are permuted as one block; 0: as many as the correlation "
+              "of the series requires; 1: as if events were independent",
               zero_or_more());
     add_seed(group, seed_);
   }

@@ -24,8 +24,8 @@ class Count : public Analysis {
   };
 
   const char *help() const override {
-    return "Number of events above several sizes, the total energy that these release, and the "
-           "share of the time that events last (ours)";
+    return "Number of events above several sizes, the total energy that they release, and the "
+           "fraction of time within events (ours)";
   }
 
   void add_options(CLI::App *command) override {
@@ -36,8 +36,8 @@ class Count : public Analysis {
     group.add("--size", sizes_, "Smallest size (model energy), several allowed", one_each(),
               zero_or_more());
     group.add("--brief", brief_,
-              "Events of at most so many steps are counted as brief, too: at time steps that are "
-              "too large, bursts of numbers gone wrong",
+              "Also count events of at most so many steps; at too large time steps there are "
+              "bursts of them",
               zero_or_more());
   }
 

@@ -146,7 +146,7 @@ void for_each_line(std::string_view content,
   }
 }
 
-/// Fields between commas; those in double quotes may hold commas (RFC 4180).
+/// Fields between commas; those in double quotes may contain commas (RFC 4180).
 Fields split_csv(std::string_view line) {
   Fields fields(1);
   bool quoted = false;

@@ -24,7 +24,7 @@ struct Earthquake {
   double magnitude = 0.0;                  ///< as the file has it, whatever its type
 };
 
-/// What a file of earthquakes holds.
+/// Content of a file of earthquakes.
 struct EarthquakeList {
   std::vector<Earthquake> events;              ///< in order of time
   std::map<std::string, std::int64_t> others;  ///< by type: blasts, sonic booms, ..., left out
@@ -54,9 +54,9 @@ std::string date_text(double days);
 /// "W/E/S/N" in degrees. \throws std::invalid_argument
 Region parse_region(std::string_view text);
 
-/// Format of a file by its begin: '<' is QuakeML, '# lsm-catalogue' a catalogue of the models, a
-/// line of column names with time and mag (or magnitude) CSV, a first line of data that begins
-/// with YYYY/MM/DD SCEDC, at least nine numbers ZMAP; else models, whose reader says what it
+/// Format of a file by its first bytes: '<' is QuakeML, '# lsm-catalogue' a catalogue of the
+/// models, a line of column names with time and mag (or magnitude) CSV, a first line of data that
+/// begins with YYYY/MM/DD SCEDC, at least nine numbers ZMAP; else models, whose reader says what it
 /// misses.
 CatalogueFormat detect_format(std::string_view content);
 

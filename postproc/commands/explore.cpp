@@ -14,7 +14,7 @@ namespace LSM::postproc {
 
 namespace {
 
-// What the page holds at most, so that it opens at once: 2^24 samples take some 11 MB.
+// Limits of the page, so that it opens at once: 2^24 samples take some 11 MB.
 constexpr std::int64_t most_samples = std::int64_t{1} << 24;
 constexpr std::size_t most_events = 100'000;
 
@@ -104,7 +104,7 @@ class Explore : public Command {
   const char *help() const override {
     return "One self-contained page to explore runs in a browser (ours): PE with its events from "
            "the whole run to single steps, a table of the events, each event with its slip, and "
-           "size exponent, gamma and burstiness against a threshold that is dragged";
+           "exponent, gamma and burstiness against a smallest size that can be dragged";
   }
 
   void add_options(CLI::App *command) override {
@@ -114,7 +114,7 @@ class Explore : public Command {
     own.add("-o,--output", output_, "The page");
     own.add("--title", page_.title, "Heading of the page", shown("label of the run"));
     OptionGroup group(command,
-                      "Files of the runs, in the order of their catalogues; none: without");
+                      "Files of the runs, in the order of their catalogues; none: leave it out");
     const auto add_files = [&group](const char *name, std::vector<std::string> &paths,
                                     const char *what, const char *where) {
       group.add(name, paths, what, kind("FILE"), shown(where), one_each());

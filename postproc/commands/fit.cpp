@@ -19,21 +19,22 @@ class Fit : public Statistic {
   Resampling bootstrap_;
 
   const char *help() const override {
-    return "Exponents of the event sizes by maximum likelihood, how well a power law fits, and, "
-           "with --scaling, whether the roll-off moves with the length (ours; the paper fitted "
-           "binned densities: 1.07 for the fault, 0.5 and 1.0 for the block-slider)";
+    return "Exponents of the event sizes by maximum likelihood, goodness of fit of a power law, "
+           "and, with --scaling, whether the roll-off moves with the length (ours; the paper "
+           "fitted binned densities: 1.07 for the fault, 0.5 and 1.0 for the block-slider)";
   }
 
   void add_options(CLI::App *command) override {
     add_usual(command, "fit");
     OptionGroup group(command, "Fit");
     group.add("--range", ranges_,
-              "LO:HI, sizes that are fitted, several allowed; without it the range is searched. LO "
-              "is raised to where the catalogue begins (--min-size, or min_size in its header)",
+              "LO:HI, sizes that are fitted, several allowed; without it the range is searched. "
+              "LO is raised to the smallest size in the catalogue (--min-size, or min_size in "
+              "its header)",
               kind("LO:HI"), shown(""), one_each());
     group.add("--search", search_,
-              "Ends of the range that are searched by the smallest Kolmogorov-Smirnov distance: "
-              "both, or lower (Clauset et al. 2009; the range then has no upper end)",
+              "Ends of the range that are searched for the smallest Kolmogorov-Smirnov distance: "
+              "both, or lower (Clauset et al. 2009; then the range has no upper end)",
               among({"both", "lower"}));
     add_threshold(group, settings_.threshold, "the search, the picture and the scaling");
     group.add("--replicas", settings_.replicas,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file input_file.h
-/// Input of all commands, compressed by gzip or xz or not; what it is, its first bytes tell, not
+/// Input of all commands, compressed by gzip or xz or not, as its first bytes tell, not
 /// its name.
 #ifndef LSM_POSTPROC_INPUT_FILE_H
 #define LSM_POSTPROC_INPUT_FILE_H

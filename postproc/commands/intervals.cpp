@@ -22,7 +22,7 @@ class Intervals : public Statistic {
 
   const char *help() const override {
     return "Densities of inter-event times (start to start), generalised gamma fits, and the "
-           "parameters beside the paper's Table 1 (paper: Figs. 14, 15)";
+           "parameters compared with the paper's Table 1 (paper: Figs. 14, 15)";
   }
 
   void add_options(CLI::App *command) override {
@@ -31,23 +31,22 @@ class Intervals : public Statistic {
     add_thresholds(group, settings_.thresholds, "the events");
     group.add("--places", settings_.places,
               "Times between ruptures that reach the same place, for this number of places along "
-              "the fault, all together (ours; catalogues of ruptures of faults); 0: between any "
-              "two events",
+              "the fault, pooled (ours; catalogues of ruptures of faults); 0: between any two "
+              "events",
               zero_or_more());
     group.flag("--rescale", settings_.rescale,
                "Divide the times of each curve by their mean (as Corral 2004 does)");
     group.add("--bin-factor", settings_.factor,
               "Ratio of the edges of a bin (the value is ours: ten bins a decade)");
     group.add("--method", method_,
-              "How to fit: least-squares on the density (as in the paper), likelihood (ours), or "
-              "both",
+              "Fit by least-squares on the density (as in the paper), likelihood (ours), or both",
               among({"least-squares", "likelihood", "both"}));
     group.add("--delta", deltas_, "Exponent in the exponential: free or a value, several allowed",
               one_each());
     group.add("--shortest", settings_.shortest,
-              "Leave times shorter than this multiple of their mean out of the fits, as those "
-              "within sequences (ours); 0: none, as in the paper. By likelihood gamma <= 0 needs "
-              "more than 0",
+              "Leave times shorter than this multiple of their mean, which lie within sequences, "
+              "out of the fits (ours); 0: none, as in the paper. By likelihood gamma <= 0 needs "
+              "a value above 0",
               zero_or_more());
     group.add("--replicas", settings_.replicas,
               "Synthetic samples of the Monte Carlo p-value of each fit by likelihood, fitted as "
@@ -55,15 +54,15 @@ class Intervals : public Statistic {
               zero_or_more());
     settings_.shuffles = -1;
     group.add("--shuffles", settings_.shuffles,
-              "Random series that burstiness, memory, times after short and long ones, and the "
-              "steadiness of the rate are compared with (of more than 1e5 times 2e7 times in all, "
-              "at least 19 series, unless a number is given); 0: without these",
+              "Random series with which burstiness, memory, times after short and long ones, and "
+              "the steadiness of the rate are compared; 0: none. With more than 1e5 times, the "
+              "default is fewer series, 2e7 times in all and at least 19",
               shown("200"), zero_or_more());
     group.add("--steady", settings_.steady,
               "Largest departure of the cumulative number of events from a straight line, over "
-              "their number, of stretches proposed as steady (ours)",
+              "their number, of periods proposed as steady (ours)",
               between(0.0, 1.0));
-    group.add("--steady-events", settings_.steady_events, "Fewest events of such a stretch",
+    group.add("--steady-events", settings_.steady_events, "Fewest events of such a period",
               positive());
     add_seed(group, settings_.seed);
   }
@@ -113,8 +112,8 @@ class Intervals : public Statistic {
     }
     if (settings_.places > 0)
       found.say(fmt::format(
-          "times at {} places each; places closer than ruptures are long share ruptures, and then "
-          "errors and p are too small\n",
+          "times at {} places each; places closer than the length of ruptures share ruptures, "
+          "and then errors and p are too small\n",
           settings_.places));
     found.say(table1_text(rows, settings_.rescale));
     if (settings_.shortest > 0.0)

@@ -30,7 +30,7 @@ class Magnitudes : public Statistic {
     OptionGroup group(command, "Magnitudes (ours)");
     magnitudes_.add_to(group);
     group.add("--complete-from", complete_,
-              "Magnitude from which the catalogue is complete: header, that of --threshold; "
+              "Magnitude above which the catalogue is complete: header, that of --threshold; "
               "curvature, centre of the fullest bin + 0.2 (Wiemer and Wyss 2000; Woessner and "
               "Wiemer 2005); or a magnitude");
     add_threshold(group, threshold_, "--complete-from header");
@@ -38,7 +38,7 @@ class Magnitudes : public Statistic {
               "Smallest difference of magnitudes in b-positive", zero_or_more(),
               shown("width of the bins"));
     group.add("--picture-bin", picture_bin_,
-              "Width of the bins of picture and maximum curvature, where --magnitude-bin is 0",
+              "Width of the bins for picture and maximum curvature if --magnitude-bin is 0",
               positive());
   }
 
@@ -53,7 +53,7 @@ class Magnitudes : public Statistic {
     return out;
   }
 
-  /// Where the magnitudes of a curve are complete from.
+  /// Magnitude of completeness of a curve.
   void set_completeness(MagnitudeCurve &curve, const EventTable &table) const {
     if (text_io::parse(complete_, curve.completeness)) {
       curve.completeness_text = "as given";

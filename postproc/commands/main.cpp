@@ -26,9 +26,9 @@ const char *const footer =
     "the threshold 1e-4 of Figs. 12 and 13, the form of the generalised gamma density and Table "
     "1.\n"
     "Ours: the readings 'exponential' and 'average' of the picker, maximum likelihood fits with\n"
-    "their errors and tests, magnitudes, b-values, aftershocks, spectra, bin factors. The help of "
-    "each command\n"
-    "says so again where it matters.\n"
+    "their errors and tests, magnitudes, b-values, aftershocks, spectra, bin factors. The help "
+    "of each\n"
+    "command says so where it matters.\n"
     "Exit status: 0, or 1 after one line on standard error that begins with 'postproc:'.";
 
 int fail(std::string what) {

@@ -29,9 +29,9 @@ class Match : public Statistic {
   double origin_ = 0.0;
 
   const char *help() const override {
-    return "How many events of the first catalogue are in each of the others: start at about the "
-           "same time, of about the same size, each counted once; and how many are found by "
-           "chance, with the first catalogue shifted in time (ours)";
+    return "How many events of the first catalogue are found in each of the others, with about "
+           "the same start and size, each counted once; and how many are found by chance, with "
+           "the first catalogue shifted in time (ours)";
   }
 
   void add_options(CLI::App *command) override {
@@ -42,12 +42,12 @@ class Match : public Statistic {
     group.add("--threshold", rule_.least_size, "Smallest size of the events (model energy)",
               size_or_magnitude(), zero_or_more(), positive(), shown(""), required());
     group.add("--within", rule_.within,
-              "Starts of the same event differ by less than this (model time, or way)", positive(),
-              required());
+              "Starts of the same event differ by less than this (model time, or displacement)",
+              positive(), required());
     group.add("--factor", rule_.factor, "Sizes differ by less than this factor, > 1", positive());
     group.add("--origin", origin_,
-              "Model time from which the times of both are reckoned, where the plates begin to "
-              "move for example",
+              "Model time subtracted from the times of both, e.g. that at which the plates begin "
+              "to move",
               zero_or_more());
   }
 

@@ -13,10 +13,11 @@ class Nature : public Statistic {
   NatureSettings settings_;
 
   const char *help() const override {
-    return "Models beside nature: catalogues of models ranked by the distance of their inter-event "
-           "times, over their mean, to those of earthquakes, with sizes, clustering and the events "
-           "around large ones. The first catalogue is that of the earthquakes. Catalogues of the "
-           "same --label are samples of one model, whose scatter gives the errors (ours)";
+    return "Models compared with nature: catalogues of models ranked by the distance of their "
+           "inter-event times, over their mean, to those of earthquakes, with sizes, clustering "
+           "and the events around large ones. The first catalogue is that of the earthquakes. "
+           "Catalogues of the same --label are samples of one model, whose scatter gives the "
+           "errors (ours)";
   }
 
   void add_options(CLI::App *command) override {
@@ -24,12 +25,13 @@ class Nature : public Statistic {
     OptionGroup group(command, "Comparison (ours)");
     add_thresholds(group, settings_.thresholds, "the models' events");
     group.add("--reference", settings_.reference,
-              "Smallest size of the earthquakes, such as M2.5; several allowed, the least is what "
-              "models are compared with",
-              one_each(), size_or_magnitude(), zero_or_more(), shown("all that are there"));
+              "Smallest size of the earthquakes, such as M2.5; several allowed, and models are "
+              "compared with the smallest",
+              one_each(), size_or_magnitude(), zero_or_more(), shown("all events"));
     group.add("--shortest", settings_.shortest,
-              "Shorter times, over their mean, are left out of the fits of gamma", zero_or_more());
-    group.add("--main-share", settings_.share, "Share of the events that count as large",
+              "Leave times shorter than this multiple of their mean out of the fits of gamma",
+              zero_or_more());
+    group.add("--main-share", settings_.share, "Fraction of the events that count as large",
               between(0.0, 1.0));
     group.add("--fewest", settings_.fewest, "Catalogues with fewer events are left out",
               between(20, 1000000000));

@@ -33,7 +33,7 @@ CLI::Option *put(CLI::Option *option, const std::string &heading, const std::vec
   return option->group(heading);
 }
 
-/// What CLI11 calls a type in --help depends on whether it is an enumeration.
+/// The name of a type in --help depends on whether it is an enumeration.
 enum class Word : int {};
 
 template <class Number>
@@ -161,9 +161,9 @@ void add_wave_speeds(OptionGroup group, double &p_speed, double &s_speed) {
 
 void add_block(OptionGroup group, std::string &text) {
   group.add("--block", text,
-            "Length of the stretches of time that are resampled for these errors, since events "
-            "come in sequences (model time): auto, from the correlation of each catalogue "
-            "(Politis and White 2004); or 0, events one by one as if independent");
+            "Length of the blocks of time that are resampled for these errors, since events "
+            "cluster (model time): auto, from the correlation of each catalogue (Politis and "
+            "White 2004); or 0, single events as if independent");
 }
 
 double parse_block(const std::string &text) {
@@ -224,8 +224,8 @@ void MagnitudeOptions::add_to(OptionGroup group) {
                      "column that not every catalogue has",
                      "size");
   group.add("--magnitude-slope", scale.slope,
-            "Magnitudes per decade of that: 2/3 is the usual one for energy and moment, 1 makes M "
-            "the logarithm itself",
+            "Magnitudes per decade of size: 2/3 is usual for energy and moment, 1 makes M the "
+            "logarithm itself",
             shown("2/3"));
   group.add("--magnitude-constant", scale.constant, "Magnitude of an event of size (or moment) 1");
   group.add("--magnitude-bin", bin,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file options.h
-/// What options of several commands have in common.
+/// Options shared by several commands.
 #ifndef LSM_POSTPROC_OPTIONS_H
 #define LSM_POSTPROC_OPTIONS_H
 
@@ -46,8 +46,8 @@ Rule number_or(const std::map<std::string, double> &words);
 /// A size, or the magnitude M2.5 of an event of size 10^(1.5 x 2.5).
 Rule size_or_magnitude();
 
-/// Options that stand together under a heading of --help. The library of options is seen by
-/// options.cpp only: it takes long to compile.
+/// Options under one heading of --help. Only options.cpp includes the library of options, which
+/// takes long to compile.
 class OptionGroup {
  public:
   explicit OptionGroup(CLI::App *command, std::string heading = "Options")
@@ -59,7 +59,7 @@ class OptionGroup {
                    const Rules &...rules) {
     return bind(names, value, help, {Rule(rules)...});
   }
-  /// An option that calls a function of a number, or of all texts it is given.
+  /// An option that calls a function with a number, or with all given texts.
   template <class... Rules>
   CLI::Option *call(const std::string &names, const std::function<void(const double &)> &use,
                     const std::string &help, const Rules &...rules) {
@@ -128,7 +128,7 @@ struct MagnitudeOptions {
   void add_to(OptionGroup group);
   /// \throws std::invalid_argument for impossible values
   void check() const;
-  /// Column name of what the magnitude is of.
+  /// Name of the column from which the magnitude is made.
   std::string of() const { return of_moment ? "slip_moment" : "size"; }
   double quantity(const Event &event) const { return of_moment ? event.slip_moment : event.size; }
   /// \throws std::runtime_error if the catalogue lacks the column
@@ -136,7 +136,7 @@ struct MagnitudeOptions {
   double magnitude(const Event &event) const { return binned(scale.of(quantity(event)), bin); }
 };
 
-/// Options of what a command writes beside its findings.
+/// Options of the files that a command writes in addition to its findings.
 struct OutputOption {
   std::string path;
   bool force = false;  ///< replace what is there
@@ -150,8 +150,8 @@ struct OutputOption {
 /// row.
 class JsonOutput {
  public:
-  /// With "-" as the file, JSON is all there is on standard output: what the command says goes to
-  /// standard error.
+  /// With "-" as the file, standard output has only JSON: the text of the command goes to standard
+  /// error.
   void add_to(CLI::App *command);
   /// No path, if nothing is written or it goes to standard output.
   Output output() const { return {"--json", path_ == "-" ? std::string() : path_}; }

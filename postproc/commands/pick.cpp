@@ -51,9 +51,9 @@ class Pick : public Analysis {
 
   const char *help() const override {
     return "Picks the events of a PE series and writes their catalogue (paper: Sect. 4.1). The "
-           "rows are those that the run itself writes under the same settings, less the columns "
-           "about slip, which a PE series does not tell. One pass, whatever the length of the "
-           "series";
+           "rows are those that the run itself writes with the same settings, without the "
+           "columns on slip, which a PE series does not have. One pass, whatever the length of "
+           "the series";
   }
 
   void add_options(CLI::App *command) override {
@@ -66,9 +66,9 @@ class Pick : public Analysis {
               "Leave out events that start before this time (model time; ours; default: as in the "
               "header of the series, or 0)");
     group.add("--completeness", completeness_,
-              "Size below which the events are not claimed to be independent of the time step "
-              "(energy; ours), for the header of the catalogue: the other commands begin there by "
-              "default (default: as in the header of the series, or not said)",
+              "Size below which events may depend on the time step (energy; ours), for the "
+              "header of the catalogue: other commands leave smaller events out by default "
+              "(default: as in the header of the series, or none)",
               zero_or_more());
     add_picker_options(command, picker_);
   }

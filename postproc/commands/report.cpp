@@ -49,8 +49,8 @@ class Report : public Command {
   std::vector<std::string> series_;
 
   const char *help() const override {
-    return "One self-contained HTML page about a set of catalogues: parameters, counts, figures "
-           "(SVG), fits, finite-size scaling, Table 1, and which of it is the paper's and which is "
+    return "One self-contained HTML page on a set of catalogues: parameters, counts, figures "
+           "(SVG), fits, finite-size scaling, Table 1, and what of it is the paper's and what is "
            "ours";
   }
 
@@ -72,8 +72,8 @@ class Report : public Command {
     add_block(group, block_);
     add_seed(group, report_.seed);
     group.add("--series", series_,
-              "PE series whose regime, stick-slip or creep, the page shall state (ours), several "
-              "allowed; --from, --to and --lenient hold for them, too",
+              "PE series whose regime, stick-slip or creep, the page states (ours), several "
+              "allowed; --from, --to and --lenient apply to them as well",
               kind("FILE"), shown(""), one_each());
   }
 
@@ -85,7 +85,7 @@ class Report : public Command {
     const SeriesOptions samples{catalogues_.lenient, catalogues_.from_time, catalogues_.to_time};
     std::vector<SeriesRegime> series;
     for (const std::string &path : series_) series.push_back(series_regime(path, samples));
-    // Statistics that say so have a section of each model.
+    // Statistics that ask for it have a section for each model.
     for (auto &[name, command] : all_commands()) {
       const auto statistic = std::dynamic_pointer_cast<Statistic>(command);
       if (!statistic || !statistic->heading()) continue;

@@ -46,12 +46,12 @@ class Rupture : public Analysis {
 
   const char *help() const override {
     return "Draws the ruptures of faults (ours; catalogues of compute lsm/events with events "
-           "ruptures): how many of each length (BASE-lengths) and moment (BASE-moments) there are, "
-           "moment against length (BASE-length), against the drop of the total PE, which the paper "
-           "says should be proportional (BASE-pe), stress drop against moment (BASE-stress). With "
-           "a slip history, also the slip velocity in space and time with the ruptures outlined "
-           "(BASE-spacetime), lines of the slip along the fault (BASE-lines), and one rupture in "
-           "detail (BASE-event)";
+           "ruptures): their numbers by length (BASE-lengths) and moment (BASE-moments), moment "
+           "against length (BASE-length), drop of the total PE, which the paper expects to be "
+           "proportional, against moment (BASE-pe), stress drop against moment (BASE-stress). "
+           "With a slip history, also the slip velocity in space and time with the ruptures "
+           "outlined (BASE-spacetime), lines of the slip along the fault (BASE-lines), and one "
+           "rupture in detail (BASE-event)";
   }
 
   void add_options(CLI::App *command) override {
@@ -60,7 +60,7 @@ class Rupture : public Analysis {
     add_picture(command, "rupture");
     OptionGroup group(command, "Slip history");
     group.add("--history", history_,
-              "Slip history of the first catalogue's run; --from and --to choose its part",
+              "Slip history of the first catalogue's run; --from and --to select a part",
               kind("FILE"), shown("none"));
     group.add("--event", event_, "event_id of the rupture that is drawn in detail",
               shown("that of the largest moment"));

@@ -33,14 +33,13 @@ class Select : public Analysis {
   OutputOption output_;
 
   const char *help() const override {
-    return "Writes the events of a catalogue of a model that --from, --to and --min-size choose as "
-           "a catalogue again: numbers and columns as they were, and in the header what was "
-           "selected (ours)";
+    return "Writes the events of a model's catalogue that --from, --to and --min-size select as "
+           "a catalogue: numbers and columns unchanged, and the selection in the header (ours)";
   }
 
   void add_options(CLI::App *command) override {
     catalogues_.add_to(command);
-    // Events of negative size are left out only where a size is asked for.
+    // Events of negative size are left out only if a smallest size is given.
     catalogues_.min_size = -std::numeric_limits<double>::infinity();
     OptionGroup group(command);
     for (const char *const name : {"--label", "--region", "--format"}) group.remove(name);

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// One row; without a regime its numbers are empty. \param line the same for people
+/// One row; without a regime its numbers are empty. \param line the same as text
 Table regime_table(std::int64_t samples, std::int64_t events, const RegimeMeter &meter,
                    std::string &line) {
   Table table(
@@ -63,8 +63,8 @@ class Series : public Analysis {
               "smallest and largest value in each column",
               between(std::int64_t{10}, std::int64_t{1000000}));
     group.add("--window", window_,
-              "Time over which the rise and the fall of PE are measured for the number that tells "
-              "stick-slip from creep (model time, ours)",
+              "Time over which the rise and the fall of PE are measured for the saw-tooth "
+              "number, which distinguishes stick-slip from creep (model time, ours)",
               positive());
     add_picture(command, "series");
     add_picker_options(command, picker_);
@@ -94,9 +94,9 @@ class Series : public Analysis {
     if (samples > 2 * columns_)
       figure.table.comment(
           fmt::format("{} samples thinned: smallest and largest values in each of {} columns, in "
-                      "the order in which they came",
+                      "order of time",
                       samples, columns_));
-    events.comment("events picked in the window; an empty size: not ended yet; " + settings);
+    events.comment("events picked in the window; empty size: not ended yet; " + settings);
 
     RegimeMeter meter(window_, series.spacing(), length_of(info));
     Thinner thinner(figure.table, samples, columns_);

@@ -13,9 +13,9 @@ namespace LSM::postproc {
 
 void SeriesOptions::add_to(OptionGroup group, bool window) {
   group.flag("--lenient", lenient,
-             "Drop a truncated last sample, as a killed run leaves it, and report this on standard "
-             "error; without it that is an error. Anything else wrong in a series always is: a "
-             "missing sample would change what follows");
+             "Drop a truncated last sample, as a killed run leaves it, and report this on "
+             "standard error; without it that is an error. Anything else wrong in a series "
+             "always is an error, as a missing sample would change what follows");
   if (!window) return;
   group.add("--from", from_time, "First time used (model time)", shown("start"));
   group.add("--to", to_time, "Last time used (model time)", shown("end"));
@@ -55,7 +55,7 @@ std::int64_t SeriesInput::read_some(const Use &use) {
 
 void add_picker_options(CLI::App *command, PickerOptions &options) {
   const AddedPickerOptions added = LSM::add_picker_options(
-      command, options, "Event picker (what is not given is as in the header of the series)");
+      command, options, "Event picker (defaults are in the header of the series)");
   added.lambda->description(added.lambda->get_description() +
                             ". From the header of a series of every s-th step: its value to the "
                             "power s (exponential)");

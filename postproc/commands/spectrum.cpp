@@ -30,14 +30,13 @@ class Spectrum : public Analysis {
 
   const char *help() const override {
     return "Power spectral density of PE series by Welch's method: one-sided, the integral over "
-           "frequency is the variance (ours; the paper shows no spectra). A last segment that is "
-           "not full is left out";
+           "frequency is the variance (ours; the paper shows no spectra). An incomplete last "
+           "segment is left out";
   }
 
   void add_options(CLI::App *command) override {
     OptionGroup own(command), group(command, "Spectrum (ours)");
-    own.add("series", series_,
-            "PE series, text or binary, one curve each; a sample is needed at every stride",
+    own.add("series", series_, "PE series, text or binary, one curve each, without missing samples",
             required());
     own.add("--label", labels_,
             "Name of a curve, once per series and in their order (default: file name)");
@@ -50,7 +49,7 @@ class Spectrum : public Analysis {
               between(std::int64_t{8}, std::int64_t{1} << 28),
               shown("power of two, at most 1/8 of the series and 65536"));
     group.add("--overlap", spectrum_.overlap,
-              "Part of a segment that the next one shares, 0 to less than 1");
+              "Fraction of a segment shared with the next one, 0 to less than 1");
     group.choice<Window>("--window", spectrum_.window,
                          {{"hann", Window::hann},
                           {"hamming", Window::hamming},
@@ -58,8 +57,8 @@ class Spectrum : public Analysis {
                           {"rectangular", Window::rectangular}},
                          "hann, hamming, blackman, rectangular", "hann");
     group.add("--per-decade", per_decade_,
-              "Neighbouring frequencies are averaged to at most so many points in a decade; 0: all "
-              "frequencies. Errors take neighbours as independent",
+              "Neighbouring frequencies are averaged to at most so many points per decade; 0: "
+              "all frequencies. Errors assume independent neighbours",
               zero_or_more());
     add_picture(command, "spectrum");
   }

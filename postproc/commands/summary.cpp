@@ -50,21 +50,20 @@ class Summary : public Analysis {
     OptionGroup group(command);
     group.add("--output,-o", output_, "File to write; without it standard output");
     group.add("--parameter", parameters_,
-              "Value of the header that becomes a column, several allowed", shown(""));
+              "Parameter of the header that becomes a column, several allowed", shown(""));
     group.add("--range", ranges_,
               "LO:HI, sizes between which an exponent is fitted, several allowed", kind("LO:HI"),
               shown("1e-4:1e-1 1e-3:1"));
     group.add("--threshold", thresholds_, "Smallest sizes of the events whose times are used",
               shown("1e-4 1e-3 1e-2 1e-1"), zero_or_more());
     group.add("--window", windows_,
-              "LO:HI, share of the inter-event times within (model time), several allowed: swings "
-              "of the blocks between the plates stand out so",
+              "LO:HI, fraction of the inter-event times in this window (model time), several "
+              "allowed; shows oscillations of the blocks between the plates",
               kind("LO:HI"), shown(""));
-    group.add("--brief", brief_, "Steps that an event lasts at most to count as brief",
-              zero_or_more());
+    group.add("--brief", brief_, "Longest duration of a brief event (steps)", zero_or_more());
     group.add("--shortest", shortest_,
               "Leave times shorter than this multiple of their mean out of the fits; gamma <= 0 "
-              "needs more than 0",
+              "needs a value above 0",
               zero_or_more());
     group.add("--method", method_,
               "How gamma, B and C are fitted: likelihood (ours), or least-squares on the density "
@@ -108,7 +107,7 @@ class Summary : public Analysis {
     add(row, "spearman_p_" + name, successive.p);
   }
 
-  /// Share of the events of the smallest threshold that last so few steps.
+  /// Fraction of the events of the smallest threshold that last so few steps.
   double share_of_brief(const EventTable &table) const {
     const double least = *std::min_element(thresholds_.begin(), thresholds_.end());
     const std::string *const text = table.info.find("dt");

@@ -21,7 +21,8 @@ std::string aftershocks_text(const std::vector<AftershockCurve> &curves) {
         curve.label, a.sequences.main_shocks, short_number(a.rule.main_size),
         short_number(a.rule.window), a.fit.n, short_number(a.rule.least_size),
         short_number(a.rule.first), short_number(a.rule.window));
-    out += fmt::format("  {} events as long before their starts\n", a.sequences.before.size());
+    out += fmt::format("  {} events in the same time before their starts\n",
+                       a.sequences.before.size());
     if (a.fit.n > 0)
       out += fmt::format("  constant rate: {} per time unit\n",
                          with_error(a.fit.constant, a.fit.se_constant));
@@ -38,7 +39,7 @@ std::string aftershocks_text(const std::vector<AftershockCurve> &curves) {
       out += fmt::format("  against a constant rate: 2 ln L ratio {}",
                          short_number(a.fit.likelihood_ratio));
     if (!std::isnan(a.p))
-      out += fmt::format("; as large in a share of {} of Poisson catalogues of the same events",
+      out += fmt::format("; as large in a fraction {} of Poisson catalogues of the same events",
                          short_number(a.p, 2));
     if (!std::isnan(a.fit.likelihood_ratio)) out += '\n';
   }

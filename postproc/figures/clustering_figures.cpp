@@ -25,7 +25,7 @@ std::vector<const IntervalCurve *> drawn(const std::vector<IntervalCurve> &curve
   for (const IntervalCurve &curve : curves)
     if (has_clustering(curve) && out.size() < most_rows) out.push_back(&curve);
   if (out.empty())
-    throw std::runtime_error("no curve has times enough to see whether they cluster");
+    throw std::runtime_error("no curve has enough times to tell whether they cluster");
   return out;
 }
 
@@ -63,9 +63,8 @@ Figure rate_figure(const std::vector<IntervalCurve> &curves) {
                 "set multiplot\n",
                 {900, row_height * static_cast<int>(rows.size())}};
   figure.table.comment(
-      "count: cumulative number of events at 400 times; steady: stretches proposed as steady, "
-      "their "
-      "events and departure from a straight line over that number; earthquakes: year");
+      "count: cumulative number of events at 400 times; steady: periods proposed as steady, "
+      "their events and departure from a straight line over that number; earthquakes: year");
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const IntervalCurve &curve = *rows[k];
     const auto number = static_cast<std::int64_t>(k + 1);
@@ -165,7 +164,7 @@ Figure conditional_figure(const std::vector<IntervalCurve> &curves) {
         axis("y", "probability density", true, heights.lo, heights.hi) + densities + "\n" +
         linear_axes() + place(k, rows.size(), 0.7, 0.97) +
         "set key inside bottom right noopaque\n" +
-        axis("x", "eighth of the time before", false, 0.5, 8.5) +
+        axis("x", "eighth of the previous time", false, 0.5, 8.5) +
         axis("y", "mean after it / mean", false, 0.0, nan) +
         fmt::format(
             "plot table using {0}:($7-2*$8):($7+2*$8) with filledcurves fs solid 0.2 noborder lt 8 "

@@ -59,8 +59,8 @@ std::string clustering_text(const std::vector<IntervalCurve> &curves, const Date
   }
   if (!out.empty())
     out +=
-        "  γ of the fits is no share of background events: it follows from the branching of "
-        "sequences, and changes with rate and threshold (Saichev and Sornette 2007)\n";
+        "  γ of the fits is not the fraction of background events: it follows from the branching "
+        "of sequences, and changes with rate and threshold (Saichev and Sornette 2007)\n";
   return out;
 }
 

@@ -20,7 +20,7 @@ namespace {
 
 using nlohmann::json;
 
-/// The elements of the page that hold its data. JSON is for what is small; what is long is packed,
+/// The elements of the page with its data. Small data are JSON; long columns are packed,
 /// each column in an element of its own, whose id stands in the JSON.
 class PageData {
  public:
@@ -29,7 +29,8 @@ class PageData {
     return id;
   }
 
-  /// Headers of catalogues may hold anything: no text of theirs ends the element or begins another.
+  /// Headers of catalogues may contain anything: none of their text ends the element or begins
+  /// another.
   std::string html(const json &root) const {
     std::string text;
     for (const char c : root.dump(-1, ' ', true, json::error_handler_t::replace))

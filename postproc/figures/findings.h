@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file findings.h
-/// What a statistic has found, for people and for programs.
+/// Findings of a statistic, as text and for programs.
 #ifndef LSM_POSTPROC_FINDINGS_H
 #define LSM_POSTPROC_FINDINGS_H
 
@@ -16,7 +16,7 @@
 
 namespace LSM::postproc {
 
-/// One thing that was found. Names are those in JSON; an empty one is not there.
+/// One finding. Names are those in JSON; one with an empty name is left out.
 struct Finding {
   std::string name;
   std::string ending;    ///< of its files: BASE + ending + .csv, and so on
@@ -24,7 +24,7 @@ struct Finding {
   std::variant<std::string, Table, Figure, std::shared_ptr<const nlohmann::ordered_json>> what;
 };
 
-/// In the order in which they are told; JSON has the order in which they were named.
+/// In the order in which they are printed; JSON has the order in which they were named.
 class Findings {
  public:
   void say(std::string text) { all_.push_back({{}, {}, false, std::move(text)}); }

@@ -71,10 +71,10 @@ Table nature_csv(const std::vector<NatureRow> &rows) {
       "distance: Kolmogorov-Smirnov distance of the inter-event times over their mean to those of "
       "the first row, size_distance: of the magnitudes above the smallest, over their mean");
   table.comment(
-      "after_short: mean time after the shortest third over the mean; before, after: events within "
-      "a mean time of large ones, 1 if these were like any others; b: Aki");
+      "after_short: mean time after the shortest third over the mean; before, after: events "
+      "within a mean time of large ones, over that of any others; b: Aki");
   table.comment(
-      "errors: from the scatter between catalogues of a label, or of one catalogue its own "
+      "errors: from the scatter between catalogues of a label, or for one catalogue its own "
       "(distances: blocks of consecutive values resampled)");
   for (const NatureRow &row : rows) {
     table.add(row.label).add(row.threshold).add(row.catalogues).add(row.n);
@@ -139,7 +139,7 @@ Figure nature_figure(const std::vector<NatureRow> &rows) {
       "(burstiness, memory)");
   const auto add = [&figure](const char *panel, std::size_t curve, double x, double y, double error,
                              const std::string &label) {
-    // gnuplot passes over points with an empty error
+    // gnuplot skips points with an empty error
     figure.table.row(panel, curve, x, y, std::isnan(error) ? 0.0 : error, label);
   };
   std::string times, sizes, plane, distances, ticks;

@@ -20,11 +20,10 @@ FileLock claim_output(const std::string &path, bool replace);
 /// Writes text to path, in place of an older file. \throws FileError
 void write_file(const std::string &path, std::string_view text);
 
-/// \throws FileError if output, or the name under which it is on its way, is one of the files that
-/// are read.
+/// \throws FileError if output, or its temporary name, is one of the files that are read.
 void refuse_input(const std::string &output, const std::vector<std::string> &inputs);
 
-/// The same for several outputs; empty paths are passed over. \throws FileError also if two of them
+/// The same for several outputs; empty paths are skipped. \throws FileError also if two of them
 /// are one file, whatever its names
 void check_outputs(const std::vector<Output> &outputs, const std::vector<std::string> &inputs);
 

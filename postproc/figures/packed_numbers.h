@@ -22,7 +22,7 @@ std::string packed(const std::vector<double> &values);
 std::string packed(const std::vector<float> &values);
 
 /// A series of numbers as one byte for each, with errors that are small beside what is seen at any
-/// zoom: a number is predicted by going on straight from the two before it, and the byte says by
+/// zoom: a number is predicted by linear extrapolation of the two before it, and the byte says by
 /// how much the prediction is off, on a logarithmic scale. What was off in one number is made good
 /// in the next (the prediction starts from the decoded numbers), so that errors do not add up: they
 /// stay below half of the largest change of slope nearby.

@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Line types: Okabe and Ito's colours (safe for any kind of colour vision), each with its
-// own point type and dashes so that a print in black and white still tells the curves apart.
+// own point type and dashes, so that the curves differ in black and white as well.
 constexpr std::string_view prelude = R"(
 set datafile separator comma
 set encoding utf8
@@ -181,7 +181,7 @@ void check_name(const fs::path &base) {
 /// quotes at the beginning of a string for an empty one, and counts braces: all but what is
 /// harmless is written as octal numbers.
 std::string escape(std::string_view text, bool markup) {
-  // Markup of our own is there to be read.
+  // Our own markup is not escaped.
   const std::string_view harmless = markup ? " .,:;()=+-/*%<>!?" : " .,:;()=+-/*%<>!?_^{}";
   std::string out = "\"";
   bool number = false;  // continues with the next digit, however long it is
@@ -334,7 +334,7 @@ std::string error_bars(std::string_view x, std::string_view y, std::string_view 
 }
 
 PictureSize size_with_key(const std::vector<std::string> &titles, int width) {
-  // Two columns where both fit: gnuplot reckons with about 9.2 units for a character, a sample and
+  // Two columns where both fit: gnuplot assumes about 9.2 units per character, a sample and
   // its gaps 60.
   std::size_t longest = 0;
   for (const std::string &title : titles) longest = std::max(longest, title.size());

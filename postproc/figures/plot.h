@@ -36,7 +36,7 @@ struct PictureOptions {
   /// Call before anything is read or written.
   /// \param inputs files that the command reads
   /// \param more what it writes besides BASE.csv, .gp, .png and .svg, as "BASE" + text
-  /// \param others files of other options; empty paths are passed over
+  /// \param others files of other options; empty paths are skipped
   /// \throws FileError if BASE is no file name, an output would replace an input, or two are one
   void check(const std::vector<std::string> &inputs, const std::vector<std::string> &more = {},
              const std::vector<Output> &others = {}) const;
@@ -48,7 +48,7 @@ struct PictureOptions {
 class Table {
  public:
   explicit Table(std::vector<std::string> columns) : columns_(std::move(columns)) {}
-  explicit Table(std::string_view columns);  ///< names between commas
+  explicit Table(std::string_view columns);  ///< names separated by commas
 
   void comment(std::string_view text);  ///< a "# text" line above the column names
   Table &add(double value) { return put(value); }
@@ -60,7 +60,7 @@ class Table {
   }
   /// Ends the row. \throws std::logic_error unless it has one field per column.
   void end_row();
-  /// The rest of a row, or a whole one.
+  /// The rest of a row, or a complete one.
   template <class... Cells>
   void row(const Cells &...cells) {
     (add(cells), ...);
@@ -68,7 +68,7 @@ class Table {
   }
   std::int64_t rows() const { return rows_; }
   const std::vector<std::string> &columns() const { return columns_; }
-  /// Each row for people: numbers are short, NaN is a dash.
+  /// Each row as text: numbers are short, NaN is a dash.
   std::vector<std::vector<std::string>> texts() const;
   std::string text() const;             ///< the whole file
   nlohmann::ordered_json json() const;  ///< without the comments

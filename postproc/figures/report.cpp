@@ -66,7 +66,7 @@ const char *model_name(const std::string &model) {
 
 std::string kind_name(const std::string &kind) { return kind == "pe" ? "drops of PE" : kind; }
 
-/// What is said of events of a kind, if the page has words for it.
+/// Description of a kind of events, if the page has one.
 std::string kind_part(const std::string &kind, const std::string &of) {
   return kind == "ruptures" ? report_part("ruptures" + of) : std::string();
 }
@@ -74,7 +74,7 @@ std::string kind_part(const std::string &kind, const std::string &of) {
 std::string catalogue_section(const std::vector<EventTable> &tables, const Threshold &least) {
   HtmlTable table({"catalogue", "model", "kind of event", "events", "from the smallest size used",
                    "first to last start (model time)", "share of the time within events",
-                   "smallest to largest size (model energy)", "lines passed over"});
+                   "smallest to largest size (model energy)", "lines skipped"});
   for (const EventTable &events : tables) {
     const double threshold = least.of(events);
     const std::int64_t above = events_from(events, threshold);

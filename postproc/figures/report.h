@@ -18,7 +18,7 @@
 
 namespace LSM::postproc {
 
-/// A section of each model that a statistic has by itself.
+/// A section of a single statistic for each model.
 struct ReportSection {
   std::string heading;
   std::function<Findings(const std::vector<EventTable> &)> find;
@@ -31,14 +31,15 @@ struct ReportSettings {
   int interval_replicas = 1000;  ///< the same of inter-event times
   Resampling bootstrap;          ///< of the characteristic sizes, with seed below
   std::uint64_t seed = 1;
-  std::vector<ReportSection> sections;  ///< behind those that every report has
+  std::vector<ReportSection> sections;  ///< after those that every report has
 };
 
 /// Whether one PE series sticks and slips.
 struct SeriesRegime {
   std::string path, model;
-  double length = std::numeric_limits<double>::quiet_NaN();  ///< or number of blocks; NaN: not said
-  double first = 0.0, last = 0.0;                            ///< times of the samples used
+  double length =
+      std::numeric_limits<double>::quiet_NaN();  ///< or number of blocks; NaN: not given
+  double first = 0.0, last = 0.0;                ///< times of the samples used
   std::optional<Regime> regime;
   std::string why;  ///< reason if there is none
 };

@@ -96,8 +96,8 @@ std::vector<std::string> titles_of(const std::vector<EventTable> &tables, std::s
   return titles;
 }
 
-/// Moment of a rupture of one bin that slips as slowly as counts for one interval: modulus, slip
-/// velocity, time and width; 0 if the header does not say them all.
+/// Moment of a rupture of one bin that slips at the threshold velocity for one interval: modulus,
+/// slip velocity, time and width; 0 if the header lacks any of them.
 double smallest_moment(const CatalogueInfo &info) {
   double moment = 1.0;
   for (const char *const key : {"modulus", "slip_velocity", "interval", "dt", "slip_bin"}) {
@@ -210,8 +210,8 @@ Figure moment_length_figure(const std::vector<EventTable> &tables) {
 Figure moment_pe_figure(const std::vector<EventTable> &tables) {
   Figure figure{Table("catalogue,label,event_id,moment,pe_drop,alone"), {}, {}};
   figure.table.comment(
-      "Ruptures: drop of the total PE from begin to end against slip moment; alone: "
-      "1 where the others at the same time have less than a tenth of its moment");
+      "Ruptures: drop of the total PE from beginning to end against slip moment; alone: 1 if the "
+      "others at the same time have less than a tenth of its moment");
   Extent moments, drops;
   std::vector<std::pair<double, double>> alone, all;
   std::int64_t negative = 0;

@@ -11,7 +11,7 @@
 
 namespace LSM::postproc {
 
-/// How many there are of each length or moment, moment against length, drop of the total PE against
+/// Their numbers by length and by moment, moment against length, drop of the total PE against
 /// moment, and stress drop against moment.
 /// \throws std::runtime_error if there is nothing to draw
 Figure rupture_density_figure(const std::vector<EventTable> &tables, RuptureQuantity quantity);

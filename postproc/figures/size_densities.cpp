@@ -28,7 +28,7 @@ Figure size_density_figure(const std::vector<EventTable> &tables,
       throw std::invalid_argument(
           fmt::format("sizes from {} to {}: expected 0 <= lower end < upper end",
                       text(settings.threshold.in(table)), settings.upto));
-  // Labels may hold commas, so they come last: awk -F, finds the numbers without them.
+  // Labels may contain commas, so they come last: awk -F, finds the numbers without them.
   Figure figure{Table({"curve", "model", "length", "bin_lo", "bin_hi", "size", "count",
                        settings.counts ? "events" : "density", "error", "label"}),
                 {},

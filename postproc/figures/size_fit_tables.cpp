@@ -179,8 +179,7 @@ std::string range_of_bends(const ScalingFit &fit) {
   }
   if (!(sharpest > roundest)) return {};
   return fmt::format(
-      "; bends from {} to {} in place of {} fit as well, with L_c = {} to {}, D = {} "
-      "to {}",
+      "; bends from {} to {} instead of {} fit as well, with L_c = {} to {}, D = {} to {}",
       roundest, sharpest, Saturation::sharpness, short_number(shortest, 3),
       short_number(longest, 3), short_number(least, 2), short_number(most, 2));
 }
@@ -204,14 +203,14 @@ std::string verdict(const Scaling &scaling) {
                 short_number(end.aicc), with_error(end.L_c, end.se_L_c),
                 with_error(end.s_inf, end.se_s_inf), with_error(end.D, end.se_D),
                 short_number(end.chi2), fit.points - 3, range_of_bends(fit));
-  const char *statement = "does not tell whether it depends on the length";
+  const char *statement = "may or may not depend on the length";
   if (fit.preferred == SizeDependence::none)
     statement = "shows no significant dependence on the length";
   else if (fit.preferred == SizeDependence::power_law)
     statement = fit.D > 0.0 ? "grows with the length"
                             : "shrinks with the length, which no finite-size effect explains";
   else if (fit.preferred == SizeDependence::saturates)
-    statement = "grows with the length up to L_c and no further";
+    statement = "grows with the length up to L_c only";
   const char *doubt = "";
   if (fit.preferred == SizeDependence::power_law &&
       gsl_cdf_chisq_Q(fit.chi2, fit.points - 2) < 0.01)
@@ -231,7 +230,7 @@ std::string scaling_text(const Scaling &scaling) {
       "finite-size scaling, {}: characteristic size s* = <s^2>/<s>, sizes >= {} (bootstrap "
       "errors, {})\n",
       name_of(scaling), text(scaling.threshold),
-      scaling.by_event() ? "events one by one as if independent" : "blocks of time");
+      scaling.by_event() ? "single events as if independent" : "blocks of time");
   for (std::size_t i = 0; i < scaling.points.size(); ++i) {
     const SizePoint &point = scaling.points[i];
     out += fmt::format(
@@ -313,8 +312,8 @@ Figure scaling_figure(const std::vector<Scaling> &scalings, int width) {
       Table("curve,model,length,s_star,error,events,error_independent,block,blocks,label"), {}, {}};
   figure.table.comment("characteristic size <s^2>/<s> in model energy units; errors: bootstrap");
   figure.table.comment(
-      "block: length of the stretches of the catalogue that are resampled, model time; 0: events "
-      "one by one; error_independent: if the events were independent");
+      "block: length of the blocks of the catalogue that are resampled, model time; 0: single "
+      "events; error_independent: if the events were independent");
   std::string plots, lines;
   Extent lengths, heights;
   std::int64_t number = 0;

@@ -13,7 +13,7 @@ namespace LSM::postproc {
 
 namespace {
 
-/// A row that ends a line: gnuplot draws on over fields that are empty.
+/// A row that ends a line: gnuplot ignores empty fields and would continue it.
 void break_line(Table &table, int columns) {
   for (int k = 0; k < columns; ++k) table.add(std::string_view("NaN"));
   table.end_row();
@@ -160,8 +160,8 @@ Figure slip_lines_figure(const HistoryWindow &window, double locked, double slip
   const FaultGrid &grid = window.info.grid;
   Figure figure{Table("line,time,in_event,x,slip"), {}, {1000, 640}};
   figure.table.comment(history_comment(window) +
-                       fmt::format("; slip since then, a line each {} while locked, each {} while "
-                                   "anything slips",
+                       fmt::format("; slip since then, a line every {} while locked, every {} "
+                                   "while anything slips",
                                    short_number(locked), short_number(slipping)));
   std::vector<double> slip(static_cast<std::size_t>(grid.bins), 0.0);
   const double least = slipping_above(grid, window.info.ruptures.velocity);
@@ -203,8 +203,8 @@ Figure slip_lines_figure(const HistoryWindow &window, double locked, double slip
       short_number(window.from, 8), text_io::number(grid.x0),
       text_io::number(grid.x0 + grid.length()),
       text_io::number(highest > 0.0 ? 1.02 * highest : 1.0),
-      quote(fmt::format("each {} time units while anything slips", short_number(slipping))),
-      quote(fmt::format("each {} time units while the fault is locked", short_number(locked))));
+      quote(fmt::format("every {} time units while anything slips", short_number(slipping))),
+      quote(fmt::format("every {} time units while the fault is locked", short_number(locked))));
   return figure;
 }
 
@@ -213,7 +213,7 @@ Figure rupture_detail_figure(const HistoryWindow &window, const Event &event, do
   const FaultGrid &grid = window.info.grid;
   const auto hypocentre =
       static_cast<std::int64_t>(std::floor((event.x_hypocentre - grid.x0) / grid.width));
-  // The hypocentre's bin in the middle; x is reckoned from its centre.
+  // The hypocentre's bin in the middle; x is relative to its centre.
   const std::int64_t half = grid.bins / 2;
   const std::int64_t shift = ((hypocentre - half) % grid.bins + grid.bins) % grid.bins;
   const double x0 = -(static_cast<double>(half) + 0.5) * grid.width;
@@ -248,8 +248,8 @@ Figure rupture_detail_figure(const HistoryWindow &window, const Event &event, do
     lines.row(4, x0 + (static_cast<double>(k) + 0.5) * grid.width,
               slip[static_cast<std::size_t>((k + shift) % grid.bins)]);
   lines.comment(
-      "curve 1: outline; 2: P-wave, 3: S-wave from the first place (x, time); 4: slip "
-      "between begin and end of the rupture (x, slip)");
+      "curve 1: outline; 2: P-wave, 3: S-wave from the first place (x, time); 4: slip from "
+      "beginning to end of the rupture (x, slip)");
 
   figure.script =
       std::string(colours) +

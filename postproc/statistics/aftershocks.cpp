@@ -276,7 +276,7 @@ OmoriFit fit_quietly(const Sequences &s, double hold_c) {
     return fit;
   }
   const Likelihood likelihood(s);
-  // Below a thousandth of the first time nothing tells one c from another.
+  // Below a thousandth of the first time values of c are indistinguishable.
   const auto positive = std::upper_bound(s.times.begin(), s.times.end(), 0.0);
   const double shortest = positive == s.times.end() ? s.window : std::max(*positive, s.first);
   Search search{&likelihood, hold_c, true, std::log(1e-3 * shortest), std::log(s.window)};
@@ -320,11 +320,11 @@ OmoriFit fit_quietly(const Sequences &s, double hold_c) {
       x, step);
   const double needed = held ? 5.99 : 7.81;
   if (!(fit.likelihood_ratio > needed))
-    fit.why = "no decay that a constant rate does not explain as well";
+    fit.why = "no decay: a constant rate fits as well";
   else if (!held &&
            !(std::log(c) > search.least_ln_c + 0.01 && std::log(c) < search.most_ln_c - 0.01))
     fit.why = std::log(c) < 0.5 * (search.least_ln_c + search.most_ln_c)
-                  ? "c is shorter than the times tell; hold it, or count from a later first time"
+                  ? "c is too short for these times; hold it, or use a later --first"
                   : "c is as long as the window";
   else if (!(p > 0.0))
     fit.why = "the rate rises with time";

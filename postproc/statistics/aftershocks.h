@@ -26,7 +26,7 @@ struct SequenceRule {
   double first = 0.0;       ///< events sooner than this after the end are not counted
 };
 
-/// An event as far as it counts here.
+/// The properties of an event used here.
 struct Shock {
   double start, end, size;
 };

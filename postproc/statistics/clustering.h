@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file clustering.h
-/// Whether events come at a steady rate, and whether they come in clusters: what a series of
+/// Whether events have a steady rate, and whether they cluster: what a series of
 /// inter-event times says beyond its density, each beside series without memory.
 ///
 /// Sources: Goh & Barabasi 2008, EPL 81, 48002 (burstiness, memory coefficient); Kim & Jo 2016,
@@ -73,7 +73,7 @@ struct Stretch {
 
 struct Steadiness {
   Stretch whole;
-  /// Share of series whose departure is as large if the times come in random order, block by block,
+  /// Share of series whose departure is as large with the times in random order, block by block,
   /// so that short sequences stay together: small where the rate changes for longer than those.
   double p = std::numeric_limits<double>::quiet_NaN();
   /// Stretches whose departure is at most the tolerance, those with the most events first, none of

@@ -35,10 +35,10 @@ struct EventTable {
   /// together, so that their curves begin at the same size, and the file that has it (energy).
   double completeness = 0.0;
   std::string completeness_path;
-  std::int64_t skipped_lines = 0;    ///< bad lines passed over (lenient)
+  std::int64_t skipped_lines = 0;    ///< bad lines skipped (lenient)
   std::int64_t left_out_small = 0;   ///< events below min_size
   std::int64_t left_out_time = 0;    ///< events outside [from_time, to_time)
-  std::vector<std::string> repairs;  ///< what was passed over, counted by kind (lenient)
+  std::vector<std::string> repairs;  ///< what was skipped, counted by kind (lenient)
 
   /// Whether these are earthquakes: times in days, sizes 10^(1.5 M).
   bool earthquakes() const { return info.model == "seismicity"; }

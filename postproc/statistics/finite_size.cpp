@@ -293,7 +293,7 @@ SizePoint characteristic_size(const std::vector<double> &t_start, const std::vec
     point.block = block_length(bins) * ring.duration() / count;
   }
   if (point.block > 0.0) {
-    // Below a hundredth of the mean interval hardly a block would hold two events.
+    // Below a hundredth of the mean interval hardly any block would have two events.
     const double shortest = 0.01 * ring.duration() / static_cast<double>(kept.size());
     if (!(point.block >= shortest && point.block <= 0.5 * ring.duration()))
       throw std::invalid_argument(what + "block of " + number(point.block) + ", expected 0 or " +

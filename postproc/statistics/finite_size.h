@@ -36,7 +36,7 @@ struct Resampling {
 };
 
 /// s* = <s^2> / <s> over the sizes at or above threshold; for a power law with exponent below 3 it
-/// follows the roll-off. Events come in sequences, so the error is that of a circular block
+/// follows the roll-off. Events cluster, so the error is that of a circular block
 /// bootstrap in time (Politis & Romano 1992): stretches of the catalogue, joined to a ring, that
 /// begin at random times, together as long as the catalogue. Event by event it would leave out the
 /// correlation of events near to each other.

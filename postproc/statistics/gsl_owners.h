@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file gsl_owners.h
-/// What GSL allocates, and its handler of errors, for as long as a block lasts.
+/// Owners of objects of GSL, and its error handler for the duration of a block.
 #ifndef LSM_POSTPROC_GSL_OWNERS_H
 #define LSM_POSTPROC_GSL_OWNERS_H
 
@@ -12,7 +12,7 @@
 
 namespace LSM::postproc {
 
-/// Something of GSL with what frees it.
+/// An object of GSL with the function that frees it.
 template <class T>
 using Gsl = std::unique_ptr<T, void (*)(T *)>;
 inline Gsl<gsl_vector> gsl_vector_of(std::size_t n) {

@@ -129,7 +129,7 @@ std::vector<NatureRow> nature_rows(const std::vector<EventTable> &tables,
     if (thresholds.empty()) thresholds.emplace_back();
     for (std::size_t i = 0; i < thresholds.size(); ++i) {
       const double least = thresholds[i].complete_in(first).size;
-      // Where the catalogue begins above a smallest size, the next one says the same.
+      // If the catalogue begins above a smallest size, the next one gives the same.
       if (i + 1 < thresholds.size() &&
           events_from(first, least) ==
               events_from(first, thresholds[i + 1].complete_in(first).size))

@@ -18,7 +18,7 @@ struct NatureSettings {
   std::vector<double> reference;   ///< smallest sizes of the earthquakes; none: all of them
   double shortest = 0.05;    ///< times over their mean below this are left out of the fits of gamma
   double share = 0.02;       ///< of the events that count as large
-  std::int64_t fewest = 50;  ///< events of a catalogue that is looked at
+  std::int64_t fewest = 50;  ///< events of a catalogue that is used
   int replicas = 200;        ///< of the errors of distances
   std::uint64_t seed = 1;
 };

@@ -28,8 +28,8 @@ struct RangeSearch {
   double lo = 0.0;     ///< smallest lower cut allowed (0: smallest positive value of the sample)
   double hi = std::numeric_limits<double>::infinity();  ///< largest upper cut allowed
   int candidates = 60;           ///< cuts tried on each side, evenly spaced in log x (at least 2)
-  std::int64_t min_events = 50;  ///< ranges with fewer events are passed over (at least 10)
-  double min_ratio = 10.0;       ///< finite ranges with hi/lo below this are passed over
+  std::int64_t min_events = 50;  ///< ranges with fewer events are skipped (at least 10)
+  double min_ratio = 10.0;       ///< finite ranges with hi/lo below this are skipped
 };
 
 struct PowerLawFit {

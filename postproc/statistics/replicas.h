@@ -32,12 +32,12 @@ void for_each_replica(int count, const std::function<void(int)> &task);
 
 /// (k + 1) / (count + 1) with the number k of replicas that are as far off as the data.
 double share_of_replicas(int count, const std::function<bool(int)> &as_far);
-/// The same of samples that are drawn one after the other from one stream, whoever takes them.
+/// The same for samples drawn one after the other from one stream, on any thread.
 double share_of_samples(int count, std::uint64_t seed,
                         const std::function<std::vector<double>(gsl_rng *)> &draw,
                         const std::function<bool(std::vector<double>)> &as_far);
 
-/// Is told between replicas how many of how many are done, by one thread at a time; at the end
+/// Called between replicas with the number done and the total, by one thread at a time; at the end
 /// count of count. Empty: no report.
 void watch_replicas(std::function<void(int done, int count)> observer);
 

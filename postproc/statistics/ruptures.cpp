@@ -27,7 +27,7 @@ std::vector<LogBin> length_bins(const EventTable &table, double bin) {
         std::max(lo + 1, static_cast<std::int64_t>(
                              std::llround(LogHistogram::default_factor * static_cast<double>(lo))));
     LogBin one{};
-    // Between the whole numbers.
+    // Between the integers.
     one.lo = (static_cast<double>(lo) - 0.5) * bin;
     one.hi = (static_cast<double>(hi) - 0.5) * bin;
     one.centre = std::sqrt(static_cast<double>(lo) * static_cast<double>(hi - 1)) * bin;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file ruptures.h
-/// Ruptures of a fault (all ours): how many of each length and moment there are, and how moment,
-/// length and drop of PE go together.
+/// Ruptures of a fault (all ours): their numbers by length and moment, and relations of moment,
+/// length and drop of PE.
 #ifndef LSM_POSTPROC_RUPTURES_H
 #define LSM_POSTPROC_RUPTURES_H
 
@@ -26,14 +26,14 @@ struct LogFit {
 /// of one x only
 LogFit fit_logarithms(const std::vector<std::pair<double, double>> &points);
 
-/// Whether the ruptures at the same time as each one (which a drop of the total PE holds as well)
-/// have less than a tenth of its moment together.
+/// Whether the ruptures at the same time as each one (which a drop of the total PE includes as
+/// well) have less than a tenth of its moment together.
 std::vector<bool> slips_by_itself(const std::vector<Event> &events);
 
 enum class RuptureQuantity { length, moment };
 
 /// Ruptures per unit of model time, of length of the fault, and of the quantity, so that faults of
-/// other lengths lie on each other where ruptures do not know the length. Moments in bins of equal
+/// other lengths coincide if ruptures do not depend on the length. Moments in bins of equal
 /// width in the logarithm. Lengths are whole numbers of bins of the fault: a bin of the density
 /// holds as many of these numbers as its width says, one each for the shortest.
 /// `density` and `error` are in these units, not normalised to one.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file samples.h
-/// What many estimators do with a sample.
+/// Operations on samples shared by many estimators.
 #ifndef LSM_POSTPROC_SAMPLES_H
 #define LSM_POSTPROC_SAMPLES_H
 
@@ -24,7 +24,7 @@ struct Extent {
   bool empty() const { return !(hi >= lo); }
 };
 
-/// NaN of no values.
+/// NaN without values.
 inline double mean_of(const double *values, std::size_t count) {
   return sum_pairwise(values, count) / static_cast<double>(count);
 }
@@ -32,7 +32,7 @@ inline double mean_of(const std::vector<double> &values) {
   return mean_of(values.data(), values.size());
 }
 
-/// The values less their mean.
+/// The values minus their mean.
 inline std::vector<double> centred(std::vector<double> values) {
   const double mean = mean_of(values);
   for (double &value : values) value -= mean;

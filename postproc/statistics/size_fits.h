@@ -28,7 +28,7 @@ struct SizeFitSettings {
 struct SizeFit {
   std::string label, model;
   std::size_t catalogue = 0;  ///< index among the catalogues
-  double completeness = 0.0;  ///< in the header of the catalogue; 0: not said
+  double completeness = 0.0;  ///< in the header of the catalogue; 0: not given
   PowerLawFit fit;
   double p = std::numeric_limits<double>::quiet_NaN();        ///< NaN: not computed
   double p_error = std::numeric_limits<double>::quiet_NaN();  ///< of its Monte Carlo estimate

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file slip_window.h
-/// What a slip history says of a window of time, with the outlines of the ruptures in it (ours).
+/// The part of a slip history in a window of time, with the outlines of the ruptures in it (ours).
 #ifndef LSM_POSTPROC_SLIP_WINDOW_H
 #define LSM_POSTPROC_SLIP_WINDOW_H
 
@@ -21,7 +21,7 @@ struct Outline : SlipSet {
   void absorb(const Outline &later);
 };
 
-/// What a history says of a window of time.
+/// The part of a history in a window of time.
 struct HistoryWindow {
   SlipHistoryInfo info;
   std::vector<SlipRecord> records;  ///< those that overlap with the window

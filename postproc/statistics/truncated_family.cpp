@@ -112,7 +112,7 @@ TiltedFit fit_tilted(Statistic statistic, double mean_u, double mean_t, double l
   const double rate = statistic.rate;
   TiltedFit fit;
 
-  // The likelihood is concave, so its slope in c at the best exponential tells whether c > 0 helps.
+  // The likelihood is concave, so its slope in c at the best exponential shows whether c > 0 helps.
   const double z = finite ? tilt_of_mean(mean_u / length) : 0.0;
   fit.b = finite ? z / length : -1.0 / mean_u;
   const double log_z0 = finite ? std::log(length) + log_normalisation(z) : -std::log(-fit.b);

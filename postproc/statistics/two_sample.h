@@ -33,7 +33,7 @@ struct TwoSampleTest {
 /// Largest distance between the empirical distributions of two samples, neither of them empty.
 double two_sample_distance(std::vector<double> first, std::vector<double> second);
 
-/// Permutation test of the Kolmogorov-Smirnov distance. Events come in sequences, so that blocks of
+/// Permutation test of the Kolmogorov-Smirnov distance. Events cluster, so that blocks of
 /// consecutive values change sides, not single ones: with single ones, series that depend on their
 /// past differ too often.
 /// More than 16384 values of both series together: at most 2048 blocks, and the distance that p is

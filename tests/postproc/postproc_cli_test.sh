@@ -317,7 +317,7 @@ aftershocks)
   awk -F, '/^lsm/ { n++; if (!($6 == 41 && $10 > 1.9 && $10 < 2.1 && $12 > 1.7 && $12 < 2.3 && $14 > 75 && $14 < 130 && $16 > 0.0098 &&
     $16 < 0.0108 && $18 > 1000 && $19 == 0.05)) exit 1 } END { exit n != 1 }' a.omori.csv || fail "$(cat a.omori.csv)"
   grep -q '41 main shocks of size 50 or larger (largest event of all that start within 1000 before and after)' out.txt &&
-    grep -q 'as large in a share of 0.05 of Poisson catalogues' out.txt || fail "$(cat out.txt)"
+    grep -q 'as large in a fraction 0.05 of Poisson catalogues' out.txt || fail "$(cat out.txt)"
   # Stacked rate: counts in the bins, per main shock and time unit.
   awk -F, '/^1,/ { if ($7 < 0.9999 * $6 / (41 * ($4 - $3)) || $7 > 1.0001 * $6 / (41 * ($4 - $3))) exit 1; ++n }
     END { exit !(n > 8) }' a.csv || fail "$(cat a.csv)"

@@ -153,7 +153,7 @@ fit)
   awk -F, '!/^#/ && $1 == 1 && !($8 > 990 && $8 < 1010 && $9 == 30) { exit 1 }' b.scaling.csv || fail "--block: $(cat b.scaling.csv)"
   grep -q '"blocks": 30' b.json && grep -q '"error_independent": ' b.json || fail "$(cat b.json)"
   must_run fit g100.csv g200.csv --range 1e-3:0.1 --replicas 0 --scaling --block 0 -o b --no-picture
-  grep -q 'events one by one as if independent' out.txt || fail "--block 0: $(cat out.txt)"
+  grep -q 'single events as if independent' out.txt || fail "--block 0: $(cat out.txt)"
   awk -F, '!/^#/ && $1 == 1 && !($8 == 0 && $9 == 0 && $5 > 0.8 * $7 && $5 < 1.2 * $7) { exit 1 }' b.scaling.csv || fail "--block 0: $(cat b.scaling.csv)"
   refused "block 'long', expected 'auto' or a time of 0 or more" fit g100.csv --scaling --block long -o x
   refused 'block of 20000, expected 0 or .* to half of the catalogue' fit g100.csv --scaling --block 20000 -o x
@@ -167,7 +167,7 @@ fit)
   pictures s.scaling
   grep -q "growth up to L_c = " s.scaling.gp || fail "no curve of growth that ends: $(cat s.scaling.gp)"
   grep -q "growth up to L_c" g.scaling.gp n.scaling.gp && fail "a curve of growth that ends without such growth"
-  grep -q 'grows with the length up to L_c and no further (' out.txt || fail "growth that ends: $(cat out.txt)"
+  grep -q 'grows with the length up to L_c only (' out.txt || fail "growth that ends: $(cat out.txt)"
   grep -q '"preferred": "growth that ends at a length"' s.json || fail "$(cat s.json)"
   near "$(awk '/"L_c":/ { gsub(/[",]/, ""); print $2 }' s.json)" 350 0.25 || fail "L_c: $(cat s.json)"
   near "$(awk '/"s_inf":/ { gsub(/[",]/, ""); print $2 }' s.json)" "$(awk -F, '$3 == 6400 { print $4 }' s.scaling.csv)" 0.03 || fail "s_inf: $(cat s.json)"

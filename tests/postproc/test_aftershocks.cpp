@@ -221,7 +221,7 @@ TEST(Omori, AConstantRateIsNoDecay) {
     if (fit.likelihood_ratio > 7.81) ++decays;
     if (fit.likelihood_ratio <= 7.81) {
       EXPECT_TRUE(fit.degenerate);
-      EXPECT_EQ(fit.why, "no decay that a constant rate does not explain as well");
+      EXPECT_EQ(fit.why, "no decay: a constant rate fits as well");
       EXPECT_TRUE(std::isnan(fit.p) && std::isnan(fit.c) && std::isnan(fit.K));
       EXPECT_NEAR(fit.constant, 0.1, 5.0 * fit.se_constant);
       EXPECT_EQ(fit.rate(3.0), fit.constant);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the page holds: a JSON element for what is small; long columns are packed in elements of
+// Content of the page: a JSON element for small data; long columns are packed in elements of
 // their own (figures/packed_numbers.h): bytes, compressed by zlib, in base 64.
 'use strict';
 

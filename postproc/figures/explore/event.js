@@ -63,7 +63,7 @@ class EventPanel {
     this.others = {ruptures: ruptures ? other : null, found};
   }
 
-  /** Where an event began, as far as anything tells; the middle of the picture. */
+  /** Where an event began, as far as is known; the middle of the picture. */
   origin(events) {
     if (events.has('x_hypocentre')) return events.columns.x_hypocentre[this.index];
     const {ruptures, found} = this.others || {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What is chosen on the page, and who is told about it.
+// The selection on the page, and the views that follow it.
 'use strict';
 
 class App {
@@ -13,7 +13,7 @@ class App {
     this.views = [];
   }
 
-  /** The events of a run that are looked at: of the kind chosen, or the one there is. */
+  /** The events of a run that are shown: of the kind chosen, or of the only kind. */
   eventsOf(run) { return run.kinds.find(kind => kind.info.kind === this.kind) || run.kinds[0]; }
   get view() { return this.views[this.runs.indexOf(this.run)]; }
 

@@ -190,7 +190,7 @@ class Statistics {
     if (withThreshold) this.dragOn(id, graph);
   }
 
-  /** A graph needs a row or it says so; one at each end does no harm. */
+  /** A graph without a row shows a message; one row at each end does no harm. */
   rowsOf(curves, ranges) {
     const rows = mergedCurves(curves), none = curves.map(() => null);
     return [[ranges.x[0], ...none], ...rows, [ranges.x[1], ...none]].filter((row, i, all) => i === 0 || row[0] > all[i - 1][0]);

@@ -6,7 +6,7 @@
 class View {
   static labelWidth = 70;
 
-  /** @param app what is chosen, and what to call when somebody chooses something else */
+  /** @param app the selection, and what to call when it changes */
   constructor(run, number, parent, app) {
     this.run = run;
     this.number = number;
