@@ -48,7 +48,7 @@ PairLSMFriction::PairLSMFriction(LAMMPS *_lmp) :
   centroidstressflag = CENTROID_NOTAVAIL;
   nondefault_history_transfer = 1;
 
-  // a contact lost in the step in which the list is built keeps its history until its release was counted
+  // a contact lost in the step in which the list is built keeps its history until its release is counted
   beyond_contact = 1;
   single_extra = 2;
   svector = of_single;
@@ -328,7 +328,7 @@ void PairLSMFriction::allocate()
   table.create();
 }
 
-// another law has other coefficients, and cannot go on with the contacts of the one before
+// another law has other coefficients, and cannot continue with the contacts of the previous one
 void PairLSMFriction::choose(const LSMLaw *wanted)
 {
   if (wanted == table.law) return;

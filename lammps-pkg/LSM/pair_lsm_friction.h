@@ -71,8 +71,8 @@ class PairLSMFriction : public PairLSMFree {
   LSMLawTable table;
   const LSMLaw *running;    // of those of the name, the first that fits all coefficients
   bool restored;            // law and coefficients come from a restart file
-  int locate_onset;         // 1 if the begin of a contact within a step is located
-  double of_single[2];    // what svector points to: a constructor that stops leaves nothing behind
+  int locate_onset;         // 1 if the onset of a contact within a step is located
+  double of_single[2];      // target of svector: nothing to free if the constructor stops
   class FixDummy *fix_dummy;
   class FixNeighHistory *fix_history;
 

@@ -173,7 +173,7 @@ class EventStream {
     if (finder_) finder_->each_open_as_ended([this](const Event &event) { finish(event); });
   }
 
-  /// Hands all samples so far to the system.
+  /// Hands all samples so far to the operating system.
   void flush() {
     if (series_) series_->flush();
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file lsm_pe_series.h
 /// Time series of the total elastic potential energy (PE), Sect. 4.1 of Weatherley and Abe (2004).
-/// The formats are ours. PE is kept as a full double: the sign of its change per step matters at
+/// The formats are ours. PE is kept in double precision: the sign of its change per step matters at
 /// 1e-9 of its value.
 ///
 /// Text:    # lsm-pe-series 1
@@ -12,9 +12,9 @@
 ///          lines above), then records of int64 step and double pe; everything little-endian.
 ///          time = time0 + (step - step0) dt.
 ///
-/// Where steps and time are not proportional (fix lsm/leap), the header says "times = own": a text
-/// file has the time of each sample in its column as always, a binary record is int64 step, double
-/// time, double pe.
+/// If steps and time are not proportional (fix lsm/leap), the header has "times = own": a text file
+/// has the time of each sample in its column as always; a binary record is int64 step, double time,
+/// double pe.
 #ifndef LSM_PE_SERIES_H
 #define LSM_PE_SERIES_H
 
@@ -42,11 +42,10 @@ struct PeSeriesInfo {
   std::int64_t step0 = 0;   ///< step of time0, usually that of the first sample
   double time0 = 0.0;       ///< time at step0
   std::int64_t stride = 1;  ///< steps between samples, >= 1
-  bool own_times = false;   ///< each sample has its own time; time() does not hold
+  bool own_times = false;   ///< each sample has its own time; time() does not apply
   std::vector<std::pair<std::string, std::string>> parameters;
 
-  /// Steps are subtracted as doubles (the same number below 2^53): no header can make that
-  /// overflow.
+  /// Steps are subtracted as doubles (exact below 2^53), so that no header can make this overflow.
   double time(std::int64_t step) const {
     return time0 + (static_cast<double>(step) - static_cast<double>(step0)) * dt;
   }
@@ -114,9 +113,9 @@ inline std::string interpret(const text_io::Parameters &all, PeSeriesInfo &info)
 
 }  // namespace pe_series_detail
 
-/// Reads a PE series sample by sample; text or binary is found out from the file. Anything
-/// unexpected throws; only a truncated last sample, which a killed run leaves behind, is dropped
-/// when asked for (lenient).
+/// Reads a PE series sample by sample; the file tells whether it is text or binary. Anything
+/// unexpected throws; only a truncated last sample, as a killed run leaves it, is dropped if asked
+/// to (lenient).
 class PeSeriesReader {
  public:
   PeSeriesReader() = default;
@@ -265,8 +264,8 @@ class PeSeriesReader {
   binary_io::Records records_;
 };
 
-/// Writes a PE series. Samples are collected and handed to the system in blocks of whole samples;
-/// flush() before writing a restart, or resume() finds samples missing.
+/// Writes a PE series. Samples are collected and handed to the operating system in blocks of whole
+/// samples; flush() before writing a restart, or resume() finds samples missing.
 class PeSeriesWriter {
  public:
   PeSeriesWriter() = default;
@@ -276,7 +275,7 @@ class PeSeriesWriter {
     try {
       close();
     } catch (...) {
-      // close() is there for those who want to know.
+      // call close() to learn of errors.
     }
   }
 
@@ -298,12 +297,11 @@ class PeSeriesWriter {
     start(info, binary, 0, 0);
   }
 
-  /// Goes on with the series of a run restarted from last_step: checks that the header says what
+  /// Continues the series of a run restarted from last_step: checks that the header is what
   /// create() would write (parameters named in ignore may differ; their old values stay), drops
-  /// every sample after last_step and a torn last one. Returns the number of samples kept. The file
-  /// is left as it was if this throws.
-  /// \throws FileError naming the first parameter that differs, the first bad line, or the
-  /// samples missing before last_step.
+  /// every sample after last_step and an incomplete last one. Returns the number of samples kept.
+  /// The file is unchanged if this throws. \throws FileError naming the first parameter that
+  /// differs, the first bad line, or the samples missing before last_step.
   std::int64_t resume(const std::string &path, const PeSeriesInfo &info, bool binary,
                       std::int64_t last_step, const std::vector<std::string> &ignore = {}) {
     find_cut(path, info, binary, last_step, ignore);
@@ -349,8 +347,8 @@ class PeSeriesWriter {
     return rows_;
   }
 
-  /// Adds a sample at the time that follows from its step. \throws as below; std::logic_error for a
-  /// series with own_times
+  /// Adds a sample at the time given by its step. \throws as below; std::logic_error for a series
+  /// with own_times
   void write(std::int64_t step, double pe) {
     if (info_.own_times) throw std::logic_error("PE series: a sample needs its time");
     write(step, info_.time(step), pe);

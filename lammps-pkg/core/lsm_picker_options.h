@@ -14,7 +14,7 @@
 
 namespace LSM {
 
-/// What a user says about the picker; what he does not say is empty.
+/// The user's settings of the picker; empty where not given.
 class PickerOptions {
  public:
   std::string prefix;  ///< between the dashes and the name of lambda and memory-time

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file lsm_restart_info.h
-/// FILE.info beside a restart file: settings of the run, and size and checksum, by which a file
-/// that is not whole is told before anything reads it. (Ours.)
+/// FILE.info beside a restart file: settings of the run, and size and checksum, by which an
+/// incomplete file is recognized before anything reads it. (Ours.)
 ///
 ///   key = value                  one line each
 ///   lines = CRC                  of the lines above
@@ -26,7 +26,7 @@
 
 namespace LSM {
 
-/// The checksum of POSIX cksum: the remainder of the bytes and of their number.
+/// The checksum of POSIX cksum: CRC of the bytes and of their number.
 class Cksum {
  public:
   void add(std::string_view bytes) {
@@ -88,8 +88,8 @@ inline std::string last_line(const std::string &path, const Cksum &sum) {
 
 }  // namespace restart_info_detail
 
-/// Gives a restart file that was written as `written` its name and its FILE.info. Whenever this is
-/// interrupted, a file with an info is whole, and an older one of that name stays or is gone.
+/// Gives a restart file, written as `written`, its name and its FILE.info. Whenever this is
+/// interrupted, a file with an info is complete, and an older one of that name stays or is gone.
 /// settings: keys without '='. \throws FileError
 inline void seal_restart(const std::string &written, const std::string &path,
                          const text_io::Parameters &settings) {

@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file lsm_slip_history.h
 /// Slip of a fault in space and time, for pictures and for finding its ruptures again (ours): the
-/// bins of lsm_fault_grid.h, interval by interval while anything slips, many intervals in one
-/// record else.
+/// bins of lsm_fault_grid.h, interval by interval while anything slips; quiet intervals are merged.
 ///
 /// Binary: 16 bytes "lsm-slip-hist-1\n", int64 length of the header, the header (lines
 /// "# key = value"), then records of
 ///
-///     int64 step_begin, int64 step_end   the steps that the record is about
+///     int64 step_begin, int64 step_end   the steps of the record
 ///     double pe                          total potential energy at step_end
 ///     bins times float slip              slip since step_begin
 ///     bins times float work              work lost to friction since step_begin
 ///     bins times float stress            shear stress, mean over the last interval
 ///
 /// everything little-endian. The first record is the state before the first interval (step_begin =
-/// step_end, no slip); each of the others begins where the one before ended.
+/// step_end, no slip); every other record begins where the previous one ended.
 #ifndef LSM_SLIP_HISTORY_H
 #define LSM_SLIP_HISTORY_H
 
@@ -144,7 +143,7 @@ inline std::int64_t record_bytes(const SlipHistoryInfo &info) {
 }  // namespace slip_history_detail
 
 /// Reads a slip history record by record. Anything unexpected throws; only a truncated last record,
-/// which a killed run leaves behind, is dropped when asked for (lenient).
+/// as a killed run leaves it, is dropped if asked to (lenient).
 class SlipHistoryReader {
  public:
   /// \throws FileError if the file cannot be read or its header is not as it should be.
@@ -212,7 +211,7 @@ class SlipHistoryReader {
     } else if (record.step_end <= record.step_begin) {
       fail(steps + ", expected increasing steps");
     }
-    // Differences of any two steps, also of nonsense ones, are below 2^64.
+    // Differences of any two steps, even nonsensical ones, are below 2^64.
     const auto since =
         static_cast<std::uint64_t>(record.step_end) - static_cast<std::uint64_t>(info_.grid.step0);
     if (record.step_end < info_.grid.step0 ||
@@ -368,7 +367,7 @@ class SlipHistoryWriter {
 
   text_io::OutputFile file_;
   SlipHistoryInfo info_;
-  std::int64_t begin_ = 0;    // of the record that is being put together
+  std::int64_t begin_ = 0;    // of the record being assembled
   std::int64_t pending_ = 0;  // intervals in it
   std::vector<double> slip_, work_;
   SlipRecord last_;

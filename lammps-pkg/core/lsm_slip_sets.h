@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file lsm_slip_sets.h
-/// Sets of sliding places connected in space and time, put together as the slips come. Places stand
-/// in a ring: blocks of a chain, or bins along a fault. (Ours.)
+/// Sets of sliding places connected in space and time, assembled as the slips occur. Places form a
+/// ring: blocks of a chain, or bins along a fault. (Ours.)
 ///
 /// A place that slides in step n is connected with the places at most `reach` from it that slide in
-/// step n or in one of the `memory` steps before it. A set ends when no place that slides is
-/// connected with it any more; two that meet become one.
+/// step n or in one of the `memory` steps before it. A set ends when no sliding place can connect
+/// with it any more; two sets that meet become one.
 #ifndef LSM_SLIP_SETS_H
 #define LSM_SLIP_SETS_H
 
@@ -19,7 +19,7 @@
 
 namespace LSM {
 
-/// What every set knows of itself; the rest is in what is derived from it.
+/// Members common to all sets; derived classes add the rest.
 struct SlipSet {
   std::int64_t step_start = 0;  ///< the step before the first in which a place slid
   std::int64_t step_end = 0;    ///< the last step in which a place slid
@@ -29,7 +29,7 @@ struct SlipSet {
 };
 
 /// Adds a row of places to that of a set, with the gap of at most `gap` places between them. A row
-/// whose ends are no farther apart than that goes round the whole ring.
+/// whose ends are no farther apart than that covers the whole ring.
 inline void extend(SlipSet &set, std::int64_t begin, std::int64_t length, std::int64_t places,
                    std::int64_t gap) {
   if (set.length == places) return;
@@ -47,7 +47,7 @@ inline void extend(SlipSet &set, std::int64_t begin, std::int64_t length, std::i
   set.length = n;
 }
 
-/// A place that slid not too long ago to be connected with the next one. Plain data.
+/// A place whose slip may still connect with the next one. Plain data.
 struct RecentSlip {
   std::int64_t place = 0, step = 0;
   std::int64_t set = 0;  ///< index of its set
@@ -58,7 +58,7 @@ struct RecentSlip {
   }
 };
 
-/// Everything that has to be remembered between steps.
+/// The state between steps.
 template <class Set>
 struct SlipSetsState {
   std::vector<Set> open;
@@ -83,8 +83,8 @@ class SlipSets {
 
   void begin_step(std::int64_t step) { step_ = step; }
 
-  /// Place i slides: the set it is in now, which is valid until the next call. begun is called with
-  /// that set if it is a new one.
+  /// Place i slides. Returns its set, valid until the next call; begun is called with the set if it
+  /// is new.
   template <class Begun>
   Set &slide(int i, Begun &&begun) {
     std::int32_t mine = none;
@@ -112,8 +112,8 @@ class SlipSets {
     return set;
   }
 
-  /// Ends the step. Calls look(Set &) for each open set, then finished(const Set &) for each that
-  /// nothing can be connected with any more, in order of step_end, step_start, first place.
+  /// Ends the step. Calls look(Set &) for each open set, then finished(const Set &) for each set
+  /// that has ended, in order of step_end, step_start, first place.
   template <class Look, class Finished>
   void end_step(Look &&look, Finished &&finished) {
     if (open_.empty()) return;
@@ -166,7 +166,7 @@ class SlipSets {
     return s;
   }
 
-  /// Goes on after the given step. \throws std::invalid_argument if no sets can be in that state.
+  /// Continues after the given step. \throws std::invalid_argument if no sets can be in that state.
   void set_state(const SlipSetsState<Set> &s, std::int64_t step) {
     step_ = step;
     nodes_.clear();
@@ -194,7 +194,7 @@ class SlipSets {
   static constexpr std::int64_t never = INT64_MIN / 2;
 
   // Sets joined with another one stay as nodes that lead to it until it ends, as places may still
-  // name them.
+  // refer to them.
   struct Node {
     std::int32_t parent, next, tail;  // next and tail: chain of all nodes joined with a root
     Set set;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file lsm_text_io.h
-/// What the catalogue and the PE series files have in common: numbers that do not depend on the
-/// locale, "# key = value" headers, input that may be compressed, and output files that never lose
-/// what was written before.
+/// Shared by catalogue and PE series files: numbers that do not depend on the locale, "# key =
+/// value" headers, input that may be compressed, and output files that never lose what was written
+/// before.
 #ifndef LSM_TEXT_IO_H
 #define LSM_TEXT_IO_H
 
@@ -62,7 +62,7 @@ std::string number(T value) {
   return out;
 }
 
-/// The whole of text has to be one number; no blanks, no locale. Infinities and NaN are refused.
+/// All of text has to be one number; no blanks, no locale. Infinities and NaN are refused.
 inline bool parse(std::string_view text, double &value) {
   double result = 0.0;
   const char *const end = text.data() + text.size();
@@ -135,7 +135,7 @@ std::string take(const Parameters &parameters, const std::string &key, Value &va
   return {};
 }
 
-/// A key or value that would not read back as it was written is a mistake of the program.
+/// A key or value that cannot be read back as written is an error of the program.
 /// \throws std::invalid_argument
 inline void check_parameters(const Parameters &parameters) {
   std::unordered_set<std::string_view> keys;
@@ -178,10 +178,10 @@ inline bool parse_parameter(std::string_view line, std::pair<std::string, std::s
   return true;
 }
 
-/// Parameters of a file that is being read. A header may be long: no key is looked for in a list.
+/// Parameters of a file that is being read. A header may be long, so keys are hashed.
 class ParameterList {
  public:
-  /// Adds what a "# key = value" line says; returns what is wrong, or "".
+  /// Adds a "# key = value" line; returns what is wrong, or "".
   std::string add_line(std::string_view line) {
     std::pair<std::string, std::string> parameter;
     if (!parse_parameter(line, parameter))
@@ -238,7 +238,7 @@ inline std::string difference(const Parameters &in_file, const Parameters &expec
   return {};
 }
 
-/// The bytes of a file from the first to the last.
+/// The bytes of a file, in order.
 class Bytes {
  public:
   explicit Bytes(std::string path) : path_(std::move(path)) {}
@@ -246,14 +246,14 @@ class Bytes {
   Bytes(const Bytes &) = delete;
   Bytes &operator=(const Bytes &) = delete;
 
-  /// Fewer than most only at the end. \throws FileError
+  /// Returns fewer than most only at the end. \throws FileError
   std::size_t read(char *to, std::size_t most) {
     const std::size_t known = std::min(most, ahead_.size());
     std::memcpy(to, ahead_.data(), known);
     ahead_.erase(0, known);
     return known == most ? known : known + more(to + known, most - known);
   }
-  /// The next bytes, which stay to be read. \throws FileError
+  /// The next bytes, without consuming them. \throws FileError
   std::string_view peek(std::size_t count) {
     const std::size_t known = ahead_.size();
     if (known < count) {
@@ -272,10 +272,10 @@ class Bytes {
   std::string path_, ahead_;
 };
 
-/// How a reader comes by the bytes of a file.
+/// How a reader opens the bytes of a file.
 using OpenBytes = std::unique_ptr<Bytes> (*)(const std::string &path);
 
-/// The bytes of a file as they lie there.
+/// The bytes of a file, unchanged.
 class FileBytes : public Bytes {
  public:
   /// \throws FileError
@@ -326,7 +326,7 @@ inline std::string_view compressed_by(Bytes &file) {
   return {};
 }
 
-/// A file that is not compressed: LAMMPS and the block-slider link nothing that could read others.
+/// A file that is not compressed: LAMMPS and the block-slider link no library for others.
 /// \throws FileError
 inline std::unique_ptr<Bytes> open_plain(const std::string &path) {
   auto bytes = std::make_unique<FileBytes>(path);
@@ -337,12 +337,12 @@ inline std::unique_ptr<Bytes> open_plain(const std::string &path) {
   return bytes;
 }
 
-/// Why a file of LineReader::foreign() lines cannot go on.
+/// Why a file with LineReader::foreign() lines cannot be continued.
 constexpr std::string_view foreign_lines =
     "Windows line ends or a byte order mark, expected the file as the run wrote it";
 
-/// Lines of a file with their numbers and byte offsets, read in large blocks. A byte order mark and
-/// the '\r' of line ends of Windows are no part of them.
+/// Lines of a file with their numbers and byte offsets, read in large blocks, without a byte order
+/// mark and the '\r' of Windows line ends.
 class LineReader {
  public:
   /// \throws FileError
@@ -393,7 +393,7 @@ class LineReader {
   std::int64_t begin() const { return begin_; }  ///< offset of the last line
   std::int64_t end() const { return end_; }      ///< offset behind the last line
   bool complete() const { return complete_; }    ///< the last line ended with '\n'
-  /// What was read had a byte order mark or line ends of Windows: no program of ours wrote it so.
+  /// There was a byte order mark or a Windows line end: none of our programs wrote this.
   bool foreign() const { return foreign_; }
 
   [[noreturn]] void fail(const std::string &what) const {
@@ -403,7 +403,8 @@ class LineReader {
  private:
   static constexpr std::size_t first_size = 1 << 18, longest_line = 1 << 20;
 
-  /// More bytes behind the unfinished line, which moves to the front; false at the end of the file.
+  /// Reads more bytes after the unfinished line, which moves to the front; false at the end of the
+  /// file.
   bool fill() {
     const std::size_t rest = filled_ - used_;
     std::memmove(buffer_.data(), buffer_.data() + used_, rest);
@@ -423,12 +424,12 @@ class LineReader {
   std::string path_;
   std::unique_ptr<Bytes> bytes_;
   std::vector<char> buffer_;
-  std::size_t used_ = 0, filled_ = 0;  // the lines to come are between them
+  std::size_t used_ = 0, filled_ = 0;  // the remaining lines are between them
   std::int64_t line_ = 0, begin_ = 0, end_ = 0;
   bool complete_ = true, foreign_ = false;
 };
 
-/// Whether path is a file that a new one of that name would replace: regular, and not empty.
+/// Whether path is a file that would be replaced: regular, and not empty.
 inline bool holds_data(const std::string &path) {
   std::error_code code;
   return !path.empty() && std::filesystem::is_regular_file(path, code) &&
@@ -461,13 +462,13 @@ inline void sync(const std::string &path) {
   const bool failed = file < 0 || fsync(file) != 0;
   const int reason = errno;
   if (file >= 0) ::close(file);
-  // Folders of some file systems cannot be synchronised.
+  // Some file systems cannot synchronise folders.
   if (failed && (file < 0 || reason != EINVAL))
     throw FileError(path + ": cannot write: " + std::generic_category().message(reason));
 }
 
-/// Unbuffered output file: each write() hands all its bytes to the system at once, so a process
-/// killed between two calls leaves nothing half-written. \throws FileError
+/// Unbuffered output file: each write() hands all its bytes to the operating system at once, so
+/// that a process killed between two calls leaves nothing half-written. \throws FileError
 class OutputFile {
  public:
   OutputFile() = default;
@@ -482,7 +483,7 @@ class OutputFile {
     namespace fs = std::filesystem;
     close();
     std::error_code code;
-    // A link has to go on pointing to the file; devices and pipes cannot be replaced.
+    // A link has to keep pointing to the file; devices and pipes cannot be replaced.
     name_ = fs::is_symlink(path, code) ? fs::weakly_canonical(path, code).string() : path;
     if (code) name_ = path;
     written_ = name_;
@@ -494,7 +495,7 @@ class OutputFile {
     if (!whole) take_name();
   }
 
-  /// Cuts an existing file to its first length bytes and goes on behind them.
+  /// Truncates an existing file to its first length bytes and continues after them.
   void append(const std::string &path, std::int64_t length) {
     close();
     name_ = written_ = path;
@@ -507,7 +508,7 @@ class OutputFile {
     if (code) give_up("cannot truncate", code);
   }
 
-  /// On failure the file is closed: lines after a half-written one would not be readable.
+  /// On failure the file is closed, as lines after a half-written one would not be readable.
   void write(std::string_view text) {
     if (!file_) throw FileError("output file is not open");
     errno = 0;
