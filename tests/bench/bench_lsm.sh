@@ -265,12 +265,12 @@ slice() {
 if wanted causes && [ -n "$runs" ]; then
   scene "$length"
   scene "$length" -var within yes
-  if ! [ before/fault.restart.end.info -nt "$lmp" ]; then
+  if ! [ "before_$length/fault.restart.end.info" -nt "$lmp" ]; then
     say "making the default fault of length $length, before the shear"
-    rm -rf before
-    mkdir before
-    (cd before && mpirun -np "$most" "$lmp" -in "$here/../../inputs/fault.in" -var length "$length" -var steps 0 -var prefix fault \
-      -log make.log -screen none) || die "making the default fault failed, see $folder/before/make.log"
+    rm -rf "before_$length"
+    mkdir "before_$length"
+    (cd "before_$length" && mpirun -np "$most" "$lmp" -in "$here/../../inputs/fault.in" -var length "$length" -var steps 0 -var prefix fault \
+      -log make.log -screen none) || die "making the default fault failed, see $folder/before_$length/make.log"
   fi
   cat > changes.blocks <<'END'
 pair_coeff * * off
@@ -297,16 +297,16 @@ END
   echo 'neigh_modify delay 0 every 1000000 check no' > changes.lists
   for ((round = 1; round <= few; ++round)); do
     say "causes, round $round of $few"
-    ours causes "scene of the comparisons" "$length" "$most" "$round"
-    fault=fault_${length}_all ours causes "with contacts of all discs" "$length" "$most" "$round" -var within yes
-    slice causes "default scene before the shear" before "$most" "$round"
+    ours causes "scene of the comparisons" "$length" 1 "$round"
+    fault=fault_${length}_all ours causes "with contacts of all discs" "$length" 1 "$round" -var within yes
+    slice causes "default scene before the shear" "before_$length" 1 "$round"
     run=$runs/fault_${length}_1
-    slice causes "in shear as in the campaign" "$run" "$most" "$round"
-    slice causes "contacts between the blocks only" "$run" "$most" "$round" ../changes.blocks
-    slice causes "neither location nor ruptures" "$run" "$most" "$round" ../changes.place
-    slice causes "nothing recorded" "$run" "$most" "$round" ../changes.recording
-    slice causes "no impedance of the plates" "$run" "$most" "$round" ../changes.impedance
-    slice causes "lists never rebuilt" "$run" "$most" "$round" ../changes.lists
+    slice causes "in shear as in the campaign" "$run" 1 "$round"
+    slice causes "contacts between the blocks only" "$run" 1 "$round" ../changes.blocks
+    slice causes "neither location nor ruptures" "$run" 1 "$round" ../changes.place
+    slice causes "nothing recorded" "$run" 1 "$round" ../changes.recording
+    slice causes "no impedance of the plates" "$run" 1 "$round" ../changes.impedance
+    slice causes "lists never rebuilt" "$run" 1 "$round" ../changes.lists
   done
 fi
 
