@@ -6,15 +6,15 @@
 # usage: tests/matrix/run-matrix.sh [--folder FOLDER] [--jobs N] [COLUMN...]
 #   --folder FOLDER   where everything is built (default build-matrix; some GB)
 #   --jobs N          processes for compiling (default: number of cores)
-#   COLUMN...         reference clang bigbig jul2026 plugin installed testers testers-jul2026 (default: all, in this order);
-#                     all but the reference need it done before
+#   COLUMN...         reference clang bigbig jul2026 plugin installed testers testers-jul2026 aarch64 (default: all, in this
+#                     order); all but the reference and aarch64 need the reference done before
 # LSM_LAMMPS_CACHE is used as by the build; default FOLDER/cache. LSM_MATRIX_FLAGS are the flags for LAMMPS' own sources in
 # all columns but the reference (default -O1). The table is FOLDER/table.md, one row a column with its date.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
 folder=$root/build-matrix
 jobs=$(nproc)
-all="reference clang bigbig jul2026 plugin installed testers testers-jul2026"
+all="reference clang bigbig jul2026 plugin installed testers testers-jul2026 aarch64"
 columns=()
 fail() { echo "run-matrix: $*" >&2; exit 1; }
 while [ $# -gt 0 ]; do
@@ -85,15 +85,60 @@ build() {
   local log=$folder/$1.build.log at=$folder/$1
   shift
   cmake --build "$at" --parallel "$jobs" --target "$@" >>"$log" 2>&1 || { tail -n 30 "$log"; return 1; }
-  ! grep "^$root/\(lammps-pkg\|tests\)/.*warning:" "$log"
+  ! grep "^$root/\(lammps-pkg\|slider\|postproc\|tests\)/.*warning:" "$log"
 }
 
-# run_tests COLUMN PATTERN LOG: how many passed, in words
+# run_tests COLUMN PATTERN LOG [EXCEPT]: how many passed, in words
 run_tests() {
   local rc=0 log=$folder/$3.tests.log
-  ctest --test-dir "$folder/$1" -R "$2" --no-tests=error --output-on-failure --repeat after-timeout:3 >"$log" 2>&1 || rc=$?
+  ctest --test-dir "$folder/$1" -R "$2" ${4:+-E "$4"} --no-tests=error --output-on-failure --repeat after-timeout:3 >"$log" 2>&1 || rc=$?
   sed -n 's/^\([0-9]*%\) tests passed, \([0-9]*\) tests failed out of \([0-9]*\)/\3 run, \2 failed/p' "$log"
   return $rc
+}
+
+# The libraries of 64-bit ARM in a folder of their own, by an apt that knows nothing of this system: next to those of the
+# system some could not be installed. Links that begin at / would lead out of the folder.
+arm_libraries() {
+  local at=$1 apt=$1.apt options package link
+  [ ! -d "$at" ] || return 0
+  mkdir -p "$apt/state/lists/partial" "$apt/cache/archives/partial"
+  : >"$apt/status"
+  options=(-q -q -y -o APT::Architecture=arm64 -o APT::Architectures=arm64 -o APT::Install-Recommends=0 -o Debug::NoLocking=1
+    -o "Dir::State=$apt/state" -o "Dir::State::status=$apt/status" -o "Dir::Cache=$apt/cache")
+  apt-get "${options[@]}" update
+  apt-get "${options[@]}" --download-only install zlib1g-dev libgsl-dev libfftw3-dev libfmt-dev liblzma-dev libpugixml-dev \
+    libgtest-dev libgmock-dev libcli11-dev nlohmann-json3-dev libhowardhinnant-date-dev libjs-dygraphs
+  rm -rf "$at.part"
+  for package in "$apt"/cache/archives/*.deb; do dpkg-deb -x "$package" "$at.part"; done
+  find "$at.part" -type l -lname '/*' | while read -r link; do
+    ln -sfn "$(realpath -m --relative-to "$(dirname "$link")" "$at.part$(readlink "$link")")" "$link"
+  done
+  mv "$at.part" "$at"
+}
+
+# compare_sliders OURS THEIRS: short runs of two programs, by the bytes of what they write, in words. Recorded are positions
+# of ruptures, too, which take sines and logarithms of the C library.
+compare_sliders() {
+  local at=$folder/aarch64/sliders name program file words="" same=0 differ=0
+  local -A runs=([verlet]="--time 9000" [printed]="--scheme printed --dt 0.01 --time 7000"
+    [semi-implicit]="--scheme semi-implicit --time 9000" [coulomb]="--law coulomb --time 6000"
+    [slip-weakening]="--law slip-weakening --time 9000"
+    [ruptures]="--events ruptures --columns centroid,length --time 6000"
+    [leaps]="--velocity 1e-4 --leap 1e-3 --time 1e6" [long]="--blocks 20000 --time 80 --velocity 1")
+  rm -rf "$at"
+  mkdir -p "$at/ours" "$at/theirs"
+  for name in "${!runs[@]}"; do
+    # shellcheck disable=SC2086
+    for program in "$1 $at/ours" "$2 $at/theirs"; do
+      (cd "${program#* }" && "${program% *}" --blocks 100 --velocity 0.02 --warmup 0 --pe-stride 20 --pe-format binary \
+        ${runs[$name]} --catalogue "$name.csv" --pe-series "$name.pe" --checkpoint "$name.chk" >"$name.out") || return 1
+    done
+    for file in "$name".csv "$name".pe "$name".chk; do
+      if cmp -s "$at/ours/$file" "$at/theirs/$file"; then same=$((same + 1)); else differ=$((differ + 1)) words="$words $file"; fi
+    done
+  done
+  echo "$same files of ${#runs[@]} runs with the same bytes${words:+, other bytes:$words}"
+  [ $differ = 0 ]
 }
 
 compiler_of() { "$1" --version | head -n 1; }
@@ -176,6 +221,26 @@ do_column() {
       row installed "4 Feb 2025, package copied into its tree" "$gxx" smallbig "full link, no warning" "none: LAMMPS' own build" "$fault"
       return $ok
       ;;
+    aarch64)
+      # without LAMMPS and postproc
+      install_debian_packages g++-aarch64-linux-gnu qemu-user libfmt-dev libcli11-dev nlohmann-json3-dev libgsl-dev
+      export LSM_ARM_SYSROOT=$folder/aarch64-libraries
+      arm_libraries "$LSM_ARM_SYSROOT"
+      configure aarch64-native -DLSM_BUILD_LAMMPS=OFF -DLSM_BUILD_SLIDER=ON -DLSM_BUILD_TESTS=OFF
+      build aarch64-native slider_cli
+      configure aarch64 "-DCMAKE_TOOLCHAIN_FILE=$root/tests/matrix/aarch64.cmake" -DLSM_BUILD_LAMMPS=OFF -DLSM_BUILD_SLIDER=ON
+      build aarch64 slider_cli lsm_unit_tests lsm_slider_tests
+      printf '#!/bin/sh\nexec qemu-aarch64 -L "%s" "%s" "$@"\n' "$LSM_ARM_SYSROOT" "$folder/aarch64/bin/slider_cli" \
+        >"$folder/aarch64/slider_cli"
+      chmod +x "$folder/aarch64/slider_cli"
+      # the quicker ones: others take many minutes; qemu-user makes up /proc/self/stat, by which a process is known
+      tests=$(run_tests aarch64 '^(unit|SliderParameters|SliderKernels\.(OtherLaws|ActiveSet|InstructionSets))' aarch64 \
+        OutputClaims.AnotherRunIsNamed) || ok=1
+      fault=$(compare_sliders "$folder/aarch64/slider_cli" "$folder/aarch64-native/bin/slider_cli") || ok=1
+      row aarch64 "none" "$(compiler_of aarch64-linux-gnu-g++), run by $(qemu-aarch64 --version | head -n 1)" "-" "no warning" \
+        "unit, slider: $tests" "slider on ARM beside x86-64: $fault"
+      return $ok
+      ;;
     testers | testers-jul2026)
       local base=reference version="4 Feb 2025" tarball=lammps-4Feb2025.tar.xz
       [ $name = testers ] || { base=jul2026 version="4 Jul 2026" tarball=lammps-4Jul2026.tar.gz; }
@@ -192,7 +257,7 @@ do_column() {
 
 bad=()
 for name in "${columns[@]}"; do
-  [ "$name" = reference ] || [ -f "$folder/reference.row" ] || fail "$name is compared with the reference, which is not done yet"
+  [ "$name" = reference ] || [ "$name" = aarch64 ] || [ -f "$folder/reference.row" ] || fail "$name is compared with the reference, which is not done yet"
   echo "== $name ($(date '+%F %T'))"
   rm -f "$folder/$name.row"
   set +e
