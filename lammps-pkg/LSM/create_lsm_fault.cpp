@@ -48,14 +48,15 @@ static int type_of(const LSM::Disc &disc)
 // plates, by x. Whatever runs through particles, links or contacts in the order of the IDs then finds
 // what it needs in the nearest caches, and each kind in one piece.
 
-static constexpr double STRETCH = 64.0;
+static constexpr double STRETCH = 64.0;    // in largest radii
 
-static void order_along_fault(LSM::Packing &packing)
+static void order_along_fault(LSM::Packing &packing, double rmax)
 {
   const int n = static_cast<int>(packing.discs.size());
   std::vector<int> order(n), place(n);
-  const auto key = [](const LSM::Disc &d) {
-    return std::make_tuple(static_cast<int>(d.x / STRETCH), d.plate ? 2 : (d.fault ? 0 : 1), d.x,
+  const double stretch = STRETCH * rmax;
+  const auto key = [stretch](const LSM::Disc &d) {
+    return std::make_tuple(static_cast<int>(d.x / stretch), d.plate ? 2 : (d.fault ? 0 : 1), d.x,
                            d.y);
   };
   std::iota(order.begin(), order.end(), 0);
@@ -119,7 +120,7 @@ void CreateLSMFault::command(int narg, char **arg)
     pack(
         [&random] {
           LSM::Packing one = LSM::make_packing(random);
-          order_along_fault(one);
+          order_along_fault(one, random.rmax);
           return one;
         },
         packing);
@@ -129,7 +130,10 @@ void CreateLSMFault::command(int narg, char **arg)
       const auto enough = LSM::masses_for_step(packing, random.length, step, stiffness, step_kt);
       for (std::size_t i = 0; i < masses.size(); i++) masses[i] = std::max(masses[i], enough[i]);
     }
-    const double lo[] = {0.0, -margin, -0.5}, hi[] = {random.length, random.width + margin, 0.5};
+    // LAMMPS wants no box that is much thinner than the range of the contacts
+    const double thick = 0.5 * std::max(1.0, random.rmax);
+    const double lo[] = {0.0, -margin, -thick},
+                 hi[] = {random.length, random.width + margin, thick};
     create(lo, hi, packing, masses);
   }
   MPI_Barrier(world);
@@ -254,6 +258,13 @@ void CreateLSMFault::parse(int narg, char **arg, LSM::PackingSettings &settings)
         settings.remove_loose = false;
       else
         error->all(FLERR, "Create_lsm_fault: loose = {}, expected remove or keep", value);
+    } else if (key == "mirror") {
+      if (strcmp(value, "yes") == 0)
+        settings.mirror = true;
+      else if (strcmp(value, "no") == 0)
+        settings.mirror = false;
+      else
+        error->all(FLERR, "Create_lsm_fault: mirror = {}, expected yes or no", value);
     } else if (key == "mass") {
       parse_mass(value, arg[iarg + 2]);
     } else if (key == "massfloor") {
@@ -273,12 +284,13 @@ void CreateLSMFault::parse(int narg, char **arg, LSM::PackingSettings &settings)
       margin = positive(key, value);
     } else if (key == "stiffness") {
       stiffness = positive(key, value);
+    } else if (key == "types") {
+      parse_types(value);
     } else
       error->all(FLERR,
                  "Create_lsm_fault: unknown keyword {}, expected length, width, seed, rmin, rmax, "
-                 "failures, tolerance, linkgap, faultzone, loose, mass, massfloor, "
-                 "massstep, margin "
-                 "or stiffness",
+                 "failures, tolerance, linkgap, faultzone, loose, mirror, mass, massfloor, "
+                 "massstep, margin, stiffness or types",
                  key);
     iarg += 1 + values;
   }
@@ -309,6 +321,13 @@ void CreateLSMFault::parse_mass(const char *power, const char *scale)
   mass_scale = positive(std::string("mass ") + power, scale);
 }
 
+void CreateLSMFault::parse_types(const char *text)
+{
+  types = utils::inumeric(FLERR, text, false, lmp);
+  if (types < NTYPES)
+    error->all(FLERR, "Create_lsm_fault: types = {}, expected at least {}", types, NTYPES);
+}
+
 void CreateLSMFault::parse(int narg, char **arg, LSM::LatticeSettings &settings)
 {
   settings.ring = domain->xperiodic;
@@ -329,11 +348,9 @@ void CreateLSMFault::parse(int narg, char **arg, LSM::LatticeSettings &settings)
       parse_mass(value, arg[iarg + 2]);
     else if (key == "margin")
       margin = positive(key, value);
-    else if (key == "types") {
-      types = utils::inumeric(FLERR, value, false, lmp);
-      if (types < NTYPES)
-        error->all(FLERR, "Create_lsm_fault: types = {}, expected at least {}", types, NTYPES);
-    } else
+    else if (key == "types")
+      parse_types(value);
+    else
       error->all(FLERR,
                  "Create_lsm_fault lattice: unknown keyword {}, expected length, width, spacing, "
                  "mass, margin or types",

@@ -47,6 +47,7 @@ class CreateLSMFault : public Command {
   void parse(int, char **, LSM::PackingSettings &);
   void parse(int, char **, LSM::LatticeSettings &);
   void parse_mass(const char *, const char *);
+  void parse_types(const char *);
   double positive(const std::string &, const char *) const;
   template <class Make> void pack(Make &&, LSM::Packing &);
   void create(const double *, const double *, const LSM::Packing &, const std::vector<double> &);

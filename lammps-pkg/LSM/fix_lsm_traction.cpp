@@ -16,6 +16,7 @@
 #include "update.h"
 #include "variable.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -23,13 +24,15 @@ using namespace LAMMPS_NS;
 using namespace FixConst;
 
 enum { LOWER, UPPER };
-static constexpr double FACING =
-    1.2;    // distance over sum of radii of two discs that face each other
+// of two discs that face each other, over the sum of their radii: largest distance, and along the
+// fault, where discs of a packing have neighbors of other sizes within that distance
+static constexpr double FACING = 1.2;
+static constexpr double ASIDE = 0.2;
 
 /* ---------------------------------------------------------------------- */
 
 FixLSMTraction::FixLSMTraction(LAMMPS *_lmp, int narg, char **arg) :
-    Fix(_lmp, narg, arg), begun(false), contact_radius(nullptr), load{}
+    Fix(_lmp, narg, arg), spaced(false), begun(false), contact_radius(nullptr), load{}
 {
   scalar_flag = 1;
   global_freq = 1;
@@ -37,9 +40,17 @@ FixLSMTraction::FixLSMTraction(LAMMPS *_lmp, int narg, char **arg) :
   restart_global = 1;
   comm_forward = 1;
 
-  if (narg != 7)
+  if (narg != 7 && narg != 9)
     error->all(FLERR, "Fix lsm/traction expects 'fix ID group lsm/traction lower-group upper-group "
-                      "NORMAL SHEAR', tractions as numbers or variables v_name");
+                      "NORMAL SHEAR [share diameter|spacing]', tractions as numbers or variables "
+                      "v_name");
+  if (narg == 9) {
+    if (strcmp(arg[7], "share") != 0)
+      error->all(FLERR, "Fix lsm/traction: unknown keyword {}, expected share", arg[7]);
+    if (strcmp(arg[8], "spacing") != 0 && strcmp(arg[8], "diameter") != 0)
+      error->all(FLERR, "Fix lsm/traction: share = {}, expected diameter or spacing", arg[8]);
+    spaced = strcmp(arg[8], "spacing") == 0;
+  }
   if (modify->get_fix_by_style("^lsm/traction").size() > 0)
     error->all(FLERR, "Fix lsm/traction can be used once only; give it variables of the position");
   for (int s : {LOWER, UPPER}) {
@@ -134,18 +145,65 @@ int FixLSMTraction::partner(int i, const std::vector<int> &others) const
   for (const int j : others) {
     const double dx = atom->x[i][0] - atom->x[j][0], dy = atom->x[i][1] - atom->x[j][1];
     const double reach = FACING * (atom->radius[i] + atom->radius[j]);
-    if (dx * dx + dy * dy > reach * reach) continue;
+    if (dx * dx + dy * dy > reach * reach || fabs(dx) > ASIDE / FACING * reach) continue;
     if (found >= 0)
       error->one(
           FLERR,
           "Fix lsm/traction: particle {} faces particles {} and {}, but must face one, as in "
-          "the rows of create_lsm_fault lattice",
+          "create_lsm_fault lattice or with mirror yes",
           atom->tag[i], atom->tag[found], atom->tag[j]);
     found = j;
   }
   if (found < 0)
     error->one(FLERR, "Fix lsm/traction: particle {} faces none of the other side", atom->tag[i]);
   return found;
+}
+
+/* ----------------------------------------------------------------------
+   Length of the fault for which each particle of this rank on one side stands: its diameter, or half of the way to the
+   next ones of the side on the left and on the right. At the ends of a fault that is not periodic, its radius takes the
+   place of the missing half.
+------------------------------------------------------------------------- */
+
+std::vector<double> FixLSMTraction::shares(int s) const
+{
+  const double *const radius = atom->radius;
+  std::vector<double> share(atom->nlocal, 0.0), mine, all;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & side[s])) continue;
+    share[i] = 2.0 * radius[i];
+    mine.push_back(atom->x[i][0]);
+  }
+  if (!spaced) return share;
+
+  int count = static_cast<int>(mine.size());
+  std::vector<int> counts(comm->nprocs), begins(comm->nprocs);
+  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
+  int total = 0;
+  for (int rank = 0; rank < comm->nprocs; rank++) {
+    begins[rank] = total;
+    total += counts[rank];
+  }
+  all.resize(total);
+  MPI_Allgatherv(mine.data(), count, MPI_DOUBLE, all.data(), counts.data(), begins.data(),
+                 MPI_DOUBLE, world);
+  std::sort(all.begin(), all.end());
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & side[s])) continue;
+    const double x = atom->x[i][0];
+    const auto at = std::lower_bound(all.begin(), all.end(), x) - all.begin();
+    double left = radius[i], right = radius[i];
+    if (at > 0)
+      left = 0.5 * (x - all[at - 1]);
+    else if (domain->xperiodic)
+      left = 0.5 * (x - all.back() + domain->xprd);
+    if (at + 1 < total)
+      right = 0.5 * (all[at + 1] - x);
+    else if (domain->xperiodic)
+      right = 0.5 * (all.front() + domain->xprd - x);
+    share[i] = left + right;
+  }
+  return share;
 }
 
 /* ----------------------------------------------------------------------
@@ -160,6 +218,7 @@ void FixLSMTraction::begin()
   const std::vector<double> normal = evaluate(traction[NORMAL]), shear = evaluate(traction[SHEAR]);
   const int *const mask = atom->mask;
   const double *const radius = atom->radius;
+  const std::vector<double> share[2] = {shares(LOWER), shares(UPPER)};
   std::vector<int> face[2];
   for (int i = 0; i < atom->nlocal + atom->nghost; i++)
     for (int s : {LOWER, UPPER})
@@ -177,13 +236,18 @@ void FixLSMTraction::begin()
                    "Fix lsm/traction: types {} and {} of particles that face each other do not "
                    "touch by pair_coeff",
                    atom->type[i], atom->type[j]);
+      if (spaced && fabs(atom->x[i][0] - atom->x[j][0]) > 1e-6 * radius[i])
+        error->one(FLERR,
+                   "Fix lsm/traction: with share spacing particles {} and {}, which face each "
+                   "other, must be at the same x",
+                   atom->tag[i], atom->tag[j]);
       if (!(normal[i] >= 0.0) || !std::isfinite(normal[i]) || !std::isfinite(shear[i]))
         error->one(FLERR,
                    "Fix lsm/traction: normal and shear traction of particle {} are {} and {}, "
                    "but must be >= 0 and finite",
                    atom->tag[i], normal[i], shear[i]);
-      load[NORMAL][i] = 2.0 * radius[i] * normal[i];
-      load[SHEAR][i] = 2.0 * radius[i] * shear[i];
+      load[NORMAL][i] = share[s][i] * normal[i];
+      load[SHEAR][i] = share[s][i] * shear[i];
       const double dx = atom->x[i][0] - atom->x[j][0], dy = atom->x[i][1] - atom->x[j][1];
       const double more =
           0.5 * (sqrt(dx * dx + dy * dy) + load[NORMAL][i] / k - radius[i] - radius[j]);

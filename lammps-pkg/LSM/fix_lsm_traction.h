@@ -40,12 +40,14 @@ class FixLSMTraction : public Fix, public LSMWorkSource {
   enum { NORMAL, SHEAR };
   int side[2];                         // group bits of the lower and the upper face
   std::string traction[2];             // normal and shear: number or v_name
+  bool spaced;                         // loads by the spacing of the particles, not their diameter
   bool begun;                          // the contacts have been loaded
   double *contact_radius, *load[2];    // of each particle; load: force of the other face
 
   void find_store();
   std::vector<double> evaluate(const std::string &) const;
   int partner(int, const std::vector<int> &) const;
+  std::vector<double> shares(int) const;
   void begin();
   void add_forces(double);
 };

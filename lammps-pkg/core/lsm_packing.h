@@ -33,7 +33,8 @@ struct PackingSettings {
   double link_gap = 1e-5;    ///< discs (and lines) closer than this count as tangent
   double fault_zone = 0.25;  ///< ours: discs with a surface so close to the fault line are flagged
   bool remove_loose =
-      true;  ///< ours: take out discs that their links do not hold, see Packing::loose
+      true;             ///< ours: take out discs that their links do not hold, see Packing::loose
+  bool mirror = false;  ///< ours: the upper block is the mirror image of the lower one
 };
 
 /// One disc. Centre in [0, length) x (0, width).
@@ -335,7 +336,8 @@ class BlockPacker {
 
   /// Newton steps on the three gaps: the closed form loses digits when the three objects are
   /// nearly in line. False if the gaps cannot be brought down to rounding.
-  static bool polish(const Object *o, double &x, double &y, double &r) {
+  bool polish(const Object *o, double &x, double &y, double &r) const {
+    const double exact = EXACT * set_.rmax, close = CLOSE * set_.rmax;
     double worst = FAR;
     for (int iter = 0; iter < 4; ++iter) {
       // row i: gradient (g0, g1, -1) of gap i = distance - r
@@ -357,7 +359,7 @@ class BlockPacker {
         next = std::max(next, f[i] < 0.0 ? -f[i] : f[i]);
       }
       if (!(next < FAR)) return false;
-      if (next < EXACT || (iter > 0 && next >= worst)) {
+      if (next < exact || (iter > 0 && next >= worst)) {
         worst = next;
         break;
       }
@@ -371,9 +373,10 @@ class BlockPacker {
       y -= uy;
       r += f[0] - g[0][0] * ux - g[0][1] * uy;
     }
-    return worst < CLOSE;
+    return worst < close;
   }
 
+  // in largest radii, so that blocks of any unit of length are packed alike
   static constexpr double EXACT = 1e-15;  // no step improves on this
   static constexpr double CLOSE = 1e-13;  // largest gap accepted, before the rounding of x itself
   static constexpr double TILE = 15.0;    // length of a tile in rmax
@@ -442,7 +445,7 @@ inline std::pair<double, double> link_vector(double length, const Disc &a, const
 inline void fill_blocks(const PackingSettings &s, Packing &result) {
   Random random(s.seed);
   const double middle = 0.5 * s.width;
-  for (int block = 0; block < 2; ++block) {
+  for (int block = 0; block < (s.mirror ? 1 : 2); ++block) {
     const double ylo = block == 0 ? 0.0 : middle, yhi = block == 0 ? middle : s.width;
     BlockPacker packer(s, ylo, yhi, random);
     packer.run();
@@ -452,6 +455,14 @@ inline void fill_blocks(const PackingSettings &s, Packing &result) {
       disc.fault = fault_gap(s, disc) < s.fault_zone;
       result.discs.push_back(disc);
     });
+  }
+  if (!s.mirror) return;
+  const std::size_t lower = result.discs.size();
+  for (std::size_t i = 0; i < lower; ++i) {
+    Disc disc = result.discs[i];
+    disc.y = s.width - disc.y;
+    disc.block = 1;
+    result.discs.push_back(disc);
   }
 }
 
@@ -627,7 +638,9 @@ inline void measure(const PackingSettings &s, Packing &result) {
 /// if its radius is in [rmin, rmax], it lies inside the block and it overlaps nothing; (3) the
 /// block is cut into tiles along x (about 15 rmax long, ours), and each tile is full when
 /// max_failures consecutive tries in it failed. The cost is linear in the length. Finally (4, ours)
-/// discs that their links do not hold are removed: see Packing::loose.
+/// discs that their links do not hold are removed: see Packing::loose. With mirror (ours) only the
+/// lower block is packed, and each of its discs at the fault line faces one of the same radius at
+/// the same x.
 ///
 /// The result depends on the settings and the floating-point arithmetic of the platform only.
 /// @throws std::invalid_argument with one line that names the setting and what was expected

@@ -12,8 +12,8 @@
 // D is taken as linear in each time step, and the kernel integrated over it; slip goes on by Heun's
 // scheme.
 //
-//   lsm_boundary_integral PROBLEM SPACING END EVERY > CSV, with PROBLEM tpv205 or tpv3, in metres
-//   and seconds
+//   lsm_boundary_integral PROBLEM SPACING END EVERY [RATIO] > CSV, with PROBLEM tpv205 or tpv3, in
+//   metres and seconds; RATIO is cp / cs, sqrt 3 unless given, with cs as it is
 
 #include <fftw3.h>
 
@@ -32,12 +32,12 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 constexpr double rho = 2670.0, cp = 6000.0, mu_static = 0.677, mu_dynamic = 0.525, dc = 0.4;
 constexpr double normal_stress = 120e6, half_fault = 15000.0, period = 102400.0;
-const double cs = cp / std::sqrt(3.0), mu = rho * cs * cs, kappa = cp / cs;
+const double cs = cp / std::sqrt(3.0), mu = rho * cs * cs;
 
 /// C on a fine grid of its argument.
 class Kernel {
  public:
-  explicit Kernel(double end) {
+  Kernel(double end, double kappa) {
     const auto n = static_cast<std::size_t>(kappa * end / step) + 3;
     std::vector<double> w(n);
     w[0] = 1.0;
@@ -68,7 +68,7 @@ class Kernel {
 
 class Fault {
  public:
-  Fault(bool patches, double spacing, double end)
+  Fault(bool patches, double spacing, double end, double kappa)
       : n_(static_cast<std::size_t>(std::lround(period / spacing))),
         modes_(n_ / 2 + 1),
         dx_(period / static_cast<double>(n_)),
@@ -94,7 +94,7 @@ class Fault {
     const auto size = static_cast<int>(n_);
     forward_ = fftw_plan_dft_r2c_1d(size, real_.data(), out, FFTW_ESTIMATE);
     back_ = fftw_plan_dft_c2r_1d(size, out, real_.data(), FFTW_ESTIMATE);
-    make_weights();
+    make_weights(kappa);
     for (auto &part : history_) part.assign(modes_ * (steps_ + 2), 0.0);
   }
   Fault(const Fault &) = delete;
@@ -125,8 +125,8 @@ class Fault {
 
  private:
   /// Weights of the slip m steps ago: integral of the kernel times a hat function.
-  void make_weights() {
-    const Kernel kernel(pi / dx_ * cs * dt_ * static_cast<double>(steps_ + 2));
+  void make_weights(double kappa) {
+    const Kernel kernel(pi / dx_ * cs * dt_ * static_cast<double>(steps_ + 2), kappa);
     weights_.assign(modes_ * (steps_ + 2), 0.0);
     constexpr std::array<double, 4> place = {0.06943184420297371, 0.33000947820757187,
                                              0.66999052179242813, 0.93056815579702629};
@@ -229,18 +229,20 @@ struct Station {
 }  // namespace
 
 int main(int argc, char **argv) {
-  const bool known =
-      argc == 5 && (!std::strcmp(argv[1], "tpv205") || !std::strcmp(argv[1], "tpv3"));
+  const bool known = (argc == 5 || argc == 6) &&
+                     (!std::strcmp(argv[1], "tpv205") || !std::strcmp(argv[1], "tpv3"));
   const double spacing = known ? std::atof(argv[2]) : 0.0, end = known ? std::atof(argv[3]) : 0.0;
   const double every = known ? std::atof(argv[4]) : 0.0;
-  if (!(spacing >= 5.0 && spacing <= 1000.0 && end > 0.0 && end <= 12.0 && every >= 100.0)) {
+  const double ratio = argc == 6 ? std::atof(argv[5]) : cp / cs;
+  if (!(spacing >= 5.0 && spacing <= 1000.0 && end > 0.0 && end <= 12.0 && every >= 100.0 &&
+        ratio > 1.2 && ratio < 5.0)) {
     std::fprintf(stderr,
-                 "usage: lsm_boundary_integral tpv205|tpv3 SPACING END EVERY: spacing 5 to 1000 m, "
-                 "end up to 12 s, "
-                 "stations every so many metres, at least 100\n");
+                 "usage: lsm_boundary_integral tpv205|tpv3 SPACING END EVERY [RATIO]: spacing 5 to "
+                 "1000 m, end up to 12 s, stations every so many metres, at least 100, ratio of "
+                 "the wave speeds 1.2 to 5\n");
     return 1;
   }
-  Fault fault(!std::strcmp(argv[1], "tpv205"), spacing, end);
+  Fault fault(!std::strcmp(argv[1], "tpv205"), spacing, end, ratio);
   std::vector<Station> stations;
   const int side = static_cast<int>(half_fault / every);
   for (int n = -side; n <= side; ++n)
@@ -258,6 +260,7 @@ int main(int argc, char **argv) {
       "# %s: spectral boundary integral, spacing %g m (tests/accuracy/boundary_integral.cpp); m, "
       "s\n",
       argv[1], spacing);
+  if (argc == 6) std::printf("# ratio of the wave speeds: %g\n", ratio);
   std::printf("curve,x,t,slip,slip_rate\n");
   for (const Station &s : stations) s.print(name, fault.x(s.place));
   return 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Dynamic ruptures of a flat fault in the regular lattice, against a boundary integral and a closed
 // form.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -66,12 +67,21 @@ TEST_F(Benchmark, SelfSimilarCrack) {
 }
 
 TEST_F(Benchmark, EnergyIsBalanced) {
-  const Result r = run_scene("rupture_tpv205.in", small("balance"));
-  ASSERT_TRUE(succeeded(r));
-  const double friction = r.last("c_ruptures[11]");
-  EXPECT_GT(r.last("c_ruptures[15]"), friction);         // the load outside does the work
-  EXPECT_GT(r.last("c_ruptures[16]"), 1e-3 * friction);  // and waves have reached the borders
-  EXPECT_LT(std::fabs(r.last("c_ruptures[13]")), 2e-4 * friction);
+  for (const char *blocks : {"lattice", "packing"}) {
+    Variables variables = small("balance");
+    variables.insert(variables.end(), {{"blocks", blocks}, {"overwrite", "yes"}});
+    const Result r = run_scene("rupture_tpv205.in", variables);
+    ASSERT_TRUE(succeeded(r));
+    const double friction = r.last("c_ruptures[11]");
+    EXPECT_GT(r.last("c_ruptures[15]"), friction);         // the load outside does the work
+    EXPECT_GT(r.last("c_ruptures[16]"), 1e-3 * friction);  // and waves have reached the borders
+    EXPECT_LT(std::fabs(r.last("c_ruptures[13]")), 2e-4 * friction) << blocks;
+    // nothing is strained before
+    const auto first = std::find_if(r.thermo.begin(), r.thermo.end(),
+                                    [](const auto &row) { return row.count("c_ruptures[6]") > 0; });
+    ASSERT_NE(first, r.thermo.end());
+    EXPECT_LT(first->at("c_ruptures[6]"), 1e-9 * friction);
+  }
 }
 
 TEST_F(Benchmark, RanksAgree) {
@@ -191,8 +201,83 @@ TEST_F(Benchmark, AbsorbsPlaneWaves) {
   }
 }
 
+// A mirrored packing in model units, loaded by the spacing of its discs. As contacts are 3 and 4
+// only, nothing else holds the blocks together.
+static std::string packing(const std::string &shear, const std::string &share = "share spacing",
+                           const std::string &options = "mirror yes faultzone 1e-10") {
+  return "units lj\ndimension 2\nboundary p f p\nnewton off\natom_style hybrid bond sphere\n"
+         "atom_modify map array\nspecial_bonds lj/coul 0 1 1\n"
+         "create_lsm_fault length 30 width 16 seed 4 failures 500 tolerance 1e-11 linkgap 1e-10 " +
+         options +
+         "\ncomm_modify mode single cutoff 2.3\nneighbor 0.1 bin\n"
+         "group lower type 3\ngroup upper type 4\ngroup caps type 5 6\n"
+         "bond_style lsm/linked\nbond_coeff 1 1.0\n"
+         "pair_style lsm/friction slip-weakening\npair_coeff * * off\n"
+         "pair_coeff 3 4 1.0 3.0 mu 0.5 mu_static 0.7 dc 3e-8\n"
+         "variable shear atom " +
+         shear + "\nfix load all lsm/traction lower upper 1e-6 v_shear " + share +
+         "\nfix caps caps lsm/absorb y 0.6 0.3 0.5\nfix move all lsm/nve\ntimestep 0.02\n";
+}
+
+TEST_F(Benchmark, MirroredPackingIsLoadedAsAWhole) {
+  const char *const run =
+      "compute loads all property/atom d_lsm_normal d_lsm_shear\n"
+      "compute carried lower reduce sum c_loads[1] c_loads[2]\n"
+      "thermo_style custom step ke c_carried[1] c_carried[2]\n"
+      "thermo_modify norm no format float %.17g\nrun 200\n";
+  for (const int ranks : {1, 2}) {
+    // below the strength nothing moves, and the whole length carries the tractions
+    const Result r = run_text(packing("6e-7") + run, {}, ranks);
+    ASSERT_TRUE(succeeded(r));
+    EXPECT_NEAR(r.last("c_carried[1]"), 30.0 * 1e-6, 1e-15);
+    EXPECT_NEAR(r.last("c_carried[2]"), 30.0 * 6e-7, 1e-15);
+    EXPECT_LT(r.last("KinEng"), 1e-24);
+  }
+  // by diameters it is the part of the line that discs cover
+  const Result r = run_text(packing("6e-7", "share diameter") + run);
+  ASSERT_TRUE(succeeded(r));
+  EXPECT_LT(r.last("c_carried[1]"), 0.95 * 30.0 * 1e-6);
+  EXPECT_GT(r.last("c_carried[1]"), 0.5 * 30.0 * 1e-6);
+}
+
+TEST_F(Benchmark, MirroredPackingSlipsAsItsMirrorImage) {
+  // a patch above the strength breaks: one block does what the other does, the other way round, so
+  // that the fault neither opens nor closes
+  for (const int ranks : {1, 2}) {
+    const Result r =
+        run_text(packing("6.5e-7+1e-7*(abs(x-15)<5)") +
+                     "group low type 1 3 5\ngroup high type 2 4 6\n"
+                     "compute v1 low reduce sum vx vy\ncompute v2 high reduce sum vx vy\n"
+                     "variable size atom abs(vx)\ncompute v3 low reduce sum v_size\n"
+                     "thermo_style custom step ke c_v1[1] c_v1[2] c_v2[1] c_v2[2] c_v3\n"
+                     "thermo_modify norm no format float %.17g\nrun 300\n",
+                 {}, ranks);
+    ASSERT_TRUE(succeeded(r));
+    const double size = r.last("c_v3");
+    EXPECT_GT(size, 1e-6);
+    EXPECT_LT(r.last("c_v1[1]"), -0.1 * size);
+    EXPECT_NEAR(r.last("c_v2[1]"), -r.last("c_v1[1]"), 1e-4 * size);
+    EXPECT_NEAR(r.last("c_v2[2]"), r.last("c_v1[2]"), 1e-4 * size);
+  }
+}
+
 TEST_F(Benchmark, WrongInputIsNamed) {
   const std::string begin = lattice(created);
+  EXPECT_TRUE(failed_with(run_text(lattice(created + " mirror yes")), {"unknown keyword mirror"}));
+  EXPECT_TRUE(failed_with(run_text(packing("0", "", "mirror maybe")),
+                          {"mirror = maybe", "expected yes or no"}));
+  EXPECT_TRUE(failed_with(run_text(packing("0", "", "types 5")), {"types = 5", "at least 6"}));
+  EXPECT_TRUE(failed_with(run_text(packing("0", "share area")),
+                          {"share = area", "expected diameter or spacing"}));
+  EXPECT_TRUE(failed_with(run_text(packing("0", "area spacing")), {"unknown keyword area"}));
+  // discs near the line that do not touch it, and those of blocks that are no mirror images
+  EXPECT_TRUE(failed_with(run_text(packing("0", "share spacing", "mirror yes") + "run 0\n"),
+                          {"the faces do not touch"}));
+  EXPECT_TRUE(failed_with(run_text(packing("0", "share spacing", "faultzone 1e-10") + "run 0\n"),
+                          {"Fix lsm/traction: particle"}));
+  EXPECT_TRUE(
+      failed_with(run_text(packing("0") + "displace_atoms upper move 0.001 0 0 units box\nrun 0\n"),
+                  {"share spacing", "at the same x"}));
   EXPECT_TRUE(failed_with(run_text(lattice("create_lsm_fault lattice length 41 width 16")),
                           {"spacing is missing"}));
   EXPECT_TRUE(failed_with(run_text(lattice(created + " seed 7")), {"unknown keyword seed"}));

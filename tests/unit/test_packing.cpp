@@ -9,8 +9,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -310,6 +312,74 @@ TEST(Packing, BlocksDoNotMirrorEachOther) {
   std::multiset<double> radii[2];
   for (const auto &d : p.discs) radii[d.block].insert(d.r);
   EXPECT_NE(radii[0], radii[1]);
+}
+
+TEST(Packing, DoesNotDependOnTheUnitOfLength) {
+  LSM::PackingSettings s = settings(20.0);
+  const LSM::Packing p = LSM::make_packing(s);
+  // a power of two, so that every digit is the same
+  const double unit = 1024.0;
+  for (double *length : {&s.length, &s.width, &s.rmin, &s.rmax, &s.link_gap, &s.fault_zone})
+    *length *= unit;
+  const LSM::Packing scaled = LSM::make_packing(s);
+  ASSERT_EQ(scaled.discs.size(), p.discs.size());
+  for (std::size_t i = 0; i < p.discs.size(); ++i) {
+    EXPECT_EQ(scaled.discs[i].x, unit * p.discs[i].x);
+    EXPECT_EQ(scaled.discs[i].y, unit * p.discs[i].y);
+    EXPECT_EQ(scaled.discs[i].r, unit * p.discs[i].r);
+  }
+  EXPECT_EQ(scaled.links, p.links);
+}
+
+TEST(Packing, MirrorMakesTheUpperBlockAnImageOfTheLowerOne) {
+  LSM::PackingSettings s = settings(24.0, 3);
+  s.mirror = true;
+  s.fault_zone = s.link_gap;
+  const LSM::Packing p = LSM::make_packing(s);
+  using Place = std::tuple<double, double, double>;
+  std::map<Place, int> lower;
+  const auto place = [&s](const LSM::Disc &d) {
+    return Place(d.x, d.block == 0 ? s.width - d.y : d.y, d.r);
+  };
+  for (int i = 0; i < static_cast<int>(p.discs.size()); ++i)
+    if (p.discs[static_cast<std::size_t>(i)].block == 0)
+      lower[place(p.discs[static_cast<std::size_t>(i)])] = i;
+  EXPECT_EQ(2 * lower.size(), p.discs.size());
+  std::vector<int> image(p.discs.size(), -1);
+  int facing = 0;
+  for (std::size_t i = 0; i < p.discs.size(); ++i) {
+    const LSM::Disc &d = p.discs[i];
+    if (d.block == 0) continue;
+    const auto found = lower.find(place(d));
+    ASSERT_NE(found, lower.end());
+    const LSM::Disc &other = p.discs[static_cast<std::size_t>(found->second)];
+    EXPECT_EQ(d.fault, other.fault);
+    EXPECT_EQ(d.plate, other.plate);
+    image[static_cast<std::size_t>(found->second)] = static_cast<int>(i);
+    if (!d.fault) continue;
+    ++facing;
+    EXPECT_NEAR(d.y - other.y, 2.0 * d.r, 1e-9);
+  }
+  EXPECT_GT(facing, 12);
+  EXPECT_EQ(facing, p.fault_tangent[0]);
+  EXPECT_EQ(facing, p.fault_tangent[1]);
+  std::set<std::pair<int, int>> links(p.links.begin(), p.links.end());
+  std::size_t mirrored = 0;
+  for (const auto &l : p.links) {
+    if (p.discs[static_cast<std::size_t>(l.first)].block != 0) continue;
+    const auto ends = std::minmax(image[static_cast<std::size_t>(l.first)],
+                                  image[static_cast<std::size_t>(l.second)]);
+    mirrored += links.count({ends.first, ends.second});
+  }
+  EXPECT_EQ(2 * mirrored, p.links.size());
+
+  // the lower block is the one without the mirror
+  s.mirror = false;
+  std::set<Place> below;
+  for (const LSM::Disc &d : LSM::make_packing(s).discs)
+    if (d.block == 0) below.insert(place(d));
+  EXPECT_EQ(below.size(), lower.size());
+  for (const auto &one : lower) EXPECT_EQ(below.count(one.first), 1U);
 }
 
 TEST(Packing, DensityDoesNotDependOnTheLength) {
