@@ -1,6 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# TPV205-2D at 200 m until 6 s compared with the references: slip, arrivals, table and picture.
+# TPV205-2D and TPV3-2D at 200 m until 6 s compared with the references: slip, arrivals, table and
+# picture.
 # usage: rupture-benchmark.sh LMP POSTPROC SOURCE_DIR
 set -euo pipefail
 export LC_ALL=C
@@ -30,6 +31,24 @@ awk -F, '/^#|^run,/ { next }
     printf "arrivals within %.4f s, slip within %.3f %%\n", worst_late, 100 * worst_more
     exit !(n["PyLith 200 m"] == 5 && n["boundary integral 25 m"] == 17 && worst_late < 0.15 && worst_more < 0.015)
   }' beside-stations.csv || fail "arrivals or slip are off"
+
+# TPV3-2D, within 0.08 s
+"$lmp" -in "$source/inputs/rupture_tpv3.in" -log none -var dx 200 -var length 60000 -var width 30000 -var tend 6 \
+  -var prefix tpv3 </dev/null >out 2>&1 || fail "rupture_tpv3.in"
+"$postproc" benchmark tpv3.slip.bin --reference "$source/inputs/reference/tpv3.csv" -o three --no-picture >out 2>&1 ||
+  fail "postproc benchmark of TPV3"
+awk -F, '/^#|^run,/ { next }
+  $4 >= -12000 && $4 <= 12000 {
+    late = $5 - $6; more = $7 / $8 - 1; n++
+    if (late < 0) late = -late
+    if (more < 0) more = -more
+    if (late > worst_late) worst_late = late
+    if (more > worst_more) worst_more = more
+  }
+  END {
+    printf "TPV3: arrivals within %.4f s, slip within %.3f %%\n", worst_late, 100 * worst_more
+    exit !(n == 17 && worst_late < 0.08 && worst_more < 0.015)
+  }' three-stations.csv || fail "arrivals or slip of TPV3 are off"
 
 # A place between two bins, a file of columns, and what is refused.
 printf '# t slip rate\n0 0 0\n3 1.5 2 99\n6 5.3 0.5\n' >columns
