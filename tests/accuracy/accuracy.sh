@@ -35,6 +35,10 @@ if wanted slider; then
 fi
 echo "== lattice solid fault"
 "$fault" "$out" "$mode" "$lmp" "$inputs" "$scenes" "$@"
+if wanted waves; then
+  echo "== waves"
+  "$(dirname "$fault")/lsm_accuracy_waves" "$out" "$mode" "$lmp" "$scenes"
+fi
 if wanted ruptures; then
   echo "== ruptures of a flat fault"
   spacings=(200 100 50)
@@ -298,6 +302,19 @@ Speed in the triangular lattice and in the random packing against that with a mu
 ![waves](fault_wave.png)
 
 $(markdown fault_wave.csv)
+
+P- and S-waves of the regular lattice against their length and direction, as standing waves beside the closed dispersion
+relation (k h: wave number times spacing):
+
+$(markdown waves_lattice.csv)
+
+Rayleigh waves of a free straight border beside those of a half-space:
+
+$(markdown waves_rayleigh.csv)
+
+Standing waves of the random packing, model units:
+
+$(markdown waves_packing.csv)
 
 ## Fault: long runs, from which size the catalogue is complete
 

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Waves of the regular lattice beside closed forms: dispersion of P- and S-waves, Rayleigh waves of
+// a free straight border.
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "lattice_waves.h"
+#include "lmp_runner.h"
+
+using namespace physics;
+
+using Waves = Lmp;
+
+namespace {
+
+const std::string scenes = std::string(LSM_INPUTS) + "/../tests/accuracy/";
+
+}  // namespace
+
+TEST_F(Waves, DispersionAsInTheClosedForm) {
+  // cells along and across the rows, waves that fit in
+  struct Box {
+    int nx, ny, px, py;
+  };
+  for (const Box &b : {Box{10, 2, 1, 0}, Box{2, 6, 0, 1}, Box{12, 7, 1, 1}, Box{4, 2, 1, 0}})
+    for (const bool p : {true, false}) {
+      const double kx = 2.0 * lattice_waves::pi * b.px / b.nx;
+      const double ky = 2.0 * lattice_waves::pi * b.py / (std::sqrt(3.0) * b.ny);
+      const auto mode = lattice_waves::plane_wave(kx, ky, p);
+      const Result r =
+          run_text("include " + scenes + "standing_wave.in\n", {{"nx", std::to_string(b.nx)},
+                                                                {"ny", std::to_string(b.ny)},
+                                                                {"px", std::to_string(b.px)},
+                                                                {"py", std::to_string(b.py)},
+                                                                {"ux", text(mode.polarisation[0])},
+                                                                {"uy", text(mode.polarisation[1])},
+                                                                {"w", text(mode.frequency)}});
+      ASSERT_TRUE(succeeded(r));
+      EXPECT_NEAR(r.value("frequency"), mode.frequency, 1e-7 * mode.frequency)
+          << b.nx << " " << b.ny << (p ? " P" : " S");
+    }
+}
+
+TEST_F(Waves, DispersionAtTenSpacings) {
+  // what results/rupture-benchmark.md says: slower than long waves by 1.5 % (P) and 0.4 % (S) along
+  // the rows, by 1.2 % across them
+  const double k = 0.2 * lattice_waves::pi;
+  const auto slow = [k](double kx, double ky, bool p) {
+    const double speed = p ? lattice_waves::vp : lattice_waves::vs;
+    return 1.0 - lattice_waves::plane_wave(kx, ky, p).frequency / (k * speed);
+  };
+  EXPECT_NEAR(slow(k, 0.0, true), 0.015, 5e-4);
+  EXPECT_NEAR(slow(k, 0.0, false), 0.004, 5e-4);
+  EXPECT_NEAR(slow(0.0, k, true), 0.012, 5e-4);
+  EXPECT_NEAR(slow(0.0, k, false), 0.012, 5e-4);
+}
+
+TEST_F(Waves, RayleighWavesOfAFreeBorder) {
+  const double exact = lattice_waves::rayleigh(std::sqrt(3.0));
+  EXPECT_NEAR(exact, 0.9194, 5e-5);
+  const auto measured = [](int wave, const std::string &border) {
+    const Result r = run_text("include " + scenes + "rayleigh_wave.in\n",
+                              {{"wave", std::to_string(wave)}, {"border", border}});
+    EXPECT_TRUE(succeeded(r));
+    std::vector<double> zeros;
+    for (std::size_t n = 1; n < r.thermo.size(); ++n) {
+      const double a = r.thermo[n - 1].at("v_a"), b = r.thermo[n].at("v_a");
+      const double t = r.thermo[n - 1].at("Time"), u = r.thermo[n].at("Time");
+      if (a * b < 0.0) zeros.push_back(t + (u - t) * a / (a - b));
+    }
+    EXPECT_GE(zeros.size(), 8U);
+    if (zeros.size() < 2) return 0.0;
+    const double half = (zeros.back() - zeros.front()) / static_cast<double>(zeros.size() - 1);
+    return 0.5 * wave / half / lattice_waves::vs;
+  };
+  // half the mass (create_lsm_fault) and half the stiffness in the row of the border
+  const double coarse = measured(10, "0.5") / exact - 1.0, fine = measured(20, "0.5") / exact - 1.0;
+  std::printf("Rayleigh waves 10 and 20 spacings long: off by %.3g and %.3g, order %.2f\n", coarse,
+              fine, std::log2(coarse / fine));
+  EXPECT_LT(std::fabs(coarse), 2.5e-3);
+  EXPECT_LT(std::fabs(fine), 1e-3);
+  // with whole links there, the border stiffens and the waves are faster
+  EXPECT_GT(measured(20, "1.0") / exact - 1.0, 0.01);
+}
