@@ -44,9 +44,9 @@ static int type_of(const LSM::Disc &disc)
   return (disc.plate ? PLATE : (disc.fault ? FAULT_ZONE : BULK)) + disc.block;
 }
 
-// Discs stretch by stretch along the fault; in each first those that can be in contact, then the blocks, then the
-// plates, by x. Whatever runs through particles, links or contacts in the order of the IDs then finds
-// what it needs in the nearest caches, and each kind in one piece.
+// Discs in sections along the fault; in each section first those that can be in contact, then the blocks,
+// then the plates, by x. Loops over particles, links or contacts in the order of the IDs then find their
+// data in the nearest caches, and each kind contiguous.
 
 static constexpr double STRETCH = 64.0;    // in largest radii
 
@@ -165,7 +165,7 @@ void CreateLSMFault::create(const double *lo, const double *hi, const LSM::Packi
 }
 
 /* ----------------------------------------------------------------------
-   a disc in a straight border of a lattice stands for half the area of the others
+   a disc in a straight border of a lattice represents half the area of the others
 ------------------------------------------------------------------------- */
 
 std::vector<double> CreateLSMFault::masses_of(const LSM::Packing &packing) const
@@ -186,7 +186,7 @@ double CreateLSMFault::mass_of(double radius) const
 }
 
 /* ----------------------------------------------------------------------
-   what the scene must be like before the box exists
+   requirements on the scene before the box exists
 ------------------------------------------------------------------------- */
 
 void CreateLSMFault::check_setup()
@@ -369,8 +369,8 @@ void CreateLSMFault::parse(int narg, char **arg, LSM::LatticeSettings &settings)
 }
 
 /* ----------------------------------------------------------------------
-   rank 0 packs and all others get its result: the same scene on any number of ranks,
-   also where ranks run on processors that round differently
+   rank 0 packs and sends its result to all others: the same scene on any number of ranks,
+   even if their processors round differently
 ------------------------------------------------------------------------- */
 
 template <class Make> void CreateLSMFault::pack(Make &&make, LSM::Packing &packing)
@@ -391,7 +391,7 @@ template <class Make> void CreateLSMFault::pack(Make &&make, LSM::Packing &packi
   if (size > 0) {
     problem.resize(size);
     MPI_Bcast(&problem[0], size, MPI_CHAR, 0, world);
-    // settings by the names they have as keywords
+    // settings by their keywords
     const std::pair<const char *, const char *> names[] = {
         {"max_failures", "failures"},
         {"link_gap", "linkgap"},
@@ -440,7 +440,7 @@ template <class Make> void CreateLSMFault::pack(Make &&make, LSM::Packing &packi
 }
 
 /* ----------------------------------------------------------------------
-   words of a command as LAMMPS hands them over
+   words of a command as LAMMPS passes them
 ------------------------------------------------------------------------- */
 
 template <class Command> static void with_words(const std::string &line, Command &&command)
@@ -452,7 +452,7 @@ template <class Command> static void with_words(const std::string &line, Command
 }
 
 /* ----------------------------------------------------------------------
-   by the commands region and create_box; 17 digits are the same number again
+   by the commands region and create_box; 17 digits give the same number back
 ------------------------------------------------------------------------- */
 
 void CreateLSMFault::create_box(const double *lo, const double *hi, int bonds_per_atom)
@@ -470,7 +470,7 @@ void CreateLSMFault::create_box(const double *lo, const double *hi, int bonds_pe
 
   atom->sortfreq = 0;
 
-  // never used, as each particle has its own mass, but write_data writes these masses too
+  // never used, as each particle has its own mass, but write_data writes these masses as well
   // and read_data refuses zeros
 
   if (atom->mass)

@@ -72,7 +72,7 @@ FixLSMTraction::~FixLSMTraction()
 }
 
 /* ----------------------------------------------------------------------
-   by a fix that hands them from rank to rank and to restart files
+   by a fix that sends them from rank to rank and to restart files
 ------------------------------------------------------------------------- */
 
 void FixLSMTraction::post_constructor()
@@ -286,8 +286,9 @@ void FixLSMTraction::unpack_forward_comm(int n, int first, double *buf)
 }
 
 /* ----------------------------------------------------------------------
-   The forces that the tractions stand against: the upper face is pulled along x, and each pressed on the other. Within a run
-   velocities are those of the middle of the step, times the time step the displacement.
+   The forces that balance the tractions: the upper face is pulled along x, and each is pressed on the
+   other. Within a run velocities are those of the middle of the step; times the time step they give the
+   displacement.
 ------------------------------------------------------------------------- */
 
 void FixLSMTraction::add_forces(double dt)
