@@ -46,7 +46,7 @@ TEST_F(BadInput, OneLineOfError) {
       {"compute a all lsm/events memory 1e300\nrun 1", {"lambda"}},  // 1 to the last digit
       {"compute a all lsm/events picker best", {"picker", "best", "exponential"}},
       {"compute a all lsm/events series f.pe", {"series"}},
-      {"fix a_record all lsm/nve\ncompute a all lsm/events", {"a_record", "exists"}},
+      {"fix a_record all lsm/nve\ncompute a all lsm/events", {"a_record", "in use"}},
       {"fix a all lsm/plates lower nowhere stress 1", {"nowhere"}},
       {"fix a all lsm/plates lower upper velocity 1", {"stress", "position"}},
       {"fix a all lsm/plates lower upper stress -1", {"stress", "-1"}},

@@ -16,14 +16,14 @@
 
 namespace unit {
 
-/// A separate folder for each test, removed afterwards.
+/// A separate folder for each test, there before its members are made, removed afterwards.
 class Files : public ::testing::Test {
  protected:
-  void SetUp() override {
+  Files() {
     std::string name = (std::filesystem::temp_directory_path() / "lsm-unit-XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
+    if (mkdtemp(name.data()) != nullptr) folder_ = name;
   }
+  void SetUp() override { ASSERT_FALSE(folder_.empty()) << "no temporary folder"; }
   void TearDown() override {
     std::error_code code;
     std::filesystem::remove_all(folder_, code);
