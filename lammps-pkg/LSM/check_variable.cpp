@@ -4,6 +4,7 @@
 
 #include "comm.h"
 #include "error.h"
+#include "info.h"
 #include "input.h"
 #include "variable.h"
 
@@ -20,8 +21,11 @@ using namespace LAMMPS_NS;
 void CheckVariable::warn_of_others(int narg, char **arg)
 {
   if (comm->me != 0) return;
-  for (int n = 0; n < input->variable->nvar; n++) {
-    const std::string name = input->variable->names[n];
+  // of another type in each version of LAMMPS
+  int count = 0;
+  const auto names = Info(lmp).get_variable_names(count);
+  for (int n = 0; n < count; n++) {
+    const std::string name = names[n];
     if (std::none_of(arg, arg + narg, [&name](const char *known) { return name == known; }))
       error->warning(FLERR, "Variable {} is not used by this script", name);
   }
