@@ -744,7 +744,7 @@ def rupture_packing_table(postproc):
         for stations in packed.values():
             arrival = {at["x"]: at["arrival"] for at in stations}
             fast += sum(9000 / (arrival[side * 12000] - arrival[side * 3000]) > 3464 for side in (-1, 1))
-        out.append([f"{spacing} m ({1.375 * spacing:.0f} m)", str(len(packed)), " to ".join(dict.fromkeys(f"{t:.2f}" for t in (min(late), max(late)))),
+        out.append([f"{spacing} m ({1.374 * spacing:.0f} m)", str(len(packed)), " to ".join(dict.fromkeys(f"{t:.2f}" for t in (min(late), max(late)))),
                     f"{scattered:.2f}", f"{fast} of {2 * len(packed)}",
                     f"{math.sqrt(statistics.fmean(s * s for s in slip)):.1f}; {statistics.fmean(slip):.1f}"])
     return calibrate.table(["spacing (largest radius)", "packings", "arrival, rms of each (s)", "scatter between packings (s)",
