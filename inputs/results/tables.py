@@ -727,7 +727,11 @@ def laws(_):
     return calibrate.table(head, out)
 
 
-def rupture_packing_table(postproc):
+def root_mean_square(numbers):
+    return math.sqrt(statistics.fmean(x * x for x in numbers))
+
+
+def rupture_packing_table(_):
     """TPV3 in the random packing beside the boundary integral, from the stations of all packings."""
     spacings, out = {}, []
     with open(FOLDER / "rupture_packing-stations.csv", newline="") as file:
@@ -736,7 +740,7 @@ def rupture_packing_table(postproc):
             spacings.setdefault(int(spacing), {}).setdefault(seed, []).append({key: float(row[key]) for key in (
                 "x", "arrival", "reference_arrival", "end_slip", "reference_end_slip")})
     for spacing, packed in sorted(spacings.items(), reverse=True):
-        late = [math.sqrt(statistics.fmean((at["arrival"] - at["reference_arrival"]) ** 2 for at in stations)) for stations in packed.values()]
+        late = [root_mean_square([at["arrival"] - at["reference_arrival"] for at in stations]) for stations in packed.values()]
         at_place = zip(*(sorted((at["x"], at["arrival"]) for at in stations) for stations in packed.values()))
         scattered = math.sqrt(statistics.fmean(statistics.variance(arrival for _, arrival in place) for place in at_place))
         slip = [100 * (at["end_slip"] / at["reference_end_slip"] - 1) for stations in packed.values() for at in stations if abs(at["x"]) <= 12000]
@@ -746,7 +750,7 @@ def rupture_packing_table(postproc):
             fast += sum(9000 / (arrival[side * 12000] - arrival[side * 3000]) > 3464 for side in (-1, 1))
         out.append([f"{spacing} m ({1.374 * spacing:.0f} m)", str(len(packed)), " to ".join(dict.fromkeys(f"{t:.2f}" for t in (min(late), max(late)))),
                     f"{scattered:.2f}", f"{fast} of {2 * len(packed)}",
-                    f"{math.sqrt(statistics.fmean(s * s for s in slip)):.1f}; {statistics.fmean(slip):.1f}"])
+                    f"{root_mean_square(slip):.1f}; {statistics.fmean(slip):.1f}"])
     return calibrate.table(["spacing (largest radius)", "packings", "arrival, rms of each (s)", "scatter between packings (s)",
                             "fronts faster than S-waves from 3 to 12 km", "slip, rms; mean (%)"], out)
 

@@ -4,10 +4,10 @@
 
 #include "atom.h"
 #include "bond_lsm_linked.h"
-#include "comm.h"
 #include "error.h"
 #include "force.h"
 #include "lsm_fix_state.h"
+#include "lsm_ranks.h"
 #include "lsm_scene.h"
 #include "update.h"
 
@@ -63,12 +63,7 @@ void FixLSMBreak::pre_reverse(int /*eflag*/, int /*vflag*/)
   MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_SUM, world);
   if (all == 0) return;
 
-  std::vector<int> counts(comm->nprocs), offsets(comm->nprocs);
-  MPI_Allgather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
-  for (int p = 1; p < comm->nprocs; p++) offsets[p] = offsets[p - 1] + counts[p - 1];
-  std::vector<tagint> broken(all);
-  MPI_Allgatherv(links->broken.data(), mine, MPI_LMP_TAGINT, broken.data(), counts.data(),
-                 offsets.data(), MPI_LMP_TAGINT, world);
+  const std::vector<tagint> broken = lsm_gather(links->broken, MPI_LMP_TAGINT, world);
   links->broken.clear();
   remove(broken);
   next_reneighbor = update->ntimestep + 1;

@@ -11,6 +11,7 @@
 #include "force.h"
 #include "group.h"
 #include "input.h"
+#include "lsm_ranks.h"
 #include "modify.h"
 #include "pair_lsm_friction.h"
 #include "update.h"
@@ -168,7 +169,7 @@ int FixLSMTraction::partner(int i, const std::vector<int> &others) const
 std::vector<double> FixLSMTraction::shares(int s) const
 {
   const double *const radius = atom->radius;
-  std::vector<double> share(atom->nlocal, 0.0), mine, all;
+  std::vector<double> share(atom->nlocal, 0.0), mine;
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & side[s])) continue;
     share[i] = 2.0 * radius[i];
@@ -176,17 +177,7 @@ std::vector<double> FixLSMTraction::shares(int s) const
   }
   if (!spaced) return share;
 
-  int count = static_cast<int>(mine.size());
-  std::vector<int> counts(comm->nprocs), begins(comm->nprocs);
-  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
-  int total = 0;
-  for (int rank = 0; rank < comm->nprocs; rank++) {
-    begins[rank] = total;
-    total += counts[rank];
-  }
-  all.resize(total);
-  MPI_Allgatherv(mine.data(), count, MPI_DOUBLE, all.data(), counts.data(), begins.data(),
-                 MPI_DOUBLE, world);
+  std::vector<double> all = lsm_gather(mine, MPI_DOUBLE, world);
   std::sort(all.begin(), all.end());
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & side[s])) continue;
@@ -197,7 +188,7 @@ std::vector<double> FixLSMTraction::shares(int s) const
       left = 0.5 * (x - all[at - 1]);
     else if (domain->xperiodic)
       left = 0.5 * (x - all.back() + domain->xprd);
-    if (at + 1 < total)
+    if (at + 1 < static_cast<std::ptrdiff_t>(all.size()))
       right = 0.5 * (all[at + 1] - x);
     else if (domain->xperiodic)
       right = 0.5 * (all.front() + domain->xprd - x);

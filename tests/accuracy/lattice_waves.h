@@ -5,8 +5,11 @@
 #ifndef LSM_ACCURACY_LATTICE_WAVES_H
 #define LSM_ACCURACY_LATTICE_WAVES_H
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace lattice_waves {
 
@@ -47,6 +50,32 @@ inline double rayleigh(double ratio) {
     (left < 4.0 * std::sqrt((1.0 - c2) * (1.0 - c2 / (ratio * ratio))) ? low : high) = c;
   }
   return low;
+}
+
+/// A zero of a standing wave.
+struct Zero {
+  double time;
+  double peak;  ///< largest amplitude since the zero before
+};
+
+/// From samples (time, amplitude).
+inline std::vector<Zero> zeros(const std::vector<std::pair<double, double>> &samples) {
+  std::vector<Zero> found;
+  double peak = 0.0;
+  for (std::size_t n = 1; n < samples.size(); ++n) {
+    const auto [t, a] = samples[n - 1];
+    const auto [u, b] = samples[n];
+    peak = std::max(peak, std::fabs(b));
+    if (a * b >= 0.0) continue;
+    found.push_back({t + (u - t) * a / (a - b), peak});
+    peak = 0.0;
+  }
+  return found;
+}
+
+/// Angular frequency, from two zeros or more.
+inline double frequency(const std::vector<Zero> &zeros) {
+  return pi * static_cast<double>(zeros.size() - 1) / (zeros.back().time - zeros.front().time);
 }
 
 }  // namespace lattice_waves

@@ -9,12 +9,15 @@ export LC_ALL=C
 lmp=$1 postproc=$2 inputs=$3
 shift 3
 [ $# -gt 0 ] || set -- 200 100 50
+block=(-var length 60000 -var width 36000 -var tend 6)
+run() { # SCENE PREFIX SPACING [SETTINGS]
+  "$lmp" -in "$inputs/rupture_$1.in" -log "$2.log" -screen none -var prefix "$2" -var dx "$3" -var overwrite yes "${@:4}" </dev/null
+}
 for dx in "$@"; do
   for scene in tpv205 tpv3 crack; do
-    limits=()
-    [ "$scene" = crack ] || limits=(-var length 60000 -var width 36000 -var tend 6)
-    "$lmp" -in "$inputs/rupture_$scene.in" -log "$scene.$dx.log" -screen none -var dx "$dx" "${limits[@]}" \
-      -var prefix "$scene.$dx" -var overwrite yes </dev/null
+    settings=()
+    [ "$scene" = crack ] || settings=("${block[@]}")
+    run "$scene" "$scene.$dx" "$dx" "${settings[@]}"
     awk -v scene="$scene" -v dx="$dx" '/^Loop time of/ { t += $4; n = $(NF - 1) }
       END { printf "%s, spacing %g m: %d discs, %.1f s\n", scene, dx, n, t }' "$scene.$dx.log"
   done
@@ -27,11 +30,11 @@ packings=()
 for dx in "$@"; do
   [ "$dx" -ge 100 ] || continue
   for seed in 1 2 3; do
-    "$lmp" -in "$inputs/rupture_tpv3.in" -log "packing.$dx.log" -screen none -var blocks packing -var seed "$seed" \
-      -var dx "$dx" -var length 60000 -var width 36000 -var tend 6 -var prefix "packing.$dx.$seed" -var overwrite yes </dev/null
+    run tpv3 "packing.$dx.$seed" "$dx" -var blocks packing -var seed "$seed" "${block[@]}"
     packings+=("packing.$dx.$seed.slip.bin")
   done
 done
+[ ${#packings[@]} -gt 0 ] || exit 0
 # that of the packing: its ratio of wave speeds
-"$(dirname "$lmp")/lsm_boundary_integral" tpv3 50 6 1500 1.913 >packing.csv
-"$postproc" benchmark "${packings[@]}" --reference packing.csv --until 6 -o packing
+"$(dirname "$lmp")/lsm_boundary_integral" tpv3 50 6 1500 1.913 >packing-reference.csv
+"$postproc" benchmark "${packings[@]}" --reference packing-reference.csv --until 6 -o packing

@@ -59,26 +59,14 @@ Run run(const std::string &scene, const std::vector<std::pair<std::string, std::
   return result;
 }
 
-/// Angular frequency from the zeros of a standing wave, and what is left of its amplitude after a
-/// period.
+/// Angular frequency of a standing wave, and what is left of its amplitude after a period.
 std::pair<double, double> swing(const Run &r) {
-  std::vector<double> zeros, peaks;
-  double peak = 0.0;
-  for (std::size_t n = 1; n < r.rows.size(); ++n) {
-    const auto [t, a] = r.rows[n - 1];
-    const auto [u, b] = r.rows[n];
-    peak = std::max(peak, std::fabs(b));
-    if (a * b >= 0.0) continue;
-    zeros.push_back(t + (u - t) * a / (a - b));
-    peaks.push_back(peak);
-    peak = 0.0;
-  }
+  const std::vector<lattice_waves::Zero> zeros = lattice_waves::zeros(r.rows);
   if (zeros.size() < 3) throw std::runtime_error("too few swings");
-  const double half = (zeros.back() - zeros.front()) / static_cast<double>(zeros.size() - 1);
   // the first peak is that of the beginning
   const double left =
-      std::pow(peaks.back() / peaks[1], 2.0 / static_cast<double>(peaks.size() - 2));
-  return {pi / half, peaks.size() > 2 ? left : 1.0};
+      std::pow(zeros.back().peak / zeros[1].peak, 2.0 / static_cast<double>(zeros.size() - 2));
+  return {lattice_waves::frequency(zeros), left};
 }
 
 /// A table of the report.

@@ -3,6 +3,7 @@
 // a free straight border.
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lattice_waves.h"
@@ -63,16 +64,12 @@ TEST_F(Waves, RayleighWavesOfAFreeBorder) {
     const Result r = run_text("include " + scenes + "rayleigh_wave.in\n",
                               {{"wave", std::to_string(wave)}, {"border", border}});
     EXPECT_TRUE(succeeded(r));
-    std::vector<double> zeros;
-    for (std::size_t n = 1; n < r.thermo.size(); ++n) {
-      const double a = r.thermo[n - 1].at("v_a"), b = r.thermo[n].at("v_a");
-      const double t = r.thermo[n - 1].at("Time"), u = r.thermo[n].at("Time");
-      if (a * b < 0.0) zeros.push_back(t + (u - t) * a / (a - b));
-    }
+    std::vector<std::pair<double, double>> samples;
+    for (const auto &row : r.thermo) samples.emplace_back(row.at("Time"), row.at("v_a"));
+    const auto zeros = lattice_waves::zeros(samples);
     EXPECT_GE(zeros.size(), 8U);
     if (zeros.size() < 2) return 0.0;
-    const double half = (zeros.back() - zeros.front()) / static_cast<double>(zeros.size() - 1);
-    return 0.5 * wave / half / lattice_waves::vs;
+    return lattice_waves::frequency(zeros) * wave / (2.0 * lattice_waves::pi) / lattice_waves::vs;
   };
   // half the mass (create_lsm_fault) and half the stiffness in the row of the border
   const double coarse = measured(10, "0.5") / exact - 1.0, fine = measured(20, "0.5") / exact - 1.0;

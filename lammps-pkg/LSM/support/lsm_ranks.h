@@ -6,6 +6,7 @@
 
 #include <mpi.h>
 #include <string>
+#include <vector>
 
 namespace LAMMPS_NS {
 
@@ -23,6 +24,21 @@ inline void lsm_share(std::string &text, MPI_Comm world)
   MPI_Bcast(&length, 1, MPI_INT, 0, world);
   text.resize(length);
   if (length) MPI_Bcast(&text[0], length, MPI_CHAR, 0, world);
+}
+
+/// All ranks get the values of all, in the order of the ranks. type: that of a value
+template <class Value>
+std::vector<Value> lsm_gather(const std::vector<Value> &mine, MPI_Datatype type, MPI_Comm world)
+{
+  int ranks;
+  MPI_Comm_size(world, &ranks);
+  const int count = static_cast<int>(mine.size());
+  std::vector<int> counts(ranks), offsets(ranks, 0);
+  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
+  for (int p = 1; p < ranks; p++) offsets[p] = offsets[p - 1] + counts[p - 1];
+  std::vector<Value> all(offsets.back() + counts.back());
+  MPI_Allgatherv(mine.data(), count, type, all.data(), counts.data(), offsets.data(), type, world);
+  return all;
 }
 
 }    // namespace LAMMPS_NS
