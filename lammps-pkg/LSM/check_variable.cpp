@@ -8,12 +8,14 @@
 #include "input.h"
 #include "variable.h"
 
+#include "lsm_names.h"
 #include "lsm_text_io.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <string>
+#include <vector>
 
 using namespace LAMMPS_NS;
 
@@ -52,10 +54,9 @@ void CheckVariable::command(int narg, char **arg)
   bool good = false;
   std::string expected;
   if (kind == "words") {
-    for (int n = 2; n < narg; n++) {
-      good = good || value == arg[n];
-      expected += (n == 2 ? "" : n + 1 < narg ? ", " : " or ") + std::string(arg[n]);
-    }
+    const std::vector<std::string> words(arg + 2, arg + narg);
+    good = std::find(words.begin(), words.end(), value) != words.end();
+    expected = LSM::either(words);
   } else if (kind == "file") {
     good = !value.empty() && value.front() != '-' &&
            value.find_first_of(" \t\n\"'&#$*%") == std::string::npos;

@@ -1,12 +1,11 @@
-/* ----------------------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-   Lattice Solid Model: box, particles and links of a fault between two blocks
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
 
 #include "create_lsm_fault.h"
 
+#include "lsm_keyword_reader.h"
 #include "lsm_lattice.h"
 #include "lsm_packing.h"
+#include "lsm_ranks.h"
 
 #include "atom.h"
 #include "atom_vec.h"
@@ -22,16 +21,16 @@
 #include <cmath>
 #include <cstring>
 #include <exception>
-#include <limits>
 #include <numeric>
 #include <string>
 #include <tuple>
 #include <utility>
 
 using namespace LAMMPS_NS;
+using LSM::Must;
+using LSM::Words;
 
 // atom types: block, plus an offset for the fault zone and for the plate
-
 static constexpr int NTYPES = 6;
 static constexpr int BULK = 1;
 static constexpr int FAULT_ZONE = 3;
@@ -44,12 +43,11 @@ static int type_of(const LSM::Disc &disc)
   return (disc.plate ? PLATE : (disc.fault ? FAULT_ZONE : BULK)) + disc.block;
 }
 
+static constexpr double STRETCH = 64.0;    // in largest radii
+
 // Discs in sections along the fault; in each section first those that can be in contact, then the blocks,
 // then the plates, by x. Loops over particles, links or contacts in the order of the IDs then find their
 // data in the nearest caches, and each kind contiguous.
-
-static constexpr double STRETCH = 64.0;    // in largest radii
-
 static void order_along_fault(LSM::Packing &packing, double rmax)
 {
   const int n = static_cast<int>(packing.discs.size());
@@ -78,117 +76,54 @@ static void order_along_fault(LSM::Packing &packing, double rmax)
 
 // the disc that stores a link when each link is stored once: the smaller disc has fewer links,
 // which keeps the largest number of links per atom, and so memory and messages, small
-
 static std::pair<int, int> owner_first(const LSM::Packing &packing, const std::pair<int, int> &link)
 {
   if (packing.discs[link.second].r < packing.discs[link.first].r) return {link.second, link.first};
   return link;
 }
 
-/* ---------------------------------------------------------------------- */
-
-CreateLSMFault::CreateLSMFault(LAMMPS *lmp_in) :
-    Command(lmp_in), mass_power(2), mass_scale(1.0), mass_floor(0.0), step(0.0), step_kt(0.0),
-    margin(2.0), stiffness(1.0), lattice(false), types(NTYPES)
-{
-}
-
-/* ---------------------------------------------------------------------- */
+CreateLSMFault::CreateLSMFault(LAMMPS *lmp_in) : Command(lmp_in), types(NTYPES) {}
 
 void CreateLSMFault::command(int narg, char **arg)
 {
   lattice = narg > 0 && strcmp(arg[0], "lattice") == 0;
   check_setup();
   MPI_Barrier(world);
-  const double time1 = platform::walltime();
+  const double begun = platform::walltime();
 
   LSM::Packing packing;
   LSM::PackingSettings random;
-  std::vector<double> masses;
-  double time2;
+  LSM::LatticeSettings regular;
   if (lattice) {
-    LSM::LatticeSettings regular;
-    parse(narg - 1, arg + 1, regular);
-    pack([&regular] { return LSM::make_lattice(regular); }, packing);
-    time2 = platform::walltime();
-    masses = masses_of(packing);
-    const double x = regular.half_length(), y = regular.half_width() + margin;
-    const double lo[] = {-x, -y, -0.5 * regular.spacing}, hi[] = {x, y, 0.5 * regular.spacing};
-    create(lo, hi, packing, masses);
+    parse(narg, arg, regular);
+    pack(packing, [&regular] { return LSM::make_lattice(regular); });
   } else {
     parse(narg, arg, random);
-    pack(
-        [&random] {
-          LSM::Packing one = LSM::make_packing(random);
-          order_along_fault(one, random.rmax);
-          return one;
-        },
-        packing);
-    time2 = platform::walltime();
-    masses = masses_of(packing);
-    if (step > 0.0) {
-      const auto enough = LSM::masses_for_step(packing, random.length, step, stiffness, step_kt);
-      for (std::size_t i = 0; i < masses.size(); i++) masses[i] = std::max(masses[i], enough[i]);
-    }
-    // LAMMPS wants no box that is much thinner than the range of the contacts
-    const double thick = 0.5 * std::max(1.0, random.rmax);
-    const double lo[] = {0.0, -margin, -thick},
-                 hi[] = {random.length, random.width + margin, thick};
-    create(lo, hi, packing, masses);
+    pack(packing, [&random] {
+      LSM::Packing one = LSM::make_packing(random);
+      order_along_fault(one, random.rmax);
+      return one;
+    });
   }
+  const double packed = platform::walltime();
+
+  const std::vector<double> masses = masses_of(packing, random.length);
+  const std::vector<int> stored = stored_links(packing);
+  create_box(lattice ? box_of(regular) : box_of(random),
+             *std::max_element(stored.begin(), stored.end()));
+  add_particles(packing, masses, stored);
+  Special(lmp).build();
   MPI_Barrier(world);
   if (comm->me == 0) {
     report_types(packing);
-    if (!lattice) report(random, packing, masses);
+    if (!lattice) report(random, packing);
+    report_masses(packing, masses);
     utils::logmesg(lmp, "  create_lsm_fault CPU = {:.3f} seconds (packing {:.3f})\n",
-                   platform::walltime() - time1, time2 - time1);
+                   platform::walltime() - begun, packed - begun);
   }
 }
 
-/* ---------------------------------------------------------------------- */
-
-void CreateLSMFault::create(const double *lo, const double *hi, const LSM::Packing &packing,
-                            const std::vector<double> &masses)
-{
-  std::vector<int> stored(packing.discs.size(), 0);
-  for (const auto &link : packing.links) {
-    ++stored[owner_first(packing, link).first];
-    if (!force->newton_bond) ++stored[owner_first(packing, link).second];
-  }
-  const int most = stored.empty() ? 0 : *std::max_element(stored.begin(), stored.end());
-
-  create_box(lo, hi, most);
-  add_particles(packing, masses, stored);
-
-  Special special(lmp);
-  special.build();
-}
-
-/* ----------------------------------------------------------------------
-   a disc in a straight border of a lattice represents half the area of the others
-------------------------------------------------------------------------- */
-
-std::vector<double> CreateLSMFault::masses_of(const LSM::Packing &packing) const
-{
-  std::vector<double> masses;
-  masses.reserve(packing.discs.size());
-  for (const auto &disc : packing.discs)
-    masses.push_back((lattice && (disc.fault || disc.plate) ? 0.5 : 1.0) *
-                     std::max(mass_of(disc.r), mass_floor));
-  return masses;
-}
-
-/* ---------------------------------------------------------------------- */
-
-double CreateLSMFault::mass_of(double radius) const
-{
-  return mass_scale * radius * radius * (mass_power == 3 ? radius : 1.0);
-}
-
-/* ----------------------------------------------------------------------
-   requirements on the scene before the box exists
-------------------------------------------------------------------------- */
-
+// requirements on the scene before the box exists
 void CreateLSMFault::check_setup()
 {
   if (domain->box_exist)
@@ -217,232 +152,132 @@ void CreateLSMFault::check_setup()
                           "use special_bonds lj/coul 0 1 1 before create_lsm_fault");
 }
 
-/* ---------------------------------------------------------------------- */
+// both kinds have these
+LSM::Keywords CreateLSMFault::common_keywords()
+{
+  return {{"mass", Words{&cubed, {"r2", "r3"}}, Must::positive, &mass_scale},
+          {"margin", &margin, Must::positive},
+          {"types", &types}};
+}
+
+void CreateLSMFault::read(LSMKeywordReader in, const LSM::Keywords &own,
+                          const std::vector<const char *> &required)
+{
+  LSM::Keywords keywords = own;
+  for (const LSM::Keyword &one : common_keywords()) keywords.push_back(one);
+  in.read_all(keywords);
+  in.require(required);
+  if (types < NTYPES) in.stop(fmt::format("types is {}, but must be at least {}", types, NTYPES));
+}
 
 void CreateLSMFault::parse(int narg, char **arg, LSM::PackingSettings &settings)
 {
-  bool have_length = false, have_width = false, have_seed = false;
-  int iarg = 0;
-  while (iarg < narg) {
-    const std::string key = arg[iarg];
-    const int values = (key == "mass" || key == "massstep") ? 2 : 1;
-    if (iarg + values >= narg) utils::missing_cmd_args(FLERR, "create_lsm_fault " + key, error);
-    const char *value = arg[iarg + 1];
-    if (key == "length") {
-      settings.length = utils::numeric(FLERR, value, false, lmp);
-      have_length = true;
-    } else if (key == "width") {
-      settings.width = utils::numeric(FLERR, value, false, lmp);
-      have_width = true;
-    } else if (key == "seed") {
-      const bigint seed = utils::bnumeric(FLERR, value, false, lmp);
-      if (seed < 0) error->all(FLERR, "Create_lsm_fault: seed = {}, expected 0 or more", seed);
-      settings.seed = static_cast<uint64_t>(seed);
-      have_seed = true;
-    } else if (key == "rmin") {
-      settings.rmin = utils::numeric(FLERR, value, false, lmp);
-    } else if (key == "rmax") {
-      settings.rmax = utils::numeric(FLERR, value, false, lmp);
-    } else if (key == "failures") {
-      settings.max_failures = utils::inumeric(FLERR, value, false, lmp);
-    } else if (key == "tolerance") {
-      settings.tolerance = utils::numeric(FLERR, value, false, lmp);
-    } else if (key == "linkgap") {
-      settings.link_gap = utils::numeric(FLERR, value, false, lmp);
-    } else if (key == "faultzone") {
-      settings.fault_zone = utils::numeric(FLERR, value, false, lmp);
-    } else if (key == "loose") {
-      if (strcmp(value, "remove") == 0)
-        settings.remove_loose = true;
-      else if (strcmp(value, "keep") == 0)
-        settings.remove_loose = false;
-      else
-        error->all(FLERR, "Create_lsm_fault: loose = {}, expected remove or keep", value);
-    } else if (key == "mirror") {
-      if (strcmp(value, "yes") == 0)
-        settings.mirror = true;
-      else if (strcmp(value, "no") == 0)
-        settings.mirror = false;
-      else
-        error->all(FLERR, "Create_lsm_fault: mirror = {}, expected yes or no", value);
-    } else if (key == "mass") {
-      parse_mass(value, arg[iarg + 2]);
-    } else if (key == "massfloor") {
-      mass_floor = utils::numeric(FLERR, value, false, lmp);
-      if (!(mass_floor >= 0.0) || !std::isfinite(mass_floor))
-        error->all(FLERR, "Create_lsm_fault: massfloor = {}, expected 0 or a positive number",
-                   mass_floor);
-    } else if (key == "massstep") {
-      step = utils::numeric(FLERR, value, false, lmp);
-      step_kt = utils::numeric(FLERR, arg[iarg + 2], false, lmp);
-      if (!(step >= 0.0) || !std::isfinite(step) || !(step_kt >= 0.0) || !std::isfinite(step_kt))
-        error->all(FLERR,
-                   "Create_lsm_fault: massstep = {} {}, expected a time step and a tangential "
-                   "stiffness, both 0 or a positive number",
-                   step, step_kt);
-    } else if (key == "margin") {
-      margin = positive(key, value);
-    } else if (key == "stiffness") {
-      stiffness = positive(key, value);
-    } else if (key == "types") {
-      parse_types(value);
-    } else
-      error->all(FLERR,
-                 "Create_lsm_fault: unknown keyword {}, expected length, width, seed, rmin, rmax, "
-                 "failures, tolerance, linkgap, faultzone, loose, mirror, mass, massfloor, "
-                 "massstep, margin, stiffness or types",
-                 key);
-    iarg += 1 + values;
-  }
-  const char *missing = !have_length ? "length"
-                                     : (!have_width ? "width" : (!have_seed ? "seed" : nullptr));
-  if (missing)
-    error->all(FLERR, "Create_lsm_fault: {} is missing, expected length L width W seed S", missing);
-}
-
-/* ---------------------------------------------------------------------- */
-
-double CreateLSMFault::positive(const std::string &what, const char *text) const
-{
-  const double value = utils::numeric(FLERR, text, false, lmp);
-  if (!(value > 0.0) || !std::isfinite(value))
-    error->all(FLERR, "Create_lsm_fault: {} = {}, expected a positive number", what, value);
-  return value;
-}
-
-void CreateLSMFault::parse_mass(const char *power, const char *scale)
-{
-  if (strcmp(power, "r2") == 0)
-    mass_power = 2;
-  else if (strcmp(power, "r3") == 0)
-    mass_power = 3;
-  else
-    error->all(FLERR, "Create_lsm_fault: mass = {}, expected r2 or r3 and a number", power);
-  mass_scale = positive(std::string("mass ") + power, scale);
-}
-
-void CreateLSMFault::parse_types(const char *text)
-{
-  types = utils::inumeric(FLERR, text, false, lmp);
-  if (types < NTYPES)
-    error->all(FLERR, "Create_lsm_fault: types = {}, expected at least {}", types, NTYPES);
+  int removed = settings.remove_loose;
+  read({lmp, "Create_lsm_fault", 0, narg, arg},
+       {{"length", &settings.length},
+        {"width", &settings.width},
+        {"seed", &settings.seed},
+        {"rmin", &settings.rmin},
+        {"rmax", &settings.rmax},
+        {"failures", &settings.max_failures},
+        {"tolerance", &settings.tolerance},
+        {"linkgap", &settings.link_gap},
+        {"faultzone", &settings.fault_zone},
+        {"loose", Words{&removed, {"keep", "remove"}}},
+        {"mirror", &settings.mirror},
+        {"massfloor", &mass_floor, Must::not_negative},
+        {"massstep", &step, Must::not_negative, &step_kt},
+        {"stiffness", &stiffness, Must::positive}},
+       {"length", "width", "seed"});
+  settings.remove_loose = removed != 0;
 }
 
 void CreateLSMFault::parse(int narg, char **arg, LSM::LatticeSettings &settings)
 {
   settings.ring = domain->xperiodic;
   margin = 0.0;
-  int iarg = 0;
-  while (iarg < narg) {
-    const std::string key = arg[iarg];
-    const int values = (key == "mass") ? 2 : 1;
-    if (iarg + values >= narg) utils::missing_cmd_args(FLERR, "create_lsm_fault " + key, error);
-    const char *value = arg[iarg + 1];
-    if (key == "length")
-      settings.length = positive(key, value);
-    else if (key == "width")
-      settings.width = positive(key, value);
-    else if (key == "spacing")
-      settings.spacing = positive(key, value);
-    else if (key == "mass")
-      parse_mass(value, arg[iarg + 2]);
-    else if (key == "margin")
-      margin = positive(key, value);
-    else if (key == "types")
-      parse_types(value);
-    else
-      error->all(FLERR,
-                 "Create_lsm_fault lattice: unknown keyword {}, expected length, width, spacing, "
-                 "mass, margin or types",
-                 key);
-    iarg += 1 + values;
-  }
-  const char *missing =
-      settings.length == 0.0
-          ? "length"
-          : (settings.width == 0.0 ? "width" : (settings.spacing == 0.0 ? "spacing" : nullptr));
-  if (missing)
-    error->all(FLERR,
-               "Create_lsm_fault: {} is missing, expected lattice length L width W spacing D",
-               missing);
+  read({lmp, "Create_lsm_fault lattice", 1, narg, arg},
+       {{"length", &settings.length, Must::positive},
+        {"width", &settings.width, Must::positive},
+        {"spacing", &settings.spacing, Must::positive}},
+       {"length", "width", "spacing"});
   if (margin == 0.0) margin = settings.spacing;
 }
 
-/* ----------------------------------------------------------------------
-   rank 0 packs and sends its result to all others: the same scene on any number of ranks,
-   even if their processors round differently
-------------------------------------------------------------------------- */
-
-template <class Make> void CreateLSMFault::pack(Make &&make, LSM::Packing &packing)
+// Rank 0 packs and sends its result to all others: the same scene on any number of ranks, even if their
+// processors round differently.
+void CreateLSMFault::pack(LSM::Packing &packing, const std::function<LSM::Packing()> &make)
 {
   std::string problem;
   if (comm->me == 0) {
     try {
       packing = make();
-      if (packing.discs.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()) / 8)
+      if (packing.discs.size() > MAXSMALLINT / 8)
         problem = "too many particles: " + std::to_string(packing.discs.size());
     } catch (std::exception &e) {
       problem = e.what();
     }
   }
-
-  int size = static_cast<int>(problem.size());
-  MPI_Bcast(&size, 1, MPI_INT, 0, world);
-  if (size > 0) {
-    problem.resize(size);
-    MPI_Bcast(&problem[0], size, MPI_CHAR, 0, world);
-    // settings by their keywords
-    const std::pair<const char *, const char *> names[] = {
-        {"max_failures", "failures"},
-        {"link_gap", "linkgap"},
-        {"fault_zone", "faultzone"},
-        {"remove_loose = yes", "loose = remove"}};
-    for (const auto &name : names)
-      for (auto at = problem.find(name.first); at != std::string::npos;
-           at = problem.find(name.first, at))
-        problem.replace(at, strlen(name.first), name.second);
-    error->all(FLERR, "Create_lsm_fault: {}", problem);
-  }
-
-  int counts[4] = {static_cast<int>(packing.discs.size()), static_cast<int>(packing.links.size()),
-                   packing.fault_tangent[0], packing.fault_tangent[1]};
-  MPI_Bcast(counts, 4, MPI_INT, 0, world);
-  const int n = counts[0], m = counts[1];
-  std::vector<double> xyr(3 * static_cast<std::size_t>(n));
-  std::vector<char> flags(n);
-  std::vector<int> ends(2 * static_cast<std::size_t>(m));
-  if (comm->me == 0) {
-    for (int i = 0; i < n; i++) {
-      const LSM::Disc &disc = packing.discs[i];
-      xyr[3 * i] = disc.x;
-      xyr[3 * i + 1] = disc.y;
-      xyr[3 * i + 2] = disc.r;
-      flags[i] = static_cast<char>(disc.block | (disc.fault ? 2 : 0) | (disc.plate ? 4 : 0));
-    }
-    for (int i = 0; i < m; i++) {
-      ends[2 * i] = packing.links[i].first;
-      ends[2 * i + 1] = packing.links[i].second;
-    }
-  }
-  MPI_Bcast(xyr.data(), 3 * n, MPI_DOUBLE, 0, world);
-  MPI_Bcast(flags.data(), n, MPI_CHAR, 0, world);
-  MPI_Bcast(ends.data(), 2 * m, MPI_INT, 0, world);
-  if (comm->me != 0) {
-    packing.fault_tangent[0] = counts[2];
-    packing.fault_tangent[1] = counts[3];
-    packing.discs.resize(n);
-    for (int i = 0; i < n; i++)
-      packing.discs[i] = {xyr[3 * i],   xyr[3 * i + 1],      xyr[3 * i + 2],
-                          flags[i] & 1, (flags[i] & 2) != 0, (flags[i] & 4) != 0};
-    packing.links.resize(m);
-    for (int i = 0; i < m; i++) packing.links[i] = {ends[2 * i], ends[2 * i + 1]};
-  }
+  lsm_share(problem, world);
+  if (!problem.empty()) error->all(FLERR, "Create_lsm_fault: {}", problem);
+  lsm_share(packing.discs, world);
+  lsm_share(packing.links, world);
 }
 
-/* ----------------------------------------------------------------------
-   words of a command as LAMMPS passes them
-------------------------------------------------------------------------- */
+double CreateLSMFault::mass_of(double radius) const
+{
+  return mass_scale * radius * radius * (cubed ? radius : 1.0);
+}
 
+std::vector<double> CreateLSMFault::masses_of(const LSM::Packing &packing, double length) const
+{
+  std::vector<double> masses;
+  masses.reserve(packing.discs.size());
+  for (const auto &disc : packing.discs) {
+    // a disc in a straight border of a lattice represents half the area of the others
+    const double part = lattice && (disc.fault || disc.plate) ? 0.5 : 1.0;
+    masses.push_back(part * std::max(mass_of(disc.r), mass_floor));
+  }
+  if (step > 0.0) {
+    const auto enough = LSM::masses_for_step(packing, length, step, stiffness, step_kt);
+    for (std::size_t i = 0; i < masses.size(); i++) masses[i] = std::max(masses[i], enough[i]);
+  }
+  return masses;
+}
+
+// links that each particle stores
+std::vector<int> CreateLSMFault::stored_links(const LSM::Packing &packing) const
+{
+  std::vector<int> stored(packing.discs.size(), 0);
+  for (const auto &link : packing.links) {
+    const auto ends = owner_first(packing, link);
+    ++stored[ends.first];
+    if (!force->newton_bond) ++stored[ends.second];
+  }
+  return stored;
+}
+
+// as the command region has it; 17 digits give the same number back
+static std::string box(double xlo, double xhi, double ylo, double yhi, double thick)
+{
+  return fmt::format("{:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}", xlo, xhi, ylo, yhi, -thick,
+                     thick);
+}
+
+std::string CreateLSMFault::box_of(const LSM::LatticeSettings &settings) const
+{
+  const double x = settings.half_length(), y = settings.half_width() + margin;
+  return box(-x, x, -y, y, 0.5 * settings.spacing);
+}
+
+std::string CreateLSMFault::box_of(const LSM::PackingSettings &settings) const
+{
+  // LAMMPS wants no box that is much thinner than the range of the contacts
+  return box(0.0, settings.length, -margin, settings.width + margin,
+             0.5 * std::max(1.0, settings.rmax));
+}
+
+// words of a command as LAMMPS passes them
 template <class Command> static void with_words(const std::string &line, Command &&command)
 {
   std::vector<std::string> words = utils::split_words(line);
@@ -451,15 +286,10 @@ template <class Command> static void with_words(const std::string &line, Command
   command(static_cast<int>(pointers.size()), pointers.data());
 }
 
-/* ----------------------------------------------------------------------
-   by the commands region and create_box; 17 digits give the same number back
-------------------------------------------------------------------------- */
-
-void CreateLSMFault::create_box(const double *lo, const double *hi, int bonds_per_atom)
+void CreateLSMFault::create_box(const std::string &limits, int bonds_per_atom)
 {
   const std::string region = "create_lsm_fault_box";
-  with_words(fmt::format("{} block {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} units box",
-                         region, lo[0], hi[0], lo[1], hi[1], lo[2], hi[2]),
+  with_words(region + " block " + limits + " units box",
              [this](int narg, char **arg) { domain->add_region(narg, arg); });
   with_words(fmt::format("{} {} bond/types {} extra/bond/per/atom {}", types, region,
                          lattice ? BORDER_LINK_TYPE : LINK_TYPE, bonds_per_atom),
@@ -467,21 +297,15 @@ void CreateLSMFault::create_box(const double *lo, const double *hi, int bonds_pe
   domain->delete_region(region);
 
   // the order of the particles suits links and contacts better than that of LAMMPS' sorting
-
   atom->sortfreq = 0;
 
   // never used, as each particle has its own mass, but write_data writes these masses as well
   // and read_data refuses zeros
-
   if (atom->mass)
     for (int itype = 1; itype <= types; itype++) atom->set_mass(FLERR, itype, 1.0);
 }
 
-/* ----------------------------------------------------------------------
-   each rank adds the particles in its sub-domain and their links
-   a particle's ID is its place in the packing + 1
-------------------------------------------------------------------------- */
-
+// Each rank adds the particles in its sub-domain and their links. A particle's ID is its place in the packing + 1.
 void CreateLSMFault::add_particles(const LSM::Packing &packing, const std::vector<double> &masses,
                                    const std::vector<int> &stored)
 {
@@ -507,20 +331,7 @@ void CreateLSMFault::add_particles(const LSM::Packing &packing, const std::vecto
     atom->rmass[m] = masses[i];
     if (atom->molecule_flag) atom->molecule[m] = disc.block + 1;
   }
-
-  for (const auto &link : packing.links) {
-    const auto ends = owner_first(packing, link);
-    const int i = local[ends.first], j = local[ends.second];
-    const int type = lattice && LSM::in_border(packing, link) ? BORDER_LINK_TYPE : LINK_TYPE;
-    if (i >= 0) {
-      atom->bond_type[i][atom->num_bond[i]] = type;
-      atom->bond_atom[i][atom->num_bond[i]++] = ends.second + 1;
-    }
-    if (!force->newton_bond && j >= 0) {
-      atom->bond_type[j][atom->num_bond[j]] = type;
-      atom->bond_atom[j][atom->num_bond[j]++] = ends.first + 1;
-    }
-  }
+  add_links(packing, local);
 
   atom->data_fix_compute_variable(0, atom->nlocal);
 
@@ -528,7 +339,6 @@ void CreateLSMFault::add_particles(const LSM::Packing &packing, const std::vecto
   MPI_Allreduce(&nblocal, &atom->natoms, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   if (atom->natoms != n)
     error->all(FLERR, "Create_lsm_fault: {} of {} particles have an owner", atom->natoms, n);
-  atom->nbonds = static_cast<bigint>(packing.links.size());
 
   atom->tag_check();
   if (atom->map_style != Atom::MAP_NONE) {
@@ -537,7 +347,23 @@ void CreateLSMFault::add_particles(const LSM::Packing &packing, const std::vecto
   }
 }
 
-/* ---------------------------------------------------------------------- */
+// local: places of the particles on this rank, -1 on others
+void CreateLSMFault::add_links(const LSM::Packing &packing, const std::vector<int> &local)
+{
+  for (const auto &link : packing.links) {
+    const int type = lattice && LSM::in_border(packing, link) ? BORDER_LINK_TYPE : LINK_TYPE;
+    const auto add = [this, type, &local](int from, int to) {
+      const int i = local[from];
+      if (i < 0) return;
+      atom->bond_type[i][atom->num_bond[i]] = type;
+      atom->bond_atom[i][atom->num_bond[i]++] = to + 1;
+    };
+    const auto ends = owner_first(packing, link);
+    add(ends.first, ends.second);
+    if (!force->newton_bond) add(ends.second, ends.first);
+  }
+  atom->nbonds = static_cast<bigint>(packing.links.size());
+}
 
 void CreateLSMFault::report_types(const LSM::Packing &packing)
 {
@@ -552,10 +378,7 @@ void CreateLSMFault::report_types(const LSM::Packing &packing)
     utils::logmesg(lmp, "  type {} = {:<16} : {} particles\n", i + 1, names[i], counts[i]);
 }
 
-/* ---------------------------------------------------------------------- */
-
-void CreateLSMFault::report(const LSM::PackingSettings &settings, const LSM::Packing &packing,
-                            const std::vector<double> &masses)
+void CreateLSMFault::report(const LSM::PackingSettings &settings, const LSM::Packing &packing)
 {
   utils::logmesg(lmp,
                  "  coordination = {:.4f}, area fraction = {:.4f}, smallest radius = {:.6f}\n"
@@ -568,24 +391,25 @@ void CreateLSMFault::report(const LSM::PackingSettings &settings, const LSM::Pac
       "softest support of the others = {:.4f} of a link\n",
       LSM::HELD_LINKS, packing.loose, settings.remove_loose ? "removed" : "kept",
       packing.loose_tangent, packing.weakest);
+}
 
-  if (mass_floor > 0.0 || step > 0.0) {
-    double sum = 0.0, raised = 0.0;
-    bigint count = 0;
-    for (std::size_t i = 0; i < masses.size(); i++) {
-      const double own = mass_of(packing.discs[i].r);
-      sum += own;
-      if (masses[i] > own) {
-        raised += masses[i] - own;
-        ++count;
-      }
+void CreateLSMFault::report_masses(const LSM::Packing &packing, const std::vector<double> &masses)
+{
+  std::vector<std::string> raised_by;
+  if (mass_floor > 0.0) raised_by.push_back(fmt::format("mass floor {:g}", mass_floor));
+  if (step > 0.0) raised_by.push_back(fmt::format("time step {:g} stable with any contacts", step));
+  if (raised_by.empty()) return;
+
+  double sum = 0.0, raised = 0.0;
+  bigint count = 0;
+  for (std::size_t i = 0; i < masses.size(); i++) {
+    const double own = mass_of(packing.discs[i].r);
+    sum += own;
+    if (masses[i] > own) {
+      raised += masses[i] - own;
+      ++count;
     }
-    std::string what;
-    if (mass_floor > 0.0) what = fmt::format("mass floor {:g}", mass_floor);
-    if (step > 0.0)
-      what +=
-          fmt::format("{}time step {:g} stable with any contacts", what.empty() ? "" : ", ", step);
-    utils::logmesg(lmp, "  {}: {} particles raised, {:.2f} % more mass in all\n", what, count,
-                   100.0 * raised / sum);
   }
+  utils::logmesg(lmp, "  {}: {} particles raised, {:.2f} % more mass in all\n",
+                 utils::join_words(raised_by, ", "), count, 100.0 * raised / sum);
 }

@@ -1,7 +1,5 @@
-/* -*- c++ -*- ----------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-   Lattice Solid Model: box, particles and links of a fault between two blocks
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Lattice Solid Model: box, particles and links of a fault between two blocks
 
 #ifdef COMMAND_CLASS
 // clang-format off
@@ -13,7 +11,9 @@ CommandStyle(create_lsm_fault,CreateLSMFault);
 #define LMP_CREATE_LSM_FAULT_H
 
 #include "command.h"
+#include "lsm_keywords.h"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -31,30 +31,34 @@ class CreateLSMFault : public Command {
   void command(int, char **) override;
 
  private:
-  int mass_power;    // mass = mass_scale * radius^mass_power
-  double mass_scale;
-  double mass_floor;    // smaller masses are raised to it
-  double step;          // masses are raised so that it is stable with any contacts; 0: not
-  double step_kt;       // tangential stiffness of these
-  double margin;        // empty space beyond each plate
-  double stiffness;     // of links and contacts, for step
-  bool lattice;         // mirrored rows of equal discs, not a random packing
-  int types;            // of atoms
+  int cubed = 0;    // mass = mass_scale * radius^2, or ^3
+  double mass_scale = 1.0;
+  double mass_floor = 0.0;    // smaller masses are raised to it
+  double step = 0.0;          // masses are raised so that it is stable with any contacts; 0: not
+  double step_kt = 0.0;       // tangential stiffness of these
+  double margin = 2.0;        // empty space beyond each plate
+  double stiffness = 1.0;     // of links and contacts, for step
+  bool lattice = false;       // mirrored rows of equal discs, not a random packing
+  int types;                  // of atoms
 
-  double mass_of(double radius) const;    // before the floor
-  std::vector<double> masses_of(const LSM::Packing &) const;
   void check_setup();
   void parse(int, char **, LSM::PackingSettings &);
   void parse(int, char **, LSM::LatticeSettings &);
-  void parse_mass(const char *, const char *);
-  void parse_types(const char *);
-  double positive(const std::string &, const char *) const;
-  template <class Make> void pack(Make &&, LSM::Packing &);
-  void create(const double *, const double *, const LSM::Packing &, const std::vector<double> &);
-  void create_box(const double *, const double *, int);
+  LSM::Keywords common_keywords();
+  void read(class LSMKeywordReader, const LSM::Keywords &,
+            const std::vector<const char *> &required);
+  void pack(LSM::Packing &, const std::function<LSM::Packing()> &make);
+  double mass_of(double radius) const;    // before the floor
+  std::vector<double> masses_of(const LSM::Packing &, double length) const;
+  std::vector<int> stored_links(const LSM::Packing &) const;
+  std::string box_of(const LSM::LatticeSettings &) const;
+  std::string box_of(const LSM::PackingSettings &) const;
+  void create_box(const std::string &limits, int bonds_per_atom);
   void add_particles(const LSM::Packing &, const std::vector<double> &, const std::vector<int> &);
+  void add_links(const LSM::Packing &, const std::vector<int> &);
   void report_types(const LSM::Packing &);
-  void report(const LSM::PackingSettings &, const LSM::Packing &, const std::vector<double> &);
+  void report(const LSM::PackingSettings &, const LSM::Packing &);
+  void report_masses(const LSM::Packing &, const std::vector<double> &);
 };
 
 }    // namespace LAMMPS_NS

@@ -357,9 +357,7 @@ void PairLSMFriction::settings(int narg, char **arg)
                LSMLawTable::names(), arg[0]);
   int at_end = 0;
   const LSM::Keywords keywords = {{"onset", LSM::Words{&at_end, {"located", "step"}}}};
-  LSMKeywordReader in(lmp, "Pair style lsm/friction", named ? 1 : 0, narg, arg);
-  while (in.next())
-    if (!in.read(keywords)) in.unknown(keywords);
+  LSMKeywordReader(lmp, "Pair style lsm/friction", named ? 1 : 0, narg, arg).read_all(keywords);
   locate_onset = !at_end;
   choose(wanted);
 }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file lsm_keywords.h
-/// Keywords of an input with one value each, or none, in a table: where the value goes and what it
-/// must be.
+/// Keywords of an input with one value each, or two, or none, in a table: where they go and what
+/// they must be.
 #ifndef LSM_KEYWORDS_H
 #define LSM_KEYWORDS_H
 
+#include <cstdint>
 #include <string>
 #include <variant>
 #include <vector>
@@ -27,8 +28,9 @@ struct Flag {
 
 struct Keyword {
   const char *name;
-  std::variant<double *, int *, bool *, std::string *, Words, Flag> value;
-  Must must = Must::anything;
+  std::variant<double *, int *, std::uint64_t *, bool *, std::string *, Words, Flag> value;
+  Must must = Must::anything;  ///< of each number
+  double *second = nullptr;    ///< where a second value goes
 };
 using Keywords = std::vector<Keyword>;
 

@@ -5,8 +5,10 @@
 #ifndef LSM_NAMES_H
 #define LSM_NAMES_H
 
+#include <iterator>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace LSM {
 
@@ -36,15 +38,22 @@ constexpr auto from_string(std::string_view name, Enum &value)
 }
 
 /// "a, b or c", for messages.
-template <class Enum>
-std::string choices(Enum any) {
-  const auto names = names_of(any);
+template <class Words>
+std::string either(const Words &words, const char *last = " or ") {
   std::string out;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (i > 0) out += i + 1 < names.size() ? ", " : " or ";
-    out += names[i].name;
+  auto left = std::size(words);
+  for (const auto &word : words) {
+    out.append(out.empty() ? "" : left > 1 ? ", " : last).append(word);
+    --left;
   }
   return out;
+}
+
+template <class Enum>
+std::string choices(Enum any) {
+  std::vector<std::string> words;
+  for (const auto &named : names_of(any)) words.emplace_back(named.name);
+  return either(words);
 }
 
 }  // namespace LSM

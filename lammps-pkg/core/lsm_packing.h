@@ -10,8 +10,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <cstdint>
+#include <limits>
+#include <numeric>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -21,7 +22,8 @@
 
 namespace LSM {
 
-/// Settings of make_packing(). Lengths in model units.
+/// Settings of make_packing(), by the keywords of create_lsm_fault in messages. Lengths in model
+/// units.
 struct PackingSettings {
   double length = 120.0;     ///< period along the fault (x); at least 8 rmax
   double width = 30.0;       ///< size across the fault (y); the fault is the line y = width/2
@@ -401,26 +403,26 @@ template <class A, class B>
 inline void check(const PackingSettings &s) {
   const std::pair<const char *, double> positive[] = {
       {"length", s.length}, {"width", s.width},         {"rmin", s.rmin},
-      {"rmax", s.rmax},     {"tolerance", s.tolerance}, {"link_gap", s.link_gap},
+      {"rmax", s.rmax},     {"tolerance", s.tolerance}, {"linkgap", s.link_gap},
   };
   for (const auto &p : positive)
     if (!(p.second > 0.0) || !(p.second < 1e300))
       reject(p.first, p.second, "a positive finite number", "");
   if (!(s.rmin < s.rmax)) reject("rmin", s.rmin, "a value below rmax = ", s.rmax);
-  if (s.max_failures < 1) reject("max_failures", s.max_failures, "at least ", 1);
+  if (s.max_failures < 1) reject("failures", s.max_failures, "at least ", 1);
   if (!(s.tolerance <= 1e-4)) reject("tolerance", s.tolerance, "at most ", 1e-4);
   // two discs that the tolerance lets overlap must still count as linked neighbours, not more
   if (!(s.link_gap < 0.1 * s.rmin))
-    reject("link_gap", s.link_gap, "less than rmin/10 = ", 0.1 * s.rmin);
+    reject("linkgap", s.link_gap, "less than rmin/10 = ", 0.1 * s.rmin);
   if (!(s.fault_zone >= s.link_gap) || !(s.fault_zone < 1e300))
-    reject("fault_zone", s.fault_zone, "at least link_gap = ", s.link_gap);
+    reject("faultzone", s.fault_zone, "at least linkgap = ", s.link_gap);
   // each disc must meet at most one image of any other, with room for the neighbour search
   if (!(s.length >= 8.0 * s.rmax))
     reject("length", s.length, "at least 8 rmax for a periodic fault, that is ", 8.0 * s.rmax);
   // no disc reaches from the fault zone of its block to the plate
   const double least = 2.0 * (2.0 * s.rmax + s.fault_zone + s.link_gap);
   if (!(s.width > least))
-    reject("width", s.width, "more than 2 (2 rmax + fault_zone + link_gap) = ", least);
+    reject("width", s.width, "more than 2 (2 rmax + faultzone + linkgap) = ", least);
   if (s.length / s.rmax * (s.width / s.rmax) > 5e8)
     reject("length", s.length, "less than 5e8 rmax^2 / width = ", 5e8 * s.rmax * s.rmax / s.width);
 }
@@ -515,67 +517,90 @@ inline void link_discs(const PackingSettings &s, Packing &result) {
   }
 }
 
-/// Finds the loose discs and, if asked to, removes them and those that this leaves loose.
-inline void look_for_loose(const PackingSettings &s, Packing &result) {
-  const std::size_t n = result.discs.size();
-  std::vector<std::vector<std::size_t>> partners(n);
-  for (const auto &l : result.links) {
+/// The discs that are linked to each disc.
+using Partners = std::vector<std::vector<std::size_t>>;
+
+inline Partners partners_of(const Packing &packing) {
+  Partners partners(packing.discs.size());
+  for (const auto &l : packing.links) {
     partners[static_cast<std::size_t>(l.first)].push_back(static_cast<std::size_t>(l.second));
     partners[static_cast<std::size_t>(l.second)].push_back(static_cast<std::size_t>(l.first));
   }
-  std::vector<char> loose(n, 0);
-  std::vector<std::size_t> links(n), check;
-  for (std::size_t i = 0; i < n; ++i) {
-    links[i] = partners[i].size();
-    check.push_back(i);
-  }
-  // kept discs have only the links of the packing
+  return partners;
+}
+
+/// Which discs have fewer than HELD_LINKS links. With remove, links to these do not count.
+inline std::vector<char> with_few_links(const Packing &packing, const Partners &partners,
+                                        bool remove) {
+  std::vector<char> few(partners.size(), 0);
+  std::vector<std::size_t> links, check(partners.size());
+  for (const auto &of_one : partners) links.push_back(of_one.size());
+  std::iota(check.begin(), check.end(), std::size_t{0});
   while (!check.empty()) {
     const std::size_t i = check.back();
     check.pop_back();
-    if (loose[i] || result.discs[i].plate || links[i] >= HELD_LINKS) continue;
-    loose[i] = 1;
-    if (!s.remove_loose) continue;
+    if (few[i] || packing.discs[i].plate || links[i] >= HELD_LINKS) continue;
+    few[i] = 1;
+    if (!remove) continue;
     for (const std::size_t j : partners[i]) {
       --links[j];
       check.push_back(j);
     }
   }
-  // a piece that is not linked to a plate
-  std::vector<char> hung(n, 0);
-  for (std::size_t i = 0; i < n; ++i)
-    if (result.discs[i].plate) {
-      hung[i] = 1;
-      check.push_back(i);
-    }
+  return few;
+}
+
+/// Which discs belong to a plate or are linked to one, by way of discs that are not removed.
+inline std::vector<char> hung_on_plates(const Packing &packing, const Partners &partners,
+                                        const std::vector<char> &removed) {
+  std::vector<char> hung(partners.size(), 0);
+  std::vector<std::size_t> check;
+  const auto hang = [&](std::size_t i) {
+    hung[i] = 1;
+    check.push_back(i);
+  };
+  for (std::size_t i = 0; i < hung.size(); ++i)
+    if (packing.discs[i].plate) hang(i);
   while (!check.empty()) {
     const std::size_t i = check.back();
     check.pop_back();
     for (const std::size_t j : partners[i])
-      if (!hung[j] && !(s.remove_loose && loose[j])) {
-        hung[j] = 1;
-        check.push_back(j);
-      }
+      if (!hung[j] && !removed[j]) hang(j);
   }
-  std::vector<int> place(n, -1);
-  std::vector<Disc> kept;
-  for (std::size_t i = 0; i < n; ++i) {
-    if (loose[i] || !hung[i]) {
-      ++result.loose;
-      if (fault_gap(s, result.discs[i]) < s.link_gap) ++result.loose_tangent;
-      if (s.remove_loose) continue;
-    }
-    place[i] = static_cast<int>(kept.size());
-    kept.push_back(result.discs[i]);
+  return hung;
+}
+
+inline void remove_discs(const std::vector<char> &removed, Packing &packing) {
+  std::vector<int> place(removed.size(), -1);
+  std::vector<Disc> discs;
+  for (std::size_t i = 0; i < removed.size(); ++i) {
+    if (removed[i]) continue;
+    place[i] = static_cast<int>(discs.size());
+    discs.push_back(packing.discs[i]);
   }
-  result.discs.swap(kept);
-  std::vector<std::pair<int, int>> left;
-  for (const auto &l : result.links) {
+  packing.discs.swap(discs);
+  std::vector<std::pair<int, int>> links;
+  for (const auto &l : packing.links) {
     const int i = place[static_cast<std::size_t>(l.first)],
               j = place[static_cast<std::size_t>(l.second)];
-    if (i >= 0 && j >= 0) left.emplace_back(i, j);
+    if (i >= 0 && j >= 0) links.emplace_back(i, j);
   }
-  result.links.swap(left);
+  packing.links.swap(links);
+}
+
+/// Finds the loose discs and, if asked to, removes them and those that this leaves loose.
+inline void look_for_loose(const PackingSettings &s, Packing &result) {
+  const Partners partners = partners_of(result);
+  std::vector<char> loose = with_few_links(result, partners, s.remove_loose);
+  const std::vector<char> hung =
+      hung_on_plates(result, partners, s.remove_loose ? loose : std::vector<char>(loose.size(), 0));
+  for (std::size_t i = 0; i < loose.size(); ++i) {
+    loose[i] = loose[i] || !hung[i];
+    if (!loose[i]) continue;
+    ++result.loose;
+    if (fault_gap(s, result.discs[i]) < s.link_gap) ++result.loose_tangent;
+  }
+  if (s.remove_loose) remove_discs(loose, result);
 }
 
 /// Sum of n n^T over the links of a disc (n: direction of the link).
@@ -655,7 +680,7 @@ inline Packing make_packing(const PackingSettings &settings) {
     for (const int block : {0, 1})
       if (std::none_of(result.discs.begin(), result.discs.end(),
                        [block](const Disc &d) { return d.block == block && !d.plate; }))
-        packing_detail::reject("remove_loose", "yes",
+        packing_detail::reject("loose", "remove",
                                "discs of this range of radii to hold each other, but none of the ",
                                block == 0 ? "lower block is left" : "upper block is left");
   packing_detail::measure(settings, result);

@@ -263,10 +263,13 @@ TEST_F(Benchmark, MirroredPackingSlipsAsItsMirrorImage) {
 
 TEST_F(Benchmark, WrongInputIsNamed) {
   const std::string begin = lattice(created);
-  EXPECT_TRUE(failed_with(run_text(lattice(created + " mirror yes")), {"unknown keyword mirror"}));
+  EXPECT_TRUE(
+      failed_with(run_text(lattice(created + " mirror yes")),
+                  {"Unknown create_lsm_fault lattice keyword 'mirror'; accepted are length"}));
   EXPECT_TRUE(failed_with(run_text(packing("0", "", "mirror maybe")),
-                          {"mirror = maybe", "expected yes or no"}));
-  EXPECT_TRUE(failed_with(run_text(packing("0", "", "types 5")), {"types = 5", "at least 6"}));
+                          {"mirror is 'maybe', but must be yes or no"}));
+  EXPECT_TRUE(
+      failed_with(run_text(packing("0", "", "types 5")), {"types is 5, but must be at least 6"}));
   EXPECT_TRUE(failed_with(run_text(packing("0", "share area")),
                           {"share = area", "expected diameter or spacing"}));
   EXPECT_TRUE(failed_with(run_text(packing("0", "area spacing")), {"unknown keyword area"}));
@@ -279,9 +282,9 @@ TEST_F(Benchmark, WrongInputIsNamed) {
       failed_with(run_text(packing("0") + "displace_atoms upper move 0.001 0 0 units box\nrun 0\n"),
                   {"share spacing", "at the same x"}));
   EXPECT_TRUE(failed_with(run_text(lattice("create_lsm_fault lattice length 41 width 16")),
-                          {"spacing is missing"}));
-  EXPECT_TRUE(failed_with(run_text(lattice(created + " seed 7")), {"unknown keyword seed"}));
-  EXPECT_TRUE(failed_with(run_text(lattice(created + " types 4")), {"types = 4", "at least 6"}));
+                          {"lattice spacing is missing; needed are length, width and spacing"}));
+  EXPECT_TRUE(failed_with(run_text(lattice(created + " seed 7")), {"keyword 'seed'"}));
+  EXPECT_TRUE(failed_with(run_text(lattice(created + " types 4")), {"types is 4", "at least 6"}));
   EXPECT_TRUE(
       failed_with(run_text(begin + "fix a caps lsm/absorb z 1.0 1.0 1.0\n"), {"'z'", "x or y"}));
   EXPECT_TRUE(failed_with(run_text(begin + "fix a caps lsm/absorb y -1.0 1.0 1.0\n"),

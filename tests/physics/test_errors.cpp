@@ -28,6 +28,7 @@ TEST_F(BadInput, OneLineOfError) {
       {"fix a all lsm/nve viscous 1", {"viscous", "viscosity"}},
       {"fix a all lsm/nve viscosity -1", {"viscosity", "-1"}},
       {"fix a all lsm/nve viscosity", {"viscosity", "value"}},
+      {"fix a all lsm/nve viscosity thick", {"viscosity is thick, but must be a number"}},
       {"fix a all lsm/nve viscosity/type 2", {"viscosity/type", "2 values"}},
       {"fix a all lsm/nve viscosity/type 2 -0.5", {"viscosity/type", "-0.5", ">= 0"}},
       {"fix a all lsm/nve dtcheck maybe", {"dtcheck", "maybe", "error, warn or off"}},
@@ -46,6 +47,7 @@ TEST_F(BadInput, OneLineOfError) {
       {"compute a all lsm/events memory 1e300\nrun 1", {"lambda"}},  // 1 to the last digit
       {"compute a all lsm/events picker best", {"picker", "best", "exponential"}},
       {"compute a all lsm/events series f.pe", {"series"}},
+      {"compute a all lsm/events ledger perhaps", {"ledger is 'perhaps', but must be yes or no"}},
       {"fix a_record all lsm/nve\ncompute a all lsm/events", {"a_record", "in use"}},
       {"fix a all lsm/plates lower nowhere stress 1", {"nowhere"}},
       {"fix a all lsm/plates lower upper velocity 1", {"stress", "position"}},
@@ -62,8 +64,17 @@ TEST_F(BadInput, OneLineOfError) {
       {"length 40 width 20 seed 1 rmin 1 rmax 0.5", {"rmin", "rmax"}},
       {"length -40 width 20 seed 1", {"length", "-40"}},
       {"length 40 width 20", {"seed", "missing"}},
-      {"length 40 width 20 seed 1 colour 3", {"colour"}},
-      {"length 40 width 20 seed -1", {"seed", "-1"}}};
+      {"length 40 width 20 seed 1 colour 3", {"colour", "accepted are", "linkgap", "margin"}},
+      {"length 40 width 20 seed -1", {"seed is -1, but must be a whole number of at least 0"}},
+      {"length 40 width 20 seed 1.5", {"seed is 1.5, but must be a whole number of at least 0"}},
+      {"length 40 width 20 seed 1 rmin half", {"rmin is half, but must be a number"}},
+      {"length 40 width 20 seed 1 linkgap 0.05", {"linkgap = 0.05", "less than rmin/10"}},
+      {"length 40 width 20 seed 1 loose maybe", {"loose is 'maybe', but must be keep or remove"}},
+      {"length 40 width 20 seed 1 mass r4 1", {"mass is 'r4', but must be r2 or r3"}},
+      {"length 40 width 20 seed 1 mass r3 0", {"mass value 2 is 0, but must be > 0"}},
+      {"length 40 width 20 seed 1 mass r3", {"mass needs 2 values"}},
+      {"length 40 width 20 seed 1 massstep 0.1 -1", {"massstep value 2 is -1, but must be >= 0"}},
+      {"length 40 width 20 seed 1 massfloor -1", {"massfloor is -1, but must be >= 0"}}};
   for (const auto &one : geometry)
     EXPECT_TRUE(
         failed_with(run_text(fault_start() + "create_lsm_fault " + one.lines + "\n"), one.parts))

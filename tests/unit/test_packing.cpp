@@ -524,14 +524,14 @@ TEST(Packing, RefusesImpossibleSettings) {
   expect_refused("length", [](S &s) { s.length = 1e12; });
   expect_refused("width", [](S &s) { s.width = -30.0; });
   expect_refused("width", [](S &s) { s.width = 4.5; });
-  expect_refused("max_failures", [](S &s) { s.max_failures = 0; });
+  expect_refused("failures", [](S &s) { s.max_failures = 0; });
   expect_refused("tolerance", [](S &s) { s.tolerance = 0.0; });
   expect_refused("tolerance", [](S &s) { s.tolerance = 0.01; });
-  expect_refused("link_gap", [](S &s) { s.link_gap = 0.0; });
-  expect_refused("link_gap", [](S &s) { s.link_gap = 0.02; });
-  expect_refused("remove_loose", [](S &s) { s.rmin = 0.95; });
-  expect_refused("fault_zone", [](S &s) { s.fault_zone = -0.25; });
-  expect_refused("fault_zone", [&](S &s) { s.fault_zone = nan; });
+  expect_refused("linkgap", [](S &s) { s.link_gap = 0.0; });
+  expect_refused("linkgap", [](S &s) { s.link_gap = 0.02; });
+  expect_refused("loose", [](S &s) { s.rmin = 0.95; });
+  expect_refused("faultzone", [](S &s) { s.fault_zone = -0.25; });
+  expect_refused("faultzone", [&](S &s) { s.fault_zone = nan; });
 }
 
 }  // namespace

@@ -3,8 +3,10 @@
 #include "lsm_keyword_reader.h"
 
 #include "error.h"
+#include "lsm_names.h"
 #include "utils.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <limits>
@@ -24,6 +26,7 @@ bool LSMKeywordReader::next()
   at_ += used_;
   if (at_ >= narg_) return false;
   key_ = arg_[at_];
+  seen_.insert(key_);
   used_ = 1;
   return true;
 }
@@ -40,59 +43,77 @@ bool LSMKeywordReader::read(const LSM::Keywords &table)
 {
   for (const LSM::Keyword &keyword : table) {
     if (key_ != keyword.name) continue;
-    if (auto flag = std::get_if<LSM::Flag>(&keyword.value)) {
-      *flag->value = true;
-      return true;
-    }
-    need(1);
-    if (auto to = std::get_if<double *>(&keyword.value))
-      **to = number(keyword.must);
-    else if (auto whole = std::get_if<int *>(&keyword.value))
-      **whole = whole_number(keyword.must);
-    else if (auto yes = std::get_if<bool *>(&keyword.value))
-      **yes = utils::logical(FLERR, text(), false, lmp) != 0;
-    else if (auto words = std::get_if<LSM::Words>(&keyword.value))
-      *words->place = place_in(words->list);
-    else
-      *std::get<std::string *>(keyword.value) = text();
+    need(std::holds_alternative<LSM::Flag>(keyword.value) ? 0 : keyword.second ? 2 : 1);
+    std::visit([&](const auto &to) { take(to, keyword.must); }, keyword.value);
+    if (keyword.second) *keyword.second = number(keyword.must, 2);
     return true;
   }
   return false;
 }
 
-double LSMKeywordReader::number(Must must) const
+void LSMKeywordReader::read_all(const LSM::Keywords &table)
 {
-  const double value = utils::numeric(FLERR, text(used_ - 1), false, lmp);
-  if (must == Must::positive && !(value > 0.0)) refuse("> 0");
-  if (must == Must::not_negative && !(value >= 0.0)) refuse(">= 0");
-  if (must == Must::part && !(value >= 0.0 && value < 1.0)) refuse("at least 0 and less than 1");
+  while (next())
+    if (!read(table)) unknown(table);
+}
+
+void LSMKeywordReader::require(const std::vector<const char *> &keys) const
+{
+  for (const char *key : keys)
+    if (!seen_.count(key))
+      stop(std::string(key) + " is missing; needed are " + LSM::either(keys, " and "));
+}
+
+double LSMKeywordReader::number(Must must, int n) const
+{
+  if (!utils::is_double(text(n))) refuse("a number", n);
+  const double value = utils::numeric(FLERR, text(n), false, lmp);
+  if (must == Must::positive && !(value > 0.0)) refuse("> 0", n);
+  if (must == Must::not_negative && !(value >= 0.0)) refuse(">= 0", n);
+  if (must == Must::part && !(value >= 0.0 && value < 1.0)) refuse("at least 0 and less than 1", n);
   return value;
 }
 
-int LSMKeywordReader::whole_number(Must must) const
+void LSMKeywordReader::take(double *to, Must must) const
 {
-  const double number = utils::numeric(FLERR, text(), false, lmp);
-  const double least = must == Must::positive ? 1.0 : 0.0;
-  if (!(number >= least) || number != std::floor(number) ||
-      number > std::numeric_limits<int>::max())
-    refuse(must == Must::positive ? "a whole number of at least 1"
-                                  : "a whole number of at least 0");
-  return static_cast<int>(number);
+  *to = number(must, 1);
 }
 
-int LSMKeywordReader::place_in(const std::vector<const char *> &list) const
+void LSMKeywordReader::take(int *to, Must must) const
 {
-  std::string all;
-  for (size_t n = 0; n < list.size(); n++) {
-    if (list[n] == std::string(text())) return static_cast<int>(n);
-    all += (n == 0 ? "" : n + 1 < list.size() ? ", " : " or ") + std::string(list[n]);
-  }
-  stop(key_ + " is '" + text() + "', but must be " + all);
+  const int least = must == Must::positive ? 1 : 0;
+  const double value = number(Must::anything, 1);
+  if (!(value >= least) || value != std::floor(value) || value > std::numeric_limits<int>::max())
+    refuse("a whole number of at least " + std::to_string(least));
+  *to = static_cast<int>(value);
 }
 
-void LSMKeywordReader::refuse(const std::string &expected) const
+void LSMKeywordReader::take(std::uint64_t *to, Must /*must*/) const
 {
-  stop(key_ + " is " + text(used_ - 1) + ", but must be " + expected);
+  if (!utils::is_integer(text()) || text()[0] == '-') refuse("a whole number of at least 0");
+  *to = static_cast<std::uint64_t>(utils::bnumeric(FLERR, text(), false, lmp));
+}
+
+void LSMKeywordReader::take(bool *to, Must /*must*/) const
+{
+  // as LAMMPS has it, but the message names the keyword
+  const std::string word = text();
+  *to = word == "yes" || word == "on" || word == "true" || word == "1";
+  if (!*to && word != "no" && word != "off" && word != "false" && word != "0")
+    stop(key_ + " is '" + word + "', but must be yes or no");
+}
+
+void LSMKeywordReader::take(const LSM::Words &to, Must /*must*/) const
+{
+  const auto at = std::find(to.list.begin(), to.list.end(), std::string(text()));
+  if (at == to.list.end()) stop(key_ + " is '" + text() + "', but must be " + LSM::either(to.list));
+  *to.place = static_cast<int>(at - to.list.begin());
+}
+
+void LSMKeywordReader::refuse(const std::string &expected, int n) const
+{
+  const std::string which = used_ > 2 ? " value " + std::to_string(n) : "";
+  stop(key_ + which + " is " + text(n) + ", but must be " + expected);
 }
 
 void LSMKeywordReader::stop(const std::string &message) const

@@ -7,7 +7,10 @@
 #include "lsm_keywords.h"
 #include "pointers.h"
 
+#include <cstdint>
+#include <set>
 #include <string>
+#include <vector>
 
 namespace LAMMPS_NS {
 
@@ -23,12 +26,17 @@ class LSMKeywordReader : protected Pointers {
   /// The keyword has so many values: to be called before they are asked for, if the keyword is not read from a table.
   void need(int values);
   const char *text(int n = 1) const { return arg_[at_ + n]; }
-  /// Reads the value if the keyword is in the table.
+  /// Reads the values if the keyword is in the table.
   bool read(const LSM::Keywords &);
+  /// Reads all keywords, which are those of the table.
+  void read_all(const LSM::Keywords &);
+  /// Stops if one of these keywords was not there.
+  void require(const std::vector<const char *> &keys) const;
   /// The last value.
-  double number(LSM::Must) const;
+  double number(LSM::Must must) const { return number(must, used_ - 1); }
 
-  [[noreturn]] void refuse(const std::string &expected) const;
+  /// expected: of the value in place n
+  [[noreturn]] void refuse(const std::string &expected, int n = 1) const;
   [[noreturn]] void stop(const std::string &message) const;
   /// also: keywords that are in no table, separated by a comma and a blank
   [[noreturn]] void unknown(const LSM::Keywords &, const std::string &also = "") const;
@@ -39,9 +47,16 @@ class LSMKeywordReader : protected Pointers {
   char **arg_;
   int used_ = 0;    // words of the keyword, with itself
   std::string key_;
+  std::set<std::string> seen_;
 
-  int whole_number(LSM::Must) const;
-  int place_in(const std::vector<const char *> &) const;
+  double number(LSM::Must, int n) const;
+  void take(double *, LSM::Must) const;
+  void take(int *, LSM::Must) const;
+  void take(std::uint64_t *, LSM::Must) const;
+  void take(bool *, LSM::Must) const;
+  void take(std::string *to, LSM::Must) const { *to = text(); }
+  void take(const LSM::Words &, LSM::Must) const;
+  void take(const LSM::Flag &to, LSM::Must) const { *to.value = true; }
 };
 
 }    // namespace LAMMPS_NS

@@ -6,6 +6,7 @@
 
 #include <mpi.h>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -24,6 +25,20 @@ inline void lsm_share(std::string &text, MPI_Comm world)
   MPI_Bcast(&length, 1, MPI_INT, 0, world);
   text.resize(length);
   if (length) MPI_Bcast(&text[0], length, MPI_CHAR, 0, world);
+}
+
+/// All ranks get the values of rank 0, plain ones.
+template <class Value> void lsm_share(std::vector<Value> &values, MPI_Comm world)
+{
+  static_assert(std::is_trivially_copy_constructible_v<Value>);
+  int count = static_cast<int>(values.size());
+  MPI_Bcast(&count, 1, MPI_INT, 0, world);
+  values.resize(count);
+  MPI_Datatype type;    // more values can be sent than bytes
+  MPI_Type_contiguous(sizeof(Value), MPI_BYTE, &type);
+  MPI_Type_commit(&type);
+  MPI_Bcast(values.data(), count, type, 0, world);
+  MPI_Type_free(&type);
 }
 
 /// All ranks get the values of all, in the order of the ranks. type: that of a value
