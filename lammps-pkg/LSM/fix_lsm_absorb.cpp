@@ -3,25 +3,21 @@
 #include "fix_lsm_absorb.h"
 
 #include "atom.h"
-#include "comm.h"
 #include "domain.h"
 #include "error.h"
 #include "force.h"
 #include "update.h"
 
-#include <cmath>
 #include <cstring>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
 
-FixLSMAbsorb::FixLSMAbsorb(LAMMPS *_lmp, int narg, char **arg) :
-    Fix(_lmp, narg, arg), dashpot{}, rate(0.0)
+FixLSMAbsorb::FixLSMAbsorb(LAMMPS *_lmp, int narg, char **arg) : LSMKeptFix(_lmp, narg, arg)
 {
   scalar_flag = 1;
   global_freq = 1;
   extscalar = 1;
-  restart_global = 1;
 
   if (narg != 7)
     error->all(FLERR,
@@ -35,7 +31,7 @@ FixLSMAbsorb::FixLSMAbsorb(LAMMPS *_lmp, int narg, char **arg) :
   double value[3];
   for (int n = 0; n < 3; n++) {
     value[n] = utils::numeric(FLERR, arg[4 + n], false, lmp);
-    if (!(value[n] >= 0.0) || !std::isfinite(value[n]))
+    if (!(value[n] >= 0.0))
       error->all(FLERR, "Fix lsm/absorb {} is {}, but must be >= 0", names[n], value[n]);
   }
   const int across = arg[3][0] == 'x' ? 0 : 1;
@@ -94,24 +90,5 @@ void FixLSMAbsorb::post_force(int /*vflag*/)
 // scalar = absorbed energy
 double FixLSMAbsorb::compute_scalar()
 {
-  double all;
-  MPI_Allreduce(&work_absorbed, &all, 1, MPI_DOUBLE, MPI_SUM, world);
-  return all;
-}
-
-void FixLSMAbsorb::write_restart(FILE *fp)
-{
-  const double total = compute_scalar();
-  if (comm->me == 0) {
-    const int size = sizeof(double);
-    fwrite(&size, sizeof(int), 1, fp);
-    fwrite(&total, sizeof(double), 1, fp);
-  }
-}
-
-void FixLSMAbsorb::restart(char *buf)
-{
-  double total;
-  memcpy(&total, buf, sizeof(double));
-  work_absorbed = comm->me == 0 ? total : 0.0;
+  return lsm_total(work_absorbed, world);
 }

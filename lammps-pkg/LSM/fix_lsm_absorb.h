@@ -10,12 +10,12 @@ FixStyle(lsm/absorb,FixLSMAbsorb);
 #ifndef LMP_FIX_LSM_ABSORB_H
 #define LMP_FIX_LSM_ABSORB_H
 
-#include "fix.h"
 #include "lsm_energy.h"
+#include "lsm_fix_state.h"
 
 namespace LAMMPS_NS {
 
-class FixLSMAbsorb : public Fix, public LSMWorkSource {
+class FixLSMAbsorb : public LSMKeptFix<FixLSMAbsorb>, public LSMWorkSource {
  public:
   FixLSMAbsorb(class LAMMPS *, int, char **);
   int setmask() override;
@@ -23,12 +23,14 @@ class FixLSMAbsorb : public Fix, public LSMWorkSource {
   void setup(int) override;
   void post_force(int) override;
   double compute_scalar() override;
-  void write_restart(FILE *) override;
-  void restart(char *) override;
+  template <class Self, class State> static void visit(Self &self, State &state)
+  {
+    state.sum(self.work_absorbed);
+  }
 
  private:
   double dashpot[2];    // force over velocity along x and y, of each particle
-  double rate;          // energy lost per time in the last step, this rank
+  double rate = 0.0;    // energy lost per time in the last step, this rank
 
   void add_forces(double);
 };

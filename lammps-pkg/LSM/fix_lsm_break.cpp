@@ -6,7 +6,6 @@
 #include "bond_lsm_linked.h"
 #include "error.h"
 #include "force.h"
-#include "lsm_fix_state.h"
 #include "lsm_ranks.h"
 #include "lsm_scene.h"
 #include "update.h"
@@ -20,13 +19,12 @@ using namespace LAMMPS_NS;
 using namespace FixConst;
 
 FixLSMBreak::FixLSMBreak(LAMMPS *_lmp, int narg, char **arg) :
-    Fix(_lmp, narg, arg), links(nullptr), total(0)
+    LSMKeptFix(_lmp, narg, arg), links(nullptr), total(0)
 {
   if (narg != 3) error->all(FLERR, "Fix LSM_BREAK is internal to bond style lsm/linked");
   scalar_flag = 1;
   extscalar = 0;
   global_freq = 1;
-  restart_global = 1;
   force_reneighbor = 1;
   next_reneighbor = -1;
 }
@@ -139,14 +137,4 @@ void FixLSMBreak::remove(const std::vector<tagint> &broken)
 double FixLSMBreak::compute_scalar()
 {
   return static_cast<double>(total);
-}
-
-void FixLSMBreak::write_restart(FILE *fp)
-{
-  lsm_write_state(*this, fp, world);
-}
-
-void FixLSMBreak::restart(char *buf)
-{
-  lsm_read_state(*this, buf, world);
 }

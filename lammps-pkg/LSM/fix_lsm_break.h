@@ -11,13 +11,13 @@ FixStyle(LSM_BREAK,FixLSMBreak);
 #ifndef LMP_FIX_LSM_BREAK_H
 #define LMP_FIX_LSM_BREAK_H
 
-#include "fix.h"
+#include "lsm_fix_state.h"
 
 #include <vector>
 
 namespace LAMMPS_NS {
 
-class FixLSMBreak : public Fix {
+class FixLSMBreak : public LSMKeptFix<FixLSMBreak> {
  public:
   FixLSMBreak(class LAMMPS *, int, char **);
   int setmask() override;
@@ -25,8 +25,6 @@ class FixLSMBreak : public Fix {
   void setup_pre_reverse(int, int) override;
   void pre_reverse(int, int) override;
   double compute_scalar() override;
-  void write_restart(FILE *) override;
-  void restart(char *) override;
   template <class Self, class State> static void visit(Self &self, State &state)
   {
     state.raw(self.total);

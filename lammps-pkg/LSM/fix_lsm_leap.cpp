@@ -10,7 +10,6 @@
 #include "fix_lsm_plates.h"
 #include "force.h"
 #include "lsm_energy.h"
-#include "lsm_fix_state.h"
 #include "lsm_keyword_reader.h"
 #include "lsm_scene.h"
 #include "lsm_text_io.h"
@@ -28,7 +27,8 @@ using namespace FixConst;
 static constexpr bigint KEPT_STEPS =
     20000;    // of changes of the rate, for steps that are processed later
 
-FixLSMLeap::FixLSMLeap(LAMMPS *_lmp, int narg, char **arg) : Fix(_lmp, narg, arg), dt(update->dt)
+FixLSMLeap::FixLSMLeap(LAMMPS *_lmp, int narg, char **arg) :
+    LSMKeptFix(_lmp, narg, arg), dt(update->dt)
 {
   scalar_flag = 1;
   vector_flag = 1;
@@ -36,7 +36,6 @@ FixLSMLeap::FixLSMLeap(LAMMPS *_lmp, int narg, char **arg) : Fix(_lmp, narg, arg
   global_freq = 1;
   extscalar = 0;
   extvector = 0;
-  restart_global = 1;
 
   if (narg < 4)
     error->all(FLERR, "Fix lsm/leap expects 'fix ID group lsm/leap plates-ID keyword value ...'");
@@ -50,9 +49,7 @@ FixLSMLeap::FixLSMLeap(LAMMPS *_lmp, int narg, char **arg) : Fix(_lmp, narg, arg
                                   {"ramp", &ramp, Must::not_negative},
                                   {"grow", &grow, Must::not_negative},
                                   {"look", &between, Must::positive}};
-  LSMKeywordReader in(lmp, "Fix lsm/leap", 4, narg, arg);
-  while (in.next())
-    if (!in.read(keywords)) in.unknown(keywords);
+  LSMKeywordReader(lmp, "Fix lsm/leap", 4, narg, arg).read_all(keywords);
   reset_dt();
 }
 
@@ -243,16 +240,6 @@ double FixLSMLeap::compute_vector(int n)
   const double values[6] = {factor,    static_cast<double>(state),          steps_time,
                             leap_time, model_time(update->ntimestep) - now, stops};
   return values[n];
-}
-
-void FixLSMLeap::write_restart(FILE *fp)
-{
-  lsm_write_state(*this, fp, world);
-}
-
-void FixLSMLeap::restart(char *buf)
-{
-  lsm_read_state(*this, buf, world);
 }
 
 // events that are still open began before the restart, so that earlier changes of the rate count

@@ -10,7 +10,7 @@ FixStyle(lsm/leap,FixLSMLeap);
 #ifndef LMP_FIX_LSM_LEAP_H
 #define LMP_FIX_LSM_LEAP_H
 
-#include "fix.h"
+#include "lsm_fix_state.h"
 
 #include <deque>
 #include <string>
@@ -18,7 +18,7 @@ FixStyle(lsm/leap,FixLSMLeap);
 
 namespace LAMMPS_NS {
 
-class FixLSMLeap : public Fix {
+class FixLSMLeap : public LSMKeptFix<FixLSMLeap> {
  public:
   FixLSMLeap(class LAMMPS *, int, char **);
   ~FixLSMLeap() override;
@@ -29,8 +29,6 @@ class FixLSMLeap : public Fix {
   void reset_dt() override;
   double compute_scalar() override;
   double compute_vector(int) override;
-  void write_restart(FILE *) override;
-  void restart(char *) override;
 
   double model_time(bigint step) const;    // at a step that was done in the last 10 000 steps or so
   std::string settings() const;            // for headers of files

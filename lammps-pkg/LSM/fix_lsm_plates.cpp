@@ -10,7 +10,6 @@
 #include "fix_lsm_velocity.h"
 #include "force.h"
 #include "group.h"
-#include "lsm_fix_state.h"
 #include "lsm_keyword_reader.h"
 #include "lsm_scene.h"
 #include "modify.h"
@@ -26,7 +25,7 @@ using namespace FixConst;
 enum { LOWER, UPPER };
 
 FixLSMPlates::FixLSMPlates(LAMMPS *_lmp, int narg, char **arg) :
-    Fix(_lmp, narg, arg), dt(update->dt)
+    LSMKeptFix(_lmp, narg, arg), dt(update->dt)
 {
   scalar_flag = 1;
   vector_flag = 1;
@@ -34,7 +33,6 @@ FixLSMPlates::FixLSMPlates(LAMMPS *_lmp, int narg, char **arg) :
   global_freq = 1;
   extscalar = 1;
   extvector = 0;
-  restart_global = 1;
 
   if (narg < 5)
     error->all(FLERR, "Fix lsm/plates expects 'fix ID group lsm/plates lower-group upper-group "
@@ -367,11 +365,11 @@ double FixLSMPlates::compute_vector(int n)
 void FixLSMPlates::write_restart(FILE *fp)
 {
   complete_step();
-  lsm_write_state(*this, fp, world);
+  LSMKeptFix::write_restart(fp);
 }
 
 void FixLSMPlates::restart(char *buf)
 {
-  lsm_read_state(*this, buf, world);
+  LSMKeptFix::restart(buf);
   vy_known = true;
 }

@@ -10,14 +10,14 @@ FixStyle(lsm/plates,FixLSMPlates);
 #ifndef LMP_FIX_LSM_PLATES_H
 #define LMP_FIX_LSM_PLATES_H
 
-#include "fix.h"
+#include "lsm_fix_state.h"
 #include "lsm_mover.h"
 
 #include <vector>
 
 namespace LAMMPS_NS {
 
-class FixLSMPlates : public Fix, public LSMMover {
+class FixLSMPlates : public LSMKeptFix<FixLSMPlates>, public LSMMover {
  public:
   FixLSMPlates(class LAMMPS *, int, char **);
   ~FixLSMPlates() override;

@@ -1,6 +1,4 @@
-/* ----------------------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
 
 #include "fix_lsm_traction.h"
 
@@ -11,7 +9,7 @@
 #include "force.h"
 #include "group.h"
 #include "input.h"
-#include "lsm_ranks.h"
+#include "lsm_keyword_reader.h"
 #include "modify.h"
 #include "pair_lsm_friction.h"
 #include "update.h"
@@ -19,7 +17,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -30,28 +27,19 @@ enum { LOWER, UPPER };
 static constexpr double FACING = 1.2;
 static constexpr double ASIDE = 0.2;
 
-/* ---------------------------------------------------------------------- */
-
-FixLSMTraction::FixLSMTraction(LAMMPS *_lmp, int narg, char **arg) :
-    Fix(_lmp, narg, arg), spaced(false), begun(false), contact_radius(nullptr), load{}
+FixLSMTraction::FixLSMTraction(LAMMPS *_lmp, int narg, char **arg) : LSMKeptFix(_lmp, narg, arg)
 {
   scalar_flag = 1;
   global_freq = 1;
   extscalar = 1;
-  restart_global = 1;
   comm_forward = 1;
 
-  if (narg != 7 && narg != 9)
+  if (narg < 7)
     error->all(FLERR, "Fix lsm/traction expects 'fix ID group lsm/traction lower-group upper-group "
                       "NORMAL SHEAR [share diameter|spacing]', tractions as numbers or variables "
                       "v_name");
-  if (narg == 9) {
-    if (strcmp(arg[7], "share") != 0)
-      error->all(FLERR, "Fix lsm/traction: unknown keyword {}, expected share", arg[7]);
-    if (strcmp(arg[8], "spacing") != 0 && strcmp(arg[8], "diameter") != 0)
-      error->all(FLERR, "Fix lsm/traction: share = {}, expected diameter or spacing", arg[8]);
-    spaced = strcmp(arg[8], "spacing") == 0;
-  }
+  LSMKeywordReader(lmp, "Fix lsm/traction", 7, narg, arg)
+      .read_all({{"share", LSM::Words{&spaced, {"diameter", "spacing"}}}});
   if (modify->get_fix_by_style("^lsm/traction").size() > 0)
     error->all(FLERR, "Fix lsm/traction can be used once only; give it variables of the position");
   for (int s : {LOWER, UPPER}) {
@@ -64,18 +52,13 @@ FixLSMTraction::FixLSMTraction(LAMMPS *_lmp, int narg, char **arg) :
   }
 }
 
-/* ---------------------------------------------------------------------- */
-
 FixLSMTraction::~FixLSMTraction()
 {
   const std::string store = std::string(id) + "_store";
   if (modify && modify->get_fix_by_id(store)) modify->delete_fix(store);
 }
 
-/* ----------------------------------------------------------------------
-   by a fix that sends them from rank to rank and to restart files
-------------------------------------------------------------------------- */
-
+// by a fix that sends them from rank to rank and to restart files
 void FixLSMTraction::post_constructor()
 {
   modify->add_fix(std::string(id) +
@@ -83,14 +66,10 @@ void FixLSMTraction::post_constructor()
                   "yes writedata no");
 }
 
-/* ---------------------------------------------------------------------- */
-
 int FixLSMTraction::setmask()
 {
   return PRE_FORCE | POST_FORCE;    // the former for its setup only
 }
-
-/* ---------------------------------------------------------------------- */
 
 void FixLSMTraction::init()
 {
@@ -102,10 +81,7 @@ void FixLSMTraction::init()
     error->all(FLERR, "Fix lsm/traction needs pair style lsm/friction");
 }
 
-/* ----------------------------------------------------------------------
-   the arrays move when they grow
-------------------------------------------------------------------------- */
-
+// the arrays move when they grow
 void FixLSMTraction::find_store()
 {
   int flag, columns;
@@ -114,10 +90,7 @@ void FixLSMTraction::find_store()
   load[SHEAR] = atom->dvector[atom->find_custom("lsm_shear", flag, columns)];
 }
 
-/* ----------------------------------------------------------------------
-   a traction at each particle of this rank
-------------------------------------------------------------------------- */
-
+// a traction at each particle of this rank
 std::vector<double> FixLSMTraction::evaluate(const std::string &text) const
 {
   std::vector<double> all(atom->nlocal);
@@ -137,8 +110,6 @@ std::vector<double> FixLSMTraction::evaluate(const std::string &text) const
                text.substr(2));
   return all;
 }
-
-/* ---------------------------------------------------------------------- */
 
 int FixLSMTraction::partner(int i, const std::vector<int> &others) const
 {
@@ -160,12 +131,9 @@ int FixLSMTraction::partner(int i, const std::vector<int> &others) const
   return found;
 }
 
-/* ----------------------------------------------------------------------
-   Length of the fault for which each particle of this rank on one side stands: its diameter, or half of the way to the
-   next ones of the side on the left and on the right. At the ends of a fault that is not periodic, its radius takes the
-   place of the missing half.
-------------------------------------------------------------------------- */
-
+// Length of the fault for which each particle of this rank on one side stands: its diameter, or half of the way to the
+// next ones of the side on the left and on the right. At the ends of a fault that is not periodic, its radius takes the
+// place of the missing half.
 std::vector<double> FixLSMTraction::shares(int s) const
 {
   const double *const radius = atom->radius;
@@ -197,11 +165,8 @@ std::vector<double> FixLSMTraction::shares(int s) const
   return share;
 }
 
-/* ----------------------------------------------------------------------
-   Where discs just touch, contacts reach farther by the overlap that the normal traction needs, and their tangential springs
-   begin with the elongation that the shear traction needs: no particle moves and no link is strained.
-------------------------------------------------------------------------- */
-
+// Where discs just touch, contacts reach farther by the overlap that the normal traction needs, and their tangential springs
+// begin with the elongation that the shear traction needs: no particle moves and no link is strained.
 void FixLSMTraction::begin()
 {
   auto *const pair = dynamic_cast<PairLSMFriction *>(force->pair_match("lsm/friction", 1));
@@ -262,8 +227,6 @@ void FixLSMTraction::setup_pre_force(int /*vflag*/)
   if (!begun) begin();
 }
 
-/* ---------------------------------------------------------------------- */
-
 int FixLSMTraction::pack_forward_comm(int n, int *list, double *buf, int /*pbc_flag*/,
                                       int * /*pbc*/)
 {
@@ -276,12 +239,9 @@ void FixLSMTraction::unpack_forward_comm(int n, int first, double *buf)
   for (int m = 0; m < n; m++) contact_radius[first + m] = buf[m];
 }
 
-/* ----------------------------------------------------------------------
-   The forces that balance the tractions: the upper face is pulled along x, and each is pressed on the
-   other. Within a run velocities are those of the middle of the step; times the time step they give the
-   displacement.
-------------------------------------------------------------------------- */
-
+// The forces that balance the tractions: the upper face is pulled along x, and each is pressed on the
+// other. Within a run velocities are those of the middle of the step; times the time step they give the
+// displacement.
 void FixLSMTraction::add_forces(double dt)
 {
   find_store();
@@ -310,33 +270,8 @@ void FixLSMTraction::post_force(int /*vflag*/)
   add_forces(update->dt);
 }
 
-/* ----------------------------------------------------------------------
-   scalar = work of these forces
-------------------------------------------------------------------------- */
-
+// scalar = work of these forces
 double FixLSMTraction::compute_scalar()
 {
-  double all;
-  MPI_Allreduce(&work_outside, &all, 1, MPI_DOUBLE, MPI_SUM, world);
-  return all;
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FixLSMTraction::write_restart(FILE *fp)
-{
-  const double values[2] = {compute_scalar(), begun ? 1.0 : 0.0};
-  if (comm->me == 0) {
-    const int size = sizeof(values);
-    fwrite(&size, sizeof(int), 1, fp);
-    fwrite(values, sizeof(double), 2, fp);
-  }
-}
-
-void FixLSMTraction::restart(char *buf)
-{
-  double values[2];
-  memcpy(values, buf, sizeof(values));
-  work_outside = comm->me == 0 ? values[0] : 0.0;
-  begun = values[1] != 0.0;
+  return lsm_total(work_outside, world);
 }

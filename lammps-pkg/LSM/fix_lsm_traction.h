@@ -1,7 +1,5 @@
-/* -*- c++ -*- ----------------------------------------------------------
-   SPDX-License-Identifier: GPL-2.0-or-later
-   Lattice Solid Model: initial normal and shear traction of a flat fault
-------------------------------------------------------------------------- */
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Lattice Solid Model: initial normal and shear traction of a flat fault
 
 #ifdef FIX_CLASS
 // clang-format off
@@ -12,15 +10,15 @@ FixStyle(lsm/traction,FixLSMTraction);
 #ifndef LMP_FIX_LSM_TRACTION_H
 #define LMP_FIX_LSM_TRACTION_H
 
-#include "fix.h"
 #include "lsm_energy.h"
+#include "lsm_fix_state.h"
 
 #include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
 
-class FixLSMTraction : public Fix, public LSMWorkSource {
+class FixLSMTraction : public LSMKeptFix<FixLSMTraction>, public LSMWorkSource {
  public:
   FixLSMTraction(class LAMMPS *, int, char **);
   ~FixLSMTraction() override;
@@ -33,15 +31,18 @@ class FixLSMTraction : public Fix, public LSMWorkSource {
   int pack_forward_comm(int, int *, double *, int, int *) override;
   void unpack_forward_comm(int, int, double *) override;
   double compute_scalar() override;
-  void write_restart(FILE *) override;
-  void restart(char *) override;
+  template <class Self, class State> static void visit(Self &self, State &state)
+  {
+    state.sum(self.work_outside);
+    state(self.begun);
+  }
 
  private:
   enum { NORMAL, SHEAR };
   int side[2];                         // group bits of the lower and the upper face
   std::string traction[2];             // normal and shear: number or v_name
-  bool spaced;                         // loads by the spacing of the particles, not their diameter
-  bool begun;                          // the contacts have been loaded
+  int spaced = 0;                      // loads by the spacing of the particles, not their diameter
+  bool begun = false;                  // the contacts have been loaded
   double *contact_radius, *load[2];    // of each particle; load: force of the other face
 
   void find_store();

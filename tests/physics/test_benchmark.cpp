@@ -271,8 +271,9 @@ TEST_F(Benchmark, WrongInputIsNamed) {
   EXPECT_TRUE(
       failed_with(run_text(packing("0", "", "types 5")), {"types is 5, but must be at least 6"}));
   EXPECT_TRUE(failed_with(run_text(packing("0", "share area")),
-                          {"share = area", "expected diameter or spacing"}));
-  EXPECT_TRUE(failed_with(run_text(packing("0", "area spacing")), {"unknown keyword area"}));
+                          {"share is 'area', but must be diameter or spacing"}));
+  EXPECT_TRUE(failed_with(run_text(packing("0", "area spacing")),
+                          {"Unknown fix lsm/traction keyword 'area'; accepted are share"}));
   // discs near the line that do not touch it, and those of blocks that are no mirror images
   EXPECT_TRUE(failed_with(run_text(packing("0", "share spacing", "mirror yes") + "run 0\n"),
                           {"the faces do not touch"}));

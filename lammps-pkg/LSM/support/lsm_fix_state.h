@@ -4,6 +4,7 @@
 #ifndef LMP_LSM_FIX_STATE_H
 #define LMP_LSM_FIX_STATE_H
 
+#include "fix.h"
 #include "lsm_ranks.h"
 #include "lsm_state.h"
 
@@ -60,6 +61,17 @@ template <class State> void lsm_read_state(State &state, const char *buf, MPI_Co
   LSMStateReader from(buf, me == 0);
   State::visit(state, from);
 }
+
+/// Base of a fix whose state in restart files is what its visit() lists.
+template <class Self> class LSMKeptFix : public Fix {
+ public:
+  LSMKeptFix(LAMMPS *_lmp, int narg, char **arg) : Fix(_lmp, narg, arg) { restart_global = 1; }
+  void write_restart(FILE *fp) override
+  {
+    lsm_write_state(static_cast<const Self &>(*this), fp, world);
+  }
+  void restart(char *buf) override { lsm_read_state(static_cast<Self &>(*this), buf, world); }
+};
 
 }    // namespace LAMMPS_NS
 
