@@ -6,7 +6,6 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
-#include "lsm_fix_state.h"
 #include "lsm_mover.h"
 #include "lsm_scene.h"
 #include "memory.h"
@@ -20,14 +19,13 @@ using namespace FixConst;
 
 static constexpr const char *ID = "LSM_VELOCITY";
 
-FixLSMVelocity::FixLSMVelocity(LAMMPS *_lmp, int narg, char **arg) : Fix(_lmp, narg, arg)
+FixLSMVelocity::FixLSMVelocity(LAMMPS *_lmp, int narg, char **arg) : LSMKeptFix(_lmp, narg, arg)
 {
   if (narg != 3)
     error->all(FLERR, "Fix LSM_VELOCITY is internal to viscous links and contacts of the package");
   scalar_flag = 1;
   extscalar = 1;
   global_freq = 1;
-  restart_global = 1;
   restart_peratom = 1;
   create_attribute = 1;
   comm_forward = domain->dimension;
@@ -210,28 +208,11 @@ void FixLSMVelocity::unpack_forward_comm(int n, int first, double *buf)
     for (int c = 0; c < comm_forward; c++) now[i][c] = buf[m++];
 }
 
-// velocities are complete when a restart file is written
-struct Saved {
-  double work;
-  std::uint64_t known;
-  template <class Self, class State> static void visit(Self &self, State &state)
-  {
-    state.sum(self.work);
-    state.raw(self.known);
-  }
-};
-
+// In a run velocities are complete when a restart file is written; between two runs, commands may have changed them.
 void FixLSMVelocity::write_restart(FILE *fp)
 {
-  lsm_write_state(Saved{work_dashpots, fingerprint()}, fp, world);
-}
-
-void FixLSMVelocity::restart(char *buf)
-{
-  Saved saved;
-  lsm_read_state(saved, buf, world);
-  known = saved.known;
-  work_dashpots = saved.work;
+  if (update->whichflag) known = fingerprint();
+  LSMKeptFix::write_restart(fp);
 }
 
 int FixLSMVelocity::pack_restart(int i, double *buf)

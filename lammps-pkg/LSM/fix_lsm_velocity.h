@@ -11,14 +11,14 @@ FixStyle(LSM_VELOCITY,FixLSMVelocity);
 #ifndef LMP_FIX_LSM_VELOCITY_H
 #define LMP_FIX_LSM_VELOCITY_H
 
-#include "fix.h"
 #include "lsm_energy.h"
+#include "lsm_fix_state.h"
 
 #include <cstdint>
 
 namespace LAMMPS_NS {
 
-class FixLSMVelocity : public Fix, public LSMWorkSource {
+class FixLSMVelocity : public LSMKeptFix<FixLSMVelocity>, public LSMWorkSource {
  public:
   FixLSMVelocity(class LAMMPS *, int, char **);
   ~FixLSMVelocity() override;
@@ -53,7 +53,11 @@ class FixLSMVelocity : public Fix, public LSMWorkSource {
   int pack_forward_comm(int, int *, double *, int, int *) override;
   void unpack_forward_comm(int, int, double *) override;
   void write_restart(FILE *) override;
-  void restart(char *) override;
+  template <class Self, class State> static void visit(Self &self, State &state)
+  {
+    state.sum(self.work_dashpots);
+    state.raw(self.known);
+  }
   int pack_restart(int, double *) override;
   void unpack_restart(int, int) override;
   int maxsize_restart() override;

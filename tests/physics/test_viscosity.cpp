@@ -292,6 +292,19 @@ TEST_F(Viscosity, VelocitiesSetBetweenRunsCount) {
   EXPECT_NEAR(changed.last("v_s"), begun.last("v_s"), 1e-12);
 }
 
+TEST_F(Viscosity, VelocitiesSetBeforeARestartFileCount) {
+  // as in the run that goes on without it: dashpots do not see the velocities before
+  const Result whole = run_text(fault(created) +
+                                "run 200\nvelocity lower set 1e-3 0 0 sum yes units box\n"
+                                "write_restart set.restart\nrun 5\n");
+  const Result rest = run_text(fault("read_restart set.restart") + "run 5\n");
+  ASSERT_TRUE(succeeded(whole));
+  ASSERT_TRUE(succeeded(rest));
+  for (const std::string &column : energies)
+    EXPECT_NEAR(rest.last(column), whole.last(column), 1e-11 * std::fabs(whole.last(column)))
+        << column;
+}
+
 TEST_F(Viscosity, ThreeDimensions) {
   // three discs at an angle: the dashpots dissipate the energy lost, and the momentum is conserved
   const std::string script =
