@@ -55,6 +55,13 @@ friction all >rows
 awk '$2 == 0 { bad = 1 } END { exit bad }' rows || fail "friction, contacts all: $(cat rows)"
 friction smooth >rows
 awk '($1 == "within") != ($2 == 0) { bad = 1 } END { exit bad }' rows || fail "friction, contacts smooth: $(cat rows)"
+# Further input is found by any name, also one with a path.
+printf 'print "this was read"\n' >scene/on-board_2.in
+for name in on-board_2 ./on-board_2 ../scene/on-board_2 "$work/scene/on-board_2"; do
+  "$lmp" -in scene/fault.in -var length 30 -var settle 0 -var steps 0 -var prefix named -var overwrite yes -var extra "$name" </dev/null >out 2>&1 ||
+    fail "extra $name"
+  grep -q "^this was read" out || fail "extra $name was not read"
+done
 # Dashpots: in all links and contacts, also after a restart, and not with too long a time step.
 printf 'write_coeff ${prefix}.coeff\n' >scene/coefficients.in
 damped() { "$lmp" -in scene/fault.in -var settle 0 -var prefix damped -var extra coefficients "$@" </dev/null >out 2>&1; }
