@@ -2,14 +2,14 @@
 #include "aftershocks.h"
 
 #include <gsl/gsl_errno.h>
-#include <gsl/gsl_linalg.h>
 #include <gsl/gsl_multimin.h>
+#include <gsl/gsl_statistics_double.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 
+#include "estimation.h"
 #include "log_histogram.h"
 #include "lsm_random.h"
 #include "lsm_sum.h"
@@ -92,111 +92,157 @@ class Likelihood {
   bool together_ = false;
 };
 
-// What is searched: at the maximum as many events are expected as there are, so one share is
-// enough.
-struct Search {
-  const Likelihood *likelihood;
-  double hold_c;  // NaN: fitted
-  bool background;
-  double least_ln_c, most_ln_c;
-
-  // Order: logit of the share of aftershocks (if there is a background), ln c (if fitted), p.
-  std::size_t size() const { return 1U + (background ? 1U : 0U) + (std::isnan(hold_c) ? 1U : 0U); }
-  struct Point {
-    double share, c, p;
-  };
-  Point at(const gsl_vector *x) const {
-    std::size_t i = 0;
-    Point point{1.0, hold_c, 0.0};
-    if (background) point.share = 1.0 / (1.0 + std::exp(-gsl_vector_get(x, i++)));
-    if (std::isnan(hold_c)) point.c = std::exp(gsl_vector_get(x, i++));
-    point.p = gsl_vector_get(x, i);
-    return point;
-  }
-  double cost(const gsl_vector *x) const {
-    const Point point = at(x);
-    if (std::isnan(hold_c) && !(std::log(point.c) >= least_ln_c && std::log(point.c) <= most_ln_c))
-      return 1e300;
-    if (!(std::fabs(point.p) < 20.0)) return 1e300;
-    const double n = likelihood->n();
-    const double value = (*likelihood)(n * point.share, n * (1.0 - point.share), point.c, point.p);
-    return std::isfinite(value) ? -value : 1e300;
-  }
-};
-
-struct Maximum {
-  Search::Point point{1.0, nan, nan};
+// The expected numbers of aftershocks and background events, and the shape of the decay.
+struct Law {
+  double share = 1.0, c = nan, p = nan;  // share: of aftershocks, all events that are expected
   double log_likelihood = -HUGE_VAL;
 };
 
-/// From a start to where the simplex is smaller than tolerance.
-Maximum climb(const Search &search, double share, double ln_c, double p, double tolerance) {
-  const std::size_t size = search.size();
-  gsl_multimin_function function;
-  function.n = size;
-  function.params = const_cast<Search *>(&search);
-  function.f = [](const gsl_vector *x, void *data) {
-    return static_cast<const Search *>(data)->cost(x);
-  };
-  const Gsl<gsl_vector> x = gsl_vector_of(size), step = gsl_vector_of(size);
-  std::size_t i = 0;
-  if (search.background) {
-    gsl_vector_set(step.get(), i, 1.0);
-    share = std::clamp(share, 1e-9, 1.0 - 1e-9);
-    gsl_vector_set(x.get(), i++, std::log(share / (1.0 - share)));
-  }
-  if (std::isnan(search.hold_c)) {
-    gsl_vector_set(step.get(), i, 1.0);
-    gsl_vector_set(x.get(), i++, ln_c);
-  }
-  gsl_vector_set(step.get(), i, 0.3);
-  gsl_vector_set(x.get(), i, p);
-  const Gsl<gsl_multimin_fminimizer> work(
-      gsl_multimin_fminimizer_alloc(gsl_multimin_fminimizer_nmsimplex2, size),
-      gsl_multimin_fminimizer_free);
-  gsl_multimin_fminimizer_set(work.get(), &function, x.get(), step.get());
-  for (int k = 0; k < 500; ++k)
-    if (gsl_multimin_fminimizer_iterate(work.get()) != GSL_SUCCESS ||
-        gsl_multimin_fminimizer_size(work.get()) < tolerance)
-      break;
-  gsl_vector_memcpy(x.get(), gsl_multimin_fminimizer_x(work.get()));
-  return {search.at(x.get()), -gsl_multimin_fminimizer_minimum(work.get())};
-}
+// At the maximum as many events are expected as there are, so that one share is enough.
+struct Search {
+  const Likelihood &likelihood;
+  double hold_c;  // NaN: fitted
+  double least_ln_c, most_ln_c;
+  bool background = true;
 
-// Covariance of the variables of a function at its maximum, by central differences; empty if the
-// function has none there.
+  // Order: logit of the share of aftershocks (if there is a background), ln c (if fitted), p.
+  Numbers variables_of(const Law &law) const {
+    Numbers x;
+    const double share = std::clamp(law.share, 1e-9, 1.0 - 1e-9);
+    if (background) x.push_back(std::log(share / (1.0 - share)));
+    if (std::isnan(hold_c)) x.push_back(std::log(law.c));
+    x.push_back(law.p);
+    return x;
+  }
+  Law law_at(const gsl_vector *x) const {
+    std::size_t i = 0;
+    Law law{1.0, hold_c, 0.0};
+    if (background) law.share = 1.0 / (1.0 + std::exp(-gsl_vector_get(x, i++)));
+    if (std::isnan(hold_c)) law.c = std::exp(gsl_vector_get(x, i++));
+    law.p = gsl_vector_get(x, i);
+    const double n = likelihood.n();
+    const bool c_within =
+        !std::isnan(hold_c) || (std::log(law.c) >= least_ln_c && std::log(law.c) <= most_ln_c);
+    if (c_within && std::fabs(law.p) < 20.0)
+      law.log_likelihood = likelihood(n * law.share, n * (1.0 - law.share), law.c, law.p);
+    return law;
+  }
+
+  // From a law to where the simplex is smaller than tolerance.
+  Law climb(const Law &from, double tolerance) const {
+    Numbers first = variables_of(from), steps(first.size(), 1.0);
+    steps.back() = 0.3;
+    gsl_multimin_function function;
+    function.n = first.size();
+    function.params = const_cast<Search *>(this);
+    function.f = [](const gsl_vector *x, void *search) {
+      const double value = static_cast<const Search *>(search)->law_at(x).log_likelihood;
+      return std::isfinite(value) ? -value : 1e300;
+    };
+    const Gsl<gsl_multimin_fminimizer> work(
+        gsl_multimin_fminimizer_alloc(gsl_multimin_fminimizer_nmsimplex2, function.n),
+        gsl_multimin_fminimizer_free);
+    const gsl_vector_view x = gsl_vector_view_array(first.data(), first.size()),
+                          step = gsl_vector_view_array(steps.data(), steps.size());
+    gsl_multimin_fminimizer_set(work.get(), &function, &x.vector, &step.vector);
+    for (int k = 0; k < 500; ++k)
+      if (gsl_multimin_fminimizer_iterate(work.get()) != GSL_SUCCESS ||
+          gsl_multimin_fminimizer_size(work.get()) < tolerance)
+        break;
+    return law_at(gsl_multimin_fminimizer_x(work.get()));
+  }
+
+  // The best law; without a background if that is at its border, where there is no curvature.
+  Law best(double middle) {
+    Law top;
+    for (const double share : {0.3, 0.8})
+      for (const double c : {0.1 * middle, middle}) {
+        const double ln_c =
+            std::clamp(std::log(std::max(c, 1e-300)), least_ln_c + 0.1, most_ln_c - 0.1);
+        const Law found = climb({share, std::exp(ln_c), 1.1}, 0.02);
+        if (found.log_likelihood > top.log_likelihood) top = found;
+        if (!std::isnan(hold_c)) break;
+      }
+    background = (1.0 - top.share) * likelihood.n() >= 0.5;  // of an event
+    return climb(top, 1e-7);
+  }
+
+  // Reason why a law is none, or "".
+  std::string no_decay(const Law &law, double likelihood_ratio) const {
+    const bool held = !std::isnan(hold_c);
+    const double ln_c = std::log(law.c);
+    if (!(likelihood_ratio > (held ? 5.99 : 7.81))) return "no decay: a constant rate fits as well";
+    if (!held && !(ln_c > least_ln_c + 0.01 && ln_c < most_ln_c - 0.01))
+      return ln_c < 0.5 * (least_ln_c + most_ln_c)
+                 ? "c is too short for these times; hold it, or count later events only"
+                 : "c is as long as the window";
+    return law.p > 0.0 ? "" : "the rate rises with time";
+  }
+};
+
+// Minus the second derivatives of a function, by central differences.
 template <class Function>
-std::vector<double> covariance_at_maximum(const Function &f, const std::vector<double> &x,
-                                          const std::vector<double> &step) {
-  const std::size_t n = x.size();
-  std::vector<double> information(n * n);
+SymmetricMatrix information_at(const Function &f, const Numbers &x) {
+  constexpr double step = 1e-3;
+  SymmetricMatrix information(x.size());
   const auto shifted = [&](std::size_t i, double a, std::size_t j, double b) {
-    std::vector<double> at = x;
-    at[i] += a * step[i];
-    at[j] += b * step[j];
+    Numbers at = x;
+    at[i] += a * step;
+    at[j] += b * step;
     return f(at);
   };
-  for (std::size_t i = 0; i < n; ++i)
+  for (std::size_t i = 0; i < x.size(); ++i)
     for (std::size_t j = 0; j <= i; ++j) {
       const double second = i == j ? (shifted(i, 1, i, 0) - 2.0 * f(x) + shifted(i, -1, i, 0))
                                    : 0.25 * (shifted(i, 1, j, 1) - shifted(i, 1, j, -1) -
                                              shifted(i, -1, j, 1) + shifted(i, -1, j, -1));
-      information[i * n + j] = information[j * n + i] = -second / (step[i] * step[j]);
+      information(i, j) = information(j, i) = -second / (step * step);
     }
-  gsl_matrix_view matrix = gsl_matrix_view_array(information.data(), n, n);
-  if (gsl_linalg_cholesky_decomp1(&matrix.matrix) != GSL_SUCCESS ||
-      gsl_linalg_cholesky_invert(&matrix.matrix) != GSL_SUCCESS)
-    return {};
   return information;
 }
 
-double error_of(const std::vector<double> &gradient, const std::vector<double> &covariance) {
-  double variance = 0.0;
-  const std::size_t n = gradient.size();
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j < n; ++j)
-      variance += gradient[i] * covariance[i * n + j] * gradient[j];
-  return std::sqrt(variance);
+// Parameters and their errors, or why there are none.
+void report(const Law &law, const Search &search, const Sequences &s, OmoriFit &fit) {
+  const bool held = !std::isnan(search.hold_c);
+  const double n = search.likelihood.n(), shocks = static_cast<double>(s.main_shocks);
+  const auto per_K = [&](double c, double p) {
+    return shocks * omori_integral(s.first, s.window, c, p);
+  };
+  // ln K, p, [ln c], [ln(background)].
+  Numbers x = {std::log(law.share * n / per_K(law.c, law.p)), law.p};
+  if (!held) x.push_back(std::log(law.c));
+  if (search.background) x.push_back(std::log((1.0 - law.share) * n));
+  const Covariance covariance = covariance_of(information_at(
+      [&](const Numbers &at) {
+        const double c = held ? search.hold_c : std::exp(at[2]);
+        const double flat = search.background ? std::exp(at.back()) : 0.0;
+        return search.likelihood(std::exp(at[0]) * per_K(c, at[1]), flat, c, at[1]);
+      },
+      x));
+  if (covariance.n == 0 || !(covariance.error(1) < 0.5 && (held || covariance.error(2) < 1.5))) {
+    fit.why = "K, c and p trade against each other";
+    return;
+  }
+  fit.degenerate = false;
+  fit.K = std::exp(x[0]);
+  fit.se_K = fit.K * covariance.error(0);
+  fit.p = law.p;
+  fit.se_p = covariance.error(1);
+  fit.c = law.c;
+  fit.se_c = held ? 0.0 : law.c * covariance.error(2);
+  fit.background = (1.0 - law.share) * n / (shocks * (s.window - s.first));
+  if (search.background) fit.se_background = fit.background * covariance.error(x.size() - 1);
+}
+
+void check(const Sequences &s, double hold_c) {
+  if (!(s.window > s.first && s.first >= 0.0) || s.main_shocks < 0 ||
+      (!s.times.empty() &&
+       (s.main_shocks == 0 || s.times.front() < s.first || s.times.back() > s.window)))
+    throw std::invalid_argument("Omori fit: times outside the window, or without a main shock");
+  if (!std::isnan(hold_c) &&
+      (!std::isfinite(hold_c) || !(hold_c >= 0.0) || !(hold_c + s.first > 0.0)))
+    throw std::invalid_argument("Omori fit: c held at " + std::to_string(hold_c) +
+                                ", expected 0 or more (0 needs a first time above 0)");
 }
 
 }  // namespace
@@ -244,6 +290,7 @@ Sequences stack_sequences(const std::vector<Shock> &events, const SequenceRule &
     }
   }
   std::sort(stack.times.begin(), stack.times.end());
+  std::sort(stack.before.begin(), stack.before.end());
   return stack;
 }
 
@@ -255,20 +302,13 @@ namespace {
 
 // Without the care of GSL's errors, whose handler is one for all threads.
 OmoriFit fit_quietly(const Sequences &s, double hold_c) {
-  if (!(s.window > s.first && s.first >= 0.0) || s.main_shocks < 0 ||
-      (!s.times.empty() &&
-       (s.main_shocks == 0 || s.times.front() < s.first || s.times.back() > s.window)))
-    throw std::invalid_argument("Omori fit: times outside the window, or without a main shock");
-  const bool held = !std::isnan(hold_c);
-  if (held && (!std::isfinite(hold_c) || !(hold_c >= 0.0) || !(hold_c + s.first > 0.0)))
-    throw std::invalid_argument("Omori fit: c held at " + std::to_string(hold_c) +
-                                ", expected 0 or more (0 needs a first time above 0)");
+  check(s, hold_c);
   OmoriFit fit;
   fit.n = static_cast<std::int64_t>(s.times.size());
-  const double shocks = static_cast<double>(s.main_shocks), span = s.window - s.first;
+  const double exposure = static_cast<double>(s.main_shocks) * (s.window - s.first);
   if (fit.n > 0) {
-    fit.constant = static_cast<double>(fit.n) / (shocks * span);
-    fit.se_constant = std::sqrt(static_cast<double>(fit.n)) / (shocks * span);
+    fit.constant = static_cast<double>(fit.n) / exposure;
+    fit.se_constant = std::sqrt(static_cast<double>(fit.n)) / exposure;
   }
   if (fit.n < fewest) {
     fit.why = std::to_string(fit.n) + " events after " + std::to_string(s.main_shocks) +
@@ -279,85 +319,11 @@ OmoriFit fit_quietly(const Sequences &s, double hold_c) {
   // Below a thousandth of the first time values of c are indistinguishable.
   const auto positive = std::upper_bound(s.times.begin(), s.times.end(), 0.0);
   const double shortest = positive == s.times.end() ? s.window : std::max(*positive, s.first);
-  Search search{&likelihood, hold_c, true, std::log(1e-3 * shortest), std::log(s.window)};
-  Maximum best;
-  const double middle = s.times[s.times.size() / 4];
-  for (const double share : {0.3, 0.8})
-    for (const double c : {0.1 * middle, middle}) {
-      const double ln_c = std::clamp(std::log(std::max(c, 1e-300)), search.least_ln_c + 0.1,
-                                     search.most_ln_c - 0.1);
-      const Maximum found = climb(search, share, ln_c, 1.1, 0.02);
-      if (found.log_likelihood > best.log_likelihood) best = found;
-      if (held) break;
-    }
-  // Less than half an event of background: at the border, where there is no curvature.
-  const bool background = (1.0 - best.point.share) * likelihood.n() >= 0.5;
-  search.background = background;
-  const double ln_c = std::log(best.point.c > 0.0 ? best.point.c : 1.0);
-  best = climb(search, best.point.share, ln_c, best.point.p, 1e-7);
-  const auto [share, c, p] = best.point;
-  fit.likelihood_ratio = std::max(0.0, 2.0 * (best.log_likelihood - likelihood.constant()));
-
-  // Errors in ln(aftershocks), p, [ln c], [ln(background)].
-  std::vector<double> x = {std::log(share * likelihood.n()), p}, step = {1e-2, 1e-3};
-  if (!held) {
-    x.push_back(std::log(c));
-    step.push_back(1e-2);
-  }
-  if (background) {
-    x.push_back(std::log((1.0 - share) * likelihood.n()));
-    step.push_back(1e-2);
-  }
-  const auto unpack = [&](const std::vector<double> &at) {
-    return std::array<double, 4>{std::exp(at[0]), background ? std::exp(at.back()) : 0.0,
-                                 held ? hold_c : std::exp(at[2]), at[1]};
-  };
-  const std::vector<double> covariance = covariance_at_maximum(
-      [&](const std::vector<double> &at) {
-        const auto [aftershocks, flat, c_at, p_at] = unpack(at);
-        return likelihood(aftershocks, flat, c_at, p_at);
-      },
-      x, step);
-  const double needed = held ? 5.99 : 7.81;
-  if (!(fit.likelihood_ratio > needed))
-    fit.why = "no decay: a constant rate fits as well";
-  else if (!held &&
-           !(std::log(c) > search.least_ln_c + 0.01 && std::log(c) < search.most_ln_c - 0.01))
-    fit.why = std::log(c) < 0.5 * (search.least_ln_c + search.most_ln_c)
-                  ? "c is too short for these times; hold it, or use a later --first"
-                  : "c is as long as the window";
-  else if (!(p > 0.0))
-    fit.why = "the rate rises with time";
-  else if (covariance.empty())
-    fit.why = "no maximum of the likelihood";
-  if (!fit.why.empty()) return fit;
-  const std::size_t n = x.size();
-  fit.se_p = std::sqrt(covariance[n + 1]);
-  const double se_ln_c = held ? 0.0 : std::sqrt(covariance[2 * n + 2]);
-  if (!(fit.se_p < 0.5 && se_ln_c < 1.5)) {
-    fit.why = "K, c and p trade against each other";
-    fit.se_p = nan;
-    return fit;
-  }
-  fit.degenerate = false;
-  fit.p = p;
-  fit.c = c;
-  fit.se_c = c * se_ln_c;
-  const auto ln_K = [&](const std::vector<double> &at) {
-    const auto [aftershocks, flat, c_at, p_at] = unpack(at);
-    return std::log(aftershocks / (shocks * omori_integral(s.first, s.window, c_at, p_at)));
-  };
-  std::vector<double> gradient(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    std::vector<double> up = x, down = x;
-    up[i] += step[i];
-    down[i] -= step[i];
-    gradient[i] = (ln_K(up) - ln_K(down)) / (2.0 * step[i]);
-  }
-  fit.K = std::exp(ln_K(x));
-  fit.se_K = fit.K * error_of(gradient, covariance);
-  fit.background = (1.0 - share) * likelihood.n() / (shocks * span);
-  if (background) fit.se_background = fit.background * std::sqrt(covariance[n * n - 1]);
+  Search search{likelihood, hold_c, std::log(1e-3 * shortest), std::log(s.window)};
+  const Law law = search.best(s.times[s.times.size() / 4]);
+  fit.likelihood_ratio = std::max(0.0, 2.0 * (law.log_likelihood - likelihood.constant()));
+  fit.why = search.no_decay(law, fit.likelihood_ratio);
+  if (fit.why.empty()) report(law, search, s, fit);
   return fit;
 }
 
@@ -400,76 +366,80 @@ std::vector<Shock> poisson_catalogue(const std::vector<Shock> &events, bool over
   return out;
 }
 
+namespace {
+
+template <class Bin>
+std::int64_t count_in(const Bin &bin, const std::vector<double> &ascending) {
+  return std::lower_bound(ascending.begin(), ascending.end(), bin.hi) -
+         std::lower_bound(ascending.begin(), ascending.end(), bin.lo);
+}
+
+std::vector<RateBin> rate_bins(const Sequences &sequences, const SequenceRule &rule,
+                               double factor) {
+  std::vector<double> around = sequences.times;
+  around.insert(around.end(), sequences.before.begin(), sequences.before.end());
+  std::vector<RateBin> bins;
+  for (const LogBin &bin : LogHistogram(around, factor).bins(rule.first, rule.window)) {
+    const double exposure = static_cast<double>(sequences.main_shocks) * (bin.hi - bin.lo);
+    const std::int64_t after = count_in(bin, sequences.times);
+    const auto count = static_cast<double>(after);
+    bins.push_back(
+        {bin.lo, bin.hi, bin.centre, after, count / exposure, std::sqrt(count) / exposure});
+    bins.back().before = count_in(bin, sequences.before);
+  }
+  return bins;
+}
+
+// What one Poisson catalogue gives.
+struct Replica {
+  bool used = false, as_large = false;
+  std::vector<double> rates;
+};
+
+// Share of the replicas whose likelihood ratio is as large, and their rates in the bins.
+void compare(const std::vector<Replica> &replicas, Aftershocks &result) {
+  double as_large = 0.0, used = 0.0;
+  for (const Replica &replica : replicas) {
+    used += replica.used;
+    as_large += replica.as_large;
+  }
+  for (std::size_t i = 0; used > 1.0 && i < result.bins.size(); ++i) {
+    std::vector<double> rates;
+    for (const Replica &replica : replicas)
+      if (replica.used) rates.push_back(replica.rates[i]);
+    result.bins[i].poisson = mean_of(rates);
+    result.bins[i].scatter = gsl_stats_sd(rates.data(), 1, rates.size());
+  }
+  if (used > 0.0 && !std::isnan(result.fit.likelihood_ratio))
+    result.p = (as_large + 1.0) / (used + 1.0);
+}
+
+}  // namespace
+
 Aftershocks aftershocks_of(const EventTable &table, const SequenceRule &rule, double hold_c,
                            double factor, int replicas, std::uint64_t seed) {
-  if (replicas < 0) throw std::invalid_argument("--replicas: expected 0 or more");
+  if (replicas < 0) throw std::invalid_argument("Poisson catalogues: expected 0 or more replicas");
   const std::vector<Shock> events = shocks_of(table);
-  const bool overlapping = table.info.overlapping();
   Aftershocks result;
   result.rule = rule;
   result.sequences = stack_sequences(events, rule);
   result.fit = fit_omori(result.sequences, hold_c);
-  const auto histogram_of = [factor, &rule](const std::vector<double> &times) {
-    return LogHistogram(times, factor).bins(rule.first, rule.window);
-  };
-  const auto same_lo = [](double a, double b) { return std::fabs(a - b) < 1e-9 * a; };
-  const auto count_in = [&](const std::vector<double> &times, double lo) {
-    for (const LogBin &bin : histogram_of(times))
-      if (same_lo(bin.lo, lo)) return bin.count;
-    return std::int64_t{0};
-  };
-  const auto shocks = static_cast<double>(result.sequences.main_shocks);
-  std::vector<double> around = result.sequences.times;
-  around.insert(around.end(), result.sequences.before.begin(), result.sequences.before.end());
-  for (const LogBin &bin : histogram_of(around)) {
-    const double exposure = shocks * (bin.hi - bin.lo);
-    const std::int64_t after = count_in(result.sequences.times, bin.lo);
-    const auto count = static_cast<double>(after);
-    result.bins.push_back(
-        {bin.lo, bin.hi, bin.centre, after, count / exposure, std::sqrt(count) / exposure});
-    result.bins.back().before = count_in(result.sequences.before, bin.lo);
-  }
-  struct Replica {
-    bool used = false, as_large = false;
-    std::vector<double> rates;
-  };
+  result.bins = rate_bins(result.sequences, rule, factor);
   std::vector<Replica> all(static_cast<std::size_t>(replicas));
-  const std::size_t bins = result.bins.size();
   const QuietGsl quiet;
   for_each_replica(replicas, [&](int k) {
-    const Sequences other =
-        stack_sequences(poisson_catalogue(events, overlapping, seed_of_replica(seed, k)), rule);
+    const Sequences other = stack_sequences(
+        poisson_catalogue(events, table.info.overlapping(), seed_of_replica(seed, k)), rule);
     if (other.main_shocks == 0) return;
     Replica &replica = all[static_cast<std::size_t>(k)];
     replica.used = true;
     // 0 where there are too few events to fit.
     replica.as_large = fit_quietly(other, hold_c).likelihood_ratio >= result.fit.likelihood_ratio;
-    replica.rates.resize(bins);
-    for (const LogBin &bin : histogram_of(other.times))
-      for (std::size_t i = 0; i < bins; ++i)
-        if (same_lo(bin.lo, result.bins[i].lo))
-          replica.rates[i] = static_cast<double>(bin.count) /
-                             (static_cast<double>(other.main_shocks) * (bin.hi - bin.lo));
+    for (const RateBin &bin : result.bins)
+      replica.rates.push_back(static_cast<double>(count_in(bin, other.times)) /
+                              (static_cast<double>(other.main_shocks) * (bin.hi - bin.lo)));
   });
-  std::vector<NeumaierSum> sums(bins), squares(bins);
-  int as_large = 0, used = 0;
-  for (const Replica &replica : all) {
-    if (!replica.used) continue;
-    ++used;
-    if (replica.as_large) ++as_large;
-    for (std::size_t i = 0; i < bins; ++i) {
-      sums[i].add(replica.rates[i]);
-      squares[i].add(replica.rates[i] * replica.rates[i]);
-    }
-  }
-  for (std::size_t i = 0; used > 1 && i < result.bins.size(); ++i) {
-    RateBin &bin = result.bins[i];
-    bin.poisson = sums[i].value() / used;
-    bin.scatter = std::sqrt(std::max(0.0, squares[i].value() - used * bin.poisson * bin.poisson) /
-                            (used - 1));
-  }
-  if (used > 0 && !std::isnan(result.fit.likelihood_ratio))
-    result.p = (as_large + 1.0) / (used + 1.0);
+  compare(all, result);
   return result;
 }
 

@@ -34,8 +34,9 @@ std::vector<Shock> shocks_of(const EventTable &table);
 
 /// Events after and before main shocks, all sequences on top of each other.
 struct Sequences {
-  std::vector<double> times;   ///< starts, since the end of the main shock; ascending
-  std::vector<double> before;  ///< from the end of an earlier event to the start of the main shock
+  std::vector<double> times;  ///< starts, since the end of the main shock; ascending
+  /// From the end of an earlier event to the start of the main shock; ascending.
+  std::vector<double> before;
   std::int64_t main_shocks = 0;
   double first = 0.0, window = 0.0;  ///< from and to which times are counted
 };

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "finite_size.h"
 
-#include <gsl/gsl_blas.h>
-#include <gsl/gsl_errno.h>
 #include <gsl/gsl_fit.h>
-#include <gsl/gsl_multifit_nlinear.h>
 #include <gsl/gsl_rng.h>
+#include <gsl/gsl_statistics_double.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
+#include "estimation.h"
 #include "lsm_sum.h"
 #include "lsm_text_io.h"
 #include "replicas.h"
@@ -28,113 +28,74 @@ double corrected_aic(double chi2, int k, int points) {
 
 // Usable points: logarithms of length and s*, weights of the latter.
 struct LogPoints {
-  std::vector<double> x, y, weight;
-  double sharpness = Saturation::sharpness;
+  Numbers x, y, weight;
 };
 
-// Parameters ln s_inf, ln L_c, D. Either array may be null.
-int saturating(const gsl_vector *p, const LogPoints &points, gsl_vector *residuals,
-               gsl_matrix *jacobian) {
-  const double a = gsl_vector_get(p, 0), c = gsl_vector_get(p, 1), D = gsl_vector_get(p, 2);
-  for (std::size_t i = 0; i < points.x.size(); ++i) {
-    const double below = c - points.x[i], z = points.sharpness * D * below;
-    if (!std::isfinite(z)) return GSL_EDOM;
-    const double small = std::exp(-std::fabs(z));  // ln(1 + e^z) without overflow
-    if (residuals)
-      gsl_vector_set(residuals, i,
-                     a - (std::max(z, 0.0) + std::log1p(small)) / points.sharpness - points.y[i]);
-    if (!jacobian) continue;
-    const double share = (z > 0.0 ? 1.0 : small) / (1.0 + small);
-    gsl_matrix_set(jacobian, i, 0, 1.0);
-    gsl_matrix_set(jacobian, i, 1, -share * D);
-    gsl_matrix_set(jacobian, i, 2, -share * below);
-  }
-  return GSL_SUCCESS;
+// Growth that ends, in ln s*, and its derivatives by ln s_inf, ln L_c, D.
+double saturating(double log_length, const Numbers &p, double sharpness, Numbers &slope) {
+  const double below = p[1] - log_length, D = p[2], z = sharpness * D * below;
+  const double small = std::exp(-std::fabs(z));  // ln(1 + e^z) without overflow
+  const double share = (z > 0.0 ? 1.0 : small) / (1.0 + small);
+  slope = {1.0, -share * D, -share * below};
+  return p[0] - (std::max(z, 0.0) + std::log1p(small)) / sharpness;
 }
 
-Saturation fit_saturation(LogPoints points, double sharpness) {
+// Logarithms of the different lengths.
+Numbers steps_of(Numbers x) {
+  std::sort(x.begin(), x.end());
+  x.erase(
+      std::unique(x.begin(), x.end(), [](double one, double next) { return next - one < 1e-9; }),
+      x.end());
+  return x;
+}
+
+// Sharp bends at each length inside, as chi2 may have several minima.
+std::vector<Numbers> bends_at(const Numbers &steps, const LogPoints &points) {
+  std::vector<Numbers> bends;
+  for (std::size_t step = 1; step + 1 < steps.size(); ++step) {
+    Numbers bent = points.x;
+    for (double &x : bent) x = std::min(x - steps[step], 0.0);
+    double constant = 0.0, slope = 0.0, unused[4];
+    gsl_fit_wlinear(bent.data(), 1, points.weight.data(), 1, points.y.data(), 1, bent.size(),
+                    &constant, &slope, &unused[0], &unused[1], &unused[2], &unused[3]);
+    bends.push_back({constant, steps[step], slope});
+  }
+  return bends;
+}
+
+Saturation fit_saturation(const LogPoints &points, double sharpness) {
   Saturation fit;
-  fit.m = points.sharpness = sharpness;
+  fit.m = sharpness;
   const std::size_t n = points.x.size();
   if (n < 5) {
     fit.why = std::to_string(n) + " usable points, at least 5 needed";
     return fit;
   }
-  std::vector<double> steps = points.x;
-  std::sort(steps.begin(), steps.end());
-  steps.erase(std::unique(steps.begin(), steps.end(),
-                          [](double one, double next) { return next - one < 1e-9; }),
-              steps.end());
+  const Numbers steps = steps_of(points.x);
   if (steps.size() < 4) {
     fit.why = std::to_string(steps.size()) + " different lengths, at least 4 needed";
     return fit;
   }
-
-  const QuietGsl quiet;
-  gsl_multifit_nlinear_parameters settings = gsl_multifit_nlinear_default_parameters();
-  const Gsl<gsl_multifit_nlinear_workspace> work(
-      gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &settings, n, 3),
-      gsl_multifit_nlinear_free);
-  gsl_multifit_nlinear_fdf functions{};
-  functions.f = [](const gsl_vector *p, void *data, gsl_vector *f) {
-    return saturating(p, *static_cast<const LogPoints *>(data), f, nullptr);
-  };
-  functions.df = [](const gsl_vector *p, void *data, gsl_matrix *j) {
-    return saturating(p, *static_cast<const LogPoints *>(data), nullptr, j);
-  };
-  functions.n = n;
-  functions.p = 3;
-  functions.params = &points;
-  const gsl_vector_const_view weights = gsl_vector_const_view_array(points.weight.data(), n);
-  double best[3] = {}, covariance[9] = {};
-  gsl_matrix_view covariances = gsl_matrix_view_array(covariance, 3, 3);
-  bool converged = false;
-  fit.chi2 = HUGE_VAL;
-  // From a sharp bend at each length inside, as chi2 may have several minima.
-  for (std::size_t start = 1; start + 1 < steps.size(); ++start) {
-    std::vector<double> bent = points.x;
-    for (double &x : bent) x = std::min(x - steps[start], 0.0);
-    double p[3] = {0.0, steps[start], 0.0}, unused[4];
-    gsl_fit_wlinear(bent.data(), 1, points.weight.data(), 1, points.y.data(), 1, n, &p[0], &p[2],
-                    &unused[0], &unused[1], &unused[2], &unused[3]);
-    const gsl_vector_const_view first = gsl_vector_const_view_array(p, 3);
-    if (gsl_multifit_nlinear_winit(&first.vector, &weights.vector, &functions, work.get()) !=
-        GSL_SUCCESS)
-      continue;
-    int info = 0;
-    const int status =
-        gsl_multifit_nlinear_driver(200, 1e-10, 1e-10, 0.0, nullptr, nullptr, &info, work.get());
-    const gsl_vector *const f = gsl_multifit_nlinear_residual(work.get());
-    double chi2 = HUGE_VAL;
-    gsl_blas_ddot(f, f, &chi2);
-    if (!(chi2 < fit.chi2)) continue;
-    fit.chi2 = chi2;
-    for (std::size_t i = 0; i < 3; ++i)
-      best[i] = gsl_vector_get(gsl_multifit_nlinear_position(work.get()), i);
-    // Without progress: the residuals cannot fall further within rounding.
-    converged = (status == GSL_SUCCESS || status == GSL_ENOPROG) &&
-                gsl_multifit_nlinear_covar(gsl_multifit_nlinear_jac(work.get()), 0.0,
-                                           &covariances.matrix) == GSL_SUCCESS;
-  }
-
-  fit.aicc = corrected_aic(fit.chi2, 3, static_cast<int>(n));
-  if (!std::isfinite(fit.chi2) || !(best[1] > steps[1] && best[1] < steps[steps.size() - 2]))
+  const LeastSquares best = least_squares(
+      points.weight, bends_at(steps, points), [&](std::size_t i, const Numbers &p, Numbers &slope) {
+        return saturating(points.x[i], p, sharpness, slope) - points.y[i];
+      });
+  if (best.p.empty() || !(best.p[1] > steps[1] && best.p[1] < steps[steps.size() - 2]))
     fit.why = "no end of growth with two lengths on either side of it";
-  else if (!converged)
+  else if (!best.converged || best.covariance.n == 0)
     fit.why = "no minimum of chi2";
-  else if (!(best[2] > 1.96 * std::sqrt(covariance[8])))
+  else if (!(best.p[2] > 1.96 * best.covariance.error(2)))
     fit.why = "no significant growth up to where it would end";
-  if (!fit.why.empty()) {
-    fit.chi2 = fit.aicc = fit.D;
-    return fit;
-  }
+  if (!fit.why.empty()) return fit;
   fit.degenerate = false;
-  fit.s_inf = std::exp(best[0]);
-  fit.se_s_inf = fit.s_inf * std::sqrt(covariance[0]);
-  fit.L_c = std::exp(best[1]);
-  fit.se_L_c = fit.L_c * std::sqrt(covariance[4]);
-  fit.D = best[2];
-  fit.se_D = std::sqrt(covariance[8]);
+  fit.chi2 = best.chi2;
+  fit.aicc = corrected_aic(fit.chi2, 3, static_cast<int>(n));
+  fit.s_inf = std::exp(best.p[0]);
+  fit.se_s_inf = fit.s_inf * best.covariance.error(0);
+  fit.L_c = std::exp(best.p[1]);
+  fit.se_L_c = fit.L_c * best.covariance.error(1);
+  fit.D = best.p[2];
+  fit.se_D = best.covariance.error(2);
   return fit;
 }
 
@@ -217,118 +178,116 @@ class Ring {
   double duration_;
 };
 
+// Events of at least a size, in order of time.
+struct Kept {
+  std::vector<double> times, sizes;
+};
+
+// Reason why a characteristic size means nothing for these, or "".
+std::string too_few_or_equal(const Kept &kept) {
+  if (kept.sizes.size() < 10)
+    return std::to_string(kept.sizes.size()) + " events above the threshold, at least 10 needed";
+  const auto [least, greatest] = std::minmax_element(kept.sizes.begin(), kept.sizes.end());
+  if (*least == *greatest) return "all events have the same size";
+  if (!(kept.times.back() > kept.times.front())) return "all events begin at the same time";
+  return {};
+}
+
+void check(const std::vector<double> &t_start, const std::vector<double> &sizes, double threshold,
+           double length, const Resampling &resampling) {
+  const auto expect = [](bool met, const std::string &what) {
+    if (!met) throw std::invalid_argument("characteristic size: " + what);
+  };
+  expect(resampling.replicas >= 2,
+         std::to_string(resampling.replicas) + " replicas, expected at least 2");
+  expect(t_start.size() == sizes.size() && std::is_sorted(t_start.begin(), t_start.end()),
+         "expected one time for each size, in ascending order");
+  expect(
+      std::isnan(resampling.block) || (resampling.block >= 0.0 && std::isfinite(resampling.block)),
+      "block of " + number(resampling.block) + ", expected a finite time of at least 0");
+  expect(threshold >= 0.0 && std::isfinite(threshold),
+         "threshold " + number(threshold) + ", expected a finite number of at least 0");
+  expect(length > 0.0 && std::isfinite(length),
+         "length " + number(length) + ", expected a positive finite number");
+}
+
+// Length of the blocks by the correlation of what the events add to the ratio.
+double block_of(const Kept &kept, const Ring &ring, const std::vector<double> &influences) {
+  // As many bins as events: one in each on average.
+  std::vector<double> bins(influences.size(), 0.0);
+  const auto count = static_cast<double>(bins.size());
+  for (std::size_t i = 0; i < bins.size(); ++i) {
+    const double at = (kept.times[i] - kept.times.front()) / ring.duration() * count;
+    bins[std::min(static_cast<std::size_t>(at), bins.size() - 1)] += influences[i];
+  }
+  return block_length(bins) * ring.duration() / count;
+}
+
+// Number of blocks as long as is asked for that make up the catalogue.
+int blocks_in(const Ring &ring, double block, std::size_t events) {
+  // Below a hundredth of the mean interval hardly any block would have two events.
+  const double shortest = 0.01 * ring.duration() / static_cast<double>(events);
+  if (!(block >= shortest && block <= 0.5 * ring.duration()))
+    throw std::invalid_argument(
+        "characteristic size: block of " + number(block) + ", expected 0 or " + number(shortest) +
+        " to half of the catalogue, which is " + number(ring.duration()) + " long");
+  return static_cast<int>(std::round(ring.duration() / block));
+}
+
+// s* of one catalogue drawn from the events, blocks of time from anywhere or event by event.
+double resampled(const Ring &ring, const std::vector<double> &sizes, const SizePoint &point,
+                 gsl_rng *rng) {
+  NeumaierSum s, s2;
+  while (!(s.value() > 0.0)) {  // a draw without an event has no ratio
+    for (int i = 0; i < point.blocks; ++i) {
+      const Ring::Sums part = ring.over(gsl_rng_uniform(rng) * ring.duration(), point.block);
+      s.add(part.s);
+      s2.add(part.s2);
+    }
+    for (std::size_t i = 0; point.blocks == 0 && i < sizes.size(); ++i) {
+      const double size = sizes[gsl_rng_uniform_int(rng, sizes.size())];
+      s.add(size);
+      s2.add(size * size);
+    }
+  }
+  return s2.value() / s.value();
+}
+
 }  // namespace
 
 SizePoint characteristic_size(const std::vector<double> &t_start, const std::vector<double> &sizes,
                               double threshold, double length, const Resampling &resampling) {
-  const std::string what = "characteristic size: ";
-  const int replicas = resampling.replicas;
-  if (replicas < 2)
-    throw std::invalid_argument(what + std::to_string(replicas) + " replicas, expected at least 2");
-  if (t_start.size() != sizes.size() || !std::is_sorted(t_start.begin(), t_start.end()))
-    throw std::invalid_argument(what + "expected one time for each size, in ascending order");
-  if (!std::isnan(resampling.block) &&
-      !(resampling.block >= 0.0 && std::isfinite(resampling.block)))
-    throw std::invalid_argument(what + "block of " + number(resampling.block) +
-                                ", expected a finite time of at least 0");
-  if (!(threshold >= 0.0 && std::isfinite(threshold)))
-    throw std::invalid_argument(what + "threshold " + number(threshold) +
-                                ", expected a finite number of at least 0");
-  if (!(length > 0.0 && std::isfinite(length)))
-    throw std::invalid_argument(what + "length " + number(length) +
-                                ", expected a positive finite number");
-  std::vector<double> kept, times;
+  check(t_start, sizes, threshold, length, resampling);
+  Kept kept;
   for (std::size_t i = 0; i < sizes.size(); ++i) {
-    const double size = sizes[i];
-    if (!(size > 0.0 && size >= threshold && std::isfinite(size))) continue;
-    kept.push_back(size);
-    times.push_back(t_start[i]);
+    if (!(sizes[i] > 0.0 && sizes[i] >= threshold && std::isfinite(sizes[i]))) continue;
+    kept.sizes.push_back(sizes[i]);
+    kept.times.push_back(t_start[i]);
   }
   SizePoint point;
   point.length = length;
-  point.n = static_cast<std::int64_t>(kept.size());
-  if (point.n < 10) {
-    point.why = number(point.n) + " events above the threshold, at least 10 needed";
-    return point;
-  }
-  const auto [least, greatest] = std::minmax_element(kept.begin(), kept.end());
-  if (*least == *greatest) {
-    point.why = "all events have the same size";
-    return point;
-  }
-
-  if (!(times.back() > times.front())) {
-    point.why = "all events begin at the same time";
-    return point;
-  }
-
-  const auto ratio = [&](const auto &next) {
-    NeumaierSum sum, squares;
-    for (std::size_t i = 0; i < kept.size(); ++i) {
-      const double size = next(i);
-      sum.add(size);
-      squares.add(size * size);
-    }
-    return squares.value() / sum.value();
-  };
-  const Ring ring(times, kept);
-  point.s_star = ratio([&](std::size_t i) { return kept[i]; });
-  // What an event adds to the deviation of the ratio, to first order.
-  const auto influence = [&](double size) {
-    return (size * size - point.s_star * size) / ring.all().s;
-  };
-  NeumaierSum influences;
-  for (double size : kept) influences.add(std::pow(influence(size), 2));
-  point.error_independent = std::sqrt(influences.value());
-
-  point.block = resampling.block;
-  if (std::isnan(point.block)) {
-    // As many bins as events: one in each on average.
-    std::vector<double> bins(kept.size(), 0.0);
-    const auto count = static_cast<double>(bins.size());
-    for (std::size_t i = 0; i < kept.size(); ++i) {
-      const double at = (times[i] - times.front()) / ring.duration() * count;
-      bins[std::min(static_cast<std::size_t>(at), bins.size() - 1)] += influence(kept[i]);
-    }
-    point.block = block_length(bins) * ring.duration() / count;
-  }
+  point.n = static_cast<std::int64_t>(kept.sizes.size());
+  point.why = too_few_or_equal(kept);
+  if (!point.why.empty()) return point;
+  point.degenerate = false;
+  const Ring ring(kept.times, kept.sizes);
+  point.s_star = ring.all().s2 / ring.all().s;
+  // What each event adds to the deviation of the ratio, to first order.
+  std::vector<double> influences;
+  for (double size : kept.sizes)
+    influences.push_back((size * size - point.s_star * size) / ring.all().s);
+  point.error_independent =
+      std::sqrt(gsl_stats_tss_m(influences.data(), 1, influences.size(), 0.0));
+  point.block = std::isnan(resampling.block) ? block_of(kept, ring, influences) : resampling.block;
   if (point.block > 0.0) {
-    // Below a hundredth of the mean interval hardly any block would have two events.
-    const double shortest = 0.01 * ring.duration() / static_cast<double>(kept.size());
-    if (!(point.block >= shortest && point.block <= 0.5 * ring.duration()))
-      throw std::invalid_argument(what + "block of " + number(point.block) + ", expected 0 or " +
-                                  number(shortest) + " to half of the catalogue, which is " +
-                                  number(ring.duration()) + " long");
-    point.blocks = static_cast<int>(std::round(ring.duration() / point.block));  // a whole number
+    point.blocks = blocks_in(ring, point.block, kept.sizes.size());
     point.block = ring.duration() / point.blocks;
   }
-
-  point.degenerate = false;
   const Rng rng = generator(resampling.seed);
-  const auto event_by_event = [&] {
-    return ratio([&](std::size_t) { return kept[gsl_rng_uniform_int(rng.get(), kept.size())]; });
-  };
-  const auto block_by_block = [&] {
-    NeumaierSum s, s2;
-    while (!(s.value() > 0.0)) {  // a draw without an event has no ratio
-      for (int i = 0; i < point.blocks; ++i) {
-        const double from = gsl_rng_uniform(rng.get()) * ring.duration();
-        const Ring::Sums part = ring.over(from, point.block);
-        s.add(part.s);
-        s2.add(part.s2);
-      }
-    }
-    return s2.value() / s.value();
-  };
-  NeumaierSum sum, squares;
-  for (int replica = 0; replica < replicas; ++replica) {
-    const double deviation =
-        (point.blocks > 0 ? block_by_block() : event_by_event()) - point.s_star;
-    sum.add(deviation);
-    squares.add(deviation * deviation);
-  }
-  const double mean = sum.value() / replicas;
-  point.error = std::sqrt(std::max(0.0, squares.value() - replicas * mean * mean) / (replicas - 1));
+  std::vector<double> deviations;
+  for (int replica = 0; replica < resampling.replicas; ++replica)
+    deviations.push_back(resampled(ring, kept.sizes, point, rng.get()) - point.s_star);
+  point.error = gsl_stats_sd(deviations.data(), 1, deviations.size());
   return point;
 }
 
@@ -373,17 +332,9 @@ ScalingFit fit_scaling(const std::vector<SizePoint> &points) {
   fit.se_A = fit.A * std::sqrt(variance_a);
   fit.se_D = std::sqrt(variance_d);
 
-  double total = 0.0, mean = 0.0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    total += weight[i];
-    mean += weight[i] * y[i];
-  }
-  mean /= total;
-  fit.constant = std::exp(mean);
-  fit.se_constant = fit.constant / std::sqrt(total);
-  fit.chi2_constant = 0.0;
-  for (std::size_t i = 0; i < x.size(); ++i)
-    fit.chi2_constant += weight[i] * (y[i] - mean) * (y[i] - mean);
+  fit.constant = std::exp(gsl_stats_wmean(weight.data(), 1, y.data(), 1, y.size()));
+  fit.se_constant = fit.constant / std::sqrt(std::accumulate(weight.begin(), weight.end(), 0.0));
+  fit.chi2_constant = gsl_stats_wtss(weight.data(), 1, y.data(), 1, y.size());
 
   fit.aicc = corrected_aic(fit.chi2, 2, fit.points);
   fit.aicc_constant = corrected_aic(fit.chi2_constant, 1, fit.points);
