@@ -75,14 +75,12 @@ class Summary : public Analysis {
   std::vector<Output> outputs() const override { return {{"--output", output_}}; }
 
   GeneralisedGammaFit fit_times(const std::vector<double> &times) const {
-    GeneralisedGammaOptions fixed;
-    fixed.fix_delta = 1.0;
     const double shortest = times.empty() || shortest_ == 0.0 ? 0.0 : shortest_ * mean_of(times);
-    if (method_ == "likelihood") return fit_with_share(times, shortest, fixed);
+    if (method_ == "likelihood") return fit_with_share(times, shortest, 1.0);
     std::vector<LogBin> fitted;
     for (const LogBin &bin : LogHistogram(times).bins())
       if (bin.lo >= shortest) fitted.push_back(bin);
-    return fit_least_squares(fitted, fixed);
+    return fit_least_squares(fitted, 1.0);
   }
 
   void add_threshold(Row &row, const EventTable &table, double threshold) const {

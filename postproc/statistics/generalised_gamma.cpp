@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "generalised_gamma.h"
 
-#include <gsl/gsl_blas.h>
 #include <gsl/gsl_cdf.h>
-#include <gsl/gsl_eigen.h>
-#include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
-#include <gsl/gsl_linalg.h>
 #include <gsl/gsl_min.h>
-#include <gsl/gsl_multifit_nlinear.h>
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
 #include <gsl/gsl_sf.h>
@@ -22,10 +17,12 @@
 #include <fmt/format.h>
 
 #include "cells.h"
+#include "estimation.h"
 #include "ks_distance.h"
 #include "lsm_sum.h"
 #include "lsm_text_io.h"
 #include "replicas.h"
+#include "samples.h"
 #include "truncated_family.h"
 
 namespace LSM::postproc {
@@ -35,17 +32,19 @@ namespace {
 using text_io::number;
 
 // Inside, theta is measured in units of a reference (v = ln theta - reference) and the parameters
-// are gamma, ln delta and v0 = ln(B^(1/delta)) - reference: ln f = ln C + (gamma - 1) v - s with
+// are gamma, v0 = ln(B^(1/delta)) - reference and ln delta: ln f = ln C + (gamma - 1) v - s with
 // s = exp(delta (v - v0)). Judged in these, a fit is degenerate or not whatever the unit of time.
-enum Parameter { log_c, shape, log_delta, scale, parameters };
+// Those that are held, ln delta or it and the scale, come last.
+enum Parameter { log_c, shape, scale, log_delta, parameters };
 using Vector = std::array<double, parameters>;
 using Matrix = std::array<Vector, parameters>;
-using Mask = std::array<bool, parameters>;
 
 constexpr double delta_min = 0.1, delta_max = 10.0;
 
 const char *const no_fall_off =
     "no exponential fall-off in the data: no better than a pure power law";
+const char *const singular =
+    "the information matrix is singular: the parameters trade against each other";
 
 // What the fall-off has to gain over a pure power law in 2 ln L or chi square: the 95 % point of
 // chi square with as many degrees of freedom as it has parameters (B and delta, or B alone).
@@ -60,86 +59,56 @@ std::string outside(double delta) {
   return {};
 }
 
-// Inverse of the information of the free parameters; false if it is singular within rounding.
-bool invert(const Matrix &information, const Mask &free, Matrix &covariance) {
-  std::vector<std::size_t> index;
-  for (std::size_t i = 0; i < parameters; ++i)
-    if (free[i]) index.push_back(i);
-  const std::size_t n = index.size();
-  const Gsl<gsl_matrix> scaled(gsl_matrix_alloc(n, n), gsl_matrix_free),
-      copy(gsl_matrix_alloc(n, n), gsl_matrix_free);
-  const auto root = [&](std::size_t i) { return std::sqrt(information[index[i]][index[i]]); };
-  for (std::size_t i = 0; i < n; ++i) {
-    if (!(root(i) > 0.0 && std::isfinite(root(i)))) return false;
-    for (std::size_t j = 0; j < n; ++j)
-      gsl_matrix_set(scaled.get(), i, j, information[index[i]][index[j]] / (root(i) * root(j)));
-  }
-  gsl_matrix_memcpy(copy.get(), scaled.get());
-  const Gsl<gsl_vector> eigenvalues = gsl_vector_of(n);
-  const Gsl<gsl_eigen_symm_workspace> work(gsl_eigen_symm_alloc(n), gsl_eigen_symm_free);
-  gsl_eigen_symm(copy.get(), eigenvalues.get(), work.get());
-  const double smallest = gsl_vector_min(eigenvalues.get());
-  if (!(smallest > 1e-10 * gsl_vector_max(eigenvalues.get()))) return false;
-  gsl_linalg_cholesky_decomp1(scaled.get());
-  gsl_linalg_cholesky_invert(scaled.get());
-  covariance = {};
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j < n; ++j)
-      covariance[index[i]][index[j]] = gsl_matrix_get(scaled.get(), i, j) / (root(i) * root(j));
-  return true;
-}
-
-double error_of(const Vector &slope, const Matrix &covariance) {
-  double variance = 0.0;
-  for (std::size_t i = 0; i < parameters; ++i)
-    for (std::size_t j = 0; j < parameters; ++j) variance += slope[i] * slope[j] * covariance[i][j];
-  return std::sqrt(std::max(0.0, variance));
+// The covariance of the parameters from `first` on, with 0 for those before them and those held.
+Covariance of_all(const Covariance &fitted, std::size_t first) {
+  Covariance all(parameters);
+  for (std::size_t i = 0; i < fitted.n; ++i)
+    for (std::size_t j = 0; j < fitted.n; ++j) all(first + i, first + j) = fitted(i, j);
+  return all;
 }
 
 // Derivatives of ln B = delta (v0 + reference).
-Vector slope_of_log_b(const Vector &p, double reference) {
+Numbers slope_of_log_b(const Vector &p, double reference) {
   const double delta = std::exp(p[log_delta]);
-  return {0.0, 0.0, delta * (p[scale] + reference), delta};
+  return {0.0, 0.0, delta, delta * (p[scale] + reference)};
 }
 
 // Reason why the parameters are not determined by the data, or "".
-std::string ridge(const Vector &p, const Matrix &covariance, double reference) {
+std::string ridge(const Vector &p, const Covariance &covariance, double reference) {
   const auto trade = [](const char *name, double error) {
     return fmt::format("the parameters trade against each other: standard error of {} is {:.2g}",
                        name, error);
   };
-  const double gamma_error = std::sqrt(covariance[shape][shape]);
-  const double delta_error = std::sqrt(covariance[log_delta][log_delta]);
+  const double gamma_error = covariance.error(shape), delta_error = covariance.error(log_delta);
   if (!(gamma_error <= 0.25 * std::max(1.0, std::fabs(p[shape]))))
     return trade("gamma", gamma_error);
   if (!(delta_error <= 0.25)) return trade("ln delta", delta_error);
-  const double error = error_of(slope_of_log_b(p, reference), covariance);
+  const double error = covariance.error(slope_of_log_b(p, reference));
   if (!(error <= 1.0)) return trade("ln B in this unit of time", error);
   return {};
 }
 
-// Parameters and errors in the unit of the data. slope_c: derivatives of ln C.
-void report(const Vector &p, const Vector &slope_c, const Matrix &covariance, double reference,
+// Parameters and errors in the unit of the data, or why there are none. slope_c: derivatives of
+// ln C.
+void report(const Vector &p, const Numbers &slope_c, const Covariance &covariance, double reference,
             GeneralisedGammaFit &fit) {
+  fit.why = ridge(p, covariance, reference);
+  if (!fit.why.empty()) return;
   fit.degenerate = false;
   fit.gamma = p[shape];
   fit.delta = std::exp(p[log_delta]);
   fit.B = std::exp(fit.delta * (p[scale] + reference));
   fit.C = std::exp(p[log_c]);
-  fit.se_gamma = std::sqrt(covariance[shape][shape]);
-  fit.se_delta = fit.delta * std::sqrt(covariance[log_delta][log_delta]);
-  fit.se_B = fit.B * error_of(slope_of_log_b(p, reference), covariance);
-  fit.se_C = fit.C * error_of(slope_c, covariance);
+  fit.se_gamma = covariance.error(shape);
+  fit.se_delta = fit.delta * covariance.error(log_delta);
+  fit.se_B = fit.B * covariance.error(slope_of_log_b(p, reference));
+  fit.se_C = fit.C * covariance.error(slope_c);
 }
 
-void check_options(const GeneralisedGammaOptions &options) {
-  const double delta = options.fix_delta;
-  if (!std::isnan(delta) && !(delta >= delta_min && delta <= delta_max))
-    throw std::invalid_argument("generalised gamma: delta fixed at " + number(delta) +
+void check_delta(double fixed) {
+  if (!std::isnan(fixed) && !(fixed >= delta_min && fixed <= delta_max))
+    throw std::invalid_argument("generalised gamma: delta fixed at " + number(fixed) +
                                 ", expected a number between 0.1 and 10");
-  if (options.min_count < 1)
-    throw std::invalid_argument("generalised gamma: minimum count " + number(options.min_count) +
-                                ", expected at least 1");
 }
 
 // ---- maximum likelihood
@@ -158,8 +127,7 @@ double tail(double k, double s) {
 }
 
 // Kolmogorov-Smirnov distance of points to the law.
-template <class Points>
-double distance(const Points &points, double lower, double gamma, double delta, double v0) {
+double distance(const SamplePoints &points, double lower, double gamma, double delta, double v0) {
   if (std::isinf(v0)) {  // the power law at the border
     const auto cdf = [&](double v) { return -std::expm1(gamma * (v - lower)); };
     return KsDistance(points, cdf)();
@@ -198,6 +166,7 @@ class Likelihood {
     return sum.value() / n_;
   }
   double mean_v() const { return mean_v_; }
+  double n() const { return n_; }
   bool truncated() const { return std::isfinite(lower_); }
 
   // Per value, of the power law that is left when the fall-off goes; needs the truncation.
@@ -290,7 +259,7 @@ class Likelihood {
 // Derivatives of ln f at v without the constant: first in slope, second in curvature.
 void derivatives(double v, double delta, double v0, Vector &slope, Matrix &curvature) {
   const double w = delta * (v - v0), s = std::exp(w);
-  slope = {0.0, v, -s * w, delta * s};
+  slope = {0.0, v, delta * s, -s * w};
   curvature = {};
   curvature[log_delta][log_delta] = -s * w * (1.0 + w);
   curvature[log_delta][scale] = curvature[scale][log_delta] = delta * s * (1.0 + w);
@@ -327,11 +296,7 @@ class Sampler {
       const double u = gsl_rng_uniform_pos(rng);
       return (std::log(gsl_ran_gamma(rng, k_ + 1.0, 1.0)) + std::log(u) / k_) / delta_;
     }
-    const double u = gsl_rng_uniform(rng) * cdf_.back();
-    const auto above = std::upper_bound(cdf_.begin() + 1, cdf_.end() - 1, u);
-    const auto i = static_cast<std::size_t>(above - cdf_.begin());
-    const double share = (u - cdf_[i - 1]) / (cdf_[i] - cdf_[i - 1]);
-    return at_[i - 1] + std::clamp(share, 0.0, 1.0) * (at_[i] - at_[i - 1]);
+    return interpolate(cdf_, at_, gsl_rng_uniform(rng) * cdf_.back());
   }
 
  private:
@@ -353,8 +318,8 @@ class CellTest {
     if (!std::isfinite(best.log_likelihood)) return HUGE_VAL;
     std::vector<double> below(counts.size() + 1);
     std::partial_sum(counts.begin(), counts.end(), below.begin() + 1);
-    return postproc::distance(CountedEdges(cells_.edges().data(), below.data(), below.size()),
-                              lower_, best.gamma, best.delta, best.v0);
+    return postproc::distance({cells_.edges().data(), below.size(), below.data()}, lower_,
+                              best.gamma, best.delta, best.v0);
   }
 
  private:
@@ -383,124 +348,8 @@ double held_delta(const GeneralisedGammaFit &fit) {
   return fit.delta_fixed ? fit.delta : std::numeric_limits<double>::quiet_NaN();
 }
 
-// ---- least squares
-
-struct BinnedData {
-  struct Bin {
-    std::array<double, 5> v, log_weight;  // Gauss-Legendre points in v, weights over the bin width
-    double log_density, weight;
-  };
-  std::vector<Bin> bins;
-  Mask free;
-  Vector start;
-
-  Vector expand(const gsl_vector *x) const {
-    Vector p = start;
-    for (std::size_t i = 0, k = 0; i < parameters; ++i)
-      if (free[i]) p[i] = gsl_vector_get(x, k++);
-    return p;
-  }
-};
-
-// ln of the model averaged over the bin, and its derivatives.
-double log_average(const BinnedData::Bin &bin, const Vector &p, Vector &slope) {
-  const double delta = std::exp(p[log_delta]);
-  std::array<double, 5> terms;
-  for (std::size_t k = 0; k < terms.size(); ++k)
-    terms[k] = bin.log_weight[k] + p[log_c] + p[shape] * bin.v[k] -
-               std::exp(std::min(700.0, delta * (bin.v[k] - p[scale])));
-  const double top = *std::max_element(terms.begin(), terms.end());
-  double total = 0.0;
-  slope = {};
-  for (std::size_t k = 0; k < terms.size(); ++k) {
-    const double term = std::exp(terms[k] - top);
-    const double w = delta * (bin.v[k] - p[scale]), s = std::exp(std::min(700.0, w));
-    total += term;
-    slope[log_c] += term;
-    slope[shape] += term * bin.v[k];
-    slope[log_delta] -= term * s * w;
-    slope[scale] += term * delta * s;
-  }
-  for (double &value : slope) value /= total;
-  return top + std::log(total);
-}
-
-int residuals(const gsl_vector *x, void *data, gsl_vector *f) {
-  const auto &binned = *static_cast<const BinnedData *>(data);
-  const Vector p = binned.expand(x);
-  Vector slope;
-  for (std::size_t i = 0; i < binned.bins.size(); ++i) {
-    const double value = log_average(binned.bins[i], p, slope) - binned.bins[i].log_density;
-    if (!std::isfinite(value)) return GSL_EDOM;
-    gsl_vector_set(f, i, value);
-  }
-  return GSL_SUCCESS;
-}
-
-int jacobian(const gsl_vector *x, void *data, gsl_matrix *j) {
-  const auto &binned = *static_cast<const BinnedData *>(data);
-  const Vector p = binned.expand(x);
-  Vector slope;
-  for (std::size_t i = 0; i < binned.bins.size(); ++i) {
-    log_average(binned.bins[i], p, slope);
-    for (std::size_t c = 0, k = 0; c < parameters; ++c) {
-      if (!binned.free[c]) continue;
-      if (!std::isfinite(slope[c])) return GSL_EDOM;
-      gsl_matrix_set(j, i, k++, slope[c]);
-    }
-  }
-  return GSL_SUCCESS;
-}
-
-struct Solution {
-  Vector p;
-  double chi2 = HUGE_VAL;
-  bool converged = false;
-};
-
-Solution solve(BinnedData &data) {
-  const auto free = static_cast<std::size_t>(std::count(data.free.begin(), data.free.end(), true));
-  const std::size_t n = data.bins.size();
-  Solution solution;
-  gsl_multifit_nlinear_parameters settings = gsl_multifit_nlinear_default_parameters();
-  const Gsl<gsl_multifit_nlinear_workspace> work(
-      gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &settings, n, free),
-      gsl_multifit_nlinear_free);
-  const Gsl<gsl_vector> x = gsl_vector_of(free), weights = gsl_vector_of(n);
-  for (std::size_t i = 0, k = 0; i < parameters; ++i)
-    if (data.free[i]) gsl_vector_set(x.get(), k++, data.start[i]);
-  for (std::size_t i = 0; i < n; ++i) gsl_vector_set(weights.get(), i, data.bins[i].weight);
-  gsl_multifit_nlinear_fdf functions{};
-  functions.f = residuals;
-  functions.df = jacobian;
-  functions.n = n;
-  functions.p = free;
-  functions.params = &data;
-  if (gsl_multifit_nlinear_winit(x.get(), weights.get(), &functions, work.get()) != GSL_SUCCESS)
-    return solution;
-  int info = 0;
-  const int status =
-      gsl_multifit_nlinear_driver(500, 1e-10, 1e-10, 0.0, nullptr, nullptr, &info, work.get());
-  // Without progress: the residuals cannot fall further within rounding.
-  solution.converged = status == GSL_SUCCESS || status == GSL_ENOPROG;
-  solution.p = data.expand(gsl_multifit_nlinear_position(work.get()));
-  const gsl_vector *f = gsl_multifit_nlinear_residual(work.get());
-  gsl_blas_ddot(f, f, &solution.chi2);
-  return solution;
-}
-
-}  // namespace
-
-GeneralisedGammaFit fit_maximum_likelihood(const std::vector<double> &values, double lo,
-                                           const GeneralisedGammaOptions &options) {
-  check_options(options);
-  const QuietGsl quiet;
-  if (!(lo >= 0.0 && std::isfinite(lo)))
-    throw std::invalid_argument("generalised gamma: left truncation " + number(lo) +
-                                ", expected a finite number of at least 0");
-  GeneralisedGammaFit fit;
-  fit.lo = lo;
-  fit.delta_fixed = !std::isnan(options.fix_delta);
+// Logarithms of the values from lo on.
+std::vector<double> logs_from(double lo, const std::vector<double> &values) {
   std::vector<double> v;
   for (double value : values) {
     if (!std::isfinite(value) || (lo == 0.0 && value <= 0.0))
@@ -508,191 +357,242 @@ GeneralisedGammaFit fit_maximum_likelihood(const std::vector<double> &values, do
                                   (lo == 0.0 ? "positive" : "finite") + " number");
     if (value >= lo) v.push_back(std::log(value));
   }
-  fit.n = static_cast<std::int64_t>(v.size());
-  const auto n = static_cast<double>(v.size());
-  if (fit.n < 20) {
-    fit.why = number(fit.n) + " values, at least 20 needed";
-    return fit;
-  }
-  NeumaierSum sum;
-  for (double v_i : v) sum.add(v_i);
-  const double reference = sum.value() / n;
-  for (double &v_i : v) v_i -= reference;
-  const auto [least, greatest] = std::minmax_element(v.begin(), v.end());
-  if (!(*greatest - *least > 1e-9)) {
-    fit.why = "all values are equal";
-    return fit;
-  }
+  return v;
+}
 
-  Likelihood likelihood(std::move(v), lo > 0.0 ? std::log(lo) - reference : -HUGE_VAL);
-  const Profile best = likelihood.best(options.fix_delta);
+// Reason why the best law is none of the family, or "".
+std::string no_density(const Likelihood &likelihood, const Profile &best, bool delta_fixed) {
   // Compared first: a power law drives the rest to the border or along the ridge.
   if (likelihood.truncated() &&
-      2.0 * n * (best.log_likelihood - likelihood.power_law()) < least_gain(fit.delta_fixed)) {
-    fit.why = no_fall_off;
-    return fit;
-  }
-  if (!std::isfinite(best.log_likelihood)) {
-    fit.why = "no optimum found";
-    return fit;
-  }
-  if (!fit.delta_fixed) fit.why = outside(best.delta);
-  if (!fit.why.empty()) return fit;
-  if (!likelihood.truncated() && best.gamma < 0.05) {
-    fit.why = "gamma is at its limit 0, beyond which only a fit truncated on the left exists";
-    return fit;
-  }
+      2.0 * likelihood.n() * (best.log_likelihood - likelihood.power_law()) <
+          least_gain(delta_fixed))
+    return no_fall_off;
+  if (!std::isfinite(best.log_likelihood)) return "no optimum found";
+  const std::string why = delta_fixed ? "" : outside(best.delta);
+  if (why.empty() && !likelihood.truncated() && best.gamma < 0.05)
+    return "gamma is at its limit 0, beyond which only a fit truncated on the left exists";
+  return why;
+}
 
-  const double delta = best.delta, v0 = best.v0, gamma = best.gamma;
+// Observed information of the sample at a law by which ln C is given by the rest.
+// \param mean_slope means of the derivatives of that law
+SymmetricMatrix information_at(const Profile &law, const Likelihood &likelihood,
+                               const TabulatedDensity &table, bool delta_fixed,
+                               Numbers &mean_slope) {
+  Vector slope;
+  Matrix second, of_law{};
+  for (std::size_t i = 0; i < table.u.size(); ++i) {
+    derivatives(table.u[i], law.delta, law.v0, slope, second);
+    for (std::size_t a = shape; a < parameters; ++a) {
+      mean_slope[a] += table.p[i] * slope[a];
+      for (std::size_t b = shape; b < parameters; ++b)
+        of_law[a][b] += table.p[i] * (slope[a] * slope[b] + second[a][b]);
+    }
+  }
+  SymmetricMatrix information(delta_fixed ? 2 : 3);
+  for (std::size_t i = 0; i < information.n; ++i)
+    for (std::size_t j = 0; j <= i; ++j) {
+      const std::size_t a = shape + i, b = shape + j;
+      const double of_data = b == shape ? 0.0 : likelihood.mean([&](double v) {
+        derivatives(v, law.delta, law.v0, slope, second);
+        return second[a][b];
+      });
+      information(i, j) = information(j, i) =
+          likelihood.n() * (of_law[a][b] - mean_slope[a] * mean_slope[b] - of_data);
+    }
+  return information;
+}
+
+void report(const Likelihood &likelihood, const Profile &best, double reference,
+            GeneralisedGammaFit &fit) {
+  const double delta = best.delta, v0 = best.v0, gamma = best.gamma, lower = likelihood.lower();
   const double mode = gamma > 0.0 ? v0 + std::log(gamma / delta) / delta : -HUGE_VAL;
   const TabulatedDensity table =
       tabulate([&](double x) { return gamma * x - std::exp(delta * (x - v0)); },
-               std::max(mode, likelihood.lower()), likelihood.lower(), HUGE_VAL, 1.0 / delta);
-  // Observed information per value: minus the second derivatives of the log-likelihood.
-  Vector slope, mean_slope{};
-  Matrix curvature, information{};
-  for (std::size_t i = 0; i < table.u.size(); ++i) {
-    derivatives(table.u[i], delta, v0, slope, curvature);
-    for (std::size_t a = 0; a < parameters; ++a) {
-      mean_slope[a] += table.p[i] * slope[a];
-      for (std::size_t b = 0; b < parameters; ++b)
-        information[a][b] += table.p[i] * (slope[a] * slope[b] + curvature[a][b]);
-    }
+               std::max(mode, lower), lower, HUGE_VAL, 1.0 / delta);
+  Numbers slope_c(parameters);
+  const Covariance covariance =
+      covariance_of(information_at(best, likelihood, table, fit.delta_fixed, slope_c));
+  if (covariance.n == 0) {
+    fit.why = singular;
+    return;
   }
-  for (std::size_t a = 0; a < parameters; ++a)
-    for (std::size_t b = 0; b < parameters; ++b) information[a][b] -= mean_slope[a] * mean_slope[b];
-  const auto subtract = [&](std::size_t a, std::size_t b) {
-    information[a][b] -= likelihood.mean([&](double x) {
-      derivatives(x, delta, v0, slope, curvature);
-      return curvature[a][b];
-    });
-  };
-  subtract(log_delta, log_delta);
-  subtract(log_delta, scale);
-  subtract(scale, scale);
-  information[scale][log_delta] = information[log_delta][scale];
-  for (Vector &row : information)
-    for (double &entry : row) entry *= n;
-
-  Matrix covariance{};
-  if (!invert(information, {false, true, !fit.delta_fixed, true}, covariance)) {
-    fit.why = "the information matrix is singular: the parameters trade against each other";
-    return fit;
-  }
-  const Vector p = {-table.log_z - gamma * reference, gamma, std::log(delta), v0};
-  fit.why = ridge(p, covariance, reference);
-  if (!fit.why.empty()) return fit;
-  Vector slope_c{};
-  for (std::size_t a = shape; a < parameters; ++a) slope_c[a] = -mean_slope[a];
+  for (double &slope : slope_c) slope = -slope;
   slope_c[shape] -= reference;
-  report(p, slope_c, covariance, reference, fit);
-  fit.log_likelihood = n * (best.log_likelihood - likelihood.mean_v() - reference);
-  std::vector<double> sorted = likelihood.sort();
-  fit.ks =
-      distance(SortedValues(sorted.data(), sorted.size()), likelihood.lower(), gamma, delta, v0);
-  if (fit.n > largest_exact_sample) {
-    for (double &v_i : sorted) v_i -= v0;
-    const CellTest test(fit, scaled_lower(fit), held_delta(fit));
-    fit.ks_by_cells = test.distance(test.cells().count(sorted));
-  }
-  return fit;
+  report({-table.log_z - gamma * reference, gamma, v0, std::log(delta)}, slope_c,
+         of_all(covariance, shape), reference, fit);
 }
 
-GeneralisedGammaFit fit_least_squares(const std::vector<LogBin> &bins,
-                                      const GeneralisedGammaOptions &options) {
-  check_options(options);
-  const QuietGsl quiet;
-  GeneralisedGammaFit fit;
-  fit.delta_fixed = !std::isnan(options.fix_delta);
+// ---- least squares
+
+constexpr std::int64_t fewest_counts = 5;
+
+// Bins with fewer counts are left out: their logarithms are biased.
+std::vector<LogBin> usable(const std::vector<LogBin> &bins) {
   std::vector<LogBin> used;
   for (const LogBin &bin : bins) {
     if (!(bin.lo > 0.0 && bin.hi > bin.lo && std::isfinite(bin.hi) && bin.count >= 0 &&
           bin.density >= 0.0))
       throw std::invalid_argument("generalised gamma: bin " + number(bin.lo) + " to " +
                                   number(bin.hi) + ", expected 0 < lower < upper and a density");
-    if (bin.count >= options.min_count && bin.density > 0.0) used.push_back(bin);
+    if (bin.count >= fewest_counts && bin.density > 0.0) used.push_back(bin);
   }
+  return used;
+}
+
+struct BinnedDensity {
+  std::array<double, 5> v, log_weight;  // Gauss-Legendre points in v, weights over the bin width
+  double log_density;
+};
+
+std::vector<BinnedDensity> binned_densities(const std::vector<LogBin> &bins, double reference) {
+  const Gsl<gsl_integration_glfixed_table> rule(gsl_integration_glfixed_table_alloc(5),
+                                                gsl_integration_glfixed_table_free);
+  std::vector<BinnedDensity> out;
+  for (const LogBin &bin : bins) {
+    BinnedDensity one;
+    // Weighted with its count, the logarithm of a Poisson number is half a count too large on
+    // average.
+    one.log_density = std::log(bin.density) - 0.5 / static_cast<double>(bin.count);
+    for (std::size_t k = 0; k < one.v.size(); ++k) {
+      double weight = 0.0;
+      gsl_integration_glfixed_point(std::log(bin.lo) - reference, std::log(bin.hi) - reference, k,
+                                    &one.v[k], &weight, rule.get());
+      // ln C goes with theta^(gamma-1) d theta = theta^gamma dv, in units of exp(reference).
+      one.log_weight[k] = std::log(weight / (bin.hi - bin.lo));
+    }
+    out.push_back(one);
+  }
+  return out;
+}
+
+// ln of the model averaged over the bin, and its derivatives.
+double log_average(const BinnedDensity &bin, const Vector &p, Numbers &slope) {
+  const double delta = std::exp(p[log_delta]);
+  std::array<double, 5> terms;
+  for (std::size_t k = 0; k < terms.size(); ++k)
+    terms[k] = bin.log_weight[k] + p[log_c] + p[shape] * bin.v[k] -
+               std::exp(std::min(700.0, delta * (bin.v[k] - p[scale])));
+  const double top = *std::max_element(terms.begin(), terms.end());
+  double total = 0.0;
+  Vector sums{};
+  for (std::size_t k = 0; k < terms.size(); ++k) {
+    const double term = std::exp(terms[k] - top);
+    const double w = delta * (bin.v[k] - p[scale]), s = std::exp(std::min(700.0, w));
+    total += term;
+    sums[log_c] += term;
+    sums[shape] += term * bin.v[k];
+    sums[log_delta] -= term * s * w;
+    sums[scale] += term * delta * s;
+  }
+  for (std::size_t a = 0; a < slope.size(); ++a) slope[a] = sums[a] / total;
+  return top + std::log(total);
+}
+
+// The rest of the parameters is held.
+Vector completed(const Numbers &p, Vector held) {
+  std::copy(p.begin(), p.end(), held.begin());
+  return held;
+}
+
+}  // namespace
+
+GeneralisedGammaFit fit_maximum_likelihood(const std::vector<double> &values, double lo,
+                                           double delta) {
+  check_delta(delta);
+  const QuietGsl quiet;
+  if (!(lo >= 0.0 && std::isfinite(lo)))
+    throw std::invalid_argument("generalised gamma: left truncation " + number(lo) +
+                                ", expected a finite number of at least 0");
+  GeneralisedGammaFit fit;
+  fit.lo = lo;
+  fit.delta_fixed = !std::isnan(delta);
+  std::vector<double> v = logs_from(lo, values);
+  fit.n = static_cast<std::int64_t>(v.size());
+  if (fit.n < 20) {
+    fit.why = number(fit.n) + " values, at least 20 needed";
+    return fit;
+  }
+  NeumaierSum sum;
+  for (double v_i : v) sum.add(v_i);
+  const double reference = sum.value() / static_cast<double>(v.size());
+  for (double &v_i : v) v_i -= reference;
+  const auto [least, greatest] = std::minmax_element(v.begin(), v.end());
+  if (!(*greatest - *least > 1e-9)) {
+    fit.why = "all values are equal";
+    return fit;
+  }
+  Likelihood likelihood(std::move(v), lo > 0.0 ? std::log(lo) - reference : -HUGE_VAL);
+  const Profile best = likelihood.best(delta);
+  fit.why = no_density(likelihood, best, fit.delta_fixed);
+  if (fit.why.empty()) report(likelihood, best, reference, fit);
+  if (!fit.why.empty()) return fit;
+  fit.log_likelihood = likelihood.n() * (best.log_likelihood - likelihood.mean_v() - reference);
+  std::vector<double> sorted = likelihood.sort();
+  fit.ks =
+      distance({sorted.data(), sorted.size()}, likelihood.lower(), best.gamma, best.delta, best.v0);
+  if (fit.n > largest_exact_sample) {
+    for (double &v_i : sorted) v_i -= best.v0;
+    const CellTest test(fit, scaled_lower(fit), held_delta(fit));
+    fit.ks_by_cells = test.distance(test.cells().count(sorted));
+  }
+  return fit;
+}
+
+GeneralisedGammaFit fit_least_squares(const std::vector<LogBin> &bins, double delta) {
+  check_delta(delta);
+  GeneralisedGammaFit fit;
+  fit.delta_fixed = !std::isnan(delta);
+  const std::vector<LogBin> used = usable(bins);
+  const int free_parameters = fit.delta_fixed ? log_delta : parameters;
+  fit.dof = static_cast<int>(used.size()) - free_parameters;
   double sum = 0.0;
   for (const LogBin &bin : used) {
     fit.n += bin.count;
     sum += static_cast<double>(bin.count) * std::log(bin.centre);
   }
-  const int free_parameters = fit.delta_fixed ? 3 : 4;
-  fit.dof = static_cast<int>(used.size()) - free_parameters;
   if (fit.dof < 1) {
-    fit.why = std::to_string(used.size()) + " bins with at least " + number(options.min_count) +
+    fit.why = std::to_string(used.size()) + " bins with at least " + number(fewest_counts) +
               " counts, more than " + std::to_string(free_parameters) + " needed";
     return fit;
   }
   fit.lo = used.front().lo;
   const double reference = sum / static_cast<double>(fit.n);
+  const std::vector<BinnedDensity> data = binned_densities(used, reference);
+  Numbers weights;
+  for (const LogBin &bin : used) weights.push_back(static_cast<double>(bin.count));
+  const auto solve = [&](const std::vector<Numbers> &starts, const Vector &held) {
+    return least_squares(weights, starts, [&](std::size_t i, const Numbers &p, Numbers &slope) {
+      return log_average(data[i], completed(p, held), slope) - data[i].log_density;
+    });
+  };
 
-  BinnedData data;
-  const Gsl<gsl_integration_glfixed_table> rule(gsl_integration_glfixed_table_alloc(5),
-                                                gsl_integration_glfixed_table_free);
-  for (const LogBin &bin : used) {
-    BinnedData::Bin entry;
-    // Weighted with its count, the logarithm of a Poisson number is half a count too large on
-    // average.
-    entry.log_density = std::log(bin.density) - 0.5 / static_cast<double>(bin.count);
-    entry.weight = static_cast<double>(bin.count);
-    for (std::size_t k = 0; k < 5; ++k) {
-      double weight = 0.0;
-      gsl_integration_glfixed_point(std::log(bin.lo) - reference, std::log(bin.hi) - reference, k,
-                                    &entry.v[k], &weight, rule.get());
-      // ln C goes with theta^(gamma-1) d theta = theta^gamma dv, in units of exp(reference).
-      entry.log_weight[k] = std::log(weight / (bin.hi - bin.lo));
-    }
-    data.bins.push_back(entry);
-  }
-
-  // The pure power law: fall-off far beyond the data.
   const double last = std::log(used.back().hi) - reference;
-  data.free = {true, true, false, false};
-  data.start = {std::log(used.front().density), 0.5, 0.0, last + 1000.0};
-  const Solution power_law = solve(data);
-
-  Solution best;
-  for (const double delta : {0.5, 1.0, 2.0}) {
-    for (const double v0 : {0.0, 0.5 * last, last}) {
-      data.free = {true, true, !fit.delta_fixed, true};
-      data.start = {std::log(used.front().density), 0.5,
-                    std::log(fit.delta_fixed ? options.fix_delta : delta), v0};
-      const Solution solution = solve(data);
-      if (solution.chi2 < best.chi2) best = solution;
-    }
-    if (fit.delta_fixed) break;
+  const double first_c = std::log(used.front().density);
+  // The pure power law: fall-off far beyond the data.
+  const LeastSquares power_law = solve({{first_c, 0.5}}, {0.0, 0.0, last + 1000.0, 0.0});
+  std::vector<Numbers> starts;
+  for (const double v0 : {0.0, 0.5 * last, last}) {
+    if (fit.delta_fixed) starts.push_back({first_c, 0.5, v0});
+    for (const double start : {0.5, 1.0, 2.0})
+      if (!fit.delta_fixed) starts.push_back({first_c, 0.5, v0, std::log(start)});
   }
+  const Vector held = {0.0, 0.0, 0.0, std::log(delta)};
+  LeastSquares best = solve(starts, held);
   // Compared first: a power law drives the rest to the border or along the ridge.
-  if (power_law.converged && power_law.chi2 - best.chi2 < least_gain(fit.delta_fixed)) {
+  if (power_law.converged && power_law.chi2 - best.chi2 < least_gain(fit.delta_fixed))
     fit.why = no_fall_off;
-    return fit;
-  }
-  if (!fit.delta_fixed) fit.why = outside(std::exp(best.p[log_delta]));
-  if (!best.converged && fit.why.empty()) fit.why = "no optimum found";
+  else if (!fit.delta_fixed)
+    fit.why = outside(std::exp(best.p[log_delta]));
+  if (fit.why.empty() && !best.converged) fit.why = "no optimum found";
+  if (fit.why.empty() && best.covariance.n == 0) fit.why = singular;
   if (!fit.why.empty()) return fit;
-  Matrix information{}, covariance{};
-  for (const BinnedData::Bin &bin : data.bins) {
-    Vector slope;
-    log_average(bin, best.p, slope);
-    for (std::size_t a = 0; a < parameters; ++a)
-      for (std::size_t b = 0; b < parameters; ++b)
-        information[a][b] += bin.weight * slope[a] * slope[b];
-  }
-  if (!invert(information, data.free, covariance)) {
-    fit.why = "the information matrix is singular: the parameters trade against each other";
-    return fit;
-  }
-  const double inflation = std::max(1.0, best.chi2 / fit.dof);
-  for (Vector &row : covariance)
-    for (double &entry : row) entry *= inflation;
-  fit.why = ridge(best.p, covariance, reference);
-  if (!fit.why.empty()) return fit;
+  for (double &entry : best.covariance.entries) entry *= std::max(1.0, best.chi2 / fit.dof);
   // From ln C in units of exp(reference) to that in the unit of the data.
-  Vector p = best.p;
+  Vector p = completed(best.p, held);
   p[log_c] -= p[shape] * reference;
-  report(p, {1.0, -reference, 0.0, 0.0}, covariance, reference, fit);
-  fit.chi2 = best.chi2;
+  report(p, {1.0, -reference, 0.0, 0.0}, of_all(best.covariance, log_c), reference, fit);
+  if (!fit.degenerate) fit.chi2 = best.chi2;
   return fit;
 }
 
@@ -726,8 +626,8 @@ double p_value(const GeneralisedGammaFit &fit, int replicas, std::uint64_t seed)
     const Profile best = likelihood.best(held);
     const bool fitted = std::isfinite(best.log_likelihood);
     const std::vector<double> &sorted = likelihood.sort();
-    return !fitted || !(distance(SortedValues(sorted.data(), n), lower, best.gamma, best.delta,
-                                 best.v0) < fit.ks);
+    return !fitted ||
+           !(distance({sorted.data(), n}, lower, best.gamma, best.delta, best.v0) < fit.ks);
   });
 }
 

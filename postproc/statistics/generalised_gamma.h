@@ -5,6 +5,7 @@
 #ifndef LSM_POSTPROC_GENERALISED_GAMMA_H
 #define LSM_POSTPROC_GENERALISED_GAMMA_H
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -40,21 +41,15 @@ struct GeneralisedGammaFit {
   std::string why;         ///< reason, one line
 };
 
-struct GeneralisedGammaOptions {
-  /// Value delta is held at; NaN: free.
-  double fix_delta = std::numeric_limits<double>::quiet_NaN();
-  /// Least squares: bins with fewer counts are left out (their logarithms are biased).
-  std::int64_t min_count = 5;
-};
-
 /// Weighted least squares on the logarithm of a log-binned density with C free, as the paper did
 /// (ours: weights count = 1 / Poisson variance of the logarithm, half a count taken off for the
 /// bias of the logarithm, the model averaged over each bin). Standard errors are multiplied by
 /// sqrt(chi2 / dof) where that exceeds 1. Bins with few counts get in more often when they are too
 /// high, which leaves gamma too low by up to one standard error below about 1000 values: prefer
-/// maximum likelihood. \throws std::invalid_argument for impossible bins or options
-GeneralisedGammaFit fit_least_squares(const std::vector<LogBin> &bins,
-                                      const GeneralisedGammaOptions &options = {});
+/// maximum likelihood. Bins of less than 5 counts are left out (their logarithms are biased).
+/// \param delta value at which it is held; NaN: free \throws std::invalid_argument for impossible
+/// bins, or delta outside 0.1 to 10
+GeneralisedGammaFit fit_least_squares(const std::vector<LogBin> &bins, double delta = NAN);
 
 /// Maximum likelihood with C from normalisation over [lo, infinity); values below lo are not used;
 /// standard errors from the observed information. gamma <= 0 (the block-slider's value in Table 1
@@ -68,7 +63,7 @@ GeneralisedGammaFit fit_least_squares(const std::vector<LogBin> &bins,
 /// of gamma, above 0.25 of ln delta, or above 1 of ln B (which depends on the unit of time: a poor
 /// delta spoils B less when times are over their mean).
 GeneralisedGammaFit fit_maximum_likelihood(const std::vector<double> &values, double lo = 0.0,
-                                           const GeneralisedGammaOptions &options = {});
+                                           double delta = NAN);
 
 /// Probability of a fit as poor as this one if the values are independent numbers drawn from the
 /// fitted density. Least squares: from chi2 and dof, without random numbers. Maximum likelihood:

@@ -76,8 +76,8 @@ std::vector<double> times_at_places(const EventTable &table, double threshold, i
 }
 
 GeneralisedGammaFit fit_with_share(const std::vector<double> &times, double shortest,
-                                   const GeneralisedGammaOptions &options) {
-  GeneralisedGammaFit fit = fit_maximum_likelihood(times, shortest, options);
+                                   double delta) {
+  GeneralisedGammaFit fit = fit_maximum_likelihood(times, shortest, delta);
   const double share = static_cast<double>(fit.n) / static_cast<double>(times.size());
   fit.C *= share;
   fit.se_C *= share;
@@ -139,13 +139,11 @@ std::vector<IntervalCurve> interval_curves(const std::vector<EventTable> &tables
       for (const LogBin &bin : curve.bins)
         if (bin.lo >= shortest) fitted.push_back(bin);
       for (const double delta : settings.deltas) {
-        GeneralisedGammaOptions options;
-        options.fix_delta = delta;
         if (settings.least_squares)
-          curve.fits.push_back({"least squares", delta, fit_least_squares(fitted, options)});
+          curve.fits.push_back({"least squares", delta, fit_least_squares(fitted, delta)});
         if (settings.maximum_likelihood)
           curve.fits.push_back(
-              {"maximum likelihood", delta, fit_with_share(times, shortest, options)});
+              {"maximum likelihood", delta, fit_with_share(times, shortest, delta)});
       }
       for (IntervalFit &fit : curve.fits) {
         if (fit.fit.degenerate) continue;

@@ -104,8 +104,7 @@ std::vector<double> times_at_places(const EventTable &events, double threshold, 
 
 /// fit_maximum_likelihood() with C such that the density is that of all times: over those from
 /// `shortest` on it integrates to their share.
-GeneralisedGammaFit fit_with_share(const std::vector<double> &times, double shortest,
-                                   const GeneralisedGammaOptions &options);
+GeneralisedGammaFit fit_with_share(const std::vector<double> &times, double shortest, double delta);
 
 /// \throws std::invalid_argument for impossible settings
 std::vector<IntervalCurve> interval_curves(const std::vector<EventTable> &tables,

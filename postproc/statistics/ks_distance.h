@@ -10,37 +10,19 @@
 
 namespace LSM::postproc {
 
-/// A sample as it is: ascending values, one at a time.
-class SortedValues {
- public:
-  SortedValues(const double *sorted, std::size_t count)
-      : sorted_(sorted), count_(count), n_(static_cast<double>(count)) {}
-  std::size_t size() const { return count_; }
-  double value(std::size_t i) const { return sorted_[i]; }
-  /// Shares of the sample before value i and up to it.
-  double before(std::size_t i) const { return static_cast<double>(i) / n_; }
-  double up_to(std::size_t i) const { return (static_cast<double>(i) + 1.0) / n_; }
+/// A sample as it is, ascending values one at a time, or by cells: their edges, and how many values
+/// are below each of them.
+struct SamplePoints {
+  const double *values;
+  std::size_t count;
+  const double *below = nullptr;  ///< of cells only
 
- private:
-  const double *sorted_;
-  std::size_t count_;
-  double n_;
-};
-
-/// A sample by cells: their edges, and how many values are below each of them.
-class CountedEdges {
- public:
-  CountedEdges(const double *edges, const double *below, std::size_t count)
-      : edges_(edges), below_(below), count_(count), n_(below[count - 1] - below[0]) {}
-  std::size_t size() const { return count_; }
-  double value(std::size_t i) const { return edges_[i]; }
-  double before(std::size_t i) const { return (below_[i] - below_[0]) / n_; }
-  double up_to(std::size_t i) const { return before(i); }
-
- private:
-  const double *edges_, *below_;
-  std::size_t count_;
-  double n_;
+  double n() const { return below ? below[count - 1] - below[0] : static_cast<double>(count); }
+  /// Values before point i, and up to it.
+  double before(std::size_t i) const {
+    return below ? below[i] - below[0] : static_cast<double>(i);
+  }
+  double up_to(std::size_t i) const { return before(i) + (below ? 0.0 : 1.0); }
 };
 
 /// Largest distance between the empirical distribution of a sample, not empty, and the cumulative
@@ -48,31 +30,31 @@ class CountedEdges {
 /// nothing exceeds a bound given by the law at its ends; blocks that cannot beat the best so far
 /// are skipped, and the exact distance costs some hundred evaluations instead of one for each
 /// value. Of a sample by cells it is the largest at their edges.
-template <class Points, class Cdf>
+template <class Cdf>
 class KsDistance {
  public:
-  KsDistance(Points points, Cdf cdf) : points_(points), cdf_(cdf) {}
+  KsDistance(SamplePoints points, Cdf cdf) : points_(points), n_(points.n()), cdf_(cdf) {}
 
   /// A result above give_up only means that the distance is at least that much.
   double operator()(double give_up = std::numeric_limits<double>::infinity()) {
     best_ = 0.0;
     give_up_ = give_up;
-    const double first = look(0), last = look(points_.size() - 1);
-    refine(0, first, points_.size() - 1, last);
+    const double first = look(0), last = look(points_.count - 1);
+    refine(0, first, points_.count - 1, last);
     return best_;
   }
 
  private:
   double look(std::size_t i) {
-    const double f = cdf_(points_.value(i));
-    best_ = std::max({best_, points_.up_to(i) - f, f - points_.before(i)});
+    const double f = cdf_(points_.values[i]);
+    best_ = std::max({best_, points_.up_to(i) / n_ - f, f - points_.before(i) / n_});
     return f;
   }
 
   void refine(std::size_t i, double f_i, std::size_t j, double f_j) {
     if (j - i < 2 || best_ > give_up_) return;
-    const double above = points_.before(j) - f_i;
-    const double below = f_j - points_.up_to(i);
+    const double above = points_.before(j) / n_ - f_i;
+    const double below = f_j - points_.up_to(i) / n_;
     if (std::max(above, below) <= best_) return;
     const std::size_t k = i + (j - i) / 2;
     const double f_k = look(k);
@@ -80,7 +62,8 @@ class KsDistance {
     refine(k, f_k, j, f_j);
   }
 
-  Points points_;
+  SamplePoints points_;
+  double n_;
   Cdf cdf_;
   double best_ = 0.0, give_up_ = 0.0;
 };

@@ -44,13 +44,11 @@ Sample sample_of(const EventTable &table, double threshold, const Sample *refere
   positive.erase(
       std::remove_if(positive.begin(), positive.end(), [](double t) { return !(t > 0); }),
       positive.end());
-  GeneralisedGammaOptions held;
-  held.fix_delta = 1.0;
-  const GeneralisedGammaFit fit = fit_with_share(positive, settings.shortest, held);
+  const GeneralisedGammaFit fit = fit_with_share(positive, settings.shortest, 1.0);
   out.numbers.push_back({&NatureRow::gamma, {fit.gamma, fit.se_gamma}});
   out.numbers.push_back({&NatureRow::B, {fit.B, fit.se_B}});
   out.numbers.push_back({&NatureRow::C, {fit.C, fit.se_C}});
-  const GeneralisedGammaFit free = fit_with_share(positive, settings.shortest, {});
+  const GeneralisedGammaFit free = fit_with_share(positive, settings.shortest, NAN);
   out.numbers.push_back({&NatureRow::free_gamma, {free.gamma, free.se_gamma}});
   out.numbers.push_back({&NatureRow::free_delta, {free.delta, free.se_delta}});
   out.numbers.push_back({&NatureRow::free_B, {free.B, free.se_B}});

@@ -25,160 +25,97 @@ using text_io::number;
 constexpr std::int64_t least_events = 10;
 
 // Logarithms of a sample in ascending order and their running sums, so that the exponent of any
-// range costs two look-ups.
+// range costs two look-ups. By cells, ranges begin and end at edges, and an index is that of an
+// edge.
 class LogSample {
  public:
   explicit LogSample(std::vector<double> logs) : y_(std::move(logs)) {
-    NeumaierSum sum;
-    sums_.reserve(y_.size() + 1);
-    sums_.push_back(0.0);
-    for (double y : y_) {
-      sum.add(y);
-      sums_.push_back(sum.value());
-    }
+    for (double y : y_) add(y, 1.0);
+  }
+  LogSample(const Cells &cells, const std::vector<double> &counts)
+      : y_(cells.edges()), by_cells_(1) {
+    for (std::size_t i = 0; i < counts.size(); ++i) add(cells.centres()[i], counts[i]);
   }
 
   const std::vector<double> &y() const { return y_; }
-  std::size_t size() const { return y_.size(); }
-  double front() const { return y_.front(); }
-  double back() const { return y_.back(); }
+  std::size_t size() const { return static_cast<std::size_t>(below_.back()); }
+  double front() const {
+    const auto some = std::upper_bound(below_.begin(), below_.end(), 0.0);
+    return *(y_.begin() + (some - below_.begin()) - 1);
+  }
+  double back() const {
+    const auto all = std::lower_bound(below_.begin(), below_.end(), below_.back());
+    return *(y_.begin() + (all - below_.begin()) - (by_cells_ ? 0 : 1));
+  }
   double sum(std::size_t first, std::size_t last) const { return sums_[last] - sums_[first]; }
-  double count(std::size_t first, std::size_t last) const {
-    return static_cast<double>(last - first);
+  double count(std::size_t first, std::size_t last) const { return below_[last] - below_[first]; }
+  /// Index of the first value, or edge, at or above y.
+  std::size_t first_from(double y) const {
+    const auto at = std::lower_bound(y_.begin(), y_.end() - by_cells_, y - by_cells_ * rounding);
+    return static_cast<std::size_t>(at - y_.begin());
+  }
+  /// Index of the first value above y, or of the last edge at or below it.
+  std::size_t first_above(double y) const {
+    const auto at = std::upper_bound(y_.begin() + by_cells_, y_.end(), y + by_cells_ * rounding);
+    return static_cast<std::size_t>(at - y_.begin() - by_cells_);
   }
   /// A range that is asked for, as far as the sample can tell its ends.
-  double lower_end(double lower) const { return lower; }
-  double upper_end(double upper) const { return upper; }
-  /// Index of the first value at or above y, or above it.
-  std::size_t first_from(double y) const {
-    return static_cast<std::size_t>(std::lower_bound(y_.begin(), y_.end(), y) - y_.begin());
-  }
-  std::size_t first_above(double y) const {
-    return static_cast<std::size_t>(std::upper_bound(y_.begin(), y_.end(), y) - y_.begin());
+  double lower_end(double lower) const { return by_cells_ ? y_[first_from(lower)] : lower; }
+  double upper_end(double upper) const {
+    return by_cells_ && std::isfinite(upper) ? y_[first_above(upper)] : upper;
   }
 
-  SortedValues points(std::size_t first, std::size_t last) const {
+  SamplePoints points(std::size_t first, std::size_t last) const {
+    if (by_cells_) return {y_.data() + first, last - first + 1, below_.data() + first};
     return {y_.data() + first, last - first};
   }
 
  private:
-  std::vector<double> y_, sums_;
+  static constexpr double rounding = 1e-12;  // of the logarithms of edges
+
+  void add(double y, double count) {
+    sum_.add(count * y);
+    sums_.push_back(sum_.value());
+    below_.push_back(below_.back() + count);
+  }
+
+  std::vector<double> y_, below_{0.0}, sums_{0.0};
+  NeumaierSum sum_;
+  int by_cells_ = 0;
 };
 
-// The same by cells: ranges begin and end at edges, and an index is that of an edge.
-class CountedLogs {
- public:
-  CountedLogs(const Cells &cells, const std::vector<double> &counts)
-      : edges_(cells.edges()), below_(edges_.size()), sums_(edges_.size()) {
-    NeumaierSum sum;
-    for (std::size_t i = 0; i < counts.size(); ++i) {
-      sum.add(counts[i] * cells.centres()[i]);
-      below_[i + 1] = below_[i] + counts[i];
-      sums_[i + 1] = sum.value();
-    }
-  }
-
-  std::size_t size() const { return static_cast<std::size_t>(below_.back()); }
-  double front() const { return *(edge(std::upper_bound(below_.begin(), below_.end(), 0.0)) - 1); }
-  double back() const {
-    return *edge(std::lower_bound(below_.begin(), below_.end(), below_.back()));
-  }
-  double sum(std::size_t first, std::size_t last) const { return sums_[last] - sums_[first]; }
-  double count(std::size_t first, std::size_t last) const { return below_[last] - below_[first]; }
-  double lower_end(double lower) const { return edges_[first_from(lower)]; }
-  double upper_end(double upper) const {
-    return std::isfinite(upper) ? edges_[first_above(upper)] : upper;
-  }
-  /// Index of the first edge at or above y, or of the last one at or below it.
-  std::size_t first_from(double y) const {
-    const auto at = std::lower_bound(edges_.begin(), edges_.end() - 1, y - rounding);
-    return static_cast<std::size_t>(at - edges_.begin());
-  }
-  std::size_t first_above(double y) const {
-    const auto at = std::upper_bound(edges_.begin() + 1, edges_.end(), y + rounding);
-    return static_cast<std::size_t>(at - edges_.begin()) - 1;
-  }
-  CountedEdges points(std::size_t first, std::size_t last) const {
-    return {edges_.data() + first, below_.data() + first, last - first + 1};
-  }
-
- private:
-  static constexpr double rounding = 1e-12;  // of logarithms
-
-  std::vector<double>::const_iterator edge(std::vector<double>::const_iterator below) const {
-    return edges_.begin() + (below - below_.begin());
-  }
-
-  const std::vector<double> &edges_;
-  std::vector<double> below_, sums_;
-};
-
-// Power law on [lower, lower + length] in logarithms: density in u ~ exp(b u).
+// Power law from a logarithm on: density in u ~ exp(b u).
 struct Law {
-  double lower, length, b;
+  double lower;
+  Exponential of_u;
 
-  bool finite() const { return std::isfinite(length); }
-  // Logarithm of the integral of exp(b u).
-  double log_z() const {
-    return finite() ? std::log(length) + log_normalisation(b * length) : -std::log(-b);
-  }
-  double cdf(double y) const {
-    const double u = y - lower;
-    if (!finite()) return -std::expm1(b * u);
-    const double z = b * length;
-    if (std::fabs(z) < 1e-12) return u / length;
-    if (z < 0.0) return std::expm1(b * u) / std::expm1(z);
-    // The same without overflow.
-    return std::exp(b * (u - length)) * std::expm1(-b * u) / std::expm1(-z);
-  }
-  double quantile(double probability) const {
-    if (!finite()) return lower + std::log1p(-probability) / b;
-    const double z = b * length;
-    if (std::fabs(z) < 1e-12) return lower + probability * length;
-    double u = 0.0;
-    if (z < 0.0)
-      u = std::log1p(probability * std::expm1(z)) / b;
-    else  // counted from the upper end, where exp(z) does not overflow
-      u = length + std::log1p((probability - 1.0) * -std::expm1(-z)) / b;
-    return lower + std::clamp(u, 0.0, length);
-  }
+  Law(double from, double to, double b = 0.0) : lower(from), of_u{to - from, b} {}
+  Law(const PowerLawFit &fit) : Law(std::log(fit.lo), std::log(fit.hi), 1.0 - fit.alpha) {}
+  double upper() const { return lower + of_u.length; }
+  double cdf(double y) const { return of_u.cdf(y - lower); }
+  double quantile(double probability) const { return lower + of_u.quantile(probability); }
 };
 
 struct Estimate {
   std::size_t first, last;  // indices of the range
   Law law;
-  double mean_u;
-  bool usable;  // an interior optimum exists
+  double mean_u = 0.0;
+  bool usable = false;  // an interior optimum exists
 };
 
-template <class Sample>
-Estimate estimate(const Sample &sample, double lower, double upper) {
-  const std::size_t first = sample.first_from(lower), last = sample.first_above(upper);
-  lower = sample.lower_end(lower);
-  upper = sample.upper_end(upper);
-  Estimate e{first, last, {lower, upper - lower, 0.0}, 0.0, false};
-  if (last <= first || !(sample.count(first, last) > 0.0)) return e;
-  e.mean_u = sample.sum(first, last) / sample.count(first, last) - lower;
-  if (e.law.finite()) {
-    const double mean = e.mean_u / e.law.length;
-    e.usable = mean > 1e-9 && mean < 1.0 - 1e-9;
-    if (e.usable) e.law.b = tilt_of_mean(mean) / e.law.length;
-  } else {
-    e.usable = e.mean_u > 1e-9;
-    if (e.usable) e.law.b = -1.0 / e.mean_u;
-  }
+Estimate estimate(const LogSample &sample, double lower, double upper) {
+  Estimate e{sample.first_from(lower), sample.first_above(upper),
+             Law(sample.lower_end(lower), sample.upper_end(upper))};
+  if (e.last <= e.first || !(sample.count(e.first, e.last) > 0.0)) return e;
+  e.mean_u = sample.sum(e.first, e.last) / sample.count(e.first, e.last) - e.law.lower;
+  const double unit = e.law.of_u.finite() ? e.law.of_u.length : 1.0, mean = e.mean_u / unit;
+  e.usable = mean > 1e-9 && (!e.law.of_u.finite() || mean < 1.0 - 1e-9);
+  if (e.usable) e.law.of_u = Exponential::of_mean(e.mean_u, e.law.of_u.length);
   return e;
 }
 
-double standard_error(const Estimate &e) {
-  const auto n = static_cast<double>(e.last - e.first);
-  if (!e.law.finite()) return -e.law.b / std::sqrt(n);
-  return 1.0 / (e.law.length * std::sqrt(n * tilted_variance(e.law.b * e.law.length)));
-}
-
 // Kolmogorov-Smirnov distance between the sample and the law on the range, exact up to give_up.
-template <class Sample>
-double distance(const Sample &sample, const Estimate &e,
+double distance(const LogSample &sample, const Estimate &e,
                 double give_up = std::numeric_limits<double>::infinity()) {
   const auto cdf = [&e](double y) { return e.law.cdf(y); };
   return KsDistance(sample.points(e.first, e.last), cdf)(give_up);
@@ -196,8 +133,7 @@ double candidate(double first, double last, int k, int count) {
 }
 
 // The range, in logarithms, of least distance; infinite distance if none qualifies.
-template <class Sample>
-Range best_range(const Sample &sample, const RangeSearch &search) {
+Range best_range(const LogSample &sample, const RangeSearch &search) {
   Range best;
   if (sample.size() == 0) return best;
   const double first = sample.front(), last = sample.back();
@@ -226,15 +162,17 @@ void check_sorted(const std::vector<double> &sorted) {
     throw std::invalid_argument("power law: sample is not in ascending order");
 }
 
-// Logarithms of the values in [lo, hi] that are positive and finite.
-LogSample logs_between(const std::vector<double> &sorted, double lo, double hi) {
+// The values in [lo, hi] that are positive and finite.
+std::vector<double> between(const std::vector<double> &sorted, double lo, double hi) {
   const auto first = lo > 0.0 ? std::lower_bound(sorted.begin(), sorted.end(), lo)
                               : std::upper_bound(sorted.begin(), sorted.end(), 0.0);
-  const auto last =
-      std::upper_bound(first, sorted.end(), std::min(hi, std::numeric_limits<double>::max()));
-  std::vector<double> logs(first, last);
-  for (double &y : logs) y = std::log(y);
-  return LogSample(std::move(logs));
+  return {first,
+          std::upper_bound(first, sorted.end(), std::min(hi, std::numeric_limits<double>::max()))};
+}
+
+LogSample logs_of(std::vector<double> values) {
+  for (double &y : values) y = std::log(y);
+  return LogSample(std::move(values));
 }
 
 void check_range(double lo, double hi) {
@@ -274,21 +212,20 @@ void append_ordered(std::vector<double> &out, std::size_t count, gsl_rng *rng,
 
 // Cells of what replicas are drawn from: the law within its range, the data outside of it.
 Cells cells_of(const LogSample &data, const Law &law, const double (&parts)[3]) {
-  const double upper = law.lower + law.length;
   const auto n = static_cast<double>(data.size());
   const auto survival = [&](double y) {
-    if (y < law.lower || y > upper) return 1.0 - static_cast<double>(data.first_from(y)) / n;
+    if (y < law.lower || y > law.upper()) return 1.0 - static_cast<double>(data.first_from(y)) / n;
     return parts[2] + parts[1] * (1.0 - law.cdf(y));
   };
   std::vector<double> edges = {law.lower};
   // Just beyond the data, so that the least and the greatest are within a cell.
   const auto room = [](double y) { return 1e-9 * (1.0 + std::fabs(y)); };
   if (parts[0] > 0.0) edges.insert(edges.begin(), data.front() - room(data.front()));
-  if (law.finite()) edges.push_back(upper);
-  if (!law.finite() || parts[2] > 0.0) {
+  if (law.of_u.finite()) edges.push_back(law.upper());
+  if (!law.of_u.finite() || parts[2] > 0.0) {
     // Without an end, to where a thousandth of a value is left.
     const double end =
-        law.finite() ? data.back() : std::max(data.back(), law.quantile(1.0 - 1e-3 / n));
+        law.of_u.finite() ? data.back() : std::max(data.back(), law.quantile(1.0 - 1e-3 / n));
     edges.push_back(end + room(end));
   }
   return Cells(survival, edges, n);
@@ -307,7 +244,7 @@ void append_resampled(std::vector<double> &out, const std::vector<double> &y, st
 PowerLawFit fit_power_law(const std::vector<double> &sorted, double lo, double hi) {
   check_sorted(sorted);
   check_range(lo, hi);
-  const LogSample sample = logs_between(sorted, lo, hi);
+  const LogSample sample = logs_of(between(sorted, lo, hi));
   PowerLawFit fit;
   fit.lo = lo;
   fit.hi = hi;
@@ -316,46 +253,44 @@ PowerLawFit fit_power_law(const std::vector<double> &sorted, double lo, double h
     fit.why = number(fit.n) + " events in the range, at least 10 needed";
     return fit;
   }
-  if (sample.y().front() == sample.y().back()) {
+  if (sample.front() == sample.back()) {
     fit.why = "all events in the range have the same size";
     return fit;
   }
+  const auto n = static_cast<double>(fit.n);
   const Estimate e = estimate(sample, std::log(lo), std::log(hi));
   if (!e.usable) {
     fit.why = "all events lie at one edge of the range";
     return fit;
   }
-  const double error = standard_error(e);
-  if (!(error <= std::max(1.0, std::fabs(e.law.b)))) {
+  const double b = e.law.of_u.b;
+  const double error = 1.0 / std::sqrt(n * e.law.of_u.variance());
+  if (!(error <= std::max(1.0, std::fabs(b)))) {
     fit.why =
         "the range is too narrow for " + number(fit.n) + " events: the exponent is not determined";
     return fit;
   }
-  const auto n = static_cast<double>(fit.n);
   fit.degenerate = false;
-  fit.alpha = 1.0 - e.law.b;
+  fit.alpha = 1.0 - b;
   fit.standard_error = error;
   fit.ks = distance(sample, e);
-  fit.log_likelihood = n * (e.law.b * e.mean_u - e.law.log_z()) - sample.sum(0, sample.size());
+  fit.log_likelihood = n * (b * e.mean_u - e.law.of_u.log_z()) - sample.sum(0, sample.size());
   return fit;
 }
 
 PowerLawFit search_range(const std::vector<double> &sorted, const RangeSearch &search) {
   check_sorted(sorted);
   check_search(search);
-  const LogSample sample = logs_between(sorted, search.lo, search.hi);
+  const std::vector<double> values = between(sorted, search.lo, search.hi);
+  const LogSample sample = logs_of(values);
   const Range range = best_range(sample, search);
   PowerLawFit fit;
   if (std::isfinite(range.distance)) {
     // Cuts at extremes of the sample must still contain them after exp(log(x)).
     double lo = search.lower ? std::exp(range.lo) : search.lo;
     double hi = search.upper ? std::exp(range.hi) : search.hi;
-    const auto smallest = search.lo > 0.0
-                              ? std::lower_bound(sorted.begin(), sorted.end(), search.lo)
-                              : std::upper_bound(sorted.begin(), sorted.end(), 0.0);
-    if (search.lower && range.lo == sample.y().front()) lo = *smallest;
-    if (search.upper && range.hi == sample.y().back())
-      hi = *(smallest + static_cast<std::ptrdiff_t>(sample.size()) - 1);
+    if (search.lower && range.lo == sample.front()) lo = values.front();
+    if (search.upper && range.hi == sample.back()) hi = values.back();
     fit = fit_power_law(sorted, lo, hi);
   } else {
     fit.lo = search.lo;
@@ -376,26 +311,26 @@ double p_value(const PowerLawFit &fit, const std::vector<double> &sorted, int re
   if (replicas < 1)
     throw std::invalid_argument("p-value: " + std::to_string(replicas) +
                                 " replicas, expected at least 1");
-  const Law law{std::log(fit.lo), std::log(fit.hi) - std::log(fit.lo), 1.0 - fit.alpha};
-  const LogSample data = fit.searched ? logs_between(sorted, fit.search.lo, fit.search.hi)
-                                      : logs_between(sorted, fit.lo, fit.hi);
+  const Law law(fit);
+  const LogSample data = logs_of(fit.searched ? between(sorted, fit.search.lo, fit.search.hi)
+                                              : between(sorted, fit.lo, fit.hi));
   const std::size_t first = data.first_from(std::log(fit.lo));
   const std::size_t last = data.first_above(std::log(fit.hi));
   const auto n = static_cast<double>(data.size());
   const double parts[3] = {static_cast<double>(first) / n, static_cast<double>(last - first) / n,
                            static_cast<double>(data.size() - last) / n};
   // Distance of the best fit to a sample, found as that of the data was.
-  const auto distance_of = [&](const auto &sample) {
+  const auto distance_of = [&](const LogSample &sample) {
     if (fit.searched) return best_range(sample, fit.search).distance;
-    const Estimate e = estimate(sample, law.lower, law.lower + law.length);
+    const Estimate e = estimate(sample, law.lower, law.upper());
     return e.usable ? distance(sample, e) : std::numeric_limits<double>::infinity();
   };
   if (data.size() > static_cast<std::size_t>(largest_exact_sample)) {
     const Cells cells = cells_of(data, law, parts);
-    const double found = distance_of(CountedLogs(cells, cells.count(data.y())));
+    const double found = distance_of(LogSample(cells, cells.count(data.y())));
     return share_of_replicas(replicas, [&](int replica) {
       const Rng rng = generator(seed_of_replica(seed, replica));
-      return distance_of(CountedLogs(cells, cells.draw(rng.get(), data.size()))) >= found;
+      return distance_of(LogSample(cells, cells.draw(rng.get(), data.size()))) >= found;
     });
   }
   const auto draw = [&](gsl_rng *rng) {
@@ -413,101 +348,111 @@ double p_value(const PowerLawFit &fit, const std::vector<double> &sorted, int re
   });
 }
 
+namespace {
+
+// A power law and its sample, in u = ln(x / lo).
+class Contest {
+ public:
+  Contest(const std::vector<double> &sorted, const PowerLawFit &fit)
+      : lo_(fit.lo), law_(fit), u_(between(sorted, fit.lo, fit.hi)) {
+    for (double &u : u_) u = std::log(u) - law_.lower;
+    mean_u_ = mean_of([](double u) { return u; });
+  }
+
+  // The exponential in t = (x - lo) / width has the form of the power law in u.
+  Comparison exponential(double hi) const {
+    const double width = std::isfinite(hi) ? hi - lo_ : lo_, scale = lo_ / width;
+    const Exponential rival = Exponential::of_mean(
+        mean_of([](double u) { return std::expm1(u); }) * scale, std::isfinite(hi) ? 1.0 : hi);
+    const double norm = rival.log_z() - std::log(scale);
+    Comparison out = vuong([&](double u) { return rival.b * std::expm1(u) * scale - norm + u; });
+    out.rival = "exponential";
+    out.parameters = {{"rate", -rival.b / width}};
+    return out;
+  }
+
+  Comparison log_normal() const {
+    const double mean_t = mean_of([](double u) { return u * u; });
+    const TiltedFit rival = fit_tilted({0.0}, mean_u_, mean_t, law_.of_u.length);
+    Comparison out;
+    if (decided(rival)) {
+      const double norm = rival.b * mean_u_ - rival.c * mean_t - rival.log_likelihood;
+      out = vuong([&](double u) { return rival.b * u - rival.c * u * u - norm; });
+      // In ln x; mu is that of the untruncated normal and can lie far below the range.
+      out.parameters = {{"mu", law_.lower + rival.b / (2.0 * rival.c)},
+                        {"sigma", 1.0 / std::sqrt(2.0 * rival.c)}};
+    } else {
+      out = undecided(rival, "the best log-normal is its limit, the power law itself");
+    }
+    out.rival = "log-normal";
+    return out;
+  }
+
+  Comparison cut_off() const {
+    const TiltedFit rival =
+        fit_tilted({1.0}, mean_u_, mean_of([](double u) { return std::exp(u); }), law_.of_u.length);
+    Comparison out;
+    if (decided(rival)) {
+      const double gain = static_cast<double>(u_.size()) *
+                          (rival.log_likelihood - (law_.of_u.b * mean_u_ - law_.of_u.log_z()));
+      out.log_likelihood_ratio = -gain;
+      out.normalised = -2.0 * gain;
+      out.p = gsl_cdf_chisq_Q(std::max(0.0, 2.0 * gain), 1.0);
+      out.parameters = {{"alpha", 1.0 - rival.b}, {"cut-off", lo_ / rival.c}};
+    } else {
+      out = undecided(rival, "the best cut-off is infinite: the power law itself");
+    }
+    out.rival = "power law with exponential cut-off";
+    out.nested = true;
+    return out;
+  }
+
+ private:
+  static bool decided(const TiltedFit &rival) { return rival.converged && !rival.border; }
+  static Comparison undecided(const TiltedFit &rival, const char *border) {
+    Comparison out;
+    out.degenerate = true;
+    out.why = rival.border ? border : "no optimum found";
+    return out;
+  }
+
+  template <class F>
+  double mean_of(const F &f) const {
+    NeumaierSum sum;
+    for (double u : u_) sum.add(f(u));
+    return sum.value() / static_cast<double>(u_.size());
+  }
+
+  // Ratio of likelihoods in u; the change of variables is the same on both sides.
+  template <class LogDensity>
+  Comparison vuong(const LogDensity &rival) const {
+    const auto n = static_cast<double>(u_.size());
+    const double log_z = law_.of_u.log_z();
+    const auto difference = [&](double u) { return law_.of_u.b * u - log_z - rival(u); };
+    const double mean = mean_of(difference);
+    const double deviation =
+        std::sqrt(mean_of([&](double u) { return std::pow(difference(u) - mean, 2); }));
+    Comparison out;
+    out.log_likelihood_ratio = n * mean;
+    if (deviation > 0.0) out.normalised = std::sqrt(n) * mean / deviation;
+    out.p = std::erfc(std::fabs(out.normalised) / std::sqrt(2.0));
+    return out;
+  }
+
+  double lo_;
+  Law law_;
+  std::vector<double> u_;
+  double mean_u_ = 0.0;
+};
+
+}  // namespace
+
 std::vector<Comparison> compare(const std::vector<double> &sorted, const PowerLawFit &fit) {
   check_sorted(sorted);
   if (fit.degenerate)
     throw std::invalid_argument("comparison with a degenerate power law: " + fit.why);
-  const LogSample sample = logs_between(sorted, fit.lo, fit.hi);
-  const std::vector<double> &y = sample.y();
-  const auto n = static_cast<double>(y.size());
-  const double lower = std::log(fit.lo), length = std::log(fit.hi) - lower;
-  const double b = 1.0 - fit.alpha;
-  const double log_z = Law{lower, length, b}.log_z();
-
-  // Ratio of likelihoods in u = ln(x / lo); the change of variables is the same on both sides.
-  const auto vuong = [&](Comparison &result, const auto &rival_log_density) {
-    NeumaierSum sum, squares;
-    const auto difference = [&](double u) { return b * u - log_z - rival_log_density(u); };
-    for (double value : y) sum.add(difference(value - lower));
-    const double mean = sum.value() / n;
-    for (double value : y) squares.add(std::pow(difference(value - lower) - mean, 2));
-    const double deviation = std::sqrt(squares.value() / n);
-    result.log_likelihood_ratio = sum.value();
-    if (deviation > 0.0) result.normalised = sum.value() / (std::sqrt(n) * deviation);
-    result.p = std::erfc(std::fabs(result.normalised) / std::sqrt(2.0));
-  };
-  const auto mean_of = [&](const auto &f) {
-    NeumaierSum sum;
-    for (double value : y) sum.add(f(value - lower));
-    return sum.value() / n;
-  };
-
-  Comparison exponential;
-  exponential.rival = "exponential";
-  {
-    // The exponential in t = (x - lo) / width has the form of the power law in u.
-    const double width = std::isfinite(fit.hi) ? fit.hi - fit.lo : fit.lo;
-    const double mean = mean_of([&](double u) { return std::expm1(u); }) * fit.lo / width;
-    const double z = std::isfinite(fit.hi) ? tilt_of_mean(mean) : -1.0 / mean;
-    const double log_norm = std::isfinite(fit.hi) ? log_normalisation(z) : -std::log(-z);
-    const double log_jacobian = std::log(fit.lo / width);
-    vuong(exponential, [&](double u) {
-      return z * std::expm1(u) * fit.lo / width - log_norm + u + log_jacobian;
-    });
-    exponential.parameters = {{"rate", -z / width}};
-  }
-
-  const double mean_u = mean_of([](double u) { return u; });
-  Comparison normal;
-  normal.rival = "log-normal";
-  {
-    const TiltedFit rival =
-        fit_tilted({0.0}, mean_u, mean_of([](double u) { return u * u; }), length);
-    if (rival.border || !rival.converged) {
-      normal.degenerate = true;
-      normal.why = rival.border ? "the best log-normal is its limit, the power law itself"
-                                : "no optimum found";
-    } else {
-      const double norm = rival.b * mean_u - rival.c * mean_of([](double u) { return u * u; }) -
-                          rival.log_likelihood;
-      vuong(normal, [&](double u) { return rival.b * u - rival.c * u * u - norm; });
-      // In ln x; mu is that of the untruncated normal and can lie far below the range.
-      normal.parameters = {{"mu", lower + rival.b / (2.0 * rival.c)},
-                           {"sigma", 1.0 / std::sqrt(2.0 * rival.c)}};
-    }
-  }
-
-  Comparison cut_off;
-  cut_off.rival = "power law with exponential cut-off";
-  cut_off.nested = true;
-  {
-    const TiltedFit rival =
-        fit_tilted({1.0}, mean_u, mean_of([](double u) { return std::exp(u); }), length);
-    if (rival.border || !rival.converged) {
-      cut_off.degenerate = true;
-      cut_off.why =
-          rival.border ? "the best cut-off is infinite: the power law itself" : "no optimum found";
-    } else {
-      const double gain = n * (rival.log_likelihood - (b * mean_u - log_z));
-      cut_off.log_likelihood_ratio = -gain;
-      cut_off.normalised = -2.0 * gain;
-      cut_off.p = gsl_cdf_chisq_Q(std::max(0.0, 2.0 * gain), 1.0);
-      cut_off.parameters = {{"alpha", 1.0 - rival.b}, {"cut-off", fit.lo / rival.c}};
-    }
-  }
-  return {exponential, normal, cut_off};
-}
-
-double power_law_cdf(double x, double alpha, double lo, double hi) {
-  check_range(lo, hi);
-  const double lower = std::log(lo);
-  return Law{lower, std::log(hi) - lower, 1.0 - alpha}.cdf(std::log(x));
-}
-
-double power_law_quantile(double probability, double alpha, double lo, double hi) {
-  check_range(lo, hi);
-  const double lower = std::log(lo);
-  return std::exp(Law{lower, std::log(hi) - lower, 1.0 - alpha}.quantile(probability));
+  const Contest contest(sorted, fit);
+  return {contest.exponential(fit.hi), contest.log_normal(), contest.cut_off()};
 }
 
 }  // namespace LSM::postproc

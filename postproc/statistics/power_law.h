@@ -83,12 +83,6 @@ struct Comparison {
 /// truncated to [fit.lo, fit.hi]. \throws std::invalid_argument if the fit is degenerate
 std::vector<Comparison> compare(const std::vector<double> &sorted, const PowerLawFit &fit);
 
-/// Cumulative distribution of the fitted law at x in [lo, hi].
-double power_law_cdf(double x, double alpha, double lo, double hi);
-
-/// Inverse of power_law_cdf() for probability in [0, 1): turns uniform numbers into a sample.
-double power_law_quantile(double probability, double alpha, double lo, double hi);
-
 }  // namespace LSM::postproc
 
 #endif

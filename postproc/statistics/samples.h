@@ -46,6 +46,16 @@ inline std::vector<double> over_mean(std::vector<double> values) {
   return values;
 }
 
+/// Value of a curve of straight lines through the points (x, y), x ascending; constant beyond its
+/// ends.
+inline double interpolate(const std::vector<double> &x, const std::vector<double> &y, double at) {
+  const auto above = std::upper_bound(x.begin(), x.end(), at);
+  if (above == x.begin()) return y.front();
+  if (above == x.end()) return y.back();
+  const auto n = static_cast<std::size_t>(above - x.begin());
+  return y[n - 1] + (y[n] - y[n - 1]) * (at - x[n - 1]) / (x[n] - x[n - 1]);
+}
+
 /// A whole number from 0 to count - 1.
 inline std::size_t draw_index(Random &random, std::size_t count) {
   return static_cast<std::size_t>(random.uniform() * static_cast<double>(count));

@@ -6,15 +6,11 @@
 #include <limits>
 #include <stdexcept>
 
+#include "samples.h"
+
 namespace LSM {
 
-double interpolate(const std::vector<double> &t, const std::vector<double> &y, double time) {
-  const auto above = std::upper_bound(t.begin(), t.end(), time);
-  if (above == t.begin()) return y.front();
-  if (above == t.end()) return y.back();
-  const auto n = static_cast<std::size_t>(above - t.begin());
-  return y[n - 1] + (y[n] - y[n - 1]) * (time - t[n - 1]) / (t[n] - t[n - 1]);
-}
+using postproc::interpolate;
 
 double arrival(const StationCurve &curve, double rate) {
   for (std::size_t n = 0; n < curve.t.size(); ++n) {

@@ -15,9 +15,6 @@ struct StationCurve {
   std::vector<double> t, slip, rate;
 };
 
-/// Values of a curve at a time; constant beyond its ends.
-double interpolate(const std::vector<double> &t, const std::vector<double> &y, double time);
-
 /// First time at which the slip rate exceeds that, or NaN.
 double arrival(const StationCurve &curve, double rate);
 

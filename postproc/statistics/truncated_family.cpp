@@ -78,6 +78,38 @@ double tilt_of_mean(double mean) {
   return z;
 }
 
+Exponential Exponential::of_mean(double mean, double length) {
+  return {length, std::isfinite(length) ? tilt_of_mean(mean / length) / length : -1.0 / mean};
+}
+
+double Exponential::log_z() const {
+  if (finite()) return std::log(length) + log_normalisation(b * length);
+  return b < 0.0 ? -std::log(-b) : std::numeric_limits<double>::infinity();
+}
+
+double Exponential::variance() const {
+  return finite() ? length * length * tilted_variance(b * length) : 1.0 / (b * b);
+}
+
+double Exponential::cdf(double u) const {
+  if (!finite()) return -std::expm1(b * u);
+  const double z = b * length;
+  if (std::fabs(z) < 1e-12) return u / length;
+  if (z < 0.0) return std::expm1(b * u) / std::expm1(z);
+  // The same without overflow.
+  return std::exp(b * (u - length)) * std::expm1(-b * u) / std::expm1(-z);
+}
+
+double Exponential::quantile(double probability) const {
+  if (!finite()) return std::log1p(-probability) / b;
+  const double z = b * length;
+  if (std::fabs(z) < 1e-12) return probability * length;
+  const double u = z < 0.0 ? std::log1p(probability * std::expm1(z)) / b
+                           // Counted from the upper end, where exp(z) does not overflow.
+                           : length + std::log1p((probability - 1.0) * -std::expm1(-z)) / b;
+  return std::clamp(u, 0.0, length);
+}
+
 TabulatedDensity tabulate(const std::function<double(double)> &log_density, double mode,
                           double lower, double upper, double feature) {
   constexpr std::size_t points = 16;
@@ -107,52 +139,35 @@ TabulatedDensity tabulate(const std::function<double(double)> &log_density, doub
   return table;
 }
 
-TiltedFit fit_tilted(Statistic statistic, double mean_u, double mean_t, double length) {
-  const bool finite = std::isfinite(length);
-  const double rate = statistic.rate;
-  TiltedFit fit;
+namespace {
 
-  // The likelihood is concave, so its slope in c at the best exponential shows whether c > 0 helps.
-  const double z = finite ? tilt_of_mean(mean_u / length) : 0.0;
-  fit.b = finite ? z / length : -1.0 / mean_u;
-  const double log_z0 = finite ? std::log(length) + log_normalisation(z) : -std::log(-fit.b);
-  fit.log_likelihood = fit.b * mean_u - log_z0;
-  double expected_t = 0.0;
-  if (rate > 0.0) {
-    if (finite)
-      expected_t = std::exp(log_normalisation(z + rate * length) - log_normalisation(z));
-    else
-      expected_t = rate < -fit.b ? fit.b / (fit.b + rate) : std::numeric_limits<double>::infinity();
-  } else {
-    expected_t = mean_u * mean_u * 2.0;
-    if (finite) {
-      const double m = tilted_mean(z);
-      expected_t = length * length * (tilted_variance(z) + m * m);
-    }
-  }
-  if (expected_t <= mean_t) {
-    fit.border = fit.converged = true;
-    return fit;
-  }
+// The law exp(b u - c T(u)) on [0, length], seen by a sample with these means.
+struct TiltedLaw {
+  Statistic statistic;
+  double mean_u, mean_t, length;
+  double b = 0.0, c = 0.0, log_likelihood = 0.0;  // per event
+  TabulatedDensity table = {};
 
-  const auto table_at = [&](double b, double c) {
-    double mode = 0.0;
-    if (rate > 0.0)
-      mode = b > 0.0 ? std::log(b / (c * rate)) / rate : 0.0;
-    else
-      mode = b / (2.0 * c);
-    mode = std::clamp(mode, 0.0, length);
+  void set(double new_b, double new_c) {
+    b = new_b;
+    c = new_c;
+    const double rate = statistic.rate;
+    double mode = b / (2.0 * c);
+    if (rate > 0.0) mode = b > 0.0 ? std::log(b / (c * rate)) / rate : 0.0;
     // Bends: of u^2 c over its own standard deviation, of exp(rate u) over 1 / rate.
     const double feature = rate > 0.0 ? 1.0 / rate : 1.0 / std::sqrt(2.0 * c);
-    return tabulate([&](double u) { return b * u - c * statistic(u); }, mode, 0.0, length, feature);
-  };
+    table = tabulate([this](double u) { return b * u - c * statistic(u); },
+                     std::clamp(mode, 0.0, length), 0.0, length, feature);
+    log_likelihood = b * mean_u - c * mean_t - table.log_z;
+  }
 
-  double b = fit.b, c = 0.1 / mean_t;
-  TabulatedDensity table = table_at(b, c);
-  double value = b * mean_u - c * mean_t - table.log_z;
-  for (int iteration = 0; iteration < 200; ++iteration) {
-    const double m_u = table.mean([](double u) { return u; });
-    const double m_t = table.mean(statistic);
+  // Newton's step for the slopes of the log-likelihood, whose Hessian is minus the covariance of
+  // (u, -T), and what it gains; not a number where that is singular.
+  struct Step {
+    double b, c, gain;
+  };
+  Step newton() const {
+    const double m_u = table.mean([](double u) { return u; }), m_t = table.mean(statistic);
     double uu = 0.0, ut = 0.0, tt = 0.0;
     for (std::size_t i = 0; i < table.u.size(); ++i) {
       const double du = table.u[i] - m_u, dt = statistic(table.u[i]) - m_t;
@@ -160,37 +175,55 @@ TiltedFit fit_tilted(Statistic statistic, double mean_u, double mean_t, double l
       ut += table.p[i] * du * dt;
       tt += table.p[i] * dt * dt;
     }
-    // Newton's step for the slopes g of the log-likelihood per event; its Hessian is minus the
-    // covariance of (u, -T).
     const double g_b = mean_u - m_u, g_c = m_t - mean_t;
     const double determinant = uu * tt - ut * ut;
-    if (!(determinant > 0.0)) return fit;
-    double step_b = (g_b * tt + g_c * ut) / determinant;
-    double step_c = (g_c * uu + g_b * ut) / determinant;
-    const double gain = g_b * step_b + g_c * step_c;
-    if (gain < 1e-20) {
-      fit.b = b;
-      fit.c = c;
-      fit.log_likelihood = value;
-      fit.converged = true;
+    if (!(determinant > 0.0)) return {0.0, 0.0, std::nan("")};
+    const double b_step = (g_b * tt + g_c * ut) / determinant;
+    const double c_step = (g_c * uu + g_b * ut) / determinant;
+    return {b_step, c_step, g_b * b_step + g_c * c_step};
+  }
+
+  // Halves a step until the likelihood rises; c stays positive. False if it does not.
+  bool take(const Step &step) {
+    const TiltedLaw from = *this;
+    double scale = from.c + step.c > 0.1 * from.c ? 1.0 : -0.9 * from.c / step.c;
+    for (; scale >= 1e-12; scale *= 0.5) {
+      set(from.b + scale * step.b, from.c + scale * step.c);
+      // Near the optimum the gain is below rounding, so equality up to that is a success.
+      if (log_likelihood > from.log_likelihood - 1e-14 * (1.0 + std::fabs(from.log_likelihood)))
+        return true;
+    }
+    return false;
+  }
+};
+
+}  // namespace
+
+TiltedFit fit_tilted(Statistic statistic, double mean_u, double mean_t, double length) {
+  // The likelihood is concave, so its slope in c at the best exponential shows whether c > 0 helps.
+  const Exponential law = Exponential::of_mean(mean_u, length);
+  TiltedFit fit;
+  fit.b = law.b;
+  fit.log_likelihood = law.b * mean_u - law.log_z();
+  const double expected_t =
+      statistic.rate > 0.0
+          ? std::exp(Exponential{length, law.b + statistic.rate}.log_z() - law.log_z())
+          : law.variance() + mean_u * mean_u;
+  fit.border = fit.converged = expected_t <= mean_t;
+  if (fit.border) return fit;
+
+  TiltedLaw tilted{statistic, mean_u, mean_t, length};
+  tilted.set(law.b, 0.1 / mean_t);
+  for (int iteration = 0; iteration < 200; ++iteration) {
+    const TiltedLaw::Step step = tilted.newton();
+    fit.converged = step.gain < 1e-20;
+    if (fit.converged) {
+      fit.b = tilted.b;
+      fit.c = tilted.c;
+      fit.log_likelihood = tilted.log_likelihood;
       return fit;
     }
-    // c stays positive; halve until the likelihood rises.
-    double scale = c + step_c > 0.1 * c ? 1.0 : -0.9 * c / step_c;
-    for (;; scale *= 0.5) {
-      if (scale < 1e-12) return fit;
-      TabulatedDensity trial = table_at(b + scale * step_b, c + scale * step_c);
-      const double trial_value =
-          (b + scale * step_b) * mean_u - (c + scale * step_c) * mean_t - trial.log_z;
-      // Near the optimum the gain is below rounding, so equality up to that is a success.
-      if (trial_value > value - 1e-14 * (1.0 + std::fabs(value))) {
-        b += scale * step_b;
-        c += scale * step_c;
-        value = trial_value;
-        table = std::move(trial);
-        break;
-      }
-    }
+    if (std::isnan(step.gain) || !tilted.take(step)) return fit;
   }
   return fit;
 }

@@ -19,6 +19,19 @@ double tilted_mean(double z);        ///< rises from 0 (z = -infinity) to 1
 double tilted_variance(double z);    ///< derivative of tilted_mean
 double tilt_of_mean(double mean);    ///< inverse of tilted_mean, 0 < mean < 1
 
+/// The density proportional to exp(b u) for u in [0, length]; b < 0 if length is infinite.
+struct Exponential {
+  double length, b;
+
+  /// Maximum likelihood for a sample of that mean, 0 < mean < length.
+  static Exponential of_mean(double mean, double length);
+  bool finite() const { return std::isfinite(length); }
+  double log_z() const;  ///< ln of the integral of exp(b u); infinite if there is none
+  double variance() const;
+  double cdf(double u) const;
+  double quantile(double probability) const;  ///< 0 <= probability < 1
+};
+
 /// Abscissae and probabilities that stand for a density: integrals become sums.
 struct TabulatedDensity {
   std::vector<double> u, p;  ///< p sums to 1

@@ -80,11 +80,8 @@ std::vector<LogBin> binned(const std::vector<double> &values) {
   return histogram.bins();
 }
 
-GeneralisedGammaOptions delta_one() {
-  GeneralisedGammaOptions options;
-  options.fix_delta = 1.0;
-  return options;
-}
+// What delta is held at.
+double held_at_one(bool fixed) { return fixed ? 1.0 : NAN; }
 
 // Log-likelihood by GSL: with the closed normalisation, or by quadrature above lo.
 double log_likelihood(const std::vector<double> &values, const Truth &t, double lo) {
@@ -117,8 +114,7 @@ TEST(GeneralisedGamma, MaximumOfAnIndependentLikelihood) {
     for (const Truth &truth : {corral, Truth{1.5, 0.8, 1.0}, Truth{0.9, 1.5, 4.0}}) {
       const auto values = source.sample(3000, truth, lo);
       for (const bool fixed : {false, true}) {
-        const GeneralisedGammaFit fit =
-            fit_maximum_likelihood(values, lo, fixed ? delta_one() : GeneralisedGammaOptions{});
+        const GeneralisedGammaFit fit = fit_maximum_likelihood(values, lo, held_at_one(fixed));
         ASSERT_FALSE(fit.degenerate) << fit.why;
         const Truth best{fit.gamma, fit.delta, fit.B};
         const double top = log_likelihood(values, best, lo);
@@ -177,8 +173,8 @@ TEST(GeneralisedGamma, CorralsLawIsRecovered) {
   const GeneralisedGammaFit squares = fit_least_squares(binned(values));
   check(squares, "least squares");
   EXPECT_NEAR(squares.chi2, squares.dof, 4.0 * std::sqrt(2.0 * squares.dof));
-  check(fit_maximum_likelihood(values, 0.0, delta_one()), "maximum likelihood, delta = 1");
-  check(fit_least_squares(binned(values), delta_one()), "least squares, delta = 1");
+  check(fit_maximum_likelihood(values, 0.0, 1.0), "maximum likelihood, delta = 1");
+  check(fit_least_squares(binned(values), 1.0), "least squares, delta = 1");
 }
 
 TEST(GeneralisedGamma, LikelihoodIntervalsCoverTheTruth) {
@@ -197,8 +193,7 @@ TEST(GeneralisedGamma, LikelihoodIntervalsCoverTheTruth) {
     Coverage gamma(c.truth.gamma), delta(c.truth.delta), b(c.truth.B), norm(c.truth.c());
     for (int i = 0; i < 300; ++i) {
       const GeneralisedGammaFit fit =
-          fit_maximum_likelihood(source.sample(c.n, c.truth, c.lo), c.lo,
-                                 c.fixed ? delta_one() : GeneralisedGammaOptions{});
+          fit_maximum_likelihood(source.sample(c.n, c.truth, c.lo), c.lo, held_at_one(c.fixed));
       ASSERT_FALSE(fit.degenerate) << fit.why;
       gamma.add(fit.gamma, fit.se_gamma);
       b.add(fit.B, fit.se_B);
@@ -220,7 +215,7 @@ TEST(GeneralisedGamma, GammaZeroNeedsTruncation) {
   Coverage gamma(0.0), b(100.0);
   for (int i = 0; i < 300; ++i) {
     const auto values = source.sample_gamma_zero(1000, 100.0, 0.5);
-    const GeneralisedGammaFit fit = fit_maximum_likelihood(values, 0.5, delta_one());
+    const GeneralisedGammaFit fit = fit_maximum_likelihood(values, 0.5, 1.0);
     ASSERT_FALSE(fit.degenerate) << fit.why;
     gamma.add(fit.gamma, fit.se_gamma);
     b.add(fit.B, fit.se_B);
@@ -234,7 +229,7 @@ TEST(GeneralisedGamma, GammaZeroNeedsTruncation) {
 
   // Without truncation the fit runs into gamma = 0 when small times pile up.
   const auto values = source.sample_gamma_zero(5000, 1e6, 1e-30);
-  const GeneralisedGammaFit fit = fit_maximum_likelihood(values, 0.0, delta_one());
+  const GeneralisedGammaFit fit = fit_maximum_likelihood(values, 0.0, 1.0);
   EXPECT_TRUE(fit.degenerate);
   EXPECT_NE(fit.why.find("truncated on the left"), std::string::npos) << fit.why;
 }
@@ -246,8 +241,8 @@ TEST(GeneralisedGamma, LeastSquaresIsNearlyUnbiasedAndItsErrorsAreRight) {
     double gamma = 0.0, b = 0.0, gamma_squared = 0.0, c = 0.0, c_squared = 0.0;
     constexpr int trials = 200;
     for (int i = 0; i < trials; ++i) {
-      const GeneralisedGammaFit fit = fit_least_squares(
-          binned(source.sample(20000, truth)), fixed ? delta_one() : GeneralisedGammaOptions{});
+      const GeneralisedGammaFit fit =
+          fit_least_squares(binned(source.sample(20000, truth)), held_at_one(fixed));
       ASSERT_FALSE(fit.degenerate) << fit.why;
       const double pull = (fit.gamma - truth.gamma) / fit.se_gamma;
       const double pull_c = std::log(fit.C / truth.c()) / (fit.se_C / fit.C);
@@ -332,7 +327,7 @@ TEST(GeneralisedGamma, PowerLawIsDegenerate) {
     const auto values = source.power_law(2000, 1.5, HUGE_VAL);
     if (!fit_maximum_likelihood(values, 1.0).degenerate) ++likelihood;
     if (!fit_least_squares(binned(values)).degenerate) ++squares;
-    if (!fit_maximum_likelihood(values, 1.0, delta_one()).degenerate) ++likelihood;
+    if (!fit_maximum_likelihood(values, 1.0, 1.0).degenerate) ++likelihood;
   }
   EXPECT_LE(likelihood, 8);
   EXPECT_LE(squares, 8);
@@ -352,7 +347,7 @@ TEST(GeneralisedGamma, FewEventsAreDegenerate) {
   for (int i = 0; i < 50; ++i) {
     const auto values = source.sample(30, corral);
     if (fit_maximum_likelihood(values).degenerate) ++free;
-    if (!fit_maximum_likelihood(values, 0.0, delta_one()).degenerate) ++fixed;
+    if (!fit_maximum_likelihood(values, 0.0, 1.0).degenerate) ++fixed;
     EXPECT_TRUE(fit_least_squares(binned(values)).degenerate);
   }
   EXPECT_GE(free, 48);   // 30 values never determine three parameters
@@ -381,10 +376,10 @@ TEST(GeneralisedGamma, FewEventsAreDegenerate) {
 TEST(GeneralisedGamma, WrongLawShows) {
   Source source(10);
   const auto values = source.sample(5000, {0.7, 0.5, 3.0});
-  const GeneralisedGammaFit fit = fit_maximum_likelihood(values, 0.0, delta_one());
+  const GeneralisedGammaFit fit = fit_maximum_likelihood(values, 0.0, 1.0);
   ASSERT_FALSE(fit.degenerate);
   EXPECT_EQ(p_value(fit, 40, 1), 1.0 / 41.0);
-  const GeneralisedGammaFit squares = fit_least_squares(binned(values), delta_one());
+  const GeneralisedGammaFit squares = fit_least_squares(binned(values), 1.0);
   EXPECT_GT(squares.chi2, 2.0 * squares.dof);
   EXPECT_LT(p_value(squares, 0, 1), 1e-6);
 }
@@ -400,12 +395,12 @@ struct Rejections {
 constexpr int test_replicas = 40;
 
 template <class Draw>
-Rejections rejections(int trials, double lo, const GeneralisedGammaOptions &options, Draw draw) {
+Rejections rejections(int trials, double lo, double held, Draw draw) {
   Rejections count;
   while (count.trials < trials) {
     const std::vector<double> values = draw();
-    const GeneralisedGammaFit fit = fit_maximum_likelihood(values, lo, options);
-    const GeneralisedGammaFit squares = fit_least_squares(binned(values), options);
+    const GeneralisedGammaFit fit = fit_maximum_likelihood(values, lo, held);
+    const GeneralisedGammaFit squares = fit_least_squares(binned(values), held);
     EXPECT_FALSE(fit.degenerate) << fit.why;
     if (fit.degenerate) break;
     ++count.trials;
@@ -434,9 +429,8 @@ TEST(GoodnessOfFit, ATrueLawIsRejectedAtTheNominalRate) {
   for (const Case &c :
        {Case{corral, 0.0, true, 400, 400}, Case{{2.0, 1.0, 600.0}, 0.0, true, 400, 400},
         Case{corral, 0.02, true, 600, 150}, Case{corral, 0.0, false, 2000, 80}}) {
-    const Rejections count =
-        rejections(c.trials, c.lo, c.fixed ? delta_one() : GeneralisedGammaOptions{},
-                   [&] { return source.sample(c.n, c.truth, c.lo); });
+    const Rejections count = rejections(c.trials, c.lo, held_at_one(c.fixed),
+                                        [&] { return source.sample(c.n, c.truth, c.lo); });
     const std::string what =
         "gamma " + std::to_string(c.truth.gamma) + ", lo " + std::to_string(c.lo);
     expect_binomial(count.by_monte_carlo, count.trials, nominal, what);
@@ -448,19 +442,18 @@ TEST(GoodnessOfFit, ATrueLawIsRejectedAtTheNominalRate) {
   }
   // gamma = 0, which exists above a time only.
   const Rejections count =
-      rejections(120, 0.5, delta_one(), [&] { return source.sample_gamma_zero(600, 100.0, 0.5); });
+      rejections(120, 0.5, 1.0, [&] { return source.sample_gamma_zero(600, 100.0, 0.5); });
   expect_binomial(count.by_monte_carlo, count.trials, nominal, "gamma = 0");
 }
 
 TEST(GoodnessOfFit, AFalseLawIsRejectedWhereTheTableForGivenParametersPassesIt) {
   Source source(14);
-  const Rejections bent = rejections(100, 0.0, delta_one(), [&] {
+  const Rejections bent = rejections(100, 0.0, 1.0, [&] {
     return source.sample(2000, {0.7, 0.85, 1.58});
   });
   EXPECT_LT(bent.by_table, 10);
   EXPECT_GT(bent.by_monte_carlo, 20);
-  const Rejections normal =
-      rejections(100, 0.0, delta_one(), [&] { return source.log_normal(300); });
+  const Rejections normal = rejections(100, 0.0, 1.0, [&] { return source.log_normal(300); });
   EXPECT_GT(normal.by_monte_carlo, 95);
   EXPECT_LT(normal.by_table, 85);
 }
@@ -470,15 +463,13 @@ TEST(GoodnessOfFit, ManyValues) {
   Source source(77);
   const std::size_t n = 10000;
   ASSERT_GT(n, static_cast<std::size_t>(largest_exact_sample));
-  GeneralisedGammaOptions options;
   int below_tenth = 0, below_half = 0;
   constexpr int trials = 150;
   for (int i = 0; i < trials; ++i) {
     // delta is free, and there is a truncation, now and then: these take longer.
     const bool free = i % 10 == 0, cut = i % 10 == 1;
-    options.fix_delta = free ? std::nan("") : 1.0;
-    const GeneralisedGammaFit fit =
-        fit_maximum_likelihood(source.sample(n, corral, cut ? 0.3 : 0.0), cut ? 0.3 : 0.0, options);
+    const GeneralisedGammaFit fit = fit_maximum_likelihood(
+        source.sample(n, corral, cut ? 0.3 : 0.0), cut ? 0.3 : 0.0, held_at_one(!free));
     ASSERT_FALSE(fit.degenerate) << fit.why;
     EXPECT_NEAR(fit.ks_by_cells, fit.ks, 0.2 / std::sqrt(static_cast<double>(n)));
     const double p = p_value(fit, 39, static_cast<std::uint64_t>(i));
@@ -490,8 +481,7 @@ TEST(GoodnessOfFit, ManyValues) {
   // A twentieth of the values is three times as long.
   std::vector<double> mixed = source.sample(n - n / 20, corral);
   for (const double theta : source.sample(n / 20, corral)) mixed.push_back(3.0 * theta);
-  options.fix_delta = 1.0;
-  EXPECT_LT(p_value(fit_maximum_likelihood(mixed, 0.0, options), 99, 1), 0.03);
+  EXPECT_LT(p_value(fit_maximum_likelihood(mixed, 0.0, 1.0), 99, 1), 0.03);
 }
 
 TEST(GoodnessOfFit, NumberOfCoresDoesNotMatter) {
@@ -530,8 +520,7 @@ TEST(Replicas, EachOnceAndErrorsAreHandedOn) {
 
 TEST(GoodnessOfFit, SeedAndReplicas) {
   Source source(15);
-  const GeneralisedGammaFit fit =
-      fit_maximum_likelihood(source.sample(500, corral), 0, delta_one());
+  const GeneralisedGammaFit fit = fit_maximum_likelihood(source.sample(500, corral), 0, 1.0);
   const double p = p_value(fit, 200, 7);
   EXPECT_EQ(p_value(fit, 200, 7), p);
   EXPECT_NE(p_value(fit, 200, 8), p);
@@ -551,9 +540,7 @@ TEST(GeneralisedGamma, RefusesImpossibleInput) {
   EXPECT_NO_THROW(fit_maximum_likelihood({0.0, 1.0}, 0.5));
   EXPECT_THROW(fit_maximum_likelihood(good, -1.0), std::invalid_argument);
   EXPECT_THROW(fit_maximum_likelihood(good, std::nan("")), std::invalid_argument);
-  GeneralisedGammaOptions options;
-  options.fix_delta = 0.0;
-  EXPECT_THROW(fit_maximum_likelihood(good, 0.0, options), std::invalid_argument);
+  EXPECT_THROW(fit_maximum_likelihood(good, 0.0, 0.0), std::invalid_argument);
   EXPECT_THROW(fit_least_squares({{2.0, 1.0, 1.5, 3, 1.0, 0.1}}), std::invalid_argument);
 }
 

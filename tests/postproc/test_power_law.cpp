@@ -121,22 +121,24 @@ TEST(PowerLaw, InfiniteRangeHasTheClosedForm) {
   EXPECT_NEAR(fit.standard_error, (fit.alpha - 1.0) / std::sqrt(500.0), 1e-12);
 }
 
+// A power law on [1, hi] in ln x.
+Exponential law(double alpha, double hi) { return {std::log(hi), 1.0 - alpha}; }
+
 TEST(PowerLaw, DistributionIsContinuousThroughOneAndInverts) {
   for (double hi : {2.0, 1e3, 1e12}) {
     for (double p : {0.0, 1e-9, 0.1, 0.5, 0.999}) {
       const double x = std::pow(hi, p);
-      EXPECT_NEAR(power_law_cdf(x, 1.0, 1.0, hi), p, 1e-14);
+      EXPECT_NEAR(law(1.0, hi).cdf(std::log(x)), p, 1e-14);
       for (double off : {1e-15, 1e-12, 1e-9, 1e-6})
-        EXPECT_NEAR(power_law_cdf(x, 1.0 + off, 1.0, hi), p, 10.0 * off + 1e-13) << hi;
+        EXPECT_NEAR(law(1.0 + off, hi).cdf(std::log(x)), p, 10.0 * off + 1e-13) << hi;
       for (double alpha : {-20.0, 0.5, 1.0 - 1e-9, 1.0, 1.0 + 1e-9, 1.5, 40.0})
-        EXPECT_NEAR(power_law_cdf(power_law_quantile(p, alpha, 1.0, hi), alpha, 1.0, hi), p, 1e-10)
-            << alpha << " " << hi;
+        EXPECT_NEAR(law(alpha, hi).cdf(law(alpha, hi).quantile(p)), p, 1e-10) << alpha << " " << hi;
     }
   }
-  EXPECT_NEAR(power_law_cdf(4.0, 1.5, 1.0, infinity), 0.5, 1e-15);
-  EXPECT_NEAR(power_law_quantile(0.5, 1.5, 1.0, infinity), 4.0, 1e-14);
-  EXPECT_NEAR(power_law_cdf(2.0, 2.0, 1.0, 4.0), 2.0 / 3.0, 1e-15);
-  EXPECT_NEAR(power_law_cdf(2.0, 0.0, 1.0, 4.0), 1.0 / 3.0, 1e-15);
+  EXPECT_NEAR(law(1.5, infinity).cdf(std::log(4.0)), 0.5, 1e-15);
+  EXPECT_NEAR(std::exp(law(1.5, infinity).quantile(0.5)), 4.0, 1e-14);
+  EXPECT_NEAR(law(2.0, 4.0).cdf(std::log(2.0)), 2.0 / 3.0, 1e-15);
+  EXPECT_NEAR(law(0.0, 4.0).cdf(std::log(2.0)), 1.0 / 3.0, 1e-15);
 }
 
 TEST(PowerLaw, IntervalsCoverTheTruth) {
@@ -180,7 +182,7 @@ TEST(PowerLaw, DistanceIsThatOfEveryPoint) {
       const PowerLawFit fit = fit_power_law(sample, 1.0, 50.0);
       double distance = 0.0;
       for (std::size_t i = 0; i < n; ++i) {
-        const double f = power_law_cdf(sample[i], fit.alpha, 1.0, 50.0);
+        const double f = law(fit.alpha, 50.0).cdf(std::log(sample[i]));
         const auto rank = static_cast<double>(i), count = static_cast<double>(n);
         distance = std::max({distance, f - rank / count, (rank + 1.0) / count - f});
       }
@@ -237,8 +239,7 @@ TEST(PowerLaw, ProbabilityIsUniformUnderTheNull) {
     }
     std::sort(p.begin(), p.end());
     // p takes the values 0.01 ... 1; the 0.3 % point of the distance is 1.8 / sqrt(300).
-    const double distance =
-        KsDistance(SortedValues(p.data(), p.size()), [](double x) { return x - 0.005; })();
+    const double distance = KsDistance({p.data(), p.size()}, [](double x) { return x - 0.005; })();
     EXPECT_LT(distance, 1.8 / std::sqrt(300.0));
   }
 }
