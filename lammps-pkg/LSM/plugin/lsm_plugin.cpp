@@ -15,24 +15,7 @@
 #include <string>
 #include <type_traits>
 
-#include "bond_lsm_linked.h"
-#include "check_restart.h"
-#include "check_variable.h"
-#include "compute_lsm_events.h"
-#include "create_lsm_fault.h"
-#include "fix_lsm_absorb.h"
-#include "fix_lsm_break.h"
-#include "fix_lsm_history.h"
-#include "fix_lsm_leap.h"
-#include "fix_lsm_nve.h"
-#include "fix_lsm_plates.h"
-#include "fix_lsm_record.h"
-#include "fix_lsm_traction.h"
-#include "fix_lsm_velocity.h"
-#include "include_beside.h"
-#include "pair_lsm_free.h"
-#include "pair_lsm_friction.h"
-#include "save_restart.h"
+#include "lsm_styles.h"
 
 using namespace LAMMPS_NS;
 
@@ -156,23 +139,16 @@ extern "C" void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
     return;
   }
   Registrar styles(lmp, handle, regfunc);
-  styles.add<Bond, BondLSMLinked>("bond", "lsm/linked", "bond style lsm/linked");
-  styles.add<Pair, PairLSMFree>("pair", "lsm/free", "pair style lsm/free");
-  styles.add<Pair, PairLSMFriction>("pair", "lsm/friction", "pair style lsm/friction");
-  styles.add<Fix, FixLSMNVE>("fix", "lsm/nve", "fix style lsm/nve");
-  styles.add<Fix, FixLSMLeap>("fix", "lsm/leap", "fix style lsm/leap");
-  styles.add<Fix, FixLSMPlates>("fix", "lsm/plates", "fix style lsm/plates");
-  styles.add<Fix, FixLSMAbsorb>("fix", "lsm/absorb", "fix style lsm/absorb");
-  styles.add<Fix, FixLSMTraction>("fix", "lsm/traction", "fix style lsm/traction");
-  // Created by the other styles for their own use.
-  styles.add<Fix, FixLSMRecord>("fix", "LSM_RECORD", "fix style LSM_RECORD");
-  styles.add<Fix, FixLSMHistory>("fix", "LSM_HISTORY", "fix style LSM_HISTORY");
-  styles.add<Fix, FixLSMBreak>("fix", "LSM_BREAK", "fix style LSM_BREAK");
-  styles.add<Fix, FixLSMVelocity>("fix", "LSM_VELOCITY", "fix style LSM_VELOCITY");
-  styles.add<Compute, ComputeLSMEvents>("compute", "lsm/events", "compute style lsm/events");
-  styles.add<Command, CreateLSMFault>("command", "create_lsm_fault", "command create_lsm_fault");
-  styles.add<Command, IncludeBeside>("command", "include_beside", "command include_beside");
-  styles.add<Command, CheckVariable>("command", "check_variable", "command check_variable");
-  styles.add<Command, SaveRestart>("command", "save_restart", "command save_restart");
-  styles.add<Command, CheckRestart>("command", "check_restart", "command check_restart");
+#define BOND_CLASS
+#define BondStyle(name, Style) styles.add<Bond, Style>("bond", #name, "bond style " #name);
+#define PAIR_CLASS
+#define PairStyle(name, Style) styles.add<Pair, Style>("pair", #name, "pair style " #name);
+#define FIX_CLASS
+#define FixStyle(name, Style) styles.add<Fix, Style>("fix", #name, "fix style " #name);
+#define COMPUTE_CLASS
+#define ComputeStyle(name, Style) \
+  styles.add<Compute, Style>("compute", #name, "compute style " #name);
+#define COMMAND_CLASS
+#define CommandStyle(name, Style) styles.add<Command, Style>("command", #name, "command " #name);
+#include "lsm_styles.h"
 }
