@@ -18,6 +18,7 @@
 #include "update.h"
 #include "write_restart.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <exception>
@@ -26,28 +27,9 @@
 
 using namespace LAMMPS_NS;
 
-// entries of the global vector
-
-enum {
-  EVENTS,
-  LAST_SIZE,
-  RATE,
-  IN_EVENT,
-  PE,
-  PE_LINK,
-  PE_CONTACT,
-  PE_TANGENTIAL,
-  NVECTOR,
-  KINETIC = NVECTOR,
-  WORK_PLATES,
-  WORK_FRICTION,
-  WORK_VISCOSITY,
-  RESIDUAL,
-  WORK_BROKEN,
-  WORK_OUTSIDE,
-  WORK_ABSORBED,
-  NLEDGER
-};
+// entries of the global vector; those of the ledger follow
+enum { EVENTS, LAST_SIZE, RATE, IN_EVENT, PE, PE_LINK, PE_CONTACT, PE_TANGENTIAL, NVECTOR };
+static constexpr int NLEDGER = 8;
 
 ComputeLSMEvents::ComputeLSMEvents(LAMMPS *_lmp, int narg, char **arg) :
     Compute(_lmp, narg, arg), options(_lmp, 3, narg, arg), settings(options.events),
@@ -58,13 +40,13 @@ ComputeLSMEvents::ComputeLSMEvents(LAMMPS *_lmp, int narg, char **arg) :
   vector_flag = 1;
   extscalar = 0;
   extvector = 0;
-  size_vector = options.ledger ? NLEDGER : NVECTOR;
+  size_vector = NVECTOR + (options.ledger ? NLEDGER : 0);
   settings.name = id;
 
-  const std::string id_fix = std::string(id) + "_record";
-  if (modify->get_fix_by_id(id_fix))
-    error->all(FLERR, "Compute lsm/events {} needs the fix ID {}, which is in use", id, id_fix);
-  recorder = dynamic_cast<FixLSMRecord *>(modify->add_fix(id_fix + " all LSM_RECORD"));
+  if (modify->get_fix_by_id(id_of_fix()))
+    error->all(FLERR, "Compute lsm/events {} needs the fix ID {}, which is in use", id,
+               id_of_fix());
+  recorder = dynamic_cast<FixLSMRecord *>(modify->add_fix(id_of_fix() + " all LSM_RECORD"));
   if (!recorder) error->all(FLERR, "Compute lsm/events could not create fix LSM_RECORD");
   recorder->owner = this;
   update->first_update = 0;
@@ -79,8 +61,7 @@ ComputeLSMEvents::~ComputeLSMEvents()
 
   // an init sets up LAMMPS' lists of fixes and what the styles record: 'run N pre no' needs one as well
   if (update) update->first_update = 0;
-  const std::string id_fix = std::string(id) + "_record";
-  if (recorder && modify && modify->get_fix_by_id(id_fix)) modify->delete_fix(id_fix);
+  if (recorder && modify && modify->get_fix_by_id(id_of_fix())) modify->delete_fix(id_of_fix());
   delete[] vector;
 }
 
@@ -93,10 +74,9 @@ void ComputeLSMEvents::init()
   if (same > 1 && comm->me == 0)
     error->warning(FLERR, "More than one compute lsm/events with the same kind of events");
 
-  if (modify->get_fix_by_id(std::string(id) + "_record") != recorder)
-    error->all(FLERR,
-               "Compute lsm/events {}: its fix {}_record is gone; use uncompute to end recording",
-               id, id);
+  if (modify->get_fix_by_id(id_of_fix()) != recorder)
+    error->all(FLERR, "Compute lsm/events {}: its fix {} is gone; use uncompute to end recording",
+               id, id_of_fix());
   sources.check(recorder, options.ledger);
   sources.find(options.ledger);
   const bool leaps = sources.leap() != nullptr;
@@ -129,7 +109,7 @@ void ComputeLSMEvents::set_memory()
 // Files are opened at the first run, so that a mistake earlier in the input touches no older catalogue.
 void ComputeLSMEvents::open_files()
 {
-  const bool from_restart = !recorder->restart_state.empty();
+  const bool from_restart = !recorder->kept.empty();
   shown_at = started_at = platform::walltime();
   clock = {update->atime, update->atimestep, update->dt};
   if (comm->me == 0) {
@@ -141,7 +121,7 @@ void ComputeLSMEvents::open_files()
   }
   stop_on_failure();
   if (in_intervals()) make_grid();
-  if (from_restart) unpack_state(recorder->restart_state);
+  if (from_restart) unpack_state(recorder->kept);
   change_dt();
   on_rank_0([this, from_restart] {
     stream->begin_files(update->ntimestep, from_restart, sources.scene(), clock, restart_files());
@@ -208,7 +188,7 @@ void ComputeLSMEvents::setup_record()
 {
   double mine = 0.0;
   for (int i = 0; i < atom->nlocal; i++) mine = MAX(mine, 2.0 * atom->radius[i]);
-  MPI_Allreduce(&mine, &widest, 1, MPI_DOUBLE, MPI_MAX, world);
+  widest = lsm_largest(mine, world);
   watchdog.calm_down();
   if (!opened) open_files();
   check_box();
@@ -392,16 +372,19 @@ LSM::EnergyTerms ComputeLSMEvents::energies() const
 void ComputeLSMEvents::look_early()
 {
   if (!sources.has_links()) return;
-  const double mine = LSM::Watchdog::comparable(sources.max_strain());
-  double strain;
-  MPI_Allreduce(&mine, &strain, 1, MPI_DOUBLE, MPI_MAX, world);
+  const double strain = lsm_largest(LSM::Watchdog::comparable(sources.max_strain()), world);
   const std::string what = watchdog.look_early(strain, widest, comm->get_comm_cutoff());
   if (what.empty()) return;
   flush();
+  stop_run(what, "The catalogue ends with the last event before it");
+}
+
+void ComputeLSMEvents::stop_run(const std::string &what, const std::string &left)
+{
   error->all(FLERR,
-             "Run stopped at step {}: {}. The catalogue ends with the last event before it; use a "
-             "smaller time step or start from an earlier restart",
-             update->ntimestep, what);
+             "Run stopped at step {}: {}. {}; use a smaller time step or start from an earlier "
+             "restart",
+             update->ntimestep, what, left);
 }
 
 // at the end of a step; stops a failed run: everything recorded so far is written, then a restart file
@@ -419,12 +402,7 @@ void ComputeLSMEvents::check_health()
 
   // a restart file of such a state would be useless, and would replace an older one
   flush();
-  if (!found.finite)
-    error->all(
-        FLERR,
-        "Run stopped at step {}: {}. The catalogue ends with the last event before it; use a "
-        "smaller time step or start from an earlier restart",
-        update->ntimestep, found.what);
+  if (!found.finite) stop_run(found.what, "The catalogue ends with the last event before it");
 
   LSMMover::complete_steps(modify);
   SaveRestart(lmp).save(options.emergency_file, {}, [this](const std::string &file) {
@@ -432,10 +410,7 @@ void ComputeLSMEvents::check_health()
     writer.multiproc_options(0, 0, nullptr);
     writer.write(file);
   });
-  error->all(FLERR,
-             "Run stopped at step {}: {}. Wrote restart file {}; use a smaller time step or start "
-             "from an earlier restart",
-             update->ntimestep, found.what, options.emergency_file);
+  stop_run(found.what, "Wrote restart file " + options.emergency_file);
 }
 
 // one line on a terminal, rewritten every few seconds; nothing in a pipe
@@ -457,34 +432,26 @@ namespace {
 struct Own {
   double version = -1.0;
   bigint last_recorded = 0;
-  bool balanced = false;    // the ledger has started
-  double start = 0.0, friction = 0.0, broken = 0.0;
+  LSM::EnergyLedger ledger;
   LSM::StepClock clock;
 
   static constexpr double FIRST_KIND = 3.0;    // version of the first kind of events, and so on
   static constexpr size_t NUMBERS = 9;
   template <class Self, class State> static void visit(Self &self, State &state)
   {
-    state(self.version, self.last_recorded, self.balanced, self.start, self.friction, self.broken,
-          self.clock.time, self.clock.step, self.clock.dt);
+    state(self.version, self.last_recorded, self.ledger, self.clock);
   }
 };
 }    // namespace
 
 std::vector<double> ComputeLSMEvents::pack_state()
 {
-  if (!opened) return recorder->restart_state;
+  if (!opened) return recorder->kept;
   flush();
-  const LSM::EnergyTerms now = energies();
   const std::vector<double> open_sums = in_intervals() ? fault_sums() : std::vector<double>();
   std::vector<double> state;
   const Own own = {Own::FIRST_KIND + static_cast<double>(LSM::number_of(*settings.kind)),
-                   last_recorded,
-                   ledger.begun(),
-                   ledger.start(),
-                   now.friction,
-                   now.broken,
-                   clock};
+                   last_recorded, ledger.kept(energies()), clock};
   LSM::StateWriter to(state);
   Own::visit(own, to);
   if (comm->me == 0) {
@@ -510,7 +477,7 @@ void ComputeLSMEvents::unpack_state(const std::vector<double> &state)
     error->all(FLERR, "Compute lsm/events {}: the restart file holds a state of another version",
                id);
   last_recorded = own.last_recorded;
-  ledger.set_state(own.balanced, own.start, own.friction, own.broken);
+  ledger = own.ledger;
   clock = own.clock;
   on_rank_0([&] { stream->set_state(saved); });
   if (!in_intervals() || saved.kind != LSM::number_of(*settings.kind)) return;
@@ -552,7 +519,7 @@ void ComputeLSMEvents::compute_vector()
     picked[IN_EVENT] = static_cast<double>(stream->open());
   }
   MPI_Bcast(picked, 4, MPI_DOUBLE, 0, world);
-  for (int n = 0; n < 4; n++) vector[n] = picked[n];
+  std::copy_n(picked, 4, vector);
 
   double mine[3];
   sources.pe_by_kind(mine);
@@ -561,12 +528,13 @@ void ComputeLSMEvents::compute_vector()
       vector[PE_LINK] + vector[PE_CONTACT] + (settings.tangential ? vector[PE_TANGENTIAL] : 0.0);
   if (!options.ledger) return;
   const LSM::EnergyTerms now = energies();
-  vector[KINETIC] = now.kinetic;
-  vector[WORK_PLATES] = now.plates;
-  vector[WORK_FRICTION] = now.friction;
-  vector[WORK_VISCOSITY] = now.viscosity;
-  vector[RESIDUAL] = ledger.begun() ? ledger.residual(now) : 0.0;
-  vector[WORK_BROKEN] = now.broken;
-  vector[WORK_OUTSIDE] = now.outside;
-  vector[WORK_ABSORBED] = now.absorbed;
+  const double of_ledger[NLEDGER] = {now.kinetic,
+                                     now.plates,
+                                     now.friction,
+                                     now.viscosity,
+                                     ledger.begun() ? ledger.residual(now) : 0.0,
+                                     now.broken,
+                                     now.outside,
+                                     now.absorbed};
+  std::copy_n(of_ledger, NLEDGER, vector + NVECTOR);
 }

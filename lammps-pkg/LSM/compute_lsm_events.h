@@ -74,6 +74,8 @@ class ComputeLSMEvents : public Compute {
 
   double begin = 0.0, period = 0.0;    // of the box along x at the first run
 
+  std::string id_of_fix() const { return std::string(id) + "_record"; }
+  [[noreturn]] void stop_run(const std::string &what, const std::string &left);
   bool in_intervals() const { return settings.kind->wants_intervals(); }
   void set_memory();
   void open_files();

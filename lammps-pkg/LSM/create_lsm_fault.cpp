@@ -335,8 +335,7 @@ void CreateLSMFault::add_particles(const LSM::Packing &packing, const std::vecto
 
   atom->data_fix_compute_variable(0, atom->nlocal);
 
-  bigint nblocal = atom->nlocal;
-  MPI_Allreduce(&nblocal, &atom->natoms, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  atom->natoms = lsm_total(static_cast<bigint>(atom->nlocal), world);
   if (atom->natoms != n)
     error->all(FLERR, "Create_lsm_fault: {} of {} particles have an owner", atom->natoms, n);
 

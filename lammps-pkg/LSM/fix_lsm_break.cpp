@@ -57,11 +57,9 @@ void FixLSMBreak::setup_pre_reverse(int eflag, int vflag)
 
 void FixLSMBreak::pre_reverse(int /*eflag*/, int /*vflag*/)
 {
-  int mine = static_cast<int>(links->broken.size()), all = 0;
-  MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_SUM, world);
-  if (all == 0) return;
+  if (lsm_total(static_cast<int>(links->broken.size()), world) == 0) return;
 
-  const std::vector<tagint> broken = lsm_gather(links->broken, MPI_LMP_TAGINT, world);
+  const std::vector<tagint> broken = lsm_gather(links->broken, world);
   links->broken.clear();
   remove(broken);
   next_reneighbor = update->ntimestep + 1;
@@ -127,9 +125,8 @@ void FixLSMBreak::remove(const std::vector<tagint> &broken)
         break;
       }
   });
-  bigint removed_all = 0;
-  MPI_Allreduce(&removed, &removed_all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  const bigint links_removed = force->newton_bond ? removed_all : removed_all / 2;
+  const bigint ends = lsm_total(removed, world);
+  const bigint links_removed = force->newton_bond ? ends : ends / 2;
   atom->nbonds -= links_removed;
   total += links_removed;
 }

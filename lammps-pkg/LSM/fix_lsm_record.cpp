@@ -5,7 +5,6 @@
 #include "comm.h"
 #include "compute_lsm_events.h"
 #include "error.h"
-#include "lsm_fix_state.h"
 #include "update.h"
 
 #include <cstring>
@@ -14,11 +13,10 @@ using namespace LAMMPS_NS;
 using namespace FixConst;
 
 FixLSMRecord::FixLSMRecord(LAMMPS *_lmp, int narg, char **arg) :
-    Fix(_lmp, narg, arg), owner(nullptr)
+    LSMKeptFix(_lmp, narg, arg), owner(nullptr)
 {
   if (narg != 3) error->all(FLERR, "Fix LSM_RECORD is internal to compute lsm/events");
   nevery = 1;
-  restart_global = 1;
 }
 
 int FixLSMRecord::setmask()
@@ -47,30 +45,13 @@ void FixLSMRecord::post_run()
 }
 
 // within a run; between two runs the next run notices
-
 void FixLSMRecord::reset_dt()
 {
   if (update->whichflag) owner->change_dt();
 }
 
-namespace {
-struct Saved {
-  std::vector<double> numbers;
-  template <class Self, class State> static void visit(Self &self, State &state)
-  {
-    state.list(self.numbers);
-  }
-};
-}    // namespace
-
 void FixLSMRecord::write_restart(FILE *fp)
 {
-  lsm_write_state(Saved{owner->pack_state()}, fp, world);
-}
-
-void FixLSMRecord::restart(char *buf)
-{
-  Saved saved;
-  lsm_read_state(saved, buf, world);
-  restart_state = saved.numbers;
+  kept = owner->pack_state();
+  LSMKeptFix::write_restart(fp);
 }

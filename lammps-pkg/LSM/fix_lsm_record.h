@@ -11,13 +11,13 @@ FixStyle(LSM_RECORD,FixLSMRecord);
 #ifndef LMP_FIX_LSM_RECORD_H
 #define LMP_FIX_LSM_RECORD_H
 
-#include "fix.h"
+#include "lsm_fix_state.h"
 
 #include <vector>
 
 namespace LAMMPS_NS {
 
-class FixLSMRecord : public Fix {
+class FixLSMRecord : public LSMKeptFix<FixLSMRecord> {
  public:
   FixLSMRecord(class LAMMPS *, int, char **);
   int setmask() override;
@@ -27,10 +27,13 @@ class FixLSMRecord : public Fix {
   void post_run() override;
   void reset_dt() override;
   void write_restart(FILE *) override;
-  void restart(char *) override;
+  template <class Self, class State> static void visit(Self &self, State &state)
+  {
+    state.list(self.kept);
+  }
 
-  class ComputeLSMEvents *owner;        // set by the compute that made this fix
-  std::vector<double> restart_state;    // what a restart file held, empty if none
+  class ComputeLSMEvents *owner;    // set by the compute that made this fix
+  std::vector<double> kept;    // state of the compute in the last restart file, read or written
 };
 
 }    // namespace LAMMPS_NS

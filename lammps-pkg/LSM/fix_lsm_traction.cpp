@@ -145,7 +145,7 @@ std::vector<double> FixLSMTraction::shares(int s) const
   }
   if (!spaced) return share;
 
-  std::vector<double> all = lsm_gather(mine, MPI_DOUBLE, world);
+  std::vector<double> all = lsm_gather(mine, world);
   std::sort(all.begin(), all.end());
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & side[s])) continue;

@@ -139,7 +139,7 @@ void FixLSMVelocity::post_run()
 // sum of numbers that mix the bits of ID and velocity of each particle: the order does not matter
 std::uint64_t FixLSMVelocity::fingerprint() const
 {
-  std::uint64_t mine = 0, all = 0;
+  std::uint64_t mine = 0;
   for (int i = 0; i < atom->nlocal; i++) {
     std::uint64_t mixed = static_cast<std::uint64_t>(atom->tag[i]);
     for (int c = 0; c < 3; c++) {
@@ -150,8 +150,7 @@ std::uint64_t FixLSMVelocity::fingerprint() const
     }
     mine += mixed;
   }
-  MPI_Allreduce(&mine, &all, 1, MPI_UINT64_T, MPI_SUM, world);
-  return all;
+  return lsm_total(mine, world);
 }
 
 // scalar = energy dissipated by the dashpots

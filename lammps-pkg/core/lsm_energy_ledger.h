@@ -63,14 +63,17 @@ class EnergyLedger {
     return jump;
   }
 
-  double start() const { return start_; }
-  /// Continues the ledger of a restart file. friction, broken: works until then, which the styles
-  /// of the new run do not know.
-  void set_state(bool begun, double start, double friction, double broken) {
-    begun_ = begun;
-    start_ = start;
-    friction_before_ = friction;
-    broken_before_ = broken;
+  /// What a restart file keeps: works until now are those before, as the styles of the run that
+  /// continues from it do not know them.
+  EnergyLedger kept(const EnergyTerms &now) const {
+    EnergyLedger kept = *this;
+    kept.friction_before_ = now.friction;
+    kept.broken_before_ = now.broken;
+    return kept;
+  }
+  template <class Self, class State>
+  static void visit(Self &self, State &state) {
+    state(self.begun_, self.start_, self.friction_before_, self.broken_before_);
   }
   /// now: with works since the last restart.
   EnergyTerms with_earlier_works(EnergyTerms now) const {

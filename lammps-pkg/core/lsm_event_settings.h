@@ -35,6 +35,10 @@ struct StepClock {
   std::int64_t step = 0;
   double dt = 0.0;
   double at(std::int64_t later) const { return time + static_cast<double>(later - step) * dt; }
+  template <class Self, class State>
+  static void visit(Self &self, State &state) {
+    state(self.time, self.step, self.dt);
+  }
 };
 
 /// What it writes, by keywords; paths are empty where it is not written.

@@ -3,10 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
+#include "lsm_state.h"
+
 namespace {
 
 using LSM::EnergyLedger;
 using LSM::EnergyTerms;
+using LSM::StateReader;
+using LSM::StateWriter;
 
 EnergyTerms terms(double kinetic, double potential, double friction, double viscosity,
                   double broken, double plates) {
@@ -77,10 +83,17 @@ TEST(EnergyLedger, NothingIsAskedForWithoutABegin) {
 }
 
 TEST(EnergyLedger, GoesOnFromARestart) {
-  EnergyLedger first, second;
+  EnergyLedger first;
   first.begin(terms(1.0, 2.0, 0.0, 0.0, 0.0, 0.0));
   const EnergyTerms at_restart = terms(1.0, 2.0, 0.5, 0.25, 0.125, 1.0);
-  second.set_state(first.begun(), first.start(), at_restart.friction, at_restart.broken);
+  std::vector<double> file;
+  StateWriter to(file);
+  const EnergyLedger kept = first.kept(at_restart);
+  EnergyLedger::visit(kept, to);
+  EXPECT_EQ(file.size(), 4u);
+  EnergyLedger second;
+  StateReader from(file);
+  EnergyLedger::visit(second, from);
   EXPECT_TRUE(second.begun());
   // Styles start counting anew; integrators and plates have restarts of their own.
   const EnergyTerms now = second.with_earlier_works(terms(1.0, 2.0, 0.0, 0.25, 0.0, 1.0));

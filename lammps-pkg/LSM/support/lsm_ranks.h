@@ -4,6 +4,7 @@
 #ifndef LMP_LSM_RANKS_H
 #define LMP_LSM_RANKS_H
 
+#include <cstdint>
 #include <mpi.h>
 #include <string>
 #include <type_traits>
@@ -11,11 +12,30 @@
 
 namespace LAMMPS_NS {
 
-inline double lsm_total(double mine, MPI_Comm world)
+/// How MPI calls it.
+template <class Value> MPI_Datatype lsm_mpi_type()
 {
-  double all = 0.0;
-  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
+  if constexpr (std::is_same_v<Value, double>) return MPI_DOUBLE;
+  if constexpr (std::is_same_v<Value, int>) return MPI_INT;
+  if constexpr (std::is_same_v<Value, std::int64_t>) return MPI_INT64_T;
+  if constexpr (std::is_same_v<Value, std::uint64_t>) return MPI_UINT64_T;
+}
+
+template <class Value> Value lsm_reduce(Value mine, MPI_Op operation, MPI_Comm world)
+{
+  Value all{};
+  MPI_Allreduce(&mine, &all, 1, lsm_mpi_type<Value>(), operation, world);
   return all;
+}
+
+template <class Value> Value lsm_total(Value mine, MPI_Comm world)
+{
+  return lsm_reduce(mine, MPI_SUM, world);
+}
+
+template <class Value> Value lsm_largest(Value mine, MPI_Comm world)
+{
+  return lsm_reduce(mine, MPI_MAX, world);
 }
 
 /// All ranks get the text of rank 0.
@@ -41,10 +61,10 @@ template <class Value> void lsm_share(std::vector<Value> &values, MPI_Comm world
   MPI_Type_free(&type);
 }
 
-/// All ranks get the values of all, in the order of the ranks. type: that of a value
-template <class Value>
-std::vector<Value> lsm_gather(const std::vector<Value> &mine, MPI_Datatype type, MPI_Comm world)
+/// All ranks get the values of all, in the order of the ranks.
+template <class Value> std::vector<Value> lsm_gather(const std::vector<Value> &mine, MPI_Comm world)
 {
+  const MPI_Datatype type = lsm_mpi_type<Value>();
   int ranks;
   MPI_Comm_size(world, &ranks);
   const int count = static_cast<int>(mine.size());
