@@ -76,14 +76,10 @@ void CheckRestart::take(const std::string &file, const std::string &name, const 
     if (!same) return;
 
     // the same number, written differently: as before, for the headers of continued files
-    set({name, "delete"});
+    input->variable->set(name + " delete");
   }
-  if (!input->variable->retrieve(name.c_str())) set({name, "index", *value});
-}
-
-void CheckRestart::set(std::vector<std::string> words)
-{
-  std::vector<char *> args;
-  for (std::string &word : words) args.push_back(&word[0]);
-  input->variable->set(static_cast<int>(args.size()), args.data());
+  if (input->variable->retrieve(name.c_str())) return;
+  std::string index = name, text = *value;
+  char *values[] = {text.data()};
+  input->variable->set(index.data(), 1, values);
 }

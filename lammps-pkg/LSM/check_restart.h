@@ -14,7 +14,6 @@ CommandStyle(check_restart,CheckRestart);
 #include "command.h"
 
 #include <string>
-#include <vector>
 
 namespace LAMMPS_NS {
 
@@ -24,7 +23,6 @@ class CheckRestart : public Command {
   void command(int, char **) override;
 
  private:
-  void set(std::vector<std::string> words);
   void take(const std::string &file, const std::string &name, const std::string *value, bool fixed);
 };
 

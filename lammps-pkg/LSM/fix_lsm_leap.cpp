@@ -9,6 +9,7 @@
 #include "fix_lsm_nve.h"
 #include "fix_lsm_plates.h"
 #include "force.h"
+#include "group.h"
 #include "lsm_energy.h"
 #include "lsm_keyword_reader.h"
 #include "lsm_scene.h"
@@ -19,7 +20,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -40,17 +40,21 @@ FixLSMLeap::FixLSMLeap(LAMMPS *_lmp, int narg, char **arg) :
   if (narg < 4)
     error->all(FLERR, "Fix lsm/leap expects 'fix ID group lsm/leap plates-ID keyword value ...'");
   plates_id = arg[3];
-  using LSM::Must;
-  const LSM::Keywords keywords = {{"fast", &fast, Must::positive},
-                                  {"slip", &slip, Must::positive},
-                                  {"calm", &calm, Must::not_negative},
-                                  {"rest", &rest, Must::positive},
-                                  {"settle", &viscosity, Must::not_negative},
-                                  {"ramp", &ramp, Must::not_negative},
-                                  {"grow", &grow, Must::not_negative},
-                                  {"look", &between, Must::positive}};
-  LSMKeywordReader(lmp, "Fix lsm/leap", 4, narg, arg).read_all(keywords);
+  LSMKeywordReader(lmp, "Fix lsm/leap", 4, narg, arg).read_all(keywords());
   reset_dt();
+}
+
+LSM::Keywords FixLSMLeap::keywords()
+{
+  using LSM::Must;
+  return {{"fast", &fast, Must::positive},
+          {"slip", &slip, Must::positive},
+          {"calm", &calm, Must::not_negative},
+          {"rest", &rest, Must::positive},
+          {"settle", &viscosity, Must::not_negative},
+          {"ramp", &ramp, Must::not_negative},
+          {"grow", &grow, Must::not_negative},
+          {"look", &between, Must::positive}};
 }
 
 FixLSMLeap::~FixLSMLeap()
@@ -118,18 +122,11 @@ void FixLSMLeap::setup(int /*vflag*/)
   begun = true;
 
   // uniform shear between the plates: v grows from -fast to fast over the width
-  double mass = 0.0;
-  for (int i = 0; i < atom->nlocal; i++)
-    mass += atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
-  loading_energy = 0.5 * lsm_total(mass, world) * fast * fast / 3.0;
+  loading_energy = 0.5 * group->mass(0) * fast * fast / 3.0;
 
-  if (changes.empty()) {
-    const double now =
-        update->atime + static_cast<double>(update->ntimestep - update->atimestep) * dt;
-    changes.push_back({update->ntimestep, now, factor * dt});
-  } else {
-    changes.push_back({update->ntimestep, model_time(update->ntimestep), factor * dt});
-  }
+  changes.push_back({update->ntimestep,
+                     changes.empty() ? time_of_steps() : model_time(update->ntimestep),
+                     factor * dt});
   if (!leaps()) state = EVENT;    // a restart may continue with another velocity
   set_factor(leaps() ? MIN(factor, fast / fabs(plates->driving_velocity())) : 1.0);
   plates->loading = factor;
@@ -151,12 +148,20 @@ double FixLSMLeap::model_time(bigint step) const
   return last->time + static_cast<double>(step - last->step) * last->rate;
 }
 
-std::string FixLSMLeap::settings() const
+std::string FixLSMLeap::settings()
 {
-  using LSM::text_io::number;
-  return "fast " + number(fast) + " slip " + number(slip) + " calm " + number(calm) + " rest " +
-         number(rest) + " settle " + number(viscosity) + " ramp " + number(ramp) + " grow " +
-         number(grow) + " look " + number(between);
+  std::vector<std::string> words;
+  for (const LSM::Keyword &one : keywords()) {
+    words.emplace_back(one.name);
+    words.push_back(LSM::text_io::number(*std::get<double *>(one.value)));
+  }
+  return utils::join_words(words, " ");
+}
+
+// by the steps, without leaps
+double FixLSMLeap::time_of_steps() const
+{
+  return update->atime + static_cast<double>(update->ntimestep - update->atimestep) * dt;
 }
 
 void FixLSMLeap::set_factor(double value)
@@ -235,10 +240,12 @@ double FixLSMLeap::compute_scalar()
 
 double FixLSMLeap::compute_vector(int n)
 {
-  const double now =
-      update->atime + static_cast<double>(update->ntimestep - update->atimestep) * dt;
-  const double values[6] = {factor,    static_cast<double>(state),          steps_time,
-                            leap_time, model_time(update->ntimestep) - now, stops};
+  const double values[6] = {factor,
+                            static_cast<double>(state),
+                            steps_time,
+                            leap_time,
+                            model_time(update->ntimestep) - time_of_steps(),
+                            stops};
   return values[n];
 }
 

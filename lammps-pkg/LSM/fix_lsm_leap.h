@@ -11,6 +11,7 @@ FixStyle(lsm/leap,FixLSMLeap);
 #define LMP_FIX_LSM_LEAP_H
 
 #include "lsm_fix_state.h"
+#include "lsm_keywords.h"
 
 #include <deque>
 #include <string>
@@ -31,7 +32,7 @@ class FixLSMLeap : public LSMKeptFix<FixLSMLeap> {
   double compute_vector(int) override;
 
   double model_time(bigint step) const;    // at a step that was done in the last 10 000 steps or so
-  std::string settings() const;            // for headers of files
+  std::string settings();                  // for headers of files
   double fastest() const { return fast; }
   template <class Self, class State> static void visit(Self &, State &);
 
@@ -76,6 +77,8 @@ class FixLSMLeap : public LSMKeptFix<FixLSMLeap> {
   double stops = 0.0;         // leaps that ended
   bool begun = false;         // the time step is fixed
 
+  LSM::Keywords keywords();
+  double time_of_steps() const;
   bool leaps() const;    // there is a faster velocity, and a velocity at all
   double kinetic() const;
   void set_factor(double);

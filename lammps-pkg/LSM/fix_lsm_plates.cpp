@@ -87,30 +87,22 @@ void FixLSMPlates::init()
     error->all(FLERR, "Fix lsm/plates does not work with run_style respa");
   dt = update->dt;
 
+  if (const tagint shared = in_both(plate[LOWER].bit, plate[UPPER].bit))
+    error->all(FLERR, "Fix lsm/plates: atom {} is in both plates", shared);
+
   // plates take over the velocity across the fault of their particles, so that one fix can follow
   // another; the fix itself keeps it from one run to the next and in a restart
-  double sum[4] = {0.0, 0.0, 0.0, 0.0}, all[4];
-  tagint in_both = 0, shared = 0;
-  for (int i = 0; i < atom->nlocal; i++)
-    for (int p : {LOWER, UPPER})
-      if (atom->mask[i] & plate[p].bit) {
-        const double m = atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
-        sum[2 * p] += m;
-        sum[2 * p + 1] += m * atom->v[i][1];
-        if (atom->mask[i] & plate[1 - p].bit) in_both = MAX(in_both, atom->tag[i]);
-      }
-  MPI_Allreduce(&in_both, &shared, 1, MPI_LMP_TAGINT, MPI_MAX, world);
-  if (shared) error->all(FLERR, "Fix lsm/plates: atom {} is in both plates", shared);
-  MPI_Allreduce(sum, all, 4, MPI_DOUBLE, MPI_SUM, world);
   for (int p : {LOWER, UPPER}) {
-    plate[p].mass = all[2 * p];
+    plate[p].mass = group->mass(plate[p].group);
     if (plate[p].mass <= 0.0)
       error->all(FLERR, "Fix lsm/plates: the {} plate (group '{}') has no particles",
                  p ? "upper" : "lower", group->names[plate[p].group]);
+    double velocity[3];
+    group->vcm(plate[p].group, plate[p].mass, velocity);
     if (!servo)
       plate[p].vy = 0.0;
     else if (!vy_known)
-      plate[p].vy = all[2 * p + 1] / plate[p].mass;
+      plate[p].vy = velocity[1];
   }
   vy_known = true;
 
@@ -119,18 +111,22 @@ void FixLSMPlates::init()
   for (const auto &other : modify->get_fix_list())
     if (other != this && (other->time_integrate || strcmp(other->style, style) == 0)) {
       const auto twin = dynamic_cast<FixLSMPlates *>(other);
-      const int bits = twin ? twin->moved_bits() : other->groupbit;
-      int both = 0, any = 0;
-      for (int i = 0; i < atom->nlocal; i++)
-        if ((atom->mask[i] & bits) && (atom->mask[i] & moved_bits())) both = 1;
-      MPI_Allreduce(&both, &any, 1, MPI_INT, MPI_MAX, world);
-      if (any)
+      if (in_both(twin ? twin->moved_bits() : other->groupbit, moved_bits()))
         error->all(
             FLERR,
             "Particles of the plates of fix {} are moved by fix {} as well; take them out of "
             "the group of that fix",
             id, other->id);
     }
+}
+
+// the largest ID of the particles in any of some groups and in any of others, or 0
+tagint FixLSMPlates::in_both(int some, int others) const
+{
+  tagint mine = 0;
+  for (int i = 0; i < atom->nlocal; i++)
+    if ((atom->mask[i] & some) && (atom->mask[i] & others)) mine = MAX(mine, atom->tag[i]);
+  return lsm_largest(mine, world);
 }
 
 void FixLSMPlates::reset_dt()
@@ -216,7 +212,6 @@ void FixLSMPlates::setup(int /*vflag*/)
 void FixLSMPlates::initial_integrate(int /*vflag*/)
 {
   if (pending) finish_step();
-  const double length = domain->prd[0];
   const double dux = dt * velocity_at(elapsed + 0.5 * dt);
   const double vx = dux / dt;
   double **x = atom->x;
@@ -226,19 +221,15 @@ void FixLSMPlates::initial_integrate(int /*vflag*/)
   for (Plate &p : plate) {
     double duy = 0.0;
     if (servo) {
-      const double applied = -p.side * stress_at(elapsed) * length;
-      const double kinetic = 0.5 * p.mass * p.vy * p.vy;
-      p.vy *= decay_of(p);
-      if (comm->me == 0) work_mine -= kinetic - 0.5 * p.mass * p.vy * p.vy;
-      p.vy += 0.5 * dt * (applied + p.fy) / p.mass;
+      damp(p);
+      p.vy += half_kick(p);
       duy = dt * p.vy;
       if (comm->me == 0)
-        work_mine += -p.side * 0.5 * (stress_at(elapsed) + stress_at(elapsed + dt)) * length * duy;
+        work_mine +=
+            -p.side * 0.5 * (stress_at(elapsed) + stress_at(elapsed + dt)) * domain->prd[0] * duy;
     }
     double now[2] = {p.side * velocity_at(elapsed + dt), p.vy};
-    if (servo && ahead)
-      now[1] =
-          (p.vy + 0.5 * dt * (-p.side * stress_at(elapsed) * length + p.fy) / p.mass) * decay_of(p);
+    if (servo && ahead) now[1] = (p.vy + half_kick(p)) * decay_of(p);
     p.uy += duy;
     longest = MAX(longest, sqrt(dux * dux + duy * duy));
     work_mine -= 0.5 * p.fx * p.side * dux;
@@ -269,17 +260,13 @@ void FixLSMPlates::final_integrate()
 
 void FixLSMPlates::finish_step()
 {
-  const double length = domain->prd[0];
   pending = false;
   finish_sum();
   for (Plate &p : plate) {
     work_mine -= 0.5 * p.fx * p.side * moved;
     if (servo) {
-      const double applied = -p.side * stress_at(elapsed) * length;
-      p.vy += 0.5 * dt * (applied + p.fy) / p.mass;
-      const double kinetic = 0.5 * p.mass * p.vy * p.vy;
-      p.vy *= decay_of(p);
-      if (comm->me == 0) work_mine -= kinetic - 0.5 * p.mass * p.vy * p.vy;
+      p.vy += half_kick(p);
+      damp(p);
     }
   }
 }
@@ -301,8 +288,20 @@ void FixLSMPlates::post_run()
   complete_step();
 }
 
-// factor of the velocity across the fault in half a step
+// what the applied stress and the force of the block add to the velocity across the fault in half a step
+double FixLSMPlates::half_kick(const Plate &p) const
+{
+  return 0.5 * dt * (-p.side * stress_at(elapsed) * domain->prd[0] + p.fy) / p.mass;
+}
 
+void FixLSMPlates::damp(Plate &p)
+{
+  const double before = p.kinetic();
+  p.vy *= decay_of(p);
+  if (comm->me == 0) work_mine -= before - p.kinetic();
+}
+
+// factor of the velocity across the fault in half a step
 double FixLSMPlates::decay_of(const Plate &p) const
 {
   return exp(-0.5 * (damping + impedance * domain->prd[0] / p.mass) * dt);
@@ -310,9 +309,7 @@ double FixLSMPlates::decay_of(const Plate &p) const
 
 double FixLSMPlates::kinetic() const
 {
-  double e = 0.0;
-  for (const Plate &p : plate) e += 0.5 * p.mass * p.vy * p.vy;
-  return e;
+  return plate[LOWER].kinetic() + plate[UPPER].kinetic();
 }
 
 double FixLSMPlates::work()
@@ -348,18 +345,11 @@ double FixLSMPlates::compute_vector(int n)
   const double normal_lower = -sums[1] / length, normal_upper = sums[3] / length;
   const double shear = 0.5 * (shear_lower + shear_upper);
   const double normal = 0.5 * (normal_lower + normal_upper);
-  switch (n) {
-    case 0: return shear;
-    case 1: return normal;
-    case 2: return normal != 0.0 ? shear / normal : 0.0;
-    case 3: return shear_lower;
-    case 4: return shear_upper;
-    case 5: return normal_lower;
-    case 6: return normal_upper;
-    case 7: return 2.0 * ux;
-    case 8: return plate[LOWER].uy - plate[UPPER].uy;
-    default: return kinetic();
-  }
+  const double values[] = {shear,        normal,      normal != 0.0 ? shear / normal : 0.0,
+                           shear_lower,  shear_upper, normal_lower,
+                           normal_upper, 2.0 * ux,    plate[LOWER].uy - plate[UPPER].uy,
+                           kinetic()};
+  return values[n];
 }
 
 void FixLSMPlates::write_restart(FILE *fp)

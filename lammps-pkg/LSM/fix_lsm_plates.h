@@ -63,7 +63,8 @@ class FixLSMPlates : public LSMKeptFix<FixLSMPlates>, public LSMMover {
     double uy = 0.0;      // displacement across the fault since the fix was made
     double fx = 0.0,
            fy = 0.0;    // force of the block on the plate: fx this rank, fy all ranks with servo
-    std::vector<int> atoms;    // this rank's particles
+    std::vector<int> atoms;                                    // this rank's particles
+    double kinetic() const { return 0.5 * mass * vy * vy; }    // of the motion across the fault
   };
   Plate plate[2];
 
@@ -91,6 +92,9 @@ class FixLSMPlates : public LSMKeptFix<FixLSMPlates>, public LSMMover {
   double sums[4];    // fx, fy of both plates over all ranks, at step summed_at
   bigint summed_at = -1;
 
+  tagint in_both(int some, int others) const;
+  double half_kick(const Plate &p) const;
+  void damp(Plate &p);
   double decay_of(const Plate &p) const;
   double velocity_at(double t) const;
   double stress_at(double t) const;
