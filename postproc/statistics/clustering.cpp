@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "clustering.h"
 
+#include <gsl/gsl_statistics_double.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -63,14 +65,9 @@ std::vector<CelledTime> celled(const std::vector<double> &times) {
   return out;
 }
 
-/// What follows short and long times in one order of the series.
-struct Conditional {
-  std::array<double, thirds> after_third;
-  std::array<double, eighths> after_eighth;
-  double distance;
-};
-
-Conditional conditional_of(const std::vector<CelledTime> &series, double mean) {
+/// What follows short and long times in one order of the series: the means after each third and
+/// each eighth, and the distance between the times after the shortest and the longest third.
+std::vector<double> conditional_of(const std::vector<CelledTime> &series, double mean) {
   std::array<NeumaierSum, groups> sums;
   std::array<double, groups> counts{};
   std::array<std::array<double, cells>, thirds> followers{};
@@ -80,35 +77,18 @@ Conditional conditional_of(const std::vector<CelledTime> &series, double mean) {
     counts[group] += 1.0;
     followers[series[i].cell / (cells / thirds)][series[i + 1].cell] += 1.0;
   }
-  const auto mean_in = [&](std::size_t from, std::size_t count) {
-    NeumaierSum sum;
-    double n = 0.0;
-    for (std::size_t g = from; g < from + count; ++g) {
-      sum.add(sums[g].value());
-      n += counts[g];
+  std::vector<double> out;
+  for (const std::size_t parts : {thirds, eighths})
+    for (std::size_t from = 0; from < groups; from += groups / parts) {
+      NeumaierSum sum;
+      double n = 0.0;
+      for (std::size_t g = from; g < from + groups / parts; ++g) {
+        sum.add(sums[g].value());
+        n += counts[g];
+      }
+      out.push_back(sum.value() / n / mean);
     }
-    return sum.value() / n / mean;
-  };
-  Conditional out{};
-  for (std::size_t k = 0; k < thirds; ++k)
-    out.after_third[k] = mean_in(k * (groups / thirds), groups / thirds);
-  for (std::size_t k = 0; k < eighths; ++k)
-    out.after_eighth[k] = mean_in(k * (groups / eighths), groups / eighths);
-  std::array<double, 2> all{}, below{};
-  for (std::size_t c = 0; c < cells; ++c) {
-    all[0] += followers.front()[c];
-    all[1] += followers.back()[c];
-  }
-  // Series of few different times may leave a third empty.
-  if (!(all[0] > 0.0 && all[1] > 0.0)) {
-    out.distance = std::numeric_limits<double>::quiet_NaN();
-    return out;
-  }
-  for (std::size_t c = 0; c < cells; ++c) {
-    below[0] += followers.front()[c] / all[0];
-    below[1] += followers.back()[c] / all[1];
-    out.distance = std::max(out.distance, std::fabs(below[0] - below[1]));
-  }
+  out.push_back(distance_of_counts(followers.front().data(), followers.back().data(), cells));
   return out;
 }
 
@@ -116,14 +96,12 @@ AgainstChance against(double value, const std::vector<double> &random) {
   AgainstChance out;
   out.value = value;
   out.mean = mean_of(random);
-  NeumaierSum squares;
-  double as_far = 1.0;
-  for (const double one : random) {
-    squares.add((one - out.mean) * (one - out.mean));
-    if (std::fabs(one - out.mean) >= std::fabs(value - out.mean)) as_far += 1.0;
-  }
   const auto n = static_cast<double>(random.size());
-  out.deviation = std::sqrt(squares.value() / std::max(1.0, n - 1.0));
+  out.deviation = std::sqrt(gsl_stats_tss_m(random.data(), 1, random.size(), out.mean) /
+                            std::max(1.0, n - 1.0));
+  const auto as_far = 1.0 + std::count_if(random.begin(), random.end(), [&out](double one) {
+                        return std::fabs(one - out.mean) >= std::fabs(out.value - out.mean);
+                      });
   out.p = as_far / (n + 1.0);
   return out;
 }
@@ -214,7 +192,7 @@ std::vector<Stretch> steady_stretches(const std::vector<double> &starts, double 
 }  // namespace
 
 double variation_of(const std::vector<double> &times) {
-  if (times.size() < 2) return std::numeric_limits<double>::quiet_NaN();
+  if (times.size() < 2) return NAN;
   const double mean = mean_of(times);
   NeumaierSum squares;
   for (const double time : times) squares.add((time - mean) * (time - mean));
@@ -233,33 +211,28 @@ Clustering clustering(const std::vector<double> &times, int replicas, std::uint6
 
   std::vector<CelledTime> series = celled(times);
   const double mean = mean_of(times);
-  const Conditional own = conditional_of(series, mean);
-
+  std::vector<AgainstChance *> numbers = {&out.variation, &out.finite_burstiness, &out.memory};
+  for (AgainstChance &one : out.after) numbers.push_back(&one);
+  for (AgainstChance &one : out.after_eighth) numbers.push_back(&one);
+  numbers.push_back(&out.after_distance);
+  const auto values_of = [&](double ratio, const std::vector<double> &ordered) {
+    std::vector<double> values = {ratio, finite_burstiness(ratio, n), memory_of(ordered)};
+    const std::vector<double> conditional = conditional_of(series, mean);
+    values.insert(values.end(), conditional.begin(), conditional.end());
+    return values;
+  };
+  const std::vector<double> own = values_of(r, times);
   Random random(seed);
-  std::vector<double> independent(times.size()), shuffled(times.size()), ratios, bursts, memories,
-      distances;
-  std::array<std::vector<double>, thirds> after_third;
-  std::array<std::vector<double>, eighths> after_eighth;
+  std::vector<double> independent(times.size()), shuffled(times.size());
+  std::vector<std::vector<double>> chance(numbers.size());
   for (int k = 0; k < replicas; ++k) {
     for (double &time : independent) time = -std::log1p(-random.uniform());
-    ratios.push_back(variation_of(independent));
-    bursts.push_back(finite_burstiness(ratios.back(), n));
     shuffle(series, random);
     for (std::size_t i = 0; i < series.size(); ++i) shuffled[i] = series[i].time;
-    memories.push_back(memory_of(shuffled));
-    const Conditional one = conditional_of(series, mean);
-    for (std::size_t i = 0; i < thirds; ++i) after_third[i].push_back(one.after_third[i]);
-    for (std::size_t i = 0; i < eighths; ++i) after_eighth[i].push_back(one.after_eighth[i]);
-    distances.push_back(one.distance);
+    const std::vector<double> one = values_of(variation_of(independent), shuffled);
+    for (std::size_t i = 0; i < one.size(); ++i) chance[i].push_back(one[i]);
   }
-  out.variation = against(r, ratios);
-  out.finite_burstiness = against(finite_burstiness(r, n), bursts);
-  out.memory = against(memory_of(times), memories);
-  for (std::size_t i = 0; i < thirds; ++i)
-    out.after[i] = against(own.after_third[i], after_third[i]);
-  for (std::size_t i = 0; i < eighths; ++i)
-    out.after_eighth[i] = against(own.after_eighth[i], after_eighth[i]);
-  out.after_distance = against(own.distance, distances);
+  for (std::size_t i = 0; i < numbers.size(); ++i) *numbers[i] = against(own[i], chance[i]);
   return out;
 }
 
@@ -278,8 +251,7 @@ Steadiness steadiness(const std::vector<double> &starts, double tolerance, std::
   if (starts.size() < 20) return out;
   out.whole = {starts.front(), starts.back(), static_cast<std::int64_t>(starts.size()),
                departure_of(starts, starts.front(), starts.back())};
-  std::vector<double> times;
-  for (std::size_t i = 1; i < starts.size(); ++i) times.push_back(starts[i] - starts[i - 1]);
+  const std::vector<double> times = differences(starts);
   const std::size_t block = block_of(times);
   std::vector<std::size_t> order((times.size() + block - 1) / block);
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -10,8 +10,8 @@
 #define LSM_POSTPROC_CLUSTERING_H
 
 #include <array>
+#include <cmath>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 namespace LSM::postproc {
@@ -28,18 +28,18 @@ double burstiness_of(double variation);
 
 /// A number of a series beside the same of random ones.
 struct AgainstChance {
-  double value = std::numeric_limits<double>::quiet_NaN();
-  double mean = std::numeric_limits<double>::quiet_NaN();       ///< of the random series
-  double deviation = std::numeric_limits<double>::quiet_NaN();  ///< their standard deviation
+  double value = NAN;
+  double mean = NAN;       ///< of the random series
+  double deviation = NAN;  ///< their standard deviation
   /// Share of them, the series itself included, that are as far from their mean.
-  double p = std::numeric_limits<double>::quiet_NaN();
+  double p = NAN;
 };
 
 struct Clustering {
   std::int64_t n = 0;  ///< times
   /// Standard deviation over mean, r. Random: independent exponential times.
   AgainstChance variation;
-  double burstiness = std::numeric_limits<double>::quiet_NaN();
+  double burstiness = NAN;
   /// ((n + 1)^(1/2) r - (n - 1)^(1/2)) / (((n + 1)^(1/2) - 2) r + (n - 1)^(1/2)), 0 for independent
   /// times whatever n is, 1 where all events but one come at once. Random: as above.
   AgainstChance finite_burstiness;
@@ -68,14 +68,14 @@ struct Stretch {
   double from = 0.0, to = 0.0;
   std::int64_t n = 0;
   /// Largest departure of the cumulative number from a straight line, over n.
-  double departure = std::numeric_limits<double>::quiet_NaN();
+  double departure = NAN;
 };
 
 struct Steadiness {
   Stretch whole;
   /// Share of series whose departure is as large with the times in random order, block by block,
   /// so that short sequences stay together: small where the rate changes for longer than those.
-  double p = std::numeric_limits<double>::quiet_NaN();
+  double p = NAN;
   /// Stretches whose departure is at most the tolerance, those with the most events first, none of
   /// which overlap.
   std::vector<Stretch> steady;
@@ -89,9 +89,9 @@ Steadiness steadiness(const std::vector<double> &starts, double tolerance, std::
 
 /// Events around large ones, over the number that the mean rate has there.
 struct AroundLarge {
-  std::int64_t large = 0;                                    ///< events that were looked around
-  double before = std::numeric_limits<double>::quiet_NaN();  ///< within one mean time before them
-  double after = std::numeric_limits<double>::quiet_NaN();   ///< within one mean time after them
+  std::int64_t large = 0;  ///< events that were looked around
+  double before = NAN;     ///< within one mean time before them
+  double after = NAN;      ///< within one mean time after them
 };
 
 /// \param starts, sizes of all events, in order of time
@@ -102,8 +102,8 @@ AroundLarge around_large(const std::vector<double> &starts, const std::vector<do
 /// Kolmogorov-Smirnov distance of two series, each divided by its mean, and its standard deviation
 /// when blocks of consecutive values are resampled (circular block bootstrap, block_length()).
 struct RescaledDistance {
-  double distance = std::numeric_limits<double>::quiet_NaN();
-  double error = std::numeric_limits<double>::quiet_NaN();
+  double distance = NAN;
+  double error = NAN;
 };
 
 /// \param first, second at least 12 values each

@@ -119,24 +119,47 @@ struct Profile {
   bool border = false;                // best without any fall-off
 };
 
-// What is left of a law beyond v, without its constant. s = exp(delta (v - v0)) beyond 700
-// underflows.
-double tail(double k, double s) {
-  if (s > 700.0) return 0.0;
-  return k > 0.0 ? gsl_sf_gamma_inc_Q(k, s) : gsl_sf_gamma_inc(k, s);
-}
-
-// Kolmogorov-Smirnov distance of points to the law.
-double distance(const SamplePoints &points, double lower, double gamma, double delta, double v0) {
-  if (std::isinf(v0)) {  // the power law at the border
-    const auto cdf = [&](double v) { return -std::expm1(gamma * (v - lower)); };
-    return KsDistance(points, cdf)();
+// A law cut off below v = lower, which may be -infinity.
+class Law {
+ public:
+  Law(double gamma, double delta, double v0, double lower)
+      : gamma_(gamma), delta_(delta), v0_(v0), lower_(lower), k_(gamma / delta) {
+    if (truncated()) all_ = tail(lower);
   }
-  const double k = gamma / delta;
-  const auto survival = [&](double v) { return tail(k, std::exp(delta * (v - v0))); };
-  const double all = std::isfinite(lower) ? survival(lower) : 1.0;
-  return KsDistance(points, [&](double v) { return 1.0 - survival(v) / all; })();
-}
+  Law(const Profile &profile, double lower)
+      : Law(profile.gamma, profile.delta, profile.v0, lower) {}
+
+  bool truncated() const { return std::isfinite(lower_); }
+  double lower() const { return lower_; }
+  // What is left beyond v.
+  double survival(double v) const { return tail(v) / all_; }
+  // Where next to nothing is left.
+  double end() const {
+    const double s = truncated() ? std::exp(delta_ * (lower_ - v0_)) : 0.0, k = std::max(k_, 0.0);
+    return v0_ + std::log(std::max(s, k) + 8.0 * std::sqrt(k) + 40.0) / delta_;
+  }
+  // A number from it, if it is not truncated: from a gamma variable of shape k, in logarithms since
+  // that underflows where k is small.
+  double draw(gsl_rng *rng) const {
+    const double u = gsl_rng_uniform_pos(rng);
+    return v0_ + (std::log(gsl_ran_gamma(rng, k_ + 1.0, 1.0)) + std::log(u) / k_) / delta_;
+  }
+  // Kolmogorov-Smirnov.
+  double distance(const SamplePoints &points) const {
+    return KsDistance(points, [this](double v) { return 1.0 - survival(v); })();
+  }
+
+ private:
+  // Without the constant. exp(delta (v - v0)) beyond 700 underflows.
+  double tail(double v) const {
+    if (std::isinf(v0_)) return std::exp(gamma_ * (v - lower_));  // the power law at the border
+    const double s = std::exp(delta_ * (v - v0_));
+    if (s > 700.0) return 0.0;
+    return k_ > 0.0 ? gsl_sf_gamma_inc_Q(k_, s) : gsl_sf_gamma_inc(k_, s);
+  }
+
+  double gamma_, delta_, v0_, lower_, k_, all_ = 1.0;
+};
 
 // Sample of logarithms; profile(delta) has the best gamma and scale for a given delta.
 class Likelihood {
@@ -266,49 +289,42 @@ void derivatives(double v, double delta, double v0, Vector &slope, Matrix &curva
   curvature[scale][scale] = -delta * delta * s;
 }
 
-// Where next to nothing is left of a law cut off below s, in units in which B is 1.
-double end_of(double s, double k, double delta) {
-  return std::log(std::max(s, k) + 8.0 * std::sqrt(k) + 40.0) / delta;
-}
-
-// Draws v = ln theta - v0 from a fitted density.
+// Draws from a law.
 class Sampler {
  public:
-  Sampler(double gamma, double delta, double lower) : delta_(delta), k_(gamma / delta) {
-    if (std::isinf(lower)) return;
-    // Truncated, where k may be 0 or less: the distribution on so many points that a straight line
-    // from one to the next is off by less than 1e-5.
+  explicit Sampler(const Law &law) : law_(law) {
+    if (!law.truncated()) return;
+    // k may be 0 or less: the distribution on so many points that a straight line from one to the
+    // next is off by less than 1e-5.
     constexpr std::size_t points = 8192;
-    const double s = std::exp(delta * lower), k = std::max(k_, 0.0);
-    const double last = end_of(s, k, delta);
-    const auto survival = [&](double v) { return tail(k_, std::exp(delta * v)); };
-    const double all = survival(lower);
+    const double first = law.lower(), width = (law.end() - first) / (points - 1);
     for (std::size_t i = 0; i < points; ++i) {
-      at_.push_back(lower + (last - lower) * static_cast<double>(i) / (points - 1));
-      cdf_.push_back(1.0 - survival(at_.back()) / all);
+      at_.push_back(first + width * static_cast<double>(i));
+      cdf_.push_back(1.0 - law.survival(at_.back()));
     }
     cdf_.front() = 0.0;
   }
 
   double operator()(gsl_rng *rng) const {
-    if (at_.empty()) {
-      // A gamma variable of shape k, in logarithms since it underflows where k is small.
-      const double u = gsl_rng_uniform_pos(rng);
-      return (std::log(gsl_ran_gamma(rng, k_ + 1.0, 1.0)) + std::log(u) / k_) / delta_;
-    }
+    if (at_.empty()) return law_.draw(rng);
     return interpolate(cdf_, at_, gsl_rng_uniform(rng) * cdf_.back());
   }
 
  private:
-  double delta_, k_;
+  Law law_;
   std::vector<double> at_, cdf_;
 };
 
-// The test of a fit to many values: data and replicas by the same cells, in units in which B is 1.
+// The test of a fit to many values: data and replicas by the same cells.
 class CellTest {
  public:
-  CellTest(const GeneralisedGammaFit &fit, double lower, double held)
-      : lower_(lower), held_(held), cells_(cells_of(fit, lower)) {}
+  // \param n values \param held delta, NaN if it is free
+  CellTest(const Law &law, double gamma, double n, double held)
+      : lower_(law.lower()),
+        held_(held),
+        // A thousandth of a value is below the first edge.
+        cells_([&law](double v) { return law.survival(v); },
+               {law.truncated() ? law.lower() : std::log(1e-3 / n) / gamma, law.end()}, n) {}
 
   const Cells &cells() const { return cells_; }
 
@@ -318,34 +334,24 @@ class CellTest {
     if (!std::isfinite(best.log_likelihood)) return HUGE_VAL;
     std::vector<double> below(counts.size() + 1);
     std::partial_sum(counts.begin(), counts.end(), below.begin() + 1);
-    return postproc::distance({cells_.edges().data(), below.size(), below.data()}, lower_,
-                              best.gamma, best.delta, best.v0);
+    return Law(best, lower_).distance({cells_.edges().data(), below.size(), below.data()});
   }
 
  private:
-  static Cells cells_of(const GeneralisedGammaFit &fit, double lower) {
-    const double delta = fit.delta, k = fit.gamma / delta;
-    const auto n = static_cast<double>(fit.n);
-    const bool truncated = std::isfinite(lower);
-    // A thousandth of a value is below the first edge.
-    const double first = truncated ? lower : std::log(1e-3 / n) / fit.gamma;
-    const double s = truncated ? std::exp(delta * lower) : 0.0;
-    const double all = truncated ? tail(k, s) : 1.0;
-    return Cells([&](double v) { return tail(k, std::exp(delta * v)) / all; },
-                 {first, end_of(s, std::max(k, 0.0), delta)}, n);
-  }
-
   double lower_, held_;
   Cells cells_;
 };
 
-// Left truncation in units in which B is 1, on which distances do not depend.
-double scaled_lower(const GeneralisedGammaFit &fit) {
-  return fit.lo > 0.0 ? std::log(fit.lo) - std::log(fit.B) / fit.delta : -HUGE_VAL;
+// A fit in units in which B is 1, on which distances do not depend.
+Law scaled(const GeneralisedGammaFit &fit) {
+  const double lower = fit.lo > 0.0 ? std::log(fit.lo) - std::log(fit.B) / fit.delta : -HUGE_VAL;
+  return {fit.gamma, fit.delta, 0.0, lower};
 }
 
-double held_delta(const GeneralisedGammaFit &fit) {
-  return fit.delta_fixed ? fit.delta : std::numeric_limits<double>::quiet_NaN();
+double held_delta(const GeneralisedGammaFit &fit) { return fit.delta_fixed ? fit.delta : NAN; }
+
+CellTest cell_test(const GeneralisedGammaFit &fit) {
+  return {scaled(fit), fit.gamma, static_cast<double>(fit.n), held_delta(fit)};
 }
 
 // Logarithms of the values from lo on.
@@ -529,11 +535,10 @@ GeneralisedGammaFit fit_maximum_likelihood(const std::vector<double> &values, do
   if (!fit.why.empty()) return fit;
   fit.log_likelihood = likelihood.n() * (best.log_likelihood - likelihood.mean_v() - reference);
   std::vector<double> sorted = likelihood.sort();
-  fit.ks =
-      distance({sorted.data(), sorted.size()}, likelihood.lower(), best.gamma, best.delta, best.v0);
+  fit.ks = Law(best, likelihood.lower()).distance({sorted.data(), sorted.size()});
   if (fit.n > largest_exact_sample) {
     for (double &v_i : sorted) v_i -= best.v0;
-    const CellTest test(fit, scaled_lower(fit), held_delta(fit));
+    const CellTest test = cell_test(fit);
     fit.ks_by_cells = test.distance(test.cells().count(sorted));
   }
   return fit;
@@ -603,31 +608,31 @@ double p_value(const GeneralisedGammaFit &fit, int replicas, std::uint64_t seed)
     throw std::invalid_argument("p-value: " + std::to_string(replicas) +
                                 " replicas, expected at least 0");
   if (fit.dof > 0) return gsl_cdf_chisq_Q(fit.chi2, fit.dof);
-  if (replicas == 0) return std::numeric_limits<double>::quiet_NaN();
+  if (replicas == 0) return NAN;
   const QuietGsl quiet;
-  const double lower = scaled_lower(fit), held = held_delta(fit);
   const auto n = static_cast<std::size_t>(fit.n);
   // Whether the data would have been called degenerate does not matter: any optimum is a fit.
   if (fit.n > largest_exact_sample) {
-    const CellTest test(fit, lower, held);
+    const CellTest test = cell_test(fit);
     return share_of_replicas(replicas, [&](int replica) {
       const Rng rng = generator(seed_of_replica(seed, replica));
       return !(test.distance(test.cells().draw(rng.get(), n)) < fit.ks_by_cells);
     });
   }
-  const Sampler sampler(fit.gamma, fit.delta, lower);
-  const auto draw = [&](gsl_rng *rng) {
+  const Law law = scaled(fit);
+  const Sampler sampler(law);
+  const Rng rng = generator(seed);
+  const auto draw = [&] {
     std::vector<double> v(n);
-    for (double &v_i : v) v_i = sampler(rng);
+    for (double &v_i : v) v_i = sampler(rng.get());
     return v;
   };
-  return share_of_samples(replicas, seed, draw, [&](std::vector<double> v) {
-    Likelihood likelihood(std::move(v), lower);
-    const Profile best = likelihood.best(held);
-    const bool fitted = std::isfinite(best.log_likelihood);
-    const std::vector<double> &sorted = likelihood.sort();
-    return !fitted ||
-           !(distance({sorted.data(), n}, lower, best.gamma, best.delta, best.v0) < fit.ks);
+  return share_of_draws(replicas, draw, [&](std::vector<double> v) {
+    Likelihood likelihood(std::move(v), law.lower());
+    const Profile best = likelihood.best(held_delta(fit));
+    const SamplePoints sorted{likelihood.sort().data(), n};
+    return !std::isfinite(best.log_likelihood) ||
+           !(Law(best, law.lower()).distance(sorted) < fit.ks);
   });
 }
 

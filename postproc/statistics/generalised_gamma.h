@@ -7,7 +7,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -16,26 +15,21 @@
 namespace LSM::postproc {
 
 struct GeneralisedGammaFit {
-  // NaN when degenerate. B has the unit of theta^delta, C that of theta^-gamma.
-  double C = std::numeric_limits<double>::quiet_NaN();
-  double gamma = std::numeric_limits<double>::quiet_NaN();
-  double delta = std::numeric_limits<double>::quiet_NaN();
-  double B = std::numeric_limits<double>::quiet_NaN();
-  double se_C = std::numeric_limits<double>::quiet_NaN();  ///< standard errors
-  double se_gamma = std::numeric_limits<double>::quiet_NaN();
-  double se_delta = std::numeric_limits<double>::quiet_NaN();  ///< 0 if delta was given
-  double se_B = std::numeric_limits<double>::quiet_NaN();
+  /// NaN when degenerate, standard errors se_ too. B has the unit of theta^delta, C that of
+  /// theta^-gamma.
+  double C = NAN, gamma = NAN, delta = NAN, B = NAN;
+  double se_C = NAN, se_gamma = NAN, se_delta = NAN, se_B = NAN;  ///< of delta 0 if it was given
   bool delta_fixed = false;
   double lo = 0.0;     ///< left truncation (maximum likelihood) or lowest edge (least squares)
   std::int64_t n = 0;  ///< values, or counts in the bins used
-  double log_likelihood = std::numeric_limits<double>::quiet_NaN();  ///< maximum likelihood only
+  double log_likelihood = NAN;  ///< maximum likelihood only
   /// Kolmogorov-Smirnov distance, maximum likelihood only. Parameters fitted to the same values
   /// make it small: tables for given parameters do not apply, see p_value().
-  double ks = std::numeric_limits<double>::quiet_NaN();
+  double ks = NAN;
   /// The same at the edges of the cells by which p_value() takes more than largest_exact_sample
   /// values, and of the fit to these; NaN for fewer.
-  double ks_by_cells = std::numeric_limits<double>::quiet_NaN();
-  double chi2 = std::numeric_limits<double>::quiet_NaN();  ///< least squares only
+  double ks_by_cells = NAN;
+  double chi2 = NAN;       ///< least squares only
   int dof = 0;             ///< least squares: bins used minus free parameters
   bool degenerate = true;  ///< the data do not determine the parameters; do not show the numbers
   std::string why;         ///< reason, one line

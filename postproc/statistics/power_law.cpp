@@ -333,7 +333,9 @@ double p_value(const PowerLawFit &fit, const std::vector<double> &sorted, int re
       return distance_of(LogSample(cells, cells.draw(rng.get(), data.size()))) >= found;
     });
   }
-  const auto draw = [&](gsl_rng *rng) {
+  const Rng stream = generator(seed);
+  gsl_rng *const rng = stream.get();
+  const auto draw = [&] {
     std::vector<double> logs;
     logs.reserve(data.size());
     unsigned int counts[3];
@@ -343,7 +345,7 @@ double p_value(const PowerLawFit &fit, const std::vector<double> &sorted, int re
     append_resampled(logs, data.y(), last, data.size(), counts[2], rng);
     return logs;
   };
-  return share_of_samples(replicas, seed, draw, [&](std::vector<double> logs) {
+  return share_of_draws(replicas, draw, [&](std::vector<double> logs) {
     return distance_of(LogSample(std::move(logs))) >= fit.ks;
   });
 }

@@ -73,19 +73,4 @@ double share_of_replicas(int count, const std::function<bool(int)> &as_far) {
   return (far + 1.0) / (count + 1.0);
 }
 
-double share_of_samples(int count, std::uint64_t seed,
-                        const std::function<std::vector<double>(gsl_rng *)> &draw,
-                        const std::function<bool(std::vector<double>)> &as_far) {
-  const Rng rng = generator(seed);
-  std::mutex drawing;
-  return share_of_replicas(count, [&](int) {
-    std::vector<double> sample;
-    {
-      const std::lock_guard<std::mutex> lock(drawing);
-      sample = draw(rng.get());
-    }
-    return as_far(std::move(sample));
-  });
-}
-
 }  // namespace LSM::postproc

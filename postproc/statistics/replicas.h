@@ -9,6 +9,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <mutex>
+#include <utility>
 
 #include "gsl_owners.h"
 
@@ -32,10 +34,17 @@ void for_each_replica(int count, const std::function<void(int)> &task);
 
 /// (k + 1) / (count + 1) with the number k of replicas that are as far off as the data.
 double share_of_replicas(int count, const std::function<bool(int)> &as_far);
-/// The same for samples drawn one after the other from one stream, on any thread.
-double share_of_samples(int count, std::uint64_t seed,
-                        const std::function<std::vector<double>(gsl_rng *)> &draw,
-                        const std::function<bool(std::vector<double>)> &as_far);
+/// The same for samples that draw() gives one after the other, on any thread.
+template <class Draw, class AsFar>
+double share_of_draws(int count, Draw draw, AsFar as_far) {
+  std::mutex drawing;
+  return share_of_replicas(count, [&](int) {
+    std::unique_lock<std::mutex> lock(drawing);
+    auto sample = draw();
+    lock.unlock();
+    return as_far(std::move(sample));
+  });
+}
 
 /// Called between replicas with the number done and the total, by one thread at a time; at the end
 /// count of count. Empty: no report.

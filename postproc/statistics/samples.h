@@ -5,7 +5,9 @@
 #define LSM_POSTPROC_SAMPLES_H
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -32,6 +34,16 @@ inline double mean_of(const std::vector<double> &values) {
   return mean_of(values.data(), values.size());
 }
 
+/// Mean of the values, each weighted with itself.
+inline double self_weighted_mean(const std::vector<double> &values) {
+  NeumaierSum sum, squares;
+  for (const double x : values) {
+    sum.add(x);
+    squares.add(x * x);
+  }
+  return squares.value() / sum.value();
+}
+
 /// The values minus their mean.
 inline std::vector<double> centred(std::vector<double> values) {
   const double mean = mean_of(values);
@@ -44,6 +56,36 @@ inline std::vector<double> over_mean(std::vector<double> values) {
   const double mean = mean_of(values);
   for (double &value : values) value /= mean;
   return values;
+}
+
+/// Each value minus the one before it.
+inline std::vector<double> differences(std::vector<double> values) {
+  std::adjacent_difference(values.begin(), values.end(), values.begin());
+  if (!values.empty()) values.erase(values.begin());
+  return values;
+}
+
+/// Those above 0: events of zero length can start at the same time.
+inline std::vector<double> positive_ones(std::vector<double> values) {
+  values.erase(std::remove_if(values.begin(), values.end(), [](double x) { return !(x > 0.0); }),
+               values.end());
+  return values;
+}
+
+/// Largest difference between the cumulative shares of two samples that are counted by the same
+/// classes; NaN if one is empty.
+template <class Count>
+double distance_of_counts(const Count *first, const Count *second, std::size_t classes) {
+  const double n1 = std::accumulate(first, first + classes, 0.0);
+  const double n2 = std::accumulate(second, second + classes, 0.0);
+  if (!(n1 > 0.0 && n2 > 0.0)) return NAN;
+  double below1 = 0.0, below2 = 0.0, largest = 0.0;
+  for (std::size_t c = 0; c < classes; ++c) {
+    below1 += first[c];
+    below2 += second[c];
+    largest = std::max(largest, std::fabs(below1 / n1 - below2 / n2));
+  }
+  return largest;
 }
 
 /// Value of a curve of straight lines through the points (x, y), x ascending; constant beyond its

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "two_sample.h"
 
+#include <gsl/gsl_statistics_double.h>
+
 #include <algorithm>
 #include <cmath>
-#include <mutex>
+#include <functional>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "finite_size.h"
 #include "replicas.h"
@@ -17,146 +21,125 @@ namespace LSM::postproc {
 namespace {
 
 // Of both series, where divisions are taken by classes.
-constexpr std::size_t most_blocks = 2048;
-
-// Both samples in one list; a division says which side each value is on.
-class Joined {
- public:
-  Joined(const std::vector<double> &first, const std::vector<double> &second) : values_(first) {
-    values_.insert(values_.end(), second.begin(), second.end());
-    order_.resize(values_.size());
-    std::iota(order_.begin(), order_.end(), std::size_t{0});
-    std::sort(order_.begin(), order_.end(),
-              [this](std::size_t i, std::size_t j) { return values_[i] < values_[j]; });
-  }
-
-  // \param second whether a value belongs to the second sample
-  double distance(const std::vector<char> &second) const {
-    const auto n2 = static_cast<double>(std::count(second.begin(), second.end(), 1));
-    const double n1 = static_cast<double>(second.size()) - n2;
-    double below1 = 0.0, below2 = 0.0, largest = 0.0;
-    for (std::size_t k = 0; k < order_.size(); ++k) {
-      (second[order_[k]] ? below2 : below1) += 1.0;
-      // Equal values count together.
-      if (k + 1 < order_.size() && values_[order_[k + 1]] == values_[order_[k]]) continue;
-      largest = std::max(largest, std::fabs(below1 / n1 - below2 / n2));
-    }
-    return largest;
-  }
-
-  // The class of each value, where all values together are divided into classes of consecutive
-  // ranks, as equal as can be; equal values are in one class.
-  std::vector<std::size_t> classes(std::size_t count) const {
-    std::vector<std::size_t> classes(values_.size());
-    for (std::size_t k = 0; k < order_.size(); ++k)
-      classes[order_[k]] = k > 0 && values_[order_[k]] == values_[order_[k - 1]]
-                               ? classes[order_[k - 1]]
-                               : k * count / order_.size();
-    return classes;
-  }
-
-  // Ranks in (-1, 1) in the order of the list; equal values have their mean rank.
-  std::vector<double> ranks() const {
-    std::vector<double> ranks(values_.size());
-    for (std::size_t k = 0; k < order_.size();) {
-      std::size_t end = k + 1;
-      while (end < order_.size() && values_[order_[end]] == values_[order_[k]]) ++end;
-      for (std::size_t i = k; i < end; ++i)
-        ranks[order_[i]] = static_cast<double>(k + end) / static_cast<double>(values_.size()) - 1.0;
-      k = end;
-    }
-    return ranks;
-  }
-
- private:
-  std::vector<double> values_;
-  std::vector<std::size_t> order_;
-};
-
-// First values of blocks as equal as can be, and the end.
-std::vector<std::size_t> blocks_of(std::size_t n, int block) {
-  const std::size_t count = std::max<std::size_t>(1, n / static_cast<std::size_t>(block));
-  std::vector<std::size_t> starts;
-  for (std::size_t i = 0; i <= count; ++i) starts.push_back(i * n / count);
-  return starts;
-}
+constexpr std::size_t most_blocks = 2048, coarse_classes = 512;
 
 struct Block {
   std::size_t from, to;
 };
 
-// Blocks of the first series, then of the second one, behind it in the list.
-std::vector<Block> blocks_of_both(std::size_t n1, std::size_t n2, int block) {
+// Blocks of n values, as equal as can be, the first of which begins at `from`.
+std::vector<Block> blocks_of(std::size_t n, int block, std::size_t from = 0) {
+  const std::size_t count = std::max<std::size_t>(1, n / static_cast<std::size_t>(block));
   std::vector<Block> blocks;
-  const std::vector<std::size_t> starts1 = blocks_of(n1, block), starts2 = blocks_of(n2, block);
-  for (std::size_t i = 0; i + 1 < starts1.size(); ++i)
-    blocks.push_back({starts1[i], starts1[i + 1]});
-  for (std::size_t i = 0; i + 1 < starts2.size(); ++i)
-    blocks.push_back({n1 + starts2[i], n1 + starts2[i + 1]});
+  for (std::size_t i = 0; i < count; ++i)
+    blocks.push_back({from + i * n / count, from + (i + 1) * n / count});
   return blocks;
 }
 
-// How many values of each class are in each block, so that the distance of a division costs no
-// more for more values.
-class ClassCounts {
+using Counts = std::vector<std::uint32_t>;
+
+// Both samples in one list, where all values together are divided into classes of consecutive
+// ranks, as equal as can be; equal values are in one class. As many classes as values: one for each
+// different value.
+class Classes {
  public:
-  ClassCounts(const Joined &joined, const std::vector<Block> &blocks)
-      : counts_(blocks.size() * classes), all_(classes) {
-    const std::vector<std::size_t> class_of = joined.classes(classes);
-    for (std::size_t b = 0; b < blocks.size(); ++b)
-      for (std::size_t i = blocks[b].from; i < blocks[b].to; ++i) {
-        ++counts_[b * classes + class_of[i]];
-        ++all_[class_of[i]];
-      }
+  Classes(const std::vector<double> &first, const std::vector<double> &second, std::size_t count)
+      : class_of_(first.size() + second.size()), all_(count) {
+    std::vector<double> values = first;
+    values.insert(values.end(), second.begin(), second.end());
+    std::vector<std::size_t> order(values.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(),
+              [&values](std::size_t i, std::size_t j) { return values[i] < values[j]; });
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      const bool same = k > 0 && values[order[k]] == values[order[k - 1]];
+      class_of_[order[k]] = same ? class_of_[order[k - 1]] : k * count / order.size();
+      ++all_[class_of_[order[k]]];
+    }
   }
 
-  // \param first blocks on the side of the first sample
-  double distance(const std::size_t *first, std::size_t count) const {
-    std::vector<std::uint32_t> sums(classes);
-    for (std::size_t k = 0; k < count; ++k) {
-      const std::uint32_t *const block = counts_.data() + first[k] * classes;
-      for (std::size_t c = 0; c < classes; ++c) sums[c] += block[c];
-    }
-    double n1 = 0.0, n2 = 0.0, below1 = 0.0, below2 = 0.0, largest = 0.0;
-    for (std::size_t c = 0; c < classes; ++c) {
-      n1 += sums[c];
-      n2 += all_[c] - sums[c];
-    }
-    for (std::size_t c = 0; c < classes; ++c) {
-      below1 += sums[c];
-      below2 += all_[c] - sums[c];
-      largest = std::max(largest, std::fabs(below1 / n1 - below2 / n2));
-    }
-    return largest;
+  std::size_t count() const { return all_.size(); }
+
+  void add(const Block &block, std::uint32_t *counts) const {
+    for (std::size_t i = block.from; i < block.to; ++i) ++counts[class_of_[i]];
+  }
+
+  // Distance between the values counted and the rest.
+  double distance(const Counts &counts) const {
+    Counts rest(count());
+    std::transform(all_.begin(), all_.end(), counts.begin(), rest.begin(), std::minus<>());
+    return distance_of_counts(counts.data(), rest.data(), count());
+  }
+
+  // Ranks in (-1, 1) of some values; equal ones have their mean rank. With a class for each value.
+  std::vector<double> ranks(std::size_t from, std::size_t to) const {
+    std::vector<double> ranks;
+    for (std::size_t i = from; i < to; ++i)
+      ranks.push_back(static_cast<double>(2 * class_of_[i] + all_[class_of_[i]]) /
+                          static_cast<double>(count()) -
+                      1.0);
+    return ranks;
   }
 
  private:
-  static constexpr std::size_t classes = 512;
-  std::vector<std::uint32_t> counts_, all_;
+  std::vector<std::size_t> class_of_;
+  Counts all_;
+};
+
+// How many values of each class are in each block, so that the distance of a division costs no
+// more for more values.
+class BlockCounts {
+ public:
+  BlockCounts(Classes classes, const std::vector<Block> &blocks)
+      : classes_(std::move(classes)), counts_(blocks.size() * classes_.count()) {
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+      classes_.add(blocks[b], counts_.data() + b * classes_.count());
+  }
+
+  // \param order blocks, the first of which are on the side of the first sample
+  double distance(const std::vector<std::size_t> &order, std::size_t of_first) const {
+    Counts sums(classes_.count());
+    for (std::size_t k = 0; k < of_first; ++k) {
+      const std::uint32_t *const block = counts_.data() + order[k] * sums.size();
+      for (std::size_t c = 0; c < sums.size(); ++c) sums[c] += block[c];
+    }
+    return classes_.distance(sums);
+  }
+
+ private:
+  Classes classes_;
+  Counts counts_;
 };
 
 BlockMean block_mean(const std::vector<double> &values, int block) {
   BlockMean result;
   result.mean = mean_of(values);
-  const std::vector<std::size_t> starts = blocks_of(values.size(), block);
-  const auto count = static_cast<double>(starts.size() - 1);
+  std::vector<double> means;
+  for (const Block &one : blocks_of(values.size(), block))
+    means.push_back(mean_of(values.data() + one.from, one.to - one.from));
+  const auto count = static_cast<double>(means.size());
   if (count < 2.0) return result;
-  double squares = 0.0;
-  for (std::size_t i = 0; i + 1 < starts.size(); ++i)
-    squares +=
-        std::pow(mean_of(values.data() + starts[i], starts[i + 1] - starts[i]) - result.mean, 2);
+  const double squares = gsl_stats_tss_m(means.data(), 1, means.size(), result.mean);
   result.error = std::sqrt(squares / (count - 1.0) / count);
   return result;
 }
 
+// Values in a block such that the blocks of either sample are long against its correlation.
+int usual_block(const Classes &classes, std::size_t n1, std::size_t n) {
+  const double longer = std::max(block_length(centred(classes.ranks(0, n1))),
+                                 block_length(centred(classes.ranks(n1, n))));
+  return std::max(1, static_cast<int>(std::lround(longer)));
+}
+
 }  // namespace
 
-double two_sample_distance(std::vector<double> first, std::vector<double> second) {
+double two_sample_distance(const std::vector<double> &first, const std::vector<double> &second) {
   if (first.empty() || second.empty())
     throw std::invalid_argument("distance of two samples: one is empty");
-  std::vector<char> side(first.size(), 0);
-  side.resize(first.size() + second.size(), 1);
-  return Joined(first, second).distance(side);
+  const Classes classes(first, second, first.size() + second.size());
+  Counts counts(classes.count());
+  classes.add({0, first.size()}, counts.data());
+  return classes.distance(counts);
 }
 
 TwoSampleTest two_sample_test(const std::vector<double> &first, const std::vector<double> &second,
@@ -170,56 +153,44 @@ TwoSampleTest two_sample_test(const std::vector<double> &first, const std::vecto
         "two-sample test: expected at least 1 replica and blocks of 0 or more");
   TwoSampleTest test;
   test.n = {static_cast<std::int64_t>(first.size()), static_cast<std::int64_t>(second.size())};
-  const Joined joined(first, second);
   const std::size_t n = first.size() + second.size();
+  const Classes values(first, second, n);
   const bool by_classes = block == 0 && n > 2 * static_cast<std::size_t>(largest_exact_sample);
-  if (block == 0) {
-    const std::vector<double> ranks = joined.ranks();
-    const auto middle = ranks.begin() + static_cast<std::ptrdiff_t>(first.size());
-    const double longer =
-        std::max(block_length(centred(std::vector<double>(ranks.begin(), middle))),
-                 block_length(centred(std::vector<double>(middle, ranks.end()))));
-    block = std::max(1, static_cast<int>(std::lround(longer)));
-    // Longer blocks are as sound.
-    if (by_classes) block = std::max(block, static_cast<int>(n / most_blocks));
-  }
+  if (block == 0) block = usual_block(values, first.size(), n);
+  // Longer blocks are as sound.
+  if (by_classes) block = std::max(block, static_cast<int>(n / most_blocks));
   test.block = block;
   test.means = {block_mean(first, block), block_mean(second, block)};
   test.ratio = test.means[1].mean / test.means[0].mean;
   test.ratio_error = std::fabs(test.ratio) * std::hypot(test.means[0].error / test.means[0].mean,
                                                         test.means[1].error / test.means[1].mean);
 
-  const std::vector<Block> blocks = blocks_of_both(first.size(), second.size(), block);
-  const auto of_first = static_cast<std::size_t>(std::count_if(
-      blocks.begin(), blocks.end(), [&first](const Block &b) { return b.to <= first.size(); }));
+  std::vector<Block> blocks = blocks_of(first.size(), block);
+  const std::size_t of_first = blocks.size();
+  for (const Block &one : blocks_of(second.size(), block, first.size())) blocks.push_back(one);
   std::vector<std::size_t> order(blocks.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto exact = [&](const std::vector<std::size_t> &divided) {
-    std::vector<char> side(n, 1);
-    for (std::size_t i = 0; i < of_first; ++i)
-      std::fill(side.begin() + static_cast<std::ptrdiff_t>(blocks[divided[i]].from),
-                side.begin() + static_cast<std::ptrdiff_t>(blocks[divided[i]].to), 0);
-    return joined.distance(side);
+    Counts counts(values.count());
+    for (std::size_t i = 0; i < of_first; ++i) values.add(blocks[divided[i]], counts.data());
+    return values.distance(counts);
   };
   test.distance = exact(order);
-  const ClassCounts counts(joined, by_classes ? blocks : std::vector<Block>{});
+  std::optional<BlockCounts> counts;
+  if (by_classes) counts.emplace(Classes(first, second, coarse_classes), blocks);
   const auto distance = [&](const std::vector<std::size_t> &divided) {
-    return by_classes ? counts.distance(divided.data(), of_first) : exact(divided);
+    return counts ? counts->distance(divided, of_first) : exact(divided);
   };
   // Sums of counts over counts are exact to rounding only.
   const double least = distance(order) * (1.0 - 1e-12);
-  // One division after the other from one stream, whoever takes them.
   Random random(seed);
-  std::mutex drawing;
-  test.p = share_of_replicas(replicas, [&](int) {
-    std::vector<std::size_t> divided;
-    {
-      const std::lock_guard<std::mutex> lock(drawing);
-      shuffle(order, random);
-      divided = order;
-    }
-    return distance(divided) >= least;
-  });
+  test.p = share_of_draws(
+      replicas,
+      [&] {
+        shuffle(order, random);
+        return order;
+      },
+      [&](const std::vector<std::size_t> &divided) { return distance(divided) >= least; });
   test.p_error = std::sqrt(test.p * (1.0 - test.p) / (replicas + 1.0));
   return test;
 }

@@ -6,32 +6,32 @@
 #define LSM_POSTPROC_TWO_SAMPLE_H
 
 #include <array>
+#include <cmath>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 namespace LSM::postproc {
 
 /// A mean and its standard error, which allows for values that depend on those before them.
 struct BlockMean {
-  double mean = std::numeric_limits<double>::quiet_NaN();
-  double error = std::numeric_limits<double>::quiet_NaN();  ///< NaN: fewer than two blocks
+  double mean = NAN;
+  double error = NAN;  ///< NaN: fewer than two blocks
 };
 
 struct TwoSampleTest {
   std::array<std::int64_t, 2> n = {0, 0};
-  double distance = std::numeric_limits<double>::quiet_NaN();  ///< Kolmogorov-Smirnov
+  double distance = NAN;  ///< Kolmogorov-Smirnov
   /// Share of random divisions, the true one included, whose distance is as large.
-  double p = std::numeric_limits<double>::quiet_NaN();
-  double p_error = std::numeric_limits<double>::quiet_NaN();  ///< of the Monte Carlo estimate
-  int block = 1;                                              ///< values that are kept together
+  double p = NAN;
+  double p_error = NAN;  ///< of the Monte Carlo estimate
+  int block = 1;         ///< values that are kept together
   std::array<BlockMean, 2> means;
-  double ratio = std::numeric_limits<double>::quiet_NaN();  ///< second mean over the first
-  double ratio_error = std::numeric_limits<double>::quiet_NaN();
+  double ratio = NAN;  ///< second mean over the first
+  double ratio_error = NAN;
 };
 
 /// Largest distance between the empirical distributions of two samples, neither of them empty.
-double two_sample_distance(std::vector<double> first, std::vector<double> second);
+double two_sample_distance(const std::vector<double> &first, const std::vector<double> &second);
 
 /// Permutation test of the Kolmogorov-Smirnov distance. Events cluster, so that blocks of
 /// consecutive values change sides, not single ones: with single ones, series that depend on their

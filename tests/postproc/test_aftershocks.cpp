@@ -117,7 +117,7 @@ TEST(Sequences, BeforeMainShocksByHand) {
   rule.main_size = 50;
   rule.least_size = 1;
   rule.window = 20;
-  EXPECT_EQ(stack_sequences(shocks_of(table), rule).before, (std::vector<double>{8, 4, 2}));
+  EXPECT_EQ(stack_sequences(shocks_of(table), rule).before, (std::vector<double>{2, 4, 8}));
   rule.first = 5;
   EXPECT_EQ(stack_sequences(shocks_of(table), rule).before, (std::vector<double>{8}));
   rule.first = 1;
