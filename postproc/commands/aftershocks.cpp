@@ -60,7 +60,7 @@ class AftershockRates : public Statistic {
     SequenceRule rule;
     rule.least_size = threshold_.complete_in(table).size;
     rule.first = first_;
-    std::vector<double> sizes = sizes_from(table, rule.least_size);
+    std::vector<double> sizes = column_from(table, rule.least_size, &Event::size);
     if (sizes.size() < 2)
       throw std::runtime_error(
           fmt::format("{}: {} events of size {} or larger, expected at least 2", table.path,

@@ -47,7 +47,7 @@ class Compare : public Statistic {
   TwoSampleTest test(const EventTable &first, const EventTable &second, const std::string &quantity,
                      double threshold) const {
     const auto values = [&](const EventTable &table) {
-      if (quantity == "size") return sizes_from(table, threshold);
+      if (quantity == "size") return column_from(table, threshold, &Event::size);
       std::vector<double> times = inter_event_times(table, threshold);
       return rescale_ ? over_mean(std::move(times)) : times;
     };

@@ -77,10 +77,7 @@ class Summary : public Analysis {
   GeneralisedGammaFit fit_times(const std::vector<double> &times) const {
     const double shortest = times.empty() || shortest_ == 0.0 ? 0.0 : shortest_ * mean_of(times);
     if (method_ == "likelihood") return fit_with_share(times, shortest, 1.0);
-    std::vector<LogBin> fitted;
-    for (const LogBin &bin : LogHistogram(times).bins())
-      if (bin.lo >= shortest) fitted.push_back(bin);
-    return fit_least_squares(fitted, 1.0);
+    return fit_least_squares(bins_from(LogHistogram(times).bins(), shortest), 1.0);
   }
 
   void add_threshold(Row &row, const EventTable &table, double threshold) const {
@@ -92,11 +89,7 @@ class Summary : public Analysis {
       add(row, "share_" + window + "_" + name,
           share_within(times, parse_range("--window", window)));
     const RankCorrelation successive = successive_rank_correlation(times);
-    // Events of zero length can start at the same time.
-    times.erase(
-        std::remove_if(times.begin(), times.end(), [](double time) { return !(time > 0.0); }),
-        times.end());
-    const GeneralisedGammaFit fit = fit_times(times);
+    const GeneralisedGammaFit fit = fit_times(positive_ones(std::move(times)));
     add(row, "gamma_" + name, fit.gamma);
     add(row, "gamma_error_" + name, fit.se_gamma);
     add(row, "B_" + name, fit.B);

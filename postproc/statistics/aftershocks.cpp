@@ -20,7 +20,6 @@ namespace LSM::postproc {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t fewest = 20;
 
 // Integral of (t + c)^-p from a to b, p near 1 included.
@@ -94,7 +93,7 @@ class Likelihood {
 
 // The expected numbers of aftershocks and background events, and the shape of the decay.
 struct Law {
-  double share = 1.0, c = nan, p = nan;  // share: of aftershocks, all events that are expected
+  double share = 1.0, c = NAN, p = NAN;  // share: of aftershocks, all events that are expected
   double log_likelihood = -HUGE_VAL;
 };
 

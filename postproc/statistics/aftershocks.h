@@ -9,8 +9,8 @@
 #ifndef LSM_POSTPROC_AFTERSHOCKS_H
 #define LSM_POSTPROC_AFTERSHOCKS_H
 
+#include <cmath>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -48,7 +48,7 @@ Sequences stack_sequences(const std::vector<Shock> &events, const SequenceRule &
 
 /// Rate of events after a main shock: n(t) = K (t + c)^-p + background.
 struct OmoriFit {
-  double K = std::numeric_limits<double>::quiet_NaN(), se_K = K;
+  double K = NAN, se_K = K;
   double c = K, se_c = K;  ///< model time; error 0 if it was held
   double p = K, se_p = K;
   double background = K, se_background = K;  ///< error NaN: 0 is best, at the border
@@ -69,8 +69,7 @@ struct OmoriFit {
 /// Maximum likelihood of a Poisson process with that rate in each sequence; standard errors from
 /// the curvature of ln L. \param hold_c value c is held at; NaN: fitted; 0 needs first > 0 \throws
 /// std::invalid_argument for sequences no catalogue gives, or such a c
-OmoriFit fit_omori(const Sequences &sequences,
-                   double hold_c = std::numeric_limits<double>::quiet_NaN());
+OmoriFit fit_omori(const Sequences &sequences, double hold_c = NAN);
 
 /// The same events in random order at the times of a Poisson process: independent exponential times
 /// from the end of one to the start of the next with the mean of the catalogue; where events
@@ -82,11 +81,11 @@ std::vector<Shock> poisson_catalogue(const std::vector<Shock> &events, bool over
 /// Rate after a main shock over one bin of time.
 struct RateBin {
   double lo, hi;
-  double centre;                                              ///< geometric mean of the edges
-  std::int64_t count;                                         ///< events, all sequences together
-  double rate;                                                ///< count / (main shocks (hi - lo))
-  double error;                                               ///< Poisson error of rate
-  double poisson = std::numeric_limits<double>::quiet_NaN();  ///< mean rate in Poisson catalogues
+  double centre;             ///< geometric mean of the edges
+  std::int64_t count;        ///< events, all sequences together
+  double rate;               ///< count / (main shocks (hi - lo))
+  double error;              ///< Poisson error of rate
+  double poisson = NAN;      ///< mean rate in Poisson catalogues
   double scatter = poisson;  ///< standard deviation of the rate from one of them to the next
   std::int64_t before = 0;   ///< events as long before the main shocks
 };
@@ -99,7 +98,7 @@ struct Aftershocks {
   std::vector<RateBin> bins;  ///< edges factor^n within first to window
   /// Share of Poisson catalogues whose likelihood ratio is as large, (k + 1) / (replicas + 1); NaN
   /// without replicas, or with too few events to fit.
-  double p = std::numeric_limits<double>::quiet_NaN();
+  double p = NAN;
 };
 
 /// \param factor ratio of the edges of a bin \param replicas Poisson catalogues, 0: none

@@ -18,11 +18,11 @@ double EventTable::length() const {
     const std::string *text = info.find(key);
     if (text && text_io::parse(*text, value) && value > 0.0) return value;
   }
-  return std::nan("");
+  return NAN;
 }
 
 double EventTable::share_in_events() const {
-  if (events.empty() || info.overlapping()) return std::nan("");
+  if (events.empty() || info.overlapping()) return NAN;
   return in_events / (last_end - events.front().t_start);
 }
 
@@ -33,11 +33,11 @@ std::vector<double> column(const std::vector<Event> &events, double Event::*numb
   return out;
 }
 
-std::vector<double> sizes_from(const EventTable &table, double least) {
-  std::vector<double> sizes;
+std::vector<double> column_from(const EventTable &table, double least, double Event::*number) {
+  std::vector<double> out;
   for (const Event &event : table.events)
-    if (event.size >= least) sizes.push_back(event.size);
-  return sizes;
+    if (event.size >= least) out.push_back(event.*number);
+  return out;
 }
 
 std::int64_t events_from(const EventTable &table, double least) {

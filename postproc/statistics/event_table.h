@@ -28,8 +28,8 @@ struct EventTable {
   std::vector<Event> events;  ///< in order of t_start
   double in_events = 0.0;     ///< sum of the durations (model time)
   double last_end = 0.0;      ///< t_end of the last event (model time)
-  /// Smaller events are missing: --min-size, the picker's min_size in the header, or the smallest
-  /// earthquake (energy).
+  /// Smaller events are missing: a smallest size given, the picker's min_size in the header, or the
+  /// smallest earthquake (energy).
   double complete_from = 0.0;
   /// The largest `completeness` in the headers of the catalogues of this model that were loaded
   /// together, so that their curves begin at the same size, and the file that has it (energy).
@@ -61,8 +61,8 @@ struct EventTable {
 /// One number of each event.
 std::vector<double> column(const std::vector<Event> &events, double Event::*number);
 
-/// Sizes of the events of at least a size, and how many these are.
-std::vector<double> sizes_from(const EventTable &table, double least);
+/// The same of the events of at least a size, and how many these are.
+std::vector<double> column_from(const EventTable &table, double least, double Event::*number);
 std::int64_t events_from(const EventTable &table, double least);
 
 /// Size below which events are left out, and why there.

@@ -5,8 +5,8 @@
 #ifndef LSM_POSTPROC_FINITE_SIZE_H
 #define LSM_POSTPROC_FINITE_SIZE_H
 
+#include <cmath>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -15,10 +15,10 @@ namespace LSM::postproc {
 /// Characteristic size of the events of one model.
 struct SizePoint {
   double length = 0.0;  ///< fault length (model units) or number of blocks
-  double s_star = std::numeric_limits<double>::quiet_NaN();  ///< <s^2> / <s>, energy units
-  double error = std::numeric_limits<double>::quiet_NaN();   ///< bootstrap standard error
+  double s_star = NAN;  ///< <s^2> / <s>, energy units
+  double error = NAN;   ///< bootstrap standard error
   /// What the error would be if the events were independent (from their moments).
-  double error_independent = std::numeric_limits<double>::quiet_NaN();
+  double error_independent = NAN;
   double block = 0.0;      ///< length of the blocks resampled (model time); 0: event by event
   int blocks = 0;          ///< as many make up the catalogue
   std::int64_t n = 0;      ///< events at or above the threshold
@@ -32,7 +32,7 @@ struct Resampling {
   std::uint64_t seed = 1;
   /// Length of the blocks (model time); NaN: block_length(); 0: event by event, as if they were
   /// independent.
-  double block = std::numeric_limits<double>::quiet_NaN();
+  double block = NAN;
 };
 
 /// s* = <s^2> / <s> over the sizes at or above threshold; for a power law with exponent below 3 it
@@ -67,7 +67,7 @@ struct Saturation {
   /// their errors, see ScalingFit::bends.
   static constexpr double sharpness = 4.0;
   double m = sharpness;
-  double s_inf = std::numeric_limits<double>::quiet_NaN(), se_s_inf = s_inf;
+  double s_inf = NAN, se_s_inf = s_inf;
   double L_c = s_inf, se_L_c = s_inf;
   double D = s_inf, se_D = s_inf;
   double chi2 = s_inf;  ///< in ln s*, points - 3 degrees of freedom
@@ -80,7 +80,7 @@ struct Saturation {
 
 /// s* = A L^D against s* = constant and growth that ends.
 struct ScalingFit {
-  double A = std::numeric_limits<double>::quiet_NaN(), se_A = A;
+  double A = NAN, se_A = A;
   double D = A, se_D = A;
   double chi2 = A;  ///< of the power law in ln s*, points - 2 degrees of freedom
   double constant = A, se_constant = A;

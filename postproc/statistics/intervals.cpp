@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -26,18 +25,8 @@ std::string IntervalCurve::from() const {
                      : fmt::format("sizes >= {:.4g}", threshold.size);
 }
 
-std::vector<double> starts_of(const EventTable &table, double threshold) {
-  std::vector<double> starts;
-  for (const Event &event : table.events)
-    if (event.size >= threshold) starts.push_back(event.t_start);
-  return starts;
-}
-
 std::vector<double> inter_event_times(const EventTable &events, double threshold) {
-  std::vector<double> times = starts_of(events, threshold);
-  std::adjacent_difference(times.begin(), times.end(), times.begin());
-  if (!times.empty()) times.erase(times.begin());
-  return times;
+  return differences(column_from(events, threshold, &Event::t_start));
 }
 
 RankCorrelation successive_rank_correlation(const std::vector<double> &times) {
@@ -55,13 +44,14 @@ RankCorrelation successive_rank_correlation(const std::vector<double> &times) {
 std::vector<double> times_at_places(const EventTable &table, double threshold, int places) {
   const double length = table.length();
   if (!table.info.x_begin || !table.info.rupture_length || !(length > 0.0))
-    throw std::invalid_argument(table.path +
-                                ": --places: no columns x_begin and rupture_length, or no length "
-                                "in the header, expected a catalogue of ruptures of a fault");
+    throw std::invalid_argument(
+        table.path +
+        ": times at places: no columns x_begin and rupture_length, or no "
+        "length in the header, expected a catalogue of ruptures of a fault");
   std::vector<double> times;
   for (int place = 0; place < places; ++place) {
     const double x = (place + 0.5) * length / places;
-    double before = std::nan("");
+    double before = NAN;
     for (const Event &event : table.events) {
       if (!(event.size >= threshold)) continue;
       // The row that it ruptured may continue across the periodic border.
@@ -89,70 +79,90 @@ int shuffles_for(std::size_t times) {
       std::clamp<std::size_t>(20'000'000 / std::max<std::size_t>(times, 1), 19, 200));
 }
 
+std::vector<LogBin> bins_from(std::vector<LogBin> bins, double shortest) {
+  bins.erase(std::remove_if(bins.begin(), bins.end(),
+                            [shortest](const LogBin &bin) { return bin.lo < shortest; }),
+             bins.end());
+  return bins;
+}
+
+namespace {
+
+void add_clustering(IntervalCurve &curve, const EventTable &table, const std::vector<double> &times,
+                    int shuffles, const IntervalSettings &settings) {
+  curve.clustering = clustering(times, shuffles, settings.seed);
+  curve.starts = column_from(table, curve.threshold.size, &Event::t_start);
+  curve.steadiness =
+      steadiness(curve.starts, settings.steady, settings.steady_events, shuffles, settings.seed);
+  const auto after = times_after_thirds(times);
+  for (std::size_t k = 0; k < after.size(); ++k) {
+    LogHistogram histogram(std::pow(10.0, 0.2));
+    for (const double time : after[k])
+      if (time > 0.0) histogram.add(time / curve.mean);
+    curve.after[k] = histogram.bins();
+  }
+}
+
+/// \param shortest time that is fitted
+std::vector<IntervalFit> fits_of(const std::vector<double> &times, const std::vector<LogBin> &bins,
+                                 double shortest, const IntervalSettings &settings) {
+  // Fitted bins keep the normalisation of the whole density, as C belongs to it.
+  const std::vector<LogBin> fitted = bins_from(bins, shortest);
+  std::vector<IntervalFit> fits;
+  for (const double delta : settings.deltas) {
+    if (settings.least_squares)
+      fits.push_back({"least squares", delta, fit_least_squares(fitted, delta)});
+    if (settings.maximum_likelihood)
+      fits.push_back({"maximum likelihood", delta, fit_with_share(times, shortest, delta)});
+  }
+  for (IntervalFit &fit : fits) {
+    if (fit.fit.degenerate) continue;
+    fit.p = p_value(fit.fit, settings.replicas, settings.seed);
+    if (fit.fit.dof == 0) fit.p_error = std::sqrt(fit.p * (1.0 - fit.p) / settings.replicas);
+  }
+  return fits;
+}
+
+IntervalCurve curve_of(const EventTable &table, const Threshold &threshold,
+                       const IntervalSettings &settings) {
+  IntervalCurve curve;
+  curve.label = table.label;
+  curve.model = table.info.model;
+  curve.earthquakes = table.earthquakes();
+  curve.unit = table.time_unit();
+  curve.threshold = threshold.complete_in(table);
+  std::vector<double> times = settings.places > 0
+                                  ? times_at_places(table, curve.threshold.size, settings.places)
+                                  : inter_event_times(table, curve.threshold.size);
+  curve.n = static_cast<std::int64_t>(times.size());
+  curve.mean = mean_of(times);
+  curve.variation = variation_of(times);
+  const int shuffles = settings.shuffles < 0 ? shuffles_for(times.size()) : settings.shuffles;
+  if (shuffles > 0 && settings.places == 0) add_clustering(curve, table, times, shuffles, settings);
+  times = positive_ones(std::move(times));
+  if (settings.rescale)
+    for (double &time : times) time /= curve.mean;
+  curve.bins = LogHistogram(times, settings.factor).bins();
+  const double shortest =
+      times.empty() ? 0.0 : settings.shortest * (settings.rescale ? 1.0 : curve.mean);
+  curve.fits = fits_of(times, curve.bins, shortest, settings);
+  return curve;
+}
+
+}  // namespace
+
 std::vector<IntervalCurve> interval_curves(const std::vector<EventTable> &tables,
                                            const IntervalSettings &settings) {
   if (!(settings.shortest >= 0.0) || !std::isfinite(settings.shortest))
-    throw std::invalid_argument("--shortest: expected a multiple of the mean of zero or more");
-  if (settings.places < 0) throw std::invalid_argument("--places: expected 0 or more");
-  if (settings.replicas < 0) throw std::invalid_argument("--replicas: expected 0 or more");
+    throw std::invalid_argument("shortest time: expected a multiple of the mean of zero or more");
+  if (settings.places < 0 || settings.replicas < 0)
+    throw std::invalid_argument("inter-event times: expected 0 or more places and replicas");
+  std::vector<Threshold> thresholds(settings.thresholds.begin(), settings.thresholds.end());
+  if (thresholds.empty()) thresholds.emplace_back();
   std::vector<IntervalCurve> curves;
-  for (const EventTable &table : tables) {
-    std::vector<Threshold> thresholds(settings.thresholds.begin(), settings.thresholds.end());
-    if (thresholds.empty()) thresholds.emplace_back();
-    for (const Threshold &threshold : thresholds) {
-      IntervalCurve curve;
-      curve.label = table.label;
-      curve.model = table.info.model;
-      curve.earthquakes = table.earthquakes();
-      curve.unit = table.time_unit();
-      curve.threshold = threshold.complete_in(table);
-      std::vector<double> times =
-          settings.places > 0 ? times_at_places(table, curve.threshold.size, settings.places)
-                              : inter_event_times(table, curve.threshold.size);
-      curve.n = static_cast<std::int64_t>(times.size());
-      curve.mean = mean_of(times);
-      curve.variation = variation_of(times);
-      const int shuffles = settings.shuffles < 0 ? shuffles_for(times.size()) : settings.shuffles;
-      if (shuffles > 0 && settings.places == 0) {
-        curve.clustering = clustering(times, shuffles, settings.seed);
-        curve.starts = starts_of(table, curve.threshold.size);
-        curve.steadiness = steadiness(curve.starts, settings.steady, settings.steady_events,
-                                      shuffles, settings.seed);
-        const auto after = times_after_thirds(times);
-        for (std::size_t k = 0; k < after.size(); ++k) {
-          LogHistogram histogram(std::pow(10.0, 0.2));
-          for (const double time : after[k])
-            if (time > 0.0) histogram.add(time / curve.mean);
-          curve.after[k] = histogram.bins();
-        }
-      }
-      // Events of zero length can start at the same time.
-      times.erase(std::remove_if(times.begin(), times.end(), [](double t) { return !(t > 0.0); }),
-                  times.end());
-      if (settings.rescale)
-        for (double &time : times) time /= curve.mean;
-      curve.bins = LogHistogram(times, settings.factor).bins();
-      const double shortest =
-          times.empty() ? 0.0 : settings.shortest * (settings.rescale ? 1.0 : curve.mean);
-      // Fitted bins keep the normalisation of the whole density, as C belongs to it.
-      std::vector<LogBin> fitted;
-      for (const LogBin &bin : curve.bins)
-        if (bin.lo >= shortest) fitted.push_back(bin);
-      for (const double delta : settings.deltas) {
-        if (settings.least_squares)
-          curve.fits.push_back({"least squares", delta, fit_least_squares(fitted, delta)});
-        if (settings.maximum_likelihood)
-          curve.fits.push_back(
-              {"maximum likelihood", delta, fit_with_share(times, shortest, delta)});
-      }
-      for (IntervalFit &fit : curve.fits) {
-        if (fit.fit.degenerate) continue;
-        fit.p = p_value(fit.fit, settings.replicas, settings.seed);
-        if (fit.fit.dof == 0) fit.p_error = std::sqrt(fit.p * (1.0 - fit.p) / settings.replicas);
-      }
-      curves.push_back(std::move(curve));
-    }
-  }
+  for (const EventTable &table : tables)
+    for (const Threshold &threshold : thresholds)
+      curves.push_back(curve_of(table, threshold, settings));
   return curves;
 }
 

@@ -5,8 +5,8 @@
 #define LSM_POSTPROC_INTERVALS_H
 
 #include <array>
+#include <cmath>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -34,9 +34,9 @@ struct IntervalSettings {
   /// Random series that clustering() and steadiness() compare with; 0: without these, negative:
   /// shuffles_for().
   int shuffles = 0;
-  double steady = 0.05;              ///< departure that a steady stretch may have
-  std::int64_t steady_events = 500;  ///< and its smallest number of events
-  std::vector<double> deltas = {std::numeric_limits<double>::quiet_NaN(), 1.0};  ///< NaN: free
+  double steady = 0.05;                     ///< departure that a steady stretch may have
+  std::int64_t steady_events = 500;         ///< and its smallest number of events
+  std::vector<double> deltas = {NAN, 1.0};  ///< NaN: free
 };
 
 /// Random series beside this many times: 200, fewer of more than 1e5 times (2e7 times in all, at
@@ -47,9 +47,9 @@ struct IntervalFit {
   std::string method;  ///< "least squares" or "maximum likelihood"
   double held = 0.0;   ///< delta if it was held, NaN if it was free
   GeneralisedGammaFit fit;
-  double p = std::numeric_limits<double>::quiet_NaN();  ///< p_value(); NaN: degenerate, no replicas
+  double p = NAN;  ///< p_value(); NaN: degenerate, no replicas
   /// Of its Monte Carlo estimate; NaN: least squares, which needs none.
-  double p_error = std::numeric_limits<double>::quiet_NaN();
+  double p_error = NAN;
 };
 
 /// One catalogue above one threshold.
@@ -80,9 +80,6 @@ struct IntervalCurve {
   std::string from() const;
 };
 
-/// Starts of the events of at least a size.
-std::vector<double> starts_of(const EventTable &events, double threshold);
-
 /// Times from the start of an event to the start of the next one, events smaller than threshold
 /// left out (model time).
 std::vector<double> inter_event_times(const EventTable &events, double threshold);
@@ -92,7 +89,7 @@ std::vector<double> inter_event_times(const EventTable &events, double threshold
 /// and the share of independent series with one as far from 0 (Student's t). Fewer than 4 pairs, or
 /// times that are all equal: NaN.
 struct RankCorrelation {
-  double rho = std::numeric_limits<double>::quiet_NaN(), p = rho;
+  double rho = NAN, p = rho;
 };
 RankCorrelation successive_rank_correlation(const std::vector<double> &times);
 
@@ -105,6 +102,9 @@ std::vector<double> times_at_places(const EventTable &events, double threshold, 
 /// fit_maximum_likelihood() with C such that the density is that of all times: over those from
 /// `shortest` on it integrates to their share.
 GeneralisedGammaFit fit_with_share(const std::vector<double> &times, double shortest, double delta);
+
+/// The bins of times from `shortest` on.
+std::vector<LogBin> bins_from(std::vector<LogBin> bins, double shortest);
 
 /// \throws std::invalid_argument for impossible settings
 std::vector<IntervalCurve> interval_curves(const std::vector<EventTable> &tables,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "magnitudes.h"
 
+#include <gsl/gsl_statistics_double.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -35,14 +37,14 @@ BValue estimate(const std::vector<double> &values, double least, double width, c
     return result;
   }
   const double n = static_cast<double>(values.size());
-  NeumaierSum excess, squares;
+  NeumaierSum excess;
   for (const double value : values) excess.add(value - least);
   const double mean = excess.value() / n;
-  for (const double value : values) squares.add(std::pow(value - least - mean, 2));
+  const double squares = gsl_stats_tss_m(values.data(), 1, values.size(), least + mean);
   const double ln10 = std::log(10.0);
   result.degenerate = false;
   result.b = width > 0.0 ? std::log1p(width / mean) / (ln10 * width) : 1.0 / (ln10 * mean);
-  result.error = ln10 * result.b * result.b * std::sqrt(squares.value() / (n * (n - 1.0)));
+  result.error = ln10 * result.b * result.b * std::sqrt(squares / (n * (n - 1.0)));
   return result;
 }
 
@@ -92,7 +94,7 @@ double maximum_curvature(const std::vector<double> &magnitudes, double width, do
     throw std::invalid_argument("width of the magnitude bins: expected a positive finite number");
   std::map<double, std::int64_t> counts;
   for (const double m : magnitudes) ++counts[std::floor(m / width + 0.5)];
-  if (counts.empty()) return std::nan("");
+  if (counts.empty()) return NAN;
   const auto fullest = std::max_element(counts.begin(), counts.end(),
                                         [](auto &a, auto &b) { return a.second < b.second; });
   return width * fullest->first + correction;

@@ -11,8 +11,8 @@
 #ifndef LSM_POSTPROC_MAGNITUDES_H
 #define LSM_POSTPROC_MAGNITUDES_H
 
+#include <cmath>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -32,8 +32,8 @@ double binned(double magnitude, double width);
 
 /// Gutenberg-Richter law N(M) ~ 10^(-b M) for M >= completeness.
 struct BValue {
-  double b = std::numeric_limits<double>::quiet_NaN();
-  double error = std::numeric_limits<double>::quiet_NaN();  ///< Shi & Bolt
+  double b = NAN;
+  double error = NAN;  ///< Shi & Bolt
   std::int64_t n = 0;  ///< magnitudes (b-positive: differences) that were used
   bool degenerate = true;
   std::string why;  ///< reason, one line
@@ -50,7 +50,7 @@ BValue b_value(const std::vector<double> &magnitudes, double completeness, doubl
 /// (default: width), of the magnitudes from completeness on in order of time. Their density falls
 /// with the same b, and they miss less of what is lost just after large events.
 BValue b_positive(const std::vector<double> &magnitudes, double completeness, double width = 0.0,
-                  double least = std::numeric_limits<double>::quiet_NaN());
+                  double least = NAN);
 
 /// Centre of the fullest bin of the given width (the lower one of equals) plus correction, 0.2
 /// after Woessner & Wiemer. NaN without a magnitude. \throws std::invalid_argument unless width > 0

@@ -28,42 +28,43 @@ struct Sample {
 Sample sample_of(const EventTable &table, double threshold, const Sample *reference,
                  const NatureSettings &settings) {
   Sample out;
-  const std::vector<double> sizes = sizes_from(table, threshold);
+  const auto add = [&out](Measured NatureRow::*number, double value, double error = NAN) {
+    out.numbers.push_back({number, {value, error}});
+  };
+  const std::vector<double> sizes = column_from(table, threshold, &Event::size);
   const MagnitudeScale scale;
   for (const double size : sizes) out.magnitudes.push_back(scale.of(size) - scale.of(threshold));
   out.times = over_mean(inter_event_times(table, threshold));
   const Clustering c = clustering(out.times, 1, settings.seed);
-  out.numbers.push_back({&NatureRow::variation, {c.variation.value}});
-  out.numbers.push_back({&NatureRow::burstiness, {c.finite_burstiness.value}});
-  out.numbers.push_back({&NatureRow::memory, {c.memory.value}});
-  out.numbers.push_back({&NatureRow::after_short, {c.after[0].value}});
+  add(&NatureRow::variation, c.variation.value);
+  add(&NatureRow::burstiness, c.finite_burstiness.value);
+  add(&NatureRow::memory, c.memory.value);
+  add(&NatureRow::after_short, c.after[0].value);
   const BValue b = b_value(out.magnitudes, 0.0);
-  out.numbers.push_back({&NatureRow::b, {b.b, b.error}});
-  // Events of zero length can start at the same time.
-  std::vector<double> positive = out.times;
-  positive.erase(
-      std::remove_if(positive.begin(), positive.end(), [](double t) { return !(t > 0); }),
-      positive.end());
+  add(&NatureRow::b, b.b, b.error);
+  const std::vector<double> positive = positive_ones(out.times);
   const GeneralisedGammaFit fit = fit_with_share(positive, settings.shortest, 1.0);
-  out.numbers.push_back({&NatureRow::gamma, {fit.gamma, fit.se_gamma}});
-  out.numbers.push_back({&NatureRow::B, {fit.B, fit.se_B}});
-  out.numbers.push_back({&NatureRow::C, {fit.C, fit.se_C}});
+  add(&NatureRow::gamma, fit.gamma, fit.se_gamma);
+  add(&NatureRow::B, fit.B, fit.se_B);
+  add(&NatureRow::C, fit.C, fit.se_C);
   const GeneralisedGammaFit free = fit_with_share(positive, settings.shortest, NAN);
-  out.numbers.push_back({&NatureRow::free_gamma, {free.gamma, free.se_gamma}});
-  out.numbers.push_back({&NatureRow::free_delta, {free.delta, free.se_delta}});
-  out.numbers.push_back({&NatureRow::free_B, {free.B, free.se_B}});
-  out.numbers.push_back({&NatureRow::free_C, {free.C, free.se_C}});
+  add(&NatureRow::free_gamma, free.gamma, free.se_gamma);
+  add(&NatureRow::free_delta, free.delta, free.se_delta);
+  add(&NatureRow::free_B, free.B, free.se_B);
+  add(&NatureRow::free_C, free.C, free.se_C);
   if (free.degenerate) out.why = free.why;
-  const AroundLarge around = around_large(starts_of(table, threshold), sizes, settings.share);
-  out.numbers.push_back({&NatureRow::before, {around.before}});
-  out.numbers.push_back({&NatureRow::after, {around.after}});
+  const AroundLarge around =
+      around_large(column_from(table, threshold, &Event::t_start), sizes, settings.share);
+  add(&NatureRow::before, around.before);
+  add(&NatureRow::after, around.after);
+  const auto compare = [&](Measured NatureRow::*number, std::vector<double> Sample::*values) {
+    const RescaledDistance apart =
+        rescaled_distance(reference->*values, out.*values, settings.replicas, settings.seed);
+    add(number, apart.distance, apart.error);
+  };
   if (!reference) return out;
-  const RescaledDistance times =
-      rescaled_distance(reference->times, out.times, settings.replicas, settings.seed);
-  out.numbers.push_back({&NatureRow::distance, {times.distance, times.error}});
-  const RescaledDistance magnitudes =
-      rescaled_distance(reference->magnitudes, out.magnitudes, settings.replicas, settings.seed);
-  out.numbers.push_back({&NatureRow::size_distance, {magnitudes.distance, magnitudes.error}});
+  compare(&NatureRow::distance, &Sample::times);
+  compare(&NatureRow::size_distance, &Sample::magnitudes);
   return out;
 }
 

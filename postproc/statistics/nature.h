@@ -4,8 +4,8 @@
 #ifndef LSM_POSTPROC_NATURE_H
 #define LSM_POSTPROC_NATURE_H
 
+#include <cmath>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -25,8 +25,8 @@ struct NatureSettings {
 
 /// A mean over catalogues and its standard error; of one catalogue its own, or NaN.
 struct Measured {
-  double value = std::numeric_limits<double>::quiet_NaN();
-  double error = std::numeric_limits<double>::quiet_NaN();
+  double value = NAN;
+  double error = NAN;
 };
 
 /// Catalogues of one label above one smallest size.

@@ -13,6 +13,7 @@
 #ifndef LSM_POSTPROC_POWER_LAW_H
 #define LSM_POSTPROC_POWER_LAW_H
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -33,12 +34,12 @@ struct RangeSearch {
 };
 
 struct PowerLawFit {
-  double alpha = std::numeric_limits<double>::quiet_NaN();
-  double standard_error = std::numeric_limits<double>::quiet_NaN();  ///< Fisher information
-  double lo = 0.0, hi = 0.0;                             ///< the range, hi may be infinite
-  std::int64_t n = 0;                                    ///< events in [lo, hi]
-  double ks = std::numeric_limits<double>::quiet_NaN();  ///< Kolmogorov-Smirnov distance
-  double log_likelihood = std::numeric_limits<double>::quiet_NaN();
+  double alpha = NAN;
+  double standard_error = NAN;  ///< Fisher information
+  double lo = 0.0, hi = 0.0;    ///< the range, hi may be infinite
+  std::int64_t n = 0;           ///< events in [lo, hi]
+  double ks = NAN;              ///< Kolmogorov-Smirnov distance
+  double log_likelihood = NAN;
   bool searched = false;   ///< the range comes from search_range()
   RangeSearch search;      ///< its settings then
   bool degenerate = true;  ///< no usable exponent: alpha, error, ks, likelihood are NaN

@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
-#include "lsm_sum.h"
+#include "samples.h"
 
 namespace LSM::postproc {
 
@@ -18,7 +17,7 @@ double stick_slip_above(double length) {
 }
 
 double length_of(const PeSeriesInfo &info) {
-  double length = std::numeric_limits<double>::quiet_NaN();
+  double length = NAN;
   if (const std::string *text = info.find("length")) text_io::parse(*text, length);
   return length;
 }
@@ -46,20 +45,9 @@ Regime RegimeMeter::result() const {
   r.above = stick_slip_above(length_);
   r.window = static_cast<double>(per_window_) * spacing_;
   r.windows = static_cast<std::int64_t>(changes_.size());
-  std::vector<double> rises;
-  NeumaierSum up, up2, down, down2;
-  double fastest = 0.0;
-  for (const double x : changes_) {
-    if (x > 0.0) {
-      rises.push_back(x);
-      up.add(x);
-      up2.add(x * x);
-    } else {
-      down.add(-x);
-      down2.add(x * x);
-      fastest = std::max(fastest, -x);
-    }
-  }
+  std::vector<double> rises, falls;
+  for (const double x : changes_) (x > 0.0 ? rises : falls).push_back(std::fabs(x));
+  const double fastest = falls.empty() ? 0.0 : *std::max_element(falls.begin(), falls.end());
   if (changes_.empty())
     throw std::runtime_error(fmt::format(
         "the series is shorter than two windows of {} time units: too short to tell a regime by",
@@ -71,8 +59,8 @@ Regime RegimeMeter::result() const {
   const auto quantile =
       rises.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(rises.size() - 1));
   std::nth_element(rises.begin(), quantile, rises.end());
-  r.rise = up2.value() / up.value() / r.window;
-  r.fall = down2.value() / down.value() / r.window;
+  r.rise = self_weighted_mean(rises) / r.window;
+  r.fall = self_weighted_mean(falls) / r.window;
   r.saw_tooth = r.fall / r.rise;
   r.drop_over_load = fastest / *quantile;
   r.time_in_events = in_events_ / (static_cast<double>(samples_ - 1) * spacing_);

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ruptures.h"
 
+#include <gsl/gsl_fit.h>
+#include <gsl/gsl_statistics_double.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -42,45 +46,34 @@ std::vector<LogBin> length_bins(const EventTable &table, double bin) {
 }  // namespace
 
 LogFit fit_logarithms(const std::vector<std::pair<double, double>> &points) {
+  std::vector<double> x, y, ratios;
+  for (const auto &[one, other] : points) {
+    x.push_back(std::log10(one));
+    y.push_back(std::log10(other));
+    ratios.push_back(y.back() - x.back());
+  }
+  const std::size_t count = points.size();
+  const auto n = static_cast<double>(count);
+  if (count < 3 || !(gsl_stats_tss(x.data(), 1, count) > 1e-12 * n))
+    throw std::runtime_error(
+        fmt::format("{} ruptures for a fit, expected at least 3 of different sizes", count));
   LogFit fit;
-  fit.n = static_cast<std::int64_t>(points.size());
-  const auto n = static_cast<double>(points.size());
-  double mx = 0.0, my = 0.0;
-  for (const auto &[x, y] : points) {
-    mx += std::log10(x) / n;
-    my += std::log10(y) / n;
-  }
-  double xx = 0.0, xy = 0.0, dd = 0.0;
-  for (const auto &[x, y] : points) {
-    const double u = std::log10(x) - mx, v = std::log10(y) - my;
-    xx += u * u;
-    xy += u * v;
-    dd += (v - u) * (v - u);
-  }
-  if (points.size() < 3 || !(xx > 1e-12 * n))
-    throw std::runtime_error(fmt::format(
-        "{} ruptures for a fit, expected at least 3 of different sizes", points.size()));
-  fit.slope = xy / xx;
-  fit.intercept = my - fit.slope * mx;
-  double rest = 0.0;
-  for (const auto &[x, y] : points) {
-    const double off = std::log10(y) - fit.intercept - fit.slope * std::log10(x);
-    rest += off * off;
-  }
+  fit.n = static_cast<std::int64_t>(count);
+  double rest = 0.0, variance_intercept = 0.0, covariance = 0.0, variance_slope = 0.0;
+  gsl_fit_linear(x.data(), 1, y.data(), 1, count, &fit.intercept, &fit.slope, &variance_intercept,
+                 &covariance, &variance_slope, &rest);
+  fit.slope_error = std::sqrt(variance_slope);
   fit.scatter = std::sqrt(rest / n);
-  fit.slope_error = std::sqrt(rest / (n - 2.0) / xx);
-  fit.ratio = std::pow(10.0, my - mx);
-  fit.ratio_scatter = std::sqrt(dd / n);
+  fit.ratio = std::pow(10.0, mean_of(ratios));
+  fit.ratio_scatter = std::sqrt(gsl_stats_tss(ratios.data(), 1, count) / n);
   return fit;
 }
 
 std::vector<bool> slips_by_itself(const std::vector<Event> &events) {
   std::vector<std::size_t> order(events.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
   double longest = 0.0;
-  for (std::size_t k = 0; k < events.size(); ++k) {
-    order[k] = k;
-    longest = std::max(longest, events[k].t_end - events[k].t_start);
-  }
+  for (const Event &e : events) longest = std::max(longest, e.t_end - e.t_start);
   std::sort(order.begin(), order.end(), [&events](std::size_t a, std::size_t b) {
     return events[a].t_start < events[b].t_start;
   });

@@ -9,33 +9,34 @@
 
 namespace LSM::postproc {
 
+PowerLawFit fit_from(const std::vector<double> &sorted, const Range &range, double least) {
+  if (least < range.hi) return fit_power_law(sorted, std::max(range.lo, least), range.hi);
+  PowerLawFit none;
+  none.lo = range.lo;
+  none.hi = range.hi;
+  none.why = fmt::format("the catalogue only has events from {:.4g}", least);
+  return none;
+}
+
+PowerLawFit search_from(const std::vector<double> &sorted, RangeSearch search, double least) {
+  search.lo = std::max(search.lo, least);
+  return search_range(sorted, search);
+}
+
 std::vector<SizeFit> fit_sizes(const std::vector<EventTable> &tables,
                                const SizeFitSettings &settings) {
-  if (settings.replicas < 0) throw std::invalid_argument("--replicas: expected 0 or more");
+  if (settings.replicas < 0)
+    throw std::invalid_argument("replicas of p-values: expected 0 or more");
   std::vector<SizeFit> fits;
   for (std::size_t i = 0; i < tables.size(); ++i) {
     std::vector<double> sorted = column(tables[i].events, &Event::size);
     std::sort(sorted.begin(), sorted.end());
-    std::vector<PowerLawFit> laws;
-    // Below that size the missing events would pass for a flatter law.
     const double least = tables[i].complete_from;
-    for (const Range &range : settings.ranges) {
-      if (least < range.hi) {
-        laws.push_back(fit_power_law(sorted, std::max(range.lo, least), range.hi));
-        continue;
-      }
-      PowerLawFit none;
-      none.lo = range.lo;
-      none.hi = range.hi;
-      none.degenerate = true;
-      none.why = fmt::format("the catalogue only has events from {:.4g}", least);
-      laws.push_back(none);
-    }
-    if (settings.ranges.empty()) {
-      RangeSearch search = settings.search;
-      search.lo = std::max({search.lo, least, settings.threshold.of(tables[i])});
-      laws.push_back(search_range(sorted, search));
-    }
+    std::vector<PowerLawFit> laws;
+    for (const Range &range : settings.ranges) laws.push_back(fit_from(sorted, range, least));
+    if (laws.empty())
+      laws.push_back(
+          search_from(sorted, settings.search, std::max(least, settings.threshold.of(tables[i]))));
     for (const PowerLawFit &law : laws) {
       SizeFit fit;
       fit.label = tables[i].label;

@@ -5,6 +5,7 @@
 #ifndef LSM_POSTPROC_SIZE_FITS_H
 #define LSM_POSTPROC_SIZE_FITS_H
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -30,10 +31,16 @@ struct SizeFit {
   std::size_t catalogue = 0;  ///< index among the catalogues
   double completeness = 0.0;  ///< in the header of the catalogue; 0: not given
   PowerLawFit fit;
-  double p = std::numeric_limits<double>::quiet_NaN();        ///< NaN: not computed
-  double p_error = std::numeric_limits<double>::quiet_NaN();  ///< of its Monte Carlo estimate
+  double p = NAN;        ///< NaN: not computed
+  double p_error = NAN;  ///< of its Monte Carlo estimate
   std::vector<Comparison> comparisons;
 };
+
+/// Exponent of ascending sizes on a range, or where that is searched, without those below `least`:
+/// there events are missing, which would pass for a flatter law. \throws std::invalid_argument for
+/// impossible settings
+PowerLawFit fit_from(const std::vector<double> &sorted, const Range &range, double least);
+PowerLawFit search_from(const std::vector<double> &sorted, RangeSearch search, double least);
 
 /// Every catalogue on every range. \throws std::invalid_argument for impossible settings
 std::vector<SizeFit> fit_sizes(const std::vector<EventTable> &tables,

@@ -46,28 +46,20 @@ void remove_trend(Detrend detrend, double *values, std::size_t count) {
 
 struct WelchSpectrum::Transform {
   explicit Transform(std::size_t size)
-      : in(fftw_alloc_real(size)), out(fftw_alloc_complex(size / 2 + 1)) {
-    if (in && out) plan = fftw_plan_dft_r2c_1d(static_cast<int>(size), in, out, FFTW_ESTIMATE);
-    if (!plan) {
-      release();
+      : in(fftw_alloc_real(size), fftw_free),
+        out(fftw_alloc_complex(size / 2 + 1), fftw_free),
+        plan(in && out
+                 ? fftw_plan_dft_r2c_1d(static_cast<int>(size), in.get(), out.get(), FFTW_ESTIMATE)
+                 : nullptr,
+             fftw_destroy_plan) {
+    if (!plan)
       throw std::runtime_error(
           fmt::format("cannot plan a Fourier transform of {} samples, expected fewer", size));
-    }
   }
-  ~Transform() { release(); }
-  Transform(const Transform &) = delete;
-  Transform &operator=(const Transform &) = delete;
 
-  double *in;
-  fftw_complex *out;
-  fftw_plan plan = nullptr;
-
- private:
-  void release() {
-    if (plan) fftw_destroy_plan(plan);
-    fftw_free(in);
-    fftw_free(out);
-  }
+  std::unique_ptr<double, void (*)(void *)> in;
+  std::unique_ptr<fftw_complex, void (*)(void *)> out;
+  std::unique_ptr<fftw_plan_s, void (*)(fftw_plan)> plan;
 };
 
 WelchSpectrum::WelchSpectrum(const SpectrumSettings &settings, double interval)
@@ -105,13 +97,14 @@ void WelchSpectrum::add(double value) {
 }
 
 void WelchSpectrum::add_segment() {
-  Transform &t = *transform_;
-  std::copy(buffer_.begin(), buffer_.end(), t.in);
-  remove_trend(settings_.detrend, t.in, buffer_.size());
-  for (std::size_t i = 0; i < buffer_.size(); ++i) t.in[i] *= window_[i];
-  fftw_execute(t.plan);
+  double *const in = transform_->in.get();
+  std::copy(buffer_.begin(), buffer_.end(), in);
+  remove_trend(settings_.detrend, in, buffer_.size());
+  for (std::size_t i = 0; i < buffer_.size(); ++i) in[i] *= window_[i];
+  fftw_execute(transform_->plan.get());
+  const fftw_complex *const out = transform_->out.get();
   for (std::size_t k = 0; k < sums_.size(); ++k)
-    sums_[k] += t.out[k][0] * t.out[k][0] + t.out[k][1] * t.out[k][1];
+    sums_[k] += out[k][0] * out[k][0] + out[k][1] * out[k][1];
   ++segments_;
 }
 

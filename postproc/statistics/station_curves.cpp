@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "samples.h"
@@ -19,7 +18,7 @@ double arrival(const StationCurve &curve, double rate) {
     const double part = (rate - curve.rate[n - 1]) / (curve.rate[n] - curve.rate[n - 1]);
     return curve.t[n - 1] + part * (curve.t[n] - curve.t[n - 1]);
   }
-  return std::numeric_limits<double>::quiet_NaN();
+  return NAN;
 }
 
 StationMisfit misfit(const StationCurve &curve, const StationCurve &reference, double rate,

@@ -22,10 +22,6 @@ double decimal(double mantissa, int decade) {
   return value;
 }
 
-PowerLawFit fit_one(const EventTable &table, const SizeFitSettings &settings) {
-  return fit_sizes({table}, settings).front().fit;
-}
-
 }  // namespace
 
 std::vector<double> threshold_grid(const EventTable &table, std::int64_t fewest) {
@@ -55,28 +51,19 @@ std::vector<ThresholdResult> scan_thresholds(const EventTable &table,
                                              const std::vector<double> &thresholds) {
   std::vector<ThresholdResult> results;
   if (thresholds.empty()) return results;
-  const double largest =
-      std::max_element(table.events.begin(), table.events.end(), [](auto &a, auto &b) {
-        return a.size < b.size;
-      })->size;
+  std::vector<double> sizes = column(table.events, &Event::size);
+  std::sort(sizes.begin(), sizes.end());
+  RangeSearch search;
+  search.upper = true;
   IntervalSettings times;
   times.thresholds = thresholds;
   times.replicas = 0;
   std::vector<IntervalCurve> curves = interval_curves({table}, times);
-  for (std::size_t k = 0; k < thresholds.size(); ++k) {
-    ThresholdResult result;
-    result.threshold = thresholds[k];
-    SizeFitSettings sizes;
-    sizes.replicas = 0;
-    sizes.compare = false;
-    sizes.search.upper = true;
-    sizes.threshold = Threshold(thresholds[k]);
-    result.searched = fit_one(table, sizes);
-    sizes.ranges = {{thresholds[k], largest}};
-    result.to_largest = fit_one(table, sizes);
-    result.intervals = std::move(curves[k]);
-    results.push_back(std::move(result));
-  }
+  for (std::size_t k = 0; k < thresholds.size(); ++k)
+    results.push_back({thresholds[k],
+                       search_from(sizes, search, std::max(thresholds[k], table.complete_from)),
+                       fit_from(sizes, {thresholds[k], sizes.back()}, table.complete_from),
+                       std::move(curves[k])});
   return results;
 }
 

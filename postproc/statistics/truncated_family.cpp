@@ -4,6 +4,7 @@
 #include <gsl/gsl_integration.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "gsl_owners.h"
@@ -177,7 +178,7 @@ struct TiltedLaw {
     }
     const double g_b = mean_u - m_u, g_c = m_t - mean_t;
     const double determinant = uu * tt - ut * ut;
-    if (!(determinant > 0.0)) return {0.0, 0.0, std::nan("")};
+    if (!(determinant > 0.0)) return {0.0, 0.0, NAN};
     const double b_step = (g_b * tt + g_c * ut) / determinant;
     const double c_step = (g_c * uu + g_b * ut) / determinant;
     return {b_step, c_step, g_b * b_step + g_c * c_step};
