@@ -120,9 +120,10 @@ others() {
   note peers "$1" "$length" "$2" "$3" stock.log stock.out
 }
 
+# Beside its workers ESyS-Particle has a process that directs them and never sleeps.
 esys() {
   rm -f "fault_$length".esys.*
-  mpirun -np $(($1 + 1)) "${measure[@]}" esysparticle "$here/esys_particle.py" "fault_$length" "$1" "$length" "$(steps "$length" 2)" 3 \
+  mpirun -np $(($1 + 1)) "${measure[@]}" esysparticle "$here/esys_particle.py" "fault_$length" "$1" "$length" "$(steps "$length" 10)" 3 \
     > esys.out 2>&1 || return 1
   note peers "ESyS-Particle" "$length" "$1" "$2" esys.out /dev/null
 }
@@ -149,7 +150,7 @@ if wanted peers; then
       others "bond harmonic" "$ranks" "$round" harmonic 25
       others "bond bpm/spring" "$ranks" "$round" bpm 15
       others "bond harmonic with contacts" "$ranks" "$round" contacts 20
-      if [ $have_esys = yes ] && ((round <= few)) && ! esys "$ranks" "$round"; then
+      if [ $have_esys = yes ] && ((round <= few && ranks < cores)) && ! esys "$ranks" "$round"; then
         have_esys=no
         echo "ESyS-Particle failed and is left out, see $folder/esys.out" >&2
       fi
