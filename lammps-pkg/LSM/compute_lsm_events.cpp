@@ -351,8 +351,7 @@ void ComputeLSMEvents::leave_out_jump()
   if (change != 0.0 && comm->me == 0)
     error->warning(FLERR,
                    "Compute lsm/events {}: the energy changed by {:.6g} between two runs; events "
-                   "and ledger leave "
-                   "it out",
+                   "and ledger leave it out",
                    id, change);
 }
 

@@ -3,9 +3,9 @@
 #include "fix_lsm_absorb.h"
 
 #include "atom.h"
-#include "domain.h"
 #include "error.h"
 #include "force.h"
+#include "lsm_scene.h"
 #include "update.h"
 
 #include <cstring>
@@ -46,10 +46,7 @@ int FixLSMAbsorb::setmask()
 
 void FixLSMAbsorb::init()
 {
-  if (domain->dimension != 2)
-    error->all(FLERR, "Fix lsm/absorb needs a 2-dimensional simulation (dimension 2)");
-  if (utils::strmatch(update->integrate_style, "^respa"))
-    error->all(FLERR, "Fix lsm/absorb does not work with run_style respa");
+  LSMScene::require_plane(lmp, "Fix lsm/absorb");
 }
 
 // Velocities are those of half a step before the forces, once a run goes on: the dashpot pulls against the velocity that

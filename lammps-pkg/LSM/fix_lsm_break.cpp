@@ -116,14 +116,10 @@ void FixLSMBreak::remove(const std::vector<tagint> &broken)
     if (remaining[n]) return;
     tagint *special = atom->special[i];
     int *nspecial = atom->nspecial[i];
-    for (int m = 0; m < nspecial[0]; m++)
-      if (special[m] == other) {
-        for (int rest = m; rest < nspecial[2] - 1; rest++) special[rest] = special[rest + 1];
-        nspecial[0]--;
-        nspecial[1]--;
-        nspecial[2]--;
-        break;
-      }
+    tagint *at = std::find(special, special + nspecial[0], other);
+    if (at == special + nspecial[0]) return;
+    std::copy(at + 1, special + nspecial[2], at);
+    for (int kind = 0; kind < 3; kind++) nspecial[kind]--;
   });
   const bigint ends = lsm_total(removed, world);
   const bigint links_removed = force->newton_bond ? ends : ends / 2;

@@ -75,8 +75,7 @@ void FixLSMHistory::unpack_restart(int nlocal, int nth)
     if (size != dnum)
       error->one(FLERR,
                  "Pair style lsm/friction: the restart file holds contacts of another friction "
-                 "law, with {} numbers "
-                 "each, but {} has {}",
+                 "law, with {} numbers each, but {} has {}",
                  size, mine, dnum);
     if (!law.empty() && law != law_of_file)
       error->one(FLERR,

@@ -11,7 +11,6 @@
 #include "force.h"
 #include "group.h"
 #include "integrate.h"
-#include "lsm_fix_state.h"
 #include "lsm_frequency.h"
 #include "lsm_keyword_reader.h"
 #include "lsm_scene.h"
@@ -35,7 +34,7 @@ static constexpr double NEARLY_CLOSED =
     1.05;    // distance over sum of radii of contacts that may close soon
 
 FixLSMNVE::FixLSMNVE(LAMMPS *_lmp, int narg, char **arg) :
-    Fix(_lmp, narg, arg), nu(atom->ntypes + 1, 0.0), decay(atom->ntypes + 1, 1.0)
+    LSMKeptFix(_lmp, narg, arg), nu(atom->ntypes + 1, 0.0), decay(atom->ntypes + 1, 1.0)
 {
   time_integrate = 1;
   dynamic_group_allow = 1;
@@ -45,7 +44,6 @@ FixLSMNVE::FixLSMNVE(LAMMPS *_lmp, int narg, char **arg) :
   global_freq = 1;
   extscalar = 1;
   extvector = 0;
-  restart_global = 1;
   comm_forward = comm_reverse = domain->dimension == 3 ? 3 : 2;
 
   const LSM::Keywords keywords = {{"dtcheck", LSM::Words{&check, {"error", "warn", "off"}}}};
@@ -474,13 +472,8 @@ double FixLSMNVE::compute_vector(int n)
   return n == 0 ? omega : dt_limit;
 }
 
-void FixLSMNVE::write_restart(FILE *fp)
-{
-  lsm_write_state(*this, fp, world);
-}
-
 void FixLSMNVE::restart(char *buf)
 {
-  lsm_read_state(*this, buf, world);
+  LSMKeptFix::restart(buf);
   goes_on = true;
 }

@@ -10,7 +10,7 @@ FixStyle(lsm/nve,FixLSMNVE);
 #ifndef LMP_FIX_LSM_NVE_H
 #define LMP_FIX_LSM_NVE_H
 
-#include "fix.h"
+#include "lsm_fix_state.h"
 #include "lsm_frequency.h"
 #include "lsm_mover.h"
 
@@ -20,7 +20,7 @@ FixStyle(lsm/nve,FixLSMNVE);
 
 namespace LAMMPS_NS {
 
-class FixLSMNVE : public Fix, public LSMMover {
+class FixLSMNVE : public LSMKeptFix<FixLSMNVE>, public LSMMover {
  public:
   FixLSMNVE(class LAMMPS *, int, char **);
   ~FixLSMNVE() override;
@@ -37,7 +37,6 @@ class FixLSMNVE : public Fix, public LSMMover {
   void reset_dt() override;
   double compute_scalar() override;
   double compute_vector(int) override;
-  void write_restart(FILE *) override;
   void restart(char *) override;
   int pack_forward_comm(int, int *, double *, int, int *) override;
   void unpack_forward_comm(int, int, double *) override;

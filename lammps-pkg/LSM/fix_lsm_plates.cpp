@@ -78,13 +78,10 @@ int FixLSMPlates::setmask()
 
 void FixLSMPlates::init()
 {
-  if (domain->dimension != 2)
-    error->all(FLERR, "Fix lsm/plates needs a 2-dimensional simulation (dimension 2)");
+  LSMScene::require_plane(lmp, "Fix lsm/plates");
   if (!domain->xperiodic || domain->yperiodic)
     error->all(FLERR,
                "Fix lsm/plates needs a box that is periodic in x and not in y (boundary p f p)");
-  if (utils::strmatch(update->integrate_style, "^respa"))
-    error->all(FLERR, "Fix lsm/plates does not work with run_style respa");
   dt = update->dt;
 
   if (const tagint shared = in_both(plate[LOWER].bit, plate[UPPER].bit))
@@ -134,7 +131,7 @@ void FixLSMPlates::reset_dt()
   dt = update->dt;
 }
 
-void FixLSMPlates::collect()
+void FixLSMPlates::post_neighbor()
 {
   for (Plate &p : plate) {
     p.atoms.clear();
@@ -145,16 +142,6 @@ void FixLSMPlates::collect()
     std::sort(p.atoms.begin(), p.atoms.end(),
               [this](int a, int b) { return atom->tag[a] < atom->tag[b]; });
   }
-}
-
-void FixLSMPlates::setup_post_neighbor()
-{
-  collect();
-}
-
-void FixLSMPlates::post_neighbor()
-{
-  collect();
 }
 
 // linear ramps
@@ -312,12 +299,6 @@ double FixLSMPlates::kinetic() const
   return plate[LOWER].kinetic() + plate[UPPER].kinetic();
 }
 
-double FixLSMPlates::work()
-{
-  complete_step();
-  return lsm_total(work_mine, world);
-}
-
 void FixLSMPlates::sum_for_output()
 {
   complete_step();
@@ -334,7 +315,8 @@ void FixLSMPlates::sum_for_output()
 // kinetic energy of their motion across the fault
 double FixLSMPlates::compute_scalar()
 {
-  return work();
+  complete_step();
+  return lsm_total(work_mine, world);
 }
 
 double FixLSMPlates::compute_vector(int n)

@@ -24,7 +24,7 @@ class FixLSMPlates : public LSMKeptFix<FixLSMPlates>, public LSMMover {
   int setmask() override;
   void init() override;
   void setup(int) override;
-  void setup_post_neighbor() override;
+  void setup_post_neighbor() override { post_neighbor(); }
   void post_neighbor() override;
   void initial_integrate(int) override;
   void final_integrate() override;
@@ -41,11 +41,8 @@ class FixLSMPlates : public LSMKeptFix<FixLSMPlates>, public LSMMover {
 
   double loading = 1.0;    // factor of the driving velocity now, set by fix lsm/leap
   double driving_velocity() const { return speed; }
-  double work();    // work of the plates on the blocks, all ranks, accumulated
-  double driving() const
-  {
-    return 2.0 * speed;
-  }                          // velocity of the upper plate relative to the lower one, in the end
+  // velocity of the upper plate relative to the lower one, in the end
+  double driving() const { return 2.0 * speed; }
   double kinetic() const;    // kinetic energy of the motion of the plates across the fault
   template <class Self, class State> static void visit(Self &self, State &state)
   {
@@ -102,7 +99,6 @@ class FixLSMPlates : public LSMKeptFix<FixLSMPlates>, public LSMMover {
   void finish_sum();
   void finish_step();
   void sum_for_output();
-  void collect();
 };
 
 }    // namespace LAMMPS_NS

@@ -10,6 +10,7 @@
 #include "group.h"
 #include "input.h"
 #include "lsm_keyword_reader.h"
+#include "lsm_scene.h"
 #include "modify.h"
 #include "pair_lsm_friction.h"
 #include "update.h"
@@ -73,10 +74,7 @@ int FixLSMTraction::setmask()
 
 void FixLSMTraction::init()
 {
-  if (domain->dimension != 2)
-    error->all(FLERR, "Fix lsm/traction needs a 2-dimensional simulation (dimension 2)");
-  if (utils::strmatch(update->integrate_style, "^respa"))
-    error->all(FLERR, "Fix lsm/traction does not work with run_style respa");
+  LSMScene::require_plane(lmp, "Fix lsm/traction");
   if (!dynamic_cast<PairLSMFriction *>(force->pair_match("lsm/friction", 1)))
     error->all(FLERR, "Fix lsm/traction needs pair style lsm/friction");
 }

@@ -51,9 +51,7 @@ FixLSMVelocity *FixLSMVelocity::ask_for(LAMMPS *lmp)
   if (!any) any = modify->add_fix(std::string(ID) + " all LSM_VELOCITY");
   auto *const one = dynamic_cast<FixLSMVelocity *>(any);
   if (!one)
-    lmp->error->all(FLERR,
-                    "Fix {} must be of style LSM_VELOCITY, which the package creates "
-                    "itself",
+    lmp->error->all(FLERR, "Fix {} must be of style LSM_VELOCITY, which the package creates itself",
                     ID);
   one->asked = true;
   return one;

@@ -12,7 +12,7 @@ using LSM::Keywords;
 using LSM::Must;
 
 static const std::string STYLE = "Compute lsm/events";
-static const std::string SPECIAL = "events, series, picker, tolerance, emergency, parameter";
+static const std::string SPECIAL = "events, series, picker, parameter";
 
 static void take_all_values(LSMKeywordReader &in)
 {
@@ -47,6 +47,10 @@ LSMEventOptions::LSMEventOptions(LAMMPS *lmp, int first, int narg, char **arg)
     take_all_values(in);
     if (!in.read(table) && !read_special(in)) no_such_keyword(in);
   }
+  ledger = ledger || watchdog.tolerance > 0.0;
+  if (emergency_file.find_first_of("*%") != std::string::npos)
+    in.stop("emergency is " + emergency_file +
+            ", but must be the name of one file, without * and %");
 }
 
 Keywords LSMEventOptions::of_all()
@@ -63,6 +67,8 @@ Keywords LSMEventOptions::of_all()
           {"overwrite", &events.overwrite},
           {"block", &block, Must::positive},
           {"ledger", &ledger},
+          {"tolerance", &watchdog.tolerance, Must::positive},
+          {"emergency", &emergency_file},
           {"strainlimit", &watchdog.strain_limit, Must::positive},
           {"check", &watchdog.every, Must::positive},
           {"progress", &progress}};
@@ -82,7 +88,9 @@ Keywords LSMEventOptions::of_intervals()
 // what is more than one value of one type
 bool LSMEventOptions::read_special(LSMKeywordReader &in)
 {
-  if (in.key() == "series") {
+  if (in.key() == "parameter") {
+    events.parameters.emplace_back(in.text(1), in.text(2));
+  } else if (in.key() == "series") {
     const std::string format = in.text(2);
     if (format != "binary" && format != "text")
       in.stop("series format is '" + format + "', but must be binary or text");
@@ -92,15 +100,6 @@ bool LSMEventOptions::read_special(LSMKeywordReader &in)
     if (!LSM::from_string(in.text(), events.picker.reading))
       in.stop(std::string("picker is '") + in.text() + "', but must be " +
               LSM::choices(events.picker.reading));
-  } else if (in.key() == "tolerance") {
-    in.read(Keywords{{"tolerance", &watchdog.tolerance, Must::positive}});
-    ledger = true;
-  } else if (in.key() == "emergency") {
-    emergency_file = in.text();
-    if (emergency_file.find_first_of("*%") != std::string::npos)
-      in.refuse("the name of one file, without * and %");
-  } else if (in.key() == "parameter") {
-    events.parameters.emplace_back(in.text(1), in.text(2));
   } else
     return in.key() == "events";
   return true;

@@ -39,8 +39,7 @@ void LSMEventSources::check(const Fix *recorder, bool ledger) const
                       "run; uncompute it first");
   if (LSMScene::is_rerun(update))
     error->all(FLERR, "Compute lsm/events does not work with rerun: it records the steps of a run; "
-                      "use thermo keyword pe "
-                      "for the energies of snapshots");
+                      "use thermo keyword pe for the energies of snapshots");
 
   // the strain of links is checked before particles move to other ranks
   for (const auto &ifix : modify->get_fix_list()) {
@@ -192,7 +191,7 @@ LSM::EnergyTerms LSMEventSources::energies() const
   terms.friction = lsm_total(friction, world);
   terms.viscosity = lsm_total(viscosity, world);
   terms.broken = links_ ? lsm_total(links_->work_broken, world) : 0.0;
-  terms.plates = plates_ ? plates_->work() : 0.0;
+  terms.plates = plates_ ? plates_->compute_scalar() : 0.0;
   terms.outside = lsm_total(outside, world);
   terms.absorbed = lsm_total(absorbed, world);
   terms.counted_pe = lsm_total(pe(), world);

@@ -4,6 +4,7 @@
 #ifndef LMP_LSM_FIX_STATE_H
 #define LMP_LSM_FIX_STATE_H
 
+#include "comm.h"
 #include "fix.h"
 #include "lsm_ranks.h"
 #include "lsm_state.h"
@@ -39,38 +40,25 @@ class LSMStateReader : public LSM::StateReader {
   bool first_;
 };
 
-/// For Fix::write_restart(), on all ranks.
-template <class State> void lsm_write_state(const State &state, FILE *fp, MPI_Comm world)
-{
-  std::vector<double> numbers;
-  LSMStateWriter to(numbers, world);
-  State::visit(state, to);
-  int me;
-  MPI_Comm_rank(world, &me);
-  if (me) return;
-  const int size = static_cast<int>(numbers.size() * sizeof(double));
-  fwrite(&size, sizeof(int), 1, fp);
-  fwrite(numbers.data(), sizeof(double), numbers.size(), fp);
-}
-
-/// For Fix::restart().
-template <class State> void lsm_read_state(State &state, const char *buf, MPI_Comm world)
-{
-  int me;
-  MPI_Comm_rank(world, &me);
-  LSMStateReader from(buf, me == 0);
-  State::visit(state, from);
-}
-
 /// Base of a fix whose state in restart files is what its visit() lists.
 template <class Self> class LSMKeptFix : public Fix {
  public:
   LSMKeptFix(LAMMPS *_lmp, int narg, char **arg) : Fix(_lmp, narg, arg) { restart_global = 1; }
   void write_restart(FILE *fp) override
   {
-    lsm_write_state(static_cast<const Self &>(*this), fp, world);
+    std::vector<double> numbers;
+    LSMStateWriter to(numbers, world);
+    Self::visit(static_cast<const Self &>(*this), to);
+    if (comm->me) return;
+    const int size = static_cast<int>(numbers.size() * sizeof(double));
+    fwrite(&size, sizeof(int), 1, fp);
+    fwrite(numbers.data(), sizeof(double), numbers.size(), fp);
   }
-  void restart(char *buf) override { lsm_read_state(static_cast<Self &>(*this), buf, world); }
+  void restart(char *buf) override
+  {
+    LSMStateReader from(buf, comm->me == 0);
+    Self::visit(static_cast<Self &>(*this), from);
+  }
 };
 
 }    // namespace LAMMPS_NS

@@ -5,10 +5,12 @@
 #include "atom.h"
 #include "bond_hybrid.h"
 #include "bond_lsm_linked.h"
+#include "domain.h"
 #include "error.h"
 #include "fix.h"
 #include "fix_lsm_nve.h"
 #include "force.h"
+#include "lsm_keyword_reader.h"
 #include "modify.h"
 #include "neigh_list.h"
 #include "pair_lsm_free.h"
@@ -128,15 +130,22 @@ namespace LSMScene {
                                       update->laststep != update->firststep + update->nsteps);
   }
 
+  void require_plane(LAMMPS *lmp, const std::string &who)
+  {
+    if (lmp->domain->dimension != 2)
+      lmp->error->all(FLERR, "{} needs a 2-dimensional simulation (dimension 2)", who);
+    if (utils::strmatch(lmp->update->integrate_style, "^respa"))
+      lmp->error->all(FLERR, "{} does not work with run_style respa", who);
+  }
+
   void refuse_changing_radii(LAMMPS *lmp, const std::string &who)
   {
     for (const auto &fix : lmp->modify->get_fix_list())
       if (fix->diam_flag)
         lmp->error->all(
             FLERR,
-            "{}: fix {} changes the diameters of particles during a run, but radii and masses "
-            "are read at its beginning and when neighbor lists are built; change them between "
-            "two runs",
+            "{}: fix {} changes the diameters of particles during a run, but radii and masses are "
+            "read at its beginning and when neighbor lists are built; change them between two runs",
             who, fix->id);
   }
 
@@ -144,12 +153,10 @@ namespace LSMScene {
   {
     int at = 0;
     while (at < narg && strcmp(arg[at], "kelvin-voigt") != 0) at++;
-    if (at == narg) return 0.0;
-    if (at + 2 != narg) lmp->error->all(FLERR, "{}: kelvin-voigt and its time must come last", who);
-    const double time = utils::numeric(FLERR, arg[at + 1], false, lmp);
-    if (!(time >= 0.0) || !std::isfinite(time))
-      lmp->error->all(FLERR, "{} kelvin-voigt is {}, but must be a time >= 0", who, time);
-    narg -= 2;
+    double time = 0.0;
+    LSMKeywordReader(lmp, who, at, narg, arg)
+        .read_all({{"kelvin-voigt", &time, LSM::Must::not_negative}});
+    narg = at;
     return time;
   }
 

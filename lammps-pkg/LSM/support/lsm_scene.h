@@ -40,6 +40,9 @@ namespace LSMScene {
   /// as those of a run, which begins at the present step and has the given length.
   bool is_rerun(const Update *);
 
+  /// Stops unless the simulation is 2-dimensional and steps are those of velocity Verlet; `who` begins the message.
+  void require_plane(LAMMPS *, const std::string &who);
+
   /// Stops if a fix changes particle radii during a run; `who` begins the message.
   void refuse_changing_radii(LAMMPS *, const std::string &who);
 
