@@ -90,8 +90,7 @@ class AftershockRates : public Statistic {
     });
     Findings found;
     found.say(texts(threshold_, tables));
-    found.say(aftershocks_text(curves));
-    found.table("laws", aftershocks_csv(curves), ".omori");
+    found.table("laws", aftershock_table(curves), ".omori");
     if (!none || !picture.no_picture) found.figure("rates", aftershock_figure(curves));
     return found;
   }

@@ -15,13 +15,18 @@ nlohmann::ordered_json write(const Findings &found, const PictureOptions &pictur
   nlohmann::ordered_json json;
   for (const Finding &one : found.all()) {
     PictureOptions files = picture;
-    files.output += one.ending;
+    files.output += one.ending.value_or("");
     nlohmann::ordered_json value;
     if (const auto *text = std::get_if<std::string>(&one.what)) {
-      fmt::print(one.warning ? stderr : stdout, "{}", *text);
+      fmt::print("{}", *text);
+    } else if (const auto *warning = std::get_if<Warning>(&one.what)) {
+      fmt::print(stderr, "postproc: {}\n", warning->text);
     } else if (const auto *table = std::get_if<Table>(&one.what)) {
-      table->write(files.table());
-      fmt::print("wrote {}\n", files.table());
+      fmt::print("{}", table->text());
+      if (one.ending) {
+        table->write(files.table());
+        fmt::print("wrote {}\n", files.table());
+      }
       value = table->json();
     } else if (const auto *figure = std::get_if<Figure>(&one.what)) {
       make(*figure, files);

@@ -65,7 +65,19 @@ class Compare : public Statistic {
     Table out(
         "first,second,quantity,smallest_size,n_first,n_second,ks_distance,p,p_error,"
         "block,mean_first,mean_first_error,mean_second,mean_second_error,ratio,"
-        "ratio_error");
+        "ratio_error,!verdict");
+    out.show({{"first", "first"},
+              {"second", "second"},
+              {"", "quantity"},
+              {"events", "n_first"},
+              {"events", "n_second"},
+              {"mean", "mean_first"},
+              {"mean", "mean_second"},
+              {"ratio", "ratio"},
+              {"distance", "ks_distance", 3},
+              {"p", "p"},
+              {"blocks of", "block"},
+              {"", "verdict"}});
     out.comment(
         "p: share of random divisions of the two series, by blocks of consecutive values, "
         "whose Kolmogorov-Smirnov distance is as large");
@@ -77,16 +89,9 @@ class Compare : public Statistic {
       for (const std::string quantity : {"size", "time"}) {
         const TwoSampleTest t = test(first, tables[i], quantity, threshold);
         const auto [one, other] = t.means;
-        found.say(fmt::format(
-            "{} and {}: {}s: {} and {}, means {} and {}, ratio {}; distance {}, p = {} (blocks of "
-            "{}){}\n",
-            first.label, tables[i].label, quantity, t.n[0], t.n[1], with_error(one.mean, one.error),
-            with_error(other.mean, other.error), with_error(t.ratio, t.ratio_error),
-            short_number(t.distance, 3), with_error(t.p, t.p_error), t.block,
-            t.p < 0.05 ? ": they differ" : ": no difference seen"));
         out.row(first.label, tables[i].label, quantity, threshold, t.n[0], t.n[1], t.distance, t.p,
                 t.p_error, t.block, one.mean, one.error, other.mean, other.error, t.ratio,
-                t.ratio_error);
+                t.ratio_error, t.p < 0.05 ? "they differ" : "no difference seen");
       }
     found.table("tests", std::move(out), "");
     return found;

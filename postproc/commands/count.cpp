@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "command.h"
-#include "numbers.h"
 
 namespace LSM::postproc {
 
@@ -51,7 +50,16 @@ class Count : public Analysis {
         "label,events,first_start,last_start,last_end,last_step,largest,"
         "share_in_events");
     Table sizes("label,size,events,brief,released,mean_time");
-    Findings found;
+    catalogues.show({{"catalogue", "label"},
+                     {"events", "events"},
+                     {"share of the time within events", "share_in_events"},
+                     {"last step", "last_step"},
+                     {"largest", "largest"}});
+    sizes.show({{"catalogue", "label"},
+                {"from size", "size"},
+                {"events", "events"},
+                {"sizes in all", "released"},
+                {"mean time", "mean_time"}});
     for (std::size_t i = 0; i < catalogues_.paths.size(); ++i) {
       std::vector<From> counts;
       for (const double size : sizes_) counts.push_back({size});
@@ -75,17 +83,14 @@ class Count : public Analysis {
       const double span = table.last_end - first;
       const double share = table.info.overlapping() ? nan : table.in_events / span;
       catalogues.row(label, events, first, last, table.last_end, last_step, largest, share);
-      found.say(fmt::format("{}: {} events, {} of the time, steps up to {}\n", label, events,
-                            short_number(share), last_step));
       for (const From &from : counts) {
         const double mean = from.events > 0 ? span / static_cast<double>(from.events) : nan;
         sizes.row(label, from.size, from.events, from.brief, from.released, mean);
-        found.say(fmt::format("  from {}: {} events, sizes in all {}\n", short_number(from.size),
-                              from.events, short_number(from.released)));
       }
     }
-    found.numbers("catalogues", catalogues);
-    found.numbers("sizes", sizes);
+    Findings found;
+    found.table("catalogues", std::move(catalogues));
+    found.table("sizes", std::move(sizes));
     return found;
   }
 };

@@ -143,7 +143,7 @@ class Export : public Analysis {
                           written, without, magnitudes_.of(), output_.path));
     Table counts("events,without_magnitude");
     counts.row(written, without);
-    found.numbers("counts", counts);
+    found.table("counts", std::move(counts));
     return found;
   }
 };

@@ -14,7 +14,7 @@ namespace {
 class Fit : public Statistic {
   SizeFitSettings settings_;
   std::vector<std::string> ranges_;
-  std::string search_ = "both", block_ = "auto";
+  std::string block_ = "auto";
   bool scaling_ = false, no_comparison_ = false;
   Resampling bootstrap_;
 
@@ -28,14 +28,11 @@ class Fit : public Statistic {
     add_usual(command, "fit");
     OptionGroup group(command, "Fit");
     group.add("--range", ranges_,
-              "LO:HI, sizes that are fitted, several allowed; without it the range is searched. "
+              "LO:HI, sizes that are fitted, several allowed; without it the range with the "
+              "smallest Kolmogorov-Smirnov distance is searched. "
               "LO is raised to the smallest size in the catalogue (--min-size, or min_size in "
               "its header)",
               kind("LO:HI"), shown(""), one_each());
-    group.add("--search", search_,
-              "Ends of the range that are searched for the smallest Kolmogorov-Smirnov distance: "
-              "both, or lower (Clauset et al. 2009; then the range has no upper end)",
-              among({"both", "lower"}));
     add_threshold(group, settings_.threshold, "the search, the picture and the scaling");
     group.add("--replicas", settings_.replicas,
               "Synthetic samples of the Monte Carlo p-value; 0: none", zero_or_more());
@@ -57,15 +54,17 @@ class Fit : public Statistic {
 
   /// The densities of all catalogues with the laws fitted to them.
   Figure densities(const std::vector<EventTable> &tables, const std::vector<SizeFit> &fits) const {
-    SizeDensitySettings densities;
+    DensitySettings settings;
     double least = settings_.threshold.given_or_paper();
     for (const Range &range : settings_.ranges) least = std::min(least, range.lo);
-    densities.threshold = settings_.ranges.empty() ? settings_.threshold : Threshold(least);
+    settings.threshold = settings_.ranges.empty() ? settings_.threshold : Threshold(least);
+    const std::vector<SizeDensity> densities = size_densities(tables, settings);
+    std::vector<PowerLine> lines;
     for (const SizeFit &fit : fits)
-      if (!fit.fit.degenerate)
-        densities.lines.push_back(fitted_line(fit, tables[fit.catalogue], densities));
-    std::vector<std::string> empty;
-    return size_density_figure(tables, densities, empty);
+      if (!fit.fit.degenerate) lines.push_back(fitted_line(fit, densities[fit.catalogue]));
+    Figure figure = size_density_figure(densities, lines);
+    figure.table.comment(texts(settings.threshold, tables));
+    return figure;
   }
 
   Findings of(const std::vector<EventTable> &tables) override {
@@ -74,7 +73,7 @@ class Fit : public Statistic {
       if (!(settings_.ranges.back().lo > 0.0))
         throw std::invalid_argument("--range '" + text + "', expected LO above 0");
     }
-    settings_.search.upper = search_ == "both";
+    settings_.search.upper = true;
     settings_.compare = !no_comparison_;
     const std::vector<SizeFit> fits = fit_sizes(tables, settings_);
     std::vector<Scaling> scalings;
@@ -87,7 +86,7 @@ class Fit : public Statistic {
     }
     Findings found;
     if (settings_.ranges.empty()) found.say(texts(settings_.threshold, tables));
-    found.say(size_fits_text(fits));
+    found.say(completeness_notes(fits));
     nlohmann::json numbers = nlohmann::json::array(), lengths = numbers;
     for (const SizeFit &fit : fits) numbers.push_back(to_json(fit));
     found.numbers("fits", nlohmann::ordered_json(numbers));
@@ -96,12 +95,13 @@ class Fit : public Statistic {
       lengths.push_back(to_json(scaling));
     }
     if (scaling_) found.numbers("scaling", nlohmann::ordered_json(lengths));
-    found.table("", size_fits_csv(fits), ".fits");
+    if (scaling_) found.table("", scaling_table(scalings));
+    found.table("", size_fit_table(fits), ".fits");
     found.figure("", densities(tables, fits));
     if (std::any_of(scalings.begin(), scalings.end(), [](const auto &s) { return s.drawable(); }))
       found.figure("", scaling_figure(scalings), ".scaling");
     else if (scaling_)
-      found.warn("postproc: no catalogue gives a characteristic size, no picture of the scaling\n");
+      found.warn("no catalogue gives a characteristic size, no picture of the scaling");
     return found;
   }
 };

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 
-#include <fmt/format.h>
-
 #include "command.h"
 #include "numbers.h"
 
@@ -10,8 +8,8 @@ namespace LSM::postproc {
 namespace {
 
 class Histograms : public Statistic {
-  SizeDensitySettings settings_;
-  std::string range_, normalise_ = "density";
+  DensitySettings settings_;
+  std::string range_;
   std::vector<std::string> guides_;
 
   const char *help() const override {
@@ -27,8 +25,6 @@ class Histograms : public Statistic {
     group.add("--bin-factor", settings_.factor,
               "Ratio of the edges of a bin, c of the paper's c^n (the value is ours: ten bins a "
               "decade)");
-    group.add("--normalise", normalise_, "density: count / (N width); counts: per bin",
-              among({"density", "counts"}));
     group.add("--guide", guides_,
               "SLOPE or SLOPE:LO:HI, a straight line above the points, e.g. -1.07 (paper, fault) "
               "or -0.5:1e-3:1 (paper, small events of the block-slider)",
@@ -42,17 +38,19 @@ class Histograms : public Statistic {
         settings_.threshold = std::max(range.lo, settings_.threshold.given_or_paper());
       settings_.upto = range.hi;
     }
-    settings_.counts = normalise_ == "counts";
+    std::vector<PowerLine> lines;
     for (const std::string &guide : guides_) {
-      settings_.lines.push_back(parse_guide(guide));
-      settings_.lines.back().dash = 1 + static_cast<int>(settings_.lines.size());
+      lines.push_back(parse_guide(guide));
+      lines.back().dash = 1 + static_cast<int>(lines.size());
     }
-    std::vector<std::string> empty;
+    const std::vector<SizeDensity> densities = size_densities(tables, settings_);
+    Figure figure = size_density_figure(densities, lines);
+    figure.table.comment(texts(settings_.threshold, tables));
     Findings found;
-    Figure figure = size_density_figure(tables, settings_, empty);
     found.say(texts(settings_.threshold, tables));
-    for (const std::string &label : empty)
-      found.warn(fmt::format("postproc: {}: no event in the range of sizes, no curve\n", label));
+    for (const SizeDensity &density : densities)
+      if (density.bins.empty())
+        found.warn(density.label + ": no event in the range of sizes, no curve");
     found.figure("densities", std::move(figure));
     return found;
   }

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include <iterator>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "clustering_figures.h"
-#include "clustering_tables.h"
 #include "command.h"
 #include "interval_figure.h"
 #include "numbers.h"
@@ -73,13 +71,19 @@ class Intervals : public Statistic {
     return files;
   }
 
-  static std::string sentence(const IntervalCurve &curve) {
-    return fmt::format(
-        "{}, {}: {} inter-event times, mean {} {}, standard deviation {} of the mean, burstiness "
-        "{}\n",
-        curve.label, curve.earthquakes ? curve.from() : "sizes >= " + text(curve.threshold),
-        curve.n, short_number(curve.mean, 6), curve.unit, short_number(curve.variation),
-        short_number(curve.burstiness()));
+  static Table times_of(const std::vector<IntervalCurve> &curves) {
+    Table table("label,threshold,n,mean,variation,!source,!unit,!burstiness");
+    table.show({{"catalogue", "label"},
+                {"events", "source"},
+                {"inter-event times", "n"},
+                {"mean", "mean", 6},
+                {"in", "unit"},
+                {"standard deviation / mean", "variation"},
+                {"burstiness", "burstiness"}});
+    for (const IntervalCurve &curve : curves)
+      table.row(curve.label, curve.threshold.size, curve.n, curve.mean, curve.variation,
+                source_of(curve), curve.unit, curve.burstiness());
+    return table;
   }
 
   Findings of(const std::vector<EventTable> &tables) override {
@@ -95,35 +99,25 @@ class Intervals : public Statistic {
     }
     const std::vector<IntervalCurve> curves = interval_curves(tables, settings_);
     Figure figure = interval_figure(curves, settings_.rescale);
-    const std::vector<Table1Row> rows = table1(curves);
-    std::vector<Table1Row> ours;
-    std::copy_if(rows.begin(), rows.end(), std::back_inserter(ours),
-                 [](const Table1Row &row) { return !row.printed; });
-
+    const std::vector<Table1Row> rows = table1_rows(curves);
     Findings found;
-    Table times("label,threshold,n,mean,variation");
-    for (const IntervalCurve &curve : curves) {
-      times.row(curve.label, curve.threshold.size, curve.n, curve.mean, curve.variation);
+    for (const IntervalCurve &curve : curves)
       if (curve.bins.empty())
-        found.warn(fmt::format(
-            "postproc: {}: fewer than two events of size {} or larger, no inter-event time\n",
-            curve.label, short_number(curve.threshold.size)));
-      if (curve.n > 0) found.say(sentence(curve));
-    }
+        found.warn(
+            fmt::format("{}: fewer than two events of size {} or larger, no inter-event time",
+                        curve.label, short_number(curve.threshold.size)));
     if (settings_.places > 0)
       found.say(fmt::format(
           "times at {} places each; places closer than the length of ruptures share ruptures, "
           "and then errors and p are too small\n",
           settings_.places));
-    found.say(table1_text(rows, settings_.rescale));
     if (settings_.shortest > 0.0)
       found.say(fmt::format("  fits without times below {} of the mean (--shortest)\n",
                             short_number(settings_.shortest)));
-    found.table("", table1_csv(rows, settings_.rescale), ".table1");
-    found.numbers("times", times);
-    found.numbers("fits", table1_csv(ours, settings_.rescale));
-    found.say(clustering_text(curves, date_text));
-    found.table("clustering", clustering_csv(curves), ".clustering");
+    found.table("", table1(rows, settings_.rescale), ".table1");
+    found.table("times", times_of(curves));
+    found.numbers("fits", table1(rows, settings_.rescale, false));
+    found.table("clustering", clustering_table(curves, date_text), ".clustering");
     found.figure("densities", std::move(figure));
     if (std::any_of(curves.begin(), curves.end(), has_clustering)) {
       found.figure("rate", rate_figure(curves), ".rate");

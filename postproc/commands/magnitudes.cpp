@@ -14,8 +14,6 @@ class Magnitudes : public Statistic {
   MagnitudeOptions magnitudes_;
   Threshold threshold_;
   std::string complete_ = "header";
-  double least_difference_ = std::numeric_limits<double>::quiet_NaN();
-  double picture_bin_ = 0.1;
 
   const char *help() const override {
     return "Frequencies of magnitudes, b-value with its error (Aki 1965; in bins Tinti and "
@@ -34,12 +32,6 @@ class Magnitudes : public Statistic {
               "curvature, centre of the fullest bin + 0.2 (Wiemer and Wyss 2000; Woessner and "
               "Wiemer 2005); or a magnitude");
     add_threshold(group, threshold_, "--complete-from header");
-    group.add("--least-difference", least_difference_,
-              "Smallest difference of magnitudes in b-positive", zero_or_more(),
-              shown("width of the bins"));
-    group.add("--picture-bin", picture_bin_,
-              "Width of the bins for picture and maximum curvature if --magnitude-bin is 0",
-              positive());
   }
 
   std::vector<std::string> endings() const override { return {".bvalues.csv"}; }
@@ -81,7 +73,7 @@ class Magnitudes : public Statistic {
 
   Findings of(const std::vector<EventTable> &tables) override {
     magnitudes_.check();
-    const double bin = magnitudes_.bin, width = bin > 0.0 ? bin : picture_bin_;
+    const double bin = magnitudes_.bin, width = bin > 0.0 ? bin : 0.1;
     std::vector<MagnitudeCurve> curves;
     for (const EventTable &table : tables) {
       MagnitudeCurve curve;
@@ -91,12 +83,11 @@ class Magnitudes : public Statistic {
       curve.curvature = maximum_curvature(curve.magnitudes, width);
       set_completeness(curve, table);
       curve.b = b_value(curve.magnitudes, curve.completeness, bin);
-      curve.positive = b_positive(curve.magnitudes, curve.completeness, bin, least_difference_);
+      curve.positive = b_positive(curve.magnitudes, curve.completeness, bin);
       curves.push_back(std::move(curve));
     }
     Findings found;
-    found.say(magnitudes_text(curves, magnitudes_.scale, magnitudes_.of()));
-    found.table("b_values", magnitudes_csv(curves, magnitudes_.scale, magnitudes_.of(), bin),
+    found.table("b_values", magnitude_table(curves, magnitudes_.scale, magnitudes_.of(), bin),
                 ".bvalues");
     found.figure("frequencies", magnitude_figure(curves, width));
     return found;

@@ -6,7 +6,6 @@
 
 #include "command.h"
 #include "event_matching.h"
-#include "numbers.h"
 
 namespace LSM::postproc {
 
@@ -44,7 +43,6 @@ class Match : public Statistic {
     group.add("--within", rule_.within,
               "Starts of the same event differ by less than this (model time, or displacement)",
               positive(), required());
-    group.add("--factor", rule_.factor, "Sizes differ by less than this factor, > 1", positive());
     group.add("--origin", origin_,
               "Model time subtracted from the times of both, e.g. that at which the plates begin "
               "to move",
@@ -56,6 +54,13 @@ class Match : public Statistic {
       throw std::invalid_argument("one catalogue, expected at least two to compare");
     Findings found;
     Table out("first,second,smallest_size,n_first,n_second,same,chance");
+    out.show({{"first", "first"},
+              {"second", "second"},
+              {"smallest size", "smallest_size"},
+              {"events", "n_first"},
+              {"in the second", "n_second"},
+              {"in both", "same"},
+              {"by chance", "chance"}});
     EventTable first = tables.front();
     count_from(first, origin_, catalogues.displacement);
     for (std::size_t i = 1; i < tables.size(); ++i) {
@@ -67,14 +72,9 @@ class Match : public Statistic {
       } catch (const std::invalid_argument &e) {
         throw std::runtime_error(fmt::format("{} and {}: {}", first.path, second.path, e.what()));
       }
-      found.say(
-          fmt::format("{}: {} of {} events of size {} or larger are in {} (of {}), by chance "
-                      "{}\n",
-                      first.label, m.same, m.first, short_number(rule_.least_size), second.label,
-                      m.second, short_number(m.chance)));
       out.row(first.label, second.label, rule_.least_size, m.first, m.second, m.same, m.chance);
     }
-    found.numbers("matches", out);
+    found.table("matches", std::move(out));
     return found;
   }
 };

@@ -33,8 +33,6 @@ class Nature : public Statistic {
               zero_or_more());
     group.add("--main-share", settings_.share, "Fraction of the events that count as large",
               between(0.0, 1.0));
-    group.add("--fewest", settings_.fewest, "Catalogues with fewer events are left out",
-              between(20, 1000000000));
     group.add("--replicas", settings_.replicas,
               "Resamplings of the errors of distances, in blocks of consecutive events",
               positive());
@@ -50,12 +48,9 @@ class Nature : public Statistic {
       throw std::invalid_argument(tables.front().path +
                                   ": catalogue of a model, expected one of earthquakes first");
     const std::vector<NatureRow> rows = nature_rows(tables, settings_);
-    const std::vector<Table1Row> parameters = nature_table1(rows);
     Findings found;
-    found.say(nature_text(rows));
-    found.table("models", nature_csv(rows), ".table");
-    found.say(table1_text(parameters, true));
-    found.table("table1", table1_csv(parameters, true), ".table1");
+    found.table("models", nature_table(rows), ".table");
+    found.table("table1", table1(nature_table1(rows), true), ".table1");
     found.figure("", nature_figure(rows));
     return found;
   }

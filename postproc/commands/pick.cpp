@@ -114,7 +114,7 @@ class Pick : public Analysis {
     Table counts("samples,events,nonpositive,small,before_warmup,unfinished");
     counts.row(samples, catalogue.rows(), picker.dropped_nonpositive(), picker.dropped_small(),
                early, picker.in_event());
-    found.numbers("counts", counts);
+    found.table("counts", std::move(counts));
     return found;
   }
 };

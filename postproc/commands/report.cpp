@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report.h"
+#include "report_page.h"
 
 #include <fmt/format.h>
 
@@ -16,29 +16,23 @@ namespace {
 SeriesRegime series_regime(const std::string &path, const SeriesOptions &options) {
   SeriesInput series(path, options);
   const PeSeriesInfo &info = series.info();
-  SeriesRegime result;
-  result.path = path;
-  result.model = info.model;
-  for (const char *const key : {"length", "blocks"})
-    if (const std::string *text = info.find(key)) text_io::parse(*text, result.length);
+  SeriesRegime result = series.about();
   EventPicker picker(picker_settings({}, info));
   RegimeMeter meter(regime_window, series.spacing(), length_of(info));
   Event event;
   Extent times;
-  series.read_some([&](std::int64_t step, double time, double pe) {
+  result.samples = series.read_some([&](std::int64_t step, double time, double pe) {
     const bool picked = picker.push(step, time, pe, event);
     if (time < options.from_time) return;
     times.add(time);
     meter.add(pe);
-    if (picked) meter.event(std::max(event.t_start, times.lo), event.t_end);
+    if (!picked) return;
+    meter.event(std::max(event.t_start, times.lo), event.t_end);
+    ++result.events;
   });
   result.first = times.lo;
   result.last = times.hi;
-  try {
-    result.regime = meter.result();
-  } catch (const std::runtime_error &error) {
-    result.why = error.what();
-  }
+  result.take(meter);
   return result;
 }
 

@@ -5,7 +5,6 @@
 
 #include "command.h"
 #include "history_input.h"
-#include "numbers.h"
 #include "rupture_figures.h"
 #include "slip_figures.h"
 
@@ -37,11 +36,19 @@ const Event &chosen(const std::vector<Event> &events, std::int64_t id, const std
   });
 }
 
+Figure densities(const std::vector<EventTable> &tables, RuptureQuantity quantity) {
+  std::vector<RuptureDensity> all;
+  for (const EventTable &table : tables)
+    all.push_back({table.label, table.length(), rupture_densities(table, quantity)});
+  const double limit =
+      quantity == RuptureQuantity::moment ? smallest_moment(tables.front().info) : 0.0;
+  return rupture_density_figure(all, quantity, limit);
+}
+
 class Rupture : public Analysis {
   CatalogueOptions catalogues_;
   std::string history_;
   std::int64_t event_ = 0;
-  double locked_ = 0.0, slipping_ = 0.0;
   double p_speed_ = 2.12, s_speed_ = 1.22;
 
   const char *help() const override {
@@ -64,12 +71,6 @@ class Rupture : public Analysis {
               kind("FILE"), shown("none"));
     group.add("--event", event_, "event_id of the rupture that is drawn in detail",
               shown("that of the largest moment"));
-    group.add("--locked", locked_,
-              "Time between two lines of slip while the fault is locked (model time)", positive(),
-              shown("a 60th of the time drawn"));
-    group.add("--slipping", slipping_,
-              "Time between two lines of slip while anything slips (model time)", positive(),
-              shown("a tenth of --locked"));
     add_wave_speeds(group, p_speed_, s_speed_);
   }
 
@@ -102,9 +103,8 @@ class Rupture : public Analysis {
     Figure space_time = space_time_figure(window, outlines);
     found.table("", std::move(outlines), "-spacetime-outlines");
     found.figure("", std::move(space_time), "-spacetime");
-    const double locked = locked_ > 0.0 ? locked_ : (window.to - window.from) / 60.0;
-    found.figure("", slip_lines_figure(window, locked, slipping_ > 0.0 ? slipping_ : locked / 10.0),
-                 "-lines");
+    const double locked = (window.to - window.from) / 60.0;
+    found.figure("", slip_lines_figure(window, locked, locked / 10.0), "-lines");
     Figure figure = rupture_detail_figure(detail, event, p_speed_, s_speed_, lines);
     found.table("", std::move(lines), "-event-lines");
     found.figure("", std::move(figure), "-event");
@@ -116,6 +116,11 @@ class Rupture : public Analysis {
     Findings found;
     std::vector<EventTable> tables;
     Table largest_of("label,ruptures,moment,largest,longest");
+    largest_of.show({{"catalogue", "label"},
+                     {"ruptures", "ruptures"},
+                     {"moments in all", "moment", 6},
+                     {"largest", "largest"},
+                     {"longest", "longest"}});
     for (const std::string &path : catalogues_.paths) {
       EventTable table = load_ruptures(path, catalogues_);
       state_repairs(table);
@@ -126,19 +131,17 @@ class Rupture : public Analysis {
         largest = std::max(largest, e.slip_moment);
         longest = std::max(longest, e.rupture_length);
       }
-      found.say(fmt::format("{}: {} ruptures, moments in all {}, largest {}, longest {}\n",
-                            table.label, table.events.size(), short_number(moment, 6),
-                            short_number(largest), short_number(longest)));
       largest_of.row(table.label, table.events.size(), moment, largest, longest);
       tables.push_back(std::move(table));
     }
-    found.numbers("catalogues", largest_of);
+    found.table("catalogues", std::move(largest_of));
     if (!history_.empty()) draw_history(tables.front(), found);
-    found.figure("lengths", rupture_density_figure(tables, RuptureQuantity::length), "-lengths");
-    found.figure("moments", rupture_density_figure(tables, RuptureQuantity::moment), "-moments");
-    found.figure("length", moment_length_figure(tables), "-length");
-    found.figure("pe", moment_pe_figure(tables), "-pe");
-    found.figure("stress", stress_drop_figure(tables), "-stress");
+    found.figure("lengths", densities(tables, RuptureQuantity::length), "-lengths");
+    found.figure("moments", densities(tables, RuptureQuantity::moment), "-moments");
+    const RuptureRelations relations = rupture_relations(tables);
+    found.figure("length", moment_length_figure(relations), "-length");
+    found.figure("pe", moment_pe_figure(relations), "-pe");
+    found.figure("stress", stress_drop_figure(relations), "-stress");
     return found;
   }
 };

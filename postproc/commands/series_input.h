@@ -13,6 +13,7 @@
 #include "lsm_pe_series.h"
 #include "lsm_picker_options.h"
 #include "options.h"
+#include "regime_table.h"
 
 namespace LSM::postproc {
 
@@ -40,6 +41,9 @@ class SeriesInput {
   const PeSeriesInfo &info() const { return reader_.info(); }
   /// Model time between samples.
   double spacing() const { return info().dt * static_cast<double>(info().stride); }
+
+  /// Path, model and length.
+  SeriesRegime about() const;
 
   /// Calls use with each sample from the first to the one that ends the window, those before the
   /// window too: a picker needs them. States a truncated last sample on standard error (lenient).

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include <optional>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -12,19 +13,51 @@ namespace LSM::postproc {
 
 namespace {
 
-/// An eighth of the samples in the window, as a power of two, so that some 15 segments average.
-std::size_t default_segment(const std::string &path, const SeriesOptions &options) {
-  const std::int64_t samples = SeriesInput(path, options).read();
-  std::size_t segment = 8;
-  while (segment < (1 << 16) && 16 * static_cast<std::int64_t>(segment) <= samples) segment *= 2;
-  return segment;
-}
+/// Welch's spectrum of a series in one pass. Segments of no given length are an
+/// eighth of the series, as a power of two, so that some 15 of them average, and at most 65536: as
+/// soon as the series is eight times as long they are known.
+class SpectrumOfSeries {
+ public:
+  SpectrumOfSeries(const SpectrumSettings &settings, double spacing)
+      : settings_(settings), spacing_(spacing) {}
+
+  void add(double pe) {
+    waiting_.push_back(pe);
+    if (settings_.segment > 0 || waiting_.size() == 8 * most) hand_over();
+  }
+  /// \throws std::runtime_error unless there is a whole segment
+  const WelchSpectrum &result(const std::string &path) {
+    hand_over();
+    if (spectrum_->segments() == 0)
+      throw std::runtime_error(
+          fmt::format("{}: {} samples in the window of time, expected at least one segment of {} "
+                      "(--segment)",
+                      path, spectrum_->samples(), settings_.segment));
+    return *spectrum_;
+  }
+
+ private:
+  static constexpr std::size_t most = 1 << 16;
+
+  void hand_over() {
+    if (settings_.segment == 0)
+      for (settings_.segment = 8;
+           settings_.segment < most && 16 * settings_.segment <= waiting_.size();)
+        settings_.segment *= 2;
+    if (!spectrum_) spectrum_.emplace(settings_, spacing_);
+    for (const double value : waiting_) spectrum_->add(value);
+    waiting_.clear();
+  }
+
+  SpectrumSettings settings_;
+  double spacing_;
+  std::optional<WelchSpectrum> spectrum_;
+  std::vector<double> waiting_;
+};
 
 class Spectrum : public Analysis {
   std::vector<std::string> series_, labels_;
   SeriesOptions samples_;
-  SpectrumSettings spectrum_;
-  std::string of_ = "pe";
   std::int64_t segment_ = 0;
   int per_decade_ = 50;
 
@@ -42,20 +75,10 @@ class Spectrum : public Analysis {
             "Name of a curve, once per series and in their order (default: file name)");
     samples_.add_to(own, true);
     json.add_to(command);
-    own.add("--of", of_, "pe: the potential energy; change: its change per sample",
-            among({"pe", "change"}));
     group.add("--segment", segment_,
               "Samples in a segment; the lowest frequency is 1 / (segment x interval)",
               between(std::int64_t{8}, std::int64_t{1} << 28),
               shown("power of two, at most 1/8 of the series and 65536"));
-    group.add("--overlap", spectrum_.overlap,
-              "Fraction of a segment shared with the next one, 0 to less than 1");
-    group.choice<Window>("--window", spectrum_.window,
-                         {{"hann", Window::hann},
-                          {"hamming", Window::hamming},
-                          {"blackman", Window::blackman},
-                          {"rectangular", Window::rectangular}},
-                         "hann, hamming, blackman, rectangular", "hann");
     group.add("--per-decade", per_decade_,
               "Neighbouring frequencies are averaged to at most so many points per decade; 0: "
               "all frequencies. Errors assume independent neighbours",
@@ -65,58 +88,44 @@ class Spectrum : public Analysis {
 
   std::vector<std::string> inputs() const override { return series_; }
 
-  SpectrumCurve measure(const std::string &path) const {
-    SpectrumSettings settings = spectrum_;
-    settings.segment =
-        segment_ > 0 ? static_cast<std::size_t>(segment_) : default_segment(path, samples_);
+  SpectrumCurve measure(const std::string &path, const std::string &label) const {
+    SpectrumSettings settings;
+    settings.segment = static_cast<std::size_t>(segment_);
     SeriesInput series(path, samples_);
     const std::int64_t stride = series.info().stride;
-    WelchSpectrum spectrum(settings, series.spacing());
-    std::int64_t last_step = 0;
-    double before = 0.0;
-    bool has_before = false;
+    SpectrumOfSeries spectrum(settings, series.spacing());
+    std::int64_t last_step = -1;
     series.read([&](std::int64_t step, double time, double pe) {
       if (time < samples_.from_time) return;
-      if (has_before && step - last_step != stride)
+      if (last_step >= 0 && step - last_step != stride)
         throw FileError(fmt::format("{}: step {} after step {}, expected a sample every {} steps",
                                     path, step, last_step, stride));
-      if (of_ == "pe") {
-        spectrum.add(pe);
-      } else if (has_before) {
-        spectrum.add(pe - before);
-      }
+      spectrum.add(pe);
       last_step = step;
-      before = pe;
-      has_before = true;
     });
-    if (spectrum.segments() == 0)
-      throw std::runtime_error(
-          fmt::format("{}: {} samples in the window of time, expected at least one segment of {} "
-                      "(--segment)",
-                      path, spectrum.samples(), settings.segment));
-    return {{},
-            averaged(spectrum.points(), per_decade_),
-            spectrum.samples(),
-            spectrum.segments(),
-            spectrum.effective_segments()};
+    const WelchSpectrum &found = spectrum.result(path);
+    return {label, averaged(found.points(), per_decade_), found.samples(), found.segments(),
+            found.effective_segments()};
   }
 
   Findings find() override {
     const std::vector<std::string> labels = labels_of(series_, labels_, "series");
     std::vector<SpectrumCurve> curves;
     Table averages("label,samples,segments,averages,variance");
-    Findings found;
+    averages.show({{"series", "label"},
+                   {"samples", "samples"},
+                   {"segments", "segments"},
+                   {"as good as independent ones", "averages"},
+                   {"variance", "variance", 6}});
     for (std::size_t i = 0; i < series_.size(); ++i) {
-      SpectrumCurve curve = measure(series_[i]);
-      curve.label = labels[i];
-      found.say(fmt::format(
-          "{}: {} samples, {} segments (as good as {:.1f} independent ones), variance {:.6g}\n",
-          curve.label, curve.samples, curve.segments, curve.averages, variance(curve)));
-      averages.row(curve.label, curve.samples, curve.segments, curve.averages, variance(curve));
-      curves.push_back(std::move(curve));
+      curves.push_back(measure(series_[i], labels[i]));
+      const SpectrumCurve &curve = curves.back();
+      averages.row(curve.label, curve.samples, curve.segments, curve.averages,
+                   variance(curve.points));
     }
-    found.numbers("series", averages);
-    found.figure("spectra", spectrum_figure(curves, of_ == "pe"));
+    Findings found;
+    found.table("series", std::move(averages));
+    found.figure("spectra", spectrum_figure(curves));
     return found;
   }
 };

@@ -153,7 +153,7 @@ class Summary : public Analysis {
     }
     Findings found;
     if (output_.empty()) {
-      found.say(out.text());
+      found.say(out.csv());
     } else {
       out.write(output_);
       found.say("wrote " + output_ + "\n");

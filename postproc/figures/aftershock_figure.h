@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file aftershock_figure.h
-/// Rates of events after main shocks as text, table and picture (ours).
+/// Rates of events after main shocks as table and picture (ours).
 #ifndef LSM_POSTPROC_AFTERSHOCK_FIGURE_H
 #define LSM_POSTPROC_AFTERSHOCK_FIGURE_H
 
@@ -17,8 +17,7 @@ struct AftershockCurve {
   Aftershocks aftershocks;
 };
 
-std::string aftershocks_text(const std::vector<AftershockCurve> &curves);
-Table aftershocks_csv(const std::vector<AftershockCurve> &curves);
+Table aftershock_table(const std::vector<AftershockCurve> &curves);
 
 /// Rate against time with Poisson errors, the fitted law, and the rates of Poisson catalogues (mean
 /// and two standard deviations). \throws std::runtime_error if no curve has a point

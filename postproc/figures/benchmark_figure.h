@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file benchmark_figure.h
-/// Ruptures beside reference curves: table of the misfits, picture of stations and fronts.
+/// Ruptures beside reference curves: tables of the misfits, picture of stations and fronts.
 #ifndef LSM_POSTPROC_BENCHMARK_FIGURE_H
 #define LSM_POSTPROC_BENCHMARK_FIGURE_H
 
@@ -12,27 +12,20 @@
 
 namespace LSM::postproc {
 
-/// One run, or one reference, at several places.
-struct NamedCurves {
-  std::string name;
-  double spacing = 0.0;  ///< of the places of a run, 0 of a reference
-  std::vector<StationCurve> stations;
-};
-using BenchmarkCurves = std::vector<NamedCurves>;
-
-/// The run at x, linear between its two nearest places. \throws std::invalid_argument beyond its
-/// ends
-StationCurve at_place(const NamedCurves &run, double x);
-bool near_one_of(const std::vector<double> &places, double x);
-
+/// Of all runs and references, a row for each station.
 Table misfit_table();
 void add_misfit(Table &table, const NamedCurves &run, const std::string &reference,
                 const StationMisfit &misfit);
 
-/// Slip and slip rate at some places, and arrival times along the fault.
-/// \param places empty: up to six that all references have
-Figure benchmark_figure(const BenchmarkCurves &runs, const BenchmarkCurves &references,
-                        const std::vector<double> &places, double rate, double until);
+/// The same over all stations of a reference.
+Table misfit_summary_table();
+void add_summary(Table &table, const NamedCurves &run, const std::string &reference,
+                 const MisfitSummary &summary);
+
+/// Slip and slip rate at up to six places that all references have, and arrival times along the
+/// fault. \param rate above which the rupture has arrived
+Figure benchmark_figure(const std::vector<NamedCurves> &runs,
+                        const std::vector<NamedCurves> &references, double rate, double until);
 
 }  // namespace LSM::postproc
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file clustering_figures.h
-/// Whether events come at a steady rate, and what follows short and long times: a row of each
-/// picture for each curve.
+/// Whether events come at a steady rate, and what follows short and long times: a table, and
+/// pictures with a row for each curve.
 #ifndef LSM_POSTPROC_CLUSTERING_FIGURES_H
 #define LSM_POSTPROC_CLUSTERING_FIGURES_H
 
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "intervals.h"
@@ -14,6 +16,10 @@ namespace LSM::postproc {
 
 /// Whether a curve has what these figures show.
 bool has_clustering(const IntervalCurve &curve);
+
+/// \param date text of a time of earthquakes, which is in days since 1970
+Table clustering_table(const std::vector<IntervalCurve> &curves,
+                       const std::function<std::string(double)> &date);
 
 /// Cumulative number of events, with the straight line of a steady rate and the stretches proposed
 /// as steady shaded. Curves without clustering are left out; the first eight are drawn.

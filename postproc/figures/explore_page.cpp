@@ -12,7 +12,7 @@
 
 #include "numbers.h"
 #include "packed_numbers.h"
-#include "report.h"
+#include "table.h"
 
 namespace LSM::postproc {
 

@@ -5,6 +5,7 @@
 #define LSM_POSTPROC_FINDINGS_H
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -16,28 +17,35 @@
 
 namespace LSM::postproc {
 
+/// A text that is no result.
+struct Warning {
+  std::string text;
+};
+
 /// One finding. Names are those in JSON; one with an empty name is left out.
 struct Finding {
   std::string name;
-  std::string ending;    ///< of its files: BASE + ending + .csv, and so on
-  bool warning = false;  ///< a text that is no result
-  std::variant<std::string, Table, Figure, std::shared_ptr<const nlohmann::ordered_json>> what;
+  std::variant<std::string, Warning, Table, Figure, std::shared_ptr<const nlohmann::ordered_json>>
+      what;
+  std::optional<std::string> ending;  ///< of its files, if it has any: BASE + ending + .csv, ...
 };
 
 /// In the order in which they are printed; JSON has the order in which they were named.
 class Findings {
  public:
-  void say(std::string text) { all_.push_back({{}, {}, false, std::move(text)}); }
+  void say(std::string text) { all_.push_back({{}, std::move(text), {}}); }
   void say(const std::vector<std::string> &lines) {
     for (const std::string &line : lines) say(line + "\n");
   }
-  void warn(std::string text) { all_.push_back({{}, {}, true, std::move(text)}); }
+  void warn(std::string text) { all_.push_back({{}, Warning{std::move(text)}, {}}); }
   void table(const std::string &name, Table table, const std::string &ending) {
-    all_.push_back({name, ending, false, std::move(table)});
+    all_.push_back({name, std::move(table), ending});
   }
   void figure(const std::string &name, Figure figure, const std::string &ending = "") {
-    all_.push_back({name, ending, false, std::move(figure)});
+    all_.push_back({name, std::move(figure), ending});
   }
+  /// Printed and in JSON, but in no file of its own.
+  void table(const std::string &name, Table table) { all_.push_back({name, std::move(table), {}}); }
   /// Only for programs.
   void numbers(const std::string &name, const nlohmann::ordered_json &value);
   void numbers(const std::string &name, const Table &table);

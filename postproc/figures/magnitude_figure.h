@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file magnitude_figure.h
-/// Frequencies of magnitudes and b-values as text, table and picture (ours).
+/// Frequencies of magnitudes and b-values as table and picture (ours).
 #ifndef LSM_POSTPROC_MAGNITUDE_FIGURE_H
 #define LSM_POSTPROC_MAGNITUDE_FIGURE_H
 
@@ -23,10 +23,8 @@ struct MagnitudeCurve {
 };
 
 /// \param scale of the magnitudes \param of what they are magnitudes of
-std::string magnitudes_text(const std::vector<MagnitudeCurve> &curves, const MagnitudeScale &scale,
-                            const std::string &of);
-Table magnitudes_csv(const std::vector<MagnitudeCurve> &curves, const MagnitudeScale &scale,
-                     const std::string &of, double width);
+Table magnitude_table(const std::vector<MagnitudeCurve> &curves, const MagnitudeScale &scale,
+                      const std::string &of, double width);
 
 /// Numbers of events in each bin and from each magnitude on, with the fitted laws.
 /// \param width of the bins, > 0 \throws std::runtime_error if no curve has an event

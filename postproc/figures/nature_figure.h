@@ -4,7 +4,6 @@
 #ifndef LSM_POSTPROC_NATURE_FIGURE_H
 #define LSM_POSTPROC_NATURE_FIGURE_H
 
-#include <string>
 #include <vector>
 
 #include "nature.h"
@@ -13,11 +12,9 @@
 
 namespace LSM::postproc {
 
-std::string nature_text(const std::vector<NatureRow> &rows);
-/// The paper's Table 1 with a line for each row, delta free and held at 1; errors as in the rows.
-std::vector<Table1Row> nature_table1(const std::vector<NatureRow> &rows,
-                                     const std::string &plus_minus = " +- ");
-Table nature_csv(const std::vector<NatureRow> &rows);
+Table nature_table(const std::vector<NatureRow> &rows);
+/// Rows for the paper's Table 1, delta free and held at 1; errors as in the rows.
+std::vector<Table1Row> nature_table1(const std::vector<NatureRow> &rows);
 Figure nature_figure(const std::vector<NatureRow> &rows);
 
 }  // namespace LSM::postproc

@@ -23,6 +23,10 @@ std::string with_error(double value, double error, std::string_view plus_minus) 
   return exponent == 0 ? pair : fmt::format("({})e{:+03d}", pair, exponent);
 }
 
+const char *model_name(std::string_view model) {
+  return model == "lsm" ? "fault" : model == "seismicity" ? "earthquakes" : "block-slider";
+}
+
 std::string text(const SmallestSize &smallest) {
   const std::string size = short_number(smallest.size);
   switch (smallest.origin) {
@@ -42,12 +46,10 @@ std::string text(const SmallestSize &smallest) {
 std::vector<std::string> texts(const Threshold &threshold, const std::vector<EventTable> &tables) {
   std::vector<std::string> lines;
   for (const EventTable &table : tables) {
-    const std::string line = fmt::format("smallest size, {}: {}",
-                                         table.earthquakes()         ? "earthquakes"
-                                         : table.info.model == "lsm" ? "fault"
-                                                                     : "block-slider",
-                                         text(threshold.in(table)));
-    if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(line);
+    std::string line = fmt::format("smallest size, {}: {}", model_name(table.info.model),
+                                   text(threshold.in(table)));
+    if (std::find(lines.begin(), lines.end(), line) == lines.end())
+      lines.push_back(std::move(line));
   }
   return lines;
 }

@@ -21,6 +21,9 @@ std::string short_number(double value, int digits = 4);
 /// \param plus_minus text between the two
 std::string with_error(double value, double error, std::string_view plus_minus = " +- ");
 
+/// "fault", "block-slider" or "earthquakes", from that in a header.
+const char *model_name(std::string_view model);
+
 /// "0.01, completeness in the header of x.csv"
 std::string text(const SmallestSize &smallest);
 /// One line for each model in tables.

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "plot.h"
 
-#include <fcntl.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cerrno>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -19,10 +18,8 @@
 #include <system_error>
 
 #include <fmt/core.h>
-#include <nlohmann/json.hpp>
 
 #include "new_file.h"
-#include "numbers.h"
 
 namespace LSM::postproc {
 
@@ -73,44 +70,28 @@ std::string gnuplot_message(const std::string &text) {
   return warning + last;
 }
 
-/// Runs gnuplot in folder. \throws PlotError with gnuplot's own message
-void run_gnuplot(const std::string &folder, std::vector<std::string> arguments) {
-  // -d: a user's own start-up file must not change the pictures.
-  arguments.insert(arguments.begin(), {"gnuplot", "-d"});
-  std::vector<char *> argv;
-  for (std::string &argument : arguments) argv.push_back(argument.data());
-  argv.push_back(nullptr);
+/// A word of a shell command.
+std::string shell_word(std::string_view text) {
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? "'\\''" : std::string(1, c);
+  return out + "'";
+}
 
-  int pipe_ends[2];
-  if (pipe2(pipe_ends, O_CLOEXEC) != 0)
-    throw PlotError("cannot start gnuplot: " + std::generic_category().message(errno));
-  const pid_t child = fork();
-  if (child == 0) {
-    const int null = open("/dev/null", O_RDWR);
-    dup2(null, STDIN_FILENO);
-    dup2(null, STDOUT_FILENO);
-    dup2(pipe_ends[1], STDERR_FILENO);
-    if (chdir(folder.c_str()) != 0) _exit(126);
-    execvp("gnuplot", argv.data());
-    _exit(errno == ENOENT ? 127 : 126);
-  }
-  const int fork_error = errno;
-  close(pipe_ends[1]);
+/// Runs gnuplot in folder. \throws PlotError with gnuplot's own message
+void run_gnuplot(const std::string &folder, const std::vector<std::string> &arguments) {
+  // -d: a user's own start-up file must not change the pictures.
+  std::string command =
+      "{ cd " + shell_word((fs::path(".") / folder).string()) + " && exec gnuplot -d";
+  for (const std::string &argument : arguments) command += ' ' + shell_word(argument);
+  command += "; } 2>&1 >/dev/null </dev/null";
+  std::FILE *const pipe = popen(command.c_str(), "re");
+  if (!pipe) throw PlotError("cannot start gnuplot: " + std::generic_category().message(errno));
   std::string messages;
-  if (child > 0) {
-    char buffer[4096];
-    ssize_t count = 0;
-    while ((count = read(pipe_ends[0], buffer, sizeof(buffer))) > 0 ||
-           (count < 0 && errno == EINTR))
-      if (count > 0) messages.append(buffer, static_cast<std::size_t>(count));
-  }
-  close(pipe_ends[0]);
-  if (child < 0)
-    throw PlotError("cannot start gnuplot: " + std::generic_category().message(fork_error));
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
+  std::array<char, 4096> buffer;
+  while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), pipe))
+    messages.append(buffer.data(), count);
+  const int status = pclose(pipe);
+  if (status == 0) return;
   if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
     throw PlotError("gnuplot not found (Debian package gnuplot-nox)");
   throw PlotError("gnuplot failed: " + gnuplot_message(messages));
@@ -208,86 +189,6 @@ void PictureOptions::check(const std::vector<std::string> &inputs,
   check_outputs(outputs, inputs);
 }
 
-Table::Table(std::string_view columns) {
-  std::vector<std::string_view> names;
-  text_io::split(columns, names);
-  columns_.assign(names.begin(), names.end());
-}
-
-void Table::comment(std::string_view text) {
-  comments_ += "# ";
-  for (const char c : text) comments_ += c == '\n' || c == '\r' ? ' ' : c;
-  comments_ += '\n';
-}
-
-void Table::end_row() {
-  const std::size_t fields = cells_.size() - static_cast<std::size_t>(rows_) * columns_.size();
-  if (fields != columns_.size())
-    throw std::logic_error(
-        fmt::format("table: a row has {} fields, expected {}", fields, columns_.size()));
-  ++rows_;
-}
-
-namespace {
-
-std::string csv_field(double value) {
-  return std::isnan(value) ? std::string() : text_io::number(value);
-}
-
-std::string csv_field(std::int64_t value) { return text_io::number(value); }
-
-std::string csv_field(const std::string &text) {
-  if (text.find_first_of(",\"#\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c == '\n' || c == '\r' ? ' ' : c;
-  }
-  return quoted + '"';
-}
-
-}  // namespace
-
-std::string Table::text() const {
-  std::string out = comments_;
-  for (std::size_t k = 0; k < columns_.size(); ++k) out += (k > 0 ? "," : "") + columns_[k];
-  for (std::size_t k = 0; k < cells_.size(); ++k) {
-    out += k % columns_.size() == 0 ? '\n' : ',';
-    out += std::visit([](const auto &value) { return csv_field(value); }, cells_[k]);
-  }
-  return out + '\n';
-}
-
-nlohmann::ordered_json Table::json() const {
-  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-  for (std::size_t k = 0; k < cells_.size(); ++k) {
-    if (k % columns_.size() == 0) rows.push_back(nlohmann::ordered_json::object());
-    std::visit([&](const auto &value) { rows.back()[columns_[k % columns_.size()]] = value; },
-               cells_[k]);
-  }
-  return rows;
-}
-
-std::vector<std::vector<std::string>> Table::texts() const {
-  struct Shown {
-    std::string operator()(double value) const { return short_number(value); }
-    std::string operator()(std::int64_t value) const { return text_io::number(value); }
-    std::string operator()(const std::string &text) const { return text; }
-  };
-  std::vector<std::vector<std::string>> rows;
-  for (std::size_t k = 0; k < cells_.size(); ++k) {
-    if (k % columns_.size() == 0) rows.emplace_back();
-    rows.back().push_back(std::visit(Shown(), cells_[k]));
-  }
-  return rows;
-}
-
-void Table::write(const std::string &path) const { write_file(path, text()); }
-
-void add_bin(Table &table, const LogBin &bin) {
-  table.add(bin.lo).add(bin.hi).add(bin.centre).add(bin.count).add(bin.density).add(bin.error);
-}
-
 std::string quote(std::string_view text) { return escape(text, true); }
 
 std::string quote_plain(std::string_view text) { return escape(text, false); }
@@ -325,22 +226,59 @@ std::string axis(std::string_view name, std::string_view label, bool logarithmic
   return out;
 }
 
-std::string error_bars(std::string_view x, std::string_view y, std::string_view error,
-                       std::int64_t line_type) {
+std::string panel(double left, double right, double bottom, double top) {
   return fmt::format(
-      "table using ({0}):(low({1},{2})):(0):({1}+{2}-low({1},{2})) with vectors heads "
-      "size screen 0.003,90 lt {3} dt 1 lw 0.8 notitle",
-      x, y, error, line_type);
+      "unset logscale\nset format '%g'\nset xtics autofreq\nset ytics autofreq\n"
+      "unset mxtics\nunset mytics\nset autoscale\nset title ''\n"
+      "set lmargin at screen {}\nset rmargin at screen {}\n"
+      "set bmargin at screen {}\nset tmargin at screen {}\n",
+      left, right, bottom, top);
 }
 
-PictureSize size_with_key(const std::vector<std::string> &titles, int width) {
-  // Two columns where both fit: gnuplot assumes about 9.2 units per character, a sample and
-  // its gaps 60.
+Curves::Curves(std::string_view x, std::string_view condition)
+    : functions_(fmt::format("row(k) = $1 == k{}{} ? {} : NaN\n", condition.empty() ? "" : " && ",
+                             condition, x)) {}
+
+void Curves::add(Layer layer, const std::string &element, const std::string &title,
+                 std::string (*quoted)(std::string_view)) {
+  if (title.empty()) return add(layer, element);
+  add_whole(layer, element + " title " + quoted(title));
+  titles_.push_back(title);
+}
+
+void Curves::add_data(std::int64_t curve, int y, int error, const std::string &title) {
+  // gnuplot's own yerrorbars surround each point with white in an SVG. Logarithmic axes have no
+  // place for zero: the lower end of a bar is one decade down where the error reaches the value.
+  constexpr std::string_view low = "low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y\n";
+  if (functions_.find(low) == std::string::npos) functions_ += low;
+  add(data, fmt::format("table using (row({0})):(low(${1},${2})):(0):(${1}+${2}-low(${1},${2})) "
+                        "with vectors heads size screen 0.003,90 lt {0} dt 1 lw 0.8",
+                        curve, y, error));
+  add(data, fmt::format("table using (row({0})):{1} with points lt {0}", curve, y), title);
+}
+
+void Curves::add_law(double lo, double hi, const std::string &formula, const std::string &style,
+                     const std::string &title, std::string (*quoted)(std::string_view)) {
+  add(laws,
+      fmt::format("[{}:{}] '+' using 1:({}) with lines {}", text_io::number(lo),
+                  text_io::number(hi), formula, style),
+      title, quoted);
+}
+
+Figure Curves::figure(Table table, const std::string &axes, int width) const {
+  std::string elements;
+  for (const auto &layer : layers_)
+    for (const std::string &element : layer)
+      elements += (elements.empty() ? "plot " : ", \\\n     ") + element;
+  // Two columns where both fit: gnuplot assumes about 9.2 units per character, a sample and its
+  // gaps 60.
   std::size_t longest = 0;
-  for (const std::string &title : titles) longest = std::max(longest, title.size());
+  for (const std::string &title : titles_) longest = std::max(longest, title.size());
   const std::size_t columns = 2 * (9.2 * static_cast<double>(longest) + 60.0) < width ? 2 : 1;
-  const std::size_t rows = (titles.size() + columns - 1) / columns;
-  return {width, static_cast<int>(0.56 * width) + 23 * static_cast<int>(rows)};
+  const auto rows = static_cast<int>((titles_.size() + columns - 1) / columns);
+  return {std::move(table),
+          axes + functions_ + "set samples 400\n" + elements + "\n",
+          {width, static_cast<int>(0.56 * width) + 23 * rows}};
 }
 
 void draw(const PictureOptions &options, std::string_view body, PictureSize size) {

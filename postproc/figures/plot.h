@@ -6,17 +6,15 @@
 #ifndef LSM_POSTPROC_PLOT_H
 #define LSM_POSTPROC_PLOT_H
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
-#include <nlohmann/json_fwd.hpp>
-
-#include "log_histogram.h"
 #include "lsm_output_claim.h"
 #include "lsm_text_io.h"
+#include "table.h"
 
 namespace LSM::postproc {
 
@@ -42,55 +40,6 @@ struct PictureOptions {
              const std::vector<Output> &others = {}) const;
 };
 
-/// Numbers and texts in named columns. As a comma-separated table: comment lines, one line of
-/// column names, rows; text is quoted where it has to be; numbers have all their digits; NaN is an
-/// empty field. As JSON: an array of objects; NaN is null.
-class Table {
- public:
-  explicit Table(std::vector<std::string> columns) : columns_(std::move(columns)) {}
-  explicit Table(std::string_view columns);  ///< names separated by commas
-
-  void comment(std::string_view text);  ///< a "# text" line above the column names
-  Table &add(double value) { return put(value); }
-  Table &add(std::int64_t value) { return put(value); }
-  Table &add(std::string_view text) { return put(std::string(text)); }
-  template <class Integer, std::enable_if_t<std::is_integral_v<Integer>, int> = 0>
-  Table &add(Integer value) {
-    return add(static_cast<std::int64_t>(value));
-  }
-  /// Ends the row. \throws std::logic_error unless it has one field per column.
-  void end_row();
-  /// The rest of a row, or a complete one.
-  template <class... Cells>
-  void row(const Cells &...cells) {
-    (add(cells), ...);
-    end_row();
-  }
-  std::int64_t rows() const { return rows_; }
-  const std::vector<std::string> &columns() const { return columns_; }
-  /// Each row as text: numbers are short, NaN is a dash.
-  std::vector<std::vector<std::string>> texts() const;
-  std::string text() const;             ///< the whole file
-  nlohmann::ordered_json json() const;  ///< without the comments
-  /// See write_file(). \throws FileError
-  void write(const std::string &path) const;
-
- private:
-  template <class Cell>
-  Table &put(Cell cell) {
-    cells_.emplace_back(std::move(cell));
-    return *this;
-  }
-
-  std::string comments_;
-  std::vector<std::string> columns_;
-  std::vector<std::variant<double, std::int64_t, std::string>> cells_;  ///< row by row
-  std::int64_t rows_ = 0;
-};
-
-/// Adds the fields bin_lo, bin_hi, centre, count, density and error of a bin.
-void add_bin(Table &table, const LogBin &bin);
-
 /// gnuplot string literal that prints text as it is (enhanced mode's markup escaped).
 std::string quote(std::string_view text);
 /// gnuplot string literal for a file name or a value that enhanced mode never sees.
@@ -107,9 +56,6 @@ std::string axis(std::string_view name, std::string_view label, bool logarithmic
 struct PictureSize {
   int width = 900, height = 640;
 };
-
-/// A size that leaves the same room for the axes whatever the number of titles in the key.
-PictureSize size_with_key(const std::vector<std::string> &titles, int width = 900);
 
 /// Writes BASE.gp and, unless options.no_picture, runs gnuplot on it in the folder of BASE and
 /// checks that BASE.png and BASE.svg came out.
@@ -136,14 +82,36 @@ void make(const Figure &figure, const PictureOptions &options);
 /// The picture as SVG text, without leaving a file. \throws FileError
 std::string svg_text(const Figure &figure);
 
-/// gnuplot function that error_bars() needs. Logarithmic axes have no place for zero: the lower end
-/// of a bar is one decade down where the error reaches the value.
-constexpr std::string_view error_bar_function = "low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y\n";
+/// Begins a panel of a multiplot with linear axes; its place as shares of the picture.
+std::string panel(double left, double right, double bottom, double top);
 
-/// Element of a plot command: error bars from the table, x, y and error being gnuplot expressions.
-/// (gnuplot's own yerrorbars surround each point with white in an SVG.)
-std::string error_bars(std::string_view x, std::string_view y, std::string_view error,
-                       std::int64_t line_type);
+/// A plot command with its key. Later layers are drawn above earlier ones.
+class Curves {
+ public:
+  enum Layer { areas, data, laws, legend };
+
+  /// A function row(k) that gives column x in the rows of curve k, where `condition` holds.
+  explicit Curves(std::string_view x, std::string_view condition = "");
+
+  void add(Layer layer, const std::string &element) { add_whole(layer, element + " notitle"); }
+  void add(Layer layer, const std::string &element, const std::string &title,
+           std::string (*quoted)(std::string_view) = quote);
+  /// Points of a curve of the table with error bars, y and error being the numbers of columns.
+  void add_data(std::int64_t curve, int y, int error, const std::string &title = "");
+  /// The law y = formula, gnuplot's in $1, from lo to hi.
+  void add_law(double lo, double hi, const std::string &formula, const std::string &style,
+               const std::string &title = "", std::string (*quoted)(std::string_view) = quote);
+  /// The picture, whose size leaves the same room for the axes whatever the key holds.
+  /// \param axes gnuplot lines before the plot command
+  Figure figure(Table table, const std::string &axes, int width = 900) const;
+
+ private:
+  void add_whole(Layer layer, const std::string &element) { layers_[layer].push_back(element); }
+
+  std::string functions_;
+  std::array<std::vector<std::string>, 4> layers_;
+  std::vector<std::string> titles_;
+};
 
 /// Files as `wrote BASE.csv, BASE.gp, ...` on standard output.
 void print_written(const PictureOptions &options);

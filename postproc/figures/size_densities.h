@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file size_densities.h
-/// Densities of event sizes over logarithmic bins, one curve per catalogue (paper: Figs. 7, 12,
-/// 13).
+/// Picture of the densities of event sizes (paper: Figs. 7, 12, 13).
 #ifndef LSM_POSTPROC_SIZE_DENSITIES_H
 #define LSM_POSTPROC_SIZE_DENSITIES_H
 
@@ -9,8 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "event_table.h"
-#include "log_histogram.h"
+#include "densities.h"
 #include "plot.h"
 
 namespace LSM::postproc {
@@ -27,21 +25,9 @@ struct PowerLine {
   int dash = 2;  ///< gnuplot dash type
 };
 
-struct SizeDensitySettings {
-  Threshold threshold;                                    ///< smallest size (model energy)
-  double upto = std::numeric_limits<double>::infinity();  ///< largest size
-  double factor = LogHistogram::default_factor;           ///< ratio of the edges of a bin
-  bool counts = false;                                    ///< events per bin instead of densities
-  std::vector<PowerLine> lines;
-  int width = 900;  ///< of the picture
-};
-
-/// Table and picture of the densities with Poisson errors. Catalogues without an event in the range
-/// have no curve; they are named in `empty`.
-/// \throws std::invalid_argument for impossible settings; std::runtime_error if no catalogue has
-/// an event in the range
-Figure size_density_figure(const std::vector<EventTable> &tables,
-                           const SizeDensitySettings &settings, std::vector<std::string> &empty);
+/// Table and picture; catalogues without an event in the range have no curve.
+Figure size_density_figure(const std::vector<SizeDensity> &densities,
+                           const std::vector<PowerLine> &lines, int width = 900);
 
 }  // namespace LSM::postproc
 

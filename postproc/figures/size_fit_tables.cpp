@@ -7,9 +7,7 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
-#include <gsl/gsl_cdf.h>
 
-#include "log_histogram.h"
 #include "lsm_text_io.h"
 #include "numbers.h"
 
@@ -17,137 +15,111 @@ namespace LSM::postproc {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using nlohmann::json;
 
 /// JSON has neither NaN nor infinity: null stands for them.
-nlohmann::json number_or_null(double value) {
-  return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
-}
+json number_or_null(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
 
-}  // namespace
-
+/// "0.001 to 1", with what search_range() found marked.
 std::string range_text(const PowerLawFit &fit) {
   return fmt::format("{} to {}{}", short_number(fit.lo, 3),
                      std::isinf(fit.hi) ? "infinity" : short_number(fit.hi, 3),
                      fit.searched ? " (searched)" : "");
 }
 
+/// Which law a comparison favours; p below 0.05 decides (ours).
 const char *favoured(const Comparison &comparison) {
+  if (comparison.degenerate || comparison.rival.empty()) return "";
   if (!(comparison.p < 0.05)) return "undecided";
   return comparison.log_likelihood_ratio > 0.0 ? "power law favoured" : "rival favoured";
 }
 
-std::string verdict(const Comparison &comparison) {
-  if (comparison.degenerate) return "degenerate: " + comparison.why;
-  return fmt::format("{} (ln L ratio {}, p = {})", favoured(comparison),
-                     short_number(comparison.log_likelihood_ratio, 3),
-                     short_number(comparison.p, 2));
-}
+}  // namespace
 
-std::string size_fits_text(const std::vector<SizeFit> &fits) {
-  std::string out;
-  for (const SizeFit &fit : fits) {
-    const PowerLawFit &law = fit.fit;
-    out += fmt::format("{}: sizes {}, {} events\n", fit.label, range_text(law), law.n);
-    if (law.lo < fit.completeness)
-      out += fmt::format(
-          "  note: below its completeness of {} the catalogue may depend on the time step\n",
-          short_number(fit.completeness));
-    if (law.degenerate) {
-      out += "  degenerate: " + law.why + "\n";
-      continue;
-    }
-    out += fmt::format("  exponent {} (truncated maximum likelihood), KS distance {}",
-                       with_error(law.alpha, law.standard_error), short_number(law.ks, 3));
-    if (!std::isnan(fit.p))
-      out += fmt::format(", p = {}{}", with_error(fit.p, fit.p_error),
-                         fit.p < 0.1 ? " (below 0.1: not a power law on this range)" : "");
-    out += '\n';
-    for (const Comparison &comparison : fit.comparisons) {
-      out += fmt::format("  against {}: {}", comparison.rival, verdict(comparison));
-      std::string separator = "; ";
-      for (const auto &[name, value] : comparison.parameters) {
-        out += fmt::format("{}{} = {}", separator, name, short_number(value));
-        separator = ", ";
-      }
-      out += '\n';
-    }
-  }
-  return out;
-}
-
-Table size_fits_csv(const std::vector<SizeFit> &fits) {
+Table size_fit_table(const std::vector<SizeFit> &fits) {
   Table table(
       "model,lo,hi,searched,n,exponent,standard_error,ks,p,p_error,rival,"
-      "ln_likelihood_ratio,normalised,rival_p,label,degenerate");
+      "ln_likelihood_ratio,normalised,rival_p,label,degenerate,!sizes,!favoured");
+  table.show({{"catalogue", "label"},
+              {"sizes", "sizes"},
+              {"events", "n"},
+              {"exponent", "exponent", 4, "standard_error"},
+              {"KS distance", "ks", 3},
+              {"p", "p"},
+              {"against", "rival"},
+              {"", "favoured"},
+              {"ln L ratio", "ln_likelihood_ratio", 3},
+              {"p of it", "rival_p", 2},
+              {"degenerate", "degenerate"}});
   table.comment("density C s^-exponent on [lo, hi], sizes in model energy units");
   table.comment("one line per rival; ln_likelihood_ratio > 0 favours the power law");
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   for (const SizeFit &fit : fits) {
     const PowerLawFit &law = fit.fit;
-    const auto row = [&](const std::string &rival, double ratio, double normalised, double p,
-                         const std::string &why) {
+    std::vector<Comparison> comparisons = fit.comparisons;
+    if (comparisons.empty()) {
+      comparisons.emplace_back();
+      comparisons.back().degenerate = true;
+      comparisons.back().why = law.why;
+    }
+    for (const Comparison &c : comparisons) {
+      const double known = c.degenerate ? nan : 1.0;
       table.row(fit.model, law.lo, law.hi, law.searched ? "yes" : "no", law.n, law.alpha,
-                law.standard_error, law.ks, fit.p, fit.p_error, rival, ratio, normalised, p,
-                fit.label, why);
-    };
-    if (fit.comparisons.empty()) row("", nan, nan, nan, law.why);
-    for (const Comparison &c : fit.comparisons)
-      if (c.degenerate)
-        row(c.rival, nan, nan, nan, c.why);
-      else
-        row(c.rival, c.log_likelihood_ratio, c.normalised, c.p, c.why);
+                law.standard_error, law.ks, fit.p, fit.p_error, c.rival,
+                known * c.log_likelihood_ratio, known * c.normalised, known * c.p, fit.label, c.why,
+                range_text(law), favoured(c));
+    }
   }
   return table;
 }
 
-nlohmann::json to_json(const SizeFit &fit) {
-  const PowerLawFit &law = fit.fit;
-  nlohmann::json json = {{"label", fit.label},           {"model", fit.model},       {"lo", law.lo},
-                         {"hi", number_or_null(law.hi)}, {"searched", law.searched}, {"n", law.n},
-                         {"degenerate", law.degenerate}};
-  if (law.degenerate) {
-    json["why"] = law.why;
-    return json;
-  }
-  json.update({{"exponent", law.alpha},
-               {"standard_error", law.standard_error},
-               {"ks", law.ks},
-               {"log_likelihood", law.log_likelihood},
-               {"comparisons", nlohmann::json::array()}});
-  if (!std::isnan(fit.p)) json.update({{"p", fit.p}, {"p_error", fit.p_error}});
-  for (const Comparison &c : fit.comparisons) {
-    nlohmann::json rival = {{"rival", c.rival}, {"degenerate", c.degenerate}};
-    if (c.degenerate) {
-      rival["why"] = c.why;
-    } else {
-      for (const auto &[name, value] : c.parameters)
-        rival["parameters"][name] = number_or_null(value);
-      rival.update({{"log_likelihood_ratio", number_or_null(c.log_likelihood_ratio)},
-                    {"normalised", number_or_null(c.normalised)},
-                    {"p", number_or_null(c.p)}});
-    }
-    json["comparisons"].push_back(rival);
-  }
-  return json;
+std::vector<std::string> completeness_notes(const std::vector<SizeFit> &fits) {
+  std::vector<std::string> notes;
+  for (const SizeFit &fit : fits)
+    if (fit.fit.lo < fit.completeness)
+      notes.push_back(fmt::format(
+          "{}: sizes {}: below its completeness of {} the catalogue may depend on the time step",
+          fit.label, range_text(fit.fit), short_number(fit.completeness)));
+  return notes;
 }
 
-PowerLine fitted_line(const SizeFit &fit, const EventTable &table,
-                      const SizeDensitySettings &settings) {
+nlohmann::json to_json(const Comparison &c) {
+  if (c.degenerate) return {{"rival", c.rival}, {"degenerate", true}, {"why", c.why}};
+  json out = {{"rival", c.rival},
+              {"degenerate", false},
+              {"log_likelihood_ratio", number_or_null(c.log_likelihood_ratio)},
+              {"normalised", number_or_null(c.normalised)},
+              {"p", number_or_null(c.p)}};
+  for (const auto &[name, value] : c.parameters) out["parameters"][name] = number_or_null(value);
+  return out;
+}
+
+nlohmann::json to_json(const SizeFit &fit) {
   const PowerLawFit &law = fit.fit;
-  const std::vector<double> sizes = column(table.events, &Event::size);
-  const LogHistogram histogram(sizes, settings.factor);
-  std::int64_t drawn = 0;
-  for (const LogBin &bin : histogram.bins(settings.threshold.of(table), settings.upto))
-    drawn += bin.count;
+  json out = {{"label", fit.label},           {"model", fit.model}, {"lo", law.lo},
+              {"hi", number_or_null(law.hi)}, {"n", law.n},         {"searched", law.searched},
+              {"degenerate", law.degenerate}};
+  if (law.degenerate) {
+    out["why"] = law.why;
+    return out;
+  }
+  out.update({{"exponent", law.alpha},
+              {"standard_error", law.standard_error},
+              {"ks", law.ks},
+              {"log_likelihood", law.log_likelihood},
+              {"comparisons", json::array()}});
+  if (!std::isnan(fit.p)) out.update({{"p", fit.p}, {"p_error", fit.p_error}});
+  for (const Comparison &c : fit.comparisons) out["comparisons"].push_back(to_json(c));
+  return out;
+}
+
+PowerLine fitted_line(const SizeFit &fit, const SizeDensity &density) {
+  const PowerLawFit &law = fit.fit;
   PowerLine line;
   line.slope = -law.alpha;
   line.lo = law.lo;
-  line.hi = std::isinf(law.hi) ? *std::max_element(sizes.begin(), sizes.end()) : law.hi;
-  // Integral of s^-alpha over the range; exp(-infinity) serves a range without an upper end.
-  const double power = 1.0 - law.alpha, logs = std::log(law.hi / law.lo);
-  const double integral =
-      std::pow(law.lo, power) * (power == 0.0 ? logs : std::expm1(power * logs) / power);
-  line.amplitude = static_cast<double>(law.n) / static_cast<double>(drawn) / integral;
+  line.hi = std::isinf(law.hi) ? density.largest : law.hi;
+  line.amplitude = amplitude_of(law, density);
   line.catalogue = fit.catalogue;
   line.dash = 1;
   line.title =
@@ -161,169 +133,203 @@ std::string name_of(const Scaling &scaling) {
   return scaling.kind == "pe" ? name : name + ", " + scaling.kind;
 }
 
-/// What the bends that are not worse than the best by more than 4 in chi2 give.
-std::string range_of_bends(const ScalingFit &fit) {
-  double best = HUGE_VAL;
-  for (const Saturation &end : fit.bends)
-    if (!end.degenerate) best = std::min(best, end.chi2);
-  double sharpest = 0.0, roundest = HUGE_VAL, shortest = HUGE_VAL, longest = 0.0;
-  double least = HUGE_VAL, most = -HUGE_VAL;
-  for (const Saturation &end : fit.bends) {
-    if (end.degenerate || !(end.chi2 <= best + 4.0)) continue;
-    roundest = std::min(roundest, end.m);
-    sharpest = std::max(sharpest, end.m);
-    shortest = std::min(shortest, end.L_c);
-    longest = std::max(longest, end.L_c);
-    least = std::min(least, end.D);
-    most = std::max(most, end.D);
-  }
-  if (!(sharpest > roundest)) return {};
+namespace {
+
+std::string text_of(const BendRange &bends) {
+  if (!(bends.m.hi > bends.m.lo)) return {};
   return fmt::format(
       "; bends from {} to {} instead of {} fit as well, with L_c = {} to {}, D = {} to {}",
-      roundest, sharpest, Saturation::sharpness, short_number(shortest, 3),
-      short_number(longest, 3), short_number(least, 2), short_number(most, 2));
+      bends.m.lo, bends.m.hi, Saturation::sharpness, short_number(bends.L_c.lo, 3),
+      short_number(bends.L_c.hi, 3), short_number(bends.D.lo, 2), short_number(bends.D.hi, 2));
 }
+
+std::string power_law_text(const ScalingFit &fit) {
+  return fmt::format(
+      "s* ~ L^D with D = {}, at 95 % from {} to {}, chi2 {} on {} degrees of freedom; AICc {} for "
+      "this power law, {} for no dependence on L",
+      with_error(fit.D, fit.se_D), short_number(fit.D - 1.96 * fit.se_D, 2),
+      short_number(fit.D + 1.96 * fit.se_D, 2), short_number(fit.chi2), fit.points - 2,
+      short_number(fit.aicc), short_number(fit.aicc_constant));
+}
+
+std::string saturation_text(const ScalingFit &fit) {
+  const Saturation &end = fit.saturation;
+  if (end.degenerate) return "degenerate: " + end.why;
+  return fmt::format(
+      "AICc {} with L_c = {}, s_inf = {}, D = {}, chi2 {} on {} degrees of freedom{}",
+      short_number(end.aicc), with_error(end.L_c, end.se_L_c), with_error(end.s_inf, end.se_s_inf),
+      with_error(end.D, end.se_D), short_number(end.chi2), fit.points - 3,
+      text_of(bends_as_good(fit)));
+}
+
+std::string statement(const ScalingFit &fit) {
+  switch (fit.preferred) {
+    case SizeDependence::none:
+      return "shows no significant dependence on the length";
+    case SizeDependence::power_law:
+      return std::string(fit.D > 0.0
+                             ? "grows with the length"
+                             : "shrinks with the length, which no finite-size effect explains") +
+             (fits_poorly(fit) ? ", but not as a power law" : "");
+    case SizeDependence::saturates:
+      return std::string("grows with the length up to L_c only") +
+             (fits_poorly(fit) ? ", but not along the curve fitted" : "");
+    case SizeDependence::undecided:
+      break;
+  }
+  return "may or may not depend on the length";
+}
+
+}  // namespace
 
 std::string verdict(const Scaling &scaling) {
   const ScalingFit &fit = scaling.fit;
   if (fit.degenerate) return "degenerate: " + fit.why;
-  const std::string numbers = fmt::format(
-      "s* ~ L^D with D = {}, at 95 % from {} to {}, chi2 {} on {} degrees of freedom; AICc {} for "
-      "this power law, {} for no "
-      "dependence on L",
-      with_error(fit.D, fit.se_D), short_number(fit.D - 1.96 * fit.se_D, 2),
-      short_number(fit.D + 1.96 * fit.se_D, 2), short_number(fit.chi2), fit.points - 2,
-      short_number(fit.aicc), short_number(fit.aicc_constant));
-  const Saturation &end = fit.saturation;
-  const std::string saturation =
-      end.degenerate
-          ? "degenerate: " + end.why
-          : fmt::format(
-                "AICc {} with L_c = {}, s_inf = {}, D = {}, chi2 {} on {} degrees of freedom{}",
-                short_number(end.aicc), with_error(end.L_c, end.se_L_c),
-                with_error(end.s_inf, end.se_s_inf), with_error(end.D, end.se_D),
-                short_number(end.chi2), fit.points - 3, range_of_bends(fit));
-  const char *statement = "may or may not depend on the length";
-  if (fit.preferred == SizeDependence::none)
-    statement = "shows no significant dependence on the length";
-  else if (fit.preferred == SizeDependence::power_law)
-    statement = fit.D > 0.0 ? "grows with the length"
-                            : "shrinks with the length, which no finite-size effect explains";
-  else if (fit.preferred == SizeDependence::saturates)
-    statement = "grows with the length up to L_c only";
-  const char *doubt = "";
-  if (fit.preferred == SizeDependence::power_law &&
-      gsl_cdf_chisq_Q(fit.chi2, fit.points - 2) < 0.01)
-    doubt = ", but not as a power law";
-  else if (fit.preferred == SizeDependence::saturates &&
-           gsl_cdf_chisq_Q(end.chi2, fit.points - 3) < 0.01)
-    doubt = ", but not along the curve fitted";
   return fmt::format(
-      "Over {} catalogues the characteristic size of the roll-off {}{} ({}; for growth that "
-      "ends, s* = s_inf [1 + (L_c/L)^({}D)]^(-1/{}): {}).",
-      fit.points, statement, doubt, numbers, Saturation::sharpness, Saturation::sharpness,
-      saturation);
+      "Over {0} catalogues the characteristic size of the roll-off {1} ({2}; for growth that ends, "
+      "s* = s_inf [1 + (L_c/L)^({3}D)]^(-1/{3}): {4}).",
+      fit.points, statement(fit), power_law_text(fit), Saturation::sharpness, saturation_text(fit));
 }
 
 std::string scaling_text(const Scaling &scaling) {
-  std::string out = fmt::format(
-      "finite-size scaling, {}: characteristic size s* = <s^2>/<s>, sizes >= {} (bootstrap "
-      "errors, {})\n",
+  return fmt::format(
+      "finite-size scaling, {}: characteristic size s* = <s^2>/<s>, sizes >= {} (bootstrap errors, "
+      "{})\n  {}\n",
       name_of(scaling), text(scaling.threshold),
-      scaling.by_event() ? "single events as if independent" : "blocks of time");
-  for (std::size_t i = 0; i < scaling.points.size(); ++i) {
-    const SizePoint &point = scaling.points[i];
-    out += fmt::format(
-        "  {:<32} length {:>6}  n = {:<7} s* = {}{}\n", scaling.labels[i],
-        short_number(point.length, 6), point.n,
-        point.degenerate ? "degenerate: " + point.why : with_error(point.s_star, point.error),
-        point.blocks > 0 ? fmt::format(", {} blocks of {}, error {} of that of independent events",
-                                       point.blocks, short_number(point.block, 3),
-                                       short_number(point.error / point.error_independent, 2))
-                         : "");
-  }
-  return out + "  " + verdict(scaling) + "\n";
+      scaling.by_event() ? "single events as if independent" : "blocks of time", verdict(scaling));
 }
 
-nlohmann::json to_json(const Scaling &scaling) {
-  nlohmann::json json = {{"model", scaling.model},
-                         {"kl", scaling.stiffness},
-                         {"events", scaling.kind},
-                         {"threshold", scaling.threshold.size},
-                         {"threshold_from", text(scaling.threshold)},
-                         {"points", nlohmann::json::array()},
-                         {"degenerate", scaling.fit.degenerate},
-                         {"verdict", verdict(scaling)}};
-  for (std::size_t i = 0; i < scaling.points.size(); ++i) {
-    const SizePoint &point = scaling.points[i];
-    nlohmann::json entry = {{"label", scaling.labels[i]},
-                            {"length", point.length},
-                            {"n", point.n},
-                            {"degenerate", point.degenerate}};
-    if (point.degenerate)
-      entry["why"] = point.why;
-    else
-      entry.update({{"s_star", point.s_star},
-                    {"error", point.error},
-                    {"error_independent", point.error_independent},
-                    {"block", point.block},
-                    {"blocks", point.blocks}});
-    json["points"].push_back(entry);
-  }
-  const ScalingFit &fit = scaling.fit;
-  if (fit.degenerate) return json;
-  json.update({{"A", fit.A},
-               {"A_error", fit.se_A},
-               {"D", fit.D},
-               {"D_error", fit.se_D},
-               {"chi2", fit.chi2},
-               {"constant", fit.constant},
-               {"constant_error", fit.se_constant},
-               {"chi2_constant", fit.chi2_constant},
-               {"aicc", fit.aicc},
-               {"aicc_constant", fit.aicc_constant},
-               {"preferred", to_string(fit.preferred)}});
-  const Saturation &end = fit.saturation;
-  if (end.degenerate)
-    json["saturation_degenerate"] = end.why;
-  else
-    json.update({{"s_inf", end.s_inf},
-                 {"s_inf_error", end.se_s_inf},
-                 {"L_c", end.L_c},
-                 {"L_c_error", end.se_L_c},
-                 {"D_saturation", end.D},
-                 {"D_saturation_error", end.se_D},
-                 {"chi2_saturation", end.chi2},
-                 {"aicc_saturation", end.aicc}});
-  for (const Saturation &one : fit.bends)
-    if (!one.degenerate)
-      json["bends"].push_back({{"m", one.m},
-                               {"L_c", one.L_c},
-                               {"L_c_error", one.se_L_c},
-                               {"s_inf", one.s_inf},
-                               {"D", one.D},
-                               {"D_error", one.se_D},
-                               {"chi2", one.chi2}});
-  return json;
-}
-
-Figure scaling_figure(const std::vector<Scaling> &scalings, int width) {
-  Figure figure{
-      Table("curve,model,length,s_star,error,events,error_independent,block,blocks,label"), {}, {}};
-  figure.table.comment("characteristic size <s^2>/<s> in model energy units; errors: bootstrap");
-  figure.table.comment(
+Table scaling_table(const std::vector<Scaling> &scalings) {
+  Table table(
+      "curve,model,length,s_star,error,events,error_independent,block,blocks,label,!degenerate");
+  table.show({{"catalogue", "label"},
+              {"length L", "length", 6},
+              {"events", "events"},
+              {"s* (model energy)", "s_star", 4, "error"},
+              {"error if events were independent", "error_independent", 2},
+              {"blocks", "blocks"},
+              {"their length (model time)", "block", 3},
+              {"degenerate", "degenerate"}});
+  table.comment("characteristic size <s^2>/<s> in model energy units; errors: bootstrap");
+  table.comment(
       "block: length of the blocks of the catalogue that are resampled, model time; 0: single "
       "events; error_independent: if the events were independent");
-  std::string plots, lines;
-  Extent lengths, heights;
   std::int64_t number = 0;
   for (const Scaling &scaling : scalings) {
     ++number;
-    Extent own;
     for (std::size_t i = 0; i < scaling.points.size(); ++i) {
       const SizePoint &point = scaling.points[i];
-      figure.table.row(number, scaling.model, point.length, point.s_star, point.error, point.n,
-                       point.error_independent, point.block, point.blocks, scaling.labels[i]);
+      table.row(number, scaling.model, point.length, point.s_star, point.error, point.n,
+                point.error_independent, point.block, point.blocks, scaling.labels[i], point.why);
+    }
+  }
+  return table;
+}
+
+namespace {
+
+json to_json(const SizePoint &point, const std::string &label) {
+  json out = {
+      {"label", label}, {"length", point.length}, {"n", point.n}, {"degenerate", point.degenerate}};
+  if (point.degenerate)
+    out["why"] = point.why;
+  else
+    out.update({{"s_star", point.s_star},
+                {"error", point.error},
+                {"error_independent", point.error_independent},
+                {"block", point.block},
+                {"blocks", point.blocks}});
+  return out;
+}
+
+json to_json(const Saturation &end) {
+  if (end.degenerate) return {{"saturation_degenerate", end.why}};
+  return {{"s_inf", end.s_inf},
+          {"s_inf_error", end.se_s_inf},
+          {"L_c", end.L_c},
+          {"L_c_error", end.se_L_c},
+          {"D_saturation", end.D},
+          {"D_saturation_error", end.se_D},
+          {"chi2_saturation", end.chi2},
+          {"aicc_saturation", end.aicc}};
+}
+
+}  // namespace
+
+nlohmann::json to_json(const Scaling &scaling) {
+  json out = {{"model", scaling.model},
+              {"kl", scaling.stiffness},
+              {"events", scaling.kind},
+              {"threshold", scaling.threshold.size},
+              {"threshold_from", text(scaling.threshold)},
+              {"points", json::array()},
+              {"degenerate", scaling.fit.degenerate},
+              {"verdict", verdict(scaling)}};
+  for (std::size_t i = 0; i < scaling.points.size(); ++i)
+    out["points"].push_back(to_json(scaling.points[i], scaling.labels[i]));
+  const ScalingFit &fit = scaling.fit;
+  if (fit.degenerate) return out;
+  out.update({{"A", fit.A},
+              {"A_error", fit.se_A},
+              {"D", fit.D},
+              {"D_error", fit.se_D},
+              {"chi2", fit.chi2},
+              {"constant", fit.constant},
+              {"constant_error", fit.se_constant},
+              {"chi2_constant", fit.chi2_constant},
+              {"aicc", fit.aicc},
+              {"aicc_constant", fit.aicc_constant},
+              {"preferred", to_string(fit.preferred)}});
+  out.update(to_json(fit.saturation));
+  for (const Saturation &one : fit.bends)
+    if (!one.degenerate)
+      out["bends"].push_back({{"m", one.m},
+                              {"L_c", one.L_c},
+                              {"L_c_error", one.se_L_c},
+                              {"s_inf", one.s_inf},
+                              {"D", one.D},
+                              {"D_error", one.se_D},
+                              {"chi2", one.chi2}});
+  return out;
+}
+
+namespace {
+
+/// The laws fitted to the points between two lengths.
+void add_laws(Curves &curves, const ScalingFit &fit, std::int64_t number, const Extent &lengths) {
+  const double lo = 0.85 * lengths.lo, hi = lengths.hi / 0.85;
+  const auto exact = [](double value) { return text_io::number(value); };
+  curves.add_law(lo, hi, fmt::format("{}*$1**({})", exact(fit.A), exact(fit.D)),
+                 fmt::format("lt {}", number),
+                 fmt::format("A L^D with D = {}", with_error(fit.D, fit.se_D, " ± ")), quote_plain);
+  curves.add_law(lo, hi, exact(fit.constant), "lt 8 dt 2", "constant");
+  if (fit.preferred != SizeDependence::saturates) return;
+  const Saturation &end = fit.saturation;
+  // Sampled evenly in ln L, so that the bend is smooth.
+  curves.add(
+      Curves::laws,
+      fmt::format("[1:2] '+' using (x = {}*{}**($1-1)):({}*(1+({}/x)**({}))**({})) with "
+                  "lines lt {} dt 4 lw 2",
+                  exact(lo), exact(hi / lo), exact(end.s_inf), exact(end.L_c),
+                  exact(end.D * Saturation::sharpness), exact(-1.0 / Saturation::sharpness),
+                  number),
+      fmt::format("growth up to L_c = {}, s_{{∞}} = {}", with_error(end.L_c, end.se_L_c, " ± "),
+                  with_error(end.s_inf, end.se_s_inf, " ± ")),
+      quote_plain);
+}
+
+}  // namespace
+
+Figure scaling_figure(const std::vector<Scaling> &scalings, int width) {
+  Curves curves("$3");
+  Extent lengths, heights;
+  std::int64_t number = 0;
+  bool faults = false, chains = false;
+  for (const Scaling &scaling : scalings) {
+    ++number;
+    (scaling.model == "lsm" ? faults : chains) = true;
+    Extent own;
+    for (const SizePoint &point : scaling.points) {
       if (point.degenerate) continue;
       own.add(point.length);
       lengths.add(point.length);
@@ -331,48 +337,20 @@ Figure scaling_figure(const std::vector<Scaling> &scalings, int width) {
       heights.add(point.s_star + point.error);
     }
     if (own.empty()) continue;
-    const std::string column = fmt::format("$1 == {} ? $3 : NaN", number);
-    plots +=
-        fmt::format("{}{}, \\\n     table using ({}):4 with points lt {} title {}",
-                    plots.empty() ? "plot " : ", \\\n     ", error_bars(column, "$4", "$5", number),
-                    column, number, quote(name_of(scaling) + ": s*"));
-    const ScalingFit &fit = scaling.fit;
-    if (fit.degenerate) continue;
-    const std::string where = fmt::format("[{}:{}] '+' using 1:", text_io::number(0.85 * own.lo),
-                                          text_io::number(own.hi / 0.85));
-    lines += fmt::format(
-        ", \\\n     {}({}*$1**({})) with lines lt {} title {}", where, text_io::number(fit.A),
-        text_io::number(fit.D), number,
-        quote_plain(fmt::format("A L^D with D = {}", with_error(fit.D, fit.se_D, " ± "))));
-    lines += fmt::format(", \\\n     {}({}) with lines lt 8 dt 2 title 'constant'", where,
-                         text_io::number(fit.constant));
-    const Saturation &end = fit.saturation;
-    if (fit.preferred != SizeDependence::saturates) continue;
-    // Sampled evenly in ln L, so that the bend is smooth.
-    lines += fmt::format(
-        ", \\\n     [1:2] '+' using (x = {}*{}**($1-1)):({}*(1+({}/x)**({}))**({})) with lines lt "
-        "{} "
-        "dt 4 lw 2 title {}",
-        text_io::number(0.85 * own.lo), text_io::number(own.hi / (0.85 * 0.85 * own.lo)),
-        text_io::number(end.s_inf), text_io::number(end.L_c),
-        text_io::number(end.D * Saturation::sharpness),
-        text_io::number(-1.0 / Saturation::sharpness), number,
-        quote_plain(fmt::format("growth up to L_c = {}, s_{{∞}} = {}",
-                                with_error(end.L_c, end.se_L_c, " ± "),
-                                with_error(end.s_inf, end.se_s_inf, " ± "))));
+    curves.add_data(number, 4, 5, name_of(scaling) + ": s*");
+    if (!scaling.fit.degenerate) add_laws(curves, scaling.fit, number, own);
   }
-  if (plots.empty())
+  if (lengths.empty())
     throw std::runtime_error("finite-size scaling: no catalogue gives a characteristic size");
-  figure.size = size_with_key(std::vector<std::string>(4 * scalings.size()), width);
-  bool faults = false, chains = false;
-  for (const Scaling &scaling : scalings) (scaling.model == "lsm" ? faults : chains) = true;
-  const char *const name = faults && chains ? "length of the fault, or number of blocks"
-                           : faults         ? "length of the fault"
-                                            : "number of blocks";
-  figure.script = axis("x", name, true, 0.9 * lengths.lo, 1.1 * lengths.hi) +
-                  axis("y", "characteristic size s* (energy)", true, heights.lo, heights.hi) +
-                  std::string(error_bar_function) + plots + lines + "\n";
-  return figure;
+  return curves.figure(
+      scaling_table(scalings),
+      axis("x",
+           faults && chains ? "length of the fault, or number of blocks"
+           : faults         ? "length of the fault"
+                            : "number of blocks",
+           true, 0.9 * lengths.lo, 1.1 * lengths.hi) +
+          axis("y", "characteristic size s* (energy)", true, heights.lo, heights.hi),
+      width);
 }
 
 }  // namespace LSM::postproc

@@ -20,12 +20,8 @@ struct SpectrumCurve {
   double averages = 0.0;  ///< independent segments with the same scatter
 };
 
-/// Integral of the density.
-double variance(const SpectrumCurve &curve);
-
-/// \param of_pe spectra of PE, else of its change
 /// \throws std::runtime_error if all densities are 0
-Figure spectrum_figure(const std::vector<SpectrumCurve> &curves, bool of_pe);
+Figure spectrum_figure(const std::vector<SpectrumCurve> &curves);
 
 }  // namespace LSM::postproc
 

@@ -6,44 +6,30 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "intervals.h"
-#include "plot.h"
+#include "table.h"
 
 namespace LSM::postproc {
 
-/// A column of the paper's Table 1 as printed, digits included. The paper states no unit of theta,
-/// no errors and no size threshold.
-struct PrintedColumn {
-  std::string source;                     ///< the head of the column
-  std::array<std::string, 4> parameters;  ///< gamma, delta, B, C
-};
-
-/// Seismicity (Corral 2004, as quoted in the paper), LSM, Block-Slider.
-const std::array<PrintedColumn, 3> &printed_table1();
-
-/// One line of the comparison.
+/// One of our lines.
 struct Table1Row {
-  bool printed = false;                   ///< from the paper
-  std::string source;                     ///< head of the column, or label of the catalogue
-  std::string from;                       ///< ours: smallest size in words
-  std::string method;                     ///< how it was fitted; empty if printed
-  double threshold = 0.0;                 ///< ours: smallest size
-  std::int64_t n = 0;                     ///< ours: inter-event times fitted
-  std::array<std::string, 4> parameters;  ///< with errors; empty if degenerate
-  std::array<double, 4> values, errors;
-  double misfit = std::numeric_limits<double>::quiet_NaN();   ///< least squares: chi2 per degree
-  double ks = std::numeric_limits<double>::quiet_NaN();       ///< maximum likelihood: KS distance
-  double p = std::numeric_limits<double>::quiet_NaN();        ///< of the fit; NaN: not computed
-  double p_error = std::numeric_limits<double>::quiet_NaN();  ///< if p is a Monte Carlo estimate
-  std::string why;                                            ///< reason if degenerate
+  std::string source;                  ///< label of the catalogue
+  std::string from;                    ///< smallest size in words
+  std::string method;                  ///< how it was fitted
+  double threshold = 0.0;              ///< smallest size
+  std::int64_t n = 0;                  ///< inter-event times fitted
+  std::array<Measured, 4> parameters;  ///< gamma, delta, B, C; NaN if degenerate
+  double misfit = std::numeric_limits<double>::quiet_NaN();  ///< least squares: chi2 per degree
+  double ks = std::numeric_limits<double>::quiet_NaN();      ///< maximum likelihood: KS distance
+  Measured p;       ///< of the fit; NaN: not computed, or no Monte Carlo
+  std::string why;  ///< reason if degenerate
 
-  bool rejected() const { return p < 0.05; }  ///< see rejection_rule
-  /// Misfit or ks, p, and whether rejected; "" if there is none.
-  std::string goodness(const std::string &plus_minus = " +- ") const;
+  bool rejected() const { return p.value < 0.05; }  ///< see rejection_rule
 };
 
 /// What p and "rejected" mean, for readers.
@@ -53,18 +39,11 @@ constexpr std::string_view rejection_rule =
     "maximum likelihood as the share of synthetic samples, each fitted like the data, whose "
     "Kolmogorov-Smirnov distance KS is as large";
 
-/// The printed columns, then ours. \param plus_minus between value and error
-std::vector<Table1Row> table1(const std::vector<IntervalCurve> &curves,
-                              const std::string &plus_minus = " +- ");
+std::vector<Table1Row> table1_rows(const std::vector<IntervalCurve> &curves);
 
-/// For the terminal, printed values apart from ours.
-std::string table1_text(const std::vector<Table1Row> &rows, bool rescaled);
-
-/// For BASE.table1.csv.
-Table table1_csv(const std::vector<Table1Row> &rows, bool rescaled);
-
-/// "model time", or "multiples of the mean"
-const char *theta_unit(bool rescaled);
+/// The columns as printed in the paper, digits included, without unit of theta, errors and size
+/// threshold, which it does not state; then ours. \param printed false: ours only
+Table table1(const std::vector<Table1Row> &rows, bool rescaled, bool printed = true);
 
 }  // namespace LSM::postproc
 

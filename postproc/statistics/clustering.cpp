@@ -191,6 +191,17 @@ std::vector<Stretch> steady_stretches(const std::vector<double> &starts, double 
 
 }  // namespace
 
+std::vector<std::pair<double, std::int64_t>> cumulative_numbers(const std::vector<double> &starts,
+                                                                int points) {
+  const double from = starts.front(), to = starts.back();
+  std::vector<std::pair<double, std::int64_t>> out;
+  for (int i = 0; i <= points; ++i) {
+    const double time = i == points ? to : from + (to - from) * i / points;
+    out.emplace_back(time, std::upper_bound(starts.begin(), starts.end(), time) - starts.begin());
+  }
+  return out;
+}
+
 double variation_of(const std::vector<double> &times) {
   if (times.size() < 2) return NAN;
   const double mean = mean_of(times);

@@ -12,12 +12,18 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace LSM::postproc {
 
 /// Groups of the times by length, equally many in each.
 constexpr std::size_t thirds = 3, eighths = 8;
+
+/// Numbers of events until `points` + 1 equally spaced times, the first and the last start among
+/// them. \param starts in ascending order
+std::vector<std::pair<double, std::int64_t>> cumulative_numbers(const std::vector<double> &starts,
+                                                                int points);
 
 /// Standard deviation of a series (its own, not that of a law behind it: the sum of squares is
 /// divided by n) over its mean; NaN for fewer than two values.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "finite_size.h"
 
+#include <gsl/gsl_cdf.h>
 #include <gsl/gsl_fit.h>
 #include <gsl/gsl_rng.h>
 #include <gsl/gsl_statistics_double.h>
@@ -348,6 +349,27 @@ ScalingFit fit_scaling(const std::vector<SizePoint> &points) {
   else if (fit.aicc_constant < fit.aicc - 2.0 && std::fabs(fit.D) < 1.96 * fit.se_D)
     fit.preferred = SizeDependence::none;
   return fit;
+}
+
+bool fits_poorly(const ScalingFit &fit) {
+  if (fit.preferred == SizeDependence::power_law)
+    return gsl_cdf_chisq_Q(fit.chi2, fit.points - 2) < 0.01;
+  return fit.preferred == SizeDependence::saturates &&
+         gsl_cdf_chisq_Q(fit.saturation.chi2, fit.points - 3) < 0.01;
+}
+
+BendRange bends_as_good(const ScalingFit &fit) {
+  Extent chi2;
+  for (const Saturation &end : fit.bends)
+    if (!end.degenerate) chi2.add(end.chi2);
+  BendRange range;
+  for (const Saturation &end : fit.bends) {
+    if (end.degenerate || !(end.chi2 <= chi2.lo + 4.0)) continue;
+    range.m.add(end.m);
+    range.L_c.add(end.L_c);
+    range.D.add(end.D);
+  }
+  return range;
 }
 
 }  // namespace LSM::postproc

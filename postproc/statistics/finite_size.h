@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "samples.h"
+
 namespace LSM::postproc {
 
 /// Characteristic size of the events of one model.
@@ -98,6 +100,15 @@ struct ScalingFit {
   bool degenerate = true;  ///< fewer than 4 usable points (AICc needs them) or all of one length
   std::string why;
 };
+
+/// Whether the law that is preferred fits poorly: chi2 as large in less than 1 % of all cases.
+bool fits_poorly(const ScalingFit &fit);
+
+/// The bends that are not worse than the best by more than 4 in chi2, and what they give.
+struct BendRange {
+  Extent m, L_c, D;
+};
+BendRange bends_as_good(const ScalingFit &fit);
 
 /// Weighted least squares of ln s* on ln L; degenerate points are left out.
 ScalingFit fit_scaling(const std::vector<SizePoint> &points);

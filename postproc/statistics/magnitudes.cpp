@@ -100,4 +100,20 @@ double maximum_curvature(const std::vector<double> &magnitudes, double width, do
   return width * fullest->first + correction;
 }
 
+std::vector<MagnitudeCount> magnitude_counts(const std::vector<double> &magnitudes, double width) {
+  std::map<std::int64_t, std::int64_t> counts;
+  for (const double m : magnitudes)
+    ++counts[static_cast<std::int64_t>(std::floor(m / width + 0.5))];
+  std::vector<MagnitudeCount> out;
+  if (counts.empty()) return out;
+  auto rest = static_cast<std::int64_t>(magnitudes.size());
+  for (std::int64_t bin = counts.begin()->first; bin <= counts.rbegin()->first; ++bin) {
+    const auto found = counts.find(bin);
+    const std::int64_t count = found == counts.end() ? 0 : found->second;
+    out.push_back({width * static_cast<double>(bin), count, rest});
+    rest -= count;
+  }
+  return out;
+}
+
 }  // namespace LSM::postproc

@@ -57,6 +57,14 @@ BValue b_positive(const std::vector<double> &magnitudes, double completeness, do
 double maximum_curvature(const std::vector<double> &magnitudes, double width,
                          double correction = 0.2);
 
+/// Events in the bin centred at a magnitude, and from it on.
+struct MagnitudeCount {
+  double magnitude;
+  std::int64_t count, from_here_on;
+};
+/// From the first to the last bin with an event, in bins of a width > 0.
+std::vector<MagnitudeCount> magnitude_counts(const std::vector<double> &magnitudes, double width);
+
 }  // namespace LSM::postproc
 
 #endif

@@ -160,4 +160,22 @@ std::vector<NatureRow> nature_rows(const std::vector<EventTable> &tables,
   return rows;
 }
 
+std::vector<LogBin> time_densities(const NatureRow &row) {
+  std::vector<LogBin> some;
+  for (const LogBin &bin : LogHistogram(row.times, std::pow(10.0, 0.2)).bins())
+    if (bin.count > 2) some.push_back(bin);
+  return some;
+}
+
+std::vector<double> shares_above(const NatureRow &row) {
+  std::vector<double> sorted = row.magnitudes, shares;
+  std::sort(sorted.begin(), sorted.end());
+  for (double m = 0.0; m <= sorted.back(); m += 0.1) {
+    const auto above = std::lower_bound(sorted.begin(), sorted.end(), m - 1e-9);
+    shares.push_back(static_cast<double>(sorted.end() - above) /
+                     static_cast<double>(sorted.size()));
+  }
+  return shares;
+}
+
 }  // namespace LSM::postproc

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "event_table.h"
+#include "log_histogram.h"
+#include "samples.h"
 
 namespace LSM::postproc {
 
@@ -23,13 +25,8 @@ struct NatureSettings {
   std::uint64_t seed = 1;
 };
 
-/// A mean over catalogues and its standard error; of one catalogue its own, or NaN.
-struct Measured {
-  double value = NAN;
-  double error = NAN;
-};
-
-/// Catalogues of one label above one smallest size.
+/// Catalogues of one label above one smallest size: means over them and their errors; of one
+/// catalogue its own, or NaN.
 struct NatureRow {
   std::string label, from;
   bool earthquakes = false;
@@ -53,6 +50,13 @@ struct NatureRow {
 /// \throws std::runtime_error if the reference has too few events
 std::vector<NatureRow> nature_rows(const std::vector<EventTable> &tables,
                                    const NatureSettings &settings);
+
+/// Densities of the times over their mean, five bins a decade, those of fewer than three left out.
+std::vector<LogBin> time_densities(const NatureRow &row);
+
+/// Share of the events with magnitudes of at least 0, 0.1, 0.2, ... above the smallest, to the
+/// largest.
+std::vector<double> shares_above(const NatureRow &row);
 
 }  // namespace LSM::postproc
 

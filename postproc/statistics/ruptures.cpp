@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numeric>
 #include <stdexcept>
@@ -13,7 +14,6 @@
 #include <fmt/format.h>
 
 #include "lsm_text_io.h"
-#include "samples.h"
 
 namespace LSM::postproc {
 
@@ -115,6 +115,109 @@ std::vector<LogBin> rupture_densities(const EventTable &table, RuptureQuantity q
     bin.error = std::sqrt(static_cast<double>(bin.count)) / width;
   }
   return bins;
+}
+
+double smallest_moment(const CatalogueInfo &info) {
+  double moment = 1.0;
+  for (const char *const key : {"modulus", "slip_velocity", "interval", "dt", "slip_bin"}) {
+    const std::string *const text = info.find(key);
+    double value = 0.0;
+    if (!text || !text_io::parse(*text, value) || !(value > 0.0)) return 0.0;
+    moment *= value;
+  }
+  return moment;
+}
+
+namespace {
+
+using Pairs = std::vector<std::pair<double, double>>;
+
+/// Mean stress drops by half decades of the moment.
+class StressMeans {
+ public:
+  void add(const RupturePoint &point) {
+    Sums &bin = bins_[std::lround(std::floor(2.0 * std::log10(point.moment)))];
+    bin.n += 1.0;
+    bin.y += point.stress_drop;
+    bin.yy += point.stress_drop * point.stress_drop;
+  }
+  std::vector<StressMean> result() const {
+    std::vector<StressMean> means;
+    for (const auto &[bin, s] : bins_) {
+      if (s.n < 3.0) continue;
+      const double mean = s.y / s.n;
+      means.push_back({std::pow(10.0, 0.5 * (static_cast<double>(bin) + 0.5)), mean,
+                       std::sqrt(std::max(0.0, s.yy / s.n - mean * mean) / (s.n - 1.0))});
+    }
+    return means;
+  }
+
+ private:
+  struct Sums {
+    double n = 0.0, y = 0.0, yy = 0.0;
+  };
+  std::map<long, Sums> bins_;
+};
+
+/// The moment from which on all are shown.
+double moment_of_largest(const std::vector<Event> &events) {
+  std::vector<double> moments = column(events, &Event::slip_moment);
+  const auto last = moments.begin() + RuptureScatter::largest - 1;
+  std::nth_element(moments.begin(), last, moments.end(), std::greater<>());
+  return *last;
+}
+
+RuptureScatter scatter_of(const EventTable &table, RuptureRelations &all, Pairs &by_length,
+                          Pairs &fallen, Pairs &fallen_alone) {
+  RuptureScatter out;
+  out.label = table.label;
+  out.ruptures = table.events.size();
+  out.one_of =
+      std::max<std::size_t>(1, (out.ruptures + RuptureScatter::most - 1) / RuptureScatter::most);
+  const double large = out.one_of > 1 ? moment_of_largest(table.events) : 0.0;
+  const double whole = table.length() * (1.0 - 1e-9);
+  const std::vector<bool> alone = slips_by_itself(table.events);
+  StressMeans means;
+  for (std::size_t i = 0; i < table.events.size(); ++i) {
+    const Event &e = table.events[i];
+    if (!(e.slip_moment > 0.0)) continue;
+    const RupturePoint point = {e.id,          e.rupture_length,      e.slip_moment,
+                                e.stress_drop, e.pe_start - e.pe_end, e.rupture_length > whole,
+                                alone[i]};
+    if (i % out.one_of == 0 || point.moment >= large) out.shown.push_back(point);
+    means.add(point);
+    all.lengths.add(point.length);
+    all.moments.add(point.moment);
+    all.stress_drops.add(point.stress_drop);
+    if (!point.whole_fault) by_length.emplace_back(point.length, point.moment);
+    if (!(point.pe_drop > 0.0)) {
+      ++all.pe_rose;
+      continue;
+    }
+    all.pe_moments.add(point.moment);
+    all.pe_drops.add(point.pe_drop);
+    fallen.emplace_back(point.moment, point.pe_drop);
+    if (point.alone) fallen_alone.push_back(fallen.back());
+  }
+  out.means = means.result();
+  return out;
+}
+
+}  // namespace
+
+RuptureRelations rupture_relations(const std::vector<EventTable> &tables) {
+  RuptureRelations all;
+  Pairs by_length, fallen, fallen_alone;
+  for (const EventTable &table : tables)
+    all.catalogues.push_back(scatter_of(table, all, by_length, fallen, fallen_alone));
+  if (all.moments.empty())
+    throw std::runtime_error("nothing to draw, no rupture of positive moment");
+  all.moment_of_length = fit_logarithms(by_length);
+  if (fallen.empty())
+    throw std::runtime_error("nothing to draw, no rupture of positive moment during which PE fell");
+  all.pe_of_moment = fit_logarithms(fallen);
+  if (fallen_alone.size() >= 3) all.pe_of_moment_alone = fit_logarithms(fallen_alone);
+  return all;
 }
 
 }  // namespace LSM::postproc

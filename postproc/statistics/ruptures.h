@@ -6,11 +6,13 @@
 #define LSM_POSTPROC_RUPTURES_H
 
 #include <cstdint>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "event_table.h"
 #include "log_histogram.h"
+#include "samples.h"
 
 namespace LSM::postproc {
 
@@ -39,6 +41,48 @@ enum class RuptureQuantity { length, moment };
 /// `density` and `error` are in these units, not normalised to one.
 /// Empty if there is no time between the first start and the last end, or no rupture.
 std::vector<LogBin> rupture_densities(const EventTable &table, RuptureQuantity quantity);
+
+/// Moment of a rupture of one bin that slips at the threshold velocity for one interval: modulus,
+/// slip velocity, time and width; 0 if the header lacks any of them.
+double smallest_moment(const CatalogueInfo &info);
+
+/// A rupture of positive moment.
+struct RupturePoint {
+  std::int64_t event_id;
+  double length, moment, stress_drop;
+  double pe_drop;           ///< of the total PE
+  bool whole_fault, alone;  ///< alone: slips_by_itself()
+};
+
+/// Mean stress drop over two bins of the moment per decade, of three ruptures and more.
+struct StressMean {
+  double moment, mean, error;
+};
+
+/// One catalogue in scatters. Of very many ruptures these show the largest and one of some of the
+/// others: pictures of a million points take minutes to draw and to look at.
+struct RuptureScatter {
+  static constexpr std::size_t most = 20000, largest = 1000;
+
+  std::string label;
+  std::size_t ruptures = 0, one_of = 1;  ///< one_of 1: all are shown
+  std::vector<RupturePoint> shown;
+  std::vector<StressMean> means;  ///< of all of them
+};
+
+/// How moment, length, drop of PE and stress drop of all ruptures depend on each other.
+struct RuptureRelations {
+  std::vector<RuptureScatter> catalogues;
+  Extent lengths, moments, stress_drops;
+  LogFit moment_of_length;      ///< without those of the whole fault
+  Extent pe_drops, pe_moments;  ///< where PE fell
+  std::int64_t pe_rose = 0;     ///< ruptures during which it did not
+  LogFit pe_of_moment;
+  LogFit pe_of_moment_alone;  ///< of those that slip by themselves; n < 3: too few
+};
+
+/// \throws std::runtime_error if there are too few ruptures for a fit
+RuptureRelations rupture_relations(const std::vector<EventTable> &tables);
 
 }  // namespace LSM::postproc
 

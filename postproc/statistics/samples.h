@@ -26,6 +26,12 @@ struct Extent {
   bool empty() const { return !(hi >= lo); }
 };
 
+/// A number and its standard error.
+struct Measured {
+  double value = NAN;
+  double error = NAN;
+};
+
 /// NaN without values.
 inline double mean_of(const double *values, std::size_t count) {
   return sum_pairwise(values, count) / static_cast<double>(count);

@@ -64,4 +64,113 @@ HistoryWindow history_window(const SlipHistoryInfo &info, const std::vector<Slip
   return window;
 }
 
+VelocityImage::VelocityImage(const HistoryWindow &window, std::int64_t most_rows,
+                             std::int64_t most_columns)
+    : bins_(window.info.grid.bins), columns_(std::min(bins_, most_columns)) {
+  const double duration = window.to - window.from;
+  const double intervals = std::max(1.0, std::ceil(duration / window.info.grid.duration() - 1e-9));
+  rows_ = static_cast<std::int64_t>(std::min(intervals, static_cast<double>(most_rows)));
+  height_ = duration / static_cast<double>(rows_);
+  width_ = window.info.grid.length() / static_cast<double>(columns_);
+  values_.assign(static_cast<std::size_t>(rows_ * columns_), 0.0);
+  for (const SlipRecord &record : window.records) fill(window, record);
+}
+
+double VelocityImage::at(std::int64_t row, std::int64_t column, std::int64_t shift) const {
+  const std::int64_t from = (column + shift * columns_ / bins_) % columns_;
+  return values_[static_cast<std::size_t>(row * columns_ + from)];
+}
+
+void VelocityImage::fill(const HistoryWindow &window, const SlipRecord &record) {
+  const FaultGrid &grid = window.info.grid;
+  const double begin = grid.time(record.step_begin), end = grid.time(record.step_end);
+  if (!(end > begin)) return;
+  const double row_begin = (begin - window.from) / height_, row_end = (end - window.from) / height_;
+  const auto first =
+      std::max<std::int64_t>(0, static_cast<std::int64_t>(std::floor(row_begin + 1e-6)));
+  const auto last =
+      std::min<std::int64_t>(rows_ - 1, static_cast<std::int64_t>(std::ceil(row_end - 1e-6)) - 1);
+  for (std::int64_t b = 0; b < bins_; ++b) {
+    const double velocity = std::fabs(record.row.slip[static_cast<std::size_t>(b)]) /
+                            (end - begin) / window.info.driving;
+    for (std::int64_t row = first; row <= last; ++row) {
+      double &value = values_[static_cast<std::size_t>(row * columns_ + b * columns_ / bins_)];
+      value = std::max(value, velocity);
+    }
+  }
+}
+
+std::vector<ClosedLine> closed_lines(const FaultGrid &grid, const Outline &outline,
+                                     std::int64_t shift) {
+  struct Column {
+    double place, begin, end;
+  };
+  std::vector<std::vector<Column>> parts;
+  std::pair<std::int64_t, std::int64_t> span = outline.bins.begin()->second;
+  const std::int64_t begin = outline.length == grid.bins ? shift : outline.begin;
+  for (std::int64_t k = 0; k < outline.length; ++k) {
+    const std::int64_t bin = (begin + k) % grid.bins;
+    const auto found = outline.bins.find(bin);
+    if (found != outline.bins.end()) span = found->second;  // else in a gap: as beside it
+    const auto place = static_cast<double>((bin - shift + grid.bins) % grid.bins);
+    if (parts.empty() || place < parts.back().back().place) parts.emplace_back();
+    parts.back().push_back({place, grid.time(span.first), grid.time(span.second)});
+  }
+  std::vector<ClosedLine> lines;
+  for (const std::vector<Column> &part : parts) {
+    ClosedLine line;
+    for (const Column &column : part) {
+      line.emplace_back(column.place, column.begin);
+      line.emplace_back(column.place + 1.0, column.begin);
+    }
+    for (auto column = part.rbegin(); column != part.rend(); ++column) {
+      line.emplace_back(column->place + 1.0, column->end);
+      line.emplace_back(column->place, column->end);
+    }
+    line.push_back(line.front());
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+namespace {
+
+/// Adds the slip of a record to that of each bin; returns the largest of them.
+double add_slip(std::vector<double> &slip, const SlipRecord &record) {
+  double most = 0.0;
+  for (std::size_t b = 0; b < slip.size(); ++b) {
+    slip[b] += static_cast<double>(record.row.slip[b]);
+    most = std::max(most, std::fabs(static_cast<double>(record.row.slip[b])));
+  }
+  return most;
+}
+
+}  // namespace
+
+std::vector<SlipLine> slip_lines(const HistoryWindow &window, double locked, double slipping) {
+  const FaultGrid &grid = window.info.grid;
+  const double least = slipping_above(grid, window.info.ruptures.velocity);
+  std::vector<double> slip(static_cast<std::size_t>(grid.bins), 0.0);
+  double next_locked = window.from, next_slipping = window.from;
+  std::vector<SlipLine> lines;
+  for (const SlipRecord &record : window.records) {
+    const bool slips =
+        add_slip(slip, record) > least && record.step_end - record.step_begin == grid.interval;
+    const double time = grid.time(record.step_end);
+    if (time < (slips ? next_slipping : next_locked)) continue;
+    lines.push_back({time, slips, slip});
+    if (slips) next_slipping = time + slipping;
+    while (!slips && next_locked <= time) next_locked += locked;
+  }
+  return lines;
+}
+
+std::vector<double> slip_between(const HistoryWindow &window, std::int64_t begin,
+                                 std::int64_t end) {
+  std::vector<double> slip(static_cast<std::size_t>(window.info.grid.bins), 0.0);
+  for (const SlipRecord &record : window.records)
+    if (record.step_begin >= begin && record.step_end <= end) add_slip(slip, record);
+  return slip;
+}
+
 }  // namespace LSM::postproc

@@ -34,6 +34,45 @@ struct HistoryWindow {
 HistoryWindow history_window(const SlipHistoryInfo &info, const std::vector<SlipRecord> &records,
                              double from, double to);
 
+/// The largest slip velocity over the driving one in each pixel of a picture.
+class VelocityImage {
+ public:
+  /// As many rows as there are intervals in the window, and as many columns as bins, up to these.
+  VelocityImage(const HistoryWindow &window, std::int64_t most_rows,
+                std::int64_t most_columns = 1000);
+  std::int64_t rows() const { return rows_; }
+  std::int64_t columns() const { return columns_; }
+  double row_height() const { return height_; }  ///< model time
+  double column_width() const { return width_; }
+  /// \param shift bins by which the picture is shifted along the fault
+  double at(std::int64_t row, std::int64_t column, std::int64_t shift) const;
+
+ private:
+  void fill(const HistoryWindow &window, const SlipRecord &record);
+
+  std::int64_t bins_, rows_, columns_;
+  double height_, width_;
+  std::vector<double> values_;  ///< row by row
+};
+
+/// The outline of a rupture as closed lines, split where a picture ends: places, in bins from its
+/// left end, and times. \param shift bins by which the picture is shifted along the fault
+using ClosedLine = std::vector<std::pair<double, double>>;
+std::vector<ClosedLine> closed_lines(const FaultGrid &grid, const Outline &outline,
+                                     std::int64_t shift);
+
+/// Slip of each bin from the beginning of the window to a time.
+struct SlipLine {
+  double time;
+  bool slipping;  ///< any bin
+  std::vector<double> slip;
+};
+/// One every `locked` time units, and one every `slipping` while anything slips.
+std::vector<SlipLine> slip_lines(const HistoryWindow &window, double locked, double slipping);
+
+/// Slip of each bin from one step to another.
+std::vector<double> slip_between(const HistoryWindow &window, std::int64_t begin, std::int64_t end);
+
 }  // namespace LSM::postproc
 
 #endif

@@ -141,6 +141,12 @@ std::vector<SpectrumPoint> WelchSpectrum::points() const {
   return points;
 }
 
+double variance(const std::vector<SpectrumPoint> &points) {
+  double sum = 0.0;
+  for (const SpectrumPoint &point : points) sum += point.density * point.width;
+  return sum;
+}
+
 std::vector<SpectrumPoint> averaged(const std::vector<SpectrumPoint> &points, int per_decade) {
   if (per_decade < 1) return points;
   std::vector<SpectrumPoint> out;

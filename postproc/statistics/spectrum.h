@@ -64,6 +64,9 @@ class WelchSpectrum {
   std::unique_ptr<Transform> transform_;
 };
 
+/// Integral of the density.
+double variance(const std::vector<SpectrumPoint> &points);
+
 /// Neighbours averaged so that there are at most per_decade points in a decade of frequency; the
 /// integral stays. Frequency 0 is a point of its own.
 std::vector<SpectrumPoint> averaged(const std::vector<SpectrumPoint> &points, int per_decade);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <fmt/format.h>
+
 #include "samples.h"
 
 namespace LSM {
@@ -85,6 +87,46 @@ MisfitSummary summary(const std::vector<StationMisfit> &stations) {
 
 double order(double coarse_error, double fine_error, double coarse_spacing, double fine_spacing) {
   return std::log(coarse_error / fine_error) / std::log(coarse_spacing / fine_spacing);
+}
+
+bool same_place(double a, double b) {
+  return std::fabs(a - b) <= 1e-9 * std::max(1.0, std::fabs(b));
+}
+
+StationCurve at_place(const NamedCurves &run, double x) {
+  const auto right = std::find_if(run.stations.begin(), run.stations.end(),
+                                  [x](const auto &s) { return s.x >= x || same_place(s.x, x); });
+  if (right == run.stations.end() || (right == run.stations.begin() && !same_place(right->x, x)))
+    throw std::invalid_argument(
+        fmt::format("{}: no slip at x = {:.8g}, which runs from {:.8g} to "
+                    "{:.8g}",
+                    run.name, x, run.stations.front().x, run.stations.back().x));
+  if (same_place(right->x, x)) return *right;
+  const StationCurve &a = *(right - 1), &b = *right;
+  const double part = (x - a.x) / (b.x - a.x);
+  StationCurve between = a;
+  between.x = x;
+  for (std::size_t n = 0; n < a.t.size(); ++n) {
+    between.slip[n] += part * (b.slip[n] - a.slip[n]);
+    between.rate[n] += part * (b.rate[n] - a.rate[n]);
+  }
+  return between;
+}
+
+std::vector<double> common_places(const std::vector<NamedCurves> &references, std::size_t most) {
+  std::vector<double> common;
+  for (const StationCurve &station : references.front().stations)
+    if (std::all_of(references.begin(), references.end(), [&station](const NamedCurves &r) {
+          return std::any_of(r.stations.begin(), r.stations.end(),
+                             [&station](const auto &s) { return same_place(s.x, station.x); });
+        }))
+      common.push_back(station.x);
+  std::sort(common.begin(), common.end());
+  std::vector<double> some;
+  const std::size_t n = std::min(common.size(), most);
+  for (std::size_t k = 0; k < n; ++k)
+    some.push_back(common[n > 1 ? k * (common.size() - 1) / (n - 1) : 0]);
+  return some;
 }
 
 }  // namespace LSM

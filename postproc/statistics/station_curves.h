@@ -5,6 +5,7 @@
 #ifndef LSM_STATISTICS_STATION_CURVES_H
 #define LSM_STATISTICS_STATION_CURVES_H
 
+#include <string>
 #include <vector>
 
 namespace LSM {
@@ -17,6 +18,23 @@ struct StationCurve {
 
 /// First time at which the slip rate exceeds that, or NaN.
 double arrival(const StationCurve &curve, double rate);
+
+/// One run, or one reference, at several places.
+struct NamedCurves {
+  std::string name;
+  double spacing = 0.0;  ///< of the places of a run, 0 of a reference
+  std::vector<StationCurve> stations;
+};
+
+/// Whether two places are the same but for rounding.
+bool same_place(double a, double b);
+
+/// The run at x, linear between its two nearest places. \throws std::invalid_argument beyond its
+/// ends
+StationCurve at_place(const NamedCurves &run, double x);
+
+/// Up to `most` places that all references have, evenly chosen if there are more.
+std::vector<double> common_places(const std::vector<NamedCurves> &references, std::size_t most);
 
 /// How far a curve is from a reference, over the times that both have.
 struct StationMisfit {

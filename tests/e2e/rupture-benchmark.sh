@@ -50,13 +50,20 @@ awk -F, '/^#|^run,/ { next }
     exit !(n == 17 && worst_late < 0.08 && worst_more < 0.015)
   }' three-stations.csv || fail "arrivals or slip of TPV3 are off"
 
-# A place between two bins, a file of columns, and what is refused.
-printf '# t slip rate\n0 0 0\n3 1.5 2 99\n6 5.3 0.5\n' >columns
-"$postproc" benchmark run.slip.bin --curve 1234=columns -o one --no-picture >out || fail "--curve"
-grep -q "against reference" out || fail "a curve without a name"
-! "$postproc" benchmark run.slip.bin --curve 99999=columns -o two --no-picture >out 2>&1 || fail "a place beyond the fault"
+# A place between two bins, and what is refused.
+reference() { # PLACE TIME...
+  local place=$1 t
+  shift
+  echo curve,x,t,slip,slip_rate
+  for t; do echo "by hand,$place,$t,$t,1.5"; done
+}
+reference 1234 0 3 6 >columns
+"$postproc" benchmark run.slip.bin --reference columns -o one --no-picture >out || fail "a place between two bins"
+grep -q "by hand" out || fail "a reference without a name"
+reference 99999 0 3 6 >columns
+! "$postproc" benchmark run.slip.bin --reference columns -o two --no-picture >out 2>&1 || fail "a place beyond the fault"
 grep -q "no slip at x = 99999" out || fail "message of a place beyond the fault"
-printf '1 2 3\n1 2 3\n' >columns
-! "$postproc" benchmark run.slip.bin --curve 0=columns -o two --no-picture >out 2>&1 || fail "times that stand"
-grep -q "columns:2: expected increasing times" out || fail "message of times that stand: $(cat out)"
+reference 0 1 1 >columns
+! "$postproc" benchmark run.slip.bin --reference columns -o two --no-picture >out 2>&1 || fail "times that stand"
+grep -q "columns:3: time 1, expected increasing times" out || fail "message of times that stand: $(cat out)"
 [ ! -e two.csv ] || fail "half-written output"

@@ -13,17 +13,15 @@ fail() { echo "FAILED: $*" >&2; tail -n 20 out >&2; exit 1; }
 # regime NAME VARIABLES...: runs half the shortest fault of the paper; word, saw_tooth and in_events
 # from postproc series
 regime() {
-  local name=$1 line
+  local name=$1
   shift
   "$lmp" -in "$source/inputs/fault.in" -var length 60 -var steps 90000 -var prefix "$name" "$@" </dev/null >out 2>&1 ||
     fail "lmp of $name"
-  "$postproc" series "$name.pe.bin" --from 3000 -o "$name" >out 2>&1 || fail "postproc series of $name"
-  line=$(grep '^regime: ' out) || fail "no regime of $name"
-  echo "$name: $line"
-  [[ $line =~ ^regime:\ ([a-z-]+)\ \(saw-tooth\ ([0-9.e+]+)\; ]] || fail "regime of $name has another form"
-  word=${BASH_REMATCH[1]} saw_tooth=${BASH_REMATCH[2]}
-  [[ $line =~ time\ in\ events\ ([0-9.e-]+) ]] || fail "no time in events of $name"
-  in_events=${BASH_REMATCH[1]}
+  "$postproc" series "$name.pe.bin" --from 3000 -o "$name" --json "$name.json" >out 2>&1 || fail "postproc series of $name"
+  number() { sed -n "s/^ *\"$1\": \"*\([a-z0-9.e+-]*\)\"*,*$/\1/p" "$name.json"; }
+  word=$(number regime) saw_tooth=$(number saw_tooth) in_events=$(number time_in_events)
+  [ -n "$word" ] && [ -n "$saw_tooth" ] && [ -n "$in_events" ] || fail "no regime of $name"
+  echo "$name: $word, saw-tooth $saw_tooth, $in_events of the time in events"
 }
 regime default
 [ "$word" = stick-slip ] || fail "the default fault is called $word"

@@ -134,9 +134,9 @@ online)
   ;;
 series)
   series pe.csv
-  must_run series pe.csv -o all --no-picture --picker exponential --lambda 0.9
-  # 5000 samples are more than 2 x 2000: 2 rows for each of the columns, the extremes among them.
-  [ "$(grep -vc '^[#t]' all.csv)" = 4000 ] || fail "$(grep -vc '^[#t]' all.csv) rows, expected 4000"
+  must_run series pe.csv -o all --no-picture --picker exponential --lambda 0.9 --columns 600
+  # 5000 samples in groups of 8, as 4 would make more than 2 x 600: 2 rows for each, the extremes among them.
+  [ "$(grep -vc '^[#t]' all.csv)" = 1250 ] || fail "$(grep -vc '^[#t]' all.csv) rows, expected 1250"
   extremes() { sort -g | sed -n '1p;$p'; }
   [ "$(grep -v '^[#t]' all.csv | cut -d, -f2 | extremes)" = "$(grep -v '^[#s]' pe.csv | cut -d, -f3 | extremes)" ] ||
     fail "an extreme is lost"
@@ -169,10 +169,13 @@ spectrum)
   must_run spectrum sine --segment 1024 --per-decade 0 --no-picture -o sine_spectrum
   awk -F, '/^[#c]/ { next } { v += $4 * $5; if ($5 > big) { big = $5; at = $3 } }
     END { exit !(v > 1.999 && v < 2.001 && at > 0.07812 && at < 0.07813) }' sine_spectrum.csv || fail "variance or frequency"
-  grep -q "4096 samples, 7 segments" out.txt || fail "segments: $(cat out.txt)"
-  must_run spectrum sine --segment 1024 --of change --window blackman --no-picture -o change
-  # change: amplitude 4 sin(pi/25.6), variance 0.11982 (8 sin^2)
-  awk -F, '/^[#c]/ { next } { v += $4 * $5 } END { exit !(v > 0.1197 && v < 0.1200) }' change.csv || fail "variance of the change"
+  told ' sine 4096 7 ' || fail "segments: $(cat out.txt)"
+  # Without a length: an eighth of 4096, from a pipe, too.
+  must_run spectrum sine --no-picture -o usual
+  told ' sine 4096 15 ' || fail "segments: $(cat out.txt)"
+  cp usual.csv file.csv
+  must_run spectrum <(cat sine) --label sine --no-picture -o usual
+  cmp usual.csv file.csv || fail "another spectrum from a pipe"
   if command -v gnuplot > /dev/null; then
     must_run spectrum sine sine --label one --label 'two & <2>' -o drawn
     for extension in png svg gp csv; do [ -s drawn.$extension ] || fail "no drawn.$extension"; done
@@ -180,8 +183,6 @@ spectrum)
   refused "4096 samples in the window of time, expected at least one segment of 8192" spectrum sine --segment 8192 -o x
   sed '100d' sine > gap
   refused "gap: step 93 after step 91, expected a sample every 1 steps" spectrum gap -o x
-  refused "overlap of segments is 1, expected at least 0 and less than 1" spectrum sine --overlap 1 -o x
-  refused "window" spectrum sine --window tukey -o x
   refused "label given 1 times, expected once per series (2)" spectrum sine sine --label a -o x
   ;;
 compare)
@@ -196,9 +197,9 @@ compare)
   }
   made a.csv 5 400; made b.csv 5 300 3; made c.csv 10 300 3; made few.csv 5 9
   must_run compare a.csv b.csv c.csv -o d
-  grep -q 'sizes: 400 and 300.*no difference seen$' out.txt || fail "$(cat out.txt)"
+  told 'size 400 300 .*no difference seen$' || fail "$(cat out.txt)"
   [ "$(grep -c 'no difference seen' out.txt) $(grep -c 'they differ' out.txt)" = "3 1" ] || fail "$(cat out.txt)"
-  grep 'they differ' out.txt | grep -q 'times: 399 and 299.*ratio 2.0.*distance 1, p = (5.0 +- 5.0)e-04' || fail "$(cat out.txt)"
+  told 'time 399 299 .* 2.0[0-9]* +- [0-9.]* 1 (5.0 +- 5.0)e-04 .*they differ' || fail "$(cat out.txt)"
   [ "$(grep -vc '^#' d.csv)" = 5 ] || fail "$(cat d.csv)"
   cp d.csv before.csv
   must_run compare a.csv b.csv c.csv -o d
@@ -214,7 +215,7 @@ compare)
   done
   must_run compare way-1.csv way0.5.csv --displacement --from 250 --to 1250 -o d
   [ "$(grep -c 'no difference seen' out.txt) $(grep -c 'they differ' out.txt)" = "2 0" ] || fail "$(cat out.txt)"
-  grep -q 'times: 199 and 199.*ratio 1.0' out.txt || fail "$(cat out.txt)"
+  told 'time 199 199 .* 1.0[0-9]* ' || fail "$(cat out.txt)"
   refused 'a.csv: no velocity in the header, expected' compare a.csv c.csv --displacement -o x
   sed 's/velocity = .*/velocity = 0/' way-1.csv > rest.csv
   refused 'rest.csv: velocity = 0 in the header, expected' compare rest.csv c.csv --displacement -o x
@@ -267,8 +268,8 @@ magnitudes)
   must_run magnitudes gr.csv -o m --no-picture
   awk -F, '/^lsm/ { n++; if (!($4 == 2000 && $2 == -2 && $5 > 0.99 && $5 < 1.01 && $6 > 0.018 && $6 < 0.026)) exit 1 }
     END { exit n != 1 }' m.bvalues.csv || fail "b: $(cat m.bvalues.csv)"
-  grep -q 'M = 0.6667 log10(size) + 0 (a convention, ours)' out.txt && grep -q 'completeness in the header of gr.csv' out.txt &&
-    grep -q 'exponent of the sizes 1 + 0.6667 b = 1.66' out.txt || fail "$(cat out.txt)"
+  grep -q 'M = 0.6667 log10(size) + 0, bins of 0 (0: none)' out.txt && grep -q 'completeness in the header of gr.csv' out.txt &&
+    told 'exponent of the sizes 1 + 0.6667 b 1.66' || fail "$(cat out.txt)"
   # The same b of the table that is exported, by the textbook's formula: with and without bins.
   for bin in 0 0.1; do
     must_run magnitudes gr.csv -o m --no-picture --magnitude-bin $bin --complete-from -1.5
@@ -316,23 +317,23 @@ aftershocks)
   # p = 2, c = 2, K = 100, background 1/97.3
   awk -F, '/^lsm/ { n++; if (!($6 == 41 && $10 > 1.9 && $10 < 2.1 && $12 > 1.7 && $12 < 2.3 && $14 > 75 && $14 < 130 && $16 > 0.0098 &&
     $16 < 0.0108 && $18 > 1000 && $19 == 0.05)) exit 1 } END { exit n != 1 }' a.omori.csv || fail "$(cat a.omori.csv)"
-  grep -q '41 main shocks of size 50 or larger (largest event of all that start within 1000 before and after)' out.txt &&
-    grep -q 'as large in a fraction 0.05 of Poisson catalogues' out.txt || fail "$(cat out.txt)"
+  told '^ smallest main shock 50$' && told '^ largest for so long before and after 1000$' && told '^ main shocks 41$' &&
+    told '^ share of Poisson catalogues as large 0.05$' || fail "$(cat out.txt)"
   # Stacked rate: counts in the bins, per main shock and time unit.
   awk -F, '/^1,/ { if ($7 < 0.9999 * $6 / (41 * ($4 - $3)) || $7 > 1.0001 * $6 / (41 * ($4 - $3))) exit 1; ++n }
     END { exit !(n > 8) }' a.csv || fail "$(cat a.csv)"
   must_run aftershocks omori.csv -o a --no-picture --main-size 50 --window 1000 --replicas 0 --hold-c 2
-  grep -q 'c = 2 (held)' out.txt || fail "$(cat out.txt)"
+  told '^ c 2$' || fail "$(cat out.txt)"
   # Events at one place in each stretch of 10 have no aftershocks.
   sed 's/^[0-9]*,.*//' omori.csv | sed '/^$/d' > even.csv
   awk 'BEGIN { for (i = 0; i < 5000; i++) { t = 10 * (i + i * 0.618034 % 1)
     printf "%d,%.6f,%.6f,%d,%d,%s,1,1\n", i + 1, t, t, i, i, i % 100 == 50 ? 100 : 0.01 } }' >> even.csv
   must_run aftershocks even.csv -o a --no-picture --main-size 50 --window 300 --replicas 0
-  grep -q 'degenerate: no decay' out.txt || fail "$(cat out.txt)"
+  told 'degenerate no decay' || fail "$(cat out.txt)"
   awk -F, '/^lsm/ && !($8 > 0.095 && $8 < 0.101 && $10 == "" && $12 == "") { exit 1 }' a.omori.csv || fail "$(cat a.omori.csv)"
   # By default a share of the events are large enough.
   must_run aftershocks omori.csv -o a --no-picture --replicas 0
-  grep -q 'main shocks of size 0.01 or larger' out.txt || fail "$(cat out.txt)"
+  told '^ smallest main shock 0.01$' || fail "$(cat out.txt)"
   refused "no event of size 1000 or larger, expected a smaller --main-size" aftershocks omori.csv -o x --main-size 1000
   refused "first time after main shocks: expected 0 or more, below the window" aftershocks omori.csv -o x --first 20 --window 10
   refused "c held at 0.000000, expected 0 or more (0 needs a first time above 0)" aftershocks omori.csv -o x --hold-c 0 --main-size 50
@@ -444,10 +445,10 @@ match)
   must_run match a.csv b.csv --displacement --origin 100 --threshold 0.5 --within 0.1 --json m.json
   # From 1.3 to 40: 39 of the first (2 to 40), of which the even ones are there. Of the seven shifts by eighths of 38.7 the second,
   # fourth and sixth find 5, 10 and 19.
-  grep -q ': 20 of 39 events of size 0.5 or larger are in .* (of 40), by chance 4.857' out.txt || fail "$(cat out.txt)"
+  told ' 0.5 39 40 20 4.857$' || fail "$(cat out.txt)"
   grep -q '"same": 20' m.json || fail "$(cat m.json)"
   must_run match a.csv a.csv --threshold 0.5 --within 0.1
-  grep -q ': 40 of 40 ' out.txt || fail "$(cat out.txt)"
+  told ' 40 40 40 ' || fail "$(cat out.txt)"
   refused "at least two" match a.csv --threshold 0.5 --within 0.1
   refused "threshold is required" match a.csv b.csv --within 0.1
   refused "a catalogue without events" match a.csv b.csv --threshold 0.5 --within 0.1 --displacement --to 0.01
@@ -677,7 +678,7 @@ earthquakes)
   while read -r from to magnitude times gamma error b; do
     must_run intervals "$california" --from "$from" --to "$to" --min-magnitude "$magnitude" --rescale --delta 1 \
       --method likelihood --replicas 0 --shuffles 20 --no-picture -o times
-    grep -q ", magnitudes >= $magnitude: $times inter-event times" out.txt || fail "$from: $(head -n 1 out.txt)"
+    told " magnitudes >= $magnitude $times " || fail "$from: $(head -n 1 out.txt)"
     awk -F, -v gamma="$gamma" -v error="$error" -v b="$b" '/^ours/ { found = 1
       if ($4 < gamma - error || $4 > gamma + error || $5 < 0.9 * error || $5 > 1.1 * error || $8 < b - 0.03 || $8 > b + 0.03) bad = 1 }
       END { exit bad || !found }' times.table1.csv || fail "$from: $(grep ^ours times.table1.csv), expected gamma $gamma, B $b"

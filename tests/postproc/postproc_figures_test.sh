@@ -66,9 +66,9 @@ histograms)
     END { exit !(n == 30 && (sum - 1) ^ 2 < 1e-18) }' h.csv || fail "densities of b.csv: $(cat h.csv)"
   grep -q 'fault, length 120 (100 events)' h.svg || fail "no legend for a.csv"
   grep -q 'block-slider, N = 256 (1000 events)' h.svg || fail "no legend for b.csv"
-  must_run histograms a.csv --normalise counts --threshold 0 -o c --no-picture
+  must_run histograms a.csv --threshold 0 -o c --no-picture
   [ -e c.png ] && fail "--no-picture drew a picture"
-  awk -F, '!/^#/ && !/^curve/ && $8 != $7 { exit 1 } { total += $7 } END { exit total != 107 }' c.csv ||
+  awk -F, '{ total += $7 } END { exit total != 107 }' c.csv ||
     fail "counts: $(cat c.csv)"
   refused 'expected SLOPE' histograms a.csv --guide steep -o x
   refused 'expected LO:HI' histograms a.csv --range 3 -o x
@@ -93,7 +93,7 @@ intervals)
       if ($7 != (n == 1 ? 100 : 50)) exit 1
       t = n == 1 ? 5 : 50; if (!($4 <= t && t < $5)) exit 1 }
     END { exit n != 2 }' i.csv || fail "densities: $(cat i.csv)"
-  grep -q '150 inter-event times, mean 20 model time, standard deviation 1.061 of the mean, burstiness 0.02944$' out.txt ||
+  told ' 150 20 model time 1.061 0.02944$' ||
     fail "mean: $(cat out.txt)"
   grep -q 'LSM .*0.995 .*1.00 .*15.21 .*0.0573' out.txt || fail "printed Table 1: $(cat out.txt)"
   grep -q '^printed,,,0.0,,1.00,,100.0,,0.25,,,,,,,Block-Slider,' i.table1.csv || fail "$(cat i.table1.csv)"
@@ -109,14 +109,14 @@ intervals)
       if (($4 - 1) ^ 2 > 0.03 ^ 2 || ($8 / 7 - 1) ^ 2 > 0.03 ^ 2 || ($10 * 7 - 1) ^ 2 > 0.03 ^ 2) exit 1 }
     END { exit n != 2 }' x.table1.csv || fail "exponential times: $(cat x.table1.csv)"
   # p-values: from the seed, with as many replicas as asked for.
-  grep -q 'KS [0-9.e-]*, p = 1' out.txt || fail "times without scatter fit too well: $(cat out.txt)"
+  told 'maximum likelihood, .* 1 no$' || fail "times without scatter fit too well: $(cat out.txt)"
   awk -F, '$1 == "ours" && $13 != "" { ++n; if (!($14 == 1 && $15 == 0 && $16 == "no")) exit 1 } END { exit n != 1 }' x.table1.csv ||
     fail "p-value: $(cat x.table1.csv)"
   must_run intervals a.csv --delta 1 --method likelihood --replicas 20 --seed 3 -o p --no-picture
-  grep -q 'p ≤ 0.048, rejected' out.txt || fail "two times only are no gamma density: $(cat out.txt)"
+  told ' 0.048 +- 0.04[0-9] yes' || fail "two times only are no gamma density: $(cat out.txt)"
   grep -q 'rejected: p below 0.05' out.txt || fail "no rule: $(cat out.txt)"
   must_run intervals a.csv --delta 1 --method likelihood --replicas 0 --shuffles 0 -o p --no-picture
-  grep -q ', p [=≤]' out.txt && fail "a p-value without replicas: $(cat out.txt)"
+  grep 'γ' out.txt | grep -q rejected && fail "a p-value without replicas: $(cat out.txt)"
   refused 'replicas' intervals a.csv --replicas -1 -o x
   refused "expected 'free' or a positive number" intervals a.csv --delta x -o x
   ;;
@@ -148,7 +148,7 @@ fit)
   grep -q 'shows no significant dependence' out.txt || fail "no growth: $(cat out.txt)"
   grep -q '"preferred": "no dependence on the length"' n.json || fail "$(cat n.json)"
   # Errors by blocks of time, of a length that can be given, or event by event.
-  grep -q 'bootstrap errors, blocks of time' out.txt && grep -q ' blocks of .* of that of independent events' out.txt || fail "$(cat out.txt)"
+  grep -q 'bootstrap errors, blocks of time' out.txt && told 'error if events were independent blocks' || fail "$(cat out.txt)"
   must_run fit g100.csv g200.csv --range 1e-3:0.1 --replicas 0 --scaling --block 1000 --json b.json -o b --no-picture
   awk -F, '!/^#/ && $1 == 1 && !($8 > 990 && $8 < 1010 && $9 == 30) { exit 1 }' b.scaling.csv || fail "--block: $(cat b.scaling.csv)"
   grep -q '"blocks": 30' b.json && grep -q '"error_independent": ' b.json || fail "$(cat b.json)"
@@ -209,14 +209,14 @@ completeness)
   must_run histograms known.csv -o h --no-picture --range :1
   [ "$(counts h.csv 1)" = "$above" ] || fail "--range :1 $(cat h.csv)"
   must_run intervals known.csv -o i --no-picture --replicas 0
-  grep -q "sizes >= 0.01, completeness in the header of known.csv: $((above - 1)) inter-event times" out.txt || fail "$(cat out.txt)"
+  told "sizes >= 0.01, completeness in the header of known.csv $((above - 1)) " || fail "$(cat out.txt)"
   grep -q '^# sizes >= 0.01, completeness in the header' i.csv && grep -q "^ours,0.01,$((above - 1))," i.table1.csv || fail "$(cat i.csv)"
   must_run intervals known.csv -o i --no-picture --replicas 0 --threshold 1e-4
-  grep -q "sizes >= 0.0001, as given: 999 inter-event times" out.txt || fail "$(cat out.txt)"
+  told "sizes >= 0.0001, as given 999 " || fail "$(cat out.txt)"
   must_run fit known.csv --replicas 0 --scaling -o f --no-picture --json f.json
   grep -q 'smallest size, fault: 0.01, completeness in the header' out.txt || fail "$(cat out.txt)"
   awk -F, '$1 == "lsm" && !($2 >= 0.01) { exit 1 }' f.fits.csv || fail "the search begins too low: $(cat f.fits.csv)"
-  grep -q "n = $above " out.txt && grep -q '"threshold_from": "0.01, completeness' f.json || fail "scaling: $(cat out.txt f.json)"
+  told "fault, length 120 120 $above " && grep -q '"threshold_from": "0.01, completeness' f.json || fail "scaling: $(cat out.txt f.json)"
   grep -q 'may depend on the time step' out.txt && fail "a note without a reason: $(cat out.txt)"
   must_run fit known.csv --replicas 0 --no-comparison --range 1e-3:1 -o f --no-picture
   grep -q '^lsm,0.001,1,no,1000,' f.fits.csv && grep -q 'below its completeness of 0.01' out.txt || fail "--range: $(cat out.txt)"
@@ -274,13 +274,13 @@ report)
   pe rise.pe 480 10 0
   must_run report s.csv --series tooth.pe --series creep.pe --series rise.pe --replicas 0 --interval-replicas 0 -o p.html
   row() { grep "^<tr><th scope=\"row\">$1<" p.html | sed 's/<[^>]*>/|/g; s/||*/|/g'; }
-  [ "$(row tooth.pe)" = '|tooth.pe|Fault|120|0 to 1981|stick-slip|10|3|10|0.091|9|' ] || fail "row of tooth.pe: $(row tooth.pe)"
-  [ "$(row creep.pe)" = '|creep.pe|Fault|240|0 to 2401|creep|1|2.41|1|0.5|60|' ] || fail "row of creep.pe: $(row creep.pe)"
-  row rise.pe | grep -q '480|0 to 201|degenerate: PE only rises' || fail "row of rise.pe: $(row rise.pe)"
+  [ "$(row tooth.pe)" = '|tooth.pe|fault|120|0 to 1981|1982|20|stick-slip|10|3|10|0.09086|9|' ] || fail "row of tooth.pe: $(row tooth.pe)"
+  [ "$(row creep.pe)" = '|creep.pe|fault|240|0 to 2401|2402|20|creep|1|2.41|1|0.4998|60|' ] || fail "row of creep.pe: $(row creep.pe)"
+  row rise.pe | grep -q '480|0 to 201|202|.*|PE only rises' || fail "row of rise.pe: $(row rise.pe)"
   grep -q 'Stick-slip or creep' r.html && fail "a section without a series"
   # The window of time holds for the series, too.
   must_run report s.csv --series tooth.pe --from 495 --to 1485 --replicas 0 --interval-replicas 0 -o p.html
-  row tooth.pe | grep -q '|495 to 1485|stick-slip|10|' || fail "--from, --to: $(row tooth.pe)"
+  row tooth.pe | grep -q '|495 to 1485|991|.*|stick-slip|10|' || fail "--from, --to: $(row tooth.pe)"
   refused 'samples in the window of time' report s.csv --series tooth.pe --from 5000 -o x.html
   refused 'is read by this command' report s.csv --series tooth.pe -o tooth.pe
   refused 'nowhere.pe: cannot open' report s.csv --series nowhere.pe -o x.html
@@ -341,7 +341,7 @@ few)
   [ "$(grep -c '^ours' i.table1.csv)" = 8 ] || fail "$(cat i.table1.csv)"
   awk -F, '$1 == "ours" && ($4 $6 $8 $10 != "" || $NF == "") { exit 1 }' i.table1.csv || fail "numbers of degenerate fits"
   must_run fit few.csv --range 1e-3:1 -o f
-  grep -q 'degenerate: ' out.txt || fail "$(cat out.txt)"
+  grep -q 'degenerate' out.txt || fail "$(cat out.txt)"
   # No characteristic size in any catalogue: no picture of the scaling, the rest is there.
   must_run fit one.csv few.csv --scaling -o z
   pictures z
@@ -420,7 +420,7 @@ rupture)
   awk -F, '!/^#/ && !/^curve/ { n += $6; if ($3 == 24.5 && $6 != 8) exit 1
     d = $6 / (495 * 120 * ($4 - $3)); if (($7 - d) ^ 2 > 1e-18 * d * d) exit 1 } END { exit n != 43 }' r-lengths.csv ||
     fail "densities of lengths: $(cat r-lengths.csv)"
-  grep -q '^a: 43 ruptures' out.txt || fail "$(cat out.txt)"
+  told '^ a 43 ' || fail "$(cat out.txt)"
   # Of the lengths below that of the fault: slope 2 without scatter.
   slope 2 '^# fit, without those of the whole fault: ' r-length.csv || fail "$(head -3 r-length.csv)"
   [ "$(awk -F, '$6 == 1' r-length.csv | wc -l)" = 1 ] || fail "ruptures of the whole fault"
@@ -438,7 +438,7 @@ rupture)
   refused 'plain.csv: no catalogue of ruptures of a fault' rupture plain.csv -o x
   # Of the places 15, 45, 75 and 105 only 75 is reached by more than the one rupture of the whole fault: by 28.
   must_run intervals a.csv --threshold 0 --places 4 --no-picture -o p
-  grep -q ': 27 inter-event times, mean' out.txt && grep -q 'times at 4 places each' out.txt || fail "$(cat out.txt)"
+  told ' 27 [0-9.]* model time' && grep -q 'times at 4 places each' out.txt || fail "$(cat out.txt)"
   refused 'plain.csv: times at places: no columns x_begin and rupture_length' intervals plain.csv --places 4 -o x
   refused '--places' intervals a.csv --places -1 -o x
   refused '--event needs --history' rupture a.csv --event 3 -o x

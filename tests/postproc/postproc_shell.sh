@@ -16,3 +16,5 @@ refused() {
   grep -q -e "$pattern" err.txt || fail "message for $* is '$(cat err.txt)', expected '$pattern'"
   [ "$(ls -A)" = "$before" ] || fail "output left behind by $*: $(ls -A)"
 }
+# told PATTERN: a line of out.txt, its columns one blank apart.
+told() { tr -s ' ' < out.txt | grep -q -- "$1"; }

@@ -11,13 +11,15 @@
 #include <utility>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "event_tables.h"
 #include "new_file.h"
 #include "numbers.h"
 #include "options.h"
+#include "page.h"
 #include "plot.h"
-#include "report.h"
-#include "report_template.h"
+#include "report_page.h"
 #include "unit_files.h"
 
 using namespace LSM::postproc;
@@ -62,10 +64,58 @@ TEST(Table, RowsOfAnyCells) {
   table.add("a, b");
   table.row(std::size_t{3}, true, 0.125);
   table.row("c", -1, false, std::nan(""));
-  EXPECT_EQ(table.text(), "name,whole,flag,number\n\"a, b\",3,1,0.125\nc,-1,0,\n");
-  EXPECT_EQ(table.texts(), (std::vector<std::vector<std::string>>{{"a, b", "3", "1", "0.125"},
-                                                                  {"c", "-1", "0", "-"}}));
+  EXPECT_EQ(table.csv(), "name,whole,flag,number\n\"a, b\",3,1,0.125\nc,-1,0,\n");
+  EXPECT_EQ(table.text(), "");
   EXPECT_THROW(table.row("too few"), std::logic_error);
+}
+
+TEST(Table, FourRenderersOfOneTable) {
+  Table table("label,b,b_error,why,empty,!from");
+  table.show({{"catalogue", "label"},
+              {"from", "from"},
+              {"slope γ", "b"},
+              {"nothing", "empty"},
+              {"degenerate", "why"}});
+  table.comment("b: Aki");
+  table.row("one <1>", Measured{1.25, 0.024}, "", "", "M 2");
+  table.row("one <1>", 0.5, std::nan(""), "too few, \"all\" equal", "", "M 3");
+  EXPECT_EQ(table.csv(),
+            "# b: Aki\nlabel,b,b_error,why,empty\none <1>,1.25,0.024,,\n"
+            "one <1>,0.5,,\"too few, \"\"all\"\" equal\",\n");
+  EXPECT_EQ(table.json().dump(),
+            "[{\"label\":\"one <1>\",\"b\":1.25,\"b_error\":0.024,\"why\":\"\",\"empty\":\"\"},"
+            "{\"label\":\"one <1>\",\"b\":0.5,\"b_error\":null,"
+            "\"why\":\"too few, \\\"all\\\" equal\",\"empty\":\"\"}]");
+  EXPECT_EQ(table.text(),
+            "b: Aki\n"
+            "  catalogue  from  slope γ         degenerate\n"
+            "  one <1>    M 2   1.250 +- 0.024\n"
+            "             M 3   0.5             too few, \"all\" equal\n");
+  EXPECT_TRUE(contains(table.html(),
+                       "<thead><tr><th>catalogue</th><th>from</th><th>slope γ</th>"
+                       "<th>degenerate</th></tr></thead>"));
+  EXPECT_TRUE(contains(table.html(),
+                       "<tr><th scope=\"row\">one &lt;1&gt;</th><td>M 2</td>"
+                       "<td>1.250 ± 0.024</td><td></td></tr>"));
+}
+
+// Many columns of few rows are easier to read from top to bottom.
+TEST(Table, WideTextIsTurnedOnItsSide) {
+  std::vector<std::string> names;
+  std::vector<Shown> shown;
+  for (int k = 0; k < 30; ++k) {
+    names.push_back("column_" + std::to_string(k));
+    shown.push_back({names.back(), names.back()});
+  }
+  Table table(names);
+  table.show(shown);
+  for (int k = 0; k < 30; ++k) table.add(k);
+  table.end_row();
+  EXPECT_EQ(table.text().find("  column_0   0\n  column_1   1\n"), 0U);
+  table = Table("no column");
+  table.show({{"heading", "other"}});
+  table.row(1);
+  EXPECT_THROW(table.text(), std::logic_error);
 }
 
 TEST_F(Plot, LabelsArePrintedAsTheyAre) {
@@ -184,7 +234,7 @@ TEST_F(Plot, TableQuotesTextAndKeepsDigits) {
   table.comment("two\nlines");
   table.add("a, \"b\"").add(0.1).add(std::int64_t{3}).end_row();
   table.add("plain").add(std::numeric_limits<double>::quiet_NaN()).add(std::int64_t{0}).end_row();
-  EXPECT_EQ(table.text(),
+  EXPECT_EQ(table.csv(),
             "# two lines\nlabel,value,count\n\"a, \"\"b\"\"\",0.10000000000000001,3\nplain,,0\n");
   table.add("short");
   EXPECT_THROW(table.end_row(), std::logic_error);
@@ -194,7 +244,7 @@ TEST_F(Plot, TableDoesNotDependOnTheLocale) {
   const unit::CommaLocale comma;
   Table table("value");
   table.add(1234.5).end_row();
-  EXPECT_EQ(table.text(), "value\n1234.5\n");
+  EXPECT_EQ(table.csv(), "value\n1234.5\n");
   EXPECT_EQ(with_error(1234.5, 0.25), "1234.50 +- 0.25");
   EXPECT_TRUE(
       contains(axis("x", "x", true, 0.5, 2000.0), "set xrange [0.10000000000000001:10000]"));

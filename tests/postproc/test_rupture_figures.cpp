@@ -64,7 +64,7 @@ class RuptureHistory : public unit::Files {
 /// Rows of a table by field.
 std::vector<std::vector<std::string>> rows_of(const Table &table) {
   std::vector<std::vector<std::string>> rows;
-  std::istringstream in(table.text());
+  std::istringstream in(table.csv());
   for (std::string line; std::getline(in, line);) {
     if (line[0] == '#') continue;
     rows.emplace_back();

@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "report_page.h"
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "interval_figure.h"
+#include "numbers.h"
+#include "page.h"
+#include "size_densities.h"
+#include "size_fit_tables.h"
+#include "size_fits.h"
+#include "table1.h"
+
+namespace LSM::postproc {
+
+namespace {
+
+constexpr int picture_width = 720;
+
+/// Description of a kind of events, if the page has one.
+std::string kind_part(const std::string &kind, const std::string &of) {
+  return kind == "ruptures" ? report_part("ruptures" + of) : std::string();
+}
+
+std::string catalogue_section(const std::vector<EventTable> &tables, const Threshold &least) {
+  Table table({"catalogue", "model", "kind of event", "events", "from the smallest size used",
+               "first to last start (model time)", "share of the time within events",
+               "smallest to largest size (model energy)", "lines skipped"});
+  std::string below;
+  for (const EventTable &events : tables) {
+    const double threshold = least.of(events);
+    std::string starts = "no events", range = starts;
+    if (!events.events.empty()) {
+      Extent sizes;
+      for (const Event &event : events.events) sizes.add(event.size);
+      range = fmt::format("{} to {}", short_number(sizes.lo, 3), short_number(sizes.hi, 3));
+      starts = fmt::format("{} to {}", short_number(events.events.front().t_start, 6),
+                           short_number(events.events.back().t_start, 6));
+    }
+    table.row(events.label, model_name(events.info.model),
+              events.kind() == "pe" ? "drops of PE" : events.kind(), events.events.size(),
+              fmt::format("{} from {}", events_from(events, threshold), short_number(threshold)),
+              starts, short_number(events.share_in_events(), 2), range, events.skipped_lines);
+    for (const std::string &repair : events.repairs)
+      below += "<p>" + html_escape(events.label + ": " + repair) + "</p>\n";
+  }
+  std::string out = table.html();
+  for (const std::string &line : texts(least, tables))
+    out += "<p>S" + html_escape(line.substr(1)) + ".</p>\n";
+  return out + below;
+}
+
+std::string series_section(const std::vector<SeriesRegime> &series) {
+  double window = regime_window;
+  for (const SeriesRegime &one : series)
+    if (one.regime) window = one.regime->window;
+  return report_part("regimes", {{"table", regime_table(series).html()},
+                                 {"window", short_number(window)},
+                                 {"limit", short_number(stick_slip_above(120))}});
+}
+
+std::string parameter_section(const std::vector<EventTable> &tables) {
+  std::vector<std::string> keys, heads = {"parameter"};
+  for (const EventTable &table : tables) {
+    heads.push_back(table.label);
+    for (const auto &parameter : table.info.parameters)
+      if (std::find(keys.begin(), keys.end(), parameter.first) == keys.end())
+        keys.push_back(parameter.first);
+  }
+  Table out(heads);
+  for (const std::string &key : keys) {
+    out.add(key);
+    for (const EventTable &table : tables) {
+      const std::string *text = table.info.find(key);
+      double value = 0.0;
+      if (text && text->size() > 8 && text_io::parse(*text, value))
+        out.add(short_number(value, 10));  // 17 digits are for programs
+      else
+        out.add(text ? *text : "–");
+    }
+    out.end_row();
+  }
+  return out.html();
+}
+
+/// Runs draw; an impossible picture becomes a paragraph that says why. Errors about files and
+/// gnuplot go through: they are not about the data.
+template <class Draw>
+std::string drawn_or_why(Draw &&draw) {
+  try {
+    return draw();
+  } catch (const FileError &) {
+    throw;
+  } catch (const std::runtime_error &error) {
+    return "<p>" + degenerate_html(error.what()) + "</p>\n";
+  }
+}
+
+/// Header value as text, or "".
+std::string parameter(const EventTable &table, std::string_view key) {
+  const std::string *text = table.info.find(key);
+  return text ? *text : "";
+}
+
+/// The catalogues of block-sliders by their leaf springs: `same` have the commonest value; `fig7`,
+/// as in the paper's Fig. 7, has one number of blocks and every value, and is empty if all are the
+/// same.
+void split_by_stiffness(const std::vector<EventTable> &tables, std::vector<EventTable> &same,
+                        std::vector<EventTable> &fig7) {
+  std::map<std::string, int> counts;
+  for (const EventTable &table : tables) ++counts[parameter(table, "kl")];
+  const std::string common = std::max_element(counts.begin(), counts.end(), [](auto &a, auto &b) {
+                               return a.second < b.second;
+                             })->first;
+  for (const EventTable &table : tables)
+    (parameter(table, "kl") == common ? same : fig7).push_back(table);
+  if (fig7.empty()) return;
+  const std::string blocks = parameter(fig7.front(), "blocks");
+  for (const EventTable &table : same)
+    if (parameter(table, "blocks") == blocks) fig7.push_back(table);
+}
+
+/// The page of a set of catalogues, model by model.
+class ReportPage {
+ public:
+  explicit ReportPage(const ReportSettings &settings) : settings_(settings) {}
+
+  /// The section of the catalogues of one model and kind of events.
+  std::string model(const std::vector<EventTable> &all, const std::string &heading);
+  /// Of all models so far.
+  std::string table1_section() const { return table1(table1_rows(curves_), false).html(); }
+
+ private:
+  std::string densities(const std::vector<EventTable> &tables, const Threshold &threshold,
+                        const std::vector<PowerLine> &lines, const std::string &caption);
+  std::string sizes(const std::vector<EventTable> &all, const std::vector<EventTable> &tables,
+                    const std::vector<EventTable> &fig7);
+  std::string scaling(const std::vector<EventTable> &tables);
+  std::string times(const std::vector<EventTable> &tables);
+  std::string section(const ReportSection &section, const std::vector<EventTable> &tables);
+
+  const ReportSettings &settings_;
+  PageFigures figures_;
+  std::vector<IntervalCurve> curves_;
+};
+
+std::string ReportPage::densities(const std::vector<EventTable> &tables, const Threshold &threshold,
+                                  const std::vector<PowerLine> &lines, const std::string &caption) {
+  return drawn_or_why([&] {
+    DensitySettings settings;
+    settings.threshold = threshold;
+    const std::vector<SizeDensity> found = size_densities(tables, settings);
+    std::string whole = caption + " " + report_part("densities caption");
+    for (const SizeDensity &density : found)
+      if (density.bins.empty()) whole += " No event in range: " + html_escape(density.label) + ".";
+    return figures_.add(size_density_figure(found, lines, picture_width),
+                        "Densities of event sizes", whole);
+  });
+}
+
+std::string ReportPage::sizes(const std::vector<EventTable> &all,
+                              const std::vector<EventTable> &tables,
+                              const std::vector<EventTable> &fig7) {
+  struct Printed {
+    double slope;
+    const char *title;
+    Range range;  // The paper prints none. Ours: where its exponents are seen.
+  };
+  const bool fault = all.front().info.model == "lsm";
+  const std::vector<Printed> printed =
+      fault ? std::vector<Printed>{{-1.07, "paper: slope -1.07", {1e-4, 1e-2}}}
+            : std::vector<Printed>{{-0.5, "paper: slope -0.5", {1e-2, 1.0}},
+                                   {-1.0, "paper: slope -1.0", {1.0, 100.0}}};
+  const double threshold = settings_.threshold.of(all.front());  // the same for all of a kind
+  SizeFitSettings fits;
+  fits.replicas = settings_.replicas;
+  fits.seed = settings_.seed;
+  fits.threshold = settings_.threshold;
+  fits.search.upper = true;
+  std::vector<SizeFit> found = fit_sizes(all, fits);
+  std::vector<PowerLine> lines;
+  for (const auto &[slope, title, range] : printed) {
+    const double lo = std::max(range.lo, threshold);
+    if (!(lo < range.hi)) continue;
+    fits.ranges.push_back({lo, range.hi});
+    PowerLine line;
+    line.slope = slope;
+    line.lo = lo;
+    line.hi = range.hi;
+    line.title = title;
+    line.dash = 1 + static_cast<int>(fits.ranges.size());
+    lines.push_back(line);
+  }
+  if (!fits.ranges.empty()) {
+    const std::vector<SizeFit> between = fit_sizes(all, fits);
+    found.insert(found.begin(), between.begin(), between.end());
+  }
+  std::string out =
+      kind_part(all.front().kind(), fault ? " of a fault" : " of a chain") +
+      densities(tables, settings_.threshold, lines,
+                report_part("sizes caption", {{"figure", fault ? "12" : "13"},
+                                              {"threshold", short_number(threshold)}}));
+  if (!fig7.empty()) out += densities(fig7, 0.0, {}, report_part("stiffness caption"));
+  return out + report_part(fault ? "printed fault exponents" : "printed slider exponents") + "\n" +
+         size_fit_table(found).html();
+}
+
+std::string ReportPage::scaling(const std::vector<EventTable> &tables) {
+  Resampling bootstrap = settings_.bootstrap;
+  bootstrap.seed = settings_.seed;
+  std::string out;
+  for (const Scaling &one : scale_sizes(tables, settings_.threshold, bootstrap)) {
+    std::string figure;
+    if (!one.fit.degenerate)
+      figure = figures_.add(scaling_figure({one}, picture_width),
+                            "Characteristic size against length", report_part("scaling caption"));
+    out += report_part("scaling", {{"figure", figure},
+                                   {"table", scaling_table({one}).html()},
+                                   {"events", one.kind == "pe" ? report_part("drops of PE")
+                                                               : kind_part(one.kind, "")},
+                                   {"verdict", one.fit.degenerate ? degenerate_html(one.fit.why)
+                                                                  : html_escape(verdict(one))}});
+  }
+  if (!out.empty()) return out;
+  return "<p>" + degenerate_html("no catalogue gives its length or number of blocks") + "</p>\n";
+}
+
+std::string ReportPage::times(const std::vector<EventTable> &tables) {
+  const double threshold = settings_.threshold.of(tables.front());
+  IntervalSettings intervals;
+  if (settings_.threshold.given()) intervals.thresholds = {threshold};
+  intervals.replicas = settings_.interval_replicas;
+  intervals.seed = settings_.seed;
+  const std::vector<IntervalCurve> curves = interval_curves(tables, intervals);
+  std::string out = drawn_or_why([&] {
+    return figures_.add(interval_figure(curves, false, picture_width),
+                        "Densities of inter-event times",
+                        report_part("intervals caption",
+                                    {{"figure", tables.front().info.model == "lsm" ? "14" : "15"},
+                                     {"threshold", short_number(threshold)}}));
+  });
+  curves_.insert(curves_.end(), curves.begin(), curves.end());
+  intervals.rescale = true;
+  intervals.replicas = 0;  // the same fits in another unit
+  return out + drawn_or_why([&] {
+           return figures_.add(
+               interval_figure(interval_curves(tables, intervals), true, picture_width),
+               "Inter-event times divided by their mean", report_part("rescaled caption"));
+         });
+}
+
+/// What a statistic found: its tables and pictures.
+std::string ReportPage::section(const ReportSection &section,
+                                const std::vector<EventTable> &tables) {
+  return "<h3>" + html_escape(section.heading) + "</h3>\n" + drawn_or_why([&] {
+           std::string body;
+           const Findings found = section.find(tables);
+           for (const Finding &one : found.all()) {
+             if (const auto *table = std::get_if<Table>(&one.what))
+               body += table->html();
+             else if (const auto *figure = std::get_if<Figure>(&one.what))
+               body += figures_.add(*figure, section.heading, "");
+           }
+           return body;
+         });
+}
+
+std::string ReportPage::model(const std::vector<EventTable> &all, const std::string &heading) {
+  std::vector<EventTable> tables, fig7;
+  if (all.front().info.model == "lsm")
+    tables = all;
+  else
+    split_by_stiffness(all, tables, fig7);
+  // In this order, which is that of the numbers of the pictures.
+  const std::string of_sizes = sizes(all, tables, fig7);
+  const std::string of_lengths = scaling(tables);
+  std::string of_times = times(tables);
+  for (const ReportSection &one : settings_.sections) of_times += section(one, all);
+  return report_part(
+      "model",
+      {{"name", heading}, {"sizes", of_sizes}, {"scaling", of_lengths}, {"intervals", of_times}});
+}
+
+}  // namespace
+
+std::string report_html(const std::vector<EventTable> &tables, const ReportSettings &settings,
+                        const std::vector<SeriesRegime> &series) {
+  ReportPage page(settings);
+  std::string models, parameters;
+  std::vector<std::string> kinds = {"pe"};
+  for (const EventTable &table : tables)
+    if (std::find(kinds.begin(), kinds.end(), table.kind()) == kinds.end())
+      kinds.push_back(table.kind());
+  for (const bool fault : {true, false})
+    for (const std::string &kind : kinds) {
+      std::vector<EventTable> chosen;
+      for (const EventTable &table : tables)
+        if ((table.info.model == "lsm") == fault && table.kind() == kind) chosen.push_back(table);
+      if (chosen.empty()) continue;
+      const std::string heading =
+          std::string(fault ? "Fault" : "Block-slider") + (kind == "pe" ? "" : ": " + kind);
+      parameters += "<h3>" + heading + "</h3>\n" + parameter_section(chosen);
+      models += page.model(chosen, heading);
+    }
+  return report_part("page", {{"title", html_escape(settings.title)},
+                              {"catalogues", catalogue_section(tables, settings.threshold)},
+                              {"regimes", series.empty() ? "" : series_section(series)},
+                              {"models", models},
+                              {"table1", page.table1_section()},
+                              {"rejection_rule", std::string(rejection_rule)},
+                              {"replicas", std::to_string(settings.replicas)},
+                              {"interval_replicas", std::to_string(settings.interval_replicas)},
+                              {"bootstrap", std::to_string(settings.bootstrap.replicas)},
+                              {"seed", std::to_string(settings.seed)},
+                              {"parameters", parameters}});
+}
+
+}  // namespace LSM::postproc

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "page.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace LSM::postproc {
+
+std::string report_part(std::string_view name,
+                        const std::vector<std::pair<std::string_view, std::string>> &values) {
+  const std::string head = "<!-- part " + std::string(name) + " -->\n";
+  const std::size_t begin = report_template.find(head);
+  if (begin == std::string_view::npos)
+    throw std::logic_error("report.html has no part '" + std::string(name) + "'");
+  std::string_view rest = report_template.substr(begin + head.size());
+  rest = rest.substr(0, rest.find("<!-- part "));
+  std::string out;
+  std::vector<bool> used(values.size());
+  for (std::size_t open = 0; (open = rest.find("{{")) != std::string_view::npos;) {
+    const std::size_t close = rest.find("}}", open);
+    const std::string_view key = rest.substr(open + 2, close - open - 2);
+    const auto value = std::find_if(values.begin(), values.end(),
+                                    [key](const auto &pair) { return pair.first == key; });
+    if (value == values.end())
+      throw std::logic_error("report.html: nothing for {{" + std::string(key) + "}}");
+    used[static_cast<std::size_t>(value - values.begin())] = true;
+    out += rest.substr(0, open);
+    out += value->second;
+    rest.remove_prefix(close + 2);
+  }
+  if (std::find(used.begin(), used.end(), false) != used.end())
+    throw std::logic_error("report.html, part '" + std::string(name) +
+                           "': a value without a place");
+  out += rest.substr(0, rest.find_last_not_of('\n') + 1);
+  return out;
+}
+
+std::string inline_svg(std::string_view svg, const std::string &prefix, const std::string &title) {
+  const std::size_t begin = svg.find("<svg"), end = svg.find("</svg>");
+  if (begin == std::string_view::npos || end == std::string_view::npos)
+    throw std::invalid_argument("not an SVG picture");
+  std::string out(svg.substr(begin, end + 6 - begin));
+  const auto replace_all = [&out](std::string_view from, const std::string &to) {
+    for (std::size_t at = 0; (at = out.find(from, at)) != std::string::npos; at += to.size())
+      out.replace(at, from.size(), to);
+  };
+  for (const char *const reference : {" id='", " id=\"", "href='#", "href=\"#", "url(#"})
+    replace_all(reference, reference + prefix);
+  replace_all("<title>Gnuplot</title>", "<title>" + html_escape(title) + "</title>");
+  const std::size_t description = out.find("<desc>"), behind = out.find("</desc>");
+  if (description != std::string::npos && behind != std::string::npos)
+    out.erase(description, behind + 7 - description);
+  // Text between the elements may hold the same words as an attribute; the background is the first.
+  const std::string background = "fill=\"#ffffff\"";
+  const std::size_t at = out.find(background);
+  if (at != std::string::npos) out.replace(at, background.size(), "fill=\"none\"");
+  out.insert(4, " role=\"img\"");
+  return out;
+}
+
+std::string PageFigures::add(const Figure &figure, const std::string &title,
+                             const std::string &caption) {
+  return fmt::format(
+      "<figure>\n<div class=\"wide\">{}</div>\n<figcaption><b>{}.</b> {}</figcaption>\n</figure>\n",
+      inline_svg(svg_text(figure), fmt::format("f{}-", ++count_), title), html_escape(title),
+      caption);
+}
+
+std::string degenerate_html(const std::string &why) {
+  return "<span class=\"bad\">degenerate: " + html_escape(why) + "</span>";
+}
+
+}  // namespace LSM::postproc

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "densities.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace LSM::postproc {
+
+namespace {
+
+SizeDensity density_of(const EventTable &table, const DensitySettings &settings) {
+  SizeDensity out;
+  out.label = table.label;
+  out.model = table.info.model;
+  out.length = table.length();
+  const double least = settings.threshold.of(table);
+  if (!(least >= 0.0) || !(settings.upto > least))
+    throw std::invalid_argument(
+        fmt::format("{}: sizes from {} to {}: expected 0 <= lower end < upper end", table.label,
+                    least, settings.upto));
+  const std::vector<double> sizes = column(table.events, &Event::size);
+  if (sizes.empty()) return out;
+  out.largest = *std::max_element(sizes.begin(), sizes.end());
+  out.bins = LogHistogram(sizes, settings.factor).bins(least, settings.upto);
+  for (const LogBin &bin : out.bins) out.events += bin.count;
+  return out;
+}
+
+}  // namespace
+
+std::vector<SizeDensity> size_densities(const std::vector<EventTable> &tables,
+                                        const DensitySettings &settings) {
+  std::vector<SizeDensity> all;
+  double least = std::numeric_limits<double>::infinity();
+  bool any = false;
+  for (const EventTable &table : tables) {
+    all.push_back(density_of(table, settings));
+    least = std::min(least, settings.threshold.of(table));
+    any = any || !all.back().bins.empty();
+  }
+  if (!any)
+    throw std::runtime_error(
+        fmt::format("no event of size {:.4g} or larger in any catalogue, nothing to draw", least));
+  return all;
+}
+
+double amplitude_of(const PowerLawFit &law, const SizeDensity &density) {
+  // Integral of s^-alpha over the range; exp(-infinity) serves a range without an upper end.
+  const double power = 1.0 - law.alpha, logs = std::log(law.hi / law.lo);
+  const double integral =
+      std::pow(law.lo, power) * (power == 0.0 ? logs : std::expm1(power * logs) / power);
+  return static_cast<double>(law.n) / static_cast<double>(density.events) / integral;
+}
+
+}  // namespace LSM::postproc
