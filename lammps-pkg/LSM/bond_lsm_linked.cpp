@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -53,6 +54,25 @@ void BondLSMLinked::compute(int eflag, int vflag)
   if (evflag) tally();
 }
 
+// Numbers of the keys in the order of these, equal keys in theirs: a counting sort for each digit, which takes a
+// fraction of the time that comparing the links takes.
+static std::vector<int> sorted_by(const std::vector<tagint> &keys)
+{
+  constexpr int BITS = 11;
+  std::vector<int> order(keys.size()), next(keys.size());
+  std::iota(order.begin(), order.end(), 0);
+  tagint most = keys.empty() ? 0 : *std::max_element(keys.begin(), keys.end());
+  for (int shift = 0; most > 0; shift += BITS, most >>= BITS) {
+    const auto digit = [&](int n) { return keys[n] >> shift & ((1 << BITS) - 1); };
+    std::vector<int> begin((1 << BITS) + 1, 0);
+    for (int n : order) begin[digit(n) + 1]++;
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    for (int n : order) next[begin[digit(n)]++] = n;
+    order.swap(next);
+  }
+  return order;
+}
+
 // The links of this rank in rows, in an order that follows from the particle IDs alone: a run that goes on from a
 // restart file sums in the same order, and links that follow each other touch the same stretch of memory if
 // IDs follow the particles in space. Links that are treated differently stand in segments of their own:
@@ -62,46 +82,48 @@ void BondLSMLinked::compute(int eflag, int vflag)
 void BondLSMLinked::collect()
 {
   struct Link {
-    bool first_only;
-    int type;
-    tagint low, high, first;
+    tagint high, first;
     int i, j;
     bool operator<(const Link &o) const
     {
-      return std::tie(first_only, type, low, high, first) <
-             std::tie(o.first_only, o.type, o.low, o.high, o.first);
+      return std::tie(high, first) < std::tie(o.high, o.first);
     }
   };
 
   const tagint *const tag = atom->tag;
   const int nlocal = atom->nlocal;
   int **const bondlist = neighbor->bondlist;
-  std::vector<Link> links;
-  links.reserve(neighbor->nbondlist);
+  std::map<std::pair<bool, int>, std::pair<std::vector<Link>, std::vector<tagint>>> kinds;
   for (int n = 0; n < neighbor->nbondlist; n++) {
     int i = bondlist[n][0], j = bondlist[n][1];
     const int type = bondlist[n][2];
     if (type <= 0) continue;
     if (j < nlocal && tag[j] < tag[i]) std::swap(i, j);
-    links.push_back({!force->newton_bond && j >= nlocal, type, MIN(tag[i], tag[j]),
-                     MAX(tag[i], tag[j]), tag[i], i, j});
+    auto &[links, low] = kinds[{!force->newton_bond && j >= nlocal, type}];
+    links.push_back({MAX(tag[i], tag[j]), tag[i], i, j});
+    low.push_back(MIN(tag[i], tag[j]));
   }
-  std::sort(links.begin(), links.end());
 
   const std::vector<int> owned = owned_by_id();
   const double *const radius = atom->radius;
-  std::vector<LSMLinkRows::Link> same;
   segments.clear();
-  for (size_t n = 0; n < links.size(); n++) {
-    const Link &link = links[n];
-    same.push_back({link.i, link.j, radius[link.i] + radius[link.j]});
-    if (n + 1 < links.size() && links[n + 1].type == link.type &&
-        links[n + 1].first_only == link.first_only)
-      continue;
+  for (const auto &[kind, of_kind] : kinds) {
+    const auto &[links, low] = of_kind;
+    std::vector<int> order = sorted_by(low);
+    for (auto begin = order.begin(); begin != order.end();) {
+      const auto end = std::find_if(begin, order.end(),
+                                    [&low = low, of = low[*begin]](int n) { return low[n] != of; });
+      std::sort(begin, end, [&links = links](int a, int b) { return links[a] < links[b]; });
+      begin = end;
+    }
+    std::vector<LSMLinkRows::Link> sorted;
+    sorted.reserve(order.size());
+    for (int n : order)
+      sorted.push_back({links[n].i, links[n].j, radius[links[n].i] + radius[links[n].j]});
+    const auto [first_only, type] = kind;
     segments.push_back(
-        {link.type, link.first_only,
-         LSMLinkRows::make_rows(owned, same, nlocal, nlocal + atom->nghost, link.first_only)});
-    same.clear();
+        {type, first_only,
+         LSMLinkRows::make_rows(owned, sorted, nlocal, nlocal + atom->nghost, first_only)});
   }
   collected_at = neighbor->lastcall;
 }
