@@ -15,9 +15,7 @@ using namespace FixConst;
 
 FixLSMAbsorb::FixLSMAbsorb(LAMMPS *_lmp, int narg, char **arg) : LSMKeptFix(_lmp, narg, arg)
 {
-  scalar_flag = 1;
-  global_freq = 1;
-  extscalar = 1;
+  has_output(true);
 
   if (narg != 7)
     error->all(FLERR,

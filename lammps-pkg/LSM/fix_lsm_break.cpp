@@ -22,9 +22,7 @@ FixLSMBreak::FixLSMBreak(LAMMPS *_lmp, int narg, char **arg) :
     LSMKeptFix(_lmp, narg, arg), links(nullptr), total(0)
 {
   if (narg != 3) error->all(FLERR, "Fix LSM_BREAK is internal to bond style lsm/linked");
-  scalar_flag = 1;
-  extscalar = 0;
-  global_freq = 1;
+  has_output(false);
   force_reneighbor = 1;
   next_reneighbor = -1;
 }

@@ -30,12 +30,7 @@ static constexpr bigint KEPT_STEPS =
 FixLSMLeap::FixLSMLeap(LAMMPS *_lmp, int narg, char **arg) :
     LSMKeptFix(_lmp, narg, arg), dt(update->dt)
 {
-  scalar_flag = 1;
-  vector_flag = 1;
-  size_vector = 6;
-  global_freq = 1;
-  extscalar = 0;
-  extvector = 0;
+  has_output(false, 6);
 
   if (narg < 4)
     error->all(FLERR, "Fix lsm/leap expects 'fix ID group lsm/leap plates-ID keyword value ...'");

@@ -38,12 +38,7 @@ FixLSMNVE::FixLSMNVE(LAMMPS *_lmp, int narg, char **arg) :
 {
   time_integrate = 1;
   dynamic_group_allow = 1;
-  scalar_flag = 1;
-  vector_flag = 1;
-  size_vector = 2;
-  global_freq = 1;
-  extscalar = 1;
-  extvector = 0;
+  has_output(true, 2);
   comm_forward = comm_reverse = domain->dimension == 3 ? 3 : 2;
 
   const LSM::Keywords keywords = {{"dtcheck", LSM::Words{&check, {"error", "warn", "off"}}}};

@@ -24,15 +24,9 @@ using namespace FixConst;
 
 enum { LOWER, UPPER };
 
-FixLSMPlates::FixLSMPlates(LAMMPS *_lmp, int narg, char **arg) :
-    LSMKeptFix(_lmp, narg, arg), dt(update->dt)
+FixLSMPlates::FixLSMPlates(LAMMPS *_lmp, int narg, char **arg) : LSMKeptFix(_lmp, narg, arg)
 {
-  scalar_flag = 1;
-  vector_flag = 1;
-  size_vector = 10;
-  global_freq = 1;
-  extscalar = 1;
-  extvector = 0;
+  has_output(true, 10);
 
   if (narg < 5)
     error->all(FLERR, "Fix lsm/plates expects 'fix ID group lsm/plates lower-group upper-group "
@@ -82,7 +76,6 @@ void FixLSMPlates::init()
   if (!domain->xperiodic || domain->yperiodic)
     error->all(FLERR,
                "Fix lsm/plates needs a box that is periodic in x and not in y (boundary p f p)");
-  dt = update->dt;
 
   if (const tagint shared = in_both(plate[LOWER].bit, plate[UPPER].bit))
     error->all(FLERR, "Fix lsm/plates: atom {} is in both plates", shared);
@@ -124,11 +117,6 @@ tagint FixLSMPlates::in_both(int some, int others) const
   for (int i = 0; i < atom->nlocal; i++)
     if ((atom->mask[i] & some) && (atom->mask[i] & others)) mine = MAX(mine, atom->tag[i]);
   return lsm_largest(mine, world);
-}
-
-void FixLSMPlates::reset_dt()
-{
-  dt = update->dt;
 }
 
 void FixLSMPlates::post_neighbor()
@@ -199,6 +187,7 @@ void FixLSMPlates::setup(int /*vflag*/)
 void FixLSMPlates::initial_integrate(int /*vflag*/)
 {
   if (pending) finish_step();
+  const double dt = update->dt;
   const double dux = dt * velocity_at(elapsed + 0.5 * dt);
   const double vx = dux / dt;
   double **x = atom->x;
@@ -235,8 +224,8 @@ void FixLSMPlates::initial_integrate(int /*vflag*/)
 // lsm/nve has deferred its second half kick (see there), as then no fix reads velocities.
 void FixLSMPlates::final_integrate()
 {
-  moved = dt * velocity_at(elapsed + 0.5 * dt);
-  elapsed += dt;
+  moved = update->dt * velocity_at(elapsed + 0.5 * update->dt);
+  elapsed += update->dt;
   along = velocity_at(elapsed);
   start_sum();
   pending = true;
@@ -278,7 +267,7 @@ void FixLSMPlates::post_run()
 // what the applied stress and the force of the block add to the velocity across the fault in half a step
 double FixLSMPlates::half_kick(const Plate &p) const
 {
-  return 0.5 * dt * (-p.side * stress_at(elapsed) * domain->prd[0] + p.fy) / p.mass;
+  return 0.5 * update->dt * (-p.side * stress_at(elapsed) * domain->prd[0] + p.fy) / p.mass;
 }
 
 void FixLSMPlates::damp(Plate &p)
@@ -291,7 +280,7 @@ void FixLSMPlates::damp(Plate &p)
 // factor of the velocity across the fault in half a step
 double FixLSMPlates::decay_of(const Plate &p) const
 {
-  return exp(-0.5 * (damping + impedance * domain->prd[0] / p.mass) * dt);
+  return exp(-0.5 * (damping + impedance * domain->prd[0] / p.mass) * update->dt);
 }
 
 double FixLSMPlates::kinetic() const

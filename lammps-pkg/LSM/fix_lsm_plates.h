@@ -29,7 +29,6 @@ class FixLSMPlates : public LSMKeptFix<FixLSMPlates>, public LSMMover {
   void initial_integrate(int) override;
   void final_integrate() override;
   void post_run() override;
-  void reset_dt() override;
   double compute_scalar() override;
   double compute_vector(int) override;
   void write_restart(FILE *) override;
@@ -41,8 +40,6 @@ class FixLSMPlates : public LSMKeptFix<FixLSMPlates>, public LSMMover {
 
   double loading = 1.0;    // factor of the driving velocity now, set by fix lsm/leap
   double driving_velocity() const { return speed; }
-  // velocity of the upper plate relative to the lower one, in the end
-  double driving() const { return 2.0 * speed; }
   double kinetic() const;    // kinetic energy of the motion of the plates across the fault
   template <class Self, class State> static void visit(Self &self, State &state)
   {
@@ -76,7 +73,6 @@ class FixLSMPlates : public LSMKeptFix<FixLSMPlates>, public LSMMover {
   double elapsed = 0.0;        // time since the fix was made
   double ux = 0.0;             // shear displacement of each plate
   double work_mine = 0.0;      // this rank's part of the work
-  double dt;
 
   std::vector<class FixLSMNVE *> integrators;
   class FixLSMVelocity *ahead = nullptr;    // wants velocities of the time of the next forces

@@ -30,9 +30,7 @@ static constexpr double ASIDE = 0.2;
 
 FixLSMTraction::FixLSMTraction(LAMMPS *_lmp, int narg, char **arg) : LSMKeptFix(_lmp, narg, arg)
 {
-  scalar_flag = 1;
-  global_freq = 1;
-  extscalar = 1;
+  has_output(true);
   comm_forward = 1;
 
   if (narg < 7)

@@ -23,9 +23,7 @@ FixLSMVelocity::FixLSMVelocity(LAMMPS *_lmp, int narg, char **arg) : LSMKeptFix(
 {
   if (narg != 3)
     error->all(FLERR, "Fix LSM_VELOCITY is internal to viscous links and contacts of the package");
-  scalar_flag = 1;
-  extscalar = 1;
-  global_freq = 1;
+  has_output(true);
   restart_peratom = 1;
   create_attribute = 1;
   comm_forward = domain->dimension;

@@ -2,6 +2,8 @@
 
 #include "lsm_block_gather.h"
 
+#include "lsm_ranks.h"
+
 using namespace LAMMPS_NS;
 
 LSMBlockGather::LSMBlockGather(MPI_Comm world, bool slip) : world_(world), me_(0), slip_(slip)
@@ -31,22 +33,7 @@ void LSMBlockGather::start(const LSM::SampleBlock &mine)
   if (!mine.intervals.empty())
     MPI_Reduce(mine.intervals.data(), block_.intervals.data(),
                static_cast<int>(mine.intervals.size()), MPI_DOUBLE, MPI_SUM, 0, world_);
-  if (slip_) gather_slip(mine.slip);
-}
-
-void LSMBlockGather::gather_slip(const std::vector<double> &mine)
-{
-  const int n = static_cast<int>(mine.size());
-  std::vector<int> counts(block_.ranks, 0), offsets(block_.ranks, 0);
-  MPI_Gather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, world_);
-  int sum = 0;
-  for (int p = 0; p < block_.ranks; p++) {
-    offsets[p] = sum;
-    sum += counts[p];
-  }
-  block_.slip.resize(me_ == 0 ? sum : 0);
-  MPI_Gatherv(mine.data(), n, MPI_DOUBLE, block_.slip.data(), counts.data(), offsets.data(),
-              MPI_DOUBLE, 0, world_);
+  if (slip_) block_.slip = lsm_gather_on_0(mine.slip, world_);
 }
 
 bool LSMBlockGather::finish()

@@ -33,8 +33,6 @@ class LSMBlockGather {
   LSM::GatheredBlock block_;
   MPI_Request request_ = MPI_REQUEST_NULL;
   bool pending_ = false;
-
-  void gather_slip(const std::vector<double> &mine);
 };
 
 }    // namespace LAMMPS_NS

@@ -116,9 +116,10 @@ void LSMEventSources::release()
 // references for the slip of the fault: velocity and direction of the plates, stiffness of the links
 void LSMEventSources::find_driving(LSM::EventSettings &settings) const
 {
-  if (plates_ && plates_->driving() < 0.0) settings.forward = -1.0;
+  if (plates_ && plates_->driving_velocity() < 0.0) settings.forward = -1.0;
   if (settings.driving == 0.0 && leap_) settings.driving = 2.0 * leap_->fastest();
-  if (settings.driving == 0.0 && plates_) settings.driving = fabs(plates_->driving());
+  if (settings.driving == 0.0 && plates_)
+    settings.driving = 2.0 * fabs(plates_->driving_velocity());
   if (settings.driving == 0.0)
     error->all(FLERR, "Compute lsm/events {} needs {}, or the keyword driving",
                settings.kind->asked_by(),

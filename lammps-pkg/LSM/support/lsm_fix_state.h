@@ -59,6 +59,17 @@ template <class Self> class LSMKeptFix : public Fix {
     LSMStateReader from(buf, comm->me == 0);
     Self::visit(static_cast<Self &>(*this), from);
   }
+
+ protected:
+  /// It has a scalar, at every step, and a vector of so many intensive numbers.
+  void has_output(bool extensive_scalar, int numbers = 0)
+  {
+    scalar_flag = global_freq = 1;
+    extscalar = extensive_scalar;
+    size_vector = numbers;
+    vector_flag = numbers > 0;
+    extvector = 0;
+  }
 };
 
 }    // namespace LAMMPS_NS

@@ -61,18 +61,28 @@ template <class Value> void lsm_share(std::vector<Value> &values, MPI_Comm world
   MPI_Type_free(&type);
 }
 
-/// All ranks get the values of all, in the order of the ranks.
-template <class Value> std::vector<Value> lsm_gather(const std::vector<Value> &mine, MPI_Comm world)
+/// Rank 0 gets the values of all, in the order of the ranks.
+template <class Value>
+std::vector<Value> lsm_gather_on_0(const std::vector<Value> &mine, MPI_Comm world)
 {
-  const MPI_Datatype type = lsm_mpi_type<Value>();
-  int ranks;
+  int me, ranks;
+  MPI_Comm_rank(world, &me);
   MPI_Comm_size(world, &ranks);
   const int count = static_cast<int>(mine.size());
-  std::vector<int> counts(ranks), offsets(ranks, 0);
-  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
+  std::vector<int> counts(ranks, 0), offsets(ranks, 0);
+  MPI_Gather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, world);
   for (int p = 1; p < ranks; p++) offsets[p] = offsets[p - 1] + counts[p - 1];
-  std::vector<Value> all(offsets.back() + counts.back());
-  MPI_Allgatherv(mine.data(), count, type, all.data(), counts.data(), offsets.data(), type, world);
+  std::vector<Value> all(me == 0 ? offsets.back() + counts.back() : 0);
+  const MPI_Datatype type = lsm_mpi_type<Value>();
+  MPI_Gatherv(mine.data(), count, type, all.data(), counts.data(), offsets.data(), type, 0, world);
+  return all;
+}
+
+/// All ranks get them.
+template <class Value> std::vector<Value> lsm_gather(const std::vector<Value> &mine, MPI_Comm world)
+{
+  std::vector<Value> all = lsm_gather_on_0(mine, world);
+  lsm_share(all, world);
   return all;
 }
 
