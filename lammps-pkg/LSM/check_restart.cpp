@@ -11,7 +11,7 @@
 #include "lsm_restart_info.h"
 
 #include <cstring>
-#include <exception>
+#include <sstream>
 
 using namespace LAMMPS_NS;
 
@@ -22,24 +22,16 @@ void CheckRestart::command(int narg, char **arg)
   const std::string file = arg[0];
 
   // rank 0 reads; the settings go to the others as lines of key and value
-  std::string problem, lines;
-  if (comm->me == 0) {
-    try {
-      for (const auto &[key, value] : LSM::check_restart(file)) lines += key + "=" + value + "\n";
-    } catch (std::exception &e) {
-      problem = e.what();
-    }
-  }
-  lsm_share(problem, world);
+  std::string lines;
+  const std::string problem = lsm_on_0(world, [&file, &lines] {
+    for (const auto &[key, value] : LSM::check_restart(file)) lines += key + "=" + value + "\n";
+  });
   if (!problem.empty()) error->all(FLERR, "check_restart: {}", problem);
   lsm_share(lines, world);
   LSM::text_io::Parameters settings;
-  for (size_t at = 0; at < lines.size();) {
-    const size_t equals = lines.find('=', at), end = lines.find('\n', equals);
-    settings.emplace_back(lines.substr(at, equals - at),
-                          lines.substr(equals + 1, end - equals - 1));
-    at = end + 1;
-  }
+  std::istringstream in(lines);
+  for (std::string key, value; std::getline(in, key, '=') && std::getline(in, value);)
+    settings.emplace_back(key, value);
 
   bool fixed = false, any = false;
   for (int n = 1; n < narg; n++) {

@@ -112,14 +112,9 @@ void ComputeLSMEvents::open_files()
   const bool from_restart = !recorder->kept.empty();
   shown_at = started_at = platform::walltime();
   clock = {update->atime, update->atimestep, update->dt};
-  if (comm->me == 0) {
-    try {
-      stream = std::make_unique<LSM::EventStream>(settings);
-    } catch (std::exception &e) {
-      failure = fmt::format("Compute lsm/events: {}", e.what());
-    }
-  }
-  stop_on_failure();
+  const std::string problem =
+      lsm_on_0(world, [this] { stream = std::make_unique<LSM::EventStream>(settings); });
+  if (!problem.empty()) error->all(FLERR, "Compute lsm/events: {}", problem);
   if (in_intervals()) make_grid();
   if (from_restart) unpack_state(recorder->kept);
   change_dt();

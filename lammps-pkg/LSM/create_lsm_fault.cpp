@@ -20,8 +20,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <exception>
 #include <numeric>
+#include <stdexcept>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -208,17 +208,11 @@ void CreateLSMFault::parse(int narg, char **arg, LSM::LatticeSettings &settings)
 // processors round differently.
 void CreateLSMFault::pack(LSM::Packing &packing, const std::function<LSM::Packing()> &make)
 {
-  std::string problem;
-  if (comm->me == 0) {
-    try {
-      packing = make();
-      if (packing.discs.size() > MAXSMALLINT / 8)
-        problem = "too many particles: " + std::to_string(packing.discs.size());
-    } catch (std::exception &e) {
-      problem = e.what();
-    }
-  }
-  lsm_share(problem, world);
+  const std::string problem = lsm_on_0(world, [&packing, &make] {
+    packing = make();
+    if (packing.discs.size() > MAXSMALLINT / 8)
+      throw std::length_error("too many particles: " + std::to_string(packing.discs.size()));
+  });
   if (!problem.empty()) error->all(FLERR, "Create_lsm_fault: {}", problem);
   lsm_share(packing.discs, world);
   lsm_share(packing.links, world);

@@ -12,7 +12,6 @@
 #include "lsm_ranks.h"
 #include "lsm_restart_info.h"
 
-#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -70,19 +69,13 @@ void SaveRestart::save(const std::string &file, const LSM::text_io::Parameters &
   const Draft draft{file + ".new", comm->me == 0};
   write(draft.file);
 
-  std::string problem;
-  if (comm->me == 0) {
+  const std::string problem = lsm_on_0(world, [&] {
     LSM::text_io::Parameters all = {{"step", std::to_string(update->ntimestep)},
                                     {"ranks", std::to_string(comm->nprocs)}};
     all.insert(all.end(), settings.begin(), settings.end());
-    try {
-      if (!ends_well(draft.file)) throw LSM::FileError("the file on disk is incomplete");
-      LSM::seal_restart(draft.file, file, all);
-    } catch (std::exception &e) {
-      problem = e.what();
-    }
-  }
-  lsm_share(problem, world);
+    if (!ends_well(draft.file)) throw LSM::FileError("the file on disk is incomplete");
+    LSM::seal_restart(draft.file, file, all);
+  });
   if (!problem.empty())
     error->all(FLERR, "save_restart: cannot write restart file {}: {}", file, problem);
 }

@@ -5,6 +5,7 @@
 #define LMP_LSM_RANKS_H
 
 #include <cstdint>
+#include <exception>
 #include <mpi.h>
 #include <string>
 #include <type_traits>
@@ -45,6 +46,21 @@ inline void lsm_share(std::string &text, MPI_Comm world)
   MPI_Bcast(&length, 1, MPI_INT, 0, world);
   text.resize(length);
   if (length) MPI_Bcast(&text[0], length, MPI_CHAR, 0, world);
+}
+
+/// Rank 0 does the task. All ranks get what went wrong, or "".
+template <class Task> std::string lsm_on_0(MPI_Comm world, Task &&task)
+{
+  int me;
+  MPI_Comm_rank(world, &me);
+  std::string problem;
+  try {
+    if (me == 0) task();
+  } catch (std::exception &e) {
+    problem = e.what();
+  }
+  lsm_share(problem, world);
+  return problem;
 }
 
 /// All ranks get the values of rank 0, plain ones.
