@@ -50,8 +50,15 @@ class Analysis : public Command {
   bool has_base_ = false;  ///< if not, findings go into no file but that of --json
 };
 
+/// A command that reads catalogues.
+class CatalogueAnalysis : public Analysis {
+ protected:
+  CatalogueOptions catalogues;
+  std::vector<std::string> inputs() const override { return catalogues.paths; }
+};
+
 /// A statistic of catalogues.
-class Statistic : public Analysis {
+class Statistic : public CatalogueAnalysis {
  public:
   /// Its findings from catalogues, also for the report. \throws std::exception
   virtual Findings of(const std::vector<EventTable> &tables) = 0;
@@ -60,11 +67,8 @@ class Statistic : public Analysis {
   virtual const char *heading() const { return nullptr; }
 
  protected:
-  CatalogueOptions catalogues;
-
   /// Adds catalogues, --json, --output with a default and --no-picture.
   void add_usual(CLI::App *command, const std::string &base);
-  std::vector<std::string> inputs() const override { return catalogues.paths; }
   Findings find() override { return of(load_catalogues(catalogues)); }
 };
 

@@ -10,8 +10,7 @@ namespace LSM::postproc {
 namespace {
 
 /// Reads catalogues event by event: of all commands this one is for any number of events.
-class Count : public Analysis {
-  CatalogueOptions catalogues_;
+class Count : public CatalogueAnalysis {
   std::vector<double> sizes_ = {1e-4, 1e-3, 1e-2, 1e-1};
   std::int64_t brief_ = 0;
 
@@ -28,8 +27,8 @@ class Count : public Analysis {
   }
 
   void add_options(CLI::App *command) override {
-    catalogues_.add_to(command);
-    catalogues_.add_displacement(command);
+    catalogues.add_to(command);
+    catalogues.add_displacement(command);
     json.add_to(command);
     OptionGroup group(command);
     group.add("--size", sizes_, "Smallest size (model energy), several allowed", one_each(),
@@ -40,33 +39,31 @@ class Count : public Analysis {
               zero_or_more());
   }
 
-  std::vector<std::string> inputs() const override { return catalogues_.paths; }
-
   Findings find() override {
-    check(catalogues_);
+    check(catalogues);
     std::sort(sizes_.begin(), sizes_.end());
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    Table catalogues(
+    Table totals(
         "label,events,first_start,last_start,last_end,last_step,largest,"
         "share_in_events");
     Table sizes("label,size,events,brief,released,mean_time");
-    catalogues.show({{"catalogue", "label"},
-                     {"events", "events"},
-                     {"share of the time within events", "share_in_events"},
-                     {"last step", "last_step"},
-                     {"largest", "largest"}});
+    totals.show({{"catalogue", "label"},
+                 {"events", "events"},
+                 {"share of the time within events", "share_in_events"},
+                 {"last step", "last_step"},
+                 {"largest", "largest"}});
     sizes.show({{"catalogue", "label"},
                 {"from size", "size"},
                 {"events", "events"},
                 {"sizes in all", "released"},
                 {"mean time", "mean_time"}});
-    for (std::size_t i = 0; i < catalogues_.paths.size(); ++i) {
+    for (std::size_t i = 0; i < catalogues.paths.size(); ++i) {
       std::vector<From> counts;
       for (const double size : sizes_) counts.push_back({size});
       std::int64_t events = 0, last_step = 0;
       double first = nan, last = nan, largest = nan;
       const EventTable table =
-          read_events(catalogues_.paths[i], catalogues_, [&](const Event &event) {
+          read_events(catalogues.paths[i], catalogues, [&](const Event &event) {
             if (events++ == 0) first = event.t_start;
             last = event.t_start;
             last_step = event.step_end;
@@ -79,17 +76,17 @@ class Count : public Analysis {
             }
           });
       state_repairs(table);
-      const std::string label = catalogues_.labels.empty() ? table.label : catalogues_.labels[i];
+      const std::string label = catalogues.labels.empty() ? table.label : catalogues.labels[i];
       const double span = table.last_end - first;
       const double share = table.info.overlapping() ? nan : table.in_events / span;
-      catalogues.row(label, events, first, last, table.last_end, last_step, largest, share);
+      totals.row(label, events, first, last, table.last_end, last_step, largest, share);
       for (const From &from : counts) {
         const double mean = from.events > 0 ? span / static_cast<double>(from.events) : nan;
         sizes.row(label, from.size, from.events, from.brief, from.released, mean);
       }
     }
     Findings found;
-    found.table("catalogues", std::move(catalogues));
+    found.table("catalogues", std::move(totals));
     found.table("sizes", std::move(sizes));
     return found;
   }

@@ -33,8 +33,7 @@ std::string date_text(double seconds, std::int64_t start, int last_year) {
                      clock.subseconds().count());
 }
 
-class Export : public Analysis {
-  CatalogueOptions catalogues_;
+class Export : public CatalogueAnalysis {
   OutputOption output_;
   std::string start_ = "2000-01-01T00:00:00";
   Format format_ = Format::seismostats;
@@ -51,7 +50,7 @@ class Export : public Analysis {
   }
 
   void add_options(CLI::App *command) override {
-    catalogues_.add_to(command);
+    catalogues.add_to(command);
     json.add_to(command);
     OptionGroup own(command);
     own.remove("--format");  // here that of the output
@@ -82,11 +81,10 @@ class Export : public Analysis {
               "Longitude = x_centroid x this (degrees per model length); 0: all longitudes are 0");
   }
 
-  std::vector<std::string> inputs() const override { return catalogues_.paths; }
   std::vector<Output> outputs() const override { return {output_.output()}; }
 
   Findings find() override {
-    check(catalogues_);
+    check(catalogues);
     magnitudes_.check();
     if (!std::isfinite(degrees_))
       throw std::invalid_argument("--degrees-per-length: expected a finite number");
@@ -105,9 +103,9 @@ class Export : public Analysis {
                true);
     std::string block;
     std::int64_t written = 0, without = 0;
-    for (std::size_t i = 0; i < catalogues_.paths.size(); ++i) {
-      const std::string &path = catalogues_.paths[i];
-      const EventTable table = read_events(path, catalogues_, [&](const Event &event) {
+    for (std::size_t i = 0; i < catalogues.paths.size(); ++i) {
+      const std::string &path = catalogues.paths[i];
+      const EventTable table = read_events(path, catalogues, [&](const Event &event) {
         if (!(magnitudes_.quantity(event) > 0.0)) {
           ++without;
           return;

@@ -52,7 +52,7 @@ class Magnitudes : public Statistic {
     } else if (complete_ == "curvature") {
       curve.completeness = curve.curvature;
       curve.completeness_text = "by maximum curvature";
-    } else if (complete_ == "header" && magnitudes_.of_moment) {
+    } else if (complete_ == "header" && magnitudes_.of_moment()) {
       throw std::invalid_argument(
           "--complete-from header holds for sizes only, expected 'curvature' or a magnitude with "
           "--magnitude-of moment");

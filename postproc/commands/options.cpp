@@ -36,13 +36,6 @@ CLI::Option *put(CLI::Option *option, const std::string &heading, const std::vec
 /// The name of a type in --help depends on whether it is an enumeration.
 enum class Word : int {};
 
-template <class Number>
-std::map<std::string, Number> as(const std::map<std::string, int> &words) {
-  std::map<std::string, Number> out;
-  for (const auto &[word, value] : words) out[word] = static_cast<Number>(value);
-  return out;
-}
-
 }  // namespace
 
 Rule required() {
@@ -131,15 +124,12 @@ void OptionGroup::flag(const std::string &names, bool &value, const std::string 
 
 void OptionGroup::add_choice(const std::string &names, const std::map<std::string, int> &words,
                              const std::function<void(int)> &use, const std::string &help,
-                             const Rule &usual, bool boolean) {
+                             const Rule &usual) {
+  std::map<std::string, Word> values;
+  for (const auto &[word, value] : words) values[word] = static_cast<Word>(value);
   const auto use_word = [use](const Word &word) { use(static_cast<int>(word)); };
-  const auto use_bool = [use](const bool &value) { use(value); };
-  if (boolean)
-    put(command_->add_option_function<bool>(names, use_bool, help), heading_, {usual})
-        ->transform(CLI::CheckedTransformer(as<bool>(words)));
-  else
-    put(command_->add_option_function<Word>(names, use_word, help), heading_, {usual})
-        ->transform(CLI::CheckedTransformer(as<Word>(words)));
+  put(command_->add_option_function<Word>(names, use_word, help), heading_, {usual})
+      ->transform(CLI::CheckedTransformer(values));
 }
 
 void OptionGroup::remove(const char *name) { command_->remove_option(command_->get_option(name)); }
@@ -219,10 +209,10 @@ std::vector<std::string> labels_of(const std::vector<std::string> &paths,
 }
 
 void MagnitudeOptions::add_to(OptionGroup group) {
-  group.choice<bool>("--magnitude-of", of_moment, {{"size", false}, {"moment", true}},
-                     "size: of the size of an event (an energy); moment: of its slip moment, a "
-                     "column that not every catalogue has",
-                     "size");
+  group.choice<Of>("--magnitude-of", made_of, {{"size", Of::size}, {"moment", Of::moment}},
+                   "size: of the size of an event (an energy); moment: of its slip moment, a "
+                   "column that not every catalogue has",
+                   "size");
   group.add("--magnitude-slope", scale.slope,
             "Magnitudes per decade of size: 2/3 is usual for energy and moment, 1 makes M the "
             "logarithm itself",
@@ -243,7 +233,7 @@ void MagnitudeOptions::check() const {
 }
 
 void MagnitudeOptions::require(const std::string &path, const CatalogueInfo &info) const {
-  if (of_moment && !info.slip_moment)
+  if (of_moment() && !info.slip_moment)
     throw std::runtime_error(path +
                              ": has no column slip_moment, expected one for --magnitude-of moment");
 }

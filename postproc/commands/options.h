@@ -9,7 +9,6 @@
 #include <map>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -69,15 +68,14 @@ class OptionGroup {
              const std::function<void(const std::vector<std::string> &)> &use,
              const std::string &help, const std::vector<Rule> &rules);
   void flag(const std::string &names, bool &value, const std::string &help);
-  /// A word for a value of an enumeration or a bool.
+  /// A word for a value of an enumeration.
   template <class Value>
   void choice(const std::string &names, Value &value, const std::map<std::string, Value> &words,
               const std::string &help, const std::string &usual) {
     std::map<std::string, int> numbers;
     for (const auto &[word, of] : words) numbers[word] = static_cast<int>(of);
     add_choice(
-        names, numbers, [&value](int of) { value = static_cast<Value>(of); }, help, shown(usual),
-        std::is_same_v<Value, bool>);
+        names, numbers, [&value](int of) { value = static_cast<Value>(of); }, help, shown(usual));
   }
   void remove(const char *name);
 
@@ -88,8 +86,7 @@ class OptionGroup {
   CLI::Option *bind_call(const std::string &names, const std::function<void(const double &)> &use,
                          const std::string &help, const std::vector<Rule> &rules);
   void add_choice(const std::string &names, const std::map<std::string, int> &words,
-                  const std::function<void(int)> &use, const std::string &help, const Rule &usual,
-                  bool boolean);
+                  const std::function<void(int)> &use, const std::string &help, const Rule &usual);
 
   CLI::App *command_;
   std::string heading_;
@@ -121,16 +118,17 @@ std::vector<std::string> labels_of(const std::vector<std::string> &paths,
 /// How the commands make magnitudes of events.
 struct MagnitudeOptions {
   MagnitudeScale scale;
-  double bin = 0.0;        ///< width of the bins; 0: none
-  bool of_moment = false;  ///< of the slip moment, not of the size
+  double bin = 0.0;  ///< width of the bins; 0: none
+  enum class Of { size, moment } made_of = Of::size;
 
   /// Adds --magnitude-of, --magnitude-slope, --magnitude-constant and --magnitude-bin.
   void add_to(OptionGroup group);
   /// \throws std::invalid_argument for impossible values
   void check() const;
   /// Name of the column from which the magnitude is made.
-  std::string of() const { return of_moment ? "slip_moment" : "size"; }
-  double quantity(const Event &event) const { return of_moment ? event.slip_moment : event.size; }
+  std::string of() const { return of_moment() ? "slip_moment" : "size"; }
+  bool of_moment() const { return made_of == Of::moment; }
+  double quantity(const Event &event) const { return of_moment() ? event.slip_moment : event.size; }
   /// \throws std::runtime_error if the catalogue lacks the column
   void require(const std::string &path, const CatalogueInfo &info) const;
   double magnitude(const Event &event) const { return binned(scale.of(quantity(event)), bin); }

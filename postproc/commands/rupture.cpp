@@ -45,8 +45,7 @@ Figure densities(const std::vector<EventTable> &tables, RuptureQuantity quantity
   return rupture_density_figure(all, quantity, limit);
 }
 
-class Rupture : public Analysis {
-  CatalogueOptions catalogues_;
+class Rupture : public CatalogueAnalysis {
   std::string history_;
   std::int64_t event_ = 0;
   double p_speed_ = 2.12, s_speed_ = 1.22;
@@ -62,7 +61,7 @@ class Rupture : public Analysis {
   }
 
   void add_options(CLI::App *command) override {
-    catalogues_.add_to(command);
+    catalogues.add_to(command);
     json.add_to(command);
     add_picture(command, "rupture");
     OptionGroup group(command, "Slip history");
@@ -75,7 +74,7 @@ class Rupture : public Analysis {
   }
 
   std::vector<std::string> inputs() const override {
-    std::vector<std::string> inputs = catalogues_.paths;
+    std::vector<std::string> inputs = catalogues.paths;
     if (!history_.empty()) inputs.push_back(history_);
     return inputs;
   }
@@ -85,13 +84,13 @@ class Rupture : public Analysis {
   }
 
   void draw_history(const EventTable &catalogue, Findings &found) const {
-    SlipHistoryReader history = open_history(history_, catalogues_.lenient);
+    SlipHistoryReader history = open_history(history_, catalogues.lenient);
     std::vector<SlipRecord> records;
     for (SlipRecord record; history.next(record);) records.push_back(record);
     const auto between = [&](double from, double to) {
       return with_path(history_, [&] { return history_window(history.info(), records, from, to); });
     };
-    const HistoryWindow window = between(catalogues_.from_time, catalogues_.to_time);
+    const HistoryWindow window = between(catalogues.from_time, catalogues.to_time);
     std::vector<Event> inside;
     for (const Event &e : catalogue.events)
       if (e.t_start >= window.from && e.t_end <= window.to) inside.push_back(e);
@@ -111,7 +110,7 @@ class Rupture : public Analysis {
   }
 
   Findings find() override {
-    check(catalogues_);
+    check(catalogues);
     if (history_.empty() && event_ != 0) throw std::invalid_argument("--event needs --history");
     Findings found;
     std::vector<EventTable> tables;
@@ -121,10 +120,10 @@ class Rupture : public Analysis {
                      {"moments in all", "moment", 6},
                      {"largest", "largest"},
                      {"longest", "longest"}});
-    for (const std::string &path : catalogues_.paths) {
-      EventTable table = load_ruptures(path, catalogues_);
+    for (const std::string &path : catalogues.paths) {
+      EventTable table = load_ruptures(path, catalogues);
       state_repairs(table);
-      if (!catalogues_.labels.empty()) table.label = catalogues_.labels[tables.size()];
+      if (!catalogues.labels.empty()) table.label = catalogues.labels[tables.size()];
       double moment = 0.0, largest = 0.0, longest = 0.0;
       for (const Event &e : table.events) {
         moment += e.slip_moment;

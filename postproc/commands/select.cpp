@@ -28,8 +28,7 @@ CatalogueInfo header_of(const EventTable &table, const CatalogueOptions &options
   return info;
 }
 
-class Select : public Analysis {
-  CatalogueOptions catalogues_;
+class Select : public CatalogueAnalysis {
   OutputOption output_;
 
   const char *help() const override {
@@ -38,29 +37,28 @@ class Select : public Analysis {
   }
 
   void add_options(CLI::App *command) override {
-    catalogues_.add_to(command);
+    catalogues.add_to(command);
     // Events of negative size are left out only if a smallest size is given.
-    catalogues_.min_size = -std::numeric_limits<double>::infinity();
+    catalogues.min_size = -std::numeric_limits<double>::infinity();
     OptionGroup group(command);
     for (const char *const name : {"--label", "--region", "--format"}) group.remove(name);
     output_.add_to(group, "catalogue");
   }
 
-  std::vector<std::string> inputs() const override { return catalogues_.paths; }
   std::vector<Output> outputs() const override { return {output_.output()}; }
 
   Findings find() override {
-    if (catalogues_.paths.size() != 1)
+    if (catalogues.paths.size() != 1)
       throw std::invalid_argument(
-          fmt::format("{} catalogues, expected one", catalogues_.paths.size()));
-    const std::string &path = catalogues_.paths.front();
-    check(catalogues_);
-    const EventTable table = read_all(path, catalogues_);
+          fmt::format("{} catalogues, expected one", catalogues.paths.size()));
+    const std::string &path = catalogues.paths.front();
+    check(catalogues);
+    const EventTable table = read_all(path, catalogues);
     if (table.earthquakes())
       throw std::invalid_argument(path + ": earthquakes, expected a catalogue of a model");
     const FileLock lock = claim_output(output_.path, output_.force);
     CatalogueWriter writer;
-    writer.create(output_.path, header_of(table, catalogues_), true);
+    writer.create(output_.path, header_of(table, catalogues), true);
     for (const Event &event : table.events) writer.write(event);
     writer.close();
     state_repairs(table);

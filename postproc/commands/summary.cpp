@@ -32,8 +32,7 @@ double share_within(const std::vector<double> &times, const Range &window) {
       times.size());
 }
 
-class Summary : public Analysis {
-  CatalogueOptions catalogues_;
+class Summary : public CatalogueAnalysis {
   std::vector<std::string> parameters_, ranges_, windows_;
   std::vector<double> thresholds_ = {1e-4, 1e-3, 1e-2, 1e-1};
   double brief_ = 3.0;
@@ -46,7 +45,7 @@ class Summary : public Analysis {
   }
 
   void add_options(CLI::App *command) override {
-    catalogues_.add_to(command);
+    catalogues.add_to(command);
     OptionGroup group(command);
     group.add("--output,-o", output_, "File to write; without it standard output");
     group.add("--parameter", parameters_,
@@ -71,7 +70,6 @@ class Summary : public Analysis {
               among({"likelihood", "least-squares"}));
   }
 
-  std::vector<std::string> inputs() const override { return catalogues_.paths; }
   std::vector<Output> outputs() const override { return {{"--output", output_}}; }
 
   GeneralisedGammaFit fit_times(const std::vector<double> &times) const {
@@ -138,7 +136,7 @@ class Summary : public Analysis {
   Findings find() override {
     if (ranges_.empty()) ranges_ = {"1e-4:1e-1", "1e-3:1"};
     std::vector<Row> rows;
-    for (const EventTable &table : load_catalogues(catalogues_)) rows.push_back(row_of(table));
+    for (const EventTable &table : load_catalogues(catalogues)) rows.push_back(row_of(table));
     std::vector<std::string> columns;
     for (const auto &[column, value] : rows.front()) columns.push_back(column);
     Table out(columns);

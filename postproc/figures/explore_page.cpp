@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <stdexcept>
 #include <utility>
 
@@ -13,6 +12,7 @@
 #include "numbers.h"
 #include "packed_numbers.h"
 #include "table.h"
+#include "thinner.h"
 
 namespace LSM::postproc {
 
@@ -215,34 +215,21 @@ std::string element(std::string_view name, std::string_view file) {
 }  // namespace
 
 void ExploreSeries::thin(std::int64_t most) {
-  const auto n = static_cast<std::int64_t>(pe.size());
-  if (n <= most) return;
-  const auto group = static_cast<std::size_t>((2 * n + most - 1) / most);
-  std::vector<double> all = std::move(pe), all_times = std::move(times);
-  pe.clear();
-  times.clear();
-  const auto keep = [&](std::size_t i) {
-    pe.push_back(all[i]);
-    times.push_back(!all_times.empty()
-                        ? all_times[i]
-                        : info.time(first_step + static_cast<std::int64_t>(i) * info.stride));
-  };
-  for (std::size_t begin = 0; begin < all.size(); begin += group) {
-    const auto end = all.begin() + static_cast<std::ptrdiff_t>(std::min(begin + group, all.size()));
-    const auto [low, high] =
-        std::minmax_element(all.begin() + static_cast<std::ptrdiff_t>(begin), end);
-    const auto [first, second] = std::minmax(low, high);
-    keep(static_cast<std::size_t>(first - all.begin()));
-    if (second != first) keep(static_cast<std::size_t>(second - all.begin()));
+  if (static_cast<std::int64_t>(pe.size()) <= most) return;
+  std::vector<double> some, some_times;
+  for (const std::size_t i : smallest_and_largest(pe, static_cast<std::size_t>(most))) {
+    some.push_back(pe[i]);
+    some_times.push_back(times.empty()
+                             ? info.time(first_step + static_cast<std::int64_t>(i) * info.stride)
+                             : times[i]);
   }
+  pe = std::move(some);
+  times = std::move(some_times);
 }
 
 void ExploreEvents::thin(std::size_t most) {
   if (events.size() <= most) return;
-  std::vector<double> sizes = column(events, &Event::size);
-  const auto last = sizes.begin() + static_cast<std::ptrdiff_t>(most - 1);
-  std::nth_element(sizes.begin(), last, sizes.end(), std::greater<>());
-  const double least = *last;
+  const double least = nth_largest(column(events, &Event::size), most);
   events.erase(std::remove_if(events.begin(), events.end(),
                               [least](const Event &event) { return event.size < least; }),
                events.end());

@@ -187,13 +187,10 @@ Figure stress_drop_figure(const RuptureRelations &relations) {
     for (const StressMean &mean : one.means)
       table.row(number, one.label, nan, mean.moment, nan, mean.mean, mean.error);
     plot.add(Curves::laws,
-             fmt::format("table using ($6 == $6 ? row({}) : NaN):6 with lines lc rgb '#000000' lw "
-                         "1.6",
-                         number),
+             fmt::format("table using ($6 == $6 ? row({}) : NaN):6 with lines lt 8 lw 1.6", number),
              number == 1 ? "means of half decades" : "");
     plot.add(Curves::laws,
-             fmt::format("table using (row({})):($6-$7):(0):(2*$7) with vectors nohead lc rgb "
-                         "'#000000' lw 1.2",
+             fmt::format("table using (row({})):($6-$7):(0):(2*$7) with vectors nohead lt 8 lw 1.2",
                          number));
   }
   Extent drops = relations.stress_drops;

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <numeric>
 #include <stdexcept>
@@ -159,14 +158,6 @@ class StressMeans {
   std::map<long, Sums> bins_;
 };
 
-/// The moment from which on all are shown.
-double moment_of_largest(const std::vector<Event> &events) {
-  std::vector<double> moments = column(events, &Event::slip_moment);
-  const auto last = moments.begin() + RuptureScatter::largest - 1;
-  std::nth_element(moments.begin(), last, moments.end(), std::greater<>());
-  return *last;
-}
-
 RuptureScatter scatter_of(const EventTable &table, RuptureRelations &all, Pairs &by_length,
                           Pairs &fallen, Pairs &fallen_alone) {
   RuptureScatter out;
@@ -174,7 +165,9 @@ RuptureScatter scatter_of(const EventTable &table, RuptureRelations &all, Pairs 
   out.ruptures = table.events.size();
   out.one_of =
       std::max<std::size_t>(1, (out.ruptures + RuptureScatter::most - 1) / RuptureScatter::most);
-  const double large = out.one_of > 1 ? moment_of_largest(table.events) : 0.0;
+  const double large = out.one_of > 1 ? nth_largest(column(table.events, &Event::slip_moment),
+                                                    RuptureScatter::largest)
+                                      : 0.0;
   const double whole = table.length() * (1.0 - 1e-9);
   const std::vector<bool> alone = slips_by_itself(table.events);
   StressMeans means;

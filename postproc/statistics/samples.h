@@ -104,6 +104,13 @@ inline double interpolate(const std::vector<double> &x, const std::vector<double
   return y[n - 1] + (y[n] - y[n - 1]) * (at - x[n - 1]) / (x[n] - x[n - 1]);
 }
 
+/// The n-th largest of at least n values.
+inline double nth_largest(std::vector<double> values, std::size_t n) {
+  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(n - 1);
+  std::nth_element(values.begin(), nth, values.end(), [](double a, double b) { return a > b; });
+  return *nth;
+}
+
 /// A whole number from 0 to count - 1.
 inline std::size_t draw_index(Random &random, std::size_t count) {
   return static_cast<std::size_t>(random.uniform() * static_cast<double>(count));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "thinner.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace LSM::postproc {
@@ -59,6 +60,19 @@ Extent Thinner::range(std::size_t curve) const {
   Extremes all;
   for (const Group &group : groups_) all.add(group.extremes[curve]);
   return all.range;
+}
+
+std::vector<std::size_t> smallest_and_largest(const std::vector<double> &values, std::size_t most) {
+  const std::size_t n = values.size(), group = (2 * n + most - 1) / most;
+  std::vector<std::size_t> kept;
+  const auto at = [&](std::size_t i) { return values.begin() + static_cast<std::ptrdiff_t>(i); };
+  for (std::size_t begin = 0; begin < n; begin += group) {
+    const auto [low, high] = std::minmax_element(at(begin), at(std::min(begin + group, n)));
+    const auto [first, second] = std::minmax(low, high);
+    kept.push_back(static_cast<std::size_t>(first - values.begin()));
+    if (second != first) kept.push_back(static_cast<std::size_t>(second - values.begin()));
+  }
+  return kept;
 }
 
 }  // namespace LSM::postproc

@@ -48,6 +48,10 @@ class Thinner {
   std::vector<Group> groups_;
 };
 
+/// Places of the values that are left of a long series: of groups of neighbours the smallest and
+/// the largest, in their order, so that there are at most `most`.
+std::vector<std::size_t> smallest_and_largest(const std::vector<double> &values, std::size_t most);
+
 }  // namespace LSM::postproc
 
 #endif
