@@ -88,7 +88,10 @@ std::vector<double> conditional_of(const std::vector<CelledTime> &series, double
       }
       out.push_back(sum.value() / n / mean);
     }
-  out.push_back(distance_of_counts(followers.front().data(), followers.back().data(), cells));
+  std::array<double, cells> both;
+  std::transform(followers.front().begin(), followers.front().end(), followers.back().begin(),
+                 both.begin(), std::plus<>());
+  out.push_back(distance_of_part(followers.front().data(), both.data(), cells));
   return out;
 }
 

@@ -30,6 +30,8 @@ constexpr std::int64_t least_events = 10;
 class LogSample {
  public:
   explicit LogSample(std::vector<double> logs) : y_(std::move(logs)) {
+    below_.reserve(y_.size() + 1);
+    sums_.reserve(y_.size() + 1);
     for (double y : y_) add(y, 1.0);
   }
   LogSample(const Cells &cells, const std::vector<double> &counts)

@@ -78,17 +78,17 @@ inline std::vector<double> positive_ones(std::vector<double> values) {
   return values;
 }
 
-/// Largest difference between the cumulative shares of two samples that are counted by the same
-/// classes; NaN if one is empty.
+/// Largest difference between the cumulative shares of a part of a sample and of the rest, counted
+/// by the same classes; NaN if one is empty.
 template <class Count>
-double distance_of_counts(const Count *first, const Count *second, std::size_t classes) {
-  const double n1 = std::accumulate(first, first + classes, 0.0);
-  const double n2 = std::accumulate(second, second + classes, 0.0);
+double distance_of_part(const Count *part, const Count *all, std::size_t classes) {
+  const auto n1 = static_cast<double>(std::accumulate(part, part + classes, Count{}));
+  const auto n2 = static_cast<double>(std::accumulate(all, all + classes, Count{})) - n1;
   if (!(n1 > 0.0 && n2 > 0.0)) return NAN;
   double below1 = 0.0, below2 = 0.0, largest = 0.0;
   for (std::size_t c = 0; c < classes; ++c) {
-    below1 += first[c];
-    below2 += second[c];
+    below1 += part[c];
+    below2 += all[c] - part[c];
     largest = std::max(largest, std::fabs(below1 / n1 - below2 / n2));
   }
   return largest;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numeric>
 #include <optional>
 #include <stdexcept>
@@ -66,9 +65,7 @@ class Classes {
 
   // Distance between the values counted and the rest.
   double distance(const Counts &counts) const {
-    Counts rest(count());
-    std::transform(all_.begin(), all_.end(), counts.begin(), rest.begin(), std::minus<>());
-    return distance_of_counts(counts.data(), rest.data(), count());
+    return distance_of_part(counts.data(), all_.data(), count());
   }
 
   // Ranks in (-1, 1) of some values; equal ones have their mean rank. With a class for each value.
@@ -133,13 +130,23 @@ int usual_block(const Classes &classes, std::size_t n1, std::size_t n) {
 
 }  // namespace
 
-double two_sample_distance(const std::vector<double> &first, const std::vector<double> &second) {
+double two_sample_distance(std::vector<double> first, std::vector<double> second) {
   if (first.empty() || second.empty())
     throw std::invalid_argument("distance of two samples: one is empty");
-  const Classes classes(first, second, first.size() + second.size());
-  Counts counts(classes.count());
-  classes.add({0, first.size()}, counts.data());
-  return classes.distance(counts);
+  std::sort(first.begin(), first.end());
+  std::sort(second.begin(), second.end());
+  const auto n1 = static_cast<double>(first.size()), n2 = static_cast<double>(second.size());
+  double largest = 0.0;
+  for (auto one = first.begin(), other = second.begin();
+       one != first.end() && other != second.end();) {
+    // Equal values count together.
+    const double value = std::min(*one, *other);
+    while (one != first.end() && *one == value) ++one;
+    while (other != second.end() && *other == value) ++other;
+    largest = std::max(largest, std::fabs(static_cast<double>(one - first.begin()) / n1 -
+                                          static_cast<double>(other - second.begin()) / n2));
+  }
+  return largest;
 }
 
 TwoSampleTest two_sample_test(const std::vector<double> &first, const std::vector<double> &second,

@@ -31,7 +31,7 @@ struct TwoSampleTest {
 };
 
 /// Largest distance between the empirical distributions of two samples, neither of them empty.
-double two_sample_distance(const std::vector<double> &first, const std::vector<double> &second);
+double two_sample_distance(std::vector<double> first, std::vector<double> second);
 
 /// Permutation test of the Kolmogorov-Smirnov distance. Events cluster, so that blocks of
 /// consecutive values change sides, not single ones: with single ones, series that depend on their
