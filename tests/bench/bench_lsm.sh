@@ -16,7 +16,7 @@ FOLDER takes the scenes, which are made once for each LMP, all timings (timings.
   --quick            some three minutes: shorter runs, fewer rounds
   --rounds N         rounds of peers and of recording on or off [7, quick 2]; others have half as many, but at least 2
   --seconds S        a run takes about so long [1, quick 0.3]
-  --length L         fault of the comparisons [1890]
+  --length L         fault of the comparisons and of causes [1890; causes 480]
   --only WHAT,...    peers, parts, features, lengths, scale, setup, analysis, causes, campaign [all]; scale runs up to 8
                      ranks, whatever the cores; analysis: postproc beside LMP, 1e7 events (quick 1e5); causes: why a step
                      of a run of RUNS takes longer than one of these scenes; campaign: slices of all runs of RUNS
@@ -25,7 +25,7 @@ FOLDER takes the scenes, which are made once for each LMP, all timings (timings.
 END
 }
 
-rounds=0 seconds=0 length=1890 only=peers,parts,features,lengths,scale,setup,analysis,causes,campaign quick=no runs=
+rounds=0 seconds=0 length=1890 cause_length=480 only=peers,parts,features,lengths,scale,setup,analysis,causes,campaign quick=no runs=
 arguments=()
 while (($#)); do
   if [[ $1 =~ ^--(rounds|seconds|length|only|runs)$ ]] && (($# < 2)); then
@@ -36,7 +36,7 @@ while (($#)); do
     --quick) quick=yes ;;
     --rounds) rounds=$2; shift ;;
     --seconds) seconds=$2; shift ;;
-    --length) length=$2; shift ;;
+    --length) length=$2 cause_length=$2; shift ;;
     --only) only=$2; shift ;;
     --runs) runs=$(realpath "$2"); shift ;;
     --help) usage; exit ;;
@@ -264,14 +264,15 @@ slice() {
 }
 
 if wanted causes && [ -n "$runs" ]; then
-  scene "$length"
-  scene "$length" -var within yes
-  if ! [ "before_$length/fault.restart.end.info" -nt "$lmp" ]; then
-    say "making the default fault of length $length, before the shear"
-    rm -rf "before_$length"
-    mkdir "before_$length"
-    (cd "before_$length" && mpirun -np "$most" "$lmp" -in "$here/../../inputs/fault.in" -var length "$length" -var steps 0 -var prefix fault \
-      -log make.log -screen none) || die "making the default fault failed, see $folder/before_$length/make.log"
+  size=$cause_length
+  scene "$size"
+  scene "$size" -var within yes
+  if ! [ "before_$size/fault.restart.end.info" -nt "$lmp" ]; then
+    say "making the default fault of length $size, before the shear"
+    rm -rf "before_$size"
+    mkdir "before_$size"
+    (cd "before_$size" && mpirun -np "$most" "$lmp" -in "$here/../../inputs/fault.in" -var length "$size" -var steps 0 -var prefix fault \
+      -log make.log -screen none) || die "making the default fault failed, see $folder/before_$size/make.log"
   fi
   cat > changes.blocks <<'END'
 pair_coeff * * off
@@ -298,10 +299,10 @@ END
   echo 'neigh_modify delay 0 every 1000000 check no' > changes.lists
   for ((round = 1; round <= few; ++round)); do
     say "causes, round $round of $few"
-    ours causes "scene of the comparisons" "$length" 1 "$round"
-    fault=fault_${length}_all ours causes "with contacts of all discs" "$length" 1 "$round" -var within yes
-    slice causes "default scene before the shear" "before_$length" 1 "$round"
-    run=$runs/fault_${length}_1
+    ours causes "scene of the comparisons" "$size" 1 "$round"
+    fault=fault_${size}_all ours causes "with contacts of all discs" "$size" 1 "$round" -var within yes
+    slice causes "default scene before the shear" "before_$size" 1 "$round"
+    run=$runs/fault_${size}_1
     slice causes "in shear as in the campaign" "$run" 1 "$round"
     slice causes "contacts between the blocks only" "$run" 1 "$round" ../changes.blocks
     slice causes "neither location nor ruptures" "$run" 1 "$round" ../changes.place
