@@ -587,7 +587,7 @@ GeneralisedGammaFit fit_least_squares(const std::vector<LogBin> &bins, double de
   // Compared first: a power law drives the rest to the border or along the ridge.
   if (power_law.converged && power_law.chi2 - best.chi2 < least_gain(fit.delta_fixed))
     fit.why = no_fall_off;
-  else if (!fit.delta_fixed)
+  else if (!fit.delta_fixed && !best.p.empty())
     fit.why = outside(std::exp(best.p[log_delta]));
   if (fit.why.empty() && !best.converged) fit.why = "no optimum found";
   if (fit.why.empty() && best.covariance.n == 0) fit.why = singular;

@@ -544,6 +544,19 @@ TEST(GeneralisedGamma, RefusesImpossibleInput) {
   EXPECT_THROW(fit_least_squares({{2.0, 1.0, 1.5, 3, 1.0, 0.1}}), std::invalid_argument);
 }
 
+// No start has a finite sum of squares.
+TEST(GeneralisedGamma, InfiniteDensityHasNoOptimum) {
+  std::vector<LogBin> bins;
+  for (double lo = 1.0; lo < 100.0; lo *= 2.0)
+    bins.push_back({lo, 2.0 * lo, std::sqrt(2.0) * lo, 50, 1.0 / lo, 0.1 / lo});
+  bins.front().density = HUGE_VAL;
+  for (const bool fixed : {false, true}) {
+    const GeneralisedGammaFit fit = fit_least_squares(bins, held_at_one(fixed));
+    EXPECT_TRUE(fit.degenerate);
+    EXPECT_EQ(fit.why, "no optimum found");
+  }
+}
+
 TEST(GeneralisedGamma, ErrorHandlerOfGslIsLeftAlone) {
   gsl_error_handler_t *const mine = [](const char *, const char *, int, int) {};
   gsl_error_handler_t *const before = gsl_set_error_handler(mine);
