@@ -83,47 +83,55 @@ class Export : public CatalogueAnalysis {
 
   std::vector<Output> outputs() const override { return {output_.output()}; }
 
-  Findings find() override {
+  bool csep() const { return format_ == Format::csep; }
+
+  /// Seconds since 1970 of model time 0. \throws std::invalid_argument for impossible options
+  std::int64_t checked_start() const {
     check(catalogues);
     magnitudes_.check();
     if (!std::isfinite(degrees_))
       throw std::invalid_argument("--degrees-per-length: expected a finite number");
-    const bool csep = format_ == Format::csep;
-    const int last_year = csep ? 9999 : 2261;
     const std::optional<double> days = parse_date(start_);
     if (!days)
       throw std::invalid_argument(fmt::format(
           "--start-date '{}': expected a date YYYY-MM-DD or YYYY-MM-DDTHH:MM:SS", start_));
-    const std::int64_t start = std::llround(*days * 86400.0);
+    return std::llround(*days * 86400.0);
+  }
+
+  /// Row of an event of the catalogue with this number.
+  std::string row_of(const Event &event, std::size_t number, std::int64_t start) const {
+    const int last_year = csep() ? 9999 : 2261;
+    const double magnitude = magnitudes_.magnitude(event);
+    const double longitude = event.x_centroid * degrees_;
+    const std::string date = date_text(event.t_start * unit_, start, last_year);
+    if (date.empty())
+      throw std::runtime_error(
+          fmt::format("{}: event {} starts at time {}, a date outside the years 1700 to {}; "
+                      "expected another --time-unit or --start-date",
+                      catalogues.paths[number], event.id, event.t_start, last_year));
+    if (csep())
+      return fmt::format("{},0,{},{},0,{},{}\n", longitude, magnitude, date, number, event.id);
+    return fmt::format("{},0,0,{},{},{},{},{},{}\n", longitude, date, magnitude, event.id, number,
+                       event.t_end - event.t_start, event.size);
+  }
+
+  Findings find() override {
+    const std::int64_t start = checked_start();
     const FileLock lock = claim_output(output_.path, output_.force);
     text_io::OutputFile out;
     out.create(output_.path,
-               csep ? "lon,lat,mag,time_string,depth,catalog_id,event_id\n"
-                    : "longitude,latitude,depth,time,magnitude,event_id,catalog_id,duration,size\n",
+               csep()
+                   ? "lon,lat,mag,time_string,depth,catalog_id,event_id\n"
+                   : "longitude,latitude,depth,time,magnitude,event_id,catalog_id,duration,size\n",
                true);
     std::string block;
     std::int64_t written = 0, without = 0;
     for (std::size_t i = 0; i < catalogues.paths.size(); ++i) {
       const std::string &path = catalogues.paths[i];
       const EventTable table = read_events(path, catalogues, [&](const Event &event) {
-        if (!(magnitudes_.quantity(event) > 0.0)) {
-          ++without;
-          return;
-        }
-        const double magnitude = magnitudes_.magnitude(event);
-        const double longitude = event.x_centroid * degrees_;
-        const std::string date = date_text(event.t_start * unit_, start, last_year);
-        if (date.empty())
-          throw std::runtime_error(
-              fmt::format("{}: event {} starts at time {}, a date outside the years 1700 to {}; "
-                          "expected another --time-unit or --start-date",
-                          path, event.id, event.t_start, last_year));
-        if (csep)
-          block += fmt::format("{},0,{},{},0,{},{}\n", longitude, magnitude, date, i, event.id);
-        else
-          block += fmt::format("{},0,0,{},{},{},{},{},{}\n", longitude, date, magnitude, event.id,
-                               i, event.t_end - event.t_start, event.size);
-        ++written;
+        const bool has_magnitude = magnitudes_.quantity(event) > 0.0;
+        ++(has_magnitude ? written : without);
+        if (has_magnitude) block += row_of(event, i, start);
         if (block.size() < (1 << 16)) return;
         out.write(block);
         block.clear();
