@@ -195,8 +195,8 @@ class RuptureFinder : public EventFinder {
       if (bins != self.bins)
         throw std::invalid_argument("saved ruptures are of another number of bins");
       state(self.step, self.active, self.pe);
-      const auto room = [&](auto &stress) {
-        if constexpr (!std::is_const_v<Self>) stress.resize(static_cast<std::size_t>(bins));
+      const auto room = [&](auto &row) {
+        if constexpr (!std::is_const_v<Self>) row.resize(static_cast<std::size_t>(bins));
       };
       room(self.stress);
       state.fixed(self.stress);
