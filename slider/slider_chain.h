@@ -8,12 +8,11 @@
 #ifndef SLIDER_CHAIN_H
 #define SLIDER_CHAIN_H
 
-#include <sys/mman.h>
-
 #include <cstdint>
 #include <new>
 #include <vector>
 
+#include "lsm_huge_pages.h"
 #include "slider_active_set.h"
 #include "slider_creep.h"
 #include "slider_energy.h"
@@ -37,9 +36,7 @@ struct LineAllocator {
   }
   T *allocate(std::size_t n) {
     void *const p = ::operator new(n * sizeof(T), alignment(n));
-#ifdef MADV_HUGEPAGE
-    if (alignment(n) == std::align_val_t(huge_page)) madvise(p, n * sizeof(T), MADV_HUGEPAGE);
-#endif
+    if (alignment(n) == std::align_val_t(huge_page)) LSM::ask_for_huge_pages(p, n * sizeof(T));
     return static_cast<T *>(p);
   }
   void deallocate(T *p, std::size_t n) { ::operator delete(p, alignment(n)); }

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "input_file.h"
+#include "lsm_huge_pages.h"
 #include "lsm_text_io.h"
 
 namespace LSM::postproc {
@@ -275,6 +276,7 @@ EventTable read_all(const std::string &path, const CatalogueOptions &options) {
   constexpr std::uintmax_t shortest_line = 40;
   const std::uintmax_t bytes = std::filesystem::file_size(path, ignored);
   if (!ignored) events.reserve(bytes / shortest_line);
+  ask_for_huge_pages(events.data(), events.capacity() * sizeof(Event));
   EventTable table =
       read_events(path, options, [&events](const Event &event) { events.push_back(event); });
   table.events = std::move(events);
