@@ -17,7 +17,8 @@ ActiveSet::ActiveSet(const ChainView &view, double plate_step, bool dense)
   hot_.assign(n, 0);
   wake_.assign(n, 0);
   list_.reserve(n);
-  next_list_.reserve(3 * n + 1);
+  next_list_.reserve(n + 1);
+  wanted_.assign(n + 2, 0);
 }
 
 void ActiveSet::restart(std::int64_t step) {
@@ -59,12 +60,10 @@ std::int64_t ActiveSet::wake_step(int c) const {
 void ActiveSet::update(std::int64_t step) {
   if (dense_) return;
   // Without branches on the lanes, which would be mispredicted half of the time.
-  auto &next = next_list_;
-  next.resize(3 * list_.size() + 1);
   std::size_t n = 0;
   std::int32_t back = -1;
   const auto want = [&](std::int32_t c, bool wanted) {
-    next[n] = c;
+    wanted_[n] = c;
     wanted = wanted && back < c;
     n += wanted;
     back = wanted ? c : back;
@@ -77,7 +76,8 @@ void ActiveSet::update(std::int64_t step) {
     want(c + 1, h & 0x80U);
   }
   if (back == chunks_) --n;
-  next.resize(n);
+  auto &next = next_list_;
+  next.assign(wanted_.data(), wanted_.data() + n);
   if (!list_.empty()) {
     const std::int32_t last = chunks_ - 1;
     const bool want_last = list_.front() == 0 && hot_[0] & 1U;

@@ -51,8 +51,9 @@ class ActiveSet {
   std::uint8_t last_edge_;  // the lane of the last block
   std::vector<std::uint8_t> hot_;
   std::vector<std::int32_t> list_, next_list_, idle_, extra_;
-  std::vector<std::int64_t> wake_;  // 0: in the list; else the step to wake up
-  Queue queue_;                     // of these, with stale ones
+  std::vector<std::int32_t> wanted_;  // chunks, with one past the last and room for one more
+  std::vector<std::int64_t> wake_;    // 0: in the list; else the step to wake up
+  Queue queue_;                       // of these, with stale ones
   std::int64_t next_wake_ = 0;
 };
 
