@@ -36,9 +36,8 @@ fault_took=$((SECONDS - packages_took - programs_took))
 
 catalogue=first.catalogue.csv
 series=first.pe.bin
-[ -f $series ] || series=first.pe.csv
 [ -f $catalogue ] || { echo "$run/$catalogue has not been written" >&2; exit 1; }
-[ -f $series ] || { echo "$run/first.pe.bin (or .csv) has not been written" >&2; exit 1; }
+[ -f $series ] || { echo "$run/$series has not been written" >&2; exit 1; }
 
 table() { awk -F, '/^#/ { next } !head { head = 1; for (i = 1; i <= NF; i++) c[$i] = i; next }
   { print $c["event_id"], $c["t_start"], $c["t_end"], $c["size"], $c["pe_start"] }' $catalogue; }

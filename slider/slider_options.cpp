@@ -139,7 +139,6 @@ void add_files(CLI::App &app, Settings &s) {
                  "(sum of the slips of all blocks) is always written");
   app.add_option("--pe-series", s.run.series, "Series of PE to write (default: none)");
   app.add_option("--pe-stride", s.stride, "Steps between samples of the series (steps)");
-  app.add_option("--pe-format", s.series_format, "Format of the series: text or binary");
   app.add_option("--checkpoint", s.run.checkpoint,
                  "Checkpoint to write, also on SIGINT and SIGTERM (default: none)");
   app.add_option("--checkpoint-interval", s.interval,
@@ -274,9 +273,6 @@ void interpret_events(Settings &s, const CLI::App &app) {
 void interpret_files(Settings &s) {
   s.run.series_stride = whole("--pe-stride", s.stride, 1);
   s.run.checkpoint_interval = whole("--checkpoint-interval", s.interval, 0);
-  if (s.series_format != "text" && s.series_format != "binary")
-    throw std::invalid_argument("--pe-format = '" + s.series_format + "', expected text or binary");
-  s.run.series_binary = s.series_format == "binary";
   std::stringstream words(s.columns);
   for (std::string word; std::getline(words, word, ',');) {
     if (word == "centroid")

@@ -24,7 +24,7 @@ struct Settings {
   std::string config, friction_file, law = "velocity-weakening";
   double dynamic = 0.8, distance = 0.1;
   std::uint64_t seed = 1;
-  std::string columns, series_format = "text", summary, ensemble;
+  std::string columns, summary, ensemble;
   double stride = 1, interval = 1e6, rupture_gap = 0.0;
   unsigned threads = 0;
   bool paper = false, force = false;

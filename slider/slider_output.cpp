@@ -6,10 +6,7 @@
 namespace Slider {
 
 Outputs::Outputs(const RunOptions &o)
-    : catalogue_path_(o.catalogue),
-      series_path_(o.series),
-      binary_(o.series_binary),
-      stride_(o.series_stride) {
+    : catalogue_path_(o.catalogue), series_path_(o.series), stride_(o.series_stride) {
   // Before anything is read: another run may have written these files.
   claim_.claim(outputs_of(o));
   check_replaced(o);
@@ -34,7 +31,7 @@ Outputs::Outputs(const RunOptions &o)
 void Outputs::create(double pe) {
   if (!catalogue_path_.empty()) catalogue_.create(catalogue_path_, catalogue_info_);
   if (series_path_.empty()) return;
-  series_.create(series_path_, series_info_, binary_);
+  series_.create(series_path_, series_info_);
   series_.write(0, pe);
 }
 
@@ -42,7 +39,7 @@ void Outputs::resume(std::int64_t step, std::int64_t events, std::int64_t late) 
   // No file is truncated before both are found to fit.
   if (!catalogue_path_.empty())
     catalogue_.find_cut(catalogue_path_, catalogue_info_, step - late, {}, events);
-  if (!series_path_.empty()) series_.find_cut(series_path_, series_info_, binary_, step);
+  if (!series_path_.empty()) series_.find_cut(series_path_, series_info_, step);
   if (!catalogue_path_.empty()) catalogue_.cut();
   if (!series_path_.empty()) series_.cut();
 }

@@ -45,7 +45,6 @@ class Outputs {
 
  private:
   std::string catalogue_path_, series_path_;
-  bool binary_;
   std::int64_t stride_;
   LSM::OutputClaim claim_;  // let go of last
   LSM::CatalogueInfo catalogue_info_;

@@ -45,7 +45,6 @@ struct RunOptions {
   std::string catalogue;  ///< empty: none
   bool x_centroid = false, rupture_length = false;
   std::string series;  ///< empty: none
-  bool series_binary = false;
   std::int64_t series_stride = 1;
   std::string checkpoint;  ///< empty: none
   std::int64_t checkpoint_interval = 0;

@@ -145,7 +145,7 @@ pair_coeff 3 4 1.0 1.0 0.6
 timestep 0.03
 fix move blocks lsm/nve viscosity 0.05
 fix plates all lsm/plates lower upper stress 0.02 stressramp 6 damping 0.05 velocity 0.02 ramp 6
-compute events all lsm/events catalogue $name.csv series $name.pe binary ledger yes location yes resume yes
+compute events all lsm/events catalogue $name.csv series $name.pe ledger yes location yes resume yes
 thermo 1000
 thermo_style custom step c_events c_events[5] c_events[11]
 $4

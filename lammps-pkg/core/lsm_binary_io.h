@@ -61,25 +61,33 @@ inline std::string header_bytes(std::string_view magic, const text_io::Parameter
 struct Header {
   text_io::Parameters parameters;
   std::int64_t begin = 0;  ///< of the records
-  std::int64_t size = 0;   ///< of the whole file
+  std::int64_t size = 0;   ///< of the whole file; negative: not known, of a pipe
 };
 
-/// Reads the header of a file whose first 16 bytes were read, and stops after it.
-/// \throws FileError naming the file
-inline Header read_header(text_io::Bytes &in) {
+/// Reads a file up to the end of its header. \param magic its first 16 bytes, the last two of them
+/// the version \param what it is, for messages \throws FileError naming the file
+inline Header read_header(text_io::Bytes &in, std::string_view magic, const std::string &what) {
   const std::string &path = in.path();
+  std::array<char, 16> first{};
+  const std::string_view found(first.data(), in.read(first.data(), first.size()));
+  const std::string_view name = magic.substr(0, magic.size() - 1), family = name.substr(0, 14);
+  if (found != magic)
+    throw FileError(path + (found.substr(0, family.size()) == family
+                                ? ": " + what + " of another version, expected version 1"
+                                : ": not a " + what + ", expected a file that begins with " +
+                                      text_io::in_quotes(name)));
   std::array<char, 8> bytes{};
   Header header;
   const bool whole = in.read(bytes.data(), bytes.size()) == bytes.size();
   const auto length = from_bytes<std::int64_t>(bytes.data());
-  header.size = in.size();
-  if (!whole || length < 0 || length > longest_header || 16 + 8 + length > header.size)
+  std::string text;
+  if (whole && length >= 0 && length <= longest_header)
+    text.resize(static_cast<std::size_t>(length));
+  if (!whole || in.read(text.data(), text.size()) != static_cast<std::uint64_t>(length))
     throw FileError(path + ": file ends within the binary header, expected its length and " +
                     "'# key = value' lines");
   header.begin = 16 + 8 + length;
-  std::string text(static_cast<std::size_t>(length), '\0');
-  if (in.read(text.data(), text.size()) != text.size())
-    throw FileError(path + ": cannot read the binary header");
+  header.size = in.size();
   text_io::ParameterList parameters;
   const std::string problem = parameters.add_lines(text);
   if (!problem.empty()) throw FileError(path + ": " + problem);
@@ -94,25 +102,22 @@ class Records {
   /// After the header. \throws FileError for a truncated last one, which lenient drops
   Records(std::unique_ptr<text_io::Bytes> in, const Header &header, std::int64_t record_bytes,
           bool lenient)
-      : in_(std::move(in)), begin_(header.begin), bytes_(record_bytes) {
-    total_ = (header.size - begin_) / bytes_;
-    torn_ = (header.size - begin_) % bytes_ != 0;
-    if (torn_ && !lenient)
-      throw FileError(in_->path() + ": truncated record " + std::to_string(total_ + 1) +
-                      " at the end, expected " + std::to_string(bytes_) + " bytes per record");
+      : in_(std::move(in)), begin_(header.begin), bytes_(record_bytes), lenient_(lenient) {
+    if (header.size >= 0) end_after(header.size - begin_);
   }
 
   /// The bytes of the next one, valid until the next call; nullptr: there is none. \throws
   /// FileError
   const char *next() {
+    if (read_ != total_ && used_ == block_.size()) {
+      const std::int64_t most = std::max<std::int64_t>(1, (1 << 16) / bytes_);
+      block_.resize(static_cast<std::size_t>(std::min(most, total_ - read_) * bytes_));
+      used_ = 0;
+      const std::size_t got = in_->read(block_.data(), block_.size());
+      if (got < block_.size()) end_after(read_ * bytes_ + static_cast<std::int64_t>(got));
+    }
     if (read_ == total_) return nullptr;
     ++read_;
-    if (used_ == block_.size()) {
-      const std::int64_t most = std::max<std::int64_t>(1, (1 << 16) / bytes_);
-      block_.resize(static_cast<std::size_t>(std::min(most, total_ - read_ + 1) * bytes_));
-      used_ = 0;
-      if (in_->read(block_.data(), block_.size()) != block_.size()) fail("cannot be read");
-    }
     const char *const record = block_.data() + used_;
     used_ += static_cast<std::size_t>(bytes_);
     return record;
@@ -122,17 +127,25 @@ class Records {
     throw FileError(in_->path() + ": record " + std::to_string(read_) + ": " + what);
   }
 
-  std::int64_t total() const { return total_; }
+  std::int64_t total() const { return total_; }  ///< of a file, or at the end of a pipe
   bool torn() const { return torn_; }
   /// Offset behind the last one read.
   std::int64_t end() const { return begin_ + read_ * bytes_; }
 
  private:
+  void end_after(std::int64_t bytes) {
+    total_ = bytes / bytes_;
+    torn_ = bytes % bytes_ != 0;
+    if (torn_ && !lenient_)
+      throw FileError(in_->path() + ": truncated record " + std::to_string(total_ + 1) +
+                      " at the end, expected " + std::to_string(bytes_) + " bytes per record");
+  }
+
   std::unique_ptr<text_io::Bytes> in_;
-  std::int64_t begin_ = 0, bytes_ = 1, total_ = 0, read_ = 0;
+  std::int64_t begin_ = 0, bytes_ = 1, total_ = INT64_MAX, read_ = 0;
   std::vector<char> block_;
   std::size_t used_ = 0;
-  bool torn_ = false;
+  bool lenient_ = false, torn_ = false;
 };
 
 }  // namespace LSM::binary_io

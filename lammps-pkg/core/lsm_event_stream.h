@@ -244,8 +244,7 @@ class EventStream {
       series_info = series_header(settings_, scene, clock);
       series_ = std::make_unique<PeSeriesWriter>();
       if (series_goes_on)
-        series_->find_cut(settings_.series_file, series_info, settings_.series_binary, step,
-                          free_to_change);
+        series_->find_cut(settings_.series_file, series_info, step, free_to_change);
     }
     if (!settings_.history_file.empty()) {
       history_info_ = history_header(settings_, scene, grid_);
@@ -260,7 +259,7 @@ class EventStream {
                         : catalogue_->create(settings_.catalogue_file, catalogue_info);
     if (series_)
       series_goes_on ? static_cast<void>(series_->cut())
-                     : series_->create(settings_.series_file, series_info, settings_.series_binary);
+                     : series_->create(settings_.series_file, series_info);
     if (history_ && !history_->is_open() && goes_on_) {
       const FaultMoment last = finder_->last_interval();
       history_->create(settings_.history_file, history_info_,

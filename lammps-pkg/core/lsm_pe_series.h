@@ -1,25 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file lsm_pe_series.h
 /// Time series of the total elastic potential energy (PE), Sect. 4.1 of Weatherley and Abe (2004).
-/// The formats are ours. PE is kept in double precision: the sign of its change per step matters at
+/// The format is ours. PE is kept in double precision: the sign of its change per step matters at
 /// 1e-9 of its value.
 ///
-/// Text:    # lsm-pe-series 1
-///          # key = value ...          (model, dt, step0, time0, stride, then the others)
-///          step,time,pe
-///          one line per sample, 17 significant digits
-/// Binary:  16 bytes "lsm-pe-series-1\n", int64 length of the header, the header (the key = value
-///          lines above), then records of int64 step and double pe; everything little-endian.
-///          time = time0 + (step - step0) dt.
+/// Binary: 16 bytes "lsm-pe-series-1\n", int64 length of the header, the header (lines
+/// "# key = value": model, dt, step0, time0, stride, then the others), then records of int64 step
+/// and double pe; everything little-endian. time = time0 + (step - step0) dt.
 ///
-/// If steps and time are not proportional (fix lsm/leap), the header has "times = own": a text file
-/// has the time of each sample in its column as always; a binary record is int64 step, double time,
-/// double pe.
+/// If steps and time are not proportional (fix lsm/leap), the header has "times = own", and a
+/// record is int64 step, double time, double pe. `postproc series --export` makes a text of it.
 #ifndef LSM_PE_SERIES_H
 #define LSM_PE_SERIES_H
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -55,11 +49,7 @@ struct PeSeriesInfo {
 
 namespace pe_series_detail {
 
-constexpr std::string_view first_line = "# lsm-pe-series 1";
-constexpr std::string_view text_magic = "# lsm-pe-series ";
-constexpr std::string_view column_line = "step,time,pe";
-constexpr std::string_view binary_magic = "lsm-pe-series-1\n";
-constexpr std::string_view binary_family = "lsm-pe-series-";
+constexpr std::string_view magic = "lsm-pe-series-1\n";
 constexpr std::string_view times_key = "times", own_times = "own";
 inline std::int64_t record_bytes(const PeSeriesInfo &info) { return info.own_times ? 24 : 16; }
 
@@ -113,55 +103,47 @@ inline std::string interpret(const text_io::Parameters &all, PeSeriesInfo &info)
 
 }  // namespace pe_series_detail
 
-/// Reads a PE series sample by sample; the file tells whether it is text or binary. Anything
-/// unexpected throws; only a truncated last sample, as a killed run leaves it, is dropped if asked
-/// to (lenient).
+/// Reads a PE series sample by sample. Anything unexpected throws; only a truncated last sample, as
+/// a killed run leaves it, is dropped if asked to (lenient).
 class PeSeriesReader {
  public:
-  PeSeriesReader() = default;
   /// \throws FileError if the file cannot be read or its header is not as it should be.
   explicit PeSeriesReader(const std::string &path, bool lenient = false,
-                          text_io::OpenBytes opener = text_io::open_plain)
-      : path_(path), lenient_(lenient) {
+                          text_io::OpenBytes open = text_io::open_plain)
+      : path_(path) {
     using namespace pe_series_detail;
-    std::unique_ptr<text_io::Bytes> in = opener(path);
-    const std::string_view begin = in->peek(binary_magic.size());
-    if (begin.empty())
-      throw FileError(text_io::where(path_, 1) + "empty file, expected '" +
-                      std::string(first_line) + "' or a binary PE series");
-    if (begin.substr(0, binary_family.size()) == binary_family)
-      open_binary(std::move(in));
-    else
-      open_text(std::move(in));
+    std::unique_ptr<text_io::Bytes> in = open(path);
+    const binary_io::Header found = binary_io::read_header(*in, magic, "PE series");
+    const std::string problem = interpret(found.parameters, info_);
+    if (!problem.empty()) throw FileError(path + ": " + problem);
+    records_ = binary_io::Records(std::move(in), found, record_bytes(info_), lenient);
   }
 
   const PeSeriesInfo &info() const { return info_; }
   const std::string &path() const { return path_; }
-  /// A truncated last sample was dropped (lenient); known once next() has returned false.
-  bool torn() const { return torn_; }
-  bool binary() const { return !lines_; }
+  bool torn() const { return records_.torn(); }  ///< a truncated last sample is dropped (lenient)
 
   /// Next sample; false at the end of the file. Steps increase, numbers are finite.
   /// \throws FileError
   bool next(std::int64_t &step, double &time, double &pe) {
-    std::int64_t new_step = 0;
-    double new_time = 0.0, new_pe = 0.0;
-    if (!(lines_ ? read_line(new_step, new_time, new_pe) : read_record(new_step, new_time, new_pe)))
-      return false;
-    if (has_last_ && new_step <= last_step_)
-      fail("step " + std::to_string(new_step) + " after step " + std::to_string(last_step_) +
-           ", expected increasing steps");
-    const double expected = info_.own_times ? new_time : info_.time(new_step);
-    // Rounding may differ between the programs; a wrong dt or step0 differs by much more.
-    if (!(std::fabs(new_time - expected) <= 1e-9 * (std::fabs(expected) + info_.dt)))
-      fail("time " + text_io::number(new_time) + " at step " + std::to_string(new_step) +
-           ", expected " + text_io::number(expected) + " from time0, step0 and dt");
-    if (has_last_ && new_time < last_time_)
-      fail("time " + text_io::number(new_time) + " after time " + text_io::number(last_time_) +
-           ", expected increasing times");
-    step = last_step_ = new_step;
-    time = last_time_ = new_time;
-    pe = new_pe;
+    using binary_io::from_bytes;
+    const char *const record = records_.next();
+    if (!record) return false;
+    step = from_bytes<std::int64_t>(record);
+    time = info_.own_times ? from_bytes<double>(record + 8) : info_.time(step);
+    pe = from_bytes<double>(record + (info_.own_times ? 16 : 8));
+    if (!std::isfinite(time))
+      records_.fail("time of step " + std::to_string(step) +
+                    " is not finite, expected a finite number");
+    if (!std::isfinite(pe)) records_.fail("pe is not finite, expected a finite number");
+    if (has_last_ && step <= last_step_)
+      records_.fail("step " + std::to_string(step) + " after step " + std::to_string(last_step_) +
+                    ", expected increasing steps");
+    if (has_last_ && time < last_time_)
+      records_.fail("time " + text_io::number(time) + " after time " + text_io::number(last_time_) +
+                    ", expected increasing times");
+    last_step_ = step;
+    last_time_ = time;
     has_last_ = true;
     return true;
   }
@@ -169,98 +151,11 @@ class PeSeriesReader {
  private:
   friend class PeSeriesWriter;
 
-  void open_text(std::unique_ptr<text_io::Bytes> in) {
-    using namespace pe_series_detail;
-    lines_ = std::make_unique<text_io::LineReader>(std::move(in));
-    lines_->next(line_);
-    if (line_ != first_line) {
-      if (line_.substr(0, text_magic.size()) == text_magic)
-        fail("PE series version " + text_io::in_quotes(line_.substr(text_magic.size())) +
-             ", expected version 1");
-      fail("not a PE series, expected '" + std::string(first_line) + "'");
-    }
-    text_io::ParameterList parameters;
-    std::string problem;
-    while (problem.empty()) {
-      if (!lines_->next(line_))
-        fail("file ends within the header, expected '" + std::string(column_line) + "'");
-      if (line_.empty() || line_.front() != '#') break;
-      problem = parameters.add_line(line_);
-    }
-    if (problem.empty() && line_ != column_line)
-      problem = "column names " + text_io::in_quotes(line_) + ", expected '" +
-                std::string(column_line) + "'";
-    if (problem.empty() && !lines_->complete())
-      problem = "truncated line of column names, expected a line end";
-    if (problem.empty()) problem = interpret(parameters.all(), info_);
-    if (!problem.empty()) fail(problem);
-  }
-
-  void open_binary(std::unique_ptr<text_io::Bytes> in) {
-    using namespace pe_series_detail;
-    std::array<char, binary_magic.size()> magic{};
-    const std::size_t got = in->read(magic.data(), magic.size());
-    if (std::string_view(magic.data(), got) != binary_magic)
-      throw FileError(path_ + ": binary PE series of another version, expected version 1");
-    const binary_io::Header found = binary_io::read_header(*in);
-    const std::string problem = interpret(found.parameters, info_);
-    if (!problem.empty()) throw FileError(path_ + ": " + problem);
-    records_ = binary_io::Records(std::move(in), found, info_.own_times ? 24 : 16, lenient_);
-    torn_ = records_.torn();
-  }
-
-  bool read_line(std::int64_t &step, double &time, double &pe) {
-    asked_ = lines_->end();
-    if (!lines_->next(line_)) return false;
-    if (!lines_->complete()) {
-      torn_ = true;
-      if (lenient_) return false;
-      fail("truncated last line, expected 3 columns and a line end");
-    }
-    text_io::split(line_, fields_);
-    if (fields_.size() != 3)
-      fail(std::to_string(line_.empty() ? 0 : fields_.size()) +
-           " columns, expected 3 (step,time,pe)");
-    const auto bad_column = [this](const char *name, std::size_t column, const char *expected) {
-      fail("column '" + std::string(name) + "' is " + text_io::in_quotes(fields_[column]) +
-           ", expected " + expected);
-    };
-    if (!text_io::parse(fields_[0], step)) bad_column("step", 0, "an integer");
-    if (!text_io::parse(fields_[1], time)) bad_column("time", 1, "a finite number");
-    if (!text_io::parse(fields_[2], pe)) bad_column("pe", 2, "a finite number");
-    return true;
-  }
-
-  bool read_record(std::int64_t &step, double &time, double &pe) {
-    using binary_io::from_bytes;
-    asked_ = records_.end();
-    const char *const record = records_.next();
-    if (!record) return false;
-    step = from_bytes<std::int64_t>(record);
-    time = info_.own_times ? from_bytes<double>(record + 8) : info_.time(step);
-    pe = from_bytes<double>(record + (info_.own_times ? 16 : 8));
-    if (!std::isfinite(time))
-      fail("time of step " + std::to_string(step) + " is not finite, expected a finite number");
-    if (!std::isfinite(pe)) fail("pe is not finite, expected a finite number");
-    return true;
-  }
-
-  /// About the last line or record.
-  [[noreturn]] void fail(const std::string &what) const {
-    if (lines_) lines_->fail(what);
-    records_.fail(what);
-  }
-
   std::string path_;
   PeSeriesInfo info_;
-  bool lenient_ = false, torn_ = false;
   bool has_last_ = false;
   std::int64_t last_step_ = 0;
   double last_time_ = 0.0;
-  std::int64_t asked_ = 0;  // offset in front of the sample that was last asked for
-  std::unique_ptr<text_io::LineReader> lines_;  // of a text
-  std::string_view line_;                       // valid until the next one is read
-  std::vector<std::string_view> fields_;        // views into line_
   binary_io::Records records_;
 };
 
@@ -281,20 +176,12 @@ class PeSeriesWriter {
 
   /// Starts a new file, replacing an older one (which stays if the new one cannot be written).
   /// \throws FileError; std::invalid_argument for a header that could not be read back.
-  void create(const std::string &path, const PeSeriesInfo &info, bool binary) {
+  void create(const std::string &path, const PeSeriesInfo &info) {
     using namespace pe_series_detail;
     check_info(info);
     close();
-    std::string text;
-    if (binary) {
-      text = binary_io::header_bytes(binary_magic, header(info));
-    } else {
-      text = text_io::header_text(first_line, header(info));
-      text += column_line;
-      text += '\n';
-    }
-    file_.create(path, text);
-    start(info, binary, 0, 0);
+    file_.create(path, binary_io::header_bytes(magic, header(info)));
+    start(info, 0, 0);
   }
 
   /// Continues the series of a run restarted from last_step: checks that the header is what
@@ -302,42 +189,38 @@ class PeSeriesWriter {
   /// every sample after last_step and an incomplete last one. Returns the number of samples kept.
   /// The file is unchanged if this throws. \throws FileError naming the first parameter that
   /// differs, the first bad line, or the samples missing before last_step.
-  std::int64_t resume(const std::string &path, const PeSeriesInfo &info, bool binary,
-                      std::int64_t last_step, const std::vector<std::string> &ignore = {}) {
-    find_cut(path, info, binary, last_step, ignore);
+  std::int64_t resume(const std::string &path, const PeSeriesInfo &info, std::int64_t last_step,
+                      const std::vector<std::string> &ignore = {}) {
+    find_cut(path, info, last_step, ignore);
     return cut();
   }
 
   /// All of resume() but the change of the file, which cut() does: where more than one file goes
   /// on, nothing is cut before all of them are found to fit.
-  void find_cut(const std::string &path, const PeSeriesInfo &info, bool binary,
-                std::int64_t last_step, const std::vector<std::string> &ignore = {}) {
+  void find_cut(const std::string &path, const PeSeriesInfo &info, std::int64_t last_step,
+                const std::vector<std::string> &ignore = {}) {
     using namespace pe_series_detail;
     check_info(info);
     close();
     PeSeriesReader reader(path, true);
-    if (reader.binary() != binary)
-      throw FileError(path + ": cannot resume: file is " +
-                      (reader.binary() ? "binary, expected text" : "text, expected binary"));
     const std::string problem = text_io::difference(header(reader.info()), header(info), ignore);
     if (!problem.empty()) throw FileError(path + ": cannot resume: " + problem);
-    std::int64_t kept = 0, last = 0, step = 0;
+    std::int64_t kept = 0, last = 0, step = 0, length = reader.records_.end();
     double time = 0.0, pe = 0.0, last_time = 0.0;
     // Steps increase, so the first one to drop is where the file is cut.
     while (reader.next(step, time, pe) && step <= last_step) {
       last = step;
       last_time = time;
+      length = reader.records_.end();
       ++kept;
     }
-    if (reader.lines_ && reader.lines_->foreign())
-      throw FileError(path + ": cannot resume: " + std::string(text_io::foreign_lines));
     const std::int64_t reached = kept > 0 ? last : info.step0;
     if (reached < last_step && last_step - info.stride >= reached)
       throw FileError(path + ": cannot resume: samples end at step " + std::to_string(reached) +
                       ", expected them up to step " + std::to_string(last_step));
     cut_path_ = path;
-    cut_length_ = reader.asked_;
-    start(info, binary, kept, last);
+    cut_length_ = length;
+    start(info, kept, last);
     last_time_ = last_time;
   }
 
@@ -370,18 +253,9 @@ class PeSeriesWriter {
     if (!std::isfinite(pe)) refuse(": pe is not finite, expected a finite number");
     if (rows_ > 0 && step <= last_step_)
       refuse(" after step " + std::to_string(last_step_) + ", expected increasing steps");
-    if (binary_) {
-      binary_io::append_bytes(buffer_, step);
-      if (info_.own_times) binary_io::append_bytes(buffer_, time);
-      binary_io::append_bytes(buffer_, pe);
-    } else {
-      text_io::append(buffer_, step);
-      buffer_ += ',';
-      text_io::append(buffer_, time);
-      buffer_ += ',';
-      text_io::append(buffer_, pe);
-      buffer_ += '\n';
-    }
+    binary_io::append_bytes(buffer_, step);
+    if (info_.own_times) binary_io::append_bytes(buffer_, time);
+    binary_io::append_bytes(buffer_, pe);
     last_step_ = step;
     last_time_ = time;
     ++rows_;
@@ -408,9 +282,8 @@ class PeSeriesWriter {
  private:
   static constexpr std::size_t buffer_limit = 1 << 16;
 
-  void start(const PeSeriesInfo &info, bool binary, std::int64_t rows, std::int64_t last_step) {
+  void start(const PeSeriesInfo &info, std::int64_t rows, std::int64_t last_step) {
     info_ = info;
-    binary_ = binary;
     rows_ = rows;
     last_step_ = last_step;
     buffer_.clear();
@@ -419,7 +292,6 @@ class PeSeriesWriter {
 
   text_io::OutputFile file_;
   PeSeriesInfo info_;
-  bool binary_ = false;
   std::int64_t rows_ = 0, last_step_ = 0;
   double last_time_ = 0.0;
   std::string buffer_;

@@ -18,7 +18,6 @@
 #define LSM_SLIP_HISTORY_H
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -59,7 +58,6 @@ struct SlipRecord {
 namespace slip_history_detail {
 
 constexpr std::string_view magic = "lsm-slip-hist-1\n";
-constexpr std::string_view family = "lsm-slip-hist-";
 constexpr std::int64_t most_bins = 1 << 20;
 
 /// Calls f(name, double &) or f(name, std::int64_t &) for each number of a header, in the order of
@@ -152,15 +150,7 @@ class SlipHistoryReader {
       : path_(path) {
     using namespace slip_history_detail;
     std::unique_ptr<text_io::Bytes> in = open(path);
-    std::array<char, 16> begin{};
-    const std::string_view found(begin.data(), in->read(begin.data(), begin.size()));
-    if (found != magic)
-      throw FileError(
-          path +
-          (found.substr(0, family.size()) == family
-               ? ": slip history of another version, expected version 1"
-               : ": not a slip history, expected a file that begins with 'lsm-slip-hist-1'"));
-    const binary_io::Header header = binary_io::read_header(*in);
+    const binary_io::Header header = binary_io::read_header(*in, magic, "slip history");
     const std::string problem = interpret(header.parameters, info_);
     if (!problem.empty()) throw FileError(path + ": " + problem);
     records_ = binary_io::Records(std::move(in), header, record_bytes(info_), lenient);

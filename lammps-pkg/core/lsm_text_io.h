@@ -262,7 +262,7 @@ class Bytes {
     }
     return std::string_view(ahead_).substr(0, count);
   }
-  /// Of the whole file. \throws FileError
+  /// Of the whole file; negative: not known, of a pipe. \throws FileError
   virtual std::int64_t size() const = 0;
   const std::string &path() const { return path_; }
 
@@ -290,6 +290,7 @@ class FileBytes : public Bytes {
   }
   std::int64_t size() const override {
     std::error_code code;
+    if (!std::filesystem::is_regular_file(path(), code)) return -1;
     const auto size = static_cast<std::int64_t>(std::filesystem::file_size(path(), code));
     if (code) throw FileError(path() + ": cannot read: " + code.message());
     return size;

@@ -119,8 +119,7 @@ class Explore : public Command {
                                     const char *what, const char *where) {
       group.add(name, paths, what, kind("FILE"), shown(where), one_each());
     };
-    add_files("--series", series_, "PE series of the run",
-              "RUN.pe.bin or RUN.pe.csv beside RUN.catalogue.csv");
+    add_files("--series", series_, "PE series of the run", "RUN.pe.bin beside RUN.catalogue.csv");
     add_files("--ruptures", ruptures_, "Catalogue of the ruptures of the run", "RUN.ruptures.csv");
     add_files("--history", histories_, "Slip history of the run", "RUN.slip.bin");
     add_wave_speeds(OptionGroup(command, "Slip"), page_.p_speed, page_.s_speed);
@@ -151,8 +150,7 @@ class Explore : public Command {
 
   void run() override {
     const std::vector<std::string> &paths = catalogues_.paths;
-    const std::vector<std::string> series = files_beside(paths, series_, "--series",
-                                                         {".pe.bin", ".pe.csv"}),
+    const std::vector<std::string> series = files_beside(paths, series_, "--series", {".pe.bin"}),
                                    histories =
                                        files_beside(paths, histories_, "--history", {".slip.bin"}),
                                    ruptures = files_beside(paths, ruptures_, "--ruptures",

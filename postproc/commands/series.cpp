@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -14,8 +15,32 @@ namespace LSM::postproc {
 
 namespace {
 
+/// Samples as text; without a path, nothing is written.
+class SeriesText {
+ public:
+  SeriesText(const std::string &path, const PeSeriesInfo &info) {
+    if (path.empty()) return;
+    lines_ = text_io::header_text("# PE series", pe_series_detail::header(info)) + "step,time,pe\n";
+    file_.create(path, "", true);
+  }
+  void add(std::int64_t step, double time, double pe) {
+    if (!file_.is_open()) return;
+    lines_ += fmt::format("{},{},{}\n", step, text_io::number(time), text_io::number(pe));
+    if (lines_.size() > (1 << 16)) file_.write(std::exchange(lines_, {}));
+  }
+  void close() {
+    if (!file_.is_open()) return;
+    file_.write(lines_);
+    file_.close();
+  }
+
+ private:
+  text_io::OutputFile file_;
+  std::string lines_;
+};
+
 class Series : public Analysis {
-  std::string series_, title_;
+  std::string series_, title_, text_;
   SeriesOptions samples_;
   PickerOptions picker_;
   std::int64_t columns_ = 2000;
@@ -41,10 +66,18 @@ class Series : public Analysis {
               "Time over which the rise and the fall of PE are measured for the saw-tooth "
               "number, which distinguishes stick-slip from creep (model time, ours)",
               positive());
+    group.add("--export", text_,
+              "Writes the samples of the window as text, too: columns step, time and pe with 17 "
+              "significant digits, after the header of the series as comment lines",
+              kind("FILE"), shown("none"));
     add_picture(command, "series");
     add_picker_options(command, picker_);
   }
 
+  std::vector<Output> outputs() const override {
+    if (text_.empty()) return {};
+    return {{"--export", text_}};
+  }
   std::vector<std::string> inputs() const override { return {series_}; }
   std::vector<std::string> endings() const override { return {"-events.csv"}; }
 
@@ -65,6 +98,7 @@ class Series : public Analysis {
     out.picker = picker.settings();
     RegimeMeter meter(window_, series.spacing(), length_of(series.info()));
     Extent times;
+    SeriesText text(text_, series.info());
     double before = nan;
     Event event;
     out.regime = series.about();
@@ -76,10 +110,12 @@ class Series : public Analysis {
       }
       if (!times.empty()) {
         meter.add(pe);
+        text.add(step, time, pe);
         out.curves.add(time, {pe, pe - before, std::isnan(before) ? nan : picker.rate()});
       }
       before = pe;
     });
+    text.close();
     if (picker.in_event())
       out.events.row(picker.state().t_start, times.hi, picker.state().pe_start, before, nan);
     out.regime.events = out.events.rows();
@@ -110,6 +146,7 @@ class Series : public Analysis {
     Findings found;
     found.table("series", regime_table({regime}));
     found.table("events", std::move(samples.events), "-events");
+    if (!text_.empty()) found.say(fmt::format("wrote {}\n", text_));
     found.figure("", std::move(figure));
     return found;
   }

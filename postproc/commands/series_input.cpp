@@ -22,8 +22,7 @@ void SeriesOptions::add_to(OptionGroup group, bool window) {
 }
 
 void add_series(OptionGroup group, std::string &path) {
-  group.add("series", path,
-            "PE series, text or binary, written by compute lsm/events or slider_cli", required());
+  group.add("series", path, "PE series, written by compute lsm/events or slider_cli", required());
 }
 
 SeriesInput::SeriesInput(const std::string &path, const SeriesOptions &options)

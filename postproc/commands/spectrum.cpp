@@ -69,8 +69,7 @@ class Spectrum : public Analysis {
 
   void add_options(CLI::App *command) override {
     OptionGroup own(command), group(command, "Spectrum (ours)");
-    own.add("series", series_, "PE series, text or binary, one curve each, without missing samples",
-            required());
+    own.add("series", series_, "PE series, one curve each, without missing samples", required());
     own.add("--label", labels_,
             "Name of a curve, once per series and in their order (default: file name)");
     samples_.add_to(own, true);

@@ -294,7 +294,7 @@ END
 thermo_style custom step
 uncompute events
 if "$(is_defined(compute,ruptures))" then "uncompute ruptures"
-compute events all lsm/events catalogue slice.catalogue.csv series slice.pe.bin binary
+compute events all lsm/events catalogue slice.catalogue.csv series slice.pe.bin
 END
   echo 'neigh_modify delay 0 every 1000000 check no' > changes.lists
   for ((round = 1; round <= few; ++round)); do

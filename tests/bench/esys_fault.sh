@@ -39,11 +39,15 @@ call mpirun -np 2 esysparticle "$here/esys_fault.py" fault "$(value length)" "$(
 
 # PE of links and contacts as a series of this project; the first row precedes the first evaluation
 # of forces
-paste -d ' ' fault.esys.links fault.esys.contacts | awk -v dt="$(value dt)" -v n="$(value settle)" '
-  BEGIN {
-    print "# lsm-pe-series 1\n# model = lsm\n# dt = " dt "\n# step0 = " n "\n# time0 = " n * dt "\n# stride = 1\n# completeness = 0.001"
-    print "step,time,pe"
-  }
-  NR > 2 && NF == 2 { printf "%d,%.10g,%.11g\n", n, n * dt, $1 + $2; n++ }' >fault.pe.csv
-"$bin/postproc" pick fault.pe.csv --memory-time "$(value memory)" -o fault.catalogue.csv --force
+paste -d ' ' fault.esys.links fault.esys.contacts | python3 -c '
+import struct, sys
+dt, step = float(sys.argv[1]), int(sys.argv[2])
+header = {"model": "lsm", "dt": dt, "step0": step, "time0": step * dt, "stride": 1, "completeness": 0.001}
+header = "".join(f"# {key} = {value}\n" for key, value in header.items()).encode()
+rows = [line.split() for line in sys.stdin][2:]
+pe = [float(row[0]) + float(row[1]) for row in rows if len(row) == 2]
+sys.stdout.buffer.write(b"lsm-pe-series-1\n" + struct.pack("<q", len(header)) + header
+                        + b"".join(struct.pack("<qd", step + i, x) for i, x in enumerate(pe)))
+' "$(value dt)" "$(value settle)" >fault.pe.bin
+"$bin/postproc" pick fault.pe.bin --memory-time "$(value memory)" -o fault.catalogue.csv --force
 mv fault.esys.json summary.json

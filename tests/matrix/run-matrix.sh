@@ -130,7 +130,7 @@ compare_sliders() {
   for name in "${!runs[@]}"; do
     # shellcheck disable=SC2086
     for program in "$1 $at/ours" "$2 $at/theirs"; do
-      (cd "${program#* }" && "${program% *}" --blocks 100 --velocity 0.02 --warmup 0 --pe-stride 20 --pe-format binary \
+      (cd "${program#* }" && "${program% *}" --blocks 100 --velocity 0.02 --warmup 0 --pe-stride 20 \
         ${runs[$name]} --catalogue "$name.csv" --pe-series "$name.pe" --checkpoint "$name.chk" >"$name.out") || return 1
     done
     for file in "$name".csv "$name".pe "$name".chk; do

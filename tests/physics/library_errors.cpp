@@ -92,7 +92,7 @@ int main(int argc, char **argv) {
 
   // Files that cannot be written, at the first run.
   for (const char *files :
-       {"catalogue no/folder/c.csv", "series no/folder/s.pe text", "catalogue /dev/full"})
+       {"catalogue no/folder/c.csv", "series no/folder/s.pe", "catalogue /dev/full"})
     Session().fails(start + "compute events all lsm/events " + files + "\nrun 10\n", "cannot");
   Session().fails("include_beside no/file.in\n", "cannot read file");
   Session().fails(
@@ -105,7 +105,7 @@ int main(int argc, char **argv) {
   if (rank == 0) std::ofstream("there.csv") << "events\n";
   MPI_Barrier(MPI_COMM_WORLD);
   Session().fails(
-      start + "compute events all lsm/events catalogue there.csv series new.pe text\nrun 10\n",
+      start + "compute events all lsm/events catalogue there.csv series new.pe\nrun 10\n",
       "there.csv exists");
   if (rank == 0) {
     std::string line;
@@ -123,7 +123,7 @@ int main(int argc, char **argv) {
       struct rlimit limit = {20000, RLIM_INFINITY};
       setrlimit(RLIMIT_FSIZE, &limit);
     }
-    session.fails(start + "compute events all lsm/events series full.pe text\nrun 5000\n",
+    session.fails(start + "compute events all lsm/events series full.pe\nrun 5000\n",
                   "cannot write");
     if (rank == 0) {
       struct rlimit limit = {RLIM_INFINITY, RLIM_INFINITY};

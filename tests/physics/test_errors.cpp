@@ -46,7 +46,8 @@ TEST_F(BadInput, OneLineOfError) {
       {"compute a all lsm/events lambda 1.5", {"lambda", "1.5"}},
       {"compute a all lsm/events memory 1e300\nrun 1", {"lambda"}},  // 1 to the last digit
       {"compute a all lsm/events picker best", {"picker", "best", "exponential"}},
-      {"compute a all lsm/events series f.pe", {"series"}},
+      {"compute a all lsm/events series", {"series", "a value"}},
+      {"compute a all lsm/events series f.pe text yes", {"text"}},
       {"compute a all lsm/events ledger perhaps", {"ledger is 'perhaps', but must be yes or no"}},
       {"fix a_record all lsm/nve\ncompute a all lsm/events", {"a_record", "in use"}},
       {"fix a all lsm/plates lower nowhere stress 1", {"nowhere"}},
@@ -90,7 +91,7 @@ TEST_F(BadInput, OneLineOfErrorOnTwoRanks) {
 
 TEST_F(BlowUp, StopsWithAMessageAndACleanCatalogue) {
   std::string script = fault_read() + fault_shear(
-                                          "catalogue blown.csv series blown.pe text emergency "
+                                          "catalogue blown.csv series blown.pe emergency "
                                           "blown.restart nonpositive yes picker literal");
   const std::string fix = "viscosity ${viscosity}\n";
   script.replace(script.find(fix), fix.size(), "viscosity ${viscosity} dtcheck off\n");
@@ -143,11 +144,11 @@ TEST_F(BadInput, OneFileForTwoOutputs) {
     std::vector<std::string> parts;
   };
   const std::vector<Case> cases = {
-      {"catalogue one.csv series one.csv text", "", {"catalogue one.csv and series one.csv"}},
-      {"catalogue one.csv series ./one.csv text", "", {"series ./one.csv", "the same file"}},
-      {"catalogue soft.csv series one.csv binary", "", {"the same file"}},
-      {"catalogue there.csv series hard.csv binary", "", {"the same file"}},
-      {"catalogue one.csv series e.state binary", "", {"e.state", "the same file"}},
+      {"catalogue one.csv series one.csv", "", {"catalogue one.csv and series one.csv"}},
+      {"catalogue one.csv series ./one.csv", "", {"series ./one.csv", "the same file"}},
+      {"catalogue soft.csv series one.csv", "", {"the same file"}},
+      {"catalogue there.csv series hard.csv", "", {"the same file"}},
+      {"catalogue one.csv series e.state", "", {"e.state", "the same file"}},
       {"catalogue one.csv", "restart 100 one.csv two.csv", {"restart one.csv", "the same file"}},
       {"catalogue one.csv", "log soft.csv", {"catalogue one.csv: this run writes that file"}},
       {"catalogue one.csv", "dump d all atom 100 one.csv", {"this run writes that file"}},
@@ -162,8 +163,8 @@ TEST_F(BadInput, OneFileForTwoOutputs) {
         << one.files << " " << one.more;
     EXPECT_EQ(read_file(path("there.csv")), "somebody's data\n") << one.files;
   }
-  EXPECT_TRUE(succeeded(
-      run_text(shear + "run 10\n", {{"files", "catalogue /dev/null series /dev/null text"}})));
+  EXPECT_TRUE(
+      succeeded(run_text(shear + "run 10\n", {{"files", "catalogue /dev/null series /dev/null"}})));
 }
 
 TEST_F(BadInput, MoreBinsThanAHistoryMayHave) {
@@ -175,7 +176,7 @@ TEST_F(BadInput, MoreBinsThanAHistoryMayHave) {
 }
 
 TEST_F(BadInput, AnotherRunWritesTheFile) {
-  const std::string shear = fault_read() + fault_shear("catalogue held.csv series held.pe binary");
+  const std::string shear = fault_read() + fault_shear("catalogue held.csv series held.pe");
   for (int ranks : {1, 2})
     for (const char *file : {"held.csv", "held.pe"}) {
       const LSM::FileLock held(path(file));
@@ -276,7 +277,7 @@ thermo            1000
 run               1000
 write_restart     kept.state
 )";
-  const std::string both = "catalogue kept.csv series kept.pe binary";
+  const std::string both = "catalogue kept.csv series kept.pe";
   const std::string again =
       "newton off\natom_style hybrid bond sphere\natom_modify map array\n"
       "comm_modify mode single cutoff 3.6\nread_restart kept.state\n"
@@ -297,8 +298,8 @@ write_restart     kept.state
     };
     const std::vector<std::pair<std::string, std::string>> refused = {
         {both, "kept.csv"},
-        {"catalogue new.csv series kept.pe binary", "kept.pe"},
-        {"catalogue kept.csv series new.pe text", "kept.csv"},
+        {"catalogue new.csv series kept.pe", "kept.pe"},
+        {"catalogue kept.csv series new.pe", "kept.csv"},
         {both + " overwrite no", "kept.csv"}};
     for (const auto &[files, name] : refused) {
       if (ranks == 2 && name == "kept.pe") continue;
@@ -312,9 +313,9 @@ write_restart     kept.state
           << files;
       EXPECT_TRUE(unchanged()) << files;
     }
-    EXPECT_TRUE(failed_with(
-        run_text(shear, {{"files", "catalogue new.csv series no/folder/s.pe text"}}, ranks),
-        {"no/folder/s.pe"}));
+    EXPECT_TRUE(
+        failed_with(run_text(shear, {{"files", "catalogue new.csv series no/folder/s.pe"}}, ranks),
+                    {"no/folder/s.pe"}));
     EXPECT_TRUE(unchanged());
     // it does if asked to
     ASSERT_TRUE(succeeded(run_text(shear, {{"files", both + " overwrite yes"}}, ranks)));

@@ -68,7 +68,7 @@ unfix             hold
 uncompute         guard
 fix               move blocks lsm/nve viscosity ${viscosity} dtcheck ${check}
 fix               plates all lsm/plates lower upper stress ${stress} damping ${viscosity} velocity ${velocity} ramp ${ramp}
-compute           events all lsm/events overwrite yes catalogue extreme.csv series extreme.pe text stride ${every} ledger yes check 50 emergency extreme.restart
+compute           events all lsm/events overwrite yes catalogue extreme.csv series extreme.pe stride ${every} ledger yes check 50 emergency extreme.restart
 )" + fault_columns +
          R"(
 thermo            ${thermo}
@@ -349,9 +349,9 @@ TEST_F(Extremes, OneDiscAndNoContacts) {
 }
 
 TEST_F(Reproducible, SameBytesFromSameRanks) {
-  const std::string script =
-      fault_read() + fault_shear("catalogue again.csv series again.pe binary location yes") +
-      "thermo 500\nrun 6000\nwrite_restart again.restart\n";
+  const std::string script = fault_read() +
+                             fault_shear("catalogue again.csv series again.pe location yes") +
+                             "thermo 500\nrun 6000\nwrite_restart again.restart\n";
   for (int ranks : {1, 2, 4}) {
     std::string catalogue, series;
     for (int round = 0; round < 2; ++round) {
@@ -518,7 +518,7 @@ TEST_F(Reproducible, OnlookersChangeNothingAndSeeWholeSteps) {
   const std::string shear = fault_read() + R"(
 fix               move blocks lsm/nve viscosity 0.02
 fix               plates all lsm/plates lower upper stress 0.006 damping 0.02 velocity 0.005 ramp 3
-compute           events all lsm/events overwrite yes catalogue seen.csv series seen.pe binary
+compute           events all lsm/events overwrite yes catalogue seen.csv series seen.pe
 compute           moving blocks ke
 thermo_style      custom step c_moving
 thermo_modify     norm no format float %.17g

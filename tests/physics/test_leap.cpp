@@ -380,8 +380,7 @@ TEST_F(Leap, SeriesAndRupturesHaveModelTimes) {
       slow("fix leap all lsm/leap plates fast 0.005 calm 3 settle 0.1 ramp 6 look 0.6\n",
            "c_events c_events[5] f_plates[8] f_leap") +
       "variable go index no\nuncompute events\n"
-      "compute events all lsm/events resume ${go} catalogue ${prefix}.csv series ${prefix}.pe "
-      "binary\n"
+      "compute events all lsm/events resume ${go} catalogue ${prefix}.csv series ${prefix}.pe\n"
       "compute ruptures all lsm/events events ruptures slipping 0.5 interval 10 resume ${go} "
       "catalogue "
       "${prefix}.ruptures progress no\nthermo 1\n";

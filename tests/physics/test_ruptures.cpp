@@ -164,7 +164,7 @@ TEST_F(Ruptures, PrescribedSlipIsFoundOnAnyNumberOfRanks) {
 }
 
 static const char *const found =
-    "catalogue ${prefix}.csv series ${prefix}.pe binary history ${prefix}.slip events ruptures "
+    "catalogue ${prefix}.csv series ${prefix}.pe history ${prefix}.slip events ruptures "
     "slipping 2 interval 7 "
     "pause 1.5 quiet 5 resume yes ";
 
@@ -197,8 +197,7 @@ static void expect_same_ruptures(const std::vector<LSM::Event> &a, const std::ve
 // The same trajectory as with events pe, to the last bit; the same ruptures by a search through the
 // history.
 TEST_F(Ruptures, OfAFaultAreThoseOfItsSlipHistory) {
-  ASSERT_TRUE(
-      succeeded(run_text(sheared("catalogue plain.csv series plain.pe binary") + "run 6000\n")));
+  ASSERT_TRUE(succeeded(run_text(sheared("catalogue plain.csv series plain.pe") + "run 6000\n")));
   const Result r = run_text(sheared(found) + "run 6000\n", {{"prefix", "found"}});
   ASSERT_TRUE(succeeded(r));
   EXPECT_TRUE(read_file(path("plain.pe")) == read_file(path("found.pe")));

@@ -77,7 +77,7 @@ class Page(unittest.TestCase):
                 "-var", "choices", "first", "-var", "ruptures", "yes", "-var", "prefix", "run")
         else:
             run(slider, "--blocks", "256", "--steps", "600000", "--catalogue", "run.catalogue.csv",
-                "--pe-series", "run.pe.bin", "--pe-format", "binary")
+                "--pe-series", "run.pe.bin")
         run(slider, "--blocks", "128", "--steps", "600000", "--catalogue", "other.csv")
         add_header("run.catalogue.csv", f"note = {HOSTILE}")
         run(postproc, "explore", "run.catalogue.csv", "-o", "page.html", "--title", HOSTILE)

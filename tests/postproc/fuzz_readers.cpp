@@ -275,19 +275,17 @@ std::vector<std::string> seeds() {
     writer.close();
     out.push_back(slurp(path));
   }
-  for (const bool binary : {false, true}) {
-    LSM::PeSeriesInfo info;
-    info.model = "lsm";
-    info.dt = 0.03;
-    info.step0 = 20;
-    info.time0 = 0.6;
-    info.parameters = {{"lambda", "0.99"}};
-    LSM::PeSeriesWriter writer;
-    writer.create(path, info, binary);
-    for (int i = 0; i < 12; ++i) writer.write(20 + i, 0.14 + 1e-3 * (i % 5));
-    writer.close();
-    out.push_back(slurp(path));
-  }
+  LSM::PeSeriesInfo info;
+  info.model = "lsm";
+  info.dt = 0.03;
+  info.step0 = 20;
+  info.time0 = 0.6;
+  info.parameters = {{"lambda", "0.99"}};
+  LSM::PeSeriesWriter writer;
+  writer.create(path, info);
+  for (int i = 0; i < 12; ++i) writer.write(20 + i, 0.14 + 1e-3 * (i % 5));
+  writer.close();
+  out.push_back(slurp(path));
   return out;
 }
 
@@ -342,7 +340,6 @@ class Mutator {
                                                     "# dt = 0\n",
                                                     "slip_moment",
                                                     ",slip_moment",
-                                                    "step,time,pe\n",
                                                     "# lsm-catalogue 2",
                                                     "lsm-pe-series-1\n",
                                                     std::string(1, '\0'),

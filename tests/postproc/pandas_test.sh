@@ -13,12 +13,13 @@ if [ $python = none ]; then
   exit 77
 fi
 settings=(--blocks 100 --dt 0.05 --velocity 0.05 --warmup 0 --steps 100000 --pe-stride 10 --columns centroid,length)
-must_run "${settings[@]}" --catalogue fault.catalogue.csv --pe-series series.txt
-must_run "${settings[@]}" --catalogue again.csv --pe-series fault.pe.bin --pe-format binary
+must_run "${settings[@]}" --catalogue fault.catalogue.csv --pe-series fault.pe.bin
 # The block of Python behind the comment that names this script
 sed -n '/^<!-- run by .*pandas_test.sh/,/^```$/{/^<!--/d;/^```/d;p}' "$page" > lines.py
 grep -q '^series = ' lines.py || fail "no lines of Python for this test in $page"
 cat lines.py - > read.py << 'END'
+import struct
+
 def rows(path):
     lines = [line.rstrip("\n") for line in open(path) if not line.startswith("#")]
     return lines[0].split(","), [line.split(",") for line in lines[1:]]
@@ -27,11 +28,10 @@ assert list(events.columns) == names, events.columns
 assert len(events) == len(values) >= 10, len(events)
 for i, name in enumerate(names):
     assert [float(row[i]) for row in values] == [float(x) for x in events[name]], name
-names, values = rows("series.txt")
-assert sorted(series.columns) == sorted(names) and len(series) == len(values) == 10001, len(series)
-for name in "step", "pe":
-    assert [float(row[names.index(name)]) for row in values] == [float(x) for x in series[name]], name
-assert np.allclose([float(row[names.index("time")]) for row in values], series["time"], rtol=1e-12)
+values = list(struct.iter_unpack("<qd", records))
+assert sorted(series.columns) == ["pe", "step", "time"] and len(series) == len(values) == 10001, len(series)
+assert values == list(zip(series["step"], series["pe"])), "series"
+assert np.allclose([0.05 * step for step, pe in values], series["time"], rtol=1e-12)
 print(len(events), "events,", len(series), "samples: passed")
 END
 "$python" read.py || fail "the lines of the page"

@@ -6,17 +6,18 @@ slider=${3:-}
 # shellcheck source=tests/postproc/postproc_shell.sh
 source "$(dirname "${BASH_SOURCE[0]}")/postproc_shell.sh" "$1"
 
-# series FILE [ROWS]: loading with drops, as text.
+# series FILE [ROWS]: loading with drops, and the same as text, FILE.txt
 series() {
   awk -v rows="${2:-5000}" 'BEGIN {
-    print "# lsm-pe-series 1\n# model = lsm\n# dt = 0.03\n# step0 = 0\n# time0 = 0\n# stride = 1"
+    print "# model = lsm\n# dt = 0.03\n# step0 = 0\n# time0 = 0\n# stride = 1"
     print "# length = 40\n# picker = literal\n# lambda = 0.5\n# min_size = 0\nstep,time,pe"
     pe = 1
     for (i = 0; i < rows; i++) {
       printf "%d,%.17g,%.17g\n", i, i * 0.03, pe
       pe += i % 97 < 80 ? 1e-3 * (1 + i % 7) : -2e-3 * (1 + i % 11)
     }
-  }' > "$1"
+  }' > "$1.txt"
+  packed < "$1.txt" > "$1"
 }
 
 # What the picker has to find, written a second time in awk: reference READING LAMBDA MIN FILE
@@ -54,118 +55,123 @@ catalogue() {
 
 case $2 in
 pick)
-  series pe.csv
+  series pe.bin
   for setting in "exponential 0.99 0" "exponential 0.9 0.01" "average 0.99 0" "literal 0.99 0.02"; do
     read -r reading lambda least <<< "$setting"
-    must_run pick pe.csv -o picked.csv --force --picker "$reading" --lambda "$lambda" --min-size "$least"
-    reference "$reading" "$lambda" "$least" pe.csv > expected
+    must_run pick pe.bin -o picked.csv --force --picker "$reading" --lambda "$lambda" --min-size "$least"
+    reference "$reading" "$lambda" "$least" pe.bin.txt > expected
     [ "$(wc -l < expected)" -ge 10 ] || fail "too few events to test anything: $setting"
     rows picked.csv | diff - expected > /dev/null || fail "$setting: not the events of the reference"
     grep -q "^# picker = $reading$" picked.csv && grep -q "^# lambda = $lambda$" picked.csv ||
       fail "$setting: header does not say so"
   done
   # What is not given comes from the header of the series; its parameters are carried over.
-  must_run pick pe.csv -o picked.csv --force
-  reference literal 0.5 0 pe.csv | diff - <(rows picked.csv) > /dev/null || fail "settings of the header not used"
+  must_run pick pe.bin -o picked.csv --force
+  reference literal 0.5 0 pe.bin.txt | diff - <(rows picked.csv) > /dev/null || fail "settings of the header not used"
   # dt stands where the run has it.
-  sed 's/^# length = 40/&\n# viscosity = 0.1/' pe.csv > fault.csv
-  must_run pick fault.csv -o fault_picked.csv
+  sed 's/^# length = 40/&\n# viscosity = 0.1/' pe.bin.txt | packed > fault.bin
+  must_run pick fault.bin -o fault_picked.csv
   [ "$(grep -A 1 '^# dt' fault_picked.csv | tail -n 1)" = "# viscosity = 0.1" ] || fail "$(head -n 9 fault_picked.csv)"
   grep -q '^# length = 40$' picked.csv && grep -q '^# dt = 0.029999999999999999$' picked.csv ||
     fail "parameters are not carried over"
   # Memory in time; lambda = exp(-0.03/3)
-  must_run pick pe.csv -o a.csv --picker exponential --memory-time 3
+  must_run pick pe.bin -o a.csv --picker exponential --memory-time 3
   grep -q '^# lambda = 0.99004983374916' a.csv || fail "--memory-time gives $(grep lambda a.csv)"
   # Warm-up: identifiers begin with 1 behind it.
-  must_run pick pe.csv -o c.csv --warmup 75
-  reference literal 0.5 0 pe.csv | awk -F, '$2 >= 75' | cut -d, -f2- | diff - <(rows c.csv | cut -d, -f2-) > /dev/null ||
+  must_run pick pe.bin -o c.csv --warmup 75
+  reference literal 0.5 0 pe.bin.txt | awk -F, '$2 >= 75' | cut -d, -f2- | diff - <(rows c.csv | cut -d, -f2-) > /dev/null ||
     fail "--warmup 75"
   [ "$(rows c.csv | head -n 1 | cut -d, -f1)" = 1 ] || fail "identifiers with --warmup"
   # Completeness: said on request, carried over, replaced.
   grep -q completeness c.csv && fail "completeness that nobody gave"
-  must_run pick pe.csv -o d.csv --completeness 0.003
+  must_run pick pe.bin -o d.csv --completeness 0.003
   [ "$(grep -c '^# completeness = 0.003$' d.csv)" = 1 ] || fail "--completeness: $(grep '^#' d.csv)"
   rows d.csv | diff - <(rows picked.csv) > /dev/null || fail "--completeness changes the events"
-  sed 's/^# length/# completeness = 0.002\n&/' pe.csv > known.csv
-  must_run pick known.csv -o e.csv
+  sed 's/^# length/# completeness = 0.002\n&/' pe.bin.txt | packed > known.bin
+  must_run pick known.bin -o e.csv
   grep -q '^# completeness = 0.002$' e.csv || fail "completeness of the series is lost: $(grep '^#' e.csv)"
-  must_run pick known.csv -o e.csv --force --completeness 0.004
+  must_run pick known.bin -o e.csv --force --completeness 0.004
   [ "$(grep '^# completeness' e.csv)" = '# completeness = 0.004' ] || fail "completeness: $(grep '^#' e.csv)"
-  refused "completeness: expected a number of 0 or more, not '-1'" pick pe.csv -o x.csv --completeness -1
-  sed 's/^# length/# completeness = small\n&/' pe.csv > known.csv
-  refused "known.csv: completeness is 'small', expected a finite size of at least 0" pick known.csv -o x.csv
+  refused "completeness: expected a number of 0 or more, not '-1'" pick pe.bin -o x.csv --completeness -1
+  sed 's/^# length/# completeness = small\n&/' pe.bin.txt | packed > known.bin
+  refused "known.bin: completeness is 'small', expected a finite size of at least 0" pick known.bin -o x.csv
   # The catalogue is one that the other commands read.
   must_run export c.csv -o table.csv
   # An older file stays unless --force is given; nothing is left of a series that ends badly.
   cp c.csv before
-  refused "c.csv: exists already" pick pe.csv -o c.csv
-  sed '4000s/,[^,]*$/,nan/' pe.csv > bad.csv
-  refused "bad.csv:4000: column 'pe' is 'nan', expected a finite number" pick bad.csv -o new.csv
-  refused "bad.csv:4000: column 'pe' is 'nan', expected a finite number" pick bad.csv -o c.csv --force
+  refused "c.csv: exists already" pick pe.bin -o c.csv
+  sed '4000s/,[^,]*$/,nan/' pe.bin.txt | packed > bad.bin
+  refused "bad.bin: record 3990: pe is not finite, expected a finite number" pick bad.bin -o new.csv
+  refused "bad.bin: record 3990: pe is not finite, expected a finite number" pick bad.bin -o c.csv --force
   cmp c.csv before || fail "an older catalogue was touched"
-  head -c -5 pe.csv > torn.csv
-  refused "torn.csv:5011: truncated last line" pick torn.csv -o new.csv
-  must_run pick torn.csv -o new.csv --lenient
-  grep -q "torn.csv: dropped a truncated last sample: 1" err.txt || fail "a repair is not stated"
-  refused "is read by this command" pick pe.csv -o ./pe.csv --force
-  refused "lambda = 1, expected at least 0 and less than 1" pick pe.csv -o x.csv --lambda 1
-  sed 's/^# lambda = .*/# lambda = 1.5/' pe.csv > leaky.csv
-  refused "lambda in the header of the series is 1.5, expected at least 0" pick leaky.csv -o x.csv
-  refused "memory-time with the reading 'literal', expected 'exponential'" pick pe.csv -o x.csv --memory-time 3
-  refused "lambda excludes" pick pe.csv -o x.csv --memory-time 10 --lambda 0.5
-  refused "min-size = -1, expected a finite size of at least 0" pick pe.csv -o x.csv --min-size -1
-  refused "picker = .median., expected exponential, average or literal" pick pe.csv -o x.csv --picker median
+  head -c -5 pe.bin > torn.bin
+  refused "torn.bin: truncated record 5000 at the end" pick torn.bin -o new.csv
+  must_run pick torn.bin -o new.csv --lenient
+  grep -q "torn.bin: dropped a truncated last sample: 1" err.txt || fail "a repair is not stated"
+  refused "is read by this command" pick pe.bin -o ./pe.bin --force
+  refused "lambda = 1, expected at least 0 and less than 1" pick pe.bin -o x.csv --lambda 1
+  sed 's/^# lambda = .*/# lambda = 1.5/' pe.bin.txt | packed > leaky.bin
+  refused "lambda in the header of the series is 1.5, expected at least 0" pick leaky.bin -o x.csv
+  refused "memory-time with the reading 'literal', expected 'exponential'" pick pe.bin -o x.csv --memory-time 3
+  refused "lambda excludes" pick pe.bin -o x.csv --memory-time 10 --lambda 0.5
+  refused "min-size = -1, expected a finite size of at least 0" pick pe.bin -o x.csv --min-size -1
+  refused "picker = .median., expected exponential, average or literal" pick pe.bin -o x.csv --picker median
   ;;
 online)
   # The same rows as the program that ran picked, from its series.
   [ -x "$slider" ] || exit 77
   for picker in exponential literal; do
-    for format in text binary; do
-      "$slider" --overwrite --blocks 100 --dt 0.05 --velocity 0.05 --warmup 300 --steps 300000 --picker $picker \
-        --catalogue online.csv --pe-series pe --pe-format $format > /dev/null || fail "slider_cli"
-      must_run pick pe -o picked.csv --force
-      rows online.csv | cut -d, -f1-8 > expected
-      [ "$(wc -l < expected)" -ge 10 ] || fail "too few events to test anything"
-      rows picked.csv | cmp - expected || fail "$picker, $format: not the same rows"
-      diff <(grep '^#' online.csv | sort) <(grep '^#' picked.csv | grep -v picked_by | sort) > /dev/null ||
-        fail "$picker: headers differ"
-    done
+    "$slider" --overwrite --blocks 100 --dt 0.05 --velocity 0.05 --warmup 300 --steps 300000 --picker $picker \
+      --catalogue online.csv --pe-series pe > /dev/null || fail "slider_cli"
+    must_run pick pe -o picked.csv --force
+    rows online.csv | cut -d, -f1-8 > expected
+    [ "$(wc -l < expected)" -ge 10 ] || fail "too few events to test anything"
+    rows picked.csv | cmp - expected || fail "$picker: not the same rows"
+    diff <(grep '^#' online.csv | sort) <(grep '^#' picked.csv | grep -v picked_by | sort) > /dev/null ||
+      fail "$picker: headers differ"
   done
   ;;
 series)
-  series pe.csv
-  must_run series pe.csv -o all --no-picture --picker exponential --lambda 0.9 --columns 600
+  series pe.bin
+  must_run series pe.bin -o all --no-picture --picker exponential --lambda 0.9 --columns 600
   # 5000 samples in groups of 8, as 4 would make more than 2 x 600: 2 rows for each, the extremes among them.
   [ "$(grep -vc '^[#t]' all.csv)" = 1250 ] || fail "$(grep -vc '^[#t]' all.csv) rows, expected 1250"
   extremes() { sort -g | sed -n '1p;$p'; }
-  [ "$(grep -v '^[#t]' all.csv | cut -d, -f2 | extremes)" = "$(grep -v '^[#s]' pe.csv | cut -d, -f3 | extremes)" ] ||
+  [ "$(grep -v '^[#t]' all.csv | cut -d, -f2 | extremes)" = "$(grep -v '^[#s]' pe.bin.txt | cut -d, -f3 | extremes)" ] ||
     fail "an extreme is lost"
-  reference exponential 0.9 0 pe.csv | cut -d, -f2,3,7,8,6 > expected
+  reference exponential 0.9 0 pe.bin.txt | cut -d, -f2,3,7,8,6 > expected
   grep -v '^[#t]' all-events.csv | awk -F, '$5 != "" { print $1 "," $2 "," $5 "," $3 "," $4 }' |
     diff - expected > /dev/null || fail "not the events of the reference"
   # Few samples are there one by one; the smoothed change has the memory of what was before.
-  must_run series pe.csv -o part --no-picture --from 30 --to 60 --picker exponential --lambda 0.9
+  must_run series pe.bin -o part --no-picture --from 30 --to 60 --picker exponential --lambda 0.9
   awk -F, '/^[#s]/ { next } n++ { x = $3 - pe; a = 0.9 * a + (1 - 0.9) * x } { pe = $3 }
-    $2 >= 30 && $2 <= 60 { printf "%.17g,%.17g,%.17g,%.17g\n", $2, $3, x, a }' pe.csv > expected
+    $2 >= 30 && $2 <= 60 { printf "%.17g,%.17g,%.17g,%.17g\n", $2, $3, x, a }' pe.bin.txt > expected
   [ "$(wc -l < expected)" -gt 900 ] && grep -v '^[#t]' part.csv | diff - expected > /dev/null || fail "window"
   if command -v gnuplot > /dev/null; then
-    must_run series pe.csv -o drawn --from 30 --to 60
+    must_run series pe.bin -o drawn --from 30 --to 60
     for extension in png svg gp csv; do [ -s drawn.$extension ] || fail "no drawn.$extension"; done
     [ -s drawn-events.csv ] || fail "no drawn-events.csv"
     grep -q '</svg>' drawn.svg || fail "the SVG is not whole"
     # A window without an event, too.
-    must_run series pe.csv -o quiet --from 0 --to 1
+    must_run series pe.bin -o quiet --from 0 --to 1
     [ -s quiet.svg ] || fail "no picture without events"
   fi
-  refused "expected --from before --to" series pe.csv --from 5 --to 5 --no-picture -o x
-  refused "pe.csv: 0 samples in the window of time, expected at least 3" series pe.csv --from 1e6 -o x
-  refused "columns" series pe.csv --columns 2 -o x
+  # As text: the samples of the window, to the last digit.
+  must_run series pe.bin -o part --no-picture --from 30 --to 60 --export part-samples.csv
+  grep '^#' part-samples.csv | diff - <(echo '# PE series'; sed -n 's|= 0.03$|= 0.029999999999999999|; /^# .* = /p' pe.bin.txt) ||
+    fail "header of the samples: $(head -n 12 part-samples.csv)"
+  awk -F, '/^s/ || (!/^#/ && $2 >= 30 && $2 <= 60)' pe.bin.txt | cmp - <(grep -v '^#' part-samples.csv) || fail "--export"
+  refused "is read by this command" series pe.bin --no-picture -o x --export pe.bin
+  refused "expected --from before --to" series pe.bin --from 5 --to 5 --no-picture -o x
+  refused "pe.bin: 0 samples in the window of time, expected at least 3" series pe.bin --from 1e6 -o x
+  refused "columns" series pe.bin --columns 2 -o x
   ;;
 spectrum)
   # A sine of amplitude 2 and period 25.6 steps of 0.5: variance 2, frequency 1/12.8
   awk 'BEGIN {
-    print "# lsm-pe-series 1\n# model = lsm\n# dt = 0.5\n# step0 = 0\n# time0 = 0\n# stride = 1\nstep,time,pe"
-    for (i = 0; i < 4096; i++) printf "%d,%.17g,%.17g\n", i, i * 0.5, 5 + 2 * sin(8 * atan2(1, 1) * i / 25.6) }' > sine
+    print "# model = lsm\n# dt = 0.5\n# step0 = 0\n# time0 = 0\n# stride = 1\nstep,time,pe"
+    for (i = 0; i < 4096; i++) printf "%d,%.17g,%.17g\n", i, i * 0.5, 5 + 2 * sin(8 * atan2(1, 1) * i / 25.6) }' > sine.txt
+  packed < sine.txt > sine
   must_run spectrum sine --segment 1024 --per-decade 0 --no-picture -o sine_spectrum
   awk -F, '/^[#c]/ { next } { v += $4 * $5; if ($5 > big) { big = $5; at = $3 } }
     END { exit !(v > 1.999 && v < 2.001 && at > 0.07812 && at < 0.07813) }' sine_spectrum.csv || fail "variance or frequency"
@@ -181,7 +187,7 @@ spectrum)
     for extension in png svg gp csv; do [ -s drawn.$extension ] || fail "no drawn.$extension"; done
   fi
   refused "4096 samples in the window of time, expected at least one segment of 8192" spectrum sine --segment 8192 -o x
-  sed '100d' sine > gap
+  sed '99d' sine.txt | packed > gap
   refused "gap: step 93 after step 91, expected a sample every 1 steps" spectrum gap -o x
   refused "label given 1 times, expected once per series (2)" spectrum sine sine --label a -o x
   ;;
@@ -342,19 +348,11 @@ aftershocks)
 compressed)
   # What comes out is the same however the file lies there, whatever its name.
   catalogue events.csv
-  series pe.csv
-  must_run pick pe.csv -o pick-text.csv
-  # The binary series of the same samples, written by hand.
-  { grep '^# .* = ' pe.csv > header.txt
-    printf 'lsm-pe-series-1\n'
-    perl -e 'print pack("q<", -s "header.txt")'
-    cat header.txt
-    perl -F, -lane 'BEGIN { $\ = "" } print pack("q<d<", $F[0], $F[2]) if /^[0-9]/' pe.csv; } > pe.bin
-  must_run pick pe.bin -o pick-binary.csv
-  cmp <(rows pick-text.csv) <(rows pick-binary.csv) || fail "binary series"
+  series pe.bin
+  must_run pick pe.bin -o picked.csv
   must_run export events.csv -o plain.csv
   for way in "gzip -c" "xz -c" "gzip -1c" "xz --check=crc32 -c" "sed s/$/\r/" "printf \\xef\\xbb\\xbf"; do
-    for file in events.csv pe.csv pe.bin; do
+    for file in events.csv pe.bin; do
       case $way in
       printf*) { $way; cat $file; } > packed-$file ;;
       *) $way < $file > packed-$file ;;
@@ -363,12 +361,10 @@ compressed)
     must_run export packed-events.csv -o other.csv --force
     cmp plain.csv other.csv || fail "$way: another table"
     must_run histograms packed-events.csv --no-picture -o other
-    must_run pick packed-pe.csv -o other.csv --force
-    cmp pick-text.csv other.csv || fail "$way: other events"
     case $way in
     *z*)
       must_run pick packed-pe.bin -o other.csv --force
-      cmp pick-binary.csv other.csv || fail "$way: other events of the binary series"
+      cmp picked.csv other.csv || fail "$way: other events"
       # Two halves compressed one after the other are one file.
       { head -n 7 events.csv | $way; tail -n +8 events.csv | $way; } > halves
       must_run export halves -o other.csv --force
@@ -400,37 +396,37 @@ compressed)
   ;;
 explore)
   # A run as a simulation leaves it: the catalogue is picked from the series, whose files are found by their names.
-  series run.pe.csv
-  must_run pick run.pe.csv -o run.catalogue.csv
+  series run.pe.bin
+  must_run pick run.pe.bin -o run.catalogue.csv
   must_run explore run.catalogue.csv -o page.html --title 'A < B'
-  grep -q 'run.pe.csv: 5000 samples' out.txt || fail "the series was not found: $(cat out.txt)"
+  grep -q 'run.pe.bin: 5000 samples' out.txt || fail "the series was not found: $(cat out.txt)"
   grep -q '<title>A &lt; B</title>' page.html || fail "no title"
   grep -q '"samples":5000' page.html || fail "no samples in the page"
   [ "$(grep -c '^<script type="text/plain"' page.html)" = 2 ] || fail "not the elements of events and series"
   must_run explore run.catalogue.csv --series none -o bare.html
   ! grep -q samples out.txt || fail "--series none: $(cat out.txt)"
   grep -q '"series":null' bare.html || fail "--series none: a series in the page"
-  mv run.pe.csv moved.csv
-  must_run explore run.catalogue.csv --series moved.csv -o moved.html
-  grep -q 'moved.csv: 5000 samples' out.txt || fail "--series: $(cat out.txt)"
-  xz -k moved.csv && mv moved.csv.xz run.pe.csv.xz
+  mv run.pe.bin moved.bin
+  must_run explore run.catalogue.csv --series moved.bin -o moved.html
+  grep -q 'moved.bin: 5000 samples' out.txt || fail "--series: $(cat out.txt)"
+  xz -k moved.bin && mv moved.bin.xz run.pe.bin.xz
   must_run explore run.catalogue.csv -o page.html
-  grep -q 'run.pe.csv.xz: 5000 samples' out.txt || fail "the compressed series was not found: $(cat out.txt)"
-  rm run.pe.csv.xz
+  grep -q 'run.pe.bin.xz: 5000 samples' out.txt || fail "the compressed series was not found: $(cat out.txt)"
+  rm run.pe.bin.xz
   # Two runs, one of them without a series.
-  mv moved.csv run.pe.csv
+  mv moved.bin run.pe.bin
   catalogue other.csv
   must_run explore run.catalogue.csv other.csv -o two.html
   grep -q 'other.csv: .* events' out.txt || fail "two runs: $(cat out.txt)"
-  refused "--series given 1 times, expected once per catalogue (2)" explore run.catalogue.csv other.csv --series run.pe.csv -o x
-  refused "is read by this command" explore run.catalogue.csv -o run.pe.csv
+  refused "--series given 1 times, expected once per catalogue (2)" explore run.catalogue.csv other.csv --series run.pe.bin -o x
+  refused "is read by this command" explore run.catalogue.csv -o run.pe.bin
   refused "is read by this command" explore run.catalogue.csv -o run.catalogue.csv
   refused "nowhere.bin: cannot open" explore run.catalogue.csv --history nowhere.bin -o x
   refused "nowhere.csv: cannot open" explore run.catalogue.csv --ruptures nowhere.csv -o x
   refused "no events, expected at least one" explore run.catalogue.csv --from 1e9 -o x
-  head -c -3 run.pe.csv > torn.csv
-  refused "torn.csv:.*truncated" explore run.catalogue.csv --series torn.csv -o x
-  must_run explore run.catalogue.csv --series torn.csv --lenient -o page.html
+  head -c -3 run.pe.bin > torn.bin
+  refused "torn.bin: truncated record" explore run.catalogue.csv --series torn.bin -o x
+  must_run explore run.catalogue.csv --series torn.bin --lenient -o page.html
   ;;
 match)
   # The second catalogue at a tenth of the velocity, its plates begin to move at time 100, too; every other event is the same.
@@ -478,12 +474,12 @@ END
   same_numbers i.csv i.json densities
   must_run magnitudes c.csv --no-picture -o m --json m.json
   same_numbers m.bvalues.csv m.json b_values
-  series pe.csv
-  must_run spectrum pe.csv --no-picture -o s --json s.json
+  series pe.bin
+  must_run spectrum pe.bin --no-picture -o s --json s.json
   same_numbers s.csv s.json spectra
-  must_run series pe.csv --no-picture -o r --json r.json
+  must_run series pe.bin --no-picture -o r --json r.json
   same_numbers r-events.csv r.json events
-  must_run pick pe.csv -o picked.csv --json p.json
+  must_run pick pe.bin -o picked.csv --json p.json
   [ "$(rows picked.csv | wc -l)" = "$(sed -n 's/.*"events": \([0-9]*\).*/\1/p' p.json)" ] || fail "$(cat p.json)"
   must_run compare picked.csv picked.csv --threshold 1e-7 --replicas 10 -o v --json v.json
   same_numbers v.csv v.json tests
@@ -505,9 +501,9 @@ faults)
   # Killed at each system call that has to do with files, or refused it: what was there stays, or the new file is whole.
   need_strace
   catalogue events.csv
-  series pe.csv 500
+  series pe.bin 500
   sed 's/$/ of before/' events.csv > before
-  for words in "export events.csv --force -o" "pick pe.csv --force -o" "fit events.csv --replicas 0 --range 1e-7:1e4 --no-picture -o fit --json"; do
+  for words in "export events.csv --force -o" "pick pe.bin --force -o" "fit events.csv --replicas 0 --range 1e-7:1e4 --no-picture -o fit --json"; do
     # shellcheck disable=SC2086
     must_run $words whole
     cp before part
@@ -629,11 +625,15 @@ bad_input)
     refused "nowhere.csv: cannot open" $command nowhere.csv -o x
     refused "is a directory, expected a file" $command / -o x
     : > empty.csv
-    refused "empty.csv:1: empty file" $command empty.csv -o x
+    empty="empty.csv:1: empty file" other="version.csv:1: .*version '2', expected version 1"
     printf '# lsm-catalogue 2\n' > version.csv
-    case $command in pick | series | spectrum) printf '# lsm-pe-series 2\n' > version.csv ;; esac
+    case $command in pick | series | spectrum)
+      empty="empty.csv: not a PE series" other="version.csv: PE series of another version, expected version 1"
+      printf 'lsm-pe-series-2\n' > version.csv ;;
+    esac
+    refused "$empty" $command empty.csv -o x
     for lenient in "" --lenient; do
-      refused "version.csv:1: .*version '2', expected version 1" $command version.csv -o x $lenient
+      refused "$other" $command version.csv -o x $lenient
     done
   done
   run --version && grep -q '^postproc [0-9]' out.txt || fail "--version"

@@ -263,11 +263,11 @@ report)
   # PE series: 90 steps up by 1 and 9 down by 10, or as many down as up; one that only rises.
   pe() { # FILE LENGTH UP DOWN
     awk -v length_="$2" -v up="$3" -v down="$4" 'BEGIN {
-      print "# lsm-pe-series 1\n# model = lsm\n# dt = 1\n# step0 = 0\n# time0 = 0\n# stride = 1"
+      print "# model = lsm\n# dt = 1\n# step0 = 0\n# time0 = 0\n# stride = 1"
       print "# length = " length_ "\n# picker = literal\n# lambda = 0\nstep,time,pe"
       for (i = 0; i <= 20 * (up + down) + 1; ++i) {
         printf "%d,%d,%.17g\n", i, i, x
-        x += i % (up + down) < up ? 1 : down ? -up / down : 0 } }' > "$1"
+        x += i % (up + down) < up ? 1 : down ? -up / down : 0 } }' | packed > "$1"
   }
   pe tooth.pe 120 90 9
   pe creep.pe 240 60 60
@@ -359,9 +359,9 @@ names)
   power 1.2 1e-3 10 300 | catalogue a.csv 120
   power 1.2 1e-3 10 300 | catalogue b.csv 240
   ruptures > r.csv
-  awk 'BEGIN { print "# lsm-pe-series 1\n# model = lsm\n# dt = 1\n# step0 = 0\n# time0 = 0\n# stride = 1"
+  awk 'BEGIN { print "# model = lsm\n# dt = 1\n# step0 = 0\n# time0 = 0\n# stride = 1"
     print "# length = 40\n# picker = literal\n# lambda = 0\nstep,time,pe"
-    for (i = 0; i <= 2000; ++i) { printf "%d,%d,%.17g\n", i, i, x; x += i % 99 < 90 ? 1 : -10 } }' > pe.csv
+    for (i = 0; i <= 2000; ++i) { printf "%d,%d,%.17g\n", i, i, x; x += i % 99 < 90 ? 1 : -10 } }' | packed > pe.bin
   draw() { # COMMAND OUTPUT [OPTION...]: every command that draws, with as little work as it can do
     local command=$1 output=$2
     shift 2
@@ -372,8 +372,8 @@ names)
     magnitudes) must_run magnitudes a.csv b.csv --threshold 1e-3 "--output=$output" "$@" ;;
     aftershocks) must_run aftershocks a.csv b.csv --replicas 0 "--output=$output" "$@" ;;
     rupture) must_run rupture r.csv r.csv "--output=$output" "$@" ;;
-    spectrum) must_run spectrum pe.csv "--output=$output" ;;
-    series) must_run series pe.csv "--output=$output" ;;
+    spectrum) must_run spectrum pe.bin "--output=$output" ;;
+    series) must_run series pe.bin "--output=$output" ;;
     esac
   }
   commands="histograms intervals fit magnitudes aftershocks rupture spectrum series"

@@ -18,3 +18,11 @@ refused() {
 }
 # told PATTERN: a line of out.txt, its columns one blank apart.
 told() { tr -s ' ' < out.txt | grep -q -- "$1"; }
+
+# packed: the PE series of text in, header lines and rows step,time,pe, as the binary file out.
+packed() {
+  perl -F, -lane 'BEGIN { $\ = "" }
+    if (/^#.* = /) { $header .= "$_\n" }
+    elsif (/^[0-9]/) { $rows .= pack("q<d<", $F[0], $F[2]) }
+    END { print "lsm-pe-series-1\n", pack("q<", length $header), $header, $rows }'
+}

@@ -77,7 +77,6 @@ TEST(SliderRun, EventsAreThoseOfTheSeries) {
   o.parameters.velocity = 0.05;
   o.catalogue = testing::TempDir() + "slider_sizes.csv";
   o.series = testing::TempDir() + "slider_sizes.pe";
-  o.series_binary = true;
   o.x_centroid = o.rupture_length = true;
   const RunResult r = run(o);
   const LSM::Catalogue c = LSM::read_catalogue(o.catalogue);

@@ -364,7 +364,6 @@ TEST(RupturesOfTheChain, BoundTheSlipOfEventsOfTheEnergy) {
   o = options("ruptures", Events::ruptures);
   o.series = testing::TempDir() + "slider_ruptures.pe";
   o.series_stride = 1;
-  o.series_binary = true;
   run(o);
   const LSM::Catalogue ruptures = LSM::read_catalogue(o.catalogue);
   ASSERT_TRUE(ruptures.info.overlapping());

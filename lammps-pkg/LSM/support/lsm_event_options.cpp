@@ -12,11 +12,11 @@ using LSM::Keywords;
 using LSM::Must;
 
 static const std::string STYLE = "Compute lsm/events";
-static const std::string SPECIAL = "events, series, picker, parameter";
+static const std::string SPECIAL = "events, picker, parameter";
 
 static void take_all_values(LSMKeywordReader &in)
 {
-  in.need(in.key() == "series" || in.key() == "parameter" ? 2 : 1);
+  in.need(in.key() == "parameter" ? 2 : 1);
 }
 
 /// The kind comes first, as the keywords depend on it.
@@ -62,6 +62,7 @@ Keywords LSMEventOptions::of_all()
           {"tangential", &events.tangential},
           {"bin", &events.bin_width, Must::positive},
           {"catalogue", &events.catalogue_file},
+          {"series", &events.series_file},
           {"stride", &events.series_stride, Must::positive},
           {"resume", &events.resume},
           {"overwrite", &events.overwrite},
@@ -90,12 +91,6 @@ bool LSMEventOptions::read_special(LSMKeywordReader &in)
 {
   if (in.key() == "parameter") {
     events.parameters.emplace_back(in.text(1), in.text(2));
-  } else if (in.key() == "series") {
-    const std::string format = in.text(2);
-    if (format != "binary" && format != "text")
-      in.stop("series format is '" + format + "', but must be binary or text");
-    events.series_file = in.text();
-    events.series_binary = format == "binary";
   } else if (in.key() == "picker") {
     if (!LSM::from_string(in.text(), events.picker.reading))
       in.stop(std::string("picker is '") + in.text() + "', but must be " +

@@ -30,7 +30,6 @@ struct EventSettings {
   std::string name;  ///< of this recorder, for messages
 
   std::string catalogue_file, series_file, history_file;  ///< empty: not written
-  bool series_binary = true;
   int series_stride = 1;
   bool resume = false;     ///< continue existing files, after a restart
   bool overwrite = false;  ///< replace existing files
