@@ -755,6 +755,88 @@ def rupture_packing_table(_):
                             "fronts faster than S-waves from 3 to 12 km", "slip, rms; mean (%)"], out)
 
 
+def timings(table):
+    """Wall and CPU ns for a particle and step, parts and memory of the rounds of each (label, length, ranks)."""
+    out = {}
+    with open(FOLDER / "speed/timings.csv", newline="") as file:
+        for row in csv.DictReader(file):
+            if row["table"] != table:
+                continue
+            per = 1e9 / float(row["atoms"]) / float(row["steps"])
+            at = out.setdefault((row["label"], int(row["length"]), int(row["ranks"])), {})
+            at[row["round"]] = {key: float(row[key] or 0) * per for key in ("seconds", "pair", "bond", "neigh", "comm", "modify")} | {
+                "cpu": float(row["seconds"]) * per * float(row["cpu_percent"] or 100) / 100,
+                "atoms": float(row["atoms"]), "bytes": float(row["resident"] or 0) * 1024 / float(row["atoms"])}
+    return out
+
+
+def middle(rounds, key="seconds"):
+    return statistics.median(row[key] for row in rounds.values())
+
+
+def ratio_of(rounds, base):
+    """Median over the rounds of the ratio within each."""
+    return statistics.median(row["seconds"] / base[number]["seconds"] for number, row in rounds.items() if number in base)
+
+
+def speed_peers_table(_):
+    found, out = timings("peers"), []
+    for label in dict.fromkeys(key[0] for key in found):
+        row = [label]
+        for ranks in (1, 2):
+            at = next((rounds for key, rounds in found.items() if key[0] == label and key[2] == ranks), None)
+            ours = next(rounds for key, rounds in found.items() if key[0] == "ours" and key[2] == ranks)
+            row += [f"{1e3 / middle(at):.3g}", "" if at is ours else f"{ratio_of(at, ours):.3g}"] if at else ["", ""]
+            last = at or last
+        out.append(row + [f"{middle(last, 'bytes'):.0f}"])
+    return calibrate.table(["PE at every step, length 1890", "million particle-steps/s, 1 rank", "ours is faster", "2 ranks", "ours is faster",
+                            "bytes for a particle, most ranks"], out)
+
+
+def speed_lengths_table(_):
+    found, out = timings("lengths"), []
+    for length in sorted({key[1] for key in found}):
+        one, two = (next(rounds for key, rounds in found.items() if key[1:] == (length, ranks)) for ranks in (1, 2))
+        parts = [f"{middle(two, key):.2f}" for key in ("bond", "pair", "modify", "comm", "neigh")]
+        out.append([str(length), f"{middle(two, 'atoms'):.0f}", f"{middle(one):.1f}", f"{middle(two):.1f}", *parts])
+    return calibrate.table(["length", "particles", "ns, 1 rank", "2 ranks", "links", "contacts", "integration, plates, events", "communication",
+                            "lists"], out)
+
+
+def speed_changes_table(_):
+    found = timings("features")
+    names = {key[0]: rounds for key, rounds in found.items()}
+    ratio = {label: f"{ratio_of(rounds, names['base of ' + label]):.2f}" for label, rounds in names.items() if "base of " + label in names}
+    lines = [["contacts of all discs"], ["nothing recorded", "location of events", "energy ledger"],
+             ["static friction above dynamic", "slip weakening", "velocity weakening"],
+             ["rate and state (ageing)", "rate and state (slip)", "no friction (lsm/free)"],
+             ["links that can break", "no viscosity", "dashpots of links and contacts"],
+             ["pressure every 100 steps", "pressure every step", "all lists rebuilt every 100 steps"]]
+    return calibrate.table(["one thing changed, length 1890, 2 ranks", "time of a step, ratio"],
+                           [["; ".join(line), "; ".join(ratio[label] for label in line)] for line in lines])
+
+
+def speed_causes_table(_):
+    found = timings("causes")
+    return calibrate.table(["why a step of a run takes longer, length 480, one rank", "CPU ns"],
+                           [[key[0], f"{middle(rounds, 'cpu'):.1f}"] for key, rounds in found.items()])
+
+
+def speed_slices_table(_):
+    """What 1.2e6 steps of each fault of the campaign take, from slices of them."""
+    found, out, hours = timings("campaign"), [], {1: 0.0, 2: 0.0}
+    for length in sorted({key[1] for key in found}):
+        row = [str(length)]
+        for ranks in (1, 2):
+            at = next(rounds for key, rounds in found.items() if key[1:] == (length, ranks))
+            seconds = middle(at) * 1e-9 * middle(at, "atoms") * 1.2e6
+            hours[ranks] += seconds / 3600
+            row += [f"{middle(at):.1f}", f"{seconds:.0f}"]
+        out.append(row)
+    out.append(["all six", "", f"{hours[1]:.2f} h", "", f"{hours[2]:.2f} h"])
+    return calibrate.table(["length", "ns, 1 rank", "s for 1.2e6 steps", "ns, 2 ranks", "s for 1.2e6 steps"], out)
+
+
 TABLES = {
     "laws": laws,
     "ranking": ranking,
@@ -789,6 +871,11 @@ TABLES = {
     "loading": loading_table,
     "remedies": remedies_table,
     "rupture-packing": rupture_packing_table,
+    "speed-peers": speed_peers_table,
+    "speed-lengths": speed_lengths_table,
+    "speed-changes": speed_changes_table,
+    "speed-causes": speed_causes_table,
+    "speed-slices": speed_slices_table,
 }
 
 
