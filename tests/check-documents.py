@@ -75,6 +75,9 @@ def check_comments(root):
         for number, line in enumerate((root / name).read_text().splitlines(), 1):
             if len(line) > 100 and re.match(r" *# \S", line) and "usage" not in line:
                 problem(f"{name}:{number}: a comment of {len(line)} columns, at most 100 expected")
+            itself = re.search(r"\bvariable\s+(\w+)\s+string\s+'[^']*\$\{\1\}", line)
+            if itself and name.endswith(".in"):
+                problem(f"{name}:{number}: variable {itself[1]} from its own value, which LAMMPS 4 Jul 2026 refuses")
 
 
 def check_variables(root):
