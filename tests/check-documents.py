@@ -75,9 +75,14 @@ def check_comments(root):
         for number, line in enumerate((root / name).read_text().splitlines(), 1):
             if len(line) > 100 and re.match(r" *# \S", line) and "usage" not in line:
                 problem(f"{name}:{number}: a comment of {len(line)} columns, at most 100 expected")
+
+
+def check_scenes(root):
+    for scene in sorted((root / "inputs").glob("*.in")) + sorted((root / "tests").rglob("*.in")):
+        for number, line in enumerate(scene.read_text().splitlines(), 1):
             itself = re.search(r"\bvariable\s+(\w+)\s+string\s+'[^']*\$\{\1\}", line)
-            if itself and name.endswith(".in"):
-                problem(f"{name}:{number}: variable {itself[1]} from its own value, which LAMMPS 4 Jul 2026 refuses")
+            if itself:
+                problem(f"{scene.relative_to(root)}:{number}: variable {itself[1]} from its own value, which LAMMPS 4 Jul 2026 refuses")
 
 
 def check_variables(root):
@@ -197,6 +202,7 @@ def main(root, programs, write):
             problem(f"{page.relative_to(root)} is not what {Path(program).name} --help prints: {Path(__file__).name} ... --write makes it")
     check_markdown(root)
     check_comments(root)
+    check_scenes(root)
     check_variables(root)
     check_styles(root)
     print("\n".join(PROBLEMS) or "the documents agree with the programs")

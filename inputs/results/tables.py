@@ -780,12 +780,11 @@ def ratio_of(rounds, base):
 
 
 def speed_peers_table(_):
-    found, out = timings("peers"), []
-    for label in dict.fromkeys(key[0] for key in found):
+    found, out = {(label, ranks): rounds for (label, _, ranks), rounds in timings("peers").items()}, []
+    for label in dict.fromkeys(label for label, _ in found):
         row = [label]
         for ranks in (1, 2):
-            at = next((rounds for key, rounds in found.items() if key[0] == label and key[2] == ranks), None)
-            ours = next(rounds for key, rounds in found.items() if key[0] == "ours" and key[2] == ranks)
+            at, ours = found.get((label, ranks)), found["ours", ranks]
             row += [f"{1e3 / middle(at):.3g}", "" if at is ours else f"{ratio_of(at, ours):.3g}"] if at else ["", ""]
             last = at or last
         out.append(row + [f"{middle(last, 'bytes'):.0f}"])
@@ -794,9 +793,9 @@ def speed_peers_table(_):
 
 
 def speed_lengths_table(_):
-    found, out = timings("lengths"), []
-    for length in sorted({key[1] for key in found}):
-        one, two = (next(rounds for key, rounds in found.items() if key[1:] == (length, ranks)) for ranks in (1, 2))
+    found, out = {key[1:]: rounds for key, rounds in timings("lengths").items()}, []
+    for length in sorted({length for length, _ in found}):
+        one, two = found[length, 1], found[length, 2]
         parts = [f"{middle(two, key):.2f}" for key in ("bond", "pair", "modify", "comm", "neigh")]
         out.append([str(length), f"{middle(two, 'atoms'):.0f}", f"{middle(one):.1f}", f"{middle(two):.1f}", *parts])
     return calibrate.table(["length", "particles", "ns, 1 rank", "2 ranks", "links", "contacts", "integration, plates, events", "communication",
@@ -804,8 +803,7 @@ def speed_lengths_table(_):
 
 
 def speed_changes_table(_):
-    found = timings("features")
-    names = {key[0]: rounds for key, rounds in found.items()}
+    names = {key[0]: rounds for key, rounds in timings("features").items()}
     ratio = {label: f"{ratio_of(rounds, names['base of ' + label]):.2f}" for label, rounds in names.items() if "base of " + label in names}
     lines = [["contacts of all discs"], ["nothing recorded", "location of events", "energy ledger"],
              ["static friction above dynamic", "slip weakening", "velocity weakening"],
@@ -817,18 +815,17 @@ def speed_changes_table(_):
 
 
 def speed_causes_table(_):
-    found = timings("causes")
     return calibrate.table(["why a step of a run takes longer, length 480, one rank", "CPU ns"],
-                           [[key[0], f"{middle(rounds, 'cpu'):.1f}"] for key, rounds in found.items()])
+                           [[key[0], f"{middle(rounds, 'cpu'):.1f}"] for key, rounds in timings("causes").items()])
 
 
 def speed_slices_table(_):
     """What 1.2e6 steps of each fault of the campaign take, from slices of them."""
-    found, out, hours = timings("campaign"), [], {1: 0.0, 2: 0.0}
-    for length in sorted({key[1] for key in found}):
+    found, out, hours = {key[1:]: rounds for key, rounds in timings("campaign").items()}, [], {1: 0.0, 2: 0.0}
+    for length in sorted({length for length, _ in found}):
         row = [str(length)]
         for ranks in (1, 2):
-            at = next(rounds for key, rounds in found.items() if key[1:] == (length, ranks))
+            at = found[length, ranks]
             seconds = middle(at) * 1e-9 * middle(at, "atoms") * 1.2e6
             hours[ranks] += seconds / 3600
             row += [f"{middle(at):.1f}", f"{seconds:.0f}"]

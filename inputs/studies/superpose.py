@@ -79,12 +79,14 @@ def stretch(path, begin, end):
 
 
 def write(path, info, pe):
+    """A series that holds each step from info["step0"] on."""
     header = "".join(f"# {key} = {value}\n" for key, value in info.items()).encode()
     both = array.array("d", bytes(16 * len(pe)))
     both[1::2] = pe
     steps = array.array("q")
     steps.frombytes(both.tobytes())
-    steps[::2] = array.array("q", range(len(pe)))
+    first = int(info["step0"])
+    steps[::2] = array.array("q", range(first, first + len(pe)))
     Path(path).write_bytes(MAGIC + len(header).to_bytes(8, "little") + header + steps.tobytes())
 
 

@@ -39,15 +39,13 @@ call mpirun -np 2 esysparticle "$here/esys_fault.py" fault "$(value length)" "$(
 
 # PE of links and contacts as a series of this project; the first row precedes the first evaluation
 # of forces
-paste -d ' ' fault.esys.links fault.esys.contacts | python3 -c '
-import struct, sys
+paste -d ' ' fault.esys.links fault.esys.contacts | PYTHONPATH=$here/../../inputs/studies python3 -c '
+import array, sys
+import superpose
 dt, step = float(sys.argv[1]), int(sys.argv[2])
-header = {"model": "lsm", "dt": dt, "step0": step, "time0": step * dt, "stride": 1, "completeness": 0.001}
-header = "".join(f"# {key} = {value}\n" for key, value in header.items()).encode()
 rows = [line.split() for line in sys.stdin][2:]
-pe = [float(row[0]) + float(row[1]) for row in rows if len(row) == 2]
-sys.stdout.buffer.write(b"lsm-pe-series-1\n" + struct.pack("<q", len(header)) + header
-                        + b"".join(struct.pack("<qd", step + i, x) for i, x in enumerate(pe)))
-' "$(value dt)" "$(value settle)" >fault.pe.bin
+superpose.write("fault.pe.bin", {"model": "lsm", "dt": dt, "step0": step, "time0": step * dt, "stride": 1, "completeness": 0.001},
+                array.array("d", (float(row[0]) + float(row[1]) for row in rows if len(row) == 2)))
+' "$(value dt)" "$(value settle)"
 "$bin/postproc" pick fault.pe.bin --memory-time "$(value memory)" -o fault.catalogue.csv --force
 mv fault.esys.json summary.json
