@@ -8,10 +8,9 @@
 namespace Slider {
 
 Chain::Chain(const Parameters &p, const std::vector<double> &mu, bool dense, InstructionSet set)
-    : p_(p),
-      plate_step_(p.velocity * p.dt),
+    : plate_step_(p.velocity * p.dt),
       function_(step_function(p.scheme, p.friction.law, set)),
-      view_(view_of(mu)),
+      view_(view_of(p, mu)),
       active_(view_, plate_step_, dense),
       account_(p) {
   ChainState s;
@@ -20,41 +19,32 @@ Chain::Chain(const Parameters &p, const std::vector<double> &mu, bool dense, Ins
   set_state(s);
 }
 
-ChainView Chain::view_of(const std::vector<double> &mu) {
-  if (mu.size() != static_cast<std::size_t>(p_.blocks))
+ChainView Chain::view_of(const Parameters &p, const std::vector<double> &mu) {
+  if (mu.size() != static_cast<std::size_t>(p.blocks))
     throw std::invalid_argument("number of friction coefficients differs from --blocks");
   const std::size_t room = (mu.size() + chunk_size - 1) / chunk_size * chunk_size + 2 * chunk_size;
-  for (Array *a : {&u_, &v_, &force_}) a->assign(room, 0.0);
-  mu_.assign(room, 1e300);
-  std::copy(mu.begin(), mu.end(), mu_.begin() + chunk_size);
-  ChainView view;
-  view.u = u_.data() + chunk_size;
-  view.v = v_.data() + chunk_size;
-  view.force = force_.data() + chunk_size;
-  view.mu = mu_.data() + chunk_size;
-  if (p_.friction.needs_rest()) {
-    rest_.assign(room, 0.0);
-    view.rest = rest_.data() + chunk_size;
-  }
-  view.dynamic = p_.friction.dynamic;
-  view.dc = p_.friction.dc;
-  view.blocks = p_.blocks;
-  view.kc = p_.kc;
-  view.kl = p_.kl;
-  view.mass = p_.mass;
-  view.dt = p_.dt;
+  const auto blocks_of = [room](Array &array, double value) {
+    array.assign(room, value);
+    return array.data() + chunk_size;
+  };
+  ChainView view{p};
+  view.u = blocks_of(u_, 0.0);
+  view.v = blocks_of(v_, 0.0);
+  view.force = blocks_of(force_, 0.0);
+  if (p.friction.needs_rest()) view.rest = blocks_of(rest_, 0.0);
+  double *const limits = blocks_of(mu_, 1e300);
+  std::copy(mu.begin(), mu.end(), limits);
+  view.mu = limits;
   return view;
 }
 
 void Chain::take_step() {
   const std::vector<std::int32_t> &list = active_.list();
-  const double loading = account_.loading(step_);
   StepSums sums;
   if (!list.empty())
     sums = function_(view_, list.data(), static_cast<int>(list.size()),
                      plate_step_ * static_cast<double>(step_ + 1), active_.hot());
-  ++step_;
-  account_.add(sums, step_, loading);
+  account_.add(sums, ++step_);
   moved_ += sums.hot;
 }
 
@@ -79,54 +69,47 @@ double Chain::fastest() const {
 
 bool Chain::leap(std::int64_t last, std::int64_t least, double fast, bool falls, bool rises) {
   if (last - step_ < least) return false;
-  Creep creep(p_, view_.mu, view_.u, plate(), fast);
+  Creep creep(view_, view_.mu, view_.u, plate(), fast);
   const double most = plate_step_ * static_cast<double>(last - step_);
-  leap_from_ = step_;
-  leap_pieces_.clear();
-  const auto allowed = [&] { return creep.pe_rate() < 0.0 ? falls : rises; };
+  const auto allowed = [&] { return creep.now().pe_rate < 0.0 ? falls : rises; };
   if (creep.begins_fast() || !allowed()) return false;
+  leap_pieces_.clear();
   for (;;) {
-    note_piece(creep);
+    const Creep::Piece &piece = leap_pieces_.emplace_back(creep.now());
     const double to = std::min(most, creep.next());
-    const double turn = creep.way() - creep.pe_rate() / creep.pe_slope();
-    if (!rises && turn < to) {
-      creep.to(turn);
-      break;
-    }
-    if (to == most) {
-      creep.to(most);
+    const double turn = piece.way - piece.pe_rate / piece.slope;
+    const bool turns = !rises && turn < to;
+    if (turns || to == most) {
+      creep.to(turns ? turn : most);
       break;
     }
     if (creep.join() || !allowed()) break;
   }
-  const double steps = std::ceil(creep.way() / plate_step_);
+  const double steps = std::ceil(creep.now().way / plate_step_);
   const std::int64_t landing = std::min(last, step_ + static_cast<std::int64_t>(steps));
   if (landing - step_ < least) return false;
   const double way = plate_step_ * static_cast<double>(landing - step_);
-  while (creep.next() < way) {
-    note_piece(creep);
-    creep.join();
-  }
-  note_piece(creep);
-  creep.to(std::max(way, creep.way()));
-  leap_piece_ = 0;
+  for (; creep.next() < way; creep.join()) leap_pieces_.push_back(creep.now());
+  leap_pieces_.push_back(creep.now());
+  creep.to(std::max(way, creep.now().way));
+  leap_from_ = step_;
   leap_pe_ = pe();
-  for (int i = 0; i < p_.blocks; ++i) view_.u[i] = creep.displacement(i);
-  std::fill(view_.v, view_.v + p_.blocks, 0.0);
-  if (view_.rest) std::copy(view_.u, view_.u + p_.blocks, view_.rest);
-  account_.leap(creep.pe(), plate_step_ * creep.pe_rate(), view_.u);
+  for (int i = 0; i < view_.blocks; ++i) view_.u[i] = creep.displacement(i);
+  std::fill(view_.v, view_.v + view_.blocks, 0.0);
+  if (view_.rest) std::copy(view_.u, view_.u + view_.blocks, view_.rest);
+  account_.leap(creep.now().pe, plate_step_ * creep.now().pe_rate, view_.u);
   step_ = landing;
   restart();
   return true;
 }
 
-double Chain::pe_in_leap(std::int64_t at) {
+double Chain::pe_in_leap(std::int64_t at) const {
   const double way = plate_step_ * static_cast<double>(at - leap_from_);
-  while (leap_piece_ + 1 < leap_pieces_.size() && leap_pieces_[leap_piece_ + 1].way <= way)
-    ++leap_piece_;
-  const LeapPiece &piece = leap_pieces_[leap_piece_];
-  const double on = way - piece.way;
-  return leap_pe_ + piece.pe + on * (piece.pe_rate + 0.5 * piece.pe_slope * on);
+  const auto later =
+      std::upper_bound(leap_pieces_.begin() + 1, leap_pieces_.end(), way,
+                       [](double place, const Creep::Piece &piece) { return place < piece.way; });
+  const Creep::Piece &piece = *(later - 1);
+  return leap_pe_ + piece.pe + piece.change(way - piece.way);
 }
 
 ChainState Chain::state() const {
@@ -136,12 +119,12 @@ ChainState Chain::state() const {
   s.moved = moved_;
   s.u = displacements();
   s.v = velocities();
-  if (view_.rest) s.rest.assign(view_.rest, view_.rest + p_.blocks);
+  if (view_.rest) s.rest.assign(view_.rest, view_.rest + view_.blocks);
   return s;
 }
 
 void Chain::set_state(const ChainState &s) {
-  const std::size_t n = static_cast<std::size_t>(p_.blocks);
+  const std::size_t n = static_cast<std::size_t>(view_.blocks);
   if (s.u.size() != n || s.v.size() != n || (!s.rest.empty() && s.rest.size() != n) || s.step < 0)
     throw std::invalid_argument("saved chain does not fit --blocks");
   account_.restore(s);
@@ -154,25 +137,14 @@ void Chain::set_state(const ChainState &s) {
   restart();
 }
 
-void Chain::set_displacements(const std::vector<double> &u) {
-  ChainState s;
-  s.u = u;
-  s.v.assign(static_cast<std::size_t>(p_.blocks), 0.0);
-  LSM::NeumaierSum sum;
-  for (double x : u) sum.add(x);
-  s.slip_sum = sum.sum();
-  s.slip_compensation = sum.compensation();
-  s.pe_sum = direct_energy(p_, u, 0.0);
-  set_state(s);
-}
-
 // Recomputes forces and the active set from u, v and the step.
 void Chain::restart() {
   double *const u = view_.u;
-  u[-1] = u[p_.blocks - 1];
-  u[p_.blocks] = u[0];
-  for (int i = 0; i < p_.blocks; ++i)
-    view_.force[i] = p_.kc * ((u[i - 1] - u[i]) + (u[i + 1] - u[i])) + p_.kl * (plate() - u[i]);
+  u[-1] = u[view_.blocks - 1];
+  u[view_.blocks] = u[0];
+  for (int i = 0; i < view_.blocks; ++i)
+    view_.force[i] =
+        view_.kc * ((u[i - 1] - u[i]) + (u[i + 1] - u[i])) + view_.kl * (plate() - u[i]);
   active_.restart(step_);
 }
 

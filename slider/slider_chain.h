@@ -53,17 +53,16 @@ class Chain {
   Chain &operator=(const Chain &) = delete;
 
   std::int64_t step() const { return step_; }
-  double time() const { return static_cast<double>(step_) * p_.dt; }
+  double time() const { return static_cast<double>(step_) * view_.dt; }
   double plate() const { return plate_step_ * static_cast<double>(step_); }
   double pe() const { return account_.value(); }
   double dpe() const { return account_.change(); }         ///< change of PE over the last step
   double slip_sum() const { return account_.slip_sum(); }  ///< sum of all displacements
   std::int64_t moved() const { return moved_; }
-  int active_chunks() const { return static_cast<int>(active_.list().size()); }
 
   /// Displacements and velocities, one per block.
-  std::vector<double> displacements() const { return {view_.u, view_.u + p_.blocks}; }
-  std::vector<double> velocities() const { return {view_.v, view_.v + p_.blocks}; }
+  std::vector<double> displacements() const { return {view_.u, view_.u + view_.blocks}; }
+  std::vector<double> velocities() const { return {view_.v, view_.v + view_.blocks}; }
 
   /// One time step.
   void advance() {
@@ -79,7 +78,6 @@ class Chain {
     const double pe_old = pe();
     keep_slips();
     take_step();
-    view_.du = nullptr;
     watch.begin_step(step_, pe_old);
     if (!account_.quiet()) {
       const double *old = old_force_.data();
@@ -111,32 +109,21 @@ class Chain {
   /// least smallest number of steps worth a leap \param falls,rises whether PE may fall, or rise,
   /// in it \return false, and nothing done, if there is no such leap
   bool leap(std::int64_t last, std::int64_t least, double fast, bool falls, bool rises);
-  /// PE at a step within the last leap; steps must ascend.
-  double pe_in_leap(std::int64_t at);
+  /// PE at a step within the last leap.
+  double pe_in_leap(std::int64_t at) const;
 
   ChainState state() const;
   /// Continues from a saved state.
   void set_state(const ChainState &s);
-  /// Starts from given displacements (one per block) at rest, at step 0 (ours; the paper has 0).
-  void set_displacements(const std::vector<double> &u);
 
  private:
   using Array = std::vector<double, LineAllocator<double>>;
 
-  // A straight piece of a leap.
-  struct LeapPiece {
-    double way, pe, pe_rate, pe_slope;
-  };
-
-  ChainView view_of(const std::vector<double> &mu);
+  ChainView view_of(const Parameters &p, const std::vector<double> &mu);
   void keep_slips();
   void take_step();
   void restart();
-  void note_piece(const Creep &creep) {
-    leap_pieces_.push_back({creep.way(), creep.pe(), creep.pe_rate(), creep.pe_slope()});
-  }
 
-  Parameters p_;
   double plate_step_;
   StepFunction function_;
   Array u_, v_, force_, mu_, rest_, du_;
@@ -145,8 +132,7 @@ class Chain {
   ActiveSet active_;
   PeAccount account_;
   std::int64_t step_ = 0, moved_ = 0;
-  std::vector<LeapPiece> leap_pieces_;  // of the last leap
-  std::size_t leap_piece_ = 0;
+  std::vector<Creep::Piece> leap_pieces_;  // of the last leap
   std::int64_t leap_from_ = 0;
   double leap_pe_ = 0.0;
 };

@@ -102,23 +102,15 @@ RunState read_checkpoint(const std::string &path, const std::vector<std::string>
   if (bytes.compare(0, std::strlen(version_1), version_1) == 0) refuse_version(path, "1");
   const std::runtime_error damaged(
       path + ": damaged checkpoint, or not one of slider_cli, expected a complete file");
-  json run;
-  std::vector<std::string> found;
-  RunState state;
   try {
     const json file = json::from_cbor(bytes);
     const int found_version = file.at(version_key).get<int>();
     if (found_version != version) refuse_version(path, std::to_string(found_version));
     const std::vector<std::uint8_t> &packed = file.at("run").get_binary();
     if (file.at("crc32").get<std::uint32_t>() != checksum(packed)) throw damaged;
-    run = json::from_cbor(packed);
-    found = run.at("settings").get<std::vector<std::string>>();
-  } catch (const json::exception &) {
-    throw damaged;
-  }
-  compare(path, found, settings);
-  try {
-    state = run.at("state").get<RunState>();
+    const json run = json::from_cbor(packed);
+    compare(path, run.at("settings").get<std::vector<std::string>>(), settings);
+    RunState state = run.at("state").get<RunState>();
     state.calm_since = run.value("calm_since", std::int64_t{0});
     return state;
   } catch (const json::exception &) {

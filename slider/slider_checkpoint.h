@@ -15,16 +15,20 @@
 
 namespace Slider {
 
+/// What a run has found so far.
+struct Found {
+  LSM::PickerState picker;                     ///< with ruptures, only the sizes that were dropped
+  std::int64_t events = 0, before_warmup = 0;  ///< in the catalogue; too early
+  double largest = 0.0;                        ///< size of an event
+};
+
 /// A run between two steps.
-struct RunState {
+struct RunState : Found {
   ChainState chain;
-  LSM::PickerState picker;  ///< with ruptures, only the sizes that were dropped
-  std::int64_t events = 0, before_warmup = 0;
-  double slip_start = 0.0, largest = 0.0;
-  std::vector<double> u_start;
+  double slip_start = 0.0;      ///< sum of displacements when the present event began
+  std::vector<double> u_start;  ///< displacements then
   RuptureState ruptures;
-  std::int64_t calm_since =
-      0;  ///< step in which a block was last too fast for a leap, or of a leap
+  std::int64_t calm_since = 0;  ///< last step with a block too fast for a leap, or of a leap
 };
 
 /// Replaces the file atomically, so that there is a complete checkpoint at any moment.

@@ -23,10 +23,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <functional>
 #include <limits>
-#include <queue>
+#include <set>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "slider_parameters.h"
@@ -38,13 +38,22 @@ class Creep {
  public:
   static constexpr double never = std::numeric_limits<double>::infinity();
 
+  /// A piece of the motion without a new block, from a displacement of the plate on.
+  struct Piece {
+    double way = 0.0;
+    double pe = 0.0;                    ///< change of PE since the beginning
+    double pe_rate = 0.0, slope = 0.0;  ///< derivative of PE by the displacement, and its own
+
+    /// Change of PE as the plate moves on.
+    double change(double on) const { return on * (pe_rate + 0.5 * slope * on); }
+  };
+
   /// \param mu strengths at rest, one per block \param u displacements \param plate its position
   /// \param fast velocity that no block must reach
   Creep(const Parameters &p, const double *mu, const double *u, double plate, double fast)
       : p_(p), mu_(mu), n_(p.blocks), fast_(fast / p.velocity) {
-    const std::size_t n = static_cast<std::size_t>(n_);
-    blocks_.resize(n);
-    stack_.reserve(n);
+    blocks_.resize(static_cast<std::size_t>(n_));
+    rows_.reserve(blocks_.size());
     double loading = 0.0;
     for (int i = 0; i < n_; ++i) {
       Block &b = at(i);
@@ -54,8 +63,8 @@ class Creep {
       creeping_ += b.creeps;
       loading += plate - u[i];
     }
-    pe_rate_ = p.kl * loading;
-    slope_ = p.kl * n_;
+    now_.pe_rate = p.kl * loading;
+    now_.slope = p.kl * n_;
     for (int i = 0; i < n_; ++i) {
       // Runs are found at their first block; a full ring has none.
       if (at(i).creeps && (!at(before(i)).creeps || (creeping_ == n_ && i == 0)))
@@ -68,24 +77,21 @@ class Creep {
   int creeping() const { return creeping_; }
   /// Whether blocks that are at their limit from the beginning become fast.
   bool begins_fast() const { return begins_fast_; }
+  const Piece &now() const { return now_; }
   /// Displacement of the plate at which the next block reaches its limit; never: there is none.
-  double next() {
-    while (!queue_.empty() && stale(queue_.top())) queue_.pop();
-    return queue_.empty() ? never : queue_.top().way;
-  }
+  double next() const { return due_.empty() ? never : due_.begin()->first; }
   /// Advances to next(). Returns whether the group that the block joins becomes fast.
   bool join() {
-    next();
-    const Coming coming = queue_.top();
-    queue_.pop();
-    to(coming.way);
-    Block &b = at(coming.block);
+    const auto [way, joining] = *due_.begin();
+    due_.erase(due_.begin());
+    to(way);
+    Block &b = at(joining);
     settle(b);
     b.creeps = true;
     b.rate = 0.0;
     ++creeping_;
-    int first = coming.block;
-    while (at(before(first)).creeps && before(first) != coming.block) first = before(first);
+    int first = joining;
+    while (at(before(first)).creeps && before(first) != joining) first = before(first);
     const int length = solve(first);
     if (length < n_) {
       expect(before(first));
@@ -93,24 +99,76 @@ class Creep {
     }
     return gets_fast(first, length);
   }
-
-  double way() const { return way_; }
   /// Advances by less than next().
   void to(double way) {
-    pe_ += (way - way_) * (pe_rate_ + 0.5 * slope_ * (way - way_));
-    pe_rate_ += slope_ * (way - way_);
-    way_ = way;
+    const double on = way - now_.way;
+    now_.pe += now_.change(on);
+    now_.pe_rate += now_.slope * on;
+    now_.way = way;
   }
-  /// Derivative of PE with respect to the displacement of the plate: now, and its derivative on the
-  /// present piece.
-  double pe_rate() const { return pe_rate_; }
-  double pe_slope() const { return slope_; }
-  /// Change of PE since the beginning.
-  double pe() const { return pe_; }
-
   double displacement(int i) {
     settle(at(i));
     return at(i).u;
+  }
+
+ private:
+  struct Block {
+    double u = 0.0, force = 0.0;  ///< at the way
+    double way = 0.0;
+    double rate = 0.0;   ///< of u if it creeps, else of force
+    double due = never;  ///< when it reaches its limit
+    bool creeps = false;
+  };
+
+  Block &at(int i) { return blocks_[static_cast<std::size_t>(i)]; }
+  int before(int i) const { return i > 0 ? i - 1 : n_ - 1; }
+  int after(int i) const { return i + 1 < n_ ? i + 1 : 0; }
+
+  void settle(Block &b) {
+    (b.creeps ? b.u : b.force) += b.rate * (now_.way - b.way);
+    b.way = now_.way;
+  }
+
+  /// New rates of the group of creeping blocks that begins with first; returns its length.
+  int solve(int first) {
+    rows_.clear();
+    const double diagonal = 2.0 * p_.kc + p_.kl;
+    double pivot = diagonal, value = p_.kl;
+    int i = first;
+    do {
+      if (!rows_.empty()) {
+        const double factor = p_.kc / pivot;
+        pivot = diagonal - factor * p_.kc;
+        value = p_.kl + factor * value;
+      }
+      rows_.emplace_back(pivot, value);
+      i = after(i);
+    } while (i != first && at(i).creeps);
+    const int length = static_cast<int>(rows_.size());
+    double rate = 0.0;
+    for (int k = length - 1; k >= 0; --k) {
+      std::tie(pivot, value) = rows_[static_cast<std::size_t>(k)];
+      // The whole ring moves as one.
+      rate = length == n_ ? 1.0 : (value + p_.kc * rate) / pivot;
+      Block &b = at((first + k) % n_);
+      settle(b);
+      // dPE = K_l sum (X - U_i) dX - sum F_i dU_i
+      now_.pe_rate -= b.force * (rate - b.rate);
+      now_.slope -= p_.kl * (rate - b.rate);
+      b.rate = rate;
+    }
+    return length;
+  }
+
+  /// When a block at rest reaches its limit.
+  void expect(int i) {
+    Block &b = at(i);
+    settle(b);
+    const Block &left = at(before(i)), &right = at(after(i));
+    b.rate = p_.kl + p_.kc * ((left.creeps ? left.rate : 0.0) + (right.creeps ? right.rate : 0.0));
+    due_.erase({b.due, i});
+    b.due = now_.way + std::max(0.0, (mu_[i] - b.force) / b.rate);
+    due_.emplace(b.due, i);
   }
 
   /// Whether the group of creeping blocks that begins with first becomes fast.
@@ -126,15 +184,10 @@ class Creep {
     const double growth = fast_ / rate - 1.0;
     if (!(growth > 1.0)) return true;
     const Friction &law = p_.friction;
-    switch (law.law) {
-      case Law::coulomb:
-        return law.dynamic < 1.0;
-      case Law::slip_weakening:
-        return law.dynamic < 1.0 && !holds(first, length, 0.0, (1.0 - law.dynamic) / law.dc, 1.0);
-      case Law::velocity_weakening:
-        break;
-    }
-    const double turn = pi / std::log(growth), softer = 1.0 / (1.0 + turn * turn);
+    if (law.law == Law::coulomb) return law.dynamic < 1.0;
+    if (law.law == Law::slip_weakening)
+      return law.dynamic < 1.0 && !holds(first, length, 0.0, (1.0 - law.dynamic) / law.dc, 1.0);
+    const double turn = LSM::pi / std::log(growth), softer = 1.0 / (1.0 + turn * turn);
     // The minimum is at s = a, between these.
     constexpr int tries = 9;
     for (int k = 0; k < tries; ++k) {
@@ -142,74 +195,6 @@ class Creep {
       if (!holds(first, length, s, s, softer)) return true;
     }
     return false;
-  }
-
- private:
-  static constexpr double pi = 3.14159265358979323846;
-
-  struct Block {
-    double u = 0.0, force = 0.0;  ///< at the way
-    double way = 0.0;
-    double rate = 0.0;  ///< of u if it creeps, else of force
-    std::uint32_t version = 0;
-    bool creeps = false;
-  };
-  struct Coming {
-    double way;
-    int block;
-    std::uint32_t version;
-    bool operator>(const Coming &o) const { return way != o.way ? way > o.way : block > o.block; }
-  };
-
-  Block &at(int i) { return blocks_[static_cast<std::size_t>(i)]; }
-  int before(int i) const { return i > 0 ? i - 1 : n_ - 1; }
-  int after(int i) const { return i + 1 < n_ ? i + 1 : 0; }
-  bool stale(const Coming &c) { return at(c.block).creeps || at(c.block).version != c.version; }
-
-  void settle(Block &b) {
-    (b.creeps ? b.u : b.force) += b.rate * (way_ - b.way);
-    b.way = way_;
-  }
-
-  /// New rates of the group of creeping blocks that begins with first; returns its length.
-  int solve(int first) {
-    stack_.clear();
-    const double diagonal = 2.0 * p_.kc + p_.kl;
-    double pivot = diagonal, value = p_.kl;
-    int i = first;
-    do {
-      if (!stack_.empty()) {
-        const double factor = p_.kc / pivot;
-        pivot = diagonal - factor * p_.kc;
-        value = p_.kl + factor * value;
-      }
-      stack_.push_back({pivot, value});
-      i = after(i);
-    } while (i != first && at(i).creeps);
-    const int length = static_cast<int>(stack_.size());
-    double rate = 0.0;
-    for (int k = length - 1; k >= 0; --k) {
-      const Row &row = stack_[static_cast<std::size_t>(k)];
-      // The whole ring moves as one.
-      rate = length == n_ ? 1.0 : (row.value + p_.kc * rate) / row.pivot;
-      Block &b = at((first + k) % n_);
-      settle(b);
-      // dPE = K_l sum (X - U_i) dX - sum F_i dU_i
-      pe_rate_ -= b.force * (rate - b.rate);
-      slope_ -= p_.kl * (rate - b.rate);
-      b.rate = rate;
-    }
-    return length;
-  }
-
-  /// When a block at rest reaches its limit.
-  void expect(int i) {
-    Block &b = at(i);
-    settle(b);
-    const Block &left = at(before(i)), &right = at(after(i));
-    b.rate = p_.kl + p_.kc * ((left.creeps ? left.rate : 0.0) + (right.creeps ? right.rate : 0.0));
-    ++b.version;
-    queue_.push({way_ + std::max(0.0, (mu_[i] - b.force) / b.rate), i, b.version});
   }
 
   /// Whether M s^2 + K softer - w mu is positive definite on a group: all pivots are positive.
@@ -229,20 +214,17 @@ class Creep {
     return true;
   }
 
-  struct Row {
-    double pivot, value;
-  };
-
   const Parameters &p_;
   const double *mu_;
   int n_;
   double fast_;  // over the velocity of the plate
   std::vector<Block> blocks_;
-  std::vector<Row> stack_;
-  std::priority_queue<Coming, std::vector<Coming>, std::greater<Coming>> queue_;
+  std::vector<std::pair<double, double>>
+      rows_;                              // of the system that solve() eliminates: pivot, value
+  std::set<std::pair<double, int>> due_;  // when blocks at rest reach their limits
   int creeping_ = 0;
   bool begins_fast_ = false;
-  double way_ = 0.0, pe_ = 0.0, pe_rate_ = 0.0, slope_ = 0.0;
+  Piece now_;
 };
 
 }  // namespace Slider

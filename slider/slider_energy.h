@@ -60,14 +60,15 @@ class PeAccount {
   }
 
   /// The step from step - 1 to step.
-  void add(const StepSums &sums, std::int64_t step, double loading_before) {
+  void add(const StepSums &sums, std::int64_t step) {
+    const double loading_before = loading(step - 1);
     if (sums.slip == 0.0 && sums.work == 0.0) {
       if (!quiet()) {
         quiet_since_ = step - 1;
         anchor_ = value_;
         loading_anchor_ = loading_before;
       }
-      change_ = kl_ * plate_step_ * (loading_before + 0.5 * blocks_ * plate_step_);
+      change_ = quiet_change(step - 1);
       value_ = quiet_value(step);
       return;
     }
@@ -91,11 +92,6 @@ class PeAccount {
     quiet_since_ = -1;
   }
 
-  /// sum (X - U_i) at a step, with the displacements of now.
-  double loading(std::int64_t at) const {
-    return blocks_ * (plate_step_ * static_cast<double>(at)) - slip_.value();
-  }
-
   void save(ChainState &s) const {
     s.slip_sum = slip_.sum();
     s.slip_compensation = slip_.compensation();
@@ -117,6 +113,11 @@ class PeAccount {
   }
 
  private:
+  // sum (X - U_i) at a step, with the displacements of now.
+  double loading(std::int64_t at) const {
+    return blocks_ * (plate_step_ * static_cast<double>(at)) - slip_.value();
+  }
+
   // In quiet periods PE follows from their first step, not from the previous one, so that it does
   // not depend on the steps at which it is evaluated.
   double quiet_value(std::int64_t step) const {

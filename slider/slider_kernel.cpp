@@ -51,11 +51,11 @@ inline __attribute__((always_inline)) unsigned bits(Mask m) {
 template <Law law>
 inline __attribute__((always_inline)) Register friction(const ChainView &chain, Register m,
                                                         Register v, Register f, Register slip) {
-  const Register zero = {}, low = chain.dynamic * m;
+  const Register zero = {}, low = chain.friction.dynamic * m;
   if constexpr (law == Law::coulomb)
     return LSM::CoulombStatic::friction(m, low, (v > zero) | (f > m));
   else if constexpr (law == Law::slip_weakening)
-    return LSM::SlipWeakening::strength(m, low, zero + chain.dc, slip);
+    return LSM::SlipWeakening::strength(m, low, zero + chain.friction.dc, slip);
   else
     return LSM::VelocityWeakening::friction(m, v);
 }
@@ -182,17 +182,16 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
   return sums;
 }
 
+// By scheme, in the order of the enumeration.
 template <Law law>
-StepFunction function_of(Scheme scheme) {
-  return scheme == Scheme::printed         ? step<Scheme::printed, law>
-         : scheme == Scheme::semi_implicit ? step<Scheme::semi_implicit, law>
-                                           : step<Scheme::verlet, law>;
-}
+constexpr StepFunction steps_of[] = {step<Scheme::printed, law>, step<Scheme::semi_implicit, law>,
+                                     step<Scheme::verlet, law>};
 
 StepFunction function_of(Scheme scheme, Law law) {
-  return law == Law::coulomb          ? function_of<Law::coulomb>(scheme)
-         : law == Law::slip_weakening ? function_of<Law::slip_weakening>(scheme)
-                                      : function_of<Law::velocity_weakening>(scheme);
+  const auto &steps = law == Law::coulomb          ? steps_of<Law::coulomb>
+                      : law == Law::slip_weakening ? steps_of<Law::slip_weakening>
+                                                   : steps_of<Law::velocity_weakening>;
+  return steps[static_cast<int>(scheme)];
 }
 
 }  // namespace Slider::SLIDER_SET

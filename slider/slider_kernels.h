@@ -19,16 +19,13 @@ constexpr int chunk_size = 8;
 /// Arrays of the chain. Each has room for whole chunks and one more value on either side of the
 /// blocks, where u keeps its periodic images u[-1] and u[blocks]. Blocks past the end have a
 /// coefficient that no force exceeds.
-struct ChainView {
+struct ChainView : Parameters {
   double *u = nullptr;         ///< displacement
   double *v = nullptr;         ///< velocity, >= 0
   double *force = nullptr;     ///< spring force at the present time (older for inactive chunks)
   double *du = nullptr;        ///< gets the change of displacement of the listed chunks, if wanted
   double *rest = nullptr;      ///< where a block last rested, if the law needs it
   const double *mu = nullptr;  ///< static coefficient
-  int blocks = 0;
-  double kc = 0.0, kl = 0.0, mass = 1.0, dt = 0.0;
-  double dynamic = 1.0, dc = 1.0;  ///< see Friction
 };
 
 /// Sums over the listed chunks, over one step.

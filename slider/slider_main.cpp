@@ -30,19 +30,19 @@ extern "C" void note_signal(int number) { stop_signal.store(number, std::memory_
 nlohmann::ordered_json summary(const Settings &s, const Slider::RunResult &r) {
   nlohmann::ordered_json j;
   for (const auto &[key, value] : s.run.header) j["parameters"][key] = value;
+  const auto steps = static_cast<double>(r.steps);
   j["catalogue"] = s.run.catalogue;
   j["steps"] = r.steps;
-  j["time"] = static_cast<double>(r.steps) * s.run.parameters.dt;
+  j["time"] = steps * s.run.parameters.dt;
   j["events"] = r.events;
   j["events_before_warmup"] = r.before_warmup;
-  j["events_nonpositive"] = r.dropped_nonpositive;
-  j["events_below_min_size"] = r.dropped_small;
-  j["largest_event"] = r.largest_event;
+  j["events_nonpositive"] = r.picker.dropped_nonpositive;
+  j["events_below_min_size"] = r.picker.dropped_small;
+  j["largest_event"] = r.largest;
   j["mean_slip"] = r.mean_slip;
   j["pe"] = r.pe;
   j["pe_direct"] = r.pe_direct;
-  j["moving_fraction"] =
-      static_cast<double>(r.moved) / (static_cast<double>(r.steps) * s.run.parameters.blocks);
+  j["moving_fraction"] = static_cast<double>(r.moved) / (steps * s.run.parameters.blocks);
   j["steps_jumped"] = r.jumped;
   if (s.run.leap_speed > 0.0) {
     j["leaps"] = r.leaps;
@@ -52,28 +52,19 @@ nlohmann::ordered_json summary(const Settings &s, const Slider::RunResult &r) {
   j["instruction_set"] = Slider::to_string(Slider::widest_instruction_set());
   j["seconds"] = r.seconds;
   j["nanoseconds_per_step"] =
-      r.seconds * 1e9 / static_cast<double>(std::max<std::int64_t>(1, r.steps - r.first_step));
+      r.seconds * 1e9 / std::max(1.0, steps - static_cast<double>(r.first_step));
   j["interrupted"] = r.interrupted != 0;
   return j;
 }
 
-void write_json(const std::string &path, const nlohmann::ordered_json &j) {
-  if (path == "-") {
-    std::cout << j.dump(2) << '\n';
-    return;
-  }
-  LSM::text_io::write_file(path, j.dump(2) + "\n");
-}
-
-void warn(const Settings &s) {
-  const Slider::Parameters &p = s.run.parameters;
-  if (p.scheme == Slider::Scheme::printed &&
-      p.dt > Slider::printed_warning_limit(p) * (1.0 + 1e-12))
-    fmt::print(
-        stderr,
-        "slider_cli: warning: --dt = {} with the printed scheme, expected at most {:.6g}: its "
-        "growing oscillations change the statistics\n",
-        p.dt, Slider::printed_warning_limit(p));
+void warn(const Slider::Parameters &p) {
+  // From here on its growing oscillations change the statistics (measured).
+  const double limit = Slider::stability_limit(p) / 12.0;
+  if (p.scheme == Slider::Scheme::printed && p.dt > limit * (1.0 + 1e-12))
+    fmt::print(stderr,
+               "slider_cli: warning: --dt = {} with the printed scheme, expected at most {:.6g}: "
+               "its growing oscillations change the statistics\n",
+               p.dt, limit);
 }
 
 /// Calls task(0) to task(count - 1), that many at a time; 0: one per core. A task must not throw.
@@ -90,6 +81,7 @@ void for_each_index(std::size_t count, std::size_t threads, const Task &task) {
   for (auto &thread : pool) thread.join();
 }
 
+/// All runs, one or those of an ensemble. Returns the exit status.
 int run_all(const std::vector<Settings> &all, const Settings &base) {
   if (base.summary != "-") Slider::probe(base.summary);
   std::vector<Slider::RunResult> results(all.size());
@@ -102,44 +94,43 @@ int run_all(const std::vector<Settings> &all, const Settings &base) {
     }
     try {
       results[k] = Slider::run(all[k].run);
+    } catch (const std::bad_alloc &) {
+      errors[k] = "out of memory, expected fewer --blocks";
     } catch (const std::exception &e) {
       errors[k] = e.what();
     }
   });
   nlohmann::ordered_json j = nlohmann::ordered_json::array();
-  bool failed = false, interrupted = false;
+  int status = 0;
   for (std::size_t k = 0; k < all.size(); ++k) {
+    const Slider::RunResult &r = results[k];
+    const std::string name =
+        base.ensemble.empty() ? "" : fmt::format("run {} of the ensemble: ", k + 1);
     if (!errors[k].empty()) {
-      fmt::print(stderr, "slider_cli: run {} of the ensemble: {}\n", k + 1, errors[k]);
-      failed = true;
+      fmt::print(stderr, "slider_cli: {}{}\n", name, errors[k]);
+      status = 1;
       continue;
     }
-    interrupted = interrupted || results[k].interrupted != 0;
     if (base.summary != "-")
-      fmt::print("{}: {} events in {} steps\n", all[k].run.catalogue, results[k].events,
-                 results[k].steps);
-    j.push_back(summary(all[k], results[k]));
+      fmt::print("{}: {} events in {} steps, {:.3g} s\n", all[k].run.catalogue, r.events, r.steps,
+                 r.seconds);
+    if (r.interrupted != 0) {
+      fmt::print(
+          stderr, "slider_cli: {}stopped by signal {} at step {}; {}\n", name, r.interrupted,
+          r.steps,
+          all[k].run.checkpoint.empty() ? "no --checkpoint was given" : "continue with --resume");
+      if (status == 0) status = 128 + r.interrupted;
+    }
+    j.push_back(summary(all[k], r));
   }
-  if (!base.summary.empty()) write_json(base.summary, j);
-  if (failed) return 1;
-  return interrupted ? 128 + stop_signal : 0;
-}
-
-int run_one(const Settings &s) {
-  if (s.summary != "-") Slider::probe(s.summary);
-  const Slider::RunResult r = Slider::run(s.run);
-  if (s.summary != "-")
-    fmt::print("{}: {} events in {} steps, {:.3g} s\n", s.run.catalogue, r.events, r.steps,
-               r.seconds);
-  if (!s.summary.empty()) write_json(s.summary, summary(s, r));
-  if (r.interrupted == 0) return 0;
-  if (s.run.checkpoint.empty())
-    fmt::print(stderr, "slider_cli: stopped by signal {} at step {}; no --checkpoint was given\n",
-               r.interrupted, r.steps);
-  else
-    fmt::print(stderr, "slider_cli: stopped by signal {} at step {}; continue with --resume\n",
-               r.interrupted, r.steps);
-  return 128 + r.interrupted;
+  if (base.ensemble.empty() && status == 1) return status;
+  if (base.ensemble.empty()) j = j.at(0);
+  const std::string text = j.dump(2) + "\n";
+  if (base.summary == "-")
+    std::cout << text;
+  else if (!base.summary.empty())
+    LSM::text_io::write_file(base.summary, text);
+  return status;
 }
 
 }  // namespace
@@ -150,22 +141,16 @@ int main(int argc, char **argv) {
     const Settings settings = Slider::parse(arguments, &stop_signal);
     std::signal(SIGINT, note_signal);
     std::signal(SIGTERM, note_signal);
-    warn(settings);
-    if (settings.ensemble.empty()) {
-      Slider::check_files({settings});
-      return run_one(settings);
-    }
-    const std::vector<Settings> all = Slider::ensemble(settings, arguments);
+    warn(settings.run.parameters);
+    const std::vector<Settings> all = settings.ensemble.empty()
+                                          ? std::vector<Settings>{settings}
+                                          : Slider::ensemble(settings, arguments);
     Slider::check_files(all);
     return run_all(all, settings);
-  } catch (const Slider::Done &done) {
-    std::cout << done.text;
-    return 0;
   } catch (const std::bad_alloc &) {
     fmt::print(stderr, "slider_cli: out of memory, expected fewer --blocks\n");
-    return 1;
   } catch (const std::exception &e) {
     fmt::print(stderr, "slider_cli: {}\n", e.what());
-    return 1;
   }
+  return 1;
 }

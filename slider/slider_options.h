@@ -9,33 +9,20 @@
 #include <string>
 #include <vector>
 
-#include "lsm_picker_options.h"
 #include "slider_run.h"
 
 namespace Slider {
 
-/// The command line as given; run is its interpretation.
+/// The command line: its run, and what is needed to make others of it.
 struct Settings {
   RunOptions run;
-  std::string scheme = "verlet", kernel = "active", events = "pe";
-  LSM::PickerOptions picker;
-  double steps = 1e7, time = 1e5;
-  std::vector<double> friction = {0.5, 1.0};
-  std::string config, friction_file, law = "velocity-weakening";
-  double dynamic = 0.8, distance = 0.1;
+  std::string config, summary, ensemble;
   std::uint64_t seed = 1;
-  std::string columns, summary, ensemble;
-  double stride = 1, interval = 1e6, rupture_gap = 0.0;
   unsigned threads = 0;
-  bool paper = false, force = false;
 };
 
-/// Help or version was asked for; what is to be printed, and nothing more to do.
-struct Done {
-  std::string text;
-};
-
-/// \throws Done; std::invalid_argument or std::runtime_error with one line
+/// Prints help or version and ends the program where they are asked for.
+/// \throws std::invalid_argument or std::runtime_error with one line
 Settings parse(std::vector<std::string> arguments, const std::atomic<int> *stop);
 
 /// The runs of --ensemble, each with output files of its own.

@@ -4,6 +4,7 @@
 #ifndef SLIDER_OUTPUT_H
 #define SLIDER_OUTPUT_H
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -19,33 +20,68 @@ class Outputs {
  public:
   /// Keeps other runs from writing the files, and checks that they can be written; writes none.
   /// \throws std::runtime_error naming file and option
-  explicit Outputs(const RunOptions &options);
+  explicit Outputs(const RunOptions &options) : o_(options) {
+    // Before anything is read: another run may have written these files.
+    claim_.claim(outputs_of(o_));
+    check_replaced(o_);
+    probe(o_.series);
+    probe(o_.checkpoint);
+    catalogue_info_.model = series_info_.model = "block-slider";
+    catalogue_info_.parameters = series_info_.parameters = o_.header;
+    catalogue_info_.slip_moment = true;
+    catalogue_info_.x_centroid = o_.x_centroid;
+    catalogue_info_.rupture_length = o_.rupture_length;
+    series_info_.dt = o_.parameters.dt;
+    series_info_.stride = o_.series_stride;
+    // The series has a key of its own for this.
+    auto &keys = series_info_.parameters;
+    const auto is_dt = [](const auto &parameter) { return parameter.first == "dt"; };
+    keys.erase(std::remove_if(keys.begin(), keys.end(), is_dt), keys.end());
+  }
 
   /// Starts new files, with the sample of step 0.
-  void create(double pe);
+  void create(double pe) {
+    if (!o_.catalogue.empty()) catalogue_.create(o_.catalogue, catalogue_info_);
+    if (o_.series.empty()) return;
+    series_.create(o_.series, series_info_);
+    series_.write(0, pe);
+  }
   /// Continues after the given step with a catalogue of so many events.
-  /// \param late steps by which an event can be found after its end
-  void resume(std::int64_t step, std::int64_t events, std::int64_t late);
+  void resume(std::int64_t step, std::int64_t events) {
+    // No file is truncated before both are found to fit.
+    if (!o_.catalogue.empty())
+      catalogue_.find_cut(o_.catalogue, catalogue_info_, step - o_.rupture_memory, {}, events);
+    if (!o_.series.empty()) series_.find_cut(o_.series, series_info_, step);
+    if (!o_.catalogue.empty()) catalogue_.cut();
+    if (!o_.series.empty()) series_.cut();
+  }
 
   void event(const LSM::Event &event) {
     if (catalogue_.is_open()) catalogue_.write(event);
   }
   /// After a step; its sample is written if it is due.
   void sample(std::int64_t step, double pe) {
-    if (series_.is_open() && step % stride_ == 0) series_.write(step, pe);
+    if (series_.is_open() && step % o_.series_stride == 0) series_.write(step, pe);
   }
   /// The first step after the given one whose sample is due.
   std::int64_t next_sample(std::int64_t step) const {
-    return series_.is_open() ? (step / stride_ + 1) * stride_
+    return series_.is_open() ? (step / o_.series_stride + 1) * o_.series_stride
                              : std::numeric_limits<std::int64_t>::max();
   }
-  /// Everything so far is on disk.
-  void flush();
-  void close();
+  /// Everything so far is on disk: after a power failure there must be no checkpoint without the
+  /// files it relies on.
+  void flush() {
+    series_.flush();
+    for (const std::string &path : {o_.catalogue, o_.series})
+      if (LSM::text_io::holds_data(path)) LSM::text_io::sync(path);
+  }
+  void close() {
+    series_.close();
+    catalogue_.close();
+  }
 
  private:
-  std::string catalogue_path_, series_path_;
-  std::int64_t stride_;
+  const RunOptions &o_;
   LSM::OutputClaim claim_;  // let go of last
   LSM::CatalogueInfo catalogue_info_;
   LSM::PeSeriesInfo series_info_;

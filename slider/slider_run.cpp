@@ -17,19 +17,6 @@
 
 namespace Slider {
 
-void check_leaps(const RunOptions &o) {
-  const auto fail = [](const char *option, double value, const char *expected) {
-    char text[64];
-    std::snprintf(text, sizeof text, "%.6g", value);
-    throw std::invalid_argument(std::string(option) + " = " + text + ", expected " + expected);
-  };
-  if (!(o.leap_speed >= 0.0) || !std::isfinite(o.leap_speed))
-    fail("--leap", o.leap_speed, "a finite number >= 0");
-  if (o.leap_speed == 0.0) return;
-  if (!(o.leap_calm > 0.0) || !(o.leap_calm < 1e15 * o.parameters.dt))
-    fail("--leap-calm", o.leap_calm, "a positive number, less than 1e15 time steps");
-}
-
 void probe(const std::string &path) {
   const std::string problem = path.empty() ? path : LSM::text_io::why_not_writable(path);
   if (!problem.empty()) throw LSM::FileError(problem);
@@ -51,172 +38,163 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// The parts of a run.
-struct Parts {
-  const RunOptions &o;
-  Chain &chain;
-  RunState &state;
-  Outputs &outputs;
-  RunResult &result;
-};
-
-/// When to leap: a block moves, so that there is nothing to jump over, and none has been fast for a
-/// while. Only the state of the chain decides, at the same steps in every run, so that a run
-/// continued from a checkpoint leaps where the uninterrupted one does.
-class Leaps : Parts {
+/// What both kinds of events have in common.
+class Run {
  public:
-  explicit Leaps(const Parts &parts) : Parts(parts) {
-    const double dt = o.parameters.dt;
-    calm_ = std::max<std::int64_t>(1, std::llround(o.leap_calm / dt));
-    look_ = std::max<std::int64_t>(1, std::llround(1.0 / dt));
-    next_ = o.leap_speed > 0.0 ? 0 : std::numeric_limits<std::int64_t>::max();
+  explicit Run(const RunOptions &options)
+      : o_(options),
+        chain_(o_.parameters, o_.mu, o_.kernel == Kernel::dense),
+        outputs_(o_),
+        calm_(std::max<std::int64_t>(1, std::llround(leap_calm / o_.parameters.dt))),
+        look_(std::max<std::int64_t>(1, std::llround(1.0 / o_.parameters.dt))) {
+    if (o_.leap_speed == 0.0) next_look_ = std::numeric_limits<std::int64_t>::max();
   }
+  virtual ~Run() = default;
+  Run(const Run &) = delete;
+  Run &operator=(const Run &) = delete;
 
-  /// Whether a leap may begin here. \param at_rest also when nothing moves
-  bool due(bool at_rest) {
-    const std::int64_t step = chain.step();
-    if (step < next_) return false;
-    next_ = (step / look_ + 1) * look_;
+  RunResult go();
+
+ protected:
+  virtual void restore() = 0;
+  virtual void save() = 0;
+  /// One step, or several in which nothing slides, up to limit at most.
+  virtual void advance(std::int64_t limit) = 0;
+
+  /// Whether a leap may begin here: a block moves, so that there is nothing to jump over, and none
+  /// has been fast for a while. Only the state of the chain decides, at the same steps in every
+  /// run, so that a run continued from a checkpoint leaps where the uninterrupted one does.
+  /// \param at_rest also when nothing moves
+  bool may_leap(bool at_rest) {
+    const std::int64_t step = chain_.step();
+    if (step < next_look_) return false;
+    next_look_ = (step / look_ + 1) * look_;
     if (step % look_ != 0) return false;
-    const double v = chain.fastest();
-    if (v > o.leap_speed) state.calm_since = step;
-    return (v > 0.0 || at_rest) && step - state.calm_since >= calm_;
+    const double v = chain_.fastest();
+    if (v > o_.leap_speed) state_.calm_since = step;
+    return (v > 0.0 || at_rest) && step - state_.calm_since >= calm_;
   }
   /// See Chain::leap(). A leap shorter than the calm period that has to follow is not worth it.
   bool leap(bool falls, bool rises) {
-    const std::int64_t from = chain.step();
-    const bool done = chain.leap(o.steps, calm_, o.leap_speed, falls, rises);
-    state.calm_since = chain.step();
+    const std::int64_t from = chain_.step();
+    const bool done = chain_.leap(o_.steps, calm_, o_.leap_speed, falls, rises);
+    state_.calm_since = chain_.step();
     if (!done) return false;
-    ++result.leaps;
-    result.leapt += chain.step() - from;
-    for (std::int64_t s = outputs.next_sample(from); s < chain.step(); s = outputs.next_sample(s))
-      outputs.sample(s, chain.pe_in_leap(s));
+    ++result_.leaps;
+    result_.leapt += chain_.step() - from;
+    for (auto s = outputs_.next_sample(from); s < chain_.step(); s = outputs_.next_sample(s))
+      outputs_.sample(s, chain_.pe_in_leap(s));
     return true;
   }
-
- private:
-  std::int64_t calm_ = 1, look_ = 1, next_ = 0;
-};
-
-/// Shared by both kinds of events.
-class Recorder : protected Parts {
- protected:
-  explicit Recorder(const Parts &parts) : Parts(parts), leaps_(parts) {}
 
   /// An event that has ended; false: it is not written, as the warm-up had not ended before it.
   bool count(LSM::Event &e) {
-    if (e.t_start < o.warmup) {
-      ++state.before_warmup;
+    if (e.t_start < o_.warmup) {
+      ++state_.before_warmup;
       return false;
     }
-    e.id = ++state.events;
-    state.largest = std::max(state.largest, e.size);
+    e.id = ++state_.events;
+    state_.largest = std::max(state_.largest, e.size);
     return true;
   }
 
-  Leaps leaps_;
+  const Clock::time_point begin_ = Clock::now();
+  const RunOptions &o_;
+  Chain chain_;
+  Outputs outputs_;
+  RunState state_;
+  RunResult result_;
+
+ private:
+  void begin();
+  void keep_state();
+
+  std::vector<std::string> settings_;         // everything that shapes the result
+  std::int64_t calm_, look_, next_look_ = 0;  // steps
 };
 
 /// Events are drops of the PE of the whole chain.
-class PeRecorder : Recorder {
+class PeRun : public Run {
  public:
-  /// Number of samples after its end at which an event is found.
-  static constexpr std::int64_t late = 1;
-
-  explicit PeRecorder(const Parts &parts) : Recorder(parts), picker_(o.picker) {
+  explicit PeRun(const RunOptions &options) : Run(options), picker_(o_.picker) {
+    picker_.push_change(0, 0.0, chain_.pe(), 0.0, event_);
     // After so many steps the picker has forgotten its initial state, to the last digit.
-    const double memory = o.picker.reading == LSM::PickerReading::exponential
-                              ? 45.0 / std::max(1.0 - o.picker.lambda, 1e-15)
+    const double memory = o_.picker.reading == LSM::PickerReading::exponential
+                              ? 45.0 / std::max(1.0 - o_.picker.lambda, 1e-15)
                               : 100.0;
     replay_ = static_cast<std::int64_t>(std::min(memory, 1e15)) + 1;
   }
 
-  void begin() {
-    LSM::Event none;
-    picker_.push_change(0, 0.0, chain.pe(), 0.0, none);
-  }
-  void restore() { picker_.set_state(state.picker); }
-  void save() { state.picker = picker_.state(); }
-
-  /// One step, or several in which nothing slides, up to limit at most.
-  void advance(std::int64_t limit) {
-    if (!picker_.in_event() && chain.quiet_until() > chain.step() + replay_ && jump(limit)) return;
-    if (leaps_.due(picker_.in_event()) && leap()) return;
-    chain.advance();
-    const bool before = picker_.in_event();
-    const bool report =
-        picker_.push_change(chain.step(), o.parameters.dt * static_cast<double>(chain.step()),
-                            chain.pe(), chain.dpe(), event_);
-    // Slip is sampled one step late at both ends; the error is below that of a time step.
-    if (picker_.in_event() && !before) open();
-    if (report) finish();
-  }
-
  private:
-  bool located() const { return o.x_centroid || o.rupture_length; }
+  void restore() override { picker_.set_state(state_.picker); }
+  void save() override { state_.picker = picker_.state(); }
+
+  void advance(std::int64_t limit) override {
+    const std::int64_t from = chain_.step();
+    const bool falls = picker_.in_event();
+    // PE rises, or within an event falls, from the beginning of a leap to its end.
+    if ((!falls && jump(limit)) ||
+        (may_leap(falls) && (picker_.rate() < 0.0) == falls && leap(falls, !falls))) {
+      go_on(from);
+      return;
+    }
+    chain_.advance();
+    const bool report =
+        picker_.push_change(chain_.step(), o_.parameters.dt * static_cast<double>(chain_.step()),
+                            chain_.pe(), chain_.dpe(), event_);
+    // Slip is sampled one step late at both ends; the error is below that of a time step.
+    if (picker_.in_event() && !falls) {
+      state_.slip_start = chain_.slip_sum();
+      if (located()) state_.u_start = chain_.displacements();
+    }
+    if (report && count(event_)) write();
+  }
 
   /// Nothing slips: only the plate changes PE, and as long as it raises PE no event can begin. With
   /// an event open the steps are taken one by one. False: no jump is worth it.
   bool jump(std::int64_t limit) {
-    const std::int64_t last = std::min(chain.quiet_until(), limit);
+    const std::int64_t from = chain_.step();
+    const std::int64_t quiet = chain_.quiet_until();
+    if (quiet <= from + replay_) return false;
     // The next due sample is taken by a step.
-    const std::int64_t to = std::min(last, outputs.next_sample(chain.step()) - 1) - replay_;
-    if (!(to > chain.step() && picker_.rate() >= 0.0 && chain.quiet_change(chain.step()) > 0.0))
-      return false;
-    const std::int64_t from = chain.step();
-    result.jumped += to - from;
-    chain.jump(to);
-    gone_on(from);
-    return true;
-  }
-
-  /// PE rises, or within an event falls, from the beginning of a leap to its end.
-  bool leap() {
-    const bool falls = picker_.in_event();
-    const std::int64_t from = chain.step();
-    if ((picker_.rate() < 0.0) != falls || !leaps_.leap(falls, !falls)) return false;
-    gone_on(from);
+    const std::int64_t to = std::min({quiet, limit, outputs_.next_sample(from) - 1}) - replay_;
+    if (!(to > from && picker_.rate() >= 0.0 && chain_.quiet_change(from) > 0.0)) return false;
+    result_.jumped += to - from;
+    chain_.jump(to);
     return true;
   }
 
   /// The picker has had the same change of PE in each step since the given one.
-  void gone_on(std::int64_t from) {
+  void go_on(std::int64_t from) {
     LSM::PickerState s = picker_.state();
-    s.samples += chain.step() - from;
-    s.step = chain.step();
-    s.time = o.parameters.dt * static_cast<double>(s.step);
-    s.pe = chain.pe();
-    s.rate = chain.dpe();
-    if (o.picker.reading == LSM::PickerReading::literal)
-      s.rate /= 1.0 + o.picker.lambda * static_cast<double>(s.samples - 2);
+    s.samples += chain_.step() - from;
+    s.step = chain_.step();
+    s.time = o_.parameters.dt * static_cast<double>(s.step);
+    s.pe = chain_.pe();
+    s.rate = chain_.dpe();
+    if (o_.picker.reading == LSM::PickerReading::literal)
+      s.rate /= 1.0 + o_.picker.lambda * static_cast<double>(s.samples - 2);
     // A leap to where PE begins or ceases to fall may end up to a step later; the next step shows
     // it.
     s.rate = s.in_event != 0 ? std::min(s.rate, 0.0) : std::max(s.rate, 0.0);
     picker_.set_state(s);
   }
 
-  void open() {
-    state.slip_start = chain.slip_sum();
-    if (located()) state.u_start = chain.displacements();
-  }
+  bool located() const { return o_.x_centroid || o_.rupture_length; }
 
-  void finish() {
-    if (!count(event_)) return;
-    event_.slip_moment = chain.slip_sum() - state.slip_start;
-    if (located()) locate();
-    outputs.event(event_);
-  }
-
-  void locate() {
-    const std::vector<double> u = chain.displacements();
-    LSM::CircularMean mean(static_cast<double>(u.size()));
-    for (std::size_t i = 0; i < u.size(); ++i) {
-      const double slip = u[i] - state.u_start[i];
-      if (slip > 0.0) event_.rupture_length += 1.0;
-      mean.add(static_cast<double>(i), slip);
+  void write() {
+    event_.slip_moment = chain_.slip_sum() - state_.slip_start;
+    if (located()) {
+      const std::vector<double> u = chain_.displacements();
+      LSM::CircularMean mean(static_cast<double>(u.size()));
+      for (std::size_t i = 0; i < u.size(); ++i) {
+        const double slip = u[i] - state_.u_start[i];
+        if (slip > 0.0) event_.rupture_length += 1.0;
+        mean.add(static_cast<double>(i), slip);
+      }
+      event_.x_centroid = mean.position();
     }
-    event_.x_centroid = mean.position();
+    outputs_.event(event_);
   }
 
   LSM::EventPicker picker_;
@@ -225,135 +203,104 @@ class PeRecorder : Recorder {
 };
 
 /// Events are ruptures, see slider_ruptures.h.
-class RuptureRecorder : Recorder {
+class RuptureRun : public Run {
  public:
-  explicit RuptureRecorder(const Parts &parts)
-      : Recorder(parts),
-        late(o.rupture_memory),
-        tracker_(o.parameters.blocks, o.rupture_memory, o.x_centroid) {}
-
-  /// Number of steps after its end at which a rupture is found: its memory.
-  const std::int64_t late;
-
-  void begin() {}
-  void restore() { tracker_.set_state(state.ruptures, chain.step()); }
-  void save() { state.ruptures = tracker_.state(); }
-
-  /// One step, or several in which nothing slides, up to limit at most.
-  void advance(std::int64_t limit) {
-    if (tracker_.idle() && chain.quiet_until() > chain.step() + 1) {
-      const std::int64_t to =
-          std::min({chain.quiet_until(), limit, outputs.next_sample(chain.step())});
-      result.jumped += to - chain.step() - 1;
-      chain.jump(to);
-      return;
-    }
-    if (leaps_.due(false) && leaps_.leap(true, true)) {
-      // Slip within a leap is no rupture, and a rupture before the leap has ended.
-      tracker_.begin_step(chain.step(), chain.pe());
-    } else {
-      chain.advance(tracker_);
-    }
-    if (!std::isfinite(chain.dpe()) || !std::isfinite(chain.pe()))
-      throw std::runtime_error("potential energy at step " + std::to_string(chain.step()) +
-                               " is not a finite number");
-    tracker_.end_step(chain.pe(), [this](const Rupture &rupture) { finish(rupture); });
-  }
+  explicit RuptureRun(const RunOptions &options)
+      : Run(options), tracker_(o_.parameters.blocks, o_.rupture_memory, o_.x_centroid) {}
 
  private:
-  void finish(const Rupture &rupture) {
-    LSM::Event e = tracker_.event(rupture, o.parameters.dt);
-    // Counted as by the picker, for checkpoints.
-    if (LSM::is_left_out(e.size, o.picker, state.picker)) return;
-    if (!count(e)) return;
-    outputs.event(e);
+  void restore() override { tracker_.set_state(state_.ruptures, chain_.step()); }
+  void save() override { state_.ruptures = tracker_.state(); }
+
+  void advance(std::int64_t limit) override {
+    if (tracker_.idle() && chain_.quiet_until() > chain_.step() + 1) {
+      const std::int64_t to =
+          std::min({chain_.quiet_until(), limit, outputs_.next_sample(chain_.step())});
+      result_.jumped += to - chain_.step() - 1;
+      chain_.jump(to);
+      return;
+    }
+    if (may_leap(false) && leap(true, true)) {
+      // Slip within a leap is no rupture, and a rupture before the leap has ended.
+      tracker_.begin_step(chain_.step(), chain_.pe());
+    } else {
+      chain_.advance(tracker_);
+    }
+    if (!std::isfinite(chain_.dpe()) || !std::isfinite(chain_.pe()))
+      throw std::runtime_error("potential energy at step " + std::to_string(chain_.step()) +
+                               " is not a finite number");
+    tracker_.end_step(chain_.pe(), [this](const Rupture &rupture) {
+      LSM::Event e = tracker_.event(rupture, o_.parameters.dt);
+      // Counted as by the picker, for checkpoints.
+      if (!LSM::is_left_out(e.size, o_.picker, state_.picker) && count(e)) outputs_.event(e);
+    });
   }
 
   RuptureTracker tracker_;
 };
 
-/// Everything that shapes the result, as "key = value".
-std::vector<std::string> settings_of(const RunOptions &o) {
-  std::vector<std::string> lines;
-  for (const auto &[key, value] : o.header) lines.push_back(key + " = " + value);
-  lines.emplace_back("kernel = active or dense");
-  return lines;
+/// Starts new files, or continues those of a checkpoint.
+void Run::begin() {
+  for (const auto &[key, value] : o_.header) settings_.push_back(key + " = " + value);
+  settings_.emplace_back("kernel = active or dense");
+  if (o_.resume) {
+    state_ = read_checkpoint(o_.checkpoint, settings_);
+    chain_.set_state(state_.chain);
+    restore();
+    outputs_.resume(chain_.step(), state_.events);
+  } else {
+    outputs_.create(chain_.pe());
+  }
+  result_.first_step = chain_.step();
 }
 
-template <class Kind>
-RunResult run_chain(const RunOptions &o) {
-  const Clock::time_point begin = Clock::now();
-  Chain chain(o.parameters, o.mu, o.kernel == Kernel::dense);
-  RunState state;
-  RunResult result;
-  Outputs outputs(o);
-  Kind recorder({o, chain, state, outputs, result});
-  const std::vector<std::string> settings = settings_of(o);
-  if (o.resume) {
-    state = read_checkpoint(o.checkpoint, settings);
-    chain.set_state(state.chain);
-    recorder.restore();
-    outputs.resume(chain.step(), state.events, recorder.late);
-  } else {
-    outputs.create(chain.pe());
-    recorder.begin();
-  }
-  result.first_step = chain.step();
+void Run::keep_state() {
+  save();
+  if (o_.checkpoint.empty()) return;
+  outputs_.flush();
+  state_.chain = chain_.state();
+  write_checkpoint(o_.checkpoint, settings_, state_);
+}
 
-  const auto save = [&] {
-    outputs.flush();
-    state.chain = chain.state();
-    recorder.save();
-    write_checkpoint(o.checkpoint, settings, state);
-  };
-  const bool checkpoints = !o.checkpoint.empty();
-  const std::int64_t interval = checkpoints ? o.checkpoint_interval : 0;
+RunResult Run::go() {
+  begin();
+  const std::int64_t interval = o_.checkpoint.empty() ? 0 : o_.checkpoint_interval;
   // Steps between checks of signals and the clock.
-  const std::int64_t look = std::max<std::int64_t>(16, 200000 / (o.parameters.blocks + 100));
-  Clock::time_point told = begin;
-  while (chain.step() < o.steps) {
-    std::int64_t limit = o.steps;
-    if (interval > 0) limit = std::min(limit, (chain.step() / interval + 1) * interval);
-    const std::int64_t pause = std::min(limit, chain.step() + look);
-    while (chain.step() < pause) {
-      recorder.advance(limit);
-      outputs.sample(chain.step(), chain.pe());
+  const std::int64_t look = std::max<std::int64_t>(16, 200000 / (o_.parameters.blocks + 100));
+  Clock::time_point told = begin_;
+  while (chain_.step() < o_.steps && result_.interrupted == 0) {
+    std::int64_t limit = o_.steps;
+    if (interval > 0) limit = std::min(limit, (chain_.step() / interval + 1) * interval);
+    const std::int64_t pause = std::min(limit, chain_.step() + look);
+    while (chain_.step() < pause) {
+      advance(limit);
+      outputs_.sample(chain_.step(), chain_.pe());
     }
+    if (chain_.step() >= o_.steps) break;
     // A leap may end beyond the limit.
-    if (interval > 0 && chain.step() >= limit && chain.step() < o.steps) save();
-    const int stopped_by = o.stop ? o.stop->load(std::memory_order_relaxed) : 0;
-    if (stopped_by != 0 && chain.step() < o.steps) {
-      result.interrupted = stopped_by;
-      if (checkpoints) save();
-      break;
-    }
-    if (!o.progress || Clock::now() - told < std::chrono::seconds(1)) continue;
+    if (interval > 0 && chain_.step() >= limit) keep_state();
+    if (o_.stop) result_.interrupted = o_.stop->load(std::memory_order_relaxed);
+    if (!o_.progress || Clock::now() - told < std::chrono::seconds(1)) continue;
     told = Clock::now();
-    std::fprintf(stderr, "step %lld of %lld, %lld events\n", static_cast<long long>(chain.step()),
-                 static_cast<long long>(o.steps), static_cast<long long>(state.events));
+    std::fprintf(stderr, "step %lld of %lld, %lld events\n", static_cast<long long>(chain_.step()),
+                 static_cast<long long>(o_.steps), static_cast<long long>(state_.events));
   }
-  if (checkpoints && result.interrupted == 0) save();
-  recorder.save();
-  outputs.close();
-
-  result.steps = chain.step();
-  result.events = state.events;
-  result.before_warmup = state.before_warmup;
-  result.dropped_nonpositive = state.picker.dropped_nonpositive;
-  result.dropped_small = state.picker.dropped_small;
-  result.moved = chain.moved();
-  result.pe = chain.pe();
-  result.pe_direct = direct_energy(o.parameters, chain.displacements(), chain.plate());
-  result.mean_slip = chain.slip_sum() / o.parameters.blocks;
-  result.largest_event = state.largest;
-  result.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-  return result;
+  keep_state();
+  outputs_.close();
+  static_cast<Found &>(result_) = state_;
+  result_.steps = chain_.step();
+  result_.moved = chain_.moved();
+  result_.pe = chain_.pe();
+  result_.pe_direct = direct_energy(o_.parameters, chain_.displacements(), chain_.plate());
+  result_.mean_slip = chain_.slip_sum() / o_.parameters.blocks;
+  result_.seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
+  return result_;
 }
 
 }  // namespace
 
 RunResult run(const RunOptions &o) {
-  return o.events == Events::ruptures ? run_chain<RuptureRecorder>(o) : run_chain<PeRecorder>(o);
+  return o.events == Events::ruptures ? RuptureRun(o).go() : PeRun(o).go();
 }
 
 }  // namespace Slider

@@ -14,6 +14,7 @@
 #include "lsm_event_picker.h"
 #include "lsm_names.h"
 #include "lsm_output_claim.h"
+#include "slider_checkpoint.h"
 #include "slider_parameters.h"
 
 namespace Slider {
@@ -36,11 +37,12 @@ struct RunOptions {
   std::vector<double> mu;  ///< one per block
   std::int64_t steps = 0;
   Events events = Events::pe;
-  LSM::PickerSettings picker;       ///< for ruptures, only the sizes that are written
-  std::int64_t rupture_memory = 1;  ///< steps over which slips are connected, at least 1
-  double leap_speed = 0.0;          ///< leaps while no block is faster; 0: no leaps
-  double leap_calm = 50.0;          ///< time without a faster block that is needed before a leap
-  double warmup = 0.0;              ///< events that start before this time are not written
+  LSM::PickerSettings picker;  ///< for ruptures, only the sizes that are written
+  /// Steps over which slips are connected, and by which events are found after their end, at least
+  /// 1
+  std::int64_t rupture_memory = 1;
+  double leap_speed = 0.0;  ///< leaps while no block is faster; 0: no leaps
+  double warmup = 0.0;      ///< events that start before this time are not written
   Kernel kernel = Kernel::active;
   std::string catalogue;  ///< empty: none
   bool x_centroid = false, rupture_length = false;
@@ -55,22 +57,18 @@ struct RunOptions {
   const std::atomic<int> *stop = nullptr;                   ///< a signal number ends the run
 };
 
-struct RunResult {
-  std::int64_t steps = 0;          ///< reached
-  std::int64_t first_step = 0;     ///< step the run started from
-  std::int64_t events = 0;         ///< in the catalogue
-  std::int64_t before_warmup = 0;  ///< picked but too early
-  std::int64_t dropped_nonpositive = 0, dropped_small = 0;
-  std::int64_t moved = 0;             ///< block-steps with motion
-  std::int64_t jumped = 0;            ///< quiet steps jumped over
-  std::int64_t leaps = 0, leapt = 0;  ///< number of leaps, steps leapt over
-  double pe = 0.0, pe_direct = 0.0;   ///< by work, and summed over all springs, at the end
-  double mean_slip = 0.0, largest_event = 0.0, seconds = 0.0;
+/// Time without a faster block that is needed before a leap: a runaway has become visible by then.
+constexpr double leap_calm = 50.0;
+
+struct RunResult : Found {
+  std::int64_t first_step = 0, steps = 0;  ///< from where to where
+  std::int64_t moved = 0;                  ///< block-steps with motion
+  std::int64_t jumped = 0;                 ///< quiet steps jumped over
+  std::int64_t leaps = 0, leapt = 0;       ///< number of leaps, steps leapt over
+  double pe = 0.0, pe_direct = 0.0;        ///< by work, and summed over all springs, at the end
+  double mean_slip = 0.0, seconds = 0.0;
   int interrupted = 0;  ///< signal number, or 0
 };
-
-/// \throws std::invalid_argument with one line for leaps that make no sense.
-void check_leaps(const RunOptions &options);
 
 /// Checks early whether an output can be written; an empty path means none.
 /// \throws LSM::FileError

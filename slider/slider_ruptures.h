@@ -18,6 +18,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "lsm_circular_mean.h"
 #include "lsm_event_picker.h"
 #include "lsm_slip_sets.h"
 
@@ -40,7 +41,6 @@ struct Rupture : LSM::SlipSet {
 };
 static_assert(std::is_trivially_copyable<Rupture>::value, "Rupture goes into checkpoints");
 
-using LSM::RecentSlip;
 /// Everything a tracker has to remember between steps.
 using RuptureState = LSM::SlipSetsState<Rupture>;
 
@@ -49,13 +49,13 @@ using RuptureState = LSM::SlipSetsState<Rupture>;
 /// Call begin_step(), slide() for each block that slides in ascending order, end_step(). The result
 /// depends on nothing but these calls; a tracker restored by set_state() continues to the last
 /// digit.
-class RuptureTracker {
+class RuptureTracker : public LSM::SlipSets<Rupture> {
  public:
   /// \param memory steps, see above; at least 1
   /// \param centroid whether x_centroid is wanted
-  RuptureTracker(int blocks, std::int64_t memory, bool centroid) : sets_(blocks, 1, memory) {
+  RuptureTracker(int blocks, std::int64_t memory, bool centroid) : SlipSets(blocks, 1, memory) {
     if (!centroid) return;
-    const double circle = 2.0 * pi / blocks;
+    const double circle = 2.0 * LSM::pi / blocks;
     for (int i = 0; i < blocks; ++i) {
       cosine_.push_back(std::cos(circle * i));
       sine_.push_back(std::sin(circle * i));
@@ -64,13 +64,13 @@ class RuptureTracker {
 
   /// The step that leads to the given one, from PE pe_before.
   void begin_step(std::int64_t step, double pe_before) {
-    sets_.begin_step(step);
+    SlipSets::begin_step(step);
     pe_before_ = pe_before;
   }
 
   /// Block i slides by slip > 0; the springs do the given work on it.
   void slide(int i, double work, double slip) {
-    Rupture &r = sets_.slide(i, [this](Rupture &begun) { begun.pe_start = pe_before_; });
+    Rupture &r = SlipSets::slide(i, [this](Rupture &begun) { begun.pe_start = pe_before_; });
     r.size += work;
     r.slip += slip;
     if (!cosine_.empty()) {
@@ -83,17 +83,12 @@ class RuptureTracker {
   /// connected with any more, in order of step_end, step_start, first block.
   template <class Finished>
   void end_step(double pe, Finished &&finished) {
-    const std::int64_t step = sets_.step();
-    sets_.end_step(
-        [pe, step](Rupture &r) {
-          if (r.step_end == step) r.pe_end = pe;
+    SlipSets::end_step(
+        [this, pe](Rupture &r) {
+          if (r.step_end == step()) r.pe_end = pe;
         },
         finished);
   }
-
-  /// No rupture is open.
-  bool idle() const { return sets_.idle(); }
-  std::int64_t memory() const { return sets_.memory(); }
 
   /// The row of a catalogue, without its number.
   LSM::Event event(const Rupture &r, double dt) const {
@@ -108,23 +103,13 @@ class RuptureTracker {
     e.slip_moment = r.slip;
     e.rupture_length = static_cast<double>(r.length);
     if (r.slip_cos != 0.0 || r.slip_sin != 0.0) {
-      e.x_centroid = std::atan2(r.slip_sin, r.slip_cos) * (sets_.places() / (2.0 * pi));
-      if (e.x_centroid < 0.0) e.x_centroid += sets_.places();
+      e.x_centroid = std::atan2(r.slip_sin, r.slip_cos) * (places() / (2.0 * LSM::pi));
+      if (e.x_centroid < 0.0) e.x_centroid += places();
     }
     return e;
   }
 
-  /// After end_step().
-  RuptureState state() const { return sets_.state(); }
-
-  /// Goes on after the given step. \throws std::invalid_argument if no tracker can be in that
-  /// state.
-  void set_state(const RuptureState &s, std::int64_t step) { sets_.set_state(s, step); }
-
  private:
-  static constexpr double pi = 3.14159265358979323846;
-
-  LSM::SlipSets<Rupture> sets_;
   double pe_before_ = 0.0;
   std::vector<double> cosine_, sine_;
 };

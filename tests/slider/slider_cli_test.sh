@@ -269,17 +269,6 @@ bad_input)
   refused "--picker = 'best', expected" --picker best
   refused "--picker-lambda = 1, expected" --picker-lambda 1
   refused "--friction-range" --friction-range 1.0 0.5
-  : > empty.txt
-  refused "empty.txt: no coefficient" --friction-file empty.txt
-  printf '0.5\nx\n' > wrong.txt
-  refused "wrong.txt:2: 'x'" --friction-file wrong.txt
-  printf '0.5\n0.6\n' > few.txt
-  refused "few.txt: 2 coefficients, expected 16" --friction-file few.txt
-  refused "none.txt: cannot open" --friction-file none.txt
-  { printf '\357\273\277'; yes 0.5 | head -n 16 | sed 's/$/\r/'; } > windows.txt
-  must_run --blocks 16 --steps 100 --friction-file windows.txt --catalogue windows.csv
-  gzip -c few.txt > few.gz
-  refused "few.gz: compressed by gzip, expected a file that is not" --friction-file few.gz
   for number in -1 18446744073709551616 1e3 0x10 ' 7'; do
     refused "seed: expected a whole number from 0 to 18446744073709551615, not '$number'" "--seed=$number"
     refused "threads: expected a whole number from 0 to 4096, not '$number'" "--threads=$number"
@@ -290,7 +279,7 @@ bad_input)
   refused "no/such/folder" --pe-series no/such/folder/pe.txt
   refused "no/such/folder" --checkpoint no/such/folder/c.chk
   refused "no/such/folder" --json no/such/folder/s.json
-  refused "--resume needs --checkpoint" --resume
+  refused "--resume requires --checkpoint" --resume
   refused "--paper" --paper --scheme verlet
   refused "--friction-range" --friction-range 0.5 1.0 --friction-range 0.8 0.7
   refused "none.ini" --config none.ini
@@ -304,6 +293,8 @@ bad_input)
   refused_file '\357\273\277seed = 1\n' "wrong.ini: begins with a byte order mark"
   refused_file 's\0e\0e\0d\0' "wrong.ini: not a text file"
   refused "slider_cli: not a text file" --config "$program"
+  gzip -c wrong.ini > wrong.gz
+  refused "wrong.gz: compressed by gzip, expected a file that is not" --config wrong.gz
   # Above dt 0.01 the printed scheme runs, with a warning.
   must_run --blocks 16 --steps 100 --scheme printed --dt 0.05 --catalogue warned.csv
   grep -q 'warning: --dt = 0.05' err.txt || fail "no warning: $(cat err.txt)"
@@ -332,7 +323,7 @@ paper)
     'velocity = 0.01' 'warmup = 0' 'friction_low = 0.5' 'friction_high = 1'; do
     grep -q "^# $line\$" p.csv || fail "--paper does not give '$line'"
   done
-  grep -q -- '--friction-file' <<<"$("$program" --help)" || fail "--help"
+  grep -q -- '--friction-range' <<<"$("$program" --help)" || fail "--help"
   ;;
 overwrite)
   # Without --overwrite nothing that holds something is replaced, and the refusal leaves no file.
@@ -447,8 +438,6 @@ outputs)
     [ "$(cksum ./* 2> /dev/null)" = "$before" ] || fail "files changed by $*"
   }
   mkdir here && cd here || exit 1
-  echo 0.5 > mu.txt
-  yes 0.5 | head -n 16 > mu.txt
   printf 'blocks = 16\n' > s.ini
   printf -- '--seed 1\n--seed 2\n' > runs.txt
   ln -s a.csv link.csv
@@ -465,7 +454,6 @@ outputs)
     done
   done
   pattern='is read by this run'
-  both --friction-file mu.txt --catalogue mu.txt --overwrite
   both --config s.ini --catalogue hard.csv --overwrite
   both --config s.ini --json s.ini
   both --ensemble runs.txt --json ./runs.txt
@@ -594,8 +582,6 @@ leap)
   same run2.csv alone.csv 5
   refused "--leap = -1, expected a finite number >= 0" --leap -1
   refused "--leap = nan, expected" --leap nan
-  refused "--leap-calm = 0, expected a positive number" --leap 1e-3 --leap-calm 0
-  refused "--leap-calm needs --leap" --leap-calm 10
   refused "--kernel = 'scalar', expected active or dense" --kernel scalar
   ;;
 *)

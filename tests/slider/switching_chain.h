@@ -74,6 +74,27 @@ class SwitchingChain {
   std::unique_ptr<gsl_odeiv2_step, FreeStep> stepper_;
 };
 
+/// A chain of slider_cli that starts from given displacements (the paper has 0), at rest.
+class StartedChain : public Chain {
+ public:
+  StartedChain(const Parameters &p, const std::vector<double> &mu) : Chain(p, mu, false), p_(p) {}
+
+  void set_displacements(const std::vector<double> &u) {
+    ChainState s;
+    s.u = u;
+    s.v.assign(u.size(), 0.0);
+    LSM::NeumaierSum sum;
+    for (double x : u) sum.add(x);
+    s.slip_sum = sum.sum();
+    s.slip_compensation = sum.compensation();
+    s.pe_sum = direct_energy(p_, u, 0.0);
+    set_state(s);
+  }
+
+ private:
+  Parameters p_;
+};
+
 /// A scheme of slider_cli, or one of those above.
 using AnyScheme = std::variant<Scheme, Located>;
 
@@ -90,7 +111,7 @@ auto with_chain(Parameters p, const std::vector<double> &mu, const AnyScheme &sc
     return work(chain);
   }
   p.scheme = std::get<Scheme>(scheme);
-  Chain chain(p, mu, false);
+  StartedChain chain(p, mu);
   return work(chain);
 }
 

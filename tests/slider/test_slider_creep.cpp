@@ -57,10 +57,10 @@ TEST(SliderCreep, RatesOfOneTwoAndAllBlocks) {
   EXPECT_EQ(creep.displacement(0), 0.0);
   while (creep.next() < Creep::never) creep.join();
   EXPECT_EQ(creep.creeping(), 6);
-  const double before = creep.displacement(4), way = creep.way();
+  const double before = creep.displacement(4), way = creep.now().way;
   creep.to(way + 3.0);
   EXPECT_NEAR(creep.displacement(4), before + 3.0, 1e-12);
-  EXPECT_NEAR(creep.pe_slope(), 0.0, 1e-15);
+  EXPECT_NEAR(creep.now().slope, 0.0, 1e-15);
 }
 
 TEST(SliderCreep, SolvesTheProblemOfFriction) {
@@ -95,7 +95,7 @@ TEST(SliderCreep, SolvesTheProblemOfFriction) {
       }
       checked += moved > 0 && moved < blocks;
       const double change = direct_energy(p, u, plate + way) - direct_energy(p, u0, plate);
-      ASSERT_NEAR(creep.pe(), change, 1e-11 * direct_energy(p, u0, plate)) << way;
+      ASSERT_NEAR(creep.now().pe, change, 1e-11 * direct_energy(p, u0, plate)) << way;
     }
     EXPECT_EQ(creep.creeping(), blocks);
     if (blocks > 2) {

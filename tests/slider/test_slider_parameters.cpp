@@ -2,8 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
-#include <fstream>
 #include <string>
 
 #include "slider_parameters.h"
@@ -61,27 +59,6 @@ TEST(SliderParameters, BadValuesNameTheOption) {
   p = Parameters();
   p.blocks = 0;
   EXPECT_NE(message(p).find("--blocks"), std::string::npos);
-}
-
-TEST(SliderParameters, FrictionFile) {
-  const std::string path = testing::TempDir() + "slider_friction.txt";
-  std::ofstream(path) << "# coefficients\n0.5\n\n 0.75 \n1e0\r\n";
-  EXPECT_EQ(read_friction(path), (std::vector<double>{0.5, 0.75, 1.0}));
-  auto fails_with = [&](const std::string &text, const std::string &expected) {
-    std::ofstream(path) << text;
-    try {
-      read_friction(path);
-      ADD_FAILURE() << text;
-    } catch (const std::runtime_error &e) {
-      EXPECT_NE(std::string(e.what()).find(expected), std::string::npos) << e.what();
-    }
-  };
-  fails_with("0.5\n0.6 0.7\n", ":2: '0.6 0.7', expected");
-  fails_with("0.5\nabc\n", ":2: 'abc', expected");
-  fails_with("-0.5\n", ":1: '-0.5', expected");
-  fails_with("nan\n", ":1: 'nan', expected");
-  fails_with("", "no coefficient");
-  std::remove(path.c_str());
 }
 
 TEST(SliderParameters, RandomFrictionDependsOnSeedOnly) {

@@ -194,7 +194,7 @@ TEST(SliderPhysics, BlockPushedBackwardsStaysStuck) {
   p.dt = 0.01;
   for (Scheme scheme : stepped) {
     p.scheme = scheme;
-    Chain chain(p, {5.0, 5.0, 5.0}, false);
+    StartedChain chain(p, {5.0, 5.0, 5.0});
     // The first block is 2 ahead: pushed back with 4, above its coefficient in magnitude.
     chain.set_displacements({2.0, 0.0, 0.0});
     for (int n = 0; n < 1000; ++n) chain.advance();

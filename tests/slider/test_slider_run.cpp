@@ -63,7 +63,7 @@ TEST(SliderRun, JumpingChangesNoEvent) {
     EXPECT_GT(active.jumped, 100000);
     EXPECT_EQ(dense.jumped, 0);
     EXPECT_GT(active.events, 20);
-    EXPECT_EQ(active.dropped_nonpositive, dense.dropped_nonpositive);
+    EXPECT_EQ(active.picker.dropped_nonpositive, dense.picker.dropped_nonpositive);
     EXPECT_EQ(text(a), text(b));
     // The whole state at the end: displacements, velocities, PE, picker.
     EXPECT_GT(text(a + ".chk").size(), 500U);
@@ -105,7 +105,7 @@ TEST(SliderRun, EventsAreThoseOfTheSeries) {
     }
   }
   ASSERT_GT(drops.size(), 50U);
-  EXPECT_EQ(static_cast<std::size_t>(r.dropped_nonpositive), nonpositive);
+  EXPECT_EQ(static_cast<std::size_t>(r.picker.dropped_nonpositive), nonpositive);
   ASSERT_EQ(c.events.size(), drops.size());
   ASSERT_EQ(r.events, static_cast<std::int64_t>(drops.size()));
   double slip = 0.0, largest = 0.0, longest = 0.0;
@@ -127,7 +127,7 @@ TEST(SliderRun, EventsAreThoseOfTheSeries) {
     largest = std::max(largest, e.size);
     longest = std::max(longest, e.rupture_length);
   }
-  EXPECT_EQ(largest, r.largest_event);
+  EXPECT_EQ(largest, r.largest);
   EXPECT_EQ(longest, 50.0);
   // Blocks also slide while the plate raises PE faster, but most of the slip is in events.
   EXPECT_LE(slip, 50.0 * r.mean_slip);
