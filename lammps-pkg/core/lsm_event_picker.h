@@ -48,14 +48,18 @@ inline double lambda_from_memory_time(double memory_time, double dt) {
   return std::exp(-dt / memory_time);
 }
 
+/// When an event happened and how large it was: all that most statistics need of it.
+struct Shock {
+  double t_start = 0.0, t_end = 0.0;
+  double size = 0.0;  ///< pe_start - pe_end
+};
+
 /// One event. Times in model time, steps as pushed, energies in model energy.
 /// The picker fills all but slip_moment and the members after it, which belong to the program that
 /// knows the slip.
-struct Event {
+struct Event : Shock {
   std::int64_t id = 0;  ///< 1, 2, ... over the reported events
-  double t_start = 0.0, t_end = 0.0;
   std::int64_t step_start = 0, step_end = 0;
-  double size = 0.0;  ///< pe_start - pe_end
   double pe_start = 0.0, pe_end = 0.0;
   double slip_moment = 0.0, x_centroid = 0.0, rupture_length = 0.0;
   double x_hypocentre = 0.0, x_begin = 0.0, mean_slip = 0.0, stress_drop = 0.0;  ///< of ruptures

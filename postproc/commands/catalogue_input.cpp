@@ -13,6 +13,7 @@
 #include "input_file.h"
 #include "lsm_huge_pages.h"
 #include "lsm_text_io.h"
+#include "samples.h"
 
 namespace LSM::postproc {
 
@@ -177,7 +178,7 @@ std::string all_of(text_io::Bytes &bytes) {
 
 /// Gives an event to use if it lies within [from, to) and is large enough.
 void choose(const Event &event, double from, double to, const CatalogueOptions &options,
-            EventTable &table, const std::function<void(const Event &)> &use) {
+            EventTable &table, const UseEvent &use) {
   if (event.t_start < from || event.t_start >= to)
     ++table.left_out_time;
   else if (event.size < options.min_size)
@@ -190,8 +191,8 @@ void choose(const Event &event, double from, double to, const CatalogueOptions &
 }
 
 EventTable read_earthquake_events(text_io::Bytes &bytes, CatalogueFormat format,
-                                  const CatalogueOptions &options,
-                                  const std::function<void(const Event &)> &use) {
+                                  const CatalogueOptions &options, const UseEvent &use,
+                                  const UseTable &begin) {
   const std::string &path = bytes.path();
   if (options.displacement)
     throw FileError(path + ": earthquakes, expected a catalogue of a model for --displacement");
@@ -205,6 +206,7 @@ EventTable read_earthquake_events(text_io::Bytes &bytes, CatalogueFormat format,
     table.region = options.regions.front();
     table.label += " " + table.region;
   }
+  begin(table);
   std::int64_t elsewhere = 0;
   for (const Earthquake &one : list.events) {
     if (!table.region.empty() && !parse_region(table.region).contains(one)) {
@@ -231,7 +233,7 @@ EventTable read_earthquake_events(text_io::Bytes &bytes, CatalogueFormat format,
 }
 
 EventTable read_model_events(std::unique_ptr<text_io::Bytes> bytes, const CatalogueOptions &options,
-                             const std::function<void(const Event &)> &use) {
+                             const UseEvent &use, const UseTable &begin) {
   const std::string path = bytes->path();
   CatalogueReader reader(std::move(bytes), options.lenient);
   EventTable table;
@@ -244,6 +246,7 @@ EventTable read_model_events(std::unique_ptr<text_io::Bytes> bytes, const Catalo
   table.completeness = table.info.completeness();
   table.completeness_path = path;
   const double unit = time_unit(table.info, path, options.displacement);
+  begin(table);
   Event event;
   while (reader.next(event)) {
     event.t_start *= unit;
@@ -259,27 +262,51 @@ EventTable read_model_events(std::unique_ptr<text_io::Bytes> bytes, const Catalo
 }  // namespace
 
 EventTable read_events(const std::string &path, const CatalogueOptions &options,
-                       const std::function<void(const Event &)> &use) {
+                       const UseEvent &use, const UseTable &begin) {
   // Opened once, as a pipe can be read only once.
   std::unique_ptr<text_io::Bytes> bytes = open_input(path);
   const CatalogueFormat format = options.format == CatalogueFormat::detect
                                      ? detect_format(bytes->peek(head_size))
                                      : options.format;
-  return format == CatalogueFormat::models ? read_model_events(std::move(bytes), options, use)
-                                           : read_earthquake_events(*bytes, format, options, use);
+  return format == CatalogueFormat::models
+             ? read_model_events(std::move(bytes), options, use, begin)
+             : read_earthquake_events(*bytes, format, options, use, begin);
 }
 
+namespace {
+
+/// Leaves the largest `most` events.
+void keep_largest(std::vector<Event> &events, std::size_t most) {
+  if (events.size() <= most) return;
+  const double least = nth_largest(column(events, &Event::size), most);
+  events.erase(std::remove_if(events.begin(), events.end(),
+                              [least](const Event &event) { return event.size < least; }),
+               events.end());
+}
+
+}  // namespace
+
 EventTable read_all(const std::string &path, const CatalogueOptions &options) {
-  std::vector<Event> events;
+  std::vector<Shock> events;
+  std::vector<Event> details;
   // Growing would touch each page twice; no line of a catalogue of a model is shorter.
   std::error_code ignored;
   constexpr std::uintmax_t shortest_line = 40;
   const std::uintmax_t bytes = std::filesystem::file_size(path, ignored);
   if (!ignored) events.reserve(bytes / shortest_line);
-  ask_for_huge_pages(events.data(), events.capacity() * sizeof(Event));
-  EventTable table =
-      read_events(path, options, [&events](const Event &event) { events.push_back(event); });
+  ask_for_huge_pages(events.data(), events.capacity() * sizeof(Shock));
+  std::size_t room = 2 * options.details;
+  EventTable table = read_events(path, options, [&](const Event &event) {
+    events.push_back(event);
+    if (options.details == 0) return;
+    details.push_back(event);
+    if (details.size() < room) return;
+    keep_largest(details, options.details);
+    room = 2 * details.size();
+  });
+  keep_largest(details, options.details);
   table.events = std::move(events);
+  table.details = std::move(details);
   return table;
 }
 
@@ -287,9 +314,11 @@ EventTable load_catalogue(const std::string &path, const CatalogueOptions &optio
   EventTable table = read_all(path, options);
   // Times between events are from start to start, but those that overlap are in order of their
   // ends.
-  if (table.info.overlapping())
-    std::stable_sort(table.events.begin(), table.events.end(),
-                     [](const Event &a, const Event &b) { return a.t_start < b.t_start; });
+  const auto earlier = [](const Shock &a, const Shock &b) { return a.t_start < b.t_start; };
+  if (table.info.overlapping()) {
+    std::stable_sort(table.events.begin(), table.events.end(), earlier);
+    std::stable_sort(table.details.begin(), table.details.end(), earlier);
+  }
   return table;
 }
 

@@ -26,6 +26,9 @@ struct CatalogueOptions {
   double to_time = std::numeric_limits<double>::infinity();     ///< first t_start left out
   double from_day = -std::numeric_limits<double>::infinity();   ///< the same of earthquakes
   double to_day = std::numeric_limits<double>::infinity();
+  /// Number of events, the largest (and equal ones), of which a table has all columns.
+  std::size_t details = 0;
+  static constexpr std::size_t all_events = std::numeric_limits<std::size_t>::max() / 2;
   CatalogueFormat format = CatalogueFormat::detect;
   std::vector<std::string> regions;  ///< of earthquakes, "W/E/S/N"; a table for each, or one
   /// Times, from_time and to_time are displacements of the plates: model time times driving
@@ -48,9 +51,13 @@ void set_parameter(text_io::Parameters &parameters, const std::string &key,
                    const std::string &value);
 
 /// Gives each event of a catalogue that the options choose to use, which need not keep it; returns
-/// the table without events. \throws FileError "file:line: what, expected ..."
-EventTable read_events(const std::string &path, const CatalogueOptions &options,
-                       const std::function<void(const Event &)> &use);
+/// the table without events. \param begin called with what is known before the first event
+/// \throws FileError "file:line: what, expected ..."
+using UseEvent = std::function<void(const Event &)>;
+using UseTable = std::function<void(const EventTable &)>;
+EventTable read_events(
+    const std::string &path, const CatalogueOptions &options, const UseEvent &use,
+    const UseTable &begin = [](const EventTable &) {});
 
 /// Reads one catalogue; of earthquakes those in the first region. Events are in the order of the
 /// file. \throws FileError "file:line: what, expected ..."

@@ -89,9 +89,7 @@ ExploreEvents load_kind(EventTable table) {
     throw std::runtime_error(table.path + ": no events, expected at least one");
   ExploreEvents kind;
   kind.thresholds = scan_thresholds(table, threshold_grid(table));
-  kind.events = table.events;
   kind.table = std::move(table);
-  kind.thin(most_events);
   return kind;
 }
 
@@ -109,6 +107,7 @@ class Explore : public Command {
 
   void add_options(CLI::App *command) override {
     catalogues_.add_to(command);
+    catalogues_.details = most_events;
     page_.program = "postproc " POSTPROC_VERSION;
     OptionGroup own(command);
     own.add("-o,--output", output_, "The page");

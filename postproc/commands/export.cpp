@@ -101,7 +101,7 @@ class Export : public CatalogueAnalysis {
   /// Row of an event of the catalogue with this number.
   std::string row_of(const Event &event, std::size_t number, std::int64_t start) const {
     const int last_year = csep() ? 9999 : 2261;
-    const double magnitude = magnitudes_.magnitude(event);
+    const double magnitude = magnitudes_.magnitude(magnitudes_.quantity(event));
     const double longitude = event.x_centroid * degrees_;
     const std::string date = date_text(event.t_start * unit_, start, last_year);
     if (date.empty())

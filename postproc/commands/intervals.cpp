@@ -71,6 +71,11 @@ class Intervals : public Statistic {
     return files;
   }
 
+  Findings find() override {
+    if (settings_.places > 0) catalogues.details = CatalogueOptions::all_events;
+    return Statistic::find();
+  }
+
   static Table times_of(const std::vector<IntervalCurve> &curves) {
     Table table("label,threshold,n,mean,variation,!source,!unit,!burstiness");
     table.show({{"catalogue", "label"},

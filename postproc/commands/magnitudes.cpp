@@ -40,8 +40,10 @@ class Magnitudes : public Statistic {
   std::vector<double> magnitudes_in(const EventTable &table) const {
     magnitudes_.require(table.path, table.info);
     std::vector<double> out;
-    for (const Event &event : table.events)
-      if (magnitudes_.quantity(event) > 0.0) out.push_back(magnitudes_.magnitude(event));
+    for (const double quantity : magnitudes_.of_moment()
+                                     ? column(table.details, &Event::slip_moment)
+                                     : column(table.events, &Event::size))
+      if (quantity > 0.0) out.push_back(magnitudes_.magnitude(quantity));
     return out;
   }
 
@@ -69,6 +71,11 @@ class Magnitudes : public Statistic {
     // The first whole bin.
     const double bin = magnitudes_.bin;
     if (bin > 0.0) curve.completeness = bin * std::ceil(curve.completeness / bin - 1e-9);
+  }
+
+  Findings find() override {
+    if (magnitudes_.of_moment()) catalogues.details = CatalogueOptions::all_events;
+    return Statistic::find();
   }
 
   Findings of(const std::vector<EventTable> &tables) override {

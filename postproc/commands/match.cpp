@@ -16,7 +16,7 @@ void count_from(EventTable &table, double origin, bool displacement) {
   double velocity = 1.0;
   if (displacement) text_io::parse(*table.info.find("velocity"), velocity);
   const double shift = origin * std::fabs(velocity);
-  for (Event &event : table.events) {
+  for (Shock &event : table.events) {
     event.t_start -= shift;
     event.t_end -= shift;
   }

@@ -131,7 +131,7 @@ struct MagnitudeOptions {
   double quantity(const Event &event) const { return of_moment() ? event.slip_moment : event.size; }
   /// \throws std::runtime_error if the catalogue lacks the column
   void require(const std::string &path, const CatalogueInfo &info) const;
-  double magnitude(const Event &event) const { return binned(scale.of(quantity(event)), bin); }
+  double magnitude(double quantity) const { return binned(scale.of(quantity), bin); }
 };
 
 /// Options of the files that a command writes in addition to its findings.

@@ -36,7 +36,7 @@ std::string catalogue_section(const std::vector<EventTable> &tables, const Thres
     std::string starts = "no events", range = starts;
     if (!events.events.empty()) {
       Extent sizes;
-      for (const Event &event : events.events) sizes.add(event.size);
+      for (const Shock &event : events.events) sizes.add(event.size);
       range = fmt::format("{} to {}", short_number(sizes.lo, 3), short_number(sizes.hi, 3));
       starts = fmt::format("{} to {}", short_number(events.events.front().t_start, 6),
                            short_number(events.events.back().t_start, 6));

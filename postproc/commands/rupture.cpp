@@ -62,6 +62,7 @@ class Rupture : public CatalogueAnalysis {
 
   void add_options(CLI::App *command) override {
     catalogues.add_to(command);
+    catalogues.details = CatalogueOptions::all_events;
     json.add_to(command);
     add_picture(command, "rupture");
     OptionGroup group(command, "Slip history");
@@ -92,7 +93,7 @@ class Rupture : public CatalogueAnalysis {
     };
     const HistoryWindow window = between(catalogues.from_time, catalogues.to_time);
     std::vector<Event> inside;
-    for (const Event &e : catalogue.events)
+    for (const Event &e : catalogue.details)
       if (e.t_start >= window.from && e.t_end <= window.to) inside.push_back(e);
     const Event event = chosen(inside, event_, catalogue.path);
     const double room = 0.15 * (event.t_end - event.t_start);
@@ -125,12 +126,12 @@ class Rupture : public CatalogueAnalysis {
       state_repairs(table);
       if (!catalogues.labels.empty()) table.label = catalogues.labels[tables.size()];
       double moment = 0.0, largest = 0.0, longest = 0.0;
-      for (const Event &e : table.events) {
+      for (const Event &e : table.details) {
         moment += e.slip_moment;
         largest = std::max(largest, e.slip_moment);
         longest = std::max(longest, e.rupture_length);
       }
-      largest_of.row(table.label, table.events.size(), moment, largest, longest);
+      largest_of.row(table.label, table.details.size(), moment, largest, longest);
       tables.push_back(std::move(table));
     }
     found.table("catalogues", std::move(largest_of));

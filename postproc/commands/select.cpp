@@ -51,21 +51,21 @@ class Select : public CatalogueAnalysis {
     if (catalogues.paths.size() != 1)
       throw std::invalid_argument(
           fmt::format("{} catalogues, expected one", catalogues.paths.size()));
-    const std::string &path = catalogues.paths.front();
     check(catalogues);
-    const EventTable table = read_all(path, catalogues);
-    if (table.earthquakes())
-      throw std::invalid_argument(path + ": earthquakes, expected a catalogue of a model");
     const FileLock lock = claim_output(output_.path, output_.force);
     CatalogueWriter writer;
-    writer.create(output_.path, header_of(table, catalogues), true);
-    for (const Event &event : table.events) writer.write(event);
+    const EventTable table = read_events(
+        catalogues.paths.front(), catalogues, [&](const Event &event) { writer.write(event); },
+        [&](const EventTable &of) {
+          if (of.earthquakes())
+            throw std::invalid_argument(of.path + ": earthquakes, expected a catalogue of a model");
+          writer.create(output_.path, header_of(of, catalogues), true);
+        });
     writer.close();
     state_repairs(table);
     Findings found;
-    found.say(fmt::format("{} events; left out: {} by time, {} by size\nwrote {}\n",
-                          table.events.size(), table.left_out_time, table.left_out_small,
-                          output_.path));
+    found.say(fmt::format("{} events; left out: {} by time, {} by size\nwrote {}\n", writer.rows(),
+                          table.left_out_time, table.left_out_small, output_.path));
     return found;
   }
 };

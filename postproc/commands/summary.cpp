@@ -103,7 +103,7 @@ class Summary : public CatalogueAnalysis {
     double dt = 0.0;
     if (!text || !text_io::parse(*text, dt)) return std::nan("");
     std::int64_t brief = 0;
-    for (const Event &event : table.events)
+    for (const Shock &event : table.events)
       brief += event.size >= least && event.t_end - event.t_start <= (brief_ + 0.5) * dt;
     return share(brief, static_cast<std::size_t>(events_from(table, least)));
   }

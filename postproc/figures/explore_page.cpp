@@ -159,7 +159,7 @@ json events_json(const ExploreEvents &kind, const std::string &id, PageData &dat
     if (index > catalogue_detail::required && !(info.*catalogue_detail::optional_columns[optional]))
       continue;
     names.push_back(column.name);
-    for (const Event &event : kind.events)
+    for (const Event &event : kind.table.details)
       numbers.push_back(column.number ? event.*column.number
                                       : static_cast<double>(event.*column.integer));
   }
@@ -173,7 +173,7 @@ json events_json(const ExploreEvents &kind, const std::string &id, PageData &dat
   return {{"kind", kind.table.kind() == "pe" ? "drops" : kind.table.kind()},
           {"file", kind.table.path},
           {"count", kind.table.events.size()},
-          {"listed", kind.events.size()},
+          {"listed", kind.table.details.size()},
           {"columns", names},
           {"numbers", data.packed_element(id + "-events", packed(numbers))},
           {"densities", bins_json(sizes.bins())},
@@ -225,14 +225,6 @@ void ExploreSeries::thin(std::int64_t most) {
   }
   pe = std::move(some);
   times = std::move(some_times);
-}
-
-void ExploreEvents::thin(std::size_t most) {
-  if (events.size() <= most) return;
-  const double least = nth_largest(column(events, &Event::size), most);
-  events.erase(std::remove_if(events.begin(), events.end(),
-                              [least](const Event &event) { return event.size < least; }),
-               events.end());
 }
 
 std::string explore_html(const std::vector<ExploreRun> &runs, const ExploreSettings &settings) {

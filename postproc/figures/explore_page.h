@@ -34,12 +34,8 @@ struct ExploreSeries {
 
 /// Events of one kind.
 struct ExploreEvents {
-  EventTable table;           ///< those that the statistics use
-  std::vector<Event> events;  ///< those that the page lists, in order of t_start
+  EventTable table;  ///< `details` are those that the page lists
   std::vector<ThresholdResult> thresholds;
-
-  /// Leaves the largest `most` events.
-  void thin(std::size_t most);
 };
 
 struct ExploreRun {

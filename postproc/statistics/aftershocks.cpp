@@ -246,14 +246,6 @@ void check(const Sequences &s, double hold_c) {
 
 }  // namespace
 
-std::vector<Shock> shocks_of(const EventTable &table) {
-  std::vector<Shock> shocks;
-  shocks.reserve(table.events.size());
-  for (const Event &event : table.events)
-    shocks.push_back({event.t_start, event.t_end, event.size});
-  return shocks;
-}
-
 Sequences stack_sequences(const std::vector<Shock> &events, const SequenceRule &rule) {
   if (!(rule.window > 0.0) || !std::isfinite(rule.window))
     throw std::invalid_argument("window after main shocks: expected a positive finite time");
@@ -267,12 +259,12 @@ Sequences stack_sequences(const std::vector<Shock> &events, const SequenceRule &
   for (std::size_t k = 0; k < events.size(); ++k) {
     const Shock main = events[k];
     if (!(main.size >= rule.main_size)) continue;
-    const double from = main.start - rule.window, to = main.end + rule.window;
-    if (from < events.front().start || to > events.back().start) continue;
-    while (events[earliest].start < from) ++earliest;
+    const double from = main.t_start - rule.window, to = main.t_end + rule.window;
+    if (from < events.front().t_start || to > events.back().t_start) continue;
+    while (events[earliest].t_start < from) ++earliest;
     std::size_t last = earliest;
     bool largest = true;
-    for (; largest && last < events.size() && events[last].start <= to; ++last)
+    for (; largest && last < events.size() && events[last].t_start <= to; ++last)
       largest = last == k || events[last].size < main.size ||
                 (events[last].size == main.size && last > k);
     if (!largest) continue;
@@ -281,11 +273,11 @@ Sequences stack_sequences(const std::vector<Shock> &events, const SequenceRule &
       const Shock &other = events[i];
       if (other.size < rule.least_size || i == k) continue;
       // Those that overlap may begin before the main shock and yet start after its end.
-      if (other.start >= main.end + rule.first)
-        stack.times.push_back(std::min(other.start - main.end, rule.window));
+      if (other.t_start >= main.t_end + rule.first)
+        stack.times.push_back(std::min(other.t_start - main.t_end, rule.window));
       // Events that overlap with the main shock are neither before nor after it.
-      if (i < k && main.start - other.end >= rule.first)
-        stack.before.push_back(main.start - other.end);
+      if (i < k && main.t_start - other.t_end >= rule.first)
+        stack.before.push_back(main.t_start - other.t_end);
     }
   }
   std::sort(stack.times.begin(), stack.times.end());
@@ -341,7 +333,7 @@ std::vector<Shock> poisson_catalogue(const std::vector<Shock> &events, bool over
   const auto exponential = [&random] { return -std::log1p(-random.uniform()); };
   std::vector<Shock> out = events;
   shuffle(out, random);
-  const double first = events.front().start, last = events.back().start;
+  const double first = events.front().t_start, last = events.back().t_start;
   std::vector<double> starts(n);
   double time = overlapping ? 0.0 : first;
   if (overlapping) {
@@ -351,16 +343,16 @@ std::vector<Shock> poisson_catalogue(const std::vector<Shock> &events, bool over
     for (double &start : starts) start = std::min(last, first + (last - first) * (start / time));
   } else {
     NeumaierSum gaps;
-    for (std::size_t i = 1; i < n; ++i) gaps.add(events[i].start - events[i - 1].end);
+    for (std::size_t i = 1; i < n; ++i) gaps.add(events[i].t_start - events[i - 1].t_end);
     const double mean = gaps.value() / static_cast<double>(n - 1);
     for (std::size_t i = 0; i < n; ++i) {
       starts[i] = time;
-      time += out[i].end - out[i].start + mean * exponential();
+      time += out[i].t_end - out[i].t_start + mean * exponential();
     }
   }
   for (std::size_t i = 0; i < n; ++i) {
-    out[i].end = starts[i] + (out[i].end - out[i].start);
-    out[i].start = starts[i];
+    out[i].t_end = starts[i] + (out[i].t_end - out[i].t_start);
+    out[i].t_start = starts[i];
   }
   return out;
 }
@@ -418,17 +410,16 @@ void compare(const std::vector<Replica> &replicas, Aftershocks &result) {
 Aftershocks aftershocks_of(const EventTable &table, const SequenceRule &rule, double hold_c,
                            double factor, int replicas, std::uint64_t seed) {
   if (replicas < 0) throw std::invalid_argument("Poisson catalogues: expected 0 or more replicas");
-  const std::vector<Shock> events = shocks_of(table);
   Aftershocks result;
   result.rule = rule;
-  result.sequences = stack_sequences(events, rule);
+  result.sequences = stack_sequences(table.events, rule);
   result.fit = fit_omori(result.sequences, hold_c);
   result.bins = rate_bins(result.sequences, rule, factor);
   std::vector<Replica> all(static_cast<std::size_t>(replicas));
   const QuietGsl quiet;
   for_each_replica(replicas, [&](int k) {
     const Sequences other = stack_sequences(
-        poisson_catalogue(events, table.info.overlapping(), seed_of_replica(seed, k)), rule);
+        poisson_catalogue(table.events, table.info.overlapping(), seed_of_replica(seed, k)), rule);
     if (other.main_shocks == 0) return;
     Replica &replica = all[static_cast<std::size_t>(k)];
     replica.used = true;

@@ -26,12 +26,6 @@ struct SequenceRule {
   double first = 0.0;       ///< events sooner than this after the end are not counted
 };
 
-/// The properties of an event used here.
-struct Shock {
-  double start, end, size;
-};
-std::vector<Shock> shocks_of(const EventTable &table);
-
 /// Events after and before main shocks, all sequences on top of each other.
 struct Sequences {
   std::vector<double> times;  ///< starts, since the end of the main shock; ascending

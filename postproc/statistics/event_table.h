@@ -25,9 +25,10 @@ struct Range {
 struct EventTable {
   std::string path, label, region;  ///< region: of earthquakes, or empty
   CatalogueInfo info;
-  std::vector<Event> events;  ///< in order of t_start
-  double in_events = 0.0;     ///< sum of the durations (model time)
-  double last_end = 0.0;      ///< t_end of the last event (model time)
+  std::vector<Shock> events;   ///< in order of t_start
+  std::vector<Event> details;  ///< all columns of the largest of them: of as many as asked for
+  double in_events = 0.0;      ///< sum of the durations (model time)
+  double last_end = 0.0;       ///< t_end of the last event (model time)
   /// Smaller events are missing: a smallest size given, the picker's min_size in the header, or the
   /// smallest earthquake (energy).
   double complete_from = 0.0;
@@ -59,10 +60,16 @@ struct EventTable {
 };
 
 /// One number of each event.
-std::vector<double> column(const std::vector<Event> &events, double Event::*number);
+template <class Row, class Part>
+std::vector<double> column(const std::vector<Row> &events, double Part::*number) {
+  std::vector<double> out;
+  out.reserve(events.size());
+  for (const Row &event : events) out.push_back(event.*number);
+  return out;
+}
 
 /// The same of the events of at least a size, and how many these are.
-std::vector<double> column_from(const EventTable &table, double least, double Event::*number);
+std::vector<double> column_from(const EventTable &table, double least, double Shock::*number);
 std::int64_t events_from(const EventTable &table, double least);
 
 /// Size below which events are left out, and why there.

@@ -52,7 +52,7 @@ std::vector<double> times_at_places(const EventTable &table, double threshold, i
   for (int place = 0; place < places; ++place) {
     const double x = (place + 0.5) * length / places;
     double before = NAN;
-    for (const Event &event : table.events) {
+    for (const Event &event : table.details) {
       if (!(event.size >= threshold)) continue;
       // The row that it ruptured may continue across the periodic border.
       double beyond = std::fmod(x - event.x_begin, length);

@@ -22,7 +22,7 @@ namespace {
 // than one.
 std::vector<LogBin> length_bins(const EventTable &table, double bin) {
   std::map<std::int64_t, std::int64_t> counts;
-  for (const Event &e : table.events)
+  for (const Event &e : table.details)
     ++counts[std::max<std::int64_t>(1, std::llround(e.rupture_length / bin))];
   std::vector<LogBin> bins;
   for (std::int64_t lo = 1; !counts.empty() && lo <= counts.rbegin()->first;) {
@@ -92,7 +92,7 @@ std::vector<bool> slips_by_itself(const std::vector<Event> &events) {
 
 std::vector<LogBin> rupture_densities(const EventTable &table, RuptureQuantity quantity) {
   Extent times;
-  for (const Event &e : table.events) {
+  for (const Event &e : table.details) {
     times.add(e.t_start);
     times.add(e.t_end);
   }
@@ -106,7 +106,7 @@ std::vector<LogBin> rupture_densities(const EventTable &table, RuptureQuantity q
       throw std::runtime_error(table.path + ": slip_bin in the header is not positive");
     bins = length_bins(table, bin);
   } else {
-    bins = LogHistogram(column(table.events, &Event::slip_moment)).bins();
+    bins = LogHistogram(column(table.details, &Event::slip_moment)).bins();
   }
   for (LogBin &bin : bins) {
     const double width = unit * (bin.hi - bin.lo);
@@ -162,17 +162,17 @@ RuptureScatter scatter_of(const EventTable &table, RuptureRelations &all, Pairs 
                           Pairs &fallen, Pairs &fallen_alone) {
   RuptureScatter out;
   out.label = table.label;
-  out.ruptures = table.events.size();
+  out.ruptures = table.details.size();
   out.one_of =
       std::max<std::size_t>(1, (out.ruptures + RuptureScatter::most - 1) / RuptureScatter::most);
-  const double large = out.one_of > 1 ? nth_largest(column(table.events, &Event::slip_moment),
+  const double large = out.one_of > 1 ? nth_largest(column(table.details, &Event::slip_moment),
                                                     RuptureScatter::largest)
                                       : 0.0;
   const double whole = table.length() * (1.0 - 1e-9);
-  const std::vector<bool> alone = slips_by_itself(table.events);
+  const std::vector<bool> alone = slips_by_itself(table.details);
   StressMeans means;
-  for (std::size_t i = 0; i < table.events.size(); ++i) {
-    const Event &e = table.events[i];
+  for (std::size_t i = 0; i < table.details.size(); ++i) {
+    const Event &e = table.details[i];
     if (!(e.slip_moment > 0.0)) continue;
     const RupturePoint point = {e.id,          e.rupture_length,      e.slip_moment,
                                 e.stress_drop, e.pe_start - e.pe_end, e.rupture_length > whole,

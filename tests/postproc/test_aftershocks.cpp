@@ -14,6 +14,7 @@
 #include "coverage.h"
 #include "event_tables.h"
 
+using LSM::Shock;
 using namespace LSM::postproc;
 
 namespace {
@@ -86,7 +87,7 @@ TEST(Sequences, MainShocksByHand) {
   rule.main_size = 50;
   rule.least_size = 1;
   rule.window = 20;
-  const Sequences s = stack_sequences(shocks_of(table), rule);
+  const Sequences s = stack_sequences(table.events, rule);
   // At 100 (ends at 110), at 200 (ends at 202; the equal one at 203 comes second), at 300.
   EXPECT_EQ(s.main_shocks, 3);
   // 105 begins before the end; 120 is too small.
@@ -94,18 +95,18 @@ TEST(Sequences, MainShocksByHand) {
   // Nothing ends within 20 before 100 and 300, nor before 200.
   EXPECT_TRUE(s.before.empty());
   rule.first = 1.5;
-  EXPECT_EQ(stack_sequences(shocks_of(table), rule).times, (std::vector<double>{2, 10}));
+  EXPECT_EQ(stack_sequences(table.events, rule).times, (std::vector<double>{2, 10}));
   rule.first = 0.0;
   rule.window = 99;
   // 200 ends 98 before 300, which is larger; 100 ends 90 before 200, which is as large and later.
-  EXPECT_EQ(stack_sequences(shocks_of(table), rule).main_shocks, 2);
+  EXPECT_EQ(stack_sequences(table.events, rule).main_shocks, 2);
   // The window has to lie within the catalogue.
   rule.window = 201;
-  EXPECT_EQ(stack_sequences(shocks_of(table), rule).main_shocks, 0);
+  EXPECT_EQ(stack_sequences(table.events, rule).main_shocks, 0);
   rule.window = 0.0;
-  EXPECT_THROW(stack_sequences(shocks_of(table), rule), std::invalid_argument);
+  EXPECT_THROW(stack_sequences(table.events, rule), std::invalid_argument);
   rule.window = rule.first = 1.0;
-  EXPECT_THROW(stack_sequences(shocks_of(table), rule), std::invalid_argument);
+  EXPECT_THROW(stack_sequences(table.events, rule), std::invalid_argument);
 }
 
 TEST(Sequences, BeforeMainShocksByHand) {
@@ -117,9 +118,9 @@ TEST(Sequences, BeforeMainShocksByHand) {
   rule.main_size = 50;
   rule.least_size = 1;
   rule.window = 20;
-  EXPECT_EQ(stack_sequences(shocks_of(table), rule).before, (std::vector<double>{2, 4, 8}));
+  EXPECT_EQ(stack_sequences(table.events, rule).before, (std::vector<double>{2, 4, 8}));
   rule.first = 5;
-  EXPECT_EQ(stack_sequences(shocks_of(table), rule).before, (std::vector<double>{8}));
+  EXPECT_EQ(stack_sequences(table.events, rule).before, (std::vector<double>{8}));
   rule.first = 1;
   const Aftershocks found = aftershocks_of(table, rule, 0.0, 3.0, 0, 1);
   ASSERT_EQ(found.bins.size(), 2u);  // 1 to 3, 3 to 9
@@ -250,7 +251,7 @@ TEST(Omori, DegenerateAndImpossible) {
 
 TEST(PoissonCatalogue, KeepsTheEventsAndForgetsTheirTimes) {
   const std::vector<Shock> shocks =
-      shocks_of(events({1, 2, 5, 9, 20}, {0.5, 1, 2, 0, 3}, {1, 2, 3, 4, 5}));
+      events({1, 2, 5, 9, 20}, {0.5, 1, 2, 0, 3}, {1, 2, 3, 4, 5}).events;
   const std::vector<Shock> other = poisson_catalogue(shocks, false, 4);
   ASSERT_EQ(other.size(), 5u);
   std::vector<bool> seen(5);
@@ -259,18 +260,19 @@ TEST(PoissonCatalogue, KeepsTheEventsAndForgetsTheirTimes) {
     const auto which = static_cast<std::size_t>(other[i].size) - 1;
     EXPECT_FALSE(seen.at(which));
     seen[which] = true;
-    EXPECT_NEAR(other[i].end - other[i].start, shocks[which].end - shocks[which].start, 1e-12);
+    EXPECT_NEAR(other[i].t_end - other[i].t_start, shocks[which].t_end - shocks[which].t_start,
+                1e-12);
     if (i > 0) {
-      EXPECT_GE(other[i].start, other[i - 1].end);
+      EXPECT_GE(other[i].t_start, other[i - 1].t_end);
     }
-    moved = moved || other[i].start != shocks[i].start;
+    moved = moved || other[i].t_start != shocks[i].t_start;
   }
   EXPECT_TRUE(moved);
   const std::vector<Shock> overlapping = poisson_catalogue(shocks, true, 4);
-  EXPECT_GE(overlapping.front().start, 1.0);
-  EXPECT_LE(overlapping.back().start, 20.0);
+  EXPECT_GE(overlapping.front().t_start, 1.0);
+  EXPECT_LE(overlapping.back().t_start, 20.0);
   EXPECT_TRUE(std::is_sorted(overlapping.begin(), overlapping.end(),
-                             [](const Shock &a, const Shock &b) { return a.start < b.start; }));
+                             [](const Shock &a, const Shock &b) { return a.t_start < b.t_start; }));
 }
 
 TEST(Aftershocks, ShareOfPoissonCatalogues) {
@@ -295,7 +297,7 @@ TEST(Aftershocks, SequencesStandOutFromPoissonCatalogues) {
   EventTable clustered = poisson(3000, 1.0, 77);
   const Rng rng = generator(5);
   std::vector<std::pair<double, double>> rows;
-  for (const LSM::Event &event : clustered.events)
+  for (const Shock &event : clustered.events)
     rows.emplace_back(event.t_start, std::min(event.size, 100.0));
   for (int main = 0; main < 29; ++main) {
     const double time = 50.0 + 100.0 * main;

@@ -98,6 +98,34 @@ TEST_F(CatalogueInput, ColumnsOfTheEventsChosen) {
   EXPECT_EQ(load_catalogue(name, CatalogueOptions()).events.size(), 3u);  // none of size < 0
 }
 
+TEST_F(CatalogueInput, EventsTakeNoMoreMemoryThanTheirUse) {
+  std::string rows;
+  for (int i = 1; i <= 1000; ++i) {
+    const std::string end = std::to_string(2 * i + 1), size = std::to_string(i * 37 % 1000 + 1);
+    rows += std::to_string(i) + "," + std::to_string(2 * i) + "," + end + "," +
+            std::to_string(20 * i) + "," + end + "0," + size + "," + size + ",0\n";
+  }
+  const std::string name = file(rows);
+  CatalogueOptions options;
+  const EventTable table = load_catalogue(name, options);
+  ASSERT_EQ(table.events.size(), 1000u);
+  EXPECT_LE(sizeof(table.events.front()), 40u);
+  EXPECT_TRUE(table.details.empty());
+
+  options.details = 30;
+  const std::vector<Event> largest = load_catalogue(name, options).details;
+  ASSERT_EQ(largest.size(), 30u);
+  for (const Event &event : largest) {
+    EXPECT_GT(event.size, 970.0);
+    EXPECT_EQ(event.t_start, 2.0 * static_cast<double>(event.id));
+    EXPECT_EQ(event.step_end, 10 * (2 * event.id + 1));
+  }
+  EXPECT_TRUE(std::is_sorted(largest.begin(), largest.end(),
+                             [](const Event &a, const Event &b) { return a.t_start < b.t_start; }));
+  options.details = CatalogueOptions::all_events;
+  EXPECT_EQ(load_catalogue(name, options).details.size(), 1000u);
+}
+
 TEST_F(CatalogueInput, KnowsWhereItIsComplete) {
   const std::string name = path("picked.csv");
   spill(name, "# lsm-catalogue 1\n# model = lsm\n# min_size = 0.01\n" + columns +

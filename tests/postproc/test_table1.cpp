@@ -132,8 +132,11 @@ TEST(Intervals, AtOnePlaceOnly) {
   // They reach 1; 3; all; 7 and 1; 1, as it ends before 3.
   const double length[] = {1.0, 2.0, 8.0, 3.0, 2.0};
   for (std::size_t i = 0; i < 5; ++i) {
-    table.events[i].x_begin = begin[i];
-    table.events[i].rupture_length = length[i];
+    LSM::Event event;
+    static_cast<LSM::Shock &>(event) = table.events[i];
+    event.x_begin = begin[i];
+    event.rupture_length = length[i];
+    table.details.push_back(event);
   }
   EXPECT_EQ(times_at_places(table, 0.5, 4), (std::vector<double>{45.0, 25.0}));
   // With the small one: at 1: 0, 25, 45, 70; at 3: 10, 25; at 5: 25; at 7: 25, 45.
