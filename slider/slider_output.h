@@ -22,7 +22,7 @@ class Outputs {
   /// \throws std::runtime_error naming file and option
   explicit Outputs(const RunOptions &options) : o_(options) {
     // Before anything is read: another run may have written these files.
-    claim_.claim(outputs_of(o_));
+    claim_ = LSM::claim_outputs(outputs_of(o_));
     check_replaced(o_);
     probe(o_.series);
     probe(o_.checkpoint);

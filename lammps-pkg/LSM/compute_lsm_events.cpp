@@ -141,7 +141,7 @@ void ComputeLSMEvents::make_grid()
   const bigint step = update->ntimestep;
   const double time = clock.at(step);
   const double bins = domain->prd[0] / settings.bin_width;
-  constexpr auto most = LSM::slip_history_detail::most_bins;
+  constexpr auto most = LSM::SlipHistoryInfo::most_bins;
   if (bins > static_cast<double>(most))
     error->all(FLERR,
                "Compute lsm/events: bin {} makes {:.0f} bins of a box of length {}, expected at "

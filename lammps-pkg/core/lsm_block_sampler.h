@@ -23,7 +23,7 @@ struct SampleBlock {
   std::vector<double> pe;  ///< of each step
   /// Three numbers each: the step as its place in the block, bin, moment.
   std::vector<double> slip;
-  std::vector<double> intervals;  ///< FaultSums::values() of the intervals that ended in the block
+  std::vector<double> intervals;  ///< SlipRecorder::sums() of the intervals that ended in the block
 
   void clear() {
     count = 0;

@@ -36,15 +36,10 @@
 namespace LSM {
 
 /// Header of a catalogue.
-struct CatalogueInfo {
-  std::string model;                                            ///< "lsm" or "block-slider"
-  std::vector<std::pair<std::string, std::string>> parameters;  ///< in the order of the file
+struct CatalogueInfo : text_io::FileHeader {
   bool slip_moment = false, x_centroid = false, rupture_length = false;  ///< optional columns
   /// Further ones, of ruptures.
   bool x_hypocentre = false, x_begin = false, mean_slip = false, stress_drop = false;
-
-  /// Value of a parameter, or nullptr.
-  const std::string *find(std::string_view key) const { return text_io::find(parameters, key); }
 
   /// Whether events may overlap in time; they are in order of their ends then.
   bool overlapping() const {
@@ -65,44 +60,38 @@ namespace catalogue_detail {
 constexpr std::string_view first_line = "# lsm-catalogue 1";
 constexpr std::string_view magic = "# lsm-catalogue ";
 
-/// A column of the table and its member of an event: a number, an integer or none.
+/// A column of the table: its member of an event, a number, an integer or none, and whether a
+/// catalogue has it, nullptr if each does.
 struct Column {
   std::string_view name;
-  double Event::*number;
-  std::int64_t Event::*integer;
+  double Event::*number = nullptr;
+  std::int64_t Event::*integer = nullptr;
+  bool CatalogueInfo::*optional = nullptr;
 };
 
-/// In the order in which they are written; those after the first `required` are optional.
-constexpr std::array<Column, 15> all_columns = {
-    {{"event_id", nullptr, &Event::id},
-     {"t_start", &Event::t_start, nullptr},
-     {"t_end", &Event::t_end, nullptr},
-     {"step_start", nullptr, &Event::step_start},
-     {"step_end", nullptr, &Event::step_end},
-     {"size", &Event::size, nullptr},
-     {"pe_start", &Event::pe_start, nullptr},
-     {"pe_end", &Event::pe_end, nullptr},
-     {"slip_moment", &Event::slip_moment, nullptr},
-     {"x_centroid", &Event::x_centroid, nullptr},
-     {"rupture_length", &Event::rupture_length, nullptr},
-     {"x_hypocentre", &Event::x_hypocentre, nullptr},
-     {"x_begin", &Event::x_begin, nullptr},
-     {"mean_slip", &Event::mean_slip, nullptr},
-     {"stress_drop", &Event::stress_drop, nullptr}}};
-constexpr std::size_t required = 8;
-
-/// Whether a catalogue has the optional columns, in their order.
-constexpr std::array<bool CatalogueInfo::*, 7> optional_columns = {
-    &CatalogueInfo::slip_moment,  &CatalogueInfo::x_centroid, &CatalogueInfo::rupture_length,
-    &CatalogueInfo::x_hypocentre, &CatalogueInfo::x_begin,    &CatalogueInfo::mean_slip,
-    &CatalogueInfo::stress_drop};
-static_assert(required + optional_columns.size() == all_columns.size(), "a flag for each column");
+/// In the order in which they are written.
+constexpr Column all_columns[] = {
+    {"event_id", nullptr, &Event::id},
+    {"t_start", &Event::t_start},
+    {"t_end", &Event::t_end},
+    {"step_start", nullptr, &Event::step_start},
+    {"step_end", nullptr, &Event::step_end},
+    {"size", &Event::size},
+    {"pe_start", &Event::pe_start},
+    {"pe_end", &Event::pe_end},
+    {"slip_moment", &Event::slip_moment, nullptr, &CatalogueInfo::slip_moment},
+    {"x_centroid", &Event::x_centroid, nullptr, &CatalogueInfo::x_centroid},
+    {"rupture_length", &Event::rupture_length, nullptr, &CatalogueInfo::rupture_length},
+    {"x_hypocentre", &Event::x_hypocentre, nullptr, &CatalogueInfo::x_hypocentre},
+    {"x_begin", &Event::x_begin, nullptr, &CatalogueInfo::x_begin},
+    {"mean_slip", &Event::mean_slip, nullptr, &CatalogueInfo::mean_slip},
+    {"stress_drop", &Event::stress_drop, nullptr, &CatalogueInfo::stress_drop}};
 
 /// The columns of a catalogue, in the order of the file.
 inline std::vector<Column> columns_of(const CatalogueInfo &info) {
-  std::vector<Column> columns(all_columns.begin(), all_columns.begin() + required);
-  for (std::size_t i = required; i < all_columns.size(); ++i)
-    if (info.*optional_columns[i - required]) columns.push_back(all_columns[i]);
+  std::vector<Column> columns;
+  for (const Column &column : all_columns)
+    if (!column.optional || info.*column.optional) columns.push_back(column);
   return columns;
 }
 
@@ -115,8 +104,16 @@ inline std::string column_line(const CatalogueInfo &info) {
   return out;
 }
 
-inline bool known_model(std::string_view model) {
-  return model == "lsm" || model == "block-slider";
+inline text_io::Parameters header(const CatalogueInfo &info) {
+  text_io::Parameters all = {{"model", info.model}};
+  all.insert(all.end(), info.parameters.begin(), info.parameters.end());
+  return all;
+}
+
+/// What is wrong with the model, without which nothing can be read, or "".
+inline std::string bad_model(const std::string &model) {
+  if (model == "lsm" || model == "block-slider") return {};
+  return "model is " + text_io::in_quotes(model) + ", expected 'lsm' or 'block-slider'";
 }
 
 /// What is wrong with the value of a parameter, or "".
@@ -136,47 +133,39 @@ inline std::string not_finite(const Event &event) {
 
 /// Why an event of finite numbers must not follow the previous one (nullptr: none), or "".
 inline std::string out_of_order(const Event &event, const Event *before, bool overlapping) {
+  using text_io::number;
+  constexpr const char *earlier = " is before the end of the previous event ";
   if (event.t_end < event.t_start)
-    return "t_end " + text_io::number(event.t_end) + " is before t_start " +
-           text_io::number(event.t_start) + ", expected t_end >= t_start";
+    return "t_end " + number(event.t_end) + " is before t_start " + number(event.t_start) +
+           ", expected t_end >= t_start";
   if (event.step_end < event.step_start)
-    return "step_end " + text_io::number(event.step_end) + " is before step_start " +
-           text_io::number(event.step_start) + ", expected step_end >= step_start";
+    return "step_end " + number(event.step_end) + " is before step_start " +
+           number(event.step_start) + ", expected step_end >= step_start";
   if (!before) return {};
   if (event.id <= before->id)
-    return "event_id " + text_io::number(event.id) + " after event_id " +
-           text_io::number(before->id) + ", expected increasing event_id";
-  if (overlapping) {
-    if (event.t_end < before->t_end || event.step_end < before->step_end)
-      return "end at t_end " + text_io::number(event.t_end) + ", step_end " +
-             text_io::number(event.step_end) + " is before the end of the previous event " +
-             text_io::number(before->t_end) + ", " + text_io::number(before->step_end) +
-             ", expected ruptures in order of their ends";
-    return {};
-  }
+    return "event_id " + number(event.id) + " after event_id " + number(before->id) +
+           ", expected increasing event_id";
+  if (overlapping && (event.t_end < before->t_end || event.step_end < before->step_end))
+    return "end at t_end " + number(event.t_end) + ", step_end " + number(event.step_end) +
+           earlier + number(before->t_end) + ", " + number(before->step_end) +
+           ", expected ruptures in order of their ends";
+  if (overlapping) return {};
   if (event.t_start < before->t_end)
-    return "t_start " + text_io::number(event.t_start) +
-           " is before the end of the previous event " + text_io::number(before->t_end) +
+    return "t_start " + number(event.t_start) + earlier + number(before->t_end) +
            ", expected events in order of time";
   if (event.step_start < before->step_end)
-    return "step_start " + text_io::number(event.step_start) +
-           " is before the end of the previous event " + text_io::number(before->step_end) +
+    return "step_start " + number(event.step_start) + earlier + number(before->step_end) +
            ", expected events in order of time";
   return {};
 }
 
 /// Checks what a program wants to write; same rules as for reading.
 inline void check_info(const CatalogueInfo &info) {
-  if (!known_model(info.model))
-    throw std::invalid_argument("catalogue header: model is " + text_io::in_quotes(info.model) +
-                                ", expected 'lsm' or 'block-slider'");
-  text_io::check_parameters(info.parameters);
-  if (info.find("model"))
-    throw std::invalid_argument("catalogue header: parameter 'model' given twice");
-  for (const auto &[key, value] : info.parameters) {
-    const std::string problem = bad_value(key, value);
-    if (!problem.empty()) throw std::invalid_argument("catalogue header: " + problem);
-  }
+  text_io::check_parameters(header(info));
+  std::string problem = bad_model(info.model);
+  for (const auto &[key, value] : info.parameters)
+    if (problem.empty()) problem = bad_value(key, value);
+  if (!problem.empty()) throw std::invalid_argument("catalogue header: " + problem);
 }
 
 }  // namespace catalogue_detail
@@ -189,11 +178,7 @@ inline void check_info(const CatalogueInfo &info) {
 class CatalogueReader {
  public:
   /// \throws FileError if the header cannot be read.
-  explicit CatalogueReader(const std::string &path, bool lenient = false,
-                           text_io::OpenBytes open = text_io::open_plain)
-      : CatalogueReader(path, lenient, open, false) {}
-  /// Of an open file, as a pipe can be opened only once. \throws the same
-  CatalogueReader(std::unique_ptr<text_io::Bytes> bytes, bool lenient)
+  explicit CatalogueReader(std::unique_ptr<text_io::Bytes> bytes, bool lenient = false)
       : reader_(std::move(bytes)), lenient_(lenient) {
     read_header();
   }
@@ -210,10 +195,7 @@ class CatalogueReader {
         continue;
       }
       Event candidate;
-      if (!parse_row(candidate)) {
-        report_row();
-        continue;
-      }
+      if (!parse_row(candidate)) continue;
       const std::string problem =
           catalogue_detail::out_of_order(candidate, has_last_ ? &last_ : nullptr, overlapping_);
       if (!problem.empty()) {
@@ -228,8 +210,7 @@ class CatalogueReader {
     return false;
   }
 
-  std::int64_t line() const { return reader_.line(); }  ///< line of the last event read
-  std::int64_t skipped() const { return skipped_; }     ///< bad lines skipped (lenient)
+  std::int64_t skipped() const { return skipped_; }  ///< bad lines skipped (lenient)
   /// Message of the first bad line skipped, or "" (lenient).
   const std::string &first_problem() const { return first_problem_; }
 
@@ -251,11 +232,6 @@ class CatalogueReader {
 
   enum Kind : std::size_t { header, truncated, columns, number, order };
   static constexpr std::size_t kinds = 5;
-
-  CatalogueReader(const std::string &path, bool lenient, text_io::OpenBytes open, bool resuming)
-      : reader_(path, open), lenient_(lenient), resuming_(resuming) {
-    read_header();
-  }
 
   void report(Kind kind, const std::string &problem) {
     if (!lenient_) reader_.fail(problem);
@@ -280,7 +256,6 @@ class CatalogueReader {
         read_parameter(parameters);
         continue;
       }
-      info_.parameters = parameters.all();
       read_columns();
       if (info_.model.empty())
         reader_.fail(
@@ -293,95 +268,80 @@ class CatalogueReader {
   }
 
   void read_parameter(text_io::ParameterList &parameters) {
-    std::pair<std::string, std::string> parameter;
-    if (!text_io::parse_parameter(line_, parameter)) {
-      report(header, "header line " + text_io::in_quotes(line_) + ", expected '# key = value'");
+    std::string problem = parameters.add_line(line_, catalogue_detail::bad_value);
+    if (!problem.empty()) return report(header, problem);
+    const auto &[key, value] = parameters.all().back();
+    if (key != "model") {
+      info_.parameters.emplace_back(key, value);
       return;
     }
-    if (parameter.first == "model" && info_.model.empty()) {
-      if (!catalogue_detail::known_model(parameter.second))
-        reader_.fail("model is " + text_io::in_quotes(parameter.second) +
-                     ", expected 'lsm' or 'block-slider'");
-      info_.model = parameter.second;
-      return;
-    }
-    std::string problem = catalogue_detail::bad_value(parameter.first, parameter.second);
-    if (parameter.first == "model")
-      problem = "parameter 'model' given twice, expected once";
-    else if (problem.empty())
-      problem = parameters.add(std::move(parameter));
-    if (!problem.empty()) report(header, problem);
+    problem = catalogue_detail::bad_model(value);
+    if (!problem.empty()) reader_.fail(problem);
+    info_.model = value;
   }
 
   void read_columns() {
     using namespace catalogue_detail;
     if (!reader_.complete()) reader_.fail("truncated line of column names, expected a line end");
-    text_io::split(line_, fields_);
+    std::vector<std::string_view> names;
+    text_io::split(line_, names);
     column_line_ = line_;
-    std::array<bool, all_columns.size()> found{};
-    for (const std::string_view name : fields_) {
-      const auto known = std::find_if(all_columns.begin(), all_columns.end(),
-                                      [name](const Column &column) { return column.name == name; });
-      columns_.push_back(known == all_columns.end() ? Column{"", nullptr, nullptr} : *known);
-      if (known == all_columns.end()) continue;
-      const auto i = static_cast<std::size_t>(known - all_columns.begin());
-      if (found[i])
-        reader_.fail("column " + text_io::in_quotes(name) + " is there twice, expected once");
-      found[i] = true;
-      if (i >= required) info_.*optional_columns[i - required] = true;
+    for (const std::string_view name : names) {
+      const auto *known = std::find_if(std::begin(all_columns), std::end(all_columns),
+                                       [name](const Column &c) { return c.name == name; });
+      columns_.push_back(known == std::end(all_columns) ? Column{} : *known);
+      if (known != std::end(all_columns) && known->optional) info_.*known->optional = true;
     }
-    for (std::size_t i = 0; i < required; ++i)
-      if (!found[i])
-        reader_.fail("column " + text_io::in_quotes(all_columns[i].name) +
-                     " is missing, expected '" + column_line(CatalogueInfo()) + "'");
+    for (const Column &column : all_columns) {
+      const auto there = std::count(names.begin(), names.end(), column.name);
+      if (there > 1)
+        reader_.fail("column " + text_io::in_quotes(column.name) +
+                     " is there twice, expected once");
+      if (there == 0 && !column.optional)
+        reader_.fail("column " + text_io::in_quotes(column.name) + " is missing, expected '" +
+                     column_line(CatalogueInfo()) + "'");
+    }
     overlapping_ = info_.overlapping();
   }
 
-  /// Numbers of line_ into event; false if they do not fit the columns.
-  bool parse_row(Event &event) const {
+  /// Numbers of line_ into event; false, and reports why, if they do not fit the columns.
+  bool parse_row(Event &event) {
     const char *at = line_.data();
     const char *const end = at + line_.size();
     for (const catalogue_detail::Column &column : columns_) {
-      // A comma before each field but the first.
-      if (&column != columns_.data()) {
-        if (at == end || *at != ',') return false;
-        ++at;
-      }
+      const char *const begin = at;
       std::from_chars_result parsed{};
       if (column.number) {
         parsed = std::from_chars(at, end, event.*column.number);
-        if (parsed.ec != std::errc() || !std::isfinite(event.*column.number)) return false;
+        if (!std::isfinite(event.*column.number)) parsed.ec = std::errc::result_out_of_range;
       } else if (column.integer) {
         parsed = std::from_chars(at, end, event.*column.integer);
-        if (parsed.ec != std::errc()) return false;
       } else {
         parsed.ptr = std::find(at, end, ',');
       }
       at = parsed.ptr;
+      // A comma behind each field but the last.
+      const bool last = &column == &columns_.back();
+      if (parsed.ec != std::errc() || (last ? at != end : at == end || *at != ',')) {
+        report_row(column, std::string_view(begin, static_cast<std::size_t>(end - begin)));
+        return false;
+      }
+      if (!last) ++at;
     }
-    return at == end;
+    return true;
   }
 
-  /// Says why parse_row() refused line_.
-  void report_row() {
-    text_io::split(line_, fields_);
-    if (fields_.size() != columns_.size()) {
-      report(columns, std::to_string(line_.empty() ? 0 : fields_.size()) + " columns, expected " +
-                          std::to_string(columns_.size()) + " (" + column_line_ + ")");
-      return;
-    }
-    for (std::size_t i = 0; i < fields_.size(); ++i) {
-      double any_number = 0.0;
-      std::int64_t any_integer = 0;
-      if (columns_[i].number    ? text_io::parse(fields_[i], any_number)
-          : columns_[i].integer ? text_io::parse(fields_[i], any_integer)
-                                : true)
-        continue;
-      report(number, "column '" + std::string(columns_[i].name) + "' is " +
-                         text_io::in_quotes(fields_[i]) + ", expected " +
-                         (columns_[i].number ? "a finite number" : "an integer"));
-      return;
-    }
+  /// Says why parse_row() refused line_: the first column that it could not read, which rest begins
+  /// with.
+  void report_row(const catalogue_detail::Column &column, std::string_view rest) {
+    const auto commas = std::count(line_.begin(), line_.end(), ',');
+    const auto fields = line_.empty() ? 0 : static_cast<std::size_t>(commas) + 1;
+    if (fields != columns_.size())
+      return report(columns, std::to_string(fields) + " columns, expected " +
+                                 std::to_string(columns_.size()) + " (" + column_line_ + ")");
+    report(number, "column '" + std::string(column.name) + "' is " +
+                       text_io::in_quotes(rest.substr(0, rest.find(','))) + ", expected " +
+                       (column.number ? "a finite number" : "an integer"));
   }
 
   text_io::LineReader reader_;
@@ -392,7 +352,6 @@ class CatalogueReader {
   std::string column_line_;
   std::vector<catalogue_detail::Column> columns_;  // in the order of the file
   std::string_view line_;                          // valid until the next one is read
-  std::vector<std::string_view> fields_;           // views into line_
   Event last_;
   bool has_last_ = false;
   std::array<std::int64_t, kinds> counts_{};
@@ -400,105 +359,56 @@ class CatalogueReader {
   std::string first_problem_;
 };
 
-/// A whole catalogue in memory.
-struct Catalogue {
-  CatalogueInfo info;
-  std::vector<Event> events;
-  std::int64_t skipped = 0;   ///< bad lines passed over (lenient)
-  std::string first_problem;  ///< message of the first of them
-};
-
-/// \throws FileError, see CatalogueReader.
-inline Catalogue read_catalogue(const std::string &path, bool lenient = false) {
-  CatalogueReader reader(path, lenient);
-  Catalogue catalogue;
-  Event event;
-  while (reader.next(event)) catalogue.events.push_back(event);
-  catalogue.info = reader.info();
-  catalogue.skipped = reader.skipped();
-  catalogue.first_problem = reader.first_problem();
-  return catalogue;
-}
-
 /// Writes a catalogue. Each event is on its way to disk when write() returns, so that a process
 /// killed later keeps it.
-class CatalogueWriter {
+class CatalogueWriter : public text_io::ResumableFile {
  public:
   /// Starts a new catalogue, replacing an older one (which stays if the new one cannot be written).
   /// \throws FileError; std::invalid_argument for a header that could not be read back.
   /// whole: the file gets its name by close() only, see OutputFile.
   void create(const std::string &path, const CatalogueInfo &info, bool whole = false) {
     catalogue_detail::check_info(info);
-    std::string text(catalogue_detail::first_line);
-    text += "\n# model = " + info.model + "\n";
-    std::string parameters = text_io::header_text("", info.parameters);
-    text.append(parameters, 1, std::string::npos);
-    text += catalogue_detail::column_line(info);
-    text += '\n';
-    file_.create(path, text, whole);
-    columns_ = catalogue_detail::columns_of(info);
-    overlapping_ = info.overlapping();
-    has_last_ = false;
-    rows_ = 0;
+    file_.create(path,
+                 std::string(catalogue_detail::first_line) + "\n" +
+                     text_io::lines_of(catalogue_detail::header(info)) +
+                     catalogue_detail::column_line(info) + "\n",
+                 whole);
+    start(info);
   }
 
-  /// Goes on with the catalogue of a run restarted from last_step: checks that the header says what
-  /// create() would write (parameters named in ignore may differ; their old values stay), drops
-  /// every event that ended after last_step and a torn last line. Returns the number of events
-  /// kept, which has to be expected unless that is negative. The file is left as it was if this
-  /// throws. \throws FileError naming the first parameter that differs, the first bad line, or
-  /// the number of events.
-  std::int64_t resume(const std::string &path, const CatalogueInfo &info, std::int64_t last_step,
-                      const std::vector<std::string> &ignore = {}, std::int64_t expected = -1) {
-    find_cut(path, info, last_step, ignore, expected);
-    return cut();
-  }
-
-  /// All of resume() but the change of the file, which cut() does: where more than one file goes
-  /// on, nothing is cut before all of them are found to fit.
+  /// Looks at the catalogue of a run restarted from last_step, which cut() goes on with: checks
+  /// that the header says what create() would write (parameters named in ignore may differ; their
+  /// old values stay), and finds the first event that ended after last_step, or a torn last line.
+  /// expected: number of events before the cut, if not negative. \throws FileError naming the first
+  /// parameter that differs, the first bad line, or the number of events.
   void find_cut(const std::string &path, const CatalogueInfo &info, std::int64_t last_step,
                 const std::vector<std::string> &ignore = {}, std::int64_t expected = -1) {
-    catalogue_detail::check_info(info);
+    using namespace catalogue_detail;
+    check_info(info);
     file_.close();
-    CatalogueReader reader(path, false, text_io::open_plain, true);
-    const CatalogueInfo &found = reader.info();
-    std::string problem;
-    if (found.model != info.model)
-      problem = "model is '" + found.model + "' in the file, expected '" + info.model + "'";
-    else if (const std::string columns = catalogue_detail::column_line(info);
-             reader.column_line_ != columns)
-      problem = "columns are '" + reader.column_line_ + "' in the file, expected '" + columns + "'";
-    else
-      problem = text_io::difference(found.parameters, info.parameters, ignore);
-    if (!problem.empty()) throw FileError(path + ": cannot resume: " + problem);
+    CatalogueReader reader(text_io::open_plain(path));
+    reader.resuming_ = true;
+    const std::string problem = text_io::difference(header(reader.info()), header(info), ignore);
+    if (!problem.empty()) refuse(path, problem);
+    const std::string columns = column_line(info);
+    if (reader.column_line_ != columns)
+      refuse(path,
+             "columns are '" + reader.column_line_ + "' in the file, expected '" + columns + "'");
 
-    std::int64_t kept = 0;
     std::int64_t length = reader.reader_.end();
-    Event event, last;
+    start(info);
     // Events are in order of their ends, so the first one to drop is where the file is cut.
+    Event event;
     while (reader.next(event) && event.step_end <= last_step) {
-      last = event;
-      ++kept;
+      last_ = event;
+      ++rows_;
       length = reader.reader_.end();
     }
-    if (reader.reader_.foreign())
-      throw FileError(path + ": cannot resume: " + std::string(text_io::foreign_lines));
-    if (expected >= 0 && kept != expected)
-      throw FileError(path + ": cannot resume: " + std::to_string(kept) +
-                      " events up to the checkpoint, expected " + std::to_string(expected));
-    cut_path_ = path;
-    cut_length_ = length;
-    columns_ = catalogue_detail::columns_of(info);
-    overlapping_ = info.overlapping();
-    last_ = last;
-    has_last_ = kept > 0;
-    rows_ = kept;
-  }
-
-  /// Continues the file that find_cut() checked. Returns the number of events kept.
-  std::int64_t cut() {
-    file_.append(cut_path_, cut_length_);
-    return rows_;
+    if (reader.reader_.foreign()) refuse(path, std::string(text_io::foreign_lines));
+    if (expected >= 0 && rows_ != expected)
+      refuse(path, std::to_string(rows_) + " events up to the checkpoint, expected " +
+                       std::to_string(expected));
+    file_.keep(path, length);
   }
 
   /// Appends one line and hands it to the system.
@@ -507,7 +417,7 @@ class CatalogueWriter {
   void write(const Event &event) {
     std::string problem = catalogue_detail::not_finite(event);
     if (problem.empty())
-      problem = catalogue_detail::out_of_order(event, has_last_ ? &last_ : nullptr, overlapping_);
+      problem = catalogue_detail::out_of_order(event, rows_ > 0 ? &last_ : nullptr, overlapping_);
     if (!problem.empty())
       throw FileError(file_.path() + ": cannot write event " + text_io::number(event.id) + ": " +
                       problem);
@@ -522,27 +432,23 @@ class CatalogueWriter {
     line_ += '\n';
     file_.write(line_);
     last_ = event;
-    has_last_ = true;
     ++rows_;
   }
 
-  /// \throws FileError if the system reports a late failure. Also done on destruction,
-  /// silently.
-  void close() { file_.close(); }
-
-  bool is_open() const { return file_.is_open(); }
   std::int64_t rows() const { return rows_; }  ///< events in the file, kept ones included
 
  private:
-  text_io::OutputFile file_;
+  void start(const CatalogueInfo &info) {
+    columns_ = catalogue_detail::columns_of(info);
+    overlapping_ = info.overlapping();
+    rows_ = 0;
+  }
+
   bool overlapping_ = false;
   std::vector<catalogue_detail::Column> columns_;
   Event last_;
-  bool has_last_ = false;
   std::int64_t rows_ = 0;
   std::string line_;
-  std::string cut_path_;
-  std::int64_t cut_length_ = 0;
 };
 
 }  // namespace LSM

@@ -151,11 +151,6 @@ class EventPicker {
   bool in_event() const { return state_.in_event != 0; }
   /// A, the smoothed change of PE per sample, after the last push.
   double rate() const { return state_.rate; }
-  std::int64_t events() const { return state_.events; }  ///< reported events
-  std::int64_t dropped_nonpositive() const { return state_.dropped_nonpositive; }
-  std::int64_t dropped_small() const { return state_.dropped_small; }
-  double last_size() const { return state_.last_size; }  ///< last reported event; 0 before any
-
   const PickerState &state() const { return state_; }
   /// Continues from a saved state, even within an event; the settings must be those of that state.
   /// \throws std::invalid_argument if no picker can be in that state.

@@ -120,7 +120,7 @@ class EventStream {
     now.counts = counts_;
     now.open_sums = open_sums;
     now.finder = finder_->state();
-    if (history_ && history_->is_open()) now.history = history_->state();
+    if (history_.is_open()) now.history = history_.state();
     StateWriter to(out);
     SavedStream::visit(now, to);
     return out;
@@ -131,21 +131,17 @@ class EventStream {
   /// something else writes. \throws EventStreamError or what the writers throw
   void begin_files(std::int64_t step, bool from_restart, const SceneInfo &scene,
                    const StepClock &clock, const std::vector<Output> &others = {}) {
-    claim_.claim(files_of(settings_), others);
-    try {
-      open_files(step, from_restart, scene, clock);
-    } catch (...) {
-      claim_.release();
-      throw;
-    }
+    OutputClaim claim = claim_outputs(files_of(settings_), others);
+    open_files(step, from_restart, scene, clock);
+    claim_ = std::move(claim);
   }
 
   /// The fault before its first interval, with the sums of its contacts over the ranks.
   void begin_fault(double pe, const std::vector<double> &sums) {
     const FaultRow row = fault_row(grid_, sums.data(), 1);
     finder_->begin(pe, row);
-    if (history_)
-      history_->create(settings_.history_file, history_info_, grid_.step0, pe, row.stress);
+    if (!settings_.history_file.empty())
+      history_.create(settings_.history_file, history_info_, grid_.step0, pe, row.stress);
   }
 
   /// The samples of a block. time_of(step): model time; the fault begins at x0 and has that length.
@@ -164,7 +160,7 @@ class EventStream {
                   with_slips ? &slips[static_cast<std::size_t>(n)] : nullptr, x0, length});
       if (!with_intervals || !grid_.ends_interval(step)) continue;
       add_interval(step, pe, sums, time_of);
-      sums += FaultSums::fields * static_cast<std::size_t>(grid_.bins);
+      sums += fault_fields * static_cast<std::size_t>(grid_.bins);
     }
   }
 
@@ -174,9 +170,7 @@ class EventStream {
   }
 
   /// Hands all samples so far to the operating system.
-  void flush() {
-    if (series_) series_->flush();
-  }
+  void flush() { series_.flush(); }
 
   /// Another time step, see PeDropFinder.
   void change_picker(const PickerSettings &settings, double ratio) {
@@ -228,57 +222,49 @@ class EventStream {
   void open_files(std::int64_t step, bool from_restart, const SceneInfo &scene,
                   const StepClock &clock) {
     check_files(from_restart);
-    const bool catalogue_goes_on = goes_on(settings_.catalogue_file);
-    const bool series_goes_on = goes_on(settings_.series_file);
     const std::vector<std::string> free_to_change = {"program", "ranks", "links"};
+    const std::string &catalogue = settings_.catalogue_file, &series = settings_.series_file,
+                      &history = settings_.history_file;
     const CatalogueInfo catalogue_info =
         catalogue_header(settings_, *settings_.kind, scene, grid_.width);
-    PeSeriesInfo series_info;
-    if (!settings_.catalogue_file.empty()) {
-      catalogue_ = std::make_unique<CatalogueWriter>();
-      if (catalogue_goes_on)
-        catalogue_->find_cut(settings_.catalogue_file, catalogue_info, events().known_until(step),
-                             free_to_change, counts().events);
-    }
-    if (!settings_.series_file.empty()) {
-      series_info = series_header(settings_, scene, clock);
-      series_ = std::make_unique<PeSeriesWriter>();
-      if (series_goes_on)
-        series_->find_cut(settings_.series_file, series_info, step, free_to_change);
-    }
-    if (!settings_.history_file.empty()) {
-      history_info_ = history_header(settings_, scene, grid_);
-      history_ = std::make_unique<SlipHistoryWriter>();
-      if (goes_on(settings_.history_file))
-        history_->resume(settings_.history_file, history_info_, saved_history_, free_to_change);
-    }
+    const PeSeriesInfo series_info = series_header(settings_, scene, clock);
+    history_info_ = history_header(settings_, scene, grid_);
+    if (goes_on(catalogue))
+      catalogue_.find_cut(catalogue, catalogue_info, events().known_until(step), free_to_change,
+                          counts().events);
+    if (goes_on(series)) series_.find_cut(series, series_info, step, free_to_change);
+    if (goes_on(history)) history_.find_cut(history, history_info_, saved_history_, free_to_change);
 
     // All fit.
-    if (catalogue_)
-      catalogue_goes_on ? static_cast<void>(catalogue_->cut())
-                        : catalogue_->create(settings_.catalogue_file, catalogue_info);
-    if (series_)
-      series_goes_on ? static_cast<void>(series_->cut())
-                     : series_->create(settings_.series_file, series_info);
-    if (history_ && !history_->is_open() && goes_on_) {
+    if (goes_on(catalogue))
+      catalogue_.cut();
+    else if (!catalogue.empty())
+      catalogue_.create(catalogue, catalogue_info);
+    if (goes_on(series))
+      series_.cut();
+    else if (!series.empty())
+      series_.create(series, series_info);
+    if (goes_on(history)) {
+      history_.cut();
+    } else if (!history.empty() && goes_on_) {
       const FaultMoment last = finder_->last_interval();
-      history_->create(settings_.history_file, history_info_,
-                       grid_.step0 + last.intervals * grid_.interval, last.pe, last.stress);
+      history_.create(history, history_info_, grid_.step0 + last.intervals * grid_.interval,
+                      last.pe, last.stress);
     }
   }
 
   void add_sample(const EventSample &sample) {
     if (!std::isfinite(sample.pe)) {
-      if (series_) series_->flush();
+      series_.flush();
       throw EventStreamError("Potential energy is not finite at step " +
                              std::to_string(sample.step) +
                              "; the catalogue ends with the last event before it. Use a smaller "
                              "time step or start from an earlier restart");
     }
-    if (series_ && sample.step % settings_.series_stride == 0)
-      series_->write(sample.step, sample.time, sample.pe);
+    if (series_.is_open() && sample.step % settings_.series_stride == 0)
+      series_.write(sample.step, sample.time, sample.pe);
     drops_.add_sample(sample, [this](const Event &event) {
-      if (catalogue_ && kind_ == 0) catalogue_->write(event);
+      if (catalogue_.is_open() && kind_ == 0) catalogue_.write(event);
     });
     if (finder_) finder_->add_sample(sample, [this](const Event &event) { finish(event); });
   }
@@ -293,14 +279,14 @@ class EventStream {
       }
       finish(event);
     });
-    if (history_) history_->add(step, pe, row, finder_->active());
+    if (history_.is_open()) history_.add(step, pe, row, finder_->active());
   }
 
   void finish(Event event) {
     if (is_left_out(event.size, settings_.picker, counts_)) return;
     event.id = ++counts_.events;
     counts_.last_size = event.size;
-    if (catalogue_) catalogue_->write(event);
+    if (catalogue_.is_open()) catalogue_.write(event);
   }
 
   EventSettings settings_;
@@ -315,9 +301,9 @@ class EventStream {
   std::vector<double> saved_history_;
 
   OutputClaim claim_;  // outlives the writers
-  std::unique_ptr<CatalogueWriter> catalogue_;
-  std::unique_ptr<PeSeriesWriter> series_;
-  std::unique_ptr<SlipHistoryWriter> history_;
+  CatalogueWriter catalogue_;
+  PeSeriesWriter series_;
+  SlipHistoryWriter history_;
   SlipHistoryInfo history_info_;
 };
 

@@ -49,37 +49,10 @@ struct FaultRow {
       : slip(static_cast<std::size_t>(bins)), work(slip.size()), stress(slip.size()) {}
 };
 
-/// Sums of the contacts in the bins over an interval; those of several ranks can be added.
-class FaultSums {
- public:
-  static constexpr std::size_t fields = 4;  ///< slip, contacts, work, force
+/// Sums of the contacts of a bin over an interval, see SlipRecorder: slip, contacts, work, force.
+constexpr std::size_t fault_fields = 4;
 
-  FaultSums() = default;
-  explicit FaultSums(const FaultGrid &grid)
-      : grid_(grid), values_(fields * static_cast<std::size_t>(grid.bins)) {}
-
-  /// A contact in one step. Slip and force along the fault; share: 1, or 0.5 where another rank
-  /// counts the contact as well.
-  void add(double x, double slip, double work, double force, double share) {
-    double along = (x - grid_.x0) / grid_.length();
-    along = grid_.ring ? along - std::floor(along) : std::max(along, 0.0);
-    const int bin = std::min(static_cast<int>(along * grid_.bins), grid_.bins - 1);
-    double *const sums = &values_[fields * static_cast<std::size_t>(bin)];
-    sums[0] += share * slip;
-    sums[1] += share;
-    sums[2] += share * work;
-    sums[3] += share * force;
-  }
-
-  std::vector<double> &values() { return values_; }
-  void clear() { std::fill(values_.begin(), values_.end(), 0.0); }
-
- private:
-  FaultGrid grid_;
-  std::vector<double> values_;
-};
-
-/// The row of an interval of so many steps from FaultSums::values(). The slip of a bin without
+/// The row of an interval of so many steps from SlipRecorder::sums(). The slip of a bin without
 /// contacts is interpolated linearly between the nearest two with contacts (periodic).
 inline FaultRow fault_row(const FaultGrid &grid, const double *sums, std::int64_t steps) {
   FaultRow row(grid.bins);
@@ -87,7 +60,7 @@ inline FaultRow fault_row(const FaultGrid &grid, const double *sums, std::int64_
   const auto count = static_cast<double>(steps);
   std::vector<std::size_t> held;  // bins with contacts
   for (std::size_t b = 0; b < bins; ++b) {
-    const double *const s = sums + FaultSums::fields * b;
+    const double *const s = sums + fault_fields * b;
     row.work[b] = static_cast<float>(s[2]);
     row.stress[b] = static_cast<float>(s[3] / (count * grid.width));
     if (!(s[1] > 0.0)) continue;

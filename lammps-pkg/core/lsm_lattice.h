@@ -32,8 +32,7 @@ struct LatticeSettings {
 /// with half the stiffness, and half the mass of its discs, the blocks are linear triangular finite
 /// elements.
 inline bool in_border(const Packing &packing, const std::pair<int, int> &link) {
-  const Disc &a = packing.discs[static_cast<std::size_t>(link.first)];
-  const Disc &b = packing.discs[static_cast<std::size_t>(link.second)];
+  const Disc &a = packing.disc(link.first), &b = packing.disc(link.second);
   return (a.fault && b.fault) || (a.plate && b.plate);
 }
 

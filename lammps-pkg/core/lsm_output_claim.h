@@ -15,7 +15,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -26,6 +25,8 @@
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <list>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -110,12 +111,11 @@ inline Holder this_process() {
 constexpr std::string_view magic = "# lsm-lock 1\n";
 
 inline std::string to_text(const Holder &holder) {
-  return text_io::header_text(magic.substr(0, magic.size() - 1),
-                              {{"host", holder.host},
-                               {"process", std::to_string(holder.process)},
-                               {"started", holder.started},
-                               {"boot", holder.boot},
-                               {"begun", std::to_string(holder.begun)}});
+  return std::string(magic) + text_io::lines_of({{"host", holder.host},
+                                                 {"process", std::to_string(holder.process)},
+                                                 {"started", holder.started},
+                                                 {"boot", holder.boot},
+                                                 {"begun", std::to_string(holder.begun)}});
 }
 
 /// False: the text is none of to_text().
@@ -143,6 +143,14 @@ inline bool may_live(const Holder &holder) {
   return begun != 0 && (begun < 0 || holder.begun <= 0 || begun == holder.begun);
 }
 
+/// Whether a name leads to an open file.
+inline bool leads_to(const std::string &path, int descriptor) {
+  struct stat named {
+  }, opened{};
+  return stat(path.c_str(), &named) == 0 && fstat(descriptor, &opened) == 0 &&
+         named.st_dev == opened.st_dev && named.st_ino == opened.st_ino;
+}
+
 }  // namespace output_claim_detail
 
 /// The same text for two paths that lead to one file: "./a" and "a", hard and symbolic links, even
@@ -157,17 +165,14 @@ inline std::string file_identity(const std::string &path) {
 /// Whether this process already has a file open for writing, under any name: a log, a file of
 /// another part of the program.
 inline bool is_open_for_writing(const std::string &path) {
-  struct stat wanted {
-  }, opened{};
-  if (stat(path.c_str(), &wanted) != 0 || !S_ISREG(wanted.st_mode)) return false;
   std::error_code code;
+  if (!std::filesystem::is_regular_file(path, code)) return false;
   for (const auto &entry : std::filesystem::directory_iterator("/proc/self/fd", code)) {
-    std::int64_t descriptor = -1;
+    int descriptor = -1;
     if (!text_io::parse(entry.path().filename().string(), descriptor)) continue;
-    const int mode = fcntl(static_cast<int>(descriptor), F_GETFL);
-    if (mode < 0 || (mode & O_ACCMODE) == O_RDONLY) continue;
-    if (fstat(static_cast<int>(descriptor), &opened) == 0 && opened.st_dev == wanted.st_dev &&
-        opened.st_ino == wanted.st_ino)
+    const int mode = fcntl(descriptor, F_GETFL);
+    if (mode >= 0 && (mode & O_ACCMODE) != O_RDONLY &&
+        output_claim_detail::leads_to(path, descriptor))
       return true;
   }
   return false;
@@ -192,29 +197,24 @@ inline std::string bad_outputs(const std::vector<Output> &outputs) {
   return {};
 }
 
-/// Holds the lock of one file.
+/// Holds the lock of one file, or of none.
 class FileLock {
  public:
   using Flock = int (*)(int, int);
 
   FileLock() = default;
-  FileLock(FileLock &&other) noexcept
-      : descriptor_(std::exchange(other.descriptor_, -1)), lock_(std::move(other.lock_)) {}
-  FileLock &operator=(FileLock &&other) noexcept {
-    release();
-    descriptor_ = std::exchange(other.descriptor_, -1);
-    lock_ = std::move(other.lock_);
-    return *this;
-  }
   FileLock(const FileLock &) = delete;
   FileLock &operator=(const FileLock &) = delete;
-  ~FileLock() { release(); }
+  ~FileLock() {
+    if (descriptor_ < 0) return;
+    if (is_there()) unlink(lock_.c_str());
+    close(descriptor_);
+  }
 
   /// \throws FileError if another run holds it, which it names, or if the lock cannot be written.
   /// flock: another one than the system's, for tests.
   explicit FileLock(const std::string &path, Flock flock = ::flock)
-      : lock_(output_claim_detail::target_of(path).string() + ".lock") {
-    using namespace output_claim_detail;
+      : path_(path), lock_(output_claim_detail::target_of(path).string() + ".lock") {
     for (int attempt = 0; attempt < most_attempts; ++attempt) {
       bool ours = true;  // the file was not there
       descriptor_ = open_lock(O_CREAT | O_EXCL);
@@ -223,166 +223,125 @@ class FileLock {
         descriptor_ = open_lock(0);
         if (descriptor_ < 0 && errno == ENOENT) continue;  // removed in between
       }
-      if (descriptor_ < 0) fail(path, "cannot open for writing", errno);
-      if (flock(descriptor_, LOCK_EX | LOCK_NB) == 0) {
-        if (!is_there()) {  // its owner removed it in between
-          drop();
-          continue;
-        }
-        if (!ours) check_content(path);
-        sign(path);
-        return;
-      }
+      if (descriptor_ < 0) fail("cannot open for writing", errno);
+      const bool locked = flock(descriptor_, LOCK_EX | LOCK_NB) == 0;
       const int reason = errno;
-      if (reason == EWOULDBLOCK) refuse(path, read());
-      if (reason != ENOSYS && reason != EOPNOTSUPP && reason != ENOLCK && reason != EINVAL)
-        fail(path, "cannot lock", reason);
-      // Without flock. Who made the file has the lock.
-      if (ours) {
-        sign(path);
+      if (!locked && reason == EWOULDBLOCK) refuse(holder(), "");
+      if (!locked && reason != ENOSYS && reason != EOPNOTSUPP && reason != ENOLCK &&
+          reason != EINVAL)
+        fail("cannot lock", reason);
+      // Without flock, who made the file has the lock. With it, its owner may have removed it in
+      // between, and a file of that name that is no lock belongs to somebody.
+      if (locked ? is_there() : ours) {
+        if (!ours) holder();
+        sign();
         return;
       }
-      remove_stale(path);
+      if (!locked) remove_stale();
+      drop();
     }
-    fail(path, "cannot lock", EAGAIN);
-  }
-
-  void release() {
-    if (descriptor_ < 0) return;
-    if (is_there()) unlink(lock_.c_str());
-    drop();
+    fail("cannot lock", EAGAIN);
   }
 
  private:
+  using Holder = output_claim_detail::Holder;
   static constexpr int most_attempts = 100;
 
   int open_lock(int flags) const {
     return open(lock_.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | flags, 0666);
   }
-  void drop() {
-    close(descriptor_);
-    descriptor_ = -1;
-  }
-  [[noreturn]] void fail(const std::string &path, const char *what, int reason) {
+  void drop() { close(std::exchange(descriptor_, -1)); }
+  [[noreturn]] void stop(const std::string &message) {
     if (descriptor_ >= 0) drop();
-    throw FileError(path + ": " + what + ": its lock file " + lock_ + ": " +
-                    std::generic_category().message(reason));
+    throw FileError(path_ + ": " + message);
+  }
+  [[noreturn]] void fail(const std::string &what, int reason) {
+    stop(what + ": its lock file " + lock_ + ": " + std::generic_category().message(reason));
   }
 
   /// Whether the name still leads to the open file.
-  bool is_there() const {
-    struct stat opened {
-    }, named{};
-    return fstat(descriptor_, &opened) == 0 && stat(lock_.c_str(), &named) == 0 &&
-           opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
-  }
+  bool is_there() const { return output_claim_detail::leads_to(lock_, descriptor_); }
 
-  /// The content of the file; a process that has just made it is given time to write it.
-  std::string read() const {
-    for (int attempt = 0;; ++attempt) {
-      std::array<char, 1024> text{};
-      const ssize_t length = pread(descriptor_, text.data(), text.size(), 0);
-      if (length != 0 || attempt == 20)
-        return {text.data(), static_cast<std::size_t>(std::max<ssize_t>(length, 0))};
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  /// Who signed the file; a process that has just made it is given time to do so.
+  std::optional<Holder> holder() {
+    std::array<char, 1024> text{};
+    ssize_t length = 0;
+    for (int attempt = 0; attempt <= 20; ++attempt) {
+      if (attempt > 0) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      length = pread(descriptor_, text.data(), text.size(), 0);
+      if (length != 0) break;
     }
+    if (length <= 0) return {};
+    Holder found;
+    if (output_claim_detail::from_text({text.data(), static_cast<std::size_t>(length)}, found))
+      return found;
+    stop("its lock file " + lock_ + " holds something else; move it away");
   }
 
-  void sign(const std::string &path) {
+  void sign() {
     const std::string text = output_claim_detail::to_text(output_claim_detail::this_process());
     if (ftruncate(descriptor_, 0) == 0 &&
         pwrite(descriptor_, text.data(), text.size(), 0) == static_cast<ssize_t>(text.size()))
       return;
     const int reason = errno;
     unlink(lock_.c_str());
-    fail(path, "cannot write", reason);
+    fail("cannot write", reason);
   }
 
-  /// A file of that name that is no lock belongs to somebody.
-  void check_content(const std::string &path) {
-    struct stat opened {};
-    if (fstat(descriptor_, &opened) != 0 || opened.st_size == 0) return;
-    output_claim_detail::Holder holder;
-    if (output_claim_detail::from_text(read(), holder)) return;
-    drop();
-    throw FileError(path + ": its lock file " + lock_ + " holds something else; move it away");
-  }
-
-  [[noreturn]] void refuse(const std::string &path, const std::string &text,
-                           const std::string &hint = {}) {
-    output_claim_detail::Holder holder;
-    const bool known = output_claim_detail::from_text(text, holder);
-    const bool own = known && holder.process == getpid() &&
-                     holder.host == output_claim_detail::this_process().host;
-    drop();
-    throw FileError(path + ": is being written by " +
-                    (own     ? "this run already"
-                     : known ? "another run: process " + std::to_string(holder.process) + " on " +
-                                   holder.host + " since " + holder.started
-                             : "another run") +
-                    "; " + (own ? "give each output a name of its own" : "wait for its end") +
-                    hint);
+  [[noreturn]] void refuse(const std::optional<Holder> &by, const std::string &hint) {
+    if (by && by->process == getpid() && by->host == output_claim_detail::this_process().host)
+      stop("is being written by this run already; give each output a name of its own" + hint);
+    const std::string who = by ? ": process " + std::to_string(by->process) + " on " + by->host +
+                                     " since " + by->started
+                               : "";
+    stop("is being written by another run" + who + "; wait for its end" + hint);
   }
 
   /// Without flock: removes the file of a run that has ended.
-  void remove_stale(const std::string &path) {
-    using namespace output_claim_detail;
-    if (read().size() > 0) check_content(path);
-    Holder holder;
-    const std::string text = read();
-    if (from_text(text, holder) && may_live(holder))
-      refuse(path, text, ", or remove " + lock_ + " if it has ended");
+  void remove_stale() {
+    const std::optional<Holder> by = holder();
+    if (by && output_claim_detail::may_live(*by))
+      refuse(by, ", or remove " + lock_ + " if it has ended");
     // Another process may just have done so, and made its own.
     const std::string aside = lock_ + "." + std::to_string(getpid());
-    if (rename(lock_.c_str(), aside.c_str()) == 0) {
-      struct stat opened {
-      }, moved{};
-      const bool same = fstat(descriptor_, &opened) == 0 && stat(aside.c_str(), &moved) == 0 &&
-                        opened.st_ino == moved.st_ino;
-      same ? unlink(aside.c_str()) : rename(aside.c_str(), lock_.c_str());
-    }
-    drop();
+    if (rename(lock_.c_str(), aside.c_str()) != 0) return;
+    if (output_claim_detail::leads_to(aside, descriptor_))
+      unlink(aside.c_str());
+    else
+      rename(aside.c_str(), lock_.c_str());
   }
 
   int descriptor_ = -1;
-  std::string lock_;
+  std::string path_, lock_;
 };
 
-/// The outputs of a run, from before the first is written until the last is closed.
-class OutputClaim {
- public:
-  /// Releases its former locks. Empty paths are skipped. others: files that something else writes,
-  /// which are compared but not locked.
-  /// \throws FileError before anything is written: two outputs are one file, another run writes one
-  void claim(const std::vector<Output> &outputs, const std::vector<Output> &others = {}) {
-    release();
-    std::vector<Output> all = outputs;
-    all.insert(all.end(), others.begin(), others.end());
-    const std::string problem = bad_outputs(all);
-    if (!problem.empty()) throw FileError(problem);
-    for (const Output &output : outputs)
-      if (is_open_for_writing(output.path))
-        throw FileError(output.what + " " + output.path +
-                        ": this run writes that file already, as its log or by another command; "
-                        "give each output a name of its own");
-    std::vector<FileLock> locks;
-    for (const Output &output : outputs)
-      if (needs_lock(output.path)) locks.emplace_back(output.path);
-    locks_ = std::move(locks);
-  }
-  void release() { locks_.clear(); }
+/// Locks of the outputs of a run, from before the first is written until the last is closed.
+using OutputClaim = std::list<FileLock>;
 
- private:
-  /// Devices and pipes need no lock.
-  static bool needs_lock(const std::string &path) {
-    if (path.empty()) return false;
+/// Empty paths are skipped; devices and pipes need no lock. others: files that something else
+/// writes, which are compared but not locked.
+/// \throws FileError before anything is written: two outputs are one file, another run writes one
+inline OutputClaim claim_outputs(const std::vector<Output> &outputs,
+                                 const std::vector<Output> &others = {}) {
+  std::vector<Output> all = outputs;
+  all.insert(all.end(), others.begin(), others.end());
+  const std::string problem = bad_outputs(all);
+  if (!problem.empty()) throw FileError(problem);
+  for (const Output &output : outputs)
+    if (is_open_for_writing(output.path))
+      throw FileError(output.what + " " + output.path +
+                      ": this run writes that file already, as its log or by another command; "
+                      "give each output a name of its own");
+  OutputClaim locks;
+  for (const Output &output : outputs) {
     std::error_code code;
-    const auto status = std::filesystem::status(path, code);
-    return !std::filesystem::exists(status) || std::filesystem::is_regular_file(status);
+    const auto status = std::filesystem::status(output.path, code);
+    if (!output.path.empty() &&
+        (!std::filesystem::exists(status) || std::filesystem::is_regular_file(status)))
+      locks.emplace_back(output.path);
   }
-
-  std::vector<FileLock> locks_;
-};
+  return locks;
+}
 
 }  // namespace LSM
 

@@ -69,22 +69,58 @@ struct Packing {
       0.0;  ///< softest direction of all discs but the plates': smallest eigenvalue of the sum of
             ///< n n^T over the links of a disc (n: direction of the link), 0 when nothing holds it
   int64_t tries = 0;  ///< tries of the filling stage, failures included
+
+  const Disc &disc(int i) const { return discs[static_cast<std::size_t>(i)]; }
 };
 
 namespace packing_detail {
+
+/// Cells over [0, length) x [ylo, yhi], periodic in x; none is smaller than `least`.
+template <class Entry>
+class Cells {
+ public:
+  const int nx, ny;
+  const double dx, dy;
+
+  Cells(double length, double ylo, double yhi, double least)
+      : nx(std::max(1, static_cast<int>(length / least))),
+        ny(std::max(1, static_cast<int>((yhi - ylo) / least))),
+        dx(length / nx),
+        dy((yhi - ylo) / ny),
+        length_(length),
+        ylo_(ylo),
+        cells_(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny)) {}
+
+  int column(double x) const { return std::min(nx - 1, std::max(0, static_cast<int>(x / dx))); }
+  int row(double y) const {
+    return std::min(ny - 1, std::max(0, static_cast<int>((y - ylo_) / dy)));
+  }
+  /// The column may be one beyond the seam; shift(): what to add to the x of the entries then.
+  std::vector<Entry> &at(int ix, int iy) {
+    ix += ix < 0 ? nx : ix >= nx ? -nx : 0;
+    return cells_[static_cast<std::size_t>(ix) * static_cast<std::size_t>(ny) +
+                  static_cast<std::size_t>(iy)];
+  }
+  double shift(int ix) const { return ix < 0 ? -length_ : ix >= nx ? length_ : 0.0; }
+  void insert(double x, double y, const Entry &entry) { at(column(x), row(y)).push_back(entry); }
+
+  const std::vector<std::vector<Entry>> &all() const { return cells_; }
+
+ private:
+  double length_, ylo_;
+  std::vector<std::vector<Entry>> cells_;
+};
 
 /// One block [0, length) x [ylo, yhi], periodic in x, with a cell grid for neighbour searches.
 class BlockPacker {
  public:
   BlockPacker(const PackingSettings &settings, double ylo, double yhi, Random &random)
-      : set_(settings), ylo_(ylo), yhi_(yhi), random_(random) {
-    // no cell is smaller than rmax, so a search of few rings is enough
-    nx_ = std::max(1, static_cast<int>(set_.length / set_.rmax));
-    ny_ = std::max(1, static_cast<int>((yhi - ylo) / set_.rmax));
-    dx_ = set_.length / nx_;
-    dy_ = (yhi - ylo) / ny_;
-    cells_.resize(static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_));
-  }
+      : set_(settings),
+        ylo_(ylo),
+        yhi_(yhi),
+        random_(random),
+        // no cell is smaller than rmax, so a search of few rings is enough
+        cells_(settings.length, ylo, yhi, settings.rmax) {}
 
   void run() {
     place_seeds();
@@ -96,7 +132,7 @@ class BlockPacker {
   /// Call f(x, y, r) for each disc, cell by cell.
   template <class F>
   void for_each(F &&f) const {
-    for (const auto &cell : cells_)
+    for (const auto &cell : cells_.all())
       for (const Entry &e : cell) f(e.x, e.y, e.r);
   }
 
@@ -114,20 +150,6 @@ class BlockPacker {
 
   static constexpr double FAR = 1e300;
 
-  // ---------------------------------------------------------------- grid
-
-  int column(double x) const { return std::min(nx_ - 1, std::max(0, static_cast<int>(x / dx_))); }
-  int row(double y) const {
-    return std::min(ny_ - 1, std::max(0, static_cast<int>((y - ylo_) / dy_)));
-  }
-
-  void insert(double x, double y, double r) { cell(column(x), row(y)).push_back({x, y, r}); }
-
-  std::vector<Entry> &cell(int ix, int iy) {
-    return cells_[static_cast<std::size_t>(ix) * static_cast<std::size_t>(ny_) +
-                  static_cast<std::size_t>(iy)];
-  }
-
   double wrap(double x) const {
     if (x < 0.0) x += set_.length;
     // a tiny negative x may round to length
@@ -141,21 +163,13 @@ class BlockPacker {
     if (y - ylo_ < r - slack || yhi_ - y < r - slack) return false;
     // reach: a disc further away than this along x or y cannot overlap
     const double reach = r + set_.rmax;
-    const int kx = std::min(static_cast<int>(reach / dx_) + 1, (nx_ - 1) / 2);
-    const int ylow = row(y - reach), yhigh = row(y + reach);
-    const int cx = column(x);
-    for (int k = -kx; k <= kx; ++k) {
-      int ix = cx + k;
-      double shift = 0.0;
-      if (ix < 0) {
-        ix += nx_;
-        shift = -set_.length;
-      } else if (ix >= nx_) {
-        ix -= nx_;
-        shift = set_.length;
-      }
+    const int kx = std::min(static_cast<int>(reach / cells_.dx) + 1, (cells_.nx - 1) / 2);
+    const int ylow = cells_.row(y - reach), yhigh = cells_.row(y + reach);
+    const int cx = cells_.column(x);
+    for (int ix = cx - kx; ix <= cx + kx; ++ix) {
+      const double shift = cells_.shift(ix);
       for (int iy = ylow; iy <= yhigh; ++iy)
-        for (const Entry &e : cell(ix, iy)) {
+        for (const Entry &e : cells_.at(ix, iy)) {
           const double ex = e.x + shift - x, ey = e.y - y;
           const double sum = (e.r + r) * (1.0 - set_.tolerance);
           if (ex * ex + ey * ey < sum * sum) return false;
@@ -179,7 +193,7 @@ class BlockPacker {
       for (int i = 0; i < ncol; ++i) {
         const double x = wrap((i + (j % 2 ? 0.75 : 0.25)) * xstep), y = yfirst + j * ystep;
         const double r = random_.uniform(set_.rmin, set_.rmax);
-        if (fits(x, y, r)) insert(x, y, r);
+        if (fits(x, y, r)) cells_.insert(x, y, {x, y, r});
       }
   }
 
@@ -211,14 +225,14 @@ class BlockPacker {
     const double py = ylo_ + (yhi_ - ylo_) * random_.uniform();
     Object near[3];
     if (!nearest(px, py, near)) return false;
-    double x[2], y[2], r[2];
-    const int n = tangent_circles(near, x, y, r);
+    Entry circles[2];
+    const int n = tangent_circles(near, circles);
     for (int i = 0; i < n; ++i) {
-      if (!in_range(r[i])) continue;
-      if (!polish(near, x[i], y[i], r[i]) || !in_range(r[i])) continue;
-      const double nx = wrap(px + x[i]), ny = py + y[i];
-      if (!(ny > ylo_ && ny < yhi_) || !fits(nx, ny, r[i])) continue;
-      insert(nx, ny, r[i]);
+      auto &[x, y, r] = circles[i];
+      if (!in_range(r) || !polish(near, x, y, r) || !in_range(r)) continue;
+      const double nx = wrap(px + x), ny = py + y;
+      if (!(ny > ylo_ && ny < yhi_) || !fits(nx, ny, r)) continue;
+      cells_.insert(nx, ny, {nx, ny, r});
       return true;
     }
     return false;
@@ -238,34 +252,27 @@ class BlockPacker {
     near[0] = near[1] = near[2] = {FAR, 0.0, 0.0, 0.0, 0};
     offer(near, {py - ylo_, 0.0, ylo_ - py, 0.0, 1});
     offer(near, {yhi_ - py, 0.0, yhi_ - py, 0.0, -1});
-    const int cx = column(px), cy = row(py);
-    const double fx = px - cx * dx_, fy = py - ylo_ - cy * dy_;
-    const double inset = std::min(std::min(fx, dx_ - fx), std::min(fy, dy_ - fy));
-    const double step = std::min(dx_, dy_);
-    const int last = std::max((nx_ - 1) / 2, ny_ - 1);
+    const int nx = cells_.nx, ny = cells_.ny, cx = cells_.column(px), cy = cells_.row(py);
+    const double dx = cells_.dx, dy = cells_.dy;
+    const double fx = px - cx * dx, fy = py - ylo_ - cy * dy;
+    const double inset = std::min(std::min(fx, dx - fx), std::min(fy, dy - fy));
+    const double step = std::min(dx, dy);
+    const int last = std::max((nx - 1) / 2, ny - 1);
     for (int k = 0; k <= last; ++k) {
       // centres in ring k and beyond are at least this far away
       if (k > 0 && inset + (k - 1) * step - set_.rmax >= near[2].s) break;
       for (int jy = -k; jy <= k; ++jy) {
         const int iy = cy + jy;
-        if (iy < 0 || iy >= ny_) continue;
+        if (iy < 0 || iy >= ny) continue;
         const bool edge = (jy == -k || jy == k);
-        const double gy = jy == 0 ? 0.0 : (jy > 0 ? jy * dy_ - fy : fy - (jy + 1) * dy_);
+        const double gy = jy == 0 ? 0.0 : (jy > 0 ? jy * dy - fy : fy - (jy + 1) * dy);
         for (int jx = -k; jx <= k; jx += (edge || k == 0) ? 1 : 2 * k) {
-          if (2 * jx > nx_ - 1 || -2 * jx > nx_ - 1) continue;
-          const double gx = jx == 0 ? 0.0 : (jx > 0 ? jx * dx_ - fx : fx - (jx + 1) * dx_);
+          if (2 * jx > nx - 1 || -2 * jx > nx - 1) continue;
+          const double gx = jx == 0 ? 0.0 : (jx > 0 ? jx * dx - fx : fx - (jx + 1) * dx);
           const double far = near[2].s + set_.rmax;
           if (near[2].s < FAR && gx * gx + gy * gy >= far * far) continue;
-          int ix = cx + jx;
-          double shift = -px;
-          if (ix < 0) {
-            ix += nx_;
-            shift -= set_.length;
-          } else if (ix >= nx_) {
-            ix -= nx_;
-            shift += set_.length;
-          }
-          for (const Entry &e : cell(ix, iy)) {
+          const double shift = cells_.shift(cx + jx) - px;
+          for (const Entry &e : cells_.at(cx + jx, iy)) {
             const double ex = e.x + shift, ey = e.y - py, limit = near[2].s + e.r;
             const double d2 = ex * ex + ey * ey;
             if (limit <= 0.0 || d2 >= limit * limit) continue;
@@ -280,7 +287,7 @@ class BlockPacker {
   /// Circles that touch three objects from outside (at most two), smaller radius first.
   /// With the first disc as origin, |p| = r + r1, the other two conditions are linear in (p, r):
   /// p . n_k = a_k - b_k r, hence p = A - B r, and |A - B r| = r + r1 is a quadratic equation.
-  static int tangent_circles(const Object *o, double *x, double *y, double *r) {
+  static int tangent_circles(const Object *o, Entry *circles) {
     int base = -1, lines = 0;
     for (int i = 0; i < 3; ++i) {
       if (o[i].line)
@@ -328,11 +335,8 @@ class BlockPacker {
     if (s != 0.0) root[count++] = q0 / s;
     if (q2 != 0.0) root[count++] = s / q2;
     if (count == 2 && root[1] < root[0]) std::swap(root[0], root[1]);
-    for (int i = 0; i < count; ++i) {
-      r[i] = root[i];
-      x[i] = d.x + ax - bx * root[i];
-      y[i] = d.y + ay - by * root[i];
-    }
+    for (int i = 0; i < count; ++i)
+      circles[i] = {d.x + ax - bx * root[i], d.y + ay - by * root[i], root[i]};
     return count;
   }
 
@@ -387,9 +391,7 @@ class BlockPacker {
   const PackingSettings &set_;
   double ylo_, yhi_;
   Random &random_;
-  int nx_ = 1, ny_ = 1;
-  double dx_ = 0.0, dy_ = 0.0;
-  std::vector<std::vector<Entry>> cells_;
+  Cells<Entry> cells_;
   int64_t tries_ = 0;
 };
 
@@ -426,10 +428,6 @@ inline void check(const PackingSettings &s) {
   if (s.length / s.rmax * (s.width / s.rmax) > 5e8)
     reject("length", s.length, "less than 5e8 rmax^2 / width = ", 5e8 * s.rmax * s.rmax / s.width);
 }
-
-}  // namespace packing_detail
-
-namespace packing_detail {
 
 /// Surface distance of a disc from the fault line.
 inline double fault_gap(const PackingSettings &s, const Disc &d) {
@@ -480,33 +478,18 @@ inline void sort_discs(const PackingSettings &s, Packing &result) {
 /// Links of tangent discs, by cells at least as large as the longest link, both blocks in one grid.
 inline void link_discs(const PackingSettings &s, Packing &result) {
   const int n = static_cast<int>(result.discs.size());
-  const double reach = 2.0 * s.rmax + s.link_gap;
-  const int nx = std::max(1, static_cast<int>(s.length / reach));
-  const int ny = std::max(1, static_cast<int>(s.width / reach));
-  const double dx = s.length / nx, dy = s.width / ny;
-  const auto column_of = [&](double x) { return std::min(nx - 1, static_cast<int>(x / dx)); };
-  const auto row_of = [&](double y) {
-    return std::min(ny - 1, std::max(0, static_cast<int>(y / dy)));
-  };
-  const auto index = [&](int ix, int iy) {
-    return static_cast<std::size_t>(ix) * static_cast<std::size_t>(ny) +
-           static_cast<std::size_t>(iy);
-  };
-  std::vector<std::vector<int>> cells(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny));
-  for (int i = 0; i < n; ++i) {
-    const Disc &d = result.discs[static_cast<std::size_t>(i)];
-    cells[index(column_of(d.x), row_of(d.y))].push_back(i);
-  }
+  Cells<int> cells(s.length, 0.0, s.width, 2.0 * s.rmax + s.link_gap);
+  for (int i = 0; i < n; ++i) cells.insert(result.disc(i).x, result.disc(i).y, i);
   std::vector<int> partners;
   for (int i = 0; i < n; ++i) {
-    const Disc &a = result.discs[static_cast<std::size_t>(i)];
+    const Disc &a = result.disc(i);
     partners.clear();
-    const int cx = column_of(a.x), cy = row_of(a.y);
-    for (int kx = -1; kx <= 1; ++kx)
-      for (int iy = std::max(0, cy - 1); iy <= std::min(ny - 1, cy + 1); ++iy)
-        for (const int j : cells[index((cx + kx + nx) % nx, iy)]) {
+    const int cx = cells.column(a.x), cy = cells.row(a.y);
+    for (int ix = cx - 1; ix <= cx + 1; ++ix)
+      for (int iy = std::max(0, cy - 1); iy <= std::min(cells.ny - 1, cy + 1); ++iy)
+        for (const int j : cells.at(ix, iy)) {
           if (j <= i) continue;
-          const Disc &b = result.discs[static_cast<std::size_t>(j)];
+          const Disc &b = result.disc(j);
           if (b.block != a.block) continue;
           const auto [ex, ey] = link_vector(s.length, a, b);
           const double limit = a.r + b.r + s.link_gap;

@@ -81,11 +81,6 @@ inline void move(const std::string &from, const std::string &to) {
   text_io::sync(folder.empty() ? "." : folder);
 }
 
-inline std::string last_line(const std::string &path, const Cksum &sum) {
-  return std::to_string(sum.value()) + " " + std::to_string(sum.size()) + " " +
-         std::filesystem::path(path).filename().string();
-}
-
 }  // namespace restart_info_detail
 
 /// Gives a restart file, written as `written`, its name and its FILE.info. Whenever this is
@@ -99,7 +94,8 @@ inline void seal_restart(const std::string &written, const std::string &path,
   for (const auto &[key, value] : settings) text += key + " = " + value + "\n";
   Cksum lines;
   lines.add(text);
-  text += "lines = " + std::to_string(lines.value()) + "\n" + last_line(path, sum) + "\n";
+  text += "lines = " + std::to_string(lines.value()) + "\n" + std::to_string(sum.value()) + " " +
+          std::to_string(sum.size()) + " " + std::filesystem::path(path).filename().string() + "\n";
   const std::string info = path + ".info";
   std::error_code code;
   std::filesystem::remove(info, code);

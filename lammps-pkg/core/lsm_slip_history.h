@@ -31,21 +31,72 @@
 
 #include "lsm_binary_io.h"
 #include "lsm_fault_grid.h"
+#include "lsm_state.h"
 #include "lsm_text_io.h"
 
 namespace LSM {
 
 /// Header of a slip history.
-struct SlipHistoryInfo {
-  std::string model = "lsm";
+struct SlipHistoryInfo : text_io::FileHeader {
+  static constexpr std::string_view magic = "lsm-slip-hist-1\n";
+  static constexpr const char *what = "slip history";
+  static constexpr int most_bins = 1 << 20;
+
   FaultGrid grid;
   RuptureSettings ruptures;
   double driving = 0.0;    ///< velocity of one side of the fault relative to the other
   std::int64_t quiet = 1;  ///< intervals in a record while nothing slips, at most
-  text_io::Parameters parameters;
 
-  /// Value of one of the other parameters, or nullptr.
-  const std::string *find(std::string_view key) const { return text_io::find(parameters, key); }
+  SlipHistoryInfo() { model = "lsm"; }
+
+  template <class Self, class F>
+  static void visit(Self &self, F &&f) {
+    f("bins", self.grid.bins);
+    f("x0", self.grid.x0);
+    f("bin", self.grid.width);
+    f("step0", self.grid.step0);
+    f("interval", self.grid.interval);
+    f("time0", self.grid.time0);
+    f("dt", self.grid.dt);
+    f("slip_velocity", self.ruptures.velocity);
+    f("gap", self.ruptures.gap);
+    f("memory_intervals", self.ruptures.memory);
+    f("modulus", self.ruptures.modulus);
+    f("driving", self.driving);
+    f("quiet", self.quiet);
+  }
+  text_io::Parameters header() const {
+    text_io::Parameters all = binary_io::numbers_of(*this);
+    all.insert(all.end(), parameters.begin(), parameters.end());
+    return all;
+  }
+  std::string read(const text_io::Parameters &all) {
+    const std::string *const ends = text_io::find(all, "ends");
+    grid.ring = !ends || *ends != "open";
+    return {};
+  }
+  std::string fault() const {
+    if (model != "lsm") return "model is " + text_io::in_quotes(model) + ", expected 'lsm'";
+    if (grid.bins < 1 || grid.bins > most_bins)
+      return "bins is not a number of bins, expected 1 to " + std::to_string(most_bins);
+    for (const auto &[name, value] : {std::pair<const char *, double>{"bin", grid.width},
+                                      {"dt", grid.dt},
+                                      {"modulus", ruptures.modulus}})
+      if (!(value > 0.0))
+        return std::string(name) + " is " + text_io::number(value) + ", expected a positive number";
+    for (const auto &[name, value] :
+         {std::pair<const char *, std::int64_t>{"interval", grid.interval},
+          {"memory_intervals", ruptures.memory},
+          {"quiet", quiet}})
+      if (value < 1)
+        return std::string(name) + " is " + text_io::number(value) + ", expected at least 1";
+    if (ruptures.gap < 0 || ruptures.gap > most_bins)
+      return "gap is out of range, expected 0 to " + std::to_string(most_bins);
+    if (!(ruptures.velocity >= 0.0))
+      return "slip_velocity is " + text_io::number(ruptures.velocity) + ", expected at least 0";
+    return {};
+  }
+  std::int64_t record_bytes() const { return 24 + 12 * static_cast<std::int64_t>(grid.bins); }
 };
 
 /// The fault between two steps.
@@ -55,129 +106,29 @@ struct SlipRecord {
   FaultRow row;
 };
 
-namespace slip_history_detail {
-
-constexpr std::string_view magic = "lsm-slip-hist-1\n";
-constexpr std::int64_t most_bins = 1 << 20;
-
-/// Calls f(name, double &) or f(name, std::int64_t &) for each number of a header, in the order of
-/// the file.
-template <class Info, class F>
-void each_number(Info &info, F &&f) {
-  auto bins = static_cast<std::int64_t>(info.grid.bins);
-  f("bins", bins);
-  if constexpr (!std::is_const_v<Info>)
-    info.grid.bins = bins > 0 && bins <= most_bins ? static_cast<int>(bins) : 0;
-  f("x0", info.grid.x0);
-  f("bin", info.grid.width);
-  f("step0", info.grid.step0);
-  f("interval", info.grid.interval);
-  f("time0", info.grid.time0);
-  f("dt", info.grid.dt);
-  f("slip_velocity", info.ruptures.velocity);
-  auto gap = static_cast<std::int64_t>(info.ruptures.gap);
-  f("gap", gap);
-  if constexpr (!std::is_const_v<Info>)
-    info.ruptures.gap = gap >= 0 && gap <= most_bins ? static_cast<int>(gap) : -1;
-  f("memory_intervals", info.ruptures.memory);
-  f("modulus", info.ruptures.modulus);
-  f("driving", info.driving);
-  f("quiet", info.quiet);
-}
-
-inline text_io::Parameters header(const SlipHistoryInfo &info) {
-  text_io::Parameters all = {{"model", info.model}};
-  each_number(info, [&all](const char *name, const auto &value) {
-    all.emplace_back(name, text_io::number(value));
-  });
-  all.insert(all.end(), info.parameters.begin(), info.parameters.end());
-  return all;
-}
-
-/// What is wrong with the numbers of a header, or "".
-inline std::string fault(const SlipHistoryInfo &info) {
-  const FaultGrid &grid = info.grid;
-  if (info.model != "lsm") return "model is " + text_io::in_quotes(info.model) + ", expected 'lsm'";
-  if (grid.bins < 1) return "bins is not a number of bins, expected 1 to 1048576";
-  for (const auto &[name, value] : {std::pair<const char *, double>{"bin", grid.width},
-                                    {"dt", grid.dt},
-                                    {"modulus", info.ruptures.modulus}})
-    if (!(value > 0.0))
-      return std::string(name) + " is " + text_io::number(value) + ", expected a positive number";
-  for (const auto &[name, value] :
-       {std::pair<const char *, std::int64_t>{"interval", grid.interval},
-        {"memory_intervals", info.ruptures.memory},
-        {"quiet", info.quiet}})
-    if (value < 1)
-      return std::string(name) + " is " + text_io::number(value) + ", expected at least 1";
-  if (info.ruptures.gap < 0) return "gap is out of range, expected 0 to 1048576";
-  if (!(info.ruptures.velocity >= 0.0))
-    return "slip_velocity is " + text_io::number(info.ruptures.velocity) + ", expected at least 0";
-  return {};
-}
-
-/// Sorts the pairs of a header into info; returns what is wrong, or "".
-inline std::string interpret(const text_io::Parameters &all, SlipHistoryInfo &info) {
-  info = SlipHistoryInfo();
-  std::vector<std::string> known = {"model"};
-  std::string problem = text_io::take(all, "model", info.model);
-  each_number(info, [&](const char *name, auto &value) {
-    known.emplace_back(name);
-    if (problem.empty()) problem = text_io::take(all, name, value);
-  });
-  if (!problem.empty()) return problem;
-  for (const auto &parameter : all)
-    if (std::find(known.begin(), known.end(), parameter.first) == known.end())
-      info.parameters.push_back(parameter);
-  const std::string *ends = info.find("ends");
-  info.grid.ring = !ends || *ends != "open";
-  return fault(info);
-}
-
-inline std::int64_t record_bytes(const SlipHistoryInfo &info) {
-  return 24 + 12 * static_cast<std::int64_t>(info.grid.bins);
-}
-
-}  // namespace slip_history_detail
-
-/// Reads a slip history record by record. Anything unexpected throws; only a truncated last record,
-/// as a killed run leaves it, is dropped if asked to (lenient).
-class SlipHistoryReader {
+/// Reads a slip history record by record.
+class SlipHistoryReader : public binary_io::RecordReader<SlipHistoryInfo> {
  public:
-  /// \throws FileError if the file cannot be read or its header is not as it should be.
-  explicit SlipHistoryReader(const std::string &path, bool lenient = false,
-                             text_io::OpenBytes open = text_io::open_plain)
-      : path_(path) {
-    using namespace slip_history_detail;
-    std::unique_ptr<text_io::Bytes> in = open(path);
-    const binary_io::Header header = binary_io::read_header(*in, magic, "slip history");
-    const std::string problem = interpret(header.parameters, info_);
-    if (!problem.empty()) throw FileError(path + ": " + problem);
-    records_ = binary_io::Records(std::move(in), header, record_bytes(info_), lenient);
-  }
-
-  const SlipHistoryInfo &info() const { return info_; }
-  const std::string &path() const { return path_; }
-  bool torn() const { return records_.torn(); }  ///< a truncated last record is dropped (lenient)
-  std::int64_t records() const { return records_.total(); }
+  explicit SlipHistoryReader(std::unique_ptr<text_io::Bytes> in, bool lenient = false)
+      : RecordReader(std::move(in), lenient) {}
 
   /// Next record; false at the end of the file. \throws FileError
   bool next(SlipRecord &record) {
     using binary_io::from_bytes;
-    const char *at = records_.next();
+    const char *at = next_record();
     if (!at) return false;
     record.step_begin = from_bytes<std::int64_t>(at);
     record.step_end = from_bytes<std::int64_t>(at + 8);
     record.pe = from_bytes<double>(at + 16);
     at += 24;
-    if (!std::isfinite(record.pe)) records_.fail("pe is not finite, expected a finite number");
+    if (!std::isfinite(record.pe)) fail("pe is not finite, expected a finite number");
     for (std::vector<float> *values : {&record.row.slip, &record.row.work, &record.row.stress}) {
-      values->resize(static_cast<std::size_t>(info_.grid.bins));
+      values->resize(static_cast<std::size_t>(info().grid.bins));
       for (float &value : *values) {
         value = from_bytes<float>(at);
         at += 4;
         if (!std::isfinite(value))
-          records_.fail("slip, work or stress of a bin is not finite, expected finite numbers");
+          fail("slip, work or stress of a bin is not finite, expected finite numbers");
       }
     }
     check_steps(record);
@@ -187,12 +138,10 @@ class SlipHistoryReader {
   }
 
  private:
-  friend class SlipHistoryWriter;
-
   void check_steps(const SlipRecord &record) const {
     const std::string steps =
         "steps " + std::to_string(record.step_begin) + " to " + std::to_string(record.step_end);
-    const auto fail = [this](const std::string &what) { records_.fail(what); };
+    const FaultGrid &grid = info().grid;
     if (!has_last_) {
       if (record.step_begin != record.step_end)
         fail(steps + ", expected the state before the first interval");
@@ -203,79 +152,56 @@ class SlipHistoryReader {
     }
     // Differences of any two steps, even nonsensical ones, are below 2^64.
     const auto since =
-        static_cast<std::uint64_t>(record.step_end) - static_cast<std::uint64_t>(info_.grid.step0);
-    if (record.step_end < info_.grid.step0 ||
-        since % static_cast<std::uint64_t>(info_.grid.interval) != 0)
-      fail(steps + ", expected whole intervals of " + std::to_string(info_.grid.interval) +
-           " steps from step " + std::to_string(info_.grid.step0));
-    if (!std::isfinite(info_.grid.time(record.step_end)))
+        static_cast<std::uint64_t>(record.step_end) - static_cast<std::uint64_t>(grid.step0);
+    if (record.step_end < grid.step0 || since % static_cast<std::uint64_t>(grid.interval) != 0)
+      fail(steps + ", expected whole intervals of " + std::to_string(grid.interval) +
+           " steps from step " + std::to_string(grid.step0));
+    if (!std::isfinite(grid.time(record.step_end)))
       fail("time of " + steps + " is not finite, expected a finite number");
   }
 
-  std::string path_;
-  SlipHistoryInfo info_;
-  binary_io::Records records_;
   std::int64_t last_end_ = 0;
   bool has_last_ = false;
 };
 
-/// Writes a slip history. Each record is on its way to disk when it is complete.
-class SlipHistoryWriter {
+/// Writes a slip history. Each record is on its way to disk when it is complete; what belongs to
+/// one that is not is lost on close().
+class SlipHistoryWriter : public binary_io::RecordWriter<SlipHistoryInfo> {
  public:
-  /// Starts a new file, replacing an older one (which stays if the new one cannot be written), with
-  /// the state at the given step. \throws FileError; std::invalid_argument for a header that
-  /// could not be read back.
+  /// Starts with the state at the given step. \throws as begin()
   void create(const std::string &path, const SlipHistoryInfo &info, std::int64_t step, double pe,
               const std::vector<float> &stress) {
-    using namespace slip_history_detail;
-    check(info);
-    file_.create(path, binary_io::header_bytes(magic, header(info)));
-    start(info, step);
-    SlipRecord first;
-    first.step_begin = first.step_end = step;
-    first.pe = pe;
-    first.row = FaultRow(info.grid.bins);
+    begin(path, info);
+    start(step);
+    SlipRecord first{step, step, pe, FaultRow(info.grid.bins)};
     first.row.stress = stress;
     put(first);
   }
 
-  /// Goes on with the history of a run restarted with the given state(): checks that the header
-  /// says what create() would write (parameters named in ignore may differ; their old values stay),
-  /// and drops every record after that state and a torn last one. The file is left as it was if
-  /// this throws. \throws FileError
-  void resume(const std::string &path, const SlipHistoryInfo &info,
-              const std::vector<double> &saved, const std::vector<std::string> &ignore = {}) {
-    using namespace slip_history_detail;
-    check(info);
-    file_.close();
-    const auto bins = static_cast<std::size_t>(info.grid.bins);
-    if (saved.size() != 4 + 3 * bins)
-      throw FileError(path + ": cannot resume: the saved state is of another fault");
-    SlipHistoryReader reader(path, true);
-    const std::string problem = text_io::difference(header(reader.info()), header(info), ignore);
-    if (!problem.empty()) throw FileError(path + ": cannot resume: " + problem);
-    const auto wanted = static_cast<std::int64_t>(saved[0]);
+  /// Looks at the history of a run restarted with the given state(), which cut() goes on with:
+  /// checks that the header says what create() would write (parameters named in ignore may differ;
+  /// their old values stay), and finds the first record after that state, or a torn last one.
+  /// \throws FileError
+  void find_cut(const std::string &path, const SlipHistoryInfo &info,
+                const std::vector<double> &saved, const std::vector<std::string> &ignore = {}) {
+    close();
+    if (saved.size() != 4 + 3 * static_cast<std::size_t>(info.grid.bins))
+      refuse(path, "the saved state is of another fault");
+    SlipHistoryReader reader(text_io::open_plain(path), true);
+    compare(path, reader.info(), info, ignore);
+    start(0);
+    StateReader in(saved);
+    visit(*this, in);
     std::int64_t reached = 0, length = 0;
     SlipRecord record;
-    while (reader.next(record) && record.step_end <= wanted) {
+    while (reader.next(record) && record.step_end <= begin_) {
       reached = record.step_end;
-      length = reader.records_.end();
+      length = reader.end();
     }
-    if (length == 0 || reached != wanted)
-      throw FileError(
-          path + ": cannot resume: " +
-          (length == 0 ? "no records" : "records end at step " + std::to_string(reached)) +
-          ", expected them up to step " + std::to_string(wanted));
-    file_.append(path, length);
-    start(info, wanted);
-    pending_ = static_cast<std::int64_t>(saved[1]);
-    last_.step_end = static_cast<std::int64_t>(saved[2]);
-    last_.pe = saved[3];
-    for (std::size_t b = 0; b < bins; ++b) {
-      slip_[b] = saved[4 + b];
-      work_[b] = saved[4 + bins + b];
-      last_.row.stress[b] = static_cast<float>(saved[4 + 2 * bins + b]);
-    }
+    if (length == 0 || reached != begin_)
+      refuse(path, (length == 0 ? "no records" : "records end at step " + std::to_string(reached)) +
+                       ", expected them up to step " + std::to_string(begin_));
+    file_.keep(path, length);
   }
 
   /// The next interval, which ends at the given step. active: something slips, or did so until a
@@ -295,31 +221,25 @@ class SlipHistoryWriter {
 
   /// For restarts, after any add().
   std::vector<double> state() const {
-    std::vector<double> out = {static_cast<double>(begin_), static_cast<double>(pending_),
-                               static_cast<double>(last_.step_end), last_.pe};
-    out.insert(out.end(), slip_.begin(), slip_.end());
-    out.insert(out.end(), work_.begin(), work_.end());
-    out.insert(out.end(), last_.row.stress.begin(), last_.row.stress.end());
+    std::vector<double> out;
+    StateWriter to(out);
+    visit(*this, to);
     return out;
   }
 
-  /// \throws FileError. Also done on destruction, silently. What belongs to a record that is
-  /// not complete is lost.
-  void close() { file_.close(); }
-  bool is_open() const { return file_.is_open(); }
-
  private:
-  static void check(const SlipHistoryInfo &info) {
-    const std::string problem = slip_history_detail::fault(info);
-    if (!problem.empty()) throw std::invalid_argument("slip history header: " + problem);
-    text_io::check_parameters(slip_history_detail::header(info));
+  template <class Self, class State>
+  static void visit(Self &self, State &state) {
+    state(self.begin_, self.pending_, self.last_.step_end, self.last_.pe);
+    state.fixed(self.slip_);
+    state.fixed(self.work_);
+    state.fixed(self.last_.row.stress);
   }
 
-  void start(const SlipHistoryInfo &info, std::int64_t step) {
-    info_ = info;
+  void start(std::int64_t step) {
     begin_ = step;
     pending_ = 0;
-    last_.row = FaultRow(info.grid.bins);
+    last_.row = FaultRow(info_.grid.bins);
     slip_.assign(last_.row.slip.size(), 0.0);
     work_ = slip_;
   }
@@ -340,7 +260,7 @@ class SlipHistoryWriter {
 
   void put(const SlipRecord &record) {
     std::string bytes;
-    bytes.reserve(static_cast<std::size_t>(slip_history_detail::record_bytes(info_)));
+    bytes.reserve(static_cast<std::size_t>(info_.record_bytes()));
     binary_io::append_bytes(bytes, record.step_begin);
     binary_io::append_bytes(bytes, record.step_end);
     binary_io::append_bytes(bytes, record.pe);
@@ -355,8 +275,6 @@ class SlipHistoryWriter {
     file_.write(bytes);
   }
 
-  text_io::OutputFile file_;
-  SlipHistoryInfo info_;
   std::int64_t begin_ = 0;    // of the record being assembled
   std::int64_t pending_ = 0;  // intervals in it
   std::vector<double> slip_, work_;

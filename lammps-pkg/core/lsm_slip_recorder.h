@@ -5,6 +5,9 @@
 #ifndef LSM_SLIP_RECORDER_H
 #define LSM_SLIP_RECORDER_H
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "lsm_fault_grid.h"
@@ -33,35 +36,46 @@ struct FaultContact {
   double share;  ///< 1, or 0.5 where another rank has the contact as well
 };
 
-/// Sums of one rank's contacts over the intervals of a fault.
+/// Sums of one rank's contacts in the bins over the intervals of a fault; those of several ranks
+/// can be added.
 class SlipRecorder {
  public:
   /// forward: direction in which the upper side is driven along x, 1 or -1.
   void begin(const FaultGrid &grid, double forward) {
     grid_ = grid;
     forward_ = forward;
-    sums_ = FaultSums(grid);
+    sums_.assign(fault_fields * static_cast<std::size_t>(grid.bins), 0.0);
   }
 
   const FaultGrid &grid() const { return grid_; }
-  /// The sums of the incomplete interval.
-  std::vector<double> &sums() { return sums_.values(); }
-  void clear() { sums_.clear(); }
+  /// The sums of the incomplete interval, fault_fields of each bin.
+  std::vector<double> &sums() { return sums_; }
+  void clear() { std::fill(sums_.begin(), sums_.end(), 0.0); }
 
   /// Contacts of the state before the first interval; only their forces count.
   void add_forces(const std::vector<FaultContact> &contacts) {
-    for (const FaultContact &c : contacts) sums_.add(c.x, 0.0, 0.0, forward_ * c.force, c.share);
+    for (const FaultContact &c : contacts) add(c, 0.0, 0.0);
   }
   /// Contacts of a step.
   void add(const std::vector<FaultContact> &contacts) {
-    for (const FaultContact &c : contacts)
-      sums_.add(c.x, forward_ * c.slip, c.work, forward_ * c.force, c.share);
+    for (const FaultContact &c : contacts) add(c, forward_ * c.slip, c.work);
   }
 
  private:
+  void add(const FaultContact &c, double slip, double work) {
+    double along = (c.x - grid_.x0) / grid_.length();
+    along = grid_.ring ? along - std::floor(along) : std::max(along, 0.0);
+    const int bin = std::min(static_cast<int>(along * grid_.bins), grid_.bins - 1);
+    double *const sums = &sums_[fault_fields * static_cast<std::size_t>(bin)];
+    sums[0] += c.share * slip;
+    sums[1] += c.share;
+    sums[2] += c.share * work;
+    sums[3] += c.share * (forward_ * c.force);
+  }
+
   FaultGrid grid_;
   double forward_ = 1.0;
-  FaultSums sums_;
+  std::vector<double> sums_;
 };
 
 }  // namespace LSM

@@ -26,6 +26,12 @@ struct SlipSet {
   std::int64_t first = 0;       ///< lowest of those that slid first
   /// The row of places that slid, with the gaps between them: length in a row from begin on.
   std::int64_t begin = 0, length = 0;
+
+  /// The order in which sets are reported.
+  bool operator<(const SlipSet &other) const {
+    return std::tie(step_end, step_start, first) <
+           std::tie(other.step_end, other.step_start, other.first);
+  }
 };
 
 /// Adds a row of places to that of a set, with the gap of at most `gap` places between them. A row
@@ -132,15 +138,14 @@ class SlipSets {
     }
     open_.resize(kept);
     if (finished_.empty()) return;
-    std::sort(finished_.begin(), finished_.end(), [](const Set &a, const Set &b) {
-      return std::tie(a.step_end, a.step_start, a.first) <
-             std::tie(b.step_end, b.step_start, b.first);
-    });
+    std::sort(finished_.begin(), finished_.end());
     for (const Set &set : finished_) finished(set);
   }
 
   /// No set is open.
   bool idle() const { return open_.empty(); }
+  /// Sets that are open; after end_step().
+  std::int64_t open() const { return static_cast<std::int64_t>(open_.size()); }
   int places() const { return places_; }
   std::int64_t memory() const { return memory_; }
   std::int64_t step() const { return step_; }

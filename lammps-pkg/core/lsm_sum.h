@@ -15,10 +15,9 @@ namespace LSM {
 class NeumaierSum {
  public:
   NeumaierSum() = default;
-  /// Starts from a given value, e.g. a sum taken from a restart.
-  explicit NeumaierSum(double start) : sum_(start) {}
-  /// Starts from a saved pair (sum(), compensation()), so that a restart is exact.
-  NeumaierSum(double sum, double compensation) : sum_(sum), compensation_(compensation) {}
+  /// Starts from a given value, or from a saved pair, so that a restart is exact.
+  explicit NeumaierSum(double sum, double compensation = 0.0)
+      : sum_(sum), compensation_(compensation) {}
 
   void add(double term) {
 #ifdef __FAST_MATH__

@@ -42,17 +42,13 @@ namespace text_io {
 using Parameters = std::vector<std::pair<std::string, std::string>>;
 
 /// 17 significant digits, so that reading gives the same double back.
-inline void append(std::string &out, double value) {
-  char buffer[64];
-  const auto result =
-      std::to_chars(buffer, buffer + sizeof(buffer), value, std::chars_format::general, 17);
-  out.append(buffer, result.ptr);
-}
-
-inline void append(std::string &out, std::int64_t value) {
-  char buffer[32];
-  const auto result = std::to_chars(buffer, buffer + sizeof(buffer), value);
-  out.append(buffer, result.ptr);
+template <class T>
+void append(std::string &out, T value) {
+  char buffer[64], *const end = buffer + sizeof(buffer);
+  if constexpr (std::is_floating_point_v<T>)
+    out.append(buffer, std::to_chars(buffer, end, value, std::chars_format::general, 17).ptr);
+  else
+    out.append(buffer, std::to_chars(buffer, end, value).ptr);
 }
 
 template <class T>
@@ -63,20 +59,14 @@ std::string number(T value) {
 }
 
 /// All of text has to be one number; no blanks, no locale. Infinities and NaN are refused.
-inline bool parse(std::string_view text, double &value) {
-  double result = 0.0;
-  const char *const end = text.data() + text.size();
-  const auto parsed = std::from_chars(text.data(), end, result);
-  if (parsed.ec != std::errc() || parsed.ptr != end || !std::isfinite(result)) return false;
-  value = result;
-  return true;
-}
-
-inline bool parse(std::string_view text, std::int64_t &value) {
-  std::int64_t result = 0;
+template <class T>
+bool parse(std::string_view text, T &value) {
+  T result{};
   const char *const end = text.data() + text.size();
   const auto parsed = std::from_chars(text.data(), end, result);
   if (parsed.ec != std::errc() || parsed.ptr != end) return false;
+  if constexpr (std::is_floating_point_v<T>)
+    if (!std::isfinite(result)) return false;
   value = result;
   return true;
 }
@@ -121,6 +111,15 @@ inline const std::string *find(const Parameters &parameters, std::string_view ke
   return nullptr;
 }
 
+/// What the headers of all our files hold.
+struct FileHeader {
+  std::string model;      ///< "lsm" or "block-slider"
+  Parameters parameters;  ///< the other ones, in the order of the file
+
+  /// Value of one of the other parameters, or nullptr.
+  const std::string *find(std::string_view key) const { return text_io::find(parameters, key); }
+};
+
 /// Takes the value of a parameter that has to be there; returns what is wrong, or "".
 template <class Value>
 std::string take(const Parameters &parameters, const std::string &key, Value &value) {
@@ -151,15 +150,12 @@ inline void check_parameters(const Parameters &parameters) {
   }
 }
 
-/// First line and one "# key = value" line per parameter.
-inline std::string header_text(std::string_view first_line, const Parameters &parameters) {
-  std::string out(first_line);
-  out += '\n';
-  for (const auto &parameter : parameters) {
-    out += "# ";
-    out += parameter.first;
-    out += " = ";
-    out += trim(parameter.second);
+/// One "# key = value" line per parameter.
+inline std::string lines_of(const Parameters &parameters) {
+  std::string out;
+  for (const auto &[key, value] : parameters) {
+    out += "# " + key + " = ";
+    out += trim(value);
     out += '\n';
   }
   return out;
@@ -181,16 +177,19 @@ inline bool parse_parameter(std::string_view line, std::pair<std::string, std::s
 /// Parameters of a file that is being read. A header may be long, so keys are hashed.
 class ParameterList {
  public:
+  /// What is wrong with a key and its value, or "".
+  using Check = std::string (*)(const std::string &key, const std::string &value);
+
   /// Adds a "# key = value" line; returns what is wrong, or "".
-  std::string add_line(std::string_view line) {
+  std::string add_line(std::string_view line, Check check = nullptr) {
     std::pair<std::string, std::string> parameter;
     if (!parse_parameter(line, parameter))
       return "header line " + in_quotes(line) + ", expected '# key = value'";
-    return add(std::move(parameter));
-  }
-  std::string add(std::pair<std::string, std::string> parameter) {
-    if (!keys_.insert(parameter.first).second)
-      return "parameter " + in_quotes(parameter.first) + " given twice, expected once";
+    const auto &[key, value] = parameter;
+    const std::string problem = check ? check(key, value) : "";
+    if (!problem.empty()) return problem;
+    if (!keys_.insert(key).second)
+      return "parameter " + in_quotes(key) + " given twice, expected once";
     all_.push_back(std::move(parameter));
     return {};
   }
@@ -217,24 +216,21 @@ inline std::string difference(const Parameters &in_file, const Parameters &expec
   const auto ignored = [&ignore](const std::string &key) {
     return std::find(ignore.begin(), ignore.end(), key) != ignore.end();
   };
-  std::unordered_map<std::string_view, std::string_view> found, known;
-  for (const auto &[key, value] : in_file) found.emplace(key, value);
-  for (const auto &[key, value] : expected) known.emplace(key, value);
-  for (const auto &parameter : expected) {
-    if (ignored(parameter.first)) continue;
-    const std::string value(trim(parameter.second));
-    const auto there = found.find(parameter.first);
+  using Values = std::unordered_map<std::string_view, std::string_view>;
+  const Values found(in_file.begin(), in_file.end()), known(expected.begin(), expected.end());
+  for (const auto &[key, value] : expected) {
+    if (ignored(key)) continue;
+    const std::string wanted(trim(value));
+    const auto there = found.find(key);
     if (there == found.end())
-      return "parameter '" + parameter.first + "' is missing in the file, expected '" + value + "'";
-    if (there->second != value)
-      return "parameter '" + parameter.first + "' is '" + std::string(there->second) +
-             "' in the file, expected '" + value + "'";
+      return "parameter '" + key + "' is missing in the file, expected '" + wanted + "'";
+    if (there->second != wanted)
+      return "parameter '" + key + "' is '" + std::string(there->second) +
+             "' in the file, expected '" + wanted + "'";
   }
-  for (const auto &parameter : in_file) {
-    if (!ignored(parameter.first) && known.count(parameter.first) == 0)
-      return "parameter '" + parameter.first + "' is '" + parameter.second +
-             "' in the file, expected no such parameter";
-  }
+  for (const auto &[key, value] : in_file)
+    if (!ignored(key) && known.count(key) == 0)
+      return "parameter '" + key + "' is '" + value + "' in the file, expected no such parameter";
   return {};
 }
 
@@ -271,9 +267,6 @@ class Bytes {
 
   std::string path_, ahead_;
 };
-
-/// How a reader opens the bytes of a file.
-using OpenBytes = std::unique_ptr<Bytes> (*)(const std::string &path);
 
 /// The bytes of a file, unchanged.
 class FileBytes : public Bytes {
@@ -347,8 +340,7 @@ constexpr std::string_view foreign_lines =
 class LineReader {
  public:
   /// \throws FileError
-  explicit LineReader(const std::string &path, OpenBytes open = open_plain)
-      : LineReader(open(path)) {}
+  explicit LineReader(const std::string &path) : LineReader(open_plain(path)) {}
   explicit LineReader(std::unique_ptr<Bytes> bytes)
       : path_(bytes->path()), bytes_(std::move(bytes)) {
     buffer_.resize(first_size);
@@ -496,16 +488,20 @@ class OutputFile {
     if (!whole) take_name();
   }
 
-  /// Truncates an existing file to its first length bytes and continues after them.
-  void append(const std::string &path, std::int64_t length) {
+  /// An existing file of which append() will keep so many bytes.
+  void keep(const std::string &path, std::int64_t bytes) {
     close();
     name_ = written_ = path;
+    kept_ = static_cast<std::uintmax_t>(bytes);
+  }
+
+  /// Truncates that file and continues behind the bytes that are kept.
+  void append() {
     // Opened first: without the right to write nothing is cut.
-    open(path, path, "ab");
+    open(name_, name_, "ab");
     std::error_code code;
-    const auto bytes = static_cast<std::uintmax_t>(length);
-    if (std::filesystem::file_size(path, code) != bytes && !code)
-      std::filesystem::resize_file(path, bytes, code);
+    if (std::filesystem::file_size(name_, code) != kept_ && !code)
+      std::filesystem::resize_file(name_, kept_, code);
     if (code) give_up("cannot truncate", code);
   }
 
@@ -563,6 +559,25 @@ class OutputFile {
 
   std::FILE *file_ = nullptr;
   std::string path_, name_, written_;  // as given, with links resolved, and while being written
+  std::uintmax_t kept_ = 0;
+};
+
+/// A file that a restarted run goes on with. find_cut() of the derived class looks at it without a
+/// change: where more than one file goes on, nothing is cut before all of them are found to fit.
+class ResumableFile {
+ public:
+  /// Drops what find_cut() found, and goes on there. \throws FileError
+  void cut() { file_.append(); }
+  /// \throws FileError if the system reports a late failure. Also done on destruction, silently.
+  void close() { file_.close(); }
+  bool is_open() const { return file_.is_open(); }
+
+ protected:
+  [[noreturn]] static void refuse(const std::string &path, const std::string &why) {
+    throw FileError(path + ": cannot resume: " + why);
+  }
+
+  OutputFile file_;
 };
 
 /// Replaces path by a file with the text, or leaves it unchanged. \param safe also writes it to the

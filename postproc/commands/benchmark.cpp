@@ -64,7 +64,7 @@ void read_reference(const std::string &path, std::vector<NamedCurves> &curves) {
 /// Slip at the end of each record, slip rate in its middle. A parameter `scale` of the header says
 /// by what the stresses, and with them the slip, were multiplied.
 NamedCurves read_history(const std::string &path, bool lenient, const std::string &label) {
-  SlipHistoryReader reader(path, lenient);
+  SlipHistoryReader reader(text_io::open_plain(path), lenient);
   const SlipHistoryInfo &info = reader.info();
   const std::string *text = info.find("scale");
   double scale = 1.0;

@@ -8,7 +8,7 @@
 namespace LSM::postproc {
 
 SlipHistoryReader open_history(const std::string &path, bool lenient) {
-  SlipHistoryReader reader(path, lenient, open_input);
+  SlipHistoryReader reader(open_input(path), lenient);
   if (reader.torn()) fmt::print(stderr, "postproc: {}: dropped a truncated last record: 1\n", path);
   if (!(reader.info().driving > 0.0))
     throw std::runtime_error(path + ": the driving velocity in the header is not positive");

@@ -109,11 +109,11 @@ class Pick : public Analysis {
     found.say(fmt::format(
         "{} samples, {} events; not written: {} of size <= 0, {} below the minimum size, {} "
         "before the warm-up ended{}\nwrote {}\n",
-        samples, catalogue.rows(), picker.dropped_nonpositive(), picker.dropped_small(), early,
-        picker.in_event() ? ", 1 that had not ended" : "", output_.path));
+        samples, catalogue.rows(), picker.state().dropped_nonpositive, picker.state().dropped_small,
+        early, picker.in_event() ? ", 1 that had not ended" : "", output_.path));
     Table counts("samples,events,nonpositive,small,before_warmup,unfinished");
-    counts.row(samples, catalogue.rows(), picker.dropped_nonpositive(), picker.dropped_small(),
-               early, picker.in_event());
+    counts.row(samples, catalogue.rows(), picker.state().dropped_nonpositive,
+               picker.state().dropped_small, early, picker.in_event());
     found.table("counts", std::move(counts));
     return found;
   }

@@ -20,7 +20,7 @@ class SeriesText {
  public:
   SeriesText(const std::string &path, const PeSeriesInfo &info) {
     if (path.empty()) return;
-    lines_ = text_io::header_text("# PE series", pe_series_detail::header(info)) + "step,time,pe\n";
+    lines_ = "# PE series\n" + text_io::lines_of(info.header()) + "step,time,pe\n";
     file_.create(path, "", true);
   }
   void add(std::int64_t step, double time, double pe) {

@@ -26,7 +26,7 @@ void add_series(OptionGroup group, std::string &path) {
 }
 
 SeriesInput::SeriesInput(const std::string &path, const SeriesOptions &options)
-    : path_(path), options_(options), reader_(path, options.lenient, open_input) {
+    : path_(path), options_(options), reader_(open_input(path), options.lenient) {
   if (!(options.from_time < options.to_time))
     throw std::invalid_argument(fmt::format("--from {} --to {}: expected --from before --to",
                                             options.from_time, options.to_time));

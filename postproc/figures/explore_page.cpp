@@ -153,11 +153,7 @@ json events_json(const ExploreEvents &kind, const std::string &id, PageData &dat
   const CatalogueInfo &info = kind.table.info;
   std::vector<double> numbers;
   json names = json::array();
-  std::size_t index = 0;
-  for (const catalogue_detail::Column &column : catalogue_detail::all_columns) {
-    const std::size_t optional = index++ - catalogue_detail::required;
-    if (index > catalogue_detail::required && !(info.*catalogue_detail::optional_columns[optional]))
-      continue;
+  for (const catalogue_detail::Column &column : catalogue_detail::columns_of(info)) {
     names.push_back(column.name);
     for (const Event &event : kind.table.details)
       numbers.push_back(column.number ? event.*column.number

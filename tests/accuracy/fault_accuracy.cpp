@@ -28,10 +28,10 @@
 
 #include "event_statistics.h"
 #include "friction_schemes.h"
-#include "lsm_catalogue.h"
 #include "lsm_event_picker.h"
 #include "lsm_pe_series.h"
 #include "lsm_sum.h"
+#include "read_catalogue.h"
 
 namespace {
 
@@ -172,7 +172,7 @@ std::map<int, std::array<double, 2>> snapshot(const std::string &file) {
 double around(double d) { return d - length * std::round(d / length); }
 
 std::vector<LSM::Event> events_of(const std::string &file) {
-  return LSM::read_catalogue(work(file)).events;
+  return unit::read_catalogue(work(file)).events;
 }
 
 // ---- one event ----------------------------------------------------------------------------------
@@ -713,7 +713,7 @@ void picker_readings(const LongRun &w, Table &table) {
     settings.reading = way.reading;
     settings.lambda = way.memory > 0.0 ? LSM::lambda_from_memory_time(way.memory, w.dt) : 0.99;
     LSM::EventPicker picker(settings);
-    LSM::PeSeriesReader series(work(w.prefix() + ".pe.bin"));
+    LSM::PeSeriesReader series(LSM::text_io::open_plain(work(w.prefix() + ".pe.bin")));
     std::vector<int> counts(thresholds.size(), 0);
     double duration = 0.0;
     std::int64_t step;
@@ -1075,7 +1075,7 @@ run 300
     settings.lambda = LSM::lambda_from_memory_time(memory, 0.06);
     settings.min_size = 1e-9;
     LSM::EventPicker picker(settings);
-    LSM::PeSeriesReader series(work("long_remove_0.06_1.pe.bin"));
+    LSM::PeSeriesReader series(LSM::text_io::open_plain(work("long_remove_0.06_1.pe.bin")));
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> uniform(-relative, relative);
     std::vector<LSM::Event> events;

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "lmp_runner.h"
-#include "lsm_catalogue.h"
 #include "lsm_slip_history.h"
+#include "read_catalogue.h"
 
 using namespace physics;
 
@@ -23,7 +23,7 @@ struct History {
   std::vector<double> slip;  // in the end, of each bin
 
   explicit History(const std::string &path) {
-    LSM::SlipHistoryReader reader(path);
+    LSM::SlipHistoryReader reader(LSM::text_io::open_plain(path));
     info = reader.info();
     scale = std::stod(*info.find("scale"));
     slip.assign(static_cast<std::size_t>(info.grid.bins), 0.0);
@@ -109,9 +109,8 @@ TEST_F(Benchmark, RanksAgree) {
 TEST_F(Benchmark, RupturesStillOpenAreWrittenIfAsked) {
   Variables variables = small("open");
   ASSERT_TRUE(succeeded(run_scene("rupture_tpv205.in", variables)));
-  LSM::CatalogueReader reader(path("open.ruptures.csv"));
-  LSM::Event event, largest;
-  while (reader.next(event))
+  LSM::Event largest;
+  for (const LSM::Event &event : unit::read_catalogue(path("open.ruptures.csv")).events)
     if (event.rupture_length > largest.rupture_length) largest = event;
   EXPECT_NEAR(largest.t_end, 1.5, 1e-9);  // it still slips
   EXPECT_GE(largest.rupture_length, 3000.0);

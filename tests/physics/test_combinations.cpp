@@ -6,7 +6,7 @@
 
 #include "disc_scene.h"
 #include "lmp_runner.h"
-#include "lsm_catalogue.h"
+#include "read_catalogue.h"
 
 using namespace physics;
 
@@ -255,7 +255,7 @@ fix               move all lsm/nve
     EXPECT_LT(std::fabs(r.last("c_events[13]")), 1e-4);
     EXPECT_EQ(r.lines_with("WARNING: Compute lsm/events").size(), 1u) << r.output;
     // the energy that the command took would be the size of an event
-    for (const auto &event : LSM::read_catalogue(path("jump.csv")).events)
+    for (const auto &event : unit::read_catalogue(path("jump.csv")).events)
       EXPECT_LT(event.size, 1e-3);
   }
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Errors in the input, and runs that fail.
 #include "fault_scene.h"
-#include "lsm_catalogue.h"
 #include "lsm_event_picker.h"
 #include "lsm_output_claim.h"
 #include "lsm_pe_series.h"
+#include "read_catalogue.h"
 
 using namespace physics;
 
@@ -108,8 +108,8 @@ TEST_F(BlowUp, StopsWithAMessageAndACleanCatalogue) {
           << lines[0];
       // the strict readers refuse anything that is not finite; the catalogue agrees with the
       // series
-      const auto found = LSM::read_catalogue(path("blown.csv")).events;
-      LSM::PeSeriesReader series(path("blown.pe"));
+      const auto found = unit::read_catalogue(path("blown.csv")).events;
+      LSM::PeSeriesReader series(LSM::text_io::open_plain(path("blown.pe")));
       LSM::PickerSettings settings;
       settings.reading = LSM::PickerReading::literal;
       settings.keep_nonpositive = true;

@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "fault_scene.h"
-#include "lsm_catalogue.h"
+#include "read_catalogue.h"
 
 using namespace physics;
 
@@ -107,7 +107,7 @@ class Right {
     const double error = ledger_error(r);
     EXPECT_LT(error, tolerance) << name;
     std::size_t events = 0;
-    EXPECT_NO_THROW(events = LSM::read_catalogue(catalogue).events.size()) << name;
+    EXPECT_NO_THROW(events = unit::read_catalogue(catalogue).events.size()) << name;
     outcome(name, "right; ledger to " + brief(error) + "; " + std::to_string(events) + " events");
   }
 };
@@ -335,7 +335,7 @@ TEST_F(Extremes, OneDiscAndNoContacts) {
   ASSERT_TRUE(succeeded(one));
   EXPECT_NEAR(one.last("v_px"), 0.5, 1e-15);
   EXPECT_EQ(one.last("c_events[5]"), 0.0);
-  EXPECT_EQ(LSM::read_catalogue(path("single.csv")).events.size(), 0u);
+  EXPECT_EQ(unit::read_catalogue(path("single.csv")).events.size(), 0u);
   outcome("one disc", "right; no energy and no event");
 
   const Result apart =
@@ -344,7 +344,7 @@ TEST_F(Extremes, OneDiscAndNoContacts) {
   ASSERT_TRUE(succeeded(apart));
   EXPECT_EQ(apart.last("c_events[5]"), 0.0);
   EXPECT_EQ(apart.last("KinEng"), 0.0);
-  EXPECT_EQ(LSM::read_catalogue(path("single.csv")).events.size(), 0u);
+  EXPECT_EQ(unit::read_catalogue(path("single.csv")).events.size(), 0u);
   outcome("no contacts at all", "right; no energy and no event");
 }
 
@@ -365,7 +365,7 @@ TEST_F(Reproducible, SameBytesFromSameRanks) {
         EXPECT_TRUE(b == series) << ranks << " ranks";
       }
     }
-    EXPECT_GT(LSM::read_catalogue(path("again.csv")).events.size(), 2u);
+    EXPECT_GT(unit::read_catalogue(path("again.csv")).events.size(), 2u);
   }
 }
 
@@ -526,7 +526,7 @@ thermo_modify     norm no format float %.17g
   for (int ranks : {1, 2}) {
     ASSERT_TRUE(succeeded(run_text(shear + "thermo 0\nrun 3000\n", {}, ranks)));
     const std::string catalogue = read_file(path("seen.csv")), series = read_file(path("seen.pe"));
-    EXPECT_GT(LSM::read_catalogue(path("seen.csv")).events.size(), 2u);
+    EXPECT_GT(unit::read_catalogue(path("seen.csv")).events.size(), 2u);
 
     const Result each = run_text(shear + "thermo 1\nrun 3000\n", {}, ranks);
     ASSERT_TRUE(succeeded(each));

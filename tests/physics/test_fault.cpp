@@ -4,9 +4,9 @@
 #include <fstream>
 
 #include "fault_scene.h"
-#include "lsm_catalogue.h"
 #include "lsm_event_picker.h"
 #include "lsm_pe_series.h"
+#include "read_catalogue.h"
 
 using namespace physics;
 
@@ -104,15 +104,16 @@ TEST_F(Restart, EqualsTheUninterruptedRun) {
     EXPECT_LT(off, 1e-7);
     EXPECT_EQ(tail.last("c_events"), second.last("c_events"));
 
-    const auto a = LSM::read_catalogue(path("whole" + tag + ".csv"));
-    const auto b = LSM::read_catalogue(path("resumed" + tag + ".csv"));
+    const auto a = unit::read_catalogue(path("whole" + tag + ".csv"));
+    const auto b = unit::read_catalogue(path("resumed" + tag + ".csv"));
     EXPECT_GT(a.events.size(), 3u);
     expect_same_events(a.events, b.events, 1e-9);
     for (std::size_t n = 0; n < std::min(a.events.size(), b.events.size()); ++n)
       EXPECT_NEAR(a.events[n].slip_moment, b.events[n].slip_moment,
                   1e-6 * std::fabs(a.events[n].slip_moment) + 1e-12);
 
-    LSM::PeSeriesReader x(path("whole" + tag + ".pe")), y(path("resumed" + tag + ".pe"));
+    LSM::PeSeriesReader x(LSM::text_io::open_plain(path("whole" + tag + ".pe")));
+    LSM::PeSeriesReader y(LSM::text_io::open_plain(path("resumed" + tag + ".pe")));
     std::int64_t step = 0, other = 0;
     double time = 0, pe = 0, other_time = 0, other_pe = 0;
     std::int64_t samples = 0;
@@ -176,14 +177,14 @@ TEST_F(Restart, PickerFollowsTheTimeStep) {
 
       // times continue from 60, and so do the numbers of the events
       const double old_events = before.last("c_events");
-      const auto fast = LSM::read_catalogue(path("fast.csv"));
+      const auto fast = unit::read_catalogue(path("fast.csv"));
       ASSERT_GT(fast.events.size(), 1u);
       EXPECT_EQ(static_cast<double>(fast.events[0].id), old_events + 1.0);
       EXPECT_NEAR(std::stod(*fast.info.find("dt")), 0.015, 1e-15);
       EXPECT_NEAR(std::stod(*fast.info.find("lambda")), lambda, 1e-15);
       for (const auto &e : fast.events)
         EXPECT_NEAR(e.t_end, 60.0 + 0.015 * static_cast<double>(e.step_end - 2000), 1e-9);
-      LSM::PeSeriesReader series(path("fast.pe"));
+      LSM::PeSeriesReader series(LSM::text_io::open_plain(path("fast.pe")));
       std::int64_t step = 0;
       double time = 0, pe = 0;
       ASSERT_TRUE(series.next(step, time, pe));
@@ -251,11 +252,11 @@ TEST_F(Events, PickedOnlineEqualThosePickedLater) {
               "thermo 1000\nrun 2500\nrun 1500\n",
           {{"picker", picker}}, ranks);
       ASSERT_TRUE(succeeded(r));
-      const auto catalogue = LSM::read_catalogue(path("online.csv"));
+      const auto catalogue = unit::read_catalogue(path("online.csv"));
       LSM::PickerSettings settings;
       ASSERT_TRUE(LSM::from_string(picker, settings.reading));
       LSM::EventPicker later(settings);
-      LSM::PeSeriesReader series(path("online.pe"));
+      LSM::PeSeriesReader series(LSM::text_io::open_plain(path("online.pe")));
       std::vector<LSM::Event> events;
       std::int64_t step = 0;
       double time = 0, pe = 0;
@@ -275,7 +276,7 @@ TEST_F(Events, SlipAndCentroidLieOnTheFault) {
                              "thermo ${thermo}\nrun 5000\n";
   const Result r = run_text(script, {{"thermo", "1"}});
   ASSERT_TRUE(succeeded(r));
-  const auto catalogue = LSM::read_catalogue(path("located.csv"));
+  const auto catalogue = unit::read_catalogue(path("located.csv"));
   ASSERT_GT(catalogue.events.size(), 2u);
   std::size_t slid = 0, elsewhere = 0;
   const double first = catalogue.events[0].x_centroid;
@@ -306,7 +307,7 @@ TEST_F(Events, SlipAndCentroidLieOnTheFault) {
 
   // the slip gathered from two ranks
   ASSERT_TRUE(succeeded(run_text(script, {{"thermo", "1000"}}, 2)));
-  const auto two = LSM::read_catalogue(path("located.csv"));
+  const auto two = unit::read_catalogue(path("located.csv"));
   expect_same_events(catalogue.events, two.events, 1e-9);
   for (std::size_t n = 0; n < std::min(two.events.size(), catalogue.events.size()); ++n) {
     EXPECT_NEAR(two.events[n].slip_moment, catalogue.events[n].slip_moment,
@@ -321,7 +322,7 @@ TEST_F(Ranks, ThermoAndFirstEventsAgree) {
                              fault_shear("catalogue ${prefix}.csv") + "thermo 100\nrun 1500\n";
   const Result one = run_text(script);
   ASSERT_TRUE(succeeded(one));
-  const auto events = LSM::read_catalogue(path("one.csv")).events;
+  const auto events = unit::read_catalogue(path("one.csv")).events;
   EXPECT_GE(events.size(), 1u);
   for (int ranks : {1, 2, 4})
     for (const char *newton : {"on", "off"}) {
@@ -330,7 +331,7 @@ TEST_F(Ranks, ThermoAndFirstEventsAgree) {
       const double off = thermo_difference(one, r, compared);
       std::printf("%d ranks, newton %s: thermo differs by %.2g\n", ranks, newton, off);
       EXPECT_LT(off, 1e-9);
-      expect_same_events(events, LSM::read_catalogue(path("several.csv")).events, 1e-9);
+      expect_same_events(events, unit::read_catalogue(path("several.csv")).events, 1e-9);
     }
 }
 

@@ -5,8 +5,8 @@
 #include <sstream>
 
 #include "fault_scene.h"
-#include "lsm_catalogue.h"
 #include "lsm_pe_series.h"
+#include "read_catalogue.h"
 
 using namespace physics;
 
@@ -359,7 +359,7 @@ TEST_F(Leap, CatalogueHasModelTimes) {
                    "thermo 1\nrun 4000\n",
                {{"prefix", "times"}, {"dt", "0.03"}});
   ASSERT_TRUE(succeeded(r));
-  const auto catalogue = LSM::read_catalogue(path("times.csv"));
+  const auto catalogue = unit::read_catalogue(path("times.csv"));
   ASSERT_GT(catalogue.events.size(), 2u);
   ASSERT_NE(catalogue.info.find("leap"), nullptr);
   EXPECT_EQ(catalogue.info.find("leap")->substr(0, 10), "fast 0.005");
@@ -390,7 +390,7 @@ TEST_F(Leap, SeriesAndRupturesHaveModelTimes) {
   std::map<double, double> model;  // time of each step
   for (const auto &row : r.thermo) model[row.at("Step")] = row.at("f_leap");
 
-  LSM::PeSeriesReader reader(path("samples.pe"));
+  LSM::PeSeriesReader reader(LSM::text_io::open_plain(path("samples.pe")));
   EXPECT_TRUE(reader.info().own_times);
   std::int64_t step = 0, samples = 0;
   double time = 0.0, pe = 0.0;
@@ -401,7 +401,7 @@ TEST_F(Leap, SeriesAndRupturesHaveModelTimes) {
   EXPECT_EQ(samples, 4001);
   EXPECT_GT(time, 1.5 * 4000 * 0.03);  // it leapt
 
-  const auto ruptures = LSM::read_catalogue(path("samples.ruptures"));
+  const auto ruptures = unit::read_catalogue(path("samples.ruptures"));
   ASSERT_GE(ruptures.events.size(), 3u);
   // Slip counts against the plates' fastest velocity.
   EXPECT_EQ(*ruptures.info.find("driving"), LSM::text_io::number(0.01));

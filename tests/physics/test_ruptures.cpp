@@ -5,9 +5,9 @@
 #include <sstream>
 
 #include "fault_scene.h"
-#include "lsm_catalogue.h"
 #include "lsm_pe_series.h"
 #include "lsm_slip_history.h"
+#include "read_catalogue.h"
 #include "slow_ruptures.h"
 
 using namespace physics;
@@ -61,7 +61,7 @@ static std::string moved(const std::vector<std::pair<int, double>> &bins, int st
 }
 
 static std::vector<LSM::SlipRecord> records_of(const std::string &path) {
-  LSM::SlipHistoryReader reader(path);
+  LSM::SlipHistoryReader reader(LSM::text_io::open_plain(path));
   std::vector<LSM::SlipRecord> records;
   LSM::SlipRecord record;
   while (reader.next(record)) records.push_back(record);
@@ -110,7 +110,7 @@ TEST_F(Ruptures, PrescribedSlipIsFoundOnAnyNumberOfRanks) {
     for (int ranks : {1, 2, 4}) {
       SCOPED_TRACE(std::to_string(ranks) + " ranks, newton " + newton);
       ASSERT_TRUE(succeeded(run_text(script, {{"name", "moved"}, {"newton", newton}}, ranks)));
-      const auto catalogue = LSM::read_catalogue(path("moved.csv"));
+      const auto catalogue = unit::read_catalogue(path("moved.csv"));
       ASSERT_EQ(catalogue.events.size(), 3u);
       const auto &a = catalogue.events[0], &b = catalogue.events[1], &c = catalogue.events[2];
       // both ended with step 30; the one that began first comes first
@@ -142,7 +142,8 @@ TEST_F(Ruptures, PrescribedSlipIsFoundOnAnyNumberOfRanks) {
       EXPECT_GT(a.pe_start, a.pe_end);
 
       // all slip of the fault is in ruptures, or below the velocity: bin 5
-      const LSM::SlipHistoryInfo info = LSM::SlipHistoryReader(path("moved.slip")).info();
+      const LSM::SlipHistoryInfo info =
+          LSM::SlipHistoryReader(LSM::text_io::open_plain(path("moved.slip"))).info();
       const auto slow = unit::slow_ruptures(info, records_of(path("moved.slip")));
       EXPECT_NEAR(slow.slip_in_ruptures, 3.0 * slip(0.04) + slip(0.06) - slip(0.05), close * 0.23);
       // the last of the ten intervals belongs to an incomplete record
@@ -202,9 +203,10 @@ TEST_F(Ruptures, OfAFaultAreThoseOfItsSlipHistory) {
   ASSERT_TRUE(succeeded(r));
   EXPECT_TRUE(read_file(path("plain.pe")) == read_file(path("found.pe")));
 
-  const auto catalogue = LSM::read_catalogue(path("found.csv"));
+  const auto catalogue = unit::read_catalogue(path("found.csv"));
   EXPECT_EQ(r.last("c_events"), static_cast<double>(catalogue.events.size()));
-  const LSM::SlipHistoryInfo info = LSM::SlipHistoryReader(path("found.slip")).info();
+  const LSM::SlipHistoryInfo info =
+      LSM::SlipHistoryReader(LSM::text_io::open_plain(path("found.slip"))).info();
   const auto records = records_of(path("found.slip"));
   const unit::SlowRuptures slow = unit::slow_ruptures(info, records);
   std::vector<LSM::Event> expected;
@@ -241,7 +243,7 @@ TEST_F(Ruptures, OfAFaultAgreeOnAllRankCounts) {
     const std::string prefix = "ranks" + std::to_string(ranks);
     ASSERT_TRUE(succeeded(run_text(sheared(found + std::string("slipping 1")) + "run 2000\n",
                                    {{"prefix", prefix}}, ranks)));
-    const auto events = LSM::read_catalogue(path(prefix + ".csv")).events;
+    const auto events = unit::read_catalogue(path(prefix + ".csv")).events;
     if (ranks == 1) one = events;
     EXPECT_GT(events.size(), 2u);
     expect_same_ruptures(one, events, 1e-6);
@@ -268,8 +270,8 @@ TEST_F(Ruptures, GoOnFromARestartFile) {
     const Result second = run_text(again, {}, ranks);
     ASSERT_TRUE(succeeded(second));
     EXPECT_EQ(second.last("c_events"), whole.last("c_events"));
-    const auto a = LSM::read_catalogue(path("whole" + tag + ".csv")).events;
-    const auto b = LSM::read_catalogue(path("resumed" + tag + ".csv")).events;
+    const auto a = unit::read_catalogue(path("whole" + tag + ".csv")).events;
+    const auto b = unit::read_catalogue(path("resumed" + tag + ".csv")).events;
     std::size_t open = 0;
     for (const auto &e : a)
       if (e.step_start < 1500 && e.step_end > 1505) ++open;
@@ -296,7 +298,8 @@ TEST_F(Ruptures, GoOnFromARestartFile) {
   EXPECT_TRUE(failed_with(run_text(from + fault_shear(found) + "run 10\n", {{"prefix", "there"}}),
                           {"there.csv exists", "no ruptures of compute events"}));
   ASSERT_TRUE(succeeded(run_text(from + fault_shear(found) + "run 100\n", {{"prefix", "begun"}})));
-  EXPECT_EQ(LSM::SlipHistoryReader(path("begun.slip")).info().grid.step0, 100);
+  EXPECT_EQ(LSM::SlipHistoryReader(LSM::text_io::open_plain(path("begun.slip"))).info().grid.step0,
+            100);
 }
 
 TEST_F(Ruptures, OneLineOfError) {
@@ -334,7 +337,7 @@ TEST_F(Located, MomentCentroidAndLengthOfAPrescribedEvent) {
   for (int ranks : {1, 2, 4}) {
     SCOPED_TRACE(ranks);
     ASSERT_TRUE(succeeded(run_text(script, {}, ranks)));
-    const auto catalogue = LSM::read_catalogue(path("located.csv"));
+    const auto catalogue = unit::read_catalogue(path("located.csv"));
     ASSERT_EQ(catalogue.events.size(), 1u);
     const auto &e = catalogue.events[0];
     EXPECT_EQ(e.step_start, 10);
@@ -375,7 +378,7 @@ TEST_F(Located, ContactsAcrossTheBorderOfTheBox) {
       for (int ranks : {1, 2, 4}) {
         SCOPED_TRACE(std::to_string(side) + newton + std::to_string(ranks));
         ASSERT_TRUE(succeeded(run_text(script, {{"newton", newton}}, ranks)));
-        const auto catalogue = LSM::read_catalogue(path("located.csv"));
+        const auto catalogue = unit::read_catalogue(path("located.csv"));
         ASSERT_EQ(catalogue.events.size(), 1u);
         EXPECT_EQ(catalogue.events[0].rupture_length, 2.0);
       }
@@ -392,7 +395,7 @@ TEST_F(Located, EachComputeHasItsOwnBins) {
   };
   ASSERT_TRUE(succeeded(run_text(located(""))));
   const std::string alone = read_file(path("own.csv"));
-  ASSERT_EQ(LSM::read_catalogue(path("own.csv")).events.size(), 1u);
+  ASSERT_EQ(unit::read_catalogue(path("own.csv")).events.size(), 1u);
   for (const char *other :
        {"compute other all lsm/events", "compute other all lsm/events location yes bin 7 lambda 0",
         "compute other all lsm/events events ruptures driving 0.001 modulus 0.5 bin 5"}) {
@@ -409,7 +412,7 @@ TEST_F(Ruptures, UncomputeLeavesTheOtherCompute) {
       fault_read() + fault_shear("") + "uncompute events\nthermo_style custom step ke\n";
   ASSERT_TRUE(succeeded(run_text(fixes + pe + "run 1000\nrun 2000\n")));
   const std::string alone = read_file(path("pe.csv"));
-  ASSERT_GE(LSM::read_catalogue(path("pe.csv")).events.size(), 3u);
+  ASSERT_GE(unit::read_catalogue(path("pe.csv")).events.size(), 3u);
   for (const std::string &both : {pe + other, other + pe})
     for (const char *words : {"", " pre no"})
       for (int ranks : {1, 2}) {

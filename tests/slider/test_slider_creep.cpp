@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "lsm_catalogue.h"
+#include "read_catalogue.h"
 #include "slider_chain.h"
 #include "slider_creep.h"
 #include "slider_files.h"
@@ -232,7 +232,7 @@ RunOptions slow(int blocks, double velocity, double way) {
 /// Events from a size on; times as ways of the plate.
 std::vector<LSM::Event> large_events(const RunOptions &o, double least) {
   std::vector<LSM::Event> large;
-  for (const LSM::Event &e : LSM::read_catalogue(o.catalogue).events)
+  for (const LSM::Event &e : unit::read_catalogue(o.catalogue).events)
     if (e.size >= least) large.push_back(e);
   return large;
 }

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "lsm_catalogue.h"
 #include "lsm_pe_series.h"
+#include "read_catalogue.h"
 #include "slider_files.h"
 #include "slider_run.h"
 #include "switching_chain.h"
@@ -79,7 +79,7 @@ TEST(SliderRun, EventsAreThoseOfTheSeries) {
   o.series = testing::TempDir() + "slider_sizes.pe";
   o.x_centroid = o.rupture_length = true;
   const RunResult r = run(o);
-  const LSM::Catalogue c = LSM::read_catalogue(o.catalogue);
+  const unit::Catalogue c = unit::read_catalogue(o.catalogue);
   const std::vector<double> pe = pe_of(o.series);
   ASSERT_EQ(pe.size(), 400001U);
   EXPECT_NEAR(pe.back(), r.pe_direct, 1e-9 * r.pe_direct);
@@ -154,7 +154,7 @@ TEST(SliderRun, AllSchemesFindTheFirstLargeEvent) {
     o.parameters.scheme = scheme;
     o.catalogue = testing::TempDir() + "slider_first.csv";
     run(o);
-    const LSM::Catalogue found = LSM::read_catalogue(o.catalogue);
+    const unit::Catalogue found = unit::read_catalogue(o.catalogue);
     ASSERT_GE(found.events.size(), 1U) << to_string(scheme);
     EXPECT_NEAR(found.events[0].t_start, expected.t_start, 0.03) << to_string(scheme);
     EXPECT_NEAR(found.events[0].size / expected.size, 1.0, 0.05) << to_string(scheme);

@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "lsm_catalogue.h"
 #include "lsm_pe_series.h"
 #include "lsm_random.h"
+#include "read_catalogue.h"
 #include "slider_chain.h"
 #include "slider_ruptures.h"
 #include "slider_files.h"
@@ -360,12 +360,12 @@ TEST(RupturesOfTheChain, BoundTheSlipOfEventsOfTheEnergy) {
   // sample late; a second rupture is there or not to the step.
   RunOptions o = options("pe", Events::pe);
   run(o);
-  const LSM::Catalogue drops = LSM::read_catalogue(o.catalogue);
+  const unit::Catalogue drops = unit::read_catalogue(o.catalogue);
   o = options("ruptures", Events::ruptures);
   o.series = testing::TempDir() + "slider_ruptures.pe";
   o.series_stride = 1;
   run(o);
-  const LSM::Catalogue ruptures = LSM::read_catalogue(o.catalogue);
+  const unit::Catalogue ruptures = unit::read_catalogue(o.catalogue);
   ASSERT_TRUE(ruptures.info.overlapping());
   ASSERT_FALSE(drops.info.overlapping());
   std::size_t large = 0, overlaps = 0;
@@ -413,7 +413,7 @@ TEST(RupturesOfTheChain, ResumeFindsTheRowsOfTheCheckpoint) {
   o.rupture_memory = 8;
   run(o);
   const std::string whole = text(o.catalogue);
-  const LSM::Catalogue catalogue = LSM::read_catalogue(o.catalogue);
+  const unit::Catalogue catalogue = unit::read_catalogue(o.catalogue);
   ASSERT_GT(catalogue.events.size(), 200U);
   o.checkpoint = testing::TempDir() + "slider_resume.chk";
   for (std::size_t k = 50; k < 200; k += 50) {

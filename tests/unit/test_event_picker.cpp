@@ -100,7 +100,7 @@ void check_by_hand(PickerReading reading, const Expected &expected) {
     EXPECT_EQ(picker.in_event(), expected.in_event[i]);
     EXPECT_EQ(reported, static_cast<std::int64_t>(i) == expected.end + 1);
   }
-  EXPECT_EQ(picker.events(), 1);
+  EXPECT_EQ(picker.state().events, 1);
   EXPECT_EQ(event.id, 1);
   EXPECT_EQ(event.step_start, 1000 + expected.start);
   EXPECT_EQ(event.step_end, 1000 + expected.end);
@@ -109,7 +109,7 @@ void check_by_hand(PickerReading reading, const Expected &expected) {
   EXPECT_EQ(event.pe_start, by_hand[static_cast<std::size_t>(expected.start)]);
   EXPECT_EQ(event.pe_end, by_hand[static_cast<std::size_t>(expected.end)]);
   EXPECT_EQ(event.size, expected.size);
-  EXPECT_EQ(picker.last_size(), expected.size);
+  EXPECT_EQ(picker.state().last_size, expected.size);
 }
 
 TEST(EventPicker, ExponentialByHand) {
@@ -170,7 +170,7 @@ TEST(EventPicker, OpenEventAtTheEndIsNotReported) {
   EventPicker picker(settings(PickerReading::exponential, 0.5));
   EXPECT_TRUE(pick(picker, {0, 1, -5, -6}).empty());
   EXPECT_TRUE(picker.in_event());
-  EXPECT_EQ(picker.events(), 0);
+  EXPECT_EQ(picker.state().events, 0);
 }
 
 TEST(EventPicker, ConstantEnergyIsNoEvent) {
@@ -218,7 +218,7 @@ TEST(EventPicker, SizesArePositiveForAllReadings) {
       const std::vector<double> pe = stick_slip(17, 20000);
       const std::vector<Event> events = pick(picker, pe);
       EXPECT_GT(events.size(), 20U);
-      EXPECT_EQ(picker.dropped_nonpositive(), 0);
+      EXPECT_EQ(picker.state().dropped_nonpositive, 0);
       for (std::size_t i = 0; i < events.size(); ++i) {
         const Event &event = events[i];
         ASSERT_GT(event.size, 0.0);
@@ -338,9 +338,9 @@ TEST(EventPicker, GoesOnFromAStateSavedAnywhere) {
       events.insert(events.end(), rest.begin(), rest.end());
       SCOPED_TRACE(cut);
       expect_same(events, expected);
-      EXPECT_EQ(after.events(), whole.events());
-      EXPECT_EQ(after.dropped_small(), whole.dropped_small());
-      EXPECT_EQ(after.last_size(), whole.last_size());
+      EXPECT_EQ(after.state().events, whole.state().events);
+      EXPECT_EQ(after.state().dropped_small, whole.state().dropped_small);
+      EXPECT_EQ(after.state().last_size, whole.state().last_size);
       EXPECT_EQ(std::memcmp(&after.state(), &whole.state(), sizeof(bytes)), 0);
       if (HasFailure()) return;
     }
@@ -424,7 +424,8 @@ TEST(EventPicker, GivenChangesSeeWhatDifferencesOfLargeEnergiesLose) {
   EXPECT_EQ(by_difference.rate(), 0.0);
   EXPECT_FALSE(by_difference.in_event());
   EXPECT_TRUE(by_change.in_event());
-  EXPECT_EQ(by_change.dropped_nonpositive(), 4);  // the sizes still come from the rounded energy
+  EXPECT_EQ(by_change.state().dropped_nonpositive,
+            4);  // the sizes still come from the rounded energy
 }
 
 // ---- events that are not reported ----
@@ -445,9 +446,9 @@ TEST(EventPicker, NonPositiveSizesAreCountedAndKeptOnlyOnDemand) {
     reported += picker.push_change(3, 3.0, 1.5, -3.0, event);
     reported += picker.push_change(4, 4.0, 1.5, 9.0, event);
     EXPECT_EQ(reported, keep ? 2 : 0);
-    EXPECT_EQ(picker.events(), keep ? 2 : 0);
-    EXPECT_EQ(picker.dropped_nonpositive(), keep ? 0 : 2);
-    EXPECT_EQ(picker.dropped_small(), 0);
+    EXPECT_EQ(picker.state().events, keep ? 2 : 0);
+    EXPECT_EQ(picker.state().dropped_nonpositive, keep ? 0 : 2);
+    EXPECT_EQ(picker.state().dropped_small, 0);
     if (keep) {
       EXPECT_EQ(event.id, 2);
       EXPECT_EQ(event.size, -0.5);
@@ -466,8 +467,8 @@ TEST(EventPicker, SmallEventsAreCountedAndTakeNoIdentifier) {
   EXPECT_EQ(events[0].size, 2.0);
   EXPECT_EQ(events[1].id, 2);
   EXPECT_EQ(events[1].size, 3.0);
-  EXPECT_EQ(picker.dropped_small(), 2);
-  EXPECT_EQ(picker.dropped_nonpositive(), 0);
+  EXPECT_EQ(picker.state().dropped_small, 2);
+  EXPECT_EQ(picker.state().dropped_nonpositive, 0);
 }
 
 TEST(EventPicker, UnreportedEventsLeaveTheOutputAlone) {

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "read_catalogue.h"
 #include "unit_files.h"
 
 namespace {
@@ -46,7 +47,7 @@ struct MadeUpRun {
     stream = std::make_unique<EventStream>(settings);
     grid = settings.grid(0.0, length, 0, 100.0, dt);
     if (in_intervals()) stream->set_grid(grid);
-    sums = LSM::FaultSums(grid).values();
+    sums.resize(LSM::fault_fields * static_cast<std::size_t>(grid.bins));
   }
 
   bool in_intervals() const { return settings.kind->wants_intervals(); }
@@ -70,7 +71,7 @@ struct MadeUpRun {
 
   void add_contacts(std::int64_t step) {
     for (int b = 0; b < grid.bins; ++b) {
-      double *const s = &sums[LSM::FaultSums::fields * static_cast<std::size_t>(b)];
+      double *const s = &sums[LSM::fault_fields * static_cast<std::size_t>(b)];
       const bool slips = slides(step) && b >= 3 && b < 6 + step / 40;
       s[0] += slips ? 0.02 * (b + 1) : 1e-5;
       s[1] += 1.0;
@@ -141,10 +142,7 @@ class EventStreamFiles : public unit::Files {
     }
   }
   static std::vector<LSM::Event> events_of(const EventSettings &s) {
-    LSM::CatalogueReader reader(s.catalogue_file);
-    std::vector<LSM::Event> events;
-    for (LSM::Event event; reader.next(event);) events.push_back(event);
-    return events;
+    return unit::read_catalogue(s.catalogue_file).events;
   }
 };
 
@@ -155,7 +153,7 @@ TEST_F(EventStreamFiles, CatalogueIsWhatThePickerFindsInTheSeries) {
   run.begin();
   run.run(0, 400, 100);
   LSM::EventPicker picker(run.settings.picker);
-  LSM::PeSeriesReader series(run.settings.series_file);
+  LSM::PeSeriesReader series(LSM::text_io::open_plain(run.settings.series_file));
   std::vector<LSM::Event> expected;
   std::int64_t step, samples = 0;
   double time, pe;
@@ -329,7 +327,8 @@ TEST_F(EventStreamFiles, TheSeriesEndsBeforeAnEnergyThatIsNotFinite) {
         block, [](std::int64_t step) { return 0.5 * static_cast<double>(step); }, 0.0, length);
   });
   EXPECT_TRUE(unit::contains(message, "Potential energy is not finite at step 2"));
-  LSM::PeSeriesReader series(settings.series_file);  // of a run that still exists
+  LSM::PeSeriesReader series(
+      LSM::text_io::open_plain(settings.series_file));  // of a run that still exists
   std::int64_t step, samples = 0;
   double time, pe;
   while (series.next(step, time, pe)) ++samples;

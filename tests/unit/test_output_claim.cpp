@@ -17,6 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using LSM::bad_outputs;
+using LSM::claim_outputs;
 using LSM::file_identity;
 using LSM::FileError;
 using LSM::FileLock;
@@ -110,11 +111,11 @@ TEST_F(OutputClaims, NamesOfFilesOnTheirWay) {
 TEST_F(OutputClaims, NothingIsLeftOfALock) {
   {
     OutputClaim claim;
-    claim.claim({{"a", path("a.csv")}, {"b", path("b.csv")}, {"c", ""}});
+    claim = claim_outputs({{"a", path("a.csv")}, {"b", path("b.csv")}, {"c", ""}});
     EXPECT_TRUE(fs::exists(path("a.csv.lock")));
     EXPECT_TRUE(fs::exists(path("b.csv.lock")));
     EXPECT_FALSE(fs::exists(path("a.csv")));
-    claim.claim({{"b", path("b.csv")}});
+    claim.pop_front();
     EXPECT_FALSE(fs::exists(path("a.csv.lock")));
   }
   EXPECT_TRUE(fs::is_empty(folder_));
@@ -122,15 +123,15 @@ TEST_F(OutputClaims, NothingIsLeftOfALock) {
 
 TEST_F(OutputClaims, NothingIsHeldIfOneIsTaken) {
   OutputClaim first, second;
-  first.claim({{"b", path("b.csv")}});
+  first = claim_outputs({{"b", path("b.csv")}});
   const std::string message = message_of<FileError>([&] {
-    second.claim({{"a", path("a.csv")}, {"b", path("b.csv")}});
+    second = claim_outputs({{"a", path("a.csv")}, {"b", path("b.csv")}});
   });
   EXPECT_EQ(message, path("b.csv") + ": is being written by this run already; give each output a " +
                          "name of its own");
   EXPECT_FALSE(fs::exists(path("a.csv.lock")));
-  first.release();
-  second.claim({{"a", path("a.csv")}, {"b", path("b.csv")}});
+  first.clear();
+  second = claim_outputs({{"a", path("a.csv")}, {"b", path("b.csv")}});
 }
 
 TEST_F(OutputClaims, AnotherRunIsNamedWhicheverWayTheFileIs) {
@@ -204,21 +205,22 @@ TEST_F(OutputClaims, FilesThatAreOpenAlready) {
   fs::create_hard_link(path("log"), path("a.csv"));
   OutputClaim claim;
   EXPECT_TRUE(contains(message_of<FileError>([&] {
-                         claim.claim({{"catalogue", path("a.csv")}});
+                         claim = claim_outputs({{"catalogue", path("a.csv")}});
                        }),
                        "catalogue " + path("a.csv") + ": this run writes that file already"));
   log.close();
   const std::ifstream reader(path("log"));
-  claim.claim({{"catalogue", path("a.csv")}});
+  claim = claim_outputs({{"catalogue", path("a.csv")}});
 }
 
 TEST_F(OutputClaims, FilesOfOthersAreComparedAndNotLocked) {
   OutputClaim claim;
-  EXPECT_NE(message_of<FileError>([&] {
-              claim.claim({{"catalogue", path("a.csv")}}, {{"emergency", path("./a.csv")}});
-            }),
-            "");
-  claim.claim({{"catalogue", path("a.csv")}}, {{"emergency", path("b")}});
+  EXPECT_NE(
+      message_of<FileError>([&] {
+        claim = claim_outputs({{"catalogue", path("a.csv")}}, {{"emergency", path("./a.csv")}});
+      }),
+      "");
+  claim = claim_outputs({{"catalogue", path("a.csv")}}, {{"emergency", path("b")}});
   EXPECT_FALSE(fs::exists(path("b.lock")));
 }
 
@@ -229,7 +231,7 @@ TEST_F(OutputClaims, FoldersThatCannotBeWritten) {
 
 TEST_F(OutputClaims, DevicesAreNotLocked) {
   OutputClaim claim;
-  claim.claim({{"a", "/dev/null"}, {"b", "/dev/null"}});
+  claim = claim_outputs({{"a", "/dev/null"}, {"b", "/dev/null"}});
   EXPECT_FALSE(fs::exists("/dev/null.lock"));
 }
 

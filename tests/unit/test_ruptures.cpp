@@ -16,7 +16,6 @@ namespace {
 using LSM::Event;
 using LSM::FaultGrid;
 using LSM::FaultRow;
-using LSM::FaultSums;
 using LSM::RuptureFinder;
 using LSM::RuptureSettings;
 
@@ -287,17 +286,18 @@ TEST(FaultRuptures, ImpossibleSettingsAndStatesAreRefused) {
 
 // ---- contacts to bins ----
 
-TEST(FaultSums, MeanOfTheContactsAndStress) {
+TEST(SlipRecorder, MeanOfTheContactsAndStress) {
   const FaultGrid grid = some_grid();
-  FaultSums sums(grid);
+  LSM::SlipRecorder sums;
+  sums.begin(grid, 1.0);
   // Two contacts in bin 2 in each of 4 steps, one of them seen by two ranks; one in bin 9.
   for (int step = 0; step < 4; ++step) {
-    sums.add(-0.5, 0.01, 0.002, 0.1, 1.0);
-    sums.add(0.5, 0.03, 0.006, 0.3, 0.5);
-    sums.add(0.5, 0.03, 0.006, 0.3, 0.5);
-    sums.add(14.9 - 20.0, 0.002, 0.0, 0.0, 1.0);
+    sums.add({{-0.5, 0.01, 0.002, 0.1, 1.0}});
+    sums.add({{0.5, 0.03, 0.006, 0.3, 0.5}});
+    sums.add({{0.5, 0.03, 0.006, 0.3, 0.5}});
+    sums.add({{14.9 - 20.0, 0.002, 0.0, 0.0, 1.0}});
   }
-  const FaultRow row = LSM::fault_row(grid, sums.values().data(), 4);
+  const FaultRow row = LSM::fault_row(grid, sums.sums().data(), 4);
   EXPECT_FLOAT_EQ(row.slip[2], 4 * 0.02F);
   EXPECT_FLOAT_EQ(row.work[2], 4 * 0.008F);
   EXPECT_FLOAT_EQ(row.stress[2], 0.4F / 2.0F);
@@ -311,22 +311,24 @@ TEST(FaultSums, MeanOfTheContactsAndStress) {
   EXPECT_EQ(row.stress[3], 0.0F);
 }
 
-TEST(FaultSums, ContactOfOneStepGivesAVelocity) {
-  FaultSums sums(some_grid());
-  sums.add(0.0, 0.01, 0.0, 0.0, 1.0);
-  const FaultRow row = LSM::fault_row(some_grid(), sums.values().data(), 4);
+TEST(SlipRecorder, ContactOfOneStepGivesAVelocity) {
+  LSM::SlipRecorder sums;
+  sums.begin(some_grid(), 1.0);
+  sums.add({{0.0, 0.01, 0.0, 0.0, 1.0}});
+  const FaultRow row = LSM::fault_row(some_grid(), sums.sums().data(), 4);
   for (const float slip : row.slip) EXPECT_FLOAT_EQ(slip, 0.04F);
   sums.clear();
-  const FaultRow none = LSM::fault_row(some_grid(), sums.values().data(), 4);
+  const FaultRow none = LSM::fault_row(some_grid(), sums.sums().data(), 4);
   for (const float slip : none.slip) EXPECT_EQ(slip, 0.0F);
 }
 
-TEST(FaultSums, EdgesAndPlacesOutsideTheBoxHaveABin) {
+TEST(SlipRecorder, EdgesAndPlacesOutsideTheBoxHaveABin) {
   for (const double x : {-5.0, 14.999999999999998, 15.0, 1e9, -1e9, std::nextafter(-5.0, -6.0)}) {
-    FaultSums sums(some_grid());
-    sums.add(x, 0.01, 0.0, 0.0, 1.0);
+    LSM::SlipRecorder sums;
+    sums.begin(some_grid(), 1.0);
+    sums.add({{x, 0.01, 0.0, 0.0, 1.0}});
     double contacts = 0.0;
-    for (std::size_t b = 0; b < 10; ++b) contacts += sums.values()[FaultSums::fields * b + 1];
+    for (std::size_t b = 0; b < 10; ++b) contacts += sums.sums()[LSM::fault_fields * b + 1];
     EXPECT_EQ(contacts, 1.0) << x;
   }
 }

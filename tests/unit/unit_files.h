@@ -7,12 +7,14 @@
 #include <unistd.h>
 
 #include <clocale>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <locale>
 #include <string>
+#include <vector>
 
 namespace unit {
 
@@ -40,6 +42,16 @@ inline std::string slurp(const std::string &path) {
 
 inline void spill(const std::string &path, const std::string &text) {
   std::ofstream(path, std::ios::binary) << text;
+}
+
+/// Goes on with a file as a run restarted from last_step does; returns the number of rows kept.
+template <class Writer, class Info, class... Expected>
+std::int64_t resume(Writer &writer, const std::string &path, const Info &info,
+                    std::int64_t last_step, const std::vector<std::string> &ignore = {},
+                    Expected... expected) {
+  writer.find_cut(path, info, last_step, ignore, expected...);
+  writer.cut();
+  return writer.rows();
 }
 
 /// Message of the exception of type Error thrown by call; fails the test if there is none.

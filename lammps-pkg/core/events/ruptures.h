@@ -18,7 +18,6 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
-#include <tuple>
 #include <type_traits>
 #include <vector>
 
@@ -122,10 +121,7 @@ class RuptureFinder : public EventFinder {
   void each_open_as_ended(const Report &report) const override {
     std::vector<FaultRupture> all;
     sets_.each_open([&all](const FaultRupture &r) { all.push_back(r); });
-    std::sort(all.begin(), all.end(), [](const FaultRupture &a, const FaultRupture &b) {
-      return std::tie(a.step_end, a.step_start, a.first) <
-             std::tie(b.step_end, b.step_start, b.first);
-    });
+    std::sort(all.begin(), all.end());
     for (FaultRupture &r : all) {
       if (r.step_end == sets_.step()) r.stress_after = mean(before_, r);
       report(event(r));
@@ -139,33 +135,26 @@ class RuptureFinder : public EventFinder {
   std::int64_t known_until(std::int64_t) const override {
     return grid_.step0 + (sets_.step() - settings_.memory) * grid_.interval;
   }
-  std::int64_t open() const override {
-    std::int64_t count = 0;
-    sets_.each_open([&count](const FaultRupture &) { ++count; });
-    return count;
-  }
+  std::int64_t open() const override { return sets_.open(); }
 
   std::vector<double> state() const override {
     std::vector<double> out;
-    const Saved saved{grid_.bins, sets_.step(), active_, pe_, before_, snapshots_, sets_.state()};
-    StateWriter writer(out);
-    Saved::visit(saved, writer);
+    StateWriter to(out);
+    const SlipSetsState<FaultRupture> sets = sets_.state();
+    const std::int64_t step = sets_.step();
+    visit(*this, step, sets, to);
     return out;
   }
 
   /// Continues to the last digit; the settings must be those of the saved state.
   void set_state(const std::vector<double> &numbers) override {
-    Saved saved;
-    saved.bins = grid_.bins;
     StateReader in(numbers);
-    Saved::visit(saved, in);
+    SlipSetsState<FaultRupture> sets;
+    std::int64_t step = 0;
+    visit(*this, step, sets, in);
     if (in.left() != 0) throw std::invalid_argument("saved ruptures are inconsistent");
-    active_ = saved.active;
-    pe_ = saved.pe;
-    before_ = saved.stress;
-    snapshots_ = saved.snapshots;
-    for (const FaultRupture &r : saved.sets.open) snapshot(r.step_start);
-    sets_.set_state(saved.sets, saved.step);
+    for (const FaultRupture &r : sets.open) snapshot(r.step_start);
+    sets_.set_state(sets, step);
   }
 
  private:
@@ -180,31 +169,22 @@ class RuptureFinder : public EventFinder {
     }
   };
 
-  struct Saved {
-    std::int64_t bins = 0, step = 0;
-    bool active = false;
-    double pe = 0.0;
-    std::vector<float> stress;
-    std::vector<Snapshot> snapshots;
-    SlipSetsState<FaultRupture> sets;
-
-    template <class Self, class State>
-    static void visit(Self &self, State &state) {
-      auto bins = self.bins;
-      state(bins);
-      if (bins != self.bins)
-        throw std::invalid_argument("saved ruptures are of another number of bins");
-      state(self.step, self.active, self.pe);
-      const auto room = [&](auto &row) {
-        if constexpr (!std::is_const_v<Self>) row.resize(static_cast<std::size_t>(bins));
-      };
-      room(self.stress);
-      state.fixed(self.stress);
-      state.list(self.snapshots, [&](auto &snapshot) { room(snapshot.stress); });
-      state.list(self.sets.open);
-      state.list(self.sets.recent);
-    }
-  };
+  template <class Self, class Step, class Sets, class State>
+  static void visit(Self &self, Step &step, Sets &sets, State &state) {
+    auto bins = self.grid_.bins;
+    state(bins);
+    if (bins != self.grid_.bins)
+      throw std::invalid_argument("saved ruptures are of another number of bins");
+    state(step, self.active_, self.pe_);
+    const auto room = [bins](auto &row) {
+      if constexpr (!std::is_const_v<Self>) row.resize(static_cast<std::size_t>(bins));
+    };
+    room(self.before_);
+    state.fixed(self.before_);
+    state.list(self.snapshots_, [&room](auto &snapshot) { room(snapshot.stress); });
+    state.list(sets.open);
+    state.list(sets.recent);
+  }
 
   /// The stresses that a rupture began with.
   const std::vector<float> &snapshot(std::int64_t interval) const {

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Whole catalogues in memory.
+#ifndef LSM_UNIT_READ_CATALOGUE_H
+#define LSM_UNIT_READ_CATALOGUE_H
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "lsm_catalogue.h"
+
+namespace unit {
+
+struct Catalogue {
+  LSM::CatalogueInfo info;
+  std::vector<LSM::Event> events;
+  std::int64_t skipped = 0;   ///< bad lines passed over (lenient)
+  std::string first_problem;  ///< message of the first of them
+};
+
+inline Catalogue read_catalogue(const std::string &path, bool lenient = false) {
+  LSM::CatalogueReader reader(LSM::text_io::open_plain(path), lenient);
+  Catalogue catalogue;
+  LSM::Event event;
+  while (reader.next(event)) catalogue.events.push_back(event);
+  catalogue.info = reader.info();
+  catalogue.skipped = reader.skipped();
+  catalogue.first_problem = reader.first_problem();
+  return catalogue;
+}
+
+}  // namespace unit
+
+#endif
