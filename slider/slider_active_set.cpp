@@ -34,7 +34,7 @@ void ActiveSet::restart(std::int64_t step) {
   }
   for (std::int32_t c = 0; c < chunks_; ++c)
     (wanted[static_cast<std::size_t>(c)] ? list_ : idle_).push_back(c);
-  settle_idle(list_, step);
+  settle_idle(step);
 }
 
 // Last step, counted from step 0, up to which chunk c may stay idle: at least two steps before its
@@ -101,12 +101,12 @@ void ActiveSet::change_list_to_next(std::int64_t step) {
       wake(c) = 0;
   }
   idle_.insert(idle_.end(), old, end);
-  settle_idle(next_list_, step);
   list_.swap(next_list_);
+  settle_idle(step);
 }
 
 // Puts the chunks in idle_ to rest until their wake step, or back into the list if that is now.
-void ActiveSet::settle_idle(std::vector<std::int32_t> &list, std::int64_t step) {
+void ActiveSet::settle_idle(std::int64_t step) {
   for (const std::int32_t c : idle_) {
     const std::int64_t at = wake_step(c);
     const bool now = at <= step + 1;
@@ -117,7 +117,7 @@ void ActiveSet::settle_idle(std::vector<std::int32_t> &list, std::int64_t step) 
       queue_.emplace(at, c);
   }
   idle_.clear();
-  add_extra(list);
+  add_extra();
   next_wake_ = queue_.empty() ? never : queue_.top().first;
   if (queue_.size() <= 64 + 8 * wake_.size()) return;
   // Most of them are stale.
@@ -127,12 +127,11 @@ void ActiveSet::settle_idle(std::vector<std::int32_t> &list, std::int64_t step) 
 }
 
 // All at once: each single insertion would cost the length of the list.
-void ActiveSet::add_extra(std::vector<std::int32_t> &list) {
+void ActiveSet::add_extra() {
   if (extra_.empty()) return;
   std::sort(extra_.begin(), extra_.end());
-  const auto middle = static_cast<std::ptrdiff_t>(list.size());
-  list.insert(list.end(), extra_.begin(), extra_.end());
-  std::inplace_merge(list.begin(), list.begin() + middle, list.end());
+  const auto middle = list_.insert(list_.end(), extra_.begin(), extra_.end());
+  std::inplace_merge(list_.begin(), middle, list_.end());
   extra_.clear();
 }
 
@@ -149,7 +148,7 @@ void ActiveSet::wake_due(std::int64_t step) {
     wake(c) = 0;
     extra_.push_back(c);
   }
-  add_extra(list_);
+  add_extra();
 }
 
 }  // namespace Slider

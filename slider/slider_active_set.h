@@ -39,8 +39,8 @@ class ActiveSet {
 
   std::int64_t wake_step(int chunk) const;
   void change_list_to_next(std::int64_t step);
-  void settle_idle(std::vector<std::int32_t> &list, std::int64_t step);
-  void add_extra(std::vector<std::int32_t> &list);
+  void settle_idle(std::int64_t step);
+  void add_extra();
   void wake_due(std::int64_t step);
   std::int64_t &wake(std::int32_t chunk) { return wake_[static_cast<std::size_t>(chunk)]; }
 
