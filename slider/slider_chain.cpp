@@ -48,15 +48,12 @@ void Chain::take_step() {
   moved_ += sums.hot;
 }
 
-// The kernel replaces the forces that the work is computed from.
-void Chain::keep_slips() {
-  du_.resize(v_.size(), 0.0);
-  view_.du = du_.data() + chunk_size;
-  old_force_.resize(active_.list().size() * chunk_size);
-  double *to = old_force_.data();
+void Chain::keep_chunks() {
+  kept_.resize(active_.list().size());
+  Kept *kept = kept_.data();
   for (const std::int32_t c : active_.list()) {
-    const double *from = view_.force + static_cast<std::int64_t>(c) * chunk_size;
-    to = std::copy(from, from + chunk_size, to);
+    std::copy_n(view_.u + c * chunk_size, chunk_size, kept->u);
+    std::copy_n(view_.force + c * chunk_size, chunk_size, kept++->force);
   }
 }
 

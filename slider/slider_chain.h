@@ -8,6 +8,7 @@
 #ifndef SLIDER_CHAIN_H
 #define SLIDER_CHAIN_H
 
+#include <algorithm>
 #include <cstdint>
 #include <new>
 #include <vector>
@@ -76,15 +77,18 @@ class Chain {
   template <class Watch>
   void advance(Watch &watch) {
     const double pe_old = pe();
-    keep_slips();
+    keep_chunks();
     take_step();
     watch.begin_step(step_, pe_old);
     if (!account_.quiet()) {
-      const double *old = old_force_.data();
-      for (const std::int32_t c : active_.list())
-        for (int i = c * chunk_size; i < (c + 1) * chunk_size; ++i, ++old)
-          if (const double slip = du_[static_cast<std::size_t>(i + chunk_size)]; slip != 0.0)
-            watch.slide(i, 0.5 * (*old + view_.force[i]) * slip, slip);
+      const Kept *old = kept_.data();
+      for (const std::int32_t c : active_.list()) {
+        const int begin = c * chunk_size, end = std::min(begin + chunk_size, view_.blocks);
+        for (int i = begin; i < end; ++i)
+          if (const double slip = view_.u[i] - old->u[i - begin]; slip != 0.0)
+            watch.slide(i, 0.5 * (old->force[i - begin] + view_.force[i]) * slip, slip);
+        ++old;
+      }
     }
     active_.update(step_);
   }
@@ -119,15 +123,20 @@ class Chain {
  private:
   using Array = std::vector<double, LineAllocator<double>>;
 
+  // Of a chunk before a step.
+  struct Kept {
+    double u[chunk_size], force[chunk_size];
+  };
+
   ChainView view_of(const Parameters &p, const std::vector<double> &mu);
-  void keep_slips();
+  void keep_chunks();
   void take_step();
   void restart();
 
   double plate_step_;
   StepFunction function_;
-  Array u_, v_, force_, mu_, rest_, du_;
-  std::vector<double> old_force_;  // of the listed chunks, if someone watches
+  Array u_, v_, force_, mu_, rest_;
+  std::vector<Kept> kept_;  // of the listed chunks, if someone watches
   ChainView view_;
   ActiveSet active_;
   PeAccount account_;

@@ -70,8 +70,6 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
   const double half_h_m = half_h / chain.mass;
   const double kc = chain.kc, kl = chain.kl;
   double *const u = chain.u, *const velocity = chain.v, *const force = chain.force;
-  double *const du = chain.du;
-  const bool keeps_slip = du != nullptr;
   const double *const mu = chain.mu;
   constexpr bool needs_rest = law == Law::slip_weakening;
   // Blocks move (the first half of the step), then their springs pull. A chunk is pulled some
@@ -103,7 +101,6 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
       std::memcpy(velocity + i + r * SLIDER_LANES, &w, sizeof w);
     }
     store(u + i, x);
-    if (keeps_slip) store(du + i, change);
   };
 
   Lanes work = {}, slip = {};
@@ -157,7 +154,6 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
     __builtin_prefetch(u + i, 1);
     __builtin_prefetch(velocity + i, 1);
     __builtin_prefetch(force + i, 1);
-    if (keeps_slip) __builtin_prefetch(du + i, 1);
     __builtin_prefetch(mu + i);
     if constexpr (needs_rest) __builtin_prefetch(chain.rest + i, 1);
   };

@@ -23,7 +23,6 @@ struct ChainView : Parameters {
   double *u = nullptr;         ///< displacement
   double *v = nullptr;         ///< velocity, >= 0
   double *force = nullptr;     ///< spring force at the present time (older for inactive chunks)
-  double *du = nullptr;        ///< gets the change of displacement of the listed chunks, if wanted
   double *rest = nullptr;      ///< where a block last rested, if the law needs it
   const double *mu = nullptr;  ///< static coefficient
 };

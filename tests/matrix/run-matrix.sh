@@ -141,6 +141,64 @@ compare_sliders() {
   [ $differ = 0 ]
 }
 
+# compare_postprocs OURS THEIRS: both on the same catalogues and on a PE series of the slider, by the bytes of what they
+# write, in words; for other bytes by how much the numbers differ. GSL and the C library are other builds.
+compare_postprocs() {
+  local at=$folder/aarch64/postprocs name file words="" same=0 differ=0
+  local results=$root/inputs/results/catalogues
+  local one=$results/fault_120.catalogue.csv.xz chain=$results/slider_ours_256_seed_1.catalogue.csv.xz
+  local series=$folder/aarch64/sliders/theirs/verlet.pe
+  local -A runs=([histograms]="$one $chain --no-picture -o o" [intervals]="$one $chain --replicas 2 --no-picture -o o"
+    [likelihood]="$chain --method likelihood --replicas 2 --no-picture -o o"
+    [fit]="$one --range 1e-4:0.1 --replicas 2 --no-picture -o o" [magnitudes]="$one --magnitude-bin 0.1 --no-picture -o o"
+    [aftershocks]="$chain --replicas 2 --no-picture -o o" [count]="$one" [compare]="$one $chain --rescale --replicas 10 -o o"
+    [match]="$one $one --threshold 1e-3 --within 5" [spectrum]="$series --no-picture -o o" [series]="$series --no-picture -o o"
+    [pick]="$series -o o.csv" [select]="$one --min-size 1e-3 -o o.csv" [export]="$chain -o o.csv")
+  rm -rf "$at"
+  for name in "${!runs[@]}"; do
+    for program in "$1 $at/ours" "$2 $at/theirs"; do
+      mkdir -p "${program#* }/$name"
+      # shellcheck disable=SC2086
+      (cd "${program#* }/$name" && "${program% *}" ${name/likelihood/intervals} ${runs[$name]} >out 2>err) ||
+        { echo "$name: $(cat "${program#* }/$name/err")"; return 1; }
+    done
+    for file in "$at/theirs/$name"/*; do
+      file=$name/${file##*/}
+      if cmp -s "$at/ours/$file" "$at/theirs/$file"; then same=$((same + 1)); continue; fi
+      differ=$((differ + 1))
+      words="$words $file ($(largest_difference "$at/ours/$file" "$at/theirs/$file"))"
+    done
+  done
+  echo "$same files of ${#runs[@]} commands with the same bytes${words:+, $differ others by:$words}"
+}
+
+# largest_difference A B: of the numbers of two texts, relative to them; "text" where anything else differs
+largest_difference() {
+  python3 - "$@" <<'END'
+import re, sys
+number = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+a, b = (open(path).read() for path in sys.argv[1:])
+pairs = list(zip(map(float, re.findall(number, a)), map(float, re.findall(number, b))))
+same_text = re.sub(number, "0", a).split() == re.sub(number, "0", b).split()
+print("%.1e" % max(abs(x - y) / max(abs(x), abs(y), 1e-300) for x, y in pairs) if same_text else "text")
+END
+}
+
+# run_scripts SCRIPT PROGRAM [OTHER] -- CASE...: cases of a test from outside, in words
+run_scripts() {
+  local script=$1 programs=() log=$folder/aarch64.scripts.log failed=0 skipped=0 rc
+  shift
+  while [ "$1" != -- ]; do programs+=("$1"); shift; done
+  shift
+  for name in "$@"; do
+    rc=0
+    bash "$root/tests/$script" "${programs[0]}" "$name" "${programs[@]:1}" >>"$log" 2>&1 || rc=$?
+    case $rc in 0) ;; 77) skipped=$((skipped + 1)) ;; *) failed=$((failed + 1)); echo "$script $name failed" >>"$log" ;; esac
+  done
+  echo "${script##*/}: $# cases run, $failed failed$([ $skipped = 0 ] || echo ", $skipped skipped")"
+  [ $failed = 0 ]
+}
+
 compiler_of() { "$1" --version | head -n 1; }
 
 # row COLUMN LAMMPS COMPILER INTEGERS BUILD TESTS FAULT
@@ -222,23 +280,32 @@ do_column() {
       return $ok
       ;;
     aarch64)
-      # without LAMMPS and postproc
-      install_debian_packages g++-aarch64-linux-gnu qemu-user libfmt-dev libcli11-dev nlohmann-json3-dev libgsl-dev
+      # without LAMMPS
+      install_debian_packages g++-aarch64-linux-gnu qemu-user libfmt-dev libcli11-dev nlohmann-json3-dev libgsl-dev libfftw3-dev \
+        liblzma-dev libpugixml-dev libhowardhinnant-date-dev libjs-dygraphs
+      local on=(-DLSM_BUILD_LAMMPS=OFF -DLSM_BUILD_SLIDER=ON -DLSM_BUILD_POSTPROC=ON) program
       export LSM_ARM_SYSROOT=$folder/aarch64-libraries
       arm_libraries "$LSM_ARM_SYSROOT"
-      configure aarch64-native -DLSM_BUILD_LAMMPS=OFF -DLSM_BUILD_SLIDER=ON -DLSM_BUILD_TESTS=OFF
-      build aarch64-native slider_cli
-      configure aarch64 "-DCMAKE_TOOLCHAIN_FILE=$root/tests/matrix/aarch64.cmake" -DLSM_BUILD_LAMMPS=OFF -DLSM_BUILD_SLIDER=ON
-      build aarch64 slider_cli lsm_unit_tests lsm_slider_tests
-      printf '#!/bin/sh\nexec qemu-aarch64 -L "%s" "%s" "$@"\n' "$LSM_ARM_SYSROOT" "$folder/aarch64/bin/slider_cli" \
-        >"$folder/aarch64/slider_cli"
-      chmod +x "$folder/aarch64/slider_cli"
+      configure aarch64-native "${on[@]}" -DLSM_BUILD_TESTS=OFF
+      build aarch64-native slider_cli postproc
+      configure aarch64 "-DCMAKE_TOOLCHAIN_FILE=$root/tests/matrix/aarch64.cmake" "${on[@]}"
+      build aarch64 slider_cli postproc lsm_unit_tests lsm_slider_tests lsm_postproc_tests
+      for program in slider_cli postproc; do
+        printf '#!/bin/sh\nexec qemu-aarch64 -L "%s" "%s" "$@"\n' "$LSM_ARM_SYSROOT" "$folder/aarch64/bin/$program" \
+          >"$folder/aarch64/$program"
+        chmod +x "$folder/aarch64/$program"
+      done
       # the quicker ones: others take many minutes; qemu-user makes up /proc/self/stat, by which a process is known
-      tests=$(run_tests aarch64 '^(unit|SliderParameters|SliderKernels\.(OtherLaws|ActiveSet|InstructionSets))' aarch64 \
+      tests=$(run_tests aarch64 '^(unit|postproc\.[A-Z]|SliderParameters|SliderKernels\.(OtherLaws|ActiveSet|InstructionSets))' aarch64 \
         OutputClaims.AnotherRunIsNamed) || ok=1
+      rm -f "$folder/aarch64.scripts.log"
+      tests="$tests; $(run_scripts slider/slider_cli_test.sh "$folder/aarch64/slider_cli" -- header paper config bad_input)" || ok=1
+      tests="$tests; $(run_scripts postproc/postproc_cli_test.sh "$folder/aarch64/postproc" "$folder/aarch64/slider_cli" -- \
+        pick online series spectrum export magnitudes aftershocks compare summary match select json compressed earthquakes bad_input)" || ok=1
       fault=$(compare_sliders "$folder/aarch64/slider_cli" "$folder/aarch64-native/bin/slider_cli") || ok=1
+      fault="$fault; postproc: $(compare_postprocs "$folder/aarch64/postproc" "$folder/aarch64-native/bin/postproc")" || ok=1
       row aarch64 "none" "$(compiler_of aarch64-linux-gnu-g++), run by $(qemu-aarch64 --version | head -n 1)" "-" "no warning" \
-        "unit, slider: $tests" "slider on ARM beside x86-64: $fault"
+        "unit, slider, postproc: $tests" "slider on ARM beside x86-64: $fault"
       return $ok
       ;;
     testers | testers-jul2026)
