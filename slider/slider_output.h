@@ -4,7 +4,6 @@
 #ifndef SLIDER_OUTPUT_H
 #define SLIDER_OUTPUT_H
 
-#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -27,16 +26,14 @@ class Outputs {
     probe(o_.series);
     probe(o_.checkpoint);
     catalogue_info_.model = series_info_.model = "block-slider";
-    catalogue_info_.parameters = series_info_.parameters = o_.header;
+    catalogue_info_.parameters = o_.header;
     catalogue_info_.slip_moment = true;
     catalogue_info_.x_centroid = o_.x_centroid;
     catalogue_info_.rupture_length = o_.rupture_length;
     series_info_.dt = o_.parameters.dt;
     series_info_.stride = o_.series_stride;
     // The series has a key of its own for this.
-    auto &keys = series_info_.parameters;
-    const auto is_dt = [](const auto &parameter) { return parameter.first == "dt"; };
-    keys.erase(std::remove_if(keys.begin(), keys.end(), is_dt), keys.end());
+    series_info_.parameters = LSM::text_io::without(o_.header, {"dt"});
   }
 
   /// Starts new files, with the sample of step 0.

@@ -23,6 +23,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -404,7 +406,8 @@ class CatalogueWriter : public text_io::ResumableFile {
       ++rows_;
       length = reader.reader_.end();
     }
-    if (reader.reader_.foreign()) refuse(path, std::string(text_io::foreign_lines));
+    if (reader.reader_.foreign())
+      refuse(path, "Windows line ends or a byte order mark, expected the file as the run wrote it");
     if (expected >= 0 && rows_ != expected)
       refuse(path, std::to_string(rows_) + " events up to the checkpoint, expected " +
                        std::to_string(expected));

@@ -4,11 +4,8 @@
 #ifndef LSM_EVENT_SETTINGS_H
 #define LSM_EVENT_SETTINGS_H
 
-#include <algorithm>
 #include <cstdint>
-#include <initializer_list>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "events/event_kinds.h"
@@ -48,20 +45,6 @@ inline std::vector<Output> files_of(const EventSettings &settings) {
           {"history", settings.history_file}};
 }
 
-namespace event_settings_detail {
-
-inline text_io::Parameters without(text_io::Parameters all,
-                                   std::initializer_list<std::string_view> keys) {
-  all.erase(std::remove_if(all.begin(), all.end(),
-                           [&keys](const auto &p) {
-                             return std::find(keys.begin(), keys.end(), p.first) != keys.end();
-                           }),
-            all.end());
-  return all;
-}
-
-}  // namespace event_settings_detail
-
 /// Header of the catalogue of that kind of events; slip_bin: width of the bins as the grid has it.
 inline CatalogueInfo catalogue_header(const EventSettings &settings, const EventKind &kind,
                                       const SceneInfo &scene, double slip_bin) {
@@ -99,8 +82,8 @@ inline PeSeriesInfo series_header(const EventSettings &settings, const SceneInfo
   const PeDrops drops;
   const EventKind *const own = settings.kind.get();
   const EventKind &kind = number_of(*own) == 0 ? *own : drops;
-  info.parameters = event_settings_detail::without(
-      catalogue_header(settings, kind, scene, 0.0).parameters, {"dt"});
+  info.parameters =
+      text_io::without(catalogue_header(settings, kind, scene, 0.0).parameters, {"dt"});
   return info;
 }
 
@@ -111,7 +94,7 @@ inline SlipHistoryInfo history_header(const EventSettings &settings, const Scene
   info.ruptures = settings.kind->rupture_settings(settings, grid.dt);
   info.driving = settings.driving;
   info.quiet = settings.quiet;
-  info.parameters = event_settings_detail::without(
+  info.parameters = text_io::without(
       catalogue_header(settings, *settings.kind, scene, grid.width).parameters,
       {"dt", "slip_velocity", "interval", "gap", "modulus", "driving", "slip_bin", "events"});
   if (!grid.ring) info.parameters.emplace_back("ends", "open");

@@ -60,11 +60,9 @@ struct SavedStream {
     if (from.size() < at + picker_words) return false;
     kind = of_kind;
     const auto begin = from.begin() + static_cast<std::ptrdiff_t>(at);
-    if (kind == 0) {
-      drops.assign(begin, from.end());
-      return true;
-    }
-    drops.assign(begin, begin + static_cast<std::ptrdiff_t>(picker_words));
+    const auto end = begin + static_cast<std::ptrdiff_t>(picker_words);
+    drops.assign(begin, kind == 0 ? from.end() : end);
+    if (kind == 0) return true;
     try {
       StateReader in(from, at + picker_words);
       visit(*this, in);

@@ -9,7 +9,6 @@
 #define LSM_FAULT_GRID_H
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>

@@ -178,9 +178,6 @@ struct SpringNetwork {
   std::vector<std::uint64_t> id;  ///< of those at home, for the start vector
   std::size_t ghosts = 0;
   std::vector<PairSpring> springs;
-
-  std::size_t axes() const { return static_cast<std::size_t>(dim); }
-  std::size_t at_home() const { return mass.size() * axes(); }  ///< displacements
 };
 
 /// Square of the highest frequency: largest eigenvalue of M^-1/2 K M^-1/2, in so many dimensions on
@@ -193,7 +190,8 @@ LargestEigenvalue highest_frequency_squared(const SpringNetwork &network, double
                                             std::vector<double> &displacement,
                                             std::vector<double> &force, ToGhosts &&to_ghosts,
                                             FromGhosts &&from_ghosts, Sum &&sum) {
-  const std::size_t dim = network.axes(), size = network.at_home();
+  const auto dim = static_cast<std::size_t>(network.dim);
+  const std::size_t size = network.mass.size() * dim;
   std::vector<double> scale(size), start(size);
   for (std::size_t i = 0; i < network.mass.size(); ++i)
     for (std::size_t c = 0; c < dim; ++c) {

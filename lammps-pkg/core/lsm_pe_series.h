@@ -13,7 +13,6 @@
 #ifndef LSM_PE_SERIES_H
 #define LSM_PE_SERIES_H
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

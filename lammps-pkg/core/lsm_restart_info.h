@@ -29,6 +29,7 @@ namespace LSM {
 /// The checksum of POSIX cksum: CRC of the bytes and of their number.
 class Cksum {
  public:
+  explicit Cksum(std::string_view bytes = {}) { add(bytes); }
   void add(std::string_view bytes) {
     for (const char c : bytes) push(static_cast<unsigned char>(c));
     size_ += bytes.size();
@@ -92,10 +93,9 @@ inline void seal_restart(const std::string &written, const std::string &path,
   const Cksum sum = sum_of(written);
   std::string text;
   for (const auto &[key, value] : settings) text += key + " = " + value + "\n";
-  Cksum lines;
-  lines.add(text);
-  text += "lines = " + std::to_string(lines.value()) + "\n" + std::to_string(sum.value()) + " " +
-          std::to_string(sum.size()) + " " + std::filesystem::path(path).filename().string() + "\n";
+  text += "lines = " + std::to_string(Cksum(text).value()) + "\n" + std::to_string(sum.value()) +
+          " " + std::to_string(sum.size()) + " " + std::filesystem::path(path).filename().string() +
+          "\n";
   const std::string info = path + ".info";
   std::error_code code;
   std::filesystem::remove(info, code);
@@ -126,9 +126,7 @@ inline text_io::Parameters check_restart(const std::string &path) {
       settings.push_back(std::move(setting));
     }
   }
-  Cksum lines;
-  lines.add(above);
-  if (!settings.empty() && stated != std::to_string(lines.value()))
+  if (!settings.empty() && stated != std::to_string(Cksum(above).value()))
     throw FileError(info + ": is damaged, or of an earlier version: the checksum of its " +
                     "lines is missing; its last line alone is accepted, too");
   std::istringstream words(sums);

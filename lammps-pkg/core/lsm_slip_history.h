@@ -17,15 +17,12 @@
 #ifndef LSM_SLIP_HISTORY_H
 #define LSM_SLIP_HISTORY_H
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 #include <vector>
 

@@ -18,6 +18,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <initializer_list>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -109,6 +110,14 @@ inline const std::string *find(const Parameters &parameters, std::string_view ke
   for (const auto &parameter : parameters)
     if (parameter.first == key) return &parameter.second;
   return nullptr;
+}
+
+inline Parameters without(Parameters all, std::initializer_list<std::string_view> keys) {
+  const auto unwanted = [&keys](const auto &parameter) {
+    return std::find(keys.begin(), keys.end(), parameter.first) != keys.end();
+  };
+  all.erase(std::remove_if(all.begin(), all.end(), unwanted), all.end());
+  return all;
 }
 
 /// What the headers of all our files hold.
@@ -331,23 +340,18 @@ inline std::unique_ptr<Bytes> open_plain(const std::string &path) {
   return bytes;
 }
 
-/// Why a file with LineReader::foreign() lines cannot be continued.
-constexpr std::string_view foreign_lines =
-    "Windows line ends or a byte order mark, expected the file as the run wrote it";
-
 /// Lines of a file with their numbers and byte offsets, read in large blocks, without a byte order
 /// mark and the '\r' of Windows line ends.
 class LineReader {
  public:
   /// \throws FileError
   explicit LineReader(const std::string &path) : LineReader(open_plain(path)) {}
-  explicit LineReader(std::unique_ptr<Bytes> bytes)
-      : path_(bytes->path()), bytes_(std::move(bytes)) {
+  explicit LineReader(std::unique_ptr<Bytes> bytes) : bytes_(std::move(bytes)) {
     buffer_.resize(first_size);
     constexpr std::string_view mark = "\xef\xbb\xbf";
     const std::string_view begin = bytes_->peek(mark.size());
     if (begin.substr(0, 2) == "\xff\xfe" || begin.substr(0, 2) == "\xfe\xff")
-      throw FileError(path_ + ": text in UTF-16, expected UTF-8 or ASCII");
+      throw FileError(path() + ": text in UTF-16, expected UTF-8 or ASCII");
     foreign_ = begin == mark;
     if (foreign_) end_ = static_cast<std::int64_t>(bytes_->read(buffer_.data(), mark.size()));
   }
@@ -381,7 +385,7 @@ class LineReader {
     return true;
   }
 
-  const std::string &path() const { return path_; }
+  const std::string &path() const { return bytes_->path(); }
   std::int64_t line() const { return line_; }    ///< number of the last line, from 1
   std::int64_t begin() const { return begin_; }  ///< offset of the last line
   std::int64_t end() const { return end_; }      ///< offset behind the last line
@@ -390,7 +394,7 @@ class LineReader {
   bool foreign() const { return foreign_; }
 
   [[noreturn]] void fail(const std::string &what) const {
-    throw FileError(where(path_, line_) + what);
+    throw FileError(where(path(), line_) + what);
   }
 
  private:
@@ -405,7 +409,7 @@ class LineReader {
     filled_ = rest;
     if (rest == buffer_.size()) {
       if (rest >= longest_line)
-        throw FileError(where(path_, line_ + 1) + "longer than " + std::to_string(longest_line) +
+        throw FileError(where(path(), line_ + 1) + "longer than " + std::to_string(longest_line) +
                         " bytes, expected a line of text");
       buffer_.resize(2 * rest);
     }
@@ -414,7 +418,6 @@ class LineReader {
     return got > 0;
   }
 
-  std::string path_;
   std::unique_ptr<Bytes> bytes_;
   std::vector<char> buffer_;
   std::size_t used_ = 0, filled_ = 0;  // the remaining lines are between them
