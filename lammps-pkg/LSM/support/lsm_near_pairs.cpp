@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 using namespace LAMMPS_NS;
 
@@ -17,79 +16,26 @@ static constexpr double ROUNDING = 1e-9;    // of the skin, and of squares of di
 static constexpr double FEW =
     0.5;    // pairs for each particle that are looked at rather than sorted out
 
-using Two = double __attribute__((vector_size(2 * sizeof(double))));
-
-static inline Two load(const double *from)
+// the farthest that any of the particles from first to before last has moved
+double LSMNearPairs::displacement(const double *x, size_t first, size_t last) const
 {
-  Two v;
-  memcpy(&v, from, sizeof(v));
-  return v;
+  double most = 0.0;    // square
+  for (size_t n = 3 * first; n < 3 * last; n += 3) {
+    const double dx = x[n] - held[n], dy = x[n + 1] - held[n + 1], dz = x[n + 2] - held[n + 2];
+    most = std::max(most, dx * dx + dy * dy + dz * dz);
+  }
+  return sqrt(most);
 }
 
-static inline void store(double *to, const Two &v)
-{
-  memcpy(to, &v, sizeof(v));
-}
-
-// range of the displacements of the particles from first to before last
-LSMNearPairs::Range LSMNearPairs::displacements(const double *x, size_t first, size_t last) const
-{
-  // two numbers of two particles at a time: 12 of four particles stay in registers
-  constexpr int LANES = 12;
-  Two least[LANES / 2], most[LANES / 2];
-  for (int m = 0; m < LANES / 2; m++) {
-    least[m] = Two{INFINITY, INFINITY};
-    most[m] = -least[m];
-  }
-  const double *const from = held.data();
-  size_t n = 3 * first;
-  for (; n + LANES <= 3 * last; n += LANES)
-#pragma GCC unroll 6
-    for (int m = 0; m < LANES / 2; m++) {
-      const Two change = load(x + n + 2 * m) - load(from + n + 2 * m);
-      least[m] = change < least[m] ? change : least[m];
-      most[m] = change > most[m] ? change : most[m];
-    }
-  double low[LANES], high[LANES];
-  memcpy(low, least, sizeof(low));
-  memcpy(high, most, sizeof(high));
-  for (int lane = 0; n + lane < 3 * last; lane++) {
-    low[lane] = std::min(low[lane], x[n + lane] - from[n + lane]);
-    high[lane] = std::max(high[lane], x[n + lane] - from[n + lane]);
-  }
-
-  Range range;
-  for (int c = 0; c < 3; c++) {
-    range.low[c] = low[c];
-    range.high[c] = high[c];
-    for (int lane = c + 3; lane < LANES; lane += 3) {
-      range.low[c] = std::min(range.low[c], low[lane]);
-      range.high[c] = std::max(range.high[c], high[lane]);
-    }
-  }
-  return range;
-}
-
-// No two particles have moved against each other by more than the range of all displacements. Those of this rank's
-// particles are looked at only when the sum of their longest moves would be too much; ghosts are few, and others
-// move them.
+// Of two particles one is of this rank. Where these are is looked at only when the sum of their longest moves would be
+// too much; ghosts are few, and others move them.
 bool LSMNearPairs::outdated(const double *x, int nlocal, double farthest)
 {
-  const Range ghosts = displacements(x, nlocal, held.size() / 3);
-  travelled += farthest;
-  const auto too_far = [&] {
-    double square = 0.0;
-    for (int c = 0; c < 3; c++) {
-      const double low = std::min(moved.low[c] - travelled, ghosts.low[c]);
-      const double high = std::max(moved.high[c] + travelled, ghosts.high[c]);
-      square += (high - low) * (high - low);
-    }
-    constexpr double skin = SKIN * (1.0 - ROUNDING);
-    return !(square < skin * skin);
-  };
+  const double ghosts = displacement(x, nlocal, held.size() / 3);
+  moved += farthest;
+  const auto too_far = [&] { return !(moved + std::max(moved, ghosts) < SKIN * (1.0 - ROUNDING)); };
   if (!too_far()) return false;
-  moved = displacements(x, 0, nlocal);
-  travelled = 0.0;
+  moved = displacement(x, 0, nlocal);
   return too_far();
 }
 
@@ -108,8 +54,7 @@ void LSMNearPairs::choose(const NeighList &list, const double *x, const double *
                           double reach, const int *const *touch)
 {
   std::copy_n(x, held.size(), held.begin());
-  moved = Range{};
-  travelled = 0.0;
+  moved = 0.0;
   pairs.clear();
   ends.clear();
   within.clear();
@@ -130,36 +75,27 @@ void LSMNearPairs::choose(const NeighList &list, const double *x, const double *
       limit.push_back(touching ? INFINITY : within.back());
     }
   }
-  found.resize(pairs.size() + 1);
+  found.resize(pairs.size());
   for (auto &of_a_step : vectors) of_a_step.resize(2 * pairs.size());
 }
 
 // Distances along x and y are enough to leave out nearly all others in three dimensions, too.
 void LSMNearPairs::find(const double *x)
 {
-  const int n = static_cast<int>(pairs.size());
   newest = 1 - newest;
+  const Ends *const end = ends.data();
+  const double *const most = limit.data();
   double *const vector = vectors[newest].data();
   int *const to = found.data();
-  int count = 0, m = 0;
-  for (; m + 2 <= n; m += 2) {
-    Two a = load(x + ends[m].i) - load(x + ends[m].j);
-    Two b = load(x + ends[m + 1].i) - load(x + ends[m + 1].j);
-    store(vector + 2 * m, a);
-    store(vector + 2 * m + 2, b);
-    a *= a;
-    b *= b;
-    const auto far = Two{a[0], b[0]} + Two{a[1], b[1]} > load(&limit[m]);
-    to[count] = m;
-    count += !far[0];
-    to[count] = m + 1;
-    count += !far[1];
-  }
-  if (m < n) {
-    const Two a = load(x + ends[m].i) - load(x + ends[m].j);
-    store(vector + 2 * m, a);
-    to[count] = m;
-    count += !(a[0] * a[0] + a[1] * a[1] > limit[m]);
+  const int n = static_cast<int>(pairs.size());
+  int count = 0;
+  for (int m = 0; m < n; m++) {
+    const double *const a = x + end[m].i, *const b = x + end[m].j;
+    const double dx = a[0] - b[0], dy = a[1] - b[1];
+    vector[2 * m] = dx;
+    vector[2 * m + 1] = dy;
+    to[count] = m;    // stays where it is near
+    count += !(dx * dx + dy * dy > most[m]);
   }
   number = count;
 }

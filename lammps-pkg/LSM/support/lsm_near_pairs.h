@@ -62,9 +62,6 @@ class LSMNearPairs {
   struct Ends {
     int i, j;    // places of their coordinates
   };
-  struct Range {
-    double low[3], high[3];
-  };
   std::vector<Pair> pairs;
   std::vector<Ends> ends;        // of the pairs, as are the following
   std::vector<double> within;    // square of the distance up to which a pair touches
@@ -76,11 +73,9 @@ class LSMNearPairs {
 
   bigint built = -1;
   std::vector<double> held;    // positions when the pairs were chosen; empty where all are kept
-  // displacements of this rank's particles since then, when they were looked at last
-  Range moved;
-  double travelled = 0.0;    // no particle of this rank has moved farther after that
+  double moved = 0.0;          // no particle of this rank has moved farther since then
 
-  Range displacements(const double *x, size_t first, size_t last) const;
+  double displacement(const double *x, size_t first, size_t last) const;
   bool outdated(const double *x, int nlocal, double farthest);
 };
 
