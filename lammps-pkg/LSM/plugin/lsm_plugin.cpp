@@ -10,7 +10,6 @@
 #include <mpi.h>
 
 #include <cstdio>
-#include <cstring>
 #include <dlfcn.h>
 #include <string>
 #include <type_traits>
@@ -66,25 +65,12 @@ template <class Function> Function in_program(const char *name)
   return reinterpret_cast<Function>(dlsym(RTLD_DEFAULT, name));
 }
 
-const char *const months[] = {"Jan", "Feb", "Mar", "Apr", "May", "Jun",
-                              "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
-
-/// The number that lammps_version() gives for a version like '4 Feb 2025': 20250204.
-int number_of(const char *version)
-{
-  int day = 0, year = 0;
-  char name[4] = "";
-  if (sscanf(version, "%d %3s %d", &day, name, &year) != 3) return 0;
-  for (int month = 1; month <= 12; month++)
-    if (strcmp(name, months[month - 1]) == 0) return 10000 * year + 100 * month + day;
-  return 0;
-}
-
+/// '4 Feb 2025' for the number 20250204 of lammps_version().
 std::string name_of(int number)
 {
-  const int month = number / 100 % 100;
-  if (month < 1 || month > 12) return std::to_string(number);
-  return std::to_string(number % 100) + " " + months[month - 1] + " " +
+  static const char *const months[] = {"?",   "Jan", "Feb", "Mar", "Apr", "May", "Jun",
+                                       "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
+  return std::to_string(number % 100) + " " + months[number / 100 % 100 % 13] + " " +
          std::to_string(number / 10000);
 }
 
@@ -101,10 +87,10 @@ std::string mismatch(void *lmp)
   const auto version = in_program<int (*)(void *)>("lammps_version");
   const auto setting = in_program<int (*)(void *, const char *)>("lammps_extract_setting");
   if (!version || !setting) return "the program does not pass its version to plugins";
-  const int found = version(lmp);
-  if (found != number_of(LAMMPS_VERSION))
+  const std::string found = name_of(version(lmp));
+  if (found != LAMMPS_VERSION)
     return std::string("it was compiled for LAMMPS ") + LAMMPS_VERSION + ", but this is LAMMPS " +
-           name_of(found) + "; compile it with the source of this LAMMPS";
+           found + "; compile it with the source of this LAMMPS";
   const int big = setting(lmp, "bigint"), tag = setting(lmp, "tagint"),
             image = setting(lmp, "imageint");
   if (big != sizeof(bigint) || tag != sizeof(tagint) || image != sizeof(imageint))
