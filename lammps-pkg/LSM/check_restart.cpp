@@ -11,7 +11,6 @@
 #include "lsm_restart_info.h"
 
 #include <cstring>
-#include <sstream>
 
 using namespace LAMMPS_NS;
 
@@ -21,28 +20,25 @@ void CheckRestart::command(int narg, char **arg)
   if (narg < 1) error->all(FLERR, "check_restart expects a file name");
   const std::string file = arg[0];
 
-  // rank 0 reads; the settings go to the others as lines of key and value
-  std::string lines;
-  const std::string problem = lsm_on_0(world, [&file, &lines] {
-    for (const auto &[key, value] : LSM::check_restart(file)) lines += key + "=" + value + "\n";
-  });
+  LSM::text_io::Parameters settings;    // on rank 0
+  const std::string problem =
+      lsm_on_0(world, [&file, &settings] { settings = LSM::check_restart(file); });
   if (!problem.empty()) error->all(FLERR, "check_restart: {}", problem);
-  lsm_share(lines, world);
-  LSM::text_io::Parameters settings;
-  std::istringstream in(lines);
-  for (std::string key, value; std::getline(in, key, '=') && std::getline(in, value);)
-    settings.emplace_back(key, value);
 
-  bool fixed = false, any = false;
+  const char *keyword = nullptr;
   for (int n = 1; n < narg; n++) {
     if (strcmp(arg[n], "fixed") == 0 || strcmp(arg[n], "free") == 0) {
-      fixed = arg[n][1] == 'i';
-      any = true;
+      keyword = arg[n];
       continue;
     }
-    if (!any)
+    if (!keyword)
       error->all(FLERR, "check_restart expects the keyword fixed or free before '{}'", arg[n]);
-    take(file, arg[n], LSM::text_io::find(settings, arg[n]), fixed);
+    const std::string *const value = LSM::text_io::find(settings, arg[n]);
+    int found = value ? 1 : 0;
+    MPI_Bcast(&found, 1, MPI_INT, 0, world);
+    std::string text = value ? *value : "";
+    lsm_share(text, world);
+    take(file, arg[n], found ? &text : nullptr, keyword[1] == 'i');
   }
 }
 

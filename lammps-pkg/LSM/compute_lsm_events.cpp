@@ -16,7 +16,6 @@
 #include "platform.h"
 #include "save_restart.h"
 #include "update.h"
-#include "write_restart.h"
 
 #include <algorithm>
 #include <cmath>
@@ -47,7 +46,6 @@ ComputeLSMEvents::ComputeLSMEvents(LAMMPS *_lmp, int narg, char **arg) :
     error->all(FLERR, "Compute lsm/events {} needs the fix ID {}, which is in use", id,
                id_of_fix());
   recorder = dynamic_cast<FixLSMRecord *>(modify->add_fix(id_of_fix() + " all LSM_RECORD"));
-  if (!recorder) error->all(FLERR, "Compute lsm/events could not create fix LSM_RECORD");
   recorder->owner = this;
   update->first_update = 0;
   vector = new double[size_vector];    // last: the destructor does not run if the constructor stops
@@ -399,11 +397,7 @@ void ComputeLSMEvents::check_health()
   if (!found.finite) stop_run(found.what, "The catalogue ends with the last event before it");
 
   LSMMover::complete_steps(modify);
-  SaveRestart(lmp).save(options.emergency_file, {}, [this](const std::string &file) {
-    WriteRestart writer(lmp);
-    writer.multiproc_options(0, 0, nullptr);
-    writer.write(file);
-  });
+  SaveRestart(lmp).save(options.emergency_file, {}, true);
   stop_run(found.what, "Wrote restart file " + options.emergency_file);
 }
 

@@ -53,21 +53,24 @@ void SaveRestart::command(int narg, char **arg)
       error->all(FLERR, "save_restart: the value of variable {} has more than one line", arg[n]);
     settings.emplace_back(arg[n], value);
   }
-  save(file, settings, [this](const std::string &name) {
-    std::string word = name;
-    char *words[] = {&word[0]};
-    WriteRestart(lmp).command(1, words);
-  });
+  save(file, settings, false);
 }
 
 void SaveRestart::save(const std::string &file, const LSM::text_io::Parameters &settings,
-                       const std::function<void(const std::string &)> &write)
+                       bool within_run)
 {
   if (file.empty() || file.find_first_of("*%") != std::string::npos)
     error->all(FLERR, "save_restart expects the name of one file, without * and %, but got '{}'",
                file);
-  const Draft draft{file + ".new", comm->me == 0};
-  write(draft.file);
+  Draft draft{file + ".new", comm->me == 0};
+  WriteRestart writer(lmp);
+  if (within_run) {
+    writer.multiproc_options(0, 0, nullptr);
+    writer.write(draft.file);
+  } else {
+    char *words[] = {draft.file.data()};
+    writer.command(1, words);
+  }
 
   const std::string problem = lsm_on_0(world, [&] {
     LSM::text_io::Parameters all = {{"step", std::to_string(update->ntimestep)},

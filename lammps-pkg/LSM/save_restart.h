@@ -14,7 +14,6 @@ CommandStyle(save_restart,SaveRestart);
 #include "command.h"
 #include "lsm_text_io.h"
 
-#include <functional>
 #include <string>
 
 namespace LAMMPS_NS {
@@ -24,9 +23,8 @@ class SaveRestart : public Command {
   SaveRestart(class LAMMPS *_lmp) : Command(_lmp) {}
   void command(int, char **) override;
 
-  /// write: writes a restart file of that name, on all ranks. settings: of rank 0, for FILE.info.
-  void save(const std::string &file, const LSM::text_io::Parameters &settings,
-            const std::function<void(const std::string &)> &write);
+  /// On all ranks. settings: of rank 0, for FILE.info. within_run: at the end of a step.
+  void save(const std::string &file, const LSM::text_io::Parameters &settings, bool within_run);
 };
 
 }    // namespace LAMMPS_NS
