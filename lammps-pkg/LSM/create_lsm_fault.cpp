@@ -108,10 +108,8 @@ void CreateLSMFault::command(int narg, char **arg)
   const double packed = platform::walltime();
 
   const std::vector<double> masses = masses_of(packing, random.length);
-  const std::vector<int> stored = stored_links(packing);
-  create_box(lattice ? box_of(regular) : box_of(random),
-             *std::max_element(stored.begin(), stored.end()));
-  add_particles(packing, masses, stored);
+  create_box(lattice ? box_of(regular) : box_of(random), most_links_stored(packing));
+  add_particles(packing, masses);
   Special(lmp).build();
   MPI_Barrier(world);
   if (comm->me == 0) {
@@ -152,19 +150,14 @@ void CreateLSMFault::check_setup()
                           "use special_bonds lj/coul 0 1 1 before create_lsm_fault");
 }
 
-// both kinds have these
-LSM::Keywords CreateLSMFault::common_keywords()
-{
-  return {{"mass", Words{&cubed, {"r2", "r3"}}, Must::positive, &mass_scale},
-          {"margin", &margin, Must::positive},
-          {"types", &types}};
-}
-
-void CreateLSMFault::read(LSMKeywordReader in, const LSM::Keywords &own,
+void CreateLSMFault::read(LSMKeywordReader in, LSM::Keywords keywords,
                           const std::vector<const char *> &required)
 {
-  LSM::Keywords keywords = own;
-  for (const LSM::Keyword &one : common_keywords()) keywords.push_back(one);
+  for (const LSM::Keyword &of_both :
+       LSM::Keywords{{"mass", Words{&cubed, {"r2", "r3"}}, Must::positive, &mass_scale},
+                     {"margin", &margin, Must::positive},
+                     {"types", &types}})
+    keywords.push_back(of_both);
   in.read_all(keywords);
   in.require(required);
   if (types < NTYPES) in.stop(fmt::format("types is {}, but must be at least {}", types, NTYPES));
@@ -239,8 +232,8 @@ std::vector<double> CreateLSMFault::masses_of(const LSM::Packing &packing, doubl
   return masses;
 }
 
-// links that each particle stores
-std::vector<int> CreateLSMFault::stored_links(const LSM::Packing &packing) const
+// the most that a particle stores
+int CreateLSMFault::most_links_stored(const LSM::Packing &packing) const
 {
   std::vector<int> stored(packing.discs.size(), 0);
   for (const auto &link : packing.links) {
@@ -248,7 +241,7 @@ std::vector<int> CreateLSMFault::stored_links(const LSM::Packing &packing) const
     ++stored[ends.first];
     if (!force->newton_bond) ++stored[ends.second];
   }
-  return stored;
+  return *std::max_element(stored.begin(), stored.end());
 }
 
 // as the command region has it; 17 digits give the same number back
@@ -300,13 +293,9 @@ void CreateLSMFault::create_box(const std::string &limits, int bonds_per_atom)
 }
 
 // Each rank adds the particles in its sub-domain and their links. A particle's ID is its place in the packing + 1.
-void CreateLSMFault::add_particles(const LSM::Packing &packing, const std::vector<double> &masses,
-                                   const std::vector<int> &stored)
+void CreateLSMFault::add_particles(const LSM::Packing &packing, const std::vector<double> &masses)
 {
   const int n = static_cast<int>(packing.discs.size());
-  for (int i = 0; i < n; i++)
-    if (stored[i] > atom->bond_per_atom)
-      error->all(FLERR, "Create_lsm_fault: {} links of particle {} do not fit", stored[i], i + 1);
   std::vector<int> local(n, -1);
   const double *sublo = domain->sublo, *subhi = domain->subhi;
 

@@ -44,17 +44,15 @@ class CreateLSMFault : public Command {
   void check_setup();
   void parse(int, char **, LSM::PackingSettings &);
   void parse(int, char **, LSM::LatticeSettings &);
-  LSM::Keywords common_keywords();
-  void read(class LSMKeywordReader, const LSM::Keywords &,
-            const std::vector<const char *> &required);
+  void read(class LSMKeywordReader, LSM::Keywords, const std::vector<const char *> &required);
   void pack(LSM::Packing &, const std::function<LSM::Packing()> &make);
   double mass_of(double radius) const;    // before the floor
   std::vector<double> masses_of(const LSM::Packing &, double length) const;
-  std::vector<int> stored_links(const LSM::Packing &) const;
+  int most_links_stored(const LSM::Packing &) const;
   std::string box_of(const LSM::LatticeSettings &) const;
   std::string box_of(const LSM::PackingSettings &) const;
   void create_box(const std::string &limits, int bonds_per_atom);
-  void add_particles(const LSM::Packing &, const std::vector<double> &, const std::vector<int> &);
+  void add_particles(const LSM::Packing &, const std::vector<double> &masses);
   void add_links(const LSM::Packing &, const std::vector<int> &);
   void report_types(const LSM::Packing &);
   void report(const LSM::PackingSettings &, const LSM::Packing &);
