@@ -16,11 +16,6 @@ struct LSMRecordNothing {
   static constexpr bool records = false, tallies = false;
 
   LSMRecordNothing(LSMEnergySource &, bool, double, double) {}
-  void springs(double, double, double) {}
-  void dissipation(double, double) {}
-  void slip(double, double, double) {}
-  static constexpr bool wants_contacts() { return false; }
-  void contact(const LSM::FaultContact &) {}
   void finish() {}
 };
 
