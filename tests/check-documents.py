@@ -144,7 +144,7 @@ def check_styles(root):
         code = "".join((package / "LSM" / source).read_text() for source in sources)
         keywords = set(re.findall(r'(?:key|keyword|kind|in\.key\(\)) [=!]= "([a-z/0-9]+)"', code))
         keywords |= set(re.findall(r'strcmp\(arg\[\w+\], "([a-z/]+)"\) == 0', code))
-        keywords |= set(re.findall(r'\{"([a-z]+)", (?:&[\w.]+(?:, Must::\w+(?:, &\w+)?)?\}|(?:LSM::)?(?:Words|Flag)\{)', code))
+        keywords |= set(re.findall(r'\{"([a-z/]+)", (?:&[\w.]+(?:, Must::\w+(?:, &\w+)?)?\}|(?:LSM::)?(?:Words|Action)\{)', code))
         keywords -= set(others)
         said = set(re.findall(r"^       \*([a-z/]+)\* (?:value|=)", text, re.M)) | set(re.findall(r"^       \*([a-z/]+)\* values", text, re.M))
         assert len(keywords) > 1, (page, keywords)

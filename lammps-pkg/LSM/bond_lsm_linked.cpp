@@ -3,18 +3,19 @@
 #include "bond_lsm_linked.h"
 
 #include "atom.h"
-#include "comm.h"
 #include "domain.h"
 #include "error.h"
 #include "fix.h"
 #include "fix_lsm_velocity.h"
 #include "force.h"
+#include "math_extra.h"
 #include "memory.h"
 #include "modify.h"
 #include "neighbor.h"
 #include "update.h"
 
 #include "lsm_force_laws.h"
+#include "lsm_restart_file.h"
 #include "lsm_scene.h"
 #include "lsm_text_io.h"
 
@@ -28,9 +29,7 @@
 
 using namespace LAMMPS_NS;
 
-BondLSMLinked::BondLSMLinked(LAMMPS *_lmp) :
-    Bond(_lmp), k(nullptr), ratio(nullptr), delay(nullptr), breakable(0), maxrad(0.0),
-    avx2(LSMLinkKernel::has_avx2()), collected_at(-1), velocity(nullptr)
+BondLSMLinked::BondLSMLinked(LAMMPS *_lmp) : Bond(_lmp), avx2(LSMLinkKernel::has_avx2())
 {
   writedata = 1;
 }
@@ -38,12 +37,7 @@ BondLSMLinked::BondLSMLinked(LAMMPS *_lmp) :
 BondLSMLinked::~BondLSMLinked()
 {
   if (modify && modify->get_fix_by_id("LSM_BREAK")) modify->delete_fix("LSM_BREAK");
-  if (allocated) {
-    memory->destroy(setflag);
-    memory->destroy(k);
-    memory->destroy(ratio);
-    memory->destroy(delay);
-  }
+  if (allocated) memory->destroy(setflag);
 }
 
 void BondLSMLinked::compute(int eflag, int vflag)
@@ -157,7 +151,7 @@ template <int DIM, class Law> double BondLSMLinked::forces_of(const Segment &s, 
 {
   if (velocity && delay[s.type] > 0.0)
     return add_forces<DIM>(s, LSMLinkKernel::KelvinVoigt<Law>{law, k[s.type] * delay[s.type],
-                                                              velocity->now[0], &velocity->power});
+                                                              velocity->now(0), &velocity->power});
   return add_forces<DIM>(s, law);
 }
 
@@ -183,12 +177,10 @@ void BondLSMLinked::note_broken(Segment &segment)
     broken.push_back(atom->tag[j]);
     broken.push_back(segment.type);
     segment.rows.rest[place.link] = LSMLinkRows::NO_LINK;
-    if (record_what) {
-      double **x = atom->x, none;
-      const double dx = x[i][0] - x[j][0], dy = x[i][1] - x[j][1], dz = x[i][2] - x[j][2];
+    double none;
+    if (record_what)
       work_broken += (segment.first_only ? 0.5 : 1.0) *
-                     single(segment.type, dx * dx + dy * dy + dz * dz, i, j, none);
-    }
+                     single(segment.type, MathExtra::distsq3(atom->x[i], atom->x[j]), i, j, none);
     collected_at = -1;
   }
 }
@@ -208,16 +200,6 @@ void BondLSMLinked::tally()
   }
 }
 
-// attraction by the dashpot of a link along d, the vector from j to i, of length r
-double BondLSMLinked::drag(int type, int i, int j, const double *d, double r) const
-{
-  if (!velocity || delay[type] == 0.0) return 0.0;
-  const double *const vi = velocity->now[i], *const vj = velocity->now[j];
-  double rate = 0.0;
-  for (int c = 0; c < domain->dimension; c++) rate += d[c] * (vi[c] - vj[c]) / r;
-  return LSM::Dashpot::force(k[type] * delay[type], rate);
-}
-
 template <class Act> void BondLSMLinked::for_each_link(const Act &act) const
 {
   using LSMLinkRows::LANES;
@@ -233,11 +215,9 @@ template <class Act> void BondLSMLinked::for_each_link(const Act &act) const
 
 double BondLSMLinked::max_strain() const
 {
-  double **x = atom->x;
   double worst = 0.0;
   for_each_link([&](const Segment &, int i, int j, double rest) {
-    const double dx = x[i][0] - x[j][0], dy = x[i][1] - x[j][1], dz = x[i][2] - x[j][2];
-    const double strain = fabs(sqrt(dx * dx + dy * dy + dz * dz) - rest) / rest;
+    const double strain = fabs(sqrt(MathExtra::distsq3(atom->x[i], atom->x[j])) - rest) / rest;
     if (!(strain <= worst)) worst = strain;    // a NaN counts as worst
   });
   return worst;
@@ -253,16 +233,15 @@ std::vector<BondLSMLinked::Held> BondLSMLinked::held() const
   return all;
 }
 
-bool BondLSMLinked::any_delay() const
+static bool any_above_0(const std::vector<double> &of_types)
 {
-  return allocated && std::any_of(delay + 1, delay + atom->nbondtypes + 1,
-                                  [](double value) { return value > 0.0; });
+  return std::any_of(of_types.begin(), of_types.end(), [](double value) { return value > 0.0; });
 }
 
 std::string BondLSMLinked::retardation() const
 {
   std::string text;
-  if (!any_delay()) return text;
+  if (!any_above_0(delay)) return text;
   for (int i = 1; i <= atom->nbondtypes; i++)
     text += (i > 1 ? " " : "") + LSM::text_io::number(delay[i]);
   return text;
@@ -272,14 +251,9 @@ void BondLSMLinked::allocate()
 {
   allocated = 1;
   const int n = atom->nbondtypes + 1;
-  memory->create(k, n, "bond:k");
-  memory->create(ratio, n, "bond:ratio");
-  memory->create(delay, n, "bond:delay");
   memory->create(setflag, n, "bond:setflag");
-  for (int i = 0; i < n; i++) {
-    setflag[i] = 0;
-    k[i] = ratio[i] = delay[i] = 0.0;
-  }
+  std::fill_n(setflag, n, 0);
+  for (auto *of_types : {&k, &ratio, &delay}) of_types->assign(n, 0.0);
 }
 
 void BondLSMLinked::settings(int narg, char ** /*arg*/)
@@ -305,18 +279,12 @@ void BondLSMLinked::coeff(int narg, char **arg)
   if (narg == 3 && ratio_one <= 1.0)
     error->all(FLERR, "Bond lsm/linked breaking ratio r_cut/r0 is {}, but must be > 1", ratio_one);
 
-  int count = 0;
   for (int i = ilo; i <= ihi; i++) {
     k[i] = k_one;
     ratio[i] = ratio_one;
     delay[i] = delay_one;
     setflag[i] = 1;
-    count++;
   }
-  if (count == 0) error->all(FLERR, "Bond lsm/linked: bond_coeff {} names no bond type", arg[0]);
-  breakable = 0;
-  for (int i = 1; i <= atom->nbondtypes; i++)
-    if (ratio[i] > 0.0) breakable = 1;
 }
 
 void BondLSMLinked::init_style()
@@ -335,56 +303,39 @@ void BondLSMLinked::init_style()
   collected_at = -1;
 
   // a minimizer has no velocities
-  velocity = any_delay() && update->whichflag != 2 ? FixLSMVelocity::ask_for(lmp) : nullptr;
+  velocity = any_above_0(delay) && update->whichflag != 2 ? FixLSMVelocity::ask_for(lmp) : nullptr;
 
   double mine = 0.0;
   for (int i = 0; i < atom->nlocal; i++) mine = MAX(mine, atom->radius[i]);
   MPI_Allreduce(&mine, &maxrad, 1, MPI_DOUBLE, MPI_MAX, world);
 
   // only links that can break need the fix that tells the other ranks and updates the topology
-  if (breakable && !modify->get_fix_by_id("LSM_BREAK")) modify->add_fix("LSM_BREAK all LSM_BREAK");
-}
-
-// the rest length is r_i + r_j; LAMMPS asks for one number a type
-double BondLSMLinked::equilibrium_distance(int /*i*/)
-{
-  return 2.0 * maxrad;
+  if (any_above_0(ratio) && !modify->get_fix_by_id("LSM_BREAK"))
+    modify->add_fix("LSM_BREAK all LSM_BREAK");
 }
 
 // Retardation times, if any, come first, after a number that cannot be a stiffness.
 
 static constexpr double TIMES_FOLLOW = -1.0;
 
+void BondLSMLinked::coefficients_in(LSMRestartFile file)
+{
+  const int n = atom->nbondtypes;
+  if (file.follows(TIMES_FOLLOW, any_above_0(delay))) file(&delay[1], n);
+  file(&k[1], n);
+  file(&ratio[1], n);
+}
+
 void BondLSMLinked::write_restart(FILE *fp)
 {
-  if (any_delay()) {
-    fwrite(&TIMES_FOLLOW, sizeof(double), 1, fp);
-    fwrite(&delay[1], sizeof(double), atom->nbondtypes, fp);
-  }
-  fwrite(&k[1], sizeof(double), atom->nbondtypes, fp);
-  fwrite(&ratio[1], sizeof(double), atom->nbondtypes, fp);
+  coefficients_in({lmp, fp, false});
 }
 
 void BondLSMLinked::read_restart(FILE *fp)
 {
   allocate();
-  const int n = atom->nbondtypes;
-  if (comm->me == 0) {
-    utils::sfread(FLERR, &k[1], sizeof(double), 1, fp, nullptr, error);
-    if (k[1] == TIMES_FOLLOW)
-      utils::sfread(FLERR, &delay[1], sizeof(double), n, fp, nullptr, error);
-    else
-      fseek(fp, -static_cast<long>(sizeof(double)), SEEK_CUR);
-    utils::sfread(FLERR, &k[1], sizeof(double), n, fp, nullptr, error);
-    utils::sfread(FLERR, &ratio[1], sizeof(double), n, fp, nullptr, error);
-  }
-  MPI_Bcast(&k[1], n, MPI_DOUBLE, 0, world);
-  MPI_Bcast(&ratio[1], n, MPI_DOUBLE, 0, world);
-  MPI_Bcast(&delay[1], n, MPI_DOUBLE, 0, world);
-  for (int i = 1; i <= n; i++) {
-    setflag[i] = 1;
-    if (ratio[i] > 0.0) breakable = 1;
-  }
+  coefficients_in({lmp, fp, true});
+  for (int i = 1; i <= atom->nbondtypes; i++) setflag[i] = 1;
 }
 
 void BondLSMLinked::write_data(FILE *fp)
@@ -402,11 +353,9 @@ double BondLSMLinked::single(int type, double rsq, int i, int j, double &fforce)
   const double r = sqrt(rsq);
   const double stretch = r - (atom->radius[i] + atom->radius[j]);
   double pull = LSM::Spring::force(k[type], stretch);
-  if (velocity && r > 0.0) {
-    const double *const xi = atom->x[i], *const xj = atom->x[domain->closest_image(i, j)];
-    const double d[3] = {xi[0] - xj[0], xi[1] - xj[1], xi[2] - xj[2]};
-    pull += drag(type, i, j, d, r);
-  }
+  if (velocity && delay[type] > 0.0 && r > 0.0)
+    pull += LSM::Dashpot::force(k[type] * delay[type],
+                                velocity->rate(i, domain->closest_image(i, j), r));
   fforce = r > 0.0 ? -pull / r : 0.0;
   return LSM::Spring::energy(k[type], stretch);
 }
@@ -414,7 +363,7 @@ double BondLSMLinked::single(int type, double rsq, int i, int j, double &fforce)
 void *BondLSMLinked::extract(const char *str, int &dim)
 {
   dim = 1;
-  if (strcmp(str, "k") == 0) return (void *) k;
-  if (strcmp(str, "kelvin-voigt") == 0) return (void *) delay;
+  if (strcmp(str, "k") == 0) return k.data();
+  if (strcmp(str, "kelvin-voigt") == 0) return delay.data();
   return nullptr;
 }

@@ -27,7 +27,8 @@ class BondLSMLinked : public Bond, public LSMEnergySource {
   void settings(int, char **) override;
   void coeff(int, char **) override;
   void init_style() override;
-  double equilibrium_distance(int) override;
+  // the rest length is r_i + r_j; LAMMPS asks for one number a type
+  double equilibrium_distance(int) override { return 2.0 * maxrad; }
   void write_restart(FILE *) override;
   void read_restart(FILE *) override;
   void write_data(FILE *) override;
@@ -48,16 +49,13 @@ class BondLSMLinked : public Bond, public LSMEnergySource {
   /// Retardation times of the types, empty if all are 0.
   std::string retardation() const;
 
- protected:
-  double *k;        // link stiffness of each bond type
-  double *ratio;    // breaking distance over rest length; 0 if the link cannot break
-  double *delay;    // retardation time: viscosity over stiffness; 0 if there is none
-  int breakable;    // 1 if any type of link can break
-  double maxrad;
-
-  void allocate();
-
  private:
+  // of each bond type
+
+  std::vector<double> k;        // link stiffness
+  std::vector<double> ratio;    // breaking distance over rest length; 0 if the link cannot break
+  std::vector<double> delay;    // retardation time: viscosity over stiffness; 0 if there is none
+  double maxrad = 0.0;
   const bool avx2;    // of the processor
   struct Segment {    // links that are treated the same way
     int type;
@@ -67,12 +65,12 @@ class BondLSMLinked : public Bond, public LSMEnergySource {
   std::vector<Segment> segments;
   // links of a segment that broke in this evaluation
   std::vector<LSMLinkKernel::Place> broken_now;
-  bigint collected_at;    // step of the neighbour list they were taken from, -1 if outdated
+  bigint collected_at = -1;    // step of the neighbour list they were taken from, -1 if outdated
 
-  class FixLSMVelocity *velocity;    // of this run, null if no link is viscous in it
+  class FixLSMVelocity *velocity = nullptr;    // of this run, null if no link is viscous in it
 
-  bool any_delay() const;
-  double drag(int type, int i, int j, const double *d, double r) const;
+  void allocate();
+  void coefficients_in(class LSMRestartFile);
   std::vector<int> owned_by_id() const;
   void collect();
   template <int DIM> void eval();

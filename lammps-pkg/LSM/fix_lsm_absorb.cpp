@@ -11,11 +11,10 @@
 #include <cstring>
 
 using namespace LAMMPS_NS;
-using namespace FixConst;
 
 FixLSMAbsorb::FixLSMAbsorb(LAMMPS *_lmp, int narg, char **arg) : LSMKeptFix(_lmp, narg, arg)
 {
-  has_output(true);
+  has_output(&work_absorbed);
 
   if (narg != 7)
     error->all(FLERR,
@@ -37,11 +36,6 @@ FixLSMAbsorb::FixLSMAbsorb(LAMMPS *_lmp, int narg, char **arg) : LSMKeptFix(_lmp
   dashpot[1 - across] = value[1] * value[2];
 }
 
-int FixLSMAbsorb::setmask()
-{
-  return POST_FORCE;
-}
-
 void FixLSMAbsorb::init()
 {
   LSMScene::require_plane(lmp, "Fix lsm/absorb");
@@ -49,12 +43,13 @@ void FixLSMAbsorb::init()
 
 // Velocities are those of half a step before the forces, once a run goes on: the dashpot pulls against the velocity that
 // the particle has when its own pull is in the force, so that the scheme stays of second order, and stable
-// whatever the impedance. half: half a time step, 0 in the setup, where velocities and forces are of one time.
+// whatever the impedance. In the setup velocities and forces are of one time.
 //
 // With velocity Verlet the work of a force in the two halves of the steps before and after it is force times the
 // velocity of its time, so the loss is known exactly.
-void FixLSMAbsorb::add_forces(double half)
+void FixLSMAbsorb::post_force(int /*vflag*/)
 {
+  const double half = update->setupflag ? 0.0 : 0.5 * update->dt;
   double **v = atom->v;
   double **f = atom->f;
   double lost = 0.0;
@@ -70,20 +65,4 @@ void FixLSMAbsorb::add_forces(double half)
   }
   work_absorbed += half * (rate + lost);
   rate = lost;
-}
-
-void FixLSMAbsorb::setup(int /*vflag*/)
-{
-  add_forces(0.0);
-}
-
-void FixLSMAbsorb::post_force(int /*vflag*/)
-{
-  add_forces(0.5 * update->dt);
-}
-
-// scalar = absorbed energy
-double FixLSMAbsorb::compute_scalar()
-{
-  return lsm_total(work_absorbed, world);
 }

@@ -18,11 +18,10 @@ namespace LAMMPS_NS {
 class FixLSMAbsorb : public LSMKeptFix<FixLSMAbsorb>, public LSMWorkSource {
  public:
   FixLSMAbsorb(class LAMMPS *, int, char **);
-  int setmask() override;
+  int setmask() override { return FixConst::POST_FORCE; }
   void init() override;
-  void setup(int) override;
+  void setup(int vflag) override { post_force(vflag); }
   void post_force(int) override;
-  double compute_scalar() override;
   template <class Self, class State> static void visit(Self &self, State &state)
   {
     state.sum(self.work_absorbed);
@@ -31,8 +30,6 @@ class FixLSMAbsorb : public LSMKeptFix<FixLSMAbsorb>, public LSMWorkSource {
  private:
   double dashpot[2];    // force over velocity along x and y, of each particle
   double rate = 0.0;    // energy lost per time in the last step, this rank
-
-  void add_forces(double);
 };
 
 }    // namespace LAMMPS_NS

@@ -16,20 +16,13 @@
 #include <vector>
 
 using namespace LAMMPS_NS;
-using namespace FixConst;
 
-FixLSMBreak::FixLSMBreak(LAMMPS *_lmp, int narg, char **arg) :
-    LSMKeptFix(_lmp, narg, arg), links(nullptr), total(0)
+FixLSMBreak::FixLSMBreak(LAMMPS *_lmp, int narg, char **arg) : LSMKeptFix(_lmp, narg, arg)
 {
   if (narg != 3) error->all(FLERR, "Fix LSM_BREAK is internal to bond style lsm/linked");
-  has_output(false);
+  has_output(nullptr);
   force_reneighbor = 1;
   next_reneighbor = -1;
-}
-
-int FixLSMBreak::setmask()
-{
-  return PRE_REVERSE;
 }
 
 void FixLSMBreak::init()
@@ -48,11 +41,6 @@ void FixLSMBreak::init()
 // A link that broke in this force evaluation leaves the topology at once, before a restart file can be
 // written. It is gone from every list before the forces of the next step: its length exceeds the rest
 // length now, so the pair cannot have touched in between.
-void FixLSMBreak::setup_pre_reverse(int eflag, int vflag)
-{
-  pre_reverse(eflag, vflag);
-}
-
 void FixLSMBreak::pre_reverse(int /*eflag*/, int /*vflag*/)
 {
   if (lsm_total(static_cast<int>(links->broken.size()), world) == 0) return;
@@ -123,9 +111,4 @@ void FixLSMBreak::remove(const std::vector<tagint> &broken)
   const bigint links_removed = force->newton_bond ? ends : ends / 2;
   atom->nbonds -= links_removed;
   total += links_removed;
-}
-
-double FixLSMBreak::compute_scalar()
-{
-  return static_cast<double>(total);
 }

@@ -20,19 +20,19 @@ namespace LAMMPS_NS {
 class FixLSMBreak : public LSMKeptFix<FixLSMBreak> {
  public:
   FixLSMBreak(class LAMMPS *, int, char **);
-  int setmask() override;
+  int setmask() override { return FixConst::PRE_REVERSE; }
   void init() override;
-  void setup_pre_reverse(int, int) override;
+  void setup_pre_reverse(int eflag, int vflag) override { pre_reverse(eflag, vflag); }
   void pre_reverse(int, int) override;
-  double compute_scalar() override;
+  double compute_scalar() override { return static_cast<double>(total); }
   template <class Self, class State> static void visit(Self &self, State &state)
   {
     state.raw(self.total);
   }
 
  private:
-  class BondLSMLinked *links;
-  bigint total;    // links broken so far, all ranks
+  class BondLSMLinked *links = nullptr;
+  bigint total = 0;    // links broken so far, all ranks
 
   void remove(const std::vector<tagint> &);
 };

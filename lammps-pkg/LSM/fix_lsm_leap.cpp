@@ -22,7 +22,6 @@
 #include <cmath>
 
 using namespace LAMMPS_NS;
-using namespace FixConst;
 
 static constexpr bigint KEPT_STEPS =
     20000;    // of changes of the rate, for steps that are processed later
@@ -30,7 +29,7 @@ static constexpr bigint KEPT_STEPS =
 FixLSMLeap::FixLSMLeap(LAMMPS *_lmp, int narg, char **arg) :
     LSMKeptFix(_lmp, narg, arg), dt(update->dt)
 {
-  has_output(false, 6);
+  has_output(nullptr, 6);
 
   if (narg < 4)
     error->all(FLERR, "Fix lsm/leap expects 'fix ID group lsm/leap plates-ID keyword value ...'");
@@ -56,12 +55,7 @@ FixLSMLeap::~FixLSMLeap()
 {
   // the other fixes may already be gone
   if (auto p = dynamic_cast<FixLSMPlates *>(modify->get_fix_by_id(plates_id))) p->loading = 1.0;
-  for (auto *p : LSMScene::integrators(modify)) p->raise_viscosity(0.0);
-}
-
-int FixLSMLeap::setmask()
-{
-  return END_OF_STEP;
+  for (auto *p : LSMScene::fixes<FixLSMNVE>(modify)) p->raise_viscosity(0.0);
 }
 
 void FixLSMLeap::init()
@@ -88,7 +82,7 @@ void FixLSMLeap::init()
   if (modify->get_fix_by_style("^lsm/leap").size() > 1)
     error->all(FLERR, "More than one fix lsm/leap");
 
-  integrators = LSMScene::integrators(modify);
+  integrators = LSMScene::fixes<FixLSMNVE>(modify);
   if (integrators.empty()) error->all(FLERR, "Fix lsm/leap {} needs a fix lsm/nve", id);
 
   contacts.clear();
@@ -169,20 +163,6 @@ void FixLSMLeap::set_factor(double value)
   for (auto *p : contacts) p->pace = value;
 }
 
-// the blocks only: plates move as they are driven
-double FixLSMLeap::kinetic() const
-{
-  const int skip = plates->moved_bits();
-  double **v = atom->v;
-  double sum = 0.0;
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (atom->mask[i] & skip) continue;
-    sum += (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]) *
-           (v[i][0] * v[i][0] + v[i][1] * v[i][1]);
-  }
-  return 0.5 * sum;
-}
-
 // without a faster velocity there is nothing to do
 // event: plates at the driving velocity, until nothing has slipped for a while
 // settle: more viscosity, until the blocks are at rest
@@ -195,7 +175,9 @@ void FixLSMLeap::end_of_step()
     return;
   }
   if (state == SETTLE) LSMMover::complete_steps(modify);
-  double mine[2] = {0.0, state == SETTLE ? kinetic() : 0.0}, all[2];
+  // the blocks only: plates move as they are driven
+  const double blocks = state == SETTLE ? LSMScene::kinetic(atom, plates->moved_bits()) : 0.0;
+  double mine[2] = {0.0, blocks}, all[2];
   for (auto *p : contacts) {
     mine[0] += p->slip_moment;
     p->slip_moment = 0.0;
@@ -228,11 +210,6 @@ void FixLSMLeap::end_of_step()
 // scalar = model time
 // vector = factor of the driving velocity, state (0 event, 1 settle, 2 leap), time of the steps, part of it in leaps,
 // model time beyond the time of the steps, leaps that ended
-double FixLSMLeap::compute_scalar()
-{
-  return model_time(update->ntimestep);
-}
-
 double FixLSMLeap::compute_vector(int n)
 {
   const double values[6] = {factor,

@@ -12,6 +12,7 @@ FixStyle(lsm/leap,FixLSMLeap);
 
 #include "lsm_fix_state.h"
 #include "lsm_keywords.h"
+#include "update.h"
 
 #include <deque>
 #include <string>
@@ -23,12 +24,12 @@ class FixLSMLeap : public LSMKeptFix<FixLSMLeap> {
  public:
   FixLSMLeap(class LAMMPS *, int, char **);
   ~FixLSMLeap() override;
-  int setmask() override;
+  int setmask() override { return FixConst::END_OF_STEP; }
   void init() override;
   void setup(int) override;
   void end_of_step() override;
   void reset_dt() override;
-  double compute_scalar() override;
+  double compute_scalar() override { return model_time(update->ntimestep); }
   double compute_vector(int) override;
 
   double model_time(bigint step) const;    // at a step that was done in the last 10 000 steps or so
@@ -80,7 +81,6 @@ class FixLSMLeap : public LSMKeptFix<FixLSMLeap> {
   LSM::Keywords keywords();
   double time_of_steps() const;
   bool leaps() const;    // there is a faster velocity, and a velocity at all
-  double kinetic() const;
   void set_factor(double);
 };
 

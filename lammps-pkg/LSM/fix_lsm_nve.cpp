@@ -38,20 +38,22 @@ FixLSMNVE::FixLSMNVE(LAMMPS *_lmp, int narg, char **arg) :
 {
   time_integrate = 1;
   dynamic_group_allow = 1;
-  has_output(true, 2);
+  has_output(&work_viscosity, 2);
   comm_forward = comm_reverse = domain->dimension == 3 ? 3 : 2;
 
-  const LSM::Keywords keywords = {{"dtcheck", LSM::Words{&check, {"error", "warn", "off"}}}};
   LSMKeywordReader in(lmp, "Fix lsm/nve", 3, narg, arg);
-  while (in.next()) {
-    if (in.read(keywords)) continue;
-    const bool of_types = in.key() == "viscosity/type";
-    if (!of_types && in.key() != "viscosity") in.unknown(keywords, "viscosity, viscosity/type");
-    in.need(of_types ? 2 : 1);
-    int lo = 1, hi = atom->ntypes;
-    if (of_types) utils::bounds(FLERR, in.text(), 1, atom->ntypes, lo, hi, error);
+  const auto set = [&](int lo, int hi) {
     std::fill(&nu[lo], &nu[hi] + 1, in.number(LSM::Must::not_negative));
-  }
+  };
+  const auto set_all = [&] { set(1, atom->ntypes); };
+  const auto set_types = [&] {
+    int lo, hi;
+    utils::bounds(FLERR, in.text(), 1, atom->ntypes, lo, hi, error);
+    set(lo, hi);
+  };
+  in.read_all({{"viscosity", LSM::Action{1, set_all}},
+               {"viscosity/type", LSM::Action{2, set_types}},
+               {"dtcheck", LSM::Words{&check, {"error", "warn", "off"}}}});
   for (double value : nu) viscous = viscous || value > 0.0;
 }
 
@@ -124,16 +126,6 @@ void FixLSMNVE::collect()
     from = run.last;
   }
   if (nlocal > from) others.push_back({from, nlocal});
-}
-
-void FixLSMNVE::setup_post_neighbor()
-{
-  collect();
-}
-
-void FixLSMNVE::post_neighbor()
-{
-  collect();
 }
 
 using Flag = std::variant<std::false_type, std::true_type>;
@@ -227,7 +219,7 @@ template <int PARTS, bool VISCOUS, bool WORK, bool DIM3, bool CLEARS> void FixLS
     double *v = atom->v[run.first];
     double *f = atom->f[run.first];
     [[maybe_unused]] double *next = nullptr;
-    if constexpr (PARTS & AHEAD) next = ahead->now[run.first];
+    if constexpr (PARTS & AHEAD) next = ahead->now(run.first);
     const double *kick = &half_kick[run.first];
     const double *const end = &half_kick[0] + run.last;
 
@@ -311,7 +303,7 @@ bool FixLSMNVE::may_clear() const
 {
   if (strcmp(update->integrate_style, "verlet") != 0 || group->dynamic[igroup] ||
       neighbor->includegroup || atom->avec->forceclearflag ||
-      LSMScene::integrators(modify).size() > 1 || !LSMScene::foreign_forces(force).empty())
+      LSMScene::fixes<FixLSMNVE>(modify).size() > 1 || !LSMScene::foreign_forces(force).empty())
     return false;
   constexpr int LOOKS = INITIAL_INTEGRATE | POST_INTEGRATE | PRE_FORCE | POST_FORCE;
   for (const auto &other : modify->get_fix_list())
@@ -435,17 +427,13 @@ int FixLSMNVE::pack_forward_comm(int n, int *list, double *buf, int /*pbc_flag*/
 
 void FixLSMNVE::unpack_forward_comm(int n, int first, double *buf)
 {
-  int m = 0;
-  for (int i = first; i < first + n; i++)
-    for (int c = 0; c < comm_forward; c++) trial[i * comm_forward + c] = buf[m++];
+  std::copy_n(buf, n * comm_forward, trial.data() + first * comm_forward);
 }
 
 int FixLSMNVE::pack_reverse_comm(int n, int first, double *buf)
 {
-  int m = 0;
-  for (int i = first; i < first + n; i++)
-    for (int c = 0; c < comm_reverse; c++) buf[m++] = image[i * comm_reverse + c];
-  return m;
+  std::copy_n(image.data() + first * comm_reverse, n * comm_reverse, buf);
+  return n * comm_reverse;
 }
 
 void FixLSMNVE::unpack_reverse_comm(int n, int *list, double *buf)
@@ -453,18 +441,6 @@ void FixLSMNVE::unpack_reverse_comm(int n, int *list, double *buf)
   int m = 0;
   for (int i = 0; i < n; i++)
     for (int c = 0; c < comm_reverse; c++) image[list[i] * comm_reverse + c] += buf[m++];
-}
-
-// scalar = work lost to viscosity (only counted while a compute keeps the ledger)
-// vector = highest frequency and stability limit found at setup
-double FixLSMNVE::compute_scalar()
-{
-  return lsm_total(work_viscosity, world);
-}
-
-double FixLSMNVE::compute_vector(int n)
-{
-  return n == 0 ? omega : dt_limit;
 }
 
 void FixLSMNVE::restart(char *buf)

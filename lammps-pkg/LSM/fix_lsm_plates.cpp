@@ -26,7 +26,7 @@ enum { LOWER, UPPER };
 
 FixLSMPlates::FixLSMPlates(LAMMPS *_lmp, int narg, char **arg) : LSMKeptFix(_lmp, narg, arg)
 {
-  has_output(true, 10);
+  has_output(&work_mine, 10);
 
   if (narg < 5)
     error->all(FLERR, "Fix lsm/plates expects 'fix ID group lsm/plates lower-group upper-group "
@@ -41,20 +41,21 @@ FixLSMPlates::FixLSMPlates(LAMMPS *_lmp, int narg, char **arg) : LSMKeptFix(_lmp
   }
 
   using LSM::Must;
-  bool position = false;
-  const LSM::Keywords keywords = {{"velocity", &speed},
-                                  {"ramp", &ramp, Must::not_negative},
-                                  {"stress", &stress, Must::not_negative},
-                                  {"stressramp", &stress_ramp, Must::not_negative},
-                                  {"damping", &damping, Must::not_negative},
-                                  {"impedance", &impedance, Must::not_negative},
-                                  {"position", LSM::Flag{&position}}};
+  bool held = false;
   LSMKeywordReader in(lmp, "Fix lsm/plates", 5, narg, arg);
-  while (in.next()) {
-    if (!in.read(keywords)) in.unknown(keywords);
-    if (in.key() == "stress" || in.key() == "position") servo = in.key() == "stress";
-  }
-  if (!servo && !position)
+  const auto hold = [&](bool by_stress) {
+    if (by_stress) stress = in.number(Must::not_negative);
+    servo = by_stress;
+    held = true;
+  };
+  in.read_all({{"velocity", &speed},
+               {"ramp", &ramp, Must::not_negative},
+               {"stress", LSM::Action{1, [&] { hold(true); }}},
+               {"stressramp", &stress_ramp, Must::not_negative},
+               {"damping", &damping, Must::not_negative},
+               {"impedance", &impedance, Must::not_negative},
+               {"position", LSM::Action{0, [&] { hold(false); }}}});
+  if (!held)
     error->all(FLERR, "Fix lsm/plates needs either 'stress value' (normal stress held) or "
                       "'position' (plates do not move across the fault)");
 }
@@ -96,7 +97,7 @@ void FixLSMPlates::init()
   }
   vy_known = true;
 
-  integrators = LSMScene::integrators(modify);
+  integrators = LSMScene::fixes<FixLSMNVE>(modify);
 
   for (const auto &other : modify->get_fix_list())
     if (other != this && (other->time_integrate || strcmp(other->style, style) == 0)) {
@@ -173,7 +174,6 @@ void FixLSMPlates::setup(int /*vflag*/)
   ahead = FixLSMVelocity::in_use(lmp);
   start_sum();
   finish_sum();
-  summed_at = -1;
   for (const Plate &p : plate)
     for (int i : p.atoms) {
       atom->v[i][0] = p.side * velocity_at(elapsed);
@@ -212,7 +212,7 @@ void FixLSMPlates::initial_integrate(int /*vflag*/)
     for (int i : p.atoms) {
       v[i][0] = p.side * vx;
       v[i][1] = p.vy;
-      if (ahead) std::copy_n(now, 2, ahead->now[i]);
+      if (ahead) std::copy_n(now, 2, ahead->now(i));
       x[i][0] += p.side * dux;
       x[i][1] += duy;
     }
@@ -259,11 +259,6 @@ void FixLSMPlates::complete_step()
     }
 }
 
-void FixLSMPlates::post_run()
-{
-  complete_step();
-}
-
 // what the applied stress and the force of the block add to the velocity across the fault in half a step
 double FixLSMPlates::half_kick(const Plate &p) const
 {
@@ -283,21 +278,6 @@ double FixLSMPlates::decay_of(const Plate &p) const
   return exp(-0.5 * (damping + impedance * domain->prd[0] / p.mass) * update->dt);
 }
 
-double FixLSMPlates::kinetic() const
-{
-  return plate[LOWER].kinetic() + plate[UPPER].kinetic();
-}
-
-void FixLSMPlates::sum_for_output()
-{
-  complete_step();
-  if (summed_at == update->ntimestep) return;
-  double mine[4] = {plate[LOWER].fx, plate[LOWER].fy, plate[UPPER].fx, plate[UPPER].fy};
-  if (servo && comm->me != 0) mine[1] = mine[3] = 0.0;    // already the sum over all ranks
-  MPI_Allreduce(mine, sums, 4, MPI_DOUBLE, MPI_SUM, world);
-  summed_at = update->ntimestep;
-}
-
 // scalar = work of the plates
 // vector = mean shear stress, mean normal stress, their ratio, shear stress lower and upper, normal stress
 // lower and upper, shear displacement of the plates against each other, approach of the plates,
@@ -305,12 +285,15 @@ void FixLSMPlates::sum_for_output()
 double FixLSMPlates::compute_scalar()
 {
   complete_step();
-  return lsm_total(work_mine, world);
+  return LSMKeptFix::compute_scalar();
 }
 
 double FixLSMPlates::compute_vector(int n)
 {
-  sum_for_output();
+  complete_step();
+  double mine[4] = {plate[LOWER].fx, plate[LOWER].fy, plate[UPPER].fx, plate[UPPER].fy}, sums[4];
+  if (servo && comm->me != 0) mine[1] = mine[3] = 0.0;    // already the sum over all ranks
+  MPI_Allreduce(mine, sums, 4, MPI_DOUBLE, MPI_SUM, world);
   const double length = domain->prd[0];
   const double shear_lower = sums[0] / length, shear_upper = -sums[2] / length;
   const double normal_lower = -sums[1] / length, normal_upper = sums[3] / length;

@@ -28,7 +28,7 @@ class FixLSMPlates : public LSMKeptFix<FixLSMPlates>, public LSMMover {
   void post_neighbor() override;
   void initial_integrate(int) override;
   void final_integrate() override;
-  void post_run() override;
+  void post_run() override { complete_step(); }
   double compute_scalar() override;
   double compute_vector(int) override;
   void write_restart(FILE *) override;
@@ -40,7 +40,8 @@ class FixLSMPlates : public LSMKeptFix<FixLSMPlates>, public LSMMover {
 
   double loading = 1.0;    // factor of the driving velocity now, set by fix lsm/leap
   double driving_velocity() const { return speed; }
-  double kinetic() const;    // kinetic energy of the motion of the plates across the fault
+  // energy of the motion of the plates across the fault
+  double kinetic() const { return plate[0].kinetic() + plate[1].kinetic(); }
   template <class Self, class State> static void visit(Self &self, State &state)
   {
     auto &lower = self.plate[0], &upper = self.plate[1];
@@ -82,9 +83,6 @@ class FixLSMPlates : public LSMKeptFix<FixLSMPlates>, public LSMMover {
   double moved = 0.0, along = 0.0;     // shear displacement and velocity of the last step
   double longest = 0.0;                // move of the last step
 
-  double sums[4];    // fx, fy of both plates over all ranks, at step summed_at
-  bigint summed_at = -1;
-
   tagint in_both(int some, int others) const;
   double half_kick(const Plate &p) const;
   void damp(Plate &p);
@@ -94,7 +92,6 @@ class FixLSMPlates : public LSMKeptFix<FixLSMPlates>, public LSMMover {
   void start_sum();
   void finish_sum();
   void finish_step();
-  void sum_for_output();
 };
 
 }    // namespace LAMMPS_NS

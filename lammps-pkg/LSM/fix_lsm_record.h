@@ -11,6 +11,7 @@ FixStyle(LSM_RECORD,FixLSMRecord);
 #ifndef LMP_FIX_LSM_RECORD_H
 #define LMP_FIX_LSM_RECORD_H
 
+#include "compute_lsm_events.h"
 #include "lsm_fix_state.h"
 
 #include <vector>
@@ -20,11 +21,14 @@ namespace LAMMPS_NS {
 class FixLSMRecord : public LSMKeptFix<FixLSMRecord> {
  public:
   FixLSMRecord(class LAMMPS *, int, char **);
-  int setmask() override;
-  void setup(int) override;
-  void pre_exchange() override;
-  void end_of_step() override;
-  void post_run() override;
+  int setmask() override
+  {
+    return FixConst::PRE_EXCHANGE | FixConst::END_OF_STEP | FixConst::POST_RUN;
+  }
+  void setup(int) override { owner->setup_record(); }
+  void pre_exchange() override { owner->look_early(); }
+  void end_of_step() override { owner->record(); }
+  void post_run() override { owner->end_run(); }
   void reset_dt() override;
   void write_restart(FILE *) override;
   template <class Self, class State> static void visit(Self &self, State &state)
@@ -32,7 +36,7 @@ class FixLSMRecord : public LSMKeptFix<FixLSMRecord> {
     state.list(self.kept);
   }
 
-  class ComputeLSMEvents *owner;    // set by the compute that made this fix
+  ComputeLSMEvents *owner = nullptr;    // set by the compute that made this fix
   std::vector<double> kept;    // state of the compute in the last restart file, read or written
 };
 

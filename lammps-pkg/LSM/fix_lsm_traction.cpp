@@ -20,7 +20,6 @@
 #include <cmath>
 
 using namespace LAMMPS_NS;
-using namespace FixConst;
 
 enum { LOWER, UPPER };
 // of two discs that face each other, over the sum of their radii: largest distance, and along the
@@ -30,8 +29,7 @@ static constexpr double ASIDE = 0.2;
 
 FixLSMTraction::FixLSMTraction(LAMMPS *_lmp, int narg, char **arg) : LSMKeptFix(_lmp, narg, arg)
 {
-  has_output(true);
-  comm_forward = 1;
+  has_output(&work_outside);
 
   if (narg < 7)
     error->all(FLERR, "Fix lsm/traction expects 'fix ID group lsm/traction lower-group upper-group "
@@ -63,11 +61,6 @@ void FixLSMTraction::post_constructor()
   modify->add_fix(std::string(id) +
                   "_store all property/atom d_lsm_contact_radius d_lsm_normal d_lsm_shear ghost "
                   "yes writedata no");
-}
-
-int FixLSMTraction::setmask()
-{
-  return PRE_FORCE | POST_FORCE;    // the former for its setup only
 }
 
 void FixLSMTraction::init()
@@ -163,8 +156,9 @@ std::vector<double> FixLSMTraction::shares(int s) const
 
 // Where discs just touch, contacts reach farther by the overlap that the normal traction needs, and their tangential springs
 // begin with the elongation that the shear traction needs: no particle moves and no link is strained.
-void FixLSMTraction::begin()
+void FixLSMTraction::setup_pre_force(int /*vflag*/)
 {
+  if (begun) return;
   auto *const pair = dynamic_cast<PairLSMFriction *>(force->pair_match("lsm/friction", 1));
   find_store();
   const std::vector<double> normal = evaluate(traction[NORMAL]), shear = evaluate(traction[SHEAR]);
@@ -213,32 +207,17 @@ void FixLSMTraction::begin()
       contact_radius[i] += more;
     }
   }
-  comm->forward_comm(this);
+  std::vector<double *> of_each(atom->nlocal + atom->nghost);
+  for (size_t i = 0; i < of_each.size(); i++) of_each[i] = &contact_radius[i];
+  comm->forward_comm_array(1, of_each.data());
   pair->load_contacts(load[SHEAR]);
   begun = true;
-}
-
-void FixLSMTraction::setup_pre_force(int /*vflag*/)
-{
-  if (!begun) begin();
-}
-
-int FixLSMTraction::pack_forward_comm(int n, int *list, double *buf, int /*pbc_flag*/,
-                                      int * /*pbc*/)
-{
-  for (int m = 0; m < n; m++) buf[m] = contact_radius[list[m]];
-  return n;
-}
-
-void FixLSMTraction::unpack_forward_comm(int n, int first, double *buf)
-{
-  for (int m = 0; m < n; m++) contact_radius[first + m] = buf[m];
 }
 
 // The forces that balance the tractions: the upper face is pulled along x, and each is pressed on the
 // other. Within a run velocities are those of the middle of the step; times the time step they give the
 // displacement.
-void FixLSMTraction::add_forces(double dt)
+void FixLSMTraction::post_force(int /*vflag*/)
 {
   find_store();
   double **v = atom->v;
@@ -253,21 +232,5 @@ void FixLSMTraction::add_forces(double dt)
       f[i][1] += fy;
       work += fx * v[i][0] + fy * v[i][1];
     }
-  work_outside += dt * work;
-}
-
-void FixLSMTraction::setup(int /*vflag*/)
-{
-  add_forces(0.0);
-}
-
-void FixLSMTraction::post_force(int /*vflag*/)
-{
-  add_forces(update->dt);
-}
-
-// scalar = work of these forces
-double FixLSMTraction::compute_scalar()
-{
-  return lsm_total(work_outside, world);
+  if (!update->setupflag) work_outside += update->dt * work;
 }

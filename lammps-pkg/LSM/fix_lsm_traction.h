@@ -23,14 +23,11 @@ class FixLSMTraction : public LSMKeptFix<FixLSMTraction>, public LSMWorkSource {
   FixLSMTraction(class LAMMPS *, int, char **);
   ~FixLSMTraction() override;
   void post_constructor() override;
-  int setmask() override;
+  int setmask() override { return FixConst::PRE_FORCE | FixConst::POST_FORCE; }
   void init() override;
   void setup_pre_force(int) override;
-  void setup(int) override;
+  void setup(int vflag) override { post_force(vflag); }
   void post_force(int) override;
-  int pack_forward_comm(int, int *, double *, int, int *) override;
-  void unpack_forward_comm(int, int, double *) override;
-  double compute_scalar() override;
   template <class Self, class State> static void visit(Self &self, State &state)
   {
     state.sum(self.work_outside);
@@ -49,8 +46,6 @@ class FixLSMTraction : public LSMKeptFix<FixLSMTraction>, public LSMWorkSource {
   std::vector<double> evaluate(const std::string &) const;
   int partner(int, const std::vector<int> &) const;
   std::vector<double> shares(int) const;
-  void begin();
-  void add_forces(double);
 };
 
 }    // namespace LAMMPS_NS

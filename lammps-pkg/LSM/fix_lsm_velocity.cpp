@@ -6,9 +6,9 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "fix_lsm_nve.h"
 #include "lsm_mover.h"
 #include "lsm_scene.h"
-#include "memory.h"
 #include "modify.h"
 #include "update.h"
 
@@ -21,32 +21,17 @@ static constexpr const char *ID = "LSM_VELOCITY";
 
 FixLSMVelocity::FixLSMVelocity(LAMMPS *_lmp, int narg, char **arg) : LSMKeptFix(_lmp, narg, arg)
 {
-  if (narg != 3)
-    error->all(FLERR, "Fix LSM_VELOCITY is internal to viscous links and contacts of the package");
-  has_output(true);
-  restart_peratom = 1;
+  has_output(&work_dashpots);
   create_attribute = 1;
-  comm_forward = domain->dimension;
-  FixLSMVelocity::grow_arrays(atom->nmax);
-  for (int i = 0; i < atom->nlocal; i++) FixLSMVelocity::set_arrays(i);
-  atom->add_callback(Atom::GROW);
-  atom->add_callback(Atom::RESTART);
-}
-
-FixLSMVelocity::~FixLSMVelocity()
-{
-  if (atom) {
-    atom->delete_callback(id, Atom::GROW);
-    atom->delete_callback(id, Atom::RESTART);
-  }
-  memory->destroy(now);
+  take_velocities(0);
 }
 
 FixLSMVelocity *FixLSMVelocity::ask_for(LAMMPS *lmp)
 {
   Modify *const modify = lmp->modify;
   Fix *any = modify->get_fix_by_id(ID);
-  if (!any) any = modify->add_fix(std::string(ID) + " all LSM_VELOCITY");
+  // three numbers a particle, not sent with new ghosts, in restart files: see fix STORE/ATOM
+  if (!any) any = modify->add_fix(std::string(ID) + " all LSM_VELOCITY 3 0 0 1");
   auto *const one = dynamic_cast<FixLSMVelocity *>(any);
   if (!one)
     lmp->error->all(FLERR, "Fix {} must be of style LSM_VELOCITY, which the package creates itself",
@@ -59,6 +44,14 @@ FixLSMVelocity *FixLSMVelocity::in_use(LAMMPS *lmp)
 {
   auto *const one = dynamic_cast<FixLSMVelocity *>(lmp->modify->get_fix_by_id(ID));
   return one && one->used ? one : nullptr;
+}
+
+double FixLSMVelocity::rate(int i, int j, double r) const
+{
+  double sum = 0.0;
+  for (int c = 0; c < domain->dimension; c++)
+    sum += (atom->x[i][c] - atom->x[j][c]) * (astore[i][c] - astore[j][c]);
+  return sum / r;
 }
 
 int FixLSMVelocity::setmask()
@@ -78,8 +71,8 @@ void FixLSMVelocity::init()
                "Links and contacts with kelvin-voigt do not work with fix {} of style lsm/leap, "
                "whose blocks move faster than in model time",
                leap->id);
-  for (const auto *mover : LSMMover::all(modify)) extrapolated |= mover->moved_bits();
-  if (LSMScene::integrators(modify).empty() && !LSMScene::is_rerun(update))
+  for (const auto *mover : LSMScene::fixes<LSMMover>(modify)) extrapolated |= mover->moved_bits();
+  if (LSMScene::fixes<FixLSMNVE>(modify).empty() && !LSMScene::is_rerun(update))
     error->all(FLERR, "Links and contacts with kelvin-voigt need fix lsm/nve, which extrapolates "
                       "velocities to the time of the forces");
 }
@@ -109,7 +102,7 @@ void FixLSMVelocity::pre_force(int /*vflag*/)
 {
   if (!used) return;
   power = 0.0;
-  comm->forward_comm(this);
+  comm->forward_comm_array(domain->dimension, astore);
 }
 
 // work: trapezoidal rule over the step
@@ -149,58 +142,9 @@ std::uint64_t FixLSMVelocity::fingerprint() const
   return lsm_total(mine, world);
 }
 
-// scalar = energy dissipated by the dashpots
-double FixLSMVelocity::compute_scalar()
-{
-  return lsm_total(work_dashpots, world);
-}
-
-double FixLSMVelocity::memory_usage()
-{
-  return 3.0 * atom->nmax * sizeof(double);
-}
-
-void FixLSMVelocity::grow_arrays(int nmax)
-{
-  memory->grow(now, nmax, 3, "lsm/velocity:now");
-}
-
-void FixLSMVelocity::copy_arrays(int i, int j, int /*delflag*/)
-{
-  memcpy(now[j], now[i], 3 * sizeof(double));
-}
-
 void FixLSMVelocity::set_arrays(int i)
 {
-  memcpy(now[i], atom->v[i], 3 * sizeof(double));
-}
-
-int FixLSMVelocity::pack_exchange(int i, double *buf)
-{
-  memcpy(buf, now[i], 3 * sizeof(double));
-  return 3;
-}
-
-int FixLSMVelocity::unpack_exchange(int nlocal, double *buf)
-{
-  memcpy(now[nlocal], buf, 3 * sizeof(double));
-  return 3;
-}
-
-int FixLSMVelocity::pack_forward_comm(int n, int *list, double *buf, int /*pbc_flag*/,
-                                      int * /*pbc*/)
-{
-  int m = 0;
-  for (int i = 0; i < n; i++)
-    for (int c = 0; c < comm_forward; c++) buf[m++] = now[list[i]][c];
-  return m;
-}
-
-void FixLSMVelocity::unpack_forward_comm(int n, int first, double *buf)
-{
-  int m = 0;
-  for (int i = first; i < first + n; i++)
-    for (int c = 0; c < comm_forward; c++) now[i][c] = buf[m++];
+  memcpy(astore[i], atom->v[i], 3 * sizeof(double));
 }
 
 // In a run velocities are complete when a restart file is written; between two runs, commands may have changed them.
@@ -208,29 +152,4 @@ void FixLSMVelocity::write_restart(FILE *fp)
 {
   if (update->whichflag) known = fingerprint();
   LSMKeptFix::write_restart(fp);
-}
-
-int FixLSMVelocity::pack_restart(int i, double *buf)
-{
-  buf[0] = size_restart(i);
-  memcpy(buf + 1, now[i], 3 * sizeof(double));
-  return size_restart(i);
-}
-
-void FixLSMVelocity::unpack_restart(int nlocal, int nth)
-{
-  const double *extra = atom->extra[nlocal];
-  int m = 0;
-  for (int i = 0; i < nth; i++) m += static_cast<int>(extra[m]);
-  memcpy(now[nlocal], extra + m + 1, 3 * sizeof(double));
-}
-
-int FixLSMVelocity::maxsize_restart()
-{
-  return size_restart(0);
-}
-
-int FixLSMVelocity::size_restart(int /*nlocal*/)
-{
-  return 4;
 }

@@ -11,6 +11,7 @@ FixStyle(LSM_VELOCITY,FixLSMVelocity);
 #ifndef LMP_FIX_LSM_VELOCITY_H
 #define LMP_FIX_LSM_VELOCITY_H
 
+#include "fix_store_atom.h"
 #include "lsm_energy.h"
 #include "lsm_fix_state.h"
 
@@ -18,19 +19,20 @@ FixStyle(LSM_VELOCITY,FixLSMVelocity);
 
 namespace LAMMPS_NS {
 
-class FixLSMVelocity : public LSMKeptFix<FixLSMVelocity>, public LSMWorkSource {
+/// Stored are velocities of the time of the positions, particles of this rank and ghosts. Between two evaluations of the forces
+/// those that move particles set them: velocities themselves are those of half a step before when forces are evaluated.
+class FixLSMVelocity : public LSMKeptFix<FixLSMVelocity, FixStoreAtom>, public LSMWorkSource {
  public:
   FixLSMVelocity(class LAMMPS *, int, char **);
-  ~FixLSMVelocity() override;
 
   /// The one of this scene for a force style that needs it from its init on; made where there is none.
   static FixLSMVelocity *ask_for(LAMMPS *);
   /// The one of this scene, or null if nobody needs it in this run.
   static FixLSMVelocity *in_use(LAMMPS *);
 
-  /// Velocities of the time of the positions, particles of this rank and ghosts. Between two evaluations of the forces those
-  /// that move particles set them: velocities themselves are those of half a step before when forces are evaluated.
-  double **now = nullptr;
+  double *now(int i) const { return astore[i]; }
+  /// Rate of the distance r of two particles.
+  double rate(int i, int j, double r) const;
   /// What the dashpots take in this evaluation, this rank's share: force styles add to it.
   double power = 0.0;
 
@@ -42,26 +44,13 @@ class FixLSMVelocity : public LSMKeptFix<FixLSMVelocity>, public LSMWorkSource {
   void pre_force(int) override;
   void post_force(int) override;
   void post_run() override;
-  double compute_scalar() override;
-  double memory_usage() override;
-
-  void grow_arrays(int) override;
-  void copy_arrays(int, int, int) override;
   void set_arrays(int) override;
-  int pack_exchange(int, double *) override;
-  int unpack_exchange(int, double *) override;
-  int pack_forward_comm(int, int *, double *, int, int *) override;
-  void unpack_forward_comm(int, int, double *) override;
   void write_restart(FILE *) override;
   template <class Self, class State> static void visit(Self &self, State &state)
   {
     state.sum(self.work_dashpots);
     state.raw(self.known);
   }
-  int pack_restart(int, double *) override;
-  void unpack_restart(int, int) override;
-  int maxsize_restart() override;
-  int size_restart(int) override;
 
  private:
   bool asked = false, used = false;

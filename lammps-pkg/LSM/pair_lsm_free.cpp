@@ -18,35 +18,29 @@
 
 #include "lsm_contact_recorder.h"
 #include "lsm_force_laws.h"
+#include "lsm_restart_file.h"
 #include "lsm_scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
 using namespace LAMMPS_NS;
 
 PairLSMFree::PairLSMFree(LAMMPS *_lmp) :
-    Pair(_lmp), k(nullptr), delay(nullptr), on(nullptr), active(nullptr), maxrad(nullptr),
-    newton_pair(0), travel(_lmp), screened(false), own_radii(-1), velocity(nullptr)
+    Pair(_lmp), request_flags(NeighConst::REQ_SIZE), travel(_lmp)
 {
   single_enable = 1;
   no_virial_fdotr_compute = 1;
-  finitecutflag = 1;
   writedata = 1;
   restartinfo = 1;
 }
 
 PairLSMFree::~PairLSMFree()
 {
-  if (allocated) {
-    memory->destroy(setflag);
-    memory->destroy(cutsq);
-    memory->destroy(k);
-    memory->destroy(delay);
-    memory->destroy(on);
-    memory->destroy(active);
-    delete[] maxrad;
-  }
+  if (!allocated) return;
+  memory->destroy(setflag);
+  memory->destroy(cutsq);
 }
 
 void PairLSMFree::compute(int eflag, int vflag)
@@ -114,7 +108,7 @@ template <class Recorder, bool DIM3> void PairLSMFree::loop()
     const bool both = newton_pair || j < nlocal;
     if (velocity && r > 0.0) {
       double rate;
-      const double more = dashpot(i, j, delx, dely, delz, r, fpair * r, rate);
+      const double more = dashpot(i, j, r, fpair * r, rate);
       fpair += more / r;
       velocity->power -= (both ? 1.0 : 0.5) * more * rate;
     }
@@ -150,13 +144,9 @@ bool PairLSMFree::any_delay() const
   return false;
 }
 
-double PairLSMFree::dashpot(int i, int j, double delx, double dely, double delz, double r,
-                            double spring, double &rate) const
+double PairLSMFree::dashpot(int i, int j, double r, double spring, double &rate) const
 {
-  const double *const vi = velocity->now[i], *const vj = velocity->now[j];
-  rate = delx * (vi[0] - vj[0]) + dely * (vi[1] - vj[1]);
-  if (domain->dimension == 3) rate += delz * (vi[2] - vj[2]);
-  rate /= r;
+  rate = velocity->rate(i, j, r);
   return LSM::contact_dashpot_force(viscosity(atom->type[i], atom->type[j]), rate, spring);
 }
 
@@ -184,16 +174,9 @@ void PairLSMFree::allocate()
   const int n = atom->ntypes + 1;
   memory->create(setflag, n, n, "pair:setflag");
   memory->create(cutsq, n, n, "pair:cutsq");
-  memory->create(k, n, n, "pair:k");
-  memory->create(delay, n, n, "pair:delay");
-  memory->create(on, n, n, "pair:on");
-  memory->create(active, n, n, "pair:active");
-  maxrad = new double[n];
-  for (int i = 0; i < n; i++)
-    for (int j = 0; j < n; j++) {
-      setflag[i][j] = on[i][j] = active[i][j] = 0;
-      k[i][j] = delay[i][j] = 0.0;
-    }
+  std::fill_n(setflag[0], n * n, 0);
+  for (auto *numbers : {&k, &delay}) numbers->create(n);
+  for (auto *flags : {&on, &active}) flags->create(n);
 }
 
 void PairLSMFree::settings(int narg, char ** /*arg*/)
@@ -202,51 +185,38 @@ void PairLSMFree::settings(int narg, char ** /*arg*/)
     error->all(FLERR, "Pair style lsm/free takes no arguments, but {} were given", narg);
 }
 
-// "pair_coeff I J off": these types never touch; costs nothing per step
-bool PairLSMFree::parse_off(int narg, char **arg, int ilo, int ihi, int jlo, int jhi)
+void PairLSMFree::parse_law(int narg, char ** /*arg*/)
 {
-  if (narg != 3 || strcmp(arg[2], "off") != 0) return false;
-  if (MAX(jlo, ilo) > jhi)
-    error->all(FLERR, "Pair lsm/*: pair_coeff {} {} names no pair of types I <= J", arg[0], arg[1]);
-  for (int i = ilo; i <= ihi; i++)
-    for (int j = MAX(jlo, i); j <= jhi; j++) {
-      setflag[i][j] = 1;
-      on[i][j] = 0;
-    }
-  return true;
-}
-
-void PairLSMFree::coeff(int narg, char **arg)
-{
-  const double delay_one = LSMScene::take_retardation(lmp, "Pair lsm/free", narg, arg);
-  if (narg != 3)
+  if (narg != 0)
     error->all(FLERR, "Pair style lsm/free expects 'pair_coeff I J k [kelvin-voigt TIME]' or "
                       "'pair_coeff I J off'");
+}
+
+// "pair_coeff I J off": these types never touch; costs nothing per step
+void PairLSMFree::coeff(int narg, char **arg)
+{
+  const std::string who = std::string("Pair style ") + force->pair_match_ptr(this);
+  const double delay_one = LSMScene::take_retardation(lmp, who, narg, arg);
+  const bool off = narg == 3 && strcmp(arg[2], "off") == 0;
+  if (!off) parse_law(narg - 3, arg + 3);
+  const double k_one = off ? 0.0 : utils::numeric(FLERR, arg[2], false, lmp);
+  if (!off && k_one <= 0.0) error->all(FLERR, "{} k is {}, but must be > 0", who, k_one);
   if (!allocated) allocate();
 
   int ilo, ihi, jlo, jhi;
   utils::bounds(FLERR, arg[0], 1, atom->ntypes, ilo, ihi, error);
   utils::bounds(FLERR, arg[1], 1, atom->ntypes, jlo, jhi, error);
-  if (parse_off(narg, arg, ilo, ihi, jlo, jhi)) return;
-
-  const double k_one = utils::numeric(FLERR, arg[2], false, lmp);
-  if (k_one <= 0.0) error->all(FLERR, "Pair lsm/free stiffness is {}, but must be > 0", k_one);
-
-  int count = 0;
+  if (MAX(jlo, ilo) > jhi)
+    error->all(FLERR, "{}: pair_coeff {} {} names no pair of types I <= J", who, arg[0], arg[1]);
   for (int i = ilo; i <= ihi; i++)
     for (int j = MAX(jlo, i); j <= jhi; j++) {
+      setflag[i][j] = 1;
+      on[i][j] = !off;
+      if (off) continue;
       k[i][j] = k_one;
       delay[i][j] = delay_one;
-      on[i][j] = setflag[i][j] = 1;
-      count++;
+      set_law(i, j);
     }
-  if (count == 0)
-    error->all(FLERR, "Pair lsm/free: pair_coeff {} {} names no pair of types", arg[0], arg[1]);
-}
-
-int PairLSMFree::request_flags() const
-{
-  return NeighConst::REQ_SIZE;
 }
 
 void PairLSMFree::init_style()
@@ -281,25 +251,11 @@ void PairLSMFree::init_style()
   // hybrid calls init_one() of the pairs of types that it gives to this style; not of those with none, which it leaves
   // in the list where both types with themselves belong to this style
   const int ntypes = atom->ntypes;
-  for (int i = 1; i <= ntypes; i++)
-    for (int j = 1; j <= ntypes; j++) active[i][j] = 0;
-  std::vector<double> mine(ntypes + 1, 0.0);
-  for (int i = 0; i < atom->nlocal; i++)
-    mine[atom->type[i]] = MAX(mine[atom->type[i]], atom->radius[i]);
-
-  // those that are to come
-  for (const char *style : {"^pour", "^deposit"})
-    for (const auto &source : modify->get_fix_by_style(style))
-      for (int i = 1; i <= ntypes; i++) {
-        int itype = i;
-        const auto radius = (const double *) source->extract("radius", itype);
-        if (radius) mine[i] = MAX(mine[i], *radius);
-      }
-  maxrad[0] = 0.0;
-  MPI_Allreduce(&mine[1], &maxrad[1], ntypes, MPI_DOUBLE, MPI_MAX, world);
+  active.create(ntypes + 1);
+  find_largest_radii();
 
   // types that never touch are left out when the list is built; hybrid would replace what is asked for here
-  auto request = neighbor->add_request(this, request_flags());
+  auto request = neighbor->add_request(this, request_flags);
   if (under_hybrid) return;
   int any_off = 0;
   for (int i = 1; i <= ntypes; i++)
@@ -318,6 +274,25 @@ void PairLSMFree::init_style()
     }
     request->set_skip(iskip, ijskip);    // the request owns both from here on
   }
+}
+
+void PairLSMFree::find_largest_radii()
+{
+  const int ntypes = atom->ntypes;
+  std::vector<double> mine(ntypes + 1, 0.0);
+  for (int i = 0; i < atom->nlocal; i++)
+    mine[atom->type[i]] = MAX(mine[atom->type[i]], atom->radius[i]);
+
+  // those that are to come
+  for (const char *style : {"^pour", "^deposit"})
+    for (const auto &source : modify->get_fix_by_style(style))
+      for (int i = 1; i <= ntypes; i++) {
+        int itype = i;
+        const auto radius = (const double *) source->extract("radius", itype);
+        if (radius) mine[i] = MAX(mine[i], *radius);
+      }
+  maxrad.resize(mine.size());
+  MPI_Allreduce(mine.data(), maxrad.data(), ntypes + 1, MPI_DOUBLE, MPI_MAX, world);
 }
 
 // A pair whose link was turned off or removed without its entry among the special neighbors neither holds
@@ -352,82 +327,53 @@ double PairLSMFree::init_one(int i, int j)
   return maxrad[i] + maxrad[j];
 }
 
-void PairLSMFree::write_coeff(FILE *fp, int i, int j)
-{
-  fwrite(&on[i][j], sizeof(int), 1, fp);
-  fwrite(&k[i][j], sizeof(double), 1, fp);
-}
-
-void PairLSMFree::read_coeff(FILE *fp, int i, int j)
-{
-  if (comm->me == 0) {
-    utils::sfread(FLERR, &on[i][j], sizeof(int), 1, fp, nullptr, error);
-    utils::sfread(FLERR, &k[i][j], sizeof(double), 1, fp, nullptr, error);
-  }
-  MPI_Bcast(&on[i][j], 1, MPI_INT, 0, world);
-  MPI_Bcast(&k[i][j], 1, MPI_DOUBLE, 0, world);
-}
-
-void PairLSMFree::print_coeff(FILE *fp, int i, int j)
-{
-  fprintf(fp, " %.17g", k[i][j]);
-}
-
-void PairLSMFree::print_delay(FILE *fp, int i, int j)
-{
-  if (delay[i][j] > 0.0) fprintf(fp, " kelvin-voigt %.17g", delay[i][j]);
-}
-
 // Retardation times, if any, come first, after a number that begins nothing else.
 static constexpr int TIMES_FOLLOW = -2;
 
+void PairLSMFree::coefficients_in(LSMRestartFile file)
+{
+  const int n = atom->ntypes;
+  if (file.follows(TIMES_FOLLOW, any_delay()))
+    for (int i = 1; i <= n; i++) file(&delay[i][i], n - i + 1);
+  for (int i = 1; i <= n; i++)
+    for (int j = i; j <= n; j++) {
+      file(&setflag[i][j]);
+      if (!setflag[i][j]) continue;
+      file(&on[i][j]);
+      file(&k[i][j]);
+      keep_law(file, i, j);
+    }
+}
+
 void PairLSMFree::write_restart(FILE *fp)
 {
-  if (any_delay()) {
-    fwrite(&TIMES_FOLLOW, sizeof(int), 1, fp);
-    for (int i = 1; i <= atom->ntypes; i++)
-      fwrite(&delay[i][i], sizeof(double), atom->ntypes - i + 1, fp);
-  }
-  for (int i = 1; i <= atom->ntypes; i++)
-    for (int j = i; j <= atom->ntypes; j++) {
-      fwrite(&setflag[i][j], sizeof(int), 1, fp);
-      if (setflag[i][j]) write_coeff(fp, i, j);
-    }
+  write_restart_settings(fp);
+  coefficients_in({lmp, fp, false});
 }
 
 void PairLSMFree::read_restart(FILE *fp)
 {
+  read_restart_settings(fp);
   if (!allocated) allocate();
-  int mark = 0;
-  if (comm->me == 0) {
-    utils::sfread(FLERR, &mark, sizeof(int), 1, fp, nullptr, error);
-    if (mark != TIMES_FOLLOW) fseek(fp, -static_cast<long>(sizeof(int)), SEEK_CUR);
-  }
-  MPI_Bcast(&mark, 1, MPI_INT, 0, world);
-  for (int i = 1; i <= atom->ntypes && mark == TIMES_FOLLOW; i++) {
-    const int count = atom->ntypes - i + 1;
-    if (comm->me == 0)
-      utils::sfread(FLERR, &delay[i][i], sizeof(double), count, fp, nullptr, error);
-    MPI_Bcast(&delay[i][i], count, MPI_DOUBLE, 0, world);
-  }
-  for (int i = 1; i <= atom->ntypes; i++)
-    for (int j = i; j <= atom->ntypes; j++) {
-      if (comm->me == 0) utils::sfread(FLERR, &setflag[i][j], sizeof(int), 1, fp, nullptr, error);
-      MPI_Bcast(&setflag[i][j], 1, MPI_INT, 0, world);
-      if (setflag[i][j]) read_coeff(fp, i, j);
-    }
+  coefficients_in({lmp, fp, true});
+}
+
+void PairLSMFree::print_coeff(FILE *fp, int i, int j)
+{
+  if (on[i][j]) {
+    fprintf(fp, " %.17g", k[i][j]);
+    print_law(fp, i, j);
+    if (delay[i][j] > 0.0) fprintf(fp, " kelvin-voigt %.17g", delay[i][j]);
+  } else
+    fputs(" off", fp);
+  fputs("\n", fp);
 }
 
 void PairLSMFree::write_data(FILE *fp)
 {
   for (int i = 1; i <= atom->ntypes; i++) {
     fprintf(fp, "%d", i);
-    if (on[i][i]) {
-      print_coeff(fp, i, i);
-      print_delay(fp, i, i);
-    } else
-      fputs(" off", fp);
-    fputs("\n", fp);
+    print_coeff(fp, i, i);
   }
 }
 
@@ -436,12 +382,7 @@ void PairLSMFree::write_data_all(FILE *fp)
   for (int i = 1; i <= atom->ntypes; i++)
     for (int j = i; j <= atom->ntypes; j++) {
       fprintf(fp, "%d %d", i, j);
-      if (on[i][j]) {
-        print_coeff(fp, i, j);
-        print_delay(fp, i, j);
-      } else
-        fputs(" off", fp);
-      fputs("\n", fp);
+      print_coeff(fp, i, j);
     }
 }
 
@@ -454,10 +395,7 @@ double PairLSMFree::single(int i, int j, int itype, int jtype, double rsq, doubl
   const int lo = MIN(itype, jtype), hi = MAX(itype, jtype);
   if (!active[lo][hi] || r >= r0 || r == 0.0) return 0.0;
   double push = -LSM::Spring::force(k[lo][hi], r - r0), rate;
-  if (velocity) {
-    const double *const xi = atom->x[i], *const xj = atom->x[domain->closest_image(i, j)];
-    push += dashpot(i, j, xi[0] - xj[0], xi[1] - xj[1], xi[2] - xj[2], r, push, rate);
-  }
+  if (velocity) push += dashpot(i, domain->closest_image(i, j), r, push, rate);
   fforce = push / r;
   return LSM::Spring::energy(k[lo][hi], r - r0);
 }
@@ -465,18 +403,8 @@ double PairLSMFree::single(int i, int j, int itype, int jtype, double rsq, doubl
 void *PairLSMFree::extract(const char *str, int &dim)
 {
   dim = 2;
-  if (strcmp(str, "k") == 0) return (void *) k;
-  if (strcmp(str, "on") == 0) return (void *) active;
-  if (strcmp(str, "kelvin-voigt") == 0) return (void *) delay;
+  if (strcmp(str, "k") == 0) return k.data();
+  if (strcmp(str, "on") == 0) return active.data();
+  if (strcmp(str, "kelvin-voigt") == 0) return delay.data();
   return nullptr;
-}
-
-double PairLSMFree::atom2cut(int i)
-{
-  return atom->radius[i] * 2;
-}
-
-double PairLSMFree::radii2cut(double r1, double r2)
-{
-  return r1 + r2;
 }

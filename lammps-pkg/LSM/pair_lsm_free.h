@@ -13,9 +13,11 @@ PairStyle(lsm/free,PairLSMFree);
 #include "lsm_energy.h"
 #include "lsm_mover.h"
 #include "lsm_near_pairs.h"
+#include "lsm_type_pairs.h"
 #include "pair.h"
 
 namespace LAMMPS_NS {
+class LSMRestartFile;
 
 class PairLSMFree : public Pair, public LSMEnergySource {
  public:
@@ -45,57 +47,47 @@ class PairLSMFree : public Pair, public LSMEnergySource {
     return stiffness(itype, jtype) * delay[itype][jtype];
   }
 
-  // virtual functions of Pair in LAMMPS 4Feb2025, which 4Jul2026 has no more: no 'override', and no warning of that
-
-#if defined(__GNUC__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wsuggest-override"
-#endif
-#if defined(__clang__)
-#pragma clang diagnostic ignored "-Winconsistent-missing-override"
-#endif
-  double atom2cut(int);
-  double radii2cut(double, double);
-#if defined(__GNUC__)
-#pragma GCC diagnostic pop
-#endif
-
  protected:
-  double **k;        // contact stiffness
-  double **delay;    // retardation time: viscosity over stiffness; 0 if there is none
-  int **on;          // 1 if the pair of types interacts at all
-  int **active;      // on, and not 'none' under hybrid, since the last init
-  double *maxrad;    // largest radius of each type
-  int newton_pair;
+  LSMTypePairs<double> k;        // contact stiffness
+  LSMTypePairs<double> delay;    // retardation time: viscosity over stiffness; 0 if there is none
+  LSMTypePairs<int> on;          // 1 if the pair of types interacts at all
+  LSMTypePairs<int> active;      // on, and not 'none' under hybrid, since the last init
+  std::vector<double> maxrad;    // largest radius of each type
+  int request_flags;             // of the neighbor list
+  int newton_pair = 0;
   LSMNearPairs near;
   LSMTravel travel;
-  bool screened;    // lists hold pairs that must not interact
-  int own_radii;    // index of the radii of the contacts, where fix lsm/traction has made them others, or -1
+  bool screened = false;    // lists hold pairs that must not interact
+  int own_radii =
+      -1;    // index of the radii of the contacts, where fix lsm/traction has made them others, or -1
 
-  class FixLSMVelocity *velocity;    // of this run, null if no contact is viscous in it
+  class FixLSMVelocity *velocity = nullptr;    // of this run, null if no contact is viscous in it
 
   const double *contact_radii() const;
   /// Returns whether other pairs are kept than before.
   bool find_near(double reach, const int *const *touch);
   /// Called before others are chosen, which may read what is known of those that are kept.
   virtual void note_contacts() {}
-  /// Repulsion by the dashpot of a contact, along del from j to i of length r; the spring repels with `spring`. rate: of r.
-  double dashpot(int i, int j, double delx, double dely, double delz, double r, double spring,
-                 double &rate) const;
+  /// Repulsion by the dashpot of a contact of length r, whose spring repels with `spring`. rate: of r.
+  double dashpot(int i, int j, double r, double spring, double &rate) const;
   bool any_delay() const;
 
   bool left_out(int entry, int itype, int jtype) const;
   void check_special() const;
+  void find_largest_radii();
   void warn_of_missing_links() const;
   virtual void allocate();
-  virtual int request_flags() const;
-  bool parse_off(int narg, char **arg, int ilo, int ihi, int jlo, int jhi);
-  virtual void write_coeff(FILE *, int, int);
-  virtual void read_coeff(FILE *, int, int);
-  virtual void print_coeff(FILE *, int, int);
-  void print_delay(FILE *, int, int);
+
+  // coefficients of a law of friction: the words of pair_coeff behind the stiffness, and those of two types
+
+  virtual void parse_law(int narg, char **arg);
+  virtual void set_law(int, int) {}
+  virtual void keep_law(LSMRestartFile &, int, int) {}
+  virtual void print_law(FILE *, int, int) {}
 
  private:
+  void coefficients_in(LSMRestartFile);
+  void print_coeff(FILE *, int, int);
   template <class Recorder> void loop();
   template <class Recorder, bool DIM3> void loop();
 };

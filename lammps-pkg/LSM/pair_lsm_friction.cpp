@@ -20,6 +20,7 @@
 #include "lsm_contact_recorder.h"
 #include "lsm_friction_contact.h"
 #include "lsm_keyword_reader.h"
+#include "lsm_restart_file.h"
 #include "lsm_scene.h"
 
 #include <algorithm>
@@ -40,13 +41,11 @@ int PairLSMFriction::size_history() const
   return LAW_STATE + table.law->state_size;
 }
 
-PairLSMFriction::PairLSMFriction(LAMMPS *_lmp) :
-    PairLSMFree(_lmp), pace(1.0), sites_build(-1), chosen_anew(true), noted(true), table(_lmp),
-    running(table.law), restored(false), locate_onset(1), of_single{}, fix_dummy(nullptr),
-    fix_history(nullptr)
+PairLSMFriction::PairLSMFriction(LAMMPS *_lmp) : PairLSMFree(_lmp), table(_lmp), running(table.law)
 {
   centroidstressflag = CENTROID_NOTAVAIL;
   nondefault_history_transfer = 1;
+  request_flags |= NeighConst::REQ_HISTORY;
 
   // a contact lost in the step in which the list is built keeps its history until its release is counted
   beyond_contact = 1;
@@ -139,7 +138,7 @@ template <class Law, class Recorder> class PairLSMFriction::Loop {
     double fn = LSM::contact_normal_force(pair.k[site.itype][site.jtype], g.r, site.r0);
     if (pair.velocity && !g.apart && g.r > 0.0) {
       double rate;
-      const double more = pair.dashpot(site.i, site.j, g.delx, g.dely, 0.0, g.r, fn, rate);
+      const double more = pair.dashpot(site.i, site.j, g.r, fn, rate);
       fn += more;
       pair.velocity->power -= (both ? 1.0 : 0.5) * more * rate;
     }
@@ -230,9 +229,9 @@ template <class Law, class Recorder> void PairLSMFriction::run_loop()
   if (screened) note_contacts();    // what is left out is known only here
 }
 
-const PairLSMFriction::Loops &PairLSMFriction::loops() const
+void PairLSMFriction::compute(int eflag, int vflag)
 {
-  static const Loops all[] = {
+  static constexpr void (PairLSMFriction::*loops[][3])() = {
 #define LSM_FRICTION_LAW(law)                               \
   {&PairLSMFriction::run_loop<LSM::law, LSMRecordNothing>,  \
    &PairLSMFriction::run_loop<LSM::law, LSMRecordEnergies>, \
@@ -240,17 +239,11 @@ const PairLSMFriction::Loops &PairLSMFriction::loops() const
 #include "laws/friction_laws.h"
 #undef LSM_FRICTION_LAW
   };
-  return all[running - &LSMLawTable::all()[0]];
-}
-
-void PairLSMFriction::compute(int eflag, int vflag)
-{
   ev_init(eflag, vflag);
   if (screened) check_special();
   chosen_anew = find_near(MAX(near_reach(), 1.0), fix_history->firstflag);
   if (chosen_anew) collect_sites();
-  const Loops &loop = loops();
-  (this->*(evflag ? loop.tally : record_what ? loop.energies : loop.nothing))();
+  (this->*loops[running - &LSMLawTable::all()[0]][evflag ? 2 : record_what ? 1 : 0])();
 }
 
 void PairLSMFriction::collect_sites()
@@ -337,7 +330,6 @@ void PairLSMFriction::choose(const LSMLaw *wanted)
                "Pair style lsm/friction has contacts of the law {}{}, and cannot go on with the "
                "law {}; give 'pair_style none' and 'run 0' first to forget them",
                table.law->name, restored ? " from a restart file" : "", wanted->name);
-  table.destroy();
   table.law = running = wanted;
   if (!allocated) return;
   table.create();
@@ -360,40 +352,6 @@ void PairLSMFriction::settings(int narg, char **arg)
   LSMKeywordReader(lmp, "Pair style lsm/friction", named ? 1 : 0, narg, arg).read_all(keywords);
   locate_onset = !at_end;
   choose(wanted);
-}
-
-void PairLSMFriction::coeff(int narg, char **arg)
-{
-  const double delay_one = LSMScene::take_retardation(lmp, "Pair lsm/friction", narg, arg);
-  const bool off_only = narg == 3;
-  if (!off_only) table.parse(narg - 3, arg + 3);
-  if (!allocated) allocate();
-  int ilo, ihi, jlo, jhi;
-  utils::bounds(FLERR, arg[0], 1, atom->ntypes, ilo, ihi, error);
-  utils::bounds(FLERR, arg[1], 1, atom->ntypes, jlo, jhi, error);
-  if (parse_off(narg, arg, ilo, ihi, jlo, jhi)) return;
-  if (off_only)
-    error->all(FLERR, "Pair style lsm/friction expects 'off' or '{}', got '{}'", table.expected(),
-               arg[2]);
-  const double k_one = utils::numeric(FLERR, arg[2], false, lmp);
-  if (k_one <= 0.0) error->all(FLERR, "Pair lsm/friction k is {}, but must be > 0", k_one);
-
-  int count = 0;
-  for (int i = ilo; i <= ihi; i++)
-    for (int j = MAX(jlo, i); j <= jhi; j++) {
-      k[i][j] = k_one;
-      delay[i][j] = delay_one;
-      table.set(i, j);
-      on[i][j] = setflag[i][j] = 1;
-      count++;
-    }
-  if (count == 0)
-    error->all(FLERR, "Pair lsm/friction: pair_coeff {} {} names no pair of types", arg[0], arg[1]);
-}
-
-int PairLSMFriction::request_flags() const
-{
-  return NeighConst::REQ_SIZE | NeighConst::REQ_HISTORY;
 }
 
 void PairLSMFriction::init_style()
@@ -477,68 +435,32 @@ void PairLSMFriction::transfer_history(double *source, double *target, int, int)
 // begins with.
 static constexpr int LAW_FOLLOWS = -1;
 
+std::string PairLSMFriction::law_in(LSMRestartFile file) const
+{
+  std::string name = table.law->name;
+  if (!file.follows(LAW_FOLLOWS, table.law != &LSMLawTable::all()[0])) return name;
+  int size = static_cast<int>(name.size());
+  file(&size);
+  name.resize(size);
+  file(name.data(), size);
+  return name;
+}
+
 void PairLSMFriction::write_restart_settings(FILE *fp)
 {
-  if (table.law == &LSMLawTable::all()[0]) return;
-  const int size = static_cast<int>(strlen(table.law->name));
-  fwrite(&LAW_FOLLOWS, sizeof(int), 1, fp);
-  fwrite(&size, sizeof(int), 1, fp);
-  fwrite(table.law->name, 1, size, fp);
+  law_in({lmp, fp, false});
 }
 
 void PairLSMFriction::read_restart_settings(FILE *fp)
 {
-  int size = 0;
-  if (comm->me == 0) {
-    int mark;
-    utils::sfread(FLERR, &mark, sizeof(int), 1, fp, nullptr, error);
-    if (mark == LAW_FOLLOWS)
-      utils::sfread(FLERR, &size, sizeof(int), 1, fp, nullptr, error);
-    else
-      fseek(fp, -static_cast<long>(sizeof(int)), SEEK_CUR);
-  }
-  MPI_Bcast(&size, 1, MPI_INT, 0, world);
   restored = true;
-  if (size == 0) return;
-  std::string name(size, ' ');
-  if (comm->me == 0) utils::sfread(FLERR, &name[0], 1, size, fp, nullptr, error);
-  MPI_Bcast(&name[0], size, MPI_CHAR, 0, world);
+  const std::string name = law_in({lmp, fp, true});
   table.law = running = LSMLawTable::find(name);
   if (!running)
     error->all(
         FLERR,
         "Pair style lsm/friction: the restart file has contacts of the law {}, expected one of {}",
         name, LSMLawTable::names());
-}
-
-void PairLSMFriction::write_restart(FILE *fp)
-{
-  write_restart_settings(fp);
-  PairLSMFree::write_restart(fp);
-}
-
-void PairLSMFriction::read_restart(FILE *fp)
-{
-  read_restart_settings(fp);
-  PairLSMFree::read_restart(fp);
-}
-
-void PairLSMFriction::write_coeff(FILE *fp, int i, int j)
-{
-  PairLSMFree::write_coeff(fp, i, j);
-  table.write(fp, i, j);
-}
-
-void PairLSMFriction::read_coeff(FILE *fp, int i, int j)
-{
-  PairLSMFree::read_coeff(fp, i, j);
-  table.read(fp, i, j);
-}
-
-void PairLSMFriction::print_coeff(FILE *fp, int i, int j)
-{
-  PairLSMFree::print_coeff(fp, i, j);
-  table.print(fp, i, j);
 }
 
 // normal force and energy of both springs; svector = elongation of the tangential spring and the

@@ -24,17 +24,15 @@ class PairLSMFriction : public PairLSMFree {
   ~PairLSMFriction() override;
   void compute(int, int) override;
   void settings(int, char **) override;
-  void coeff(int, char **) override;
   void init_style() override;
   double init_one(int, int) override;
-  void write_restart(FILE *) override;
-  void read_restart(FILE *) override;
   void write_restart_settings(FILE *) override;
   void read_restart_settings(FILE *) override;
   double single(int, int, int, int, double, double, double, double &) override;
   void *extract(const char *, int &) override;
   void transfer_history(double *, double *, int, int) override;
-  double pace;    ///< model time over time of the steps, for laws that depend on time: fix lsm/leap
+  double pace =
+      1.0;    ///< model time over time of the steps, for laws that depend on time: fix lsm/leap
   /// Begins the contacts that the lists hold with a shear force of the upper particle on the lower one, which is given
   /// for each particle of this rank; called before forces are evaluated in a setup.
   void load_contacts(const double *shear);
@@ -43,10 +41,10 @@ class PairLSMFriction : public PairLSMFree {
 
  protected:
   void allocate() override;
-  int request_flags() const override;
-  void write_coeff(FILE *, int, int) override;
-  void read_coeff(FILE *, int, int) override;
-  void print_coeff(FILE *, int, int) override;
+  void parse_law(int narg, char **arg) override { table.parse(narg, arg); }
+  void set_law(int i, int j) override { table.set(i, j); }
+  void keep_law(LSMRestartFile &file, int i, int j) override { table.keep(file, i, j); }
+  void print_law(FILE *fp, int i, int j) override { table.print(fp, i, j); }
 
  private:
   // A pair that is kept near, with what is known of it until other pairs are kept: scattered over LAMMPS' arrays it
@@ -64,27 +62,22 @@ class PairLSMFriction : public PairLSMFree {
   std::vector<Site> sites;
   std::vector<Origin> origins;
   std::vector<double> histories;
-  bigint sites_build;    // number of the build of the neighbor list that they are of
-  bool chosen_anew;      // in this step
-  bool noted;            // the history holds what they do
+  bigint sites_build = -1;    // number of the build of the neighbor list that they are of
+  bool chosen_anew = true;    // in this step
+  bool noted = true;          // the history holds what they do
 
   LSMLawTable table;
-  const LSMLaw *running;    // of those of the name, the first that fits all coefficients
-  bool restored;            // law and coefficients come from a restart file
-  int locate_onset;         // 1 if the onset of a contact within a step is located
-  double of_single[2];      // target of svector: nothing to free if the constructor stops
-  class FixDummy *fix_dummy;
-  class FixNeighHistory *fix_history;
+  const LSMLaw *running;       // of those of the name, the first that fits all coefficients
+  bool restored = false;       // law and coefficients come from a restart file
+  int locate_onset = 1;        // 1 if the onset of a contact within a step is located
+  double of_single[2] = {};    // target of svector: nothing to free if the constructor stops
+  class FixDummy *fix_dummy = nullptr;
+  class FixNeighHistory *fix_history = nullptr;
 
   template <class Law, class Recorder> class Loop;
   template <class Law, class Recorder> void run_loop();
-  struct Loops {    // of a law
-    void (PairLSMFriction::*nothing)();
-    void (PairLSMFriction::*energies)();
-    void (PairLSMFriction::*tally)();
-  };
-  const Loops &loops() const;
   void choose(const LSMLaw *);
+  std::string law_in(LSMRestartFile) const;
   void collect_sites();
   void check_periods() const;
   int size_history() const;

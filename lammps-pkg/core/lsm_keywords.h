@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file lsm_keywords.h
-/// Keywords of an input with one value each, or two, or none, in a table: where they go and what
-/// they must be.
+/// Keywords of an input in a table: where their values go and what they must be.
 #ifndef LSM_KEYWORDS_H
 #define LSM_KEYWORDS_H
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -21,14 +21,15 @@ struct Words {
   std::vector<const char *> list;
 };
 
-/// There is no value: the keyword itself makes it true.
-struct Flag {
-  bool *value;
+/// What is done with so many values.
+struct Action {
+  int values;
+  std::function<void()> take;
 };
 
 struct Keyword {
   const char *name;
-  std::variant<double *, int *, std::uint64_t *, bool *, std::string *, Words, Flag> value;
+  std::variant<double *, int *, std::uint64_t *, bool *, std::string *, Words, Action> value;
   Must must = Must::anything;  ///< of each number
   double *second = nullptr;    ///< where a second value goes
 };

@@ -7,17 +7,12 @@
 #include <algorithm>
 
 using namespace LAMMPS_NS;
+using LSM::Action;
 using LSM::EventKind;
 using LSM::Keywords;
 using LSM::Must;
 
 static const std::string STYLE = "Compute lsm/events";
-static const std::string SPECIAL = "events, picker, parameter";
-
-static void take_all_values(LSMKeywordReader &in)
-{
-  in.need(in.key() == "parameter" ? 2 : 1);
-}
 
 /// The kind comes first, as the keywords depend on it.
 static std::shared_ptr<EventKind> kind_of_events(LAMMPS *lmp, int first, int narg, char **arg)
@@ -25,7 +20,7 @@ static std::shared_ptr<EventKind> kind_of_events(LAMMPS *lmp, int first, int nar
   LSMKeywordReader in(lmp, STYLE, first, narg, arg);
   auto kind = LSM::all_event_kinds().front();
   while (in.next()) {
-    take_all_values(in);
+    in.need(in.key() == "parameter" ? 2 : 1);
     if (in.key() != "events") continue;
     kind = LSM::make_event_kind(in.text());
     if (!kind)
@@ -38,24 +33,31 @@ static std::shared_ptr<EventKind> kind_of_events(LAMMPS *lmp, int first, int nar
 LSMEventOptions::LSMEventOptions(LAMMPS *lmp, int first, int narg, char **arg)
 {
   events.kind = kind_of_events(lmp, first, narg, arg);
-  Keywords table = of_all();
+  LSMKeywordReader in(lmp, STYLE, first, narg, arg);
+  Keywords table = of_all(in);
   for (const Keywords &more :
        {events.kind->keywords(), events.kind->wants_intervals() ? of_intervals() : Keywords()})
     table.insert(table.end(), more.begin(), more.end());
-  LSMKeywordReader in(lmp, STYLE, first, narg, arg);
-  while (in.next()) {
-    take_all_values(in);
-    if (!in.read(table) && !read_special(in)) no_such_keyword(in);
-  }
+  while (in.next())
+    if (!in.read(table)) no_such_keyword(in);
   ledger = ledger || watchdog.tolerance > 0.0;
   if (emergency_file.find_first_of("*%") != std::string::npos)
     in.stop("emergency is " + emergency_file +
             ", but must be the name of one file, without * and %");
 }
 
-Keywords LSMEventOptions::of_all()
+Keywords LSMEventOptions::of_all(LSMKeywordReader &in)
 {
-  return {{"lambda", &events.picker.lambda, Must::part},
+  const auto reading = [this, &in] {
+    if (!LSM::from_string(in.text(), events.picker.reading))
+      in.stop(std::string("picker is '") + in.text() + "', but must be " +
+              LSM::choices(events.picker.reading));
+  };
+  const auto parameter = [this, &in] { events.parameters.emplace_back(in.text(1), in.text(2)); };
+  return {{"events", Action{1, [] {}}},    // known already
+          {"picker", Action{1, reading}},
+          {"parameter", Action{2, parameter}},
+          {"lambda", &events.picker.lambda, Must::part},
           {"memory", &memory_time, Must::positive},
           {"minsize", &events.picker.min_size, Must::not_negative},
           {"nonpositive", &events.picker.keep_nonpositive},
@@ -86,21 +88,7 @@ Keywords LSMEventOptions::of_intervals()
           {"unfinished", &unfinished}};
 }
 
-// what is more than one value of one type
-bool LSMEventOptions::read_special(LSMKeywordReader &in)
-{
-  if (in.key() == "parameter") {
-    events.parameters.emplace_back(in.text(1), in.text(2));
-  } else if (in.key() == "picker") {
-    if (!LSM::from_string(in.text(), events.picker.reading))
-      in.stop(std::string("picker is '") + in.text() + "', but must be " +
-              LSM::choices(events.picker.reading));
-  } else
-    return in.key() == "events";
-  return true;
-}
-
-void LSMEventOptions::no_such_keyword(const LSMKeywordReader &in)
+void LSMEventOptions::no_such_keyword(LSMKeywordReader &in)
 {
   const auto holds = [&in](const Keywords &table) {
     return std::any_of(table.begin(), table.end(),
@@ -111,12 +99,12 @@ void LSMEventOptions::no_such_keyword(const LSMKeywordReader &in)
   });
   if (!needed.empty()) in.stop("keyword " + in.key() + " needs events " + needed);
 
-  Keywords all = of_all();
+  Keywords all = of_all(in);
   const auto add = [&all](const Keywords &more) {
     all.insert(all.end(), more.begin(), more.end());
   };
   add(of_intervals());
   const auto kinds = LSM::all_event_kinds();
   for (const auto &kind : kinds) add(kind->keywords());
-  in.unknown(all, SPECIAL);
+  in.unknown(all);
 }

@@ -27,10 +27,9 @@ struct LSMEventOptions {
   LSMEventOptions(LAMMPS *, int first, int narg, char **arg);
 
  private:
-  LSM::Keywords of_all();
+  LSM::Keywords of_all(LSMKeywordReader &);
   LSM::Keywords of_intervals();
-  bool read_special(LSMKeywordReader &);
-  [[noreturn]] void no_such_keyword(const LSMKeywordReader &);
+  [[noreturn]] void no_such_keyword(LSMKeywordReader &);
 };
 
 }    // namespace LAMMPS_NS

@@ -18,7 +18,6 @@
 
 #include "lsm_ranks.h"
 #include "lsm_scene.h"
-#include "lsm_sum.h"
 #include "lsm_text_io.h"
 
 #include <cmath>
@@ -89,13 +88,12 @@ void LSMEventSources::find(bool ledger)
 
   plates_ = nullptr;
   leap_ = nullptr;
-  works_.clear();
+  works_ = LSMScene::fixes<LSMWorkSource>(modify);
   for (const auto &ifix : modify->get_fix_list()) {
-    if (auto p = dynamic_cast<LSMWorkSource *>(ifix)) works_.push_back(p);
     if (auto p = dynamic_cast<FixLSMPlates *>(ifix)) plates_ = p;
     if (auto p = dynamic_cast<FixLSMLeap *>(ifix)) leap_ = p;
   }
-  integrators_ = LSMScene::integrators(modify);
+  integrators_ = LSMScene::fixes<FixLSMNVE>(modify);
   if (ledger)
     for (auto *p : integrators_) p->record_work = true;
 }
@@ -110,7 +108,7 @@ void LSMEventSources::release()
       p->record_what = LSMEnergySource::NONE;
   }
   if (modify)
-    for (auto *p : LSMScene::integrators(modify)) p->record_work = false;
+    for (auto *p : LSMScene::fixes<FixLSMNVE>(modify)) p->record_work = false;
 }
 
 // references for the slip of the fault: velocity and direction of the plates, stiffness of the links
@@ -158,20 +156,6 @@ double LSMEventSources::max_strain() const
   return links_ ? links_->max_strain() : 0.0;
 }
 
-// plates: only their motion across the fault, as the energy of the driven motion is no part of the balance
-double LSMEventSources::kinetic() const
-{
-  const int skip = plates_ ? plates_->moved_bits() : 0;
-  double **v = atom->v;
-  LSM::NeumaierSum sum;
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (atom->mask[i] & skip) continue;
-    const double m = atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
-    sum.add(m * (v[i][0] * v[i][0] + v[i][1] * v[i][1] + v[i][2] * v[i][2]));
-  }
-  return 0.5 * lsm_total(sum.value(), world) + (plates_ ? plates_->kinetic() : 0.0);
-}
-
 // the tangential springs belong to the balance even if they are not counted as potential energy
 LSM::EnergyTerms LSMEventSources::energies() const
 {
@@ -187,7 +171,10 @@ LSM::EnergyTerms LSMEventSources::energies() const
     viscosity += p->work_dashpots;
   }
   LSM::EnergyTerms terms;
-  terms.kinetic = kinetic();
+
+  // of plates only the motion across the fault, as the energy of the driven motion is no part of the balance
+  terms.kinetic = lsm_total(LSMScene::kinetic(atom, plates_ ? plates_->moved_bits() : 0), world) +
+                  (plates_ ? plates_->kinetic() : 0.0);
   terms.potential = lsm_total(potential, world);
   terms.friction = lsm_total(friction, world);
   terms.viscosity = lsm_total(viscosity, world);

@@ -52,8 +52,6 @@ class LSMEventSources : protected Pointers {
   FixLSMLeap *leap_ = nullptr;
   std::vector<FixLSMNVE *> integrators_;
   std::vector<LSMWorkSource *> works_;
-
-  double kinetic() const;
 };
 
 }    // namespace LAMMPS_NS

@@ -41,35 +41,44 @@ class LSMStateReader : public LSM::StateReader {
 };
 
 /// Base of a fix whose state in restart files is what its visit() lists.
-template <class Self> class LSMKeptFix : public Fix {
+template <class Self, class Base = Fix> class LSMKeptFix : public Base {
  public:
-  LSMKeptFix(LAMMPS *_lmp, int narg, char **arg) : Fix(_lmp, narg, arg) { restart_global = 1; }
+  LSMKeptFix(LAMMPS *_lmp, int narg, char **arg) : Base(_lmp, narg, arg)
+  {
+    this->restart_global = 1;
+  }
   void write_restart(FILE *fp) override
   {
     std::vector<double> numbers;
-    LSMStateWriter to(numbers, world);
+    LSMStateWriter to(numbers, this->world);
     Self::visit(static_cast<const Self &>(*this), to);
-    if (comm->me) return;
+    if (this->comm->me) return;
     const int size = static_cast<int>(numbers.size() * sizeof(double));
     fwrite(&size, sizeof(int), 1, fp);
     fwrite(numbers.data(), sizeof(double), numbers.size(), fp);
   }
   void restart(char *buf) override
   {
-    LSMStateReader from(buf, comm->me == 0);
+    LSMStateReader from(buf, this->comm->me == 0);
     Self::visit(static_cast<Self &>(*this), from);
   }
+  double compute_scalar() override { return lsm_total(*mine, this->world); }
 
  protected:
-  /// It has a scalar, at every step, and a vector of so many intensive numbers.
-  void has_output(bool extensive_scalar, int numbers = 0)
+  /// It has a scalar, at every step: the total over the ranks of their parts, or what another compute_scalar() gives;
+  /// and a vector of so many intensive numbers.
+  void has_output(const double *parts, int numbers = 0)
   {
-    scalar_flag = global_freq = 1;
-    extscalar = extensive_scalar;
-    size_vector = numbers;
-    vector_flag = numbers > 0;
-    extvector = 0;
+    mine = parts;
+    this->scalar_flag = this->global_freq = 1;
+    this->extscalar = parts != nullptr;
+    this->size_vector = numbers;
+    this->vector_flag = numbers > 0;
+    this->extvector = 0;
   }
+
+ private:
+  const double *mine = nullptr;
 };
 
 }    // namespace LAMMPS_NS

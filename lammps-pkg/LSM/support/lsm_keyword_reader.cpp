@@ -43,7 +43,8 @@ bool LSMKeywordReader::read(const LSM::Keywords &table)
 {
   for (const LSM::Keyword &keyword : table) {
     if (key_ != keyword.name) continue;
-    need(std::holds_alternative<LSM::Flag>(keyword.value) ? 0 : keyword.second ? 2 : 1);
+    const auto *const action = std::get_if<LSM::Action>(&keyword.value);
+    need(action ? action->values : keyword.second ? 2 : 1);
     std::visit([&](const auto &to) { take(to, keyword.must); }, keyword.value);
     if (keyword.second) *keyword.second = number(keyword.must, 2);
     return true;
@@ -121,12 +122,12 @@ void LSMKeywordReader::stop(const std::string &message) const
   error->all(FLERR, "{} {}", style_, message);
 }
 
-void LSMKeywordReader::unknown(const LSM::Keywords &table, const std::string &also) const
+void LSMKeywordReader::unknown(const LSM::Keywords &table) const
 {
-  std::string accepted = also;
-  for (const LSM::Keyword &keyword : table)
-    accepted += (accepted.empty() ? "" : ", ") + std::string(keyword.name);
+  std::vector<std::string> accepted;
+  for (const LSM::Keyword &keyword : table) accepted.emplace_back(keyword.name);
   std::string style = style_;
   style[0] = static_cast<char>(std::tolower(style[0]));
-  error->all(FLERR, "Unknown {} keyword '{}'; accepted are {}", style, key_, accepted);
+  error->all(FLERR, "Unknown {} keyword '{}'; accepted are {}", style, key_,
+             utils::join_words(accepted, ", "));
 }

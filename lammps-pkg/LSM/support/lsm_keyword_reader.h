@@ -23,7 +23,7 @@ class LSMKeywordReader : protected Pointers {
   /// Goes on to the next keyword. False: there is none.
   bool next();
   const std::string &key() const { return key_; }
-  /// The keyword has so many values: to be called before they are asked for, if the keyword is not read from a table.
+  /// Stops unless the keyword has so many values; to be called if it is not read from a table.
   void need(int values);
   const char *text(int n = 1) const { return arg_[at_ + n]; }
   /// Reads the values if the keyword is in the table.
@@ -32,14 +32,13 @@ class LSMKeywordReader : protected Pointers {
   void read_all(const LSM::Keywords &);
   /// Stops if one of these keywords was not there.
   void require(const std::vector<const char *> &keys) const;
-  /// The last value.
+  /// The last value of the keyword.
   double number(LSM::Must must) const { return number(must, used_ - 1); }
 
   /// expected: of the value in place n
   [[noreturn]] void refuse(const std::string &expected, int n = 1) const;
   [[noreturn]] void stop(const std::string &message) const;
-  /// also: keywords that are in no table, separated by a comma and a blank
-  [[noreturn]] void unknown(const LSM::Keywords &, const std::string &also = "") const;
+  [[noreturn]] void unknown(const LSM::Keywords &) const;
 
  private:
   const std::string style_;
@@ -56,7 +55,7 @@ class LSMKeywordReader : protected Pointers {
   void take(bool *, LSM::Must) const;
   void take(std::string *to, LSM::Must) const { *to = text(); }
   void take(const LSM::Words &, LSM::Must) const;
-  void take(const LSM::Flag &to, LSM::Must) const { *to.value = true; }
+  void take(const LSM::Action &to, LSM::Must) const { to.take(); }
 };
 
 }    // namespace LAMMPS_NS

@@ -3,9 +3,8 @@
 #include "lsm_law_table.h"
 
 #include "atom.h"
-#include "comm.h"
 #include "error.h"
-#include "memory.h"
+#include "lsm_restart_file.h"
 
 #include "laws/friction_laws.h"
 
@@ -56,29 +55,11 @@ std::string LSMLawTable::names()
   return text;
 }
 
-LSMLawTable::LSMLawTable(LAMMPS *_lmp) : Pointers(_lmp), law(&all()[0]), coefficient{}, given{} {}
-
-LSMLawTable::~LSMLawTable()
-{
-  destroy();
-}
-
 void LSMLawTable::create()
 {
-  const int n = atom->ntypes + 1;
   for (int p = 0; p < law->count; p++) {
-    memory->create(coefficient[p], n, n, "pair:coefficient");
-    memory->create(given[p], n, n, "pair:given");
-    std::fill_n(coefficient[p][0], n * n, 0.0);
-    std::fill_n(given[p][0], n * n, 0);
-  }
-}
-
-void LSMLawTable::destroy()
-{
-  for (int p = 0; p < MAX_PARAMETERS; p++) {
-    memory->destroy(coefficient[p]);
-    memory->destroy(given[p]);
+    coefficient[p].create(atom->ntypes + 1);
+    given[p].create(atom->ntypes + 1);
   }
 }
 
@@ -89,12 +70,12 @@ std::vector<double> LSMLawTable::values(int i, int j) const
   return all;
 }
 
-double **LSMLawTable::find_coefficient(const char *name) const
+double **LSMLawTable::find_coefficient(const char *name)
 {
   for (int p = 0; p < law->count; p++)
     if (strcmp(name, law->parameters[p].name) == 0 &&
         law->parameters[p].otherwise != Parameter::as_least)
-      return coefficient[p];
+      return coefficient[p].data();
   return nullptr;
 }
 
@@ -172,19 +153,13 @@ void LSMLawTable::check(const std::vector<double> &values, const std::string &wh
   }
 }
 
-void LSMLawTable::write(FILE *fp, int i, int j) const
-{
-  for (const double value : values(i, j)) fwrite(&value, sizeof(double), 1, fp);
-}
-
-void LSMLawTable::read(FILE *fp, int i, int j)
+void LSMLawTable::keep(LSMRestartFile &file, int i, int j)
 {
   for (int p = 0; p < law->count; p++) {
-    double *value = &coefficient[p][i][j];
-    if (comm->me == 0) utils::sfread(FLERR, value, sizeof(double), 1, fp, nullptr, error);
-    MPI_Bcast(value, 1, MPI_DOUBLE, 0, world);
+    double *const value = &coefficient[p][i][j];
+    file(value);
     const int least = law->parameters[p].least;
-    given[p][i][j] = least < 0 || *value > coefficient[least][i][j];
+    if (file.reads) given[p][i][j] = least < 0 || *value > coefficient[least][i][j];
   }
 }
 

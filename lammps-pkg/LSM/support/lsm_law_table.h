@@ -6,6 +6,7 @@
 #define LMP_LSM_LAW_TABLE_H
 
 #include "laws/friction_law.h"
+#include "lsm_type_pairs.h"
 #include "pointers.h"
 
 #include <cstdio>
@@ -15,6 +16,7 @@
 #include <vector>
 
 namespace LAMMPS_NS {
+class LSMRestartFile;
 
 /// What is known of a law at run time; a line of the list in core/laws/friction_laws.h gives one of these.
 struct LSMLaw {
@@ -41,18 +43,14 @@ class LSMLawTable : protected Pointers {
     return made_of<Law>(value, std::make_index_sequence<std::size(Law::parameters)>());
   }
 
-  LSMLawTable(LAMMPS *);
-  ~LSMLawTable() override;
-  LSMLawTable(const LSMLawTable &) = delete;
-  LSMLawTable &operator=(const LSMLawTable &) = delete;
+  LSMLawTable(LAMMPS *_lmp) : Pointers(_lmp), law(&all()[0]) {}
   const LSMLaw *law;    ///< the first one of the name that was chosen
 
-  void create();    ///< as many types as there are now; for another law, destroy() first
-  void destroy();
-  double **operator[](int p) const { return coefficient[p]; }
+  void create();    ///< as many types as there are now
+  const LSMTypePairs<double> &operator[](int p) const { return coefficient[p]; }
   std::vector<double> values(int i, int j) const;
   /// The coefficient of that name, but not one that follows another; null if there is none.
-  double **find_coefficient(const char *name) const;
+  double **find_coefficient(const char *name);
 
   /// The words that pair_coeff expects behind the types, for messages.
   std::string expected() const;
@@ -65,14 +63,14 @@ class LSMLawTable : protected Pointers {
   /// Stops LAMMPS if a value is out of range. where: behind the names in messages
   void check(const std::vector<double> &, const std::string &where) const;
 
-  void write(FILE *, int i, int j) const;
-  void read(FILE *, int i, int j);
+  void keep(LSMRestartFile &, int i, int j);
   void print(FILE *, int i, int j) const;
 
  private:
   static constexpr int MAX_PARAMETERS = 8;
-  double **coefficient[MAX_PARAMETERS];    // by parameter of the law, then by types
-  int **given[MAX_PARAMETERS];    // 1 if the parameter was given, else it has another's value
+  LSMTypePairs<double> coefficient[MAX_PARAMETERS];    // by parameter of the law, then by types
+  LSMTypePairs<int>
+      given[MAX_PARAMETERS];    // 1 if the parameter was given, else it has another's value
   std::vector<double> parsed;
   std::vector<bool> parsed_given;
 

@@ -3,9 +3,7 @@
 #include "lsm_mover.h"
 
 #include "domain.h"
-#include "fix.h"
 #include "lsm_scene.h"
-#include "modify.h"
 #include "update.h"
 
 #include <algorithm>
@@ -14,22 +12,14 @@
 
 using namespace LAMMPS_NS;
 
-std::vector<LSMMover *> LSMMover::all(Modify *modify)
-{
-  std::vector<LSMMover *> movers;
-  for (const auto &fix : modify->get_fix_list())
-    if (auto p = dynamic_cast<LSMMover *>(fix)) movers.push_back(p);
-  return movers;
-}
-
 void LSMMover::complete_steps(Modify *modify)
 {
-  for (auto *p : all(modify)) p->complete_step();
+  for (auto *p : LSMScene::fixes<LSMMover>(modify)) p->complete_step();
 }
 
 void LSMTravel::look_for_movers()
 {
-  movers = LSMMover::all(modify);
+  movers = LSMScene::fixes<LSMMover>(modify);
   known = update->whichflag == 1;
   for (const auto &fix : modify->get_fix_list())
     known = known && (LSMScene::is_ours(fix) || utils::strmatch(fix->style, "^NEIGH_HISTORY"));

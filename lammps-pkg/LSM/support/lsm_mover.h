@@ -30,8 +30,6 @@ class LSMMover {
   /// Has longest_move() measured from the next step on.
   virtual void measure_moves() {}
 
-  /// Those of the scene, in the order of the fixes.
-  static std::vector<LSMMover *> all(Modify *);
   static void complete_steps(Modify *);
 
  protected:

@@ -7,11 +7,10 @@
 #include "bond_lsm_linked.h"
 #include "domain.h"
 #include "error.h"
-#include "fix.h"
-#include "fix_lsm_nve.h"
 #include "force.h"
 #include "lsm_keyword_reader.h"
-#include "modify.h"
+#include "lsm_sum.h"
+#include "math_extra.h"
 #include "neigh_list.h"
 #include "pair_lsm_free.h"
 #include "update.h"
@@ -48,14 +47,6 @@ namespace LSMScene {
     return utils::strmatch(fix->style, "^lsm/") || utils::strmatch(fix->style, "^LSM_");
   }
 
-  std::vector<FixLSMNVE *> integrators(Modify *modify)
-  {
-    std::vector<FixLSMNVE *> all;
-    for (auto &fix : modify->get_fix_by_style("^lsm/nve"))
-      if (auto p = dynamic_cast<FixLSMNVE *>(fix)) all.push_back(p);
-    return all;
-  }
-
   std::vector<LSM::PairSpring> springs(LAMMPS *lmp, double reach_factor)
   {
     Atom *const atom = lmp->atom;
@@ -88,8 +79,7 @@ namespace LSMScene {
         for (int jj = 0; jj < list->numneigh[i]; jj++) {
           const int j = list->firstneigh[i][jj] & NEIGHMASK;
           const double reach = reach_factor * (atom->radius[i] + atom->radius[j]);
-          const double dx = x[i][0] - x[j][0], dy = x[i][1] - x[j][1], dz = x[i][2] - x[j][2];
-          if (dx * dx + dy * dy + dz * dz > reach * reach) continue;
+          if (MathExtra::distsq3(x[i], x[j]) > reach * reach) continue;
           const int it = atom->type[i], jt = atom->type[j];
           if (on[it][jt])
             add(i, j, force->newton_pair, k[it][jt], kt ? kt[it][jt] : 0.0,
@@ -98,6 +88,18 @@ namespace LSMScene {
       }
     }
     return all;
+  }
+
+  double kinetic(const Atom *atom, int group_bits)
+  {
+    double **v = atom->v;
+    LSM::NeumaierSum sum;
+    for (int i = 0; i < atom->nlocal; i++) {
+      if (atom->mask[i] & group_bits) continue;
+      const double m = atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
+      sum.add(m * (v[i][0] * v[i][0] + v[i][1] * v[i][1] + v[i][2] * v[i][2]));
+    }
+    return 0.5 * sum.value();
   }
 
   std::string foreign_forces(Force *force)

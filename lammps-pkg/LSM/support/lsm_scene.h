@@ -5,17 +5,17 @@
 #ifndef LMP_LSM_SCENE_H
 #define LMP_LSM_SCENE_H
 
+#include "fix.h"
 #include "lsm_frequency.h"
+#include "modify.h"
 
 #include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
-class Fix;
-class FixLSMNVE;
+class Atom;
 class Force;
 class LAMMPS;
-class Modify;
 class PairLSMFree;
 class Update;
 
@@ -27,11 +27,20 @@ namespace LSMScene {
   /// Whether a fix is of the package.
   bool is_ours(const Fix *);
 
-  /// Fixes that move particles of the package.
-  std::vector<FixLSMNVE *> integrators(Modify *);
+  /// The fixes of a kind, in their order.
+  template <class Kind> std::vector<Kind *> fixes(Modify *modify)
+  {
+    std::vector<Kind *> all;
+    for (const auto &fix : modify->get_fix_list())
+      if (auto one = dynamic_cast<Kind *>(fix)) all.push_back(one);
+    return all;
+  }
 
   /// Links and contacts of this rank as springs about the present positions; also pairs that are about to touch.
   std::vector<LSM::PairSpring> springs(LAMMPS *, double reach_factor);
+
+  /// Kinetic energy of this rank's particles that are in none of the groups.
+  double kinetic(const Atom *, int group_bits);
 
   /// Force styles in use that are not of the package, as "bond harmonic, pair lj/cut"; empty if there is none.
   std::string foreign_forces(Force *);

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Coefficients of pairs of particle types
+
+#ifndef LMP_LSM_TYPE_PAIRS_H
+#define LMP_LSM_TYPE_PAIRS_H
+
+#include <vector>
+
+namespace LAMMPS_NS {
+
+/// A value for each two types, as LAMMPS wants it.
+template <class Value> class LSMTypePairs {
+ public:
+  /// Zeros for types below n.
+  void create(int n)
+  {
+    values_.assign(n * n, Value{});
+    rows_.resize(n);
+    for (int i = 0; i < n; i++) rows_[i] = &values_[i * n];
+  }
+  Value *operator[](int i) const { return rows_[i]; }
+  Value **data() { return rows_.data(); }
+
+ private:
+  std::vector<Value> values_;
+  std::vector<Value *> rows_;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
