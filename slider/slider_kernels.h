@@ -42,14 +42,9 @@ using StepFunction = StepSums (*)(const ChainView &chain, const std::int32_t *li
 /// Instruction sets that a step is compiled for: the baseline of the platform, or wider ones.
 enum class InstructionSet { avx512, avx2, baseline };
 constexpr std::array<LSM::Named<InstructionSet>, 3> names_of(InstructionSet) {
-#ifdef __x86_64__
-  constexpr const char *platform = "x86-64";
-#else
-  constexpr const char *platform = "baseline";
-#endif
   return {{{InstructionSet::avx512, "avx512"},
            {InstructionSet::avx2, "avx2"},
-           {InstructionSet::baseline, platform}}};
+           {InstructionSet::baseline, "baseline"}}};
 }
 
 /// Whether this processor has it.
