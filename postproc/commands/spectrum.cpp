@@ -18,12 +18,12 @@ namespace {
 /// soon as the series is eight times as long they are known.
 class SpectrumOfSeries {
  public:
-  SpectrumOfSeries(const SpectrumSettings &settings, double spacing)
-      : settings_(settings), spacing_(spacing) {}
+  SpectrumOfSeries(std::int64_t segment, double spacing)
+      : segment_(static_cast<std::size_t>(segment)), spacing_(spacing) {}
 
   void add(double pe) {
     waiting_.push_back(pe);
-    if (settings_.segment > 0 || waiting_.size() == 8 * most) hand_over();
+    if (segment_ > 0 || waiting_.size() == 8 * most) hand_over();
   }
   /// \throws std::runtime_error unless there is a whole segment
   const WelchSpectrum &result(const std::string &path) {
@@ -32,7 +32,7 @@ class SpectrumOfSeries {
       throw std::runtime_error(
           fmt::format("{}: {} samples in the window of time, expected at least one segment of {} "
                       "(--segment)",
-                      path, spectrum_->samples(), settings_.segment));
+                      path, spectrum_->samples(), segment_));
     return *spectrum_;
   }
 
@@ -40,16 +40,14 @@ class SpectrumOfSeries {
   static constexpr std::size_t most = 1 << 16;
 
   void hand_over() {
-    if (settings_.segment == 0)
-      for (settings_.segment = 8;
-           settings_.segment < most && 16 * settings_.segment <= waiting_.size();)
-        settings_.segment *= 2;
-    if (!spectrum_) spectrum_.emplace(settings_, spacing_);
+    if (segment_ == 0)
+      for (segment_ = 8; segment_ < most && 16 * segment_ <= waiting_.size();) segment_ *= 2;
+    if (!spectrum_) spectrum_.emplace(segment_, spacing_);
     for (const double value : waiting_) spectrum_->add(value);
     waiting_.clear();
   }
 
-  SpectrumSettings settings_;
+  std::size_t segment_;
   double spacing_;
   std::optional<WelchSpectrum> spectrum_;
   std::vector<double> waiting_;
@@ -88,11 +86,9 @@ class Spectrum : public Analysis {
   std::vector<std::string> inputs() const override { return series_; }
 
   SpectrumCurve measure(const std::string &path, const std::string &label) const {
-    SpectrumSettings settings;
-    settings.segment = static_cast<std::size_t>(segment_);
     SeriesInput series(path, samples_);
     const std::int64_t stride = series.info().stride;
-    SpectrumOfSeries spectrum(settings, series.spacing());
+    SpectrumOfSeries spectrum(segment_, series.spacing());
     std::int64_t last_step = -1;
     series.read([&](std::int64_t step, double time, double pe) {
       if (time < samples_.from_time) return;

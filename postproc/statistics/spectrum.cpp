@@ -15,29 +15,14 @@ namespace LSM::postproc {
 
 namespace {
 
-double window_value(Window window, double phase) {
-  switch (window) {
-    case Window::hann:
-      return 0.5 - 0.5 * std::cos(phase);
-    case Window::hamming:
-      return 0.54 - 0.46 * std::cos(phase);
-    case Window::blackman:
-      return 0.42 - 0.5 * std::cos(phase) + 0.08 * std::cos(2.0 * phase);
-    case Window::rectangular:
-      break;
-  }
-  return 1.0;
-}
-
-/// Takes the mean or the straight line of least squares off values.
-void remove_trend(Detrend detrend, double *values, std::size_t count) {
-  if (detrend == Detrend::none) return;
+/// Takes the straight line of least squares off values.
+void remove_trend(double *values, std::size_t count) {
   const double n = static_cast<double>(count), middle = 0.5 * (n - 1.0);
   double mean = 0.0, moment = 0.0;
   for (std::size_t i = 0; i < count; ++i) mean += values[i] / n;
   for (std::size_t i = 0; i < count; ++i)
     moment += (static_cast<double>(i) - middle) * (values[i] - mean);
-  const double slope = detrend == Detrend::linear ? moment / (n * (n * n - 1.0) / 12.0) : 0.0;
+  const double slope = moment / (n * (n * n - 1.0) / 12.0);
   for (std::size_t i = 0; i < count; ++i)
     values[i] -= mean + slope * (static_cast<double>(i) - middle);
 }
@@ -62,26 +47,18 @@ struct WelchSpectrum::Transform {
   std::unique_ptr<fftw_plan_s, void (*)(fftw_plan)> plan;
 };
 
-WelchSpectrum::WelchSpectrum(const SpectrumSettings &settings, double interval)
-    : settings_(settings), interval_(interval) {
-  const std::size_t n = settings.segment;
+WelchSpectrum::WelchSpectrum(std::size_t n, double interval)
+    : interval_(interval), hop_(n - n / 2), buffer_(n), sums_(n / 2 + 1) {
   if (n < 8 || n > static_cast<std::size_t>(std::numeric_limits<int>::max() / 2))
     throw std::invalid_argument(
         fmt::format("segment of {} samples, expected at least 8 and at most 1e9", n));
-  if (!(settings.overlap >= 0.0 && settings.overlap < 1.0))
-    throw std::invalid_argument(fmt::format(
-        "overlap of segments is {}, expected at least 0 and less than 1", settings.overlap));
   if (!std::isfinite(interval) || !(interval > 0.0))
     throw std::invalid_argument("time between samples must be a positive number");
-  hop_ = std::max<std::size_t>(
-      1, n - static_cast<std::size_t>(std::floor(settings.overlap * static_cast<double>(n))));
   for (std::size_t i = 0; i < n; ++i) {
-    window_.push_back(
-        window_value(settings.window, 2.0 * pi * static_cast<double>(i) / static_cast<double>(n)));
+    const double phase = 2.0 * pi * static_cast<double>(i) / static_cast<double>(n);
+    window_.push_back(0.5 - 0.5 * std::cos(phase));
     power_ += window_.back() * window_.back();
   }
-  buffer_.resize(n);
-  sums_.resize(n / 2 + 1);
   transform_ = std::make_unique<Transform>(n);
 }
 
@@ -99,7 +76,7 @@ void WelchSpectrum::add(double value) {
 void WelchSpectrum::add_segment() {
   double *const in = transform_->in.get();
   std::copy(buffer_.begin(), buffer_.end(), in);
-  remove_trend(settings_.detrend, in, buffer_.size());
+  remove_trend(in, buffer_.size());
   for (std::size_t i = 0; i < buffer_.size(); ++i) in[i] *= window_[i];
   fftw_execute(transform_->plan.get());
   const fftw_complex *const out = transform_->out.get();
@@ -110,21 +87,15 @@ void WelchSpectrum::add_segment() {
 
 double WelchSpectrum::effective_segments() const {
   const double k = static_cast<double>(segments_);
-  double scatter = 1.0;
-  for (std::size_t shift = hop_; shift < window_.size(); shift += hop_) {
-    const double distance = static_cast<double>(shift / hop_);
-    if (distance >= k) break;
-    double product = 0.0;
-    for (std::size_t i = shift; i < window_.size(); ++i) product += window_[i] * window_[i - shift];
-    scatter += 2.0 * (1.0 - distance / k) * (product / power_) * (product / power_);
-  }
-  return k / scatter;
+  double product = 0.0;
+  for (std::size_t i = hop_; i < window_.size(); ++i) product += window_[i] * window_[i - hop_];
+  return k / (1.0 + 2.0 * (1.0 - 1.0 / k) * (product / power_) * (product / power_));
 }
 
 std::vector<SpectrumPoint> WelchSpectrum::points() const {
   if (segments_ == 0)
-    throw std::invalid_argument(fmt::format("{} samples, expected at least one segment of {}",
-                                            samples_, settings_.segment));
+    throw std::invalid_argument(
+        fmt::format("{} samples, expected at least one segment of {}", samples_, window_.size()));
   const std::size_t n = window_.size();
   const double step = 1.0 / (static_cast<double>(n) * interval_);
   const double averages = effective_segments();

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file spectrum.h
 /// Power spectral density of an evenly sampled series by Welch's method (IEEE Trans. Audio
-/// Electroacoust. AU-15, 1967): mean of the periodograms of windowed, overlapping segments. Ours;
-/// the paper shows no spectra.
+/// Electroacoust. AU-15, 1967): mean of the periodograms of segments that share half of their
+/// samples with the next, without their linear trend, in a Hann window. Ours; the paper shows no
+/// spectra.
 #ifndef LSM_POSTPROC_SPECTRUM_H
 #define LSM_POSTPROC_SPECTRUM_H
 
@@ -13,18 +14,7 @@
 
 namespace LSM::postproc {
 
-enum class Window { hann, hamming, blackman, rectangular };
-enum class Detrend { none, mean, linear };  ///< what is taken off each segment
-
-struct SpectrumSettings {
-  std::size_t segment = 4096;  ///< samples in a segment, >= 8
-  double overlap = 0.5;        ///< part of a segment shared with the next, 0 <= overlap < 1
-  Window window = Window::hann;
-  Detrend detrend = Detrend::linear;
-};
-
-/// One-sided density: the sum of density * width over all points is the variance of the series
-/// (exactly for one rectangular segment without detrending but for the mean).
+/// One-sided density: the sum of density * width over all points is the variance of the series.
 struct SpectrumPoint {
   double frequency = 0.0;  ///< middle, in cycles per time
   double width = 0.0;      ///< frequencies it stands for
@@ -35,11 +25,10 @@ struct SpectrumPoint {
 /// Streaming: memory for a few segments, whatever the length of the series.
 class WelchSpectrum {
  public:
-  /// \param interval time between samples, > 0. \throws std::invalid_argument
-  WelchSpectrum(const SpectrumSettings &settings, double interval);
+  /// \param segment samples in one, at least 8 \param interval time between samples, > 0
+  /// \throws std::invalid_argument
+  WelchSpectrum(std::size_t segment, double interval);
   ~WelchSpectrum();
-  WelchSpectrum(const WelchSpectrum &) = delete;
-  WelchSpectrum &operator=(const WelchSpectrum &) = delete;
 
   void add(double value);
   std::int64_t samples() const { return samples_; }
@@ -55,9 +44,8 @@ class WelchSpectrum {
   struct Transform;
   void add_segment();
 
-  SpectrumSettings settings_;
-  double interval_ = 1.0;
-  std::size_t hop_ = 0, filled_ = 0;
+  double interval_;
+  std::size_t hop_, filled_ = 0;
   std::int64_t samples_ = 0, segments_ = 0;
   double power_ = 0.0;  // sum of the squares of the window
   std::vector<double> window_, buffer_, sums_;
