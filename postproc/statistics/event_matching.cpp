@@ -10,6 +10,8 @@ namespace LSM::postproc {
 
 namespace {
 
+constexpr int shifts = 7;
+
 struct Start {
   double time, log_size;
 };
@@ -34,7 +36,7 @@ std::int64_t count_matches(const std::vector<Start> &first, const std::vector<St
     for (; near != second.end() && near->time < event.time + rule.within; ++near) {
       const double apart = std::fabs(near->time - event.time);
       if (apart < least && !taken[static_cast<std::size_t>(near - second.begin())] &&
-          std::fabs(near->log_size - event.log_size) < std::log(rule.factor)) {
+          std::fabs(near->log_size - event.log_size) < std::log(2.0)) {
         least = apart;
         best = near;
       }
@@ -50,9 +52,6 @@ std::int64_t count_matches(const std::vector<Start> &first, const std::vector<St
 
 EventMatches match_events(const EventTable &first, const EventTable &second,
                           const MatchRule &rule) {
-  if (!(rule.factor > 1.0) || !(rule.within > 0.0) || !(rule.least_size > 0.0) || rule.shifts < 1)
-    throw std::invalid_argument(
-        "matching: expected a factor above 1, and a size and a time above 0");
   if (first.events.empty() || second.events.empty())
     throw std::invalid_argument("matching: a catalogue without events");
   const double from = std::max(first.events.front().t_start, second.events.front().t_start);
@@ -63,8 +62,8 @@ EventMatches match_events(const EventTable &first, const EventTable &second,
   EventMatches matches{static_cast<std::int64_t>(one.size()),
                        static_cast<std::int64_t>(other.size()), count_matches(one, other, rule),
                        0.0};
-  for (int k = 1; k <= rule.shifts; ++k) {
-    const double shift = (to - from) * k / (rule.shifts + 1);
+  for (int k = 1; k <= shifts; ++k) {
+    const double shift = (to - from) * k / (shifts + 1);
     std::vector<Start> shifted = one;
     for (Start &event : shifted) {
       event.time += shift;
@@ -72,7 +71,7 @@ EventMatches match_events(const EventTable &first, const EventTable &second,
     }
     std::sort(shifted.begin(), shifted.end(),
               [](const Start &a, const Start &b) { return a.time < b.time; });
-    matches.chance += static_cast<double>(count_matches(shifted, other, rule)) / rule.shifts;
+    matches.chance += static_cast<double>(count_matches(shifted, other, rule)) / shifts;
   }
   return matches;
 }

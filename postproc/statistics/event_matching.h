@@ -11,23 +11,21 @@
 
 namespace LSM::postproc {
 
-/// When two events are the same.
+/// When two events are the same: the ratio of their sizes is below 2, too.
 struct MatchRule {
   double least_size = 0.0;  ///< smallest event of the first catalogue that is looked for (energy)
-  double factor = 2.0;      ///< ratio of their sizes is below this, > 1
   double within = 0.0;      ///< their starts are less than this apart, > 0
-  int shifts = 7;           ///< of the first catalogue, for what chance finds, >= 1
 };
 
 struct EventMatches {
   std::int64_t first = 0, second = 0;  ///< events of least_size and more in the common time
   std::int64_t same = 0;               ///< of the first, those that the second has
-  double chance = 0.0;                 ///< mean of `same` over the shifts
+  double chance = 0.0;                 ///< mean of `same` over seven shifts of the first
 };
 
 /// Each event of the first, in order of time, takes the nearest one of the second that is free.
-/// Shifted catalogues wrap around: k / (shifts + 1) of the common time, k = 1, 2, ...
-/// \throws std::invalid_argument for an impossible rule, or catalogues without a common time
+/// Shifted catalogues wrap around: k / 8 of the common time, k = 1 to 7.
+/// \throws std::invalid_argument for catalogues without a common time
 EventMatches match_events(const EventTable &first, const EventTable &second, const MatchRule &rule);
 
 }  // namespace LSM::postproc
