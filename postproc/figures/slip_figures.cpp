@@ -29,11 +29,11 @@ unset grid
 )";
 
 void add_image(Table &table, const VelocityImage &image, std::int64_t shift, double x0, double t0) {
-  for (std::int64_t row = 0; row < image.rows(); ++row)
-    for (std::int64_t column = 0; column < image.columns(); ++column) {
+  for (std::int64_t row = 0; row < image.rows; ++row)
+    for (std::int64_t column = 0; column < image.columns; ++column) {
       const double value = image.at(row, column, shift);
-      table.row(x0 + (static_cast<double>(column) + 0.5) * image.column_width(),
-                t0 + (static_cast<double>(row) + 0.5) * image.row_height(),
+      table.row(x0 + (static_cast<double>(column) + 0.5) * image.column_width,
+                t0 + (static_cast<double>(row) + 0.5) * image.row_height,
                 value > 0.0 ? std::max(0.0, std::log10(value)) : 0.0);
     }
 }

@@ -64,40 +64,36 @@ HistoryWindow history_window(const SlipHistoryInfo &info, const std::vector<Slip
   return window;
 }
 
-VelocityImage::VelocityImage(const HistoryWindow &window, std::int64_t most_rows,
-                             std::int64_t most_columns)
-    : bins_(window.info.grid.bins), columns_(std::min(bins_, most_columns)) {
+VelocityImage::VelocityImage(const HistoryWindow &window, std::int64_t most_rows)
+    : bins(window.info.grid.bins), columns(std::min<std::int64_t>(bins, 1000)) {
+  const FaultGrid &grid = window.info.grid;
   const double duration = window.to - window.from;
-  const double intervals = std::max(1.0, std::ceil(duration / window.info.grid.duration() - 1e-9));
-  rows_ = static_cast<std::int64_t>(std::min(intervals, static_cast<double>(most_rows)));
-  height_ = duration / static_cast<double>(rows_);
-  width_ = window.info.grid.length() / static_cast<double>(columns_);
-  values_.assign(static_cast<std::size_t>(rows_ * columns_), 0.0);
-  for (const SlipRecord &record : window.records) fill(window, record);
+  const double intervals = std::max(1.0, std::ceil(duration / grid.duration() - 1e-9));
+  rows = static_cast<std::int64_t>(std::min(intervals, static_cast<double>(most_rows)));
+  row_height = duration / static_cast<double>(rows);
+  column_width = grid.length() / static_cast<double>(columns);
+  values.assign(static_cast<std::size_t>(rows * columns), 0.0);
+  for (const SlipRecord &record : window.records) {
+    const double begin = grid.time(record.step_begin), end = grid.time(record.step_end);
+    if (!(end > begin)) continue;
+    const auto first = static_cast<std::int64_t>(
+        std::max(0.0, std::floor((begin - window.from) / row_height + 1e-6)));
+    const auto beyond = std::min<std::int64_t>(
+        rows, static_cast<std::int64_t>(std::ceil((end - window.from) / row_height - 1e-6)));
+    for (std::int64_t b = 0; b < bins; ++b) {
+      const double velocity = std::fabs(record.row.slip[static_cast<std::size_t>(b)]) /
+                              (end - begin) / window.info.driving;
+      for (std::int64_t row = first; row < beyond; ++row) {
+        double &value = values[static_cast<std::size_t>(row * columns + b * columns / bins)];
+        value = std::max(value, velocity);
+      }
+    }
+  }
 }
 
 double VelocityImage::at(std::int64_t row, std::int64_t column, std::int64_t shift) const {
-  const std::int64_t from = (column + shift * columns_ / bins_) % columns_;
-  return values_[static_cast<std::size_t>(row * columns_ + from)];
-}
-
-void VelocityImage::fill(const HistoryWindow &window, const SlipRecord &record) {
-  const FaultGrid &grid = window.info.grid;
-  const double begin = grid.time(record.step_begin), end = grid.time(record.step_end);
-  if (!(end > begin)) return;
-  const double row_begin = (begin - window.from) / height_, row_end = (end - window.from) / height_;
-  const auto first =
-      std::max<std::int64_t>(0, static_cast<std::int64_t>(std::floor(row_begin + 1e-6)));
-  const auto last =
-      std::min<std::int64_t>(rows_ - 1, static_cast<std::int64_t>(std::ceil(row_end - 1e-6)) - 1);
-  for (std::int64_t b = 0; b < bins_; ++b) {
-    const double velocity = std::fabs(record.row.slip[static_cast<std::size_t>(b)]) /
-                            (end - begin) / window.info.driving;
-    for (std::int64_t row = first; row <= last; ++row) {
-      double &value = values_[static_cast<std::size_t>(row * columns_ + b * columns_ / bins_)];
-      value = std::max(value, velocity);
-    }
-  }
+  const std::int64_t from = (column + shift * columns / bins) % columns;
+  return values[static_cast<std::size_t>(row * columns + from)];
 }
 
 std::vector<ClosedLine> closed_lines(const FaultGrid &grid, const Outline &outline,

@@ -35,24 +35,16 @@ HistoryWindow history_window(const SlipHistoryInfo &info, const std::vector<Slip
                              double from, double to);
 
 /// The largest slip velocity over the driving one in each pixel of a picture.
-class VelocityImage {
- public:
-  /// As many rows as there are intervals in the window, and as many columns as bins, up to these.
-  VelocityImage(const HistoryWindow &window, std::int64_t most_rows,
-                std::int64_t most_columns = 1000);
-  std::int64_t rows() const { return rows_; }
-  std::int64_t columns() const { return columns_; }
-  double row_height() const { return height_; }  ///< model time
-  double column_width() const { return width_; }
+struct VelocityImage {
+  /// As many rows as there are intervals in the window, and as many columns as bins, up to these
+  /// and 1000.
+  VelocityImage(const HistoryWindow &window, std::int64_t most_rows);
   /// \param shift bins by which the picture is shifted along the fault
   double at(std::int64_t row, std::int64_t column, std::int64_t shift) const;
 
- private:
-  void fill(const HistoryWindow &window, const SlipRecord &record);
-
-  std::int64_t bins_, rows_, columns_;
-  double height_, width_;
-  std::vector<double> values_;  ///< row by row
+  std::int64_t bins, rows, columns;
+  double row_height, column_width;  ///< height: model time
+  std::vector<double> values;       ///< row by row
 };
 
 /// The outline of a rupture as closed lines, split where a picture ends: places, in bins from its
