@@ -73,7 +73,6 @@ class Fit : public Statistic {
       if (!(settings_.ranges.back().lo > 0.0))
         throw std::invalid_argument("--range '" + text + "', expected LO above 0");
     }
-    settings_.search.upper = true;
     settings_.compare = !no_comparison_;
     const std::vector<SizeFit> fits = fit_sizes(tables, settings_);
     std::vector<Scaling> scalings;

@@ -180,7 +180,6 @@ std::string ReportPage::sizes(const std::vector<EventTable> &all,
   fits.replicas = settings_.replicas;
   fits.seed = settings_.seed;
   fits.threshold = settings_.threshold;
-  fits.search.upper = true;
   std::vector<SizeFit> found = fit_sizes(all, fits);
   std::vector<PowerLine> lines;
   for (const auto &[slope, title, range] : printed) {

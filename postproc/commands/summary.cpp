@@ -75,7 +75,7 @@ class Summary : public CatalogueAnalysis {
   GeneralisedGammaFit fit_times(const std::vector<double> &times) const {
     const double shortest = times.empty() || shortest_ == 0.0 ? 0.0 : shortest_ * mean_of(times);
     if (method_ == "likelihood") return fit_with_share(times, shortest, 1.0);
-    return fit_least_squares(bins_from(LogHistogram(times).bins(), shortest), 1.0);
+    return fit_least_squares(bins_from(log_histogram(times), shortest), 1.0);
   }
 
   void add_threshold(Row &row, const EventTable &table, double threshold) const {

@@ -159,7 +159,6 @@ json events_json(const ExploreEvents &kind, const std::string &id, PageData &dat
       numbers.push_back(column.number ? event.*column.number
                                       : static_cast<double>(event.*column.integer));
   }
-  const LogHistogram sizes(column(kind.table.events, &Event::size));
   json thresholds = json::array();
   for (const ThresholdResult &result : kind.thresholds)
     thresholds.push_back(threshold_json(result));
@@ -172,7 +171,7 @@ json events_json(const ExploreEvents &kind, const std::string &id, PageData &dat
           {"listed", kind.table.details.size()},
           {"columns", names},
           {"numbers", data.packed_element(id + "-events", packed(numbers))},
-          {"densities", bins_json(sizes.bins())},
+          {"densities", bins_json(log_histogram(column(kind.table.events, &Event::size)))},
           {"usual", usual.size},
           {"usualText", text(usual)},
           {"thresholds", thresholds},

@@ -32,7 +32,7 @@ Table density_table(const std::vector<IntervalCurve> &curves, bool rescaled) {
 
 bool is_rejected(const IntervalCurve &curve, const GeneralisedGammaFit *fit) {
   for (const IntervalFit &candidate : curve.fits)
-    if (&candidate.fit == fit) return candidate.p < 0.05;
+    if (&candidate.fit == fit) return candidate.p.value < 0.05;
   return false;
 }
 

@@ -65,9 +65,8 @@ Table size_fit_table(const std::vector<SizeFit> &fits) {
     for (const Comparison &c : comparisons) {
       const double known = c.degenerate ? nan : 1.0;
       table.row(fit.model, law.lo, law.hi, law.searched ? "yes" : "no", law.n, law.alpha,
-                law.standard_error, law.ks, fit.p, fit.p_error, c.rival,
-                known * c.log_likelihood_ratio, known * c.normalised, known * c.p, fit.label, c.why,
-                range_text(law), favoured(c));
+                law.standard_error, law.ks, fit.p, c.rival, known * c.log_likelihood_ratio,
+                known * c.normalised, known * c.p, fit.label, c.why, range_text(law), favoured(c));
     }
   }
   return table;
@@ -108,7 +107,7 @@ nlohmann::json to_json(const SizeFit &fit) {
               {"ks", law.ks},
               {"log_likelihood", law.log_likelihood},
               {"comparisons", json::array()}});
-  if (!std::isnan(fit.p)) out.update({{"p", fit.p}, {"p_error", fit.p_error}});
+  if (!std::isnan(fit.p.value)) out.update({{"p", fit.p.value}, {"p_error", fit.p.error}});
   for (const Comparison &c : fit.comparisons) out["comparisons"].push_back(to_json(c));
   return out;
 }

@@ -28,7 +28,7 @@ Table1Row row_of(const IntervalCurve &curve, const IntervalFit &of) {
       {{fit.gamma, fit.se_gamma}, {fit.delta, fit.se_delta}, {fit.B, fit.se_B}, {fit.C, fit.se_C}}};
   if (fit.dof > 0) row.misfit = fit.chi2 / fit.dof;
   row.ks = fit.ks;
-  row.p = {of.p, of.p_error};
+  row.p = of.p;
   return row;
 }
 

@@ -38,13 +38,12 @@ class Likelihood {
     // Of many, those within 3 % are taken together by the mean and the variance of their
     // logarithms, in which the logarithm of the rate hardly bends: an evaluation costs no more for
     // more of them.
-    together_ = n_ > static_cast<double>(largest_exact_sample);
-    const double width = together_ ? 1.03 : 1.0;
+    const double width = n_ > static_cast<double>(largest_exact_sample) ? 1.03 : 1.0;
     for (std::size_t i = 0; i < s.times.size();) {
       std::size_t end = i + 1;
       while (end < s.times.size() && s.times[end] <= width * s.times[i]) ++end;
       Cell cell{s.times[i], static_cast<double>(end - i), 0.0};
-      if (together_ && end > i + 1 && cell.time > 0.0) {
+      if (cell.time < s.times[end - 1] && cell.time > 0.0) {
         NeumaierSum sum, squares;  // of ln(time / first time of the cell)
         for (std::size_t k = i; k < end; ++k) {
           const double ratio = std::log(s.times[k] / s.times[i]);
@@ -68,7 +67,7 @@ class Likelihood {
     for (const Cell &cell : cells_) {
       const double decaying = scale * std::exp(-p * std::log(cell.time + c));
       double value = std::log(decaying + flat);
-      if (together_) {
+      if (cell.variance > 0.0) {
         // half the second derivative of ln rate by ln t, times the variance of ln t
         const double share = decaying / (decaying + flat), q = cell.time / (cell.time + c);
         value -= 0.5 * cell.variance * p * q * share * (1.0 - q - p * q * (1.0 - share));
@@ -88,7 +87,6 @@ class Likelihood {
 
   std::vector<Cell> cells_;
   double first_, window_, n_;
-  bool together_ = false;
 };
 
 // The expected numbers of aftershocks and background events, and the shape of the decay.
@@ -233,17 +231,6 @@ void report(const Law &law, const Search &search, const Sequences &s, OmoriFit &
   if (search.background) fit.se_background = fit.background * covariance.error(x.size() - 1);
 }
 
-void check(const Sequences &s, double hold_c) {
-  if (!(s.window > s.first && s.first >= 0.0) || s.main_shocks < 0 ||
-      (!s.times.empty() &&
-       (s.main_shocks == 0 || s.times.front() < s.first || s.times.back() > s.window)))
-    throw std::invalid_argument("Omori fit: times outside the window, or without a main shock");
-  if (!std::isnan(hold_c) &&
-      (!std::isfinite(hold_c) || !(hold_c >= 0.0) || !(hold_c + s.first > 0.0)))
-    throw std::invalid_argument("Omori fit: c held at " + std::to_string(hold_c) +
-                                ", expected 0 or more (0 needs a first time above 0)");
-}
-
 }  // namespace
 
 Sequences stack_sequences(const std::vector<Shock> &events, const SequenceRule &rule) {
@@ -293,7 +280,9 @@ namespace {
 
 // Without the care of GSL's errors, whose handler is one for all threads.
 OmoriFit fit_quietly(const Sequences &s, double hold_c) {
-  check(s, hold_c);
+  if (!std::isnan(hold_c) && !(hold_c >= 0.0 && std::isfinite(hold_c) && hold_c + s.first > 0.0))
+    throw std::invalid_argument("Omori fit: c held at " + std::to_string(hold_c) +
+                                ", expected 0 or more (0 needs a first time above 0)");
   OmoriFit fit;
   fit.n = static_cast<std::int64_t>(s.times.size());
   const double exposure = static_cast<double>(s.main_shocks) * (s.window - s.first);
@@ -301,11 +290,10 @@ OmoriFit fit_quietly(const Sequences &s, double hold_c) {
     fit.constant = static_cast<double>(fit.n) / exposure;
     fit.se_constant = std::sqrt(static_cast<double>(fit.n)) / exposure;
   }
-  if (fit.n < fewest) {
-    fit.why = std::to_string(fit.n) + " events after " + std::to_string(s.main_shocks) +
-              " main shocks, at least " + std::to_string(fewest) + " events needed";
-    return fit;
-  }
+  if (fit.n < fewest)
+    return without_numbers(fit, std::to_string(fit.n) + " events after " +
+                                    std::to_string(s.main_shocks) + " main shocks, at least " +
+                                    std::to_string(fewest) + " events needed");
   const Likelihood likelihood(s);
   // Below a thousandth of the first time values of c are indistinguishable.
   const auto positive = std::upper_bound(s.times.begin(), s.times.end(), 0.0);
@@ -370,7 +358,7 @@ std::vector<RateBin> rate_bins(const Sequences &sequences, const SequenceRule &r
   std::vector<double> around = sequences.times;
   around.insert(around.end(), sequences.before.begin(), sequences.before.end());
   std::vector<RateBin> bins;
-  for (const LogBin &bin : LogHistogram(around, factor).bins(rule.first, rule.window)) {
+  for (const LogBin &bin : log_histogram(around, factor, rule.first, rule.window)) {
     const double exposure = static_cast<double>(sequences.main_shocks) * (bin.hi - bin.lo);
     const std::int64_t after = count_in(bin, sequences.times);
     const auto count = static_cast<double>(after);
@@ -409,7 +397,6 @@ void compare(const std::vector<Replica> &replicas, Aftershocks &result) {
 
 Aftershocks aftershocks_of(const EventTable &table, const SequenceRule &rule, double hold_c,
                            double factor, int replicas, std::uint64_t seed) {
-  if (replicas < 0) throw std::invalid_argument("Poisson catalogues: expected 0 or more replicas");
   Aftershocks result;
   result.rule = rule;
   result.sequences = stack_sequences(table.events, rule);

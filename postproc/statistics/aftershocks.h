@@ -61,8 +61,8 @@ struct OmoriFit {
 };
 
 /// Maximum likelihood of a Poisson process with that rate in each sequence; standard errors from
-/// the curvature of ln L. \param hold_c value c is held at; NaN: fitted; 0 needs first > 0 \throws
-/// std::invalid_argument for sequences no catalogue gives, or such a c
+/// the curvature of ln L. \param hold_c value c is held at; NaN: fitted; 0 needs first > 0
+/// \throws std::invalid_argument for another c
 OmoriFit fit_omori(const Sequences &sequences, double hold_c = NAN);
 
 /// The same events in random order at the times of a Poisson process: independent exponential times

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "replicas.h"
+
 namespace LSM::postproc {
 
 Cells::Cells(const std::function<double(double)> &survival, const std::vector<double> &required,
@@ -52,9 +54,9 @@ std::vector<double> Cells::count(const std::vector<double> &sorted) const {
   return counts;
 }
 
-std::vector<double> Cells::draw(gsl_rng *rng, std::size_t n) const {
+std::vector<double> Cells::draw(gsl_rng *rng) const {
   std::vector<double> counts(size());
-  auto left = static_cast<unsigned int>(n);
+  auto left = static_cast<unsigned int>(n_);
   for (std::size_t i = 0; i < size() && left > 0; ++i) {
     const double p = from_here_[i] > 0.0 ? std::min(1.0, probabilities_[i] / from_here_[i]) : 0.0;
     const unsigned int drawn = gsl_ran_binomial(rng, p, left);
@@ -62,6 +64,16 @@ std::vector<double> Cells::draw(gsl_rng *rng, std::size_t n) const {
     left -= drawn;
   }
   return counts;
+}
+
+double Cells::share_as_far(
+    const std::vector<double> &sorted, int replicas, std::uint64_t seed,
+    const std::function<double(const std::vector<double> &)> &distance) const {
+  const double found = distance(count(sorted));
+  return share_of_replicas(replicas, [&](int replica) {
+    const Rng rng = generator(seed_of_replica(seed, replica));
+    return !(distance(draw(rng.get())) < found);
+  });
 }
 
 }  // namespace LSM::postproc

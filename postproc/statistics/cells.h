@@ -9,6 +9,7 @@
 #include <gsl/gsl_rng.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -29,13 +30,16 @@ class Cells {
   const std::vector<double> &edges() const { return edges_; }  ///< one more than cells
   const std::vector<double> &centres() const { return centres_; }
 
-  /// How many values are in each cell; those beyond the ends are in the last ones.
-  /// \param sorted ascending
-  std::vector<double> count(const std::vector<double> &sorted) const;
-  /// The same of n values drawn from the law.
-  std::vector<double> draw(gsl_rng *rng, std::size_t n) const;
+  /// Share of samples drawn from the law whose distance is as large as that of this one.
+  /// \param sorted ascending \param distance of how many values are in each cell, on any thread
+  double share_as_far(const std::vector<double> &sorted, int replicas, std::uint64_t seed,
+                      const std::function<double(const std::vector<double> &)> &distance) const;
 
  private:
+  /// Those beyond the ends are in the last ones.
+  std::vector<double> count(const std::vector<double> &sorted) const;
+  /// Of as many values from the law.
+  std::vector<double> draw(gsl_rng *rng) const;
   void add(const std::function<double(double)> &survival, double lo, double above_lo, double hi,
            double above_hi);
 

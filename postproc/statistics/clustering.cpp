@@ -9,7 +9,6 @@
 #include <numeric>
 
 #include "finite_size.h"
-#include "samples.h"
 #include "two_sample.h"
 
 namespace LSM::postproc {
@@ -47,16 +46,11 @@ struct CelledTime {
   std::size_t cell;
 };
 
-std::vector<double> cell_edges(std::vector<double> times) {
-  std::sort(times.begin(), times.end());
-  std::vector<double> edges;
-  for (std::size_t k = 1; k < cells; ++k) edges.push_back(times[times.size() * k / cells]);
-  return edges;
-}
-
 /// Times in the order of the series, each with its cell; equal times share one.
 std::vector<CelledTime> celled(const std::vector<double> &times) {
-  const std::vector<double> edges = cell_edges(times);
+  std::vector<double> sorted = times, edges;
+  std::sort(sorted.begin(), sorted.end());
+  for (std::size_t k = 1; k < cells; ++k) edges.push_back(sorted[sorted.size() * k / cells]);
   std::vector<CelledTime> out;
   out.reserve(times.size());
   for (const double time : times)
@@ -109,12 +103,14 @@ AgainstChance against(double value, const std::vector<double> &random) {
   return out;
 }
 
-/// Largest departure of events from a steady rate between from and to, over their number.
-double departure_of(const std::vector<double> &starts, double from, double to) {
-  const auto n = static_cast<double>(starts.size());
+/// Largest departure of events from a steady rate between the first and the last, over their
+/// number.
+double departure_of(const std::vector<double> &starts) {
+  const double n = static_cast<double>(starts.size()), from = starts.front();
   double most = 0.0;
   for (std::size_t i = 0; i < starts.size(); ++i) {
-    const double line = (starts[i] - from) / (to - from), below = static_cast<double>(i) / n;
+    const double line = (starts[i] - from) / (starts.back() - from);
+    const double below = static_cast<double>(i) / n;
     most = std::max({most, std::fabs(line - below), std::fabs(line - below - 1.0 / n)});
   }
   return most;
@@ -136,49 +132,25 @@ std::size_t block_of(const std::vector<double> &values) {
   return std::max<std::size_t>(1, static_cast<std::size_t>(block_length(centred(values))));
 }
 
-/// Cumulative number of events at steps of time from first to last.
-class Cumulative {
- public:
-  Cumulative(const std::vector<double> &starts, std::size_t steps)
-      : from_(starts.front()),
-        step_((starts.back() - starts.front()) / static_cast<double>(steps)) {
-    for (std::size_t i = 0; i <= steps; ++i)
-      counts_.push_back(static_cast<double>(
-          std::upper_bound(starts.begin(), starts.end(), time(i)) - starts.begin()));
-    counts_.front() = 0.0;
-  }
-  double time(std::size_t i) const { return from_ + step_ * static_cast<double>(i); }
-  double count(std::size_t i, std::size_t j) const { return counts_[j] - counts_[i]; }
-  /// Departure from a straight line between two steps, seen at the steps.
-  double departure(std::size_t i, std::size_t j) const {
-    double most = 0.0;
-    const double n = count(i, j);
-    for (std::size_t k = i; k <= j; ++k)
-      most = std::max(most, std::fabs(count(i, k) / n -
-                                      static_cast<double>(k - i) / static_cast<double>(j - i)));
-    return most;
-  }
-
- private:
-  double from_, step_;
-  std::vector<double> counts_;
-};
-
 std::vector<Stretch> steady_stretches(const std::vector<double> &starts, double tolerance,
                                       std::int64_t fewest) {
   constexpr std::size_t edges = 120, fine = 10, most = 4;
-  const Cumulative cumulative(starts, edges * fine);
+  auto numbers = cumulative_numbers(starts, edges * fine);
+  numbers.front().second = 0;
+  const auto count = [&numbers](std::size_t i, std::size_t j) {
+    return static_cast<double>(numbers[j].second - numbers[i].second);
+  };
   std::vector<Stretch> candidates, chosen;
-  for (std::size_t i = 0; i < edges; ++i)
-    for (std::size_t j = i + 1; j <= edges; ++j) {
-      Stretch one;
-      one.n = static_cast<std::int64_t>(cumulative.count(i * fine, j * fine));
+  for (std::size_t i = 0; i < edges * fine; i += fine)
+    for (std::size_t j = i + fine; j <= edges * fine; j += fine) {
+      Stretch one{numbers[i].first, numbers[j].first, numbers[j].second - numbers[i].second, 0.0};
       if (one.n < fewest) continue;
-      one.departure = cumulative.departure(i * fine, j * fine);
-      if (one.departure > tolerance) continue;
-      one.from = cumulative.time(i * fine);
-      one.to = cumulative.time(j * fine);
-      candidates.push_back(one);
+      // From a straight line between two steps, seen at the steps.
+      for (std::size_t k = i; k <= j; ++k)
+        one.departure = std::max(
+            one.departure, std::fabs(count(i, k) / count(i, j) -
+                                     static_cast<double>(k - i) / static_cast<double>(j - i)));
+      if (one.departure <= tolerance) candidates.push_back(one);
     }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Stretch &a, const Stretch &b) { return a.n > b.n; });
@@ -217,7 +189,6 @@ double burstiness_of(double variation) { return (variation - 1.0) / (variation +
 
 Clustering clustering(const std::vector<double> &times, int replicas, std::uint64_t seed) {
   Clustering out;
-  out.n = static_cast<std::int64_t>(times.size());
   if (times.size() < fewest_times || !(mean_of(times) > 0.0)) return out;
   const auto n = static_cast<double>(times.size());
   const double r = variation_of(times);
@@ -264,7 +235,7 @@ Steadiness steadiness(const std::vector<double> &starts, double tolerance, std::
   Steadiness out;
   if (starts.size() < 20) return out;
   out.whole = {starts.front(), starts.back(), static_cast<std::int64_t>(starts.size()),
-               departure_of(starts, starts.front(), starts.back())};
+               departure_of(starts)};
   const std::vector<double> times = differences(starts);
   const std::size_t block = block_of(times);
   std::vector<std::size_t> order((times.size() + block - 1) / block);
@@ -277,7 +248,7 @@ Steadiness steadiness(const std::vector<double> &starts, double tolerance, std::
     for (const std::size_t one : order)
       for (std::size_t i = one * block; i < std::min(times.size(), (one + 1) * block); ++i)
         again.push_back(again.back() + times[i]);
-    if (departure_of(again, again.front(), again.back()) >= out.whole.departure) as_far += 1.0;
+    if (departure_of(again) >= out.whole.departure) as_far += 1.0;
   }
   if (replicas > 0) out.p = as_far / (replicas + 1.0);
   out.steady = steady_stretches(starts, tolerance, fewest);
@@ -293,32 +264,31 @@ AroundLarge around_large(const std::vector<double> &starts, const std::vector<do
   std::sort(sorted.begin(), sorted.end(), std::greater<double>());
   const double least =
       sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
-  double before = 0.0, after = 0.0;
+  double large = 0.0, before = 0.0, after = 0.0;
   for (std::size_t i = 0; i < starts.size(); ++i) {
     if (sizes[i] < least) continue;
-    ++out.large;
+    large += 1.0;
     for (std::size_t j = i; j-- > 0 && starts[i] - starts[j] < mean;) before += 1.0;
     for (std::size_t j = i + 1; j < starts.size() && starts[j] - starts[i] < mean; ++j)
       after += 1.0;
   }
-  out.before = before / static_cast<double>(out.large);
-  out.after = after / static_cast<double>(out.large);
+  out.before = before / large;
+  out.after = after / large;
   return out;
 }
 
-RescaledDistance rescaled_distance(const std::vector<double> &first,
-                                   const std::vector<double> &second, int replicas,
-                                   std::uint64_t seed) {
-  RescaledDistance out;
+Measured rescaled_distance(const std::vector<double> &first, const std::vector<double> &second,
+                           int replicas, std::uint64_t seed) {
+  Measured out;
   if (first.size() < fewest_times || second.size() < fewest_times) return out;
-  out.distance = two_sample_distance(over_mean(first), over_mean(second));
+  out.value = two_sample_distance(over_mean(first), over_mean(second));
   const std::size_t block1 = block_of(first), block2 = block_of(second);
   Random random(seed);
   std::vector<double> again;
   for (int k = 0; k < replicas; ++k)
     again.push_back(two_sample_distance(over_mean(resampled(first, block1, random)),
                                         over_mean(resampled(second, block2, random))));
-  if (replicas > 1) out.error = against(out.distance, again).deviation;
+  if (replicas > 1) out.error = against(out.value, again).deviation;
   return out;
 }
 

@@ -15,6 +15,8 @@
 #include <utility>
 #include <vector>
 
+#include "samples.h"
+
 namespace LSM::postproc {
 
 /// Groups of the times by length, equally many in each.
@@ -42,7 +44,6 @@ struct AgainstChance {
 };
 
 struct Clustering {
-  std::int64_t n = 0;  ///< times
   /// Standard deviation over mean, r. Random: independent exponential times.
   AgainstChance variation;
   double burstiness = NAN;
@@ -95,9 +96,8 @@ Steadiness steadiness(const std::vector<double> &starts, double tolerance, std::
 
 /// Events around large ones, over the number that the mean rate has there.
 struct AroundLarge {
-  std::int64_t large = 0;  ///< events that were looked around
-  double before = NAN;     ///< within one mean time before them
-  double after = NAN;      ///< within one mean time after them
+  double before = NAN;  ///< within one mean time before them
+  double after = NAN;   ///< within one mean time after them
 };
 
 /// \param starts, sizes of all events, in order of time
@@ -107,15 +107,9 @@ AroundLarge around_large(const std::vector<double> &starts, const std::vector<do
 
 /// Kolmogorov-Smirnov distance of two series, each divided by its mean, and its standard deviation
 /// when blocks of consecutive values are resampled (circular block bootstrap, block_length()).
-struct RescaledDistance {
-  double distance = NAN;
-  double error = NAN;
-};
-
-/// \param first, second at least 12 values each
-RescaledDistance rescaled_distance(const std::vector<double> &first,
-                                   const std::vector<double> &second, int replicas,
-                                   std::uint64_t seed);
+/// \param first, second at least 12 values each, else NaN
+Measured rescaled_distance(const std::vector<double> &first, const std::vector<double> &second,
+                           int replicas, std::uint64_t seed);
 
 }  // namespace LSM::postproc
 

@@ -24,7 +24,7 @@ SizeDensity density_of(const EventTable &table, const DensitySettings &settings)
   const std::vector<double> sizes = column(table.events, &Event::size);
   if (sizes.empty()) return out;
   out.largest = *std::max_element(sizes.begin(), sizes.end());
-  out.bins = LogHistogram(sizes, settings.factor).bins(least, settings.upto);
+  out.bins = log_histogram(sizes, settings.factor, least, settings.upto);
   for (const LogBin &bin : out.bins) out.events += bin.count;
   return out;
 }

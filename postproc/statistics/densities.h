@@ -19,7 +19,7 @@ namespace LSM::postproc {
 struct DensitySettings {
   Threshold threshold;                                    ///< smallest size (model energy)
   double upto = std::numeric_limits<double>::infinity();  ///< largest size
-  double factor = LogHistogram::default_factor;           ///< ratio of the edges of a bin
+  double factor = usual_bin_factor;                       ///< ratio of the edges of a bin
 };
 
 /// The sizes of one catalogue. The range applies to them as they are in the catalogue.

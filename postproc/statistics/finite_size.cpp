@@ -68,15 +68,11 @@ Saturation fit_saturation(const LogPoints &points, double sharpness) {
   Saturation fit;
   fit.m = sharpness;
   const std::size_t n = points.x.size();
-  if (n < 5) {
-    fit.why = std::to_string(n) + " usable points, at least 5 needed";
-    return fit;
-  }
+  if (n < 5) return without_numbers(fit, std::to_string(n) + " usable points, at least 5 needed");
   const Numbers steps = steps_of(points.x);
-  if (steps.size() < 4) {
-    fit.why = std::to_string(steps.size()) + " different lengths, at least 4 needed";
-    return fit;
-  }
+  if (steps.size() < 4)
+    return without_numbers(fit,
+                           std::to_string(steps.size()) + " different lengths, at least 4 needed");
   const LeastSquares best = least_squares(
       points.weight, bends_at(steps, points), [&](std::size_t i, const Numbers &p, Numbers &slope) {
         return saturating(points.x[i], p, sharpness, slope) - points.y[i];
@@ -179,46 +175,24 @@ class Ring {
   double duration_;
 };
 
-// Events of at least a size, in order of time.
-struct Kept {
-  std::vector<double> times, sizes;
-};
-
 // Reason why a characteristic size means nothing for these, or "".
-std::string too_few_or_equal(const Kept &kept) {
-  if (kept.sizes.size() < 10)
-    return std::to_string(kept.sizes.size()) + " events above the threshold, at least 10 needed";
-  const auto [least, greatest] = std::minmax_element(kept.sizes.begin(), kept.sizes.end());
+std::string too_few_or_equal(const std::vector<double> &times, const std::vector<double> &sizes) {
+  if (sizes.size() < 10)
+    return std::to_string(sizes.size()) + " events above the threshold, at least 10 needed";
+  const auto [least, greatest] = std::minmax_element(sizes.begin(), sizes.end());
   if (*least == *greatest) return "all events have the same size";
-  if (!(kept.times.back() > kept.times.front())) return "all events begin at the same time";
+  if (!(times.back() > times.front())) return "all events begin at the same time";
   return {};
 }
 
-void check(const std::vector<double> &t_start, const std::vector<double> &sizes, double threshold,
-           double length, const Resampling &resampling) {
-  const auto expect = [](bool met, const std::string &what) {
-    if (!met) throw std::invalid_argument("characteristic size: " + what);
-  };
-  expect(resampling.replicas >= 2,
-         std::to_string(resampling.replicas) + " replicas, expected at least 2");
-  expect(t_start.size() == sizes.size() && std::is_sorted(t_start.begin(), t_start.end()),
-         "expected one time for each size, in ascending order");
-  expect(
-      std::isnan(resampling.block) || (resampling.block >= 0.0 && std::isfinite(resampling.block)),
-      "block of " + number(resampling.block) + ", expected a finite time of at least 0");
-  expect(threshold >= 0.0 && std::isfinite(threshold),
-         "threshold " + number(threshold) + ", expected a finite number of at least 0");
-  expect(length > 0.0 && std::isfinite(length),
-         "length " + number(length) + ", expected a positive finite number");
-}
-
 // Length of the blocks by the correlation of what the events add to the ratio.
-double block_of(const Kept &kept, const Ring &ring, const std::vector<double> &influences) {
+double block_of(const std::vector<double> &times, const Ring &ring,
+                const std::vector<double> &influences) {
   // As many bins as events: one in each on average.
   std::vector<double> bins(influences.size(), 0.0);
   const auto count = static_cast<double>(bins.size());
   for (std::size_t i = 0; i < bins.size(); ++i) {
-    const double at = (kept.times[i] - kept.times.front()) / ring.duration() * count;
+    const double at = (times[i] - times.front()) / ring.duration() * count;
     bins[std::min(static_cast<std::size_t>(at), bins.size() - 1)] += influences[i];
   }
   return block_length(bins) * ring.duration() / count;
@@ -256,53 +230,47 @@ double resampled(const Ring &ring, const std::vector<double> &sizes, const SizeP
 
 }  // namespace
 
-SizePoint characteristic_size(const std::vector<double> &t_start, const std::vector<double> &sizes,
-                              double threshold, double length, const Resampling &resampling) {
-  check(t_start, sizes, threshold, length, resampling);
-  Kept kept;
-  for (std::size_t i = 0; i < sizes.size(); ++i) {
-    if (!(sizes[i] > 0.0 && sizes[i] >= threshold && std::isfinite(sizes[i]))) continue;
-    kept.sizes.push_back(sizes[i]);
-    kept.times.push_back(t_start[i]);
+SizePoint characteristic_size(const std::vector<double> &t_start,
+                              const std::vector<double> &all_sizes, double threshold, double length,
+                              const Resampling &resampling) {
+  std::vector<double> times, sizes;
+  for (std::size_t i = 0; i < all_sizes.size(); ++i) {
+    const double size = all_sizes[i];
+    if (!(size > 0.0 && size >= threshold && std::isfinite(size))) continue;
+    sizes.push_back(size);
+    times.push_back(t_start[i]);
   }
   SizePoint point;
   point.length = length;
-  point.n = static_cast<std::int64_t>(kept.sizes.size());
-  point.why = too_few_or_equal(kept);
+  point.n = static_cast<std::int64_t>(sizes.size());
+  point.why = too_few_or_equal(times, sizes);
   if (!point.why.empty()) return point;
   point.degenerate = false;
-  const Ring ring(kept.times, kept.sizes);
+  const Ring ring(times, sizes);
   point.s_star = ring.all().s2 / ring.all().s;
   // What each event adds to the deviation of the ratio, to first order.
   std::vector<double> influences;
-  for (double size : kept.sizes)
+  for (double size : sizes)
     influences.push_back((size * size - point.s_star * size) / ring.all().s);
   point.error_independent =
       std::sqrt(gsl_stats_tss_m(influences.data(), 1, influences.size(), 0.0));
-  point.block = std::isnan(resampling.block) ? block_of(kept, ring, influences) : resampling.block;
+  point.block = std::isnan(resampling.block) ? block_of(times, ring, influences) : resampling.block;
   if (point.block > 0.0) {
-    point.blocks = blocks_in(ring, point.block, kept.sizes.size());
+    point.blocks = blocks_in(ring, point.block, sizes.size());
     point.block = ring.duration() / point.blocks;
   }
   const Rng rng = generator(resampling.seed);
   std::vector<double> deviations;
   for (int replica = 0; replica < resampling.replicas; ++replica)
-    deviations.push_back(resampled(ring, kept.sizes, point, rng.get()) - point.s_star);
+    deviations.push_back(resampled(ring, sizes, point, rng.get()) - point.s_star);
   point.error = gsl_stats_sd(deviations.data(), 1, deviations.size());
   return point;
 }
 
 const char *to_string(SizeDependence dependence) {
-  switch (dependence) {
-    case SizeDependence::power_law:
-      return "power law in the length";
-    case SizeDependence::none:
-      return "no dependence on the length";
-    case SizeDependence::saturates:
-      return "growth that ends at a length";
-    default:
-      return "undecided";
-  }
+  constexpr const char *names[] = {"power law in the length", "no dependence on the length",
+                                   "undecided", "growth that ends at a length"};
+  return names[static_cast<int>(dependence)];
 }
 
 ScalingFit fit_scaling(const std::vector<SizePoint> &points) {
@@ -316,15 +284,10 @@ ScalingFit fit_scaling(const std::vector<SizePoint> &points) {
   }
   ScalingFit fit;
   fit.points = static_cast<int>(x.size());
-  if (fit.points < 4) {
-    fit.why = std::to_string(fit.points) + " usable lengths, at least 4 needed";
-    return fit;
-  }
+  if (fit.points < 4)
+    return without_numbers(fit, std::to_string(fit.points) + " usable lengths, at least 4 needed");
   const auto [shortest, longest] = std::minmax_element(x.begin(), x.end());
-  if (*longest - *shortest < 1e-9) {
-    fit.why = "all models have the same length";
-    return fit;
-  }
+  if (*longest - *shortest < 1e-9) return without_numbers(fit, "all models have the same length");
   fit.degenerate = false;
   double log_a = 0.0, variance_a = 0.0, covariance = 0.0, variance_d = 0.0;
   gsl_fit_wlinear(x.data(), 1, weight.data(), 1, y.data(), 1, x.size(), &log_a, &fit.D, &variance_a,

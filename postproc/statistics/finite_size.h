@@ -43,10 +43,8 @@ struct Resampling {
 /// begin at random times, together as long as the catalogue. Event by event it would leave out the
 /// correlation of events near to each other.
 /// \param t_start of the events, in ascending order
-/// \throws std::invalid_argument for fewer than 2 replicas; a length, threshold or block that is
-/// not positive and finite (threshold and block may be 0); a block longer than half the catalogue
-/// or shorter than a hundredth of the mean interval;
-/// times that are not ascending, or not as many as sizes
+/// \throws std::invalid_argument for a block longer than half the catalogue or shorter than a
+/// hundredth of the mean interval
 SizePoint characteristic_size(const std::vector<double> &t_start, const std::vector<double> &sizes,
                               double threshold, double length, const Resampling &resampling = {});
 

@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <numeric>
 #include <stdexcept>
 
@@ -114,9 +116,9 @@ void check_delta(double fixed) {
 // ---- maximum likelihood
 
 struct Profile {
-  double delta = 1.0, gamma = 0.0, v0 = 0.0;
+  double delta = 1.0, gamma = 0.0;
+  double v0 = 0.0;                    // infinite: best without any fall-off
   double log_likelihood = -HUGE_VAL;  // per value, density in v
-  bool border = false;                // best without any fall-off
 };
 
 // A law cut off below v = lower, which may be -infinity.
@@ -202,10 +204,9 @@ class Likelihood {
       const double lower = lower_;
       const double mean_t = mean([&](double v) { return std::exp(delta * (v - lower)); });
       const TiltedFit fit = fit_tilted({delta}, mean_v_ - lower, mean_t, HUGE_VAL);
-      result.border = fit.border;
       if (!fit.converged) return result;
       result.gamma = fit.b;
-      result.v0 = fit.border ? HUGE_VAL : lower - std::log(fit.c) / delta;
+      result.v0 = lower - std::log(fit.c) / delta;
       result.log_likelihood = fit.log_likelihood;
       return result;
     }
@@ -240,7 +241,7 @@ class Likelihood {
       return a.log_likelihood < b.log_likelihood;
     });
     const Profile result = *top;
-    if (top == scan.begin() || top == scan.end() - 1 || result.border) return result;
+    if (top == scan.begin() || top == scan.end() - 1 || std::isinf(result.v0)) return result;
     gsl_function function;
     function.params = const_cast<Likelihood *>(this);
     function.function = [](double x, void *self) {
@@ -279,79 +280,34 @@ class Likelihood {
   double lower_, n_, mean_v_ = 0.0;
 };
 
-// Derivatives of ln f at v without the constant: first in slope, second in curvature.
-void derivatives(double v, double delta, double v0, Vector &slope, Matrix &curvature) {
-  const double w = delta * (v - v0), s = std::exp(w);
-  slope = {0.0, v, delta * s, -s * w};
-  curvature = {};
-  curvature[log_delta][log_delta] = -s * w * (1.0 + w);
-  curvature[log_delta][scale] = curvature[scale][log_delta] = delta * s * (1.0 + w);
-  curvature[scale][scale] = -delta * delta * s;
-}
+// Derivatives of ln f without the constant.
+struct Derivatives {
+  Derivatives(double v, const Profile &law) {
+    const double delta = law.delta, w = delta * (v - law.v0), s = std::exp(w);
+    first = {0.0, v, delta * s, -s * w};
+    second[log_delta][log_delta] = -s * w * (1.0 + w);
+    second[log_delta][scale] = second[scale][log_delta] = delta * s * (1.0 + w);
+    second[scale][scale] = -delta * delta * s;
+  }
+  Vector first;
+  Matrix second{};
+};
 
 // Draws from a law.
-class Sampler {
- public:
-  explicit Sampler(const Law &law) : law_(law) {
-    if (!law.truncated()) return;
-    // k may be 0 or less: the distribution on so many points that a straight line from one to the
-    // next is off by less than 1e-5.
-    constexpr std::size_t points = 8192;
-    const double first = law.lower(), width = (law.end() - first) / (points - 1);
-    for (std::size_t i = 0; i < points; ++i) {
-      at_.push_back(first + width * static_cast<double>(i));
-      cdf_.push_back(1.0 - law.survival(at_.back()));
-    }
-    cdf_.front() = 0.0;
+std::function<double(gsl_rng *)> sampler_of(const Law &law) {
+  if (!law.truncated()) return [law](gsl_rng *rng) { return law.draw(rng); };
+  // k may be 0 or less: the distribution on so many points that a straight line from one to the
+  // next is off by less than 1e-5.
+  constexpr std::size_t points = 8192;
+  const double first = law.lower(), width = (law.end() - first) / (points - 1);
+  std::vector<double> at, cdf;
+  for (std::size_t i = 0; i < points; ++i) {
+    at.push_back(first + width * static_cast<double>(i));
+    cdf.push_back(1.0 - law.survival(at.back()));
   }
-
-  double operator()(gsl_rng *rng) const {
-    if (at_.empty()) return law_.draw(rng);
-    return interpolate(cdf_, at_, gsl_rng_uniform(rng) * cdf_.back());
-  }
-
- private:
-  Law law_;
-  std::vector<double> at_, cdf_;
-};
-
-// The test of a fit to many values: data and replicas by the same cells.
-class CellTest {
- public:
-  // \param n values \param held delta, NaN if it is free
-  CellTest(const Law &law, double gamma, double n, double held)
-      : lower_(law.lower()),
-        held_(held),
-        // A thousandth of a value is below the first edge.
-        cells_([&law](double v) { return law.survival(v); },
-               {law.truncated() ? law.lower() : std::log(1e-3 / n) / gamma, law.end()}, n) {}
-
-  const Cells &cells() const { return cells_; }
-
-  // Distance of the law that fits counts best.
-  double distance(const std::vector<double> &counts) const {
-    const Profile best = Likelihood(cells_.centres(), counts, lower_).best(held_);
-    if (!std::isfinite(best.log_likelihood)) return HUGE_VAL;
-    std::vector<double> below(counts.size() + 1);
-    std::partial_sum(counts.begin(), counts.end(), below.begin() + 1);
-    return Law(best, lower_).distance({cells_.edges().data(), below.size(), below.data()});
-  }
-
- private:
-  double lower_, held_;
-  Cells cells_;
-};
-
-// A fit in units in which B is 1, on which distances do not depend.
-Law scaled(const GeneralisedGammaFit &fit) {
-  const double lower = fit.lo > 0.0 ? std::log(fit.lo) - std::log(fit.B) / fit.delta : -HUGE_VAL;
-  return {fit.gamma, fit.delta, 0.0, lower};
-}
-
-double held_delta(const GeneralisedGammaFit &fit) { return fit.delta_fixed ? fit.delta : NAN; }
-
-CellTest cell_test(const GeneralisedGammaFit &fit) {
-  return {scaled(fit), fit.gamma, static_cast<double>(fit.n), held_delta(fit)};
+  cdf.front() = 0.0;
+  return
+      [at, cdf](gsl_rng *rng) { return interpolate(cdf, at, gsl_rng_uniform(rng) * cdf.back()); };
 }
 
 // Logarithms of the values from lo on.
@@ -385,26 +341,21 @@ std::string no_density(const Likelihood &likelihood, const Profile &best, bool d
 SymmetricMatrix information_at(const Profile &law, const Likelihood &likelihood,
                                const TabulatedDensity &table, bool delta_fixed,
                                Numbers &mean_slope) {
-  Vector slope;
-  Matrix second, of_law{};
-  for (std::size_t i = 0; i < table.u.size(); ++i) {
-    derivatives(table.u[i], law.delta, law.v0, slope, second);
-    for (std::size_t a = shape; a < parameters; ++a) {
-      mean_slope[a] += table.p[i] * slope[a];
-      for (std::size_t b = shape; b < parameters; ++b)
-        of_law[a][b] += table.p[i] * (slope[a] * slope[b] + second[a][b]);
-    }
-  }
+  for (std::size_t a = shape; a < parameters; ++a)
+    mean_slope[a] = table.mean([&](double v) { return Derivatives(v, law).first[a]; });
   SymmetricMatrix information(delta_fixed ? 2 : 3);
   for (std::size_t i = 0; i < information.n; ++i)
     for (std::size_t j = 0; j <= i; ++j) {
       const std::size_t a = shape + i, b = shape + j;
-      const double of_data = b == shape ? 0.0 : likelihood.mean([&](double v) {
-        derivatives(v, law.delta, law.v0, slope, second);
-        return second[a][b];
+      const double of_law = table.mean([&](double v) {
+        const Derivatives at(v, law);
+        return at.first[a] * at.first[b] + at.second[a][b];
       });
+      const double of_data =
+          b == shape ? 0.0
+                     : likelihood.mean([&](double v) { return Derivatives(v, law).second[a][b]; });
       information(i, j) = information(j, i) =
-          likelihood.n() * (of_law[a][b] - mean_slope[a] * mean_slope[b] - of_data);
+          likelihood.n() * (of_law - mean_slope[a] * mean_slope[b] - of_data);
     }
   return information;
 }
@@ -436,13 +387,8 @@ constexpr std::int64_t fewest_counts = 5;
 // Bins with fewer counts are left out: their logarithms are biased.
 std::vector<LogBin> usable(const std::vector<LogBin> &bins) {
   std::vector<LogBin> used;
-  for (const LogBin &bin : bins) {
-    if (!(bin.lo > 0.0 && bin.hi > bin.lo && std::isfinite(bin.hi) && bin.count >= 0 &&
-          bin.density >= 0.0))
-      throw std::invalid_argument("generalised gamma: bin " + number(bin.lo) + " to " +
-                                  number(bin.hi) + ", expected 0 < lower < upper and a density");
-    if (bin.count >= fewest_counts && bin.density > 0.0) used.push_back(bin);
-  }
+  std::copy_if(bins.begin(), bins.end(), std::back_inserter(used),
+               [](const LogBin &bin) { return bin.count >= fewest_counts; });
   return used;
 }
 
@@ -507,40 +453,26 @@ GeneralisedGammaFit fit_maximum_likelihood(const std::vector<double> &values, do
                                            double delta) {
   check_delta(delta);
   const QuietGsl quiet;
-  if (!(lo >= 0.0 && std::isfinite(lo)))
-    throw std::invalid_argument("generalised gamma: left truncation " + number(lo) +
-                                ", expected a finite number of at least 0");
   GeneralisedGammaFit fit;
   fit.lo = lo;
   fit.delta_fixed = !std::isnan(delta);
   std::vector<double> v = logs_from(lo, values);
   fit.n = static_cast<std::int64_t>(v.size());
-  if (fit.n < 20) {
-    fit.why = number(fit.n) + " values, at least 20 needed";
-    return fit;
-  }
+  if (fit.n < 20) return without_numbers(fit, number(fit.n) + " values, at least 20 needed");
   NeumaierSum sum;
   for (double v_i : v) sum.add(v_i);
   const double reference = sum.value() / static_cast<double>(v.size());
   for (double &v_i : v) v_i -= reference;
   const auto [least, greatest] = std::minmax_element(v.begin(), v.end());
-  if (!(*greatest - *least > 1e-9)) {
-    fit.why = "all values are equal";
-    return fit;
-  }
+  if (!(*greatest - *least > 1e-9)) return without_numbers(fit, "all values are equal");
   Likelihood likelihood(std::move(v), lo > 0.0 ? std::log(lo) - reference : -HUGE_VAL);
   const Profile best = likelihood.best(delta);
   fit.why = no_density(likelihood, best, fit.delta_fixed);
   if (fit.why.empty()) report(likelihood, best, reference, fit);
   if (!fit.why.empty()) return fit;
   fit.log_likelihood = likelihood.n() * (best.log_likelihood - likelihood.mean_v() - reference);
-  std::vector<double> sorted = likelihood.sort();
+  const std::vector<double> &sorted = likelihood.sort();
   fit.ks = Law(best, likelihood.lower()).distance({sorted.data(), sorted.size()});
-  if (fit.n > largest_exact_sample) {
-    for (double &v_i : sorted) v_i -= best.v0;
-    const CellTest test = cell_test(fit);
-    fit.ks_by_cells = test.distance(test.cells().count(sorted));
-  }
   return fit;
 }
 
@@ -556,11 +488,10 @@ GeneralisedGammaFit fit_least_squares(const std::vector<LogBin> &bins, double de
     fit.n += bin.count;
     sum += static_cast<double>(bin.count) * std::log(bin.centre);
   }
-  if (fit.dof < 1) {
-    fit.why = std::to_string(used.size()) + " bins with at least " + number(fewest_counts) +
-              " counts, more than " + std::to_string(free_parameters) + " needed";
-    return fit;
-  }
+  if (fit.dof < 1)
+    return without_numbers(fit, std::to_string(used.size()) + " bins with at least " +
+                                    number(fewest_counts) + " counts, more than " +
+                                    std::to_string(free_parameters) + " needed");
   fit.lo = used.front().lo;
   const double reference = sum / static_cast<double>(fit.n);
   const std::vector<BinnedDensity> data = binned_densities(used, reference);
@@ -601,26 +532,36 @@ GeneralisedGammaFit fit_least_squares(const std::vector<LogBin> &bins, double de
   return fit;
 }
 
-double p_value(const GeneralisedGammaFit &fit, int replicas, std::uint64_t seed) {
+double p_value(const GeneralisedGammaFit &fit, const std::vector<double> &values, int replicas,
+               std::uint64_t seed) {
   if (fit.degenerate)
     throw std::invalid_argument("p-value of a degenerate generalised gamma density: " + fit.why);
-  if (replicas < 0)
-    throw std::invalid_argument("p-value: " + std::to_string(replicas) +
-                                " replicas, expected at least 0");
   if (fit.dof > 0) return gsl_cdf_chisq_Q(fit.chi2, fit.dof);
   if (replicas == 0) return NAN;
   const QuietGsl quiet;
   const auto n = static_cast<std::size_t>(fit.n);
+  // In units in which B is 1, on which distances do not depend.
+  const double unit = std::log(fit.B) / fit.delta, held = fit.delta_fixed ? fit.delta : NAN;
+  const Law law(fit.gamma, fit.delta, 0.0, fit.lo > 0.0 ? std::log(fit.lo) - unit : -HUGE_VAL);
   // Whether the data would have been called degenerate does not matter: any optimum is a fit.
   if (fit.n > largest_exact_sample) {
-    const CellTest test = cell_test(fit);
-    return share_of_replicas(replicas, [&](int replica) {
-      const Rng rng = generator(seed_of_replica(seed, replica));
-      return !(test.distance(test.cells().draw(rng.get(), n)) < fit.ks_by_cells);
+    std::vector<double> v = logs_from(fit.lo, values);
+    for (double &v_i : v) v_i -= unit;
+    std::sort(v.begin(), v.end());
+    // A thousandth of a value is below the first edge.
+    const double first =
+        law.truncated() ? law.lower() : std::log(1e-3 / static_cast<double>(n)) / fit.gamma;
+    const Cells cells([&law](double x) { return law.survival(x); }, {first, law.end()},
+                      static_cast<double>(n));
+    return cells.share_as_far(v, replicas, seed, [&](const std::vector<double> &counts) {
+      const Profile best = Likelihood(cells.centres(), counts, law.lower()).best(held);
+      if (!std::isfinite(best.log_likelihood)) return HUGE_VAL;
+      std::vector<double> below(counts.size() + 1);
+      std::partial_sum(counts.begin(), counts.end(), below.begin() + 1);
+      return Law(best, law.lower()).distance({cells.edges().data(), below.size(), below.data()});
     });
   }
-  const Law law = scaled(fit);
-  const Sampler sampler(law);
+  const auto sampler = sampler_of(law);
   const Rng rng = generator(seed);
   const auto draw = [&] {
     std::vector<double> v(n);
@@ -629,7 +570,7 @@ double p_value(const GeneralisedGammaFit &fit, int replicas, std::uint64_t seed)
   };
   return share_of_draws(replicas, draw, [&](std::vector<double> v) {
     Likelihood likelihood(std::move(v), law.lower());
-    const Profile best = likelihood.best(held_delta(fit));
+    const Profile best = likelihood.best(held);
     const SamplePoints sorted{likelihood.sort().data(), n};
     return !std::isfinite(best.log_likelihood) ||
            !(Law(best, law.lower()).distance(sorted) < fit.ks);

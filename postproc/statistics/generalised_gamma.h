@@ -26,9 +26,6 @@ struct GeneralisedGammaFit {
   /// Kolmogorov-Smirnov distance, maximum likelihood only. Parameters fitted to the same values
   /// make it small: tables for given parameters do not apply, see p_value().
   double ks = NAN;
-  /// The same at the edges of the cells by which p_value() takes more than largest_exact_sample
-  /// values, and of the fit to these; NaN for fewer.
-  double ks_by_cells = NAN;
   double chi2 = NAN;       ///< least squares only
   int dof = 0;             ///< least squares: bins used minus free parameters
   bool degenerate = true;  ///< the data do not determine the parameters; do not show the numbers
@@ -41,8 +38,8 @@ struct GeneralisedGammaFit {
 /// sqrt(chi2 / dof) where that exceeds 1. Bins with few counts get in more often when they are too
 /// high, which leaves gamma too low by up to one standard error below about 1000 values: prefer
 /// maximum likelihood. Bins of less than 5 counts are left out (their logarithms are biased).
-/// \param delta value at which it is held; NaN: free \throws std::invalid_argument for impossible
-/// bins, or delta outside 0.1 to 10
+/// \param delta value at which it is held; NaN: free \throws std::invalid_argument for delta
+/// outside 0.1 to 10
 GeneralisedGammaFit fit_least_squares(const std::vector<LogBin> &bins, double delta = NAN);
 
 /// Maximum likelihood with C from normalisation over [lo, infinity); values below lo are not used;
@@ -63,9 +60,10 @@ GeneralisedGammaFit fit_maximum_likelihood(const std::vector<double> &values, do
 /// fitted density. Least squares: from chi2 and dof, without random numbers. Maximum likelihood:
 /// the fraction of synthetic samples, each fitted as the data were, whose Kolmogorov-Smirnov
 /// distance is at least that of the data, (k + 1) / (replicas + 1); its standard error is sqrt(p (1
-/// - p) / replicas). NaN for maximum likelihood without replicas. \throws std::invalid_argument if
-/// the fit is degenerate, or for fewer than 0 replicas
-double p_value(const GeneralisedGammaFit &fit, int replicas, std::uint64_t seed);
+/// - p) / replicas). NaN for maximum likelihood without replicas. \param values those fitted
+/// \throws std::invalid_argument if the fit is degenerate
+double p_value(const GeneralisedGammaFit &fit, const std::vector<double> &values, int replicas,
+               std::uint64_t seed);
 
 }  // namespace LSM::postproc
 

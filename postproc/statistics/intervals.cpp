@@ -20,9 +20,9 @@ const GeneralisedGammaFit *IntervalCurve::drawn() const {
   return nullptr;
 }
 
-std::string IntervalCurve::from() const {
-  return earthquakes ? fmt::format("magnitudes >= {:.3g}", std::log10(threshold.size) / 1.5)
-                     : fmt::format("sizes >= {:.4g}", threshold.size);
+std::string events_from_text(bool earthquakes, double least) {
+  return earthquakes ? fmt::format("magnitudes >= {:.3g}", std::log10(least) / 1.5)
+                     : fmt::format("sizes >= {:.4g}", least);
 }
 
 std::vector<double> inter_event_times(const EventTable &events, double threshold) {
@@ -94,12 +94,10 @@ void add_clustering(IntervalCurve &curve, const EventTable &table, const std::ve
   curve.starts = column_from(table, curve.threshold.size, &Event::t_start);
   curve.steadiness =
       steadiness(curve.starts, settings.steady, settings.steady_events, shuffles, settings.seed);
-  const auto after = times_after_thirds(times);
+  auto after = times_after_thirds(times);
   for (std::size_t k = 0; k < after.size(); ++k) {
-    LogHistogram histogram(std::pow(10.0, 0.2));
-    for (const double time : after[k])
-      if (time > 0.0) histogram.add(time / curve.mean);
-    curve.after[k] = histogram.bins();
+    for (double &time : after[k]) time /= curve.mean;
+    curve.after[k] = log_histogram(after[k], std::pow(10.0, 0.2));
   }
 }
 
@@ -117,8 +115,8 @@ std::vector<IntervalFit> fits_of(const std::vector<double> &times, const std::ve
   }
   for (IntervalFit &fit : fits) {
     if (fit.fit.degenerate) continue;
-    fit.p = p_value(fit.fit, settings.replicas, settings.seed);
-    if (fit.fit.dof == 0) fit.p_error = std::sqrt(fit.p * (1.0 - fit.p) / settings.replicas);
+    fit.p.value = p_value(fit.fit, times, settings.replicas, settings.seed);
+    if (fit.fit.dof == 0) fit.p = share_of(fit.p.value, settings.replicas);
   }
   return fits;
 }
@@ -142,7 +140,7 @@ IntervalCurve curve_of(const EventTable &table, const Threshold &threshold,
   times = positive_ones(std::move(times));
   if (settings.rescale)
     for (double &time : times) time /= curve.mean;
-  curve.bins = LogHistogram(times, settings.factor).bins();
+  curve.bins = log_histogram(times, settings.factor);
   const double shortest =
       times.empty() ? 0.0 : settings.shortest * (settings.rescale ? 1.0 : curve.mean);
   curve.fits = fits_of(times, curve.bins, shortest, settings);
@@ -155,8 +153,6 @@ std::vector<IntervalCurve> interval_curves(const std::vector<EventTable> &tables
                                            const IntervalSettings &settings) {
   if (!(settings.shortest >= 0.0) || !std::isfinite(settings.shortest))
     throw std::invalid_argument("shortest time: expected a multiple of the mean of zero or more");
-  if (settings.places < 0 || settings.replicas < 0)
-    throw std::invalid_argument("inter-event times: expected 0 or more places and replicas");
   std::vector<Threshold> thresholds(settings.thresholds.begin(), settings.thresholds.end());
   if (thresholds.empty()) thresholds.emplace_back();
   std::vector<IntervalCurve> curves;

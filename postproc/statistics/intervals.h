@@ -23,8 +23,8 @@ struct IntervalSettings {
   /// Places along the fault, equally spaced: times between events that rupture the same one, those
   /// of all places together; 0: times between any two events.
   int places = 0;
-  bool rescale = false;                          ///< times divided by their mean
-  double factor = LogHistogram::default_factor;  ///< ratio of the edges of a bin
+  bool rescale = false;              ///< times divided by their mean
+  double factor = usual_bin_factor;  ///< ratio of the edges of a bin
   /// Times shorter than this multiple of their mean are not fitted: below it they are those within
   /// sequences, where catalogues also miss events (ours).
   double shortest = 0.05;
@@ -47,10 +47,13 @@ struct IntervalFit {
   std::string method;  ///< "least squares" or "maximum likelihood"
   double held = 0.0;   ///< delta if it was held, NaN if it was free
   GeneralisedGammaFit fit;
-  double p = NAN;  ///< p_value(); NaN: degenerate, no replicas
-  /// Of its Monte Carlo estimate; NaN: least squares, which needs none.
-  double p_error = NAN;
+  /// p_value(); NaN: degenerate, no replicas. The error of its Monte Carlo estimate; NaN: least
+  /// squares, which needs none.
+  Measured p = {};
 };
+
+/// "sizes >= 0.001", of earthquakes "magnitudes >= 2"
+std::string events_from_text(bool earthquakes, double least);
 
 /// One catalogue above one threshold.
 struct IntervalCurve {
@@ -76,8 +79,7 @@ struct IntervalCurve {
 
   /// The fit that is drawn: the first that is not degenerate, or nullptr.
   const GeneralisedGammaFit *drawn() const;
-  /// "sizes >= 0.001", of earthquakes "magnitudes >= 2"
-  std::string from() const;
+  std::string from() const { return events_from_text(earthquakes, threshold.size); }
 };
 
 /// Times from the start of an event to the start of the next one, events smaller than threshold

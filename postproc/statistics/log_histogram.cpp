@@ -2,42 +2,35 @@
 #include "log_histogram.h"
 
 #include <cmath>
+#include <map>
 #include <stdexcept>
 #include <string>
 
 namespace LSM::postproc {
 
-LogHistogram::LogHistogram(double factor) : factor_(factor), log_factor_(std::log(factor)) {
+std::vector<LogBin> log_histogram(const std::vector<double> &values, double factor,
+                                  double threshold, double upto) {
   if (!(factor >= 1.0001 && std::isfinite(factor)))
     throw std::invalid_argument("log-binning: factor " + std::to_string(factor) +
                                 ", expected a finite number of at least 1.0001");
-}
-
-double LogHistogram::edge(std::int64_t n) const {
-  return std::pow(factor_, static_cast<double>(n));
-}
-
-void LogHistogram::add(double value) {
-  if (!(value > 0.0 && std::isfinite(value))) {
-    ++outside_;
-    return;
+  const auto edge = [factor](std::int64_t n) { return std::pow(factor, static_cast<double>(n)); };
+  const double log_factor = std::log(factor);
+  std::map<std::int64_t, std::int64_t> counts;
+  for (const double value : values) {
+    if (!(value > 0.0 && std::isfinite(value))) continue;
+    // The quotient of logarithms can be off by one next to an edge; the edges themselves decide.
+    auto n = static_cast<std::int64_t>(std::floor(std::log(value) / log_factor));
+    if (value < edge(n))
+      --n;
+    else if (value >= edge(n + 1))
+      ++n;
+    ++counts[n];
   }
-  // The quotient of logarithms can be off by one next to an edge; the edges themselves decide.
-  auto n = static_cast<std::int64_t>(std::floor(std::log(value) / log_factor_));
-  if (value < edge(n))
-    --n;
-  else if (value >= edge(n + 1))
-    ++n;
-  ++counts_[n];
-  ++total_;
-}
-
-std::vector<LogBin> LogHistogram::bins(double threshold, double upto) const {
   constexpr double rounding = 1e-9;
   std::vector<LogBin> result;
   double samples = 0.0;
   std::int64_t next = 0;
-  for (const auto &[n, count] : counts_) {
+  for (const auto &[n, count] : counts) {
     if (edge(n) < threshold * (1.0 - rounding) || edge(n + 1) > upto * (1.0 + rounding)) continue;
     if (result.empty()) next = n;
     for (; next <= n; ++next)

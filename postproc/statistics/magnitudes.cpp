@@ -6,9 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <stdexcept>
 
-#include "lsm_sum.h"
+#include "samples.h"
 
 namespace LSM::postproc {
 
@@ -16,26 +15,15 @@ namespace {
 
 constexpr std::int64_t fewest = 10;
 
-void check_width(double width) {
-  if (!(width >= 0.0) || !std::isfinite(width))
-    throw std::invalid_argument(
-        "width of the magnitude bins: expected a finite number of 0 or more");
-}
-
 // Of values from least on; all of them are used.
 BValue estimate(const std::vector<double> &values, double least, double width, const char *what) {
   BValue result;
   result.n = static_cast<std::int64_t>(values.size());
-  if (result.n < fewest) {
-    result.why =
-        std::to_string(result.n) + " " + what + ", at least " + std::to_string(fewest) + " needed";
-    return result;
-  }
+  if (result.n < fewest)
+    return without_numbers(result, std::to_string(result.n) + " " + what + ", at least " +
+                                       std::to_string(fewest) + " needed");
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  if (*low == *high) {
-    result.why = std::string("all ") + what + " are equal";
-    return result;
-  }
+  if (*low == *high) return without_numbers(result, std::string("all ") + what + " are equal");
   const double n = static_cast<double>(values.size());
   NeumaierSum excess;
   for (const double value : values) excess.add(value - least);
@@ -60,44 +48,27 @@ std::vector<double> complete(const std::vector<double> &magnitudes, double compl
 
 double MagnitudeScale::of(double size) const { return slope * std::log10(size) + constant; }
 
-double MagnitudeScale::size(double magnitude) const {
-  return std::pow(10.0, (magnitude - constant) / slope);
-}
-
 double binned(double magnitude, double width) {
   return width > 0.0 ? width * std::floor(magnitude / width + 0.5) : magnitude;
 }
 
 BValue b_value(const std::vector<double> &magnitudes, double completeness, double width) {
-  check_width(width);
   return estimate(complete(magnitudes, completeness, width), completeness, width, "magnitudes");
 }
 
-BValue b_positive(const std::vector<double> &magnitudes, double completeness, double width,
-                  double least) {
-  check_width(width);
-  if (std::isnan(least)) least = width;
-  if (!(least >= 0.0))
-    throw std::invalid_argument("least difference of magnitudes: expected a number of 0 or more");
-  const std::vector<double> kept = complete(magnitudes, completeness, width);
-  std::vector<double> differences;
-  for (std::size_t i = 1; i < kept.size(); ++i) {
-    const double difference = kept[i] - kept[i - 1];
-    // Of continuous magnitudes only those above 0 count, whatever least is.
-    if (difference >= least - 0.5 * width && difference > 0.0) differences.push_back(difference);
-  }
-  return estimate(differences, least, width, "positive differences of magnitudes");
+BValue b_positive(const std::vector<double> &magnitudes, double completeness, double width) {
+  std::vector<double> up;
+  for (const double step : differences(complete(magnitudes, completeness, width)))
+    // Of continuous magnitudes those above 0.
+    if (step >= 0.5 * width && step > 0.0) up.push_back(step);
+  return estimate(up, width, width, "positive differences of magnitudes");
 }
 
-double maximum_curvature(const std::vector<double> &magnitudes, double width, double correction) {
-  if (!(width > 0.0) || !std::isfinite(width))
-    throw std::invalid_argument("width of the magnitude bins: expected a positive finite number");
-  std::map<double, std::int64_t> counts;
-  for (const double m : magnitudes) ++counts[std::floor(m / width + 0.5)];
-  if (counts.empty()) return NAN;
+double maximum_curvature(const std::vector<double> &magnitudes, double width) {
+  const std::vector<MagnitudeCount> counts = magnitude_counts(magnitudes, width);
   const auto fullest = std::max_element(counts.begin(), counts.end(),
-                                        [](auto &a, auto &b) { return a.second < b.second; });
-  return width * fullest->first + correction;
+                                        [](auto &a, auto &b) { return a.count < b.count; });
+  return fullest == counts.end() ? NAN : fullest->magnitude + 0.2;
 }
 
 std::vector<MagnitudeCount> magnitude_counts(const std::vector<double> &magnitudes, double width) {

@@ -23,8 +23,7 @@ namespace LSM::postproc {
 struct MagnitudeScale {
   double slope = 2.0 / 3.0;
   double constant = 0.0;
-  double of(double size) const;         ///< size > 0
-  double size(double magnitude) const;  ///< its inverse
+  double of(double size) const;  ///< size > 0
 };
 
 /// The multiple of width that is nearest, halves upwards; width 0: as it is.
@@ -43,19 +42,17 @@ struct BValue {
 /// Width 0: 1 / (ln 10 (mean - completeness)) (Aki); else ln(1 + width / (mean - completeness)) /
 /// (ln 10 width) (Tinti & Mulargia), for magnitudes that are multiples of width away from it.
 /// Error: ln 10 b^2 sqrt(sum (M - mean)^2 / (n (n - 1))). Unbounded above: a roll-off raises b.
-/// Degenerate: fewer than 10 magnitudes, or all equal. \throws std::invalid_argument for width < 0
+/// Degenerate: fewer than 10 magnitudes, or all equal.
 BValue b_value(const std::vector<double> &magnitudes, double completeness, double width = 0.0);
 
-/// b of the differences between each magnitude and the one before it that are at least least
-/// (default: width), of the magnitudes from completeness on in order of time. Their density falls
-/// with the same b, and they miss less of what is lost just after large events.
-BValue b_positive(const std::vector<double> &magnitudes, double completeness, double width = 0.0,
-                  double least = NAN);
+/// b of the differences between each magnitude and the one before it that are at least width, of
+/// the magnitudes from completeness on in order of time. Their density falls with the same b, and
+/// they miss less of what is lost just after large events.
+BValue b_positive(const std::vector<double> &magnitudes, double completeness, double width = 0.0);
 
-/// Centre of the fullest bin of the given width (the lower one of equals) plus correction, 0.2
-/// after Woessner & Wiemer. NaN without a magnitude. \throws std::invalid_argument unless width > 0
-double maximum_curvature(const std::vector<double> &magnitudes, double width,
-                         double correction = 0.2);
+/// Centre of the fullest bin of a width > 0 (the lower one of equals) plus 0.2, after Woessner &
+/// Wiemer. NaN without a magnitude.
+double maximum_curvature(const std::vector<double> &magnitudes, double width);
 
 /// Events in the bin centred at a magnitude, and from it on.
 struct MagnitudeCount {

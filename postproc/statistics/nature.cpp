@@ -18,53 +18,51 @@ namespace LSM::postproc {
 
 namespace {
 
-/// One catalogue above one smallest size.
-struct Sample {
-  std::vector<double> times, magnitudes;
-  std::vector<std::pair<Measured NatureRow::*, Measured>> numbers;  // the same of all samples
-  std::string why;                                                  // delta cannot be fitted
-};
+/// The numbers of which a row has the means over its catalogues.
+constexpr Measured NatureRow::*averaged[] = {&NatureRow::b,          &NatureRow::variation,
+                                             &NatureRow::burstiness, &NatureRow::memory,
+                                             &NatureRow::before,     &NatureRow::after_short,
+                                             &NatureRow::after,      &NatureRow::gamma,
+                                             &NatureRow::B,          &NatureRow::C,
+                                             &NatureRow::distance,   &NatureRow::free_gamma,
+                                             &NatureRow::free_delta, &NatureRow::free_B,
+                                             &NatureRow::free_C,     &NatureRow::size_distance};
 
-Sample sample_of(const EventTable &table, double threshold, const Sample *reference,
-                 const NatureSettings &settings) {
-  Sample out;
-  const auto add = [&out](Measured NatureRow::*number, double value, double error = NAN) {
-    out.numbers.push_back({number, {value, error}});
-  };
+/// One catalogue above one smallest size; why: delta cannot be fitted.
+NatureRow sample_of(const EventTable &table, double threshold, const NatureRow *reference,
+                    const NatureSettings &settings) {
+  NatureRow out;
   const std::vector<double> sizes = column_from(table, threshold, &Event::size);
   const MagnitudeScale scale;
   for (const double size : sizes) out.magnitudes.push_back(scale.of(size) - scale.of(threshold));
   out.times = over_mean(inter_event_times(table, threshold));
   const Clustering c = clustering(out.times, 1, settings.seed);
-  add(&NatureRow::variation, c.variation.value);
-  add(&NatureRow::burstiness, c.finite_burstiness.value);
-  add(&NatureRow::memory, c.memory.value);
-  add(&NatureRow::after_short, c.after[0].value);
+  out.variation.value = c.variation.value;
+  out.burstiness.value = c.finite_burstiness.value;
+  out.memory.value = c.memory.value;
+  out.after_short.value = c.after[0].value;
   const BValue b = b_value(out.magnitudes, 0.0);
-  add(&NatureRow::b, b.b, b.error);
+  out.b = {b.b, b.error};
   const std::vector<double> positive = positive_ones(out.times);
   const GeneralisedGammaFit fit = fit_with_share(positive, settings.shortest, 1.0);
-  add(&NatureRow::gamma, fit.gamma, fit.se_gamma);
-  add(&NatureRow::B, fit.B, fit.se_B);
-  add(&NatureRow::C, fit.C, fit.se_C);
+  out.gamma = {fit.gamma, fit.se_gamma};
+  out.B = {fit.B, fit.se_B};
+  out.C = {fit.C, fit.se_C};
   const GeneralisedGammaFit free = fit_with_share(positive, settings.shortest, NAN);
-  add(&NatureRow::free_gamma, free.gamma, free.se_gamma);
-  add(&NatureRow::free_delta, free.delta, free.se_delta);
-  add(&NatureRow::free_B, free.B, free.se_B);
-  add(&NatureRow::free_C, free.C, free.se_C);
+  out.free_gamma = {free.gamma, free.se_gamma};
+  out.free_delta = {free.delta, free.se_delta};
+  out.free_B = {free.B, free.se_B};
+  out.free_C = {free.C, free.se_C};
   if (free.degenerate) out.why = free.why;
   const AroundLarge around =
       around_large(column_from(table, threshold, &Event::t_start), sizes, settings.share);
-  add(&NatureRow::before, around.before);
-  add(&NatureRow::after, around.after);
-  const auto compare = [&](Measured NatureRow::*number, std::vector<double> Sample::*values) {
-    const RescaledDistance apart =
-        rescaled_distance(reference->*values, out.*values, settings.replicas, settings.seed);
-    add(number, apart.distance, apart.error);
-  };
+  out.before.value = around.before;
+  out.after.value = around.after;
   if (!reference) return out;
-  compare(&NatureRow::distance, &Sample::times);
-  compare(&NatureRow::size_distance, &Sample::magnitudes);
+  const int replicas = settings.replicas;
+  out.distance = rescaled_distance(reference->times, out.times, replicas, settings.seed);
+  out.size_distance =
+      rescaled_distance(reference->magnitudes, out.magnitudes, replicas, settings.seed);
   return out;
 }
 
@@ -85,22 +83,22 @@ Measured mean_of(std::vector<Measured> values) {
   return {sum / n, std::sqrt(std::max(squares / (n - 1.0) / n, own / n / n))};
 }
 
-NatureRow row_of(const std::vector<Sample> &samples) {
+NatureRow row_of(const std::vector<NatureRow> &samples) {
   NatureRow row;
   row.catalogues = static_cast<std::int64_t>(samples.size());
-  std::vector<std::vector<Measured>> numbers(samples.front().numbers.size());
-  for (const Sample &sample : samples) {
+  for (const NatureRow &sample : samples) {
     row.n += static_cast<std::int64_t>(sample.magnitudes.size());
     row.times.insert(row.times.end(), sample.times.begin(), sample.times.end());
     row.magnitudes.insert(row.magnitudes.end(), sample.magnitudes.begin(), sample.magnitudes.end());
-    for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i].push_back(sample.numbers[i].second);
-    if (!sample.why.empty()) {
-      ++row.without_delta;
-      row.why = sample.why;
-    }
+    if (sample.why.empty()) continue;
+    ++row.without_delta;
+    row.why = sample.why;
   }
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-    row.*(samples.front().numbers[i].first) = mean_of(numbers[i]);
+  for (const auto number : averaged) {
+    std::vector<Measured> values;
+    for (const NatureRow &sample : samples) values.push_back(sample.*number);
+    row.*number = mean_of(values);
+  }
   return row;
 }
 
@@ -118,7 +116,7 @@ std::vector<NatureRow> nature_rows(const std::vector<EventTable> &tables,
     else
       same->push_back(&table);
   }
-  Sample reference;
+  NatureRow reference;
   std::vector<NatureRow> rows;
   for (const auto &group : groups) {
     const EventTable &first = *group.front();
@@ -133,7 +131,7 @@ std::vector<NatureRow> nature_rows(const std::vector<EventTable> &tables,
           events_from(first, least) ==
               events_from(first, thresholds[i + 1].complete_in(first).size))
         continue;
-      std::vector<Sample> samples;
+      std::vector<NatureRow> samples;
       for (const EventTable *table : group)
         if (events_from(*table, least) >= settings.fewest)
           samples.push_back(
@@ -147,10 +145,7 @@ std::vector<NatureRow> nature_rows(const std::vector<EventTable> &tables,
       row.label = first.label;
       row.earthquakes = first.earthquakes();
       row.threshold = least;
-      IntervalCurve words;
-      words.earthquakes = row.earthquakes;
-      words.threshold.size = least;
-      row.from = words.from();
+      row.from = events_from_text(row.earthquakes, least);
       rows.push_back(std::move(row));
     }
   }
@@ -162,7 +157,7 @@ std::vector<NatureRow> nature_rows(const std::vector<EventTable> &tables,
 
 std::vector<LogBin> time_densities(const NatureRow &row) {
   std::vector<LogBin> some;
-  for (const LogBin &bin : LogHistogram(row.times, std::pow(10.0, 0.2)).bins())
+  for (const LogBin &bin : log_histogram(row.times, std::pow(10.0, 0.2)))
     if (bin.count > 2) some.push_back(bin);
   return some;
 }

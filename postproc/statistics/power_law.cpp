@@ -14,6 +14,7 @@
 #include "lsm_sum.h"
 #include "lsm_text_io.h"
 #include "replicas.h"
+#include "samples.h"
 #include "truncated_family.h"
 
 namespace LSM::postproc {
@@ -22,7 +23,12 @@ namespace {
 
 using text_io::number;
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::int64_t least_events = 10;
+
+// Of the search for a range.
+constexpr int candidates = 60;
+constexpr double least_in_range = 50.0, least_ratio = 10.0;
 
 // Logarithms of a sample in ascending order and their running sums, so that the exponent of any
 // range costs two look-ups. By cells, ranges begin and end at edges, and an index is that of an
@@ -117,55 +123,39 @@ Estimate estimate(const LogSample &sample, double lower, double upper) {
 }
 
 // Kolmogorov-Smirnov distance between the sample and the law on the range, exact up to give_up.
-double distance(const LogSample &sample, const Estimate &e,
-                double give_up = std::numeric_limits<double>::infinity()) {
+double distance(const LogSample &sample, const Estimate &e, double give_up = infinity) {
   const auto cdf = [&e](double y) { return e.law.cdf(y); };
   return KsDistance(sample.points(e.first, e.last), cdf)(give_up);
 }
 
 struct Range {
   double lo = 0.0, hi = 0.0;
-  double distance = std::numeric_limits<double>::infinity();
+  double distance = infinity;
 };
 
-// Candidate number k of a search between the logarithms first and last.
-double candidate(double first, double last, int k, int count) {
-  if (k == count - 1) return last;
-  return first + (last - first) * k / (count - 1);
-}
-
 // The range, in logarithms, of least distance; infinite distance if none qualifies.
-Range best_range(const LogSample &sample, const RangeSearch &search) {
+Range best_range(const LogSample &sample) {
   Range best;
   if (sample.size() == 0) return best;
   const double first = sample.front(), last = sample.back();
-  const double log_ratio = std::log(search.min_ratio);
-  const int lowers = search.lower ? search.candidates : 1;
-  const int uppers = search.upper ? search.candidates : 1;
-  for (int i = 0; i < lowers; ++i) {
-    const double lower =
-        search.lower ? candidate(first, last, i, search.candidates) : std::log(search.lo);
-    for (int j = 0; j < uppers; ++j) {
-      const double upper =
-          search.upper ? candidate(first, last, j, search.candidates) : std::log(search.hi);
-      if (!(upper > lower) || upper - lower < log_ratio) continue;
-      const Estimate e = estimate(sample, lower, upper);
-      if (!e.usable || sample.count(e.first, e.last) < static_cast<double>(search.min_events))
-        continue;
+  const auto cut = [first, last](int k) {
+    return k == candidates - 1 ? last : first + (last - first) * k / (candidates - 1);
+  };
+  for (int i = 0; i < candidates; ++i)
+    for (int j = i + 1; j < candidates; ++j) {
+      if (cut(j) - cut(i) < std::log(least_ratio)) continue;
+      const Estimate e = estimate(sample, cut(i), cut(j));
+      if (!e.usable || sample.count(e.first, e.last) < least_in_range) continue;
       const double d = distance(sample, e, best.distance);
-      if (d < best.distance) best = {lower, upper, d};
+      if (d < best.distance) best = {cut(i), cut(j), d};
     }
-  }
   return best;
-}
-
-void check_sorted(const std::vector<double> &sorted) {
-  if (!std::is_sorted(sorted.begin(), sorted.end()))
-    throw std::invalid_argument("power law: sample is not in ascending order");
 }
 
 // The values in [lo, hi] that are positive and finite.
 std::vector<double> between(const std::vector<double> &sorted, double lo, double hi) {
+  if (!std::is_sorted(sorted.begin(), sorted.end()))
+    throw std::invalid_argument("power law: sample is not in ascending order");
   const auto first = lo > 0.0 ? std::lower_bound(sorted.begin(), sorted.end(), lo)
                               : std::upper_bound(sorted.begin(), sorted.end(), 0.0);
   return {first,
@@ -175,26 +165,6 @@ std::vector<double> between(const std::vector<double> &sorted, double lo, double
 LogSample logs_of(std::vector<double> values) {
   for (double &y : values) y = std::log(y);
   return LogSample(std::move(values));
-}
-
-void check_range(double lo, double hi) {
-  if (!(lo > 0.0 && std::isfinite(lo) && hi > lo))
-    throw std::invalid_argument("power law: range " + number(lo) + " to " + number(hi) +
-                                ", expected 0 < lower < upper");
-}
-
-void check_search(const RangeSearch &search) {
-  const std::string what = "search for a power-law range: ";
-  if (!search.lower && !search.upper)
-    throw std::invalid_argument(what + "neither cut is searched, expected at least one");
-  if (search.candidates < 2 || search.min_events < least_events || !(search.min_ratio > 1.0))
-    throw std::invalid_argument(what +
-                                "expected at least 2 candidates, at least 10 events, and a ratio "
-                                "of the cuts above 1");
-  if (!search.lower || search.lo != 0.0) check_range(search.lo, search.hi);
-  if (!(search.hi > 0.0))
-    throw std::invalid_argument(what + "upper limit " + number(search.hi) +
-                                ", expected a positive number");
 }
 
 // Appends count numbers drawn from [0, 1), already in ascending order, turned into values: the
@@ -244,34 +214,26 @@ void append_resampled(std::vector<double> &out, const std::vector<double> &y, st
 }  // namespace
 
 PowerLawFit fit_power_law(const std::vector<double> &sorted, double lo, double hi) {
-  check_sorted(sorted);
-  check_range(lo, hi);
+  if (!(lo > 0.0 && std::isfinite(lo) && hi > lo))
+    throw std::invalid_argument("power law: range " + number(lo) + " to " + number(hi) +
+                                ", expected 0 < lower < upper");
   const LogSample sample = logs_of(between(sorted, lo, hi));
   PowerLawFit fit;
   fit.lo = lo;
   fit.hi = hi;
   fit.n = static_cast<std::int64_t>(sample.size());
-  if (fit.n < least_events) {
-    fit.why = number(fit.n) + " events in the range, at least 10 needed";
-    return fit;
-  }
-  if (sample.front() == sample.back()) {
-    fit.why = "all events in the range have the same size";
-    return fit;
-  }
+  if (fit.n < least_events)
+    return without_numbers(fit, number(fit.n) + " events in the range, at least 10 needed");
+  if (sample.front() == sample.back())
+    return without_numbers(fit, "all events in the range have the same size");
   const auto n = static_cast<double>(fit.n);
   const Estimate e = estimate(sample, std::log(lo), std::log(hi));
-  if (!e.usable) {
-    fit.why = "all events lie at one edge of the range";
-    return fit;
-  }
+  if (!e.usable) return without_numbers(fit, "all events lie at one edge of the range");
   const double b = e.law.of_u.b;
   const double error = 1.0 / std::sqrt(n * e.law.of_u.variance());
-  if (!(error <= std::max(1.0, std::fabs(b)))) {
-    fit.why =
-        "the range is too narrow for " + number(fit.n) + " events: the exponent is not determined";
-    return fit;
-  }
+  if (!(error <= std::max(1.0, std::fabs(b))))
+    return without_numbers(fit, "the range is too narrow for " + number(fit.n) +
+                                    " events: the exponent is not determined");
   fit.degenerate = false;
   fit.alpha = 1.0 - b;
   fit.standard_error = error;
@@ -280,41 +242,32 @@ PowerLawFit fit_power_law(const std::vector<double> &sorted, double lo, double h
   return fit;
 }
 
-PowerLawFit search_range(const std::vector<double> &sorted, const RangeSearch &search) {
-  check_sorted(sorted);
-  check_search(search);
-  const std::vector<double> values = between(sorted, search.lo, search.hi);
+PowerLawFit search_range(const std::vector<double> &sorted, double least) {
+  const std::vector<double> values = between(sorted, least, infinity);
   const LogSample sample = logs_of(values);
-  const Range range = best_range(sample, search);
+  const Range range = best_range(sample);
   PowerLawFit fit;
   if (std::isfinite(range.distance)) {
     // Cuts at extremes of the sample must still contain them after exp(log(x)).
-    double lo = search.lower ? std::exp(range.lo) : search.lo;
-    double hi = search.upper ? std::exp(range.hi) : search.hi;
-    if (search.lower && range.lo == sample.front()) lo = values.front();
-    if (search.upper && range.hi == sample.back()) hi = values.back();
-    fit = fit_power_law(sorted, lo, hi);
+    fit = fit_power_law(sorted, range.lo == sample.front() ? values.front() : std::exp(range.lo),
+                        range.hi == sample.back() ? values.back() : std::exp(range.hi));
   } else {
-    fit.lo = search.lo;
-    fit.hi = search.hi;
+    fit.lo = least;
+    fit.hi = infinity;
     fit.n = static_cast<std::int64_t>(sample.size());
-    fit.why = "no range holds " + number(search.min_events) + " events over a ratio of " +
-              number(search.min_ratio);
+    fit.why = "no range holds " + number(least_in_range) + " events over a ratio of " +
+              number(least_ratio);
   }
   fit.searched = true;
-  fit.search = search;
+  fit.least = least;
   return fit;
 }
 
 double p_value(const PowerLawFit &fit, const std::vector<double> &sorted, int replicas,
                std::uint64_t seed) {
-  check_sorted(sorted);
   if (fit.degenerate) throw std::invalid_argument("p-value of a degenerate power law: " + fit.why);
-  if (replicas < 1)
-    throw std::invalid_argument("p-value: " + std::to_string(replicas) +
-                                " replicas, expected at least 1");
   const Law law(fit);
-  const LogSample data = logs_of(fit.searched ? between(sorted, fit.search.lo, fit.search.hi)
+  const LogSample data = logs_of(fit.searched ? between(sorted, fit.least, infinity)
                                               : between(sorted, fit.lo, fit.hi));
   const std::size_t first = data.first_from(std::log(fit.lo));
   const std::size_t last = data.first_above(std::log(fit.hi));
@@ -323,16 +276,14 @@ double p_value(const PowerLawFit &fit, const std::vector<double> &sorted, int re
                            static_cast<double>(data.size() - last) / n};
   // Distance of the best fit to a sample, found as that of the data was.
   const auto distance_of = [&](const LogSample &sample) {
-    if (fit.searched) return best_range(sample, fit.search).distance;
+    if (fit.searched) return best_range(sample).distance;
     const Estimate e = estimate(sample, law.lower, law.upper());
-    return e.usable ? distance(sample, e) : std::numeric_limits<double>::infinity();
+    return e.usable ? distance(sample, e) : infinity;
   };
   if (data.size() > static_cast<std::size_t>(largest_exact_sample)) {
     const Cells cells = cells_of(data, law, parts);
-    const double found = distance_of(LogSample(cells, cells.count(data.y())));
-    return share_of_replicas(replicas, [&](int replica) {
-      const Rng rng = generator(seed_of_replica(seed, replica));
-      return distance_of(LogSample(cells, cells.draw(rng.get(), data.size()))) >= found;
+    return cells.share_as_far(data.y(), replicas, seed, [&](const std::vector<double> &counts) {
+      return distance_of(LogSample(cells, counts));
     });
   }
   const Rng stream = generator(seed);
@@ -358,65 +309,58 @@ namespace {
 class Contest {
  public:
   Contest(const std::vector<double> &sorted, const PowerLawFit &fit)
-      : lo_(fit.lo), law_(fit), u_(between(sorted, fit.lo, fit.hi)) {
+      : lo_(fit.lo), hi_(fit.hi), law_(fit), u_(between(sorted, fit.lo, fit.hi)) {
     for (double &u : u_) u = std::log(u) - law_.lower;
     mean_u_ = mean_of([](double u) { return u; });
   }
 
   // The exponential in t = (x - lo) / width has the form of the power law in u.
-  Comparison exponential(double hi) const {
-    const double width = std::isfinite(hi) ? hi - lo_ : lo_, scale = lo_ / width;
+  Comparison exponential() const {
+    const bool finite = law_.of_u.finite();
+    const double width = finite ? hi_ - lo_ : lo_, scale = lo_ / width;
     const Exponential rival = Exponential::of_mean(
-        mean_of([](double u) { return std::expm1(u); }) * scale, std::isfinite(hi) ? 1.0 : hi);
+        mean_of([](double u) { return std::expm1(u); }) * scale, finite ? 1.0 : infinity);
     const double norm = rival.log_z() - std::log(scale);
-    Comparison out = vuong([&](double u) { return rival.b * std::expm1(u) * scale - norm + u; });
-    out.rival = "exponential";
-    out.parameters = {{"rate", -rival.b / width}};
-    return out;
+    return vuong("exponential", {{"rate", -rival.b / width}},
+                 [&](double u) { return rival.b * std::expm1(u) * scale - norm + u; });
   }
 
   Comparison log_normal() const {
     const double mean_t = mean_of([](double u) { return u * u; });
     const TiltedFit rival = fit_tilted({0.0}, mean_u_, mean_t, law_.of_u.length);
-    Comparison out;
-    if (decided(rival)) {
-      const double norm = rival.b * mean_u_ - rival.c * mean_t - rival.log_likelihood;
-      out = vuong([&](double u) { return rival.b * u - rival.c * u * u - norm; });
-      // In ln x; mu is that of the untruncated normal and can lie far below the range.
-      out.parameters = {{"mu", law_.lower + rival.b / (2.0 * rival.c)},
-                        {"sigma", 1.0 / std::sqrt(2.0 * rival.c)}};
-    } else {
-      out = undecided(rival, "the best log-normal is its limit, the power law itself");
-    }
-    out.rival = "log-normal";
-    return out;
+    if (!decided(rival))
+      return undecided("log-normal", rival,
+                       "the best log-normal is its limit, the power law itself");
+    const double norm = rival.b * mean_u_ - rival.c * mean_t - rival.log_likelihood;
+    // In ln x; mu is that of the untruncated normal and can lie far below the range.
+    return vuong(
+        "log-normal",
+        {{"mu", law_.lower + rival.b / (2.0 * rival.c)}, {"sigma", 1.0 / std::sqrt(2.0 * rival.c)}},
+        [&](double u) { return rival.b * u - rival.c * u * u - norm; });
   }
 
   Comparison cut_off() const {
+    const char *const name = "power law with exponential cut-off";
     const TiltedFit rival =
         fit_tilted({1.0}, mean_u_, mean_of([](double u) { return std::exp(u); }), law_.of_u.length);
-    Comparison out;
-    if (decided(rival)) {
-      const double gain = static_cast<double>(u_.size()) *
-                          (rival.log_likelihood - (law_.of_u.b * mean_u_ - law_.of_u.log_z()));
-      out.log_likelihood_ratio = -gain;
-      out.normalised = -2.0 * gain;
-      out.p = gsl_cdf_chisq_Q(std::max(0.0, 2.0 * gain), 1.0);
-      out.parameters = {{"alpha", 1.0 - rival.b}, {"cut-off", lo_ / rival.c}};
-    } else {
-      out = undecided(rival, "the best cut-off is infinite: the power law itself");
-    }
-    out.rival = "power law with exponential cut-off";
-    out.nested = true;
-    return out;
+    if (!decided(rival))
+      return undecided(name, rival, "the best cut-off is infinite: the power law itself");
+    const double gain = static_cast<double>(u_.size()) *
+                        (rival.log_likelihood - (law_.of_u.b * mean_u_ - law_.of_u.log_z()));
+    return {name,
+            {{"alpha", 1.0 - rival.b}, {"cut-off", lo_ / rival.c}},
+            -gain,
+            -2.0 * gain,
+            gsl_cdf_chisq_Q(std::max(0.0, 2.0 * gain), 1.0)};
   }
 
  private:
-  static bool decided(const TiltedFit &rival) { return rival.converged && !rival.border; }
-  static Comparison undecided(const TiltedFit &rival, const char *border) {
+  static bool decided(const TiltedFit &rival) { return rival.converged && rival.c > 0.0; }
+  static Comparison undecided(const char *name, const TiltedFit &rival, const char *border) {
     Comparison out;
+    out.rival = name;
     out.degenerate = true;
-    out.why = rival.border ? border : "no optimum found";
+    out.why = rival.converged ? border : "no optimum found";
     return out;
   }
 
@@ -429,21 +373,20 @@ class Contest {
 
   // Ratio of likelihoods in u; the change of variables is the same on both sides.
   template <class LogDensity>
-  Comparison vuong(const LogDensity &rival) const {
+  Comparison vuong(const char *name, std::vector<std::pair<std::string, double>> parameters,
+                   const LogDensity &rival) const {
     const auto n = static_cast<double>(u_.size());
     const double log_z = law_.of_u.log_z();
     const auto difference = [&](double u) { return law_.of_u.b * u - log_z - rival(u); };
     const double mean = mean_of(difference);
     const double deviation =
         std::sqrt(mean_of([&](double u) { return std::pow(difference(u) - mean, 2); }));
-    Comparison out;
-    out.log_likelihood_ratio = n * mean;
-    if (deviation > 0.0) out.normalised = std::sqrt(n) * mean / deviation;
-    out.p = std::erfc(std::fabs(out.normalised) / std::sqrt(2.0));
-    return out;
+    const double normalised = deviation > 0.0 ? std::sqrt(n) * mean / deviation : 0.0;
+    return {name, std::move(parameters), n * mean, normalised,
+            std::erfc(std::fabs(normalised) / std::sqrt(2.0))};
   }
 
-  double lo_;
+  double lo_, hi_;
   Law law_;
   std::vector<double> u_;
   double mean_u_ = 0.0;
@@ -452,11 +395,10 @@ class Contest {
 }  // namespace
 
 std::vector<Comparison> compare(const std::vector<double> &sorted, const PowerLawFit &fit) {
-  check_sorted(sorted);
   if (fit.degenerate)
     throw std::invalid_argument("comparison with a degenerate power law: " + fit.why);
   const Contest contest(sorted, fit);
-  return {contest.exponential(fit.hi), contest.log_normal(), contest.cut_off()};
+  return {contest.exponential(), contest.log_normal(), contest.cut_off()};
 }
 
 }  // namespace LSM::postproc

@@ -22,17 +22,6 @@
 
 namespace LSM::postproc {
 
-/// How search_range() looks for the range, kept in the fit so that p_value() can repeat it.
-struct RangeSearch {
-  bool lower = true;   ///< search the lower cut; else it is lo
-  bool upper = false;  ///< search the upper cut; else it is hi
-  double lo = 0.0;     ///< smallest lower cut allowed (0: smallest positive value of the sample)
-  double hi = std::numeric_limits<double>::infinity();  ///< largest upper cut allowed
-  int candidates = 60;           ///< cuts tried on each side, evenly spaced in log x (at least 2)
-  std::int64_t min_events = 50;  ///< ranges with fewer events are skipped (at least 10)
-  double min_ratio = 10.0;       ///< finite ranges with hi/lo below this are skipped
-};
-
 struct PowerLawFit {
   double alpha = NAN;
   double standard_error = NAN;  ///< Fisher information
@@ -41,7 +30,7 @@ struct PowerLawFit {
   double ks = NAN;              ///< Kolmogorov-Smirnov distance
   double log_likelihood = NAN;
   bool searched = false;   ///< the range comes from search_range()
-  RangeSearch search;      ///< its settings then
+  double least = 0.0;      ///< and was to begin there or above
   bool degenerate = true;  ///< no usable exponent: alpha, error, ks, likelihood are NaN
   std::string why;         ///< reason, one line
 };
@@ -52,12 +41,12 @@ struct PowerLawFit {
 PowerLawFit fit_power_law(const std::vector<double> &sorted, double lo,
                           double hi = std::numeric_limits<double>::infinity());
 
-/// The range whose fit has the smallest Kolmogorov-Smirnov distance: over the lower cut as Clauset
-/// et al. do; with both cuts free over all pairs of candidates (ours, after Deluca & Corral).
-/// Candidates are evenly spaced in log x between the extremes of the sample (instead of every
-/// value, which costs the square of n). The standard error does not include the choice of range.
-/// \throws std::invalid_argument for impossible settings
-PowerLawFit search_range(const std::vector<double> &sorted, const RangeSearch &search = {});
+/// The range whose fit has the smallest Kolmogorov-Smirnov distance, of those that hold at least 50
+/// events over a ratio of 10: over all pairs of candidates (ours, after Deluca & Corral; Clauset et
+/// al. search the lower cut). These are 60, evenly spaced in log x between the extremes of the
+/// sample (instead of every value, which costs the square of n). The standard error does not
+/// include the choice of range. \param least smaller values are left out; 0 or less: those above 0
+PowerLawFit search_range(const std::vector<double> &sorted, double least = 0.0);
 
 /// Fraction of synthetic samples that fit worse (by Kolmogorov-Smirnov distance) than the data,
 /// (k + 1) / (replicas + 1). Each replica is fitted as the data were: with a given range the
@@ -72,12 +61,11 @@ struct Comparison {
   std::string rival;  ///< "exponential", "log-normal" or "power law with exponential cut-off"
   std::vector<std::pair<std::string, double>> parameters;  ///< name, value; empty if degenerate
   double log_likelihood_ratio = 0.0;  ///< ln L(power law) - ln L(rival); > 0 favours the power law
-  double normalised = 0.0;  ///< ratio / (sqrt(n) standard deviation) (Vuong); nested: 2 x ratio
-  double p = 1.0;  ///< two-sided (Vuong); nested: chi square with 1 degree of freedom, which is
-                   ///< conservative since the cut-off cannot be negative
-  bool nested = false;
+  double normalised = 0.0;  ///< ratio / (sqrt(n) standard deviation) (Vuong); cut-off: 2 x ratio
+  double p = 1.0;  ///< two-sided (Vuong); cut-off, of which the power law is a case: chi square
+                   ///< with 1 degree of freedom, which is conservative since it cannot be negative
   bool degenerate = false;  ///< the best rival is its limit (a power law, or a flat density)
-  std::string why;
+  std::string why = {};
 };
 
 /// Compares with an exponential, a log-normal and a power law with exponential cut-off, all

@@ -26,9 +26,9 @@ std::vector<LogBin> length_bins(const EventTable &table, double bin) {
     ++counts[std::max<std::int64_t>(1, std::llround(e.rupture_length / bin))];
   std::vector<LogBin> bins;
   for (std::int64_t lo = 1; !counts.empty() && lo <= counts.rbegin()->first;) {
-    const std::int64_t hi =
-        std::max(lo + 1, static_cast<std::int64_t>(
-                             std::llround(LogHistogram::default_factor * static_cast<double>(lo))));
+    const std::int64_t hi = std::max(
+        lo + 1,
+        static_cast<std::int64_t>(std::llround(usual_bin_factor * static_cast<double>(lo))));
     LogBin one{};
     // Between the integers.
     one.lo = (static_cast<double>(lo) - 0.5) * bin;
@@ -106,7 +106,7 @@ std::vector<LogBin> rupture_densities(const EventTable &table, RuptureQuantity q
       throw std::runtime_error(table.path + ": slip_bin in the header is not positive");
     bins = length_bins(table, bin);
   } else {
-    bins = LogHistogram(column(table.details, &Event::slip_moment)).bins();
+    bins = log_histogram(column(table.details, &Event::slip_moment));
   }
   for (LogBin &bin : bins) {
     const double width = unit * (bin.hi - bin.lo);

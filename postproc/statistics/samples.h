@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -31,6 +32,18 @@ struct Measured {
   double value = NAN;
   double error = NAN;
 };
+
+/// A share that so many random samples gave.
+inline Measured share_of(double share, double samples) {
+  return {share, std::sqrt(share * (1.0 - share) / samples)};
+}
+
+/// A result that has no numbers, and the reason.
+template <class Fit>
+Fit without_numbers(Fit fit, std::string why) {
+  fit.why = std::move(why);
+  return fit;
+}
 
 /// NaN without values.
 inline double mean_of(const double *values, std::size_t count) {

@@ -14,19 +14,11 @@ PowerLawFit fit_from(const std::vector<double> &sorted, const Range &range, doub
   PowerLawFit none;
   none.lo = range.lo;
   none.hi = range.hi;
-  none.why = fmt::format("the catalogue only has events from {:.4g}", least);
-  return none;
-}
-
-PowerLawFit search_from(const std::vector<double> &sorted, RangeSearch search, double least) {
-  search.lo = std::max(search.lo, least);
-  return search_range(sorted, search);
+  return without_numbers(none, fmt::format("the catalogue only has events from {:.4g}", least));
 }
 
 std::vector<SizeFit> fit_sizes(const std::vector<EventTable> &tables,
                                const SizeFitSettings &settings) {
-  if (settings.replicas < 0)
-    throw std::invalid_argument("replicas of p-values: expected 0 or more");
   std::vector<SizeFit> fits;
   for (std::size_t i = 0; i < tables.size(); ++i) {
     std::vector<double> sorted = column(tables[i].events, &Event::size);
@@ -35,8 +27,7 @@ std::vector<SizeFit> fit_sizes(const std::vector<EventTable> &tables,
     std::vector<PowerLawFit> laws;
     for (const Range &range : settings.ranges) laws.push_back(fit_from(sorted, range, least));
     if (laws.empty())
-      laws.push_back(
-          search_from(sorted, settings.search, std::max(least, settings.threshold.of(tables[i]))));
+      laws.push_back(search_range(sorted, std::max(least, settings.threshold.of(tables[i]))));
     for (const PowerLawFit &law : laws) {
       SizeFit fit;
       fit.label = tables[i].label;
@@ -44,10 +35,8 @@ std::vector<SizeFit> fit_sizes(const std::vector<EventTable> &tables,
       fit.catalogue = i;
       fit.completeness = tables[i].info.completeness();
       fit.fit = law;
-      if (!law.degenerate && settings.replicas > 0) {
-        fit.p = p_value(law, sorted, settings.replicas, settings.seed);
-        fit.p_error = std::sqrt(fit.p * (1.0 - fit.p) / settings.replicas);
-      }
+      if (!law.degenerate && settings.replicas > 0)
+        fit.p = share_of(p_value(law, sorted, settings.replicas, settings.seed), settings.replicas);
       if (!law.degenerate && settings.compare) fit.comparisons = compare(sorted, law);
       fits.push_back(std::move(fit));
     }

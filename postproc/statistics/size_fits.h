@@ -18,7 +18,6 @@ namespace LSM::postproc {
 
 struct SizeFitSettings {
   std::vector<Range> ranges;  ///< of sizes (model energy); none: the range is searched
-  RangeSearch search;         ///< how it is searched
   Threshold threshold;        ///< smallest size of the search
   int replicas = 100;         ///< of the Monte Carlo p-value; 0: none
   std::uint64_t seed = 1;
@@ -31,16 +30,13 @@ struct SizeFit {
   std::size_t catalogue = 0;  ///< index among the catalogues
   double completeness = 0.0;  ///< in the header of the catalogue; 0: not given
   PowerLawFit fit;
-  double p = NAN;        ///< NaN: not computed
-  double p_error = NAN;  ///< of its Monte Carlo estimate
+  Measured p;  ///< of the Monte Carlo estimate; NaN: not computed
   std::vector<Comparison> comparisons;
 };
 
-/// Exponent of ascending sizes on a range, or where that is searched, without those below `least`:
-/// there events are missing, which would pass for a flatter law. \throws std::invalid_argument for
-/// impossible settings
+/// Exponent of ascending sizes on a range without those below `least`: there events are missing,
+/// which would pass for a flatter law. \throws std::invalid_argument for impossible settings
 PowerLawFit fit_from(const std::vector<double> &sorted, const Range &range, double least);
-PowerLawFit search_from(const std::vector<double> &sorted, RangeSearch search, double least);
 
 /// Every catalogue on every range. \throws std::invalid_argument for impossible settings
 std::vector<SizeFit> fit_sizes(const std::vector<EventTable> &tables,

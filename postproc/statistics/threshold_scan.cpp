@@ -14,6 +14,7 @@ namespace LSM::postproc {
 namespace {
 
 constexpr int most_decades = 12;
+constexpr std::size_t fewest = 20;
 
 /// mantissa x 10^decade as a reader of numbers would have it: 1.3e-3 is not 1.3 * 1e-3.
 double decimal(double mantissa, int decade) {
@@ -24,14 +25,14 @@ double decimal(double mantissa, int decade) {
 
 }  // namespace
 
-std::vector<double> threshold_grid(const EventTable &table, std::int64_t fewest) {
+std::vector<double> threshold_grid(const EventTable &table) {
   std::vector<double> sorted;
   for (const Shock &event : table.events)
     if (event.size > 0.0) sorted.push_back(event.size);
   std::sort(sorted.begin(), sorted.end());
   std::vector<double> grid;
-  if (static_cast<std::int64_t>(sorted.size()) < fewest) return grid;
-  const double last = sorted[sorted.size() - static_cast<std::size_t>(fewest)];
+  if (sorted.size() < fewest) return grid;
+  const double last = sorted[sorted.size() - fewest];
   const int highest = static_cast<int>(std::floor(std::log10(last)));
   const int lowest = std::max(static_cast<int>(std::floor(std::log10(sorted.front()))),
                               highest - most_decades + 1);
@@ -53,15 +54,13 @@ std::vector<ThresholdResult> scan_thresholds(const EventTable &table,
   if (thresholds.empty()) return results;
   std::vector<double> sizes = column(table.events, &Event::size);
   std::sort(sizes.begin(), sizes.end());
-  RangeSearch search;
-  search.upper = true;
   IntervalSettings times;
   times.thresholds = thresholds;
   times.replicas = 0;
   std::vector<IntervalCurve> curves = interval_curves({table}, times);
   for (std::size_t k = 0; k < thresholds.size(); ++k)
     results.push_back({thresholds[k],
-                       search_from(sizes, search, std::max(thresholds[k], table.complete_from)),
+                       search_range(sizes, std::max(thresholds[k], table.complete_from)),
                        fit_from(sizes, {thresholds[k], sizes.back()}, table.complete_from),
                        std::move(curves[k])});
   return results;

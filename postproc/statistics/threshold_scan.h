@@ -22,10 +22,10 @@ struct ThresholdResult {
 };
 
 /// Ten sizes a decade with two digits (1, 1.3, 1.6, 2, ...), so that one can type them, from the
-/// smallest event of the table to the largest size with at least `fewest` events, and the threshold
+/// smallest event of the table to the largest size with at least 20 events, and the threshold
 /// that the commands use where none is given. In ascending order; empty if the table has fewer
 /// events than that.
-std::vector<double> threshold_grid(const EventTable &table, std::int64_t fewest = 20);
+std::vector<double> threshold_grid(const EventTable &table);
 
 /// \throws std::invalid_argument for impossible thresholds
 std::vector<ThresholdResult> scan_thresholds(const EventTable &table,

@@ -210,8 +210,8 @@ TiltedFit fit_tilted(Statistic statistic, double mean_u, double mean_t, double l
       statistic.rate > 0.0
           ? std::exp(Exponential{length, law.b + statistic.rate}.log_z() - law.log_z())
           : law.variance() + mean_u * mean_u;
-  fit.border = fit.converged = expected_t <= mean_t;
-  if (fit.border) return fit;
+  fit.converged = expected_t <= mean_t;
+  if (fit.converged) return fit;
 
   TiltedLaw tilted{statistic, mean_u, mean_t, length};
   tilted.set(law.b, 0.1 / mean_t);

@@ -58,9 +58,8 @@ struct Statistic {
 
 /// Maximum likelihood of p(u) ~ exp(b u - c T(u)) on [0, length], length may be infinite, c >= 0.
 struct TiltedFit {
-  double b = 0.0, c = 0.0;
+  double b = 0.0, c = 0.0;      ///< c 0: best at the border, where the law is an exponential in u
   double log_likelihood = 0.0;  ///< per event, density in u
-  bool border = false;          ///< best at c = 0, where the law is an exponential in u
   bool converged = false;
 };
 

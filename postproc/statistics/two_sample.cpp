@@ -5,15 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
-#include <optional>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 #include "finite_size.h"
 #include "replicas.h"
-#include "samples.h"
 
 namespace LSM::postproc {
 
@@ -59,7 +57,7 @@ class Classes {
 
   std::size_t count() const { return all_.size(); }
 
-  void add(const Block &block, std::uint32_t *counts) const {
+  void add(const Block &block, Counts &counts) const {
     for (std::size_t i = block.from; i < block.to; ++i) ++counts[class_of_[i]];
   }
 
@@ -83,40 +81,14 @@ class Classes {
   Counts all_;
 };
 
-// How many values of each class are in each block, so that the distance of a division costs no
-// more for more values.
-class BlockCounts {
- public:
-  BlockCounts(Classes classes, const std::vector<Block> &blocks)
-      : classes_(std::move(classes)), counts_(blocks.size() * classes_.count()) {
-    for (std::size_t b = 0; b < blocks.size(); ++b)
-      classes_.add(blocks[b], counts_.data() + b * classes_.count());
-  }
-
-  // \param order blocks, the first of which are on the side of the first sample
-  double distance(const std::vector<std::size_t> &order, std::size_t of_first) const {
-    Counts sums(classes_.count());
-    for (std::size_t k = 0; k < of_first; ++k) {
-      const std::uint32_t *const block = counts_.data() + order[k] * sums.size();
-      for (std::size_t c = 0; c < sums.size(); ++c) sums[c] += block[c];
-    }
-    return classes_.distance(sums);
-  }
-
- private:
-  Classes classes_;
-  Counts counts_;
-};
-
-BlockMean block_mean(const std::vector<double> &values, int block) {
-  BlockMean result;
-  result.mean = mean_of(values);
+Measured block_mean(const std::vector<double> &values, int block) {
+  Measured result{mean_of(values)};
   std::vector<double> means;
   for (const Block &one : blocks_of(values.size(), block))
     means.push_back(mean_of(values.data() + one.from, one.to - one.from));
   const auto count = static_cast<double>(means.size());
   if (count < 2.0) return result;
-  const double squares = gsl_stats_tss_m(means.data(), 1, means.size(), result.mean);
+  const double squares = gsl_stats_tss_m(means.data(), 1, means.size(), result.value);
   result.error = std::sqrt(squares / (count - 1.0) / count);
   return result;
 }
@@ -155,50 +127,55 @@ TwoSampleTest two_sample_test(const std::vector<double> &first, const std::vecto
     if (sample->size() < 10)
       throw std::invalid_argument("two-sample test of " + std::to_string(sample->size()) +
                                   " values, expected at least 10 in each series");
-  if (replicas < 1 || block < 0)
-    throw std::invalid_argument(
-        "two-sample test: expected at least 1 replica and blocks of 0 or more");
   TwoSampleTest test;
   test.n = {static_cast<std::int64_t>(first.size()), static_cast<std::int64_t>(second.size())};
   const std::size_t n = first.size() + second.size();
-  const Classes values(first, second, n);
+  Classes classes(first, second, n);
   const bool by_classes = block == 0 && n > 2 * static_cast<std::size_t>(largest_exact_sample);
-  if (block == 0) block = usual_block(values, first.size(), n);
+  if (block == 0) block = usual_block(classes, first.size(), n);
   // Longer blocks are as sound.
   if (by_classes) block = std::max(block, static_cast<int>(n / most_blocks));
   test.block = block;
   test.means = {block_mean(first, block), block_mean(second, block)};
-  test.ratio = test.means[1].mean / test.means[0].mean;
-  test.ratio_error = std::fabs(test.ratio) * std::hypot(test.means[0].error / test.means[0].mean,
-                                                        test.means[1].error / test.means[1].mean);
+  const auto [a, b] = test.means;
+  const double ratio = b.value / a.value;
+  test.ratio = {ratio, std::fabs(ratio) * std::hypot(a.error / a.value, b.error / b.value)};
 
   std::vector<Block> blocks = blocks_of(first.size(), block);
   const std::size_t of_first = blocks.size();
   for (const Block &one : blocks_of(second.size(), block, first.size())) blocks.push_back(one);
   std::vector<std::size_t> order(blocks.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto exact = [&](const std::vector<std::size_t> &divided) {
-    Counts counts(values.count());
-    for (std::size_t i = 0; i < of_first; ++i) values.add(blocks[divided[i]], counts.data());
-    return values.distance(counts);
-  };
-  test.distance = exact(order);
-  std::optional<BlockCounts> counts;
-  if (by_classes) counts.emplace(Classes(first, second, coarse_classes), blocks);
+  test.distance = two_sample_distance(first, second);
+  // How many values of each class are in each block, so that the distance of a division costs no
+  // more for more values.
+  std::vector<Counts> in_block;
+  if (by_classes) {
+    classes = Classes(first, second, coarse_classes);
+    in_block.assign(blocks.size(), Counts(coarse_classes));
+    for (std::size_t i = 0; i < blocks.size(); ++i) classes.add(blocks[i], in_block[i]);
+  }
   const auto distance = [&](const std::vector<std::size_t> &divided) {
-    return counts ? counts->distance(divided, of_first) : exact(divided);
+    Counts counts(classes.count());
+    for (std::size_t i = 0; i < of_first; ++i)
+      if (by_classes)
+        std::transform(counts.begin(), counts.end(), in_block[divided[i]].begin(), counts.begin(),
+                       std::plus<>());
+      else
+        classes.add(blocks[divided[i]], counts);
+    return classes.distance(counts);
   };
   // Sums of counts over counts are exact to rounding only.
   const double least = distance(order) * (1.0 - 1e-12);
   Random random(seed);
-  test.p = share_of_draws(
+  const double p = share_of_draws(
       replicas,
       [&] {
         shuffle(order, random);
         return order;
       },
       [&](const std::vector<std::size_t> &divided) { return distance(divided) >= least; });
-  test.p_error = std::sqrt(test.p * (1.0 - test.p) / (replicas + 1.0));
+  test.p = share_of(p, replicas + 1.0);
   return test;
 }
 

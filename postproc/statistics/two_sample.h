@@ -10,24 +10,19 @@
 #include <cstdint>
 #include <vector>
 
-namespace LSM::postproc {
+#include "samples.h"
 
-/// A mean and its standard error, which allows for values that depend on those before them.
-struct BlockMean {
-  double mean = NAN;
-  double error = NAN;  ///< NaN: fewer than two blocks
-};
+namespace LSM::postproc {
 
 struct TwoSampleTest {
   std::array<std::int64_t, 2> n = {0, 0};
   double distance = NAN;  ///< Kolmogorov-Smirnov
   /// Share of random divisions, the true one included, whose distance is as large.
-  double p = NAN;
-  double p_error = NAN;  ///< of the Monte Carlo estimate
-  int block = 1;         ///< values that are kept together
-  std::array<BlockMean, 2> means;
-  double ratio = NAN;  ///< second mean over the first
-  double ratio_error = NAN;
+  Measured p;
+  int block = 1;  ///< values that are kept together
+  /// The errors allow for values that depend on those before them; NaN: fewer than two blocks.
+  std::array<Measured, 2> means;
+  Measured ratio;  ///< second mean over the first
 };
 
 /// Largest distance between the empirical distributions of two samples, neither of them empty.
@@ -41,8 +36,7 @@ double two_sample_distance(std::vector<double> first, std::vector<double> second
 /// exact. \param first, second positive values in the order of time \param replicas random
 /// divisions, at least 1 \param block values in a block, at least 1; 0: the longer of the two
 /// block_length() of the ranks; with a length given, the cost of a division grows with the number
-/// of values \throws std::invalid_argument for fewer than 10 values in a series, or impossible
-/// settings
+/// of values \throws std::invalid_argument for fewer than 10 values in a series
 TwoSampleTest two_sample_test(const std::vector<double> &first, const std::vector<double> &second,
                               int replicas, std::uint64_t seed, int block = 0);
 

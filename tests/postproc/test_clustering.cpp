@@ -30,7 +30,6 @@ TEST(Clustering, ClosedForms) {
   std::vector<double> times;
   for (int i = 0; i < 20; ++i) times.push_back(i % 2 ? 3.0 : 1.0);
   const Clustering c = clustering(times, 50, 1);
-  EXPECT_EQ(c.n, 20);
   EXPECT_NEAR(c.variation.value, 0.5, 1e-14);
   EXPECT_NEAR(c.burstiness, -1.0 / 3.0, 1e-14);
   const double up = std::sqrt(21.0), down = std::sqrt(19.0);
@@ -142,7 +141,6 @@ TEST(AroundLarge, CountsBeforeAndAfter) {
       sizes.push_back(i == 0 ? 10.0 : 1.0);
     }
   const AroundLarge around = around_large(starts, sizes, 49.5 / 499.0);
-  EXPECT_EQ(around.large, 50);
   EXPECT_NEAR(around.after, 3.0, 1e-12);
   EXPECT_EQ(around.before, 0.0);
 }
@@ -152,12 +150,12 @@ TEST(RescaledDistance, SeesTheLawAndNotTheUnit) {
   const auto a = exponential(1000, random);
   auto b = exponential(1000, random);
   for (double &time : b) time *= 50.0;
-  const RescaledDistance same = rescaled_distance(a, b, 100, 1);
-  EXPECT_LT(same.distance, 0.07);
+  const Measured same = rescaled_distance(a, b, 100, 1);
+  EXPECT_LT(same.value, 0.07);
   EXPECT_GT(same.error, 0.005);
   EXPECT_LT(same.error, 0.03);
   for (double &time : b) time = time * time;
-  EXPECT_GT(rescaled_distance(a, b, 100, 1).distance, 0.15);
+  EXPECT_GT(rescaled_distance(a, b, 100, 1).value, 0.15);
 }
 
 }  // namespace

@@ -135,7 +135,6 @@ TEST(Thresholds, EachIsWhatTheEstimatorsFind) {
   for (const ThresholdResult &result : results) {
     SizeFitSettings sizes;
     sizes.replicas = 0;
-    sizes.search.upper = true;
     sizes.threshold = Threshold(result.threshold);
     EXPECT_EQ(result.searched.alpha, fit_sizes({table}, sizes)[0].fit.alpha);
     EXPECT_NEAR(result.to_largest.alpha, 1.0, 4.0 * result.to_largest.standard_error);

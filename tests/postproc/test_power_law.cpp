@@ -218,15 +218,8 @@ TEST(PowerLaw, RefusesImpossibleInput) {
   EXPECT_THROW(fit_power_law(sample, 0.0, 3.0), std::invalid_argument);
   EXPECT_THROW(fit_power_law(sample, 3.0, 3.0), std::invalid_argument);
   EXPECT_THROW(fit_power_law(sample, std::nan(""), 3.0), std::invalid_argument);
-  RangeSearch search;
-  search.lower = false;
-  EXPECT_THROW(search_range(sample, search), std::invalid_argument);
-  search.upper = true;  // a lower cut that is not searched has to be given
-  EXPECT_THROW(search_range(sample, search), std::invalid_argument);
-  search.lo = 0.5;
-  EXPECT_NO_THROW(search_range(sample, search));
-  search.candidates = 1;
-  EXPECT_THROW(search_range(sample, search), std::invalid_argument);
+  EXPECT_THROW(search_range({2.0, 1.0}), std::invalid_argument);
+  EXPECT_NO_THROW(search_range(sample, 0.5));
 }
 
 TEST(PowerLaw, ProbabilityIsUniformUnderTheNull) {
@@ -251,16 +244,11 @@ TEST(PowerLaw, ProbabilityOfManyValues) {
   ASSERT_GT(n, static_cast<std::size_t>(largest_exact_sample));
   constexpr int trials = 200;
   for (const bool searched : {false, true}) {
-    RangeSearch search;
-    search.upper = true;
-    search.candidates = 6;
-    search.min_events = 2000;
-    search.lo = 1.0;
     int below_tenth = 0, below_half = 0, count = 0;
     for (int i = 0; i < (searched ? trials / 4 : trials); ++i) {
       const std::vector<double> sample = power_law_sample(n, 1.3, 1.0, 1e3, random);
       const PowerLawFit fit =
-          searched ? search_range(sample, search) : fit_power_law(sample, 1.0, 1e3);
+          searched ? search_range(sample, 1.0) : fit_power_law(sample, 1.0, 1e3);
       ASSERT_FALSE(fit.degenerate);
       const double p = p_value(fit, sample, 39, static_cast<std::uint64_t>(i));
       below_tenth += p <= 0.1;
@@ -312,9 +300,7 @@ TEST(PowerLaw, ProbabilityAllowsForTheSearch) {
     auto sample = power_law_sample(1000, 1.5, 1e-3, 1.0, random);
     for (int k = 0; k < 500; ++k) sample.push_back(1e-3 * random.uniform(0.3, 1.0));
     std::sort(sample.begin(), sample.end());
-    RangeSearch search;
-    search.hi = 1.0;
-    const PowerLawFit fit = search_range(sample, search);
+    const PowerLawFit fit = search_range(sample);
     const double p = p_value(fit, sample, 49, i + 1);
     mean += p / trials;
     if (p <= 0.1) ++rejected;
@@ -370,25 +356,21 @@ TEST(PowerLaw, SearchFindsWhereThePowerLawBegins) {
     std::vector<double> sample = power_law_sample(4000, 1.5, 1e-3, 1.0, random);
     for (int k = 0; k < 2000; ++k) sample.push_back(1e-3 * random.uniform(0.5, 1.0));
     std::sort(sample.begin(), sample.end());
-    RangeSearch search;
-    search.hi = 1.0;
-    const PowerLawFit fit = search_range(sample, search);
+    const PowerLawFit fit = search_range(sample);
     ASSERT_FALSE(fit.degenerate) << fit.why;
     EXPECT_GT(fit.lo, 0.8e-3);
     EXPECT_LT(fit.lo, 1e-2);
     EXPECT_NEAR(fit.alpha, 1.5, 4.0 * fit.standard_error);
     EXPECT_EQ(fit.n, std::count_if(sample.begin(), sample.end(),
                                    [&](double x) { return x >= fit.lo && x <= fit.hi; }));
-    // Both cuts: nothing outside the law is included.
+    // Nothing outside the law is included at the other end either.
     for (int k = 0; k < 2000; ++k) sample.push_back(random.uniform(1.0, 1.5));
     std::sort(sample.begin(), sample.end());
-    search.hi = infinity;
-    search.upper = true;
-    const PowerLawFit both = search_range(sample, search);
+    const PowerLawFit both = search_range(sample);
     ASSERT_FALSE(both.degenerate) << both.why;
     EXPECT_GT(both.lo, 0.8e-3);
     EXPECT_LT(both.hi, 1.1);
-    EXPECT_GE(both.hi / both.lo, search.min_ratio);
+    EXPECT_GE(both.hi / both.lo, 10.0);
     EXPECT_NEAR(both.alpha, 1.5, 4.0 * both.standard_error);
   }
 }
@@ -438,7 +420,7 @@ TEST(PowerLaw, RatiosAgreeWithQuadrature) {
       EXPECT_NEAR(comparison.log_likelihood_ratio, fit.log_likelihood - rival,
                   1e-6 * std::fabs(rival) / 1000.0)
           << comparison.rival << " " << c.alpha;
-      if (comparison.nested) {
+      if (comparison.rival == "power law with exponential cut-off") {
         EXPECT_LT(comparison.p, 1e-6);
         EXPECT_NEAR(p["alpha"], c.alpha, 0.12);
         EXPECT_NEAR(std::log(p["cut-off"] / c.cut_off), 0.0, 0.6);
