@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
@@ -11,21 +10,25 @@
 
 #include "numbers.h"
 #include "packed_numbers.h"
-#include "table.h"
+#include "page.h"
 #include "thinner.h"
 
 namespace LSM::postproc {
 
-namespace {
-
 using nlohmann::json;
+
+namespace {
 
 /// The elements of the page with its data. Small data are JSON; long columns are packed,
 /// each column in an element of its own, whose id stands in the JSON.
 class PageData {
  public:
-  std::string packed_element(const std::string &id, const std::string &text) {
-    elements_ += fmt::format("<script type=\"text/plain\" id=\"{}\">{}</script>\n", id, text);
+  /// Returns the id.
+  template <class Number>
+  std::string add(const std::vector<Number> &values) {
+    std::string id = fmt::format("packed{}", count_++);
+    elements_ +=
+        fmt::format("<script type=\"text/plain\" id=\"{}\">{}</script>\n", id, packed(values));
     return id;
   }
 
@@ -43,13 +46,10 @@ class PageData {
 
  private:
   std::string elements_;
+  int count_ = 0;
 };
 
-std::string_view bytes_of(const std::vector<std::int8_t> &values) {
-  return {reinterpret_cast<const char *>(values.data()), values.size()};
-}
-
-json series_json(const ExploreSeries &series, const std::string &id, PageData &data) {
+json series_json(const ExploreSeries &series, PageData &data) {
   const SeriesCode code = encode(series.pe);
   json out = {{"file", series.path},
               {"samples", series.samples},
@@ -61,7 +61,7 @@ json series_json(const ExploreSeries &series, const std::string &id, PageData &d
               {"first", code.first},
               {"second", code.second},
               {"off", code.off},
-              {"bytes", data.packed_element(id + "-pe", packed(bytes_of(code.bytes)))}};
+              {"bytes", data.add(code.bytes)}};
   if (!series.times.empty()) {
     out["begin"] = series.times.front();
     // Each number continues from the rounded ones before it, so that rounding does not add up.
@@ -71,13 +71,12 @@ json series_json(const ExploreSeries &series, const std::string &id, PageData &d
       gaps.push_back(static_cast<float>(series.times[i] - time));
       time += static_cast<double>(gaps.back());
     }
-    out["gaps"] = data.packed_element(id + "-times", packed(gaps));
+    out["gaps"] = data.add(gaps);
   }
   return out;
 }
 
-json history_json(const SlipImage &image, const std::string &path, const std::string &id,
-                  PageData &data) {
+json history_json(const SlipImage &image, const std::string &path, PageData &data) {
   const FaultGrid &grid = image.info.grid;
   return {{"file", path},
           {"columns", image.columns},
@@ -91,8 +90,8 @@ json history_json(const SlipImage &image, const std::string &path, const std::st
           {"slipping", image.info.ruptures.velocity / image.info.driving},
           {"begin", image.begin},
           {"velocity", image.velocity},
-          {"ends", data.packed_element(id + "-slip-times", packed(image.ends))},
-          {"cells", data.packed_element(id + "-slip", packed(bytes_of(image.cells)))}};
+          {"ends", data.add(image.ends)},
+          {"cells", data.add(image.cells)}};
 }
 
 json bins_json(const std::vector<LogBin> &bins) {
@@ -105,106 +104,80 @@ json bins_json(const std::vector<LogBin> &bins) {
 /// Adds a number to what is known of it, as the commands print it, or why there is none.
 template <class Fit>
 void add_number(json &out, const Fit &fit, double value, double error) {
-  if (fit.degenerate) {
+  if (fit.degenerate)
     out["why"] = fit.why;
-    return;
-  }
-  out["value"] = value;
-  out["error"] = error;
-  out["text"] = with_error(value, error, " ± ");
+  else
+    out.update({{"value", value}, {"error", error}, {"text", with_error(value, error, " ± ")}});
 }
 
-json exponent_json(const PowerLawFit &fit) {
-  json out = {{"lo", fit.lo}, {"hi", fit.hi}, {"n", fit.n}};
+}  // namespace
+
+// json's constructor finds these, also for vectors.
+static void to_json(json &out, const PowerLawFit &fit) {
+  out = {{"lo", fit.lo}, {"hi", fit.hi}, {"n", fit.n}};
   add_number(out, fit, fit.alpha, fit.standard_error);
-  return out;
 }
 
-json gamma_json(const IntervalFit &fit) {
+static void to_json(json &out, const IntervalFit &fit) {
   const GeneralisedGammaFit &law = fit.fit;
-  json out = {{"method", fit.method},
-              {"deltaHeld", !std::isnan(fit.held)},
-              {"C", law.C},
-              {"delta", law.delta},
-              {"B", law.B}};
+  out = {{"method", fit.method},
+         {"deltaHeld", !std::isnan(fit.held)},
+         {"C", law.C},
+         {"delta", law.delta},
+         {"B", law.B}};
   add_number(out, law, law.gamma, law.se_gamma);
-  return out;
 }
 
-json threshold_json(const ThresholdResult &result) {
+static void to_json(json &out, const ThresholdResult &result) {
   const IntervalCurve &curve = result.intervals;
-  json gammas = json::array();
-  for (const IntervalFit &fit : curve.fits) gammas.push_back(gamma_json(fit));
-  return {{"size", result.threshold},
-          {"times", curve.n},
-          {"mean", curve.mean},
-          {"meanText", short_number(curve.mean, 6)},
-          {"variation", curve.variation},
-          {"variationText", short_number(curve.variation)},
-          {"burstiness", curve.burstiness()},
-          {"burstinessText", short_number(curve.burstiness())},
-          {"searched", exponent_json(result.searched)},
-          {"toLargest", exponent_json(result.to_largest)},
-          {"gammas", gammas},
-          {"bins", bins_json(curve.bins)}};
+  out = {{"size", result.threshold},
+         {"times", curve.n},
+         {"mean", curve.mean},
+         {"meanText", short_number(curve.mean, 6)},
+         {"variation", curve.variation},
+         {"variationText", short_number(curve.variation)},
+         {"burstiness", curve.burstiness()},
+         {"burstinessText", short_number(curve.burstiness())},
+         {"searched", result.searched},
+         {"toLargest", result.to_largest},
+         {"gammas", curve.fits},
+         {"bins", bins_json(curve.bins)}};
 }
 
-json events_json(const ExploreEvents &kind, const std::string &id, PageData &data) {
-  const CatalogueInfo &info = kind.table.info;
+namespace {
+
+json events_json(const ExploreEvents &kind, PageData &data) {
+  const EventTable &table = kind.table;
   std::vector<double> numbers;
   json names = json::array();
-  for (const catalogue_detail::Column &column : catalogue_detail::columns_of(info)) {
+  for (const catalogue_detail::Column &column : catalogue_detail::columns_of(table.info)) {
     names.push_back(column.name);
-    for (const Event &event : kind.table.details)
+    for (const Event &event : table.details)
       numbers.push_back(column.number ? event.*column.number
                                       : static_cast<double>(event.*column.integer));
   }
-  json thresholds = json::array();
-  for (const ThresholdResult &result : kind.thresholds)
-    thresholds.push_back(threshold_json(result));
-  const SmallestSize usual = Threshold().complete_in(kind.table);
-  json parameters = json::array();
-  for (const auto &[key, value] : info.parameters) parameters.push_back({key, value});
-  return {{"kind", kind.table.kind() == "pe" ? "drops" : kind.table.kind()},
-          {"file", kind.table.path},
-          {"count", kind.table.events.size()},
-          {"listed", kind.table.details.size()},
+  const SmallestSize usual = Threshold().complete_in(table);
+  return {{"kind", table.kind() == "pe" ? "drops" : table.kind()},
+          {"file", table.path},
+          {"count", table.events.size()},
+          {"listed", table.details.size()},
           {"columns", names},
-          {"numbers", data.packed_element(id + "-events", packed(numbers))},
-          {"densities", bins_json(log_histogram(column(kind.table.events, &Event::size)))},
+          {"numbers", data.add(numbers)},
+          {"densities", bins_json(log_histogram(column(table.events, &Event::size)))},
           {"usual", usual.size},
           {"usualText", text(usual)},
-          {"thresholds", thresholds},
-          {"parameters", parameters},
-          {"repairs", kind.table.repairs}};
+          {"thresholds", kind.thresholds},
+          {"parameters", table.info.parameters},
+          {"repairs", table.repairs}};
 }
 
-json run_json(const ExploreRun &run, const std::string &id, PageData &data) {
+json run_json(const ExploreRun &run, PageData &data) {
   const EventTable &table = run.kinds.front().table;
-  const double length = table.length();
-  json out = {{"label", table.label}, {"model", table.info.model}, {"length", length}};
-  for (const ExploreEvents &kind : run.kinds)
-    out["kinds"].push_back(events_json(kind, fmt::format("{}-{}", id, out["kinds"].size()), data));
-  out["series"] = run.series ? series_json(*run.series, id, data) : json();
-  out["history"] = run.history ? history_json(*run.history, run.history_path, id, data) : json();
+  json out = {{"label", table.label}, {"model", table.info.model}, {"length", table.length()}};
+  for (const ExploreEvents &kind : run.kinds) out["kinds"].push_back(events_json(kind, data));
+  out["series"] = run.series ? series_json(*run.series, data) : json();
+  out["history"] = run.history ? history_json(*run.history, run.history_path, data) : json();
   return out;
-}
-
-/// What stands between begin and end, from position at on; moves at behind it.
-std::string_view between(std::string_view text, std::string_view begin, std::string_view end,
-                         std::size_t &at) {
-  const std::size_t first = at + begin.size(), last = text.find(end, first);
-  if (last == std::string_view::npos)
-    throw std::logic_error("explore.html: no '" + std::string(end) + "'");
-  at = last + end.size();
-  return text.substr(first, last - first);
-}
-
-std::string element(std::string_view name, std::string_view file) {
-  const std::string_view text = explore_file(file);
-  if (text.find(fmt::format("</{}", name)) != std::string_view::npos)
-    throw std::logic_error(std::string(file) + " ends its element");
-  return fmt::format("<{0}>\n{1}</{0}>", name, text);
 }
 
 }  // namespace
@@ -233,35 +206,13 @@ std::string explore_html(const std::vector<ExploreRun> &runs, const ExploreSetti
                {"pSpeed", settings.p_speed},
                {"sSpeed", settings.s_speed},
                {"runs", json::array()}};
-  for (const ExploreRun &run : runs)
-    root["runs"].push_back(run_json(run, fmt::format("run{}", root["runs"].size()), data));
-
-  constexpr std::string_view style = "<link rel=\"stylesheet\" href=\"", style_end = "\">";
-  constexpr std::string_view script = "<script src=\"", script_end = "\"></script>";
-  const std::string_view page = explore_file("explore.html");
-  std::string out;
-  for (std::size_t at = 0; at < page.size();) {
-    const std::string_view rest = page.substr(at);
-    const auto begins = [rest](std::string_view what) {
-      return rest.substr(0, what.size()) == what;
-    };
-    if (begins(style)) {
-      out += element("style", between(page, style, style_end, at));
-    } else if (begins(script)) {
-      out += element("script", between(page, script, script_end, at));
-    } else if (begins("{{")) {
-      const std::string_view name = between(page, "{{", "}}", at);
-      if (name == "title")
-        out += html_escape(title);
-      else if (name == "data")
-        out += data.html(root);
-      else
-        out += html_escape(explore_file(name));
-    } else {
-      out += page[at++];
-    }
-  }
-  return out;
+  for (const ExploreRun &run : runs) root["runs"].push_back(run_json(run, data));
+  return filled(page_file("explore.html"), [&](std::string_view name) {
+    return name == "title"                  ? html_escape(title)
+           : name == "data"                 ? data.html(root)
+           : name == "dygraphs-licence.txt" ? html_escape(page_file(name))
+                                            : std::string(page_file(name));
+  });
 }
 
 }  // namespace LSM::postproc

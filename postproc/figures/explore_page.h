@@ -54,10 +54,6 @@ struct ExploreSettings {
 /// The whole page. It needs no other file and no network.
 std::string explore_html(const std::vector<ExploreRun> &runs, const ExploreSettings &settings);
 
-/// A file of figures/explore, or of the library, as it was when the program was built.
-/// \throws std::logic_error if there is no such file
-std::string_view explore_file(std::string_view name);
-
 }  // namespace LSM::postproc
 
 #endif

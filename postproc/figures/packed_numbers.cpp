@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <stdexcept>
 
@@ -29,32 +28,28 @@ std::string base64(std::string_view bytes) {
   return out;
 }
 
-template <class Number>
-std::string packed_columns(const std::vector<Number> &values) {
-  std::string bytes(values.size() * sizeof(Number), '\0');
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    std::array<char, sizeof(Number)> number;
-    std::memcpy(number.data(), &values[i], sizeof(Number));
-    for (std::size_t k = 0; k < sizeof(Number); ++k) bytes[k * values.size() + i] = number[k];
-  }
-  return packed(bytes);
-}
-
 }  // namespace
 
-std::string packed(std::string_view bytes) {
-  uLongf size = compressBound(static_cast<uLong>(bytes.size()));
+template <class Number>
+std::string packed(const std::vector<Number> &values) {
+  const std::size_t n = values.size(), width = sizeof(Number);
+  const auto *const from = reinterpret_cast<const Bytef *>(values.data());
+  std::vector<Bytef> bytes(n * width);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = 0; k < width; ++k) bytes[k * n + i] = from[i * width + k];
+  uLongf size = compressBound(bytes.size());
   std::string out(size, '\0');
-  if (compress2(reinterpret_cast<Bytef *>(out.data()), &size,
-                reinterpret_cast<const Bytef *>(bytes.data()), static_cast<uLong>(bytes.size()),
-                3) != Z_OK)  // a third of the time of the default for 2 % more bytes
+  // Level 3: a third of the time of the default for 2 % more bytes.
+  if (compress2(reinterpret_cast<Bytef *>(out.data()), &size, bytes.data(), bytes.size(), 3) !=
+      Z_OK)
     throw std::runtime_error("zlib cannot compress the data of the page");
   out.resize(size);
   return base64(out);
 }
 
-std::string packed(const std::vector<double> &values) { return packed_columns(values); }
-std::string packed(const std::vector<float> &values) { return packed_columns(values); }
+template std::string packed(const std::vector<double> &values);
+template std::string packed(const std::vector<float> &values);
+template std::string packed(const std::vector<std::int8_t> &values);
 
 SeriesCode encode(const std::vector<double> &values) {
   SeriesCode code;

@@ -8,18 +8,14 @@
 #include <array>
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace LSM::postproc {
 
-/// \throws std::runtime_error if zlib cannot compress
-std::string packed(std::string_view bytes);
-
-/// Doubles to the last bit: their first bytes, their second bytes, and so on, which compress
-/// better.
-std::string packed(const std::vector<double> &values);
-std::string packed(const std::vector<float> &values);
+/// Of doubles, floats or bytes, to the last bit: their first bytes, their second bytes, and so on,
+/// which compress better. \throws std::runtime_error if zlib cannot compress
+template <class Number>
+std::string packed(const std::vector<Number> &values);
 
 /// A series of numbers as one byte for each, with errors that are small beside what is seen at any
 /// zoom: a number is predicted by linear extrapolation of the two before it, and the byte says by

@@ -1,39 +1,46 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "page.h"
 
-#include <algorithm>
+#include <map>
+#include <set>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
 namespace LSM::postproc {
 
-std::string report_part(std::string_view name,
-                        const std::vector<std::pair<std::string_view, std::string>> &values) {
-  const std::string head = "<!-- part " + std::string(name) + " -->\n";
-  const std::size_t begin = report_template.find(head);
-  if (begin == std::string_view::npos)
-    throw std::logic_error("report.html has no part '" + std::string(name) + "'");
-  std::string_view rest = report_template.substr(begin + head.size());
-  rest = rest.substr(0, rest.find("<!-- part "));
+std::string filled(std::string_view text,
+                   const std::function<std::string(std::string_view)> &value) {
   std::string out;
-  std::vector<bool> used(values.size());
-  for (std::size_t open = 0; (open = rest.find("{{")) != std::string_view::npos;) {
-    const std::size_t close = rest.find("}}", open);
-    const std::string_view key = rest.substr(open + 2, close - open - 2);
-    const auto value = std::find_if(values.begin(), values.end(),
-                                    [key](const auto &pair) { return pair.first == key; });
-    if (value == values.end())
-      throw std::logic_error("report.html: nothing for {{" + std::string(key) + "}}");
-    used[static_cast<std::size_t>(value - values.begin())] = true;
-    out += rest.substr(0, open);
-    out += value->second;
-    rest.remove_prefix(close + 2);
+  for (std::size_t open = 0; (open = text.find("{{")) != std::string_view::npos;) {
+    const std::size_t close = text.find("}}", open);
+    out += text.substr(0, open);
+    out += value(text.substr(open + 2, close - open - 2));
+    text.remove_prefix(close + 2);
   }
-  if (std::find(used.begin(), used.end(), false) != used.end())
-    throw std::logic_error("report.html, part '" + std::string(name) +
-                           "': a value without a place");
-  out += rest.substr(0, rest.find_last_not_of('\n') + 1);
+  return out += text;
+}
+
+std::string report_part(const std::string &name,
+                        const std::vector<std::pair<std::string_view, std::string>> &values) {
+  const std::string_view page = page_file("report.html");
+  const std::string head = "<!-- part " + name + " -->\n";
+  const std::size_t begin = page.find(head);
+  if (begin == std::string_view::npos)
+    throw std::logic_error("report.html has no part '" + name + "'");
+  std::string_view part = page.substr(begin + head.size());
+  part = part.substr(0, part.find("<!-- part "));
+  part = part.substr(0, part.find_last_not_of('\n') + 1);
+  const std::map<std::string_view, std::string> known(values.begin(), values.end());
+  std::set<std::string_view> used;
+  std::string out = filled(part, [&](std::string_view key) {
+    if (known.count(key) == 0)
+      throw std::logic_error("report.html: nothing for {{" + std::string(key) + "}}");
+    used.insert(key);
+    return known.at(key);
+  });
+  if (used.size() < known.size())
+    throw std::logic_error("report.html, part '" + name + "': a value without a place");
   return out;
 }
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file page.h
-/// What the report page is made of: its words and its frame, which are those of report.html,
-/// compiled into the program, and its pictures.
+/// What pages are made of: their words and their frames, which are files compiled into the program,
+/// and their pictures.
 #ifndef LSM_POSTPROC_PAGE_H
 #define LSM_POSTPROC_PAGE_H
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -14,13 +15,18 @@
 
 namespace LSM::postproc {
 
-/// report.html as it is; its source is written by CMake.
-extern const std::string_view report_template;
+/// report.html, a file of figures/explore, or one of its library, as it was when the program was
+/// built. \throws std::logic_error if there is no such file
+std::string_view page_file(std::string_view name);
+
+/// The text, with each {{key}} replaced by value(key).
+std::string filled(std::string_view text,
+                   const std::function<std::string(std::string_view)> &value);
 
 /// The part of report.html called name, each {{key}} replaced by the value of that key,
 /// without the last line break.
 /// \throws std::logic_error if there is no such part, or if keys and values do not match
-std::string report_part(std::string_view name,
+std::string report_part(const std::string &name,
                         const std::vector<std::pair<std::string_view, std::string>> &values = {});
 
 /// gnuplot's SVG as an element of a page: no prologue, identifiers that begin with prefix (those of

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "packed_numbers.h"
+#include "page.h"
 #include "size_fits.h"
 #include "unit_files.h"
 
@@ -237,6 +238,14 @@ TEST(ExplorePage, TextOfCataloguesEndsNoElement) {
   EXPECT_EQ(page.find("alert(1)<"), std::string::npos);
 }
 
+TEST(ExplorePage, FilesEndNoElement) {
+  for (const char *const file :
+       {"dygraph.min.js", "data.js", "drawing.js", "views.js", "event.js", "table.js",
+        "statistics.js", "explore.js", "dygraph.css", "explore.css"})
+    for (const char *const end : {"</script", "</style"})
+      EXPECT_EQ(page_file(file).find(end), std::string_view::npos) << file;
+}
+
 TEST(ExplorePage, NamesNoOtherFile) {
   const std::string page = explore_html({run_of("x")}, {});
   for (const char *const mark : {" src=\"", "href=\"h", "href=\"e", "href=\"d.", "{{title",
@@ -244,7 +253,7 @@ TEST(ExplorePage, NamesNoOtherFile) {
     EXPECT_EQ(page.find(mark), std::string::npos) << mark;
   EXPECT_NE(page.find("Permission is hereby granted, free of charge"), std::string::npos);
   EXPECT_NE(page.find("Dan Vanderkam"), std::string::npos);
-  EXPECT_THROW(explore_file("nothing.js"), std::logic_error);
+  EXPECT_THROW(page_file("nothing.js"), std::logic_error);
 }
 
 }  // namespace
