@@ -2,10 +2,11 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "command.h"
 #include "numbers.h"
-#include "size_fit_tables.h"
+#include "size_figures.h"
 
 namespace LSM::postproc {
 
@@ -86,14 +87,9 @@ class Fit : public Statistic {
     Findings found;
     if (settings_.ranges.empty()) found.say(texts(settings_.threshold, tables));
     found.say(completeness_notes(fits));
-    nlohmann::json numbers = nlohmann::json::array(), lengths = numbers;
-    for (const SizeFit &fit : fits) numbers.push_back(to_json(fit));
-    found.numbers("fits", nlohmann::ordered_json(numbers));
-    for (const Scaling &scaling : scalings) {
-      found.say(scaling_text(scaling));
-      lengths.push_back(to_json(scaling));
-    }
-    if (scaling_) found.numbers("scaling", nlohmann::ordered_json(lengths));
+    found.numbers("fits", nlohmann::json(fits));
+    for (const Scaling &scaling : scalings) found.say(scaling_text(scaling));
+    if (scaling_) found.numbers("scaling", nlohmann::json(scalings));
     if (scaling_) found.table("", scaling_table(scalings));
     found.table("", size_fit_table(fits), ".fits");
     found.figure("", densities(tables, fits));

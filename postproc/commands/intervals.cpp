@@ -2,12 +2,12 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "clustering_figures.h"
 #include "command.h"
-#include "interval_figure.h"
+#include "interval_figures.h"
 #include "numbers.h"
-#include "table1.h"
 
 namespace LSM::postproc {
 
@@ -121,7 +121,7 @@ class Intervals : public Statistic {
                             short_number(settings_.shortest)));
     found.table("", table1(rows, settings_.rescale), ".table1");
     found.table("times", times_of(curves));
-    found.numbers("fits", table1(rows, settings_.rescale, false));
+    found.numbers("fits", table1(rows, settings_.rescale, false).json());
     found.table("clustering", clustering_table(curves, date_text), ".clustering");
     found.figure("densities", std::move(figure));
     if (std::any_of(curves.begin(), curves.end(), has_clustering)) {

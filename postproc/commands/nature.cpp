@@ -3,7 +3,7 @@
 
 #include "command.h"
 #include "nature_figure.h"
-#include "table1.h"
+#include "interval_figures.h"
 
 namespace LSM::postproc {
 

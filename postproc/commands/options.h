@@ -18,7 +18,7 @@
 #include "lsm_catalogue.h"
 #include "magnitudes.h"
 #include "lsm_output_claim.h"
-#include "size_densities.h"
+#include "size_figures.h"
 
 namespace CLI {
 class App;

@@ -7,13 +7,11 @@
 
 #include <fmt/format.h>
 
-#include "interval_figure.h"
+#include "interval_figures.h"
 #include "numbers.h"
 #include "page.h"
-#include "size_densities.h"
-#include "size_fit_tables.h"
+#include "size_figures.h"
 #include "size_fits.h"
-#include "table1.h"
 
 namespace LSM::postproc {
 
@@ -135,6 +133,14 @@ class ReportPage {
   std::string table1_section() const { return table1(table1_rows(curves_), false).html(); }
 
  private:
+  /// \param caption HTML
+  std::string picture(const Figure &figure, const std::string &title, const std::string &caption) {
+    return fmt::format(
+        "<figure>\n<div class=\"wide\">{}</div>\n<figcaption><b>{}.</b> {}</figcaption>\n"
+        "</figure>\n",
+        inline_svg(svg_text(figure), fmt::format("f{}-", ++pictures_), title), html_escape(title),
+        caption);
+  }
   std::string densities(const std::vector<EventTable> &tables, const Threshold &threshold,
                         const std::vector<PowerLine> &lines, const std::string &caption);
   std::string sizes(const std::vector<EventTable> &all, const std::vector<EventTable> &tables,
@@ -144,7 +150,7 @@ class ReportPage {
   std::string section(const ReportSection &section, const std::vector<EventTable> &tables);
 
   const ReportSettings &settings_;
-  PageFigures figures_;
+  int pictures_ = 0;
   std::vector<IntervalCurve> curves_;
 };
 
@@ -157,8 +163,8 @@ std::string ReportPage::densities(const std::vector<EventTable> &tables, const T
     std::string whole = caption + " " + report_part("densities caption");
     for (const SizeDensity &density : found)
       if (density.bins.empty()) whole += " No event in range: " + html_escape(density.label) + ".";
-    return figures_.add(size_density_figure(found, lines, picture_width),
-                        "Densities of event sizes", whole);
+    return picture(size_density_figure(found, lines, picture_width), "Densities of event sizes",
+                   whole);
   });
 }
 
@@ -215,8 +221,8 @@ std::string ReportPage::scaling(const std::vector<EventTable> &tables) {
   for (const Scaling &one : scale_sizes(tables, settings_.threshold, bootstrap)) {
     std::string figure;
     if (!one.fit.degenerate)
-      figure = figures_.add(scaling_figure({one}, picture_width),
-                            "Characteristic size against length", report_part("scaling caption"));
+      figure = picture(scaling_figure({one}, picture_width), "Characteristic size against length",
+                       report_part("scaling caption"));
     out += report_part("scaling", {{"figure", figure},
                                    {"table", scaling_table({one}).html()},
                                    {"events", one.kind == "pe" ? report_part("drops of PE")
@@ -236,19 +242,18 @@ std::string ReportPage::times(const std::vector<EventTable> &tables) {
   intervals.seed = settings_.seed;
   const std::vector<IntervalCurve> curves = interval_curves(tables, intervals);
   std::string out = drawn_or_why([&] {
-    return figures_.add(interval_figure(curves, false, picture_width),
-                        "Densities of inter-event times",
-                        report_part("intervals caption",
-                                    {{"figure", tables.front().info.model == "lsm" ? "14" : "15"},
-                                     {"threshold", short_number(threshold)}}));
+    return picture(interval_figure(curves, false, picture_width), "Densities of inter-event times",
+                   report_part("intervals caption",
+                               {{"figure", tables.front().info.model == "lsm" ? "14" : "15"},
+                                {"threshold", short_number(threshold)}}));
   });
   curves_.insert(curves_.end(), curves.begin(), curves.end());
   intervals.rescale = true;
   intervals.replicas = 0;  // the same fits in another unit
   return out + drawn_or_why([&] {
-           return figures_.add(
-               interval_figure(interval_curves(tables, intervals), true, picture_width),
-               "Inter-event times divided by their mean", report_part("rescaled caption"));
+           return picture(interval_figure(interval_curves(tables, intervals), true, picture_width),
+                          "Inter-event times divided by their mean",
+                          report_part("rescaled caption"));
          });
 }
 
@@ -262,7 +267,7 @@ std::string ReportPage::section(const ReportSection &section,
              if (const auto *table = std::get_if<Table>(&one.what))
                body += table->html();
              else if (const auto *figure = std::get_if<Figure>(&one.what))
-               body += figures_.add(*figure, section.heading, "");
+               body += picture(*figure, section.heading, "");
            }
            return body;
          });

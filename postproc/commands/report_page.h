@@ -12,7 +12,7 @@
 #include "event_table.h"
 #include "findings.h"
 #include "finite_size.h"
-#include "regime_table.h"
+#include "series_figures.h"
 
 namespace LSM::postproc {
 

@@ -6,7 +6,6 @@
 #include "command.h"
 #include "history_input.h"
 #include "rupture_figures.h"
-#include "slip_figures.h"
 
 namespace LSM::postproc {
 

@@ -7,8 +7,7 @@
 
 #include "command.h"
 #include "numbers.h"
-#include "regime_table.h"
-#include "series_figure.h"
+#include "series_figures.h"
 #include "series_input.h"
 
 namespace LSM::postproc {

@@ -13,7 +13,7 @@
 #include "lsm_pe_series.h"
 #include "lsm_picker_options.h"
 #include "options.h"
-#include "regime_table.h"
+#include "series_figures.h"
 
 namespace LSM::postproc {
 

@@ -7,7 +7,7 @@
 #include "command.h"
 #include "series_input.h"
 #include "spectrum.h"
-#include "spectrum_figure.h"
+#include "series_figures.h"
 
 namespace LSM::postproc {
 

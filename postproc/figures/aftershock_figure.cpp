@@ -42,22 +42,6 @@ Table aftershock_table(const std::vector<AftershockCurve> &curves) {
   return table;
 }
 
-namespace {
-
-void add_fit(Curves &plot, std::int64_t number, const Aftershocks &a) {
-  const auto exact = [](double value) { return text_io::number(value); };
-  const double lo = a.bins.front().lo, hi = a.bins.back().hi;
-  if (a.fit.degenerate)
-    plot.add_law(lo, hi, exact(a.fit.constant), fmt::format("lt {} dt 2", number));
-  else
-    plot.add_law(lo, hi,
-                 fmt::format("{}*($1+{})**(-{})+{}", exact(a.fit.K), exact(a.fit.c), exact(a.fit.p),
-                             exact(a.fit.background)),
-                 fmt::format("lt {} dt 1", number));
-}
-
-}  // namespace
-
 Figure aftershock_figure(const std::vector<AftershockCurve> &curves) {
   Table table(
       "curve,model,bin_lo,bin_hi,time,count,rate,error,poisson_rate,poisson_scatter,label,before");
@@ -89,7 +73,13 @@ Figure aftershock_figure(const std::vector<AftershockCurve> &curves) {
     plot.add(Curves::data, fmt::format("keyentry with linespoints lt {}", number),
              fmt::format("{} ({} events, {} main shocks)", curve.label, a.fit.n,
                          a.sequences.main_shocks));
-    add_fit(plot, number, a);
+    const auto exact = [](double value) { return text_io::number(value); };
+    const OmoriFit &fit = a.fit;
+    plot.add_law(a.bins.front().lo, a.bins.back().hi,
+                 fit.degenerate ? exact(fit.constant)
+                                : fmt::format("{}*($1+{})**(-{})+{}", exact(fit.K), exact(fit.c),
+                                              exact(fit.p), exact(fit.background)),
+                 fmt::format("lt {} dt {}", number, fit.degenerate ? 2 : 1));
   }
   if (number == 0)
     throw std::runtime_error("no event after a main shock in any catalogue, nothing to draw");

@@ -14,7 +14,6 @@ namespace LSM::postproc {
 
 namespace {
 
-constexpr std::size_t most_rows = 8;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Each number of a clustering: its column, what it is, and with what it is compared.
@@ -34,15 +33,6 @@ std::vector<Named> numbers_of(const Clustering &c) {
            c.after_distance}};
 }
 
-std::vector<const IntervalCurve *> drawn(const std::vector<IntervalCurve> &curves) {
-  std::vector<const IntervalCurve *> out;
-  for (const IntervalCurve &curve : curves)
-    if (has_clustering(curve) && out.size() < most_rows) out.push_back(&curve);
-  if (out.empty())
-    throw std::runtime_error("no curve has enough times to tell whether they cluster");
-  return out;
-}
-
 std::string title_of(const IntervalCurve &curve, const std::string &more) {
   return fmt::format("set title {} offset 0,-0.6\n",
                      quote(curve.label + ", " + curve.from() + more));
@@ -53,11 +43,26 @@ double shown_time(const IntervalCurve &curve, double time) {
   return curve.earthquakes ? 1970.0 + time / 365.2425 : time;
 }
 
-/// A panel in one of the rows of a picture, with room for the label of its axis.
-std::string panel_in(std::size_t row, std::size_t rows, double left, double right) {
-  const double height = 1.0 / static_cast<double>(rows);
-  const double top = 1.0 - static_cast<double>(row) * height;
-  return panel(left, right, top - 0.72 * height, top - 0.12 * height);
+/// A row of panels for each of the first eight curves with clustering: what panels() makes of the
+/// table, the number of the curve, the curve, and a function that begins a panel of its row.
+template <class Panels>
+Figure in_rows(const std::vector<IntervalCurve> &curves, Table table, int height,
+               const Panels &panels) {
+  std::vector<const IntervalCurve *> drawn;
+  for (const IntervalCurve &curve : curves)
+    if (has_clustering(curve) && drawn.size() < 8) drawn.push_back(&curve);
+  if (drawn.empty())
+    throw std::runtime_error("no curve has enough times to tell whether they cluster");
+  const auto rows = static_cast<int>(drawn.size());
+  std::string script = "set multiplot\n";
+  for (int row = 0; row < rows; ++row) {
+    const double share = 1.0 / rows, top = 1.0 - row * share;
+    const auto begin = [&](double left, double right) {
+      return panel(left, right, top - 0.72 * share, top - 0.12 * share);
+    };
+    script += panels(table, row + 1, *drawn[static_cast<std::size_t>(row)], begin);
+  }
+  return {std::move(table), script + "unset multiplot\n", {900, height * rows}};
 }
 
 }  // namespace
@@ -68,8 +73,7 @@ bool has_clustering(const IntervalCurve &curve) {
 
 Table clustering_table(const std::vector<IntervalCurve> &curves,
                        const std::function<std::string(double)> &date) {
-  std::vector<std::string> columns = {"label", "threshold", "n",        "from",
-                                      "to",    "departure", "steady_p", "burstiness"};
+  std::string columns = "label,threshold,n,from,to,departure,steady_p,burstiness";
   std::vector<Shown> shown = {{"catalogue", "label"},
                               {"events", "sizes"},
                               {"times", "n"},
@@ -80,14 +84,12 @@ Table clustering_table(const std::vector<IntervalCurve> &curves,
                               {"burstiness", "burstiness", 3}};
   for (const Named &one : numbers_of(Clustering())) {
     const std::string name = one.column;
-    columns.insert(columns.end(),
-                   {name, name + "_random", name + "_random_deviation", name + "_p"});
+    columns += fmt::format(",{0},{0}_random,{0}_random_deviation,{0}_p", name);
     shown.push_back({one.text, name, 3});
     shown.push_back({one.random, name + "_random", 4, name + "_random_deviation"});
     shown.push_back({"p", name + "_p", 2});
   }
-  columns.insert(columns.end(), {"!sizes", "!first", "!last"});
-  Table table(columns);
+  Table table(columns + ",!sizes,!first,!last");
   table.show(shown);
   table.comment(
       "departure: of the cumulative number of events from a straight line, over their number; "
@@ -112,7 +114,7 @@ Table clustering_table(const std::vector<IntervalCurve> &curves,
 namespace {
 
 /// Adds the stretches of a curve that are proposed as steady; returns them as shaded areas.
-std::string add_steady(Table &table, std::int64_t number, const IntervalCurve &curve) {
+std::string add_steady(Table &table, int number, const IntervalCurve &curve) {
   std::string areas = "unset object\nunset label\n";
   int area = 0;
   for (const Stretch &one : curve.steadiness.steady) {
@@ -136,38 +138,34 @@ std::string departure_text(const Steadiness &steadiness) {
 }  // namespace
 
 Figure rate_figure(const std::vector<IntervalCurve> &curves) {
-  const std::vector<const IntervalCurve *> rows = drawn(curves);
-  Table table("curve,kind,time,to,count,departure,label");
-  table.comment(
+  Table counts("curve,kind,time,to,count,departure,label");
+  counts.comment(
       "count: cumulative number of events at 400 times; steady: periods proposed as steady, "
       "their events and departure from a straight line over that number; earthquakes: year");
-  std::string script = "set multiplot\n";
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    const IntervalCurve &curve = *rows[k];
-    const auto number = static_cast<std::int64_t>(k + 1);
-    for (const auto &[time, count] : cumulative_numbers(curve.starts, 400))
-      table.row(number, "count", shown_time(curve, time), nan, count, nan, curve.label);
-    const double first = shown_time(curve, curve.starts.front()),
-                 last = shown_time(curve, curve.starts.back());
-    script +=
-        panel_in(k, rows.size(), 0.1, 0.97) + add_steady(table, number, curve) +
-        title_of(curve, departure_text(curve.steadiness)) +
-        axis("x", curve.earthquakes ? "year" : "time (model time units)", false, first, last) +
-        axis("y", "events", false, 0.0, nan) +
-        fmt::format(
-            "plot table using ($1 == {0} && strcol(2) eq 'count' ? $3 : NaN):5 with lines lt "
-            "1 lw 1.5 notitle, \\\n     [{1}:{2}] '+' using 1:({3}*($1-({1}))/(({2})-({1}))) "
-            "with lines lt 8 dt (6,4) notitle\n",
-            number, text_io::number(first), text_io::number(last), curve.starts.size());
-  }
-  return {
-      std::move(table), script + "unset multiplot\n", {900, 290 * static_cast<int>(rows.size())}};
+  return in_rows(
+      curves, std::move(counts), 290,
+      [](Table &table, int number, const IntervalCurve &curve, const auto &begin_panel) {
+        for (const auto &[time, count] : cumulative_numbers(curve.starts, 400))
+          table.row(number, "count", shown_time(curve, time), nan, count, nan, curve.label);
+        const double first = shown_time(curve, curve.starts.front()),
+                     last = shown_time(curve, curve.starts.back());
+        return begin_panel(0.1, 0.97) + add_steady(table, number, curve) +
+               title_of(curve, departure_text(curve.steadiness)) +
+               axis("x", curve.earthquakes ? "year" : "time (model time units)", false, first,
+                    last) +
+               axis("y", "events", false, 0.0, nan) +
+               fmt::format(
+                   "plot table using ($1 == {0} && strcol(2) eq 'count' ? $3 : NaN):5 with lines "
+                   "lt 1 lw 1.5 notitle, \\\n     [{1}:{2}] '+' using "
+                   "1:({3}*($1-({1}))/(({2})-({1}))) with lines lt 8 dt (6,4) notitle\n",
+                   number, text_io::number(first), text_io::number(last), curve.starts.size());
+      });
 }
 
 namespace {
 
 /// Densities of the times after each third of the times, and the panel that shows them.
-std::string after_thirds(Table &table, std::int64_t number, const IntervalCurve &curve) {
+std::string after_thirds(Table &table, int number, const IntervalCurve &curve) {
   constexpr const char *names[] = {"after the shortest third", "middle", "longest"};
   constexpr int colours[] = {6, 8, 1};
   Extent times, heights;
@@ -192,7 +190,7 @@ std::string after_thirds(Table &table, std::int64_t number, const IntervalCurve 
 }
 
 /// Mean time after each eighth of the times, and the panel that shows it.
-std::string after_eighths(Table &table, std::int64_t number, const IntervalCurve &curve) {
+std::string after_eighths(Table &table, int number, const IntervalCurve &curve) {
   for (std::size_t part = 0; part < eighths; ++part) {
     const AgainstChance &one = curve.clustering.after_eighth[part];
     table.row(number, "mean", part + 1, static_cast<double>(part + 1), one.value, nan, one.mean,
@@ -210,24 +208,20 @@ std::string after_eighths(Table &table, std::int64_t number, const IntervalCurve
 }  // namespace
 
 Figure conditional_figure(const std::vector<IntervalCurve> &curves) {
-  const std::vector<const IntervalCurve *> rows = drawn(curves);
-  Table table("curve,kind,part,x,y,error,random,random_deviation,label");
-  table.comment(
+  Table densities("curve,kind,part,x,y,error,random,random_deviation,label");
+  densities.comment(
       "density: of the times over their mean that follow the shortest (part 1), middle (2) and "
       "longest (3) third of the times; mean: of those that follow each eighth, over the mean, "
       "beside times in random order (Livina et al. 2005)");
-  std::string script = "set multiplot\n";
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    const IntervalCurve &curve = *rows[k];
-    const auto number = static_cast<std::int64_t>(k + 1);
-    const double p = curve.clustering.after_distance.p;
-    script += panel_in(k, rows.size(), 0.1, 0.56) +
-              title_of(curve, fmt::format(" (p = {})", short_number(p, 2)));
-    script += after_thirds(table, number, curve) + panel_in(k, rows.size(), 0.7, 0.97);
-    script += after_eighths(table, number, curve);
-  }
-  return {
-      std::move(table), script + "unset multiplot\n", {900, 340 * static_cast<int>(rows.size())}};
+  return in_rows(curves, std::move(densities), 340,
+                 [](Table &table, int number, const IntervalCurve &curve, const auto &begin_panel) {
+                   const double p = curve.clustering.after_distance.p;
+                   std::string script =
+                       begin_panel(0.1, 0.56) +
+                       title_of(curve, fmt::format(" (p = {})", short_number(p, 2))) +
+                       after_thirds(table, number, curve);
+                   return script + begin_panel(0.7, 0.97) + after_eighths(table, number, curve);
+                 });
 }
 
 }  // namespace LSM::postproc

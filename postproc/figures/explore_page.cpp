@@ -11,6 +11,7 @@
 #include "numbers.h"
 #include "packed_numbers.h"
 #include "page.h"
+#include "table.h"
 #include "thinner.h"
 
 namespace LSM::postproc {

@@ -46,9 +46,11 @@ class Findings {
   }
   /// Printed and in JSON, but in no file of its own.
   void table(const std::string &name, Table table) { all_.push_back({name, std::move(table), {}}); }
-  /// Only for programs.
-  void numbers(const std::string &name, const nlohmann::ordered_json &value);
-  void numbers(const std::string &name, const Table &table);
+  /// Only for programs: JSON of any kind.
+  template <class Json>
+  void numbers(const std::string &name, const Json &value) {
+    all_.push_back({name, std::make_shared<const nlohmann::ordered_json>(value), {}});
+  }
   const std::vector<Finding> &all() const { return all_; }
 
  private:

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
@@ -38,14 +39,13 @@ std::string short_name_of(const NatureRow &row) {
 }  // namespace
 
 Table nature_table(const std::vector<NatureRow> &rows) {
-  std::vector<std::string> names = {"label", "threshold", "catalogues", "events"};
+  std::string names = "label,threshold,catalogues,events";
   std::vector<Shown> shown = {{"", "name"}, {"catalogues", "catalogues"}, {"events", "events"}};
   for (const Column &column : columns) {
-    names.insert(names.end(), {column.name, std::string(column.name) + "_error"});
+    names += fmt::format(",{0},{0}_error", column.name);
     shown.push_back({column.title, column.name, 3});
   }
-  names.emplace_back("!name");
-  Table table(names);
+  Table table(names + ",!name");
   table.show(shown);
   table.comment(
       "distance: Kolmogorov-Smirnov distance of the inter-event times over their mean to those of "
@@ -95,34 +95,28 @@ namespace {
 /// A row as it is drawn. Colours tell labels, symbols smallest sizes.
 struct Drawn {
   const NatureRow &row;
-  std::size_t number;  ///< from 1 on
-  bool nearest;        ///< first of its label: of the others only the distance is drawn
+  int number;    ///< from 1 on
+  bool nearest;  ///< first of its label: of the others only the distance is drawn
   std::string style;
 };
 
-std::string style_of(std::size_t number, const NatureRow &row, std::size_t label,
-                     std::size_t size) {
-  if (row.earthquakes)
-    return fmt::format("lc rgb '#000000' lw {} dt 1 pt {}", number == 1 ? 2 : 1,
-                       number == 1 ? 7 : 6);
-  constexpr std::array<int, 6> symbols = {7, 5, 9, 11, 13, 15};
-  return fmt::format("lt {} dt 1 pt {}", (label - 1) % 7 + 1, symbols[size % symbols.size()]);
-}
-
 std::vector<Drawn> drawn_of(const std::vector<NatureRow> &rows) {
+  constexpr std::array<int, 6> symbols = {7, 5, 9, 11, 13, 15};
   std::set<double> sizes;  // of the models
   for (const NatureRow &row : rows)
     if (!row.earthquakes) sizes.insert(row.threshold);
-  std::vector<std::string> labels;
+  std::map<std::string, std::size_t> labels;
   std::vector<Drawn> out;
   for (const NatureRow &row : rows) {
-    const auto found = std::find(labels.begin(), labels.end(), row.label);
-    const auto label = static_cast<std::size_t>(found - labels.begin());
-    const auto size =
-        static_cast<std::size_t>(std::distance(sizes.begin(), sizes.lower_bound(row.threshold)));
-    const std::size_t number = out.size() + 1;
-    out.push_back({row, number, found == labels.end(), style_of(number, row, label, size)});
-    if (found == labels.end()) labels.push_back(row.label);
+    const auto [label, nearest] = labels.emplace(row.label, labels.size());
+    const auto size = std::distance(sizes.begin(), sizes.lower_bound(row.threshold));
+    const int number = static_cast<int>(out.size()) + 1;
+    std::string style = row.earthquakes
+                            ? fmt::format("lc rgb '#000000' lw {} dt 1 pt {}", number == 1 ? 2 : 1,
+                                          number == 1 ? 7 : 6)
+                            : fmt::format("lt {} dt 1 pt {}", (label->second + 6) % 7 + 1,
+                                          symbols[static_cast<std::size_t>(size) % symbols.size()]);
+    out.push_back({row, number, nearest, std::move(style)});
   }
   return out;
 }
@@ -133,8 +127,7 @@ void add_rows(Table &table, const Drawn &one) {
     // gnuplot skips points with an empty error
     table.row(panel, one.number, x, y, std::isnan(error) ? 0.0 : error, name_of(row));
   };
-  if (one.number > 1)
-    add("distance", row.distance.value, -1.0 * static_cast<double>(one.number), row.distance.error);
+  if (one.number > 1) add("distance", row.distance.value, -1.0 * one.number, row.distance.error);
   if (!one.nearest) return;
   for (const LogBin &bin : time_densities(row)) add("times", bin.centre, bin.density, bin.error);
   double magnitude = 0.0;
@@ -162,7 +155,7 @@ std::string ticks_of(const std::vector<Drawn> &rows) {
   for (const Drawn &one : rows)
     if (one.number > 1)
       out += fmt::format("{}{} {}", out.empty() ? "" : ", ", quote(short_name_of(one.row)),
-                         -static_cast<int>(one.number));
+                         -one.number);
   return out;
 }
 

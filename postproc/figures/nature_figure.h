@@ -8,7 +8,7 @@
 
 #include "nature.h"
 #include "plot.h"
-#include "table1.h"
+#include "interval_figures.h"
 
 namespace LSM::postproc {
 

@@ -5,7 +5,7 @@
 #include <set>
 #include <stdexcept>
 
-#include <fmt/format.h>
+#include "table.h"
 
 namespace LSM::postproc {
 
@@ -65,14 +65,6 @@ std::string inline_svg(std::string_view svg, const std::string &prefix, const st
   if (at != std::string::npos) out.replace(at, background.size(), "fill=\"none\"");
   out.insert(4, " role=\"img\"");
   return out;
-}
-
-std::string PageFigures::add(const Figure &figure, const std::string &title,
-                             const std::string &caption) {
-  return fmt::format(
-      "<figure>\n<div class=\"wide\">{}</div>\n<figcaption><b>{}.</b> {}</figcaption>\n</figure>\n",
-      inline_svg(svg_text(figure), fmt::format("f{}-", ++count_), title), html_escape(title),
-      caption);
 }
 
 std::string degenerate_html(const std::string &why) {

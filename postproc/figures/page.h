@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file page.h
-/// What pages are made of: their words and their frames, which are files compiled into the program,
-/// and their pictures.
+/// What pages are made of: their words and their frames, which are files compiled into the program.
 #ifndef LSM_POSTPROC_PAGE_H
 #define LSM_POSTPROC_PAGE_H
 
@@ -10,8 +9,6 @@
 #include <string_view>
 #include <utility>
 #include <vector>
-
-#include "plot.h"
 
 namespace LSM::postproc {
 
@@ -32,16 +29,6 @@ std::string report_part(const std::string &name,
 /// gnuplot's SVG as an element of a page: no prologue, identifiers that begin with prefix (those of
 /// several pictures would clash), background of the page, title as its name for screen readers.
 std::string inline_svg(std::string_view svg, const std::string &prefix, const std::string &title);
-
-/// Numbers the pictures of a page.
-class PageFigures {
- public:
-  /// \param caption HTML
-  std::string add(const Figure &figure, const std::string &title, const std::string &caption);
-
- private:
-  int count_ = 0;
-};
 
 /// What stands in the place of numbers that the data do not determine.
 std::string degenerate_html(const std::string &why);

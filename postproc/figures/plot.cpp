@@ -78,7 +78,7 @@ std::string shell_word(std::string_view text) {
 }
 
 /// Runs gnuplot in folder. \throws PlotError with gnuplot's own message
-void run_gnuplot(const std::string &folder, const std::vector<std::string> &arguments) {
+void run_gnuplot(const fs::path &folder, const std::vector<std::string> &arguments) {
   // -d: a user's own start-up file must not change the pictures.
   std::string command =
       "{ cd " + shell_word((fs::path(".") / folder).string()) + " && exec gnuplot -d";
@@ -97,32 +97,27 @@ void run_gnuplot(const std::string &folder, const std::vector<std::string> &argu
   throw PlotError("gnuplot failed: " + gnuplot_message(messages));
 }
 
-/// These digits times powers of ten, from the last one below lo to the first one above hi.
-std::vector<double> ticks_around(double lo, double hi, const std::vector<double> &digits) {
-  std::vector<double> ticks;
-  for (int n = static_cast<int>(std::floor(std::log10(lo))) - 1;; ++n) {
-    for (const double digit : digits) {
-      const double tick = digit * std::pow(10.0, n);
-      if (tick < lo) ticks.clear();
-      ticks.push_back(tick);
-      if (tick > hi) return ticks;
-    }
-  }
-}
-
-/// As few digits as give four ticks.
+/// Ticks from the last one below lo to the first one above hi: as few digits, times powers of ten,
+/// as give four of them.
 std::vector<double> ticks_around(double lo, double hi) {
   std::vector<double> ticks;
   for (const auto &digits :
        {std::vector<double>{1, 2, 5}, std::vector<double>{1, 2, 3, 4, 5, 7},
         std::vector<double>{1, 1.2, 1.4, 1.6, 1.8, 2, 2.5, 3, 3.5, 4, 5, 6, 7, 8, 9}}) {
-    ticks = ticks_around(lo, hi, digits);
+    ticks = {0.0};
+    for (int n = static_cast<int>(std::floor(std::log10(lo))) - 1; ticks.back() <= hi; ++n)
+      for (const double digit : digits) {
+        const double tick = digit * std::pow(10.0, n);
+        if (tick < lo) ticks.clear();
+        if (ticks.empty() || ticks.back() <= hi) ticks.push_back(tick);
+      }
     if (ticks.size() >= 4) break;
   }
   return ticks;
 }
 
-std::string whole_script(const std::string &name, std::string_view body, PictureSize size) {
+std::string whole_script(const std::string &name, const Figure &figure) {
+  const auto &[table, body, size] = figure;
   std::string script = fmt::format(
       "# Draws {0}.png and {0}.svg from\n# {0}.csv: run `gnuplot ./{0}.gp` in this folder.\n"
       "base = {1}\ntable = base.\".csv\"\nif (!exists(\"formats\")) formats = \"png svg\"\n",
@@ -142,11 +137,8 @@ std::string whole_script(const std::string &name, std::string_view body, Picture
       "set output base.\".\".format\n",
       2 * size.width, 2 * size.height, size.width, size.height,
       // Without that, images go into files of their own.
-      body.find("with image") != std::string_view::npos ? " standalone" : "", prelude);
-  script += body;
-  if (!body.empty() && body.back() != '\n') script += '\n';
-  script += "unset output\n}\n";
-  return script;
+      body.find("with image") != std::string::npos ? " standalone" : "", prelude);
+  return script + body + "unset output\n}\n";
 }
 
 void check_name(const fs::path &base) {
@@ -174,6 +166,23 @@ std::string escape(std::string_view text, bool markup) {
     out += number ? fmt::format("\\{:03o}", code) : std::string(1, static_cast<char>(code));
   }
   return out + "\"";
+}
+
+/// Runs BASE.gp. \throws PlotError unless both pictures came out; then neither is left
+void draw(const std::string &base) {
+  const fs::path folder = fs::path(base).parent_path(), name = fs::path(base).filename();
+  const std::array<std::string, 2> pictures = {base + ".png", base + ".svg"};
+  std::error_code code;
+  for (const std::string &picture : pictures) fs::remove(picture, code);
+  try {
+    run_gnuplot(folder, {"./" + name.string() + ".gp"});
+    for (const std::string &picture : pictures)
+      if (fs::file_size(picture, code) == 0 || code) throw PlotError("gnuplot wrote no " + picture);
+  } catch (const PlotError &error) {
+    for (const std::string &picture : pictures) fs::remove(picture, code);
+    throw PlotError(base + ".gp: " + error.what() +
+                    "; table and script are written (--no-picture: only these)");
+  }
 }
 
 }  // namespace
@@ -241,9 +250,8 @@ Curves::Curves(std::string_view x, std::string_view condition)
 
 void Curves::add(Layer layer, const std::string &element, const std::string &title,
                  std::string (*quoted)(std::string_view)) {
-  if (title.empty()) return add(layer, element);
-  add_whole(layer, element + " title " + quoted(title));
-  titles_.push_back(title);
+  layers_[layer].push_back(element + (title.empty() ? " notitle" : " title " + quoted(title)));
+  if (!title.empty()) titles_.push_back(title);
 }
 
 void Curves::add_data(std::int64_t curve, int y, int error, const std::string &title) {
@@ -281,34 +289,14 @@ Figure Curves::figure(Table table, const std::string &axes, int width) const {
           {width, static_cast<int>(0.56 * width) + 23 * rows}};
 }
 
-void draw(const PictureOptions &options, std::string_view body, PictureSize size) {
+void make(const Figure &figure, const PictureOptions &options) {
   const fs::path base(options.output);
   check_name(base);
-  const std::string name = base.filename().string();
-  const std::string folder = base.has_parent_path() ? base.parent_path().string() : ".";
-  const std::string script = options.output + ".gp";
-  write_file(script, whole_script(name, body, size));
-  if (options.no_picture) return;
-
-  const std::array<std::string, 2> pictures = {options.output + ".png", options.output + ".svg"};
-  std::error_code code;
-  for (const std::string &picture : pictures) fs::remove(picture, code);
-  try {
-    run_gnuplot(folder, {"./" + name + ".gp"});
-    for (const std::string &picture : pictures)
-      if (fs::file_size(picture, code) == 0 || code) throw PlotError("gnuplot wrote no " + picture);
-  } catch (const PlotError &error) {
-    for (const std::string &picture : pictures) fs::remove(picture, code);
-    throw PlotError(script + ": " + error.what() +
-                    "; table and script are written (--no-picture: only these)");
-  }
-}
-
-void make(const Figure &figure, const PictureOptions &options) {
-  check_name(options.output);
   figure.table.write(options.table());
-  draw(options, figure.script, figure.size);
-  print_written(options);
+  write_file(options.output + ".gp", whole_script(base.filename().string(), figure));
+  if (!options.no_picture) draw(options.output);
+  fmt::print("wrote {0}.csv, {0}.gp{1}\n", options.output,
+             options.no_picture ? "" : fmt::format(", {0}.png, {0}.svg", options.output));
 }
 
 std::string svg_text(const Figure &figure) {
@@ -321,17 +309,12 @@ std::string svg_text(const Figure &figure) {
   };
   const std::unique_ptr<const std::string, decltype(remove)> cleaner(&folder, remove);
   figure.table.write(folder + "/figure.csv");
-  write_file(folder + "/figure.gp", whole_script("figure", figure.script, figure.size));
+  write_file(folder + "/figure.gp", whole_script("figure", figure));
   run_gnuplot(folder, {"-e", "formats='svg'", "figure.gp"});
   std::ifstream in(folder + "/figure.svg", std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   if (text.find("</svg>") == std::string::npos) throw PlotError("gnuplot wrote no picture");
   return text;
-}
-
-void print_written(const PictureOptions &options) {
-  fmt::print("wrote {0}.csv, {0}.gp{1}\n", options.output,
-             options.no_picture ? "" : fmt::format(", {0}.png, {0}.svg", options.output));
 }
 
 }  // namespace LSM::postproc

@@ -57,26 +57,21 @@ struct PictureSize {
   int width = 900, height = 640;
 };
 
-/// Writes BASE.gp and, unless options.no_picture, runs gnuplot on it in the folder of BASE and
-/// checks that BASE.png and BASE.svg came out.
-///
-/// body: gnuplot commands that end with a plot (or multiplot); run once per format. They find the
-/// string variables `base` ("./" and the name without folder, so that no name begins a pipe) and
-/// `table` (base.".csv"), comma as the separator of data files, line types 1 to 16 with Okabe and
-/// Ito's colours, twice, and different point types and dashes (`lt K`), and the key below the
-/// picture. lt 8 is black. \throws FileError; PlotError, also when gnuplot is missing (table and
-/// script are there by then)
-void draw(const PictureOptions &options, std::string_view body, PictureSize size = {});
-
 /// A table and the picture of it.
 struct Figure {
   Table table;
-  std::string script;  ///< body for draw()
+  /// gnuplot commands that end with a plot (or multiplot); run once per format. They find the
+  /// string variables `base` ("./" and the name without folder, so that no name begins a pipe) and
+  /// `table` (base.".csv"), comma as the separator of data files, line types 1 to 16 with Okabe and
+  /// Ito's colours, twice, and different point types and dashes (`lt K`), and the key below the
+  /// picture. lt 8 is black.
+  std::string script;
   PictureSize size;
 };
 
-/// Writes table, script and pictures, and says on standard output what was written.
-/// \throws FileError, see draw()
+/// Writes BASE.csv, BASE.gp and, unless options.no_picture, runs gnuplot in the folder of BASE and
+/// checks that BASE.png and BASE.svg came out; says on standard output what was written.
+/// \throws FileError; PlotError, also when gnuplot is missing (table and script are there by then)
 void make(const Figure &figure, const PictureOptions &options);
 
 /// The picture as SVG text, without leaving a file. \throws FileError
@@ -93,8 +88,8 @@ class Curves {
   /// A function row(k) that gives column x in the rows of curve k, where `condition` holds.
   explicit Curves(std::string_view x, std::string_view condition = "");
 
-  void add(Layer layer, const std::string &element) { add_whole(layer, element + " notitle"); }
-  void add(Layer layer, const std::string &element, const std::string &title,
+  /// \param title empty: not in the key
+  void add(Layer layer, const std::string &element, const std::string &title = "",
            std::string (*quoted)(std::string_view) = quote);
   /// Points of a curve of the table with error bars, y and error being the numbers of columns.
   void add_data(std::int64_t curve, int y, int error, const std::string &title = "");
@@ -106,15 +101,10 @@ class Curves {
   Figure figure(Table table, const std::string &axes, int width = 900) const;
 
  private:
-  void add_whole(Layer layer, const std::string &element) { layers_[layer].push_back(element); }
-
   std::string functions_;
   std::array<std::vector<std::string>, 4> layers_;
   std::vector<std::string> titles_;
 };
-
-/// Files as `wrote BASE.csv, BASE.gp, ...` on standard output.
-void print_written(const PictureOptions &options);
 
 }  // namespace LSM::postproc
 

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file rupture_figures.h
-/// Pictures of the ruptures of a fault (all ours).
+/// Pictures of the ruptures of a fault, and of its slip in space and time (all ours).
 #ifndef LSM_POSTPROC_RUPTURE_FIGURES_H
 #define LSM_POSTPROC_RUPTURE_FIGURES_H
 
 #include <string>
 #include <vector>
 
+#include "lsm_catalogue.h"
 #include "plot.h"
 #include "ruptures.h"
+#include "slip_window.h"
 
 namespace LSM::postproc {
 
@@ -29,6 +31,16 @@ Figure rupture_density_figure(const std::vector<RuptureDensity> &densities,
 Figure moment_length_figure(const RuptureRelations &relations);
 Figure moment_pe_figure(const RuptureRelations &relations);
 Figure stress_drop_figure(const RuptureRelations &relations);
+
+/// Slip velocity in space and time with the ruptures outlined.
+/// \param outlines path of a second table that the script reads
+Figure space_time_figure(const HistoryWindow &window, Table &outlines);
+/// Lines of the slip along the fault since the beginning of the window, one every `locked` time
+/// units, and one every `slipping` while anything slips.
+Figure slip_lines_figure(const HistoryWindow &window, double locked, double slipping);
+/// One rupture: slip velocity around its first place, with two wave speeds as slopes, and its slip.
+Figure rupture_detail_figure(const HistoryWindow &window, const Event &event, double p_speed,
+                             double s_speed, Table &lines);
 
 }  // namespace LSM::postproc
 

@@ -18,12 +18,6 @@ namespace {
 
 using Rows = std::vector<std::vector<std::string>>;
 
-std::vector<std::string> names_in(std::string_view text) {
-  std::vector<std::string_view> names;
-  text_io::split(text, names);
-  return {names.begin(), names.end()};
-}
-
 std::string csv_field(double value) {
   return std::isnan(value) ? std::string() : text_io::number(value);
 }
@@ -45,45 +39,31 @@ std::string plain(const std::variant<double, std::int64_t, std::string> &cell) {
   return text ? *text : text_io::number(std::get<std::int64_t>(cell));
 }
 
-bool has_content(const Rows &rows, std::size_t column) {
-  return std::any_of(rows.begin() + 1, rows.end(), [column](const auto &row) {
-    return !row[column].empty() && row[column] != "-";
-  });
-}
-
-/// The rows with only those columns in which something stands.
-Rows without_empty_columns(const Rows &rows) {
-  Rows out(rows.size());
-  for (std::size_t k = 0; k < rows.front().size(); ++k)
-    if (has_content(rows, k))
-      for (std::size_t i = 0; i < rows.size(); ++i) out[i].push_back(rows[i][k]);
-  return out;
-}
-
 /// Characters as they are shown, each in one column of a terminal.
 std::size_t width_of(const std::string &text) {
   return static_cast<std::size_t>(
       std::count_if(text.begin(), text.end(), [](char c) { return (c & '\xc0') != '\x80'; }));
 }
 
-std::vector<std::size_t> widths_of(const Rows &rows) {
-  std::vector<std::size_t> widths(rows.front().size());
-  for (const auto &row : rows)
-    for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], width_of(row[k]));
-  return widths;
+/// Lines of the same width with the columns one below the other.
+std::vector<std::string> aligned(const Rows &rows) {
+  std::vector<std::string> lines(rows.size());
+  for (std::size_t k = 0; k < rows.front().size(); ++k) {
+    std::size_t width = 0;
+    for (const auto &row : rows) width = std::max(width, width_of(row[k]));
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      lines[i] += "  " + rows[i][k];
+      lines[i].append(width - width_of(rows[i][k]), ' ');
+    }
+  }
+  return lines;
 }
 
-std::size_t sum_of(const std::vector<std::size_t> &widths) {
-  std::size_t sum = 0;
-  for (const std::size_t width : widths) sum += width + 2;
-  return sum;
-}
-
-Rows turned(const Rows &rows) {
-  Rows out(rows.front().size());
-  for (const auto &row : rows)
-    for (std::size_t k = 0; k < row.size(); ++k) out[k].push_back(row[k]);
-  return out;
+Rows turned(const Rows &columns) {
+  Rows rows(columns.front().size());
+  for (const auto &column : columns)
+    for (std::size_t i = 0; i < column.size(); ++i) rows[i].push_back(column[i]);
+  return rows;
 }
 
 void blank_repeated(Rows &rows) {
@@ -94,16 +74,11 @@ void blank_repeated(Rows &rows) {
 
 }  // namespace
 
-Table::Table(const std::vector<std::string> &columns) {
-  for (const std::string &column : columns) {
-    for_people_.push_back(column.substr(0, 1) == "!");
-    columns_.push_back(column.substr(for_people_.back() ? 1 : 0));
-  }
+Table::Table(std::string_view columns) {
+  std::vector<std::string_view> names;
+  text_io::split(columns, names);
+  columns_.assign(names.begin(), names.end());
 }
-
-Table::Table(std::string_view columns) : Table(names_in(columns)) {}
-
-void Table::show(std::vector<Shown> columns) { shown_ = std::move(columns); }
 
 void Table::comment(std::string_view text) {
   comments_.emplace_back(text);
@@ -124,13 +99,13 @@ std::string Table::csv() const {
   for (const std::string &comment : comments_) out += "# " + comment + '\n';
   std::string separator;
   for (std::size_t k = 0; k < columns_.size(); ++k) {
-    if (for_people_[k]) continue;
+    if (for_people(k)) continue;
     out += separator + columns_[k];
     separator = ",";
   }
   for (std::size_t k = 0; k < cells_.size(); ++k) {
     if (k % columns_.size() == 0) separator = "\n";
-    if (for_people_[k % columns_.size()]) continue;
+    if (for_people(k % columns_.size())) continue;
     out += separator;
     out += std::visit([](const auto &value) { return csv_field(value); }, cells_[k]);
     separator = ",";
@@ -143,35 +118,40 @@ nlohmann::ordered_json Table::json() const {
   for (std::size_t k = 0; k < cells_.size(); ++k) {
     const std::size_t column = k % columns_.size();
     if (column == 0) rows.push_back(nlohmann::ordered_json::object());
-    if (for_people_[column]) continue;
+    if (for_people(column)) continue;
     std::visit([&](const auto &value) { rows.back()[columns_[column]] = value; }, cells_[k]);
   }
   return rows;
 }
 
-std::vector<std::vector<std::string>> Table::shown_cells(std::string_view plus_minus) const {
+std::vector<std::vector<std::string>> Table::shown_columns(std::string_view plus_minus) const {
   const auto place_of = [this](const std::string &name) {
-    return static_cast<std::size_t>(std::find(columns_.begin(), columns_.end(), name) -
-                                    columns_.begin());
+    const auto found = std::find_if(
+        columns_.begin(), columns_.end(),
+        [&](const std::string &column) { return column == name || column == "!" + name; });
+    return static_cast<std::size_t>(found - columns_.begin());
   };
-  Rows rows(static_cast<std::size_t>(rows_) + 1);
+  std::vector<std::vector<std::string>> out;
   std::vector<Shown> all;
   for (const std::string &column : columns_) all.push_back({column, column, 4, ""});
   for (const Shown &shown : shown_.empty() ? all : shown_) {
-    rows[0].push_back(shown.heading);
     const std::size_t place = place_of(shown.column), error = place_of(shown.error);
     if (place == columns_.size()) throw std::logic_error("table: no column " + shown.column);
-    for (std::size_t i = 1; i < rows.size(); ++i) {
-      const Cell *const cells = &cells_[(i - 1) * columns_.size()];
+    std::vector<std::string> column = {shown.heading};
+    bool content = shown_.empty() || out.empty();
+    for (std::size_t first = 0; first < cells_.size(); first += columns_.size()) {
+      const Cell *const cells = &cells_[first];
       const double *const number = std::get_if<double>(cells + place);
       const double *const scatter =
           error < columns_.size() ? std::get_if<double>(cells + error) : nullptr;
-      rows[i].push_back(!number                     ? plain(cells[place])
-                        : scatter && *scatter > 0.0 ? with_error(*number, *scatter, plus_minus)
-                                                    : short_number(*number, shown.digits));
+      column.push_back(!number                     ? plain(cells[place])
+                       : scatter && *scatter > 0.0 ? with_error(*number, *scatter, plus_minus)
+                                                   : short_number(*number, shown.digits));
+      content = content || !(column.back().empty() || column.back() == "-");
     }
+    if (content) out.push_back(std::move(column));
   }
-  return rows;
+  return out;
 }
 
 std::string Table::text() const {
@@ -179,30 +159,20 @@ std::string Table::text() const {
   std::string out;
   for (const std::string &comment : comments_) out += comment + '\n';
   constexpr std::size_t most = 160;
-  Rows rows = without_empty_columns(shown_cells(" +- "));
-  std::vector<std::size_t> widths = widths_of(rows);
-  if (const Rows other = turned(rows); sum_of(widths) > most &&
-                                       widths.size() > 6 * static_cast<std::size_t>(rows_) &&
-                                       sum_of(widths_of(other)) < most) {
-    rows = other;
-    widths = widths_of(rows);
-  } else {
+  const Rows columns = shown_columns(" +- ");
+  Rows rows = turned(columns);
+  if (width_of(aligned(rows)[0]) > most && columns.size() > 6 * static_cast<std::size_t>(rows_) &&
+      width_of(aligned(columns)[0]) < most)
+    rows = columns;
+  else
     blank_repeated(rows);
-  }
-  for (const auto &row : rows) {
-    std::string line;
-    for (std::size_t k = 0; k < row.size(); ++k) {
-      line += "  " + row[k];
-      line.append(widths[k] - width_of(row[k]), ' ');
-    }
+  for (const std::string &line : aligned(rows))
     out += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
-  }
   return out;
 }
 
 std::string Table::html() const {
-  Rows rows = shown_cells(" ± ");
-  if (!shown_.empty()) rows = without_empty_columns(rows);
+  const Rows rows = turned(shown_columns(" ± "));
   std::string out = "<div class=\"wide\"><table>\n<thead><tr>";
   for (const std::string &head : rows[0]) out += "<th>" + html_escape(head) + "</th>";
   out += "</tr></thead>\n<tbody>\n";
@@ -218,10 +188,6 @@ std::string Table::html() const {
 }
 
 void Table::write(const std::string &path) const { write_file(path, csv()); }
-
-void add_bin(Table &table, const LogBin &bin) {
-  table.add(bin.lo).add(bin.hi).add(bin.centre).add(bin.count).add(bin.density).add(bin.error);
-}
 
 std::string html_escape(std::string_view text) {
   constexpr std::string_view reserved = "&<>\"'";

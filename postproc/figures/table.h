@@ -30,12 +30,12 @@ struct Shown {
 class Table {
  public:
   /// Columns whose names begin with '!' are for people only.
-  explicit Table(const std::vector<std::string> &columns);
+  explicit Table(std::vector<std::string> columns) : columns_(std::move(columns)) {}
   explicit Table(std::string_view columns);  ///< names separated by commas
 
   /// Chooses what people see of it, in which order. Without that nothing is printed, and a page has
   /// all columns.
-  void show(std::vector<Shown> columns);
+  void show(std::vector<Shown> columns) { shown_ = std::move(columns); }
   void comment(std::string_view text);  ///< a line above the table
   void comment(const std::vector<std::string> &lines) {
     for (const std::string &line : lines) comment(line);
@@ -44,6 +44,10 @@ class Table {
   Table &add(std::int64_t value) { return put(value); }
   Table &add(std::string_view text) { return put(std::string(text)); }
   Table &add(const Measured &number) { return put(number.value).put(number.error); }
+  /// The columns bin_lo, bin_hi, centre, count, density and error.
+  Table &add(const LogBin &bin) {
+    return put(bin.lo).put(bin.hi).put(bin.centre).put(bin.count).put(bin.density).put(bin.error);
+  }
   template <class Integer, std::enable_if_t<std::is_integral_v<Integer>, int> = 0>
   Table &add(Integer value) {
     return add(static_cast<std::int64_t>(value));
@@ -77,18 +81,16 @@ class Table {
     cells_.emplace_back(std::forward<Content>(cell));
     return *this;
   }
-  /// Headings, then the rows as people see them.
-  std::vector<std::vector<std::string>> shown_cells(std::string_view plus_minus) const;
+  bool for_people(std::size_t column) const { return columns_[column][0] == '!'; }
+  /// What people see, column by column, each with its heading first; but for the first one, those
+  /// that were chosen and hold nothing are left out.
+  std::vector<std::vector<std::string>> shown_columns(std::string_view plus_minus) const;
 
   std::vector<std::string> comments_, columns_;
-  std::vector<bool> for_people_;
   std::vector<Shown> shown_;
   std::vector<Cell> cells_;  ///< row by row
   std::int64_t rows_ = 0;
 };
-
-/// Adds the fields bin_lo, bin_hi, centre, count, density and error of a bin.
-void add_bin(Table &table, const LogBin &bin);
 
 /// Text with the characters that HTML reserves replaced.
 std::string html_escape(std::string_view text);

@@ -14,9 +14,9 @@
 
 namespace LSM::postproc {
 
-const GeneralisedGammaFit *IntervalCurve::drawn() const {
+const IntervalFit *IntervalCurve::drawn() const {
   for (const IntervalFit &candidate : fits)
-    if (!candidate.fit.degenerate) return &candidate.fit;
+    if (!candidate.fit.degenerate) return &candidate;
   return nullptr;
 }
 

@@ -78,7 +78,7 @@ struct IntervalCurve {
   std::array<std::vector<LogBin>, thirds> after;
 
   /// The fit that is drawn: the first that is not degenerate, or nullptr.
-  const GeneralisedGammaFit *drawn() const;
+  const IntervalFit *drawn() const;
   std::string from() const { return events_from_text(earthquakes, threshold.size); }
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "catalogue_input.h"
 #include "event_tables.h"
-#include "size_fit_tables.h"
+#include "size_figures.h"
 
 #include <gtest/gtest.h>
 

@@ -134,9 +134,7 @@ TEST_F(Plot, LabelsRunNoCommand) {
 
 TEST_F(Plot, FolderNameMayHoldQuotesAndBlanks) {
   const PictureOptions options = output("new folder/a 'b' \"c\" {d}_`e`");
-  const Figure picture = figure("t");
-  picture.table.write(options.table());
-  draw(options, picture.script, picture.size);
+  make(figure("t"), options);
   for (const char *extension : {".csv", ".gp", ".png", ".svg"})
     EXPECT_TRUE(std::filesystem::exists(options.output + extension)) << extension;
   EXPECT_EQ(slurp(options.output + ".png").substr(1, 3), "PNG");
@@ -145,9 +143,7 @@ TEST_F(Plot, FolderNameMayHoldQuotesAndBlanks) {
 
 TEST_F(Plot, ScriptDrawsAgainWhereItIs) {
   const PictureOptions options = output("again");
-  const Figure picture = figure("t");
-  picture.table.write(options.table());
-  draw(options, picture.script, picture.size);
+  make(figure("t"), options);
   std::filesystem::create_directory(path("elsewhere"));
   for (const char *extension : {".csv", ".gp"})
     std::filesystem::rename(options.output + extension, path("elsewhere/again") + extension);
@@ -173,14 +169,15 @@ TEST_F(Plot, NoPictureNeedsNoGnuplot) {
   const EmptyPath nothing;
   PictureOptions options = output("none");
   options.no_picture = true;
-  EXPECT_NO_THROW(draw(options, "plot table using 1:2\n"));
+  EXPECT_NO_THROW(make(figure("t"), options));
   EXPECT_TRUE(std::filesystem::exists(options.output + ".gp"));
 }
 
 TEST_F(Plot, FailureIsReportedAndLeavesNoPicture) {
   const PictureOptions options = output("bad");
-  const std::string message =
-      message_of<PlotError>([&] { draw(options, "plot 'no-such-file.csv' using 1:2\n"); });
+  Figure picture = figure("t");
+  picture.script = "plot 'no-such-file.csv' using 1:2\n";
+  const std::string message = message_of<PlotError>([&] { make(picture, options); });
   EXPECT_TRUE(contains(message, "bad.gp: gnuplot failed"));
   EXPECT_TRUE(contains(message, "no-such-file.csv"));
   EXPECT_FALSE(std::filesystem::exists(options.output + ".png"));

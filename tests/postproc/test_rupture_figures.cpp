@@ -11,7 +11,6 @@
 
 #include "history_input.h"
 #include "rupture_figures.h"
-#include "slip_figures.h"
 #include "unit_files.h"
 
 namespace {

@@ -9,11 +9,10 @@
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
 
-#include "interval_figure.h"
+#include "interval_figures.h"
 #include "event_tables.h"
 #include "intervals.h"
 #include "numbers.h"
-#include "table1.h"
 #include "unit_files.h"
 
 using namespace LSM::postproc;

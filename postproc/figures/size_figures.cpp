@@ -1,24 +1,95 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "size_fit_tables.h"
+#include "size_figures.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "lsm_text_io.h"
 #include "numbers.h"
 
 namespace LSM::postproc {
 
-namespace {
-
 using nlohmann::json;
 
-/// JSON has neither NaN nor infinity: null stands for them.
-json number_or_null(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
+namespace {
+
+/// A line that has ends and lies above all points between them; amplitude 0: there are none.
+PowerLine placed(PowerLine line, const std::vector<SizeDensity> &densities, const Extent &sizes) {
+  if (std::isnan(line.lo)) line.lo = sizes.lo;
+  if (std::isnan(line.hi)) line.hi = sizes.hi;
+  if (!std::isnan(line.amplitude)) return line;
+  line.amplitude = 0.0;
+  for (const SizeDensity &density : densities)
+    for (const LogBin &bin : density.bins)
+      if (bin.centre >= line.lo && bin.centre <= line.hi)
+        line.amplitude =
+            std::max(line.amplitude, 2.0 * bin.density * std::pow(bin.centre, -line.slope));
+  return line;
+}
+
+}  // namespace
+
+Figure size_density_figure(const std::vector<SizeDensity> &densities,
+                           const std::vector<PowerLine> &lines, int width) {
+  // Labels may contain commas, so they come last: awk -F, finds the numbers without them.
+  Table table("curve,model,length,bin_lo,bin_hi,size,count,density,error,label");
+  table.comment("units: sizes in model energy, densities in 1 / model energy; errors: Poisson");
+  Curves curves("$6", "$7 > 0");
+  std::vector<std::int64_t> numbers;  // of each catalogue's curve
+  std::int64_t number = 0;
+  Extent sizes, heights;
+  for (const SizeDensity &density : densities) {
+    numbers.push_back(density.bins.empty() ? 0 : ++number);
+    if (density.bins.empty()) continue;
+    for (const LogBin &bin : density.bins) {
+      table.row(number, density.model, density.length, bin, density.label);
+      if (bin.count == 0) continue;
+      sizes.add(bin.lo);
+      sizes.add(bin.hi);
+      heights.add(bin.density);
+    }
+    curves.add_data(number, 8, 9);
+    // Together, `with linespoints` would surround each point with white in an SVG.
+    curves.add(Curves::data,
+               fmt::format("table using (row({0})):8 with lines lt {0} lw 1.2", number));
+    curves.add(Curves::data, fmt::format("keyentry with linespoints lt {}", number),
+               fmt::format("{} ({} events)", density.label, density.events));
+  }
+  double top = heights.hi;
+  for (const PowerLine &given : lines) {
+    const PowerLine line = placed(given, densities, sizes);
+    if (line.amplitude == 0.0) continue;
+    for (const double end : {line.lo, line.hi})
+      top = std::max(top, line.amplitude * std::pow(end, line.slope));
+    // Colours go by the curves that are drawn.
+    const std::int64_t curve = line.catalogue < numbers.size() ? numbers[line.catalogue] : 0;
+    curves.add_law(
+        line.lo, line.hi,
+        fmt::format("{}*$1**({})", text_io::number(line.amplitude), text_io::number(line.slope)),
+        fmt::format("lt {} dt {} lw 2.2", curve > 0 ? curve : 8, line.dash), line.title);
+  }
+  return curves.figure(
+      std::move(table),
+      axis("x", "event size s (energy, model units)", true, sizes.lo, sizes.hi) +
+          axis("y", "probability density p(s) (1 / energy)", true, 0.3 * heights.lo, top),
+      width);
+}
+
+namespace {
+
+/// Adds the numbers of a fit to what is known of it, or why there are none.
+template <class Fit>
+void add_numbers(json &out, const Fit &fit, const json &numbers) {
+  out["degenerate"] = fit.degenerate;
+  if (fit.degenerate)
+    out["why"] = fit.why;
+  else
+    out.update(numbers);
+}
 
 /// "0.001 to 1", with what search_range() found marked.
 std::string range_text(const PowerLawFit &fit) {
@@ -53,17 +124,13 @@ Table size_fit_table(const std::vector<SizeFit> &fits) {
               {"degenerate", "degenerate"}});
   table.comment("density C s^-exponent on [lo, hi], sizes in model energy units");
   table.comment("one line per rival; ln_likelihood_ratio > 0 favours the power law");
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   for (const SizeFit &fit : fits) {
     const PowerLawFit &law = fit.fit;
-    std::vector<Comparison> comparisons = fit.comparisons;
-    if (comparisons.empty()) {
-      comparisons.emplace_back();
-      comparisons.back().degenerate = true;
-      comparisons.back().why = law.why;
-    }
-    for (const Comparison &c : comparisons) {
-      const double known = c.degenerate ? nan : 1.0;
+    Comparison none;
+    none.degenerate = true;
+    none.why = law.why;
+    for (const Comparison &c : fit.comparisons.empty() ? std::vector{none} : fit.comparisons) {
+      const double known = c.degenerate ? NAN : 1.0;
       table.row(fit.model, law.lo, law.hi, law.searched ? "yes" : "no", law.n, law.alpha,
                 law.standard_error, law.ks, fit.p, c.rival, known * c.log_likelihood_ratio,
                 known * c.normalised, known * c.p, fit.label, c.why, range_text(law), favoured(c));
@@ -82,34 +149,25 @@ std::vector<std::string> completeness_notes(const std::vector<SizeFit> &fits) {
   return notes;
 }
 
-nlohmann::json to_json(const Comparison &c) {
-  if (c.degenerate) return {{"rival", c.rival}, {"degenerate", true}, {"why", c.why}};
-  json out = {{"rival", c.rival},
-              {"degenerate", false},
-              {"log_likelihood_ratio", number_or_null(c.log_likelihood_ratio)},
-              {"normalised", number_or_null(c.normalised)},
-              {"p", number_or_null(c.p)}};
-  for (const auto &[name, value] : c.parameters) out["parameters"][name] = number_or_null(value);
-  return out;
+static void to_json(json &out, const Comparison &c) {
+  out = {{"rival", c.rival}};
+  add_numbers(
+      out, c,
+      {{"log_likelihood_ratio", c.log_likelihood_ratio}, {"normalised", c.normalised}, {"p", c.p}});
+  for (const auto &[name, value] : c.parameters) out["parameters"][name] = value;
 }
 
-nlohmann::json to_json(const SizeFit &fit) {
+void to_json(json &out, const SizeFit &fit) {
   const PowerLawFit &law = fit.fit;
-  json out = {{"label", fit.label},           {"model", fit.model}, {"lo", law.lo},
-              {"hi", number_or_null(law.hi)}, {"n", law.n},         {"searched", law.searched},
-              {"degenerate", law.degenerate}};
-  if (law.degenerate) {
-    out["why"] = law.why;
-    return out;
-  }
-  out.update({{"exponent", law.alpha},
-              {"standard_error", law.standard_error},
-              {"ks", law.ks},
-              {"log_likelihood", law.log_likelihood},
-              {"comparisons", json::array()}});
+  out = {{"label", fit.label}, {"model", fit.model}, {"lo", law.lo},
+         {"hi", law.hi},       {"n", law.n},         {"searched", law.searched}};
+  add_numbers(out, law,
+              {{"exponent", law.alpha},
+               {"standard_error", law.standard_error},
+               {"ks", law.ks},
+               {"log_likelihood", law.log_likelihood},
+               {"comparisons", fit.comparisons}});
   if (!std::isnan(fit.p.value)) out.update({{"p", fit.p.value}, {"p_error", fit.p.error}});
-  for (const Comparison &c : fit.comparisons) out["comparisons"].push_back(to_json(c));
-  return out;
 }
 
 PowerLine fitted_line(const SizeFit &fit, const SizeDensity &density) {
@@ -225,49 +283,34 @@ Table scaling_table(const std::vector<Scaling> &scalings) {
   return table;
 }
 
-namespace {
-
-json to_json(const SizePoint &point, const std::string &label) {
-  json out = {
-      {"label", label}, {"length", point.length}, {"n", point.n}, {"degenerate", point.degenerate}};
-  if (point.degenerate)
-    out["why"] = point.why;
-  else
-    out.update({{"s_star", point.s_star},
-                {"error", point.error},
-                {"error_independent", point.error_independent},
-                {"block", point.block},
-                {"blocks", point.blocks}});
-  return out;
+static void to_json(json &out, const Saturation &end) {
+  out = {{"m", end.m}, {"L_c", end.L_c},      {"L_c_error", end.se_L_c}, {"s_inf", end.s_inf},
+         {"D", end.D}, {"D_error", end.se_D}, {"chi2", end.chi2}};
 }
 
-json to_json(const Saturation &end) {
-  if (end.degenerate) return {{"saturation_degenerate", end.why}};
-  return {{"s_inf", end.s_inf},
-          {"s_inf_error", end.se_s_inf},
-          {"L_c", end.L_c},
-          {"L_c_error", end.se_L_c},
-          {"D_saturation", end.D},
-          {"D_saturation_error", end.se_D},
-          {"chi2_saturation", end.chi2},
-          {"aicc_saturation", end.aicc}};
-}
-
-}  // namespace
-
-nlohmann::json to_json(const Scaling &scaling) {
-  json out = {{"model", scaling.model},
-              {"kl", scaling.stiffness},
-              {"events", scaling.kind},
-              {"threshold", scaling.threshold.size},
-              {"threshold_from", text(scaling.threshold)},
-              {"points", json::array()},
-              {"degenerate", scaling.fit.degenerate},
-              {"verdict", verdict(scaling)}};
-  for (std::size_t i = 0; i < scaling.points.size(); ++i)
-    out["points"].push_back(to_json(scaling.points[i], scaling.labels[i]));
+void to_json(json &out, const Scaling &scaling) {
   const ScalingFit &fit = scaling.fit;
-  if (fit.degenerate) return out;
+  const Saturation &end = fit.saturation;
+  out = {{"model", scaling.model},
+         {"kl", scaling.stiffness},
+         {"events", scaling.kind},
+         {"threshold", scaling.threshold.size},
+         {"threshold_from", text(scaling.threshold)},
+         {"points", json::array()},
+         {"degenerate", fit.degenerate},
+         {"verdict", verdict(scaling)}};
+  for (std::size_t i = 0; i < scaling.points.size(); ++i) {
+    const SizePoint &point = scaling.points[i];
+    json &one = out["points"].emplace_back(
+        json{{"label", scaling.labels[i]}, {"length", point.length}, {"n", point.n}});
+    add_numbers(one, point,
+                {{"s_star", point.s_star},
+                 {"error", point.error},
+                 {"error_independent", point.error_independent},
+                 {"block", point.block},
+                 {"blocks", point.blocks}});
+  }
+  if (fit.degenerate) return;
   out.update({{"A", fit.A},
               {"A_error", fit.se_A},
               {"D", fit.D},
@@ -279,17 +322,19 @@ nlohmann::json to_json(const Scaling &scaling) {
               {"aicc", fit.aicc},
               {"aicc_constant", fit.aicc_constant},
               {"preferred", to_string(fit.preferred)}});
-  out.update(to_json(fit.saturation));
+  if (end.degenerate)
+    out["saturation_degenerate"] = end.why;
+  else
+    out.update({{"s_inf", end.s_inf},
+                {"s_inf_error", end.se_s_inf},
+                {"L_c", end.L_c},
+                {"L_c_error", end.se_L_c},
+                {"D_saturation", end.D},
+                {"D_saturation_error", end.se_D},
+                {"chi2_saturation", end.chi2},
+                {"aicc_saturation", end.aicc}});
   for (const Saturation &one : fit.bends)
-    if (!one.degenerate)
-      out["bends"].push_back({{"m", one.m},
-                              {"L_c", one.L_c},
-                              {"L_c_error", one.se_L_c},
-                              {"s_inf", one.s_inf},
-                              {"D", one.D},
-                              {"D_error", one.se_D},
-                              {"chi2", one.chi2}});
-  return out;
+    if (!one.degenerate) out["bends"].push_back(one);
 }
 
 namespace {

@@ -1,20 +1,28 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// \file table1.h
-/// Table 1 of the paper, generalised gamma parameters of inter-event times, beside ours.
-#ifndef LSM_POSTPROC_TABLE1_H
-#define LSM_POSTPROC_TABLE1_H
+/// \file interval_figures.h
+/// Inter-event times: their densities (paper: Figs. 14, 15), and Table 1 of the paper, generalised
+/// gamma parameters, beside ours.
+#ifndef LSM_POSTPROC_INTERVAL_FIGURES_H
+#define LSM_POSTPROC_INTERVAL_FIGURES_H
 
 #include <array>
+#include <cmath>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "intervals.h"
-#include "table.h"
+#include "plot.h"
 
 namespace LSM::postproc {
+
+/// Smallest size and where it comes from; of earthquakes the smallest magnitude.
+std::string source_of(const IntervalCurve &curve);
+
+/// Densities with Poisson errors and the fitted curves. \param rescaled times are over their mean
+/// \throws std::runtime_error if no curve has a point
+Figure interval_figure(const std::vector<IntervalCurve> &curves, bool rescaled, int width = 900);
 
 /// One of our lines.
 struct Table1Row {
@@ -24,10 +32,10 @@ struct Table1Row {
   double threshold = 0.0;              ///< smallest size
   std::int64_t n = 0;                  ///< inter-event times fitted
   std::array<Measured, 4> parameters;  ///< gamma, delta, B, C; NaN if degenerate
-  double misfit = std::numeric_limits<double>::quiet_NaN();  ///< least squares: chi2 per degree
-  double ks = std::numeric_limits<double>::quiet_NaN();      ///< maximum likelihood: KS distance
-  Measured p;       ///< of the fit; NaN: not computed, or no Monte Carlo
-  std::string why;  ///< reason if degenerate
+  double misfit = NAN;                 ///< least squares: chi2 per degree
+  double ks = NAN;                     ///< maximum likelihood: KS distance
+  Measured p;                          ///< of the fit; NaN: not computed, or no Monte Carlo
+  std::string why;                     ///< reason if degenerate
 
   bool rejected() const { return p.value < 0.05; }  ///< see rejection_rule
 };

@@ -1,14 +1,51 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "series_figure.h"
+#include "series_figures.h"
 
 #include <algorithm>
-#include <cmath>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "numbers.h"
 
 namespace LSM::postproc {
+
+void SeriesRegime::take(const RegimeMeter &meter) {
+  try {
+    regime = meter.result();
+  } catch (const std::runtime_error &error) {
+    why = error.what();
+  }
+}
+
+Table regime_table(const std::vector<SeriesRegime> &series) {
+  Table table(
+      "samples,events,regime,saw_tooth,stick_slip_above,drop_over_load,"
+      "time_in_events,mean_duration,why,!path,!model,!length,!times");
+  table.show({{"PE series", "path"},
+              {"model", "model"},
+              {"length or blocks", "length", 6},
+              {"times", "times"},
+              {"samples", "samples"},
+              {"events", "events"},
+              {"regime", "regime"},
+              {"saw-tooth", "saw_tooth"},
+              {"stick-slip above", "stick_slip_above", 3},
+              {"fastest fall / load", "drop_over_load"},
+              {"share of the time within events", "time_in_events"},
+              {"mean duration of events (model time)", "mean_duration"},
+              {"degenerate", "why"}});
+  for (const SeriesRegime &one : series) {
+    Regime r = one.regime.value_or(Regime());
+    if (!one.regime)
+      r.saw_tooth = r.above = r.drop_over_load = r.time_in_events = r.mean_duration = NAN;
+    table.row(one.samples, one.events, one.regime ? name_of(r) : "", r.saw_tooth, r.above,
+              r.drop_over_load, r.time_in_events, r.mean_duration, one.why, one.path,
+              model_name(one.model), one.length,
+              fmt::format("{} to {}", short_number(one.first, 6), short_number(one.last, 6)));
+  }
+  return table;
+}
 
 namespace {
 
@@ -85,6 +122,34 @@ Figure series_figure(const Thinner &curves, const std::string &title, double t0,
                        fmt::format("'smoothed ({}, {{/Symbol l}} = {}); an event where negative'",
                                    to_string(picker.reading), short_number(picker.lambda, 3)))),
           {1000, 900}};
+}
+
+Figure spectrum_figure(const std::vector<SpectrumCurve> &curves) {
+  Table table("curve,label,frequency,width,density,error");
+  table.comment(
+      "one-sided power spectral density of the potential energy; frequency, width: cycles / model "
+      "time; density, error: model energy^2 x model time; sum of density x width = variance");
+  Curves plot("$3", "$3 > 0 && $5 > 0");
+  Extent frequencies, heights;
+  std::int64_t number = 0;
+  for (const SpectrumCurve &curve : curves) {
+    ++number;
+    for (const SpectrumPoint &point : curve.points) {
+      table.row(number, curve.label, point.frequency, point.width, point.density, point.error);
+      if (point.frequency <= 0.0 || !(point.density > 0.0)) continue;
+      frequencies.add(point.frequency);
+      heights.add(point.density);
+    }
+    plot.add(Curves::data, fmt::format("table using (row({0})):5 with lines lt {0}", number),
+             curve.label);
+  }
+  if (heights.empty())
+    throw std::runtime_error("the series do not vary, their spectra are 0: nothing to draw");
+  return plot.figure(
+      std::move(table),
+      axis("x", "Frequency (cycles / model time)", true, frequencies.lo, frequencies.hi) +
+          axis("y", "Spectral density of PE (energy^2 x time)", true,
+               std::max(heights.lo, 1e-18 * heights.hi), heights.hi));
 }
 
 }  // namespace LSM::postproc

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "interval_figures.h"
+
+#include <limits>
+#include <set>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "numbers.h"
+
+namespace LSM::postproc {
+
+std::string source_of(const IntervalCurve &curve) {
+  return curve.earthquakes ? curve.from() : "sizes >= " + text(curve.threshold);
+}
+
+namespace {
+
+/// The fitted density of a curve, thin and dotted if it is rejected.
+void add_fit(Curves &plot, std::int64_t number, const IntervalCurve &curve,
+             const GeneralisedGammaFit &fit, bool rejected) {
+  plot.add_law(curve.bins.front().lo, curve.bins.back().hi,
+               fmt::format("{}*$1**({})*exp(-$1**({})/{})", text_io::number(fit.C),
+                           text_io::number(fit.gamma - 1.0), text_io::number(fit.delta),
+                           text_io::number(fit.B)),
+               fmt::format("lt {}{}", number, rejected ? " dt 3 lw 0.7" : ""));
+}
+
+}  // namespace
+
+Figure interval_figure(const std::vector<IntervalCurve> &curves, bool rescaled, int width) {
+  Table table("curve,model,threshold,bin_lo,bin_hi,theta,count,density,error,label");
+  table.comment(
+      rescaled
+          ? "inter-event times from start to start, divided by their mean"
+          : "inter-event times from start to start in model time (earthquakes: days), densities "
+            "in 1 / model time; errors: Poisson");
+  std::set<double> thresholds;
+  std::set<std::string> sources;
+  for (const IntervalCurve &curve : curves) {
+    thresholds.insert(curve.threshold.size);
+    sources.insert(source_of(curve));
+  }
+  for (const std::string &source : sources) table.comment(source);
+  Curves plot("$6", "$7 > 0");
+  Extent range, heights;
+  std::int64_t number = 0;
+  bool any_accepted = false, any_rejected = false;
+  for (const IntervalCurve &curve : curves) {
+    if (curve.bins.empty()) continue;
+    ++number;
+    for (const LogBin &bin : curve.bins) {
+      table.row(number, curve.model, curve.threshold.size, bin, curve.label);
+      if (bin.count == 0) continue;
+      heights.add(bin.density);
+      range.add(bin.lo);
+      range.add(bin.hi);
+    }
+    plot.add_data(number, 8, 9);
+    plot.add(Curves::data, fmt::format("keyentry with linespoints lt {}", number),
+             fmt::format("{}{} ({} times)", curve.label,
+                         thresholds.size() > 1 ? ", " + curve.from() : "", curve.n));
+    const IntervalFit *const fit = curve.drawn();
+    if (!fit) continue;
+    const bool rejected = fit->p.value < 0.05;
+    (rejected ? any_rejected : any_accepted) = true;
+    add_fit(plot, number, curve, fit->fit, rejected);
+  }
+  if (number == 0)
+    throw std::runtime_error("no catalogue has two events above the threshold, nothing to draw");
+  if (rescaled)
+    plot.add_law(range.lo, range.hi, "0.5*$1**(-0.33)*exp(-$1/1.58)", "lt 8 dt (6,4) lw 2",
+                 "earthquakes, Corral (2004)");
+  if (any_accepted)
+    plot.add(Curves::legend, "keyentry with lines lt 8", "lines: fitted generalised gamma");
+  if (any_rejected)
+    plot.add(Curves::legend, "keyentry with lines lt 8 dt 3 lw 0.7", "fit rejected (p < 0.05)");
+  return plot.figure(
+      std::move(table),
+      axis("x",
+           rescaled ? "inter-event time θ (mean = 1)" : "inter-event time θ (model time units)",
+           true, range.lo, range.hi) +
+          axis("y",
+               rescaled ? "probability density f(θ)" : "probability density f(θ) (1 / model time)",
+               true, 0.3 * heights.lo, heights.hi),
+      width);
+}
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+Table1Row row_of(const IntervalCurve &curve, const IntervalFit &of) {
+  const GeneralisedGammaFit &fit = of.fit;
+  Table1Row row;
+  row.source = curve.label;
+  row.from = curve.from();
+  row.method = of.method;
+  if (!std::isnan(of.held)) row.method += fmt::format(", δ = {} held", short_number(of.held));
+  row.threshold = curve.threshold.size;
+  row.n = fit.n;
+  row.why = fit.degenerate ? fit.why : "";
+  if (fit.degenerate) return row;
+  row.parameters = {
+      {{fit.gamma, fit.se_gamma}, {fit.delta, fit.se_delta}, {fit.B, fit.se_B}, {fit.C, fit.se_C}}};
+  if (fit.dof > 0) row.misfit = fit.chi2 / fit.dof;
+  row.ks = fit.ks;
+  row.p = of.p;
+  return row;
+}
+
+/// Seismicity (Corral 2004, as quoted in the paper), LSM, Block-Slider: gamma, delta, B, C.
+void add_printed(Table &table) {
+  const std::array<std::string, 5> columns[] = {
+      {"seismicity (Corral 2004)", "0.67", "0.98", "1.58", "0.50"},
+      {"LSM", "0.995", "1.00", "15.21", "0.0573"},
+      {"Block-Slider", "0.0", "1.00", "100.0", "0.25"}};
+  for (const auto &[source, gamma, delta, B, C] : columns)
+    table.row("printed", nan, "", gamma, nan, delta, nan, B, nan, C, nan, nan, nan, nan, nan, "",
+              source, "", "", "");
+}
+
+}  // namespace
+
+std::vector<Table1Row> table1_rows(const std::vector<IntervalCurve> &curves) {
+  std::vector<Table1Row> rows;
+  for (const IntervalCurve &curve : curves)
+    for (const IntervalFit &fit : curve.fits) rows.push_back(row_of(curve, fit));
+  return rows;
+}
+
+Table table1(const std::vector<Table1Row> &rows, bool rescaled, bool printed) {
+  Table table(
+      "origin,threshold,n,gamma,gamma_error,delta,delta_error,B,B_error,C,C_error,"
+      "chi2_per_dof,ks,p,p_error,rejected,source,method,degenerate,!from");
+  table.show({{"Table 1", "origin"},
+              {"", "source"},
+              {"", "from"},
+              {"", "method"},
+              {"times", "n"},
+              {"γ", "gamma"},
+              {"δ", "delta"},
+              {"B", "B"},
+              {"C", "C"},
+              {"χ²/dof", "chi2_per_dof", 3},
+              {"KS", "ks", 3},
+              {"p", "p", 2},
+              {"rejected", "rejected"},
+              {"degenerate", "degenerate"}});
+  table.comment("f(theta) = C theta^(gamma-1) exp(-theta^delta / B)");
+  table.comment(
+      fmt::format("printed: Table 1 of the paper, unit of theta not stated; ours: theta in {}",
+                  rescaled ? "multiples of the mean" : "model time, of earthquakes days"));
+  table.comment(fmt::format("rejected: {}", rejection_rule));
+  if (printed) add_printed(table);
+  for (const Table1Row &row : rows) {
+    const auto &[gamma, delta, B, C] = row.parameters;
+    table.row("ours", row.threshold, row.n, gamma, delta, B, C, row.misfit, row.ks, row.p,
+              std::isnan(row.p.value) ? ""
+              : row.rejected()        ? "yes"
+                                      : "no",
+              row.source, row.method, row.why, row.from);
+  }
+  return table;
+}
+
+}  // namespace LSM::postproc
