@@ -50,7 +50,7 @@ class Histograms : public Statistic {
     found.say(texts(settings_.threshold, tables));
     for (const SizeDensity &density : densities)
       if (density.bins.empty())
-        found.warn(density.label + ": no event in the range of sizes, no curve");
+        found.warn(density.label + ": no bin within the range of sizes has an event, no curve");
     found.figure("densities", std::move(figure));
     return found;
   }

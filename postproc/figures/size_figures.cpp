@@ -123,7 +123,9 @@ Table size_fit_table(const std::vector<SizeFit> &fits) {
               {"p of it", "rival_p", 2},
               {"degenerate", "degenerate"}});
   table.comment("density C s^-exponent on [lo, hi], sizes in model energy units");
-  table.comment("one line per rival; ln_likelihood_ratio > 0 favours the power law");
+  if (std::any_of(fits.begin(), fits.end(),
+                  [](const SizeFit &fit) { return !fit.comparisons.empty(); }))
+    table.comment("one line per rival; ln_likelihood_ratio > 0 favours the power law");
   for (const SizeFit &fit : fits) {
     const PowerLawFit &law = fit.fit;
     Comparison none;

@@ -72,7 +72,7 @@ std::array<std::vector<double>, thirds> times_after_thirds(const std::vector<dou
 
 /// A stretch of time and how steadily events came in it.
 struct Stretch {
-  double from = 0.0, to = 0.0;
+  double from = NAN, to = NAN;
   std::int64_t n = 0;
   /// Largest departure of the cumulative number from a straight line, over n.
   double departure = NAN;

@@ -42,8 +42,8 @@ std::vector<SizeDensity> size_densities(const std::vector<EventTable> &tables,
     any = any || !all.back().bins.empty();
   }
   if (!any)
-    throw std::runtime_error(
-        fmt::format("no event of size {:.4g} or larger in any catalogue, nothing to draw", least));
+    throw std::runtime_error(fmt::format(
+        "no bin of sizes from {:.4g} on has an event in any catalogue, nothing to draw", least));
   return all;
 }
 

@@ -134,6 +134,11 @@ fit)
   cmp first.txt out.txt || fail "two runs differ"
   must_run fit a.csv --replicas 0 --no-comparison -o s --no-picture
   grep -q 'searched' out.txt || fail "$(cat out.txt)"
+  grep -q 'one line per rival' f.fits.csv || fail "rivals are not explained: $(cat f.fits.csv)"
+  grep -q 'one line per rival' s.fits.csv && fail "rivals are explained, but there are none: $(cat s.fits.csv)"
+  # The bin that contains the smallest size is no whole one.
+  [ "$(awk -F, '/^[0-9]/ && $6 >= 0.8' a.csv | wc -l)" -gt 0 ] || fail "no large event to test with"
+  refused 'no bin of sizes from 0.8 on has an event' fit a.csv --threshold 0.8 --replicas 0 --no-picture -o x
   # Roll-off at a size proportional to the length.
   for l in 100 200 400 800 1600; do
     power 1.2 1e-3 "$(awk -v l=$l 'BEGIN { print l / 100 }')" 3000 | catalogue g$l.csv $l
@@ -339,6 +344,7 @@ few)
   must_run intervals few.csv one.csv -o i
   pictures i
   [ "$(grep -c '^ours' i.table1.csv)" = 8 ] || fail "$(cat i.table1.csv)"
+  grep -q '^"fault, length 120",0.0001,0,,,' i.clustering.csv || fail "times of no events: $(cat i.clustering.csv)"
   awk -F, '$1 == "ours" && ($4 $6 $8 $10 != "" || $NF == "") { exit 1 }' i.table1.csv || fail "numbers of degenerate fits"
   must_run fit few.csv --range 1e-3:1 -o f
   grep -q 'degenerate' out.txt || fail "$(cat out.txt)"
@@ -441,7 +447,6 @@ rupture)
   told ' 27 [0-9.]* model time' && grep -q 'times at 4 places each' out.txt || fail "$(cat out.txt)"
   refused 'plain.csv: times at places: no columns x_begin and rupture_length' intervals plain.csv --places 4 -o x
   refused '--places' intervals a.csv --places -1 -o x
-  refused '--event needs --history' rupture a.csv --event 3 -o x
   refused 'a.csv: not a slip history' rupture a.csv --history a.csv -o x
   head -6 a.csv > two.csv
   refused 'expected at least 3' rupture two.csv -o x
