@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include <array>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -13,18 +12,14 @@ namespace LSM::postproc {
 
 namespace {
 
-void put(std::vector<NamedCurves> &curves, std::string_view name,
-         const std::array<double, 4> &row) {
+/// The place of a curve to which rows are added; a new one where the curve or the place changes.
+StationCurve &station_of(std::vector<NamedCurves> &curves, std::string_view name, double x) {
   auto found = std::find_if(curves.begin(), curves.end(),
                             [&name](const NamedCurves &c) { return c.name == name; });
   if (found == curves.end()) found = curves.insert(curves.end(), {std::string(name), 0.0, {}});
-  const auto &[x, t, slip, rate] = row;
   if (found->stations.empty() || found->stations.back().x != x)
     found->stations.push_back({x, {}, {}, {}});
-  StationCurve &station = found->stations.back();
-  station.t.push_back(t);
-  station.slip.push_back(slip);
-  station.rate.push_back(rate);
+  return found->stations.back();
 }
 
 /// Table with the columns curve, x, t, slip, slip_rate.
@@ -34,8 +29,6 @@ void read_reference(const std::string &path, std::vector<NamedCurves> &curves) {
   std::string_view line;
   std::vector<std::string_view> fields;
   bool named = false;
-  std::array<double, 4> before{}, row{};
-  std::string name;
   const auto refuse = [&](const std::string &what) {
     throw FileError(text_io::where(path, in.line()) + what);
   };
@@ -48,15 +41,17 @@ void read_reference(const std::string &path, std::vector<NamedCurves> &curves) {
       continue;
     }
     text_io::split(line, fields);
-    bool good = fields.size() == 5 && !fields[0].empty();
-    for (std::size_t n = 0; good && n < row.size(); ++n)
-      good = text_io::parse(fields[n + 1], row[n]);
-    if (!good) refuse(text_io::in_quotes(line) + ", expected a name and four numbers");
-    if (fields[0] == name && row[0] == before[0] && !(row[1] > before[1]))
-      refuse("time " + text_io::number(row[1]) + ", expected increasing times");
-    name = fields[0];
-    before = row;
-    put(curves, name, row);
+    double x = 0.0, t = 0.0, slip = 0.0, rate = 0.0;
+    if (fields.size() != 5 || fields[0].empty() || !text_io::parse(fields[1], x) ||
+        !text_io::parse(fields[2], t) || !text_io::parse(fields[3], slip) ||
+        !text_io::parse(fields[4], rate))
+      refuse(text_io::in_quotes(line) + ", expected a name and four numbers");
+    StationCurve &station = station_of(curves, fields[0], x);
+    if (!station.t.empty() && !(t > station.t.back()))
+      refuse("time " + text_io::number(t) + ", expected increasing times");
+    station.t.push_back(t);
+    station.slip.push_back(slip);
+    station.rate.push_back(rate);
   }
   if (!named) throw FileError(fmt::format("{}: no rows, expected the columns '{}'", path, columns));
 }

@@ -37,6 +37,30 @@ void add_time(OptionGroup group, const char *option, double &time, double &day,
               {one_each(), kind("TIME"), shown(time < 0.0 ? "start" : "end")});
 }
 
+/// Model time in the unit of the times asked for.
+double time_unit(const CatalogueInfo &info, const std::string &path, bool displacement) {
+  if (!displacement) return 1.0;
+  double velocity = 0.0;
+  const std::string *text = info.find("velocity");
+  if (!text || !text_io::parse(*text, velocity) || !(std::fabs(velocity) > 0.0))
+    throw FileError(path + ": " + (text ? "velocity = " + *text : "no velocity") +
+                    " in the header, expected one that is not 0 for --displacement");
+  return std::fabs(velocity);
+}
+
+std::string label_of(const EventTable &table) {
+  const double length = table.length();
+  if (std::isnan(length)) return std::filesystem::path(table.path).stem().string();
+  return table.info.model == "lsm" ? fmt::format("fault, length {}", length)
+                                   : fmt::format("block-slider, N = {}", length);
+}
+
+std::string threshold_help(const std::string &what, const std::string &more) {
+  return "Smallest size of " + what + " (model energy; M2.5: magnitude 2.5)" + more +
+         "; without it 1e-4, as in the paper's Figs. 12 and 13 (for times it states none), or "
+         "the largest 'completeness' in the headers of a model if that is larger (ours)";
+}
+
 }  // namespace
 
 void CatalogueOptions::add_to(CLI::App *command) {
@@ -56,7 +80,7 @@ void CatalogueOptions::add_to(CLI::App *command) {
              "of them is an error. A wrong version or header is always an error");
   CLI::Option *const smallest = group.add(
       "--min-size", min_size, "Leave out events smaller than this (energy; M2.5: magnitude 2.5)",
-      size_or_magnitude());
+      size_or_magnitude(), finite());
   group.call(
       "--min-magnitude", [this](double magnitude) { min_size = size_of_magnitude(magnitude); },
       "The same, as a magnitude", shown(""), excludes(smallest));
@@ -65,19 +89,13 @@ void CatalogueOptions::add_to(CLI::App *command) {
            "earthquakes an ISO 8601 date, such as 1984-01-01 or 1984-01-01T12:00Z)");
   add_time(group, "--to", to_time, to_day,
            "Leave out events that start at this time or later (as --from)");
-  group.choice<CatalogueFormat>(
+  group.add(
       "--format", format,
-      {{"detect", CatalogueFormat::detect},
-       {"models", CatalogueFormat::models},
-       {"csv", CatalogueFormat::csv},
-       {"quakeml", CatalogueFormat::quakeml},
-       {"zmap", CatalogueFormat::zmap},
-       {"scedc", CatalogueFormat::scedc}},
       "Format of the files: detect (by the first bytes: '<' is quakeml, '# lsm-catalogue' "
       "models, column names with time and mag csv, YYYY/MM/DD scedc, nine numbers zmap), or one "
       "of these. Only events of the type earthquake are used; blasts and others are counted on "
       "standard error",
-      "detect");
+      among({"detect", "models", "csv", "quakeml", "zmap", "scedc"}));
   group.add("--region", regions,
             "Only earthquakes within W/E/S/N (degrees); may be repeated, for one curve each",
             one_each(), kind("W/E/S/N"), shown(""));
@@ -90,38 +108,6 @@ void CatalogueOptions::add_displacement(CLI::App *command) {
             "header, those of --from and --to included: for catalogues of different driving "
             "velocities (ours)");
 }
-
-namespace {
-
-/// Model time in the unit of the times asked for.
-double time_unit(const CatalogueInfo &info, const std::string &path, bool displacement) {
-  if (!displacement) return 1.0;
-  double velocity = 0.0;
-  const std::string *text = info.find("velocity");
-  if (!text || !text_io::parse(*text, velocity) || !(std::fabs(velocity) > 0.0))
-    throw FileError(path + ": " + (text ? "velocity = " + *text : "no velocity") +
-                    " in the header, expected one that is not 0 for --displacement");
-  return std::fabs(velocity);
-}
-
-std::string label_of(const EventTable &table) {
-  const double length = table.length();
-  if (std::isnan(length)) return std::filesystem::path(table.path).stem().string();
-  return table.info.model == "lsm" ? fmt::format("fault, length {}", length)
-                                   : fmt::format("block-slider, N = {}", length);
-}
-
-}  // namespace
-
-namespace {
-
-std::string threshold_help(const std::string &what, const std::string &more) {
-  return "Smallest size of " + what + " (model energy; M2.5: magnitude 2.5)" + more +
-         "; without it 1e-4, as in the paper's Figs. 12 and 13 (for times it states none), or "
-         "the largest 'completeness' in the headers of a model if that is larger (ours)";
-}
-
-}  // namespace
 
 void add_threshold(OptionGroup group, Threshold &threshold, const std::string &what) {
   group.call(
@@ -145,16 +131,11 @@ void set_parameter(text_io::Parameters &parameters, const std::string &key,
 }
 
 void check(const CatalogueOptions &options) {
-  if (std::isnan(options.min_size))
-    throw std::invalid_argument("--min-size is not a number, expected a size");
   if (!(options.from_time < options.to_time))
     throw std::invalid_argument(fmt::format("--from {} --to {}: expected --from before --to",
                                             options.from_time, options.to_time));
-  if (options.regions.empty() && !options.labels.empty() &&
-      options.labels.size() != options.paths.size())
-    throw std::invalid_argument(
-        fmt::format("--label given {} times, expected once per catalogue ({})",
-                    options.labels.size(), options.paths.size()));
+  if (options.regions.empty())
+    expect_each("--label", options.labels.size(), "catalogue", options.paths.size());
   for (const std::string &region : options.regions) parse_region(region);
   if (!(options.from_day < options.to_day))
     throw std::invalid_argument("--from is no earlier date than --to, expected --from before --to");
@@ -190,7 +171,7 @@ void choose(const Event &event, double from, double to, const CatalogueOptions &
   }
 }
 
-EventTable read_earthquake_events(text_io::Bytes &bytes, CatalogueFormat format,
+EventTable read_earthquake_events(text_io::Bytes &bytes, const std::string &format,
                                   const CatalogueOptions &options, const UseEvent &use,
                                   const UseTable &begin) {
   const std::string &path = bytes.path();
@@ -265,12 +246,10 @@ EventTable read_events(const std::string &path, const CatalogueOptions &options,
                        const UseEvent &use, const UseTable &begin) {
   // Opened once, as a pipe can be read only once.
   std::unique_ptr<text_io::Bytes> bytes = open_input(path);
-  const CatalogueFormat format = options.format == CatalogueFormat::detect
-                                     ? detect_format(bytes->peek(head_size))
-                                     : options.format;
-  return format == CatalogueFormat::models
-             ? read_model_events(std::move(bytes), options, use, begin)
-             : read_earthquake_events(*bytes, format, options, use, begin);
+  const std::string format =
+      options.format == "detect" ? detect_format(bytes->peek(head_size)) : options.format;
+  return format == "models" ? read_model_events(std::move(bytes), options, use, begin)
+                            : read_earthquake_events(*bytes, format, options, use, begin);
 }
 
 namespace {
@@ -340,10 +319,7 @@ void check_kinds(const CatalogueOptions &options, std::size_t quakes, std::size_
         "--from or --to is a number, but all catalogues are of earthquakes, expected a date such "
         "as "
         "1984-01-01");
-  if (!options.labels.empty() && options.labels.size() != all)
-    throw std::invalid_argument(
-        fmt::format("--label given {} times, expected once per catalogue and region ({})",
-                    options.labels.size(), all));
+  expect_each("--label", options.labels.size(), "catalogue and region", all);
 }
 
 }  // namespace

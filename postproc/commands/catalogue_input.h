@@ -29,7 +29,7 @@ struct CatalogueOptions {
   /// Number of events, the largest (and equal ones), of which a table has all columns.
   std::size_t details = 0;
   static constexpr std::size_t all_events = std::numeric_limits<std::size_t>::max() / 2;
-  CatalogueFormat format = CatalogueFormat::detect;
+  std::string format = "detect";     ///< or models, csv, quakeml, zmap, scedc
   std::vector<std::string> regions;  ///< of earthquakes, "W/E/S/N"; a table for each, or one
   /// Times, from_time and to_time are displacements of the plates: model time times driving
   /// velocity.

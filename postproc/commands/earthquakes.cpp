@@ -7,8 +7,8 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <functional>
 #include <pugixml.hpp>
+#include <set>
 #include <stdexcept>
 
 #include "lsm_catalogue.h"
@@ -73,12 +73,11 @@ bool take_zone(std::string_view &text, int &ahead) {
 }
 
 bool is_earthquake(std::string type) {
+  static const std::set<std::string> names = {
+      "", "earthquake", "induced or triggered event", "eq", "eql", "eqr", "le", "re", "ts"};
   for (char &c : type)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  for (const char *name :
-       {"", "earthquake", "induced or triggered event", "eq", "eql", "eqr", "le", "re", "ts"})
-    if (type == name) return true;
-  return false;
+  return names.count(type) > 0;
 }
 
 /// One event as its line says it; empty fields are those the file does not have.
@@ -118,10 +117,13 @@ class Collector {
     if (number(row.magnitude, "magnitude", 12.0, event.magnitude)) list_.events.push_back(event);
   }
 
+  [[noreturn]] void fail(std::int64_t line, const std::string &what) const {
+    throw FileError(text_io::where(path_, line) + what);
+  }
+  /// A line that cannot be read.
   void bad(std::int64_t line, const std::string &what) {
-    const std::string message = text_io::where(path_, line) + what;
-    if (!lenient_) throw FileError(message);
-    if (list_.bad_lines++ == 0) list_.first_problem = message;
+    if (!lenient_) fail(line, what);
+    if (list_.bad_lines++ == 0) list_.first_problem = text_io::where(path_, line) + what;
   }
 
   EarthquakeList finish() {
@@ -136,15 +138,22 @@ class Collector {
   EarthquakeList list_;
 };
 
-/// Calls use(line without its end, number) for each line.
-void for_each_line(std::string_view content,
-                   const std::function<void(std::string_view, std::int64_t)> &use) {
-  for (std::int64_t number = 1; !content.empty(); ++number) {
-    const std::size_t end = content.find('\n');
-    use(text_io::trim(content.substr(0, end)), number);
-    content.remove_prefix(end == std::string_view::npos ? content.size() : end + 1);
+/// The lines of a file without their ends, but for comments and empty ones.
+struct Lines {
+  std::string_view rest, line = {};
+  std::int64_t number = 0;
+
+  bool next() {
+    while (!rest.empty()) {
+      const std::size_t end = rest.find('\n');
+      line = text_io::trim(rest.substr(0, end));
+      rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
+      ++number;
+      if (!line.empty() && line.front() != '#' && line.front() != '%') return true;
+    }
+    return false;
   }
-}
+};
 
 /// Fields between commas; those in double quotes may contain commas (RFC 4180).
 Fields split_csv(std::string_view line) {
@@ -184,86 +193,74 @@ int column(const Fields &names, std::initializer_list<std::string_view> wanted) 
   return -1;
 }
 
-struct CsvColumns {
-  explicit CsvColumns(const Fields &names)
-      : time(column(names, {"time"})),
-        latitude(column(names, {"latitude"})),
-        longitude(column(names, {"longitude"})),
-        magnitude(column(names, {"mag", "magnitude"})),
-        type(column(names, {"type", "event_type"})),
-        count(names.size()) {}
-  bool complete() const { return time >= 0 && latitude >= 0 && longitude >= 0 && magnitude >= 0; }
-  int time, latitude, longitude, magnitude, type;
-  std::size_t count;
-};
+/// Places of time, latitude, longitude, magnitude and type, the first four of which a file needs.
+using CsvColumns = std::array<int, 5>;
+CsvColumns csv_columns(const Fields &names) {
+  return {column(names, {"time"}), column(names, {"latitude"}), column(names, {"longitude"}),
+          column(names, {"mag", "magnitude"}), column(names, {"type", "event_type"})};
+}
+bool complete(const CsvColumns &columns) {
+  return std::find(columns.begin(), columns.end() - 1, -1) == columns.end() - 1;
+}
 
-void read_csv(std::string_view content, Collector &out, const std::string &path) {
-  std::optional<CsvColumns> columns;
-  for_each_line(content, [&](std::string_view line, std::int64_t number) {
-    if (line.empty() || line.front() == '#') return;
-    const Fields fields = split_csv(line);
-    if (!columns) {
-      columns.emplace(fields);
-      if (!columns->complete())
-        throw FileError(
-            text_io::where(path, number) +
-            "column names without time, latitude, longitude and mag, expected those of ComCat");
-      return;
+void read_csv(std::string_view content, Collector &out) {
+  Lines lines{content};
+  const Fields names = lines.next() ? split_csv(lines.line) : Fields();
+  const CsvColumns columns = csv_columns(names);
+  if (!complete(columns))
+    out.fail(lines.number,
+             "column names without time, latitude, longitude and mag, expected those of ComCat");
+  while (lines.next()) {
+    const Fields fields = split_csv(lines.line);
+    if (fields.size() != names.size()) {
+      out.bad(lines.number,
+              std::to_string(fields.size()) + " fields, expected " + std::to_string(names.size()));
+      continue;
     }
-    if (fields.size() != columns->count)
-      return out.bad(number, std::to_string(fields.size()) + " fields, expected " +
-                                 std::to_string(columns->count));
-    const auto field = [&fields](int c) -> std::string_view {
-      return c < 0 ? std::string_view() : text_io::trim(fields[static_cast<std::size_t>(c)]);
+    const auto field = [&](std::size_t i) {
+      return columns[i] < 0 ? std::string_view()
+                            : text_io::trim(fields[static_cast<std::size_t>(columns[i])]);
     };
-    out.add({field(columns->time),
-             field(columns->latitude),
-             field(columns->longitude),
-             field(columns->magnitude),
-             field(columns->type),
-             {}},
-            number);
-  });
+    out.add({field(0), field(1), field(2), field(3), field(4), {}}, lines.number);
+  }
 }
 
 /// Date, clock, type, type of place, magnitude, its type, latitude, longitude, ...
 void read_scedc(std::string_view content, Collector &out) {
-  for_each_line(content, [&](std::string_view line, std::int64_t number) {
-    if (line.empty() || line.front() == '#') return;
-    const Fields f = split_blanks(line);
+  for (Lines lines{content}; lines.next();) {
+    const Fields f = split_blanks(lines.line);
     if (f.size() < 9)
-      return out.bad(number, std::to_string(f.size()) +
-                                 " fields, expected date, time, event type, place type, magnitude, "
-                                 "its type, latitude, longitude, depth, ...");
-    const std::string time = f[0] + ' ' + f[1];
-    out.add({time, f[6], f[7], f[4], f[2], {}}, number);
-  });
+      out.bad(lines.number, std::to_string(f.size()) +
+                                " fields, expected date, time, event type, place type, magnitude, "
+                                "its type, latitude, longitude, depth, ...");
+    else
+      out.add({f[0] + ' ' + f[1], f[6], f[7], f[4], f[2], {}}, lines.number);
+  }
 }
 
 /// longitude, latitude, year, month, day, magnitude, depth, hour, minute[, second]; the year may
 /// have a fraction, which repeats month and day.
 void read_zmap(std::string_view content, Collector &out) {
-  for_each_line(content, [&](std::string_view line, std::int64_t number) {
-    if (line.empty() || line.front() == '#' || line.front() == '%') return;
-    const Fields f = split_blanks(line);
+  for (Lines lines{content}; lines.next();) {
+    const Fields f = split_blanks(lines.line);
     std::array<double, 10> v{};
     bool good = f.size() >= 9;
     for (std::size_t i = 0; good && i < std::min(f.size(), v.size()); ++i)
       good = text_io::parse(f[i], v[i]) || (i == 5 && f[i] == "NaN");
     for (const std::size_t whole : {3u, 4u, 7u, 8u})
       good = good && v[whole] >= 0.0 && v[whole] <= 60.0 && v[whole] == std::floor(v[whole]);
-    const auto at =
-        !good || std::fabs(v[2]) > 1e4
-            ? std::nullopt
-            : days(static_cast<int>(v[2]), static_cast<int>(v[3]), static_cast<int>(v[4]),
-                   static_cast<int>(v[7]), static_cast<int>(v[8]), v[9]);
-    if (!at)
-      return out.bad(number,
-                     "no event of ZMAP, expected longitude, latitude, year, month, day, magnitude, "
-                     "depth, hour, minute and, if known, second");
-    out.add({{}, f[1], f[0], f[5] == "NaN" ? std::string_view() : std::string_view(f[5]), {}, at},
-            number);
-  });
+    std::optional<double> at;
+    if (good && std::fabs(v[2]) <= 1e4)
+      at = days(static_cast<int>(v[2]), static_cast<int>(v[3]), static_cast<int>(v[4]),
+                static_cast<int>(v[7]), static_cast<int>(v[8]), v[9]);
+    if (at)
+      out.add({{}, f[1], f[0], f[5] == "NaN" ? std::string_view() : std::string_view(f[5]), {}, at},
+              lines.number);
+    else
+      out.bad(lines.number,
+              "no event of ZMAP, expected longitude, latitude, year, month, day, magnitude, "
+              "depth, hour, minute and, if known, second");
+  }
 }
 
 /// Child `name` of event whose publicID the event prefers, or the first one.
@@ -350,41 +347,29 @@ Region parse_region(std::string_view text) {
   return {v[0], v[1], v[2], v[3]};
 }
 
-CatalogueFormat detect_format(std::string_view content) {
-  CatalogueFormat found = CatalogueFormat::models;
-  bool known = false;
-  for_each_line(content.substr(0, 1 << 16), [&](std::string_view line, std::int64_t) {
-    if (known || line.empty()) return;
-    if (line.front() == '#' || line.front() == '%') {
-      known = line.substr(0, catalogue_detail::magic.size()) == catalogue_detail::magic;
-      return;
-    }
-    known = true;
-    if (line.front() == '<') {
-      found = CatalogueFormat::quakeml;
-    } else if (CsvColumns(split_csv(line)).complete()) {
-      found = CatalogueFormat::csv;
-    } else if (line.size() > 10 && line[4] == '/' && parse_date(line.substr(0, 10))) {
-      found = CatalogueFormat::scedc;
-    } else {
-      const Fields fields = split_blanks(line);
-      double number = 0.0;
-      if (fields.size() >= 9 && std::all_of(fields.begin(), fields.begin() + 5, [&](auto &field) {
-            return text_io::parse(field, number);
-          }))
-        found = CatalogueFormat::zmap;
-    }
-  });
-  return found;
+std::string detect_format(std::string_view content) {
+  constexpr std::string_view magic = catalogue_detail::magic;
+  Lines lines{content};
+  if (content.substr(0, magic.size()) == magic || !lines.next()) return "models";
+  if (lines.line.front() == '<') return "quakeml";
+  if (complete(csv_columns(split_csv(lines.line)))) return "csv";
+  if (lines.line.size() > 10 && lines.line[4] == '/' && parse_date(lines.line.substr(0, 10)))
+    return "scedc";
+  const Fields fields = split_blanks(lines.line);
+  double number = 0.0;
+  const bool numbers =
+      fields.size() >= 9 && std::all_of(fields.begin(), fields.begin() + 5,
+                                        [&](auto &field) { return text_io::parse(field, number); });
+  return numbers ? "zmap" : "models";
 }
 
-EarthquakeList read_earthquakes(std::string_view content, CatalogueFormat format,
+EarthquakeList read_earthquakes(std::string_view content, const std::string &format,
                                 const std::string &path, bool lenient) {
   Collector out(path, lenient);
-  if (format == CatalogueFormat::csv) read_csv(content, out, path);
-  if (format == CatalogueFormat::quakeml) read_quakeml(content, out, path);
-  if (format == CatalogueFormat::zmap) read_zmap(content, out);
-  if (format == CatalogueFormat::scedc) read_scedc(content, out);
+  if (format == "csv") read_csv(content, out);
+  if (format == "quakeml") read_quakeml(content, out, path);
+  if (format == "zmap") read_zmap(content, out);
+  if (format == "scedc") read_scedc(content, out);
   return out.finish();
 }
 

@@ -16,8 +16,6 @@ namespace LSM::postproc {
 /// Value of CatalogueInfo::model for earthquakes.
 constexpr std::string_view seismicity = "seismicity";
 
-enum class CatalogueFormat { detect, models, csv, quakeml, zmap, scedc };
-
 struct Earthquake {
   double time = 0.0;                       ///< days since 1970-01-01T00:00 UTC
   double latitude = 0.0, longitude = 0.0;  ///< degrees
@@ -54,18 +52,18 @@ std::string date_text(double days);
 /// "W/E/S/N" in degrees. \throws std::invalid_argument
 Region parse_region(std::string_view text);
 
-/// Format of a file by its first bytes: '<' is QuakeML, '# lsm-catalogue' a catalogue of the
-/// models, a line of column names with time and mag (or magnitude) CSV, a first line of data that
-/// begins with YYYY/MM/DD SCEDC, at least nine numbers ZMAP; else models, whose reader says what it
+/// Format of a file by its first bytes: '<' is quakeml, '# lsm-catalogue' a catalogue of the
+/// models, a line of column names with time and mag (or magnitude) csv, a first line of data that
+/// begins with YYYY/MM/DD scedc, at least nine numbers zmap; else models, whose reader says what it
 /// misses.
-CatalogueFormat detect_format(std::string_view content);
+std::string detect_format(std::string_view content);
 
 /// Earthquakes in the text of a file. An event is one if its type is missing, 'earthquake',
 /// 'induced or triggered event', or SCEDC's eq, le, re, ts.
 /// \param path for messages, "path:line: what, expected ..."
 /// \param lenient pass over lines (QuakeML: events) that cannot be read, and count them
 /// \throws FileError
-EarthquakeList read_earthquakes(std::string_view content, CatalogueFormat format,
+EarthquakeList read_earthquakes(std::string_view content, const std::string &format,
                                 const std::string &path, bool lenient);
 
 }  // namespace LSM::postproc

@@ -6,7 +6,7 @@
 
 #include "command.h"
 #include "explore_page.h"
-#include "history_input.h"
+#include "input_file.h"
 #include "new_file.h"
 #include "series_input.h"
 
@@ -28,33 +28,28 @@ bool take_off(std::string &path, std::string_view ending) {
 }
 
 /// A file of the run of a catalogue, or "" if there is none.
-std::string file_beside(const std::string &catalogue, const std::vector<std::string> &endings) {
+std::string file_beside(const std::string &catalogue, const std::string &ending) {
   std::string base = catalogue;
-  for (const std::string_view ending : {".gz", ".xz"})
-    if (take_off(base, ending)) break;
-  for (const std::string_view ending : {".catalogue.csv", ".ruptures.csv", ".csv"})
-    if (take_off(base, ending)) break;
-  for (const std::string &ending : endings)
-    for (const std::string_view packed : {"", ".gz", ".xz"}) {
-      std::string path = base + ending;
-      path += packed;
-      if (path != catalogue && std::filesystem::exists(path)) return path;
-    }
+  for (const std::string_view packed : {".gz", ".xz"})
+    if (take_off(base, packed)) break;
+  for (const std::string_view kind : {".catalogue.csv", ".ruptures.csv", ".csv"})
+    if (take_off(base, kind)) break;
+  for (const char *const packed : {"", ".gz", ".xz"}) {
+    const std::string path = base + ending + packed;
+    if (path != catalogue && std::filesystem::exists(path)) return path;
+  }
   return {};
 }
 
 /// Paths of one kind of file for each catalogue: those given ("none": there is none), or those that
 /// are found beside the catalogues; "" for none.
 std::vector<std::string> files_beside(const std::vector<std::string> &catalogues,
-                                      const std::vector<std::string> &given,
-                                      const std::string &option,
-                                      const std::vector<std::string> &endings) {
-  if (!given.empty() && given.size() != catalogues.size())
-    throw std::invalid_argument(fmt::format("{} given {} times, expected once per catalogue ({})",
-                                            option, given.size(), catalogues.size()));
+                                      const std::vector<std::string> &given, const char *option,
+                                      const std::string &ending) {
+  expect_each(option, given.size(), "catalogue", catalogues.size());
   std::vector<std::string> paths;
   for (std::size_t i = 0; i < catalogues.size(); ++i)
-    paths.push_back(given.empty()        ? file_beside(catalogues[i], endings)
+    paths.push_back(given.empty()        ? file_beside(catalogues[i], ending)
                     : given[i] == "none" ? std::string()
                                          : given[i]);
   return paths;
@@ -149,11 +144,9 @@ class Explore : public Command {
 
   void run() override {
     const std::vector<std::string> &paths = catalogues_.paths;
-    const std::vector<std::string> series = files_beside(paths, series_, "--series", {".pe.bin"}),
-                                   histories =
-                                       files_beside(paths, histories_, "--history", {".slip.bin"}),
-                                   ruptures = files_beside(paths, ruptures_, "--ruptures",
-                                                           {".ruptures.csv"});
+    const auto series = files_beside(paths, series_, "--series", ".pe.bin");
+    const auto histories = files_beside(paths, histories_, "--history", ".slip.bin");
+    const auto ruptures = files_beside(paths, ruptures_, "--ruptures", ".ruptures.csv");
     for (const auto &files : {paths, series, histories, ruptures}) refuse_input(output_, files);
     std::vector<ExploreRun> runs = load_events(ruptures);
     for (std::size_t i = 0; i < runs.size(); ++i) {

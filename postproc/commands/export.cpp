@@ -13,8 +13,6 @@ namespace LSM::postproc {
 
 namespace {
 
-enum class Format { seismostats, csep };
-
 /// UTC date with microseconds, or "" outside the years that the readers know.
 /// \param start seconds since 1970
 std::string date_text(double seconds, std::int64_t start, int last_year) {
@@ -22,21 +20,14 @@ std::string date_text(double seconds, std::int64_t start, int last_year) {
   if (!(std::fabs(seconds) < 1e12)) return {};
   const date::sys_time<std::chrono::microseconds> at(
       std::chrono::seconds(start) + std::chrono::microseconds(std::llround(seconds * 1e6)));
-  const auto day = date::floor<date::days>(at);
-  const date::year_month_day d(day);
-  const int year = static_cast<int>(d.year());
-  if (year < 1700 || year > last_year) return {};
-  const auto clock = date::make_time(at - day);
-  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}.{:06}", year,
-                     static_cast<unsigned>(d.month()), static_cast<unsigned>(d.day()),
-                     clock.hours().count(), clock.minutes().count(), clock.seconds().count(),
-                     clock.subseconds().count());
+  const int year = static_cast<int>(date::year_month_day(date::floor<date::days>(at)).year());
+  return year < 1700 || year > last_year ? std::string() : date::format("%FT%T", at);
 }
 
 class Export : public CatalogueAnalysis {
   OutputOption output_;
   std::string start_ = "2000-01-01T00:00:00";
-  Format format_ = Format::seismostats;
+  std::string format_ = "seismostats";
   MagnitudeOptions magnitudes_;
   double degrees_ = 0.0;
   double unit_ = 1.0;  // seconds in a unit of model time
@@ -56,14 +47,13 @@ class Export : public CatalogueAnalysis {
     own.remove("--format");  // here that of the output
     output_.add_to(own, "table");
     OptionGroup group(command, "Conventions (ours)");
-    group.choice<Format>(
-        "--format", format_, {{"seismostats", Format::seismostats}, {"csep", Format::csep}},
-        "seismostats: longitude, latitude, depth, time, magnitude (what seismostats.Catalog "
-        "requires; read with pandas.read_csv(FILE, parse_dates=['time'])), then event_id, "
-        "catalog_id, duration (model time), size (energy). csep: lon, lat, mag, time_string, "
-        "depth, catalog_id, event_id, the columns of pyCSEP's CSV (csep.load_catalog(FILE, "
-        "type='csep-csv'))",
-        "seismostats");
+    group.add("--format", format_,
+              "seismostats: longitude, latitude, depth, time, magnitude (what seismostats.Catalog "
+              "requires; read with pandas.read_csv(FILE, parse_dates=['time'])), then event_id, "
+              "catalog_id, duration (model time), size (energy). csep: lon, lat, mag, time_string, "
+              "depth, catalog_id, event_id, the columns of pyCSEP's CSV (csep.load_catalog(FILE, "
+              "type='csep-csv'))",
+              among({"seismostats", "csep"}));
     magnitudes_.add_to(group);
     group.add("--start-date", start_,
               "Date of model time 0, YYYY-MM-DD or YYYY-MM-DDTHH:MM:SS (UTC). Times are the starts "
@@ -78,19 +68,17 @@ class Export : public CatalogueAnalysis {
                          {"year", 365.25 * 86400.0}}),
               positive(), shown("second"));
     group.add("--degrees-per-length", degrees_,
-              "Longitude = x_centroid x this (degrees per model length); 0: all longitudes are 0");
+              "Longitude = x_centroid x this (degrees per model length); 0: all longitudes are 0",
+              finite());
   }
 
   std::vector<Output> outputs() const override { return {output_.output()}; }
 
-  bool csep() const { return format_ == Format::csep; }
+  bool csep() const { return format_ == "csep"; }
 
   /// Seconds since 1970 of model time 0. \throws std::invalid_argument for impossible options
   std::int64_t checked_start() const {
     check(catalogues);
-    magnitudes_.check();
-    if (!std::isfinite(degrees_))
-      throw std::invalid_argument("--degrees-per-length: expected a finite number");
     const std::optional<double> days = parse_date(start_);
     if (!days)
       throw std::invalid_argument(fmt::format(

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 namespace LSM::postproc {
 
 namespace {
@@ -123,6 +125,14 @@ std::unique_ptr<Bytes> open_input(const std::string &path) {
     throw FileError(path + ": compressed by " + std::string(program) +
                     ", expected gzip, xz or a file that is not compressed");
   return bytes;
+}
+
+SlipHistoryReader open_history(const std::string &path, bool lenient) {
+  SlipHistoryReader reader(open_input(path), lenient);
+  if (reader.torn()) fmt::print(stderr, "postproc: {}: dropped a truncated last record: 1\n", path);
+  if (!(reader.info().driving > 0.0))
+    throw std::runtime_error(path + ": the driving velocity in the header is not positive");
+  return reader;
 }
 
 }  // namespace LSM::postproc

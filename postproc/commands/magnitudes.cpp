@@ -79,7 +79,6 @@ class Magnitudes : public Statistic {
   }
 
   Findings of(const std::vector<EventTable> &tables) override {
-    magnitudes_.check();
     const double bin = magnitudes_.bin, width = bin > 0.0 ? bin : 0.1;
     std::vector<MagnitudeCurve> curves;
     for (const EventTable &table : tables) {

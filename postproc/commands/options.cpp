@@ -33,9 +33,6 @@ CLI::Option *put(CLI::Option *option, const std::string &heading, const std::vec
   return option->group(heading);
 }
 
-/// The name of a type in --help depends on whether it is an enumeration.
-enum class Word : int {};
-
 }  // namespace
 
 Rule required() {
@@ -58,15 +55,27 @@ Rule between(double lo, double hi) { return check(CLI::Range(lo, hi)); }
 Rule between(std::int64_t lo, std::int64_t hi) { return check(CLI::Range(lo, hi)); }
 Rule among(const std::vector<std::string> &words) { return check(CLI::IsMember(words)); }
 
-Rule zero_or_more() {
+namespace {
+
+/// A finite number that good accepts.
+Rule number_that(bool (*good)(double), const char *expected) {
   return check(CLI::Validator(
-      [](std::string &text) {
+      [good, expected](std::string &text) {
         double value = 0.0;
-        return text_io::parse(text, value) && value >= 0.0
+        return text_io::parse(text, value) && good(value)
                    ? std::string()
-                   : "expected a number of 0 or more, not " + text_io::in_quotes(text);
+                   : expected + (", not " + text_io::in_quotes(text));
       },
       ""));
+}
+
+}  // namespace
+
+Rule zero_or_more() {
+  return number_that([](double value) { return value >= 0.0; }, "expected a number of 0 or more");
+}
+Rule finite() {
+  return number_that([](double) { return true; }, "expected a finite number");
 }
 
 Rule number_or(const std::map<std::string, double> &words) {
@@ -120,16 +129,6 @@ void OptionGroup::texts(const std::string &names,
 
 void OptionGroup::flag(const std::string &names, bool &value, const std::string &help) {
   put(command_->add_flag(names, value, help), heading_, {});
-}
-
-void OptionGroup::add_choice(const std::string &names, const std::map<std::string, int> &words,
-                             const std::function<void(int)> &use, const std::string &help,
-                             const Rule &usual) {
-  std::map<std::string, Word> values;
-  for (const auto &[word, value] : words) values[word] = static_cast<Word>(value);
-  const auto use_word = [use](const Word &word) { use(static_cast<int>(word)); };
-  put(command_->add_option_function<Word>(names, use_word, help), heading_, {usual})
-      ->transform(CLI::CheckedTransformer(values));
 }
 
 void OptionGroup::remove(const char *name) { command_->remove_option(command_->get_option(name)); }
@@ -197,11 +196,15 @@ PowerLine parse_guide(std::string_view text) {
   return line;
 }
 
+void expect_each(const char *option, std::size_t given, const char *of, std::size_t count) {
+  if (given > 0 && given != count)
+    throw std::invalid_argument(
+        fmt::format("{} given {} times, expected once per {} ({})", option, given, of, count));
+}
+
 std::vector<std::string> labels_of(const std::vector<std::string> &paths,
                                    const std::vector<std::string> &given, const char *input) {
-  if (!given.empty() && given.size() != paths.size())
-    throw std::invalid_argument(fmt::format("--label given {} times, expected once per {} ({})",
-                                            given.size(), input, paths.size()));
+  expect_each("--label", given.size(), input, paths.size());
   std::vector<std::string> labels = given;
   for (std::size_t i = labels.size(); i < paths.size(); ++i)
     labels.push_back(std::filesystem::path(paths[i]).filename().string());
@@ -209,27 +212,20 @@ std::vector<std::string> labels_of(const std::vector<std::string> &paths,
 }
 
 void MagnitudeOptions::add_to(OptionGroup group) {
-  group.choice<Of>("--magnitude-of", made_of, {{"size", Of::size}, {"moment", Of::moment}},
-                   "size: of the size of an event (an energy); moment: of its slip moment, a "
-                   "column that not every catalogue has",
-                   "size");
+  group.add("--magnitude-of", made_of,
+            "size: of the size of an event (an energy); moment: of its slip moment, a column that "
+            "not every catalogue has",
+            among({"size", "moment"}));
   group.add("--magnitude-slope", scale.slope,
             "Magnitudes per decade of size: 2/3 is usual for energy and moment, 1 makes M the "
             "logarithm itself",
-            shown("2/3"));
-  group.add("--magnitude-constant", scale.constant, "Magnitude of an event of size (or moment) 1");
+            shown("2/3"), finite(), positive());
+  group.add("--magnitude-constant", scale.constant, "Magnitude of an event of size (or moment) 1",
+            finite());
   group.add("--magnitude-bin", bin,
             "Width of the bins to whose centres, its multiples, magnitudes are rounded, halves "
-            "upwards; 0: none");
-}
-
-void MagnitudeOptions::check() const {
-  if (!std::isfinite(scale.constant))
-    throw std::invalid_argument("--magnitude-constant: expected a finite number");
-  if (!std::isfinite(scale.slope) || !(scale.slope > 0.0))
-    throw std::invalid_argument("--magnitude-slope: expected a positive finite number");
-  if (!std::isfinite(bin) || !(bin >= 0.0))
-    throw std::invalid_argument("--magnitude-bin: expected a finite number of 0 or more");
+            "upwards; 0: none",
+            zero_or_more());
 }
 
 void MagnitudeOptions::require(const std::string &path, const CatalogueInfo &info) const {

@@ -36,6 +36,7 @@ Rule kind(const std::string &of_value);  ///< in place of TEXT
 Rule excludes(CLI::Option *other);
 Rule positive();
 Rule zero_or_more();
+Rule finite();
 Rule between(double lo, double hi);
 Rule between(std::int64_t lo, std::int64_t hi);
 inline Rule between(int lo, int hi) { return between(std::int64_t{lo}, std::int64_t{hi}); }
@@ -68,15 +69,6 @@ class OptionGroup {
              const std::function<void(const std::vector<std::string> &)> &use,
              const std::string &help, const std::vector<Rule> &rules);
   void flag(const std::string &names, bool &value, const std::string &help);
-  /// A word for a value of an enumeration.
-  template <class Value>
-  void choice(const std::string &names, Value &value, const std::map<std::string, Value> &words,
-              const std::string &help, const std::string &usual) {
-    std::map<std::string, int> numbers;
-    for (const auto &[word, of] : words) numbers[word] = static_cast<int>(of);
-    add_choice(
-        names, numbers, [&value](int of) { value = static_cast<Value>(of); }, help, shown(usual));
-  }
   void remove(const char *name);
 
  private:
@@ -85,9 +77,6 @@ class OptionGroup {
                     const std::vector<Rule> &rules);
   CLI::Option *bind_call(const std::string &names, const std::function<void(const double &)> &use,
                          const std::string &help, const std::vector<Rule> &rules);
-  void add_choice(const std::string &names, const std::map<std::string, int> &words,
-                  const std::function<void(int)> &use, const std::string &help, const Rule &usual);
-
   CLI::App *command_;
   std::string heading_;
 };
@@ -110,6 +99,9 @@ Range parse_range(const std::string &option, std::string_view text);
 /// "SLOPE" or "SLOPE:LO:HI". \throws std::invalid_argument
 PowerLine parse_guide(std::string_view text);
 
+/// \throws std::invalid_argument unless an option was given for all of something or not at all
+void expect_each(const char *option, std::size_t given, const char *of, std::size_t count);
+
 /// Name of each input: the one given, or that of its file. \param input what one of them is
 /// \throws std::invalid_argument unless there is one for each
 std::vector<std::string> labels_of(const std::vector<std::string> &paths,
@@ -118,16 +110,14 @@ std::vector<std::string> labels_of(const std::vector<std::string> &paths,
 /// How the commands make magnitudes of events.
 struct MagnitudeOptions {
   MagnitudeScale scale;
-  double bin = 0.0;  ///< width of the bins; 0: none
-  enum class Of { size, moment } made_of = Of::size;
+  double bin = 0.0;              ///< width of the bins; 0: none
+  std::string made_of = "size";  ///< or moment
 
   /// Adds --magnitude-of, --magnitude-slope, --magnitude-constant and --magnitude-bin.
   void add_to(OptionGroup group);
-  /// \throws std::invalid_argument for impossible values
-  void check() const;
   /// Name of the column from which the magnitude is made.
   std::string of() const { return of_moment() ? "slip_moment" : "size"; }
-  bool of_moment() const { return made_of == Of::moment; }
+  bool of_moment() const { return made_of == "moment"; }
   double quantity(const Event &event) const { return of_moment() ? event.slip_moment : event.size; }
   /// \throws std::runtime_error if the catalogue lacks the column
   void require(const std::string &path, const CatalogueInfo &info) const;

@@ -15,7 +15,7 @@ namespace {
 /// The header that the run itself writes: the parameters of the series with dt among them, and the
 /// picker's settings. A value that has not changed keeps its text.
 text_io::Parameters catalogue_parameters(const PeSeriesInfo &info, const PickerSettings &picker,
-                                         double warmup, std::optional<double> completeness) {
+                                         double warmup) {
   text_io::Parameters parameters = info.parameters;
   // Where the runs have it: the fault before its viscosity, the block-slider before its picker.
   const auto after_dt =
@@ -36,7 +36,6 @@ text_io::Parameters catalogue_parameters(const PeSeriesInfo &info, const PickerS
   if (picker.keep_nonpositive || text_io::find(parameters, "keep_nonpositive"))
     set_parameter(parameters, "keep_nonpositive", picker.keep_nonpositive ? "yes" : "no");
   if (warmup > 0.0 || text_io::find(parameters, "warmup")) set_number("warmup", warmup);
-  if (completeness) set_number("completeness", *completeness);
   if (info.stride > 1) set_parameter(parameters, "stride", text_io::number(info.stride));
   set_parameter(parameters, "picked_by", "postproc " POSTPROC_VERSION);
   return parameters;
@@ -47,7 +46,7 @@ class Pick : public Analysis {
   OutputOption output_;
   SeriesOptions samples_;
   PickerOptions picker_;
-  std::optional<double> warmup_, completeness_;
+  std::optional<double> warmup_;
 
   const char *help() const override {
     return "Picks the events of a PE series and writes their catalogue (paper: Sect. 4.1). The "
@@ -65,11 +64,6 @@ class Pick : public Analysis {
     group.add("--warmup", warmup_,
               "Leave out events that start before this time (model time; ours; default: as in the "
               "header of the series, or 0)");
-    group.add("--completeness", completeness_,
-              "Size below which events may depend on the time step (energy; ours), for the "
-              "header of the catalogue: other commands leave smaller events out by default "
-              "(default: as in the header of the series, or none)",
-              zero_or_more());
     add_picker_options(command, picker_);
   }
 
@@ -86,7 +80,7 @@ class Pick : public Analysis {
 
     CatalogueInfo header;
     header.model = info.model;
-    header.parameters = catalogue_parameters(info, picker.settings(), warmup, completeness_);
+    header.parameters = catalogue_parameters(info, picker.settings(), warmup);
     for (const auto &[key, value] : header.parameters)
       if (const std::string problem = catalogue_detail::bad_value(key, value); !problem.empty())
         throw std::invalid_argument(series_ + ": " + problem);

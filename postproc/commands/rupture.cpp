@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <stdexcept>
 
-#include <fmt/format.h>
-
 #include "command.h"
-#include "history_input.h"
+#include "input_file.h"
 #include "rupture_figures.h"
 
 namespace LSM::postproc {
@@ -23,12 +21,7 @@ EventTable load_ruptures(const std::string &path, const CatalogueOptions &option
   return table;
 }
 
-const Event &chosen(const std::vector<Event> &events, std::int64_t id, const std::string &path) {
-  if (id != 0) {
-    for (const Event &e : events)
-      if (e.id == id) return e;
-    throw std::runtime_error(fmt::format("{}: no event {} among those chosen", path, id));
-  }
+const Event &largest_in(const std::vector<Event> &events, const std::string &path) {
   if (events.empty()) throw std::runtime_error(path + ": no events, expected at least one");
   return *std::max_element(events.begin(), events.end(), [](const Event &a, const Event &b) {
     return a.slip_moment < b.slip_moment;
@@ -46,7 +39,6 @@ Figure densities(const std::vector<EventTable> &tables, RuptureQuantity quantity
 
 class Rupture : public CatalogueAnalysis {
   std::string history_;
-  std::int64_t event_ = 0;
   double p_speed_ = 2.12, s_speed_ = 1.22;
 
   const char *help() const override {
@@ -55,8 +47,8 @@ class Rupture : public CatalogueAnalysis {
            "against length (BASE-length), drop of the total PE, which the paper expects to be "
            "proportional, against moment (BASE-pe), stress drop against moment (BASE-stress). "
            "With a slip history, also the slip velocity in space and time with the ruptures "
-           "outlined (BASE-spacetime), lines of the slip along the fault (BASE-lines), and one "
-           "rupture in detail (BASE-event)";
+           "outlined (BASE-spacetime), lines of the slip along the fault (BASE-lines), and the "
+           "rupture of the largest moment in detail (BASE-event)";
   }
 
   void add_options(CLI::App *command) override {
@@ -68,8 +60,6 @@ class Rupture : public CatalogueAnalysis {
     group.add("--history", history_,
               "Slip history of the first catalogue's run; --from and --to select a part",
               kind("FILE"), shown("none"));
-    group.add("--event", event_, "event_id of the rupture that is drawn in detail",
-              shown("that of the largest moment"));
     add_wave_speeds(group, p_speed_, s_speed_);
   }
 
@@ -94,7 +84,7 @@ class Rupture : public CatalogueAnalysis {
     std::vector<Event> inside;
     for (const Event &e : catalogue.details)
       if (e.t_start >= window.from && e.t_end <= window.to) inside.push_back(e);
-    const Event event = chosen(inside, event_, catalogue.path);
+    const Event event = largest_in(inside, catalogue.path);
     const double room = 0.15 * (event.t_end - event.t_start);
     const HistoryWindow detail = between(event.t_start - room, event.t_end + room);
 
@@ -111,7 +101,6 @@ class Rupture : public CatalogueAnalysis {
 
   Findings find() override {
     check(catalogues);
-    if (history_.empty() && event_ != 0) throw std::invalid_argument("--event needs --history");
     Findings found;
     std::vector<EventTable> tables;
     Table largest_of("label,ruptures,moment,largest,longest");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "explore_page.h"
 #include "event_tables.h"
-#include "history_input.h"
+#include "input_file.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "history_input.h"
+#include "input_file.h"
 #include "rupture_figures.h"
 #include "unit_files.h"
 
