@@ -159,8 +159,8 @@ compare_postprocs() {
     for program in "$1 $at/ours" "$2 $at/theirs"; do
       mkdir -p "${program#* }/$name"
       # shellcheck disable=SC2086
-      (cd "${program#* }/$name" && "${program% *}" ${name/likelihood/intervals} ${runs[$name]} >out 2>err) ||
-        { echo "$name: $(cat "${program#* }/$name/err")"; return 1; }
+      (cd "${program#* }/$name" && "${program% *}" ${name/likelihood/intervals} ${runs[$name]} >out 2>"$at/err") ||
+        { echo "$name: $(cat "$at/err")"; return 1; }
     done
     for file in "$at/theirs/$name"/*; do
       file=$name/${file##*/}
@@ -290,20 +290,22 @@ do_column() {
       build aarch64-native slider_cli postproc
       configure aarch64 "-DCMAKE_TOOLCHAIN_FILE=$root/tests/matrix/aarch64.cmake" "${on[@]}"
       build aarch64 slider_cli postproc lsm_unit_tests lsm_slider_tests lsm_postproc_tests
+      local qemu=$folder/aarch64/by-qemu
+      mkdir -p "$qemu"
       for program in slider_cli postproc; do
         printf '#!/bin/sh\nexec qemu-aarch64 -L "%s" "%s" "$@"\n' "$LSM_ARM_SYSROOT" "$folder/aarch64/bin/$program" \
-          >"$folder/aarch64/$program"
-        chmod +x "$folder/aarch64/$program"
+          >"$qemu/$program"
+        chmod +x "$qemu/$program"
       done
       # the quicker ones: others take many minutes; qemu-user makes up /proc/self/stat, by which a process is known
       tests=$(run_tests aarch64 '^(unit|postproc\.[A-Z]|SliderParameters|SliderKernels\.(OtherLaws|ActiveSet|InstructionSets))' aarch64 \
         OutputClaims.AnotherRunIsNamed) || ok=1
       rm -f "$folder/aarch64.scripts.log"
-      tests="$tests; $(run_scripts slider/slider_cli_test.sh "$folder/aarch64/slider_cli" -- header paper config bad_input)" || ok=1
-      tests="$tests; $(run_scripts postproc/postproc_cli_test.sh "$folder/aarch64/postproc" "$folder/aarch64/slider_cli" -- \
+      tests="$tests; $(run_scripts slider/slider_cli_test.sh "$qemu/slider_cli" -- header paper config bad_input)" || ok=1
+      tests="$tests; $(run_scripts postproc/postproc_cli_test.sh "$qemu/postproc" "$qemu/slider_cli" -- \
         pick online series spectrum export magnitudes aftershocks compare summary match select json compressed earthquakes bad_input)" || ok=1
-      fault=$(compare_sliders "$folder/aarch64/slider_cli" "$folder/aarch64-native/bin/slider_cli") || ok=1
-      fault="$fault; postproc: $(compare_postprocs "$folder/aarch64/postproc" "$folder/aarch64-native/bin/postproc")" || ok=1
+      fault=$(compare_sliders "$qemu/slider_cli" "$folder/aarch64-native/bin/slider_cli") || ok=1
+      fault="$fault; postproc: $(compare_postprocs "$qemu/postproc" "$folder/aarch64-native/bin/postproc")" || ok=1
       row aarch64 "none" "$(compiler_of aarch64-linux-gnu-g++), run by $(qemu-aarch64 --version | head -n 1)" "-" "no warning" \
         "unit, slider, postproc: $tests" "slider on ARM beside x86-64: $fault"
       return $ok

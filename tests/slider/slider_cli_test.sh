@@ -292,7 +292,7 @@ bad_input)
   refused_file 'seed = -1\n' "not '-1'"
   refused_file '\357\273\277seed = 1\n' "wrong.ini: begins with a byte order mark"
   refused_file 's\0e\0e\0d\0' "wrong.ini: not a text file"
-  refused "slider_cli: not a text file" --config "$program"
+  refused "/bin/sh: not a text file" --config /bin/sh
   gzip -c wrong.ini > wrong.gz
   refused "wrong.gz: compressed by gzip, expected a file that is not" --config wrong.gz
   # Above dt 0.01 the printed scheme runs, with a warning.
