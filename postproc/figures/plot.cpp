@@ -158,8 +158,8 @@ std::string escape(std::string_view text, bool markup) {
   const std::string_view harmless = markup ? " .,:;()=+-/*%<>!?" : " .,:;()=+-/*%<>!?_^{}";
   std::string out = "\"";
   bool number = false;  // continues with the next digit, however long it is
-  for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c < 0x20 && c >= 0 ? ' ' : c);
+  for (const unsigned char c : text) {
+    const unsigned char code = c < 0x20 ? ' ' : c;
     if (markup && std::string_view("\\{}^_@&~").find(c) != std::string_view::npos) out += "\\134";
     number = !(code >= 0x80 || std::isalpha(code) || (std::isdigit(code) && !number) ||
                harmless.find(static_cast<char>(code)) != std::string_view::npos);
