@@ -2,8 +2,8 @@
 #include <stdexcept>
 
 #include "command.h"
-#include "nature_figure.h"
 #include "interval_figures.h"
+#include "nature_figure.h"
 
 namespace LSM::postproc {
 
