@@ -8,7 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "lsm_picker_options.h"
+#include "events/picker_options.h"
 
 namespace LSM {
 

@@ -13,7 +13,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "lsm_text_io.h"
+#include "files/text_io.h"
 
 namespace LSM {
 

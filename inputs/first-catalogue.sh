@@ -1,43 +1,53 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# From a fresh Debian 12 to a first earthquake catalogue: installs what is missing, builds LAMMPS
-# with the package, runs the fault of length 120 on two ranks, prints its largest events, draws the
-# potential energy with the picked events, and makes a page on which one explores the run.
+# From a fresh Debian 12 or 13 to a first earthquake catalogue: installs what is missing, builds
+# LAMMPS with the package (on Debian 13 with the distribution's LAMMPS), runs the fault of length
+# 120 on two ranks, prints its largest events, draws the potential energy with the picked events,
+# and makes a page on which one explores the run.
 #
 # usage: inputs/first-catalogue.sh [STEPS]      (default 240000)
-# Build folder: build (LSM_BUILD_DIR replaces it). Results: first-catalogue/ in the build folder.
+# Build folder: build (LSM_BUILD_DIR replaces it), in which 'cmake --build build' makes the rest.
+# Results: first-catalogue/ in the build folder (LSM_OUTPUT replaces it). LSM_BIN is the folder of
+# programs that are built already.
 set -euo pipefail
 export LC_ALL=C
 root=$(cd "$(dirname "$0")/.." && pwd)
 steps=${1:-240000}
-[[ $steps =~ ^[1-9][0-9]*$ ]] || { echo "usage: $0 [STEPS]; '$steps' is not a number of steps" >&2; exit 2; }
+[[ $steps =~ ^[1-9][0-9]*$ ]] || {
+  echo "usage: $0 [STEPS]; '$steps' is not a number of steps" >&2
+  exit 2
+}
 build=${LSM_BUILD_DIR:-$root/build}
 
-. "$root/lammps-pkg/cmake/debian-packages.sh"
-# The lists are words on purpose.
-install_debian_packages $lammps_packages $plot_packages $postproc_packages
-packages_took=$SECONDS
-
-# A build folder that is there keeps its options.
-if [ ! -f "$build/CMakeCache.txt" ]; then
-  cmake -S "$root" -B "$build" -G Ninja -DLSM_BUILD_SLIDER=OFF -DLSM_BUILD_TESTS=OFF
+bin=${LSM_BIN:-$build/bin}
+if [ -z "${LSM_BIN:-}" ]; then
+  . "$root/lammps-pkg/cmake/debian-packages.sh"
+  configure_programs "$root" "$build"
+  packages_took=${packages_took:-$SECONDS}
+  cmake --build "$build" --target lmp postproc
 fi
-cmake --build "$build" --target lmp postproc
+packages_took=${packages_took:-$SECONDS}
 programs_took=$((SECONDS - packages_took))
 
 . "$root/inputs/mpi-settings.sh"
-run=$build/first-catalogue
+run=${LSM_OUTPUT:-$build/first-catalogue}
 mkdir -p "$run"
 cd "$run"
 rm -f first.*
 echo "Running the fault of length 120 for $steps steps of shear in $run"
-mpirun -np 2 "$build/bin/lmp" -in "$root/inputs/fault_120.in" -var steps "$steps" -var prefix first -var ruptures yes </dev/null
+mpirun -np 2 "$bin/lmp" -in "$root/inputs/fault_120.in" -var steps "$steps" -var prefix first -var ruptures yes </dev/null
 fault_took=$((SECONDS - packages_took - programs_took))
 
 catalogue=first.catalogue.csv
 series=first.pe.bin
-[ -f $catalogue ] || { echo "$run/$catalogue has not been written" >&2; exit 1; }
-[ -f $series ] || { echo "$run/$series has not been written" >&2; exit 1; }
+[ -f $catalogue ] || {
+  echo "$run/$catalogue has not been written" >&2
+  exit 1
+}
+[ -f $series ] || {
+  echo "$run/$series has not been written" >&2
+  exit 1
+}
 
 table() { awk -F, '/^#/ { next } !head { head = 1; for (i = 1; i <= NF; i++) c[$i] = i; next }
   { print $c["event_id"], $c["t_start"], $c["t_end"], $c["size"], $c["pe_start"] }' $catalogue; }
@@ -54,17 +64,17 @@ table | awk '$4 > 0 { d = int(log($4) / log(10) + 1000) - 1000; n[d]++; if (!k++
 echo
 
 # The whole run, and the dozen events around the largest one.
-"$build/bin/postproc" series $series --output first.run --title "Fault of length 120: $count events"
+"$bin/postproc" series $series --output first.run --title "Fault of length 120: $count events"
 if [ "$count" -gt 1 ]; then
   read -r from to <<<"$(table | awk '
     { s[NR] = $2; e[NR] = $3; if (NR == 1 || $4 > big) { big = $4; at = NR } }
     END { a = at > 6 ? at - 6 : 1; b = at + 5 < NR ? at + 5 : NR
           margin = 0.03 * (e[b] - s[a]); from = s[a] - margin; printf "%.6f %.6f", (from < 0 ? 0 : from), e[b] + margin }')"
-  "$build/bin/postproc" series $series --output first.largest --from "$from" --to "$to" \
+  "$bin/postproc" series $series --output first.largest --from "$from" --to "$to" \
     --title "Fault of length 120: around the largest event"
 fi
 # Waves run at these speeds in the packing.
-"$build/bin/postproc" explore $catalogue --p-speed 2.08 --s-speed 1.06 --output first.html --title "Fault of length 120"
+"$bin/postproc" explore $catalogue --p-speed 2.08 --s-speed 1.06 --output first.html --title "Fault of length 120"
 echo "Catalogue, series and pictures are in $run"
 echo "Open in a browser to explore the run: file://$run/first.html"
 echo "Time: packages $packages_took s, source and programs $programs_took s, the fault $fault_took s," \

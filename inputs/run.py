@@ -9,6 +9,8 @@ program), the files of the program, and done.json once the run is done. SIGTERM,
 since 1970), ends the run at its next restart file or checkpoint. SIGINT, SIGHUP or the end of the caller ends it
 at once, and the steps since the last restart file are repeated. Neither loses an event. A fault by ESyS-Particle
 (esys) starts over. Exit status: 0 done, 75 stopped, to be continued, 1 failed.
+
+The classes say which names a program knows (known()) and which of them are given here and not by a table (OWN).
 """
 import ctypes
 import fcntl
@@ -66,11 +68,18 @@ def events_in(catalogue):
 
 class Fault:
     catalogue = "fault.catalogue.csv"
+    OWN = {"prefix", "restart", "overwrite", "checkpoint"}
+
+    @staticmethod
+    def known(_):
+        """Variables that fault.variables declares, and those that scenes of `extra` have."""
+        declared = re.findall(r"^(\w+)\s*\|", (INPUTS / "fault.variables").read_text(), re.M)
+        also = re.search(r"^lsm_variables\s.*\salso (.*)", (INPUTS / "fault.in").read_text(), re.M)
+        return {*declared, *(also[1].split() if also else ())}
 
     def __init__(self, folder, ranks, checkpoint, binaries, settings):
         self.folder, self.settings, self.checkpoint = folder, settings, checkpoint
-        self.start = ["mpirun", "-np", ranks, "flock", "-n", "-s", "-F", "lock", f"{binaries}/lmp", "-in",
-                      f"{INPUTS}/fault.in", "-log", "none"]
+        self.start = ["mpirun", "-np", ranks, "flock", "-n", "-s", "-F", "lock", f"{binaries}/lmp", "-in", f"{INPUTS}/fault.in", "-log", "none"]
 
     def restart(self):
         """Newest complete restart file; lmp checks that it is intact and of the same run."""
@@ -97,6 +106,13 @@ class Fault:
 
 class Slider:
     catalogue = "catalogue.csv"
+    OWN = {"catalogue", "checkpoint", "json", "progress", "resume", "overwrite", "ensemble", "threads", "config", "help", "version"}
+
+    @staticmethod
+    def known(binaries):
+        """Options that slider_cli --help lists."""
+        said = subprocess.run([f"{binaries}/slider_cli", "--help"], check=True, capture_output=True, text=True).stdout
+        return set(re.findall(r"^ +(?:-\w,)?--([a-z][\w-]*)", said, re.M))
 
     def __init__(self, folder, ranks, checkpoint, binaries, settings):
         self.folder, self.settings, self.binaries = folder, settings, binaries
@@ -109,9 +125,10 @@ class Slider:
         resumed = (self.folder / "checkpoint.bin").exists()
         if resumed and not (self.folder / self.catalogue).exists():
             raise Failed(f"{self.folder}/{self.catalogue} is missing, but there is a checkpoint; move the folder away to begin again")
-        return ["flock", "-n", "-s", "-F", "lock", f"{self.binaries}/slider_cli", *words, "--catalogue", self.catalogue,
-                "--checkpoint", "checkpoint.bin", "--json", "summary.json", "--progress",
-                "--resume" if resumed else "--overwrite"]
+        return [
+            "flock", "-n", "-s", "-F", "lock", f"{self.binaries}/slider_cli", *words, "--catalogue", self.catalogue, "--checkpoint", "checkpoint.bin",
+            "--json", "summary.json", "--progress", "--resume" if resumed else "--overwrite"
+        ]
 
     def stop(self, child):
         child.send_signal(signal.SIGTERM)
@@ -124,7 +141,7 @@ class Slider:
 
 class Esys:
     """A fault by ESyS-Particle; once it is done, summary.json has its steps of shear and its CPU time."""
-    catalogue = "fault.catalogue.csv"
+    catalogue, OWN, known = "fault.catalogue.csv", Fault.OWN, Fault.known
 
     def __init__(self, folder, ranks, checkpoint, binaries, settings):
         self.folder, self.settings, self.binaries = folder, settings, binaries
@@ -144,11 +161,11 @@ class Esys:
 
 
 class Published:
-    """An existing catalogue: `file`, a path from this folder. The run is a link to it."""
-    catalogue = "catalogue.csv"
+    """An existing catalogue, `file`. The run is a link to it; other settings only serve to name it."""
+    catalogue, OWN, known = "catalogue.csv", set(), None
 
     def __init__(self, folder, ranks, checkpoint, binaries, settings):
-        self.folder, self.file = folder, INPUTS / dict(pair.split("=", 1) for pair in settings).get("file", "")
+        self.folder, self.file = folder, Path(dict(pair.split("=", 1) for pair in settings).get("file", ""))
 
     def command(self):
         if not self.file.is_file():
@@ -165,16 +182,28 @@ class Published:
 PROGRAMS = {"fault": Fault, "slider": Slider, "esys": Esys, "catalogue": Published}
 
 
+def begun_otherwise(folder, settings):
+    """What a run that was begun in the folder has other than these settings, NAME=VALUE: text for an error, empty if nothing."""
+    path = folder / "settings.txt"
+    if not any(True for pattern in ("*.restart.*.info", "checkpoint.bin", "done.json") for _ in folder.glob(pattern)):
+        return ""
+    had, wanted = (dict(pair.split("=", 1) for pair in pairs) for pairs in (path.read_text().splitlines() if path.exists() else [], settings))
+    if had.get("program") == wanted["program"] == "catalogue":
+        return ""
+    names = [name for name in {**had, **wanted} if had.get(name) != wanted.get(name)]
+    told, asked = (" ".join(f"{name}={pairs[name]}" if name in pairs else f"no {name}" for name in names) for pairs in (had, wanted))
+    return "" if not names else (f"{folder} was begun with other settings ({told}), expected {asked}; "
+                                 "move it away, or give the study another folder (LSM_OUTPUT)")
+
+
 def begin(folder, settings):
     """Records the settings of the run; a run with other settings is left alone."""
+    otherwise = begun_otherwise(folder, settings)
+    if otherwise:
+        raise Failed(otherwise)
     path, text = folder / "settings.txt", "\n".join(settings) + "\n"
-    if path.exists() and path.read_text() == text:
-        return
-    begun = [f for pattern in ("*.restart.*.info", "checkpoint.bin", "done.json") for f in folder.glob(pattern)]
-    if path.exists() and begun:
-        raise Failed(f"{folder} was begun with other settings ({' '.join(path.read_text().split())}), expected "
-                     f"{' '.join(settings)}; move it away, or give the study another output")
-    replace(path, text)
+    if not path.exists() or path.read_text() != text:
+        replace(path, text)
 
 
 def seconds_left():
@@ -193,8 +222,7 @@ def work(job, folder):
     told = []
     with open(output, "ab") as file:
         child = subprocess.Popen(job.command(), cwd=folder, stdin=subprocess.DEVNULL, stdout=file, stderr=file,
-                                 env={**os.environ, **MPI, "OMPI_MCA_orte_create_session_dirs": "1",
-                                      "OMPI_MCA_orte_tmpdir_base": str(session)},
+                                 env={**os.environ, **MPI, "OMPI_MCA_orte_create_session_dirs": "1", "OMPI_MCA_orte_tmpdir_base": str(session)},
                                  start_new_session=True, preexec_fn=lambda: die_with_parent(signal.SIGTERM))
 
     def stop(number, _):
@@ -203,6 +231,7 @@ def work(job, folder):
             job.stop(child)
         else:
             child.terminate()
+
     for number in (signal.SIGTERM, signal.SIGALRM, signal.SIGINT, signal.SIGHUP):
         signal.signal(number, stop)
     if seconds_left() < 1e9:
@@ -227,8 +256,7 @@ def run(folder, kind, ranks, checkpoint, binaries, *settings):
     lock = alone_in(folder)
     begin(folder, [f"program={kind}", *settings])
     job = PROGRAMS[kind](folder, ranks, checkpoint, Path(binaries).resolve(), list(settings))
-    for name in ("fault.stop", "fault.stopping"):
-        (folder / name).unlink(missing_ok=True)
+    (folder / "fault.stop").unlink(missing_ok=True)
     if job.steps() is None:
         if seconds_left() < 0:
             return STOPPED
@@ -246,7 +274,10 @@ def run(folder, kind, ranks, checkpoint, binaries, *settings):
             replace(folder / "done.json", json.dumps({"failed": why}) + "\n")
             return 0
     cpu = folder / "cpu.txt"
-    done = {"steps": job.steps(), "events": events_in(folder / job.catalogue), "cpu_s": float(cpu.read_text()) if cpu.exists() else None}
+    done = {
+        "steps": job.steps(), "events": events_in(folder / job.catalogue), "cpu_s": float(cpu.read_text()) if cpu.exists() else None,
+        "ranks": int(ranks)
+    }
     if kind == "esys":
         done["cpu_s"] = job.told()["cpu_s"]  # without its master process, which only waits, in a busy loop
     replace(folder / "done.json", json.dumps(done) + "\n")
@@ -257,7 +288,10 @@ def run(folder, kind, ranks, checkpoint, binaries, *settings):
 if __name__ == "__main__":
     die_with_parent()
     try:
-        sys.exit(run(*sys.argv[1:]))
+        status = run(*sys.argv[1:])
+        if status == STOPPED:
+            print(f"run.py: {sys.argv[1]}: stopped, to be continued", file=sys.stderr)
+        sys.exit(status)
     except (Failed, OSError) as error:
         print(f"run.py: {error}", file=sys.stderr)
         sys.exit(1)

@@ -4,27 +4,47 @@
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd) build=${LSM_BUILD_DIR:-}
 build=${build:-$root/build}
-[ $# -gt 0 ] || { sed -n '3s/^# //p' "$0" >&2; ls "$root/inputs/studies" | sed -n 's/\.csv$//p' >&2; exit 2; }
+[ $# -gt 0 ] || {
+  sed -n '3s/^# //p' "$0" >&2
+  ls "$root/inputs/studies" | sed -n 's/\.csv$//p' >&2
+  exit 2
+}
+refuse() {
+  echo "study.sh: $*" >&2
+  exit 1
+}
 table=$1 settings=() hours=
-[ -e "$table" ] || table=$root/inputs/studies/$1.csv
+[ -f "$table" ] || table=$root/inputs/studies/$1.csv
+[ -f "$table" ] || refuse "$1: no such table, expected a file or one of $(ls "$root/inputs/studies" | sed -n 's/\.csv$//p' | xargs)"
 shift
-while [[ ${1:-} =~ ^[a-z]+=.*$ ]]; do
+while [[ ${1:-} =~ ^[A-Za-z_]+=.*$ ]]; do
   [[ $1 != hours=* ]] || hours=${1#*=}
   settings+=("$1")
   shift
 done
-# On a cluster that is the limit of each job; here run.py stops by then.
-[ -z "$hours" ] || [ "${1:-}" = --profile ] || export LSM_UNTIL=$(awk -v now="$(date +%s)" -v h="$hours" 'BEGIN { printf "%.0f", now + 3600 * h }')
-[ "${1:-}" != --profile ] || [ ! -d "${2:-}" ] || set -- --profile "$(realpath "$2")" "${@:3}" # Snakemake leaves this folder
+# On a cluster each job has the cores that it asks for, and the hours are its limit; here all share
+# the cores of this machine, and run.py stops by then.
+options=("$@") where=(--cores all)
+for ((i = 0; i < $#; i++)); do
+  if [ "${options[i]}" = --profile ]; then
+    where=()
+    [ ! -d "${options[i + 1]:-}" ] || options[i + 1]=$(realpath "${options[i + 1]}") # Snakemake leaves this folder
+  fi
+done
+[[ -z $hours || ${#where[@]} = 0 ]] || LSM_UNTIL=$(awk -v now="$(date +%s)" -v h="$hours" 'BEGIN { printf "%.0f", now + 3600 * h }')
+export LSM_UNTIL
 . "$root/lammps-pkg/cmake/debian-packages.sh"
 command -v snakemake >/dev/null || install_debian_packages snakemake
 [ -n "${LSM_BIN:-}" ] || {
-  install_debian_packages $lammps_packages $plot_packages $postproc_packages
-  cmake -S "$root" -B "$build" -G Ninja -DLSM_BUILD_LAMMPS=ON -DLSM_BUILD_SLIDER=ON -DLSM_BUILD_POSTPROC=ON
+  configure_programs "$root" "$build"
   cmake --build "$build" --target lmp slider_cli postproc
 }
 output=${LSM_OUTPUT:-$build/studies/$(basename "$table" .csv)}
-mkdir -p "$output"
-exec flock -n -F "$output/lock" snakemake --snakefile "$root/inputs/Snakefile" --directory "$output" --cores all \
-  --quiet rules --rerun-triggers mtime --nolock --keep-going --keep-incomplete --rerun-incomplete "$@" \
-  --config table="$(realpath "$table")" bin="${LSM_BIN:-$build/bin}" "${settings[@]}"
+mkdir -p "$output" 2>/dev/null || refuse "cannot make the folder $output"
+[ -w "${HOME:-}" ] || export XDG_CACHE_HOME=$output/.cache # of Snakemake
+# Programs of a study that was killed end within seconds.
+{ exec 9>>"$output/.lock"; } 2>/dev/null || refuse "cannot write to $output"
+flock -w 5 9 || refuse "a study works in $output already, expected another folder (LSM_OUTPUT)"
+exec snakemake --snakefile "$root/inputs/Snakefile" --directory "$output" "${where[@]}" \
+  --quiet rules --rerun-triggers mtime params input --nolock --keep-going --keep-incomplete --rerun-incomplete "${options[@]}" \
+  --config table="$(realpath "$table")" bin="${LSM_BIN:-$build/bin}" ${settings[@]+"${settings[@]}"}

@@ -21,7 +21,29 @@ ActiveSet::ActiveSet(const ChainView &view, double plate_step, bool dense)
   wanted_.assign(n + 2, 0);
 }
 
+void ActiveSet::list_all() {
+  list_.clear();
+  for (std::int32_t c = 0; c < chunks_; ++c) list_.push_back(c);
+}
+
+// Takes all chunks from the list if none has to be there in the next step.
+void ActiveSet::rest_together(std::int64_t step) {
+  std::int64_t first = never;
+  for (const std::int32_t c : list_) first = std::min(first, wake_step(c));
+  if (first <= step + 1) return;
+  list_.clear();
+  next_wake_ = first;
+}
+
 void ActiveSet::restart(std::int64_t step) {
+  if (!view_.by_springs()) {
+    list_all();
+    bool any = dense_;
+    for (int i = 0; i < view_.blocks; ++i)
+      any = any || view_.v[i] > 0.0 || view_.force[i] > view_.mu[i];
+    if (!any) rest_together(step);
+    return;
+  }
   list_.clear();
   queue_ = Queue();
   std::fill(wake_.begin(), wake_.end(), 0);
@@ -43,7 +65,8 @@ std::int64_t ActiveSet::wake_step(int c) const {
   double first = std::numeric_limits<double>::max(), scale = 0.0;
   for (int i = c * chunk_size; i < (c + 1) * chunk_size && i < view_.blocks; ++i) {
     const double *u = view_.u;
-    const double coupling = view_.kc * ((u[i - 1] - u[i]) + (u[i + 1] - u[i]));
+    const double coupling =
+        view_.by_springs() ? view_.kc * ((u[i - 1] - u[i]) + (u[i + 1] - u[i])) : view_.coupling[i];
     const double plate_at = u[i] + (view_.mu[i] - coupling) / view_.kl;
     first = std::min(first, plate_at);
     scale = std::max({scale, std::fabs(plate_at),
@@ -59,6 +82,15 @@ std::int64_t ActiveSet::wake_step(int c) const {
 // neighbouring chunk does, or if its first block will soon start.
 void ActiveSet::update(std::int64_t step) {
   if (dense_) return;
+  if (!view_.by_springs()) {
+    if (!list_.empty()) {
+      const auto hot = [](std::uint8_t lanes) { return lanes != 0; };
+      if (std::none_of(hot_.begin(), hot_.end(), hot)) rest_together(step);
+    } else if (step + 1 >= next_wake_) {
+      list_all();
+    }
+    return;
+  }
   // Without branches on the lanes, which would be mispredicted half of the time.
   std::size_t n = 0;
   std::int32_t back = -1;
@@ -136,6 +168,7 @@ void ActiveSet::add_extra() {
 }
 
 std::int64_t ActiveSet::next_wake() {
+  if (!view_.by_springs()) return next_wake_;
   while (!queue_.empty() && wake(queue_.top().second) != queue_.top().first) queue_.pop();
   next_wake_ = queue_.empty() ? never : queue_.top().first;
   return next_wake_;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file slider_active_set.h
 /// Which chunks of a chain are stepped: all, or those where something moves or may start to. The
-/// positions give the time before which no block of any other chunk can start.
+/// positions give the time before which no block of any other chunk can start. Where modes couple
+/// the blocks, each feels all others, and all chunks are stepped or none.
 #ifndef SLIDER_ACTIVE_SET_H
 #define SLIDER_ACTIVE_SET_H
 
@@ -38,6 +39,8 @@ class ActiveSet {
   using Queue = std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>>;
 
   std::int64_t wake_step(int chunk) const;
+  void list_all();
+  void rest_together(std::int64_t step);
   void change_list_to_next(std::int64_t step);
   void settle_idle(std::int64_t step);
   void add_extra();

@@ -3,13 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace Slider {
 
 Chain::Chain(const Parameters &p, const std::vector<double> &mu, bool dense, InstructionSet set)
     : plate_step_(p.velocity * p.dt),
-      function_(step_function(p.scheme, p.friction.law, set)),
+      function_(step_function(p, set)),
+      forces_(mode_forces(p)),
+      first_mu_(mu),
       view_(view_of(p, mu)),
       active_(view_, plate_step_, dense),
       account_(p) {
@@ -35,7 +38,50 @@ ChainView Chain::view_of(const Parameters &p, const std::vector<double> &mu) {
   double *const limits = blocks_of(mu_, 1e300);
   std::copy(mu.begin(), mu.end(), limits);
   view.mu = limits;
+  if (p.scheme == Scheme::adams_bashforth) view.before = blocks_of(before_, 0.0);
+  if (!p.by_springs()) {
+    view.forces = forces_.get();
+    view.coupling = blocks_of(coupling_, 0.0);
+    view.change = blocks_of(change_, 0.0);
+  }
+  if (p.landscape.length > 0.0) cells_.resize(mu.size());
   return view;
+}
+
+namespace {
+
+// Uniform in [0, 1), from the seed, the block and a number of its own: no state has to be kept.
+double hashed(std::uint64_t seed, std::uint64_t block, std::uint64_t number) {
+  // splitmix64 (Steele, Lea and Flood 2014), once for each of them
+  std::uint64_t z = seed;
+  for (const std::uint64_t more : {block, number}) {
+    z = (z ^ more) + 0x9e3779b97f4a7c15U;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
+    z ^= z >> 31;
+  }
+  return static_cast<double>(z >> 11) * 0x1.0p-53;
+}
+
+}  // namespace
+
+// Gives a block another strength if it has left a cell of the landscape. All cells but the first
+// are a correlation length long. Returns whether it has.
+bool Chain::draw_strength(int i) {
+  Cell &cell = cells_[static_cast<std::size_t>(i)];
+  if (view_.u[i] < cell.end) return false;
+  const Landscape &way = view_.landscape;
+  const auto block = static_cast<std::uint64_t>(i);
+  const double first = hashed(way.seed, block, 0);
+  const auto end = [&] { return way.length * (first + static_cast<double>(cell.number)); };
+  cell.number = std::max(cell.number, static_cast<std::int64_t>(view_.u[i] / way.length - first));
+  while (!(view_.u[i] < end())) ++cell.number;
+  cell.end = end();
+  if (cell.number > 0)
+    mu_[static_cast<std::size_t>(i + chunk_size)] =
+        way.low +
+        (way.high - way.low) * hashed(way.seed, block, static_cast<std::uint64_t>(cell.number));
+  return cell.number > 0;
 }
 
 void Chain::take_step() {
@@ -46,6 +92,18 @@ void Chain::take_step() {
                      plate_step_ * static_cast<double>(step_ + 1), active_.hot());
   account_.add(sums, ++step_);
   moved_ += sums.hot;
+  if (cells_.empty() || !(sums.slip > 0.0)) return;
+  for (std::size_t k = 0; k < list.size(); ++k)
+    for (int l = 0; l < chunk_size && list[k] * chunk_size + l < view_.blocks; ++l)
+      // With a lower strength it may move in the next step.
+      if (draw_strength(list[k] * chunk_size + l))
+        active_.hot()[k] = static_cast<std::uint8_t>(active_.hot()[k] | 1U << l);
+}
+
+double Chain::kinetic() const {
+  LSM::NeumaierSum sum;
+  for (int i = 0; i < view_.blocks; ++i) sum.add(0.5 * view_.mass * view_.v[i] * view_.v[i]);
+  return sum.value();
 }
 
 void Chain::keep_chunks() {
@@ -117,12 +175,14 @@ ChainState Chain::state() const {
   s.u = displacements();
   s.v = velocities();
   if (view_.rest) s.rest.assign(view_.rest, view_.rest + view_.blocks);
+  if (view_.before) s.before.assign(view_.before, view_.before + view_.blocks);
   return s;
 }
 
 void Chain::set_state(const ChainState &s) {
   const std::size_t n = static_cast<std::size_t>(view_.blocks);
-  if (s.u.size() != n || s.v.size() != n || (!s.rest.empty() && s.rest.size() != n) || s.step < 0)
+  if (s.u.size() != n || s.v.size() != n || (!s.rest.empty() && s.rest.size() != n) ||
+      (!s.before.empty() && s.before.size() != n) || s.step < 0)
     throw std::invalid_argument("saved chain does not fit --blocks");
   account_.restore(s);
   step_ = s.step;
@@ -131,17 +191,27 @@ void Chain::set_state(const ChainState &s) {
   std::copy(s.v.begin(), s.v.end(), view_.v);
   const std::vector<double> &rest = s.rest.empty() ? s.u : s.rest;
   if (view_.rest) std::copy(rest.begin(), rest.end(), view_.rest);
+  const std::vector<double> &before = s.before.empty() ? s.v : s.before;
+  if (view_.before) std::copy(before.begin(), before.end(), view_.before);
   restart();
 }
 
-// Recomputes forces and the active set from u, v and the step.
+// Recomputes strengths, forces and the active set from u, v and the step.
 void Chain::restart() {
   double *const u = view_.u;
   u[-1] = u[view_.blocks - 1];
   u[view_.blocks] = u[0];
-  for (int i = 0; i < view_.blocks; ++i)
-    view_.force[i] =
-        view_.kc * ((u[i - 1] - u[i]) + (u[i + 1] - u[i])) + view_.kl * (plate() - u[i]);
+  if (forces_) forces_->find(u, view_.coupling);
+  for (int i = 0; i < view_.blocks; ++i) {
+    const double coupling =
+        forces_ ? view_.coupling[i] : view_.kc * ((u[i - 1] - u[i]) + (u[i + 1] - u[i]));
+    view_.force[i] = coupling + view_.kl * (plate() - u[i]);
+  }
+  if (!cells_.empty()) {
+    std::fill(cells_.begin(), cells_.end(), Cell{0, std::numeric_limits<double>::lowest()});
+    std::copy(first_mu_.begin(), first_mu_.end(), mu_.begin() + chunk_size);
+    for (int i = 0; i < view_.blocks; ++i) draw_strength(i);
+  }
   active_.restart(step_);
 }
 

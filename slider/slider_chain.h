@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file slider_chain.h
-/// The chain of blocks, stepped chunk by chunk: all chunks (the dense oracle) or only those of the
-/// active set.
+/// The blocks, coupled by springs or modes, stepped chunk by chunk: all chunks (the dense oracle)
+/// or only those of the active set.
 ///
 /// Both give the same numbers to the last digit: a chunk left out would have added zeros to sums
 /// kept in fixed lanes.
@@ -10,14 +10,16 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <new>
 #include <vector>
 
-#include "lsm_huge_pages.h"
+#include "numerics/huge_pages.h"
 #include "slider_active_set.h"
 #include "slider_creep.h"
 #include "slider_energy.h"
 #include "slider_kernels.h"
+#include "slider_modes.h"
 #include "slider_parameters.h"
 
 namespace Slider {
@@ -60,6 +62,8 @@ class Chain {
   double dpe() const { return account_.change(); }         ///< change of PE over the last step
   double slip_sum() const { return account_.slip_sum(); }  ///< sum of all displacements
   std::int64_t moved() const { return moved_; }
+  double radiated() const { return account_.radiated(); }  ///< energy, since step 0
+  double kinetic() const;
 
   /// Displacements and velocities, one per block.
   std::vector<double> displacements() const { return {view_.u, view_.u + view_.blocks}; }
@@ -123,6 +127,11 @@ class Chain {
  private:
   using Array = std::vector<double, LineAllocator<double>>;
 
+  // Where a block has one strength: how many of them it has left behind, and the end.
+  struct Cell {
+    std::int64_t number;
+    double end;
+  };
   // Of a chunk before a step.
   struct Kept {
     double u[chunk_size], force[chunk_size];
@@ -131,12 +140,16 @@ class Chain {
   ChainView view_of(const Parameters &p, const std::vector<double> &mu);
   void keep_chunks();
   void take_step();
+  bool draw_strength(int block);
   void restart();
 
   double plate_step_;
   StepFunction function_;
-  Array u_, v_, force_, mu_, rest_;
-  std::vector<Kept> kept_;  // of the listed chunks, if someone watches
+  Array u_, v_, force_, mu_, rest_, before_, coupling_, change_;
+  std::unique_ptr<ModeForces> forces_;
+  std::vector<double> first_mu_;  // at step 0
+  std::vector<Cell> cells_;       // of each block, in a landscape
+  std::vector<Kept> kept_;        // of the listed chunks, if someone watches
   ChainView view_;
   ActiveSet active_;
   PeAccount account_;

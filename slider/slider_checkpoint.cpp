@@ -12,7 +12,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "lsm_text_io.h"
+#include "files/text_io.h"
 
 // For these, nlohmann looks in the namespace of each.
 namespace Slider {
@@ -40,15 +40,15 @@ namespace Slider {
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ChainState, step, slip_sum, slip_compensation, pe_sum,
                                    pe_compensation, quiet_since, pe_anchor, loading_anchor, moved,
-                                   dpe, u, v, rest)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunState, chain, picker, events, before_warmup, slip_start,
-                                   largest, u_start, ruptures)
+                                   dpe, radiated, radiated_compensation, u, v, rest, before)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunState, chain, picker, events, before_warmup, by_plate,
+                                   slip_start, largest, u_start, ruptures, calm_since)
 
 namespace {
 
 using nlohmann::json;
 
-constexpr int version = 2;
+constexpr int version = 3;
 constexpr const char *version_key = "slider_cli checkpoint";
 // First bytes of version 1, a format of its own.
 constexpr const char *version_1 = "slider-checkpoint-1\n";
@@ -78,16 +78,8 @@ void compare(const std::string &path, const std::vector<std::string> &found,
 
 void write_checkpoint(const std::string &path, const std::vector<std::string> &settings,
                       const RunState &state) {
-  json content = {{"settings", settings}, {"state", state}};
-  // Version 2 has a field for schemes that no longer exist.
-  content["state"]["chain"]["switching"] = {{"friction_loss", 0.0},
-                                            {"inner_step", 0.0},
-                                            {"pe_start", 0.0},
-                                            {"sliding", json::array()},
-                                            {"switches", 0}};
-  // Separate, so that a run without leaps writes the same bytes as before leaps existed.
-  if (state.calm_since != 0) content["calm_since"] = state.calm_since;
-  const std::vector<std::uint8_t> run = json::to_cbor(content);
+  const std::vector<std::uint8_t> run =
+      json::to_cbor(json{{"settings", settings}, {"state", state}});
   const json file = {{version_key, version}, {"crc32", checksum(run)}, {"run", json::binary(run)}};
   std::string bytes;
   json::to_cbor(file, bytes);
@@ -110,9 +102,7 @@ RunState read_checkpoint(const std::string &path, const std::vector<std::string>
     if (file.at("crc32").get<std::uint32_t>() != checksum(packed)) throw damaged;
     const json run = json::from_cbor(packed);
     compare(path, run.at("settings").get<std::vector<std::string>>(), settings);
-    RunState state = run.at("state").get<RunState>();
-    state.calm_since = run.value("calm_since", std::int64_t{0});
-    return state;
+    return run.at("state").get<RunState>();
   } catch (const json::exception &) {
     throw damaged;
   }

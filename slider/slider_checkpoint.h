@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "lsm_event_picker.h"
+#include "events/event_picker.h"
 #include "slider_chain.h"
 #include "slider_ruptures.h"
 
@@ -19,7 +19,9 @@ namespace Slider {
 struct Found {
   LSM::PickerState picker;                     ///< with ruptures, only the sizes that were dropped
   std::int64_t events = 0, before_warmup = 0;  ///< in the catalogue; too early
-  double largest = 0.0;                        ///< size of an event
+  /// Drops of PE that slip does not explain, see is_by_plate()
+  std::int64_t by_plate = 0;
+  double largest = 0.0;  ///< size of an event
 };
 
 /// A run between two steps.

@@ -2,17 +2,19 @@
 /// \file slider_energy.h
 /// The potential energy (PE) of all springs of a chain,
 ///   PE = sum_i K_c/2 (U_{i+1} - U_i)^2 + K_l/2 (X - U_i)^2,
-/// and the sum of all displacements. PE is quadratic, so its change over a step is exactly minus
-/// the work of the mean spring force on the blocks plus that of the mean plate force on the plate;
-/// only moving blocks enter (ours).
+/// or of modes, sum_ij U_i C_ij U_j / 2 in place of the springs K_c, and the sum of all
+/// displacements. PE is quadratic, so its change over a step is exactly minus the work of the mean
+/// spring force on the blocks plus that of the mean plate force on the plate; only moving blocks
+/// enter (ours).
 #ifndef SLIDER_ENERGY_H
 #define SLIDER_ENERGY_H
 
 #include <cstdint>
 #include <vector>
 
-#include "lsm_sum.h"
+#include "numerics/sum.h"
 #include "slider_kernels.h"
+#include "slider_modes.h"
 #include "slider_parameters.h"
 
 namespace Slider {
@@ -26,14 +28,27 @@ struct ChainState {
   double pe_anchor = 0.0, loading_anchor = 0.0;  ///< PE and sum (X - U_i) at quiet_since
   std::int64_t moved = 0;                        ///< block-steps with motion so far
   double dpe = 0.0;                              ///< change of PE over the last step
+  double radiated = 0.0, radiated_compensation = 0.0;
   std::vector<double> u, v;
   /// where blocks last rested, if the law needs it; empty: their present places
   std::vector<double> rest;
+  /// velocities of the step before, of the scheme without inertia; empty: those of now
+  std::vector<double> before;
 };
 
 /// PE of all springs, summed directly; used to set and to check the work formula.
 inline double direct_energy(const Parameters &p, const std::vector<double> &u, double plate) {
   LSM::NeumaierSum sum;
+  if (const auto forces = mode_forces(p)) {
+    std::vector<double> coupling(u.size());
+    forces->find(u.data(), coupling.data());
+    for (std::size_t i = 0; i < u.size(); ++i) {
+      sum.add(0.5 * p.kl * (plate - u[i]) * (plate - u[i]));
+      // The forces add up to nothing.
+      sum.add(-0.5 * (u[i] - u[0]) * coupling[i]);
+    }
+    return sum.value();
+  }
   for (int i = 0; i < p.blocks; ++i) {
     const double stretch =
         u[static_cast<std::size_t>(i + 1 < p.blocks ? i + 1 : 0)] - u[static_cast<std::size_t>(i)];
@@ -52,6 +67,7 @@ class PeAccount {
   double value() const { return value_; }
   double change() const { return change_; }          ///< over the last step
   double slip_sum() const { return slip_.value(); }  ///< sum of all displacements
+  double radiated() const { return radiated_.value(); }
   /// Nothing has moved since some step.
   bool quiet() const { return quiet_since_ >= 0; }
   /// Change over a quiet step that starts at the given step.
@@ -77,6 +93,7 @@ class PeAccount {
       quiet_since_ = -1;
     }
     slip_.add(sums.slip);
+    radiated_.add(sums.radiated);
     change_ = 0.5 * kl_ * plate_step_ * (loading_before + loading(step)) - sums.work;
     pe_.add(change_);
     value_ = pe_.value();
@@ -95,6 +112,8 @@ class PeAccount {
   void save(ChainState &s) const {
     s.slip_sum = slip_.sum();
     s.slip_compensation = slip_.compensation();
+    s.radiated = radiated_.sum();
+    s.radiated_compensation = radiated_.compensation();
     s.pe_sum = pe_.sum();
     s.pe_compensation = pe_.compensation();
     s.quiet_since = quiet_since_;
@@ -105,6 +124,7 @@ class PeAccount {
   void restore(const ChainState &s) {
     slip_ = LSM::NeumaierSum(s.slip_sum, s.slip_compensation);
     pe_ = LSM::NeumaierSum(s.pe_sum, s.pe_compensation);
+    radiated_ = LSM::NeumaierSum(s.radiated, s.radiated_compensation);
     quiet_since_ = s.quiet_since;
     anchor_ = s.pe_anchor;
     loading_anchor_ = s.loading_anchor;
@@ -126,7 +146,7 @@ class PeAccount {
   }
 
   double kl_, plate_step_, blocks_;
-  LSM::NeumaierSum slip_, pe_;
+  LSM::NeumaierSum slip_, pe_, radiated_;
   double value_ = 0.0, change_ = 0.0;
   std::int64_t quiet_since_ = -1;
   double anchor_ = 0.0, loading_anchor_ = 0.0;

@@ -2,6 +2,7 @@
 // One time step, compiled for each instruction set SLIDER_SET with SLIDER_LANES lanes per register.
 // Nothing here calls a function that may stay one: the linker would take one set's copy for all.
 #include "slider_kernels.h"
+#include "slider_modes.h"
 
 #ifdef __x86_64__
 #include <immintrin.h>
@@ -60,7 +61,23 @@ inline __attribute__((always_inline)) Register friction(const ChainView &chain, 
     return LSM::VelocityWeakening::friction(m, v);
 }
 
-template <Scheme scheme, Law law>
+// The larger root of w = c - b / (1 + w), written without cancellation so that its sign is that of
+// c - b where c <= 1; 0 if there is none.
+inline __attribute__((always_inline)) Register velocity_at(Register c, Register b) {
+  const Register zero = {}, one = zero + 1.0;
+  const Register q = (1.0 + c) * (1.0 + c) - 4.0 * b;
+  const Register s = square_root(q > zero ? q : zero);
+  const Register fast = c > one ? one : zero;
+  const Register numerator = fast > zero ? (c - 1.0) + s : 2.0 * (c - b);
+  const Register denominator = fast > zero ? one + one : (1.0 - c) + s;
+  const Register w = numerator / denominator;
+  return ((w > zero) & (q > zero)) ? w : zero;
+}
+
+// How blocks are coupled, and whether they radiate.
+enum class Kind { springs, radiating_springs, modes };
+
+template <Scheme scheme, Law law, Kind kind>
 StepSums step(const ChainView &chain, const std::int32_t *list, int count, double x_new,
               std::uint8_t *hot) {
   const Register zero = {};
@@ -69,6 +86,10 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
   const double half_h = 0.5 * h;
   const double half_h_m = half_h / chain.mass;
   const double kc = chain.kc, kl = chain.kl;
+  constexpr bool radiates = kind != Kind::springs, by_modes = kind == Kind::modes;
+  const double eta = chain.radiation;
+  // By which the implicit half of a step is divided.
+  [[maybe_unused]] const double slower = 1.0 / (1.0 + half_h_m * eta);
   double *const u = chain.u, *const velocity = chain.v, *const force = chain.force;
   const double *const mu = chain.mu;
   constexpr bool needs_rest = law == Law::slip_weakening;
@@ -80,6 +101,8 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
   constexpr int ahead = 12;     // chunks in the list between fetching into the cache and moving
   constexpr unsigned ring = 8;  // more than lag
   static_assert(ring > lag);
+  Lanes work = {}, slip = {};
+  [[maybe_unused]] Lanes radiated = {};
   const auto move = [&](int k, Lanes &change) __attribute__((always_inline)) {
     const std::int64_t i = static_cast<std::int64_t>(list[k]) * chunk_size;
     const Lanes f = load(force + i), m = load(mu + i), v = load(velocity + i);
@@ -87,63 +110,88 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
     [[maybe_unused]] Lanes rest;
     if constexpr (needs_rest) rest = load(chain.rest + i);
     for (int r = 0; r < registers; ++r) {
-      Register slid = zero;
-      if constexpr (needs_rest) slid = x.r[r] - rest.r[r];
-      // A stuck block has v = 0, so f <= mu leaves it stuck without a branch, and a block whose
-      // velocity would turn negative sticks.
-      const Register push = f.r[r] - friction<law>(chain, m.r[r], v.r[r], f.r[r], slid);
-      Register w = v.r[r] + (scheme == Scheme::verlet ? half_h_m : h_m) * push;
-      w = w > zero ? w : zero;
-      const Register moved = scheme == Scheme::printed ? half_h * (v.r[r] + w) : h * w;
+      Register moved;
+      if constexpr (scheme == Scheme::adams_bashforth) {
+        Register before;
+        std::memcpy(&before, chain.before + i + r * SLIDER_LANES, sizeof before);
+        moved = h * (1.5 * v.r[r] - 0.5 * before);
+        moved = moved > zero ? moved : zero;
+        std::memcpy(chain.before + i + r * SLIDER_LANES, &v.r[r], sizeof before);
+      } else {
+        Register slid = zero;
+        if constexpr (needs_rest) slid = x.r[r] - rest.r[r];
+        // A stuck block has v = 0, so f <= mu leaves it stuck without a branch, and a block whose
+        // velocity would turn negative sticks.
+        Register push = f.r[r] - friction<law>(chain, m.r[r], v.r[r], f.r[r], slid);
+        if constexpr (radiates) push -= eta * v.r[r];
+        Register w = v.r[r] + (scheme == Scheme::verlet ? half_h_m : h_m) * push;
+        w = w > zero ? w : zero;
+        moved = scheme == Scheme::printed ? half_h * (v.r[r] + w) : h * w;
+        std::memcpy(velocity + i + r * SLIDER_LANES, &w, sizeof w);
+      }
       const Register next = x.r[r] + moved;
       change.r[r] = next - x.r[r];
       x.r[r] = next;
-      std::memcpy(velocity + i + r * SLIDER_LANES, &w, sizeof w);
+      if constexpr (radiates) radiated.r[r] += v.r[r] * change.r[r];
     }
     store(u + i, x);
   };
 
-  Lanes work = {}, slip = {};
-  StepSums sums = {0.0, 0.0, 0};
+  StepSums sums;
   const auto pull = [&](int k, const Lanes &change) __attribute__((always_inline)) {
     const std::int64_t i = static_cast<std::int64_t>(list[k]) * chunk_size;
-    const Lanes x = load(u + i), left = load(u + i - 1), right = load(u + i + 1);
-    const Lanes old = load(force + i), m = load(mu + i);
-    Lanes v = load(velocity + i), f;
+    const Lanes x = load(u + i), old = load(force + i), m = load(mu + i);
+    Lanes v = load(velocity + i), f, left, right;
+    if constexpr (by_modes) {
+      left = load(chain.coupling + i);
+    } else {
+      left = load(u + i - 1);
+      right = load(u + i + 1);
+    }
     [[maybe_unused]] Lanes rest;
     if constexpr (needs_rest) rest = load(chain.rest + i);
     unsigned lanes = 0;
     for (int r = 0; r < registers; ++r) {
-      f.r[r] = kc * ((left.r[r] - x.r[r]) + (right.r[r] - x.r[r])) + kl * (x_new - x.r[r]);
-      if (scheme == Scheme::verlet && law != Law::velocity_weakening) {
-        // A block that came to rest in the first half of the step has healed.
-        Register slid = zero;
-        if constexpr (needs_rest) slid = v.r[r] > zero ? x.r[r] - rest.r[r] : zero;
-        const Register w =
-            v.r[r] + half_h_m * (f.r[r] - friction<law>(chain, m.r[r], v.r[r], f.r[r], slid));
-        v.r[r] = w > zero ? w : zero;
-      } else if (scheme == Scheme::verlet) {
-        // w = v_half + h/2 (f - mu / (1 + w)) / m is quadratic in w; its larger root is written
-        // without cancellation, so that its sign is that of c - b.
-        const Register c = v.r[r] + half_h_m * f.r[r];
-        const Register b = half_h_m * m.r[r];
-        const Register q = (1.0 + c) * (1.0 + c) - 4.0 * b;
-        const Register s = square_root(q > zero ? q : zero);
-        const Register one = zero + 1.0;
-        const Register fast = c > one ? one : zero;
-        const Register numerator = fast > zero ? (c - 1.0) + s : 2.0 * (c - b);
-        const Register denominator = fast > zero ? one + one : (1.0 - c) + s;
-        Register w = numerator / denominator;
-        w = ((w > zero) & (q > zero)) ? w : zero;
+      if constexpr (by_modes)
+        f.r[r] = left.r[r] + kl * (x_new - x.r[r]);
+      else
+        f.r[r] = kc * ((left.r[r] - x.r[r]) + (right.r[r] - x.r[r])) + kl * (x_new - x.r[r]);
+      if constexpr (scheme == Scheme::adams_bashforth || scheme == Scheme::verlet) {
+        // Without inertia, radiation and friction balance the springs.
+        constexpr bool balance = scheme == Scheme::adams_bashforth;
+        const double by_radiation = 1.0 / eta;
+        Register w;
+        if constexpr (law == Law::velocity_weakening) {
+          // w = v_half + h/2 (f - mu / (1 + w) - eta w) / m is quadratic in w.
+          Register c = balance ? by_radiation * f.r[r] : v.r[r] + half_h_m * f.r[r];
+          Register b = (balance ? by_radiation : half_h_m) * m.r[r];
+          if constexpr (radiates && !balance) {
+            c *= slower;
+            b *= slower;
+          }
+          w = velocity_at(c, b);
+          // A block at rest stays so, though it could slide as well.
+          if constexpr (balance) w = ((v.r[r] > zero) | (f.r[r] > m.r[r])) ? w : zero;
+        } else {
+          // A block that came to rest in the first half of the step has healed.
+          Register slid = zero;
+          if constexpr (needs_rest) slid = v.r[r] > zero ? x.r[r] - rest.r[r] : zero;
+          const Register push = f.r[r] - friction<law>(chain, m.r[r], v.r[r], f.r[r], slid);
+          w = balance ? by_radiation * push : v.r[r] + half_h_m * push;
+          if constexpr (radiates && !balance) w *= slower;
+          w = w > zero ? w : zero;
+        }
         v.r[r] = w;
       }
       if constexpr (needs_rest) rest.r[r] = v.r[r] > zero ? rest.r[r] : x.r[r];
       lanes |= bits((v.r[r] > zero) | (f.r[r] > m.r[r])) << (r * SLIDER_LANES);
       work.r[r] += (old.r[r] + f.r[r]) * change.r[r];
       slip.r[r] += change.r[r];
+      if constexpr (radiates) radiated.r[r] += v.r[r] * change.r[r];
     }
     store(force + i, f);
-    if (scheme == Scheme::verlet) store(velocity + i, v);
+    if constexpr (scheme == Scheme::verlet || scheme == Scheme::adams_bashforth)
+      store(velocity + i, v);
     if constexpr (needs_rest) store(chain.rest + i, rest);
     hot[k] = static_cast<std::uint8_t>(lanes);
     sums.hot += __builtin_popcount(lanes);
@@ -158,36 +206,66 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
     if constexpr (needs_rest) __builtin_prefetch(chain.rest + i, 1);
   };
 
-  Lanes first_change = {}, changes[ring];
-  const int begin = count > 0 && list[0] == 0 ? 1 : 0;
-  if (begin == 1) move(0, first_change);
-  u[chain.blocks] = u[0];
-  for (int k = begin; k < count + lag; ++k) {
-    if (k + ahead < count) fetch(k + ahead);
-    if (k < count) move(k, changes[static_cast<unsigned>(k) % ring]);
-    if (k - lag >= begin) pull(k - lag, changes[static_cast<unsigned>(k - lag) % ring]);
+  if constexpr (by_modes) {
+    Register moves = zero;
+    for (int k = 0; k < count; ++k) {
+      Lanes change;
+      move(k, change);
+      store(chain.change + static_cast<std::int64_t>(list[k]) * chunk_size, change);
+      for (const Register &r : change.r) moves += r;
+    }
+    double moved = 0.0;
+    for (int l = 0; l < SLIDER_LANES; ++l) moved += moves[l];
+    // No block goes back. While none moves, the coupling stays.
+    if (moved > 0.0) chain.forces->find(u, chain.coupling);
+    for (int k = 0; k < count; ++k)
+      pull(k, load(chain.change + static_cast<std::int64_t>(list[k]) * chunk_size));
+  } else {
+    Lanes first_change = {}, changes[ring];
+    const int begin = count > 0 && list[0] == 0 ? 1 : 0;
+    if (begin == 1) move(0, first_change);
+    u[chain.blocks] = u[0];
+    for (int k = begin; k < count + lag; ++k) {
+      if (k + ahead < count) fetch(k + ahead);
+      if (k < count) move(k, changes[static_cast<unsigned>(k) % ring]);
+      if (k - lag >= begin) pull(k - lag, changes[static_cast<unsigned>(k - lag) % ring]);
+    }
+    u[-1] = u[chain.blocks - 1];
+    if (begin == 1) pull(0, first_change);
   }
-  u[-1] = u[chain.blocks - 1];
-  if (begin == 1) pull(0, first_change);
 
-  double w[chunk_size], s[chunk_size];
-  store(w, work);
-  store(s, slip);
-  sums.work = 0.5 * (((w[0] + w[4]) + (w[2] + w[6])) + ((w[1] + w[5]) + (w[3] + w[7])));
-  sums.slip = ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
+  const auto sum = [](const Lanes &lanes) __attribute__((always_inline)) {
+    double l[chunk_size];
+    store(l, lanes);
+    return ((l[0] + l[4]) + (l[2] + l[6])) + ((l[1] + l[5]) + (l[3] + l[7]));
+  };
+  sums.work = 0.5 * sum(work);
+  sums.slip = sum(slip);
+  if constexpr (radiates) sums.radiated = 0.5 * eta * sum(radiated);
   return sums;
 }
 
-// By scheme, in the order of the enumeration.
-template <Law law>
-constexpr StepFunction steps_of[] = {step<Scheme::printed, law>, step<Scheme::semi_implicit, law>,
-                                     step<Scheme::verlet, law>};
+template <Law law, Kind kind>
+StepFunction of_scheme(Scheme scheme) {
+  if (scheme == Scheme::verlet) return step<Scheme::verlet, law, kind>;
+  if (scheme == Scheme::semi_implicit) return step<Scheme::semi_implicit, law, kind>;
+  if constexpr (kind != Kind::springs)
+    if (scheme == Scheme::adams_bashforth) return step<Scheme::adams_bashforth, law, kind>;
+  return step<Scheme::printed, law, kind>;
+}
 
-StepFunction function_of(Scheme scheme, Law law) {
-  const auto &steps = law == Law::coulomb          ? steps_of<Law::coulomb>
-                      : law == Law::slip_weakening ? steps_of<Law::slip_weakening>
-                                                   : steps_of<Law::velocity_weakening>;
-  return steps[static_cast<int>(scheme)];
+template <Law law>
+StepFunction of_law(const Parameters &p) {
+  return !p.by_springs()     ? of_scheme<law, Kind::modes>(p.scheme)
+         : p.radiation > 0.0 ? of_scheme<law, Kind::radiating_springs>(p.scheme)
+                             : of_scheme<law, Kind::springs>(p.scheme);
+}
+
+StepFunction function_of(const Parameters &p) {
+  const Law law = p.friction.law;
+  return law == Law::coulomb          ? of_law<Law::coulomb>(p)
+         : law == Law::slip_weakening ? of_law<Law::slip_weakening>(p)
+                                      : of_law<Law::velocity_weakening>(p);
 }
 
 }  // namespace Slider::SLIDER_SET

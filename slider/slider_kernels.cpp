@@ -7,14 +7,14 @@ namespace Slider {
 
 // Those of slider_kernel.cpp.
 namespace baseline {
-StepFunction function_of(Scheme scheme, Law law);
+StepFunction function_of(const Parameters &p);
 }
 #ifdef __x86_64__
 namespace avx2 {
-StepFunction function_of(Scheme scheme, Law law);
+StepFunction function_of(const Parameters &p);
 }
 namespace avx512 {
-StepFunction function_of(Scheme scheme, Law law);
+StepFunction function_of(const Parameters &p);
 }
 #endif
 
@@ -34,13 +34,13 @@ InstructionSet widest_instruction_set() {
   return InstructionSet::baseline;
 }
 
-StepFunction step_function(Scheme scheme, Law law, InstructionSet set) {
+StepFunction step_function(const Parameters &p, InstructionSet set) {
   if (!has(set)) throw std::invalid_argument(std::string("no instruction set ") + to_string(set));
 #ifdef __x86_64__
-  if (set == InstructionSet::avx512) return avx512::function_of(scheme, law);
-  if (set == InstructionSet::avx2) return avx2::function_of(scheme, law);
+  if (set == InstructionSet::avx512) return avx512::function_of(p);
+  if (set == InstructionSet::avx2) return avx2::function_of(p);
 #endif
-  return baseline::function_of(scheme, law);
+  return baseline::function_of(p);
 }
 
 }  // namespace Slider

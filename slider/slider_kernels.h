@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file slider_kernels.h
-/// One time step of listed chunks of blocks, for the schemes printed, semi-implicit and verlet.
+/// One time step of listed chunks of blocks, for each scheme and law, with springs or modes.
 /// Compiled for several instruction sets, which agree to the last digit: the arithmetic is that of
 /// fixed lanes, whatever the width of the registers, and contraction is off.
 #ifndef SLIDER_KERNELS_H
@@ -16,22 +16,30 @@ namespace Slider {
 /// Blocks per chunk, the unit of the active set; lane l of chunk c is block 8 c + l.
 constexpr int chunk_size = 8;
 
+class ModeForces;
+
 /// Arrays of the chain. Each has room for whole chunks and one more value on either side of the
 /// blocks, where u keeps its periodic images u[-1] and u[blocks]. Blocks past the end have a
-/// coefficient that no force exceeds.
+/// coefficient that no force exceeds. Coupled by modes, all chunks are listed, or none.
 struct ChainView : Parameters {
   double *u = nullptr;         ///< displacement
   double *v = nullptr;         ///< velocity, >= 0
   double *force = nullptr;     ///< spring force at the present time (older for inactive chunks)
   double *rest = nullptr;      ///< where a block last rested, if the law needs it
   const double *mu = nullptr;  ///< static coefficient
+  double *before = nullptr;    ///< velocity of the step before, of the scheme without inertia
+  // With modes only:
+  ModeForces *forces = nullptr;
+  double *coupling = nullptr;  ///< force of the coupling, without leaf springs
+  double *change = nullptr;    ///< of the displacements in this step
 };
 
 /// Sums over the listed chunks, over one step.
 struct StepSums {
-  double work = 0.0;     ///< sum (F_old + F_new) du / 2, the work of the springs on the blocks
-  double slip = 0.0;     ///< sum du
-  std::int64_t hot = 0;  ///< number of blocks that move or are about to
+  double work = 0.0;      ///< sum (F_old + F_new) du / 2, the work of the springs on the blocks
+  double slip = 0.0;      ///< sum du
+  double radiated = 0.0;  ///< sum radiation (v_old + v_new) du / 2
+  std::int64_t hot = 0;   ///< number of blocks that move or are about to
 };
 
 /// Takes one step of the listed chunks (ascending, no repeats) to plate position x_new. hot[k] gets
@@ -51,8 +59,9 @@ constexpr std::array<LSM::Named<InstructionSet>, 3> names_of(InstructionSet) {
 bool has(InstructionSet set);
 InstructionSet widest_instruction_set();
 
+/// The step that these parameters need.
 /// \throws std::invalid_argument if the processor lacks the set asked for.
-StepFunction step_function(Scheme scheme, Law law, InstructionSet set);
+StepFunction step_function(const Parameters &p, InstructionSet set);
 
 }  // namespace Slider
 

@@ -14,9 +14,10 @@
 #include <thread>
 #include <vector>
 
-#include "lsm_text_io.h"
+#include "files/text_io.h"
 #include "slider_kernels.h"
 #include "slider_options.h"
+#include "standard_streams.h"
 
 namespace {
 
@@ -38,10 +39,15 @@ nlohmann::ordered_json summary(const Settings &s, const Slider::RunResult &r) {
   j["events_before_warmup"] = r.before_warmup;
   j["events_nonpositive"] = r.picker.dropped_nonpositive;
   j["events_below_min_size"] = r.picker.dropped_small;
+  if (s.run.events == Slider::Events::pe) j["events_by_plate"] = r.by_plate;
   j["largest_event"] = r.largest;
   j["mean_slip"] = r.mean_slip;
   j["pe"] = r.pe;
   j["pe_direct"] = r.pe_direct;
+  if (s.run.parameters.radiation > 0.0) {
+    j["kinetic"] = r.kinetic;
+    j["radiated"] = r.radiated;
+  }
   j["moving_fraction"] = static_cast<double>(r.moved) / (steps * s.run.parameters.blocks);
   j["steps_jumped"] = r.jumped;
   if (s.run.leap_speed > 0.0) {
@@ -111,9 +117,14 @@ int run_all(const std::vector<Settings> &all, const Settings &base) {
       status = 1;
       continue;
     }
-    if (base.summary != "-")
+    if (base.summary != "-") {
       fmt::print("{}: {} events in {} steps, {:.3g} s\n", all[k].run.catalogue, r.events, r.steps,
                  r.seconds);
+      if (r.by_plate > 0)
+        fmt::print(
+            "{} drops of PE by the plate, not by slip, {}\n", r.by_plate,
+            all[k].run.keep_by_plate ? "are among them (--without-plate-drops)" : "were left out");
+    }
     if (r.interrupted != 0) {
       fmt::print(
           stderr, "slider_cli: {}stopped by signal {} at step {}; {}\n", name, r.interrupted,
@@ -125,7 +136,8 @@ int run_all(const std::vector<Settings> &all, const Settings &base) {
   }
   if (base.ensemble.empty() && status == 1) return status;
   if (base.ensemble.empty()) j = j.at(0);
-  const std::string text = j.dump(2) + "\n";
+  const std::string text =
+      j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
   if (base.summary == "-")
     std::cout << text;
   else if (!base.summary.empty())
@@ -136,11 +148,16 @@ int run_all(const std::vector<Settings> &all, const Settings &base) {
 }  // namespace
 
 int main(int argc, char **argv) {
+  LSM::occupy_standard_streams();
   try {
     const std::vector<std::string> arguments(argv + 1, argv + argc);
     const Settings settings = Slider::parse(arguments, &stop_signal);
-    std::signal(SIGINT, note_signal);
-    std::signal(SIGTERM, note_signal);
+    for (const int number : {SIGINT, SIGTERM}) {
+      struct sigaction act {};
+      act.sa_handler = note_signal;
+      // Without SA_RESTART: opening a pipe that nobody reads waits for ever otherwise.
+      sigaction(number, &act, nullptr);
+    }
     warn(settings.run.parameters);
     const std::vector<Settings> all = settings.ensemble.empty()
                                           ? std::vector<Settings>{settings}

@@ -13,8 +13,10 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "lsm_output_claim.h"
+#include "files/output_claim.h"
+#include "files/replaced_file.h"
 #include "picker_options.h"
+#include "slider_stiffness.h"
 #include "whole_number.h"
 
 namespace Slider {
@@ -91,12 +93,38 @@ class CommandLine {
     app_.option_defaults()->group("Model (defaults are the paper's values)");
     app_.add_option("--blocks", p_.blocks, "Number of blocks N");
     app_.add_option("--kc", p_.kc, "Spring between neighbours K_c (force/length)");
-    app_.add_option("--kl", p_.kl, "Leaf spring to the plate K_l (force/length)");
-    app_.add_option("--mass", p_.mass, "Mass of a block M");
+    CLI::Option *const kl =
+        app_.add_option("--kl", p_.kl, "Leaf spring to the plate K_l (force/length)");
+    app_.add_option("--coupling", coupling_,
+                    "What couples the blocks: chain, the springs K_c (paper); ours: antiplane or "
+                    "inplane, an elastic block on either side of the fault with the plate at its "
+                    "far side, as stiff as makes a block that slips alone in a long fault feel 2 "
+                    "K_c + K_l, and as thick as makes K_l its leaf spring; or a file, lines "
+                    "'wavenumber,stiffness' from 0 (the leaf spring) to pi (radians per block), "
+                    "in place of K_c and K_l. Fastest with a number of blocks of small factors");
+    app_.add_option("--width", strip_.width,
+                    "Thickness of each elastic block, which gives K_l (in blocks; ours)")
+        ->default_str("from --kl")
+        ->excludes(kl);
+    app_.add_option("--radiation", p_.radiation,
+                    "Force on a block per velocity by the waves that it sends out; G / 2 c_s for "
+                    "shear waves into both sides (Rice 1993; force/velocity; ours)");
+    app_.add_option("--mass", p_.mass,
+                    "Mass of a block M. Friction is a force, divided by M as that of the springs; "
+                    "Eq. 5 does not divide it, and has M = 1. 0: no inertia (quasi-dynamic; ours), "
+                    "needs --radiation");
     app_.add_option("--velocity", p_.velocity, "Driving velocity of the plate V (length/time)");
-    app_.add_option("--friction-range", friction_,
-                    "Static coefficients mu_0i are uniform in [LOW, HIGH) (force)")
-        ->expected(2);
+    CLI::Option *const range =
+        app_.add_option("--friction-range", friction_,
+                        "Static coefficients mu_0i are uniform in [LOW, HIGH) (force)");
+    range->expected(2);
+    app_.add_option("--friction-file", friction_file_,
+                    "File with the static coefficient of each block, one per line (force; ours)")
+        ->excludes(range);
+    app_.add_option("--correlation-length", p_.landscape.length,
+                    "The static coefficient of a block is drawn anew from --friction-range after "
+                    "each slip of this length, as on a rough surface; 0: never (length; ours)")
+        ->excludes("--friction-file");
     app_.add_option("--seed", s_.seed, "Seed of the coefficients")->check(LSM::whole_number());
     add_choice("--law", p_.friction.law,
                "Friction of a moving block: velocity-weakening, mu_0i / (1 + v), Eq. 6; ours: "
@@ -119,8 +147,11 @@ class CommandLine {
     app_.add_option("--dt", p_.dt, "Time step h (time; ours, the paper gives none)");
     add_choice("--scheme", p_.scheme,
                "printed: Eqs. 7 and 8, order 1, unstable in the long run: warns above dt 0.01, "
-               "refused at 0.12 and above; ours: semi-implicit (order 1), verlet (order 2)");
-    app_.add_flag("--force", force_, "Run the printed scheme above these limits");
+               "refused at 0.12 and above; in the step in which a block stops friction is what "
+               "stops it, the acceleration -v/h, so that Eq. 7 moves it by h v/2; ours: "
+               "semi-implicit (order 1), verlet (order 2), and without inertia (--mass 0) always "
+               "adams-bashforth");
+    app_.add_flag("--unstable", unstable_, "Run the printed scheme above these limits");
     add_choice("--kernel", run_.kernel,
                "active (only moving chunks of blocks) or dense (all blocks; same catalogue)");
     app_.add_option(
@@ -152,6 +183,12 @@ class CommandLine {
     picker.min_size->default_str("0");
     app_.add_option("--warmup", run_.warmup,
                     "Drop events that start before this time (time; ours)");
+    app_.add_flag(
+        "--without-plate-drops", without_plate_drops_,
+        "Leave out drops of PE larger than the largest mu_0 times slip_moment, which the plate has "
+        "made and not slip: blocks that have slipped too far wait for it, and PE falls meanwhile "
+        "(ours; otherwise they are written and counted apart in --json, as the paper does not "
+        "tell them apart)");
     for (CLI::Option *option :
          {app_.get_option("--time"), app_.get_option("--dt"), app_.get_option("--scheme"),
           picker.reading, picker.lambda, picker.memory_time, app_.get_option("--warmup")})
@@ -236,6 +273,9 @@ class CommandLine {
       throw std::invalid_argument("--slip-distance needs --law slip-weakening");
     if (given("--rupture-gap") && run_.events != Events::ruptures)
       throw std::invalid_argument("--rupture-gap needs --events ruptures");
+    if (without_plate_drops_ && run_.events != Events::pe)
+      throw std::invalid_argument("--without-plate-drops needs --events pe");
+    run_.keep_by_plate = !without_plate_drops_;
     if (run_.catalogue.empty())
       throw std::invalid_argument("--catalogue is empty, expected a file name");
     if (paper_) {
@@ -245,7 +285,20 @@ class CommandLine {
       picker_.reading = "literal";
       picker_.lambda = 0.99;
     }
-    check(p_, force_);
+    set_coupling();
+    if (p_.mass == 0.0) {
+      if (given("--scheme") && p_.scheme != Scheme::adams_bashforth)
+        throw std::invalid_argument(fmt::format(
+            "--scheme = {}, expected adams-bashforth with --mass 0", to_string(p_.scheme)));
+      p_.scheme = Scheme::adams_bashforth;
+    } else if (p_.scheme == Scheme::adams_bashforth) {
+      throw std::invalid_argument("--scheme adams-bashforth needs --mass 0");
+    }
+    check(p_, unstable_);
+    if (run_.leap_speed > 0.0 &&
+        (!p_.by_springs() || p_.radiation > 0.0 || p_.landscape.length > 0.0))
+      throw std::invalid_argument(
+          "--leap needs --coupling chain without --radiation and --correlation-length");
     for (const auto &[option, value] :
          {std::pair("--leap", run_.leap_speed), {"--warmup", run_.warmup}})
       if (!(value >= 0.0) || !std::isfinite(value)) refuse(option, value, "a finite number >= 0");
@@ -263,7 +316,47 @@ class CommandLine {
     if (!(low >= 0.0) || !(high >= low) || !std::isfinite(high))
       throw std::invalid_argument(fmt::format(
           "--friction-range = {} {}, expected finite numbers 0 <= LOW <= HIGH", low, high));
-    run_.mu = random_friction(p_.blocks, low, high, s_.seed);
+    p_.landscape = {p_.landscape.length, low, high, s_.seed};
+    run_.mu = friction_file_.empty() ? random_friction(p_.blocks, low, high, s_.seed)
+                                     : read_strengths(friction_file_, p_.blocks);
+    for (const std::string &path : {by_file() ? coupling_ : "", friction_file_})
+      if (!path.empty()) s_.inputs.push_back(path);
+  }
+
+  bool by_file() const {
+    Coupling named;
+    return !from_string(coupling_, named);
+  }
+
+  /// Stiffnesses of what couples the blocks, and with it the leaf spring.
+  void set_coupling() {
+    Coupling coupling = Coupling::chain;
+    const bool named = from_string(coupling_, coupling);
+    if (given("--width") && coupling == Coupling::chain)
+      throw std::invalid_argument("--width needs --coupling antiplane or inplane");
+    if (p_.blocks < 1) return;  // refused by check()
+    if (!named) {
+      if (!std::ifstream(coupling_))
+        throw std::invalid_argument(
+            fmt::format("--coupling = '{}', expected {}, or a readable file", coupling_,
+                        LSM::choices(coupling)));
+      for (const char *option : {"--kc", "--kl"})
+        if (given(option))
+          throw std::invalid_argument(
+              fmt::format("{} and --coupling {} exclude each other", option, coupling_));
+      p_.modes = read_modes(coupling_, p_.blocks);
+      p_.kl = p_.modes.front();
+    } else if (coupling != Coupling::chain) {
+      for (const auto &[option, value] : {std::pair("--kc", p_.kc),
+                                          {"--kl", p_.kl},
+                                          {"--width", given("--width") ? strip_.width : 1.0}})
+        if (!std::isfinite(value) || !(value > 0.0))
+          refuse(option, value, "a positive finite number");
+      strip_ = given("--width") ? strip_of_width(coupling, p_.kc, strip_.width)
+                                : strip_of_leaf_spring(coupling, p_.kc, p_.kl);
+      p_.kl = strip_.modulus / strip_.width;
+      p_.modes = modes_of(coupling, strip_, p_.blocks);
+    }
   }
 
   /// Everything that shapes the result, for the headers of the files.
@@ -275,12 +368,20 @@ class CommandLine {
     const bool leaps = run_.leap_speed > 0.0, ruptures = run_.events == Events::ruptures;
     add("program", "slider_cli " SLIDER_VERSION);
     add("blocks", p_.blocks);
-    add("kc", p_.kc);
+    const bool strip = strip_.modulus > 0.0;
+    add("kc", p_.kc, !by_file());
     add("kl", p_.kl);
+    if (by_file()) add("coupling", named_with_checksum(coupling_));
+    add("coupling", coupling_, strip);
+    add("modulus", strip_.modulus, strip);
+    add("width", strip_.width, strip);
+    add("radiation", p_.radiation, p_.radiation > 0.0);
     add("mass", p_.mass);
     add("velocity", p_.velocity);
-    add("friction_low", friction_[0]);
-    add("friction_high", friction_[1]);
+    if (!friction_file_.empty()) add("friction_file", named_with_checksum(friction_file_));
+    add("friction_low", friction_[0], friction_file_.empty());
+    add("friction_high", friction_[1], friction_file_.empty());
+    add("correlation_length", p_.landscape.length, p_.landscape.length > 0.0);
     add("seed", s_.seed);
     add("law", to_string(law), law != Law::velocity_weakening);
     add("dynamic_friction", p_.friction.dynamic, law != Law::velocity_weakening);
@@ -297,6 +398,7 @@ class CommandLine {
     add("min_size", run_.picker.min_size);
     add("keep_nonpositive", run_.picker.keep_nonpositive ? "yes" : "no");
     add("warmup", run_.warmup);
+    add("plate_drops", "left out", without_plate_drops_);
   }
 
   /// An option whose value is one of the words of an enumeration.
@@ -323,8 +425,10 @@ class CommandLine {
   Parameters &p_ = s_.run.parameters;
   LSM::PickerOptions picker_;
   std::vector<double> friction_ = {0.5, 1.0};
+  std::string coupling_ = "chain", friction_file_;
+  Strip strip_;
   double time_ = 1e5, rupture_gap_ = 0.0;
-  bool paper_ = false, force_ = false;
+  bool paper_ = false, unstable_ = false, without_plate_drops_ = false;
 };
 
 /// The path of a run of an ensemble.
@@ -336,6 +440,12 @@ std::string numbered(const std::string &path, std::size_t run) {
   if (!path.empty())
     out.replace_filename(out.stem().string() + "-" + text + out.extension().string());
   return out.string();
+}
+
+/// Whether a file is the JSON summary of a run, or of an ensemble.
+bool is_summary(std::string_view head) {
+  const std::string one = "{\n  \"parameters\": {", all = "[\n  {\n    \"parameters\": {";
+  return LSM::begins_with(one)(head) || LSM::begins_with(all)(head) || head == "[]\n";
 }
 
 /// The options that each run of an ensemble has of its own.
@@ -403,17 +513,22 @@ void check_files(const std::vector<Settings> &all) {
       outputs.push_back(std::move(output));
     }
   const Settings &any = all.front();
-  if (any.summary != "-") outputs.push_back({"--json", any.summary});
+  const std::string summary = any.summary == "-" ? std::string() : any.summary;
+  outputs.push_back({"--json", summary});
   const std::string problem = LSM::bad_outputs(outputs);
   if (!problem.empty()) throw std::invalid_argument(problem);
   std::set<std::string> inputs;
-  for (const Settings &s : all)
-    for (const std::string &path : {s.config, s.ensemble})
+  for (Settings s : all) {
+    s.inputs.insert(s.inputs.end(), {s.config, s.ensemble});
+    for (const std::string &path : s.inputs)
       if (!path.empty() && std::ifstream(path)) inputs.insert(LSM::file_identity(path));
+  }
   for (const LSM::Output &output : outputs)
     if (!output.path.empty() && inputs.count(LSM::file_identity(output.path)) > 0)
       throw std::invalid_argument(output.what + " " + output.path +
                                   " is read by this run, expected another name for the output");
+  const std::string kept = LSM::why_kept(summary, is_summary);
+  if (!kept.empty() && !any.run.overwrite) throw std::invalid_argument(kept);
 }
 
 }  // namespace Slider

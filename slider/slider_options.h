@@ -17,6 +17,7 @@ namespace Slider {
 struct Settings {
   RunOptions run;
   std::string config, summary, ensemble;
+  std::vector<std::string> inputs;  ///< other files that are read
   std::uint64_t seed = 1;
   unsigned threads = 0;
 };

@@ -8,9 +8,9 @@
 #include <limits>
 #include <string>
 
-#include "lsm_catalogue.h"
-#include "lsm_output_claim.h"
-#include "lsm_pe_series.h"
+#include "files/catalogue.h"
+#include "files/output_claim.h"
+#include "files/pe_series.h"
 #include "slider_run.h"
 
 namespace Slider {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file slider_parameters.h
 /// Parameters of the block-slider model of Weatherley and Abe (2004), Sect. 3, and their limits.
-/// The friction laws are those of lammps-pkg/core/laws under which a block at rest stays at rest
-/// until its force exceeds a strength that is constant meanwhile. README.md explains why no others.
+/// The friction laws are those of lammps-pkg/core/friction under which a block at rest stays at
+/// rest until its force exceeds a strength that is constant meanwhile. README.md explains why no
+/// others.
 #ifndef SLIDER_PARAMETERS_H
 #define SLIDER_PARAMETERS_H
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -15,12 +17,12 @@
 #include <utility>
 #include <vector>
 
-#include "laws/coulomb.h"
-#include "laws/slip_weakening.h"
-#include "laws/velocity_weakening.h"
-#include "lsm_circular_mean.h"
-#include "lsm_names.h"
-#include "lsm_random.h"
+#include "friction/coulomb.h"
+#include "friction/slip_weakening.h"
+#include "friction/velocity_weakening.h"
+#include "numerics/constants.h"
+#include "files/names.h"
+#include "numerics/random.h"
 
 namespace Slider {
 
@@ -31,13 +33,17 @@ using LSM::to_string;
 enum class Scheme {
   printed,        ///< Eqs. 7 and 8: x += h v + h^2/2 a, v += h a, force of the old time
   semi_implicit,  ///< v += h a, x += h v (symplectic Euler), order 1
-  verlet          ///< velocity Verlet, friction of the new velocity solved in closed form, order 2
+  verlet,         ///< velocity Verlet, friction of the new velocity solved in closed form, order 2
+  /// without inertia: the velocity at which friction and radiation balance the springs, and x by
+  /// the two-step formula of Adams and Bashforth, order 2
+  adams_bashforth
 };
 
-constexpr std::array<LSM::Named<Scheme>, 3> names_of(Scheme) {
+constexpr std::array<LSM::Named<Scheme>, 4> names_of(Scheme) {
   return {{{Scheme::printed, "printed"},
            {Scheme::semi_implicit, "semi-implicit"},
-           {Scheme::verlet, "verlet"}}};
+           {Scheme::verlet, "verlet"},
+           {Scheme::adams_bashforth, "adams-bashforth"}}};
 }
 
 enum class Law {
@@ -61,26 +67,53 @@ struct Friction {
   bool needs_rest() const { return law == Law::slip_weakening; }
 };
 
+/// A rough surface whose strength changes along the way (ours): that of a block is drawn anew from
+/// the range after each slip of a length.
+struct Landscape {
+  double length = 0.0;  ///< 0: strengths stay
+  double low = 0.5, high = 1.0;
+  std::uint64_t seed = 1;
+};
+
 /// Parameters of one chain, in model units (paper values unless marked ours).
 struct Parameters {
   int blocks = 1928;
   double kc = 1.0;         ///< coupling spring K_c
   double kl = 0.01;        ///< leaf spring K_l
-  double mass = 1.0;       ///< mass M of a block
+  double mass = 1.0;       ///< mass M of a block; 0: no inertia (ours)
   double velocity = 0.01;  ///< driving velocity V_pl of the plate
   double dt = 0.05;        ///< time step (ours; not in the paper)
   Scheme scheme = Scheme::verlet;
   Friction friction = {};  ///< Eq. 6
+  double radiation = 0.0;  ///< force on a block per velocity by the waves that it sends out (ours)
+  /// Stiffness of the modes 0 to blocks / 2 in place of the springs K_c (ours), the leaf spring
+  /// included, which is that of mode 0; empty: springs.
+  std::vector<double> modes = {};
+  Landscape landscape = {};
+
+  bool by_springs() const { return modes.empty(); }
 };
 
-/// Time step above which the scheme is unstable for an undamped spring. The printed scheme is
-/// unstable at any step (growth rate h w^2 / 4); its limit is where this exceeds the dissipation by
-/// friction, 0.12 for the paper's springs.
+/// Stiffness of the chain for a wave with this phase between neighbours.
+inline double stiffness_of_springs(const Parameters &p, double phase) {
+  return 2.0 * p.kc * (1.0 - std::cos(phase)) + p.kl;
+}
+
+/// Time step above which the scheme is unstable for an undamped spring, or turns velocities round
+/// by radiation alone. The printed scheme is unstable at any step (growth rate h w^2 / 4); its
+/// limit is where this exceeds the dissipation by friction, 0.12 for the paper's springs.
 inline double stability_limit(const Parameters &p) {
-  // Highest angular frequency of the sliding chain without friction: its shortest wave.
-  const double phase = 2.0 * LSM::pi * (p.blocks / 2) / p.blocks;
-  const double highest = std::sqrt((2.0 * p.kc * (1.0 - std::cos(phase)) + p.kl) / p.mass);
-  return (p.scheme == Scheme::printed ? 0.12 * std::sqrt(4.01) : 2.0) / highest;
+  // Of the sliding chain without friction, its shortest wave.
+  const double stiffest = p.by_springs()
+                              ? stiffness_of_springs(p, 2.0 * LSM::pi * (p.blocks / 2) / p.blocks)
+                              : *std::max_element(p.modes.begin(), p.modes.end());
+  if (p.scheme == Scheme::adams_bashforth) return p.radiation / stiffest;
+  const double highest = std::sqrt(stiffest / p.mass), damping = p.radiation / p.mass;
+  // v' = v - h damping v - h w^2 x, x' = x + h v'
+  if (p.scheme == Scheme::semi_implicit)
+    return 4.0 / (damping + std::sqrt(damping * damping + 4.0 * highest * highest));
+  const double limit = (p.scheme == Scheme::printed ? 0.12 * std::sqrt(4.01) : 2.0) / highest;
+  return damping > 0.0 ? std::min(limit, 2.0 / damping) : limit;
 }
 
 /// \throws std::invalid_argument with one line: an option, its value and what is expected
@@ -95,8 +128,14 @@ inline double stability_limit(const Parameters &p) {
 inline void check(const Parameters &p, bool force) {
   if (p.blocks < 1 || p.blocks > 100000000) refuse("--blocks", p.blocks, "1 to 100000000");
   if (!std::isfinite(p.kc) || p.kc < 0.0) refuse("--kc", p.kc, "a finite number >= 0");
+  if (!std::isfinite(p.radiation) || p.radiation < 0.0)
+    refuse("--radiation", p.radiation, "a finite number >= 0");
+  if (!std::isfinite(p.mass) || p.mass < 0.0) refuse("--mass", p.mass, "a finite number >= 0");
+  if (p.mass == 0.0 && p.radiation == 0.0)
+    refuse("--mass", p.mass, "a positive number, or --radiation to balance the springs");
+  if (!std::isfinite(p.landscape.length) || p.landscape.length < 0.0)
+    refuse("--correlation-length", p.landscape.length, "a finite number >= 0");
   for (const auto &[option, value] : {std::pair("--kl", p.kl),
-                                      {"--mass", p.mass},
                                       {"--velocity", p.velocity},
                                       {"--dt", p.dt},
                                       {"--slip-distance", p.friction.dc}})
@@ -106,9 +145,10 @@ inline void check(const Parameters &p, bool force) {
   const double limit = stability_limit(p);
   if (p.scheme == Scheme::printed) {
     if (p.dt >= limit * (1.0 - 1e-12) && !force)
-      refuse("--dt", p.dt,
-             "less than " + std::to_string(limit) +
-                 " for the printed scheme, which is unstable there (--force runs it nevertheless)");
+      refuse(
+          "--dt", p.dt,
+          "less than " + std::to_string(limit) +
+              " for the printed scheme, which is unstable there (--unstable runs it nevertheless)");
   } else if (p.dt > limit) {
     refuse("--dt", p.dt,
            "at most " + std::to_string(limit) + ", the stability limit of the " +

@@ -8,8 +8,9 @@
 #include <limits>
 #include <stdexcept>
 
-#include "lsm_circular_mean.h"
-#include "lsm_text_io.h"
+#include "numerics/circular_mean.h"
+#include "files/replaced_file.h"
+#include "files/text_io.h"
 #include "slider_chain.h"
 #include "slider_checkpoint.h"
 #include "slider_output.h"
@@ -29,7 +30,7 @@ std::vector<LSM::Output> outputs_of(const RunOptions &o) {
 void check_replaced(const RunOptions &o) {
   if (o.resume || o.overwrite) return;
   for (const auto &[option, path] : outputs_of(o))
-    if (LSM::text_io::holds_data(path))
+    if (!LSM::why_kept(path).empty())
       throw std::runtime_error(path + ": exists, expected a new file for " + option +
                                "; --overwrite replaces it, --resume continues it");
 }
@@ -87,9 +88,11 @@ class Run {
     return true;
   }
 
-  /// An event that has ended; false: it is not written, as the warm-up had not ended before it.
+  /// Whether the warm-up had ended before an event.
+  bool is_late(const LSM::Event &e) const { return !(e.t_start < o_.warmup); }
+  /// An event that has ended; false: it is not written, as it belongs to the warm-up.
   bool count(LSM::Event &e) {
-    if (e.t_start < o_.warmup) {
+    if (!is_late(e)) {
       ++state_.before_warmup;
       return false;
     }
@@ -116,7 +119,12 @@ class Run {
 /// Events are drops of the PE of the whole chain.
 class PeRun : public Run {
  public:
-  explicit PeRun(const RunOptions &options) : Run(options), picker_(o_.picker) {
+  explicit PeRun(const RunOptions &options)
+      : Run(options),
+        picker_(o_.picker),
+        strongest_(o_.parameters.landscape.length > 0.0
+                       ? o_.parameters.landscape.high
+                       : *std::max_element(o_.mu.begin(), o_.mu.end())) {
     picker_.push_change(0, 0.0, chain_.pe(), 0.0, event_);
     // After so many steps the picker has forgotten its initial state, to the last digit.
     const double memory = o_.picker.reading == LSM::PickerReading::exponential
@@ -147,7 +155,13 @@ class PeRun : public Run {
       state_.slip_start = chain_.slip_sum();
       if (located()) state_.u_start = chain_.displacements();
     }
-    if (report && count(event_)) write();
+    if (!report) return;
+    event_.slip_moment = chain_.slip_sum() - state_.slip_start;
+    if (is_by_plate(event_, strongest_) && is_late(event_)) {
+      ++state_.by_plate;
+      if (!o_.keep_by_plate) return;
+    }
+    if (count(event_)) write();
   }
 
   /// Nothing slips: only the plate changes PE, and as long as it raises PE no event can begin. With
@@ -183,7 +197,6 @@ class PeRun : public Run {
   bool located() const { return o_.x_centroid || o_.rupture_length; }
 
   void write() {
-    event_.slip_moment = chain_.slip_sum() - state_.slip_start;
     if (located()) {
       const std::vector<double> u = chain_.displacements();
       LSM::CircularMean mean(static_cast<double>(u.size()));
@@ -199,6 +212,7 @@ class PeRun : public Run {
 
   LSM::EventPicker picker_;
   LSM::Event event_;
+  double strongest_;
   std::int64_t replay_ = 0;
 };
 
@@ -291,6 +305,8 @@ RunResult Run::go() {
   result_.steps = chain_.step();
   result_.moved = chain_.moved();
   result_.pe = chain_.pe();
+  result_.kinetic = chain_.kinetic();
+  result_.radiated = chain_.radiated();
   result_.pe_direct = direct_energy(o_.parameters, chain_.displacements(), chain_.plate());
   result_.mean_slip = chain_.slip_sum() / o_.parameters.blocks;
   result_.seconds = std::chrono::duration<double>(Clock::now() - begin_).count();

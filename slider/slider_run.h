@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "lsm_event_picker.h"
-#include "lsm_names.h"
-#include "lsm_output_claim.h"
+#include "events/event_picker.h"
+#include "files/names.h"
+#include "files/output_claim.h"
 #include "slider_checkpoint.h"
 #include "slider_parameters.h"
 
@@ -41,8 +41,9 @@ struct RunOptions {
   /// Steps over which slips are connected, and by which events are found after their end, at least
   /// 1
   std::int64_t rupture_memory = 1;
-  double leap_speed = 0.0;  ///< leaps while no block is faster; 0: no leaps
-  double warmup = 0.0;      ///< events that start before this time are not written
+  double leap_speed = 0.0;    ///< leaps while no block is faster; 0: no leaps
+  double warmup = 0.0;        ///< events that start before this time are not written
+  bool keep_by_plate = true;  ///< write drops of PE that slip does not explain, see is_by_plate()
   Kernel kernel = Kernel::active;
   std::string catalogue;  ///< empty: none
   bool x_centroid = false, rupture_length = false;
@@ -60,12 +61,21 @@ struct RunOptions {
 /// Time without a faster block that is needed before a leap: a runaway has become visible by then.
 constexpr double leap_calm = 50.0;
 
+/// Whether the plate, and not slip, has lowered PE: after overshoot the blocks are ahead of the
+/// plate, and PE falls until it has caught up. Blocks lose no more to friction than the strongest
+/// of them times the slip of all, and come from rest to rest, so that the plate has taken what
+/// exceeds that (ours; the paper counts all drops).
+inline bool is_by_plate(const LSM::Event &drop, double strongest) {
+  return drop.size > strongest * drop.slip_moment;
+}
+
 struct RunResult : Found {
   std::int64_t first_step = 0, steps = 0;  ///< from where to where
   std::int64_t moved = 0;                  ///< block-steps with motion
   std::int64_t jumped = 0;                 ///< quiet steps jumped over
   std::int64_t leaps = 0, leapt = 0;       ///< number of leaps, steps leapt over
   double pe = 0.0, pe_direct = 0.0;        ///< by work, and summed over all springs, at the end
+  double kinetic = 0.0, radiated = 0.0;    ///< energy at the end, and that sent out until then
   double mean_slip = 0.0, seconds = 0.0;
   int interrupted = 0;  ///< signal number, or 0
 };

@@ -18,9 +18,9 @@
 #include <type_traits>
 #include <vector>
 
-#include "lsm_circular_mean.h"
-#include "lsm_event_picker.h"
-#include "lsm_slip_sets.h"
+#include "numerics/circular_mean.h"
+#include "events/event_picker.h"
+#include "events/slip_sets.h"
 
 namespace Slider {
 

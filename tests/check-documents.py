@@ -5,10 +5,9 @@
 check-documents.py SOURCE_DIR [PROGRAM...]
 
 Links and anchors of Markdown pages exist; their lines and the comments of scenes and studies are
-at most 100 columns wide; READMEs have at most
-150 lines; variables.md has every variable of fault.in with its default; the page of each style has
-every keyword of its source and no other, with its default; options.md of each program is what its
---help prints (--write as the last word writes it).
+at most 100 columns wide; READMEs have at most 150 lines; variables.md has the table of
+fault.variables; options.md of each program is what its --help prints (--write as the last word writes
+both).
 """
 import re
 import subprocess
@@ -44,8 +43,10 @@ def anchors(page):
 
 
 def check_markdown(root):
-    pages = [root / name for name in subprocess.run(["git", "ls-files", "--cached", "--others", "--exclude-standard", "*.md"], cwd=root,
-                                                    capture_output=True, text=True).stdout.split()]
+    pages = [
+        root / name for name in subprocess.run(["git", "ls-files", "--cached", "--others", "--exclude-standard", "*.md"], cwd=root,
+                                               capture_output=True, text=True).stdout.split()
+    ]
     pages = pages or [p for p in root.rglob("*.md") if "build" not in p.relative_to(root).parts]
     assert len(pages) > 15, pages
     for page in pages:
@@ -69,8 +70,8 @@ def check_markdown(root):
 
 
 def check_comments(root):
-    names = subprocess.run(["git", "ls-files", "*.in", "*.ini", "*.gp", "inputs/studies/*.csv", "inputs/*.yaml", "inputs/*.sh"], cwd=root, capture_output=True,
-                           text=True).stdout.split()
+    names = subprocess.run(["git", "ls-files", "*.in", "*.ini", "*.gp", "inputs/studies/*.csv", "inputs/*.yaml", "inputs/*.sh"], cwd=root,
+                           capture_output=True, text=True).stdout.split()
     for name in names:
         for number, line in enumerate((root / name).read_text().splitlines(), 1):
             if len(line) > 100 and re.match(r" *# \S", line) and "usage" not in line:
@@ -85,104 +86,62 @@ def check_scenes(root):
                 problem(f"{scene.relative_to(root)}:{number}: variable {itself[1]} from its own value, which LAMMPS 4 Jul 2026 refuses")
 
 
-def check_variables(root):
-    scene = (root / "inputs/fault.in").read_text()
-    defaults = {}
-    for line in scene.split("units ")[0].splitlines():
-        match = re.match(r"variable\s+(\w+)\s+index\s+(\S+)", line)
-        if match and match[1] != "quote":
-            defaults[match[1]] = match[2].strip("'")
-    listed = re.search(r'variable\s+fault string "(.*?)"', scene, re.S)[1].replace("&", "").split()
-    listed += re.search(r'variable\s+settings string "(.*?)"', scene, re.S)[1].replace("&", "").split()
-    assert len(defaults) > 40 and len(listed) > 40, (defaults, listed)
-    table = dict(re.findall(r"^\| `(\w+)` \| (.*?) \|", (root / "inputs/variables.md").read_text(), re.M))
-    for name in sorted(set(defaults) | set(listed)):
-        if name not in table:
-            problem(f"inputs/variables.md: no variable {name} of fault.in")
-    for name, said in table.items():
-        if name in ("restart", "extra"):  # not defined unless given
-            continue
-        if name not in defaults and name not in listed:
-            problem(f"inputs/variables.md: {name} is no variable of fault.in")
-        elif said.startswith("`") and said != f"`{defaults.get(name)}`":
-            problem(f"inputs/variables.md: {name} has the default {said}, fault.in {defaults.get(name)}")
-        elif not said.startswith("`") and re.fullmatch(r"[\w.+-]+", defaults.get(name, "")):
-            problem(f"inputs/variables.md: {name} has the default {said}, fault.in {defaults[name]}")
+def variable_table(root):
+    """The table of variables.md, and the defaults that are plain values, from the declarations that fault.in reads."""
+    rows, defaults, cases, name_of_restart = [], {}, [], {"-": "run", "noted": "run", "free": "settings", "fixed": "fault"}
+    for line in (root / "inputs/fault.variables").read_text().splitlines():
+        if match := re.match(r"when (.*) : (.*)", line):
+            cases += [(name, " and ".join(f"`{given.strip()}`" for given in match[1].split(",")), value)
+                      for name, value in (pair.split(None, 1) for pair in match[2].split(", "))]
+        elif line.count("|") == 6:
+            name, default, _, restart, _, unit, meaning = (cell.strip() for cell in line.split("|"))
+            template = re.fullmatch(r"\$\((.*):%\.0f\)", default)
+            if template:
+                default = "(" + re.sub(r"round\((.*)\)", r"\1", template[1]).replace("v_", "").replace("/", " / ") + ")"
+            elif "${" in default:
+                default = "(`" + default.replace("${", "").replace("}", "") + "`)"
+            else:
+                defaults[name] = default
+                default = "(none)" if default in ("", "-") else f"`{default}`"
+            default += "".join(f"; {when}: `{value}`" for of, when, value in cases if of == name)
+            rows.append(f"| `{name}` | {default} | {name_of_restart[restart]} | {unit} | {meaning} |")
+    assert len(rows) > 40, rows
+    return "| variable | default | of | unit | meaning |\n|---|---|---|---|---|\n" + "\n".join(rows) + "\n", defaults
+
+
+def check_variables(root, write):
+    table, defaults = variable_table(root)
+    page = root / "inputs/variables.md"
+    text = re.sub(r"(?m)^\| variable .*\n(\|.*\n)+", lambda _: table, page.read_text())
+    if write:
+        page.write_text(text)
+    elif page.read_text() != text:
+        problem(f"inputs/variables.md is not what fault.variables says: {Path(__file__).name} ... --write makes it")
     others = dict(re.findall(r"^\| `(\w+)` \| `([^`]*)` \|", (root / "inputs/README.md").read_text(), re.M))
     for name, said in others.items():
         if said != defaults.get(name):
-            problem(f"inputs/README.md: {name} has the default {said}, fault.in {defaults.get(name)}")
+            problem(f"inputs/README.md: {name} has the default {said}, fault.variables {defaults.get(name)}")
     for name in ("paper_*.ini", "science_*.ini") + tuple(p.name for p in (root / "inputs").glob("*.in")):
         if name not in (root / "inputs/README.md").read_text() and not re.match(r"fault_\d+\.in", name):
             problem(f"inputs/README.md: no {name}")
-
-
-# Page: sources with its keywords, words in them that are no keywords of the page, and where the defaults are
-RUPTURES = "history slipping driving interval gap pause modulus quiet unfinished".split()
-STYLES = {
-    "create_lsm_fault": (["create_lsm_fault.cpp"], ["spacing"], ["core/lsm_packing.h"],
-                         {"failures": "max_failures", "linkgap": "link_gap", "faultzone": "fault_zone"}),
-    "fix_lsm_nve": (["fix_lsm_nve.cpp"], ["error", "warn", "off"], [], {}),
-    "fix_lsm_plates": (["fix_lsm_plates.cpp"], [], [], {}),
-    "fix_lsm_leap": (["fix_lsm_leap.cpp"], [], ["LSM/fix_lsm_leap.h"], {"settle": "viscosity", "look": "between"}),
-    "compute_lsm_events": (["support/lsm_event_options.cpp", "../core/events/pe_drops.h"], RUPTURES,
-                           ["core/events/event_kind.h", "core/events/pe_drops.h", "LSM/support/lsm_event_options.h", "core/lsm_watchdog.h",
-                            "core/lsm_event_picker.h"],
-                           {"stride": "series_stride", "bin": "bin_width", "strainlimit": "strain_limit", "check": "every",
-                            "minsize": "min_size"}),
-    "compute_lsm_events_ruptures": (["support/lsm_event_options.cpp", "../core/events/ruptures.h"], ["events", "picker", "lambda", "memory"],
-                                    ["core/events/event_kind.h", "core/events/ruptures.h"], {"bin": "bin_width"}),
-    "check_restart": (["check_restart.cpp"], [], [], {}),
-    "check_variable": (["check_variable.cpp"], ["among"], [], {}),
-}
-
-
-def check_styles(root):
-    package = root / "lammps-pkg"
-    for page, (sources, others, headers, members) in STYLES.items():
-        text = (package / f"doc/{page}.rst").read_text()
-        code = "".join((package / "LSM" / source).read_text() for source in sources)
-        keywords = set(re.findall(r'(?:key|keyword|kind|in\.key\(\)) [=!]= "([a-z/0-9]+)"', code))
-        keywords |= set(re.findall(r'strcmp\(arg\[\w+\], "([a-z/]+)"\) == 0', code))
-        keywords |= set(re.findall(r'\{"([a-z/]+)", (?:&[\w.]+(?:, Must::\w+(?:, &\w+)?)?\}|(?:LSM::)?(?:Words|Action)\{)', code))
-        keywords -= set(others)
-        said = set(re.findall(r"^       \*([a-z/]+)\* (?:value|=)", text, re.M)) | set(re.findall(r"^       \*([a-z/]+)\* values", text, re.M))
-        assert len(keywords) > 1, (page, keywords)
-        for keyword in sorted(keywords):
-            if f"*{keyword}*" not in text.split("Examples\n")[0] and f" {keyword} " not in text.split("Examples\n")[0]:
-                problem(f"{page}.rst: no keyword {keyword}")
-        for keyword in sorted(said - keywords - set(others)):
-            if f'"{keyword}"' not in code:
-                problem(f"{page}.rst: keyword {keyword} is unknown to {', '.join(sources)}")
-        heads = "".join((package / header).read_text() for header in headers)
-        default = text.split('Default\n"""""""')[-1].split("----------")[0]
-        for keyword, number in re.findall(r"([a-z]+)\s+=\s+([-+.0-9e]*[0-9])\b", default):
-            member = members.get(keyword, keyword)
-            found = re.search(r"\b%s(?:_time)?(?:\{| = |\()([-+.0-9e]+)" % member, heads)
-            if not found and page not in ("fix_lsm_nve", "fix_lsm_plates", "create_lsm_fault"):
-                problem(f"{page}.rst: no default of {keyword} in {', '.join(headers)}")
-            if found and float(found[1]) != float(number):
-                problem(f"{page}.rst: {keyword} = {number}, {', '.join(headers)} have {found[1]}")
-    for page in sorted((package / "doc").glob("*.rst")):
-        if page.stem != "index" and f"   {page.stem}\n" not in (package / "doc/index.rst").read_text():
-            problem(f"index.rst: no {page.stem}")
-        if page.stem != "index" and "   # Complete input: " not in page.read_text():
-            problem(f"{page.name}: no complete input")
 
 
 def folded(line):
     """A line of a help text in at most 100 columns."""
     start = re.match(r" *", line)[0]
     later = " " * 34 if re.match(r"  \S.*?  ", line) or len(start) > 20 else start
-    return "\n".join(textwrap.wrap(line.strip(), 100, initial_indent=start, subsequent_indent=later, break_long_words=False,
-                                   break_on_hyphens=False) or [""]) if len(line) > 100 else line
+    return "\n".join(
+        textwrap.wrap(line.strip(), 100, initial_indent=start, subsequent_indent=later, break_long_words=False, break_on_hyphens=False) or
+        [""]) if len(line) > 100 else line
 
 
 def help_page(program):
     """All options of a program, as its --help prints them."""
+
     def ask(*words):
         said = subprocess.run([program, *words, "--help"], capture_output=True, text=True, check=True).stdout.strip("\n")
         return "\n".join(folded(line.rstrip()) for line in said.splitlines())
+
     name = Path(program).name
     first = ask()
     parts = [f"# Options of {name}\n\nAs printed by `--help`; a test compares.\n\n```\n{first}\n```"]
@@ -203,8 +162,7 @@ def main(root, programs, write):
     check_markdown(root)
     check_comments(root)
     check_scenes(root)
-    check_variables(root)
-    check_styles(root)
+    check_variables(root, write)
     print("\n".join(PROBLEMS) or "the documents agree with the programs")
     return bool(PROBLEMS)
 

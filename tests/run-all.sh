@@ -8,11 +8,13 @@ root=$(cd "$(dirname "$0")/.." && pwd)
 build=${LSM_BUILD_DIR:-$root/build}
 
 . "$root/lammps-pkg/cmake/debian-packages.sh"
-install_debian_packages $lammps_packages $plot_packages $postproc_packages libgtest-dev libgmock-dev \
-  libbenchmark-dev help2man python3-sphinx python3-pandas clang-format file strace chromium chromium-driver python3-selenium \
+install_debian_packages $lammps_packages $plot_packages $postproc_packages $test_packages \
+  libbenchmark-dev help2man python3-sphinx clang-format yapf3 shfmt shellcheck file strace chromium chromium-driver python3-selenium \
   snakemake slurm-wlm munge
 
+need_programs cmake ninja c++ mpirun gnuplot python3
+# All ways of using the package need a LAMMPS of our own.
 cmake -S "$root" -B "$build" -G Ninja -DLSM_BUILD_LAMMPS=ON -DLSM_BUILD_SLIDER=ON -DLSM_BUILD_POSTPROC=ON \
-  -DLSM_BUILD_TESTS=ON
+  -DLSM_BUILD_TESTS=ON -DLSM_LAMMPS_LIBRARY=
 cmake --build "$build"
 exec ctest --test-dir "$build" --output-on-failure --no-tests=error -j "$(nproc)" "$@"

@@ -24,9 +24,10 @@ from pathlib import Path
 
 MEMORIES = (0.2, 0.35, 0.5, 0.7, 1, 1.4, 2, 5)  # time units; 0.99 a step is a memory of 100 steps: time steps of 0.002 to 0.05
 LOADING = 4500  # time units that are left out: compression, and PE rising for the first time
-SETTINGS = {"length": "120", "seed": "1", "stress": "0.02", "viscosity": "0.015", "damped": "blocks", "contacts": "fault",
-            "mus": "0.6", "kt": "1", "mass": "r2", "hold": "stress", "impedance": "0.6", "loose": "remove", "linkgap": "1e-5",
-            "retardation": "0", "dt": "0.12", "steps": ""}
+SETTINGS = {
+    "length": "120", "seed": "1", "stress": "0.02", "viscosity": "0.015", "damped": "blocks", "contacts": "fault", "mus": "0.6", "kt": "1",
+    "mass": "r2", "hold": "stress", "impedance": "0.6", "loose": "remove", "linkgap": "1e-5", "retardation": "0", "dt": "0.12", "steps": ""
+}
 RANGES = ("1e-4:1e-1", "1e-4:1e-3", "1e-3:1e-2", "1e-2:1e-1")
 WINDOWS = ("16:22", "22:28", "30:36", "38:44")
 WAVE_SPEED = {"r2": 2.08, "r3": 2.53}  # of P-waves in the packing, see p_wave_packing.in
@@ -62,20 +63,16 @@ def memories(row):
 
 # name, what is printed (or ours), value of a row, its deviation, tolerance
 STATEMENTS = (
-    ("exponent", "sizes go as s^-1.07 from 1e-4 over three decades", lambda r: number(r, "exponent_1e-4:1e-1"),
-     lambda v: abs(v - 1.07), 0.07),
+    ("exponent", "sizes go as s^-1.07 from 1e-4 over three decades", lambda r: number(r, "exponent_1e-4:1e-1"), lambda v: abs(v - 1.07), 0.07),
     ("decades", "so in each of these decades (no second population)", decades, abs, 0.3),
-    ("gamma", "inter-event times >= 1e-4: gamma 0.995, delta 1", lambda r: number(r, "gamma_0.0001"),
-     lambda v: abs(v - 0.995), 0.1),
-    ("rate", "3000 to 8000 events in 1e7 to 3e7 steps, a memory being 100 steps: 12.5 to 100 memories from one to the next",
-     memories, lambda v: outside(math.log(v), math.log(12.5), math.log(100)), 0.3),
-    ("stick-slip", "PE rises while the fault is locked: it falls in less than a third of the time",
-     lambda r: number(r, "in_events"), lambda v: outside(v, 0.0, 0.33), 0.03),
+    ("gamma", "inter-event times >= 1e-4: gamma 0.995, delta 1", lambda r: number(r, "gamma_0.0001"), lambda v: abs(v - 0.995), 0.1),
+    ("rate", "3000 to 8000 events in 1e7 to 3e7 steps, a memory being 100 steps: 12.5 to 100 memories from one to the next", memories,
+     lambda v: outside(math.log(v), math.log(12.5), math.log(100)), 0.3),
+    ("stick-slip", "PE rises while the fault is locked: it falls in less than a third of the time", lambda r: number(r, "in_events"),
+     lambda v: outside(v, 0.0, 0.33), 0.03),
     ("waves", "P-waves run at 2.1", lambda r: WAVE_SPEED[r["mass"]], lambda v: abs(v - 2.12), 0.1),
-    ("steps", "events are resolved (ours): at most 2 % last 3 steps or less", lambda r: number(r, "brief"),
-     lambda v: outside(v, 0.0, 0.02), 0.02),
-    ("swings", "events are slip (ours): few times are a swing of the blocks between the plates", swings,
-     lambda v: outside(v, 0.0, 0.02), 0.03),
+    ("steps", "events are resolved (ours): at most 2 % last 3 steps or less", lambda r: number(r, "brief"), lambda v: outside(v, 0.0, 0.02), 0.02),
+    ("swings", "events are slip (ours): few times are a swing of the blocks between the plates", swings, lambda v: outside(v, 0.0, 0.02), 0.03),
 )
 
 
@@ -102,15 +99,13 @@ def read(path):
 
 # Of the block-slider; each is asked at each of the five lengths.
 SLIDER_STATEMENTS = (
-    ("events", "3000 to 5000 in 1e7 steps", lambda r: number(r, "events"),
-     lambda v: outside(math.log(v), math.log(3000), math.log(5000)), 0.3),
+    ("events", "3000 to 5000 in 1e7 steps", lambda r: number(r, "events"), lambda v: outside(math.log(v), math.log(3000), math.log(5000)), 0.3),
     ("small", "exponent 0.5 below size 1", lambda r: number(r, "exponent_1e-2:1"), lambda v: abs(v - 0.5), 0.1),
     ("large", "exponent 1.0 above", lambda r: number(r, "exponent_1:1e2"), lambda v: abs(v - 1.0), 0.1),
     ("gamma", "0.0", lambda r: number(r, "gamma"), abs, 0.1),
     ("B", "100 (a factor of 2)", lambda r: number(r, "B"), lambda v: abs(math.log(v / 100)), math.log(2)),
     ("C", "0.25", lambda r: number(r, "C"), lambda v: abs(v - 0.25), 0.05),
 )
-
 
 # ---- collect
 
@@ -119,7 +114,7 @@ def summary(postproc, folder, memory, work):
     picked = work / "picked.csv"
     common = dict(check=True, capture_output=True, text=True)
     series = next(folder.glob("*.pe.bin"))
-    subprocess.run([postproc, "pick", series, "-o", picked, "--force", "--memory-time", str(memory)], **common)
+    subprocess.run([postproc, "pick", series, "-o", picked, "--overwrite", "--memory-time", str(memory)], **common)
     words = [word for text in RANGES for word in ("--range", text)] + [word for text in WINDOWS for word in ("--window", text)]
     said = subprocess.run([postproc, "summary", picked, "--from", str(LOADING), *words], **common).stdout
     return next(csv.DictReader(line for line in said.splitlines() if not line.startswith("#")))
@@ -159,14 +154,17 @@ def collect_sliders(binaries, output, folders):
         words = dict(line.split("=", 1) for line in (folder / "settings.txt").read_text().split("\n") if "=" in line)
         settings = {key: words.get(key, "") for key in ("blocks", "scheme", "dt", "picker", "picker-lambda", "picker-memory-time")}
         for warmup in SLIDER_WARMUPS:
-            said = subprocess.run([Path(binaries) / "postproc", "summary", folder / "catalogue.csv", "--from", str(warmup), "--method",
-                                   "least-squares", "--range", "1e-2:1", "--range", "1:1e2", "--threshold", *SLIDER_SIZES],
-                                  check=True, capture_output=True, text=True).stdout
+            said = subprocess.run([
+                Path(binaries) / "postproc", "summary", folder / "catalogue.csv", "--from",
+                str(warmup), "--method", "least-squares", "--range", "1e-2:1", "--range", "1:1e2", "--threshold", *SLIDER_SIZES
+            ], check=True, capture_output=True, text=True).stdout
             numbers = next(csv.DictReader(line for line in said.splitlines() if not line.startswith("#")))
             for size in SLIDER_SIZES:
                 own = {key: numbers[f"{key}_{size}"] for key in ("events", "mean_time", "gamma", "gamma_error", "B", "C")}
-                rows.append({**settings, "warmup": str(warmup), "smallest": size, "exponent_1e-2:1": numbers["exponent_1e-2:1"],
-                             "exponent_1:1e2": numbers["exponent_1:1e2"], **own})
+                rows.append({
+                    **settings, "warmup": str(warmup), "smallest": size, "exponent_1e-2:1": numbers["exponent_1e-2:1"],
+                    "exponent_1:1e2": numbers["exponent_1:1e2"], **own
+                })
     write(output, "# One row for each run, smallest size of the events and warm-up; 1e7 steps each", rows)
 
 
@@ -221,6 +219,7 @@ def pairs_table(path):
 
     def both(i, j):
         return str(len({row["point"] for row in rows if max(deviations(row)[i], deviations(row)[j]) <= 1.0}))
+
     return table([""] + [name for _, name in shown], [[name] + [both(i, j) for j, _ in shown] for i, name in shown])
 
 
@@ -237,10 +236,10 @@ def accepted_table(path):
     keys = ("point", "seed", "stress", "viscosity", "contacts", "mus", "kt", "hold", "impedance", "loose", "memory")
     shown = [(name, value) for name, _, value, _, _ in STATEMENTS if name != "waves"]
     head = [*keys, *(name for name, _ in shown), "gamma >= 1e-3", "1e-2", "mean time", "largest", "distance"]
-    return table(head, [[row[key] for key in keys] + [f"{value(row):.2f}" for _, value in shown] +
-                        [f"{number(row, 'gamma_0.001'):.2f}", f"{number(row, 'gamma_0.01'):.2f}",
-                         f"{number(row, 'mean_time_0.0001'):.0f}", f"{number(row, 'largest'):.2f}", f"{distance(row):.2f}"]
-                        for row in accepted])
+    return table(head, [[row[key] for key in keys] + [f"{value(row):.2f}" for _, value in shown] + [
+        f"{number(row, 'gamma_0.001'):.2f}", f"{number(row, 'gamma_0.01'):.2f}", f"{number(row, 'mean_time_0.0001'):.0f}",
+        f"{number(row, 'largest'):.2f}", f"{distance(row):.2f}"
+    ] for row in accepted])
 
 
 def ringing_table(path):
@@ -268,8 +267,10 @@ def lines_table(path):
     out = []
     for row in sorted(chosen, key=lambda row: row["point"]):
         other = [f"{key} {row[key]}" for key in keys if row[key] != default[key]]
-        out.append([", ".join(other) or "the default, packing 1", *(f"{of(row):.2f}" for _, of in shown), f"{number(row, 'gamma_0.001'):.2f}",
-                    f"{number(row, 'largest'):.2f}", f"{distance(row):.2f}"])
+        out.append([
+            ", ".join(other) or "the default, packing 1", *(f"{of(row):.2f}" for _, of in shown), f"{number(row, 'gamma_0.001'):.2f}",
+            f"{number(row, 'largest'):.2f}", f"{distance(row):.2f}"
+        ])
     return table(["", *(name for name, _ in shown), "gamma >= 1e-3", "largest", "distance"], out)
 
 
@@ -283,8 +284,10 @@ def twice_table(path):
         if row["memory"] != first["memory"]:
             continue
         for one in (first, row):
-            out.append([first["point"], one["length"], one["memory"], *(f"{of(one):.2f}" for _, of in shown),
-                        f"{number(one, 'gamma_0.001'):.2f}", f"{number(one, 'largest'):.2f}", f"{distance(one):.2f}"])
+            out.append([
+                first["point"], one["length"], one["memory"], *(f"{of(one):.2f}" for _, of in shown), f"{number(one, 'gamma_0.001'):.2f}",
+                f"{number(one, 'largest'):.2f}", f"{distance(one):.2f}"
+            ])
     return table(["point", "length", "memory", *(name for name, _ in shown), "gamma >= 1e-3", "largest", "distance"], out)
 
 
@@ -295,8 +298,9 @@ def figure(path, base):
     def block(x, y, which):
         lines = [f"{x(row):.6g} {y(row):.6g}" for row in ordered if (row["point"] in taken) == which]
         return "\n".join(lines or ["nan nan"]) + "\ne\n"
-    panels = [("exponent, 1e-4 to 0.1", "gamma >= 1e-4", lambda r: number(r, "exponent_1e-4:1e-1"),
-               lambda r: number(r, "gamma_0.0001"), "unset logscale; set xrange [0.4:2.4]; set yrange [0:2]; "
+
+    panels = [("exponent, 1e-4 to 0.1", "gamma >= 1e-4", lambda r: number(r, "exponent_1e-4:1e-1"), lambda r: number(r, "gamma_0.0001"),
+               "unset logscale; set xrange [0.4:2.4]; set yrange [0:2]; "
                "set object 1 rect from 1.0,0.895 to 1.14,1.095 fs empty border rgb 'black' lw 2")]
     for key, label in (("stress", "normal stress"), ("viscosity", "viscosity"), ("kt", "tangential stiffness"),
                        ("impedance", "impedance of the plates"), ("memory", "memory of the picker")):
@@ -310,8 +314,10 @@ def figure(path, base):
         script += "plot '-' w p pt 6 ps 0.6 lc rgb '#999999', '-' w p pt 7 ps 1 lc rgb '#d55e00'\n"
         script += block(fx, fy, False) + block(fx, fy, True)
     script += "unset multiplot\n"
-    heads = [f"set terminal pngcairo size 1500,900 font 'DejaVu Sans,13'\nset output '{base}.png'\n",
-             f"set terminal svg size 1000,600 font 'DejaVu Sans,11'\nset output '{base}.svg'\n"]
+    heads = [
+        f"set terminal pngcairo size 1500,900 font 'DejaVu Sans,13'\nset output '{base}.png'\n",
+        f"set terminal svg size 1000,600 font 'DejaVu Sans,11'\nset output '{base}.svg'\n"
+    ]
     subprocess.run(["gnuplot"], input="".join(head + script + "unset output\nreset\n" for head in heads), text=True, check=True)
 
 
@@ -327,7 +333,7 @@ def slider_table(path):
         groups.setdefault(key, []).append(row)
 
     def mean(key):
-        return math.sqrt(sum(distance(row, SLIDER_STATEMENTS) ** 2 for row in groups[key]) / len(groups[key]))
+        return math.sqrt(sum(distance(row, SLIDER_STATEMENTS)**2 for row in groups[key]) / len(groups[key]))
 
     def cells(key):
         rows = sorted(groups[key], key=lambda row: int(row["blocks"]))
@@ -337,12 +343,12 @@ def slider_table(path):
             out.append(", ".join("-" if math.isnan(value(row)) else short(value(row)) for row in rows))
         met = sum(z <= 1.0 for row in rows for z in deviations(row, SLIDER_STATEMENTS))
         return out + [f"{met} of {len(rows) * len(SLIDER_STATEMENTS)}", f"{mean(key):.2f}"]
+
     best = {}
     for key in sorted(groups, key=mean):
         best.setdefault(key[:2], key)
     keys = [key for key in best.values() if float(key[1]) >= 0.005]  # shorter ones see the loading only
-    head = ["scheme", "dt", "reading", "warm-up", "smallest", *(f"{name}: {text}" for name, text, *_ in SLIDER_STATEMENTS), "met",
-            "distance"]
+    head = ["scheme", "dt", "reading", "warm-up", "smallest", *(f"{name}: {text}" for name, text, *_ in SLIDER_STATEMENTS), "met", "distance"]
     return table(head, map(cells, keys))
 
 

@@ -12,7 +12,8 @@ class RunProgress:
 
     def __init__(self, run):
         self.run, self.events, self.seen = run, 0, 0
-        self.steps = float(run.settings.get("steps") or 1.2e6)
+        time = float(run.settings.get("time") or 0)
+        self.steps = float(run.settings.get("steps") or time / float(run.settings.get("dt") or 0.05) or 1.2e6)
         # estimated core seconds: 65 discs for a unit of length, 44 million steps of a disc in a second; a chain likewise
         # ESyS-Particle takes 30 times as long
         size = float(run.settings.get("blocks" if run.program == "slider" else "length", 120))

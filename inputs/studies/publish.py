@@ -2,17 +2,22 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Publishes catalogues in results: compressed and, as their header says, without the smallest events.
 
-publish.py [--ruptures SIZE] OUT FOLDER...
-
-OUT/NAME.catalogue.csv.xz has the events >= 1e-4 of each folder NAME of a study of faults,
-OUT/NAME.ruptures.csv.xz the ruptures >= SIZE (1e-3) if there are any. The header of a long fault has the size from
-which it is complete, which is larger than that in fault.in.
+OUT/NAME.catalogue.csv.xz has the events >= 1e-4 of each folder NAME of a study of faults, all of sliders; with --events those of
+this size. OUT/NAME.ruptures.csv.xz has the ruptures of faults that recorded them. The header of a long fault has the size from
+which it is complete, which is larger than that in fault.in. With --statements OUT/statements.csv has what the paper says in words
+about its fault, run by run, from all ruptures and the slip histories, which are not published.
 """
+import argparse
+import csv
+import json
 import lzma
+import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 EVENTS, RUPTURES = 1e-4, 1e-3
+LOADING = 4500  # time units that are left out of statements: compression, and PE rising for the first time
 # Length of a fault, and size from which the number of its events does not depend on the steps of the picker: results/calibration-tables.md
 COMPLETE = ((900, "1e-3"), (480, "3e-4"))
 
@@ -29,7 +34,7 @@ def publish(source, out, least=EVENTS):
     """A catalogue without events smaller than `least`; all other lines are unchanged."""
     kept, length = [], 0.0
     for line in Path(source).read_text().splitlines(keepends=True):
-        if line.startswith("# min_size = "):
+        if line.startswith("# min_size = ") and least > 0:
             line = f"# min_size = {least:g}\n# thinned = sizes below {least:g} left out\n"
         elif line.startswith("# length = "):
             length = float(line.split("=")[1])
@@ -38,21 +43,64 @@ def publish(source, out, least=EVENTS):
         elif line[0] not in "#e" and float(line.split(",")[5]) < least:
             continue
         kept.append(line)
-    Path(out).write_bytes(lzma.compress("".join(kept).encode(), preset=9))
+    new = Path(f"{out}.new")
+    new.write_bytes(lzma.compress("".join(kept).encode(), preset=9))
+    new.replace(out)
 
 
-def main(out, folders, ruptures=RUPTURES):
+class Refused(Exception):
+    pass
+
+
+def catalogue_of(folder):
+    """\\raises Refused unless the folder has a catalogue, and the study has done its run"""
+    done = folder / "done.json"
+    if (folder / "settings.txt").exists() and not done.exists():
+        raise Refused(f"{folder}: not done yet, expected a run that has come to its end")
+    if done.exists() and "failed" in json.loads(done.read_text()):
+        raise Refused(f"{folder}: {json.loads(done.read_text())['failed']}, expected a run that has come to its end")
+    for name in ("fault.catalogue.csv", "catalogue.csv"):
+        if (folder / name).is_file():
+            return folder / name
+    raise Refused(f"{folder}: no catalogue, expected the folder of a run of a study")
+
+
+def statements_of(postproc, catalogue):
+    """Rows of postproc statements, of one run."""
+    with tempfile.TemporaryDirectory() as work, open(catalogue) as lines:
+        header = dict(line[2:].rstrip("\n").split(" = ", 1) for line in lines if line[0] == "#" and " = " in line)
+        said = subprocess.run([postproc, "statements", catalogue, "--from",
+                               str(LOADING), "-o", f"{work}/out", "--json", f"{work}/out.json"], capture_output=True, text=True)
+        if said.returncode:
+            raise Refused(said.stderr.strip())
+        rows = json.loads(Path(f"{work}/out.json").read_text())["statements"]
+    return [{"run": catalogue.parent.name, "length": header["length"], "seed": header["seed"], **row} for row in rows]
+
+
+def main(out, folders, events=None, ruptures=RUPTURES, statements=None):
+    catalogues = [catalogue_of(Path(folder)) for folder in folders]
+    rows = [row for source in catalogues if statements and source.name.startswith("fault") for row in statements_of(statements, source)]
     Path(out).mkdir(parents=True, exist_ok=True)
-    for folder in map(Path, folders):
-        publish(folder / "fault.catalogue.csv", Path(out) / f"{folder.name}.catalogue.csv.xz")
-        if (folder / "fault.ruptures.csv").exists():
-            publish(folder / "fault.ruptures.csv", Path(out) / f"{folder.name}.ruptures.csv.xz", ruptures)
+    for source in catalogues:
+        least = events if events is not None else EVENTS if source.name.startswith("fault") else 0.0
+        publish(source, Path(out) / f"{source.parent.name}.catalogue.csv.xz", least)
+        if (source.parent / "fault.ruptures.csv").exists():
+            publish(source.parent / "fault.ruptures.csv", Path(out) / f"{source.parent.name}.ruptures.csv.xz", ruptures)
+    if rows:
+        with open(Path(out) / "statements.csv", "w", newline="") as file:
+            table = csv.DictWriter(file, rows[0], lineterminator="\n")
+            table.writeheader()
+            table.writerows(rows)
 
 
 if __name__ == "__main__":
-    words, least = sys.argv[1:], RUPTURES
-    if words[:1] == ["--ruptures"] and len(words) > 1:
-        words, least = words[2:], float(words[1])
-    if len(words) < 2:
-        sys.exit(__doc__)
-    main(words[0], words[1:], least)
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--events", type=float, metavar="SIZE", help="smallest event (1e-4; sliders: all)")
+    parser.add_argument("--ruptures", type=float, metavar="SIZE", default=RUPTURES, help="smallest rupture (%(default)s)")
+    parser.add_argument("--statements", metavar="POSTPROC", help="the program that measures them")
+    parser.add_argument("out", metavar="OUT", type=Path)
+    parser.add_argument("folders", metavar="FOLDER", type=Path, nargs="+")
+    try:
+        main(**vars(parser.parse_args()))
+    except (Refused, OSError) as error:
+        sys.exit(f"publish.py: {error}")

@@ -5,7 +5,7 @@ set datafile columnheaders
 set encoding utf8
 if (!exists("table")) { table = "table.csv" }
 # a study's table has the settings of each run, the published one those that differ from the grid
-grid(setting) = setting eq "choices=first" || setting eq "dt=0.06 massfloor=0"
+grid(setting) = setting eq "" || setting eq "dt=0.06 massfloor=0"
 others = system("grep -q ',others,' ".table." && echo others || echo settings")
 stats table using (column("stress")) nooutput
 least = STATS_min

@@ -1,21 +1,37 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A study: its table of runs (NAME.csv) and its recipe (NAME.yaml beside it, or default.yaml)."""
+"""A study: its table of runs (NAME.csv) and its recipe (NAME.yaml beside it, or default.yaml).
+
+studies.py CONFIG NAME OUT.csv    writes one of its tables: table, costs, differences, or a stack of the recipe
+"""
+import ast
+import builtins
 import csv
+import difflib
+import io
 import itertools
 import json
 import math
 import re
 import shlex
 import shutil
+import subprocess
+import sys
 from pathlib import Path
 
 import yaml
 
 INPUTS = Path(__file__).resolve().parent.parent
-PROGRAMS = ("fault", "slider", "esys", "catalogue")  # esys: a fault by ESyS-Particle; catalogue: an existing one, see `file`
+sys.path.insert(0, str(INPUTS))
+from run import PROGRAMS, begun_otherwise, replace  # noqa: E402
+
 RESERVED = ("run", "program", "ranks", "settings")
 # what an expression raises if a run lacks its numbers
 MISSING = (AttributeError, IndexError, KeyError, NameError, TypeError, ValueError, ZeroDivisionError)
+# Parts of a recipe
+MAPS = ("numbers", "comparisons", "table", "costs", "means", "differences", "stacks", "values", "figures", "pages")
+PARTS = (*MAPS, "reference", "drawings", "like")
+# What NAME=VALUE after the table may be, see config.yaml: whole numbers, or others; "" stands for none
+WHOLE, POSITIVE = ("ranks", "seeds", "checkpoint"), ("hours", "shorten", "minutes")
 
 
 class TableError(Exception):
@@ -33,17 +49,68 @@ def read_json(path):
     return json.loads(Path(path).read_text(), object_hook=Found)
 
 
+def with_defaults(config):
+    """The settings of a study. \\raises TableError for a name that config.yaml does not have, or a value that it cannot be"""
+    known = yaml.safe_load((INPUTS / "studies/config.yaml").read_text())
+    for name, value in config.items():
+        if name in ("table", "bin"):
+            continue
+        if name not in known:
+            raise TableError(f"'{name}={value}', expected one of {', '.join(known)}")
+        text = "" if value is None else str(value)
+        if name in WHOLE and not re.fullmatch(r"[1-9]\d*" if known[name] else r"([1-9]\d*)?", text):
+            raise TableError(f"'{name}={text}', expected a whole number above 0")
+        if name in POSITIVE and not positive(text):
+            raise TableError(f"'{name}={text}', expected a number above 0")
+    pattern(config.get("only"), "only")
+    return {**known, **config}
+
+
+def positive(text):
+    try:
+        return 0 < float(text) < math.inf
+    except ValueError:
+        return False
+
+
+def pattern(text, where):
+    """\\raises TableError unless this is a regular expression"""
+    try:
+        return re.compile("" if text is None else str(text))
+    except re.error as error:
+        raise TableError(f"{where} '{text}', expected a regular expression ({error})")
+
+
+def text_of(path, what):
+    """\\raises TableError naming file and line of what is not UTF-8"""
+    try:
+        raw = Path(path).read_bytes()
+    except OSError as error:
+        raise TableError(f"cannot read {path}, expected {what} ({error.strerror})")
+    try:
+        return raw.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise TableError(f"{path}:{raw[:error.start].count(10) + 1}: not UTF-8, expected {what} in UTF-8")
+
+
 class Run:
+
     def __init__(self, name, row, config):
         self.name, self.row, self.program = name, row, row["program"]
         self.settings = settings_of(row, config)
-        ranks = row.get("ranks") or config.get("ranks")
+        given = row.get("ranks") or (config.get("ranks") if self.program == "fault" else "")
+        if row.get("ranks") and self.program != "fault":
+            raise TableError(f"ranks '{given}' of program '{self.program}', expected them for faults only")
+        if given and not re.fullmatch(r"[1-9]\d*", str(given)):
+            raise TableError(f"ranks '{given}', expected a whole number above 0")
+        # On fewer cores a fault gets fewer ranks, unless they are given.
+        self.ranks_given = bool(given)
         length = float(self.settings.get("length", 120)) if self.program == "fault" else 0
-        self.ranks = int(ranks) if ranks else max(1, int(length / 60))
+        self.ranks = int(given) if given else max(1, int(length / 60))
         if self.program == "esys":
             self.ranks = 2  # one process computes, one directs it
         self.words = [f"{key}={value}" for key, value in self.settings.items()]
-        self.catalogue = f"{name}/" + ("catalogue.csv" if self.program in ("slider", "catalogue") else "fault.catalogue.csv")
+        self.catalogue = f"{name}/{PROGRAMS[self.program].catalogue}"
 
     def values(self):
         """Settings, as numbers where possible."""
@@ -61,8 +128,13 @@ def cell_values(column, cell, config):
     values = []
     for word in shlex.split(cell):
         seeds = re.fullmatch(r"(\d+)-(\d+)", word) if column == "seed" else None
-        last = seeds and int(config.get("seeds") or seeds[2])
-        values += [str(n) for n in range(int(seeds[1]), last + 1)] if seeds else [word]
+        if not seeds:
+            values.append(word)
+            continue
+        first, last = int(seeds[1]), int(seeds[2])
+        if last < first:
+            raise TableError(f"seed '{word}', expected the smaller one first")
+        values += [str(n) for n in range(first, first + int(config["seeds"]) if config.get("seeds") else last + 1)]
     return values or [""]
 
 
@@ -73,10 +145,19 @@ def settings_of(row, config):
         key, equals, value = word.partition("=")
         if not (key and equals and value):
             raise TableError(f"settings '{word}', expected NAME=VALUE")
+        if key in pairs or key in RESERVED:
+            raise TableError(f"settings '{word}', but " + (f"there is {key}={pairs[key]} already" if key in pairs else f"{key} is a column"))
         pairs[key] = value
+    if row["program"] == "catalogue":
+        return pairs
+    shorten = float(config.get("shorten") or 1)
+    if shorten != 1 and not {"steps", "time"} & pairs.keys():
+        raise TableError(f"shorten={shorten:g}, but the line has neither steps nor time")
     for key in ("steps", "time"):
         if key in pairs:
-            value = float(pairs[key]) / float(config.get("shorten") or 1)
+            if not positive(pairs[key]):
+                raise TableError(f"{key} '{pairs[key]}', expected a number above 0")
+            value = float(pairs[key]) / shorten
             pairs[key] = f"{value:.0f}" if key == "steps" else f"{value:g}"
     return pairs
 
@@ -84,48 +165,57 @@ def settings_of(row, config):
 def runs_of_row(row, config):
     """A Run for each combination of the values of one line."""
     if row["program"] not in PROGRAMS:
-        raise TableError(f"program '{row['program']}', expected {', '.join(PROGRAMS[:-1])} or {PROGRAMS[-1]}")
+        *others, last = PROGRAMS
+        raise TableError(f"program '{row['program']}', expected {', '.join(others)} or {last}")
     columns = [key for key in row if key not in ("run", "settings")]
     for values in itertools.product(*(cell_values(key, row[key], config) for key in columns)):
         one = dict(zip(columns, values), settings=row.get("settings", ""))
         own = [f"{key}-{one[key]}" for key in columns if one[key] and key not in RESERVED] + shlex.split(one["settings"])
         try:
             name = row["run"].format(**one) if row.get("run") else "_".join([one["program"]] + [re.sub(r"[=\s]+", "-", word) for word in own])
-        except (KeyError, ValueError, IndexError) as error:
+        except (AttributeError, KeyError, ValueError, IndexError) as error:
             raise TableError(f"run '{row['run']}', expected a name with columns in braces (not {error})")
+        here = Path(config["table"]).resolve().parent
         if one.get("file"):
-            one["file"] = one["file"].format(**one)
-        if not re.fullmatch(r"\w[\w.+-]*", name):
+            one["file"] = str(here / one["file"].format(**one))
+        one = {key: value.replace("{here}", str(here)) for key, value in one.items()}
+        if not re.fullmatch(r"\w[\w.+-]*", name, re.ASCII):
             raise TableError(f"run '{name}', expected letters, digits, '.', '_', '+' and '-'")
         yield Run(name, one, config)
 
 
 def read_runs(path, config):
     """All runs of a table by name. \\raises TableError naming file and line"""
-    try:
-        lines = [(n, line) for n, line in enumerate(Path(path).read_text().splitlines(), 1) if line.strip() and line[0] != "#"]
-    except OSError as error:
-        raise TableError(f"cannot read {path}, expected a table of runs ({error.strerror})")
+    config = dict(config, table=path)
+    lines = [(n, line) for n, line in enumerate(text_of(path, "a table of runs").splitlines(), 1) if line.strip() and line[0] != "#"]
     if not lines:
         raise TableError(f"{path}: empty, expected a table of runs")
     header, runs = [name.strip() for name in next(csv.reader([lines[0][1]]))], {}
-    if "program" not in header:
-        raise TableError(f"{path}:{lines[0][0]}: no column 'program', expected one")
+    for wrong, said in ((len(set(header)) < len(header), f"column '{max(header, key=header.count)}' twice, expected once"),
+                        ("" in header, "a column without a name, expected one"), ("program" not in header, "no column 'program', expected one")):
+        if wrong:
+            raise TableError(f"{path}:{lines[0][0]}: {said}")
     for number, line in lines[1:]:
-        cells = next(csv.reader([line]))
         try:
+            cells = next(csv.reader([line], strict=True))
             if len(cells) != len(header):
                 raise TableError(f"{len(cells)} cells, expected {len(header)} as in the first line")
             for run in runs_of_row({key: cell.strip() for key, cell in zip(header, cells)}, config):
                 if run.name in runs:
                     raise TableError(f"there is a run '{run.name}' already, expected another name")
+                run.place = f"{path}:{number}"
                 runs[run.name] = run
-        except (TableError, ValueError) as error:
+        except (TableError, ValueError, csv.Error) as error:
             raise TableError(f"{path}:{number}: {error}")
-    wanted = {name: run for name, run in runs.items() if re.search(str(config.get("only") or ""), name)}
+    wanted = {name: run for name, run in runs.items() if pattern(config.get("only"), "only").search(name)}
     if not wanted:
-        raise TableError(f"{path}: no run whose name matches '{config.get('only')}'")
+        raise TableError(f"{path}: no run" + (f" whose name matches '{config['only']}'" if config.get("only") else ", expected one at least"))
     return wanted
+
+
+def meant(name, known):
+    close = difflib.get_close_matches(name, known, 1)
+    return f" (did you mean {close[0]}?)" if close else ""
 
 
 def mean_and_error(numbers):
@@ -140,15 +230,106 @@ def mean_and_error(numbers):
 
 
 class Study:
+
     def __init__(self, config):
         table = Path(config["table"])
+        self.binaries = config["bin"]
         self.runs = read_runs(table, config)
-        recipe = table.with_suffix(".yaml")
-        default = Path(__file__).with_name("default.yaml")
-        self.recipe = yaml.safe_load((recipe if recipe.exists() else default).read_text())
+        self.known = {program: self.known_to(program) for program in {run.program for run in self.runs.values()}}
+        self.common = dict(math.__dict__, postproc=shlex.quote(f"{self.binaries}/postproc"), inputs=shlex.quote(str(INPUTS)),
+                           shorten=float(config.get("shorten") or 1))
+        recipe, default = table.with_suffix(".yaml"), Path(__file__).with_name("default.yaml")
+        self.recipe = self.read_recipe(recipe if recipe.exists() else default)
         if "like" in self.recipe:
-            self.recipe = yaml.safe_load(default.with_name(self.recipe["like"] + ".yaml").read_text())
-        self.common = dict(math.__dict__, postproc=f"{config['bin']}/postproc", inputs=str(INPUTS), shorten=float(config.get("shorten") or 1))
+            self.recipe = self.read_recipe(default.with_name(self.recipe["like"] + ".yaml"))
+        taken = {Path(name).parts[0] for name in self.results()} | {"slurm"}
+        for run in self.runs.values():
+            if run.name in taken:
+                raise TableError(f"{run.place}: run '{run.name}', expected another name, as results have this one")
+            if run.program == "catalogue" and not Path(run.settings.get("file", "")).is_file():
+                raise TableError(f"{run.place}: {run.settings.get('file', 'nothing')}: no such catalogue, expected one in the column 'file'")
+
+    def read_recipe(self, path):
+        """\\raises TableError naming what is not a recipe"""
+        try:
+            recipe = yaml.safe_load(text_of(path, "a recipe"))
+        except yaml.YAMLError as error:
+            mark = getattr(error, "problem_mark", None)
+            raise TableError(f"{path}:{mark.line + 1 if mark else 1}: {getattr(error, 'problem', error)}, expected a recipe")
+        if not isinstance(recipe, dict):
+            raise TableError(f"{path}: expected a recipe, lines 'PART: ...'")
+        for part, value in recipe.items():
+            if part not in PARTS:
+                raise TableError(f"{path}: part '{part}', expected one of {', '.join(PARTS)}")
+            if part in MAPS and not isinstance(value or {}, dict):
+                raise TableError(f"{path}: {part}: expected lines 'NAME: ...'")
+        for part in ("figures", "pages"):
+            for name, one in (recipe.get(part) or {}).items():
+                pattern((one or {}).get("runs"), f"{path}: {part}: {name}: runs")
+                if ("command" if part == "figures" else "title") not in (one or {}):
+                    raise TableError(f"{path}: {part}: {name}: expected a {'command' if part == 'figures' else 'title'}")
+        self.check_expressions(path, recipe)
+        return recipe
+
+    def check_expressions(self, path, recipe):
+        """\\raises TableError for an expression of a recipe that is none, or has a name that nothing has"""
+        settings = {key for run in self.runs.values() for key in (*self.known[run.program], *run.row, *run.settings)}
+        known = {
+            *self.common, *dir(builtins), *(key.replace("-", "_") for key in settings), *(recipe.get("values") or {}), "run", "folder", "catalogue"
+        }
+        of_runs = {*known, *(recipe.get("numbers") or {}), *(recipe.get("comparisons") or {}), "done", "summary"}
+
+        def check(expression, names, where):
+            try:
+                tree = list(ast.walk(ast.parse(str(expression).strip(), mode="eval")))
+            except SyntaxError as error:
+                raise TableError(f"{path}: {where}: '{expression}', expected an expression ({error.msg})")
+            own = {node.id for node in tree if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)}
+            for node in tree:
+                if isinstance(node, ast.Name) and node.id not in names | own:
+                    raise TableError(f"{path}: {where}: nothing is called '{node.id}'{meant(node.id, names)}")
+
+        for part in MAPS:
+            for name, one in (recipe.get(part) or {}).items():
+                where = f"{part}: {name}"
+                if part in ("figures", "pages"):
+                    if "label" in one:
+                        check(one["label"], known, where)
+                    texts = [one.get("command", "")]
+                else:
+                    texts = [one] if part in ("numbers", "comparisons") else []
+                    if not texts:
+                        check(one, known | {"out"} if part == "values" else of_runs, where)
+                for text in texts:
+                    for expression in re.findall(r"\{([^{}]+)\}", text):
+                        check(expression, known | {"out", "reference"}, where)
+
+    def known_to(self, program):
+        """Names of settings that a program has; none for existing catalogues."""
+        try:
+            return PROGRAMS[program].known(self.binaries) if PROGRAMS[program].known else set()
+        except (OSError, subprocess.CalledProcessError) as error:
+            raise TableError(f"cannot ask program {program} in {self.binaries} for its options ({error})")
+
+    def check(self):
+        """\\raises TableError for names that the programs do not have, for runs that were begun with other settings, and for
+        commands that cannot be filled in"""
+        for run in self.runs.values():
+            kind, place = PROGRAMS[run.program], run.place
+            for name in run.settings if kind.known else ():
+                if name in kind.OWN:
+                    raise TableError(f"{place}: '{name}' is set by the study, expected no such column or setting")
+                if name not in self.known[run.program]:
+                    raise TableError(f"{place}: '{name}', which program {run.program} does not have{meant(name, self.known[run.program] - kind.OWN)}")
+            folder = Path(run.name).resolve()
+            otherwise = begun_otherwise(folder, [f"program={run.program}", *run.words])
+            if not otherwise and run.ranks_given and (folder / "done.json").exists():
+                had = read_json(folder / "done.json").get("ranks", run.ranks)
+                otherwise = had != run.ranks and f"{folder} was run on {had} ranks, expected {run.ranks}; move it away, or give no ranks"
+            if otherwise:
+                raise TableError(f"{place}: {otherwise}")
+            for name in self.numbers(run):
+                self.command(run, name)
 
     def part(self, name):
         return self.recipe.get(name) or {}
@@ -179,11 +360,15 @@ class Study:
         def computed(braces):
             value = eval(braces[1], dict(names))
             return value if isinstance(value, str) else f"{value:.15g}"
+
         return re.sub(r"\{([^{}]+)\}", computed, text)
 
     def reference(self, run):
         """The run with which this one is compared, or None."""
-        name = self.recipe.get("reference", "").format(**run.row)
+        try:
+            name = self.recipe.get("reference", "").format(**run.row)
+        except (AttributeError, KeyError, ValueError, IndexError) as error:
+            raise TableError(f"reference '{self.recipe['reference']}', expected the name of a run with columns in braces (not {error})")
         return self.runs.get(name) if name != run.name else None
 
     def numbers(self, run):
@@ -199,8 +384,13 @@ class Study:
 
     def command(self, run, name):
         other = self.reference(run)
-        values = dict(run.values(), out=f"{run.name}/numbers/{name}", reference=other.catalogue if other else "")
-        return self.fill(self.numbers(run)[name], values)
+        # Settings are words for the shell, not code: only recipes are.
+        values = {key: shlex.quote(value) if isinstance(value, str) else value for key, value in run.values().items()}
+        values.update(out=f"{run.name}/numbers/{name}", reference=other.catalogue if other else "")
+        try:
+            return self.fill(self.numbers(run)[name], values)
+        except MISSING as error:
+            raise TableError(f"numbers of run '{run.name}': {name}: {error}")
 
     def found(self, run):
         """All numbers of a run, by the names of its commands."""
@@ -225,34 +415,40 @@ class Study:
         return list(dict.fromkeys(key for run in self.runs.values() for key in run.row if key not in ("run", "program", "ranks")))
 
     def start(self, run):
-        return [run.name] + [run.row.get(key, "") for key in self.columns()]
+        """Name of a run and what it was run with, column by column; steps and times are those after `shorten`."""
+        others = " ".join(f"{key}={shlex.quote(value)}" for key, value in run.settings.items() if key not in run.row)
+        return [run.name] + [others if key == "settings" else run.settings.get(key, run.row.get(key, "")) for key in self.columns()]
 
-    def write_table(self, name, path):
+    def asked(self, name):
+        """All that a table is made of but for the numbers of the runs: if it changes, the table is made again."""
+        part = "stacks" if name in self.part("stacks") else name
+        return json.dumps([self.part("means"), self.part(part), self.part("values"), self.columns(), [self.start(run) for run in self.runs.values()]])
+
+    def table(self, name):
         """One line for each run, with the columns that part `name` of the recipe has."""
-        part = self.part(name)
-        with open(path, "w", newline="") as file:
-            out = csv.writer(file, lineterminator="\n")
-            out.writerow(["run", *self.columns(), *part])
-            for run in self.runs.values():
-                out.writerow(self.start(run) + self.row(run, part.values()))
+        part, rows = self.part(name), []
+        for run in self.runs.values():
+            rows.append(self.row(run, part.values()))
+        empty = [column for column, values in zip(part, zip(*rows)) if not any(value != "" for value in values)]
+        if empty:
+            print(f"{name}.csv: empty for all runs: {', '.join(empty)}; the reasons are in RUN/numbers", file=sys.stderr)
+        return [["run", *self.columns(), *part]] + [self.start(run) + row for run, row in zip(self.runs.values(), rows)]
 
-    def write_stack(self, expression, path):
+    def stack(self, expression):
         """One line for each row of a table that each run has."""
-        head = None
-        with open(path, "w", newline="") as file:
-            out = csv.writer(file, lineterminator="\n")
-            for run in self.runs.values():
-                try:
-                    rows = eval(expression, dict(self.found(run)))
-                except MISSING:
-                    continue
-                for row in rows:
-                    if head is None:
-                        head = ["run", *self.columns(), *row]
-                        out.writerow(head)
-                    out.writerow(self.start(run) + ["" if value is None else value for value in row.values()])
+        lines = []
+        for run in self.runs.values():
+            try:
+                rows = eval(expression, dict(self.found(run)))
+            except MISSING:
+                continue
+            for row in rows:
+                if not lines:
+                    lines.append(["run", *self.columns(), *row])
+                lines.append(self.start(run) + ["" if value is None else value for value in row.values()])
+        return lines
 
-    def write_differences(self, path):
+    def differences(self):
         """One line for all seeds: part `means`, and means with errors of what differs from the run of the same seed in the first."""
         means, differences, groups, values = self.part("means"), self.part("differences"), {}, {}
         for run in self.runs.values():
@@ -261,21 +457,34 @@ class Study:
             row = self.row(run, [*means.values(), *differences.values()])
             values[run.name] = [float(value) if value != "" else math.nan for value in row]
         first = {run.row.get("seed"): values[run.name] for run in next(iter(groups.values()))}
-        with open(path, "w", newline="") as file:
-            out = csv.writer(file, lineterminator="\n")
-            out.writerow([c for c in self.columns() if c != "seed"] + ["seeds", *means]
-                         + [f"{name}{end}" for name in differences for end in ("", "_error")])
-            for key, runs in groups.items():
-                line = [*key, len(runs)]
-                for k in range(len(means)):
-                    line += mean_and_error([values[run.name][k] for run in runs])[:1]
-                for k in range(len(means), len(means) + len(differences)):
-                    line += mean_and_error([values[run.name][k] - first[run.row.get("seed")][k] for run in runs if run.row.get("seed") in first])
-                out.writerow(line)
+        lines = [[c for c in self.columns() if c != "seed"] + ["seeds", *means] + [f"{name}{end}" for name in differences for end in ("", "_error")]]
+        for key, runs in groups.items():
+            line = [*key, len(runs)]
+            for k in range(len(means)):
+                line += mean_and_error([values[run.name][k] for run in runs])[:1]
+            for k in range(len(means), len(means) + len(differences)):
+                line += mean_and_error([values[run.name][k] - first[run.row.get("seed")][k] for run in runs if run.row.get("seed") in first])
+            lines.append(line)
+        return lines
+
+    def write(self, name, path):
+        stacks = self.part("stacks")
+        text = io.StringIO()
+        csv.writer(text, lineterminator="\n").writerows(
+            self.stack(stacks[name]) if name in stacks else self.differences() if name == "differences" else self.table(name))
+        replace(Path(path), text.getvalue())
 
     def results(self):
-        """The files that a study makes."""
+        """The files that a study makes for its reader."""
         figures = [f"figures/{name}.png" for name, one in self.part("figures").items() if self.matching(one.get("runs"))]
         pages = [f"{name}.html" for name, one in self.part("pages").items() if self.matching(one.get("runs"))]
         tables = [f"{name}.csv" for name in ("table", "costs", "differences") if self.part(name)]
-        return tables + [f"{name}.csv" for name in self.part("stacks")] + figures + pages + [f"{name}.png" for name in self.recipe.get("drawings", [])]
+        return tables + [f"{name}.csv"
+                         for name in self.part("stacks")] + figures + pages + [f"{name}.png" for name in self.recipe.get("drawings", [])]
+
+    def numbers_of_all(self):
+        return [f"{run.name}/numbers/{name}.json" for run in self.runs.values() for name in self.numbers(run)]
+
+
+if __name__ == "__main__":
+    Study(json.loads(sys.argv[1])).write(*sys.argv[2:])

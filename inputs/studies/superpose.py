@@ -34,10 +34,10 @@ import sys
 import tempfile
 from pathlib import Path
 
-from publish import publish
+from publish import LOADING, publish
 
 MAGIC = b"lsm-pe-series-1\n"
-LOADING, DURATION = 4500, 12500  # time units: what is left out at the begin of a run, and a stretch
+DURATION = 12500  # time units of a stretch
 NUMBERS, GROUPS = (2, 4, 8, 16), 5  # stretches in a sum, and sums of each number at most
 
 
@@ -114,7 +114,7 @@ def every(number, out, path):
     info, first, pe = read(path)
     dt = float(info["dt"])
     start = repr(float(info["time0"]) + (first - int(info["step0"])) * dt)
-    write(out, dict(info, dt=repr(dt * number), step0="0", time0=start, **{"lambda": repr(float(info["lambda"]) ** number)}), pe[::number])
+    write(out, dict(info, dt=repr(dt * number), step0="0", time0=start, **{"lambda": repr(float(info["lambda"])**number)}), pe[::number])
 
 
 def loading(path, begin, end):
@@ -138,7 +138,7 @@ def stretches(folders):
 def pick(postproc, series, out, *words):
     with tempfile.TemporaryDirectory() as work:
         picked = Path(work) / "picked.csv"
-        subprocess.run([postproc, "pick", series, "-o", picked, "--force", *words], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run([postproc, "pick", series, "-o", picked, "--overwrite", *words], check=True, stdout=subprocess.DEVNULL)
         publish(picked, f"{out}.catalogue.csv.xz")
 
 
@@ -173,6 +173,8 @@ def study(postproc, out, folders):
 
 
 def main(words):
+    if words in (["-h"], ["--help"]):
+        return print(__doc__)
     if words[:1] == ["every"] and len(words) == 4:
         return every(int(words[1]), *words[2:])
     if words[:1] == ["second"] and len(words) > 3:

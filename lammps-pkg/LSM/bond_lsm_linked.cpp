@@ -3,6 +3,7 @@
 #include "bond_lsm_linked.h"
 
 #include "atom.h"
+#include "citeme.h"
 #include "domain.h"
 #include "error.h"
 #include "fix.h"
@@ -14,10 +15,11 @@
 #include "neighbor.h"
 #include "update.h"
 
-#include "lsm_force_laws.h"
+#include "files/text_io.h"
+#include "friction/force_laws.h"
 #include "lsm_restart_file.h"
 #include "lsm_scene.h"
-#include "lsm_text_io.h"
+#include "lsm_version.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,8 +31,20 @@
 
 using namespace LAMMPS_NS;
 
+static const char cite_lsm[] =
+    "Lattice solid fault (package LSM " LSM_VERSION "): doi:10.5194/npg-11-553-2004\n\n"
+    "@Article{Weatherley2004,\n"
+    " author =  {Weatherley, D. and Abe, S.},\n"
+    " title =   {Earthquake statistics in a Block Slider Model and a fully dynamic Fault Model},\n"
+    " journal = {Nonlinear Processes in Geophysics},\n"
+    " year =    2004,\n"
+    " volume =  11,\n"
+    " pages =   {553}\n"
+    "}\n\n";
+
 BondLSMLinked::BondLSMLinked(LAMMPS *_lmp) : Bond(_lmp), avx2(LSMLinkKernel::has_avx2())
 {
+  if (lmp->citeme) lmp->citeme->add(cite_lsm);
   writedata = 1;
 }
 
@@ -48,8 +62,8 @@ void BondLSMLinked::compute(int eflag, int vflag)
   if (evflag) tally();
 }
 
-// Numbers of the keys in the order of these, equal keys in theirs: a counting sort for each digit, which takes a
-// fraction of the time that comparing the links takes.
+// Numbers of the keys in the order of these, equal keys in theirs: a counting sort for each digit,
+// which takes a fraction of the time that comparing the links takes.
 static std::vector<int> sorted_by(const std::vector<tagint> &keys)
 {
   constexpr int BITS = 11;
@@ -67,12 +81,12 @@ static std::vector<int> sorted_by(const std::vector<tagint> &keys)
   return order;
 }
 
-// The links of this rank in rows, in an order that follows from the particle IDs alone: a run that goes on from a
-// restart file sums in the same order, and links that follow each other touch the same stretch of memory if
-// IDs follow the particles in space. Links that are treated differently stand in segments of their own:
-// by type, and by whether the force on the second particle is added here.
-// With newton_bond off the first particle of a link is always owned, and a link to a ghost stands in the
-// list of both ranks: half of its energy is counted on each.
+// The links of this rank in rows, in an order that follows from the particle IDs alone: a run that
+// goes on from a restart file sums in the same order, and links that follow each other touch the
+// same stretch of memory if IDs follow the particles in space. Links that are treated differently
+// stand in segments of their own: by type, and by whether the force on the second particle is added
+// here. With newton_bond off the first particle of a link is always owned, and a link to a ghost
+// stands in the list of both ranks: half of its energy is counted on each.
 void BondLSMLinked::collect()
 {
   struct Link {
@@ -314,16 +328,11 @@ void BondLSMLinked::init_style()
     modify->add_fix("LSM_BREAK all LSM_BREAK");
 }
 
-// Retardation times, if any, come first, after a number that cannot be a stiffness.
-
-static constexpr double TIMES_FOLLOW = -1.0;
-
 void BondLSMLinked::coefficients_in(LSMRestartFile file)
 {
   const int n = atom->nbondtypes;
-  if (file.follows(TIMES_FOLLOW, any_above_0(delay))) file(&delay[1], n);
-  file(&k[1], n);
-  file(&ratio[1], n);
+  file.version();
+  for (auto *of_types : {&k, &ratio, &delay}) file(&(*of_types)[1], n);
 }
 
 void BondLSMLinked::write_restart(FILE *fp)

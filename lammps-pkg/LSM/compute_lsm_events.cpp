@@ -6,15 +6,13 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "files/state.h"
 #include "fix_lsm_leap.h"
 #include "fix_lsm_record.h"
 #include "lsm_mover.h"
 #include "lsm_ranks.h"
-#include "lsm_state.h"
 #include "modify.h"
 #include "output.h"
-#include "platform.h"
-#include "save_restart.h"
 #include "update.h"
 
 #include <algorithm>
@@ -22,17 +20,16 @@
 #include <cstring>
 #include <exception>
 
-#include <unistd.h>
-
 using namespace LAMMPS_NS;
 
 // entries of the global vector; those of the ledger follow
 enum { EVENTS, LAST_SIZE, RATE, IN_EVENT, PE, PE_LINK, PE_CONTACT, PE_TANGENTIAL, NVECTOR };
-static constexpr int NLEDGER = 8;
+static constexpr int NLEDGER = 9;
 
 ComputeLSMEvents::ComputeLSMEvents(LAMMPS *_lmp, int narg, char **arg) :
     Compute(_lmp, narg, arg), options(_lmp, 3, narg, arg), settings(options.events),
-    sources(_lmp, settings), gather(world, settings.kind->wants_slips()), watchdog(options.watchdog)
+    sources(_lmp, settings), gather(world, settings.kind->wants_slips()),
+    guard(_lmp, sources, options.watchdog, options.emergency_file, [this] { flush(); })
 {
   if (igroup) error->all(FLERR, "Compute lsm/events must use group all");
   scalar_flag = 1;
@@ -45,7 +42,8 @@ ComputeLSMEvents::ComputeLSMEvents(LAMMPS *_lmp, int narg, char **arg) :
   if (modify->get_fix_by_id(id_of_fix()))
     error->all(FLERR, "Compute lsm/events {} needs the fix ID {}, which is in use", id,
                id_of_fix());
-  recorder = dynamic_cast<FixLSMRecord *>(modify->add_fix(id_of_fix() + " all LSM_RECORD"));
+  recorder = dynamic_cast<FixLSMRecord *>(modify->add_fix(
+      id_of_fix() + (in_intervals() ? " all LSM_RECORD faces" : " all LSM_RECORD")));
   recorder->owner = this;
   update->first_update = 0;
   vector = new double[size_vector];    // last: the destructor does not run if the constructor stops
@@ -57,7 +55,8 @@ ComputeLSMEvents::~ComputeLSMEvents()
   if (options.unfinished) on_rank_0([this] { stream->write_unfinished(); });
   sources.release();
 
-  // an init sets up LAMMPS' lists of fixes and what the styles record: 'run N pre no' needs one as well
+  // an init sets up LAMMPS' lists of fixes and what the styles record: 'run N pre no' needs one as
+  // well
   if (update) update->first_update = 0;
   if (recorder && modify && modify->get_fix_by_id(id_of_fix())) modify->delete_fix(id_of_fix());
   delete[] vector;
@@ -84,12 +83,12 @@ void ComputeLSMEvents::init()
         "Compute lsm/events {}: history does not work with fix lsm/leap, as all intervals of a "
         "slip history have the same length; leave it out",
         id);
-  if (opened && leaps != settings.own_times)
+  if (opened && leaps != settings.explicit_times)
     error->all(FLERR,
                "Compute lsm/events {}: fix lsm/leap {} since the files of this compute were "
                "opened; uncompute it first, and use other files",
                id, leaps ? "was defined" : "is gone");
-  settings.own_times = leaps;
+  settings.explicit_times = leaps;
 
   // fixed by the first run, as the headers of the files have it
   if (in_intervals() && !opened && update->whichflag != 0) sources.find_driving(settings);
@@ -104,12 +103,14 @@ void ComputeLSMEvents::set_memory()
   settings.picker.lambda = LSM::lambda_from_memory_time(options.memory_time, update->dt);
 }
 
-// Files are opened at the first run, so that a mistake earlier in the input touches no older catalogue.
+// Files are opened at the first run, so that a mistake earlier in the input touches no older
+// catalogue.
 void ComputeLSMEvents::open_files()
 {
   const bool from_restart = !recorder->kept.empty();
-  shown_at = started_at = platform::walltime();
+  progress.begin();
   clock = {update->atime, update->atimestep, update->dt};
+  for (auto &one : sources.variables()) settings.parameters.push_back(std::move(one));
   const std::string problem =
       lsm_on_0(world, [this] { stream = std::make_unique<LSM::EventStream>(settings); });
   if (!problem.empty()) error->all(FLERR, "Compute lsm/events: {}", problem);
@@ -179,15 +180,13 @@ void ComputeLSMEvents::stop_on_failure()
 // previous run or the restart had it
 void ComputeLSMEvents::setup_record()
 {
-  double mine = 0.0;
-  for (int i = 0; i < atom->nlocal; i++) mine = MAX(mine, 2.0 * atom->radius[i]);
-  widest = lsm_largest(mine, world);
-  watchdog.calm_down();
+  guard.begin_run();
   if (!opened) open_files();
   check_box();
   change_dt();
   leave_out_jump();
   if (in_intervals() && !fault_begun) begin_fault();
+  if (in_intervals() && !recorder->faces_begun()) recorder->begin_faces();
   if (options.ledger && !ledger.begun()) ledger.begin(energies());
   if (last_recorded != update->ntimestep) record();
 }
@@ -217,8 +216,8 @@ void ComputeLSMEvents::check_box()
           placed ? "the places of events" : "the header of file " + file);
 }
 
-// checks whether the time step has changed: times continue from here, and the picker's rate is per step
-// headers of files have one time step, so it must not change once they are open
+// checks whether the time step has changed: times continue from here, and the picker's rate is per
+// step headers of files have one time step, so it must not change once they are open
 void ComputeLSMEvents::change_dt()
 {
   if (update->dt == clock.dt) return;
@@ -251,6 +250,7 @@ void ComputeLSMEvents::record()
   if (in_intervals() && step != fault.grid().step0) {
     for (const auto *style : sources.styles()) fault.add(style->contacts);
     if (fault.grid().ends_interval(step)) {
+      add_faces();
       sampler.add_interval(fault.sums());
       fault.clear();
     }
@@ -258,7 +258,7 @@ void ComputeLSMEvents::record()
   sampler.add(step, sources.pe());
   last_recorded = step;
   if (sampler.full()) start_gather();
-  if (watchdog.due(step)) check_health();
+  if (guard.due(step)) guard.check_step(ledger, [this] { return energies(); });
 }
 
 // sends the filled block to rank 0 and continues; rank 0 processes it when the next block is full
@@ -277,7 +277,7 @@ void ComputeLSMEvents::finish_gather()
         domain->prd[0]);
   });
   if (comm->me == 0 && options.progress)
-    show_progress(gather.block().first + gather.block().count - 1);
+    progress.show(update, gather.block().first + gather.block().count - 1, stream->counts().events);
   stop_on_failure();
 }
 
@@ -305,10 +305,17 @@ std::vector<double> ComputeLSMEvents::fault_sums()
   return all;
 }
 
+// displacements of the faces since they were added last
+void ComputeLSMEvents::add_faces()
+{
+  fault.add(recorder->end_faces(sources.face(0), sources.face(1)));
+}
+
 // the state before the first interval: only the forces count
 void ComputeLSMEvents::begin_fault()
 {
   fault_begun = true;
+  recorder->begin_faces();
   fault.clear();
   for (const auto *style : sources.styles()) fault.add_forces(style->contacts);
   const std::vector<double> sums = fault_sums();
@@ -318,8 +325,8 @@ void ComputeLSMEvents::begin_fault()
   stop_on_failure();
 }
 
-// Commands between two runs (displace_atoms, delete_atoms, velocity, other coefficients) change energies.
-// This is no event and no loss of the model: both continue from the energies found.
+// Commands between two runs (displace_atoms, delete_atoms, velocity, other coefficients) change
+// energies. This is no event and no loss of the model: both continue from the energies found.
 void ComputeLSMEvents::leave_out_jump()
 {
   const bigint step = update->ntimestep;
@@ -358,76 +365,17 @@ LSM::EnergyTerms ComputeLSMEvents::energies() const
   return ledger.with_earlier_works(sources.energies());
 }
 
-// Before neighbor lists are built: a link torn beyond the ghosts would stop LAMMPS with 'Bond atoms missing'.
-// In the middle of a step there is no energy to check and no state for a restart file, so all that can
-// wait is checked when the step is complete.
-void ComputeLSMEvents::look_early()
-{
-  if (!sources.has_links()) return;
-  const double strain = lsm_largest(LSM::Watchdog::comparable(sources.max_strain()), world);
-  const std::string what = watchdog.look_early(strain, widest, comm->get_comm_cutoff());
-  if (what.empty()) return;
-  flush();
-  stop_run(what, "The catalogue ends with the last event before it");
-}
-
-void ComputeLSMEvents::stop_run(const std::string &what, const std::string &left)
-{
-  error->all(FLERR,
-             "Run stopped at step {}: {}. {}; use a smaller time step or start from an earlier "
-             "restart",
-             update->ntimestep, what, left);
-}
-
-// at the end of a step; stops a failed run: everything recorded so far is written, then a restart file
-void ComputeLSMEvents::check_health()
-{
-  const double mine[2] = {std::isfinite(sources.pe()) ? 0.0 : 1.0,
-                          LSM::Watchdog::comparable(sources.max_strain())};
-  double all[2];
-  MPI_Allreduce(mine, all, 2, MPI_DOUBLE, MPI_MAX, world);
-  const auto found = watchdog.look(all[0] == 0.0, all[1], ledger, [this] {
-    LSMMover::complete_steps(modify);
-    return energies();
-  });
-  if (found.what.empty()) return;
-
-  // a restart file of such a state would be useless, and would replace an older one
-  flush();
-  if (!found.finite) stop_run(found.what, "The catalogue ends with the last event before it");
-
-  LSMMover::complete_steps(modify);
-  SaveRestart(lmp).save(options.emergency_file, {}, true);
-  stop_run(found.what, "Wrote restart file " + options.emergency_file);
-}
-
-// one line on a terminal, rewritten every few seconds; nothing in a pipe
-void ComputeLSMEvents::show_progress(bigint step)
-{
-  const double now = platform::walltime();
-  if (now - shown_at < 5.0) return;
-  shown_at = now;
-  if (!isatty(STDERR_FILENO)) return;
-  const double done = static_cast<double>(step - update->firststep);
-  const double left = static_cast<double>(update->laststep - step);
-  const double seconds = done > 0.0 ? (now - started_at) * left / done : 0.0;
-  fprintf(stderr, "\rstep " BIGINT_FORMAT " of " BIGINT_FORMAT ", %lld events, %.0f s left   ",
-          step, update->laststep, static_cast<long long>(stream->counts().events), seconds);
-}
-
 // numbers of this class, then those of the stream
 namespace {
 struct Own {
-  double version = -1.0;
+  static constexpr size_t NUMBERS = 10;
+  int kind = -1;
   bigint last_recorded = 0;
   LSM::EnergyLedger ledger;
   LSM::StepClock clock;
-
-  static constexpr double FIRST_KIND = 3.0;    // version of the first kind of events, and so on
-  static constexpr size_t NUMBERS = 9;
   template <class Self, class State> static void visit(Self &self, State &state)
   {
-    state(self.version, self.last_recorded, self.ledger, self.clock);
+    state(self.kind, self.last_recorded, self.ledger, self.clock);
   }
 };
 }    // namespace
@@ -436,10 +384,11 @@ std::vector<double> ComputeLSMEvents::pack_state()
 {
   if (!opened) return recorder->kept;
   flush();
+  if (in_intervals()) add_faces();
   const std::vector<double> open_sums = in_intervals() ? fault_sums() : std::vector<double>();
   std::vector<double> state;
-  const Own own = {Own::FIRST_KIND + static_cast<double>(LSM::number_of(*settings.kind)),
-                   last_recorded, ledger.kept(energies()), clock};
+  const Own own = {static_cast<int>(LSM::number_of(*settings.kind)), last_recorded,
+                   ledger.kept(energies()), clock};
   LSM::StateWriter to(state);
   Own::visit(own, to);
   if (comm->me == 0) {
@@ -449,7 +398,8 @@ std::vector<double> ComputeLSMEvents::pack_state()
   return state;
 }
 
-// another time step, interval or number of bins: the numbers of the events continue, open events are lost
+// another time step, interval or number of bins: the numbers of the events continue, open events
+// are lost
 void ComputeLSMEvents::unpack_state(const std::vector<double> &state)
 {
   Own own;
@@ -458,18 +408,15 @@ void ComputeLSMEvents::unpack_state(const std::vector<double> &state)
     LSM::StateReader from(state);
     Own::visit(own, from);
   }
-  const double kind = own.version - Own::FIRST_KIND;
-  const auto kinds = static_cast<double>(LSM::all_event_kinds().size());
-  if (!(kind >= 0.0 && kind < kinds) || kind != std::floor(kind) ||
-      !saved.read(state, Own::NUMBERS, static_cast<size_t>(kind)))
-    error->all(FLERR, "Compute lsm/events {}: the restart file holds a state of another version",
+  if (own.kind < 0 || !saved.read(state, Own::NUMBERS, static_cast<size_t>(own.kind)))
+    error->all(FLERR, "Compute lsm/events {}: the restart file holds no state of such a compute",
                id);
   last_recorded = own.last_recorded;
   ledger = own.ledger;
   clock = own.clock;
   on_rank_0([&] { stream->set_state(saved); });
   if (!in_intervals() || saved.kind != LSM::number_of(*settings.kind)) return;
-  if (!saved.goes_on_with(saved.kind, fault.grid())) {
+  if (!saved.continues_with(saved.kind, fault.grid())) {
     if (comm->me == 0)
       error->warning(FLERR,
                      "Compute lsm/events {}: the restart file holds {} of another time step, "
@@ -523,6 +470,7 @@ void ComputeLSMEvents::compute_vector()
                                      ledger.begun() ? ledger.residual(now) : 0.0,
                                      now.broken,
                                      now.outside,
-                                     now.absorbed};
+                                     now.absorbed,
+                                     now.within};
   std::copy_n(of_ledger, NLEDGER, vector + NVECTOR);
 }

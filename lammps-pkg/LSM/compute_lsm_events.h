@@ -13,14 +13,15 @@ ComputeStyle(lsm/events,ComputeLSMEvents);
 #define LMP_COMPUTE_LSM_EVENTS_H
 
 #include "compute.h"
+#include "events/block_sampler.h"
+#include "events/event_stream.h"
+#include "events/slip_recorder.h"
+#include "fault/energy_ledger.h"
 #include "lsm_block_gather.h"
-#include "lsm_block_sampler.h"
-#include "lsm_energy_ledger.h"
 #include "lsm_event_options.h"
 #include "lsm_event_sources.h"
-#include "lsm_event_stream.h"
-#include "lsm_slip_recorder.h"
-#include "lsm_watchdog.h"
+#include "lsm_progress.h"
+#include "lsm_run_guard.h"
 
 #include <memory>
 #include <string>
@@ -43,7 +44,7 @@ class ComputeLSMEvents : public Compute {
   void change_dt();
   void flush();
   void end_run();
-  void look_early();
+  void check_links() { guard.check_links(); }
   std::vector<double> pack_state();
 
  private:
@@ -59,23 +60,21 @@ class ComputeLSMEvents : public Compute {
   LSMBlockGather gather;
   LSM::SlipRecorder fault;
   LSM::EnergyLedger ledger;
-  LSM::Watchdog watchdog;
+  LSMRunGuard guard;
   LSM::StepClock clock;
   bigint last_recorded = -1;
   bool opened = false;
   bool fault_begun = false;    // its state before the first interval is known
-  double widest = 0.0;         // largest diameter
 
   // rank 0
 
   std::unique_ptr<LSM::EventStream> stream;
   std::string failure;    // error on rank 0, which the others have to be told
-  double shown_at = 0.0, started_at = 0.0;
+  LSMProgress progress;
 
   double begin = 0.0, period = 0.0;    // of the box along x at the first run
 
   std::string id_of_fix() const { return std::string(id) + "_record"; }
-  [[noreturn]] void stop_run(const std::string &what, const std::string &left);
   bool in_intervals() const { return settings.kind->wants_intervals(); }
   void set_memory();
   void open_files();
@@ -83,6 +82,7 @@ class ComputeLSMEvents : public Compute {
   void unpack_state(const std::vector<double> &);
   void make_grid();
   void begin_fault();
+  void add_faces();
   void check_box();
   void leave_out_jump();
   void start_gather();
@@ -93,8 +93,6 @@ class ComputeLSMEvents : public Compute {
   double total_pe() const;
   LSM::EnergyTerms energies() const;
   std::vector<double> fault_sums();
-  void check_health();
-  void show_progress(bigint step);
 };
 
 }    // namespace LAMMPS_NS

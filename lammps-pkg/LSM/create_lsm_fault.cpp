@@ -2,9 +2,9 @@
 
 #include "create_lsm_fault.h"
 
+#include "fault/lattice.h"
+#include "fault/packing.h"
 #include "lsm_keyword_reader.h"
-#include "lsm_lattice.h"
-#include "lsm_packing.h"
 #include "lsm_ranks.h"
 
 #include "atom.h"
@@ -45,9 +45,9 @@ static int type_of(const LSM::Disc &disc)
 
 static constexpr double STRETCH = 64.0;    // in largest radii
 
-// Discs in sections along the fault; in each section first those that can be in contact, then the blocks,
-// then the plates, by x. Loops over particles, links or contacts in the order of the IDs then find their
-// data in the nearest caches, and each kind contiguous.
+// Discs in sections along the fault; in each section first those that can be in contact, then the
+// blocks, then the plates, by x. Loops over particles, links or contacts in the order of the IDs
+// then find their data in the nearest caches, and each kind contiguous.
 static void order_along_fault(LSM::Packing &packing, double rmax)
 {
   const int n = static_cast<int>(packing.discs.size());
@@ -197,8 +197,8 @@ void CreateLSMFault::parse(int narg, char **arg, LSM::LatticeSettings &settings)
   if (margin == 0.0) margin = settings.spacing;
 }
 
-// Rank 0 packs and sends its result to all others: the same scene on any number of ranks, even if their
-// processors round differently.
+// Rank 0 packs and sends its result to all others: the same scene on any number of ranks, even if
+// their processors round differently.
 void CreateLSMFault::pack(LSM::Packing &packing, const std::function<LSM::Packing()> &make)
 {
   const std::string problem = lsm_on_0(world, [&packing, &make] {
@@ -292,7 +292,8 @@ void CreateLSMFault::create_box(const std::string &limits, int bonds_per_atom)
     for (int itype = 1; itype <= types; itype++) atom->set_mass(FLERR, itype, 1.0);
 }
 
-// Each rank adds the particles in its sub-domain and their links. A particle's ID is its place in the packing + 1.
+// Each rank adds the particles in its sub-domain and their links. A particle's ID is its place in
+// the packing + 1.
 void CreateLSMFault::add_particles(const LSM::Packing &packing, const std::vector<double> &masses)
 {
   const int n = static_cast<int>(packing.discs.size());
@@ -375,6 +376,9 @@ void CreateLSMFault::report(const LSM::PackingSettings &settings, const LSM::Pac
       packing.loose_tangent, packing.weakest);
 }
 
+// 8 % at the time step for statistics (ours)
+static constexpr double MUCH_MASS = 20.0;
+
 void CreateLSMFault::report_masses(const LSM::Packing &packing, const std::vector<double> &masses)
 {
   std::vector<std::string> raised_by;
@@ -392,6 +396,12 @@ void CreateLSMFault::report_masses(const LSM::Packing &packing, const std::vecto
       ++count;
     }
   }
-  utils::logmesg(lmp, "  {}: {} particles raised, {:.2f} % more mass in all\n",
-                 utils::join_words(raised_by, ", "), count, 100.0 * raised / sum);
+  const std::string by = utils::join_words(raised_by, ", ");
+  const double percent = 100.0 * raised / sum;
+  utils::logmesg(lmp, "  {}: {} particles raised, {:.2f} % more mass in all\n", by, count, percent);
+  if (percent > MUCH_MASS && comm->me == 0)
+    error->warning(FLERR,
+                   "create_lsm_fault: {} makes the fault {:.0f} % heavier, above {:.0f} %: it is "
+                   "another model; use a shorter time step",
+                   by, percent, MUCH_MASS);
 }

@@ -11,7 +11,7 @@ CommandStyle(create_lsm_fault,CreateLSMFault);
 #define LMP_CREATE_LSM_FAULT_H
 
 #include "command.h"
-#include "lsm_keywords.h"
+#include "files/keywords.h"
 
 #include <functional>
 #include <string>

@@ -41,12 +41,13 @@ void FixLSMAbsorb::init()
   LSMScene::require_plane(lmp, "Fix lsm/absorb");
 }
 
-// Velocities are those of half a step before the forces, once a run goes on: the dashpot pulls against the velocity that
-// the particle has when its own pull is in the force, so that the scheme stays of second order, and stable
-// whatever the impedance. In the setup velocities and forces are of one time.
+// Velocities are those of half a step before the forces, once a run goes on: the dashpot pulls
+// against the velocity that the particle has when its own pull is in the force, so that the scheme
+// stays of second order, and stable whatever the impedance. In the setup velocities and forces are
+// of one time.
 //
-// With velocity Verlet the work of a force in the two halves of the steps before and after it is force times the
-// velocity of its time, so the loss is known exactly.
+// With velocity Verlet the work of a force in the two halves of the steps before and after it is
+// force times the velocity of its time, so the loss is known exactly.
 void FixLSMAbsorb::post_force(int /*vflag*/)
 {
   const double half = update->setupflag ? 0.0 : 0.5 * update->dt;

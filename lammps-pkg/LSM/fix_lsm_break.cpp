@@ -38,9 +38,9 @@ void FixLSMBreak::init()
                       "snapshots before; give bond_coeff without a breaking ratio");
 }
 
-// A link that broke in this force evaluation leaves the topology at once, before a restart file can be
-// written. It is gone from every list before the forces of the next step: its length exceeds the rest
-// length now, so the pair cannot have touched in between.
+// A link that broke in this force evaluation leaves the topology at once, before a restart file can
+// be written. It is gone from every list before the forces of the next step: its length exceeds the
+// rest length now, so the pair cannot have touched in between.
 void FixLSMBreak::pre_reverse(int /*eflag*/, int /*vflag*/)
 {
   if (lsm_total(static_cast<int>(links->broken.size()), world) == 0) return;
@@ -70,7 +70,8 @@ void FixLSMBreak::remove(const std::vector<tagint> &broken)
 {
   const std::vector<Link> unique = each_once(broken);
 
-  // with newton_bond on one of the two ranks has the link; another link of the pair keeps it out of contact
+  // with newton_bond on one of the two ranks has the link; another link of the pair keeps it out of
+  // contact
   bigint removed = 0;
   std::vector<int> mine(unique.size(), 0), remaining(unique.size(), 0);
   auto for_each_end = [&](const auto &act) {

@@ -44,9 +44,9 @@ void FixLSMHistory::pre_exchange()
   FixNeighHistory::pre_exchange();
 }
 
-// Fix NEIGH_HISTORY gathers the history of each particle from the neighbor list once more. The command
-// write_restart has moved particles and renewed ghosts by then, so the list names other particles. Between
-// two runs each particle has its history already, see post_run().
+// Fix NEIGH_HISTORY gathers the history of each particle from the neighbor list once more. The
+// command write_restart has moved particles and renewed ghosts by then, so the list names other
+// particles. Between two runs each particle has its history already, see post_run().
 void FixLSMHistory::write_restart(FILE *fp)
 {
   if (update->whichflag) pre_exchange();
@@ -56,8 +56,8 @@ void FixLSMHistory::write_restart(FILE *fp)
   fwrite(law.c_str(), 1, size, fp);
 }
 
-// A law without a state writes nothing here, and then there is nothing to read: the buffer is used only for
-// contacts of the right size, see below.
+// A law without a state writes nothing here, and then there is nothing to read: the buffer is used
+// only for contacts of the right size, see below.
 void FixLSMHistory::restart(char *buf)
 {
   law_of_file = buf;

@@ -6,6 +6,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "files/text_io.h"
 #include "fix_lsm_nve.h"
 #include "fix_lsm_plates.h"
 #include "force.h"
@@ -13,7 +14,6 @@
 #include "lsm_energy.h"
 #include "lsm_keyword_reader.h"
 #include "lsm_scene.h"
-#include "lsm_text_io.h"
 #include "modify.h"
 #include "pair_lsm_friction.h"
 #include "update.h"
@@ -45,7 +45,7 @@ LSM::Keywords FixLSMLeap::keywords()
           {"slip", &slip, Must::positive},
           {"calm", &calm, Must::not_negative},
           {"rest", &rest, Must::positive},
-          {"settle", &viscosity, Must::not_negative},
+          {"viscosity", &viscosity, Must::not_negative},
           {"ramp", &ramp, Must::not_negative},
           {"grow", &grow, Must::not_negative},
           {"look", &between, Must::positive}};
@@ -119,7 +119,7 @@ void FixLSMLeap::setup(int /*vflag*/)
   if (!leaps()) state = EVENT;    // a restart may continue with another velocity
   set_factor(leaps() ? MIN(factor, fast / fabs(plates->driving_velocity())) : 1.0);
   plates->loading = factor;
-  for (auto *p : contacts) p->pace = factor;
+  for (auto *p : contacts) p->time_ratio = factor;
   for (auto *p : integrators) p->raise_viscosity(state == SETTLE ? viscosity : 0.0);
 }
 
@@ -160,7 +160,7 @@ void FixLSMLeap::set_factor(double value)
   changes.push_back({now, model_time(now), value * dt});
   while (changes.size() > 2 && changes[1].step < now - KEPT_STEPS) changes.pop_front();
   factor = plates->loading = value;
-  for (auto *p : contacts) p->pace = value;
+  for (auto *p : contacts) p->time_ratio = value;
 }
 
 // without a faster velocity there is nothing to do
@@ -208,8 +208,8 @@ void FixLSMLeap::end_of_step()
 }
 
 // scalar = model time
-// vector = factor of the driving velocity, state (0 event, 1 settle, 2 leap), time of the steps, part of it in leaps,
-// model time beyond the time of the steps, leaps that ended
+// vector = factor of the driving velocity, state (0 event, 1 settle, 2 leap), time of the steps,
+// part of it in leaps, model time beyond the time of the steps, leaps that ended
 double FixLSMLeap::compute_vector(int n)
 {
   const double values[6] = {factor,

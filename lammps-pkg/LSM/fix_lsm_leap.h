@@ -10,8 +10,8 @@ FixStyle(lsm/leap,FixLSMLeap);
 #ifndef LMP_FIX_LSM_LEAP_H
 #define LMP_FIX_LSM_LEAP_H
 
+#include "files/keywords.h"
 #include "lsm_fix_state.h"
-#include "lsm_keywords.h"
 #include "update.h"
 
 #include <deque>

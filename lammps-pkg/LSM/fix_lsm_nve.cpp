@@ -7,14 +7,14 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "fault/frequency.h"
+#include "files/text_io.h"
 #include "fix_lsm_velocity.h"
 #include "force.h"
 #include "group.h"
 #include "integrate.h"
-#include "lsm_frequency.h"
 #include "lsm_keyword_reader.h"
 #include "lsm_scene.h"
-#include "lsm_text_io.h"
 #include "modify.h"
 #include "neighbor.h"
 #include "output.h"
@@ -23,9 +23,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <type_traits>
 #include <utility>
-#include <variant>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -82,7 +80,6 @@ void FixLSMNVE::init()
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix lsm/nve does not work with run_style respa");
   LSMScene::refuse_changing_radii(lmp, "Fix lsm/nve");
-  measures = false;
   fastest = -1.0;
   reset_dt();
 }
@@ -109,45 +106,45 @@ void FixLSMNVE::raise_viscosity(double least)
 void FixLSMNVE::collect()
 {
   const int nlocal = atom->nlocal;
-  runs.clear();
+  stretches.clear();
   half_kick.resize(nlocal);
   for (int i = 0; i < nlocal; i++) {
     half_kick[i] = dtf / (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]);
     if (!(atom->mask[i] & groupbit)) continue;
     const double factor = decay[atom->type[i]];
-    if (runs.empty() || runs.back().last != i || runs.back().decay != factor)
-      runs.push_back({i, i, factor});
-    runs.back().last = i + 1;
+    if (stretches.empty() || stretches.back().last != i || stretches.back().decay != factor)
+      stretches.push_back({i, i, factor});
+    stretches.back().last = i + 1;
   }
   others.clear();
   int from = 0;
-  for (const Run &run : runs) {
-    if (run.first > from) others.push_back({from, run.first});
-    from = run.last;
+  for (const Stretch &stretch : stretches) {
+    if (stretch.first > from) others.push_back({from, stretch.first});
+    from = stretch.last;
   }
   if (nlocal > from) others.push_back({from, nlocal});
 }
 
-using Flag = std::variant<std::false_type, std::true_type>;
-static Flag flag(bool yes)
+template <int DIM, bool PLAIN, bool CLEARS> void FixLSMNVE::set_kernels()
 {
-  return yes ? Flag(std::true_type()) : Flag(std::false_type());
+  initial_chosen = &FixLSMNVE::move<INITIAL, DIM, PLAIN, CLEARS>;
+  final_chosen = &FixLSMNVE::move<FINAL, DIM, PLAIN, false>;
+  both_chosen = &FixLSMNVE::move<FINAL | INITIAL, DIM, PLAIN, CLEARS>;
 }
 
+// most scenes have a plain kernel, with nothing to decide for each particle
 void FixLSMNVE::choose()
 {
-  const bool slows = viscous || nu_least > 0.0;
-  std::visit(
-      [this](auto slow, auto work, auto dim3, auto clear, auto measure, auto next) {
-        constexpr int MORE = (measure.value ? MEASURE : 0) | (next.value ? AHEAD : 0);
-        constexpr bool SLOW = slow.value, WORK = SLOW && work.value, DIM3 = dim3.value;
-        initial_chosen = &FixLSMNVE::move<INITIAL | MORE, SLOW, WORK, DIM3, clear.value>;
-        final_chosen = &FixLSMNVE::move<FINAL, SLOW, WORK, DIM3, false>;
-        both_chosen = &FixLSMNVE::move<FINAL | INITIAL | MORE, SLOW, WORK, DIM3, clear.value>;
-      },
-      flag(slows), flag(record_work), flag(domain->dimension == 3), flag(clears), flag(measures),
-      flag(ahead != nullptr));
-  if (slows && record_work) both_chosen = nullptr;
+  const bool plain = !counts_work() && !ahead;
+  if (domain->dimension == 3)
+    set_kernels<3, false, true>();
+  else if (!plain)
+    set_kernels<2, false, true>();
+  else if (clears)
+    set_kernels<2, true, true>();
+  else
+    set_kernels<2, true, false>();
+  if (counts_work()) both_chosen = nullptr;
 
   // fixes that may read velocities between the end of a step and the beginning of the next
   onlookers.clear();
@@ -172,13 +169,13 @@ void FixLSMNVE::setup(int /*vflag*/)
                    "Fix lsm/nve {}: the stability limit of the time step does not include {}", id,
                    foreign);
   dt_limit = time_step_limit(NEARLY_CLOSED, omega);
-  const bool went_on = goes_on;
-  goes_on = true;
+  const bool was_continued = continued;
+  continued = true;
   if (dt_limit == 0.0 || update->dt <= dt_limit) return;
   const std::string what = ahead ? "links and contacts with kelvin-voigt" : "links and contacts";
 
   // nearly closed contacts may refuse the start of a run, but not its continuation
-  if (went_on && check == ERROR) {
+  if (was_continued && check == ERROR) {
     double frequency;
     const double closed = time_step_limit(1.0, frequency);
     if (closed == 0.0 || update->dt <= closed) {
@@ -202,73 +199,64 @@ void FixLSMNVE::setup(int /*vflag*/)
 }
 
 // Viscosity by Strang splitting: exact decay of the velocities for half a step before and after the
-// velocity Verlet step. Second order, stable for any viscosity, and the work it takes is known exactly.
+// velocity Verlet step. Second order, stable for any viscosity, and the work it takes is known
+// exactly.
 //
-// AHEAD: dashpots of links and contacts need velocities when forces are evaluated, before the kick by these forces. Those of
-// that time are found with the forces of the step before, which is the same as to go on in a straight line through the
-// velocities of the last two half steps: of second order, and nothing more has to be kept.
-template <int PARTS, bool VISCOUS, bool WORK, bool DIM3, bool CLEARS> void FixLSMNVE::move()
+// Ahead: dashpots of links and contacts need velocities when forces are evaluated, before the kick
+// by these forces. Those of that time are found with the forces of the step before, which is the
+// same as to go on in a straight line through the velocities of the last two half steps: of second
+// order, and nothing more has to be kept.
+template <int PARTS, int DIM, bool PLAIN, bool CLEARS> void FixLSMNVE::move()
 {
-  constexpr int DIM = DIM3 ? 3 : 2;
+  const bool work = !PLAIN && counts_work(), clear = CLEARS && (PLAIN || clears);
   double most = 0.0;
 
-  for (const Run &run : runs) {
-    const double factor = run.decay;
+  for (const Stretch &stretch : stretches) {
+    const double factor = stretch.decay;
     double lost = 0.0;
-    double *x = atom->x[run.first];
-    double *v = atom->v[run.first];
-    double *f = atom->f[run.first];
-    [[maybe_unused]] double *next = nullptr;
-    if constexpr (PARTS & AHEAD) next = ahead->now(run.first);
-    const double *kick = &half_kick[run.first];
-    const double *const end = &half_kick[0] + run.last;
+    double *x = atom->x[stretch.first];
+    double *v = atom->v[stretch.first];
+    double *f = atom->f[stretch.first];
+    double *next = nullptr;
+    if constexpr (!PLAIN && (PARTS & INITIAL) != 0)
+      if (ahead) next = ahead->now(stretch.first);
+    const double *kick = &half_kick[stretch.first];
+    const double *const end = &half_kick[0] + stretch.last;
 
     for (; kick < end; kick++, x += 3, v += 3, f += 3) {
       double w[DIM], vsq = 0.0;
       for (int c = 0; c < DIM; c++) w[c] = v[c];
       if constexpr (PARTS & FINAL) {
         for (int c = 0; c < DIM; c++) w[c] += *kick * f[c];
-        if constexpr (WORK)
+        if (work)
           for (int c = 0; c < DIM; c++) vsq += w[c] * w[c];
-        if constexpr (VISCOUS)
-          for (int c = 0; c < DIM; c++) w[c] *= factor;
+        for (int c = 0; c < DIM; c++) w[c] *= factor;
       }
       if constexpr (PARTS & INITIAL) {
-        if constexpr (WORK)
+        if (work)
           for (int c = 0; c < DIM; c++) vsq += w[c] * w[c];
-        if constexpr (VISCOUS)
-          for (int c = 0; c < DIM; c++) w[c] *= factor;
+        for (int c = 0; c < DIM; c++) w[c] *= factor;
         for (int c = 0; c < DIM; c++) w[c] += *kick * f[c];
-        if constexpr (PARTS & MEASURE) {
-          double square = 0.0;
-          for (int c = 0; c < DIM; c++) square += w[c] * w[c];
-          most = MAX(most, square);
-        }
+        double square = 0.0;
+        for (int c = 0; c < DIM; c++) square += w[c] * w[c];
+        most = MAX(most, square);
         double to[DIM];
         for (int c = 0; c < DIM; c++) to[c] = x[c] + dtv * w[c];
         for (int c = 0; c < DIM; c++) x[c] = to[c];
-        if constexpr (PARTS & AHEAD) {
+        if (next) {
           for (int c = 0; c < DIM; c++) next[c] = w[c] + *kick * f[c];
-          if constexpr (VISCOUS)
-            for (int c = 0; c < DIM; c++) next[c] *= factor;
+          for (int c = 0; c < DIM; c++) next[c] *= factor;
           next += 3;
         }
       }
       for (int c = 0; c < DIM; c++) v[c] = w[c];
-      if constexpr (CLEARS)
+      if (clear)
         for (int c = 0; c < 3; c++) f[c] = 0.0;
-      if constexpr (WORK) lost += dtf / *kick * vsq;
+      if (work) lost += dtf / *kick * vsq;
     }
-    if constexpr (WORK) work_viscosity += 0.5 * (1.0 - factor * factor) * lost;
+    if (work) work_viscosity += 0.5 * (1.0 - factor * factor) * lost;
   }
-  if constexpr (PARTS & MEASURE) fastest = most;
-}
-
-void FixLSMNVE::measure_moves()
-{
-  if (measures) return;
-  measures = true;
-  if (initial_chosen) choose();
+  if constexpr (PARTS & INITIAL) fastest = most;
 }
 
 double FixLSMNVE::longest_move() const
@@ -283,9 +271,9 @@ void FixLSMNVE::initial_integrate(int /*vflag*/)
   pending = false;
 }
 
-// The second half kick of a step is deferred to the first one of the next, so that both take one pass
-// through memory, unless another fix may read the velocities in between. The operations and their order
-// are the same either way.
+// The second half kick of a step is deferred to the first one of the next, so that both take one
+// pass through memory, unless another fix may read the velocities in between. The operations and
+// their order are the same either way.
 void FixLSMNVE::final_integrate()
 {
   const bigint step = update->ntimestep;
@@ -311,8 +299,8 @@ bool FixLSMNVE::may_clear() const
   return true;
 }
 
-// Integrate::external_force_clear exists for this purpose, but no fix of LAMMPS uses it: only classes
-// derived from Integrate may name it.
+// Integrate::external_force_clear exists for this purpose, but no fix of LAMMPS uses it: only
+// classes derived from Integrate may name it.
 struct Clearing : public Integrate {
   static void is_external(Integrate *integrate, int yes)
   {
@@ -373,13 +361,15 @@ void FixLSMNVE::post_run()
   leave_clearing_to_integrator();
 }
 
-// Bound of the time step and of the highest frequency of the network of links and contacts, see lsm_frequency.h; 0
-// without springs. Pairs closer than reach_factor times the contact distance count as contacts.
+// Bound of the time step and of the highest frequency of the network of links and contacts, see
+// fault/frequency.h; 0 without springs. Pairs closer than reach_factor times the contact distance
+// count as contacts.
 //
 // With velocities extrapolated linearly from those of two half steps, the scheme is stable while
-// dt^2 w^2 + 4 dt g < 4 for all motions, where w^2 and g are the Rayleigh quotients of stiffness and viscosity over
-// mass: the recurrence of the oscillator has its first root of modulus 1 there, at -1. The largest of
-// both bound it, and are those of one motion where all retardation times are the same.
+// dt^2 w^2 + 4 dt g < 4 for all motions, where w^2 and g are the Rayleigh quotients of stiffness
+// and viscosity over mass: the recurrence of the oscillator has its first root of modulus 1 there,
+// at -1. The largest of both bound it, and are those of one motion where all retardation times are
+// the same.
 double FixLSMNVE::time_step_limit(double reach_factor, double &frequency)
 {
   std::vector<LSM::PairSpring> springs = LSMScene::springs(lmp, reach_factor);
@@ -446,5 +436,5 @@ void FixLSMNVE::unpack_reverse_comm(int n, int *list, double *buf)
 void FixLSMNVE::restart(char *buf)
 {
   LSMKeptFix::restart(buf);
-  goes_on = true;
+  continued = true;
 }

@@ -10,8 +10,8 @@ FixStyle(lsm/nve,FixLSMNVE);
 #ifndef LMP_FIX_LSM_NVE_H
 #define LMP_FIX_LSM_NVE_H
 
+#include "fault/frequency.h"
 #include "lsm_fix_state.h"
-#include "lsm_frequency.h"
 #include "lsm_mover.h"
 
 #include <string>
@@ -35,7 +35,8 @@ class FixLSMNVE : public LSMKeptFix<FixLSMNVE>, public LSMMover {
   void pre_force(int) override;
   void post_run() override;
   void reset_dt() override;
-  /// Highest frequency and stability limit found at setup; the scalar is the work lost to viscosity.
+  /// Highest frequency and stability limit found at setup; the scalar is the work lost to
+  /// viscosity.
   double compute_vector(int n) override { return n == 0 ? omega : dt_limit; }
   void restart(char *) override;
   int pack_forward_comm(int, int *, double *, int, int *) override;
@@ -47,7 +48,6 @@ class FixLSMNVE : public LSMKeptFix<FixLSMNVE>, public LSMMover {
   double work_viscosity = 0.0;    // work lost to viscosity, this rank, accumulated
   void complete_step() override;
   int moved_bits() const override { return groupbit; }
-  void measure_moves() override;    // until the next init()
   double longest_move() const override;
   void raise_viscosity(double least);    // to at least this, for now; 0: as it was given
   std::string viscosity() const;         // one value, or one per type
@@ -66,36 +66,37 @@ class FixLSMNVE : public LSMKeptFix<FixLSMNVE>, public LSMMover {
   int check = ERROR;                   // what to do when the time step is above the stability limit
   double omega = 0.0;                  // bound of the highest frequency found at setup
   double dt_limit = 0.0;               // of a stable time step, 0 if there is none
-  bool goes_on = false;                // after another run, or from a restart file
+  bool continued = false;              // after another run, or from a restart file
   std::vector<double> trial, image;    // displacements and forces, 2 or 3 values an atom
 
-  // particles of the group with the same viscosity that follow each other in memory, and dt/2 over the mass of
-  // every particle
+  // particles of the group with the same viscosity that follow each other in memory, and dt/2 over
+  // the mass of every particle
 
-  struct Run {
+  struct Stretch {
     int first, last;
     double decay;
   };
-  std::vector<Run> runs;
+  std::vector<Stretch> stretches;
   std::vector<double> half_kick;
 
-  // Forces are set to 0 while they are in the cache, as the particles move, instead of by the integrator
-  // afterwards, unless somebody may look at them in between or needs torques
+  // Forces are set to 0 while they are in the cache, as the particles move, instead of by the
+  // integrator afterwards, unless somebody may look at them in between or needs torques
 
   bool clears = false;
-  std::vector<std::pair<int, int>> others;    // particles between the runs: first, last
+  std::vector<std::pair<int, int>> others;    // particles between the stretches: first, last
 
-  bool measures = false;    // the square of the largest velocity in this step is kept
-  double fastest = -1.0;    // it, or -1 if it is not known
+  double fastest = -1.0;    // square of the largest velocity in this step, or -1 if it is not known
 
-  enum { FINAL = 1, INITIAL = 2, MEASURE = 4, AHEAD = 8 };    // halves of a step, and what else
+  enum { FINAL = 1, INITIAL = 2 };    // halves of a step
   std::vector<Fix *> onlookers;
   class FixLSMVelocity *ahead = nullptr;    // wants velocities of the time of the next forces
   void (FixLSMNVE::*initial_chosen)() = nullptr;
   void (FixLSMNVE::*final_chosen)() = nullptr;
   void (FixLSMNVE::*both_chosen)() = nullptr;    // null if no half may be put off
 
-  template <int PARTS, bool VISCOUS, bool WORK, bool DIM3, bool CLEARS> void move();
+  bool counts_work() const { return record_work && (viscous || nu_least > 0.0); }
+  template <int PARTS, int DIM, bool PLAIN, bool CLEARS> void move();
+  template <int DIM, bool PLAIN, bool CLEARS> void set_kernels();
   void choose();
   void collect();
   bool may_clear() const;

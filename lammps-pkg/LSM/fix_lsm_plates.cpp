@@ -66,6 +66,15 @@ FixLSMPlates::~FixLSMPlates()
   if (reducing) MPI_Wait(&request, MPI_STATUS_IGNORE);
 }
 
+LSM::text_io::Parameters FixLSMPlates::settings() const
+{
+  using LSM::text_io::number;
+  return {{"hold", servo ? "stress" : "position"},
+          {"stress", servo ? number(stress) : ""},
+          {"impedance", servo ? number(impedance) : ""},
+          {"velocity", number(speed)}};
+}
+
 int FixLSMPlates::setmask()
 {
   return INITIAL_INTEGRATE | FINAL_INTEGRATE | POST_NEIGHBOR | POST_RUN;
@@ -181,9 +190,10 @@ void FixLSMPlates::setup(int /*vflag*/)
     }
 }
 
-// Shear: prescribed, the particles move with the velocity of the middle of the step. Across the fault: Newton's
-// law for the rigid plate under the applied stress, the force of the block and the damping, velocity
-// Verlet with the same splitting as fix lsm/nve. Work: trapezoidal rule over the step.
+// Shear: prescribed, the particles move with the velocity of the middle of the step. Across the
+// fault: Newton's law for the rigid plate under the applied stress, the force of the block and the
+// damping, velocity Verlet with the same splitting as fix lsm/nve. Work: trapezoidal rule over the
+// step.
 void FixLSMPlates::initial_integrate(int /*vflag*/)
 {
   if (pending) finish_step();
@@ -220,8 +230,8 @@ void FixLSMPlates::initial_integrate(int /*vflag*/)
   ux += dux;
 }
 
-// While the sum of the forces over all ranks is being communicated, particles of the blocks move on if fix
-// lsm/nve has deferred its second half kick (see there), as then no fix reads velocities.
+// While the sum of the forces over all ranks is being communicated, particles of the blocks move on
+// if fix lsm/nve has deferred its second half kick (see there), as then no fix reads velocities.
 void FixLSMPlates::final_integrate()
 {
   moved = update->dt * velocity_at(elapsed + 0.5 * update->dt);
@@ -259,7 +269,8 @@ void FixLSMPlates::complete_step()
     }
 }
 
-// what the applied stress and the force of the block add to the velocity across the fault in half a step
+// what the applied stress and the force of the block add to the velocity across the fault in half a
+// step
 double FixLSMPlates::half_kick(const Plate &p) const
 {
   return 0.5 * update->dt * (-p.side * stress_at(elapsed) * domain->prd[0] + p.fy) / p.mass;
@@ -279,9 +290,9 @@ double FixLSMPlates::decay_of(const Plate &p) const
 }
 
 // scalar = work of the plates
-// vector = mean shear stress, mean normal stress, their ratio, shear stress lower and upper, normal stress
-// lower and upper, shear displacement of the plates against each other, approach of the plates,
-// kinetic energy of their motion across the fault
+// vector = mean shear stress, mean normal stress, their ratio, shear stress lower and upper, normal
+// stress lower and upper, shear displacement of the plates against each other, approach of the
+// plates, kinetic energy of their motion across the fault
 double FixLSMPlates::compute_scalar()
 {
   complete_step();

@@ -10,6 +10,7 @@ FixStyle(lsm/plates,FixLSMPlates);
 #ifndef LMP_FIX_LSM_PLATES_H
 #define LMP_FIX_LSM_PLATES_H
 
+#include "files/text_io.h"
 #include "lsm_fix_state.h"
 #include "lsm_mover.h"
 
@@ -40,6 +41,8 @@ class FixLSMPlates : public LSMKeptFix<FixLSMPlates>, public LSMMover {
 
   double loading = 1.0;    // factor of the driving velocity now, set by fix lsm/leap
   double driving_velocity() const { return speed; }
+  // what runs, for headers; empty where it does not apply
+  LSM::text_io::Parameters settings() const;
   // energy of the motion of the plates across the fault
   double kinetic() const { return plate[0].kinetic() + plate[1].kinetic(); }
   template <class Self, class State> static void visit(Self &self, State &state)

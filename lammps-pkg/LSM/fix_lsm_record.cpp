@@ -2,15 +2,26 @@
 
 #include "fix_lsm_record.h"
 
+#include "atom.h"
+#include "domain.h"
 #include "error.h"
+#include "memory.h"
+#include "modify.h"
 #include "update.h"
+
+#include <cmath>
+#include <cstring>
 
 using namespace LAMMPS_NS;
 
 FixLSMRecord::FixLSMRecord(LAMMPS *_lmp, int narg, char **arg) : LSMKeptFix(_lmp, narg, arg)
 {
-  if (narg != 3) error->all(FLERR, "Fix LSM_RECORD is internal to compute lsm/events");
+  const bool faces = narg == 4 && strcmp(arg[3], "faces") == 0;
+  if (narg != 3 && !faces) error->all(FLERR, "Fix LSM_RECORD is internal to compute lsm/events");
   nevery = 1;
+  if (!faces) return;
+  grow_arrays(atom->nmax);
+  atom->add_callback(Atom::GROW);
 }
 
 // within a run; between two runs the next run notices
@@ -23,4 +34,66 @@ void FixLSMRecord::write_restart(FILE *fp)
 {
   kept = owner->pack_state();
   LSMKeptFix::write_restart(fp);
+}
+
+FixLSMRecord::~FixLSMRecord()
+{
+  if (!x_before) return;
+  if (modify->get_fix_by_id(id)) atom->delete_callback(id, Atom::GROW);
+  memory->destroy(x_before);
+}
+
+void FixLSMRecord::begin_faces()
+{
+  for (int i = 0; i < atom->nlocal; i++) x_before[i] = atom->x[i][0];
+  since = update->ntimestep;
+}
+
+std::vector<LSM::FaceDisplacement> FixLSMRecord::end_faces(int lower, int upper)
+{
+  std::vector<LSM::FaceDisplacement> faces;
+  const auto steps = static_cast<double>(update->ntimestep - since);
+  if (steps <= 0.0) return faces;
+  const double period = domain->xperiodic ? domain->prd[0] : 0.0;
+  for (int i = 0; i < atom->nlocal; i++) {
+    const bool above = atom->mask[i] & upper;
+    if (!above && !(atom->mask[i] & lower)) continue;
+    double d = atom->x[i][0] - x_before[i];
+    if (period > 0.0) d -= period * std::round(d / period);
+    faces.push_back({atom->x[i][0] - 0.5 * d, d, steps, above});
+  }
+  begin_faces();
+  return faces;
+}
+
+void FixLSMRecord::grow_arrays(int nmax)
+{
+  memory->grow(x_before, nmax, "lsm/events:x_before");
+}
+
+void FixLSMRecord::copy_arrays(int i, int j, int)
+{
+  x_before[j] = x_before[i];
+}
+
+void FixLSMRecord::set_arrays(int i)
+{
+  x_before[i] = atom->x[i][0];
+}
+
+int FixLSMRecord::pack_exchange(int i, double *buf)
+{
+  buf[0] = x_before[i];
+  return 1;
+}
+
+int FixLSMRecord::unpack_exchange(int i, double *buf)
+{
+  x_before[i] = buf[0];
+  return 1;
+}
+
+double FixLSMRecord::memory_usage()
+{
+  return x_before ? static_cast<double>(atom->nmax) * sizeof(double) : 0.0;
 }

@@ -21,12 +21,13 @@ namespace LAMMPS_NS {
 class FixLSMRecord : public LSMKeptFix<FixLSMRecord> {
  public:
   FixLSMRecord(class LAMMPS *, int, char **);
+  ~FixLSMRecord() override;
   int setmask() override
   {
     return FixConst::PRE_EXCHANGE | FixConst::END_OF_STEP | FixConst::POST_RUN;
   }
   void setup(int) override { owner->setup_record(); }
-  void pre_exchange() override { owner->look_early(); }
+  void pre_exchange() override { owner->check_links(); }
   void end_of_step() override { owner->record(); }
   void post_run() override { owner->end_run(); }
   void reset_dt() override;
@@ -36,8 +37,24 @@ class FixLSMRecord : public LSMKeptFix<FixLSMRecord> {
     state.list(self.kept);
   }
 
+  /// The faces of the fault: displacements of their particles on this rank since this was called
+  /// last.
+  void begin_faces();
+  bool faces_begun() const { return since >= 0; }
+  std::vector<LSM::FaceDisplacement> end_faces(int lower, int upper);
+  void grow_arrays(int) override;
+  void copy_arrays(int, int, int) override;
+  void set_arrays(int) override;
+  int pack_exchange(int, double *) override;
+  int unpack_exchange(int, double *) override;
+  double memory_usage() override;
+
   ComputeLSMEvents *owner = nullptr;    // set by the compute that made this fix
   std::vector<double> kept;    // state of the compute in the last restart file, read or written
+
+ private:
+  double *x_before = nullptr;    // of each particle along x; null if the faces are not wanted
+  bigint since = -1;             // step of it
 };
 
 }    // namespace LAMMPS_NS

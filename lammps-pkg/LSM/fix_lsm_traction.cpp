@@ -70,11 +70,17 @@ void FixLSMTraction::init()
     error->all(FLERR, "Fix lsm/traction needs pair style lsm/friction");
 }
 
+const double *FixLSMTraction::contact_radii() const
+{
+  int flag, columns;
+  return atom->dvector[atom->find_custom("lsm_contact_radius", flag, columns)];
+}
+
 // the arrays move when they grow
 void FixLSMTraction::find_store()
 {
   int flag, columns;
-  contact_radius = atom->dvector[atom->find_custom("lsm_contact_radius", flag, columns)];
+  contact_radius = const_cast<double *>(contact_radii());
   load[NORMAL] = atom->dvector[atom->find_custom("lsm_normal", flag, columns)];
   load[SHEAR] = atom->dvector[atom->find_custom("lsm_shear", flag, columns)];
 }
@@ -120,9 +126,9 @@ int FixLSMTraction::partner(int i, const std::vector<int> &others) const
   return found;
 }
 
-// Length of the fault for which each particle of this rank on one side stands: its diameter, or half of the way to the
-// next ones of the side on the left and on the right. At the ends of a fault that is not periodic, its radius takes the
-// place of the missing half.
+// Length of the fault for which each particle of this rank on one side stands: its diameter, or
+// half of the way to the next ones of the side on the left and on the right. At the ends of a fault
+// that is not periodic, its radius takes the place of the missing half.
 std::vector<double> FixLSMTraction::shares(int s) const
 {
   const double *const radius = atom->radius;
@@ -154,8 +160,9 @@ std::vector<double> FixLSMTraction::shares(int s) const
   return share;
 }
 
-// Where discs just touch, contacts reach farther by the overlap that the normal traction needs, and their tangential springs
-// begin with the elongation that the shear traction needs: no particle moves and no link is strained.
+// Where discs just touch, contacts reach farther by the overlap that the normal traction needs, and
+// their tangential springs begin with the elongation that the shear traction needs: no particle
+// moves and no link is strained.
 void FixLSMTraction::setup_pre_force(int /*vflag*/)
 {
   if (begun) return;
@@ -214,9 +221,9 @@ void FixLSMTraction::setup_pre_force(int /*vflag*/)
   begun = true;
 }
 
-// The forces that balance the tractions: the upper face is pulled along x, and each is pressed on the
-// other. Within a run velocities are those of the middle of the step; times the time step they give the
-// displacement.
+// The forces that balance the tractions: the upper face is pulled along x, and each is pressed on
+// the other. Within a run velocities are those of the middle of the step; times the time step they
+// give the displacement.
 void FixLSMTraction::post_force(int /*vflag*/)
 {
   find_store();

@@ -18,7 +18,10 @@ FixStyle(lsm/traction,FixLSMTraction);
 
 namespace LAMMPS_NS {
 
-class FixLSMTraction : public LSMKeptFix<FixLSMTraction>, public LSMWorkSource {
+class FixLSMTraction :
+    public LSMKeptFix<FixLSMTraction>,
+    public LSMWorkSource,
+    public LSMContactRadii {
  public:
   FixLSMTraction(class LAMMPS *, int, char **);
   ~FixLSMTraction() override;
@@ -28,6 +31,7 @@ class FixLSMTraction : public LSMKeptFix<FixLSMTraction>, public LSMWorkSource {
   void setup_pre_force(int) override;
   void setup(int vflag) override { post_force(vflag); }
   void post_force(int) override;
+  const double *contact_radii() const override;
   template <class Self, class State> static void visit(Self &self, State &state)
   {
     state.sum(self.work_outside);

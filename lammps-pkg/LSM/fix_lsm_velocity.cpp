@@ -77,8 +77,9 @@ void FixLSMVelocity::init()
                       "velocities to the time of the forces");
 }
 
-// Where the velocities are those of the end of the run before, or of the restart file, forces are those of that end to
-// the last bit; where a command changed them, those of the velocities as they are.
+// Where the velocities are those of the end of the run before, or of the restart file, forces are
+// those of that end to the last bit; where a command changed them, those of the velocities as they
+// are.
 void FixLSMVelocity::setup_pre_force(int /*vflag*/)
 {
   if (!used) return;
@@ -147,7 +148,8 @@ void FixLSMVelocity::set_arrays(int i)
   memcpy(astore[i], atom->v[i], 3 * sizeof(double));
 }
 
-// In a run velocities are complete when a restart file is written; between two runs, commands may have changed them.
+// In a run velocities are complete when a restart file is written; between two runs, commands may
+// have changed them.
 void FixLSMVelocity::write_restart(FILE *fp)
 {
   if (update->whichflag) known = fingerprint();

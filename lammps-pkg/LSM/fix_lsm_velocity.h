@@ -19,13 +19,15 @@ FixStyle(LSM_VELOCITY,FixLSMVelocity);
 
 namespace LAMMPS_NS {
 
-/// Stored are velocities of the time of the positions, particles of this rank and ghosts. Between two evaluations of the forces
-/// those that move particles set them: velocities themselves are those of half a step before when forces are evaluated.
+/// Stored are velocities of the time of the positions, particles of this rank and ghosts. Between
+/// two evaluations of the forces those that move particles set them: velocities themselves are
+/// those of half a step before when forces are evaluated.
 class FixLSMVelocity : public LSMKeptFix<FixLSMVelocity, FixStoreAtom>, public LSMWorkSource {
  public:
   FixLSMVelocity(class LAMMPS *, int, char **);
 
-  /// The one of this scene for a force style that needs it from its init on; made where there is none.
+  /// The one of this scene for a force style that needs it from its init on; made where there is
+  /// none.
   static FixLSMVelocity *ask_for(LAMMPS *);
   /// The one of this scene, or null if nobody needs it in this run.
   static FixLSMVelocity *in_use(LAMMPS *);

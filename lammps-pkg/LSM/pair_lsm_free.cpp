@@ -16,8 +16,8 @@
 #include "neighbor.h"
 #include "update.h"
 
+#include "friction/force_laws.h"
 #include "lsm_contact_recorder.h"
-#include "lsm_force_laws.h"
 #include "lsm_restart_file.h"
 #include "lsm_scene.h"
 
@@ -58,7 +58,7 @@ void PairLSMFree::compute(int eflag, int vflag)
 
 bool PairLSMFree::find_near(double reach, const int *const *touch)
 {
-  const double farthest = travel.since_last(near.asks_for_moves());
+  const double farthest = travel.since_last();
   const double *const x = atom->x[0];
   const bool chooses =
       near.is_due(neighbor->ncalls, *list, x, atom->nlocal, atom->nlocal + atom->nghost, farthest);
@@ -133,7 +133,7 @@ template <class Recorder, bool DIM3> void PairLSMFree::loop()
 
 const double *PairLSMFree::contact_radii() const
 {
-  return own_radii < 0 ? atom->radius : atom->dvector[own_radii];
+  return own_radii ? own_radii->contact_radii() : atom->radius;
 }
 
 bool PairLSMFree::any_delay() const
@@ -223,11 +223,11 @@ void PairLSMFree::init_style()
 {
   if (!atom->radius_flag)
     error->all(FLERR, "Pair style lsm/* needs particle radii: use atom_style hybrid bond sphere");
-  record_what = NONE;
+  record_nothing();
   velocity = any_delay() && update->whichflag != 2 ? FixLSMVelocity::ask_for(lmp) : nullptr;
   near.clear();    // the list may have changed, and its builds are counted anew
-  int flag, columns;
-  own_radii = atom->find_custom("lsm_contact_radius", flag, columns);
+  const auto others = LSMScene::fixes<LSMContactRadii>(modify);
+  own_radii = others.empty() ? nullptr : others.front();
   newton_pair = force->newton_pair;
   LSMScene::refuse_changing_radii(lmp, "Pair style lsm/*");
   if (utils::strmatch(force->pair_style, "^hybrid/scaled"))
@@ -239,7 +239,8 @@ void PairLSMFree::init_style()
         FLERR,
         "Pair style lsm/* does not work with pair_modify compute no; use 'pair_coeff I J off'");
 
-  // the list of a sub-style of hybrid holds what hybrid wants; with charges linked pairs stay in it, too
+  // the list of a sub-style of hybrid holds what hybrid wants; with charges linked pairs stay in
+  // it, too
   const bool under_hybrid = force->pair != this;
   screened = under_hybrid ||
              (atom->nbonds > 0 && (force->special_coul[1] != 0.0 || force->kspace != nullptr));
@@ -248,13 +249,14 @@ void PairLSMFree::init_style()
     if (LSMScene::contact_styles(force).front() == this) warn_of_missing_links();
   }
 
-  // hybrid calls init_one() of the pairs of types that it gives to this style; not of those with none, which it leaves
-  // in the list where both types with themselves belong to this style
+  // hybrid calls init_one() of the pairs of types that it gives to this style; not of those with
+  // none, which it leaves in the list where both types with themselves belong to this style
   const int ntypes = atom->ntypes;
   active.create(ntypes + 1);
   find_largest_radii();
 
-  // types that never touch are left out when the list is built; hybrid would replace what is asked for here
+  // types that never touch are left out when the list is built; hybrid would replace what is asked
+  // for here
   auto request = neighbor->add_request(this, request_flags);
   if (under_hybrid) return;
   int any_off = 0;
@@ -295,8 +297,8 @@ void PairLSMFree::find_largest_radii()
   MPI_Allreduce(mine.data(), maxrad.data(), ntypes + 1, MPI_DOUBLE, MPI_MAX, world);
 }
 
-// A pair whose link was turned off or removed without its entry among the special neighbors neither holds
-// together nor touches.
+// A pair whose link was turned off or removed without its entry among the special neighbors neither
+// holds together nor touches.
 void PairLSMFree::warn_of_missing_links() const
 {
   if (atom->molecular != Atom::MOLECULAR || !atom->nspecial) return;
@@ -327,22 +329,28 @@ double PairLSMFree::init_one(int i, int j)
   return maxrad[i] + maxrad[j];
 }
 
-// Retardation times, if any, come first, after a number that begins nothing else.
-static constexpr int TIMES_FOLLOW = -2;
-
 void PairLSMFree::coefficients_in(LSMRestartFile file)
 {
   const int n = atom->ntypes;
-  if (file.follows(TIMES_FOLLOW, any_delay()))
-    for (int i = 1; i <= n; i++) file(&delay[i][i], n - i + 1);
   for (int i = 1; i <= n; i++)
     for (int j = i; j <= n; j++) {
       file(&setflag[i][j]);
       if (!setflag[i][j]) continue;
       file(&on[i][j]);
       file(&k[i][j]);
+      file(&delay[i][j]);
       keep_law(file, i, j);
     }
+}
+
+void PairLSMFree::write_restart_settings(FILE *fp)
+{
+  LSMRestartFile(lmp, fp, false).version();
+}
+
+void PairLSMFree::read_restart_settings(FILE *fp)
+{
+  LSMRestartFile(lmp, fp, true).version();
 }
 
 void PairLSMFree::write_restart(FILE *fp)

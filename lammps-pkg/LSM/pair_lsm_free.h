@@ -30,6 +30,8 @@ class PairLSMFree : public Pair, public LSMEnergySource {
   double init_one(int, int) override;
   void write_restart(FILE *) override;
   void read_restart(FILE *) override;
+  void write_restart_settings(FILE *) override;
+  void read_restart_settings(FILE *) override;
   void write_data(FILE *) override;
   void write_data_all(FILE *) override;
   double single(int, int, int, int, double, double, double, double &) override;
@@ -57,9 +59,8 @@ class PairLSMFree : public Pair, public LSMEnergySource {
   int newton_pair = 0;
   LSMNearPairs near;
   LSMTravel travel;
-  bool screened = false;    // lists hold pairs that must not interact
-  int own_radii =
-      -1;    // index of the radii of the contacts, where fix lsm/traction has made them others, or -1
+  bool screened = false;                         // lists hold pairs that must not interact
+  const LSMContactRadii *own_radii = nullptr;    // of a fix that gives contacts radii of their own
 
   class FixLSMVelocity *velocity = nullptr;    // of this run, null if no contact is viscous in it
 
@@ -68,7 +69,8 @@ class PairLSMFree : public Pair, public LSMEnergySource {
   bool find_near(double reach, const int *const *touch);
   /// Called before others are chosen, which may read what is known of those that are kept.
   virtual void note_contacts() {}
-  /// Repulsion by the dashpot of a contact of length r, whose spring repels with `spring`. rate: of r.
+  /// Repulsion by the dashpot of a contact of length r, whose spring repels with `spring`. rate: of
+  /// r.
   double dashpot(int i, int j, double r, double spring, double &rate) const;
   bool any_delay() const;
 
@@ -78,7 +80,8 @@ class PairLSMFree : public Pair, public LSMEnergySource {
   void warn_of_missing_links() const;
   virtual void allocate();
 
-  // coefficients of a law of friction: the words of pair_coeff behind the stiffness, and those of two types
+  // coefficients of a law of friction: the words of pair_coeff behind the stiffness, and those of
+  // two types
 
   virtual void parse_law(int narg, char **arg);
   virtual void set_law(int, int) {}

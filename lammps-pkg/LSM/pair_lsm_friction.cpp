@@ -16,9 +16,9 @@
 #include "neighbor.h"
 #include "update.h"
 
-#include "laws/friction_laws.h"
+#include "friction/friction_contact.h"
+#include "friction/friction_laws.h"
 #include "lsm_contact_recorder.h"
-#include "lsm_friction_contact.h"
 #include "lsm_keyword_reader.h"
 #include "lsm_restart_file.h"
 #include "lsm_scene.h"
@@ -47,7 +47,8 @@ PairLSMFriction::PairLSMFriction(LAMMPS *_lmp) : PairLSMFree(_lmp), table(_lmp),
   nondefault_history_transfer = 1;
   request_flags |= NeighConst::REQ_HISTORY;
 
-  // a contact lost in the step in which the list is built keeps its history until its release is counted
+  // a contact lost in the step in which the list is built keeps its history until its release is
+  // counted
   beyond_contact = 1;
   single_extra = 2;
   svector = of_single;
@@ -69,10 +70,11 @@ PairLSMFriction::~PairLSMFriction()
   modify->delete_fix(fix_history ? "NEIGH_HISTORY_LSM" : "NEIGH_HISTORY_LSM_DUMMY");
 }
 
-// The loop over the pairs within reach, compiled for each law and recorder. The setup of a run evaluates the forces of a
-// step that was done: the state of the contacts stays, so that a run in pieces equals one run, and a contact that slides
-// goes on sliding. Only where a command moved particles since, by more than they are rounded when they cross a
-// border of the box, their contacts follow.
+// The loop over the pairs within reach, compiled for each law and recorder. The setup of a run
+// evaluates the forces of a step that was done: the state of the contacts stays, so that a run in
+// pieces equals one run, and a contact that slides goes on sliding. Only where a command moved
+// particles since, by more than they are rounded when they cross a border of the box, their
+// contacts follow.
 template <class Law, class Recorder> class PairLSMFriction::Loop {
  public:
   explicit Loop(PairLSMFriction &style) :
@@ -80,13 +82,15 @@ template <class Law, class Recorder> class PairLSMFriction::Loop {
       nlocal(style.atom->nlocal), size(style.size_history()),
       reach_sq(style.near_reach() * style.near_reach()), step{style.update->setupflag != 0,
                                                               rounding(style.domain),
-                                                              style.update->dt * style.pace,
+                                                              style.update->dt * style.time_ratio,
                                                               style.locate_onset != 0},
+      mask(style.atom->mask),
       recorder(style, step.setup, style.domain->boxlo[0], style.domain->prd[0])
   {
   }
 
-  // The particles of contacts are far from each other in memory: their forces are fetched some contacts ahead.
+  // The particles of contacts are far from each other in memory: their forces are fetched some
+  // contacts ahead.
   [[gnu::always_inline]] void run()
   {
     constexpr int AHEAD = 8;
@@ -119,6 +123,7 @@ template <class Law, class Recorder> class PairLSMFriction::Loop {
   const int nlocal, size;
   const double reach_sq;
   const Step step;
+  const int *const mask;
   Recorder recorder;
 
   struct Geometry {
@@ -208,17 +213,25 @@ template <class Law, class Recorder> class PairLSMFriction::Loop {
                                      const LSM::FrictionStep &s, bool both)
   {
     const int i = site.i, j = site.j;
-    const double share = both ? 1.0 : 0.5, place = 0.5 * (x[i][0] + x[j][0]);
+    const double share = both ? 1.0 : 0.5;
     const double kij = pair.k[site.itype][site.jtype];
     recorder.springs(share, g.apart ? 0.0 : LSM::Spring::energy(kij, g.r - site.r0),
                      LSM::Spring::energy(kt, s.xi));
     recorder.dissipation(share, s.dissipated);
-    if (s.slip != 0.0)
-      recorder.slip(share, place, fabs(s.slip) * LSM::contact_size(radius[i], radius[j]));
+    const double moment = s.slip != 0.0 ? fabs(s.slip) * LSM::contact_size(radius[i], radius[j])
+                                        : 0.0;
+    recorder.slip(share, moment);
+    if (!recorder.wants_places()) return;
+    const int upper = pair.across_fault(mask[i], mask[j]);
+    if (upper == 0) {
+      recorder.within(share, s.dissipated);
+      return;
+    }
+    const double place = 0.5 * (x[i][0] + x[j][0]);
+    if (moment != 0.0) recorder.slip_at(share, place, moment);
     if (!recorder.wants_contacts()) return;
     const double along = g.apart ? 0.0 : fn * g.nx + s.force * g.ny;
-    recorder.contact(
-        {place, -s.slip * fabs(g.ny), s.dissipated, g.ny > 0.0 ? -along : along, share});
+    recorder.contact({place, s.dissipated, -upper * along, share});
   }
 };
 
@@ -236,7 +249,7 @@ void PairLSMFriction::compute(int eflag, int vflag)
   {&PairLSMFriction::run_loop<LSM::law, LSMRecordNothing>,  \
    &PairLSMFriction::run_loop<LSM::law, LSMRecordEnergies>, \
    &PairLSMFriction::run_loop<LSM::law, LSMRecordAndTally>},
-#include "laws/friction_laws.h"
+#include "friction/friction_laws.h"
 #undef LSM_FRICTION_LAW
   };
   ev_init(eflag, vflag);
@@ -340,18 +353,36 @@ void PairLSMFriction::choose(const LSMLaw *wanted)
 void PairLSMFriction::settings(int narg, char **arg)
 {
   const LSMLaw *wanted = &LSMLawTable::all()[0];
-  const bool named = narg > 0 && strcmp(arg[0], "onset") != 0;
-  if (named) wanted = LSMLawTable::find(arg[0]);
+  int words = 0;
+  while (words < narg && strcmp(arg[words], "onset") != 0) words++;
+  if (words > 0) wanted = LSMLawTable::find(arg[0]);
   if (!wanted)
     error->all(FLERR,
-               "Pair style lsm/friction expects [LAW] [onset located|step] with one of the laws "
-               "{}, got '{}'",
+               "Pair style lsm/friction expects [LAW [COEFFICIENTS]] [onset located|step] with one "
+               "of the laws {}, got '{}'",
                LSMLawTable::names(), arg[0]);
   int at_end = 0;
   const LSM::Keywords keywords = {{"onset", LSM::Words{&at_end, {"located", "step"}}}};
-  LSMKeywordReader(lmp, "Pair style lsm/friction", named ? 1 : 0, narg, arg).read_all(keywords);
+  LSMKeywordReader(lmp, "Pair style lsm/friction", words, narg, arg).read_all(keywords);
   locate_onset = !at_end;
   choose(wanted);
+  common.assign(arg + MIN(words, 1), arg + words);
+  if (common.empty()) return;
+  const bool number = utils::is_double(common[0]);
+  if (number == table.law->named)
+    error->all(FLERR, "Pair style lsm/friction {} expects {} or onset located|step, got '{}'",
+               table.law->name, table.law->named ? "pairs NAME VALUE" : "numbers", common[0]);
+  char kt[] = "1.0", *only_kt[] = {kt};
+  parse_law(1, only_kt);    // a mistake is named here
+}
+
+// kt and the law's coefficients, which may be those of pair_style
+void PairLSMFriction::parse_law(int narg, char **arg)
+{
+  std::vector<char *> words(arg, arg + MAX(narg, 0));
+  if (narg == 1)
+    for (std::string &word : common) words.push_back(word.data());
+  table.parse(static_cast<int>(words.size()), words.data());
 }
 
 void PairLSMFriction::init_style()
@@ -365,7 +396,7 @@ void PairLSMFriction::init_style()
         FLERR,
         "Pair style lsm/friction does not work with fix numdiff, as friction depends on the path");
 
-  pace = 1.0;
+  time_ratio = 1.0;
   noted = true;           // at the end of the run before
   running = table.law;    // see init_one()
   PairLSMFree::init_style();
@@ -431,30 +462,19 @@ void PairLSMFriction::transfer_history(double *source, double *target, int, int)
   for (int n = STATUS; n < size_history(); n++) target[n] = source[n];
 }
 
-// A law other than the first is named in front of what the first one writes, behind a number that nothing else
-// begins with.
-static constexpr int LAW_FOLLOWS = -1;
-
-std::string PairLSMFriction::law_in(LSMRestartFile file) const
-{
-  std::string name = table.law->name;
-  if (!file.follows(LAW_FOLLOWS, table.law != &LSMLawTable::all()[0])) return name;
-  int size = static_cast<int>(name.size());
-  file(&size);
-  name.resize(size);
-  file(name.data(), size);
-  return name;
-}
-
 void PairLSMFriction::write_restart_settings(FILE *fp)
 {
-  law_in({lmp, fp, false});
+  PairLSMFree::write_restart_settings(fp);
+  std::string name = table.law->name;
+  LSMRestartFile(lmp, fp, false)(name);
 }
 
 void PairLSMFriction::read_restart_settings(FILE *fp)
 {
+  PairLSMFree::read_restart_settings(fp);
   restored = true;
-  const std::string name = law_in({lmp, fp, true});
+  std::string name;
+  LSMRestartFile(lmp, fp, true)(name);
   table.law = running = LSMLawTable::find(name);
   if (!running)
     error->all(

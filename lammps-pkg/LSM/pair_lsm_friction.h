@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Lattice Solid Model: repulsion and friction of unlinked particles,
-// Eqs. (2) and (3), two dimensions; the laws of friction are in core/laws
+// Eqs. (2) and (3), two dimensions; the laws of friction are in core/friction
 
 #ifdef PAIR_CLASS
 // clang-format off
@@ -31,24 +31,27 @@ class PairLSMFriction : public PairLSMFree {
   double single(int, int, int, int, double, double, double, double &) override;
   void *extract(const char *, int &) override;
   void transfer_history(double *, double *, int, int) override;
-  double pace =
+  double time_ratio =
       1.0;    ///< model time over time of the steps, for laws that depend on time: fix lsm/leap
-  /// Begins the contacts that the lists hold with a shear force of the upper particle on the lower one, which is given
-  /// for each particle of this rank; called before forces are evaluated in a setup.
+  /// Begins the contacts that the lists hold with a shear force of the upper particle on the lower
+  /// one, which is given for each particle of this rank; called before forces are evaluated in a
+  /// setup.
   void load_contacts(const double *shear);
-  /// Writes the contacts of the last evaluation into the history; to be called before somebody reads it.
+  /// Writes the contacts of the last evaluation into the history; to be called before somebody
+  /// reads it.
   void note_contacts() override;
 
  protected:
   void allocate() override;
-  void parse_law(int narg, char **arg) override { table.parse(narg, arg); }
+  void parse_law(int narg, char **arg) override;
   void set_law(int i, int j) override { table.set(i, j); }
   void keep_law(LSMRestartFile &file, int i, int j) override { table.keep(file, i, j); }
   void print_law(FILE *fp, int i, int j) override { table.print(fp, i, j); }
 
  private:
-  // A pair that is kept near, with what is known of it until other pairs are kept: scattered over LAMMPS' arrays it
-  // would lie on a dozen cache lines. The history of all of them is copied from there and back.
+  // A pair that is kept near, with what is known of it until other pairs are kept: scattered over
+  // LAMMPS' arrays it would lie on a dozen cache lines. The history of all of them is copied from
+  // there and back.
 
   struct Site {
     int i, j, itype, jtype;
@@ -67,17 +70,17 @@ class PairLSMFriction : public PairLSMFree {
   bool noted = true;          // the history holds what they do
 
   LSMLawTable table;
-  const LSMLaw *running;       // of those of the name, the first that fits all coefficients
-  bool restored = false;       // law and coefficients come from a restart file
-  int locate_onset = 1;        // 1 if the onset of a contact within a step is located
-  double of_single[2] = {};    // target of svector: nothing to free if the constructor stops
+  std::vector<std::string> common;    // coefficients after kt where pair_coeff has none
+  const LSMLaw *running;              // of those of the name, the first that fits all coefficients
+  bool restored = false;              // law and coefficients come from a restart file
+  int locate_onset = 1;               // 1 if the onset of a contact within a step is located
+  double of_single[2] = {};           // target of svector: nothing to free if the constructor stops
   class FixDummy *fix_dummy = nullptr;
   class FixNeighHistory *fix_history = nullptr;
 
   template <class Law, class Recorder> class Loop;
   template <class Law, class Recorder> void run_loop();
   void choose(const LSMLaw *);
-  std::string law_in(LSMRestartFile) const;
   void collect_sites();
   void check_periods() const;
   int size_history() const;

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # To be sourced. install_debian_packages NAME... installs those that are missing, as root or with
-# sudo; on a system without dpkg it only says what is expected to be there.
+# sudo. Without apt, root or sudo it says in one line what is expected, and what is there is used;
+# need_programs says what is not.
 install_debian_packages() {
   if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
-    echo "Not a Debian system: these are expected to be installed: $*" >&2
+    echo "No apt here. Expected to be installed, by their names in Debian: $*" >&2
     return 0
   fi
   local name missing=() as_root=()
@@ -15,8 +16,8 @@ install_debian_packages() {
   [ ${#missing[@]} -gt 0 ] || return 0
   if [ "$(id -u)" -ne 0 ]; then
     if ! command -v sudo >/dev/null; then
-      echo "These Debian packages are missing and neither root nor sudo is at hand: ${missing[*]}" >&2
-      return 1
+      echo "Neither root nor sudo here. Expected to be installed, and missing as Debian packages: ${missing[*]}" >&2
+      return 0
     fi
     as_root=(sudo)
   fi
@@ -26,9 +27,44 @@ install_debian_packages() {
     "${missing[@]}" </dev/null >/dev/null
 }
 
+# need_programs NAME...: ends with one line where one is not there.
+need_programs() {
+  local name missing=()
+  for name in "$@"; do
+    command -v "$name" >/dev/null || missing+=("$name")
+  done
+  [ ${#missing[@]} -eq 0 ] || {
+    echo "Not found: ${missing[*]}; see above for what is expected" >&2
+    return 1
+  }
+}
+
+# debian_lammps: installs Debian's own LAMMPS where it is of the reference version (Debian 13), and
+# sets lammps_library to its file; nothing of LAMMPS has to be compiled then.
+debian_lammps() {
+  lammps_library=
+  command -v apt-cache >/dev/null && command -v dpkg-query >/dev/null || return 0
+  apt-cache policy liblammps-dev 2>/dev/null | grep -q '^ *Candidate: 20250204' || return 0
+  install_debian_packages liblammps-dev
+  lammps_library=$(dpkg-query -L liblammps-dev 2>/dev/null | grep '/liblammps\.so$') || lammps_library=
+}
+
+# configure_programs SOURCE BUILD: from a fresh checkout to a build folder in which everything can be
+# made. One that is there keeps its options.
+configure_programs() {
+  # The lists are words on purpose.
+  install_debian_packages $lammps_packages $plot_packages $postproc_packages $test_packages
+  need_programs cmake ninja c++ mpirun gnuplot
+  [ ! -f "$2/CMakeCache.txt" ] || return 0
+  debian_lammps
+  packages_took=$SECONDS
+  cmake -S "$1" -B "$2" -G Ninja ${lammps_library:+"-DLSM_LAMMPS_LIBRARY=$lammps_library"}
+}
+
 # What the build of the LAMMPS part needs, the fetching of LAMMPS included.
 lammps_packages="build-essential cmake ninja-build libopenmpi-dev openmpi-bin libpng-dev zlib1g-dev
   gzip xz-utils ca-certificates git"
 plot_packages="gnuplot-nox fonts-dejavu-core"
 postproc_packages="libcli11-dev libfmt-dev nlohmann-json3-dev libgsl-dev libfftw3-dev zlib1g-dev
   liblzma-dev libjs-dygraphs libpugixml-dev libhowardhinnant-date-dev"
+test_packages="libgtest-dev libgmock-dev python3-pytest python3-numpy"

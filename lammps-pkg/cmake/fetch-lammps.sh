@@ -14,7 +14,10 @@ mkdir -p "$1"
 dir=$(cd "$1" && pwd)
 file=$2
 suite=$3
-fail() { echo "fetch-lammps: $*" >&2; exit 1; }
+fail() {
+  echo "fetch-lammps: $*" >&2
+  exit 1
+}
 
 command -v apt-get >/dev/null || fail "apt-get not found"
 helper=/usr/lib/apt/apt-helper

@@ -26,7 +26,9 @@ class AftershockRates : public Statistic {
            "(t + c)^-p + background fitted to it by maximum likelihood (Utsu 1961, Ogata 1983), "
            "and the same for Poisson catalogues of the same events. A main shock is the largest "
            "of all events that start within a window before its start to a window after its end. "
-           "All ours: the paper does not look for aftershocks";
+           "Events before main shocks are counted, too, and both beyond the rate far from main "
+           "shocks; catalogues of one --label are taken together. All ours: the paper does not look "
+           "for aftershocks";
   }
 
   void add_options(CLI::App *command) override {
@@ -54,7 +56,7 @@ class AftershockRates : public Statistic {
     add_seed(group, seed_);
   }
 
-  std::vector<std::string> endings() const override { return {".omori.csv"}; }
+  std::vector<std::string> endings() const override { return {".omori.csv", ".means.csv"}; }
 
   SequenceRule rule_for(const EventTable &table) const {
     SequenceRule rule;
@@ -91,6 +93,8 @@ class AftershockRates : public Statistic {
     Findings found;
     found.say(texts(threshold_, tables));
     found.table("laws", aftershock_table(curves), ".omori");
+    if (Table means = aftershock_means(curves); means.rows() > 0)
+      found.table("means", std::move(means), ".means");
     if (!none || !picture.no_picture) found.figure("rates", aftershock_figure(curves));
     return found;
   }

@@ -5,7 +5,7 @@
 
 #include "benchmark_figure.h"
 #include "command.h"
-#include "lsm_slip_history.h"
+#include "files/slip_history.h"
 #include "numbers.h"
 
 namespace LSM::postproc {
@@ -26,6 +26,7 @@ StationCurve &station_of(std::vector<NamedCurves> &curves, std::string_view name
 void read_reference(const std::string &path, std::vector<NamedCurves> &curves) {
   constexpr std::string_view columns = "curve,x,t,slip,slip_rate";
   text_io::LineReader in(path);
+  const std::size_t before = curves.size();
   std::string_view line;
   std::vector<std::string_view> fields;
   bool named = false;
@@ -53,7 +54,8 @@ void read_reference(const std::string &path, std::vector<NamedCurves> &curves) {
     station.slip.push_back(slip);
     station.rate.push_back(rate);
   }
-  if (!named) throw FileError(fmt::format("{}: no rows, expected the columns '{}'", path, columns));
+  if (curves.size() == before)
+    throw FileError(fmt::format("{}: no rows, expected those of the columns '{}'", path, columns));
 }
 
 /// Slip at the end of each record, slip rate in its middle. A parameter `scale` of the header says

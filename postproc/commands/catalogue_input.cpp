@@ -4,15 +4,17 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "input_file.h"
-#include "lsm_huge_pages.h"
-#include "lsm_text_io.h"
+#include "numerics/huge_pages.h"
+#include "files/text_io.h"
 #include "samples.h"
 
 namespace LSM::postproc {
@@ -145,21 +147,38 @@ namespace {
 
 constexpr std::size_t head_size = 1 << 16;  // enough to know a format by
 
-/// All bytes of a file. \throws FileError
-std::string all_of(text_io::Bytes &bytes) {
+/// All bytes of a file of earthquakes. \throws FileError if it is larger than any can be, or has a
+/// line that is, unless it is QuakeML: a small compressed file may unpack to anything
+std::string all_of(text_io::Bytes &bytes, const std::string &format) {
+  constexpr std::size_t longest_line = 1 << 20, largest = std::size_t{1} << 30;
   std::string out;
+  std::size_t line = 0;  // where the last one begins
   for (std::size_t got = 1; got > 0;) {
     const std::size_t known = out.size();
     out.resize(known + head_size);
     got = bytes.read(out.data() + known, head_size);
     out.resize(known + got);
+    const std::size_t end = out.find_last_of("\r\n");
+    if (end != std::string::npos && end >= known) line = end + 1;
+    if (format != "quakeml" && out.size() - line > longest_line)
+      throw FileError(fmt::format("{}: a line of more than {} bytes, expected events on lines",
+                                  bytes.path(), longest_line));
+    if (out.size() > largest)
+      throw FileError(fmt::format("{}: more than {} bytes, expected several smaller files",
+                                  bytes.path(), largest));
   }
   return out;
 }
 
 /// Gives an event to use if it lies within [from, to) and is large enough.
+/// \throws FileError if one of its numbers has no square
 void choose(const Event &event, double from, double to, const CatalogueOptions &options,
             EventTable &table, const UseEvent &use) {
+  constexpr double largest = 1e100;
+  for (const double number : {event.t_start, event.t_end, event.size, event.slip_moment})
+    if (!(std::fabs(number) <= largest))
+      throw FileError(fmt::format("{}: event {} has a time or size of {}, expected at most {}",
+                                  table.path, event.id, number, largest));
   if (event.t_start < from || event.t_start >= to)
     ++table.left_out_time;
   else if (event.size < options.min_size)
@@ -177,7 +196,8 @@ EventTable read_earthquake_events(text_io::Bytes &bytes, const std::string &form
   const std::string &path = bytes.path();
   if (options.displacement)
     throw FileError(path + ": earthquakes, expected a catalogue of a model for --displacement");
-  const EarthquakeList list = read_earthquakes(all_of(bytes), format, path, options.lenient);
+  const EarthquakeList list =
+      read_earthquakes(all_of(bytes, format), format, path, options.lenient);
   EventTable table;
   table.path = path;
   table.info.model = seismicity;
@@ -221,12 +241,13 @@ EventTable read_model_events(std::unique_ptr<text_io::Bytes> bytes, const Catalo
   table.path = path;
   table.info = reader.info();
   table.label = label_of(table);
+  // Its value is a number, or the header would have been refused.
   if (const std::string *text = table.info.find("min_size"))
     text_io::parse(*text, table.complete_from);
   table.complete_from = std::max(table.complete_from, options.min_size);
   table.completeness = table.info.completeness();
   table.completeness_path = path;
-  const double unit = time_unit(table.info, path, options.displacement);
+  const double unit = table.model_time = time_unit(table.info, path, options.displacement);
   begin(table);
   Event event;
   while (reader.next(event)) {
@@ -305,9 +326,6 @@ void state_repairs(const EventTable &table) {
   for (const std::string &repair : table.repairs) fmt::print(stderr, "postproc: {}\n", repair);
 }
 
-namespace {
-
-/// An option for catalogues of one kind was used, and there is one.
 void check_kinds(const CatalogueOptions &options, std::size_t quakes, std::size_t all) {
   if (quakes == 0 && (std::isfinite(options.from_day) || std::isfinite(options.to_day)))
     throw std::invalid_argument(
@@ -322,26 +340,56 @@ void check_kinds(const CatalogueOptions &options, std::size_t quakes, std::size_
   expect_each("--label", options.labels.size(), "catalogue and region", all);
 }
 
-}  // namespace
-
-std::vector<EventTable> load_catalogues(const CatalogueOptions &options) {
+void for_each_catalogue(const CatalogueOptions &options, const UseCatalogue &use) {
   check(options);
-  std::vector<EventTable> tables;
   CatalogueOptions one = options;
   const std::size_t regions = std::max<std::size_t>(1, options.regions.size());
-  std::size_t quakes = 0;
+  std::size_t quakes = 0, all = 0;
   for (const std::string &path : options.paths)
     for (std::size_t i = 0; i < regions; ++i) {
       if (!options.regions.empty()) one.regions = {options.regions[i]};
-      tables.push_back(load_catalogue(path, one));
-      if (!tables.back().earthquakes()) break;
+      ++all;
+      if (!use(path, one)) break;
       ++quakes;
     }
-  check_kinds(options, quakes, tables.size());
-  for (std::size_t i = 0; i < tables.size(); ++i)
-    for (std::size_t j = i + 1; j < tables.size(); ++j)
-      if (tables[i].label == tables[j].label)
-        tables[j].label += " (" + std::filesystem::path(tables[j].path).stem().string() + ")";
+  check_kinds(options, quakes, all);
+}
+
+namespace {
+
+/// The name of a run, from that of its catalogue.
+std::string run_of(const std::string &path) {
+  std::string name = std::filesystem::path(path).filename().string();
+  for (const std::string_view ending : {".gz", ".xz", ".csv", ".catalogue"})
+    if (name.size() > ending.size() &&
+        name.compare(name.size() - ending.size(), ending.size(), ending) == 0)
+      name.resize(name.size() - ending.size());
+  return name;
+}
+
+/// Catalogues of the same label are told apart by the names of their files, or by their paths.
+void tell_apart(std::vector<EventTable> &tables) {
+  std::map<std::string, std::vector<EventTable *>> same;
+  for (EventTable &table : tables) same[table.label].push_back(&table);
+  for (auto &[label, group] : same) {
+    if (group.size() == 1) continue;
+    std::set<std::string> names;
+    for (const EventTable *table : group) names.insert(run_of(table->path));
+    const bool enough = names.size() == group.size();
+    for (EventTable *table : group)
+      table->label += " (" + (enough ? run_of(table->path) : table->path) + ")";
+  }
+}
+
+}  // namespace
+
+std::vector<EventTable> load_catalogues(const CatalogueOptions &options) {
+  std::vector<EventTable> tables;
+  for_each_catalogue(options, [&](const std::string &path, const CatalogueOptions &one) {
+    tables.push_back(load_catalogue(path, one));
+    return tables.back().earthquakes();
+  });
+  tell_apart(tables);
   for (std::size_t i = 0; i < options.labels.size(); ++i) tables[i].label = options.labels[i];
   for (std::size_t i = 0; i < tables.size(); ++i) {
     for (const EventTable &other : tables) {

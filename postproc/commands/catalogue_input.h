@@ -11,7 +11,7 @@
 
 #include "earthquakes.h"
 #include "event_table.h"
-#include "lsm_catalogue.h"
+#include "files/catalogue.h"
 #include "options.h"
 
 namespace LSM::postproc {
@@ -67,6 +67,17 @@ EventTable load_catalogue(const std::string &path, const CatalogueOptions &optio
 
 /// \throws std::invalid_argument for impossible times, sizes or numbers of labels.
 void check(const CatalogueOptions &options);
+
+/// \throws std::invalid_argument if an option that chooses earthquakes is given without a catalogue
+/// of them, or one that chooses events of models with nothing else
+void check_kinds(const CatalogueOptions &options, std::size_t quakes, std::size_t all);
+
+/// Calls use with each catalogue, one of earthquakes once for each region, which is the only one of
+/// the options that it gets; use returns whether it is one of earthquakes.
+/// \throws std::invalid_argument for impossible options, and at the end if one of them has chosen
+/// nothing, as no catalogue is of its kind
+using UseCatalogue = std::function<bool(const std::string &path, const CatalogueOptions &options)>;
+void for_each_catalogue(const CatalogueOptions &options, const UseCatalogue &use);
 
 /// What was repaired, on standard error.
 void state_repairs(const EventTable &table);

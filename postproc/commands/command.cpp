@@ -10,13 +10,42 @@ namespace LSM::postproc {
 
 namespace {
 
-/// Prints and writes the findings. Returns them for programs.
-nlohmann::ordered_json write(const Findings &found, const PictureOptions &picture) {
+PictureOptions files_of(const Finding &one, PictureOptions picture) {
+  picture.output += one.ending.value_or("");
+  return picture;
+}
+
+/// \throws FileError if a file of somebody else would be replaced
+void check_files(const Findings &found, const PictureOptions &picture) {
+  for (const Finding &one : found.all()) {
+    const PictureOptions files = files_of(one, picture);
+    const auto *const table = std::get_if<Table>(&one.what);
+    if (table && one.ending)
+      check_replaced(files.table(), files.overwrite,
+                     [table](std::string_view head) { return table->like(head); });
+    if (const auto *figure = std::get_if<Figure>(&one.what)) check_replaced(*figure, files);
+  }
+}
+
+/// The findings for programs.
+nlohmann::ordered_json json_of(const Findings &found) {
   nlohmann::ordered_json json;
   for (const Finding &one : found.all()) {
-    PictureOptions files = picture;
-    files.output += one.ending.value_or("");
-    nlohmann::ordered_json value;
+    if (one.name.empty()) continue;
+    if (const auto *table = std::get_if<Table>(&one.what))
+      json[one.name] = table->json();
+    else if (const auto *figure = std::get_if<Figure>(&one.what))
+      json[one.name] = figure->table.json();
+    else
+      json[one.name] = *std::get<std::shared_ptr<const nlohmann::ordered_json>>(one.what);
+  }
+  return json;
+}
+
+/// Prints and writes the findings.
+void write(const Findings &found, const PictureOptions &picture) {
+  for (const Finding &one : found.all()) {
+    const PictureOptions files = files_of(one, picture);
     if (const auto *text = std::get_if<std::string>(&one.what)) {
       fmt::print("{}", *text);
     } else if (const auto *warning = std::get_if<Warning>(&one.what)) {
@@ -27,19 +56,21 @@ nlohmann::ordered_json write(const Findings &found, const PictureOptions &pictur
         table->write(files.table());
         fmt::print("wrote {}\n", files.table());
       }
-      value = table->json();
     } else if (const auto *figure = std::get_if<Figure>(&one.what)) {
       make(*figure, files);
-      value = figure->table.json();
-    } else {
-      value = *std::get<std::shared_ptr<const nlohmann::ordered_json>>(one.what);
     }
-    if (!one.name.empty()) json[one.name] = std::move(value);
   }
-  return json;
 }
 
 }  // namespace
+
+void Command::add_all_options(CLI::App *command) {
+  add_options(command);
+  OptionGroup(command).flag(
+      "--overwrite", overwrite,
+      "Replace what is there. Without it, only figures, tables, pages and JSON are replaced, and "
+      "only those of an earlier run of the same command, which are known by how they begin");
+}
 
 void Analysis::run() {
   std::vector<Output> others = outputs();
@@ -48,7 +79,14 @@ void Analysis::run() {
     picture.check(inputs(), endings(), others);
   else
     check_outputs(others, inputs());
-  json.write(write(find(), picture));
+  picture.overwrite = overwrite;
+  json.check_replaced(overwrite);
+  const Findings found = find();
+  const nlohmann::ordered_json numbers = json_of(found);
+  check_files(found, picture);
+  json.check_replaced(overwrite, &numbers);
+  write(found, picture);
+  json.write(numbers);
 }
 
 void Analysis::add_picture(CLI::App *command, const std::string &base) {

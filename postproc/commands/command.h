@@ -19,9 +19,15 @@ class Command {
  public:
   virtual ~Command() = default;
   virtual const char *help() const = 0;
-  virtual void add_options(CLI::App *command) = 0;
+  /// Options of all commands and its own.
+  void add_all_options(CLI::App *command);
   /// Runs the command. \throws std::exception with one clear line
   virtual void run() = 0;
+
+ protected:
+  bool overwrite = false;  ///< replace files that are none of an earlier run of this command
+
+  virtual void add_options(CLI::App *command) = 0;
 };
 
 /// A command that turns its inputs into findings: all of them exist before the first is printed

@@ -5,7 +5,7 @@
 
 #include "command.h"
 #include "intervals.h"
-#include "lsm_sum.h"
+#include "numerics/sum.h"
 #include "numbers.h"
 #include "two_sample.h"
 

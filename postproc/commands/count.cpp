@@ -32,7 +32,7 @@ class Count : public CatalogueAnalysis {
     json.add_to(command);
     OptionGroup group(command);
     group.add("--size", sizes_, "Smallest size (model energy), several allowed", one_each(),
-              zero_or_more());
+              size_or_magnitude(), zero_or_more());
     group.add("--brief", brief_,
               "Also count events of at most so many steps; at too large time steps there are "
               "bursts of them",
@@ -40,7 +40,6 @@ class Count : public CatalogueAnalysis {
   }
 
   Findings find() override {
-    check(catalogues);
     std::sort(sizes_.begin(), sizes_.end());
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     Table totals(
@@ -57,26 +56,28 @@ class Count : public CatalogueAnalysis {
                 {"events", "events"},
                 {"sizes in all", "released"},
                 {"mean time", "mean_time"}});
-    for (std::size_t i = 0; i < catalogues.paths.size(); ++i) {
+    std::size_t number = 0;
+    for_each_catalogue(catalogues, [&](const std::string &path, const CatalogueOptions &one) {
       std::vector<From> counts;
       for (const double size : sizes_) counts.push_back({size});
       std::int64_t events = 0, last_step = 0;
       double first = nan, last = nan, largest = nan;
-      const EventTable table =
-          read_events(catalogues.paths[i], catalogues, [&](const Event &event) {
-            if (events++ == 0) first = event.t_start;
-            last = event.t_start;
-            last_step = event.step_end;
-            largest = std::fmax(largest, event.size);
-            for (From &from : counts) {
-              if (event.size < from.size) break;
-              ++from.events;
-              from.brief += event.step_end - event.step_start <= brief_;
-              from.released += event.size;
-            }
-          });
+      const EventTable table = read_events(path, one, [&](const Event &event) {
+        if (events++ == 0) first = event.t_start;
+        last = event.t_start;
+        last_step = event.step_end;
+        largest = std::fmax(largest, event.size);
+        for (From &from : counts) {
+          if (event.size < from.size) break;
+          ++from.events;
+          from.brief += event.step_end - event.step_start <= brief_;
+          from.released += event.size;
+        }
+      });
       state_repairs(table);
-      const std::string label = catalogues.labels.empty() ? table.label : catalogues.labels[i];
+      const std::string label =
+          number < catalogues.labels.size() ? catalogues.labels[number] : table.label;
+      ++number;
       const double span = table.last_end - first;
       const double share = table.info.overlapping() ? nan : table.in_events / span;
       totals.row(label, events, first, last, table.last_end, last_step, largest, share);
@@ -84,7 +85,8 @@ class Count : public CatalogueAnalysis {
         const double mean = from.events > 0 ? span / static_cast<double>(from.events) : nan;
         sizes.row(label, from.size, from.events, from.brief, from.released, mean);
       }
-    }
+      return table.earthquakes();
+    });
     Findings found;
     found.table("catalogues", std::move(totals));
     found.table("sizes", std::move(sizes));

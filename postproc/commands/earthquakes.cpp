@@ -11,8 +11,8 @@
 #include <set>
 #include <stdexcept>
 
-#include "lsm_catalogue.h"
-#include "lsm_text_io.h"
+#include "files/catalogue.h"
+#include "files/text_io.h"
 
 namespace LSM::postproc {
 
@@ -72,12 +72,17 @@ bool take_zone(std::string_view &text, int &ahead) {
   return true;
 }
 
-bool is_earthquake(std::string type) {
+std::string in_small_letters(std::string_view text) {
+  std::string out(text);
+  for (char &c : out)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return out;
+}
+
+bool is_earthquake(const std::string &type) {
   static const std::set<std::string> names = {
       "", "earthquake", "induced or triggered event", "eq", "eql", "eqr", "le", "re", "ts"};
-  for (char &c : type)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return names.count(type) > 0;
+  return names.count(in_small_letters(type)) > 0;
 }
 
 /// One event as its line says it; empty fields are those the file does not have.
@@ -138,16 +143,17 @@ class Collector {
   EarthquakeList list_;
 };
 
-/// The lines of a file without their ends, but for comments and empty ones.
+/// The lines of a file without their ends ('\n', '\r\n' or '\r'), but for comments and empty ones.
 struct Lines {
   std::string_view rest, line = {};
   std::int64_t number = 0;
 
   bool next() {
     while (!rest.empty()) {
-      const std::size_t end = rest.find('\n');
+      const std::size_t end = std::min(rest.find_first_of("\r\n"), rest.size());
       line = text_io::trim(rest.substr(0, end));
-      rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
+      rest.remove_prefix(end);
+      rest.remove_prefix(rest.substr(0, 2) == "\r\n" ? 2 : std::min<std::size_t>(1, rest.size()));
       ++number;
       if (!line.empty() && line.front() != '#' && line.front() != '%') return true;
     }
@@ -185,31 +191,63 @@ Fields split_blanks(std::string_view line) {
   }
 }
 
-/// Place of a column, by the first of its names; none: -1.
+/// Place of a column, by the first of its names in small letters; none: -1.
 int column(const Fields &names, std::initializer_list<std::string_view> wanted) {
   for (const std::string_view one : wanted)
     for (std::size_t i = 0; i < names.size(); ++i)
-      if (names[i] == one) return static_cast<int>(i);
+      if (in_small_letters(text_io::trim(names[i])) == one) return static_cast<int>(i);
   return -1;
 }
 
-/// Places of time, latitude, longitude, magnitude and type, the first four of which a file needs.
-using CsvColumns = std::array<int, 5>;
+/// Places of columns. Time is one column (ComCat, NCEDC); a date and the time of the day; or year,
+/// month, day and hhmmss.ss (both NEIC).
+struct CsvColumns {
+  int latitude, longitude, magnitude, type, time, date, year, month, day, clock;
+
+  bool complete() const {
+    return latitude >= 0 && longitude >= 0 && magnitude >= 0 &&
+           (time >= 0 || (year >= 0 && month >= 0 && day >= 0 && clock >= 0));
+  }
+};
 CsvColumns csv_columns(const Fields &names) {
-  return {column(names, {"time"}), column(names, {"latitude"}), column(names, {"longitude"}),
-          column(names, {"mag", "magnitude"}), column(names, {"type", "event_type"})};
+  const auto place = [&names](std::initializer_list<std::string_view> wanted) {
+    return column(names, wanted);
+  };
+  return {place({"latitude", "lat"}),
+          place({"longitude", "lon"}),
+          place({"mag", "magnitude"}),
+          place({"type", "event_type", "eventtype"}),
+          place({"time", "datetime", "timeutc", "origin_time"}),
+          place({"date"}),
+          place({"year"}),
+          place({"month"}),
+          place({"day"}),
+          place({"time(hhmmss.mm)utc", "time(hhmmss.ss)utc"})};
 }
-bool complete(const CsvColumns &columns) {
-  return std::find(columns.begin(), columns.end() - 1, -1) == columns.end() - 1;
+
+/// "MM/DD/YYYY" as YYYY-MM-DD, and hhmmss.ss as hh:mm:ss.ss; other texts as they are.
+std::string iso_date(std::string_view text) {
+  if (text.size() != 10 || text[2] != '/' || text[5] != '/') return std::string(text);
+  return std::string(text.substr(6)) + '-' + std::string(text.substr(0, 2)) + '-' +
+         std::string(text.substr(3, 2));
+}
+std::string iso_clock(std::string_view text) {
+  const std::size_t whole = std::min(text.find('.'), text.size());
+  if (whole > 6 ||
+      !std::all_of(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(whole), is_digit))
+    return std::string(text);
+  const std::string digits = std::string(6 - whole, '0') + std::string(text);
+  return digits.substr(0, 2) + ':' + digits.substr(2, 2) + ':' + digits.substr(4);
 }
 
 void read_csv(std::string_view content, Collector &out) {
   Lines lines{content};
   const Fields names = lines.next() ? split_csv(lines.line) : Fields();
   const CsvColumns columns = csv_columns(names);
-  if (!complete(columns))
+  if (!columns.complete())
     out.fail(lines.number,
-             "column names without time, latitude, longitude and mag, expected those of ComCat");
+             "column names without time, latitude, longitude and mag, expected those of ComCat, "
+             "NEIC or NCEDC");
   while (lines.next()) {
     const Fields fields = split_csv(lines.line);
     if (fields.size() != names.size()) {
@@ -217,11 +255,27 @@ void read_csv(std::string_view content, Collector &out) {
               std::to_string(fields.size()) + " fields, expected " + std::to_string(names.size()));
       continue;
     }
-    const auto field = [&](std::size_t i) {
-      return columns[i] < 0 ? std::string_view()
-                            : text_io::trim(fields[static_cast<std::size_t>(columns[i])]);
+    const auto field = [&](int place) {
+      return place < 0 ? std::string_view()
+                       : text_io::trim(fields[static_cast<std::size_t>(place)]);
     };
-    out.add({field(0), field(1), field(2), field(3), field(4), {}}, lines.number);
+    std::string time(field(columns.time));
+    if (columns.time >= 0 && columns.date >= 0) {
+      time = iso_date(field(columns.date)) + ' ' + time;
+    } else if (columns.time < 0) {
+      const auto two = [](std::string_view number) {
+        return (number.size() == 1 ? "-0" : "-") + std::string(number);
+      };
+      time = std::string(field(columns.year)) + two(field(columns.month)) +
+             two(field(columns.day)) + ' ' + iso_clock(field(columns.clock));
+    }
+    out.add({time,
+             field(columns.latitude),
+             field(columns.longitude),
+             field(columns.magnitude),
+             field(columns.type),
+             {}},
+            lines.number);
   }
 }
 
@@ -271,6 +325,17 @@ pugi::xml_node preferred(const pugi::xml_node &event, const char *name, const ch
   return event.child(name);
 }
 
+/// Takes prefixes off the names of elements: which ones stand for the namespace of QuakeML is up to
+/// the writer, and no other elements have its names.
+struct Unprefixed : pugi::xml_tree_walker {
+  bool for_each(pugi::xml_node &node) override {
+    const std::string_view name = node.name();
+    const std::size_t colon = name.find(':');
+    if (colon != std::string_view::npos) node.set_name(std::string(name.substr(colon + 1)).c_str());
+    return true;
+  }
+};
+
 void read_quakeml(std::string_view content, Collector &out, const std::string &path) {
   pugi::xml_document document;
   const pugi::xml_parse_result parsed = document.load_buffer(content.data(), content.size());
@@ -280,6 +345,8 @@ void read_quakeml(std::string_view content, Collector &out, const std::string &p
   if (!parsed)
     throw FileError(text_io::where(path, line_of(parsed.offset)) + parsed.description() +
                     ", expected QuakeML");
+  Unprefixed walker;
+  document.traverse(walker);
   const pugi::xml_node events = document.document_element().child("eventParameters");
   if (!events) throw FileError(path + ": no element eventParameters, expected QuakeML");
   for (const pugi::xml_node &event : events.children("event")) {
@@ -298,10 +365,15 @@ void read_quakeml(std::string_view content, Collector &out, const std::string &p
   }
 }
 
+std::string_view without_mark(std::string_view content) {
+  return content.substr(content.substr(0, 3) == "\xef\xbb\xbf" ? 3 : 0);
+}
+
 }  // namespace
 
 bool Region::contains(const Earthquake &event) const {
   if (event.latitude < south || event.latitude > north) return false;
+  if (east - west >= 360.0) return true;
   const auto eastwards = [this](double longitude) {
     const double turn = std::fmod(longitude - west, 360.0);
     return turn < 0.0 ? turn + 360.0 : turn;
@@ -341,7 +413,7 @@ Region parse_region(std::string_view text) {
     rest.remove_prefix(slash == std::string_view::npos ? rest.size() : slash + 1);
   }
   if (!good || !(v[2] < v[3]) || std::fabs(v[2]) > 90.0 || std::fabs(v[3]) > 90.0 ||
-      std::fabs(v[0]) > 360.0 || std::fabs(v[1]) > 360.0 || v[0] == v[1])
+      std::fabs(v[0]) > 360.0 || std::fabs(v[1]) > 360.0 || v[0] == v[1] || v[0] - v[1] >= 360.0)
     throw std::invalid_argument("--region " + text_io::in_quotes(text) +
                                 ", expected W/E/S/N in degrees, such as -122/-114/32/37");
   return {v[0], v[1], v[2], v[3]};
@@ -349,10 +421,11 @@ Region parse_region(std::string_view text) {
 
 std::string detect_format(std::string_view content) {
   constexpr std::string_view magic = catalogue_detail::magic;
+  content = without_mark(content);
   Lines lines{content};
   if (content.substr(0, magic.size()) == magic || !lines.next()) return "models";
   if (lines.line.front() == '<') return "quakeml";
-  if (complete(csv_columns(split_csv(lines.line)))) return "csv";
+  if (csv_columns(split_csv(lines.line)).complete()) return "csv";
   if (lines.line.size() > 10 && lines.line[4] == '/' && parse_date(lines.line.substr(0, 10)))
     return "scedc";
   const Fields fields = split_blanks(lines.line);
@@ -366,6 +439,10 @@ std::string detect_format(std::string_view content) {
 EarthquakeList read_earthquakes(std::string_view content, const std::string &format,
                                 const std::string &path, bool lenient) {
   Collector out(path, lenient);
+  content = without_mark(content);
+  if (text_io::is_utf16(content)) throw FileError(path + text_io::utf16_text);
+  if (content.substr(0, (1 << 16)).find('\0') != std::string_view::npos)
+    throw FileError(path + ": has bytes of 0, expected text");
   if (format == "csv") read_csv(content, out);
   if (format == "quakeml") read_quakeml(content, out, path);
   if (format == "zmap") read_zmap(content, out);

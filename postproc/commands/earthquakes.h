@@ -52,10 +52,10 @@ std::string date_text(double days);
 /// "W/E/S/N" in degrees. \throws std::invalid_argument
 Region parse_region(std::string_view text);
 
-/// Format of a file by its first bytes: '<' is quakeml, '# lsm-catalogue' a catalogue of the
-/// models, a line of column names with time and mag (or magnitude) csv, a first line of data that
-/// begins with YYYY/MM/DD scedc, at least nine numbers zmap; else models, whose reader says what it
-/// misses.
+/// Format of a file by its first bytes, a byte order mark aside: '<' is quakeml, '# lsm-catalogue'
+/// a catalogue of the models, a line of column names with time and mag (or magnitude) csv, a first
+/// line of data that begins with YYYY/MM/DD scedc, at least nine numbers zmap; else models, whose
+/// reader says what it misses.
 std::string detect_format(std::string_view content);
 
 /// Earthquakes in the text of a file. An event is one if its type is missing, 'earthquake',

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include <filesystem>
+#include <cmath>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -8,6 +8,8 @@
 #include "explore_page.h"
 #include "input_file.h"
 #include "new_file.h"
+#include "page.h"
+#include "run_files.h"
 #include "series_input.h"
 
 namespace LSM::postproc {
@@ -18,41 +20,15 @@ namespace {
 constexpr std::int64_t most_samples = std::int64_t{1} << 24;
 constexpr std::size_t most_events = 100'000;
 
-/// Takes an ending off a path if it has it.
-bool take_off(std::string &path, std::string_view ending) {
-  if (path.size() <= ending.size() ||
-      path.compare(path.size() - ending.size(), ending.size(), ending) != 0)
-    return false;
-  path.resize(path.size() - ending.size());
-  return true;
-}
-
-/// A file of the run of a catalogue, or "" if there is none.
-std::string file_beside(const std::string &catalogue, const std::string &ending) {
-  std::string base = catalogue;
-  for (const std::string_view packed : {".gz", ".xz"})
-    if (take_off(base, packed)) break;
-  for (const std::string_view kind : {".catalogue.csv", ".ruptures.csv", ".csv"})
-    if (take_off(base, kind)) break;
-  for (const char *const packed : {"", ".gz", ".xz"}) {
-    const std::string path = base + ending + packed;
-    if (path != catalogue && std::filesystem::exists(path)) return path;
-  }
-  return {};
-}
-
-/// Paths of one kind of file for each catalogue: those given ("none": there is none), or those that
-/// are found beside the catalogues; "" for none.
-std::vector<std::string> files_beside(const std::vector<std::string> &catalogues,
-                                      const std::vector<std::string> &given, const char *option,
-                                      const std::string &ending) {
-  expect_each(option, given.size(), "catalogue", catalogues.size());
-  std::vector<std::string> paths;
-  for (std::size_t i = 0; i < catalogues.size(); ++i)
-    paths.push_back(given.empty()        ? file_beside(catalogues[i], ending)
-                    : given[i] == "none" ? std::string()
-                                         : given[i]);
-  return paths;
+/// \throws FileError unless series and catalogue count steps and time from the same beginning
+void check_same_start(const EventTable &table, const ExploreSeries &series) {
+  if (table.details.empty() || series.info.explicit_times) return;
+  const Event &event = table.details.front();
+  const double expected = series.info.time(event.step_start);
+  if (std::fabs(event.t_start - expected) > 1e-9 * std::fabs(expected) + 1e-6 * series.info.dt)
+    throw FileError(
+        fmt::format("{}: step {} is at time {}, but at {} in {}: expected a file of the same run",
+                    series.path, event.step_start, expected, event.t_start, table.path));
 }
 
 ExploreSeries load_series(const std::string &path, const CatalogueOptions &which) {
@@ -62,7 +38,7 @@ ExploreSeries load_series(const std::string &path, const CatalogueOptions &which
   series.path = path;
   series.info = input.info();
   const std::int64_t stride = series.info.stride;
-  bool even = !series.info.own_times;
+  bool even = !series.info.explicit_times;
   series.samples = input.read_some([&](std::int64_t step, double time, double pe) {
     if (time < options.from_time) return;
     const auto count = static_cast<std::int64_t>(series.pe.size());
@@ -91,7 +67,8 @@ ExploreEvents load_kind(EventTable table) {
 class Explore : public Command {
   CatalogueOptions catalogues_;
   ExploreSettings page_;
-  std::vector<std::string> series_, ruptures_, histories_;
+  RunFiles series_ = RunFiles::series(), ruptures_ = RunFiles::ruptures(),
+           histories_ = RunFiles::history();
   std::string output_ = "explore.html";
 
   const char *help() const override {
@@ -107,15 +84,7 @@ class Explore : public Command {
     OptionGroup own(command);
     own.add("-o,--output", output_, "The page");
     own.add("--title", page_.title, "Heading of the page", shown("label of the run"));
-    OptionGroup group(command,
-                      "Files of the runs, in the order of their catalogues; none: leave it out");
-    const auto add_files = [&group](const char *name, std::vector<std::string> &paths,
-                                    const char *what, const char *where) {
-      group.add(name, paths, what, kind("FILE"), shown(where), one_each());
-    };
-    add_files("--series", series_, "PE series of the run", "RUN.pe.bin beside RUN.catalogue.csv");
-    add_files("--ruptures", ruptures_, "Catalogue of the ruptures of the run", "RUN.ruptures.csv");
-    add_files("--history", histories_, "Slip history of the run", "RUN.slip.bin");
+    for (RunFiles *files : {&series_, &ruptures_, &histories_}) files->add_to(command);
     add_wave_speeds(OptionGroup(command, "Slip"), page_.p_speed, page_.s_speed);
   }
 
@@ -137,22 +106,39 @@ class Explore : public Command {
       which.labels.push_back(runs[i].kinds.front().table.label);
     }
     std::vector<EventTable> tables = load_catalogues(which);
-    for (std::size_t k = 0; k < tables.size(); ++k)
-      runs[with_ruptures[k]].kinds.push_back(load_kind(std::move(tables[k])));
+    for (std::size_t k = 0; k < tables.size(); ++k) {
+      ExploreRun &run = runs[with_ruptures[k]];
+      const EventTable &drops = run.kinds.front().table;
+      if (!tables[k].info.overlapping())
+        throw FileError(tables[k].path + ": no catalogue of ruptures, expected one");
+      check_same_run(header_of(drops), header_of(tables[k]));
+      // Short runs have none.
+      if (tables[k].events.empty() && !ruptures_.given())
+        fmt::print(stderr, "postproc: {}: no ruptures, left out\n", tables[k].path);
+      else
+        run.kinds.push_back(load_kind(std::move(tables[k])));
+    }
     return runs;
   }
 
   void run() override {
     const std::vector<std::string> &paths = catalogues_.paths;
-    const auto series = files_beside(paths, series_, "--series", ".pe.bin");
-    const auto histories = files_beside(paths, histories_, "--history", ".slip.bin");
-    const auto ruptures = files_beside(paths, ruptures_, "--ruptures", ".ruptures.csv");
+    const auto series = series_.of(paths), histories = histories_.of(paths),
+               ruptures = ruptures_.of(paths);
     for (const auto &files : {paths, series, histories, ruptures}) refuse_input(output_, files);
+    check_replaced(output_, overwrite, is_page_of("explore"));
     std::vector<ExploreRun> runs = load_events(ruptures);
     for (std::size_t i = 0; i < runs.size(); ++i) {
-      if (!series[i].empty()) runs[i].series = load_series(series[i], catalogues_);
+      const EventTable &drops = runs[i].kinds.front().table;
+      const HeaderOf header = header_of(drops);
+      if (!series[i].empty()) {
+        runs[i].series = load_series(series[i], catalogues_);
+        check_same_run(header, {series[i], runs[i].series->info.header()});
+        check_same_start(drops, *runs[i].series);
+      }
       if (histories[i].empty()) continue;
       SlipHistoryReader history = open_history(histories[i], catalogues_.lenient);
+      check_same_run(header, {histories[i], history.info().header()});
       runs[i].history = with_path(histories[i], [&] {
         return slip_image(history, catalogues_.from_time, catalogues_.to_time);
       });

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <chrono>
 #include <cmath>
+#include <filesystem>
+#include <sstream>
 #include <stdexcept>
 
 #include <date/date.h>
 #include <fmt/format.h>
+#include <pugixml.hpp>
 
 #include "command.h"
 #include "new_file.h"
+#include "numbers.h"
 
 namespace LSM::postproc {
 
@@ -24,20 +28,86 @@ std::string date_text(double seconds, std::int64_t start, int last_year) {
   return year < 1700 || year > last_year ? std::string() : date::format("%FT%T", at);
 }
 
+/// An event as the formats take it.
+struct Exported {
+  const Event &event;
+  std::size_t catalogue;
+  std::string date;
+  double magnitude, longitude;
+  const std::string &type;  ///< of the magnitude
+};
+
+/// A kind of file.
+struct Format {
+  const char *name;
+  int last_year;  ///< that its readers know
+  std::string head, tail;
+  std::string (*event)(const Exported &event);
+};
+
+std::string seismostats_row(const Exported &e) {
+  return fmt::format("{},0,0,{},{},{},{},{},{},{}\n", e.longitude, e.date, e.magnitude, e.event.id,
+                     e.catalogue, e.event.t_end - e.event.t_start, e.event.size, e.type);
+}
+
+std::string csep_row(const Exported &e) {
+  return fmt::format("{},0,{},{},0,{},{}\n", e.longitude, e.magnitude, e.date, e.catalogue,
+                     e.event.id);
+}
+
+std::string quakeml_event(const Exported &e) {
+  const std::string name = fmt::format("smi:local/lsm-fault/{}/{}", e.catalogue, e.event.id);
+  pugi::xml_document document;
+  pugi::xml_node event = document.append_child("event");
+  const auto value = [](pugi::xml_node of, const char *what, const std::string &text) {
+    of.append_child(what).append_child("value").text().set(text.c_str());
+  };
+  event.append_attribute("publicID") = (name + "/event").c_str();
+  event.append_child("preferredOriginID").text().set((name + "/origin").c_str());
+  event.append_child("preferredMagnitudeID").text().set((name + "/magnitude").c_str());
+  event.append_child("type").text().set("earthquake");
+  pugi::xml_node origin = event.append_child("origin");
+  origin.append_attribute("publicID") = (name + "/origin").c_str();
+  value(origin, "time", e.date + "Z");
+  value(origin, "longitude", fmt::format("{}", e.longitude));
+  value(origin, "latitude", "0");
+  value(origin, "depth", "0");
+  pugi::xml_node magnitude = event.append_child("magnitude");
+  magnitude.append_attribute("publicID") = (name + "/magnitude").c_str();
+  value(magnitude, "mag", fmt::format("{}", e.magnitude));
+  magnitude.append_child("type").text().set(e.type.c_str());
+  magnitude.append_child("originID").text().set((name + "/origin").c_str());
+  std::ostringstream text;
+  document.save(text, " ", pugi::format_indent | pugi::format_no_declaration);
+  return text.str();
+}
+
+const Format formats[] = {
+    {"seismostats", 2261,
+     "longitude,latitude,depth,time,magnitude,event_id,catalog_id,duration,size,magnitude_type\n",
+     "", seismostats_row},
+    {"csep", 9999, "lon,lat,mag,time_string,depth,catalog_id,event_id\n", "", csep_row},
+    {"quakeml", 9999,
+     "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+     "<q:quakeml xmlns:q=\"http://quakeml.org/xmlns/quakeml/1.2\" "
+     "xmlns=\"http://quakeml.org/xmlns/bed/1.2\">\n"
+     "<eventParameters publicID=\"smi:local/lsm-fault\">\n",
+     "</eventParameters>\n</q:quakeml>\n", quakeml_event}};
+
 class Export : public CatalogueAnalysis {
   OutputOption output_;
-  std::string start_ = "2000-01-01T00:00:00";
+  std::optional<std::string> start_;
   std::string format_ = "seismostats";
   MagnitudeOptions magnitudes_;
-  double degrees_ = 0.0;
-  double unit_ = 1.0;  // seconds in a unit of model time
+  std::optional<double> degrees_;
+  std::optional<double> unit_;  // seconds in a unit of model time
 
   const char *help() const override {
-    return "Writes catalogues as a table for earthquake catalogue tools. Magnitudes are a "
-           "convention, not a result: M = (2/3) log10(size) + constant, the usual slope between "
-           "magnitude and the logarithm of seismic moment or energy, as the size of an event is an "
-           "energy of the model (ours). A model of a single fault has no geography: latitude and "
-           "depth are 0";
+    return "Writes catalogues as a file for earthquake catalogue tools. A model has neither dates "
+           "nor magnitudes, so that both have to be chosen: by --unit-length, --p-speed and "
+           "--density of a rock, from which magnitudes, times and longitudes follow; or by "
+           "--time-unit, --start-date and --magnitude-constant, M = (2/3) log10(size) + constant "
+           "(ours). A model of a single fault has no geography: latitude and depth are 0";
   }
 
   void add_options(CLI::App *command) override {
@@ -50,89 +120,127 @@ class Export : public CatalogueAnalysis {
     group.add("--format", format_,
               "seismostats: longitude, latitude, depth, time, magnitude (what seismostats.Catalog "
               "requires; read with pandas.read_csv(FILE, parse_dates=['time'])), then event_id, "
-              "catalog_id, duration (model time), size (energy). csep: lon, lat, mag, time_string, "
-              "depth, catalog_id, event_id, the columns of pyCSEP's CSV (csep.load_catalog(FILE, "
-              "type='csep-csv'))",
-              among({"seismostats", "csep"}));
+              "catalog_id, duration (model time), size (energy), magnitude_type (Mw, Me, or M for "
+              "a scale of your own). csep: lon, lat, mag, time_string, depth, catalog_id, "
+              "event_id, the columns of pyCSEP's CSV (csep.load_catalog(FILE, type='csep-csv')). "
+              "quakeml: QuakeML 1.2",
+              among({"seismostats", "csep", "quakeml"}));
     magnitudes_.add_to(group);
-    group.add("--start-date", start_,
-              "Date of model time 0, YYYY-MM-DD or YYYY-MM-DDTHH:MM:SS (UTC). Times are the starts "
-              "of events, YYYY-MM-DDTHH:MM:SS.ffffff");
+    group.texts(
+        "--start-date", [this](const std::vector<std::string> &text) { start_ = text.back(); },
+        "Date of model time 0, YYYY-MM-DD or YYYY-MM-DDTHH:MM:SS (UTC). Times are the starts "
+        "of events, YYYY-MM-DDTHH:MM:SS.ffffff",
+        {shown("with --unit-length 2000-01-01")});
     group.add("--time-unit", unit_,
               "Length of one unit of model time: second, minute, hour, day, year (365.25 days), or "
-              "a number of seconds. Dates have to lie before 2262 (pandas) or 10000 (csep)",
+              "a number of seconds. Dates have to lie before 2262 (pandas) or 10000 (others)",
               number_or({{"second", 1.0},
                          {"minute", 60.0},
                          {"hour", 3600.0},
                          {"day", 86400.0},
                          {"year", 365.25 * 86400.0}}),
-              positive(), shown("second"));
+              positive());
     group.add("--degrees-per-length", degrees_,
               "Longitude = x_centroid x this (degrees per model length); 0: all longitudes are 0",
-              finite());
+              shown("0, with --unit-length that of the equator"), finite());
   }
 
   std::vector<Output> outputs() const override { return {output_.output()}; }
 
-  bool csep() const { return format_ == "csep"; }
+  /// \throws std::invalid_argument unless scale and origin were chosen
+  void check_conventions() const {
+    magnitudes_.check();
+    if (magnitudes_.units.given()) {
+      if (unit_)
+        throw std::invalid_argument(
+            "--time-unit with --unit-length, from which it follows: expected one of them");
+      return;
+    }
+    const char *missing = !unit_                  ? "--time-unit"
+                          : !start_               ? "--start-date"
+                          : !magnitudes_.constant ? "--magnitude-constant"
+                                                  : nullptr;
+    if (missing)
+      throw std::invalid_argument(
+          fmt::format("no {}: a model has neither dates nor magnitudes, expected --unit-length, "
+                      "--p-speed and --density, or --time-unit, --start-date and "
+                      "--magnitude-constant",
+                      missing));
+  }
 
   /// Seconds since 1970 of model time 0. \throws std::invalid_argument for impossible options
   std::int64_t checked_start() const {
-    check(catalogues);
-    const std::optional<double> days = parse_date(start_);
+    check_conventions();
+    const std::string start = start_.value_or("2000-01-01");
+    const std::optional<double> days = parse_date(start);
     if (!days)
       throw std::invalid_argument(fmt::format(
-          "--start-date '{}': expected a date YYYY-MM-DD or YYYY-MM-DDTHH:MM:SS", start_));
+          "--start-date '{}': expected a date YYYY-MM-DD or YYYY-MM-DDTHH:MM:SS", start));
     return std::llround(*days * 86400.0);
   }
 
-  /// Row of an event of the catalogue with this number.
-  std::string row_of(const Event &event, std::size_t number, std::int64_t start) const {
-    const int last_year = csep() ? 9999 : 2261;
-    const double magnitude = magnitudes_.magnitude(magnitudes_.quantity(event));
-    const double longitude = event.x_centroid * degrees_;
-    const std::string date = date_text(event.t_start * unit_, start, last_year);
-    if (date.empty())
-      throw std::runtime_error(
-          fmt::format("{}: event {} starts at time {}, a date outside the years 1700 to {}; "
-                      "expected another --time-unit or --start-date",
-                      catalogues.paths[number], event.id, event.t_start, last_year));
-    if (csep())
-      return fmt::format("{},0,{},{},0,{},{}\n", longitude, magnitude, date, number, event.id);
-    return fmt::format("{},0,0,{},{},{},{},{},{}\n", longitude, date, magnitude, event.id, number,
-                       event.t_end - event.t_start, event.size);
+  /// Degrees of longitude in a model length.
+  double degrees(const CatalogueInfo &info) const {
+    constexpr double metres = 111194.9;  // of a degree of a sphere with the radius 6371 km
+    if (degrees_ || !info.x_centroid || !magnitudes_.units.given()) return degrees_.value_or(0.0);
+    return magnitudes_.units.units().length / metres;
+  }
+
+  std::string conventions(std::int64_t start) const {
+    const double second = unit_ ? *unit_ : magnitudes_.units.units().time();
+    return fmt::format("{}; a unit of time is {} s; time 0 is {}\n", magnitudes_.text(),
+                       short_number(second), date_text(0.0, start, 9999).substr(0, 19));
   }
 
   Findings find() override {
     const std::int64_t start = checked_start();
-    const FileLock lock = claim_output(output_.path, output_.force);
+    const Format *format = formats;
+    while (format->name != format_) ++format;
+    const std::string type = magnitudes_.type();
+    const FileLock lock = claim_output(output_.path, overwrite);
     text_io::OutputFile out;
-    out.create(output_.path,
-               csep()
-                   ? "lon,lat,mag,time_string,depth,catalog_id,event_id\n"
-                   : "longitude,latitude,depth,time,magnitude,event_id,catalog_id,duration,size\n",
-               true);
+    out.create(output_.path, format->head, true);
     std::string block;
     std::int64_t written = 0, without = 0;
-    for (std::size_t i = 0; i < catalogues.paths.size(); ++i) {
-      const std::string &path = catalogues.paths[i];
-      const EventTable table = read_events(path, catalogues, [&](const Event &event) {
-        const bool has_magnitude = magnitudes_.quantity(event) > 0.0;
-        ++(has_magnitude ? written : without);
-        if (has_magnitude) block += row_of(event, i, start);
+    std::size_t number = 0;
+    for_each_catalogue(catalogues, [&](const std::string &path, const CatalogueOptions &one) {
+      MagnitudeScale scale;
+      double per_length = 0.0, second = 0.0;
+      const auto begin = [&](const EventTable &table) {
+        scale = magnitudes_.scale(path, table.info);
+        second = unit_ ? *unit_ : magnitudes_.units.units(path, table.info).time();
+        per_length = degrees(table.info);
+        if (per_length != 0.0 && !table.info.x_centroid)
+          throw std::runtime_error(
+              path +
+              ": has no column x_centroid, expected one for --degrees-per-length (fault: -var "
+              "location yes)");
+      };
+      const auto use = [&](const Event &event) {
+        const double quantity = magnitudes_.quantity(event);
+        ++(quantity > 0.0 ? written : without);
+        if (!(quantity > 0.0)) return;
+        const std::string date = date_text(event.t_start * second, start, format->last_year);
+        if (date.empty())
+          throw std::runtime_error(
+              fmt::format("{}: event {} starts at time {}, a date outside the years 1700 to {}; "
+                          "expected another --time-unit or --start-date",
+                          path, event.id, event.t_start, format->last_year));
+        block += format->event({event, number, date, binned(scale.of(quantity), magnitudes_.bin),
+                                event.x_centroid * per_length, type});
         if (block.size() < (1 << 16)) return;
         out.write(block);
         block.clear();
-      });
-      magnitudes_.require(path, table.info);
-      if (degrees_ != 0.0 && !table.info.x_centroid)
-        throw std::runtime_error(
-            path + ": has no column x_centroid, expected one for --degrees-per-length");
+      };
+      const EventTable table = read_events(path, one, use, begin);
       state_repairs(table);
-    }
-    out.write(block);
+      ++number;
+      return table.earthquakes();
+    });
+    out.write(block + format->tail);
     out.close();
     Findings found;
+    found.say(conventions(start));
     found.say(fmt::format("{} events; left out: {} of {} <= 0, which have no magnitude\nwrote {}\n",
                           written, without, magnitudes_.of(), output_.path));
     Table counts("events,without_magnitude");

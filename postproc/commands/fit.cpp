@@ -29,12 +29,15 @@ class Fit : public Statistic {
     add_usual(command, "fit");
     OptionGroup group(command, "Fit");
     group.add("--range", ranges_,
-              "LO:HI, sizes that are fitted, several allowed; without it the range with the "
-              "smallest Kolmogorov-Smirnov distance is searched. "
+              "LO:HI, sizes that are fitted, several allowed; without it three decades, as in the "
+              "paper, from --threshold on. "
               "LO is raised to the smallest size in the catalogue (--min-size, or min_size in "
               "its header)",
               kind("LO:HI"), shown(""), one_each());
-    add_threshold(group, settings_.threshold, "the search, the picture and the scaling");
+    add_threshold(group, settings_.threshold, "the range, the search, the picture and the scaling");
+    group.flag("--search", settings_.search,
+               "Also the range with the smallest Kolmogorov-Smirnov distance, a line of its own "
+               "marked 'searched' (ours)");
     group.add("--replicas", settings_.replicas,
               "Synthetic samples of the Monte Carlo p-value; 0: none", zero_or_more());
     add_seed(group, settings_.seed);

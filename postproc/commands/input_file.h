@@ -8,8 +8,8 @@
 #include <memory>
 #include <string>
 
-#include "lsm_slip_history.h"
-#include "lsm_text_io.h"
+#include "files/slip_history.h"
+#include "files/text_io.h"
 
 namespace LSM::postproc {
 

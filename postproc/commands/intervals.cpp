@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include <optional>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -16,7 +17,8 @@ namespace {
 class Intervals : public Statistic {
   IntervalSettings settings_;
   std::string method_ = "both";
-  std::vector<std::string> deltas_ = {"free", "1"};
+  std::vector<std::string> deltas_ = {"1", "free"};
+  std::optional<double> shortest_;
 
   const char *help() const override {
     return "Densities of inter-event times (start to start), generalised gamma fits, and the "
@@ -41,11 +43,12 @@ class Intervals : public Statistic {
               among({"least-squares", "likelihood", "both"}));
     group.add("--delta", deltas_, "Exponent in the exponential: free or a value, several allowed",
               one_each());
-    group.add("--shortest", settings_.shortest,
-              "Leave times shorter than this multiple of their mean, which lie within sequences, "
-              "out of the fits (ours); 0: none, as in the paper. By likelihood gamma <= 0 needs "
-              "a value above 0",
-              zero_or_more());
+    group.add("--shortest", shortest_,
+              "Leave times shorter than this multiple of their mean out of the fits; without it "
+              "likelihood leaves out those below 2.5 memories of the picker, which joins events "
+              "that are closer, and below 0.05 of the mean (ours), and least-squares none (as in "
+              "the paper). By likelihood gamma <= 0 needs a value above 0",
+              shown(""), zero_or_more());
     group.add("--replicas", settings_.replicas,
               "Synthetic samples of the Monte Carlo p-value of each fit by likelihood, fitted as "
               "the data were; 0: none",
@@ -66,7 +69,7 @@ class Intervals : public Statistic {
   }
 
   std::vector<std::string> endings() const override {
-    std::vector<std::string> files = picture_files({".rate", ".conditional"});
+    std::vector<std::string> files = picture_files({".rate", ".conditional", ".cuts"});
     files.insert(files.end(), {".table1.csv", ".clustering.csv"});
     return files;
   }
@@ -94,6 +97,8 @@ class Intervals : public Statistic {
   Findings of(const std::vector<EventTable> &tables) override {
     settings_.least_squares = method_ != "likelihood";
     settings_.maximum_likelihood = method_ != "least-squares";
+    settings_.shortest = shortest_.value_or(NAN);
+    settings_.cuts = true;
     settings_.deltas.clear();
     for (const std::string &text : deltas_) {
       double delta = std::numeric_limits<double>::quiet_NaN();
@@ -116,14 +121,18 @@ class Intervals : public Statistic {
           "times at {} places each; places closer than the length of ruptures share ruptures, "
           "and then errors and p are too small\n",
           settings_.places));
-    if (settings_.shortest > 0.0)
-      found.say(fmt::format("  fits without times below {} of the mean (--shortest)\n",
-                            short_number(settings_.shortest)));
     found.table("", table1(rows, settings_.rescale), ".table1");
     found.table("times", times_of(curves));
     found.numbers("fits", table1(rows, settings_.rescale, false).json());
+    found.table("gamma_of_cut", cuts_table(curves));
     found.table("clustering", clustering_table(curves, date_text), ".clustering");
     found.figure("densities", std::move(figure));
+    if (std::any_of(curves.begin(), curves.end(), [](const IntervalCurve &curve) {
+          return std::any_of(curve.cuts.begin(), curve.cuts.end(), [](const GammaOfCut &one) {
+            return one.cut > 0.0 && !one.fit.degenerate;
+          });
+        }))
+      found.figure("", cuts_figure(curves), ".cuts");
     if (std::any_of(curves.begin(), curves.end(), has_clustering)) {
       found.figure("rate", rate_figure(curves), ".rate");
       found.figure("conditional", conditional_figure(curves), ".conditional");

@@ -13,59 +13,65 @@ namespace {
 class Magnitudes : public Statistic {
   MagnitudeOptions magnitudes_;
   Threshold threshold_;
-  std::string complete_ = "header";
+  std::string complete_;
 
   const char *help() const override {
     return "Frequencies of magnitudes, b-value with its error (Aki 1965; in bins Tinti and "
            "Mulargia 1987; error Shi and Bolt 1982), b-positive (van der Elst 2021) and "
            "completeness by maximum curvature. All ours: the paper has sizes only. Magnitudes are "
-           "a convention, M = slope log10(size) + constant; a power law of sizes with exponent a "
-           "gives b = (a - 1) / slope";
+           "a convention, M = slope log10(size) + constant, unless the model has SI units "
+           "(--unit-length, --p-speed, --density); a power law of sizes with exponent a gives b = "
+           "(a - 1) / slope";
   }
 
   void add_options(CLI::App *command) override {
     add_usual(command, "magnitudes");
     OptionGroup group(command, "Magnitudes (ours)");
     magnitudes_.add_to(group);
-    group.add("--complete-from", complete_,
-              "Magnitude above which the catalogue is complete: header, that of --threshold; "
-              "curvature, centre of the fullest bin + 0.2 (Wiemer and Wyss 2000; Woessner and "
-              "Wiemer 2005); or a magnitude");
+    group.add(
+        "--complete-from", complete_,
+        "Magnitude above which the catalogue is complete: header, that of --threshold (of "
+        "sizes only); curvature, centre of the fullest bin + 0.2 (Wiemer and Wyss 2000; Woessner and "
+        "Wiemer 2005); or a magnitude",
+        shown("header, of moments curvature"));
     add_threshold(group, threshold_, "--complete-from header");
   }
 
   std::vector<std::string> endings() const override { return {".bvalues.csv"}; }
 
   /// Magnitudes of one catalogue in order of its events.
-  std::vector<double> magnitudes_in(const EventTable &table) const {
-    magnitudes_.require(table.path, table.info);
+  std::vector<double> magnitudes_in(const EventTable &table, const MagnitudeScale &scale) const {
     std::vector<double> out;
     for (const double quantity : magnitudes_.of_moment()
                                      ? column(table.details, &Event::slip_moment)
                                      : column(table.events, &Event::size))
-      if (quantity > 0.0) out.push_back(magnitudes_.magnitude(quantity));
+      if (quantity > 0.0) out.push_back(binned(scale.of(quantity), magnitudes_.bin));
     return out;
   }
 
   /// Magnitude of completeness of a curve.
-  void set_completeness(MagnitudeCurve &curve, const EventTable &table) const {
-    if (text_io::parse(complete_, curve.completeness)) {
+  void set_completeness(MagnitudeCurve &curve, const EventTable &table,
+                        const MagnitudeScale &scale) const {
+    const std::string from = !complete_.empty()        ? complete_
+                             : magnitudes_.of_moment() ? "curvature"
+                                                       : "header";
+    if (text_io::parse(from, curve.completeness)) {
       curve.completeness_text = "as given";
-    } else if (complete_ == "curvature") {
+    } else if (from == "curvature") {
       curve.completeness = curve.curvature;
       curve.completeness_text = "by maximum curvature";
-    } else if (complete_ == "header" && magnitudes_.of_moment()) {
+    } else if (from == "header" && magnitudes_.of_moment()) {
       throw std::invalid_argument(
-          "--complete-from header holds for sizes only, expected 'curvature' or a magnitude with "
-          "--magnitude-of moment");
-    } else if (complete_ == "header") {
+          "--complete-from header holds for sizes only, expected 'curvature' or a magnitude for "
+          "magnitudes of moments");
+    } else if (from == "header") {
       const SmallestSize smallest = threshold_.complete_in(table);
       if (!(smallest.size > 0.0))
         throw std::invalid_argument("--threshold 0 has no magnitude, expected a larger size");
-      curve.completeness = magnitudes_.scale.of(smallest.size);
+      curve.completeness = scale.of(smallest.size);
       curve.completeness_text = "sizes >= " + text(smallest);
     } else {
-      throw std::invalid_argument("--complete-from " + text_io::in_quotes(complete_) +
+      throw std::invalid_argument("--complete-from " + text_io::in_quotes(from) +
                                   ", expected 'header', 'curvature' or a magnitude");
     }
     // The first whole bin.
@@ -74,6 +80,7 @@ class Magnitudes : public Statistic {
   }
 
   Findings find() override {
+    magnitudes_.check();
     if (magnitudes_.of_moment()) catalogues.details = CatalogueOptions::all_events;
     return Statistic::find();
   }
@@ -85,15 +92,17 @@ class Magnitudes : public Statistic {
       MagnitudeCurve curve;
       curve.label = table.label;
       curve.model = table.info.model;
-      curve.magnitudes = magnitudes_in(table);
+      const MagnitudeScale scale = magnitudes_.scale(table.path, table.info);
+      curve.magnitudes = magnitudes_in(table, scale);
       curve.curvature = maximum_curvature(curve.magnitudes, width);
-      set_completeness(curve, table);
+      set_completeness(curve, table, scale);
       curve.b = b_value(curve.magnitudes, curve.completeness, bin);
       curve.positive = b_positive(curve.magnitudes, curve.completeness, bin);
       curves.push_back(std::move(curve));
     }
     Findings found;
-    found.table("b_values", magnitude_table(curves, magnitudes_.scale, magnitudes_.of(), bin),
+    found.table("b_values",
+                magnitude_table(curves, magnitudes_.slope_used(), magnitudes_.text(), bin),
                 ".bvalues");
     found.figure("frequencies", magnitude_figure(curves, width));
     return found;

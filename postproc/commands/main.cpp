@@ -2,15 +2,22 @@
 // postproc: from catalogues and potential energy series to the paper's figures and Table 1.
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <numeric>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "command.h"
+#include "files/text_io.h"
 #include "replicas.h"
+#include "standard_streams.h"
 
 namespace {
 
@@ -35,6 +42,30 @@ int fail(std::string what) {
   std::replace(what.begin(), what.end(), '\n', ' ');
   fmt::print(stderr, "postproc: {}\n", what);
   return 1;
+}
+
+/// The command whose name takes the fewest letters put in, left out or changed.
+template <class Commands>
+std::string nearest(std::string_view word, const Commands &commands) {
+  std::string best;
+  std::size_t fewest = std::string::npos;
+  for (const auto &command : commands) {
+    const std::string &name = command.first;
+    std::vector<std::size_t> row(name.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < word.size(); ++i) {
+      std::size_t corner = std::exchange(row[0], i + 1);
+      for (std::size_t k = 0; k < name.size(); ++k) {
+        const std::size_t changed = corner + (word[i] == name[k] ? 0 : 1);
+        corner = row[k + 1];
+        row[k + 1] = std::min({changed, row[k] + 1, row[k + 1] + 1});
+      }
+    }
+    if (row.back() >= fewest) continue;
+    fewest = row.back();
+    best = name;
+  }
+  return best;
 }
 
 /// Says on a terminal how far a Monte Carlo test that takes long is.
@@ -66,6 +97,7 @@ class Progress {
 
 int main(int argc, char **argv) {
   using namespace LSM::postproc;
+  LSM::occupy_standard_streams();
   if (isatty(STDERR_FILENO)) watch_replicas(Progress());
   try {
     CLI::App app(description, "postproc");
@@ -77,9 +109,14 @@ int main(int argc, char **argv) {
     const auto commands = all_commands();
     for (const auto &[name, command] : commands) {
       CLI::App *const sub = app.add_subcommand(name, command->help());
-      command->add_options(sub);
+      command->add_all_options(sub);
       sub->callback([command = command] { command->run(); });
     }
+    if (argc > 1 && argv[1][0] != '-' &&
+        std::none_of(commands.begin(), commands.end(),
+                     [argv](const auto &command) { return command.first == argv[1]; }))
+      return fail("unknown command " + LSM::text_io::in_quotes(argv[1]) + ", did you mean '" +
+                  nearest(argv[1], commands) + "'? (--help lists the options)");
     try {
       app.parse(argc, argv);
     } catch (const CLI::Success &e) {

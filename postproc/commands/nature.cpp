@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "command.h"
@@ -11,6 +13,7 @@ namespace {
 
 class Nature : public Statistic {
   NatureSettings settings_;
+  std::optional<double> shortest_;
 
   const char *help() const override {
     return "Models compared with nature: catalogues of models ranked by the distance of their "
@@ -28,9 +31,10 @@ class Nature : public Statistic {
               "Smallest size of the earthquakes, such as M2.5; several allowed, and models are "
               "compared with the smallest",
               one_each(), size_or_magnitude(), zero_or_more(), shown("all events"));
-    group.add("--shortest", settings_.shortest,
-              "Leave times shorter than this multiple of their mean out of the fits of gamma",
-              zero_or_more());
+    group.add("--shortest", shortest_,
+              "Leave times shorter than this multiple of their mean out of the fits of gamma; "
+              "without it as postproc intervals",
+              shown(""), zero_or_more());
     group.add("--main-share", settings_.share, "Fraction of the events that count as large",
               between(0.0, 1.0));
     group.add("--replicas", settings_.replicas,
@@ -47,6 +51,7 @@ class Nature : public Statistic {
     if (!tables.front().earthquakes())
       throw std::invalid_argument(tables.front().path +
                                   ": catalogue of a model, expected one of earthquakes first");
+    settings_.shortest = shortest_.value_or(NAN);
     const std::vector<NatureRow> rows = nature_rows(tables, settings_);
     Findings found;
     found.table("models", nature_table(rows), ".table");

@@ -16,8 +16,9 @@
 #include <nlohmann/json.hpp>
 
 #include "earthquakes.h"
-#include "lsm_text_io.h"
+#include "files/text_io.h"
 #include "new_file.h"
+#include "numbers.h"
 #include "whole_number.h"
 
 namespace LSM::postproc {
@@ -82,15 +83,27 @@ Rule number_or(const std::map<std::string, double> &words) {
   return [words](CLI::Option &option) { option.transform(CLI::Transformer(words)); };
 }
 
+namespace {
+
+/// A number, or the size of M and a magnitude.
+bool parse_size(std::string_view text, double &size) {
+  const bool magnitude = text.substr(0, 1) == "M";
+  if (!text_io::parse(text.substr(magnitude ? 1 : 0), size)) return false;
+  if (magnitude) size = size_of_magnitude(size);
+  return std::isfinite(size);
+}
+
+}  // namespace
+
 Rule size_or_magnitude() {
   return [](CLI::Option &option) {
     option.transform(CLI::Validator(
         [](std::string &text) {
-          double magnitude = 0.0;
+          double size = 0.0;
           if (text.empty() || text.front() != 'M') return std::string();
-          if (!text_io::parse(std::string_view(text).substr(1), magnitude))
+          if (!parse_size(text, size))
             return "expected a size, or M and a magnitude, not " + text_io::in_quotes(text);
-          text = text_io::number(size_of_magnitude(magnitude));
+          text = text_io::number(size);
           return std::string();
         },
         ""));
@@ -169,7 +182,7 @@ Range parse_range(const std::string &option, std::string_view text) {
   const std::size_t colon = text.find(':');
   const auto end = [](std::string_view field, double &value) {
     field = text_io::trim(field);
-    return field.empty() || text_io::parse(field, value);
+    return field.empty() || parse_size(field, value);
   };
   if (colon == std::string_view::npos || !end(text.substr(0, colon), range.lo) ||
       !end(text.substr(colon + 1), range.hi) || !(range.lo < range.hi))
@@ -211,16 +224,51 @@ std::vector<std::string> labels_of(const std::vector<std::string> &paths,
   return labels;
 }
 
-void MagnitudeOptions::add_to(OptionGroup group) {
-  group.add("--magnitude-of", made_of,
+void UnitOptions::add_to(OptionGroup group) {
+  group.add("--unit-length", length,
+            "Metres in a unit of model length, the radius of the largest discs; with --p-speed and "
+            "--density everything is in SI (postproc units)",
+            positive());
+  group.add("--p-speed", p_speed, "Speed of P-waves in the rock, m/s", positive());
+  group.add("--density", density, "Density of the rock, kg/m^3", positive());
+  group.add("--thickness", thickness,
+            "Metres of the fault across the plane of the model, to which energies and moments are "
+            "proportional; default: a unit of length",
+            positive());
+}
+
+ModelUnits UnitOptions::units() const {
+  if (!length || !p_speed || !density)
+    throw std::invalid_argument(fmt::format(
+        "no {}: expected all of --unit-length, --p-speed and --density", !length ? "--unit-length"
+                                                                         : !p_speed ? "--p-speed"
+                                                                                    : "--density"));
+  return {*length, *p_speed, *density, thickness.value_or(*length)};
+}
+
+ModelUnits UnitOptions::units(const std::string &path, const CatalogueInfo &info) const {
+  if (info.model != "lsm")
+    throw std::runtime_error(fmt::format(
+        "{}: model is '{}', expected 'lsm' for SI units: only the lattice solid fault has a medium",
+        path, info.model));
+  return units();
+}
+
+void MagnitudeOptions::add_quantity_to(OptionGroup group) {
+  group.add("--magnitude-of", made_of_,
             "size: of the size of an event (an energy); moment: of its slip moment, a column that "
-            "not every catalogue has",
-            among({"size", "moment"}));
-  group.add("--magnitude-slope", scale.slope,
+            "not every catalogue has (fault: -var location yes)",
+            among({"size", "moment"}), shown("size, with --unit-length moment"));
+  units.add_to(group);
+}
+
+void MagnitudeOptions::add_to(OptionGroup group) {
+  add_quantity_to(group);
+  group.add("--magnitude-slope", slope,
             "Magnitudes per decade of size: 2/3 is usual for energy and moment, 1 makes M the "
             "logarithm itself",
             shown("2/3"), finite(), positive());
-  group.add("--magnitude-constant", scale.constant, "Magnitude of an event of size (or moment) 1",
+  group.add("--magnitude-constant", constant, "Magnitude of an event of size (or moment) 1",
             finite());
   group.add("--magnitude-bin", bin,
             "Width of the bins to whose centres, its multiples, magnitudes are rounded, halves "
@@ -228,21 +276,65 @@ void MagnitudeOptions::add_to(OptionGroup group) {
             zero_or_more());
 }
 
+void MagnitudeOptions::check() const {
+  if (!units.given()) return;
+  units.units();
+  if (slope || constant)
+    throw std::invalid_argument(fmt::format(
+        "--magnitude-{} with --unit-length, from which it follows: expected one of them",
+        slope ? "slope" : "constant"));
+}
+
+std::string MagnitudeOptions::type() const {
+  return !units.given() ? "M" : of_moment() ? "Mw" : "Me";
+}
+
+std::string MagnitudeOptions::text() const {
+  if (!units.given())
+    return fmt::format("M = {} log10({}) + {}", short_number(slope_used()), of(),
+                       short_number(constant.value_or(0.0)));
+  return of_moment()
+             ? "Mw = (2/3) (log10 M0 - 9.1), M0 in N m from slip_moment"
+             : "Me = (2/3) (log10 E - 4.4), E in J from size: an upper limit, as the energy "
+               "is not only the radiated one";
+}
+
 void MagnitudeOptions::require(const std::string &path, const CatalogueInfo &info) const {
   if (of_moment() && !info.slip_moment)
     throw std::runtime_error(path +
-                             ": has no column slip_moment, expected one for --magnitude-of moment");
+                             ": has no column slip_moment, expected one for --magnitude-of moment "
+                             "(fault: -var location yes; else --magnitude-of size)");
+}
+
+double MagnitudeOptions::si_unit(const std::string &path, const CatalogueInfo &info) const {
+  require(path, info);
+  const ModelUnits in_si = units.units(path, info);
+  if (!of_moment()) return in_si.energy();
+  // Slip times length; of ruptures it has the modulus of the header.
+  double modulus = 1.0;
+  const std::string *const text = info.find("modulus");
+  if (text && (!text_io::parse(*text, modulus) || !(modulus > 0.0)))
+    throw std::runtime_error(
+        fmt::format("{}: modulus is '{}', expected a positive number", path, *text));
+  return in_si.moment() / modulus;
+}
+
+MagnitudeScale MagnitudeOptions::scale(const std::string &path, const CatalogueInfo &info) const {
+  require(path, info);
+  if (!units.given()) return {slope_used(), constant.value_or(0.0)};
+  const double unit = si_unit(path, info);
+  return of_moment() ? moment_magnitude(unit) : energy_magnitude(unit);
 }
 
 void OutputOption::add_to(OptionGroup group, const std::string &what) {
   std::string first = what;
   first[0] = static_cast<char>(std::toupper(first[0]));
   group.add("-o,--output", path, first + " to write", required());
-  group.flag("--force", force, "Replace the " + what + " if it exists");
 }
 
 void JsonOutput::add_to(CLI::App *command) {
   const auto given = [this](const std::string &path) {
+    if (path.empty()) throw std::invalid_argument("--json '', expected the name of a file");
     path_ = path;
     if (path != "-") return;
     standard_output_ = dup(STDOUT_FILENO);
@@ -255,9 +347,19 @@ void JsonOutput::add_to(CLI::App *command) {
       "Options", {kind("FILE"), shown("")});
 }
 
+std::string JsonOutput::text_of(const nlohmann::ordered_json &found) {
+  return found.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+void JsonOutput::check_replaced(bool overwrite, const nlohmann::ordered_json *found) const {
+  if (output().path.empty()) return;
+  const std::string text = found ? text_of(*found) : "{";
+  postproc::check_replaced(path_, overwrite, begins_with(text.substr(0, text.find(':'))));
+}
+
 void JsonOutput::write(const nlohmann::ordered_json &found) const {
   if (path_.empty()) return;
-  const std::string text = found.dump(2) + "\n";
+  const std::string text = text_of(found);
   if (path_ != "-") {
     write_file(path_, text);
     fmt::print("wrote {}\n", path_);

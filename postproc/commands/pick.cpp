@@ -51,8 +51,10 @@ class Pick : public Analysis {
   const char *help() const override {
     return "Picks the events of a PE series and writes their catalogue (paper: Sect. 4.1). The "
            "rows are those that the run itself writes with the same settings, without the "
-           "columns on slip, which a PE series does not have. One pass, whatever the length of "
-           "the series";
+           "columns on slip, which a PE series does not have. Only next to a leap of the "
+           "block-slider (slider_cli --leap) the start or end of an event may differ by less than "
+           "the memory of the picker: in the run it does not look within leaps. One pass, whatever "
+           "the length of the series";
   }
 
   void add_options(CLI::App *command) override {
@@ -81,10 +83,7 @@ class Pick : public Analysis {
     CatalogueInfo header;
     header.model = info.model;
     header.parameters = catalogue_parameters(info, picker.settings(), warmup);
-    for (const auto &[key, value] : header.parameters)
-      if (const std::string problem = catalogue_detail::bad_value(key, value); !problem.empty())
-        throw std::invalid_argument(series_ + ": " + problem);
-    const FileLock lock = claim_output(output_.path, output_.force);
+    const FileLock lock = claim_output(output_.path, overwrite);
     CatalogueWriter catalogue;
     catalogue.create(output_.path, header, true);
     std::int64_t early = 0;

@@ -5,6 +5,7 @@
 
 #include "command.h"
 #include "new_file.h"
+#include "page.h"
 #include "numbers.h"
 #include "series_input.h"
 
@@ -74,6 +75,7 @@ class Report : public Command {
   void run() override {
     refuse_input(output_, catalogues_.paths);
     refuse_input(output_, series_);
+    check_replaced(output_, overwrite, is_page_of("report"));
     report_.bootstrap.block = parse_block(block_);
     const std::vector<EventTable> tables = load_catalogues(catalogues_);
     const SeriesOptions samples{catalogues_.lenient, catalogues_.from_time, catalogues_.to_time};

@@ -104,6 +104,14 @@ std::string parameter(const EventTable &table, std::string_view key) {
   return text ? *text : "";
 }
 
+/// Plus and minus as a page has them.
+std::string with_signs(std::string text) {
+  constexpr std::string_view typed = " +- ";
+  for (std::size_t at = 0; (at = text.find(typed, at)) != std::string::npos;)
+    text.replace(at, typed.size(), " ± ");
+  return text;
+}
+
 /// The catalogues of block-sliders by their leaf springs: `same` have the commonest value; `fig7`,
 /// as in the paper's Fig. 7, has one number of blocks and every value, and is empty if all are the
 /// same.
@@ -128,7 +136,10 @@ class ReportPage {
   explicit ReportPage(const ReportSettings &settings) : settings_(settings) {}
 
   /// The section of the catalogues of one model and kind of events.
-  std::string model(const std::vector<EventTable> &all, const std::string &heading);
+  std::string model(const std::vector<EventTable> &all, const std::string &heading,
+                    const std::string &id);
+  /// The numbers to quote of all models so far, and whether their roll-off moves.
+  std::string in_short() const;
   /// Of all models so far.
   std::string table1_section() const { return table1(table1_rows(curves_), false).html(); }
 
@@ -152,7 +163,38 @@ class ReportPage {
   const ReportSettings &settings_;
   int pictures_ = 0;
   std::vector<IntervalCurve> curves_;
+  std::vector<SizeFit> fits_;  ///< on paper_range()
+  std::string verdicts_;
 };
+
+std::string ReportPage::in_short() const {
+  Table table(
+      "catalogue,range,n,exponent,exponent_error,times,shortest,gamma,gamma_error,!rejected");
+  table.show({{"catalogue", "catalogue"},
+              {"sizes", "range"},
+              {"events", "n"},
+              {"exponent", "exponent"},
+              {"times", "times"},
+              {"from", "shortest", 3},
+              {"γ (δ = 1)", "gamma"},
+              {"this law of the times", "rejected"}});
+  for (const SizeFit &fit : fits_) {
+    const auto curve =
+        std::find_if(curves_.begin(), curves_.end(),
+                     [&fit](const IntervalCurve &one) { return one.label == fit.label; });
+    IntervalFit times;
+    if (curve != curves_.end() && !curve->fits.empty()) times = curve->fits.front();
+    table.row(fit.label,
+              fmt::format("{} to {}", short_number(fit.fit.lo, 3), short_number(fit.fit.hi, 3)),
+              fit.fit.n, fit.fit.alpha, fit.fit.standard_error, times.fit.n, times.fit.lo,
+              times.fit.gamma, times.fit.se_gamma,
+              times.fit.degenerate        ? "not determined"
+              : std::isnan(times.p.value) ? ""
+              : times.p.value < 0.05      ? "rejected"
+                                          : "not rejected");
+  }
+  return table.html() + verdicts_;
+}
 
 std::string ReportPage::densities(const std::vector<EventTable> &tables, const Threshold &threshold,
                                   const std::vector<PowerLine> &lines, const std::string &caption) {
@@ -178,7 +220,7 @@ std::string ReportPage::sizes(const std::vector<EventTable> &all,
   };
   const bool fault = all.front().info.model == "lsm";
   const std::vector<Printed> printed =
-      fault ? std::vector<Printed>{{-1.07, "paper: slope -1.07", {1e-4, 1e-2}}}
+      fault ? std::vector<Printed>{{-1.07, "paper: slope -1.07", paper_range(paper_threshold)}}
             : std::vector<Printed>{{-0.5, "paper: slope -0.5", {1e-2, 1.0}},
                                    {-1.0, "paper: slope -1.0", {1.0, 100.0}}};
   const double threshold = settings_.threshold.of(all.front());  // the same for all of a kind
@@ -187,22 +229,23 @@ std::string ReportPage::sizes(const std::vector<EventTable> &all,
   fits.seed = settings_.seed;
   fits.threshold = settings_.threshold;
   std::vector<SizeFit> found = fit_sizes(all, fits);
+  fits_.insert(fits_.end(), found.begin(), found.end());
   std::vector<PowerLine> lines;
   for (const auto &[slope, title, range] : printed) {
     const double lo = std::max(range.lo, threshold);
     if (!(lo < range.hi)) continue;
-    fits.ranges.push_back({lo, range.hi});
+    if (!fault) fits.ranges.push_back({lo, range.hi});
     PowerLine line;
     line.slope = slope;
     line.lo = lo;
     line.hi = range.hi;
     line.title = title;
-    line.dash = 1 + static_cast<int>(fits.ranges.size());
+    line.dash = 2 + static_cast<int>(lines.size());
     lines.push_back(line);
   }
   if (!fits.ranges.empty()) {
     const std::vector<SizeFit> between = fit_sizes(all, fits);
-    found.insert(found.begin(), between.begin(), between.end());
+    found.insert(found.end(), between.begin(), between.end());
   }
   std::string out =
       kind_part(all.front().kind(), fault ? " of a fault" : " of a chain") +
@@ -223,12 +266,14 @@ std::string ReportPage::scaling(const std::vector<EventTable> &tables) {
     if (!one.fit.degenerate)
       figure = picture(scaling_figure({one}, picture_width), "Characteristic size against length",
                        report_part("scaling caption"));
+    const std::string said =
+        one.fit.degenerate ? degenerate_html(one.fit.why) : html_escape(with_signs(verdict(one)));
+    verdicts_ += "<p class=\"verdict\">" + html_escape(name_of(one)) + ": " + said + "</p>\n";
     out += report_part("scaling", {{"figure", figure},
                                    {"table", scaling_table({one}).html()},
                                    {"events", one.kind == "pe" ? report_part("drops of PE")
                                                                : kind_part(one.kind, "")},
-                                   {"verdict", one.fit.degenerate ? degenerate_html(one.fit.why)
-                                                                  : html_escape(verdict(one))}});
+                                   {"verdict", said}});
   }
   if (!out.empty()) return out;
   return "<p>" + degenerate_html("no catalogue gives its length or number of blocks") + "</p>\n";
@@ -273,7 +318,8 @@ std::string ReportPage::section(const ReportSection &section,
          });
 }
 
-std::string ReportPage::model(const std::vector<EventTable> &all, const std::string &heading) {
+std::string ReportPage::model(const std::vector<EventTable> &all, const std::string &heading,
+                              const std::string &id) {
   std::vector<EventTable> tables, fig7;
   if (all.front().info.model == "lsm")
     tables = all;
@@ -284,9 +330,11 @@ std::string ReportPage::model(const std::vector<EventTable> &all, const std::str
   const std::string of_lengths = scaling(tables);
   std::string of_times = times(tables);
   for (const ReportSection &one : settings_.sections) of_times += section(one, all);
-  return report_part(
-      "model",
-      {{"name", heading}, {"sizes", of_sizes}, {"scaling", of_lengths}, {"intervals", of_times}});
+  return report_part("model", {{"name", heading},
+                               {"id", id},
+                               {"sizes", of_sizes},
+                               {"scaling", of_lengths},
+                               {"intervals", of_times}});
 }
 
 }  // namespace
@@ -294,7 +342,8 @@ std::string ReportPage::model(const std::vector<EventTable> &all, const std::str
 std::string report_html(const std::vector<EventTable> &tables, const ReportSettings &settings,
                         const std::vector<SeriesRegime> &series) {
   ReportPage page(settings);
-  std::string models, parameters;
+  std::string models, parameters, contents;
+  int number = 0;
   std::vector<std::string> kinds = {"pe"};
   for (const EventTable &table : tables)
     if (std::find(kinds.begin(), kinds.end(), table.kind()) == kinds.end())
@@ -308,9 +357,13 @@ std::string report_html(const std::vector<EventTable> &tables, const ReportSetti
       const std::string heading =
           std::string(fault ? "Fault" : "Block-slider") + (kind == "pe" ? "" : ": " + kind);
       parameters += "<h3>" + heading + "</h3>\n" + parameter_section(chosen);
-      models += page.model(chosen, heading);
+      const std::string id = fmt::format("model-{}", ++number);
+      contents += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", id, heading);
+      models += page.model(chosen, heading, id);
     }
   return report_part("page", {{"title", html_escape(settings.title)},
+                              {"contents", contents},
+                              {"in_short", page.in_short()},
                               {"catalogues", catalogue_section(tables, settings.threshold)},
                               {"regimes", series.empty() ? "" : series_section(series)},
                               {"models", models},

@@ -3,6 +3,7 @@
 
 #include "command.h"
 #include "input_file.h"
+#include "run_files.h"
 #include "rupture_figures.h"
 
 namespace LSM::postproc {
@@ -75,6 +76,7 @@ class Rupture : public CatalogueAnalysis {
 
   void draw_history(const EventTable &catalogue, Findings &found) const {
     SlipHistoryReader history = open_history(history_, catalogues.lenient);
+    check_same_run(header_of(catalogue), {history_, history.info().header()});
     std::vector<SlipRecord> records;
     for (SlipRecord record; history.next(record);) records.push_back(record);
     const auto between = [&](double from, double to) {
@@ -100,7 +102,6 @@ class Rupture : public CatalogueAnalysis {
   }
 
   Findings find() override {
-    check(catalogues);
     Findings found;
     std::vector<EventTable> tables;
     Table largest_of("label,ruptures,moment,largest,longest");
@@ -109,8 +110,8 @@ class Rupture : public CatalogueAnalysis {
                      {"moments in all", "moment", 6},
                      {"largest", "largest"},
                      {"longest", "longest"}});
-    for (const std::string &path : catalogues.paths) {
-      EventTable table = load_ruptures(path, catalogues);
+    for_each_catalogue(catalogues, [&](const std::string &path, const CatalogueOptions &one) {
+      EventTable table = load_ruptures(path, one);
       state_repairs(table);
       if (!catalogues.labels.empty()) table.label = catalogues.labels[tables.size()];
       double moment = 0.0, largest = 0.0, longest = 0.0;
@@ -121,7 +122,8 @@ class Rupture : public CatalogueAnalysis {
       }
       largest_of.row(table.label, table.details.size(), moment, largest, longest);
       tables.push_back(std::move(table));
-    }
+      return false;
+    });
     found.table("catalogues", std::move(largest_of));
     if (!history_.empty()) draw_history(tables.front(), found);
     found.figure("lengths", densities(tables, RuptureQuantity::length), "-lengths");

@@ -52,13 +52,14 @@ class Select : public CatalogueAnalysis {
       throw std::invalid_argument(
           fmt::format("{} catalogues, expected one", catalogues.paths.size()));
     check(catalogues);
-    const FileLock lock = claim_output(output_.path, output_.force);
+    const FileLock lock = claim_output(output_.path, overwrite);
     CatalogueWriter writer;
     const EventTable table = read_events(
         catalogues.paths.front(), catalogues, [&](const Event &event) { writer.write(event); },
         [&](const EventTable &of) {
           if (of.earthquakes())
             throw std::invalid_argument(of.path + ": earthquakes, expected a catalogue of a model");
+          check_kinds(catalogues, 0, 1);
           writer.create(output_.path, header_of(of, catalogues), true);
         });
     writer.close();

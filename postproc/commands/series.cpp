@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "command.h"
+#include "new_file.h"
 #include "numbers.h"
 #include "series_figures.h"
 #include "series_input.h"
@@ -17,9 +18,10 @@ namespace {
 /// Samples as text; without a path, nothing is written.
 class SeriesText {
  public:
+  static constexpr const char *begin = "# PE series\n";
   SeriesText(const std::string &path, const PeSeriesInfo &info) {
     if (path.empty()) return;
-    lines_ = "# PE series\n" + text_io::lines_of(info.header()) + "step,time,pe\n";
+    lines_ = begin + text_io::lines_of(info.header()) + "step,time,pe\n";
     file_.create(path, "", true);
   }
   void add(std::int64_t step, double time, double pe) {
@@ -90,6 +92,7 @@ class Series : public Analysis {
   };
 
   Samples read() const {
+    check_replaced(text_, overwrite, begins_with(SeriesText::begin));
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     SeriesInput series(series_, samples_);
     EventPicker picker(picker_settings(picker_, series.info()));
@@ -115,9 +118,9 @@ class Series : public Analysis {
       before = pe;
     });
     text.close();
+    out.regime.events = out.events.rows();
     if (picker.in_event())
       out.events.row(picker.state().t_start, times.hi, picker.state().pe_start, before, nan);
-    out.regime.events = out.events.rows();
     out.regime.first = times.lo;
     out.regime.last = times.hi;
     out.regime.take(meter);

@@ -81,9 +81,6 @@ PickerSettings picker_settings(const PickerOptions &options, const PeSeriesInfo 
   const std::string *lambda = info.find("lambda");
   if (lambda && text_io::parse(*lambda, s.lambda) && exponential && info.stride > 1)
     s.lambda = std::pow(s.lambda, static_cast<double>(info.stride));
-  if (!options.says_lambda() && !(s.lambda >= 0.0 && s.lambda < 1.0))
-    throw std::invalid_argument(fmt::format(
-        "lambda in the header of the series is {}, expected at least 0 and less than 1", s.lambda));
   if (const std::string *text = info.find("min_size")) text_io::parse(*text, s.min_size);
   const std::string *keep = info.find("keep_nonpositive");
   s.keep_nonpositive = keep && *keep == "yes";

@@ -9,9 +9,9 @@
 #include <limits>
 #include <string>
 
-#include "lsm_event_picker.h"
-#include "lsm_pe_series.h"
-#include "lsm_picker_options.h"
+#include "events/event_picker.h"
+#include "files/pe_series.h"
+#include "events/picker_options.h"
 #include "options.h"
 #include "series_figures.h"
 

@@ -110,7 +110,7 @@ class Spectrum : public Analysis {
     averages.show({{"series", "label"},
                    {"samples", "samples"},
                    {"segments", "segments"},
-                   {"as good as independent ones", "averages"},
+                   {"independent segments", "averages"},
                    {"variance", "variance", 6}});
     for (std::size_t i = 0; i < series_.size(); ++i) {
       curves.push_back(measure(series_[i], labels[i]));

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "command.h"
 #include "generalised_gamma.h"
 #include "intervals.h"
+#include "new_file.h"
 #include "numbers.h"
-#include "power_law.h"
+#include "size_fits.h"
 #include "samples.h"
 
 namespace LSM::postproc {
@@ -36,7 +38,7 @@ class Summary : public CatalogueAnalysis {
   std::vector<std::string> parameters_, ranges_, windows_;
   std::vector<double> thresholds_ = {1e-4, 1e-3, 1e-2, 1e-1};
   double brief_ = 3.0;
-  double shortest_ = 0.0;
+  std::optional<double> shortest_;
   std::string method_ = "likelihood", output_;
 
   const char *help() const override {
@@ -51,19 +53,20 @@ class Summary : public CatalogueAnalysis {
     group.add("--parameter", parameters_,
               "Parameter of the header that becomes a column, several allowed", shown(""));
     group.add("--range", ranges_,
-              "LO:HI, sizes between which an exponent is fitted, several allowed", kind("LO:HI"),
-              shown("1e-4:1e-1 1e-3:1"));
+              "LO:HI, sizes between which an exponent is fitted, several allowed; without it the "
+              "three decades above the completeness, as postproc fit",
+              kind("LO:HI"), shown(""));
     group.add("--threshold", thresholds_, "Smallest sizes of the events whose times are used",
-              shown("1e-4 1e-3 1e-2 1e-1"), zero_or_more());
+              shown("1e-4 1e-3 1e-2 1e-1"), size_or_magnitude(), zero_or_more());
     group.add("--window", windows_,
               "LO:HI, fraction of the inter-event times in this window (model time), several "
               "allowed; shows oscillations of the blocks between the plates",
               kind("LO:HI"), shown(""));
     group.add("--brief", brief_, "Longest duration of a brief event (steps)", zero_or_more());
     group.add("--shortest", shortest_,
-              "Leave times shorter than this multiple of their mean out of the fits; gamma <= 0 "
-              "needs a value above 0",
-              zero_or_more());
+              "Leave times shorter than this multiple of their mean out of the fits; without it "
+              "as postproc intervals",
+              shown(""), zero_or_more());
     group.add("--method", method_,
               "How gamma, B and C are fitted: likelihood (ours), or least-squares on the density "
               "(as in the paper)",
@@ -72,22 +75,29 @@ class Summary : public CatalogueAnalysis {
 
   std::vector<Output> outputs() const override { return {{"--output", output_}}; }
 
-  GeneralisedGammaFit fit_times(const std::vector<double> &times) const {
-    const double shortest = times.empty() || shortest_ == 0.0 ? 0.0 : shortest_ * mean_of(times);
-    if (method_ == "likelihood") return fit_with_share(times, shortest, 1.0);
-    return fit_least_squares(bins_from(log_histogram(times), shortest), 1.0);
+  /// \param mean of all times, also those of 0 \param memory of the picker
+  GeneralisedGammaFit fit_times(const std::vector<double> &times, double mean,
+                                double memory) const {
+    if (times.empty()) return {};
+    const double given = shortest_.value_or(0.0) * mean;
+    if (method_ == "least-squares")
+      return fit_least_squares(bins_from(log_histogram(times), given), 1.0);
+    return fit_with_share(times, shortest_ ? given : shortest_time(memory, mean), 1.0);
   }
 
   void add_threshold(Row &row, const EventTable &table, double threshold) const {
     const std::string name = fmt::format("{}", threshold);
     std::vector<double> times = inter_event_times(table, threshold);
     add(row, "events_" + name, static_cast<double>(events_from(table, threshold)));
-    add(row, "mean_time_" + name, mean_of(times));
+    const double mean = mean_of(times);
+    add(row, "mean_time_" + name, mean);
     for (const std::string &window : windows_)
       add(row, "share_" + window + "_" + name,
           share_within(times, parse_range("--window", window)));
     const RankCorrelation successive = successive_rank_correlation(times);
-    const GeneralisedGammaFit fit = fit_times(positive_ones(std::move(times)));
+    const GeneralisedGammaFit fit =
+        fit_times(positive_ones(std::move(times)), mean, table.picker_memory());
+    add(row, "shortest_" + name, fit.lo);
     add(row, "gamma_" + name, fit.gamma);
     add(row, "gamma_error_" + name, fit.se_gamma);
     add(row, "B_" + name, fit.B);
@@ -134,16 +144,23 @@ class Summary : public CatalogueAnalysis {
   }
 
   Findings find() override {
-    if (ranges_.empty()) ranges_ = {"1e-4:1e-1", "1e-3:1"};
+    const std::vector<EventTable> tables = load_catalogues(catalogues);
+    if (ranges_.empty()) {
+      double smallest = 0.0;  // one range, as columns are those of all rows
+      for (const EventTable &table : tables) smallest = std::max(smallest, Threshold().of(table));
+      const Range range = paper_range(smallest);
+      ranges_ = {fmt::format("{:g}:{:g}", range.lo, range.hi)};
+    }
     std::vector<Row> rows;
-    for (const EventTable &table : load_catalogues(catalogues)) rows.push_back(row_of(table));
+    for (const EventTable &table : tables) rows.push_back(row_of(table));
     std::vector<std::string> columns;
     for (const auto &[column, value] : rows.front()) columns.push_back(column);
     Table out(columns);
     out.comment(
-        "sizes in energy units, times from start to start; exponents by maximum likelihood,");
-    out.comment("gamma, B and C (delta = 1) by " + method_ +
-                "; brief: share of the events that last " + short_number(brief_) +
+        "sizes in energy units, times from start to start; exponent_LO:HI: power law on [LO, HI] by "
+        "maximum likelihood; gamma, B and C (delta = 1) by " +
+        method_ + " of the times of at least 'shortest', of events of the size in the name");
+    out.comment("brief: share of the events that last " + short_number(brief_) +
                 " steps or less; spearman: rank correlation of successive times, with its p");
     for (const Row &row : rows) {
       for (const auto &[column, value] : row) out.add(value);
@@ -153,6 +170,7 @@ class Summary : public CatalogueAnalysis {
     if (output_.empty()) {
       found.say(out.csv());
     } else {
+      check_replaced(output_, overwrite, [&](std::string_view head) { return out.like(head); });
       out.write(output_);
       found.say("wrote " + output_ + "\n");
     }

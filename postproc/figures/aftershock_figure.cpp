@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "aftershock_figure.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -11,7 +12,9 @@ Table aftershock_table(const std::vector<AftershockCurve> &curves) {
   Table table(
       "model,main_size,least_size,window,first,main_shocks,events,constant,"
       "constant_error,p,p_error,c,c_error,K,K_error,background,background_error,"
-      "likelihood_ratio,poisson_p,label,degenerate,before");
+      "likelihood_ratio,poisson_p,label,degenerate,before,quiet_rate,quiet_rate_error,"
+      "excess_after,excess_after_error,excess_before,excess_before_error,after_to_before,"
+      "after_to_before_error");
   table.show({{"catalogue", "label"},
               {"smallest main shock", "main_size"},
               {"largest for so long before and after", "window"},
@@ -20,6 +23,10 @@ Table aftershock_table(const std::vector<AftershockCurve> &curves) {
               {"counted from", "first"},
               {"events after main shocks", "events"},
               {"events as long before", "before"},
+              {"rate far from main shocks", "quiet_rate"},
+              {"beyond it after", "excess_after"},
+              {"beyond it before", "excess_before"},
+              {"after / before", "after_to_before"},
               {"constant rate", "constant"},
               {"p", "p"},
               {"c", "c"},
@@ -28,7 +35,9 @@ Table aftershock_table(const std::vector<AftershockCurve> &curves) {
               {"degenerate", "degenerate"},
               {"2 ln L ratio against a constant rate", "likelihood_ratio"},
               {"share of Poisson catalogues as large", "poisson_p", 2}});
-  table.comment("before: events as long before the main shocks");
+  table.comment(
+      "before: events as long before the main shocks; quiet_rate: of events outside of the windows "
+      "of all main shocks; excess_*: events beyond it; after_to_before: their ratio");
   table.comment("n(t) = K (t + c)^-p + background after the end of a main shock, model time");
   table.comment("poisson_p: share of Poisson catalogues whose likelihood ratio is as large");
   for (const AftershockCurve &curve : curves) {
@@ -37,7 +46,32 @@ Table aftershock_table(const std::vector<AftershockCurve> &curves) {
     table.row(curve.model, a.rule.main_size, a.rule.least_size, a.rule.window, a.rule.first,
               a.sequences.main_shocks, f.n, f.constant, f.se_constant, f.p, f.se_p, f.c, f.se_c,
               f.K, f.se_K, f.background, f.se_background, f.likelihood_ratio, a.p, curve.label,
-              f.why, a.sequences.before.size());
+              f.why, a.sequences.before.size(), a.sequences.background(),
+              a.sequences.excess_after(), a.sequences.excess_before(),
+              a.sequences.after_to_before());
+  }
+  return table;
+}
+
+Table aftershock_means(const std::vector<AftershockCurve> &curves) {
+  Table table("label,catalogues,p,p_error,after_to_before,after_to_before_error");
+  table.show({{"catalogues of one label", "label"},
+              {"number", "catalogues"},
+              {"p, mean", "p"},
+              {"after / before, mean", "after_to_before"}});
+  table.comment("means of the catalogues of one label, errors from their scatter");
+  std::vector<std::string> labels;
+  for (const AftershockCurve &curve : curves)
+    if (std::find(labels.begin(), labels.end(), curve.label) == labels.end())
+      labels.push_back(curve.label);
+  for (const std::string &label : labels) {
+    std::vector<Measured> p, ratio;
+    for (const AftershockCurve &curve : curves) {
+      if (curve.label != label) continue;
+      p.push_back({curve.aftershocks.fit.p, curve.aftershocks.fit.se_p});
+      ratio.push_back(curve.aftershocks.sequences.after_to_before());
+    }
+    if (p.size() > 1) table.row(label, p.size(), mean_of_catalogues(p), mean_of_catalogues(ratio));
   }
   return table;
 }

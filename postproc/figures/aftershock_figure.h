@@ -18,6 +18,8 @@ struct AftershockCurve {
 };
 
 Table aftershock_table(const std::vector<AftershockCurve> &curves);
+/// p and the ratio of after- to foreshocks over the catalogues that share a label.
+Table aftershock_means(const std::vector<AftershockCurve> &curves);
 
 /// Rate against time with Poisson errors, the fitted law, and the rates of Poisson catalogues (mean
 /// and two standard deviations). \throws std::runtime_error if no curve has a point

@@ -139,8 +139,7 @@ static void to_json(json &out, const ThresholdResult &result) {
          {"variationText", short_number(curve.variation)},
          {"burstiness", curve.burstiness()},
          {"burstinessText", short_number(curve.burstiness())},
-         {"searched", result.searched},
-         {"toLargest", result.to_largest},
+         {"law", result.law},
          {"gammas", curve.fits},
          {"bins", bins_json(curve.bins)}};
 }

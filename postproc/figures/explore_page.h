@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "event_table.h"
-#include "lsm_catalogue.h"
-#include "lsm_pe_series.h"
+#include "files/catalogue.h"
+#include "files/pe_series.h"
 #include "slip_image.h"
 #include "threshold_scan.h"
 

@@ -24,12 +24,19 @@ std::string source_of(const IntervalCurve &curve);
 /// \throws std::runtime_error if no curve has a point
 Figure interval_figure(const std::vector<IntervalCurve> &curves, bool rescaled, int width = 900);
 
+/// gamma against the shortest time used, a row for each cut of each curve.
+Table cuts_table(const std::vector<IntervalCurve> &curves);
+/// The same over the mean with errors; 2.5 memories of each picker are marked.
+/// \throws std::runtime_error if no curve has a number
+Figure cuts_figure(const std::vector<IntervalCurve> &curves, int width = 900);
+
 /// One of our lines.
 struct Table1Row {
   std::string source;                  ///< label of the catalogue
   std::string from;                    ///< smallest size in words
   std::string method;                  ///< how it was fitted
   double threshold = 0.0;              ///< smallest size
+  double shortest = NAN;               ///< time that is fitted
   std::int64_t n = 0;                  ///< inter-event times fitted
   std::array<Measured, 4> parameters;  ///< gamma, delta, B, C; NaN if degenerate
   double misfit = NAN;                 ///< least squares: chi2 per degree

@@ -11,34 +11,32 @@
 
 namespace LSM::postproc {
 
-Table magnitude_table(const std::vector<MagnitudeCurve> &curves, const MagnitudeScale &scale,
-                      const std::string &of, double width) {
+Table magnitude_table(const std::vector<MagnitudeCurve> &curves, double slope,
+                      const std::string &formula, double width) {
   Table table(
       "model,completeness,maximum_curvature,n,b,b_error,n_positive,b_positive,"
       "b_positive_error,label,degenerate,degenerate_positive,!events,!source,!exponent,"
       "!exponent_error");
-  table.show(
-      {{"catalogue", "label"},
-       {"magnitudes", "events"},
-       {"complete from", "completeness"},
-       {"by", "source"},
-       {"maximum curvature", "maximum_curvature"},
-       {"used for b", "n"},
-       {"b", "b"},
-       {"degenerate", "degenerate"},
-       {fmt::format("exponent of the sizes 1 + {} b", short_number(scale.slope)), "exponent"},
-       {"used for b-positive", "n_positive"},
-       {"b-positive", "b_positive"},
-       {"degenerate", "degenerate_positive"}});
-  table.comment(fmt::format("M = {} log10({}) + {}, bins of {} (0: none)",
-                            short_number(scale.slope), of, short_number(scale.constant), width));
+  table.show({{"catalogue", "label"},
+              {"magnitudes", "events"},
+              {"complete from", "completeness"},
+              {"by", "source"},
+              {"maximum curvature", "maximum_curvature"},
+              {"used for b", "n"},
+              {"b", "b"},
+              {"degenerate", "degenerate"},
+              {fmt::format("exponent of the sizes 1 + {} b", short_number(slope)), "exponent"},
+              {"used for b-positive", "n_positive"},
+              {"b-positive", "b_positive"},
+              {"degenerate", "degenerate_positive"}});
+  table.comment(fmt::format("{}, bins of {} (0: none)", formula, width));
   table.comment(
       "b: Aki, in bins Tinti and Mulargia; errors: Shi and Bolt; b_positive: van der Elst");
   for (const MagnitudeCurve &curve : curves)
     table.row(curve.model, curve.completeness, curve.curvature, curve.b.n, curve.b.b, curve.b.error,
               curve.positive.n, curve.positive.b, curve.positive.error, curve.label, curve.b.why,
               curve.positive.why, curve.magnitudes.size(), curve.completeness_text,
-              1.0 + scale.slope * curve.b.b, scale.slope * curve.b.error);
+              1.0 + slope * curve.b.b, slope * curve.b.error);
   return table;
 }
 

@@ -22,9 +22,9 @@ struct MagnitudeCurve {
   BValue b, positive;
 };
 
-/// \param scale of the magnitudes \param of what they are magnitudes of
-Table magnitude_table(const std::vector<MagnitudeCurve> &curves, const MagnitudeScale &scale,
-                      const std::string &of, double width);
+/// \param slope of the magnitudes \param formula of them, for people
+Table magnitude_table(const std::vector<MagnitudeCurve> &curves, double slope,
+                      const std::string &formula, double width);
 
 /// Numbers of events in each bin and from each magnitude on, with the fitted laws.
 /// \param width of the bins, > 0 \throws std::runtime_error if no curve has an event

@@ -150,6 +150,17 @@ std::string plot_of(const std::vector<Drawn> &rows, const std::string &panel, co
   return out;
 }
 
+/// What colours and symbols of the panels on the right mean.
+std::string legend_of(const std::vector<Drawn> &rows) {
+  std::string out;
+  for (const Drawn &one : rows)
+    if (one.nearest)
+      out += fmt::format(", \\\n     keyentry with linespoints {} title {}", one.style,
+                         quote(short_name_of(one.row)));
+  return out + ", \\\n     keyentry with lines lt 8 dt (6,4) lw 2 title " +
+         quote("earthquakes, Corral (2004)");
+}
+
 std::string ticks_of(const std::vector<Drawn> &rows) {
   std::string out;
   for (const Drawn &one : rows)
@@ -170,6 +181,12 @@ Figure nature_figure(const std::vector<NatureRow> &rows) {
       "(burstiness, memory)");
   for (const Drawn &one : drawn) add_rows(table, one);
   const double free_end = std::nan("");
+  const int height = std::max(900, 130 + 34 * static_cast<int>(rows.size()));
+  // The legend of the panels on the right stands below them.
+  const auto entries =
+      1 + std::count_if(drawn.begin(), drawn.end(), [](const Drawn &one) { return one.nearest; });
+  const double top = 0.97, legend = 26.0 * static_cast<double>(entries) / height + 0.01;
+  const double high = (top - 0.09 - legend) / 0.77;
   std::string script =
       "at(p, k) = strcol(1) eq p && $2 == k ? $3 : NaN\nset multiplot\nset key off\n" +
       panel(0.36, 0.58, 0.1, 0.97) +
@@ -177,18 +194,23 @@ Figure nature_figure(const std::vector<NatureRow> &rows) {
       axis("y", "", false, -static_cast<double>(rows.size()) - 0.7, -1.3) + "set ytics (" +
       ticks_of(drawn) + ")\nset xtics 0.1\n" +
       plot_of(drawn, "distance", "4:5", "xerrorbars", "ps 1.3 ") + "\n" +
-      panel(0.68, 0.98, 0.77, 0.97) + axis("x", "inter-event time / mean", true, 1e-3, 30.0) +
+      panel(0.68, 0.98, top - 0.17 * high, top) +
+      axis("x", "inter-event time / mean", true, 1e-3, 30.0) +
       axis("y", "probability density", true, 1e-4, 1e2) +
       plot_of(drawn, "times", "4", "linespoints", "ps 0.7 ") +
       ", \\\n     [0.003:10] '+' using 1:(0.5*$1**(-0.33)*exp(-$1/1.58)) with lines lt 8 dt (6,4) "
       "lw 2 notitle\n" +
-      panel(0.68, 0.98, 0.435, 0.635) + axis("x", "magnitude above the smallest", false, 0.0, 4.0) +
+      panel(0.68, 0.98, top - 0.47 * high, top - 0.30 * high) +
+      axis("x", "magnitude above the smallest", false, 0.0, 4.0) +
       axis("y", "share of the events", true, 1e-4, 1.0) +
-      plot_of(drawn, "sizes", "4", "lines", "") + "\n" + panel(0.68, 0.98, 0.1, 0.3) +
+      plot_of(drawn, "sizes", "4", "linespoints", "pi 3 ps 0.8 ") + "\n" +
+      panel(0.68, 0.98, top - 0.77 * high, top - 0.60 * high) +
       axis("x", "memory coefficient", false, -0.3, 0.4) +
       axis("y", "burstiness (finite form)", false, -0.4, 1.0) +
-      plot_of(drawn, "plane", "4:5", "yerrorbars", "ps 1.4 ") + "\nunset multiplot\n";
-  const int height = std::max(700, 130 + 34 * static_cast<int>(rows.size()));
+      fmt::format("set key on at screen 0.99, screen {} right top Left reverse samplen 3\n",
+                  legend) +
+      plot_of(drawn, "plane", "4:5", "yerrorbars", "ps 1.4 ") + legend_of(drawn) +
+      "\nunset multiplot\n";
   return {std::move(table), std::move(script), {1150, height}};
 }
 

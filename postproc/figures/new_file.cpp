@@ -4,25 +4,30 @@
 #include <filesystem>
 #include <system_error>
 
-#include "lsm_text_io.h"
+#include "files/text_io.h"
 
 namespace LSM::postproc {
 
 namespace fs = std::filesystem;
 
-FileLock claim_output(const std::string &path, bool replace) {
+FileLock claim_output(const std::string &path, bool overwrite) {
   std::error_code code;
   const fs::file_status status = fs::status(path, code);
+  if (path.empty()) throw FileError("the name of an output is empty, expected that of a file");
   if (fs::is_directory(status) || !fs::path(path).has_filename())
     throw FileError(path + ": is a directory, expected a file name");
   if (fs::exists(status) && !fs::is_regular_file(status)) return {};
-  if (fs::exists(status) && !replace)
-    throw FileError(path + ": exists already, expected a new name or --force to replace it");
+  check_replaced(path, overwrite);
   const fs::path folder = fs::path(path).parent_path();
   code.clear();
   if (!folder.empty()) fs::create_directories(folder, code);
   if (code) throw FileError(folder.string() + ": cannot make the folder: " + code.message());
   return FileLock(path);
+}
+
+void check_replaced(const std::string &path, bool overwrite, const Known &known) {
+  const std::string problem = overwrite ? std::string() : why_kept(path, known);
+  if (!problem.empty()) throw FileError(problem);
 }
 
 void write_file(const std::string &path, std::string_view text) {

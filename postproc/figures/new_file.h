@@ -8,16 +8,21 @@
 #include <string_view>
 #include <vector>
 
-#include "lsm_output_claim.h"
+#include "files/output_claim.h"
+#include "files/replaced_file.h"
 
 namespace LSM::postproc {
 
 /// Before path is written: makes missing folders, and keeps others from writing it while the lock
-/// is held. \throws FileError if path exists, unless replace, is a folder, or is being written by
+/// is held. \throws FileError if path exists, unless overwrite, is a folder, or is being written by
 /// another program of ours.
-FileLock claim_output(const std::string &path, bool replace);
+FileLock claim_output(const std::string &path, bool overwrite);
 
-/// Writes text to path, in place of an older file. \throws FileError
+/// \throws FileError if a file is there that is not known as an earlier one of the same output,
+/// unless overwrite
+void check_replaced(const std::string &path, bool overwrite, const Known &known = nullptr);
+
+/// Writes text to path, in place of an older file, see check_replaced(). \throws FileError
 void write_file(const std::string &path, std::string_view text);
 
 /// \throws FileError if output, or its temporary name, is one of the files that are read.

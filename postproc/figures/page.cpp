@@ -44,6 +44,13 @@ std::string report_part(const std::string &name,
   return out;
 }
 
+Known is_page_of(const std::string &command) {
+  const std::string generator = "<meta name=\"generator\" content=\"postproc " + command + "\">";
+  return [generator](std::string_view head) {
+    return head.substr(0, head.find("<title>")).find(generator) != std::string_view::npos;
+  };
+}
+
 std::string inline_svg(std::string_view svg, const std::string &prefix, const std::string &title) {
   const std::size_t begin = svg.find("<svg"), end = svg.find("</svg>");
   if (begin == std::string_view::npos || end == std::string_view::npos)

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "files/replaced_file.h"
+
 namespace LSM::postproc {
 
 /// report.html, a file of figures/explore, or one of its library, as it was when the program was
@@ -25,6 +27,9 @@ std::string filled(std::string_view text,
 /// \throws std::logic_error if there is no such part, or if keys and values do not match
 std::string report_part(const std::string &name,
                         const std::vector<std::pair<std::string_view, std::string>> &values = {});
+
+/// Whether a page is one of this command, by its generator.
+Known is_page_of(const std::string &command);
 
 /// gnuplot's SVG as an element of a page: no prologue, identifiers that begin with prefix (those of
 /// several pictures would clash), background of the page, title as its name for screen readers.

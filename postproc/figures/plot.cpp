@@ -116,12 +116,19 @@ std::vector<double> ticks_around(double lo, double hi) {
   return ticks;
 }
 
+std::string script_head(const std::string &name) {
+  return fmt::format(
+      "# Draws {0}.png and {0}.svg from\n# {0}.csv: run `gnuplot ./{0}.gp` in this folder.\n",
+      name);
+}
+
 std::string whole_script(const std::string &name, const Figure &figure) {
   const auto &[table, body, size] = figure;
-  std::string script = fmt::format(
-      "# Draws {0}.png and {0}.svg from\n# {0}.csv: run `gnuplot ./{0}.gp` in this folder.\n"
-      "base = {1}\ntable = base.\".csv\"\nif (!exists(\"formats\")) formats = \"png svg\"\n",
-      name, quote_plain("./" + name));
+  std::string script =
+      script_head(name) +
+      fmt::format(
+          "base = {}\ntable = base.\".csv\"\nif (!exists(\"formats\")) formats = \"png svg\"\n",
+          quote_plain("./" + name));
   script += fmt::format(
       "\ndo for [format in formats] {{\n"
       "if (format eq \"png\") {{\n"
@@ -158,7 +165,7 @@ std::string escape(std::string_view text, bool markup) {
   const std::string_view harmless = markup ? " .,:;()=+-/*%<>!?" : " .,:;()=+-/*%<>!?_^{}";
   std::string out = "\"";
   bool number = false;  // continues with the next digit, however long it is
-  for (const unsigned char c : text) {
+  for (const unsigned char c : valid_utf8(text)) {
     const unsigned char code = c < 0x20 ? ' ' : c;
     if (markup && std::string_view("\\{}^_@&~").find(c) != std::string_view::npos) out += "\\134";
     number = !(code >= 0x80 || std::isalpha(code) || (std::isdigit(code) && !number) ||
@@ -166,6 +173,11 @@ std::string escape(std::string_view text, bool markup) {
     out += number ? fmt::format("\\{:03o}", code) : std::string(1, static_cast<char>(code));
   }
   return out + "\"";
+}
+
+std::string file_text(const fs::path &path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
 /// Runs BASE.gp. \throws PlotError unless both pictures came out; then neither is left
@@ -178,6 +190,13 @@ void draw(const std::string &base) {
     run_gnuplot(folder, {"./" + name.string() + ".gp"});
     for (const std::string &picture : pictures)
       if (fs::file_size(picture, code) == 0 || code) throw PlotError("gnuplot wrote no " + picture);
+    // gnuplot calls all of its pictures Gnuplot, which browsers show and screen readers read.
+    std::string svg = file_text(pictures[1]);
+    constexpr std::string_view own = "<title>Gnuplot</title>";
+    if (const std::size_t at = svg.find(own); at != std::string::npos) {
+      svg.replace(at, own.size(), "<title>" + html_escape(name.string()) + "</title>");
+      write_file(pictures[1], svg);
+    }
   } catch (const PlotError &error) {
     for (const std::string &picture : pictures) fs::remove(picture, code);
     throw PlotError(base + ".gp: " + error.what() +
@@ -299,6 +318,18 @@ void make(const Figure &figure, const PictureOptions &options) {
              options.no_picture ? "" : fmt::format(", {0}.png, {0}.svg", options.output));
 }
 
+void check_replaced(const Figure &figure, const PictureOptions &options) {
+  const std::string base = options.output, script = base + ".gp";
+  const Known drawn = begins_with(script_head(fs::path(base).filename().string()));
+  check_replaced(options.table(), options.overwrite,
+                 [&](std::string_view head) { return figure.table.like(head); });
+  check_replaced(script, options.overwrite, drawn);
+  // Pictures are known by the script beside them.
+  const bool ours = text_io::holds_data(script);
+  for (const char *const ending : {".png", ".svg"})
+    if (!options.no_picture) check_replaced(base + ending, options.overwrite || ours);
+}
+
 std::string svg_text(const Figure &figure) {
   std::string folder = (fs::temp_directory_path() / "postproc-XXXXXX").string();
   if (!mkdtemp(folder.data()))
@@ -311,8 +342,7 @@ std::string svg_text(const Figure &figure) {
   figure.table.write(folder + "/figure.csv");
   write_file(folder + "/figure.gp", whole_script("figure", figure));
   run_gnuplot(folder, {"-e", "formats='svg'", "figure.gp"});
-  std::ifstream in(folder + "/figure.svg", std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  std::string text = file_text(folder + "/figure.svg");
   if (text.find("</svg>") == std::string::npos) throw PlotError("gnuplot wrote no picture");
   return text;
 }

@@ -12,8 +12,8 @@
 #include <string_view>
 #include <vector>
 
-#include "lsm_output_claim.h"
-#include "lsm_text_io.h"
+#include "files/output_claim.h"
+#include "files/text_io.h"
 #include "table.h"
 
 namespace LSM::postproc {
@@ -28,6 +28,7 @@ class PlotError : public FileError {
 struct PictureOptions {
   std::string output;       ///< BASE: path of the files without extension
   bool no_picture = false;  ///< write the table and the script only
+  bool overwrite = false;   ///< replace files of others
 
   std::string table() const { return output + ".csv"; }
 
@@ -73,6 +74,10 @@ struct Figure {
 /// checks that BASE.png and BASE.svg came out; says on standard output what was written.
 /// \throws FileError; PlotError, also when gnuplot is missing (table and script are there by then)
 void make(const Figure &figure, const PictureOptions &options);
+
+/// Before anything is written. \throws FileError if make() would replace a file that is none of an
+/// earlier figure of the same kind, unless options.overwrite
+void check_replaced(const Figure &figure, const PictureOptions &options);
 
 /// The picture as SVG text, without leaving a file. \throws FileError
 std::string svg_text(const Figure &figure);

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "lsm_event_picker.h"
+#include "events/event_picker.h"
 #include "plot.h"
 #include "regime.h"
 #include "spectrum.h"

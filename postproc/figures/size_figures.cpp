@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "lsm_text_io.h"
+#include "files/text_io.h"
 #include "numbers.h"
 
 namespace LSM::postproc {
@@ -98,6 +98,12 @@ std::string range_text(const PowerLawFit &fit) {
                      fit.searched ? " (searched)" : "");
 }
 
+/// "exponent_1e-4:0.1", of a searched range "exponent_searched_...".
+std::string name_of(const PowerLawFit &fit) {
+  return fmt::format("exponent_{}{}:{}", fit.searched ? "searched_" : "", short_number(fit.lo, 6),
+                     short_number(fit.hi, 6));
+}
+
 /// Which law a comparison favours; p below 0.05 decides (ours).
 const char *favoured(const Comparison &comparison) {
   if (comparison.degenerate || comparison.rival.empty()) return "";
@@ -110,7 +116,7 @@ const char *favoured(const Comparison &comparison) {
 Table size_fit_table(const std::vector<SizeFit> &fits) {
   Table table(
       "model,lo,hi,searched,n,exponent,standard_error,ks,p,p_error,rival,"
-      "ln_likelihood_ratio,normalised,rival_p,label,degenerate,!sizes,!favoured");
+      "ln_likelihood_ratio,normalised,rival_p,label,degenerate,name,!sizes,!favoured");
   table.show({{"catalogue", "label"},
               {"sizes", "sizes"},
               {"events", "n"},
@@ -120,9 +126,10 @@ Table size_fit_table(const std::vector<SizeFit> &fits) {
               {"against", "rival"},
               {"", "favoured"},
               {"ln L ratio", "ln_likelihood_ratio", 3},
-              {"p of it", "rival_p", 2},
+              {"p of the comparison", "rival_p", 2},
               {"degenerate", "degenerate"}});
-  table.comment("density C s^-exponent on [lo, hi], sizes in model energy units");
+  table.comment(
+      "density C s^-exponent on [lo, hi] by maximum likelihood, sizes in model energy units");
   if (std::any_of(fits.begin(), fits.end(),
                   [](const SizeFit &fit) { return !fit.comparisons.empty(); }))
     table.comment("one line per rival; ln_likelihood_ratio > 0 favours the power law");
@@ -135,7 +142,8 @@ Table size_fit_table(const std::vector<SizeFit> &fits) {
       const double known = c.degenerate ? NAN : 1.0;
       table.row(fit.model, law.lo, law.hi, law.searched ? "yes" : "no", law.n, law.alpha,
                 law.standard_error, law.ks, fit.p, c.rival, known * c.log_likelihood_ratio,
-                known * c.normalised, known * c.p, fit.label, c.why, range_text(law), favoured(c));
+                known * c.normalised, known * c.p, fit.label, c.why, name_of(law), range_text(law),
+                favoured(c));
     }
   }
   return table;
@@ -161,7 +169,7 @@ static void to_json(json &out, const Comparison &c) {
 
 void to_json(json &out, const SizeFit &fit) {
   const PowerLawFit &law = fit.fit;
-  out = {{"label", fit.label}, {"model", fit.model}, {"lo", law.lo},
+  out = {{"label", fit.label}, {"model", fit.model}, {"name", name_of(law)},    {"lo", law.lo},
          {"hi", law.hi},       {"n", law.n},         {"searched", law.searched}};
   add_numbers(out, law,
               {{"exponent", law.alpha},
@@ -202,23 +210,30 @@ std::string text_of(const BendRange &bends) {
       short_number(bends.L_c.hi, 3), short_number(bends.D.lo, 2), short_number(bends.D.hi, 2));
 }
 
+/// What error_scale() did.
+std::string scaled_text(double chi2, int freedom) {
+  const double scale = error_scale(chi2, freedom);
+  return scale > 1.0 ? fmt::format(" (errors times {})", short_number(scale, 2)) : std::string();
+}
+
 std::string power_law_text(const ScalingFit &fit) {
   return fmt::format(
-      "s* ~ L^D with D = {}, at 95 % from {} to {}, chi2 {} on {} degrees of freedom; AICc {} for "
+      "s* ~ L^D with D = {}, at 95 % from {} to {}, χ² {} on {} degrees of freedom{}; AICc {} for "
       "this power law, {} for no dependence on L",
       with_error(fit.D, fit.se_D), short_number(fit.D - 1.96 * fit.se_D, 2),
       short_number(fit.D + 1.96 * fit.se_D, 2), short_number(fit.chi2), fit.points - 2,
-      short_number(fit.aicc), short_number(fit.aicc_constant));
+      scaled_text(fit.chi2, fit.points - 2), short_number(fit.aicc),
+      short_number(fit.aicc_constant));
 }
 
 std::string saturation_text(const ScalingFit &fit) {
   const Saturation &end = fit.saturation;
   if (end.degenerate) return "degenerate: " + end.why;
-  return fmt::format(
-      "AICc {} with L_c = {}, s_inf = {}, D = {}, chi2 {} on {} degrees of freedom{}",
-      short_number(end.aicc), with_error(end.L_c, end.se_L_c), with_error(end.s_inf, end.se_s_inf),
-      with_error(end.D, end.se_D), short_number(end.chi2), fit.points - 3,
-      text_of(bends_as_good(fit)));
+  return fmt::format("AICc {} with L_c = {}, s_∞ = {}, D = {}, χ² {} on {} degrees of freedom{}{}",
+                     short_number(end.aicc), with_error(end.L_c, end.se_L_c),
+                     with_error(end.s_inf, end.se_s_inf), with_error(end.D, end.se_D),
+                     short_number(end.chi2), fit.points - 3, scaled_text(end.chi2, fit.points - 3),
+                     text_of(bends_as_good(fit)));
 }
 
 std::string statement(const ScalingFit &fit) {
@@ -246,7 +261,7 @@ std::string verdict(const Scaling &scaling) {
   if (fit.degenerate) return "degenerate: " + fit.why;
   return fmt::format(
       "Over {0} catalogues the characteristic size of the roll-off {1} ({2}; for growth that ends, "
-      "s* = s_inf [1 + (L_c/L)^({3}D)]^(-1/{3}): {4}).",
+      "s* = s_∞ [1 + (L_c/L)^({3}D)]^(-1/{3}): {4}).",
       fit.points, statement(fit), power_law_text(fit), Saturation::sharpness, saturation_text(fit));
 }
 
@@ -318,6 +333,7 @@ void to_json(json &out, const Scaling &scaling) {
               {"D", fit.D},
               {"D_error", fit.se_D},
               {"chi2", fit.chi2},
+              {"error_scale", error_scale(fit.chi2, fit.points - 2)},
               {"constant", fit.constant},
               {"constant_error", fit.se_constant},
               {"chi2_constant", fit.chi2_constant},

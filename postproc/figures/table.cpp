@@ -3,12 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-#include "lsm_text_io.h"
+#include "files/text_io.h"
 #include "new_file.h"
 #include "numbers.h"
 
@@ -25,8 +26,12 @@ std::string csv_field(double value) {
 std::string csv_field(std::int64_t value) { return text_io::number(value); }
 
 std::string csv_field(const std::string &text) {
-  if (text.find_first_of(",\"#\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
+  double number = 0.0;
+  const bool formula = !text.empty() && std::string_view("=+-@\t\r").find(text[0]) < 6 &&
+                       !text_io::parse(text, number);
+  const std::string guard = formula ? "'" : "";
+  if (text.find_first_of(",\"#\n\r") == std::string::npos) return guard + text;
+  std::string quoted = "\"" + guard;
   for (const char c : text) {
     if (c == '"') quoted += '"';
     quoted += c == '\n' || c == '\r' ? ' ' : c;
@@ -59,6 +64,36 @@ std::vector<std::string> aligned(const Rows &rows) {
   return lines;
 }
 
+/// A sentence as lines of at most `most` characters, where its words allow.
+std::string wrapped(const std::string &text, std::size_t most) {
+  std::string out, line, word;
+  for (std::istringstream words(text); words >> word;) {
+    if (!line.empty() && width_of(line) + 1 + width_of(word) > most) {
+      out += line + '\n';
+      line = "  " + word;
+    } else {
+      line += (line.empty() ? "" : " ") + word;
+    }
+  }
+  return out + line + '\n';
+}
+
+/// Moves sentences out of a table that they would make wide: a number stands for each. Returns
+/// them.
+std::vector<std::string> take_notes(Rows &columns) {
+  constexpr std::size_t longest = 32;
+  std::vector<std::string> notes;
+  for (std::size_t k = 1; k < columns.size(); ++k)
+    for (std::size_t i = 1; i < columns[k].size(); ++i) {
+      std::string &cell = columns[k][i];
+      if (width_of(cell) <= longest) continue;
+      const auto place = std::find(notes.begin(), notes.end(), cell) - notes.begin();
+      if (place == static_cast<std::ptrdiff_t>(notes.size())) notes.push_back(cell);
+      cell = fmt::format("[{}]", place + 1);
+    }
+  return notes;
+}
+
 Rows turned(const Rows &columns) {
   Rows rows(columns.front().size());
   for (const auto &column : columns)
@@ -81,7 +116,7 @@ Table::Table(std::string_view columns) {
 }
 
 void Table::comment(std::string_view text) {
-  comments_.emplace_back(text);
+  comments_.push_back(valid_utf8(text));
   for (char &c : comments_.back())
     if (c == '\n' || c == '\r') c = ' ';
 }
@@ -94,15 +129,27 @@ void Table::end_row() {
   ++rows_;
 }
 
+std::string Table::column_line() const {
+  std::string out;
+  for (std::size_t k = 0; k < columns_.size(); ++k)
+    if (!for_people(k)) out += (out.empty() ? "" : ",") + csv_field(columns_[k]);
+  return out;
+}
+
+bool Table::like(std::string_view head) const {
+  while (!head.empty() && head.front() == '#') {
+    const std::size_t end = head.find('\n');
+    if (end == std::string_view::npos) return false;
+    head.remove_prefix(end + 1);
+  }
+  return begins_with(column_line() + '\n')(head);
+}
+
 std::string Table::csv() const {
   std::string out;
   for (const std::string &comment : comments_) out += "# " + comment + '\n';
+  out += column_line();
   std::string separator;
-  for (std::size_t k = 0; k < columns_.size(); ++k) {
-    if (for_people(k)) continue;
-    out += separator + columns_[k];
-    separator = ",";
-  }
   for (std::size_t k = 0; k < cells_.size(); ++k) {
     if (k % columns_.size() == 0) separator = "\n";
     if (for_people(k % columns_.size())) continue;
@@ -157,17 +204,24 @@ std::vector<std::vector<std::string>> Table::shown_columns(std::string_view plus
 std::string Table::text() const {
   if (rows_ == 0 || shown_.empty()) return {};
   std::string out;
-  for (const std::string &comment : comments_) out += comment + '\n';
-  constexpr std::size_t most = 160;
-  const Rows columns = shown_columns(" +- ");
+  constexpr std::size_t most = 160, of_text = 100;
+  for (const std::string &comment : comments_) out += wrapped(comment, of_text);
+  Rows columns = shown_columns(" +- ");
   Rows rows = turned(columns);
-  if (width_of(aligned(rows)[0]) > most && columns.size() > 6 * static_cast<std::size_t>(rows_) &&
-      width_of(aligned(columns)[0]) < most)
+  std::vector<std::string> notes;
+  const bool wide = width_of(aligned(rows)[0]) > most;
+  if (wide && columns.size() > 6 * static_cast<std::size_t>(rows_) &&
+      width_of(aligned(columns)[0]) < most) {
     rows = columns;
-  else
+  } else {
+    if (wide) notes = take_notes(columns);
+    rows = turned(columns);
     blank_repeated(rows);
+  }
   for (const std::string &line : aligned(rows))
     out += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
+  for (std::size_t i = 0; i < notes.size(); ++i)
+    out += wrapped(fmt::format("[{}] {}", i + 1, notes[i]), of_text);
   return out;
 }
 
@@ -189,7 +243,31 @@ std::string Table::html() const {
 
 void Table::write(const std::string &path) const { write_file(path, csv()); }
 
-std::string html_escape(std::string_view text) {
+std::string valid_utf8(std::string_view text) {
+  std::string out;
+  while (!text.empty()) {
+    const auto first = static_cast<unsigned char>(text[0]);
+    const std::size_t length = first < 0x80                    ? 1
+                               : first >= 0xc2 && first < 0xe0 ? 2
+                               : first >= 0xe0 && first < 0xf0 ? 3
+                               : first >= 0xf0 && first < 0xf5 ? 4
+                                                               : 0;
+    bool good = length > 0 && length <= text.size();
+    for (std::size_t i = 1; good && i < length; ++i)
+      good = (static_cast<unsigned char>(text[i]) & 0xc0) == 0x80;
+    // Too long a form, half of a pair of UTF-16, beyond the last character.
+    const auto second = static_cast<unsigned char>(good && length > 2 ? text[1] : 0);
+    if (good && ((first == 0xe0 && second < 0xa0) || (first == 0xed && second >= 0xa0) ||
+                 (first == 0xf0 && second < 0x90) || (first == 0xf4 && second >= 0x90)))
+      good = false;
+    out += good ? text.substr(0, length) : std::string_view("\xef\xbf\xbd");
+    text.remove_prefix(good ? length : 1);
+  }
+  return out;
+}
+
+std::string html_escape(std::string_view raw) {
+  const std::string text = valid_utf8(raw);
   constexpr std::string_view reserved = "&<>\"'";
   constexpr const char *entities[] = {"&amp;", "&lt;", "&gt;", "&quot;", "&#39;"};
   std::string out;

@@ -19,6 +19,9 @@
 
 namespace LSM::postproc {
 
+/// Text with what is no UTF-8 in it replaced by U+FFFD: labels and names of files may be anything.
+std::string valid_utf8(std::string_view text);
+
 /// A column as people see it.
 struct Shown {
   std::string heading, column;
@@ -42,7 +45,7 @@ class Table {
   }
   Table &add(double value) { return put(value); }
   Table &add(std::int64_t value) { return put(value); }
-  Table &add(std::string_view text) { return put(std::string(text)); }
+  Table &add(std::string_view text) { return put(valid_utf8(text)); }
   Table &add(const Measured &number) { return put(number.value).put(number.error); }
   /// The columns bin_lo, bin_hi, centre, count, density and error.
   Table &add(const LogBin &bin) {
@@ -63,8 +66,11 @@ class Table {
   std::int64_t rows() const { return rows_; }
 
   /// Comments that begin with '#', column names, rows. Text is quoted where it has to be; numbers
-  /// have all their digits; NaN is an empty field.
+  /// have all their digits; NaN is an empty field. An apostrophe stands before a text that a
+  /// spreadsheet would take for a formula.
   std::string csv() const;
+  /// Whether a CSV that begins so has the same columns.
+  bool like(std::string_view head) const;
   nlohmann::ordered_json json() const;  ///< an object per row; NaN is null; without the comments
   /// For a terminal: comments and aligned columns, those without any content left out. A cell that
   /// repeats the row above, as all before it do, is blank. Few wide rows are turned on their side.
@@ -81,6 +87,8 @@ class Table {
     cells_.emplace_back(std::forward<Content>(cell));
     return *this;
   }
+  /// The line of column names of the CSV.
+  std::string column_line() const;
   bool for_people(std::size_t column) const { return columns_[column][0] == '!'; }
   /// What people see, column by column, each with its heading first; but for the first one, those
   /// that were chosen and hold nothing are left out.

@@ -11,8 +11,8 @@
 
 #include "estimation.h"
 #include "log_histogram.h"
-#include "lsm_random.h"
-#include "lsm_sum.h"
+#include "numerics/random.h"
+#include "numerics/sum.h"
 #include "replicas.h"
 #include "samples.h"
 
@@ -233,6 +233,32 @@ void report(const Law &law, const Search &search, const Sequences &s, OmoriFit &
 
 }  // namespace
 
+namespace {
+
+/// The events and the time outside of all windows. \param mains the main shocks in order of time
+void count_quiet(const std::vector<Shock> &events, const SequenceRule &rule,
+                 const std::vector<Shock> &mains, Sequences &stack) {
+  if (events.empty()) return;
+  std::vector<std::pair<double, double>> windows;  // disjoint, ascending
+  for (const Shock &main : mains) {
+    const double from = main.t_start - rule.window, to = main.t_end + rule.window;
+    if (!windows.empty() && from <= windows.back().second)
+      windows.back().second = std::max(windows.back().second, to);
+    else
+      windows.emplace_back(from, to);
+  }
+  stack.quiet_time = events.back().t_start - events.front().t_start;
+  for (const auto &[from, to] : windows) stack.quiet_time -= to - from;
+  auto window = windows.begin();
+  for (const Shock &event : events) {
+    while (window != windows.end() && window->second < event.t_start) ++window;
+    const bool quiet = window == windows.end() || event.t_start < window->first;
+    stack.quiet_events += quiet && event.size >= rule.least_size;
+  }
+}
+
+}  // namespace
+
 Sequences stack_sequences(const std::vector<Shock> &events, const SequenceRule &rule) {
   if (!(rule.window > 0.0) || !std::isfinite(rule.window))
     throw std::invalid_argument("window after main shocks: expected a positive finite time");
@@ -242,6 +268,7 @@ Sequences stack_sequences(const std::vector<Shock> &events, const SequenceRule &
   Sequences stack;
   stack.first = rule.first;
   stack.window = rule.window;
+  std::vector<Shock> mains;
   std::size_t earliest = 0;  // of the window; it moves on with the main shocks
   for (std::size_t k = 0; k < events.size(); ++k) {
     const Shock main = events[k];
@@ -256,6 +283,7 @@ Sequences stack_sequences(const std::vector<Shock> &events, const SequenceRule &
                 (events[last].size == main.size && last > k);
     if (!largest) continue;
     ++stack.main_shocks;
+    mains.push_back(main);
     for (std::size_t i = earliest; i < last; ++i) {
       const Shock &other = events[i];
       if (other.size < rule.least_size || i == k) continue;
@@ -269,7 +297,43 @@ Sequences stack_sequences(const std::vector<Shock> &events, const SequenceRule &
   }
   std::sort(stack.times.begin(), stack.times.end());
   std::sort(stack.before.begin(), stack.before.end());
+  count_quiet(events, rule, mains, stack);
   return stack;
+}
+
+Measured Sequences::background() const {
+  const auto n = static_cast<double>(quiet_events);
+  return quiet_time > 0.0 ? Measured{n / quiet_time, std::sqrt(n) / quiet_time} : Measured{};
+}
+
+Measured Sequences::excess(std::size_t count) const {
+  const double exposure = static_cast<double>(main_shocks) * (window - first);
+  const auto n = static_cast<double>(count);
+  const Measured rate = background();
+  return {n - rate.value * exposure, std::sqrt(n + std::pow(rate.error * exposure, 2))};
+}
+
+Measured Sequences::after_to_before() const {
+  const Measured after = excess_after(), ahead = excess_before();
+  // Beyond chance, as the ratio to a number near 0 says nothing.
+  if (!(ahead.value > 2.0 * ahead.error)) return {};
+  const double ratio = after.value / ahead.value;
+  return {ratio, std::hypot(after.error, ratio * ahead.error) / ahead.value};
+}
+
+Measured mean_of_catalogues(const std::vector<Measured> &numbers) {
+  std::vector<double> known;
+  for (const Measured &number : numbers)
+    if (!std::isnan(number.value)) known.push_back(number.value);
+  if (known.empty()) return {};
+  if (known.size() == 1)
+    return *std::find_if(numbers.begin(), numbers.end(),
+                         [](const Measured &number) { return !std::isnan(number.value); });
+  const double mean = mean_of(known);
+  double squares = 0.0;
+  for (const double number : known) squares += (number - mean) * (number - mean);
+  const auto n = static_cast<double>(known.size());
+  return {mean, std::sqrt(squares / (n * (n - 1.0)))};
 }
 
 double OmoriFit::rate(double t) const {

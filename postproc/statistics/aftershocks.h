@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "event_table.h"
+#include "samples.h"
 
 namespace LSM::postproc {
 
@@ -33,7 +34,25 @@ struct Sequences {
   std::vector<double> before;
   std::int64_t main_shocks = 0;
   double first = 0.0, window = 0.0;  ///< from and to which times are counted
+  /// Events outside of the windows before and after all main shocks, and the time there.
+  std::int64_t quiet_events = 0;
+  double quiet_time = 0.0;
+
+  /// Of events far from main shocks; NaN: there is no such time.
+  Measured background() const;
+  /// Events beyond those of the background in the windows after and before main shocks.
+  Measured excess_after() const { return excess(times.size()); }
+  Measured excess_before() const { return excess(before.size()); }
+  /// The first over the second: how many aftershocks there are for a foreshock. The error is that
+  /// of counts; that between catalogues is larger where few main shocks have most of them.
+  Measured after_to_before() const;
+
+ private:
+  Measured excess(std::size_t count) const;
 };
+
+/// Mean of the catalogues of one label and its error from their scatter; of one, its own.
+Measured mean_of_catalogues(const std::vector<Measured> &numbers);
 
 /// Main shock: an event of at least main_size that is the largest (of equals the first) of all that
 /// start from window before its start to window after its end; all of that time has to lie within

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "finite_size.h"
+#include "replicas.h"
 #include "two_sample.h"
 
 namespace LSM::postproc {
@@ -194,29 +195,34 @@ Clustering clustering(const std::vector<double> &times, int replicas, std::uint6
   const double r = variation_of(times);
   out.burstiness = burstiness_of(r);
 
-  std::vector<CelledTime> series = celled(times);
+  const std::vector<CelledTime> series = celled(times);
   const double mean = mean_of(times);
   std::vector<AgainstChance *> numbers = {&out.variation, &out.finite_burstiness, &out.memory};
   for (AgainstChance &one : out.after) numbers.push_back(&one);
   for (AgainstChance &one : out.after_eighth) numbers.push_back(&one);
   numbers.push_back(&out.after_distance);
-  const auto values_of = [&](double ratio, const std::vector<double> &ordered) {
-    std::vector<double> values = {ratio, finite_burstiness(ratio, n), memory_of(ordered)};
-    const std::vector<double> conditional = conditional_of(series, mean);
+  const auto values_of = [&](double ratio, const std::vector<CelledTime> &ordered) {
+    std::vector<double> in_order;
+    in_order.reserve(ordered.size());
+    for (const CelledTime &one : ordered) in_order.push_back(one.time);
+    std::vector<double> values = {ratio, finite_burstiness(ratio, n), memory_of(in_order)};
+    const std::vector<double> conditional = conditional_of(ordered, mean);
     values.insert(values.end(), conditional.begin(), conditional.end());
     return values;
   };
-  const std::vector<double> own = values_of(r, times);
-  Random random(seed);
-  std::vector<double> independent(times.size()), shuffled(times.size());
-  std::vector<std::vector<double>> chance(numbers.size());
-  for (int k = 0; k < replicas; ++k) {
+  const std::vector<double> own = values_of(r, series);
+  std::vector<std::vector<double>> found(static_cast<std::size_t>(replicas));
+  for_each_replica(replicas, [&](int replica) {
+    Random random(seed_of_replica(seed, replica));
+    std::vector<double> independent(times.size());
     for (double &time : independent) time = -std::log1p(-random.uniform());
-    shuffle(series, random);
-    for (std::size_t i = 0; i < series.size(); ++i) shuffled[i] = series[i].time;
-    const std::vector<double> one = values_of(variation_of(independent), shuffled);
+    std::vector<CelledTime> shuffled = series;
+    shuffle(shuffled, random);
+    found[static_cast<std::size_t>(replica)] = values_of(variation_of(independent), shuffled);
+  });
+  std::vector<std::vector<double>> chance(numbers.size());
+  for (const std::vector<double> &one : found)
     for (std::size_t i = 0; i < one.size(); ++i) chance[i].push_back(one[i]);
-  }
   for (std::size_t i = 0; i < numbers.size(); ++i) *numbers[i] = against(own[i], chance[i]);
   return out;
 }
@@ -240,17 +246,18 @@ Steadiness steadiness(const std::vector<double> &starts, double tolerance, std::
   const std::size_t block = block_of(times);
   std::vector<std::size_t> order((times.size() + block - 1) / block);
   std::iota(order.begin(), order.end(), std::size_t{0});
-  Random random(seed);
-  double as_far = 1.0;
-  for (int k = 0; k < replicas; ++k) {
-    shuffle(order, random);
+  const auto as_far = [&](int replica) {
+    Random random(seed_of_replica(seed, replica));
+    std::vector<std::size_t> shuffled = order;
+    shuffle(shuffled, random);
     std::vector<double> again{0.0};
-    for (const std::size_t one : order)
+    again.reserve(starts.size());
+    for (const std::size_t one : shuffled)
       for (std::size_t i = one * block; i < std::min(times.size(), (one + 1) * block); ++i)
         again.push_back(again.back() + times[i]);
-    if (departure_of(again) >= out.whole.departure) as_far += 1.0;
-  }
-  if (replicas > 0) out.p = as_far / (replicas + 1.0);
+    return departure_of(again) >= out.whole.departure;
+  };
+  if (replicas > 0) out.p = share_of_replicas(replicas, as_far);
   out.steady = steady_stretches(starts, tolerance, fewest);
   return out;
 }
@@ -281,14 +288,19 @@ Measured rescaled_distance(const std::vector<double> &first, const std::vector<d
                            int replicas, std::uint64_t seed) {
   Measured out;
   if (first.size() < fewest_times || second.size() < fewest_times) return out;
+  // Of equal magnitudes nothing is left to compare.
+  if (mean_of(first) == 0.0 || mean_of(second) == 0.0) return out;
   out.value = two_sample_distance(over_mean(first), over_mean(second));
   const std::size_t block1 = block_of(first), block2 = block_of(second);
   Random random(seed);
   std::vector<double> again;
-  for (int k = 0; k < replicas; ++k)
-    again.push_back(two_sample_distance(over_mean(resampled(first, block1, random)),
-                                        over_mean(resampled(second, block2, random))));
-  if (replicas > 1) out.error = against(out.value, again).deviation;
+  for (int k = 0; k < replicas; ++k) {
+    const std::vector<double> one = resampled(first, block1, random),
+                              other = resampled(second, block2, random);
+    if (mean_of(one) != 0.0 && mean_of(other) != 0.0)
+      again.push_back(two_sample_distance(over_mean(one), over_mean(other)));
+  }
+  if (again.size() > 1) out.error = against(out.value, again).deviation;
   return out;
 }
 

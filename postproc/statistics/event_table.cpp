@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "lsm_text_io.h"
+#include "files/text_io.h"
 
 namespace LSM::postproc {
 
@@ -19,6 +19,31 @@ double EventTable::length() const {
     if (text && text_io::parse(*text, value) && value > 0.0) return value;
   }
   return NAN;
+}
+
+double EventTable::picker_memory() const {
+  if (earthquakes() || info.overlapping()) return NAN;
+  double dt = 0.0, lambda = 0.0, stride = 1.0;
+  const std::string *const step = info.find("dt"), *const rate = info.find("lambda"),
+                           *const every = info.find("stride"), *const reading = info.find("picker");
+  if (!step || !text_io::parse(*step, dt) || !rate || !text_io::parse(*rate, lambda)) return NAN;
+  if (every) text_io::parse(*every, stride);
+  double left = lambda;  // of the average change after another sample
+  if (reading && *reading == "average")
+    left = lambda / (1.0 + lambda);
+  else if (reading && *reading != "exponential")
+    return NAN;
+  if (!(left > 0.0 && left < 1.0)) return NAN;
+  return model_time * dt * stride / -std::log(left);
+}
+
+double EventTable::plate_velocity() const {
+  double velocity = 0.0;
+  const std::string *text = info.find("driving");
+  if (text && text_io::parse(*text, velocity)) return std::fabs(velocity);
+  text = info.find("velocity");
+  if (!text || !text_io::parse(*text, velocity)) return NAN;
+  return std::fabs(velocity) * (info.model == "lsm" ? 2.0 : 1.0);
 }
 
 double EventTable::share_in_events() const {

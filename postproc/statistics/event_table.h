@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "lsm_catalogue.h"
+#include "files/catalogue.h"
 
 namespace LSM::postproc {
 
@@ -29,6 +29,7 @@ struct EventTable {
   std::vector<Event> details;  ///< all columns of the largest of them: of as many as asked for
   double in_events = 0.0;      ///< sum of the durations (model time)
   double last_end = 0.0;       ///< t_end of the last event (model time)
+  double model_time = 1.0;     ///< model time in the unit of the times, see --displacement
   /// Smaller events are missing: a smallest size given, the picker's min_size in the header, or the
   /// smallest earthquake (energy).
   double complete_from = 0.0;
@@ -51,6 +52,15 @@ struct EventTable {
 
   /// Fault length, or the number of blocks of a chain, from the header; NaN if it has neither.
   double length() const;
+
+  /// Time in which the picker of these events forgets, in the unit of the times: of the reading
+  /// 'exponential' its step over -ln(lambda), of 'average' as long as its factor says. NaN: events
+  /// of no picker, or of one whose memory has no length.
+  double picker_memory() const;
+
+  /// Velocity of one side against the other by the header (model units): `driving` of ruptures,
+  /// else of a fault twice the velocity of a plate, of a chain that of its plate; NaN: not given.
+  double plate_velocity() const;
 
   /// Part of the time from the first start to the last end that lies within events; NaN if there is
   /// none, or events may overlap (kinds other than drops of PE).

@@ -12,8 +12,8 @@
 #include <stdexcept>
 
 #include "estimation.h"
-#include "lsm_sum.h"
-#include "lsm_text_io.h"
+#include "numerics/sum.h"
+#include "files/text_io.h"
 #include "replicas.h"
 
 namespace LSM::postproc {
@@ -88,11 +88,12 @@ Saturation fit_saturation(const LogPoints &points, double sharpness) {
   fit.chi2 = best.chi2;
   fit.aicc = corrected_aic(fit.chi2, 3, static_cast<int>(n));
   fit.s_inf = std::exp(best.p[0]);
-  fit.se_s_inf = fit.s_inf * best.covariance.error(0);
+  const double scale = error_scale(fit.chi2, static_cast<int>(n) - 3);
+  fit.se_s_inf = scale * fit.s_inf * best.covariance.error(0);
   fit.L_c = std::exp(best.p[1]);
-  fit.se_L_c = fit.L_c * best.covariance.error(1);
+  fit.se_L_c = scale * fit.L_c * best.covariance.error(1);
   fit.D = best.p[2];
-  fit.se_D = best.covariance.error(2);
+  fit.se_D = scale * best.covariance.error(2);
   return fit;
 }
 
@@ -181,6 +182,7 @@ std::string too_few_or_equal(const std::vector<double> &times, const std::vector
     return std::to_string(sizes.size()) + " events above the threshold, at least 10 needed";
   const auto [least, greatest] = std::minmax_element(sizes.begin(), sizes.end());
   if (*least == *greatest) return "all events have the same size";
+  if (!std::isnormal(*least * *least)) return "the squares of sizes are too small for numbers";
   if (!(times.back() > times.front())) return "all events begin at the same time";
   return {};
 }
@@ -267,6 +269,10 @@ SizePoint characteristic_size(const std::vector<double> &t_start,
   return point;
 }
 
+double error_scale(double chi2, int freedom) {
+  return freedom > 0 && gsl_cdf_chisq_Q(chi2, freedom) < 0.01 ? std::sqrt(chi2 / freedom) : 1.0;
+}
+
 const char *to_string(SizeDependence dependence) {
   constexpr const char *names[] = {"power law in the length", "no dependence on the length",
                                    "undecided", "growth that ends at a length"};
@@ -293,8 +299,9 @@ ScalingFit fit_scaling(const std::vector<SizePoint> &points) {
   gsl_fit_wlinear(x.data(), 1, weight.data(), 1, y.data(), 1, x.size(), &log_a, &fit.D, &variance_a,
                   &covariance, &variance_d, &fit.chi2);
   fit.A = std::exp(log_a);
-  fit.se_A = fit.A * std::sqrt(variance_a);
-  fit.se_D = std::sqrt(variance_d);
+  const double scale = error_scale(fit.chi2, fit.points - 2);
+  fit.se_A = scale * fit.A * std::sqrt(variance_a);
+  fit.se_D = scale * std::sqrt(variance_d);
 
   fit.constant = std::exp(gsl_stats_wmean(weight.data(), 1, y.data(), 1, y.size()));
   fit.se_constant = fit.constant / std::sqrt(std::accumulate(weight.begin(), weight.end(), 0.0));
@@ -309,16 +316,16 @@ ScalingFit fit_scaling(const std::vector<SizePoint> &points) {
     fit.preferred = SizeDependence::saturates;
   else if (fit.aicc < fit.aicc_constant - 2.0)
     fit.preferred = SizeDependence::power_law;
-  else if (fit.aicc_constant < fit.aicc - 2.0 && std::fabs(fit.D) < 1.96 * fit.se_D)
+  else if (fit.aicc_constant < fit.aicc - 2.0 && std::fabs(fit.D) < 1.96 * std::sqrt(variance_d))
     fit.preferred = SizeDependence::none;
   return fit;
 }
 
 bool fits_poorly(const ScalingFit &fit) {
   if (fit.preferred == SizeDependence::power_law)
-    return gsl_cdf_chisq_Q(fit.chi2, fit.points - 2) < 0.01;
+    return error_scale(fit.chi2, fit.points - 2) > 1.0;
   return fit.preferred == SizeDependence::saturates &&
-         gsl_cdf_chisq_Q(fit.saturation.chi2, fit.points - 3) < 0.01;
+         error_scale(fit.saturation.chi2, fit.points - 3) > 1.0;
 }
 
 BendRange bends_as_good(const ScalingFit &fit) {

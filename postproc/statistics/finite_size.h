@@ -60,8 +60,13 @@ double block_length(const std::vector<double> &values);
 enum class SizeDependence { power_law, none, undecided, saturates };
 const char *to_string(SizeDependence dependence);
 
+/// Factor of the errors of a law whose chi2 is too large: sqrt(chi2 / freedom) where a chi2 as
+/// large has a probability below 1 %, else 1. The scatter about such a law is larger than the
+/// errors of the points, and errors from their curvature alone would be too small.
+double error_scale(double chi2, int freedom);
+
 /// Growth that ends: s* = s_inf [1 + (L_c / L)^(D m)]^(-1/m), which is s_inf (L / L_c)^D far below
-/// L_c and s_inf far above. Errors from the curvature at the best fit.
+/// L_c and s_inf far above. Errors from the curvature at the best fit, times error_scale().
 struct Saturation {
   /// m, how sharp the bend is. Fixed, as few lengths lie in it; L_c and D lean on it by more than
   /// their errors, see ScalingFit::bends.
@@ -78,7 +83,8 @@ struct Saturation {
   std::string why;
 };
 
-/// s* = A L^D against s* = constant and growth that ends.
+/// s* = A L^D against s* = constant and growth that ends. Errors of A and D times error_scale();
+/// the choice between the laws is by chi2 and errors as they are.
 struct ScalingFit {
   double A = NAN, se_A = A;
   double D = A, se_D = A;

@@ -21,8 +21,8 @@
 #include "cells.h"
 #include "estimation.h"
 #include "ks_distance.h"
-#include "lsm_sum.h"
-#include "lsm_text_io.h"
+#include "numerics/sum.h"
+#include "files/text_io.h"
 #include "replicas.h"
 #include "samples.h"
 #include "truncated_family.h"
@@ -240,28 +240,35 @@ class Likelihood {
     const auto top = std::max_element(scan.begin(), scan.end(), [](const auto &a, const auto &b) {
       return a.log_likelihood < b.log_likelihood;
     });
-    const Profile result = *top;
-    if (top == scan.begin() || top == scan.end() - 1 || std::isinf(result.v0)) return result;
-    gsl_function function;
-    function.params = const_cast<Likelihood *>(this);
-    function.function = [](double x, void *self) {
-      return -static_cast<const Likelihood *>(self)->profile(std::exp(x)).log_likelihood;
-    };
-    const Gsl<gsl_min_fminimizer> minimiser(gsl_min_fminimizer_alloc(gsl_min_fminimizer_brent),
-                                            gsl_min_fminimizer_free);
-    const double x = std::log(result.delta);
-    if (gsl_min_fminimizer_set_with_values(minimiser.get(), &function, x, -top->log_likelihood,
-                                           x - width, -(top - 1)->log_likelihood, x + width,
-                                           -(top + 1)->log_likelihood) != GSL_SUCCESS)
-      return result;
-    for (int i = 0; i < 50; ++i) {
-      if (gsl_min_fminimizer_iterate(minimiser.get()) != GSL_SUCCESS) break;
-      if (gsl_min_fminimizer_x_upper(minimiser.get()) -
-              gsl_min_fminimizer_x_lower(minimiser.get()) <
-          1e-7)
-        break;
+    if (top == scan.begin() || top == scan.end() - 1 || std::isinf(top->v0)) return *top;
+    return between(*(top - 1), *top, *(top + 1), 1e-7);
+  }
+
+  // The same for a replica of data whose best delta is known, where its own best is looked for, to
+  // an error far below that of the distance that is wanted.
+  Profile best_near(double delta) const {
+    constexpr double width = 0.15;
+    const auto beside = [delta](int k) { return delta * std::exp(k * width); };
+    Profile low = profile(beside(-1)), middle = profile(delta), high = profile(beside(1));
+    for (int k = 1; std::isfinite(middle.log_likelihood) && !std::isinf(middle.v0); ++k) {
+      if (middle.log_likelihood >= low.log_likelihood &&
+          middle.log_likelihood >= high.log_likelihood)
+        return between(low, middle, high, 1e-4);
+      if (k == 8) break;
+      const bool up = high.log_likelihood > low.log_likelihood;
+      const double next = (up ? high : low).delta * std::exp(up ? width : -width);
+      if (!(next > delta_min && next < delta_max)) break;
+      if (up) {
+        low = middle;
+        middle = high;
+        high = profile(next);
+      } else {
+        high = middle;
+        middle = low;
+        low = profile(next);
+      }
     }
-    return profile(std::exp(gsl_min_fminimizer_x_minimum(minimiser.get())));
+    return best();
   }
 
   double lower() const { return lower_; }
@@ -276,6 +283,31 @@ class Likelihood {
   }
 
  private:
+  // Brent's method between two values of delta, one between which is better than both.
+  Profile between(const Profile &low, const Profile &middle, const Profile &high,
+                  double tolerance) const {
+    gsl_function function;
+    function.params = const_cast<Likelihood *>(this);
+    function.function = [](double x, void *self) {
+      return -static_cast<const Likelihood *>(self)->profile(std::exp(x)).log_likelihood;
+    };
+    const Gsl<gsl_min_fminimizer> minimiser(gsl_min_fminimizer_alloc(gsl_min_fminimizer_brent),
+                                            gsl_min_fminimizer_free);
+    if (gsl_min_fminimizer_set_with_values(minimiser.get(), &function, std::log(middle.delta),
+                                           -middle.log_likelihood, std::log(low.delta),
+                                           -low.log_likelihood, std::log(high.delta),
+                                           -high.log_likelihood) != GSL_SUCCESS)
+      return middle;
+    for (int i = 0; i < 50; ++i) {
+      if (gsl_min_fminimizer_iterate(minimiser.get()) != GSL_SUCCESS) break;
+      if (gsl_min_fminimizer_x_upper(minimiser.get()) -
+              gsl_min_fminimizer_x_lower(minimiser.get()) <
+          tolerance)
+        break;
+    }
+    return profile(std::exp(gsl_min_fminimizer_x_minimum(minimiser.get())));
+  }
+
   std::vector<double> v_, counts_;  // no counts: one of each
   double lower_, n_, mean_v_ = 0.0;
 };
@@ -541,7 +573,10 @@ double p_value(const GeneralisedGammaFit &fit, const std::vector<double> &values
   const QuietGsl quiet;
   const auto n = static_cast<std::size_t>(fit.n);
   // In units in which B is 1, on which distances do not depend.
-  const double unit = std::log(fit.B) / fit.delta, held = fit.delta_fixed ? fit.delta : NAN;
+  const double unit = std::log(fit.B) / fit.delta;
+  const auto best_of = [&fit](const Likelihood &replica) {
+    return fit.delta_fixed ? replica.profile(fit.delta) : replica.best_near(fit.delta);
+  };
   const Law law(fit.gamma, fit.delta, 0.0, fit.lo > 0.0 ? std::log(fit.lo) - unit : -HUGE_VAL);
   // Whether the data would have been called degenerate does not matter: any optimum is a fit.
   if (fit.n > largest_exact_sample) {
@@ -554,7 +589,7 @@ double p_value(const GeneralisedGammaFit &fit, const std::vector<double> &values
     const Cells cells([&law](double x) { return law.survival(x); }, {first, law.end()},
                       static_cast<double>(n));
     return cells.share_as_far(v, replicas, seed, [&](const std::vector<double> &counts) {
-      const Profile best = Likelihood(cells.centres(), counts, law.lower()).best(held);
+      const Profile best = best_of(Likelihood(cells.centres(), counts, law.lower()));
       if (!std::isfinite(best.log_likelihood)) return HUGE_VAL;
       std::vector<double> below(counts.size() + 1);
       std::partial_sum(counts.begin(), counts.end(), below.begin() + 1);
@@ -570,7 +605,7 @@ double p_value(const GeneralisedGammaFit &fit, const std::vector<double> &values
   };
   return share_of_draws(replicas, draw, [&](std::vector<double> v) {
     Likelihood likelihood(std::move(v), law.lower());
-    const Profile best = likelihood.best(held);
+    const Profile best = best_of(likelihood);
     const SamplePoints sorted{likelihood.sort().data(), n};
     return !std::isfinite(best.log_likelihood) ||
            !(Law(best, law.lower()).distance(sorted) < fit.ks);

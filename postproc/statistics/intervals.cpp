@@ -29,12 +29,41 @@ std::vector<double> inter_event_times(const EventTable &events, double threshold
   return differences(column_from(events, threshold, &Event::t_start));
 }
 
+namespace {
+
+/// Ranks from 1 on, equal values sharing the mean of theirs.
+std::vector<double> ranks_of(const std::vector<double> &values) {
+  std::vector<std::pair<double, std::size_t>> sorted;
+  sorted.reserve(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) sorted.emplace_back(values[i], i);
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<double> ranks(values.size());
+  for (std::size_t first = 0; first < sorted.size();) {
+    std::size_t end = first;
+    while (end < sorted.size() && sorted[end].first == sorted[first].first) ++end;
+    for (std::size_t i = first; i < end; ++i)
+      ranks[sorted[i].second] = 0.5 * static_cast<double>(first + 1 + end);
+    first = end;
+  }
+  return ranks;
+}
+
+}  // namespace
+
 RankCorrelation successive_rank_correlation(const std::vector<double> &times) {
   RankCorrelation found;
   if (times.size() < 5) return found;
   const std::size_t n = times.size() - 1;
-  std::vector<double> work(2 * n);
-  found.rho = gsl_stats_spearman(times.data(), 1, times.data() + 1, 1, n, work.data());
+  // All times are sorted once: ranks without the last one, and without the first one, follow.
+  std::vector<double> one = ranks_of(times), next(one.begin() + 1, one.end());
+  const auto leave_out = [](std::vector<double> &ranks, double left_out) {
+    for (double &rank : ranks) rank -= rank > left_out ? 1.0 : rank == left_out ? 0.5 : 0.0;
+  };
+  const double first = one.front(), last = one.back();
+  one.pop_back();
+  leave_out(one, last);
+  leave_out(next, first);
+  found.rho = gsl_stats_correlation(one.data(), 1, next.data(), 1, n);
   const double freedom = static_cast<double>(n) - 2.0;
   const double t = std::fabs(found.rho) * std::sqrt(freedom / (1.0 - found.rho * found.rho));
   if (!std::isnan(found.rho)) found.p = std::isinf(t) ? 0.0 : 2.0 * gsl_cdf_tdist_Q(t, freedom);
@@ -86,6 +115,18 @@ std::vector<LogBin> bins_from(std::vector<LogBin> bins, double shortest) {
   return bins;
 }
 
+std::vector<GammaOfCut> gamma_of_cuts(const std::vector<double> &times, double memory,
+                                      double mean) {
+  if (times.empty()) return {};
+  std::vector<double> cuts = {0.0, 0.05 * mean, 0.1 * mean, 0.2 * mean};
+  if (!std::isnan(memory))
+    for (const double memories : {0.5, 1.0, 2.5, 5.0, 10.0}) cuts.push_back(memories * memory);
+  std::sort(cuts.begin(), cuts.end());
+  std::vector<GammaOfCut> found;
+  for (const double cut : cuts) found.push_back({cut, fit_maximum_likelihood(times, cut, 1.0)});
+  return found;
+}
+
 namespace {
 
 void add_clustering(IntervalCurve &curve, const EventTable &table, const std::vector<double> &times,
@@ -101,17 +142,18 @@ void add_clustering(IntervalCurve &curve, const EventTable &table, const std::ve
   }
 }
 
-/// \param shortest time that is fitted
+/// \param shortest time that is fitted by maximum likelihood
 std::vector<IntervalFit> fits_of(const std::vector<double> &times, const std::vector<LogBin> &bins,
                                  double shortest, const IntervalSettings &settings) {
   // Fitted bins keep the normalisation of the whole density, as C belongs to it.
-  const std::vector<LogBin> fitted = bins_from(bins, shortest);
+  const std::vector<LogBin> fitted =
+      std::isnan(settings.shortest) ? bins : bins_from(bins, shortest);
   std::vector<IntervalFit> fits;
   for (const double delta : settings.deltas) {
-    if (settings.least_squares)
-      fits.push_back({"least squares", delta, fit_least_squares(fitted, delta)});
     if (settings.maximum_likelihood)
       fits.push_back({"maximum likelihood", delta, fit_with_share(times, shortest, delta)});
+    if (settings.least_squares)
+      fits.push_back({"least squares", delta, fit_least_squares(fitted, delta)});
   }
   for (IntervalFit &fit : fits) {
     if (fit.fit.degenerate) continue;
@@ -128,6 +170,7 @@ IntervalCurve curve_of(const EventTable &table, const Threshold &threshold,
   curve.model = table.info.model;
   curve.earthquakes = table.earthquakes();
   curve.unit = table.time_unit();
+  curve.rescaled = settings.rescale;
   curve.threshold = threshold.complete_in(table);
   std::vector<double> times = settings.places > 0
                                   ? times_at_places(table, curve.threshold.size, settings.places)
@@ -141,9 +184,14 @@ IntervalCurve curve_of(const EventTable &table, const Threshold &threshold,
   if (settings.rescale)
     for (double &time : times) time /= curve.mean;
   curve.bins = log_histogram(times, settings.factor);
-  const double shortest =
-      times.empty() ? 0.0 : settings.shortest * (settings.rescale ? 1.0 : curve.mean);
-  curve.fits = fits_of(times, curve.bins, shortest, settings);
+  curve.memory = settings.places > 0 ? NAN : table.picker_memory();
+  const double mean = settings.rescale ? 1.0 : curve.mean;
+  if (settings.rescale) curve.memory /= curve.mean;
+  if (!times.empty())
+    curve.shortest = std::isnan(settings.shortest) ? shortest_time(curve.memory, mean)
+                                                   : settings.shortest * mean;
+  curve.fits = fits_of(times, curve.bins, curve.shortest, settings);
+  if (settings.cuts) curve.cuts = gamma_of_cuts(times, curve.memory, mean);
   return curve;
 }
 
@@ -151,7 +199,8 @@ IntervalCurve curve_of(const EventTable &table, const Threshold &threshold,
 
 std::vector<IntervalCurve> interval_curves(const std::vector<EventTable> &tables,
                                            const IntervalSettings &settings) {
-  if (!(settings.shortest >= 0.0) || !std::isfinite(settings.shortest))
+  if (!std::isnan(settings.shortest) &&
+      !(settings.shortest >= 0.0 && std::isfinite(settings.shortest)))
     throw std::invalid_argument("shortest time: expected a multiple of the mean of zero or more");
   std::vector<Threshold> thresholds(settings.thresholds.begin(), settings.thresholds.end());
   if (thresholds.empty()) thresholds.emplace_back();

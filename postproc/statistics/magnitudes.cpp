@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <stdexcept>
 
+#include "files/text_io.h"
 #include "samples.h"
 
 namespace LSM::postproc {
@@ -73,6 +75,14 @@ double maximum_curvature(const std::vector<double> &magnitudes, double width) {
 
 std::vector<MagnitudeCount> magnitude_counts(const std::vector<double> &magnitudes, double width) {
   std::map<std::int64_t, std::int64_t> counts;
+  constexpr double most = 1e5;
+  const auto [low, high] = std::minmax_element(magnitudes.begin(), magnitudes.end());
+  if (!magnitudes.empty() &&
+      (!((*high - *low) / width < most) || !(std::fabs(*high) / width < 1e15)))
+    throw std::invalid_argument("magnitudes from " + text_io::number(*low) + " to " +
+                                text_io::number(*high) + " in bins of " + text_io::number(width) +
+                                ", expected fewer than 1e5 bins: a smaller --magnitude-slope or "
+                                "wider bins");
   for (const double m : magnitudes)
     ++counts[static_cast<std::int64_t>(std::floor(m / width + 0.5))];
   std::vector<MagnitudeCount> out;

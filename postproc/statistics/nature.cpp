@@ -35,7 +35,11 @@ NatureRow sample_of(const EventTable &table, double threshold, const NatureRow *
   const std::vector<double> sizes = column_from(table, threshold, &Event::size);
   const MagnitudeScale scale;
   for (const double size : sizes) out.magnitudes.push_back(scale.of(size) - scale.of(threshold));
-  out.times = over_mean(inter_event_times(table, threshold));
+  try {
+    out.times = over_mean(inter_event_times(table, threshold));
+  } catch (const std::invalid_argument &) {
+    throw std::runtime_error(table.path + ": all events start at the same time");
+  }
   const Clustering c = clustering(out.times, 1, settings.seed);
   out.variation.value = c.variation.value;
   out.burstiness.value = c.finite_burstiness.value;
@@ -44,11 +48,15 @@ NatureRow sample_of(const EventTable &table, double threshold, const NatureRow *
   const BValue b = b_value(out.magnitudes, 0.0);
   out.b = {b.b, b.error};
   const std::vector<double> positive = positive_ones(out.times);
-  const GeneralisedGammaFit fit = fit_with_share(positive, settings.shortest, 1.0);
+  const double mean = mean_of(inter_event_times(table, threshold));
+  const double shortest = std::isnan(settings.shortest)
+                              ? shortest_time(table.picker_memory() / mean, 1.0)
+                              : settings.shortest;
+  const GeneralisedGammaFit fit = fit_with_share(positive, shortest, 1.0);
   out.gamma = {fit.gamma, fit.se_gamma};
   out.B = {fit.B, fit.se_B};
   out.C = {fit.C, fit.se_C};
-  const GeneralisedGammaFit free = fit_with_share(positive, settings.shortest, NAN);
+  const GeneralisedGammaFit free = fit_with_share(positive, shortest, NAN);
   out.free_gamma = {free.gamma, free.se_gamma};
   out.free_delta = {free.delta, free.se_delta};
   out.free_B = {free.B, free.se_B};
@@ -126,6 +134,8 @@ std::vector<NatureRow> nature_rows(const std::vector<EventTable> &tables,
     if (thresholds.empty()) thresholds.emplace_back();
     for (std::size_t i = 0; i < thresholds.size(); ++i) {
       const double least = thresholds[i].complete_in(first).size;
+      if (!(least > 0.0))
+        throw std::invalid_argument("--threshold 0 has no magnitude, expected a larger size");
       // If the catalogue begins above a smallest size, the next one gives the same.
       if (i + 1 < thresholds.size() &&
           events_from(first, least) ==
@@ -150,7 +160,9 @@ std::vector<NatureRow> nature_rows(const std::vector<EventTable> &tables,
     }
   }
   std::stable_sort(rows.begin() + 1, rows.end(), [](const NatureRow &a, const NatureRow &b) {
-    return a.distance.value < b.distance.value;
+    // Those without a distance last.
+    return a.distance.value < b.distance.value ||
+           (std::isnan(b.distance.value) && !std::isnan(a.distance.value));
   });
   return rows;
 }

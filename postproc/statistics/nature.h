@@ -18,7 +18,8 @@ namespace LSM::postproc {
 struct NatureSettings {
   std::vector<double> thresholds;  ///< smallest sizes of the models; none: Threshold()
   std::vector<double> reference;   ///< smallest sizes of the earthquakes; none: all of them
-  double shortest = 0.05;    ///< times over their mean below this are left out of the fits of gamma
+  /// Times over their mean below this are left out of the fits of gamma; NaN: shortest_time().
+  double shortest = NAN;
   double share = 0.02;       ///< of the events that count as large
   std::int64_t fewest = 50;  ///< events of a catalogue that is used
   int replicas = 200;        ///< of the errors of distances

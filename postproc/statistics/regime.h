@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "lsm_pe_series.h"
+#include "files/pe_series.h"
 
 namespace LSM::postproc {
 

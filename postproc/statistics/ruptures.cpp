@@ -12,7 +12,7 @@
 
 #include <fmt/format.h>
 
-#include "lsm_text_io.h"
+#include "files/text_io.h"
 
 namespace LSM::postproc {
 

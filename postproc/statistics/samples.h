@@ -8,12 +8,13 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "lsm_random.h"
-#include "lsm_sum.h"
+#include "numerics/random.h"
+#include "numerics/sum.h"
 
 namespace LSM::postproc {
 
@@ -70,9 +71,10 @@ inline std::vector<double> centred(std::vector<double> values) {
   return values;
 }
 
-/// The values divided by their mean.
+/// The values divided by their mean. \throws std::invalid_argument if that is 0
 inline std::vector<double> over_mean(std::vector<double> values) {
   const double mean = mean_of(values);
+  if (mean == 0.0) throw std::invalid_argument("all times or sizes are 0, expected some above it");
   for (double &value : values) value /= mean;
   return values;
 }

@@ -25,9 +25,11 @@ std::vector<SizeFit> fit_sizes(const std::vector<EventTable> &tables,
     std::sort(sorted.begin(), sorted.end());
     const double least = tables[i].complete_from;
     std::vector<PowerLawFit> laws;
+    const double smallest = std::max(least, settings.threshold.of(tables[i]));
     for (const Range &range : settings.ranges) laws.push_back(fit_from(sorted, range, least));
-    if (laws.empty())
-      laws.push_back(search_range(sorted, std::max(least, settings.threshold.of(tables[i]))));
+    if (laws.empty() && smallest > 0.0)
+      laws.push_back(fit_from(sorted, paper_range(smallest), least));
+    if (settings.search || laws.empty()) laws.push_back(search_range(sorted, smallest));
     for (const PowerLawFit &law : laws) {
       SizeFit fit;
       fit.label = tables[i].label;

@@ -17,8 +17,9 @@
 namespace LSM::postproc {
 
 struct SizeFitSettings {
-  std::vector<Range> ranges;  ///< of sizes (model energy); none: the range is searched
-  Threshold threshold;        ///< smallest size of the search
+  std::vector<Range> ranges;  ///< of sizes (model energy); none: paper_range() of each catalogue
+  bool search = false;        ///< the range that search_range() finds, too
+  Threshold threshold;        ///< smallest size of paper_range() and of the search
   int replicas = 100;         ///< of the Monte Carlo p-value; 0: none
   std::uint64_t seed = 1;
   bool compare = true;  ///< with the rivals of compare()
@@ -33,6 +34,9 @@ struct SizeFit {
   Measured p;  ///< of the Monte Carlo estimate; NaN: not computed
   std::vector<Comparison> comparisons;
 };
+
+/// Three decades, over which the paper saw its power law, from a smallest size on.
+inline Range paper_range(double smallest) { return {smallest, 1000.0 * smallest}; }
 
 /// Exponent of ascending sizes on a range without those below `least`: there events are missing,
 /// which would pass for a flatter law. \throws std::invalid_argument for impossible settings

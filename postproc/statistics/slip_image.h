@@ -10,7 +10,7 @@
 #include <limits>
 #include <vector>
 
-#include "lsm_slip_history.h"
+#include "files/slip_history.h"
 
 namespace LSM::postproc {
 

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "lsm_slip_history.h"
-#include "lsm_slip_sets.h"
+#include "files/slip_history.h"
+#include "events/slip_sets.h"
 
 namespace LSM::postproc {
 

@@ -9,7 +9,7 @@
 #include <fftw3.h>
 #include <fmt/format.h>
 
-#include "lsm_circular_mean.h"
+#include "numerics/constants.h"
 
 namespace LSM::postproc {
 

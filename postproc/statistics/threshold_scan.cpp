@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "lsm_text_io.h"
+#include "files/text_io.h"
 #include "size_fits.h"
 
 namespace LSM::postproc {
@@ -60,8 +60,7 @@ std::vector<ThresholdResult> scan_thresholds(const EventTable &table,
   std::vector<IntervalCurve> curves = interval_curves({table}, times);
   for (std::size_t k = 0; k < thresholds.size(); ++k)
     results.push_back({thresholds[k],
-                       search_range(sizes, std::max(thresholds[k], table.complete_from)),
-                       fit_from(sizes, {thresholds[k], sizes.back()}, table.complete_from),
+                       fit_from(sizes, paper_range(thresholds[k]), table.complete_from),
                        std::move(curves[k])});
   return results;
 }

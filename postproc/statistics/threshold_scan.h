@@ -16,9 +16,8 @@ namespace LSM::postproc {
 /// One catalogue above one threshold.
 struct ThresholdResult {
   double threshold = 0.0;   ///< smallest size (model energy)
-  PowerLawFit searched;     ///< on the range that is found above the threshold
-  PowerLawFit to_largest;   ///< from the threshold to the largest size
-  IntervalCurve intervals;  ///< least squares and maximum likelihood, delta free and 1, no p-values
+  PowerLawFit law;          ///< on paper_range()
+  IntervalCurve intervals;  ///< least squares and maximum likelihood, delta 1 and free, no p-values
 };
 
 /// Ten sizes a decade with two digits (1, 1.3, 1.6, 2, ...), so that one can type them, from the

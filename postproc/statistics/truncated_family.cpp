@@ -119,7 +119,7 @@ TabulatedDensity tabulate(const std::function<double(double)> &log_density, doub
 
   if (lower < mode) lower = edge_of_support(log_density, mode, lower, feature);
   if (upper > mode) upper = edge_of_support(log_density, mode, upper, feature);
-  const double panels = std::clamp(std::ceil((upper - lower) / feature), 64.0, 20000.0);
+  const double panels = std::clamp(std::ceil((upper - lower) / feature), 24.0, 20000.0);
   const double width = (upper - lower) / panels;
   const double top = log_density(mode);
   TabulatedDensity table;

@@ -105,6 +105,9 @@ int usual_block(const Classes &classes, std::size_t n1, std::size_t n) {
 double two_sample_distance(std::vector<double> first, std::vector<double> second) {
   if (first.empty() || second.empty())
     throw std::invalid_argument("distance of two samples: one is empty");
+  for (const std::vector<double> *const sample : {&first, &second})
+    if (std::any_of(sample->begin(), sample->end(), [](double x) { return std::isnan(x); }))
+      throw std::invalid_argument("distance of two samples: not all values are numbers");
   std::sort(first.begin(), first.end());
   std::sort(second.begin(), second.end());
   const auto n1 = static_cast<double>(first.size()), n2 = static_cast<double>(second.size());

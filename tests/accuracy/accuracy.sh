@@ -14,7 +14,10 @@ if [ $# -lt 9 ]; then
 fi
 mode=$1 out=$2 slider=$3 fault=$4 tests=$5 lmp=$6 inputs=$7 scenes=$8
 shift 8
-command -v gnuplot >/dev/null || { echo "accuracy: gnuplot not found (Debian package gnuplot-nox)" >&2; exit 1; }
+command -v gnuplot >/dev/null || {
+  echo "accuracy: gnuplot not found (Debian package gnuplot-nox)" >&2
+  exit 1
+}
 fault_parts="single events,friction,waves,long runs,leaps,sums"
 parts=${LSM_ACCURACY_PARTS:-slider,$fault_parts,ruptures,extremes}
 IFS=, read -ra names <<<"$parts"
@@ -55,7 +58,10 @@ if wanted extremes; then
     grep -A5 Failure "$out/work/extremes.txt" >&2
     exit 1
   }
-  { printf "case\toutcome\n"; sed -n "s/^EXTREME\t//p" "$out/work/extremes.txt"; } >"$out/extremes.tsv"
+  {
+    printf "case\toutcome\n"
+    sed -n "s/^EXTREME\t//p" "$out/work/extremes.txt"
+  } >"$out/extremes.tsv"
 fi
 
 # Those of the study work-precision, if they exist
@@ -82,7 +88,7 @@ set linetype 6 lc rgb "#000000" pt 1 dt 1 lw 1
 set format "10^{%T}"
 set logscale xy
 '
-draw() {  # NAME GNUPLOT-COMMANDS; nothing if a table is missing
+draw() { # NAME GNUPLOT-COMMANDS; nothing if a table is missing
   local table
   while read -r table; do [ -e "$table" ] || return 0; done < <(grep -o '[a-z_]*\.csv' <<<"$2")
   printf '%s\n%s\n' "$style" "$2" >"work/$1.gp"
@@ -192,21 +198,30 @@ set xlabel 'smallest size counted'; set ylabel 'ratio of the numbers of events'
 $(join "${long[@]}"), 1 with lines lt 6 notitle"
 
 # ---- text ---------------------------------------------------------------------------------------
-markdown() {  # FILE [SEPARATOR]
-  [ -e "$1" ] || { echo "(not run: $1)"; return; }
+markdown() { # FILE [SEPARATOR]
+  [ -e "$1" ] || {
+    echo "(not run: $1)"
+    return
+  }
   awk -F"${2:-,}" '/^#/ { next }
     { gsub(/\|/, "\\|"); line = "|"; for (i = 1; i <= NF; i++) line = line " " $i " |"; print line }
     FNR == 1 || !ruled { line = "|"; for (i = 1; i <= NF; i++) line = line "---|"; print line; ruled = 1 }' "$1"
 }
 remarks() { [ ! -e "$1" ] || sed -n 's/^# /- /p' "$1"; }
-order() {  # FILE 'awk condition' DT-COLUMN ERROR-COLUMN: slope of log error over log step
-  [ -e "$1" ] || { printf '(not run)'; return; }
+order() { # FILE 'awk condition' DT-COLUMN ERROR-COLUMN: slope of log error over log step
+  [ -e "$1" ] || {
+    printf '(not run)'
+    return
+  }
   awk -F, '!/^#/ && FNR > 1 && ('"$2"') && $'"$4"' > 0 && $'"$4"' != "nan" {
       x = log($'"$3"'); y = log($'"$4"'); n++; sx += x; sy += y; sxx += x * x; sxy += x * y }
     END { if (n > 1) printf "%.2f", (n * sxy - sx * sy) / (n * sxx - sx * sx); else printf "-" }' "$1"
 }
-value() {  # FILE 'awk condition' COLUMN
-  [ -e "$1" ] || { printf '(not run)'; return; }
+value() { # FILE 'awk condition' COLUMN
+  [ -e "$1" ] || {
+    printf '(not run)'
+    return
+  }
   awk -F, '!/^#/ && FNR > 1 && ('"$2"') {print $'"$3"'; exit}' "$1"
 }
 friction() { value fault_friction.csv "\$1 == \"$1\" && \$2 == $2 && \$3 == $3" "$4"; }

@@ -28,9 +28,9 @@
 
 #include "event_statistics.h"
 #include "friction_schemes.h"
-#include "lsm_event_picker.h"
-#include "lsm_pe_series.h"
-#include "lsm_sum.h"
+#include "events/event_picker.h"
+#include "files/pe_series.h"
+#include "numerics/sum.h"
 #include "read_catalogue.h"
 
 namespace {

@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "lsm_force_laws.h"
+#include "friction/force_laws.h"
 
 namespace Accuracy {
 

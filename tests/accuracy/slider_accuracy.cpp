@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "event_statistics.h"
-#include "lsm_event_picker.h"
+#include "events/event_picker.h"
 #include "scalar_chain.h"
 #include "slider_chain.h"
 #include "switching_chain.h"

@@ -9,7 +9,7 @@
 #include <numeric>
 
 #include "lsm_link_kernel.h"
-#include "lsm_packing.h"
+#include "fault/packing.h"
 
 namespace {
 

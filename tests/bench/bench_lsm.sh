@@ -34,24 +34,48 @@ while (($#)); do
   fi
   case $1 in
     --quick) quick=yes ;;
-    --rounds) rounds=$2; shift ;;
-    --seconds) seconds=$2; shift ;;
-    --length) length=$2 cause_length=$2; shift ;;
-    --only) only=$2; shift ;;
-    --runs) runs=$(realpath "$2"); shift ;;
-    --help) usage; exit ;;
-    -*) echo "bench_lsm.sh: unknown option $1, see --help" >&2; exit 1 ;;
+    --rounds)
+      rounds=$2
+      shift
+      ;;
+    --seconds)
+      seconds=$2
+      shift
+      ;;
+    --length)
+      length=$2 cause_length=$2
+      shift
+      ;;
+    --only)
+      only=$2
+      shift
+      ;;
+    --runs)
+      runs=$(realpath "$2")
+      shift
+      ;;
+    --help)
+      usage
+      exit
+      ;;
+    -*)
+      echo "bench_lsm.sh: unknown option $1, see --help" >&2
+      exit 1
+      ;;
     *) arguments+=("$1") ;;
   esac
   shift
 done
-if ((${#arguments[@]} != 3)); then usage >&2; exit 1; fi
+if ((${#arguments[@]} != 3)); then
+  usage >&2
+  exit 1
+fi
 lmp=$(realpath "${arguments[0]}") stock=$(realpath "${arguments[1]}") folder=${arguments[2]}
 if ((rounds == 0)); then if [ $quick = yes ]; then rounds=2; else rounds=7; fi; fi
 if [ "$seconds" = 0 ]; then if [ $quick = yes ]; then seconds=0.3; else seconds=1; fi; fi
 few=$(((rounds + 1) / 2))
 if ((few < 2)); then few=$((rounds < 2 ? rounds : 2)); fi
-cores=$(env -u OMP_NUM_THREADS nproc)    # nproc follows OMP_NUM_THREADS
+cores=$(env -u OMP_NUM_THREADS nproc) # nproc follows OMP_NUM_THREADS
 ranks_in_turn=1
 if ((cores > 1)); then ranks_in_turn="1 2"; fi
 most=${ranks_in_turn##* }
@@ -60,8 +84,8 @@ mkdir -p "$folder"
 cd "$folder"
 folder=$PWD
 timings=timings.csv
-echo "table,label,length,ranks,round,atoms,steps,seconds,cpu_percent,pair,bond,neigh,comm,output,modify,other,resident" > $timings
-measure=()    # largest resident memory of each rank, if there is GNU time
+echo "table,label,length,ranks,round,atoms,steps,seconds,cpu_percent,pair,bond,neigh,comm,output,modify,other,resident" >$timings
+measure=() # largest resident memory of each rank, if there is GNU time
 if [ -x /usr/bin/time ]; then measure=(/usr/bin/time -f "resident %M"); fi
 
 die() {
@@ -101,7 +125,7 @@ note() {
       n = split("Pair Bond Neigh Comm Output Modify Other", name, " ")
       for (i = 1; i <= n; i++) printf ",%s", part[name[i]]
       print "," resident + 0
-    }' "$6" "$7" >> $timings || die "no timing of $2 in $folder/$6"
+    }' "$6" "$7" >>$timings || die "no timing of $2 in $folder/$6"
 }
 
 # ours TABLE LABEL LENGTH RANKS ROUND VARIABLES...; of fault_LENGTH, or of $fault
@@ -109,14 +133,14 @@ ours() {
   local table=$1 label=$2 size=$3 ranks=$4 round=$5
   shift 5
   mpirun -np "$ranks" "${measure[@]}" "$lmp" -in "$here/ours.in" -var name "${fault:-fault_$size}" -var steps "$(steps "$size" $((60 * ranks)))" "$@" \
-    -log ours.log -screen none > ours.out 2>&1 || die "$label failed, see $folder/ours.log"
+    -log ours.log -screen none >ours.out 2>&1 || die "$label failed, see $folder/ours.log"
   note "$table" "$label" "$size" "$ranks" "$round" ours.log ours.out
 }
 
 # others LABEL RANKS ROUND LINKS MILLIONS
 others() {
   mpirun -np "$2" "${measure[@]}" "$stock" -in "$here/stock.in" -var name "fault_$length" -var steps "$(steps "$length" $(($5 * $2)))" \
-    -var links "$4" -log stock.log -screen none > stock.out 2>&1 || die "$1 failed, see $folder/stock.log"
+    -var links "$4" -log stock.log -screen none >stock.out 2>&1 || die "$1 failed, see $folder/stock.log"
   note peers "$1" "$length" "$2" "$3" stock.log stock.out
 }
 
@@ -124,7 +148,7 @@ others() {
 esys() {
   rm -f "fault_$length".esys.*
   mpirun -np $(($1 + 1)) "${measure[@]}" esysparticle "$here/esys_particle.py" "fault_$length" "$1" "$length" "$(steps "$length" 10)" 3 \
-    > esys.out 2>&1 || return 1
+    >esys.out 2>&1 || return 1
   note peers "ESyS-Particle" "$length" "$1" "$2" esys.out /dev/null
 }
 
@@ -139,7 +163,7 @@ begin=$SECONDS
 if wanted peers; then
   scene "$length"
   have_esys=yes
-  if ! command -v esysparticle > /dev/null; then
+  if ! command -v esysparticle >/dev/null; then
     have_esys=no
     echo "ESyS-Particle is not installed and left out (Debian package esys-particle)" >&2
   fi
@@ -228,12 +252,12 @@ if wanted lengths; then
 fi
 
 # The bandwidth that the caches and the memory have for as much data.
-echo "ranks,megabytes,gb_per_second" > triad.csv
+echo "ranks,megabytes,gb_per_second" >triad.csv
 if wanted lengths; then
-  if mpicc -O3 -march=native -o triad "$here/triad.c" 2> triad.err; then
+  if mpicc -O3 -march=native -o triad "$here/triad.c" 2>triad.err; then
     for ranks in $ranks_in_turn; do
       say "triad, $ranks ranks"
-      mpirun -np "$ranks" ./triad 0.25 0.5 1 2 4 8 16 32 64 2> triad.err | awk -v ranks="$ranks" '/^triad / {print ranks "," $2 "," $3}' >> triad.csv ||
+      mpirun -np "$ranks" ./triad 0.25 0.5 1 2 4 8 16 32 64 2>triad.err | awk -v ranks="$ranks" '/^triad / {print ranks "," $2 "," $3}' >>triad.csv ||
         die "triad failed, see $folder/triad.err"
     done
   else
@@ -253,13 +277,13 @@ slice() {
   prefix=${file%.restart.*}
   rm -rf slice
   mkdir slice
-  cp "$here"/../../inputs/fault{,_checkpoint}.in "$here/slice.in" "$info" "$file" slice
+  cp "$here"/../../inputs/fault.{in,variables} "$here/slice.in" "$info" "$file" slice
   for file in "$prefix".{catalogue.csv,pe.bin,ruptures.csv,slip.bin}; do [ ! -e "$file" ] || cp "$file" slice; done
   file=${info##*/}
   size=$(sed -n 's/^length = //p' "$info")
   (cd slice && SLICE_WARM=50 SLICE_STEPS=$(steps "$size" $((60 * ranks))) SLICE_CHANGE=${6:-/dev/null} \
     mpirun -np "$ranks" "${measure[@]}" "$lmp" -in fault.in -var restart "${file%.info}" -var extra slice -log slice.log \
-    -screen none > slice.out 2>&1) || die "$label failed, see $folder/slice/slice.log"
+    -screen none >slice.out 2>&1) || die "$label failed, see $folder/slice/slice.log"
   note "$table" "$label" "$size" "$ranks" "$round" slice/slice.log slice/slice.out
 }
 
@@ -274,29 +298,29 @@ if wanted causes && [ -n "$runs" ]; then
     (cd "before_$size" && mpirun -np "$most" "$lmp" -in "$here/../../inputs/fault.in" -var length "$size" -var steps 0 -var prefix fault \
       -log make.log -screen none) || die "making the default fault failed, see $folder/before_$size/make.log"
   fi
-  cat > changes.blocks <<'END'
+  cat >changes.blocks <<'END'
 pair_coeff * * off
-pair_coeff 1 2 1.0 ${kt} ${friction}
-pair_coeff 1 4 1.0 ${kt} ${friction}
-pair_coeff 2 3 1.0 ${kt} ${friction}
-pair_coeff 3 4 1.0 ${kt} ${friction}
+pair_coeff 1 2 1.0 ${kt}
+pair_coeff 1 4 1.0 ${kt}
+pair_coeff 2 3 1.0 ${kt}
+pair_coeff 3 4 1.0 ${kt}
 END
-  cat > changes.impedance <<'END'
+  cat >changes.impedance <<'END'
 unfix plates
 fix plates all lsm/plates lower upper stress ${stress} damping ${viscosity} velocity ${velocity} ramp 150
 END
-  cat > changes.recording <<'END'
+  cat >changes.recording <<'END'
 thermo_style custom step
 uncompute events
 if "$(is_defined(compute,ruptures))" then "uncompute ruptures"
 END
-  cat > changes.place <<'END'
+  cat >changes.place <<'END'
 thermo_style custom step
 uncompute events
 if "$(is_defined(compute,ruptures))" then "uncompute ruptures"
 compute events all lsm/events catalogue slice.catalogue.csv series slice.pe.bin
 END
-  echo 'neigh_modify delay 0 every 1000000 check no' > changes.lists
+  echo 'neigh_modify delay 0 every 1000000 check no' >changes.lists
   for ((round = 1; round <= few; ++round)); do
     say "causes, round $round of $few"
     ours causes "scene of the comparisons" "$size" 1 "$round"
@@ -323,16 +347,16 @@ fi
 
 # What ranks send each other, counted, not timed: the difference of two runs, so that set-up does
 # not count.
-echo "length,ranks,particles,largest_share,ghosts,messages,bytes,collectives,nonblocking,pe" > scale.csv
+echo "length,ranks,particles,largest_share,ghosts,messages,bytes,collectives,nonblocking,pe" >scale.csv
 if wanted scale; then
-  if mpicc -O2 -shared -fPIC -o count_mpi.so "$here/count_mpi.c" 2> count_mpi.err; then
+  if mpicc -O2 -shared -fPIC -o count_mpi.so "$here/count_mpi.c" 2>count_mpi.err; then
     for size in 120 480 "$length"; do
       scene "$size"
       for ranks in 1 2 4 8; do
         say "scale, length $size, $ranks ranks"
         for count in 100 200; do
           mpirun -np "$ranks" -x LD_PRELOAD="$PWD/count_mpi.so" "$lmp" -in "$here/ours.in" -var name "fault_$size" -var steps $count \
-            -log "scale.$count.log" -screen none > "scale.$count.out" 2>&1 || die "counting messages failed, see $folder/scale.$count.log"
+            -log "scale.$count.log" -screen none >"scale.$count.out" 2>&1 || die "counting messages failed, see $folder/scale.$count.log"
         done
         awk -v size="$size" -v ranks="$ranks" '
           FILENAME ~ /200.log$/ && /^Nlocal:/ {share = $4 / $2}
@@ -342,7 +366,7 @@ if wanted scale; then
           /^count_mpi / {sign = FILENAME ~ /200.out$/ ? 1 : -1; for (i = 3; i <= 6; i++) n[i] += sign * $i}
           END {printf "%d,%d,%d,%.4f,%.1f", size, ranks, particles, share, ghosts
                for (i = 3; i <= 6; i++) printf ",%.3f", n[i] / ranks / 100
-               print "," pe}' scale.100.out scale.200.out scale.200.log >> scale.csv
+               print "," pe}' scale.100.out scale.200.out scale.200.log >>scale.csv
       done
     done
   else
@@ -350,39 +374,39 @@ if wanted scale; then
   fi
 fi
 
-echo "ranks,round,create,first_step,read_restart,write_restart" > setup.csv
+echo "ranks,round,create,first_step,read_restart,write_restart" >setup.csv
 if wanted setup; then
   for ((round = 1; round <= few; ++round)); do
     say "setup, round $round of $few"
     for ranks in $ranks_in_turn; do
       mpirun -np "$ranks" "$lmp" -in "$here/make.in" -var length "$length" -var name setup -var settle 1 -log setup.log \
-        -screen none > setup.out 2>&1 || die "set-up failed, see $folder/setup.log"
-      awk -v start="$ranks,$round" '/^setup create/ {print start "," $3 "," $5 "," $7 "," $9}' setup.log >> setup.csv
+        -screen none >setup.out 2>&1 || die "set-up failed, see $folder/setup.log"
+      awk -v start="$ranks,$round" '/^setup create/ {print start "," $3 "," $5 "," $7 "," $9}' setup.log >>setup.csv
     done
   done
   rm -f setup.restart setup.data
 fi
 
-echo "events,command,seconds,kilobytes" > analysis.csv
+echo "events,command,seconds,kilobytes" >analysis.csv
 if wanted analysis; then
   postproc=$(dirname "$lmp")/postproc
   if [ -x "$postproc" ] && [ -x /usr/bin/time ]; then
     events=10000000
     if [ $quick = yes ]; then events=100000; fi
-    awk -v n=$events -f "$here/catalogue.awk" > analysis.catalogue.csv
+    awk -v n=$events -f "$here/catalogue.awk" >analysis.catalogue.csv
     for ((round = 1; round <= few; ++round)); do
       say "analysis, round $round of $few"
       for command in histograms magnitudes "fit --replicas 0 --no-comparison" "intervals --replicas 0 --shuffles 0"; do
         # shellcheck disable=SC2086
-        /usr/bin/time -o analysis.time -f "%e,%M" "$postproc" $command analysis.catalogue.csv --no-picture -o analysed > analysis.out 2>&1 ||
+        /usr/bin/time -o analysis.time -f "%e,%M" "$postproc" $command analysis.catalogue.csv --no-picture -o analysed >analysis.out 2>&1 ||
           die "postproc $command failed, see $folder/analysis.out"
-        echo "$events,$command,$(tail -1 analysis.time)" >> analysis.csv
+        echo "$events,$command,$(tail -1 analysis.time)" >>analysis.csv
       done
     done
     say "analysis, random series"
-    /usr/bin/time -o analysis.time -f "%e,%M" "$postproc" intervals --replicas 0 analysis.catalogue.csv --no-picture -o analysed > analysis.out 2>&1 ||
+    /usr/bin/time -o analysis.time -f "%e,%M" "$postproc" intervals --replicas 0 analysis.catalogue.csv --no-picture -o analysed >analysis.out 2>&1 ||
       die "postproc intervals failed, see $folder/analysis.out"
-    echo "$events,intervals with random series,$(tail -1 analysis.time)" >> analysis.csv
+    echo "$events,intervals with random series,$(tail -1 analysis.time)" >>analysis.csv
     rm -f analysis.catalogue.csv
   else
     echo "no $postproc or no GNU time, the analysis is left out" >&2
@@ -395,5 +419,5 @@ fi
     "of the time taken by other machines, fault of length $length, $rounds rounds of the comparisons and $few of the rest," \
     "$(((SECONDS - begin) / 60)) min $(((SECONDS - begin) % 60)) s."
   awk -v most="$most" -f "$here/tables.awk" $timings setup.csv scale.csv analysis.csv triad.csv
-} > tables.md
+} >tables.md
 cat tables.md

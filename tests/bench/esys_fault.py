@@ -51,8 +51,8 @@ simulation.createExclusion("links", "contacts")
 simulation.createInteractionGroup(DampingPrms(type="Damping", name="viscosity", viscosity=viscosity, maxIterations=50))
 for group in ("links", "contacts"):
     simulation.createFieldSaver(
-        InteractionScalarFieldSaverPrms(interactionName=group, fieldName="potential_energy", fileName=name + ".esys." + group,
-                                        fileFormat="SUM", beginTimeStep=0, endTimeStep=steps, timeStepIncr=1))
+        InteractionScalarFieldSaverPrms(interactionName=group, fieldName="potential_energy", fileName=name + ".esys." + group, fileFormat="SUM",
+                                        beginTimeStep=0, endTimeStep=steps, timeStepIncr=1))
 simulation.setNumTimeSteps(steps)
 for step in range(steps):
     if step % 5 == 0:  # damping slows the plates down, too

@@ -7,16 +7,27 @@
 set -euo pipefail
 export LC_ALL=C
 here=$(cd "$(dirname "$0")" && pwd)
-die() { echo "ERROR: esys_fault.sh: $*" >&2; exit 1; }
+die() {
+  echo "ERROR: esys_fault.sh: $*" >&2
+  exit 1
+}
 bin=$1 steps= scene=(-in "$here/../../inputs/fault.in" -log none -var prefix fault -var steps 1 -var series no -var overwrite yes)
 for pair in "${@:2}"; do
-  [[ $pair != steps=* ]] || { steps=${pair#*=}; continue; }
+  [[ $pair != steps=* ]] || {
+    steps=${pair#*=}
+    continue
+  }
   scene+=(-var "${pair%%=*}" "${pair#*=}")
 done
 [[ $steps =~ ^[1-9][0-9]*$ ]] || die "steps '$steps', expected how many"
 child=
 trap '[ -z "$child" ] || kill "$child"; wait; exit 143' TERM INT HUP
-call() { "$@" & child=$!; wait "$child"; child=; }
+call() {
+  "$@" &
+  child=$!
+  wait "$child"
+  child=
+}
 
 call "$bin/lmp" "${scene[@]}"
 value() { sed -n "s/^$1 = //p" fault.restart.end.info; }
@@ -44,8 +55,8 @@ import array, sys
 import superpose
 dt, step = float(sys.argv[1]), int(sys.argv[2])
 rows = [line.split() for line in sys.stdin][2:]
-superpose.write("fault.pe.bin", {"model": "lsm", "dt": dt, "step0": step, "time0": step * dt, "stride": 1, "completeness": 0.001},
+superpose.write("fault.pe.bin", {"model": "lsm", "dt": dt, "step0": step, "time0": step * dt, "stride": 1, "completeness": sys.argv[3]},
                 array.array("d", (float(row[0]) + float(row[1]) for row in rows if len(row) == 2)))
-' "$(value dt)" "$(value settle)"
-"$bin/postproc" pick fault.pe.bin --memory-time "$(value memory)" -o fault.catalogue.csv --force
+' "$(value dt)" "$(value settle)" "$(value completeness)"
+"$bin/postproc" pick fault.pe.bin --memory-time "$(value memory)" -o fault.catalogue.csv --overwrite
 mv fault.esys.json summary.json

@@ -9,8 +9,7 @@ from esys.lsm.util import BoundingBox, Vec3
 name, workers, length, steps, warmup = sys.argv[1], *map(int, sys.argv[2:6])
 simulation = LsmMpi(numWorkerProcesses=workers, mpiDimList=[workers, 1, 1])
 simulation.initNeighbourSearch(particleType="NRotSphere", gridSpacing=2.5, verletDist=0.2)
-simulation.setSpatialDomain(BoundingBox(Vec3(0, -10, -5), Vec3(length, 40, 5)),
-                            circDimList=[True, False, False])
+simulation.setSpatialDomain(BoundingBox(Vec3(0, -10, -5), Vec3(length, 40, 5)), circDimList=[True, False, False])
 simulation.force2dComputations(True)
 simulation.setTimeStepSize(0.03)
 simulation.readGeometry(name + ".geo")
@@ -19,25 +18,20 @@ for tag in range(1, 7):
 for tag, velocity in ((5, -0.00025), (6, 0.00025)):
     simulation.setParticleNonDynamic(tag)
     simulation.setTaggedParticleVelocity(tag, Vec3(velocity, 0, 0))
-simulation.createInteractionGroup(
-    NRotBondPrms(name="links", normalK=1.0, breakDistance=10.0, tag=0, scaling=False))
+simulation.createInteractionGroup(NRotBondPrms(name="links", normalK=1.0, breakDistance=10.0, tag=0, scaling=False))
 # createInteractionGroupTagged ignores tags with this friction (version 2.3.5): without the
 # exclusion links would be contacts as well.
-simulation.createInteractionGroup(
-    NRotFrictionPrms(name="contacts", normalK=1.0, dynamicMu=0.6, shearK=1.0, scaling=False))
+simulation.createInteractionGroup(NRotFrictionPrms(name="contacts", normalK=1.0, dynamicMu=0.6, shearK=1.0, scaling=False))
 simulation.createExclusion("links", "contacts")
 for group in ("links", "contacts"):
     simulation.createFieldSaver(
-        InteractionScalarFieldSaverPrms(interactionName=group, fieldName="potential_energy",
-                                        fileName=name + ".esys." + group, fileFormat="SUM",
-                                        beginTimeStep=0, endTimeStep=warmup + steps,
-                                        timeStepIncr=1))
+        InteractionScalarFieldSaverPrms(interactionName=group, fieldName="potential_energy", fileName=name + ".esys." + group, fileFormat="SUM",
+                                        beginTimeStep=0, endTimeStep=warmup + steps, timeStepIncr=1))
 simulation.setNumTimeSteps(warmup + steps)
 for step in range(warmup):
     simulation.runTimeStep()
 start = time.time()
 for step in range(steps):
     simulation.runTimeStep()
-print("Loop time of %.6f for %d steps with %d atoms" %
-      (time.time() - start, steps, simulation.getNumParticles()), flush=True)
+print("Loop time of %.6f for %d steps with %d atoms" % (time.time() - start, steps, simulation.getNumParticles()), flush=True)
 simulation.exit()

@@ -5,8 +5,14 @@
 # prints how long its parts took. As root; needs the network and 4 GB.
 # usage: first-command.sh FOLDER
 set -euo pipefail
-[ $# -eq 1 ] && [ ! -e "$1" ] || { echo "usage: first-command.sh FOLDER, which must not be there yet" >&2; exit 2; }
-[ "$(id -u)" = 0 ] || { echo "first-command.sh: changes the root folder, which only root may" >&2; exit 1; }
+[ $# -eq 1 ] && [ ! -e "$1" ] || {
+  echo "usage: first-command.sh FOLDER, which must not be there yet" >&2
+  exit 2
+}
+[ "$(id -u)" = 0 ] || {
+  echo "first-command.sh: changes the root folder, which only root may" >&2
+  exit 1
+}
 root=$(cd "$(dirname "$0")/../.." && pwd)
 . "$root/lammps-pkg/cmake/debian-packages.sh"
 command -v debootstrap >/dev/null || install_debian_packages debootstrap

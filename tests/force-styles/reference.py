@@ -13,7 +13,7 @@ import os
 import random
 import sys
 
-ROUNDING = 2.0 ** -53
+ROUNDING = 2.0**-53
 SEEDS = (1, 1, 1)  # of the three scenes; chosen so that no component that is compared is close to 0
 NEAR = 1.05  # pairs closer than this, in sums of radii, are known before they touch (onset located)
 
@@ -42,7 +42,7 @@ class Scene:
             self.radius.append(0.5 * round(rng.uniform(0.86, 1.16), 6))
             self.density.append(round(rng.uniform(2.0, 4.0), 6))
             self.type.append(1 if x[1] < 0.0 else 2)
-        self.mass = [4.0 * math.pi / 3.0 * r ** 3 * d for r, d in zip(self.radius, self.density)]
+        self.mass = [4.0 * math.pi / 3.0 * r**3 * d for r, d in zip(self.radius, self.density)]
         self.bonds = {}
         for i, j in itertools.combinations(range(len(self.x)), 2):
             if self.type[i] == self.type[j] and self.distance(self.x, i, j)[1] < 1.25 and rng.random() < 0.6:
@@ -133,7 +133,7 @@ class Model:
                     self.linked.discard((i, j))
                     self.seen.add("break")
                     continue
-            self.bond.add(i, j, d, [-k * (r - r0) * c / r for c in d], 0.5 * k * (r - r0) ** 2, k)
+            self.bond.add(i, j, d, [-k * (r - r0) * c / r for c in d], 0.5 * k * (r - r0)**2, k)
             self.seen.add("pull" if r > r0 else "push")
         for i, j in itertools.combinations(range(len(self.x)), 2):
             if (i, j) in self.linked:
@@ -148,8 +148,7 @@ class Model:
             if r < r0:
                 energy, force, kt = tangential
                 normal = law[0] * (r0 - r) / r
-                self.pair.add(i, j, d, [normal * c + t for c, t in zip(d, force)], 0.5 * law[0] * (r0 - r) ** 2 + energy,
-                              law[0] + kt)
+                self.pair.add(i, j, d, [normal * c + t for c, t in zip(d, force)], 0.5 * law[0] * (r0 - r)**2 + energy, law[0] + kt)
                 self.seen.add("contact")
         self.force = Forces.total(self.bond, self.pair)
 
@@ -194,7 +193,7 @@ class Model:
         def decay():
             for n in who if viscosity else ():
                 factor = math.exp(-0.5 * viscosity[scene.type[n]] * dt)
-                self.work += 0.5 * scene.mass[n] * (1.0 - factor ** 2) * math.fsum(c * c for c in self.v[n])
+                self.work += 0.5 * scene.mass[n] * (1.0 - factor**2) * math.fsum(c * c for c in self.v[n])
                 self.v[n] = [factor * c for c in self.v[n]]
 
         def kick():
@@ -227,9 +226,9 @@ def write_yaml(path, header, tail):
 
 
 def head(epsilon, skip, styles, pre, post, count):
-    return [("lammps_version", "4 Feb 2025"), ("tags", "lsm"), ("date_generated", "by reference.py"),
-            ("epsilon", f"{epsilon:.0e}"), ("skip_tests", skip), ("prerequisites", block("atom hybrid\natom sphere\n" + styles)),
-            ("pre_commands", block(pre)), ("post_commands", block(post)), ("input_file", "in.discs")], [("natoms", count)]
+    return [("lammps_version", "4 Feb 2025"), ("tags", "lsm"), ("date_generated", "by reference.py"), ("epsilon", f"{epsilon:.0e}"),
+            ("skip_tests", skip), ("prerequisites", block("atom hybrid\natom sphere\n" + styles)), ("pre_commands", block(pre)),
+            ("post_commands", block(post)), ("input_file", "in.discs")], [("natoms", count)]
 
 
 def bound(model, kinds, values):
@@ -293,8 +292,8 @@ def fix_test(folder, name, scene, links, pairs, options, moving, viscosity, post
     if not epsilon < 1e-10:
         raise SystemExit(f"{name}: a component near 0 makes epsilon {epsilon:g}; choose another seed")
     post = post + f"\nfix test {options}\nrun_style verlet"
-    top, tail = head(epsilon, "", "fix lsm/nve\npair lsm/friction\nbond lsm/linked",
-                     "variable dim index 2\nvariable links index molecular", post, len(scene.x))
+    top, tail = head(epsilon, "", "fix lsm/nve\npair lsm/friction\nbond lsm/linked", "variable dim index 2\nvariable links index molecular", post,
+                     len(scene.x))
     tail += [("global_scalar", repr(model.work)), ("global_vector", "|-\n  2 0 0"), ("run_pos", "|2" + lines(model.x)),
              ("run_vel", "|2" + lines(model.v)), ("run_torque", "|2" + lines([[0.0] * 3] * len(model.x)))]
     write_yaml(os.path.join(folder, f"fix-{name}.yaml"), top, tail)
@@ -331,23 +330,19 @@ def main():
     for dim in (2, 3):
         done[f"bond-lsm_linked_{dim}d"] = force_test(folder, "bond", f"lsm_linked_{dim}d", scenes[dim], dim, plain, free,
                                                      (plain_text, "lsm/linked", "k 1"), both, post=pair_post(free_text))
-        done[f"bond-lsm_linked_breakable_{dim}d"] = force_test(
-            folder, "bond", f"lsm_linked_breakable_{dim}d", scenes[dim], dim, breakable, free,
-            (breakable_text, "lsm/linked", "k 1"), both | {"break"}, post=pair_post(free_text))
-        done[f"pair-lsm_free_{dim}d"] = force_test(
-            folder, "pair", f"lsm_free_{dim}d", scenes[dim], dim, plain, free if dim == 2 else half,
-            (free_text if dim == 2 else half_text, "lsm/free", "k 2\non 2"), both, post=bond_post(plain_text))
+        done[f"bond-lsm_linked_breakable_{dim}d"] = force_test(folder, "bond", f"lsm_linked_breakable_{dim}d", scenes[dim], dim, breakable, free,
+                                                               (breakable_text, "lsm/linked", "k 1"), both | {"break"}, post=pair_post(free_text))
+        done[f"pair-lsm_free_{dim}d"] = force_test(folder, "pair", f"lsm_free_{dim}d", scenes[dim], dim, plain, free if dim == 2 else half,
+                                                   (free_text if dim == 2 else half_text, "lsm/free", "k 2\non 2"), both, post=bond_post(plain_text))
     done["bond-hybrid_lsm_linked"] = force_test(folder, "bond", "hybrid_lsm_linked", scenes[2], 2, hybrid, free,
-                                                (hybrid_text, "hybrid lsm/linked harmonic", ""), both | {"break"},
-                                                post=pair_post(free_text))
-    for name, onset, static in (("lsm_friction", "located", 0.6), ("lsm_friction_step", "step", 0.6),
-                                ("lsm_friction_static", "located", 0.9)):
+                                                (hybrid_text, "hybrid lsm/linked harmonic", ""), both | {"break"}, post=pair_post(free_text))
+    for name, onset, static in (("lsm_friction", "located", 0.6), ("lsm_friction_step", "step", 0.6), ("lsm_friction_static", "located", 0.9)):
         law = {(1, 1): (1.3, 0.8, 0.6, static, onset == "located"), (1, 2): (0.9, 1.0, 0.6, static, onset == "located"),
                (2, 2): (1.1, 1.2, 0.3, 0.3, onset == "located")}
         text = "\n".join(f"{i} {j} {c[0]} {c[1]} {c[2]}" + (f" {c[3]}" if c[3] > c[2] else "") for (i, j), c in law.items())
         done[f"pair-{name}"] = force_test(folder, "pair", name, scenes[2], 2, plain, law,
-                                          (text, f"lsm/friction onset {onset}", "k 2\non 2\nkt 2\nmu 2"),
-                                          both | {"stick", "slide", "begin"}, post=bond_post(plain_text))
+                                          (text, f"lsm/friction onset {onset}", "k 2\non 2\nkt 2\nmu 2"), both | {"stick", "slide", "begin"},
+                                          post=bond_post(plain_text))
     law = {pair: (1.0, 0.8, 0.6, 0.6, True) for pair in ((1, 1), (1, 2), (2, 2))}
     styles = ("pair_style lsm/friction\npair_coeff * * 1.0 0.8 0.6\nbond_style lsm/linked\nbond_coeff * 0.5\nangle_style none\n"
               "compute events all lsm/events ledger yes")
@@ -355,8 +350,8 @@ def main():
     done["fix-lsm_nve"] = fix_test(folder, "lsm_nve", blocks, soft, law, "solute lsm/nve dtcheck off", (1,), None, styles,
                                    both | {"stick", "slide", "begin"})
     done["fix-lsm_nve_viscosity"] = fix_test(folder, "lsm_nve_viscosity", blocks, soft, law,
-                                             "all lsm/nve viscosity 0.05 viscosity/type 2 0.3 dtcheck off", None,
-                                             {1: 0.05, 2: 0.3}, styles, both | {"stick", "slide", "begin"})
+                                             "all lsm/nve viscosity 0.05 viscosity/type 2 0.3 dtcheck off", None, {1: 0.05, 2: 0.3}, styles,
+                                             both | {"stick", "slide", "begin"})
     for name, epsilon in done.items():
         print(f"{name:32} epsilon {epsilon:.0e}")
 

@@ -3,29 +3,54 @@
 # Builds and runs the package with other versions of LAMMPS, compilers and integers, and in each way it can be used, and
 # compares a short fault with the reference, byte by byte. README.md in this folder tells what each column does.
 #
-# usage: tests/matrix/run-matrix.sh [--folder FOLDER] [--jobs N] [COLUMN...]
+# usage: tests/matrix/run-matrix.sh [--folder FOLDER] [--jobs N] all|COLUMN...
 #   --folder FOLDER   where everything is built (default build-matrix; some GB)
 #   --jobs N          processes for compiling (default: number of cores)
-#   COLUMN...         reference clang bigbig jul2026 plugin installed testers testers-jul2026 aarch64 (default: all, in this
-#                     order); all but the reference and aarch64 need the reference done before
+#   COLUMN...         reference clang bigbig jul2026 plugin installed testers testers-jul2026 aarch64 debian-13
+#                     sanitize sanitize-thread mutations, or all, in this order; those with a fault need the reference done before;
+#                     debian-13 needs root
 # LSM_LAMMPS_CACHE is used as by the build; default FOLDER/cache. LSM_MATRIX_FLAGS are the flags for LAMMPS' own sources in
-# all columns but the reference (default -O1). The table is FOLDER/table.md, one row a column with its date.
+# all columns but the reference (default -O1). The table is FOLDER/table.md, one row a column with its date; all
+# writes it into README.md under "Last run".
 set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
 folder=$root/build-matrix
 jobs=$(nproc)
-all="reference clang bigbig jul2026 plugin installed testers testers-jul2026 aarch64"
+all="reference clang bigbig jul2026 plugin installed testers testers-jul2026 aarch64 debian-13 sanitize sanitize-thread mutations"
 columns=()
-fail() { echo "run-matrix: $*" >&2; exit 1; }
+fail() {
+  echo "run-matrix: $*" >&2
+  exit 1
+}
 while [ $# -gt 0 ]; do
   case $1 in
-    --folder) [ $# -ge 2 ] || fail "--folder needs a folder"; mkdir -p "$2"; folder=$(cd "$2" && pwd); shift 2 ;;
-    --jobs) [[ ${2:-} =~ ^[1-9][0-9]*$ ]] || fail "--jobs needs a number of at least 1"; jobs=$2; shift 2 ;;
-    -h | --help) sed -n '3,14s/^# \{0,1\}//p' "$0"; exit ;;
-    *) [[ " $all " == *" $1 "* ]] || fail "unknown column '$1', expected one of: $all"; columns+=("$1"); shift ;;
+    --folder)
+      [ $# -ge 2 ] || fail "--folder needs a folder"
+      mkdir -p "$2"
+      folder=$(cd "$2" && pwd)
+      shift 2
+      ;;
+    --jobs)
+      [[ ${2:-} =~ ^[1-9][0-9]*$ ]] || fail "--jobs needs a number of at least 1"
+      jobs=$2
+      shift 2
+      ;;
+    -h | --help)
+      sed -n '3,15s/^# \{0,1\}//p' "$0"
+      exit
+      ;;
+    all)
+      read -ra columns <<<"$all"
+      shift
+      ;;
+    *)
+      [[ " $all " == *" $1 "* ]] || fail "unknown column '$1', expected one of: $all"
+      columns+=("$1")
+      shift
+      ;;
   esac
 done
-[ ${#columns[@]} -gt 0 ] || read -ra columns <<<"$all"
+[ ${#columns[@]} -gt 0 ] || fail "expected all, or one or more of: $all"
 mkdir -p "$folder"
 export LSM_LAMMPS_CACHE=${LSM_LAMMPS_CACHE:-$folder/cache}
 export CMAKE_BUILD_PARALLEL_LEVEL=$jobs
@@ -46,10 +71,16 @@ run_fault() {
   local name=$1 lmp=$2 plugin=${3:-} at=$folder/$1/fault ranks
   rm -rf "$at"
   mkdir -p "$at"
-  { [ -z "$plugin" ] || echo "plugin load $plugin"; echo "include $root/inputs/fault_120.in"; } >"$at/in.fault"
+  {
+    [ -z "$plugin" ] || echo "plugin load $plugin"
+    echo "include $root/inputs/fault_120.in"
+  } >"$at/in.fault"
   for ranks in 1 2; do
     (cd "$at" && mpirun -np $ranks "$lmp" -in in.fault -log none "${scene[@]}" -var prefix on_$ranks >out_$ranks.txt 2>&1) ||
-      { tail -n 5 "$at/out_$ranks.txt"; return 1; }
+      {
+        tail -n 5 "$at/out_$ranks.txt"
+        return 1
+      }
   done
 }
 
@@ -59,7 +90,10 @@ compare_fault() {
   for ranks in 1 2; do
     local events difference="same bytes"
     events=$(grep -vc '^[#e]' "$ours/on_$ranks.catalogue.csv" || true)
-    [ "$events" -ge 5 ] || { echo "FAILED: $events events on $ranks ranks say nothing"; return 1; }
+    [ "$events" -ge 5 ] || {
+      echo "FAILED: $events events on $ranks ranks say nothing"
+      return 1
+    }
     # the headers name the version of LAMMPS
     for file in pe.bin catalogue.csv; do
       cmp -s <(LC_ALL=C sed 's/LAMMPS 4 Jul 2026/LAMMPS 4 Feb 2025/' "$ours/on_$ranks.$file") "$theirs/on_$ranks.$file" ||
@@ -77,22 +111,31 @@ configure() {
   at=$(realpath -m "$folder/$1")
   shift
   cmake -S "$root" -B "$at" -G Ninja -DLSM_BUILD_SLIDER=OFF -DLSM_BUILD_POSTPROC=OFF "$@" >"$log" 2>&1 ||
-    { tail -n 20 "$log"; return 1; }
+    {
+      tail -n 20 "$log"
+      return 1
+    }
 }
 
 # build COLUMN TARGETS...: the log grows, so that no warning is forgotten when only a part is built anew
 build() {
   local log=$folder/$1.build.log at=$folder/$1
   shift
-  cmake --build "$at" --parallel "$jobs" --target "$@" >>"$log" 2>&1 || { tail -n 30 "$log"; return 1; }
+  cmake --build "$at" --parallel "$jobs" --target "$@" >>"$log" 2>&1 || {
+    tail -n 30 "$log"
+    return 1
+  }
   ! grep "^$root/\(lammps-pkg\|slider\|postproc\|tests\)/.*warning:" "$log"
 }
+
+# counted LOG: what ctest says at its end, in words
+counted() { sed -n 's/^\([0-9]*%\) tests passed, \([0-9]*\) tests failed out of \([0-9]*\)/\3 run, \2 failed/p' "$1"; }
 
 # run_tests COLUMN PATTERN LOG [EXCEPT]: how many passed, in words
 run_tests() {
   local rc=0 log=$folder/$3.tests.log
   ctest --test-dir "$folder/$1" -R "$2" ${4:+-E "$4"} --no-tests=error --output-on-failure --repeat after-timeout:3 >"$log" 2>&1 || rc=$?
-  sed -n 's/^\([0-9]*%\) tests passed, \([0-9]*\) tests failed out of \([0-9]*\)/\3 run, \2 failed/p' "$log"
+  counted "$log"
   return $rc
 }
 
@@ -121,8 +164,8 @@ arm_libraries() {
 compare_sliders() {
   local at=$folder/aarch64/sliders name program file words="" same=0 differ=0
   local -A runs=([verlet]="--time 9000" [printed]="--scheme printed --dt 0.01 --time 7000"
-    [semi-implicit]="--scheme semi-implicit --time 9000" [coulomb]="--law coulomb --time 6000"
-    [slip-weakening]="--law slip-weakening --time 9000"
+    [semi - implicit]="--scheme semi-implicit --time 9000" [coulomb]="--law coulomb --time 6000"
+    [slip - weakening]="--law slip-weakening --time 9000"
     [ruptures]="--events ruptures --columns centroid,length --time 6000"
     [leaps]="--velocity 1e-4 --leap 1e-3 --time 1e6" [long]="--blocks 20000 --time 80 --velocity 1")
   rm -rf "$at"
@@ -145,7 +188,7 @@ compare_sliders() {
 # write, in words; for other bytes by how much the numbers differ. GSL and the C library are other builds.
 compare_postprocs() {
   local at=$folder/aarch64/postprocs name file words="" same=0 differ=0
-  local results=$root/inputs/results/catalogues
+  local results=$root/results/catalogues
   local one=$results/fault_120.catalogue.csv.xz chain=$results/slider_ours_256_seed_1.catalogue.csv.xz
   local series=$folder/aarch64/sliders/theirs/verlet.pe
   local -A runs=([histograms]="$one $chain --no-picture -o o" [intervals]="$one $chain --replicas 2 --no-picture -o o"
@@ -153,18 +196,24 @@ compare_postprocs() {
     [fit]="$one --range 1e-4:0.1 --replicas 2 --no-picture -o o" [magnitudes]="$one --magnitude-bin 0.1 --no-picture -o o"
     [aftershocks]="$chain --replicas 2 --no-picture -o o" [count]="$one" [compare]="$one $chain --rescale --replicas 10 -o o"
     [match]="$one $one --threshold 1e-3 --within 5" [spectrum]="$series --no-picture -o o" [series]="$series --no-picture -o o"
-    [pick]="$series -o o.csv" [select]="$one --min-size 1e-3 -o o.csv" [export]="$chain -o o.csv")
+    [pick]="$series -o o.csv" [select]="$one --min-size 1e-3 -o o.csv" [export]="$chain --time-unit second --start-date 2000-01-01 --magnitude-constant 0 -o o.csv")
   rm -rf "$at"
   for name in "${!runs[@]}"; do
     for program in "$1 $at/ours" "$2 $at/theirs"; do
       mkdir -p "${program#* }/$name"
       # shellcheck disable=SC2086
       (cd "${program#* }/$name" && "${program% *}" ${name/likelihood/intervals} ${runs[$name]} >out 2>"$at/err") ||
-        { echo "$name: $(cat "$at/err")"; return 1; }
+        {
+          echo "$name: $(cat "$at/err")"
+          return 1
+        }
     done
     for file in "$at/theirs/$name"/*; do
       file=$name/${file##*/}
-      if cmp -s "$at/ours/$file" "$at/theirs/$file"; then same=$((same + 1)); continue; fi
+      if cmp -s "$at/ours/$file" "$at/theirs/$file"; then
+        same=$((same + 1))
+        continue
+      fi
       differ=$((differ + 1))
       words="$words $file ($(largest_difference "$at/ours/$file" "$at/theirs/$file"))"
     done
@@ -184,19 +233,12 @@ print("%.1e" % max(abs(x - y) / max(abs(x), abs(y), 1e-300) for x, y in pairs) i
 END
 }
 
-# run_scripts SCRIPT PROGRAM [OTHER] -- CASE...: cases of a test from outside, in words
-run_scripts() {
-  local script=$1 programs=() log=$folder/aarch64.scripts.log failed=0 skipped=0 rc
-  shift
-  while [ "$1" != -- ]; do programs+=("$1"); shift; done
-  shift
-  for name in "$@"; do
-    rc=0
-    bash "$root/tests/$script" "${programs[0]}" "$name" "${programs[@]:1}" >>"$log" 2>&1 || rc=$?
-    case $rc in 0) ;; 77) skipped=$((skipped + 1)) ;; *) failed=$((failed + 1)); echo "$script $name failed" >>"$log" ;; esac
-  done
-  echo "${script##*/}: $# cases run, $failed failed$([ $skipped = 0 ] || echo ", $skipped skipped")"
-  [ $failed = 0 ]
+# run_pytest FILE EXPRESSION: tests of programs, which stand in the environment, in words
+run_pytest() {
+  local log=$folder/aarch64.pytest.log rc=0
+  /usr/bin/python3 -m pytest -q "$root/tests/$1" -k "$2" >>"$log" 2>&1 || rc=$?
+  echo "${1##*/}: $(tail -n 1 "$log" | sed 's/ in .*//')"
+  return $rc
 }
 
 compiler_of() { "$1" --version | head -n 1; }
@@ -215,6 +257,21 @@ testers_of() {
   rm -rf "$at.part"
 }
 
+# in_debian ROOT COMMAND...: in a Debian of its own, with the sources in /lsm and everything built in /build
+in_debian() {
+  local at=$1
+  shift
+  unshare --mount --pid --fork --kill-child bash -euc '
+    at=$1 root=$2
+    shift 2
+    mkdir -p "$at/lsm" "$at/build"
+    mount -t proc proc "$at/proc"
+    mount --rbind /dev "$at/dev"
+    mount --bind "$root" "$at/lsm"
+    exec chroot "$at" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LSM_BUILD_DIR="/build/$1" bash -c "cd /lsm; $2"
+  ' in_debian "$at" "$root" "$@"
+}
+
 # whole COLUMN LAMMPS INTEGERS COMPILER OPTIONS...: project, tests and fault
 whole() {
   local name=$1 lammps=$2 integers=$3 compiler=$4 tests fault ok=0
@@ -228,7 +285,7 @@ whole() {
       ;;
     *)
       # unit tests know no LAMMPS; those of physics start the program of this column
-      build "$name" lmp lsmplugin lsmplugin_other_integers lsm_library_errors lsm_foreign_fix
+      build "$name" lmp lsmplugin lsmplugin_other_integers lammps_shared lsm_library_errors lsm_foreign_fix
       tests=$(run_tests "$name" '^(package\.|physics\.library)' "$name") || ok=1
       tests="package, library: $tests; physics: $(LSM_LMP=$folder/$name/bin/lmp \
         LSM_FOREIGN_FIX=$folder/$name/lib/lsm_foreign_fix.so run_tests reference '^physics\.[A-Z]' "$name.physics")" || ok=1
@@ -252,7 +309,10 @@ do_column() {
     plugin)
       local stock
       stock=$(sed -n 's/^LSM_STOCK_LMP:INTERNAL=//p' "$folder/reference/CMakeCache.txt")
-      ! grep -q 'lsm/' <<<"$("$stock" -h)" || { echo "the stock lmp has the styles already"; return 1; }
+      ! grep -q 'lsm/' <<<"$("$stock" -h)" || {
+        echo "the stock lmp has the styles already"
+        return 1
+      }
       run_fault plugin "$stock" "$folder/reference/lib/lsmplugin.so"
       fault=$(compare_fault plugin) || ok=1
       row plugin "4 Feb 2025, stock lmp" "$gxx" smallbig "that of the reference" "those of the reference (package.plugin)" "$fault"
@@ -271,9 +331,15 @@ do_column() {
         "-DCMAKE_CXX_FLAGS=-ffp-contract=off -fno-math-errno -Wall -Wextra" -DPKG_LSM=on -DPKG_MOLECULE=on -DPKG_GRANULAR=on \
         -DPKG_BPM=on -DBUILD_OMP=off -DWITH_JPEG=off -DWITH_FFMPEG=off -DDOWNLOAD_POTENTIALS=off \
         >>"$folder/installed.configure.log" 2>&1
-      cmake --build "$at" --parallel "$jobs" >>"$at.build.log" 2>&1 || { tail -n 30 "$at.build.log"; return 1; }
+      cmake --build "$at" --parallel "$jobs" >>"$at.build.log" 2>&1 || {
+        tail -n 30 "$at.build.log"
+        return 1
+      }
       ! grep "src/LSM/.*warning:" "$at.build.log" || return 1
-      grep -q '\bLSM\b' <<<"$("$at/lmp" -h)" || { echo "lmp -h does not name the package"; return 1; }
+      grep -q '\bLSM\b' <<<"$("$at/lmp" -h)" || {
+        echo "lmp -h does not name the package"
+        return 1
+      }
       run_fault installed "$at/lmp"
       fault=$(compare_fault installed) || ok=1
       row installed "4 Feb 2025, package copied into its tree" "$gxx" smallbig "full link, no warning" "none: LAMMPS' own build" "$fault"
@@ -300,20 +366,64 @@ do_column() {
       # the quicker ones: others take many minutes; qemu-user makes up /proc/self/stat, by which a process is known
       tests=$(run_tests aarch64 '^(unit|postproc\.[A-Z]|SliderParameters|SliderKernels\.(OtherLaws|ActiveSet|InstructionSets))' aarch64 \
         'OutputClaims.AnotherRunIsNamed|Omori.ErrorsCoverTheTruth') || ok=1
-      rm -f "$folder/aarch64.scripts.log"
-      tests="$tests; $(run_scripts slider/slider_cli_test.sh "$qemu/slider_cli" -- header paper config bad_input)" || ok=1
-      tests="$tests; $(run_scripts postproc/postproc_cli_test.sh "$qemu/postproc" "$qemu/slider_cli" -- \
-        pick online series spectrum export magnitudes aftershocks compare summary match select json compressed earthquakes bad_input)" || ok=1
+      tests="$tests; $(LSM_SLIDER_CLI=$qemu/slider_cli run_pytest slider/test_slider_cli.py "header or paper or config or bad")" || ok=1
+      tests="$tests; $(LSM_POSTPROC=$qemu/postproc LSM_SLIDER_CLI=$qemu/slider_cli run_pytest postproc/test_postproc_cli.py \
+        "not pictures and not faults and not progress")" || ok=1
       fault=$(compare_sliders "$qemu/slider_cli" "$folder/aarch64-native/bin/slider_cli") || ok=1
       fault="$fault; postproc: $(compare_postprocs "$qemu/postproc" "$folder/aarch64-native/bin/postproc")" || ok=1
       row aarch64 "none" "$(compiler_of aarch64-linux-gnu-g++), run by $(qemu-aarch64 --version | head -n 1)" "-" "no warning" \
         "unit, slider, postproc: $tests" "slider on ARM beside x86-64: $fault"
       return $ok
       ;;
+    debian-13)
+      # both commands of the README on a bare system: the distribution's LAMMPS first, then our own with the tests
+      local at=$folder/debian-13-root mirror ranks
+      install_debian_packages debootstrap
+      mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' | grep -m 1 -v security)
+      rm -rf --one-file-system "$at"
+      debootstrap --variant=minbase trixie "$at" "$mirror" >"$folder/debian-13.configure.log"
+      cp /etc/resolv.conf "$at/etc/"
+      in_debian "$at" first "inputs/first-catalogue.sh" >"$folder/debian-13.build.log" 2>&1 || {
+        tail -n 20 "$folder/debian-13.build.log"
+        return 1
+      }
+      for ranks in 1 2; do
+        in_debian "$at" first ". inputs/mpi-settings.sh; mkdir -p /build/fault; cd /build/fault; mpirun -np $ranks /build/first/bin/lmp \
+          -in /lsm/inputs/fault_120.in -log none ${scene[*]} -var prefix on_$ranks" >>"$folder/debian-13.build.log" 2>&1
+      done
+      rm -rf "$folder/debian-13"
+      mkdir -p "$folder/debian-13"
+      cp -r "$at/build/fault" "$folder/debian-13/"
+      fault=$(compare_fault debian-13) || ok=1
+      in_debian "$at" all tests/run-all.sh >"$folder/debian-13.tests.log" 2>&1 || ok=1
+      tests=$(sed -n 's/^\([0-9]*%\) tests passed, \([0-9]*\) tests failed out of \([0-9]*\)/\3 run, \2 failed/p' "$folder/debian-13.tests.log")
+      ! grep '[0-9]: warning:' "$folder/debian-13.build.log" "$folder/debian-13.tests.log" || ok=1
+      row debian-13 "4 Feb 2025 of Debian 13 for the fault, our own build for the tests" "g++ of Debian 13" smallbig "no warning" "all: $tests" "$fault"
+      return $ok
+      ;;
+    sanitize | sanitize-thread)
+      # folders and environment of CMakePresets.json
+      local log=$folder/$name.log
+      (cd "$root" && cmake --preset "$name" && cmake --build --preset "$name" --parallel "$jobs") >"$log" 2>&1 || {
+        tail -n 30 "$log"
+        return 1
+      }
+      (cd "$root" && ctest --preset "$name" --repeat after-timeout:3) >"$folder/$name.tests.log" 2>&1 || ok=1
+      row "$name" "4 Feb 2025" "$gxx" smallbig "with its checks" "$(counted "$folder/$name.tests.log")" "-"
+      return $ok
+      ;;
+    mutations)
+      LSM_MUTATIONS_DIR=$folder/mutations LSM_MUTATIONS_JOBS=$jobs "$root/tests/mutations/run.sh" >"$folder/mutations.log" 2>&1 || ok=1
+      row mutations "4 Feb 2025" "$gxx" smallbig "one for each mutation" "$(tail -n 1 "$folder/mutations.log")" "-"
+      return $ok
+      ;;
     testers | testers-jul2026)
       local base=reference version="4 Feb 2025" tarball=lammps-4Feb2025.tar.xz
       [ $name = testers ] || { base=jul2026 version="4 Jul 2026" tarball=lammps-4Jul2026.tar.gz; }
-      [ -f "$LSM_LAMMPS_CACHE/$tarball" ] || { echo "no $tarball in $LSM_LAMMPS_CACHE: it holds the testers"; return 1; }
+      [ -f "$LSM_LAMMPS_CACHE/$tarball" ] || {
+        echo "no $tarball in $LSM_LAMMPS_CACHE: it holds the testers"
+        return 1
+      }
       testers_of "$LSM_LAMMPS_CACHE/$tarball" "$folder/unittest-$base"
       configure "$base" "-DLSM_LAMMPS_UNITTEST=$(realpath "$folder/unittest-$base")"
       build "$base" test_bond_style test_pair_style test_fix_timestep
@@ -326,11 +436,14 @@ do_column() {
 
 bad=()
 for name in "${columns[@]}"; do
-  [ "$name" = reference ] || [ "$name" = aarch64 ] || [ -f "$folder/reference.row" ] || fail "$name is compared with the reference, which is not done yet"
+  [[ " reference aarch64 sanitize sanitize-thread mutations " == *" $name "* ]] || [ -f "$folder/reference.row" ] || fail "$name is compared with the reference, which is not done yet"
   echo "== $name ($(date '+%F %T'))"
   rm -f "$folder/$name.row"
   set +e
-  (set -e; do_column "$name")
+  (
+    set -e
+    do_column "$name"
+  )
   rc=$?
   set -e
   if [ $rc -ne 0 ]; then
@@ -346,4 +459,14 @@ done
   done
 } >"$folder/table.md"
 cat "$folder/table.md"
+# The section "Last run" of the page is this table; text before it stays.
+if [ "${columns[*]}" = "$all" ]; then
+  page=$root/tests/matrix/README.md
+  {
+    sed '/^## Last run/,$d' "$page"
+    printf '## Last run\n\nWritten by `run-matrix.sh all` on %s, with %s.\n\n' "$(date +%F)" "$(. /etc/os-release && echo "$PRETTY_NAME")"
+    cat "$folder/table.md"
+  } >"$folder/page.md"
+  cp "$folder/page.md" "$page"
+fi
 [ ${#bad[@]} -eq 0 ] || fail "failed: ${bad[*]}"

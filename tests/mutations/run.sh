@@ -5,12 +5,15 @@
 #   -n  only says whether each mutation still applies to the sources
 # Mutations are in list.txt. They are made in a copy of the tree under build-mutations/, never here.
 # Result: one line each, and build-mutations/table.md; fails if one survived that is not expected to.
-set -uof pipefail    # filters of GoogleTest are not file names
+set -uof pipefail # filters of GoogleTest are not file names
 root=$(cd "$(dirname "$0")/../.." && pwd)
 work=${LSM_MUTATIONS_DIR:-$root/build-mutations}
 list=$root/tests/mutations/list.txt
 only_apply=
-[ "${1:-}" = -n ] && { only_apply=yes; shift; }
+[ "${1:-}" = -n ] && {
+  only_apply=yes
+  shift
+}
 pattern=${1:-.}
 
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle=1
@@ -20,20 +23,20 @@ export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_hwloc_base_binding_policy=no
 names=() files=() from=() to=() tests=() expects=()
 while IFS= read -r line; do
   case $line in
-  '['*']') names+=("${line:1:-1}") files+=('') from+=('') to+=('') tests+=('') expects+=('caught') ;;
-  'file: '*) files[-1]=${line#file: } ;;
-  'from: '*) from[-1]=${line#from: } ;;
-  'to:') to[-1]='' ;;
-  'to: '*) to[-1]=${line#to: } ;;
-  'test: '*) tests[-1]=${line#test: } ;;
-  'survives: '*) expects[-1]=${line#survives: } ;;
-  '' | '#'*) ;;
-  *)
-    echo "$list: '$line', expected [name], file:, from:, to:, test:, survives: or #" >&2
-    exit 2
-    ;;
+    '['*']') names+=("${line:1:-1}") files+=('') from+=('') to+=('') tests+=('') expects+=('caught') ;;
+    'file: '*) files[-1]=${line#file: } ;;
+    'from: '*) from[-1]=${line#from: } ;;
+    'to:') to[-1]='' ;;
+    'to: '*) to[-1]=${line#to: } ;;
+    'test: '*) tests[-1]=${line#test: } ;;
+    'survives: '*) expects[-1]=${line#survives: } ;;
+    '' | '#'*) ;;
+    *)
+      echo "$list: '$line', expected [name], file:, from:, to:, test:, survives: or #" >&2
+      exit 2
+      ;;
   esac
-done < "$list"
+done <"$list"
 
 # A file that has moved to another folder is found by its name.
 for i in "${!files[@]}"; do
@@ -58,13 +61,16 @@ apply() {
 chosen=() outdated=0
 for i in "${!names[@]}"; do
   [[ ${names[$i]} =~ $pattern ]] || continue
-  if apply "$i" "$root" > /dev/null; then
+  if apply "$i" "$root" >/dev/null; then
     chosen+=("$i")
   else
     outdated=$((outdated + 1))
   fi
 done
-[ ${#chosen[@]} -gt 0 ] || { echo "no mutation matches '$pattern'" >&2; exit 2; }
+[ ${#chosen[@]} -gt 0 ] || {
+  echo "no mutation matches '$pattern'" >&2
+  exit 2
+}
 if [ -n "$only_apply" ]; then
   echo "${#chosen[@]} mutations apply, $outdated do not: the list is to follow the code"
   [ $outdated = 0 ]
@@ -78,7 +84,6 @@ mkdir -p "$tree" "$build"
 (cd "$root" && git ls-files -z --cached --others --exclude-standard) |
   while IFS= read -r -d '' file; do
     [ -e "$root/$file" ] || continue
-    case $file in inputs/campaign-results/*) continue ;; esac
     cmp -s "$root/$file" "$tree/$file" || { mkdir -p "$tree/$(dirname "$file")" && cp -p "$root/$file" "$tree/$file" && touch "$tree/$file"; }
   done
 lammps=OFF programs=
@@ -86,9 +91,9 @@ for i in "${chosen[@]}"; do
   [[ ${tests[$i]} = lsm_physics_tests* || ${tests[$i]} = lsm_benchmark_tests* ]] && lammps=ON
   [[ ${tests[$i]} = *.cpp\ * ]] || programs=yes
 done
-grep -q '^LSM_BUILD_LAMMPS:BOOL=ON' "$build/CMakeCache.txt" 2> /dev/null && lammps=ON
+grep -q '^LSM_BUILD_LAMMPS:BOOL=ON' "$build/CMakeCache.txt" 2>/dev/null && lammps=ON
 [ -z "$programs" ] || cmake -S "$tree" -B "$build" -G Ninja -DLSM_BUILD_LAMMPS=$lammps \
-  -DCMAKE_CXX_FLAGS_RELEASE=-O0 > "$work/configure.log" 2>&1 || {
+  -DCMAKE_CXX_FLAGS_RELEASE=-O0 >"$work/configure.log" 2>&1 || {
   cat "$work/configure.log" >&2
   exit 2
 }
@@ -100,16 +105,19 @@ run() {
   if [[ $1 = *.cpp ]]; then
     program=$work/unit_test
     "${CXX:-c++}" -std=c++17 -O0 -I "$tree/lammps-pkg/core" -I "$tree/tests/accuracy" -o "$program" \
-      "$tree/tests/unit/$1" -lgtest -lgtest_main -pthread > "$work/build.log" 2>&1 || return 2
+      "$tree/tests/unit/$1" -lgtest -lgtest_main -pthread >"$work/build.log" 2>&1 || return 2
   else
-    ninja -C "$build" -j "${LSM_MUTATIONS_JOBS:-2}" "$1" > "$work/build.log" 2>&1 || return 2
+    ninja -C "$build" -j "${LSM_MUTATIONS_JOBS:-2}" "$1" >"$work/build.log" 2>&1 || return 2
   fi
-  timeout "${LSM_MUTATIONS_TIMEOUT:-600}" "$program" --gtest_filter="$2" --gtest_brief=1 --gtest_fail_fast > "$work/test.log" 2>&1
+  timeout "${LSM_MUTATIONS_TIMEOUT:-600}" "$program" --gtest_filter="$2" --gtest_brief=1 --gtest_fail_fast >"$work/test.log" 2>&1
   local rc=$?
-  [ $rc != 124 ] || { echo 'ran past the time limit' > "$work/failed"; return 1; }
-  sed -n 's/^\[  FAILED  \] \([A-Za-z0-9_/]*\.[A-Za-z0-9_/]*\).*/\1/p' "$work/test.log" | sort -u > "$work/failed"
+  [ $rc != 124 ] || {
+    echo 'ran past the time limit' >"$work/failed"
+    return 1
+  }
+  sed -n 's/^\[  FAILED  \] \([A-Za-z0-9_/]*\.[A-Za-z0-9_/]*\).*/\1/p' "$work/test.log" | sort -u >"$work/failed"
   [ $rc = 0 ] && grep -q '^\[  PASSED  \] [1-9]' "$work/test.log" && return 0
-  [ -s "$work/failed" ] || echo "ended with $rc: $(tail -n 1 "$work/test.log" | tr '|' ' ' | cut -c 1-100)" > "$work/failed"
+  [ -s "$work/failed" ] || echo "ended with $rc: $(tail -n 1 "$work/test.log" | tr '|' ' ' | cut -c 1-100)" >"$work/failed"
   return 1
 }
 
@@ -126,31 +134,34 @@ survivors=0
 table=$work/table.md
 for i in "${chosen[@]}"; do
   file=${files[$i]}
-  apply "$i" "$tree" > "$work/mutated" || exit 2
+  apply "$i" "$tree" >"$work/mutated" || exit 2
   cp -p "$tree/$file" "$work/original"
   cp "$work/mutated" "$tree/$file"
   # shellcheck disable=SC2086
   run ${tests[$i]}
   case $? in
-  0)
-    outcome=survived
-    [ "${expects[$i]}" = caught ] || outcome="survived: ${expects[$i]}"
-    [ "${expects[$i]}" = caught ] && survivors=$((survivors + 1))
-    ;;
-  1) outcome="caught by $(head -n 3 "$work/failed" | paste -sd ' ' | sed 's/ /, /g')" ;;
-  *) outcome='does not compile' && survivors=$((survivors + 1)) ;;
+    0)
+      outcome=survived
+      [ "${expects[$i]}" = caught ] || outcome="survived: ${expects[$i]}"
+      [ "${expects[$i]}" = caught ] && survivors=$((survivors + 1))
+      ;;
+    1) outcome="caught by $(head -n 3 "$work/failed" | paste -sd ' ' | sed 's/ /, /g')" ;;
+    *) outcome='does not compile' && survivors=$((survivors + 1)) ;;
   esac
-  cat "$work/original" > "$tree/$file"
+  cat "$work/original" >"$tree/$file"
   # A program that no test let fail, but that crashed or took too long: the code, or the machine?
   if grep -q ' ' "$work/failed" && [[ $outcome = caught* ]]; then
     outcome="caught: $(cat "$work/failed")"
     # shellcheck disable=SC2086
-    run ${tests[$i]} || { echo "${names[$i]}: $outcome, but ${tests[$i]} fails without it, too" >&2; exit 2; }
+    run ${tests[$i]} || {
+      echo "${names[$i]}: $outcome, but ${tests[$i]} fails without it, too" >&2
+      exit 2
+    }
   fi
   echo "${names[$i]}: $outcome"
   [ -e "$table" ] && sed -i "/^| ${names[$i]} |/d" "$table"
   # shellcheck disable=SC2016
-  printf '| %s | %s | `%s` | `%s` | %s |\n' "${names[$i]}" "${file##*/}" "${from[$i]//|/\\|}" "${to[$i]//|/\\|}" "$outcome" >> "$table"
+  printf '| %s | %s | `%s` | `%s` | %s |\n' "${names[$i]}" "${file##*/}" "${from[$i]//|/\\|}" "${to[$i]//|/\\|}" "$outcome" >>"$table"
 done
 echo "$survivors of ${#chosen[@]} mutations survived or do not compile, $outdated do not apply any more"
 [ $((survivors + outdated)) = 0 ]

@@ -56,6 +56,10 @@ group             lower type 5
 group             upper type 6
 group             plates union lower upper
 group             blocks subtract all plates
+group             below type 1 3 5
+group             above type 2 4 6
+group             lowerface type 3
+group             upperface type 4
 )";
 }
 
@@ -84,7 +88,7 @@ variable          viscosity index 0.02
 variable          velocity index 0.005
 fix               move blocks lsm/nve viscosity ${viscosity}
 fix               plates all lsm/plates lower upper stress 0.006 damping ${viscosity} velocity ${velocity} ramp 3
-compute           events all lsm/events ledger yes overwrite yes )" +
+compute           events all lsm/events sides below above faces lowerface upperface ledger yes overwrite yes )" +
          events + "\n" + fault_columns;
 }
 

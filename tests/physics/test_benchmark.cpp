@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "lmp_runner.h"
-#include "lsm_slip_history.h"
+#include "files/slip_history.h"
 #include "read_catalogue.h"
 
 using namespace physics;
@@ -273,9 +273,13 @@ TEST_F(Benchmark, WrongInputIsNamed) {
                           {"share is 'area', but must be diameter or spacing"}));
   EXPECT_TRUE(failed_with(run_text(packing("0", "area spacing")),
                           {"Unknown fix lsm/traction keyword 'area'; accepted are share"}));
-  // discs near the line that do not touch it, and those of blocks that are no mirror images
+  // blocks that are apart, discs near the line that do not touch it, and those of blocks that are
+  // no mirror images
+  EXPECT_TRUE(
+      failed_with(run_text(packing("0") + "displace_atoms upper move 0 0.05 0 units box\nrun 0\n"),
+                  {"the faces do not touch"}));
   EXPECT_TRUE(failed_with(run_text(packing("0", "share spacing", "mirror yes") + "run 0\n"),
-                          {"the faces do not touch"}));
+                          {"faces none of the other side"}));
   EXPECT_TRUE(failed_with(run_text(packing("0", "share spacing", "faultzone 1e-10") + "run 0\n"),
                           {"Fix lsm/traction: particle"}));
   EXPECT_TRUE(

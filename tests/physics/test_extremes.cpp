@@ -46,7 +46,7 @@ variable every     index 1       # steps between samples of the PE series
 variable thermo    index 100
 )" + fault_start() +
          R"(
-create_lsm_fault  length 16 width 10 seed 5 failures ${failures} rmin ${rmin} loose keep
+create_lsm_fault  length 16 width 10 seed 8 failures ${failures} rmin ${rmin} loose keep
 bond_style        lsm/linked
 bond_coeff        1 ${klink}
 pair_style        lsm/friction
@@ -137,7 +137,7 @@ TEST_F(Extremes, RadiiStiffnessFrictionLoad) {
       {"mu = 2", {{"mu", "2"}}, 1e-3},
       {"mu = 10", {{"mu", "10"}}, 1e-3},
       {"normal stress 1e-6", {{"stress", "1e-6"}}, 1e-3},
-      {"normal stress 0.1", {{"stress", "0.1"}}, 1e-3},
+      {"normal stress 0.05", {{"stress", "0.05"}}, 1e-3},
       {"driving velocity 0", {{"velocity", "0"}}, 1e-3},
       {"driving velocity 0.1 of the P-wave speed", {{"velocity", "0.21"}}, 1e-2},
       {"viscosity 0", {{"viscosity", "0"}}, 1e-3},
@@ -162,6 +162,7 @@ TEST_F(Extremes, RefusedOrStopped) {
   for (const auto &[name, variables] : std::vector<std::pair<std::string, Variables>>{
            {"time step 1.2 of the limit, check off", {{"part", "1.2"}, {"check", "off"}}},
            {"time step 2 of the limit, check off", {{"part", "2"}, {"check", "off"}}},
+           {"normal stress 0.1", {{"stress", "0.1"}}},
            {"normal stress 0.3", {{"stress", "0.3"}}},
            {"normal stress 0.5 (overlap of half a radius)", {{"stress", "0.5"}}},
            {"normal stress 2", {{"stress", "2"}}}}) {

@@ -4,8 +4,8 @@
 #include <fstream>
 
 #include "fault_scene.h"
-#include "lsm_event_picker.h"
-#include "lsm_pe_series.h"
+#include "events/event_picker.h"
+#include "files/pe_series.h"
 #include "read_catalogue.h"
 
 using namespace physics;
@@ -157,7 +157,7 @@ TEST_F(Restart, PickerFollowsTheTimeStep) {
       const Result resumed = run_text(
           sheared_state("0.015",
                         std::string("resume yes catalogue fast.csv series fast.pe ") + memory) +
-              "thermo 1\nrun 4000\n",
+              "thermo 1\nrun 12000\n",
           variables, ranks);
       ASSERT_TRUE(succeeded(resumed));
       const Result between =

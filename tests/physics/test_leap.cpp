@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "fault_scene.h"
-#include "lsm_pe_series.h"
+#include "files/pe_series.h"
 #include "read_catalogue.h"
 
 using namespace physics;
@@ -36,7 +36,7 @@ TEST_F(Leap, WithoutAFasterVelocityNothingChanges) {
     const Variables variables = {{"prefix", "nothing"}, {"dt", "0.03"}, {"velocity", velocity}};
     const Result without = run_text(slow("") + "run 1500\n", variables);
     const Result with =
-        run_text(slow("fix leap all lsm/leap plates fast 0.0005 calm 1 rest 1e-9 settle 0.1\n") +
+        run_text(slow("fix leap all lsm/leap plates fast 0.0005 calm 1 rest 1e-9 viscosity 0.1\n") +
                      "run 1500\n",
                  variables);
     ASSERT_TRUE(succeeded(without));
@@ -66,11 +66,11 @@ TEST_F(Leap, WarnsOfPlatesThatAreHardlyFaster) {
 }
 
 TEST_F(Leap, PlatesMayMoveTheOtherWay) {
-  const Result r =
-      run_text(slow("fix leap all lsm/leap plates fast 0.005 calm 3 settle 0.1 ramp 6 look 0.6\n",
-                    "f_plates[1] f_plates[8] f_leap f_leap[4] c_events[13] f_plates") +
-                   "run 3000\n",
-               {{"prefix", "back"}, {"dt", "0.03"}, {"velocity", "-0.0005"}});
+  const Result r = run_text(
+      slow("fix leap all lsm/leap plates fast 0.005 calm 3 viscosity 0.1 ramp 6 look 0.6\n",
+           "f_plates[1] f_plates[8] f_leap f_leap[4] c_events[13] f_plates") +
+          "run 3000\n",
+      {{"prefix", "back"}, {"dt", "0.03"}, {"velocity", "-0.0005"}});
   ASSERT_TRUE(succeeded(r));
   EXPECT_GT(r.last("f_leap[4]"), 10.0);  // it leapt
   EXPECT_LT(r.last("f_plates[8]"), -0.3);
@@ -89,7 +89,7 @@ TEST_F(Leap, LoadsAsSlowPlatesDo) {
   const auto loaded = [&](const std::string &fast, double steps) {
     // high friction: nothing slips
     const Result r = run_text(
-        slow("fix leap all lsm/leap plates calm 3 rest 1e9 settle 0 ramp 6 fast " + fast + "\n",
+        slow("fix leap all lsm/leap plates calm 3 rest 1e9 viscosity 0 ramp 6 fast " + fast + "\n",
              columns) +
             "run " + text(steps) + "\n",
         {{"prefix", "loaded"}, {"dt", "0.04"}, {"mus", "100"}, {"velocity", "0.00001"}});
@@ -126,7 +126,7 @@ TEST_F(Leap, LoadsAsSlowPlatesDo) {
 TEST_F(Leap, WaitsUntilTheBlocksAreAtRest) {
   const auto leapt = [&](const std::string &rest) {
     const Result r =
-        run_text(slow("compute own blocks ke\nfix leap all lsm/leap plates calm 3 ramp 6 settle "
+        run_text(slow("compute own blocks ke\nfix leap all lsm/leap plates calm 3 ramp 6 viscosity "
                       "0.1 fast 0.0004 rest " +
                           rest + "\n",
                       "f_leap[2] f_leap[4] c_own ke") +
@@ -219,7 +219,7 @@ TEST_F(Leap, FactorGrowsWithTheTimeOfTheLeap) {
       run_text(slow("fix leap all lsm/leap plates fast 0.005 calm 3 rest 1e9 ramp 0 grow 50 look "
                     "0.3\n",
                     "f_leap f_leap[1] f_leap[2]") +
-                   "thermo 10\nrun 12000\n",
+                   "thermo 10\nrun 10000\n",
                {{"prefix", "grow"}, {"dt", "0.03"}, {"mus", "100"}, {"velocity", "0.00005"}});
   ASSERT_TRUE(succeeded(r));
   double began = NAN;
@@ -280,7 +280,7 @@ run               0
 
 TEST_F(Leap, RestartAndRanks) {
   const std::string leap =
-      "fix leap all lsm/leap plates fast 0.005 calm 3 settle 0.1 ramp 6 look 0.6\n";
+      "fix leap all lsm/leap plates fast 0.005 calm 3 viscosity 0.1 ramp 6 look 0.6\n";
   const std::string columns =
       "c_events c_events[5] f_plates[8] f_leap f_leap[1] f_leap[3] f_leap[4]";
   const std::string head = slow(leap, columns);
@@ -327,9 +327,10 @@ TEST_F(Leap, RestartAndRanks) {
 TEST_F(Leap, LeapsBeginAtRest) {
   const double rest = 0.06, fast = 0.005;
   const Result r = run_text(
-      slow("fix leap all lsm/leap plates fast 0.005 slip 0.1 calm 0.6 rest 0.06 settle 0.3 ramp 6 "
-           "look 0.6\ncompute kinetic blocks ke\nvariable mass equal mass(all)\n",
-           "f_leap[1] f_leap[2] c_kinetic v_mass") +
+      slow(
+          "fix leap all lsm/leap plates fast 0.005 slip 0.1 calm 0.6 rest 0.06 viscosity 0.3 ramp 6 "
+          "look 0.6\ncompute kinetic blocks ke\nvariable mass equal mass(all)\n",
+          "f_leap[1] f_leap[2] c_kinetic v_mass") +
           "thermo 20\nrun 12000\n",
       {{"prefix", "rest"}, {"dt", "0.03"}, {"velocity", "0.001"}});
   ASSERT_TRUE(succeeded(r));
@@ -353,11 +354,11 @@ TEST_F(Leap, LeapsBeginAtRest) {
 
 // Times of events are model times: those of the steps, stretched, and the header says how.
 TEST_F(Leap, CatalogueHasModelTimes) {
-  const Result r =
-      run_text(slow("fix leap all lsm/leap plates fast 0.005 calm 3 settle 0.1 ramp 6 look 0.6\n",
-                    "c_events c_events[5] f_plates[8] f_leap") +
-                   "thermo 1\nrun 4000\n",
-               {{"prefix", "times"}, {"dt", "0.03"}});
+  const Result r = run_text(
+      slow("fix leap all lsm/leap plates fast 0.005 calm 3 viscosity 0.1 ramp 6 look 0.6\n",
+           "c_events c_events[5] f_plates[8] f_leap") +
+          "thermo 1\nrun 4000\n",
+      {{"prefix", "times"}, {"dt", "0.03"}});
   ASSERT_TRUE(succeeded(r));
   const auto catalogue = unit::read_catalogue(path("times.csv"));
   ASSERT_GT(catalogue.events.size(), 2u);
@@ -377,29 +378,30 @@ TEST_F(Leap, CatalogueHasModelTimes) {
 // A series has the time of each sample, ruptures have model times, and both continue unchanged.
 TEST_F(Leap, SeriesAndRupturesHaveModelTimes) {
   const std::string recorded =
-      slow("fix leap all lsm/leap plates fast 0.005 calm 3 settle 0.1 ramp 6 look 0.6\n",
+      slow("fix leap all lsm/leap plates fast 0.005 calm 3 viscosity 0.1 ramp 6 look 0.6\n",
            "c_events c_events[5] f_plates[8] f_leap") +
       "variable go index no\nuncompute events\n"
       "compute events all lsm/events resume ${go} catalogue ${prefix}.csv series ${prefix}.pe\n"
-      "compute ruptures all lsm/events events ruptures slipping 0.5 interval 10 resume ${go} "
+      "compute ruptures all lsm/events events ruptures sides below above faces lowerface upperface slipping 0.5 interval 10 "
+      "resume ${go} "
       "catalogue "
       "${prefix}.ruptures progress no\nthermo 1\n";
-  const Result r = run_text(recorded + "run 2000\nwrite_restart samples.restart\nrun 2000\n",
+  const Result r = run_text(recorded + "run 4000\nwrite_restart samples.restart\nrun 4000\n",
                             {{"prefix", "samples"}, {"dt", "0.03"}});
   ASSERT_TRUE(succeeded(r));
   std::map<double, double> model;  // time of each step
   for (const auto &row : r.thermo) model[row.at("Step")] = row.at("f_leap");
 
   LSM::PeSeriesReader reader(LSM::text_io::open_plain(path("samples.pe")));
-  EXPECT_TRUE(reader.info().own_times);
+  EXPECT_TRUE(reader.info().explicit_times);
   std::int64_t step = 0, samples = 0;
   double time = 0.0, pe = 0.0;
   while (reader.next(step, time, pe)) {
     ASSERT_NEAR(time, model.at(static_cast<double>(step)), 1e-12 * time) << step;
     ++samples;
   }
-  EXPECT_EQ(samples, 4001);
-  EXPECT_GT(time, 1.5 * 4000 * 0.03);  // it leapt
+  EXPECT_EQ(samples, 8001);
+  EXPECT_GT(time, 1.5 * 8000 * 0.03);  // it leapt
 
   const auto ruptures = unit::read_catalogue(path("samples.ruptures"));
   ASSERT_GE(ruptures.events.size(), 3u);
@@ -419,7 +421,7 @@ TEST_F(Leap, SeriesAndRupturesHaveModelTimes) {
   ASSERT_NE(from, std::string::npos);
   again.replace(from, to - from, "read_restart samples.restart");
   const Result second =
-      run_text(again + "run 2000\n", {{"prefix", "samples"}, {"dt", "0.03"}, {"go", "yes"}});
+      run_text(again + "run 4000\n", {{"prefix", "samples"}, {"dt", "0.03"}, {"go", "yes"}});
   ASSERT_TRUE(succeeded(second));
   EXPECT_EQ(read_file(path("samples.pe")), whole_series);
   EXPECT_EQ(read_file(path("samples.csv")), whole);
@@ -429,10 +431,13 @@ TEST_F(Leap, SeriesAndRupturesHaveModelTimes) {
   EXPECT_TRUE(failed_with(
       run_text(recorded + "run 1\nunfix leap\nrun 1\n", {{"prefix", "gone"}, {"dt", "0.03"}}),
       {"fix lsm/leap is gone"}));
-  EXPECT_TRUE(failed_with(run_text(recorded + "uncompute ruptures\ncompute ruptures all lsm/events "
-                                              "events ruptures history h.slip\nrun 1\n",
-                                   {{"prefix", "history"}, {"dt", "0.03"}}),
-                          {"history does not work with fix lsm/leap"}));
+  EXPECT_TRUE(failed_with(
+      run_text(
+          recorded +
+              "uncompute ruptures\ncompute ruptures all lsm/events "
+              "events ruptures sides below above faces lowerface upperface history h.slip\nrun 1\n",
+          {{"prefix", "history"}, {"dt", "0.03"}}),
+      {"history does not work with fix lsm/leap"}));
 }
 
 TEST_F(Leap, Refusals) {

@@ -8,6 +8,7 @@ page in a headless Chromium and does what a person does. Skips with the reason w
 import csv
 import json
 import os
+import shlex
 import random
 import re
 import shutil
@@ -65,6 +66,7 @@ def add_header(path, line):
 
 
 class Page(unittest.TestCase):
+
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
@@ -73,11 +75,10 @@ class Page(unittest.TestCase):
             lmp, scene, *launcher = fault
             # Stiff contacts, so that almost all of the slip is in ruptures; soft ones also slip slowly
             # between them.
-            run(*launcher, lmp, "-in", scene, "-log", "none", "-var", "length", "30", "-var", "steps", "50000",
-                "-var", "choices", "first", "-var", "ruptures", "yes", "-var", "prefix", "run")
+            run(*launcher, lmp, "-in", scene, "-log", "none", "-var", "length", "30", "-var", "seed", "3", "-var", "steps", "50000", "-var",
+                "choices", "first", "-var", "ruptures", "yes", "-var", "prefix", "run")
         else:
-            run(slider, "--blocks", "256", "--steps", "600000", "--catalogue", "run.catalogue.csv",
-                "--pe-series", "run.pe.bin")
+            run(slider, "--blocks", "256", "--steps", "600000", "--catalogue", "run.catalogue.csv", "--pe-series", "run.pe.bin")
         run(slider, "--blocks", "128", "--steps", "600000", "--catalogue", "other.csv")
         add_header("run.catalogue.csv", f"note = {HOSTILE}")
         run(postproc, "explore", "run.catalogue.csv", "-o", "page.html", "--title", HOSTILE)
@@ -87,9 +88,9 @@ class Page(unittest.TestCase):
 
         options = webdriver.ChromeOptions()
         options.binary_location = browser
-        for flag in ("--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
-                     "--disable-background-networking", "--disable-component-update", "--disable-sync",
-                     "--disable-dev-shm-usage", "--window-size=1400,1000", f"--user-data-dir={cls.folder.name}/browser"):
+        for flag in ("--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
+                     "--disable-component-update", "--disable-sync", "--disable-dev-shm-usage", "--window-size=1400,1000",
+                     f"--user-data-dir={cls.folder.name}/browser"):
             options.add_argument(flag)
         options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
         cls.driver = webdriver.Chrome(service=Service(chromedriver), options=options)
@@ -117,8 +118,10 @@ class Page(unittest.TestCase):
         self.assertEqual(errors, [])
         requests = [json.loads(line["message"])["message"] for line in self.driver.get_log("performance")]
         # Those of this page: the browser opens pages of its own.
-        addresses = {message["params"]["request"]["url"] for message in requests
-                     if message["method"] == "Network.requestWillBeSent" and message["params"]["documentURL"] == self.address}
+        addresses = {
+            message["params"]["request"]["url"]
+            for message in requests if message["method"] == "Network.requestWillBeSent" and message["params"]["documentURL"] == self.address
+        }
         # Pictures embedded in the page have addresses, too.
         self.assertEqual({address for address in addresses if not address.startswith("data:")}, {self.address})
         self.assertIsNone(self.js("return window.harm"))
@@ -249,8 +252,8 @@ class Page(unittest.TestCase):
             self.assertEqual(extremes, [min(values[first:last]), max(values[first:last])])
         # And of the drawing: in a picture of few pixels.
         for first, last in windows[:40]:
-            drawn = self.js("const s = app.runs[0].series; return s.points(s.time(arguments[0]), s.time(arguments[1]), 50).map(p => p[1])",
-                            first, last - 1)
+            drawn = self.js("const s = app.runs[0].series; return s.points(s.time(arguments[0]), s.time(arguments[1]), 50).map(p => p[1])", first,
+                            last - 1)
             inside = values[first:last]
             self.assertLessEqual(min(drawn), min(inside))
             self.assertGreaterEqual(max(drawn), max(inside))
@@ -273,8 +276,7 @@ class Page(unittest.TestCase):
         left = [event for event in self.events if event["size"] >= least and event["t_start"] <= middle]
         self.assertTrue(0 < len(left) < len(self.events))
         self.assertIn(f"{len(left)} of {len(self.events)} events", self.text("#table-count"))
-        self.assertEqual(set(self.shown_ids()), {int(event["event_id"]) for event in
-                                                 sorted(left, key=lambda event: -event["size"])[:100]})
+        self.assertEqual(set(self.shown_ids()), {int(event["event_id"]) for event in sorted(left, key=lambda event: -event["size"])[:100]})
         self.fill("#size-from", "many")
         self.assertEqual(self.one("#size-from").get_attribute("aria-invalid"), "true")
         self.click("#filters [type=reset]")
@@ -311,8 +313,10 @@ class Page(unittest.TestCase):
 
     def threshold_agrees(self):
         size = self.js("return app.threshold")
-        shown = {name: self.text(f"#statistics [data-name={name}]") for name in
-                 ("events", "mean", "exponent", "exponent-to-largest", "gamma", "gamma-least-squares", "variation", "burstiness")}
+        shown = {
+            name: self.text(f"#statistics [data-name={name}]")
+            for name in ("events", "mean", "exponent", "gamma", "gamma-least-squares", "variation", "burstiness")
+        }
         events = sorted(event["size"] for event in self.events if event["size"] >= size)
         self.assertEqual(int(shown["events"]), len(events))
 
@@ -321,11 +325,12 @@ class Page(unittest.TestCase):
             found = re.search(r"(\S+ \+- \S+)", said)
             self.assertNotEqual(found is None, "degenerate" not in said, said)
             return found.group(1).replace("+-", "±") if found else "–"
+
         self.assertEqual(shown["exponent"].split(" (")[0], exponent("--threshold", repr(size)))
-        self.assertEqual(shown["exponent-to-largest"], exponent("--range", f"{size!r}:{events[-1]!r}"))
         said = run(postproc, "intervals", "run.catalogue.csv", "--threshold", repr(size), "--replicas", "0", "-o", "times", "--no-picture")
-        times = (re.search(r" (\S+) +model time +(\S+) +(\S+)\n", said) or  # a row, or a line for each column
-                 re.search(r" mean +(\S+)\n +in +model time\n +standard deviation / mean +(\S+)\n +burstiness +(\S+)\n", said))
+        times = (
+            re.search(r" (\S+) +model time +(\S+) +(\S+)\n", said) or  # a row, or a line for each column
+            re.search(r" mean +(\S+)\n +in +model time\n +standard deviation / mean +(\S+)\n +burstiness +(\S+)\n", said))
         self.assertEqual((shown["mean"], shown["variation"], shown["burstiness"]), times.groups())
         for name, method in (("gamma", "maximum likelihood"), ("gamma-least-squares", "least squares")):
             line = re.search(method + r", δ = 1 held +\d+ +(-|\S+ \+- \S+)", said).group(1)
@@ -354,6 +359,14 @@ class Page(unittest.TestCase):
         self.assertEqual(self.js("return app.threshold"), usual)
 
     @unittest.skipUnless(fault, "no lmp: no ruptures and no slip history")
+    def test_offered_commands_work(self):
+        offered = self.js("return document.querySelector('#commands').textContent").splitlines()
+        self.assertEqual([line.split()[1] for line in offered], ["fit", "intervals"])
+        for line in offered:
+            name, *words = shlex.split(line)
+            self.assertEqual(name, "postproc")
+            run(postproc, *words, "--no-picture", "--replicas", "0")
+
     def test_ruptures_and_their_slip(self):
         ruptures = catalogue("run.ruptures.csv")
         self.js("const kind = document.getElementById('kind'); kind.value = 'ruptures'; kind.dispatchEvent(new Event('change'))")
@@ -363,8 +376,8 @@ class Page(unittest.TestCase):
             self.assertEqual(self.number(column), largest[column])
         self.assertTrue(self.one("#event-slip").is_displayed())
         # Slip along the fault, summed over its bins, is that of all ruptures of these times.
-        slip = self.js("return app.runs[0].slip.slipBetween(arguments[0], arguments[1]).reduce((a, b) => a + b)",
-                       largest["t_start"], largest["t_end"])
+        slip = self.js("return app.runs[0].slip.slipBetween(arguments[0], arguments[1]).reduce((a, b) => a + b)", largest["t_start"],
+                       largest["t_end"])
         inside = [r for r in ruptures if r["t_start"] >= largest["t_start"] and r["t_end"] <= largest["t_end"]]
         overlapping = [r for r in ruptures if r["t_end"] > largest["t_start"] and r["t_start"] < largest["t_end"]]
         total = lambda some: sum(r["mean_slip"] * r["rupture_length"] for r in some)

@@ -20,11 +20,11 @@
 
 #include <unistd.h>
 
-#include "lsm_catalogue.h"
-#include "lsm_event_picker.h"
-#include "lsm_pe_series.h"
-#include "lsm_random.h"
-#include "lsm_slip_history.h"
+#include "files/catalogue.h"
+#include "events/event_picker.h"
+#include "files/pe_series.h"
+#include "numerics/random.h"
+#include "files/slip_history.h"
 
 namespace {
 

@@ -64,6 +64,40 @@ EventTable events(const std::vector<double> &starts, const std::vector<double> &
   return table;
 }
 
+/// Main shocks, each with aftershocks by Omori's law and half as many foreshocks by the same law
+/// back in time, and a steady background throughout. \param each aftershocks of a main shock
+EventTable sequences_on_background(int main_shocks, double each, double p, double background,
+                                   unsigned long seed) {
+  const Rng rng = generator(seed);
+  constexpr double apart = 1000.0, window = 100.0, c = 1.0;
+  struct At {
+    double start, size;
+  };
+  std::vector<At> all;
+  const double q = 1.0 - p, low = std::pow(c, q), high = std::pow(window + c, q);
+  const auto delay = [&] {
+    return std::pow(gsl_ran_flat(rng.get(), std::min(low, high), std::max(low, high)), 1.0 / q) - c;
+  };
+  for (int k = 0; k < main_shocks; ++k) {
+    const double at = apart * (k + 0.5);
+    all.push_back({at, 100.0});
+    for (unsigned i = gsl_ran_poisson(rng.get(), each); i > 0; --i)
+      all.push_back({at + delay(), 1.0});
+    for (unsigned i = gsl_ran_poisson(rng.get(), 0.5 * each); i > 0; --i)
+      all.push_back({at - delay(), 1.0});
+  }
+  const double end = apart * main_shocks;
+  for (unsigned i = gsl_ran_poisson(rng.get(), background * end); i > 0; --i)
+    all.push_back({gsl_ran_flat(rng.get(), 0.0, end), 1.0});
+  std::sort(all.begin(), all.end(), [](const At &a, const At &b) { return a.start < b.start; });
+  std::vector<double> starts, sizes;
+  for (const At &one : all) {
+    starts.push_back(one.start);
+    sizes.push_back(one.size);
+  }
+  return events(starts, std::vector<double>(starts.size(), 0.0), sizes);
+}
+
 /// A Poisson catalogue with sizes of a power law.
 EventTable poisson(int n, double mean, unsigned long seed) {
   const Rng rng = generator(seed);
@@ -76,6 +110,41 @@ EventTable poisson(int n, double mean, unsigned long seed) {
     sizes.push_back(gsl_ran_pareto(rng.get(), 0.7, 1.0));
   }
   return events(starts, durations, sizes);
+}
+
+// p and the ratio of after- to foreshocks are those of the sequences, not of the background, which
+// has three times as many events in the windows.
+TEST(Aftershocks, BackgroundIsTakenOff) {
+  const SequenceRule rule{50.0, 0.5, 100.0, 0.0};
+  std::vector<Measured> p, ratios;
+  double raw = 0.0;
+  int within = 0;
+  constexpr int catalogues = 30;
+  for (unsigned long seed = 1; seed <= catalogues; ++seed) {
+    const EventTable table = sequences_on_background(200, 12.0, 1.2, 0.3, seed);
+    const Sequences s = stack_sequences(table.events, rule);
+    EXPECT_EQ(s.main_shocks, 200);
+    EXPECT_NEAR(s.quiet_time, 200 * 800.0, 2500.0);
+    const Measured background = s.background();
+    EXPECT_NEAR(background.value, 0.3, 5.0 * background.error);
+    EXPECT_NEAR(s.excess_after().value, 2400.0, 5.0 * s.excess_after().error);
+    const Measured ratio = s.after_to_before();
+    within += std::fabs(ratio.value - 2.0) < ratio.error;
+    raw += static_cast<double>(s.times.size()) / static_cast<double>(s.before.size()) / catalogues;
+    ratios.push_back(ratio);
+    const OmoriFit fit = fit_omori(s, 1.0);
+    p.push_back({fit.p, fit.se_p});
+  }
+  EXPECT_LT(raw, 1.3);
+  const Measured mean_p = mean_of_catalogues(p), mean_ratio = mean_of_catalogues(ratios);
+  EXPECT_NEAR(mean_ratio.value, 2.0, 4.0 * mean_ratio.error);
+  EXPECT_LT(mean_ratio.error, 0.1);
+  EXPECT_GE(within, 14);  // 68 % of 30, less three standard errors
+  EXPECT_NEAR(mean_p.value, 1.2, 4.0 * mean_p.error);
+  EXPECT_LT(mean_p.error, 0.03);
+  // One catalogue has its own error, none has none.
+  EXPECT_EQ(mean_of_catalogues({{1.5, 0.2}, {}}).error, 0.2);
+  EXPECT_TRUE(std::isnan(mean_of_catalogues({{}, {}}).value));
 }
 
 TEST(Sequences, MainShocksByHand) {

@@ -214,7 +214,7 @@ TEST_F(CatalogueInput, LengthAndLabelsFromTheHeader) {
   EXPECT_EQ(tables[0].length(), 120.0);
   EXPECT_EQ(tables[1].length(), 256.0);
   EXPECT_TRUE(std::isnan(tables[2].length()));
-  EXPECT_EQ(tables[0].label, "fault, length 120");
+  EXPECT_EQ(tables[0].label, "fault, length 120 (c1)");
   EXPECT_EQ(tables[1].label, "block-slider, N = 256");
   EXPECT_EQ(tables[2].label, "c3");
   EXPECT_EQ(tables[3].label, "fault, length 120 (c4)");

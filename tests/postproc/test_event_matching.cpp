@@ -6,7 +6,7 @@
 
 #include "event_matching.h"
 #include "event_tables.h"
-#include "lsm_random.h"
+#include "numerics/random.h"
 
 using namespace LSM::postproc;
 

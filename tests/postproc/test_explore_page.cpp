@@ -137,16 +137,18 @@ TEST(Thresholds, EachIsWhatTheEstimatorsFind) {
     SizeFitSettings sizes;
     sizes.replicas = 0;
     sizes.threshold = Threshold(result.threshold);
-    EXPECT_EQ(result.searched.alpha, fit_sizes({table}, sizes)[0].fit.alpha);
-    EXPECT_NEAR(result.to_largest.alpha, 1.0, 4.0 * result.to_largest.standard_error);
-    EXPECT_EQ(result.to_largest.lo, result.threshold);
+    EXPECT_EQ(result.law.alpha, fit_sizes({table}, sizes)[0].fit.alpha);
+    EXPECT_EQ(result.law.lo, result.threshold);
+    EXPECT_EQ(result.law.hi, 1000.0 * result.threshold);
+    EXPECT_FALSE(result.law.searched);
     IntervalSettings times;
     times.thresholds = {result.threshold};
     times.replicas = 0;
     const IntervalCurve curve = interval_curves({table}, times)[0];
     EXPECT_EQ(result.intervals.variation, curve.variation);
     ASSERT_EQ(result.intervals.fits.size(), curve.fits.size());
-    EXPECT_EQ(result.intervals.fits.back().fit.gamma, curve.fits.back().fit.gamma);
+    EXPECT_EQ(result.intervals.fits.front().fit.gamma, curve.fits.front().fit.gamma);
+    EXPECT_FALSE(curve.fits.front().fit.degenerate);
     EXPECT_NEAR(curve.burstiness(), (curve.variation - 1) / (curve.variation + 1), 1e-15);
   }
 }

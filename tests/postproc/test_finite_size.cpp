@@ -15,7 +15,7 @@
 
 #include "coverage.h"
 #include "finite_size.h"
-#include "lsm_random.h"
+#include "numerics/random.h"
 
 namespace {
 
@@ -275,6 +275,28 @@ TEST(Scaling, ExactPowerLaw) {
   EXPECT_NEAR(fit.se_D, 0.01 / std::sqrt(spread), 1e-12);
   EXPECT_NEAR(fit.aicc, 2.0 * 2.0 + 12.0 / 3.0, 1e-12);
   EXPECT_NEAR(fit.aicc_constant, fit.chi2_constant + 2.0 + 4.0 / 4.0, 1e-9);
+}
+
+TEST(Scaling, ErrorsOfAPoorLawGrowWithItsScatter) {
+  // Points that scatter by a tenth and claim a hundredth: the errors of D cover all the same.
+  EXPECT_EQ(error_scale(6.0, 4), 1.0);
+  EXPECT_DOUBLE_EQ(error_scale(400.0, 4), 10.0);
+  EXPECT_EQ(error_scale(5.0, 0), 1.0);
+  gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+  gsl_rng_set(rng, 8);
+  int covered = 0;
+  constexpr int trials = 300;
+  for (int i = 0; i < trials; ++i) {
+    std::vector<SizePoint> points;
+    for (double length : lengths) {
+      const double s = std::sqrt(length) * std::exp(gsl_ran_gaussian(rng, 0.1));
+      points.push_back(point(length, s, 0.01 * s));
+    }
+    const ScalingFit fit = fit_scaling(points);
+    covered += std::fabs(fit.D - 0.5) < fit.se_D;
+  }
+  gsl_rng_free(rng);
+  EXPECT_NEAR(static_cast<double>(covered) / trials, 0.63, 0.09);  // Student's t of 4 degrees
 }
 
 TEST(Scaling, ErrorsCoverAndTheRightModelIsPreferred) {

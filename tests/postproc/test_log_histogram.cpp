@@ -8,7 +8,7 @@
 
 #include "coverage.h"
 #include "log_histogram.h"
-#include "lsm_random.h"
+#include "numerics/random.h"
 
 namespace {
 

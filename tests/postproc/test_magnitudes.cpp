@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "coverage.h"
-#include "lsm_random.h"
+#include "numerics/random.h"
 
 using namespace LSM::postproc;
 

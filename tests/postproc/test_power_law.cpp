@@ -16,7 +16,7 @@
 
 #include "coverage.h"
 #include "ks_distance.h"
-#include "lsm_random.h"
+#include "numerics/random.h"
 #include "power_law.h"
 #include "replicas.h"
 #include "truncated_family.h"

@@ -102,7 +102,7 @@ TEST(Intervals, FitFromALowerEndOn) {
   settings.deltas = {1.0};
   settings.least_squares = false;
   settings.replicas = 0;
-  EXPECT_EQ(settings.shortest, 0.05);
+  EXPECT_TRUE(std::isnan(settings.shortest));
   for (const double shortest : {0.0, 0.05, 0.3}) {
     settings.shortest = shortest;
     settings.rescale = false;
@@ -119,6 +119,105 @@ TEST(Intervals, FitFromALowerEndOn) {
     EXPECT_NEAR(again.B * curve.mean, fit.B, 1e-4 * fit.B);
     EXPECT_EQ(again.n, fit.n);
   }
+}
+
+/// Renewal events with gamma-distributed times, as a picker with this memory finds them: after each
+/// it finds none for a time that is random with this mean.
+EventTable picked_events(double shape, double mean, double memory, std::size_t n,
+                         gsl_rng *generator) {
+  std::vector<double> starts;
+  double t = 0.0, deaf_until = -1.0;
+  while (starts.size() < n) {
+    t += gsl_ran_gamma(generator, shape, mean / shape);
+    if (t < deaf_until) continue;
+    starts.push_back(t);
+    deaf_until = t + gsl_ran_exponential(generator, memory);
+  }
+  EventTable table = events(starts, std::vector<double>(starts.size(), 1.0));
+  table.info.parameters = {{"dt", "0.1"},
+                           {"picker", "exponential"},
+                           {"lambda", LSM::text_io::number(std::exp(-0.1 / memory))}};
+  return table;
+}
+
+// What all commands quote: above 2.5 memories of the picker gamma is that of the events, and its
+// errors cover; of all times it is that of the picker.
+TEST(Intervals, GammaWithoutThePicker) {
+  gsl_rng *const generator = gsl_rng_alloc(gsl_rng_mt19937);
+  gsl_rng_set(generator, 17);
+  IntervalSettings usual, all;
+  for (IntervalSettings *settings : {&usual, &all}) {
+    settings->thresholds = {0.0};
+    settings->deltas = {1.0};
+    settings->least_squares = false;
+    settings->replicas = 0;
+  }
+  all.shortest = 0.0;
+  for (const double mean : {20.0, 70.0})
+    for (const double shape : {0.7, 1.0}) {
+      constexpr int trials = 100;
+      double sum = 0.0, biased = 0.0;
+      int one = 0, two = 0;
+      for (int trial = 0; trial < trials; ++trial) {
+        const EventTable table = picked_events(shape, mean, 2.0, 500, generator);
+        EXPECT_NEAR(table.picker_memory(), 2.0, 1e-9);
+        const IntervalCurve curve = interval_curves({table}, usual)[0];
+        EXPECT_NEAR(curve.shortest, 5.0, 1e-9);
+        const GeneralisedGammaFit fit = curve.fits[0].fit;
+        ASSERT_FALSE(fit.degenerate) << fit.why;
+        sum += fit.gamma;
+        one += std::fabs(fit.gamma - shape) < fit.se_gamma;
+        two += std::fabs(fit.gamma - shape) < 2.0 * fit.se_gamma;
+        biased += interval_curves({table}, all)[0].fits[0].fit.gamma;
+      }
+      EXPECT_NEAR(sum / trials, shape, 0.09) << mean << ' ' << shape;
+      EXPECT_GE(one, 54) << mean << ' ' << shape;  // 68 % less three standard errors
+      EXPECT_GE(two, 85) << mean << ' ' << shape;  // 95 %, and what is left of the picker
+      EXPECT_GT(biased / trials - shape, 0.1) << mean << ' ' << shape;
+    }
+  gsl_rng_free(generator);
+}
+
+TEST(Intervals, ShortestTimeThatSaysSomething) {
+  EventTable table = gamma_events(0.7, 20.0, 5000);  // mean 14
+  IntervalSettings settings;
+  settings.thresholds = {0.0};
+  settings.replicas = 0;
+  settings.cuts = true;
+  const auto shortest = [&](const LSM::text_io::Parameters &header) {
+    table.info.parameters = header;
+    return interval_curves({table}, settings)[0].shortest;
+  };
+  const double mean = interval_curves({table}, settings)[0].mean;
+  const std::string lambda = LSM::text_io::number(std::exp(-0.1 / 2.0));
+  EXPECT_NEAR(shortest({}), 0.05 * mean, 1e-12);
+  EXPECT_NEAR(shortest({{"dt", "0.1"}, {"lambda", lambda}}), 5.0, 1e-9);
+  EXPECT_NEAR(shortest({{"dt", "0.02"}, {"stride", "5"}, {"lambda", lambda}}), 5.0, 1e-9);
+  EXPECT_NEAR(shortest({{"dt", "0.001"}, {"lambda", lambda}}), 0.05 * mean, 1e-12);
+  EXPECT_NEAR(shortest({{"dt", "0.1"}, {"lambda", lambda}, {"picker", "literal"}}), 0.05 * mean,
+              1e-12);
+  EXPECT_NEAR(shortest({{"dt", "4"}, {"lambda", "0.5"}, {"picker", "average"}}),
+              2.5 * 4 / std::log(3.0), 1e-9);
+  EXPECT_NEAR(shortest({{"dt", "0.1"}, {"lambda", lambda}, {"events", "ruptures"}}), 0.05 * mean,
+              1e-12);
+
+  table.info.parameters = {{"dt", "0.1"}, {"lambda", lambda}};
+  const IntervalCurve curve = interval_curves({table}, settings)[0];
+  ASSERT_EQ(curve.cuts.size(), 9u);
+  // All times, and the one that is quoted, are among the cuts; least squares uses all bins.
+  EXPECT_EQ(curve.cuts[0].cut, 0.0);
+  EXPECT_EQ(curve.fits[0].method, "maximum likelihood");
+  EXPECT_EQ(curve.fits[0].held, 1.0);
+  int used = 0;
+  for (const GammaOfCut &one : curve.cuts)
+    if (one.cut == curve.shortest) {
+      ++used;
+      EXPECT_EQ(one.fit.gamma, curve.fits[0].fit.gamma);
+    }
+  EXPECT_EQ(used, 1);
+  EXPECT_TRUE(contains(cuts_table({curve}).csv(), ",used,"));
+  EXPECT_EQ(curve.fits[1].method, "least squares");
+  EXPECT_LT(curve.fits[1].fit.lo, 0.5);
 }
 
 TEST(Intervals, AtOnePlaceOnly) {

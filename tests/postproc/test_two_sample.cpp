@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "lsm_random.h"
+#include "numerics/random.h"
 #include "two_sample.h"
 
 using namespace LSM::postproc;

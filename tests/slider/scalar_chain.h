@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The straightforward loop over all blocks, one after the other, PE summed directly every step:
-// what the paper describes, and the yardstick for the chain of slider_cli and, with the ledger, for
-// energy.
+// The straightforward loop over all blocks, one after the other, PE summed directly every step, and
+// where modes couple the blocks, over all pairs of them: what the paper describes, and the
+// yardstick for the chain of slider_cli and, with the ledger, for energy.
 #ifndef LSM_TESTS_SCALAR_CHAIN_H
 #define LSM_TESTS_SCALAR_CHAIN_H
 
@@ -27,19 +27,47 @@ inline double friction_of(const Friction &law, double mu, double v, double slip)
   return mu;
 }
 
-/// Work done and lost since the start: plate = PE + kinetic + friction up to the scheme's error.
+/// Work done and lost since the start: plate = PE + kinetic + friction + radiated up to the
+/// scheme's error.
 struct EnergyLedger {
-  double plate = 0.0, friction = 0.0, kinetic = 0.0;
+  double plate = 0.0, friction = 0.0, kinetic = 0.0, radiated = 0.0;
 };
+
+/// The coupling of blocks i and i + d by modes, C_d: the cosine series of K less its mean, that of
+/// mode 0.
+inline std::vector<double> coupling_of(const Parameters &p) {
+  const int n = p.blocks;
+  std::vector<double> c(static_cast<std::size_t>(p.by_springs() ? 0 : n), 0.0);
+  for (int d = 0; d < static_cast<int>(c.size()); ++d)
+    for (int mode = 0; mode < n; ++mode) {
+      const auto k = static_cast<std::size_t>(std::min(mode, n - mode));
+      const std::int64_t turn = static_cast<std::int64_t>(mode) * d % n;
+      c[static_cast<std::size_t>(d)] +=
+          (p.modes[k] - p.modes[0]) * std::cos(2.0 * LSM::pi * static_cast<double>(turn) / n) / n;
+    }
+  return c;
+}
+
+/// Force of all others on a block: by springs or, summed over all pairs, by modes.
+inline double coupling_force(const Parameters &p, const std::vector<double> &c, const double *u,
+                             std::size_t i) {
+  const auto n = static_cast<std::size_t>(p.blocks);
+  if (p.by_springs())
+    return p.kc * ((u[i > 0 ? i - 1 : n - 1] - u[i]) + (u[i + 1 < n ? i + 1 : 0] - u[i]));
+  double force = 0.0;
+  for (std::size_t j = 0; j < n; ++j) force -= c[(n + j - i) % n] * (u[j] - u[i]);
+  return force;
+}
 
 class ScalarChain {
  public:
   ScalarChain(const Parameters &p, std::vector<double> mu, bool ledger = false)
-      : p_(p), mu_(std::move(mu)), keep_ledger_(ledger) {
+      : p_(p), mu_(std::move(mu)), coupling_(coupling_of(p)), keep_ledger_(ledger) {
     u_.assign(mu_.size(), 0.0);
     v_ = u_;
     force_ = u_;
     rest_ = u_;
+    before_ = u_;
   }
 
   std::int64_t step() const { return step_; }
@@ -60,6 +88,7 @@ class ScalarChain {
     u_ = s.u;
     v_ = s.v;
     rest_ = s.rest.empty() ? u_ : s.rest;
+    before_ = s.before.empty() ? v_ : s.before;
     set_forces();
     pe_ = s.pe_sum;
     dpe_ = s.dpe;
@@ -80,11 +109,18 @@ class ScalarChain {
       saved_u_ = u_;
       saved_v_ = v_;
     }
-    const double h_m = h / p_.mass, half_m = half / p_.mass;
+    const double h_m = h / p_.mass, half_m = half / p_.mass, eta = p_.radiation;
+    const double slower = 1.0 / (1.0 + half_m * eta);
+    const bool balances = p_.scheme == Scheme::adams_bashforth;
     for (std::size_t i = 0; i < n; ++i) {
       double v = v_[i];
+      if (balances) {
+        u_[i] += std::fmax(0.0, h * (1.5 * v - 0.5 * before_[i]));
+        before_[i] = v;
+        continue;
+      }
       if (v == 0.0 && force_[i] <= mu_[i]) continue;  // stuck
-      const double push = force_[i] - friction_of(law, mu_[i], v, u_[i] - rest_[i]);
+      const double push = force_[i] - friction_of(law, mu_[i], v, u_[i] - rest_[i]) - eta * v;
       if (p_.scheme == Scheme::verlet)
         v += half_m * push;
       else
@@ -95,28 +131,27 @@ class ScalarChain {
     }
     ++step_;
     const double pe = set_forces();
-    if (p_.scheme == Scheme::verlet && law.law != Law::velocity_weakening) {
+    if (balances) {
+      const double mobility = 1.0 / eta;
+      for (std::size_t i = 0; i < n; ++i) {
+        if (v_[i] == 0.0 && force_[i] <= mu_[i]) continue;
+        const double slip = v_[i] > 0.0 ? u_[i] - rest_[i] : 0.0;
+        if (law.law == Law::velocity_weakening)
+          v_[i] = larger_root(mobility * force_[i], mobility * mu_[i]);
+        else
+          v_[i] = std::fmax(0.0, mobility * (force_[i] - friction_of(law, mu_[i], v_[i], slip)));
+      }
+    } else if (p_.scheme == Scheme::verlet && law.law != Law::velocity_weakening) {
       for (std::size_t i = 0; i < n; ++i) {
         if (v_[i] == 0.0 && force_[i] <= mu_[i]) continue;
         // A block that came to rest in the first half of the step has healed.
         const double slip = v_[i] > 0.0 ? u_[i] - rest_[i] : 0.0;
-        v_[i] =
-            std::fmax(0.0, v_[i] + half_m * (force_[i] - friction_of(law, mu_[i], v_[i], slip)));
+        v_[i] = std::fmax(
+            0.0, (v_[i] + half_m * (force_[i] - friction_of(law, mu_[i], v_[i], slip))) * slower);
       }
     } else if (p_.scheme == Scheme::verlet) {
-      for (std::size_t i = 0; i < n; ++i) {
-        const double c = v_[i] + half_m * force_[i], b = half_m * mu_[i];
-        const double q = (1.0 + c) * (1.0 + c) - 4.0 * b;
-        if (c <= b && c <= 1.0) {
-          v_[i] = 0.0;
-        } else if (q <= 0.0) {
-          v_[i] = 0.0;
-        } else {
-          const double s = std::sqrt(q);
-          const double w = c > 1.0 ? ((c - 1.0) + s) / 2.0 : 2.0 * (c - b) / ((1.0 - c) + s);
-          v_[i] = w > 0.0 ? w : 0.0;
-        }
-      }
+      for (std::size_t i = 0; i < n; ++i)
+        v_[i] = larger_root((v_[i] + half_m * force_[i]) * slower, half_m * mu_[i] * slower);
     }
     dpe_ = pe - pe_;
     pe_ = pe;
@@ -139,35 +174,41 @@ class ScalarChain {
       ledger_.friction += 0.5 * slip *
                           (friction_of(law, mu_[i], saved_v_[i], saved_u_[i] - rest_[i]) +
                            friction_of(law, mu_[i], v_[i], u_[i] - rest_[i]));
+      ledger_.radiated += 0.5 * slip * p_.radiation * (saved_v_[i] + v_[i]);
       ledger_.kinetic += 0.5 * p_.mass * v_[i] * v_[i];
     }
+  }
+
+  /// That of w = c - b / (1 + w) if it is positive, else 0.
+  static double larger_root(double c, double b) {
+    const double q = (1.0 + c) * (1.0 + c) - 4.0 * b;
+    if ((c <= b && c <= 1.0) || q <= 0.0) return 0.0;
+    const double s = std::sqrt(q);
+    const double w = c > 1.0 ? ((c - 1.0) + s) / 2.0 : 2.0 * (c - b) / ((1.0 - c) + s);
+    return w > 0.0 ? w : 0.0;
   }
 
   /// Forces of all springs; returns PE.
   double set_forces() {
     const std::size_t n = u_.size();
-    const double x = plate(), kc = p_.kc, kl = p_.kl;
-    const double *u = u_.data();
-    double *force = force_.data();
+    const double x = plate();
     double coupling = 0.0, leaves = 0.0;
-    auto one = [&](std::size_t i, double left, double right) {
-      const double stretch = right - u[i], leaf = x - u[i];
-      force[i] = kc * ((left - u[i]) + stretch) + kl * leaf;
-      coupling += stretch * stretch;
-      leaves += leaf * leaf;
-    };
-    if (n == 1) {
-      one(0, u[0], u[0]);
-    } else {
-      one(0, u[n - 1], u[1]);
-      for (std::size_t i = 1; i + 1 < n; ++i) one(i, u[i - 1], u[i + 1]);
-      one(n - 1, u[n - 2], u[0]);
+    for (std::size_t i = 0; i < n; ++i) {
+      const double others = coupling_force(p_, coupling_, u_.data(), i), leaf = x - u_[i];
+      force_[i] = others + p_.kl * leaf;
+      if (p_.by_springs()) {
+        const double stretch = u_[i + 1 < n ? i + 1 : 0] - u_[i];
+        coupling += p_.kc * stretch * stretch;
+      } else {
+        coupling -= (u_[i] - u_[0]) * others;
+      }
+      leaves += p_.kl * leaf * leaf;
     }
-    return 0.5 * (kc * coupling + kl * leaves);
+    return 0.5 * (coupling + leaves);
   }
 
   Parameters p_;
-  std::vector<double> mu_, u_, v_, force_, rest_, saved_u_, saved_v_;
+  std::vector<double> mu_, coupling_, u_, v_, force_, rest_, before_, saved_u_, saved_v_;
   bool keep_ledger_;
   EnergyLedger ledger_;
   std::int64_t step_ = 0;

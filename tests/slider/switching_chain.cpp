@@ -17,7 +17,7 @@ std::ptrdiff_t offset(std::size_t n) { return static_cast<std::ptrdiff_t>(n); }
 }  // namespace
 
 SwitchingChain::SwitchingChain(const Parameters &p, std::vector<double> mu, Located scheme)
-    : p_(p), scheme_(scheme), mu_(std::move(mu)) {
+    : p_(p), scheme_(scheme), mu_(std::move(mu)), coupling_(coupling_of(p)) {
   n_ = mu_.size();
   y_.assign(2 * n_ + 1, 0.0);
   slides_.assign(n_, 0);
@@ -98,8 +98,7 @@ void SwitchingChain::advance() {
 }
 
 double SwitchingChain::force(const double *u, std::size_t i, double plate) const {
-  const double left = u[i > 0 ? i - 1 : n_ - 1], right = u[i + 1 < n_ ? i + 1 : 0];
-  return p_.kc * ((left - u[i]) + (right - u[i])) + p_.kl * (plate - u[i]);
+  return coupling_force(p_, coupling_, u, i) + p_.kl * (plate - u[i]);
 }
 
 void SwitchingChain::derive(double t, const double *y, double *dy) const {
@@ -111,7 +110,7 @@ void SwitchingChain::derive(double t, const double *y, double *dy) const {
       // Stages may overshoot to v < 0 just before the block sticks; the law continues smoothly.
       const double friction = friction_of(p_.friction, mu_[i], v, y[i] - rest_[i]);
       dy[i] = v;
-      dy[n_ + i] = (force(y, i, plate) - friction) / p_.mass;
+      dy[n_ + i] = (force(y, i, plate) - friction - p_.radiation * v) / p_.mass;
       loss += friction * v;
     } else {
       dy[i] = dy[n_ + i] = 0.0;

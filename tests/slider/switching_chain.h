@@ -60,7 +60,7 @@ class SwitchingChain {
 
   Parameters p_;
   Located scheme_;
-  std::vector<double> mu_;
+  std::vector<double> mu_, coupling_;
   std::vector<double> y_;     // u, v of every block, then the friction loss
   std::vector<double> rest_;  // where each block last rested
   std::vector<double> trial_, middle_, error_;

@@ -203,6 +203,44 @@ TEST(SliderPhysics, BlockPushedBackwardsStaysStuck) {
   }
 }
 
+// One block in the middle of a slip, after one step. \param force that of its leaf spring
+ChainState after_a_step(Parameters p, double v, double force) {
+  p.blocks = 1;
+  StartedChain chain(p, {0.8});
+  ChainState s = chain.state();
+  s.u[0] = -force / p.kl;
+  s.v[0] = v;
+  chain.set_state(s);
+  chain.advance();
+  s.v[0] = chain.velocities()[0];
+  s.u[0] = chain.displacements()[0] - s.u[0];
+  return s;
+}
+
+TEST(SliderPhysics, PrintedSchemeStopsABlockWithTheAccelerationThatStopsIt) {
+  // Eqs. 7 and 8 with a = f - mu_0 / (1 + v), and where that would turn the block back, a = -v/h.
+  Parameters p;
+  p.scheme = Scheme::printed;
+  p.dt = 0.01;
+  const double h = p.dt, v = 0.5, force = 0.2, a = force - 0.8 / (1.0 + v);
+  const ChainState moves = after_a_step(p, v, force);
+  EXPECT_DOUBLE_EQ(moves.v[0], v + h * a);
+  EXPECT_NEAR(moves.u[0], h * v + 0.5 * h * h * a, 1e-14);
+  const double slow = 0.001;
+  ASSERT_LT(slow + h * (force - 0.8 / (1.0 + slow)), 0.0);
+  const ChainState stops = after_a_step(p, slow, force);
+  EXPECT_EQ(stops.v[0], 0.0);
+  EXPECT_NEAR(stops.u[0], 0.5 * h * slow, 1e-14);
+}
+
+TEST(SliderPhysics, FrictionIsAForce) {
+  Parameters p;
+  p.scheme = Scheme::semi_implicit;
+  p.dt = 0.01;
+  p.mass = 4.0;
+  EXPECT_DOUBLE_EQ(after_a_step(p, 0.5, 0.2).v[0], 0.5 + p.dt * (0.2 - 0.8 / 1.5) / 4.0);
+}
+
 TEST(SliderPhysics, EnergyLedgerClosesAsTheSchemeConverges) {
   // Work of the plate = PE + kinetic energy + friction loss.
   const OneEvent e;

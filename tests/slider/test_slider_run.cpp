@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "lsm_pe_series.h"
+#include "files/pe_series.h"
 #include "read_catalogue.h"
 #include "slider_files.h"
 #include "slider_run.h"
@@ -132,6 +132,35 @@ TEST(SliderRun, EventsAreThoseOfTheSeries) {
   // Blocks also slide while the plate raises PE faster, but most of the slip is in events.
   EXPECT_LE(slip, 50.0 * r.mean_slip);
   EXPECT_GT(slip, 25.0 * r.mean_slip);
+}
+
+TEST(SliderRun, DropsByThePlateAreCountedAndLeftOut) {
+  RunOptions o = options(256, 0.05, 1200000);
+  o.warmup = 12000.0;
+  o.picker.lambda = std::exp(-0.05);
+  o.catalogue = testing::TempDir() + "slider_all_drops.csv";
+  const RunResult all = run(o);
+  o.catalogue = testing::TempDir() + "slider_slip_drops.csv";
+  o.keep_by_plate = false;
+  const RunResult slips = run(o);
+  EXPECT_EQ(all.by_plate, slips.by_plate);
+  ASSERT_GT(all.by_plate, 2);
+  EXPECT_EQ(slips.events, all.events - all.by_plate);
+  EXPECT_EQ(slips.steps, all.steps);
+  EXPECT_EQ(slips.pe, all.pe);
+  const double strongest = *std::max_element(o.mu.begin(), o.mu.end());
+  const unit::Catalogue kept = unit::read_catalogue(o.catalogue);
+  const unit::Catalogue both = unit::read_catalogue(testing::TempDir() + "slider_all_drops.csv");
+  std::size_t k = 0;
+  for (const LSM::Event &e : both.events) {
+    if (e.size > strongest * e.slip_moment) continue;
+    ASSERT_LT(k, kept.events.size());
+    EXPECT_EQ(kept.events[k].step_start, e.step_start);
+    EXPECT_EQ(kept.events[k].size, e.size);
+    ++k;
+    EXPECT_EQ(kept.events[k - 1].id, static_cast<std::int64_t>(k));
+  }
+  EXPECT_EQ(k, kept.events.size());
 }
 
 TEST(SliderRun, AllSchemesFindTheFirstLargeEvent) {

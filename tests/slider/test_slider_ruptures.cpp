@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "lsm_pe_series.h"
-#include "lsm_random.h"
+#include "files/pe_series.h"
+#include "numerics/random.h"
 #include "read_catalogue.h"
 #include "slider_chain.h"
 #include "slider_ruptures.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "lsm_catalogue.h"
+#include "files/catalogue.h"
 
 namespace unit {
 

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "lsm_event_picker.h"
-#include "lsm_slip_history.h"
+#include "events/event_picker.h"
+#include "files/slip_history.h"
 
 namespace unit {
 

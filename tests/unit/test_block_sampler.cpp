@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "lsm_block_sampler.h"
+#include "events/block_sampler.h"
 
 #include <gtest/gtest.h>
 

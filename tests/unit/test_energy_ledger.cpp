@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "lsm_energy_ledger.h"
+#include "fault/energy_ledger.h"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
-#include "lsm_state.h"
+#include "files/state.h"
 
 namespace {
 
@@ -85,12 +85,13 @@ TEST(EnergyLedger, NothingIsAskedForWithoutABegin) {
 TEST(EnergyLedger, GoesOnFromARestart) {
   EnergyLedger first;
   first.begin(terms(1.0, 2.0, 0.0, 0.0, 0.0, 0.0));
-  const EnergyTerms at_restart = terms(1.0, 2.0, 0.5, 0.25, 0.125, 1.0);
+  EnergyTerms at_restart = terms(1.0, 2.0, 0.5, 0.25, 0.125, 1.0);
+  at_restart.within = 0.0625;
   std::vector<double> file;
   StateWriter to(file);
   const EnergyLedger kept = first.kept(at_restart);
   EnergyLedger::visit(kept, to);
-  EXPECT_EQ(file.size(), 4u);
+  EXPECT_EQ(file.size(), 5u);
   EnergyLedger second;
   StateReader from(file);
   EnergyLedger::visit(second, from);
@@ -99,6 +100,7 @@ TEST(EnergyLedger, GoesOnFromARestart) {
   const EnergyTerms now = second.with_earlier_works(terms(1.0, 2.0, 0.0, 0.25, 0.0, 1.0));
   EXPECT_EQ(now.friction, 0.5);
   EXPECT_EQ(now.broken, 0.125);
+  EXPECT_EQ(now.within, 0.0625);
   EXPECT_EQ(second.residual(now), first.residual(at_restart));
 }
 

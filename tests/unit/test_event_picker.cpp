@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "lsm_event_picker.h"
-#include "lsm_random.h"
+#include "events/event_picker.h"
+#include "numerics/random.h"
 #include "unit_files.h"
 
 namespace {

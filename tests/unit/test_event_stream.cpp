@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "lsm_event_stream.h"
+#include "events/event_stream.h"
 
 #include <gtest/gtest.h>
 
@@ -73,10 +73,10 @@ struct MadeUpRun {
     for (int b = 0; b < grid.bins; ++b) {
       double *const s = &sums[LSM::fault_fields * static_cast<std::size_t>(b)];
       const bool slips = slides(step) && b >= 3 && b < 6 + step / 40;
-      s[0] += slips ? 0.02 * (b + 1) : 1e-5;
-      s[1] += 1.0;
-      s[2] += slips ? 0.001 * (b + 1) : 0.0;
-      s[3] += 1.0 + 0.01 * static_cast<double>(step % 40) - (slips ? 0.1 : 0.0);
+      s[LSM::UPPER] += slips ? 0.02 * (b + 1) : 1e-5;
+      s[LSM::UPPER_STEPS] += 1.0;
+      s[LSM::WORK] += slips ? 0.001 * (b + 1) : 0.0;
+      s[LSM::FORCE] += 1.0 + 0.01 * static_cast<double>(step % 40) - (slips ? 0.1 : 0.0);
     }
   }
 
@@ -281,7 +281,7 @@ TEST_F(EventStreamFiles, RupturesOfOtherBinsDoNotGoOn) {
   settings.bin_width = 2.0;
   settings.resume = true;
   MadeUpRun second(settings);
-  EXPECT_FALSE(saved.goes_on_with(1, second.grid));
+  EXPECT_FALSE(saved.continues_with(1, second.grid));
   second.stream->set_state(saved);
   EXPECT_EQ(second.stream->counts().events, events);  // the numbers continue
   EXPECT_EQ(second.stream->open(), 0);
@@ -292,6 +292,7 @@ TEST_F(EventStreamFiles, RupturesOfOtherBinsDoNotGoOn) {
 }
 
 TEST_F(EventStreamFiles, DamagedStatesAreRefused) {
+  constexpr std::size_t picker_words = sizeof(LSM::PickerState) / sizeof(double);
   MadeUpRun run(rupture_settings("a"));
   run.begin();
   run.run(0, 236, 20);
@@ -299,8 +300,8 @@ TEST_F(EventStreamFiles, DamagedStatesAreRefused) {
   std::vector<double> state = run.stream->state(run.sums);
   SavedStream saved;
   EXPECT_TRUE(saved.read(state, 0, 1));
-  for (const std::size_t length_left : {std::size_t{0}, SavedStream::picker_words - 1,
-                                        SavedStream::picker_words + 4, state.size() - 1})
+  for (const std::size_t length_left :
+       {std::size_t{0}, picker_words - 1, picker_words + 4, state.size() - 1})
     EXPECT_FALSE(saved.read({state.begin(), state.begin() + static_cast<long>(length_left)}, 0, 1))
         << length_left;
   state.push_back(0.0);

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "lsm_force_laws.h"
+#include "friction/force_laws.h"
 
 namespace {
 

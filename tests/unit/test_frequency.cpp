@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The bound of the highest frequency against all eigenvalues by Jacobi rotations.
-#include "lsm_frequency.h"
+#include "fault/frequency.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "lsm_packing.h"
-#include "lsm_random.h"
+#include "fault/packing.h"
+#include "numerics/random.h"
 
 namespace {
 

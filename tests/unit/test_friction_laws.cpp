@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The friction laws of core/laws: properties of all of them, and each against a closed form.
+// The friction laws of core/friction: properties of all of them, and each against a closed form.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 #include <type_traits>
 
-#include "laws/friction_laws.h"
-#include "laws/linear_spring.h"
+#include "friction/friction_laws.h"
+#include "friction/linear_spring.h"
 
 namespace {
 
@@ -55,7 +55,7 @@ template <class Act>
 int for_each_law(Act act) {
   int count = 0;
 #define LSM_FRICTION_LAW(Law) act(LSM::Law()), ++count;
-#include "laws/friction_laws.h"
+#include "friction/friction_laws.h"
 #undef LSM_FRICTION_LAW
   return count;
 }

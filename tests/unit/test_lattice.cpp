@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "lsm_lattice.h"
+#include "fault/lattice.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "lsm_link_kernel.h"
-#include "lsm_random.h"
+#include "numerics/random.h"
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "lsm_output_claim.h"
+#include "files/output_claim.h"
 #include "unit_files.h"
 
 namespace {
@@ -40,13 +40,13 @@ class OutputClaims : public unit::Files {
   }
 
   /// Another process that holds the lock of a file until it is killed.
-  void hold(const std::string &name, FileLock::Flock flock) {
+  void hold(const std::string &name) {
     int ready[2];
     ASSERT_EQ(pipe(ready), 0);
     child_ = fork();
     ASSERT_GE(child_, 0);
     if (child_ == 0) {
-      const FileLock lock(path(name), flock);
+      const FileLock lock(path(name));
       const bool told = write(ready[1], "!", 1) == 1;
       while (told) pause();
       _exit(1);
@@ -135,68 +135,39 @@ TEST_F(OutputClaims, NothingIsHeldIfOneIsTaken) {
 }
 
 TEST_F(OutputClaims, AnotherRunIsNamedWhicheverWayTheFileIs) {
-  for (FileLock::Flock flock : {FileLock::Flock(::flock), FileLock::Flock(no_flock)}) {
-    spill(path("a.csv"), "x");
-    if (!fs::exists(path("link.csv"))) fs::create_symlink("a.csv", path("link.csv"));
-    hold("a.csv", flock);
-    for (const char *name : {"a.csv", "link.csv"}) {
-      const std::string message =
-          message_of<FileError>([&] { const FileLock lock(path(name), flock); });
-      EXPECT_TRUE(contains(message, path(name) + ": is being written by another run: process " +
-                                        std::to_string(child_) + " on "));
-      EXPECT_EQ(message.find('\n'), std::string::npos);
-    }
-    end_child();
-    // Killed: its lock file is still there, but no longer a lock.
-    EXPECT_TRUE(fs::exists(path("a.csv.lock")));
-    { const FileLock lock(path("a.csv"), flock); }
-    EXPECT_FALSE(fs::exists(path("a.csv.lock")));
+  spill(path("a.csv"), "x");
+  fs::create_symlink("a.csv", path("link.csv"));
+  hold("a.csv");
+  for (const char *name : {"a.csv", "link.csv"}) {
+    const std::string message = message_of<FileError>([&] { const FileLock lock(path(name)); });
+    EXPECT_TRUE(contains(message, path(name) + ": is being written by another run: process " +
+                                      std::to_string(child_) + " on "));
+    EXPECT_EQ(message.find('\n'), std::string::npos);
   }
+  end_child();
+  // Killed: its lock file is still there, but no longer a lock.
+  EXPECT_TRUE(fs::exists(path("a.csv.lock")));
+  { const FileLock lock(path("a.csv")); }
+  EXPECT_FALSE(fs::exists(path("a.csv.lock")));
 }
 
-/// Lock file of a process; host, boot and begin as this process has them unless changed.
-std::string lock_text(const std::string &key, const std::string &value) {
-  std::string text = LSM::output_claim_detail::to_text(LSM::output_claim_detail::this_process());
-  const std::size_t at = text.find("# " + key + " = ");
-  EXPECT_NE(at, std::string::npos);
-  return text.replace(at, text.find('\n', at) - at, "# " + key + " = " + value);
-}
-
-TEST_F(OutputClaims, WithoutFlockStaleOnesAreToldApart) {
-  const std::string lock = path("a.csv.lock");
-  // The number of an ended process, since given to another; a reboot of the host since.
-  for (const std::string &text :
-       {lock_text("begun", "1"), lock_text("boot", "other [1]"), std::string()}) {
-    spill(lock, text);
-    { const FileLock held(path("a.csv"), no_flock); }
-    EXPECT_FALSE(fs::exists(lock)) << text;
-  }
-  // Another host, or another container of this one.
-  const std::string boot = LSM::output_claim_detail::this_process().boot;
-  for (const std::string &text : {lock_text("host", "elsewhere"),
-                                  lock_text("boot", boot.substr(0, boot.find(' ')) + " pid:[1]")}) {
-    spill(lock, text);
-    EXPECT_TRUE(contains(message_of<FileError>([&] { FileLock(path("a.csv"), no_flock); }),
-                         ", or remove " + lock + " if it has ended"));
-    EXPECT_EQ(slurp(lock), text);
-  }
-  // With flock no process holds it.
-  { const FileLock held(path("a.csv")); }
-  EXPECT_FALSE(fs::exists(lock));
+TEST_F(OutputClaims, FileSystemsWithoutLocksAreRefused) {
+  EXPECT_TRUE(contains(message_of<FileError>([&] { FileLock(path("a.csv"), no_flock); }),
+                       path("a.csv") + ": its file system has no locks (flock)"));
+  EXPECT_FALSE(fs::exists(path("a.csv.lock")));
 }
 
 TEST_F(OutputClaims, AFileThatIsNoLockStays) {
-  for (FileLock::Flock flock : {FileLock::Flock(::flock), FileLock::Flock(no_flock)}) {
-    spill(path("a.csv.lock"), "my notes\n");
-    EXPECT_TRUE(contains(message_of<FileError>([&] { FileLock(path("a.csv"), flock); }),
-                         "holds something else"));
-    EXPECT_EQ(slurp(path("a.csv.lock")), "my notes\n");
-  }
+  spill(path("a.csv.lock"), "my notes\n");
+  EXPECT_TRUE(contains(message_of<FileError>([&] { const FileLock lock(path("a.csv")); }),
+                       "holds something else"));
+  EXPECT_EQ(slurp(path("a.csv.lock")), "my notes\n");
   // Nor does a link lead to another file.
   fs::remove(path("a.csv.lock"));
   spill(path("victim"), "");
   fs::create_symlink("victim", path("a.csv.lock"));
-  EXPECT_TRUE(contains(message_of<FileError>([&] { FileLock(path("a.csv")); }), "cannot open"));
+  EXPECT_TRUE(
+      contains(message_of<FileError>([&] { const FileLock lock(path("a.csv")); }), "cannot open"));
   EXPECT_EQ(slurp(path("victim")), "");
 }
 

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "lsm_pe_series.h"
+#include "files/pe_series.h"
 #include "unit_files.h"
 
 namespace {
@@ -96,7 +96,7 @@ TEST_F(PeSeries, FormatToTheByte) {
 
 PeSeriesInfo leaping() {
   PeSeriesInfo info = some_info();
-  info.own_times = true;
+  info.explicit_times = true;
   return info;
 }
 

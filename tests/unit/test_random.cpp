@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "lsm_random.h"
+#include "numerics/random.h"
 #include "unit_files.h"
 
 namespace {

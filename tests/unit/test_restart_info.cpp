@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "lsm_restart_info.h"
+#include "files/restart_info.h"
 #include "unit_files.h"
 
 namespace {

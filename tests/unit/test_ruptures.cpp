@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "lsm_random.h"
+#include "numerics/random.h"
 #include "events/ruptures.h"
 #include "slow_ruptures.h"
 
@@ -284,39 +284,45 @@ TEST(FaultRuptures, ImpossibleSettingsAndStatesAreRefused) {
   EXPECT_NO_THROW(finder.set_state(state));
 }
 
-// ---- contacts to bins ----
+// ---- faces and contacts to bins ----
 
-TEST(SlipRecorder, MeanOfTheContactsAndStress) {
+using Contacts = std::vector<LSM::FaultContact>;
+using Faces = std::vector<LSM::FaceDisplacement>;
+
+TEST(SlipRecorder, SlipOfTheFacesWorkAndStressOfTheContacts) {
   const FaultGrid grid = some_grid();
   LSM::SlipRecorder sums;
   sums.begin(grid, 1.0);
-  // Two contacts in bin 2 in each of 4 steps, one of them seen by two ranks; one in bin 9.
-  for (int step = 0; step < 4; ++step) {
-    sums.add({{-0.5, 0.01, 0.002, 0.1, 1.0}});
-    sums.add({{0.5, 0.03, 0.006, 0.3, 0.5}});
-    sums.add({{0.5, 0.03, 0.006, 0.3, 0.5}});
-    sums.add({{14.9 - 20.0, 0.002, 0.0, 0.0, 1.0}});
-  }
+  // Contacts in bin 2 in each of 4 steps, one of them seen by two ranks.
+  for (int step = 0; step < 4; ++step)
+    sums.add(Contacts{{-0.5, 0.002, 0.1, 1.0}, {0.5, 0.006, 0.3, 0.5}, {0.5, 0.006, 0.3, 0.5}});
+  // The upper face moves in bins 2 (two particles) and 9, the lower one has a particle in bin 5.
+  sums.add(Faces{{-0.5, 0.05, 4.0, true},
+                 {0.5, 0.03, 4.0, true},
+                 {14.9 - 20.0, 0.008, 4.0, true},
+                 {5.5, -0.01, 4.0, false}});
   const FaultRow row = LSM::fault_row(grid, sums.sums().data(), 4);
-  EXPECT_FLOAT_EQ(row.slip[2], 4 * 0.02F);
+  EXPECT_FLOAT_EQ(row.slip[2], 0.04F + 0.01F);
   EXPECT_FLOAT_EQ(row.work[2], 4 * 0.008F);
   EXPECT_FLOAT_EQ(row.stress[2], 0.4F / 2.0F);
-  EXPECT_FLOAT_EQ(row.slip[9], 4 * 0.002F);
-  // Bins without contacts: linear in between, across the seam, too.
-  EXPECT_FLOAT_EQ(row.slip[3], 4 * (0.02F - 0.018F / 7.0F));
-  EXPECT_FLOAT_EQ(row.slip[8], 4 * (0.002F + 0.018F / 7.0F));
-  EXPECT_FLOAT_EQ(row.slip[0], 4 * 0.008F);
-  EXPECT_FLOAT_EQ(row.slip[1], 4 * 0.014F);
+  EXPECT_FLOAT_EQ(row.slip[9], 0.008F + 0.01F);
+  // Bins without particles of a face: linear in between, across the seam, too.
+  EXPECT_FLOAT_EQ(row.slip[3], 0.04F - 0.032F / 7.0F + 0.01F);
+  EXPECT_FLOAT_EQ(row.slip[8], 0.008F + 0.032F / 7.0F + 0.01F);
+  EXPECT_FLOAT_EQ(row.slip[0], 0.008F + 0.032F / 3.0F + 0.01F);
+  EXPECT_FLOAT_EQ(row.slip[1], 0.008F + 2.0F * 0.032F / 3.0F + 0.01F);
   EXPECT_EQ(row.work[3], 0.0F);
   EXPECT_EQ(row.stress[3], 0.0F);
 }
 
-TEST(SlipRecorder, ContactOfOneStepGivesAVelocity) {
+// Added twice within an interval (a restart file is written in between), it is the same slip.
+TEST(SlipRecorder, PartsOfAnIntervalAddUp) {
   LSM::SlipRecorder sums;
   sums.begin(some_grid(), 1.0);
-  sums.add({{0.0, 0.01, 0.0, 0.0, 1.0}});
+  sums.add(Faces{{0.0, 0.01, 1.0, true}, {0.2, 0.03, 1.0, true}});
+  sums.add(Faces{{0.0, 0.05, 3.0, true}, {0.2, 0.03, 3.0, true}});
   const FaultRow row = LSM::fault_row(some_grid(), sums.sums().data(), 4);
-  for (const float slip : row.slip) EXPECT_FLOAT_EQ(slip, 0.04F);
+  for (const float slip : row.slip) EXPECT_FLOAT_EQ(slip, 0.06F);
   sums.clear();
   const FaultRow none = LSM::fault_row(some_grid(), sums.sums().data(), 4);
   for (const float slip : none.slip) EXPECT_EQ(slip, 0.0F);
@@ -326,10 +332,15 @@ TEST(SlipRecorder, EdgesAndPlacesOutsideTheBoxHaveABin) {
   for (const double x : {-5.0, 14.999999999999998, 15.0, 1e9, -1e9, std::nextafter(-5.0, -6.0)}) {
     LSM::SlipRecorder sums;
     sums.begin(some_grid(), 1.0);
-    sums.add({{x, 0.01, 0.0, 0.0, 1.0}});
-    double contacts = 0.0;
-    for (std::size_t b = 0; b < 10; ++b) contacts += sums.sums()[LSM::fault_fields * b + 1];
-    EXPECT_EQ(contacts, 1.0) << x;
+    sums.add(Contacts{{x, 1.0, 0.0, 1.0}});
+    sums.add(Faces{{x, 0.01, 4.0, true}});
+    double work = 0.0, steps = 0.0;
+    for (std::size_t b = 0; b < 10; ++b) {
+      work += sums.sums()[LSM::fault_fields * b + LSM::WORK];
+      steps += sums.sums()[LSM::fault_fields * b + LSM::UPPER_STEPS];
+    }
+    EXPECT_EQ(work, 1.0) << x;
+    EXPECT_EQ(steps, 4.0) << x;
   }
 }
 

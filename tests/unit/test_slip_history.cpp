@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "lsm_slip_history.h"
+#include "files/slip_history.h"
 #include "unit_files.h"
 
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "lsm_slip_recorder.h"
+#include "events/slip_recorder.h"
 
 #include <gtest/gtest.h>
 
@@ -13,6 +13,8 @@ using LSM::Event;
 using LSM::EventLocator;
 using LSM::FaultGrid;
 using LSM::SlipRecorder;
+using Contacts = std::vector<LSM::FaultContact>;
+using Faces = std::vector<LSM::FaceDisplacement>;
 
 FaultGrid four_bins() {
   FaultGrid grid;
@@ -37,39 +39,48 @@ TEST(SlipRecorder, SumsAlongTheDirectionOfDriving) {
   for (const double forward : {1.0, -1.0}) {
     SlipRecorder recorder;
     recorder.begin(four_bins(), forward);
-    // x, slip, work, force, share; the second one is across the seam
-    recorder.add({{13.0, 0.5, 0.25, 2.0, 1.0}, {9.5, 1.0, 4.0, 8.0, 0.5}});
-    recorder.add({{13.5, 0.25, 0.5, 1.0, 1.0}});
+    // x, work, force, share; the second one is across the seam
+    recorder.add(Contacts{{13.0, 0.25, 2.0, 1.0}, {9.5, 4.0, 8.0, 0.5}});
+    recorder.add(Contacts{{13.5, 0.5, 1.0, 1.0}});
+    // x, displacement, steps, upper
+    recorder.add(Faces{{12.5, 0.5, 5.0, true}, {13.5, 0.25, 5.0, true}, {8.5, -1.0, 5.0, false}});
+    // displacements of the upper and the lower face with their steps, work, force
     const std::vector<double> expected = {0,
+                                          0,
+                                          0,
                                           0,
                                           0,
                                           0,  // bin 0
                                           forward * 0.75,
-                                          2.0,
+                                          10.0,
+                                          0,
+                                          0,
                                           0.75,
                                           forward * 3.0,  // bin 1
                                           0,
                                           0,
                                           0,
+                                          0,
+                                          0,
                                           0,  // bin 2
-                                          forward * 0.5,
-                                          0.5,
+                                          0,
+                                          0,
+                                          forward * -1.0,
+                                          5.0,
                                           2.0,
                                           forward * 4.0};  // bin 3
     EXPECT_EQ(recorder.sums(), expected);
     recorder.clear();
-    EXPECT_EQ(recorder.sums(), std::vector<double>(16, 0.0));
+    EXPECT_EQ(recorder.sums(), std::vector<double>(24, 0.0));
   }
 }
 
 TEST(SlipRecorder, BeforeTheFirstIntervalOnlyForcesCount) {
   SlipRecorder recorder;
   recorder.begin(four_bins(), -1.0);
-  recorder.add_forces({{11.0, 0.5, 0.25, 2.0, 0.5}});
-  EXPECT_EQ(recorder.sums()[0], 0.0);
-  EXPECT_EQ(recorder.sums()[1], 0.5);
-  EXPECT_EQ(recorder.sums()[2], 0.0);
-  EXPECT_EQ(recorder.sums()[3], -1.0);
+  recorder.add_forces({{11.0, 0.25, 2.0, 0.5}});
+  EXPECT_EQ(recorder.sums()[LSM::WORK], 0.0);
+  EXPECT_EQ(recorder.sums()[LSM::FORCE], -1.0);
 }
 
 TEST(EventLocator, MomentCentroidAndLength) {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "lsm_sum.h"
+#include "numerics/sum.h"
 
 namespace {
 

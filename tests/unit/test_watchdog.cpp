@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "lsm_watchdog.h"
+#include "fault/watchdog.h"
 
 #include <gtest/gtest.h>
 
@@ -28,8 +28,8 @@ TEST(Watchdog, LooksEverySoManySteps) {
 TEST(Watchdog, StrainedLinks) {
   Watchdog watchdog({0.5, 0.0, 100});
   EnergyLedger ledger;
-  EXPECT_EQ(watchdog.look(true, 0.5, ledger, not_asked).what, "");
-  const auto found = watchdog.look(true, 0.5126, ledger, not_asked);
+  EXPECT_EQ(watchdog.check(true, 0.5, ledger, not_asked).what, "");
+  const auto found = watchdog.check(true, 0.5126, ledger, not_asked);
   EXPECT_EQ(found.what, "a link is strained by 0.5126, above strainlimit 0.5");
   EXPECT_TRUE(found.finite);
 }
@@ -39,27 +39,28 @@ TEST(Watchdog, NotFinite) {
   EnergyLedger ledger;
   EXPECT_EQ(Watchdog::comparable(0.25), 0.25);
   for (const double strain : {nan, std::numeric_limits<double>::infinity()}) {
-    const auto found = watchdog.look(true, Watchdog::comparable(strain), ledger, not_asked);
+    const auto found = watchdog.check(true, Watchdog::comparable(strain), ledger, not_asked);
     EXPECT_EQ(found.what, "the potential energy is not finite");
     EXPECT_FALSE(found.finite);
   }
-  EXPECT_EQ(watchdog.look(false, 0.0, ledger, not_asked).what,
+  EXPECT_EQ(watchdog.check(false, 0.0, ledger, not_asked).what,
             "the potential energy is not finite");
 }
 
 TEST(Watchdog, WithinAStepOnlyWhatCannotWaitStops) {
   Watchdog watchdog({0.5, 0.0, 1000});
   // Two discs of 2 apart, ghosts up to 3.6: a strain of 0.8 tears the link.
-  EXPECT_EQ(watchdog.look_early(0.3, 2.0, 3.6), "");
+  EXPECT_EQ(watchdog.check_links(0.3, 2.0, 3.6), "");
   EXPECT_FALSE(watchdog.due(1));
-  EXPECT_EQ(watchdog.look_early(0.7, 2.0, 3.6), "");
+  EXPECT_EQ(watchdog.check_links(0.7, 2.0, 3.6), "");
   EXPECT_TRUE(watchdog.due(1));  // at the end of this step
-  EXPECT_NE(watchdog.look(true, 0.7, EnergyLedger(), not_asked).what, "");
+  EXPECT_NE(watchdog.check(true, 0.7, EnergyLedger(), not_asked).what, "");
   EXPECT_FALSE(watchdog.due(1));
-  EXPECT_EQ(watchdog.look_early(0.9, 2.0, 3.6), "a link is strained by 0.9, above strainlimit 0.5");
-  watchdog.calm_down();
+  EXPECT_EQ(watchdog.check_links(0.9, 2.0, 3.6),
+            "a link is strained by 0.9, above strainlimit 0.5");
+  watchdog.reset();
   EXPECT_FALSE(watchdog.due(1));
-  EXPECT_EQ(watchdog.look_early(Watchdog::comparable(nan), 2.0, 3.6), "positions are not finite");
+  EXPECT_EQ(watchdog.check_links(Watchdog::comparable(nan), 2.0, 3.6), "positions are not finite");
 }
 
 TEST(Watchdog, LedgerOutOfBalance) {
@@ -70,8 +71,8 @@ TEST(Watchdog, LedgerOutOfBalance) {
   now.kinetic = 0.98;
   now.counted_pe = -1.02;  // a scale of 2, and 0.02 lost
   const auto terms = [&] { return now; };
-  EXPECT_EQ(Watchdog({0.5, 0.011, 1}).look(true, 0.0, ledger, terms).what, "");
-  const auto found = Watchdog({0.5, 0.009, 1}).look(true, 0.0, ledger, terms);
+  EXPECT_EQ(Watchdog({0.5, 0.011, 1}).check(true, 0.0, ledger, terms).what, "");
+  const auto found = Watchdog({0.5, 0.009, 1}).check(true, 0.0, ledger, terms);
   EXPECT_EQ(found.what, "the energy ledger is out of balance by -0.02 of 2, above tolerance 0.009");
   EXPECT_TRUE(found.finite);
 }

@@ -15,6 +15,7 @@
 #include <type_traits>
 
 #include "lsm_styles.h"
+#include "lsm_version.h"
 
 using namespace LAMMPS_NS;
 
@@ -33,7 +34,7 @@ class Registrar {
       lmp_(lmp), register_(reinterpret_cast<lammpsplugin_regfunc>(regfunc))
   {
     plugin_.version = LAMMPS_VERSION;
-    plugin_.author = "the LSM package";
+    plugin_.author = "the LSM package " LSM_VERSION;
     plugin_.handle = handle;
   }
 
@@ -57,8 +58,8 @@ class Registrar {
   lammpsplugin_t plugin_{};
 };
 
-// Before the versions are known to be equal, only functions of LAMMPS' C library interface may be called: no class
-// need look as it did when this file was compiled.
+// Before the versions are known to be equal, only functions of LAMMPS' C library interface may be
+// called: no class need look as it did when this file was compiled.
 
 template <class Function> Function in_program(const char *name)
 {

@@ -5,7 +5,7 @@
 #ifndef LMP_LSM_BLOCK_GATHER_H
 #define LMP_LSM_BLOCK_GATHER_H
 
-#include "lsm_block_sampler.h"
+#include "events/block_sampler.h"
 
 #include <mpi.h>
 #include <vector>

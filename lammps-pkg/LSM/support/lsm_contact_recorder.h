@@ -19,7 +19,8 @@ struct LSMRecordNothing {
   void finish() {}
 };
 
-/// Energies, and slip of the bins along the fault if it is asked for. `share` is that of this rank in a contact.
+/// Energies, and slip of the bins along the fault if it is asked for. `share` is that of this rank
+/// in a contact.
 class LSMRecordEnergies {
  public:
   static constexpr bool records = true, tallies = false;
@@ -43,12 +44,24 @@ class LSMRecordEnergies {
   {
     if (counts_) lost_ += share * work;
   }
-  /// x: place of the contact; moment: slip times size of the contact
-  void slip(double share, double x, double moment)
+  /// moment: slip times size of the contact
+  void slip(double share, double moment)
   {
-    if (!slips_) return;
-    moment_ += share * moment;
-    if (!(source_.record_what & LSMEnergySource::SLIP)) return;
+    if (slips_) moment_ += share * moment;
+  }
+  /// Whether contacts across the fault are told from others.
+  bool wants_places() const
+  {
+    return source_.record_what & (LSMEnergySource::SLIP | LSMEnergySource::CONTACTS);
+  }
+  void within(double share, double work)
+  {
+    if (counts_) within_ += share * work;
+  }
+  /// x: place of a contact across the fault
+  void slip_at(double share, double x, double moment)
+  {
+    if (!slips_ || !(source_.record_what & LSMEnergySource::SLIP)) return;
     double along = (x - xlo_) / period_;
     along = (along - floor(along)) * period_;
     source_.slip.push_back({along, share * moment});
@@ -62,6 +75,7 @@ class LSMRecordEnergies {
     source_.pe_contact = normal_;
     source_.pe_tangential = tangential_;
     source_.work_friction += lost_;
+    source_.work_within += within_;
     source_.slip_moment += moment_;
   }
 
@@ -69,7 +83,7 @@ class LSMRecordEnergies {
   LSMEnergySource &source_;
   const bool counts_, slips_;
   const double xlo_, period_;
-  double normal_ = 0.0, tangential_ = 0.0, lost_ = 0.0, moment_ = 0.0;
+  double normal_ = 0.0, tangential_ = 0.0, lost_ = 0.0, within_ = 0.0, moment_ = 0.0;
 };
 
 /// Also LAMMPS' own energy and virial, which the loop hands to the pair style.

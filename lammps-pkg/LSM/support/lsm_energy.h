@@ -5,7 +5,7 @@
 #ifndef LMP_LSM_ENERGY_H
 #define LMP_LSM_ENERGY_H
 
-#include "lsm_slip_recorder.h"
+#include "events/slip_recorder.h"
 
 #include <vector>
 
@@ -26,12 +26,32 @@ class LSMEnergySource {
   double work_friction = 0.0;    ///< work lost to friction, accumulated
   double work_broken = 0.0;      ///< energy of the links that broke, accumulated
   double slip_moment = 0.0;      ///< sum of |slip| times contact size, accumulated (SLIP_RATE)
-  std::vector<LSM::ContactSlip> slip;    ///< contacts that slid in the last force evaluation
-  /// all contacts of the last force evaluation, with friction
+
+  /// Bits of the groups on the two sides of the fault, for SLIP and CONTACTS.
+  int lower_side = 0, upper_side = 0;
+  double work_within = 0.0;    ///< part of work_friction that is lost elsewhere, accumulated
+  std::vector<LSM::ContactSlip>
+      slip;    ///< contacts across the fault that slid in the last force evaluation
+  /// all contacts across the fault in the last force evaluation, with friction
   std::vector<LSM::FaultContact> contacts;
+
+  void record_nothing()
+  {
+    record_what = NONE;
+    lower_side = upper_side = 0;
+  }
+  /// Of a contact: 1 if the first particle is on the upper side and the second on the lower one, -1
+  /// the other way round, 0 if both are on the same side or one is on neither.
+  int across_fault(int mask_i, int mask_j) const
+  {
+    if ((mask_i & upper_side) && (mask_j & lower_side)) return 1;
+    if ((mask_i & lower_side) && (mask_j & upper_side)) return -1;
+    return 0;
+  }
 };
 
-/// Base of the fixes that do work on particles, other than by plates. This rank's share; a restart goes on with it.
+/// Base of the fixes that do work on particles, other than by plates. This rank's share; a restart
+/// goes on with it.
 class LSMWorkSource {
  public:
   virtual ~LSMWorkSource() noexcept(false) {}
@@ -39,6 +59,15 @@ class LSMWorkSource {
   double work_outside = 0.0;     ///< done on the particles by given forces, accumulated
   double work_absorbed = 0.0;    ///< lost to dashpots at borders, accumulated
   double work_dashpots = 0.0;    ///< lost to those of links and contacts, accumulated
+};
+
+/// Base of the fixes that give contacts radii of their own.
+class LSMContactRadii {
+ public:
+  virtual ~LSMContactRadii() noexcept(false) {}
+
+  virtual const double *
+  contact_radii() const = 0;    ///< of the particles of this rank and its ghosts
 };
 
 }    // namespace LAMMPS_NS

@@ -20,7 +20,7 @@ static std::shared_ptr<EventKind> kind_of_events(LAMMPS *lmp, int first, int nar
   LSMKeywordReader in(lmp, STYLE, first, narg, arg);
   auto kind = LSM::all_event_kinds().front();
   while (in.next()) {
-    in.need(in.key() == "parameter" ? 2 : 1);
+    in.need(in.key() == "parameter" || in.key() == "sides" || in.key() == "faces" ? 2 : 1);
     if (in.key() != "events") continue;
     kind = LSM::make_event_kind(in.text());
     if (!kind)
@@ -36,7 +36,7 @@ LSMEventOptions::LSMEventOptions(LAMMPS *lmp, int first, int narg, char **arg)
   LSMKeywordReader in(lmp, STYLE, first, narg, arg);
   Keywords table = of_all(in);
   for (const Keywords &more :
-       {events.kind->keywords(), events.kind->wants_intervals() ? of_intervals() : Keywords()})
+       {events.kind->keywords(), events.kind->wants_intervals() ? of_intervals(in) : Keywords()})
     table.insert(table.end(), more.begin(), more.end());
   while (in.next())
     if (!in.read(table)) no_such_keyword(in);
@@ -54,17 +54,24 @@ Keywords LSMEventOptions::of_all(LSMKeywordReader &in)
               LSM::choices(events.picker.reading));
   };
   const auto parameter = [this, &in] { events.parameters.emplace_back(in.text(1), in.text(2)); };
+  const auto groups = [&in](LSM::TwoSides &two) {
+    two = {in.text(1), in.text(2)};
+    if (two.lower == two.upper)
+      in.stop(in.key() + " needs two different groups, got " + two.lower + " twice");
+  };
   return {{"events", Action{1, [] {}}},    // known already
           {"picker", Action{1, reading}},
           {"parameter", Action{2, parameter}},
-          {"lambda", &events.picker.lambda, Must::part},
+          {"lambda", &events.picker.lambda, Must::fraction},
           {"memory", &memory_time, Must::positive},
           {"minsize", &events.picker.min_size, Must::not_negative},
           {"nonpositive", &events.picker.keep_nonpositive},
           {"tangential", &events.tangential},
+          {"sides", Action{2, [this, groups] { groups(events.sides); }}},
+          {"faces", Action{2, [this, groups] { groups(events.faces); }}},
           {"bin", &events.bin_width, Must::positive},
           {"catalogue", &events.catalogue_file},
-          {"series", &events.series_file},
+          {"series", file_or_none(in, events.series_file)},
           {"stride", &events.series_stride, Must::positive},
           {"resume", &events.resume},
           {"overwrite", &events.overwrite},
@@ -77,10 +84,21 @@ Keywords LSMEventOptions::of_all(LSMKeywordReader &in)
           {"progress", &progress}};
 }
 
-// of kinds that want the fault in intervals
-Keywords LSMEventOptions::of_intervals()
+// "none" goes into the headers
+LSM::Action LSMEventOptions::file_or_none(LSMKeywordReader &in, std::string &file)
 {
-  return {{"history", &events.history_file},
+  return {1, [this, &in, &file] {
+            file = in.text();
+            if (file != "none") return;
+            file.clear();
+            events.parameters.emplace_back(in.key(), "none");
+          }};
+}
+
+// of kinds that want the fault in intervals
+Keywords LSMEventOptions::of_intervals(LSMKeywordReader &in)
+{
+  return {{"history", file_or_none(in, events.history_file)},
           {"quiet", &events.quiet, Must::positive},
           {"driving", &events.driving, Must::positive},
           {"interval", &events.interval, Must::positive},
@@ -95,7 +113,7 @@ void LSMEventOptions::no_such_keyword(LSMKeywordReader &in)
                        [&in](const LSM::Keyword &k) { return in.key() == k.name; });
   };
   const std::string needed = LSM::names_of_kinds([&](EventKind &kind) {
-    return holds(kind.keywords()) || (kind.wants_intervals() && holds(of_intervals()));
+    return holds(kind.keywords()) || (kind.wants_intervals() && holds(of_intervals(in)));
   });
   if (!needed.empty()) in.stop("keyword " + in.key() + " needs events " + needed);
 
@@ -103,7 +121,7 @@ void LSMEventOptions::no_such_keyword(LSMKeywordReader &in)
   const auto add = [&all](const Keywords &more) {
     all.insert(all.end(), more.begin(), more.end());
   };
-  add(of_intervals());
+  add(of_intervals(in));
   const auto kinds = LSM::all_event_kinds();
   for (const auto &kind : kinds) add(kind->keywords());
   in.unknown(all);

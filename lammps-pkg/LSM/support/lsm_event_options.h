@@ -4,8 +4,8 @@
 #ifndef LMP_LSM_EVENT_OPTIONS_H
 #define LMP_LSM_EVENT_OPTIONS_H
 
-#include "lsm_event_settings.h"
-#include "lsm_watchdog.h"
+#include "events/event_headers.h"
+#include "fault/watchdog.h"
 
 #include <string>
 
@@ -28,7 +28,8 @@ struct LSMEventOptions {
 
  private:
   LSM::Keywords of_all(LSMKeywordReader &);
-  LSM::Keywords of_intervals();
+  LSM::Keywords of_intervals(LSMKeywordReader &);
+  LSM::Action file_or_none(LSMKeywordReader &, std::string &file);
   [[noreturn]] void no_such_keyword(LSMKeywordReader &);
 };
 

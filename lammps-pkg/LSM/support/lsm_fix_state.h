@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a fix keeps in restart files, by its visit(): see lsm_state.h
+// What a fix keeps in restart files, by its visit(): see files/state.h
 
 #ifndef LMP_LSM_FIX_STATE_H
 #define LMP_LSM_FIX_STATE_H
 
 #include "comm.h"
+#include "files/state.h"
 #include "fix.h"
 #include "lsm_ranks.h"
-#include "lsm_state.h"
+#include "lsm_restart_version.h"
 
 #include <cstdio>
 #include <vector>
 
 namespace LAMMPS_NS {
 
-/// Beside what both have, sum(mine): the total of a number of which each rank has a part. Rank 0 goes on with all of it.
+/// Beside what both have, sum(mine): the total of a number of which each rank has a part. Rank 0
+/// goes on with all of it.
 class LSMStateWriter : public LSM::StateWriter {
  public:
   LSMStateWriter(std::vector<double> &to, MPI_Comm world) : StateWriter(to), world_(world) {}
@@ -51,6 +53,7 @@ template <class Self, class Base = Fix> class LSMKeptFix : public Base {
   {
     std::vector<double> numbers;
     LSMStateWriter to(numbers, this->world);
+    to.one(LSM_RESTART_VERSION);
     Self::visit(static_cast<const Self &>(*this), to);
     if (this->comm->me) return;
     const int size = static_cast<int>(numbers.size() * sizeof(double));
@@ -60,13 +63,16 @@ template <class Self, class Base = Fix> class LSMKeptFix : public Base {
   void restart(char *buf) override
   {
     LSMStateReader from(buf, this->comm->me == 0);
+    double version;
+    from.one(version);
+    lsm_check_version(this->error, static_cast<int>(version));
     Self::visit(static_cast<Self &>(*this), from);
   }
   double compute_scalar() override { return lsm_total(*mine, this->world); }
 
  protected:
-  /// It has a scalar, at every step: the total over the ranks of their parts, or what another compute_scalar() gives;
-  /// and a vector of so many intensive numbers.
+  /// It has a scalar, at every step: the total over the ranks of their parts, or what another
+  /// compute_scalar() gives; and a vector of so many intensive numbers.
   void has_output(const double *parts, int numbers = 0)
   {
     mine = parts;

@@ -3,7 +3,7 @@
 #include "lsm_keyword_reader.h"
 
 #include "error.h"
-#include "lsm_names.h"
+#include "files/names.h"
 #include "utils.h"
 
 #include <algorithm>
@@ -71,7 +71,8 @@ double LSMKeywordReader::number(Must must, int n) const
   const double value = utils::numeric(FLERR, text(n), false, lmp);
   if (must == Must::positive && !(value > 0.0)) refuse("> 0", n);
   if (must == Must::not_negative && !(value >= 0.0)) refuse(">= 0", n);
-  if (must == Must::part && !(value >= 0.0 && value < 1.0)) refuse("at least 0 and less than 1", n);
+  if (must == Must::fraction && !(value >= 0.0 && value < 1.0))
+    refuse("at least 0 and less than 1", n);
   return value;
 }
 
@@ -89,10 +90,13 @@ void LSMKeywordReader::take(int *to, Must must) const
   *to = static_cast<int>(value);
 }
 
-void LSMKeywordReader::take(std::uint64_t *to, Must /*must*/) const
+void LSMKeywordReader::take(std::uint64_t *to, Must must) const
 {
-  if (!utils::is_integer(text()) || text()[0] == '-') refuse("a whole number of at least 0");
-  *to = static_cast<std::uint64_t>(utils::bnumeric(FLERR, text(), false, lmp));
+  const bigint least = must == Must::positive ? 1 : 0;
+  const bool whole = utils::is_integer(text());
+  const bigint value = whole ? utils::bnumeric(FLERR, text(), false, lmp) : 0;
+  if (!whole || value < least) refuse("a whole number of at least " + std::to_string(least));
+  *to = static_cast<std::uint64_t>(value);
 }
 
 void LSMKeywordReader::take(bool *to, Must /*must*/) const

@@ -4,7 +4,7 @@
 #ifndef LMP_LSM_KEYWORD_READER_H
 #define LMP_LSM_KEYWORD_READER_H
 
-#include "lsm_keywords.h"
+#include "files/keywords.h"
 #include "pointers.h"
 
 #include <cstdint>

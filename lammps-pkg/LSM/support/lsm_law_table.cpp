@@ -6,7 +6,7 @@
 #include "error.h"
 #include "lsm_restart_file.h"
 
-#include "laws/friction_laws.h"
+#include "friction/friction_laws.h"
 
 #include <algorithm>
 #include <cstring>
@@ -34,7 +34,7 @@ const std::vector<LSMLaw> &LSMLawTable::all()
 {
   static const std::vector<LSMLaw> laws = {
 #define LSM_FRICTION_LAW(law) entry<LSM::law>(),
-#include "laws/friction_laws.h"
+#include "friction/friction_laws.h"
 #undef LSM_FRICTION_LAW
   };
   return laws;

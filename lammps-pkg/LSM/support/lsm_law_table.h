@@ -5,7 +5,7 @@
 #ifndef LMP_LSM_LAW_TABLE_H
 #define LMP_LSM_LAW_TABLE_H
 
-#include "laws/friction_law.h"
+#include "friction/friction_law.h"
 #include "lsm_type_pairs.h"
 #include "pointers.h"
 
@@ -18,7 +18,8 @@
 namespace LAMMPS_NS {
 class LSMRestartFile;
 
-/// What is known of a law at run time; a line of the list in core/laws/friction_laws.h gives one of these.
+/// What is known of a law at run time; a line of the list in core/friction/friction_laws.h gives
+/// one of these.
 struct LSMLaw {
   const char *name;
   const LSM::Parameter *parameters;
@@ -58,7 +59,8 @@ class LSMLawTable : protected Pointers {
   void parse(int narg, char **arg);
   /// Sets what was parsed.
   void set(int i, int j);
-  /// What is set for i and j also for j and i; values that follow others do so again, as fix adapt changes coefficients.
+  /// What is set for i and j also for j and i; values that follow others do so again, as fix adapt
+  /// changes coefficients.
   void mirror(int i, int j);
   /// Stops LAMMPS if a value is out of range. where: behind the names in messages
   void check(const std::vector<double> &, const std::string &where) const;

@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 
-// Functions with other instruction sets pass vectors differently: here all that take any are inlined.
+// Functions with other instruction sets pass vectors differently: here all that take any are
+// inlined.
 #if defined(__GNUC__)
 #pragma GCC diagnostic ignored "-Wpsabi"
 #endif
 
 #include "lsm_link_kernel.h"
 
-#include "lsm_sum.h"
+#include "numerics/sum.h"
 
 #include <cmath>
 #include <cstring>
 
-// The arithmetic becomes vector instructions only where sqrt() need not set errno (-fno-math-errno), and gives
-// the same digits with each instruction set only without fused multiply-add (-ffp-contract=off).
-// Vectors of 512 bits were measured to be slower: their roots take longer than twice those of 256.
+// The arithmetic becomes vector instructions only where sqrt() need not set errno
+// (-fno-math-errno), and gives the same digits with each instruction set only without fused
+// multiply-add (-ffp-contract=off). Vectors of 512 bits were measured to be slower: their roots
+// take longer than twice those of 256.
 
 #define LSM_INLINE inline __attribute__((always_inline))
 #define LSM_LAMBDA __attribute__((always_inline))
@@ -67,7 +69,8 @@ namespace LSMLinkKernel {
     }
   }
 
-  // Adds SIGN times the forces g to those of four particles, one after the other: two of them may be the same.
+  // Adds SIGN times the forces g to those of four particles, one after the other: two of them may
+  // be the same.
   template <int SIGN, int DIM>
   LSM_INLINE static void scatter(double *f, const int *place, const Lanes (&g)[DIM])
   {
@@ -103,10 +106,10 @@ namespace LSMLinkKernel {
       if (law.is_broken(r[n], rest[n])) broken.push_back({first.row + n % LANES, first.link + n});
   }
 
-  // Software pipeline: slices pass four stations, each of which works on another slice, so that every
-  // instruction finds its operands ready; one that waits for a root or a quotient would hold up the hundred
-  // or so instructions after it. Stations are lambdas over local variables, as members of a class would be
-  // kept in memory.
+  // Software pipeline: slices pass four stations, each of which works on another slice, so that
+  // every instruction finds its operands ready; one that waits for a root or a quotient would hold
+  // up the hundred or so instructions after it. Stations are lambdas over local variables, as
+  // members of a class would be kept in memory.
   template <int DIM, int LENGTH, bool FILLED_UP, bool BOTH, class Law>
   LSM_INLINE static double work_on(const Run &run, const Rows &rows, const Law &law,
                                    const double *x, double *f, std::vector<Place> &broken)

@@ -5,7 +5,7 @@
 #ifndef LMP_LSM_LINK_KERNEL_H
 #define LMP_LSM_LINK_KERNEL_H
 
-#include "lsm_force_laws.h"
+#include "friction/force_laws.h"
 #include "lsm_link_rows.h"
 
 #include <vector>
@@ -13,8 +13,8 @@
 namespace LAMMPS_NS {
 namespace LSMLinkKernel {
 
-  // The laws of links, for the single loop over links, which handles several side by side. A Number is a
-  // SIMD vector, see linear_spring.h.
+  // The laws of links, for the single loop over links, which handles several side by side. A Number
+  // is a SIMD vector, see linear_spring.h.
 
   /// Linear spring.
   struct Elastic {
@@ -56,10 +56,10 @@ namespace LSMLinkKernel {
     int row, link;
   };
 
-  /// Adds the forces of links to f and returns their elastic energy. Links that break give neither, and are added to
-  /// `broken`.
-  /// \param first_only  no force on the partner: its owner adds it. Half of the energy is returned. Rows have to be mixed
-  /// \param avx2        use these instructions, which the processor has to have; the same digits either way
+  /// Adds the forces of links to f and returns their elastic energy. Links that break give neither,
+  /// and are added to `broken`. \param first_only  no force on the partner: its owner adds it. Half
+  /// of the energy is returned. Rows have to be mixed \param avx2        use these instructions,
+  /// which the processor has to have; the same digits either way
   template <int DIM, class Law>
   double forces(const LSMLinkRows::Rows &, const Law &, bool first_only, const double *x, double *f,
                 std::vector<Place> &broken, bool avx2);

@@ -13,8 +13,9 @@ namespace LSMLinkRows {
   constexpr int LANES = 4;        ///< rows of a slice, worked on side by side
   constexpr int LONGEST = 4;      ///< links of a row; a particle with more has several rows
   constexpr int WINDOW = 1024;    ///< particles whose rows are sorted by length
-  constexpr double NO_LINK = std::numeric_limits<
-      double>::infinity();    ///< rest length of a place in a slice that only fills it up
+  constexpr double NO_LINK =
+      std::numeric_limits<double>::infinity();    ///< rest length of a place in a slice that only
+                                                  ///< fills it up
 
   struct Link {
     int i, j;       ///< local indices; the row is one of i, unless j is owned and has fewer links
@@ -38,13 +39,12 @@ namespace LSMLinkRows {
     std::vector<int> to_fetch;    ///< places to fetch into the cache
   };
 
-  /// The rows of links. Their order follows from that of `owned` and of `links` alone, so both have to follow
-  /// from the particle IDs.
-  /// \param owned  local indices of the particles of this rank, each once
-  /// \param links  the first end of each is owned
-  /// \param nlocal particles of this rank: those with local indices from this on are ghosts and have no rows
-  /// \param nall   local indices are below this
-  /// \param mixed  put rows of all lengths side by side, filled up to the longest: for few links
+  /// The rows of links. Their order follows from that of `owned` and of `links` alone, so both have
+  /// to follow from the particle IDs. \param owned  local indices of the particles of this rank,
+  /// each once \param links  the first end of each is owned \param nlocal particles of this rank:
+  /// those with local indices from this on are ghosts and have no rows \param nall   local indices
+  /// are below this \param mixed  put rows of all lengths side by side, filled up to the longest:
+  /// for few links
   Rows make_rows(const std::vector<int> &owned, const std::vector<Link> &links, int nlocal,
                  int nall, bool mixed);
 

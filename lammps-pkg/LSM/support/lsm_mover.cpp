@@ -26,7 +26,7 @@ void LSMTravel::look_for_movers()
 }
 
 // Before a run, and between runs that follow without a set-up, commands may have moved particles.
-double LSMTravel::since_last(bool wanted)
+double LSMTravel::since_last()
 {
   const bool follows =
       !update->setupflag && update->ntimestep == step + 1 && update->firststep == first_step;
@@ -36,10 +36,7 @@ double LSMTravel::since_last(bool wanted)
   if (!known) return INFINITY;
 
   double farthest = 0.0;    // if all of them moved it
-  for (LSMMover *mover : movers) {
-    if (wanted) mover->measure_moves();
-    farthest += mover->longest_move();
-  }
+  for (const LSMMover *mover : movers) farthest += mover->longest_move();
   if (!follows) return INFINITY;
 
   double largest = 0.0;    // coordinate, to which positions are rounded

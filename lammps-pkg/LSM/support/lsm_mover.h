@@ -13,8 +13,9 @@
 namespace LAMMPS_NS {
 class Modify;
 
-/// Base of the fixes that move particles. They may put off the second half of a step to the first half of the next, so that
-/// both go through memory together or messages travel meanwhile: who looks at velocities calls complete_steps() before.
+/// Base of the fixes that move particles. They may put off the second half of a step to the first
+/// half of the next, so that both go through memory together or messages travel meanwhile: who
+/// looks at velocities calls complete_steps() before.
 class LSMMover {
  public:
   virtual ~LSMMover() noexcept(false) {}    // as LAMMPS' own base classes
@@ -25,10 +26,8 @@ class LSMMover {
   bool has_put_off() const { return pending; }
   /// Bits of the groups that it moves.
   virtual int moved_bits() const = 0;
-  /// It moved no particle of this rank farther in this step; infinite if that was not measured.
+  /// It moved no particle of this rank farther in this step; infinite if that is not known.
   virtual double longest_move() const = 0;
-  /// Has longest_move() measured from the next step on.
-  virtual void measure_moves() {}
 
   static void complete_steps(Modify *);
 
@@ -36,15 +35,16 @@ class LSMMover {
   bool pending = false;
 };
 
-/// The largest displacement of a particle of this rank in a step, as told by the fixes that move them: they
-/// have the velocities at hand, while comparing positions with older ones would read both from memory.
+/// The largest displacement of a particle of this rank in a step, as told by the fixes that move
+/// them: they have the velocities at hand, while comparing positions with older ones would read
+/// both from memory.
 class LSMTravel : protected Pointers {
  public:
   LSMTravel(LAMMPS *_lmp) : Pointers(_lmp) {}
-  /// To be called once in each step, after particles have moved. Bound of the displacement of any particle of
-  /// this rank since the last call; infinite if unknown, as something else may have moved particles.
-  /// \param wanted  whether the fixes are to measure it from the next step on
-  double since_last(bool wanted);
+  /// To be called once in each step, after particles have moved. Bound of the displacement of any
+  /// particle of this rank since the last call; infinite if unknown, as something else may have
+  /// moved particles.
+  double since_last();
 
  private:
   bool known = false;    // all that move particles are these

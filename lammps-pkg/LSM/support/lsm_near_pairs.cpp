@@ -9,8 +9,8 @@
 
 using namespace LAMMPS_NS;
 
-// A wider skin keeps more pairs (0.19 a particle with 0.05, 0.29 with 0.1), a narrower one has them looked for more
-// often (every 230 and 490 steps on the fault of length 120).
+// A wider skin keeps more pairs (0.19 a particle with 0.05, 0.29 with 0.1), a narrower one has them
+// looked for more often (every 230 and 490 steps on the fault of length 120).
 static constexpr double SKIN = 0.05;
 static constexpr double ROUNDING = 1e-9;    // of the skin, and of squares of distances
 static constexpr double FEW =
@@ -27,8 +27,8 @@ double LSMNearPairs::displacement(const double *x, size_t first, size_t last) co
   return sqrt(most);
 }
 
-// Of two particles one is of this rank. Where these are is looked at only when the sum of their longest moves would be
-// too much; ghosts are few, and others move them.
+// Of two particles one is of this rank. Where these are is looked at only when the sum of their
+// longest moves would be too much; ghosts are few, and others move them.
 bool LSMNearPairs::outdated(const double *x, int nlocal, double farthest)
 {
   const double ghosts = displacement(x, nlocal, held.size() / 3);

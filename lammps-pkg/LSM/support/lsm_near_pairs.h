@@ -13,9 +13,9 @@ namespace LAMMPS_NS {
 
 class NeighList;
 
-/// Most pairs in the neighbor list of a filled block never touch. Kept are those that may come near before particles
-/// have moved by a small skin against each other, and in each step those of them are given that touch: no pair is
-/// missed, so forces are the same to the last bit.
+/// Most pairs in the neighbor list of a filled block never touch. Kept are those that may come near
+/// before particles have moved by a small skin against each other, and in each step those of them
+/// are given that touch: no pair is missed, so forces are the same to the last bit.
 class LSMNearPairs {
  public:
   struct Pair {
@@ -25,23 +25,26 @@ class LSMNearPairs {
   /// Whether the pairs that are kept have to be chosen anew. To be asked in each step.
   /// \param build     number of the build of the neighbor list
   /// \param x         positions of all particles with ghosts, `count` of them, `nlocal` without
-  /// \param farthest  no particle of this rank has moved farther since the last call, infinite if unknown
+  /// \param farthest  no particle of this rank has moved farther since the last call, infinite if
+  /// unknown
   bool is_due(bigint build, const NeighList &, const double *x, int nlocal, int count,
               double farthest);
   /// Chooses the pairs that are kept.
   /// \param reach     pairs are near up to this distance, in sums of radii
-  /// \param touch     flags of pairs that are kept and given at any distance, as in the neighbor list, or null
+  /// \param touch     flags of pairs that are kept and given at any distance, as in the neighbor
+  /// list, or null
   void choose(const NeighList &, const double *x, const double *radius, double reach,
               const int *const *touch);
   /// Finds those of them that touch.
   void find(const double *x);
   /// Those that are kept, in the order of the neighbor list.
   const std::vector<Pair> &kept() const { return pairs; }
-  /// How many of them touch, or nearly so by rounding, and the place in kept() of the n-th of these, in the same order.
+  /// How many of them touch, or nearly so by rounding, and the place in kept() of the n-th of
+  /// these, in the same order.
   int size() const { return number; }
   int operator[](int n) const { return found[n]; }
-  /// From the second to the first particle of a pair, by its place in kept(), along x and y: now, and in the step
-  /// before; the latter only if the same pairs were kept.
+  /// From the second to the first particle of a pair, by its place in kept(), along x and y: now,
+  /// and in the step before; the latter only if the same pairs were kept.
   const double *vector(int place) const { return &vectors[newest][2 * place]; }
   const double *vector_before(int place) const { return &vectors[1 - newest][2 * place]; }
   /// Whether a pair is given at any distance; to be told when that changes.
@@ -53,8 +56,6 @@ class LSMNearPairs {
   {
     limit[place] = yes ? std::numeric_limits<double>::infinity() : within[place];
   }
-  /// Whether it is of use to know how far particles move.
-  bool asks_for_moves() const { return !held.empty(); }
   /// Forgets all, for a list of another kind.
   void clear() { built = -1; }
 

@@ -5,10 +5,13 @@
 #define LMP_LSM_RESTART_FILE_H
 
 #include "comm.h"
+#include "error.h"
+#include "lsm_restart_version.h"
 #include "pointers.h"
 
 #include <cstdio>
 #include <mpi.h>
+#include <string>
 
 namespace LAMMPS_NS {
 
@@ -31,18 +34,21 @@ class LSMRestartFile : protected Pointers {
     MPI_Bcast(values, static_cast<int>(count * sizeof(Value)), MPI_BYTE, 0, world);
   }
 
-  /// Whether something follows that most files do not have: behind a mark, with which nothing else begins.
-  /// \param written  it is to be written
-  template <class Value> bool follows(Value mark, bool written)
+  /// What the data of each style begin with.
+  void version()
   {
-    if (!reads) {
-      if (written) (*this)(&mark);
-      return written;
-    }
-    Value found{};
+    int found = LSM_RESTART_VERSION;
     (*this)(&found);
-    if (found != mark && comm->me == 0) fseek(file_, -static_cast<long>(sizeof(Value)), SEEK_CUR);
-    return found == mark;
+    lsm_check_version(error, found);
+  }
+
+  /// A text, after its length.
+  void operator()(std::string &text)
+  {
+    int size = static_cast<int>(text.size());
+    (*this)(&size);
+    text.resize(size);
+    if (size) (*this)(text.data(), size);
   }
 
  private:

@@ -3,8 +3,6 @@
 /// Kinds of events and their finders. A kind is a class: its name after the keyword `events`, its
 /// own keywords, what it needs recorded, what it adds to headers, and its finder. event_kinds.h
 /// lists all of them; nothing else distinguishes them.
-///
-/// Drops of PE, the paper's events, are found in every run: their picker has the rate of PE.
 #ifndef LSM_EVENT_KIND_H
 #define LSM_EVENT_KIND_H
 
@@ -15,54 +13,15 @@
 #include <string>
 #include <vector>
 
-#include "lsm_catalogue.h"
-#include "lsm_event_picker.h"
-#include "lsm_fault_grid.h"
-#include "lsm_keywords.h"
-#include "lsm_slip_recorder.h"
-#include "lsm_text_io.h"
+#include "files/catalogue.h"
+#include "events/event_picker.h"
+#include "events/event_settings.h"
+#include "events/fault_grid.h"
+#include "files/keywords.h"
+#include "events/slip_recorder.h"
+#include "files/text_io.h"
 
 namespace LSM {
-
-class EventKind;
-
-struct EventSettings {
-  std::string name;  ///< of this recorder, for messages
-
-  std::string catalogue_file, series_file, history_file;  ///< empty: not written
-  int series_stride = 1;
-  bool resume = false;     ///< continue existing files, after a restart
-  bool overwrite = false;  ///< replace existing files
-
-  std::shared_ptr<EventKind> kind;  ///< never empty, see make_event_kind()
-  bool own_times = false;           ///< steps and time are not proportional
-  PickerSettings picker;
-  bool tangential = true;  ///< tangential springs count as PE
-  double bin_width = 1.0;  ///< of the bins along the fault
-
-  // Of the fault in intervals, for kinds that ask for it:
-  double driving = 0.0;  ///< velocity that slip is compared with
-  double forward = 1.0;  ///< direction of the upper side along x: 1 or -1
-  int interval = 10;     ///< steps over which the slip of a bin is summed
-  double modulus = 0.0;  ///< shear modulus
-  int quiet = 100;       ///< intervals in one record of the history while nothing slips
-
-  /// For the headers; they replace those of the same name.
-  text_io::Parameters parameters;
-
-  /// The fault from a step on.
-  FaultGrid grid(double x0, double length, std::int64_t step, double time, double dt) const {
-    FaultGrid g;
-    g.bins = std::max(1, static_cast<int>(length / bin_width * (1.0 + 1e-12)));
-    g.x0 = x0;
-    g.width = length / g.bins;
-    g.step0 = step;
-    g.interval = interval;
-    g.time0 = time;
-    g.dt = dt;
-    return g;
-  }
-};
 
 /// The fault at the end of an interval.
 struct FaultMoment {
@@ -96,6 +55,11 @@ class EventFinder {
   /// Reports open events as if they ended now.
   virtual void each_open_as_ended(const Report &) const {}
 
+  /// The energy changed by that much between two runs, without a step.
+  virtual void leave_out_jump(double) {}
+  /// Other settings of the picker, and the ratio of the new time step to the old one.
+  virtual void change_picker(const PickerSettings &, double /*ratio*/) {}
+
   virtual std::int64_t open() const = 0;
   /// Something slips, so that the slip history gives the last interval a record of its own.
   virtual bool active() const { return open() > 0; }
@@ -121,22 +85,32 @@ class EventKind {
 
   /// Whether it needs the slips of contacts in each step, which a periodic fault has.
   virtual bool wants_slips() const { return false; }
+  /// Whether its events are picked from PE, so that the header of the series has what its
+  /// catalogues have.
+  virtual bool picks_pe() const { return false; }
   /// Whether it needs the fault in bins and intervals.
   virtual bool wants_intervals() const { return false; }
   /// The input that asks for these, for messages.
   virtual std::string asked_by() const { return std::string("events ") + name(); }
 
-  /// What the header of its catalogues has in addition. The parameter `events`, with its name, says
-  /// that events may overlap. slip_bin: width of the bins of the grid.
+  /// What the header of its catalogues says about the events, add_sizes() among it. The parameter
+  /// `events`, with its name, says that events may overlap. slip_bin: width of the bins of the
+  /// grid.
   virtual void describe(const EventSettings &, double slip_bin, const AddParameter &,
                         CatalogueInfo &) const = 0;
   /// What slips and what is connected, for the slip history.
   virtual RuptureSettings rupture_settings(const EventSettings &, double /*dt*/) const {
     return {};
   }
-  /// Null if events are the drops of PE, which are found in any case.
   /// \throws std::invalid_argument for settings out of range
   virtual std::unique_ptr<EventFinder> finder(const EventSettings &, const FaultGrid &) const = 0;
+
+ protected:
+  /// What sizes of events and PE mean, for describe().
+  static void add_sizes(const EventSettings &settings, const AddParameter &add) {
+    add("min_size", text_io::number(settings.picker.min_size));
+    add("tangential_energy", settings.tangential ? "yes" : "no");
+  }
 };
 
 }  // namespace LSM

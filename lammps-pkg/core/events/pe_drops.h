@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "events/event_kind.h"
-#include "lsm_circular_mean.h"
-#include "lsm_state.h"
+#include "numerics/circular_mean.h"
+#include "files/state.h"
 
 namespace LSM {
 
@@ -71,39 +71,12 @@ class EventLocator {
   std::map<int, double> moment_;
 };
 
-class PeDrops : public EventKind {
- public:
-  bool location = false;   ///< slip moment, centroid and rupture length of each event
-  double fraction = 0.05;  ///< bins with at most this fraction of the largest slip are not ruptured
-
-  const char *name() const override { return "pe"; }
-  Keywords keywords() override {
-    return {{"location", &location}, {"fraction", &fraction, Must::part}};
-  }
-  bool wants_slips() const override { return location; }
-  std::string asked_by() const override { return "location yes"; }
-
-  void describe(const EventSettings &settings, double, const AddParameter &add,
-                CatalogueInfo &info) const override {
-    if (location) {
-      add("slip_bin", text_io::number(settings.bin_width));
-      add("rupture_fraction", text_io::number(fraction));
-    }
-    info.slip_moment = info.x_centroid = info.rupture_length = location;
-  }
-  std::unique_ptr<EventFinder> finder(const EventSettings &, const FaultGrid &) const override {
-    return {};
-  }
-};
-
-/// The picker, and the places of its events. The events have ids, and those left out are counted.
+/// The picker, and the places of its events.
 class PeDropFinder : public EventFinder {
  public:
   /// \throws std::invalid_argument for settings out of range
-  explicit PeDropFinder(const EventSettings &settings)
-      : picker_(settings.picker), locator_(settings.bin_width, fraction_of(*settings.kind)) {}
-
-  const EventPicker &picker() const { return picker_; }
+  PeDropFinder(const PickerSettings &settings, double bin_width, double fraction)
+      : picker_(of_all_sizes(settings)), locator_(bin_width, fraction) {}
 
   void add_sample(const EventSample &sample, const Report &report) override {
     Event event;
@@ -120,21 +93,10 @@ class PeDropFinder : public EventFinder {
   // An event that ended at this step is known only one step later, and is found again.
   std::int64_t known_until(std::int64_t step) const override { return step - 1; }
 
-  /// The picker continues with these settings; its rate is one per step, so it is multiplied by the
-  /// ratio of the steps.
-  void change_picker(const PickerSettings &settings, double ratio) {
-    PickerState state = picker_.state();
-    state.rate *= ratio;
-    picker_ = EventPicker(settings);
-    picker_.set_state(state);
+  void change_picker(const PickerSettings &settings, double ratio) override {
+    picker_.change(of_all_sizes(settings), ratio);
   }
-  /// PE changed by that much since the last sample, without a step.
-  void leave_out_jump(double jump) {
-    PickerState state = picker_.state();
-    state.pe += jump;
-    state.pe_start += jump;
-    picker_.set_state(state);
-  }
+  void leave_out_jump(double jump) override { picker_.leave_out_jump(jump); }
 
   std::vector<double> state() const override {
     std::vector<double> out;
@@ -152,13 +114,45 @@ class PeDropFinder : public EventFinder {
   }
 
  private:
-  static double fraction_of(const EventKind &kind) {
-    const auto *drops = dynamic_cast<const PeDrops *>(&kind);
-    return drops ? drops->fraction : 0.0;
+  // Which of them are written is decided where events are written.
+  static PickerSettings of_all_sizes(PickerSettings settings) {
+    settings.min_size = 0.0;
+    settings.keep_nonpositive = true;
+    return settings;
   }
 
   EventPicker picker_;
   EventLocator locator_;
+};
+
+class PeDrops : public EventKind {
+ public:
+  bool location = false;   ///< slip moment, centroid and rupture length of each event
+  double fraction = 0.05;  ///< bins with at most this fraction of the largest slip are not ruptured
+
+  const char *name() const override { return "pe"; }
+  Keywords keywords() override {
+    return {{"location", &location}, {"fraction", &fraction, Must::fraction}};
+  }
+  bool picks_pe() const override { return true; }
+  bool wants_slips() const override { return location; }
+  std::string asked_by() const override { return "location yes"; }
+
+  void describe(const EventSettings &settings, double, const AddParameter &add,
+                CatalogueInfo &info) const override {
+    add("picker", to_string(settings.picker.reading));
+    add("lambda", text_io::number(settings.picker.lambda));
+    add_sizes(settings, add);
+    if (location) {
+      add("slip_bin", text_io::number(settings.bin_width));
+      add("rupture_fraction", text_io::number(fraction));
+    }
+    info.slip_moment = info.x_centroid = info.rupture_length = location;
+  }
+  std::unique_ptr<EventFinder> finder(const EventSettings &settings,
+                                      const FaultGrid &) const override {
+    return std::make_unique<PeDropFinder>(settings.picker, settings.bin_width, fraction);
+  }
 };
 
 }  // namespace LSM

@@ -6,7 +6,7 @@
 /// Contacts are summed in bins along the fault and in intervals of so many steps. A bin
 /// slips in an interval if its mean slip velocity exceeds a given one. It is then connected with
 /// the bins at most gap + 1 from it (periodic) that slip in the same interval or in one of the
-/// `memory` intervals before it; see lsm_slip_sets.h. Unlike drops of the total PE, ruptures far
+/// `memory` intervals before it; see events/slip_sets.h. Unlike drops of the total PE, ruptures far
 /// apart on a long fault remain separate.
 #ifndef LSM_RUPTURES_H
 #define LSM_RUPTURES_H
@@ -22,9 +22,9 @@
 #include <vector>
 
 #include "events/event_kind.h"
-#include "lsm_circular_mean.h"
-#include "lsm_slip_sets.h"
-#include "lsm_state.h"
+#include "numerics/circular_mean.h"
+#include "events/slip_sets.h"
+#include "files/state.h"
 
 namespace LSM {
 
@@ -260,6 +260,7 @@ class Ruptures : public EventKind {
   void describe(const EventSettings &settings, double slip_bin, const AddParameter &add,
                 CatalogueInfo &info) const override {
     using text_io::number;
+    add_sizes(settings, add);
     add("events", name());
     add("driving", number(settings.driving));
     add("slipping", number(slipping));

@@ -35,11 +35,22 @@ function short(x, digits = 5) {
 /** A number as one may type it. */
 function plain(x) { return short(x, 6).replace(/−/g, '-'); }
 
-/** An axis label of a logarithmic axis: powers of ten only. */
-function logLabel(x) {
-  const decade = Math.log10(x);
-  if (Math.abs(decade - Math.round(decade)) > 1e-6) return '';
-  return Math.abs(decade) < 2.5 ? String(Number(x.toPrecision(1))) : `1e${Math.round(decade)}`;
+/** Ticks of a logarithmic axis of dygraphs: powers of ten, each with a label as long as there is
+ *  room; over less than two decades 2 and 5 as well. */
+function logTicks(from, to, pixels, opts) {
+  const first = Math.ceil(Math.log10(from) - 1e-9), last = Math.floor(Math.log10(to) + 1e-9);
+  const every = Math.max(1, Math.ceil((last - first + 1) * opts('pixelsPerLabel') * 1.6 / pixels));
+  const label = x => {
+    const decade = Math.log10(x);
+    return Math.abs(decade) < 2.5 ? String(Number(x.toPrecision(1))) : `${Number((x / 10 ** Math.floor(decade + 1e-9)).toPrecision(1))}e${Math.floor(decade + 1e-9)}`;
+  };
+  const out = [];
+  for (let decade = first - 1; decade <= last; ++decade)
+    for (const m of last - first < 2 ? [1, 2, 5] : [1]) {
+      const v = m * 10 ** decade;
+      if (v >= from && v <= to) out.push({v, label: m > 1 || (decade - first) % every === 0 ? label(v) : ''});
+    }
+  return out;
 }
 
 /** Round numbers between two others, some `count` of them. */

@@ -105,7 +105,7 @@ class EventPanel {
       context.setLineDash([]);
     }
     drawAxes(context, frame, {from: x0, to: x1, title: 'Distance from its first place along the fault'},
-      {from: from - begin, to: to - begin, title: 'Time since its begin'});
+      {from: from - begin, to: to - begin, title: 'Time since it began'});
     drawSlipScale(context, frame.x + frame.w - 120, 2, 110);
     this.map = {frame, x0, x1, from, to, begin, origin};
     this.drawProfile(slip.slipBetween(begin, end), shift, x0, x1, frame, width);

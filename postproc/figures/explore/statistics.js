@@ -125,7 +125,7 @@ class Statistics {
 
   makeGraphs() {
     const curves = (numberOf) => this.entries.map(entry => this.curveOf(entry, numberOf));
-    this.againstThreshold('exponents', 'exponent', curves(t => t.toLargest), this.printed('exponent'));
+    this.againstThreshold('exponents', 'exponent', curves(t => t.law), this.printed('exponent'));
     this.againstThreshold('gammas', 'γ', curves(t => this.gammaOf(t)), this.printed('gamma'));
     this.againstThreshold('burstiness', 'burstiness', curves(t => ({value: t.burstiness, error: 0})), [0]);
     const densities = this.entries.map(entry => entry.events.info.densities.map(Statistics.barOfBin));
@@ -155,7 +155,7 @@ class Statistics {
       ...this.options('smallest size (model energy)', name, ranges),
       labels: ['size', ...names],
       series: Object.fromEntries(this.entries.map((entry, i) => [names[i], {plotter: markPlotter(entry.k, true)}])),
-      axes: {x: {logscale: true, axisLabelFormatter: logLabel, pixelsPerLabel: 12}, y: {axisLabelWidth: 46}},
+      axes: {x: {logscale: true, ticker: logTicks, pixelsPerLabel: 26}, y: {axisLabelWidth: 46}},
       underlayCallback: (context, area, g) => {
         context.save();
         context.strokeStyle = '#555';
@@ -181,10 +181,10 @@ class Statistics {
       series[`run ${entry.k}`] = {plotter: markPlotter(entry.k, false)};
       series[`line ${entry.k}`] = {plotter: linePlotter(entry.k)};
     }
-    const axis = {logscale: true, axisLabelFormatter: logLabel, pixelsPerLabel: 12};
+    const axis = {logscale: true, ticker: logTicks, pixelsPerLabel: 26};
     const graph = this.replace(id, this.rowsOf(names.map(() => []), ranges), {
       ...this.options(xlabel, ylabel, ranges), labels: ['x', ...names], series,
-      logscale: true, axes: {x: axis, y: {...axis, pixelsPerLabel: 22, axisLabelWidth: 46}},
+      logscale: true, axes: {x: axis, y: {...axis, pixelsPerLabel: 14, axisLabelWidth: 46}},
       underlayCallback: (context, area, g) => { if (withThreshold) this.drawHandle(context, area, g); }
     });
     if (withThreshold) this.dragOn(id, graph);
@@ -267,9 +267,9 @@ class Statistics {
     this.graphs.times.updateOptions({file: this.rowsOf(times.flat(), ranges), dateWindow: ranges.x, valueRange: ranges.y});
   }
 
-  /** The law found above the threshold, through the density of the whole catalogue. */
+  /** The law over three decades from the threshold on, through the density of the whole catalogue. */
   fittedSizes(entry) {
-    const result = this.at(entry), law = result && result.searched;
+    const result = this.at(entry), law = result && result.law;
     if (!law || !Number.isFinite(law.value)) return [];
     const total = entry.events.info.densities.reduce((sum, bin) => sum + bin[4], 0), alpha = law.value;
     const integral = Math.abs(alpha - 1) < 1e-9 ? Math.log(law.hi / law.lo) : (law.hi ** (1 - alpha) - law.lo ** (1 - alpha)) / (1 - alpha);
@@ -291,7 +291,7 @@ class Statistics {
   }
 
   drawTable() {
-    const heads = ['Run', 'Events', 'Mean time between them', 'Exponent of the sizes, range found', 'Exponent, threshold to largest',
+    const heads = ['Run', 'Events', 'Mean time between them', 'Exponent of the sizes, three decades',
       'γ (δ = 1, likelihood)', 'γ (δ = 1, least squares)', 'γ (δ free, likelihood)', 'Deviation / mean', 'Burstiness'];
     const head = element('tr');
     head.append(...heads.map(text => element('th', text, {scope: 'col'})));
@@ -315,12 +315,11 @@ class Statistics {
         return row;
       }
       const gamma = (held, method) => result.gammas.find(g => g.deltaHeld === held && g.method === method);
-      const {searched} = result;
+      const {law} = result;
       row.append(
         element('td', String(result.times + 1), {'data-name': 'events'}),
         element('td', result.meanText, {'data-name': 'mean'}),
-        cell(searched, 'exponent', searched.text ? ` (${short(searched.lo, 3)} to ${short(searched.hi, 3)}, ${searched.n} events)` : ''),
-        cell(result.toLargest, 'exponent-to-largest'),
+        cell(law, 'exponent', law.text ? ` (${short(law.lo, 3)} to ${short(law.hi, 3)}, ${law.n} events)` : ''),
         cell(gamma(true, 'maximum likelihood'), 'gamma'),
         cell(gamma(true, 'least squares'), 'gamma-least-squares'),
         cell(gamma(false, 'maximum likelihood'), 'gamma-free'),
@@ -332,7 +331,6 @@ class Statistics {
     this.find('commands').textContent = this.entries.flatMap(entry => {
       const file = `'${entry.events.info.file.replace(/'/g, "'\\''")}'`;
       return [`postproc fit ${file} --threshold ${size} -o sizes`,
-        `postproc fit ${file} --range ${size}:LARGEST -o sizes`,
         `postproc intervals ${file} --threshold ${size} -o times`];
     }).join('\n');
   }

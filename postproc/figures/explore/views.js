@@ -70,7 +70,7 @@ class View {
     }
     this.sizeGraph = new Dygraph(this.sizeBox, this.sizeData(), {
       ...common, ...(this.run.series ? {} : selector), labels: ['time', 'size'], colors: ['#0072B2'], highlightCircleSize: 0,
-      axes: {x: axes.x, y: {...axes.y, logscale: true, axisLabelFormatter: logLabel, pixelsPerLabel: 20}},
+      axes: {x: axes.x, y: {...axes.y, logscale: true, ticker: logTicks, pixelsPerLabel: 12}},
       ylabel: 'Size of events', xlabel: this.run.slip ? '' : 'Time (model units)', valueRange: this.sizeRange(),
       plotter: e => this.plotSizes(e),
       underlayCallback: (context, area, graph) => this.markThreshold(context, area, graph)
@@ -218,10 +218,11 @@ class View {
   }
 
   drawSlip() {
-    const slip = this.run.slip, area = this.sizeGraph.getArea(), height = 190;
-    const width = this.frame.clientWidth;
+    const slip = this.run.slip, area = this.sizeGraph.getArea();
+    // The scale stands beside the title of the axis, or, where there is no room, below it.
+    const width = this.frame.clientWidth, scaleRow = width < 900 ? 26 : 0, height = 190 + scaleRow;
     const context = sharp(this.slipBox, width, height);
-    const frame = {x: area.x, y: 6, w: area.w, h: height - 48};
+    const frame = {x: area.x, y: 6, w: area.w, h: 142};
     this.slipFrame = frame;
     const [from, to] = this.window, pixels = Math.max(1, Math.round(frame.w));
     drawShades(context, slip.shadesOver(from, to, pixels), pixels, slip.columns, frame, false);
@@ -236,7 +237,7 @@ class View {
     drawAxes(context, frame, {from, to, title: 'Time (model units)'}, {from: slip.info.x0, to: slip.info.x0 + slip.info.length, title: 'Place'});
     drawSlipScale(context, frame.x + 8, height - 24, 120);
     context.textAlign = 'left';
-    context.fillText('slip velocity / driving velocity', frame.x + 160, height - 19);
+    context.fillText(width < 500 ? 'slip / driving velocity' : 'slip velocity / driving velocity', frame.x + 160, height - 19);
     this.slipBox.setAttribute('aria-label', `Slip velocity along the fault from time ${short(from)} to ${short(to)}`);
   }
 

@@ -16,12 +16,12 @@ seconds() {
 }
 echo "N = 1928, $steps steps, dt 0.01, PE every step; seconds"
 for scheme in printed semi-implicit verlet; do
-  for kernel in scalar dense active; do : > "$folder/$kernel"; done
+  for kernel in scalar dense active; do : >"$folder/$kernel"; done
   for ((round = 1; round <= rounds; ++round)); do
-    "$plain_loop" $scheme 1928 0.01 "$steps" >> "$folder/scalar"
+    "$plain_loop" $scheme 1928 0.01 "$steps" >>"$folder/scalar"
     for kernel in dense active; do
       seconds --blocks 1928 --dt 0.01 --steps "$steps" --picker-lambda 0.99 --scheme $scheme \
-        --kernel $kernel >> "$folder/$kernel"
+        --kernel $kernel >>"$folder/$kernel"
     done
   done
   paste "$folder/scalar" "$folder/dense" "$folder/active" | awk -v scheme=$scheme '
@@ -33,7 +33,7 @@ echo "cost of the active set against N, semi-implicit, dt 0.01, the first 500 ti
 for blocks in 1000 10000 100000 1000000; do
   "$program" --blocks $blocks --dt 0.01 --steps 550000 --scheme semi-implicit --warmup 0 \
     --overwrite --catalogue "$folder/n.csv" \
-    --json "$folder/a.json" > /dev/null
+    --json "$folder/a.json" >/dev/null
   awk -v n=$blocks '/"nanosec/ {t = $2 + 0} /"moving_f/ {m = $2 * n}
     END {printf "N %8d  %10.1f ns/step  %10.1f blocks moving on average  %6.2f ns per moving block\n",
          n, t, m, (m > 0 ? t / m : 0)}' "$folder/a.json"

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "lsm_event_picker.h"
+#include "events/event_picker.h"
 #include "scalar_chain.h"
 
 int main(int argc, char **argv) {

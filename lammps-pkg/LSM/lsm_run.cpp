@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+
+#include "lsm_run.h"
+
+#include "comm.h"
+#include "error.h"
+#include "input.h"
+#include "update.h"
+
+#include "lsm_keyword_reader.h"
+#include "lsm_script.h"
+
+#include <filesystem>
+
+using namespace LAMMPS_NS;
+namespace fs = std::filesystem;
+
+// lsm_run N prefix PREFIX every M [after STEP] [note NAME] ...
+void LSMRun::command(int narg, char **arg)
+{
+  if (narg < 1) error->all(FLERR, "lsm_run expects a number of steps, prefix, and every");
+  const bigint steps = utils::bnumeric(FLERR, arg[0], false, lmp);
+  std::uint64_t of_piece = 0, first = 0;
+  LSMKeywordReader in(lmp, "lsm_run", 1, narg, arg);
+  in.read_all({{"prefix", &prefix},
+               {"every", &of_piece, LSM::Must::positive},
+               {"after", &first},
+               {"note", LSM::Action{1, [&] { noted.emplace_back(in.text()); }}}});
+  in.require({"prefix", "every"});
+
+  const auto every = static_cast<bigint>(of_piece), after = static_cast<bigint>(first);
+  const bigint last = after + steps;
+  const bigint &step = update->ntimestep;
+  if (step > last)
+    error->all(FLERR, "lsm_run: steps = {}, but {} of them are done; give as many or more", steps,
+               step - after);
+
+  // Each piece begins with the set-up of a run (exchange, order of the particles in memory, lists)
+  // and ends with a restart file, so that a run that continues from it does what the uninterrupted
+  // one did, to the last digit.
+  do {
+    const bigint done = step - after;
+    const bigint next = MIN(after + (done < 0 ? 0 : done / every + 1) * every, last);
+    input->one(fmt::format("run {} upto post no", next));
+    save(std::to_string(step));
+    const bigint pieces = (step - after + every - 1) / every;
+    if (pieces >= 2) remove(after + every * (pieces - 2));
+    if (step < last && told_to_stop()) {
+      if (comm->me == 0)
+        utils::logmesg(lmp, "Stopped at step {}, as there was a file {}.stop, which is removed\n",
+                       step, prefix);
+      input->one("quit 75");
+    }
+  } while (step < last);
+  save("end");
+  if (told_to_stop() && comm->me == 0)
+    error->warning(FLERR, "There was a file {}.stop, which is removed: the run has ended anyway",
+                   prefix);
+}
+
+void LSMRun::save(const std::string &name)
+{
+  LSM::text_io::Parameters settings;
+  for (const std::string &one : noted)
+    settings.emplace_back(one, LSMScript::value_of(lmp, one, "lsm_run"));
+  for (auto &one : LSMScript::listed(lmp, LSMScript::SAVED)) settings.push_back(std::move(one));
+  LSMScript::save_restart(lmp, prefix + ".restart." + name, settings, false);
+}
+
+// the two newest are kept
+void LSMRun::remove(bigint step)
+{
+  if (comm->me != 0) return;
+  const std::string file = prefix + ".restart." + std::to_string(step);
+  std::error_code code;
+  fs::remove(file + ".info", code);
+  fs::remove(file, code);
+}
+
+bool LSMRun::told_to_stop()
+{
+  int told = 0;
+  std::error_code code;
+  if (comm->me == 0) told = fs::remove(prefix + ".stop", code);
+  MPI_Bcast(&told, 1, MPI_INT, 0, world);
+  return told;
+}

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// a run in pieces, each of which ends with a restart file
+
+#ifdef COMMAND_CLASS
+// clang-format off
+CommandStyle(lsm_run,LSMRun);
+// clang-format on
+#else
+
+#ifndef LMP_LSM_RUN_H
+#define LMP_LSM_RUN_H
+
+#include "command.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class LSMRun : public Command {
+ public:
+  LSMRun(class LAMMPS *_lmp) : Command(_lmp) {}
+  void command(int, char **) override;
+
+ private:
+  std::string prefix;
+  std::vector<std::string> noted;    // further variables for the .info
+
+  void save(const std::string &name);
+  void remove(bigint step);
+  bool told_to_stop();
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+
+#include "lsm_variables.h"
+
+#include "comm.h"
+#include "error.h"
+#include "info.h"
+#include "input.h"
+#include "memory.h"
+#include "tokenizer.h"
+#include "variable.h"
+
+#include "files/restart_info.h"
+#include "lsm_ranks.h"
+#include "lsm_script.h"
+#include "lsm_variable_table.h"
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <map>
+
+using namespace LAMMPS_NS;
+
+static bool same(const std::string &one, const std::string &other)
+{
+  double a, b;
+  return one == other || (LSM::text_io::parse(one, a) && LSM::text_io::parse(other, b) && a == b);
+}
+
+// lsm_variables FILE [also NAME ...]
+void LSMVariables::command(int narg, char **arg)
+{
+  if (narg < 1 || (narg > 1 && strcmp(arg[1], "also") != 0))
+    error->all(FLERR, "lsm_variables expects the name of a table, and then 'also' with names");
+  const std::string path = LSMScript::beside(lmp, infile, arg[0], "lsm_variables");
+  std::string text;
+  if (comm->me == 0) {
+    std::ifstream in(path);
+    text.assign(std::istreambuf_iterator<char>(in), {});
+  }
+  lsm_share(text, world);
+  try {
+    const LSMVariableTable table(text, path);
+    refuse_repeated(table);
+    warn_of_others(table, narg - 1, arg + 1);
+    find_restart(table);
+    std::string names[2];
+    for (const LSMSceneVariable &one : table.variables) {
+      define(table, one);
+      if (one.restart != LSMSceneVariable::NONE) names[0] += one.name + " ";
+      if (one.header) names[1] += one.name + " ";
+    }
+    refuse_replaced(table);
+    set(LSMScript::SAVED, "string", names[0]);
+    set(LSMScript::HEADER, "string", names[1]);
+  } catch (const std::invalid_argument &e) {
+    error->all(FLERR, "lsm_variables: {}", e.what());
+  }
+}
+
+bool LSMVariables::is_given(const std::string &name) const
+{
+  return std::count(given.begin(), given.end(), name) > 0;
+}
+
+// LAMMPS takes the first and says nothing; what it was started with is all that knows the second
+void LSMVariables::refuse_repeated(const LSMVariableTable &table) const
+{
+  std::string problem;
+  if (comm->me == 0) {
+    std::ifstream in("/proc/self/cmdline");
+    std::vector<std::string> words;
+    for (std::string word; std::getline(in, word, '\0');) words.push_back(word);
+    std::map<std::string, std::string> first;
+    for (std::size_t n = 0; n + 2 < words.size(); n++) {
+      if ((words[n] != "-var" && words[n] != "-v") || !table.find(words[n + 1])) continue;
+      const auto [at, is_new] = first.emplace(words[n + 1], words[n + 2]);
+      if (!is_new && at->second != words[n + 2] && problem.empty())
+        problem = fmt::format("Variable {} is given twice, as '{}' and as '{}'; leave one out",
+                              at->first, at->second, words[n + 2]);
+    }
+  }
+  lsm_share(problem, world);
+  if (!problem.empty()) error->all(FLERR, "{}", problem);
+}
+
+// a name misspelt on the command line is a variable that nothing reads
+void LSMVariables::warn_of_others(const LSMVariableTable &table, int narg, char **arg) const
+{
+  if (comm->me != 0) return;
+  // of another type in each version of LAMMPS
+  int count = 0;
+  const auto names = Info(lmp).get_variable_names(count);
+  for (int n = 0; n < count; n++) {
+    const std::string name = names[n];
+    if (table.find(name) || name == LSMScript::SAVED || name == LSMScript::HEADER) continue;
+    if (std::none_of(arg, arg + narg, [&name](const char *known) { return name == known; }))
+      error->warning(FLERR, "Variable {} is not used by this script", name);
+  }
+}
+
+void LSMVariables::find_restart(const LSMVariableTable &table)
+{
+  for (const LSMSceneVariable &one : table.variables) {
+    if (input->variable->find(one.name.c_str()) >= 0) given.push_back(one.name);
+    if (one.is_restart_file() && is_given(one.name)) {
+      define(table, one);
+      restart = value_now(one.name);
+    }
+  }
+  if (restart.empty()) return;
+  const std::string problem = lsm_on_0(world, [this] { saved = LSM::check_restart(restart); });
+  if (!problem.empty()) error->all(FLERR, "lsm_variables: {}", problem);
+  std::string lines;
+  for (const auto &[key, value] : saved) lines += key + " " + value + "\n";
+  lsm_share(lines, world);
+  saved.clear();
+  for (const std::string &line : Tokenizer(lines, "\n").as_vector()) {
+    const auto blank = line.find(' ');
+    saved.emplace_back(line.substr(0, blank), line.substr(blank + 1));
+  }
+}
+
+// what the restart file has of a variable that continues from there
+const std::string *LSMVariables::saved_value(const LSMSceneVariable &one)
+{
+  if (restart.empty() ||
+      (one.restart != LSMSceneVariable::FIXED && one.restart != LSMSceneVariable::FREE))
+    return nullptr;
+  const std::string *const value = LSM::text_io::find(saved, one.name);
+  if (!value && one.restart == LSMSceneVariable::FIXED && comm->me == 0)
+    error->warning(FLERR, "Restart file {} has no value of {}: the given one is used", restart,
+                   one.name);
+  return value;
+}
+
+// A default that follows from other variables does so again if one of them is given anew.
+bool LSMVariables::follows_others(const LSMVariableTable &table, const LSMSceneVariable &one,
+                                  const std::string &value)
+{
+  if (one.restart != LSMSceneVariable::FREE) return false;
+  const auto then = [this](const std::string &name) {
+    const std::string *const found = LSM::text_io::find(saved, name);
+    return found ? *found : value_now(name);
+  };
+  const std::string &text = table.default_of(one, then);
+  const auto names = LSMVariableTable::named_in(text);
+  return std::any_of(names.begin(), names.end(),
+                     [&](const std::string &name) { return !same(value_now(name), then(name)); }) &&
+         same(evaluated(LSMVariableTable::filled(text, then)), value);
+}
+
+// a variable that is there was set on the command line, or by a script that includes this one
+void LSMVariables::define(const LSMVariableTable &table, const LSMSceneVariable &one)
+{
+  const auto now = [this](const std::string &name) { return value_now(name); };
+  const std::string *const then = saved_value(one);
+  std::string value;
+  if (is_given(one.name)) {
+    value = value_now(one.name);
+    if (then && same(value, *then)) {
+      // the same number, written differently: as before, for the headers of continued files
+      input->variable->set(one.name + " delete");
+      set(one.name, "index", value = *then);
+    } else if (then && one.restart == LSMSceneVariable::FIXED)
+      error->all(FLERR,
+                 "Variable {} is {}, but restart file {} was written with {} = {}, which it "
+                 "cannot change; leave it out",
+                 one.name, value, restart, one.name, *then);
+  } else if (then && !follows_others(table, one, *then)) {
+    set(one.name, "index", value = *then);
+  } else if (one.optional) {
+    return;
+  } else {
+    value = evaluated(LSMVariableTable::filled(table.default_of(one, now), now));
+    set(one.name, "index", value);
+  }
+  const std::string expected = one.expected(value);
+  if (!expected.empty())
+    error->all(FLERR, "Variable {} is '{}', but must be {}", one.name, value, expected);
+  // commands of LAMMPS take 1e5 for no whole number
+  if (one.accepted.compare(0, 6, "whole ") == 0 && !utils::is_integer(value)) {
+    input->variable->set(one.name + " delete");
+    set(one.name, "index", fmt::format("{:.0f}", std::stod(value)));
+  }
+}
+
+void LSMVariables::refuse_replaced(const LSMVariableTable &table)
+{
+  const auto now = [this](const std::string &name) { return value_now(name); };
+  for (const auto &[name, others] : table.replaced)
+    for (const std::string &other : others) {
+      if (!is_given(name) || !is_given(other)) continue;
+      const LSMSceneVariable &one = *table.find(name);
+      if (value_now(name) == evaluated(LSMVariableTable::filled(table.default_of(one, now), now)))
+        continue;
+      error->all(FLERR,
+                 "Variable {} is '{}', but has no effect, as {} is given, too; leave one of them "
+                 "out",
+                 other, value_now(other), name);
+    }
+}
+
+std::string LSMVariables::value_now(const std::string &name) const
+{
+  const char *const value = input->variable->retrieve(name.c_str());
+  if (!value) throw std::invalid_argument("variable " + name + " is needed before it is defined");
+  return value;
+}
+
+// what is left in a template, $(formula), as LAMMPS does it
+std::string LSMVariables::evaluated(const std::string &text) const
+{
+  if (text.find("$(") == std::string::npos) return text;
+  int size = static_cast<int>(text.size()) + 1, scratch_size = 0;
+  auto *buffer = static_cast<char *>(memory->smalloc(size, "lsm_variables"));
+  char *scratch = nullptr;
+  memcpy(buffer, text.c_str(), size);
+  input->substitute(buffer, scratch, size, scratch_size, 0);
+  const std::string value = buffer;
+  memory->sfree(buffer);
+  memory->sfree(scratch);
+  return value;
+}
+
+void LSMVariables::set(const std::string &name, const char *style, std::string value)
+{
+  std::string words[] = {name, style, std::move(value)};
+  char *arg[] = {words[0].data(), words[1].data(), words[2].data()};
+  input->variable->set(3, arg);
+}

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// the variables of a scene from a table: defaults, checks, values of a
+// restart file, and what goes into headers
+
+#ifdef COMMAND_CLASS
+// clang-format off
+CommandStyle(lsm_variables,LSMVariables);
+// clang-format on
+#else
+
+#ifndef LMP_LSM_VARIABLES_H
+#define LMP_LSM_VARIABLES_H
+
+#include "command.h"
+#include "files/text_io.h"
+
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+struct LSMSceneVariable;
+class LSMVariableTable;
+
+class LSMVariables : public Command {
+ public:
+  LSMVariables(class LAMMPS *_lmp) : Command(_lmp) {}
+  void command(int, char **) override;
+
+ private:
+  std::string restart;               // the file that the run continues from, or ""
+  LSM::text_io::Parameters saved;    // what is beside it
+  std::vector<std::string> given;    // variables that were set before
+
+  bool is_given(const std::string &) const;
+  void refuse_repeated(const LSMVariableTable &) const;
+  void warn_of_others(const LSMVariableTable &, int, char **) const;
+  void find_restart(const LSMVariableTable &);
+  void define(const LSMVariableTable &, const LSMSceneVariable &);
+  void refuse_replaced(const LSMVariableTable &);
+  const std::string *saved_value(const LSMSceneVariable &);
+  bool follows_others(const LSMVariableTable &, const LSMSceneVariable &, const std::string &);
+  std::string value_now(const std::string &) const;
+  std::string evaluated(const std::string &) const;
+  void set(const std::string &name, const char *style, std::string value);
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What compute lsm/events records of a scene: the styles that have its
+// energies and works, found anew for each run
+
+#ifndef LMP_LSM_EVENT_SOURCES_H
+#define LMP_LSM_EVENT_SOURCES_H
+
+#include "events/event_headers.h"
+#include "fault/energy_ledger.h"
+#include "lsm_energy.h"
+#include "pointers.h"
+
+#include <vector>
+
+namespace LAMMPS_NS {
+class BondLSMLinked;
+class Fix;
+class FixLSMLeap;
+class FixLSMNVE;
+class FixLSMPlates;
+
+class LSMEventSources : protected Pointers {
+ public:
+  LSMEventSources(LAMMPS *, const LSM::EventSettings &);
+  /// Stops if something in the scene does not work with recording, and warns of energies that are
+  /// not recorded. recorder: the fix that calls the compute.
+  void check(const Fix *recorder, bool ledger) const;
+  /// Stops if the scene lacks something that the settings need; makes the styles record what they
+  /// require.
+  void find(bool ledger);
+  /// Stops recording in the styles that are left.
+  void release();
+  /// Settings of the fault in intervals that the scene decides where the keywords do not.
+  void find_driving(LSM::EventSettings &) const;
+
+  /// Those that record slips and contacts.
+  const std::vector<LSMEnergySource *> &styles() const { return styles_; }
+  const FixLSMLeap *leap() const { return leap_; }    ///< null if steps and time are proportional
+  /// Bit of the group of the lower (0) or upper (1) face of the fault.
+  int face(int upper) const { return upper ? faces_.second : faces_.first; }
+  bool has_links() const { return links_; }
+
+  double pe() const;    ///< this rank's share
+  /// Links, contacts and their tangential springs, this rank's shares; three numbers.
+  void pe_by_kind(double *) const;
+  double max_strain() const;            ///< of this rank's links
+  LSM::EnergyTerms energies() const;    ///< of all ranks; works since these styles began
+  LSM::SceneInfo scene() const;
+  /// The variables of lsm_variables that headers state. Where a style knows what runs, that counts.
+  LSM::text_io::Parameters variables() const;
+
+ private:
+  std::pair<int, int> bits_of(const char *keyword, const LSM::TwoSides &) const;
+  void find_sides(LSMEnergySource &) const;
+
+  const LSM::EventSettings &settings_;
+  std::pair<int, int> faces_ = {0, 0};
+  BondLSMLinked *links_ = nullptr;
+  std::vector<LSMEnergySource *> styles_;
+  FixLSMPlates *plates_ = nullptr;
+  FixLSMLeap *leap_ = nullptr;
+  std::vector<FixLSMNVE *> integrators_;
+  std::vector<LSMWorkSource *> works_;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

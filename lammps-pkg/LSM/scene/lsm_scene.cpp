@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+
+#include "lsm_scene.h"
+
+#include "atom.h"
+#include "bond_hybrid.h"
+#include "bond_lsm_linked.h"
+#include "domain.h"
+#include "error.h"
+#include "force.h"
+#include "lsm_keyword_reader.h"
+#include "math_extra.h"
+#include "neigh_list.h"
+#include "numerics/sum.h"
+#include "pair_lsm_free.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace LAMMPS_NS {
+namespace LSMScene {
+
+  /// All sub-styles whose name matches; the pair style itself if it is no hybrid one.
+  static std::vector<Pair *> sub_styles(Force *force, const std::string &pattern)
+  {
+    std::vector<Pair *> all;
+    if (!force->pair) return all;
+    for (int n = 1;; n++) {
+      Pair *const one = force->pair_match(pattern, 0, n);
+      if (!one || std::find(all.begin(), all.end(), one) != all.end()) return all;
+      all.push_back(one);
+    }
+  }
+
+  std::vector<PairLSMFree *> contact_styles(Force *force)
+  {
+    std::vector<PairLSMFree *> all;
+    for (Pair *one : sub_styles(force, "^lsm/"))
+      if (auto contacts = dynamic_cast<PairLSMFree *>(one)) all.push_back(contacts);
+    return all;
+  }
+
+  bool is_ours(const Fix *fix)
+  {
+    return utils::strmatch(fix->style, "^lsm/") || utils::strmatch(fix->style, "^LSM_");
+  }
+
+  std::vector<LSM::PairSpring> springs(LAMMPS *lmp, double reach_factor)
+  {
+    Atom *const atom = lmp->atom;
+    Force *const force = lmp->force;
+    std::vector<LSM::PairSpring> all;
+    double **x = atom->x;
+
+    auto add = [&](int i, int j, bool newton, double k, double kt, double viscosity) {
+      LSM::PairSpring s{i,        j,  newton || j < atom->nlocal,
+                        k,        kt, {x[i][0] - x[j][0], x[i][1] - x[j][1], x[i][2] - x[j][2]},
+                        viscosity};
+      const double r = sqrt(s.n[0] * s.n[0] + s.n[1] * s.n[1] + s.n[2] * s.n[2]);
+      if (r == 0.0) return;
+      for (double &c : s.n) c /= r;
+      all.push_back(s);
+    };
+
+    if (auto links = dynamic_cast<BondLSMLinked *>(force->bond_match("lsm/linked")))
+      for (const auto &link : links->held())
+        add(link.i, link.j, force->newton_bond, link.stiffness, 0.0, link.viscosity);
+    for (PairLSMFree *contacts : contact_styles(force)) {
+      if (!contacts->list) continue;
+      int d = 0;
+      const auto k = (double **) contacts->extract("k", d);
+      const auto on = (int **) contacts->extract("on", d);
+      const auto kt = (double **) contacts->extract("kt", d);
+      const NeighList *list = contacts->list;
+      for (int ii = 0; ii < list->inum; ii++) {
+        const int i = list->ilist[ii];
+        for (int jj = 0; jj < list->numneigh[i]; jj++) {
+          const int j = list->firstneigh[i][jj] & NEIGHMASK;
+          const double reach = reach_factor * (atom->radius[i] + atom->radius[j]);
+          if (MathExtra::distsq3(x[i], x[j]) > reach * reach) continue;
+          const int it = atom->type[i], jt = atom->type[j];
+          if (on[it][jt])
+            add(i, j, force->newton_pair, k[it][jt], kt ? kt[it][jt] : 0.0,
+                contacts->viscosity(it, jt));
+        }
+      }
+    }
+    return all;
+  }
+
+  double kinetic(const Atom *atom, int group_bits)
+  {
+    double **v = atom->v;
+    LSM::NeumaierSum sum;
+    for (int i = 0; i < atom->nlocal; i++) {
+      if (atom->mask[i] & group_bits) continue;
+      const double m = atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
+      sum.add(m * (v[i][0] * v[i][0] + v[i][1] * v[i][1] + v[i][2] * v[i][2]));
+    }
+    return 0.5 * sum.value();
+  }
+
+  std::string foreign_forces(Force *force)
+  {
+    std::string names;
+    auto add = [&](const std::string &kind, const std::string &style) {
+      if (style == "zero" || style == "none" || utils::strmatch(style, "^lsm/")) return;
+      names += (names.empty() ? "" : ", ") + kind + " " + style;
+    };
+
+    // a pattern that matches hybrid would give the hybrid style and not its parts
+    for (const char *pattern : {"^[^h]", "^h[^y]"})
+      for (Pair *one : sub_styles(force, pattern)) add("pair", force->pair_match_ptr(one));
+    if (force->bond) {
+      if (auto hybrid = dynamic_cast<BondHybrid *>(force->bond))
+        for (int n = 0; n < hybrid->nstyles; n++) add("bond", hybrid->keywords[n]);
+      else
+        add("bond", force->bond_style);
+    }
+    if (force->angle) add("angle", force->angle_style);
+    if (force->dihedral) add("dihedral", force->dihedral_style);
+    if (force->improper) add("improper", force->improper_style);
+    if (force->kspace) add("kspace", force->kspace_style);
+    return names;
+  }
+
+  bool is_rerun(const Update *update)
+  {
+    return update->whichflag == 1 && (update->ntimestep != update->firststep ||
+                                      update->laststep != update->firststep + update->nsteps);
+  }
+
+  void require_plane(LAMMPS *lmp, const std::string &who)
+  {
+    if (lmp->domain->dimension != 2)
+      lmp->error->all(FLERR, "{} needs a 2-dimensional simulation (dimension 2)", who);
+    if (utils::strmatch(lmp->update->integrate_style, "^respa"))
+      lmp->error->all(FLERR, "{} does not work with run_style respa", who);
+  }
+
+  void refuse_changing_radii(LAMMPS *lmp, const std::string &who)
+  {
+    for (const auto &fix : lmp->modify->get_fix_list())
+      if (fix->diam_flag)
+        lmp->error->all(
+            FLERR,
+            "{}: fix {} changes the diameters of particles during a run, but radii and masses are "
+            "read at its beginning and when neighbor lists are built; change them between two runs",
+            who, fix->id);
+  }
+
+  double take_retardation(LAMMPS *lmp, const std::string &who, int &narg, char **arg)
+  {
+    int at = 0;
+    while (at < narg && strcmp(arg[at], "kelvin-voigt") != 0) at++;
+    double time = 0.0;
+    LSMKeywordReader(lmp, who, at, narg, arg)
+        .read_all({{"kelvin-voigt", &time, LSM::Must::not_negative}});
+    narg = at;
+    return time;
+  }
+
+}    // namespace LSMScene
+}    // namespace LAMMPS_NS

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What else is in the scene: asked by the styles of the package, so that
+// a combination that they cannot handle is named and not missed
+
+#ifndef LMP_LSM_SCENE_H
+#define LMP_LSM_SCENE_H
+
+#include "fault/frequency.h"
+#include "fix.h"
+#include "modify.h"
+
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+class Atom;
+class Force;
+class LAMMPS;
+class PairLSMFree;
+class Update;
+
+namespace LSMScene {
+
+  /// Pair styles of the package, each by itself under pair_style hybrid.
+  std::vector<PairLSMFree *> contact_styles(Force *);
+
+  /// Whether a fix is of the package.
+  bool is_ours(const Fix *);
+
+  /// The fixes of a kind, in their order.
+  template <class Kind> std::vector<Kind *> fixes(Modify *modify)
+  {
+    std::vector<Kind *> all;
+    for (const auto &fix : modify->get_fix_list())
+      if (auto one = dynamic_cast<Kind *>(fix)) all.push_back(one);
+    return all;
+  }
+
+  /// Links and contacts of this rank as springs about the present positions; also pairs that are
+  /// about to touch.
+  std::vector<LSM::PairSpring> springs(LAMMPS *, double reach_factor);
+
+  /// Kinetic energy of this rank's particles that are in none of the groups.
+  double kinetic(const Atom *, int group_bits);
+
+  /// Force styles in use that are not of the package, as "bond harmonic, pair lj/cut"; empty if
+  /// there is none.
+  std::string foreign_forces(Force *);
+
+  /// Whether the command rerun evaluates snapshots. LAMMPS has no flag for it, but its steps are
+  /// not consecutive as those of a run, which begins at the present step and has the given length.
+  bool is_rerun(const Update *);
+
+  /// Stops unless the simulation is 2-dimensional and steps are those of velocity Verlet; `who`
+  /// begins the message.
+  void require_plane(LAMMPS *, const std::string &who);
+
+  /// Stops if a fix changes particle radii during a run; `who` begins the message.
+  void refuse_changing_radii(LAMMPS *, const std::string &who);
+
+  /// The retardation time in the last two words of a line of coefficients, 'kelvin-voigt TIME',
+  /// which are removed, or 0; `who` begins the message.
+  double take_retardation(LAMMPS *, const std::string &who, int &narg, char **arg);
+
+}    // namespace LSMScene
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The version of all that the package has in restart files
+
+#ifndef LMP_LSM_RESTART_VERSION_H
+#define LMP_LSM_RESTART_VERSION_H
+
+#include "error.h"
+
+namespace LAMMPS_NS {
+
+/// To be raised with every change of what a style writes.
+constexpr int LSM_RESTART_VERSION = 1;
+
+inline void lsm_check_version(Error *error, int found)
+{
+  if (found != LSM_RESTART_VERSION)
+    error->all(FLERR,
+               "The restart file was written by another version of package LSM, expected "
+               "version {} of its data; begin anew, or use that version",
+               LSM_RESTART_VERSION);
+}
+
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+
+#include "lsm_variable_table.h"
+
+#include "files/names.h"
+#include "files/text_io.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstring>
+#include <regex>
+#include <sstream>
+#include <stdexcept>
+
+using namespace LAMMPS_NS;
+
+static std::vector<std::string> split(const std::string &text, char separator)
+{
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const auto end = std::min(text.find(separator, begin), text.size());
+    parts.emplace_back(LSM::text_io::trim(std::string_view(text).substr(begin, end - begin)));
+    begin = end + 1;
+  }
+  return parts;
+}
+
+// "NAME VALUE, NAME VALUE"
+static std::vector<std::pair<std::string, std::string>> pairs_in(const std::string &text)
+{
+  std::vector<std::pair<std::string, std::string>> pairs;
+  for (const std::string &part : split(text, ',')) {
+    const auto blank = part.find(' ');
+    if (blank == std::string::npos)
+      throw std::invalid_argument("expected a name and a value, but got '" + part + "'");
+    pairs.emplace_back(part.substr(0, blank), LSM::text_io::trim(part.substr(blank)));
+  }
+  return pairs;
+}
+
+// Names of files and free text reach the words of commands, so that only what is listed is
+// accepted.
+static bool consists_of(const std::string &value, const char *more)
+{
+  return std::all_of(value.begin(), value.end(), [more](unsigned char c) {
+    return std::isalnum(c) || c >= 0x80 || (c != 0 && std::strchr(more, c));
+  });
+}
+
+std::string LSMSceneVariable::expected(const std::string &value) const
+{
+  if (accepted == "file" || is_restart_file())
+    return !value.empty() && value.front() != '-' && consists_of(value, "._-+=,@:/~")
+               ? ""
+               : "a file name of letters, digits and any of . _ - + = , @ : / ~ that does not "
+                 "begin with "
+                 "- (./-name is accepted)";
+  if (accepted == "text")
+    return consists_of(value, "._-+=,@:/~* ")
+               ? ""
+               : "words of letters, digits and any of . _ - + = , @ : / ~ *";
+
+  double number = 0.0;
+  const bool is_number = LSM::text_io::parse(value, number) && std::isfinite(number);
+  if (accepted == "number") return is_number ? "" : "a number";
+  std::smatch bound;
+  static const std::regex BOUND("(whole )?(>=?) (\\S+)");
+  if (std::regex_match(accepted, bound, BOUND)) {
+    const bool whole = bound[1].matched;
+    const double least = std::stod(bound[3]);
+    const bool good = is_number && (bound[2] == ">" ? number > least : number >= least) &&
+                      (!whole || number == std::floor(number));
+    return good ? ""
+                : (whole             ? "a whole number of at least "
+                   : bound[2] == ">" ? "a number above "
+                                     : "a number of at least ") +
+                      bound[3].str();
+  }
+  const std::vector<std::string> words = split(accepted, ',');
+  return std::count(words.begin(), words.end(), value) ? "" : LSM::either(words);
+}
+
+LSMVariableTable::LSMVariableTable(const std::string &text, const std::string &file)
+{
+  std::istringstream in(text);
+  int number = 0;
+  for (std::string line; std::getline(in, line);) {
+    number++;
+    const std::string what(LSM::text_io::trim(line));
+    if (what.empty() || what[0] == '#') continue;
+    try {
+      const auto colon = what.find(':'), replaces = what.find(" replaces ");
+      if (what.compare(0, 5, "when ") == 0 && colon != std::string::npos) {
+        cases_.push_back({pairs_in(what.substr(5, colon - 5)), pairs_in(what.substr(colon + 1))});
+        continue;
+      }
+      const std::vector<std::string> cells = split(what, '|');
+      if (cells.size() == 1 && replaces != std::string::npos) {
+        replaced.emplace_back(what.substr(0, replaces), split(what.substr(replaces + 10), ','));
+        continue;
+      }
+      static const std::vector<std::string> RESTART = {"fixed", "free", "noted", "-"};
+      if (cells.size() != 7)
+        throw std::invalid_argument("expected 7 columns: name, default, values, restart, header, "
+                                    "unit and meaning, separated by |");
+      const auto restart = std::find(RESTART.begin(), RESTART.end(), cells[3]) - RESTART.begin();
+      if (cells[3] != "-" && restart == static_cast<long>(RESTART.size()))
+        throw std::invalid_argument("restart is '" + cells[3] + "', but must be " +
+                                    LSM::either(RESTART));
+      if (cells[4] != "header" && cells[4] != "-")
+        throw std::invalid_argument("header is '" + cells[4] + "', but must be header or -");
+      if (find(cells[0])) throw std::invalid_argument("a second variable " + cells[0]);
+      variables.push_back({cells[0], cells[1], cells[1] == "-", cells[2],
+                           static_cast<LSMSceneVariable::Restart>(restart), cells[4] == "header"});
+    } catch (const std::invalid_argument &e) {
+      throw std::invalid_argument(LSM::text_io::where(file, number) + e.what());
+    }
+  }
+  const auto known = [&](const std::string &name) {
+    if (!find(name)) throw std::invalid_argument(file + ": there is no variable " + name);
+  };
+  for (const Case &one : cases_) {
+    for (const auto &[name, value] : one.conditions) known(name);
+    for (const auto &[name, value] : one.defaults) known(name);
+  }
+  for (const auto &[name, others] : replaced) {
+    known(name);
+    for (const std::string &other : others) known(other);
+  }
+}
+
+const LSMSceneVariable *LSMVariableTable::find(const std::string &name) const
+{
+  const auto at = std::find_if(variables.begin(), variables.end(),
+                               [&](const LSMSceneVariable &one) { return one.name == name; });
+  return at == variables.end() ? nullptr : &*at;
+}
+
+const std::string &LSMVariableTable::default_of(const LSMSceneVariable &variable,
+                                                const Lookup &lookup) const
+{
+  const std::string *text = &variable.otherwise;
+  for (const Case &one : cases_)
+    for (const auto &[name, value] : one.defaults)
+      if (name == variable.name &&
+          std::all_of(one.conditions.begin(), one.conditions.end(),
+                      [&](const auto &pair) { return lookup(pair.first) == pair.second; }))
+        text = &value;
+  return *text;
+}
+
+static const std::regex NAMED("\\$\\{(\\w+)\\}|\\bv_(\\w+)");
+
+std::vector<std::string> LSMVariableTable::named_in(const std::string &text)
+{
+  std::vector<std::string> names;
+  for (std::sregex_iterator at(text.begin(), text.end(), NAMED), end; at != end; ++at)
+    names.push_back((*at)[1].matched ? (*at)[1] : (*at)[2]);
+  return names;
+}
+
+std::string LSMVariableTable::filled(const std::string &text, const Lookup &lookup)
+{
+  std::string out;
+  auto rest = text.begin();
+  for (std::sregex_iterator at(text.begin(), text.end(), NAMED), end; at != end; ++at) {
+    out.append(rest, (*at)[0].first);
+    out += lookup((*at)[1].matched ? (*at)[1] : (*at)[2]);
+    rest = (*at)[0].second;
+  }
+  return out.append(rest, text.end());
+}

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file events/block_sampler.h
+/// Records of every step, collected in blocks, so that ranks communicate once per block: one block
+/// is filled while the previous one is on its way to rank 0.
+#ifndef LSM_BLOCK_SAMPLER_H
+#define LSM_BLOCK_SAMPLER_H
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "events/slip_recorder.h"
+#include "numerics/sum.h"
+
+namespace LSM {
+
+/// One rank's share of the samples of consecutive steps.
+struct SampleBlock {
+  std::int64_t first = 0;  ///< step of the first sample
+  int count = 0;           ///< samples
+  std::vector<double> pe;  ///< of each step
+  /// Three numbers each: the step as its place in the block, bin, moment.
+  std::vector<double> slip;
+  std::vector<double> intervals;  ///< SlipRecorder::sums() of the intervals that ended in the block
+
+  void clear() {
+    count = 0;
+    pe.clear();
+    slip.clear();
+    intervals.clear();
+  }
+};
+
+/// Fills blocks. A block handed over stays valid until the next one is.
+class BlockSampler {
+ public:
+  /// steps in a block, at least 1; nothing may have been sampled since the last hand_over()
+  void resize(int steps) {
+    steps_ = steps;
+    for (SampleBlock *block : {&filling_, &handed_over_})
+      block->pe.reserve(static_cast<std::size_t>(steps));
+  }
+
+  /// Slip in the step whose PE comes next, in bins of that width.
+  void add_slip(const std::vector<ContactSlip> &slips, double bin_width) {
+    for (const ContactSlip &s : slips)
+      filling_.slip.insert(filling_.slip.end(), {static_cast<double>(filling_.count),
+                                                 std::floor(s.along / bin_width), s.moment});
+  }
+  /// An interval that ends with the step whose PE comes next.
+  void add_interval(const std::vector<double> &sums) {
+    filling_.intervals.insert(filling_.intervals.end(), sums.begin(), sums.end());
+  }
+  void add(std::int64_t step, double pe) {
+    if (filling_.count == 0) filling_.first = step;
+    filling_.pe.push_back(pe);
+    ++filling_.count;
+  }
+
+  bool empty() const { return filling_.count == 0; }
+  bool full() const { return filling_.count >= steps_; }
+
+  /// The block so far; a new one begins.
+  const SampleBlock &hand_over() {
+    std::swap(filling_, handed_over_);
+    filling_.clear();
+    return handed_over_;
+  }
+
+ private:
+  int steps_ = 1;
+  SampleBlock filling_, handed_over_;
+};
+
+/// The blocks of all ranks, on rank 0.
+struct GatheredBlock {
+  std::int64_t first = 0;
+  int count = 0, ranks = 1;
+  std::vector<double> pe;         ///< count samples of each rank, one rank after the other
+  std::vector<double> slip;       ///< as in SampleBlock, one rank after the other
+  std::vector<double> intervals;  ///< sums over the ranks
+
+  /// Total of a sample; n: its place in the block.
+  double total(int n) const {
+    NeumaierSum sum;
+    for (int rank = 0; rank < ranks; ++rank)
+      sum.add(pe[static_cast<std::size_t>(rank) * static_cast<std::size_t>(count) +
+                 static_cast<std::size_t>(n)]);
+    return sum.value();
+  }
+
+  /// The slips of each step, in the order of the ranks.
+  std::vector<std::vector<BinSlip>> slip_by_step() const {
+    std::vector<std::vector<BinSlip>> steps(static_cast<std::size_t>(count));
+    for (std::size_t n = 0; n + 2 < slip.size(); n += 3)
+      steps[static_cast<std::size_t>(slip[n])].push_back({slip[n + 1], slip[n + 2]});
+    return steps;
+  }
+};
+
+}  // namespace LSM
+
+#endif

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file events/event_picker.h
+/// Picks stick-slip events from a time series of the total elastic potential energy (PE), as in
+/// Sect. 4.1 of Weatherley and Abe (2004). Shared by the lattice solid and the block-slider model.
+#ifndef LSM_EVENT_PICKER_H
+#define LSM_EVENT_PICKER_H
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+
+#include "files/names.h"
+
+namespace LSM {
+
+/// Readings of the paper's formula for the average change of PE, called A here;
+/// x = PE(t+1) - PE(t).
+enum class PickerReading {
+  exponential,  ///< A <- lambda A + (1 - lambda) x (default; ours), memory 1/(1 - lambda) samples
+  average,      ///< A <- (x + lambda A) / (1 + lambda) (ours), memory of about two samples
+  literal       ///< A <- (x + lambda A) / (1 + lambda t), t = index of the change, from 0 (paper)
+};
+
+constexpr std::array<Named<PickerReading>, 3> names_of(PickerReading) {
+  return {{{PickerReading::exponential, "exponential"},
+           {PickerReading::average, "average"},
+           {PickerReading::literal, "literal"}}};
+}
+
+struct PickerSettings {
+  PickerReading reading = PickerReading::exponential;
+  double lambda = 0.99;           ///< leakiness per sample, 0 <= lambda < 1 (paper: 0.99)
+  double min_size = 0.0;          ///< positive sizes below this are counted, not reported (ours)
+  bool keep_nonpositive = false;  ///< report events of size <= 0 too, whatever min_size is (ours)
+};
+
+/// Leakiness that gives the exponential reading the memory memory_time, whatever the sampling
+/// interval dt (same units): exp(-dt/memory_time) (ours).
+/// \throws std::invalid_argument unless both are positive and finite.
+inline double lambda_from_memory_time(double memory_time, double dt) {
+  if (!std::isfinite(memory_time) || !(memory_time > 0.0))
+    throw std::invalid_argument("picker memory time must be a positive number");
+  if (!std::isfinite(dt) || !(dt > 0.0))
+    throw std::invalid_argument("time between picker samples must be a positive number");
+  return std::exp(-dt / memory_time);
+}
+
+/// When an event happened and how large it was: all that most statistics need of it.
+struct Shock {
+  double t_start = 0.0, t_end = 0.0;
+  double size = 0.0;  ///< pe_start - pe_end
+};
+
+/// One event. Times in model time, steps as pushed, energies in model energy.
+/// The picker fills all but slip_moment and the members after it, which belong to the program that
+/// knows the slip.
+struct Event : Shock {
+  std::int64_t id = 0;  ///< 1, 2, ... over the reported events
+  std::int64_t step_start = 0, step_end = 0;
+  double pe_start = 0.0, pe_end = 0.0;
+  double slip_moment = 0.0, x_centroid = 0.0, rupture_length = 0.0;
+  double x_hypocentre = 0.0, x_begin = 0.0, mean_slip = 0.0, stress_drop = 0.0;  ///< of ruptures
+};
+
+/// The whole state of a picker besides its settings. Plain old data without padding, so it can be
+/// copied byte by byte into a restart file of the same machine type.
+struct PickerState {
+  std::int64_t samples = 0;   ///< samples pushed so far
+  std::int64_t step = 0;      ///< last sample
+  double time = 0.0;          ///< last sample
+  double pe = 0.0;            ///< last sample
+  double rate = 0.0;          ///< A
+  std::int64_t in_event = 0;  ///< 1 from beginning to end of an event
+  std::int64_t step_start = 0;
+  double t_start = 0.0;
+  double pe_start = 0.0;
+  std::int64_t events = 0;  ///< reported events
+  std::int64_t dropped_nonpositive = 0;
+  std::int64_t dropped_small = 0;
+  double last_size = 0.0;  ///< size of the last reported event
+};
+static_assert(std::is_trivially_copyable<PickerState>::value, "PickerState goes into restarts");
+static_assert(sizeof(PickerState) == 13 * 8, "PickerState must have no padding");
+
+/// Whether an event of this size is left out; if so, counts it.
+inline bool is_left_out(double size, const PickerSettings &settings, PickerState &counts) {
+  if (!(size > 0.0)) {
+    counts.dropped_nonpositive += settings.keep_nonpositive ? 0 : 1;
+    return !settings.keep_nonpositive;
+  }
+  counts.dropped_small += size < settings.min_size ? 1 : 0;
+  return size < settings.min_size;
+}
+
+/// Streaming picker: push one PE sample after the other, in order of time.
+///
+/// With x = PE(t+1) - PE(t) and A updated with x, an event begins at sample t when A turns from
+///>= 0 to < 0, and ends at sample t when A turns to > 0; A == 0 keeps an open event open. The
+/// size, PE(start) - PE(end), comes from the raw series. The first sample only sets PE; A starts at
+/// 0. An event still open after the last sample is not reported.
+class EventPicker {
+ public:
+  /// \throws std::invalid_argument if a setting is out of range.
+  explicit EventPicker(PickerSettings settings) : settings_(settings) {
+    if (!(settings_.lambda >= 0.0 && settings_.lambda < 1.0))
+      throw std::invalid_argument("picker lambda must be at least 0 and less than 1");
+    if (!std::isfinite(settings_.min_size) || settings_.min_size < 0.0)
+      throw std::invalid_argument("picker minimum size must be a finite number >= 0");
+  }
+
+  /// Adds the sample PE(step) = pe. Returns true, and fills out, if an event to be reported ended
+  /// at the sample before this one; otherwise out is unchanged.
+  /// Samples may be a decimated series; steps and times are reported as given.
+  /// \throws std::invalid_argument (and drops the sample) if step or time do not advance or a
+  /// number is not finite, e.g. because a simulation blew up.
+  bool push(std::int64_t step, double time, double pe, Event &out) {
+    return push_change(step, time, pe, pe - state_.pe, out);
+  }
+
+  /// As push(), with the change dpe since the previous sample given by the caller, who may know it
+  /// more accurately than the difference of two large sums. pe is used for the sizes and may be the
+  /// accumulated dpe. The dpe of the first sample is ignored.
+  bool push_change(std::int64_t step, double time, double pe, double dpe, Event &out) {
+    check(step, time, pe, dpe);
+    const bool first = state_.samples == 0;
+    bool report = false;
+    if (!first) {
+      update_rate(dpe);
+      if (state_.in_event) {
+        if (state_.rate > 0.0) {
+          state_.in_event = 0;
+          report = finish(out);
+        }
+      } else if (state_.rate < 0.0) {
+        state_.in_event = 1;
+        state_.step_start = state_.step;
+        state_.t_start = state_.time;
+        state_.pe_start = state_.pe;
+      }
+    }
+    ++state_.samples;
+    state_.step = step;
+    state_.time = time;
+    state_.pe = pe;
+    return report;
+  }
+
+  bool in_event() const { return state_.in_event != 0; }
+  /// A, the smoothed change of PE per sample, after the last push.
+  double rate() const { return state_.rate; }
+  const PickerState &state() const { return state_; }
+  /// Continues from a saved state, even within an event; the settings must be those of that state.
+  /// \throws std::invalid_argument if no picker can be in that state.
+  void set_state(const PickerState &state) {
+    const bool sane =
+        state.samples >= 0 && (state.in_event == 0 || state.in_event == 1) && state.events >= 0 &&
+        state.dropped_nonpositive >= 0 && state.dropped_small >= 0 && std::isfinite(state.time) &&
+        std::isfinite(state.pe) && std::isfinite(state.rate) &&
+        (state.in_event == 0 || (state.rate <= 0.0 && std::isfinite(state.t_start) &&
+                                 std::isfinite(state.pe_start) && state.step_start < state.step));
+    if (!sane) throw std::invalid_argument("saved picker state is inconsistent");
+    state_ = state;
+  }
+
+  /// Continues with other settings; the rate is one per step, so it is multiplied by the ratio of
+  /// the steps.
+  void change(const PickerSettings &settings, double ratio) {
+    PickerState state = state_;
+    state.rate *= ratio;
+    *this = EventPicker(settings);
+    set_state(state);
+  }
+  /// PE changed by that much since the last sample, without a step.
+  void leave_out_jump(double jump) {
+    state_.pe += jump;
+    state_.pe_start += jump;
+  }
+
+  const PickerSettings &settings() const { return settings_; }
+
+ private:
+  void check(std::int64_t step, double time, double pe, double dpe) const {
+    const bool first = state_.samples == 0;
+    if (!std::isfinite(pe) || (!first && !std::isfinite(dpe)))
+      throw std::invalid_argument("potential energy at step " + std::to_string(step) +
+                                  " is not a finite number");
+    if (!std::isfinite(time))
+      throw std::invalid_argument("time at step " + std::to_string(step) +
+                                  " is not a finite number");
+    if (first) return;
+    if (step <= state_.step)
+      throw std::invalid_argument("potential energy sample at step " + std::to_string(step) +
+                                  " after step " + std::to_string(state_.step) +
+                                  ", expected increasing steps");
+    if (time < state_.time)
+      throw std::invalid_argument("time goes back at step " + std::to_string(step) +
+                                  ", expected increasing times");
+  }
+
+  void update_rate(double x) {
+    const double lambda = settings_.lambda;
+    switch (settings_.reading) {
+      case PickerReading::exponential:
+        state_.rate = lambda * state_.rate + (1.0 - lambda) * x;
+        break;
+      case PickerReading::average:
+        state_.rate = (x + lambda * state_.rate) / (1.0 + lambda);
+        break;
+      case PickerReading::literal:
+        // The number of samples before this one is one more than the index of the change.
+        state_.rate =
+            (x + lambda * state_.rate) / (1.0 + lambda * static_cast<double>(state_.samples - 1));
+        break;
+    }
+  }
+
+  /// The event ended at the sample still in state_.
+  bool finish(Event &out) {
+    // No size is 0 or less in exact arithmetic: the changes within an event sum to a weighted sum
+    // of the negative A in between. Rounding of a large PE can make it so.
+    const double size = state_.pe_start - state_.pe;
+    if (is_left_out(size, settings_, state_)) return false;
+    out = Event();
+    out.id = ++state_.events;
+    out.t_start = state_.t_start;
+    out.t_end = state_.time;
+    out.step_start = state_.step_start;
+    out.step_end = state_.step;
+    out.size = size;
+    out.pe_start = state_.pe_start;
+    out.pe_end = state_.pe;
+    state_.last_size = size;
+    return true;
+  }
+
+  PickerSettings settings_;
+  PickerState state_;
+};
+
+}  // namespace LSM
+
+#endif

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file events/fault_grid.h
+/// A fault in bins along it and in intervals of so many steps: what its faces did in each.
+///
+/// Values of a bin and interval are kept as floats: the slip history has the numbers that the
+/// events were found from, and sums over several ranks, which differ in the order of the additions,
+/// give the same numbers.
+#ifndef LSM_FAULT_GRID_H
+#define LSM_FAULT_GRID_H
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace LSM {
+
+/// How the fault is divided, and the times of the intervals.
+struct FaultGrid {
+  int bins = 1;
+  double x0 = 0.0;            ///< lower edge of the first bin
+  double width = 1.0;         ///< of a bin; the fault has the length bins * width
+  std::int64_t step0 = 0;     ///< begin of the first interval
+  std::int64_t interval = 1;  ///< steps
+  double time0 = 0.0;         ///< time at step0
+  double dt = 1.0;            ///< time of a step
+  bool ring = true;           ///< periodic; else the fault has two ends
+
+  double length() const { return bins * width; }
+  double duration() const { return static_cast<double>(interval) * dt; }  ///< of an interval
+  double time(std::int64_t step) const {
+    return time0 + (static_cast<double>(step) - static_cast<double>(step0)) * dt;
+  }
+  bool ends_interval(std::int64_t step) const {
+    return step > step0 && (step - step0) % interval == 0;
+  }
+  double centre(std::int64_t bin) const { return x0 + (static_cast<double>(bin) + 0.5) * width; }
+};
+
+/// What the bins of the fault did in one interval. Slip and stress are positive in the direction in
+/// which the fault is driven.
+struct FaultRow {
+  std::vector<float> slip;    ///< mean displacement of the upper face along the lower one
+  std::vector<float> work;    ///< work lost to friction
+  std::vector<float> stress;  ///< shear force of the contacts per length, mean over the interval
+  FaultRow() = default;
+  explicit FaultRow(int bins)
+      : slip(static_cast<std::size_t>(bins)), work(slip.size()), stress(slip.size()) {}
+};
+
+/// Sums of a bin over an interval, see SlipRecorder: displacements of the particles of each face
+/// and the steps that these took, work and force of the contacts.
+enum FaultField : std::size_t { UPPER, UPPER_STEPS, LOWER, LOWER_STEPS, WORK, FORCE, fault_fields };
+
+/// Mean displacement of a face in each bin, in so many steps; that of a bin without particles is
+/// interpolated linearly between the nearest two with particles, on a ring across the seam.
+inline std::vector<double> face_displacements(const FaultGrid &grid, const double *sums,
+                                              std::int64_t steps) {
+  const auto bins = static_cast<std::size_t>(grid.bins);
+  std::vector<double> mean(bins, 0.0);
+  std::vector<std::size_t> held;  // bins with particles
+  for (std::size_t b = 0; b < bins; ++b) {
+    const double *const s = sums + fault_fields * b;
+    if (!(s[1] > 0.0)) continue;
+    mean[b] = s[0] / s[1] * static_cast<double>(steps);
+    held.push_back(b);
+  }
+  if (held.empty()) return mean;
+  if (!grid.ring) {
+    std::fill(mean.begin(), mean.begin() + static_cast<std::ptrdiff_t>(held.front()),
+              mean[held.front()]);
+    std::fill(mean.begin() + static_cast<std::ptrdiff_t>(held.back()), mean.end(),
+              mean[held.back()]);
+  }
+  for (std::size_t k = 0; k + (grid.ring ? 0 : 1) < held.size(); ++k) {
+    const std::size_t left = held[k];
+    const std::size_t right = k + 1 < held.size() ? held[k + 1] : held[0] + bins;
+    const double a = mean[left], b = mean[right % bins];
+    const auto distance = static_cast<double>(right - left);
+    for (std::size_t open = left + 1; open < right; ++open)
+      mean[open % bins] = a + (b - a) * (static_cast<double>(open - left) / distance);
+  }
+  return mean;
+}
+
+/// The row of an interval of so many steps from SlipRecorder::sums().
+inline FaultRow fault_row(const FaultGrid &grid, const double *sums, std::int64_t steps) {
+  FaultRow row(grid.bins);
+  const std::vector<double> upper = face_displacements(grid, sums + UPPER, steps),
+                            lower = face_displacements(grid, sums + LOWER, steps);
+  for (std::size_t b = 0; b < row.slip.size(); ++b) {
+    const double *const s = sums + fault_fields * b;
+    row.slip[b] = static_cast<float>(upper[b] - lower[b]);
+    row.work[b] = static_cast<float>(s[WORK]);
+    row.stress[b] = static_cast<float>(s[FORCE] / (static_cast<double>(steps) * grid.width));
+  }
+  return row;
+}
+
+/// What slips and what is connected; part of a slip history.
+struct RuptureSettings {
+  double velocity = 0.0;    ///< bins whose slip velocity exceeds this slip
+  int gap = 0;              ///< bins that may lie between two that are connected
+  std::int64_t memory = 1;  ///< intervals over which bins are connected, at least 1
+  double modulus = 1.0;     ///< shear modulus
+};
+
+/// Displacement of a bin in an interval above which it slips; the same wherever ruptures are found.
+inline double slipping_above(const FaultGrid &grid, double velocity) {
+  return velocity * grid.duration();
+}
+
+}  // namespace LSM
+
+#endif

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file events/slip_recorder.h
+/// Where a fault slips, on each rank: slips of the contacts between its two sides; work and force
+/// of these contacts and displacements of the two faces, summed in bins and intervals. (Ours.)
+#ifndef LSM_SLIP_RECORDER_H
+#define LSM_SLIP_RECORDER_H
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "events/fault_grid.h"
+
+namespace LSM {
+
+/// Slip of one contact during one step.
+struct ContactSlip {
+  double along;   ///< distance along x from the beginning of the fault, less than its length
+  double moment;  ///< |slip| times contact size
+};
+
+/// Slip of the contacts inside one bin along the fault during one step.
+struct BinSlip {
+  double bin;     ///< index of the bin along x
+  double moment;  ///< sum of |slip| times contact size
+};
+
+/// A contact between the two sides of a fault along x in one force evaluation.
+struct FaultContact {
+  double x;      ///< middle between the two centres
+  double work;   ///< lost to friction
+  double force;  ///< on the lower particle along x
+  double share;  ///< 1, or 0.5 where another rank has the contact as well
+};
+
+/// Displacement of a particle of one of the two faces of the fault along x in so many steps.
+struct FaceDisplacement {
+  double x;  ///< in the middle of them
+  double displacement;
+  double steps;
+  bool upper;
+};
+
+/// Sums of one rank's contacts and faces in the bins over the intervals of a fault; those of
+/// several ranks can be added.
+class SlipRecorder {
+ public:
+  /// forward: direction in which the upper side is driven along x, 1 or -1.
+  void begin(const FaultGrid &grid, double forward) {
+    grid_ = grid;
+    forward_ = forward;
+    sums_.assign(fault_fields * static_cast<std::size_t>(grid.bins), 0.0);
+  }
+
+  const FaultGrid &grid() const { return grid_; }
+  /// The sums of the incomplete interval, fault_fields of each bin.
+  std::vector<double> &sums() { return sums_; }
+  void clear() { std::fill(sums_.begin(), sums_.end(), 0.0); }
+
+  /// Contacts of the state before the first interval; only their forces count.
+  void add_forces(const std::vector<FaultContact> &contacts) {
+    for (const FaultContact &c : contacts) at(c.x)[FORCE] += c.share * (forward_ * c.force);
+  }
+  /// Contacts of a step.
+  void add(const std::vector<FaultContact> &contacts) {
+    for (const FaultContact &c : contacts) {
+      double *const sums = at(c.x);
+      sums[WORK] += c.share * c.work;
+      sums[FORCE] += c.share * (forward_ * c.force);
+    }
+  }
+  void add(const std::vector<FaceDisplacement> &faces) {
+    for (const FaceDisplacement &f : faces) {
+      double *const sums = at(f.x) + (f.upper ? UPPER : LOWER);
+      sums[0] += forward_ * f.displacement;
+      sums[1] += f.steps;
+    }
+  }
+
+ private:
+  /// The sums of the bin at x.
+  double *at(double x) {
+    double along = (x - grid_.x0) / grid_.length();
+    along = grid_.ring ? along - std::floor(along) : std::max(along, 0.0);
+    const int bin = std::min(static_cast<int>(along * grid_.bins), grid_.bins - 1);
+    return &sums_[fault_fields * static_cast<std::size_t>(bin)];
+  }
+
+  FaultGrid grid_;
+  double forward_ = 1.0;
+  std::vector<double> sums_;
+};
+
+}  // namespace LSM
+
+#endif

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file events/slip_sets.h
+/// Sets of sliding places connected in space and time, assembled as the slips occur. Places form a
+/// ring: blocks of a chain, or bins along a fault. (Ours.)
+///
+/// A place that slides in step n is connected with the places at most `reach` from it that slide in
+/// step n or in one of the `memory` steps before it. A set ends when no sliding place can connect
+/// with it any more; two sets that meet become one.
+#ifndef LSM_SLIP_SETS_H
+#define LSM_SLIP_SETS_H
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace LSM {
+
+/// Members common to all sets; derived classes add the rest.
+struct SlipSet {
+  std::int64_t step_start = 0;  ///< the step before the first in which a place slid
+  std::int64_t step_end = 0;    ///< the last step in which a place slid
+  std::int64_t first = 0;       ///< lowest of those that slid first
+  /// The row of places that slid, with the gaps between them: length in a row from begin on.
+  std::int64_t begin = 0, length = 0;
+
+  /// The order in which sets are reported.
+  bool operator<(const SlipSet &other) const {
+    return std::tie(step_end, step_start, first) <
+           std::tie(other.step_end, other.step_start, other.first);
+  }
+};
+
+/// Adds a row of places to that of a set, with the gap of at most `gap` places between them. A row
+/// whose ends are no farther apart than that covers the whole ring.
+inline void extend(SlipSet &set, std::int64_t begin, std::int64_t length, std::int64_t places,
+                   std::int64_t gap) {
+  if (set.length == places) return;
+  const std::int64_t behind = (begin - set.begin + places) % places;  // from set.begin to begin
+  std::int64_t n = std::max(set.length, behind + length);
+  const std::int64_t other = std::max(length, places - behind + set.length);
+  if (behind > set.length && other <= n) {
+    n = other;
+    set.begin = begin;
+  }
+  if (places - n <= gap) {
+    n = places;
+    set.begin = 0;
+  }
+  set.length = n;
+}
+
+/// A place whose slip may still connect with the next one. Plain data.
+struct RecentSlip {
+  std::int64_t place = 0, step = 0;
+  std::int64_t set = 0;  ///< index of its set
+
+  template <class Self, class State>
+  static void visit(Self &self, State &state) {
+    state(self.place, self.step, self.set);
+  }
+};
+
+/// The state between steps.
+template <class Set>
+struct SlipSetsState {
+  std::vector<Set> open;
+  std::vector<RecentSlip> recent;
+};
+
+/// Puts slips together to sets. Set is derived from SlipSet and has absorb(const Set &later), which
+/// adds the values of the derived class; its first and row are joined here.
+///
+/// Call begin_step(), slide() for each place that slides in ascending order, end_step(). The result
+/// depends on nothing but these calls. Memory: some words per place and per open set.
+template <class Set>
+class SlipSets {
+ public:
+  SlipSets(int places, int reach, std::int64_t memory)
+      : places_(places), reach_(std::min(reach, std::max(1, places / 2))), memory_(memory) {
+    if (places < 1 || reach < 1) throw std::invalid_argument("rupture reach less than one place");
+    if (memory < 1) throw std::invalid_argument("rupture memory less than one step");
+    last_.assign(static_cast<std::size_t>(places), never);
+    owner_.assign(last_.size(), 0);
+  }
+
+  void begin_step(std::int64_t step) { step_ = step; }
+
+  /// Place i slides. Returns its set, valid until the next call; begun is called with the set if it
+  /// is new.
+  template <class Begun>
+  Set &slide(int i, Begun &&begun) {
+    std::int32_t mine = none;
+    for (int d = -reach_; d <= reach_; ++d) {
+      int j = i + d;
+      if (j < 0) j += places_;
+      if (j >= places_) j -= places_;
+      if (last_[index(j)] < step_ - memory_) continue;
+      const std::int32_t other = owner_[index(j)] = root(owner_[index(j)]);
+      if (mine == none) {
+        mine = other;
+        extend(nodes_[index(mine)].set, i, 1, places_, reach_ - 1);
+      } else if (mine != other) {
+        mine = join(mine, other);
+      }
+    }
+    if (mine == none) {
+      mine = start(i);
+      begun(nodes_[index(mine)].set);
+    }
+    Set &set = nodes_[index(mine)].set;
+    set.step_end = step_;
+    last_[index(i)] = step_;
+    owner_[index(i)] = mine;
+    return set;
+  }
+
+  /// Ends the step. Calls look(Set &) for each open set, then finished(const Set &) for each set
+  /// that has ended, in order of step_end, step_start, first place.
+  template <class Look, class Finished>
+  void end_step(Look &&look, Finished &&finished) {
+    if (open_.empty()) return;
+    finished_.clear();
+    std::size_t kept = 0;
+    for (const std::int32_t k : open_) {
+      Node &node = nodes_[index(k)];
+      if (node.parent != k) continue;  // joined with another one
+      look(node.set);
+      if (node.set.step_end > step_ - memory_) {
+        open_[kept++] = k;
+        continue;
+      }
+      finished_.push_back(node.set);
+      for (std::int32_t m = k; m != none; m = nodes_[index(m)].next) free_.push_back(m);
+    }
+    open_.resize(kept);
+    if (finished_.empty()) return;
+    std::sort(finished_.begin(), finished_.end());
+    for (const Set &set : finished_) finished(set);
+  }
+
+  /// No set is open.
+  bool idle() const { return open_.empty(); }
+  /// Sets that are open; after end_step().
+  std::int64_t open() const { return static_cast<std::int64_t>(open_.size()); }
+  int places() const { return places_; }
+  std::int64_t memory() const { return memory_; }
+  std::int64_t step() const { return step_; }
+
+  /// Calls f(const Set &) for each open set; after end_step().
+  template <class F>
+  void each_open(F &&f) const {
+    for (const std::int32_t k : open_) f(nodes_[index(k)].set);
+  }
+
+  /// After end_step().
+  SlipSetsState<Set> state() const {
+    SlipSetsState<Set> s;
+    std::vector<std::int64_t> place(nodes_.size(), -1);
+    for (const std::int32_t k : open_) {
+      place[index(k)] = static_cast<std::int64_t>(s.open.size());
+      s.open.push_back(nodes_[index(k)].set);
+    }
+    for (int i = 0; i < places_ && !open_.empty(); ++i) {
+      if (last_[index(i)] > step_ - memory_)
+        s.recent.push_back({i, last_[index(i)], place[index(root(owner_[index(i)]))]});
+    }
+    return s;
+  }
+
+  /// Continues after the given step. \throws std::invalid_argument if no sets can be in that state.
+  void set_state(const SlipSetsState<Set> &s, std::int64_t step) {
+    step_ = step;
+    nodes_.clear();
+    open_.clear();
+    free_.clear();
+    std::fill(last_.begin(), last_.end(), never);
+    const std::invalid_argument bad("saved ruptures are inconsistent");
+    const auto count = static_cast<std::int64_t>(s.open.size());
+    if (count > places_) throw bad;
+    for (const Set &set : s.open) {
+      const auto k = static_cast<std::int32_t>(nodes_.size());
+      nodes_.push_back({k, none, k, set});
+      open_.push_back(k);
+    }
+    for (const RecentSlip &r : s.recent) {
+      if (r.place < 0 || r.place >= places_ || r.set < 0 || r.set >= count || r.step > step)
+        throw bad;
+      last_[static_cast<std::size_t>(r.place)] = r.step;
+      owner_[static_cast<std::size_t>(r.place)] = static_cast<std::int32_t>(r.set);
+    }
+  }
+
+ private:
+  static constexpr std::int32_t none = -1;
+  static constexpr std::int64_t never = INT64_MIN / 2;
+
+  // Sets joined with another one stay as nodes that lead to it until it ends, as places may still
+  // refer to them.
+  struct Node {
+    std::int32_t parent, next, tail;  // next and tail: chain of all nodes joined with a root
+    Set set;
+  };
+
+  template <class Integer>
+  static std::size_t index(Integer i) {
+    return static_cast<std::size_t>(i);
+  }
+
+  std::int32_t root(std::int32_t k) const {
+    while (nodes_[index(k)].parent != k) k = nodes_[index(k)].parent;
+    return k;
+  }
+
+  std::int32_t start(int i) {
+    std::int32_t k;
+    if (free_.empty()) {
+      k = static_cast<std::int32_t>(nodes_.size());
+      nodes_.emplace_back();
+    } else {
+      k = free_.back();
+      free_.pop_back();
+    }
+    Set set;
+    set.step_start = step_ - 1;
+    set.first = i;
+    set.begin = i;
+    set.length = 1;
+    if (places_ <= reach_) extend(set, i, 1, places_, reach_ - 1);
+    nodes_[index(k)] = {k, none, k, set};
+    open_.push_back(k);
+    return k;
+  }
+
+  std::int32_t join(std::int32_t a, std::int32_t b) {
+    const Set &x = nodes_[index(a)].set, &y = nodes_[index(b)].set;
+    if (std::tie(y.step_start, y.first) < std::tie(x.step_start, x.first)) std::swap(a, b);
+    Node &into = nodes_[index(a)], &joined = nodes_[index(b)];
+    extend(into.set, joined.set.begin, joined.set.length, places_, reach_ - 1);
+    into.set.step_end = std::max(into.set.step_end, joined.set.step_end);
+    into.set.absorb(joined.set);
+    joined.parent = a;
+    nodes_[index(into.tail)].next = b;
+    into.tail = joined.tail;
+    return a;
+  }
+
+  int places_, reach_;
+  std::int64_t memory_;
+  std::int64_t step_ = 0;
+  std::vector<std::int64_t> last_;   // step in which a place slid last
+  std::vector<std::int32_t> owner_;  // its set then
+  std::vector<Node> nodes_;
+  std::vector<std::int32_t> open_, free_;
+  std::vector<Set> finished_;
+};
+
+}  // namespace LSM
+
+#endif

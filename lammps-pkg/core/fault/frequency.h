@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file fault/frequency.h
+/// Upper bound of the highest frequency of masses and springs, for the time step check.
+///
+/// Lanczos iteration from a random start. The largest Ritz value approaches the largest eigenvalue
+/// from below, and no residual tells whether a mode confined to a few discs has been missed. The
+/// random start gives the bound: after k steps in n dimensions the largest eigenvalue of a positive
+/// semi-definite matrix exceeds the Ritz value by more than a fraction e of itself with a
+/// probability of at most 1.648 sqrt(n) ((1 - sqrt e) / (1 + sqrt e))^(k - 1/2), for any matrix
+/// (Kuczynski and Wozniakowski, SIAM J. Matrix Anal. Appl. 13, 1094, 1992, Theorem 4.2).
+#ifndef LSM_FREQUENCY_H
+#define LSM_FREQUENCY_H
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "numerics/constants.h"
+
+namespace LSM {
+
+/// A spring between particles i and j along the unit vector n, with stiffness k along it and kt
+/// across it, and the viscosity of a dashpot along it. Unless `both`, the force on j is not added;
+/// the rank that owns j adds it.
+struct PairSpring {
+  int i, j;
+  bool both;
+  double k, kt;
+  std::array<double, 3> n;
+  double viscosity = 0.0;
+};
+
+/// Adds the forces of the springs against the displacements to force; axes values a particle.
+template <std::size_t axes>
+void add_spring_forces(const std::vector<PairSpring> &springs,
+                       const std::vector<double> &displacement, std::vector<double> &force) {
+  for (const PairSpring &s : springs) {
+    const double *const ui = displacement.data() + static_cast<std::size_t>(s.i) * axes;
+    const double *const uj = displacement.data() + static_cast<std::size_t>(s.j) * axes;
+    double *const fi = force.data() + static_cast<std::size_t>(s.i) * axes;
+    double *const fj = force.data() + static_cast<std::size_t>(s.j) * axes;
+    double u[axes], along = 0.0;
+    for (std::size_t c = 0; c < axes; ++c) {
+      u[c] = ui[c] - uj[c];
+      along += u[c] * s.n[c];
+    }
+    along *= s.k - s.kt;
+    for (std::size_t c = 0; c < axes; ++c) {
+      const double f = along * s.n[c] + s.kt * u[c];
+      fi[c] += f;
+      if (s.both) fj[c] -= f;
+    }
+  }
+}
+
+inline void add_spring_forces(const std::vector<PairSpring> &springs, int dim,
+                              const std::vector<double> &displacement, std::vector<double> &force) {
+  if (dim == 3)
+    add_spring_forces<3>(springs, displacement, force);
+  else
+    add_spring_forces<2>(springs, displacement, force);
+}
+
+/// Two independent normal random numbers, chosen by key and axis, so that a start vector does not
+/// depend on the order of the particles and on the ranks that own them.
+inline std::pair<double, double> normal_pair(std::uint64_t key, std::uint64_t axis) {
+  std::uint64_t state = key * 4 + axis;
+  auto uniform = [&state] {  // splitmix64; in (0, 1]
+    state += 0x9e3779b97f4a7c15ULL;
+    std::uint64_t z = state;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+    z ^= z >> 31;
+    return (static_cast<double>(z >> 11) + 1.0) * 0x1.0p-53;
+  };
+  state = static_cast<std::uint64_t>(uniform() * 0x1.0p53);
+  const double length = std::sqrt(-2.0 * std::log(uniform()));
+  const double angle = 2.0 * pi * uniform();
+  return {length * std::cos(angle), length * std::sin(angle)};
+}
+
+/// Largest eigenvalue of the symmetric tridiagonal matrix, by bisection with Sturm sequences.
+inline double largest_of_tridiagonal(const std::vector<double> &diagonal,
+                                     const std::vector<double> &beside) {
+  const std::size_t n = diagonal.size();
+  double low = diagonal[0], high = diagonal[0];
+  for (std::size_t i = 0; i < n; ++i) {
+    const double reach =
+        (i > 0 ? std::fabs(beside[i - 1]) : 0.0) + (i + 1 < n ? std::fabs(beside[i]) : 0.0);
+    low = std::max(low, diagonal[i]);
+    high = std::max(high, diagonal[i] + reach);
+  }
+  // Whether x is above all eigenvalues: all pivots of the matrix minus x are negative.
+  auto above = [&](double x) {
+    double pivot = diagonal[0] - x;
+    for (std::size_t i = 1; i < n && pivot < 0.0; ++i)
+      pivot = diagonal[i] - x - beside[i - 1] * beside[i - 1] / pivot;
+    return pivot < 0.0;
+  };
+  for (int halving = 0; halving < 200; ++halving) {
+    const double middle = 0.5 * (low + high);
+    if (!(middle > low && middle < high)) break;
+    (above(middle) ? high : low) = middle;
+  }
+  return high;
+}
+
+/// Largest eigenvalue of a positive semi-definite matrix.
+struct LargestEigenvalue {
+  double found = 0.0;  ///< Ritz value: not above it
+  double bound = 0.0;  ///< not below it, but with the probability asked for
+  int steps = 0;       ///< products with the matrix
+};
+
+/// Fraction by which the eigenvalue may exceed the Ritz value, and probability that it exceeds it
+/// by more.
+constexpr double eigenvalue_share = 0.05;
+constexpr double eigenvalue_risk = 1e-12;
+
+/// Steps after which the Ritz value is accurate to eigenvalue_share in that many dimensions.
+inline int lanczos_steps(double dimensions) {
+  const double root = std::sqrt(eigenvalue_share);
+  return static_cast<int>(
+      std::ceil(0.5 + std::log(1.648 * std::sqrt(dimensions) / eigenvalue_risk) /
+                          std::log((1.0 + root) / (1.0 - root))));
+}
+
+/// start: this rank's share of a vector of independent normal numbers, of which there are
+/// dimensions on all ranks. multiply(x, y) sets y to the matrix times x; sum(a) adds up over ranks.
+template <class Multiply, class Sum>
+LargestEigenvalue largest_eigenvalue(std::vector<double> start, double dimensions,
+                                     Multiply &&multiply, Sum &&sum) {
+  LargestEigenvalue result;
+  auto dot = [&sum](const std::vector<double> &a, const std::vector<double> &b) {
+    double mine = 0.0;
+    for (std::size_t n = 0; n < a.size(); ++n) mine += a[n] * b[n];
+    return sum(mine);
+  };
+  std::vector<double> v = std::move(start), before(v.size(), 0.0), next(v.size(), 0.0);
+  const double length = std::sqrt(dot(v, v));
+  if (!(length > 0.0)) return result;
+  for (double &x : v) x /= length;
+
+  const int steps = lanczos_steps(dimensions);
+  std::vector<double> diagonal, beside;
+  double off = 0.0;
+  bool complete = false;  // nothing is left outside the space searched
+  while (result.steps < steps && !complete) {
+    multiply(v, next);
+    ++result.steps;
+    for (std::size_t n = 0; n < v.size(); ++n) next[n] -= off * before[n];
+    const double on = dot(v, next);
+    for (std::size_t n = 0; n < v.size(); ++n) next[n] -= on * v[n];
+    off = std::sqrt(dot(next, next));
+    diagonal.push_back(on);
+    beside.push_back(off);
+    result.found = std::max(result.found, on);
+    complete = !(off > 1e-13 * result.found);
+    if (complete) break;
+    before.swap(v);
+    v.swap(next);
+    for (double &x : v) x /= off;
+  }
+  result.found = largest_of_tridiagonal(diagonal, beside);
+  result.bound = complete ? result.found * (1.0 + 1e-9) : result.found / (1.0 - eigenvalue_share);
+  return result;
+}
+
+/// One rank's masses and springs. Particles are numbered: first those owned, then the ghosts, which
+/// another rank owns or which are images beyond a periodic boundary.
+struct SpringNetwork {
+  int dim = 2;                    ///< 2 or 3
+  std::vector<double> mass;       ///< of those at home
+  std::vector<std::uint64_t> id;  ///< of those at home, for the start vector
+  std::size_t ghosts = 0;
+  std::vector<PairSpring> springs;
+};
+
+/// Square of the highest frequency: largest eigenvalue of M^-1/2 K M^-1/2, in so many dimensions on
+/// all ranks. displacement and force belong to the caller, `dim` values per particle: to_ghosts()
+/// has to copy displacements of owned particles to their ghosts, from_ghosts() to add the forces of
+/// ghosts to those of owned particles, or to do nothing if no spring gave them any. sum(a) adds up
+/// over ranks.
+template <class ToGhosts, class FromGhosts, class Sum>
+LargestEigenvalue highest_frequency_squared(const SpringNetwork &network, double dimensions,
+                                            std::vector<double> &displacement,
+                                            std::vector<double> &force, ToGhosts &&to_ghosts,
+                                            FromGhosts &&from_ghosts, Sum &&sum) {
+  const auto dim = static_cast<std::size_t>(network.dim);
+  const std::size_t size = network.mass.size() * dim;
+  std::vector<double> scale(size), start(size);
+  for (std::size_t i = 0; i < network.mass.size(); ++i)
+    for (std::size_t c = 0; c < dim; ++c) {
+      scale[i * dim + c] = 1.0 / std::sqrt(network.mass[i]);
+      const auto pair = normal_pair(network.id[i], c - c % 2);
+      start[i * dim + c] = c % 2 == 0 ? pair.first : pair.second;
+    }
+  const auto multiply = [&](const std::vector<double> &from, std::vector<double> &to) {
+    displacement.resize(size + network.ghosts * dim);
+    for (std::size_t n = 0; n < size; ++n) displacement[n] = from[n] * scale[n];
+    to_ghosts();
+    force.assign(displacement.size(), 0.0);
+    add_spring_forces(network.springs, network.dim, displacement, force);
+    from_ghosts();
+    for (std::size_t n = 0; n < size; ++n) to[n] = force[n] * scale[n];
+  };
+  return largest_eigenvalue(std::move(start), dimensions, multiply, sum);
+}
+
+}  // namespace LSM
+
+#endif

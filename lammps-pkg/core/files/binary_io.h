@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file files/binary_io.h
+/// What the binary files have in common: 16 bytes that name the format, int64 length of the header,
+/// the header of "# key = value" lines, then records of numbers; everything little-endian.
+#ifndef LSM_BINARY_IO_H
+#define LSM_BINARY_IO_H
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "files/header_values.h"
+#include "files/text_io.h"
+
+namespace LSM::binary_io {
+
+constexpr std::int64_t longest_header = 1 << 20;
+
+/// A number in the byte order of the machine, as bytes of the file or back.
+template <class Bytes>
+Bytes little_endian(Bytes bytes) {
+#if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
+  std::reverse(bytes.begin(), bytes.end());
+#endif
+  return bytes;
+}
+
+template <class Number>
+void append_bytes(std::string &out, Number value) {
+  std::array<char, sizeof(Number)> bytes{};
+  std::memcpy(bytes.data(), &value, bytes.size());
+  bytes = little_endian(bytes);
+  out.append(bytes.data(), bytes.size());
+}
+
+template <class Number>
+Number from_bytes(const char *from) {
+  std::array<char, sizeof(Number)> bytes{};
+  std::memcpy(bytes.data(), from, bytes.size());
+  bytes = little_endian(bytes);
+  Number value{};
+  std::memcpy(&value, bytes.data(), bytes.size());
+  return value;
+}
+
+// Info, the header of a kind of files, is a FileHeader and has
+//   magic                  the first 16 bytes of the file, the last two of them the version
+//   what                   it is, for messages
+//   visit(info, f)         calls f(name, number) for each number, in the order of the file
+//   header()               all parameters
+//   read(all parameters)   takes those that visit() leaves out; returns what is wrong, or ""
+//   fault()                what is wrong with the numbers, or ""
+//   record_bytes()
+
+/// The model and the numbers of a header.
+template <class Info>
+text_io::Parameters numbers_of(const Info &info) {
+  text_io::Parameters all = {{"model", info.model}};
+  Info::visit(info, [&all](const char *name, const auto &value) {
+    all.emplace_back(name, text_io::number(value));
+  });
+  return all;
+}
+
+/// Reads the records of a file, all of one size, one after the other. Anything unexpected throws;
+/// only a truncated last record, as a killed run leaves it, is dropped if asked to (lenient).
+template <class Info>
+class RecordReader {
+ public:
+  const Info &info() const { return info_; }
+  std::int64_t records() const { return total_; }  ///< of a file, or at the end of a pipe
+  bool torn() const { return torn_; }              ///< a truncated last record is dropped
+  /// Offset behind the last one read.
+  std::int64_t end() const { return begin_ + read_ * bytes_; }
+
+ protected:
+  /// \throws FileError if the file cannot be read or its header is not as it should be.
+  RecordReader(std::unique_ptr<text_io::Bytes> in, bool lenient)
+      : in_(std::move(in)), lenient_(lenient) {
+    const std::string problem = interpret(read_header());
+    if (!problem.empty()) throw FileError(in_->path() + ": " + problem);
+    bytes_ = info_.record_bytes();
+    const std::int64_t size = in_->size();
+    if (size >= 0) end_after(size - begin_);
+  }
+
+  /// The bytes of the next one, valid until the next call; nullptr: there is none. \throws
+  /// FileError
+  const char *next_record() {
+    if (read_ != total_ && used_ == block_.size()) {
+      const std::int64_t most = std::max<std::int64_t>(1, (1 << 16) / bytes_);
+      block_.resize(static_cast<std::size_t>(std::min(most, total_ - read_) * bytes_));
+      used_ = 0;
+      const std::size_t got = in_->read(block_.data(), block_.size());
+      if (got < block_.size()) end_after(read_ * bytes_ + static_cast<std::int64_t>(got));
+    }
+    if (read_ == total_) return nullptr;
+    ++read_;
+    const char *const record = block_.data() + used_;
+    used_ += static_cast<std::size_t>(bytes_);
+    return record;
+  }
+  /// About the last one read. \throws FileError
+  [[noreturn]] void fail(const std::string &what) const {
+    throw FileError(in_->path() + ": record " + std::to_string(read_) + ": " + what);
+  }
+
+ private:
+  /// All parameters of the header.
+  text_io::Parameters read_header() {
+    const std::string &path = in_->path();
+    std::array<char, 16> first{};
+    const std::string_view found(first.data(), in_->read(first.data(), first.size()));
+    constexpr std::string_view name = Info::magic.substr(0, 15), family = name.substr(0, 14);
+    if (found.substr(0, family.size()) != family)
+      throw FileError(path + ": not a " + Info::what + ", expected a file that begins with " +
+                      text_io::in_quotes(name));
+    if (found != Info::magic)
+      throw FileError(path + ": " + Info::what + " of another version, expected version 1");
+    std::array<char, 8> bytes{};
+    const bool whole = in_->read(bytes.data(), bytes.size()) == bytes.size();
+    const auto length = from_bytes<std::int64_t>(bytes.data());
+    std::string text;
+    if (whole && length >= 0 && length <= longest_header)
+      text.resize(static_cast<std::size_t>(length));
+    if (!whole || in_->read(text.data(), text.size()) != static_cast<std::uint64_t>(length))
+      throw FileError(path + ": file ends within the binary header, expected its length and " +
+                      "'# key = value' lines");
+    begin_ = 16 + 8 + length;
+    text_io::ParameterList parameters;
+    const std::string problem = parameters.add_lines(text, bad_value);
+    if (!problem.empty()) throw FileError(path + ": " + problem);
+    return parameters.all();
+  }
+
+  /// Sorts them into info_; returns what is wrong, or "".
+  std::string interpret(const text_io::Parameters &all) {
+    std::string problem = text_io::take(all, "model", info_.model);
+    Info::visit(info_, [&](const char *name, auto &value) {
+      if (problem.empty()) problem = text_io::take(all, name, value);
+    });
+    if (problem.empty()) problem = info_.read(all);
+    if (!problem.empty()) return problem;
+    const text_io::Parameters known = info_.header();
+    for (const auto &parameter : all)
+      if (!text_io::find(known, parameter.first)) info_.parameters.push_back(parameter);
+    return info_.fault();
+  }
+
+  void end_after(std::int64_t bytes) {
+    total_ = bytes / bytes_;
+    torn_ = bytes % bytes_ != 0;
+    if (torn_ && !lenient_)
+      throw FileError(in_->path() + ": truncated record " + std::to_string(total_ + 1) +
+                      " at the end, expected " + std::to_string(bytes_) + " bytes per record");
+  }
+
+  std::unique_ptr<text_io::Bytes> in_;
+  Info info_;
+  std::int64_t begin_ = 0, bytes_ = 1, total_ = INT64_MAX, read_ = 0;
+  std::vector<char> block_;
+  std::size_t used_ = 0;
+  bool lenient_ = false, torn_ = false;
+};
+
+/// Begins such files, and goes on with them.
+template <class Info>
+class RecordWriter : public text_io::ResumableFile {
+ protected:
+  /// Starts a new file, replacing an older one (which stays if the new one cannot be written).
+  /// \throws FileError; std::invalid_argument for a header that could not be read back.
+  void begin(const std::string &path, const Info &info) {
+    std::string bytes(Info::magic);
+    const std::string lines = text_io::lines_of(checked(info));
+    append_bytes(bytes, static_cast<std::int64_t>(lines.size()));
+    file_.create(path, bytes + lines);
+    info_ = info;
+  }
+
+  /// Checks that the header is what begin() would write, but for parameters named in ignore.
+  /// \throws the same, naming the first parameter that differs
+  void compare(const std::string &path, const Info &found, const Info &info,
+               const std::vector<std::string> &ignore) {
+    const std::string problem = text_io::difference(found.header(), checked(info), ignore);
+    if (!problem.empty()) refuse(path, problem);
+    info_ = info;
+  }
+
+  Info info_;
+
+ private:
+  static text_io::Parameters checked(const Info &info) {
+    const std::string problem = info.fault();
+    if (!problem.empty())
+      throw std::invalid_argument(std::string(Info::what) + " header: " + problem);
+    text_io::check_parameters(info.header());
+    return info.header();
+  }
+};
+
+}  // namespace LSM::binary_io
+
+#endif

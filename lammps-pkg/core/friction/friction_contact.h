@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file friction/friction_contact.h
+/// What is kept of two discs that touch, or nearly do, from one step to the next.
+#ifndef LSM_FRICTION_CONTACT_H
+#define LSM_FRICTION_CONTACT_H
+
+#include <cmath>
+
+#include "friction/force_laws.h"
+
+namespace LSM::friction_contact {
+
+/// The numbers: elongation of the tangential spring along the tangent (-ny, nx), the vector from j
+/// to i in the step before, the status, and the state of the law, if it has one. The first four are
+/// always there, so that a restart may switch static friction or the onset on or off. All but the
+/// vector, which changes its sign, are the same seen from i and from j.
+enum { XI, DX, DY, STATUS, LAW_STATE };
+/// With the onset located, pairs that nearly touch are kept as well, so that the vector before the
+/// contact is known.
+constexpr double STICKS = 0.0, SLIDES = 1.0, NEAR = -1.0;
+constexpr double NEAR_REACH = 1.05;  ///< in sums of radii
+
+/// What all contacts of an evaluation have in common.
+struct Step {
+  bool setup;       ///< of a run, for a step that was done: contacts stay as they are
+  double rounding;  ///< but for those of discs that a command moved since by more than this
+  double time;      ///< that the step lasts
+  bool located;     ///< the begin of a contact within the step is found
+};
+
+/// No contact: the vector is kept while the pair is near, and forgotten otherwise.
+inline void keep_near(bool near, double delx, double dely, bool &touch, double *h) {
+  touch = near;
+  h[XI] = 0.0;
+  h[DX] = near ? delx : 0.0;
+  h[DY] = near ? dely : 0.0;
+  h[STATUS] = near ? NEAR : STICKS;
+}
+
+template <class Law>
+[[gnu::always_inline]] inline void begin(const typename Law::Coefficients &c, double *h) {
+  h[STATUS] = STICKS;
+  Law::begin(c, h + LAW_STATE);
+}
+
+/// Displacement of a contact in the step, and its time; one that was not there begins. Whether the
+/// discs have moved.
+///
+/// The displacement is the change of the pair vector since the step before, not velocity times time
+/// step: ghost velocities need not be communicated, and evaluating the forces twice at the same
+/// positions (run after run, restart) changes nothing. It is taken along the tangent of the middle
+/// of the step, so that it is of second order.
+template <class Law>
+[[gnu::always_inline]] inline bool follow(const Step &step, const typename Law::Coefficients &c,
+                                          double delx, double dely, double r, double r0,
+                                          bool &touch, double *h, FrictionContact &contact) {
+  if (!touch) {
+    touch = true;
+    h[XI] = 0.0;
+    begin<Law>(c, h);
+    return !step.setup;
+  }
+  bool moved = !step.setup;
+  if (step.setup)
+    moved = std::fabs(delx - h[DX]) > step.rounding || std::fabs(dely - h[DY]) > step.rounding;
+  const double mx = delx + h[DX], my = dely + h[DY];
+  const double msq = mx * mx + my * my;
+  const double minv = msq > 0.0 ? 1.0 / std::sqrt(msq) : 0.0;
+  contact.dxi = (my * (h[DX] - delx) + mx * (dely - h[DY])) * minv;
+  if constexpr (Law::needs_time) contact.time = step.time;
+  if (h[STATUS] != NEAR) return moved;
+  const double before = std::sqrt(h[DX] * h[DX] + h[DY] * h[DY]);
+  const double share = step.located ? share_in_contact(before, r, r0) : 0.0;
+  contact.dxi *= share;
+  if constexpr (Law::needs_time) contact.time *= share;
+  begin<Law>(c, h);
+  return moved;
+}
+
+/// Of a contact that did not move nothing changes.
+template <class Law>
+[[gnu::always_inline]] inline FrictionStep next(bool moved, const typename Law::Coefficients &c,
+                                                FrictionContact &contact, double *h) {
+  contact.xi = h[XI];
+  if constexpr (Law::needs_sliding) contact.sliding = h[STATUS] == SLIDES;
+  if (!moved) return {h[XI], c.kt * h[XI], 0.0, 0.0, contact.sliding};
+  return friction_step<Law>(c, contact, h + LAW_STATE);
+}
+
+template <class Law>
+[[gnu::always_inline]] inline void keep(const FrictionStep &s, double delx, double dely,
+                                        double *h) {
+  h[XI] = s.xi;
+  h[DX] = delx;
+  h[DY] = dely;
+  if constexpr (Law::needs_sliding) h[STATUS] = s.sliding ? SLIDES : STICKS;
+}
+
+}  // namespace LSM::friction_contact
+
+#endif

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "units.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "command.h"
+#include "files/text_io.h"
+#include "numbers.h"
+
+namespace LSM::postproc {
+
+namespace {
+
+class Units : public CatalogueAnalysis {
+  UnitOptions units_;
+
+  const char *help() const override {
+    return "What the units of the lattice solid fault are in SI for a length, a speed of P-waves "
+           "and a density of your choice, and what the faults of catalogues are then (ours; the "
+           "paper has model units only). magnitudes, rates and export take the same options";
+  }
+
+  void add_options(CLI::App *command) override {
+    catalogues.add_to(command);
+    json.add_to(command);
+    units_.add_to(OptionGroup(command, "SI units (ours)"));
+  }
+
+  static Table units_table(const ModelUnits &units) {
+    Table table("quantity,unit,value");
+    table.show({{"one model unit of", "quantity"}, {"is", "value"}, {"in", "unit"}});
+    table.row("length", "m", units.length);
+    table.row("time", "s", units.time());
+    table.row("velocity", "m/s", units.velocity());
+    table.row("stress, stiffness", "MPa", units.stress() * 1e-6);
+    table.row("energy, sizes", "J", units.energy());
+    table.row("slip times length, moments", "N m", units.moment());
+    table.row("Mw of that moment", "", moment_magnitude(units.moment()).constant);
+    return table;
+  }
+
+  /// What a fault is in SI: numbers of its header and its largest event.
+  static void add_fault(Table &table, const EventTable &fault, const ModelUnits &units,
+                        const MagnitudeOptions &magnitudes) {
+    const auto header = [&](const char *name, const char *quantity, const char *unit, double si) {
+      double value = 0.0;
+      const std::string *const text = fault.info.find(name);
+      if (text && text_io::parse(*text, value))
+        table.row(fault.label, quantity, value, unit, value * si);
+    };
+    header("length", "length of the fault", "km", units.length * 1e-3);
+    header("width", "width across the fault", "km", units.length * 1e-3);
+    header("stress", "normal stress", "MPa", units.stress() * 1e-6);
+    header("velocity", "velocity of each plate", "m/s", units.velocity());
+    header("dt", "time step", "s", units.time());
+    if (fault.events.empty()) return;
+    const auto largest = std::max_element(fault.details.begin(), fault.details.end(),
+                                          [&](const Event &a, const Event &b) {
+                                            return magnitudes.quantity(a) < magnitudes.quantity(b);
+                                          });
+    table.row(fault.label, "first to last event", fault.last_end - fault.events.front().t_start,
+              "s", (fault.last_end - fault.events.front().t_start) * units.time());
+    if (largest == fault.details.end() || !(magnitudes.quantity(*largest) > 0.0)) return;
+    const double quantity = magnitudes.quantity(*largest);
+    table.row(fault.label, fmt::format("{} of the largest event", magnitudes.type()), quantity, "",
+              magnitudes.scale(fault.path, fault.info).of(quantity));
+  }
+
+  Findings find() override {
+    const ModelUnits units = units_.units();
+    catalogues.details = CatalogueOptions::all_events;
+    Table faults("label,quantity,model,unit,value");
+    faults.show({{"catalogue", "label"},
+                 {"", "quantity"},
+                 {"model", "model"},
+                 {"SI", "value"},
+                 {"in", "unit"}});
+    for (const EventTable &table : load_catalogues(catalogues)) {
+      units_.units(table.path, table.info);
+      MagnitudeOptions magnitudes;
+      magnitudes.units = units_;
+      if (!table.info.slip_moment) magnitudes.take_size();
+      add_fault(faults, table, units, magnitudes);
+    }
+    Findings found;
+    found.say(fmt::format("S-waves {} m/s, shear modulus {} GPa, thickness {} m\n",
+                          short_number(units.s_speed()), short_number(units.shear_modulus() * 1e-9),
+                          short_number(units.thickness)));
+    found.table("units", units_table(units));
+    found.table("faults", std::move(faults));
+    return found;
+  }
+};
+
+}  // namespace
+
+std::shared_ptr<Command> make_units() { return std::make_shared<Units>(); }
+
+}  // namespace LSM::postproc

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file period_figure.h
+/// Rayleigh's Z of the events against the period.
+#ifndef LSM_POSTPROC_PERIOD_FIGURE_H
+#define LSM_POSTPROC_PERIOD_FIGURE_H
+
+#include <string>
+#include <vector>
+
+#include "periods.h"
+#include "plot.h"
+
+namespace LSM::postproc {
+
+/// \param labels one for each scan \param unit of the periods
+/// \throws std::runtime_error if no scan has a period
+Figure period_figure(const std::vector<PeriodScan> &scans, const std::vector<std::string> &labels,
+                     const std::string &unit);
+
+}  // namespace LSM::postproc
+
+#endif

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file rates.h
+/// Rates of events, and of the energy or moment that they release, in intervals of time (ours).
+#ifndef LSM_POSTPROC_RATES_H
+#define LSM_POSTPROC_RATES_H
+
+#include <cstdint>
+#include <vector>
+
+namespace LSM::postproc {
+
+/// An event by its start; with its size or moment.
+struct Release {
+  double time, quantity;
+};
+
+struct ReleaseBin {
+  double from, to;  ///< from <= start < to
+  std::int64_t events = 0;
+  double released = 0.0;
+  double event_rate() const { return static_cast<double>(events) / (to - from); }
+  double release_rate() const { return released / (to - from); }
+};
+
+/// Bins of a width > 0 from multiples of it, from the first to the last event; those without events
+/// as well. \throws std::invalid_argument for more than a million bins
+std::vector<ReleaseBin> rates_of(const std::vector<Release> &events, double width);
+
+}  // namespace LSM::postproc
+
+#endif

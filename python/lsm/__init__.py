@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Files of the fault and of the block-slider in NumPy.
+
+    import lsm
+    events = lsm.read_catalogue("fault.catalogue.csv")   # also .gz and .xz; ruptures as well
+    events["size"], events.header["seed"]
+    series = lsm.read_series("fault.pe.bin")              # series["time"], series["pe"]
+    slip = lsm.read_slip("fault.slip.bin")                # slip["slip"]: records x places
+
+Each returns a Table: a NumPy structured array with the header of the file as `header`, a dict of
+texts. pandas.DataFrame(events) makes a data frame. A file that is something else, or broken, is a
+ValueError that names the file, the line or record, and what was expected. The last line of a
+catalogue and the last record of a binary file that are not complete, as of a run that is still
+going on or was killed, are left out.
+"""
+import gzip
+import lzma
+import struct
+
+import numpy as np
+
+__all__ = ["read_catalogue", "read_series", "read_slip", "Table"]
+
+_INTEGERS = ("event_id", "step_start", "step_end")
+
+
+class Table(np.ndarray):
+    """A structured array with the header of the file it was read from."""
+
+    def __new__(cls, records, header):
+        table = np.asarray(records).view(cls)
+        table.header = header
+        return table
+
+    def __array_finalize__(self, other):
+        self.header = getattr(other, "header", {})
+
+
+def _bytes(path):
+    with open(path, "rb") as file:
+        raw = file.read()
+    for magic, module in ((b"\x1f\x8b", gzip), (b"\xfd7zXZ\0", lzma)):
+        if raw.startswith(magic):
+            try:
+                return module.decompress(raw)
+            except (EOFError, OSError, lzma.LZMAError) as error:
+                raise ValueError(f"{path}: cannot be decompressed ({error}), expected a complete file") from None
+    return raw
+
+
+def _parameters(lines):
+    return dict(line[2:].split(" = ", 1) for line in lines if line.startswith("# ") and " = " in line)
+
+
+def _number(path, header, name, kind=float):
+    try:
+        return kind(header[name])
+    except (KeyError, ValueError):
+        said = f"is '{header[name]}'" if name in header else "is missing"
+        raise ValueError(f"{path}: parameter '{name}' {said}, expected a number") from None
+
+
+def read_catalogue(path):
+    """Events of a catalogue, a column each; integers are int64, all others float64."""
+    lines = _bytes(path).decode("utf-8", "replace").split("\n")
+    lines.pop()  # empty after the last complete line
+    if not lines or not lines[0].startswith("# lsm-catalogue "):
+        raise ValueError(f"{path}: no catalogue, expected '# lsm-catalogue 1' in the first line")
+    if lines[0].strip() != "# lsm-catalogue 1":
+        raise ValueError(f"{path}: format '{lines[0][2:].strip()}', expected 'lsm-catalogue 1'")
+    first = next((n for n, line in enumerate(lines) if not line.startswith("#")), None)
+    if first is None:
+        raise ValueError(f"{path}: no line of columns, expected 'event_id,t_start,...'")
+    names = lines[first].split(",")
+    kinds = [np.int64 if name in _INTEGERS else np.float64 for name in names]
+    rows = []
+    for number, line in enumerate(lines[first + 1:], first + 2):
+        fields = line.split(",")
+        try:
+            if len(fields) != len(names):
+                raise ValueError
+            rows.append(tuple(int(field) if kind is np.int64 else float(field) for field, kind in zip(fields, kinds)))
+        except ValueError:
+            raise ValueError(f"{path}:{number}: '{line}', expected {len(names)} numbers") from None
+    return Table(np.array(rows, list(zip(names, kinds))), _parameters(lines[:first]))
+
+
+def _binary(path, magic, what):
+    raw = _bytes(path)
+    if raw[:16] != magic:
+        raise ValueError(f"{path}: no {what}, expected '{magic.decode().strip()}' in the first 16 bytes")
+    if len(raw) < 24 or len(raw) - 24 < (length := struct.unpack("<q", raw[16:24])[0]) or length < 0:
+        raise ValueError(f"{path}: the header is not complete")
+    return _parameters(raw[24:24 + length].decode("utf-8", "replace").splitlines()), raw[24 + length:]
+
+
+def _records(raw, kinds):
+    kind = np.dtype(kinds)
+    return np.frombuffer(raw, kind, len(raw) // kind.itemsize)
+
+
+def read_series(path):
+    """PE series: columns step, time, pe."""
+    header, raw = _binary(path, b"lsm-pe-series-1\n", "PE series")
+    if header.get("times") == "own":
+        return Table(_records(raw, [("step", "<i8"), ("time", "<f8"), ("pe", "<f8")]), header)
+    stored = _records(raw, [("step", "<i8"), ("pe", "<f8")])
+    series = np.empty(len(stored), [("step", "<i8"), ("time", "<f8"), ("pe", "<f8")])
+    series["step"], series["pe"] = stored["step"], stored["pe"]
+    step0 = _number(path, header, "step0", int)
+    series["time"] = _number(path, header, "time0") + (stored["step"] - step0) * _number(path, header, "dt")
+    return Table(series, header)
+
+
+def read_slip(path):
+    """Slip history: columns step_begin, step_end, pe, and slip, work, stress of each place."""
+    header, raw = _binary(path, b"lsm-slip-hist-1\n", "slip history")
+    bins = _number(path, header, "bins", int)
+    if bins < 1:
+        raise ValueError(f"{path}: parameter 'bins' is {bins}, expected at least 1")
+    places = [(name, "<f4", (bins,)) for name in ("slip", "work", "stress")]
+    return Table(_records(raw, [("step_begin", "<i8"), ("step_end", "<i8"), ("pe", "<f8")] + places), header)

@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Fixtures of all tests of programs; how to run them: programs.py, what they read: data_files.py."""
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import pytest
+
+sys.dont_write_bytecode = True
+from programs import INPUTS, SOURCE, Faults, Program  # noqa: E402
+
+
+def pytest_sessionfinish(session, exitstatus):
+    """With nothing but skipped tests ctest is told so: skipped is not passed."""
+    reporter = session.config.pluginmanager.getplugin("terminalreporter")
+    if exitstatus == 0 and "skipped" in reporter.stats and "passed" not in reporter.stats:
+        session.exitstatus = 77
+
+
+@pytest.fixture(autouse=True)
+def work(monkeypatch):
+    """Every test has a folder of its own, in which it runs, and which is removed after it."""
+    with tempfile.TemporaryDirectory(prefix="lsm-test-", ignore_cleanup_errors=True) as folder:
+        monkeypatch.chdir(folder)
+        yield Path(folder)
+
+
+@pytest.fixture(scope="session")
+def slider():
+    return Program.built("slider_cli")
+
+
+@pytest.fixture(scope="session")
+def postproc():
+    return Program.built("postproc")
+
+
+def mpi_environment():
+    said = subprocess.run(["bash", "-c", f"env -i bash -c '. {INPUTS}/mpi-settings.sh; env'"], capture_output=True, text=True, check=True).stdout
+    return dict(line.split("=", 1) for line in said.splitlines() if line.startswith("OMP"))
+
+
+def lammps_errors(result):
+    return [line for line in result.out.splitlines() if "ERROR" in line]
+
+
+@pytest.fixture(scope="session")
+def lmp():
+    """lmp on one rank, without a log file."""
+    return Program.built("lmp", "-log", "none", env=mpi_environment(), errors=lammps_errors)
+
+
+@pytest.fixture(scope="session")
+def on_ranks(lmp):
+    """on_ranks(n): lmp on n ranks."""
+    return lambda ranks: Program("lmp", SOURCE / "tests/mpirun.sh", "-np", ranks, *lmp.command, env=lmp.env, errors=lmp.errors)
+
+
+@pytest.fixture(scope="session")
+def faults():
+    """faults(program): its system calls, and faults in them (programs.Faults)."""
+    return Faults
+
+
+@pytest.fixture
+def small_disk(work):
+    """small_disk(megabytes): a folder that holds no more; once more: the same with another size."""
+    folder = work / "small"
+
+    def mount(megabytes):
+        again = os.path.ismount(folder)
+        folder.mkdir(exist_ok=True)
+        options = f"size={megabytes}m" + (",remount" if again else "")
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", options, "none", folder], capture_output=True).returncode:
+            pytest.skip("mounting a small disk is not allowed")
+        return folder
+
+    yield mount
+    if os.path.ismount(folder):
+        subprocess.run(["umount", folder], check=True)
+
+
+@pytest.fixture(scope="session")
+def gnuplot():
+    for folder in os.environ["PATH"].split(":"):
+        if Path(folder, "gnuplot").exists():
+            return True
+    pytest.skip("no gnuplot")

@@ -1,0 +1,193 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Catalogues, PE series and slip histories: read, made up, and events picked a second time."""
+import gzip
+import lzma
+import struct
+from pathlib import Path
+
+import numpy as np
+
+COLUMNS = "event_id,t_start,t_end,step_start,step_end,size,pe_start,pe_end".split(",")
+
+
+def lines(path):
+    """The lines of a text, compressed or not."""
+    raw = Path(path).read_bytes()
+    raw = lzma.decompress(raw) if raw[:2] == b"\xfd7" else gzip.decompress(raw) if raw[:2] == b"\x1f\x8b" else raw
+    return raw.decode().splitlines()
+
+
+def header(path):
+    return dict(line[2:].split(" = ", 1) for line in lines(path) if line.startswith("# ") and " = " in line)
+
+
+def rows(path):
+    """The rows of a catalogue or table, as texts, without its header."""
+    return [line for line in lines(path) if not line.startswith("#")][1:]
+
+
+def same_bytes(a, b):
+    assert Path(a).read_bytes() == Path(b).read_bytes(), f"{a} and {b} differ"
+
+
+def same(a, b, least=10):
+    """Two catalogues with the same bytes, and with at least so many events."""
+    same_bytes(a, b)
+    assert len(rows(a)) >= least, f"{a} has too few events to test anything"
+
+
+def table(path):
+    """The rows of a CSV with a header of comments, as a list of dicts of texts."""
+    import csv
+    return list(csv.DictReader(line for line in lines(path) if not line.startswith("#")))
+
+
+def read_catalogue(path):
+    """Header, and the columns as arrays."""
+    names = next(line for line in lines(path) if not line.startswith("#")).split(",")
+    values = [[float(cell) for cell in row.split(",")] for row in rows(path)]
+    return header(path), dict(zip(names, np.array(values).reshape(-1, len(names)).T))
+
+
+def text(value):
+    return f"{value:d}" if isinstance(value, (int, np.integer)) else f"{value:.17g}" if isinstance(value, (float, np.floating)) else str(value)
+
+
+def write_catalogue(path, t_start, size, head=(("model", "lsm"), ("length", 40)), t_end=None, **columns):
+    """A catalogue of events at these times and of these sizes. head: dict or pairs; columns: arrays
+    that replace the usual ones (PE falls to 0) or come behind them."""
+    n = len(t_start)
+    usual = dict(event_id=range(1, n + 1), t_start=t_start, t_end=t_start if t_end is None else t_end, step_start=range(1, n + 1),
+                 step_end=range(1, n + 1), size=size, pe_start=size, pe_end=[0] * n)
+    all_columns = {**usual, **columns}
+    out = ["# lsm-catalogue 1", *(f"# {key} = {value}" for key, value in dict(head).items()), ",".join(all_columns)]
+    out += [",".join(text(value) for value in row) for row in zip(*all_columns.values())]
+    Path(path).write_text("\n".join(out) + "\n")
+
+
+def edit(source, target, *changes):
+    """A copy of a text file, with pairs of (old, new) replaced, each of which must be there."""
+    said = Path(source).read_text()
+    for old, new in changes:
+        assert old in said, f"no '{old}' in {source}"
+        said = said.replace(old, new)
+    Path(target).write_text(said)
+
+
+SERIES = dict(model="lsm", dt=0.03, step0=0, time0=0, stride=1)
+
+
+def write_series(path, pe, head=(), step=None):
+    """A PE series; head replaces and adds to SERIES."""
+    pe = np.asarray(pe, "<f8")
+    head = {**SERIES, **dict(head)}
+    step = np.arange(len(pe)) * head["stride"] + head["step0"] if step is None else step
+    said = "".join(f"# {key} = {value}\n" for key, value in head.items()).encode()
+    records = np.zeros(len(pe), [("step", "<i8"), ("pe", "<f8")])
+    records["step"], records["pe"] = step, pe
+    Path(path).write_bytes(b"lsm-pe-series-1\n" + struct.pack("<q", len(said)) + said + records.tobytes())
+
+
+def binary_header(raw, magic):
+    assert raw[:16] == magic, raw[:16]
+    length, = struct.unpack("<q", raw[16:24])
+    return dict(line[2:].split(" = ", 1) for line in raw[24:24 + length].decode().splitlines()), raw[24 + length:]
+
+
+def read_series(path):
+    """Header, steps, times, PE."""
+    head, records = binary_header(Path(path).read_bytes(), b"lsm-pe-series-1\n")
+    own = head.get("times") == "own"
+    found = np.frombuffer(records, [("step", "<i8"), *([("time", "<f8")] if own else []), ("pe", "<f8")])
+    time = found["time"] if own else float(head["time0"]) + (found["step"] - float(head["step0"])) * float(head["dt"])
+    return head, found["step"], time, found["pe"]
+
+
+def read_history(path):
+    """Header, and the records of a slip history: step_begin, step_end, pe, slip, work, stress."""
+    head, records = binary_header(Path(path).read_bytes(), b"lsm-slip-hist-1\n")
+    bins = int(head["bins"])
+    return head, np.frombuffer(records, [("step_begin", "<i8"), ("step_end", "<i8"), ("pe", "<f8"), ("slip", "<f4", bins), ("work", "<f4", bins),
+                                         ("stress", "<f4", bins)])
+
+
+def write_history(path, steps, slip, stress=0.0, **head):
+    """A slip history: slip of each bin between one step and the next; the first is the state at steps[0]."""
+    slip = np.asarray(slip, "<f4")
+    bins = slip.shape[1]
+    head = {
+        **dict(model="lsm", bins=bins, x0=0, bin=1, step0=steps[0], interval=1, time0=0, dt=1, slip_velocity=5e-3, gap=1, memory_intervals=3, modulus=0.4, driving=1e-3, quiet=100),
+        **head
+    }
+    said = "".join(f"# {key} = {value}\n" for key, value in head.items()).encode()
+    records = np.zeros(len(steps), [("begin", "<i8"), ("end", "<i8"), ("pe", "<f8"), ("slip", "<f4", bins), ("work", "<f4", bins),
+                                    ("stress", "<f4", bins)])
+    records["begin"], records["end"] = [steps[0], *steps[:-1]], steps
+    records["slip"], records["stress"] = slip, stress
+    Path(path).write_bytes(b"lsm-slip-hist-1\n" + struct.pack("<q", len(said)) + said + records.tobytes())
+
+
+def read_dump(path):
+    """The frames of a text dump of LAMMPS: step, names of the columns, rows as array."""
+    said, at = Path(path).read_text().splitlines(), 0
+    while at < len(said):
+        assert said[at] == "ITEM: TIMESTEP", said[at]
+        step, n = int(said[at + 1]), int(said[at + 3])
+        first = next(k for k in range(at, len(said)) if said[k].startswith(("ITEM: ATOMS", "ITEM: ENTRIES")))
+        names = said[first].split()[2:]
+        yield step, names, np.array([line.split() for line in said[first + 1:first + 1 + n]], float).reshape(n, len(names))
+        at = first + 1 + n
+
+
+def loading_with_drops(rows=5000):
+    """PE that rises and falls: 80 steps up, 17 down."""
+    i = np.arange(rows - 1)
+    return np.cumsum(np.concatenate([[1.0], np.where(i % 97 < 80, 1e-3 * (1 + i % 7), -2e-3 * (1 + i % 11))]))
+
+
+def pick(reading, memory, least, step, time, pe):
+    """What the picker has to find, written a second time: rows of a catalogue, as tuples."""
+    found, change, begin = [], 0.0, None
+    for n in range(1, len(pe)):
+        x = pe[n] - pe[n - 1]
+        if reading == "exponential":
+            change = memory * change + (1 - memory) * x
+        elif reading == "average":
+            change = (x + memory * change) / (1 + memory)
+        else:
+            change = (x + memory * change) / (1 + memory * (n - 1))
+        if begin is None and change < 0:
+            begin = n - 1
+        elif begin is not None and change > 0:
+            size = pe[begin] - pe[n - 1]
+            if size > 0 and size >= least:
+                found.append((len(found) + 1, time[begin], time[n - 1], step[begin], step[n - 1], size, pe[begin], pe[n - 1]))
+            begin = None
+    return found
+
+
+def numbers(path, columns=8):
+    """The first columns of a catalogue, as tuples of numbers."""
+    return [tuple(float(cell) for cell in row.split(",")[:columns]) for row in rows(path)]
+
+
+def power_law(exponent, low, high, n, seed=1):
+    """Sizes whose cumulative distribution is that of the power law, in random order."""
+    u = (np.random.default_rng(seed).permutation(n) + 0.5) / n
+    if exponent == 1:
+        return low * (high / low)**u
+    a = 1 - exponent
+    return (low**a + u * (high**a - low**a))**(1 / a)
+
+
+def omori(main_shocks=42, after=50, apart=5000.0, c=2.0, span=97.3, rate=50):
+    """Times and sizes: main shocks of 100, each followed by events of 0.01 by Omori's law with p = 2,
+    t = c (1 / (1 - q) - 1), and by as many spread evenly."""
+    times, sizes = [], []
+    for m in range(main_shocks):
+        q = (np.arange(after) + (m + 0.5) / main_shocks) / after
+        even = span * (np.arange(rate) + (m + 0.5) / main_shocks)
+        times += [apart * m, *(apart * m + 10 + c * (1 / (1 - q) - 1)), *(apart * m + 10 + even)]
+        sizes += [100.0] + [0.01] * (after + rate)
+    order = np.argsort(times, kind="stable")
+    return np.array(times)[order], np.array(sizes)[order]

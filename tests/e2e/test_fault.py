@@ -1,0 +1,223 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The fault scenes as the README describes them, with small settings."""
+import os
+import re
+import shutil
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+import pytest
+from data_files import header, read_catalogue, read_dump, rows, same_bytes
+from programs import INPUTS, refused, run, scene
+
+
+def particles(result):
+    return int(re.search("^Created ([0-9]+) particles", result.out, re.M)[1])
+
+
+def test_fault_120(on_ranks, postproc):
+    """On two ranks, from another folder: events, and a shear stress that friction allows."""
+    said = run(on_ranks(2), scene("fault_120.in", steps=30000, prefix="short", location="yes"))
+    for name in "short.catalogue.csv", "short.pe.bin", "short.restart.end":
+        assert Path(name).exists()
+    _, events = read_catalogue("short.catalogue.csv")
+    columns = list(events.values())
+    assert len(events["size"]) >= 3
+    # Sizes are positive and the rupture is no longer than the fault.
+    assert (events["size"] > 0).all() and (columns[8] >= 0).all() and (columns[9] >= 0).all()
+    assert (columns[9] <= 120).all() and (columns[10] <= 120).all()
+    table = re.findall(r"^ *Step .*Events.*?\n(.*?)^Loop", said.out, re.S | re.M)[-1]
+    ratio = float([line.split() for line in table.splitlines() if len(line.split()) == 8][-1][6])
+    assert 0.5 < ratio < 0.8, "shear/normal stress"
+    # The series picks to the events that the run picked, and is drawn.
+    run(postproc, "pick short.pe.bin -o picked.csv")
+    assert rows("picked.csv") == [",".join(row.split(",")[:8]) for row in rows("short.catalogue.csv")]
+    if shutil.which("gnuplot"):
+        run(postproc, "series short.pe.bin -o picture")
+        assert os.path.getsize("picture.png") > 0 and os.path.getsize("picture.svg") > 0
+
+
+@pytest.mark.parametrize("length", [120, 240, 480, 945, 1440, 1890])
+def test_lengths(lmp, work, length):
+    """Every length exists and can be read from its own folder as well. The paper has "about 7800"
+    particles for length 120; ours lacks the 260 loose ones. Proportional to the length"""
+    said = run(lmp, scene(f"fault_{length}.in", settle=0, steps=2, prefix=work / "l"), cwd=INPUTS)
+    assert 61 * length < particles(said) < 65 * length
+
+
+def test_wrong_picker(lmp):
+    run(lmp, scene(length=20, width=15, settle=0, steps=1, prefix="short"))
+    refused(lmp, scene(length=20, width=15, settle=0, steps=1, prefix="short", picker="median"),
+            "picker is 'median', but must be exponential, average or literal")
+
+
+def test_law(lmp):
+    """One variable chooses the law of friction; its words are in the headers, and a restart keeps it."""
+    law = "slip-weakening mu 0.5 mu_static 0.6 dc 0.002 heal 5"
+    short = dict(settle=0, checkpoint=10, ruptures="yes", prefix="law")
+    run(lmp, scene("fault_120.in", law=law, steps=10, **short))
+    for name in "law.catalogue.csv", "law.ruptures.csv":
+        assert header(name)["law"] == law
+    run(lmp, scene("fault_120.in", law=law, steps=20, restart="law.restart.end", **short))
+    said = run(lmp, scene("fault_120.in", law="slip-weakening mu 0.5", steps=10, overwrite="yes", **short), status=1)
+    assert re.search(r"expects 'pair_coeff I J k kt mu VALUE mu_static VALUE dc VALUE \[heal VALUE\] \[kelvin-voigt TIME\]'", said.out)
+
+
+def test_stick_slip(lmp, postproc):
+    """The default fault sticks and slips, and the measure of it distinguishes a creeping one: half the
+    shortest fault of the paper."""
+
+    def regime(name, **more):
+        run(lmp, scene(length=60, steps=90000, prefix=name, **more))
+        run(postproc, f"series {name}.pe.bin --from 3000 -o {name} --json {name}.json --no-picture")
+        said = Path(f"{name}.json").read_text()
+        return [re.search(f'"{key}": "?([a-z0-9.e+-]+)', said)[1] for key in ("regime", "saw_tooth", "time_in_events")]
+
+    word, saw_tooth, in_events = regime("default")
+    # Seed 1 has 6.6 and 0.26.
+    assert word == "stick-slip" and float(saw_tooth) > 5 and float(in_events) < 0.3
+    # A disc for which the time step is too large oscillates from step to step, each time an event.
+    _, events = read_catalogue("default.catalogue.csv")
+    brief = (events["step_end"] - events["step_start"] <= 3) & (events["size"] >= 1e-4)
+    assert not brief.any(), "the time step of the preset is unstable"
+    word, saw_tooth, in_events = regime("creeping", stress=0.004)
+    assert word == "creep" and float(saw_tooth) < 3 and float(in_events) > 0.3
+
+
+# ---- dumps and pictures
+READ_BACK = """units lj
+dimension 2
+boundary p f p
+newton off
+atom_style hybrid bond sphere
+atom_modify map array
+create_lsm_fault length 120 width 30 seed 1 loose remove mass r2 1.0
+bond_style zero
+bond_coeff *
+pair_style zero 3.6
+pair_coeff * *
+comm_modify mode single cutoff 3.6
+read_dump d.000000160.dump 160 x y vx vy box yes
+write_dump all custom back.dump id type x y z radius vx vy modify sort id format float %.9g
+"""
+
+
+def test_dump(lmp):
+    """Frames at the given steps, in a form that OVITO reads, and the same when read back."""
+    small = dict(length=120, settle=100, steps=60, prefix="d", series="no")
+    discs = particles(run(lmp, scene(extra="fault_dump", **{"from": 120, "to": 160, "every": 20}, **small)))
+    frames = sorted(Path().glob("d.*.dump"))
+    assert [frame.name for frame in frames] == ["d.000000120.dump", "d.000000140.dump", "d.000000160.dump"]
+    # Every disc once, within the box, of an existing type and radius.
+    for frame in frames:
+        head = frame.read_text().splitlines()[:9]
+        assert head[4] == "ITEM: BOX BOUNDS pp ff pp" and head[8].split() == "ITEM: ATOMS id type x y z radius vx vy".split()
+        low, high = map(float, head[5].split())
+        (step, _, values), = read_dump(frame)
+        number, kind, x, _, z, radius, vx, _ = values.T
+        assert step == int(frame.name.split(".")[1]) and len(values) == discs and high - low == 120
+        assert (np.diff(number) > 0).all() and (x >= low).all() and (x <= high).all() and (z == 0).all()
+        assert set(kind) == {1, 2, 3, 4, 5, 6} and (radius >= 0.1).all() and (radius <= 1).all()
+        assert np.count_nonzero(vx) >= 0.9 * discs
+    # Read into another state of the same fault, the frame comes out as it went in. Positions outside the box
+    # would come back wrapped: none is.
+    Path("back.in").write_text(READ_BACK)
+    run(lmp, "-in back.in")
+    discs_of = {name: Path(name).read_text().split("\n", 9)[9] for name in ("d.000000120.dump", "d.000000160.dump", "back.dump")}
+    assert discs_of["d.000000160.dump"] == discs_of["back.dump"]
+    assert discs_of["d.000000120.dump"] != discs_of["back.dump"], "all frames are the same"
+    # The dump does not change the run.
+    os.rename("d.catalogue.csv", "with.csv")
+    run(lmp, scene(overwrite="yes", **small))
+    same_bytes("with.csv", "d.catalogue.csv")
+
+
+def test_image(lmp):
+    """Pictures of every fourth of 20 steps, and one by itself."""
+    small = dict(length=20, width=15, settle=100, steps=20, extra="fault_image", pixels=400, high=300)
+    run(lmp, scene(prefix="film", **{"from": 102, "to": 118, "every": 4}, **small))
+    run(lmp, scene(prefix="one", **{"from": 110, "to": 111, "every": 9}, **small))
+    pictures = sorted(path.name for path in Path().glob("*.png"))
+    assert pictures == [f"film.{step:09d}.png" for step in (102, 106, 110, 114, 118)] + ["one.000000110.png"]
+    for name in pictures:
+        assert Path(name).read_bytes()[1:4] == b"PNG" and os.path.getsize(name) > 5000
+
+
+# ---- contacts
+PROBE = """group above type 2 4 6
+displace_atoms above move 0 -0.5 0
+group face type 3
+displace_atoms face move 0.02 -0.05 0
+compute types all property/local ptype1 ptype2 cutoff radius
+compute push all pair/local force p2 cutoff radius
+dump probe all local 1 ${prefix}.pairs c_types[1] c_types[2] c_push[1] c_push[2]
+"""
+
+
+@pytest.fixture
+def probed(work):
+    """A copy of the scenes, with input of our own."""
+    shutil.copytree(INPUTS, "scene")
+    Path("scene/probe.in").write_text(PROBE)
+    Path("scene/coefficients.in").write_text("write_coeff ${prefix}.coeff\n")
+    return work / "scene/fault.in"
+
+
+def test_contacts(lmp, probed):
+    """Discs of one block cannot pass through those of the other, whether they are at the fault or behind it:
+    the upper block is pushed into the lower one and the face of the latter into the discs behind it, and
+    each overlapping pair of both blocks has to repel; those of one block too, unless contacts are those of
+    the fault only, and with friction unless they are smooth."""
+
+    def pairs(contacts):
+        run(lmp, scene(probed, length=60, settle=0, steps=1, prefix=contacts, extra="probe", contacts=contacts))
+        frames = list(read_dump(f"{contacts}.pairs"))
+        overlapping, repelling = Counter(), Counter()
+        for one, other, push, _ in frames[0][2]:
+            overlapping[tuple(sorted((int(one), int(other))))] += 1
+            repelling[tuple(sorted((int(one), int(other))))] += push > 0
+        last = frames[-1][2]
+        within = (last[:, 0] - last[:, 1]) % 2 == 0
+        tangential = last[:, 3] != 0
+        return overlapping, repelling, np.count_nonzero(within & tangential), np.count_nonzero(~within & tangential)
+
+    overlapping, repelling, _, _ = pairs("fault")
+    for types in (1, 4), (2, 3), (3, 4):
+        assert repelling[types] == overlapping[types] > 0, types
+    assert overlapping[1, 3] > 0 and repelling[1, 3] == 0, "discs of one block"
+    for contacts in "all", "smooth":
+        overlapping, repelling, within, between = pairs(contacts)
+        assert overlapping[1, 3] > 0 and repelling == overlapping, contacts
+        assert between > 0 and (within > 0) == (contacts == "all"), contacts
+
+
+def test_further_input(lmp, probed, work):
+    """It is found by any name, also one with a path."""
+    Path("scene/on-board_2.in").write_text('print "this was read"\n')
+    for name in "on-board_2", "./on-board_2", "../scene/on-board_2", f"{work}/scene/on-board_2":
+        said = run(lmp, scene(probed, length=30, settle=0, steps=0, prefix="named", overwrite="yes", extra=name))
+        assert re.search("^this was read", said.out, re.M), name
+
+
+def test_dashpots(lmp, probed):
+    """With a retardation time in all links and contacts, also after a restart, and not with too long a time
+    step."""
+
+    def damped(status=0, **more):
+        said = run(lmp, scene(probed, settle=0, prefix="damped", extra="coefficients", **more), status=status)
+        if status == 0:
+            lines = [
+                line for line in Path("damped.coeff").read_text().splitlines()
+                if line.startswith(("pair_coeff", "bond_coeff")) and not line.endswith("off")
+            ]
+            assert len({line.split()[0] for line in lines}) == 2, lines
+            assert all(" kelvin-voigt 0.05" in line for line in lines), f"a link or contact without dashpot: {lines}"
+        return said
+
+    for contacts in "all", "smooth", "fault":
+        damped(length=30, steps=10, overwrite="yes", retardation=0.05, dt=0.03, contacts=contacts)
+    assert header("damped.catalogue.csv")["kelvin_voigt"].startswith("0.05")
+    damped(steps=20, restart="damped.restart.end")
+    said = damped(length=30, steps=10, overwrite="yes", retardation=0.5, status=1)
+    assert re.search("above the stability limit .* with kelvin-voigt", said.out)

@@ -1,0 +1,200 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Robustness of the fault: damaged restart files, kills while they are written, two runs with the same
+files, and words and values that a run refuses."""
+import os
+import random
+import re
+import shutil
+import signal
+import socket
+import subprocess
+from pathlib import Path
+
+import pytest
+from data_files import header, same_bytes
+from programs import INPUTS, refused, run, scene, start
+
+SMALL = dict(length=20, width=15, settle=100, velocity=0.01, checkpoint=400, location="yes")
+
+
+def small(**variables):
+    return scene(**{**SMALL, **variables})
+
+
+def info(path):
+    return dict(line.split(" = ", 1) for line in Path(path).read_text().splitlines() if " = " in line)
+
+
+def restart_steps(folder="."):
+    """Steps of the whole restart files, in order."""
+    return sorted(int(path.name.split(".")[2]) for path in Path(folder).glob("a.restart.*.info") if path.name.split(".")[2].isdigit())
+
+
+WORDS = [("preset", "Single", "statistics or single"), ("hold", "Position", "stress or position"), ("contacts", "ALL", "fault, all or smooth"),
+         ("ruptures", "Yes", "no or yes"), ("leap", "on", "no or yes"), ("series", "foo", "yes or no"), ("history", "foo", "yes or no"),
+         ("overwrite", "1", "no or yes"), ("location", "true", "no or yes"), ("ledger", "true", "no or yes"), ("loose", "removed", "remove or keep"),
+         ("mass", "r4", "r2 or r3"), ("onset", "Step", "located or step"), ("picker", "median", "exponential, average or literal"),
+         ("dt", "0", "a number above 0"), ("dt", "fast", "a number above 0"), ("checkpoint", "0", "a whole number of at least 1"),
+         ("steps", "10.5", "a whole number of at least 0"), ("settle", "-1", "a whole number of at least 0")]
+
+
+def test_words(lmp):
+    for name, value, accepted in WORDS:
+        refused(lmp, small(**{"steps": 5, name: value}), f"Variable {name} is '{value}', but must be {accepted}")
+    refused(lmp, small(steps=5, prefix="a b"), "Variable prefix is 'a b', but must be a file name of letters, digits")
+    # LAMMPS itself takes a word with '-' for an option; a script may set the variable.
+    Path("in.dash").write_text(f"variable prefix string -x\ninclude {INPUTS}/fault.in\n")
+    refused(lmp, ["-in", "in.dash", *small()[2:]], "ERROR: Variable prefix is '-x', but must be .* that does not begin with -")
+    # One that nothing reads.
+    said = run(lmp, small(stres=0.03, prefix="known", steps=1))
+    assert re.findall("WARNING: Variable (.*) is not used by this script", said.out) == ["stres"]
+
+
+def test_values(lmp):
+    run(lmp, small(prefix="a", seed=7, massfloor=0.05, stress=0.03, steps=500))
+    declared = [[cell.strip() for cell in line.split("|")] for line in (INPUTS / "fault.variables").read_text().splitlines()]
+    kept = {cells[0] for cells in declared if len(cells) == 7 and cells[3] != "-"}
+    assert len(kept) > 20 and kept <= set(info("a.restart.end.info")), kept - set(info("a.restart.end.info"))
+    for name, value, was in (("seed", 8, 7), ("length", 30, 20), ("width", 20, 15), ("mass", "r3", "r2"), ("loose", "keep", "remove"),
+                             ("massfloor", 0, 0.05), ("preset", "single", "statistics"), ("settle", 50, 100), ("mu", 0.5, 0.6)):
+        refused(lmp, scene(restart="a.restart.end", **{name: value}),
+                f"Variable {name} is {value}, but restart file a.restart.end was written with {name} = {was}")
+    refused(lmp, scene(restart="a.restart.end", steps=300), "steps = 300, but 500 of them are done; give as many or more")
+    # Nothing has to be given again, and a value given again with other digits is the same.
+    run(lmp, scene(restart="a.restart.end", steps=900, massfloor="5e-2"))
+    run(lmp, small(prefix="b", seed=7, massfloor=0.05, stress=0.03, steps=500))
+    run(lmp, small(prefix="b", seed=7, massfloor=0.05, stress=0.03, steps=900, restart="b.restart.end"))
+    same_bytes("a.catalogue.csv", "b.catalogue.csv")
+    same_bytes("a.pe.bin", "b.pe.bin")
+    # Under another name: the header says what the fault is.
+    run(lmp, scene(restart="a.restart.end", steps=1000, prefix="look", velocity=0.02))
+    said = header("look.catalogue.csv")
+    wanted = dict(seed="7", massfloor="0.05", stress="0.03", velocity="0.02", width="15")
+    assert {name: said.get(name) for name in wanted} == wanted
+
+
+def test_damaged(lmp):
+    run(lmp, small(prefix="a", steps=900))
+    newest, beside = Path("a.restart.900").read_bytes(), Path("a.restart.900.info").read_text()
+    size = len(newest)
+
+    def no(name, content, pattern, said=beside):
+        Path(name).write_bytes(content)
+        if said is not None:
+            Path(f"{name}.info").write_text(said)
+        refused(lmp, scene(restart=name, steps=1500), pattern)
+
+    for length in 0, 1, 100, size // 2, size - 1:
+        no("cut", newest[:length], f"cut: is damaged, it has {length} bytes, expected {size}")
+    for place in 0, 17, size // 7, size // 3, size - 20:
+        no("flipped", newest[:place] + bytes([newest[place] ^ 4]) + newest[place + 1:],
+           "flipped: is damaged, its checksum is not that in flipped.info")
+    no("noise", random.Random(1).randbytes(size), "noise: is damaged")
+    no("bare", newest, "bare: its checksum file bare.info is missing", None)
+    refused(lmp, scene(restart="none", steps=1500), "none: cannot open: No such file")
+    no("bare", newest, "bare.info: is damaged", beside.replace("seed = 1", "seed = 2"))
+    # For a file of another origin the line of cksum will do.
+    Path("bare.info").write_text(subprocess.run(["cksum", "bare"], capture_output=True, text=True, check=True).stdout)
+    said = run(lmp, small(restart="bare", prefix="a", steps=1000))
+    assert "WARNING: Restart file bare has no value of seed" in said.out
+
+
+def go_on():
+    """Words of the next part: from the newest whole restart file, or from the beginning."""
+    steps = restart_steps()
+    return dict(restart=f"a.restart.{steps[-1]}") if steps else dict(overwrite="yes")
+
+
+def test_killed(lmp):
+    """Most of the time goes into restart files."""
+    often = dict(checkpoint=2, prefix="a", steps=300)
+    os.mkdir("whole")
+    run(lmp, small(**often), cwd="whole")
+    moments = random.Random(1)
+    for rounds in range(60):
+        if Path("a.restart.end.info").exists():
+            break
+        # A file without .info is refused; one with it is whole.
+        for path in Path().glob("a.restart.*"):
+            if path.suffix not in (".info", ".new") and not Path(f"{path}.info").exists():
+                said = run(lmp, small(**often, restart=path), status=1)
+                assert f"its checksum file {path}.info is missing" in said.out
+        # Killed once there are some more restart files.
+        until = (restart_steps() or [100])[-1] + 40 + moments.randrange(20)
+        with start(lmp, small(**often, **go_on())) as child:
+            child.until(lambda: any(until <= step < 396 for step in restart_steps()))
+            child.kill()
+    else:
+        pytest.fail("no end in 60 rounds")
+    assert rounds >= 4, f"killed {rounds} times only"
+    for name in "a.catalogue.csv", "a.pe.bin":
+        same_bytes(name, f"whole/{name}")
+
+
+FILES = "a.catalogue.csv", "a.pe.bin", "a.ruptures.csv", "a.slip.bin"
+CALLS = "write", "pwrite64", "rename", "unlink", "ftruncate", "fsync"
+
+
+@pytest.mark.parametrize("call", CALLS)
+def test_walk(lmp, work, faults, call):
+    """Killed at, or told that the disk is full by, system calls on the run's files, a few of each kind."""
+    words = small(checkpoint=100, prefix="a", steps=300, ruptures="yes")
+    part = work / "part"
+    traced = faults(lmp, [
+        name for file in (*FILES, *(f"a.restart.{at}" for at in (200, 300, 400, "end"))) for end in ("", ".new", ".info", ".info.new", ".lock")
+        for name in (f"{part}/{file}{end}", f"{file}{end}")
+    ], call)
+
+    def empty():
+        shutil.rmtree(part, ignore_errors=True)
+        part.mkdir()
+        os.chdir(part)
+
+    os.mkdir("whole")
+    run(lmp, words, cwd="whole")
+    empty()
+    number = len(traced.calls(words))
+    assert number >= 4, f"{number} calls on the run's files"
+    for at in 1, number // 2 + 1, number:
+        for fault in "signal=KILL", "error=ENOSPC":
+            what = f"{fault} at {call} {at}"
+            empty()
+            result = traced.inject(fault, call, at, words)
+            if fault == "error=ENOSPC" and result.status != 0:
+                lines = [line for line in lmp.errors(result) if re.search(r"cannot .* a\.|a\..*cannot|writing restart", line)]
+                assert len(lines) == 1, f"{what}: {result}"
+            # A file that cannot be removed does no harm.
+            assert result.status != 0 or (call, fault) == ("unlink", "error=ENOSPC"), f"{what}: no word"
+            if not Path("a.restart.end.info").exists():
+                run(lmp, words, [word for name, value in go_on().items() for word in ("-var", name, value)])
+            for name in FILES:
+                assert Path(name).read_bytes() == (work / "whole" / name).read_bytes(), f"{name} differs after {what}"
+
+
+def test_twice(lmp):
+    """Two runs with the same files; a killed run keeps no lock."""
+    run(lmp, small(prefix="a", steps=400))
+    os.mkdir("whole")
+    for path in Path().glob("a.*"):
+        shutil.copy(path, "whole")
+    more = scene(restart="a.restart.end", steps=6000)
+
+    def locked():
+        return os.path.exists("a.catalogue.csv.lock") and os.path.getsize("a.catalogue.csv.lock") > 0
+
+    with start(lmp, more) as first:
+        assert first.until(locked, pause=0.01)
+        first.send_signal(signal.SIGSTOP)
+        refused(lmp, more, f"a.catalogue.csv: is being written by another run: process {first.pid} on {socket.gethostname()} since 20")
+        first.send_signal(signal.SIGCONT)
+        assert first.wait(60) == 0, first.said()
+    for path in Path("whole").glob("a.*"):
+        shutil.copy(path, "once-" + path.name)
+    run(lmp, more, cwd="whole")
+    for name in "a.catalogue.csv", "a.pe.bin":
+        same_bytes(name, f"whole/{name}")
+    for path in Path().glob("once-*"):
+        shutil.copy(path, path.name[5:])
+    with start(lmp, scene(restart="a.restart.end", steps=600000)) as killed:
+        assert killed.until(locked, pause=0.01)
+    run(lmp, more)

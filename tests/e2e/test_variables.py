@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Variables of inputs/fault.in: what is refused, what a restart takes over, what headers state, and the end by PREFIX.stop."""
+import re
+from pathlib import Path
+
+import pytest
+from programs import INPUTS, refused, run, start
+
+SMALL = {"length": 20, "width": 15, "settle": 100, "velocity": 0.01, "checkpoint": 400, "steps": 400, "prefix": "a"}
+
+
+def scene(*more, **variables):
+    """Words of a run; a variable that is None is left out."""
+    given = [word for name, value in variables.items() if value is not None for word in ("-var", name, value)]
+    return ["-in", INPUTS / "fault.in", *given, *more]
+
+
+def small(*more, **variables):
+    return scene(*more, **{**SMALL, **variables})
+
+
+def header(file):
+    return dict(line[2:].split(" = ", 1) for line in Path(file).read_text().splitlines() if line.startswith("# ") and " = " in line)
+
+
+def info(file):
+    return dict(line.split(" = ", 1) for line in Path(file).read_text().splitlines() if " = " in line)
+
+
+def with_checksum(file, lines):
+    """Writes FILE.info with other lines, as somebody would who knows the format."""
+    last = Path(f"{file}.info").read_text().splitlines()[-1]
+    text = "".join(line + "\n" for line in lines)
+    Path(f"{file}.info").write_text(f"{text}lines = {posix_cksum(text.encode())}\n{last}\n")
+
+
+def posix_cksum(data):
+    crc, size = 0, len(data)
+    while size:
+        data, size = data + bytes([size & 0xff]), size >> 8
+    for byte in data:
+        crc ^= byte << 24
+        for _ in range(8):
+            crc = (crc << 1) ^ (0x04C11DB7 if crc & 0x80000000 else 0)
+            crc &= 0xffffffff
+    return crc ^ 0xffffffff
+
+
+@pytest.mark.parametrize("prefix", ["a;echo>b", "a|b", "a<b", "a>b", "(a)", "a\\b", "`a`", "a b", "$x", "a&b", "a*b", ""])
+def test_a_prefix_is_the_name_of_a_file(lmp, prefix):
+    refused(lmp, small(prefix=prefix), r"Variable prefix is '.*', but must be a file name of letters, digits and any of")
+
+
+@pytest.mark.parametrize("name, value", [("prefix", "a;echo>PWNED;b"), ("law", "coulomb 0.6 0.6; shell touch PWNED"), ("stress", "$(1/0)")])
+def test_what_is_beside_a_restart_file_is_checked_as_well(lmp, name, value):
+    run(lmp, small())
+    lines = [line for line in Path("a.restart.end.info").read_text().splitlines()[:-1] if not line.startswith("lines = ")]
+    with_checksum("a.restart.end", [f"{name} = {value}" if line.startswith(f"{name} = ") else line for line in lines])
+    refused(lmp, scene(restart="a.restart.end", steps=500), rf"Variable {name} is '{re.escape(value)}', but must be")
+
+
+@pytest.mark.parametrize("name, value, accepted", [("stress", "high", "a number of at least 0"), ("kt", 0, "a number above 0"),
+                                                   ("width", -3, "a number above 0"), ("stride", 0, "a whole number of at least 1"),
+                                                   ("minsize", "nan", "a number of at least 0"), ("law", "a;b", "words of letters"),
+                                                   ("leap", "maybe", "no or yes")])
+def test_every_variable_has_a_rule(lmp, name, value, accepted):
+    refused(lmp, small(**{name: value}), f"Variable {name} is '{value}', but must be {accepted}")
+
+
+def test_whole_numbers_may_have_exponents(lmp):
+    for steps, prefix in (("400", "a"), ("4e2", "b"), ("400.0", "c")):
+        run(lmp, small(settle="1e2", checkpoint="2e2", steps=steps, prefix=prefix))
+        assert Path(f"{prefix}.pe.bin").stat().st_size == Path("a.pe.bin").stat().st_size
+    assert header("b.catalogue.csv")["checkpoint"] == "200"
+
+
+def test_a_variable_given_twice(lmp):
+    refused(lmp, small("-var", "stress", "0.04", stress=0.03), "Variable stress is given twice, as '0.03' and as '0.04'; leave one out")
+    run(lmp, small("-var", "stress", "0.03", stress=0.03, steps=1))
+
+
+def test_coefficients_that_the_law_does_not_use(lmp):
+    refused(lmp, small(law="coulomb 0.3 0.3", mu=0.9), "Variable mu is '0.9', but has no effect, as law is given, too")
+    run(lmp, small(law="coulomb 0.9 0.9", mu=0.9, steps=1))
+    assert header("a.catalogue.csv")["law"] == "coulomb 0.9 0.9"
+
+
+def test_a_default_follows_a_variable_that_a_restart_changes(lmp):
+    run(lmp, small())
+    assert info("a.restart.end.info")["faultviscosity"] == "0.011"
+    run(lmp, scene(restart="a.restart.end", steps=500, viscosity=0.02, prefix="b"))
+    assert info("b.restart.end.info")["faultviscosity"] == "0.02"
+    assert header("b.catalogue.csv")["viscosity"] == "0.02"
+    # One that had a value of its own keeps it.
+    run(lmp, small(faultviscosity=0.3, prefix="c"))
+    run(lmp, scene(restart="c.restart.end", steps=500, viscosity=0.02, prefix="d"))
+    assert info("d.restart.end.info")["faultviscosity"] == "0.3"
+
+
+def test_headers_state_what_runs(lmp):
+    run(lmp, small(hold="position", ruptures="yes"))
+    for file in ("a.catalogue.csv", "a.ruptures.csv"):
+        stated = header(file)
+        assert stated["hold"] == "position" and "stress" not in stated and "impedance" not in stated
+    # Another fix than that of the scene: as it is when the files begin.
+    Path("harder.in").write_text("fix plates all lsm/plates lower upper stress 0.05 velocity 0.02 ramp 150\n")
+    run(lmp, small(prefix="b", extra=Path("harder").resolve()))
+    stated = header("b.catalogue.csv")
+    assert (float(stated["stress"]), float(stated["velocity"]), stated["hold"]) == (0.05, 0.02, "stress")
+
+
+def test_headers_have_the_variables_of_the_table(lmp):
+    run(lmp, small(ruptures="yes"))
+    rows = [[cell.strip() for cell in line.split("|")] for line in (INPUTS / "fault.variables").read_text().splitlines() if line.count("|") == 6]
+    stated = [row[0] for row in rows if row[4] == "header"]
+    assert len(stated) > 10
+    for file in ("a.catalogue.csv", "a.ruptures.csv"):
+        found = header(file)
+        assert {name: found.get(name) for name in stated} == {name: info("a.restart.end.info")[name] for name in stated}
+
+
+def test_stop(lmp):
+    with start(lmp, small(checkpoint=50, steps=500000)) as child:
+        assert child.until(lambda: Path("a.restart.150.info").exists())
+        Path("a.stop").touch()
+        assert child.wait(60) == 75
+        step = re.search(r"Stopped at step (\d+), as there was a file a.stop, which is removed", child.said())[1]
+    assert not Path("a.stop").exists()
+    run(lmp, scene(restart=f"a.restart.{step}", steps=int(step) - 100 + 60))
+    # One that comes too late ends no later run.
+    Path("a.stop").touch()
+    run(lmp, scene(restart="a.restart.end", steps=int(step) - 100 + 60)).told("There was a file a.stop, which is removed")
+    assert not Path("a.stop").exists()
+
+
+def test_a_long_time_step_makes_another_model(lmp):
+    run(lmp, small(dt=1, settle=0, steps=0, massstep=1)).told(r"WARNING: create_lsm_fault: time step 1 .* \d+ % heavier, above 20 %")
+    quiet = run(lmp, small(settle=0, steps=0, prefix="b"))
+    assert "heavier" not in quiet.out
+
+
+@pytest.mark.parametrize("line, wrong", [("x | 1 | number | free | - | ", "expected 7 columns"),
+                                         ("x | 1 | number | maybe | - | | ", "restart is 'maybe', but must be fixed, free, noted or -"),
+                                         ("x | 1 | number | free | yes | | ", "header is 'yes', but must be header or -"),
+                                         ("x|1|number|-|-||\nx|2|number|-|-||", ":2: a second variable x"),
+                                         ("when y 1 : x 2\nx|1|number|-|-||", "there is no variable y"),
+                                         ("when x : x 2\nx|1|number|-|-||", "expected a name and a value, but got 'x'"),
+                                         ("x|${y}|number|-|-||\ny|1|number|-|-||", "variable y is needed before it is defined")])
+def test_tables_with_mistakes(lmp, line, wrong):
+    Path("bad.variables").write_text(line + "\n")
+    Path("bad.in").write_text("lsm_variables bad.variables\n")
+    refused(lmp, ["-in", "bad.in"], f"lsm_variables: .*{re.escape(wrong)}")

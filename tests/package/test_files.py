@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Python module lsm: what it reads is what the programs wrote; the page and the notebook run."""
+import gzip
+import json
+import lzma
+import os
+import re
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from programs import BUILD, SOURCE, run
+
+sys.path.insert(0, str(SOURCE / "python"))
+import lsm  # noqa: E402
+
+CATALOGUE = """# lsm-catalogue 1
+# model = lsm
+# seed = 3
+event_id,t_start,t_end,step_start,step_end,size,pe_start,pe_end,new_one
+1,0.5,1,5,10,0.25,2,1.75,7
+3,2,3,20,30,1e-05,2,1.99999,8
+"""
+
+
+def test_catalogue_of_the_slider_to_the_last_digit(slider):
+    run(
+        slider, "--blocks 100 --dt 0.05 --velocity 0.05 --warmup 0 --steps 100000 --pe-stride 1 --columns centroid,length "
+        "--catalogue a.csv --pe-series a.bin")
+    lines = [line.split(",") for line in open("a.csv").read().splitlines() if not line.startswith("#")]
+    events = lsm.read_catalogue("a.csv")
+    assert list(events.dtype.names) == lines[0] and len(events) == len(lines) - 1 >= 10
+    for name, column in zip(lines[0], zip(*lines[1:])):
+        assert [float(text) for text in column] == events[name].tolist(), name
+    assert events.header["model"] == "block-slider" and events["event_id"].dtype == np.int64
+    series = lsm.read_series("a.bin")
+    assert len(series) == 100001 and np.allclose(series["time"], 0.05 * series["step"], rtol=1e-12)
+    at = {step: pe for step, pe in zip(series["step"], series["pe"])}
+    inside = [event for event in events if event["step_start"] in at and event["step_end"] in at]
+    assert all(at[event["step_start"]] == event["pe_start"] and at[event["step_end"]] == event["pe_end"] for event in inside) and inside
+
+
+def test_compressed_and_unknown_columns(work):
+    for name, module in (("a.gz", gzip), ("a.xz", lzma)):
+        (work / name).write_bytes(module.compress(CATALOGUE.encode()))
+        events = lsm.read_catalogue(name)
+        assert events["new_one"].tolist() == [7.0, 8.0] and events["event_id"].tolist() == [1, 3]
+        assert events.header == {"model": "lsm", "seed": "3"} and events[events["size"] > 1].header == events.header
+
+
+def test_a_line_that_is_still_being_written_is_no_event(work):
+    (work / "a.csv").write_text(CATALOGUE + "4,3,4,30,4")
+    assert lsm.read_catalogue("a.csv")["event_id"].tolist() == [1, 3]
+
+
+@pytest.mark.parametrize("text, said", [("a,b\n1,2\n", "no catalogue, expected '# lsm-catalogue 1'"), ("", "no catalogue"),
+                                        (CATALOGUE.replace("catalogue 1", "catalogue 2"), "format 'lsm-catalogue 2', expected 'lsm-catalogue 1'"),
+                                        ("# lsm-catalogue 1\n# model = lsm\n", "no line of columns"),
+                                        (CATALOGUE.replace("0.25", "x"), r":5: '1,0.5.*', expected 9 numbers"),
+                                        (CATALOGUE.replace(",8\n", "\n"), r":6: .*expected 9 numbers")])
+def test_catalogue_that_is_none(work, text, said):
+    (work / "a.csv").write_text(text)
+    with pytest.raises(ValueError, match=r"a\.csv.*" + said):
+        lsm.read_catalogue("a.csv")
+
+
+def binary(magic, header, records):
+    return magic + len(header).to_bytes(8, "little") + header + records
+
+
+def test_series_with_times_of_its_own_and_an_incomplete_record(work):
+    records = np.array([(0, 0.5, 2.0), (9, 7.5, 1.0)], [("step", "<i8"), ("time", "<f8"), ("pe", "<f8")]).tobytes()
+    (work / "a.bin").write_bytes(binary(b"lsm-pe-series-1\n", b"# times = own\n", records + b"12345"))
+    series = lsm.read_series("a.bin")
+    assert series["time"].tolist() == [0.5, 7.5] and series["pe"].tolist() == [2.0, 1.0]
+
+
+@pytest.mark.parametrize("raw, said",
+                         [(b"", "no PE series, expected 'lsm-pe-series-1'"), (binary(b"lsm-slip-hist-1\n", b"# bins = 1\n", b""), "no PE series"),
+                          (b"lsm-pe-series-1\n" + (1000).to_bytes(8, "little") + b"# dt = 1\n", "the header is not complete"),
+                          (binary(b"lsm-pe-series-1\n", b"# dt = x\n# step0 = 0\n# time0 = 0\n", b""), "parameter 'dt' is 'x', expected a number"),
+                          (binary(b"lsm-pe-series-1\n", b"# dt = 1\n", b""), "parameter 'step0' is missing"),
+                          (b"\xfd7zXZ\0broken", "cannot be decompressed")])
+def test_series_that_is_none(work, raw, said):
+    (work / "a.bin").write_bytes(raw)
+    with pytest.raises(ValueError, match=r"a\.bin: .*" + said):
+        lsm.read_series("a.bin")
+
+
+@pytest.fixture(scope="module")
+def page_results(lmp, tmp_path_factory):
+    """Runs the blocks of the page, which make a fault and read it; the folder and what they left."""
+    folder = tmp_path_factory.mktemp("page")
+    os.symlink(SOURCE / "inputs", folder / "inputs")
+    if not (BUILD / "lib/liblammps.so").exists():
+        pytest.skip("liblammps.so is not built")
+    code = "".join(re.findall(r"^```python\n(.*?)^```$", (SOURCE / "inputs/python.md").read_text(), re.S | re.M))
+    code += """
+import numpy as np
+drop = dict(zip(series["step"], series["pe"]))
+assert len(events) > 0 and len(series) > 3000 and len(ruptures) > 0 and (events["size"] > 0).all()
+assert np.allclose([drop[a] - drop[b] for a, b in zip(events["step_start"], events["step_end"])], events["size"], rtol=1e-9, atol=1e-15)
+assert history["step_end"].max() <= 3100 and slip.shape == (int(history.header["bins"]),) and slip.mean() > 0
+assert (history["step_begin"][1:] == history["step_end"][:-1]).all() and velocity.shape == (len(history) - 1, slip.size)
+"""
+    (folder / "page.py").write_text(code)
+    ran = subprocess.run([sys.executable, "page.py"], cwd=folder, env={**lmp.env, "PYTHONPATH": str(BUILD / "python")}, capture_output=True,
+                         text=True)
+    assert ran.returncode == 0, ran.stderr + ran.stdout
+    return folder
+
+
+def test_the_code_of_the_page(page_results):
+    assert (page_results / "fault.slip.bin").exists()
+
+
+def test_the_notebook(page_results, work):
+    for name in ("catalogue.csv", "pe.bin", "slip.bin"):
+        os.symlink(page_results / f"fault.{name}", work / f"first.{name}")
+    notebook = json.loads((SOURCE / "python/first-catalogue.ipynb").read_text())
+    assert notebook["nbformat"] == 4 and not any(cell.get("outputs") for cell in notebook["cells"])
+    cells = ["".join(cell["source"]) for cell in notebook["cells"] if cell["cell_type"] == "code"]
+    (work / "cells.py").write_text("\n".join(cells))
+    ran = subprocess.run([sys.executable, "cells.py"], capture_output=True, text=True,
+                         env={**os.environ, "PYTHONPATH": str(BUILD / "python"), "LSM_RESULTS": str(work), "MPLBACKEND": "agg"})
+    assert ran.returncode == 0, ran.stderr
+    size, drop = re.search(r"size (\S+), drop of PE (\S+)", ran.stdout).groups()
+    assert size == drop and re.search(r"events >= 0.0001: exponent \d", ran.stdout), ran.stdout

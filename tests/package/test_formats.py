@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Files that version 1.0 wrote, in tests/data/1.0, are read by every reader (lammps-pkg/doc/formats.md).
+contents.json says what is in them; neither it nor they are ever changed."""
+import json
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from data_files import table
+from programs import SOURCE, refused, run
+
+sys.path.insert(0, str(SOURCE / "python"))
+import lsm  # noqa: E402
+
+DATA = SOURCE / "tests/data/1.0"
+CONTENTS = json.loads((DATA / "contents.json").read_text())
+CATALOGUES = [name for name in CONTENTS if name.endswith(".csv")]
+SERIES = [name for name in CONTENTS if name.endswith(".pe.bin")]
+
+
+@pytest.mark.parametrize("name", CONTENTS)
+def test_python_reads_1_0(name):
+    read, quantity, last = ((lsm.read_catalogue, "size", "t_end") if name in CATALOGUES else (lsm.read_series, "pe", "time") if name in SERIES else
+                            (lsm.read_slip, "slip", "step_end"))
+    found, wanted = read(DATA / name), CONTENTS[name]
+    assert list(found.dtype.names) == wanted["columns"] and len(found) == wanted["rows"]
+    assert found[quantity].sum(dtype=float) == pytest.approx(wanted["sum"], rel=1e-12) and found[last][-1] == wanted["last"]
+    assert found.header["model"] == wanted["model"]
+
+
+@pytest.mark.parametrize("name", CATALOGUES + ["fault.catalogue.csv.xz"])
+def test_postproc_reads_catalogues_of_1_0(postproc, name):
+    run(postproc, "count", DATA / name, "--size 0 --json n.json")
+    found, wanted = json.loads(Path("n.json").read_text()), CONTENTS[name.removesuffix(".xz")]
+    assert found["catalogues"][0]["events"] == wanted["rows"] and found["catalogues"][0]["last_end"] == wanted["last"]
+    assert found["sizes"][0]["released"] == pytest.approx(wanted["sum"], rel=1e-12)
+
+
+@pytest.mark.parametrize("name", SERIES)
+def test_postproc_reads_series_of_1_0(postproc, name):
+    run(postproc, "series", DATA / name, "-o s --no-picture --export all.csv")
+    rows = np.array([[float(cell) for cell in line.split(",")] for line in Path("all.csv").read_text().splitlines() if line[0] not in "#s"])
+    assert len(rows) == CONTENTS[name]["rows"] and rows[:, 2].sum() == pytest.approx(CONTENTS[name]["sum"], rel=1e-12)
+    assert rows[-1, 1] == CONTENTS[name]["last"]
+
+
+def test_picking_the_series_of_1_0_gives_its_catalogue(postproc):
+    run(postproc, "pick", DATA / "fault.pe.bin", "-o picked.csv")
+    assert table("picked.csv") == table(DATA / "picked.catalogue.csv")
+
+
+def test_pages_of_files_of_1_0(postproc):
+    run(postproc, "explore", DATA / "fault.catalogue.csv", "-o page.html")
+    page = Path("page.html").read_text()
+    run(postproc, "rupture", DATA / "fault.ruptures.csv", "--history", DATA / "fault.slip.bin", "-o r --no-picture")
+    assert "fault" in page and [path for path in Path().glob("r-*.csv") if len(path.read_text().splitlines()) > 10]
+
+
+def test_a_later_1_x_may_add_lines_and_columns(postproc):
+    lines = (DATA / "fault.catalogue.csv").read_text().splitlines()
+    later = ["# lsm-catalogue 1", "# of_later = yes", *lines[1:]]
+    later = [line if line.startswith("#") else line + (",later" if line.startswith("event_id") else ",0.5") for line in later]
+    Path("later.csv").write_text("\n".join(later) + "\n")
+    run(postproc, "count later.csv --size 0 --json n.json")
+    wanted = CONTENTS["fault.catalogue.csv"]
+    assert json.loads(Path("n.json").read_text())["catalogues"][0]["events"] == len(lsm.read_catalogue("later.csv")) == wanted["rows"]
+
+
+def test_another_number_is_refused(postproc):
+    for name, old in ("fault.catalogue.csv", b"lsm-catalogue 1"), ("fault.pe.bin", b"lsm-pe-series-1"), ("fault.slip.bin", b"lsm-slip-hist-1"):
+        raw = (DATA / name).read_bytes()
+        Path(name).write_bytes(raw.replace(old, old[:-1] + b"2", 1))
+    refused(postproc, "count fault.catalogue.csv", "version '2', expected version 1")
+    refused(postproc, "series fault.pe.bin -o x", "of another version, expected version 1")
+    refused(postproc, ["rupture", DATA / "fault.ruptures.csv", "--history", "fault.slip.bin", "-o", "x"], "of another version, expected version 1")
+    for name, read in ("fault.catalogue.csv", lsm.read_catalogue), ("fault.pe.bin", lsm.read_series), ("fault.slip.bin", lsm.read_slip):
+        with pytest.raises(ValueError, match=f"{name}: "):
+            read(name)

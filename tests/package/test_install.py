@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The Debian package, unpacked into an empty root and used from there: programs, plugin, scenes, headers,
+manual pages."""
+import gzip
+import os
+import re
+import shutil
+import sys
+from pathlib import Path
+
+import pytest
+from conftest import lammps_errors, mpi_environment
+from data_files import rows, same_bytes
+from programs import BUILD, Program, run, scene
+from test_python import FAULT
+
+PROGRAM = """#include <lsm/events/event_picker.h>
+#include <lsm/fault/packing.h>
+int main() {
+  LSM::EventPicker picker({});
+  LSM::Event event;
+  int events = 0;
+  for (int step = 0; step < 400; ++step) events += picker.push(step, step, step < 200 ? step : 400 - step, event);
+  return picker.in_event() && events == 0 ? 0 : 1;
+}
+"""
+
+
+def test_install(work):
+    if not shutil.which("dpkg-deb"):
+        pytest.skip("no dpkg-deb")
+    version = os.environ["LSM_VERSION"]
+    run(Program("cpack", "cpack"), "--config", BUILD / "CPackConfig.cmake", "-B packages")
+    deb, = Path("packages").glob("*.deb")
+    assert deb_field(deb, "Version") == version
+    for library in "libgsl", "libopenmpi", "libfftw3":
+        assert library in deb_field(deb, "Depends"), library
+    run(Program("dpkg-deb", "dpkg-deb"), "-x", deb, "root")
+    root = work / "root/usr"
+    assert os.listdir("root") == ["usr"], "files outside /usr"
+    for path in root.rglob("*"):
+        if path.is_file() and not path.is_symlink():
+            content = path.read_bytes()
+            assert b"\0" in content or str(BUILD).encode() not in content, f"{path} names the build folder"
+
+    # programs as installed: nothing of the build folder in the environment
+    def installed(path, *options):
+        program = Program(Path(path).name, path, *options, errors=lammps_errors)
+        program.env = {**mpi_environment(), "PATH": f"{root}/bin:/usr/bin:/bin", "HOME": str(work)}
+        return program
+
+    for name in "slider_cli", "postproc":
+        assert re.search(f"(^| ){re.escape(version)}$", run(installed(root / "bin" / name), "--version").out.strip())
+        page, = root.glob(f"share/man/man1/{name}.1*")
+        text = (gzip.decompress(page.read_bytes()) if page.suffix == ".gz" else page.read_bytes()).decode()
+        assert "options" in text.lower() and f"{name} \\- " in text, f"manual page of {name}"
+    run(installed(root / "bin/slider_cli"), "--blocks 64 --steps 400000 --catalogue slider.csv")
+    assert len(rows("slider.csv")) > 2
+    inputs = root / "share/lsm-fault/inputs"
+    lmp = installed(root / "bin/lmp", "-log", "none")
+    run(lmp, scene(inputs / "fault_120.in", length=20, settle=100, steps=200, prefix="fault"))
+    assert os.path.getsize("fault.catalogue.csv") > 0 and os.path.getsize("fault.pe.bin") > 0
+    postproc = installed(root / "bin/postproc")
+    run(postproc, "export slider.csv -o table.csv --time-unit second --start-date 2000-01-01 --magnitude-constant 0")
+    assert len(rows("table.csv")) > 1
+    run(postproc, "explore slider.csv -o page.html")
+    assert "Dygraph" in Path("page.html").read_text(), "the page is without its library"
+
+    # the plugin, in a stock lmp where one was built
+    if os.environ.get("LSM_STOCK_LMP"):
+        plugin, = root.rglob("lsmplugin.so")
+        Path("in.plugin").write_text(f"plugin load {plugin}\ninclude {inputs}/two_body_collision.in\n")
+        assert re.search("Loading plugin: .*lsm/free", run(installed(os.environ["LSM_STOCK_LMP"]), "-in in.plugin -log none").out)
+
+    # LAMMPS as a library, from Python
+    Path("fault.py").write_text(FAULT)
+    python = installed(sys.executable)
+    python.env["PYTHONPATH"] = str(root / "lib/python3/dist-packages")
+    run(python, "fault.py", inputs)
+    run(lmp, scene(inputs / "fault.in", length=20, width=15, settle=100, steps=600, velocity=0.01, prefix="lmp"))
+    same_bytes("python.catalogue.csv", "lmp.catalogue.csv")
+    same_bytes("python.pe.bin", "lmp.pe.bin")
+
+    # headers of the core
+    Path("program.cpp").write_text(PROGRAM)
+    run(Program("compiler", os.environ.get("LSM_CXX", "c++")), "-std=c++17", f"-I{root}/include -I{root}/include/lsm -o program program.cpp")
+    run(Program("program", work / "program"))
+
+
+def deb_field(deb, field):
+    return run(Program("dpkg-deb", "dpkg-deb"), "-f", deb, field).out.strip()

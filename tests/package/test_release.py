@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""One version everywhere, a citation that can be read, and an installation whose pages lead somewhere."""
+import importlib.util
+import os
+import re
+import subprocess
+
+import pytest
+
+from programs import BUILD, SOURCE, run
+
+VERSION = re.search(r"^  VERSION ([0-9]+\.[0-9]+\.[0-9]+)$", (SOURCE / "CMakeLists.txt").read_text(), re.M)[1]
+
+
+def header(path):
+    return dict(line[2:].rstrip("\n").split(" = ", 1) for line in open(path) if line.startswith("# ") and " = " in line)
+
+
+def test_version_of_the_programs(slider, postproc):
+    for program in (slider, postproc):
+        assert run(program, "--version").out.split()[-1] == VERSION
+    run(slider, "--blocks 16 --steps 100 --warmup 0 --catalogue a.csv")
+    assert header("a.csv")["program"] == f"slider_cli {VERSION}"
+
+
+def test_version_and_citation_of_the_fault(lmp):
+    run(lmp, ["-cite", "log.cite", "-in", SOURCE / "inputs/fault.in"], "-var length 20 -var width 15 -var settle 10 -var steps 100 -var prefix a")
+    assert header("a.catalogue.csv")["program"].endswith(f" package LSM {VERSION}")
+    cited = open("log.cite").read()
+    assert f"package LSM {VERSION}" in cited and "10.5194/npg-11-553-2004" in cited and "@Article{Weatherley2004" in cited
+
+
+def test_changes_and_citation_are_of_this_version():
+    assert re.findall(r"^## (\S+)", (SOURCE / "CHANGELOG.md").read_text(), re.M)[0] == VERSION
+    yaml = pytest.importorskip("yaml")
+    cff = yaml.safe_load((SOURCE / "CITATION.cff").read_text())
+    # what the schema of CFF 1.2.0 requires of what is there
+    assert cff["cff-version"] == "1.2.0" and cff["type"] in ("software", "dataset") and cff["version"] == VERSION
+    assert {"cff-version", "message", "title", "authors"} <= set(cff) <= {
+        "cff-version", "message", "type", "title", "version", "license", "authors", "keywords", "references", "abstract", "doi", "date-released",
+        "repository-code", "url", "contact", "identifiers", "preferred-citation"
+    }
+    for work in [cff, *cff["references"]]:
+        assert isinstance(work["title"], str) and work["authors"]
+        for author in work["authors"]:
+            assert set(author) == {"name"} or {"family-names", "given-names"} <= set(author)
+    for reference in cff["references"]:
+        assert {"type", "title", "authors"} <= set(reference) and re.fullmatch(r"10\.\d{4,9}/\S+", reference["doi"])
+        assert isinstance(reference["year"], int) and isinstance(reference["volume"], (int, str))
+    assert all(isinstance(word, str) for word in cff["keywords"]) and len(set(cff["keywords"])) == len(cff["keywords"])
+
+
+def test_workflow_runs_the_command_of_the_tests():
+    yaml = pytest.importorskip("yaml")
+    jobs = yaml.safe_load((SOURCE / ".github/workflows/test.yml").read_text())["jobs"]
+    assert [step["run"] for step in jobs["tests"]["steps"] if "run" in step][-1] == ".ci/run" and os.access(SOURCE / ".ci/run", os.X_OK)
+    for job in jobs.values():
+        assert job["container"] == "debian:${{ matrix.debian }}" and job["strategy"]["matrix"]["debian"] == ["12", "13"]
+    for form in (SOURCE / ".github/ISSUE_TEMPLATE").glob("*.yml"):
+        fields = yaml.safe_load(form.read_text())
+        assert {"name", "description", "body"} <= set(fields) and all({"type", "id", "attributes"} <= set(field) for field in fields["body"])
+
+
+def test_into_lammps(work):
+    """The package in a LAMMPS source tree: sources with their version, pages, scenes."""
+    for name in ("src", "cmake", "doc/src"):
+        (work / "lammps" / name).mkdir(parents=True)
+    (work / "lammps/src/version.h").write_text('#define LAMMPS_VERSION "4 Feb 2025"\n')
+    (work / "lammps/cmake/CMakeLists.txt").write_text("set(STANDARD_PACKAGES\n  MOLECULE)\n")
+    for _ in range(2):
+        subprocess.run([SOURCE / "lammps-pkg/install-into-lammps.sh", work / "lammps"], check=True, capture_output=True)
+    assert (work / "lammps/src/LSM/lsm_version.h").read_text() == f'#define LSM_VERSION "{VERSION}"\n'
+    for page in (SOURCE / "lammps-pkg/doc").glob("*.rst"):
+        assert (work / "lammps/doc/src" / page.name).exists() == (page.name != "index.rst")
+    scenes = [*(SOURCE / "inputs").glob("*.in"), SOURCE / "inputs/fault.variables"]
+    assert {path.name for path in scenes} == {path.name for path in (work / "lammps/examples/PACKAGES/lsm").iterdir()}
+    assert (work / "lammps/cmake/CMakeLists.txt").read_text() == "set(STANDARD_PACKAGES\n  LSM\n  MOLECULE)\n"
+
+
+def test_pages_of_an_installation(lmp, postproc, slider, work):
+    subprocess.run(["cmake", "--install", BUILD, "--prefix", work / "usr"], check=True, capture_output=True)
+    documents = work / "usr/share/doc/lsm-fault"
+    names = {str(page.relative_to(documents.resolve())) for page in documents.resolve().rglob("*.md")}
+    assert {
+        "README.md", "CHANGELOG.md", "inputs/tutorial.md", "inputs/variables.md", "inputs/studies.md", "lammps-pkg/README.md",
+        "lammps-pkg/doc/formats.md", "results/README.md"
+    } <= names
+    spec = importlib.util.spec_from_file_location("check_documents", SOURCE / "tests/check-documents.py")
+    check = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(check)
+    check.check_markdown(documents.resolve())
+    assert check.PROBLEMS == []
+    assert os.access(work / "usr/share/lsm-fault/inputs/study.sh", os.X_OK)

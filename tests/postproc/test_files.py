@@ -1,0 +1,403 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What the analysis and the block-slider replace, combine, and read: nothing lost, nothing mixed."""
+import json
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from programs import refused, run, snapshot
+
+CHAIN = "--blocks 200 --dt 0.05 --velocity 0.05 --warmup 300 --steps 200000"
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory, slider):
+    """A run of the block-slider with all that it writes."""
+    folder = tmp_path_factory.mktemp("made")
+    run(slider, CHAIN, "--catalogue slider.csv --pe-series slider.pe --checkpoint slider.ck", cwd=folder)
+    return folder
+
+
+@pytest.fixture
+def files(made, work):
+    for file in made.iterdir():
+        shutil.copy(file, work)
+    return work
+
+
+# Each way of postproc to write, with an output that would replace the file FILE.csv.
+WRITERS = [
+    "series slider.pe --no-picture -o {base}",
+    "spectrum slider.pe --no-picture -o {base}",
+    "histograms slider.csv --no-picture -o {base}",
+    "fit slider.csv --replicas 0 --no-picture -o {base}",
+    "intervals slider.csv --replicas 0 --no-picture -o {base}",
+    "compare slider.csv slider.csv --label a --label b --replicas 10 -o {base}",
+    "series slider.pe --no-picture -o pic --export {base}.csv",
+    "report slider.csv --replicas 0 --interval-replicas 0 --bootstrap 2 -o {base}.csv",
+    "explore slider.csv -o {base}.csv",
+    "summary slider.csv -o {base}.csv",
+    "count slider.csv --json {base}.csv",
+    "fit slider.csv --replicas 0 --no-picture -o pic --json {base}.csv",
+    "pick slider.pe -o {base}.csv",
+    "select slider.csv -o {base}.csv",
+    "export slider.csv -o {base}.csv --time-unit second --start-date 2000-01-01 --magnitude-constant 0",
+]
+
+
+@pytest.mark.parametrize("line", WRITERS)
+@pytest.mark.parametrize("kept, content", [("slider.csv", "a catalogue"), ("slider.pe", "a PE series"), ("slider.ck", "a checkpoint"),
+                                           ("restart", "a restart file"), ("packed", "what gzip has compressed"), ("notes", "something else")])
+def test_nothing_else_is_replaced(postproc, files, line, kept, content):
+    Path("restart").write_bytes(b"LammpS RestartT\0" + bytes(100))
+    Path("packed").write_bytes(subprocess.run(["gzip", "-c", "slider.csv"], capture_output=True, check=True).stdout)
+    Path("notes").write_text("label,value\nof a measurement,1\n")
+    shutil.copy(kept, "base.csv")
+    words = line.format(base="base")
+    refused(postproc, words, f"base.csv: exists already and holds {content}, expected a new name, or --overwrite", but="^pic")
+    run(postproc, words, "--overwrite")
+    assert Path("base.csv").read_bytes() != Path(kept).read_bytes()
+
+
+@pytest.mark.parametrize("line", [line for line in WRITERS if not line.startswith(("pick", "select", "export"))])
+def test_what_a_command_wrote_is_replaced(postproc, files, line):
+    words = line.format(base="base")
+    run(postproc, words)
+    before = snapshot()
+    run(postproc, words)
+    assert snapshot() == before
+
+
+def test_pictures_belong_to_their_script(postproc, files, gnuplot):
+    Path("fit.png").write_bytes(b"\x89PNG of a holiday")
+    refused(postproc, "histograms slider.csv -o fit", "fit.png: exists already and holds something else, expected a new name, or --overwrite")
+    Path("fit.png").unlink()
+    run(postproc, "histograms slider.csv -o fit")
+    run(postproc, "histograms slider.csv -o fit")
+    Path("fit.gp").write_text("plot x\n")
+    refused(postproc, "histograms slider.csv -o fit", "fit.gp: exists already and holds something else")
+
+
+def test_slider_summary_replaces_only_a_summary(slider, files):
+    again = CHAIN + " --catalogue new.csv --overwrite"
+    for kept in "slider.csv", "slider.pe", "slider.ck":
+        refused(slider, CHAIN + f" --catalogue new.csv --json {kept}", f"{kept}: exists already and holds .*, expected a new name, or --overwrite")
+    run(slider, again, "--json s.json")
+    run(slider, CHAIN + " --catalogue newer.csv --json s.json")
+    assert json.loads(Path("s.json").read_text())["catalogue"] == "newer.csv"
+    run(slider, CHAIN + " --catalogue e.csv --ensemble 2 --json e.json")
+    run(slider, CHAIN + " --catalogue f.csv --ensemble 2 --json e.json")
+    Path("s.json").write_text('{"name": "a package"}\n')
+    refused(slider, CHAIN + " --catalogue other.csv --json s.json", "s.json: exists already and holds something else")
+
+
+def test_new_files_follow_no_links(postproc, slider, files):
+    """FILE.new may have been put there by somebody else."""
+    Path("precious").write_text("of somebody\n")
+    for name in "page.html", "table.csv", "picked.csv":
+        os.symlink("precious", name + ".new")
+    for words in "explore slider.csv -o page.html", "summary slider.csv -o table.csv", "pick slider.pe -o picked.csv":
+        refused(postproc, words, "new is a symbolic link; move it away")
+    os.symlink("precious", "c.csv.new")
+    refused(slider, CHAIN + " --catalogue c.csv", "new is a symbolic link; move it away")
+
+
+# ---------------------------------------------------------------- files of different runs
+
+
+def write_catalogue(path, sizes, times=None, header="", model="lsm", length="# length = 120\n"):
+    rows = [
+        f"{k + 1},{(times[k] if times else k)!r},{(times[k] if times else k)!r},{k * 10},{k * 10 + 5},{size!r},1,0" for k, size in enumerate(sizes)
+    ]
+    Path(path).write_text(f"# lsm-catalogue 1\n# model = {model}\n{length}{header}"
+                          "event_id,t_start,t_end,step_start,step_end,size,pe_start,pe_end\n" + "".join(row + "\n" for row in rows))
+
+
+def pareto(n, seed=1, least=1e-4):
+    import random
+    random.seed(seed)
+    return [least / (1 - random.random()) for _ in range(n)]
+
+
+def test_explore_refuses_files_of_other_runs(postproc, slider, files):
+    run(slider, CHAIN, "--seed 2 --catalogue other.csv --pe-series other.pe")
+    run(postproc, "explore slider.csv --series slider.pe")
+    refused(postproc, "explore slider.csv --ruptures slider.csv -o mixed.html", "slider.csv: no catalogue of ruptures, expected one")
+    refused(postproc, "explore slider.csv --series other.pe -o mixed.html",
+            "other.pe: seed = 2, but 1 in slider.csv: expected a file of the same run")
+    refused(postproc, "explore other.csv slider.csv --series slider.pe --series none -o mixed.html", "seed = 1, but 2")
+    # As beside a catalogue whose prefix was used again.
+    shutil.copy("other.pe", "slider.pe.bin")
+    refused(postproc, "explore slider.csv -o mixed.html", "slider.pe.bin: seed = 2")
+    # The same settings, but another beginning: events at other times than the samples of their steps.
+    late = []
+    for line in Path("slider.csv").read_text().splitlines():
+        cells = line.split(",")
+        if line[0].isdigit():
+            cells[1:3] = [str(float(cell) + 1000) for cell in cells[1:3]]
+        late.append(",".join(cells))
+    Path("late.csv").write_text("\n".join(late) + "\n")
+    refused(postproc, "explore late.csv --series slider.pe -o mixed.html", "slider.pe: step .* expected a file of the same run")
+
+
+# ---------------------------------------------------------------- selections
+
+QUAKES = "time,latitude,longitude,depth,mag,type\n" + "".join(
+    f"20{k % 20:02d}-03-{1 + k % 28:02d}T01:00:00Z,{-60 + k % 120},{-179 + (7 * k) % 358},5,{2 + k % 30 / 10},earthquake\n" for k in range(300))
+
+
+def test_selections_that_choose_nothing_are_refused(postproc, files):
+    Path("quakes.csv").write_text(QUAKES)
+    for command in "count slider.csv", "export slider.csv -o t.csv --time-unit second --start-date 2000-01-01 --magnitude-constant 0", "fit slider.csv --replicas 0 --no-picture":
+        refused(postproc, command + " --from 1984-01-01", "--from or --to is a date, but no catalogue is of earthquakes")
+        refused(postproc, command + " --region -122/-114/32/37", "--region, but no catalogue is of earthquakes")
+    refused(postproc, "select slider.csv -o t.csv --from 1984-01-01", "--from or --to is a date, but no catalogue is of earthquakes")
+    for command in "count quakes.csv", "export quakes.csv -o t.csv --time-unit second --start-date 2000-01-01 --magnitude-constant 0":
+        refused(postproc, command + " --from 10", "--from or --to is a number, but all catalogues are of earthquakes")
+
+
+def test_every_region_counts(postproc, work):
+    Path("quakes.csv").write_text(QUAKES)
+    found = run(
+        postproc, "count quakes.csv --json n.json --region -180/0/-90/90 --region 0/180/-90/90 --region -180/180/-90/90 "
+        "--region 0/360/-90/90 --region 170/-170/-90/90")
+    west, east, all_of, again, line = [row["events"] for row in json.loads(Path("n.json").read_text())["catalogues"]]
+    assert all_of == again == 300 and west + east >= 300 and 0 < line < west, found
+    refused(postproc, "count quakes.csv --region 180/-180/-90/90", "--region '180/-180/-90/90', expected W/E/S/N")
+    run(
+        postproc,
+        "export quakes.csv -o t.csv --time-unit second --start-date 2000-01-01 --magnitude-constant 0 --region -180/180/-90/90 --region 0/180/-90/90")
+    assert len(Path("t.csv").read_text().splitlines()) == 1 + 300 + east
+
+
+# ---------------------------------------------------------------- headers
+
+
+@pytest.mark.parametrize("old, new, expected", [
+    ("lambda = ", "lambda = nan\n# was = ", "lambda is 'nan', expected a number of at least 0 and less than 1"),
+    ("picker = ", "picker = zzz\n# was = ", "picker is 'zzz', expected exponential, average or literal"),
+    ("min_size = ", "min_size = -1\n# was = ", "min_size is '-1', expected a finite size"),
+    ("keep_nonpositive = ", "keep_nonpositive = maybe\n# was = ", "keep_nonpositive is 'maybe', expected yes or no"),
+    ("warmup = ", "warmup = soon\n# was = ", "warmup is 'soon', expected a finite time"),
+])
+def test_headers_that_cannot_be_meant(postproc, files, old, new, expected):
+    text = Path("slider.csv").read_text()
+    Path("bad.csv").write_text(text.replace(f"# {old}", f"# {new}"))
+    refused(postproc, "count bad.csv", f"bad.csv:[0-9]+: {expected}")
+    import struct
+    data = Path("slider.pe").read_bytes()
+    length = struct.unpack("<q", data[16:24])[0]
+    header = data[24:24 + length].replace(f"# {old}".encode(), f"# {new}".encode())
+    Path("bad.pe").write_bytes(data[:16] + struct.pack("<q", len(header)) + header + data[24 + length:])
+    for command in "pick bad.pe -o p.csv", "series bad.pe --no-picture -o s":
+        refused(postproc, command, f"bad.pe: header line [0-9]+: {expected}")
+
+
+def rows_of(path):
+    return [line.split(",")[:8] for line in Path(path).read_text().splitlines() if line[0].isdigit()]
+
+
+def test_picking_after_leaps(postproc, slider, work):
+    run(slider, "--blocks 100 --velocity 1e-2 --steps 1000000 --warmup 0 --leap 1e-3 --catalogue l.csv --pe-series l.pe")
+    run(postproc, "pick l.pe -o p.csv")
+    run_rows, picked = rows_of("l.csv"), rows_of("p.csv")
+    assert len(run_rows) == len(picked) > 50
+    steps = 20  # the memory of the picker, 1, in steps of 0.05
+    for a, b in zip(run_rows, picked):
+        assert abs(int(a[3]) - int(b[3])) < steps and abs(int(a[4]) - int(b[4])) < steps, (a, b)
+    assert "slider_cli --leap" in " ".join(run(postproc, "pick --help").out.split())
+
+
+def test_an_event_that_has_not_ended_is_not_counted(postproc, slider, work):
+    run(slider, "--blocks 100 --velocity 1e-2 --steps 3000000 --warmup 0 --leap 1e-3 --catalogue l.csv --pe-series l.pe")
+    told = run(postproc, "pick l.pe -o p.csv --json p.json")
+    counts = json.loads(Path("p.json").read_text())["counts"][0]
+    assert counts["unfinished"] == 1, told
+    run(postproc, "series l.pe --no-picture -o s --json s.json")
+    assert json.loads(Path("s.json").read_text())["series"][0]["events"] == counts["events"]
+
+
+# ---------------------------------------------------------------- crashes and hangs
+
+HOSTILE = 20
+
+
+def test_reference_without_rows(postproc, work):
+    Path("reference.csv").write_text("curve,x,t,slip,slip_rate\n")
+    Path("run.slip.bin").write_bytes(b"")
+    refused(postproc, "benchmark run.slip.bin --reference reference.csv --no-picture",
+            "reference.csv: no rows, expected those of the columns 'curve,x,t,slip,slip_rate'", timeout=HOSTILE)
+
+
+def test_equal_times_and_magnitudes(postproc, work):
+    lines = ["time,latitude,longitude,mag"]
+    same_mag = lines + [f"2001-{1 + k // 28:02d}-{1 + k % 28:02d}T01:{k % 60:02d}:00Z,30,-120,2.5" for k in range(300)]
+    same_time = lines + [f"2001-01-01T01:00:00Z,30,-120,{2 + k % 40 / 10}" for k in range(300)]
+    Path("mag.csv").write_text("\n".join(same_mag) + "\n")
+    Path("time.csv").write_text("\n".join(same_time) + "\n")
+    write_catalogue("model.csv", pareto(300))
+    write_catalogue("at_once.csv", pareto(300), times=[5.0] * 300)
+    run(postproc, "nature mag.csv model.csv --no-picture --replicas 20", timeout=HOSTILE)
+    refused(postproc, "nature time.csv model.csv --no-picture --replicas 20", "time.csv: all events start at the same time", timeout=HOSTILE)
+    refused(postproc, "compare at_once.csv model.csv --rescale", "all times or sizes are 0", timeout=HOSTILE)
+
+
+def test_no_magnitude_of_size_0(postproc, work):
+    Path("quakes.csv").write_text(QUAKES)
+    write_catalogue("model.csv", pareto(300))
+    refused(postproc, "nature quakes.csv model.csv --no-picture --threshold 0", "--threshold 0 has no magnitude", timeout=HOSTILE)
+
+
+def test_numbers_beyond_all_reason(postproc, work):
+    write_catalogue("model.csv", pareto(300))
+    for option in "--magnitude-slope 1e5", "--magnitude-bin 1e-9", "--magnitude-slope 1e300":
+        refused(postproc, f"magnitudes model.csv --no-picture {option}", "expected fewer than 1e5 bins", timeout=HOSTILE)
+    names = []
+    for k, length in enumerate((120, 240, 480, 945)):
+        names.append(f"big{k}.csv")
+        write_catalogue(names[-1], [x * 1e308 for x in pareto(100, k, 0.01) if x < 1], length=f"# length = {length}\n")
+    for command in "fit --scaling --replicas 0 --no-picture", "histograms --no-picture", "report --replicas 0 --interval-replicas 0":
+        refused(postproc, f"{command} {' '.join(names)}", "big0.csv: event 1 has a time or size of .*, expected at most 1e.100", timeout=HOSTILE)
+
+
+def test_lines_have_a_limit(postproc, work):
+    """A small compressed file unpacks to anything."""
+    import gzip
+    with gzip.open("long.csv.gz", "wb", compresslevel=9) as file:
+        file.write(b"time,latitude,longitude,mag\n")
+        for _ in range(200):
+            file.write(b"1" * (1 << 20))
+    limit = ["bash", "-c", 'ulimit -v 1000000; exec "$@"', "bash"]
+    from programs import Program
+    small = Program("postproc", *limit, *postproc.command)
+    refused(small, "count long.csv.gz", "long.csv.gz: a line of more than 1048576 bytes", timeout=HOSTILE)
+
+
+def test_pipe_without_reader_can_be_left(slider, work):
+    import signal
+    import time
+    from programs import start
+    os.mkfifo("pipe")
+    with start(slider, CHAIN, "--catalogue pipe") as child:
+        time.sleep(1.0)
+        assert child.poll() is None
+        child.send_signal(signal.SIGTERM)
+        assert child.wait(HOSTILE) == 1
+        assert "pipe: cannot open for writing" in child.said()
+
+
+def test_closed_standard_streams(slider, postproc, work):
+    """Files that are opened do not become the standard streams that messages go to."""
+    from programs import Program
+    chain = "--blocks 200 --dt 0.05 --velocity 0.05 --warmup 300 --steps 3000000 --progress"
+    run(slider, chain, "--catalogue open.csv --pe-series open.pe --pe-stride 10")
+    for streams in "<&- >&- 2>&-", "2>&-":
+        bare = Program("slider_cli", "bash", "-c", f'exec "$@" {streams}', "bash", *slider.command)
+        run(bare, chain, "--catalogue closed.csv --pe-series closed.pe --pe-stride 10 --overwrite")
+        assert Path("closed.csv").read_bytes() == Path("open.csv").read_bytes()
+        assert Path("closed.pe").read_bytes() == Path("open.pe").read_bytes()
+    run(postproc, "pick open.pe -o open.picked")
+    bare = Program("postproc", "bash", "-c", 'exec "$@" <&- >&- 2>&-', "bash", *postproc.command)
+    assert run(bare, "pick open.pe -o closed.picked", status=None).status == 1
+    assert Path("closed.picked").read_bytes() == Path("open.picked").read_bytes()
+    assert run(bare, "pick no.pe -o closed.picked", status=None).status == 1
+
+
+# ---------------------------------------------------------------- what others write
+
+QUAKEML = """<?xml version="1.0" encoding="UTF-8"?>
+<q:quakeml xmlns:q="http://quakeml.org/xmlns/quakeml/1.2" xmlns:b="http://quakeml.org/xmlns/bed/1.2">
+<b:eventParameters publicID="quakeml:x/1">{events}</b:eventParameters></q:quakeml>
+"""
+XML_EVENT = """<b:event publicID="quakeml:x/{k}"><b:type>earthquake</b:type>
+<b:origin publicID="o{k}"><b:time><b:value>20{k:02d}-01-01T00:00:00Z</b:value></b:time><b:latitude><b:value>30</b:value></b:latitude>
+<b:longitude><b:value>-120</b:value></b:longitude></b:origin>
+<b:magnitude publicID="m{k}"><b:mag><b:value>{m}</b:value></b:mag></b:magnitude></b:event>
+"""
+MAGNITUDES = [2.0 + k / 10 for k in range(12)]
+FORMATS = {
+    "comcat": "time,latitude,longitude,depth,mag,type\n" + "".join(f"20{k:02d}-01-01T00:00:00Z,30,-120,5,{m:.1f},earthquake\n"
+                                                                   for k, m in enumerate(MAGNITUDES)),
+    "neic": "Date,Time,Latitude,Longitude,Type,Depth,Magnitude,Magnitude Type\n" +
+    "".join(f"01/01/20{k:02d},00:00:00,30,-120,Earthquake,5,{m:.1f},MW\n" for k, m in enumerate(MAGNITUDES)),
+    "pde": "Year,Month,Day,Time(hhmmss.mm)UTC,Latitude,Longitude,Magnitude,Depth,Catalog\n" +
+    "".join(f"20{k:02d},1,1,000000.00,30,-120,{m:.1f},5,PDE\n" for k, m in enumerate(MAGNITUDES)),
+    "ncedc": "DateTime,Latitude,Longitude,Depth,Magnitude,MagType,EventID\n" + "".join(f"20{k:02d}/01/01 00:00:00.00,30,-120,5,{m:.1f},ML,{k}\n"
+                                                                                       for k, m in enumerate(MAGNITUDES)),
+    "zmap": "".join(f"-120 30 20{k:02d} 1 1 {m:.1f} 5 0 0 0\n" for k, m in enumerate(MAGNITUDES)),
+    "scedc": "".join(f"20{k:02d}/01/01 00:00:00.00 eq l {m:.2f} l 30.000 -120.000 5.0 A {k} 1 1\n" for k, m in enumerate(MAGNITUDES)),
+    "quakeml": QUAKEML.format(events="".join(XML_EVENT.format(k=k, m=m) for k, m in enumerate(MAGNITUDES))),
+}
+
+
+@pytest.mark.parametrize("name", FORMATS)
+@pytest.mark.parametrize("dressed", ["plain", "mark", "windows", "mac", "mark and windows"])
+def test_earthquakes_in_any_dress(postproc, work, name, dressed):
+    text = FORMATS[name]
+    if "windows" in dressed:
+        text = text.replace("\n", "\r\n")
+    if "mac" in dressed:
+        text = text.replace("\n", "\r")
+    Path("events").write_bytes((b"\xef\xbb\xbf" if "mark" in dressed else b"") + text.encode())
+    run(postproc, "count events --json n.json --size M2 --size M3.05")
+    found = json.loads(Path("n.json").read_text())
+    assert found["catalogues"][0]["events"] == len(MAGNITUDES)
+    assert [row["events"] for row in found["sizes"]] == [12, 1]
+    first = found["catalogues"][0]["first_start"]
+    assert abs(first - 10957.0) < 1e-6  # 2000-01-01
+
+
+def test_sizes_may_be_magnitudes(postproc, work):
+    Path("events.csv").write_text(QUAKES)
+    a = run(postproc, "summary events.csv --threshold M3 --range 1e3:1e9").out
+    b = run(postproc, f"summary events.csv --threshold {10 ** 4.5!r} --range M2:M6").out
+    assert a.replace("1e3:1e9", "M2:M6") == b
+
+
+def test_labels_are_anything(postproc, work, files):
+    label = os.fsdecode(b"caf\xe9 =1+1")
+    run(postproc, ["fit", "slider.csv", "--label", label, "--replicas", "0", "--no-picture", "-o", "fit", "--json", "fit.json"])
+    assert json.loads(Path("fit.json").read_text())["fits"][0]["label"] == "caf� =1+1"
+    for name in "fit.csv", "fit.fits.csv", "fit.gp":
+        Path(name).read_text(encoding="utf-8")
+    run(postproc, ["explore", "slider.csv", "--label", label])
+    Path("explore.html").read_text(encoding="utf-8")
+    odd = os.fsdecode(b"caf\xe9.csv")
+    shutil.copy("slider.csv", odd)
+    Path(odd).write_text(Path("slider.csv").read_text().replace("# blocks = 200\n", ""))
+    run(postproc, ["summary", odd, "-o", "s.csv"])
+    assert "caf�" in Path("s.csv").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("label", ["=HYPERLINK(1)", "+1+1", "-2+3", "@SUM(A1)", '=1,"2"'])
+def test_labels_are_no_formulas(postproc, files, label):
+    import csv
+    run(postproc, ["summary", "slider.csv", "--label", label, "-o", "s.csv"])
+    rows = list(csv.DictReader(line for line in Path("s.csv").read_text().splitlines() if not line.startswith("#")))
+    assert rows[0]["label"] == "'" + label
+    # A number stays one.
+    run(postproc, ["summary", "slider.csv", "--label", "-5", "-o", "s.csv"])
+    assert Path("s.csv").read_text().splitlines()[-1].startswith("-5,")
+
+
+# ---------------------------------------------------------------- small traps
+
+
+def test_unknown_commands_are_named(postproc, work):
+    refused(postproc, "histogram x.csv", "unknown command 'histogram', did you mean 'histograms'")
+    refused(postproc, "explor x.csv", "did you mean 'explore'")
+
+
+def test_two_catalogues_have_two_names(postproc, files):
+    shutil.copy("slider.csv", "mus_0.8.catalogue.csv")
+    told = run(postproc, "compare slider.csv mus_0.8.catalogue.csv --replicas 10 -o c")
+    assert "block-slider, N = 200 (slider)" in told.out and "block-slider, N = 200 (mus_0.8)" in told.out
+
+
+def test_lines_fit_a_terminal(postproc, work):
+    write_catalogue("a.csv", pareto(400), times=[float(k + k % 7 / 8) for k in range(400)])
+    told = run(postproc, "intervals a.csv --no-picture --replicas 20")
+    assert max(map(len, told.out.splitlines())) <= 200, told

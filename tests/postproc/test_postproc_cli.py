@@ -1,0 +1,819 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""postproc from outside, without pictures."""
+import bz2
+import gzip
+import json
+import lzma
+import math
+import os
+import re
+import shutil
+import signal
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+from data_files import (edit, header, loading_with_drops, numbers, omori, pick, read_catalogue, read_series, rows, same_bytes, table, write_catalogue,
+                        write_series)
+from programs import SOURCE, Program, refused, run, start
+
+PICKER = dict(picker="literal", min_size=0, **{"lambda": 0.5})
+CALIFORNIA = SOURCE / "inputs/seismicity/southern-california.csv.xz"
+PUBLISHED = SOURCE / "results/catalogues"
+
+
+def chosen(arguments):
+    """export does not choose dates and magnitudes: those of the tests, where a test does not either."""
+    if not str(arguments[0]).startswith("export") or " --unit-length" in " ".join(map(str, arguments)):
+        return arguments
+    usual = ("--time-unit", "second"), ("--start-date", "2000-01-01"), ("--magnitude-constant", "0")
+    said = " ".join(map(str, arguments))
+    return (*arguments, *[f"{option} {value}" for option, value in usual if option not in said])
+
+
+@pytest.fixture
+def do(postproc):
+    return lambda *arguments, **more: run(postproc, *chosen(arguments), **more)
+
+
+@pytest.fixture
+def no(postproc):
+    """no(pattern, arguments): refused."""
+
+    def refuses(pattern, *arguments, **more):
+        return refused(postproc, " ".join(chosen(arguments)) if len(arguments) == 1 else list(arguments), pattern, **more)
+
+    return refuses
+
+
+def series(path, n=5000, pe=None, **head):
+    """Loading with drops; PE, steps and times of it."""
+    pe = loading_with_drops(n) if pe is None else pe
+    write_series(path, pe, {"length": 40, **head, **{key: value for key, value in PICKER.items() if key not in head}})
+    step = np.arange(len(pe))
+    return step, step * 0.03, pe
+
+
+def catalogue(path):
+    """Five events with a centroid, one of negative size."""
+    Path(path).write_text("""# lsm-catalogue 1
+# model = lsm
+# length = 40
+event_id,t_start,t_end,step_start,step_end,size,pe_start,pe_end,slip_moment,x_centroid
+1,0,1.5,0,50,1,2,1,3,10
+2,2,3,60,90,0.001,2,1.999,3,20
+3,86400.25,86401,100,190,1000,2000,1000,3,30
+5,86402,86403,200,290,-1,2,3,3,40
+6,86404.0000005,86405,300,390,1e-6,2,2,3,0
+""")
+
+
+def without_column(source, target, column=-1, last=None):
+    """The catalogue without a column."""
+    out = []
+    for line in Path(source).read_text().splitlines():
+        if not line.startswith("#"):
+            cells = line.split(",")
+            del cells[column]
+            line = ",".join(cells)
+        out.append(line)
+    Path(target).write_text("\n".join(out) + "\n")
+
+
+def picked(path):
+    found = numbers(path)
+    assert len(found) >= 10, "too few events to test anything"
+    return found
+
+
+# ---- picking
+@pytest.mark.parametrize("reading, memory, least", [("exponential", 0.99, 0), ("exponential", 0.9, 0.01), ("average", 0.99, 0),
+                                                    ("literal", 0.99, 0.02)])
+def test_pick(do, reading, memory, least):
+    made = series("pe.bin")
+    do("pick pe.bin -o picked.csv --picker", reading, "--lambda", memory, "--min-size", least)
+    assert picked("picked.csv") == pick(reading, memory, least, *made)
+    assert header("picked.csv")["picker"] == reading and float(header("picked.csv")["lambda"]) == memory
+
+
+def test_pick_settings(do, no):
+    made = series("pe.bin")
+    # What is not given comes from the header of the series; its parameters are carried over.
+    do("pick pe.bin -o picked.csv")
+    whole = pick("literal", 0.5, 0, *made)
+    assert picked("picked.csv") == whole
+    assert header("picked.csv")["length"] == "40" and header("picked.csv")["dt"] == "0.029999999999999999"
+    # dt stands where the run has it.
+    series("fault.bin", viscosity=0.1)
+    do("pick fault.bin -o fault.csv")
+    keys = list(header("fault.csv"))
+    assert keys[keys.index("dt") + 1] == "viscosity", keys
+    # Memory in time; lambda = exp(-0.03/3)
+    do("pick pe.bin -o a.csv --picker exponential --memory-time 3")
+    assert float(header("a.csv")["lambda"]) == pytest.approx(math.exp(-0.01), rel=1e-14)
+    # Warm-up: identifiers begin with 1 behind it.
+    do("pick pe.bin -o c.csv --warmup 75")
+    assert [row[1:] for row in picked("c.csv")] == [row[1:] for row in whole if row[1] >= 75]
+    assert picked("c.csv")[0][0] == 1
+    # Completeness: carried over.
+    assert "completeness" not in header("c.csv")
+    series("known.bin", completeness=0.002)
+    do("pick known.bin -o e.csv")
+    assert header("e.csv")["completeness"] == "0.002"
+    series("known.bin", completeness="small")
+    no("known.bin: header line .*: completeness is 'small', expected a finite size of at least 0", "pick known.bin -o x.csv")
+    # The catalogue is one that the other commands read.
+    do("export c.csv -o table.csv")
+    # An older file stays unless --overwrite is given; nothing is left of a series that ends badly.
+    no("c.csv: exists already", "pick pe.bin -o c.csv")
+    bad = made[2].copy()
+    bad[3989] = np.nan
+    series("bad.bin", pe=bad)
+    no("bad.bin: record 3990: pe is not finite, expected a finite number", "pick bad.bin -o new.csv")
+    no("bad.bin: record 3990: pe is not finite, expected a finite number", "pick bad.bin -o c.csv --overwrite")
+    Path("torn.bin").write_bytes(Path("pe.bin").read_bytes()[:-5])
+    no("torn.bin: truncated record 5000 at the end", "pick torn.bin -o new.csv")
+    do("pick torn.bin -o new.csv --lenient").warned("torn.bin: dropped a truncated last sample: 1")
+    no("is read by this command", "pick pe.bin -o ./pe.bin --overwrite")
+    no("lambda = 1, expected at least 0 and less than 1", "pick pe.bin -o x.csv --lambda 1")
+    series("leaky.bin", **{"lambda": 1.5})
+    no("leaky.bin: header line .*: lambda is '1.5', expected a number of at least 0 and less than 1", "pick leaky.bin -o x.csv")
+    no("memory-time with the reading 'literal', expected 'exponential'", "pick pe.bin -o x.csv --memory-time 3")
+    no("lambda excludes", "pick pe.bin -o x.csv --memory-time 10 --lambda 0.5")
+    no("min-size = -1, expected a finite size of at least 0", "pick pe.bin -o x.csv --min-size -1")
+    no("picker = .median., expected exponential, average or literal", "pick pe.bin -o x.csv --picker median")
+
+
+@pytest.mark.parametrize("picker", ["exponential", "literal"])
+def test_online(do, slider, picker):
+    """The same rows as the program that ran picked, from its series."""
+    run(slider, "--blocks 100 --dt 0.05 --velocity 0.05 --warmup 300 --steps 300000 --picker", picker, "--catalogue online.csv --pe-series pe")
+    do("pick pe -o picked.csv")
+    online = [",".join(row.split(",")[:8]) for row in rows("online.csv")]
+    assert len(online) >= 10 and rows("picked.csv") == online
+    said = header("picked.csv")
+    del said["picked_by"]
+    assert said == header("online.csv")
+
+
+def test_series(do, no):
+    made = step, time, pe = series("pe.bin")
+    do("series pe.bin -o all --no-picture --picker exponential --lambda 0.9 --columns 600")
+    # 5000 samples in groups of 8, as 4 would make more than 2 x 600: 2 rows for each, the extremes among
+    # them.
+    drawn = table("all.csv")
+    assert len(drawn) == 1250
+    values = [float(row["pe"]) for row in drawn]
+    assert (min(values), max(values)) == (pe.min(), pe.max()), "an extreme is lost"
+    found = [tuple(float(cell) for cell in row) for row in (line.split(",") for line in rows("all-events.csv")) if row[4] != ""]
+    assert sorted(found) and [(row[0], row[1], row[4], row[2], row[3]) for row in found] == \
+        [(row[1], row[2], row[5], row[6], row[7]) for row in pick("exponential", 0.9, 0, *made)]
+    # Few samples are there one by one; the smoothed change has the memory of what was before.
+    do("series pe.bin -o part --no-picture --from 30 --to 60 --picker exponential --lambda 0.9")
+    change, wanted = 0.0, []
+    for n in range(1, len(pe)):
+        x = pe[n] - pe[n - 1]
+        change = 0.9 * change + (1 - 0.9) * x
+        if 30 <= time[n] <= 60:
+            wanted.append((time[n], pe[n], x, change))
+    assert len(wanted) > 900 and numbers("part.csv", 4) == wanted
+    # As text: the samples of the window, to the last digit.
+    do("series pe.bin -o part --no-picture --from 30 --to 60 --export samples.csv")
+    said = header("samples.csv")
+    assert said["dt"] == "0.029999999999999999" and {**said, "dt": 0
+                                                     } == {key: str(value)
+                                                           for key, value in {**read_series("pe.bin")[0], "dt": 0}.items()} | {"dt": 0}
+    assert Path("samples.csv").read_text().startswith("# PE series\n")
+    assert numbers("samples.csv", 3) == [row for row in zip(*made) if 30 <= row[1] <= 60]
+    no("is read by this command", "series pe.bin --no-picture -o x --export pe.bin")
+    no("expected --from before --to", "series pe.bin --from 5 --to 5 --no-picture -o x")
+    no("pe.bin: 0 samples in the window of time, expected at least 3", "series pe.bin --from 1e6 -o x")
+    no("columns", "series pe.bin --columns 2 -o x")
+
+
+def test_series_pictures(do, gnuplot):
+    series("pe.bin")
+    do("series pe.bin -o drawn --from 30 --to 60")
+    for name in "drawn.png", "drawn.svg", "drawn.gp", "drawn.csv", "drawn-events.csv":
+        assert os.path.getsize(name) > 0, name
+    assert "</svg>" in Path("drawn.svg").read_text(), "the SVG is not whole"
+    # A window without an event, too.
+    do("series pe.bin -o quiet --from 0 --to 1")
+    assert os.path.getsize("quiet.svg") > 0
+
+
+def piped(do, before, command, *after):
+    """do() where one word is /dev/fd/N, a pipe from a shell command."""
+    # The child is kept until do() has ended: Python closes the pipe of one that nothing refers to any more.
+    with subprocess.Popen(["bash", "-c", command], stdout=subprocess.PIPE) as child:
+        number = child.stdout.fileno()
+        return do(before, f"/dev/fd/{number}", *after, pass_fds=(number,))
+
+
+def test_spectrum(do, no):
+    # A sine of amplitude 2 and period 25.6 steps of 0.5: variance 2, frequency 1/12.8
+    wave = 5 + 2 * np.sin(2 * np.pi * np.arange(4096) / 25.6)
+    write_series("sine", wave, dict(dt=0.5))
+    do("spectrum sine --segment 1024 --per-decade 0 --no-picture -o sine_spectrum")
+    found = np.array(numbers_of("sine_spectrum.csv", 2, 3, 4))
+    assert np.sum(found[:, 1] * found[:, 2]) == pytest.approx(2, abs=0.001)
+    assert found[np.argmax(found[:, 2]), 0] == pytest.approx(1 / 12.8, abs=5e-6)
+    assert " sine 4096 7 " in told(do("spectrum sine --segment 1024 --per-decade 0 --no-picture -o sine_spectrum"))
+    # Without a length: an eighth of 4096, from a pipe, too.
+    do("spectrum sine --no-picture -o usual").told(" sine 4096 15 ")
+    shutil.copy("usual.csv", "file.csv")
+    piped(do, "spectrum", "cat sine", "--label sine --no-picture -o usual")
+    same_bytes("usual.csv", "file.csv")
+    no("4096 samples in the window of time, expected at least one segment of 8192", "spectrum sine --segment 8192 -o x")
+    write_series("gap", np.delete(wave, 92), dict(dt=0.5), step=np.delete(np.arange(4096), 92))
+    no("gap: step 93 after step 91, expected a sample every 1 steps", "spectrum gap -o x")
+    no("label given 1 times, expected once per series \\(2\\)", "spectrum sine sine --label a -o x")
+
+
+def test_spectrum_pictures(do, gnuplot):
+    write_series("sine", 5 + 2 * np.sin(2 * np.pi * np.arange(4096) / 25.6), dict(dt=0.5))
+    do("spectrum sine sine --label one --label 'two & <2>' -o drawn")
+    for ending in "png", "svg", "gp", "csv":
+        assert os.path.getsize(f"drawn.{ending}") > 0, ending
+
+
+def told(result):
+    return re.sub(" +", " ", result.out)
+
+
+def numbers_of(path, *columns):
+    """Some columns of a table, as tuples of numbers."""
+    return [tuple(float(cells[at]) for at in columns) for cells in (row.split(",") for row in rows(path))]
+
+
+# ---- comparing
+def made(path, time, count, shift=0, **head):
+    """Times of 0.8 and 1.2 times the given one, sizes 1 to 7."""
+    i = np.arange(1, count + 1)
+    times = np.round(np.cumsum(time * (0.8 + 0.4 * (np.floor((i + shift) * 0.618034 * 7) % 2))), 6)
+    size = 1 + (i + shift) * 11 % 7
+    write_catalogue(path, times, size, dict(model="lsm", length=120, **head), t_end=times + 1, step_start=10 * i, step_end=10 * i + 1,
+                    pe_start=[10] * count, pe_end=10 - size)
+
+
+def test_compare(do, no):
+    made("a.csv", 5, 400)
+    made("b.csv", 5, 300, 3)
+    made("c.csv", 10, 300, 3)
+    made("few.csv", 5, 9)
+
+    def verdicts(result):
+        return result.out.count("no difference seen"), result.out.count("they differ")
+
+    first = do("compare a.csv b.csv c.csv -o d")
+    first.told("size 400 300 .*no difference seen$")
+    assert verdicts(first) == (3, 1)
+    first.told(r"time 399 299 .* 2\.0[0-9]* \+- [0-9.]* 1 \(5\.0 \+- 5\.0\)e-04 .*they differ")
+    assert len(rows("d.csv")) == 4
+    before = Path("d.csv").read_bytes()
+    do("compare a.csv b.csv c.csv -o d")
+    assert Path("d.csv").read_bytes() == before, "not the same twice"
+    # Times twice as long have the same form.
+    made("twice.csv", 10, 400)
+    assert verdicts(do("compare a.csv twice.csv --rescale -o d"))[0] == 2
+    # Half the velocity, so twice the time for the same way.
+    made("fast.csv", 5, 400, velocity=-1)
+    made("slow.csv", 10, 300, 3, velocity=0.5)
+    ways = do("compare fast.csv slow.csv --displacement --from 250 --to 1250 -o d")
+    assert verdicts(ways) == (2, 0)
+    ways.told("time 199 199 .* 1.0[0-9]* ")
+    no("a.csv: no velocity in the header, expected", "compare a.csv c.csv --displacement -o x")
+    made("rest.csv", 5, 400, velocity=0)
+    no("rest.csv: velocity = 0 in the header, expected", "compare rest.csv c.csv --displacement -o x")
+    no("one catalogue, expected at least two", "compare a.csv -o x")
+    no("few.csv: sizes: two-sample test of 9 values", "compare a.csv few.csv -o x")
+    no("no such file|cannot open", "compare a.csv none.csv -o x")
+
+
+def test_match(do, no):
+    """The second catalogue at a tenth of the velocity, its plates begin to move at time 100, too;
+    every other event is the same."""
+    k = np.arange(1, 41)
+    for path, velocity, factor in ("a.csv", "1e-3", 1), ("b.csv", "1e-4", 10):
+        t = 100 + factor * (1000.0 * k + np.where((factor > 1) & (k % 2 == 1), 300, 0))
+        write_catalogue(path, t, [1] * 40, dict(model="lsm", length=40, velocity=velocity), t_end=t + 1, pe_start=[2] * 40, pe_end=[1] * 40)
+    # From 1.3 to 40: 39 of the first (2 to 40), of which the even ones are there. Of the seven shifts by
+    # eighths of 38.7 the second, fourth and sixth find 5, 10 and 19.
+    do("match a.csv b.csv --displacement --origin 100 --threshold 0.5 --within 0.1 --json m.json").told(r" 0.5 39 40 20 4.857$")
+    assert '"same": 20' in Path("m.json").read_text()
+    do("match a.csv a.csv --threshold 0.5 --within 0.1").told(" 40 40 40 ")
+    no("at least two", "match a.csv --threshold 0.5 --within 0.1")
+    no("threshold is required", "match a.csv b.csv --within 0.1")
+    no("a catalogue without events", "match a.csv b.csv --threshold 0.5 --within 0.1 --displacement --to 0.01")
+
+
+# ---- other formats
+def exported(path):
+    """Lines of an exported table, with numbers rounded to ten digits."""
+    return [re.sub(r"\d+\.\d{10,}", lambda number: f"{float(number[0]):.9g}", line) for line in Path(path).read_text().splitlines()]
+
+
+def test_export(do, no):
+    catalogue("c.csv")
+    do("export c.csv -o s.csv").told("^4 events; left out: 0 of size <= 0")
+    assert exported("s.csv") == """longitude,latitude,depth,time,magnitude,event_id,catalog_id,duration,size,magnitude_type
+0,0,0,2000-01-01T00:00:00.000000,0,1,0,1.5,1,M
+0,0,0,2000-01-01T00:00:02.000000,-2,2,0,1,0.001,M
+0,0,0,2000-01-02T00:00:00.250000,2,3,0,0.75,1000,M
+0,0,0,2000-01-02T00:00:04.000001,-4,6,0,0.9999995,1e-06,M""".splitlines()
+    do("export c.csv -o p.csv --format csep --magnitude-constant 4.5 --time-unit day --start-date 1999-12-31T12:00:00",
+       "--degrees-per-length 0.5 --to 1000 --min-size -10")
+    assert Path("p.csv").read_text() == """lon,lat,mag,time_string,depth,catalog_id,event_id
+5,0,4.5,1999-12-31T12:00:00.000000,0,0,1
+10,0,2.5,2000-01-02T12:00:00.000000,0,0,2
+"""
+    do("export c.csv c.csv -o two.csv --min-size -10").told("^8 events; left out: 2 of size <= 0")
+    assert sorted(row["catalog_id"] for row in table("two.csv")) == ["0"] * 4 + ["1"] * 4
+    no("s.csv: exists already", "export c.csv -o s.csv")
+    no("event 3 starts at time 86400.25, a date outside the years 1700 to 2261", "export c.csv -o x.csv --time-unit year")
+    for date in "2000-13-01", "2001-02-29", "yesterday", "2000-01-01T12":
+        no(f"start-date '{date}': expected a date", "export c.csv -o x.csv --start-date " + date)
+    no("time-unit", "export c.csv -o x.csv --time-unit -1")
+    without_column("c.csv", "plain.csv")
+    no("plain.csv: has no column x_centroid", "export plain.csv -o x.csv --degrees-per-length 1")
+
+
+def gutenberg_richter(path="gr.csv"):
+    """Magnitudes from -2 on with b = 1, M = -2 - log10(1 - q) with evenly spaced q; sizes 10^(1.5 M)."""
+    i = np.arange(2000)
+    m = -2 - np.log10(1 - ((i * 7919) % 2000 + 0.5) / 2000)
+    write_catalogue(path, 2 * i, 10**(1.5 * m), dict(model="lsm", length=40, completeness="1e-3"), t_end=2 * i + 1, pe_start=[1] * 2000,
+                    pe_end=[1] * 2000, slip_moment=10**m)
+
+
+def b_values(path="m.bvalues.csv"):
+    found = [row for row in table(path) if row["model"] == "lsm"]
+    assert len(found) == 1, found
+    return [number(value) for value in found[0].values()]
+
+
+def test_magnitudes(do, no):
+    gutenberg_richter()
+    first = do("magnitudes gr.csv -o m --no-picture")
+    found = b_values()
+    assert found[3] == 2000 and found[1] == -2 and 0.99 < found[4] < 1.01 and 0.018 < found[5] < 0.026, found
+    for said in (r"M = 0.6667 log10\(size\) \+ 0, bins of 0 \(0: none\)", "completeness in the header of gr.csv",
+                 "exponent of the sizes 1 \\+ 0.6667 b 1.66"):
+        first.told(said)
+    # The same b of the table that is exported, by the textbook's formula: with and without bins.
+    for width in 0, 0.1:
+        do("magnitudes gr.csv -o m --no-picture --complete-from -1.5 --magnitude-bin", width)
+        do("export gr.csv -o table.csv --overwrite --magnitude-bin", width)
+        m = np.array([float(row["magnitude"]) for row in table("table.csv")])
+        m = m[m >= -1.5 - width / 2 - 1e-9]
+        mean = np.mean(m + 1.5)
+        wanted = math.log(1 + width / mean) / (width * math.log(10)) if width else 1 / (mean * math.log(10))
+        assert len(m) == b_values()[3] and b_values()[4] == pytest.approx(wanted, rel=1e-12), width
+    # The smallest size that a magnitude begins with is given, found, or that of the header.
+    do("magnitudes gr.csv -o m --no-picture --complete-from curvature")
+    assert -1.91 < b_values()[1] < -1.69 and b_values()[1] == b_values()[2]
+    do("magnitudes gr.csv -o m --no-picture --threshold 0.01")
+    assert -1.3334 < b_values()[1] < -1.3333
+    # Of the moment, and as plain logarithm.
+    do("magnitudes gr.csv -o m --no-picture --magnitude-of moment --magnitude-slope 1 --complete-from -2").told(r"M = 1 log10\(slip_moment\) \+ 0")
+    assert 0.99 < b_values()[4] < 1.01
+    assert sum(row[0] for row in numbers_of("m.csv", 3)) == 2000
+    no("header holds for sizes only, expected 'curvature' or a magnitude", "magnitudes gr.csv -o x --magnitude-of moment --complete-from header")
+    no("complete-from 'nowhere', expected 'header', 'curvature' or a magnitude", "magnitudes gr.csv -o x --complete-from nowhere")
+    no("magnitude-slope: Value 0 not in range", "magnitudes gr.csv -o x --magnitude-slope 0")
+    no("magnitude-bin: expected a number of 0 or more, not '-1'", "magnitudes gr.csv -o x --magnitude-bin -1")
+    without_column("gr.csv", "plain.csv")
+    no("plain.csv: has no column slip_moment, expected one for --magnitude-of moment",
+       "magnitudes plain.csv -o x --magnitude-of moment --complete-from -2")
+    no("plain.csv: has no column slip_moment", "export plain.csv -o x.csv --magnitude-of moment")
+
+
+def number(cell):
+    try:
+        return float(cell)
+    except ValueError:
+        return cell
+
+
+def omori_row(path="a.omori.csv"):
+    """The cells of the only row, from 1 on."""
+    found = [row.split(",") for row in rows(path) if row.startswith("lsm")]
+    assert len(found) == 1, found
+    return dict(enumerate(map(number, found[0]), 1))
+
+
+def test_aftershocks(do, no):
+    """42 main shocks, the first of which has no time before it: p = 2, c = 2, K = 100, background
+    1/97.3."""
+    times, sizes = omori()
+    write_catalogue("omori.csv", times, sizes, t_end=np.where(sizes == 100, times + 10, times), pe_start=[1] * len(times), pe_end=[1] * len(times))
+    first = do("aftershocks omori.csv -o a --no-picture --main-size 50 --window 1000 --replicas 19")
+    value = omori_row()
+    assert value[6] == 41 and 1.9 < value[10] < 2.1 and 1.7 < value[12] < 2.3 and 75 < value[14] < 130, value
+    assert 0.0098 < value[16] < 0.0108 and value[18] > 1000 and value[19] == 0.05, value
+    for said in ("smallest main shock 50", "largest for so long before and after 1000", "main shocks 41",
+                 "share of Poisson catalogues as large 0.05"):
+        first.told(f"^ {said}$")
+    # Stacked rate: counts in the bins, per main shock and time unit.
+    stacked = [[number(cell) for cell in row.split(",")] for row in rows("a.csv") if row.startswith("1,")]
+    assert len(stacked) > 8
+    for row in stacked:
+        assert row[6] == pytest.approx(row[5] / (41 * (row[3] - row[2])), rel=1e-4)
+    do("aftershocks omori.csv -o a --no-picture --main-size 50 --window 1000 --replicas 0 --hold-c 2").told("^ c 2$")
+    # Events at one place in each stretch of 10 have no aftershocks.
+    i = np.arange(5000)
+    t = 10 * (i + i * 0.618034 % 1)
+    write_catalogue("even.csv", t, np.where(i % 100 == 50, 100, 0.01), pe_start=[1] * 5000, pe_end=[1] * 5000)
+    do("aftershocks even.csv -o a --no-picture --main-size 50 --window 300 --replicas 0").told("degenerate no decay")
+    assert 0.095 < omori_row()[8] < 0.101 and omori_row()[10] == omori_row()[12] == ""
+    # By default a share of the events are large enough.
+    do("aftershocks omori.csv -o a --no-picture --replicas 0").told("^ smallest main shock 0.01$")
+    no("no event of size 1000 or larger, expected a smaller --main-size", "aftershocks omori.csv -o x --main-size 1000")
+    no("first time after main shocks: expected 0 or more, below the window", "aftershocks omori.csv -o x --first 20 --window 10")
+    no("c held at 0.000000, expected 0 or more \\(0 needs a first time above 0\\)", "aftershocks omori.csv -o x --hold-c 0 --main-size 50")
+    no("excludes --main-s", "aftershocks omori.csv -o x --main-size 1 --main-share 0.1")
+
+
+def gzipped(raw):
+    return gzip.compress(raw)
+
+
+def quickly_gzipped(raw):
+    return gzip.compress(raw, 1)
+
+
+def xzipped(raw):
+    return lzma.compress(raw)
+
+
+def xzipped_with_crc32(raw):
+    return lzma.compress(raw, check=lzma.CHECK_CRC32)
+
+
+@pytest.mark.parametrize("way", [gzipped, quickly_gzipped, xzipped, xzipped_with_crc32])
+def test_compressed(do, way):
+    """What comes out is the same however the file lies there, whatever its name."""
+    catalogue("events.csv")
+    series("pe.bin")
+    do("pick pe.bin -o picked.csv")
+    do("export events.csv -o plain.csv")
+    text = Path("events.csv").read_bytes()
+    Path("packed").write_bytes(way(text))
+    Path("packed-pe").write_bytes(way(Path("pe.bin").read_bytes()))
+    # Two halves compressed one after the other are one file.
+    head = text.splitlines(True)
+    Path("halves").write_bytes(way(b"".join(head[:7])) + way(b"".join(head[7:])))
+    for name in "packed", "halves":
+        do("export", Path(name), "-o other.csv --overwrite")
+        same_bytes("plain.csv", "other.csv")
+    piped(do, "export", "cat packed", "-o other.csv --overwrite")
+    same_bytes("plain.csv", "other.csv")
+    do("histograms packed --no-picture -o drawn")
+    do("pick packed-pe -o other.csv --overwrite")
+    same_bytes("picked.csv", "other.csv")
+
+
+def test_other_line_ends(do):
+    catalogue("events.csv")
+    do("export events.csv -o plain.csv")
+    text = Path("events.csv").read_bytes()
+    for other in text.replace(b"\n", b"\r\n"), b"\xef\xbb\xbf" + text:
+        Path("other").write_bytes(other)
+        do("export other -o other.csv --overwrite")
+        same_bytes("plain.csv", "other.csv")
+        do("histograms other --no-picture -o drawn")
+
+
+@pytest.mark.parametrize("way, name", [(gzipped, "gzip"), (xzipped, "xz")])
+def test_damaged_compression(do, no, way, name):
+    catalogue("events.csv")
+    whole = way(Path("events.csv").read_bytes())
+    for command, length in ("export torn -o x", len(whole) - 5), ("histograms torn -o x --lenient", 40):
+        Path("torn").write_bytes(whole[:length])
+        no(f"^postproc: torn: truncated {name} file", command)
+    # A bit within the data or its checksum.
+    for at in 60, len(whole) - 10:
+        Path("flipped").write_bytes(whole[:at] + bytes([whole[at] ^ 0x55]) + whole[at + 1:])
+        no(f"^postproc: flipped: (damaged|truncated) {name} file", "export flipped -o x")
+    series("pe.bin")
+    Path("torn").write_bytes(way(Path("pe.bin").read_bytes()[:-5]))
+    no("torn: truncated record 5000", "pick torn -o x")
+    do("pick torn -o other.csv --lenient").warned("dropped a truncated last sample")
+    Path("other").write_bytes(bz2.compress(b"1"))
+    no("other: compressed by bzip2, expected gzip, xz or a file that is not compressed", "export other -o x")
+
+
+# ---- pages, tables, JSON
+def test_explore(do, no):
+    """A run as a simulation leaves it: the catalogue is picked from the series, whose files are found by
+    their names."""
+    series("run.pe.bin")
+    do("pick run.pe.bin -o run.catalogue.csv")
+    do("explore run.catalogue.csv -o page.html --title 'A < B'").told("run.pe.bin: 5000 samples")
+    page = Path("page.html").read_text()
+    assert "<title>A &lt; B</title>" in page and '"samples":5000' in page
+    assert len(re.findall('^<script type="text/plain"', page, re.M)) == 2
+    bare = do("explore run.catalogue.csv --series none -o bare.html")
+    assert "samples" not in bare.out and '"series":null' in Path("bare.html").read_text()
+    os.rename("run.pe.bin", "moved.bin")
+    do("explore run.catalogue.csv --series moved.bin -o moved.html").told("moved.bin: 5000 samples")
+    Path("run.pe.bin.xz").write_bytes(xzipped(Path("moved.bin").read_bytes()))
+    do("explore run.catalogue.csv -o page.html").told("run.pe.bin.xz: 5000 samples")
+    os.remove("run.pe.bin.xz")
+    # Two runs, one of them without a series.
+    os.rename("moved.bin", "run.pe.bin")
+    catalogue("other.csv")
+    do("explore run.catalogue.csv other.csv -o two.html").told("other.csv: .* events")
+    no("--series given 1 times, expected once per catalogue \\(2\\)", "explore run.catalogue.csv other.csv --series run.pe.bin -o x")
+    no("is read by this command", "explore run.catalogue.csv -o run.pe.bin")
+    no("is read by this command", "explore run.catalogue.csv -o run.catalogue.csv")
+    no("nowhere.bin: cannot open", "explore run.catalogue.csv --history nowhere.bin -o x")
+    no("nowhere.csv: cannot open", "explore run.catalogue.csv --ruptures nowhere.csv -o x")
+    no("no events, expected at least one", "explore run.catalogue.csv --from 1e9 -o x")
+    Path("torn.bin").write_bytes(Path("run.pe.bin").read_bytes()[:-3])
+    no("torn.bin: truncated record", "explore run.catalogue.csv --series torn.bin -o x")
+    do("explore run.catalogue.csv --series torn.bin --lenient -o page.html")
+
+
+def test_json(do, no):
+    """The same numbers in the table as text and in JSON."""
+
+    def same_numbers(path, in_json, name):
+        lines = [row for row in table(path) if row.get("origin") != "printed"]
+        found = json.loads(Path(in_json).read_text())[name]
+        assert len(lines) == len(found) > 0
+        for row, other in zip(lines, found):
+            assert list(row) == list(other)
+            for key, text in row.items():
+                value = other[key]
+                assert (value is None and text == "") or value == text or float(text) == value, (key, text, value)
+
+    catalogue("c.csv")
+    series("pe.bin")
+    do("pick pe.bin -o picked.csv --json p.json")
+    assert f'"events": {len(rows("picked.csv"))}' in Path("p.json").read_text()
+    for command, path, name in (("histograms c.csv -o h", "h.csv", "densities"), ("intervals c.csv -o i --replicas 0", "i.table1.csv", "fits"),
+                                ("intervals c.csv -o i --replicas 0", "i.csv", "densities"), ("magnitudes c.csv -o m", "m.bvalues.csv", "b_values"),
+                                ("spectrum pe.bin -o s", "s.csv", "spectra"), ("series pe.bin -o r", "r-events.csv", "events")):
+        do(command, "--no-picture --overwrite --json j.json")
+        same_numbers(path, "j.json", name)
+    do("compare picked.csv picked.csv --threshold 1e-7 --replicas 10 -o v --json v.json")
+    same_numbers("v.csv", "v.json", "tests")
+    do("export c.csv -o e.csv --json e.json")
+    said = Path("e.json").read_text()
+    assert '"events": 4' in said and '"without_magnitude": 0' in said
+    # With - JSON is all there is on standard output.
+    found = json.loads(do("count c.csv --size 0.001 --size 1 --brief 50 --json -").out)
+    sizes, one = found["sizes"], found["catalogues"][0]
+    assert [row["events"] for row in sizes] == [3, 2] and [row["brief"] for row in sizes] == [2, 1], sizes
+    assert abs(sizes[0]["released"] - 1001.001) < 1e-9 and one["events"] == 4 and one["largest"] == 1000 and one["last_step"] == 390, found
+    no("is read by this command", "count c.csv --json c.csv")
+
+
+def test_faults(do, postproc, faults):
+    """Killed at each system call that has to do with files, or refused it: what was there stays, or the
+    new file is whole."""
+    traced = faults(postproc)
+    catalogue("events.csv")
+    series("pe.bin", 500)
+    before = Path("events.csv").read_bytes().replace(b"\n", b" of before\n")
+    part = Path("part")
+    for words in "export events.csv --time-unit 1 --start-date 2000-01-01 --magnitude-constant 0 --overwrite -o", "pick pe.bin --overwrite -o", "fit events.csv --overwrite --replicas 0 --range 1e-7:1e4 --no-picture -o fit --json":
+        do(words, "whole")
+        whole = Path("whole").read_bytes()
+        part.write_bytes(before)
+        calls = traced.calls(words, "part", seen="part")
+        assert {"rename", "write"} <= {name for name, _ in calls}, calls
+        for name, n in calls:
+            for fault in "signal=KILL", "error=ENOSPC":
+                what = f"{words}: {fault} at {name} {n}"
+                part.write_bytes(before)
+                result = traced.inject(fault, name, n, words, part)
+                if fault == "error=ENOSPC" and name in ("close", "flock"):
+                    continue
+                assert part.read_bytes() == whole or (part.read_bytes() == before and result.status != 0), f"{what}: half a file, {result}"
+                if fault == "error=ENOSPC" and result.status != 0:
+                    assert result.err.startswith("postproc: ") and result.err.count("\n") == 1, f"{what}: {result}"
+                do(words, part)
+                assert part.read_bytes() == whole, f"again, after {what}"
+
+
+def test_progress(do, postproc):
+    """A terminal shows how far a test that takes long is; a file or a pipe is not filled with that."""
+    if not shutil.which("script"):
+        pytest.skip("no script(1), which makes a terminal")
+    times = np.cumsum(np.random.default_rng(3).exponential(size=2000))
+    write_catalogue("many.csv", times, [1] * 2000)
+    assert do("intervals many.csv --no-picture --replicas 50 -o x").err == ""
+    line = f"exec '{postproc.path}' intervals many.csv --no-picture --replicas 100000000 -o y"
+    with start(Program("script", "script"), ["-qefc", line, "terminal.log"]) as child:
+        assert child.until(lambda: Path("terminal.log").exists() and re.search(b"Monte Carlo replica [0-9]* of 100000000",
+                                                                               Path("terminal.log").read_bytes()))
+        child.send_signal(signal.SIGTERM)
+
+
+def test_summary(do, no):
+    """Sizes over four decades, uneven times; every seventh event lasts one step."""
+    random = np.random.default_rng(3)
+    i, t, times, ends, steps = np.arange(1, 401), 0.0, [], [], []
+    for n in i:
+        t += 1 + int(-40 * math.log(1 - random.random())) / 2
+        long = 8 if n % 7 else 1
+        times.append(t)
+        steps.append((int(2 * t), int(2 * t) + long))
+        t += long * 0.5
+        ends.append(t)
+    size = 1e-5 * np.exp(9.2 * random.random(400))
+    write_catalogue("c.csv", times, size, dict(model="lsm", dt=0.5, length=40, kt=0.2), t_end=ends, step_start=[a for a, _ in steps],
+                    step_end=[b for _, b in steps], pe_start=2 + size, pe_end=[2] * 400)
+    do("summary c.csv --threshold 0 1e-3 --range 1e-4:1e-2 --parameter kt seed --window 10:20 -o s.csv")
+    found = table("s.csv")[0]
+    assert found["kt"] == "0.2" and found["seed"] == ""
+    _, events = read_catalogue("c.csv")
+    apart = np.diff(events["t_start"][events["size"] >= 1e-3])
+    wanted = {
+        "events_0.001": len(apart) + 1, "mean_time_0.001": apart.mean(), "share_10:20_0.001": np.mean((apart >= 10) & (apart < 20)),
+        "brief": np.mean(events["step_end"] - events["step_start"] <= 3), "largest": size.max(), "released": size.sum()
+    }
+    for name, value in wanted.items():
+        assert float(found[name]) == pytest.approx(value, rel=1e-5), name
+    # The estimators are those of fit and intervals.
+    do("fit c.csv --range 1e-4:1e-2 --replicas 0 --no-comparison --json fit.json --no-picture")
+    do("intervals c.csv --threshold 1e-3 --method likelihood --delta 1 --replicas 0 -o times --no-picture")
+    exponent = re.search(r'"exponent": ([-0-9.e]+)', Path("fit.json").read_text())[1]
+    assert float(found["exponent_1e-4:1e-2"]) == pytest.approx(float(exponent), rel=1e-5)
+    gamma = next(row["gamma"] for row in table("times.table1.csv") if row["origin"] == "ours")
+    assert float(found["gamma_0.001"]) == pytest.approx(float(gamma), rel=1e-5)
+    no("c.csv: is read by this command", "summary c.csv -o c.csv")
+    no("--range '2', expected LO:HI", "summary c.csv --range 2")
+
+
+def test_outputs_are_not_inputs(no, work):
+    """What is read is not replaced, whichever of the outputs would do it."""
+    catalogue("good.csv")
+    for name in "fits", "table1", "bvalues", "omori":
+        shutil.copy("good.csv", f"own.{name}.csv")
+    for words in ("magnitudes own.bvalues.csv -o own", "aftershocks own.omori.csv -o own", "histograms good.csv -o ./good",
+                  "intervals own.table1.csv -o own", "fit own.fits.csv -o own", "fit good.csv -o x --json good.csv", "report good.csv -o good.csv",
+                  f"export good.csv -o ../{work.name}/good.csv --overwrite"):
+        no("is read by this command, expected another name", words)
+    series("pe.csv", 50)
+    shutil.copy("pe.csv", "own-events.csv")
+    for words in "series pe.csv -o pe", "series own-events.csv -o own", "spectrum pe.csv -o pe":
+        no("is read by this command", words)
+    for path in "x.csv", "./x.fits.csv", f"{work}/x.gp":
+        no("are the same file", "fit good.csv -o x --json " + path)
+    shutil.copy("good.csv", "part.csv.new")
+    no("is read by this command", "export part.csv.new -o part.csv")
+
+
+def test_bad_options(do, no):
+    catalogue("good.csv")
+    for seed in "-1", "18446744073709551616", "1.5":
+        no(f"seed: expected a whole number from 0 to 18446744073709551615, not '{seed}'", f"intervals good.csv --seed={seed} -o x")
+    for command in "histograms", "intervals", "fit", "magnitudes", "aftershocks":
+        no("ends with a folder, expected a file name", command + " good.csv -o ./")
+        for number in "-1", "nan":
+            no(f"threshold: expected a number of 0 or more, not '{number}'", f"{command} good.csv --threshold {number} -o x")
+    Path("new").mkdir()
+    no("new/: is a directory, expected a file name|new/: ends with a folder", "report good.csv -o new/")
+    no("subcommand", "")
+    no("help lists the options", "smooth good.csv")
+    no("is required", "pick good.csv")
+    no("from 3 --to 2: expected --from before --to", "export good.csv -o x --from 3 --to 2")
+    do("--version").told("^postproc [0-9]")
+
+
+@pytest.mark.parametrize("command", "pick histograms intervals fit series spectrum magnitudes aftershocks export report explore".split())
+def test_bad_files(do, no, command):
+    assert "--output" in do(command, "--help").out
+    of_series = command in ("pick", "series", "spectrum")
+    Path("empty.csv").touch()
+    Path("version.csv").write_text("lsm-pe-series-2\n" if of_series else "# lsm-catalogue 2\n")
+    no("nowhere.csv: cannot open", command + " nowhere.csv -o x")
+    no("is a directory, expected a file", command + " / -o x")
+    no("empty.csv: not a PE series" if of_series else "empty.csv:1: empty file", command + " empty.csv -o x")
+    for lenient in "", " --lenient":
+        no("version.csv: PE series of another version, expected version 1" if of_series else "version.csv:1: .*version '2', expected version 1",
+           command + " version.csv -o x" + lenient)
+
+
+def test_bad_rows(do, no):
+    catalogue("good.csv")
+    Path("torn.csv").write_bytes(Path("good.csv").read_bytes()[:-3])
+    no("torn.csv:9: truncated last line", "export torn.csv -o x")
+    edit("good.csv", "bad.csv", ("\n2,2,3", "\n2,nan,3"), ("\n3,", "\n1,"))
+    no("bad.csv:6: column 't_start' is 'nan', expected a finite number", "export bad.csv -o x")
+    repaired = do("export bad.csv -o repaired.csv --lenient")
+    repaired.warned("passed over lines with something else than finite numbers: 1")
+    repaired.warned("passed over events out of order: 1")
+    assert len(Path("repaired.csv").read_text().splitlines()) == 3
+
+
+def test_select(do, no):
+    catalogue("c.csv")
+    do("select c.csv -o all.csv")
+    assert numbers("all.csv", 10) == numbers("c.csv", 10) and len(numbers("all.csv")) == 5 and len(rows("all.csv")[0].split(",")) == 10
+    assert header("all.csv")["selected"] == "all events"
+
+    def chosen(path):
+        return [int(row.split(",")[0]) for row in rows(path)]
+
+    do("select c.csv --from 2 --to 86404 --min-size 1e-3 -o part.csv").told("2 events; left out: 2 by time, 1 by size")
+    assert chosen("part.csv") == [2, 3]
+    said = header("part.csv")
+    assert said["selected"] == "t_start from 2, t_start below 86404, size from 0.001" and said["min_size"] == "0.001" and said["length"] == "40"
+    assert rows("part.csv")[-1] in rows("all.csv"), "numbers are not those of the original"
+    # twice: the header says both
+    do("select part.csv --min-size 1 -o twice.csv")
+    assert re.match("t_start from 2, .*size from 0.001; size from 1$", header("twice.csv")["selected"])
+    # ruptures stay in order of their ends
+    edit("c.csv", "ruptures.csv", ("# length = 40", "# length = 40\n# events = ruptures"), ("\n2,2,3", "\n2,0.5,3"), ("\n1,0,1.5", "\n1,1,1.5"))
+    do("select ruptures.csv --min-size 1e-3 -o r.csv")
+    assert chosen("r.csv") == [1, 2, 3]
+    no("exists", "select c.csv -o part.csv")
+    no("is read by this command", "select c.csv -o c.csv --overwrite")
+    no("2 catalogues, expected one", "select c.csv part.csv -o x.csv")
+    no("earthquakes, expected a catalogue of a model", f"select {CALIFORNIA} -o x.csv")
+
+
+# ---- earthquakes
+# Values and errors measured on the same data by another program, from the first release of this extract on.
+@pytest.mark.parametrize("begin, end, magnitude, times, gamma, error, b", [("1984-01-01", "1986-07-02T12:00", "2", 6620, 0.667, 0.021, 1.51),
+                                                                           ("1988-01-01", "1992-01-01", "2.5", 3560, 0.647, 0.028, 1.59),
+                                                                           ("2011-01-01", "2019-01-01", "2", 10377, 0.659, 0.016, 1.60)])
+def test_earthquakes(do, begin, end, magnitude, times, gamma, error, b):
+    do("intervals", CALIFORNIA, f"--from {begin} --to {end} --min-magnitude {magnitude} --rescale --delta 1 --method likelihood --replicas 0",
+       "--shuffles 20 --no-picture -o times").told(f" magnitudes >= {magnitude} {times} ")
+    ours = [row for row in table("times.table1.csv") if row["origin"] == "ours"]
+    assert ours
+    for row in ours:
+        value = list(row.values())
+        assert float(value[3]) == pytest.approx(gamma, abs=error) and float(value[4]) == pytest.approx(error, rel=0.1)
+        assert float(value[7]) == pytest.approx(b, abs=0.03)
+
+
+def test_clustered_earthquakes(do):
+    """Variation 1.23, memory 0.13 in the first stretch."""
+    do("intervals", CALIFORNIA,
+       "--from 1984-01-01 --to 1986-07-02T12:00 --shuffles 50 --method likelihood --delta 1 --replicas 0 --no-picture -o times")
+    found = {key: float(value) for key, value in table("times.clustering.csv")[-1].items() if key in ("variation", "memory", "memory_p")}
+    assert 1.225 < found["variation"] < 1.235 and 0.125 < found["memory"] < 0.135 and found["memory_p"] < 0.05
+
+
+QUAKE = ("<event><origin><time><value>1984-01-0{}T00:00:01</value></time><latitude><value>33</value></latitude><longitude><value>-116</value>"
+         "</longitude></origin><magnitude><mag><value>2</value></mag></magnitude></event>")
+FORMATS = {
+    "scedc": "1984/01/01 00:00:01.00 eq l 2.10 l 33.0 -116.0 5.0 A\n1984/01/03 00:00:01.00 eq l 2.30 l 33.0 -116.0 5.0 A\n",
+    "zmap": "-116 33 1984 1 1 2.1 5 0 0 1\n-116 33 1984 1 3 2.3 5 0 0 1\n",
+    "xml": f"<quakeml><eventParameters>{QUAKE.format(1)}{QUAKE.format(3)}</eventParameters></quakeml>\n", "csv": None
+}
+
+
+@pytest.mark.parametrize("kind", FORMATS)
+def test_formats_through_a_pipe(do, kind):
+    """What it is, the first bytes tell, there, too."""
+    text = FORMATS[kind] or "".join(line + "\n" for line in lzma.decompress(CALIFORNIA.read_bytes()).decode().splitlines()[:3000])
+    name = f"part.{kind}"
+    Path(name).write_text(text)
+
+    def unlabelled(result):
+        return re.sub('"label": "[^"]*"', "", result.out)
+
+    whole = do("count", Path(name), "--json -")
+    assert re.search('"events": [1-9]', whole.out)
+    assert unlabelled(piped(do, "count", f"cat {name}", "--label part --json -")) == unlabelled(whole)
+    assert unlabelled(piped(do, "count", f"xz < {name}", "--json -")) == unlabelled(whole)
+
+
+def test_nature(do, no):
+    """The rank of models; a catalogue is no way off from itself."""
+    fault, other = PUBLISHED / "fault_120.catalogue.csv.xz", PUBLISHED / "fault_120_seed_2.catalogue.csv.xz"
+    piped(do, "count", f"xzcat {fault}")
+    time = "--from 1984-01-01 --to 1986-07-02T12:00"
+    do("nature", CALIFORNIA, fault, other, CALIFORNIA, "--label nature --label fault --label fault --label again", time,
+       "--from 4200 --reference M2 --reference M2.5 --threshold 1e-2 --replicas 20 --no-picture -o beside")
+    found = table("beside.table.csv")
+    names = [list(row.values())[0] for row in found]
+    assert len(found) == 5 and names[:2] == ["nature", "again"] and names[4] == "fault"
+    assert found[0]["distance"] == "" and float(found[1]["distance"]) == 0 and float(found[2]["distance"]) < 0.05
+    last = {key: float(found[4][key]) for key in ("catalogues", "distance", "distance_error")}
+    assert last["catalogues"] == 2 and last["distance"] > 0.1 and 0 < last["distance_error"] < last["distance"]
+    # Table 1: gamma, delta, B and C of each, as intervals has them
+    do("intervals", CALIFORNIA, time, "--min-magnitude 2 --rescale --method likelihood --replicas 0 --no-picture -o times")
+
+    def values(path, method, name):
+        for line in rows(path):
+            if line.startswith("ours") and re.search(f"{name},{method},[0-9.]*,", line.replace('"', "")):
+                cells = line.split(",")
+                return cells[3], cells[5], cells[7], cells[9]
+        raise AssertionError(f"no {method} of {name} in {path}")
+
+    for method in "maximum likelihood", "maximum likelihood, δ = 1 held":
+        assert values("times.table1.csv", method, "southern-california") == values("beside.table1.csv", f"{method}, 1 catalogue", "nature")
+    no("fault_120.catalogue.csv.xz: catalogue of a model, expected one of earthquakes first", f"nature {fault} {CALIFORNIA} -o x")
+    no("is a date, but no catalogue is of earthquakes", f"intervals {fault} --from 1984-01-01 -o x")
+    no("is a number, but all catalogues are of earthquakes, expected a date", f"intervals {CALIFORNIA} --from 1984 -o x")
+    no("from 'monday': expected a model time, or for earthquakes a date", f"intervals {CALIFORNIA} --from monday -o x")
+    no("expected W/E/S/N in degrees", f"intervals {CALIFORNIA} --region 1/2/3 -o x")

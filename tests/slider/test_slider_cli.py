@@ -1,0 +1,489 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""slider_cli from outside."""
+import gzip
+import json
+import math
+import os
+import signal
+import socket
+from pathlib import Path
+
+import numpy as np
+import pytest
+from data_files import header, read_catalogue, read_series, rows, same, same_bytes
+from programs import changed, interrupt, refused, run, start
+
+SHORT = "--blocks 100 --dt 0.05 --velocity 0.05 --warmup 0 --seed 3 "
+SHORT_INI = "blocks = 100\ndt = 0.05\nvelocity = 0.05\nwarmup = 0\nseed = 3\nsteps = 300000\n"
+
+
+@pytest.fixture
+def ran(slider):
+    """Runs slider_cli; most tests write the same files again and again."""
+    return lambda *arguments, **more: run(slider, "--overwrite", *arguments, **more)
+
+
+@pytest.fixture
+def no(slider):
+    """Refused, whatever else is asked for."""
+    return lambda arguments, pattern: refused(slider, [
+        "--overwrite", "--catalogue", "bad.csv", "--blocks", 16, "--time", 100, *(arguments.split() if isinstance(arguments, str) else arguments)
+    ], pattern)
+
+
+def interrupted(slider, part, times, signals=(signal.SIGKILL,), checkpoint="part.chk"):
+    """Starts and resumes the run, and ends it once it has written a checkpoint, so many times."""
+    count = 0
+    for n in range(times):
+        more = "--resume" if Path(checkpoint).exists() else "--overwrite"
+        count += interrupt(slider, part, more, when=changed(checkpoint), by=signals[n % len(signals)])
+    assert count >= 1, "the run was never interrupted"
+
+
+def test_kernels(ran):
+    for scheme in "semi-implicit", "verlet":
+        for picker in "exponential", "literal":
+            for kernel in "active", "dense":
+                ran(SHORT, "--steps 500000 --scheme", scheme, "--picker", picker, "--kernel", kernel, f"--catalogue {kernel}.csv",
+                    "--columns centroid,length")
+            same("active.csv", "dense.csv")
+    for kernel in "active", "dense":
+        ran(SHORT, "--dt 0.01 --steps 1000000 --scheme printed --kernel", kernel, f"--catalogue {kernel}.csv")
+    same("active.csv", "dense.csv")
+
+
+PART = "--catalogue part.csv --pe-series part.pe --checkpoint part.chk --checkpoint-interval 50000"
+
+
+def test_resume(slider, ran):
+    settings = SHORT + "--steps 1000000 --pe-stride 7 --columns length "
+    ran(settings, "--catalogue whole.csv --pe-series whole.pe")
+    part = settings + PART
+    # Finished, then resumed: nothing changes.
+    ran(part)
+    same("whole.csv", "part.csv")
+    ran(part, "--resume")
+    same("whole.csv", "part.csv")
+    same_bytes("whole.pe", "part.pe")
+
+    def not_resumed(arguments, pattern):
+        refused(slider, "--overwrite --resume " + part + arguments, pattern)
+
+    not_resumed(" --kl 0.02", "kl = 0.01.*expected.*kl = 0.02")
+    # What does not fit is found before any file is cut, as that torn line would be.
+    kept, series = Path("part.csv").read_bytes(), Path("part.pe").read_bytes()
+    Path("part.csv").write_bytes(kept + b"999,1")
+    assert b"\n# seed = 3\n" in series
+    Path("part.pe").write_bytes(series.replace(b"\n# seed = 3\n", b"\n# seed = 4\n"))
+    not_resumed("", "part.pe: cannot resume: parameter 'seed' is '4'")
+    Path("part.pe").write_bytes(series)
+    ran(part, "--resume")
+    assert Path("part.csv").read_bytes() == kept, "the torn line was not cut"
+    # A torn checkpoint, one with a wrong byte, one of an older program, none.
+    whole = Path("part.chk").read_bytes()
+    middle = len(whole) // 2
+    for name, damaged, said in (("short.chk", whole[:500], "short.chk: damaged"),
+                                ("flipped.chk", whole[:middle] + bytes([whole[middle] ^ 4]) + whole[middle + 1:], "flipped.chk: damaged"),
+                                ("old.chk", b"slider-checkpoint-1\n0123456789abcdef",
+                                 "^slider_cli: old.chk: checkpoint of version 1, expected version [2-9]: finish that run with the program "
+                                 "that started it, or start anew$")):
+        Path(name).write_bytes(damaged)
+        not_resumed(f" --checkpoint {name}", said)
+    not_resumed(" --checkpoint none.chk", "none.chk: cannot be read")
+
+
+def test_resume_other_kernel(slider, ran):
+    """Killed with one kernel, and resumed by either."""
+    settings = "--velocity 0.05 --blocks 24 --dt 0.05 --warmup 0 --seed 3 --steps 100000 "
+    part = "--catalogue part.csv --checkpoint part.chk "
+    ran(settings, "--kernel dense --catalogue whole.csv")
+    interrupted(slider, settings + part + "--kernel dense --checkpoint-interval 1000", 1)
+    ran(settings, part, "--kernel dense --checkpoint-interval 1000 --resume")
+    same("whole.csv", "part.csv", 5)
+    ran(settings, part, "--kernel active --resume")
+    same("whole.csv", "part.csv", 5)
+
+
+@pytest.mark.parametrize("by", [signal.SIGTERM, signal.SIGKILL])
+def test_interrupted(slider, ran, by):
+    settings = SHORT + "--steps 3000000 --pe-stride 1000 --columns centroid,length "
+    ran(settings, "--catalogue whole.csv --pe-series whole.pe")
+    interrupted(slider, settings + PART, 3, [by])
+    ran(settings, PART, "--resume")
+    same("whole.csv", "part.csv")
+    same_bytes("whole.pe", "part.pe")
+
+
+def test_ensemble(slider, ran, no):
+    ran(SHORT, "--steps 300000 --ensemble 3 --threads 2 --catalogue run{run}.csv")
+    for k in 1, 2, 3:
+        ran(SHORT, "--steps 300000 --seed", k + 2, "--catalogue alone.csv")
+        same(f"run{k}.csv", "alone.csv", 5)
+    # Stopped by a signal while several run at a time, it goes on as if it had not been.
+    stopped = (SHORT + "--steps 300000 --ensemble 3 --threads 3 --catalogue part{run}.csv --checkpoint part{run}.chk "
+               "--checkpoint-interval 1000")
+    for _ in range(5):
+        for path in Path().glob("part*"):
+            path.unlink()
+        if interrupt(slider, stopped, when=lambda: all(Path(f"part{k}.chk").exists() for k in (1, 2, 3)), by=signal.SIGTERM):
+            break
+    else:
+        pytest.fail("the ensemble was never interrupted")
+    ran(stopped, "--resume")
+    for k in 1, 2, 3:
+        same(f"run{k}.csv", f"part{k}.csv", 5)
+    Path("sets.txt").write_text("# two stiffnesses\n--kl 0.02\n--kl 0.05 --catalogue named.csv\n")
+    ran(SHORT, "--steps 300000 --ensemble sets.txt --catalogue set.csv --json all.json")
+    ran(SHORT, "--steps 300000 --kl 0.05 --catalogue alone.csv")
+    same("named.csv", "alone.csv", 5)
+    assert header("set-1.csv")["kl"] == "0.02"
+    Path("wrong.txt").write_text("--seed 1\n--kl -1\n")
+    no("--ensemble wrong.txt", "run 2 of the ensemble: .*--kl")
+    Path("twice.txt").write_text("--catalogue bad.csv --seed 1\n--catalogue bad.csv --seed 2\n")
+    no("--ensemble twice.txt", "are the same file")
+
+
+def test_laws(ran):
+    """One block: period and sizes of its slips, against closed forms."""
+    V, Fs = 0.001, 0.8
+
+    def slips(arguments):
+        """Period of the events between a third of the run and the end, and the largest size."""
+        ran("--blocks 1 --warmup 0 --picker literal --min-size 1e-7 --catalogue one.csv --friction-range", Fs, Fs, "--velocity", V, arguments)
+        _, events = read_catalogue("one.csv")
+        times = events["t_start"][len(events["t_start"]) // 3:]
+        return (times[-1] - times[0]) / (len(times) - 1) if len(times) > 2 else 0.0, max(events["size"], default=0.0)
+
+    # Coulomb: loading over twice the drop of strength, D = 0.8 - 0.6, then half a swing and a little:
+    # (Fs - Fd) w / (K V)
+    K, D = 0.05, 0.2
+    for scheme in "verlet", "semi-implicit":
+        period, largest = slips(f"--law coulomb --dynamic-friction 0.75 --kl {K} --time 80000 --dt 0.05 --scheme {scheme}")
+        theory = 2 * D / (K * V) + 2 / math.sqrt(K) * (math.pi - math.atan2(D * math.sqrt(K), K * V))
+        assert period == pytest.approx(theory, rel=1e-4), scheme
+        # PE falls by (0.8^2 - 0.4^2) / (2 K) = 4.8.
+        assert largest > 4, scheme
+    # Without a drop the block follows the plate, and swings by V / w: PE falls by no more than 2 Fs V / w
+    # each time.
+    assert slips("--law coulomb --dynamic-friction 1 --kl 0.05 --time 20000 --dt 0.05")[1] < 1.01 * 2 * Fs * V / math.sqrt(K)
+    # Slip weakening by W = 0.8 (1 - 0.75) / 0.5 = 0.4 per slip. Above this stiffness a slip swings about a
+    # slow drift, y = K V / (K - W) (t - sin(w t) / w) with w^2 = K - W, and PE falls while it is faster than
+    # the plate; below it a slip is that of the whole drop.
+    W = 0.4
+    for K in 0.5, 0.8:
+        _, stable = slips(f"--law slip-weakening --dynamic-friction 0.75 --slip-distance 0.5 --kl {K} --time 4000 --dt 0.01")
+        w = math.sqrt(K - W)
+        a = math.atan2(math.sqrt(1 - W * W / K / K), W / K)
+
+        def force(phase):
+            return Fs + K * V * (phase - K / (K - W) * (phase - math.sin(phase))) / w
+
+        assert stable == pytest.approx((force(a)**2 - force(2 * math.pi - a)**2) / (2 * K), rel=0.01), K
+    period, largest = slips("--law slip-weakening --dynamic-friction 0.75 --slip-distance 0.5 --kl 0.1 --time 100000 --dt 0.05")
+    # The drop less what the weakening takes, 0.2 x 0.5 / 2, decides how far: 0.2 D - K D^2 / 2 = 0.05.
+    assert period == pytest.approx((0.2 + math.sqrt(0.2**2 - 2 * 0.1 * 0.05)) / 0.1 / V, rel=0.02)
+    assert largest > 100 * stable, "slips below the critical stiffness are no larger than above"
+
+
+def test_laws_of_a_chain(slider, ran, no):
+    # Eq. 6 is the default.
+    ran(SHORT, "--steps 100000 --catalogue default.csv")
+    ran(SHORT, "--steps 100000 --law velocity-weakening --catalogue named.csv")
+    same("default.csv", "named.csv")
+    # Interrupted and resumed; the header has the law.
+    for law in "coulomb", "slip-weakening":
+        chain = SHORT + f"--law {law} --steps 200000 --scheme verlet "
+        ran(chain, "--catalogue active.csv --checkpoint whole.chk")
+        ran(chain, "--catalogue dense.csv --kernel dense")
+        same("active.csv", "dense.csv")
+        assert header("active.csv")["law"] == law
+        part = chain + "--catalogue part.csv --checkpoint part.chk --checkpoint-interval 20000"
+        Path("part.chk").unlink(missing_ok=True)
+        interrupt(slider, "--overwrite", part, when=Path("part.chk").exists, by=signal.SIGINT)
+        ran(part, "--resume")
+        same("active.csv", "part.csv")
+    no("--law rate-state-ageing", "--law = 'rate-state-ageing', expected velocity-weakening, coulomb or slip-weakening")
+    no("--dynamic-friction 0.5", "--dynamic-friction needs --law coulomb or slip-weakening")
+    no("--law coulomb --slip-distance 0.5", "--slip-distance needs --law slip-weakening")
+    no("--law coulomb --dynamic-friction 1.5", "--dynamic-friction = 1.5, expected at least 0 and at most 1")
+    no("--law slip-weakening --slip-distance 0", "--slip-distance = 0, expected a positive")
+
+
+WHOLE = "expected a whole number from 0 to"
+BAD = [("--frobnicate 3", "frobnicate"), ("--kc -1", "--kc = -1, expected"), ("--kl 0", "--kl = 0, expected"), ("--mass nan", "--mass"),
+       ("--velocity -0.01", "--velocity"), ("--blocks 0", "--blocks"), ("--blocks many", "--blocks"), ("--steps 10.5 --time 1", "--steps"),
+       ("--dt 1.5", "--dt = 1.5, expected at most 0.998"), ("--scheme printed --dt 0.12", "--dt = 0.12, expected less than 0.12"),
+       ("--scheme euler", "--scheme = 'euler', expected printed"), ("--picker best", "--picker = 'best', expected"),
+       ("--picker-lambda 1", "--picker-lambda = 1, expected"), ("--friction-range 1.0 0.5", "--friction-range"),
+       ("--catalogue no/such/folder/c.csv", "no/such/folder"), ("--pe-series no/such/folder/pe.txt", "no/such/folder"),
+       ("--checkpoint no/such/folder/c.chk", "no/such/folder"), ("--json no/such/folder/s.json", "no/such/folder"),
+       ("--resume", "--resume requires --checkpoint"), ("--paper --scheme verlet", "--paper"),
+       ("--friction-range 0.5 1.0 --friction-range 0.8 0.7", "--friction-range"), ("--config none.ini", "none.ini"),
+       ("--config /bin/sh", "/bin/sh: not a text file"), ("--events slips", "--events = 'slips', expected pe or ruptures"),
+       ("--rupture-gap 1", "--rupture-gap needs --events ruptures"), ("--events ruptures --rupture-gap -1", "--rupture-gap = -1, expected"),
+       ("--events ruptures --rupture-gap nan", "--rupture-gap = nan, expected"), ("--leap -1", "--leap = -1, expected a finite number >= 0"),
+       ("--leap nan", "--leap = nan, expected"), ("--kernel scalar", "--kernel = 'scalar', expected active or dense"),
+       *(([f"--{name}={number}"], f"{name}: {WHOLE} {most}, not '{number}'") for name, most in (("seed", 2**64 - 1), ("threads", 4096))
+         for number in ("-1", "18446744073709551616", "1e3", "0x10", " 7"))]
+BAD_FILES = [(b"blocsk = 12\n", "blocsk"), (b"seed = 3\ndt = 0.05\nseed = 4\n", "wrong.ini:3: 'seed' given twice, expected once"),
+             (b"seed = 3\nseed=3\n", "wrong.ini:2: 'seed' given twice, expected once"),
+             (b"steps = 100 200\n", "wrong.ini:1: 'steps' is '100 200', expected one value"), (b"seed = -1\n", "not '-1'"),
+             (b"\xef\xbb\xbfseed = 1\n", "wrong.ini: begins with a byte order mark"), (b"s\0e\0e\0d\0", "wrong.ini: not a text file"),
+             (gzip.compress(b"seed = 1\n"), "wrong.ini: compressed by gzip, expected a file that is not")]
+
+
+def test_bad_input(ran, no):
+    for arguments, pattern in BAD:
+        no(arguments, pattern)
+    for text, pattern in BAD_FILES:
+        Path("wrong.ini").write_bytes(text)
+        no("--config wrong.ini", pattern)
+
+
+def test_bad_steps(ran):
+    ran("--blocks 16 --steps 100 --seed", 2**64 - 1, "--catalogue largest.csv")
+    assert header("largest.csv")["seed"] == "18446744073709551615"
+    # Above dt 0.01 the printed scheme runs, with a warning.
+    ran("--blocks 16 --steps 100 --scheme printed --dt 0.05 --catalogue c.csv").warned("warning: --dt = 0.05")
+    assert ran("--blocks 16 --steps 100 --scheme printed --dt 0.01 --catalogue c.csv").err == ""
+    # Forced, it blows up sooner or later: an error, not an endless run of NaN.
+    for events in "pe", "ruptures":
+        burst = ran("--blocks 64 --steps 3000000 --scheme printed --dt 0.9 --velocity 1 --unstable --warmup 0 --friction-range 0 0.1",
+                    "--catalogue burst.csv --events", events, status=None)
+        assert burst.status > 0, "the printed scheme survived dt 0.9"
+        burst.warned("not a finite number")
+
+
+def test_header(ran):
+    said = json.loads(ran(SHORT, "--steps 300000 --catalogue c.csv --json -").out)
+    assert Path("c.csv").read_text().startswith("# lsm-catalogue 1\n# model = block-slider\n")
+    in_json = json.dumps(said)
+    for key in "blocks kc kl mass velocity friction_low friction_high seed scheme dt steps picker lambda warmup".split():
+        assert key in header("c.csv"), key
+        assert f'"{key}": ' in in_json, key
+    assert f'"events": {len(rows("c.csv"))}' in in_json
+
+
+def test_paper(slider, ran):
+    ran("--paper --steps 20000 --blocks 16 --catalogue p.csv")
+    printed = dict(scheme="printed", dt="0.01", picker="literal", kl="0.01", velocity="0.01", warmup="0", friction_low="0.5", friction_high="1")
+    printed["lambda"] = "0.99"
+    assert {key: header("p.csv").get(key) for key in printed} == printed
+    run(slider, "--help").told("--friction-range")
+
+
+def test_overwrite(slider):
+    """Without --overwrite nothing that holds something is replaced, and the refusal leaves no file."""
+    settings = SHORT + "--steps 300000 "
+    ensemble = "--ensemble 3 --catalogue r{run}.csv --checkpoint r{run}.chk "
+
+    def kept(arguments, pattern):
+        refused(slider, settings + arguments, pattern)
+
+    run(slider, settings, "--catalogue a.csv --pe-series a.pe --pe-stride 100 --checkpoint a.chk")
+    same("a.csv", "a.csv", 5)
+    kept("--catalogue a.csv --pe-series b.pe --checkpoint b.chk",
+         "a.csv: exists, expected a new file for --catalogue; --overwrite replaces it, --resume")
+    kept("--catalogue b.csv --pe-series a.pe", "a.pe: exists, expected a new file for --pe-series; --overwrite")
+    kept("--catalogue b.csv --checkpoint a.chk", "a.chk: exists, expected a new file for --checkpoint; --overwrite")
+    kept("--catalogue a.csv --events ruptures", "a.csv: exists")
+    # Asked to, it does; the new files are those of a first run.
+    first = Path("a.csv").read_bytes()
+    run(slider, settings, "--catalogue a.csv --overwrite --seed 4")
+    assert Path("a.csv").read_bytes() != first, "--overwrite did not replace the catalogue"
+    run(slider, settings, "--catalogue a.csv --overwrite")
+    assert Path("a.csv").read_bytes() == first
+    # An ensemble looks at all files before the first run; --resume without a checkpoint is a fresh start.
+    run(slider, settings, ensemble)
+    for name in "r1.csv", "r1.chk", "r2.chk":
+        os.remove(name)
+    kept(ensemble, "run 2 of the ensemble: r2.csv: exists")
+    kept(ensemble + "--resume", "run 2 of the ensemble: r2.csv: exists")
+    second, third = Path("r2.csv").read_bytes(), Path("r3.csv").read_bytes()
+    run(slider, settings, ensemble, "--resume --overwrite")
+    assert Path("r2.csv").read_bytes() == second and Path("r3.csv").read_bytes() == third
+    assert len(rows("r2.csv")) >= 5 and len(rows("r3.csv")) >= 5
+    assert os.path.getsize("r1.csv") > 0, "run 1 did not start"
+    # What holds nothing, and what is no file, is no reason to refuse.
+    Path("empty.csv").touch()
+    run(slider, settings, "--catalogue empty.csv --pe-series /dev/null")
+    same("empty.csv", "a.csv", 5)
+
+
+def test_config(ran):
+    Path("s.ini").write_text(SHORT_INI)
+    ran("--config s.ini --catalogue a.csv")
+    ran(SHORT, "--steps 300000 --catalogue b.csv")
+    same("a.csv", "b.csv", 5)
+    # Line ends of Windows, comments, two values where two are expected, text with blanks.
+    Path("s.ini").write_bytes(("# a chain\n; slow\n" + SHORT_INI).replace("\n", "\r\n").encode() +
+                              b'friction-range = 0.5 1.0\r\ncatalogue = "a b.csv"\r\n')
+    ran("--config s.ini")
+    same("a b.csv", "b.csv", 5)
+
+
+def test_faults(slider, ran, faults):
+    """Killed at each system call that has to do with files, or refused it: nothing is lost, nothing
+    silently wrong."""
+    traced = faults(slider)
+    settings = "--blocks 100 --dt 0.05 --velocity 0.05 --warmup 0 --seed 3 --steps 50000 --pe-stride 50 --checkpoint-interval 20000 "
+    part = settings + "--catalogue part.csv --pe-series part.pe --checkpoint part.chk"
+    ran(settings, "--catalogue whole.csv --pe-series whole.pe --checkpoint whole.chk")
+    calls = traced.calls("--overwrite", part, seen="part.")
+    names = [name for name, _ in calls]
+    assert names.count("write") >= 8 and names.count("rename") >= 5 and "fsync" in names, calls
+
+    def whole(what):
+        for ending in "csv", "pe", "chk":
+            assert Path(f"part.{ending}").read_bytes() == Path(f"whole.{ending}").read_bytes(), f"{what}: other bytes in part.{ending}"
+
+    def complete(what):
+        """Goes on where it can, and compares."""
+        ran(part, "--resume" if Path("part.chk").exists() else "--overwrite")
+        whole(what)
+        left = {path.name for path in Path().glob("part.*")} - {"part.csv", "part.pe", "part.chk"}
+        assert not left, f"{what}: {left} is left behind"
+
+    errors = dict.fromkeys(["write", "openat", "fsync", "pwrite64"], "ENOSPC") | dict.fromkeys(["rename", "unlink", "truncate", "ftruncate"],
+                                                                                               "EACCES")
+    for name, n in calls:
+        for fault in ["signal=KILL"] + [f"error={error}" for error in [errors.get(name)] if error]:
+            what = f"{fault} at {name} {n}"
+            for path in Path().glob("part.*"):
+                path.unlink()
+            result = traced.inject(fault, name, n, part)
+            if fault == "signal=KILL":
+                assert result.status != 0, f"not {what}"
+            elif result.status == 0:
+                whole(f"{what} without a word")
+            else:
+                assert result.err.startswith("slider_cli: ") and result.err.count("\n") == 1, f"{what}: {result}"
+            complete(what)
+
+
+def test_outputs(slider, work):
+    """One file for one purpose, whatever its names; nothing is begun."""
+    here = work / "here"
+    here.mkdir()
+    os.chdir(here)
+    Path("s.ini").write_text("blocks = 16\n")
+    Path("runs.txt").write_text("--seed 1\n--seed 2\n")
+    os.symlink("a.csv", "link.csv")
+    os.link("s.ini", "hard.csv")
+    for arguments in ("--catalogue a.csv --pe-series a.csv", "--catalogue a.csv --pe-series ./a.csv", "--catalogue a.csv --pe-series ../here/a.csv",
+                      f"--catalogue a.csv --checkpoint {here}/a.csv", "--catalogue a.csv --json a.csv", "--catalogue link.csv --json a.csv",
+                      "--pe-series a --checkpoint a", "--checkpoint x --json x", "--ensemble 2 --catalogue a.csv --json a-1.csv",
+                      "--ensemble 2 --catalogue a-1.csv --pe-series a{run}-1.csv --catalogue a{run}-1.csv"):
+        for more in "", " --overwrite":
+            refused(slider, "--blocks 16 --time 100 " + arguments + more, "are the same file")
+    for arguments in "--config s.ini --catalogue hard.csv --overwrite", "--config s.ini --json s.ini", "--ensemble runs.txt --json ./runs.txt":
+        refused(slider, "--blocks 16 --time 100 " + arguments, "is read by this run")
+    refused(slider, "--blocks 16 --time 100 --catalogue a.csv.new", "reserved for temporary files")
+
+
+def test_two_at_a_time(slider):
+    """The second of two runs of the same files is told who writes them, and changes nothing."""
+    part = ("--blocks 100 --time 1e9 --catalogue p.csv --pe-series p.pe --pe-stride 1000 --checkpoint p.chk "
+            "--checkpoint-interval 1000 ")
+    with start(slider, part) as child:
+        assert child.until(lambda: os.path.exists("p.chk") and os.path.getsize("p.chk"))
+        for more in "--resume", "--overwrite", "--catalogue other.csv --overwrite":
+            refused(slider, part + more, f"is being written by another run: process {child.pid} on {socket.gethostname()} since", but=r"^p\.")
+    # Lock files that a killed run leaves behind block no other run, and one that ends leaves none.
+    part = "--blocks 100 --steps 200000 --dt 0.05 --velocity 0.05 --warmup 0 --catalogue p.csv --pe-series p.pe --checkpoint p.chk --overwrite"
+    run(slider, part)
+    assert not list(Path().glob("*.lock"))
+
+
+def test_ruptures(slider, ran):
+    # The same motion: PE and the state of the chain do not depend on the kind of events.
+    ran(SHORT, "--steps 300000 --catalogue pe.csv --pe-series pe.pe --pe-stride 3")
+    ran(SHORT, "--steps 300000 --events ruptures --catalogue r.csv --pe-series r.pe --pe-stride 3")
+    for one, other in zip(read_series("pe.pe")[1:], read_series("r.pe")[1:]):
+        assert len(one) > 1000 and np.array_equal(one, other), "the kind of events changes PE"
+    assert header("r.csv")["events"] == "ruptures" and header("r.csv")["rupture_gap"] == "0"
+    assert not any(key.startswith(("events", "rupture")) for key in header("pe.csv")), "the header of pe events has changed"
+    ran(SHORT, "--steps 300000 --events pe --catalogue pe2.csv")
+    same("pe.csv", "pe2.csv")
+    # Both kernels, with ruptures that join over a gap.
+    for more in "", "--rupture-gap 0.5", "--scheme semi-implicit", "--scheme printed --dt 0.01":
+        for kernel in "active", "dense":
+            ran(SHORT, "--events ruptures --columns centroid,length --steps 300000", more, "--kernel", kernel, f"--catalogue {kernel}.csv")
+        same("active.csv", "dense.csv", 100)
+    # Sizes that are not written.
+    ran(SHORT, "--steps 300000 --events ruptures --min-size 0.5 --catalogue large.csv")
+    large = [row.split(",", 1)[1] for row in rows("r.csv") if float(row.split(",")[5]) >= 0.5]
+    assert large and large == [row.split(",", 1)[1] for row in rows("large.csv")]
+
+
+def test_ruptures_resumed(slider, ran):
+    """Killed at any moment, and resumed, again and again."""
+    settings = SHORT + "--steps 2000000 --columns centroid,length --pe-stride 500 "
+    of_events = settings + "--events pe"
+    settings += "--events ruptures --rupture-gap 0.2 "
+    part = settings + "--catalogue part.csv --pe-series part.pe --checkpoint part.chk --checkpoint-interval 20011 "
+    ran(settings, "--catalogue whole.csv --pe-series whole.pe --checkpoint whole.chk")
+    interrupted(slider, part, 5, [signal.SIGKILL, signal.SIGTERM])
+    ran(part, "--resume")
+    same("whole.csv", "part.csv", 1000)
+    same_bytes("whole.pe", "part.pe")
+    same_bytes("whole.chk", "part.chk")
+    # From the one kind of events there is no way to the other.
+    refused(slider, of_events + " --catalogue part.csv --checkpoint part.chk --resume --overwrite", "cannot resume")
+    ran(SHORT, "--steps 1000 --catalogue pe.csv --checkpoint pe.chk")
+    refused(slider, SHORT + "--steps 1000 --events ruptures --catalogue pe.csv --checkpoint pe.chk --resume --overwrite",
+            "cannot resume: .*expected 'events = ruptures'")
+
+
+SLOW = "--velocity 1e-3 --warmup 0 --seed 3 --time 250000 --leap 1e-3 "
+
+
+def test_leap(ran):
+    ran(SLOW, "--blocks 256 --catalogue active.csv --json leap.json")
+    ran(SLOW, "--blocks 256 --catalogue dense.csv --kernel dense")
+    same("active.csv", "dense.csv")
+    assert header("active.csv")["leap"] == "0.001" and header("active.csv")["leap_calm"] == "50"
+    number = dict(item for item in everything(json.loads(Path("leap.json").read_text())))
+    assert number["leaps"] >= 20
+    assert 10 * (number["steps"] - number["steps_jumped"] - number["steps_leapt"]) < number["steps"], "leaps save too little"
+    # Off, nothing knows of them.
+    ran(SHORT, "--steps 300000 --catalogue none.csv --checkpoint none.chk --json none.json")
+    ran(SHORT, "--steps 300000 --leap 0 --catalogue off.csv --checkpoint off.chk")
+    same("none.csv", "off.csv")
+    same_bytes("none.chk", "off.chk")
+    assert "leap" not in Path("none.csv").read_text() + Path("none.json").read_text(), "a run without leaps speaks of them"
+    ran(SLOW, "--blocks 256 --ensemble 2 --catalogue run{run}.csv")
+    ran(SLOW, "--blocks 256 --seed 4 --catalogue alone.csv")
+    same("run2.csv", "alone.csv", 5)
+
+
+def everything(found):
+    """All (name, value) of a JSON, however deep."""
+    for name, value in found.items() if isinstance(found, dict) else enumerate(found) if isinstance(found, list) else ():
+        yield name, value
+        yield from everything(value)
+
+
+def test_leap_of_other_laws(ran):
+    """Under Coulomb friction that does not fall nothing creeps: the leaps end where a block starts."""
+    for way in ("--scheme semi-implicit", "--scheme printed --dt 0.01 --velocity 1e-2 --time 25000", "--law coulomb",
+                "--law coulomb --dynamic-friction 1", "--law slip-weakening", "--law slip-weakening --slip-distance 0.5"):
+        ran(SLOW, "--blocks 96", way, "--catalogue active.csv")
+        ran(SLOW, "--blocks 96", way, "--catalogue dense.csv --kernel dense")
+        same("active.csv", "dense.csv", 0 if way.endswith("friction 1") else 3)
+
+
+@pytest.mark.parametrize("events", ["pe", "ruptures"])
+def test_leap_resumed(slider, ran, events):
+    """Killed and resumed again and again; a series with samples within leaps."""
+    settings = SLOW + f"--blocks 128 --events {events} --min-size 1e-3 --columns centroid,length --pe-stride 700 "
+    part = settings + "--catalogue part.csv --pe-series part.pe --checkpoint part.chk --checkpoint-interval 3001 "
+    ran(settings, "--catalogue whole.csv --pe-series whole.pe --checkpoint whole.chk")
+    ran(settings, "--catalogue alone.csv")
+    same("whole.csv", "alone.csv")
+    interrupted(slider, part, 4, [signal.SIGKILL, signal.SIGTERM])
+    ran(part, "--resume")
+    same("whole.csv", "part.csv")
+    same_bytes("whole.pe", "part.pe")
+    same_bytes("whole.chk", "part.chk")
+    refused(slider, part + "--leap 1e-2 --resume", "leap = 0.001.*expected.*leap = 0.01")

@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""publish.py and superpose.py on PE and catalogue of two short faults."""
+import array
+import csv
+import json
+import shutil
+import sys
+from pathlib import Path
+from unittest import mock
+
+import pytest
+from data_files import header, rows
+from programs import INPUTS, Program, refused, run
+
+sys.path.insert(0, str(INPUTS / "studies"))
+import publish  # noqa: E402
+import superpose  # noqa: E402
+
+
+def cells(path):
+    return [line.split(",")[:6] for line in rows(path)]
+
+
+def large(found):
+    """Those that are published; there must be some."""
+    wanted = [row for row in found if float(row[5]) >= publish.EVENTS]
+    assert wanted
+    return wanted
+
+
+@pytest.fixture(scope="module")
+def runs(lmp, tmp_path_factory):
+    work = tmp_path_factory.mktemp("faults")
+    for seed in 1, 2:
+        folder = work / f"fault_24_{seed}"
+        folder.mkdir()
+        run(lmp, "-in", INPUTS / "fault.in", "-var prefix fault -var length 24 -var seed", seed, "-var settle 400 -var velocity 0.005",
+            "-var steps 6000 -var ruptures yes -var history no", cwd=folder)
+    yield sorted(work.iterdir())
+    shutil.rmtree(work)
+
+
+@pytest.fixture
+def series(runs):
+    return [str(next(folder.glob("*.pe.bin"))) for folder in runs]
+
+
+@pytest.fixture
+def picked(postproc):
+
+    def pick(series, out, *words):
+        run(postproc, "pick", Path(series), "-o", out, "--overwrite", *words)
+        return cells(out)
+
+    return pick
+
+
+def test_small_events_are_left_out_and_the_header_says_so(runs):
+    source = runs[0] / "fault.catalogue.csv"
+    sizes = sorted(float(row[5]) for row in cells(source))
+    assert len(sizes) > 4
+    publish.main(Path("out"), runs)
+    for name, least in ("catalogue", publish.EVENTS), ("ruptures", publish.RUPTURES):
+        out = f"out/fault_24_1.{name}.csv.xz"
+        wanted = [line for line in rows(runs[0] / f"fault.{name}.csv") if float(line.split(",")[5]) >= least]
+        assert wanted and rows(out) == wanted
+        assert header(out)["thinned"] == f"sizes below {least:g} left out"
+    run(Program("publish", INPUTS / "studies/publish.py"), "--ruptures 0.01 out", runs[0])
+    assert header("out/fault_24_1.ruptures.csv.xz")["min_size"] == "0.01"
+    publish.publish(source, Path("half.xz"), sizes[len(sizes) // 2])
+    assert len(rows("half.xz")) == len(sizes) - len(sizes) // 2
+
+
+def test_runs_that_are_not_done_are_refused(runs, tmp_path):
+    script = Program("publish.py", INPUTS / "studies/publish.py")
+    folder = tmp_path / "fault_24_1"
+    shutil.copytree(runs[0], folder)
+    run(script, "out", folder)
+    (folder / "settings.txt").write_text("program=fault\n")
+    refused(script, ["out", runs[1], folder], "fault_24_1: not done yet, expected a run")
+    (folder / "done.json").write_text('{"failed": "a link is strained"}')
+    refused(script, ["out", folder], "fault_24_1: a link is strained, expected a run")
+    (folder / "done.json").write_text("{}")
+    (folder / "fault.catalogue.csv").unlink()
+    refused(script, ["out", folder], "fault_24_1: no catalogue, expected the folder of a run")
+
+
+def test_statements_are_those_of_the_runs(runs, postproc, tmp_path):
+    script = Program("publish.py", INPUTS / "studies/publish.py")
+    with mock.patch.object(publish, "LOADING", 60):
+        publish.main(tmp_path / "out", runs, statements=postproc.path)
+    with open(tmp_path / "out/statements.csv") as file:
+        found = list(csv.DictReader(file))
+    for n, folder in enumerate(runs, 1):
+        run(postproc, "statements", folder / "fault.catalogue.csv", "--from 60 -o out --json out.json")
+        wanted = json.loads(Path("out.json").read_text())["statements"]
+        mine = [row for row in found if row["run"] == folder.name]
+        assert [(row["number"], row["verdict"]) for row in mine] == [(row["number"], row["verdict"]) for row in wanted] and wanted
+        assert {(row["length"], row["seed"]) for row in mine} == {("24", str(n))}
+    refused(script, ["--statements", "/nowhere/postproc", "no", *runs], "publish.py: .*/nowhere/postproc")
+
+
+def test_sliders_are_published_whole(slider, tmp_path):
+    (tmp_path / "chain").mkdir()
+    run(slider, "--blocks 50 --steps 1e6 --warmup 0 --catalogue", tmp_path / "chain/catalogue.csv")
+    source = tmp_path / "chain/catalogue.csv"
+    publish.main("out", [tmp_path / "chain"])
+    assert rows("out/chain.catalogue.csv.xz") == rows(source) and "thinned" not in header("out/chain.catalogue.csv.xz")
+    publish.main("out", [tmp_path / "chain"], 100)
+    wanted = [line for line in rows(source) if float(line.split(",")[5]) >= 100]
+    assert 0 < len(wanted) < len(rows(source)) and rows("out/chain.catalogue.csv.xz") == wanted
+
+
+@pytest.mark.parametrize("length, given, wanted", [(120, "1e-4", "1e-4"), (240, "1e-4", "1e-4"), (480, "1e-4", "3e-4"), (960, "1e-4", "1e-3"),
+                                                   (1890, "1e-4", "1e-3"), (480, "1e-3", "1e-3")])
+def test_catalogues_of_long_faults_are_complete_from_larger_sizes_only(runs, length, given, wanted):
+    text = (runs[0] / "fault.catalogue.csv").read_text()
+    Path("long.csv").write_text(
+        text.replace("# length = 24\n", f"# length = {length}\n").replace("# completeness = 1e-4\n", f"# completeness = {given}\n"))
+    publish.publish(Path("long.csv"), Path("long.xz"))
+    assert header("long.xz")["completeness"] == wanted
+
+
+def test_series_add_up_sample_by_sample(series, picked):
+    begin, end = 100.0, 300.0
+    superpose.main(["sum.pe.bin", *(word for path in series for word in (path, str(begin), str(end)))])
+    info, first, total = superpose.read("sum.pe.bin")
+    assert (info["length"], info["superposed"], first) == ("48", "2", 0)
+    parts = [superpose.stretch(path, begin, end)[1] for path in series]
+    assert len(total) == round((end - begin) / 0.12)
+    assert total == array.array("d", [a + b for a, b in zip(*parts)])
+    assert picked("sum.pe.bin", "sum.csv")
+
+
+def test_one_stretch_picks_to_the_events_of_the_run(runs, series, picked):
+    info, first, pe = superpose.read(series[0])
+    begin = float(info["time0"]) + (first - int(info["step0"])) * float(info["dt"])
+    superpose.main(["one.pe.bin", series[0], str(begin), str(begin + len(pe) * float(info["dt"]))])
+    mine, whole = picked("one.pe.bin", "one.csv"), cells(runs[0] / "fault.catalogue.csv")
+    assert [row[5] for row in mine] == [row[5] for row in whole]
+    assert [int(row[3]) for row in mine] == [int(row[3]) - first for row in whole]
+
+
+def test_load_is_a_slope(series):
+    superpose.superpose("load.pe.bin", [(series[0], 100.0, 300.0)], load=0.5, number=3)
+    info, _, pe = superpose.read("load.pe.bin")
+    assert info["length"] == "72"
+    for n, (plain, loaded) in enumerate(zip(superpose.stretch(series[0], 100.0, 300.0)[1], pe)):
+        assert loaded - plain == pytest.approx(0.5 * 0.12 * n, abs=5e-13, rel=0)
+
+
+def test_every_second_step_keeps_times_and_memory(runs, series, picked, postproc):
+    superpose.main(["every", "2", "second.pe.bin", series[0]])
+    (info, first, pe), (other, _, halved) = superpose.read(series[0]), superpose.read("second.pe.bin")
+    assert halved == pe[::2]
+    assert float(other["dt"]) == pytest.approx(2 * float(info["dt"]), abs=5e-8)
+    assert float(other["lambda"]) == pytest.approx(float(info["lambda"])**2, abs=5e-8)
+    assert float(other["time0"]) == pytest.approx(float(info["time0"]) + (first - int(info["step0"])) * float(info["dt"]), abs=5e-8)
+    shutil.copytree(runs[0], "fault_24_step_5")
+    superpose.main(["second", str(postproc.path), ".", str(runs[0]), "fault_24_step_5"])
+    assert rows("fault_24_every_5.catalogue.csv.xz") == rows("fault_24_every_1.catalogue.csv.xz")
+    assert cells("fault_24_every_1.catalogue.csv.xz") == large(picked("second.pe.bin", "second.csv"))
+
+
+def test_another_memory(runs, series, picked, postproc):
+    superpose.main(["memory", "4", str(postproc.path), "longer", *map(str, runs)])
+    for seed, one in enumerate(series, 1):
+        plain = picked(one, "plain.csv")
+        wanted = [row for row in picked(one, "four.csv", "--memory-time 4") if float(row[5]) >= publish.EVENTS]
+        found = cells(f"longer/memory_24_4_{seed}.catalogue.csv.xz")
+        assert found == wanted and found[0][1] != plain[0][1]
+
+
+def test_the_study_takes_the_first_stretches_of_all_runs_first(runs, picked, postproc):
+    with mock.patch.multiple(superpose, LOADING=60, DURATION=330, NUMBERS=(2,), GROUPS=2):
+        found = superpose.stretches(runs)
+        assert [(path.parent.name[-1], begin) for path, begin, _ in found] == [("1", 60), ("2", 60), ("1", 390), ("2", 390)]
+        superpose.main(["study", str(postproc.path), "study", *map(str, runs)])
+        assert sorted(path.name.split(".")[0] for path in Path("study").iterdir()) == ["load_48_1", "load_48_2", "sum_48_1", "sum_48_2"]
+        superpose.superpose("sum2.pe.bin", found[2:])
+        assert cells("study/sum_48_2.catalogue.csv.xz") == large(picked("sum2.pe.bin", "sum2.csv"))
+        load = superpose.loading(*found[0])
+        assert float(header("study/load_48_1.catalogue.csv.xz")["load"]) == float(f"{load:.6g}")
+
+
+def test_what_is_no_series_is_refused(runs, series):
+    for words, said in (([str(runs[0] / "fault.catalogue.csv"), "100", "300"], "expected a binary PE series"),
+                        ([series[0], "100", "9000"], "no time from 100 to 9000"), ([series[0], "100", "300", series[0], "100",
+                                                                                    "200"], "expected 1667 of 0.12")):
+        with pytest.raises(superpose.SeriesError, match=said):
+            superpose.main(["bad.pe.bin", *words])

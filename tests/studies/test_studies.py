@@ -1,0 +1,447 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""inputs/study.sh on small scenes: killed and resumed, through Slurm, on damaged or foreign files."""
+import csv
+import fcntl
+import lzma
+import math
+import os
+import random
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from hashlib import sha256
+from pathlib import Path
+
+import pytest
+from data_files import header, read_series, rows, same, same_bytes, table
+from programs import INPUTS, Program, refused, run, start
+from slurm import Slurm, said
+
+sys.path.insert(0, str(INPUTS / "studies"))
+from studies import TableError, read_runs  # noqa: E402
+
+RUNS = """run,program,length,blocks,steps,ranks,settings
+one,fault,40,,150000,1,width=20 settle=500 velocity=0.01 thermo=1000
+two,fault,40,,200000,2,width=20 settle=500 velocity=0.01 thermo=1000
+short,fault,40,,6000,1,width=20 settle=500 velocity=0.01
+chain,slider,,100,20000000,,velocity=0.05 dt=0.05 warmup=0 checkpoint-interval=50000 pe-series=series.bin pe-stride=100
+"""
+FAULT = "fault length=40 width=20 settle=500 velocity=0.01 location=yes "
+CHAIN = "slider blocks=100 velocity=0.05 dt=0.05 warmup=0 "
+
+
+class Studies:
+    """study.sh and run.py with the programs that were built."""
+
+    def __init__(self, binaries, folder):
+        self.binaries, self.folder = binaries, folder
+
+    def study(self, output):
+        return Program("study.sh", INPUTS / "study.sh", env={"LSM_BIN": str(self.binaries), "LSM_OUTPUT": str(self.folder / output)})
+
+    def __call__(self, output, *words, table="runs.csv", **more):
+        """The study of a table, in a folder."""
+        result = run(self.study(output), table, *words, **more)
+        result.out += result.err
+        return result
+
+    @staticmethod
+    def run_py():
+        """One run, without Snakemake."""
+        return Program("run.py", INPUTS / "run.py")
+
+    def words(self, folder, text, checkpoint=1500):
+        kind, *settings = text.split()
+        return [folder, kind, 1, checkpoint, self.binaries, *settings]
+
+    def run(self, folder, text, checkpoint=1500, **more):
+        return run(self.run_py(), self.words(folder, text, checkpoint), **more)
+
+    def refused(self, folder, text, pattern):
+        """All files as they were, but for what the program said."""
+        return refused(self.run_py(), self.words(folder, text), pattern, folder, but=r"output\.txt$|lock$|cpu\.txt$|/\.snakemake/")
+
+
+def programs_in(folder):
+    """Programs that work in the given folder or below; Snakemake itself does, too."""
+    found, folder = [], str(Path(folder).absolute())
+    for entry in Path("/proc").glob("[0-9]*"):
+        try:
+            at = os.readlink(entry / "cwd")
+        except OSError:
+            continue
+        if (at == folder or at.startswith(folder + "/")) and int(entry.name) != os.getpid():
+            found.append(int(entry.name))
+    return found
+
+
+def send(number, *programs):
+    for program in programs:
+        try:
+            os.kill(program, number)
+        except ProcessLookupError:
+            pass
+
+
+def wait(condition, seconds, pause=0.05):
+    limit = time.monotonic() + seconds
+    while not condition() and time.monotonic() < limit:
+        time.sleep(pause)
+    return condition()
+
+
+@pytest.fixture
+def studies(lmp, slider, postproc, work):
+    if not shutil.which("snakemake"):
+        pytest.skip("no snakemake")
+    Path("runs.csv").write_text(RUNS)
+    yield Studies(slider.path.parent, work)
+    send(signal.SIGKILL, *programs_in(work))
+
+
+def killed(studies, name, touched):
+    """One run of the study is killed at random moments, in four ways, until it has gone on from a
+    checkpoint four times; then it runs to its end. touched: what is there once there is a checkpoint."""
+    began = time.monotonic()
+    studies("whole", "checkpoint=4000", f"{name}/done.json")
+    whole = time.monotonic() - began
+    part, moments, resumed = Path("part", name), random.Random(7), 0
+    for n in range(12):
+        if resumed >= 4:
+            break
+        begun = any(part.glob(touched))
+        with start(studies.study("part"), f"runs.csv checkpoint=4000 minutes=9 {name}/done.json") as child:
+            # Most moments are after the program has begun, some before.
+            if n % 5 != 4:
+                wait(lambda: programs_in(part), 20)
+            time.sleep(whole * moments.uniform(0.03, 0.27))
+            if child.poll() is not None:
+                assert child.returncode == 0, f"ended on its own: {child.said()}"
+                break
+            if n % 4 == 0:  # Snakemake: its programs end, too
+                child.kill()
+            elif n % 4 == 1:  # the programs
+                send(signal.SIGKILL, *programs_in(part))
+            elif n % 4 == 2:  # all in one moment
+                child.send_signal(signal.SIGSTOP)
+                send(signal.SIGKILL, child.pid, *programs_in("part"))
+            else:
+                send(signal.SIGTERM, child.pid, *programs_in(part))
+            if child.wait(120) == 0:
+                break
+        # Programs may live a little longer; now and then the next round meets them.
+        if n % 3 != 2:
+            wait(lambda: not programs_in(part), 5)
+        resumed += begun
+    assert resumed >= 2, f"gone on only {resumed} times"
+    studies("part", "checkpoint=4000", f"{name}/done.json")
+
+
+def test_kill_slider(studies):
+    killed(studies, "chain", "checkpoint.bin")
+    same("whole/chain/catalogue.csv", "part/chain/catalogue.csv", 100)
+    same_bytes("whole/chain/series.bin", "part/chain/series.bin")
+
+
+def killed_fault(studies, name):
+    killed(studies, name, "fault.restart.*.info")
+    same(f"whole/{name}/fault.catalogue.csv", f"part/{name}/fault.catalogue.csv", 15)
+    same_bytes(f"whole/{name}/fault.pe.bin", f"part/{name}/fault.pe.bin")
+
+
+def test_kill_fault_1_rank(studies):
+    killed_fault(studies, "one")
+
+
+def test_kill_fault_2_ranks(studies):
+    killed_fault(studies, "two")
+
+
+def test_stop(studies, work):
+    """SIGTERM: the run ends with its next restart file, and says that it is to go on."""
+    long = FAULT + "steps=60000"
+    studies.run("whole", long, 3000)
+    with start(studies.run_py(), studies.words("part", long, 3000)) as child:
+        assert child.until(lambda: any(Path("part").glob("fault.restart.*.info")))
+        child.terminate()
+        assert child.wait(60) == 75, "not stopped, or not as if to go on"
+    assert len(rows("part/fault.catalogue.csv")) < len(rows("whole/fault.catalogue.csv")), "ran to its end"
+    at = max(int(path.name.split(".")[2]) for path in Path("part").glob("fault.restart.*.info"))
+    assert any(line.split()[:1] == [str(at)] for line in Path("part/output.txt").read_text().splitlines()), \
+        f"restart file {at} is not that of the last step"
+    studies.run("part", long, 3000)
+    same("whole/fault.catalogue.csv", "part/fault.catalogue.csv", 15)
+    same_bytes("whole/fault.pe.bin", "part/fault.pe.bin")
+    # The same at a time that was set, and nothing is begun after it.
+    studies.run("timed", FAULT + "steps=6000000", 3000, status=75, env={"LSM_UNTIL": str(int(time.time()) + 4)})
+    assert Path("timed/fault.catalogue.csv").exists()
+    studies.run("late", long, 3000, status=75, env={"LSM_UNTIL": "1"})
+    assert not Path("late/output.txt").exists(), "begun after its time"
+    # Once more: nothing is left to do, and a folder of its own for the sessions of Open MPI is gone.
+    studies.run("part", long, 3000)
+    session = f"lsm-{os.getuid()}-{sha256(str(work / 'part').encode()).hexdigest()[:12]}"
+    assert not Path(os.environ.get("TMPDIR", "/tmp"), session).exists(), "a session folder is left"
+
+
+def test_refuse_slider(studies):
+    settings = CHAIN + "steps=300000"
+    studies.run("a", settings)
+    studies.run("b", settings + " seed=2")
+    studies.refused("a", CHAIN + "steps=400000", r"begun with other settings \(.*\), expected .*steps=400000")
+    Path("a/done.json").unlink()
+    Path("a/summary.json").unlink()
+    whole = Path("a/checkpoint.bin").read_bytes()
+    for checkpoint, said_ in ((Path("b/checkpoint.bin").read_bytes(), "cannot resume: checkpoint has 'seed = 2', expected 'seed = 1'"),
+                              (whole[:1000], "damaged checkpoint")):
+        Path("a/checkpoint.bin").write_bytes(checkpoint)
+        studies.refused("a", settings, said_)
+    Path("a/checkpoint.bin").write_bytes(whole)
+    catalogue = Path("a/catalogue.csv").read_text().splitlines(True)
+    Path("a/catalogue.csv").write_text("".join(catalogue[:-1]))
+    studies.refused("a", settings, "events up to the checkpoint, expected")
+    Path("a/catalogue.csv").unlink()
+    studies.refused("a", settings, "catalogue.csv is missing, but there is a checkpoint")
+
+
+def test_refuse_fault(studies):
+    settings = FAULT + "steps=6000"
+    studies.run("f", settings)
+    for path in [Path("f/done.json"), *Path("f").glob("fault.restart.end*")]:
+        path.unlink()
+    shutil.copytree("f", "whole")
+    newest = Path("f/fault.restart.6500")
+    damaged = bytearray(newest.read_bytes())
+    damaged[200000] ^= 0x78
+    newest.write_bytes(damaged)
+    studies.refused("f", settings, newest.name)
+    # Without it the run goes on from the one before.
+    newest.unlink()
+    Path("f/fault.restart.6500.info").unlink()
+    studies.run("f", settings)
+    same("f/fault.catalogue.csv", "whole/fault.catalogue.csv", 5)
+    # Two at a time
+    Path("f/done.json").unlink()
+    with open("f/lock", "a") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        with pytest.raises(subprocess.TimeoutExpired):  # it waits for a minute, then gives up
+            studies.run("f", settings, timeout=5)
+    assert not Path("f/done.json").exists(), "two runs in one folder"
+    studies("one", "short/done.json")
+    with open("one/.lock", "a") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        assert studies("one", "short/done.json", status=None).status != 0, "two studies in one folder"
+
+
+def test_disk_full(studies, small_disk):
+    settings = FAULT + "steps=30000"
+    small_disk(1)
+    studies.run("whole", settings)
+    full = studies.run("small/part", settings, status=1)
+    full.warned("no space left on the disk|No space left")
+    small_disk(64)
+    studies.run("small/part", settings)
+    same("small/part/fault.catalogue.csv", "whole/fault.catalogue.csv", 15)
+
+
+HEAD = "run,program,blocks,seed,steps,settings\n"
+
+
+def read(text, **config):
+    Path("t.csv").write_text(text)
+    return read_runs("t.csv", config)
+
+
+def test_tables():
+    """The runs that a table asks for."""
+    found = read(HEAD + "# comment\ns_{blocks}_{seed},slider,100 200,1-3,1e5,paper=yes\n", seeds="2", shorten="10")
+    assert list(found) == ["s_100_1", "s_100_2", "s_200_1", "s_200_2"]
+    assert found["s_200_2"].words == ["blocks=200", "seed=2", "steps=10000", "paper=yes"]
+    found = read("program,length,ranks\nfault,40 240 1890,\nfault,50,3\n", only="length-[245]")
+    assert {name: one.ranks for name, one in found.items()} == {"fault_length-40": 1, "fault_length-240": 4, "fault_length-50": 3}
+    # Values of several words are quoted; a run without a name is called by them without blanks.
+    words = "leap=yes 'leaping=slip 1.5 grow 60'"
+    found = read(f"run,program,law,settings\nl,fault,coulomb,{words}\n,fault,'coulomb 0.6 0.7' 'velocity-weakening mu 0.6',{words}\n")
+    assert list(found) == [
+        "l", "fault_law-coulomb-0.6-0.7_leap-yes_leaping-slip-1.5-grow-60", "fault_law-velocity-weakening-mu-0.6_leap-yes_leaping-slip-1.5-grow-60"
+    ]
+    assert found["l"].words == ["law=coulomb", "leap=yes", "leaping=slip 1.5 grow 60"]
+    assert list(found.values())[2].words[0] == "law=velocity-weakening mu 0.6"
+
+
+@pytest.mark.parametrize("text, said",
+                         [("", "t.csv: empty, expected a table of runs"), ("run,steps\n", "t.csv:1: no column 'program', expected one"),
+                          (HEAD + "s,slider,100\n", "t.csv:2: 3 cells, expected 6 as in the first line"),
+                          (HEAD + "s,chain,100,1,1e5,\n", "t.csv:2: program 'chain', expected fault, slider, esys or catalogue"),
+                          (HEAD + "s,slider,100 200,1,1e5,\n", "t.csv:2: there is a run 's' already, expected another name"),
+                          (HEAD + "s_{size},slider,100,1,1e5,\n", "t.csv:2: run 's_{size}', expected a name with columns in braces (not 'size')"),
+                          (HEAD + "a/b,slider,100,1,1e5,\n", "t.csv:2: run 'a/b', expected letters, digits, '.', '_', '+' and '-'"),
+                          (HEAD + "s,slider,100,1,many,\n", "t.csv:2: steps 'many', expected a number above 0"),
+                          (HEAD + "s,slider,100,1,1e5,kl\n", "t.csv:2: settings 'kl', expected NAME=VALUE")])
+def test_wrong_tables(text, said):
+    with pytest.raises(TableError) as error:
+        read(text)
+    assert str(error.value) == said
+
+
+def likeliest_exponent(sizes, low, high):
+    """Of a density that goes as size^-exponent between low and high, by a scan."""
+    logs = [math.log(size) for size in sizes if low <= size <= high]
+    assert len(logs) >= 30, "too few sizes"
+
+    def likelihood(exponent):
+        k = 1 - exponent
+        norm = math.log((high**k - low**k) / k) if k else math.log(math.log(high / low))
+        return -exponent * sum(logs) - len(logs) * norm
+
+    return max((n / 2000 for n in range(-4000, 6000)), key=likelihood)
+
+
+def test_own_study(studies, work):
+    assert studies("one", "-n", table="none.csv", status=None).status != 0, "a table that is not there"
+    # A study of one's own, without a recipe
+    Path("own.csv").write_text("run,program,blocks,seed,steps,settings\nc_{seed},slider,100,1-2,3e6,velocity=0.05 warmup=0\n")
+    studies("own", table="own.csv")
+    numbers = table("own/table.csv")
+    assert len(numbers) == 2 and os.path.getsize("own/report.html") > 0
+    for row in numbers:
+        sizes = [float(line.split(",")[5]) for line in rows(f"own/{row['run']}/catalogue.csv")]
+        assert int(row["events"]) == len(sizes) and (float(row["from_size"]), float(row["to_size"])) == (1e-4, 0.1), row
+        assert float(row["exponent"]) == pytest.approx(likeliest_exponent(sizes, 1e-4, 0.1), abs=1e-3), row
+    # Catalogues that are there: the same numbers as of the runs they came from.
+    Path("c_1.csv.xz").write_bytes(lzma.compress(Path("own/c_1/catalogue.csv").read_bytes()))
+    published = f"run,program,file\nagain,catalogue,{work}/c_1.csv.xz\n"
+    Path("published.csv").write_text(published + f"nowhere,catalogue,{work}/nowhere.csv\n")
+    studies("published", table="published.csv", status=1).told("nowhere.csv: no such catalogue, expected one in the column 'file'")
+    Path("published.csv").write_text(published)
+    studies("published", table="published.csv")
+    again = table("published/table.csv")[0]
+    for key in "events", "exponent", "gamma", "last_time":
+        assert numbers[0][key] == again[key] != "", key
+    studies("own", "-n", table="own.csv").told("Nothing to be done")
+
+
+def test_settings_of_several_words(studies):
+    """They reach the program, also where the run goes on."""
+    law = "slip-weakening mu 0.5 mu_static 0.6 dc 0.002 heal 5"
+    Path("laws.csv").write_text("run,program,length,steps,velocity,law,settings\n"
+                                f"l,fault,40,3000,1e-3,'{law}',width=20 settle=500 leap=yes fast=0.01 'leaping=slip 1.5 grow 60'\n")
+    studies("laws", "checkpoint=1000 l/done.json", table="laws.csv")
+    head = header("laws/l/fault.catalogue.csv")
+    assert head["law"] == law and head["leap"].startswith("fast 0.01 slip 1.5 ") and " grow 60 " in head["leap"], head
+    whole = Path("laws/l/fault.catalogue.csv").read_bytes()
+    for path in Path("laws/l").glob("*"):
+        if path.name.startswith(("done.json", "fault.restart.end", "fault.restart.3500")):
+            path.unlink()
+    studies("laws", "checkpoint=1000 l/done.json", table="laws.csv")
+    assert Path("laws/l/fault.catalogue.csv").read_bytes() == whole, "another catalogue after going on"
+
+
+def test_plans(studies):
+    """Every study that ships can be planned."""
+    shipped = sorted(path.stem for path in (INPUTS / "studies").glob("*.csv"))
+    assert len(shipped) > 10
+    for name in shipped:
+        studies(f"plan_{name}", "-n --quiet", table=INPUTS / f"studies/{name}.csv")
+
+
+def test_recipes(studies, gnuplot, work):
+    """A study asks postproc for what it has."""
+    studies("quick", ["shorten=2", "only=fault_120|_256"], table="quick")
+    for file in ("figures/fig12_fault_sizes.png", "figures/fig13_slider_sizes.svg", "figures/fault_fit.json", "report.html", "table.csv",
+                 "costs.csv"):
+        assert os.path.getsize(f"quick/{file}") > 0, file
+    assert not Path("quick/figures/fig7_leaf_springs.png").exists(), "a figure of nothing"
+    # ESyS-Particle is missed by name before anything is begun.
+    Path("programs").mkdir()
+    for path in Path("/usr/bin").iterdir():
+        if path.name != "esysparticle":
+            Path("programs", path.name).symlink_to(path)
+    studies("whole_job", table="whole-job", env={"PATH": str(work / "programs")},
+            status=1).told(r"run ESyS-Particle needs ESyS-Particle, no program esysparticle was found \(Debian package esys-particle\)")
+    assert not Path("whole_job/ours_0.06").exists(), "begun without ESyS-Particle"
+
+
+ENERGY = """read_restart whole_job/ESyS-Particle/fault.restart.end
+comm_modify mode single cutoff 3.6
+bond_style lsm/linked
+bond_coeff 1 1.0
+pair_style lsm/friction coulomb 0.6 0.6
+pair_coeff * * off
+pair_coeff 1*4 1*6 1.0 0.07
+compute contacts all pair/local p1
+compute squares all reduce sumsq c_contacts inputs local
+thermo_style custom step pe c_squares
+thermo_modify norm no
+run 0
+print "whole = $(pe:%.9g)"
+print "tangential = $(0.5*0.07*c_squares:%.9g)"
+"""
+
+
+def test_esys(studies):
+    if not shutil.which("esysparticle"):
+        pytest.skip("no ESyS-Particle (Debian package esys-particle)")
+    studies("whole_job", "shorten=4000", table="whole-job")
+    costs = {row["run"]: row for row in csv.DictReader(open("whole_job/costs.csv"))}
+    assert list(costs) == ["ESyS-Particle", "ours_0.06", "ours_0.12"] and costs["ESyS-Particle"]["steps"] == "115", costs
+    assert all(float(row["time_per_core_hour"]) > 0 for row in costs.values()), costs
+    # The same scene: its PE where the shear begins is that of ours without the tangential springs of the
+    # contacts, which begin unstrained there.
+    _, steps, _, pe = read_series("whole_job/ESyS-Particle/fault.pe.bin")
+    assert len(steps) == 114 and steps[0] == 20000
+    ours = [line.split() for line in open("whole_job/ours_0.06/output.txt") if line.split()[:1] == ["20000"]][-1]
+    Path("energy.in").write_text(ENERGY)
+    said = run(Program("lmp", studies.binaries / "lmp"), "-in energy.in -log none")
+    whole, tangential = (float(re.search(f"^{name} = (.*)", said.out, re.M)[1]) for name in ("whole", "tangential"))
+    assert whole == pytest.approx(float(ours[3]), rel=1e-5) and tangential > 0
+    assert pe[0] == pytest.approx(whole - tangential, rel=0.005)
+    studies.run("odd", "esys length=40 massstep=0 dt=0.06 steps=10", status=1).warned("hold 'stress', ESyS-Particle has 'position'")
+
+
+def test_slurm(studies, work):
+    Path("runs.csv").write_text("run,program,length,blocks,seed,steps,settings\n"
+                                "fault_{seed},fault,40,,1-2,150000,width=20 settle=500 velocity=0.01\n"
+                                "chain,slider,,100,1,20000000,velocity=0.05 warmup=0\n")
+
+    def queued(state, job=None):
+        names = said("squeue", "-h", "-t", state, "-o", "%i %j").splitlines()
+        return [line.split()[0] for line in names if (job or "fault" in line or "slider" in line) and (not job or line.endswith(" " + job))]
+
+    with Slurm(work / "slurm"):
+        studies("here", "checkpoint=5000 ranks=1")
+        # The queue is full of another's job at first.
+        other = said("sbatch", "--parsable", "--exclusive", "--output=/dev/null", "--wrap", "sleep 100")
+        assert other, "sbatch"
+        with start(studies.study("there"), f"runs.csv checkpoint=5000 ranks=1 --profile {INPUTS}/slurm") as child:
+            assert wait(lambda: len(queued("PD")) == 3, 30), "three jobs do not wait"
+            said("scancel", other)
+
+            def begun(*faults):
+                """The first of the faults named that has a restart file."""
+                found = []
+                wait(lambda: found.extend(name for name in faults if any(Path("there", name).glob("fault.restart.*.info"))) or found, 60, 0.1)
+                assert found, f"no restart file of {faults}: {child.said()}"
+                return found[0]
+
+            # The fault that Slurm begins first is cancelled by hand, the other is told to end as before its
+            # time limit.
+            first = begun("fault_1", "fault_2")
+            job = queued("R", f"fault.{first}")
+            assert job, f"{first} has ended before it was cancelled"
+            said("scancel", job[0])
+            second = begun("fault_2" if first == "fault_1" else "fault_1")
+            job = queued("R", f"fault.{second}")
+            assert job, f"{second} has ended before it was told to"
+            said("scancel", "--signal=TERM", "--batch", job[0])
+            assert wait(lambda: said("squeue", "-h", "-j", job[0], "-o", "%T") == "PENDING", 30, 0.1), "not queued again"
+            assert not Path(f"there/{second}/done.json").exists(), "told to end, but ended by itself"
+            said("scontrol", "update", f"JobId={job[0]}", "StartTime=now")  # Slurm waits for two minutes otherwise
+            assert child.wait(200) == 0, child.said()
+            assert "Trying to restart job" in child.said(), "the cancelled job was not queued again"
+    for name in "fault_1", "fault_2":
+        same(f"here/{name}/fault.catalogue.csv", f"there/{name}/fault.catalogue.csv", 15)
+    same("here/chain/catalogue.csv", "there/chain/catalogue.csv", 100)
+    same("here/table.csv", "there/table.csv", 3)

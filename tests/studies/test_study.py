@@ -1,0 +1,365 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""inputs/study.sh honours what is added or changed, or refuses it by name; nothing is done in silence."""
+import csv
+import fcntl
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+from programs import INPUTS, SOURCE, Program, refused, run, snapshot, start  # noqa: E402
+
+sys.path.insert(0, str(INPUTS / "studies"))
+from studies import Study, TableError, with_defaults  # noqa: E402
+
+HEAD = "run,program,length,viscosity,seed,steps,settings\n"
+FAULT = "f_{seed},fault,24,,1,2000,width=20 settle=100 velocity=0.02 stress=0.003\n"
+CHAIN = "run,program,blocks,seed,steps,settings\nc_{seed},slider,100,1,1e5,velocity=0.05 warmup=0\n"
+RECIPE = "numbers:\n  count: count {catalogue}\n  sizes: count {catalogue} --size 1e-3\ntable:\n  events: count.catalogues[0].events\n"
+# What Snakemake notes, the lock of the folder, and what programs say
+NOTES = r"\.snakemake|/\.lock|/lock$"
+
+
+@pytest.fixture
+def binaries():
+    return Program.built("lmp").path.parent
+
+
+@pytest.fixture
+def study(binaries):
+    """study(words): of the table my.csv, in the folder out"""
+    if not shutil.which("snakemake"):
+        pytest.skip("no snakemake")
+    return Program("study.sh", INPUTS / "study.sh", env={"LSM_BIN": str(binaries), "LSM_OUTPUT": "out"},
+                   errors=lambda result: [line for line in result.err.splitlines() if line.startswith("study.sh:")])
+
+
+@pytest.fixture
+def plan(work, binaries):
+    """plan(table, recipe, **settings): the study of these texts, checked as study.sh does"""
+
+    def planned(table, recipe=None, **config):
+        Path("my.csv").write_bytes(table if isinstance(table, bytes) else table.encode())
+        if recipe:
+            Path("my.yaml").write_text(recipe)
+        found = Study(with_defaults({**config, "table": "my.csv", "bin": str(binaries)}))
+        found.check()
+        return found
+
+    return planned
+
+
+def write(table, recipe=RECIPE):
+    Path("my.csv").write_text(table)
+    Path("my.yaml").write_text(recipe)
+
+
+def table(name="out/table.csv"):
+    with open(name) as lines:
+        return {row["run"]: row for row in csv.DictReader(lines)}
+
+
+def counted(name):
+    """Events of a catalogue."""
+    return str(sum(line[0] not in "#e" for line in open(f"out/{name}")))
+
+
+def when(pattern="out/*/done.json"):
+    return {path: path.stat().st_mtime_ns for path in Path().glob(pattern)}
+
+
+def test_runs_that_are_added_are_run(study):
+    write(HEAD + FAULT)
+    run(study, "my.csv")
+    assert list(table()) == ["f_1"] and table()["f_1"]["events"] == counted("f_1/fault.catalogue.csv") != "0"
+    first = when()
+    write(HEAD + FAULT.replace(",1,2000", ",1-2,2000") + FAULT.replace("f_{seed}", "damped").replace("24,,", "24,0.02,"))
+    run(study, "my.csv")
+    assert list(table()) == ["f_1", "f_2", "damped"]
+    assert all(row["events"] == counted(f"{name}/fault.catalogue.csv") for name, row in table().items())
+    assert first.items() <= when().items(), "what was done is done again"
+    # What is taken out of the table is not in its results any more; its run stays.
+    write(HEAD + FAULT.replace(",1,2000", ",2,2000"))
+    run(study, "my.csv")
+    assert list(table()) == ["f_2"] and Path("out/f_1/done.json").exists()
+    run(study, "my.csv seeds=1 only=f_")
+    assert list(table()) == ["f_2"]
+
+
+def test_a_run_that_is_removed_is_run_again(study):
+    write(CHAIN.replace("0,1,1e5", "0,1-2,1e5"))
+    run(study, "my.csv")
+    before, kept = table(), when("out/c_2/done.json")
+    shutil.rmtree("out/c_1")
+    run(study, "my.csv")
+    assert Path("out/c_1/catalogue.csv").exists() and table() == before and when("out/c_2/done.json") == kept
+    assert "Nothing to be done" in run(study, "my.csv -n").out
+
+
+def test_other_settings_are_refused_and_nothing_is_lost(study):
+    write(HEAD + FAULT)
+    run(study, "my.csv shorten=2")
+    assert table()["f_1"]["steps"] == "1000"
+    refused(study, "my.csv", r"my.csv:2: .*out/f_1 was begun with other settings \(steps=1000\), expected steps=2000; move it away", but=NOTES)
+    Path("out/table.csv").unlink()
+    for changed, said in ((FAULT.replace("24,,", "24,0.5,"), r"\(no viscosity\), expected viscosity=0.5"),
+                          (FAULT.replace("stress=0.003", "stress=0.004"), r"\(stress=0.003\), expected stress=0.004")):
+        write(HEAD + changed)
+        refused(study, "my.csv shorten=2", said, but=NOTES)
+    assert not Path("out/table.csv").exists()
+    # The order of columns and settings does not count.
+    write("settings,steps,seed,length,program,run\nstress=0.003 velocity=0.02 settle=100 width=20,2000,1,24,fault,f_1\n")
+    run(study, "my.csv shorten=2")
+    assert table()["f_1"]["steps"] == "1000"
+    write(HEAD + FAULT)
+    refused(study, "my.csv shorten=2 ranks=2", "out/f_1 was run on 1 ranks, expected 2", but=NOTES)
+
+
+def test_a_changed_recipe_makes_again_what_it_changes(study):
+    write(CHAIN)
+    run(study, "my.csv")
+    first = when("out/*/numbers/*.json")
+    write(CHAIN, RECIPE + "  large: sizes.sizes[0].events\n")
+    run(study, "my.csv")
+    assert when("out/*/numbers/*.json") == first and int(table()["c_1"]["large"]) > 0
+    write(CHAIN, RECIPE.replace("--size 1e-3", "--size 1e9") + "  large: sizes.sizes[0].events\n")
+    run(study, "my.csv")
+    count, sizes = Path("out/c_1/numbers/count.json"), Path("out/c_1/numbers/sizes.json")
+    assert when("out/*/numbers/*.json")[count] == first[count] and when("out/*/numbers/*.json")[sizes] != first[sizes]
+    assert table()["c_1"]["large"] == "0"
+    write(CHAIN, RECIPE.replace("events: count", "events: 2*count"))
+    run(study, "my.csv")
+    assert table()["c_1"]["events"] == str(2 * int(counted("c_1/catalogue.csv")))
+    pages = RECIPE + "pages:\n  report: {title: First}\nfigures:\n  sizes: {command: histograms}\n"
+    write(CHAIN, pages)
+    run(study, "my.csv")
+    drawn = when("out/figures/sizes.png")
+    write(CHAIN, pages.replace("First", "Second title").replace("histograms", "histograms --guide=-1:1:10"))
+    run(study, "my.csv")
+    assert "Second title" in Path("out/report.html").read_text() and when("out/figures/sizes.png") != drawn
+
+
+def test_a_catalogue_that_is_replaced_is_read_again(study, work):
+    write(CHAIN)
+    run(study, "my.csv")
+    Path("theirs").mkdir()
+    lines = Path("out/c_1/catalogue.csv").read_text().splitlines(keepends=True)
+    Path("theirs/one.csv").write_text("".join(lines))
+    shutil.move("out", "runs")
+    write("run,program,seed,file\nseen_{seed},catalogue,1,theirs/one.csv\n")
+    # Paths are seen from the folder of the table.
+    run(study, work / "my.csv", cwd=work / "theirs", env={"LSM_OUTPUT": str(work / "out")})
+    assert table()["seen_1"]["events"] == str(sum(line[0] not in "#e" for line in lines))
+    Path("theirs/one.csv").write_text("".join(lines[:-3]))
+    run(study, "my.csv")
+    assert table()["seen_1"]["events"] == str(sum(line[0] not in "#e" for line in lines) - 3)
+    Path("theirs/one.csv").unlink()
+    refused(study, "my.csv", "my.csv:2: .*theirs/one.csv: no such catalogue, expected one in the column 'file'", but=NOTES)
+
+
+def test_what_a_command_refuses_is_an_error_and_no_empty_cell(study):
+    write(CHAIN, RECIPE.replace("--size 1e-3", "--sizes 1e-3"))
+    assert run(study, "my.csv", status=None).status == 1
+    assert not Path("out/c_1/numbers/sizes.json").exists() and not Path("out/table.csv").exists()
+    write(CHAIN, RECIPE + "  sizes: sizes.catalogues[0].evnts\n")
+    run(study, "my.csv").warned(r"^table.csv: empty for all runs: sizes; the reasons are in RUN/numbers")
+
+
+def test_a_second_start_says_that_one_works_already(study):
+    write(CHAIN)
+    Path("out").mkdir()
+    with open("out/.lock", "a") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        refused(study, "my.csv", "^study.sh: a study works in out already, expected another folder")
+    run(study, "my.csv -n")
+
+
+def test_what_is_made_is_told_at_the_end(study, work):
+    write(CHAIN)
+    said = run(study, "my.csv").err
+    assert said.endswith(f"Results in {work}/out:\n  table.csv\n")
+
+
+def test_runs_that_are_stopped_are_told(study):
+    write(CHAIN.replace("0,1,1e5", "0,1-2,1e9"))
+    said = run(study, "my.csv hours=0.002", status=1).err
+    assert all(f"run.py: {name}: stopped, to be continued" in said for name in ("c_1", "c_2"))
+    assert "\n2 of 2 runs are not done, start the study again to go on:\n  c_1\n  c_2\n" in said
+
+
+def test_folders_with_blanks(study, work, binaries):
+    shutil.copytree(INPUTS, work / "my copy/inputs")
+    shutil.copytree(SOURCE / "lammps-pkg/cmake", work / "my copy/lammps-pkg/cmake")
+    (work / "my programs").symlink_to(binaries)
+    (work / "a study").mkdir()
+    recipe = RECIPE + "  x: fit.fits[0].exponent\ndrawings: [line]\npages:\n  report: {title: All of it}\n"
+    (work / "a study/my table.yaml").write_text(recipe.replace("table:", "  fit: fit {catalogue} --replicas 0 --no-picture -o {out}\ntable:"))
+    (work / "a study/my table.csv").write_text("run,program,length,blocks,seed,steps,settings\n" + FAULT.replace("24,,", "24,,") +
+                                               CHAIN.split("\n")[1].replace("slider,", "slider,,").replace("1e5", "1e6") + "\n")
+    (work /
+     "my copy/inputs/studies/line.gp").write_text("set term pngcairo\nset output 'line.png'\nplot x\nset term svg\nset output 'line.svg'\nplot x\n")
+    mine = Program("study.sh", work / "my copy/inputs/study.sh", env={"LSM_BIN": str(work / "my programs"), "LSM_OUTPUT": "the out"})
+    run(mine, ["a study/my table.csv"])
+    found = table("the out/table.csv")
+    assert list(found) == ["f_1", "c_1"] and all(int(row["events"]) > 0 for row in found.values()) and found["c_1"]["x"]
+    assert Path("the out/report.html").stat().st_size and Path("the out/line.svg").stat().st_size
+
+
+def test_ranks_of_the_table_are_honoured_on_fewer_cores(study):
+    write(
+        HEAD.replace("settings", "settings,ranks") + FAULT.replace("\n", ",2\n") +
+        FAULT.replace("f_", "g_").replace("24,,", "150,,").replace("\n", ",\n"))
+    run(study, "my.csv --cores 1")
+    for name, ranks in (("f_1", "2"), ("g_1", "1")):
+        assert f"\n# ranks = {ranks}\n" in Path(f"out/{name}/fault.catalogue.csv").read_text()
+
+
+def test_jobs_of_a_cluster_have_the_ranks_of_the_table(study, work):
+    """A scheduler that runs each job here at once; there may be fewer cores here than a job asks for."""
+    (work / "bin").mkdir()
+    for name, text in (
+        ("sbatch", 'printf "%s\\n" "$*" >>$JOBS/asked\nfor script; do :; done\n'
+         'echo $$\n(bash "$script"; echo $? >$JOBS/$$) >>$JOBS/said 2>&1 </dev/null &'),
+        ("scontrol", '[ "$1 $2 $3" != "-o show job" ] && exit\nread code <$JOBS/$4 2>/dev/null\n'
+         '[ -s $JOBS/$4 ] && { [ "$code" = 0 ] && echo " JobState=COMPLETED " || echo " JobState=FAILED "; } || echo " JobState=RUNNING "')):
+        (work / "bin" / name).write_text(f"#!/bin/bash\n{text}\n")
+        (work / "bin" / name).chmod(0o755)
+    write(HEAD.replace("settings", "settings,ranks") + FAULT.replace("\n", ",4\n") + FAULT.replace("f_", "g_").replace("\n", ",\n"))
+    run(study, "my.csv --cores 2 --profile", INPUTS / "slurm", "--latency-wait 5",
+        env={"PATH": f"{work}/bin:{os.environ['PATH']}", "JOBS": str(work)})
+    for name, ranks in (("f_1", "4"), ("g_1", "1")):
+        assert f"\n# ranks = {ranks}\n" in Path(f"out/{name}/fault.catalogue.csv").read_text()
+        assert re.search(f"--ntasks={ranks} .*--job-name=fault.{name} ", Path("asked").read_text())
+    assert set(table()) == {"f_1", "g_1"}
+
+
+def test_a_study_that_is_interrupted_goes_on(study):
+    write(CHAIN.replace("1e5", "1e7"))
+    with start(study, "my.csv", start_new_session=True) as child:
+        assert child.until(lambda: list(Path("out").glob("*/catalogue.csv")))
+        time.sleep(1)
+        os.killpg(child.pid, signal.SIGINT)
+        assert child.wait(60) != 0
+    write(CHAIN.replace("1e5", "1e7"))
+    assert not Path("out/c_1/done.json").exists() and not Path("out/table.csv").exists()
+    time.sleep(1)
+    run(study, "my.csv")
+    assert table()["c_1"]["events"] == counted("c_1/catalogue.csv") != "0"
+
+
+def test_a_full_disk_leaves_no_wrong_numbers(study, small_disk):
+    write(CHAIN.replace("0,1,1e5", "0,1-2,1e6"))
+    run(study, "my.csv")
+    whole = table()
+    folder = small_disk(1)
+    with open(folder / "ballast", "wb") as file:
+        file.write(bytes(1 << 20)[:(1 << 20) - 90000])
+    there = {"LSM_OUTPUT": str(folder / "out")}
+    assert run(study, "my.csv", status=None, env=there).status != 0
+    assert not (folder / "out/table.csv").exists()
+    (folder / "ballast").unlink()
+    small_disk(64)
+    run(study, "my.csv", env=there)
+    assert table(folder / "out/table.csv") == whole
+
+
+def test_names_that_programs_do_not_have_are_refused(plan):
+    for name, said in (("stepz", "'stepz', which program fault does not have (did you mean steps?)"), ("blocks",
+                                                                                                       "'blocks', which program fault does not have"),
+                       ("prefix", "'prefix' is set by the study"), ("checkpoint", "'checkpoint' is set by the study")):
+        with pytest.raises(TableError) as error:
+            plan(f"run,program,length,{name}\nf,fault,24,100\n")
+        assert str(error.value).startswith(f"my.csv:2: {said}"), error.value
+        with pytest.raises(TableError):
+            plan(f"run,program,length,settings\nf,fault,24,{name}=100\n")
+    with pytest.raises(TableError, match="my.csv:2: 'block', which program slider does not have .did you mean blocks"):
+        plan("run,program,block\nc,slider,100\n")
+    with pytest.raises(TableError, match="'ensemble' is set by the study"):
+        plan("run,program,ensemble\nc,slider,3\n")
+    # Other programs' columns may be empty.
+    assert list(plan("program,run,length,blocks\nfault,f,24,\nslider,c,,100\n").runs) == ["f", "c"]
+
+
+@pytest.mark.parametrize("text, said", [
+    ("run,program,seed,seed\nc,slider,1,2\n", "my.csv:1: column 'seed' twice, expected once"),
+    ("run,program,,seed\nc,slider,1,2\n", "my.csv:1: a column without a name, expected one"),
+    ("run,program,seed\nc,slider,3-1\n", "my.csv:2: seed '3-1', expected the smaller one first"),
+    ("run,program,seed,settings\nc,slider,1,seed=5\n", "my.csv:2: settings 'seed=5', but there is seed=1 already"),
+    ("run,program,settings\nc,slider,kl=1 kl=2\n", "my.csv:2: settings 'kl=2', but there is kl=1 already"),
+    ("run,program,settings\nc,slider,ranks=2\n", "my.csv:2: settings 'ranks=2', but ranks is a column"),
+    ("run,program,ranks\nc,slider,2\n", "my.csv:2: ranks '2' of program 'slider', expected them for faults only"),
+    ("run,program,ranks\nf,fault,0\n", "my.csv:2: ranks '0', expected a whole number above 0"),
+    ("run,program,steps\nc,slider,-5\n", "my.csv:2: steps '-5', expected a number above 0"),
+    ("run,program,blocks\nc,slider,\"100\n", "my.csv:2: unexpected end of data"),
+    ("run,program\n", "my.csv: no run, expected one at least"),
+    ("run,program\n# a\nd\xe9j\xe0,slider\n".encode("latin-1"), "my.csv:3: not UTF-8, expected a table of runs in UTF-8"),
+    ("run,program\ntable.csv,slider\n", "my.csv:2: run 'table.csv', expected another name, as results have this one"),
+    ("run,program\nslurm,slider\n", "my.csv:2: run 'slurm', expected another name, as results have this one"),
+    ("run,program\nd\xe9j\xe0,slider\n", "my.csv:2: run 'd\xe9j\xe0', expected letters, digits, '.', '_', '+' and '-'"),
+])
+def test_tables_that_say_what_is_wrong(plan, text, said):
+    with pytest.raises(TableError) as error:
+        plan(text)
+    assert str(error.value) == said
+
+
+def test_tables_that_are_right(plan, work):
+    assert plan("run,program,pe-series\nc,slider,{here}/pe.bin\n").runs["c"].words == [f"pe-series={work}/pe.bin"]
+    assert list(plan("\ufeffrun,program\nlock,slider\n").runs) == ["lock"], "a mark of the byte order"
+    assert list(plan("run,program,seed\nc_{seed},slider,4-6\n", seeds=2).runs) == ["c_4", "c_5"]
+
+
+def test_settings_are_no_code(plan):
+    found = plan("run,program,pe-series\nc,slider,'a; touch b'\n", "numbers:\n  count: count {catalogue} --label {pe_series}\n")
+    assert found.command(found.runs["c"], "count") == "count c/catalogue.csv --label 'a; touch b'"
+
+
+@pytest.mark.parametrize("config, said", [
+    ({"shortn": 100}, "'shortn=100', expected one of hours, ranks, seeds, shorten, only, checkpoint, minutes"),
+    ({"foo": 1}, "'foo=1', expected one of"),
+    ({"seeds": 0}, "'seeds=0', expected a whole number above 0"),
+    ({"ranks": "two"}, "'ranks=two', expected a whole number above 0"),
+    ({"checkpoint": None}, "'checkpoint=', expected a whole number"),
+    ({"hours": "x"}, "'hours=x', expected a number above 0"),
+    ({"shorten": -1}, "'shorten=-1', expected a number above 0"),
+    ({"only": "("}, "only '(', expected a regular expression"),
+    ({"only": "z"}, "my.csv: no run whose name matches 'z'"),
+    ({"shorten": 10}, "my.csv:2: shorten=10, but the line has neither steps nor time"),
+])
+def test_settings_of_a_study_that_say_what_is_wrong(plan, config, said):
+    with pytest.raises(TableError) as error:
+        plan("run,program,blocks\nc,slider,100\n", **config)
+    assert str(error.value).startswith(said)
+
+
+@pytest.mark.parametrize("recipe, said", [
+    ("numbres:\n  count: count\n", "my.yaml: part 'numbres', expected one of"),
+    ("numbers: [1, 2]\n", "my.yaml: numbers: expected lines 'NAME: ...'"),
+    ("- a\n", "my.yaml: expected a recipe"),
+    ("table: {a: b\n", "my.yaml:2: expected ',' or '}', but got '<stream end>', expected a recipe"),
+    ("table:\n  x: count.catalogues[0].events\n", "my.yaml: table: x: nothing is called 'count'"),
+    ("numbers:\n  count: count {catalog}\n", "my.yaml: numbers: count: nothing is called 'catalog' (did you mean catalogue?)"),
+    ("table:\n  x: 1 +\n", "my.yaml: table: x: '1 +', expected an expression"),
+    ("figures:\n  a: {runs: '(', command: fit}\n", "my.yaml: figures: a: runs '(', expected a regular expression"),
+    ("figures:\n  a: {runs: c}\n", "my.yaml: figures: a: expected a command"),
+    ("reference: '{block}'\n", "reference '{block}', expected the name of a run with columns in braces (not 'block')"),
+    ("numbers:\n  count: count {catalogue} --from {1/(dt - dt)}\n", "numbers of run 'c': count: name 'dt' is not defined"),
+])
+def test_recipes_that_say_what_is_wrong(plan, recipe, said):
+    with pytest.raises(TableError) as error:
+        plan("run,program,blocks\nc,slider,100\n", recipe)
+    assert str(error.value).startswith(said)
+
+
+@pytest.mark.parametrize("name", sorted(path.stem for path in (INPUTS / "studies").glob("*.csv")))
+def test_studies_that_ship(binaries, work, name):
+    """Their settings are those that the programs have, and their recipes ask for what there is."""
+    Study(with_defaults({"table": str(INPUTS / f"studies/{name}.csv"), "bin": str(binaries)})).check()
