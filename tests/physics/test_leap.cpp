@@ -233,15 +233,17 @@ TEST_F(Leap, FactorGrowsWithTheTimeOfTheLeap) {
 }
 
 // Links that are near breaking: the same break, at the same displacement of the plates.
+// Only the first links: each that breaks sends out waves, and which links such an avalanche breaks
+// depends on the last digit. The high viscosity leaves the load to decide.
 TEST_F(Leap, TheSameLinksBreak) {
   std::string scene = slow("LEAP", "bonds f_plates[8]");
   const std::string links = "bond_coeff        1 1.0\n", pairs = "pair_coeff        3 4";
-  scene.replace(scene.find(links), links.size(), "bond_coeff 1 1.0 1.006\n");
+  scene.replace(scene.find(links), links.size(), "bond_coeff 1 1.0 1.012\n");
   scene.replace(scene.find(pairs), pairs.size(), "pair_coeff * *");
   scene += R"(
 variable          moved equal f_plates[8]
-fix               enough all halt 1 v_moved > 0.11 error continue message no
-run               20000
+fix               enough all halt 1 v_moved > 0.2 error continue message no
+run               40000
 unfix             enough
 compute           left all property/local batom1 batom2
 dump              left all local 1 ${prefix}.links c_left[1] c_left[2]
@@ -251,10 +253,13 @@ run               0
     // links that break at once ring down first; then both start from the same state
     std::string all_of_it = scene;
     all_of_it.replace(all_of_it.find("LEAP"), 4, "run 6000\n" + leap);
-    const Result r = run_text(
-        all_of_it, {{"prefix", name}, {"dt", "0.05"}, {"mus", "100"}, {"velocity", "0.00005"}});
+    const Result r = run_text(all_of_it, {{"prefix", name},
+                                          {"dt", "0.05"},
+                                          {"mus", "100"},
+                                          {"velocity", "0.00005"},
+                                          {"viscosity", "0.2"}});
     EXPECT_TRUE(succeeded(r));
-    EXPECT_NEAR(r.last("f_plates[8]"), 0.11, 1e-4);
+    EXPECT_NEAR(r.last("f_plates[8]"), 0.2, 1e-4);
     for (const auto &row : r.thermo)
       if (row.count("Bonds") > 0 && row.at("Step") == 6000.0) before = row.at("Bonds");
     std::istringstream in(read_file(path(name + ".links")));
@@ -269,7 +274,7 @@ run               0
   };
   double before = NAN;
   const auto slowly = left("slowly", "", before);
-  EXPECT_GE(before - static_cast<double>(slowly.size()), 10.0);  // enough to compare
+  EXPECT_GE(before - static_cast<double>(slowly.size()), 8.0);  // enough to compare
   for (const char *fast : {"0.0001", "0.0002"}) {
     const auto leapt =
         left("leapt", std::string("fix leap all lsm/leap plates calm 3 ramp 6 fast ") + fast + "\n",
@@ -382,7 +387,7 @@ TEST_F(Leap, SeriesAndRupturesHaveModelTimes) {
            "c_events c_events[5] f_plates[8] f_leap") +
       "variable go index no\nuncompute events\n"
       "compute events all lsm/events resume ${go} catalogue ${prefix}.csv series ${prefix}.pe\n"
-      "compute ruptures all lsm/events events ruptures sides below above faces lowerface upperface slipping 0.5 interval 10 "
+      "compute ruptures all lsm/events events ruptures sides below above faces lowerface upperface slipping 1 interval 10 "
       "resume ${go} "
       "catalogue "
       "${prefix}.ruptures progress no\nthermo 1\n";
