@@ -25,20 +25,19 @@ inline AddedPickerOptions add_picker_options(CLI::App *command, PickerOptions &o
       "--picker", options.reading,
       "Reading of the paper's formula for the smoothed change A of PE (x: change): exponential, "
       "A "
-      "<- lambda A + (1 - lambda) x (ours, the default); average, A <- (x + lambda A) / (1 + "
-      "lambda) (ours); literal, A <- (x + lambda A) / (1 + lambda t) (paper, Sect. 4.1; t: index "
+      "<- lambda A + (1 - lambda) x † (the default); average, A <- (x + lambda A) / (1 + "
+      "lambda) †; literal, A <- (x + lambda A) / (1 + lambda t) (paper, Sect. 4.1; t: index "
       "of the change)");
   o.lambda = command->add_option(options.lambda_name(), options.lambda,
                                  "Leakiness per sample, 0 to less than 1 (paper: 0.99)");
   o.memory_time = command->add_option(
       options.time_name(), options.memory_time,
-      "Memory of the picker, lambda = exp(-interval of the samples / memory) (model time; ours)");
-  o.min_size =
-      command->add_option("--min-size", options.min_size,
-                          "Events of smaller size are counted, not written (energy; ours)");
+      "Memory of the picker, lambda = exp(-interval of the samples / memory) (model time) †");
+  o.min_size = command->add_option("--min-size", options.min_size,
+                                   "Events of smaller size are counted, not written (energy) †");
   o.keep_nonpositive = command->add_flag("--keep-nonpositive", options.keep_nonpositive,
                                          "Write events of size <= 0, too, whatever --min-size is "
-                                         "(ours); otherwise they are counted");
+                                         "†; otherwise they are counted");
   o.memory_time->excludes(o.lambda);
   for (CLI::Option *option : {o.reading, o.lambda, o.memory_time, o.min_size, o.keep_nonpositive})
     option->group(group);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file slider_creep.h
 /// Quasi-static creep of the chain: motion under slow loading while no block slips faster than
-/// about the plate, solved without time steps (ours). README.md explains why blocks creep.
+/// about the plate, solved without time steps †. README.md explains why blocks creep.
 ///
 /// In the limit of a slow plate a block at its limit creeps at constant force, so that the blocks
 /// at their limit follow the plate linearly: the displacement of block i is r_i times that of the

@@ -5,7 +5,7 @@
 /// or of modes, sum_ij U_i C_ij U_j / 2 in place of the springs K_c, and the sum of all
 /// displacements. PE is quadratic, so its change over a step is exactly minus the work of the mean
 /// spring force on the blocks plus that of the mean plate force on the plate; only moving blocks
-/// enter (ours).
+/// enter †.
 #ifndef SLIDER_ENERGY_H
 #define SLIDER_ENERGY_H
 

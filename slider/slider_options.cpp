@@ -29,15 +29,8 @@ const char *const description =
     "by a plate of speed V through leaf springs K_l; friction mu_0i / (1 + v), no back-slip\n"
     "(Weatherley and Abe 2004, Sect. 3, after Carlson et al. 1991). Writes a catalogue of the "
     "drops\n"
-    "of potential energy (PE). All quantities are in model units.\n"
-    "As printed in the paper: Eqs. 5 and 6, K_c = 1, K_l = 0.01, M = 1, V = 0.01, mu_0 in [0.5, "
-    "1),\n"
-    "1e7 steps, schemes of Eqs. 7 and 8 (--scheme printed), lambda = 0.99. Ours: the other "
-    "schemes,\n"
-    "the time step (the paper gives none), the reading 'exponential' of the event picker, "
-    "warm-up,\n"
-    "other friction laws (--law), ruptures as another kind of events (--events ruptures).\n"
-    "The sign of friction in Eq. 5 is read so that friction resists motion.";
+    "of potential energy (PE). All quantities are in model units. The sign of friction in Eq. 5 is\n"
+    "read so that friction resists motion. †: not printed in the paper, chosen here.";
 
 std::int64_t whole(const std::string &option, double value, std::int64_t least) {
   if (!(value >= static_cast<double>(least)) || value > 9e15 || value != std::floor(value))
@@ -96,22 +89,22 @@ class CommandLine {
     CLI::Option *const kl =
         app_.add_option("--kl", p_.kl, "Leaf spring to the plate K_l (force/length)");
     app_.add_option("--coupling", coupling_,
-                    "What couples the blocks: chain, the springs K_c (paper); ours: antiplane or "
+                    "What couples the blocks: chain, the springs K_c (paper); † antiplane or "
                     "inplane, an elastic block on either side of the fault with the plate at its "
                     "far side, as stiff as makes a block that slips alone in a long fault feel 2 "
                     "K_c + K_l, and as thick as makes K_l its leaf spring; or a file, lines "
                     "'wavenumber,stiffness' from 0 (the leaf spring) to pi (radians per block), "
                     "in place of K_c and K_l. Fastest with a number of blocks of small factors");
     app_.add_option("--width", strip_.width,
-                    "Thickness of each elastic block, which gives K_l (in blocks; ours)")
+                    "Thickness of each elastic block, which gives K_l (in blocks) †")
         ->default_str("from --kl")
         ->excludes(kl);
     app_.add_option("--radiation", p_.radiation,
                     "Force on a block per velocity by the waves that it sends out; G / 2 c_s for "
-                    "shear waves into both sides (Rice 1993; force/velocity; ours)");
+                    "shear waves into both sides (Rice 1993; force/velocity) †");
     app_.add_option("--mass", p_.mass,
                     "Mass of a block M. Friction is a force, divided by M as that of the springs; "
-                    "Eq. 5 does not divide it, and has M = 1. 0: no inertia (quasi-dynamic; ours), "
+                    "Eq. 5 does not divide it, and has M = 1. 0: no inertia (quasi-dynamic) †, "
                     "needs --radiation");
     app_.add_option("--velocity", p_.velocity, "Driving velocity of the plate V (length/time)");
     CLI::Option *const range =
@@ -119,21 +112,21 @@ class CommandLine {
                         "Static coefficients mu_0i are uniform in [LOW, HIGH) (force)");
     range->expected(2);
     app_.add_option("--friction-file", friction_file_,
-                    "File with the static coefficient of each block, one per line (force; ours)")
+                    "File with the static coefficient of each block, one per line (force) †")
         ->excludes(range);
     app_.add_option("--correlation-length", p_.landscape.length,
                     "The static coefficient of a block is drawn anew from --friction-range after "
-                    "each slip of this length, as on a rough surface; 0: never (length; ours)")
+                    "each slip of this length, as on a rough surface; 0: never (length) †")
         ->excludes("--friction-file");
     app_.add_option("--seed", s_.seed, "Seed of the coefficients")->check(LSM::whole_number());
     add_choice("--law", p_.friction.law,
-               "Friction of a moving block: velocity-weakening, mu_0i / (1 + v), Eq. 6; ours: "
+               "Friction of a moving block: velocity-weakening, mu_0i / (1 + v), Eq. 6; † "
                "coulomb, R mu_0i with the R of --dynamic-friction; slip-weakening, from mu_0i to "
                "R mu_0i over the slip of --slip-distance since the block last rested");
     app_.add_option("--dynamic-friction", p_.friction.dynamic,
-                    "Dynamic over static coefficient, of coulomb and slip-weakening (ours)");
+                    "Dynamic over static coefficient, of coulomb and slip-weakening †");
     app_.add_option("--slip-distance", p_.friction.dc,
-                    "Slip over which slip-weakening weakens (length; ours)");
+                    "Slip over which slip-weakening weakens (length) †");
   }
 
   void add_integration() {
@@ -144,11 +137,11 @@ class CommandLine {
     auto *steps = add_whole("--steps", run_.steps, 1, "Number of time steps (instead of --time)");
     steps->default_str("1e7 with --paper, else from --time");
     app_.add_option("--time", time_, "Model time to run for (time)")->excludes(steps);
-    app_.add_option("--dt", p_.dt, "Time step h (time; ours, the paper gives none)");
+    app_.add_option("--dt", p_.dt, "Time step h (time) †");
     add_choice("--scheme", p_.scheme,
                "printed: Eqs. 7 and 8, order 1, unstable in the long run: warns above dt 0.01, "
                "refused at 0.12 and above; in the step in which a block stops friction is what "
-               "stops it, the acceleration -v/h, so that Eq. 7 moves it by h v/2; ours: "
+               "stops it, the acceleration -v/h, so that Eq. 7 moves it by h v/2; † "
                "semi-implicit (order 1), verlet (order 2), and without inertia (--mass 0) always "
                "adams-bashforth");
     app_.add_flag("--unstable", unstable_, "Run the printed scheme above these limits");
@@ -156,7 +149,7 @@ class CommandLine {
                "active (only moving chunks of blocks) or dense (all blocks; same catalogue)");
     app_.add_option(
         "--leap", run_.leap_speed,
-        "Leap over slow loading (ours): once no block has been faster than this for 50 time "
+        "Leap over slow loading †: once no block has been faster than this for 50 time "
         "units, blocks at their limit creep without steps, in the limit of a slow plate, "
         "until some are about to exceed it; 1e-3 is accurate for V up to 1e-3; 0: no leaps. Model "
         "time and steps continue (length/time)");
@@ -168,26 +161,25 @@ class CommandLine {
     add_choice(
         "--events", run_.events,
         "Definition of an event: pe, a drop of the PE of the whole chain (paper); ruptures, a set "
-        "of sliding blocks connected in space and time (ours). Ruptures far apart stay separate in "
+        "of sliding blocks connected in space and time †. Ruptures far apart stay separate in "
         "long chains, and ruptures can overlap in time; their size is the work of the springs on "
         "the blocks, they are written in the order in which they end, and the options of the "
         "picker do not apply");
     app_.add_option("--rupture-gap", rupture_gap_,
                     "With --events ruptures: time for which a block at rest still connects, in "
-                    "addition to one time step (time; ours)");
+                    "addition to one time step (time) †");
     picker_.prefix = "picker-";
     const LSM::AddedPickerOptions picker = LSM::add_picker_options(&app_, picker_, events);
     picker.reading->default_str("exponential");
     picker.lambda->default_str("from --picker-memory-time");
     picker.memory_time->default_str("1");
     picker.min_size->default_str("0");
-    app_.add_option("--warmup", run_.warmup,
-                    "Drop events that start before this time (time; ours)");
+    app_.add_option("--warmup", run_.warmup, "Drop events that start before this time (time) †");
     app_.add_flag(
         "--without-plate-drops", without_plate_drops_,
         "Leave out drops of PE larger than the largest mu_0 times slip_moment, which the plate has "
         "made and not slip: blocks that have slipped too far wait for it, and PE falls meanwhile "
-        "(ours; otherwise they are written and counted apart in --json, as the paper does not "
+        "† (otherwise they are written and counted apart in --json, as the paper does not "
         "tell them apart)");
     for (CLI::Option *option :
          {app_.get_option("--time"), app_.get_option("--dt"), app_.get_option("--scheme"),

@@ -29,7 +29,7 @@ namespace Slider {
 using LSM::from_string;
 using LSM::to_string;
 
-/// Schemes of a time step. All but printed are ours.
+/// Schemes of a time step. All but printed are †.
 enum class Scheme {
   printed,        ///< Eqs. 7 and 8: x += h v + h^2/2 a, v += h a, force of the old time
   semi_implicit,  ///< v += h a, x += h v (symplectic Euler), order 1
@@ -48,8 +48,8 @@ constexpr std::array<LSM::Named<Scheme>, 4> names_of(Scheme) {
 
 enum class Law {
   velocity_weakening,  ///< Eq. 6
-  coulomb,             ///< static and dynamic friction (ours)
-  slip_weakening       ///< falls linearly with the slip since the block last rested (ours)
+  coulomb,             ///< static and dynamic friction †
+  slip_weakening       ///< falls linearly with the slip since the block last rested †
 };
 constexpr std::array<LSM::Named<Law>, 3> names_of(Law) {
   return {{{Law::velocity_weakening, LSM::VelocityWeakening::name},
@@ -67,7 +67,7 @@ struct Friction {
   bool needs_rest() const { return law == Law::slip_weakening; }
 };
 
-/// A rough surface whose strength changes along the way (ours): that of a block is drawn anew from
+/// A rough surface whose strength changes along the way †: that of a block is drawn anew from
 /// the range after each slip of a length.
 struct Landscape {
   double length = 0.0;  ///< 0: strengths stay
@@ -75,18 +75,18 @@ struct Landscape {
   std::uint64_t seed = 1;
 };
 
-/// Parameters of one chain, in model units (paper values unless marked ours).
+/// Parameters of one chain, in model units (paper values unless marked †).
 struct Parameters {
   int blocks = 1928;
   double kc = 1.0;         ///< coupling spring K_c
   double kl = 0.01;        ///< leaf spring K_l
-  double mass = 1.0;       ///< mass M of a block; 0: no inertia (ours)
+  double mass = 1.0;       ///< mass M of a block; 0: no inertia †
   double velocity = 0.01;  ///< driving velocity V_pl of the plate
-  double dt = 0.05;        ///< time step (ours; not in the paper)
+  double dt = 0.05;        ///< time step † (not in the paper)
   Scheme scheme = Scheme::verlet;
   Friction friction = {};  ///< Eq. 6
-  double radiation = 0.0;  ///< force on a block per velocity by the waves that it sends out (ours)
-  /// Stiffness of the modes 0 to blocks / 2 in place of the springs K_c (ours), the leaf spring
+  double radiation = 0.0;  ///< force on a block per velocity by the waves that it sends out †
+  /// Stiffness of the modes 0 to blocks / 2 in place of the springs K_c †, the leaf spring
   /// included, which is that of mode 0; empty: springs.
   std::vector<double> modes = {};
   Landscape landscape = {};

@@ -26,7 +26,7 @@ constexpr std::array<LSM::Named<Kernel>, 2> names_of(Kernel) {
 }
 
 /// Definition of an event: a drop of the PE of the whole chain (paper), or a connected set of
-/// sliding blocks (ours, see slider_ruptures.h).
+/// sliding blocks † (see slider_ruptures.h).
 enum class Events { pe, ruptures };
 constexpr std::array<LSM::Named<Events>, 2> names_of(Events) {
   return {{{Events::pe, "pe"}, {Events::ruptures, "ruptures"}}};
@@ -64,7 +64,7 @@ constexpr double leap_calm = 50.0;
 /// Whether the plate, and not slip, has lowered PE: after overshoot the blocks are ahead of the
 /// plate, and PE falls until it has caught up. Blocks lose no more to friction than the strongest
 /// of them times the slip of all, and come from rest to rest, so that the plate has taken what
-/// exceeds that (ours; the paper counts all drops).
+/// exceeds that † (the paper counts all drops).
 inline bool is_by_plate(const LSM::Event &drop, double strongest) {
   return drop.size > strongest * drop.slip_moment;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file slider_ruptures.h
-/// Events as ruptures: sets of sliding blocks connected in space and time (ours; the paper picks
+/// Events as ruptures: sets of sliding blocks connected in space and time † (the paper picks
 /// drops of the potential energy (PE) of the whole chain).
 ///
 /// Block i slides in step n if the step changes its displacement. It is then connected with the

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file slider_stiffness.h
-/// Static stiffness of what couples the blocks (ours; the paper has springs between neighbours):
+/// Static stiffness of what couples the blocks † (the paper has springs between neighbours):
 /// the force on a block per slip, for slip that varies along the fault as cos q x, x in blocks.
 ///
 /// The fault lies between two elastic blocks of thickness W, each held by a plate at its far side,

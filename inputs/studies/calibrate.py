@@ -61,7 +61,7 @@ def memories(row):
     return number(row, "mean_time_0.0001") / float(row["memory"])
 
 
-# name, what is printed (or ours), value of a row, its deviation, tolerance
+# name, what is printed (or †), value of a row, its deviation, tolerance
 STATEMENTS = (
     ("exponent", "sizes go as s^-1.07 from 1e-4 over three decades", lambda r: number(r, "exponent_1e-4:1e-1"), lambda v: abs(v - 1.07), 0.07),
     ("decades", "so in each of these decades (no second population)", decades, abs, 0.3),
@@ -71,8 +71,8 @@ STATEMENTS = (
     ("stick-slip", "PE rises while the fault is locked: it falls in less than a third of the time", lambda r: number(r, "in_events"),
      lambda v: outside(v, 0.0, 0.33), 0.03),
     ("waves", "P-waves run at 2.1", lambda r: WAVE_SPEED[r["mass"]], lambda v: abs(v - 2.12), 0.1),
-    ("steps", "events are resolved (ours): at most 2 % last 3 steps or less", lambda r: number(r, "brief"), lambda v: outside(v, 0.0, 0.02), 0.02),
-    ("swings", "events are slip (ours): few times are a swing of the blocks between the plates", swings, lambda v: outside(v, 0.0, 0.02), 0.03),
+    ("steps", "events are resolved †: at most 2 % last 3 steps or less", lambda r: number(r, "brief"), lambda v: outside(v, 0.0, 0.02), 0.02),
+    ("swings", "events are slip †: few times are a swing of the blocks between the plates", swings, lambda v: outside(v, 0.0, 0.02), 0.03),
 )
 
 

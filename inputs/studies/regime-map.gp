@@ -14,7 +14,7 @@ ring(_) = column("stress") == 0.02 && column("viscosity") == 0.015
 stats table using (grid(strcol(others)) && ring(0) ? column(0) : NaN) nooutput
 first = STATS_min # the settings of the ring may be there twice
 do for [kind in "png svg"] {
-if (kind eq "png") { set terminal pngcairo size 1800,1280 font "DejaVu Sans,24" pointscale 2 linewidth 2 background "#ffffff" } else { set terminal svg size 900,640 font "DejaVu Sans,12" background "#ffffff" }
+if (kind eq "png") { set terminal pngcairo size 1800,1280 font "DejaVu Sans,24" pointscale 2 linewidth 2 background "#ffffff" } else { set terminal svg name "regime_map" size 900,640 font "DejaVu Sans,12" background "#ffffff" }
 set output "regime-map.".kind
 set logscale xy
 set logscale cb
@@ -27,7 +27,7 @@ set cbrange [0.8:13]
 set cbtics (1, 2, 3, 5, 10)
 set palette defined (0 "#f4a582", 0.474 "#f7f7f7", 1 "#92c5de")
 set title "Saw-tooth number at length 120: creep below 3, stick-slip above; below each: exponent of the sizes"
-set key off
+set key off noautotitle
 set xtics (0.003, 0.006, 0.01, 0.015, 0.02, 0.03, 0.05)
 set ytics (0.002, 0.005, 0.015, 0.05, 0.1)
 viscosity(torn) = column("length") == 120 && grid(strcol(others)) && !(ring(0) && column(0) > first) && (strlen(strcol("saw_tooth")) == 0) == torn ? column("viscosity") : NaN

@@ -10,7 +10,7 @@ velocity,steps
 END_OF_LINE
 do for [kind in "png svg"] {
 if (kind eq "png") { set terminal pngcairo size 1800,820 font "DejaVu Sans,21" linewidth 2 pointscale 2 background "#ffffff" } \
-else { set terminal svg size 900,410 dynamic font "DejaVu Sans,10.5" background "#ffffff" }
+else { set terminal svg name "slow_driving_slider" size 900,410 dynamic font "DejaVu Sans,10.5" background "#ffffff" }
 set output "slow-driving-slider.".kind
 set encoding utf8
 set border lw 1.0 lc rgb "#333333"

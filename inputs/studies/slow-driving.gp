@@ -3,9 +3,13 @@ set datafile separator ","
 set datafile columnheaders
 if (!exists("table")) { table = "table.csv" }
 if (!exists("around")) { around = "around.csv" }
+# steps per large event without leaps at 2.5e-5; before anything is drawn, as stats obeys ranges
+base = NaN
+stats table using (strcol("leap") eq "no" && strcol("velocity") eq "2.5e-5" ? column("steps_per_large") : NaN) nooutput
+if (exists("STATS_mean")) { base = STATS_mean }
 do for [kind in "png svg"] {
-if (kind eq "png") { set terminal pngcairo size 1800,1300 font "DejaVu Sans,19" linewidth 2 pointscale 2 background "#ffffff" } \
-else { set terminal svg size 900,650 dynamic font "DejaVu Sans,9.5" background "#ffffff" }
+if (kind eq "png") { set terminal pngcairo size 1800,1440 font "DejaVu Sans,24" linewidth 2 pointscale 2 background "#ffffff" } \
+else { set terminal svg name "slow_driving" size 900,720 dynamic font "DejaVu Sans,12" background "#ffffff" }
 set output "slow-driving.".kind
 unset logscale
 set format y "%g"
@@ -13,19 +17,17 @@ set encoding utf8
 set border lw 1.0 lc rgb "#333333"
 set tics out nomirror
 set grid xtics ytics lt 1 lw 0.5 lc rgb "#d8d8d8"
-set multiplot layout 2,3 margins 0.075,0.985,0.085,0.95 spacing 0.085,0.165
+set multiplot layout 2,3 margins 0.085,0.985,0.1,0.945 spacing 0.095,0.19
 # filled: leaps with plates of 2.5e-4, crosses: of 1e-4, open: no leaps
 yes(c) = strcol("fast") eq "2.5e-4" ? column(c) : NaN
 slower(c) = strcol("fast") eq "1e-4" ? column(c) : NaN
 no(c) = strcol("leap") eq "no" ? column(c) : NaN
-base = NaN # steps per large event without leaps at 2.5e-5
-stats table using (strcol("leap") eq "no" && strcol("velocity") eq "2.5e-5" ? column("steps_per_large") : NaN) nooutput
-if (exists("STATS_mean")) { base = STATS_mean }
 set logscale x
 set format x "10^{%L}"
 set xrange [1.2e-8:6e-4]
 set xtics 10
 set xlabel "driving velocity of each plate"
+set key noautotitle
 unset key
 set title "Events per displacement of 36"
 set ylabel "number of events" offset 0.5
@@ -85,7 +87,7 @@ unset ylabel
 unset logscale
 set xrange [0:1]
 set yrange [0:1]
-set key at graph 0.98,0.98 top right Left reverse samplen 1 spacing 1.1
+set key at graph 0.98,1 top right Left reverse samplen 1 spacing 1.05 maxcols 1
 plot NaN with points pt 7 lc rgb "#000000" title "leaps (plates of 2.5·10^{-4})", NaN with points pt 2 lc rgb "#000000" title "leaps (plates of 10^{-4})", \
   NaN with points pt 6 lc rgb "#000000" title "no leaps", NaN with points pt 5 lc rgb "#0072B2" title "sizes ≥ 10^{-3}", \
   NaN with points pt 5 lc rgb "#D55E00" title "sizes ≥ 10^{-2}", NaN with points pt 5 lc rgb "#009E73" title "sizes ≥ 10^{-1}", \

@@ -4,7 +4,7 @@ set datafile columnheaders
 if (!exists("table")) { table = "walk.csv" }
 do for [kind in "png svg"] {
 if (kind eq "png") { set terminal pngcairo size 1800,760 font "DejaVu Sans,20" linewidth 2 pointscale 2 background "#ffffff" } \
-else { set terminal svg size 900,380 dynamic font "DejaVu Sans,10" background "#ffffff" }
+else { set terminal svg name "walk" size 900,380 dynamic font "DejaVu Sans,10" background "#ffffff" }
 set output "walk.".kind
 set encoding utf8
 set border lw 1.0 lc rgb "#333333"

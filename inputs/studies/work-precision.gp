@@ -8,7 +8,7 @@ stats table using "time_per_core_hour" nooutput
 most = STATS_max
 do for [kind in "png svg"] {
 if (kind eq "png") { set terminal pngcairo size 1800,860 font "DejaVu Sans,20" linewidth 2 pointscale 2 background "#ffffff" } \
-else { set terminal svg size 900,430 dynamic font "DejaVu Sans,10" background "#ffffff" }
+else { set terminal svg name "work_precision" size 900,430 dynamic font "DejaVu Sans,10" background "#ffffff" }
 set output name.".".kind
 set encoding utf8
 set border lw 1.0 lc rgb "#333333"
@@ -33,6 +33,7 @@ set title "Events ≥ 10^{-3}, relative difference"
 set yrange [-0.1:0.1]
 plot 0 lc rgb "#888888" dt 2 notitle, for [n=0:rows-1] table using "time_per_core_hour":(one(n, "rate")):"rate_error" with yerrorbars lt n + 1 notitle, \
   for [n=0:rows-1] keyentry with points lt n + 1 title label(n)
+set key noautotitle
 unset key
 set title "Exponent (10^{-3} to 1), difference"
 plot 0 lc rgb "#888888" dt 2, for [n=0:rows-1] table using "time_per_core_hour":(one(n, "exponent")):"exponent_error" with yerrorbars lt n + 1

@@ -27,7 +27,7 @@ class AftershockRates : public Statistic {
            "and the same for Poisson catalogues of the same events. A main shock is the largest "
            "of all events that start within a window before its start to a window after its end. "
            "Events before main shocks are counted, too, and both beyond the rate far from main "
-           "shocks; catalogues of one --label are taken together. All ours: the paper does not look "
+           "shocks; catalogues of one --label are taken together. † The paper does not look "
            "for aftershocks";
   }
 

@@ -116,7 +116,7 @@ class Benchmark : public Analysis {
 
   const char *help() const override {
     return "Compares ruptures, as slip histories of compute lsm/events, with curves of slip and "
-           "slip rate at places of the fault (ours): arrival times, slip at the end, peak slip "
+           "slip rate at places of the fault †: arrival times, slip at the end, peak slip "
            "rate, relative L2 differences, and the order of convergence over histories of several "
            "spacings. Slip is divided by the parameter 'scale' of the history's header. Writes the "
            "numbers (BASE-stations.csv) and a picture of the curves and fronts";

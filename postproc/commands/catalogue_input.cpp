@@ -60,7 +60,7 @@ std::string label_of(const EventTable &table) {
 std::string threshold_help(const std::string &what, const std::string &more) {
   return "Smallest size of " + what + " (model energy; M2.5: magnitude 2.5)" + more +
          "; without it 1e-4, as in the paper's Figs. 12 and 13 (for times it states none), or "
-         "the largest 'completeness' in the headers of a model if that is larger (ours)";
+         "the largest 'completeness' in the headers of a model if that is larger †";
 }
 
 }  // namespace
@@ -108,7 +108,7 @@ void CatalogueOptions::add_displacement(CLI::App *command) {
       .flag("--displacement", displacement,
             "Times as displacements of the driving plate, model time times the 'velocity' in the "
             "header, those of --from and --to included: for catalogues of different driving "
-            "velocities (ours)");
+            "velocities †");
 }
 
 void add_threshold(OptionGroup group, Threshold &threshold, const std::string &what) {

@@ -22,7 +22,7 @@ class Compare : public Statistic {
   const char *help() const override {
     return "Do catalogues agree? Sizes, and times from start to start, of each catalogue against "
            "the first: Kolmogorov-Smirnov distance with its p-value by random permutation of "
-           "blocks of consecutive events (ours; events cluster), ratio of the means with its "
+           "blocks of consecutive events † (events cluster), ratio of the means with its "
            "error";
   }
 

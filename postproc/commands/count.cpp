@@ -23,7 +23,7 @@ class Count : public CatalogueAnalysis {
 
   const char *help() const override {
     return "Number of events above several sizes, the total energy that they release, and the "
-           "fraction of time within events (ours)";
+           "fraction of time within events †";
   }
 
   void add_options(CLI::App *command) override {

@@ -72,7 +72,7 @@ class Explore : public Command {
   std::string output_ = "explore.html";
 
   const char *help() const override {
-    return "One self-contained page to explore runs in a browser (ours): PE with its events from "
+    return "One self-contained page to explore runs in a browser †: PE with its events from "
            "the whole run to single steps, a table of the events, each event with its slip, and "
            "exponent, gamma and burstiness against a smallest size that can be dragged";
   }

@@ -107,7 +107,7 @@ class Export : public CatalogueAnalysis {
            "nor magnitudes, so that both have to be chosen: by --unit-length, --p-speed and "
            "--density of a rock, from which magnitudes, times and longitudes follow; or by "
            "--time-unit, --start-date and --magnitude-constant, M = (2/3) log10(size) + constant "
-           "(ours). A model of a single fault has no geography: latitude and depth are 0";
+           "†. A model of a single fault has no geography: latitude and depth are 0";
   }
 
   void add_options(CLI::App *command) override {
@@ -116,7 +116,7 @@ class Export : public CatalogueAnalysis {
     OptionGroup own(command);
     own.remove("--format");  // here that of the output
     output_.add_to(own, "table");
-    OptionGroup group(command, "Conventions (ours)");
+    OptionGroup group(command, "Conventions †");
     group.add("--format", format_,
               "seismostats: longitude, latitude, depth, time, magnitude (what seismostats.Catalog "
               "requires; read with pandas.read_csv(FILE, parse_dates=['time'])), then event_id, "

@@ -21,7 +21,7 @@ class Fit : public Statistic {
 
   const char *help() const override {
     return "Exponents of the event sizes by maximum likelihood, goodness of fit of a power law, "
-           "and, with --scaling, whether the roll-off moves with the length (ours; the paper "
+           "and, with --scaling, whether the roll-off moves with the length † (the paper "
            "fitted binned densities: 1.07 for the fault, 0.5 and 1.0 for the block-slider)";
   }
 
@@ -37,14 +37,14 @@ class Fit : public Statistic {
     add_threshold(group, settings_.threshold, "the range, the search, the picture and the scaling");
     group.flag("--search", settings_.search,
                "Also the range with the smallest Kolmogorov-Smirnov distance, a line of its own "
-               "marked 'searched' (ours)");
+               "marked 'searched' †");
     group.add("--replicas", settings_.replicas,
               "Synthetic samples of the Monte Carlo p-value; 0: none", zero_or_more());
     add_seed(group, settings_.seed);
     group.flag("--no-comparison", no_comparison_, "Leave out the rival laws");
     group.flag("--scaling", scaling_,
                "Characteristic size <s^2>/<s> against length for each model: a power law, no "
-               "dependence, or growth that ends at a length (ours)");
+               "dependence, or growth that ends at a length †");
     group.add("--bootstrap", bootstrap_.replicas,
               "Resampled catalogues for the errors of --scaling", between(2, 1000000));
     add_block(group, block_);

@@ -23,7 +23,7 @@ class Histograms : public Statistic {
     add_threshold(group, settings_.threshold, "the densities");
     group.add("--range", range_, "LO:HI, only bins within this range of sizes");
     group.add("--bin-factor", settings_.factor,
-              "Ratio of the edges of a bin, c of the paper's c^n (the value is ours: ten bins a "
+              "Ratio of the edges of a bin, c of the paper's c^n († ten bins a "
               "decade)");
     group.add("--guide", guides_,
               "SLOPE or SLOPE:LO:HI, a straight line above the points, e.g. -1.07 (paper, fault) "

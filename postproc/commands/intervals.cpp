@@ -31,22 +31,22 @@ class Intervals : public Statistic {
     add_thresholds(group, settings_.thresholds, "the events");
     group.add("--places", settings_.places,
               "Times between ruptures that reach the same place, for this number of places along "
-              "the fault, pooled (ours; catalogues of ruptures of faults); 0: between any two "
+              "the fault, pooled † (catalogues of ruptures of faults); 0: between any two "
               "events",
               zero_or_more());
     group.flag("--rescale", settings_.rescale,
                "Divide the times of each curve by their mean (as Corral 2004 does)");
     group.add("--bin-factor", settings_.factor,
-              "Ratio of the edges of a bin (the value is ours: ten bins a decade)");
+              "Ratio of the edges of a bin (ten bins a decade) †");
     group.add("--method", method_,
-              "Fit by least-squares on the density (as in the paper), likelihood (ours), or both",
+              "Fit by least-squares on the density (as in the paper), likelihood †, or both",
               among({"least-squares", "likelihood", "both"}));
     group.add("--delta", deltas_, "Exponent in the exponential: free or a value, several allowed",
               one_each());
     group.add("--shortest", shortest_,
               "Leave times shorter than this multiple of their mean out of the fits; without it "
               "likelihood leaves out those below 2.5 memories of the picker, which joins events "
-              "that are closer, and below 0.05 of the mean (ours), and least-squares none (as in "
+              "that are closer, and below 0.05 of the mean †, and least-squares none (as in "
               "the paper). By likelihood gamma <= 0 needs a value above 0",
               shown(""), zero_or_more());
     group.add("--replicas", settings_.replicas,
@@ -61,7 +61,7 @@ class Intervals : public Statistic {
               shown("200"), zero_or_more());
     group.add("--steady", settings_.steady,
               "Largest departure of the cumulative number of events from a straight line, over "
-              "their number, of periods proposed as steady (ours)",
+              "their number, of periods proposed as steady †",
               between(0.0, 1.0));
     group.add("--steady-events", settings_.steady_events, "Fewest events of such a period",
               positive());

@@ -18,7 +18,7 @@ class Magnitudes : public Statistic {
   const char *help() const override {
     return "Frequencies of magnitudes, b-value with its error (Aki 1965; in bins Tinti and "
            "Mulargia 1987; error Shi and Bolt 1982), b-positive (van der Elst 2021) and "
-           "completeness by maximum curvature. All ours: the paper has sizes only. Magnitudes are "
+           "completeness by maximum curvature. † The paper has sizes only. Magnitudes are "
            "a convention, M = slope log10(size) + constant, unless the model has SI units "
            "(--unit-length, --p-speed, --density); a power law of sizes with exponent a gives b = "
            "(a - 1) / slope";
@@ -26,7 +26,7 @@ class Magnitudes : public Statistic {
 
   void add_options(CLI::App *command) override {
     add_usual(command, "magnitudes");
-    OptionGroup group(command, "Magnitudes (ours)");
+    OptionGroup group(command, "Magnitudes †");
     magnitudes_.add_to(group);
     group.add(
         "--complete-from", complete_,

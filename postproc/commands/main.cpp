@@ -25,18 +25,8 @@ const char *const description =
     "Analysis of event catalogues and potential energy (PE) series of the lattice solid fault and\n"
     "of the block-slider, after Weatherley and Abe (2004), 'the paper'. All quantities are in "
     "model\n"
-    "units. 'postproc COMMAND --help' lists the options of a command.";
-
-const char *const footer =
-    "From the paper: the event picker's formula and lambda = 0.99 (Sect. 4.1), the figures 7 to "
-    "15,\n"
-    "the threshold 1e-4 of Figs. 12 and 13, the form of the generalised gamma density and Table "
-    "1.\n"
-    "Ours: the readings 'exponential' and 'average' of the picker, maximum likelihood fits with\n"
-    "their errors and tests, magnitudes, b-values, aftershocks, spectra, bin factors. The help "
-    "of each\n"
-    "command says so where it matters.\n"
-    "Exit status: 0, or 1 after one line on standard error that begins with 'postproc:'.";
+    "units. 'postproc COMMAND --help' lists the options of a command. †: not in the paper, "
+    "chosen here.";
 
 int fail(std::string what) {
   std::replace(what.begin(), what.end(), '\n', ' ');
@@ -102,7 +92,6 @@ int main(int argc, char **argv) {
   try {
     CLI::App app(description, "postproc");
     app.set_version_flag("--version", "postproc " POSTPROC_VERSION);
-    app.footer(footer);
     app.require_subcommand(1);
     app.option_defaults()->always_capture_default();
     app.get_formatter()->column_width(34);
@@ -112,6 +101,8 @@ int main(int argc, char **argv) {
       command->add_all_options(sub);
       sub->callback([command = command] { command->run(); });
     }
+    app.footer(
+        "Exit status: 0, or 1 after one line on standard error that begins with 'postproc:'.");
     if (argc > 1 && argv[1][0] != '-' &&
         std::none_of(commands.begin(), commands.end(),
                      [argv](const auto &command) { return command.first == argv[1]; }))

@@ -30,7 +30,7 @@ class Match : public Statistic {
   const char *help() const override {
     return "How many events of the first catalogue are found in each of the others, with about "
            "the same start and size, each counted once; and how many are found by chance, with "
-           "the first catalogue shifted in time (ours)";
+           "the first catalogue shifted in time †";
   }
 
   void add_options(CLI::App *command) override {

@@ -20,12 +20,12 @@ class Nature : public Statistic {
            "inter-event times, over their mean, to those of earthquakes, with sizes, clustering "
            "and the events around large ones. The first catalogue is that of the earthquakes. "
            "Catalogues of the same --label are samples of one model, whose scatter gives the "
-           "errors (ours)";
+           "errors †";
   }
 
   void add_options(CLI::App *command) override {
     add_usual(command, "nature");
-    OptionGroup group(command, "Comparison (ours)");
+    OptionGroup group(command, "Comparison †");
     add_thresholds(group, settings_.thresholds, "the models' events");
     group.add("--reference", settings_.reference,
               "Smallest size of the earthquakes, such as M2.5; several allowed, and models are "

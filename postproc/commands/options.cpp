@@ -156,7 +156,7 @@ void add_wave_speeds(OptionGroup group, double &p_speed, double &s_speed) {
             "in packings of create_lsm_fault)",
             positive());
   group.add("--s-speed", s_speed,
-            "Speed of S-waves (ours: that of P-waves over the root of 3, as in the regular "
+            "Speed of S-waves † (that of P-waves over the root of 3, as in the regular "
             "lattice; 1.0 to 1.1 in packings)",
             positive());
 }

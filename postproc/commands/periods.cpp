@@ -27,12 +27,12 @@ class Periods : public Statistic {
   const char *help() const override {
     return "Does a fault repeat itself? Periods in the times of events, weighted with their sizes: "
            "Rayleigh's Z (1 on average by chance) at given periods of the slip of the plates and "
-           "at all between two, and whether catalogues release energy at equal times (ours)";
+           "at all between two, and whether catalogues release energy at equal times †";
   }
 
   void add_options(CLI::App *command) override {
     add_usual(command, "periods");
-    OptionGroup group(command, "Periods (ours)");
+    OptionGroup group(command, "Periods †");
     group.call(
         "--threshold", [this](double size) { threshold_ = Threshold(size); },
         "Smallest size of the events (model energy; M2.5: magnitude 2.5)", size_or_magnitude(),

@@ -64,7 +64,7 @@ class Pick : public Analysis {
     samples_.add_to(group, false);
     json.add_to(command);
     group.add("--warmup", warmup_,
-              "Leave out events that start before this time (model time; ours; default: as in the "
+              "Leave out events that start before this time (model time) † (default: as in the "
               "header of the series, or 0)");
     add_picker_options(command, picker_);
   }

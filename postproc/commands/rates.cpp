@@ -13,12 +13,12 @@ class Rates : public Statistic {
   double bin_ = 0.0;
 
   const char *help() const override {
-    return "Rate of events and of the energy or seismic moment that they release, over time (ours)";
+    return "Rate of events and of the energy or seismic moment that they release, over time †";
   }
 
   void add_options(CLI::App *command) override {
     add_usual(command, "rates");
-    OptionGroup group(command, "Rates (ours)");
+    OptionGroup group(command, "Rates †");
     group.add("--bin", bin_,
               "Width of the bins (model time; seconds with --unit-length); 0: a hundredth of the "
               "longest catalogue",

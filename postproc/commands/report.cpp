@@ -45,8 +45,8 @@ class Report : public Command {
 
   const char *help() const override {
     return "One self-contained HTML page on a set of catalogues: parameters, counts, figures "
-           "(SVG), fits, finite-size scaling, Table 1, and what of it is the paper's and what is "
-           "ours";
+           "(SVG), fits, finite-size scaling, Table 1, and what of it is "
+           "not in the paper";
   }
 
   void add_options(CLI::App *command) override {
@@ -67,7 +67,7 @@ class Report : public Command {
     add_block(group, block_);
     add_seed(group, report_.seed);
     group.add("--series", series_,
-              "PE series whose regime, stick-slip or creep, the page states (ours), several "
+              "PE series whose regime, stick-slip or creep, the page states †, several "
               "allowed; --from, --to and --lenient apply to them as well",
               kind("FILE"), shown(""), one_each());
   }

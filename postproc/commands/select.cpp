@@ -33,7 +33,7 @@ class Select : public CatalogueAnalysis {
 
   const char *help() const override {
     return "Writes the events of a model's catalogue that --from, --to and --min-size select as "
-           "a catalogue: numbers and columns unchanged, and the selection in the header (ours)";
+           "a catalogue: numbers and columns unchanged, and the selection in the header †";
   }
 
   void add_options(CLI::App *command) override {

@@ -60,12 +60,12 @@ class Series : public Analysis {
     json.add_to(command);
     group.add("--title", title_, "Title of the picture", shown("number of events and times"));
     group.add("--columns", columns_,
-              "Columns of the picture (ours). More than twice as many samples are thinned to the "
+              "Columns of the picture †. More than twice as many samples are thinned to the "
               "smallest and largest value in each column, of which there are up to twice as many",
               between(std::int64_t{10}, std::int64_t{1000000}));
     group.add("--window", window_,
               "Time over which the rise and the fall of PE are measured for the saw-tooth "
-              "number, which distinguishes stick-slip from creep (model time, ours)",
+              "number, which distinguishes stick-slip from creep (model time) †",
               positive());
     group.add("--export", text_,
               "Writes the samples of the window as text, too: columns step, time and pe with 17 "

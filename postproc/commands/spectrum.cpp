@@ -61,12 +61,12 @@ class Spectrum : public Analysis {
 
   const char *help() const override {
     return "Power spectral density of PE series by Welch's method: one-sided, the integral over "
-           "frequency is the variance (ours; the paper shows no spectra). An incomplete last "
+           "frequency is the variance † (the paper shows no spectra). An incomplete last "
            "segment is left out";
   }
 
   void add_options(CLI::App *command) override {
-    OptionGroup own(command), group(command, "Spectrum (ours)");
+    OptionGroup own(command), group(command, "Spectrum †");
     own.add("series", series_, "PE series, one curve each, without missing samples", required());
     own.add("--label", labels_,
             "Name of a curve, once per series and in their order (default: file name)");

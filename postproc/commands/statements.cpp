@@ -61,7 +61,7 @@ class Statements : public CatalogueAnalysis {
            "velocities falls all the way, ruptures that reach no neighbour, slip and PE while no "
            "event is open, form of the roll-off, events and times against its steps and Table 1, "
            "and whether catalogues have the same inter-event times. The statements are printed; "
-           "numbers, errors and criteria are ours";
+           "numbers, errors and criteria are not (†)";
   }
 
   void add_options(CLI::App *command) override {

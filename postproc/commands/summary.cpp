@@ -43,7 +43,7 @@ class Summary : public CatalogueAnalysis {
 
   const char *help() const override {
     return "One row of numbers for each catalogue: events, exponents, inter-event times above "
-           "several sizes, as CSV (ours; for studies)";
+           "several sizes, as CSV † (for studies)";
   }
 
   void add_options(CLI::App *command) override {
@@ -68,7 +68,7 @@ class Summary : public CatalogueAnalysis {
               "as postproc intervals",
               shown(""), zero_or_more());
     group.add("--method", method_,
-              "How gamma, B and C are fitted: likelihood (ours), or least-squares on the density "
+              "How gamma, B and C are fitted: likelihood †, or least-squares on the density "
               "(as in the paper)",
               among({"likelihood", "least-squares"}));
   }

@@ -18,14 +18,14 @@ class Units : public CatalogueAnalysis {
 
   const char *help() const override {
     return "What the units of the lattice solid fault are in SI for a length, a speed of P-waves "
-           "and a density of your choice, and what the faults of catalogues are then (ours; the "
+           "and a density of your choice, and what the faults of catalogues are then † (the "
            "paper has model units only). magnitudes, rates and export take the same options";
   }
 
   void add_options(CLI::App *command) override {
     catalogues.add_to(command);
     json.add_to(command);
-    units_.add_to(OptionGroup(command, "SI units (ours)"));
+    units_.add_to(OptionGroup(command, "SI units †"));
   }
 
   static Table units_table(const ModelUnits &units) {

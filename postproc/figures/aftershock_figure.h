@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file aftershock_figure.h
-/// Rates of events after main shocks as table and picture (ours).
+/// Rates of events after main shocks as table and picture †.
 #ifndef LSM_POSTPROC_AFTERSHOCK_FIGURE_H
 #define LSM_POSTPROC_AFTERSHOCK_FIGURE_H
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file magnitude_figure.h
-/// Frequencies of magnitudes and b-values as table and picture (ours).
+/// Frequencies of magnitudes and b-values as table and picture †.
 #ifndef LSM_POSTPROC_MAGNITUDE_FIGURE_H
 #define LSM_POSTPROC_MAGNITUDE_FIGURE_H
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file rate_figure.h
-/// Rates of events and of what they release over time (ours).
+/// Rates of events and of what they release over time †.
 #ifndef LSM_POSTPROC_RATE_FIGURE_H
 #define LSM_POSTPROC_RATE_FIGURE_H
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file rupture_figures.h
-/// Pictures of the ruptures of a fault, and of its slip in space and time (all ours).
+/// Pictures of the ruptures of a fault, and of its slip in space and time †.
 #ifndef LSM_POSTPROC_RUPTURE_FIGURES_H
 #define LSM_POSTPROC_RUPTURE_FIGURES_H
 

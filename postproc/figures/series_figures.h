@@ -44,7 +44,7 @@ struct SpectrumCurve {
   double averages = 0.0;  ///< independent segments with the same scatter
 };
 
-/// Power spectra (ours). \throws std::runtime_error if all densities are 0
+/// Power spectra †. \throws std::runtime_error if all densities are 0
 Figure spectrum_figure(const std::vector<SpectrumCurve> &curves);
 
 }  // namespace LSM::postproc

@@ -104,7 +104,7 @@ std::string name_of(const PowerLawFit &fit) {
                      short_number(fit.hi, 6));
 }
 
-/// Which law a comparison favours; p below 0.05 decides (ours).
+/// Which law a comparison favours; p below 0.05 decides †.
 const char *favoured(const Comparison &comparison) {
   if (comparison.degenerate || comparison.rival.empty()) return "";
   if (!(comparison.p < 0.05)) return "undecided";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file aftershocks.h
 /// Do large events have aftershocks? Times of events after main shocks, stacked, and the Omori-Utsu
-/// law fitted to them. The paper does not ask; all of this is ours for these models.
+/// law fitted to them. The paper does not ask (†).
 ///
 /// Sources: Utsu 1961, Geophys. Mag. 30, 521 (n(t) = K (t + c)^-p); Ogata 1983, J. Phys. Earth 31,
 /// 115 (maximum likelihood, errors from the information matrix); Utsu, Ogata & Matsu'ura 1995,

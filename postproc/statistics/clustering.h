@@ -5,7 +5,7 @@
 ///
 /// Sources: Goh & Barabasi 2008, EPL 81, 48002 (burstiness, memory coefficient); Kim & Jo 2016,
 /// Phys. Rev. E 94, 032311 (burstiness of a finite number of times); Livina et al. 2005, Phys. Rev.
-/// Lett. 95, 208501 (times after short and long ones). Stretches and the test of the rate are ours.
+/// Lett. 95, 208501 (times after short and long ones). Stretches and the test of the rate: †.
 #ifndef LSM_POSTPROC_CLUSTERING_H
 #define LSM_POSTPROC_CLUSTERING_H
 

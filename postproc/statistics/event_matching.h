@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file event_matching.h
 /// Do the same events happen in two catalogues, of the same fault under two settings for example?
-/// The paper does not ask; all of this is ours.
+/// The paper does not ask (†).
 #ifndef LSM_POSTPROC_EVENT_MATCHING_H
 #define LSM_POSTPROC_EVENT_MATCHING_H
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file finite_size.h
 /// Does the roll-off of the event sizes move with the length of the fault? The paper (Sect. 4.2)
-/// suspects a finite-size effect and leaves the question open; this test is ours.
+/// suspects a finite-size effect and leaves the question open; this test is †.
 #ifndef LSM_POSTPROC_FINITE_SIZE_H
 #define LSM_POSTPROC_FINITE_SIZE_H
 
@@ -95,7 +95,7 @@ struct ScalingFit {
   int points = 0;
   Saturation saturation;
   /// The same with bends from round (m = 1) to sharp (m = 16), `saturation` among them: what the
-  /// form, which is ours, adds to the errors of L_c, s_inf and D.
+  /// form † adds to the errors of L_c, s_inf and D.
   std::vector<Saturation> bends;
   /// Saturates where its AICc is lower than both others by more than 2. Else the one of power law
   /// and constant whose AICc is lower by more than 2; the constant only where D = 0 lies within the

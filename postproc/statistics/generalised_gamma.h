@@ -33,7 +33,7 @@ struct GeneralisedGammaFit {
 };
 
 /// Weighted least squares on the logarithm of a log-binned density with C free, as the paper did
-/// (ours: weights count = 1 / Poisson variance of the logarithm, half a count taken off for the
+/// † (weights count = 1 / Poisson variance of the logarithm, half a count taken off for the
 /// bias of the logarithm, the model averaged over each bin). Standard errors are multiplied by
 /// sqrt(chi2 / dof) where that exceeds 1. Bins with few counts get in more often when they are too
 /// high, which leaves gamma too low by up to one standard error below about 1000 values: prefer

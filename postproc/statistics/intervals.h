@@ -44,7 +44,7 @@ struct IntervalSettings {
 /// least 19, so that p can be 0.05), as the random numbers of longer series scatter less.
 int shuffles_for(std::size_t times);
 
-/// The shortest time that says something about the fault (ours). A picker with a memory joins
+/// The shortest time that says something about the fault †. A picker with a memory joins
 /// events closer than that: with times of any gamma from 0.7 to 1 and a dead time of one memory,
 /// those above 2.5 memories give gamma back, all times give 0.1 to 0.4 too much (a test has them).
 /// Below 0.05 of the mean lie the times within sequences, where catalogues of earthquakes miss

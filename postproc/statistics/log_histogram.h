@@ -20,7 +20,7 @@ struct LogBin {
   double error;        ///< Poisson error of density: sqrt(count) / (N (hi - lo)); 0 if empty
 };
 
-/// Ratio of the edges of a bin: ten bins a decade (ours: the paper does not give its c).
+/// Ratio of the edges of a bin: ten bins a decade † (the paper does not give its c).
 constexpr double usual_bin_factor = 1.2589254117941673;
 
 /// Bins of the positive finite values whose lower edge is at or above threshold (to 1e-9 relative,

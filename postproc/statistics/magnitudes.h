@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file magnitudes.h
-/// Magnitudes of the models' events (ours; neither the paper nor the models know any), and the
+/// Magnitudes of the models' events † (neither the paper nor the models know any), and the
 /// statistics of them that seismologists use: b-value, its error, magnitude of completeness.
 ///
 /// Sources: Aki 1965, Bull. Earthq. Res. Inst. 43, 237 (b by maximum likelihood); Tinti & Mulargia

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file nature.h
-/// Catalogues of models ranked by their distance to one of earthquakes (ours).
+/// Catalogues of models ranked by their distance to one of earthquakes †.
 #ifndef LSM_POSTPROC_NATURE_H
 #define LSM_POSTPROC_NATURE_H
 

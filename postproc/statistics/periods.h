@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file periods.h
 /// Does a fault repeat itself? Periods in the times of events, with their energy as weights, and
-/// energy released at equal times in two catalogues (ours). A period in the slip of the plates is
+/// energy released at equal times in two catalogues †. A period in the slip of the plates is
 /// one of the fault's own geometry: it goes when that is random.
 ///
 /// Source: Rayleigh's test of directions, as in Mardia & Jupp 2000, Directional Statistics, Wiley.

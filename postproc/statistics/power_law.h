@@ -4,7 +4,7 @@
 /// hi is finite (Deluca & Corral 2013), alpha > 1 if hi is infinite (Clauset, Shalizi & Newman
 /// 2009). All functions take the sample in ascending order; values outside [lo, hi] are not used.
 /// The paper (Sect. 4.2) fitted its exponents to binned densities by an unstated method; maximum
-/// likelihood is ours.
+/// likelihood is †.
 ///
 /// Sources: Clauset, Shalizi & Newman 2009, SIAM Review 51, 661 (range by Kolmogorov-Smirnov
 /// distance, Monte Carlo p-value, likelihood ratios); Deluca & Corral 2013, Acta Geophysica 61,
@@ -42,7 +42,7 @@ PowerLawFit fit_power_law(const std::vector<double> &sorted, double lo,
                           double hi = std::numeric_limits<double>::infinity());
 
 /// The range whose fit has the smallest Kolmogorov-Smirnov distance, of those that hold at least 50
-/// events over a ratio of 10: over all pairs of candidates (ours, after Deluca & Corral; Clauset et
+/// events over a ratio of 10: over all pairs of candidates † (after Deluca & Corral; Clauset et
 /// al. search the lower cut). These are 60, evenly spaced in log x between the extremes of the
 /// sample (instead of every value, which costs the square of n). The standard error does not
 /// include the choice of range. \param least smaller values are left out; 0 or less: those above 0

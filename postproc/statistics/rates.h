@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file rates.h
-/// Rates of events, and of the energy or moment that they release, in intervals of time (ours).
+/// Rates of events, and of the energy or moment that they release, in intervals of time †.
 #ifndef LSM_POSTPROC_RATES_H
 #define LSM_POSTPROC_RATES_H
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file regime.h
-/// Does a fault stick and slip, or creep? Numbers of a PE series (ours; the paper shows its Fig. 8
+/// Does a fault stick and slip, or creep? Numbers of a PE series † (the paper shows its Fig. 8
 /// only: PE rises steadily while the fault is locked and drops at once in an event).
 #ifndef LSM_POSTPROC_REGIME_H
 #define LSM_POSTPROC_REGIME_H
@@ -29,11 +29,11 @@ struct Regime {
   double above = 0.0;           ///< saw-tooth numbers above this are stick-slip, for this length
 };
 
-/// Default window (ours): long beside the periods of single discs (about 1), short beside large
+/// Default window †: long beside the periods of single discs (about 1), short beside large
 /// events (10 and more).
 constexpr double regime_window = 3.0;
 
-/// Saw-tooth numbers above this are called stick-slip (ours): 3 up to length 120, chosen from the
+/// Saw-tooth numbers above this are called stick-slip †: 3 up to length 120, chosen from the
 /// regime map of the fault. PE of a longer fault sums over more parts that slip on their own, n =
 /// length / 120 of them: the number falls about as 1/sqrt(n), to 1 as for a creeping one, and so
 /// does the limit, 1 + 2/sqrt(n). \param length of the fault, NaN if not known (then 3)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file ruptures.h
-/// Ruptures of a fault (all ours): their numbers by length and moment, and relations of moment,
+/// Ruptures of a fault †: their numbers by length and moment, and relations of moment,
 /// length and drop of PE.
 #ifndef LSM_POSTPROC_RUPTURES_H
 #define LSM_POSTPROC_RUPTURES_H

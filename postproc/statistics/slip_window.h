@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file slip_window.h
-/// The part of a slip history in a window of time, with the outlines of the ruptures in it (ours).
+/// The part of a slip history in a window of time, with the outlines of the ruptures in it †.
 #ifndef LSM_POSTPROC_SLIP_WINDOW_H
 #define LSM_POSTPROC_SLIP_WINDOW_H
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file statements.h
-/// What the paper says in words, as numbers with errors (ours: it prints no number for these).
+/// What the paper says in words, as numbers with errors † (it prints no number for these).
 /// Events and slip come in clusters, so that errors are those of a jackknife over equal parts of
 /// the time, not of counts.
 #ifndef LSM_POSTPROC_STATEMENTS_H

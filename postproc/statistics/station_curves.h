@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file station_curves.h
 /// Slip and slip rate at places of a fault, and how far two records of one rupture are apart
-/// (ours).
+/// †.
 #ifndef LSM_STATISTICS_STATION_CURVES_H
 #define LSM_STATISTICS_STATION_CURVES_H
 

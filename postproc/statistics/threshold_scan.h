@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file threshold_scan.h
-/// Exponents and inter-event times of one catalogue over many smallest sizes (ours: the paper has
+/// Exponents and inter-event times of one catalogue over many smallest sizes † (the paper has
 /// one). Each entry is what `postproc fit` and `postproc intervals` find for that threshold.
 #ifndef LSM_POSTPROC_THRESHOLD_SCAN_H
 #define LSM_POSTPROC_THRESHOLD_SCAN_H

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file units.h
-/// SI units of the lattice solid fault (ours): the paper has model units only. Length, speed of
+/// SI units of the lattice solid fault †: the paper has model units only. Length, speed of
 /// P-waves and density of a rock give those of length, time and mass; everything else follows.
 #ifndef LSM_POSTPROC_UNITS_H
 #define LSM_POSTPROC_UNITS_H

@@ -687,7 +687,8 @@ def test_bad_options(do, no):
 
 @pytest.mark.parametrize("command", "pick histograms intervals fit series spectrum magnitudes aftershocks export report explore".split())
 def test_bad_files(do, no, command):
-    assert "--output" in do(command, "--help").out
+    said = do(command, "--help").out
+    assert "--output" in said and "Exit status" not in said
     of_series = command in ("pick", "series", "spectrum")
     Path("empty.csv").touch()
     Path("version.csv").write_text("lsm-pe-series-2\n" if of_series else "# lsm-catalogue 2\n")

@@ -19,8 +19,8 @@ namespace LSM {
 /// Readings of the paper's formula for the average change of PE, called A here;
 /// x = PE(t+1) - PE(t).
 enum class PickerReading {
-  exponential,  ///< A <- lambda A + (1 - lambda) x (default; ours), memory 1/(1 - lambda) samples
-  average,      ///< A <- (x + lambda A) / (1 + lambda) (ours), memory of about two samples
+  exponential,  ///< A <- lambda A + (1 - lambda) x (default) †, memory 1/(1 - lambda) samples
+  average,      ///< A <- (x + lambda A) / (1 + lambda) †, memory of about two samples
   literal       ///< A <- (x + lambda A) / (1 + lambda t), t = index of the change, from 0 (paper)
 };
 
@@ -33,12 +33,12 @@ constexpr std::array<Named<PickerReading>, 3> names_of(PickerReading) {
 struct PickerSettings {
   PickerReading reading = PickerReading::exponential;
   double lambda = 0.99;           ///< leakiness per sample, 0 <= lambda < 1 (paper: 0.99)
-  double min_size = 0.0;          ///< positive sizes below this are counted, not reported (ours)
-  bool keep_nonpositive = false;  ///< report events of size <= 0 too, whatever min_size is (ours)
+  double min_size = 0.0;          ///< positive sizes below this are counted, not reported †
+  bool keep_nonpositive = false;  ///< report events of size <= 0 too, whatever min_size is †
 };
 
 /// Leakiness that gives the exponential reading the memory memory_time, whatever the sampling
-/// interval dt (same units): exp(-dt/memory_time) (ours).
+/// interval dt (same units): exp(-dt/memory_time) †.
 /// \throws std::invalid_argument unless both are positive and finite.
 inline double lambda_from_memory_time(double memory_time, double dt) {
   if (!std::isfinite(memory_time) || !(memory_time > 0.0))

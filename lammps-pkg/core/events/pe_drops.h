@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file pe_drops.h
 /// Events as drops of the potential energy (PE) of the whole model (the paper's), with the places
-/// of their slip (ours).
+/// of their slip †.
 #ifndef LSM_PE_DROPS_H
 #define LSM_PE_DROPS_H
 

@@ -33,10 +33,9 @@ struct PackingSettings {
   int max_failures = 5000;   ///< a stretch of a block is full after so many failures in a row
   double tolerance = 1e-8;   ///< accepted overlap of two discs, relative to the sum of the radii
   double link_gap = 1e-5;    ///< discs (and lines) closer than this count as tangent
-  double fault_zone = 0.25;  ///< ours: discs with a surface so close to the fault line are flagged
-  bool remove_loose =
-      true;             ///< ours: take out discs that their links do not hold, see Packing::loose
-  bool mirror = false;  ///< ours: the upper block is the mirror image of the lower one
+  double fault_zone = 0.25;  ///< † discs with a surface so close to the fault line are flagged
+  bool remove_loose = true;  ///< † take out discs that their links do not hold, see Packing::loose
+  bool mirror = false;       ///< † the upper block is the mirror image of the lower one
 };
 
 /// One disc. Centre in [0, length) x (0, width).
@@ -48,7 +47,7 @@ struct Disc {
 };
 
 /// Links that a disc needs to be held. Two links hold a disc that does not rotate only while it is
-/// pushed into the wedge between them (ours, measured: such discs oscillate and hop, see
+/// pushed into the wedge between them † (measured: such discs oscillate and hop, see
 /// doc/create_lsm_fault.rst).
 constexpr int HELD_LINKS = 3;
 
@@ -671,9 +670,9 @@ inline void measure(const PackingSettings &s, Packing &result) {
 /// (3) a random point, the three objects nearest to it (discs by surface distance, the two lines of
 /// the block), the circle tangent to all three, kept if its radius is in [rmin, rmax], it lies
 /// inside the block and it overlaps nothing, until none fits. For (1) and (3) the block is cut into
-/// tiles along x (about 15 rmax long, ours), and each tile is full when max_failures consecutive
-/// tries in it failed. The cost is linear in the length. Finally (4, ours) discs that their links
-/// do not hold are removed: see Packing::loose. With mirror (ours) only the lower block is packed,
+/// tiles along x (about 15 rmax long) †, and each tile is full when max_failures consecutive
+/// tries in it failed. The cost is linear in the length. Finally (4) † discs that their links
+/// do not hold are removed: see Packing::loose. With mirror † only the lower block is packed,
 /// and each of its discs at the fault line faces one of the same radius at the same x.
 ///
 /// The result depends on the settings and the floating-point arithmetic of the platform only.

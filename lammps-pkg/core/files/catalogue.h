@@ -13,7 +13,7 @@
 /// sizes in model energy, 17 significant digits. Events are in order of time and do not overlap;
 /// identifiers increase. Events of another kind than drops of PE, named by the parameter `events`,
 /// may overlap in time and are in order of their ends. The parameter `completeness` is a size:
-/// smaller events may depend on the time step. (The format is ours.)
+/// smaller events may depend on the time step.
 #ifndef LSM_CATALOGUE_H
 #define LSM_CATALOGUE_H
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file files/pe_series.h
 /// Time series of the total elastic potential energy (PE), Sect. 4.1 of Weatherley and Abe (2004).
-/// The format is ours. PE is kept in double precision: the sign of its change per step matters at
+/// PE is kept in double precision: the sign of its change per step matters at
 /// 1e-9 of its value.
 ///
 /// Binary: 16 bytes "lsm-pe-series-1\n", int64 length of the header, the header (lines

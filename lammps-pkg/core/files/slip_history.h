@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file files/slip_history.h
-/// Slip of a fault in space and time, for pictures and for finding its ruptures again (ours): the
+/// Slip of a fault in space and time, for pictures and for finding its ruptures again †: the
 /// bins of events/fault_grid.h, interval by interval while anything slips; quiet intervals are
 /// merged.
 ///

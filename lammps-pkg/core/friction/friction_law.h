@@ -2,7 +2,7 @@
 /// \file friction_law.h
 /// What a friction law is. The strength that the block-slider shares with a law is a template: of
 /// numbers, or of vectors of the machine; always inlined, as functions with other instruction sets
-/// pass those differently. Every law acts through a tangential spring of stiffness kt (ours): in
+/// pass those differently. Every law acts through a tangential spring of stiffness kt †: in
 /// each step it says how far the spring stays stretched, and the rest of the displacement is slip.
 /// README.md of the package: how to add one.
 #ifndef LSM_FRICTION_LAW_H

@@ -31,7 +31,7 @@ struct RateState : FrictionLaw {
   static constexpr bool needs_time = true;
   static constexpr int state_size = 1;  // theta
 
-  /// Without a theta the contact begins as after long sliding at v0 (ours).
+  /// Without a theta the contact begins as after long sliding at v0 †.
   static void begin(const Coefficients &c, double *theta) {
     *theta = c.theta > 0.0 ? c.theta : c.dc / c.v0;
   }
