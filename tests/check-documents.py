@@ -91,8 +91,7 @@ def variable_table(root):
     rows, defaults, cases, name_of_restart = [], {}, [], {"-": "run", "noted": "run", "free": "settings", "fixed": "fault"}
     for line in (root / "inputs/fault.variables").read_text().splitlines():
         if match := re.match(r"when (.*) : (.*)", line):
-            cases += [(name, " and ".join(f"`{given.strip()}`" for given in match[1].split(",")), value)
-                      for name, value in (pair.split(None, 1) for pair in match[2].split(", "))]
+            cases += [(name, f"`{match[1]}`", value) for name, value in (pair.split(None, 1) for pair in match[2].split(", "))]
         elif line.count("|") == 6:
             name, default, _, restart, _, unit, meaning = (cell.strip() for cell in line.split("|"))
             template = re.fullmatch(r"\$\((.*):%\.0f\)", default)

@@ -548,7 +548,8 @@ struct LongRun {
 
 void start(LongRun &w) {
   const Variables variables = {{"length", text(length)},
-                               {"choices", "first"},
+                               {"memory", text(memory)},
+                               {"massstep", "0"},
                                {"prefix", w.prefix()},
                                {"loose", w.loose},
                                {"dt", text(w.dt)},
@@ -918,7 +919,6 @@ void leaps() {
     const std::string name = w.name();
     w.seconds = run(inputs + "/fault.in",
                     {{"length", text(length)},
-                     {"choices", "first"},
                      {"prefix", name},
                      {"velocity", text(w.velocity)},
                      {"leap", w.fast > 0.0 ? "yes" : "no"},

@@ -192,7 +192,7 @@ if wanted parts; then
       ours parts "everything" "$length" "$ranks" "$round"
       for part in events plates integration contacts links; do
         case $part in
-          contacts) without+=(-var contacts none) ;;
+          contacts) without+=(-var pairs none) ;;
           integration) without+=(-var move no) ;;
           *) without+=(-var $part no) ;;
         esac
@@ -204,7 +204,7 @@ fi
 
 if wanted features; then
   scene "$length"
-  scene "$length" -var within yes
+  scene "$length" -var contacts all
   # Each takes turns with the base.
   feature() {
     local label=$1
@@ -221,15 +221,15 @@ if wanted features; then
     feature "location of events" -var location yes
     feature "energy ledger" -var ledger yes
     feature "ranks sum PE every step" -var block 1
-    feature "no friction (lsm/free)" -var contacts lsm/free
+    feature "no friction (lsm/free)" -var pairs lsm/free
     # A fault of its own, as discs that overlap would fly apart.
     ours features "base of contacts of all discs" "$length" "$most" "$round"
-    fault=fault_${length}_all ours features "contacts of all discs" "$length" "$most" "$round" -var within yes
+    fault=fault_${length}_all ours features "contacts of all discs" "$length" "$most" "$round" -var contacts all
     feature "static friction above dynamic" -var mus 0.7
-    feature "slip weakening" -var otherlaw yes -var law slip-weakening -var friction "mu 0.5 mu_static 0.6 dc 0.002 heal 5"
-    feature "velocity weakening" -var otherlaw yes -var law velocity-weakening -var friction "mu 0.6 vc 0.02"
-    feature "rate and state (ageing)" -var otherlaw yes -var law rate-state-ageing -var friction "mu 0.6 a 0.01 b 0.015 dc 0.001 v0 0.0005"
-    feature "rate and state (slip)" -var otherlaw yes -var law rate-state-slip -var friction "mu 0.6 a 0.01 b 0.015 dc 0.001 v0 0.0005"
+    feature "slip weakening" -var otherlaw yes -var law "slip-weakening mu 0.5 mu_static 0.6 dc 0.002 heal 5"
+    feature "velocity weakening" -var otherlaw yes -var law "velocity-weakening mu 0.6 vc 0.02"
+    feature "rate and state (ageing)" -var otherlaw yes -var law "rate-state-ageing mu 0.6 a 0.01 b 0.015 dc 0.001 v0 0.0005"
+    feature "rate and state (slip)" -var otherlaw yes -var law "rate-state-slip mu 0.6 a 0.01 b 0.015 dc 0.001 v0 0.0005"
     feature "links that can break" -var ratio 1.5
     feature "dashpots of links and contacts" -var delay 0.02
     feature "no viscosity" -var viscosity 0
@@ -290,7 +290,7 @@ slice() {
 if wanted causes && [ -n "$runs" ]; then
   size=$cause_length
   scene "$size"
-  scene "$size" -var within yes
+  scene "$size" -var contacts all
   if ! [ "before_$size/fault.restart.end.info" -nt "$lmp" ]; then
     say "making the default fault of length $size, before the shear"
     rm -rf "before_$size"
@@ -324,7 +324,7 @@ END
   for ((round = 1; round <= few; ++round)); do
     say "causes, round $round of $few"
     ours causes "scene of the comparisons" "$size" 1 "$round"
-    fault=fault_${size}_all ours causes "with contacts of all discs" "$size" 1 "$round" -var within yes
+    fault=fault_${size}_all ours causes "with contacts of all discs" "$size" 1 "$round" -var contacts all
     slice causes "default scene before the shear" "before_$size" 1 "$round"
     run=$runs/fault_${size}_1
     slice causes "in shear as in the campaign" "$run" 1 "$round"

@@ -790,14 +790,14 @@ def test_formats_through_a_pipe(do, kind):
 
 def test_nature(do, no):
     """The rank of models; a catalogue is no way off from itself."""
-    fault, other = PUBLISHED / "fault_120.catalogue.csv.xz", PUBLISHED / "fault_120_seed_2.catalogue.csv.xz"
-    piped(do, "count", f"xzcat {fault}")
+    chain, other = PUBLISHED / "slider_ours_256_seed_1.catalogue.csv.xz", PUBLISHED / "slider_ours_256_seed_2.catalogue.csv.xz"
+    piped(do, "count", f"xzcat {chain}")
     time = "--from 1984-01-01 --to 1986-07-02T12:00"
-    do("nature", CALIFORNIA, fault, other, CALIFORNIA, "--label nature --label fault --label fault --label again", time,
-       "--from 4200 --reference M2 --reference M2.5 --threshold 1e-2 --replicas 20 --no-picture -o beside")
+    do("nature", CALIFORNIA, chain, other, CALIFORNIA, "--label nature --label chain --label chain --label again", time,
+       "--from 12000 --reference M2 --reference M2.5 --threshold 1 --replicas 20 --no-picture -o beside")
     found = table("beside.table.csv")
     names = [list(row.values())[0] for row in found]
-    assert len(found) == 5 and names[:2] == ["nature", "again"] and names[4] == "fault"
+    assert len(found) == 5 and names[:2] == ["nature", "again"] and names[4] == "chain"
     assert found[0]["distance"] == "" and float(found[1]["distance"]) == 0 and float(found[2]["distance"]) < 0.05
     last = {key: float(found[4][key]) for key in ("catalogues", "distance", "distance_error")}
     assert last["catalogues"] == 2 and last["distance"] > 0.1 and 0 < last["distance_error"] < last["distance"]
@@ -813,8 +813,8 @@ def test_nature(do, no):
 
     for method in "maximum likelihood", "maximum likelihood, δ = 1 held":
         assert values("times.table1.csv", method, "southern-california") == values("beside.table1.csv", f"{method}, 1 catalogue", "nature")
-    no("fault_120.catalogue.csv.xz: catalogue of a model, expected one of earthquakes first", f"nature {fault} {CALIFORNIA} -o x")
-    no("is a date, but no catalogue is of earthquakes", f"intervals {fault} --from 1984-01-01 -o x")
+    no("slider_ours_256_seed_1.catalogue.csv.xz: catalogue of a model, expected one of earthquakes first", f"nature {chain} {CALIFORNIA} -o x")
+    no("is a date, but no catalogue is of earthquakes", f"intervals {chain} --from 1984-01-01 -o x")
     no("is a number, but all catalogues are of earthquakes, expected a date", f"intervals {CALIFORNIA} --from 1984 -o x")
     no("from 'monday': expected a model time, or for earthquakes a date", f"intervals {CALIFORNIA} --from monday -o x")
     no("expected W/E/S/N in degrees", f"intervals {CALIFORNIA} --region 1/2/3 -o x")

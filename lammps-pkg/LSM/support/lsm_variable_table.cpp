@@ -26,17 +26,14 @@ static std::vector<std::string> split(const std::string &text, char separator)
   return parts;
 }
 
-// "NAME VALUE, NAME VALUE"
-static std::vector<std::pair<std::string, std::string>> pairs_in(const std::string &text)
+// "NAME VALUE"
+static std::pair<std::string, std::string> name_and_value(const std::string &text)
 {
-  std::vector<std::pair<std::string, std::string>> pairs;
-  for (const std::string &part : split(text, ',')) {
-    const auto blank = part.find(' ');
-    if (blank == std::string::npos)
-      throw std::invalid_argument("expected a name and a value, but got '" + part + "'");
-    pairs.emplace_back(part.substr(0, blank), LSM::text_io::trim(part.substr(blank)));
-  }
-  return pairs;
+  const std::string part(LSM::text_io::trim(text));
+  const auto blank = part.find(' ');
+  if (blank == std::string::npos)
+    throw std::invalid_argument("expected a name and a value, but got '" + part + "'");
+  return {part.substr(0, blank), std::string(LSM::text_io::trim(part.substr(blank)))};
 }
 
 // Names of files and free text reach the words of commands, so that only what is listed is
@@ -92,7 +89,9 @@ LSMVariableTable::LSMVariableTable(const std::string &text, const std::string &f
     try {
       const auto colon = what.find(':'), replaces = what.find(" replaces ");
       if (what.compare(0, 5, "when ") == 0 && colon != std::string::npos) {
-        cases_.push_back({pairs_in(what.substr(5, colon - 5)), pairs_in(what.substr(colon + 1))});
+        const auto condition = name_and_value(what.substr(5, colon - 5));
+        for (const std::string &part : split(what.substr(colon + 1), ','))
+          cases_.push_back({condition, name_and_value(part)});
         continue;
       }
       const std::vector<std::string> cells = split(what, '|');
@@ -121,8 +120,8 @@ LSMVariableTable::LSMVariableTable(const std::string &text, const std::string &f
     if (!find(name)) throw std::invalid_argument(file + ": there is no variable " + name);
   };
   for (const Case &one : cases_) {
-    for (const auto &[name, value] : one.conditions) known(name);
-    for (const auto &[name, value] : one.defaults) known(name);
+    known(one.condition.first);
+    known(one.then.first);
   }
   for (const auto &[name, others] : replaced) {
     known(name);
@@ -142,11 +141,8 @@ const std::string &LSMVariableTable::default_of(const LSMSceneVariable &variable
 {
   const std::string *text = &variable.otherwise;
   for (const Case &one : cases_)
-    for (const auto &[name, value] : one.defaults)
-      if (name == variable.name &&
-          std::all_of(one.conditions.begin(), one.conditions.end(),
-                      [&](const auto &pair) { return lookup(pair.first) == pair.second; }))
-        text = &value;
+    if (one.then.first == variable.name && lookup(one.condition.first) == one.condition.second)
+      text = &one.then.second;
   return *text;
 }
 

@@ -47,9 +47,8 @@ class LSMVariableTable {
   static std::string filled(const std::string &text, const Lookup &lookup);
 
  private:
-  using Pairs = std::vector<std::pair<std::string, std::string>>;
   struct Case {
-    Pairs conditions, defaults;
+    std::pair<std::string, std::string> condition, then;    ///< variable and value
   };
   std::vector<Case> cases_;
 };
