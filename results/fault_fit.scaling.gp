@@ -43,12 +43,14 @@ set xtics ("100" 100, "200" 200, "500" 500, "1000" 1000, "2000" 2000, "5000" 500
 set xrange [100:5000]
 set ylabel "characteristic size s* (energy)"
 set logscale y
-set ytics ("0.1" 0.1, "0.2" 0.2, "0.5" 0.5, "1" 1, "2" 2)
-set yrange [0.10000000000000001:2]
+set ytics ("0.1" 0.1, "0.2" 0.2, "0.5" 0.5, "1" 1)
+set yrange [0.10000000000000001:1]
+row(k) = $1 == k ? $3 : NaN
 low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y
-plot table using ($1 == 1 ? $3 : NaN):(low($4,$5)):(0):($4+$5-low($4,$5)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \
-     table using ($1 == 1 ? $3 : NaN):4 with points lt 1 title "fault: s*", \
-     [102:2223.5294117647059] '+' using 1:(0.0035733454449573569*$1**(0.78630707390300725)) with lines lt 1 title "A L^D with D = 0.786 ± 0.024", \
-     [102:2223.5294117647059] '+' using 1:(0.36036724165036932) with lines lt 8 dt 2 title 'constant'
+set samples 400
+plot table using (row(1)):(low($4,$5)):(0):($4+$5-low($4,$5)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \
+     table using (row(1)):4 with points lt 1 title "fault: s*", \
+     [102:2223.5294117647059] '+' using 1:(0.092038172796747225*$1**(0.18836444597731675)) with lines lt 1 title "A L^D with D = 0.188 ± 0.046", \
+     [102:2223.5294117647059] '+' using 1:(0.28273164286140307) with lines lt 8 dt 2 title "constant"
 unset output
 }

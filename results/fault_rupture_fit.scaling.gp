@@ -39,18 +39,18 @@ set key outside bottom center horizontal samplen 3 spacing 1.15 maxcols 2 width 
 set output base.".".format
 set xlabel "length of the fault"
 set logscale x
-set format x "10^{%L}"
-set xtics 10
-set mxtics 10
-set xrange [100:10000]
+set xtics ("100" 100, "200" 200, "500" 500, "1000" 1000, "2000" 2000, "5000" 5000)
+set xrange [100:5000]
 set ylabel "characteristic size s* (energy)"
 set logscale y
 set ytics ("0.2" 0.2, "0.3" 0.3, "0.4" 0.4, "0.5" 0.5)
 set yrange [0.20000000000000001:0.5]
+row(k) = $1 == k ? $3 : NaN
 low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y
-plot table using ($1 == 1 ? $3 : NaN):(low($4,$5)):(0):($4+$5-low($4,$5)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \
-     table using ($1 == 1 ? $3 : NaN):4 with points lt 1 title "fault, ruptures: s*", \
-     [102:4447.0588235294117] '+' using 1:(0.31098056802499846*$1**(0.022626385897842383)) with lines lt 1 title "A L^D with D = 0.023 ± 0.016", \
-     [102:4447.0588235294117] '+' using 1:(0.35893734621091655) with lines lt 8 dt 2 title 'constant'
+set samples 400
+plot table using (row(1)):(low($4,$5)):(0):($4+$5-low($4,$5)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \
+     table using (row(1)):4 with points lt 1 title "fault, ruptures: s*", \
+     [102:2223.5294117647059] '+' using 1:(0.19316209747758986*$1**(0.096936766856787648)) with lines lt 1 title "A L^D with D = 0.097 ± 0.033", \
+     [102:2223.5294117647059] '+' using 1:(0.35337128977553978) with lines lt 8 dt 2 title "constant"
 unset output
 }

@@ -7,10 +7,10 @@ if (!exists("formats")) formats = "png svg"
 do for [format in formats] {
 if (format eq "png") {
 point = 1.0
-set terminal pngcairo size 1800,1192 enhanced font "DejaVu Sans,26" linewidth 2 pointscale 2 background "#ffffff"
+set terminal pngcairo size 1800,1146 enhanced font "DejaVu Sans,26" linewidth 2 pointscale 2 background "#ffffff"
 } else {
 point = 0.65
-set terminal svg size 900,596 dynamic enhanced font "DejaVu Sans,13" background "#ffffff"
+set terminal svg size 900,573 dynamic enhanced font "DejaVu Sans,13" background "#ffffff"
 }
 
 set datafile separator comma
@@ -54,28 +54,24 @@ low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y
 set samples 400
 plot table using (row(1)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \
      table using (row(1)):8 with points lt 1 notitle, \
-     keyentry with linespoints lt 1 title "fault, length 120 (1130 times)", \
+     keyentry with linespoints lt 1 title "fault, length 120 (967 times)", \
      table using (row(2)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 2 dt 1 lw 0.8 notitle, \
      table using (row(2)):8 with points lt 2 notitle, \
-     keyentry with linespoints lt 2 title "fault, length 240 (1104 times)", \
+     keyentry with linespoints lt 2 title "fault, length 240 (1214 times)", \
      table using (row(3)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 3 dt 1 lw 0.8 notitle, \
      table using (row(3)):8 with points lt 3 notitle, \
-     keyentry with linespoints lt 3 title "fault, length 480 (1388 times)", \
+     keyentry with linespoints lt 3 title "fault, length 480 (1214 times)", \
      table using (row(4)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 4 dt 1 lw 0.8 notitle, \
      table using (row(4)):8 with points lt 4 notitle, \
-     keyentry with linespoints lt 4 title "fault, length 945 (1506 times)", \
+     keyentry with linespoints lt 4 title "fault, length 945 (825 times)", \
      table using (row(5)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 5 dt 1 lw 0.8 notitle, \
      table using (row(5)):8 with points lt 5 notitle, \
-     keyentry with linespoints lt 5 title "fault, length 1440 (1361 times)", \
-     table using (row(6)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 6 dt 1 lw 0.8 notitle, \
-     table using (row(6)):8 with points lt 6 notitle, \
-     keyentry with linespoints lt 6 title "fault, length 1890 (1472 times)", \
-     [0.50118723362727224:1258.9254117941693] '+' using 1:(0.017819179112133286*$1**(-0.21843952390416754)*exp(-$1**(1)/154.70490020054996)) with lines lt 1 dt 3 lw 0.7 notitle, \
-     [0.63095734448019314:1258.9254117941693] '+' using 1:(0.019910489433201853*$1**(-0.28357481887959635)*exp(-$1**(1)/179.95884367800539)) with lines lt 2 dt 3 lw 0.7 notitle, \
-     [0.50118723362727224:1000.0000000000017] '+' using 1:(0.041164755426826516*$1**(-0.46484833565158457)*exp(-$1**(1)/179.50323058675815)) with lines lt 3 dt 3 lw 0.7 notitle, \
-     [0.31622776601683783:1258.9254117941693] '+' using 1:(0.063137985038525177*$1**(-0.60959776036727709)*exp(-$1**(1)/214.98509930809078)) with lines lt 4 dt 3 lw 0.7 notitle, \
-     [0.31622776601683783:1584.8931924611163] '+' using 1:(0.092377278619590344*$1**(-0.75743684438808889)*exp(-$1**(1)/318.58322745744715)) with lines lt 5 dt 3 lw 0.7 notitle, \
-     [0.19952623149688789:1258.9254117941693] '+' using 1:(0.080050382237663253*$1**(-0.69774224270452545)*exp(-$1**(1)/254.8012075004473)) with lines lt 6 dt 3 lw 0.7 notitle, \
-     keyentry with lines lt 8 dt 3 lw 0.7 title 'fit rejected (p < 0.05)'
+     keyentry with linespoints lt 5 title "fault, length 1890 (901 times)", \
+     [0.31622776601683783:1995.2623149688834] '+' using 1:(0.024544530911050338*$1**(-0.20858515970951164)*exp(-$1**(1)/88.379515814101595)) with lines lt 1 dt 3 lw 2 notitle, \
+     [0.19952623149688789:794.32823472428277] '+' using 1:(0.037305337798137751*$1**(-0.31934870639289548)*exp(-$1**(1)/82.50369072903149)) with lines lt 2 dt 3 lw 2 notitle, \
+     [0.19952623149688789:630.95734448019425] '+' using 1:(0.024105436627762804*$1**(-0.1267467919243187)*exp(-$1**(1)/64.462923439204545)) with lines lt 3 dt 3 lw 2 notitle, \
+     [0.19952623149688789:501.18723362727303] '+' using 1:(0.04292453072516119*$1**(-0.2652513332393468)*exp(-$1**(1)/53.799769743285424)) with lines lt 4 dt 3 lw 2 notitle, \
+     [0.19952623149688789:316.22776601683836] '+' using 1:(0.040784223411370772*$1**(-0.19254584408301922)*exp(-$1**(1)/43.94392900462941)) with lines lt 5 dt 3 lw 2 notitle, \
+     keyentry with lines lt 8 dt 3 lw 2 title "fit rejected (p < 0.05)"
 unset output
 }

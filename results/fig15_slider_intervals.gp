@@ -1,5 +1,5 @@
-# Draws fig15_slider_intervals.png and fig15_slider_intervals.svg from fig15_slider_intervals.csv:
-# run `gnuplot ./fig15_slider_intervals.gp` in this folder.
+# Draws fig15_slider_intervals.png and fig15_slider_intervals.svg from
+# fig15_slider_intervals.csv: run `gnuplot ./fig15_slider_intervals.gp` in this folder.
 base = "./fig15_slider_intervals"
 table = base.".csv"
 if (!exists("formats")) formats = "png svg"
@@ -7,10 +7,10 @@ if (!exists("formats")) formats = "png svg"
 do for [format in formats] {
 if (format eq "png") {
 point = 1.0
-set terminal pngcairo size 1800,1192 enhanced font "DejaVu Sans,26" linewidth 2 pointscale 2 background "#ffffff"
+set terminal pngcairo size 1800,1146 enhanced font "DejaVu Sans,26" linewidth 2 pointscale 2 background "#ffffff"
 } else {
 point = 0.65
-set terminal svg size 900,596 dynamic enhanced font "DejaVu Sans,13" background "#ffffff"
+set terminal svg size 900,573 dynamic enhanced font "DejaVu Sans,13" background "#ffffff"
 }
 
 set datafile separator comma
@@ -67,11 +67,11 @@ plot table using (row(1)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads
      table using (row(5)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 5 dt 1 lw 0.8 notitle, \
      table using (row(5)):8 with points lt 5 notitle, \
      keyentry with linespoints lt 5 title "block-slider, N = 1928 (8231 times)", \
-     [0.39810717055349715:7943.2823472428327] '+' using 1:(0.04746675296759021*$1**(-0.77171587127271313)*exp(-$1**(1)/1461.8395604249004)) with lines lt 1 dt 3 lw 0.7 notitle, \
-     [0.19952623149688789:7943.2823472428327] '+' using 1:(0.26837618921982909*$1**(-1.127603198682392)*exp(-$1**(1)/3942.2312418506949)) with lines lt 2 dt 3 lw 0.7 notitle, \
-     [0.19952623149688789:6309.5734448019457] '+' using 1:(0.32439622623916992*$1**(-1.1676660589855954)*exp(-$1**(1)/2475.7758139919492)) with lines lt 3 dt 3 lw 0.7 notitle, \
-     [0.2511886431509579:6309.5734448019457] '+' using 1:(0.33923302690159263*$1**(-1.1853169493922049)*exp(-$1**(1)/1648.6856908533759)) with lines lt 4 dt 3 lw 0.7 notitle, \
-     [0.19952623149688789:5011.8723362727333] '+' using 1:(0.36082031407516346*$1**(-1.1899424434818056)*exp(-$1**(1)/988.46506344838713)) with lines lt 5 dt 3 lw 0.7 notitle, \
-     keyentry with lines lt 8 dt 3 lw 0.7 title 'fit rejected (p < 0.05)'
+     [16.685738519533928:7943.2823472428327] '+' using 1:(0.43663824965165882*$1**(-1.4022731744490455)*exp(-$1**(1)/33953.439663680248)) with lines lt 1 dt 3 lw 2 notitle, \
+     [9.7943596455900135:7943.2823472428327] '+' using 1:(1.4036383032572388*$1**(-1.6365026197315311)*exp(-$1**(1)/74038.400814570909)) with lines lt 2 dt 3 lw 2 notitle, \
+     [6.1891302960694237:6309.5734448019457] '+' using 1:(1.8521852139304871*$1**(-1.7264396353308995)*exp(-$1**(1)/79432.712977448027)) with lines lt 3 dt 3 lw 2 notitle, \
+     [4.4866557361906514:6309.5734448019457] '+' using 1:(1.6350634634224743*$1**(-1.7068179475360381)*exp(-$1**(1)/25208.405727912843)) with lines lt 4 dt 3 lw 2 notitle, \
+     [2.9607517312598715:5011.8723362727333] '+' using 1:(1.0890113602003622*$1**(-1.6081958711699045)*exp(-$1**(1)/3945.1306308444869)) with lines lt 5 dt 3 lw 2 notitle, \
+     keyentry with lines lt 8 dt 3 lw 2 title "fit rejected (p < 0.05)"
 unset output
 }

@@ -1,5 +1,5 @@
-# Draws rupture_fit.scaling.png and rupture_fit.scaling.svg from rupture_fit.scaling.csv: run
-# `gnuplot ./rupture_fit.scaling.gp` in this folder.
+# Draws rupture_fit.scaling.png and rupture_fit.scaling.svg from
+# rupture_fit.scaling.csv: run `gnuplot ./rupture_fit.scaling.gp` in this folder.
 base = "./rupture_fit.scaling"
 table = base.".csv"
 if (!exists("formats")) formats = "png svg"
@@ -7,10 +7,10 @@ if (!exists("formats")) formats = "png svg"
 do for [format in formats] {
 if (format eq "png") {
 point = 1.0
-set terminal pngcairo size 1800,1100 enhanced font "DejaVu Sans,26" linewidth 2 pointscale 2 background "#ffffff"
+set terminal pngcairo size 1800,1192 enhanced font "DejaVu Sans,26" linewidth 2 pointscale 2 background "#ffffff"
 } else {
 point = 0.65
-set terminal svg size 900,550 dynamic enhanced font "DejaVu Sans,13" background "#ffffff"
+set terminal svg size 900,596 dynamic enhanced font "DejaVu Sans,13" background "#ffffff"
 }
 
 set datafile separator comma
@@ -47,11 +47,13 @@ set ylabel "characteristic size s* (energy)"
 set logscale y
 set ytics ("1000" 1000, "2000" 2000, "5000" 5000, "10000" 10000)
 set yrange [1000:10000]
+row(k) = $1 == k ? $3 : NaN
 low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y
-plot table using ($1 == 1 ? $3 : NaN):(low($4,$5)):(0):($4+$5-low($4,$5)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \
-     table using ($1 == 1 ? $3 : NaN):4 with points lt 1 title "block-slider, Kl = 0.01, ruptures: s*", \
-     [217.59999999999999:150588.23529411765] '+' using 1:(516.1825377984984*$1**(0.26450469212569677)) with lines lt 1 title "A L^D with D = 0.2645 ± 0.0030", \
-     [217.59999999999999:150588.23529411765] '+' using 1:(3659.0822470170633) with lines lt 8 dt 2 title 'constant', \
-     [1:2] '+' using (x = 217.59999999999999*692.04152249134961**($1-1)):(7726.3472056363244*(1+(2188.043618288767/x)**(2.7931996475229859))**(-0.25)) with lines lt 1 dt 4 lw 2 title "growth up to L_c = 2188 ± 89, s_{∞} = 7726 ± 92"
+set samples 400
+plot table using (row(1)):(low($4,$5)):(0):($4+$5-low($4,$5)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \
+     table using (row(1)):4 with points lt 1 title "block-slider, Kl = 0.01, ruptures: s*", \
+     [217.59999999999999:150588.23529411765] '+' using 1:(516.1825377984984*$1**(0.26450469212569677)) with lines lt 1 title "A L^D with D = 0.265 ± 0.031", \
+     [217.59999999999999:150588.23529411765] '+' using 1:(3659.0822470170697) with lines lt 8 dt 2 title "constant", \
+     [1:2] '+' using (x = 217.59999999999999*692.0415224913495**($1-1)):(7726.3472069639192*(1+(2188.0436212608456/x)**(2.7931996457196524))**(-0.25)) with lines lt 1 dt 4 lw 2 title "growth up to L_c = 2188 ± 89, s_{∞} = 7726 ± 92"
 unset output
 }

@@ -45,10 +45,12 @@ set ylabel "characteristic size s* (energy)"
 set logscale y
 set ytics ("1000" 1000, "1200" 1200, "1400" 1400)
 set yrange [1000:1400]
+row(k) = $1 == k ? $3 : NaN
 low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y
-plot table using ($1 == 1 ? $3 : NaN):(low($4,$5)):(0):($4+$5-low($4,$5)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \
-     table using ($1 == 1 ? $3 : NaN):4 with points lt 1 title "block-slider, Kl = 0.01: s*", \
+set samples 400
+plot table using (row(1)):(low($4,$5)):(0):($4+$5-low($4,$5)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \
+     table using (row(1)):4 with points lt 1 title "block-slider, Kl = 0.01: s*", \
      [217.59999999999999:2268.2352941176473] '+' using 1:(886.07178471814632*$1**(0.048838712370314535)) with lines lt 1 title "A L^D with D = 0.049 ± 0.025", \
-     [217.59999999999999:2268.2352941176473] '+' using 1:(1207.3588198748764) with lines lt 8 dt 2 title 'constant'
+     [217.59999999999999:2268.2352941176473] '+' using 1:(1207.3588198748764) with lines lt 8 dt 2 title "constant"
 unset output
 }

@@ -7,7 +7,7 @@ calibrate.py collect BIN OUT.csv FOLDER...   numbers of the runs of a study, one
 calibrate.py sliders BIN OUT.csv FOLDER...   the same numbers of block-sliders, one row for each run, smallest size and warm-up
 calibrate.py figure POINTS.csv OUT           distances over what is not printed: OUT.png and OUT.svg
 
-The tables of results/calibration.md are made of the same functions by results/tables.py.
+results/tables.py makes the tables of results/calibration.md of the same statements.
 
 Approximate Bayesian computation by rejection (Pritchard et al. 1999): points of the prior are run, each statement gives a
 deviation in units of its tolerance, the distance is their root mean square, and the points nearest to the paper are kept.
@@ -16,7 +16,6 @@ import csv
 import json
 import lzma
 import math
-import statistics
 import subprocess
 import sys
 import tempfile
@@ -60,6 +59,22 @@ def memories(row):
     """Mean time between events in memories of the picker, which is 100 steps: needs no clock."""
     return number(row, "mean_time_0.0001") / float(row["memory"])
 
+
+# What postproc statements measures: column, its name of the number
+WORDED = {
+    "rise": "largest rise of the density, at all times",
+    "rise_slipping": "largest rise of the density, while something slips",
+    "recorded": "slip recorded over that of the plates",
+    "one_bin": "share of ruptures of one bin (from 5 plate velocities on)",
+    "slip_between": "share of the slip while no event is open",
+    "rate_within": "slip rate within events over that between them",
+    "rate_between": "slip rate between events over that of the plates",
+    "loading": "rise of PE between events over the work of the plates",
+    "roll_off_power": "power d of s^-a exp(-(s/c)^d)",
+    "roll_off_gain": "2 ln L of d = 1 over a power law without end",
+    "B": "B, delta 1",
+    "C": "C, delta 1",
+}
 
 # name, what is printed (or †), value of a row, its deviation, tolerance
 STATEMENTS = (
@@ -168,7 +183,7 @@ def collect_sliders(binaries, output, folders):
     write(output, "# One row for each run, smallest size of the events and warm-up; 1e7 steps each", rows)
 
 
-# ---- report
+# ---- points
 
 
 def nearest(rows, share=0.1):
@@ -181,114 +196,11 @@ def nearest(rows, share=0.1):
     return ordered[:max(1, round(share * len(ordered)))], ordered
 
 
-def span(rows, key):
-    """Values of the points: the smallest and largest, or the words and how many have each."""
-    words = [row[key] for row in rows]
-    try:
-        values = sorted(float(word) for word in words)
-        return f"{values[0]:.2g} to {values[-1]:.2g}"
-    except ValueError:
-        return ", ".join(f"{word} {words.count(word)}" for word in sorted(set(words)))
-
-
-def table(head, rows):
-    return "\n".join(["| " + " | ".join(head) + " |", "|---" * len(head) + "|"] + ["| " + " | ".join(row) + " |" for row in rows])
-
-
 def points(path, length="120"):
     """Rows of the points of this length that ran to their end, and how many were stopped."""
     rows = [{**row, **{key: row.get(key) or value for key, value in SETTINGS.items()}} for row in read(path)]
     rows = [row for row in rows if row["length"] == length]
     return [row for row in rows if row["stopped"] == "no"], sum(row["stopped"] == "yes" for row in rows)
-
-
-def statements_table(path):
-    rows, stopped = points(path)
-    accepted, ordered = nearest(rows)
-    out = []
-    for n, (name, text, _, _, tolerance) in enumerate(STATEMENTS):
-        met = {row["point"] for row in rows if deviations(row)[n] <= 1.0}
-        out.append([name, text, f"{tolerance:g}", str(len(met)), str(sum(deviations(row)[n] <= 1.0 for row in accepted))])
-    head = ["", "statement", "tolerance", f"of {len(ordered)} points meet it", f"of the {len(accepted)} accepted"]
-    return table(head, out) + f"\n\n{stopped} more points stopped, as links were strained by half their length."
-
-
-def pairs_table(path):
-    rows, _ = points(path)
-    shown = [(n, name) for n, (name, *_) in enumerate(STATEMENTS) if name != "waves"]
-
-    def both(i, j):
-        return str(len({row["point"] for row in rows if max(deviations(row)[i], deviations(row)[j]) <= 1.0}))
-
-    return table([""] + [name for _, name in shown], [[name] + [both(i, j) for j, _ in shown] for i, name in shown])
-
-
-def ranges_table(path):
-    rows, _ = points(path)
-    accepted, ordered = nearest(rows)
-    keys = ("stress", "viscosity", "retardation", "damped", "contacts", "mus", "kt", "mass", "hold", "impedance", "loose", "linkgap", "memory")
-    return table(["not printed", "sampled", "accepted"],
-                 [[key, span(rows if key == "memory" else ordered, key), span(accepted, key)] for key in keys])
-
-
-def accepted_table(path):
-    accepted, _ = nearest(points(path)[0])
-    keys = ("point", "seed", "stress", "viscosity", "contacts", "mus", "kt", "hold", "impedance", "loose", "memory")
-    shown = [(name, value) for name, _, value, _, _ in STATEMENTS if name != "waves"]
-    head = [*keys, *(name for name, _ in shown), "gamma >= 1e-3", "1e-2", "mean time", "largest", "distance"]
-    return table(head, [[row[key] for key in keys] + [f"{value(row):.2f}" for _, value in shown] + [
-        f"{number(row, 'gamma_0.001'):.2f}", f"{number(row, 'gamma_0.01'):.2f}", f"{number(row, 'mean_time_0.0001'):.0f}",
-        f"{number(row, 'largest'):.2f}", f"{distance(row):.2f}"
-    ] for row in accepted])
-
-
-def ringing_table(path):
-    """Swings of the blocks between the plates, at a memory of 1, where the fault sticks and slips."""
-    rows = [row for row in points(path)[0] if row["memory"] == "1" and row["mass"] == "r2" and float(row["stress"]) > 0.013]
-    bounds = (0, 0.03, 0.12, 0.25, 1.01)
-    groups = {"stay in place": [row for row in rows if row["hold"] == "position"]}
-    for low, high in zip(bounds, bounds[1:]):
-        name = f"hold the stress, impedance {low:g} to {min(high, 1):g}"
-        groups[name] = [row for row in rows if row["hold"] == "stress" and low <= float(row["impedance"]) < high]
-    out = []
-    for name, group in groups.items():
-        shares = sorted(100 * x for x in map(swings, group) if math.isfinite(x))
-        if shares:
-            out.append([name, str(len(shares)), f"{statistics.median(shares):.0f} %", f"{shares[0]:.0f} to {shares[-1]:.0f} %"])
-    return table(["plates", "points", "share of the times, median", "range"], out)
-
-
-def lines_table(path):
-    """One choice at a time about the default: what differs from it, and the statements, at its memory of 2."""
-    shown = [(name, of) for name, _, of, _, _ in STATEMENTS if name != "waves"]
-    chosen = [row for row in points(path)[0] if row["memory"] == "2" and row["point"].startswith(("c120_1", "d", "v"))]
-    default = next(row for row in chosen if row["point"] == "c120_1")
-    keys = ("stress", "viscosity", "retardation", "damped", "contacts", "mus", "kt", "mass", "hold", "impedance", "loose", "linkgap")
-    out = []
-    for row in sorted(chosen, key=lambda row: row["point"]):
-        other = [f"{key} {row[key]}" for key in keys if row[key] != default[key]]
-        out.append([
-            ", ".join(other) or "the default, packing 1", *(f"{of(row):.2f}" for _, of in shown), f"{number(row, 'gamma_0.001'):.2f}",
-            f"{number(row, 'largest'):.2f}", f"{distance(row):.2f}"
-        ])
-    return table(["", *(name for name, _ in shown), "gamma >= 1e-3", "largest", "distance"], out)
-
-
-def twice_table(path):
-    """Accepted points at length 120 and the same at 240."""
-    shown = [(name, of) for name, _, of, _, _ in STATEMENTS if name != "waves"]
-    best = {row["point"]: row for row in nearest(points(path)[0], 1.0)[0]}
-    out = []
-    for row in points(path, "240")[0]:
-        first = best[row["point"].removeprefix("l_")]
-        if row["memory"] != first["memory"]:
-            continue
-        for one in (first, row):
-            out.append([
-                first["point"], one["length"], one["memory"], *(f"{of(one):.2f}" for _, of in shown), f"{number(one, 'gamma_0.001'):.2f}",
-                f"{number(one, 'largest'):.2f}", f"{distance(one):.2f}"
-            ])
-    return table(["point", "length", "memory", *(name for name, _ in shown), "gamma >= 1e-3", "largest", "distance"], out)
 
 
 def figure(path, base):
@@ -319,37 +231,6 @@ def figure(path, base):
         f"set terminal svg size 1000,600 font 'DejaVu Sans,11'\nset output '{base}.svg'\n"
     ]
     subprocess.run(["gnuplot"], input="".join(head + script + "unset output\nreset\n" for head in heads), text=True, check=True)
-
-
-def short(value):
-    return f"{value:.0f}" if abs(value) >= 10 else f"{value:.2f}"
-
-
-def slider_table(path):
-    """The nearest settings of each scheme and time step, over all lengths."""
-    groups = {}
-    for row in read(path):
-        key = tuple(row[name] for name in SLIDER_KEYS)
-        groups.setdefault(key, []).append(row)
-
-    def mean(key):
-        return math.sqrt(sum(distance(row, SLIDER_STATEMENTS)**2 for row in groups[key]) / len(groups[key]))
-
-    def cells(key):
-        rows = sorted(groups[key], key=lambda row: int(row["blocks"]))
-        scheme, dt, picker, leak, memory, warmup, smallest = key
-        out = [scheme, dt, f"{picker}, " + (f"lambda {leak}" if leak else f"memory {memory}"), warmup, smallest]
-        for _, _, value, _, _ in SLIDER_STATEMENTS:
-            out.append(", ".join("-" if math.isnan(value(row)) else short(value(row)) for row in rows))
-        met = sum(z <= 1.0 for row in rows for z in deviations(row, SLIDER_STATEMENTS))
-        return out + [f"{met} of {len(rows) * len(SLIDER_STATEMENTS)}", f"{mean(key):.2f}"]
-
-    best = {}
-    for key in sorted(groups, key=mean):
-        best.setdefault(key[:2], key)
-    keys = [key for key in best.values() if float(key[1]) >= 0.005]  # shorter ones see the loading only
-    head = ["scheme", "dt", "reading", "warm-up", "smallest", *(f"{name}: {text}" for name, text, *_ in SLIDER_STATEMENTS), "met", "distance"]
-    return table(head, map(cells, keys))
 
 
 if __name__ == "__main__":

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Tables of speed.md from timings.csv, as head and rows; tables.py in the folder above writes them into the page."""
+import functools
+import statistics
+from pathlib import Path
+
+from calibrate import read
+
+FOLDER = Path(__file__).resolve().parent
+
+
+@functools.cache
+def timings(name):
+    """Wall and CPU ns for a particle and step, parts and memory of the rounds of each (label, length, ranks)."""
+    out = {}
+    for row in read(FOLDER / "timings.csv"):
+        if row["table"] == name:
+            per = 1e9 / float(row["atoms"]) / float(row["steps"])
+            one = {key: float(row[key] or 0) * per for key in ("seconds", "pair", "bond", "neigh", "comm", "modify")}
+            one |= {
+                "cpu": one["seconds"] * float(row["cpu_percent"] or 100) / 100, "atoms": float(row["atoms"]),
+                "bytes": float(row["resident"] or 0) * 1024 / float(row["atoms"])
+            }
+            out.setdefault((row["label"], int(row["length"]), int(row["ranks"])), {})[row["round"]] = one
+    return out
+
+
+def middle(rounds, key="seconds"):
+    return statistics.median(row[key] for row in rounds.values())
+
+
+def ratio_of(rounds, base):
+    """Median over the rounds of the ratio within each."""
+    return statistics.median(row["seconds"] / base[number]["seconds"] for number, row in rounds.items() if number in base)
+
+
+def speed_peers_table():
+    found, out = {(label, ranks): rounds for (label, _, ranks), rounds in timings("peers").items()}, []
+    for label in dict.fromkeys(label for label, _ in found):
+        row = [label]
+        for ranks in (1, 2):
+            at, ours = found.get((label, ranks)), found["ours", ranks]
+            row += [f"{1e3 / middle(at):.3g}", "" if at is ours else f"{ratio_of(at, ours):.3g}"] if at else ["", ""]
+            last = at or last
+        out.append(row + [f"{middle(last, 'bytes'):.0f}"])
+    return ([
+        "PE at every step, length 1890", "million particle-steps/s, 1 rank", "ours is faster", "2 ranks", "ours is faster",
+        "bytes for a particle, most ranks"
+    ], out)
+
+
+def speed_lengths_table():
+    found = {key[1:]: rounds for key, rounds in timings("lengths").items()}
+    return (["length", "particles", "ns, 1 rank", "2 ranks", "links", "contacts", "integration, plates, events", "communication", "lists"], [[
+        str(length), f"{middle(found[length, 2], 'atoms'):.0f}", *(f"{middle(found[length, ranks]):.1f}"
+                                                                   for ranks in (1, 2)), *(f"{middle(found[length, 2], key):.2f}"
+                                                                                           for key in ("bond", "pair", "modify", "comm", "neigh"))
+    ] for length in sorted({one
+                            for one, _ in found})])
+
+
+def speed_changes_table():
+    names = {key[0]: rounds for key, rounds in timings("features").items()}
+    ratio = {label: f"{ratio_of(rounds, names['base of ' + label]):.2f}" for label, rounds in names.items() if "base of " + label in names}
+    changes = [["contacts of all discs"], ["nothing recorded", "location of events", "energy ledger"],
+               ["static friction above dynamic", "slip weakening", "velocity weakening"],
+               ["rate and state (ageing)", "rate and state (slip)", "no friction (lsm/free)"],
+               ["links that can break", "no viscosity", "dashpots of links and contacts"],
+               ["pressure every 100 steps", "pressure every step", "all lists rebuilt every 100 steps"]]
+    return (["one thing changed, length 1890, 2 ranks",
+             "time of a step, ratio"], [["; ".join(change), "; ".join(ratio[label] for label in change)] for change in changes])
+
+
+TABLES = {"speed-peers": speed_peers_table, "speed-lengths": speed_lengths_table, "speed-changes": speed_changes_table}
