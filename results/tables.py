@@ -142,7 +142,7 @@ def paper_table():
     """Each statement of the calibration at each length of the campaign."""
     groups = by_length()
     out = [[text, *(judged(rows, value, off, tolerance) for rows in groups.values())] for _, text, value, off, tolerance in calibrate.STATEMENTS]
-    return table(["statement of the paper, or ours", *groups], out + [["packings", *(str(len(rows)) for rows in groups.values())]])
+    return table(["statement of the paper, or †", *groups], out + [["packings", *(str(len(rows)) for rows in groups.values())]])
 
 
 def scaling_of(kind, least):

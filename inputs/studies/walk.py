@@ -3,7 +3,7 @@
 """The stations of the study `walk`, seeds put together: walk.py POSTPROC FOLDER walk.csv
 
 FOLDER has the catalogues, as RUN/catalogue.csv (of the study) or RUN.catalogue.csv.xz (as published); the fault is that of
-results/validation. Each number is the mean over the seeds, with its standard error, of
+results/campaign. Each number is the mean over the seeds, with its standard error, of
   exponent_N   exponent of the sizes from 10^N to 10^(N+1) times the unit, by `postproc fit`; the unit is 1 for blocks
                and 1e-3 for faults
   gamma_N      of the times between events of at least 10^N units, by `postproc intervals` with delta = 1
@@ -112,7 +112,7 @@ def stations(folder):
         run = path.name.split(".")[0] if path.suffix == ".xz" else path.parent.name
         if path.suffix == ".xz" or (path.parent / "done.json").exists():
             found.setdefault(run.rsplit("_", 1)[0], []).append(path)
-    return {**found, "fault": sorted((ROOT / "results/validation").glob("fault_120_?.catalogue.csv.xz"))}
+    return {**found, "fault": sorted((ROOT / "results/campaign").glob("fault_120_?.catalogue.csv.xz"))}
 
 
 def main(postproc, folder, out):
