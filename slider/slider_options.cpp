@@ -17,11 +17,13 @@
 #include "files/replaced_file.h"
 #include "picker_options.h"
 #include "slider_stiffness.h"
-#include "whole_number.h"
 
 namespace Slider {
 
 namespace {
+
+using LSM::excludes, LSM::needs, LSM::shown;
+using LSM::OptionGroup, LSM::Rule;
 
 const char *const description =
     "Block-slider: a periodic chain of N blocks on a rough surface, coupled by springs K_c and "
@@ -46,7 +48,7 @@ class CommandLine {
     run_.warmup = 12000.0;
     run_.checkpoint_interval = 1000000;
     p_.friction = {Law::velocity_weakening, 0.8, 0.1};
-    app_.set_version_flag("--version", std::string(SLIDER_VERSION));
+    LSM::set_up(app_, SLIDER_VERSION);
     const auto checked = [this](std::string &path) {
       check_config(path);
       s_.config = path;
@@ -57,8 +59,6 @@ class CommandLine {
         ->check(CLI::Validator(checked, ""));
     app_.allow_config_extras(false);
     app_.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-    app_.option_defaults()->always_capture_default();
-    app_.get_formatter()->column_width(34);
     add_model();
     add_integration();
     add_events();
@@ -66,16 +66,7 @@ class CommandLine {
   }
 
   Settings read(std::vector<std::string> arguments) {
-    std::reverse(arguments.begin(), arguments.end());
-    try {
-      app_.parse(arguments);
-    } catch (const CLI::Success &help) {
-      std::exit(app_.exit(help));
-    } catch (const CLI::ParseError &e) {
-      std::string what = e.what();
-      std::replace(what.begin(), what.end(), '\n', ' ');
-      throw std::invalid_argument(what + " (--help lists the options)");
-    }
+    if (const auto status = LSM::parse(app_, std::move(arguments))) std::exit(*status);
     interpret();
     set_header();
     return s_;
@@ -83,150 +74,147 @@ class CommandLine {
 
  private:
   void add_model() {
-    app_.option_defaults()->group("Model (defaults are the paper's values)");
-    app_.add_option("--blocks", p_.blocks, "Number of blocks N");
-    app_.add_option("--kc", p_.kc, "Spring between neighbours K_c (force/length)");
-    CLI::Option *const kl =
-        app_.add_option("--kl", p_.kl, "Leaf spring to the plate K_l (force/length)");
-    app_.add_option("--coupling", coupling_,
-                    "What couples the blocks: chain, the springs K_c (paper); † antiplane or "
-                    "inplane, an elastic block on either side of the fault with the plate at its "
-                    "far side, as stiff as makes a block that slips alone in a long fault feel 2 "
-                    "K_c + K_l, and as thick as makes K_l its leaf spring; or a file, lines "
-                    "'wavenumber,stiffness' from 0 (the leaf spring) to pi (radians per block), "
-                    "in place of K_c and K_l. Fastest with a number of blocks of small factors");
-    app_.add_option("--width", strip_.width,
-                    "Thickness of each elastic block, which gives K_l (in blocks) †")
-        ->default_str("from --kl")
-        ->excludes(kl);
-    app_.add_option("--radiation", p_.radiation,
-                    "Force on a block per velocity by the waves that it sends out; G / 2 c_s for "
-                    "shear waves into both sides (Rice 1993; force/velocity) †");
-    app_.add_option("--mass", p_.mass,
-                    "Mass of a block M. Friction is a force, divided by M as that of the springs; "
-                    "Eq. 5 does not divide it, and has M = 1. 0: no inertia (quasi-dynamic) †, "
-                    "needs --radiation");
-    app_.add_option("--velocity", p_.velocity, "Driving velocity of the plate V (length/time)");
+    OptionGroup group(&app_, "Model (defaults are the paper's values)");
+    group.add("--blocks", p_.blocks, "Number of blocks N");
+    group.add("--kc", p_.kc, "Spring between neighbours K_c (force/length)");
+    CLI::Option *const kl = group.add("--kl", p_.kl, "Leaf spring to the plate K_l (force/length)");
+    group.add("--coupling", coupling_,
+              "What couples the blocks: chain, the springs K_c (paper); † antiplane or "
+              "inplane, an elastic block on either side of the fault with the plate at its "
+              "far side, as stiff as makes a block that slips alone in a long fault feel 2 "
+              "K_c + K_l, and as thick as makes K_l its leaf spring; or a file, lines "
+              "'wavenumber,stiffness' from 0 (the leaf spring) to pi (radians per block), "
+              "in place of K_c and K_l. Fastest with a number of blocks of small factors");
+    group.add("--width", strip_.width,
+              "Thickness of each elastic block, which gives K_l (in blocks) †", shown("from --kl"),
+              excludes(kl));
+    group.add("--radiation", p_.radiation,
+              "Force on a block per velocity by the waves that it sends out; G / 2 c_s for "
+              "shear waves into both sides (Rice 1993; force/velocity) †");
+    group.add("--mass", p_.mass,
+              "Mass of a block M. Friction is a force, divided by M as that of the springs; "
+              "Eq. 5 does not divide it, and has M = 1. 0: no inertia (quasi-dynamic) †, "
+              "needs --radiation");
+    group.add("--velocity", p_.velocity, "Driving velocity of the plate V (length/time)");
     CLI::Option *const range =
-        app_.add_option("--friction-range", friction_,
-                        "Static coefficients mu_0i are uniform in [LOW, HIGH) (force)");
-    range->expected(2);
-    app_.add_option("--friction-file", friction_file_,
-                    "File with the static coefficient of each block, one per line (force) †")
-        ->excludes(range);
-    app_.add_option("--correlation-length", p_.landscape.length,
-                    "The static coefficient of a block is drawn anew from --friction-range after "
-                    "each slip of this length, as on a rough surface; 0: never (length) †")
-        ->excludes("--friction-file");
-    app_.add_option("--seed", s_.seed, "Seed of the coefficients")->check(LSM::whole_number());
-    add_choice("--law", p_.friction.law,
-               "Friction of a moving block: velocity-weakening, mu_0i / (1 + v), Eq. 6; † "
-               "coulomb, R mu_0i with the R of --dynamic-friction; slip-weakening, from mu_0i to "
-               "R mu_0i over the slip of --slip-distance since the block last rested");
-    app_.add_option("--dynamic-friction", p_.friction.dynamic,
-                    "Dynamic over static coefficient, of coulomb and slip-weakening †");
-    app_.add_option("--slip-distance", p_.friction.dc,
-                    "Slip over which slip-weakening weakens (length) †");
+        group.add("--friction-range", friction_,
+                  "Static coefficients mu_0i are uniform in [LOW, HIGH) (force)", LSM::values(2));
+    CLI::Option *const file = group.add(
+        "--friction-file", friction_file_,
+        "File with the static coefficient of each block, one per line (force) †", excludes(range));
+    group.add("--correlation-length", p_.landscape.length,
+              "The static coefficient of a block is drawn anew from --friction-range after "
+              "each slip of this length, as on a rough surface; 0: never (length) †",
+              excludes(file));
+    LSM::add_seed(group, s_.seed, "Seed of the coefficients");
+    group.choose("--law", p_.friction.law,
+                 "Friction of a moving block: velocity-weakening, mu_0i / (1 + v), Eq. 6; † "
+                 "coulomb, R mu_0i with the R of --dynamic-friction; slip-weakening, from mu_0i to "
+                 "R mu_0i over the slip of --slip-distance since the block last rested");
+    group.add("--dynamic-friction", p_.friction.dynamic,
+              "Dynamic over static coefficient, of coulomb and slip-weakening †");
+    group.add("--slip-distance", p_.friction.dc,
+              "Slip over which slip-weakening weakens (length) †");
   }
 
   void add_integration() {
-    app_.option_defaults()->group("Integration");
-    app_.add_flag("--paper", paper_,
-                  "As printed in the paper, with our time step: --scheme printed --dt 0.01 --steps "
-                  "1e7 --picker literal --picker-lambda 0.99 --warmup 0");
-    auto *steps = add_whole("--steps", run_.steps, 1, "Number of time steps (instead of --time)");
-    steps->default_str("1e7 with --paper, else from --time");
-    app_.add_option("--time", time_, "Model time to run for (time)")->excludes(steps);
-    app_.add_option("--dt", p_.dt, "Time step h (time) †");
-    add_choice("--scheme", p_.scheme,
-               "printed: Eqs. 7 and 8, order 1, unstable in the long run: warns above dt 0.01, "
-               "refused at 0.12 and above; in the step in which a block stops friction is what "
-               "stops it, the acceleration -v/h, so that Eq. 7 moves it by h v/2; † "
-               "semi-implicit (order 1), verlet (order 2), and without inertia (--mass 0) always "
-               "adams-bashforth");
-    app_.add_flag("--unstable", unstable_, "Run the printed scheme above these limits");
-    add_choice("--kernel", run_.kernel,
-               "active (only moving chunks of blocks) or dense (all blocks; same catalogue)");
-    app_.add_option(
-        "--leap", run_.leap_speed,
-        "Leap over slow loading †: once no block has been faster than this for 50 time "
-        "units, blocks at their limit creep without steps, in the limit of a slow plate, "
-        "until some are about to exceed it; 1e-3 is accurate for V up to 1e-3; 0: no leaps. Model "
-        "time and steps continue (length/time)");
+    OptionGroup group(&app_, "Integration");
+    paper_option_ = group.flag(
+        "--paper", paper_,
+        "As printed in the paper, with our time step: --scheme printed --dt 0.01 --steps "
+        "1e7 --picker literal --picker-lambda 0.99 --warmup 0");
+    const Rule not_paper = excludes(paper_option_);
+    CLI::Option *const steps =
+        add_whole(group, "--steps", run_.steps, 1, "Number of time steps (instead of --time)",
+                  shown("1e7 with --paper, else from --time"));
+    group.add("--time", time_, "Model time to run for (time)", excludes(steps), not_paper);
+    group.add("--dt", p_.dt, "Time step h (time) †", not_paper);
+    group.choose("--scheme", p_.scheme,
+                 "printed: Eqs. 7 and 8, order 1, unstable in the long run: warns above dt 0.01, "
+                 "refused at 0.12 and above; in the step in which a block stops friction is what "
+                 "stops it, the acceleration -v/h, so that Eq. 7 moves it by h v/2; † "
+                 "semi-implicit (order 1), verlet (order 2), and without inertia (--mass 0) always "
+                 "adams-bashforth",
+                 not_paper);
+    group.flag("--unstable", unstable_, "Run the printed scheme above these limits");
+    group.choose("--kernel", run_.kernel,
+                 "active (only moving chunks of blocks) or dense (all blocks; same catalogue)");
+    group.add("--leap", run_.leap_speed,
+              "Leap over slow loading †: once no block has been faster than this for 50 time "
+              "units, blocks at their limit creep without steps, in the limit of a slow plate, "
+              "until some are about to exceed it; 1e-3 is accurate for V up to 1e-3; 0: no leaps. "
+              "Model time and steps continue (length/time)");
   }
 
   void add_events() {
-    const std::string events = "Events";
-    app_.option_defaults()->group(events);
-    add_choice(
+    OptionGroup group(&app_, "Events");
+    const Rule not_paper = excludes(paper_option_);
+    group.choose(
         "--events", run_.events,
         "Definition of an event: pe, a drop of the PE of the whole chain (paper); ruptures, a set "
         "of sliding blocks connected in space and time †. Ruptures far apart stay separate in "
         "long chains, and ruptures can overlap in time; their size is the work of the springs on "
         "the blocks, they are written in the order in which they end, and the options of the "
         "picker do not apply");
-    app_.add_option("--rupture-gap", rupture_gap_,
-                    "With --events ruptures: time for which a block at rest still connects, in "
-                    "addition to one time step (time) †");
+    group.add("--rupture-gap", rupture_gap_,
+              "With --events ruptures: time for which a block at rest still connects, in "
+              "addition to one time step (time) †");
     picker_.prefix = "picker-";
-    const LSM::AddedPickerOptions picker = LSM::add_picker_options(&app_, picker_, events);
-    picker.reading->default_str("exponential");
-    picker.lambda->default_str("from --picker-memory-time");
-    picker.memory_time->default_str("1");
-    picker.min_size->default_str("0");
-    app_.add_option("--warmup", run_.warmup, "Drop events that start before this time (time) †");
-    app_.add_flag(
-        "--without-plate-drops", without_plate_drops_,
-        "Leave out drops of PE larger than the largest mu_0 times slip_moment, which the plate has "
-        "made and not slip: blocks that have slipped too far wait for it, and PE falls meanwhile "
-        "† (otherwise they are written and counted apart in --json, as the paper does not "
-        "tell them apart)");
-    for (CLI::Option *option :
-         {app_.get_option("--time"), app_.get_option("--dt"), app_.get_option("--scheme"),
-          picker.reading, picker.lambda, picker.memory_time, app_.get_option("--warmup")})
-      option->excludes(app_.get_option("--paper"));
+    const LSM::PickerOptions::Added picker = picker_.add_to(group);
+    shown("exponential")(*picker.reading);
+    shown("from --picker-memory-time")(*picker.lambda);
+    shown("1")(*picker.memory_time);
+    shown("0")(*picker.min_size);
+    for (CLI::Option *const option : {picker.reading, picker.lambda, picker.memory_time})
+      not_paper(*option);
+    group.add("--warmup", run_.warmup, "Drop events that start before this time (time) †",
+              not_paper);
+    group.flag("--without-plate-drops", without_plate_drops_,
+               "Leave out drops of PE larger than the largest mu_0 times slip_moment, which the "
+               "plate has made and not slip: blocks that have slipped too far wait for it, and PE "
+               "falls meanwhile † (otherwise they are written and counted apart in --json, as "
+               "the paper does not tell them apart)");
+  }
+
+  void take_columns(const std::string &list) {
+    std::vector<std::string_view> words;
+    LSM::text_io::split(list, words);
+    for (const std::string_view word : words) {
+      if (word != "centroid" && word != "length")
+        throw std::invalid_argument("--columns = '" + list +
+                                    "', expected centroid, length or both separated by a comma");
+      (word == "centroid" ? run_.x_centroid : run_.rupture_length) = true;
+    }
   }
 
   void add_files() {
-    app_.option_defaults()->group("Files");
-    app_.add_option("--catalogue", run_.catalogue, "Catalogue to write");
-    const auto take_columns = [this](const std::string &list) {
-      std::vector<std::string_view> words;
-      LSM::text_io::split(list, words);
-      for (const std::string_view word : words) {
-        if (word != "centroid" && word != "length")
-          throw std::invalid_argument("--columns = '" + list +
-                                      "', expected centroid, length or both separated by a comma");
-        (word == "centroid" ? run_.x_centroid : run_.rupture_length) = true;
-      }
-    };
-    app_.add_option_function<std::string>(
-        "--columns", take_columns,
+    OptionGroup group(&app_, "Files"), runs(&app_, "Several runs");
+    group.add("--catalogue", run_.catalogue, "Catalogue to write");
+    group.call<std::string>(
+        "--columns", [this](const std::string &list) { take_columns(list); },
         "Further columns: centroid, length, or both separated by a comma; slip_moment (sum of the "
         "slips of all blocks) is always written");
-    app_.add_option("--pe-series", run_.series, "Series of PE to write (default: none)");
-    add_whole("--pe-stride", run_.series_stride, 1, "Steps between samples of the series (steps)");
-    CLI::Option *checkpoint =
-        app_.add_option("--checkpoint", run_.checkpoint,
-                        "Checkpoint to write, also on SIGINT and SIGTERM (default: none)");
-    add_whole("--checkpoint-interval", run_.checkpoint_interval, 0,
+    group.add("--pe-series", run_.series, "Series of PE to write (default: none)");
+    add_whole(group, "--pe-stride", run_.series_stride, 1,
+              "Steps between samples of the series (steps)");
+    CLI::Option *const checkpoint =
+        group.add("--checkpoint", run_.checkpoint,
+                  "Checkpoint to write, also on SIGINT and SIGTERM (default: none)");
+    add_whole(group, "--checkpoint-interval", run_.checkpoint_interval, 0,
               "Steps between checkpoints; 0: only when interrupted and at the end (steps)");
-    app_.add_flag("--resume", run_.resume,
-                  "Continue from the checkpoint; the catalogue ends as if never interrupted")
-        ->needs(checkpoint);
-    app_.add_flag("--overwrite", run_.overwrite,
-                  "Replace catalogue, series and checkpoint of an earlier run, which is refused "
-                  "otherwise; with --resume, those of runs of an ensemble that have no checkpoint");
-    app_.add_option("--json", s_.summary, "JSON summary to write; - is standard output");
-    app_.add_flag("--progress", run_.progress, "Show the progress on standard error every second");
-    app_.option_defaults()->group("Several runs");
-    app_.add_option(
-        "--ensemble", s_.ensemble,
-        "A number of runs with successive seeds, or a file with the options of one run per "
-        "line; '{run}' in output names is replaced by the run's number, from 1, or put "
-        "before the extension");
-    app_.add_option("--threads", s_.threads, "Runs at a time; 0: one per core")
-        ->check(LSM::whole_number(4096));
+    group.flag("--resume", run_.resume,
+               "Continue from the checkpoint; the catalogue ends as if never interrupted",
+               needs(checkpoint));
+    group.flag("--overwrite", run_.overwrite,
+               "Replace catalogue, series and checkpoint of an earlier run, which is refused "
+               "otherwise; with --resume, those of runs of an ensemble that have no checkpoint");
+    group.add("--json", s_.summary, "JSON summary to write; - is standard output");
+    group.flag("--progress", run_.progress, "Show the progress on standard error every second");
+    runs.add("--ensemble", s_.ensemble,
+             "A number of runs with successive seeds, or a file with the options of one run per "
+             "line; '{run}' in output names is replaced by the run's number, from 1, or put "
+             "before the extension");
+    runs.add("--threads", s_.threads, "Runs at a time; 0: one per core", LSM::whole_number(4096));
   }
 
   /// CLI11 silently takes the last of two values. \throws LSM::FileError
@@ -393,21 +381,13 @@ class CommandLine {
     add("plate_drops", "left out", without_plate_drops_);
   }
 
-  /// An option whose value is one of the words of an enumeration.
-  template <class Enum>
-  CLI::Option *add_choice(const std::string &name, Enum &value, const std::string &help) {
-    const auto choose = [name, &value](const std::string &word) {
-      if (!from_string(word, value))
-        throw std::invalid_argument(
-            fmt::format("{} = '{}', expected {}", name, word, LSM::choices(value)));
-    };
-    return app_.add_option_function<std::string>(name, choose, help)->default_str(to_string(value));
-  }
   /// An option whose value is a whole number, also as 1e7.
-  CLI::Option *add_whole(const std::string &name, std::int64_t &value, std::int64_t least,
-                         const std::string &help) {
+  template <class... Rules>
+  static CLI::Option *add_whole(OptionGroup group, const std::string &name, std::int64_t &value,
+                                std::int64_t least, const std::string &help,
+                                const Rules &...rules) {
     const auto take = [name, &value, least](double x) { value = whole(name, x, least); };
-    return app_.add_option_function<double>(name, take, help)->default_str(std::to_string(value));
+    return group.call<double>(name, take, help, shown(std::to_string(value)), rules...);
   }
   bool given(const std::string &option) const { return app_.count(option) > 0; }
 
@@ -420,6 +400,7 @@ class CommandLine {
   std::string coupling_ = "chain", friction_file_;
   Strip strip_;
   double time_ = 1e5, rupture_gap_ = 0.0;
+  CLI::Option *paper_option_ = nullptr;
   bool paper_ = false, unstable_ = false, without_plate_drops_ = false;
 };
 

@@ -35,8 +35,9 @@ void add_time(OptionGroup group, const char *option, double &time, double &day,
             text_io::in_quotes(text)));
     }
   };
-  group.texts(option, read, help + "; may be given once per catalogue",
-              {one_each(), kind("TIME"), shown(time < 0.0 ? "start" : "end")});
+  group.call<std::vector<std::string>>(option, read, help + "; may be given once per catalogue",
+                                       one_each(), kind("TIME"),
+                                       shown(time < 0.0 ? "start" : "end"));
 }
 
 /// Model time in the unit of the times asked for.
@@ -83,7 +84,7 @@ void CatalogueOptions::add_to(CLI::App *command) {
   CLI::Option *const smallest = group.add(
       "--min-size", min_size, "Leave out events smaller than this (energy; M2.5: magnitude 2.5)",
       size_or_magnitude(), finite());
-  group.call(
+  group.call<double>(
       "--min-magnitude", [this](double magnitude) { min_size = size_of_magnitude(magnitude); },
       "The same, as a magnitude", shown(""), excludes(smallest));
   add_time(group, "--from", from_time, from_day,
@@ -112,7 +113,7 @@ void CatalogueOptions::add_displacement(CLI::App *command) {
 }
 
 void add_threshold(OptionGroup group, Threshold &threshold, const std::string &what) {
-  group.call(
+  group.call<double>(
       "--threshold", [&threshold](double size) { threshold = Threshold(size); },
       threshold_help(what, ""), size_or_magnitude(), zero_or_more(), shown("1e-4"));
 }

@@ -126,11 +126,11 @@ class Export : public CatalogueAnalysis {
               "quakeml: QuakeML 1.2",
               among({"seismostats", "csep", "quakeml"}));
     magnitudes_.add_to(group);
-    group.texts(
+    group.call<std::vector<std::string>>(
         "--start-date", [this](const std::vector<std::string> &text) { start_ = text.back(); },
         "Date of model time 0, YYYY-MM-DD or YYYY-MM-DDTHH:MM:SS (UTC). Times are the starts "
         "of events, YYYY-MM-DDTHH:MM:SS.ffffff",
-        {shown("with --unit-length 2000-01-01")});
+        shown("with --unit-length 2000-01-01"));
     group.add("--time-unit", unit_,
               "Length of one unit of model time: second, minute, hour, day, year (365.25 days), or "
               "a number of seconds. Dates have to lie before 2262 (pandas) or 10000 (others)",

@@ -91,10 +91,8 @@ int main(int argc, char **argv) {
   if (isatty(STDERR_FILENO)) watch_replicas(Progress());
   try {
     CLI::App app(description, "postproc");
-    app.set_version_flag("--version", "postproc " POSTPROC_VERSION);
+    LSM::set_up(app, "postproc " POSTPROC_VERSION);
     app.require_subcommand(1);
-    app.option_defaults()->always_capture_default();
-    app.get_formatter()->column_width(34);
     const auto commands = all_commands();
     for (const auto &[name, command] : commands) {
       CLI::App *const sub = app.add_subcommand(name, command->help());
@@ -108,13 +106,7 @@ int main(int argc, char **argv) {
                      [argv](const auto &command) { return command.first == argv[1]; }))
       return fail("unknown command " + LSM::text_io::in_quotes(argv[1]) + ", did you mean '" +
                   nearest(argv[1], commands) + "'? (--help lists the options)");
-    try {
-      app.parse(argc, argv);
-    } catch (const CLI::Success &e) {
-      return app.exit(e);
-    } catch (const CLI::ParseError &e) {
-      return fail(std::string(e.what()) + " (--help lists the options)");
-    }
+    if (const auto status = LSM::parse(app, {argv + 1, argv + argc})) return *status;
     if (std::fflush(stdout) != 0 || std::ferror(stdout))
       return fail("cannot write to standard output");
     return 0;

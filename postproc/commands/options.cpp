@@ -11,7 +11,6 @@
 #include <optional>
 #include <stdexcept>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -19,69 +18,8 @@
 #include "files/text_io.h"
 #include "new_file.h"
 #include "numbers.h"
-#include "whole_number.h"
 
 namespace LSM::postproc {
-
-namespace {
-
-Rule check(const CLI::Validator &validator) {
-  return [validator](CLI::Option &option) { option.check(validator); };
-}
-
-CLI::Option *put(CLI::Option *option, const std::string &heading, const std::vector<Rule> &rules) {
-  for (const Rule &rule : rules) rule(*option);
-  return option->group(heading);
-}
-
-}  // namespace
-
-Rule required() {
-  return [](CLI::Option &option) { option.required(); };
-}
-Rule one_each() {
-  return [](CLI::Option &option) { option.allow_extra_args(false); };
-}
-Rule shown(const std::string &value) {
-  return [value](CLI::Option &option) { option.default_str(value); };
-}
-Rule kind(const std::string &of_value) {
-  return [of_value](CLI::Option &option) { option.type_name(of_value); };
-}
-Rule excludes(CLI::Option *other) {
-  return [other](CLI::Option &option) { option.excludes(other); };
-}
-Rule positive() { return check(CLI::PositiveNumber); }
-Rule between(double lo, double hi) { return check(CLI::Range(lo, hi)); }
-Rule between(std::int64_t lo, std::int64_t hi) { return check(CLI::Range(lo, hi)); }
-Rule among(const std::vector<std::string> &words) { return check(CLI::IsMember(words)); }
-
-namespace {
-
-/// A finite number that good accepts.
-Rule number_that(bool (*good)(double), const char *expected) {
-  return check(CLI::Validator(
-      [good, expected](std::string &text) {
-        double value = 0.0;
-        return text_io::parse(text, value) && good(value)
-                   ? std::string()
-                   : expected + (", not " + text_io::in_quotes(text));
-      },
-      ""));
-}
-
-}  // namespace
-
-Rule zero_or_more() {
-  return number_that([](double value) { return value >= 0.0; }, "expected a number of 0 or more");
-}
-Rule finite() {
-  return number_that([](double) { return true; }, "expected a finite number");
-}
-
-Rule number_or(const std::map<std::string, double> &words) {
-  return [words](CLI::Option &option) { option.transform(CLI::Transformer(words)); };
-}
 
 namespace {
 
@@ -96,58 +34,14 @@ bool parse_size(std::string_view text, double &size) {
 }  // namespace
 
 Rule size_or_magnitude() {
-  return [](CLI::Option &option) {
-    option.transform(CLI::Validator(
-        [](std::string &text) {
-          double size = 0.0;
-          if (text.empty() || text.front() != 'M') return std::string();
-          if (!parse_size(text, size))
-            return "expected a size, or M and a magnitude, not " + text_io::in_quotes(text);
-          text = text_io::number(size);
-          return std::string();
-        },
-        ""));
-  };
-}
-
-template <class Value>
-CLI::Option *OptionGroup::bind(const std::string &names, Value &value, const std::string &help,
-                               const std::vector<Rule> &rules) {
-  return put(command_->add_option(names, value, help), heading_, rules);
-}
-#define LSM_BIND(Value)                                                                      \
-  template CLI::Option *OptionGroup::bind(const std::string &, Value &, const std::string &, \
-                                          const std::vector<Rule> &);
-LSM_BIND(double)
-LSM_BIND(int)
-LSM_BIND(std::int64_t)
-LSM_BIND(std::uint64_t)
-LSM_BIND(std::string)
-LSM_BIND(std::optional<double>)
-LSM_BIND(std::vector<double>)
-LSM_BIND(std::vector<std::string>)
-#undef LSM_BIND
-
-CLI::Option *OptionGroup::bind_call(const std::string &names,
-                                    const std::function<void(const double &)> &use,
-                                    const std::string &help, const std::vector<Rule> &rules) {
-  return put(command_->add_option_function(names, use, help), heading_, rules);
-}
-
-void OptionGroup::texts(const std::string &names,
-                        const std::function<void(const std::vector<std::string> &)> &use,
-                        const std::string &help, const std::vector<Rule> &rules) {
-  put(command_->add_option_function(names, use, help), heading_, rules);
-}
-
-void OptionGroup::flag(const std::string &names, bool &value, const std::string &help) {
-  put(command_->add_flag(names, value, help), heading_, {});
-}
-
-void OptionGroup::remove(const char *name) { command_->remove_option(command_->get_option(name)); }
-
-void add_seed(OptionGroup group, std::uint64_t &seed) {
-  group.add("--seed", seed, "Seed of the random numbers", check(whole_number()));
+  return transformed([](std::string &text) {
+    double size = 0.0;
+    if (text.empty() || text.front() != 'M') return std::string();
+    if (!parse_size(text, size))
+      return "expected a size, or M and a magnitude, not " + text_io::in_quotes(text);
+    text = text_io::number(size);
+    return std::string();
+  });
 }
 
 void add_wave_speeds(OptionGroup group, double &p_speed, double &s_speed) {
@@ -340,11 +234,11 @@ void JsonOutput::add_to(CLI::App *command) {
     standard_output_ = dup(STDOUT_FILENO);
     dup2(STDERR_FILENO, STDOUT_FILENO);
   };
-  put(command->add_option_function<std::string>(
-          "--json", given,
-          "Also write the numbers to this file, as JSON; -: to standard output, everything else to "
-          "standard error"),
-      "Options", {kind("FILE"), shown("")});
+  OptionGroup(command).call<std::string>(
+      "--json", given,
+      "Also write the numbers to this file, as JSON; -: to standard output, everything else to "
+      "standard error",
+      kind("FILE"), shown(""));
 }
 
 std::string JsonOutput::text_of(const nlohmann::ordered_json &found) {

@@ -5,8 +5,6 @@
 #define LSM_POSTPROC_OPTIONS_H
 
 #include <cstdint>
-#include <functional>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,74 +15,16 @@
 
 #include "event_table.h"
 #include "files/catalogue.h"
-#include "magnitudes.h"
 #include "files/output_claim.h"
+#include "magnitudes.h"
+#include "option_group.h"
 #include "size_figures.h"
 #include "units.h"
 
-namespace CLI {
-class App;
-class Option;
-}  // namespace CLI
-
 namespace LSM::postproc {
 
-/// A rule of an option: what is allowed, and how --help shows it.
-using Rule = std::function<void(CLI::Option &)>;
-Rule required();
-Rule one_each();                         ///< a value each time the option is given
-Rule shown(const std::string &value);    ///< as the default
-Rule kind(const std::string &of_value);  ///< in place of TEXT
-Rule excludes(CLI::Option *other);
-Rule positive();
-Rule zero_or_more();
-Rule finite();
-Rule between(double lo, double hi);
-Rule between(std::int64_t lo, std::int64_t hi);
-inline Rule between(int lo, int hi) { return between(std::int64_t{lo}, std::int64_t{hi}); }
-Rule among(const std::vector<std::string> &words);
-/// A number, or one of the words for numbers.
-Rule number_or(const std::map<std::string, double> &words);
 /// A size, or the magnitude M2.5 of an event of size 10^(1.5 x 2.5).
 Rule size_or_magnitude();
-
-/// Options under one heading of --help. Only options.cpp includes the library of options, which
-/// takes long to compile.
-class OptionGroup {
- public:
-  explicit OptionGroup(CLI::App *command, std::string heading = "Options")
-      : command_(command), heading_(std::move(heading)) {}
-
-  /// Value: double, int, std::int64_t, std::uint64_t, std::string, optional double, or a vector.
-  template <class Value, class... Rules>
-  CLI::Option *add(const std::string &names, Value &value, const std::string &help,
-                   const Rules &...rules) {
-    return bind(names, value, help, {Rule(rules)...});
-  }
-  /// An option that calls a function with a number, or with all given texts.
-  template <class... Rules>
-  CLI::Option *call(const std::string &names, const std::function<void(const double &)> &use,
-                    const std::string &help, const Rules &...rules) {
-    return bind_call(names, use, help, {Rule(rules)...});
-  }
-  void texts(const std::string &names,
-             const std::function<void(const std::vector<std::string> &)> &use,
-             const std::string &help, const std::vector<Rule> &rules);
-  void flag(const std::string &names, bool &value, const std::string &help);
-  void remove(const char *name);
-
- private:
-  template <class Value>
-  CLI::Option *bind(const std::string &names, Value &value, const std::string &help,
-                    const std::vector<Rule> &rules);
-  CLI::Option *bind_call(const std::string &names, const std::function<void(const double &)> &use,
-                         const std::string &help, const std::vector<Rule> &rules);
-  CLI::App *command_;
-  std::string heading_;
-};
-
-/// Adds --seed of the random numbers of a command.
-void add_seed(OptionGroup group, std::uint64_t &seed);
 
 /// Adds --p-speed and --s-speed.
 void add_wave_speeds(OptionGroup group, double &p_speed, double &s_speed);

@@ -33,7 +33,7 @@ class Periods : public Statistic {
   void add_options(CLI::App *command) override {
     add_usual(command, "periods");
     OptionGroup group(command, "Periods †");
-    group.call(
+    group.call<double>(
         "--threshold", [this](double size) { threshold_ = Threshold(size); },
         "Smallest size of the events (model energy; M2.5: magnitude 2.5)", size_or_magnitude(),
         zero_or_more(), shown("1e-2"));

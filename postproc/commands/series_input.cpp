@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "input_file.h"
-#include "picker_options.h"
 
 namespace LSM::postproc {
 
@@ -62,11 +61,11 @@ std::int64_t SeriesInput::read_some(const Use &use) {
 }
 
 void add_picker_options(CLI::App *command, PickerOptions &options) {
-  const AddedPickerOptions added = LSM::add_picker_options(
-      command, options, "Event picker (defaults are in the header of the series)");
-  added.lambda->description(added.lambda->get_description() +
-                            ". From the header of a series of every s-th step: its value to the "
-                            "power s (exponential)");
+  const PickerOptions::Added added = options.add_to(
+      OptionGroup(command, "Event picker (defaults are in the header of the series)"));
+  more_help(
+      ". From the header of a series of every s-th step: its value to the power s (exponential)")(
+      *added.lambda);
 }
 
 PickerSettings picker_settings(const PickerOptions &options, const PeSeriesInfo &info) {

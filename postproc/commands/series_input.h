@@ -9,10 +9,9 @@
 #include <limits>
 #include <string>
 
-#include "events/event_picker.h"
 #include "files/pe_series.h"
-#include "events/picker_options.h"
 #include "options.h"
+#include "picker_options.h"
 #include "series_figures.h"
 
 namespace LSM::postproc {

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "option_group.h"
+
+#include <algorithm>
+#include <limits>
+
+#include <CLI/CLI.hpp>
+
+#include "files/text_io.h"
+
+namespace LSM {
+
+namespace {
+
+Rule check(const CLI::Validator &validator) {
+  return [validator](CLI::Option &option) { option.check(validator); };
+}
+
+Rule transform(const CLI::Validator &validator) {
+  return [validator](CLI::Option &option) { option.transform(validator); };
+}
+
+/// A number that good accepts.
+template <class Number, class Good>
+Rule number_that(Good good, const std::string &expected) {
+  return check(CLI::Validator(
+      [good, expected](std::string &text) {
+        Number value{};
+        return text_io::parse(text, value) && good(value)
+                   ? std::string()
+                   : "expected " + expected + ", not " + text_io::in_quotes(text);
+      },
+      ""));
+}
+
+CLI::Option *put(CLI::Option *option, const std::string &heading, const std::vector<Rule> &rules) {
+  for (const Rule &rule : rules) rule(*option);
+  return option->group(heading);
+}
+
+}  // namespace
+
+Rule required() {
+  return [](CLI::Option &option) { option.required(); };
+}
+Rule one_each() {
+  return [](CLI::Option &option) { option.allow_extra_args(false); };
+}
+Rule values(int count) {
+  return [count](CLI::Option &option) { option.expected(count); };
+}
+Rule shown(const std::string &value) {
+  return [value](CLI::Option &option) { option.default_str(value); };
+}
+Rule kind(const std::string &of_value) {
+  return [of_value](CLI::Option &option) { option.type_name(of_value); };
+}
+Rule more_help(const std::string &text) {
+  return [text](CLI::Option &option) { option.description(option.get_description() + text); };
+}
+Rule excludes(CLI::Option *other) {
+  return [other](CLI::Option &option) { option.excludes(other); };
+}
+Rule needs(CLI::Option *other) {
+  return [other](CLI::Option &option) { option.needs(other); };
+}
+Rule positive() { return check(CLI::PositiveNumber); }
+Rule between(double lo, double hi) { return check(CLI::Range(lo, hi)); }
+Rule between(std::int64_t lo, std::int64_t hi) { return check(CLI::Range(lo, hi)); }
+Rule among(const std::vector<std::string> &words) { return check(CLI::IsMember(words)); }
+Rule zero_or_more() {
+  return number_that<double>([](double value) { return value >= 0.0; }, "a number of 0 or more");
+}
+Rule finite() {
+  return number_that<double>([](double) { return true; }, "a finite number");
+}
+Rule whole_number(std::uint64_t most) {
+  return number_that<std::uint64_t>([most](std::uint64_t value) { return value <= most; },
+                                    "a whole number from 0 to " + std::to_string(most));
+}
+Rule number_or(const std::map<std::string, double> &words) {
+  return transform(CLI::Transformer(words));
+}
+Rule transformed(const std::function<std::string(std::string &)> &change) {
+  return transform(CLI::Validator(change, ""));
+}
+
+template <class Value>
+CLI::Option *OptionGroup::bind(const std::string &names, Value &value, const std::string &help,
+                               const std::vector<Rule> &rules) {
+  return put(command_->add_option(names, value, help), heading_, rules);
+}
+#define LSM_BIND(Value)                                                                      \
+  template CLI::Option *OptionGroup::bind(const std::string &, Value &, const std::string &, \
+                                          const std::vector<Rule> &);
+LSM_BIND(double)
+LSM_BIND(int)
+LSM_BIND(unsigned)
+LSM_BIND(std::int64_t)
+LSM_BIND(std::uint64_t)
+LSM_BIND(std::string)
+LSM_BIND(std::optional<double>)
+LSM_BIND(std::optional<std::string>)
+LSM_BIND(std::vector<double>)
+LSM_BIND(std::vector<std::string>)
+#undef LSM_BIND
+
+template <class Value>
+CLI::Option *OptionGroup::bind_call(const std::string &names,
+                                    const std::function<void(const Value &)> &use,
+                                    const std::string &help, const std::vector<Rule> &rules) {
+  return put(command_->add_option_function(names, use, help), heading_, rules);
+}
+#define LSM_BIND_CALL(Value)                                                               \
+  template CLI::Option *OptionGroup::bind_call(const std::string &,                        \
+                                               const std::function<void(const Value &)> &, \
+                                               const std::string &, const std::vector<Rule> &);
+LSM_BIND_CALL(double)
+LSM_BIND_CALL(std::string)
+LSM_BIND_CALL(std::vector<std::string>)
+#undef LSM_BIND_CALL
+
+CLI::Option *OptionGroup::bind_flag(const std::string &names, bool &value, const std::string &help,
+                                    const std::vector<Rule> &rules) {
+  return put(command_->add_flag(names, value, help), heading_, rules);
+}
+
+void OptionGroup::remove(const char *name) { command_->remove_option(command_->get_option(name)); }
+
+void add_seed(OptionGroup group, std::uint64_t &seed, const std::string &help) {
+  group.add("--seed", seed, help, whole_number(std::numeric_limits<std::uint64_t>::max()));
+}
+
+void set_up(CLI::App &program, const std::string &version) {
+  program.set_version_flag("--version", version);
+  program.option_defaults()->always_capture_default();
+  program.get_formatter()->column_width(34);
+}
+
+std::optional<int> parse(CLI::App &program, std::vector<std::string> arguments) {
+  // CLI11 takes them from the back.
+  std::reverse(arguments.begin(), arguments.end());
+  try {
+    program.parse(std::move(arguments));
+    return {};
+  } catch (const CLI::Success &asked_for) {
+    return program.exit(asked_for);
+  } catch (const CLI::ParseError &error) {
+    std::string what = error.what();
+    std::replace(what.begin(), what.end(), '\n', ' ');
+    throw std::invalid_argument(what + " (--help lists the options)");
+  }
+}
+
+}  // namespace LSM

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file option_group.h
+/// The options of the programs: where a value goes, and rules of what it may be. Only
+/// option_group.cpp and the programs themselves include CLI11, which takes long to compile.
+#ifndef LSM_OPTION_GROUP_H
+#define LSM_OPTION_GROUP_H
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "files/names.h"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace LSM {
+
+/// A rule of an option: what is allowed, and how --help shows it.
+using Rule = std::function<void(CLI::Option &)>;
+Rule required();
+Rule one_each();                         ///< a value each time the option is given
+Rule values(int count);                  ///< so many values at once
+Rule shown(const std::string &value);    ///< as the default
+Rule kind(const std::string &of_value);  ///< in place of TEXT
+Rule more_help(const std::string &text);
+Rule excludes(CLI::Option *other);
+Rule needs(CLI::Option *other);
+Rule positive();
+Rule zero_or_more();
+Rule finite();
+Rule between(double lo, double hi);
+Rule between(std::int64_t lo, std::int64_t hi);
+inline Rule between(int lo, int hi) { return between(std::int64_t{lo}, std::int64_t{hi}); }
+/// Of an unsigned number: CLI11 turns negative numbers into huge ones, and numbers that are too
+/// large into the largest one.
+Rule whole_number(std::uint64_t most);
+Rule among(const std::vector<std::string> &words);
+/// A number, or one of the words for numbers.
+Rule number_or(const std::map<std::string, double> &words);
+/// Changes the text of the value, or returns what is wrong with it.
+Rule transformed(const std::function<std::string(std::string &)> &change);
+
+/// Options under one heading of --help.
+class OptionGroup {
+ public:
+  explicit OptionGroup(CLI::App *command, std::string heading = "Options")
+      : command_(command), heading_(std::move(heading)) {}
+
+  /// Value: a number, a text, an optional or vector of these.
+  template <class Value, class... Rules>
+  CLI::Option *add(const std::string &names, Value &value, const std::string &help,
+                   const Rules &...rules) {
+    return bind(names, value, help, {Rule(rules)...});
+  }
+  /// An option that calls a function with its value: a number, a text, or all given texts.
+  template <class Value, class... Rules>
+  CLI::Option *call(const std::string &names, const std::function<void(const Value &)> &use,
+                    const std::string &help, const Rules &...rules) {
+    return bind_call(names, use, help, {Rule(rules)...});
+  }
+  /// An option whose value is one of the words of an enumeration (files/names.h).
+  template <class Enum, class... Rules>
+  CLI::Option *choose(const std::string &name, Enum &value, const std::string &help,
+                      const Rules &...rules) {
+    const auto take = [name, &value](const std::string &word) {
+      if (!from_string(word, value))
+        throw std::invalid_argument(name + " = '" + word + "', expected " + choices(value));
+    };
+    return call<std::string>(name, take, help, shown(to_string(value)), rules...);
+  }
+  template <class... Rules>
+  CLI::Option *flag(const std::string &names, bool &value, const std::string &help,
+                    const Rules &...rules) {
+    return bind_flag(names, value, help, {Rule(rules)...});
+  }
+  void remove(const char *name);
+
+ private:
+  template <class Value>
+  CLI::Option *bind(const std::string &names, Value &value, const std::string &help,
+                    const std::vector<Rule> &rules);
+  template <class Value>
+  CLI::Option *bind_call(const std::string &names, const std::function<void(const Value &)> &use,
+                         const std::string &help, const std::vector<Rule> &rules);
+  CLI::Option *bind_flag(const std::string &names, bool &value, const std::string &help,
+                         const std::vector<Rule> &rules);
+  CLI::App *command_;
+  std::string heading_;
+};
+
+/// Adds --seed.
+void add_seed(OptionGroup group, std::uint64_t &seed,
+              const std::string &help = "Seed of the random numbers");
+
+/// What the programs have in common: version, default values and columns of --help.
+void set_up(CLI::App &program, const std::string &version);
+
+/// Reads a command line. Returns the exit status where help or version was asked for and printed.
+/// \throws std::invalid_argument with one line
+std::optional<int> parse(CLI::App &program, std::vector<std::string> arguments);
+
+}  // namespace LSM
+
+#endif
