@@ -1,0 +1,149 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What the parts of a long fault have to do with each other.
+
+stretches.py POSTPROC OUT [--memory TIME] FOLDER...
+
+Each FOLDER has a run with `-var extra fault_stretches`: fault.catalogue.csv and fault.stretches.txt. Its fault is cut into
+stretches of about 120, fixed in space, whose energies add up to PE (weights fall linearly over one piece, so that blocks move from
+one to the next without jumps). Writes, of all runs,
+  OUT.variance.csv   variance of the changes of PE over a time, over the sum of those of the stretches (1: independent), and the
+                     correlation of the changes of stretches, by their distance in stretches
+  OUT.events.csv     numbers of `postproc summary` for the events of the whole, of sums of its stretches shifted in time at random
+                     (no interaction left), and of each stretch with a picker of its own (mean over stretches)
+"""
+import argparse
+import csv
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+STRETCH = 120.0  # length, about
+LAGS = (1, 3, 10, 30, 100, 300, 1000)  # time units
+SHIFTS = 5  # sums with other shifts
+MAGIC = b"lsm-pe-series-1\n"
+NUMBERS = {
+    "events": "events_0.0001", "mean_time": "mean_time_0.0001", "gamma": "gamma_0.0001", "gamma_1e-3": "gamma_0.001",
+    "exponent": "exponent_1e-4:1e-1", "largest": "largest"
+}
+
+
+class Refused(Exception):
+    pass
+
+
+def header_of(catalogue):
+    with open(catalogue, encoding="utf-8") as lines:
+        return dict(line[2:].rstrip("\n").split(" = ", 1) for line in lines if line[0] == "#" and " = " in line)
+
+
+def samples(path):
+    """Steps, and energies [sample, piece, block]. \\raises Refused"""
+    with open(path, encoding="utf-8") as file:
+        lines = [line for line in file if line[0] != "#"]
+    if len(lines) < 2:
+        raise Refused(f"{path}: no sample, expected the output of fault_stretches.in")
+    pieces = int(lines[0].split()[1])
+    count = len(lines) // (pieces + 1)  # a killed run leaves a part of a sample
+    table = [lines[n * (pieces + 1):(n + 1) * (pieces + 1)] for n in range(count)]
+    steps = np.array([int(rows[0].split()[0]) for rows in table])
+    energy = np.array([[row.split()[1:] for row in rows[1:]] for rows in table], float)
+    fresh = np.concatenate([[True], np.diff(steps) > 0])  # the step at which a piece of a run ends begins the next, too
+    return steps[fresh], energy[fresh]
+
+
+def stretches_of(folder):
+    """Header, and PE of each stretch at evenly spaced times. \\raises Refused"""
+    info = header_of(folder / "fault.catalogue.csv")
+    steps, energy = samples(folder / "fault.stretches.txt")
+    if len(set(np.diff(steps))) != 1:
+        raise Refused(f"{folder / 'fault.stretches.txt'}: steps between samples differ, expected one number")
+    length, dt = float(info["length"]), float(info["dt"])
+    count = round(length / STRETCH)
+    size, piece = length / count, length / energy.shape[1]
+    moved = float(info["velocity"]) * dt * (steps - steps[0])
+    places = (np.arange(energy.shape[1]) + 0.5) * piece
+    pe = np.zeros((count, len(steps)))
+    for block, way in ((0, -1), (1, 1)):  # the plate below moves to smaller x
+        x = places[None, :] + way * moved[:, None]
+        for n in range(count):
+            away = np.abs((x - (n + 0.5) * size + 0.5 * length) % length - 0.5 * length)
+            pe[n] += (np.clip((0.5 * size + 0.5 * piece - away) / piece, 0, 1) * energy[:, :, block]).sum(axis=1)
+    return info, int(steps[1] - steps[0]), pe
+
+
+def variance(pe, every, dt):
+    for lag in LAGS:
+        by = max(1, round(lag / (every * dt)))
+        change = pe[:, by:] - pe[:, :-by]
+        whole, parts = change.sum(axis=0).var(), change.var(axis=1).sum()
+        r = np.corrcoef(change)
+        count = len(pe)
+        apart = [np.mean([r[n, (n + k) % count] for n in range(count)]) for k in range(1, count // 2 + 1)]
+        yield {"lag": lag, "ratio": f"{whole / parts:.4g}", **{f"correlation_{k}": f"{c:.3g}" for k, c in enumerate(apart[:3], 1)}}
+
+
+def write_series(path, info, every, pe):
+    """As compute lsm/events writes them, one sample as a step."""
+    info = {**info, "dt": repr(float(info["dt"]) * every), "step0": "0", "time0": "0", "stride": "1"}
+    header = "".join(f"# {key} = {value}\n" for key, value in info.items()).encode()
+    both = np.empty(len(pe), [("step", "<i8"), ("pe", "<f8")])
+    both["step"], both["pe"] = np.arange(len(pe)), pe
+    path.write_bytes(MAGIC + len(header).to_bytes(8, "little") + header + both.tobytes())
+
+
+def asked(*words):
+    done = subprocess.run(list(map(str, words)), capture_output=True, text=True)
+    if done.returncode:
+        raise Refused(done.stderr.strip())
+    return done.stdout
+
+
+def events(postproc, info, every, pe, memory):
+    with tempfile.TemporaryDirectory() as work:
+        series, picked = Path(work) / "sum.pe.bin", Path(work) / "picked.csv"
+        write_series(series, info, every, pe)
+        said = [asked(postproc, "pick", series, "-o", picked, "--memory-time", memory), asked(postproc, "summary", picked, "--range", "1e-4:1e-1")]
+    row = next(csv.DictReader(line for line in said[1].splitlines() if not line.startswith("#")))
+    return {name: row.get(key) for name, key in NUMBERS.items()}
+
+
+def mean_row(rows):
+    out = {}
+    for name in NUMBERS:
+        values = [float(row[name]) for row in rows if row[name] not in (None, "")]
+        out[name] = f"{np.mean(values):.4g}" if values else ""
+        out[f"{name}_sd"] = f"{np.std(values, ddof=1):.3g}" if len(values) > 1 else ""
+    return out
+
+
+def main(postproc, out, memory, folders):
+    changes, counted = [], []
+    random = np.random.default_rng(1)
+    for folder in map(Path, folders):
+        info, every, pe = stretches_of(folder)
+        run = {"length": info["length"], "seed": info["seed"], "stretches": len(pe)}
+        changes += [{**run, **row} for row in variance(pe, every, float(info["dt"]))]
+        shifted = [sum(np.roll(one, random.integers(len(one))) for one in pe - pe.mean(axis=1)[:, None]) for _ in range(SHIFTS)]
+        for what, series in (("whole", [pe.sum(axis=0)]), ("shifted", shifted), ("each", pe)):
+            counted.append({**run, "what": what, "series": len(series), **mean_row([events(postproc, info, every, one, memory) for one in series])})
+    for ending, rows in (("variance", changes), ("events", counted)):
+        with open(f"{out}.{ending}.csv", "w", encoding="utf-8", newline="") as file:
+            table = csv.DictWriter(file, list(dict.fromkeys(key for row in rows for key in row)), lineterminator="\n")
+            table.writeheader()
+            table.writerows(rows)
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("postproc", metavar="POSTPROC")
+    parser.add_argument("out", metavar="OUT")
+    parser.add_argument("--memory", type=float, default=2.0, metavar="TIME", help="of the picker (%(default)s)")
+    parser.add_argument("folders", metavar="FOLDER", nargs="+")
+    try:
+        main(**vars(parser.parse_args()))
+    except (Refused, OSError) as error:
+        sys.exit(f"stretches.py: {error}")
