@@ -14,7 +14,6 @@ import csv
 import difflib
 import functools
 import json
-import lzma
 import math
 import re
 import statistics
@@ -31,9 +30,8 @@ from calibrate import number, read  # noqa: E402
 
 POSTPROC = "postproc"  # the program, set by main()
 POINTS, SLIDERS = FOLDER / "calibration/points.csv.xz", FOLDER / "calibration/sliders.csv.xz"
-CAMPAIGN, WIDTHS, PACKING = FOLDER / "campaign", FOLDER / "widths", FOLDER / "packing"
+CAMPAIGN, WIDTHS = FOLDER / "campaign", FOLDER / "widths"
 LOADING = str(calibrate.LOADING)
-SIGNIFICANT = 0.05
 SIZES = ("1e-4", "1e-3", "1e-2")
 NOT_MEASURED = "Not measured with this model yet."
 
@@ -121,7 +119,8 @@ def spread(values, error=math.nan):
 
 def of(row, key):
     """A number with its error, in a column beside it."""
-    return shown(number(row, key), number(row, key.replace("exponent_", "error_") if ":" in key else f"{key}_error"))
+    names = (f"{key}_error", f"{key}_sd", key.replace("exponent_", "error_"), key.replace("gamma_", "gamma_error_"))
+    return shown(number(row, key), next((number(row, name) for name in names if name != key and name in row), math.nan))
 
 
 # ---- the fault
@@ -174,15 +173,9 @@ def catalogues_table():
     keys = {"time units": "time"} | {f"events >= {size}": f"events_{float(size):g}" for size in SIZES}
     keys |= {text.replace(":", " to "): f"exponent_{text}" for text in calibrate.RANGES}
     keys |= {f"gamma >= {size}": f"gamma_{float(size):g}" for size in SIZES} | {"mean time": "mean_time_0.0001", "largest": "largest"}
-
-    def cell(row, key):
-        if key.startswith("gamma"):
-            return shown(number(row, key), number(row, key.replace("gamma", "gamma_error")))
-        return of(row, key)
-
     return table(["length, packing", "", *keys],
                  [[f"{row['length']}, {row['seed']}",
-                   use(row["length"], row["seed"]), *(cell(row, key) for key in keys.values())] for row in summaries()])
+                   use(row["length"], row["seed"]), *(of(row, key) for key in keys.values())] for row in summaries()])
 
 
 def ruptures_table():
@@ -215,7 +208,7 @@ def same_times_table():
             others = base[:n] if paths is base else base
             words = (path, *others, "--from", LOADING, "--rescale", "--replicas", 400, "--threshold", size)
             p += [test["p"] for test in numbers_of("compare", *words)["tests"] if test["quantity"] == "time"] if others else []
-        return f"{sum(x < SIGNIFICANT for x in p)} of {len(p)}, {statistics.median(p):.2f}" if p else "-"
+        return f"{sum(x < 0.05 for x in p)} of {len(p)}, {statistics.median(p):.2f}" if p else "-"
 
     return table([f"predicted; pairs with length {next(iter(groups))} that differ (p < 0.05), median p", *map(str, groups)],
                  [[f"times of events >= {size}", *(text(paths, size) for paths in groups.values())] for size in SIZES])
@@ -229,6 +222,26 @@ def widths_table():
         groups.setdefault((row["length"], row["width"]), []).append(row)
     return table(["predicted, length", "width", "packings", *keys],
                  [[*group, str(len(rows)), *(spread([number(row, key) for row in rows]) for key in keys.values())] for group, rows in groups.items()])
+
+
+def variance_table():
+    """Variance of the changes of PE over that of independent stretches, and the correlation of neighbours."""
+    groups = {}
+    for row in read(FOLDER / "stretches.variance.csv"):
+        groups.setdefault(f"{row['length']}, {row['seed']} ({row['stretches']})", {})[row["lag"]] = f"{row['ratio']} ({row['correlation_1']})"
+    lags = list(next(iter(groups.values())))
+    return table(["predicted; length, packing (stretches)", *(f"over {lag} time units" for lag in lags)],
+                 [[name, *(cells[lag] for lag in lags)] for name, cells in groups.items()])
+
+
+def stretches_table():
+    """Events of the whole fault, of its stretches shifted in time, and of each with a picker of its own."""
+    keys = {
+        "events >= 1e-4": "events", "mean time": "mean_time", "gamma": "gamma", "gamma >= 1e-3": "gamma_1e-3", "exponent": "exponent",
+        "largest": "largest"
+    }
+    columns = {"predicted; length, packing": lambda row: f"{row['length']}, {row['seed']}", "PE of": lambda row: row["what"]}
+    return study_table("stretches.events.csv", columns | {head: lambda row, key=key: of(row, key) for head, key in keys.items()})
 
 
 # ---- calibration
@@ -248,12 +261,9 @@ def statements_table():
 
 
 def accepted_table():
-    names = [name for name, *_ in calibrate.STATEMENTS if name != "waves"]
-    return table(["point (used)", *VARIED, *names, "distance"], [[
-        row["point"], *(row[key]
-                        for key in VARIED), *(shown(value(row))
-                                              for name, _, value, _, _ in calibrate.STATEMENTS if name in names), f"{calibrate.distance(row):.2f}"
-    ] for row in calibrate.nearest(calibrate.points(POINTS)[0])[0]])
+    columns = {"point (used)": lambda row: row["point"]} | {key: lambda row, key=key: row[key] for key in VARIED}
+    columns |= {name: lambda row, value=value: shown(value(row)) for name, _, value, *_ in calibrate.STATEMENTS}
+    return study_table("", columns | {"distance": lambda row: shown(calibrate.distance(row))}, calibrate.nearest(calibrate.points(POINTS)[0])[0])
 
 
 def slider_table():
@@ -265,11 +275,10 @@ def slider_table():
     key, rows = min(groups.items(), key=lambda one: sum(calibrate.distance(row, statements)**2 for row in one[1]))
     rows.sort(key=lambda row: int(row["blocks"]))
     met = [sum(calibrate.deviations(row, statements)[n] <= 1.0 for row in rows) for n in range(len(statements))]
-    return table([
-        f"used: the nearest of {len(groups)} settings ({key[0]}, time step {key[1]})", "paper", ", ".join(row["blocks"]
-                                                                                                          for row in rows) + " blocks", "agrees at"
-    ], [[name, text, ", ".join(shown(value(row)) for row in rows), f"{n} of {len(rows)} lengths"]
-        for (name, text, value, *_), n in zip(statements, met)])
+    head = [f"used: the nearest of {len(groups)} settings ({key[0]}, time step {key[1]})", "paper", "here", "agrees at"]
+    blocks = ["blocks", "", ", ".join(row["blocks"] for row in rows), ""]
+    return table(head, [blocks] + [[name, text, ", ".join(shown(value(row)) for row in rows), f"{n} of {len(rows)} lengths"]
+                                   for (name, text, value, *_), n in zip(statements, met)])
 
 
 # ---- packing, ruptures of a flat fault
@@ -278,9 +287,8 @@ def slider_table():
 def ground_table():
     """The period that seeds on a grid gave the faces, and what was recorded of the slip, beside faces at random places."""
     places, now = {}, faults()
-    with lzma.open(PACKING / "faces.csv.xz", "rt") as file:
-        for row in csv.DictReader(file):
-            places.setdefault((row["seeds"], row["length"]), {}).setdefault((row["packing"], row["side"]), []).append(float(row["x"]))
+    for row in read(FOLDER / "packing/faces.csv.xz"):
+        places.setdefault((row["seeds"], row["length"]), {}).setdefault((row["packing"], row["side"]), []).append(float(row["x"]))
 
     def factors(seeds, length):
         k = 2 * math.pi * 2 * math.floor(float(length) / 2) / float(length)  # at half the spacing of the grid, as near as fits in
@@ -289,16 +297,15 @@ def ground_table():
     def z(paths):
         return ", ".join(f"{numbers_of('periods', path, '--from', LOADING, '--no-picture')['periods'][0]['z']:.1f}" for path in paths)
 
-    return table([
-        "length (predicted)", "structure factor of each face at wavelength 1, grid (two packings)", "random places", "Z at a slip of 1, grid",
-        "random places", "slip recorded over that of the plates, before", "now"
-    ], [[
-        row["length"],
-        factors("grid", row["length"]),
-        factors("random", row["length"]), row["z"],
-        z(now.get(int(row["length"]), [])), row["slip_recorded"] or "-",
-        spread([number(one, "recorded") for one in summaries() if one["length"] == row["length"]])
-    ] for row in read(PACKING / "grid.csv")])
+    columns = {
+        "length (predicted)": lambda row: row["length"],
+        "structure factor of each face at wavelength 1, grid (two packings)": lambda row: factors("grid", row["length"]),
+        "random places": lambda row: factors("random", row["length"]), "Z at a slip of 1, grid": lambda row: row["z"],
+        "Z, random places": lambda row: z(now.get(int(row["length"]), [])),
+        "slip recorded over that of the plates, before": lambda row: row["slip_recorded"] or "-",
+        "now": lambda row: spread([number(one, "recorded") for one in summaries() if one["length"] == row["length"]])
+    }
+    return study_table("packing/grid.csv", columns)
 
 
 def rupture_packing_table():
@@ -307,12 +314,10 @@ def rupture_packing_table():
     def rms(numbers):
         return math.sqrt(statistics.fmean(x * x for x in numbers))
 
-    spacings, out = {}, []
+    spacings, out, keys = {}, [], ("x", "arrival", "reference_arrival", "end_slip", "reference_end_slip")
     for row in read(FOLDER / "rupture_packing-stations.csv"):
         _, spacing, seed = row["run"].split(".")  # p.SPACING.SEED
-        spacings.setdefault(int(spacing), {}).setdefault(seed, {})[float(
-            row["x"])] = {key: number(row, key)
-                          for key in ("x", "arrival", "reference_arrival", "end_slip", "reference_end_slip")}
+        spacings.setdefault(int(spacing), {}).setdefault(seed, {})[float(row["x"])] = {key: float(row[key]) for key in keys}
     for spacing, packed in sorted(spacings.items(), reverse=True):
         every = [at for stations in packed.values() for at in stations.values()]
         late = [rms(at["arrival"] - at["reference_arrival"] for at in stations.values()) for stations in packed.values()]
@@ -359,12 +364,9 @@ def slow_driving_table():
 
 def work_precision_table():
     keys = {"events >= 1e-3 (relative)": "rate", ">= 1e-2": "rate_2", "exponent": "exponent", "gamma": "gamma", "energy released": "released"}
-    return study_table(
-        "accuracy_catalogues.csv", {
-            "predicted, time step": lambda row: row["dt"], "masses raised for": lambda row: row["massstep"], "onset": lambda row: row["onset"],
-            "model time, large events per core-hour": lambda row: f"{row['time_per_core_hour']}, {row['large_per_core_hour']}"
-        } | {head: lambda row, key=key: of(row, key)
-             for head, key in keys.items()} | {"least p of sizes, times": lambda row: f"{row['p_size']}, {row['p_time']}"})
+    columns = {"predicted, time step": lambda row: row["dt"], "masses raised for": lambda row: row["massstep"], "onset": lambda row: row["onset"]}
+    columns |= {"model time, large events per core-hour": lambda row: f"{row['time_per_core_hour']}, {row['large_per_core_hour']}"}
+    return study_table("accuracy_catalogues.csv", columns | {head: lambda row, key=key: of(row, key) for head, key in keys.items()})
 
 
 def size_text(label, size):
