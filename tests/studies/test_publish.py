@@ -21,13 +21,6 @@ def cells(path):
     return [line.split(",")[:6] for line in rows(path)]
 
 
-def large(found):
-    """Those that are published; there must be some."""
-    wanted = [row for row in found if float(row[5]) >= publish.EVENTS]
-    assert wanted
-    return wanted
-
-
 @pytest.fixture(scope="module")
 def runs(lmp, tmp_path_factory):
     work = tmp_path_factory.mktemp("faults")
@@ -141,14 +134,6 @@ def test_one_stretch_picks_to_the_events_of_the_run(runs, series, picked):
     assert [int(row[3]) for row in mine] == [int(row[3]) - first for row in whole]
 
 
-def test_load_is_a_slope(series):
-    superpose.superpose("load.pe.bin", [(series[0], 100.0, 300.0)], load=0.5, number=3)
-    info, _, pe = superpose.read("load.pe.bin")
-    assert info["length"] == "72"
-    for n, (plain, loaded) in enumerate(zip(superpose.stretch(series[0], 100.0, 300.0)[1], pe)):
-        assert loaded - plain == pytest.approx(0.5 * 0.12 * n, abs=5e-13, rel=0)
-
-
 def test_every_second_step_keeps_times_and_memory(runs, series, picked, postproc):
     superpose.main(["every", "2", "second.pe.bin", series[0]])
     (info, first, pe), (other, _, halved) = superpose.read(series[0]), superpose.read("second.pe.bin")
@@ -156,31 +141,7 @@ def test_every_second_step_keeps_times_and_memory(runs, series, picked, postproc
     assert float(other["dt"]) == pytest.approx(2 * float(info["dt"]), abs=5e-8)
     assert float(other["lambda"]) == pytest.approx(float(info["lambda"])**2, abs=5e-8)
     assert float(other["time0"]) == pytest.approx(float(info["time0"]) + (first - int(info["step0"])) * float(info["dt"]), abs=5e-8)
-    shutil.copytree(runs[0], "fault_24_step_5")
-    superpose.main(["second", str(postproc.path), ".", str(runs[0]), "fault_24_step_5"])
-    assert rows("fault_24_every_5.catalogue.csv.xz") == rows("fault_24_every_1.catalogue.csv.xz")
-    assert cells("fault_24_every_1.catalogue.csv.xz") == large(picked("second.pe.bin", "second.csv"))
-
-
-def test_another_memory(runs, series, picked, postproc):
-    superpose.main(["memory", "4", str(postproc.path), "longer", *map(str, runs)])
-    for seed, one in enumerate(series, 1):
-        plain = picked(one, "plain.csv")
-        wanted = [row for row in picked(one, "four.csv", "--memory-time 4") if float(row[5]) >= publish.EVENTS]
-        found = cells(f"longer/memory_24_4_{seed}.catalogue.csv.xz")
-        assert found == wanted and found[0][1] != plain[0][1]
-
-
-def test_the_study_takes_the_first_stretches_of_all_runs_first(runs, picked, postproc):
-    with mock.patch.multiple(superpose, LOADING=60, DURATION=330, NUMBERS=(2,), GROUPS=2):
-        found = superpose.stretches(runs)
-        assert [(path.parent.name[-1], begin) for path, begin, _ in found] == [("1", 60), ("2", 60), ("1", 390), ("2", 390)]
-        superpose.main(["study", str(postproc.path), "study", *map(str, runs)])
-        assert sorted(path.name.split(".")[0] for path in Path("study").iterdir()) == ["load_48_1", "load_48_2", "sum_48_1", "sum_48_2"]
-        superpose.superpose("sum2.pe.bin", found[2:])
-        assert cells("study/sum_48_2.catalogue.csv.xz") == large(picked("sum2.pe.bin", "sum2.csv"))
-        load = superpose.loading(*found[0])
-        assert float(header("study/load_48_1.catalogue.csv.xz")["load"]) == float(f"{load:.6g}")
+    assert picked("second.pe.bin", "second.csv")
 
 
 def test_what_is_no_series_is_refused(runs, series):
