@@ -76,7 +76,7 @@ WORDED = {
     "C": "C, delta 1",
 }
 
-# name, what is printed (or ours), value of a row, its deviation, tolerance
+# name, what is printed (or †), value of a row, its deviation, tolerance
 STATEMENTS = (
     ("exponent", "sizes go as s^-1.07 from 1e-4 over three decades", lambda r: number(r, "exponent_1e-4:1e-1"), lambda v: abs(v - 1.07), 0.07),
     ("decades", "so in each of these decades (no second population)", decades, abs, 0.3),

@@ -87,7 +87,7 @@ def test_coefficients_that_the_law_does_not_use(lmp):
 
 def test_a_default_follows_a_variable_that_a_restart_changes(lmp):
     run(lmp, small())
-    assert info("a.restart.end.info")["faultviscosity"] == "0.011"
+    assert info("a.restart.end.info")["faultviscosity"] == "0.05"
     run(lmp, scene(restart="a.restart.end", steps=500, viscosity=0.02, prefix="b"))
     assert info("b.restart.end.info")["faultviscosity"] == "0.02"
     assert header("b.catalogue.csv")["viscosity"] == "0.02"
