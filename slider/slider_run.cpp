@@ -5,8 +5,12 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <limits>
 #include <stdexcept>
+#include <system_error>
+
+#include <fmt/format.h>
 
 #include "numerics/circular_mean.h"
 #include "files/replaced_file.h"
@@ -111,9 +115,11 @@ class Run {
  private:
   void begin();
   void keep_state();
+  void announce();
 
   std::vector<std::string> settings_;         // everything that shapes the result
   std::int64_t calm_, look_, next_look_ = 0;  // steps
+  std::int64_t eventless_until_ = 0, announced_at_ = 100000;
 };
 
 /// Events are drops of the PE of the whole chain.
@@ -276,6 +282,24 @@ void Run::keep_state() {
   write_checkpoint(o_.checkpoint, settings_, state_);
 }
 
+/// Says once, while it can still be stopped, how large a catalogue of many events will be.
+void Run::announce() {
+  if (state_.events == 0) eventless_until_ = chain_.step();
+  if (o_.catalogue.empty() || state_.events < announced_at_) return;
+  announced_at_ = std::numeric_limits<std::int64_t>::max();
+  const double grows = static_cast<double>(o_.steps - eventless_until_) /
+                       static_cast<double>(chain_.step() - eventless_until_);
+  std::error_code unknown;  // as of a pipe
+  const auto bytes = std::filesystem::file_size(o_.catalogue, unknown);
+  const std::string size =
+      unknown ? "" : fmt::format(", {:.0f} MB", 1e-6 * grows * static_cast<double>(bytes));
+  fmt::print(stderr,
+             "slider_cli: {}: {} events at step {} of {}, at this rate {:.2g} in all{}; --min-size "
+             "leaves small ones out\n",
+             o_.catalogue, state_.events, chain_.step(), o_.steps,
+             grows * static_cast<double>(state_.events), size);
+}
+
 RunResult Run::go() {
   begin();
   const std::int64_t interval = o_.checkpoint.empty() ? 0 : o_.checkpoint_interval;
@@ -293,6 +317,7 @@ RunResult Run::go() {
     if (chain_.step() >= o_.steps) break;
     // A leap may end beyond the limit.
     if (interval > 0 && chain_.step() >= limit) keep_state();
+    announce();
     if (o_.stop) result_.interrupted = o_.stop->load(std::memory_order_relaxed);
     if (!o_.progress || Clock::now() - told < std::chrono::seconds(1)) continue;
     told = Clock::now();

@@ -416,6 +416,16 @@ def test_ruptures(slider, ran):
     assert large and large == [row.split(",", 1)[1] for row in rows("large.csv")]
 
 
+def test_a_large_catalogue_is_announced(slider, ran):
+    """Once, while it can still be stopped, within a factor of two; a small one is not."""
+    chain = "--events ruptures --blocks 4000 --kl 0.1 --velocity 0.01 --warmup 0 --time 5000 --catalogue c.csv"
+    said = ran(chain).warned("c.csv: ([0-9]+) events at step ([0-9]+) of 100000, at this rate (.*) in all, ([0-9]+) MB; --min-size")
+    events, megabytes = len(rows("c.csv")), os.path.getsize("c.csv") / 1e6
+    assert 100000 <= int(said[1]) < events and int(said[2]) < 80000
+    assert 0.5 < float(said[3]) / events < 2 and 0.5 < float(said[4]) / megabytes < 2
+    assert ran(chain, "--min-size 0.5").err == ""
+
+
 def test_ruptures_resumed(slider, ran):
     """Killed at any moment, and resumed, again and again."""
     settings = SHORT + "--steps 2000000 --columns centroid,length --pe-stride 500 "
