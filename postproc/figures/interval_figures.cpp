@@ -198,7 +198,7 @@ Table table1(const std::vector<Table1Row> &rows, bool rescaled, bool printed) {
               {"δ", "delta"},
               {"B", "B"},
               {"C", "C"},
-              {"times from", "shortest", 3},
+              {"from", "shortest", 3},
               {"χ²/dof", "chi2_per_dof", 3},
               {"KS", "ks", 3},
               {"p", "p", 2},

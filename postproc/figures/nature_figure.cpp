@@ -192,7 +192,7 @@ Figure nature_figure(const std::vector<NatureRow> &rows) {
       panel(0.36, 0.58, 0.1, 0.97) +
       axis("x", "distance of the inter-event times", false, 0.0, free_end) +
       axis("y", "", false, -static_cast<double>(rows.size()) - 0.7, -1.3) + "set ytics (" +
-      ticks_of(drawn) + ")\nset xtics 0.1\n" +
+      ticks_of(drawn) + ")\nset xtics 0.2\n" +
       plot_of(drawn, "distance", "4:5", "xerrorbars", "ps 1.3 ") + "\n" +
       panel(0.68, 0.98, top - 0.17 * high, top) +
       axis("x", "inter-event time / mean", true, 1e-3, 30.0) +

@@ -107,6 +107,23 @@ void blank_repeated(Rows &rows) {
       rows[i][k].clear();
 }
 
+/// Whether the first of several columns says whose the others are: it has no heading, or repeats.
+bool is_heading(const Rows &rows) {
+  const auto blank =
+      std::count_if(rows.begin() + 1, rows.end(), [](const auto &row) { return row[0].empty(); });
+  return rows[0].size() > 2 &&
+         (rows[0][0].empty() || 3 * static_cast<std::size_t>(blank) > rows.size());
+}
+
+/// Moves the first column out of a table that is too wide, to the lines above.
+void take_headings(Rows &rows, std::vector<std::string> &headings) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    std::string &first = rows[i][0];
+    if (!first.empty()) headings[i] += (headings[i].empty() ? "" : ", ") + first;
+    rows[i].erase(rows[i].begin());
+  }
+}
+
 }  // namespace
 
 Table::Table(std::string_view columns) {
@@ -207,21 +224,40 @@ std::string Table::text() const {
   constexpr std::size_t most = 160, of_text = 100;
   for (const std::string &comment : comments_) out += wrapped(comment, of_text);
   Rows columns = shown_columns(" +- ");
-  Rows rows = turned(columns);
+  const Rows whole = turned(columns);
   std::vector<std::string> notes;
-  const bool wide = width_of(aligned(rows)[0]) > most;
-  if (wide && columns.size() > 6 * static_cast<std::size_t>(rows_) &&
-      width_of(aligned(columns)[0]) < most) {
-    rows = columns;
-  } else {
-    if (wide) notes = take_notes(columns);
-    rows = turned(columns);
-    blank_repeated(rows);
+  const auto wide = [](const Rows &table) { return width_of(aligned(table)[0]) > most; };
+  const auto add = [&out](const Rows &table, const std::vector<std::string> &headings) {
+    const std::vector<std::string> lines = aligned(table);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      if (!headings[i].empty()) out += "  " + headings[i] + '\n';
+      if (!headings[0].empty()) out += "  ";
+      out += lines[i].substr(0, lines[i].find_last_not_of(' ') + 1) + '\n';
+    }
+  };
+  if (wide(whole)) notes = take_notes(columns);
+  Rows rows = turned(columns);
+  blank_repeated(rows);
+  std::vector<std::string> headings(rows.size());
+  while (wide(rows) && is_heading(rows)) take_headings(rows, headings);
+  if (!wide(rows) || columns.size() <= static_cast<std::size_t>(rows_)) {
+    add(rows, headings);
+    for (std::size_t i = 0; i < notes.size(); ++i)
+      out += wrapped(fmt::format("[{}] {}", i + 1, notes[i]), of_text);
+    return out;
   }
-  for (const std::string &line : aligned(rows))
-    out += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
-  for (std::size_t i = 0; i < notes.size(); ++i)
-    out += wrapped(fmt::format("[{}] {}", i + 1, notes[i]), of_text);
+  // Cells one below the other, and as many rows side by side as fit.
+  const std::vector<std::string> none(columns.size());
+  for (std::size_t next = 1; next < whole.size();) {
+    Rows part = {whole[0], whole[next++]};
+    for (; next < whole.size(); ++next) {
+      part.push_back(whole[next]);
+      if (!wide(turned(part))) continue;
+      part.pop_back();
+      break;
+    }
+    add(turned(part), none);
+  }
   return out;
 }
 

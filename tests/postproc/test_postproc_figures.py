@@ -125,7 +125,7 @@ def test_intervals(do, no):
         assert row[7] == events and row[4] <= time < row[5]
         assert row[8] == pytest.approx(row[7] / (150 * (row[5] - row[4])), rel=1e-9)
     first.told(" 150 20 model time 1.061 0.02944$")
-    first.told("LSM .*0.995 .*1.00 .*15.21 .*0.0573")
+    first.told("LSM\n .*0.995 .*1.00 .*15.21 .*0.0573")
     said("i.table1.csv", "^printed,,,0.0,,1.00,,100.0,,0.25,,,,,,,Block-Slider,")
     # Every second event is large: times of 10 and 100.
     do("intervals a.csv --threshold 0 --threshold 1.5 --rescale -o r --no-picture")
@@ -405,6 +405,17 @@ def test_seismology(do, no):
     said("s.gp", "filledcurves")
     no("nothing to draw", "magnitudes a.csv --min-size 1e9 -o x")
     no("expected at least 2", "aftershocks a.csv --min-size 1e9 -o x")
+
+
+def test_tables_of_many_catalogues_fit_a_terminal(do):
+    for k in range(6):
+        fault(f"{k}.csv", 10**np.random.default_rng(k).uniform(-4, 0, 300), length=120 * (k + 1))
+    paths = " ".join(f"{k}.csv" for k in range(6))
+    for command in "intervals --shuffles 20 --replicas 20", "fit --replicas 20", "magnitudes", "count", "compare --replicas 20":
+        told = do(*command.split(), paths, *([f"--no-picture -o {command.split()[0]}"] if command.split()[0] not in ("count", "compare") else [])).out
+        assert max(map(len, told.splitlines())) <= 160, told
+        for k in range(6):
+            assert told.count(f"fault, length {120 * (k + 1)}") >= 1
 
 
 def test_few(do, no):

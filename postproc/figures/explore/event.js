@@ -88,8 +88,8 @@ class EventPanel {
     const least = 4 * (slip.ends[row] - slip.rowBegin(row));
     const span = Math.max(end - begin, least), from = begin - 0.15 * span, to = begin + 1.15 * span;
 
-    const canvas = this.find('slip-map'), context = sharp(canvas, width, 330);
-    const frame = {x: 62, y: 24, w: width - 80, h: 262}, pixels = 300;
+    const canvas = this.find('slip-map'), context = sharp(canvas, width, 338);
+    const frame = {x: 62, y: 32, w: width - 80, h: 262}, pixels = 300; // below the scale
     const shades = slip.shadesOver(from, to, pixels), turned = new Uint8Array(shades.length);
     for (let p = 0; p < pixels; ++p)
       for (let c = 0; c < n; ++c) turned[p * n + c] = shades[p * n + (c + shift) % n];
