@@ -5,14 +5,14 @@
 # 120 on two ranks, prints its largest events, draws the potential energy with the picked events,
 # and makes a page on which one explores the run.
 #
-# usage: inputs/first-catalogue.sh [STEPS]      (default 240000)
+# usage: inputs/first-catalogue.sh [STEPS]      (default 480000)
 # Build folder: build (LSM_BUILD_DIR replaces it), in which 'cmake --build build' makes the rest.
 # Results: first-catalogue/ in the build folder (LSM_OUTPUT replaces it). LSM_BIN is the folder of
 # programs that are built already.
 set -euo pipefail
 export LC_ALL=C
 root=$(cd "$(dirname "$0")/.." && pwd)
-steps=${1:-240000}
+steps=${1:-480000}
 [[ $steps =~ ^[1-9][0-9]*$ ]] || {
   echo "usage: $0 [STEPS]; '$steps' is not a number of steps" >&2
   exit 2

@@ -50,24 +50,27 @@ for part; do
       python3 ../inputs/studies/calibrate.py figure calibration/points.csv.xz calibration
       ;;
     run)
+      # The first command itself; its largest event is what is looked at.
+      LSM_BIN=$(dirname "$lmp") LSM_OUTPUT=$new ../inputs/first-catalogue.sh >"$new/out"
       . ../inputs/mpi-settings.sh
       cd "$new"
-      mpirun -np 2 "$lmp" -in "$root/inputs/fault_120.in" -var steps 240000 -var prefix first -var ruptures yes </dev/null >out
-      "$postproc" series first.pe.bin --from 15000 --to 21000 --title "Fault of length 120" -o series
-      "$postproc" series first.pe.bin --from 6475 --to 7857 --title "Fault of length 120: around the largest event" -o largest
+      read -r begin end time steps <<<"$(awk -F, '/^# dt = / { split($0, dt, " = ") } /^[0-9]/ && $6 > most { most = $6; t = $2; a = $4; b = $5 }
+        END { print a, b, t, int(b - 1200 / dt[2]) }' first.catalogue.csv)"
+      "$postproc" series first.pe.bin --from $((${time%.*} - 3000)) --to $((${time%.*} + 3000)) --title "Fault of length 120" -o series
       "$postproc" histograms first.catalogue.csv --guide=-1.07:1e-4:0.1 -o sizes
-      "$lmp" -in "$root/inputs/fault_120.in" -var steps 240000 -var mus 0.8 -var prefix mus_0.8 </dev/null >out
+      mpirun -np 2 "$lmp" -in "$root/inputs/fault_120.in" -var steps 480000 -var mus 0.8 -var prefix mus_0.8 </dev/null >out
       "$postproc" histograms first.catalogue.csv mus_0.8.catalogue.csv --label "mus 0.6" --label "mus 0.8" -o compare
-      "$postproc" explore first.catalogue.csv --p-speed 2.08 --s-speed 1.06 --title "Fault of length 120" -o page.html
-      chromium --headless --no-sandbox --hide-scrollbars --window-size=1400,2335 --virtual-time-budget=20000 \
-        --screenshot=page.png "file://$new/page.html" >out 2>&1
-      "$postproc" rupture first.ruptures.csv --history first.slip.bin --from 4500 --p-speed 2.08 --s-speed 1.06 -o rupture
-      "$lmp" -in "$root/inputs/fault.in" -var extra fault_image -var restart first.restart.210000 -var prefix look -var ruptures no \
-        -var steps 206000 -var from 214900 -var to 214900 -var every 1000 </dev/null >out
+      chromium --headless --no-sandbox --hide-scrollbars --window-size=1400,2345 --virtual-time-budget=20000 \
+        --screenshot=page.png "file://$new/first.html" >out 2>&1
+      "$postproc" rupture first.ruptures.csv --history first.slip.bin --from $((${time%.*} - 3000)) --to $((${time%.*} + 3000)) \
+        --p-speed 2.08 --s-speed 1.06 -o rupture
+      look=$((begin + (end - begin) / 3))
+      mpirun -np 2 "$lmp" -in "$root/inputs/fault_120.in" -var extra fault_image -var prefix look -var steps "$steps" \
+        -var from "$look" -var to "$look" -var every 1000 </dev/null >out
       cd - >/dev/null
-      gnuplot -e "frame = '$new/look.000214900.png'" fault_event.gp
+      gnuplot -e "frame = '$(echo "$new"/look.*.png)'" fault_event.gp
       cp "$new/series.png" fig8_to_11_series.png
-      cp "$new/largest.png" tutorial_series.png
+      cp "$new/first.largest.png" tutorial_series.png
       cp "$new/sizes.png" tutorial_sizes.png
       cp "$new/compare.png" tutorial_compare.png
       cp "$new/page.png" explore.png

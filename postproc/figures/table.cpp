@@ -112,7 +112,7 @@ bool is_heading(const Rows &rows) {
   const auto blank =
       std::count_if(rows.begin() + 1, rows.end(), [](const auto &row) { return row[0].empty(); });
   return rows[0].size() > 2 &&
-         (rows[0][0].empty() || 3 * static_cast<std::size_t>(blank) > rows.size());
+         (rows[0][0].empty() || 3 * static_cast<std::size_t>(blank) >= rows.size());
 }
 
 /// Moves the first column out of a table that is too wide, to the lines above.
