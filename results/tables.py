@@ -33,7 +33,6 @@ POINTS, SLIDERS = FOLDER / "calibration/points.csv.xz", FOLDER / "calibration/sl
 CAMPAIGN, WIDTHS = FOLDER / "campaign", FOLDER / "widths"
 LOADING = str(calibrate.LOADING)
 SIZES = ("1e-4", "1e-3", "1e-2")
-NOT_MEASURED = "Not measured with this model yet."
 
 # ---- numbers of postproc
 
@@ -54,14 +53,19 @@ def numbers_of(command, *words):
         return json.loads(Path(f"{work}/out.json").read_text())
 
 
+def grouped(rows, key):
+    groups = {}
+    for row in rows:
+        groups.setdefault(key(row), []).append(row)
+    return groups
+
+
 def faults(kind="catalogue", folder=CAMPAIGN):
     """{length: paths by seed}. \\raises FileNotFoundError if there are none"""
-    groups = {}
-    for path in folder.glob(f"fault_*.{kind}.csv.xz"):
-        groups.setdefault(int(path.name.split("_")[1].split(".")[0]), []).append(path)
+    groups = grouped(sorted(folder.glob(f"fault_*.{kind}.csv.xz")), lambda path: int(path.name.split("_")[1].split(".")[0]))
     if not groups:
         raise FileNotFoundError
-    return {length: sorted(groups[length]) for length in sorted(groups)}
+    return dict(sorted(groups.items()))
 
 
 @functools.cache
@@ -87,10 +91,8 @@ def use(length, seed):
 
 def by_length():
     """Rows of the campaign: {"120, used": rows, "120, predicted": rows, ...}."""
-    groups = {}
-    for row in sorted(summaries(), key=lambda row: (float(row["length"]), use(row["length"], row["seed"]) == "predicted")):
-        groups.setdefault(f"{row['length']}, {use(row['length'], row['seed'])}", []).append(row)
-    return groups
+    rows = sorted(summaries(), key=lambda row: (float(row["length"]), use(row["length"], row["seed"]) == "predicted"))
+    return grouped(rows, lambda row: f"{row['length']}, {use(row['length'], row['seed'])}")
 
 
 # ---- cells
@@ -128,12 +130,10 @@ def of(row, key):
 
 def judged(rows, value, off, tolerance):
     """Mean and deviation of a statement over packings; bold if it misses the tolerance by two standard errors."""
-    values = [x for x in map(value, rows) if math.isfinite(x)]
-    if not values:
-        return "-"
+    values = [x for x in map(value, rows) if math.isfinite(x)] or [math.nan]
     mean = statistics.mean(values)
     slack = 2 * statistics.stdev(values) / math.sqrt(len(values)) if len(values) > 1 else 0.0
-    met = min(off(x) for x in (mean - slack, mean, mean + slack) if x > 0 or mean <= 0) <= tolerance
+    met = math.isnan(mean) or min(off(x) for x in (mean - slack, mean, mean + slack) if x > 0 or mean <= 0) <= tolerance
     return spread(values) if met else f"**{spread(values)}**"
 
 
@@ -173,9 +173,8 @@ def catalogues_table():
     keys = {"time units": "time"} | {f"events >= {size}": f"events_{float(size):g}" for size in SIZES}
     keys |= {text.replace(":", " to "): f"exponent_{text}" for text in calibrate.RANGES}
     keys |= {f"gamma >= {size}": f"gamma_{float(size):g}" for size in SIZES} | {"mean time": "mean_time_0.0001", "largest": "largest"}
-    return table(["length, packing", "", *keys],
-                 [[f"{row['length']}, {row['seed']}",
-                   use(row["length"], row["seed"]), *(of(row, key) for key in keys.values())] for row in summaries()])
+    columns = {"length, packing": lambda row: f"{row['length']}, {row['seed']}", "": lambda row: use(row["length"], row["seed"])}
+    return study_table("", columns | keys, summaries())
 
 
 def ruptures_table():
@@ -217,9 +216,7 @@ def same_times_table():
 def widths_table():
     keys = {text.replace(":", " to "): f"exponent_{text}" for text in calibrate.RANGES}
     keys |= {"gamma >= 1e-4": "gamma_0.0001", "mean time": "mean_time_0.0001", "largest": "largest"}
-    groups = {}
-    for row in sorted(summaries(WIDTHS), key=lambda row: (float(row["length"]), float(row["width"]))):
-        groups.setdefault((row["length"], row["width"]), []).append(row)
+    groups = grouped(sorted(summaries(WIDTHS), key=lambda row: float(row["width"])), lambda row: (row["length"], row["width"]))
     return table(["predicted, length", "width", "packings", *keys],
                  [[*group, str(len(rows)), *(spread([number(row, key) for row in rows]) for key in keys.values())] for group, rows in groups.items()])
 
@@ -236,12 +233,9 @@ def variance_table():
 
 def stretches_table():
     """Events of the whole fault, of its stretches shifted in time, and of each with a picker of its own."""
-    keys = {
-        "events >= 1e-4": "events", "mean time": "mean_time", "gamma": "gamma", "gamma >= 1e-3": "gamma_1e-3", "exponent": "exponent",
-        "largest": "largest"
-    }
     columns = {"predicted; length, packing": lambda row: f"{row['length']}, {row['seed']}", "PE of": lambda row: row["what"]}
-    return study_table("stretches.events.csv", columns | {head: lambda row, key=key: of(row, key) for head, key in keys.items()})
+    columns |= {"events >= 1e-4": "events", "mean time": "mean_time", "gamma": "gamma", "gamma >= 1e-3": "gamma_1e-3"}
+    return study_table("stretches.events.csv", columns | {"exponent": "exponent", "largest": "largest"})
 
 
 # ---- calibration
@@ -261,17 +255,23 @@ def statements_table():
 
 
 def accepted_table():
+    """The nearest points, those at other lengths, and the values that were chosen, with the memory of the campaign."""
+    rows, memory = [row for row in read(POINTS) if row["stopped"] == "no"], float(summaries()[0]["memory"])
+    longer = [
+        calibrate.nearest([row for row in rows if row["point"] == name], 1)[0][0] for name in sorted({row["point"]
+                                                                                                      for row in rows}) if name[0] == "l"
+    ]
+    chosen = [row for row in rows if row["point"][0] == "c" and math.isclose(float(row["memory"]), memory, rel_tol=1e-3)]
     columns = {"point (used)": lambda row: row["point"]} | {key: lambda row, key=key: row[key] for key in VARIED}
     columns |= {name: lambda row, value=value: shown(value(row)) for name, _, value, *_ in calibrate.STATEMENTS}
-    return study_table("", columns | {"distance": lambda row: shown(calibrate.distance(row))}, calibrate.nearest(calibrate.points(POINTS)[0])[0])
+    columns |= {"distance": lambda row: shown(calibrate.distance(row))}
+    return study_table("", columns, [*calibrate.nearest(calibrate.points(POINTS)[0])[0], *longer, *chosen])
 
 
 def slider_table():
     """The setting of the block-slider that is nearest to the paper, over all lengths, of those that were tried."""
-    groups, statements = {}, calibrate.SLIDER_STATEMENTS
-    for row in read(SLIDERS):
-        if float(row["dt"]) >= 0.005:  # shorter ones see the loading only
-            groups.setdefault(tuple(row[key] for key in calibrate.SLIDER_KEYS), []).append(row)
+    statements, rows = calibrate.SLIDER_STATEMENTS, [row for row in read(SLIDERS) if float(row["dt"]) >= 0.005]  # shorter: loading only
+    groups = grouped(rows, lambda row: tuple(row[key] for key in calibrate.SLIDER_KEYS))
     key, rows = min(groups.items(), key=lambda one: sum(calibrate.distance(row, statements)**2 for row in one[1]))
     rows.sort(key=lambda row: int(row["blocks"]))
     met = [sum(calibrate.deviations(row, statements)[n] <= 1.0 for row in rows) for n in range(len(statements))]
@@ -341,8 +341,9 @@ def rupture_packing_table():
 
 
 def study_table(file, columns, rows=None):
-    """Columns of a table of a study: {head: cell of a row}."""
-    return table(columns, [[cell(row) for cell in columns.values()] for row in rows or read(FOLDER / file)])
+    """Columns of a table of a study: {head: cell of a row, or the key of a number}."""
+    rows = rows if rows is not None else read(FOLDER / file)
+    return table(columns, [[of(row, cell) if isinstance(cell, str) else cell(row) for cell in columns.values()] for row in rows])
 
 
 def slow_driving_table():
@@ -354,23 +355,22 @@ def slow_driving_table():
         "slow-driving.csv", {
             "predicted, velocity": lambda row: row["velocity"], "leaps at": lambda row: row["fast"] or "no leaps",
             "events >= 1e-3, 1e-2, 0.1 per displacement of 36": lambda row: per(row, "events_3", "events_2", "events_1"),
-            "exponent 1e-3 to 1": lambda row: of(row, "long"), "1e-2 to 1": lambda row: of(row, "from_2"),
-            "gamma >= 1e-3": lambda row: of(row, "gamma"), ">= 1e-2": lambda row: of(row, "gamma_2"),
+            "exponent 1e-3 to 1": "long", "1e-2 to 1": "from_2", "gamma >= 1e-3": "gamma", ">= 1e-2": "gamma_2",
             "events within 100 time units after, before a main shock": lambda row: f"{of(row, 'after_100')}, {of(row, 'before_100')}",
             "large events found again, by chance": lambda row: f"{row['same']} of {row['of']}, {of(row, 'chance')}"
-            if row["same"] else "", "steps per large event": lambda row: of(row, "steps_per_large")
+            if row["same"] else "", "steps per large event": "steps_per_large"
         })
 
 
 def work_precision_table():
-    keys = {"events >= 1e-3 (relative)": "rate", ">= 1e-2": "rate_2", "exponent": "exponent", "gamma": "gamma", "energy released": "released"}
     columns = {"predicted, time step": lambda row: row["dt"], "masses raised for": lambda row: row["massstep"], "onset": lambda row: row["onset"]}
     columns |= {"model time, large events per core-hour": lambda row: f"{row['time_per_core_hour']}, {row['large_per_core_hour']}"}
-    return study_table("accuracy_catalogues.csv", columns | {head: lambda row, key=key: of(row, key) for head, key in keys.items()})
+    columns |= {"events >= 1e-3 (relative)": "rate", ">= 1e-2": "rate_2", "exponent": "exponent", "gamma": "gamma", "energy released": "released"}
+    return study_table("accuracy_catalogues.csv", columns)
 
 
-def size_text(label, size):
-    return f"M >= {math.log10(float(size)) / 1.5:.3g}" if label == "Southern California" else f">= {float(size):g}"
+def named(label, size):
+    return f"{label}, M >= {math.log10(float(size)) / 1.5:.3g}" if label == "Southern California" else f"{label}, >= {float(size):g}"
 
 
 def ranking_table():
@@ -378,9 +378,9 @@ def ranking_table():
     rows = {}
     for row in read(FOLDER / "nature.table.csv"):
         rows.setdefault((row["label"], row["threshold"] if row["label"] == "Southern California" else ""), row)
-    columns = {"times ranked by distance (models: predicted)": lambda row: f"{row['label']}, {size_text(row['label'], row['threshold'])}"}
+    columns = {"times ranked by distance (models: predicted)": lambda row: named(row["label"], row["threshold"])}
     columns |= {"catalogues, events": lambda row: f"{row['catalogues']}, {row['events']}"}
-    columns |= {key: lambda row, key=key: of(row, key) for key in ("distance", "gamma", "burstiness", "memory", "after", "b")}
+    columns |= {key: key for key in ("distance", "gamma", "burstiness", "memory", "after", "b")}
     return study_table("", columns, rows.values())
 
 
@@ -389,7 +389,7 @@ def table1_table():
     columns = {}
     for row in read(FOLDER / "nature.table1.csv"):
         printed = row["origin"] == "printed"
-        name = f"{row['source']} (printed)" if printed else f"{row['source']}, {size_text(row['source'], row['threshold'])}"
+        name = f"{row['source']} (printed)" if printed else named(row["source"], row["threshold"])
         if printed or row["threshold"] in ("1000", "0.0001", "1") and not row["source"].startswith("ruptures") and not row["degenerate"]:
             cell = "1 (held)" if "held" in row["method"] else of(row, "delta")
             columns.setdefault(name, {key: row[key] if printed else cell if key == "delta" else of(row, key) for key in ("gamma", "delta", "B", "C")})
@@ -398,9 +398,7 @@ def table1_table():
 
 def laws_table():
     """Each law over its packings, p of each of them."""
-    groups = {}
-    for row in read(FOLDER / "laws.csv"):
-        groups.setdefault(row["run"].rsplit("_", 1)[0], []).append(row)
+    groups = grouped(read(FOLDER / "laws.csv"), lambda row: row["run"].rsplit("_", 1)[0])
 
     def over(*keys):
         return lambda rows: ", ".join(spread([number(row, key) for row in rows], number(rows[0], f"{keys[0]}_error")) for key in keys)
@@ -430,7 +428,7 @@ def check(write):
             try:
                 made = TABLES[match[1]]()
             except FileNotFoundError:
-                made = NOT_MEASURED
+                made = "Not measured with this model yet."
             except ValueError as error:  # of statistics as well, for want of events
                 sys.exit(f"tables.py: {page.name}: table {match[1]}: {error}")
             return f"<!-- table {match[1]} -->\n\n{made}\n\n<!-- end -->"
