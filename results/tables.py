@@ -213,6 +213,16 @@ def same_times_table():
                  [[f"times of events >= {size}", *(text(paths, size) for paths in groups.values())] for size in SIZES])
 
 
+def numbers_table():
+    """What postproc statements measures and the calibration does not judge."""
+    kept = ("events in", "B,", "C,", "power d", "slip rate within", "share of the slip")
+    groups = grouped([row for row in read(CAMPAIGN / "statements.csv") if row["number"].startswith(kept)], lambda row:
+                     (row["number"], row["expected"]))
+    return table(["predicted, or not judged", "paper", *map(str, faults())],
+                 [[*key, *(spread([number(row, "value") for row in rows if row["length"] == str(length)]) for length in faults())]
+                  for key, rows in groups.items()])
+
+
 def widths_table():
     keys = {text.replace(":", " to "): f"exponent_{text}" for text in calibrate.RANGES}
     keys |= {"gamma >= 1e-4": "gamma_0.0001", "mean time": "mean_time_0.0001", "largest": "largest"}
