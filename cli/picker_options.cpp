@@ -25,7 +25,7 @@ PickerOptions::Added PickerOptions::add_to(OptionGroup group) {
   Added added;
   added.reading = group.add(
       "--picker", reading,
-      "Reading of the paper's formula for the smoothed change A of PE (x: change): exponential, A "
+      "How the paper's formula for the smoothed change A of PE is read (x: change): exponential, A "
       "<- lambda A + (1 - lambda) x † (the default); average, A <- (x + lambda A) / (1 + "
       "lambda) †; literal, A <- (x + lambda A) / (1 + lambda t) (paper, Sect. 4.1; t: index "
       "of the change)");

@@ -18,7 +18,7 @@ from pathlib import Path
 
 EVENTS, RUPTURES = 1e-4, 1e-3
 LOADING = 4500  # time units that are left out of statements: compression, and PE rising for the first time
-# Length of a fault, and size from which the number of its events does not depend on the steps of the picker: results/faults.md
+# Length of a fault, and size from which the number of its events does not depend on how often PE is sampled: results/faults.md
 COMPLETE = ((900, "1e-3"), (480, "3e-4"))
 
 

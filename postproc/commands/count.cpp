@@ -34,7 +34,7 @@ class Count : public CatalogueAnalysis {
     group.add("--size", sizes_, "Smallest size (model energy), several allowed", one_each(),
               size_or_magnitude(), zero_or_more());
     group.add("--brief", brief_,
-              "Also count events of at most so many steps; at too large time steps there are "
+              "Also count events of at most this many steps; at too large time steps there are "
               "bursts of them",
               zero_or_more());
   }

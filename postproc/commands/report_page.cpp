@@ -41,7 +41,7 @@ std::string catalogue_section(const std::vector<EventTable> &tables, const Thres
     }
     table.row(events.label, model_name(events.info.model),
               events.kind() == "pe" ? "drops of PE" : events.kind(), events.events.size(),
-              fmt::format("{} from {}", events_from(events, threshold), short_number(threshold)),
+              fmt::format("{} ≥ {}", events_from(events, threshold), short_number(threshold)),
               starts, short_number(events.share_in_events(), 2), range, events.skipped_lines);
     for (const std::string &repair : events.repairs)
       below += "<p>" + html_escape(events.label + ": " + repair) + "</p>\n";

@@ -77,7 +77,7 @@ class Spectrum : public Analysis {
               between(std::int64_t{8}, std::int64_t{1} << 28),
               shown("power of two, at most 1/8 of the series and 65536"));
     group.add("--per-decade", per_decade_,
-              "Neighbouring frequencies are averaged to at most so many points per decade; 0: "
+              "Neighbouring frequencies are averaged to at most this many points per decade; 0: "
               "all frequencies. Errors assume independent neighbours",
               zero_or_more());
     add_picture(command, "spectrum");

@@ -370,7 +370,7 @@ Figure rupture_detail_figure(const HistoryWindow &window, const Event &event, do
   return {std::move(table),
           std::string(colours) + "lines = base.'-lines.csv'\nset multiplot\n" +
               panel(0.12, 0.83, 0.36, 0.915) + axis("x", "", false, x0, x0 + grid.length()) +
-              axis("y", "Time since its beginning (model units)", false,
+              axis("y", "Time since the rupture began (model units)", false,
                    window.from - event.t_start, window.to - event.t_start) +
               fmt::format(fmt::runtime(detail_panels), wave("P", p_speed), wave("S", s_speed)),
           {900, 900}};

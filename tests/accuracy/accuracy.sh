@@ -374,7 +374,7 @@ $(remarks fault_catalogues.csv)
 
 $(markdown fault_catalogues.csv)
 
-## Fault: leaps over the loading
+## Fault: leaps between events
 
 The same large events with plates slower than the paper's, with and without \`fix lsm/leap\`, and what each costs.
 

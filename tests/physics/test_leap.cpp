@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Leaps over the loading: model time, no change without leaps, restart, ranks, refusals.
+// Leaps between events: model time, no change without leaps, restart, ranks, refusals.
 #include <cmath>
 #include <set>
 #include <sstream>

@@ -296,7 +296,7 @@ def test_completeness(do, no):
     do("fit known.csv --replicas 0 --no-comparison --range 1e-3:1 -o f --no-picture").told("below its completeness of 0.01")
     said("f.fits.csv", "^lsm,0.001,1,no,1000,")
     do("report known.csv s.csv --replicas 0 --interval-replicas 0 -o r.html")
-    page = said("r.html", f"<td>{above} from 0.01</td>", "<td>1000 from 0.0001</td>", r"Sizes from 0.01\.",
+    page = said("r.html", f"<td>{above} ≥ 0.01</td>", "<td>1000 ≥ 0.0001</td>", r"Sizes from 0.01\.",
                 "Smallest size, fault: 0.01, completeness in the header of known.csv")
     assert not re.search("fault, length 120</th><td>0.0001 to", page)
     fault("bad.csv", sizes, completeness="small")

@@ -188,7 +188,7 @@ TEST_F(PackingOf40, FiguresAreThoseOfThePaper) {
               1e-12);
 }
 
-// The loose discs found again the slow way: take out any disc with fewer than three links until
+// The loose discs found by a slow second way: take out any disc with fewer than three links until
 // none is left.
 TEST_F(PackingOf40, LooseDiscsAreExactlyThoseTakenOut) {
   LSM::PackingSettings s = settings(length);

@@ -90,7 +90,7 @@ class PeDropFinder : public EventFinder {
     if (picker_.in_event()) locator_.add(*sample.slips);
   }
   std::int64_t open() const override { return picker_.in_event() ? 1 : 0; }
-  // An event that ended at this step is known only one step later, and is found again.
+  // An event that ended at this step is known only one step later.
   std::int64_t known_until(std::int64_t step) const override { return step - 1; }
 
   void change_picker(const PickerSettings &settings, double ratio) override {
