@@ -139,11 +139,12 @@ class CommandLine {
     group.flag("--unstable", unstable_, "Run the printed scheme above these limits");
     group.choose("--kernel", run_.kernel,
                  "active (only moving chunks of blocks) or dense (all blocks; same catalogue)");
-    group.add("--leap", run_.leap_speed,
-              "Slow loading without time steps, a leap †: once no block has been faster than this for 50 time "
-              "units, blocks at their limit creep without steps, in the limit of a slow plate, "
-              "until some are about to exceed it; 1e-3 is accurate for V up to 1e-3; 0: no leaps. "
-              "Model time and steps continue (length/time)");
+    group.add(
+        "--leap", run_.leap_speed,
+        "Slow loading without time steps, a leap †: once no block has been faster than this for 50 time "
+        "units, blocks at their limit creep without steps, in the limit of a slow plate, "
+        "until some are about to exceed it; 1e-3 is accurate for V up to 1e-3; 0: no leaps. "
+        "Model time and steps continue (length/time)");
   }
 
   void add_events() {
