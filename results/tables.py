@@ -351,12 +351,12 @@ def study_table(file, columns, rows=None):
 def slow_driving_table():
 
     def per(row, *keys):
-        return ", ".join(f"{36 * number(row, key) / number(row, 'displacement'):.0f}" for key in keys)
+        return ", ".join(f"{18 * number(row, key) / number(row, 'displacement'):.0f}" for key in keys)
 
     return study_table(
         "slow-driving.csv", {
             "predicted, velocity": lambda row: row["velocity"], "leaps at": lambda row: row["fast"] or "no leaps",
-            "events >= 1e-3, 1e-2, 0.1 per displacement of 36": lambda row: per(row, "events_3", "events_2", "events_1"),
+            "events >= 1e-3, 1e-2, 0.1 per displacement of 18": lambda row: per(row, "events_3", "events_2", "events_1"),
             "exponent 1e-3 to 1": "long", "1e-2 to 1": "from_2", "gamma >= 1e-3": "gamma", ">= 1e-2": "gamma_2",
             "events within 100 time units after, before a main shock": lambda row: f"{of(row, 'after_100')}, {of(row, 'before_100')}",
             "large events found again, by chance": lambda row: f"{row['same']} of {row['of']}, {of(row, 'chance')}"

@@ -29,15 +29,15 @@ set xtics 10
 set xlabel "driving velocity of each plate"
 set key noautotitle
 unset key
-set title "Events per displacement of 36"
+set title "Events per displacement of 18"
 set ylabel "number of events" offset 0.5
 set logscale y
-set yrange [100:3000]
-set ytics (100, 200, 500, 1000, 2000)
-plot table using "velocity":(yes("events_3")*36/column("displacement")) with points pt 7 lc rgb "#0072B2", "" using "velocity":(no("events_3")*36/column("displacement")) with points pt 6 lc rgb "#0072B2", \
-  "" using "velocity":(slower("events_3")*36/column("displacement")) with points pt 2 lc rgb "#0072B2", "" using "velocity":(slower("events_2")*36/column("displacement")) with points pt 2 lc rgb "#D55E00", "" using "velocity":(slower("events_1")*36/column("displacement")) with points pt 2 lc rgb "#009E73", \
-  "" using "velocity":(yes("events_2")*36/column("displacement")) with points pt 7 lc rgb "#D55E00", "" using "velocity":(no("events_2")*36/column("displacement")) with points pt 6 lc rgb "#D55E00", \
-  "" using "velocity":(yes("events_1")*36/column("displacement")) with points pt 7 lc rgb "#009E73", "" using "velocity":(no("events_1")*36/column("displacement")) with points pt 6 lc rgb "#009E73"
+set yrange [40:2000]
+set ytics (50, 100, 200, 500, 1000)
+plot table using "velocity":(yes("events_3")*18/column("displacement")) with points pt 7 lc rgb "#0072B2", "" using "velocity":(no("events_3")*18/column("displacement")) with points pt 6 lc rgb "#0072B2", \
+  "" using "velocity":(slower("events_3")*18/column("displacement")) with points pt 2 lc rgb "#0072B2", "" using "velocity":(slower("events_2")*18/column("displacement")) with points pt 2 lc rgb "#D55E00", "" using "velocity":(slower("events_1")*18/column("displacement")) with points pt 2 lc rgb "#009E73", \
+  "" using "velocity":(yes("events_2")*18/column("displacement")) with points pt 7 lc rgb "#D55E00", "" using "velocity":(no("events_2")*18/column("displacement")) with points pt 6 lc rgb "#D55E00", \
+  "" using "velocity":(yes("events_1")*18/column("displacement")) with points pt 7 lc rgb "#009E73", "" using "velocity":(no("events_1")*18/column("displacement")) with points pt 6 lc rgb "#009E73"
 unset logscale y
 set ytics auto
 set title "Exponent of the sizes up to 1"
