@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What the parts of a long fault have to do with each other.
 
-stretches.py POSTPROC OUT [--memory TIME] FOLDER...
+stretches.py [--memory TIME] [--stretch LENGTH] POSTPROC OUT FOLDER...
 
 Each FOLDER has a run with `-var extra fault_stretches`: fault.catalogue.csv and fault.stretches.txt. Its fault is cut into
 stretches of about 120, fixed in space, whose energies add up to PE (weights fall linearly over one piece, so that blocks move from
@@ -14,6 +14,7 @@ one to the next without jumps). Writes, of all runs,
 """
 import argparse
 import csv
+import math
 import subprocess
 import sys
 import tempfile
@@ -21,7 +22,6 @@ from pathlib import Path
 
 import numpy as np
 
-STRETCH = 120.0  # length, about
 LAGS = (1, 3, 10, 30, 100, 300, 1000)  # time units
 SHIFTS = 5  # sums with other shifts
 MAGIC = b"lsm-pe-series-1\n"
@@ -43,26 +43,29 @@ def header_of(catalogue):
 def samples(path):
     """Steps, and energies [sample, piece, block]. \\raises Refused"""
     with open(path, encoding="utf-8") as file:
-        lines = [line for line in file if line[0] != "#"]
-    if len(lines) < 2:
-        raise Refused(f"{path}: no sample, expected the output of fault_stretches.in")
-    pieces = int(lines[0].split()[1])
-    count = len(lines) // (pieces + 1)  # a killed run leaves a part of a sample
-    table = [lines[n * (pieces + 1):(n + 1) * (pieces + 1)] for n in range(count)]
-    steps = np.array([int(rows[0].split()[0]) for rows in table])
-    energy = np.array([[row.split()[1:] for row in rows[1:]] for rows in table], float)
-    fresh = np.concatenate([[True], np.diff(steps) > 0])  # the step at which a piece of a run ends begins the next, too
-    return steps[fresh], energy[fresh]
+        lines = [line for line in file if line[0] != "#" and line[-1] == "\n"]  # a killed run leaves parts of lines and samples
+    try:
+        pieces = int(lines[0].split()[1])
+        table = [lines[n:n + pieces + 1] for n in range(0, len(lines) - pieces, pieces + 1)]
+        steps = np.array([int(rows[0].split()[0]) for rows in table])
+        energy = np.array([[row.split()[1:] for row in rows[1:]] for rows in table], float)
+        pieces, blocks = energy.shape[1:]
+    except (IndexError, ValueError):
+        raise Refused(f"{path}: not what fault_stretches.in writes") from None
+    if blocks != 2 or len(set(np.diff(steps))) != 1:
+        raise Refused(f"{path}: expected energies of two blocks at steps with one distance")
+    return steps, energy
 
 
-def stretches_of(folder):
-    """Header, and PE of each stretch at evenly spaced times. \\raises Refused"""
+def stretches_of(folder, stretch):
+    """Header, and PE of each stretch of about this length at evenly spaced times. \\raises Refused"""
     info = header_of(folder / "fault.catalogue.csv")
+    missing = {"length", "dt", "velocity", "lambda", "seed"} - info.keys()
+    if missing:
+        raise Refused(f"{folder / 'fault.catalogue.csv'}: the header has no {min(missing)}, expected a catalogue of fault.in")
     steps, energy = samples(folder / "fault.stretches.txt")
-    if len(set(np.diff(steps))) != 1:
-        raise Refused(f"{folder / 'fault.stretches.txt'}: steps between samples differ, expected one number")
     length, dt = float(info["length"]), float(info["dt"])
-    count = round(length / STRETCH)
+    count = max(1, round(length / stretch))
     size, piece = length / count, length / energy.shape[1]
     moved = float(info["velocity"]) * dt * (steps - steps[0])
     places = (np.arange(energy.shape[1]) + 0.5) * piece
@@ -78,6 +81,8 @@ def stretches_of(folder):
 def variance(pe, every, dt):
     for lag in LAGS:
         by = max(1, round(lag / (every * dt)))
+        if by + 1 >= pe.shape[1]:  # the run is too short for it
+            break
         change = pe[:, by:] - pe[:, :-by]
         whole, parts = change.sum(axis=0).var(), change.var(axis=1).sum()
         r = np.corrcoef(change)
@@ -120,16 +125,17 @@ def mean_row(rows):
     return out
 
 
-def main(postproc, out, memory, folders):
+def main(postproc, out, memory, stretch, folders):
     changes, counted = [], []
     random = np.random.default_rng(1)
     for folder in map(Path, folders):
-        info, every, pe = stretches_of(folder)
+        info, every, pe = stretches_of(folder, stretch)
+        picker = -float(info["dt"]) / math.log(float(info["lambda"])) if memory is None else memory
         run = {"length": info["length"], "seed": info["seed"], "stretches": len(pe)}
         changes += [{**run, **row} for row in variance(pe, every, float(info["dt"]))]
         shifted = [sum(np.roll(one, random.integers(len(one))) for one in pe - pe.mean(axis=1)[:, None]) for _ in range(SHIFTS)]
         for what, series in (("whole", [pe.sum(axis=0)]), ("shifted", shifted), ("each", pe)):
-            counted.append({**run, "what": what, "series": len(series), **mean_row([events(postproc, info, every, one, memory) for one in series])})
+            counted.append({**run, "what": what, "series": len(series), **mean_row([events(postproc, info, every, one, picker) for one in series])})
     for ending, rows in (("variance", changes), ("events", counted)):
         with open(f"{out}.{ending}.csv", "w", encoding="utf-8", newline="") as file:
             table = csv.DictWriter(file, list(dict.fromkeys(key for row in rows for key in row)), lineterminator="\n")
@@ -141,7 +147,8 @@ if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("postproc", metavar="POSTPROC")
     parser.add_argument("out", metavar="OUT")
-    parser.add_argument("--memory", type=float, default=2.0, metavar="TIME", help="of the picker (%(default)s)")
+    parser.add_argument("--memory", type=float, metavar="TIME", help="of the picker (default: that of the run)")
+    parser.add_argument("--stretch", type=float, default=120, metavar="LENGTH", help="of a stretch, about (%(default)s)")
     parser.add_argument("folders", metavar="FOLDER", nargs="+")
     try:
         main(**vars(parser.parse_args()))

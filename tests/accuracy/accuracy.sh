@@ -272,7 +272,7 @@ much smaller step. *located*: a contact that begins within a step gets the part 
 that follows its begin; *step*: it begins with elongation 0 at the end of the step; *force*: located, but viscosity is
 a force evaluated with the velocity of the half step instead of exact decay around the step. *standard*: kt = k, viscosity
 0.015; *floor 0.04*, *floor 0.09*: smaller masses raised to that; *damped*, *light*: viscosity 0.05 and 0.005; *soft*, *stiff*: kt = 0.1 and 10. What differs from
-\`fault.in\`: length 60, stress 0.02, viscosity 0.015, impedance 0.6, kt = k and contacts between the blocks only, which are harder to integrate; all masses r^2 (as with \`-var preset single\`); and that
+\`fault.in\`: length 60, stress 0.02, viscosity 0.015, kt = k and contacts between the blocks only, which are harder to integrate; all masses r^2 (as with \`-var preset single\`); and that
 ledger and places of events are on, which moves no disc. The event is the
 first of size 0.01 or more. It speeds up slowly over most of its duration, so that a small error of its begin grows into one of
 its time: the arrival is when the velocity of a patch of the upper block has changed by half of its largest change.

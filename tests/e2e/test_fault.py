@@ -3,13 +3,17 @@
 import os
 import re
 import shutil
+import sys
 from collections import Counter
 from pathlib import Path
 
 import numpy as np
 import pytest
-from data_files import header, read_catalogue, read_dump, rows, same_bytes
+from data_files import header, read_catalogue, read_dump, read_series, rows, same_bytes
 from programs import INPUTS, refused, run, scene
+
+sys.path.insert(0, str(INPUTS / "studies"))
+from stretches import samples  # noqa: E402
 
 
 def particles(result):
@@ -142,6 +146,73 @@ def test_image(lmp):
     assert pictures == [f"film.{step:09d}.png" for step in (102, 106, 110, 114, 118)] + ["one.000000110.png"]
     for name in pictures:
         assert Path(name).read_bytes()[1:4] == b"PNG" and os.path.getsize(name) > 5000
+
+
+STRETCHES = """include {inputs}/fault_stretches.in
+write_dump all custom begin.dump id type x modify sort id
+dump probe all custom 8 probe.dump id type x y c_discenergy
+dump_modify probe sort id
+"""
+
+
+def test_stretches(lmp, work):
+    """Pieces of one length, each of the discs that were there at first: the energies of all add up to PE."""
+    Path("parts.in").write_text(STRETCHES.format(inputs=INPUTS))
+    run(lmp, scene(length=36, width=15, settle=104, velocity=0.03, steps=400, checkpoint=200, prefix="p", extra=work / "parts", piece=5))
+    pieces = 7  # 36 is no multiple of 5
+    steps, energy = samples("p.stretches.txt")
+    assert list(steps) == list(range(104, 505, 8)) and energy.shape == (len(steps), pieces, 2)
+    _, step, _, pe = read_series("p.pe.bin")
+    assert energy.sum(axis=(1, 2)) == pytest.approx(pe[np.isin(step, steps)], rel=1e-13)
+    (_, _, begin), = read_dump("begin.dump")
+    piece, above = (begin[:, 2] % 36 * pieces / 36).astype(int), begin[:, 1] % 2 == 0
+    frames = list(read_dump("probe.dump"))
+    assert [frame[0] for frame in frames] == list(steps)
+    for at, _, discs in frames:
+        expected = [[discs[(piece == n) & (above == side), 4].sum() for side in (False, True)] for n in range(pieces)]
+        assert energy[steps == at][0] == pytest.approx(np.array(expected), rel=1e-4)  # digits of the dump
+    # The discs move on, those below the fault to smaller x.
+    moved = (frames[-1][2][:, 2] - begin[:, 2] + 18) % 36 - 18
+    assert moved[~above].mean() < 0 < moved[above].mean()
+    assert ((frames[-1][2][:, 2] % 36 * pieces / 36).astype(int) != piece).any(), "no disc has left its piece"
+
+
+# ---- links
+LINKS = """compute links all property/local batom1 batom2
+dump links all local 1 a.links c_links[1] c_links[2]
+dump discs all custom 1 a.discs id type x y radius
+dump_modify discs sort id format float %.15g
+"""
+
+
+def pulled(strain):
+    """Which disc of a.discs is moved along the fault, and how far, for one of its links to have this strain."""
+    (_, _, discs), = [frame for frame in read_dump("a.discs") if frame[0] == 0]
+    (_, _, links), = [frame for frame in read_dump("a.links") if frame[0] == 0]
+    at, radius = discs[:, 2:4], discs[:, 4]
+    ends = links.astype(int) - 1  # IDs are 1 to the number of discs
+    for disc in np.flatnonzero((discs[:, 1] == 1) & (abs(at[:, 0] - 10) < 2)):
+        partners = ends[(ends == disc).any(axis=1)].sum(axis=1) - disc
+        for far in np.arange(0, 6, 1e-3):
+            apart = np.hypot(*(at[disc] + [far, 0] - at[partners]).T)
+            most = abs(apart / (radius[disc] + radius[partners]) - 1).max()
+            if most >= strain:
+                assert most < strain + 0.02
+                return disc + 1, far
+    pytest.fail("no disc in the middle of the lower block")
+
+
+def test_strained_links(lmp, work):
+    """A link may be strained by its own length, whatever is recorded; the run stops beyond."""
+    small = dict(length=20, width=15, settle=0, steps=3, dt=1e-4, prefix="a", ruptures="yes", overwrite="yes")
+    Path("pull.in").write_text(LINKS)
+    run(lmp, scene(extra=work / "pull", **small))
+    for strain, status in (0.97, 0), (1.01, 1):
+        disc, far = pulled(strain)
+        Path("pull.in").write_text(f"group one id {disc}\ndisplace_atoms one move {far} 0 0\n")
+        said = run(lmp, scene(extra=work / "pull", **small), status=status)
+        stopped = re.findall(r"Run stopped at step .*: a link is strained by ([0-9.]+), above strainlimit 1\. ", said.out)
+        assert len(stopped) == status and all(1 < float(by) < 1.04 for by in stopped), str(said)
 
 
 # ---- contacts

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from programs import SOURCE
 
-STEPS = "200000"
+STEPS = "400000"
 
 
 def must(*command, **more):

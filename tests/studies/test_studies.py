@@ -370,14 +370,14 @@ bond_style lsm/linked
 bond_coeff 1 1.0
 pair_style lsm/friction coulomb 0.6 0.6
 pair_coeff * * off
-pair_coeff 1*4 1*6 1.0 0.07
+pair_coeff 1*4 1*6 1.0 {kt}
 compute contacts all pair/local p1
 compute squares all reduce sumsq c_contacts inputs local
 thermo_style custom step pe c_squares
 thermo_modify norm no
 run 0
 print "whole = $(pe:%.9g)"
-print "tangential = $(0.5*0.07*c_squares:%.9g)"
+print "tangential = $(0.5*{kt}*c_squares:%.9g)"
 """
 
 
@@ -393,7 +393,8 @@ def test_esys(studies):
     _, steps, _, pe = read_series("whole_job/ESyS-Particle/fault.pe.bin")
     assert len(steps) == 114 and steps[0] == 20000
     ours = [line.split() for line in open("whole_job/ours_0.06/output.txt") if line.split()[:1] == ["20000"]][-1]
-    Path("energy.in").write_text(ENERGY)
+    kt = header("whole_job/ours_0.06/fault.catalogue.csv")["kt"]
+    Path("energy.in").write_text(ENERGY.replace("{kt}", kt))
     said = run(Program("lmp", studies.binaries / "lmp"), "-in energy.in -log none")
     whole, tangential = (float(re.search(f"^{name} = (.*)", said.out, re.M)[1]) for name in ("whole", "tangential"))
     assert whole == pytest.approx(float(ours[3]), rel=1e-5) and tangential > 0
