@@ -1,6 +1,6 @@
-# Draws fig13_slider_sizes.png and fig13_slider_sizes.svg from fig13_slider_sizes.csv: run `gnuplot
-# fig13_slider_sizes.gp` in this folder.
-base = 'fig13_slider_sizes'
+# Draws fig13_slider_sizes.png and fig13_slider_sizes.svg from
+# fig13_slider_sizes.csv: run `gnuplot ./fig13_slider_sizes.gp` in this folder.
+base = "./fig13_slider_sizes"
 table = base.".csv"
 if (!exists("formats")) formats = "png svg"
 
@@ -37,13 +37,13 @@ set tics out nomirror
 set grid xtics ytics lt 1 dt 1 lw 0.5 lc rgb "#d8d8d8"
 set key outside bottom center horizontal samplen 3 spacing 1.15 maxcols 2 width -3 Left reverse height 1
 set output base.".".format
-set xlabel 'event size s (energy, model units)'
+set xlabel "event size s (energy, model units)"
 set logscale x
 set format x "10^{%L}"
 set xtics 10
 set mxtics 10
 set xrange [0.0001:10000]
-set ylabel 'probability density p(s) (1 / energy)'
+set ylabel "probability density p(s) (1 / energy)"
 set logscale y
 set format y "10^{%L}"
 set ytics 10
@@ -51,27 +51,28 @@ set mytics 10
 set yrange [1e-08:10]
 row(k) = $1 == k && $7 > 0 ? $6 : NaN
 low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y
+set samples 400
 plot table using (row(1)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \
-     table using (row(1)):8 with lines lt 1 lw 1.2 notitle, \
      table using (row(1)):8 with points lt 1 notitle, \
-     keyentry with linespoints lt 1 title 'slider 256, seed 1 (1460 events)', \
+     table using (row(1)):8 with lines lt 1 lw 1.2 notitle, \
+     keyentry with linespoints lt 1 title "block-slider, N = 256 (1460 events)", \
      table using (row(2)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 2 dt 1 lw 0.8 notitle, \
-     table using (row(2)):8 with lines lt 2 lw 1.2 notitle, \
      table using (row(2)):8 with points lt 2 notitle, \
-     keyentry with linespoints lt 2 title 'slider 614, seed 1 (2484 events)', \
+     table using (row(2)):8 with lines lt 2 lw 1.2 notitle, \
+     keyentry with linespoints lt 2 title "block-slider, N = 614 (2484 events)", \
      table using (row(3)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 3 dt 1 lw 0.8 notitle, \
-     table using (row(3)):8 with lines lt 3 lw 1.2 notitle, \
      table using (row(3)):8 with points lt 3 notitle, \
-     keyentry with linespoints lt 3 title 'slider 972, seed 1 (3919 events)', \
+     table using (row(3)):8 with lines lt 3 lw 1.2 notitle, \
+     keyentry with linespoints lt 3 title "block-slider, N = 972 (3919 events)", \
      table using (row(4)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 4 dt 1 lw 0.8 notitle, \
-     table using (row(4)):8 with lines lt 4 lw 1.2 notitle, \
      table using (row(4)):8 with points lt 4 notitle, \
-     keyentry with linespoints lt 4 title 'slider 1450, seed 1 (5414 events)', \
+     table using (row(4)):8 with lines lt 4 lw 1.2 notitle, \
+     keyentry with linespoints lt 4 title "block-slider, N = 1450 (5414 events)", \
      table using (row(5)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 5 dt 1 lw 0.8 notitle, \
-     table using (row(5)):8 with lines lt 5 lw 1.2 notitle, \
      table using (row(5)):8 with points lt 5 notitle, \
-     keyentry with linespoints lt 5 title 'slider 1928, seed 1 (8232 events)', \
-     [0.01:1] '+' using 1:(0.56574724389616871*$1**(-0.5)) with lines lt 8 dt 2 lw 2.2 title 'slope -0.5', \
-     [1:100] '+' using 1:(0.34848007541784598*$1**(-1)) with lines lt 8 dt 3 lw 2.2 title 'slope -1'
+     table using (row(5)):8 with lines lt 5 lw 1.2 notitle, \
+     keyentry with linespoints lt 5 title "block-slider, N = 1928 (8232 events)", \
+     [0.01:1] '+' using 1:(0.56574724389616871*$1**(-0.5)) with lines lt 8 dt 2 lw 2.2 title "slope -0.5", \
+     [1:100] '+' using 1:(0.34848007541784598*$1**(-1)) with lines lt 8 dt 3 lw 2.2 title "slope -1"
 unset output
 }

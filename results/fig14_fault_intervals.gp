@@ -48,30 +48,23 @@ set logscale y
 set format y "10^{%L}"
 set ytics 10
 set mytics 10
-set yrange [9.9999999999999995e-08:1]
+set yrange [9.9999999999999995e-08:10]
 row(k) = $1 == k && $7 > 0 ? $6 : NaN
 low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y
 set samples 400
 plot table using (row(1)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \
      table using (row(1)):8 with points lt 1 notitle, \
-     keyentry with linespoints lt 1 title "fault, length 120 (967 times)", \
+     keyentry with linespoints lt 1 title "fault, length 120 (543 times)", \
      table using (row(2)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 2 dt 1 lw 0.8 notitle, \
      table using (row(2)):8 with points lt 2 notitle, \
-     keyentry with linespoints lt 2 title "fault, length 240 (1214 times)", \
+     keyentry with linespoints lt 2 title "fault, length 240 (1259 times)", \
      table using (row(3)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 3 dt 1 lw 0.8 notitle, \
      table using (row(3)):8 with points lt 3 notitle, \
-     keyentry with linespoints lt 3 title "fault, length 480 (1214 times)", \
-     table using (row(4)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 4 dt 1 lw 0.8 notitle, \
-     table using (row(4)):8 with points lt 4 notitle, \
-     keyentry with linespoints lt 4 title "fault, length 945 (825 times)", \
-     table using (row(5)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 5 dt 1 lw 0.8 notitle, \
-     table using (row(5)):8 with points lt 5 notitle, \
-     keyentry with linespoints lt 5 title "fault, length 1890 (901 times)", \
-     [0.31622776601683783:1995.2623149688834] '+' using 1:(0.024544530911050338*$1**(-0.20858515970951164)*exp(-$1**(1)/88.379515814101595)) with lines lt 1 dt 3 lw 2 notitle, \
-     [0.19952623149688789:794.32823472428277] '+' using 1:(0.037305337798137751*$1**(-0.31934870639289548)*exp(-$1**(1)/82.50369072903149)) with lines lt 2 dt 3 lw 2 notitle, \
-     [0.19952623149688789:630.95734448019425] '+' using 1:(0.024105436627762804*$1**(-0.1267467919243187)*exp(-$1**(1)/64.462923439204545)) with lines lt 3 dt 3 lw 2 notitle, \
-     [0.19952623149688789:501.18723362727303] '+' using 1:(0.04292453072516119*$1**(-0.2652513332393468)*exp(-$1**(1)/53.799769743285424)) with lines lt 4 dt 3 lw 2 notitle, \
-     [0.19952623149688789:316.22776601683836] '+' using 1:(0.040784223411370772*$1**(-0.19254584408301922)*exp(-$1**(1)/43.94392900462941)) with lines lt 5 dt 3 lw 2 notitle, \
+     keyentry with linespoints lt 3 title "fault, length 480 (1389 times)", \
+     [0.19952623149688789:3162.2776601683854] '+' using 1:(0.017519125479074318*$1**(-0.39768117444851026)*exp(-$1**(1)/428.1897383754353)) with lines lt 1 dt 1 lw 1.6 notitle, \
+     [0.19952623149688789:1584.8931924611163] '+' using 1:(0.055054123381085569*$1**(-0.67945251778088178)*exp(-$1**(1)/344.99325607914363)) with lines lt 2 dt 3 lw 2 notitle, \
+     [0.19952623149688789:1258.9254117941693] '+' using 1:(0.024371845742248918*$1**(-0.30997423348236597)*exp(-$1**(1)/146.49416952937386)) with lines lt 3 dt 3 lw 2 notitle, \
+     keyentry with lines lt 8 dt 1 lw 1.6 title "fit not rejected", \
      keyentry with lines lt 8 dt 3 lw 2 title "fit rejected (p < 0.05)"
 unset output
 }

@@ -43,7 +43,10 @@ for part; do
       for fit in slider_fit rupture_fit fault_fit fault_rupture_fit; do
         for kind in csv gp png; do cp "$new/$fit.scaling.$kind" .; done
       done
-      for kind in csv gp png; do cp "$new/fig12_fault_sizes.$kind" .; done
+      "$postproc" histograms "${sliders[@]}" --guide=-0.5:1e-2:1 --guide=-1:1:100 -o "$new/fig13_slider_sizes"
+      for name in fig12_fault_sizes fig13_slider_sizes; do
+        for kind in csv gp png svg; do cp "$new/$name.$kind" .; done
+      done
       for name in fig14_fault_intervals fig15_slider_intervals; do
         for kind in csv gp png table1.csv; do cp "$new/$name.$kind" .; done
       done
@@ -74,7 +77,7 @@ for part; do
       cp "$new/sizes.png" tutorial_sizes.png
       cp "$new/compare.png" tutorial_compare.png
       cp "$new/page.png" explore.png
-      for name in event spacetime; do cp "$new/rupture-$name.png" rupture_$name.png; done
+      for name in event.png event.svg spacetime.png; do cp "$new/rupture-$name" "rupture_$name"; done
       ;;
     studies)
       gnuplot -e "table = 'slow-driving-slider.csv'" ../inputs/studies/slow-driving-slider.gp
