@@ -6,8 +6,7 @@ tables.py POSTPROC            says which tables are not what the data give; exit
 tables.py POSTPROC --write    writes them into the pages
 
 A table stands between the lines <!-- table NAME --> and <!-- end -->, in a page of this folder or the project's README.md. Statistics
-are those of postproc; here are means over packings with their standard deviation, and what stands beside what. Where the data of a
-study are not in this folder, a line says so in place of its table.
+are those of postproc; here are means over packings. A study whose data are not in this folder has a line in place of its table.
 """
 import cmath
 import csv
@@ -30,7 +29,7 @@ from calibrate import number, read  # noqa: E402
 
 POSTPROC = "postproc"  # the program, set by main()
 POINTS, SLIDERS = FOLDER / "calibration/points.csv.xz", FOLDER / "calibration/sliders.csv.xz"
-CAMPAIGN, WIDTHS = FOLDER / "campaign", FOLDER / "widths"
+CAMPAIGN, VALIDATION = FOLDER / "campaign", FOLDER / "validation"
 LOADING = str(calibrate.LOADING)
 SIZES = ("1e-4", "1e-3", "1e-2")
 EXPONENTS = {text.replace(":", " to "): f"exponent_{text}" for text in calibrate.RANGES}
@@ -216,10 +215,12 @@ def numbers_table():
                   for key, rows in grouped(rows, lambda row: (row["number"], row["expected"])).items()])
 
 
-def widths_table():
-    keys = EXPONENTS | {"gamma >= 1e-4": "gamma_0.0001", "mean time": "mean_time_0.0001", "largest": "largest"}
-    groups = grouped(sorted(summaries(WIDTHS), key=lambda row: float(row["width"])), lambda row: (row["length"], row["width"]))
-    return table(["predicted, length", "width", "packings", *keys],
+def validation_table():
+    """Other widths and time steps beside the campaign's runs of these lengths."""
+    keys, others = EXPONENTS | {"gamma >= 1e-4": "gamma_0.0001", "mean time": "mean_time_0.0001", "largest": "largest"}, summaries(VALIDATION)
+    rows = [row for row in summaries() if row["length"] in {other["length"] for other in others}] + others
+    groups = grouped(sorted(rows, key=lambda row: float(row["width"])), lambda row: (row["length"], row["width"], row["dt"]))
+    return table(["predicted, length", "width", "time step", "packings", *keys],
                  [[*group, str(len(rows)), *(spread([number(row, key) for row in rows]) for key in keys.values())] for group, rows in groups.items()])
 
 
@@ -281,9 +282,6 @@ def slider_table():
     blocks = ["blocks", "", ", ".join(row["blocks"] for row in rows), ""]
     return table(head, [blocks] + [[name, text, ", ".join(shown(value(row)) for row in rows), f"{n} of {len(rows)} lengths"]
                                    for (name, text, value, *_), n in zip(statements, met)])
-
-
-# ---- packing, ruptures of a flat fault
 
 
 def ground_table():
@@ -434,7 +432,7 @@ def check(write):
             return f"<!-- table {match[1]} -->\n\n{made}\n\n<!-- end -->"
 
         new = re.sub(r"<!-- table (\S+) -->.*?<!-- end -->", replace, text, flags=re.S)
-        if write and new != text:
+        if write:
             page.write_text(new)
         elif new != text:
             wrong = 1
