@@ -24,7 +24,7 @@ string(REPLACE "|" ";" options "${OPTIONS}")
 message(STATUS "Building stock LAMMPS in ${BUILD} (some minutes, once)")
 execute_process(
   COMMAND ${CMAKE_COMMAND} -S ${SOURCE}/cmake -B ${BUILD} ${generator} -DCMAKE_CXX_COMPILER=${CXX}
-          -DCMAKE_PROJECT_INCLUDE=${CMAKE_CURRENT_LIST_DIR}/PrecompileLammps.cmake ${options}
+          -DCMAKE_PROJECT_INCLUDE=${CMAKE_CURRENT_LIST_DIR}/PrecompileLammps.cmake -Wno-dev -Wno-deprecated ${options}
   OUTPUT_FILE ${BUILD}/lsm-configure.log
   RESULT_VARIABLE rc)
 if(NOT rc EQUAL 0)

@@ -44,7 +44,8 @@ need_programs() {
 debian_lammps() {
   lammps_library=
   command -v apt-cache >/dev/null && command -v dpkg-query >/dev/null || return 0
-  apt-cache policy liblammps-dev 2>/dev/null | grep -q '^ *Candidate: 20250204' || return 0
+  # Not by 'grep -q', which ends at the first match and lets apt-cache fail, at times, as its pipe is gone.
+  [[ $(apt-cache policy liblammps-dev 2>/dev/null) == *"Candidate: 20250204"* ]] || return 0
   install_debian_packages liblammps-dev
   lammps_library=$(dpkg-query -L liblammps-dev 2>/dev/null | grep '/liblammps\.so$') || lammps_library=
 }

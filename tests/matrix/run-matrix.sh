@@ -6,17 +6,17 @@
 # usage: tests/matrix/run-matrix.sh [--folder FOLDER] [--jobs N] all|COLUMN...
 #   --folder FOLDER   where everything is built (default build-matrix; some GB)
 #   --jobs N          processes for compiling (default: number of cores)
-#   COLUMN...         reference clang bigbig jul2026 plugin installed testers testers-jul2026 aarch64 debian-13
-#                     sanitize sanitize-thread mutations, or all, in this order; those with a fault need the reference done before;
-#                     debian-13 needs root
+#   COLUMN...         reference clang bigbig jul2026 plugin installed testers testers-jul2026 aarch64 debian-12 debian-12-tests
+#                     debian-13 debian-13-tests sanitize sanitize-thread mutations, or all, in this order; those with a fault,
+#                     except in a Debian of its own, need the reference done before; debian-* need root
 # LSM_LAMMPS_CACHE is used as by the build; default FOLDER/cache. LSM_MATRIX_FLAGS are the flags for LAMMPS' own sources in
-# all columns but the reference (default -O1). The table is FOLDER/table.md, one row a column with its date; all
-# writes it into README.md under "Last run".
+# all columns but the reference (default -O1). LSM_MATRIX_CTEST are arguments for ctest in debian-*-tests, such as -L unit.
+# Each row is written into FOLDER and into README.md under "Last run".
 set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
 folder=$root/build-matrix
 jobs=$(nproc)
-all="reference clang bigbig jul2026 plugin installed testers testers-jul2026 aarch64 debian-13 sanitize sanitize-thread mutations"
+all="reference clang bigbig jul2026 plugin installed testers testers-jul2026 aarch64 debian-12 debian-12-tests debian-13 debian-13-tests sanitize sanitize-thread mutations"
 columns=()
 fail() {
   echo "run-matrix: $*" >&2
@@ -60,7 +60,8 @@ flags="-DCMAKE_CXX_FLAGS_RELEASE=${LSM_MATRIX_FLAGS:--O1} -DNDEBUG"
 precompile=-DCMAKE_PROJECT_INCLUDE=$root/lammps-pkg/cmake/PrecompileLammps.cmake
 
 . "$root/lammps-pkg/cmake/debian-packages.sh"
-install_debian_packages $lammps_packages clang libgtest-dev libgmock-dev libyaml-dev
+[[ ${columns[*]/#debian-*/} != *[a-z]* ]] ||
+  install_debian_packages $lammps_packages clang libgtest-dev libgmock-dev libyaml-dev
 
 # The fault of every column: short, fast plates, with events, energies and the places of events.
 scene=(-var length 30 -var width 16 -var seed 3 -var settle 2000 -var steps 6000 -var checkpoint 3000 -var velocity 0.01
@@ -84,9 +85,9 @@ run_fault() {
   done
 }
 
-# compare_fault COLUMN: what a fault has in common with that of the reference, in words
+# compare_fault COLUMN [OTHER]: what a fault has in common with that of another column, the reference, in words
 compare_fault() {
-  local ours=$folder/$1/fault theirs=$folder/reference/fault ranks file words=""
+  local ours=$folder/$1/fault theirs=$folder/${2:-reference}/fault ranks file words=""
   for ranks in 1 2; do
     local events difference="same bytes"
     events=$(grep -vc '^[#e]' "$ours/on_$ranks.catalogue.csv" || true)
@@ -241,7 +242,7 @@ run_pytest() {
   return $rc
 }
 
-compiler_of() { "$1" --version | head -n 1; }
+compiler_of() { "$1" --version | sed -n 1p; }
 
 # row COLUMN LAMMPS COMPILER INTEGERS BUILD TESTS FAULT
 row() { printf '| %s | %s | %s | %s | %s | %s | %s | %s |\n' "$1" "$2" "$3" "$4" "$5" "$6" "$7" "$(date +%F)" >"$folder/$1.row"; }
@@ -257,19 +258,56 @@ testers_of() {
   rm -rf "$at.part"
 }
 
-# in_debian ROOT COMMAND...: in a Debian of its own, with the sources in /lsm and everything built in /build
+# bare_debian COLUMN: a Debian in which nothing is installed, FOLDER/COLUMN-root, from the mirror of this machine
+bare_debian() {
+  local at=$folder/$1-root mirror
+  local -A suites=([debian - 12]=bookworm [debian - 13]=trixie)
+  install_debian_packages debootstrap
+  mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' 'Label: Debian' | sed -n 1p)
+  rm -rf --one-file-system "$at"
+  debootstrap --variant=minbase "${suites[$1]}" "$at" ${mirror:+"$mirror"} >"$folder/$1.debootstrap.log"
+  cp /etc/resolv.conf /etc/hosts "$at/etc/"
+}
+
+# in_debian COLUMN BUILD COMMAND: in the Debian of a column, with the sources in /lsm and the build folder /build/BUILD
 in_debian() {
-  local at=$1
-  shift
   unshare --mount --pid --fork --kill-child bash -euc '
     at=$1 root=$2
-    shift 2
     mkdir -p "$at/lsm" "$at/build"
     mount -t proc proc "$at/proc"
     mount --rbind /dev "$at/dev"
     mount --bind "$root" "$at/lsm"
-    exec chroot "$at" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LSM_BUILD_DIR="/build/$1" bash -c "cd /lsm; $2"
-  ' in_debian "$at" "$root" "$@"
+    exec chroot "$at" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LSM_BUILD_DIR="/build/$3" bash -c "cd /lsm; $4"
+  ' in_debian "$folder/$1-root" "$root" "$2" "$3"
+}
+
+# timed COMMAND...: its output to stdout, how long it took into FOLDER/took
+timed() {
+  local TIMEFORMAT='%0R s, %0U + %0S s of CPU'
+  { time "$@" 2>&1; } 2>"$folder/took"
+}
+
+# command_in_debian COLUMN DEBIAN BUILD COMMAND: runs it, and the short fault with the programs that it made; sets warned
+command_in_debian() {
+  local name=$1 log=$folder/$1.log ranks rc=0
+  timed in_debian "$2" "$3" "$4" >"$log" || {
+    tail -n 20 "$log"
+    rc=1
+  }
+  echo "$4: $(cat "$folder/took")"
+  warned="no warning"
+  ! grep -E 'warning: |CMake [A-Za-z() ]*Warning' "$log" || rc=1 warned="**warnings**"
+  rm -rf "${folder:?}/$name"
+  mkdir -p "$folder/$name"
+  for ranks in 1 2; do
+    in_debian "$2" "$3" ". inputs/mpi-settings.sh; mkdir -p /build/$3/fault; cd /build/$3/fault; mpirun -np $ranks ../bin/lmp \
+      -in /lsm/inputs/fault_120.in -log none ${scene[*]} -var overwrite yes -var prefix on_$ranks" >"$folder/$name/out_$ranks.txt" 2>&1 || {
+      tail -n 5 "$folder/$name/out_$ranks.txt"
+      return 1
+    }
+  done
+  cp -r "$folder/$2-root/build/$3/fault" "$folder/$name/"
+  return $rc
 }
 
 # whole COLUMN LAMMPS INTEGERS COMPILER OPTIONS...: project, tests and fault
@@ -371,34 +409,27 @@ do_column() {
         "not pictures and not faults and not progress")" || ok=1
       fault=$(compare_sliders "$qemu/slider_cli" "$folder/aarch64-native/bin/slider_cli") || ok=1
       fault="$fault; postproc: $(compare_postprocs "$qemu/postproc" "$folder/aarch64-native/bin/postproc")" || ok=1
-      row aarch64 "none" "$(compiler_of aarch64-linux-gnu-g++), run by $(qemu-aarch64 --version | head -n 1)" "-" "no warning" \
+      row aarch64 "none" "$(compiler_of aarch64-linux-gnu-g++), run by $(qemu-aarch64 --version | sed -n 1p)" "-" "no warning" \
         "unit, slider, postproc: $tests" "slider on ARM beside x86-64: $fault"
       return $ok
       ;;
-    debian-13)
-      # both commands of the README on a bare system: the distribution's LAMMPS first, then our own with the tests
-      local at=$folder/debian-13-root mirror ranks
-      install_debian_packages debootstrap
-      mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' | grep -m 1 -v security)
-      rm -rf --one-file-system "$at"
-      debootstrap --variant=minbase trixie "$at" "$mirror" >"$folder/debian-13.configure.log"
-      cp /etc/resolv.conf "$at/etc/"
-      in_debian "$at" first "inputs/first-catalogue.sh" >"$folder/debian-13.build.log" 2>&1 || {
-        tail -n 20 "$folder/debian-13.build.log"
-        return 1
-      }
-      for ranks in 1 2; do
-        in_debian "$at" first ". inputs/mpi-settings.sh; mkdir -p /build/fault; cd /build/fault; mpirun -np $ranks /build/first/bin/lmp \
-          -in /lsm/inputs/fault_120.in -log none ${scene[*]} -var prefix on_$ranks" >>"$folder/debian-13.build.log" 2>&1
-      done
-      rm -rf "$folder/debian-13"
-      mkdir -p "$folder/debian-13"
-      cp -r "$at/build/fault" "$folder/debian-13/"
-      fault=$(compare_fault debian-13) || ok=1
-      in_debian "$at" all tests/run-all.sh >"$folder/debian-13.tests.log" 2>&1 || ok=1
-      tests=$(sed -n 's/^\([0-9]*%\) tests passed, \([0-9]*\) tests failed out of \([0-9]*\)/\3 run, \2 failed/p' "$folder/debian-13.tests.log")
-      ! grep '[0-9]: warning:' "$folder/debian-13.build.log" "$folder/debian-13.tests.log" || ok=1
-      row debian-13 "4 Feb 2025 of Debian 13 for the fault, our own build for the tests" "g++ of Debian 13" smallbig "no warning" "all: $tests" "$fault"
+    debian-12 | debian-13)
+      bare_debian "$name"
+      command_in_debian "$name" "$name" first inputs/first-catalogue.sh || ok=1
+      fault="the reference was not built"
+      [ ! -d "$folder/reference/fault" ] || fault=$(compare_fault "$name") || ok=1
+      row "$name" "4 Feb 2025$([ $name = debian-12 ] || echo " of the distribution")" "$(in_debian "$name" first 'g++ --version' | sed -n 1p)" \
+        smallbig "$warned" "\`inputs/first-catalogue.sh\` where nothing is installed: $(cat "$folder/took")" "$fault"
+      return $ok
+      ;;
+    debian-*-tests)
+      # a LAMMPS of our own, beside the distribution's in debian-13
+      local first=${name%-tests}
+      [ -d "$folder/$first/fault" ] || fail "$name is compared with $first, which is not done yet"
+      command_in_debian "$name" "$first" all "tests/run-all.sh ${LSM_MATRIX_CTEST:-}" || ok=1
+      fault="beside $first: $(compare_fault "$name" "$first")" || ok=1
+      row "$name" "4 Feb 2025" "$(in_debian "$first" all 'g++ --version' | sed -n 1p)" smallbig "$warned" \
+        "\`tests/run-all.sh${LSM_MATRIX_CTEST:+ $LSM_MATRIX_CTEST}\`: $(counted "$folder/$name.log"), $(cat "$folder/took")" "$fault"
       return $ok
       ;;
     sanitize | sanitize-thread)
@@ -436,7 +467,7 @@ do_column() {
 
 bad=()
 for name in "${columns[@]}"; do
-  [[ " reference aarch64 sanitize sanitize-thread mutations " == *" $name "* ]] || [ -f "$folder/reference.row" ] || fail "$name is compared with the reference, which is not done yet"
+  [[ $name == debian-* || " reference aarch64 sanitize sanitize-thread mutations " == *" $name "* ]] || [ -f "$folder/reference.row" ] || fail "$name is compared with the reference, which is not done yet"
   echo "== $name ($(date '+%F %T'))"
   rm -f "$folder/$name.row"
   set +e
@@ -459,14 +490,14 @@ done
   done
 } >"$folder/table.md"
 cat "$folder/table.md"
-# The section "Last run" of the page is this table; text before it stays.
-if [ "${columns[*]}" = "$all" ]; then
-  page=$root/tests/matrix/README.md
-  {
-    sed '/^## Last run/,$d' "$page"
-    printf '## Last run\n\nWritten by `run-matrix.sh all` on %s, with %s.\n\n' "$(date +%F)" "$(. /etc/os-release && echo "$PRETTY_NAME")"
-    cat "$folder/table.md"
-  } >"$folder/page.md"
+# The rows take the place of those of the same columns under "Last run"; what is before it stays.
+page=$root/tests/matrix/README.md
+for name in "${columns[@]}"; do
+  ROW=$(cat "$folder/$name.row") awk -v name="$name" '
+    /^## Last run/ { here = 1 }
+    here && index($0, "| " name " |") == 1 { print ENVIRON["ROW"]; done = 1; next }
+    { print }
+    END { if (!done) print ENVIRON["ROW"] }' "$page" >"$folder/page.md"
   cp "$folder/page.md" "$page"
-fi
+done
 [ ${#bad[@]} -eq 0 ] || fail "failed: ${bad[*]}"

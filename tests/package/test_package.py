@@ -133,6 +133,11 @@ def test_plugin(lmp, stock):
     for style in STYLES:
         assert re.search(f"Loading plugin: .*{style}", said), f"the plugin does not register {style}"
     works(stock, load)
+    # Without a command: each LAMMPS loads what is in these folders as it begins, after 'clear' too.
+    by_path = Program("lmp", os.environ["LSM_STOCK_LMP"], "-log", "none", env={**stock.env, "LAMMPS_PLUGIN_PATH": str(PLUGIN.parent)},
+                      errors=lammps_errors)
+    Path("in.path").write_text(2 * COLLISION)
+    assert len(re.findall("^ENERGY ", run(by_path, "-in in.path").out, re.M)) == 2
     # The same bytes as the program that has the package compiled in.
     fault(lmp, "", "other", WHOLE.format(2000))
     same_bytes("whole.csv", "other.csv")

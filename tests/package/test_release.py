@@ -47,6 +47,8 @@ def test_changes_and_citation_are_of_this_version():
     for reference in cff["references"]:
         assert {"type", "title", "authors"} <= set(reference) and re.fullmatch(r"10\.\d{4,9}/\S+", reference["doi"])
         assert isinstance(reference["year"], int) and isinstance(reference["volume"], (int, str))
+    readme = (SOURCE / "README.md").read_text()
+    assert f"*lsm-fault*, version {VERSION}" in readme and all(reference["doi"] in readme for reference in cff["references"])
     assert all(isinstance(word, str) for word in cff["keywords"]) and len(set(cff["keywords"])) == len(cff["keywords"])
 
 
