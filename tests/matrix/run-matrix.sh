@@ -165,8 +165,8 @@ arm_libraries() {
 compare_sliders() {
   local at=$folder/aarch64/sliders name program file words="" same=0 differ=0
   local -A runs=([verlet]="--time 9000" [printed]="--scheme printed --dt 0.01 --time 7000"
-    [semi - implicit]="--scheme semi-implicit --time 9000" [coulomb]="--law coulomb --time 6000"
-    [slip - weakening]="--law slip-weakening --time 9000"
+    [implicit]="--scheme semi-implicit --time 9000" [coulomb]="--law coulomb --time 6000"
+    [weakening]="--law slip-weakening --time 9000"
     [ruptures]="--events ruptures --columns centroid,length --time 6000"
     [leaps]="--velocity 1e-4 --leap 1e-3 --time 1e6" [long]="--blocks 20000 --time 80 --velocity 1")
   rm -rf "$at"
@@ -260,12 +260,12 @@ testers_of() {
 
 # bare_debian COLUMN: a Debian in which nothing is installed, FOLDER/COLUMN-root, from the mirror of this machine
 bare_debian() {
-  local at=$folder/$1-root mirror
-  local -A suites=([debian - 12]=bookworm [debian - 13]=trixie)
+  local at=$folder/$1-root mirror suite=bookworm
+  [ "$1" = debian-12 ] || suite=trixie
   install_debian_packages debootstrap
   mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' 'Label: Debian' | sed -n 1p)
   rm -rf --one-file-system "$at"
-  debootstrap --variant=minbase "${suites[$1]}" "$at" ${mirror:+"$mirror"} >"$folder/$1.debootstrap.log"
+  debootstrap --variant=minbase "$suite" "$at" ${mirror:+"$mirror"} >"$folder/$1.debootstrap.log"
   cp /etc/resolv.conf /etc/hosts "$at/etc/"
 }
 
