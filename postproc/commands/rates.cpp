@@ -87,8 +87,10 @@ class Rates : public Statistic {
                 static_cast<double>(releases[i].size()) / span, released / span, highest);
     }
     Findings found;
+    const ReleaseNames in = names(tables);
+    found.say(fmt::format("{}; {}\n", in.time, in.released));
     found.table("means", std::move(means));
-    found.figure("rates", release_figure(curves, names(tables)));
+    found.figure("rates", release_figure(curves, in));
     return found;
   }
 };

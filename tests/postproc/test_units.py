@@ -96,11 +96,11 @@ def test_quakeml(postproc, catalogue):
 
 def test_rates(postproc, catalogue):
     catalogue("c.csv")
-    run(postproc, "rates c.csv --bin 10 -o r --no-picture")
+    assert run(postproc, "rates c.csv --bin 10 -o r --no-picture").out.startswith("time (model time); sizes per model time\n")
     rows = table("r.csv")
     assert [(float(row["from"]), int(row["events"]), float(row["released"])) for row in rows] == [(0, 1, 0.5), (10, 1, 0.05), (20, 1, 2.0)]
     assert [float(row["release_rate"]) for row in rows] == pytest.approx([0.05, 0.005, 0.2])
-    run(postproc, f"rates c.csv --bin {10 * TIME} -o s --no-picture", ROCK)
+    assert run(postproc, f"rates c.csv --bin {10 * TIME} -o s --no-picture", ROCK).out.startswith("time (s); moment rate (N m/s)\n")
     assert [float(row["released"]) for row in table("s.csv")] == pytest.approx([MOMENT, 0.1 * MOMENT, 10 * MOMENT])
     assert [float(row["event_rate"]) for row in table("s.csv")] == pytest.approx([0.1 / TIME] * 3)
     refused(postproc, "rates c.csv --bin 1e-7 -o x", "expected at most a million bins")
