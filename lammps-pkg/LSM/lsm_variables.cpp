@@ -29,11 +29,14 @@ static bool same(const std::string &one, const std::string &other)
   return one == other || (LSM::text_io::parse(one, a) && LSM::text_io::parse(other, b) && a == b);
 }
 
-// lsm_variables FILE [also NAME ...]
+// lsm_variables FILE [also NAME ...] [new FILE ...]
 void LSMVariables::command(int narg, char **arg)
 {
-  if (narg < 1 || (narg > 1 && strcmp(arg[1], "also") != 0))
-    error->all(FLERR, "lsm_variables expects the name of a table, and then 'also' with names");
+  char **const end = arg + narg, **const files = std::find(arg, end, std::string("new"));
+  if (files == arg || narg < 1 || (files > arg + 1 && strcmp(arg[1], "also") != 0))
+    error->all(FLERR,
+               "lsm_variables expects the name of a table, then 'also' with names and 'new' with "
+               "files");
   const std::string path = LSMScript::beside(lmp, infile, arg[0], "lsm_variables");
   std::string text;
   if (comm->me == 0) {
@@ -44,7 +47,7 @@ void LSMVariables::command(int narg, char **arg)
   try {
     const LSMVariableTable table(text, path);
     refuse_repeated(table);
-    warn_of_others(table, narg - 1, arg + 1);
+    warn_of_others(table, static_cast<int>(files - arg) - 1, arg + 1);
     find_restart(table);
     std::string names[2];
     for (const LSMSceneVariable &one : table.variables) {
@@ -53,6 +56,7 @@ void LSMVariables::command(int narg, char **arg)
       if (one.header) names[1] += one.name + " ";
     }
     refuse_replaced(table);
+    for (char **file = files; ++file < end;) refuse_earlier(*file);
     set(LSMScript::SAVED, "string", names[0]);
     set(LSMScript::HEADER, "string", names[1]);
   } catch (const std::invalid_argument &e) {
@@ -201,6 +205,20 @@ void LSMVariables::refuse_replaced(const LSMVariableTable &table)
                  "out",
                  other, value_now(other), name);
     }
+}
+
+// now, rather than when the run begins to write; its files refuse it as well
+void LSMVariables::refuse_earlier(const std::string &name) const
+{
+  if (!restart.empty() || value_now("overwrite") == "yes") return;
+  const std::string file = LSMVariableTable::filled(
+      name, [this](const std::string &variable) { return value_now(variable); });
+  std::string there;
+  if (comm->me == 0 && LSM::text_io::holds_data(file)) there = file;
+  lsm_share(there, world);
+  if (!there.empty())
+    error->all(FLERR, "File {} exists; give another prefix, or replace it with overwrite yes",
+               there);
 }
 
 std::string LSMVariables::value_now(const std::string &name) const

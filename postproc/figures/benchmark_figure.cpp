@@ -72,7 +72,7 @@ struct Numbered {
   const NamedCurves &curves;
   std::int64_t number;
   bool run;
-  std::string line, front;  ///< gnuplot styles
+  std::string line, mark;  ///< gnuplot styles; runs have no marks
 };
 
 std::vector<Numbered> numbered(const std::vector<NamedCurves> &runs,
@@ -80,74 +80,110 @@ std::vector<Numbered> numbered(const std::vector<NamedCurves> &runs,
   std::vector<Numbered> all;
   for (const NamedCurves &one : references) {
     const std::size_t n = all.size();
-    all.push_back({one, static_cast<std::int64_t>(n + 1), false,
-                   n == 0 ? "lines lt 8 dt 1 lw 2.6 lc rgb '#999999'"
-                          : "lines lt 8 dt (8,4) lw 1.6 lc rgb '#000000'",
-                   fmt::format("points lt {} ps 1.1*point", n == 0 ? 8 : 7 - n)});
+    all.push_back(
+        {one, static_cast<std::int64_t>(n + 1), false,
+         n == 0 ? "lt 8 dt 1 lw 2.6 lc rgb '#999999'" : "lt 8 dt (8,4) lw 1.6 lc rgb '#000000'",
+         fmt::format("pt {} ps 1.1*point", n == 0 ? 12 : 6)});
   }
-  for (const NamedCurves &one : runs) {
-    const std::string line = fmt::format("lines lt {} dt 1 lw 1.1", &one - runs.data() + 1);
-    all.push_back({one, static_cast<std::int64_t>(all.size() + 1), true, line, line});
-  }
+  for (const NamedCurves &one : runs)
+    all.push_back({one, static_cast<std::int64_t>(all.size() + 1), true,
+                   fmt::format("lt {} dt 1 lw 1.1", &one - runs.data() + 1), ""});
   return all;
 }
 
-/// Curves at these places, and arrival times.
-void add_rows(Table &table, const Numbered &one, const std::vector<double> &places, double rate,
-              double until) {
-  const auto add = [&](const StationCurve &curve) {
-    for (std::size_t n = 0; n < curve.t.size() && curve.t[n] <= until; ++n)
-      table.row(one.number, curve.x, curve.t[n], curve.slip[n], curve.rate[n]);
-  };
-  for (const double x : places) {
-    if (one.run) add(at_place(one.curves, x));
-    for (const StationCurve &station : one.curves.stations)
-      if (!one.run && same_place(x, station.x)) add(station);
+/// Slip less that of the reference at the same place, NaN where there is none.
+std::vector<double> difference(const StationCurve &curve, const NamedCurves &reference) {
+  std::vector<double> out(curve.t.size(), std::nan(""));
+  for (const StationCurve &known : reference.stations) {
+    if (!same_place(known.x, curve.x)) continue;
+    for (std::size_t n = 0; n < out.size(); ++n)
+      if (curve.t[n] >= known.t.front() && curve.t[n] <= known.t.back())
+        out[n] = curve.slip[n] - interpolate(known.t, known.slip, curve.t[n]);
   }
-  for (const StationCurve &station : one.curves.stations)
-    table.row(-one.number, station.x, arrival(station, rate), std::nan(""), std::nan(""));
+  return out;
 }
 
-/// Slip and slip rate at one place, left and right.
-std::string station_panels(const std::vector<Numbered> &all, double x, double low, double high) {
-  double most[2] = {0.0, 0.0};
-  for (const Numbered &one : all)
-    for (const StationCurve &station : one.curves.stations) {
-      if (!same_place(x, station.x)) continue;
-      most[0] = std::max(most[0], *std::max_element(station.slip.begin(), station.slip.end()));
-      most[1] = std::max(most[1], *std::max_element(station.rate.begin(), station.rate.end()));
+/// The curve at one of the places, as a list of one or none.
+std::vector<StationCurve> curves_at(const Numbered &one, double x) {
+  if (one.run) return {at_place(one.curves, x)};
+  std::vector<StationCurve> out;
+  for (const StationCurve &station : one.curves.stations)
+    if (same_place(x, station.x)) out.push_back(station);
+  return out;
+}
+
+/// Curves at these places, and arrival times.
+void add_rows(Table &table, const Numbered &one, const NamedCurves &reference,
+              const std::vector<double> &places, double rate, double until) {
+  for (const double x : places)
+    for (const StationCurve &curve : curves_at(one, x)) {
+      const std::vector<double> off = difference(curve, reference);
+      for (std::size_t n = 0; n < curve.t.size() && curve.t[n] <= until; ++n)
+        table.row(one.number, curve.x, curve.t[n], curve.slip[n], curve.rate[n], off[n]);
     }
+  for (const StationCurve &station : one.curves.stations)
+    table.row(-one.number, station.x, arrival(station, rate), std::nan(""), std::nan(""),
+              std::nan(""));
+}
+
+/// Slip, slip rate, and difference of the slip from that of the reference at one place.
+std::string station_panels(const std::vector<Numbered> &all, const NamedCurves &reference, double x,
+                           double low, double high) {
+  double most[3] = {0.0, 0.0, 0.0};
+  for (const Numbered &one : all)
+    for (const StationCurve &curve : curves_at(one, x)) {
+      most[0] = std::max(most[0], *std::max_element(curve.slip.begin(), curve.slip.end()));
+      most[1] = std::max(most[1], *std::max_element(curve.rate.begin(), curve.rate.end()));
+      for (const double off : difference(curve, reference))
+        if (std::isfinite(off)) most[2] = std::max(most[2], 100.0 * std::fabs(off));
+    }
+  constexpr const char *titles[] = {"Slip (m)", "Slip rate (m/s)", "Difference (cm)"};
   std::string script;
-  for (const bool right : {false, true}) {
+  for (int k = 0; k < 3; ++k) {
+    const double left = 0.065 + 0.335 * k, range = std::max(1.1 * most[k], 1e-9);
     script += fmt::format(
         "set lmargin at screen {}\nset rmargin at screen {}\nset tmargin at screen {:.4f}\n"
-        "set bmargin at screen {:.4f}\nset ylabel '{}' offset 1,0\nset yrange [0:{}]\nset ytics "
-        "{}\nset label 1 {} at graph {},0.86 {}\n",
-        right ? 0.58 : 0.08, right ? 0.985 : 0.485, high, low,
-        right ? "Slip rate (m/s)" : "Slip (m)", text_io::number(1.1 * most[right]),
-        text_io::number(tick(most[right])), quote(fmt::format("x = {:g} km", x / 1000.0)),
-        right ? 0.98 : 0.03, right ? "right" : "left");
+        "set bmargin at screen {:.4f}\nset ylabel '{}' offset {},0\nset yrange [{}:{}]\n"
+        "set ytics {}\nset label 1 {} at graph {},0.86 {}\n",
+        left, left + 0.25, high, low, titles[k], k == 2 ? 0.5 : 1.5,
+        k == 2 ? text_io::number(-range) : "0", text_io::number(range),
+        text_io::number(tick(k == 2 ? 2.5 * range : range)),
+        k == 2 ? "''" : quote(fmt::format("x = {:g} km", x / 1000.0)), k == 0 ? 0.03 : 0.98,
+        k == 0 ? "left" : "right");
     for (const Numbered &one : all)
-      script += fmt::format("{}table using ($1 == {} && $2 == {} ? $3 : NaN):{} with {} notitle",
-                            one.number == 1 ? "plot " : ", \\\n     ", one.number,
-                            text_io::number(x), right ? 5 : 4, one.line);
+      script +=
+          fmt::format("{}table using ($1 == {} && $2 == {} ? $3 : NaN):{} with lines {} notitle",
+                      one.number == 1 ? "plot " : ", \\\n     ", one.number, text_io::number(x),
+                      k == 2   ? "(100*$6)"
+                      : k == 1 ? "5"
+                               : "4",
+                      one.line);
     script += "\n";
   }
   return script;
 }
 
-std::string arrival_panel(const std::vector<Numbered> &all, double low, double high) {
+std::string arrival_panel(const std::vector<Numbered> &all, const std::string &reference,
+                          double low, double high) {
   std::string script = fmt::format(
-      "unset label 1\nset lmargin at screen 0.08\nset rmargin at screen 0.985\n"
+      "unset label 1\nset lmargin at screen 0.065\nset rmargin at screen 0.985\n"
       "set tmargin at screen {:.4f}\nset bmargin at screen {:.4f}\nset xrange [*:*]\n"
-      "set yrange [*:*]\nset ytics autofreq\nset format x '%g'\nset xlabel 'Place along the fault "
-      "(km); panels above: time (s)'\nset ylabel 'Arrival (s)' offset 1,0\nset key at screen "
-      "0.5,0.004 bottom center horizontal maxcols 4 samplen 2 noreverse Right\n",
-      high, low);
-  for (const Numbered &one : all)
-    script += fmt::format("{}table using ($1 == {} ? $2 / 1000 : NaN):3 with {} title {}",
-                          one.number == 1 ? "plot " : ", \\\n     ", -one.number, one.front,
-                          quote(one.curves.name));
+      "set yrange [*:*]\nset ytics autofreq\nset format x '%g'\nset xlabel {}\nset ylabel 'Arrival "
+      "(s)' offset 1,0\nset key at screen 0.5,0.004 bottom center horizontal maxcols 4 samplen 3 "
+      "noreverse Right\n",
+      high, low,
+      quote("Place along the fault (km); above: time (s); right: slip less that of " + reference));
+  for (const Numbered &one : all) {
+    script += fmt::format("{}table using ($1 == {} ? $2 / 1000 : NaN):3 with ",
+                          one.number == 1 ? "plot " : ", \\\n     ", -one.number);
+    const std::string name = quote(one.curves.name);
+    // The key shows the line of the panels above with the mark of this one.
+    script +=
+        one.run
+            ? fmt::format("lines {} title {}", one.line, name)
+            : fmt::format("points {} {} notitle, \\\n     keyentry with linespoints {} {} title {}",
+                          one.line.substr(one.line.find("lc")), one.mark, one.line, one.mark, name);
+  }
   return script + "\nunset multiplot\n";
 }
 
@@ -157,12 +193,13 @@ Figure benchmark_figure(const std::vector<NamedCurves> &runs,
                         const std::vector<NamedCurves> &references, double rate, double until) {
   const std::vector<double> shown = common_places(references, 6);
   const std::vector<Numbered> all = numbered(runs, references);
-  Table table("number,x,t,slip,slip_rate");
+  Table table("number,x,t,slip,slip_rate,difference");
   table.comment("number n > 0: curve n at x; -n: arrival of curve n at x");
+  table.comment("difference: slip less that of " + references.back().name);
   double end = 0.0;
   for (const Numbered &one : all) {
     table.comment(fmt::format("curve {}: {}", one.number, one.curves.name));
-    add_rows(table, one, shown, rate, until);
+    add_rows(table, one, references.back(), shown, rate, until);
     if (one.run) end = std::max(end, std::min(until, one.curves.stations.front().t.back()));
   }
   const auto rows = static_cast<int>(shown.size());
@@ -172,11 +209,12 @@ Figure benchmark_figure(const std::vector<NamedCurves> &runs,
       fmt::format("set multiplot\nset xrange [0:{}]\nunset key\n", text_io::number(end));
   for (int n = 0; n < rows; ++n) {
     script += fmt::format("set format x '{}'\nset xlabel ''\n", n + 1 == rows ? "%g" : "");
-    script += station_panels(all, shown[static_cast<std::size_t>(n)],
+    script += station_panels(all, references.back(), shown[static_cast<std::size_t>(n)],
                              top - panels * (n + 0.86) / rows, top - panels * n / rows);
   }
   return {std::move(table),
-          script + arrival_panel(all, 150.0 / height, top - panels - 30.0 / height),
+          script + arrival_panel(all, references.back().name, 150.0 / height,
+                                 top - panels - 30.0 / height),
           {1000, height}};
 }
 

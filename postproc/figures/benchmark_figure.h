@@ -22,8 +22,9 @@ Table misfit_summary_table();
 void add_summary(Table &table, const NamedCurves &run, const std::string &reference,
                  const MisfitSummary &summary);
 
-/// Slip and slip rate at up to six places that all references have, and arrival times along the
-/// fault. \param rate above which the rupture has arrived
+/// Slip, slip rate, and slip less that of the last reference, at up to six places that all
+/// references have, and arrival times along the fault. \param rate above which the rupture has
+/// arrived
 Figure benchmark_figure(const std::vector<NamedCurves> &runs,
                         const std::vector<NamedCurves> &references, double rate, double until);
 

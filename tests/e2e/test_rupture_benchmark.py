@@ -29,7 +29,14 @@ def test_tpv205(ruptured, postproc):
     drawn = bool(shutil.which("gnuplot"))
     stations, late, slip = ruptured("tpv205", *([] if drawn else ["--no-picture"]))
     if drawn:
-        assert os.path.getsize("beside.png") > 0 and os.path.getsize("beside.svg") > 0
+        assert os.path.getsize("beside.png") > 0
+        svg = Path("beside.svg").read_text()
+        assert "right: slip less that of boundary integral 25 m" in svg and svg.count("<title>PyLith 200 m</title>") == 1
+    curves = table("beside.csv")
+    of_run = [row for row in curves if row["number"] == "3" and row["difference"]]
+    largest = max(abs(float(row["difference"])) for row in of_run)
+    assert 0.001 < largest < 0.05 * max(float(row["slip"]) for row in of_run)
+    assert all(float(row["difference"]) == 0 for row in curves if row["number"] == "2" and row["difference"])
     # Slip within 1.5 % and arrivals within 0.15 s, against both references.
     assert stations == {"PyLith 200 m": 5, "boundary integral 25 m": 17} and late < 0.15 and slip < 0.015
 

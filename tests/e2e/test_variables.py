@@ -74,6 +74,16 @@ def test_whole_numbers_may_have_exponents(lmp):
     assert header("b.catalogue.csv")["checkpoint"] == "200"
 
 
+def test_an_earlier_run_is_kept_from_the_beginning(lmp):
+    """Refused before the packing is made, not after the compression."""
+    Path("a.catalogue.csv").write_text("an earlier run\n")
+    said = refused(lmp, small(), "File a.catalogue.csv exists; give another prefix, or replace it with overwrite yes")
+    assert "Created" not in said.out
+    run(lmp, small(overwrite="yes"))
+    assert Path("a.catalogue.csv").stat().st_size > 100
+    run(lmp, scene(restart="a.restart.end", steps=500))
+
+
 def test_a_variable_given_twice(lmp):
     refused(lmp, small("-var", "stress", "0.04", stress=0.03), "Variable stress is given twice, as '0.03' and as '0.04'; leave one out")
     run(lmp, small("-var", "stress", "0.03", stress=0.03, steps=1))
