@@ -8,7 +8,8 @@
 # usage: inputs/first-catalogue.sh [STEPS]      (default 480000)
 # Build folder: build (LSM_BUILD_DIR replaces it), in which 'cmake --build build' makes the rest.
 # Results: first-catalogue/ in the build folder (LSM_OUTPUT replaces it). LSM_BIN is the folder of
-# programs that are built already.
+# programs that are built already. Interrupted, it goes on with what is built, and begins the run
+# anew; the files first.* of an earlier time are removed before.
 set -euo pipefail
 export LC_ALL=C
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -33,6 +34,16 @@ programs_took=$((SECONDS - packages_took))
 run=${LSM_OUTPUT:-$build/first-catalogue}
 mkdir -p "$run"
 cd "$run"
+refuse() {
+  echo "first-catalogue.sh: $*" >&2
+  exit 1
+}
+# The lock also says that files first.* are of this script.
+others=(first.*)
+[ -e .first-catalogue.lock ] || [ ! -e "${others[0]}" ] ||
+  refuse "$run holds ${others[0]}, which this script did not write, expected another folder (LSM_OUTPUT)"
+{ exec 9>>.first-catalogue.lock; } 2>/dev/null || refuse "cannot write to $run"
+flock -n 9 || refuse "a first-catalogue.sh works in $run already, expected its end or another folder (LSM_OUTPUT)"
 rm -f first.*
 echo "Running the fault of length 120 for $steps steps of shear in $run"
 mpirun -np 2 "$bin/lmp" -in "$root/inputs/fault_120.in" -var steps "$steps" -var prefix first -var ruptures yes </dev/null

@@ -51,12 +51,12 @@ debian_lammps() {
 }
 
 # configure_programs SOURCE BUILD: from a fresh checkout to a build folder in which everything can be
-# made. One that is there keeps its options.
+# made. One that is there keeps its options; one whose configuration failed is completed.
 configure_programs() {
   # The lists are words on purpose.
   install_debian_packages $lammps_packages $plot_packages $postproc_packages $test_packages
   need_programs cmake ninja c++ mpirun gnuplot
-  [ ! -f "$2/CMakeCache.txt" ] || return 0
+  [ ! -f "$2/build.ninja" ] && [ ! -f "$2/Makefile" ] || return 0
   debian_lammps
   packages_took=$SECONDS
   cmake -S "$1" -B "$2" -G Ninja ${lammps_library:+"-DLSM_LAMMPS_LIBRARY=$lammps_library"}

@@ -1,11 +1,15 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The commands of the README on machines without apt or without root; PATH is a folder of made-up programs."""
 import os
+import shutil
+import signal
 import subprocess
+import time
+from pathlib import Path
 
 import pytest
 
-from programs import SOURCE
+from programs import SOURCE, Program, refused, run, snapshot, start
 
 PACKAGES = SOURCE / "lammps-pkg/cmake/debian-packages.sh"
 
@@ -76,3 +80,76 @@ def test_a_command_without_its_tools_says_so(work, command):
     expected, missing = ran.stderr.splitlines()
     assert expected.startswith("No apt here.") and " cmake " in expected and missing.startswith("Not found: cmake ninja c++ mpirun")
     assert not (work / "build").exists()
+
+
+def test_a_configuration_that_failed_is_repeated(work):
+    """As when the network was away: what is there then is no build folder yet."""
+    if not shutil.which("cmake") or not shutil.which("ninja"):
+        pytest.skip("no cmake, or no ninja")
+    (work / "source").mkdir()
+    (work / "source/CMakeLists.txt").write_text("cmake_minimum_required(VERSION 3.16)\nproject(p NONE)\n"
+                                                "if(NOT EXISTS ${PROJECT_SOURCE_DIR}/there)\n  message(FATAL_ERROR missing)\nendif()\n")
+    there = "install_debian_packages() { :; }; need_programs() { :; }; debian_lammps() { lammps_library=; }"
+    line = f"set -eu; . {PACKAGES}; {there}; configure_programs source build"
+    assert subprocess.run(["bash", "-c", line], capture_output=True).returncode != 0
+    assert Path("build/CMakeCache.txt").exists() and not Path("build/build.ninja").exists()
+    (work / "source/there").touch()
+    assert subprocess.run(["bash", "-c", line], capture_output=True).returncode == 0
+    assert Path("build/build.ninja").exists()
+    # One that is there is left alone.
+    (work / "source/there").unlink()
+    assert subprocess.run(["bash", "-c", line], capture_output=True).returncode == 0
+
+
+@pytest.fixture
+def first(work):
+    """first-catalogue.sh with made-up programs; each of them waits at its beginning where there is a file NAME.wait."""
+    folder = work / "bin"
+    folder.mkdir()
+    events = "\\n".join(f"{k},{k}.0,{k}.5,1,2,0.1,1,0" for k in range(1, 101))
+    columns = "event_id,t_start,t_end,step_start,step_end,size,pe_start,pe_end"
+    wait = 'trap "trap - INT; kill -INT \\$\\$" INT; echo $$ >{0}.begun; while [ -e {0}.wait ]; do sleep 0.02; done'
+    for name, script in (("mpirun", 'exec "${@:3}"'), ("lmp", f"{wait.format(work / 'lmp')}; printf '{columns}\\n{events}\\n' >first.catalogue.csv; "
+                                                  "echo series >first.pe.bin"), ("postproc", wait.format(work / "postproc") + "; echo figure >first.$1")):
+        (folder / name).write_text(f"#!/bin/bash\n{script}\n")
+        (folder / name).chmod(0o755)
+    return Program("first-catalogue.sh", SOURCE / "inputs/first-catalogue.sh", 100,
+                   env={"PATH": f"{folder}:{os.environ['PATH']}", "LSM_BIN": str(folder), "LSM_OUTPUT": str(work / "out")})
+
+
+def test_first_catalogue_again(first):
+    run(first)
+    files = snapshot("out")
+    run(first).told("^100 events. The ten largest:")
+    assert snapshot("out") == files and "out/first.explore" in files
+
+
+def test_first_catalogue_removes_what_it_made_only(first):
+    Path("out").mkdir()
+    Path("out/first.notes").write_text("of somebody\n")
+    refused(first, "", r"out holds first\.notes, which this script did not write, expected another folder \(LSM_OUTPUT\)")
+    Path("out/first.notes").rename("out/second.notes")
+    run(first)
+    assert Path("out/second.notes").read_text() == "of somebody\n"
+
+
+@pytest.mark.parametrize("program", ["lmp", "postproc"])
+@pytest.mark.parametrize("by", [signal.SIGKILL, signal.SIGTERM, signal.SIGINT])
+def test_first_catalogue_interrupted(first, work, program, by):
+    """It begins anew, unless it is still at work: then it says so, and removes nothing."""
+    Path(f"{program}.wait").touch()
+    with start(first, start_new_session=True) as child:
+        assert child.until(lambda: Path(f"{program}.begun").exists() and Path(f"{program}.begun").read_text())
+        refused(first, "", "a first-catalogue.sh works in .*/out already, expected its end or another folder", but="begun$")
+        (os.killpg if by == signal.SIGINT else os.kill)(child.pid, by)
+        child.wait(60)
+    at_work = int(Path(f"{program}.begun").read_text())
+    if program == "lmp":  # a run ends with the script that began it
+        for _ in range(500):
+            if not Path(f"/proc/{at_work}").exists():
+                break
+            time.sleep(0.02)
+        assert not Path(f"/proc/{at_work}").exists()
+    Path(f"{program}.wait").unlink()
+    run(first).told("^100 events. The ten largest:")
+    assert Path("out/first.explore").exists()
