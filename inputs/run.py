@@ -43,9 +43,16 @@ def die_with_parent(number=signal.SIGHUP):
 
 
 def replace(path, text):
+    """The file has this text or bytes, or is as before. A link in the place of its temporary file is not followed."""
     new = path.with_name(path.name + ".new")
-    new.write_text(text)
-    new.replace(path)
+    descriptor = os.open(new, os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_NOFOLLOW, 0o666)
+    try:
+        with open(descriptor, "wb") as file:
+            file.write(text.encode() if isinstance(text, str) else text)
+        new.replace(path)
+    except BaseException:
+        new.unlink(missing_ok=True)
+        raise
 
 
 def alone_in(folder):

@@ -5,21 +5,32 @@
 OUT/NAME.catalogue.csv.xz has the events >= 1e-4 of each folder NAME of a study of faults, all of sliders; with --events those of
 this size. OUT/NAME.ruptures.csv.xz has the ruptures of faults that recorded them. The header of a long fault has the size from
 which it is complete, which is larger than that in fault.in. With --statements OUT/statements.csv has what the paper says in words
-about its fault, run by run, from all ruptures and the slip histories, which are not published.
+about its fault, run by run, from all ruptures and the slip histories, which are not published. Files of OUT that it wrote
+earlier are replaced, others are not; nothing is written where something is refused.
 """
 import argparse
 import csv
+import io
 import json
 import lzma
+import math
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+from run import events_in, replace  # noqa: E402
+
 EVENTS, RUPTURES = 1e-4, 1e-3
+MAGIC = "# lsm-catalogue 1\n"
 LOADING = 4500  # time units that are left out of statements: compression, and PE rising for the first time
 # Length of a fault, and size from which the number of its events does not depend on how often PE is sampled: results/faults.md
 COMPLETE = ((900, "1e-3"), (480, "3e-4"))
+
+
+class Refused(Exception):
+    pass
 
 
 def complete(line, length):
@@ -30,26 +41,58 @@ def complete(line, length):
     return line
 
 
-def publish(source, out, least=EVENTS):
-    """A catalogue without events smaller than `least`; all other lines are unchanged."""
+def thinned(source, least):
+    """The text of a catalogue without events smaller than `least`; all other lines are unchanged. \\raises Refused"""
     kept, length = [], 0.0
-    for line in Path(source).read_text().splitlines(keepends=True):
-        if line.startswith("# min_size = ") and least > 0:
+    lines = Path(source).read_text().splitlines(keepends=True)
+    if not lines or lines[0] != MAGIC:
+        raise Refused(f"{source}: no catalogue, expected one")
+    for number, line in enumerate(lines, 1):
+
+        def refuse(expected):
+            raise Refused(f"{source}:{number}: '{line.rstrip()}', expected {expected}")
+
+        if not line.endswith("\n"):
+            refuse("a whole line")
+        try:
+            value = float(line.split("=", 1)[1]) if line.startswith(("# min_size = ", "# length = ", "# completeness = ")) else 0.0
+        except ValueError:
+            value = math.nan
+        if not math.isfinite(value):
+            refuse("a number")
+        if line.startswith("# min_size = ") and least > value:
             line = f"# min_size = {least:g}\n# thinned = sizes below {least:g} left out\n"
         elif line.startswith("# length = "):
-            length = float(line.split("=")[1])
+            length = value
         elif line.startswith("# completeness = "):
             line = complete(line, length)
-        elif line[0] not in "#e" and float(line.split(",")[5]) < least:
-            continue
+        elif line[0] not in "#e":
+            try:
+                small = float(line.split(",")[5]) < least
+            except (IndexError, ValueError):
+                refuse("an event")
+            if small:
+                continue
         kept.append(line)
-    new = Path(f"{out}.new")
-    new.write_bytes(lzma.compress("".join(kept).encode(), preset=9))
-    new.replace(out)
+    return "".join(kept)
 
 
-class Refused(Exception):
-    pass
+def check_replaced(path, known):
+    """\\raises Refused unless the file is not there, or one that is known by how it begins"""
+    if not path.exists():
+        return
+    try:
+        with (lzma.open if path.suffix == ".xz" else open)(path, "rt") as lines:
+            head = lines.readline()
+    except (lzma.LZMAError, UnicodeDecodeError, EOFError):
+        head = ""
+    if not head.startswith(known):
+        raise Refused(f"{path}: exists already and holds something else, expected a new name")
+
+
+def publish(source, out, least=EVENTS):
+    """A catalogue without events smaller than `least`."""
+    replace(Path(out), lzma.compress(thinned(source, least).encode(), preset=9))
 
 
 def catalogue_of(folder):
@@ -57,11 +100,16 @@ def catalogue_of(folder):
     done = folder / "done.json"
     if (folder / "settings.txt").exists() and not done.exists():
         raise Refused(f"{folder}: not done yet, expected a run that has come to its end")
-    if done.exists() and "failed" in json.loads(done.read_text()):
-        raise Refused(f"{folder}: {json.loads(done.read_text())['failed']}, expected a run that has come to its end")
+    told = json.loads(done.read_text()) if done.exists() else {}
+    if "failed" in told:
+        raise Refused(f"{folder}: {told['failed']}, expected a run that has come to its end")
     for name in ("fault.catalogue.csv", "catalogue.csv"):
-        if (folder / name).is_file():
-            return folder / name
+        if not (folder / name).is_file():
+            continue
+        events = events_in(folder / name)
+        if events != told.get("events", events):
+            raise Refused(f"{folder}: {events} events in {name}, but {told['events']} in done.json, expected the catalogue of that run")
+        return folder / name
     raise Refused(f"{folder}: no catalogue, expected the folder of a run of a study")
 
 
@@ -78,19 +126,29 @@ def statements_of(postproc, catalogue):
 
 
 def main(out, folders, events=None, ruptures=RUPTURES, statements=None):
-    catalogues = [catalogue_of(Path(folder)) for folder in folders]
-    rows = [row for source in catalogues if statements and source.name.startswith("fault") for row in statements_of(statements, source)]
-    Path(out).mkdir(parents=True, exist_ok=True)
-    for source in catalogues:
+    catalogues, texts = {}, {}
+    for folder in folders:
+        source = catalogue_of(Path(folder).absolute())
+        name = source.parent.resolve().name
+        if name in catalogues:
+            raise Refused(f"{source.parent}: there is a run {name} already, {catalogues[name].parent}, expected another name")
+        catalogues[name] = source
         least = events if events is not None else EVENTS if source.name.startswith("fault") else 0.0
-        publish(source, Path(out) / f"{source.parent.name}.catalogue.csv.xz", least)
+        texts[Path(out) / f"{name}.catalogue.csv.xz"] = thinned(source, least)
         if (source.parent / "fault.ruptures.csv").exists():
-            publish(source.parent / "fault.ruptures.csv", Path(out) / f"{source.parent.name}.ruptures.csv.xz", ruptures)
+            texts[Path(out) / f"{name}.ruptures.csv.xz"] = thinned(source.parent / "fault.ruptures.csv", ruptures)
+    rows = [row for source in catalogues.values() if statements and source.name.startswith("fault") for row in statements_of(statements, source)]
     if rows:
-        with open(Path(out) / "statements.csv", "w", newline="") as file:
-            table = csv.DictWriter(file, rows[0], lineterminator="\n")
-            table.writeheader()
-            table.writerows(rows)
+        text = io.StringIO()
+        table = csv.DictWriter(text, rows[0], lineterminator="\n")
+        table.writeheader()
+        table.writerows(rows)
+        texts[Path(out) / "statements.csv"] = text.getvalue()
+    for path in texts:
+        check_replaced(path, MAGIC if path.suffix == ".xz" else "run,length,seed,")
+    Path(out).mkdir(parents=True, exist_ok=True)
+    for path, text in texts.items():
+        replace(path, lzma.compress(text.encode(), preset=9) if path.suffix == ".xz" else text)
 
 
 if __name__ == "__main__":

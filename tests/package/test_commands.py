@@ -110,7 +110,8 @@ def first(work):
     columns = "event_id,t_start,t_end,step_start,step_end,size,pe_start,pe_end"
     wait = 'trap "trap - INT; kill -INT \\$\\$" INT; echo $$ >{0}.begun; while [ -e {0}.wait ]; do sleep 0.02; done'
     for name, script in (("mpirun", 'exec "${@:3}"'), ("lmp", f"{wait.format(work / 'lmp')}; printf '{columns}\\n{events}\\n' >first.catalogue.csv; "
-                                                  "echo series >first.pe.bin"), ("postproc", wait.format(work / "postproc") + "; echo figure >first.$1")):
+                                                       "echo series >first.pe.bin"), ("postproc",
+                                                                                      wait.format(work / "postproc") + "; echo figure >first.$1")):
         (folder / name).write_text(f"#!/bin/bash\n{script}\n")
         (folder / name).chmod(0o755)
     return Program("first-catalogue.sh", SOURCE / "inputs/first-catalogue.sh", 100,

@@ -93,6 +93,72 @@ def test_statements_are_those_of_the_runs(runs, postproc, tmp_path):
     refused(script, ["--statements", "/nowhere/postproc", "no", *runs], "publish.py: .*/nowhere/postproc")
 
 
+def test_nothing_is_published_where_something_is_refused(runs, tmp_path):
+    script = Program("publish.py", INPUTS / "studies/publish.py")
+    for place in "a", "b":
+        shutil.copytree(runs[0], tmp_path / place / "fault_24_1")
+    first, bad = tmp_path / "a/fault_24_1", tmp_path / "b/fault_24_1"
+    refused(script, ["out", first, bad], f"{bad}: there is a run fault_24_1 already, {first}, expected another name")
+    refused(script, ["out", first, f"{first}/"], "there is a run fault_24_1 already")
+    bad = bad.rename(tmp_path / "b/bad")
+    catalogue = bad / "fault.catalogue.csv"
+    whole = catalogue.read_text()
+    events = len(rows(catalogue))
+    for text, said in ((whole.replace("# length = 24\n", "# length = long\n"), r"catalogue.csv:\d+: '# length = long', expected a number"),
+                       (whole.replace("# min_size = ", "# min_size = nan # "), r"catalogue.csv:\d+: '# min_size = nan # .*', expected a number"),
+                       (whole[:-5], rf"catalogue.csv:{len(whole.splitlines())}: '.*', expected a whole line"),
+                       (whole + "1,2,3\n", "'1,2,3', expected an event"), (whole + "\n", "'', expected an event"),
+                       ("", "catalogue.csv: no catalogue, expected one"), (whole.replace("lsm-catalogue 1",
+                                                                                         "another 1"), "catalogue.csv: no catalogue, expected one")):
+        catalogue.write_text(text)
+        refused(script, ["out", first, bad], said)
+    catalogue.write_text(whole)
+    (bad / "done.json").write_text(json.dumps({"events": events + 1}))
+    refused(script, ["out", first, bad],
+            f"bad: {events} events in fault.catalogue.csv, but {events + 1} in done.json, expected the catalogue of that run")
+    (bad / "done.json").write_text(json.dumps({"events": events}))
+    # What it wrote itself is replaced, and nothing else; a link that somebody left is not followed.
+    Path("out").mkdir()
+    for name in "bad.catalogue.csv.xz", "bad.ruptures.csv.xz":
+        Path("out", name).write_bytes(b"of somebody\n")
+        refused(script, ["out", first, bad], f"out/{name}: exists already and holds something else, expected a new name")
+        Path("out", name).unlink()
+    Path("precious").write_text("of somebody\n")
+    Path("out/bad.catalogue.csv.xz.new").symlink_to(Path("precious").resolve())
+    run(script, ["out", first, bad], status=1).warned("bad.catalogue.csv.xz.new")
+    assert Path("precious").read_text() == "of somebody\n"
+    Path("out/bad.catalogue.csv.xz.new").unlink()
+    for _ in range(2):
+        run(script, ["out", first, bad])
+    assert {path.name
+            for path in Path("out").iterdir()} == {f"{name}.{kind}.csv.xz"
+                                                   for name in ("bad", "fault_24_1") for kind in ("catalogue", "ruptures")}
+
+
+def test_a_catalogue_without_small_events_stays_so(runs):
+    source = (runs[0] / "fault.catalogue.csv").read_text()
+    Path("large.csv").write_text(source.replace("# min_size = ", "# min_size = 0.01\n# was = "))
+    publish.publish(Path("large.csv"), Path("large.xz"), 1e-4)
+    assert header("large.xz")["min_size"] == "0.01" and "thinned" not in header("large.xz")
+
+
+def test_statements_are_replaced_whole(runs, postproc, small_disk):
+    """Also where the disk is full: those of before stay."""
+    script, full = Program("publish.py", INPUTS / "studies/publish.py"), small_disk(1)
+    with mock.patch.object(publish, "LOADING", 60):
+        publish.main(full, runs, statements=postproc.path)
+        before = (full / "statements.csv").read_bytes()
+        with open(full / "ballast", "wb", buffering=0) as file:
+            with pytest.raises(OSError):
+                while True:
+                    file.write(bytes(1024))
+        with pytest.raises(OSError):
+            publish.main(full, runs, statements=postproc.path)
+        assert (full / "statements.csv").read_bytes() == before
+        assert not list(full.glob("*.new"))
+    refused(script, [full, *runs], "publish.py: .*No space left on device")
+
+
 def test_sliders_are_published_whole(slider, tmp_path):
     (tmp_path / "chain").mkdir()
     run(slider, "--blocks 50 --steps 1e6 --warmup 0 --catalogue", tmp_path / "chain/catalogue.csv")
