@@ -390,7 +390,8 @@ def table1_table():
     for row in read(FOLDER / "nature.table1.csv"):
         printed = row["origin"] == "printed"
         name = f"{row['source']} (printed)" if printed else named(row["source"], row["threshold"])
-        if printed or row["threshold"] in ("1000", "0.0001", "1") and not row["source"].startswith("ruptures") and not row["degenerate"]:
+        if printed or not row["degenerate"] and (row["source"].split()[0], row["threshold"]) in (("Southern", "1000"), ("fault", "0.0001"),
+                                                                                                 ("slider", "1")):
             cell = "1 (held)" if "held" in row["method"] else of(row, "delta")
             columns.setdefault(name, {key: row[key] if printed else cell if key == "delta" else of(row, key) for key in ("gamma", "delta", "B", "C")})
     return table(["", *columns], [[key, *(column[key] for column in columns.values())] for key in ("gamma", "delta", "B", "C")])
