@@ -219,7 +219,7 @@ def validation_table():
     """Other widths and time steps beside the campaign's runs of these lengths."""
     keys, others = EXPONENTS | {"gamma >= 1e-4": "gamma_0.0001", "mean time": "mean_time_0.0001", "largest": "largest"}, summaries(VALIDATION)
     rows = [row for row in summaries() if row["length"] in {other["length"] for other in others}] + others
-    groups = grouped(sorted(rows, key=lambda row: float(row["width"])), lambda row: (row["length"], row["width"], row["dt"]))
+    groups = grouped(sorted(rows, key=lambda row: float(row["width"])), lambda row: (row["length"], row["width"], f"{float(row['dt']):g}"))
     return table(["predicted, length", "width", "time step", "packings", *keys],
                  [[*group, str(len(rows)), *(spread([number(row, key) for row in rows]) for key in keys.values())] for group, rows in groups.items()])
 
