@@ -8,7 +8,8 @@ export OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_btl_vader_single_copy_me
 export OMPI_MCA_btl_base_warn_component_unused=0 OMPI_MCA_mpi_yield_when_idle=1 OMP_NUM_THREADS=1 OMPI_MCA_ess_singleton_isolated=1
 export OMPI_MCA_orte_create_session_dirs=0
 # A session folder for each: in a common one, two mpirun that start at the same moment interfere.
-# The path is short, as sockets lie below it. A run ends with the script that began it, even by kill -9.
+# The path is short, as sockets lie below it. A run ends with the script that began it, even by
+# kill -9.
 mpirun() {
   local session status=0
   session=$(mktemp -d "${TMPDIR:-/tmp}/mpi.XXXXXX")
