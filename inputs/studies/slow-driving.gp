@@ -5,7 +5,7 @@ if (!exists("table")) { table = "table.csv" }
 if (!exists("around")) { around = "around.csv" }
 # steps per large event without leaps at 2.5e-5; before anything is drawn, as stats obeys ranges
 base = NaN
-stats table using (strcol("leap") eq "no" && strcol("velocity") eq "2.5e-5" ? column("steps_per_large") : NaN) nooutput
+stats table using (strcol("leap") eq "no" && strcol("velocity") eq "2.5e-4" ? column("steps_per_large") : NaN) nooutput
 if (exists("STATS_mean")) { base = STATS_mean }
 do for [kind in "png svg"] {
 if (kind eq "png") { set terminal pngcairo size 1800,1440 font "DejaVu Sans,24" linewidth 2 pointscale 2 background "#ffffff" } \
@@ -42,7 +42,7 @@ unset logscale y
 set ytics auto
 set title "Exponent of the sizes up to 1"
 set ylabel "exponent" offset 0.5
-set yrange [0.95:1.45]
+set yrange [0.7:1.4]
 plot table using "velocity":(yes("long")):"long_error" with yerrorbars pt 7 lc rgb "#0072B2", "" using "velocity":(no("long")):"long_error" with yerrorbars pt 6 lc rgb "#0072B2", \
   "" using "velocity":(slower("long")):"long_error" with yerrorbars pt 2 lc rgb "#0072B2", "" using (column("velocity")*1.15):(slower("from_2")):"from_2_error" with yerrorbars pt 2 lc rgb "#D55E00", \
   "" using (column("velocity")*1.15):(yes("from_2")):"from_2_error" with yerrorbars pt 7 lc rgb "#D55E00", "" using (column("velocity")*1.15):(no("from_2")):"from_2_error" with yerrorbars pt 6 lc rgb "#D55E00"
@@ -76,7 +76,7 @@ set yrange [1e3:3e7]
 set ytics 10
 set ylabel "steps" offset 0.5
 plot table using "velocity":(yes("steps_per_large")) with points pt 7 lc rgb "#0072B2", "" using "velocity":(slower("steps_per_large")) with points pt 2 lc rgb "#0072B2", "" using "velocity":(no("steps_per_large")) with points pt 6 lc rgb "#0072B2", \
-  [2.5e-8:2.5e-4] base*2.5e-5/x lc rgb "#777777" dt (4,4)
+  [2.5e-8:2.5e-4] base*2.5e-4/x lc rgb "#777777" dt (4,4)
 # the last panel is the key of the others
 unset title
 unset border
