@@ -90,19 +90,19 @@ NamedCurves read_history(const std::string &path, bool lenient, const std::strin
   return run;
 }
 
-/// How errors fall with the spacing, from one run to the next finer one.
-std::vector<std::string> orders(
-    const std::vector<std::pair<const NamedCurves *, MisfitSummary>> &runs) {
+/// How errors fall with the spacing, from one run to the next finer one against the same reference.
+std::vector<std::string> orders(const std::vector<Misfits> &all) {
   std::vector<std::string> lines;
-  for (std::size_t n = 1; n < runs.size(); ++n) {
-    const auto &[a, coarse] = runs[n - 1];
-    const auto &[b, fine] = runs[n];
-    const double h = a->spacing, k = b->spacing;
+  for (std::size_t n = 1; n < all.size(); ++n) {
+    const Misfits &one = all[n - 1], &finer = all[n];
+    if (one.reference != finer.reference) continue;
+    const MisfitSummary &a = one.summary, &b = finer.summary;
+    const double h = one.run->spacing, k = finer.run->spacing;
     if (!(h > 0.0) || !(k > 0.0) || h == k) continue;
     lines.push_back(fmt::format(
-        "order from {:g} to {:g}: arrival {:.2f}, slip {:.2f}, L2(V) {:.2f}", h, k,
-        order(coarse.arrival, fine.arrival, h, k), order(coarse.end_slip, fine.end_slip, h, k),
-        order(coarse.rate_l2, fine.rate_l2, h, k)));
+        "against {}: order from {:g} to {:g}: arrival {:.2f}, slip {:.2f}, L2(V) {:.2f}",
+        one.reference, h, k, order(a.arrival, b.arrival, h, k), order(a.end_slip, b.end_slip, h, k),
+        order(a.rate_l2, b.rate_l2, h, k)));
   }
   return lines;
 }
@@ -168,22 +168,16 @@ class Benchmark : public Analysis {
     });
 
     Findings found;
-    Table table = misfit_table(), means = misfit_summary_table();
-    std::vector<std::string> lines;
-    for (const NamedCurves &reference : references) {
-      std::vector<std::pair<const NamedCurves *, MisfitSummary>> summaries;
+    std::vector<Misfits> all;
+    for (const NamedCurves &reference : references)
       for (const NamedCurves &run : runs) {
-        const std::vector<StationMisfit> stations = misfits(run, reference);
-        for (const StationMisfit &m : stations) add_misfit(table, run, reference.name, m);
-        summaries.emplace_back(&run, summary(stations));
-        add_summary(means, run, reference.name, summaries.back().second);
+        std::vector<StationMisfit> stations = misfits(run, reference);
+        const MisfitSummary over_all = summary(stations);
+        all.push_back({&run, reference.name, std::move(stations), over_all});
       }
-      for (const std::string &line : orders(summaries))
-        lines.push_back("against " + reference.name + ": " + line);
-    }
-    found.table("stations", std::move(table), "-stations");
-    found.table("", std::move(means));
-    found.say(lines);
+    found.table("stations", misfit_table(all), "-stations");
+    found.table("", misfit_summary_table(all));
+    found.say(orders(all));
     found.figure("", benchmark_figure(runs, references, arrived, until_));
     return found;
   }

@@ -62,36 +62,41 @@ class Compare : public Statistic {
   Findings of(const std::vector<EventTable> &tables) override {
     if (tables.size() < 2)
       throw std::invalid_argument("one catalogue, expected at least two to compare");
-    Table out(
-        "first,second,quantity,smallest_size,n_first,n_second,ks_distance,p,p_error,"
-        "block,mean_first,mean_first_error,mean_second,mean_second_error,ratio,"
-        "ratio_error,!verdict");
-    out.show({{"first", "first"},
-              {"second", "second"},
-              {"", "quantity"},
-              {"events", "n_first"},
-              {"events", "n_second"},
-              {"mean", "mean_first"},
-              {"mean", "mean_second"},
-              {"ratio", "ratio"},
-              {"distance", "ks_distance", 3},
-              {"p", "p"},
-              {"blocks of", "block"},
-              {"", "verdict"}});
+    struct Line {
+      const EventTable &first, &second;
+      std::string quantity;
+      TwoSampleTest test;
+    };
+    const EventTable &first = tables.front();
+    const double threshold = threshold_.complete_in(first).size;
+    TableOf<Line> out;
+    out.column("first", "first", [](auto &line) { return line.first.label; });
+    out.column("second", "second", [](auto &line) { return line.second.label; });
+    out.column("quantity", "", &Line::quantity);
+    out.data("smallest_size", [threshold](auto &) { return threshold; });
+    out.column("n_first", "events", [](auto &line) { return line.test.n[0]; });
+    out.column("n_second", "events", [](auto &line) { return line.test.n[1]; });
+    out.show("mean", [](auto &line) { return line.test.means[0]; });
+    out.show("mean", [](auto &line) { return line.test.means[1]; });
+    out.show("ratio", [](auto &line) { return line.test.ratio; });
+    out.column(
+        "ks_distance", "distance", [](auto &line) { return line.test.distance; }, 3);
+    out.column("p", "p", [](auto &line) { return line.test.p; });
+    out.column("block", "blocks of", [](auto &line) { return line.test.block; });
+    out.show("", [](auto &line) {
+      return line.test.p.value < 0.05 ? "they differ" : "no difference seen";
+    });
+    out.data("mean_first", [](auto &line) { return line.test.means[0]; });
+    out.data("mean_second", [](auto &line) { return line.test.means[1]; });
+    out.data("ratio", [](auto &line) { return line.test.ratio; });
     out.comment(
         "p: share of random divisions of the two series, by blocks of consecutive values, "
         "whose Kolmogorov-Smirnov distance is as large");
-    const EventTable &first = tables.front();
-    const double threshold = threshold_.complete_in(first).size;
     Findings found;
     found.say(texts(threshold_, tables));
     for (std::size_t i = 1; i < tables.size(); ++i)
-      for (const std::string quantity : {"size", "time"}) {
-        const TwoSampleTest t = test(first, tables[i], quantity, threshold);
-        out.row(first.label, tables[i].label, quantity, threshold, t.n[0], t.n[1], t.distance, t.p,
-                t.block, t.means[0], t.means[1], t.ratio,
-                t.p.value < 0.05 ? "they differ" : "no difference seen");
-      }
+      for (const std::string quantity : {"size", "time"})
+        out.row({first, tables[i], quantity, test(first, tables[i], quantity, threshold)});
     found.table("tests", std::move(out), "");
     return found;
   }

@@ -42,31 +42,37 @@ class Count : public CatalogueAnalysis {
   Findings find() override {
     std::sort(sizes_.begin(), sizes_.end());
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    Table totals(
-        "label,events,first_start,last_start,last_end,last_step,largest,"
-        "share_in_events");
-    Table sizes("label,size,events,brief,released,mean_time");
-    totals.show({{"catalogue", "label"},
-                 {"events", "events"},
-                 {"share of the time within events", "share_in_events"},
-                 {"last step", "last_step"},
-                 {"largest", "largest"}});
-    sizes.show({{"catalogue", "label"},
-                {"from size", "size"},
-                {"events", "events"},
-                {"sizes in all", "released"},
-                {"mean time", "mean_time"}});
+    struct Total {
+      std::string label;
+      std::int64_t events = 0, last_step = 0;
+      double first = nan, last = nan, end = nan, largest = nan, share = nan;
+    };
+    TableOf<Total> totals;
+    totals.column("label", "catalogue", &Total::label);
+    totals.column("events", "events", &Total::events);
+    totals.show("share of the time within events", &Total::share);
+    totals.data("first_start", &Total::first);
+    totals.data("last_start", &Total::last);
+    totals.data("last_end", &Total::end);
+    totals.column("last_step", "last step", &Total::last_step);
+    totals.column("largest", "largest", &Total::largest);
+    totals.data("share_in_events", &Total::share);
+    Table sizes(Columns{{"label", "catalogue"},
+                        {"size", "from size"},
+                        {"events", "events"},
+                        {"brief", {}},
+                        {"released", "sizes in all"},
+                        {"mean_time", "mean time"}});
     std::size_t number = 0;
     for_each_catalogue(catalogues, [&](const std::string &path, const CatalogueOptions &one) {
       std::vector<From> counts;
       for (const double size : sizes_) counts.push_back({size});
-      std::int64_t events = 0, last_step = 0;
-      double first = nan, last = nan, largest = nan;
+      Total all;
       const EventTable table = read_events(path, one, [&](const Event &event) {
-        if (events++ == 0) first = event.t_start;
-        last = event.t_start;
-        last_step = event.step_end;
-        largest = std::fmax(largest, event.size);
+        if (all.events++ == 0) all.first = event.t_start;
+        all.last = event.t_start;
+        all.last_step = event.step_end;
+        all.largest = std::fmax(all.largest, event.size);
         for (From &from : counts) {
           if (event.size < from.size) break;
           ++from.events;
@@ -75,15 +81,15 @@ class Count : public CatalogueAnalysis {
         }
       });
       state_repairs(table);
-      const std::string label =
-          number < catalogues.labels.size() ? catalogues.labels[number] : table.label;
+      all.label = number < catalogues.labels.size() ? catalogues.labels[number] : table.label;
       ++number;
-      const double span = table.last_end - first;
-      const double share = table.info.overlapping() ? nan : table.in_events / span;
-      totals.row(label, events, first, last, table.last_end, last_step, largest, share);
+      const double span = table.last_end - all.first;
+      all.end = table.last_end;
+      all.share = table.info.overlapping() ? nan : table.in_events / span;
+      totals.row(all);
       for (const From &from : counts) {
         const double mean = from.events > 0 ? span / static_cast<double>(from.events) : nan;
-        sizes.row(label, from.size, from.events, from.brief, from.released, mean);
+        sizes.row(all.label, from.size, from.events, from.brief, from.released, mean);
       }
       return table.earthquakes();
     });

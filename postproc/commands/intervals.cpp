@@ -80,18 +80,17 @@ class Intervals : public Statistic {
   }
 
   static Table times_of(const std::vector<IntervalCurve> &curves) {
-    Table table("label,threshold,n,mean,variation,!source,!unit,!burstiness");
-    table.show({{"catalogue", "label"},
-                {"events", "source"},
-                {"inter-event times", "n"},
-                {"mean", "mean", 6},
-                {"in", "unit"},
-                {"standard deviation / mean", "variation"},
-                {"burstiness", "burstiness"}});
-    for (const IntervalCurve &curve : curves)
-      table.row(curve.label, curve.threshold.size, curve.n, curve.mean, curve.variation,
-                source_of(curve), curve.unit, curve.burstiness());
-    return table;
+    TableOf<IntervalCurve> table;
+    table.column("label", "catalogue", &IntervalCurve::label);
+    table.show("events", source_of);
+    table.data("threshold", [](auto &curve) { return curve.threshold.size; });
+    table.column("n", "inter-event times", &IntervalCurve::n);
+    table.column("mean", "mean", &IntervalCurve::mean, 6);
+    table.show("in", &IntervalCurve::unit);
+    table.column("variation", "standard deviation / mean", &IntervalCurve::variation);
+    table.show("burstiness", &IntervalCurve::burstiness);
+    for (const IntervalCurve &curve : curves) table.row(curve);
+    return std::move(table);
   }
 
   Findings of(const std::vector<EventTable> &tables) override {

@@ -53,14 +53,13 @@ class Match : public Statistic {
     if (tables.size() < 2)
       throw std::invalid_argument("one catalogue, expected at least two to compare");
     Findings found;
-    Table out("first,second,smallest_size,n_first,n_second,same,chance");
-    out.show({{"first", "first"},
-              {"second", "second"},
-              {"smallest size", "smallest_size"},
-              {"events", "n_first"},
-              {"in the second", "n_second"},
-              {"in both", "same"},
-              {"by chance", "chance"}});
+    Table out(Columns{{"first", "first"},
+                      {"second", "second"},
+                      {"smallest_size", "smallest size"},
+                      {"n_first", "events"},
+                      {"n_second", "in the second"},
+                      {"same", "in both"},
+                      {"chance", "by chance"}});
     EventTable first = tables.front();
     count_from(first, origin_, catalogues.displacement);
     for (std::size_t i = 1; i < tables.size(); ++i) {

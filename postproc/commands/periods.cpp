@@ -85,18 +85,27 @@ class Periods : public Statistic {
       throw std::invalid_argument("--scan '" + scan_ + "', expected LO:HI, both positive");
     std::vector<Sample> samples;
     for (const EventTable &table : tables) samples.push_back(sample_of(table));
-    Table tests(
-        "label,period,n,effective_n,z,p,p_error,phase,largest_z,at_period,by_chance,!verdict");
-    tests.show({{"catalogue", "label"},
-                {"period", "period"},
-                {"events", "n"},
-                {"as many of equal weight", "effective_n", 3},
-                {"Z", "z", 3},
-                {"p", "p", 2},
-                {"", "verdict"},
-                {"largest Z of the scan", "largest_z", 3},
-                {"at period", "at_period"},
-                {"by chance", "by_chance", 3}});
+    struct Line {
+      const Sample &sample;
+      double period, largest_z, at_period, by_chance;
+      PeriodTest test;
+    };
+    TableOf<Line> tests;
+    tests.column("label", "catalogue", [](auto &line) { return line.sample.label; });
+    tests.column("period", "period", &Line::period);
+    tests.column("n", "events", [](auto &line) { return line.sample.times.size(); });
+    tests.column(
+        "effective_n", "as many of equal weight",
+        [](auto &line) { return effective_number(line.sample.weights); }, 3);
+    tests.column(
+        "z", "Z", [](auto &line) { return line.test.z; }, 3);
+    tests.column(
+        "p", "p", [](auto &line) { return line.test.p; }, 2);
+    tests.show("", [](auto &line) { return line.test.p.value < 0.01 ? "a period" : "none seen"; });
+    tests.data("phase", [](auto &line) { return line.test.phase; });
+    tests.column("largest_z", "largest Z of the scan", &Line::largest_z, 3);
+    tests.column("at_period", "at period", &Line::at_period);
+    tests.column("by_chance", "by chance", &Line::by_chance, 3);
     tests.comment(
         "Z: energy-weighted Rayleigh statistic, 1 on average for random phases; periods "
         "in units of " +
@@ -113,10 +122,9 @@ class Periods : public Statistic {
       const bool any = top != scan.z.end();
       for (const double period : periods_) {
         const PeriodTest test = test_period(one.times, one.weights, period, replicas_, seed_);
-        tests.row(one.label, period, one.times.size(), effective_number(one.weights), test.z,
-                  test.p, test.phase, any ? *top : NAN,
-                  any ? scan.periods[static_cast<std::size_t>(top - scan.z.begin())] : NAN,
-                  scan.by_chance, test.p.value < 0.01 ? "a period" : "none seen");
+        tests.row({one, period, any ? *top : NAN,
+                   any ? scan.periods[static_cast<std::size_t>(top - scan.z.begin())] : NAN,
+                   scan.by_chance, test});
         for (std::size_t k = 0; k < test.tenths.size(); ++k)
           tenths.row(one.label, period, k + 1, test.tenths[k]);
       }
@@ -131,12 +139,11 @@ class Periods : public Statistic {
   }
 
   void add_pairs(Findings &found, const std::vector<Sample> &samples) const {
-    Table pairs("first,second,bins,correlation,p,p_error");
-    pairs.show({{"energy at equal times", "first"},
-                {"and", "second"},
-                {"bins", "bins"},
-                {"correlation", "correlation", 3},
-                {"p", "p", 2}});
+    Table pairs(Columns{{"first", "energy at equal times"},
+                        {"second", "and"},
+                        {"bins", "bins"},
+                        {"correlation", "correlation", 3},
+                        {"p", "p", 2, true}});
     pairs.comment(
         "correlation of the energy in bins; p: share of shifts in time that give as much");
     std::vector<double> all;

@@ -66,14 +66,13 @@ class Rates : public Statistic {
     }
     const double width = bin_ > 0.0 ? bin_ : longest > 0.0 ? longest / 100.0 : 1.0;
     std::vector<ReleaseCurve> curves;
-    Table means("label,events,span,bin,mean_event_rate,mean_release_rate,highest_event_rate");
-    means.show({{"catalogue", "label"},
-                {"events", "events"},
-                {"from first to last", "span"},
-                {"bins of", "bin"},
-                {"events per time", "mean_event_rate"},
-                {"released per time", "mean_release_rate"},
-                {"highest rate of events", "highest_event_rate"}});
+    Table means(Columns{{"label", "catalogue"},
+                        {"events", "events"},
+                        {"span", "from first to last"},
+                        {"bin", "bins of"},
+                        {"mean_event_rate", "events per time"},
+                        {"mean_release_rate", "released per time"},
+                        {"highest_event_rate", "highest rate of events"}});
     for (std::size_t i = 0; i < tables.size(); ++i) {
       curves.push_back({tables[i].label, tables[i].info.model, rates_of(releases[i], width)});
       if (releases[i].empty()) continue;

@@ -168,30 +168,40 @@ class ReportPage {
 };
 
 std::string ReportPage::in_short() const {
-  Table table(
-      "catalogue,range,n,exponent,exponent_error,times,shortest,gamma,gamma_error,!rejected");
-  table.show({{"catalogue", "catalogue"},
-              {"sizes", "range"},
-              {"events", "n"},
-              {"exponent", "exponent"},
-              {"times", "times"},
-              {"from", "shortest", 3},
-              {"γ (δ = 1)", "gamma"},
-              {"this law of the times", "rejected"}});
+  struct Line {
+    const SizeFit &sizes;
+    IntervalFit times;
+    const char *rejected() const {
+      return times.fit.degenerate        ? "not determined"
+             : std::isnan(times.p.value) ? ""
+             : times.p.value < 0.05      ? "rejected"
+                                         : "not rejected";
+    }
+  };
+  TableOf<Line> table;
+  table.show("catalogue", [](auto &line) { return line.sizes.label; });
+  table.show("sizes", [](auto &line) {
+    const PowerLawFit &fit = line.sizes.fit;
+    return fmt::format("{} to {}", short_number(fit.lo, 3), short_number(fit.hi, 3));
+  });
+  table.show("events", [](auto &line) { return line.sizes.fit.n; });
+  table.show("exponent", [](auto &line) {
+    return Measured{line.sizes.fit.alpha, line.sizes.fit.standard_error};
+  });
+  table.show("times", [](auto &line) { return line.times.fit.n; });
+  table.show(
+      "from", [](auto &line) { return line.times.fit.lo; }, 3);
+  table.show("γ (δ = 1)", [](auto &line) {
+    return Measured{line.times.fit.gamma, line.times.fit.se_gamma};
+  });
+  table.show("this law of the times", &Line::rejected);
   for (const SizeFit &fit : fits_) {
     const auto curve =
         std::find_if(curves_.begin(), curves_.end(),
                      [&fit](const IntervalCurve &one) { return one.label == fit.label; });
     IntervalFit times;
     if (curve != curves_.end() && !curve->fits.empty()) times = curve->fits.front();
-    table.row(fit.label,
-              fmt::format("{} to {}", short_number(fit.fit.lo, 3), short_number(fit.fit.hi, 3)),
-              fit.fit.n, fit.fit.alpha, fit.fit.standard_error, times.fit.n, times.fit.lo,
-              times.fit.gamma, times.fit.se_gamma,
-              times.fit.degenerate        ? "not determined"
-              : std::isnan(times.p.value) ? ""
-              : times.p.value < 0.05      ? "rejected"
-                                          : "not rejected");
+    table.row({fit, times});
   }
   return table.html() + verdicts_;
 }

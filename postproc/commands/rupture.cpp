@@ -104,12 +104,11 @@ class Rupture : public CatalogueAnalysis {
   Findings find() override {
     Findings found;
     std::vector<EventTable> tables;
-    Table largest_of("label,ruptures,moment,largest,longest");
-    largest_of.show({{"catalogue", "label"},
-                     {"ruptures", "ruptures"},
-                     {"moments in all", "moment", 6},
-                     {"largest", "largest"},
-                     {"longest", "longest"}});
+    Table largest_of(Columns{{"label", "catalogue"},
+                             {"ruptures", "ruptures"},
+                             {"moment", "moments in all", 6},
+                             {"largest", "largest"},
+                             {"longest", "longest"}});
     for_each_catalogue(catalogues, [&](const std::string &path, const CatalogueOptions &one) {
       EventTable table = load_ruptures(path, one);
       state_repairs(table);

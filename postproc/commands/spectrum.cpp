@@ -106,12 +106,11 @@ class Spectrum : public Analysis {
   Findings find() override {
     const std::vector<std::string> labels = labels_of(series_, labels_, "series");
     std::vector<SpectrumCurve> curves;
-    Table averages("label,samples,segments,averages,variance");
-    averages.show({{"series", "label"},
-                   {"samples", "samples"},
-                   {"segments", "segments"},
-                   {"independent segments", "averages"},
-                   {"variance", "variance", 6}});
+    Table averages(Columns{{"label", "series"},
+                           {"samples", "samples"},
+                           {"segments", "segments"},
+                           {"averages", "independent segments"},
+                           {"variance", "variance", 6}});
     for (std::size_t i = 0; i < series_.size(); ++i) {
       curves.push_back(measure(series_[i], labels[i]));
       const SpectrumCurve &curve = curves.back();

@@ -88,16 +88,15 @@ class Statements : public CatalogueAnalysis {
   std::vector<std::string> endings() const override { return {".velocities.csv"}; }
 
   static Table empty_table() {
-    Table table("statement,catalogue,number,value,value_error,p,expected,verdict,note,quote");
-    table.show({{"statement", "statement"},
-                {"catalogue", "catalogue"},
-                {"", "number"},
-                {"", "value", 4, "value_error"},
-                {"p", "p", 2},
-                {"expected", "expected"},
-                {"", "verdict"},
-                {"", "note"}});
-    return table;
+    return Table(Columns{{"statement", "statement"},
+                         {"catalogue", "catalogue"},
+                         {"number", ""},
+                         {"value", "", 4, true},
+                         {"p", "p", 2},
+                         {"expected", "expected"},
+                         {"verdict", ""},
+                         {"note", ""},
+                         {"quote", {}}});
   }
 
   static void row(Table &out, const Statement &statement, const std::string &catalogue,

@@ -29,26 +29,40 @@ class Units : public CatalogueAnalysis {
   }
 
   static Table units_table(const ModelUnits &units) {
-    Table table("quantity,unit,value");
-    table.show({{"one model unit of", "quantity"}, {"is", "value"}, {"in", "unit"}});
-    table.row("length", "m", units.length);
-    table.row("time", "s", units.time());
-    table.row("velocity", "m/s", units.velocity());
-    table.row("stress, stiffness", "MPa", units.stress() * 1e-6);
-    table.row("energy, sizes", "J", units.energy());
-    table.row("slip times length, moments", "N m", units.moment());
-    table.row("Mw of that moment", "", moment_magnitude(units.moment()).constant);
-    return table;
+    struct Unit {
+      const char *quantity, *unit;
+      double value;
+    };
+    TableOf<Unit> table;
+    table.column("quantity", "one model unit of", &Unit::quantity);
+    table.show("is", &Unit::value);
+    table.column("unit", "in", &Unit::unit);
+    table.data("value", &Unit::value);
+    table.row({"length", "m", units.length});
+    table.row({"time", "s", units.time()});
+    table.row({"velocity", "m/s", units.velocity()});
+    table.row({"stress, stiffness", "MPa", units.stress() * 1e-6});
+    table.row({"energy, sizes", "J", units.energy()});
+    table.row({"slip times length, moments", "N m", units.moment()});
+    table.row({"Mw of that moment", "", moment_magnitude(units.moment()).constant});
+    return std::move(table);
   }
 
+  struct InSi {
+    std::string label, quantity;
+    double model;
+    const char *unit;
+    double value;
+  };
+
   /// What a fault is in SI: numbers of its header and its largest event.
-  static void add_fault(Table &table, const EventTable &fault, const ModelUnits &units,
+  static void add_fault(TableOf<InSi> &table, const EventTable &fault, const ModelUnits &units,
                         const MagnitudeOptions &magnitudes) {
     const auto header = [&](const char *name, const char *quantity, const char *unit, double si) {
       double value = 0.0;
       const std::string *const text = fault.info.find(name);
       if (text && text_io::parse(*text, value))
-        table.row(fault.label, quantity, value, unit, value * si);
+        table.row({fault.label, quantity, value, unit, value * si});
     };
     header("length", "length of the fault", "km", units.length * 1e-3);
     header("width", "width across the fault", "km", units.length * 1e-3);
@@ -60,23 +74,24 @@ class Units : public CatalogueAnalysis {
                                           [&](const Event &a, const Event &b) {
                                             return magnitudes.quantity(a) < magnitudes.quantity(b);
                                           });
-    table.row(fault.label, "first to last event", fault.last_end - fault.events.front().t_start,
-              "s", (fault.last_end - fault.events.front().t_start) * units.time());
+    const double span = fault.last_end - fault.events.front().t_start;
+    table.row({fault.label, "first to last event", span, "s", span * units.time()});
     if (largest == fault.details.end() || !(magnitudes.quantity(*largest) > 0.0)) return;
     const double quantity = magnitudes.quantity(*largest);
-    table.row(fault.label, fmt::format("{} of the largest event", magnitudes.type()), quantity, "",
-              magnitudes.scale(fault.path, fault.info).of(quantity));
+    table.row({fault.label, fmt::format("{} of the largest event", magnitudes.type()), quantity, "",
+               magnitudes.scale(fault.path, fault.info).of(quantity)});
   }
 
   Findings find() override {
     const ModelUnits units = units_.units();
     catalogues.details = CatalogueOptions::all_events;
-    Table faults("label,quantity,model,unit,value");
-    faults.show({{"catalogue", "label"},
-                 {"", "quantity"},
-                 {"model", "model"},
-                 {"SI", "value"},
-                 {"in", "unit"}});
+    TableOf<InSi> faults;
+    faults.column("label", "catalogue", &InSi::label);
+    faults.column("quantity", "", &InSi::quantity);
+    faults.column("model", "model", &InSi::model);
+    faults.show("SI", &InSi::value);
+    faults.column("unit", "in", &InSi::unit);
+    faults.data("value", &InSi::value);
     for (const EventTable &table : load_catalogues(catalogues)) {
       units_.units(table.path, table.info);
       MagnitudeOptions magnitudes;

@@ -9,71 +9,86 @@
 namespace LSM::postproc {
 
 Table aftershock_table(const std::vector<AftershockCurve> &curves) {
-  Table table(
-      "model,main_size,least_size,window,first,main_shocks,events,constant,"
-      "constant_error,p,p_error,c,c_error,K,K_error,background,background_error,"
-      "likelihood_ratio,poisson_p,label,degenerate,before,quiet_rate,quiet_rate_error,"
-      "excess_after,excess_after_error,excess_before,excess_before_error,after_to_before,"
-      "after_to_before_error");
-  table.show({{"catalogue", "label"},
-              {"smallest main shock", "main_size"},
-              {"largest for so long before and after", "window"},
-              {"main shocks", "main_shocks"},
-              {"smallest event", "least_size"},
-              {"counted from", "first"},
-              {"events after main shocks", "events"},
-              {"events as long before", "before"},
-              {"rate far from main shocks", "quiet_rate"},
-              {"beyond it after", "excess_after"},
-              {"beyond it before", "excess_before"},
-              {"after / before", "after_to_before"},
-              {"constant rate", "constant"},
-              {"p", "p"},
-              {"c", "c"},
-              {"K", "K"},
-              {"background", "background"},
-              {"degenerate", "degenerate"},
-              {"2 ln L ratio against a constant rate", "likelihood_ratio"},
-              {"share of Poisson catalogues as large", "poisson_p", 2}});
+  struct Line {
+    const AftershockCurve &of;
+    const SequenceRule &rule = of.aftershocks.rule;
+    const Sequences &sequences = of.aftershocks.sequences;
+    const OmoriFit &fit = of.aftershocks.fit;
+  };
+  TableOf<Line> table;
+  table.show("catalogue", [](auto &line) { return line.of.label; });
+  table.data("model", [](auto &line) { return line.of.model; });
+  table.column("main_size", "smallest main shock", [](auto &line) { return line.rule.main_size; });
+  table.data("least_size", [](auto &line) { return line.rule.least_size; });
+  table.column("window", "largest for so long before and after",
+               [](auto &line) { return line.rule.window; });
+  table.data("first", [](auto &line) { return line.rule.first; });
+  table.column("main_shocks", "main shocks", [](auto &line) { return line.sequences.main_shocks; });
+  table.show("smallest event", [](auto &line) { return line.rule.least_size; });
+  table.show("counted from", [](auto &line) { return line.rule.first; });
+  table.column("events", "events after main shocks", [](auto &line) { return line.fit.n; });
+  table.show("events as long before", [](auto &line) { return line.sequences.before.size(); });
+  table.show("rate far from main shocks", [](auto &line) { return line.sequences.background(); });
+  table.show("beyond it after", [](auto &line) { return line.sequences.excess_after(); });
+  table.show("beyond it before", [](auto &line) { return line.sequences.excess_before(); });
+  table.show("after / before", [](auto &line) { return line.sequences.after_to_before(); });
+  table.column("constant", "constant rate", [](auto &line) {
+    return Measured{line.fit.constant, line.fit.se_constant};
+  });
+  table.column("p", "p", [](auto &line) { return Measured{line.fit.p, line.fit.se_p}; });
+  table.column("c", "c", [](auto &line) { return Measured{line.fit.c, line.fit.se_c}; });
+  table.column("K", "K", [](auto &line) { return Measured{line.fit.K, line.fit.se_K}; });
+  table.column("background", "background", [](auto &line) {
+    return Measured{line.fit.background, line.fit.se_background};
+  });
+  table.show("degenerate", [](auto &line) { return line.fit.why; });
+  table.column("likelihood_ratio", "2 ln L ratio against a constant rate",
+               [](auto &line) { return line.fit.likelihood_ratio; });
+  table.column(
+      "poisson_p", "share of Poisson catalogues as large",
+      [](auto &line) { return line.of.aftershocks.p; }, 2);
+  table.data("label", [](auto &line) { return line.of.label; });
+  table.data("degenerate", [](auto &line) { return line.fit.why; });
+  table.data("before", [](auto &line) { return line.sequences.before.size(); });
+  table.data("quiet_rate", [](auto &line) { return line.sequences.background(); });
+  table.data("excess_after", [](auto &line) { return line.sequences.excess_after(); });
+  table.data("excess_before", [](auto &line) { return line.sequences.excess_before(); });
+  table.data("after_to_before", [](auto &line) { return line.sequences.after_to_before(); });
   table.comment(
       "before: events as long before the main shocks; quiet_rate: of events outside of the windows "
       "of all main shocks; excess_*: events beyond it; after_to_before: their ratio");
   table.comment("n(t) = K (t + c)^-p + background after the end of a main shock, model time");
   table.comment("poisson_p: share of Poisson catalogues whose likelihood ratio is as large");
-  for (const AftershockCurve &curve : curves) {
-    const Aftershocks &a = curve.aftershocks;
-    const OmoriFit &f = a.fit;
-    table.row(curve.model, a.rule.main_size, a.rule.least_size, a.rule.window, a.rule.first,
-              a.sequences.main_shocks, f.n, f.constant, f.se_constant, f.p, f.se_p, f.c, f.se_c,
-              f.K, f.se_K, f.background, f.se_background, f.likelihood_ratio, a.p, curve.label,
-              f.why, a.sequences.before.size(), a.sequences.background(),
-              a.sequences.excess_after(), a.sequences.excess_before(),
-              a.sequences.after_to_before());
-  }
-  return table;
+  for (const AftershockCurve &curve : curves) table.row({curve});
+  return std::move(table);
 }
 
 Table aftershock_means(const std::vector<AftershockCurve> &curves) {
-  Table table("label,catalogues,p,p_error,after_to_before,after_to_before_error");
-  table.show({{"catalogues of one label", "label"},
-              {"number", "catalogues"},
-              {"p, mean", "p"},
-              {"after / before, mean", "after_to_before"}});
+  struct Mean {
+    std::string label;
+    std::vector<Measured> p, ratio;
+  };
+  TableOf<Mean> table;
+  table.column("label", "catalogues of one label", &Mean::label);
+  table.column("catalogues", "number", [](auto &mean) { return mean.p.size(); });
+  table.column("p", "p, mean", [](auto &mean) { return mean_of_catalogues(mean.p); });
+  table.column("after_to_before", "after / before, mean",
+               [](auto &mean) { return mean_of_catalogues(mean.ratio); });
   table.comment("means of the catalogues of one label, errors from their scatter");
   std::vector<std::string> labels;
   for (const AftershockCurve &curve : curves)
     if (std::find(labels.begin(), labels.end(), curve.label) == labels.end())
       labels.push_back(curve.label);
   for (const std::string &label : labels) {
-    std::vector<Measured> p, ratio;
+    Mean mean{label, {}, {}};
     for (const AftershockCurve &curve : curves) {
       if (curve.label != label) continue;
-      p.push_back({curve.aftershocks.fit.p, curve.aftershocks.fit.se_p});
-      ratio.push_back(curve.aftershocks.sequences.after_to_before());
+      mean.p.push_back({curve.aftershocks.fit.p, curve.aftershocks.fit.se_p});
+      mean.ratio.push_back(curve.aftershocks.sequences.after_to_before());
     }
-    if (p.size() > 1) table.row(label, p.size(), mean_of_catalogues(p), mean_of_catalogues(ratio));
+    if (mean.p.size() > 1) table.row(mean);
   }
-  return table;
+  return std::move(table);
 }
 
 Figure aftershock_figure(const std::vector<AftershockCurve> &curves) {

@@ -10,52 +10,55 @@
 
 namespace LSM::postproc {
 
-Table misfit_table() {
-  Table table(
-      "run,spacing,reference,x,arrival,reference_arrival,end_slip,reference_end_slip,"
-      "slip_l2,peak_rate,reference_peak_rate,rate_l2,!late,!more");
-  table.show({{"run", "run"},
-              {"against", "reference"},
-              {"x", "x", 6},
-              {"arrival", "arrival"},
-              {"ref.", "reference_arrival"},
-              {"late", "late", 3},
-              {"slip", "end_slip"},
-              {"ref.", "reference_end_slip"},
-              {"more %", "more", 3},
-              {"L2", "slip_l2", 3},
-              {"peak V", "peak_rate"},
-              {"ref.", "reference_peak_rate"},
-              {"L2(V)", "rate_l2", 3}});
-  return table;
+Table misfit_table(const std::vector<Misfits> &all) {
+  struct Line {
+    const Misfits &of;
+    const StationMisfit &at;
+  };
+  TableOf<Line> table;
+  table.column("run", "run", [](auto &line) { return line.of.run->name; });
+  table.data("spacing", [](auto &line) { return line.of.run->spacing; });
+  table.column("reference", "against", [](auto &line) { return line.of.reference; });
+  table.column(
+      "x", "x", [](auto &line) { return line.at.x; }, 6);
+  table.column("arrival", "arrival", [](auto &line) { return line.at.arrival; });
+  table.column("reference_arrival", "ref.", [](auto &line) { return line.at.reference_arrival; });
+  table.show(
+      "late", [](auto &line) { return line.at.arrival - line.at.reference_arrival; }, 3);
+  table.column("end_slip", "slip", [](auto &line) { return line.at.end_slip; });
+  table.column("reference_end_slip", "ref.", [](auto &line) { return line.at.reference_end_slip; });
+  table.show(
+      "more %", [](auto &l) { return 100.0 * (l.at.end_slip / l.at.reference_end_slip - 1.0); }, 3);
+  table.column(
+      "slip_l2", "L2", [](auto &line) { return line.at.slip_l2; }, 3);
+  table.column("peak_rate", "peak V", [](auto &line) { return line.at.peak; });
+  table.column("reference_peak_rate", "ref.", [](auto &line) { return line.at.reference_peak; });
+  table.column(
+      "rate_l2", "L2(V)", [](auto &line) { return line.at.rate_l2; }, 3);
+  for (const Misfits &one : all)
+    for (const StationMisfit &station : one.stations) table.row({one, station});
+  return std::move(table);
 }
 
-void add_misfit(Table &table, const NamedCurves &run, const std::string &reference,
-                const StationMisfit &m) {
-  table.row(run.name, run.spacing, reference, m.x, m.arrival, m.reference_arrival, m.end_slip,
-            m.reference_end_slip, m.slip_l2, m.peak, m.reference_peak, m.rate_l2,
-            m.arrival - m.reference_arrival, 100.0 * (m.end_slip / m.reference_end_slip - 1.0));
-}
-
-Table misfit_summary_table() {
-  Table table("run,spacing,reference,arrival,arrival_max,slip,slip_max,slip_l2,peak,rate_l2");
-  table.show({{"over all stations", "run"},
-              {"spacing", "spacing"},
-              {"against", "reference"},
-              {"arrival", "arrival", 3},
-              {"max", "arrival_max", 3},
-              {"slip %", "slip", 3},
-              {"max", "slip_max", 3},
-              {"L2(slip) %", "slip_l2", 3},
-              {"peak V %", "peak", 3},
-              {"L2(V) %", "rate_l2", 3}});
-  return table;
-}
-
-void add_summary(Table &table, const NamedCurves &run, const std::string &reference,
-                 const MisfitSummary &s) {
-  table.row(run.name, run.spacing, reference, s.arrival, s.largest_arrival, 100.0 * s.end_slip,
-            100.0 * s.largest_end_slip, 100.0 * s.slip_l2, 100.0 * s.peak, 100.0 * s.rate_l2);
+Table misfit_summary_table(const std::vector<Misfits> &all) {
+  TableOf<Misfits> table;
+  const auto percent = [](double MisfitSummary::*share) {
+    return [share](const Misfits &one) { return 100.0 * one.summary.*share; };
+  };
+  table.column("run", "over all stations", [](auto &one) { return one.run->name; });
+  table.column("spacing", "spacing", [](auto &one) { return one.run->spacing; });
+  table.column("reference", "against", &Misfits::reference);
+  table.column(
+      "arrival", "arrival", [](auto &one) { return one.summary.arrival; }, 3);
+  table.column(
+      "arrival_max", "max", [](auto &one) { return one.summary.largest_arrival; }, 3);
+  table.column("slip", "slip %", percent(&MisfitSummary::end_slip), 3);
+  table.column("slip_max", "max", percent(&MisfitSummary::largest_end_slip), 3);
+  table.column("slip_l2", "L2(slip) %", percent(&MisfitSummary::slip_l2), 3);
+  table.column("peak", "peak V %", percent(&MisfitSummary::peak), 3);
+  table.column("rate_l2", "L2(V) %", percent(&MisfitSummary::rate_l2), 3);
+  for (const Misfits &one : all) table.row(one);
+  return std::move(table);
 }
 
 namespace {

@@ -12,15 +12,18 @@
 
 namespace LSM::postproc {
 
-/// Of all runs and references, a row for each station.
-Table misfit_table();
-void add_misfit(Table &table, const NamedCurves &run, const std::string &reference,
-                const StationMisfit &misfit);
+/// A run beside a reference.
+struct Misfits {
+  const NamedCurves *run;
+  std::string reference;
+  std::vector<StationMisfit> stations;  ///< that are compared
+  MisfitSummary summary;                ///< over all of them
+};
 
-/// The same over all stations of a reference.
-Table misfit_summary_table();
-void add_summary(Table &table, const NamedCurves &run, const std::string &reference,
-                 const MisfitSummary &summary);
+/// A row for each station.
+Table misfit_table(const std::vector<Misfits> &all);
+/// A row for each run beside each reference.
+Table misfit_summary_table(const std::vector<Misfits> &all);
 
 /// Slip, slip rate, and slip less that of the last reference, at up to six places that all
 /// references have, and arrival times along the fault. \param rate above which the rupture has

@@ -2,6 +2,7 @@
 #include "clustering_figures.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -19,19 +20,23 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 /// Each number of a clustering: its column, what it is, and with what it is compared.
 struct Named {
   const char *column, *text, *random;
-  AgainstChance number;
+  AgainstChance (*number)(const Clustering &);
 };
 
-std::vector<Named> numbers_of(const Clustering &c) {
-  return {{"variation", "variation (standard deviation / mean)", "independent", c.variation},
-          {"finite_burstiness", "burstiness, finite form", "independent", c.finite_burstiness},
-          {"memory", "memory coefficient", "shuffled", c.memory},
-          {"after_short", "mean time after the shortest third / mean", "shuffled", c.after[0]},
-          {"after_middle", "after the middle third", "shuffled", c.after[1]},
-          {"after_long", "after the longest third", "shuffled", c.after[2]},
-          {"after_distance", "distance between times after short and long ones", "shuffled",
-           c.after_distance}};
-}
+constexpr std::array<Named, 7> numbers = {
+    {{"variation", "variation (standard deviation / mean)", "independent",
+      [](const Clustering &c) { return c.variation; }},
+     {"finite_burstiness", "burstiness, finite form", "independent",
+      [](const Clustering &c) { return c.finite_burstiness; }},
+     {"memory", "memory coefficient", "shuffled", [](const Clustering &c) { return c.memory; }},
+     {"after_short", "mean time after the shortest third / mean", "shuffled",
+      [](const Clustering &c) { return c.after[0]; }},
+     {"after_middle", "after the middle third", "shuffled",
+      [](const Clustering &c) { return c.after[1]; }},
+     {"after_long", "after the longest third", "shuffled",
+      [](const Clustering &c) { return c.after[2]; }},
+     {"after_distance", "distance between times after short and long ones", "shuffled",
+      [](const Clustering &c) { return c.after_distance; }}}};
 
 std::string title_of(const IntervalCurve &curve, const std::string &more) {
   return fmt::format("set title {} offset 0,-0.6\n",
@@ -73,42 +78,47 @@ bool has_clustering(const IntervalCurve &curve) {
 
 Table clustering_table(const std::vector<IntervalCurve> &curves,
                        const std::function<std::string(double)> &date) {
-  std::string columns = "label,threshold,n,from,to,departure,steady_p,burstiness";
-  std::vector<Shown> shown = {{"catalogue", "label"},
-                              {"events", "sizes"},
-                              {"times", "n"},
-                              {"from", "first"},
-                              {"to", "last"},
-                              {"departure from a steady rate", "departure", 2},
-                              {"p of a steady rate", "steady_p", 2},
-                              {"burstiness", "burstiness", 3}};
-  for (const Named &one : numbers_of(Clustering())) {
+  TableOf<IntervalCurve> table;
+  const auto time = [date](double Stretch::*end) {
+    return [date, end](const IntervalCurve &curve) {
+      const double t = curve.steadiness.whole.*end;
+      return curve.earthquakes && std::isfinite(t) ? date(t) : short_number(t, 6);
+    };
+  };
+  table.column("label", "catalogue", &IntervalCurve::label);
+  table.show("events", &IntervalCurve::from);
+  table.data("threshold", [](auto &curve) { return curve.threshold.size; });
+  table.column("n", "times", &IntervalCurve::n);
+  table.show("from", time(&Stretch::from));
+  table.show("to", time(&Stretch::to));
+  table.data("from", [](auto &curve) { return curve.steadiness.whole.from; });
+  table.data("to", [](auto &curve) { return curve.steadiness.whole.to; });
+  table.column(
+      "departure", "departure from a steady rate",
+      [](auto &curve) { return curve.steadiness.whole.departure; }, 2);
+  table.column(
+      "steady_p", "p of a steady rate", [](auto &curve) { return curve.steadiness.p; }, 2);
+  table.column(
+      "burstiness", "burstiness", [](auto &curve) { return curve.clustering.burstiness; }, 3);
+  for (const Named &one : numbers) {
     const std::string name = one.column;
-    columns += fmt::format(",{0},{0}_random,{0}_random_deviation,{0}_p", name);
-    shown.push_back({one.text, name, 3});
-    shown.push_back({one.random, name + "_random", 4, name + "_random_deviation"});
-    shown.push_back({"p", name + "_p", 2});
+    const auto of = [number = one.number](const IntervalCurve &c) { return number(c.clustering); };
+    table.column(
+        name, one.text, [of](auto &curve) { return of(curve).value; }, 3);
+    table.show(one.random, [of](auto &c) { return Measured{of(c).mean, of(c).deviation}; });
+    table.data(name + "_random", [of](auto &curve) { return of(curve).mean; });
+    table.data(name + "_random_deviation", [of](auto &curve) { return of(curve).deviation; });
+    table.column(
+        name + "_p", "p", [of](auto &curve) { return of(curve).p; }, 2);
   }
-  Table table(columns + ",!sizes,!first,!last");
-  table.show(shown);
   table.comment(
       "departure: of the cumulative number of events from a straight line, over their number; "
       "steady_p: share of series of the same times, in blocks in random order, that depart as far");
   table.comment(
       "random: mean and standard deviation of independent exponential times (variation, "
       "burstiness) or of the times in random order; p: share of them as far from their mean");
-  for (const IntervalCurve &curve : curves) {
-    const Stretch &whole = curve.steadiness.whole;
-    table.add(curve.label).add(curve.threshold.size).add(curve.n).add(whole.from).add(whole.to);
-    table.add(whole.departure).add(curve.steadiness.p).add(curve.clustering.burstiness);
-    for (const Named &one : numbers_of(curve.clustering))
-      table.add(one.number.value).add(one.number.mean).add(one.number.deviation).add(one.number.p);
-    const auto time = [&](double t) {
-      return curve.earthquakes && std::isfinite(t) ? date(t) : short_number(t, 6);
-    };
-    table.row(curve.from(), time(whole.from), time(whole.to));
-  }
-  return table;
+  for (const IntervalCurve &curve : curves) table.row(curve);
+  return std::move(table);
 }
 
 namespace {

@@ -88,29 +88,40 @@ Figure interval_figure(const std::vector<IntervalCurve> &curves, bool rescaled, 
 }
 
 Table cuts_table(const std::vector<IntervalCurve> &curves) {
-  Table table(
-      "curve,threshold,cut,cut_over_mean,cut_over_memory,n,gamma,gamma_error,used,label,degenerate");
-  table.show({{"catalogue", "label"},
-              {"times from", "cut", 3},
-              {"over the mean", "cut_over_mean", 2},
-              {"over the picker's memory", "cut_over_memory", 2},
-              {"times", "n"},
-              {"γ", "gamma"},
-              {"", "used"}});
+  struct Line {
+    std::int64_t number;
+    const IntervalCurve &curve;
+    const GammaOfCut &at;
+    double mean() const { return curve.rescaled ? 1.0 : curve.mean; }
+    bool used() const { return at.cut == shortest_time(curve.memory, mean()); }
+  };
+  TableOf<Line> table;
+  table.show("catalogue", [](auto &line) { return line.curve.label; });
+  table.data("curve", &Line::number);
+  table.data("threshold", [](auto &line) { return line.curve.threshold.size; });
+  table.column(
+      "cut", "times from", [](auto &line) { return line.at.cut; }, 3);
+  table.column(
+      "cut_over_mean", "over the mean", [](auto &line) { return line.at.cut / line.mean(); }, 2);
+  table.column(
+      "cut_over_memory", "over the picker's memory",
+      [](auto &line) { return line.at.cut / line.curve.memory; }, 2);
+  table.column("n", "times", [](auto &line) { return line.at.fit.n; });
+  table.column("gamma", "γ", [](auto &line) {
+    return Measured{line.at.fit.gamma, line.at.fit.se_gamma};
+  });
+  table.column("used", "", [](auto &line) { return line.used() ? "used" : ""; });
+  table.data("label", [](auto &line) { return line.curve.label; });
+  table.data("degenerate", [](auto &line) { return line.at.fit.why; });
   table.comment(
       "gamma with delta = 1 by maximum likelihood of the times from a cut on; used: the cut of all "
       "commands, the larger of 2.5 memories of the picker and 0.05 of the mean");
   std::int64_t number = 0;
   for (const IntervalCurve &curve : curves) {
     ++number;
-    const double mean = curve.rescaled ? 1.0 : curve.mean;
-    for (const GammaOfCut &one : curve.cuts)
-      table.row(number, curve.threshold.size, one.cut, one.cut / mean, one.cut / curve.memory,
-                one.fit.n, one.fit.gamma, one.fit.se_gamma,
-                one.cut == shortest_time(curve.memory, mean) ? "used" : "", curve.label,
-                one.fit.why);
+    for (const GammaOfCut &one : curve.cuts) table.row({number, curve, one});
   }
-  return table;
+  return std::move(table);
 }
 
 Figure cuts_figure(const std::vector<IntervalCurve> &curves, int width) {
@@ -165,16 +176,28 @@ Table1Row row_of(const IntervalCurve &curve, const IntervalFit &of) {
   return row;
 }
 
-/// Seismicity (Corral 2004, as quoted in the paper), LSM, Block-Slider: gamma, delta, B, C.
-void add_printed(Table &table) {
-  const std::array<std::string, 5> columns[] = {
-      {"seismicity (Corral 2004)", "0.67", "0.98", "1.58", "0.50"},
-      {"LSM", "0.995", "1.00", "15.21", "0.0573"},
-      {"Block-Slider", "0.0", "1.00", "100.0", "0.25"}};
-  for (const auto &[source, gamma, delta, B, C] : columns)
-    table.row("printed", nan, "", gamma, nan, delta, nan, B, nan, C, nan, nan, nan, nan, nan, "",
-              source, "", nan, "", "");
-}
+/// A line of the paper's Table 1: gamma, delta, B and C with the digits that are printed.
+struct PrintedRow {
+  std::string source;
+  std::array<std::string, 4> parameters;
+};
+const std::array<PrintedRow, 3> printed_rows = {
+    {{"seismicity (Corral 2004)", {"0.67", "0.98", "1.58", "0.50"}},
+     {"LSM", {"0.995", "1.00", "15.21", "0.0573"}},
+     {"Block-Slider", {"0.0", "1.00", "100.0", "0.25"}}}};
+
+/// A line of ours, or a printed one.
+struct Table1Line {
+  const Table1Row &ours;
+  const PrintedRow *printed = nullptr;
+
+  Cell parameter(std::size_t k) const {
+    return printed ? Cell(printed->parameters[k]) : Cell(ours.parameters[k]);
+  }
+  std::string rejected() const {
+    return std::isnan(ours.p.value) ? "" : ours.rejected() ? "yes" : "no";
+  }
+};
 
 }  // namespace
 
@@ -186,24 +209,38 @@ std::vector<Table1Row> table1_rows(const std::vector<IntervalCurve> &curves) {
 }
 
 Table table1(const std::vector<Table1Row> &rows, bool rescaled, bool printed) {
-  Table table(
-      "origin,threshold,n,gamma,gamma_error,delta,delta_error,B,B_error,C,C_error,"
-      "chi2_per_dof,ks,p,p_error,rejected,source,method,shortest,degenerate,!from");
-  table.show({{"Table 1", "origin"},
-              {"", "source"},
-              {"", "from"},
-              {"", "method"},
-              {"times", "n"},
-              {"γ", "gamma"},
-              {"δ", "delta"},
-              {"B", "B"},
-              {"C", "C"},
-              {"from", "shortest", 3},
-              {"χ²/dof", "chi2_per_dof", 3},
-              {"KS", "ks", 3},
-              {"p", "p", 2},
-              {"rejected", "rejected"},
-              {"degenerate", "degenerate"}});
+  TableOf<Table1Line> table;
+  const auto parameter = [](std::size_t k) {
+    return [k](const Table1Line &line) { return line.parameter(k); };
+  };
+  const auto source = [](auto &line) {
+    return line.printed ? line.printed->source : line.ours.source;
+  };
+  const auto method = [](auto &line) { return line.ours.method; };
+  table.column("origin", "Table 1", [](auto &line) { return line.printed ? "printed" : "ours"; });
+  table.show("", source);
+  table.show("", [](auto &line) { return line.ours.from; });
+  table.show("", method);
+  table.data("threshold", [](auto &line) { return line.printed ? nan : line.ours.threshold; });
+  table.column("n", "times",
+               [](auto &line) { return line.printed ? Cell(std::string()) : Cell(line.ours.n); });
+  table.column("gamma", "γ", parameter(0), 4, true);
+  table.column("delta", "δ", parameter(1), 4, true);
+  table.column("B", "B", parameter(2), 4, true);
+  table.column("C", "C", parameter(3), 4, true);
+  table.show(
+      "from", [](auto &line) { return line.ours.shortest; }, 3);
+  table.column(
+      "chi2_per_dof", "χ²/dof", [](auto &line) { return line.ours.misfit; }, 3);
+  table.column(
+      "ks", "KS", [](auto &line) { return line.ours.ks; }, 3);
+  table.column(
+      "p", "p", [](auto &line) { return line.ours.p; }, 2);
+  table.column("rejected", "rejected", &Table1Line::rejected);
+  table.data("source", source);
+  table.data("method", method);
+  table.data("shortest", [](auto &line) { return line.ours.shortest; });
+  table.column("degenerate", "degenerate", [](auto &line) { return line.ours.why; });
   table.comment("f(theta) = C theta^(gamma-1) exp(-theta^delta / B)");
   table.comment(
       fmt::format("printed: Table 1 of the paper, unit of theta not stated; ours: theta in {}",
@@ -212,16 +249,11 @@ Table table1(const std::vector<Table1Row> &rows, bool rescaled, bool printed) {
       "to quote: maximum likelihood with delta = 1 held; least squares with C free is what the "
       "paper did");
   table.comment(fmt::format("rejected: {}", rejection_rule));
-  if (printed) add_printed(table);
-  for (const Table1Row &row : rows) {
-    const auto &[gamma, delta, B, C] = row.parameters;
-    table.row("ours", row.threshold, row.n, gamma, delta, B, C, row.misfit, row.ks, row.p,
-              std::isnan(row.p.value) ? ""
-              : row.rejected()        ? "yes"
-                                      : "no",
-              row.source, row.method, row.shortest, row.why, row.from);
-  }
-  return table;
+  const Table1Row none;
+  if (printed)
+    for (const PrintedRow &row : printed_rows) table.row({none, &row});
+  for (const Table1Row &row : rows) table.row({row});
+  return std::move(table);
 }
 
 }  // namespace LSM::postproc

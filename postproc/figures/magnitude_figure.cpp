@@ -13,31 +13,31 @@ namespace LSM::postproc {
 
 Table magnitude_table(const std::vector<MagnitudeCurve> &curves, double slope,
                       const std::string &formula, double width) {
-  Table table(
-      "model,completeness,maximum_curvature,n,b,b_error,n_positive,b_positive,"
-      "b_positive_error,label,degenerate,degenerate_positive,!events,!source,!exponent,"
-      "!exponent_error");
-  table.show({{"catalogue", "label"},
-              {"magnitudes", "events"},
-              {"complete from", "completeness"},
-              {"by", "source"},
-              {"maximum curvature", "maximum_curvature"},
-              {"used for b", "n"},
-              {"b", "b"},
-              {"degenerate", "degenerate"},
-              {fmt::format("exponent of the sizes 1 + {} b", short_number(slope)), "exponent"},
-              {"used for b-positive", "n_positive"},
-              {"b-positive", "b_positive"},
-              {"degenerate", "degenerate_positive"}});
+  TableOf<MagnitudeCurve> table;
+  table.show("catalogue", &MagnitudeCurve::label);
+  table.show("magnitudes", [](auto &c) { return c.magnitudes.size(); });
+  table.data("model", &MagnitudeCurve::model);
+  table.column("completeness", "complete from", &MagnitudeCurve::completeness);
+  table.show("by", &MagnitudeCurve::completeness_text);
+  table.column("maximum_curvature", "maximum curvature", &MagnitudeCurve::curvature);
+  table.column("n", "used for b", [](auto &c) { return c.b.n; });
+  table.column("b", "b", [](auto &c) { return Measured{c.b.b, c.b.error}; });
+  table.show("degenerate", [](auto &c) { return c.b.why; });
+  table.show(fmt::format("exponent of the sizes 1 + {} b", short_number(slope)), [slope](auto &c) {
+    return Measured{1.0 + slope * c.b.b, slope * c.b.error};
+  });
+  table.column("n_positive", "used for b-positive", [](auto &c) { return c.positive.n; });
+  table.column("b_positive", "b-positive", [](auto &c) {
+    return Measured{c.positive.b, c.positive.error};
+  });
+  table.data("label", &MagnitudeCurve::label);
+  table.data("degenerate", [](auto &c) { return c.b.why; });
+  table.column("degenerate_positive", "degenerate", [](auto &c) { return c.positive.why; });
   table.comment(fmt::format("{}, bins of {} (0: none)", formula, width));
   table.comment(
       "b: Aki, in bins Tinti and Mulargia; errors: Shi and Bolt; b_positive: van der Elst");
-  for (const MagnitudeCurve &curve : curves)
-    table.row(curve.model, curve.completeness, curve.curvature, curve.b.n, curve.b.b, curve.b.error,
-              curve.positive.n, curve.positive.b, curve.positive.error, curve.label, curve.b.why,
-              curve.positive.why, curve.magnitudes.size(), curve.completeness_text,
-              1.0 + slope * curve.b.b, slope * curve.b.error);
-  return table;
+  for (const MagnitudeCurve &curve : curves) table.row(curve);
+  return std::move(table);
 }
 
 Figure magnitude_figure(const std::vector<MagnitudeCurve> &curves, double width) {

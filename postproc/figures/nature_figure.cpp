@@ -12,12 +12,12 @@ namespace LSM::postproc {
 
 namespace {
 
-struct Column {
+struct Compared {
   const char *name, *title;
   Measured NatureRow::*member;
 };
 
-constexpr std::array<Column, 10> columns = {
+constexpr std::array<Compared, 10> compared = {
     {{"distance", "distance", &NatureRow::distance},
      {"gamma", "γ", &NatureRow::gamma},
      {"variation", "variation", &NatureRow::variation},
@@ -39,14 +39,13 @@ std::string short_name_of(const NatureRow &row) {
 }  // namespace
 
 Table nature_table(const std::vector<NatureRow> &rows) {
-  std::string names = "label,threshold,catalogues,events";
-  std::vector<Shown> shown = {{"", "name"}, {"catalogues", "catalogues"}, {"events", "events"}};
-  for (const Column &column : columns) {
-    names += fmt::format(",{0},{0}_error", column.name);
-    shown.push_back({column.title, column.name, 3});
-  }
-  Table table(names + ",!name");
-  table.show(shown);
+  TableOf<NatureRow> table;
+  table.show("", name_of);
+  table.data("label", &NatureRow::label);
+  table.data("threshold", &NatureRow::threshold);
+  table.column("catalogues", "catalogues", &NatureRow::catalogues);
+  table.column("events", "events", &NatureRow::n);
+  for (const Compared &one : compared) table.column(one.name, one.title, one.member, 3);
   table.comment(
       "distance: Kolmogorov-Smirnov distance of the inter-event times over their mean to those of "
       "the first row, size_distance: of the magnitudes above the smallest, over their mean");
@@ -56,12 +55,8 @@ Table nature_table(const std::vector<NatureRow> &rows) {
   table.comment(
       "errors: from the scatter between catalogues of a label, or for one catalogue its own "
       "(distances: blocks of consecutive values resampled)");
-  for (const NatureRow &row : rows) {
-    table.add(row.label).add(row.threshold).add(row.catalogues).add(row.n);
-    for (const Column &column : columns) table.add(row.*column.member);
-    table.row(name_of(row));
-  }
-  return table;
+  for (const NatureRow &row : rows) table.row(row);
+  return std::move(table);
 }
 
 std::vector<Table1Row> nature_table1(const std::vector<NatureRow> &rows) {

@@ -19,32 +19,28 @@ void SeriesRegime::take(const RegimeMeter &meter) {
 }
 
 Table regime_table(const std::vector<SeriesRegime> &series) {
-  Table table(
-      "samples,events,regime,saw_tooth,stick_slip_above,drop_over_load,"
-      "time_in_events,mean_duration,why,!path,!model,!length,!times");
-  table.show({{"PE series", "path"},
-              {"model", "model"},
-              {"length or blocks", "length", 6},
-              {"times", "times"},
-              {"samples", "samples"},
-              {"events", "events"},
-              {"regime", "regime"},
-              {"saw-tooth", "saw_tooth"},
-              {"stick-slip above", "stick_slip_above", 3},
-              {"fastest fall / load", "drop_over_load"},
-              {"share of the time within events", "time_in_events"},
-              {"mean duration of events (model time)", "mean_duration"},
-              {"degenerate", "why"}});
-  for (const SeriesRegime &one : series) {
-    Regime r = one.regime.value_or(Regime());
-    if (!one.regime)
-      r.saw_tooth = r.above = r.drop_over_load = r.time_in_events = r.mean_duration = NAN;
-    table.row(one.samples, one.events, one.regime ? name_of(r) : "", r.saw_tooth, r.above,
-              r.drop_over_load, r.time_in_events, r.mean_duration, one.why, one.path,
-              model_name(one.model), one.length,
-              fmt::format("{} to {}", short_number(one.first, 6), short_number(one.last, 6)));
-  }
-  return table;
+  TableOf<SeriesRegime> table;
+  // A number of what is known of the regime.
+  const auto of = [](double Regime::*number) {
+    return [number](const SeriesRegime &s) { return s.regime ? *s.regime.*number : NAN; };
+  };
+  table.show("PE series", &SeriesRegime::path);
+  table.show("model", [](auto &s) { return model_name(s.model); });
+  table.show("length or blocks", &SeriesRegime::length, 6);
+  table.show("times", [](auto &s) {
+    return fmt::format("{} to {}", short_number(s.first, 6), short_number(s.last, 6));
+  });
+  table.column("samples", "samples", &SeriesRegime::samples);
+  table.column("events", "events", &SeriesRegime::events);
+  table.column("regime", "regime", [](auto &s) { return s.regime ? name_of(*s.regime) : ""; });
+  table.column("saw_tooth", "saw-tooth", of(&Regime::saw_tooth));
+  table.column("stick_slip_above", "stick-slip above", of(&Regime::above), 3);
+  table.column("drop_over_load", "fastest fall / load", of(&Regime::drop_over_load));
+  table.column("time_in_events", "share of the time within events", of(&Regime::time_in_events));
+  table.column("mean_duration", "mean duration of events (model time)", of(&Regime::mean_duration));
+  table.column("why", "degenerate", &SeriesRegime::why);
+  for (const SeriesRegime &one : series) table.row(one);
+  return std::move(table);
 }
 
 namespace {

@@ -114,39 +114,50 @@ const char *favoured(const Comparison &comparison) {
 }  // namespace
 
 Table size_fit_table(const std::vector<SizeFit> &fits) {
-  Table table(
-      "model,lo,hi,searched,n,exponent,standard_error,ks,p,p_error,rival,"
-      "ln_likelihood_ratio,normalised,rival_p,label,degenerate,name,!sizes,!favoured");
-  table.show({{"catalogue", "label"},
-              {"sizes", "sizes"},
-              {"events", "n"},
-              {"exponent", "exponent", 4, "standard_error"},
-              {"KS distance", "ks", 3},
-              {"p", "p"},
-              {"against", "rival"},
-              {"", "favoured"},
-              {"ln L ratio", "ln_likelihood_ratio", 3},
-              {"p of the comparison", "rival_p", 2},
-              {"degenerate", "degenerate"}});
+  struct Line {
+    const SizeFit &of;
+    const Comparison &rival;
+    const PowerLawFit &fit = of.fit;
+    double known(double number) const { return rival.degenerate ? NAN : number; }
+  };
+  TableOf<Line> table;
+  table.show("catalogue", [](auto &line) { return line.of.label; });
+  table.show("sizes", [](auto &line) { return range_text(line.fit); });
+  table.data("model", [](auto &line) { return line.of.model; });
+  table.data("lo", [](auto &line) { return line.fit.lo; });
+  table.data("hi", [](auto &line) { return line.fit.hi; });
+  table.data("searched", [](auto &line) { return line.fit.searched ? "yes" : "no"; });
+  table.column("n", "events", [](auto &line) { return line.fit.n; });
+  table.show("exponent", [](auto &l) { return Measured{l.fit.alpha, l.fit.standard_error}; });
+  table.data("exponent", [](auto &line) { return line.fit.alpha; });
+  table.data("standard_error", [](auto &line) { return line.fit.standard_error; });
+  table.column(
+      "ks", "KS distance", [](auto &line) { return line.fit.ks; }, 3);
+  table.column("p", "p", [](auto &line) { return line.of.p; });
+  table.column("rival", "against", [](auto &line) { return line.rival.rival; });
+  table.show("", [](auto &line) { return favoured(line.rival); });
+  table.column(
+      "ln_likelihood_ratio", "ln L ratio",
+      [](auto &line) { return line.known(line.rival.log_likelihood_ratio); }, 3);
+  table.data("normalised", [](auto &line) { return line.known(line.rival.normalised); });
+  table.column(
+      "rival_p", "p of the comparison", [](auto &line) { return line.known(line.rival.p); }, 2);
+  table.data("label", [](auto &line) { return line.of.label; });
+  table.column("degenerate", "degenerate", [](auto &line) { return line.rival.why; });
+  table.data("name", [](auto &line) { return name_of(line.fit); });
   table.comment(
       "density C s^-exponent on [lo, hi] by maximum likelihood, sizes in model energy units");
   if (std::any_of(fits.begin(), fits.end(),
                   [](const SizeFit &fit) { return !fit.comparisons.empty(); }))
     table.comment("one line per rival; ln_likelihood_ratio > 0 favours the power law");
   for (const SizeFit &fit : fits) {
-    const PowerLawFit &law = fit.fit;
     Comparison none;
     none.degenerate = true;
-    none.why = law.why;
-    for (const Comparison &c : fit.comparisons.empty() ? std::vector{none} : fit.comparisons) {
-      const double known = c.degenerate ? NAN : 1.0;
-      table.row(fit.model, law.lo, law.hi, law.searched ? "yes" : "no", law.n, law.alpha,
-                law.standard_error, law.ks, fit.p, c.rival, known * c.log_likelihood_ratio,
-                known * c.normalised, known * c.p, fit.label, c.why, name_of(law), range_text(law),
-                favoured(c));
-    }
+    none.why = fit.fit.why;
+    for (const Comparison &c : fit.comparisons.empty() ? std::vector{none} : fit.comparisons)
+      table.row({fit, c});
   }
-  return table;
+  return std::move(table);
 }
 
 std::vector<std::string> completeness_notes(const std::vector<SizeFit> &fits) {
@@ -274,16 +285,31 @@ std::string scaling_text(const Scaling &scaling) {
 }
 
 Table scaling_table(const std::vector<Scaling> &scalings) {
-  Table table(
-      "curve,model,length,s_star,error,events,error_independent,block,blocks,label,!degenerate");
-  table.show({{"catalogue", "label"},
-              {"length L", "length", 6},
-              {"events", "events"},
-              {"s* (model energy)", "s_star", 4, "error"},
-              {"error if events were independent", "error_independent", 2},
-              {"blocks", "blocks"},
-              {"their length (model time)", "block", 3},
-              {"degenerate", "degenerate"}});
+  struct Line {
+    std::int64_t curve;
+    const std::string &label, &model;
+    const SizePoint &point;
+  };
+  TableOf<Line> table;
+  table.show("catalogue", [](auto &line) { return line.label; });
+  table.data("curve", [](auto &line) { return line.curve; });
+  table.data("model", [](auto &line) { return line.model; });
+  table.column(
+      "length", "length L", [](auto &line) { return line.point.length; }, 6);
+  table.show("events", [](auto &line) { return line.point.n; });
+  table.show("s* (model energy)", [](auto &l) { return Measured{l.point.s_star, l.point.error}; });
+  table.data("s_star", [](auto &line) { return line.point.s_star; });
+  table.data("error", [](auto &line) { return line.point.error; });
+  table.data("events", [](auto &line) { return line.point.n; });
+  table.column(
+      "error_independent", "error if events were independent",
+      [](auto &line) { return line.point.error_independent; }, 2);
+  table.show("blocks", [](auto &line) { return line.point.blocks; });
+  table.column(
+      "block", "their length (model time)", [](auto &line) { return line.point.block; }, 3);
+  table.data("blocks", [](auto &line) { return line.point.blocks; });
+  table.data("label", [](auto &line) { return line.label; });
+  table.show("degenerate", [](auto &line) { return line.point.why; });
   table.comment("characteristic size <s^2>/<s> in model energy units; errors: bootstrap");
   table.comment(
       "block: length of the blocks of the catalogue that are resampled, model time; 0: single "
@@ -291,13 +317,10 @@ Table scaling_table(const std::vector<Scaling> &scalings) {
   std::int64_t number = 0;
   for (const Scaling &scaling : scalings) {
     ++number;
-    for (std::size_t i = 0; i < scaling.points.size(); ++i) {
-      const SizePoint &point = scaling.points[i];
-      table.row(number, scaling.model, point.length, point.s_star, point.error, point.n,
-                point.error_independent, point.block, point.blocks, scaling.labels[i], point.why);
-    }
+    for (std::size_t i = 0; i < scaling.points.size(); ++i)
+      table.row({number, scaling.labels[i], scaling.model, scaling.points[i]});
   }
-  return table;
+  return std::move(table);
 }
 
 static void to_json(json &out, const Saturation &end) {

@@ -39,10 +39,7 @@ std::string csv_field(const std::string &text) {
   return quoted + '"';
 }
 
-std::string plain(const std::variant<double, std::int64_t, std::string> &cell) {
-  const auto *const text = std::get_if<std::string>(&cell);
-  return text ? *text : text_io::number(std::get<std::int64_t>(cell));
-}
+std::string csv_field(const Measured &number) { return csv_field(number.value); }
 
 /// Characters as they are shown, each in one column of a terminal.
 std::size_t width_of(const std::string &text) {
@@ -126,10 +123,19 @@ void take_headings(Rows &rows, std::vector<std::string> &headings) {
 
 }  // namespace
 
-Table::Table(std::string_view columns) {
-  std::vector<std::string_view> names;
-  text_io::split(columns, names);
-  columns_.assign(names.begin(), names.end());
+Table::Table(const std::vector<std::string> &names) {
+  for (const std::string &name : names) columns_.push_back({name, {}});
+}
+
+Table::Table(std::string_view names) {
+  std::vector<std::string_view> fields;
+  text_io::split(names, fields);
+  for (const std::string_view name : fields) columns_.push_back({std::string(name), {}});
+}
+
+Table &Table::add(const Measured &number) {
+  if (columns_[cells_.size() % columns_.size()].measured) return put(number);
+  return put(number.value).put(number.error);
 }
 
 void Table::comment(std::string_view text) {
@@ -148,8 +154,11 @@ void Table::end_row() {
 
 std::string Table::column_line() const {
   std::string out;
-  for (std::size_t k = 0; k < columns_.size(); ++k)
-    if (!for_people(k)) out += (out.empty() ? "" : ",") + csv_field(columns_[k]);
+  for (const Column &column : columns_) {
+    if (column.name.empty()) continue;
+    out += (out.empty() ? "" : ",") + csv_field(column.name);
+    if (column.measured) out += "," + csv_field(column.name + "_error");
+  }
   return out;
 }
 
@@ -169,9 +178,13 @@ std::string Table::csv() const {
   std::string separator;
   for (std::size_t k = 0; k < cells_.size(); ++k) {
     if (k % columns_.size() == 0) separator = "\n";
-    if (for_people(k % columns_.size())) continue;
+    if (columns_[k % columns_.size()].name.empty()) continue;
     out += separator;
     out += std::visit([](const auto &value) { return csv_field(value); }, cells_[k]);
+    if (const auto *number = std::get_if<Measured>(&cells_[k]))
+      out += ',' + csv_field(number->error);
+    else if (columns_[k % columns_.size()].measured)
+      out += ',';
     separator = ",";
   }
   return out + '\n';
@@ -180,37 +193,50 @@ std::string Table::csv() const {
 nlohmann::ordered_json Table::json() const {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   for (std::size_t k = 0; k < cells_.size(); ++k) {
-    const std::size_t column = k % columns_.size();
-    if (column == 0) rows.push_back(nlohmann::ordered_json::object());
-    if (for_people(column)) continue;
-    std::visit([&](const auto &value) { rows.back()[columns_[column]] = value; }, cells_[k]);
+    if (k % columns_.size() == 0) rows.push_back(nlohmann::ordered_json::object());
+    const std::string &name = columns_[k % columns_.size()].name;
+    if (name.empty()) continue;
+    nlohmann::ordered_json &row = rows.back();
+    const auto *const measured = std::get_if<Measured>(&cells_[k]);
+    if (measured)
+      row[name] = measured->value;
+    else if (const auto *text = std::get_if<std::string>(&cells_[k]))
+      row[name] = *text;
+    else if (const auto *count = std::get_if<std::int64_t>(&cells_[k]))
+      row[name] = *count;
+    else
+      row[name] = std::get<double>(cells_[k]);
+    if (columns_[k % columns_.size()].measured)
+      row[name + "_error"] = measured ? measured->error : NAN;
   }
   return rows;
 }
 
+bool Table::for_people() const {
+  return std::any_of(columns_.begin(), columns_.end(),
+                     [](const Column &column) { return column.heading.has_value(); });
+}
+
 std::vector<std::vector<std::string>> Table::shown_columns(std::string_view plus_minus) const {
-  const auto place_of = [this](const std::string &name) {
-    const auto found = std::find_if(
-        columns_.begin(), columns_.end(),
-        [&](const std::string &column) { return column == name || column == "!" + name; });
-    return static_cast<std::size_t>(found - columns_.begin());
-  };
+  const bool chosen = for_people();
   std::vector<std::vector<std::string>> out;
-  std::vector<Shown> all;
-  for (const std::string &column : columns_) all.push_back({column, column, 4, ""});
-  for (const Shown &shown : shown_.empty() ? all : shown_) {
-    const std::size_t place = place_of(shown.column), error = place_of(shown.error);
-    if (place == columns_.size()) throw std::logic_error("table: no column " + shown.column);
-    std::vector<std::string> column = {shown.heading};
-    bool content = shown_.empty() || out.empty();
-    for (std::size_t first = 0; first < cells_.size(); first += columns_.size()) {
-      const Cell *const cells = &cells_[first];
-      const double *const number = std::get_if<double>(cells + place);
-      const double *const scatter =
-          error < columns_.size() ? std::get_if<double>(cells + error) : nullptr;
-      column.push_back(!number                     ? plain(cells[place])
-                       : scatter && *scatter > 0.0 ? with_error(*number, *scatter, plus_minus)
-                                                   : short_number(*number, shown.digits));
+  for (std::size_t place = 0; place < columns_.size(); ++place) {
+    const Column &shown = columns_[place];
+    if (chosen && !shown.heading) continue;
+    std::vector<std::string> column = {shown.heading.value_or(shown.name)};
+    bool content = !chosen || out.empty();
+    for (std::size_t k = place; k < cells_.size(); k += columns_.size()) {
+      if (const auto *text = std::get_if<std::string>(&cells_[k]))
+        column.push_back(*text);
+      else if (const auto *count = std::get_if<std::int64_t>(&cells_[k]))
+        column.push_back(text_io::number(*count));
+      else if (const auto *number = std::get_if<double>(&cells_[k]))
+        column.push_back(short_number(*number, shown.digits));
+      else {
+        const auto &[value, error] = std::get<Measured>(cells_[k]);
+        column.push_back(error > 0.0 ? with_error(value, error, plus_minus)
+                                     : short_number(value, shown.digits));
+      }
       content = content || !(column.back().empty() || column.back() == "-");
     }
     if (content) out.push_back(std::move(column));
@@ -219,7 +245,7 @@ std::vector<std::vector<std::string>> Table::shown_columns(std::string_view plus
 }
 
 std::string Table::text() const {
-  if (rows_ == 0 || shown_.empty()) return {};
+  if (rows_ == 0 || !for_people()) return {};
   std::string out;
   constexpr std::size_t most = 160, of_text = 100;
   for (const std::string &comment : comments_) out += wrapped(comment, of_text);

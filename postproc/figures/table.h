@@ -6,6 +6,8 @@
 #define LSM_POSTPROC_TABLE_H
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -22,23 +24,24 @@ namespace LSM::postproc {
 /// Text with what is no UTF-8 in it replaced by U+FFFD: labels and names of files may be anything.
 std::string valid_utf8(std::string_view text);
 
-/// A column as people see it.
-struct Shown {
-  std::string heading, column;
-  int digits = 4;                         ///< significant ones, of numbers without an error
-  std::string error = column + "_error";  ///< column of its standard errors, if there is one
-};
+using Cell = std::variant<double, std::int64_t, std::string, Measured>;
 
-/// Numbers and texts in named columns.
+struct Column {
+  std::string name;                    ///< for programs; empty: only for people
+  std::optional<std::string> heading;  ///< for people; none: only for programs
+  int digits = 4;                      ///< significant ones for people, of numbers without an error
+  bool measured = false;               ///< one column for people, NAME and NAME_error for programs
+};
+using Columns = std::vector<Column>;
+
+/// Numbers and texts in columns.
 class Table {
  public:
-  /// Columns whose names begin with '!' are for people only.
-  explicit Table(std::vector<std::string> columns) : columns_(std::move(columns)) {}
-  explicit Table(std::string_view columns);  ///< names separated by commas
+  /// Columns for programs. Nothing of them is printed, and a page has them as they are.
+  explicit Table(const std::vector<std::string> &names);
+  explicit Table(std::string_view names);  ///< separated by commas
+  explicit Table(std::vector<Column> columns) : columns_(std::move(columns)) {}
 
-  /// Chooses what people see of it, in which order. Without that nothing is printed, and a page has
-  /// all columns.
-  void show(std::vector<Shown> columns) { shown_ = std::move(columns); }
   void comment(std::string_view text);  ///< a line above the table
   void comment(const std::vector<std::string> &lines) {
     for (const std::string &line : lines) comment(line);
@@ -46,7 +49,8 @@ class Table {
   Table &add(double value) { return put(value); }
   Table &add(std::int64_t value) { return put(value); }
   Table &add(std::string_view text) { return put(valid_utf8(text)); }
-  Table &add(const Measured &number) { return put(number.value).put(number.error); }
+  /// One cell of a column of measured numbers, else the columns of the number and of its error.
+  Table &add(const Measured &number);
   /// The columns bin_lo, bin_hi, centre, count, density and error.
   Table &add(const LogBin &bin) {
     return put(bin.lo).put(bin.hi).put(bin.centre).put(bin.count).put(bin.density).put(bin.error);
@@ -79,25 +83,69 @@ class Table {
   /// The CSV, see write_file(). \throws FileError
   void write(const std::string &path) const;
 
- private:
-  using Cell = std::variant<double, std::int64_t, std::string>;
-
+ protected:
   template <class Content>
   Table &put(Content &&cell) {
     cells_.emplace_back(std::forward<Content>(cell));
     return *this;
   }
+  std::vector<Column> columns_;
+
+ private:
   /// The line of column names of the CSV.
   std::string column_line() const;
-  bool for_people(std::size_t column) const { return columns_[column][0] == '!'; }
+  /// Whether columns were chosen for people.
+  bool for_people() const;
   /// What people see, column by column, each with its heading first; but for the first one, those
   /// that were chosen and hold nothing are left out.
   std::vector<std::vector<std::string>> shown_columns(std::string_view plus_minus) const;
 
-  std::vector<std::string> comments_, columns_;
-  std::vector<Shown> shown_;
+  std::vector<std::string> comments_;
   std::vector<Cell> cells_;  ///< row by row
   std::int64_t rows_ = 0;
+};
+
+/// A table of what is known of things: each column says how its cells are made of a thing, by a
+/// function or a member. Columns stand in the order in which they are declared.
+template <class Thing>
+class TableOf : public Table {
+ public:
+  TableOf() : Table(std::vector<std::string>()) {}
+
+  template <class Make>
+  void column(std::string name, std::string heading, const Make &make, int digits = 4,
+              bool measured = false) {
+    declare({std::move(name), std::move(heading), digits, measured}, make);
+  }
+  /// A column for programs only.
+  template <class Make>
+  void data(std::string name, const Make &make) {
+    declare({std::move(name), {}}, make);
+  }
+  /// A column for people only.
+  template <class Make>
+  void show(std::string heading, const Make &make, int digits = 4) {
+    declare({{}, std::move(heading), digits}, make);
+  }
+  void row(const Thing &thing) {
+    for (const auto &add_cell : add_cells_) add_cell(*this, thing);
+    end_row();
+  }
+
+ private:
+  template <class Make>
+  void declare(Column column, const Make &make) {
+    using Made = std::decay_t<std::invoke_result_t<Make, const Thing &>>;
+    column.measured = column.measured || std::is_same_v<Made, Measured>;
+    columns_.push_back(std::move(column));
+    add_cells_.push_back([make](TableOf &table, const Thing &thing) {
+      if constexpr (std::is_same_v<Made, Cell>)
+        table.put(std::invoke(make, thing));
+      else
+        table.add(std::invoke(make, thing));
+    });
+  }
+  std::vector<std::function<void(TableOf &, const Thing &)>> add_cells_;
 };
 
 /// Text with the characters that HTML reserves replaced.
