@@ -21,25 +21,6 @@ namespace LSM::postproc {
 
 namespace {
 
-/// Adds --from or --to: a number is a model time, a date that of earthquakes.
-void add_time(OptionGroup group, const char *option, double &time, double &day,
-              const std::string &help) {
-  const auto read = [option, &time, &day](const std::vector<std::string> &texts) {
-    for (const std::string &text : texts) {
-      const std::optional<double> date = parse_date(text);
-      if (date)
-        day = *date;
-      else if (!text_io::parse(text, time))
-        throw std::invalid_argument(fmt::format(
-            "{} {}: expected a model time, or for earthquakes a date such as 1984-01-01", option,
-            text_io::in_quotes(text)));
-    }
-  };
-  group.call<std::vector<std::string>>(option, read, help + "; may be given once per catalogue",
-                                       one_each(), kind("TIME"),
-                                       shown(time < 0.0 ? "start" : "end"));
-}
-
 /// Model time in the unit of the times asked for.
 double time_unit(const CatalogueInfo &info, const std::string &path, bool displacement) {
   if (!displacement) return 1.0;
@@ -58,70 +39,7 @@ std::string label_of(const EventTable &table) {
                                    : fmt::format("block-slider, N = {}", length);
 }
 
-std::string threshold_help(const std::string &what, const std::string &more) {
-  return "Smallest size of " + what + " (model energy; M2.5: magnitude 2.5)" + more +
-         "; without it 1e-4, as in the paper's Figs. 12 and 13 (for times it states none), or "
-         "the largest 'completeness' in the headers of a model if that is larger †";
-}
-
 }  // namespace
-
-void CatalogueOptions::add_to(CLI::App *command) {
-  OptionGroup group(command, "Catalogues");
-  group.add("catalogues", paths,
-            "Catalogue files, one curve each: of either model, as written by compute lsm/events, "
-            "slider_cli or postproc pick; or of earthquakes (ComCat CSV, QuakeML, ZMAP, SCEDC), "
-            "with times in days since 1970 UTC and sizes 10^(1.5 M)",
-            required(), kind("FILE"), shown(""));
-  group.add("--label", labels,
-            "Name of a curve, once per catalogue and in their order (default: the model and its "
-            "length or number of blocks, from the header)",
-            kind("TEXT"), shown(""));
-  group.flag("--lenient", lenient,
-             "Skip lines that cannot be read (truncated last line, missing columns, NaN, events "
-             "out of order), count them and report this on standard error; without it the first "
-             "of them is an error. A wrong version or header is always an error");
-  CLI::Option *const smallest = group.add(
-      "--min-size", min_size, "Leave out events smaller than this (energy; M2.5: magnitude 2.5)",
-      size_or_magnitude(), finite());
-  group.call<double>(
-      "--min-magnitude", [this](double magnitude) { min_size = size_of_magnitude(magnitude); },
-      "The same, as a magnitude", shown(""), excludes(smallest));
-  add_time(group, "--from", from_time, from_day,
-           "Leave out events that start before this time, e.g. the warm-up (model time; for "
-           "earthquakes an ISO 8601 date, such as 1984-01-01 or 1984-01-01T12:00Z)");
-  add_time(group, "--to", to_time, to_day,
-           "Leave out events that start at this time or later (as --from)");
-  group.add(
-      "--format", format,
-      "Format of the files: detect (by the first bytes: '<' is quakeml, '# lsm-catalogue' "
-      "models, column names with time and mag csv, YYYY/MM/DD scedc, nine numbers zmap), or one "
-      "of these. Only events of the type earthquake are used; blasts and others are counted on "
-      "standard error",
-      among({"detect", "models", "csv", "quakeml", "zmap", "scedc"}));
-  group.add("--region", regions,
-            "Only earthquakes within W/E/S/N (degrees); may be repeated, for one curve each",
-            one_each(), kind("W/E/S/N"), shown(""));
-}
-
-void CatalogueOptions::add_displacement(CLI::App *command) {
-  OptionGroup(command, "Catalogues")
-      .flag("--displacement", displacement,
-            "Times as displacements of the driving plate, model time times the 'velocity' in the "
-            "header, those of --from and --to included: for catalogues of different driving "
-            "velocities †");
-}
-
-void add_threshold(OptionGroup group, Threshold &threshold, const std::string &what) {
-  group.call<double>(
-      "--threshold", [&threshold](double size) { threshold = Threshold(size); },
-      threshold_help(what, ""), size_or_magnitude(), zero_or_more(), shown("1e-4"));
-}
-
-void add_thresholds(OptionGroup group, std::vector<double> &thresholds, const std::string &what) {
-  group.add("--threshold", thresholds, threshold_help(what, ", several allowed"), one_each(),
-            size_or_magnitude(), zero_or_more(), shown("1e-4"));
-}
 
 void set_parameter(text_io::Parameters &parameters, const std::string &key,
                    const std::string &value) {
@@ -131,17 +49,6 @@ void set_parameter(text_io::Parameters &parameters, const std::string &key,
       return;
     }
   parameters.emplace_back(key, value);
-}
-
-void check(const CatalogueOptions &options) {
-  if (!(options.from_time < options.to_time))
-    throw std::invalid_argument(fmt::format("--from {} --to {}: expected --from before --to",
-                                            options.from_time, options.to_time));
-  if (options.regions.empty())
-    expect_each("--label", options.labels.size(), "catalogue", options.paths.size());
-  for (const std::string &region : options.regions) parse_region(region);
-  if (!(options.from_day < options.to_day))
-    throw std::invalid_argument("--from is no earlier date than --to, expected --from before --to");
 }
 
 namespace {
@@ -325,20 +232,6 @@ EventTable load_catalogue(const std::string &path, const CatalogueOptions &optio
 
 void state_repairs(const EventTable &table) {
   for (const std::string &repair : table.repairs) fmt::print(stderr, "postproc: {}\n", repair);
-}
-
-void check_kinds(const CatalogueOptions &options, std::size_t quakes, std::size_t all) {
-  if (quakes == 0 && (std::isfinite(options.from_day) || std::isfinite(options.to_day)))
-    throw std::invalid_argument(
-        "--from or --to is a date, but no catalogue is of earthquakes, expected a model time");
-  if (quakes == 0 && !options.regions.empty())
-    throw std::invalid_argument("--region, but no catalogue is of earthquakes");
-  if (quakes == all && (std::isfinite(options.from_time) || std::isfinite(options.to_time)))
-    throw std::invalid_argument(
-        "--from or --to is a number, but all catalogues are of earthquakes, expected a date such "
-        "as "
-        "1984-01-01");
-  expect_each("--label", options.labels.size(), "catalogue and region", all);
 }
 
 void for_each_catalogue(const CatalogueOptions &options, const UseCatalogue &use) {

@@ -5,9 +5,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cerrno>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -97,25 +95,6 @@ void run_gnuplot(const fs::path &folder, const std::vector<std::string> &argumen
   throw PlotError("gnuplot failed: " + gnuplot_message(messages));
 }
 
-/// Ticks from the last one below lo to the first one above hi: as few digits, times powers of ten,
-/// as give four of them.
-std::vector<double> ticks_around(double lo, double hi) {
-  std::vector<double> ticks;
-  for (const auto &digits :
-       {std::vector<double>{1, 2, 5}, std::vector<double>{1, 2, 3, 4, 5, 7},
-        std::vector<double>{1, 1.2, 1.4, 1.6, 1.8, 2, 2.5, 3, 3.5, 4, 5, 6, 7, 8, 9}}) {
-    ticks = {0.0};
-    for (int n = static_cast<int>(std::floor(std::log10(lo))) - 1; ticks.back() <= hi; ++n)
-      for (const double digit : digits) {
-        const double tick = digit * std::pow(10.0, n);
-        if (tick < lo) ticks.clear();
-        if (ticks.empty() || ticks.back() <= hi) ticks.push_back(tick);
-      }
-    if (ticks.size() >= 4) break;
-  }
-  return ticks;
-}
-
 std::string script_head(const std::string &name) {
   return fmt::format(
       "# Draws {0}.png and {0}.svg from\n# {0}.csv: run `gnuplot ./{0}.gp` in this folder.\n",
@@ -155,24 +134,6 @@ void check_name(const fs::path &base) {
   for (const char c : name)
     if (static_cast<unsigned char>(c) < 0x20)
       throw FileError("--output has a line break or another control character in it");
-}
-
-/// gnuplot runs what stands in backquotes or follows a pipe, ends strings at quotes, takes two
-/// quotes at the beginning of a string for an empty one, and counts braces: all but what is
-/// harmless is written as octal numbers.
-std::string escape(std::string_view text, bool markup) {
-  // Our own markup is not escaped.
-  const std::string_view harmless = markup ? " .,:;()=+-/*%<>!?" : " .,:;()=+-/*%<>!?_^{}";
-  std::string out = "\"";
-  bool number = false;  // continues with the next digit, however long it is
-  for (const unsigned char c : valid_utf8(text)) {
-    const unsigned char code = c < 0x20 ? ' ' : c;
-    if (markup && std::string_view("\\{}^_@&~").find(c) != std::string_view::npos) out += "\\134";
-    number = !(code >= 0x80 || std::isalpha(code) || (std::isdigit(code) && !number) ||
-               harmless.find(static_cast<char>(code)) != std::string_view::npos);
-    out += number ? fmt::format("\\{:03o}", code) : std::string(1, static_cast<char>(code));
-  }
-  return out + "\"";
 }
 
 std::string file_text(const fs::path &path) {
@@ -215,97 +176,6 @@ void PictureOptions::check(const std::vector<std::string> &inputs,
     outputs.push_back({"--output", output + text});
   for (const std::string &text : more) outputs.push_back({"--output", output + text});
   check_outputs(outputs, inputs);
-}
-
-std::string quote(std::string_view text) { return escape(text, true); }
-
-std::string quote_plain(std::string_view text) { return escape(text, false); }
-
-std::string axis(std::string_view name, std::string_view label, bool logarithmic, double lo,
-                 double hi) {
-  std::string out = fmt::format("set {}label {}\n", name, quote_plain(label));
-  const bool both = std::isfinite(lo) && std::isfinite(hi);
-  if (logarithmic) {
-    out += fmt::format("set logscale {}\n", name);
-    if (both && hi < 30.0 * lo) {
-      // Too short for powers of ten alone.
-      const std::vector<double> ticks = ticks_around(lo, hi);
-      lo = ticks.front();
-      hi = ticks.back();
-      std::string list;
-      for (const double tick : ticks)
-        list += fmt::format("{}\"{:g}\" {:g}", list.empty() ? "" : ", ", tick, tick);
-      out += fmt::format("set {}tics ({})\n", name, list);
-    } else {
-      // A hair inside, so that an end on a decade but for rounding stays there.
-      if (std::isfinite(lo)) lo = std::pow(10.0, std::floor(std::log10(lo) + 1e-9));
-      if (std::isfinite(hi)) hi = std::pow(10.0, std::ceil(std::log10(hi) - 1e-9));
-      // A label on every decade, or on every second one where they would touch.
-      const bool sparse = both && std::log10(hi / lo) > 12.5;
-      out += fmt::format("set format {0} \"10^{{%L}}\"\nset {0}tics {1}\nset m{0}tics {2}\n", name,
-                         sparse ? 100 : 10, sparse ? 2 : 10);
-    }
-  }
-  const auto end = [](double value) {
-    return std::isfinite(value) ? text_io::number(value) : std::string("*");
-  };
-  if (std::isfinite(lo) || std::isfinite(hi))
-    out += fmt::format("set {}range [{}:{}]\n", name, end(lo), end(hi));
-  return out;
-}
-
-std::string panel(double left, double right, double bottom, double top) {
-  return fmt::format(
-      "unset logscale\nset format '%g'\nset xtics autofreq\nset ytics autofreq\n"
-      "unset mxtics\nunset mytics\nset autoscale\nset title ''\n"
-      "set lmargin at screen {}\nset rmargin at screen {}\n"
-      "set bmargin at screen {}\nset tmargin at screen {}\n",
-      left, right, bottom, top);
-}
-
-Curves::Curves(std::string_view x, std::string_view condition)
-    : functions_(fmt::format("row(k) = $1 == k{}{} ? {} : NaN\n", condition.empty() ? "" : " && ",
-                             condition, x)) {}
-
-void Curves::add(Layer layer, const std::string &element, const std::string &title,
-                 std::string (*quoted)(std::string_view)) {
-  layers_[layer].push_back(element + (title.empty() ? " notitle" : " title " + quoted(title)));
-  if (!title.empty()) titles_.push_back(title);
-}
-
-void Curves::add_data(std::int64_t curve, int y, int error, const std::string &title) {
-  // gnuplot's own yerrorbars surround each point with white in an SVG. Logarithmic axes have no
-  // place for zero: the lower end of a bar is one decade down where the error reaches the value.
-  constexpr std::string_view low = "low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y\n";
-  if (functions_.find(low) == std::string::npos) functions_ += low;
-  add(data, fmt::format("table using (row({0})):(low(${1},${2})):(0):(${1}+${2}-low(${1},${2})) "
-                        "with vectors heads size screen 0.003,90 lt {0} dt 1 lw 0.8",
-                        curve, y, error));
-  add(data, fmt::format("table using (row({0})):{1} with points lt {0}", curve, y), title);
-}
-
-void Curves::add_law(double lo, double hi, const std::string &formula, const std::string &style,
-                     const std::string &title, std::string (*quoted)(std::string_view)) {
-  add(laws,
-      fmt::format("[{}:{}] '+' using 1:({}) with lines {}", text_io::number(lo),
-                  text_io::number(hi), formula, style),
-      title, quoted);
-}
-
-Figure Curves::figure(Table table, const std::string &axes, int width) const {
-  std::string elements;
-  for (const auto &layer : layers_)
-    for (const std::string &element : layer)
-      elements += (elements.empty() ? "plot " : ", \\\n     ") + element;
-  // Two columns where both fit: gnuplot assumes about 9.2 units per character, a sample and its
-  // gaps 60.
-  std::size_t longest = 0;
-  for (const std::string &title : titles_) longest = std::max(longest, title.size());
-  const std::size_t columns = 2 * (9.2 * static_cast<double>(longest) + 60.0) < width ? 2 : 1;
-  const auto rows = static_cast<int>((titles_.size() + columns - 1) / columns);
-  return {std::move(table),
-          axes + functions_ + "set samples 400\n" + elements + "\n",
-          {width, static_cast<int>(0.56 * width) + 23 * rows}};
 }
 
 void make(const Figure &figure, const PictureOptions &options) {
