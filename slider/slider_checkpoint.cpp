@@ -4,7 +4,6 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -50,17 +49,9 @@ using nlohmann::json;
 
 constexpr int version = 3;
 constexpr const char *version_key = "slider_cli checkpoint";
-// First bytes of version 1, a format of its own.
-constexpr const char *version_1 = "slider-checkpoint-1\n";
 
 std::uint32_t checksum(const std::vector<std::uint8_t> &bytes) {
   return static_cast<std::uint32_t>(crc32_z(0, bytes.data(), bytes.size()));
-}
-
-[[noreturn]] void refuse_version(const std::string &path, const std::string &found) {
-  throw std::runtime_error(path + ": checkpoint of version " + found + ", expected version " +
-                           std::to_string(version) +
-                           ": finish that run with the program that started it, or start anew");
 }
 
 void compare(const std::string &path, const std::vector<std::string> &found,
@@ -91,13 +82,15 @@ RunState read_checkpoint(const std::string &path, const std::vector<std::string>
   if (!in)
     throw std::runtime_error(path + ": cannot be read, expected a checkpoint to resume from");
   const std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  if (bytes.compare(0, std::strlen(version_1), version_1) == 0) refuse_version(path, "1");
   const std::runtime_error damaged(
       path + ": damaged checkpoint, or not one of slider_cli, expected a complete file");
   try {
     const json file = json::from_cbor(bytes);
     const int found_version = file.at(version_key).get<int>();
-    if (found_version != version) refuse_version(path, std::to_string(found_version));
+    if (found_version != version)
+      throw std::runtime_error(path + ": checkpoint of version " + std::to_string(found_version) +
+                               ", expected version " + std::to_string(version) +
+                               ": finish that run with the program that started it, or start anew");
     const std::vector<std::uint8_t> &packed = file.at("run").get_binary();
     if (file.at("crc32").get<std::uint32_t>() != checksum(packed)) throw damaged;
     const json run = json::from_cbor(packed);

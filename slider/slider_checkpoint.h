@@ -15,8 +15,8 @@
 
 namespace Slider {
 
-/// What a run has found so far.
-struct Found {
+/// Events of a run so far.
+struct EventCounts {
   LSM::PickerState picker;                     ///< with ruptures, only the sizes that were dropped
   std::int64_t events = 0, before_warmup = 0;  ///< in the catalogue; too early
   /// Drops of PE that slip does not explain, see is_by_plate()
@@ -25,7 +25,7 @@ struct Found {
 };
 
 /// A run between two steps.
-struct RunState : Found {
+struct RunState : EventCounts {
   ChainState chain;
   double slip_start = 0.0;      ///< sum of displacements when the present event began
   std::vector<double> u_start;  ///< displacements then

@@ -305,7 +305,7 @@ RunResult Run::go() {
   const std::int64_t interval = o_.checkpoint.empty() ? 0 : o_.checkpoint_interval;
   // Steps between checks of signals and the clock.
   const std::int64_t look = std::max<std::int64_t>(16, 200000 / (o_.parameters.blocks + 100));
-  Clock::time_point told = begin_;
+  Clock::time_point shown = begin_;
   while (chain_.step() < o_.steps && result_.interrupted == 0) {
     std::int64_t limit = o_.steps;
     if (interval > 0) limit = std::min(limit, (chain_.step() / interval + 1) * interval);
@@ -319,14 +319,14 @@ RunResult Run::go() {
     if (interval > 0 && chain_.step() >= limit) keep_state();
     announce();
     if (o_.stop) result_.interrupted = o_.stop->load(std::memory_order_relaxed);
-    if (!o_.progress || Clock::now() - told < std::chrono::seconds(1)) continue;
-    told = Clock::now();
+    if (!o_.progress || Clock::now() - shown < std::chrono::seconds(1)) continue;
+    shown = Clock::now();
     std::fprintf(stderr, "step %lld of %lld, %lld events\n", static_cast<long long>(chain_.step()),
                  static_cast<long long>(o_.steps), static_cast<long long>(state_.events));
   }
   keep_state();
   outputs_.close();
-  static_cast<Found &>(result_) = state_;
+  static_cast<EventCounts &>(result_) = state_;
   result_.steps = chain_.step();
   result_.moved = chain_.moved();
   result_.pe = chain_.pe();

@@ -69,7 +69,7 @@ inline bool is_by_plate(const LSM::Event &drop, double strongest) {
   return drop.size > strongest * drop.slip_moment;
 }
 
-struct RunResult : Found {
+struct RunResult : EventCounts {
   std::int64_t first_step = 0, steps = 0;  ///< from where to where
   std::int64_t moved = 0;                  ///< block-steps with motion
   std::int64_t jumped = 0;                 ///< quiet steps jumped over

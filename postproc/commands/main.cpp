@@ -64,22 +64,22 @@ class Progress {
   void operator()(int done, int count) {
     const auto now = Clock::now();
     if (done == 1) {
-      begin_ = told_ = now;
+      begin_ = printed_ = now;
       shown_ = false;
     }
     if (done == count && shown_) {
       fmt::print(stderr, "\r\033[K");
     } else if (now - begin_ > std::chrono::seconds(1) &&
-               now - told_ > std::chrono::milliseconds(200)) {
+               now - printed_ > std::chrono::milliseconds(200)) {
       fmt::print(stderr, "\rMonte Carlo replica {} of {}", done, count);
       shown_ = true;
-      told_ = now;
+      printed_ = now;
     }
   }
 
  private:
   using Clock = std::chrono::steady_clock;
-  Clock::time_point begin_, told_;
+  Clock::time_point begin_, printed_;
   bool shown_ = false;
 };
 

@@ -79,12 +79,12 @@ def test_resume(slider, ran):
     Path("part.pe").write_bytes(series)
     ran(part, "--resume")
     assert Path("part.csv").read_bytes() == kept, "the torn line was not cut"
-    # A torn checkpoint, one with a wrong byte, one of an older program, none.
+    # A torn checkpoint, one with a wrong byte, one of another version (as CBOR), none.
     whole = Path("part.chk").read_bytes()
     middle = len(whole) // 2
     for name, damaged, said in (("short.chk", whole[:500], "short.chk: damaged"),
                                 ("flipped.chk", whole[:middle] + bytes([whole[middle] ^ 4]) + whole[middle + 1:], "flipped.chk: damaged"),
-                                ("old.chk", b"slider-checkpoint-1\n0123456789abcdef",
+                                ("old.chk", b"\xa1\x75slider_cli checkpoint\x01",
                                  "^slider_cli: old.chk: checkpoint of version 1, expected version [2-9]: finish that run with the program "
                                  "that started it, or start anew$")):
         Path(name).write_bytes(damaged)
