@@ -79,7 +79,7 @@ def test_stick_slip(lmp, postproc):
         return [re.search(f'"{key}": "?([a-z0-9.e+-]+)', said)[1] for key in ("regime", "saw_tooth", "time_in_events")]
 
     word, saw_tooth, in_events = regime("default")
-    # Seed 1 has 6.6 and 0.26.
+    # Seed 1 has 54 and 0.07.
     assert word == "stick-slip" and float(saw_tooth) > 5 and float(in_events) < 0.3
     # A disc for which the time step is too large oscillates from step to step, each time an event.
     _, events = read_catalogue("default.catalogue.csv")
