@@ -63,7 +63,7 @@ for part; do
       "$postproc" histograms first.catalogue.csv --guide=-1.07:1e-4:0.1 -o sizes
       mpirun -np 2 "$lmp" -in "$root/inputs/fault_120.in" -var steps 480000 -var mus 0.8 -var prefix mus_0.8 </dev/null >out
       "$postproc" histograms first.catalogue.csv mus_0.8.catalogue.csv --label "mus 0.6" --label "mus 0.8" -o compare
-      chromium --headless --no-sandbox --hide-scrollbars --window-size=1400,2345 --virtual-time-budget=20000 \
+      chromium --headless --no-sandbox --hide-scrollbars --window-size=1400,2760 --virtual-time-budget=20000 \
         --screenshot=page.png "file://$new/first.html" >out 2>&1
       "$postproc" rupture first.ruptures.csv --history first.slip.bin --from $((${time%.*} - 3000)) --to $((${time%.*} + 3000)) \
         --p-speed 2.08 --s-speed 1.06 -o rupture
