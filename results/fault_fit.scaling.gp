@@ -39,18 +39,18 @@ set key outside bottom center horizontal samplen 3 spacing 1.15 maxcols 2 width 
 set output base.".".format
 set xlabel "length of the fault"
 set logscale x
-set xtics ("100" 100, "200" 200, "500" 500, "1000" 1000)
-set xrange [100:1000]
+set xtics ("100" 100, "200" 200, "500" 500, "1000" 1000, "2000" 2000, "5000" 5000)
+set xrange [100:5000]
 set ylabel "characteristic size s* (energy)"
 set logscale y
-set ytics ("0.7" 0.7, "0.8" 0.8, "0.9" 0.9, "1" 1, "1.2" 1.2, "1.4" 1.4)
-set yrange [0.70000000000000007:1.3999999999999999]
+set ytics ("0.7" 0.7, "0.8" 0.8, "0.9" 0.9, "1" 1, "1.2" 1.2, "1.4" 1.4, "1.6" 1.6, "1.8" 1.8)
+set yrange [0.70000000000000007:1.8]
 row(k) = $1 == k ? $3 : NaN
 low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y
 set samples 400
 plot table using (row(1)):(low($4,$5)):(0):($4+$5-low($4,$5)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \
      table using (row(1)):4 with points lt 1 title "fault: s*", \
-     [102:564.70588235294122] '+' using 1:(0.23393644899675101*$1**(0.28041075042401614)) with lines lt 1 title "A L^D with D = 0.28 ± 0.14", \
-     [102:564.70588235294122] '+' using 1:(1.007979662974358) with lines lt 8 dt 2 title "constant"
+     [102:2223.5294117647059] '+' using 1:(0.34622155892632123*$1**(0.1967814615089937)) with lines lt 1 title "A L^D with D = 0.197 ± 0.053", \
+     [102:2223.5294117647059] '+' using 1:(1.0505897818962149) with lines lt 8 dt 2 title "constant"
 unset output
 }

@@ -39,8 +39,8 @@ set key outside bottom center horizontal samplen 3 spacing 1.15 maxcols 2 width 
 set output base.".".format
 set xlabel "length of the fault"
 set logscale x
-set xtics ("100" 100, "200" 200, "500" 500, "1000" 1000)
-set xrange [100:1000]
+set xtics ("100" 100, "200" 200, "500" 500, "1000" 1000, "2000" 2000, "5000" 5000)
+set xrange [100:5000]
 set ylabel "characteristic size s* (energy)"
 set logscale y
 set ytics ("0.5" 0.5, "0.7" 0.7, "1" 1, "2" 2)
@@ -50,7 +50,7 @@ low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y
 set samples 400
 plot table using (row(1)):(low($4,$5)):(0):($4+$5-low($4,$5)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \
      table using (row(1)):4 with points lt 1 title "fault, ruptures: s*", \
-     [102:564.70588235294122] '+' using 1:(0.52709777745236364*$1**(0.081114842605564244)) with lines lt 1 title "A L^D with D = 0.08 ± 0.13", \
-     [102:564.70588235294122] '+' using 1:(0.80651404660132087) with lines lt 8 dt 2 title "constant"
+     [102:2223.5294117647059] '+' using 1:(0.82919248355727493*$1**(-0.013498688452069297)) with lines lt 1 title "A L^D with D = -0.013 ± 0.044", \
+     [102:2223.5294117647059] '+' using 1:(0.76609598325027572) with lines lt 8 dt 2 title "constant"
 unset output
 }

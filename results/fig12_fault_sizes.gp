@@ -7,10 +7,10 @@ if (!exists("formats")) formats = "png svg"
 do for [format in formats] {
 if (format eq "png") {
 point = 1.0
-set terminal pngcairo size 1800,1100 enhanced font "DejaVu Sans,26" linewidth 2 pointscale 2 background "#ffffff"
+set terminal pngcairo size 1800,1146 enhanced font "DejaVu Sans,26" linewidth 2 pointscale 2 background "#ffffff"
 } else {
 point = 0.65
-set terminal svg size 900,550 dynamic enhanced font "DejaVu Sans,13" background "#ffffff"
+set terminal svg size 900,573 dynamic enhanced font "DejaVu Sans,13" background "#ffffff"
 }
 
 set datafile separator comma
@@ -64,6 +64,14 @@ plot table using (row(1)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads
      table using (row(3)):8 with points lt 3 notitle, \
      table using (row(3)):8 with lines lt 3 lw 1.2 notitle, \
      keyentry with linespoints lt 3 title "fault, length 480 (1390 events)", \
+     table using (row(4)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 4 dt 1 lw 0.8 notitle, \
+     table using (row(4)):8 with points lt 4 notitle, \
+     table using (row(4)):8 with lines lt 4 lw 1.2 notitle, \
+     keyentry with linespoints lt 4 title "fault, length 945 (740 events)", \
+     table using (row(5)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 5 dt 1 lw 0.8 notitle, \
+     table using (row(5)):8 with points lt 5 notitle, \
+     table using (row(5)):8 with lines lt 5 lw 1.2 notitle, \
+     keyentry with linespoints lt 5 title "fault, length 1890 (460 events)", \
      [0.0001:0.10000000000000001] '+' using 1:(0.29111164450722254*$1**(-1.0700000000000001)) with lines lt 8 dt 2 lw 2.2 title "slope -1.07"
 unset output
 }
