@@ -7,10 +7,13 @@
 #include "input.h"
 #include "update.h"
 
+#include "files/text_io.h"
 #include "lsm_keyword_reader.h"
+#include "lsm_ranks.h"
 #include "lsm_script.h"
 
 #include <filesystem>
+#include <stdexcept>
 
 using namespace LAMMPS_NS;
 namespace fs = std::filesystem;
@@ -25,6 +28,8 @@ void LSMRun::command(int narg, char **arg)
   in.read_all({{"prefix", &prefix},
                {"every", &of_piece, LSM::Must::positive},
                {"after", &first},
+               {"earlier", LSM::Words{&earlier, {"keep", "refuse", "remove"}}},
+               {"unused", LSM::Action{1, [&] { unused.emplace_back(in.text()); }}},
                {"note", LSM::Action{1, [&] { noted.emplace_back(in.text()); }}}});
   in.require({"prefix", "every"});
 
@@ -35,6 +40,8 @@ void LSMRun::command(int narg, char **arg)
     error->all(FLERR, "lsm_run: steps = {}, but {} of them are done; give as many or more", steps,
                step - after);
 
+  if (earlier == REFUSE) refuse_earlier();
+
   // Each piece begins with the set-up of a run (exchange, order of the particles in memory, lists)
   // and ends with a restart file, so that a run that continues from it does what the uninterrupted
   // one did, to the last digit.
@@ -42,6 +49,9 @@ void LSMRun::command(int narg, char **arg)
     const bigint done = step - after;
     const bigint next = MIN(after + (done < 0 ? 0 : done / every + 1) * every, last);
     input->one(fmt::format("run {} upto post no", next));
+    // not before the files of the run are claimed: another run may still be writing them
+    if (earlier == REMOVE) remove_earlier();
+    earlier = KEEP;
     save(std::to_string(step));
     const bigint pieces = (step - after + every - 1) / every;
     if (pieces >= 2) remove(after + every * (pieces - 2));
@@ -65,6 +75,43 @@ void LSMRun::save(const std::string &name)
     settings.emplace_back(one, LSMScript::value_of(lmp, one, "lsm_run"));
   for (auto &one : LSMScript::listed(lmp, LSMScript::SAVED)) settings.push_back(std::move(one));
   LSMScript::save_restart(lmp, prefix + ".restart." + name, settings, false);
+}
+
+// restart files of this prefix, and files that this run does not write: they would seem to be its
+// own
+std::vector<std::string> LSMRun::earlier_files() const
+{
+  std::vector<std::string> found;
+  for (const std::string &file : unused)
+    if (LSM::text_io::holds_data(file)) found.push_back(file);
+  const fs::path base = prefix + ".restart.";
+  const std::string begin = base.filename().string();
+  std::error_code code;
+  for (const auto &entry : fs::directory_iterator(fs::absolute(base, code).parent_path(), code)) {
+    std::string step = entry.path().filename().string();
+    if (step.compare(0, begin.size(), begin) != 0) continue;
+    step = step.substr(begin.size(), step.rfind(".info") - begin.size());
+    if (step == "end" || utils::is_integer(step)) found.push_back(entry.path().string());
+  }
+  return found;
+}
+
+void LSMRun::refuse_earlier()
+{
+  const std::string problem = lsm_on_0(world, [this] {
+    for (const std::string &file : earlier_files())
+      throw std::runtime_error(file +
+                               " is there, of an earlier run; give another prefix, or replace its "
+                               "files with overwrite yes");
+  });
+  if (!problem.empty()) error->all(FLERR, "lsm_run: {}", problem);
+}
+
+void LSMRun::remove_earlier()
+{
+  std::error_code code;
+  if (comm->me == 0)
+    for (const std::string &file : earlier_files()) fs::remove(file, code);
 }
 
 // the two newest are kept

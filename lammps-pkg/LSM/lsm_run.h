@@ -25,10 +25,16 @@ class LSMRun : public Command {
 
  private:
   std::string prefix;
-  std::vector<std::string> noted;    // further variables for the .info
+  std::vector<std::string> noted;     // further variables for the .info
+  std::vector<std::string> unused;    // files that this run does not write
+  enum { KEEP, REFUSE, REMOVE };
+  int earlier = KEEP;    // what becomes of files of an earlier run
 
   void save(const std::string &name);
   void remove(bigint step);
+  std::vector<std::string> earlier_files() const;
+  void refuse_earlier();
+  void remove_earlier();
   bool told_to_stop();
 };
 

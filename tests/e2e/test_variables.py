@@ -107,6 +107,25 @@ def test_a_default_follows_a_variable_that_a_restart_changes(lmp):
     assert info("d.restart.end.info")["faultviscosity"] == "0.3"
 
 
+def test_files_of_an_earlier_run_do_not_seem_to_be_of_this_one(lmp, on_ranks):
+    """Its catalogue may have been moved away; with overwrite they are removed, once this run has the names."""
+    run(lmp, small(ruptures="yes", checkpoint=150))
+    for name in "a.catalogue.csv", "a.pe.bin", "a.ruptures.csv", "a.slip.bin":
+        Path(name).rename(f"moved.{name}")
+    Path("a.restart.notes").write_text("of somebody\n")
+    refused(on_ranks(2), small(seed=2), "lsm_run: .*a.restart.* is there, of an earlier run; give another prefix")
+    for name in "a.catalogue.csv", "a.pe.bin", "a.ruptures.csv", "a.slip.bin":
+        Path(f"moved.{name}").rename(name)
+    run(on_ranks(2), small(seed=2, overwrite="yes", series="no"))
+    assert {path.name
+            for path in Path().glob("a.*")
+            } == {"a.catalogue.csv", "a.restart.500", "a.restart.500.info", "a.restart.end", "a.restart.end.info", "a.restart.notes"}
+    assert header("a.catalogue.csv")["seed"] == info("a.restart.500.info")["seed"] == "2"
+    # What a run of the same names writes beside its catalogue alone is refused, too.
+    Path("b.slip.bin").write_bytes(b"lsm-slip-hist-1\n")
+    refused(lmp, small(prefix="b"), "lsm_run: b.slip.bin is there, of an earlier run")
+
+
 def test_headers_state_what_runs(lmp):
     run(lmp, small(hold="position", ruptures="yes"))
     for file in ("a.catalogue.csv", "a.ruptures.csv"):
