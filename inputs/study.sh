@@ -45,6 +45,9 @@ mkdir -p "$output" 2>/dev/null || refuse "cannot make the folder $output"
 # Programs of a study that was killed end within seconds.
 { exec 9>>"$output/.lock"; } 2>/dev/null || refuse "cannot write to $output"
 flock -w 5 9 || refuse "a study works in $output already, expected another folder (LSM_OUTPUT)"
+# As of another user, or of a start with sudo; catalogues that links lead to are read only.
+other=$(find "$output" ! -type l ! -writable -printf '%p, which is of %u' -quit)
+[ -z "$other" ] || refuse "cannot write to $other, expected a folder of one user (LSM_OUTPUT)"
 exec snakemake --snakefile "$root/inputs/Snakefile" --directory "$output" "${where[@]}" \
   --quiet rules --rerun-triggers mtime params input --nolock --keep-going --keep-incomplete --rerun-incomplete "${options[@]}" \
   --config table="$(realpath "$table")" bin="${LSM_BIN:-$build/bin}" ${settings[@]+"${settings[@]}"}

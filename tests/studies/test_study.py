@@ -188,6 +188,28 @@ def test_a_second_start_says_that_one_works_already(study):
     run(study, "my.csv -n")
 
 
+def test_what_another_user_left_is_named(study, work):
+    """As after a start with sudo: neither runs nor Snakemake could write there."""
+    if os.getuid() != 0 or not shutil.which("setpriv"):
+        pytest.skip("needs root, to be another user")
+    other = Program("study.sh", "setpriv", "--reuid=65534", "--regid=65534", "--clear-groups", *study.command,
+                    env={**study.env, "HOME": str(work / "out")}, errors=study.errors)
+    if run(Program("setpriv", *other.command[:4], "head"), "-c1", INPUTS / "study.sh", status=None).status:
+        pytest.skip("another user cannot read the checkout")
+    write(CHAIN)
+    run(study, "my.csv")
+    work.chmod(0o755)
+    refused(other, "my.csv", "^study.sh: cannot write to out$", but=NOTES)
+    for path in "out", "out/.lock", "out/.snakemake", "out/.snakemake/log":
+        os.chown(path, 65534, 65534)
+    refused(other, "my.csv", "^study.sh: cannot write to out/.*, which is of root, expected a folder of one user", but=NOTES)
+    for path in Path("out").rglob("*"):
+        os.chown(path, 65534, 65534)
+    write(CHAIN.replace("0,1,1e5", "0,1-2,1e5"))
+    run(other, "my.csv")
+    assert list(table()) == ["c_1", "c_2"]
+
+
 def test_what_is_made_is_told_at_the_end(study, work):
     write(CHAIN)
     said = run(study, "my.csv").err
