@@ -20,13 +20,23 @@ struct Lanes {
   Register r[registers];
 };
 
-inline __attribute__((always_inline)) Lanes load(const double *p) {
-  Lanes a;
+// Register by register: all at once would go by 16 bytes at a time through the stack, and reading
+// those back as registers stalls.
+inline __attribute__((always_inline)) Register load_register(const double *p) {
+  Register a;
   std::memcpy(&a, p, sizeof a);
   return a;
 }
-inline __attribute__((always_inline)) void store(double *p, const Lanes &a) {
+inline __attribute__((always_inline)) void store_register(double *p, Register a) {
   std::memcpy(p, &a, sizeof a);
+}
+inline __attribute__((always_inline)) Lanes load(const double *p) {
+  Lanes a;
+  for (int r = 0; r < registers; ++r) a.r[r] = load_register(p + r * SLIDER_LANES);
+  return a;
+}
+inline __attribute__((always_inline)) void store(double *p, const Lanes &a) {
+  for (int r = 0; r < registers; ++r) store_register(p + r * SLIDER_LANES, a.r[r]);
 }
 // One instruction: the compiler is told that errno is not used.
 inline __attribute__((always_inline)) Register square_root(Register a) {
