@@ -38,7 +38,8 @@ ChainView Chain::view_of(const Parameters &p, const std::vector<double> &mu) {
   double *const limits = blocks_of(mu_, 1e300);
   std::copy(mu.begin(), mu.end(), limits);
   view.mu = limits;
-  if (p.scheme == Scheme::adams_bashforth) view.before = blocks_of(before_, 0.0);
+  view.stiffness = stiffness_alone(p);
+  if (p.scheme == Scheme::adams_bashforth) view.ahead = blocks_of(ahead_, 0.0);
   if (!p.by_springs()) {
     view.forces = forces_.get();
     view.coupling = blocks_of(coupling_, 0.0);
@@ -175,14 +176,14 @@ ChainState Chain::state() const {
   s.u = displacements();
   s.v = velocities();
   if (view_.rest) s.rest.assign(view_.rest, view_.rest + view_.blocks);
-  if (view_.before) s.before.assign(view_.before, view_.before + view_.blocks);
+  if (view_.ahead) s.ahead.assign(view_.ahead, view_.ahead + view_.blocks);
   return s;
 }
 
 void Chain::set_state(const ChainState &s) {
   const std::size_t n = static_cast<std::size_t>(view_.blocks);
   if (s.u.size() != n || s.v.size() != n || (!s.rest.empty() && s.rest.size() != n) ||
-      (!s.before.empty() && s.before.size() != n) || s.step < 0)
+      (!s.ahead.empty() && s.ahead.size() != n) || s.step < 0)
     throw std::invalid_argument("saved chain does not fit --blocks");
   account_.restore(s);
   step_ = s.step;
@@ -191,8 +192,8 @@ void Chain::set_state(const ChainState &s) {
   std::copy(s.v.begin(), s.v.end(), view_.v);
   const std::vector<double> &rest = s.rest.empty() ? s.u : s.rest;
   if (view_.rest) std::copy(rest.begin(), rest.end(), view_.rest);
-  const std::vector<double> &before = s.before.empty() ? s.v : s.before;
-  if (view_.before) std::copy(before.begin(), before.end(), view_.before);
+  for (std::size_t i = 0; view_.ahead && i < n; ++i)
+    view_.ahead[i] = s.ahead.empty() ? view_.dt * s.v[i] : s.ahead[i];
   restart();
 }
 

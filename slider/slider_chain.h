@@ -145,7 +145,7 @@ class Chain {
 
   double plate_step_;
   StepFunction function_;
-  Array u_, v_, force_, mu_, rest_, before_, coupling_, change_;
+  Array u_, v_, force_, mu_, rest_, ahead_, coupling_, change_;
   std::unique_ptr<ModeForces> forces_;
   std::vector<double> first_mu_;  // at step 0
   std::vector<Cell> cells_;       // of each block, in a landscape

@@ -39,7 +39,7 @@ namespace Slider {
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ChainState, step, slip_sum, slip_compensation, pe_sum,
                                    pe_compensation, quiet_since, pe_anchor, loading_anchor, moved,
-                                   dpe, radiated, radiated_compensation, u, v, rest, before)
+                                   dpe, radiated, radiated_compensation, u, v, rest, ahead)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunState, chain, picker, events, before_warmup, by_plate,
                                    slip_start, largest, u_start, ruptures, calm_since)
 
@@ -47,7 +47,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int version = 3;
+constexpr int version = 4;
 constexpr const char *version_key = "slider_cli checkpoint";
 
 std::uint32_t checksum(const std::vector<std::uint8_t> &bytes) {

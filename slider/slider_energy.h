@@ -32,8 +32,8 @@ struct ChainState {
   std::vector<double> u, v;
   /// where blocks last rested, if the law needs it; empty: their present places
   std::vector<double> rest;
-  /// velocities of the step before, of the scheme without inertia; empty: those of now
-  std::vector<double> before;
+  /// slips in the next step, of the scheme without inertia; empty: by the velocities of now
+  std::vector<double> ahead;
 };
 
 /// PE of all springs, summed directly; used to set and to check the work formula.

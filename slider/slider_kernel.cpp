@@ -84,12 +84,81 @@ inline __attribute__((always_inline)) Register velocity_at(Register c, Register 
   return ((w > zero) & (q > zero)) ? w : zero;
 }
 
+// A step without inertia, of a register of blocks.
+struct Balance {
+  Register v, ahead;
+};
+
+// Velocities v at which radiation and friction balance the forces f at the end of a step, and the
+// slips in the next one, in which forces change as they did in this one (Adams and Bashforth). A
+// block that starts has missed the slip since its force exceeded its strength, and one that will
+// stop slips until then: starts and stops are located, without which the order is 1. \param old
+// forces at the beginning of the step \param moved slips in it \param slides has slid all the
+// while \param slip since it last rested
+template <Law law>
+inline __attribute__((always_inline)) Balance balance(const ChainView &chain, Register m,
+                                                      Register old, Register f, Register moved,
+                                                      Mask slides, Register slip) {
+  const Register zero = {}, one = zero + 1.0;
+  const double by_radiation = 1.0 / chain.radiation;
+  const Register next = slides ? f + (f - old) : f;
+  Register v, part = one, mean;
+  Mask stops;
+  if constexpr (law == Law::velocity_weakening) {
+    const Register b = by_radiation * m, c_next = by_radiation * next;
+    // A block at rest stays so, though it could slide as well.
+    v = velocity_at(by_radiation * f, b);
+    v = (slides | (f > m)) ? v : zero;
+    // Slower than this no block slides, as less velocity takes more force.
+    const Register root = square_root(b), slowest = root > one ? root - one : zero;
+    const auto force_per_velocity = [&](Register w) __attribute__((always_inline)) {
+      const Register slope = one - b / ((one + w) * (one + w));
+      return slope > zero ? slope : zero;
+    };
+    // Simpson's rule over the velocity, as against time velocity has a vertical tangent there. Time
+    // until then, over that of a step: the force falls by the block's own slip, and less by others.
+    const double own = chain.dt * chain.stiffness;
+    const Register others = (f - old) + chain.stiffness * moved;
+    Register middle = 0.5 * (v + slowest), last = slowest;
+    const Register fall = own * v - others, later = own * middle - others,
+                   least = own * last - others;
+    Register p = force_per_velocity(v), q = 4.0 * force_per_velocity(middle),
+             r = force_per_velocity(last);
+    const Register stop = (p / fall + q / later) + r / least;
+    const Register until = (chain.radiation / 6.0) * (v - slowest) * stop;
+    stops = slides & (fall > zero) & (later > zero) & (least > zero) & (until < one);
+    const Register course = velocity_at(c_next, b);
+    last = (stops | (course < slowest)) ? slowest : course;
+    middle = 0.5 * (v + last);
+    q = 4.0 * force_per_velocity(middle);
+    r = force_per_velocity(last);
+    p = stops ? p / fall : p;
+    q = stops ? q / later : q;
+    r = stops ? r / least : r;
+    const Register sum = (p + q) + r;
+    mean = sum > zero ? ((p * v + q * middle) + r * last) / sum : middle;
+    part = stops ? until : one;
+  } else {
+    v = by_radiation * (f - friction<law>(chain, m, slides ? one : zero, f, slip));
+    v = v > zero ? v : zero;
+    const Register last =
+        by_radiation * (next - friction<law>(chain, m, v, f, slip + chain.dt * v));
+    stops = last < zero;
+    part = stops ? v / (v - last) : one;
+    mean = stops ? 0.5 * v : 0.5 * (v + last);
+  }
+  const Register late = slides ? zero : old < m ? (f - m) / (f - old) : one;
+  const Register ahead = chain.dt * (part * mean + late * v);
+  // Negative ones end with a stop.
+  return {v, v > zero ? (stops ? -ahead : ahead) : zero};
+}
+
 // How blocks are coupled, and whether they radiate.
 enum class Kind { springs, radiating_springs, modes };
 
 template <Scheme scheme, Law law, Kind kind>
 StepSums step(const ChainView &chain, const std::int32_t *list, int count, double x_new,
-              std::uint8_t *hot) {
+              std::uint8_t *hot_lanes) {
   const Register zero = {};
   const double h = chain.dt;
   const double h_m = h / chain.mass;
@@ -103,6 +172,7 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
   double *const u = chain.u, *const velocity = chain.v, *const force = chain.force;
   const double *const mu = chain.mu;
   constexpr bool needs_rest = law == Law::slip_weakening;
+  constexpr bool balances = scheme == Scheme::adams_bashforth;
   // Blocks move (the first half of the step), then their springs pull. A chunk is pulled some
   // chunks after it was moved: its neighbours have been moved by then, its data are still in the
   // nearest cache, and the stores of its displacements have completed, so that loads across two
@@ -116,17 +186,23 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
   const auto move = [&](int k, Lanes &change) __attribute__((always_inline)) {
     const std::int64_t i = static_cast<std::int64_t>(list[k]) * chunk_size;
     const Lanes f = load(force + i), m = load(mu + i), v = load(velocity + i);
+    if constexpr (by_modes) {
+      // All chunks are listed, most of them at rest.
+      Mask hot = v.r[0] > zero;
+      for (int r = 0; r < registers; ++r) hot |= (v.r[r] > zero) | (f.r[r] > m.r[r]);
+      if (bits(hot) == 0) {
+        change = {};
+        return;
+      }
+    }
     Lanes x = load(u + i);
     [[maybe_unused]] Lanes rest;
     if constexpr (needs_rest) rest = load(chain.rest + i);
     for (int r = 0; r < registers; ++r) {
       Register moved;
-      if constexpr (scheme == Scheme::adams_bashforth) {
-        Register before;
-        std::memcpy(&before, chain.before + i + r * SLIDER_LANES, sizeof before);
-        moved = h * (1.5 * v.r[r] - 0.5 * before);
-        moved = moved > zero ? moved : zero;
-        std::memcpy(chain.before + i + r * SLIDER_LANES, &v.r[r], sizeof before);
+      if constexpr (balances) {
+        moved = load_register(chain.ahead + i + r * SLIDER_LANES);
+        moved = moved < zero ? -moved : moved;
       } else {
         Register slid = zero;
         if constexpr (needs_rest) slid = x.r[r] - rest.r[r];
@@ -137,12 +213,12 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
         Register w = v.r[r] + (scheme == Scheme::verlet ? half_h_m : h_m) * push;
         w = w > zero ? w : zero;
         moved = scheme == Scheme::printed ? half_h * (v.r[r] + w) : h * w;
-        std::memcpy(velocity + i + r * SLIDER_LANES, &w, sizeof w);
+        store_register(velocity + i + r * SLIDER_LANES, w);
       }
       const Register next = x.r[r] + moved;
       change.r[r] = next - x.r[r];
       x.r[r] = next;
-      if constexpr (radiates) radiated.r[r] += v.r[r] * change.r[r];
+      if constexpr (radiates && !balances) radiated.r[r] += v.r[r] * change.r[r];
     }
     store(u + i, x);
   };
@@ -150,7 +226,7 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
   StepSums sums;
   const auto pull = [&](int k, const Lanes &change) __attribute__((always_inline)) {
     const std::int64_t i = static_cast<std::int64_t>(list[k]) * chunk_size;
-    const Lanes x = load(u + i), old = load(force + i), m = load(mu + i);
+    const Lanes x = load(u + i), m = load(mu + i);
     Lanes v = load(velocity + i), f, left, right;
     if constexpr (by_modes) {
       left = load(chain.coupling + i);
@@ -158,37 +234,51 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
       left = load(u + i - 1);
       right = load(u + i + 1);
     }
+    if constexpr (by_modes) {
+      Mask hot = v.r[0] > zero;
+      for (int r = 0; r < registers; ++r) {
+        f.r[r] = left.r[r] + kl * (x_new - x.r[r]);
+        hot |= (v.r[r] > zero) | (f.r[r] > m.r[r]) | (change.r[r] > zero);
+      }
+      if (bits(hot) == 0) {
+        store(force + i, f);
+        hot_lanes[k] = 0;
+        return;
+      }
+    }
+    const Lanes old = load(force + i);
     [[maybe_unused]] Lanes rest;
     if constexpr (needs_rest) rest = load(chain.rest + i);
     unsigned lanes = 0;
     for (int r = 0; r < registers; ++r) {
-      if constexpr (by_modes)
-        f.r[r] = left.r[r] + kl * (x_new - x.r[r]);
-      else
+      if constexpr (!by_modes)
         f.r[r] = kc * ((left.r[r] - x.r[r]) + (right.r[r] - x.r[r])) + kl * (x_new - x.r[r]);
-      if constexpr (scheme == Scheme::adams_bashforth || scheme == Scheme::verlet) {
-        // Without inertia, radiation and friction balance the springs.
-        constexpr bool balance = scheme == Scheme::adams_bashforth;
-        const double by_radiation = 1.0 / eta;
+      if constexpr (balances) {
+        const Register planned = load_register(chain.ahead + i + r * SLIDER_LANES);
+        const Mask slides = (v.r[r] > zero) & (planned >= zero);
+        Register slid = zero;
+        if constexpr (needs_rest) slid = slides ? x.r[r] - rest.r[r] : zero;
+        const Balance now = balance<law>(chain, m.r[r], old.r[r], f.r[r], change.r[r], slides, slid);
+        store_register(chain.ahead + i + r * SLIDER_LANES, now.ahead);
+        // Until it stops, a block has been about as fast as at the beginning.
+        radiated.r[r] += (v.r[r] + (now.v > zero ? now.v : v.r[r])) * change.r[r];
+        v.r[r] = now.v;
+      } else if constexpr (scheme == Scheme::verlet) {
         Register w;
         if constexpr (law == Law::velocity_weakening) {
           // w = v_half + h/2 (f - mu / (1 + w) - eta w) / m is quadratic in w.
-          Register c = balance ? by_radiation * f.r[r] : v.r[r] + half_h_m * f.r[r];
-          Register b = (balance ? by_radiation : half_h_m) * m.r[r];
-          if constexpr (radiates && !balance) {
+          Register c = v.r[r] + half_h_m * f.r[r], b = half_h_m * m.r[r];
+          if constexpr (radiates) {
             c *= slower;
             b *= slower;
           }
           w = velocity_at(c, b);
-          // A block at rest stays so, though it could slide as well.
-          if constexpr (balance) w = ((v.r[r] > zero) | (f.r[r] > m.r[r])) ? w : zero;
         } else {
           // A block that came to rest in the first half of the step has healed.
           Register slid = zero;
           if constexpr (needs_rest) slid = v.r[r] > zero ? x.r[r] - rest.r[r] : zero;
-          const Register push = f.r[r] - friction<law>(chain, m.r[r], v.r[r], f.r[r], slid);
-          w = balance ? by_radiation * push : v.r[r] + half_h_m * push;
-          if constexpr (radiates && !balance) w *= slower;
+          w = v.r[r] + half_h_m * (f.r[r] - friction<law>(chain, m.r[r], v.r[r], f.r[r], slid));
+          if constexpr (radiates) w *= slower;
           w = w > zero ? w : zero;
         }
         v.r[r] = w;
@@ -197,13 +287,12 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
       lanes |= bits((v.r[r] > zero) | (f.r[r] > m.r[r])) << (r * SLIDER_LANES);
       work.r[r] += (old.r[r] + f.r[r]) * change.r[r];
       slip.r[r] += change.r[r];
-      if constexpr (radiates) radiated.r[r] += v.r[r] * change.r[r];
+      if constexpr (radiates && !balances) radiated.r[r] += v.r[r] * change.r[r];
     }
     store(force + i, f);
-    if constexpr (scheme == Scheme::verlet || scheme == Scheme::adams_bashforth)
-      store(velocity + i, v);
+    if constexpr (scheme == Scheme::verlet || balances) store(velocity + i, v);
     if constexpr (needs_rest) store(chain.rest + i, rest);
-    hot[k] = static_cast<std::uint8_t>(lanes);
+    hot_lanes[k] = static_cast<std::uint8_t>(lanes);
     sums.hot += __builtin_popcount(lanes);
   };
 

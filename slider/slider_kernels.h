@@ -27,7 +27,8 @@ struct ChainView : Parameters {
   double *force = nullptr;     ///< spring force at the present time (older for inactive chunks)
   double *rest = nullptr;      ///< where a block last rested, if the law needs it
   const double *mu = nullptr;  ///< static coefficient
-  double *before = nullptr;    ///< velocity of the step before, of the scheme without inertia
+  double stiffness = 0.0;      ///< of a block that moves alone
+  double *ahead = nullptr;     ///< slip in the next step, without inertia; < 0: and then it stops
   // With modes only:
   ModeForces *forces = nullptr;
   double *coupling = nullptr;  ///< force of the coupling, without leaf springs

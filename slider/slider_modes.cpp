@@ -31,7 +31,8 @@ ModeForces::ModeForces(const std::vector<double> &modes, int blocks)
   if (modes.size() != static_cast<std::size_t>(blocks / 2 + 1))
     throw std::invalid_argument("number of modes differs from --blocks");
   if (!values_ || !spectrum_) throw std::bad_alloc();
-  for (const double stiffness : modes) factors_.push_back(-(stiffness - modes[0]) / blocks);
+  for (const double stiffness : modes)
+    factors_.insert(factors_.end(), 2, -(stiffness - modes[0]) / blocks);
   const std::lock_guard<std::mutex> lock(planner());
   forward_ = fftw_plan_dft_r2c_1d(blocks, values_.get(), of(spectrum_.get()), FFTW_ESTIMATE);
   backward_ = fftw_plan_dft_c2r_1d(blocks, of(spectrum_.get()), values_.get(), FFTW_ESTIMATE);
@@ -49,7 +50,7 @@ void ModeForces::find(const double *u, double *force) {
   const double common = u[0];
   for (int i = 0; i < blocks_; ++i) values[i] = u[i] - common;
   fftw_execute(forward_);
-  std::complex<double> *const spectrum = spectrum_.get();
+  double *const spectrum = reinterpret_cast<double *>(spectrum_.get());
   for (std::size_t n = 0; n < factors_.size(); ++n) spectrum[n] *= factors_[n];
   fftw_execute(backward_);
   std::copy_n(values, blocks_, force);

@@ -37,7 +37,7 @@ class ModeForces {
   };
 
   int blocks_;
-  std::vector<double> factors_;  // -C / blocks of each mode
+  std::vector<double> factors_;  // -C / blocks of each mode, for real and imaginary part
   std::unique_ptr<double, Free> values_;
   std::unique_ptr<std::complex<double>, Free> spectrum_;
   fftw_plan_s *forward_, *backward_;

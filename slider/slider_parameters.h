@@ -99,6 +99,15 @@ inline double stiffness_of_springs(const Parameters &p, double phase) {
   return 2.0 * p.kc * (1.0 - std::cos(phase)) + p.kl;
 }
 
+/// Stiffness that a block feels which moves alone.
+inline double stiffness_alone(const Parameters &p) {
+  if (p.by_springs()) return p.blocks > 1 ? 2.0 * p.kc + p.kl : p.kl;
+  double sum = 0.0;
+  for (int mode = 0; mode < p.blocks; ++mode)
+    sum += p.modes[static_cast<std::size_t>(std::min(mode, p.blocks - mode))];
+  return sum / p.blocks;
+}
+
 /// Time step above which the scheme is unstable for an undamped spring, or turns velocities round
 /// by radiation alone. The printed scheme is unstable at any step (growth rate h w^2 / 4); its
 /// limit is where this exceeds the dissipation by friction, 0.12 for the paper's springs.

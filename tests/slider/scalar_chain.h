@@ -67,7 +67,7 @@ class ScalarChain {
     v_ = u_;
     force_ = u_;
     rest_ = u_;
-    before_ = u_;
+    ahead_ = u_;
   }
 
   std::int64_t step() const { return step_; }
@@ -88,7 +88,9 @@ class ScalarChain {
     u_ = s.u;
     v_ = s.v;
     rest_ = s.rest.empty() ? u_ : s.rest;
-    before_ = s.before.empty() ? v_ : s.before;
+    ahead_ = s.ahead;
+    if (ahead_.empty())
+      for (double v : v_) ahead_.push_back(p_.dt * v);
     set_forces();
     pe_ = s.pe_sum;
     dpe_ = s.dpe;
@@ -112,11 +114,14 @@ class ScalarChain {
     const double h_m = h / p_.mass, half_m = half / p_.mass, eta = p_.radiation;
     const double slower = 1.0 / (1.0 + half_m * eta);
     const bool balances = p_.scheme == Scheme::adams_bashforth;
+    if (balances) {
+      old_force_ = force_;
+      old_u_ = u_;
+    }
     for (std::size_t i = 0; i < n; ++i) {
       double v = v_[i];
       if (balances) {
-        u_[i] += std::fmax(0.0, h * (1.5 * v - 0.5 * before_[i]));
-        before_[i] = v;
+        u_[i] += std::fabs(ahead_[i]);
         continue;
       }
       if (v == 0.0 && force_[i] <= mu_[i]) continue;  // stuck
@@ -132,15 +137,7 @@ class ScalarChain {
     ++step_;
     const double pe = set_forces();
     if (balances) {
-      const double mobility = 1.0 / eta;
-      for (std::size_t i = 0; i < n; ++i) {
-        if (v_[i] == 0.0 && force_[i] <= mu_[i]) continue;
-        const double slip = v_[i] > 0.0 ? u_[i] - rest_[i] : 0.0;
-        if (law.law == Law::velocity_weakening)
-          v_[i] = larger_root(mobility * force_[i], mobility * mu_[i]);
-        else
-          v_[i] = std::fmax(0.0, mobility * (force_[i] - friction_of(law, mu_[i], v_[i], slip)));
-      }
+      for (std::size_t i = 0; i < n; ++i) balance_forces(i);
     } else if (p_.scheme == Scheme::verlet && law.law != Law::velocity_weakening) {
       for (std::size_t i = 0; i < n; ++i) {
         if (v_[i] == 0.0 && force_[i] <= mu_[i]) continue;
@@ -174,9 +171,66 @@ class ScalarChain {
       ledger_.friction += 0.5 * slip *
                           (friction_of(law, mu_[i], saved_v_[i], saved_u_[i] - rest_[i]) +
                            friction_of(law, mu_[i], v_[i], u_[i] - rest_[i]));
-      ledger_.radiated += 0.5 * slip * p_.radiation * (saved_v_[i] + v_[i]);
+      const bool stopped = p_.scheme == Scheme::adams_bashforth && v_[i] == 0.0;
+      ledger_.radiated +=
+          0.5 * slip * p_.radiation * (saved_v_[i] + (stopped ? saved_v_[i] : v_[i]));
       ledger_.kinetic += 0.5 * p_.mass * v_[i] * v_[i];
     }
+  }
+
+  // Without inertia: the velocity at the end of a step, and the slip in the next one with the force
+  // on its present course, from where the block should have started to where it will stop.
+  void balance_forces(std::size_t i) {
+    const double moved = u_[i] - old_u_[i];
+    const double mu = mu_[i], f = force_[i], mobility = 1.0 / p_.radiation;
+    const bool slides = v_[i] > 0.0 && ahead_[i] >= 0.0;
+    v_[i] = ahead_[i] = 0.0;
+    if (!slides && f <= mu_[i]) return;
+    const double next = slides ? f + (f - old_force_[i]) : f;
+    double part = 1.0, mean = 0.0, v = 0.0;
+    bool stops = false;
+    if (p_.friction.law == Law::velocity_weakening) {
+      const double b = mobility * mu, slowest = std::fmax(0.0, std::sqrt(b) - 1.0);
+      v = larger_root(mobility * f, b);
+      const double own = p_.dt * stiffness_, others = (f - old_force_[i]) + stiffness_ * moved;
+      // Time per velocity, or force, integrated over the velocity.
+      double p[3], sum = 0.0, sum_v = 0.0, last = slowest;
+      const auto integrate = [&](bool time) {
+        const double w[] = {v, 0.5 * (v + last), last};
+        bool falls = true;
+        for (int k = 0; k < 3; ++k) {
+          const double fall = time ? own * w[k] - others : 1.0;
+          falls = falls && fall > 0.0;
+          p[k] = (k == 1 ? 4.0 : 1.0) * std::fmax(0.0, 1.0 - b / ((1.0 + w[k]) * (1.0 + w[k])));
+          p[k] /= fall;
+        }
+        sum = (p[0] + p[1]) + p[2];
+        sum_v = (p[0] * w[0] + p[1] * w[1]) + p[2] * w[2];
+        return falls;
+      };
+      const bool falls = integrate(true);
+      const double until = (p_.radiation / 6.0) * (v - slowest) * sum;
+      stops = slides && falls && until < 1.0;
+      if (stops) {
+        part = until;
+      } else {
+        last = std::fmax(slowest, larger_root(mobility * next, b));
+        integrate(false);
+      }
+      mean = sum > 0.0 ? sum_v / sum : 0.5 * (v + last);
+    } else {
+      const double slip = slides ? u_[i] - rest_[i] : 0.0;
+      v = std::fmax(0.0, mobility * (f - friction_of(p_.friction, mu, v, slip)));
+      const double last =
+          mobility * (next - friction_of(p_.friction, mu, v, slip + p_.dt * v));
+      stops = last < 0.0;
+      if (stops) part = v / (v - last);
+      mean = stops ? 0.5 * v : 0.5 * (v + last);
+    }
+    if (!(v > 0.0)) return;
+    v_[i] = v;
+    const double late = slides ? 0.0 : old_force_[i] < mu ? (f - mu) / (f - old_force_[i]) : 1.0;
+    ahead_[i] = p_.dt * (part * mean + late * v) * (stops ? -1.0 : 1.0);
   }
 
   /// That of w = c - b / (1 + w) if it is positive, else 0.
@@ -208,7 +262,9 @@ class ScalarChain {
   }
 
   Parameters p_;
-  std::vector<double> mu_, coupling_, u_, v_, force_, rest_, before_, saved_u_, saved_v_;
+  std::vector<double> mu_, coupling_, u_, v_, force_, rest_, ahead_, old_u_, old_force_;
+  std::vector<double> saved_u_, saved_v_;
+  double stiffness_ = stiffness_alone(p_);
   bool keep_ledger_;
   EnergyLedger ledger_;
   std::int64_t step_ = 0;
