@@ -25,6 +25,7 @@ FOLDER = Path(__file__).resolve().parent
 sys.path[:0] = [str(FOLDER.parent / "inputs/studies"), str(FOLDER / "speed")]
 import calibrate  # noqa: E402
 import speed_tables  # noqa: E402
+import walk  # noqa: E402
 from calibrate import number, read  # noqa: E402
 
 POSTPROC = "postproc"  # the program, set by main()
@@ -416,6 +417,7 @@ def laws_table():
 
 TABLES = {name.removesuffix("_table").replace("_", "-"): made for name, made in list(globals().items()) if name.endswith("_table")}
 TABLES |= {name: lambda made=made: table(*made()) for name, made in speed_tables.TABLES.items()}
+TABLES |= {"walk": lambda: table(*walk.table(POSTPROC, shown)), "lattice": lambda: table(*walk.lattice(shown))}
 
 
 def check(write):

@@ -242,6 +242,7 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
       }
       if (bits(hot) == 0) {
         store(force + i, f);
+        if constexpr (needs_rest) store(chain.rest + i, x);
         hot_lanes[k] = 0;
         return;
       }

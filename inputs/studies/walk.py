@@ -4,142 +4,213 @@
 
 FOLDER has the catalogues, as RUN/catalogue.csv (of the study) or RUN.catalogue.csv.xz (as published); the fault is that of
 results/campaign. Each number is the mean over the seeds, with its standard error, of
-  exponent_N   exponent of the sizes from 10^N to 10^(N+1) times the unit, by `postproc fit`; the unit is 1 for blocks
-               and 1e-3 for faults
-  gamma_N      of the times between events of at least 10^N units, by `postproc intervals` with delta = 1
+  exponent_N   exponent of the sizes from 10^N to 10^(N+1) units, where there are ten events; the unit is 1 for blocks and 1e-3 for
+               faults
+  gamma_N      of the times between events of at least 10^N units, delta held at 1
   burstiness   (s - m) / (s + m) of the times between events of at least one unit, mean m, standard deviation s
   to_X         Kolmogorov-Smirnov distance of these times, over their mean, to those of X
+  events       of at least one unit
   small        share of events of less than one unit
-  short        share of events of one to three blocks (ruptures only), and that of events of at least 0.1
+  short        share of events that slip in one to three blocks, and of all in half of the blocks or more: whole
+  short_-3     of ruptures of at least 1e-3, short_-1 of at least 0.1: share of those of one to three blocks, or units of length of
+               a fault
+`postproc summary` measures exponents and gamma.
 """
 import csv
 import datetime
-import json
-import lzma
+import math
 import statistics
 import subprocess
 import sys
-import tempfile
+from bisect import bisect_right
 from pathlib import Path
 
-import numpy as np
+from calibrate import LOADING, number, read
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-DECADES = (-2, -1, 0, 1, 2)
-SIZES = (0, 1, 2)
+RESULTS = ROOT / "results"
+DECADES, SIZES = (-2, -1, 0, 1, 2), (0, 1, 2)
+FEWEST = 10  # events of a decade
+# Lines of the table: what is added to the station before, names of catalogues with the number of blocks, of their ruptures
+WALK = (("springs", "chain"), ("+ elastic blocks", "bulk"), ("+ radiation", "radiating"), ("+ roughness", "rough"), ("+ slow plate", "slow"))
+FAULTS = (("fault", "fault"), ("fault, viscosity 1", "fault-viscous"), ("fault, velocity weakening", "fault-weakening"))
+CONTROLS = (("springs, plate 0.001", "chain-slower"), ("elastic blocks, plate 0.001", "bulk-slower"), ("elastic blocks, half the time step", "bulk-step"),
+            ("roughness, half the time step", "rough-step"), ("springs, memory 0.2", "chain-memory"), ("elastic blocks, memory 0.2", "bulk-memory"),
+            ("roughness, memory 0.2", "rough-memory"), ("radiation 0.3", "radiating-more"), ("roughness, springs", "rough-chain"),
+            ("roughness, in plane", "rough-inplane"), ("roughness, blocks 15 thick", "rough-thin"),
+            ("roughness, stiffness of the lattice", "rough-lattice"))
 
 
-def text(path):
-    raw = path.read_bytes()
-    return (lzma.decompress(raw) if path.suffix == ".xz" else raw).decode()
+def is_fault(name):
+    return name.startswith("fault")
 
 
-def columns(path):
-    rows = list(csv.reader(line for line in text(path).splitlines() if not line.startswith("#")))
-    return {name: np.array(values, float) for name, values in zip(rows[0], zip(*rows[1:]))}
-
-
-def times(path, size, begin=0.0):
-    events = columns(path)
-    start = events["t_start"][(events["size"] >= size) & (events["t_start"] >= begin)]
-    return np.diff(np.sort(start))
+def times(rows, size, begin=0.0):
+    start = sorted(number(row, "t_start") for row in rows if number(row, "size") >= size and number(row, "t_start") >= begin)
+    return [b - a for a, b in zip(start, start[1:])]
 
 
 def over_mean(samples):
-    return np.concatenate([sample / sample.mean() for sample in samples if len(sample) > 1])
+    """Of several catalogues, sorted."""
+    return sorted(t / statistics.mean(sample) for sample in samples if len(sample) > 1 for t in sample)
 
 
 def distance(a, b):
-    both = np.concatenate([a, b])
-    return np.abs(np.searchsorted(np.sort(a), both, "right") / len(a) - np.searchsorted(np.sort(b), both, "right") / len(b)).max()
+    """Of two sorted samples."""
+    return max(abs(bisect_right(a, x) / len(a) - bisect_right(b, x) / len(b)) for x in a + b)
 
 
 def earthquakes():
     """Times between those of Southern California of the paper's Table 1: M >= 2, 1984.0 to 1986.5."""
-    path = ROOT / "inputs/seismicity/southern-california.csv.xz"
     found = []
-    for row in csv.DictReader(line for line in text(path).splitlines() if not line.startswith("#")):
+    for row in read(ROOT / "inputs/seismicity/southern-california.csv.xz"):
         if float(row["mag"]) >= 2.0 and "1984-01-01" <= row["time"] < "1986-07-02T12":
             day, clock = row["time"].rstrip("Z").split("T")
             hours, minutes, seconds = map(float, clock.split(":"))  # the catalogue has seconds of 60
             found.append(86400 * datetime.date.fromisoformat(day).toordinal() + 3600 * hours + 60 * minutes + seconds)
-    return np.diff(np.sort(found))
+    found.sort()
+    return [b - a for a, b in zip(found, found[1:])]
 
 
-def asked(postproc, *words):
-    """The JSON of a command; nothing if it cannot determine its numbers."""
-    with tempfile.TemporaryDirectory() as folder:
-        out = f"{folder}/out.json"
-        done = subprocess.run([postproc, *words, "--no-picture", "-o", f"{folder}/out", "--json", out], capture_output=True, check=False)
-        return json.loads(Path(out).read_text()) if done.returncode == 0 else None
+def share(rows, of):
+    return sum(map(of, rows)) / len(rows) if rows else math.nan
 
 
-def number(postproc, key, *words):
-    found = asked(postproc, *words)
-    value = found["fits"][0].get(key) if found and found["fits"] else None
-    return np.nan if value is None else float(value)
-
-
-def numbers(postproc, path, unit, begin, others):
-    size = unit * 10.0**np.array(DECADES)
-    found = {}
-    for decade, low in zip(DECADES, size):
-        found[f"exponent_{decade}"] = number(postproc, "exponent", "fit", str(path), "--from", str(begin), "--range", f"{low:g}:{10 * low:g}",
-                                             "--replicas", "0", "--no-comparison")
-    for n in SIZES:
-        found[f"gamma_{n}"] = number(postproc, "gamma", "intervals", str(path), "--from", str(begin), "--threshold", f"{unit * 10 ** n:g}", "--delta",
-                                     "1", "--method", "likelihood", "--replicas", "0")
-    t = times(path, unit, begin)
-    found["burstiness"] = (t.std() - t.mean()) / (t.std() + t.mean())
-    for name, other in others.items():
-        found[f"to_{name}"] = distance(over_mean([t]), other)
-    found["events"] = len(t) + 1
-    sizes = columns(path)["size"]
-    found["small"] = (sizes < unit).mean()
+def summaries(postproc, paths, unit, begin):
+    """A row of postproc summary for each catalogue."""
+    if not paths:
+        return []
+    ranges = [f"{unit * 10.0**n:g}:{unit * 10.0**(n + 1):g}" for n in DECADES]
+    sizes = [f"{unit * 10.0**n:g}" for n in (*DECADES, DECADES[-1] + 1)]
+    words = [word for option, texts in (("--range", ranges), ("--threshold", sizes)) for text in texts for word in (option, text)]
+    said = subprocess.run([postproc, "summary", *map(str, paths), "--from", str(begin), *words], capture_output=True, text=True, check=True).stdout
+    rows = list(csv.DictReader(line for line in said.splitlines() if not line.startswith("#")))
+    found = []
+    for row in rows:
+        many = [number(row, f"events_{size}") for size in sizes]
+        one = {f"exponent_{n}": number(row, f"exponent_{text}") if many[k] - many[k + 1] >= FEWEST else math.nan
+               for k, (n, text) in enumerate(zip(DECADES, ranges))}  # yapf: disable
+        found.append(one | {f"gamma_{n}": number(row, f"gamma_{unit * 10.0**n:g}") for n in SIZES})
     return found
 
 
-def short(path):
-    events = columns(path)
-    few, large = events["rupture_length"] <= 3, events["size"] >= 0.1
-    return {"events": len(few), "short": few.mean(), "short_large": few[large].mean()}
+def numbers(path, unit, begin, others):
+    """What postproc summary does not have."""
+    rows = [row for row in read(path) if number(row, "t_start") >= begin]
+    t = times(rows, unit)
+    found = {"events": len(t) + 1, "small": share(rows, lambda row: number(row, "size") < unit)}
+    if len(t) > 1:
+        mean, deviation = statistics.mean(t), statistics.pstdev(t)
+        found |= {"burstiness": (deviation - mean) / (deviation + mean)}
+        found |= {f"to_{name}": distance(over_mean([t]), other) for name, other in others.items()}
+    if rows and "rupture_length" in rows[0] and unit == 1.0:
+        blocks = int(path.name.split("-")[-1].split("_")[0] if path.suffix == ".xz" else path.parent.name.split("-")[-1].split("_")[0])
+        found |= {"short": share(rows, lambda row: number(row, "rupture_length") <= 3)}
+        found |= {"whole": share(rows, lambda row: number(row, "rupture_length") >= blocks / 2)}
+    return found
+
+
+def ruptures(path, begin):
+    rows = [row for row in read(path) if number(row, "t_start") >= begin]
+    few = {f"short_{n}": share([row for row in rows if number(row, "size") >= 10.0**n], lambda row: number(row, "rupture_length") <= 3) for n in (-3, -1)}
+    return {"events": len(rows), **few}
 
 
 def stations(folder):
     """Catalogues by the name of a station."""
     found = {}
-    for path in sorted([*folder.glob("*/catalogue.csv"), *folder.glob("*.catalogue.csv.xz")]):
+    for path in sorted([*folder.glob("*/catalogue.csv"), *folder.glob("*/fault.catalogue.csv"), *folder.glob("*.catalogue.csv.xz")]):
         run = path.name.split(".")[0] if path.suffix == ".xz" else path.parent.name
         if path.suffix == ".xz" or (path.parent / "done.json").exists():
             found.setdefault(run.rsplit("_", 1)[0], []).append(path)
-    return {**found, "fault": sorted((ROOT / "results/campaign").glob("fault_120_?.catalogue.csv.xz"))}
+    for name, kind in (("fault", "catalogue"), ("ruptures-fault", "ruptures")):
+        found[name] = sorted((RESULTS / "campaign").glob(f"fault_120_?.{kind}.csv.xz"))
+    return found
+
+
+def mean_and_error(values):
+    values = [x for x in values if math.isfinite(x)]
+    if not values:
+        return math.nan, math.nan
+    return statistics.mean(values), statistics.stdev(values) / math.sqrt(len(values)) if len(values) > 1 else math.nan
+
+
+def measured(postproc, folder):
+    """{station: {"seeds": number, key: (mean, standard error)}}. \\raises FileNotFoundError if there are no catalogues"""
+    places = stations(Path(folder))
+    if len(places) == 2:
+        raise FileNotFoundError(f"{folder}: no catalogues")
+    others = {
+        "slider": over_mean([times(read(path), 1.0, 12000) for path in sorted((RESULTS / "catalogues").glob("slider_ours_1928_seed_*.xz"))]),
+        "fault": over_mean([times(read(path), 1e-3, LOADING) for path in places["fault"]]),
+        "california": over_mean([earthquakes()]),
+    }
+    found = {}
+    for unit, begin, fault in ((1.0, 0.0, False), (1e-3, LOADING, True)):
+        names = [name for name in places if is_fault(name) == fault and not name.startswith("ruptures")]
+        rows = iter(summaries(postproc, [path for name in names for path in places[name]], unit, begin))
+        for name in names:
+            found[name] = [numbers(path, unit, begin, others) | next(rows) for path in places[name]]
+    for name, paths in places.items():
+        if name.startswith("ruptures"):
+            found[name] = [ruptures(path, LOADING if "fault" in name else 0.0) for path in paths]
+    keys = {name: dict.fromkeys(key for one in some for key in one) for name, some in found.items()}
+    return {
+        name: {"seeds": len(some), **{key: mean_and_error([one.get(key, math.nan) for one in some]) for key in keys[name]}}
+        for name, some in found.items()
+    }  # yapf: disable
+
+
+def table(postproc, shown, folder=RESULTS / "walk"):
+    """Head and rows of the table of walk.md. \\param shown text of a number and its error"""
+    found = measured(postproc, folder)
+    lines = [(f"{text}, {n} blocks", f"{name}-{n}") for text, name in WALK for n in (256, 512, 1024)]
+    lines += [*FAULTS, *((f"*{text}*", f"{name}-512") for text, name in CONTROLS)]
+    head = ["station", "seeds, events", *(f"exponent {10.0**n:g} to {10.0**(n + 1):g}" for n in DECADES[1:])]
+    head += [*(f"gamma >= {10**n}" for n in SIZES), "burstiness", "distance to slider", "to fault", "to California"]
+    head += ["events < 1", "of 1 to 3 blocks", "ruptures of 1 to 3 blocks, >= 0.001", ">= 0.1"]
+    keys = [f"exponent_{n}" for n in DECADES[1:]] + [f"gamma_{n}" for n in SIZES]
+    keys += ["burstiness", "to_slider", "to_fault", "to_california", "small", "short"]
+    rows = []
+    for text, name in lines:
+        if name not in found:
+            continue
+        one, local = found[name], found.get(f"ruptures-{name}", {})
+        cells = [shown(*one.get(key, (math.nan, math.nan))) for key in keys]
+        cells += [shown(*local.get(key, (math.nan, math.nan))) for key in ("short_-3", "short_-1")]
+        rows.append([text, f"{one['seeds']}, {one['events'][0] * one['seeds']:.0f}", *cells])
+    return head, rows
+
+
+def lattice(shown):
+    """Head and row of the stiffness of the lattice beside the closed form for an elastic block (slider/slider_stiffness.h)."""
+    rows = [(float(q), float(k)) for q, k in (line.split(",") for line in (RESULTS / "lattice.stiffness.csv").read_text().splitlines()[1:])]
+    modulus, nu = math.sqrt(3) / 8, 0.25  # half of the shear modulus of links of stiffness 1
+    width, kappa, off = modulus / rows[0][1], 3 - 4 * nu, []
+    for q, stiffness in rows[1:]:
+        a = q * width
+        e = math.exp(-2 * a)
+        above = kappa * (1 + e * e) + 2 * e * (2 * a * a + 5 - 12 * nu + 8 * nu * nu)
+        closed = modulus * q / (1 - nu) * above / (kappa * (1 - e * e) + 4 * a * e)
+        off.append((2 * math.pi / q, stiffness / closed - 1))
+    chosen = [min(off, key=lambda one, wanted=wanted: abs(one[0] - wanted)) for wanted in (64, 32, 16, 8, 4, 3, 2)]
+    return ["wavelength in discs", *(f"{wavelength:.3g}" for wavelength, _ in chosen)], [
+        ["stiffness of the lattice over that of an elastic block, less 1", *(shown(100 * error) + " %" for _, error in chosen)]
+    ]  # yapf: disable
 
 
 def main(postproc, folder, out):
-    results, places = ROOT / "results", stations(Path(folder))
-    others = {
-        "slider": over_mean([times(path, 1.0, 12000) for path in sorted((results / "catalogues").glob("slider_ours_1928_seed_*.xz"))]),
-        "fault": over_mean([times(path, 1e-3, 4500) for path in places["fault"]]),
-        "california": over_mean([earthquakes()]),
-    }
     lines = []
-    for name, paths in places.items():
-        fault = name == "fault"
-        found = [
-            short(path) if name.startswith("ruptures") else numbers(postproc, path, 1e-3 if fault else 1.0, 4500 if fault else 0, others)
-            for path in paths
-        ]
-        line = {"station": name, "seeds": len(paths)}
-        for key in found[0]:
-            values = [one[key] for one in found if np.isfinite(one[key])]
-            line[key] = f"{statistics.mean(values):.4g}" if values else ""
-            line[f"{key}_error"] = f"{statistics.stdev(values) / len(values) ** 0.5:.2g}" if len(values) > 1 else ""
+    for name, one in measured(postproc, folder).items():
+        line = {"station": name, "seeds": one.pop("seeds")}
+        for key, (mean, error) in one.items():
+            line |= {key: f"{mean:.4g}" if math.isfinite(mean) else "", f"{key}_error": f"{error:.2g}" if math.isfinite(error) else ""}
         lines.append(line)
     names = list(dict.fromkeys(key for line in lines for key in line))
     with open(out, "w", encoding="utf-8", newline="") as file:
-        table = csv.DictWriter(file, names, lineterminator="\n")
-        table.writeheader()
-        table.writerows(lines)
+        writer = csv.DictWriter(file, names, lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(lines)
 
 
 if __name__ == "__main__":

@@ -61,6 +61,8 @@ BENCHMARK_CAPTURE(step, springs, Coupling::chain, Scheme::verlet)->Apply(sizes);
 BENCHMARK_CAPTURE(step, antiplane, Coupling::antiplane, Scheme::verlet)->Apply(sizes);
 BENCHMARK_CAPTURE(step, antiplane_tenth, Coupling::antiplane, Scheme::verlet, 10)->Apply(sizes);
 BENCHMARK_CAPTURE(step, no_inertia, Coupling::antiplane, Scheme::adams_bashforth)->Apply(sizes);
+BENCHMARK_CAPTURE(step, no_inertia_tenth, Coupling::antiplane, Scheme::adams_bashforth, 10)
+    ->Apply(sizes);
 BENCHMARK(transforms)->Apply(sizes);
 
 }  // namespace
