@@ -4,7 +4,7 @@
 
 FOLDER has the catalogues, as RUN/catalogue.csv (of the study) or RUN.catalogue.csv.xz (as published); the fault is that of
 results/campaign. Each number is the mean over the seeds, with its standard error, of
-  exponent_N   exponent of the sizes from 10^N to 10^(N+1) units, where there are ten events; the unit is 1 for blocks and 1e-3 for
+  exponent_N   exponent of the sizes from 10^N to 10^(N+1) units, where there are five events; the unit is 1 for blocks and 1e-3 for
                faults
   gamma_N      of the times between events of at least 10^N units, delta held at 1
   burstiness   (s - m) / (s + m) of the times between events of at least one unit, mean m, standard deviation s
@@ -30,7 +30,7 @@ from calibrate import LOADING, number, read
 ROOT = Path(__file__).resolve().parent.parent.parent
 RESULTS = ROOT / "results"
 DECADES, SIZES = (-2, -1, 0, 1, 2), (0, 1, 2)
-FEWEST = 10  # events of a decade
+FEWEST = 5  # events of a decade
 # Lines of the table: what is added to the station before, names of catalogues with the number of blocks, of their ruptures
 WALK = (("springs", "chain"), ("+ elastic blocks", "bulk"), ("+ radiation", "radiating"), ("+ roughness", "rough"), ("+ slow plate", "slow"))
 FAULTS = (("fault", "fault"), ("fault, viscosity 1", "fault-viscous"), ("fault, velocity weakening", "fault-weakening"))
@@ -38,7 +38,8 @@ CONTROLS = (("springs, plate 0.001", "chain-slower"), ("elastic blocks, plate 0.
             ("roughness, half the time step", "rough-step"), ("springs, memory 0.2", "chain-memory"), ("elastic blocks, memory 0.2", "bulk-memory"),
             ("roughness, memory 0.2", "rough-memory"), ("radiation 0.3", "radiating-more"), ("roughness, springs", "rough-chain"),
             ("roughness, in plane", "rough-inplane"), ("roughness, blocks 15 thick", "rough-thin"),
-            ("roughness, stiffness of the lattice", "rough-lattice"))
+            ("roughness, stiffness of the lattice", "rough-lattice"),
+            ("roughness, no inertia, radiation 1.28", "rough-quasi"))
 
 
 def is_fault(name):
@@ -52,7 +53,8 @@ def times(rows, size, begin=0.0):
 
 def over_mean(samples):
     """Of several catalogues, sorted."""
-    return sorted(t / statistics.mean(sample) for sample in samples if len(sample) > 1 for t in sample)
+    means = [statistics.fmean(sample) for sample in samples if sample]
+    return sorted(t / mean for sample, mean in zip(filter(None, samples), means) for t in sample)
 
 
 def distance(a, b):
@@ -100,7 +102,7 @@ def numbers(path, unit, begin, others):
     t = times(rows, unit)
     found = {"events": len(t) + 1, "small": share(rows, lambda row: number(row, "size") < unit)}
     if len(t) > 1:
-        mean, deviation = statistics.mean(t), statistics.pstdev(t)
+        mean, deviation = statistics.fmean(t), statistics.pstdev(t)
         found |= {"burstiness": (deviation - mean) / (deviation + mean)}
         found |= {f"to_{name}": distance(over_mean([t]), other) for name, other in others.items()}
     if rows and "rupture_length" in rows[0] and unit == 1.0:
