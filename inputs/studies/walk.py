@@ -4,20 +4,21 @@
 
 FOLDER has the catalogues, as RUN/catalogue.csv (of the study) or RUN.catalogue.csv.xz (as published); the fault is that of
 results/campaign. Each number is the mean over the seeds, with its standard error, of
-  exponent_N   exponent of the sizes from 10^N to 10^(N+1) units, where there are five events; the unit is 1 for blocks and 1e-3 for
-               faults
+  exponent_N   exponent of the sizes from 10^N to 10^(N+1) units, by maximum likelihood, of all seeds together, as one seed may have
+               few events there; error by jackknife over the seeds. The unit is 1 for blocks and 1e-3 for faults
   gamma_N      of the times between events of at least 10^N units, delta held at 1
   burstiness   (s - m) / (s + m) of the times between events of at least one unit, mean m, standard deviation s
   to_X         Kolmogorov-Smirnov distance of these times, over their mean, to those of X
   events       of at least one unit
   small        share of events of less than one unit
   short        share of events that slip in one to three blocks, and of all in half of the blocks or more: whole
-  short_-3     of ruptures of at least 1e-3, short_-1 of at least 0.1: share of those of one to three blocks, or units of length of
-               a fault
-`postproc summary` measures exponents and gamma.
+  local, local_10  of ruptures of at least 0.01 (a fault: 1e-3), and ten times that: share of those of one to three blocks (units of
+               length)
+gamma is that of `postproc summary`.
 """
 import csv
 import datetime
+import itertools
 import math
 import statistics
 import subprocess
@@ -30,7 +31,7 @@ from calibrate import LOADING, number, read
 ROOT = Path(__file__).resolve().parent.parent.parent
 RESULTS = ROOT / "results"
 DECADES, SIZES = (-2, -1, 0, 1, 2), (0, 1, 2)
-FEWEST = 5  # events of a decade
+FEWEST = 20  # events of a decade
 # Lines of the table: what is added to the station before, names of catalogues with the number of blocks, of their ruptures
 WALK = (("springs", "chain"), ("+ elastic blocks", "bulk"), ("+ radiation", "radiating"), ("+ roughness", "rough"), ("+ slow plate", "slow"))
 FAULTS = (("fault", "fault"), ("fault, viscosity 1", "fault-viscous"), ("fault, velocity weakening", "fault-weakening"))
@@ -74,30 +75,47 @@ def earthquakes():
     return [b - a for a, b in zip(found, found[1:])]
 
 
+def exponent(sizes, low, high, fewest=FEWEST):
+    """Of a power law between these sizes, as `postproc fit`. NaN for want of events"""
+    logs, width = [math.log(size / low) for size in sizes if low <= size < high], math.log(high / low)
+    if len(logs) < fewest:
+        return math.nan
+    mean, below, above = statistics.fmean(logs), -30.0, 30.0
+    while above - below > 1e-9:  # the mean of logarithms rises with 1 less the exponent
+        b = 0.5 * (below + above)
+        expected = width / 2 if abs(b) < 1e-7 else width / -math.expm1(-b * width) - 1 / b
+        below, above = (b, above) if expected < mean else (below, b)
+    return 1 - below
+
+
+def exponents(paths, unit, begin):
+    """{exponent_N: (exponent, error)} of all paths together."""
+    sizes = [[number(row, "size") for row in read(path) if number(row, "t_start") >= begin] for path in paths]
+    found = {}
+    for n in DECADES:
+        low, high, seeds = unit * 10.0**n, unit * 10.0**(n + 1), len(sizes)
+        parts = [exponent(itertools.chain(*sizes[:k], *sizes[k + 1:]), low, high, 5) for k in range(seeds)] if seeds > 1 else [math.nan]
+        error = math.sqrt((seeds - 1) * statistics.pvariance(parts)) if all(map(math.isfinite, parts)) else math.nan
+        found[f"exponent_{n}"] = exponent(itertools.chain(*sizes), low, high), error
+    return found
+
+
 def share(rows, of):
     return sum(map(of, rows)) / len(rows) if rows else math.nan
 
 
-def summaries(postproc, paths, unit, begin):
-    """A row of postproc summary for each catalogue."""
+def gammas(postproc, paths, unit, begin):
+    """Those of each catalogue."""
     if not paths:
         return []
-    ranges = [f"{unit * 10.0**n:g}:{unit * 10.0**(n + 1):g}" for n in DECADES]
-    sizes = [f"{unit * 10.0**n:g}" for n in (*DECADES, DECADES[-1] + 1)]
-    words = [word for option, texts in (("--range", ranges), ("--threshold", sizes)) for text in texts for word in (option, text)]
+    words = [word for n in SIZES for word in ("--threshold", f"{unit * 10.0**n:g}")]
     said = subprocess.run([postproc, "summary", *map(str, paths), "--from", str(begin), *words], capture_output=True, text=True, check=True).stdout
     rows = list(csv.DictReader(line for line in said.splitlines() if not line.startswith("#")))
-    found = []
-    for row in rows:
-        many = [number(row, f"events_{size}") for size in sizes]
-        one = {f"exponent_{n}": number(row, f"exponent_{text}") if many[k] - many[k + 1] >= FEWEST else math.nan
-               for k, (n, text) in enumerate(zip(DECADES, ranges))}  # yapf: disable
-        found.append(one | {f"gamma_{n}": number(row, f"gamma_{unit * 10.0**n:g}") for n in SIZES})
-    return found
+    return [{f"gamma_{n}": number(row, f"gamma_{unit * 10.0**n:g}") for n in SIZES} for row in rows]
 
 
 def numbers(path, unit, begin, others):
-    """What postproc summary does not have."""
+    """Those of one catalogue, but for gammas and exponents."""
     rows = [row for row in read(path) if number(row, "t_start") >= begin]
     t = times(rows, unit)
     found = {"events": len(t) + 1, "small": share(rows, lambda row: number(row, "size") < unit)}
@@ -112,10 +130,13 @@ def numbers(path, unit, begin, others):
     return found
 
 
-def ruptures(path, begin):
-    rows = [row for row in read(path) if number(row, "t_start") >= begin]
-    few = {f"short_{n}": share([row for row in rows if number(row, "size") >= 10.0**n], lambda row: number(row, "rupture_length") <= 3) for n in (-3, -1)}
-    return {"events": len(rows), **few}
+def ruptures(path, least, begin):
+    rows = [row for row in read(path) if number(row, "t_start") >= begin and number(row, "size") >= least]
+
+    def few(size):
+        return share([row for row in rows if number(row, "size") >= size], lambda row: number(row, "rupture_length") <= 3)
+
+    return {"events": len(rows), "local": few(least), "local_10": few(10 * least)}
 
 
 def stations(folder):
@@ -150,17 +171,19 @@ def measured(postproc, folder):
     found = {}
     for unit, begin, fault in ((1.0, 0.0, False), (1e-3, LOADING, True)):
         names = [name for name in places if is_fault(name) == fault and not name.startswith("ruptures")]
-        rows = iter(summaries(postproc, [path for name in names for path in places[name]], unit, begin))
+        rows = iter(gammas(postproc, [path for name in names for path in places[name]], unit, begin))
         for name in names:
             found[name] = [numbers(path, unit, begin, others) | next(rows) for path in places[name]]
     for name, paths in places.items():
         if name.startswith("ruptures"):
-            found[name] = [ruptures(path, LOADING if "fault" in name else 0.0) for path in paths]
-    keys = {name: dict.fromkeys(key for one in some for key in one) for name, some in found.items()}
-    return {
-        name: {"seeds": len(some), **{key: mean_and_error([one.get(key, math.nan) for one in some]) for key in keys[name]}}
-        for name, some in found.items()
-    }  # yapf: disable
+            found[name] = [ruptures(path, *((1e-3, LOADING) if "fault" in name else (1e-2, 0.0))) for path in paths]
+    result = {}
+    for name, some in found.items():
+        keys = dict.fromkeys(key for one in some for key in one)
+        result[name] = {"seeds": len(some)} | {key: mean_and_error([one.get(key, math.nan) for one in some]) for key in keys}
+        if not name.startswith("ruptures"):
+            result[name] |= exponents(places[name], *((1e-3, LOADING) if is_fault(name) else (1.0, 0.0)))
+    return result
 
 
 def table(postproc, shown, folder=RESULTS / "walk"):
@@ -170,7 +193,7 @@ def table(postproc, shown, folder=RESULTS / "walk"):
     lines += [*FAULTS, *((f"*{text}*", f"{name}-512") for text, name in CONTROLS)]
     head = ["station", "seeds, events", *(f"exponent {10.0**n:g} to {10.0**(n + 1):g}" for n in DECADES[1:])]
     head += [*(f"gamma >= {10**n}" for n in SIZES), "burstiness", "distance to slider", "to fault", "to California"]
-    head += ["events < 1", "of 1 to 3 blocks", "ruptures of 1 to 3 blocks, >= 0.001", ">= 0.1"]
+    head += ["events < 1", "of 1 to 3 blocks", "ruptures of 1 to 3 blocks, >= 0.01", ">= 0.1"]
     keys = [f"exponent_{n}" for n in DECADES[1:]] + [f"gamma_{n}" for n in SIZES]
     keys += ["burstiness", "to_slider", "to_fault", "to_california", "small", "short"]
     rows = []
@@ -179,7 +202,7 @@ def table(postproc, shown, folder=RESULTS / "walk"):
             continue
         one, local = found[name], found.get(f"ruptures-{name}", {})
         cells = [shown(*one.get(key, (math.nan, math.nan))) for key in keys]
-        cells += [shown(*local.get(key, (math.nan, math.nan))) for key in ("short_-3", "short_-1")]
+        cells += [shown(*local.get(key, (math.nan, math.nan))) for key in ("local", "local_10")]
         rows.append([text, f"{one['seeds']}, {one['events'][0] * one['seeds']:.0f}", *cells])
     return head, rows
 
