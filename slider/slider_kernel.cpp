@@ -259,7 +259,8 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
         const Mask slides = (v.r[r] > zero) & (planned >= zero);
         Register slid = zero;
         if constexpr (needs_rest) slid = slides ? x.r[r] - rest.r[r] : zero;
-        const Balance now = balance<law>(chain, m.r[r], old.r[r], f.r[r], change.r[r], slides, slid);
+        const Balance now =
+            balance<law>(chain, m.r[r], old.r[r], f.r[r], change.r[r], slides, slid);
         store_register(chain.ahead + i + r * SLIDER_LANES, now.ahead);
         // Until it stops, a block has been about as fast as at the beginning.
         radiated.r[r] += (v.r[r] + (now.v > zero ? now.v : v.r[r])) * change.r[r];

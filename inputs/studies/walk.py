@@ -35,12 +35,12 @@ FEWEST = 20  # events of a decade
 # Lines of the table: what is added to the station before, names of catalogues with the number of blocks, of their ruptures
 WALK = (("springs", "chain"), ("+ elastic blocks", "bulk"), ("+ radiation", "radiating"), ("+ roughness", "rough"), ("+ slow plate", "slow"))
 FAULTS = (("fault", "fault"), ("fault, viscosity 1", "fault-viscous"), ("fault, velocity weakening", "fault-weakening"))
-CONTROLS = (("springs, plate 0.001", "chain-slower"), ("elastic blocks, plate 0.001", "bulk-slower"), ("elastic blocks, half the time step", "bulk-step"),
-            ("roughness, half the time step", "rough-step"), ("springs, memory 0.2", "chain-memory"), ("elastic blocks, memory 0.2", "bulk-memory"),
-            ("roughness, memory 0.2", "rough-memory"), ("radiation 0.3", "radiating-more"), ("roughness, springs", "rough-chain"),
-            ("roughness, in plane", "rough-inplane"), ("roughness, blocks 15 thick", "rough-thin"),
-            ("roughness, stiffness of the lattice", "rough-lattice"),
-            ("roughness, no inertia, radiation 1.28", "rough-quasi"))
+CONTROLS = (("springs, plate 0.001", "chain-slower"), ("elastic blocks, plate 0.001", "bulk-slower"),
+            ("elastic blocks, half the time step", "bulk-step"), ("roughness, half the time step", "rough-step"),
+            ("springs, memory 0.2", "chain-memory"), ("elastic blocks, memory 0.2", "bulk-memory"), ("roughness, memory 0.2", "rough-memory"),
+            ("radiation 0.3", "radiating-more"), ("roughness, springs", "rough-chain"), ("roughness, in plane", "rough-inplane"),
+            ("roughness, blocks 15 thick", "rough-thin"), ("roughness, stiffness of the lattice",
+                                                           "rough-lattice"), ("roughness, no inertia, radiation 1.28", "rough-quasi"))
 
 
 def is_fault(name):

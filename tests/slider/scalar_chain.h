@@ -221,8 +221,7 @@ class ScalarChain {
     } else {
       const double slip = slides ? u_[i] - rest_[i] : 0.0;
       v = std::fmax(0.0, mobility * (f - friction_of(p_.friction, mu, v, slip)));
-      const double last =
-          mobility * (next - friction_of(p_.friction, mu, v, slip + p_.dt * v));
+      const double last = mobility * (next - friction_of(p_.friction, mu, v, slip + p_.dt * v));
       stops = last < 0.0;
       if (stops) part = v / (v - last);
       mean = stops ? 0.5 * v : 0.5 * (v + last);
