@@ -31,7 +31,7 @@ plot table using (drops(strcol("station"))-0.1):"gamma_0":"gamma_0_error" with y
   "" using (drops(strcol("station"))+0.1):"gamma_2":"gamma_2_error" with yerrorbars pt 5 lc rgb "#000000" title "≥ 100"
 set title "Share of small events"
 set key maxrows 4
-set yrange [0:1]
+set yrange [0:0.7]
 plot table using (drops(strcol("station"))-0.15):"small":"small_error" with yerrorbars pt 7 lc rgb "#56B4E9" title "drops < 1", \
   "" using (drops(strcol("station"))-0.05):"short":"short_error" with yerrorbars pt 9 lc rgb "#0072B2" title "drops of 1 to 3 blocks", \
   "" using (local(strcol("station"))+0.05):"local":"local_error" with yerrorbars pt 4 lc rgb "#999999" title "ruptures of 1 to 3, ≥ 0.01", \
