@@ -50,7 +50,7 @@ low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y
 set samples 400
 plot table using (row(1)):(low($4,$5)):(0):($4+$5-low($4,$5)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \
      table using (row(1)):4 with points lt 1 title "fault: s*", \
-     [102:2223.5294117647059] '+' using 1:(0.34622155892632123*$1**(0.1967814615089937)) with lines lt 1 title "A L^D with D = 0.197 ± 0.053", \
-     [102:2223.5294117647059] '+' using 1:(1.0505897818962149) with lines lt 8 dt 2 title "constant"
+     [102:2223.5294117647059] '+' using 1:(0.33778717116973539*$1**(0.20267785960118934)) with lines lt 1 title "A L^D with D = 0.203 ± 0.046", \
+     [102:2223.5294117647059] '+' using 1:(1.073204283351052) with lines lt 8 dt 2 title "constant"
 unset output
 }

@@ -7,10 +7,10 @@ if (!exists("formats")) formats = "png svg"
 do for [format in formats] {
 if (format eq "png") {
 point = 1.0
-set terminal pngcairo size 1800,1146 enhanced font "DejaVu Sans,26" linewidth 2 pointscale 2 background "#ffffff"
+set terminal pngcairo size 1800,1192 enhanced font "DejaVu Sans,26" linewidth 2 pointscale 2 background "#ffffff"
 } else {
 point = 0.65
-set terminal svg size 900,573 dynamic enhanced font "DejaVu Sans,13" background "#ffffff"
+set terminal svg size 900,596 dynamic enhanced font "DejaVu Sans,13" background "#ffffff"
 }
 
 set datafile separator comma
@@ -71,7 +71,11 @@ plot table using (row(1)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads
      table using (row(5)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 5 dt 1 lw 0.8 notitle, \
      table using (row(5)):8 with points lt 5 notitle, \
      table using (row(5)):8 with lines lt 5 lw 1.2 notitle, \
-     keyentry with linespoints lt 5 title "fault, length 1890 (460 events)", \
-     [0.0001:0.10000000000000001] '+' using 1:(0.29111164450722254*$1**(-1.0700000000000001)) with lines lt 8 dt 2 lw 2.2 title "slope -1.07"
+     keyentry with linespoints lt 5 title "fault, length 1440 (405 events)", \
+     table using (row(6)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 6 dt 1 lw 0.8 notitle, \
+     table using (row(6)):8 with points lt 6 notitle, \
+     table using (row(6)):8 with lines lt 6 lw 1.2 notitle, \
+     keyentry with linespoints lt 6 title "fault, length 1890 (460 events)", \
+     [0.0001:0.10000000000000001] '+' using 1:(0.39593886413375651*$1**(-1.0700000000000001)) with lines lt 8 dt 2 lw 2.2 title "slope -1.07"
 unset output
 }

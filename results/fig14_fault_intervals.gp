@@ -66,12 +66,16 @@ plot table using (row(1)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads
      keyentry with linespoints lt 4 title "fault, length 945 (739 times)", \
      table using (row(5)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 5 dt 1 lw 0.8 notitle, \
      table using (row(5)):8 with points lt 5 notitle, \
-     keyentry with linespoints lt 5 title "fault, length 1890 (459 times)", \
+     keyentry with linespoints lt 5 title "fault, length 1440 (404 times)", \
+     table using (row(6)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 6 dt 1 lw 0.8 notitle, \
+     table using (row(6)):8 with points lt 6 notitle, \
+     keyentry with linespoints lt 6 title "fault, length 1890 (459 times)", \
      [0.19952623149688789:3162.2776601683854] '+' using 1:(0.017519125479074318*$1**(-0.39768117444851026)*exp(-$1**(1)/428.1897383754353)) with lines lt 1 dt 1 lw 1.6 notitle, \
      [0.19952623149688789:1584.8931924611163] '+' using 1:(0.055054123381085569*$1**(-0.67945251778088178)*exp(-$1**(1)/344.99325607914363)) with lines lt 2 dt 3 lw 2 notitle, \
      [0.19952623149688789:1258.9254117941693] '+' using 1:(0.024371845742248918*$1**(-0.30997423348236597)*exp(-$1**(1)/146.49416952937386)) with lines lt 3 dt 3 lw 2 notitle, \
      [0.19952623149688789:501.18723362727303] '+' using 1:(0.040147110832062426*$1**(-0.37189888599961163)*exp(-$1**(1)/94.783787369125989)) with lines lt 4 dt 3 lw 2 notitle, \
-     [0.19952623149688789:794.32823472428277] '+' using 1:(0.047744620062901443*$1**(-0.36776071758832507)*exp(-$1**(1)/70.602870999190145)) with lines lt 5 dt 3 lw 2 notitle, \
+     [0.19952623149688789:316.22776601683836] '+' using 1:(0.035635472681139341*$1**(-0.23459184297639291)*exp(-$1**(1)/61.085249857625186)) with lines lt 5 dt 3 lw 2 notitle, \
+     [0.19952623149688789:794.32823472428277] '+' using 1:(0.047744620062901443*$1**(-0.36776071758832507)*exp(-$1**(1)/70.602870999190145)) with lines lt 6 dt 3 lw 2 notitle, \
      keyentry with lines lt 8 dt 1 lw 1.6 title "fit not rejected", \
      keyentry with lines lt 8 dt 3 lw 2 title "fit rejected (p < 0.05)"
 unset output

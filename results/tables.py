@@ -82,7 +82,7 @@ def summaries(folder=CAMPAIGN):
 
 @functools.cache
 def use(length, seed):
-    """Was the fault used to calibrate?"""
+    """Was the calibration fitted to the fault?"""
     return "used" if any((row.get("length") or "120", row["seed"]) == (length, seed) for row in read(POINTS)) else "predicted"
 
 
@@ -358,7 +358,7 @@ def slow_driving_table():
             "events >= 1e-3, 1e-2, 0.1 per displacement of 18": lambda row: per(row, "events_3", "events_2", "events_1"),
             "exponent 1e-3 to 1": "long", "1e-2 to 1": "from_2", "gamma >= 1e-3": "gamma", ">= 1e-2": "gamma_2",
             "events within 100 time units after, before a main shock": lambda row: f"{of(row, 'after_100')}, {of(row, 'before_100')}",
-            "large events found again, by chance": lambda row: f"{row['same']} of {row['of']}, {of(row, 'chance')}"
+            "large events matched, by chance": lambda row: f"{row['same']} of {row['of']}, {of(row, 'chance')}"
             if row["same"] else "", "steps per large event": "steps_per_large"
         })
 

@@ -135,7 +135,7 @@ END {
 
   if (has["peers"]) {
     print "\n### Side by side, PE at every step\n"
-    print "| program | particles | ranks | million particle-steps/s | ns | ours is so many times faster |" memory("memory, bytes per particle")
+    print "| program | particles | ranks | million particle-steps/s | ns | speed of ours over it |" memory("memory, bytes per particle")
     print "|---|---|---|---|---|---|" (any_resident ? "---|" : "")
     for (k = 1; k <= keys; k++) {
       if (table[k] != "peers") continue
