@@ -15,15 +15,15 @@ PictureOptions files_of(const Finding &one, PictureOptions picture) {
   return picture;
 }
 
-/// \throws FileError if a file of somebody else would be replaced
+/// \throws FileError if one of the files cannot be written, or is of somebody else
 void check_files(const Findings &found, const PictureOptions &picture) {
   for (const Finding &one : found.all()) {
     const PictureOptions files = files_of(one, picture);
     const auto *const table = std::get_if<Table>(&one.what);
     if (table && one.ending)
-      check_replaced(files.table(), files.overwrite,
-                     [table](std::string_view head) { return table->like(head); });
-    if (const auto *figure = std::get_if<Figure>(&one.what)) check_replaced(*figure, files);
+      check_output(files.table(), files.overwrite,
+                   [table](std::string_view head) { return table->like(head); });
+    if (const auto *figure = std::get_if<Figure>(&one.what)) check_outputs(*figure, files);
   }
 }
 
@@ -58,6 +58,9 @@ void write(const Findings &found, const PictureOptions &picture) {
       }
     } else if (const auto *figure = std::get_if<Figure>(&one.what)) {
       make(*figure, files);
+    } else if (const auto *file = std::get_if<WrittenFile>(&one.what)) {
+      file->close();
+      fmt::print("wrote {}\n", file->path);
     }
   }
 }
@@ -80,11 +83,11 @@ void Analysis::run() {
   else
     check_outputs(others, inputs());
   picture.overwrite = overwrite;
-  json.check_replaced(overwrite);
+  json.check(overwrite);
   const Findings found = find();
   const nlohmann::ordered_json numbers = json_of(found);
   check_files(found, picture);
-  json.check_replaced(overwrite, &numbers);
+  json.check(overwrite, &numbers);
   write(found, picture);
   json.write(numbers);
 }

@@ -48,7 +48,7 @@ class Analysis : public Command {
   virtual std::vector<std::string> inputs() const = 0;
   /// Endings of the files that find() may lead to, beside those of the picture BASE.
   virtual std::vector<std::string> endings() const { return {}; }
-  /// Files of other options that find() writes itself.
+  /// Files of other options that find() writes itself, see WrittenFile.
   virtual std::vector<Output> outputs() const { return {}; }
   virtual Findings find() = 0;
 

@@ -197,8 +197,8 @@ class Export : public CatalogueAnalysis {
     const Format *format = formats;
     while (format->name != format_) ++format;
     const std::string type = magnitudes_.type();
-    const FileLock lock = claim_output(output_.path, overwrite);
-    text_io::OutputFile out;
+    const auto file = std::make_shared<ClaimedFile<text_io::OutputFile>>(output_.path, overwrite);
+    text_io::OutputFile &out = file->writer;
     out.create(output_.path, format->head, true);
     std::string block;
     std::int64_t written = 0, without = 0;
@@ -238,11 +238,11 @@ class Export : public CatalogueAnalysis {
       return table.earthquakes();
     });
     out.write(block + format->tail);
-    out.close();
     Findings found;
     found.say(conventions(start));
-    found.say(fmt::format("{} events; left out: {} of {} <= 0, which have no magnitude\nwrote {}\n",
-                          written, without, magnitudes_.of(), output_.path));
+    found.say(fmt::format("{} events; left out: {} of {} <= 0, which have no magnitude\n", written,
+                          without, magnitudes_.of()));
+    found.file(output_.path, [file] { file->writer.close(); });
     Table counts("events,without_magnitude");
     counts.row(written, without);
     found.table("counts", std::move(counts));

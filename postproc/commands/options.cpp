@@ -245,10 +245,14 @@ std::string JsonOutput::text_of(const nlohmann::ordered_json &found) {
   return found.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-void JsonOutput::check_replaced(bool overwrite, const nlohmann::ordered_json *found) const {
+void JsonOutput::check(bool overwrite, const nlohmann::ordered_json *found) const {
   if (output().path.empty()) return;
   const std::string text = found ? text_of(*found) : "{";
-  postproc::check_replaced(path_, overwrite, begins_with(text.substr(0, text.find(':'))));
+  const Known known = begins_with(text.substr(0, text.find(':')));
+  if (found)
+    check_output(path_, overwrite, known);
+  else
+    check_replaced(path_, overwrite, known);
 }
 
 void JsonOutput::write(const nlohmann::ordered_json &found) const {

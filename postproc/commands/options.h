@@ -113,9 +113,9 @@ class JsonOutput {
   void add_to(CLI::App *command);
   /// No path, if nothing is written or it goes to standard output.
   Output output() const { return {"--json", path_ == "-" ? std::string() : path_}; }
-  /// \throws FileError if it would replace what is no JSON, or once there are findings, what is no
-  /// JSON with the same first name; unless overwrite
-  void check_replaced(bool overwrite, const nlohmann::ordered_json *found = nullptr) const;
+  /// \throws FileError if it would replace what is no JSON, unless overwrite; once there are
+  /// findings, also what is no JSON with the same first name, and where it cannot be written
+  void check(bool overwrite, const nlohmann::ordered_json *found = nullptr) const;
   /// Writes it, if --json was given. \throws FileError
   void write(const nlohmann::ordered_json &found) const;
 

@@ -83,8 +83,8 @@ class Pick : public Analysis {
     CatalogueInfo header;
     header.model = info.model;
     header.parameters = catalogue_parameters(info, picker.settings(), warmup);
-    const FileLock lock = claim_output(output_.path, overwrite);
-    CatalogueWriter catalogue;
+    const auto file = std::make_shared<ClaimedFile<CatalogueWriter>>(output_.path, overwrite);
+    CatalogueWriter &catalogue = file->writer;
     catalogue.create(output_.path, header, true);
     std::int64_t early = 0;
     Event event;
@@ -97,13 +97,13 @@ class Pick : public Analysis {
       event.id = catalogue.rows() + 1;
       catalogue.write(event);
     });
-    catalogue.close();
     Findings found;
     found.say(fmt::format(
         "{} samples, {} events; not written: {} of size <= 0, {} below the minimum size, {} "
-        "before the warm-up ended{}\nwrote {}\n",
+        "before the warm-up ended{}\n",
         samples, catalogue.rows(), picker.state().dropped_nonpositive, picker.state().dropped_small,
-        early, picker.in_event() ? ", 1 that had not ended" : "", output_.path));
+        early, picker.in_event() ? ", 1 that had not ended" : ""));
+    found.file(output_.path, [file] { file->writer.close(); });
     Table counts("samples,events,nonpositive,small,before_warmup,unfinished");
     counts.row(samples, catalogue.rows(), picker.state().dropped_nonpositive,
                picker.state().dropped_small, early, picker.in_event());

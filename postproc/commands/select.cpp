@@ -52,8 +52,8 @@ class Select : public CatalogueAnalysis {
       throw std::invalid_argument(
           fmt::format("{} catalogues, expected one", catalogues.paths.size()));
     check(catalogues);
-    const FileLock lock = claim_output(output_.path, overwrite);
-    CatalogueWriter writer;
+    const auto file = std::make_shared<ClaimedFile<CatalogueWriter>>(output_.path, overwrite);
+    CatalogueWriter &writer = file->writer;
     const EventTable table = read_events(
         catalogues.paths.front(), catalogues, [&](const Event &event) { writer.write(event); },
         [&](const EventTable &of) {
@@ -62,11 +62,11 @@ class Select : public CatalogueAnalysis {
           check_kinds(catalogues, 0, 1);
           writer.create(output_.path, header_of(of, catalogues), true);
         });
-    writer.close();
     state_repairs(table);
     Findings found;
-    found.say(fmt::format("{} events; left out: {} by time, {} by size\nwrote {}\n", writer.rows(),
-                          table.left_out_time, table.left_out_small, output_.path));
+    found.say(fmt::format("{} events; left out: {} by time, {} by size\n", writer.rows(),
+                          table.left_out_time, table.left_out_small));
+    found.file(output_.path, [file] { file->writer.close(); });
     return found;
   }
 };

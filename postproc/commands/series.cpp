@@ -15,28 +15,23 @@ namespace LSM::postproc {
 
 namespace {
 
-/// Samples as text; without a path, nothing is written.
+/// Samples as text.
 class SeriesText {
  public:
   static constexpr const char *begin = "# PE series\n";
-  SeriesText(const std::string &path, const PeSeriesInfo &info) {
-    if (path.empty()) return;
+  SeriesText(const std::string &path, const PeSeriesInfo &info) : file_(path, true) {
     lines_ = begin + text_io::lines_of(info.header()) + "step,time,pe\n";
-    file_.create(path, "", true);
+    file_.writer.create(path, "", true);
   }
   void add(std::int64_t step, double time, double pe) {
-    if (!file_.is_open()) return;
     lines_ += fmt::format("{},{},{}\n", step, text_io::number(time), text_io::number(pe));
-    if (lines_.size() > (1 << 16)) file_.write(std::exchange(lines_, {}));
+    if (lines_.size() > (1 << 16)) flush();
   }
-  void close() {
-    if (!file_.is_open()) return;
-    file_.write(lines_);
-    file_.close();
-  }
+  void flush() { file_.writer.write(std::exchange(lines_, {})); }
+  void close() { file_.writer.close(); }
 
  private:
-  text_io::OutputFile file_;
+  ClaimedFile<text_io::OutputFile> file_;
   std::string lines_;
 };
 
@@ -88,6 +83,7 @@ class Series : public Analysis {
     SeriesRegime regime;
     Thinner curves;
     Table events{"t_start,t_end,pe_start,pe_end,size"};
+    std::shared_ptr<SeriesText> text;  ///< nullptr: none
     PickerSettings picker;
   };
 
@@ -100,7 +96,7 @@ class Series : public Analysis {
     out.picker = picker.settings();
     RegimeMeter meter(window_, series.spacing(), length_of(series.info()));
     Extent times;
-    SeriesText text(text_, series.info());
+    if (!text_.empty()) out.text = std::make_shared<SeriesText>(text_, series.info());
     double before = nan;
     Event event;
     out.regime = series.about();
@@ -112,12 +108,12 @@ class Series : public Analysis {
       }
       if (!times.empty()) {
         meter.add(pe);
-        text.add(step, time, pe);
+        if (out.text) out.text->add(step, time, pe);
         out.curves.add(time, {pe, pe - before, std::isnan(before) ? nan : picker.rate()});
       }
       before = pe;
     });
-    text.close();
+    if (out.text) out.text->flush();
     out.regime.events = out.events.rows();
     if (picker.in_event())
       out.events.row(picker.state().t_start, times.hi, picker.state().pe_start, before, nan);
@@ -148,7 +144,7 @@ class Series : public Analysis {
     Findings found;
     found.table("series", regime_table({regime}));
     found.table("events", std::move(samples.events), "-events");
-    if (!text_.empty()) found.say(fmt::format("wrote {}\n", text_));
+    if (samples.text) found.file(text_, [text = samples.text] { text->close(); });
     found.figure("", std::move(figure));
     return found;
   }

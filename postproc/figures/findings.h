@@ -4,6 +4,7 @@
 #ifndef LSM_POSTPROC_FINDINGS_H
 #define LSM_POSTPROC_FINDINGS_H
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,10 +23,17 @@ struct Warning {
   std::string text;
 };
 
+/// A file that has been written beside its place, and gets its name once no output is refused.
+struct WrittenFile {
+  std::string path;
+  std::function<void()> close;
+};
+
 /// One finding. Names are those in JSON; one with an empty name is left out.
 struct Finding {
   std::string name;
-  std::variant<std::string, Warning, Table, Figure, std::shared_ptr<const nlohmann::ordered_json>>
+  std::variant<std::string, Warning, Table, Figure, WrittenFile,
+               std::shared_ptr<const nlohmann::ordered_json>>
       what;
   std::optional<std::string> ending;  ///< of its files, if it has any: BASE + ending + .csv, ...
 };
@@ -38,6 +46,9 @@ class Findings {
     for (const std::string &line : lines) say(line + "\n");
   }
   void warn(std::string text) { all_.push_back({{}, Warning{std::move(text)}, {}}); }
+  void file(const std::string &path, std::function<void()> close) {
+    all_.push_back({{}, WrittenFile{path, std::move(close)}, {}});
+  }
   void table(const std::string &name, Table table, const std::string &ending) {
     all_.push_back({name, std::move(table), ending});
   }

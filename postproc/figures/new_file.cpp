@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "new_file.h"
 
+#include <unistd.h>
+
+#include <cerrno>
 #include <filesystem>
 #include <system_error>
 
@@ -28,6 +31,23 @@ FileLock claim_output(const std::string &path, bool overwrite) {
 void check_replaced(const std::string &path, bool overwrite, const Known &known) {
   const std::string problem = overwrite ? std::string() : why_kept(path, known);
   if (!problem.empty()) throw FileError(problem);
+}
+
+void check_output(const std::string &path, bool overwrite, const Known &known) {
+  check_replaced(path, overwrite, known);
+  std::error_code code;
+  const fs::path folder = fs::absolute(path, code).parent_path();
+  if (fs::exists(folder, code)) {
+    const FileLock lock = claim_output(path, true);
+    const std::string problem = text_io::why_not_writable(path);
+    if (!problem.empty()) throw FileError(problem);
+    return;
+  }
+  fs::path there = folder;  // in which folders will be made
+  while (!there.empty() && !fs::exists(there, code)) there = there.parent_path();
+  if (access(there.c_str(), W_OK | X_OK) != 0)
+    throw FileError(folder.string() +
+                    ": cannot make the folder: " + std::generic_category().message(errno));
 }
 
 void write_file(const std::string &path, std::string_view text) {

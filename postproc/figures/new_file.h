@@ -22,6 +22,18 @@ FileLock claim_output(const std::string &path, bool overwrite);
 /// unless overwrite
 void check_replaced(const std::string &path, bool overwrite, const Known &known = nullptr);
 
+/// The same, and nothing is in the way of writing path; to be asked of all outputs before the first
+/// is written. \throws FileError
+void check_output(const std::string &path, bool overwrite, const Known &known = nullptr);
+
+/// A file that is written as one goes, and claimed as long.
+template <class Writer>
+struct ClaimedFile {
+  ClaimedFile(const std::string &path, bool overwrite) : lock(claim_output(path, overwrite)) {}
+  FileLock lock;
+  Writer writer;
+};
+
 /// Writes text to path, in place of an older file, see check_replaced(). \throws FileError
 void write_file(const std::string &path, std::string_view text);
 

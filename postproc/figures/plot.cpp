@@ -188,16 +188,16 @@ void make(const Figure &figure, const PictureOptions &options) {
              options.no_picture ? "" : fmt::format(", {0}.png, {0}.svg", options.output));
 }
 
-void check_replaced(const Figure &figure, const PictureOptions &options) {
+void check_outputs(const Figure &figure, const PictureOptions &options) {
   const std::string base = options.output, script = base + ".gp";
   const Known drawn = begins_with(script_head(fs::path(base).filename().string()));
-  check_replaced(options.table(), options.overwrite,
-                 [&](std::string_view head) { return figure.table.like(head); });
-  check_replaced(script, options.overwrite, drawn);
+  check_output(options.table(), options.overwrite,
+               [&](std::string_view head) { return figure.table.like(head); });
+  check_output(script, options.overwrite, drawn);
   // Pictures are known by the script beside them.
   const bool ours = text_io::holds_data(script);
   for (const char *const ending : {".png", ".svg"})
-    if (!options.no_picture) check_replaced(base + ending, options.overwrite || ours);
+    if (!options.no_picture) check_output(base + ending, options.overwrite || ours);
 }
 
 std::string svg_text(const Figure &figure) {

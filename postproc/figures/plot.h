@@ -77,7 +77,7 @@ void make(const Figure &figure, const PictureOptions &options);
 
 /// Before anything is written. \throws FileError if make() would replace a file that is none of an
 /// earlier figure of the same kind, unless options.overwrite
-void check_replaced(const Figure &figure, const PictureOptions &options);
+void check_outputs(const Figure &figure, const PictureOptions &options);
 
 /// The picture as SVG text, without leaving a file. \throws FileError
 std::string svg_text(const Figure &figure);

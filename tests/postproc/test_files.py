@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What the analysis and the block-slider replace, combine, and read: nothing lost, nothing mixed."""
+import fcntl
 import json
 import os
 import shutil
@@ -69,6 +70,31 @@ def test_what_a_command_wrote_is_replaced(postproc, files, line):
     before = snapshot()
     run(postproc, words)
     assert snapshot() == before
+
+
+@pytest.mark.parametrize("line", [
+    "series slider.pe --no-picture -o out/pic --export out/samples.csv --json out/n.json",
+    "pick slider.pe -o out/picked.csv --json out/n.json",
+    "export slider.csv -o out/t.csv --time-unit second --start-date 2000-01-01 --magnitude-constant 0 --json out/n.json",
+    "fit slider.csv --replicas 0 --no-picture -o out/fit --json out/n.json",
+    "intervals slider.csv --replicas 0 --no-picture -o out/times --json out/n.json",
+    "spectrum slider.pe --no-picture -o out/pic --json out/n.json",
+])
+def test_nothing_is_written_where_one_of_the_outputs_is_refused(postproc, files, line):
+    """Whichever it is: somebody else's file, or one that another program is writing."""
+    run(postproc, line)
+    outputs = sorted(Path("out").iterdir())
+    assert len(outputs) > 1
+    for output in outputs:
+        shutil.rmtree("out")
+        Path("out").mkdir()
+        output.write_text('{"a": "note"}\n')
+        refused(postproc, line, f"{output}: exists already and holds something else")
+        output.unlink()
+        with open(f"{output}.lock", "w") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            refused(postproc, line, f"{output}: is being written by another run")
+            refused(postproc, line + " --overwrite", f"{output}: is being written by another run")
 
 
 def test_pictures_belong_to_their_script(postproc, files, gnuplot):
