@@ -66,8 +66,9 @@ std::string all_of(text_io::Bytes &bytes, const std::string &format) {
     out.resize(known + head_size);
     got = bytes.read(out.data() + known, head_size);
     out.resize(known + got);
-    const std::size_t end = out.find_last_of("\r\n");
-    if (end != std::string::npos && end >= known) line = end + 1;
+    // All of it has been searched before but for what is new.
+    const std::size_t end = std::string_view(out).substr(known).find_last_of("\r\n");
+    if (end != std::string_view::npos) line = known + end + 1;
     if (format != "quakeml" && out.size() - line > longest_line)
       throw FileError(fmt::format("{}: a line of more than {} bytes, expected events on lines",
                                   bytes.path(), longest_line));

@@ -206,6 +206,7 @@ def test_every_region_counts(postproc, work):
     ("lambda = ", "lambda = nan\n# was = ", "lambda is 'nan', expected a number of at least 0 and less than 1"),
     ("picker = ", "picker = zzz\n# was = ", "picker is 'zzz', expected exponential, average or literal"),
     ("min_size = ", "min_size = -1\n# was = ", "min_size is '-1', expected a finite size"),
+    ("dt = ", "dt = -1\n# was = ", "dt is '-1', expected a positive number"),
     ("keep_nonpositive = ", "keep_nonpositive = maybe\n# was = ", "keep_nonpositive is 'maybe', expected yes or no"),
     ("warmup = ", "warmup = soon\n# was = ", "warmup is 'soon', expected a finite time"),
 ])
@@ -300,6 +301,15 @@ def test_lines_have_a_limit(postproc, work):
     from programs import Program
     small = Program("postproc", *limit, *postproc.command)
     refused(small, "count long.csv.gz", "long.csv.gz: a line of more than 1048576 bytes", timeout=HOSTILE)
+
+
+def test_quakeml_may_be_one_long_line(postproc, work):
+    """Each part of it is looked at once only."""
+    event = XML_EVENT.replace("\n", "").format(k=1, m=3)
+    with open("quakes.xml", "w") as file:
+        file.write(QUAKEML.replace("\n", "").format(events=event + " " * (60 << 20)))
+    run(postproc, "count quakes.xml --json n.json", timeout=HOSTILE)
+    assert json.loads(Path("n.json").read_text())["catalogues"][0]["events"] == 1
 
 
 def test_pipe_without_reader_can_be_left(slider, work):

@@ -286,8 +286,8 @@ TEST_F(PeSeries, BadFiles) {
   refused(bad, ": parameter 'dt' is missing in the header");
   for (const auto &[from, to, message] :
        {std::array<std::string, 3>{"# dt = 0.25", "# dt = x.25",
-                                   ": parameter 'dt' is 'x.25', expected a finite number"},
-        {"# dt = 0.25", "# dt = 0.00", ": dt is 0, expected a positive number"},
+                                   ": header line 2: dt is 'x.25', expected a positive number"},
+        {"# dt = 0.25", "# dt = 0.00", ": header line 2: dt is '0.00', expected a positive number"},
         {"# stride = 2", "# stride = 0", ": stride is 0, expected at least 1"},
         {"# seed = 5", "# step0= 5", ": header line 6: parameter 'step0' given twice"},
         {"# model = block-slider", "# model = block_slider", ": model is 'block_slider'"}}) {

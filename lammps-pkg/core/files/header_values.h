@@ -29,6 +29,7 @@ inline std::string bad_value(const std::string &key, const std::string &value) {
       {"lambda", 0.0, 1.0, "a number of at least 0 and less than 1"},
       {"warmup", -infinity, infinity, "a finite time"},
       {"length", above_0, infinity, "a positive length"},
+      {"dt", above_0, infinity, "a positive number"},
       {"blocks", above_0, infinity, "a positive number of blocks"},
   };
   const auto expected = [&](const std::string &what) {
