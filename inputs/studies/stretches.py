@@ -13,6 +13,7 @@ one to the next without jumps). Writes, of all runs,
                      (no interaction left), and of each stretch with a picker of its own (mean over stretches)
 """
 import argparse
+import array
 import csv
 import math
 import subprocess
@@ -22,9 +23,10 @@ from pathlib import Path
 
 import numpy as np
 
+from superpose import write
+
 LAGS = (1, 3, 10, 30, 100, 300, 1000)  # time units
 SHIFTS = 5  # sums with other shifts
-MAGIC = b"lsm-pe-series-1\n"
 NUMBERS = {
     "events": "events_0.0001", "mean_time": "mean_time_0.0001", "gamma": "gamma_0.0001", "gamma_1e-3": "gamma_0.001",
     "exponent": "exponent_1e-4:1e-1", "largest": "largest"
@@ -92,12 +94,9 @@ def variance(pe, every, dt):
 
 
 def write_series(path, info, every, pe):
-    """As compute lsm/events writes them, one sample as a step."""
+    """One sample as a step."""
     info = {**info, "dt": repr(float(info["dt"]) * every), "step0": "0", "time0": "0", "stride": "1"}
-    header = "".join(f"# {key} = {value}\n" for key, value in info.items()).encode()
-    both = np.empty(len(pe), [("step", "<i8"), ("pe", "<f8")])
-    both["step"], both["pe"] = np.arange(len(pe)), pe
-    path.write_bytes(MAGIC + len(header).to_bytes(8, "little") + header + both.tobytes())
+    write(path, info, array.array("d", pe))
 
 
 def asked(*words):
