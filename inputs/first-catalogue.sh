@@ -43,7 +43,8 @@ others=(first.*)
 [ -e .first-catalogue.lock ] || [ ! -e "${others[0]}" ] ||
   refuse "$run holds ${others[0]}, which this script did not write, expected another folder (LSM_OUTPUT)"
 { exec 9>>.first-catalogue.lock; } 2>/dev/null || refuse "cannot write to $run"
-flock -n 9 || refuse "a first-catalogue.sh works in $run already, expected its end or another folder (LSM_OUTPUT)"
+# Programs of one that was killed hold it as well, and end within moments.
+flock -w 2 9 || refuse "a first-catalogue.sh works in $run already, expected its end or another folder (LSM_OUTPUT)"
 rm -f first.*
 echo "Running the fault of length 120 for $steps steps of shear in $run"
 mpirun -np 2 "$bin/lmp" -in "$root/inputs/fault_120.in" -var steps "$steps" -var prefix first -var ruptures yes </dev/null
