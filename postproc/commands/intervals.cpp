@@ -90,7 +90,7 @@ class Intervals : public Statistic {
     table.column("variation", "standard deviation / mean", &IntervalCurve::variation);
     table.show("burstiness", &IntervalCurve::burstiness);
     for (const IntervalCurve &curve : curves) table.row(curve);
-    return std::move(table);
+    return Table(std::move(table));
   }
 
   Findings of(const std::vector<EventTable> &tables) override {

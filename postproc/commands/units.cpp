@@ -45,7 +45,7 @@ class Units : public CatalogueAnalysis {
     table.row({"energy, sizes", "J", units.energy()});
     table.row({"slip times length, moments", "N m", units.moment()});
     table.row({"Mw of that moment", "", moment_magnitude(units.moment()).constant});
-    return std::move(table);
+    return Table(std::move(table));
   }
 
   struct InSi {

@@ -60,7 +60,7 @@ Table aftershock_table(const std::vector<AftershockCurve> &curves) {
   table.comment("n(t) = K (t + c)^-p + background after the end of a main shock, model time");
   table.comment("poisson_p: share of Poisson catalogues whose likelihood ratio is as large");
   for (const AftershockCurve &curve : curves) table.row({curve});
-  return std::move(table);
+  return Table(std::move(table));
 }
 
 Table aftershock_means(const std::vector<AftershockCurve> &curves) {
@@ -88,7 +88,7 @@ Table aftershock_means(const std::vector<AftershockCurve> &curves) {
     }
     if (mean.p.size() > 1) table.row(mean);
   }
-  return std::move(table);
+  return Table(std::move(table));
 }
 
 Figure aftershock_figure(const std::vector<AftershockCurve> &curves) {

@@ -37,7 +37,7 @@ Table misfit_table(const std::vector<Misfits> &all) {
       "rate_l2", "L2(V)", [](auto &line) { return line.at.rate_l2; }, 3);
   for (const Misfits &one : all)
     for (const StationMisfit &station : one.stations) table.row({one, station});
-  return std::move(table);
+  return Table(std::move(table));
 }
 
 Table misfit_summary_table(const std::vector<Misfits> &all) {
@@ -58,7 +58,7 @@ Table misfit_summary_table(const std::vector<Misfits> &all) {
   table.column("peak", "peak V %", percent(&MisfitSummary::peak), 3);
   table.column("rate_l2", "L2(V) %", percent(&MisfitSummary::rate_l2), 3);
   for (const Misfits &one : all) table.row(one);
-  return std::move(table);
+  return Table(std::move(table));
 }
 
 namespace {

@@ -118,7 +118,7 @@ Table clustering_table(const std::vector<IntervalCurve> &curves,
       "random: mean and standard deviation of independent exponential times (variation, "
       "burstiness) or of the times in random order; p: share of them as far from their mean");
   for (const IntervalCurve &curve : curves) table.row(curve);
-  return std::move(table);
+  return Table(std::move(table));
 }
 
 namespace {

@@ -121,7 +121,7 @@ Table cuts_table(const std::vector<IntervalCurve> &curves) {
     ++number;
     for (const GammaOfCut &one : curve.cuts) table.row({number, curve, one});
   }
-  return std::move(table);
+  return Table(std::move(table));
 }
 
 Figure cuts_figure(const std::vector<IntervalCurve> &curves, int width) {
@@ -253,7 +253,7 @@ Table table1(const std::vector<Table1Row> &rows, bool rescaled, bool printed) {
   if (printed)
     for (const PrintedRow &row : printed_rows) table.row({none, &row});
   for (const Table1Row &row : rows) table.row({row});
-  return std::move(table);
+  return Table(std::move(table));
 }
 
 }  // namespace LSM::postproc

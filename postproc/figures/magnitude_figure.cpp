@@ -37,7 +37,7 @@ Table magnitude_table(const std::vector<MagnitudeCurve> &curves, double slope,
   table.comment(
       "b: Aki, in bins Tinti and Mulargia; errors: Shi and Bolt; b_positive: van der Elst");
   for (const MagnitudeCurve &curve : curves) table.row(curve);
-  return std::move(table);
+  return Table(std::move(table));
 }
 
 Figure magnitude_figure(const std::vector<MagnitudeCurve> &curves, double width) {

@@ -56,7 +56,7 @@ Table nature_table(const std::vector<NatureRow> &rows) {
       "errors: from the scatter between catalogues of a label, or for one catalogue its own "
       "(distances: blocks of consecutive values resampled)");
   for (const NatureRow &row : rows) table.row(row);
-  return std::move(table);
+  return Table(std::move(table));
 }
 
 std::vector<Table1Row> nature_table1(const std::vector<NatureRow> &rows) {

@@ -40,7 +40,7 @@ Table regime_table(const std::vector<SeriesRegime> &series) {
   table.column("mean_duration", "mean duration of events (model time)", of(&Regime::mean_duration));
   table.column("why", "degenerate", &SeriesRegime::why);
   for (const SeriesRegime &one : series) table.row(one);
-  return std::move(table);
+  return Table(std::move(table));
 }
 
 namespace {

@@ -91,7 +91,7 @@ Table size_fit_table(const std::vector<SizeFit> &fits) {
     for (const Comparison &c : fit.comparisons.empty() ? std::vector{none} : fit.comparisons)
       table.row({fit, c});
   }
-  return std::move(table);
+  return Table(std::move(table));
 }
 
 std::vector<std::string> completeness_notes(const std::vector<SizeFit> &fits) {
@@ -161,7 +161,7 @@ Table scaling_table(const std::vector<Scaling> &scalings) {
     for (std::size_t i = 0; i < scaling.points.size(); ++i)
       table.row({number, scaling.labels[i], scaling.model, scaling.points[i]});
   }
-  return std::move(table);
+  return Table(std::move(table));
 }
 
 static void to_json(json &out, const Saturation &end) {
