@@ -224,12 +224,7 @@ double FixLSMLeap::compute_vector(int n)
 // events that are still open began before the restart, so that earlier changes of the rate count
 template <class Self, class State> void FixLSMLeap::visit(Self &self, State &state)
 {
-  constexpr double with_changes = -2.0;    // in place of the time of earlier versions
-  double version = with_changes, now = self.model_time(self.update->ntimestep);
-  state(version);
-  if (version != with_changes)
-    self.error->all(
-        FLERR, "Fix lsm/leap {}: the restart file is of an older version of the package", self.id);
+  double now = self.model_time(self.update->ntimestep);
   state(now, self.state, self.factor, self.since, self.steps_time, self.leap_time, self.stops);
   state.list(self.changes);
 }
