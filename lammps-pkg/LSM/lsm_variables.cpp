@@ -55,7 +55,7 @@ void LSMVariables::command(int narg, char **arg)
       if (one.restart != LSMSceneVariable::NONE) names[0] += one.name + " ";
       if (one.header) names[1] += one.name + " ";
     }
-    refuse_replaced(table);
+    refuse_ineffective(table);
     for (char **file = files; ++file < end;) refuse_earlier(*file);
     set(LSMScript::SAVED, "string", names[0]);
     set(LSMScript::HEADER, "string", names[1]);
@@ -191,7 +191,7 @@ void LSMVariables::define(const LSMVariableTable &table, const LSMSceneVariable 
   }
 }
 
-void LSMVariables::refuse_replaced(const LSMVariableTable &table)
+void LSMVariables::refuse_ineffective(const LSMVariableTable &table)
 {
   const auto now = [this](const std::string &name) { return value_now(name); };
   for (const auto &[name, others] : table.replaced)
@@ -205,6 +205,23 @@ void LSMVariables::refuse_replaced(const LSMVariableTable &table)
                  "out",
                  other, value_now(other), name);
     }
+  for (const LSMVariableTable::Ignored &one : table.ignored) {
+    std::string where;
+    bool all = true;
+    for (const auto &[name, accepted] : one.where) {
+      const std::string value = value_now(name);
+      all = all && LSMSceneVariable::expected(value, accepted).empty();
+      where += (where.empty() ? "" : " and ") + name + " is " + value;
+    }
+    for (const std::string &name : one.names) {
+      if (!all || !is_given(name)) continue;
+      // a run that has begun with it goes on
+      const std::string *const then = LSM::text_io::find(saved, name);
+      if (then && same(value_now(name), *then)) continue;
+      error->all(FLERR, "Variable {} is '{}', but has no effect, as {}; leave it out", name,
+                 value_now(name), where);
+    }
+  }
 }
 
 // now, rather than when the run begins to write; its files refuse it as well

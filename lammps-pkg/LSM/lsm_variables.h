@@ -36,7 +36,7 @@ class LSMVariables : public Command {
   void warn_of_others(const LSMVariableTable &, int, char **) const;
   void find_restart(const LSMVariableTable &);
   void define(const LSMVariableTable &, const LSMSceneVariable &);
-  void refuse_replaced(const LSMVariableTable &);
+  void refuse_ineffective(const LSMVariableTable &);
   void refuse_earlier(const std::string &) const;
   const std::string *saved_value(const LSMSceneVariable &);
   bool follows_others(const LSMVariableTable &, const LSMSceneVariable &, const std::string &);

@@ -7,16 +7,20 @@
 #include "new_file.h"
 #include "page.h"
 #include "numbers.h"
+#include "run_files.h"
 #include "series_input.h"
 
 namespace LSM::postproc {
 
 namespace {
 
-/// Reads a PE series once; events are picked with the settings of its header.
-SeriesRegime series_regime(const std::string &path, const SeriesOptions &options) {
+/// Reads a PE series once; events are picked with the settings of its header. \throws FileError
+/// unless it is of the run of one of the catalogues
+SeriesRegime series_regime(const std::string &path, const SeriesOptions &options,
+                           const std::vector<EventTable> &catalogues) {
   SeriesInput series(path, options);
   const PeSeriesInfo &info = series.info();
+  check_same_run(catalogues, {path, info.header()});
   SeriesRegime result = series.about();
   EventPicker picker(picker_settings({}, info));
   RegimeMeter meter(regime_window, series.spacing(), length_of(info));
@@ -66,10 +70,11 @@ class Report : public Command {
               between(2, 1000000));
     add_block(group, block_);
     add_seed(group, report_.seed);
-    group.add("--series", series_,
-              "PE series whose regime, stick-slip or creep, the page states †, several "
-              "allowed; --from, --to and --lenient apply to them as well",
-              kind("FILE"), shown(""), one_each());
+    group.add(
+        "--series", series_,
+        "PE series of the runs of the catalogues, whose regime, stick-slip or creep, the page "
+        "states †, several allowed; --from, --to and --lenient apply to them as well",
+        kind("FILE"), shown(""), one_each());
   }
 
   void run() override {
@@ -80,7 +85,7 @@ class Report : public Command {
     const std::vector<EventTable> tables = load_catalogues(catalogues_);
     const SeriesOptions samples{catalogues_.lenient, catalogues_.from_time, catalogues_.to_time};
     std::vector<SeriesRegime> series;
-    for (const std::string &path : series_) series.push_back(series_regime(path, samples));
+    for (const std::string &path : series_) series.push_back(series_regime(path, samples, tables));
     // Statistics that ask for it have a section for each model.
     for (auto &[name, command] : all_commands()) {
       const auto statistic = std::dynamic_pointer_cast<Statistic>(command);

@@ -35,14 +35,13 @@ std::string file_beside(const std::string &catalogue, const std::string &ending)
   return {};
 }
 
-}  // namespace
-
-void check_same_run(const HeaderOf &one, const HeaderOf &other) {
+/// What the header of another run has otherwise, or "".
+std::string other_run(const HeaderOf &one, const HeaderOf &other) {
   constexpr std::string_view recorded[] = {
-      "model",    "program",         "picker",   "lambda",       "min_size",  "keep_nonpositive",
-      "warmup",   "stride",          "events",   "completeness", "picked_by", "selected",
-      "interval", "slipping",        "slip_bin", "gap",          "pause",     "rupture_gap",
-      "times",    "rupture_fraction"};
+      "program",  "picker",      "lambda",   "min_size",        "keep_nonpositive",
+      "warmup",   "stride",      "events",   "picked_by",       "selected",
+      "interval", "slipping",    "slip_bin", "completeness",    "gap",
+      "pause",    "rupture_gap", "times",    "rupture_fraction"};
   for (const auto &[key, value] : one.parameters) {
     const std::string *const there = text_io::find(other.parameters, key);
     double a = 0.0, b = 0.0;
@@ -50,9 +49,30 @@ void check_same_run(const HeaderOf &one, const HeaderOf &other) {
         std::find(std::begin(recorded), std::end(recorded), key) != std::end(recorded) ||
         (text_io::parse(value, a) && text_io::parse(*there, b) && a == b))
       continue;
-    throw FileError(fmt::format("{}: {} = {}, but {} in {}: expected a file of the same run",
-                                other.path, key, *there, value, one.path));
+    return fmt::format("{}: {} = {}, but {} in {}", other.path, key, *there, value, one.path);
   }
+  return {};
+}
+
+constexpr const char *expected_same = ": expected a file of the same run";
+
+}  // namespace
+
+void check_same_run(const HeaderOf &one, const HeaderOf &other) {
+  const std::string problem = other_run(one, other);
+  if (!problem.empty()) throw FileError(problem + expected_same);
+}
+
+void check_same_run(const std::vector<EventTable> &catalogues, const HeaderOf &other) {
+  std::string first;
+  for (const EventTable &table : catalogues) {
+    const std::string problem = other_run(header_of(table), other);
+    if (problem.empty()) return;
+    if (first.empty()) first = problem;
+  }
+  if (catalogues.size() > 1)
+    first += fmt::format(", and none of {} catalogues is of its run", catalogues.size());
+  throw FileError(first + expected_same);
 }
 
 HeaderOf header_of(const EventTable &table) {

@@ -21,6 +21,8 @@ struct HeaderOf {
 /// \throws FileError if a setting of the run that both headers state is not the same: files of one
 /// prefix may be of different runs. Settings of what is recorded may differ.
 void check_same_run(const HeaderOf &one, const HeaderOf &other);
+/// The same where `other` may be of the run of any of the catalogues.
+void check_same_run(const std::vector<EventTable> &catalogues, const HeaderOf &other);
 
 HeaderOf header_of(const EventTable &table);
 

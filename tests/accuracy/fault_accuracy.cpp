@@ -917,20 +917,12 @@ void leaps() {
       large, runs.front().velocity, paper_velocity);
   for (SlowRun &w : runs) {
     const std::string name = w.name();
-    w.seconds = run(inputs + "/fault.in",
-                    {{"length", text(length)},
-                     {"prefix", name},
-                     {"velocity", text(w.velocity)},
-                     {"leap", w.fast > 0.0 ? "yes" : "no"},
-                     {"fast", text(w.fast > 0.0 ? w.fast : paper_velocity)},
-                     {"steps", text(w.steps)},
-                     {"series", "no"},
-                     {"location", "yes"},
-                     {"checkpoint", "1000000000"},
-                     {"overwrite", "yes"},
-                     {"thermo", "100000"}},
-                    1, name)
-                    .cpu;
+    Variables variables = {
+        {"length", text(length)},     {"prefix", name},     {"velocity", text(w.velocity)},
+        {"steps", text(w.steps)},     {"series", "no"},     {"location", "yes"},
+        {"checkpoint", "1000000000"}, {"overwrite", "yes"}, {"thermo", "100000"}};
+    if (w.fast > 0.0) variables.insert(variables.end(), {{"leap", "yes"}, {"fast", text(w.fast)}});
+    w.seconds = run(inputs + "/fault.in", variables, 1, name).cpu;
     w.events = events_of(name + ".catalogue.csv");
     for (const LSM::Event &e : w.events)
       if (e.size >= large) w.large_events.push_back(e);

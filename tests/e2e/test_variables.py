@@ -95,6 +95,42 @@ def test_coefficients_that_the_law_does_not_use(lmp):
     assert header("a.catalogue.csv")["law"] == "coulomb 0.9 0.9"
 
 
+@pytest.mark.parametrize("given, others, said", [
+    ({"lambda": 0.9}, {}, "Variable lambda is '0.9', but has no effect, as picker is exponential and memory is 1; leave it out"),
+    ({"lambda": 0.99}, {}, "Variable lambda is '0.99', but has no effect"),
+    ({"memory": 2}, {"picker": "literal"}, "Variable memory is '2', but has no effect, as picker is literal"),
+    ({"impedance": 0.3}, {"hold": "position"}, "Variable impedance is '0.3', but has no effect, as hold is position"),
+    ({"fast": 0.02}, {}, "Variable fast is '0.02', but has no effect, as leap is no"),
+    ({"leaping": "slip 1.5"}, {}, "Variable leaping is 'slip 1.5', but has no effect, as leap is no"),
+    ({"history": "yes"}, {}, "Variable history is 'yes', but has no effect, as ruptures is no"),
+    ({"stride": 2}, {"series": "no"}, "Variable stride is '2', but has no effect, as series is no"),
+    ({"faultviscosity": 0.1}, {"damped": "plates"}, "Variable faultviscosity is '0.1', but has no effect, as damped is plates"),
+])
+def test_variables_that_do_nothing_beside_others(lmp, given, others, said):
+    told = refused(lmp, small(**given, **others), said)
+    assert "Created" not in told.out
+
+
+def test_variables_that_others_make_count(lmp):
+    """Each has an effect that headers state."""
+    for prefix, variables, name, value in (("a", {"lambda": 0.9, "memory": 0}, "lambda", "0.9"), ("b", {"lambda": 0.9,
+                                                                                                        "picker": "average"}, "lambda", "0.9"),
+                                           ("c", {"impedance": 0.3}, "impedance", "0.3")):
+        run(lmp, small(**variables, prefix=prefix, steps=1))
+        assert float(header(f"{prefix}.catalogue.csv")[name]) == float(value)
+
+
+def test_a_run_goes_on_with_what_it_was_begun_with(lmp):
+    """Runs of earlier versions may have such variables, which studies give again; and another value has no effect, either."""
+    run(lmp, small(hold="position"))
+    again = scene(restart="a.restart.end", steps=500, hold="position", impedance=0.6, prefix="b", **{"lambda": 0.99})
+    run(lmp, again)
+    assert info("b.restart.end.info")["impedance"] == "0.6"
+    refused(lmp, scene(restart="a.restart.end", steps=500, impedance=0.5, prefix="c"), "Variable impedance is '0.5', but has no effect")
+    run(lmp, scene(restart="a.restart.end", steps=500, hold="stress", impedance=0.5, prefix="d"))
+    assert float(header("d.catalogue.csv")["impedance"]) == 0.5
+
+
 def test_a_default_follows_a_variable_that_a_restart_changes(lmp):
     run(lmp, small())
     assert info("a.restart.end.info")["faultviscosity"] == "0.05"
@@ -173,6 +209,8 @@ def test_a_long_time_step_makes_another_model(lmp):
                                          ("x | 1 | number | free | yes | | ", "header is 'yes', but must be header or -"),
                                          ("x|1|number|-|-||\nx|2|number|-|-||", ":2: a second variable x"),
                                          ("when y 1 : x 2\nx|1|number|-|-||", "there is no variable y"),
+                                         ("x 1 ignores y\nx|1|number|-|-||", "there is no variable y"),
+                                         ("x ignores x\nx|1|number|-|-||", "expected a name and a value, but got 'x'"),
                                          ("when x : x 2\nx|1|number|-|-||", "expected a name and a value, but got 'x'"),
                                          ("x|${y}|number|-|-||\ny|1|number|-|-||", "variable y is needed before it is defined")])
 def test_tables_with_mistakes(lmp, line, wrong):

@@ -169,6 +169,22 @@ def test_explore_refuses_files_of_other_runs(postproc, slider, files):
     refused(postproc, "explore late.csv --series slider.pe -o mixed.html", "slider.pe: step .* expected a file of the same run")
 
 
+def test_report_refuses_series_of_other_runs(postproc, slider, files):
+    """Each is of the run of one of the catalogues, which one is not asked."""
+    run(slider, CHAIN, "--seed 2 --catalogue other.csv --pe-series other.pe")
+    quick = "--replicas 0 --interval-replicas 0 --bootstrap 2"
+    run(postproc, "report slider.csv other.csv --series other.pe --series slider.pe -o both.html", quick)
+    refused(postproc, f"report slider.csv --series slider.pe --series other.pe -o mixed.html {quick}",
+            "other.pe: seed = 2, but 1 in slider.csv: expected a file of the same run")
+    run(slider, CHAIN, "--seed 3 --pe-series third.pe")
+    refused(postproc, f"report slider.csv other.csv --series third.pe -o mixed.html {quick}",
+            "third.pe: seed = 3, but 1 in slider.csv, and none of 2 catalogues is of its run: expected a file of the same run")
+    Path("quakes.csv").write_text(QUAKES)
+    refused(postproc, f"report quakes.csv --series slider.pe -o mixed.html {quick}", "slider.pe: model = block-slider, but seismicity in quakes.csv")
+    Path("fault.csv").write_text(Path("slider.csv").read_text().replace("# model = block-slider\n", "# model = lsm\n"))
+    refused(postproc, "explore fault.csv --series slider.pe -o mixed.html", "slider.pe: model = block-slider, but lsm in fault.csv")
+
+
 # ---------------------------------------------------------------- selections
 
 QUAKES = "time,latitude,longitude,depth,mag,type\n" + "".join(

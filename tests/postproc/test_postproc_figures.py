@@ -353,26 +353,26 @@ def test_report_of_kinds_of_events(do):
 
 def test_report_of_series(do, no):
     """90 steps up by 1 and 9 down by 10, or as many down as up; one that only rises."""
-    slider("s.csv", power_law(1.2, 1e-2, 100, 500))
     for name, length, up, down in ("tooth.pe", 120, 90, 9), ("creep.pe", 240, 60, 60), ("rise.pe", 480, 10, 0):
         i = np.arange(20 * (up + down) + 1)
         pe = np.cumsum(np.concatenate([[0], np.where(i % (up + down) < up, 1, -up / down if down else 0)]))
+        fault(name.replace(".pe", ".csv"), power_law(1.2, 1e-2, 100, 500), length=length)
         write_series(name, pe, {"dt": 1, "length": length, "picker": "literal", "lambda": 0})
 
     def row(name):
         line = next(line for line in Path("p.html").read_text().splitlines() if line.startswith(f'<tr><th scope="row">{name}<'))
         return re.sub(r"\|\|*", "|", re.sub("<[^>]*>", "|", line))
 
-    do("report s.csv --series tooth.pe --series creep.pe --series rise.pe", QUICK, "-o p.html")
+    do("report tooth.csv creep.csv rise.csv --series tooth.pe --series creep.pe --series rise.pe", QUICK, "-o p.html")
     assert row("tooth.pe") == "|tooth.pe|fault|120|0 to 1981|1982|20|stick-slip|10|3|10|0.09086|9|"
     assert row("creep.pe") == "|creep.pe|fault|240|0 to 2401|2402|20|creep|1|2.41|1|0.4998|60|"
     assert re.search(r"480\|0 to 201\|202\|.*\|PE only rises", row("rise.pe"))
     # The window of time holds for the series, too.
-    do("report s.csv --series tooth.pe --from 495 --to 1485", QUICK, "-o p.html")
+    do("report tooth.csv --series tooth.pe --from 495 --to 1485", QUICK, "-o p.html")
     assert re.search(r"\|495 to 1485\|991\|.*\|stick-slip\|10\|", row("tooth.pe"))
-    no("samples in the window of time", "report s.csv --series tooth.pe --from 5000 -o x.html")
-    no("is read by this command", "report s.csv --series tooth.pe -o tooth.pe")
-    no("nowhere.pe: cannot open", "report s.csv --series nowhere.pe -o x.html")
+    no("samples in the window of time", "report tooth.csv --series tooth.pe --from 5000 -o x.html")
+    no("is read by this command", "report tooth.csv --series tooth.pe -o tooth.pe")
+    no("nowhere.pe: cannot open", "report tooth.csv --series nowhere.pe -o x.html")
 
 
 def test_report_of_leaf_springs(do):

@@ -171,6 +171,33 @@ def test_a_catalogue_that_is_replaced_is_read_again(study, work):
     refused(study, "my.csv", "my.csv:2: .*theirs/one.csv: no such catalogue, expected one in the column 'file'", but=NOTES)
 
 
+def test_clocks_say_nothing(study, slider):
+    """A study that is interrupted while the clock is set back goes on with what was made then, and one whose clock was ahead is done."""
+    run(slider, "--blocks 100 --seed 1 --steps 1e5 --velocity 0.05 --warmup 0 --catalogue whole.csv")
+    lines = Path("whole.csv").read_text().splitlines(keepends=True)
+    events = sum(line[0] not in "#e" for line in lines)
+    many = " ".join(f"--size {size}" for size in range(1, 2500))
+    write("run,program,seed,file\nseen_{seed},catalogue,1,one.csv\n", RECIPE.replace("--size 1e-3", many) + "  other: len(sizes.sizes)\n")
+    Path("one.csv").write_text("".join(lines))
+    run(study, "my.csv")
+    assert Path("out/seen_1/numbers/sizes.json").stat().st_size > 100000
+    done, numbers = ["out/seen_1/done.json"], ["out/seen_1/numbers/count.json", "out/seen_1/numbers/sizes.json"]
+    for fewer, made in ((3, done), (5, done + numbers)):
+        Path("one.csv").write_text("".join(lines[:-fewer]))
+        run(study, "my.csv", [name.removeprefix("out/") for name in made])
+        for name in ["one.csv", *made]:
+            os.utime(name, (1e9, 1e9))
+        run(study, "my.csv")
+        assert table()["seen_1"]["events"] == str(events - fewer)
+    for ahead in numbers, [path for path in Path("out").rglob("*") if not path.is_symlink()]:
+        for name in ahead:
+            os.utime(name, (4e9, 4e9))
+        run(study, "my.csv")
+        made = when("out/**/*.[cj]s*")
+        run(study, "my.csv")
+        assert when("out/**/*.[cj]s*") == made, f"made again, as {ahead} are of a time to come"
+
+
 def test_what_a_command_refuses_is_an_error_and_no_empty_cell(study):
     write(CHAIN, RECIPE.replace("--size 1e-3", "--sizes 1e-3"))
     assert run(study, "my.csv", status=None).status == 1
@@ -391,3 +418,16 @@ def test_recipes_that_say_what_is_wrong(plan, recipe, said):
 def test_studies_that_ship(binaries, work, name):
     """Their settings are those that the programs have, and their recipes ask for what there is."""
     Study(with_defaults({"table": str(INPUTS / f"studies/{name}.csv"), "bin": str(binaries)})).check()
+
+
+@pytest.mark.parametrize("name", sorted(path.stem for path in (INPUTS / "studies").glob("*.csv")))
+def test_settings_of_studies_that_ship(lmp, binaries, work, name):
+    """No variable is given another value than it may have, or one that does nothing beside others; nothing is run."""
+    Path("variables.in").write_text(f"lsm_variables {INPUTS}/fault.variables\n")
+    study = Study(with_defaults({"table": str(INPUTS / f"studies/{name}.csv"), "bin": str(binaries)}))
+    settings = {
+        tuple(word for word in one.words if not word.startswith(("seed=", "steps=")))
+        for one in study.runs.values() if one.program == "fault"
+    }
+    for words in sorted(settings):
+        run(lmp, "-in variables.in", [text for word in words for text in ("-var", *word.split("=", 1))])

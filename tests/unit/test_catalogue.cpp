@@ -448,6 +448,27 @@ TEST_F(CatalogueRead, LongHeader) {
   EXPECT_EQ(resume(writer, file(), info, 1000), 2);
 }
 
+// A small compressed file may unpack to any header, which no reader repairs and no program writes.
+TEST_F(CatalogueRead, HeaderWithoutEnd) {
+  CatalogueInfo info = some_info();
+  std::string text = header, repeated = header;
+  for (int i = 0; i < 2000; ++i) {
+    info.parameters.emplace_back("key" + std::to_string(i), std::string(5000, 'x'));
+    text += "# key" + std::to_string(i) + " = " + std::string(5000, 'x') + "\n";
+    repeated += "# key = " + std::string(5000, 'x') + "\n";
+  }
+  const std::string said = "header longer than 8388608 bytes, expected a line of column names";
+  for (const std::string &lines : {text, repeated}) {
+    spill(file(), lines + columns + row1);
+    const std::string problem = message_of<FileError>([&] { unit::read_catalogue(file(), true); });
+    EXPECT_EQ(problem.find(file() + ":16"), 0U) << problem;
+    EXPECT_NE(problem.find(said), std::string::npos) << problem;
+  }
+  CatalogueWriter writer;
+  EXPECT_EQ(message_of<std::invalid_argument>([&] { writer.create(file(), info); }),
+            "file header: longer than 8388608 bytes");
+}
+
 TEST_F(CatalogueResume, RupturesAreCutByTheirEnds) {
   CatalogueInfo info = some_info();
   info.parameters.emplace_back("events", "ruptures");

@@ -45,9 +45,9 @@ static bool consists_of(const std::string &value, const char *more)
   });
 }
 
-std::string LSMSceneVariable::expected(const std::string &value) const
+std::string LSMSceneVariable::expected(const std::string &value, const std::string &accepted)
 {
-  if (accepted == "file" || is_restart_file())
+  if (accepted == "file" || accepted == RESTART_FILE)
     return !value.empty() && value.front() != '-' && consists_of(value, "._-+=,@:/~")
                ? ""
                : "a file name of letters, digits and any of . _ - + = , @ : / ~ that does not "
@@ -87,7 +87,8 @@ LSMVariableTable::LSMVariableTable(const std::string &text, const std::string &f
     const std::string what(LSM::text_io::trim(line));
     if (what.empty() || what[0] == '#') continue;
     try {
-      const auto colon = what.find(':'), replaces = what.find(" replaces ");
+      const auto colon = what.find(':'), replaces = what.find(" replaces "),
+                 ignores = what.find(" ignores ");
       if (what.compare(0, 5, "when ") == 0 && colon != std::string::npos) {
         const auto condition = name_and_value(what.substr(5, colon - 5));
         for (const std::string &part : split(what.substr(colon + 1), ','))
@@ -97,6 +98,14 @@ LSMVariableTable::LSMVariableTable(const std::string &text, const std::string &f
       const std::vector<std::string> cells = split(what, '|');
       if (cells.size() == 1 && replaces != std::string::npos) {
         replaced.emplace_back(what.substr(0, replaces), split(what.substr(replaces + 10), ','));
+        continue;
+      }
+      if (cells.size() == 1 && ignores != std::string::npos) {
+        Ignored one;
+        for (const std::string &part : split(what.substr(0, ignores), '&'))
+          one.where.push_back(name_and_value(part));
+        one.names = split(what.substr(ignores + 9), ',');
+        ignored.push_back(one);
         continue;
       }
       static const std::vector<std::string> RESTART = {"fixed", "free", "noted", "-"};
@@ -126,6 +135,10 @@ LSMVariableTable::LSMVariableTable(const std::string &text, const std::string &f
   for (const auto &[name, others] : replaced) {
     known(name);
     for (const std::string &other : others) known(other);
+  }
+  for (const Ignored &one : ignored) {
+    for (const auto &condition : one.where) known(condition.first);
+    for (const std::string &name : one.names) known(name);
   }
 }
 

@@ -23,8 +23,10 @@ struct LSMSceneVariable {
   bool header;        ///< goes into the headers of catalogues and series
 
   /// What the value must be, for messages, or "" if it is accepted.
-  std::string expected(const std::string &value) const;
-  bool is_restart_file() const { return accepted == "restart file"; }
+  std::string expected(const std::string &value) const { return expected(value, accepted); }
+  static std::string expected(const std::string &value, const std::string &accepted);
+  static constexpr const char *RESTART_FILE = "restart file";
+  bool is_restart_file() const { return accepted == RESTART_FILE; }
 };
 
 class LSMVariableTable {
@@ -34,6 +36,12 @@ class LSMVariableTable {
   std::vector<LSMSceneVariable> variables;
   /// A variable, and others that have no effect if it is given.
   std::vector<std::pair<std::string, std::vector<std::string>>> replaced;
+  /// Variables, each with what it must be, and others that have no effect where all of them are.
+  struct Ignored {
+    std::vector<std::pair<std::string, std::string>> where;
+    std::vector<std::string> names;
+  };
+  std::vector<Ignored> ignored;
 
   /// \throws std::invalid_argument, one line that begins with the name of the file and the line
   LSMVariableTable(const std::string &text, const std::string &file);

@@ -22,8 +22,6 @@
 
 namespace LSM::binary_io {
 
-constexpr std::int64_t longest_header = 1 << 20;
-
 /// A number in the byte order of the machine, as bytes of the file or back.
 template <class Bytes>
 Bytes little_endian(Bytes bytes) {
@@ -129,7 +127,7 @@ class RecordReader {
     const bool whole = in_->read(bytes.data(), bytes.size()) == bytes.size();
     const auto length = from_bytes<std::int64_t>(bytes.data());
     std::string text;
-    if (whole && length >= 0 && length <= longest_header)
+    if (whole && length >= 0 && length <= text_io::longest_header)
       text.resize(static_cast<std::size_t>(length));
     if (!whole || in_->read(text.data(), text.size()) != static_cast<std::uint64_t>(length))
       throw FileError(path + ": file ends within the binary header, expected its length and " +

@@ -248,6 +248,9 @@ class CatalogueReader {
     }
     text_io::ParameterList parameters;
     while (reader_.next(line_)) {
+      if (reader_.begin() > text_io::longest_header)
+        reader_.fail("header longer than " + std::to_string(text_io::longest_header) +
+                     " bytes, expected a line of column names");
       if (!line_.empty() && line_.front() == '#') {
         read_parameter(parameters);
         continue;

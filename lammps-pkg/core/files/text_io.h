@@ -143,11 +143,20 @@ std::string take(const Parameters &parameters, const std::string &key, Value &va
   return {};
 }
 
+/// Bytes of the longest header that is written or read. Those of runs have a few thousand; a small
+/// compressed file may unpack to any.
+constexpr std::int64_t longest_header = 1 << 23;
+
 /// A key or value that cannot be read back as written is an error of the program.
 /// \throws std::invalid_argument
 inline void check_parameters(const Parameters &parameters) {
   std::unordered_set<std::string_view> keys;
+  std::size_t bytes = 0;
   for (const auto &[key, value] : parameters) {
+    bytes += key.size() + value.size() + std::string_view("#  = \n").size();
+    if (bytes > longest_header)
+      throw std::invalid_argument("file header: longer than " + std::to_string(longest_header) +
+                                  " bytes");
     if (key.empty() || trim(key) != key || key.find_first_of("=\n\r") != std::string::npos)
       throw std::invalid_argument("file header: parameter name " + in_quotes(key) +
                                   " is empty or has blanks around it, '=' or a line break");
