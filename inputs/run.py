@@ -42,17 +42,26 @@ def die_with_parent(number=signal.SIGHUP):
     ctypes.CDLL(None).prctl(1, int(number))  # PR_SET_PDEATHSIG
 
 
-def replace(path, text):
-    """The file has this text or bytes, or is as before. A link in the place of its temporary file is not followed."""
-    new = path.with_name(path.name + ".new")
-    descriptor = os.open(new, os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_NOFOLLOW, 0o666)
+def replace_all(texts):
+    """All files, by their paths, have these texts or bytes, or are as before. A link in the place of a temporary file is not followed."""
+    written = []
     try:
-        with open(descriptor, "wb") as file:
-            file.write(text.encode() if isinstance(text, str) else text)
-        new.replace(path)
+        for path, text in texts.items():
+            new = path.with_name(path.name + ".new")
+            descriptor = os.open(new, os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_NOFOLLOW, 0o666)
+            written.append((new, path))
+            with open(descriptor, "wb") as file:
+                file.write(text.encode() if isinstance(text, str) else text)
+        for new, path in written:
+            new.replace(path)
     except BaseException:
-        new.unlink(missing_ok=True)
+        for new, _ in written:
+            new.unlink(missing_ok=True)
         raise
+
+
+def replace(path, text):
+    replace_all({path: text})
 
 
 def alone_in(folder):

@@ -48,6 +48,8 @@ flock -w 5 9 || refuse "a study works in $output already, expected another folde
 # As of another user, or of a start with sudo; catalogues that links lead to are read only.
 other=$(find "$output" ! -type l ! -writable -printf '%p, which is of %u' -quit)
 [ -z "$other" ] || refuse "cannot write to $other, expected a folder of one user (LSM_OUTPUT)"
+# Written while a clock was ahead: newer than what is made of it from now on.
+find "$output" ! -type l -newermt now -exec touch -d "@$(date +%s)" {} +
 exec snakemake --snakefile "$root/inputs/Snakefile" --directory "$output" "${where[@]}" \
   --quiet rules --rerun-triggers mtime params input --nolock --keep-going --keep-incomplete --rerun-incomplete "${options[@]}" \
   --config table="$(realpath "$table")" bin="${LSM_BIN:-$build/bin}" ${settings[@]+"${settings[@]}"}

@@ -6,7 +6,7 @@ OUT/NAME.catalogue.csv.xz has the events >= 1e-4 of each folder NAME of a study 
 this size. OUT/NAME.ruptures.csv.xz has the ruptures of faults that recorded them. The header of a long fault has the size from
 which it is complete, which is larger than that in fault.in. With --statements OUT/statements.csv has what the paper says in words
 about its fault, run by run, from all ruptures and the slip histories, which are not published. Files of OUT that it wrote
-earlier are replaced, others are not; nothing is written where something is refused.
+earlier are replaced, others are not; nothing is written where something is refused or the disk is full, or before all is made.
 """
 import argparse
 import csv
@@ -14,17 +14,19 @@ import io
 import json
 import lzma
 import math
+import signal
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
-from run import events_in, replace  # noqa: E402
+from run import events_in, replace, replace_all  # noqa: E402
 
 EVENTS, RUPTURES = 1e-4, 1e-3
 MAGIC = "# lsm-catalogue 1\n"
 LOADING = 4500  # time units that are left out of statements: compression, and PE rising for the first time
+SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 # Length of a fault, and size from which the number of its events does not depend on how often PE is sampled: results/faults.md
 COMPLETE = ((900, "1e-3"), (480, "3e-4"))
 
@@ -147,8 +149,12 @@ def main(out, folders, events=None, ruptures=RUPTURES, statements=None):
     for path in texts:
         check_replaced(path, MAGIC if path.suffix == ".xz" else "run,length,seed,")
     Path(out).mkdir(parents=True, exist_ok=True)
-    for path, text in texts.items():
-        replace(path, lzma.compress(text.encode(), preset=9) if path.suffix == ".xz" else text)
+    packed = {path: lzma.compress(text.encode(), preset=9) if path.suffix == ".xz" else text for path, text in texts.items()}
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
+    try:
+        replace_all(packed)
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 if __name__ == "__main__":
@@ -158,7 +164,11 @@ if __name__ == "__main__":
     parser.add_argument("--statements", metavar="POSTPROC", help="the program that measures them")
     parser.add_argument("out", metavar="OUT", type=Path)
     parser.add_argument("folders", metavar="FOLDER", type=Path, nargs="+")
+    for number in SIGNALS:
+        signal.signal(number, signal.default_int_handler)
     try:
         main(**vars(parser.parse_args()))
     except (Refused, OSError) as error:
         sys.exit(f"publish.py: {error}")
+    except KeyboardInterrupt:
+        sys.exit("publish.py: interrupted, the files are all as before or all new")

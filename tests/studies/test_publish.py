@@ -10,7 +10,7 @@ from unittest import mock
 
 import pytest
 from data_files import header, rows
-from programs import INPUTS, Program, refused, run
+from programs import INPUTS, Program, refused, run, snapshot
 
 sys.path.insert(0, str(INPUTS / "studies"))
 import publish  # noqa: E402
@@ -157,6 +157,33 @@ def test_statements_are_replaced_whole(runs, postproc, small_disk):
         assert (full / "statements.csv").read_bytes() == before
         assert not list(full.glob("*.new"))
     refused(script, [full, *runs], "publish.py: .*No space left on device")
+
+
+@pytest.mark.parametrize("number", ["KILL", "TERM"])
+def test_an_end_at_any_moment_leaves_whole_files(runs, work, faults, number):
+    """Those of before, or new ones; all of them by a signal that a program can notice."""
+    script, out = Program("publish.py", sys.executable, INPUTS / "studies/publish.py"), work / "out"
+    run(script, "--events 0.01 --ruptures 0.01", out, runs)
+    old = snapshot(out)
+    run(script, out, runs)
+    new = snapshot(out)
+    assert len(old) == 4 and not set(old.items()) & set(new.items())
+    traced = faults(script, [path + end for path in old for end in ("", ".new")], "openat,write,rename")
+    calls = traced.calls(out, runs, seen=".new")
+    assert sum(name == "rename" for name, _ in calls) == 4
+    for name, n in calls:
+        run(script, "--events 0.01 --ruptures 0.01", out, runs)
+        ended = traced.inject(f"signal={number}", name, n, out, runs)
+        assert ended.status != 0
+        left = {path: content for path, content in snapshot(out).items() if not path.endswith(".new")}
+        assert all(content in (old[path], new[path]) for path, content in left.items()) and left.keys() == old.keys()
+        if number == "KILL":
+            assert name == "rename" or left == old
+        else:
+            assert snapshot(out) in (old, new)
+            assert ended.err == "publish.py: interrupted, the files are all as before or all new\n"
+    run(script, out, runs)
+    assert snapshot(out) == new
 
 
 def test_sliders_are_published_whole(slider, tmp_path):
