@@ -38,9 +38,14 @@ void ActiveSet::rest_together(std::int64_t step) {
 void ActiveSet::restart(std::int64_t step) {
   if (!view_.by_springs()) {
     list_all();
+    std::fill(hot_.begin(), hot_.end(), 0);
     bool any = dense_;
-    for (int i = 0; i < view_.blocks; ++i)
-      any = any || view_.v[i] > 0.0 || view_.force[i] > view_.mu[i];
+    for (int i = 0; i < view_.blocks; ++i) {
+      if (!(view_.v[i] > 0.0 || view_.force[i] > view_.mu[i])) continue;
+      hot_[static_cast<std::size_t>(i / chunk_size)] |=
+          static_cast<std::uint8_t>(1U << (i % chunk_size));
+      any = true;
+    }
     if (!any) rest_together(step);
     return;
   }
@@ -65,8 +70,8 @@ std::int64_t ActiveSet::wake_step(int c) const {
   double first = std::numeric_limits<double>::max(), scale = 0.0;
   for (int i = c * chunk_size; i < (c + 1) * chunk_size && i < view_.blocks; ++i) {
     const double *u = view_.u;
-    const double coupling =
-        view_.by_springs() ? view_.kc * ((u[i - 1] - u[i]) + (u[i + 1] - u[i])) : view_.coupling[i];
+    const double coupling = view_.by_springs() ? view_.kc * ((u[i - 1] - u[i]) + (u[i + 1] - u[i]))
+                                               : view_.of_modes.coupling[i];
     const double plate_at = u[i] + (view_.mu[i] - coupling) / view_.kl;
     first = std::min(first, plate_at);
     scale = std::max({scale, std::fabs(plate_at),

@@ -25,7 +25,7 @@ Chain::Chain(const Parameters &p, const std::vector<double> &mu, bool dense, Ins
 ChainView Chain::view_of(const Parameters &p, const std::vector<double> &mu) {
   if (mu.size() != static_cast<std::size_t>(p.blocks))
     throw std::invalid_argument("number of friction coefficients differs from --blocks");
-  const std::size_t room = (mu.size() + chunk_size - 1) / chunk_size * chunk_size + 2 * chunk_size;
+  const std::size_t room = whole_chunks(mu.size()) + 2 * chunk_size;
   const auto blocks_of = [room](Array &array, double value) {
     array.assign(room, value);
     return array.data() + chunk_size;
@@ -42,10 +42,13 @@ ChainView Chain::view_of(const Parameters &p, const std::vector<double> &mu) {
   if (p.scheme == Scheme::adams_bashforth) view.ahead = blocks_of(ahead_, 0.0);
   if (!p.by_springs()) {
     view.forces = forces_.get();
-    view.coupling = blocks_of(coupling_, 0.0);
+    view.of_modes = forces_->arrays();
     view.change = blocks_of(change_, 0.0);
   }
-  if (p.landscape.length > 0.0) cells_.resize(mu.size());
+  if (p.landscape.length > 0.0) {
+    cells_.resize(mu.size());
+    ends_.resize(whole_chunks(mu.size()));
+  }
   return view;
 }
 
@@ -69,20 +72,20 @@ double hashed(std::uint64_t seed, std::uint64_t block, std::uint64_t number) {
 // Gives a block another strength if it has left a cell of the landscape. All cells but the first
 // are a correlation length long. Returns whether it has.
 bool Chain::draw_strength(int i) {
-  Cell &cell = cells_[static_cast<std::size_t>(i)];
-  if (view_.u[i] < cell.end) return false;
+  std::int64_t &cell = cells_[static_cast<std::size_t>(i)];
+  double &left_at = ends_[static_cast<std::size_t>(i)];
+  if (view_.u[i] < left_at) return false;
   const Landscape &way = view_.landscape;
   const auto block = static_cast<std::uint64_t>(i);
   const double first = hashed(way.seed, block, 0);
-  const auto end = [&] { return way.length * (first + static_cast<double>(cell.number)); };
-  cell.number = std::max(cell.number, static_cast<std::int64_t>(view_.u[i] / way.length - first));
-  while (!(view_.u[i] < end())) ++cell.number;
-  cell.end = end();
-  if (cell.number > 0)
+  const auto end = [&] { return way.length * (first + static_cast<double>(cell)); };
+  cell = std::max(cell, static_cast<std::int64_t>(view_.u[i] / way.length - first));
+  while (!(view_.u[i] < end())) ++cell;
+  left_at = end();
+  if (cell > 0)
     mu_[static_cast<std::size_t>(i + chunk_size)] =
-        way.low +
-        (way.high - way.low) * hashed(way.seed, block, static_cast<std::uint64_t>(cell.number));
-  return cell.number > 0;
+        way.low + (way.high - way.low) * hashed(way.seed, block, static_cast<std::uint64_t>(cell));
+  return cell > 0;
 }
 
 void Chain::take_step() {
@@ -94,11 +97,17 @@ void Chain::take_step() {
   account_.add(sums, ++step_);
   moved_ += sums.hot;
   if (cells_.empty() || !(sums.slip > 0.0)) return;
-  for (std::size_t k = 0; k < list.size(); ++k)
-    for (int l = 0; l < chunk_size && list[k] * chunk_size + l < view_.blocks; ++l)
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const std::int64_t i = static_cast<std::int64_t>(list[k]) * chunk_size;
+    const double *const u = view_.u + i, *const end = ends_.data() + i;
+    bool left = false;
+    for (int l = 0; l < chunk_size; ++l) left |= u[l] >= end[l];
+    if (!left) continue;
+    for (int l = 0; l < chunk_size; ++l)
       // With a lower strength it may move in the next step.
-      if (draw_strength(list[k] * chunk_size + l))
+      if (u[l] >= end[l] && draw_strength(static_cast<int>(i) + l))
         active_.hot()[k] = static_cast<std::uint8_t>(active_.hot()[k] | 1U << l);
+  }
 }
 
 double Chain::kinetic() const {
@@ -202,14 +211,16 @@ void Chain::restart() {
   double *const u = view_.u;
   u[-1] = u[view_.blocks - 1];
   u[view_.blocks] = u[0];
-  if (forces_) forces_->find(u, view_.coupling);
+  if (forces_) forces_->find(u);
   for (int i = 0; i < view_.blocks; ++i) {
     const double coupling =
-        forces_ ? view_.coupling[i] : view_.kc * ((u[i - 1] - u[i]) + (u[i + 1] - u[i]));
+        forces_ ? view_.of_modes.coupling[i] : view_.kc * ((u[i - 1] - u[i]) + (u[i + 1] - u[i]));
     view_.force[i] = coupling + view_.kl * (plate() - u[i]);
   }
   if (!cells_.empty()) {
-    std::fill(cells_.begin(), cells_.end(), Cell{0, std::numeric_limits<double>::lowest()});
+    std::fill(cells_.begin(), cells_.end(), 0);
+    std::fill(ends_.begin(), ends_.end(), std::numeric_limits<double>::max());
+    std::fill_n(ends_.begin(), view_.blocks, std::numeric_limits<double>::lowest());
     std::copy(first_mu_.begin(), first_mu_.end(), mu_.begin() + chunk_size);
     for (int i = 0; i < view_.blocks; ++i) draw_strength(i);
   }

@@ -11,11 +11,10 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
-#include <new>
 #include <vector>
 
-#include "numerics/huge_pages.h"
 #include "slider_active_set.h"
+#include "slider_array.h"
 #include "slider_creep.h"
 #include "slider_energy.h"
 #include "slider_kernels.h"
@@ -23,29 +22,6 @@
 #include "slider_parameters.h"
 
 namespace Slider {
-
-/// Memory aligned to cache lines, so that a chunk never straddles two. Long arrays ask for huge
-/// pages: in a long chain every active chunk lies on ordinary pages of its own, one for each array,
-/// more than the TLB holds.
-template <class T>
-struct LineAllocator {
-  using value_type = T;
-  LineAllocator() = default;
-  template <class U>
-  LineAllocator(const LineAllocator<U> &) {}
-  static constexpr std::size_t line = 64, huge_page = std::size_t(1) << 21;
-  static std::align_val_t alignment(std::size_t n) {
-    return std::align_val_t(n * sizeof(T) < 2 * huge_page ? line : huge_page);
-  }
-  T *allocate(std::size_t n) {
-    void *const p = ::operator new(n * sizeof(T), alignment(n));
-    if (alignment(n) == std::align_val_t(huge_page)) LSM::ask_for_huge_pages(p, n * sizeof(T));
-    return static_cast<T *>(p);
-  }
-  void deallocate(T *p, std::size_t n) { ::operator delete(p, alignment(n)); }
-  bool operator==(const LineAllocator &) const { return true; }
-  bool operator!=(const LineAllocator &) const { return false; }
-};
 
 class Chain {
  public:
@@ -125,13 +101,6 @@ class Chain {
   void set_state(const ChainState &s);
 
  private:
-  using Array = std::vector<double, LineAllocator<double>>;
-
-  // Where a block has one strength: how many of them it has left behind, and the end.
-  struct Cell {
-    std::int64_t number;
-    double end;
-  };
   // Of a chunk before a step.
   struct Kept {
     double u[chunk_size], force[chunk_size];
@@ -145,11 +114,14 @@ class Chain {
 
   double plate_step_;
   StepFunction function_;
-  Array u_, v_, force_, mu_, rest_, ahead_, coupling_, change_;
+  Array u_, v_, force_, mu_, rest_, ahead_, change_;
   std::unique_ptr<ModeForces> forces_;
   std::vector<double> first_mu_;  // at step 0
-  std::vector<Cell> cells_;       // of each block, in a landscape
-  std::vector<Kept> kept_;        // of the listed chunks, if someone watches
+  // In a landscape, how many strengths each block has left behind, and where it leaves its present
+  // one.
+  std::vector<std::int64_t> cells_;
+  Array ends_;
+  std::vector<Kept> kept_;  // of the listed chunks, if someone watches
   ChainView view_;
   ActiveSet active_;
   PeAccount account_;

@@ -40,8 +40,7 @@ struct ChainState {
 inline double direct_energy(const Parameters &p, const std::vector<double> &u, double plate) {
   LSM::NeumaierSum sum;
   if (const auto forces = mode_forces(p)) {
-    std::vector<double> coupling(u.size());
-    forces->find(u.data(), coupling.data());
+    const double *const coupling = forces->find(u.data());
     for (std::size_t i = 0; i < u.size(); ++i) {
       sum.add(0.5 * p.kl * (plate - u[i]) * (plate - u[i]));
       // The forces add up to nothing.

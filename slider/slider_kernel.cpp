@@ -77,11 +77,11 @@ inline __attribute__((always_inline)) Register velocity_at(Register c, Register 
   const Register zero = {}, one = zero + 1.0;
   const Register q = (1.0 + c) * (1.0 + c) - 4.0 * b;
   const Register s = square_root(q > zero ? q : zero);
-  const Register fast = c > one ? one : zero;
-  const Register numerator = fast > zero ? (c - 1.0) + s : 2.0 * (c - b);
-  const Register denominator = fast > zero ? one + one : (1.0 - c) + s;
+  const Mask fast = c > one;
+  const Register numerator = fast ? (c - 1.0) + s : 2.0 * (c - b);
+  const Register denominator = fast ? one + one : (1.0 - c) + s;
   const Register w = numerator / denominator;
-  return ((w > zero) & (q > zero)) ? w : zero;
+  return ((w > zero) & (s > zero)) ? w : zero;
 }
 
 // A step without inertia, of a register of blocks.
@@ -110,7 +110,11 @@ inline __attribute__((always_inline)) Balance balance(const ChainView &chain, Re
     v = velocity_at(by_radiation * f, b);
     v = (slides | (f > m)) ? v : zero;
     // Slower than this no block slides, as less velocity takes more force.
-    const Register root = square_root(b), slowest = root > one ? root - one : zero;
+    Register slowest = zero;
+    if (bits(b > one) != 0) {
+      const Register root = square_root(b);
+      slowest = root > one ? root - one : zero;
+    }
     const auto force_per_velocity = [&](Register w) __attribute__((always_inline)) {
       const Register slope = one - b / ((one + w) * (one + w));
       return slope > zero ? slope : zero;
@@ -122,39 +126,45 @@ inline __attribute__((always_inline)) Balance balance(const ChainView &chain, Re
     Register middle = 0.5 * (v + slowest), last = slowest;
     const Register fall = own * v - others, later = own * middle - others,
                    least = own * last - others;
-    Register p = force_per_velocity(v), q = 4.0 * force_per_velocity(middle),
-             r = force_per_velocity(last);
-    const Register stop = (p / fall + q / later) + r / least;
-    const Register until = (chain.radiation / 6.0) * (v - slowest) * stop;
-    stops = slides & (fall > zero) & (later > zero) & (least > zero) & (until < one);
+    Register p = force_per_velocity(v);
+    // Few blocks stop, and divisions cost most here.
+    stops = slides & (fall > zero) & (later > zero) & (least > zero);
+    if (bits(stops) != 0) {
+      const Register q = 4.0 * force_per_velocity(middle), r = force_per_velocity(last);
+      const Register stop = (p / fall + q / later) + r / least;
+      part = (chain.radiation / 6.0) * (v - slowest) * stop;
+      stops &= part < one;
+    }
     const Register course = velocity_at(c_next, b);
     last = (stops | (course < slowest)) ? slowest : course;
     middle = 0.5 * (v + last);
-    q = 4.0 * force_per_velocity(middle);
-    r = force_per_velocity(last);
-    p = stops ? p / fall : p;
-    q = stops ? q / later : q;
-    r = stops ? r / least : r;
+    Register q = 4.0 * force_per_velocity(middle), r = force_per_velocity(last);
+    if (bits(stops) != 0) {
+      p = stops ? p / fall : p;
+      q = stops ? q / later : q;
+      r = stops ? r / least : r;
+    }
     const Register sum = (p + q) + r;
     mean = sum > zero ? ((p * v + q * middle) + r * last) / sum : middle;
-    part = stops ? until : one;
+    part = stops ? part : one;
   } else {
     v = by_radiation * (f - friction<law>(chain, m, slides ? one : zero, f, slip));
     v = v > zero ? v : zero;
     const Register last =
         by_radiation * (next - friction<law>(chain, m, v, f, slip + chain.dt * v));
     stops = last < zero;
-    part = stops ? v / (v - last) : one;
+    if (bits(stops) != 0) part = stops ? v / (v - last) : one;
     mean = stops ? 0.5 * v : 0.5 * (v + last);
   }
-  const Register late = slides ? zero : old < m ? (f - m) / (f - old) : one;
+  Register late = zero;
+  if (bits((v > zero) & ~slides) != 0) late = slides ? zero : old < m ? (f - m) / (f - old) : one;
   const Register ahead = chain.dt * (part * mean + late * v);
   // Negative ones end with a stop.
   return {v, v > zero ? (stops ? -ahead : ahead) : zero};
 }
 
 // How blocks are coupled, and whether they radiate.
-enum class Kind { springs, radiating_springs, modes };
+enum class Kind { springs, radiating_springs, modes, radiating_modes };
 
 template <Scheme scheme, Law law, Kind kind>
 StepSums step(const ChainView &chain, const std::int32_t *list, int count, double x_new,
@@ -165,12 +175,16 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
   const double half_h = 0.5 * h;
   const double half_h_m = half_h / chain.mass;
   const double kc = chain.kc, kl = chain.kl;
-  constexpr bool radiates = kind != Kind::springs, by_modes = kind == Kind::modes;
+  constexpr bool by_modes = kind == Kind::modes || kind == Kind::radiating_modes,
+                 radiates = kind == Kind::radiating_springs || kind == Kind::radiating_modes;
   const double eta = chain.radiation;
   // By which the implicit half of a step is divided.
   [[maybe_unused]] const double slower = 1.0 / (1.0 + half_h_m * eta);
   double *const u = chain.u, *const velocity = chain.v, *const force = chain.force;
   const double *const mu = chain.mu;
+  // Of modes. No member is read again after a store to hot_lanes, which might be one of them.
+  const ModeArrays modes = chain.of_modes;
+  double *const changed = chain.change;
   constexpr bool needs_rest = law == Law::slip_weakening;
   constexpr bool balances = scheme == Scheme::adams_bashforth;
   // Blocks move (the first half of the step), then their springs pull. A chunk is pulled some
@@ -183,18 +197,13 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
   static_assert(ring > lag);
   Lanes work = {}, slip = {};
   [[maybe_unused]] Lanes radiated = {};
+  // All chunks are listed where modes couple them.
+  const auto place = [&](int k) __attribute__((always_inline)) {
+    return static_cast<std::int64_t>(by_modes ? k : list[k]) * chunk_size;
+  };
   const auto move = [&](int k, Lanes &change) __attribute__((always_inline)) {
-    const std::int64_t i = static_cast<std::int64_t>(list[k]) * chunk_size;
+    const std::int64_t i = place(k);
     const Lanes f = load(force + i), m = load(mu + i), v = load(velocity + i);
-    if constexpr (by_modes) {
-      // All chunks are listed, most of them at rest.
-      Mask hot = v.r[0] > zero;
-      for (int r = 0; r < registers; ++r) hot |= (v.r[r] > zero) | (f.r[r] > m.r[r]);
-      if (bits(hot) == 0) {
-        change = {};
-        return;
-      }
-    }
     Lanes x = load(u + i);
     [[maybe_unused]] Lanes rest;
     if constexpr (needs_rest) rest = load(chain.rest + i);
@@ -221,79 +230,78 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
       if constexpr (radiates && !balances) radiated.r[r] += v.r[r] * change.r[r];
     }
     store(u + i, x);
+    return x;
   };
 
   StepSums sums;
-  const auto pull = [&](int k, const Lanes &change) __attribute__((always_inline)) {
-    const std::int64_t i = static_cast<std::int64_t>(list[k]) * chunk_size;
+  const auto pull = [&](int k, const Lanes &moved) __attribute__((always_inline)) {
+    const std::int64_t i = place(k);
+    Lanes change = moved;
     const Lanes x = load(u + i), m = load(mu + i);
-    Lanes v = load(velocity + i), f, left, right;
+    Lanes v = load(velocity + i), f;
     if constexpr (by_modes) {
-      left = load(chain.coupling + i);
+      f = load(modes.coupling + i);
+      for (int r = 0; r < registers; ++r) f.r[r] = f.r[r] + kl * (x_new - x.r[r]);
+      if (hot_lanes[k] == 0) {
+        Mask starts = {};
+        for (int r = 0; r < registers; ++r) starts |= f.r[r] > m.r[r];
+        if (bits(starts) == 0) {
+          store(force + i, f);
+          if constexpr (needs_rest) store(chain.rest + i, x);
+          return;
+        }
+        hot_lanes[k] = 1;
+        store(changed + i, change = {});
+      } else {
+        change = load(changed + i);
+      }
     } else {
-      left = load(u + i - 1);
-      right = load(u + i + 1);
-    }
-    if constexpr (by_modes) {
-      Mask hot = v.r[0] > zero;
-      for (int r = 0; r < registers; ++r) {
-        f.r[r] = left.r[r] + kl * (x_new - x.r[r]);
-        hot |= (v.r[r] > zero) | (f.r[r] > m.r[r]) | (change.r[r] > zero);
-      }
-      if (bits(hot) == 0) {
-        store(force + i, f);
-        if constexpr (needs_rest) store(chain.rest + i, x);
-        hot_lanes[k] = 0;
-        return;
-      }
+      const Lanes left = load(u + i - 1), right = load(u + i + 1);
+      for (int r = 0; r < registers; ++r)
+        f.r[r] = kc * ((left.r[r] - x.r[r]) + (right.r[r] - x.r[r])) + kl * (x_new - x.r[r]);
     }
     const Lanes old = load(force + i);
-    [[maybe_unused]] Lanes rest;
-    if constexpr (needs_rest) rest = load(chain.rest + i);
     unsigned lanes = 0;
     for (int r = 0; r < registers; ++r) {
-      if constexpr (!by_modes)
-        f.r[r] = kc * ((left.r[r] - x.r[r]) + (right.r[r] - x.r[r])) + kl * (x_new - x.r[r]);
+      [[maybe_unused]] Register rest = zero, slid = zero;
+      if constexpr (needs_rest) {
+        rest = load_register(chain.rest + i + r * SLIDER_LANES);
+        slid = x.r[r] - rest;
+      }
       if constexpr (balances) {
         const Register planned = load_register(chain.ahead + i + r * SLIDER_LANES);
         const Mask slides = (v.r[r] > zero) & (planned >= zero);
-        Register slid = zero;
-        if constexpr (needs_rest) slid = slides ? x.r[r] - rest.r[r] : zero;
-        const Balance now =
-            balance<law>(chain, m.r[r], old.r[r], f.r[r], change.r[r], slides, slid);
+        const Balance now = balance<law>(chain, m.r[r], old.r[r], f.r[r], change.r[r], slides,
+                                         slides ? slid : zero);
         store_register(chain.ahead + i + r * SLIDER_LANES, now.ahead);
         // Until it stops, a block has been about as fast as at the beginning.
         radiated.r[r] += (v.r[r] + (now.v > zero ? now.v : v.r[r])) * change.r[r];
         v.r[r] = now.v;
-      } else if constexpr (scheme == Scheme::verlet) {
-        Register w;
-        if constexpr (law == Law::velocity_weakening) {
-          // w = v_half + h/2 (f - mu / (1 + w) - eta w) / m is quadratic in w.
-          Register c = v.r[r] + half_h_m * f.r[r], b = half_h_m * m.r[r];
-          if constexpr (radiates) {
-            c *= slower;
-            b *= slower;
-          }
-          w = velocity_at(c, b);
-        } else {
-          // A block that came to rest in the first half of the step has healed.
-          Register slid = zero;
-          if constexpr (needs_rest) slid = v.r[r] > zero ? x.r[r] - rest.r[r] : zero;
-          w = v.r[r] + half_h_m * (f.r[r] - friction<law>(chain, m.r[r], v.r[r], f.r[r], slid));
-          if constexpr (radiates) w *= slower;
-          w = w > zero ? w : zero;
+      } else if constexpr (scheme == Scheme::verlet && law == Law::velocity_weakening) {
+        // w = v_half + h/2 (f - mu / (1 + w) - eta w) / m is quadratic in w.
+        Register c = v.r[r] + half_h_m * f.r[r], b = half_h_m * m.r[r];
+        if constexpr (radiates) {
+          c *= slower;
+          b *= slower;
         }
-        v.r[r] = w;
+        v.r[r] = velocity_at(c, b);
+      } else if constexpr (scheme == Scheme::verlet) {
+        // A block that came to rest in the first half of the step has healed.
+        const Register since = v.r[r] > zero ? slid : zero;
+        Register w =
+            v.r[r] + half_h_m * (f.r[r] - friction<law>(chain, m.r[r], v.r[r], f.r[r], since));
+        if constexpr (radiates) w *= slower;
+        v.r[r] = w > zero ? w : zero;
       }
-      if constexpr (needs_rest) rest.r[r] = v.r[r] > zero ? rest.r[r] : x.r[r];
+      if constexpr (needs_rest)
+        store_register(chain.rest + i + r * SLIDER_LANES, v.r[r] > zero ? rest : x.r[r]);
       lanes |= bits((v.r[r] > zero) | (f.r[r] > m.r[r])) << (r * SLIDER_LANES);
       work.r[r] += (old.r[r] + f.r[r]) * change.r[r];
-      slip.r[r] += change.r[r];
+      if constexpr (!by_modes) slip.r[r] += change.r[r];
       if constexpr (radiates && !balances) radiated.r[r] += v.r[r] * change.r[r];
     }
     store(force + i, f);
     if constexpr (scheme == Scheme::verlet || balances) store(velocity + i, v);
-    if constexpr (needs_rest) store(chain.rest + i, rest);
     hot_lanes[k] = static_cast<std::uint8_t>(lanes);
     sums.hot += __builtin_popcount(lanes);
   };
@@ -307,20 +315,41 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
     if constexpr (needs_rest) __builtin_prefetch(chain.rest + i, 1);
   };
 
+  const auto sum = [](const Lanes &lanes) __attribute__((always_inline)) {
+    double l[chunk_size];
+    store(l, lanes);
+    return ((l[0] + l[4]) + (l[2] + l[6])) + ((l[1] + l[5]) + (l[3] + l[7]));
+  };
   if constexpr (by_modes) {
-    Register moves = zero;
+    // Most chunks are at rest, and no lane is hot there.
+    double common = 0.0;
     for (int k = 0; k < count; ++k) {
-      Lanes change;
-      move(k, change);
-      store(chain.change + static_cast<std::int64_t>(list[k]) * chunk_size, change);
-      for (const Register &r : change.r) moves += r;
+      const std::int64_t i = place(k);
+      Lanes x;
+      if (hot_lanes[k] != 0) {
+        Lanes change;
+        x = move(k, change);
+        store(changed + i, change);
+        for (int r = 0; r < registers; ++r) slip.r[r] += change.r[r];
+      } else {
+        x = load(u + i);
+      }
+      if (k == 0) common = u[0];
+      for (Register &r : x.r) r -= common;
+      store(modes.apart + i, x);
     }
-    double moved = 0.0;
-    for (int l = 0; l < SLIDER_LANES; ++l) moved += moves[l];
     // No block goes back. While none moves, the coupling stays.
-    if (moved > 0.0) chain.forces->find(u, chain.coupling);
-    for (int k = 0; k < count; ++k)
-      pull(k, load(chain.change + static_cast<std::int64_t>(list[k]) * chunk_size));
+    if (sum(slip) > 0.0) {
+      chain.forces->transform();
+      for (int n = 0; n < modes.values; n += chunk_size) {
+        Lanes amplitudes = load(modes.spectrum + n);
+        const Lanes factors = load(modes.factors + n);
+        for (int r = 0; r < registers; ++r) amplitudes.r[r] *= factors.r[r];
+        store(modes.spectrum + n, amplitudes);
+      }
+      chain.forces->transform_back();
+    }
+    for (int k = 0; k < count; ++k) pull(k, {});
   } else {
     Lanes first_change = {}, changes[ring];
     const int begin = count > 0 && list[0] == 0 ? 1 : 0;
@@ -335,11 +364,6 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
     if (begin == 1) pull(0, first_change);
   }
 
-  const auto sum = [](const Lanes &lanes) __attribute__((always_inline)) {
-    double l[chunk_size];
-    store(l, lanes);
-    return ((l[0] + l[4]) + (l[2] + l[6])) + ((l[1] + l[5]) + (l[3] + l[7]));
-  };
   sums.work = 0.5 * sum(work);
   sums.slip = sum(slip);
   if constexpr (radiates) sums.radiated = 0.5 * eta * sum(radiated);
@@ -350,16 +374,18 @@ template <Law law, Kind kind>
 StepFunction of_scheme(Scheme scheme) {
   if (scheme == Scheme::verlet) return step<Scheme::verlet, law, kind>;
   if (scheme == Scheme::semi_implicit) return step<Scheme::semi_implicit, law, kind>;
-  if constexpr (kind != Kind::springs)
+  if constexpr (kind == Kind::radiating_springs || kind == Kind::radiating_modes)
     if (scheme == Scheme::adams_bashforth) return step<Scheme::adams_bashforth, law, kind>;
   return step<Scheme::printed, law, kind>;
 }
 
 template <Law law>
 StepFunction of_law(const Parameters &p) {
-  return !p.by_springs()     ? of_scheme<law, Kind::modes>(p.scheme)
-         : p.radiation > 0.0 ? of_scheme<law, Kind::radiating_springs>(p.scheme)
+  if (p.by_springs())
+    return p.radiation > 0.0 ? of_scheme<law, Kind::radiating_springs>(p.scheme)
                              : of_scheme<law, Kind::springs>(p.scheme);
+  return p.radiation > 0.0 ? of_scheme<law, Kind::radiating_modes>(p.scheme)
+                           : of_scheme<law, Kind::modes>(p.scheme);
 }
 
 StepFunction function_of(const Parameters &p) {

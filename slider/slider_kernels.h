@@ -9,14 +9,11 @@
 #include <array>
 #include <cstdint>
 
+#include "slider_array.h"
+#include "slider_modes.h"
 #include "slider_parameters.h"
 
 namespace Slider {
-
-/// Blocks per chunk, the unit of the active set; lane l of chunk c is block 8 c + l.
-constexpr int chunk_size = 8;
-
-class ModeForces;
 
 /// Arrays of the chain. Each has room for whole chunks and one more value on either side of the
 /// blocks, where u keeps its periodic images u[-1] and u[blocks]. Blocks past the end have a
@@ -31,8 +28,8 @@ struct ChainView : Parameters {
   double *ahead = nullptr;     ///< slip in the next step, without inertia; < 0: and then it stops
   // With modes only:
   ModeForces *forces = nullptr;
-  double *coupling = nullptr;  ///< force of the coupling, without leaf springs
-  double *change = nullptr;    ///< of the displacements in this step
+  ModeArrays of_modes = {};
+  double *change = nullptr;  ///< of the displacements in this step
 };
 
 /// Sums over the listed chunks, over one step.

@@ -3,9 +3,7 @@
 
 #include <fftw3.h>
 
-#include <algorithm>
 #include <mutex>
-#include <new>
 #include <stdexcept>
 
 namespace Slider {
@@ -18,24 +16,23 @@ std::mutex &planner() {
   return one;
 }
 
-fftw_complex *of(std::complex<double> *p) { return reinterpret_cast<fftw_complex *>(p); }
-
 }  // namespace
 
-void ModeForces::Free::operator()(void *p) const { fftw_free(p); }
-
-ModeForces::ModeForces(const std::vector<double> &modes, int blocks)
-    : blocks_(blocks),
-      values_(fftw_alloc_real(static_cast<std::size_t>(blocks))),
-      spectrum_(reinterpret_cast<std::complex<double> *>(fftw_alloc_complex(modes.size()))) {
+ModeForces::ModeForces(const std::vector<double> &modes, int blocks) : blocks_(blocks) {
   if (modes.size() != static_cast<std::size_t>(blocks / 2 + 1))
     throw std::invalid_argument("number of modes differs from --blocks");
-  if (!values_ || !spectrum_) throw std::bad_alloc();
   for (const double stiffness : modes)
     factors_.insert(factors_.end(), 2, -(stiffness - modes[0]) / blocks);
+  factors_.resize(whole_chunks(factors_.size()));
+  spectrum_.resize(factors_.size());
+  apart_.resize(whole_chunks(static_cast<std::size_t>(blocks)));
+  coupling_.resize(apart_.size());
+  arrays_ = {apart_.data(), spectrum_.data(), factors_.data(), static_cast<int>(factors_.size()),
+             coupling_.data()};
+  auto *const spectrum = reinterpret_cast<fftw_complex *>(spectrum_.data());
   const std::lock_guard<std::mutex> lock(planner());
-  forward_ = fftw_plan_dft_r2c_1d(blocks, values_.get(), of(spectrum_.get()), FFTW_ESTIMATE);
-  backward_ = fftw_plan_dft_c2r_1d(blocks, of(spectrum_.get()), values_.get(), FFTW_ESTIMATE);
+  forward_ = fftw_plan_dft_r2c_1d(blocks, apart_.data(), spectrum, FFTW_ESTIMATE);
+  backward_ = fftw_plan_dft_c2r_1d(blocks, spectrum, coupling_.data(), FFTW_ESTIMATE);
 }
 
 ModeForces::~ModeForces() {
@@ -44,16 +41,15 @@ ModeForces::~ModeForces() {
   fftw_destroy_plan(backward_);
 }
 
-void ModeForces::find(const double *u, double *force) {
-  double *const values = values_.get();
-  // Blocks move far, but not apart: digits are not wasted on what they have in common.
-  const double common = u[0];
-  for (int i = 0; i < blocks_; ++i) values[i] = u[i] - common;
-  fftw_execute(forward_);
-  double *const spectrum = reinterpret_cast<double *>(spectrum_.get());
-  for (std::size_t n = 0; n < factors_.size(); ++n) spectrum[n] *= factors_[n];
-  fftw_execute(backward_);
-  std::copy_n(values, blocks_, force);
+void ModeForces::transform() { fftw_execute(forward_); }
+void ModeForces::transform_back() { fftw_execute(backward_); }
+
+const double *ModeForces::find(const double *u) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(blocks_); ++i) apart_[i] = u[i] - u[0];
+  transform();
+  for (std::size_t n = 0; n < factors_.size(); ++n) spectrum_[n] *= factors_[n];
+  transform_back();
+  return coupling_.data();
 }
 
 }  // namespace Slider

@@ -4,15 +4,24 @@
 #ifndef SLIDER_MODES_H
 #define SLIDER_MODES_H
 
-#include <complex>
 #include <memory>
 #include <vector>
 
+#include "slider_array.h"
 #include "slider_parameters.h"
 
 struct fftw_plan_s;
 
 namespace Slider {
+
+/// Arrays of ModeForces, in whole chunks.
+struct ModeArrays {
+  double *apart = nullptr;     ///< displacements less what they have in common; blocks move far
+  double *spectrum = nullptr;  ///< of these: real and imaginary part of each mode
+  const double *factors = nullptr;   ///< -C / blocks, for real and imaginary part
+  int values = 0;                    ///< of the spectrum, and factors
+  const double *coupling = nullptr;  ///< force of the coupling, without leaf springs
+};
 
 /// The coupling of a periodic fault: the force on block i is -sum_j C_ij u_j, where C is K(q) less
 /// its value at q = 0, the leaf spring, which pulls towards the plate.
@@ -28,18 +37,19 @@ class ModeForces {
   ModeForces(const ModeForces &) = delete;
   ModeForces &operator=(const ModeForces &) = delete;
 
-  /// \param u displacements \param force of the coupling on each block, written
-  void find(const double *u, double *force);
+  /// Force of the coupling on each block. \param u displacements
+  const double *find(const double *u);
+
+  /// The same in three parts, for a kernel that fills the displacements in and multiplies the
+  /// spectrum by the factors itself.
+  const ModeArrays &arrays() const { return arrays_; }
+  void transform();
+  void transform_back();
 
  private:
-  struct Free {
-    void operator()(void *p) const;
-  };
-
   int blocks_;
-  std::vector<double> factors_;  // -C / blocks of each mode, for real and imaginary part
-  std::unique_ptr<double, Free> values_;
-  std::unique_ptr<std::complex<double>, Free> spectrum_;
+  Array apart_, spectrum_, factors_, coupling_;
+  ModeArrays arrays_;
   fftw_plan_s *forward_, *backward_;
 };
 

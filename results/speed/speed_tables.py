@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Tables of speed.md from timings.csv, as head and rows; tables.py in the folder above writes them into the page."""
+"""Tables of speed.md from timings.csv and slider-modes.csv, as head and rows; tables.py in the folder above writes them into the page."""
 import functools
 import statistics
 from pathlib import Path
@@ -71,4 +71,19 @@ def speed_changes_table():
              "time of a step, ratio"], [["; ".join(change), "; ".join(ratio[label] for label in change)] for change in changes])
 
 
-TABLES = {"speed-peers": speed_peers_table, "speed-lengths": speed_lengths_table, "speed-changes": speed_changes_table}
+def speed_modes_table():
+    rows = {row.pop("step"): {blocks: float(ns) for blocks, ns in row.items()} for row in read(FOLDER / "slider-modes.csv")}
+    two = rows["transforms"]
+    shown = {
+        "antiplane_tenth": "a tenth moves: velocity weakening", "coulomb_tenth": "Coulomb", "no_inertia_tenth": "velocity weakening, mass 0",
+        "coulomb": "all move: Coulomb", "antiplane": "velocity weakening", "no_inertia_coulomb": "Coulomb, mass 0",
+        "no_inertia": "velocity weakening, mass 0", "springs": "springs, velocity weakening"
+    }
+    out = [[text, *(f"{rows[name][blocks] / two[blocks]:.2f}" for blocks in two)] for name, text in shown.items()]
+    return ["CPU time of a step over that of its two transforms; blocks",
+            *two], [["two transforms, us", *(f"{1e-3 * ns:.3g}" for ns in two.values())], *out]
+
+
+TABLES = {
+    "speed-modes": speed_modes_table, "speed-peers": speed_peers_table, "speed-lengths": speed_lengths_table, "speed-changes": speed_changes_table
+}

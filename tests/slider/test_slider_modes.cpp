@@ -119,9 +119,10 @@ TEST(SliderModes, ForcesAreThoseOfTheSumOverAllPairs) {
     const Parameters p = coupled(Coupling::inplane, n);
     const std::vector<double> c = coupling_of(p);
     LSM::Random random(3);
-    std::vector<double> u(static_cast<std::size_t>(n)), force(u.size());
+    std::vector<double> u(static_cast<std::size_t>(n));
     for (double &x : u) x = 1000.0 + random.uniform(-10.0, 10.0);
-    ModeForces(p.modes, n).find(u.data(), force.data());
+    ModeForces forces(p.modes, n);
+    const double *const force = forces.find(u.data());
     for (std::size_t i = 0; i < u.size(); ++i)
       ASSERT_NEAR(force[i], coupling_force(p, c, u.data(), i), 1e-11) << n << " " << i;
   }
