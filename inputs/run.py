@@ -51,7 +51,7 @@ def replace_all(texts):
             descriptor = os.open(new, os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_NOFOLLOW, 0o666)
             written.append((new, path))
             with open(descriptor, "wb") as file:
-                file.write(text.encode() if isinstance(text, str) else text)
+                file.write(os.fsencode(text) if isinstance(text, str) else text)
         for new, path in written:
             new.replace(path)
     except BaseException:
@@ -232,7 +232,7 @@ def work(job, folder):
     output = folder / "output.txt"
     said = output.stat().st_size if output.exists() else 0
     # A session folder of its own: in a common one, two mpirun that start at the same moment interfere.
-    session = Path(tempfile.gettempdir()) / f"lsm-{os.getuid()}-{hashlib.sha256(str(folder).encode()).hexdigest()[:12]}"
+    session = Path(tempfile.gettempdir()) / f"lsm-{os.getuid()}-{hashlib.sha256(os.fsencode(folder)).hexdigest()[:12]}"
     shutil.rmtree(session, ignore_errors=True)
     session.mkdir(mode=0o700)
     told = []
@@ -296,6 +296,8 @@ def run(folder, kind, ranks, checkpoint, binaries, *settings):
     }
     if kind == "esys":
         done["cpu_s"] = job.told()["cpu_s"]  # without its master process, which only waits, in a busy loop
+    if kind == "catalogue":
+        done["md5"] = hashlib.md5((folder / job.catalogue).read_bytes()).hexdigest()  # for what is made of it
     replace(folder / "done.json", json.dumps(done) + "\n")
     lock.close()
     return 0

@@ -40,6 +40,7 @@ command -v snakemake >/dev/null || install_debian_packages snakemake
   cmake --build "$build" --target lmp slider_cli postproc
 }
 output=${LSM_OUTPUT:-$build/studies/$(basename "$table" .csv)}
+[[ $root$table$output${LSM_BIN:-} != *$'\n'* ]] || refuse "a folder or a table has a line break in its name, expected none"
 mkdir -p "$output" 2>/dev/null || refuse "cannot make the folder $output"
 [ -w "${HOME:-}" ] || export XDG_CACHE_HOME=$output/.cache # of Snakemake
 # Programs of a study that was killed end within seconds.

@@ -141,16 +141,30 @@ std::string file_text(const fs::path &path) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-/// Runs BASE.gp. \throws PlotError unless both pictures came out; then neither is left
+/// gnuplot does not notice that a disk is full.
+bool is_whole(const std::string &picture) {
+  const std::string text = file_text(picture);
+  return text.find("</svg>") != std::string::npos ||
+         text.find("IEND\xae\x42\x60\x82") != std::string::npos;
+}
+
+/// Runs BASE.gp. \throws PlotError unless both pictures came out; FileError; then neither is left
 void draw(const std::string &base) {
   const fs::path folder = fs::path(base).parent_path(), name = fs::path(base).filename();
   const std::array<std::string, 2> pictures = {base + ".png", base + ".svg"};
   std::error_code code;
-  for (const std::string &picture : pictures) fs::remove(picture, code);
+  const auto leave_none = [&] {
+    for (const std::string &picture : pictures) fs::remove(picture, code);
+  };
+  leave_none();
   try {
     run_gnuplot(folder, {"./" + name.string() + ".gp"});
     for (const std::string &picture : pictures)
-      if (fs::file_size(picture, code) == 0 || code) throw PlotError("gnuplot wrote no " + picture);
+      if (!is_whole(picture)) {
+        constexpr std::uintmax_t little = 1 << 16;
+        const bool full = fs::space(fs::path(".") / folder, code).available < little && !code;
+        throw PlotError("gnuplot wrote no " + picture + (full ? ": no space left" : ""));
+      }
     // gnuplot calls all of its pictures Gnuplot, which browsers show and screen readers read.
     std::string svg = file_text(pictures[1]);
     constexpr std::string_view own = "<title>Gnuplot</title>";
@@ -159,9 +173,12 @@ void draw(const std::string &base) {
       write_file(pictures[1], svg);
     }
   } catch (const PlotError &error) {
-    for (const std::string &picture : pictures) fs::remove(picture, code);
+    leave_none();
     throw PlotError(base + ".gp: " + error.what() +
                     "; table and script are written (--no-picture: only these)");
+  } catch (...) {
+    leave_none();
+    throw;
   }
 }
 

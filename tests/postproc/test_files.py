@@ -131,6 +131,34 @@ def test_new_files_follow_no_links(postproc, slider, files):
     refused(slider, CHAIN + " --catalogue c.csv", "new is a symbolic link; move it away")
 
 
+@pytest.mark.parametrize("line", ["series slider.pe --to 1000 -o {}/b --export {}/text --json {}/j", "histograms slider.csv -o {}/b --json {}/j"])
+def test_a_full_disk_leaves_whole_files(postproc, files, small_disk, gnuplot, line):
+    """Wherever it is full; with room again all is as if nothing had been."""
+    disk, order = small_disk(8), ["text", "b-events.csv", "b.csv", "b.gp", "b.png", "b.svg", "j"]
+    Path("there").mkdir()
+    run(postproc, line.replace("{}", "there"))
+    size = {name: Path("there", name).stat().st_size for name in order if Path("there", name).exists()}
+    wanted = {name: Path("there", name).read_bytes() for name in size}
+    assert len(size) > 4 and {path.name for path in Path("there").iterdir()} == set(size)
+
+    def pages(count):
+        return -(-count // 4096) * 4096
+
+    for n, name in enumerate(size):
+        room = sum(pages(size[before]) for before in list(size)[:n]) + size[name] // 2 // 4096 * 4096
+        for path in disk.iterdir():
+            path.unlink()
+        with open(disk / "ballast", "wb") as file:
+            file.write(bytes(shutil.disk_usage(disk).free - room))
+        ended = run(postproc, line.replace("{}", "small"), status=1)
+        assert len(ended.err.splitlines()) == 1 and "no space left" in ended.err.lower(), f"{name}: {ended}"
+        left = {path.name: path.read_bytes() for path in disk.iterdir() if path.name != "ballast"}
+        assert left.items() <= wanted.items(), f"{name}: {sorted(left)}"
+        (disk / "ballast").unlink()
+        run(postproc, line.replace("{}", "small"))
+        assert {path.name: path.read_bytes() for path in disk.iterdir()} == wanted
+
+
 # ---------------------------------------------------------------- files of different runs
 
 

@@ -167,6 +167,12 @@ def test_a_catalogue_that_is_replaced_is_read_again(study, work):
         os.utime("theirs/one.csv", (when_written, when_written))
         run(study, "my.csv")
         assert table()["seen_1"]["events"] == str(sum(line[0] not in "#e" for line in lines) - events)
+    # Nor does the number of its events.
+    made = Path("out/seen_1/numbers/count.json").read_text()
+    smaller = [re.sub(r"^((\d[^,]*,){5})[^,]*", r"\g<1>1e-9", line) for line in lines[:-7]]
+    Path("theirs/one.csv").write_text("".join(smaller))
+    run(study, "my.csv")
+    assert Path("out/seen_1/numbers/count.json").read_text() != made
     Path("theirs/one.csv").unlink()
     refused(study, "my.csv", "my.csv:2: .*theirs/one.csv: no such catalogue, expected one in the column 'file'", but=NOTES)
 
@@ -250,7 +256,10 @@ def test_runs_that_are_stopped_are_told(study):
     assert "\n2 of 2 runs are not done, start the study again to go on:\n  c_1\n  c_2\n" in said
 
 
-def test_folders_with_blanks(study, work, binaries):
+def test_folders_with_odd_names(study, binaries):
+    """Blanks, what a shell or a format reads otherwise, and bytes that are no UTF-8."""
+    work = Path("it's \"$HOME\" \\ {c}; *#& \udce9").absolute()
+    work.mkdir()
     shutil.copytree(INPUTS, work / "my copy/inputs")
     shutil.copytree(SOURCE / "lammps-pkg/cmake", work / "my copy/lammps-pkg/cmake")
     (work / "my programs").symlink_to(binaries)
@@ -261,11 +270,12 @@ def test_folders_with_blanks(study, work, binaries):
                                                CHAIN.split("\n")[1].replace("slider,", "slider,,").replace("1e5", "1e6") + "\n")
     (work /
      "my copy/inputs/studies/line.gp").write_text("set term pngcairo\nset output 'line.png'\nplot x\nset term svg\nset output 'line.svg'\nplot x\n")
-    mine = Program("study.sh", work / "my copy/inputs/study.sh", env={"LSM_BIN": str(work / "my programs"), "LSM_OUTPUT": "the out"})
-    run(mine, ["a study/my table.csv"])
-    found = table("the out/table.csv")
+    mine = Program("study.sh", work / "my copy/inputs/study.sh", env={"LSM_BIN": str(work / "my programs"), "LSM_OUTPUT": f"{work}/the out"})
+    run(mine, [f"{work.name}/a study/my table.csv"])
+    found = table(work / "the out/table.csv")
     assert list(found) == ["f_1", "c_1"] and all(int(row["events"]) > 0 for row in found.values()) and found["c_1"]["x"]
-    assert Path("the out/report.html").stat().st_size and Path("the out/line.svg").stat().st_size
+    assert (work / "the out/report.html").stat().st_size and (work / "the out/line.svg").stat().st_size
+    refused(study, "quick", "study.sh: a folder or a table has a line break in its name", env={"LSM_OUTPUT": "one\ntwo"})
 
 
 def test_ranks_of_the_table_are_honoured_on_fewer_cores(study):
