@@ -3,12 +3,21 @@
 # CMakeLists.txt, last.
 include(GNUInstallDirs)
 set(share ${CMAKE_INSTALL_DATADIR}/lsm-fault)
+# CMake makes folders as the umask says.
+install(CODE [[
+  execute_process(COMMAND sh -c umask OUTPUT_VARIABLE umask OUTPUT_STRIP_TRAILING_WHITESPACE)
+  if(umask MATCHES "[^02]$")
+    message(WARNING "The umask is ${umask}: new folders are closed to other users, expected 022 if they are to use them")
+  endif()
+]])
+# For all users, whatever the umask was when the checkout was made.
+set(for_all OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(LSM_PYTHON_DIR lib/python3/dist-packages CACHE STRING "Folder of Python modules below the prefix; Python looks there if it is /usr")
 
 install(DIRECTORY lammps-pkg/core/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lsm FILES_MATCHING PATTERN "*.h")
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/lammps-pkg/styles/own/lsm_version.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lsm OPTIONAL)
 # Scenes, studies, pages and results in the folders of the checkout, so that their links hold.
-install(DIRECTORY inputs DESTINATION ${share} USE_SOURCE_PERMISSIONS PATTERN __pycache__ EXCLUDE)
+install(DIRECTORY inputs DESTINATION ${share} PATTERN __pycache__ EXCLUDE REGEX "\\.(sh|py)$" PERMISSIONS ${for_all})
 install(DIRECTORY results DESTINATION ${share} FILES_MATCHING REGEX "\\.(md|png|svg|csv|html|xz)$")
 install(DIRECTORY lammps-pkg/doc DESTINATION ${share}/lammps-pkg FILES_MATCHING REGEX "\\.(md|rst)$")
 install(FILES lammps-pkg/README.md DESTINATION ${share}/lammps-pkg)

@@ -87,5 +87,19 @@ def test_install(work):
     run(Program("program", work / "program"))
 
 
+def test_others_may_use_what_is_installed(work):
+    """And a umask that keeps them out is said, as CMake makes folders by it."""
+    cmake = Program("cmake", "cmake", "--install", BUILD)
+    assert "umask" not in run(cmake, "--prefix", work / "root", umask=0o022).err
+    found = [work / "root", *(work / "root").rglob("*")]
+    closed = [str(path) for path in found if not path.is_symlink() and path.stat().st_mode & (0o055 if path.is_dir() else 0o044) not in (0o055, 0o044)]
+    assert len(found) > 300 and not closed, closed[:5]
+    inputs = work / "root/share/lsm-fault/inputs"
+    for program in work / "root/bin/postproc", inputs / "study.sh", inputs / "run.py", inputs / "studies/publish.py":
+        assert program.stat().st_mode & 0o777 == 0o755, program
+    assert (inputs / "fault.in").stat().st_mode & 0o777 == 0o644
+    run(cmake, "--prefix", work / "closed", umask=0o077).warned("The umask is 0077: new folders are closed to other users, expected 022")
+
+
 def deb_field(deb, field):
     return run(Program("dpkg-deb", "dpkg-deb"), "-f", deb, field).out.strip()
