@@ -23,9 +23,7 @@ build=${LSM_BUILD_DIR:-$root/build}
 bin=${LSM_BIN:-$build/bin}
 if [ -z "${LSM_BIN:-}" ]; then
   . "$root/lammps-pkg/cmake/debian-packages.sh"
-  configure_programs "$root" "$build"
-  packages_took=${packages_took:-$SECONDS}
-  cmake --build "$build" --target lmp postproc
+  build_programs "$root" "$build" lmp postproc
 fi
 packages_took=${packages_took:-$SECONDS}
 programs_took=$((SECONDS - packages_took))

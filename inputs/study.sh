@@ -35,10 +35,7 @@ done
 export LSM_UNTIL
 . "$root/lammps-pkg/cmake/debian-packages.sh"
 command -v snakemake >/dev/null || install_debian_packages snakemake
-[ -n "${LSM_BIN:-}" ] || {
-  configure_programs "$root" "$build"
-  cmake --build "$build" --target lmp slider_cli postproc
-}
+[ -n "${LSM_BIN:-}" ] || build_programs "$root" "$build" lmp slider_cli postproc
 output=${LSM_OUTPUT:-$build/studies/$(basename "$table" .csv)}
 [[ $root$table$output${LSM_BIN:-} != *$'\n'* ]] || refuse "a folder or a table has a line break in its name, expected none"
 mkdir -p "$output" 2>/dev/null || refuse "cannot make the folder $output"

@@ -22,8 +22,8 @@ install_debian_packages() {
     as_root=(sudo)
   fi
   echo "Installing Debian packages: ${missing[*]}"
-  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -q update </dev/null
-  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -q install -y --no-install-recommends \
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -q -o DPkg::Lock::Timeout=600 update </dev/null
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -q -o DPkg::Lock::Timeout=600 install -y --no-install-recommends \
     "${missing[@]}" </dev/null >/dev/null
 }
 
@@ -53,6 +53,7 @@ debian_lammps() {
 # configure_programs SOURCE BUILD: from a fresh checkout to a build folder in which everything can be
 # made. One that is there keeps its options; one whose configuration failed is completed.
 configure_programs() {
+  refuse_other_build "$1" "$2" || return 1
   # The lists are words on purpose.
   install_debian_packages $lammps_packages $plot_packages $postproc_packages $test_packages
   need_programs cmake ninja c++ mpirun gnuplot
@@ -60,6 +61,43 @@ configure_programs() {
   debian_lammps
   packages_took=$SECONDS
   cmake -S "$1" -B "$2" -G Ninja ${lammps_library:+"-DLSM_LAMMPS_LIBRARY=$lammps_library"}
+}
+
+# Says in one line why BUILD cannot be a build folder of SOURCE: another checkout's would be built.
+refuse_other_build() {
+  local key path other
+  for key in HOME:"$1" CACHEFILE:"$2"; do
+    path=$(sed -n "s/^CMAKE_${key%%:*}_\(DIRECTORY\|DIR\):INTERNAL=//p" "$2/CMakeCache.txt" 2>/dev/null) || path=
+    [ -z "$path" ] || [ "$path" -ef "${key#*:}" ] || {
+      echo "$2 is a build folder for $path, expected one of $1 (LSM_BUILD_DIR), or none" >&2
+      return 1
+    }
+  done
+  [ -d "$2" ] || return 0
+  other=$(find "$2" ! -type l ! -writable -printf '%p, which is of %u' -quit)
+  [ -z "$other" ] || {
+    echo "cannot write to $other, expected a folder of one user (LSM_BUILD_DIR)" >&2
+    return 1
+  }
+}
+
+# build_programs SOURCE BUILD TARGET...: one at a time. What a start that was killed leaves behind,
+# apt or a compiler, holds the lock as well.
+build_programs() {
+  local source=$1 build=$2
+  shift 2
+  exec 8<"$source"
+  if command -v flock >/dev/null && ! flock -n 8; then
+    echo "Waiting until another start has built the programs"
+    flock -w 3600 8 || {
+      echo "programs of $source are still being built, expected that to end within an hour" >&2
+      return 1
+    }
+  fi
+  configure_programs "$source" "$build"
+  packages_took=${packages_took:-$SECONDS}
+  cmake --build "$build" --target "$@"
+  exec 8<&-
 }
 
 # What the build of the LAMMPS part needs, the fetching of LAMMPS included.

@@ -101,6 +101,64 @@ def test_a_configuration_that_failed_is_repeated(work):
     assert subprocess.run(["bash", "-c", line], capture_output=True).returncode == 0
 
 
+def test_a_build_folder_of_others_is_refused(work):
+    """Its build.ninja would build another checkout, without a word."""
+    for name in "source", "other", "build":
+        (work / name).mkdir()
+    there = "install_debian_packages() { :; }; need_programs() { :; }; debian_lammps() { :; }; cmake() { echo called; }"
+    configure = Program("bash", "bash", "-c", f"set -eu; . {PACKAGES}; {there}; configure_programs source build")
+    cache = f"CMAKE_CACHEFILE_DIR:INTERNAL={work}/build\nCMAKE_HOME_DIRECTORY:INTERNAL={work}/source\n"
+    Path("build/build.ninja").touch()
+    Path("build/CMakeCache.txt").write_text(cache)
+    run(configure)
+    configure.errors_begin = "build is a build folder for "
+    for name, said in ("source", f"{work}/other, expected one of source"), ("build", f"{work}/moved, expected one of source"):
+        Path("build/CMakeCache.txt").write_text(cache.replace(f"{work}/{name}", said.split(",")[0]))
+        refused(configure, "", said)
+    Path("build/CMakeCache.txt").write_text(cache)
+    if os.getuid() != 0 or not shutil.which("setpriv"):
+        return
+    work.chmod(0o755)
+    shutil.copy(PACKAGES, "packages.sh")
+    line = f"set -eu; . ./packages.sh; {there}; configure_programs source build"
+    other = Program("bash", "setpriv", "--reuid=65534", "--regid=65534", "--clear-groups", "bash", "-c", line)
+    other.errors_begin = "cannot write to build"
+    refused(other, "", "which is of root, expected a folder of one user")
+
+
+@pytest.fixture
+def building(work):
+    """The same without programs: made-up ones of the package manager and the compiler wait where there is a file NAME.wait."""
+    folder = work / "tools"
+    folder.mkdir()
+    alone = f"mkdir {work}/busy || echo $0 >>{work}/two; trap 'rmdir {work}/busy' EXIT; trap exit INT"
+    wait = "echo $$ >>{0}.begun; while [ -e {0}.wait ]; do sleep 0.02; done"
+    configure = "if [ $1 = -S ]; then mkdir -p $4; touch $4/build.ninja; exit; fi"
+    for name, script in (("apt-get", f"{alone}; {wait.format(work / 'apt-get')}; touch {work}/installed"),
+                         ("dpkg-query", f"[ ! -e {work}/installed ] || echo -n installed"), ("apt-cache", "exit 0"), ("id", "echo 0"), ("ninja", ""),
+                         ("gnuplot", ""), ("cmake", f"{configure}; {alone}; {wait.format(work / 'cmake')}; mkdir -p $2/bin; cp {work}/bin/* $2/bin")):
+        (folder / name).write_text(f"#!/bin/bash\n{script}\n")
+        (folder / name).chmod(0o755)
+    return {"LSM_BIN": "", "LSM_BUILD_DIR": str(work / "build"), "PATH": f"{folder}:{work}/bin:{os.environ['PATH']}"}
+
+
+@pytest.mark.parametrize("tool", ["apt-get", "cmake"])
+@pytest.mark.parametrize("by", [signal.SIGKILL, signal.SIGTERM, signal.SIGINT])
+def test_first_catalogue_interrupted_while_programs_are_made(first, building, tool, by):
+    """What is still at work is awaited: no two compilers write the same files, and no two package managers meet."""
+    Path(f"{tool}.wait").touch()
+    with start(first, env=building, start_new_session=True) as child:
+        assert child.until(lambda: Path(f"{tool}.begun").exists() and Path(f"{tool}.begun").read_text())
+        (os.killpg if by == signal.SIGINT else os.kill)(child.pid, by)
+        child.wait(60)
+    with start(first, env=building) as child:
+        if by != signal.SIGINT:
+            assert child.until(lambda: "Waiting until another start has built the programs" in child.said())
+        Path(f"{tool}.wait").unlink()
+        assert child.wait(60) == 0, child.said()
+    assert not Path("two").exists() and Path("out/first.explore").exists()
+
+
 @pytest.fixture
 def first(work):
     """first-catalogue.sh with made-up programs; each of them waits at its beginning where there is a file NAME.wait."""

@@ -92,7 +92,9 @@ def test_others_may_use_what_is_installed(work):
     cmake = Program("cmake", "cmake", "--install", BUILD)
     assert "umask" not in run(cmake, "--prefix", work / "root", umask=0o022).err
     found = [work / "root", *(work / "root").rglob("*")]
-    closed = [str(path) for path in found if not path.is_symlink() and path.stat().st_mode & (0o055 if path.is_dir() else 0o044) not in (0o055, 0o044)]
+    closed = [
+        str(path) for path in found if not path.is_symlink() and path.stat().st_mode & (0o055 if path.is_dir() else 0o044) not in (0o055, 0o044)
+    ]
     assert len(found) > 300 and not closed, closed[:5]
     inputs = work / "root/share/lsm-fault/inputs"
     for program in work / "root/bin/postproc", inputs / "study.sh", inputs / "run.py", inputs / "studies/publish.py":
