@@ -34,7 +34,9 @@ DECADES, SIZES = (-2, -1, 0, 1, 2), (0, 1, 2)
 FEWEST = 20  # events of a decade
 # Lines of the table: what is added to the station before, names of catalogues with the number of blocks, of their ruptures
 WALK = (("springs", "chain"), ("+ elastic blocks", "bulk"), ("+ radiation", "radiating"), ("+ roughness", "rough"), ("+ slow plate", "slow"))
-FAULTS = (("fault", "fault"), ("fault, viscosity 1", "fault-viscous"), ("fault, velocity weakening", "fault-weakening"))
+LENGTHS = {"fault": 120, "fault-240": 240, "fault-480": 480}  # of the campaign
+FAULTS = (("fault", "fault"), ("fault, length 240", "fault-240"), ("fault, length 480", "fault-480"), ("fault, viscosity 1", "fault-viscous"),
+          ("fault, velocity weakening", "fault-weakening"))
 CONTROLS = (("springs, plate 0.001", "chain-slower"), ("elastic blocks, plate 0.001", "bulk-slower"),
             ("elastic blocks, half the time step", "bulk-step"), ("roughness, half the time step", "rough-step"),
             ("springs, memory 0.2", "chain-memory"), ("elastic blocks, memory 0.2", "bulk-memory"), ("roughness, memory 0.2", "rough-memory"),
@@ -140,14 +142,17 @@ def ruptures(path, least, begin):
 
 
 def stations(folder):
-    """Catalogues by the name of a station."""
+    """Catalogues by the name of a station. \\raises FileNotFoundError if there are none"""
     found = {}
     for path in sorted([*folder.glob("*/catalogue.csv"), *folder.glob("*/fault.catalogue.csv"), *folder.glob("*.catalogue.csv.xz")]):
         run = path.name.split(".")[0] if path.suffix == ".xz" else path.parent.name
         if path.suffix == ".xz" or (path.parent / "done.json").exists():
             found.setdefault(run.rsplit("_", 1)[0], []).append(path)
-    for name, kind in (("fault", "catalogue"), ("ruptures-fault", "ruptures")):
-        found[name] = sorted((RESULTS / "campaign").glob(f"fault_120_?.{kind}.csv.xz"))
+    if not found:
+        raise FileNotFoundError(f"{folder}: no catalogues")
+    for name, length in LENGTHS.items():
+        for kind, text in (("catalogue", ""), ("ruptures", "ruptures-")):
+            found[text + name] = sorted((RESULTS / "campaign").glob(f"fault_{length}_?.{kind}.csv.xz"))
     return found
 
 
@@ -161,8 +166,6 @@ def mean_and_error(values):
 def measured(postproc, folder):
     """{station: {"seeds": number, key: (mean, standard error)}}. \\raises FileNotFoundError if there are no catalogues"""
     places = stations(Path(folder))
-    if len(places) == 2:
-        raise FileNotFoundError(f"{folder}: no catalogues")
     others = {
         "slider": over_mean([times(read(path), 1.0, 12000) for path in sorted((RESULTS / "catalogues").glob("slider_ours_1928_seed_*.xz"))]),
         "fault": over_mean([times(read(path), 1e-3, LOADING) for path in places["fault"]]),
