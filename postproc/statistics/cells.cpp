@@ -68,11 +68,11 @@ std::vector<double> Cells::draw(gsl_rng *rng) const {
 
 double Cells::share_as_far(
     const std::vector<double> &sorted, int replicas, std::uint64_t seed,
-    const std::function<double(const std::vector<double> &)> &distance) const {
-  const double found = distance(count(sorted));
+    const std::function<double(const std::vector<double> &, double)> &distance) const {
+  const double found = distance(count(sorted), NAN);
   return share_of_replicas(replicas, [&](int replica) {
     const Rng rng = generator(seed_of_replica(seed, replica));
-    return !(distance(draw(rng.get())) < found);
+    return !(distance(draw(rng.get()), found) < found);
   });
 }
 

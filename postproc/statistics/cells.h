@@ -31,9 +31,12 @@ class Cells {
   const std::vector<double> &centres() const { return centres_; }
 
   /// Share of samples drawn from the law whose distance is as large as that of this one.
-  /// \param sorted ascending \param distance of how many values are in each cell, on any thread
-  double share_as_far(const std::vector<double> &sorted, int replicas, std::uint64_t seed,
-                      const std::function<double(const std::vector<double> &)> &distance) const;
+  /// \param sorted ascending
+  /// \param distance of how many values are in each cell, on any thread; the second argument is
+  /// that of the data, or not a number: only which of both is larger counts then
+  double share_as_far(
+      const std::vector<double> &sorted, int replicas, std::uint64_t seed,
+      const std::function<double(const std::vector<double> &, double)> &distance) const;
 
  private:
   /// Those beyond the ends are in the last ones.

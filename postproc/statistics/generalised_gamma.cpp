@@ -147,8 +147,8 @@ class Law {
     return v0_ + (std::log(gsl_ran_gamma(rng, k_ + 1.0, 1.0)) + std::log(u) / k_) / delta_;
   }
   // Kolmogorov-Smirnov.
-  double distance(const SamplePoints &points) const {
-    return KsDistance(points, [this](double v) { return 1.0 - survival(v); })();
+  auto ks(const SamplePoints &points) const {
+    return KsDistance(points, [this](double v) { return 1.0 - survival(v); });
   }
 
  private:
@@ -504,7 +504,7 @@ GeneralisedGammaFit fit_maximum_likelihood(const std::vector<double> &values, do
   if (!fit.why.empty()) return fit;
   fit.log_likelihood = likelihood.n() * (best.log_likelihood - likelihood.mean_v() - reference);
   const std::vector<double> &sorted = likelihood.sort();
-  fit.ks = Law(best, likelihood.lower()).distance({sorted.data(), sorted.size()});
+  fit.ks = Law(best, likelihood.lower()).ks({sorted.data(), sorted.size()})();
   return fit;
 }
 
@@ -588,13 +588,16 @@ double p_value(const GeneralisedGammaFit &fit, const std::vector<double> &values
         law.truncated() ? law.lower() : std::log(1e-3 / static_cast<double>(n)) / fit.gamma;
     const Cells cells([&law](double x) { return law.survival(x); }, {first, law.end()},
                       static_cast<double>(n));
-    return cells.share_as_far(v, replicas, seed, [&](const std::vector<double> &counts) {
-      const Profile best = best_of(Likelihood(cells.centres(), counts, law.lower()));
-      if (!std::isfinite(best.log_likelihood)) return HUGE_VAL;
-      std::vector<double> below(counts.size() + 1);
-      std::partial_sum(counts.begin(), counts.end(), below.begin() + 1);
-      return Law(best, law.lower()).distance({cells.edges().data(), below.size(), below.data()});
-    });
+    return cells.share_as_far(
+        v, replicas, seed, [&](const std::vector<double> &counts, double found) {
+          const Profile best = best_of(Likelihood(cells.centres(), counts, law.lower()));
+          if (!std::isfinite(best.log_likelihood)) return HUGE_VAL;
+          std::vector<double> below(counts.size() + 1);
+          std::partial_sum(counts.begin(), counts.end(), below.begin() + 1);
+          const Law fitted(best, law.lower());
+          auto ks = fitted.ks({cells.edges().data(), below.size(), below.data()});
+          return std::isnan(found) ? ks() : ks.against(found);
+        });
   }
   const auto sampler = sampler_of(law);
   const Rng rng = generator(seed);
@@ -608,7 +611,7 @@ double p_value(const GeneralisedGammaFit &fit, const std::vector<double> &values
     const Profile best = best_of(likelihood);
     const SamplePoints sorted{likelihood.sort().data(), n};
     return !std::isfinite(best.log_likelihood) ||
-           !(Law(best, law.lower()).distance(sorted) < fit.ks);
+           Law(best, law.lower()).ks(sorted).against(fit.ks) > 0.0;
   });
 }
 

@@ -5,6 +5,7 @@
 #define LSM_POSTPROC_KS_DISTANCE_H
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 
@@ -37,14 +38,25 @@ class KsDistance {
 
   /// A result above give_up only means that the distance is at least that much.
   double operator()(double give_up = std::numeric_limits<double>::infinity()) {
-    best_ = 0.0;
+    return search(0.0, give_up);
+  }
+
+  /// Infinite if the distance is at least this, 0 otherwise: what does not reach it is not looked
+  /// for.
+  double against(double distance) {
+    const double below = std::nextafter(distance, -1.0);
+    return search(below, below) > below ? std::numeric_limits<double>::infinity() : 0.0;
+  }
+
+ private:
+  double search(double best, double give_up) {
+    best_ = best;
     give_up_ = give_up;
     const double first = look(0), last = look(points_.count - 1);
     refine(0, first, points_.count - 1, last);
     return best_;
   }
 
- private:
   double look(std::size_t i) {
     const double f = cdf_(points_.values[i]);
     best_ = std::max({best_, points_.up_to(i) / n_ - f, f - points_.before(i) / n_});

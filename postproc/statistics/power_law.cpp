@@ -282,9 +282,10 @@ double p_value(const PowerLawFit &fit, const std::vector<double> &sorted, int re
   };
   if (data.size() > static_cast<std::size_t>(largest_exact_sample)) {
     const Cells cells = cells_of(data, law, parts);
-    return cells.share_as_far(data.y(), replicas, seed, [&](const std::vector<double> &counts) {
-      return distance_of(LogSample(cells, counts));
-    });
+    return cells.share_as_far(data.y(), replicas, seed,
+                              [&](const std::vector<double> &counts, double) {
+                                return distance_of(LogSample(cells, counts));
+                              });
   }
   const Rng stream = generator(seed);
   gsl_rng *const rng = stream.get();

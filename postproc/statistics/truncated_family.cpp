@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "gsl_owners.h"
 
@@ -148,6 +149,7 @@ struct TiltedLaw {
   double mean_u, mean_t, length;
   double b = 0.0, c = 0.0, log_likelihood = 0.0;  // per event
   TabulatedDensity table = {};
+  std::vector<double> t = {};  // T(u) of the table
 
   void set(double new_b, double new_c) {
     b = new_b;
@@ -157,8 +159,10 @@ struct TiltedLaw {
     if (rate > 0.0) mode = b > 0.0 ? std::log(b / (c * rate)) / rate : 0.0;
     // Bends: of u^2 c over its own standard deviation, of exp(rate u) over 1 / rate.
     const double feature = rate > 0.0 ? 1.0 / rate : 1.0 / std::sqrt(2.0 * c);
-    table = tabulate([this](double u) { return b * u - c * statistic(u); },
-                     std::clamp(mode, 0.0, length), 0.0, length, feature);
+    t.clear();
+    const auto log_density = [this](double u) { return b * u - c * t.emplace_back(statistic(u)); };
+    table = tabulate(log_density, std::clamp(mode, 0.0, length), 0.0, length, feature);
+    t.erase(t.begin(), t.end() - static_cast<std::ptrdiff_t>(table.u.size()));  // before its own
     log_likelihood = b * mean_u - c * mean_t - table.log_z;
   }
 
@@ -168,10 +172,11 @@ struct TiltedLaw {
     double b, c, gain;
   };
   Step newton() const {
-    const double m_u = table.mean([](double u) { return u; }), m_t = table.mean(statistic);
+    const double m_u = table.mean([](double u) { return u; });
+    const double m_t = std::inner_product(t.begin(), t.end(), table.p.begin(), 0.0);
     double uu = 0.0, ut = 0.0, tt = 0.0;
     for (std::size_t i = 0; i < table.u.size(); ++i) {
-      const double du = table.u[i] - m_u, dt = statistic(table.u[i]) - m_t;
+      const double du = table.u[i] - m_u, dt = t[i] - m_t;
       uu += table.p[i] * du * du;
       ut += table.p[i] * du * dt;
       tt += table.p[i] * dt * dt;
@@ -186,12 +191,12 @@ struct TiltedLaw {
 
   // Halves a step until the likelihood rises; c stays positive. False if it does not.
   bool take(const Step &step) {
-    const TiltedLaw from = *this;
-    double scale = from.c + step.c > 0.1 * from.c ? 1.0 : -0.9 * from.c / step.c;
+    const double from_b = b, from_c = c, from_likelihood = log_likelihood;
+    double scale = from_c + step.c > 0.1 * from_c ? 1.0 : -0.9 * from_c / step.c;
     for (; scale >= 1e-12; scale *= 0.5) {
-      set(from.b + scale * step.b, from.c + scale * step.c);
+      set(from_b + scale * step.b, from_c + scale * step.c);
       // Near the optimum the gain is below rounding, so equality up to that is a success.
-      if (log_likelihood > from.log_likelihood - 1e-14 * (1.0 + std::fabs(from.log_likelihood)))
+      if (log_likelihood > from_likelihood - 1e-14 * (1.0 + std::fabs(from_likelihood)))
         return true;
     }
     return false;

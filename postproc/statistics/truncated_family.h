@@ -46,7 +46,8 @@ struct TabulatedDensity {
 };
 
 /// Gauss-Legendre table of a log-concave density on [lower, upper], either may be infinite; mode is
-/// its maximum inside; feature: shortest length on which the logarithm of the density bends.
+/// its maximum inside; feature: shortest length on which the logarithm of the density bends. It
+/// asks for the density at its abscissae last, in their order.
 TabulatedDensity tabulate(const std::function<double(double)> &log_density, double mode,
                           double lower, double upper, double feature);
 

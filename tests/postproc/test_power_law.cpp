@@ -237,6 +237,28 @@ TEST(PowerLaw, ProbabilityIsUniformUnderTheNull) {
   }
 }
 
+// What replicas are asked: the same as by the distance itself, also where both are equal.
+TEST(KsDistance, AgainstAnotherComparesDistances) {
+  LSM::Random random(3);
+  const auto uniform = [](double x) { return x; };
+  int as_far = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    std::vector<double> sample(300);
+    for (double &x : sample) x = random.uniform();
+    std::sort(sample.begin(), sample.end());
+    KsDistance ks({sample.data(), sample.size()}, uniform);
+    const double distance = ks();
+    EXPECT_GT(ks.against(distance), 0.0);
+    EXPECT_EQ(ks.against(std::nextafter(distance, 1.0)), 0.0);
+    EXPECT_GT(ks.against(std::nextafter(distance, 0.0)), 0.0);
+    const double other = 0.05;  // passed by about every third
+    EXPECT_EQ(ks.against(other) > 0.0, distance >= other);
+    as_far += distance >= other;
+  }
+  EXPECT_GT(as_far, 20);
+  EXPECT_LT(as_far, 180);
+}
+
 // Samples that the test takes by cells: as sound as one of single values, and no less sharp.
 TEST(PowerLaw, ProbabilityOfManyValues) {
   LSM::Random random(12);
