@@ -209,6 +209,7 @@ void FixLSMNVE::setup(int /*vflag*/)
 template <int PARTS, int DIM, bool PLAIN, bool CLEARS> void FixLSMNVE::move()
 {
   const bool work = !PLAIN && counts_work(), clear = CLEARS && (PLAIN || clears);
+  const double dt = dtv;    // stores of positions might change the member
   double most = 0.0;
 
   for (const Stretch &stretch : stretches) {
@@ -241,7 +242,7 @@ template <int PARTS, int DIM, bool PLAIN, bool CLEARS> void FixLSMNVE::move()
         for (int c = 0; c < DIM; c++) square += w[c] * w[c];
         most = MAX(most, square);
         double to[DIM];
-        for (int c = 0; c < DIM; c++) to[c] = x[c] + dtv * w[c];
+        for (int c = 0; c < DIM; c++) to[c] = x[c] + dt * w[c];
         for (int c = 0; c < DIM; c++) x[c] = to[c];
         if (next) {
           for (int c = 0; c < DIM; c++) next[c] = w[c] + *kick * f[c];

@@ -18,6 +18,7 @@
 
 #include "friction/force_laws.h"
 #include "lsm_contact_recorder.h"
+#include "lsm_pair_search.h"
 #include "lsm_restart_file.h"
 #include "lsm_scene.h"
 
@@ -63,8 +64,9 @@ bool PairLSMFree::find_near(double reach, const int *const *touch)
   const bool chooses =
       near.is_due(neighbor->ncalls, *list, x, atom->nlocal, atom->nlocal + atom->nghost, farthest);
   if (chooses) {
+    if (update->setupflag) LSMPairSearch::take_over(lmp, *list);
     note_contacts();
-    near.choose(*list, x, contact_radii(), reach, touch);
+    near.choose(x, contact_radii(), reach, touch);
   }
   near.find(x);
   return chooses;

@@ -335,6 +335,29 @@ TEST_F(Ranks, ThermoAndFirstEventsAgree) {
     }
 }
 
+// With an exclusion, here of nothing, lists are built by LAMMPS' own search.
+TEST_F(Ranks, ListsAreThoseOfLammps) {
+  const std::string script = fault_read() + R"(
+pair_coeff        * * 1.0 0.5 0.6
+neigh_modify      every 20 check no
+group             nobody empty
+)" + fault_shear("");
+  const std::string run = "thermo 20\nrun 600\n";
+  for (int ranks : {1, 2}) {
+    const Result ours = run_text(script + run, {}, ranks);
+    const Result theirs =
+        run_text(script + "neigh_modify exclude group nobody nobody\n" + run, {}, ranks);
+    ASSERT_TRUE(succeeded(ours));
+    ASSERT_TRUE(succeeded(theirs));
+    EXPECT_GT(ours.last("c_events[11]"), 0.0);
+    EXPECT_EQ(thermo_difference(ours, theirs, compared), 0.0) << ranks;
+    const auto listed = ours.lines_with("Total # of neighbors");
+    ASSERT_EQ(listed.size(), 1u);
+    EXPECT_EQ(listed[0].find("= 0"), std::string::npos) << listed[0];
+    EXPECT_EQ(listed, theirs.lines_with("Total # of neighbors"));
+  }
+}
+
 TEST_F(Ranks, StaticFrictionToo) {
   const std::string script = fault_read() + fault_shear("") + "thermo 100\nrun 1000\n";
   const Result one = run_text(script, {{"mus", "0.8"}});

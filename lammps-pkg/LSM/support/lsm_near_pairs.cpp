@@ -43,39 +43,49 @@ bool LSMNearPairs::is_due(bigint build, const NeighList &list, const double *x, 
                           int count, double farthest)
 {
   if (build == built) return !held.empty() && outdated(x, nlocal, farthest);
-  bigint all = 0;
-  for (int ii = 0; ii < list.inum; ii++) all += list.numneigh[list.ilist[ii]];
-  held.resize(all > FEW * count ? 3 * static_cast<size_t>(count) : 0);
+  listed.clear();
+  for (int ii = 0; ii < list.inum; ii++) {
+    const int i = list.ilist[ii];
+    for (int jj = 0; jj < list.numneigh[i]; jj++)
+      listed.push_back({i, jj, list.firstneigh[i][jj] & NEIGHMASK});
+  }
+  held.resize(listed.size() > FEW * count ? 3 * static_cast<size_t>(count) : 0);
   built = build;
   return true;
 }
 
-void LSMNearPairs::choose(const NeighList &list, const double *x, const double *radius,
-                          double reach, const int *const *touch)
+// Whether a pair is near cannot be predicted: nothing is decided by branches before it is known.
+void LSMNearPairs::choose(const double *x, const double *radius, double reach,
+                          const int *const *touch)
 {
   std::copy_n(x, held.size(), held.begin());
   moved = 0.0;
+  found.resize(listed.size());
+  const bool all = held.empty();
+  int count = 0;
+  for (int n = 0; n < static_cast<int>(listed.size()); n++) {
+    const Listed &pair = listed[n];
+    const double *const a = x + 3 * static_cast<size_t>(pair.i);
+    const double *const b = x + 3 * static_cast<size_t>(pair.j);
+    const double dx = a[0] - b[0], dy = a[1] - b[1], dz = a[2] - b[2];
+    const double far = reach * (radius[pair.i] + radius[pair.j]) + SKIN;
+    const bool touching = touch && touch[pair.i][pair.jj];
+    found[count] = n;    // stays where it is kept
+    count += all | touching | !(dx * dx + dy * dy + dz * dz > far * far);
+  }
+
   pairs.clear();
   ends.clear();
   within.clear();
   limit.clear();
-  for (int ii = 0; ii < list.inum; ii++) {
-    const int i = list.ilist[ii];
-    const double *const xi = x + 3 * static_cast<size_t>(i);
-    for (int jj = 0; jj < list.numneigh[i]; jj++) {
-      const int j = list.firstneigh[i][jj] & NEIGHMASK;
-      const double *const xj = x + 3 * static_cast<size_t>(j);
-      const double dx = xi[0] - xj[0], dy = xi[1] - xj[1], dz = xi[2] - xj[2];
-      const double r0 = radius[i] + radius[j], far = reach * r0 + SKIN;
-      const bool touching = touch && touch[i][jj];
-      if (!held.empty() && dx * dx + dy * dy + dz * dz > far * far && !touching) continue;
-      pairs.push_back({i, jj});
-      ends.push_back({3 * i, 3 * j});
-      within.push_back(r0 * r0 * (1.0 + ROUNDING));
-      limit.push_back(touching ? INFINITY : within.back());
-    }
+  for (int m = 0; m < count; m++) {
+    const Listed &pair = listed[found[m]];
+    const double r0 = radius[pair.i] + radius[pair.j];
+    pairs.push_back({pair.i, pair.jj});
+    ends.push_back({3 * pair.i, 3 * pair.j});
+    within.push_back(r0 * r0 * (1.0 + ROUNDING));
+    limit.push_back(touch && touch[pair.i][pair.jj] ? INFINITY : within.back());
   }
-  found.resize(pairs.size());
   for (auto &of_a_step : vectors) of_a_step.resize(2 * pairs.size());
 }
 

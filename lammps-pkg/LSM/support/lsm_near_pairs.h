@@ -33,8 +33,7 @@ class LSMNearPairs {
   /// \param reach     pairs are near up to this distance, in sums of radii
   /// \param touch     flags of pairs that are kept and given at any distance, as in the neighbor
   /// list, or null
-  void choose(const NeighList &, const double *x, const double *radius, double reach,
-              const int *const *touch);
+  void choose(const double *x, const double *radius, double reach, const int *const *touch);
   /// Finds those of them that touch.
   void find(const double *x);
   /// Those that are kept, in the order of the neighbor list.
@@ -63,6 +62,10 @@ class LSMNearPairs {
   struct Ends {
     int i, j;    // places of their coordinates
   };
+  struct Listed {
+    int i, jj, j;
+  };
+  std::vector<Listed> listed;    // the whole neighbor list
   std::vector<Pair> pairs;
   std::vector<Ends> ends;        // of the pairs, as are the following
   std::vector<double> within;    // square of the distance up to which a pair touches
