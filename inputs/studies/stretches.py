@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What the parts of a long fault have to do with each other.
 
-stretches.py [--memory TIME] [--stretch LENGTH] POSTPROC OUT FOLDER...
+stretches.py [--memory TIME] [--stretch LENGTH] [--from TIME] POSTPROC OUT FOLDER...
 
 Each FOLDER has a run with `-var extra fault_stretches`: fault.catalogue.csv and fault.stretches.txt. Its fault is cut into
 stretches of about 120, fixed in space, whose energies add up to PE (weights fall linearly over one piece, so that blocks move from
@@ -15,6 +15,7 @@ one to the next without jumps). Writes, of all runs,
 import argparse
 import array
 import csv
+import itertools
 import math
 import subprocess
 import sys
@@ -23,6 +24,7 @@ from pathlib import Path
 
 import numpy as np
 
+from calibrate import LOADING
 from superpose import write
 
 LAGS = (1, 3, 10, 30, 100, 300, 1000)  # time units
@@ -42,42 +44,57 @@ def header_of(catalogue):
         return dict(line[2:].rstrip("\n").split(" = ", 1) for line in lines if line[0] == "#" and " = " in line)
 
 
-def samples(path):
-    """Steps, and energies [sample, piece, block]. \\raises Refused"""
+def parts_of(path):
+    """Steps, and energies [sample, piece, block], of each part of a run, which begin with comments: of discs that were in the pieces
+    then. A part ends where the next begins, as a run that was killed repeats its last steps. \\raises Refused"""
+    parts = []
     with open(path, encoding="utf-8") as file:
-        lines = [line for line in file if line[0] != "#" and line[-1] == "\n"]  # a killed run leaves parts of lines and samples
-    try:
-        pieces = int(lines[0].split()[1])
-        table = [lines[n:n + pieces + 1] for n in range(0, len(lines) - pieces, pieces + 1)]
-        steps = np.array([int(rows[0].split()[0]) for rows in table])
-        energy = np.array([[row.split()[1:] for row in rows[1:]] for rows in table], float)
-        pieces, blocks = energy.shape[1:]
-    except (IndexError, ValueError):
-        raise Refused(f"{path}: not what fault_stretches.in writes") from None
-    if blocks != 2 or len(set(np.diff(steps))) != 1:
+        try:
+            for comment, lines in itertools.groupby(file, lambda line: "#" in line):
+                if comment:
+                    continue
+                lines = [line for line in lines if line[-1] == "\n"]  # a killed run leaves parts of lines and samples
+                pieces = int(lines[0].split()[1])
+                table = [lines[n:n + pieces + 1] for n in range(0, len(lines) - pieces, pieces + 1)]
+                steps = np.array([int(rows[0].split()[0]) for rows in table])
+                parts.append((steps, np.array([[row.split()[1:] for row in rows[1:]] for rows in table], float)))
+                pieces, blocks = parts[-1][1].shape[1:]
+            parts = [(steps[steps < end], energy[steps < end])
+                     for (steps, energy), end in zip(parts, [*(int(steps[0]) for steps, _ in parts[1:]), math.inf])]
+            every = set(np.diff(np.concatenate([steps for steps, _ in parts])))
+        except (IndexError, ValueError):
+            raise Refused(f"{path}: not what fault_stretches.in writes") from None
+    if blocks != 2 or len({energy.shape[1] for _, energy in parts}) != 1 or len(every) != 1:
         raise Refused(f"{path}: expected energies of two blocks at steps with one distance")
-    return steps, energy
+    return parts
 
 
-def stretches_of(folder, stretch):
-    """Header, and PE of each stretch of about this length at evenly spaced times. \\raises Refused"""
+def stretches_of(folder, stretch, begin=0.0):
+    """Header, and PE of each stretch of about this length at evenly spaced times from `begin` on. \\raises Refused"""
     info = header_of(folder / "fault.catalogue.csv")
     missing = {"length", "dt", "velocity", "lambda", "seed"} - info.keys()
     if missing:
         raise Refused(f"{folder / 'fault.catalogue.csv'}: the header has no {min(missing)}, expected a catalogue of fault.in")
-    steps, energy = samples(folder / "fault.stretches.txt")
+    parts = parts_of(folder / "fault.stretches.txt")
     length, dt = float(info["length"]), float(info["dt"])
-    count = max(1, round(length / stretch))
-    size, piece = length / count, length / energy.shape[1]
-    moved = float(info["velocity"]) * dt * (steps - steps[0])
-    places = (np.arange(energy.shape[1]) + 0.5) * piece
-    pe = np.zeros((count, len(steps)))
-    for block, way in ((0, -1), (1, 1)):  # the plate below moves to smaller x
-        x = places[None, :] + way * moved[:, None]
-        for n in range(count):
-            away = np.abs((x - (n + 0.5) * size + 0.5 * length) % length - 0.5 * length)
-            pe[n] += (np.clip((0.5 * size + 0.5 * piece - away) / piece, 0, 1) * energy[:, :, block]).sum(axis=1)
-    return info, int(steps[1] - steps[0]), pe
+    count, pieces = max(1, round(length / stretch)), parts[0][1].shape[1]
+    size, piece = length / count, length / pieces
+    places = (np.arange(pieces) + 0.5) * piece
+    pes = []
+    for steps, energy in parts:
+        moved = float(info["velocity"]) * dt * (steps - steps[0])
+        pe = np.zeros((count, len(steps)))
+        for block, way in ((0, -1), (1, 1)):  # the plate below moves to smaller x
+            x = places[None, :] + way * moved[:, None]
+            for n in range(count):
+                away = np.abs((x - (n + 0.5) * size + 0.5 * length) % length - 0.5 * length)
+                pe[n] += (np.clip((0.5 * size + 0.5 * piece - away) / piece, 0, 1) * energy[:, :, block]).sum(axis=1)
+        pes.append(pe)
+    steps = np.concatenate([steps for steps, _ in parts])
+    late = steps * dt >= begin
+    if late.sum() < 2:
+        raise Refused(f"{folder / 'fault.stretches.txt'}: ends at time {steps[-1] * dt:g}, expected samples from {begin:g} on")
+    return info, int(steps[1] - steps[0]), np.concatenate(pes, axis=1)[:, late]
 
 
 def variance(pe, every, dt):
@@ -124,11 +141,11 @@ def mean_row(rows):
     return out
 
 
-def main(postproc, out, memory, stretch, folders):
+def main(postproc, out, memory, stretch, begin, folders):
     changes, counted = [], []
     random = np.random.default_rng(1)
     for folder in map(Path, folders):
-        info, every, pe = stretches_of(folder, stretch)
+        info, every, pe = stretches_of(folder, stretch, begin)
         picker = -float(info["dt"]) / math.log(float(info["lambda"])) if memory is None else memory
         run = {"length": info["length"], "seed": info["seed"], "stretches": len(pe)}
         changes += [{**run, **row} for row in variance(pe, every, float(info["dt"]))]
@@ -148,6 +165,8 @@ if __name__ == "__main__":
     parser.add_argument("out", metavar="OUT")
     parser.add_argument("--memory", type=float, metavar="TIME", help="of the picker (default: that of the run)")
     parser.add_argument("--stretch", type=float, default=120, metavar="LENGTH", help="of a stretch, about (%(default)s)")
+    parser.add_argument("--from", dest="begin", type=float, default=LOADING, metavar="TIME",
+                        help="leave out what is before: all stretches are loaded together at first (%(default)s)")
     parser.add_argument("folders", metavar="FOLDER", nargs="+")
     try:
         main(**vars(parser.parse_args()))

@@ -13,7 +13,7 @@ from data_files import header, read_catalogue, read_dump, read_series, rows, sam
 from programs import INPUTS, refused, run, scene
 
 sys.path.insert(0, str(INPUTS / "studies"))
-from stretches import samples  # noqa: E402
+from stretches import parts_of  # noqa: E402
 
 
 def particles(result):
@@ -160,7 +160,7 @@ def test_stretches(lmp, work):
     Path("parts.in").write_text(STRETCHES.format(inputs=INPUTS))
     run(lmp, scene(length=36, width=15, settle=104, velocity=0.03, steps=400, checkpoint=200, prefix="p", extra=work / "parts", piece=5))
     pieces = 7  # 36 is no multiple of 5
-    steps, energy = samples("p.stretches.txt")
+    (steps, energy), = parts_of("p.stretches.txt")
     assert list(steps) == list(range(104, 505, 8)) and energy.shape == (len(steps), pieces, 2)
     _, step, _, pe = read_series("p.pe.bin")
     assert energy.sum(axis=(1, 2)) == pytest.approx(pe[np.isin(step, steps)], rel=1e-13)
@@ -175,6 +175,12 @@ def test_stretches(lmp, work):
     moved = (frames[-1][2][:, 2] - begin[:, 2] + 18) % 36 - 18
     assert moved[~above].mean() < 0 < moved[above].mean()
     assert ((frames[-1][2][:, 2] % 36 * pieces / 36).astype(int) != piece).any(), "no disc has left its piece"
+    # Continued from the restart file before the last, as after a kill
+    run(lmp, scene(restart="p.restart.304", steps=600, checkpoint=200, prefix="p", extra=INPUTS / "fault_stretches", piece=5, overwrite=None))
+    (before, kept), (after, energy2) = parts_of("p.stretches.txt")
+    assert list(before) == list(range(104, 304, 8)) and list(after) == list(range(304, 705, 8)) and (kept == energy[:25]).all()
+    _, step, _, pe = read_series("p.pe.bin")
+    assert energy2.sum(axis=(1, 2)) == pytest.approx(pe[np.isin(step, after)], rel=1e-13)
 
 
 # ---- links

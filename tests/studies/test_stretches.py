@@ -32,7 +32,7 @@ def write_run(folder, energy, velocity=0.0, steps=None, **head):
 
 @pytest.fixture
 def script(postproc):
-    return Program("stretches.py", sys.executable, INPUTS / "studies/stretches.py", "--stretch", SIZE, postproc.path, "out")
+    return Program("stretches.py", sys.executable, INPUTS / "studies/stretches.py", "--stretch", SIZE, "--from", 0, postproc.path, "out")
 
 
 def in_stretches(series):
@@ -64,6 +64,33 @@ def test_blocks_carry_their_energy(block, ends_in):
     assert pe[ends_in, 20] == pytest.approx(left) and pe[1, 20] == pytest.approx(3 - left)
     # No jumps: a piece leaves while the blocks move by its length, a tenth of it at a time.
     assert np.abs(np.diff(pe, axis=1)).max() == pytest.approx(0.2)
+
+
+def test_continued():
+    """A run that was killed within a sample and continued from two samples before: each part has pieces of its own."""
+    energy = np.random.default_rng(1).uniform(0, 1, (10, PIECES, 2))
+    whole, begun, rest = (write_run(name, part, steps=100 + EVERY * np.arange(first, first + len(part)), velocity=0.3) / "fault.stretches.txt"
+                          for name, part, first in (("a", energy, 0), ("b", energy[:8], 0), ("c", energy[6:], 6)))
+    begun.write_text(begun.read_text()[:-7] + rest.read_text())
+    (first, kept), (second, appended) = stretches.parts_of(begun)
+    assert list(first) == list(100 + EVERY * np.arange(6)) and list(second) == list(100 + EVERY * np.arange(6, 10))
+    assert (kept == energy[:6]).all() and (appended == energy[6:]).all()
+    _, every, pe = stretches.stretches_of(begun.parent, SIZE)
+    assert every == EVERY and pe.shape == (4, 10) and pe.sum(axis=0) == pytest.approx(energy.sum(axis=(1, 2)), rel=1e-12)
+    assert (pe[:, 6:] == stretches.stretches_of(rest.parent, SIZE)[2]).all()
+    assert (pe[:, :6] == stretches.stretches_of(whole.parent, SIZE)[2][:, :6]).all()
+
+
+def test_what_is_left_out(script):
+    """Stretches that are loaded together at first, and each by itself from then on."""
+    random = np.random.default_rng(3)
+    own = random.normal(size=(4, 4000))
+    together = np.where(np.arange(4000) < 400, np.linspace(0, 4000, 4000), 400.0)
+    folder = write_run("a", in_stretches(own + together))
+    begin = (100 + 400 * EVERY) * DT
+    _, _, pe = stretches.stretches_of(folder, SIZE, begin)
+    assert pe.shape == (4, 3600) and pe == pytest.approx(own[:, 400:] + 400)
+    refused(script, f"--from 1e6 {folder}", "a/fault.stretches.txt: ends at time 3209.2, expected samples from 1e.06 on")
 
 
 def changes(series):
@@ -125,7 +152,7 @@ def test_a_killed_run():
     said = path.read_text()
     for end in len(said) - 4, said.rindex("\n", 0, -1) + 1, said.rindex(f"\n{100 + 11 * EVERY} ") + 4:
         path.write_text(said[:end])
-        assert (stretches.samples(path)[1] == energy[:11]).all()
+        assert (stretches.parts_of(path)[0][1] == energy[:11]).all()
 
 
 def test_refusals(script):
