@@ -20,9 +20,9 @@ set ylabel "viscosity"
 set xrange [least/1.35:most*1.4]
 set yrange [0.0012:0.17]
 set cblabel "saw-tooth number (rate of fall / rate of rise of PE)"
-set cbrange [0.8:13]
-set cbtics (1, 2, 3, 5, 10)
-set palette defined (0 "#f4a582", 0.474 "#f7f7f7", 1 "#92c5de")
+set cbrange [0.8:35]
+set cbtics (1, 2, 3, 5, 10, 20)
+set palette defined (0 "#f4a582", 0.35 "#f7f7f7", 1 "#92c5de")
 set title "Saw-tooth number at length 120: creep below 3, stick-slip above; below each: exponent of the sizes"
 set key off noautotitle
 set xtics (0.003, 0.006, 0.01, 0.015, 0.025, 0.05)
