@@ -43,14 +43,14 @@ set xtics ("100" 100, "200" 200, "500" 500, "1000" 1000, "2000" 2000, "5000" 500
 set xrange [100:5000]
 set ylabel "characteristic size s* (energy)"
 set logscale y
-set ytics ("0.7" 0.7, "0.8" 0.8, "0.9" 0.9, "1" 1, "1.2" 1.2, "1.4" 1.4, "1.6" 1.6, "1.8" 1.8)
-set yrange [0.70000000000000007:1.8]
+set ytics ("0.5" 0.5, "1" 1, "2" 2, "5" 5)
+set yrange [0.5:5]
 row(k) = $1 == k ? $3 : NaN
 low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y
 set samples 400
 plot table using (row(1)):(low($4,$5)):(0):($4+$5-low($4,$5)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \
      table using (row(1)):4 with points lt 1 title "fault: s*", \
-     [102:2223.5294117647059] '+' using 1:(0.33778717116973539*$1**(0.20267785960118934)) with lines lt 1 title "A L^D with D = 0.203 ± 0.046", \
-     [102:2223.5294117647059] '+' using 1:(1.073204283351052) with lines lt 8 dt 2 title "constant"
+     [102:2223.5294117647059] '+' using 1:(0.35896621571833554*$1**(0.19102593492464504)) with lines lt 1 title "A L^D with D = 0.191 ± 0.035", \
+     [102:2223.5294117647059] '+' using 1:(1.1100241564385869) with lines lt 8 dt 2 title "constant"
 unset output
 }

@@ -54,28 +54,28 @@ low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y
 set samples 400
 plot table using (row(1)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \
      table using (row(1)):8 with points lt 1 notitle, \
-     keyentry with linespoints lt 1 title "fault, length 120 (543 times)", \
+     keyentry with linespoints lt 1 title "fault, length 120 (539 times)", \
      table using (row(2)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 2 dt 1 lw 0.8 notitle, \
      table using (row(2)):8 with points lt 2 notitle, \
-     keyentry with linespoints lt 2 title "fault, length 240 (1259 times)", \
+     keyentry with linespoints lt 2 title "fault, length 240 (1247 times)", \
      table using (row(3)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 3 dt 1 lw 0.8 notitle, \
      table using (row(3)):8 with points lt 3 notitle, \
-     keyentry with linespoints lt 3 title "fault, length 480 (1389 times)", \
+     keyentry with linespoints lt 3 title "fault, length 480 (1357 times)", \
      table using (row(4)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 4 dt 1 lw 0.8 notitle, \
      table using (row(4)):8 with points lt 4 notitle, \
-     keyentry with linespoints lt 4 title "fault, length 945 (739 times)", \
+     keyentry with linespoints lt 4 title "fault, length 945 (699 times)", \
      table using (row(5)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 5 dt 1 lw 0.8 notitle, \
      table using (row(5)):8 with points lt 5 notitle, \
-     keyentry with linespoints lt 5 title "fault, length 1440 (404 times)", \
+     keyentry with linespoints lt 5 title "fault, length 1440 (377 times)", \
      table using (row(6)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 6 dt 1 lw 0.8 notitle, \
      table using (row(6)):8 with points lt 6 notitle, \
-     keyentry with linespoints lt 6 title "fault, length 1890 (459 times)", \
-     [0.19952623149688789:3162.2776601683854] '+' using 1:(0.017519125479074318*$1**(-0.39768117444851026)*exp(-$1**(1)/428.1897383754353)) with lines lt 1 dt 1 lw 1.6 notitle, \
-     [0.19952623149688789:1584.8931924611163] '+' using 1:(0.055054123381085569*$1**(-0.67945251778088178)*exp(-$1**(1)/344.99325607914363)) with lines lt 2 dt 3 lw 2 notitle, \
-     [0.19952623149688789:1258.9254117941693] '+' using 1:(0.024371845742248918*$1**(-0.30997423348236597)*exp(-$1**(1)/146.49416952937386)) with lines lt 3 dt 3 lw 2 notitle, \
-     [0.19952623149688789:501.18723362727303] '+' using 1:(0.040147110832062426*$1**(-0.37189888599961163)*exp(-$1**(1)/94.783787369125989)) with lines lt 4 dt 3 lw 2 notitle, \
-     [0.19952623149688789:316.22776601683836] '+' using 1:(0.035635472681139341*$1**(-0.23459184297639291)*exp(-$1**(1)/61.085249857625186)) with lines lt 5 dt 3 lw 2 notitle, \
-     [0.19952623149688789:794.32823472428277] '+' using 1:(0.047744620062901443*$1**(-0.36776071758832507)*exp(-$1**(1)/70.602870999190145)) with lines lt 6 dt 3 lw 2 notitle, \
+     keyentry with linespoints lt 6 title "fault, length 1890 (406 times)", \
+     [0.19952623149688789:2511.8864315095848] '+' using 1:(0.017550926644401815*$1**(-0.39513175237596698)*exp(-$1**(1)/418.83065690219149)) with lines lt 1 dt 1 lw 1.6 notitle, \
+     [0.19952623149688789:1584.8931924611163] '+' using 1:(0.055384237583145847*$1**(-0.68100512133871072)*exp(-$1**(1)/342.84864122166738)) with lines lt 2 dt 3 lw 2 notitle, \
+     [0.19952623149688789:1258.9254117941693] '+' using 1:(0.024319980640924214*$1**(-0.30901100886529576)*exp(-$1**(1)/146.18245088611596)) with lines lt 3 dt 3 lw 2 notitle, \
+     [0.19952623149688789:501.18723362727303] '+' using 1:(0.040841251161990444*$1**(-0.37627306278216688)*exp(-$1**(1)/94.242296941135166)) with lines lt 4 dt 3 lw 2 notitle, \
+     [0.19952623149688789:316.22776601683836] '+' using 1:(0.03799446377284111*$1**(-0.25444030042061017)*exp(-$1**(1)/60.778293380677802)) with lines lt 5 dt 3 lw 2 notitle, \
+     [0.19952623149688789:251.18864315095834] '+' using 1:(0.047425642093883953*$1**(-0.34372302964235946)*exp(-$1**(1)/64.214897861986231)) with lines lt 6 dt 3 lw 2 notitle, \
      keyentry with lines lt 8 dt 1 lw 1.6 title "fit not rejected", \
      keyentry with lines lt 8 dt 3 lw 2 title "fit rejected (p < 0.05)"
 unset output

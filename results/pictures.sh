@@ -9,6 +9,7 @@ set -euo pipefail
 cd "$(dirname "$0")"
 root=$(cd .. && pwd)
 postproc=${POSTPROC:-$root/build/bin/postproc} lmp=${LMP:-$root/build/bin/lmp}
+loading=$(sed -n "s/^LOADING = \([0-9]*\).*/\1/p" "$root/inputs/studies/calibrate.py") # as in the tables
 [ $# -gt 0 ] || set -- catalogues run studies
 new=$(mktemp -d)
 trap 'rm -rf "$new"' EXIT
@@ -29,15 +30,15 @@ for part; do
       "$postproc" fit "${sliders[@]}" --scaling --range 0.01:1 --range 1:100 --replicas 0 --no-comparison -o "$new/slider_fit"
       "$postproc" fit catalogues/slider_ruptures_*.xz --scaling --range 1:100 --from 40000 --threshold 1 --replicas 0 \
         --no-comparison -o "$new/rupture_fit"
-      "$postproc" fit campaign/fault_*.catalogue.csv.xz --scaling --threshold 1e-3 --from 4500 --range 1e-3:1 --replicas 0 \
+      "$postproc" fit campaign/fault_*.catalogue.csv.xz --scaling --threshold 1e-3 --from "$loading" --range 1e-3:1 --replicas 0 \
         --no-comparison -o "$new/fault_fit"
-      "$postproc" fit campaign/fault_*.ruptures.csv.xz --scaling --threshold 1e-2 --from 4500 --range 1e-2:1 --replicas 0 \
+      "$postproc" fit campaign/fault_*.ruptures.csv.xz --scaling --threshold 1e-2 --from "$loading" --range 1e-2:1 --replicas 0 \
         --no-comparison -o "$new/fault_rupture_fit"
       mapfile -t faults < <(ls campaign/fault_*_1.catalogue.csv.xz | sort -t_ -k2n)
-      common=(--from 4500 --threshold 1e-4)
+      common=(--from "$loading" --threshold 1e-4)
       "$postproc" histograms "${faults[@]}" "${common[@]}" --guide=-1.07:1e-4:0.1 -o "$new/fig12_fault_sizes"
       "$postproc" intervals "${faults[@]}" "${common[@]}" --delta 1 --shortest 0 --shuffles 0 -o "$new/fig14_fault_intervals"
-      "$postproc" report "${faults[@]}" "${sliders[@]}" --from 4500 -o "$new/report.html" \
+      "$postproc" report "${faults[@]}" "${sliders[@]}" --from "$loading" -o "$new/report.html" \
         --title "Faults with the calibrated values, block-sliders in the default settings"
       cp "$new/report.html" .
       for fit in slider_fit rupture_fit fault_fit fault_rupture_fit; do

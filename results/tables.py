@@ -365,7 +365,9 @@ def slow_driving_table():
 
 def work_precision_table():
     columns = {"predicted, time step": lambda row: row["dt"], "masses raised for": lambda row: row["massstep"], "onset": lambda row: row["onset"]}
-    columns |= {"model time, large events per core-hour": lambda row: f"{row['time_per_core_hour']}, {row['large_per_core_hour']}"}
+    columns |= {
+        "model time, large events per core-hour": lambda row: f"{number(row, 'time_per_core_hour'):.3g}, {number(row, 'large_per_core_hour'):.0f}"
+    }
     columns |= {"events >= 1e-3 (relative)": "rate", ">= 1e-2": "rate_2", "exponent": "exponent", "gamma": "gamma", "energy released": "released"}
     return study_table("accuracy_catalogues.csv", columns)
 

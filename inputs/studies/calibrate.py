@@ -23,7 +23,7 @@ from pathlib import Path
 
 # Time units. 0.99 a step is a memory of 100 steps; printed numbers imply steps of 0.0045, a benchmark of the same code has 0.02.
 MEMORIES = (0.5, 1, 2)
-LOADING = 4500  # time units that are left out: compression, and PE rising for the first time
+LOADING = 8000  # time units that are left out: compression, and PE rising for the first time
 SETTINGS = ("length", "seed", "stress", "viscosity", "kt", "impedance", "hold", "contacts", "mass", "dt", "steps")  # of a point
 RANGES = ("1e-4:1e-1", "1e-4:1e-3", "1e-3:1e-2", "1e-2:1e-1")
 WINDOWS = ("16:22", "22:28", "30:36", "38:44")

@@ -21,11 +21,11 @@ import tempfile
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+from calibrate import LOADING  # noqa: E402
 from run import events_in, replace, replace_all  # noqa: E402
 
 EVENTS, RUPTURES = 1e-4, 1e-3
 MAGIC = "# lsm-catalogue 1\n"
-LOADING = 4500  # time units that are left out of statements: compression, and PE rising for the first time
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 # Length of a fault, and size from which the number of its events does not depend on how often PE is sampled: results/faults.md
 COMPLETE = ((900, "1e-3"), (480, "3e-4"))
