@@ -141,9 +141,9 @@ def paper_table():
     return table(["statement of the paper, or †", *groups], out + [["packings", *(str(len(rows)) for rows in groups.values())]])
 
 
-def scaling_of(kind, least):
+def scaling_of(kind, least, folder=CAMPAIGN):
     """Of postproc fit: exponent and characteristic size of each catalogue {length: [(fit, point)]}, and how that grows."""
-    groups = faults(kind)
+    groups = faults(kind, folder)
     numbers = numbers_of("fit", *(path for paths in groups.values() for path in paths), "--scaling", "--threshold", least, "--from", LOADING,
                          "--range", f"{least}:1", "--replicas", 0, "--no-comparison", "--no-picture")
     each, scaling = iter(zip(numbers["fits"], numbers["scaling"][0]["points"])), numbers["scaling"][0]
@@ -218,11 +218,18 @@ def numbers_table():
 
 def validation_table():
     """Other widths and time steps beside the campaign's runs of these lengths."""
-    keys, others = EXPONENTS | {"gamma >= 1e-4": "gamma_0.0001", "mean time": "mean_time_0.0001", "largest": "largest"}, summaries(VALIDATION)
+    keys, others = EXPONENTS | {
+        "gamma >= 1e-4": "gamma_0.0001", "mean time": "mean_time_0.0001", "largest": "largest", "s* of ruptures >= 1e-2": "ruptures"
+    }, summaries(VALIDATION)
+    for folder, some in (CAMPAIGN, summaries()), (VALIDATION, others):
+        for row, (_, point) in zip(some, (one for pairs in scaling_of("ruptures", "1e-2", folder)[0].values() for one in pairs)):
+            row["ruptures"], row["ruptures_error"] = str(point["s_star"]), str(point["error"])
     rows = [row for row in summaries() if row["length"] in {other["length"] for other in others}] + others
     groups = grouped(sorted(rows, key=lambda row: float(row["width"])), lambda row: (row["length"], row["width"], f"{float(row['dt']):g}"))
-    return table(["predicted, length", "width", "time step", "packings", *keys],
-                 [[*group, str(len(rows)), *(spread([number(row, key) for row in rows]) for key in keys.values())] for group, rows in groups.items()])
+    return table(
+        ["predicted, length", "width", "time step", "packings", *keys],
+        [[*group, str(len(rows)), *(spread([number(row, key) for row in rows], number(rows[0], f"{key}_error")) for key in keys.values())]
+         for group, rows in groups.items()])
 
 
 def variance_table():
