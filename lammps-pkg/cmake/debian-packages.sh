@@ -53,7 +53,6 @@ debian_lammps() {
 # configure_programs SOURCE BUILD: from a fresh checkout to a build folder in which everything can be
 # made. One that is there keeps its options; one whose configuration failed is completed.
 configure_programs() {
-  refuse_other_build "$1" "$2" || return 1
   # The lists are words on purpose.
   install_debian_packages $lammps_packages $plot_packages $postproc_packages $test_packages
   need_programs cmake ninja c++ mpirun gnuplot
@@ -86,6 +85,7 @@ refuse_other_build() {
 build_programs() {
   local source=$1 build=$2
   shift 2
+  refuse_other_build "$source" "$build" || return 1
   exec 8<"$source"
   if command -v flock >/dev/null && ! flock -n 8; then
     echo "Waiting until another start has built the programs"

@@ -106,7 +106,7 @@ def test_a_build_folder_of_others_is_refused(work):
     for name in "source", "other", "build":
         (work / name).mkdir()
     there = "install_debian_packages() { :; }; need_programs() { :; }; debian_lammps() { :; }; cmake() { echo called; }"
-    configure = Program("bash", "bash", "-c", f"set -eu; . {PACKAGES}; {there}; configure_programs source build")
+    configure = Program("bash", "bash", "-c", f"set -eu; . {PACKAGES}; {there}; build_programs source build lmp")
     cache = f"CMAKE_CACHEFILE_DIR:INTERNAL={work}/build\nCMAKE_HOME_DIRECTORY:INTERNAL={work}/source\n"
     Path("build/build.ninja").touch()
     Path("build/CMakeCache.txt").write_text(cache)
@@ -120,7 +120,7 @@ def test_a_build_folder_of_others_is_refused(work):
         return
     work.chmod(0o755)
     shutil.copy(PACKAGES, "packages.sh")
-    line = f"set -eu; . ./packages.sh; {there}; configure_programs source build"
+    line = f"set -eu; . ./packages.sh; {there}; build_programs source build lmp"
     other = Program("bash", "setpriv", "--reuid=65534", "--regid=65534", "--clear-groups", "bash", "-c", line)
     other.errors_begin = "cannot write to build"
     refused(other, "", "which is of root, expected a folder of one user")
