@@ -80,17 +80,18 @@ refuse_other_build() {
   }
 }
 
-# build_programs SOURCE BUILD TARGET...: one at a time. What a start that was killed leaves behind,
+# build_programs SOURCE BUILD TARGET...: one at a time in a build folder. What a start that was killed leaves behind,
 # apt or a compiler, holds the lock as well.
 build_programs() {
   local source=$1 build=$2
   shift 2
   refuse_other_build "$source" "$build" || return 1
-  exec 8<"$source"
+  mkdir -p "$build"
+  exec 8<"$build"
   if command -v flock >/dev/null && ! flock -n 8; then
     echo "Waiting until another start has built the programs"
     flock -w 3600 8 || {
-      echo "programs of $source are still being built, expected that to end within an hour" >&2
+      echo "programs in $build are still being built, expected that to end within an hour" >&2
       return 1
     }
   fi
