@@ -33,6 +33,20 @@ Rule number_that(Good good, const std::string &expected) {
       ""));
 }
 
+/// Defaults as CLI11 2.1 shows them, FLOAT=1, and not FLOAT [1] as later versions do, so that the
+/// help is the same with each.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  std::string make_option_opts(const CLI::Option *option) const override {
+    std::string text = CLI::Formatter::make_option_opts(option);
+    const std::string later = " [" + option->get_default_str() + "] ";
+    const auto at = option->get_default_str().empty() ? std::string::npos : text.find(later);
+    return at == std::string::npos
+               ? text
+               : text.replace(at, later.size(), "=" + option->get_default_str());
+  }
+};
+
 CLI::Option *put(CLI::Option *option, const std::string &heading, const std::vector<Rule> &rules) {
   for (const Rule &rule : rules) rule(*option);
   return option->group(heading);
@@ -134,6 +148,7 @@ void add_seed(OptionGroup group, std::uint64_t &seed, const std::string &help) {
 void set_up(CLI::App &program, const std::string &version) {
   program.set_version_flag("--version", version);
   program.option_defaults()->always_capture_default();
+  program.formatter(std::make_shared<HelpFormatter>());
   program.get_formatter()->column_width(34);
 }
 

@@ -180,7 +180,8 @@ inline ::testing::AssertionResult failed_with(const Result &result,
   // Open MPI sometimes adds lines of its own when one rank aborts.
   lines.erase(std::remove_if(lines.begin(), lines.end(),
                              [](const std::string &line) {
-                               return line.find("ORTE_ERROR_LOG") != std::string::npos;
+                               return line.find("ORTE_ERROR_LOG") != std::string::npos ||
+                                      line.find("PMIX ERROR") != std::string::npos;
                              }),
               lines.end());
   if (lines.size() != 1)
