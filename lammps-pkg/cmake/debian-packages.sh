@@ -86,8 +86,8 @@ build_programs() {
   local source=$1 build=$2
   shift 2
   refuse_other_build "$source" "$build" || return 1
-  mkdir -p "$build"
-  exec 8<"$build"
+  # Where a tool is missing, configure_programs says which.
+  if mkdir -p "$build" 2>/dev/null; then exec 8<"$build"; else exec 8<"$source"; fi
   if command -v flock >/dev/null && ! flock -n 8; then
     echo "Waiting until another start has built the programs"
     flock -w 3600 8 || {

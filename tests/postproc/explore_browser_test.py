@@ -117,6 +117,8 @@ class Page(unittest.TestCase):
 
     def tearDown(self):
         errors = [line["message"] for line in self.driver.get_log("browser") if line["level"] in ("SEVERE", "WARNING")]
+        # dygraphs 2.2 notes that a picture does not show all of its points, as after a zoom.
+        errors = [message for message in errors if "points out of Y bounds" not in message]
         self.assertEqual(errors, [])
         requests = [json.loads(line["message"])["message"] for line in self.driver.get_log("performance")]
         # Those of this page: the browser opens pages of its own.

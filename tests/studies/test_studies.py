@@ -21,7 +21,7 @@ from programs import INPUTS, Program, refused, run, start
 from slurm import Slurm, said
 
 sys.path.insert(0, str(INPUTS / "studies"))
-from studies import TableError, read_runs  # noqa: E402
+from study_tables import TableError, read_runs  # noqa: E402
 
 RUNS = """run,program,length,blocks,steps,ranks,settings
 one,fault,40,,150000,1,width=20 settle=500 velocity=0.01 thermo=1000

@@ -18,7 +18,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 from programs import INPUTS, SOURCE, Program, refused, run, snapshot, start  # noqa: E402
 
 sys.path.insert(0, str(INPUTS / "studies"))
-from studies import Study, TableError, with_defaults  # noqa: E402
+from study_tables import Study, TableError, with_defaults  # noqa: E402
 
 HEAD = "run,program,length,viscosity,seed,steps,settings\n"
 FAULT = "f_{seed},fault,24,,1,2000,width=20 settle=100 velocity=0.02 stress=0.003\n"

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A study: its table of runs (NAME.csv) and its recipe (NAME.yaml beside it, or default.yaml).
 
-studies.py CONFIG NAME OUT.csv    writes one of its tables: table, costs, differences, or a stack of the recipe
+study_tables.py CONFIG NAME OUT.csv    writes one of its tables: table, costs, differences, or a stack of the recipe
 """
 import ast
 import builtins
