@@ -33,17 +33,18 @@ Rule number_that(Good good, const std::string &expected) {
       ""));
 }
 
-/// Defaults as CLI11 2.1 shows them, FLOAT=1, and not FLOAT [1] as later versions do, so that the
-/// help is the same with each.
+/// Defaults as CLI11 2.1 shows them, FLOAT=1, and not FLOAT [1] as later versions do, and none for
+/// an empty list, so that the help is the same with each.
 class HelpFormatter : public CLI::Formatter {
  public:
   std::string make_option_opts(const CLI::Option *option) const override {
     std::string text = CLI::Formatter::make_option_opts(option);
-    const std::string later = " [" + option->get_default_str() + "] ";
-    const auto at = option->get_default_str().empty() ? std::string::npos : text.find(later);
-    return at == std::string::npos
-               ? text
-               : text.replace(at, later.size(), "=" + option->get_default_str());
+    const std::string value = option->get_default_str();
+    if (value.empty()) return text;
+    for (const std::string &shown : {" [" + value + "] ", "=" + value})
+      if (const auto at = text.find(shown); at != std::string::npos)
+        return text.replace(at, shown.size(), value == "[]" || value == "{}" ? "" : "=" + value);
+    return text;
   }
 };
 
