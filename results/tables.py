@@ -216,15 +216,17 @@ def numbers_table():
                   for key, rows in grouped(rows, lambda row: (row["number"], row["expected"])).items()])
 
 
+def with_ruptures(folder):
+    """The summaries of a folder with the characteristic size of the ruptures of each run."""
+    points = (point for pairs in scaling_of("ruptures", "1e-2", folder)[0].values() for _, point in pairs)
+    return [{**row, "ruptures": str(point["s_star"]), "ruptures_error": str(point["error"])} for row, point in zip(summaries(folder), points)]
+
+
 def validation_table():
     """Other widths and time steps beside the campaign's runs of these lengths."""
-    keys, others = EXPONENTS | {
-        "gamma >= 1e-4": "gamma_0.0001", "mean time": "mean_time_0.0001", "largest": "largest", "s* of ruptures >= 1e-2": "ruptures"
-    }, summaries(VALIDATION)
-    for folder, some in (CAMPAIGN, summaries()), (VALIDATION, others):
-        for row, (_, point) in zip(some, (one for pairs in scaling_of("ruptures", "1e-2", folder)[0].values() for one in pairs)):
-            row["ruptures"], row["ruptures_error"] = str(point["s_star"]), str(point["error"])
-    rows = [row for row in summaries() if row["length"] in {other["length"] for other in others}] + others
+    keys = EXPONENTS | {"gamma >= 1e-4": "gamma_0.0001", "mean time": "mean_time_0.0001", "largest": "largest", "s* of ruptures >= 1e-2": "ruptures"}
+    others = with_ruptures(VALIDATION)
+    rows = [row for row in with_ruptures(CAMPAIGN) if row["length"] in {other["length"] for other in others}] + others
     groups = grouped(sorted(rows, key=lambda row: float(row["width"])), lambda row: (row["length"], row["width"], f"{float(row['dt']):g}"))
     return table(
         ["predicted, length", "width", "time step", "packings", *keys],

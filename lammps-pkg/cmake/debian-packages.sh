@@ -80,8 +80,8 @@ refuse_other_build() {
   }
 }
 
-# build_programs SOURCE BUILD TARGET...: one at a time in a build folder. What a start that was killed leaves behind,
-# apt or a compiler, holds the lock as well.
+# build_programs SOURCE BUILD TARGET...: one at a time in a build folder. What a start that was
+# killed leaves behind, apt or a compiler, holds the lock as well.
 build_programs() {
   local source=$1 build=$2
   shift 2
