@@ -7,6 +7,8 @@ export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_
 export OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_btl_vader_single_copy_mechanism=none
 export OMPI_MCA_btl_base_warn_component_unused=0 OMPI_MCA_mpi_yield_when_idle=1 OMP_NUM_THREADS=1 OMPI_MCA_ess_singleton_isolated=1
 export OMPI_MCA_orte_create_session_dirs=0
+# Open MPI 5 starts ranks by PRRTE, with names of its own.
+export PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe PRTE_MCA_hwloc_default_binding_policy=none
 # A session folder for each: in a common one, two mpirun that start at the same moment interfere.
 # The path is short, as sockets lie below it. A run ends with the script that began it, even by
 # kill -9.

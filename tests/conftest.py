@@ -39,7 +39,7 @@ def postproc():
 
 def mpi_environment():
     said = subprocess.run(["bash", "-c", f"env -i bash -c '. {INPUTS}/mpi-settings.sh; env'"], capture_output=True, text=True, check=True).stdout
-    return dict(line.split("=", 1) for line in said.splitlines() if line.startswith("OMP"))
+    return dict(line.split("=", 1) for line in said.splitlines() if line.startswith(("OMP", "PRTE")))
 
 
 def lammps_errors(result):

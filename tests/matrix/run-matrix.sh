@@ -54,8 +54,7 @@ done
 mkdir -p "$folder"
 export LSM_LAMMPS_CACHE=${LSM_LAMMPS_CACHE:-$folder/cache}
 export CMAKE_BUILD_PARALLEL_LEVEL=$jobs
-export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 \
-  OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_hwloc_base_binding_policy=none OMP_NUM_THREADS=1
+. "$root/inputs/mpi-settings.sh"
 flags="-DCMAKE_CXX_FLAGS_RELEASE=${LSM_MATRIX_FLAGS:--O1} -DNDEBUG"
 precompile=-DCMAKE_PROJECT_INCLUDE=$root/lammps-pkg/cmake/PrecompileLammps.cmake
 

@@ -16,8 +16,7 @@ only_apply=
 }
 pattern=${1:-.}
 
-export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle=1
-export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_hwloc_base_binding_policy=none
+. "$root/inputs/mpi-settings.sh"
 
 # One mutation: name, file, from, to, test (program and filter), expect (caught, or why it may survive).
 names=() files=() from=() to=() tests=() expects=()

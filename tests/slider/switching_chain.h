@@ -105,9 +105,9 @@ inline const char *name_of(const AnyScheme &scheme) {
 
 /// What work gives of a chain with that scheme.
 template <class Work>
-auto with_chain(Parameters p, const std::vector<double> &mu, const AnyScheme &scheme, Work &&work) {
+auto with_chain(Parameters p, std::vector<double> mu, const AnyScheme &scheme, Work &&work) {
   if (const auto *located = std::get_if<Located>(&scheme)) {
-    SwitchingChain chain(p, mu, *located);
+    SwitchingChain chain(p, std::move(mu), *located);
     return work(chain);
   }
   p.scheme = std::get<Scheme>(scheme);
