@@ -214,7 +214,7 @@ constexpr std::string_view colours = R"(set datafile columnheaders
 set palette defined (0 '#ffffff', 0.5 '#fff3c4', 1 '#fdc86b', 1.5 '#f3883c', 2 '#c7443c', 2.5 '#7a1f63', 3 '#1d0b3a')
 set cbrange [0:3]
 set cbtics ('1' 0, '10' 1, '100' 2, '1000' 3)
-set cblabel 'Slip velocity / driving velocity'
+set cblabel 'Slip velocity / driving velocity' offset 1.5
 unset grid
 )";
 
