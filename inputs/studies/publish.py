@@ -3,8 +3,8 @@
 """Publishes catalogues in results: compressed and, as their header says, without the smallest events.
 
 OUT/NAME.catalogue.csv.xz has the events >= 1e-4 of each folder NAME of a study of faults, all of sliders; with --events those of
-this size. OUT/NAME.ruptures.csv.xz has the ruptures of faults that recorded them. The header of a long fault has the size from
-which it is complete, which is larger than that in fault.in. With --statements OUT/statements.csv has what the paper says in words
+this size. OUT/NAME.ruptures.csv.xz has the ruptures of faults that recorded them. The header of a fault has the size from
+which it is complete, if it was run with a smaller one. With --statements OUT/statements.csv has what the paper says in words
 about its fault, run by run, from all ruptures and the slip histories, which are not published. Files of OUT that it wrote
 earlier are replaced, others are not; nothing is written where something is refused or the disk is full, or before all is made.
 """
@@ -27,25 +27,17 @@ from run import events_in, replace, replace_all  # noqa: E402
 EVENTS, RUPTURES = 1e-4, 1e-3
 MAGIC = "# lsm-catalogue 1\n"
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-# Length of a fault, and size from which the number of its events does not depend on how often PE is sampled: results/faults.md
-COMPLETE = ((900, "1e-3"), (480, "3e-4"))
+# Size from which the number of a fault's events does not depend on how often PE is sampled: results/faults.md
+COMPLETE = "1e-3"
 
 
 class Refused(Exception):
     pass
 
 
-def complete(line, length):
-    """Header line with the size above which the catalogue of a fault of this length is complete."""
-    for shortest, size in COMPLETE:
-        if length >= shortest and float(line.split("=")[1]) < float(size):
-            return f"# completeness = {size}\n"
-    return line
-
-
 def thinned(source, least):
     """The text of a catalogue without events smaller than `least`; all other lines are unchanged. \\raises Refused"""
-    kept, length = [], 0.0
+    kept, fault = [], False
     lines = Path(source).read_text().splitlines(keepends=True)
     if not lines or lines[0] != MAGIC:
         raise Refused(f"{source}: no catalogue, expected one")
@@ -65,9 +57,9 @@ def thinned(source, least):
         if line.startswith("# min_size = ") and least > value:
             line = f"# min_size = {least:g}\n# thinned = sizes below {least:g} left out\n"
         elif line.startswith("# length = "):
-            length = value
-        elif line.startswith("# completeness = "):
-            line = complete(line, length)
+            fault = True
+        elif line.startswith("# completeness = ") and fault and value < float(COMPLETE):
+            line = f"# completeness = {COMPLETE}\n"
         elif line[0] not in "#e":
             try:
                 small = float(line.split(",")[5]) < least
