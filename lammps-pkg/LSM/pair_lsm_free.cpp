@@ -102,7 +102,7 @@ template <class Recorder, bool DIM3> void PairLSMFree::loop()
     }
     const double r0 = radius[i] + radius[j];
     if (rsq >= r0 * r0) continue;
-    if (screened && left_out(entry, type[i], type[j])) continue;
+    if (screened && left_out(entry, i, j)) continue;
 
     const double kij = k[type[i]][type[j]];
     const double r = sqrt(rsq);
@@ -152,9 +152,9 @@ double PairLSMFree::dashpot(int i, int j, double r, double spring, double &rate)
   return LSM::contact_dashpot_force(viscosity(atom->type[i], atom->type[j]), rate, spring);
 }
 
-bool PairLSMFree::left_out(int entry, int itype, int jtype) const
+bool PairLSMFree::left_out(int entry, int i, int j) const
 {
-  return !active[itype][jtype] || force->special_lj[sbmask(entry)] == 0.0;
+  return !active[atom->type[i]][atom->type[j]] || force->special_lj[sbmask(entry)] == 0.0;
 }
 
 // linked particles are no contact pairs, and all others are

@@ -74,7 +74,7 @@ class PairLSMFree : public Pair, public LSMEnergySource {
   double dashpot(int i, int j, double r, double spring, double &rate) const;
   bool any_delay() const;
 
-  bool left_out(int entry, int itype, int jtype) const;
+  bool left_out(int entry, int i, int j) const;
   void check_special() const;
   void find_largest_radii();
   void warn_of_missing_links() const;

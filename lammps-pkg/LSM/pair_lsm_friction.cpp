@@ -10,6 +10,7 @@
 #include "fix_lsm_velocity.h"
 #include "fix_neigh_history.h"
 #include "force.h"
+#include "group.h"
 #include "memory.h"
 #include "modify.h"
 #include "neigh_list.h"
@@ -20,12 +21,14 @@
 #include "friction/friction_laws.h"
 #include "lsm_contact_recorder.h"
 #include "lsm_keyword_reader.h"
+#include "lsm_link_kernel.h"
 #include "lsm_restart_file.h"
 #include "lsm_scene.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <limits>
 
 using namespace LAMMPS_NS;
@@ -78,58 +81,154 @@ PairLSMFriction::~PairLSMFriction()
 template <class Law, class Recorder> class PairLSMFriction::Loop {
  public:
   explicit Loop(PairLSMFriction &style) :
-      pair(style), x(style.atom->x), f(style.atom->f[0]), radius(style.contact_radii()),
-      nlocal(style.atom->nlocal), size(style.size_history()),
+      pair(style), x(style.atom->x[0]), f(style.atom->f[0]), nlocal(style.atom->nlocal),
       reach_sq(style.near_reach() * style.near_reach()), step{style.update->setupflag != 0,
                                                               rounding(style.domain),
                                                               style.update->dt * style.time_ratio,
                                                               style.locate_onset != 0},
-      mask(style.atom->mask),
+      side_by_side(Law::state_size == 0 && !Recorder::tallies && !step.setup && !style.screened &&
+                   !style.velocity),
       recorder(style, step.setup, style.domain->boxlo[0], style.domain->prd[0])
   {
   }
 
-  // The particles of contacts are far from each other in memory: their forces are fetched some
-  // contacts ahead.
   [[gnu::always_inline]] void run()
   {
-    constexpr int AHEAD = 8;
     const int count = pair.near.size();
-    for (int n = 0; n < count; n++) {
-      if (n + AHEAD < count) {
-        const Site &site = pair.sites[pair.near[n + AHEAD]];
-        for (const int i : {site.i, site.j}) __builtin_prefetch(f + 3 * static_cast<size_t>(i), 1);
+    for (int first = 0; first < count; first += LANES) {
+      if (side_by_side) continue_all(first, count);
+      for (int n = first; n < MIN(first + LANES, count); n++) {
+        const int place = pair.near[n], lane = n - first;
+        const bool before = pair.near.is_touching(place);
+        double *const h = &pair.histories[static_cast<size_t>(place) * size];
+        if (side_by_side && before && block.rsq[lane] < block.r0[lane] * block.r0[lane]) {
+          const Site &site = pair.sites[place];
+          const bool both = pair.newton_pair || site.j < nlocal;
+          const Push push = block.push(lane);
+          if constexpr (Recorder::records) record(site, false, push, both);
+          keep<Law>(push.step, block.delx[lane], block.dely[lane], h);
+          add_forces(site, push, both);
+          continue;
+        }
+        if (!side_by_side && n + AHEAD < count) fetch_forces(pair.sites[pair.near[n + AHEAD]]);
+        bool touch = before;
+        if (!before && !pair.chosen_anew) {
+          const double *const d = pair.near.vector_before(place), r0 = pair.sites[place].r0;
+          keep_near(d[0] * d[0] + d[1] * d[1] <= reach_sq * r0 * r0, d[0], d[1], touch, h);
+        } else if (!before)
+          touch = *pair.origins[place].touch;
+        evaluate(place, touch, h);
+        const bool after = touch && h[STATUS] != NEAR;
+        if (after != before) pair.near.set_touching(place, after);
       }
-      const int place = pair.near[n];
-      const bool before = pair.near.is_touching(place);
-      bool touch = before;
-      double *const h = &pair.histories[static_cast<size_t>(place) * size];
-      if (!before && !pair.chosen_anew) {
-        const double *const d = pair.near.vector_before(place), r0 = pair.sites[place].r0;
-        keep_near(d[0] * d[0] + d[1] * d[1] <= reach_sq * r0 * r0, d[0], d[1], touch, h);
-      } else if (!before)
-        touch = *pair.origins[place].touch;
-      evaluate(place, touch, h);
-      const bool after = touch && h[STATUS] != NEAR;
-      if (after != before) pair.near.set_touching(place, after);
     }
     recorder.finish();
   }
 
  private:
+  static constexpr int LANES = 32, AHEAD = 8, size = LAW_STATE + Law::state_size;
   PairLSMFriction &pair;
-  double **const x, *const f;
-  const double *const radius;
-  const int nlocal, size;
+  const double *const x;
+  double *const f;
+  const int nlocal;
   const double reach_sq;
   const Step step;
-  const int *const mask;
+  const bool side_by_side;
   Recorder recorder;
 
   struct Geometry {
-    double delx, dely, rsq, r, nx, ny;
-    bool apart;
+    double rsq, r, nx, ny;
+
+    Geometry(double delx, double dely) : rsq(delx * delx + dely * dely), r(sqrt(rsq))
+    {
+      const double rinv = r > 0.0 ? 1.0 / r : 0.0;
+      nx = delx * rinv;
+      ny = dely * rinv;
+    }
   };
+
+  struct Push {
+    double fx, fy;                // on the first particle
+    double normal, tangential;    // energies of the springs
+    LSM::FrictionStep step;
+  };
+  [[gnu::always_inline]] static Push push_of(const Geometry &g, double stretch, double k, double kt,
+                                             double fn, const LSM::FrictionStep &s)
+  {
+    return {fn * g.nx + s.force * g.ny, fn * g.ny - s.force * g.nx, LSM::Spring::energy(k, stretch),
+            LSM::Spring::energy(kt, s.xi), s};
+  }
+
+  // Most contacts were there in the step before: those that follow each other are computed side by
+  // side, in a loop that compilers turn into vectors, and take their turn afterwards. It gives the
+  // same digits with each instruction set.
+  struct alignas(64) Block {
+    double delx[LANES], dely[LANES], h[LAW_STATE][LANES];
+    double r0[LANES], k[LANES], coefficients[std::size(Law::parameters)][LANES];
+    double rsq[LANES], fx[LANES], fy[LANES], normal[LANES], tangential[LANES];
+    double slip[LANES], dissipated[LANES];
+
+    Push push(int n) const
+    {
+      const bool slides = Law::needs_sliding && h[STATUS][n] == SLIDES;
+      const LSM::FrictionStep s = {h[XI][n], 0.0, slip[n], dissipated[n], slides};
+      return {fx[n], fy[n], normal[n], tangential[n], s};
+    }
+    [[gnu::always_inline]] void solve(double time)
+    {
+      for (int n = 0; n < LANES; n++) {
+        const Geometry g(delx[n], dely[n]);
+        const auto c =
+            LSMLawTable::coefficients<Law>([this, n](std::size_t p) { return coefficients[p][n]; });
+        const LSM::FrictionContact contact{LSM::contact_normal_force(k[n], g.r, r0[n]), h[XI][n],
+                                           displacement(delx[n], dely[n], h[DX][n], h[DY][n]), time,
+                                           Law::needs_sliding && h[STATUS][n] == SLIDES};
+        const Push done =
+            push_of(g, g.r - r0[n], k[n], c.kt, contact.fn, LSM::friction_step<Law>(c, contact));
+        rsq[n] = g.rsq;
+        fx[n] = done.fx;
+        fy[n] = done.fy;
+        h[XI][n] = done.step.xi;
+        if constexpr (Law::needs_sliding) h[STATUS][n] = done.step.sliding ? SLIDES : STICKS;
+        if constexpr (!Recorder::records) continue;
+        normal[n] = done.normal;
+        tangential[n] = done.tangential;
+        slip[n] = done.step.slip;
+        dissipated[n] = done.step.dissipated;
+      }
+    }
+    LSM_AVX2 void solve_avx2(double time) { solve(time); }
+  };
+  Block block;
+
+  // Particles of contacts are far from each other in memory: their forces are fetched meanwhile.
+  void fetch_forces(const Site &site) const
+  {
+    for (const int i : {site.i, site.j}) __builtin_prefetch(f + 3 * static_cast<size_t>(i), 1);
+  }
+
+  [[gnu::always_inline]] void continue_all(int first, int count)
+  {
+    for (int lane = 0; lane < LANES; lane++) {
+      const int place = pair.near[MIN(first + lane, count - 1)];
+      const Site &site = pair.sites[place];
+      fetch_forces(site);
+      const double *const d = pair.near.vector(place);
+      const double *const h = &pair.histories[static_cast<size_t>(place) * size];
+      block.delx[lane] = d[0];
+      block.dely[lane] = d[1];
+      for (int c = 0; c < LAW_STATE; c++) block.h[c][lane] = h[c];
+      block.r0[lane] = site.r0;
+      block.k[lane] = pair.k.at(site.types);
+      for (std::size_t p = 0; p < std::size(Law::parameters); p++)
+        block.coefficients[p][lane] = pair.table[p].at(site.types);
+    }
+    if (LSMLinkKernel::has_avx2())
+      block.solve_avx2(step.time);
+    else
+      block.solve(step.time);
+  }
+
   static double rounding(const Domain *domain)
   {
     double farthest = 0.0;
@@ -138,12 +237,13 @@ template <class Law, class Recorder> class PairLSMFriction::Loop {
     return 16.0 * std::numeric_limits<double>::epsilon() * farthest;
   }
 
-  [[gnu::always_inline]] double normal_force(const Site &site, const Geometry &g, bool both) const
+  [[gnu::always_inline]] double normal_force(const Site &site, double r, bool apart,
+                                             bool both) const
   {
-    double fn = LSM::contact_normal_force(pair.k[site.itype][site.jtype], g.r, site.r0);
-    if (pair.velocity && !g.apart && g.r > 0.0) {
+    double fn = LSM::contact_normal_force(pair.k.at(site.types), r, site.r0);
+    if (pair.velocity && !apart && r > 0.0) {
       double rate;
-      const double more = pair.dashpot(site.i, site.j, g.r, fn, rate);
+      const double more = pair.dashpot(site.i, site.j, r, fn, rate);
       fn += more;
       pair.velocity->power -= (both ? 1.0 : 0.5) * more * rate;
     }
@@ -153,85 +253,69 @@ template <class Law, class Recorder> class PairLSMFriction::Loop {
   [[gnu::always_inline]] void evaluate(int place, bool &touch, double *h)
   {
     const Site &site = pair.sites[place];
-    const int itype = site.itype, jtype = site.jtype;
-    const double r0 = site.r0;
-    Geometry g;
-    g.delx = pair.near.vector(place)[0];
-    g.dely = pair.near.vector(place)[1];
-    g.rsq = g.delx * g.delx + g.dely * g.dely;
-    g.apart = g.rsq >= r0 * r0;
-    if (g.apart && !touch && g.rsq > reach_sq * r0 * r0) return;
-    if (pair.screened && pair.left_out(pair.origins[place].entry, itype, jtype)) {
+    const double r0 = site.r0, delx = pair.near.vector(place)[0], dely = pair.near.vector(place)[1];
+    const Geometry g(delx, dely);
+    const bool apart = g.rsq >= r0 * r0;
+    if (apart && !touch && g.rsq > reach_sq * r0 * r0) return;
+    if (pair.screened && pair.left_out(pair.origins[place].entry, site.i, site.j)) {
       touch = false;
       return;
     }
-    if (g.apart && (!touch || h[STATUS] == NEAR)) {
-      keep_near(g.rsq <= reach_sq * r0 * r0, g.delx, g.dely, touch, h);
+    if (apart && (!touch || h[STATUS] == NEAR)) {
+      keep_near(g.rsq <= reach_sq * r0 * r0, delx, dely, touch, h);
       return;
     }
-    g.r = sqrt(g.rsq);
-    const double rinv = g.r > 0.0 ? 1.0 / g.r : 0.0;
-    g.nx = g.delx * rinv;
-    g.ny = g.dely * rinv;
     const auto c = LSMLawTable::coefficients<Law>(
-        [this, itype, jtype](std::size_t p) { return pair.table[p][itype][jtype]; });
+        [this, &site](std::size_t p) { return pair.table[p].at(site.types); });
 
     LSM::FrictionContact contact{0.0, 0.0, 0.0, 0.0, false};
-    const bool moved = follow<Law>(step, c, g.delx, g.dely, g.r, r0, touch, h, contact);
+    const bool moved = follow<Law>(step, c, delx, dely, g.r, r0, touch, h, contact);
     const bool both = pair.newton_pair || site.j < nlocal;
-    contact.fn = normal_force(site, g, both);
-    const LSM::FrictionStep s = next<Law>(moved || g.apart, c, contact, h);
-    if constexpr (Recorder::records) record(site, g, c.kt, contact.fn, s, both);
-    if (g.apart) {
-      keep_near(g.rsq <= reach_sq * r0 * r0, g.delx, g.dely, touch, h);
+    contact.fn = normal_force(site, g.r, apart, both);
+    const Push push = push_of(g, apart ? 0.0 : g.r - r0, pair.k.at(site.types), c.kt, contact.fn,
+                              next<Law>(moved || apart, c, contact, h));
+    if constexpr (Recorder::records) record(site, apart, push, both);
+    if (apart) {
+      keep_near(g.rsq <= reach_sq * r0 * r0, delx, dely, touch, h);
       return;
     }
-    keep<Law>(s, g.delx, g.dely, h);
-    add_forces(site, g, c.kt, contact.fn, s, both);
-  }
-
-  [[gnu::always_inline]] void add_forces(const Site &site, const Geometry &g, double kt, double fn,
-                                         const LSM::FrictionStep &s, bool both)
-  {
-    const int i = site.i, j = site.j;
-    const double fx = fn * g.nx + s.force * g.ny, fy = fn * g.ny - s.force * g.nx;
-    double *const fi = f + 3 * static_cast<size_t>(i), *const fj = f + 3 * static_cast<size_t>(j);
-    fi[0] += fx;
-    fi[1] += fy;
-    if (both) {
-      fj[0] -= fx;
-      fj[1] -= fy;
-    }
+    keep<Law>(push.step, delx, dely, h);
+    add_forces(site, push, both);
     if constexpr (Recorder::tallies)
-      pair.ev_tally_xyz(i, j, nlocal, pair.newton_pair,
-                        LSM::Spring::energy(pair.k[site.itype][site.jtype], g.r - site.r0) +
-                            LSM::Spring::energy(kt, s.xi),
-                        0.0, fx, fy, 0.0, g.delx, g.dely, 0.0);
+      pair.ev_tally_xyz(site.i, site.j, nlocal, pair.newton_pair, push.normal + push.tangential,
+                        0.0, push.fx, push.fy, 0.0, delx, dely, 0.0);
   }
 
-  [[gnu::always_inline]] void record(const Site &site, const Geometry &g, double kt, double fn,
-                                     const LSM::FrictionStep &s, bool both)
+  [[gnu::always_inline]] void add_forces(const Site &site, const Push &push, bool both)
   {
-    const int i = site.i, j = site.j;
+    double *const fi = f + 3 * static_cast<size_t>(site.i);
+    double *const fj = f + 3 * static_cast<size_t>(site.j);
+    fi[0] += push.fx;
+    fi[1] += push.fy;
+    if (both) {
+      fj[0] -= push.fx;
+      fj[1] -= push.fy;
+    }
+  }
+
+  [[gnu::always_inline]] void record(const Site &site, bool apart, const Push &push, bool both)
+  {
     const double share = both ? 1.0 : 0.5;
-    const double kij = pair.k[site.itype][site.jtype];
-    recorder.springs(share, g.apart ? 0.0 : LSM::Spring::energy(kij, g.r - site.r0),
-                     LSM::Spring::energy(kt, s.xi));
+    const LSM::FrictionStep &s = push.step;
+    recorder.springs(share, push.normal, push.tangential);
     recorder.dissipation(share, s.dissipated);
-    const double moment = s.slip != 0.0 ? fabs(s.slip) * LSM::contact_size(radius[i], radius[j])
-                                        : 0.0;
+    const double moment = fabs(s.slip) * site.size;
     recorder.slip(share, moment);
     if (!recorder.wants_places()) return;
-    const int upper = pair.across_fault(mask[i], mask[j]);
-    if (upper == 0) {
+    if (site.across == 0) {
       recorder.within(share, s.dissipated);
       return;
     }
-    const double place = 0.5 * (x[i][0] + x[j][0]);
+    const double place =
+        0.5 * (x[3 * static_cast<size_t>(site.i)] + x[3 * static_cast<size_t>(site.j)]);
     if (moment != 0.0) recorder.slip_at(share, place, moment);
     if (!recorder.wants_contacts()) return;
-    const double along = g.apart ? 0.0 : fn * g.nx + s.force * g.ny;
-    recorder.contact({place, s.dissipated, -upper * along, share});
+    recorder.contact({place, s.dissipated, -site.across * (apart ? 0.0 : push.fx), share});
   }
 };
 
@@ -256,6 +340,9 @@ void PairLSMFriction::compute(int eflag, int vflag)
   if (screened) check_special();
   chosen_anew = find_near(MAX(near_reach(), 1.0), fix_history->firstflag);
   if (chosen_anew) collect_sites();
+  constexpr int groups = 8 * sizeof(int);
+  if (chosen_anew || std::count(group->dynamic, group->dynamic + groups, 1))
+    for (Site &site : sites) site.across = across_fault(atom->mask[site.i], atom->mask[site.j]);
   (this->*loops[running - &LSMLawTable::all()[0]][evflag ? 2 : record_what ? 1 : 0])();
 }
 
@@ -272,7 +359,8 @@ void PairLSMFriction::collect_sites()
     double *const h = fix_history->firstvalue[i] + size * pair.jj;
     int *const touch = fix_history->firstflag[i] + pair.jj;
     if (*touch && h[STATUS] == NEAR) near.set_touching(static_cast<int>(sites.size()), false);
-    sites.push_back({i, j, atom->type[i], atom->type[j], radius[i] + radius[j]});
+    sites.push_back({i, j, k.place(atom->type[i], atom->type[j]), 0, radius[i] + radius[j],
+                     LSM::contact_size(radius[i], radius[j])});
     origins.push_back({h, touch, entry});
     histories.insert(histories.end(), h, h + size);
   }
@@ -294,7 +382,7 @@ void PairLSMFriction::note_contacts()
     if (!touch) {
       const double *const d = near.vector(place);
       const bool is_near = d[0] * d[0] + d[1] * d[1] <= reach_sq * site.r0 * site.r0 &&
-                           !(screened && left_out(origin.entry, site.itype, site.jtype));
+                           !(screened && left_out(origin.entry, site.i, site.j));
       keep_near(is_near, d[0], d[1], touch, h);
     }
     std::copy_n(h, size, origin.history);

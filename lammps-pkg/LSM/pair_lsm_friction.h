@@ -54,8 +54,11 @@ class PairLSMFriction : public PairLSMFree {
   // there and back.
 
   struct Site {
-    int i, j, itype, jtype;
-    double r0;    // sum of the radii
+    int i, j;
+    int types;      // place of their coefficients
+    int across;     // the fault, see across_fault()
+    double r0;      // sum of the radii
+    double size;    // of the contact
   };
   struct Origin {
     double *history;

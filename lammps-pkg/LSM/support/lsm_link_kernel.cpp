@@ -250,19 +250,14 @@ namespace LSMLinkKernel {
     return sum.value();
   }
 
+  bool has_avx2()
+  {
 #if defined(__x86_64__) && defined(__GNUC__)
-#define LSM_AVX2 __attribute__((target("avx2")))
-  bool has_avx2()
-  {
     return __builtin_cpu_supports("avx2");
-  }
 #else
-#define LSM_AVX2
-  bool has_avx2()
-  {
     return false;
-  }
 #endif
+  }
 
   template <int DIM, class Law>
   LSM_AVX2 static double work_on_all_avx2(const Rows &rows, const Law &law, bool first_only,

@@ -10,6 +10,13 @@
 
 #include <vector>
 
+/// A function compiled for these instructions; to be called where has_avx2().
+#if defined(__x86_64__) && defined(__GNUC__)
+#define LSM_AVX2 __attribute__((target("avx2")))
+#else
+#define LSM_AVX2
+#endif
+
 namespace LAMMPS_NS {
 namespace LSMLinkKernel {
 

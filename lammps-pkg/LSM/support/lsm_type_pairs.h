@@ -19,6 +19,9 @@ template <class Value> class LSMTypePairs {
     for (int i = 0; i < n; i++) rows_[i] = &values_[i * n];
   }
   Value *operator[](int i) const { return rows_[i]; }
+  /// The same by its place, which is that of all values of as many types.
+  int place(int i, int j) const { return static_cast<int>(i * rows_.size()) + j; }
+  const Value &at(int place) const { return values_[place]; }
   Value **data() { return rows_.data(); }
 
  private:

@@ -43,13 +43,19 @@ template <class Law>
   Law::begin(c, h + LAW_STATE);
 }
 
+/// Displacement along the tangent in a step: the change of the pair vector since the step before,
+/// not velocity times time step. Ghost velocities need not be communicated, and evaluating the
+/// forces twice at the same positions (run after run, restart) changes nothing. The tangent is that
+/// of the middle of the step, so that it is of second order.
+inline double displacement(double delx, double dely, double before_x, double before_y) {
+  const double mx = delx + before_x, my = dely + before_y;
+  const double msq = mx * mx + my * my;
+  const double minv = msq > 0.0 ? 1.0 / std::sqrt(msq) : 0.0;
+  return (my * (before_x - delx) + mx * (dely - before_y)) * minv;
+}
+
 /// Displacement of a contact in the step, and its time; one that was not there begins. Whether the
 /// discs have moved.
-///
-/// The displacement is the change of the pair vector since the step before, not velocity times time
-/// step: ghost velocities need not be communicated, and evaluating the forces twice at the same
-/// positions (run after run, restart) changes nothing. It is taken along the tangent of the middle
-/// of the step, so that it is of second order.
 template <class Law>
 [[gnu::always_inline]] inline bool follow(const Step &step, const typename Law::Coefficients &c,
                                           double delx, double dely, double r, double r0,
@@ -63,10 +69,7 @@ template <class Law>
   bool moved = !step.setup;
   if (step.setup)
     moved = std::fabs(delx - h[DX]) > step.rounding || std::fabs(dely - h[DY]) > step.rounding;
-  const double mx = delx + h[DX], my = dely + h[DY];
-  const double msq = mx * mx + my * my;
-  const double minv = msq > 0.0 ? 1.0 / std::sqrt(msq) : 0.0;
-  contact.dxi = (my * (h[DX] - delx) + mx * (dely - h[DY])) * minv;
+  contact.dxi = displacement(delx, dely, h[DX], h[DY]);
   if constexpr (Law::needs_time) contact.time = step.time;
   if (h[STATUS] != NEAR) return moved;
   const double before = std::sqrt(h[DX] * h[DX] + h[DY] * h[DY]);
