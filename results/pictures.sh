@@ -61,9 +61,9 @@ for part; do
       read -r begin end time steps <<<"$(awk -F, '/^# dt = / { split($0, dt, " = ") } /^[0-9]/ && $6 > most { most = $6; t = $2; a = $4; b = $5 }
         END { print a, b, t, int(b - 1200 / dt[2]) }' first.catalogue.csv)"
       "$postproc" series first.pe.bin --from $((${time%.*} - 3000)) --to $((${time%.*} + 3000)) --title "Fault of length 120" -o series
-      "$postproc" histograms first.catalogue.csv --guide=-1.07:1e-4:0.1 -o sizes
+      "$postproc" histograms first.catalogue.csv --threshold 1e-4 --guide=-1.07:1e-4:0.1 -o sizes
       mpirun -np 2 "$lmp" -in "$root/inputs/fault_120.in" -var steps 480000 -var mus 0.8 -var prefix mus_0.8 </dev/null >out
-      "$postproc" histograms first.catalogue.csv mus_0.8.catalogue.csv --label "mus 0.6" --label "mus 0.8" -o compare
+      "$postproc" histograms first.catalogue.csv mus_0.8.catalogue.csv --threshold 1e-4 --label "mus 0.6" --label "mus 0.8" -o compare
       chromium --headless --no-sandbox --hide-scrollbars --window-size=1400,2760 --virtual-time-budget=20000 \
         --screenshot=page.png "file://$new/first.html" >out 2>&1
       "$postproc" rupture first.ruptures.csv --history first.slip.bin --from $((${time%.*} - 3000)) --to $((${time%.*} + 3000)) \
