@@ -6,7 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "files/text_io.h"
+#include "files/text.h"
 
 namespace LSM {
 

@@ -31,10 +31,17 @@ grep -q '^set(STANDARD_PACKAGES' "$list" ||
 # A file of an older version of the package that is gone since must not stay behind.
 rm -rf "$lammps/src/LSM"
 mkdir "$lammps/src/LSM"
-# LAMMPS looks for sources in the folder of the package only. The plugin's entry point has no place in
-# a package that is compiled in.
+# LAMMPS compiles what lies in the folder of the package itself, and refuses names that its own sources have; headers are
+# found in folders below. The plugin's entry point has no place in a package that is compiled in.
 cp "$here"/LSM/*.h "$here"/LSM/*.cpp "$here"/LSM/support/* "$here"/LSM/scene/* "$lammps/src/LSM/"
-cp -r "$here"/core/* "$lammps/src/LSM/"
+for room in "$here"/core/*/; do
+  name=$(basename "$room")
+  mkdir "$lammps/src/LSM/$name"
+  cp "$room"*.h "$lammps/src/LSM/$name"
+done
+for source in "$here"/core/*/*.cpp; do
+  cp "$source" "$lammps/src/LSM/lsm_core_${source##*/}"
+done
 own=$(sed -n 's/^  VERSION \([0-9.]*\)$/\1/p' "$here/../CMakeLists.txt")
 [ -n "$own" ] || {
   echo "install-into-lammps: no version in $here/../CMakeLists.txt" >&2

@@ -11,7 +11,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "files/text_io.h"
+#include "files/output_file.h"
 
 // For these, nlohmann looks in the namespace of each.
 namespace Slider {

@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-#include "files/text_io.h"
+#include "files/output_file.h"
 #include "slider_kernels.h"
 #include "slider_options.h"
 #include "standard_streams.h"

@@ -13,8 +13,11 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "files/file_error.h"
+#include "files/line_reader.h"
 #include "files/output_claim.h"
 #include "files/replaced_file.h"
+#include "files/text.h"
 #include "picker_options.h"
 #include "slider_stiffness.h"
 

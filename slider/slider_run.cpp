@@ -12,9 +12,10 @@
 
 #include <fmt/format.h>
 
-#include "numerics/circular_mean.h"
+#include "files/file_error.h"
+#include "files/output_file.h"
 #include "files/replaced_file.h"
-#include "files/text_io.h"
+#include "numerics/circular_mean.h"
 #include "slider_chain.h"
 #include "slider_checkpoint.h"
 #include "slider_output.h"

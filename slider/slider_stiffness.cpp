@@ -10,7 +10,10 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "files/text_io.h"
+#include "files/file_error.h"
+#include "files/input_bytes.h"
+#include "files/line_reader.h"
+#include "files/text.h"
 
 namespace Slider {
 

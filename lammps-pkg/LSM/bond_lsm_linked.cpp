@@ -15,7 +15,7 @@
 #include "neighbor.h"
 #include "update.h"
 
-#include "files/text_io.h"
+#include "files/text.h"
 #include "friction/force_laws.h"
 #include "lsm_restart_file.h"
 #include "lsm_scene.h"

@@ -6,7 +6,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
-#include "files/text_io.h"
+#include "files/text.h"
 #include "fix_lsm_nve.h"
 #include "fix_lsm_plates.h"
 #include "force.h"

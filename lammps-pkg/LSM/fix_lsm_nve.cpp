@@ -8,7 +8,7 @@
 #include "domain.h"
 #include "error.h"
 #include "fault/frequency.h"
-#include "files/text_io.h"
+#include "files/text.h"
 #include "fix_lsm_velocity.h"
 #include "force.h"
 #include "group.h"

@@ -10,7 +10,7 @@ FixStyle(lsm/plates,FixLSMPlates);
 #ifndef LMP_FIX_LSM_PLATES_H
 #define LMP_FIX_LSM_PLATES_H
 
-#include "files/text_io.h"
+#include "files/parameters.h"
 #include "lsm_fix_state.h"
 #include "lsm_mover.h"
 

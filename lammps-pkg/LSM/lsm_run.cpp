@@ -7,7 +7,8 @@
 #include "input.h"
 #include "update.h"
 
-#include "files/text_io.h"
+#include "files/output_file.h"
+#include "files/parameters.h"
 #include "lsm_keyword_reader.h"
 #include "lsm_ranks.h"
 #include "lsm_script.h"

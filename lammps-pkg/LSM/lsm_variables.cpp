@@ -10,6 +10,7 @@
 #include "tokenizer.h"
 #include "variable.h"
 
+#include "files/output_file.h"
 #include "files/restart_info.h"
 #include "lsm_ranks.h"
 #include "lsm_script.h"

@@ -12,7 +12,7 @@ CommandStyle(lsm_variables,LSMVariables);
 #define LMP_LSM_VARIABLES_H
 
 #include "command.h"
-#include "files/text_io.h"
+#include "files/parameters.h"
 
 #include <string>
 #include <vector>

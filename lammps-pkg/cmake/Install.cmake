@@ -14,6 +14,7 @@ install(CODE [[
 set(for_all OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(LSM_PYTHON_DIR lib/python3/dist-packages CACHE STRING "Folder of Python modules below the prefix; Python looks there if it is /usr")
 
+install(TARGETS lsm_core ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/lsm-fault)
 install(DIRECTORY lammps-pkg/core/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lsm FILES_MATCHING PATTERN "*.h")
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/lammps-pkg/styles/own/lsm_version.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lsm OPTIONAL)
 # Scenes, studies, pages and results in the folders of the checkout, so that their links hold.

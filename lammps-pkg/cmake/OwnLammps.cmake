@@ -74,7 +74,7 @@ add_dependencies(lammps_with_lsm lammps_stock)
 # LAMMPS with the package as a library, for lmp and for tests; the first part without the lists of styles.
 add_library(lammps_parts INTERFACE)
 target_sources(lammps_parts INTERFACE $<TARGET_OBJECTS:lsm_styles>)
-target_link_libraries(lammps_parts INTERFACE lammps_headers ${lammps_library} PNG::PNG ZLIB::ZLIB m ${CMAKE_DL_LIBS})
+target_link_libraries(lammps_parts INTERFACE lammps_headers lsm_core ${lammps_library} PNG::PNG ZLIB::ZLIB m ${CMAKE_DL_LIBS})
 add_library(lammps_program INTERFACE)
 target_sources(lammps_program INTERFACE $<TARGET_OBJECTS:lammps_with_lsm>)
 target_link_libraries(lammps_program INTERFACE lammps_parts)
@@ -89,7 +89,7 @@ add_custom_command(
   DEPENDS ${lammps_stamp}
   VERBATIM)
 add_library(lammps_shared SHARED $<TARGET_OBJECTS:lsm_styles> $<TARGET_OBJECTS:lammps_with_lsm> ${lammps_rest})
-target_link_libraries(lammps_shared PRIVATE -Wl,--whole-archive ${lammps_rest} -Wl,--no-whole-archive MPI::MPI_CXX PNG::PNG
+target_link_libraries(lammps_shared PRIVATE lsm_core -Wl,--whole-archive ${lammps_rest} -Wl,--no-whole-archive MPI::MPI_CXX PNG::PNG
                                             ZLIB::ZLIB m ${CMAKE_DL_LIBS})
 set_target_properties(lammps_shared PROPERTIES OUTPUT_NAME lammps LINKER_LANGUAGE CXX)
 

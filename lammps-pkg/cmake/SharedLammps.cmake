@@ -10,7 +10,7 @@ set_target_properties(lsm_registered PROPERTIES POSITION_INDEPENDENT_CODE ON)
 
 add_library(lammps_parts INTERFACE)
 target_sources(lammps_parts INTERFACE $<TARGET_OBJECTS:lsm_styles>)
-target_link_libraries(lammps_parts INTERFACE lammps_headers ${LSM_LAMMPS_LIBRARY} ${CMAKE_DL_LIBS})
+target_link_libraries(lammps_parts INTERFACE lammps_headers lsm_core ${LSM_LAMMPS_LIBRARY} ${CMAKE_DL_LIBS})
 add_library(lammps_program INTERFACE)
 target_sources(lammps_program INTERFACE $<TARGET_OBJECTS:lsm_registered>)
 target_link_libraries(lammps_program INTERFACE lammps_parts)

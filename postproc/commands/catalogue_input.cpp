@@ -13,8 +13,11 @@
 #include <fmt/format.h>
 
 #include "input_file.h"
+#include "files/file_error.h"
+#include "files/input_bytes.h"
+#include "files/parameters.h"
+#include "files/text.h"
 #include "numerics/huge_pages.h"
-#include "files/text_io.h"
 #include "samples.h"
 
 namespace LSM::postproc {

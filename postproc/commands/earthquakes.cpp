@@ -12,7 +12,9 @@
 #include <stdexcept>
 
 #include "files/catalogue.h"
-#include "files/text_io.h"
+#include "files/file_error.h"
+#include "files/input_bytes.h"
+#include "files/text.h"
 
 namespace LSM::postproc {
 
@@ -420,10 +422,9 @@ Region parse_region(std::string_view text) {
 }
 
 std::string detect_format(std::string_view content) {
-  constexpr std::string_view magic = catalogue_detail::magic;
   content = without_mark(content);
   Lines lines{content};
-  if (content.substr(0, magic.size()) == magic || !lines.next()) return "models";
+  if (content.substr(0, catalogue_magic.size()) == catalogue_magic || !lines.next()) return "models";
   if (lines.line.front() == '<') return "quakeml";
   if (csv_columns(split_csv(lines.line)).complete()) return "csv";
   if (lines.line.size() > 10 && lines.line[4] == '/' && parse_date(lines.line.substr(0, 10)))

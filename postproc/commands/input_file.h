@@ -8,8 +8,9 @@
 #include <memory>
 #include <string>
 
+#include "files/file_error.h"
+#include "files/input_bytes.h"
 #include "files/slip_history.h"
-#include "files/text_io.h"
 
 namespace LSM::postproc {
 

@@ -15,7 +15,7 @@
 #include <fmt/format.h>
 
 #include "command.h"
-#include "files/text_io.h"
+#include "files/text.h"
 #include "replicas.h"
 #include "standard_streams.h"
 

@@ -15,7 +15,8 @@
 #include <nlohmann/json.hpp>
 
 #include "earthquakes.h"
-#include "files/text_io.h"
+#include "files/file_error.h"
+#include "files/text.h"
 #include "new_file.h"
 #include "numbers.h"
 

@@ -76,7 +76,7 @@ void check_same_run(const std::vector<EventTable> &catalogues, const HeaderOf &o
 }
 
 HeaderOf header_of(const EventTable &table) {
-  return {table.path, catalogue_detail::header(table.info)};
+  return {table.path, table.info.header()};
 }
 
 void RunFiles::add_to(CLI::App *command) {

@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "event_table.h"
-#include "files/text_io.h"
+#include "files/file_error.h"
+#include "files/parameters.h"
 #include "options.h"
 
 namespace LSM::postproc {

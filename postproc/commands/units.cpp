@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "command.h"
-#include "files/text_io.h"
+#include "files/text.h"
 #include "numbers.h"
 
 namespace LSM::postproc {

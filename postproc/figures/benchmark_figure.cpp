@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "samples.h"
+#include "files/text.h"
 
 namespace LSM::postproc {
 

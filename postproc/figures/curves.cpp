@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "plot.h"
+#include "files/text.h"
 
 namespace LSM::postproc {
 

@@ -150,7 +150,7 @@ json events_json(const ExploreEvents &kind, PageData &data) {
   const EventTable &table = kind.table;
   std::vector<double> numbers;
   json names = json::array();
-  for (const catalogue_detail::Column &column : catalogue_detail::columns_of(table.info)) {
+  for (const CatalogueColumn &column : columns_of(table.info)) {
     names.push_back(column.name);
     for (const Event &event : table.details)
       numbers.push_back(column.number ? event.*column.number

@@ -7,7 +7,8 @@
 #include <filesystem>
 #include <system_error>
 
-#include "files/text_io.h"
+#include "files/file_error.h"
+#include "files/output_file.h"
 
 namespace LSM::postproc {
 

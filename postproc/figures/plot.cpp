@@ -18,6 +18,8 @@
 #include <fmt/core.h>
 
 #include "new_file.h"
+#include "files/output_file.h"
+#include "files/text.h"
 
 namespace LSM::postproc {
 

@@ -12,8 +12,8 @@
 #include <string_view>
 #include <vector>
 
+#include "files/file_error.h"
 #include "files/output_claim.h"
-#include "files/text_io.h"
 #include "table.h"
 
 namespace LSM::postproc {

@@ -9,7 +9,7 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-#include "files/text_io.h"
+#include "files/text.h"
 #include "new_file.h"
 #include "numbers.h"
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "files/text_io.h"
+#include "files/text.h"
 
 namespace LSM::postproc {
 

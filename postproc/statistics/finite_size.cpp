@@ -12,8 +12,8 @@
 #include <stdexcept>
 
 #include "estimation.h"
+#include "files/text.h"
 #include "numerics/sum.h"
-#include "files/text_io.h"
 #include "replicas.h"
 
 namespace LSM::postproc {

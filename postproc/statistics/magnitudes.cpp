@@ -8,7 +8,7 @@
 #include <map>
 #include <stdexcept>
 
-#include "files/text_io.h"
+#include "files/text.h"
 #include "samples.h"
 
 namespace LSM::postproc {

@@ -11,8 +11,8 @@
 
 #include "cells.h"
 #include "ks_distance.h"
+#include "files/text.h"
 #include "numerics/sum.h"
-#include "files/text_io.h"
 #include "replicas.h"
 #include "samples.h"
 #include "truncated_family.h"

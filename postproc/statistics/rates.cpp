@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "files/text_io.h"
+#include "files/text.h"
 #include "numerics/sum.h"
 
 namespace LSM::postproc {

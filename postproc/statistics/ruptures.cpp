@@ -12,7 +12,7 @@
 
 #include <fmt/format.h>
 
-#include "files/text_io.h"
+#include "files/text.h"
 
 namespace LSM::postproc {
 

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "files/text_io.h"
+#include "files/text.h"
 #include "size_fits.h"
 
 namespace LSM::postproc {

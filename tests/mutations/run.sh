@@ -86,26 +86,26 @@ mkdir -p "$tree" "$build"
     [ -e "$root/$file" ] || continue
     cmp -s "$root/$file" "$tree/$file" || { mkdir -p "$tree/$(dirname "$file")" && cp -p "$root/$file" "$tree/$file" && touch "$tree/$file"; }
   done
-lammps=OFF programs=
+lammps=OFF
 for i in "${chosen[@]}"; do
   [[ ${tests[$i]} = lsm_physics_tests* || ${tests[$i]} = lsm_benchmark_tests* ]] && lammps=ON
-  [[ ${tests[$i]} = *.cpp\ * ]] || programs=yes
 done
 grep -q '^LSM_BUILD_LAMMPS:BOOL=ON' "$build/CMakeCache.txt" 2>/dev/null && lammps=ON
-[ -z "$programs" ] || cmake -S "$tree" -B "$build" -G Ninja -DLSM_BUILD_LAMMPS=$lammps \
+cmake -S "$tree" -B "$build" -G Ninja -DLSM_BUILD_LAMMPS=$lammps \
   -DCMAKE_CXX_FLAGS_RELEASE=-O0 >"$work/configure.log" 2>&1 || {
   cat "$work/configure.log" >&2
   exit 2
 }
 
 # run PROGRAM FILTER: 0 if the tests pass, 1 if not (names of those that fail in $work/failed), 2 if
-# they do not compile. A file of unit tests, which need headers only, is a program of its own.
+# they do not compile. A file of unit tests is a program of its own.
 run() {
   local program=$build/bin/$1
   if [[ $1 = *.cpp ]]; then
     program=$work/unit_test
+    ninja -C "$build" -j "${LSM_MUTATIONS_JOBS:-2}" lsm_core >"$work/build.log" 2>&1 || return 2
     "${CXX:-c++}" -std=c++17 -O0 -I "$tree/lammps-pkg/core" -I "$tree/tests/accuracy" -o "$program" \
-      "$tree/tests/unit/$1" -lgtest -lgtest_main -pthread >"$work/build.log" 2>&1 || return 2
+      "$tree/tests/unit/$1" "$build/lib/liblsm_core.a" -lgtest -lgtest_main -pthread >"$work/build.log" 2>&1 || return 2
   else
     ninja -C "$build" -j "${LSM_MUTATIONS_JOBS:-2}" "$1" >"$work/build.log" 2>&1 || return 2
   fi

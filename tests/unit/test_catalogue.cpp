@@ -16,6 +16,7 @@
 
 #include "read_catalogue.h"
 #include "unit_files.h"
+#include "files/file_error.h"
 
 namespace {
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "events/event_stream.h"
+#include "events/pe_drops.h"
+#include "events/ruptures.h"
 
 #include <gtest/gtest.h>
 

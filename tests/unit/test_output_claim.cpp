@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "files/file_error.h"
 #include "files/output_claim.h"
 #include "unit_files.h"
 

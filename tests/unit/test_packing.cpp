@@ -543,7 +543,7 @@ double step_limit(LSM::Packing p, double length, const std::vector<double> &mass
   for (std::size_t i = 0; i < p.discs.size(); ++i) {
     network.id.push_back(i + 1);
     for (std::size_t j = i + 1; j < p.discs.size(); ++j) {
-      const auto [dx, dy] = LSM::packing_detail::link_vector(length, p.discs[i], p.discs[j]);
+      const auto [dx, dy] = LSM::link_vector(length, p.discs[i], p.discs[j]);
       const double d = std::hypot(dx, dy);
       const int a = static_cast<int>(i), b = static_cast<int>(j);
       const bool link = linked.count({a, b}) > 0;

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "files/file_error.h"
 #include "files/restart_info.h"
 #include "unit_files.h"
 

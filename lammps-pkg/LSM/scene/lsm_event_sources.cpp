@@ -17,7 +17,8 @@
 #include "pair_lsm_free.h"
 #include "update.h"
 
-#include "files/text_io.h"
+#include "files/parameters.h"
+#include "files/text.h"
 #include "lsm_ranks.h"
 #include "lsm_scene.h"
 #include "lsm_script.h"

@@ -11,6 +11,7 @@
 #include "write_restart.h"
 
 #include "files/restart_info.h"
+#include "files/file_error.h"
 #include "lsm_ranks.h"
 
 #include <filesystem>

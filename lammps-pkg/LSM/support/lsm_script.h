@@ -4,7 +4,7 @@
 #ifndef LMP_LSM_SCRIPT_H
 #define LMP_LSM_SCRIPT_H
 
-#include "files/text_io.h"
+#include "files/parameters.h"
 
 #include <cstdio>
 #include <string>

@@ -3,7 +3,7 @@
 #include "lsm_variable_table.h"
 
 #include "files/names.h"
-#include "files/text_io.h"
+#include "files/text.h"
 
 #include <algorithm>
 #include <cctype>

@@ -6,20 +6,19 @@
 #ifndef LSM_EVENT_KIND_H
 #define LSM_EVENT_KIND_H
 
-#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "files/catalogue.h"
 #include "events/event_picker.h"
 #include "events/event_settings.h"
 #include "events/fault_grid.h"
-#include "files/keywords.h"
 #include "events/slip_recorder.h"
-#include "files/text_io.h"
+#include "files/catalogue.h"
+#include "files/keywords.h"
+#include "files/text.h"
 
 namespace LSM {
 

@@ -11,8 +11,6 @@
 #include <vector>
 
 #include "events/event_kind.h"
-#include "events/pe_drops.h"
-#include "events/ruptures.h"
 
 namespace LSM {
 
@@ -22,25 +20,12 @@ std::vector<std::shared_ptr<EventKind>> one_of_each() {
 }
 
 /// A new kind goes to the end: its place is its number in restart files.
-inline std::vector<std::shared_ptr<EventKind>> all_event_kinds() {
-  return one_of_each<PeDrops, Ruptures>();
-}
+std::vector<std::shared_ptr<EventKind>> all_event_kinds();
 
 /// Empty if no kind has that name.
-inline std::shared_ptr<EventKind> make_event_kind(std::string_view name) {
-  for (auto &kind : all_event_kinds())
-    if (kind->name() == name) return kind;
-  return {};
-}
+std::shared_ptr<EventKind> make_event_kind(std::string_view name);
 
-inline std::size_t number_of(const EventKind &wanted) {
-  std::size_t number = 0;
-  for (const auto &kind : all_event_kinds()) {
-    if (std::string_view(kind->name()) == wanted.name()) break;
-    ++number;
-  }
-  return number;
-}
+std::size_t number_of(const EventKind &wanted);
 
 /// The names for which wanted(kind) holds, "a or b", for messages.
 template <class Wanted>
@@ -50,7 +35,6 @@ std::string names_of_kinds(Wanted &&wanted) {
     if (wanted(*kind)) names += (names.empty() ? "" : " or ") + std::string(kind->name());
   return names;
 }
-
 }  // namespace LSM
 
 #endif

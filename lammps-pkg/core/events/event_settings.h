@@ -11,7 +11,7 @@
 
 #include "events/event_picker.h"
 #include "events/fault_grid.h"
-#include "files/text_io.h"
+#include "files/parameters.h"
 
 namespace LSM {
 

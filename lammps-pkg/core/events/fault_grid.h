@@ -8,7 +8,6 @@
 #ifndef LSM_FAULT_GRID_H
 #define LSM_FAULT_GRID_H
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -28,12 +27,8 @@ struct FaultGrid {
 
   double length() const { return bins * width; }
   double duration() const { return static_cast<double>(interval) * dt; }  ///< of an interval
-  double time(std::int64_t step) const {
-    return time0 + (static_cast<double>(step) - static_cast<double>(step0)) * dt;
-  }
-  bool ends_interval(std::int64_t step) const {
-    return step > step0 && (step - step0) % interval == 0;
-  }
+  double time(std::int64_t step) const;
+  bool ends_interval(std::int64_t step) const;
   double centre(std::int64_t bin) const { return x0 + (static_cast<double>(bin) + 0.5) * width; }
 };
 
@@ -54,48 +49,11 @@ enum FaultField : std::size_t { UPPER, UPPER_STEPS, LOWER, LOWER_STEPS, WORK, FO
 
 /// Mean displacement of a face in each bin, in so many steps; that of a bin without particles is
 /// interpolated linearly between the nearest two with particles, on a ring across the seam.
-inline std::vector<double> face_displacements(const FaultGrid &grid, const double *sums,
-                                              std::int64_t steps) {
-  const auto bins = static_cast<std::size_t>(grid.bins);
-  std::vector<double> mean(bins, 0.0);
-  std::vector<std::size_t> held;  // bins with particles
-  for (std::size_t b = 0; b < bins; ++b) {
-    const double *const s = sums + fault_fields * b;
-    if (!(s[1] > 0.0)) continue;
-    mean[b] = s[0] / s[1] * static_cast<double>(steps);
-    held.push_back(b);
-  }
-  if (held.empty()) return mean;
-  if (!grid.ring) {
-    std::fill(mean.begin(), mean.begin() + static_cast<std::ptrdiff_t>(held.front()),
-              mean[held.front()]);
-    std::fill(mean.begin() + static_cast<std::ptrdiff_t>(held.back()), mean.end(),
-              mean[held.back()]);
-  }
-  for (std::size_t k = 0; k + (grid.ring ? 0 : 1) < held.size(); ++k) {
-    const std::size_t left = held[k];
-    const std::size_t right = k + 1 < held.size() ? held[k + 1] : held[0] + bins;
-    const double a = mean[left], b = mean[right % bins];
-    const auto distance = static_cast<double>(right - left);
-    for (std::size_t open = left + 1; open < right; ++open)
-      mean[open % bins] = a + (b - a) * (static_cast<double>(open - left) / distance);
-  }
-  return mean;
-}
+std::vector<double> face_displacements(const FaultGrid &grid, const double *sums,
+                                       std::int64_t steps);
 
 /// The row of an interval of so many steps from SlipRecorder::sums().
-inline FaultRow fault_row(const FaultGrid &grid, const double *sums, std::int64_t steps) {
-  FaultRow row(grid.bins);
-  const std::vector<double> upper = face_displacements(grid, sums + UPPER, steps),
-                            lower = face_displacements(grid, sums + LOWER, steps);
-  for (std::size_t b = 0; b < row.slip.size(); ++b) {
-    const double *const s = sums + fault_fields * b;
-    row.slip[b] = static_cast<float>(upper[b] - lower[b]);
-    row.work[b] = static_cast<float>(s[WORK]);
-    row.stress[b] = static_cast<float>(s[FORCE] / (static_cast<double>(steps) * grid.width));
-  }
-  return row;
-}
+FaultRow fault_row(const FaultGrid &grid, const double *sums, std::int64_t steps);
 
 /// What slips and what is connected; part of a slip history.
 struct RuptureSettings {
@@ -106,9 +64,7 @@ struct RuptureSettings {
 };
 
 /// Displacement of a bin in an interval above which it slips; the same wherever ruptures are found.
-inline double slipping_above(const FaultGrid &grid, double velocity) {
-  return velocity * grid.duration();
-}
+double slipping_above(const FaultGrid &grid, double velocity);
 
 }  // namespace LSM
 

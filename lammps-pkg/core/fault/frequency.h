@@ -19,8 +19,6 @@
 #include <utility>
 #include <vector>
 
-#include "numerics/constants.h"
-
 namespace LSM {
 
 /// A spring between particles i and j along the unit vector n, with stiffness k along it and kt
@@ -57,57 +55,16 @@ void add_spring_forces(const std::vector<PairSpring> &springs,
   }
 }
 
-inline void add_spring_forces(const std::vector<PairSpring> &springs, int dim,
-                              const std::vector<double> &displacement, std::vector<double> &force) {
-  if (dim == 3)
-    add_spring_forces<3>(springs, displacement, force);
-  else
-    add_spring_forces<2>(springs, displacement, force);
-}
+void add_spring_forces(const std::vector<PairSpring> &springs, int dim,
+                       const std::vector<double> &displacement, std::vector<double> &force);
 
 /// Two independent normal random numbers, chosen by key and axis, so that a start vector does not
 /// depend on the order of the particles and on the ranks that own them.
-inline std::pair<double, double> normal_pair(std::uint64_t key, std::uint64_t axis) {
-  std::uint64_t state = key * 4 + axis;
-  auto uniform = [&state] {  // splitmix64; in (0, 1]
-    state += 0x9e3779b97f4a7c15ULL;
-    std::uint64_t z = state;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-    z ^= z >> 31;
-    return (static_cast<double>(z >> 11) + 1.0) * 0x1.0p-53;
-  };
-  state = static_cast<std::uint64_t>(uniform() * 0x1.0p53);
-  const double length = std::sqrt(-2.0 * std::log(uniform()));
-  const double angle = 2.0 * pi * uniform();
-  return {length * std::cos(angle), length * std::sin(angle)};
-}
+std::pair<double, double> normal_pair(std::uint64_t key, std::uint64_t axis);
 
 /// Largest eigenvalue of the symmetric tridiagonal matrix, by bisection with Sturm sequences.
-inline double largest_of_tridiagonal(const std::vector<double> &diagonal,
-                                     const std::vector<double> &beside) {
-  const std::size_t n = diagonal.size();
-  double low = diagonal[0], high = diagonal[0];
-  for (std::size_t i = 0; i < n; ++i) {
-    const double reach =
-        (i > 0 ? std::fabs(beside[i - 1]) : 0.0) + (i + 1 < n ? std::fabs(beside[i]) : 0.0);
-    low = std::max(low, diagonal[i]);
-    high = std::max(high, diagonal[i] + reach);
-  }
-  // Whether x is above all eigenvalues: all pivots of the matrix minus x are negative.
-  auto above = [&](double x) {
-    double pivot = diagonal[0] - x;
-    for (std::size_t i = 1; i < n && pivot < 0.0; ++i)
-      pivot = diagonal[i] - x - beside[i - 1] * beside[i - 1] / pivot;
-    return pivot < 0.0;
-  };
-  for (int halving = 0; halving < 200; ++halving) {
-    const double middle = 0.5 * (low + high);
-    if (!(middle > low && middle < high)) break;
-    (above(middle) ? high : low) = middle;
-  }
-  return high;
-}
+double largest_of_tridiagonal(const std::vector<double> &diagonal,
+                              const std::vector<double> &beside);
 
 /// Largest eigenvalue of a positive semi-definite matrix.
 struct LargestEigenvalue {
@@ -122,12 +79,7 @@ constexpr double eigenvalue_share = 0.05;
 constexpr double eigenvalue_risk = 1e-12;
 
 /// Steps after which the Ritz value is accurate to eigenvalue_share in that many dimensions.
-inline int lanczos_steps(double dimensions) {
-  const double root = std::sqrt(eigenvalue_share);
-  return static_cast<int>(
-      std::ceil(0.5 + std::log(1.648 * std::sqrt(dimensions) / eigenvalue_risk) /
-                          std::log((1.0 + root) / (1.0 - root))));
-}
+int lanczos_steps(double dimensions);
 
 /// start: this rank's share of a vector of independent normal numbers, of which there are
 /// dimensions on all ranks. multiply(x, y) sets y to the matrix times x; sum(a) adds up over ranks.
@@ -210,7 +162,6 @@ LargestEigenvalue highest_frequency_squared(const SpringNetwork &network, double
   };
   return largest_eigenvalue(std::move(start), dimensions, multiply, sum);
 }
-
 }  // namespace LSM
 
 #endif

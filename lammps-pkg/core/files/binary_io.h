@@ -17,8 +17,12 @@
 #include <utility>
 #include <vector>
 
+#include "files/file_error.h"
 #include "files/header_values.h"
-#include "files/text_io.h"
+#include "files/input_bytes.h"
+#include "files/output_file.h"
+#include "files/parameters.h"
+#include "files/text.h"
 
 namespace LSM::binary_io {
 

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "events/fault_grid.h"
+
+#include <algorithm>
+
+namespace LSM {
+
+double FaultGrid::time(std::int64_t step) const {
+  return time0 + (static_cast<double>(step) - static_cast<double>(step0)) * dt;
+}
+
+bool FaultGrid::ends_interval(std::int64_t step) const {
+  return step > step0 && (step - step0) % interval == 0;
+}
+
+std::vector<double> face_displacements(const FaultGrid &grid, const double *sums,
+                                       std::int64_t steps) {
+  const auto bins = static_cast<std::size_t>(grid.bins);
+  std::vector<double> mean(bins, 0.0);
+  std::vector<std::size_t> held;  // bins with particles
+  for (std::size_t b = 0; b < bins; ++b) {
+    const double *const s = sums + fault_fields * b;
+    if (!(s[1] > 0.0)) continue;
+    mean[b] = s[0] / s[1] * static_cast<double>(steps);
+    held.push_back(b);
+  }
+  if (held.empty()) return mean;
+  if (!grid.ring) {
+    std::fill(mean.begin(), mean.begin() + static_cast<std::ptrdiff_t>(held.front()),
+              mean[held.front()]);
+    std::fill(mean.begin() + static_cast<std::ptrdiff_t>(held.back()), mean.end(),
+              mean[held.back()]);
+  }
+  for (std::size_t k = 0; k + (grid.ring ? 0 : 1) < held.size(); ++k) {
+    const std::size_t left = held[k];
+    const std::size_t right = k + 1 < held.size() ? held[k + 1] : held[0] + bins;
+    const double a = mean[left], b = mean[right % bins];
+    const auto distance = static_cast<double>(right - left);
+    for (std::size_t open = left + 1; open < right; ++open)
+      mean[open % bins] = a + (b - a) * (static_cast<double>(open - left) / distance);
+  }
+  return mean;
+}
+
+FaultRow fault_row(const FaultGrid &grid, const double *sums, std::int64_t steps) {
+  FaultRow row(grid.bins);
+  const std::vector<double> upper = face_displacements(grid, sums + UPPER, steps),
+                            lower = face_displacements(grid, sums + LOWER, steps);
+  for (std::size_t b = 0; b < row.slip.size(); ++b) {
+    const double *const s = sums + fault_fields * b;
+    row.slip[b] = static_cast<float>(upper[b] - lower[b]);
+    row.work[b] = static_cast<float>(s[WORK]);
+    row.stress[b] = static_cast<float>(s[FORCE] / (static_cast<double>(steps) * grid.width));
+  }
+  return row;
+}
+
+double slipping_above(const FaultGrid &grid, double velocity) { return velocity * grid.duration(); }
+
+}  // namespace LSM

@@ -1,0 +1,642 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fault/packing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <sstream>
+#include <stdexcept>
+#include <tuple>
+
+#include "numerics/constants.h"
+#include "numerics/random.h"
+
+namespace LSM {
+
+namespace {
+
+/// Cells over [0, length) x [ylo, yhi], periodic in x; none is smaller than `least`.
+template <class Entry>
+class Cells {
+ public:
+  const int nx, ny;
+  const double dx, dy;
+
+  Cells(double length, double ylo, double yhi, double least)
+      : nx(std::max(1, static_cast<int>(length / least))),
+        ny(std::max(1, static_cast<int>((yhi - ylo) / least))),
+        dx(length / nx),
+        dy((yhi - ylo) / ny),
+        length_(length),
+        ylo_(ylo),
+        cells_(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny)) {}
+
+  int column(double x) const { return std::min(nx - 1, std::max(0, static_cast<int>(x / dx))); }
+  int row(double y) const {
+    return std::min(ny - 1, std::max(0, static_cast<int>((y - ylo_) / dy)));
+  }
+  /// The column may be one beyond the seam; shift(): what to add to the x of the entries then.
+  std::vector<Entry> &at(int ix, int iy) {
+    ix += ix < 0 ? nx : ix >= nx ? -nx : 0;
+    return cells_[static_cast<std::size_t>(ix) * static_cast<std::size_t>(ny) +
+                  static_cast<std::size_t>(iy)];
+  }
+  double shift(int ix) const { return ix < 0 ? -length_ : ix >= nx ? length_ : 0.0; }
+  void insert(double x, double y, const Entry &entry) { at(column(x), row(y)).push_back(entry); }
+
+  const std::vector<std::vector<Entry>> &all() const { return cells_; }
+
+ private:
+  double length_, ylo_;
+  std::vector<std::vector<Entry>> cells_;
+};
+
+/// One block [0, length) x [ylo, yhi], periodic in x, with a cell grid for neighbour searches.
+class BlockPacker {
+ public:
+  BlockPacker(const PackingSettings &settings, double ylo, double yhi, bool fault_at_top,
+              Random &random)
+      : set_(settings),
+        ylo_(ylo),
+        yhi_(yhi),
+        fault_at_top_(fault_at_top),
+        random_(random),
+        // no cell is smaller than rmax, so a search of few rings is enough
+        cells_(settings.length, ylo, yhi, settings.rmax) {}
+
+  void run() {
+    place_face();
+    place_seeds();
+    fill();
+  }
+
+  int64_t tries() const { return tries_; }
+
+  /// Call f(x, y, r) for each disc, cell by cell.
+  template <class F>
+  void for_each(F &&f) const {
+    for (const auto &cell : cells_.all())
+      for (const Entry &e : cell) f(e.x, e.y, e.r);
+  }
+
+ private:
+  struct Entry {
+    double x, y, r;
+  };
+
+  /// A disc (line = 0) at (x, y) relative to the point of the try, or the lower (line = +1) or
+  /// upper (line = -1) line at height y. s is its surface distance from the point.
+  struct Object {
+    double s, x, y, r;
+    int line;
+  };
+
+  static constexpr double FAR = 1e300;
+
+  double wrap(double x) const {
+    if (x < 0.0) x += set_.length;
+    // a tiny negative x may round to length
+    if (x >= set_.length) x -= set_.length;
+    return x;
+  }
+
+  /// True if a disc at (x, y), x in [0, length), lies in the block and overlaps no other.
+  bool fits(double x, double y, double r) {
+    const double slack = set_.tolerance * r;
+    if (y - ylo_ < r - slack || yhi_ - y < r - slack) return false;
+    // reach: a disc further away than this along x or y cannot overlap
+    const double reach = r + set_.rmax;
+    const int kx = std::min(static_cast<int>(reach / cells_.dx) + 1, (cells_.nx - 1) / 2);
+    const int ylow = cells_.row(y - reach), yhigh = cells_.row(y + reach);
+    const int cx = cells_.column(x);
+    for (int ix = cx - kx; ix <= cx + kx; ++ix) {
+      const double shift = cells_.shift(ix);
+      for (int iy = ylow; iy <= yhigh; ++iy)
+        for (const Entry &e : cells_.at(ix, iy)) {
+          const double ex = e.x + shift - x, ey = e.y - y;
+          const double sum = (e.r + r) * (1.0 - set_.tolerance);
+          if (ex * ex + ey * ey < sum * sum) return false;
+        }
+    }
+    return true;
+  }
+
+  // ---------------------------------------------------------------- face and seeds
+
+  /// Discs of random radius that touch the fault line at random places.
+  void place_face() {
+    const double away = fault_at_top_ ? -1.0 : 1.0, line = fault_at_top_ ? yhi_ : ylo_;
+    until_full([&](double xlo, double xsize) {
+      const double x = wrap(xlo + xsize * random_.uniform());
+      const double r = random_.uniform(set_.rmin, set_.rmax);
+      return insert_if_it_fits(x, line + away * r, r);
+    });
+  }
+
+  /// As many as a hexagonal grid of spacing 2 rmax has, so that no hole is wider than rmax allows.
+  /// Their places are random: with a grid the faces would have its period along the whole fault.
+  void place_seeds() {
+    const double height = yhi_ - ylo_;
+    const int columns = static_cast<int>(set_.length / (2.0 * set_.rmax));
+    const int rows =
+        1 + static_cast<int>((height - 2.0 * set_.rmax) / (std::sqrt(3.0) * set_.rmax));
+    int missing = columns * rows;
+    for (int failed = 0; missing > 0 && failed < set_.max_failures;) {
+      const double x = wrap(set_.length * random_.uniform());
+      const double y = ylo_ + height * random_.uniform();
+      const double r = random_.uniform(set_.rmin, set_.rmax);
+      const bool fitted = insert_if_it_fits(x, y, r);
+      missing -= fitted;
+      failed = fitted ? 0 : failed + 1;
+    }
+  }
+
+  bool insert_if_it_fits(double x, double y, double r) {
+    if (!fits(x, y, r)) return false;
+    cells_.insert(x, y, {x, y, r});
+    return true;
+  }
+
+  // ---------------------------------------------------------------- filling
+
+  void fill() {
+    until_full([this](double xlo, double xsize) {
+      ++tries_;
+      return try_point(xlo, xsize);
+    });
+  }
+
+  /// Calls attempt(xlo, xsize) until it failed max_failures times in a row everywhere: the block is
+  /// cut along x into tiles about as long as TILE rmax, which have their turns until they are full.
+  /// The cost is linear in the length and the density reached does not depend on it.
+  template <class Attempt>
+  void until_full(Attempt &&attempt) {
+    const int ntile = std::max(1, static_cast<int>(set_.length / (TILE * set_.rmax)));
+    const double tile = set_.length / ntile;
+    std::vector<int> failures(static_cast<std::size_t>(ntile), 0);
+    int open = ntile;
+    while (open > 0) {
+      for (int t = 0; t < ntile; ++t) {
+        int &failed = failures[static_cast<std::size_t>(t)];
+        if (failed >= set_.max_failures) continue;
+        for (int n = 0; n < ROUND && failed < set_.max_failures; ++n)
+          failed = attempt(t * tile, tile) ? 0 : failed + 1;
+        if (failed >= set_.max_failures) --open;
+      }
+    }
+  }
+
+  bool try_point(double xlo, double xsize) {
+    const double px = wrap(xlo + xsize * random_.uniform());
+    const double py = ylo_ + (yhi_ - ylo_) * random_.uniform();
+    Object near[3];
+    if (!nearest(px, py, near)) return false;
+    Entry circles[2];
+    const int n = tangent_circles(near, circles);
+    for (int i = 0; i < n; ++i) {
+      auto &[x, y, r] = circles[i];
+      if (!in_range(r) || !polish(near, x, y, r) || !in_range(r)) continue;
+      const double nx = wrap(px + x), ny = py + y;
+      if (ny > ylo_ && ny < yhi_ && insert_if_it_fits(nx, ny, r)) return true;
+    }
+    return false;
+  }
+
+  bool in_range(double r) const { return r >= set_.rmin && r <= set_.rmax; }
+
+  static void offer(Object *near, const Object &o) {
+    if (o.s >= near[2].s) return;
+    int i = 2;
+    for (; i > 0 && o.s < near[i - 1].s; --i) near[i] = near[i - 1];
+    near[i] = o;
+  }
+
+  /// The three objects nearest to (px, py) by surface distance, nearest first.
+  bool nearest(double px, double py, Object *near) {
+    near[0] = near[1] = near[2] = {FAR, 0.0, 0.0, 0.0, 0};
+    offer(near, {py - ylo_, 0.0, ylo_ - py, 0.0, 1});
+    offer(near, {yhi_ - py, 0.0, yhi_ - py, 0.0, -1});
+    const int nx = cells_.nx, ny = cells_.ny, cx = cells_.column(px), cy = cells_.row(py);
+    const double dx = cells_.dx, dy = cells_.dy;
+    const double fx = px - cx * dx, fy = py - ylo_ - cy * dy;
+    const double inset = std::min(std::min(fx, dx - fx), std::min(fy, dy - fy));
+    const double step = std::min(dx, dy);
+    const int last = std::max((nx - 1) / 2, ny - 1);
+    for (int k = 0; k <= last; ++k) {
+      // centres in ring k and beyond are at least this far away
+      if (k > 0 && inset + (k - 1) * step - set_.rmax >= near[2].s) break;
+      for (int jy = -k; jy <= k; ++jy) {
+        const int iy = cy + jy;
+        if (iy < 0 || iy >= ny) continue;
+        const bool edge = (jy == -k || jy == k);
+        const double gy = jy == 0 ? 0.0 : (jy > 0 ? jy * dy - fy : fy - (jy + 1) * dy);
+        for (int jx = -k; jx <= k; jx += (edge || k == 0) ? 1 : 2 * k) {
+          if (2 * jx > nx - 1 || -2 * jx > nx - 1) continue;
+          const double gx = jx == 0 ? 0.0 : (jx > 0 ? jx * dx - fx : fx - (jx + 1) * dx);
+          const double far = near[2].s + set_.rmax;
+          if (near[2].s < FAR && gx * gx + gy * gy >= far * far) continue;
+          const double shift = cells_.shift(cx + jx) - px;
+          for (const Entry &e : cells_.at(cx + jx, iy)) {
+            const double ex = e.x + shift, ey = e.y - py, limit = near[2].s + e.r;
+            const double d2 = ex * ex + ey * ey;
+            if (limit <= 0.0 || d2 >= limit * limit) continue;
+            offer(near, {std::sqrt(d2) - e.r, ex, ey, e.r, 0});
+          }
+        }
+      }
+    }
+    return near[2].s < FAR;
+  }
+
+  /// Circles that touch three objects from outside (at most two), smaller radius first.
+  /// With the first disc as origin, |p| = r + r1, the other two conditions are linear in (p, r):
+  /// p . n_k = a_k - b_k r, hence p = A - B r, and |A - B r| = r + r1 is a quadratic equation.
+  static int tangent_circles(const Object *o, Entry *circles) {
+    int base = -1, lines = 0;
+    for (int i = 0; i < 3; ++i) {
+      if (o[i].line)
+        ++lines;
+      else if (base < 0)
+        base = i;
+    }
+    // a circle that touches both lines is wider than rmax allows
+    if (lines > 1) return 0;
+    const Object &d = o[base];
+    double n[2][2], a[2], b[2];
+    int m = 0;
+    for (int i = 0; i < 3; ++i) {
+      if (i == base) continue;
+      if (o[i].line) {
+        n[m][0] = 0.0;
+        n[m][1] = 1.0;
+        a[m] = o[i].y - d.y;
+        b[m] = -o[i].line;
+      } else {
+        const double ex = o[i].x - d.x, ey = o[i].y - d.y;
+        n[m][0] = ex;
+        n[m][1] = ey;
+        a[m] = 0.5 * (ex * ex + ey * ey - (o[i].r - d.r) * (o[i].r + d.r));
+        b[m] = o[i].r - d.r;
+      }
+      ++m;
+    }
+    const double det = n[0][0] * n[1][1] - n[0][1] * n[1][0];
+    if (det == 0.0) return 0;
+    const double ax = (a[0] * n[1][1] - a[1] * n[0][1]) / det;
+    const double ay = (a[1] * n[0][0] - a[0] * n[1][0]) / det;
+    const double bx = (b[0] * n[1][1] - b[1] * n[0][1]) / det;
+    const double by = (b[1] * n[0][0] - b[0] * n[1][0]) / det;
+    // q2 r^2 - 2 q1 r + q0 = 0
+    const double q2 = bx * bx + by * by - 1.0;
+    const double q1 = ax * bx + ay * by + d.r;
+    const double q0 = ax * ax + ay * ay - d.r * d.r;
+    const double disc = q1 * q1 - q2 * q0;
+    if (!(disc >= 0.0)) return 0;
+    // roots as q0 / s and s / q2: no cancellation, and one of them stays finite when q2 -> 0
+    const double s = q1 >= 0.0 ? q1 + std::sqrt(disc) : q1 - std::sqrt(disc);
+    double root[2];
+    int count = 0;
+    if (s != 0.0) root[count++] = q0 / s;
+    if (q2 != 0.0) root[count++] = s / q2;
+    if (count == 2 && root[1] < root[0]) std::swap(root[0], root[1]);
+    for (int i = 0; i < count; ++i)
+      circles[i] = {d.x + ax - bx * root[i], d.y + ay - by * root[i], root[i]};
+    return count;
+  }
+
+  /// Newton steps on the three gaps: the closed form loses digits when the three objects are
+  /// nearly in line. False if the gaps cannot be brought down to rounding.
+  bool polish(const Object *o, double &x, double &y, double &r) const {
+    const double exact = EXACT * set_.rmax, close = CLOSE * set_.rmax;
+    double worst = FAR;
+    for (int iter = 0; iter < 4; ++iter) {
+      // row i: gradient (g0, g1, -1) of gap i = distance - r
+      double g[3][2], f[3];
+      double next = 0.0;
+      for (int i = 0; i < 3; ++i) {
+        if (o[i].line) {
+          g[i][0] = 0.0;
+          g[i][1] = o[i].line;
+          f[i] = o[i].line * (y - o[i].y) - r;
+        } else {
+          const double ex = x - o[i].x, ey = y - o[i].y;
+          const double d = std::sqrt(ex * ex + ey * ey);
+          if (!(d > 0.0)) return false;
+          g[i][0] = ex / d;
+          g[i][1] = ey / d;
+          f[i] = d - o[i].r - r;
+        }
+        next = std::max(next, f[i] < 0.0 ? -f[i] : f[i]);
+      }
+      if (!(next < FAR)) return false;
+      if (next < exact || (iter > 0 && next >= worst)) {
+        worst = next;
+        break;
+      }
+      worst = next;
+      const double a00 = g[1][0] - g[0][0], a01 = g[1][1] - g[0][1], e0 = f[1] - f[0];
+      const double a10 = g[2][0] - g[0][0], a11 = g[2][1] - g[0][1], e1 = f[2] - f[0];
+      const double det = a00 * a11 - a01 * a10;
+      if (det == 0.0) return false;
+      const double ux = (e0 * a11 - e1 * a01) / det, uy = (e1 * a00 - e0 * a10) / det;
+      x -= ux;
+      y -= uy;
+      r += f[0] - g[0][0] * ux - g[0][1] * uy;
+    }
+    return worst < close;
+  }
+
+  // in largest radii, so that blocks of any unit of length are packed alike
+  static constexpr double EXACT = 1e-15;  // no step improves on this
+  static constexpr double CLOSE = 1e-13;  // largest gap accepted, before the rounding of x itself
+  static constexpr double TILE = 15.0;    // length of a tile in rmax
+  static constexpr int ROUND = 64;        // tries in one tile before the next one has its turn
+
+  const PackingSettings &set_;
+  double ylo_, yhi_;
+  bool fault_at_top_;
+  Random &random_;
+  Cells<Entry> cells_;
+  int64_t tries_ = 0;
+};
+
+template <class A, class B>
+[[noreturn]] void reject(const char *name, const A &value, const char *expected, const B &bound) {
+  std::ostringstream msg;
+  msg << name << " = " << value << ", expected " << expected << bound;
+  throw std::invalid_argument(msg.str());
+}
+
+void check(const PackingSettings &s) {
+  const std::pair<const char *, double> positive[] = {
+      {"length", s.length}, {"width", s.width},         {"rmin", s.rmin},
+      {"rmax", s.rmax},     {"tolerance", s.tolerance}, {"linkgap", s.link_gap},
+  };
+  for (const auto &p : positive)
+    if (!(p.second > 0.0) || !(p.second < 1e300))
+      reject(p.first, p.second, "a positive finite number", "");
+  if (!(s.rmin < s.rmax)) reject("rmin", s.rmin, "a value below rmax = ", s.rmax);
+  if (s.max_failures < 1) reject("failures", s.max_failures, "at least ", 1);
+  if (!(s.tolerance <= 1e-4)) reject("tolerance", s.tolerance, "at most ", 1e-4);
+  // two discs that the tolerance lets overlap must still count as linked neighbours, not more
+  if (!(s.link_gap < 0.1 * s.rmin))
+    reject("linkgap", s.link_gap, "less than rmin/10 = ", 0.1 * s.rmin);
+  if (!(s.fault_zone >= s.link_gap) || !(s.fault_zone < 1e300))
+    reject("faultzone", s.fault_zone, "at least linkgap = ", s.link_gap);
+  // each disc must meet at most one image of any other, with room for the neighbour search
+  if (!(s.length >= 8.0 * s.rmax))
+    reject("length", s.length, "at least 8 rmax for a periodic fault, that is ", 8.0 * s.rmax);
+  // no disc reaches from the fault zone of its block to the plate
+  const double least = 2.0 * (2.0 * s.rmax + s.fault_zone + s.link_gap);
+  if (!(s.width > least))
+    reject("width", s.width, "more than 2 (2 rmax + faultzone + linkgap) = ", least);
+  if (s.length / s.rmax * (s.width / s.rmax) > 5e8)
+    reject("length", s.length, "less than 5e8 rmax^2 / width = ", 5e8 * s.rmax * s.rmax / s.width);
+}
+
+/// Surface distance of a disc from the fault line.
+double fault_gap(const PackingSettings &s, const Disc &d) {
+  return (d.block == 0 ? 0.5 * s.width - d.y : d.y - 0.5 * s.width) - d.r;
+}
+
+void fill_blocks(const PackingSettings &s, Packing &result) {
+  Random random(s.seed);
+  const double middle = 0.5 * s.width;
+  for (int block = 0; block < (s.mirror ? 1 : 2); ++block) {
+    const double ylo = block == 0 ? 0.0 : middle, yhi = block == 0 ? middle : s.width;
+    BlockPacker packer(s, ylo, yhi, block == 0, random);
+    packer.run();
+    result.tries += packer.tries();
+    packer.for_each([&](double x, double y, double r) {
+      Disc disc{x, y, r, block, false, (block == 0 ? y : s.width - y) - r < s.link_gap};
+      disc.fault = fault_gap(s, disc) < s.fault_zone;
+      result.discs.push_back(disc);
+    });
+  }
+  if (!s.mirror) return;
+  const std::size_t lower = result.discs.size();
+  for (std::size_t i = 0; i < lower; ++i) {
+    Disc disc = result.discs[i];
+    disc.y = s.width - disc.y;
+    disc.block = 1;
+    result.discs.push_back(disc);
+  }
+}
+
+/// Neighbours in space become neighbours in memory, and are on few ranks.
+void sort_discs(const PackingSettings &s, Packing &result) {
+  const double column = 2.0 * s.rmax;
+  std::sort(result.discs.begin(), result.discs.end(), [column](const Disc &a, const Disc &b) {
+    const auto ka = static_cast<int64_t>(a.x / column), kb = static_cast<int64_t>(b.x / column);
+    return std::tie(ka, a.y, a.x, a.r) < std::tie(kb, b.y, b.x, b.r);
+  });
+}
+
+/// Links of tangent discs, by cells at least as large as the longest link, both blocks in one grid.
+void link_discs(const PackingSettings &s, Packing &result) {
+  const int n = static_cast<int>(result.discs.size());
+  Cells<int> cells(s.length, 0.0, s.width, 2.0 * s.rmax + s.link_gap);
+  for (int i = 0; i < n; ++i) cells.insert(result.disc(i).x, result.disc(i).y, i);
+  std::vector<int> partners;
+  for (int i = 0; i < n; ++i) {
+    const Disc &a = result.disc(i);
+    partners.clear();
+    const int cx = cells.column(a.x), cy = cells.row(a.y);
+    for (int ix = cx - 1; ix <= cx + 1; ++ix)
+      for (int iy = std::max(0, cy - 1); iy <= std::min(cells.ny - 1, cy + 1); ++iy)
+        for (const int j : cells.at(ix, iy)) {
+          if (j <= i) continue;
+          const Disc &b = result.disc(j);
+          if (b.block != a.block) continue;
+          const auto [ex, ey] = link_vector(s.length, a, b);
+          const double limit = a.r + b.r + s.link_gap;
+          if (ex * ex + ey * ey < limit * limit) partners.push_back(j);
+        }
+    std::sort(partners.begin(), partners.end());
+    for (const int j : partners) result.links.emplace_back(i, j);
+  }
+}
+
+/// The discs that are linked to each disc.
+using Partners = std::vector<std::vector<std::size_t>>;
+
+Partners partners_of(const Packing &packing) {
+  Partners partners(packing.discs.size());
+  for (const auto &l : packing.links) {
+    partners[static_cast<std::size_t>(l.first)].push_back(static_cast<std::size_t>(l.second));
+    partners[static_cast<std::size_t>(l.second)].push_back(static_cast<std::size_t>(l.first));
+  }
+  return partners;
+}
+
+/// Which discs have fewer than HELD_LINKS links. With remove, links to these do not count.
+std::vector<char> with_few_links(const Packing &packing, const Partners &partners, bool remove) {
+  std::vector<char> few(partners.size(), 0);
+  std::vector<std::size_t> links, check(partners.size());
+  for (const auto &of_one : partners) links.push_back(of_one.size());
+  std::iota(check.begin(), check.end(), std::size_t{0});
+  while (!check.empty()) {
+    const std::size_t i = check.back();
+    check.pop_back();
+    if (few[i] || packing.discs[i].plate || links[i] >= HELD_LINKS) continue;
+    few[i] = 1;
+    if (!remove) continue;
+    for (const std::size_t j : partners[i]) {
+      --links[j];
+      check.push_back(j);
+    }
+  }
+  return few;
+}
+
+/// Which discs belong to a plate or are linked to one, by way of discs that are not removed.
+std::vector<char> hung_on_plates(const Packing &packing, const Partners &partners,
+                                 const std::vector<char> &removed) {
+  std::vector<char> hung(partners.size(), 0);
+  std::vector<std::size_t> check;
+  const auto hang = [&](std::size_t i) {
+    hung[i] = 1;
+    check.push_back(i);
+  };
+  for (std::size_t i = 0; i < hung.size(); ++i)
+    if (packing.discs[i].plate) hang(i);
+  while (!check.empty()) {
+    const std::size_t i = check.back();
+    check.pop_back();
+    for (const std::size_t j : partners[i])
+      if (!hung[j] && !removed[j]) hang(j);
+  }
+  return hung;
+}
+
+void remove_discs(const std::vector<char> &removed, Packing &packing) {
+  std::vector<int> place(removed.size(), -1);
+  std::vector<Disc> discs;
+  for (std::size_t i = 0; i < removed.size(); ++i) {
+    if (removed[i]) continue;
+    place[i] = static_cast<int>(discs.size());
+    discs.push_back(packing.discs[i]);
+  }
+  packing.discs.swap(discs);
+  std::vector<std::pair<int, int>> links;
+  for (const auto &l : packing.links) {
+    const int i = place[static_cast<std::size_t>(l.first)],
+              j = place[static_cast<std::size_t>(l.second)];
+    if (i >= 0 && j >= 0) links.emplace_back(i, j);
+  }
+  packing.links.swap(links);
+}
+
+/// Finds the loose discs and, if asked to, removes them and those that this leaves loose.
+void look_for_loose(const PackingSettings &s, Packing &result) {
+  const Partners partners = partners_of(result);
+  std::vector<char> loose = with_few_links(result, partners, s.remove_loose);
+  const std::vector<char> hung =
+      hung_on_plates(result, partners, s.remove_loose ? loose : std::vector<char>(loose.size(), 0));
+  for (std::size_t i = 0; i < loose.size(); ++i) {
+    loose[i] = loose[i] || !hung[i];
+    if (!loose[i]) continue;
+    ++result.loose;
+    if (fault_gap(s, result.discs[i]) < s.link_gap) ++result.loose_tangent;
+  }
+  if (s.remove_loose) remove_discs(loose, result);
+}
+
+/// Sum of n n^T over the links of a disc (n: direction of the link).
+struct Support {
+  double xx = 0.0, xy = 0.0, yy = 0.0;
+  int links = 0;
+
+  double mean() const { return 0.5 * (xx + yy); }
+  double apart() const {
+    const double half = 0.5 * (xx - yy);
+    return std::sqrt(half * half + xy * xy);
+  }
+  double softest() const { return std::max(0.0, mean() - apart()); }
+  double stiffest() const { return mean() + apart(); }
+};
+
+std::vector<Support> supports(double length, const Packing &packing) {
+  std::vector<Support> held(packing.discs.size());
+  for (const auto &l : packing.links) {
+    const auto i = static_cast<std::size_t>(l.first), j = static_cast<std::size_t>(l.second);
+    const auto [ex, ey] = link_vector(length, packing.discs[i], packing.discs[j]);
+    const double d2 = ex * ex + ey * ey;
+    for (const std::size_t k : {i, j}) {
+      held[k].xx += ex * ex / d2;
+      held[k].xy += ex * ey / d2;
+      held[k].yy += ey * ey / d2;
+      ++held[k].links;
+    }
+  }
+  return held;
+}
+
+void measure(const PackingSettings &s, Packing &result) {
+  double area = 0.0;
+  bool first = true;
+  const std::vector<Support> held = supports(s.length, result);
+  for (std::size_t i = 0; i < result.discs.size(); ++i) {
+    const Disc &d = result.discs[i];
+    area += d.r * d.r;
+    result.rmin_found = i == 0 ? d.r : std::min(result.rmin_found, d.r);
+    if (fault_gap(s, d) < s.link_gap) ++result.fault_tangent[d.block];
+    if (d.plate) continue;
+    const double softest = held[i].softest();
+    result.weakest = first ? softest : std::min(result.weakest, softest);
+    first = false;
+  }
+  result.area_fraction = pi * area / (s.length * s.width);
+  const auto n = static_cast<double>(result.discs.size());
+  result.coordination = n > 0 ? 2.0 * static_cast<double>(result.links.size()) / n : 0.0;
+}
+
+}  // namespace
+
+std::pair<double, double> link_vector(double length, const Disc &a, const Disc &b) {
+  double ex = b.x - a.x;
+  if (ex > 0.5 * length) ex -= length;
+  if (ex < -0.5 * length) ex += length;
+  return {ex, b.y - a.y};
+}
+
+Packing make_packing(const PackingSettings &settings) {
+  check(settings);
+  Packing result;
+  fill_blocks(settings, result);
+  sort_discs(settings, result);
+  link_discs(settings, result);
+  look_for_loose(settings, result);
+  if (settings.remove_loose)
+    for (const int block : {0, 1})
+      if (std::none_of(result.discs.begin(), result.discs.end(),
+                       [block](const Disc &d) { return d.block == block && !d.plate; }))
+        reject("loose", "remove",
+               "discs of this range of radii to hold each other, but none of the ",
+               block == 0 ? "lower block is left" : "upper block is left");
+  measure(settings, result);
+  return result;
+}
+
+int most_neighbours(double radius, double r) {
+  const double least = 0.9 * r;
+  return static_cast<int>(pi / std::asin(least / (radius + least)));
+}
+
+std::vector<double> masses_for_step(const Packing &packing, double length, double dt,
+                                    double stiffness, double kt) {
+  const std::vector<Support> held = supports(length, packing);
+  double least = std::numeric_limits<double>::infinity();
+  for (const Disc &d : packing.discs) least = std::min(least, d.r);
+  std::vector<double> masses;
+  for (std::size_t i = 0; i < packing.discs.size(); ++i) {
+    const int room = most_neighbours(packing.discs[i].r, least) - held[i].links;
+    const double felt =
+        stiffness * held[i].stiffest() + std::max(0, room) * std::max(stiffness, kt);
+    masses.push_back(0.5 * dt * dt * felt);
+  }
+  return masses;
+}
+
+}  // namespace LSM

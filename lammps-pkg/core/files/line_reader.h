@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file files/line_reader.h
+/// Lines of a text file.
+#ifndef LSM_LINE_READER_H
+#define LSM_LINE_READER_H
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "files/input_bytes.h"
+#include "files/text.h"
+
+namespace LSM::text_io {
+
+/// Lines of a file with their numbers and byte offsets, read in large blocks, without a byte order
+/// mark and the '\r' of Windows line ends.
+class LineReader {
+ public:
+  /// \throws FileError
+  explicit LineReader(const std::string &path) : LineReader(open_plain(path)) {}
+  explicit LineReader(std::unique_ptr<Bytes> bytes);
+
+  /// Next line without its '\n', valid until the next call; false at the end of the file.
+  /// \throws FileError if the file cannot be read or a line is longer than any of ours can be.
+  bool next(std::string_view &line);
+
+  const std::string &path() const { return bytes_->path(); }
+  std::int64_t line() const { return line_; }    ///< number of the last line, from 1
+  std::int64_t begin() const { return begin_; }  ///< offset of the last line
+  std::int64_t end() const { return end_; }      ///< offset behind the last line
+  bool complete() const { return complete_; }    ///< the last line ended with '\n'
+  /// There was a byte order mark or a Windows line end: none of our programs wrote this.
+  bool foreign() const { return foreign_; }
+
+  [[noreturn]] void fail(const std::string &what) const;
+
+ private:
+  static constexpr std::size_t first_size = 1 << 18, longest_line = 1 << 20;
+
+  /// Reads more bytes after the unfinished line, which moves to the front; false at the end of the
+  /// file.
+  bool fill();
+
+  std::unique_ptr<Bytes> bytes_;
+  std::vector<char> buffer_;
+  std::size_t used_ = 0, filled_ = 0;  // the remaining lines are between them
+  std::int64_t line_ = 0, begin_ = 0, end_ = 0;
+  bool complete_ = true, foreign_ = false;
+};
+}  // namespace LSM::text_io
+
+#endif

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// \file files/output_file.h
+/// Output files that never lose what was written before.
+#ifndef LSM_OUTPUT_FILE_H
+#define LSM_OUTPUT_FILE_H
+
+#include <unistd.h>
+#include <cerrno>
+#include <cstdint>
+#include <cstdio>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+namespace LSM::text_io {
+
+/// Whether path is a file that would be replaced: regular, and not empty.
+bool holds_data(const std::string &path);
+
+/// Why OutputFile could not write the file path, or "". Nothing is changed or left behind.
+std::string why_not_writable(const std::string &path);
+
+/// Writes all data of a file, or all names of a folder, to the disk. \throws FileError
+void sync(const std::string &path);
+
+/// Unbuffered output file: each write() hands all its bytes to the operating system at once, so
+/// that a process killed between two calls leaves nothing half-written. \throws FileError
+class OutputFile {
+ public:
+  OutputFile() = default;
+  OutputFile(const OutputFile &) = delete;
+  OutputFile &operator=(const OutputFile &) = delete;
+  ~OutputFile() { discard(); }
+
+  /// Replaces path by a file that begins with text, written beside it; an older file stays
+  /// untouched if that fails. \param whole the file gets its name by close() only, and nothing is
+  /// left of it without
+  void create(const std::string &path, std::string_view text, bool whole = false);
+
+  /// An existing file of which append() will keep so many bytes.
+  void keep(const std::string &path, std::int64_t bytes);
+
+  /// Truncates that file and continues behind the bytes that are kept.
+  void append();
+
+  /// On failure the file is closed, as lines after a half-written one would not be readable.
+  void write(std::string_view text);
+
+  /// What was written is on the disk.
+  void sync();
+  void close();
+
+  bool is_open() const { return file_ != nullptr; }
+  const std::string &path() const { return path_; }
+
+ private:
+  static std::error_code reason() { return {errno, std::generic_category()}; }
+
+  void take_name();
+  [[noreturn]] void give_up(const char *what, std::error_code why = reason());
+
+  void discard();
+  void open(const std::string &shown, const std::string &opened, bool anew);
+
+  std::FILE *file_ = nullptr;
+  std::string path_, name_, written_;  // as given, with links resolved, and while being written
+  std::uintmax_t kept_ = 0;
+};
+
+/// A file that a restarted run goes on with. find_cut() of the derived class looks at it without a
+/// change: where more than one file goes on, nothing is cut before all of them are found to fit.
+class ResumableFile {
+ public:
+  /// Drops what find_cut() found, and goes on there. \throws FileError
+  void cut() { file_.append(); }
+  /// \throws FileError if the system reports a late failure. Also done on destruction, silently.
+  void close() { file_.close(); }
+  bool is_open() const { return file_.is_open(); }
+
+ protected:
+  [[noreturn]] static void refuse(const std::string &path, const std::string &why);
+
+  OutputFile file_;
+};
+
+/// Replaces path by a file with the text, or leaves it unchanged. \param safe also writes it to the
+/// disk, so that a power failure cannot lose it \throws FileError
+void write_file(const std::string &path, std::string_view text, bool safe = false);
+}  // namespace LSM::text_io
+
+#endif
