@@ -3,6 +3,7 @@
 
 #include "fault/frequency.h"
 #include "fault/packing.h"
+#include "numerics/random.h"
 
 #include <gtest/gtest.h>
 
