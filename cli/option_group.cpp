@@ -20,7 +20,7 @@ Rule transform(const CLI::Validator &validator) {
   return [validator](CLI::Option &option) { option.transform(validator); };
 }
 
-/// A number that good accepts.
+/// A number that the predicate `good` accepts.
 template <class Number, class Good>
 Rule number_that(Good good, const std::string &expected) {
   return check(CLI::Validator(
@@ -154,7 +154,7 @@ void set_up(CLI::App &program, const std::string &version) {
 }
 
 std::optional<int> parse(CLI::App &program, std::vector<std::string> arguments) {
-  // CLI11 takes them from the back.
+  // CLI11 expects the arguments in reverse order.
   std::reverse(arguments.begin(), arguments.end());
   try {
     program.parse(std::move(arguments));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file option_group.h
-/// The options of the programs: where a value goes, and rules of what it may be. Only
-/// option_group.cpp and the programs themselves include CLI11, which takes long to compile.
+/// The options of the programs: where a value is stored, and rules for what it may be. CLI11 takes
+/// long to compile, so only option_group.cpp and the main programs include it.
 #ifndef LSM_OPTION_GROUP_H
 #define LSM_OPTION_GROUP_H
 
@@ -23,13 +23,13 @@ class Option;
 
 namespace LSM {
 
-/// A rule of an option: what is allowed, and how --help shows it.
+/// A rule for an option: what is allowed, and how --help shows it.
 using Rule = std::function<void(CLI::Option &)>;
 Rule required();
-Rule one_each();                         ///< a value each time the option is given
-Rule values(int count);                  ///< so many values at once
-Rule shown(const std::string &value);    ///< as the default
-Rule kind(const std::string &of_value);  ///< in place of TEXT
+Rule one_each();                         ///< one value each time the option is given
+Rule values(int count);                  ///< this many values at once
+Rule shown(const std::string &value);    ///< the default shown by --help
+Rule kind(const std::string &of_value);  ///< shown by --help in place of TEXT
 Rule more_help(const std::string &text);
 Rule excludes(CLI::Option *other);
 Rule needs(CLI::Option *other);
@@ -39,13 +39,13 @@ Rule finite();
 Rule between(double lo, double hi);
 Rule between(std::int64_t lo, std::int64_t hi);
 inline Rule between(int lo, int hi) { return between(std::int64_t{lo}, std::int64_t{hi}); }
-/// Of an unsigned number: CLI11 turns negative numbers into huge ones, and numbers that are too
-/// large into the largest one.
+/// A rule for unsigned numbers: CLI11 would turn negative numbers into huge ones, and numbers that
+/// are too large into the largest one.
 Rule whole_number(std::uint64_t most);
 Rule among(const std::vector<std::string> &words);
-/// A number, or one of the words for numbers.
+/// A number, or one of the words that stand for numbers.
 Rule number_or(const std::map<std::string, double> &words);
-/// Changes the text of the value, or returns what is wrong with it.
+/// Applies a function that changes the text of the value or returns what is wrong with it.
 Rule transformed(const std::function<std::string(std::string &)> &change);
 
 /// Options under one heading of --help.
@@ -100,10 +100,10 @@ class OptionGroup {
 void add_seed(OptionGroup group, std::uint64_t &seed,
               const std::string &help = "Seed of the random numbers");
 
-/// What the programs have in common: version, default values and columns of --help.
+/// Sets what the programs have in common: version, default values and columns of --help.
 void set_up(CLI::App &program, const std::string &version);
 
-/// Reads a command line. Returns the exit status where help or version was asked for and printed.
+/// Reads a command line. Returns an exit status if help or version was asked for and printed.
 /// \throws std::invalid_argument with one line
 std::optional<int> parse(CLI::App &program, std::vector<std::string> arguments);
 

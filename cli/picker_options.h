@@ -12,7 +12,7 @@
 
 namespace LSM {
 
-/// The user's settings of the picker; empty where not given.
+/// The settings of the picker on the command line; those not given are empty.
 class PickerOptions {
  public:
   std::string prefix;  ///< between the dashes and the name of lambda and memory-time
@@ -20,19 +20,19 @@ class PickerOptions {
   std::optional<double> lambda, memory_time, min_size;
   bool keep_nonpositive = false;
 
-  /// Options as they were added, for further rules.
+  /// The options that were added, for further rules.
   struct Added {
     CLI::Option *reading, *lambda, *memory_time, *min_size, *keep_nonpositive;
   };
   /// Adds --picker and, with the prefix, lambda and memory-time; --min-size, --keep-nonpositive.
   Added add_to(OptionGroup group);
 
-  /// Whether the leakiness is said, in one way or another.
+  /// Whether the leakiness is given, directly or by the memory time.
   bool says_lambda() const { return lambda || memory_time; }
 
-  /// The settings, those that nothing is said about as they are in settings.
-  /// \param interval time between samples (model time)
-  /// \throws std::invalid_argument naming the option, its value and what is expected
+  /// Returns the given settings, completed by those of `settings`. \param interval time between
+  /// samples (model time) \throws std::invalid_argument naming the option, its value and what is
+  /// expected
   PickerSettings over(PickerSettings settings, double interval) const;
 
   std::string lambda_name() const { return "--" + prefix + "lambda"; }

@@ -9,9 +9,9 @@
 
 namespace LSM {
 
-/// To be called first: a program that is started with closed standard streams, as by some daemons,
-/// would give their numbers to the files that it opens, and write its messages into them. What is
-/// written to standard output fails, messages are lost.
+/// Must be called first. If a program is started with closed standard streams, as by some daemons,
+/// the files that it opens get their numbers and its messages are written into them. With this,
+/// writing to standard output fails, and messages are lost.
 inline void occupy_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (fcntl(stream, F_GETFD) < 0)

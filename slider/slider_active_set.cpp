@@ -26,7 +26,7 @@ void ActiveSet::list_all() {
   for (std::int32_t c = 0; c < chunks_; ++c) list_.push_back(c);
 }
 
-// Takes all chunks from the list if none has to be there in the next step.
+// Empties the list if no chunk has to be stepped next.
 void ActiveSet::rest_together(std::int64_t step) {
   std::int64_t first = never;
   for (const std::int32_t c : list_) first = std::min(first, wake_step(c));
@@ -64,8 +64,8 @@ void ActiveSet::restart(std::int64_t step) {
   settle_idle(step);
 }
 
-// Last step, counted from step 0, up to which chunk c may stay idle: at least two steps before its
-// first block can start, rounding included. The plate only adds to the forces.
+// Returns the last step up to which chunk c may stay idle, at least two steps before its first
+// block can start, so that rounding cannot matter. Only the plate changes the forces until then.
 std::int64_t ActiveSet::wake_step(int c) const {
   double first = std::numeric_limits<double>::max(), scale = 0.0;
   for (int i = c * chunk_size; i < (c + 1) * chunk_size && i < view_.blocks; ++i) {
@@ -96,7 +96,7 @@ void ActiveSet::update(std::int64_t step) {
     }
     return;
   }
-  // Without branches on the lanes, which would be mispredicted half of the time.
+  // Branches on the lanes would be mispredicted half of the time.
   std::size_t n = 0;
   std::int32_t back = -1;
   const auto want = [&](std::int32_t c, bool wanted) {
@@ -142,7 +142,7 @@ void ActiveSet::change_list_to_next(std::int64_t step) {
   settle_idle(step);
 }
 
-// Puts the chunks in idle_ to rest until their wake step, or back into the list if that is now.
+// Puts the chunks in idle_ to rest until their wake step, or back into the list if that has come.
 void ActiveSet::settle_idle(std::int64_t step) {
   for (const std::int32_t c : idle_) {
     const std::int64_t at = wake_step(c);
@@ -157,13 +157,13 @@ void ActiveSet::settle_idle(std::int64_t step) {
   add_extra();
   next_wake_ = queue_.empty() ? never : queue_.top().first;
   if (queue_.size() <= 64 + 8 * wake_.size()) return;
-  // Most of them are stale.
+  // Most entries are stale by now.
   queue_ = Queue();
   for (std::int32_t c = 0; c < chunks_; ++c)
     if (wake(c) > 0 && wake(c) < never) queue_.emplace(wake(c), c);
 }
 
-// All at once: each single insertion would cost the length of the list.
+// Inserts all at once, as each single insertion would cost the length of the list.
 void ActiveSet::add_extra() {
   if (extra_.empty()) return;
   std::sort(extra_.begin(), extra_.end());

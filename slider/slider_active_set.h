@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file slider_active_set.h
-/// Which chunks of a chain are stepped: all, or those where something moves or may start to. The
-/// positions give the time before which no block of any other chunk can start. Where modes couple
-/// the blocks, each feels all others, and all chunks are stepped or none.
+/// Decides which chunks of a chain are stepped: all, or those where something moves or may start
+/// to. The positions give the time before which no block of any other chunk can start. Where blocks
+/// are coupled by modes, each feels all others, so that either all chunks are stepped or none.
 #ifndef SLIDER_ACTIVE_SET_H
 #define SLIDER_ACTIVE_SET_H
 
@@ -21,16 +21,16 @@ class ActiveSet {
   /// \param plate_step displacement of the plate in a step \param dense all chunks, always
   ActiveSet(const ChainView &view, double plate_step, bool dense);
 
-  /// Ascending.
+  /// The chunks to step, in ascending order.
   const std::vector<std::int32_t> &list() const { return list_; }
   /// The lanes of each listed chunk that move or are about to, for a kernel to fill in.
   std::uint8_t *hot() { return hot_.data(); }
 
-  /// Computed anew, after the given step, from displacements, velocities and forces.
+  /// Determines the list anew from displacements, velocities and forces after the given step.
   void restart(std::int64_t step);
-  /// After a step.
+  /// Updates the list after a step.
   void update(std::int64_t step);
-  /// The first step in which a chunk that is not listed has to be.
+  /// The first step in which a chunk that is not listed has to be stepped.
   std::int64_t next_wake();
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file slider_array.h
-/// Arrays of the chain, chunks of blocks at a time.
+/// Arrays of the chain, divided into chunks of blocks.
 #ifndef SLIDER_ARRAY_H
 #define SLIDER_ARRAY_H
 
@@ -15,7 +15,7 @@ namespace Slider {
 /// Blocks per chunk, the unit of the active set; lane l of chunk c is block 8 c + l.
 constexpr int chunk_size = 8;
 
-/// In whole chunks.
+/// Rounds a number of blocks up to whole chunks.
 constexpr std::size_t whole_chunks(std::size_t n) {
   return (n + chunk_size - 1) / chunk_size * chunk_size;
 }

@@ -54,7 +54,8 @@ ChainView Chain::view_of(const Parameters &p, const std::vector<double> &mu) {
 
 namespace {
 
-// Uniform in [0, 1), from the seed, the block and a number of its own: no state has to be kept.
+// A random number in [0, 1) that follows from the seed, the block and a counter, so that no
+// generator state has to be saved.
 double hashed(std::uint64_t seed, std::uint64_t block, std::uint64_t number) {
   // splitmix64 (Steele, Lea and Flood 2014), once for each of them
   std::uint64_t z = seed;
@@ -69,8 +70,8 @@ double hashed(std::uint64_t seed, std::uint64_t block, std::uint64_t number) {
 
 }  // namespace
 
-// Gives a block another strength if it has left a cell of the landscape. All cells but the first
-// are a correlation length long. Returns whether it has.
+// Gives a block another strength if it has left a cell of the landscape, and returns whether it
+// did. All cells but the first are a correlation length long.
 bool Chain::draw_strength(int i) {
   std::int64_t &cell = cells_[static_cast<std::size_t>(i)];
   double &left_at = ends_[static_cast<std::size_t>(i)];
@@ -104,7 +105,7 @@ void Chain::take_step() {
     for (int l = 0; l < chunk_size; ++l) left |= u[l] >= end[l];
     if (!left) continue;
     for (int l = 0; l < chunk_size; ++l)
-      // With a lower strength it may move in the next step.
+      // A block with a lower strength may move in the next step.
       if (u[l] >= end[l] && draw_strength(static_cast<int>(i) + l))
         active_.hot()[k] = static_cast<std::uint8_t>(active_.hot()[k] | 1U << l);
   }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file slider_chain.h
-/// The blocks, coupled by springs or modes, stepped chunk by chunk: all chunks (the dense oracle)
-/// or only those of the active set.
+/// The chain of blocks, coupled by springs or modes. Either all chunks are stepped (the dense
+/// reference) or only those of the active set.
 ///
-/// Both give the same numbers to the last digit: a chunk left out would have added zeros to sums
-/// kept in fixed lanes.
+/// Both give the same numbers to the last digit, as a skipped chunk would only have added zeros to
+/// sums that are kept in fixed lanes.
 #ifndef SLIDER_CHAIN_H
 #define SLIDER_CHAIN_H
 
@@ -51,9 +51,8 @@ class Chain {
     active_.update(step_);
   }
 
-  /// One time step, the same to the last digit; watch is told which blocks slid, in ascending
-  /// order, and the work of the springs on each of them, (F_old + F_new) du / 2 (see
-  /// RuptureTracker).
+  /// The same time step, but calls `watch` in ascending order for each block that slid, with the
+  /// work of the springs on it, (F_old + F_new) du / 2 (see RuptureTracker).
   template <class Watch>
   void advance(Watch &watch) {
     const double pe_old = pe();
@@ -73,7 +72,7 @@ class Chain {
     active_.update(step_);
   }
 
-  /// Step up to which nothing can move; the present step if something moves or may move.
+  /// Step up to which nothing can move, which is the present step if something moves or may move.
   std::int64_t quiet_until() {
     return active_.list().empty() && account_.quiet() ? active_.next_wake() - 1 : step_;
   }
@@ -117,7 +116,7 @@ class Chain {
   Array u_, v_, force_, mu_, rest_, ahead_, change_;
   std::unique_ptr<ModeForces> forces_;
   std::vector<double> first_mu_;  // at step 0
-  // In a landscape, how many strengths each block has left behind, and where it leaves its present
+  // In a landscape: how many strengths each block has left behind, and where it leaves its present
   // one.
   std::vector<std::int64_t> cells_;
   Array ends_;

@@ -13,7 +13,7 @@
 
 #include "files/output_file.h"
 
-// For these, nlohmann looks in the namespace of each.
+// nlohmann-json looks up these functions in the namespace of each type.
 namespace Slider {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Rupture, step_start, step_end, first, begin, length, size, slip,
                                    slip_cos, slip_sin, pe_start, pe_end)

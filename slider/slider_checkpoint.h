@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file slider_checkpoint.h
-/// Checkpoints of a run: all that it needs to continue to the last digit, as CBOR (RFC 8949)
-/// with a CRC-32 of it.
+/// Checkpoints hold all that a run needs to continue to the last digit, as CBOR (RFC 8949) with a
+/// CRC-32.
 #ifndef SLIDER_CHECKPOINT_H
 #define SLIDER_CHECKPOINT_H
 
@@ -15,7 +15,7 @@
 
 namespace Slider {
 
-/// Events of a run so far.
+/// Counts of the events of a run so far.
 struct EventCounts {
   LSM::PickerState picker;                     ///< with ruptures, only the sizes that were dropped
   std::int64_t events = 0, before_warmup = 0;  ///< in the catalogue; too early
@@ -24,7 +24,7 @@ struct EventCounts {
   double largest = 0.0;  ///< size of an event
 };
 
-/// A run between two steps.
+/// State of a run between two steps.
 struct RunState : EventCounts {
   ChainState chain;
   double slip_start = 0.0;      ///< sum of displacements when the present event began
@@ -33,9 +33,8 @@ struct RunState : EventCounts {
   std::int64_t calm_since = 0;  ///< last step with a block too fast for a leap, or of a leap
 };
 
-/// Replaces the file atomically, so that there is a complete checkpoint at any moment.
-/// \param settings "key = value" of everything that shapes the run
-/// \throws std::runtime_error
+/// Replaces the file atomically, so that there is a complete checkpoint at any moment. \param
+/// settings "key = value" of everything that influences the run \throws std::runtime_error
 void write_checkpoint(const std::string &path, const std::vector<std::string> &settings,
                       const RunState &state);
 

@@ -33,12 +33,13 @@
 
 namespace Slider {
 
-/// Creep from one state, the plate moving forward; all displacements are relative to that state.
+/// Creep from a given state as the plate moves forward. All displacements are relative to that
+/// state.
 class Creep {
  public:
   static constexpr double never = std::numeric_limits<double>::infinity();
 
-  /// A piece of the motion without a new block, from a displacement of the plate on.
+  /// A piece of the motion in which no block joins, beginning at a displacement of the plate.
   struct Piece {
     double way = 0.0;
     double pe = 0.0;                    ///< change of PE since the beginning
@@ -66,7 +67,8 @@ class Creep {
     now_.pe_rate = p.kl * loading;
     now_.slope = p.kl * n_;
     for (int i = 0; i < n_; ++i) {
-      // Runs are found at their first block; a full ring has none.
+      // A group is found at its first block; if all blocks of the ring creep, block 0 takes its
+      // place.
       if (at(i).creeps && (!at(before(i)).creeps || (creeping_ == n_ && i == 0)))
         begins_fast_ = gets_fast(i, solve(i)) || begins_fast_;
     }

@@ -19,7 +19,7 @@
 
 namespace Slider {
 
-/// The state from which a run continues, besides the parameters.
+/// The state from which a run continues.
 struct ChainState {
   std::int64_t step = 0;
   double slip_sum = 0.0, slip_compensation = 0.0;  ///< sum of all U_i
@@ -43,7 +43,7 @@ inline double direct_energy(const Parameters &p, const std::vector<double> &u, d
     const double *const coupling = forces->find(u.data());
     for (std::size_t i = 0; i < u.size(); ++i) {
       sum.add(0.5 * p.kl * (plate - u[i]) * (plate - u[i]));
-      // The forces add up to nothing.
+      // u[0] may be subtracted, as the forces add up to zero.
       sum.add(-0.5 * (u[i] - u[0]) * coupling[i]);
     }
     return sum.value();
@@ -57,7 +57,7 @@ inline double direct_energy(const Parameters &p, const std::vector<double> &u, d
   return sum.value();
 }
 
-/// PE step by step.
+/// Keeps PE up to date step by step.
 class PeAccount {
  public:
   explicit PeAccount(const Parameters &p)
@@ -67,14 +67,14 @@ class PeAccount {
   double change() const { return change_; }          ///< over the last step
   double slip_sum() const { return slip_.value(); }  ///< sum of all displacements
   double radiated() const { return radiated_.value(); }
-  /// Nothing has moved since some step.
+  /// Whether nothing moves at present.
   bool quiet() const { return quiet_since_ >= 0; }
   /// Change over a quiet step that starts at the given step.
   double quiet_change(std::int64_t at) const {
     return kl_ * plate_step_ * (loading(at) + 0.5 * blocks_ * plate_step_);
   }
 
-  /// The step from step - 1 to step.
+  /// Adds the step from step - 1 to step.
   void add(const StepSums &sums, std::int64_t step) {
     const double loading_before = loading(step - 1);
     if (sums.slip == 0.0 && sums.work == 0.0) {
@@ -97,7 +97,8 @@ class PeAccount {
     pe_.add(change_);
     value_ = pe_.value();
   }
-  /// Blocks have moved without steps. \param changed PE meanwhile \param change over the last step
+  /// Accounts for a leap, in which blocks moved without steps. \param changed change of PE in the
+  /// leap \param change change over its last step
   void leap(double changed, double change, const double *u) {
     pe_ = LSM::NeumaierSum(value_);
     pe_.add(changed);

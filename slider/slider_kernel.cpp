@@ -1,6 +1,7 @@
-// SPDX-License-Identifier: GPL-2.0-or-later
-// One time step, compiled for each instruction set SLIDER_SET with SLIDER_LANES lanes per register.
-// Nothing here calls a function that may stay one: the linker would take one set's copy for all.
+// SPDX-License-Identifier: GPL-2.0-or-later One time step, compiled once for each instruction set
+// SLIDER_SET with SLIDER_LANES lanes per register. Every function called here must be inlined: of
+// inline functions that are not, the linker would keep one copy, of any instruction set, for all
+// programs.
 #include "slider_kernels.h"
 #include "slider_modes.h"
 
@@ -20,8 +21,8 @@ struct Lanes {
   Register r[registers];
 };
 
-// Register by register: all at once would go by 16 bytes at a time through the stack, and reading
-// those back as registers stalls.
+// Loads register by register. GCC copies larger structures through the stack 16 bytes at a time,
+// and reading them back as registers stalls.
 inline __attribute__((always_inline)) Register load_register(const double *p) {
   Register a;
   std::memcpy(&a, p, sizeof a);
@@ -38,7 +39,7 @@ inline __attribute__((always_inline)) Lanes load(const double *p) {
 inline __attribute__((always_inline)) void store(double *p, const Lanes &a) {
   for (int r = 0; r < registers; ++r) store_register(p + r * SLIDER_LANES, a.r[r]);
 }
-// One instruction: the compiler is told that errno is not used.
+// A single instruction, as -fno-math-errno is set.
 inline __attribute__((always_inline)) Register square_root(Register a) {
   for (int l = 0; l < SLIDER_LANES; ++l) a[l] = __builtin_sqrt(a[l]);
   return a;
@@ -71,8 +72,8 @@ inline __attribute__((always_inline)) Register friction(const ChainView &chain, 
     return LSM::VelocityWeakening::friction(m, v);
 }
 
-// The larger root of w = c - b / (1 + w), written without cancellation so that its sign is that of
-// c - b where c <= 1; 0 if there is none.
+// The larger root of w = c - b / (1 + w), or 0 if there is none. Written without cancellation, so
+// that its sign is that of c - b where c <= 1.
 inline __attribute__((always_inline)) Register velocity_at(Register c, Register b) {
   const Register zero = {}, one = zero + 1.0;
   const Register q = (1.0 + c) * (1.0 + c) - 4.0 * b;
@@ -127,7 +128,7 @@ inline __attribute__((always_inline)) Balance balance(const ChainView &chain, Re
     const Register fall = own * v - others, later = own * middle - others,
                    least = own * last - others;
     Register p = force_per_velocity(v);
-    // Few blocks stop, and divisions cost most here.
+    // Few blocks stop, and divisions are the most expensive operations here.
     stops = slides & (fall > zero) & (later > zero) & (least > zero);
     if (bits(stops) != 0) {
       const Register q = 4.0 * force_per_velocity(middle), r = force_per_velocity(last);
@@ -178,11 +179,12 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
   constexpr bool by_modes = kind == Kind::modes || kind == Kind::radiating_modes,
                  radiates = kind == Kind::radiating_springs || kind == Kind::radiating_modes;
   const double eta = chain.radiation;
-  // By which the implicit half of a step is divided.
+  // The implicit half of a step is divided by this.
   [[maybe_unused]] const double slower = 1.0 / (1.0 + half_h_m * eta);
   double *const u = chain.u, *const velocity = chain.v, *const force = chain.force;
   const double *const mu = chain.mu;
-  // Of modes. No member is read again after a store to hot_lanes, which might be one of them.
+  // A copy, so that the compiler need not read members again after each store to hot_lanes, which
+  // it could take for one of them.
   const ModeArrays modes = chain.of_modes;
   double *const changed = chain.change;
   constexpr bool needs_rest = law == Law::slip_weakening;
@@ -197,7 +199,7 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
   static_assert(ring > lag);
   Lanes work = {}, slip = {};
   [[maybe_unused]] Lanes radiated = {};
-  // All chunks are listed where modes couple them.
+  // With modes, all chunks are listed.
   const auto place = [&](int k) __attribute__((always_inline)) {
     return static_cast<std::int64_t>(by_modes ? k : list[k]) * chunk_size;
   };
@@ -274,7 +276,7 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
         const Balance now = balance<law>(chain, m.r[r], old.r[r], f.r[r], change.r[r], slides,
                                          slides ? slid : zero);
         store_register(chain.ahead + i + r * SLIDER_LANES, now.ahead);
-        // Until it stops, a block has been about as fast as at the beginning.
+        // A block that stops has been about as fast as at the beginning until then.
         radiated.r[r] += (v.r[r] + (now.v > zero ? now.v : v.r[r])) * change.r[r];
         v.r[r] = now.v;
       } else if constexpr (scheme == Scheme::verlet && law == Law::velocity_weakening) {
@@ -321,7 +323,7 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
     return ((l[0] + l[4]) + (l[2] + l[6])) + ((l[1] + l[5]) + (l[3] + l[7]));
   };
   if constexpr (by_modes) {
-    // Most chunks are at rest, and no lane is hot there.
+    // Most chunks are at rest and have no hot lane.
     double common = 0.0;
     for (int k = 0; k < count; ++k) {
       const std::int64_t i = place(k);
@@ -338,7 +340,8 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
       for (Register &r : x.r) r -= common;
       store(modes.apart + i, x);
     }
-    // No block goes back. While none moves, the coupling stays.
+    // Blocks never move backwards, so the sum tells whether any moved. While none moves, the
+    // coupling forces stay the same.
     if (sum(slip) > 0.0) {
       chain.forces->transform();
       for (int n = 0; n < modes.values; n += chunk_size) {

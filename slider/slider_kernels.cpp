@@ -5,7 +5,7 @@
 
 namespace Slider {
 
-// Those of slider_kernel.cpp.
+// Defined in slider_kernel.cpp, once for each instruction set.
 namespace baseline {
 StepFunction function_of(const Parameters &p);
 }

@@ -32,7 +32,7 @@ struct ChainView : Parameters {
   double *change = nullptr;  ///< of the displacements in this step
 };
 
-/// Sums over the listed chunks, over one step.
+/// Sums over the listed chunks in one step.
 struct StepSums {
   double work = 0.0;      ///< sum (F_old + F_new) du / 2, the work of the springs on the blocks
   double slip = 0.0;      ///< sum du
@@ -53,12 +53,12 @@ constexpr std::array<LSM::Named<InstructionSet>, 3> names_of(InstructionSet) {
            {InstructionSet::baseline, "baseline"}}};
 }
 
-/// Whether this processor has it.
+/// Whether this processor has the instruction set.
 bool has(InstructionSet set);
 InstructionSet widest_instruction_set();
 
-/// The step that these parameters need.
-/// \throws std::invalid_argument if the processor lacks the set asked for.
+/// Returns the kernel that these parameters need. \throws std::invalid_argument if the processor
+/// lacks the set asked for.
 StepFunction step_function(const Parameters &p, InstructionSet set);
 
 }  // namespace Slider

@@ -23,7 +23,7 @@ namespace {
 
 using Slider::Settings;
 
-// Written by a signal handler, read by all threads of an ensemble.
+// Set by the signal handler and read by all threads of an ensemble.
 std::atomic<int> stop_signal{0};
 static_assert(std::atomic<int>::is_always_lock_free, "a signal handler must not wait for a lock");
 extern "C" void note_signal(int number) { stop_signal.store(number, std::memory_order_relaxed); }
@@ -64,7 +64,7 @@ nlohmann::ordered_json summary(const Settings &s, const Slider::RunResult &r) {
 }
 
 void warn(const Slider::Parameters &p) {
-  // From here on its growing oscillations change the statistics (measured).
+  // Above this, growing oscillations of the printed scheme were found to change the statistics.
   const double limit = Slider::stability_limit(p) / 12.0;
   if (p.scheme == Slider::Scheme::printed && p.dt > limit * (1.0 + 1e-12))
     fmt::print(stderr,
@@ -73,7 +73,8 @@ void warn(const Slider::Parameters &p) {
                p.dt, limit);
 }
 
-/// Calls task(0) to task(count - 1), that many at a time; 0: one per core. A task must not throw.
+/// Calls task(0) to task(count - 1) in parallel by this many threads (0: one per core). A task must
+/// not throw.
 template <class Task>
 void for_each_index(std::size_t count, std::size_t threads, const Task &task) {
   std::atomic<std::size_t> next{0};
@@ -87,7 +88,7 @@ void for_each_index(std::size_t count, std::size_t threads, const Task &task) {
   for (auto &thread : pool) thread.join();
 }
 
-/// All runs, one or those of an ensemble. Returns the exit status.
+/// Carries out one run or those of an ensemble. Returns the exit status.
 int run_all(const std::vector<Settings> &all, const Settings &base) {
   if (base.summary != "-") Slider::probe(base.summary);
   std::vector<Slider::RunResult> results(all.size());
@@ -155,7 +156,7 @@ int main(int argc, char **argv) {
     for (const int number : {SIGINT, SIGTERM}) {
       struct sigaction act {};
       act.sa_handler = note_signal;
-      // Without SA_RESTART: opening a pipe that nobody reads waits for ever otherwise.
+      // SA_RESTART is not set, or a signal could not interrupt opening a pipe that nobody reads.
       sigaction(number, &act, nullptr);
     }
     warn(settings.run.parameters);

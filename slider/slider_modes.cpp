@@ -10,7 +10,7 @@ namespace Slider {
 
 namespace {
 
-// Only the execution of a plan may be left to several threads.
+// FFTW allows several threads to execute plans, but not to make them.
 std::mutex &planner() {
   static std::mutex one;
   return one;

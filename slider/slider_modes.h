@@ -40,8 +40,8 @@ class ModeForces {
   /// Force of the coupling on each block. \param u displacements
   const double *find(const double *u);
 
-  /// The same in three parts, for a kernel that fills the displacements in and multiplies the
-  /// spectrum by the factors itself.
+  /// Access for a kernel that fills in the displacements and multiplies the spectrum by the factors
+  /// itself, with the transforms below.
   const ModeArrays &arrays() const { return arrays_; }
   void transform();
   void transform_back();
@@ -53,7 +53,8 @@ class ModeForces {
   fftw_plan_s *forward_, *backward_;
 };
 
-/// Those of parameters; none where springs couple.
+/// Returns the coupling by modes that the parameters describe, or null if springs couple the
+/// blocks.
 inline std::unique_ptr<ModeForces> mode_forces(const Parameters &p) {
   return p.by_springs() ? nullptr : std::make_unique<ModeForces>(p.modes, p.blocks);
 }

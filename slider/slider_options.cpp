@@ -43,7 +43,7 @@ std::int64_t whole(const std::string &option, double value, std::int64_t least) 
   return static_cast<std::int64_t>(value);
 }
 
-/// The options of slider_cli, and what they are read into.
+/// The options of slider_cli and the variables that they set.
 class CommandLine {
  public:
   CommandLine() {
@@ -221,7 +221,8 @@ class CommandLine {
     runs.add("--threads", s_.threads, "Runs at a time; 0: one per core", LSM::whole_number(4096));
   }
 
-  /// CLI11 silently takes the last of two values. \throws LSM::FileError
+  /// Refuses keys that appear twice, of which CLI11 would silently take the last. \throws
+  /// LSM::FileError
   void check_config(const std::string &path) const {
     using LSM::text_io::in_quotes;
     using LSM::text_io::trim;
@@ -312,7 +313,7 @@ class CommandLine {
     return !from_string(coupling_, named);
   }
 
-  /// Stiffnesses of what couples the blocks, and with it the leaf spring.
+  /// Sets the stiffness of the coupling and of the leaf spring.
   void set_coupling() {
     Coupling coupling = Coupling::chain;
     const bool named = from_string(coupling_, coupling);
@@ -343,7 +344,7 @@ class CommandLine {
     }
   }
 
-  /// Everything that shapes the result, for the headers of the files.
+  /// Collects everything that influences the result, for the headers of the files.
   void set_header() {
     const auto add = [this](const char *key, const auto &value, bool used = true) {
       if (used) run_.header.emplace_back(key, fmt::format("{}", value));
@@ -385,7 +386,7 @@ class CommandLine {
     add("plate_drops", "left out", without_plate_drops_);
   }
 
-  /// An option whose value is a whole number, also as 1e7.
+  /// Adds an option whose value is a whole number, which may be written as 1e7.
   template <class... Rules>
   static CLI::Option *add_whole(OptionGroup group, const std::string &name, std::int64_t &value,
                                 std::int64_t least, const std::string &help,
@@ -425,7 +426,7 @@ bool is_summary(std::string_view head) {
   return LSM::begins_with(one)(head) || LSM::begins_with(all)(head) || head == "[]\n";
 }
 
-/// The options that each run of an ensemble has of its own.
+/// Returns the options in which the runs of an ensemble differ.
 std::vector<std::vector<std::string>> runs_of(const Settings &base) {
   std::vector<std::vector<std::string>> runs;
   std::int64_t count = 0;
@@ -471,7 +472,7 @@ std::vector<Settings> ensemble(const Settings &base, const std::vector<std::stri
         run.catalogue = numbered(run.catalogue, number);
       run.series = numbered(run.series, number);
       run.checkpoint = numbered(run.checkpoint, number);
-      // Runs not reached before the interruption start anew.
+      // Runs that had not begun before the interruption have no checkpoint and start anew.
       run.resume = run.resume && std::ifstream(run.checkpoint);
       check_replaced(run);
     } catch (const std::exception &e) {

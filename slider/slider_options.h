@@ -13,7 +13,7 @@
 
 namespace Slider {
 
-/// The command line: its run, and what is needed to make others of it.
+/// A parsed command line: its run, and what is needed to derive the runs of an ensemble.
 struct Settings {
   RunOptions run;
   std::string config, summary, ensemble;
@@ -22,15 +22,15 @@ struct Settings {
   unsigned threads = 0;
 };
 
-/// Prints help or version and ends the program where they are asked for.
-/// \throws std::invalid_argument or std::runtime_error with one line
+/// Prints help or version and ends the program if they are asked for. \throws std::invalid_argument
+/// or std::runtime_error with one line
 Settings parse(std::vector<std::string> arguments, const std::atomic<int> *stop);
 
-/// The runs of --ensemble, each with output files of its own.
-/// \param base of the same arguments \throws as parse()
+/// Returns the runs of --ensemble, each with its own output files. \param base of the same
+/// arguments \throws as parse()
 std::vector<Settings> ensemble(const Settings &base, const std::vector<std::string> &arguments);
 
-/// All outputs of all runs are different files, and none of them is an input.
+/// Checks that all outputs of all runs are different files, and that none of them is an input.
 /// \throws std::invalid_argument naming options and file
 void check_files(const std::vector<Settings> &all);
 

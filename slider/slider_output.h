@@ -17,10 +17,10 @@ namespace Slider {
 
 class Outputs {
  public:
-  /// Keeps other runs from writing the files, and checks that they can be written; writes none.
-  /// \throws std::runtime_error naming file and option
+  /// Locks the files and checks that they can be written, without writing them. \throws
+  /// std::runtime_error naming file and option
   explicit Outputs(const RunOptions &options) : o_(options) {
-    // Before anything is read: another run may have written these files.
+    // The files are locked before they are read, as another run may still be writing them.
     claim_ = LSM::claim_outputs(outputs_of(o_));
     check_replaced(o_);
     probe(o_.series);
@@ -65,8 +65,8 @@ class Outputs {
     return series_.is_open() ? (step / o_.series_stride + 1) * o_.series_stride
                              : std::numeric_limits<std::int64_t>::max();
   }
-  /// Everything so far is on disk: after a power failure there must be no checkpoint without the
-  /// files it relies on.
+  /// Writes everything so far to the disk: after a power failure there must be no checkpoint
+  /// without the files it relies on.
   void flush() {
     series_.flush();
     for (const std::string &path : {o_.catalogue, o_.series})

@@ -57,7 +57,7 @@ constexpr std::array<LSM::Named<Law>, 3> names_of(Law) {
            {Law::slip_weakening, LSM::SlipWeakening::name}}};
 }
 
-/// A law with its coefficients. Each block has the static strength mu.
+/// A friction law with its coefficients. The static strength mu is a property of each block.
 struct Friction {
   Law law = Law::velocity_weakening;
   double dynamic = 1.0;  ///< dynamic strength over the static one (not of Eq. 6)
@@ -67,8 +67,8 @@ struct Friction {
   bool needs_rest() const { return law == Law::slip_weakening; }
 };
 
-/// A rough surface whose strength changes along the way †: that of a block is drawn anew from
-/// the range after each slip of a length.
+/// A rough surface whose strength changes along the way †: the strength of a block is drawn anew
+/// from the range after each slip of the given length.
 struct Landscape {
   double length = 0.0;  ///< 0: strengths stay
   double low = 0.5, high = 1.0;
@@ -99,7 +99,7 @@ inline double stiffness_of_springs(const Parameters &p, double phase) {
   return 2.0 * p.kc * (1.0 - std::cos(phase)) + p.kl;
 }
 
-/// Stiffness that a block feels which moves alone.
+/// Stiffness that a block feels while all others rest.
 inline double stiffness_alone(const Parameters &p) {
   if (p.by_springs()) return p.blocks > 1 ? 2.0 * p.kc + p.kl : p.kl;
   double sum = 0.0;
@@ -108,11 +108,11 @@ inline double stiffness_alone(const Parameters &p) {
   return sum / p.blocks;
 }
 
-/// Time step above which the scheme is unstable for an undamped spring, or turns velocities round
-/// by radiation alone. The printed scheme is unstable at any step (growth rate h w^2 / 4); its
+/// Time step above which the scheme is unstable for an undamped spring, or radiation alone would
+/// reverse velocities. The printed scheme is unstable at any step (growth rate h w^2 / 4); its
 /// limit is where this exceeds the dissipation by friction, 0.12 for the paper's springs.
 inline double stability_limit(const Parameters &p) {
-  // Of the sliding chain without friction, its shortest wave.
+  // The shortest wave of the sliding chain without friction is the stiffest.
   const double stiffest = p.by_springs()
                               ? stiffness_of_springs(p, 2.0 * LSM::pi * (p.blocks / 2) / p.blocks)
                               : *std::max_element(p.modes.begin(), p.modes.end());

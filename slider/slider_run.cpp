@@ -44,7 +44,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// What both kinds of events have in common.
+/// The common part of runs with both kinds of events.
 class Run {
  public:
   explicit Run(const RunOptions &options)
@@ -59,18 +59,18 @@ class Run {
   Run(const Run &) = delete;
   Run &operator=(const Run &) = delete;
 
-  RunResult go();
+  RunResult execute();
 
  protected:
   virtual void restore() = 0;
   virtual void save() = 0;
-  /// One step, or several in which nothing slides, up to limit at most.
+  /// Takes one step, or several in which nothing slides, but none beyond `limit`.
   virtual void advance(std::int64_t limit) = 0;
 
-  /// Whether a leap may begin here: a block moves, so that there is nothing to jump over, and none
-  /// has been fast for a while. Only the state of the chain decides, at the same steps in every
-  /// run, so that a run continued from a checkpoint leaps where the uninterrupted one does.
-  /// \param at_rest also when nothing moves
+  /// Whether a leap may begin here: some block moves, so that quiet steps cannot be jumped over,
+  /// but none has been fast for a while. This depends only on the state of the chain and is checked
+  /// at fixed steps, so that a run continued from a checkpoint leaps where the uninterrupted one
+  /// does. \param at_rest whether to leap when nothing moves, too
   bool may_leap(bool at_rest) {
     const std::int64_t step = chain_.step();
     if (step < next_look_) return false;
@@ -80,7 +80,8 @@ class Run {
     if (v > o_.leap_speed) state_.calm_since = step;
     return (v > 0.0 || at_rest) && step - state_.calm_since >= calm_;
   }
-  /// See Chain::leap(). A leap shorter than the calm period that has to follow is not worth it.
+  /// Leaps if it is worthwhile, see Chain::leap(). A leap should not be shorter than the calm
+  /// period that has to follow.
   bool leap(bool falls, bool rises) {
     const std::int64_t from = chain_.step();
     const bool done = chain_.leap(o_.steps, calm_, o_.leap_speed, falls, rises);
@@ -93,11 +94,12 @@ class Run {
     return true;
   }
 
-  /// Whether the warm-up had ended before an event.
-  bool is_late(const LSM::Event &e) const { return !(e.t_start < o_.warmup); }
-  /// An event that has ended; false: it is not written, as it belongs to the warm-up.
+  /// Whether an event began after the warm-up.
+  bool after_warmup(const LSM::Event &e) const { return !(e.t_start < o_.warmup); }
+  /// Counts an event that has ended. Returns false if it belongs to the warm-up and must not be
+  /// written.
   bool count(LSM::Event &e) {
-    if (!is_late(e)) {
+    if (!after_warmup(e)) {
       ++state_.before_warmup;
       return false;
     }
@@ -118,12 +120,12 @@ class Run {
   void keep_state();
   void announce();
 
-  std::vector<std::string> settings_;         // everything that shapes the result
+  std::vector<std::string> settings_;         // everything that influences the result
   std::int64_t calm_, look_, next_look_ = 0;  // steps
   std::int64_t eventless_until_ = 0, announced_at_ = 100000;
 };
 
-/// Events are drops of the PE of the whole chain.
+/// A run whose events are drops of the PE of the whole chain.
 class PeRun : public Run {
  public:
   explicit PeRun(const RunOptions &options)
@@ -133,7 +135,7 @@ class PeRun : public Run {
                        ? o_.parameters.landscape.high
                        : *std::max_element(o_.mu.begin(), o_.mu.end())) {
     picker_.push_change(0, 0.0, chain_.pe(), 0.0, event_);
-    // After so many steps the picker has forgotten its initial state, to the last digit.
+    // After this many steps the initial state of the picker has decayed below rounding.
     const double memory = o_.picker.reading == LSM::PickerReading::exponential
                               ? 45.0 / std::max(1.0 - o_.picker.lambda, 1e-15)
                               : 100.0;
@@ -147,32 +149,33 @@ class PeRun : public Run {
   void advance(std::int64_t limit) override {
     const std::int64_t from = chain_.step();
     const bool falls = picker_.in_event();
-    // PE rises, or within an event falls, from the beginning of a leap to its end.
+    // Within a leap PE only rises, or within an event only falls.
     if ((!falls && jump(limit)) ||
         (may_leap(falls) && (picker_.rate() < 0.0) == falls && leap(falls, !falls))) {
-      go_on(from);
+      extrapolate_picker(from);
       return;
     }
     chain_.advance();
     const bool report =
         picker_.push_change(chain_.step(), o_.parameters.dt * static_cast<double>(chain_.step()),
                             chain_.pe(), chain_.dpe(), event_);
-    // Slip is sampled one step late at both ends; the error is below that of a time step.
+    // Slip is sampled one step late at both ends, which matters less than the error of a time step.
     if (picker_.in_event() && !falls) {
       state_.slip_start = chain_.slip_sum();
       if (located()) state_.u_start = chain_.displacements();
     }
     if (!report) return;
     event_.slip_moment = chain_.slip_sum() - state_.slip_start;
-    if (is_by_plate(event_, strongest_) && is_late(event_)) {
+    if (is_by_plate(event_, strongest_) && after_warmup(event_)) {
       ++state_.by_plate;
       if (!o_.keep_by_plate) return;
     }
     if (count(event_)) write();
   }
 
-  /// Nothing slips: only the plate changes PE, and as long as it raises PE no event can begin. With
-  /// an event open the steps are taken one by one. False: no jump is worth it.
+  /// Jumps over steps in which nothing slips: only the plate changes PE then, and no event can
+  /// begin while it raises PE. During an event, steps are taken one by one. Returns false if there
+  /// is nothing to jump over.
   bool jump(std::int64_t limit) {
     const std::int64_t from = chain_.step();
     const std::int64_t quiet = chain_.quiet_until();
@@ -185,8 +188,8 @@ class PeRun : public Run {
     return true;
   }
 
-  /// The picker has had the same change of PE in each step since the given one.
-  void go_on(std::int64_t from) {
+  /// Brings the picker up to date after steps that all had the same change of PE.
+  void extrapolate_picker(std::int64_t from) {
     LSM::PickerState s = picker_.state();
     s.samples += chain_.step() - from;
     s.step = chain_.step();
@@ -195,8 +198,8 @@ class PeRun : public Run {
     s.rate = chain_.dpe();
     if (o_.picker.reading == LSM::PickerReading::literal)
       s.rate /= 1.0 + o_.picker.lambda * static_cast<double>(s.samples - 2);
-    // A leap to where PE begins or ceases to fall may end up to a step later; the next step shows
-    // it.
+    // A leap to where PE begins or ceases to fall may end up to one step later, as the next step
+    // will show.
     s.rate = s.in_event != 0 ? std::min(s.rate, 0.0) : std::max(s.rate, 0.0);
     picker_.set_state(s);
   }
@@ -223,7 +226,7 @@ class PeRun : public Run {
   std::int64_t replay_ = 0;
 };
 
-/// Events are ruptures, see slider_ruptures.h.
+/// A run whose events are ruptures, see slider_ruptures.h.
 class RuptureRun : public Run {
  public:
   explicit RuptureRun(const RunOptions &options)
@@ -242,7 +245,7 @@ class RuptureRun : public Run {
       return;
     }
     if (may_leap(false) && leap(true, true)) {
-      // Slip within a leap is no rupture, and a rupture before the leap has ended.
+      // Slip within a leap is not counted as a rupture, and ruptures before it have ended.
       tracker_.begin_step(chain_.step(), chain_.pe());
     } else {
       chain_.advance(tracker_);
@@ -252,7 +255,7 @@ class RuptureRun : public Run {
                                " is not a finite number");
     tracker_.end_step(chain_.pe(), [this](const Rupture &rupture) {
       LSM::Event e = tracker_.event(rupture, o_.parameters.dt);
-      // Counted as by the picker, for checkpoints.
+      // Omitted events are counted where the picker counts them, for checkpoints.
       if (!LSM::is_left_out(e.size, o_.picker, state_.picker) && count(e)) outputs_.event(e);
     });
   }
@@ -260,7 +263,7 @@ class RuptureRun : public Run {
   RuptureTracker tracker_;
 };
 
-/// Starts new files, or continues those of a checkpoint.
+/// Starts new files or continues those of a checkpoint.
 void Run::begin() {
   for (const auto &[key, value] : o_.header) settings_.push_back(key + " = " + value);
   settings_.emplace_back("kernel = active or dense");
@@ -283,14 +286,14 @@ void Run::keep_state() {
   write_checkpoint(o_.checkpoint, settings_, state_);
 }
 
-/// Says once, while it can still be stopped, how large a catalogue of many events will be.
+/// Announces once how large the catalogue will become, while the run can still be stopped.
 void Run::announce() {
   if (state_.events == 0) eventless_until_ = chain_.step();
   if (o_.catalogue.empty() || state_.events < announced_at_) return;
   announced_at_ = std::numeric_limits<std::int64_t>::max();
   const double grows = static_cast<double>(o_.steps - eventless_until_) /
                        static_cast<double>(chain_.step() - eventless_until_);
-  std::error_code unknown;  // as of a pipe
+  std::error_code unknown;  // a pipe has no size
   const auto bytes = std::filesystem::file_size(o_.catalogue, unknown);
   const std::string size =
       unknown ? "" : fmt::format(", {:.0f} MB", 1e-6 * grows * static_cast<double>(bytes));
@@ -301,7 +304,7 @@ void Run::announce() {
              grows * static_cast<double>(state_.events), size);
 }
 
-RunResult Run::go() {
+RunResult Run::execute() {
   begin();
   const std::int64_t interval = o_.checkpoint.empty() ? 0 : o_.checkpoint_interval;
   // Steps between checks of signals and the clock.
@@ -342,7 +345,7 @@ RunResult Run::go() {
 }  // namespace
 
 RunResult run(const RunOptions &o) {
-  return o.events == Events::ruptures ? RuptureRun(o).go() : PeRun(o).go();
+  return o.events == Events::ruptures ? RuptureRun(o).execute() : PeRun(o).execute();
 }
 
 }  // namespace Slider

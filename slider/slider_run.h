@@ -19,7 +19,7 @@
 
 namespace Slider {
 
-/// Chunks of blocks that are stepped: those that may move, or all.
+/// Which chunks of blocks are stepped: those that may move, or all.
 enum class Kernel { active, dense };
 constexpr std::array<LSM::Named<Kernel>, 2> names_of(Kernel) {
   return {{{Kernel::active, "active"}, {Kernel::dense, "dense"}}};
@@ -58,7 +58,8 @@ struct RunOptions {
   const std::atomic<int> *stop = nullptr;                   ///< a signal number ends the run
 };
 
-/// Time without a faster block that is needed before a leap: a runaway has become visible by then.
+/// No block must have been fast for this long before a leap. A block that runs away has become fast
+/// by then.
 constexpr double leap_calm = 50.0;
 
 /// Whether the plate, and not slip, has lowered PE: after overshoot the blocks are ahead of the
@@ -87,8 +88,8 @@ void probe(const std::string &path);
 /// The files that a run writes as it goes.
 std::vector<LSM::Output> outputs_of(const RunOptions &options);
 
-/// A new run replaces no file that is not empty, unless asked to.
-/// \throws std::runtime_error naming file and options
+/// Refuses to replace files that are not empty, unless asked to. \throws std::runtime_error naming
+/// file and options
 void check_replaced(const RunOptions &options);
 
 /// Runs or continues one chain. \throws std::exception with one line on bad input or output.

@@ -24,8 +24,8 @@
 
 namespace Slider {
 
-/// What is known of a rupture; its places are blocks. Plain data without padding, for checkpoints.
-/// Energies, times and slips in model units.
+/// A rupture in units of blocks and steps; energies and slips are in model units. Plain data
+/// without padding, as checkpoints copy it.
 struct Rupture : LSM::SlipSet {
   double size = 0.0;                      ///< work of all springs on the blocks
   double slip = 0.0;                      ///< sum of the slips of all blocks
@@ -41,10 +41,10 @@ struct Rupture : LSM::SlipSet {
 };
 static_assert(std::is_trivially_copyable<Rupture>::value, "Rupture goes into checkpoints");
 
-/// Everything a tracker has to remember between steps.
+/// The state of a tracker between steps.
 using RuptureState = LSM::SlipSetsState<Rupture>;
 
-/// Puts slips together to ruptures as they come.
+/// Combines slips to ruptures as they occur.
 ///
 /// Call begin_step(), slide() for each block that slides in ascending order, end_step(). The result
 /// depends on nothing but these calls; a tracker restored by set_state() continues to the last

@@ -21,7 +21,8 @@ namespace {
 
 using LSM::text_io::in_quotes;
 
-/// Average of K(q) / mu' over all wavenumbers: what a block that slips alone feels. Simpson's rule.
+/// Mean of K(q) / mu' over all wavenumbers, the stiffness that a single slipping block feels, by
+/// Simpson's rule.
 double mean_stiffness(Coupling coupling, double width) {
   constexpr int pieces = 8192;
   double sum = 0.0;
@@ -33,7 +34,7 @@ double mean_stiffness(Coupling coupling, double width) {
   return sum / (3.0 * pieces);
 }
 
-/// Lines of so many numbers each. Calls use(line reader, numbers).
+/// Reads lines of `columns` numbers and calls use(line reader, numbers) for each.
 template <std::size_t columns, class Use>
 void for_each_row(const std::string &path, const char *expected, const Use &use) {
   LSM::text_io::LineReader in(path);
@@ -107,7 +108,7 @@ std::vector<double> read_modes(const std::string &path, int blocks) {
               LSM::text_io::number(r[1]) + ", expected " + row);
     table.push_back(r);
   });
-  // A file may give pi with a few digits.
+  // The file may round pi to a few digits.
   if (table.size() < 2 || table.back()[0] < LSM::pi * (1.0 - 1e-4))
     throw LSM::FileError(path + ": ends at wavenumber " +
                          (table.empty() ? "none" : LSM::text_io::number(table.back()[0])) +

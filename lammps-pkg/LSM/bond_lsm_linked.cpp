@@ -62,8 +62,8 @@ void BondLSMLinked::compute(int eflag, int vflag)
   if (evflag) tally();
 }
 
-// Numbers of the keys in the order of these, equal keys in theirs: a counting sort for each digit,
-// which takes a fraction of the time that comparing the links takes.
+// Returns the indices that sort the keys; equal keys keep their order. A radix sort, which takes a
+// fraction of the time of a sort by comparisons.
 static std::vector<int> sorted_by(const std::vector<tagint> &keys)
 {
   constexpr int BITS = 11;
@@ -81,12 +81,12 @@ static std::vector<int> sorted_by(const std::vector<tagint> &keys)
   return order;
 }
 
-// The links of this rank in rows, in an order that follows from the particle IDs alone: a run that
-// goes on from a restart file sums in the same order, and links that follow each other touch the
-// same stretch of memory if IDs follow the particles in space. Links that are treated differently
-// stand in segments of their own: by type, and by whether the force on the second particle is added
-// here. With newton_bond off the first particle of a link is always owned, and a link to a ghost
-// stands in the list of both ranks: half of its energy is counted on each.
+// Arranges the links of this rank in rows. Their order follows from the particle IDs alone, so that
+// a run that continues from a restart file sums in the same order, and so that successive links use
+// the same stretch of memory if IDs follow the particles in space. Links are divided into segments
+// by type and by whether the force on the second particle is added here. With newton_bond off the
+// first particle of a link is always owned, and a link to a ghost is in the list of both ranks,
+// each of which counts half of its energy.
 void BondLSMLinked::collect()
 {
   struct Link {
@@ -148,7 +148,7 @@ std::vector<int> BondLSMLinked::owned_by_id() const
 
 template <int DIM> void BondLSMLinked::eval()
 {
-  // a minimizer may reject positions that it tried
+  // a minimizer may reject positions that it tried, so that breaking a link would be premature
   const bool minimizing = update->whichflag == 2;
   pe_link = 0.0;
   for (Segment &s : segments) {

@@ -27,7 +27,7 @@ class BondLSMLinked : public Bond, public LSMEnergySource {
   void settings(int, char **) override;
   void coeff(int, char **) override;
   void init_style() override;
-  // the rest length is r_i + r_j; LAMMPS asks for one number a type
+  // the rest length is r_i + r_j, but LAMMPS asks for one number per type
   double equilibrium_distance(int) override { return 2.0 * maxrad; }
   void write_restart(FILE *) override;
   void read_restart(FILE *) override;

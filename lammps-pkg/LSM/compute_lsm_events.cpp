@@ -46,17 +46,18 @@ ComputeLSMEvents::ComputeLSMEvents(LAMMPS *_lmp, int narg, char **arg) :
       id_of_fix() + (in_intervals() ? " all LSM_RECORD faces" : " all LSM_RECORD")));
   recorder->owner = this;
   update->first_update = 0;
-  vector = new double[size_vector];    // last: the destructor does not run if the constructor stops
+  vector = new double[size_vector];    // allocated last, as the destructor does not run if the
+                                       // constructor throws
 }
 
 ComputeLSMEvents::~ComputeLSMEvents()
 {
-  // the first processor has all complete intervals since the end of the last run
+  // rank 0 has had all complete intervals since the end of the last run
   if (options.unfinished) on_rank_0([this] { stream->write_unfinished(); });
   sources.release();
 
-  // an init sets up LAMMPS' lists of fixes and what the styles record: 'run N pre no' needs one as
-  // well
+  // 'run N pre no' needs an init, too, which sets up LAMMPS' lists of fixes and what the styles
+  // record
   if (update) update->first_update = 0;
   if (recorder && modify && modify->get_fix_by_id(id_of_fix())) modify->delete_fix(id_of_fix());
   delete[] vector;
@@ -90,7 +91,7 @@ void ComputeLSMEvents::init()
                id, leaps ? "was defined" : "is gone");
   settings.explicit_times = leaps;
 
-  // fixed by the first run, as the headers of the files have it
+  // the first run fixes these, as they are in the headers of the files
   if (in_intervals() && !opened && update->whichflag != 0) sources.find_driving(settings);
   set_memory();
   sampler.resize(options.block);
@@ -124,7 +125,7 @@ void ComputeLSMEvents::open_files()
   opened = true;
 }
 
-// names with a step or a processor in them cannot be those of other files
+// names with a step or a processor in them cannot coincide with those of other files
 std::vector<LSM::Output> ComputeLSMEvents::restart_files() const
 {
   std::vector<LSM::Output> files = {{"emergency", options.emergency_file}};
@@ -153,7 +154,8 @@ void ComputeLSMEvents::make_grid()
   on_rank_0([this] { stream->set_grid(fault.grid()); });
 }
 
-// does something with the stream, if there is one; an error waits for stop_on_failure()
+// performs a task on rank 0 with the stream, if there is one; an error is kept for
+// stop_on_failure()
 template <class Task> void ComputeLSMEvents::on_rank_0(Task &&task)
 {
   if (!stream || !failure.empty()) return;
@@ -166,7 +168,7 @@ template <class Task> void ComputeLSMEvents::on_rank_0(Task &&task)
   }
 }
 
-// all ranks stop with what went wrong on rank 0, so that none waits for it
+// stops all ranks with the error of rank 0, so that none waits for it forever
 void ComputeLSMEvents::stop_on_failure()
 {
   lsm_share(failure, world);
@@ -191,7 +193,8 @@ void ComputeLSMEvents::setup_record()
   if (last_recorded != update->ntimestep) record();
 }
 
-// places along the fault are counted from the box as it was, and headers hold its length
+// the box must not change along the fault: positions are relative to it, and headers hold its
+// length
 void ComputeLSMEvents::check_box()
 {
   const bool placed = in_intervals() || settings.kind->wants_slips();
@@ -216,8 +219,8 @@ void ComputeLSMEvents::check_box()
           placed ? "the places of events" : "the header of file " + file);
 }
 
-// checks whether the time step has changed: times continue from here, and the picker's rate is per
-// step headers of files have one time step, so it must not change once they are open
+// adapts times and the picker, whose rate is per step, to another time step; headers state only one
+// time step, so it must not change once the files are open
 void ComputeLSMEvents::change_dt()
 {
   if (update->dt == clock.dt) return;
@@ -261,7 +264,7 @@ void ComputeLSMEvents::record()
   if (guard.due(step)) guard.check_step(ledger, [this] { return energies(); });
 }
 
-// sends the filled block to rank 0 and continues; rank 0 processes it when the next block is full
+// sends the filled block to rank 0, which processes it when the next block is full
 void ComputeLSMEvents::start_gather()
 {
   finish_gather();
@@ -296,7 +299,7 @@ void ComputeLSMEvents::end_run()
   ledger.end_run(update->ntimestep, ledger.begun() ? energies() : LSM::EnergyTerms());
 }
 
-// sums of the interval that is not complete over all ranks, on rank 0
+// returns on rank 0 the sums of the incomplete interval over all ranks
 std::vector<double> ComputeLSMEvents::fault_sums()
 {
   std::vector<double> all(fault.sums().size());
@@ -305,13 +308,13 @@ std::vector<double> ComputeLSMEvents::fault_sums()
   return all;
 }
 
-// displacements of the faces since they were added last
+// adds the displacements of the faces since the last call
 void ComputeLSMEvents::add_faces()
 {
   fault.add(recorder->end_faces(sources.face(0), sources.face(1)));
 }
 
-// the state before the first interval: only the forces count
+// records the state before the first interval, for which only forces are needed
 void ComputeLSMEvents::begin_fault()
 {
   fault_begun = true;
@@ -325,8 +328,9 @@ void ComputeLSMEvents::begin_fault()
   stop_on_failure();
 }
 
-// Commands between two runs (displace_atoms, delete_atoms, velocity, other coefficients) change
-// energies. This is no event and no loss of the model: both continue from the energies found.
+// Commands between two runs (displace_atoms, delete_atoms, velocity, other coefficients) may change
+// energies. This is neither an event nor a loss, so the picker and the ledger continue from the new
+// energies.
 void ComputeLSMEvents::leave_out_jump()
 {
   const bigint step = update->ntimestep;
@@ -398,8 +402,8 @@ std::vector<double> ComputeLSMEvents::pack_state()
   return state;
 }
 
-// another time step, interval or number of bins: the numbers of the events continue, open events
-// are lost
+// with another time step, interval or number of bins, open events are lost, but event numbers
+// continue
 void ComputeLSMEvents::unpack_state(const std::vector<double> &state)
 {
   Own own;

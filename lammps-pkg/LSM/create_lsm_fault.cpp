@@ -45,9 +45,9 @@ static int type_of(const LSM::Disc &disc)
 
 static constexpr double STRETCH = 64.0;    // in largest radii
 
-// Discs in sections along the fault; in each section first those that can be in contact, then the
-// blocks, then the plates, by x. Loops over particles, links or contacts in the order of the IDs
-// then find their data in the nearest caches, and each kind contiguous.
+// Orders discs by sections along the fault; within a section, those that can be in contact come
+// first, then the blocks, then the plates, each sorted by x. Loops over particles, links or
+// contacts in the order of the IDs then find their data in the cache, and each kind is contiguous.
 static void order_along_fault(LSM::Packing &packing, double rmax)
 {
   const int n = static_cast<int>(packing.discs.size());
@@ -74,8 +74,8 @@ static void order_along_fault(LSM::Packing &packing, double rmax)
   std::sort(packing.links.begin(), packing.links.end());
 }
 
-// the disc that stores a link when each link is stored once: the smaller disc has fewer links,
-// which keeps the largest number of links per atom, and so memory and messages, small
+// returns the disc that stores the link first: the smaller one, which has fewer links, so that the
+// largest number of links per atom, and with it memory and messages, stays small
 static std::pair<int, int> owner_first(const LSM::Packing &packing, const std::pair<int, int> &link)
 {
   if (packing.discs[link.second].r < packing.discs[link.first].r) return {link.second, link.first};
@@ -121,7 +121,7 @@ void CreateLSMFault::command(int narg, char **arg)
   }
 }
 
-// requirements on the scene before the box exists
+// checks that the scene is as required before the box exists
 void CreateLSMFault::check_setup()
 {
   if (domain->box_exist)
@@ -232,7 +232,7 @@ std::vector<double> CreateLSMFault::masses_of(const LSM::Packing &packing, doubl
   return masses;
 }
 
-// the most that a particle stores
+// returns the largest number of links that a particle stores
 int CreateLSMFault::most_links_stored(const LSM::Packing &packing) const
 {
   std::vector<int> stored(packing.discs.size(), 0);
@@ -244,7 +244,7 @@ int CreateLSMFault::most_links_stored(const LSM::Packing &packing) const
   return *std::max_element(stored.begin(), stored.end());
 }
 
-// as the command region has it; 17 digits give the same number back
+// formats a box for the command region; 17 digits preserve the numbers
 static std::string box(double xlo, double xhi, double ylo, double yhi, double thick)
 {
   return fmt::format("{:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}", xlo, xhi, ylo, yhi, -thick,
@@ -264,7 +264,7 @@ std::string CreateLSMFault::box_of(const LSM::PackingSettings &settings) const
              0.5 * std::max(1.0, settings.rmax));
 }
 
-// words of a command as LAMMPS passes them
+// calls a command with its words as LAMMPS passes them
 template <class Command> static void with_words(const std::string &line, Command &&command)
 {
   std::vector<std::string> words = utils::split_words(line);
@@ -330,7 +330,7 @@ void CreateLSMFault::add_particles(const LSM::Packing &packing, const std::vecto
   }
 }
 
-// local: places of the particles on this rank, -1 on others
+// local holds the local index of each particle, or -1 if it is on another rank
 void CreateLSMFault::add_links(const LSM::Packing &packing, const std::vector<int> &local)
 {
   for (const auto &link : packing.links) {

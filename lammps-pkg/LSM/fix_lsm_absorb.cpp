@@ -41,10 +41,9 @@ void FixLSMAbsorb::init()
   LSMScene::require_plane(lmp, "Fix lsm/absorb");
 }
 
-// Velocities are those of half a step before the forces, once a run goes on: the dashpot pulls
-// against the velocity that the particle has when its own pull is in the force, so that the scheme
-// stays of second order, and stable whatever the impedance. In the setup velocities and forces are
-// of one time.
+// Within a run, velocities are half a step older than the forces. The dashpot acts on the velocity
+// that the particle will have with the dashpot's own force included, which keeps the scheme second
+// order, and stable for any impedance. In the setup, velocities and forces are of the same time.
 //
 // With velocity Verlet the work of a force in the two halves of the steps before and after it is
 // force times the velocity of its time, so the loss is known exactly.

@@ -38,9 +38,9 @@ void FixLSMBreak::init()
                       "snapshots before; give bond_coeff without a breaking ratio");
 }
 
-// A link that broke in this force evaluation leaves the topology at once, before a restart file can
-// be written. It is gone from every list before the forces of the next step: its length exceeds the
-// rest length now, so the pair cannot have touched in between.
+// A link that broke in this force evaluation is removed from the topology at once, before a restart
+// file can be written. The pair cannot have touched before the next forces are evaluated, as the
+// link is longer than its rest length.
 void FixLSMBreak::pre_reverse(int /*eflag*/, int /*vflag*/)
 {
   if (lsm_total(static_cast<int>(links->broken.size()), world) == 0) return;
@@ -51,7 +51,8 @@ void FixLSMBreak::pre_reverse(int /*eflag*/, int /*vflag*/)
   next_reneighbor = update->ntimestep + 1;
 }
 
-// IDs of both ends and type of each link once, as two ranks may report the same
+// IDs of both ends and type of each link; two ranks may report the same link, so duplicates are
+// removed
 using Link = std::tuple<tagint, tagint, int>;
 
 static std::vector<Link> each_once(const std::vector<tagint> &broken)
@@ -70,8 +71,8 @@ void FixLSMBreak::remove(const std::vector<tagint> &broken)
 {
   const std::vector<Link> unique = each_once(broken);
 
-  // with newton_bond on one of the two ranks has the link; another link of the pair keeps it out of
-  // contact
+  // with newton_bond on, only one of the two ranks has the link; the pair stays out of contact if
+  // it has another link
   bigint removed = 0;
   std::vector<int> mine(unique.size(), 0), remaining(unique.size(), 0);
   auto for_each_end = [&](const auto &act) {

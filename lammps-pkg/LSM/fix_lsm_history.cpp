@@ -16,11 +16,11 @@ FixLSMHistory::FixLSMHistory(LAMMPS *_lmp, int narg, char **arg) :
 {
   if (narg > 5) error->all(FLERR, "Fix LSM_HISTORY is internal to pair style lsm/friction");
 
-  // as fix NEIGH_HISTORY in restart files
+  // restart files know it as fix NEIGH_HISTORY
   delete[] style;
   style = utils::strdup("NEIGH_HISTORY");
 
-  // partners of a contact are kept by their ID
+  // partners of a contact are stored by ID
   stores_ids = 1;
 }
 
@@ -44,8 +44,8 @@ void FixLSMHistory::pre_exchange()
   FixNeighHistory::pre_exchange();
 }
 
-// Fix NEIGH_HISTORY gathers the history of each particle from the neighbor list once more. The
-// command write_restart has moved particles and renewed ghosts by then, so the list names other
+// Fix NEIGH_HISTORY would gather the history of each particle from the neighbor list again. The
+// command write_restart has moved particles and renewed ghosts by then, so the list refers to other
 // particles. Between two runs each particle has its history already, see post_run().
 void FixLSMHistory::write_restart(FILE *fp)
 {

@@ -147,7 +147,7 @@ std::string FixLSMLeap::settings()
   return utils::join_words(words, " ");
 }
 
-// by the steps, without leaps
+// the time of the steps, as if there were no leaps
 double FixLSMLeap::time_of_steps() const
 {
   return update->atime + static_cast<double>(update->ntimestep - update->atimestep) * dt;
@@ -163,10 +163,9 @@ void FixLSMLeap::set_factor(double value)
   for (auto *p : contacts) p->time_ratio = value;
 }
 
-// without a faster velocity there is nothing to do
-// event: plates at the driving velocity, until nothing has slipped for a while
-// settle: more viscosity, until the blocks are at rest
-// leap: plates fast, until something slips
+// without a faster velocity there is nothing to do event: the plates move at the driving velocity
+// until nothing has slipped for a while settle: more viscosity is applied until the blocks are at
+// rest leap: the plates move fast until something slips
 void FixLSMLeap::end_of_step()
 {
   const double span = nevery * dt;
@@ -175,7 +174,7 @@ void FixLSMLeap::end_of_step()
     return;
   }
   if (state == SETTLE) LSMMover::complete_steps(modify);
-  // the blocks only: plates move as they are driven
+  // only the blocks count, as the plates move as they are driven
   const double blocks = state == SETTLE ? LSMScene::kinetic(atom, plates->moved_bits()) : 0.0;
   double mine[2] = {0.0, blocks}, all[2];
   for (auto *p : contacts) {
@@ -221,7 +220,7 @@ double FixLSMLeap::compute_vector(int n)
   return values[n];
 }
 
-// events that are still open began before the restart, so that earlier changes of the rate count
+// earlier changes of the rate are kept, as events that are still open may have begun before them
 template <class Self, class State> void FixLSMLeap::visit(Self &self, State &state)
 {
   double now = self.model_time(self.update->ntimestep);

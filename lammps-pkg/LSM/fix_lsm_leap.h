@@ -44,10 +44,12 @@ class FixLSMLeap : public LSMKeptFix<FixLSMLeap> {
 
   std::string plates_id;
   double fast = 0.00025;    // driving velocity while nothing slips
-  // rate of slip moment over that of the whole fault at the fast velocity: above it is an event
+  // bound of the rate of slip moment, relative to that of the whole fault at the fast velocity,
+  // above which there is an event
   double slip = 0.5;
   double calm = 10.0;    // time without such slip after which the blocks settle
-  // kinetic energy over that of the loading motion at the fast velocity: below it they are at rest
+  // bound of the kinetic energy, relative to that of the loading motion at the fast velocity, below
+  // which the blocks are at rest
   double rest = 10.0;
   double viscosity = 0.0;    // while they settle, at least; 0: no more than always
   double ramp = 15.0;        // time from the slow to the fast velocity

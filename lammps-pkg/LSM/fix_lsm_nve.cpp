@@ -102,7 +102,8 @@ void FixLSMNVE::raise_viscosity(double least)
   if (initial_chosen) choose();
 }
 
-// the particles of the group in memory, and half a time step over the mass of each
+// collects stretches of particles of the group in memory, and half a time step over the mass of
+// each
 void FixLSMNVE::collect()
 {
   const int nlocal = atom->nlocal;
@@ -132,7 +133,7 @@ template <int DIM, bool PLAIN, bool CLEARS> void FixLSMNVE::set_kernels()
   both_chosen = &FixLSMNVE::move<FINAL | INITIAL, DIM, PLAIN, CLEARS>;
 }
 
-// most scenes have a plain kernel, with nothing to decide for each particle
+// chooses the kernels; most scenes need only a plain one, without decisions for each particle
 void FixLSMNVE::choose()
 {
   const bool plain = !counts_work() && !ahead;
@@ -147,12 +148,12 @@ void FixLSMNVE::choose()
   if (counts_work()) both_chosen = nullptr;
 
   // fixes that may read velocities between the end of a step and the beginning of the next
-  onlookers.clear();
+  velocity_readers.clear();
   for (const auto &other : modify->get_fix_list()) {
     if (LSMScene::is_ours(other)) continue;
     const int when = modify->get_fix_mask(other);
     if (when & (INITIAL_INTEGRATE | FINAL_INTEGRATE)) both_chosen = nullptr;
-    if (when & END_OF_STEP) onlookers.push_back(other);
+    if (when & END_OF_STEP) velocity_readers.push_back(other);
   }
   if (group->dynamic[igroup]) both_chosen = nullptr;
 }
@@ -202,14 +203,15 @@ void FixLSMNVE::setup(int /*vflag*/)
 // velocity Verlet step. Second order, stable for any viscosity, and the work it takes is known
 // exactly.
 //
-// Ahead: dashpots of links and contacts need velocities when forces are evaluated, before the kick
-// by these forces. Those of that time are found with the forces of the step before, which is the
-// same as to go on in a straight line through the velocities of the last two half steps: of second
-// order, and nothing more has to be kept.
+// Extrapolated velocities: dashpots of links and contacts need velocities of the time of the
+// forces, which are known only after the kick by these forces. They are extrapolated with the
+// forces of the step before, that is, linearly through the velocities of the last two half steps,
+// which is of second order and needs no further storage.
 template <int PARTS, int DIM, bool PLAIN, bool CLEARS> void FixLSMNVE::move()
 {
   const bool work = !PLAIN && counts_work(), clear = CLEARS && (PLAIN || clears);
-  const double dt = dtv;    // stores of positions might change the member
+  const double dt =
+      dtv;    // a copy, as the compiler must assume that stores of positions change the member
   double most = 0.0;
 
   for (const Stretch &stretch : stretches) {
@@ -279,15 +281,15 @@ void FixLSMNVE::final_integrate()
 {
   const bigint step = update->ntimestep;
   pending = both_chosen && step != output->next && step != update->laststep;
-  for (const Fix *other : onlookers)
+  for (const Fix *other : velocity_readers)
     if (step % other->nevery == 0) pending = false;
   if (pending) return;
   if (group->dynamic[igroup]) collect();
   (this->*final_chosen)();
 }
 
-// Whether no other fix reads forces, or adds to them, between the beginning of a step and the
-// interactions, and none needs the torques that the integrator would clear with them
+// Whether no other fix reads or adds forces between the beginning of a step and the interactions,
+// and none needs the torques that the integrator would clear, too
 bool FixLSMNVE::may_clear() const
 {
   if (strcmp(update->integrate_style, "verlet") != 0 || group->dynamic[igroup] ||

@@ -88,7 +88,7 @@ class FixLSMNVE : public LSMKeptFix<FixLSMNVE>, public LSMMover {
   double fastest = -1.0;    // square of the largest velocity in this step, or -1 if it is not known
 
   enum { FINAL = 1, INITIAL = 2 };    // halves of a step
-  std::vector<Fix *> onlookers;
+  std::vector<Fix *> velocity_readers;
   class FixLSMVelocity *ahead = nullptr;    // wants velocities of the time of the next forces
   void (FixLSMNVE::*initial_chosen)() = nullptr;
   void (FixLSMNVE::*final_chosen)() = nullptr;

@@ -90,8 +90,8 @@ void FixLSMPlates::init()
   if (const tagint shared = in_both(plate[LOWER].bit, plate[UPPER].bit))
     error->all(FLERR, "Fix lsm/plates: atom {} is in both plates", shared);
 
-  // plates take over the velocity across the fault of their particles, so that one fix can follow
-  // another; the fix itself keeps it from one run to the next and in a restart
+  // the plates take over the velocity of their particles across the fault, so that one fix can
+  // follow another; from one run to the next and in restarts the fix keeps it itself
   for (int p : {LOWER, UPPER}) {
     plate[p].mass = group->mass(plate[p].group);
     if (plate[p].mass <= 0.0)
@@ -120,7 +120,7 @@ void FixLSMPlates::init()
     }
 }
 
-// the largest ID of the particles in any of some groups and in any of others, or 0
+// returns the largest ID of the particles that are in one of `some` and in one of `others`, or 0
 tagint FixLSMPlates::in_both(int some, int others) const
 {
   tagint mine = 0;
@@ -136,7 +136,7 @@ void FixLSMPlates::post_neighbor()
     for (int i = 0; i < atom->nlocal; i++)
       if (atom->mask[i] & p.bit) p.atoms.push_back(i);
 
-    // by ID, so that a run that goes on from a restart file sums in the same order
+    // sorted by ID, so that a run that continues from a restart file sums in the same order
     std::sort(p.atoms.begin(), p.atoms.end(),
               [this](int a, int b) { return atom->tag[a] < atom->tag[b]; });
   }
@@ -153,7 +153,8 @@ double FixLSMPlates::stress_at(double t) const
   return t < stress_ramp ? stress * t / stress_ramp : stress;
 }
 
-// force of the blocks on the plates; only the motion across the fault needs it from all ranks
+// sums the force of the blocks on the plates; only the motion across the fault needs it from all
+// ranks
 void FixLSMPlates::start_sum()
 {
   double **f = atom->f;
@@ -269,8 +270,8 @@ void FixLSMPlates::complete_step()
     }
 }
 
-// what the applied stress and the force of the block add to the velocity across the fault in half a
-// step
+// returns the change of the velocity across the fault in half a step by the applied stress and the
+// force of the block
 double FixLSMPlates::half_kick(const Plate &p) const
 {
   return 0.5 * update->dt * (-p.side * stress_at(elapsed) * domain->prd[0] + p.fy) / p.mass;

@@ -41,7 +41,7 @@ class FixLSMPlates : public LSMKeptFix<FixLSMPlates>, public LSMMover {
 
   double loading = 1.0;    // factor of the driving velocity now, set by fix lsm/leap
   double driving_velocity() const { return speed; }
-  // what runs, for headers; empty where it does not apply
+  // the settings in effect, for headers
   LSM::text_io::Parameters settings() const;
   // energy of the motion of the plates across the fault
   double kinetic() const { return plate[0].kinetic() + plate[1].kinetic(); }
@@ -82,7 +82,7 @@ class FixLSMPlates : public LSMKeptFix<FixLSMPlates>, public LSMMover {
   class FixLSMVelocity *ahead = nullptr;    // wants velocities of the time of the next forces
   bool reducing = false;                    // forces across the fault are on their way to all ranks
   MPI_Request request;
-  double across_mine[2], across[2];    // they, of this rank and of all
+  double across_mine[2], across[2];    // these forces, of this rank and of all
   double moved = 0.0, along = 0.0;     // shear displacement and velocity of the last step
   double longest = 0.0;                // move of the last step
 

@@ -24,7 +24,7 @@ FixLSMRecord::FixLSMRecord(LAMMPS *_lmp, int narg, char **arg) : LSMKeptFix(_lmp
   atom->add_callback(Atom::GROW);
 }
 
-// within a run; between two runs the next run notices
+// needed within a run only, as a run notices changes made before it
 void FixLSMRecord::reset_dt()
 {
   if (update->whichflag) owner->change_dt();

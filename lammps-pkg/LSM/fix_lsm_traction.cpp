@@ -22,8 +22,8 @@
 using namespace LAMMPS_NS;
 
 enum { LOWER, UPPER };
-// of two discs that face each other, over the sum of their radii: largest distance, and along the
-// fault, where discs of a packing have neighbors of other sizes within that distance
+// largest distance of two discs that face each other, in sums of their radii, in total and along
+// the fault
 static constexpr double FACING = 1.2;
 static constexpr double ASIDE = 0.2;
 
@@ -55,7 +55,7 @@ FixLSMTraction::~FixLSMTraction()
   if (modify && modify->get_fix_by_id(store)) modify->delete_fix(store);
 }
 
-// by a fix that sends them from rank to rank and to restart files
+// the values are stored by a fix that sends them from rank to rank and to restart files
 void FixLSMTraction::post_constructor()
 {
   modify->add_fix(std::string(id) +
@@ -76,7 +76,7 @@ const double *FixLSMTraction::contact_radii() const
   return atom->dvector[atom->find_custom("lsm_contact_radius", flag, columns)];
 }
 
-// the arrays move when they grow
+// the arrays move when they grow, so that pointers have to be renewed
 void FixLSMTraction::find_store()
 {
   int flag, columns;
@@ -85,7 +85,7 @@ void FixLSMTraction::find_store()
   load[SHEAR] = atom->dvector[atom->find_custom("lsm_shear", flag, columns)];
 }
 
-// a traction at each particle of this rank
+// evaluates a traction at each particle of this rank
 std::vector<double> FixLSMTraction::evaluate(const std::string &text) const
 {
   std::vector<double> all(atom->nlocal);
@@ -126,9 +126,9 @@ int FixLSMTraction::partner(int i, const std::vector<int> &others) const
   return found;
 }
 
-// Length of the fault for which each particle of this rank on one side stands: its diameter, or
-// half of the way to the next ones of the side on the left and on the right. At the ends of a fault
-// that is not periodic, its radius takes the place of the missing half.
+// Length of the fault that each particle of this rank on one side represents: its diameter, or half
+// the distance to the next particles of that side on the left and on the right. At the ends of a
+// fault that is not periodic, its radius replaces the missing half.
 std::vector<double> FixLSMTraction::shares(int s) const
 {
   const double *const radius = atom->radius;

@@ -30,7 +30,8 @@ FixLSMVelocity *FixLSMVelocity::ask_for(LAMMPS *lmp)
 {
   Modify *const modify = lmp->modify;
   Fix *any = modify->get_fix_by_id(ID);
-  // three numbers a particle, not sent with new ghosts, in restart files: see fix STORE/ATOM
+  // arguments of fix STORE/ATOM: three numbers per particle, not sent with new ghosts, but kept in
+  // restart files
   if (!any) any = modify->add_fix(std::string(ID) + " all LSM_VELOCITY 3 0 0 1");
   auto *const one = dynamic_cast<FixLSMVelocity *>(any);
   if (!one)
@@ -59,7 +60,7 @@ int FixLSMVelocity::setmask()
   return POST_INTEGRATE | PRE_FORCE | POST_FORCE | POST_RUN;
 }
 
-// viscous force styles have just asked for it
+// viscous force styles asked for it in their init, which comes before that of fixes
 void FixLSMVelocity::init()
 {
   used = asked;
@@ -77,9 +78,9 @@ void FixLSMVelocity::init()
                       "velocities to the time of the forces");
 }
 
-// Where the velocities are those of the end of the run before, or of the restart file, forces are
-// those of that end to the last bit; where a command changed them, those of the velocities as they
-// are.
+// If the velocities are still those of the end of the previous run, or of the restart file, the
+// forces are to be those of that end to the last bit. If a command has changed the velocities,
+// forces follow from them as they are.
 void FixLSMVelocity::setup_pre_force(int /*vflag*/)
 {
   if (!used) return;
@@ -87,7 +88,7 @@ void FixLSMVelocity::setup_pre_force(int /*vflag*/)
   pre_force(0);
 }
 
-// there are no better ones for particles moved by other fixes
+// particles moved by other fixes keep these velocities, as there are no better ones
 void FixLSMVelocity::post_integrate()
 {
   if (used) take_velocities(extrapolated);
@@ -126,7 +127,8 @@ void FixLSMVelocity::post_run()
   known = fingerprint();
 }
 
-// sum of numbers that mix the bits of ID and velocity of each particle: the order does not matter
+// hashes ID and velocity of each particle and sums over particles, so that their order does not
+// matter
 std::uint64_t FixLSMVelocity::fingerprint() const
 {
   std::uint64_t mine = 0;

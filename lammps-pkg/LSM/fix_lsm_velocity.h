@@ -19,23 +19,24 @@ FixStyle(LSM_VELOCITY,FixLSMVelocity);
 
 namespace LAMMPS_NS {
 
-/// Stored are velocities of the time of the positions, particles of this rank and ghosts. Between
-/// two evaluations of the forces those that move particles set them: velocities themselves are
-/// those of half a step before when forces are evaluated.
+/// Stores velocities at the time of the positions, of the particles of this rank and of ghosts. The
+/// fixes that move particles set them, as LAMMPS' own velocities are half a step old when forces
+/// are evaluated.
 class FixLSMVelocity : public LSMKeptFix<FixLSMVelocity, FixStoreAtom>, public LSMWorkSource {
  public:
   FixLSMVelocity(class LAMMPS *, int, char **);
 
-  /// The one of this scene for a force style that needs it from its init on; made where there is
-  /// none.
+  /// Returns the fix of this scene to a force style that needs it, and creates it if necessary. To
+  /// be called in its init.
   static FixLSMVelocity *ask_for(LAMMPS *);
-  /// The one of this scene, or null if nobody needs it in this run.
+  /// Returns the fix of this scene, or null if no style needs it in this run.
   static FixLSMVelocity *in_use(LAMMPS *);
 
   double *now(int i) const { return astore[i]; }
   /// Rate of the distance r of two particles.
   double rate(int i, int j, double r) const;
-  /// What the dashpots take in this evaluation, this rank's share: force styles add to it.
+  /// This rank's share of the power dissipated by dashpots in this evaluation, to which force
+  /// styles add.
   double power = 0.0;
 
   int setmask() override;

@@ -44,8 +44,8 @@ void LSMRun::command(int narg, char **arg)
   if (earlier == REFUSE) refuse_earlier();
 
   // Each piece begins with the set-up of a run (exchange, order of the particles in memory, lists)
-  // and ends with a restart file, so that a run that continues from it does what the uninterrupted
-  // one did, to the last digit.
+  // and ends with a restart file, so that a run that continues from it repeats the uninterrupted
+  // one to the last digit.
   do {
     const bigint done = step - after;
     const bigint next = MIN(after + (done < 0 ? 0 : done / every + 1) * every, last);
@@ -56,7 +56,7 @@ void LSMRun::command(int narg, char **arg)
     save(std::to_string(step));
     const bigint pieces = (step - after + every - 1) / every;
     if (pieces >= 2) remove(after + every * (pieces - 2));
-    if (step < last && told_to_stop()) {
+    if (step < last && stop_requested()) {
       if (comm->me == 0)
         utils::logmesg(lmp, "Stopped at step {}, as there was a file {}.stop, which is removed\n",
                        step, prefix);
@@ -64,7 +64,7 @@ void LSMRun::command(int narg, char **arg)
     }
   } while (step < last);
   save("end");
-  if (told_to_stop() && comm->me == 0)
+  if (stop_requested() && comm->me == 0)
     error->warning(FLERR, "There was a file {}.stop, which is removed: the run has ended anyway",
                    prefix);
 }
@@ -78,8 +78,8 @@ void LSMRun::save(const std::string &name)
   LSMScript::save_restart(lmp, prefix + ".restart." + name, settings, false);
 }
 
-// restart files of this prefix, and files that this run does not write: they would seem to be its
-// own
+// lists restart files of this prefix and files that this run does not write, which would be
+// mistaken for its own
 std::vector<std::string> LSMRun::earlier_files() const
 {
   std::vector<std::string> found;
@@ -115,7 +115,7 @@ void LSMRun::remove_earlier()
     for (const std::string &file : earlier_files()) fs::remove(file, code);
 }
 
-// the two newest are kept
+// removes a restart file; the two newest are kept
 void LSMRun::remove(bigint step)
 {
   if (comm->me != 0) return;
@@ -125,11 +125,11 @@ void LSMRun::remove(bigint step)
   fs::remove(file, code);
 }
 
-bool LSMRun::told_to_stop()
+bool LSMRun::stop_requested()
 {
-  int told = 0;
+  int requested = 0;
   std::error_code code;
-  if (comm->me == 0) told = fs::remove(prefix + ".stop", code);
-  MPI_Bcast(&told, 1, MPI_INT, 0, world);
-  return told;
+  if (comm->me == 0) requested = fs::remove(prefix + ".stop", code);
+  MPI_Bcast(&requested, 1, MPI_INT, 0, world);
+  return requested;
 }

@@ -35,7 +35,7 @@ class LSMRun : public Command {
   std::vector<std::string> earlier_files() const;
   void refuse_earlier();
   void remove_earlier();
-  bool told_to_stop();
+  bool stop_requested();
 };
 
 }    // namespace LAMMPS_NS

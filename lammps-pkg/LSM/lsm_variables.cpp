@@ -70,7 +70,7 @@ bool LSMVariables::is_given(const std::string &name) const
   return std::count(given.begin(), given.end(), name) > 0;
 }
 
-// LAMMPS takes the first and says nothing; what it was started with is all that knows the second
+// LAMMPS silently takes the first of two values; only the command line still shows the second
 void LSMVariables::refuse_repeated(const LSMVariableTable &table) const
 {
   std::string problem;
@@ -95,7 +95,7 @@ void LSMVariables::refuse_repeated(const LSMVariableTable &table) const
 void LSMVariables::warn_of_others(const LSMVariableTable &table, int narg, char **arg) const
 {
   if (comm->me != 0) return;
-  // of another type in each version of LAMMPS
+  // LAMMPS' function has another type in each version
   int count = 0;
   const auto names = Info(lmp).get_variable_names(count);
   for (int n = 0; n < count; n++) {
@@ -128,7 +128,7 @@ void LSMVariables::find_restart(const LSMVariableTable &table)
   }
 }
 
-// what the restart file has of a variable that continues from there
+// returns the value of the restart file for a variable that continues from it
 const std::string *LSMVariables::saved_value(const LSMSceneVariable &one)
 {
   if (restart.empty() ||
@@ -157,7 +157,7 @@ bool LSMVariables::follows_others(const LSMVariableTable &table, const LSMSceneV
          same(evaluated(LSMVariableTable::filled(text, then)), value);
 }
 
-// a variable that is there was set on the command line, or by a script that includes this one
+// a variable that exists already was set on the command line, or by a script that includes this one
 void LSMVariables::define(const LSMVariableTable &table, const LSMSceneVariable &one)
 {
   const auto now = [this](const std::string &name) { return value_now(name); };
@@ -166,7 +166,8 @@ void LSMVariables::define(const LSMVariableTable &table, const LSMSceneVariable 
   if (is_given(one.name)) {
     value = value_now(one.name);
     if (then && same(value, *then)) {
-      // the same number, written differently: as before, for the headers of continued files
+      // the same number written differently is replaced by the old text, so that headers of
+      // continued files match
       input->variable->set(one.name + " delete");
       set(one.name, "index", value = *then);
     } else if (then && one.restart == LSMSceneVariable::FIXED)
@@ -185,7 +186,7 @@ void LSMVariables::define(const LSMVariableTable &table, const LSMSceneVariable 
   const std::string expected = one.expected(value);
   if (!expected.empty())
     error->all(FLERR, "Variable {} is '{}', but must be {}", one.name, value, expected);
-  // commands of LAMMPS take 1e5 for no whole number
+  // LAMMPS' commands do not accept 1e5 as a whole number
   if (one.accepted.compare(0, 6, "whole ") == 0 && !utils::is_integer(value)) {
     input->variable->set(one.name + " delete");
     set(one.name, "index", fmt::format("{:.0f}", std::stod(value)));
@@ -216,7 +217,7 @@ void LSMVariables::refuse_ineffective(const LSMVariableTable &table)
     }
     for (const std::string &name : one.names) {
       if (!all || !is_given(name)) continue;
-      // a run that has begun with it goes on
+      // a run that began with this value may continue with it
       const std::string *const then = LSM::text_io::find(saved, name);
       if (then && same(value_now(name), *then)) continue;
       error->all(FLERR, "Variable {} is '{}', but has no effect, as {}; leave it out", name,
@@ -225,7 +226,7 @@ void LSMVariables::refuse_ineffective(const LSMVariableTable &table)
   }
 }
 
-// now, rather than when the run begins to write; its files refuse it as well
+// refuses to replace files right away, rather than when the run begins to write
 void LSMVariables::refuse_earlier(const std::string &name) const
 {
   if (!restart.empty() || value_now("overwrite") == "yes") return;
@@ -246,7 +247,7 @@ std::string LSMVariables::value_now(const std::string &name) const
   return value;
 }
 
-// what is left in a template, $(formula), as LAMMPS does it
+// evaluates the formulas $(...) in a template as LAMMPS does
 std::string LSMVariables::evaluated(const std::string &text) const
 {
   if (text.find("$(") == std::string::npos) return text;

@@ -80,7 +80,7 @@ class AftershockRates : public Statistic {
     return rule;
   }
 
-  Findings of(const std::vector<EventTable> &tables) override {
+  Results of(const std::vector<EventTable> &tables) override {
     std::vector<AftershockCurve> curves;
     for (const EventTable &table : tables)
       curves.push_back(
@@ -90,13 +90,13 @@ class AftershockRates : public Statistic {
     const bool none = std::all_of(curves.begin(), curves.end(), [](const AftershockCurve &curve) {
       return curve.aftershocks.bins.empty();
     });
-    Findings found;
-    found.say(texts(threshold_, tables));
-    found.table("laws", aftershock_table(curves), ".omori");
+    Results results;
+    results.say(texts(threshold_, tables));
+    results.table("laws", aftershock_table(curves), ".omori");
     if (Table means = aftershock_means(curves); means.rows() > 0)
-      found.table("means", std::move(means), ".means");
-    if (!none || !picture.no_picture) found.figure("rates", aftershock_figure(curves));
-    return found;
+      results.table("means", std::move(means), ".means");
+    if (!none || !picture.no_picture) results.figure("rates", aftershock_figure(curves));
+    return results;
   }
 };
 

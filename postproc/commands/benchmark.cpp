@@ -157,7 +157,7 @@ class Benchmark : public Analysis {
     return stations;
   }
 
-  Findings find() override {
+  Results find() override {
     const std::vector<std::string> labels = labels_of(histories_, labels_, "history");
     std::vector<NamedCurves> references, runs;
     for (const std::string &path : references_) read_reference(path, references);
@@ -167,7 +167,7 @@ class Benchmark : public Analysis {
       return a.spacing > b.spacing;
     });
 
-    Findings found;
+    Results results;
     std::vector<Misfits> all;
     for (const NamedCurves &reference : references)
       for (const NamedCurves &run : runs) {
@@ -175,11 +175,11 @@ class Benchmark : public Analysis {
         const MisfitSummary over_all = summary(stations);
         all.push_back({&run, reference.name, std::move(stations), over_all});
       }
-    found.table("stations", misfit_table(all), "-stations");
-    found.table("", misfit_summary_table(all));
-    found.say(orders(all));
-    found.figure("", benchmark_figure(runs, references, arrived, until_));
-    return found;
+    results.table("stations", misfit_table(all), "-stations");
+    results.table("", misfit_summary_table(all));
+    results.say(orders(all));
+    results.figure("", benchmark_figure(runs, references, arrived, until_));
+    return results;
   }
 };
 

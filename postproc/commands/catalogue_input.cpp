@@ -69,7 +69,7 @@ std::string all_of(text_io::Bytes &bytes, const std::string &format) {
     out.resize(known + head_size);
     got = bytes.read(out.data() + known, head_size);
     out.resize(known + got);
-    // All of it has been searched before but for what is new.
+    // Only the new part has to be searched.
     const std::size_t end = std::string_view(out).substr(known).find_last_of("\r\n");
     if (end != std::string_view::npos) line = known + end + 1;
     if (format != "quakeml" && out.size() - line > longest_line)
@@ -199,14 +199,15 @@ void keep_largest(std::vector<Event> &events, std::size_t most) {
 }  // namespace
 
 EventTable read_all(const std::string &path, const CatalogueOptions &options) {
-  std::vector<Shock> events;
+  std::vector<EventSummary> events;
   std::vector<Event> details;
-  // Growing would touch each page twice; no line of a catalogue of a model is shorter.
+  // Reserves memory by the length of the shortest possible line, as growing would touch each page
+  // twice.
   std::error_code ignored;
   constexpr std::uintmax_t shortest_line = 40;
   const std::uintmax_t bytes = std::filesystem::file_size(path, ignored);
   if (!ignored) events.reserve(bytes / shortest_line);
-  ask_for_huge_pages(events.data(), events.capacity() * sizeof(Shock));
+  ask_for_huge_pages(events.data(), events.capacity() * sizeof(EventSummary));
   std::size_t room = 2 * options.details;
   EventTable table = read_events(path, options, [&](const Event &event) {
     events.push_back(event);
@@ -226,7 +227,9 @@ EventTable load_catalogue(const std::string &path, const CatalogueOptions &optio
   EventTable table = read_all(path, options);
   // Times between events are from start to start, but those that overlap are in order of their
   // ends.
-  const auto earlier = [](const Shock &a, const Shock &b) { return a.t_start < b.t_start; };
+  const auto earlier = [](const EventSummary &a, const EventSummary &b) {
+    return a.t_start < b.t_start;
+  };
   if (table.info.overlapping()) {
     std::stable_sort(table.events.begin(), table.events.end(), earlier);
     std::stable_sort(table.details.begin(), table.details.end(), earlier);
@@ -255,7 +258,7 @@ void for_each_catalogue(const CatalogueOptions &options, const UseCatalogue &use
 
 namespace {
 
-/// The name of a run, from that of its catalogue.
+/// Derives the name of a run from that of its catalogue.
 std::string run_of(const std::string &path) {
   std::string name = std::filesystem::path(path).filename().string();
   for (const std::string_view ending : {".gz", ".xz", ".csv", ".catalogue"})
@@ -265,7 +268,7 @@ std::string run_of(const std::string &path) {
   return name;
 }
 
-/// Catalogues of the same label are told apart by the names of their files, or by their paths.
+/// Distinguishes catalogues of the same label by the names of their files, or by their paths.
 void tell_apart(std::vector<EventTable> &tables) {
   std::map<std::string, std::vector<EventTable *>> same;
   for (EventTable &table : tables) same[table.label].push_back(&table);

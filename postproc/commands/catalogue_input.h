@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file catalogue_input.h
-/// Catalogues as the commands use them: the columns that count, and the options that choose events.
+/// Catalogues as the commands read them, and the options that choose events.
 #ifndef LSM_POSTPROC_CATALOGUE_INPUT_H
 #define LSM_POSTPROC_CATALOGUE_INPUT_H
 
@@ -20,10 +20,10 @@ namespace LSM::postproc {
 struct CatalogueOptions {
   std::vector<std::string> paths;
   std::vector<std::string> labels;  ///< one per path, or none: labels are made from the headers
-  bool lenient = false;             ///< repair what can be repaired, and say so
-  double min_size = 0.0;            ///< events of smaller size are left out (energy)
+  bool lenient = false;             ///< repair what can be repaired, with a message
+  double min_size = 0.0;            ///< smaller events are omitted (energy)
   double from_time = -std::numeric_limits<double>::infinity();  ///< first t_start kept
-  double to_time = std::numeric_limits<double>::infinity();     ///< first t_start left out
+  double to_time = std::numeric_limits<double>::infinity();     ///< first t_start omitted
   double from_day = -std::numeric_limits<double>::infinity();   ///< the same of earthquakes
   double to_day = std::numeric_limits<double>::infinity();
   /// Number of events, the largest (and equal ones), of which a table has all columns.
@@ -79,7 +79,7 @@ void check_kinds(const CatalogueOptions &options, std::size_t quakes, std::size_
 using UseCatalogue = std::function<bool(const std::string &path, const CatalogueOptions &options)>;
 void for_each_catalogue(const CatalogueOptions &options, const UseCatalogue &use);
 
-/// What was repaired, on standard error.
+/// Reports on standard error what was repaired.
 void state_repairs(const EventTable &table);
 
 /// Reads all options.paths, labels them, and states repairs on standard error.

@@ -10,14 +10,14 @@ namespace LSM::postproc {
 
 namespace {
 
-PictureOptions files_of(const Finding &one, PictureOptions picture) {
+PictureOptions files_of(const Result &one, PictureOptions picture) {
   picture.output += one.ending.value_or("");
   return picture;
 }
 
-/// \throws FileError if one of the files cannot be written, or is of somebody else
-void check_files(const Findings &found, const PictureOptions &picture) {
-  for (const Finding &one : found.all()) {
+/// \throws FileError if one of the files cannot be written, or was not written by this command
+void check_files(const Results &results, const PictureOptions &picture) {
+  for (const Result &one : results.all()) {
     const PictureOptions files = files_of(one, picture);
     const auto *const table = std::get_if<Table>(&one.what);
     if (table && one.ending)
@@ -27,10 +27,10 @@ void check_files(const Findings &found, const PictureOptions &picture) {
   }
 }
 
-/// The findings for programs.
-nlohmann::ordered_json json_of(const Findings &found) {
+/// Returns the results as JSON.
+nlohmann::ordered_json json_of(const Results &results) {
   nlohmann::ordered_json json;
-  for (const Finding &one : found.all()) {
+  for (const Result &one : results.all()) {
     if (one.name.empty()) continue;
     if (const auto *table = std::get_if<Table>(&one.what))
       json[one.name] = table->json();
@@ -42,9 +42,9 @@ nlohmann::ordered_json json_of(const Findings &found) {
   return json;
 }
 
-/// Prints and writes the findings.
-void write(const Findings &found, const PictureOptions &picture) {
-  for (const Finding &one : found.all()) {
+/// Prints and writes the results.
+void write(const Results &results, const PictureOptions &picture) {
+  for (const Result &one : results.all()) {
     const PictureOptions files = files_of(one, picture);
     if (const auto *text = std::get_if<std::string>(&one.what)) {
       fmt::print("{}", *text);
@@ -84,11 +84,11 @@ void Analysis::run() {
     check_outputs(others, inputs());
   picture.overwrite = overwrite;
   json.check(overwrite);
-  const Findings found = find();
-  const nlohmann::ordered_json numbers = json_of(found);
-  check_files(found, picture);
+  const Results results = find();
+  const nlohmann::ordered_json numbers = json_of(results);
+  check_files(results, picture);
   json.check(overwrite, &numbers);
-  write(found, picture);
+  write(results, picture);
   json.write(numbers);
 }
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "catalogue_input.h"
-#include "findings.h"
+#include "results.h"
 #include "options.h"
 
 namespace LSM::postproc {
@@ -30,8 +30,8 @@ class Command {
   virtual void add_options(CLI::App *command) = 0;
 };
 
-/// A command that turns its inputs into findings: all of them exist before the first is printed
-/// or written.
+/// A command that turns its inputs into results, which are complete before the first is printed or
+/// written.
 class Analysis : public Command {
  public:
   void run() final;
@@ -50,10 +50,10 @@ class Analysis : public Command {
   virtual std::vector<std::string> endings() const { return {}; }
   /// Files of other options that find() writes itself, see WrittenFile.
   virtual std::vector<Output> outputs() const { return {}; }
-  virtual Findings find() = 0;
+  virtual Results find() = 0;
 
  private:
-  bool has_base_ = false;  ///< if not, findings go into no file but that of --json
+  bool has_base_ = false;  ///< if not, results go into no file but that of --json
 };
 
 /// A command that reads catalogues.
@@ -66,8 +66,8 @@ class CatalogueAnalysis : public Analysis {
 /// A statistic of catalogues.
 class Statistic : public CatalogueAnalysis {
  public:
-  /// Its findings from catalogues, also for the report. \throws std::exception
-  virtual Findings of(const std::vector<EventTable> &tables) = 0;
+  /// Its results from catalogues, also for the report. \throws std::exception
+  virtual Results of(const std::vector<EventTable> &tables) = 0;
   /// Heading of its section in the report of each model; nullptr: none. Options have their values
   /// without a command line.
   virtual const char *heading() const { return nullptr; }
@@ -75,7 +75,7 @@ class Statistic : public CatalogueAnalysis {
  protected:
   /// Adds catalogues, --json, --output with a default and --no-picture.
   void add_usual(CLI::App *command, const std::string &base);
-  Findings find() override { return of(load_catalogues(catalogues)); }
+  Results find() override { return of(load_catalogues(catalogues)); }
 };
 
 /// Endings of the files of further pictures.

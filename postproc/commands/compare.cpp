@@ -59,7 +59,7 @@ class Compare : public Statistic {
     }
   }
 
-  Findings of(const std::vector<EventTable> &tables) override {
+  Results of(const std::vector<EventTable> &tables) override {
     if (tables.size() < 2)
       throw std::invalid_argument("one catalogue, expected at least two to compare");
     struct Line {
@@ -92,13 +92,13 @@ class Compare : public Statistic {
     out.comment(
         "p: share of random divisions of the two series, by blocks of consecutive values, "
         "whose Kolmogorov-Smirnov distance is as large");
-    Findings found;
-    found.say(texts(threshold_, tables));
+    Results results;
+    results.say(texts(threshold_, tables));
     for (std::size_t i = 1; i < tables.size(); ++i)
       for (const std::string quantity : {"size", "time"})
         out.row({first, tables[i], quantity, test(first, tables[i], quantity, threshold)});
-    found.table("tests", std::move(out), "");
-    return found;
+    results.table("tests", std::move(out), "");
+    return results;
   }
 };
 

@@ -39,7 +39,7 @@ class Count : public CatalogueAnalysis {
               zero_or_more());
   }
 
-  Findings find() override {
+  Results find() override {
     std::sort(sizes_.begin(), sizes_.end());
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     struct Total {
@@ -93,10 +93,10 @@ class Count : public CatalogueAnalysis {
       }
       return table.earthquakes();
     });
-    Findings found;
-    found.table("catalogues", std::move(totals));
-    found.table("sizes", std::move(sizes));
-    return found;
+    Results results;
+    results.table("catalogues", std::move(totals));
+    results.table("sizes", std::move(sizes));
+    return results;
   }
 };
 

@@ -327,8 +327,8 @@ pugi::xml_node preferred(const pugi::xml_node &event, const char *name, const ch
   return event.child(name);
 }
 
-/// Takes prefixes off the names of elements: which ones stand for the namespace of QuakeML is up to
-/// the writer, and no other elements have its names.
+/// Removes prefixes from the names of elements: the writer may choose any for the namespace of
+/// QuakeML, and no other elements have its names.
 struct Unprefixed : pugi::xml_tree_walker {
   bool for_each(pugi::xml_node &node) override {
     const std::string_view name = node.name();
@@ -424,7 +424,8 @@ Region parse_region(std::string_view text) {
 std::string detect_format(std::string_view content) {
   content = without_mark(content);
   Lines lines{content};
-  if (content.substr(0, catalogue_magic.size()) == catalogue_magic || !lines.next()) return "models";
+  if (content.substr(0, catalogue_magic.size()) == catalogue_magic || !lines.next())
+    return "models";
   if (lines.line.front() == '<') return "quakeml";
   if (csv_columns(split_csv(lines.line)).complete()) return "csv";
   if (lines.line.size() > 10 && lines.line[4] == '/' && parse_date(lines.line.substr(0, 10)))

@@ -192,7 +192,7 @@ class Export : public CatalogueAnalysis {
                        short_number(second), date_text(0.0, start, 9999).substr(0, 19));
   }
 
-  Findings find() override {
+  Results find() override {
     const std::int64_t start = checked_start();
     const Format *format = formats;
     while (format->name != format_) ++format;
@@ -238,15 +238,15 @@ class Export : public CatalogueAnalysis {
       return table.earthquakes();
     });
     out.write(block + format->tail);
-    Findings found;
-    found.say(conventions(start));
-    found.say(fmt::format("{} events; left out: {} of {} <= 0, which have no magnitude\n", written,
-                          without, magnitudes_.of()));
-    found.file(output_.path, [file] { file->writer.close(); });
+    Results results;
+    results.say(conventions(start));
+    results.say(fmt::format("{} events; left out: {} of {} <= 0, which have no magnitude\n",
+                            written, without, magnitudes_.of()));
+    results.file(output_.path, [file] { file->writer.close(); });
     Table counts("events,without_magnitude");
     counts.row(written, without);
-    found.table("counts", std::move(counts));
-    return found;
+    results.table("counts", std::move(counts));
+    return results;
   }
 };
 

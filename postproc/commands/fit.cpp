@@ -71,7 +71,7 @@ class Fit : public Statistic {
     return figure;
   }
 
-  Findings of(const std::vector<EventTable> &tables) override {
+  Results of(const std::vector<EventTable> &tables) override {
     for (const std::string &text : ranges_) {
       settings_.ranges.push_back(parse_range("--range", text));
       if (!(settings_.ranges.back().lo > 0.0))
@@ -87,20 +87,20 @@ class Fit : public Statistic {
       if (scalings.empty())
         throw std::runtime_error("--scaling: no catalogue gives its length or number of blocks");
     }
-    Findings found;
-    if (settings_.ranges.empty()) found.say(texts(settings_.threshold, tables));
-    found.say(completeness_notes(fits));
-    found.numbers("fits", nlohmann::json(fits));
-    for (const Scaling &scaling : scalings) found.say(scaling_text(scaling));
-    if (scaling_) found.numbers("scaling", nlohmann::json(scalings));
-    if (scaling_) found.table("", scaling_table(scalings));
-    found.table("", size_fit_table(fits), ".fits");
-    found.figure("", densities(tables, fits));
+    Results results;
+    if (settings_.ranges.empty()) results.say(texts(settings_.threshold, tables));
+    results.say(completeness_notes(fits));
+    results.numbers("fits", nlohmann::json(fits));
+    for (const Scaling &scaling : scalings) results.say(scaling_text(scaling));
+    if (scaling_) results.numbers("scaling", nlohmann::json(scalings));
+    if (scaling_) results.table("", scaling_table(scalings));
+    results.table("", size_fit_table(fits), ".fits");
+    results.figure("", densities(tables, fits));
     if (std::any_of(scalings.begin(), scalings.end(), [](const auto &s) { return s.drawable(); }))
-      found.figure("", scaling_figure(scalings), ".scaling");
+      results.figure("", scaling_figure(scalings), ".scaling");
     else if (scaling_)
-      found.warn("no catalogue gives a characteristic size, no picture of the scaling");
-    return found;
+      results.warn("no catalogue gives a characteristic size, no picture of the scaling");
+    return results;
   }
 };
 

@@ -31,7 +31,7 @@ class Histograms : public Statistic {
               kind("LINE"), shown(""), one_each());
   }
 
-  Findings of(const std::vector<EventTable> &tables) override {
+  Results of(const std::vector<EventTable> &tables) override {
     if (!range_.empty()) {
       const Range range = parse_range("--range", range_);
       if (range.lo > -std::numeric_limits<double>::infinity())
@@ -46,13 +46,13 @@ class Histograms : public Statistic {
     const std::vector<SizeDensity> densities = size_densities(tables, settings_);
     Figure figure = size_density_figure(densities, lines);
     figure.table.comment(texts(settings_.threshold, tables));
-    Findings found;
-    found.say(texts(settings_.threshold, tables));
+    Results results;
+    results.say(texts(settings_.threshold, tables));
     for (const SizeDensity &density : densities)
       if (density.bins.empty())
-        found.warn(density.label + ": no bin within the range of sizes has an event, no curve");
-    found.figure("densities", std::move(figure));
-    return found;
+        results.warn(density.label + ": no bin within the range of sizes has an event, no curve");
+    results.figure("densities", std::move(figure));
+    return results;
   }
 };
 

@@ -18,7 +18,7 @@ namespace {
 
 using text_io::Bytes;
 
-/// Bytes that are made from those of a compressed file.
+/// The bytes of a compressed file, decompressed.
 class Unpacked : public Bytes {
  public:
   explicit Unpacked(std::unique_ptr<Bytes> packed)

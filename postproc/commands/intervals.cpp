@@ -74,7 +74,7 @@ class Intervals : public Statistic {
     return files;
   }
 
-  Findings find() override {
+  Results find() override {
     if (settings_.places > 0) catalogues.details = CatalogueOptions::all_events;
     return Statistic::find();
   }
@@ -93,7 +93,7 @@ class Intervals : public Statistic {
     return Table(std::move(table));
   }
 
-  Findings of(const std::vector<EventTable> &tables) override {
+  Results of(const std::vector<EventTable> &tables) override {
     settings_.least_squares = method_ != "likelihood";
     settings_.maximum_likelihood = method_ != "least-squares";
     settings_.shortest = shortest_.value_or(NAN);
@@ -109,34 +109,34 @@ class Intervals : public Statistic {
     const std::vector<IntervalCurve> curves = interval_curves(tables, settings_);
     Figure figure = interval_figure(curves, settings_.rescale);
     const std::vector<Table1Row> rows = table1_rows(curves);
-    Findings found;
+    Results results;
     for (const IntervalCurve &curve : curves)
       if (curve.bins.empty())
-        found.warn(
+        results.warn(
             fmt::format("{}: fewer than two events of size {} or larger, no inter-event time",
                         curve.label, short_number(curve.threshold.size)));
     if (settings_.places > 0)
-      found.say(fmt::format(
+      results.say(fmt::format(
           "times at {} places each; places closer than the length of ruptures share ruptures, "
           "and then errors and p are too small\n",
           settings_.places));
-    found.table("", table1(rows, settings_.rescale), ".table1");
-    found.table("times", times_of(curves));
-    found.numbers("fits", table1(rows, settings_.rescale, false).json());
-    found.table("gamma_of_cut", cuts_table(curves));
-    found.table("clustering", clustering_table(curves, date_text), ".clustering");
-    found.figure("densities", std::move(figure));
+    results.table("", table1(rows, settings_.rescale), ".table1");
+    results.table("times", times_of(curves));
+    results.numbers("fits", table1(rows, settings_.rescale, false).json());
+    results.table("gamma_of_cut", cuts_table(curves));
+    results.table("clustering", clustering_table(curves, date_text), ".clustering");
+    results.figure("densities", std::move(figure));
     if (std::any_of(curves.begin(), curves.end(), [](const IntervalCurve &curve) {
           return std::any_of(curve.cuts.begin(), curve.cuts.end(), [](const GammaOfCut &one) {
             return one.cut > 0.0 && !one.fit.degenerate;
           });
         }))
-      found.figure("", cuts_figure(curves), ".cuts");
+      results.figure("", cuts_figure(curves), ".cuts");
     if (std::any_of(curves.begin(), curves.end(), has_clustering)) {
-      found.figure("rate", rate_figure(curves), ".rate");
-      found.figure("conditional", conditional_figure(curves), ".conditional");
+      results.figure("rate", rate_figure(curves), ".rate");
+      results.figure("conditional", conditional_figure(curves), ".conditional");
     }
-    return found;
+    return results;
   }
 };
 

@@ -79,13 +79,13 @@ class Magnitudes : public Statistic {
     if (bin > 0.0) curve.completeness = bin * std::ceil(curve.completeness / bin - 1e-9);
   }
 
-  Findings find() override {
+  Results find() override {
     magnitudes_.check();
     if (magnitudes_.of_moment()) catalogues.details = CatalogueOptions::all_events;
     return Statistic::find();
   }
 
-  Findings of(const std::vector<EventTable> &tables) override {
+  Results of(const std::vector<EventTable> &tables) override {
     const double bin = magnitudes_.bin, width = bin > 0.0 ? bin : 0.1;
     std::vector<MagnitudeCurve> curves;
     for (const EventTable &table : tables) {
@@ -100,12 +100,12 @@ class Magnitudes : public Statistic {
       curve.positive = b_positive(curve.magnitudes, curve.completeness, bin);
       curves.push_back(std::move(curve));
     }
-    Findings found;
-    found.table("b_values",
-                magnitude_table(curves, magnitudes_.slope_used(), magnitudes_.text(), bin),
-                ".bvalues");
-    found.figure("frequencies", magnitude_figure(curves, width));
-    return found;
+    Results results;
+    results.table("b_values",
+                  magnitude_table(curves, magnitudes_.slope_used(), magnitudes_.text(), bin),
+                  ".bvalues");
+    results.figure("frequencies", magnitude_figure(curves, width));
+    return results;
   }
 };
 

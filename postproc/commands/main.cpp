@@ -34,7 +34,7 @@ int fail(std::string what) {
   return 1;
 }
 
-/// The command whose name takes the fewest letters put in, left out or changed.
+/// Finds the command whose name has the smallest edit distance to the given word.
 template <class Commands>
 std::string nearest(std::string_view word, const Commands &commands) {
   std::string best;
@@ -58,7 +58,7 @@ std::string nearest(std::string_view word, const Commands &commands) {
   return best;
 }
 
-/// Says on a terminal how far a Monte Carlo test that takes long is.
+/// Shows on a terminal the progress of a long Monte Carlo test.
 class Progress {
  public:
   void operator()(int done, int count) {

@@ -11,12 +11,13 @@ namespace LSM::postproc {
 
 namespace {
 
-/// Times since the origin, which is a model time also where the times are ways of the plates.
+/// Counts times from the origin, which is a model time even if times are displacements of the
+/// plates.
 void count_from(EventTable &table, double origin, bool displacement) {
   double velocity = 1.0;
   if (displacement) text_io::parse(*table.info.find("velocity"), velocity);
   const double shift = origin * std::fabs(velocity);
-  for (Shock &event : table.events) {
+  for (EventSummary &event : table.events) {
     event.t_start -= shift;
     event.t_end -= shift;
   }
@@ -49,10 +50,10 @@ class Match : public Statistic {
               zero_or_more());
   }
 
-  Findings of(const std::vector<EventTable> &tables) override {
+  Results of(const std::vector<EventTable> &tables) override {
     if (tables.size() < 2)
       throw std::invalid_argument("one catalogue, expected at least two to compare");
-    Findings found;
+    Results results;
     Table out(Columns{{"first", "first"},
                       {"second", "second"},
                       {"smallest_size", "smallest size"},
@@ -73,8 +74,8 @@ class Match : public Statistic {
       }
       out.row(first.label, second.label, rule_.least_size, m.first, m.second, m.same, m.chance);
     }
-    found.table("matches", std::move(out));
-    return found;
+    results.table("matches", std::move(out));
+    return results;
   }
 };
 

@@ -45,7 +45,7 @@ class Nature : public Statistic {
 
   std::vector<std::string> endings() const override { return {".table.csv", ".table1.csv"}; }
 
-  Findings of(const std::vector<EventTable> &tables) override {
+  Results of(const std::vector<EventTable> &tables) override {
     if (tables.size() < 2)
       throw std::invalid_argument("one catalogue, expected that of nature and at least one other");
     if (!tables.front().earthquakes())
@@ -53,11 +53,11 @@ class Nature : public Statistic {
                                   ": catalogue of a model, expected one of earthquakes first");
     settings_.shortest = shortest_.value_or(NAN);
     const std::vector<NatureRow> rows = nature_rows(tables, settings_);
-    Findings found;
-    found.table("models", nature_table(rows), ".table");
-    found.table("table1", table1(nature_table1(rows), true), ".table1");
-    found.figure("", nature_figure(rows));
-    return found;
+    Results results;
+    results.table("models", nature_table(rows), ".table");
+    results.table("table1", table1(nature_table1(rows), true), ".table1");
+    results.figure("", nature_figure(rows));
+    return results;
   }
 };
 

@@ -95,7 +95,7 @@ struct MagnitudeOptions {
   std::string made_of_;
 };
 
-/// The file that a command writes in addition to its findings.
+/// The file that a command writes in addition to its results.
 struct OutputOption {
   std::string path;
 
@@ -114,7 +114,7 @@ class JsonOutput {
   /// No path, if nothing is written or it goes to standard output.
   Output output() const { return {"--json", path_ == "-" ? std::string() : path_}; }
   /// \throws FileError if it would replace what is no JSON, unless overwrite; once there are
-  /// findings, also what is no JSON with the same first name, and where it cannot be written
+  /// results, also what is no JSON with the same first name, and where it cannot be written
   void check(bool overwrite, const nlohmann::ordered_json *found = nullptr) const;
   /// Writes it, if --json was given. \throws FileError
   void write(const nlohmann::ordered_json &found) const;

@@ -68,7 +68,7 @@ class Periods : public Statistic {
                                  "--unit slip");
     }
     Sample sample{table.label, {}, {}};
-    for (const Shock &event : table.events) {
+    for (const EventSummary &event : table.events) {
       if (!(event.size >= threshold_.complete_in(table).size)) continue;
       sample.times.push_back(event.t_start / table.model_time * scale);
       sample.weights.push_back(event.size);
@@ -79,7 +79,7 @@ class Periods : public Statistic {
     return sample;
   }
 
-  Findings of(const std::vector<EventTable> &tables) override {
+  Results of(const std::vector<EventTable> &tables) override {
     const Range range = parse_range("--scan", scan_);
     if (!(range.lo > 0.0) || !std::isfinite(range.hi))
       throw std::invalid_argument("--scan '" + scan_ + "', expected LO:HI, both positive");
@@ -129,16 +129,16 @@ class Periods : public Statistic {
           tenths.row(one.label, period, k + 1, test.tenths[k]);
       }
     }
-    Findings found;
-    found.table("periods", std::move(tests), ".tests");
-    found.table("tenths", std::move(tenths), ".tenths");
-    if (samples.size() > 1) add_pairs(found, samples);
-    found.figure("scan", period_figure(scans, labels,
-                                       unit_ == "slip" ? "slip of the plates" : "model time"));
-    return found;
+    Results results;
+    results.table("periods", std::move(tests), ".tests");
+    results.table("tenths", std::move(tenths), ".tenths");
+    if (samples.size() > 1) add_pairs(results, samples);
+    results.figure("scan", period_figure(scans, labels,
+                                         unit_ == "slip" ? "slip of the plates" : "model time"));
+    return results;
   }
 
-  void add_pairs(Findings &found, const std::vector<Sample> &samples) const {
+  void add_pairs(Results &results, const std::vector<Sample> &samples) const {
     Table pairs(Columns{{"first", "energy at equal times"},
                         {"second", "and"},
                         {"bins", "bins"},
@@ -155,10 +155,10 @@ class Periods : public Statistic {
         all.push_back(one.correlation);
         pairs.row(a.label, b.label, one.bins, one.correlation, one.p);
       }
-    found.table("pairs", std::move(pairs), ".pairs");
+    results.table("pairs", std::move(pairs), ".pairs");
     if (all.size() > 1)
-      found.say(fmt::format("mean correlation of {} pairs: {}\n", all.size(),
-                            short_number(mean_of(all), 3)));
+      results.say(fmt::format("mean correlation of {} pairs: {}\n", all.size(),
+                              short_number(mean_of(all), 3)));
   }
 };
 

@@ -72,7 +72,7 @@ class Pick : public Analysis {
   std::vector<std::string> inputs() const override { return {series_}; }
   std::vector<Output> outputs() const override { return {output_.output()}; }
 
-  Findings find() override {
+  Results find() override {
     SeriesInput series(series_, samples_);
     const PeSeriesInfo &info = series.info();
     EventPicker picker(picker_settings(picker_, info));
@@ -97,18 +97,18 @@ class Pick : public Analysis {
       event.id = catalogue.rows() + 1;
       catalogue.write(event);
     });
-    Findings found;
-    found.say(fmt::format(
+    Results results;
+    results.say(fmt::format(
         "{} samples, {} events; not written: {} of size <= 0, {} below the minimum size, {} "
         "before the warm-up ended{}\n",
         samples, catalogue.rows(), picker.state().dropped_nonpositive, picker.state().dropped_small,
         early, picker.in_event() ? ", 1 that had not ended" : ""));
-    found.file(output_.path, [file] { file->writer.close(); });
+    results.file(output_.path, [file] { file->writer.close(); });
     Table counts("samples,events,nonpositive,small,before_warmup,unfinished");
     counts.row(samples, catalogue.rows(), picker.state().dropped_nonpositive,
                picker.state().dropped_small, early, picker.in_event());
-    found.table("counts", std::move(counts));
-    return found;
+    results.table("counts", std::move(counts));
+    return results;
   }
 };
 

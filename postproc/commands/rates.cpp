@@ -43,13 +43,13 @@ class Rates : public Statistic {
     return {fmt::format("time ({})", time), "events per " + time, released};
   }
 
-  Findings find() override {
+  Results find() override {
     magnitudes_.check();
     if (magnitudes_.of_moment()) catalogues.details = CatalogueOptions::all_events;
     return Statistic::find();
   }
 
-  Findings of(const std::vector<EventTable> &tables) override {
+  Results of(const std::vector<EventTable> &tables) override {
     std::vector<std::vector<Release>> releases;
     double longest = 0.0;
     for (const EventTable &table : tables) {
@@ -60,7 +60,7 @@ class Rates : public Statistic {
         for (const Event &event : table.details)
           events.push_back({event.t_start * second, event.slip_moment * unit});
       else
-        for (const Shock &event : table.events)
+        for (const EventSummary &event : table.events)
           events.push_back({event.t_start * second, event.size * unit});
       if (!events.empty()) longest = std::max(longest, events.back().time - events.front().time);
     }
@@ -85,12 +85,12 @@ class Rates : public Statistic {
       means.row(tables[i].label, releases[i].size(), span, width,
                 static_cast<double>(releases[i].size()) / span, released / span, highest);
     }
-    Findings found;
+    Results results;
     const ReleaseNames in = names(tables);
-    found.say(fmt::format("{}; {}\n", in.time, in.released));
-    found.table("means", std::move(means));
-    found.figure("rates", release_figure(curves, in));
-    return found;
+    results.say(fmt::format("{}; {}\n", in.time, in.released));
+    results.table("means", std::move(means));
+    results.figure("rates", release_figure(curves, in));
+    return results;
   }
 };
 

@@ -34,7 +34,7 @@ std::string catalogue_section(const std::vector<EventTable> &tables, const Thres
     std::string starts = "no events", range = starts;
     if (!events.events.empty()) {
       Extent sizes;
-      for (const Shock &event : events.events) sizes.add(event.size);
+      for (const EventSummary &event : events.events) sizes.add(event.size);
       range = fmt::format("{} to {}", short_number(sizes.lo, 3), short_number(sizes.hi, 3));
       starts = fmt::format("{} to {}", short_number(events.events.front().t_start, 6),
                            short_number(events.events.back().t_start, 6));
@@ -211,12 +211,12 @@ std::string ReportPage::densities(const std::vector<EventTable> &tables, const T
   return drawn_or_why([&] {
     DensitySettings settings;
     settings.threshold = threshold;
-    const std::vector<SizeDensity> found = size_densities(tables, settings);
+    const std::vector<SizeDensity> all_densities = size_densities(tables, settings);
     std::string whole = caption + " " + report_part("densities caption");
-    for (const SizeDensity &density : found)
+    for (const SizeDensity &density : all_densities)
       if (density.bins.empty()) whole += " No event in range: " + html_escape(density.label) + ".";
-    return picture(size_density_figure(found, lines, picture_width), "Densities of event sizes",
-                   whole);
+    return picture(size_density_figure(all_densities, lines, picture_width),
+                   "Densities of event sizes", whole);
   });
 }
 
@@ -238,8 +238,8 @@ std::string ReportPage::sizes(const std::vector<EventTable> &all,
   fits.replicas = settings_.replicas;
   fits.seed = settings_.seed;
   fits.threshold = settings_.threshold;
-  std::vector<SizeFit> found = fit_sizes(all, fits);
-  fits_.insert(fits_.end(), found.begin(), found.end());
+  std::vector<SizeFit> size_fits = fit_sizes(all, fits);
+  fits_.insert(fits_.end(), size_fits.begin(), size_fits.end());
   std::vector<PowerLine> lines;
   for (const auto &[slope, title, range] : printed) {
     const double lo = std::max(range.lo, threshold);
@@ -255,7 +255,7 @@ std::string ReportPage::sizes(const std::vector<EventTable> &all,
   }
   if (!fits.ranges.empty()) {
     const std::vector<SizeFit> between = fit_sizes(all, fits);
-    found.insert(found.end(), between.begin(), between.end());
+    size_fits.insert(size_fits.end(), between.begin(), between.end());
   }
   std::string out =
       kind_part(all.front().kind(), fault ? " of a fault" : " of a chain") +
@@ -264,7 +264,7 @@ std::string ReportPage::sizes(const std::vector<EventTable> &all,
                                               {"threshold", short_number(threshold)}}));
   if (!fig7.empty()) out += densities(fig7, 0.0, {}, report_part("stiffness caption"));
   return out + report_part(fault ? "printed fault exponents" : "printed slider exponents") + "\n" +
-         size_fit_table(found).html();
+         size_fit_table(size_fits).html();
 }
 
 std::string ReportPage::scaling(const std::vector<EventTable> &tables) {
@@ -317,8 +317,8 @@ std::string ReportPage::section(const ReportSection &section,
                                 const std::vector<EventTable> &tables) {
   return "<h3>" + html_escape(section.heading) + "</h3>\n" + drawn_or_why([&] {
            std::string body;
-           const Findings found = section.find(tables);
-           for (const Finding &one : found.all()) {
+           const Results results = section.find(tables);
+           for (const Result &one : results.all()) {
              if (const auto *table = std::get_if<Table>(&one.what))
                body += table->html();
              else if (const auto *figure = std::get_if<Figure>(&one.what))

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "event_table.h"
-#include "findings.h"
+#include "results.h"
 #include "finite_size.h"
 #include "series_figures.h"
 
@@ -19,7 +19,7 @@ namespace LSM::postproc {
 /// A section of a single statistic for each model.
 struct ReportSection {
   std::string heading;
-  std::function<Findings(const std::vector<EventTable> &)> find;
+  std::function<Results(const std::vector<EventTable> &)> find;
 };
 
 struct ReportSettings {

@@ -74,7 +74,7 @@ class Rupture : public CatalogueAnalysis {
                           "-lengths", "-moments", "-length", "-pe", "-stress"});
   }
 
-  void draw_history(const EventTable &catalogue, Findings &found) const {
+  void draw_history(const EventTable &catalogue, Results &results) const {
     SlipHistoryReader history = open_history(history_, catalogues.lenient);
     check_same_run(header_of(catalogue), {history_, history.info().header()});
     std::vector<SlipRecord> records;
@@ -92,17 +92,17 @@ class Rupture : public CatalogueAnalysis {
 
     Table outlines("curve,x,y"), lines = outlines;
     Figure space_time = space_time_figure(window, outlines);
-    found.table("", std::move(outlines), "-spacetime-outlines");
-    found.figure("", std::move(space_time), "-spacetime");
+    results.table("", std::move(outlines), "-spacetime-outlines");
+    results.figure("", std::move(space_time), "-spacetime");
     const double locked = (window.to - window.from) / 60.0;
-    found.figure("", slip_lines_figure(window, locked, locked / 10.0), "-lines");
+    results.figure("", slip_lines_figure(window, locked, locked / 10.0), "-lines");
     Figure figure = rupture_detail_figure(detail, event, p_speed_, s_speed_, lines);
-    found.table("", std::move(lines), "-event-lines");
-    found.figure("", std::move(figure), "-event");
+    results.table("", std::move(lines), "-event-lines");
+    results.figure("", std::move(figure), "-event");
   }
 
-  Findings find() override {
-    Findings found;
+  Results find() override {
+    Results results;
     std::vector<EventTable> tables;
     Table largest_of(Columns{{"label", "catalogue"},
                              {"ruptures", "ruptures"},
@@ -123,15 +123,15 @@ class Rupture : public CatalogueAnalysis {
       tables.push_back(std::move(table));
       return false;
     });
-    found.table("catalogues", std::move(largest_of));
-    if (!history_.empty()) draw_history(tables.front(), found);
-    found.figure("lengths", densities(tables, RuptureQuantity::length), "-lengths");
-    found.figure("moments", densities(tables, RuptureQuantity::moment), "-moments");
+    results.table("catalogues", std::move(largest_of));
+    if (!history_.empty()) draw_history(tables.front(), results);
+    results.figure("lengths", densities(tables, RuptureQuantity::length), "-lengths");
+    results.figure("moments", densities(tables, RuptureQuantity::moment), "-moments");
     const RuptureRelations relations = rupture_relations(tables);
-    found.figure("length", moment_length_figure(relations), "-length");
-    found.figure("pe", moment_pe_figure(relations), "-pe");
-    found.figure("stress", stress_drop_figure(relations), "-stress");
-    return found;
+    results.figure("length", moment_length_figure(relations), "-length");
+    results.figure("pe", moment_pe_figure(relations), "-pe");
+    results.figure("stress", stress_drop_figure(relations), "-stress");
+    return results;
   }
 };
 

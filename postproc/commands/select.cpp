@@ -47,7 +47,7 @@ class Select : public CatalogueAnalysis {
 
   std::vector<Output> outputs() const override { return {output_.output()}; }
 
-  Findings find() override {
+  Results find() override {
     if (catalogues.paths.size() != 1)
       throw std::invalid_argument(
           fmt::format("{} catalogues, expected one", catalogues.paths.size()));
@@ -63,11 +63,11 @@ class Select : public CatalogueAnalysis {
           writer.create(output_.path, header_of(of, catalogues), true);
         });
     state_repairs(table);
-    Findings found;
-    found.say(fmt::format("{} events; left out: {} by time, {} by size\n", writer.rows(),
-                          table.left_out_time, table.left_out_small));
-    found.file(output_.path, [file] { file->writer.close(); });
-    return found;
+    Results results;
+    results.say(fmt::format("{} events; left out: {} by time, {} by size\n", writer.rows(),
+                            table.left_out_time, table.left_out_small));
+    results.file(output_.path, [file] { file->writer.close(); });
+    return results;
   }
 };
 

@@ -123,7 +123,7 @@ class Series : public Analysis {
     return out;
   }
 
-  Findings find() override {
+  Results find() override {
     Samples samples = read();
     const SeriesRegime &regime = samples.regime;
     std::string title = title_;
@@ -141,12 +141,12 @@ class Series : public Analysis {
                       "order of time",
                       regime.samples, samples.curves.groups()));
     samples.events.comment("events picked in the window; empty size: not ended yet; " + settings);
-    Findings found;
-    found.table("series", regime_table({regime}));
-    found.table("events", std::move(samples.events), "-events");
-    if (samples.text) found.file(text_, [text = samples.text] { text->close(); });
-    found.figure("", std::move(figure));
-    return found;
+    Results results;
+    results.table("series", regime_table({regime}));
+    results.table("events", std::move(samples.events), "-events");
+    if (samples.text) results.file(text_, [text = samples.text] { text->close(); });
+    results.figure("", std::move(figure));
+    return results;
   }
 };
 

@@ -98,12 +98,12 @@ class Spectrum : public Analysis {
       spectrum.add(pe);
       last_step = step;
     });
-    const WelchSpectrum &found = spectrum.result(path);
-    return {label, averaged(found.points(), per_decade_), found.samples(), found.segments(),
-            found.effective_segments()};
+    const WelchSpectrum &results = spectrum.result(path);
+    return {label, averaged(results.points(), per_decade_), results.samples(), results.segments(),
+            results.effective_segments()};
   }
 
-  Findings find() override {
+  Results find() override {
     const std::vector<std::string> labels = labels_of(series_, labels_, "series");
     std::vector<SpectrumCurve> curves;
     Table averages(Columns{{"label", "series"},
@@ -117,10 +117,10 @@ class Spectrum : public Analysis {
       averages.row(curve.label, curve.samples, curve.segments, curve.averages,
                    variance(curve.points));
     }
-    Findings found;
-    found.table("series", std::move(averages));
-    found.figure("spectra", spectrum_figure(curves));
-    return found;
+    Results results;
+    results.table("series", std::move(averages));
+    results.figure("spectra", spectrum_figure(curves));
+    return results;
   }
 };
 

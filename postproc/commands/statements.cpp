@@ -240,7 +240,7 @@ class Statements : public CatalogueAnalysis {
       }
   }
 
-  Findings find() override {
+  Results find() override {
     const std::vector<std::string> histories = histories_.of(catalogues.paths),
                                    ruptures = ruptures_.of(catalogues.paths);
     const std::vector<EventTable> tables = load_catalogues(catalogues);
@@ -250,17 +250,18 @@ class Statements : public CatalogueAnalysis {
     Table out = empty_table(), curves("label,times,velocity_lo,velocity_hi,density,density_error");
     curves.comment(
         "density of the slip velocity of a bin of the fault, over that of the plates, by time");
-    Findings found;
-    found.say(texts(threshold_, tables));
+    Results results;
+    results.say(texts(threshold_, tables));
     for (std::size_t i = 0; i < tables.size(); ++i) {
       if (histories[i].empty())
-        found.warn(tables[i].path +
-                   ": no slip history beside it, expected one (--history) for slip velocities and "
-                   "locked intervals");
+        results.warn(
+            tables[i].path +
+            ": no slip history beside it, expected one (--history) for slip velocities and "
+            "locked intervals");
       else
         add_slip(out, curves, tables[i], histories[i]);
       if (ruptures[i].empty())
-        found.warn(
+        results.warn(
             tables[i].path +
             ": no catalogue of ruptures beside it, expected one (--ruptures) for neighbours");
       else
@@ -270,10 +271,10 @@ class Statements : public CatalogueAnalysis {
     }
     add_times(out, tables);
     for (const Statement &one : {velocities, neighbours, locked, rolling_off, numbers, same_times})
-      found.say(fmt::format("{}: \"{}\"\n", one.name, one.quote));
-    found.table("statements", std::move(out), "");
-    if (curves.rows() > 0) found.table("velocities", std::move(curves), ".velocities");
-    return found;
+      results.say(fmt::format("{}: \"{}\"\n", one.name, one.quote));
+    results.table("statements", std::move(out), "");
+    if (curves.rows() > 0) results.table("velocities", std::move(curves), ".velocities");
+    return results;
   }
 };
 

@@ -113,7 +113,7 @@ class Summary : public CatalogueAnalysis {
     double dt = 0.0;
     if (!text || !text_io::parse(*text, dt)) return std::nan("");
     std::int64_t brief = 0;
-    for (const Shock &event : table.events)
+    for (const EventSummary &event : table.events)
       brief += event.size >= least && event.t_end - event.t_start <= (brief_ + 0.5) * dt;
     return share(brief, static_cast<std::size_t>(events_from(table, least)));
   }
@@ -143,7 +143,7 @@ class Summary : public CatalogueAnalysis {
     return row;
   }
 
-  Findings find() override {
+  Results find() override {
     const std::vector<EventTable> tables = load_catalogues(catalogues);
     if (ranges_.empty()) {
       double smallest = 0.0;  // one range, as columns are those of all rows
@@ -166,15 +166,15 @@ class Summary : public CatalogueAnalysis {
       for (const auto &[column, value] : row) out.add(value);
       out.end_row();
     }
-    Findings found;
+    Results results;
     if (output_.empty()) {
-      found.say(out.csv());
+      results.say(out.csv());
     } else {
       check_replaced(output_, overwrite, [&](std::string_view head) { return out.like(head); });
       out.write(output_);
-      found.say("wrote " + output_ + "\n");
+      results.say("wrote " + output_ + "\n");
     }
-    return found;
+    return results;
   }
 };
 

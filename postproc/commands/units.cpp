@@ -82,7 +82,7 @@ class Units : public CatalogueAnalysis {
                magnitudes.scale(fault.path, fault.info).of(quantity)});
   }
 
-  Findings find() override {
+  Results find() override {
     const ModelUnits units = units_.units();
     catalogues.details = CatalogueOptions::all_events;
     TableOf<InSi> faults;
@@ -99,13 +99,13 @@ class Units : public CatalogueAnalysis {
       if (!table.info.slip_moment) magnitudes.take_size();
       add_fault(faults, table, units, magnitudes);
     }
-    Findings found;
-    found.say(fmt::format("S-waves {} m/s, shear modulus {} GPa, thickness {} m\n",
-                          short_number(units.s_speed()), short_number(units.shear_modulus() * 1e-9),
-                          short_number(units.thickness)));
-    found.table("units", units_table(units));
-    found.table("faults", std::move(faults));
-    return found;
+    Results results;
+    results.say(fmt::format(
+        "S-waves {} m/s, shear modulus {} GPa, thickness {} m\n", short_number(units.s_speed()),
+        short_number(units.shear_modulus() * 1e-9), short_number(units.thickness)));
+    results.table("units", units_table(units));
+    results.table("faults", std::move(faults));
+    return results;
   }
 };
 

@@ -236,11 +236,11 @@ void report(const Law &law, const Search &search, const Sequences &s, OmoriFit &
 namespace {
 
 /// The events and the time outside of all windows. \param mains the main shocks in order of time
-void count_quiet(const std::vector<Shock> &events, const SequenceRule &rule,
-                 const std::vector<Shock> &mains, Sequences &stack) {
+void count_quiet(const std::vector<EventSummary> &events, const SequenceRule &rule,
+                 const std::vector<EventSummary> &mains, Sequences &stack) {
   if (events.empty()) return;
   std::vector<std::pair<double, double>> windows;  // disjoint, ascending
-  for (const Shock &main : mains) {
+  for (const EventSummary &main : mains) {
     const double from = main.t_start - rule.window, to = main.t_end + rule.window;
     if (!windows.empty() && from <= windows.back().second)
       windows.back().second = std::max(windows.back().second, to);
@@ -250,7 +250,7 @@ void count_quiet(const std::vector<Shock> &events, const SequenceRule &rule,
   stack.quiet_time = events.back().t_start - events.front().t_start;
   for (const auto &[from, to] : windows) stack.quiet_time -= to - from;
   auto window = windows.begin();
-  for (const Shock &event : events) {
+  for (const EventSummary &event : events) {
     while (window != windows.end() && window->second < event.t_start) ++window;
     const bool quiet = window == windows.end() || event.t_start < window->first;
     stack.quiet_events += quiet && event.size >= rule.least_size;
@@ -259,7 +259,7 @@ void count_quiet(const std::vector<Shock> &events, const SequenceRule &rule,
 
 }  // namespace
 
-Sequences stack_sequences(const std::vector<Shock> &events, const SequenceRule &rule) {
+Sequences stack_sequences(const std::vector<EventSummary> &events, const SequenceRule &rule) {
   if (!(rule.window > 0.0) || !std::isfinite(rule.window))
     throw std::invalid_argument("window after main shocks: expected a positive finite time");
   if (!(rule.first >= 0.0) || !(rule.first < rule.window))
@@ -268,10 +268,10 @@ Sequences stack_sequences(const std::vector<Shock> &events, const SequenceRule &
   Sequences stack;
   stack.first = rule.first;
   stack.window = rule.window;
-  std::vector<Shock> mains;
+  std::vector<EventSummary> mains;
   std::size_t earliest = 0;  // of the window; it moves on with the main shocks
   for (std::size_t k = 0; k < events.size(); ++k) {
-    const Shock main = events[k];
+    const EventSummary main = events[k];
     if (!(main.size >= rule.main_size)) continue;
     const double from = main.t_start - rule.window, to = main.t_end + rule.window;
     if (from < events.front().t_start || to > events.back().t_start) continue;
@@ -285,7 +285,7 @@ Sequences stack_sequences(const std::vector<Shock> &events, const SequenceRule &
     ++stack.main_shocks;
     mains.push_back(main);
     for (std::size_t i = earliest; i < last; ++i) {
-      const Shock &other = events[i];
+      const EventSummary &other = events[i];
       if (other.size < rule.least_size || i == k) continue;
       // Those that overlap may begin before the main shock and yet start after its end.
       if (other.t_start >= main.t_end + rule.first)
@@ -377,13 +377,13 @@ OmoriFit fit_omori(const Sequences &sequences, double hold_c) {
   return fit_quietly(sequences, hold_c);
 }
 
-std::vector<Shock> poisson_catalogue(const std::vector<Shock> &events, bool overlapping,
-                                     std::uint64_t seed) {
+std::vector<EventSummary> poisson_catalogue(const std::vector<EventSummary> &events,
+                                            bool overlapping, std::uint64_t seed) {
   const std::size_t n = events.size();
   if (n < 2) return events;
   Random random(seed);
   const auto exponential = [&random] { return -std::log1p(-random.uniform()); };
-  std::vector<Shock> out = events;
+  std::vector<EventSummary> out = events;
   shuffle(out, random);
   const double first = events.front().t_start, last = events.back().t_start;
   std::vector<double> starts(n);

@@ -57,7 +57,7 @@ Measured mean_of_catalogues(const std::vector<Measured> &numbers);
 /// Main shock: an event of at least main_size that is the largest (of equals the first) of all that
 /// start from window before its start to window after its end; all of that time has to lie within
 /// the catalogue. So the windows after main shocks do not overlap. \throws std::invalid_argument
-Sequences stack_sequences(const std::vector<Shock> &events, const SequenceRule &rule);
+Sequences stack_sequences(const std::vector<EventSummary> &events, const SequenceRule &rule);
 
 /// Rate of events after a main shock: n(t) = K (t + c)^-p + background.
 struct OmoriFit {
@@ -88,8 +88,8 @@ OmoriFit fit_omori(const Sequences &sequences, double hold_c = NAN);
 /// from the end of one to the start of the next with the mean of the catalogue; where events
 /// overlap, starts that are uniform over the catalogue. What is left of a decay in it
 /// comes from the choice of the main shocks and from the durations.
-std::vector<Shock> poisson_catalogue(const std::vector<Shock> &events, bool overlapping,
-                                     std::uint64_t seed);
+std::vector<EventSummary> poisson_catalogue(const std::vector<EventSummary> &events,
+                                            bool overlapping, std::uint64_t seed);
 
 /// Rate after a main shock over one bin of time.
 struct RateBin {

@@ -18,7 +18,7 @@ struct Start {
 
 std::vector<Start> starts_of(const EventTable &table, double least_size, double from, double to) {
   std::vector<Start> out;
-  for (const Shock &event : table.events)
+  for (const EventSummary &event : table.events)
     if (event.size >= least_size && event.t_start >= from && event.t_start < to)
       out.push_back({event.t_start, std::log(event.size)});
   return out;

@@ -51,16 +51,17 @@ double EventTable::share_in_events() const {
   return in_events / (last_end - events.front().t_start);
 }
 
-std::vector<double> column_from(const EventTable &table, double least, double Shock::*number) {
+std::vector<double> column_from(const EventTable &table, double least,
+                                double EventSummary::*number) {
   std::vector<double> out;
-  for (const Shock &event : table.events)
+  for (const EventSummary &event : table.events)
     if (event.size >= least) out.push_back(event.*number);
   return out;
 }
 
 std::int64_t events_from(const EventTable &table, double least) {
   return std::count_if(table.events.begin(), table.events.end(),
-                       [least](const Shock &event) { return event.size >= least; });
+                       [least](const EventSummary &event) { return event.size >= least; });
 }
 
 SmallestSize Threshold::in(const EventTable &table) const {

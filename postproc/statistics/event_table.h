@@ -25,7 +25,7 @@ struct Range {
 struct EventTable {
   std::string path, label, region;  ///< region: of earthquakes, or empty
   CatalogueInfo info;
-  std::vector<Shock> events;   ///< in order of t_start
+  std::vector<EventSummary> events;  ///< in order of t_start
   std::vector<Event> details;  ///< all columns of the largest of them: of as many as asked for
   double in_events = 0.0;      ///< sum of the durations (model time)
   double last_end = 0.0;       ///< t_end of the last event (model time)
@@ -79,7 +79,8 @@ std::vector<double> column(const std::vector<Row> &events, double Part::*number)
 }
 
 /// The same of the events of at least a size, and how many these are.
-std::vector<double> column_from(const EventTable &table, double least, double Shock::*number);
+std::vector<double> column_from(const EventTable &table, double least,
+                                double EventSummary::*number);
 std::int64_t events_from(const EventTable &table, double least);
 
 /// Size below which events are left out, and why there.

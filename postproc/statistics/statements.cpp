@@ -230,7 +230,7 @@ Measured share_of_one_bin(const EventTable &ruptures) {
 }
 
 RollOff roll_off(const EventTable &table, double least) {
-  std::vector<double> sizes = column_from(table, least, &Shock::size);
+  std::vector<double> sizes = column_from(table, least, &EventSummary::size);
   std::sort(sizes.begin(), sizes.end());
   RollOff found;
   found.free = fit_maximum_likelihood(sizes, least);

@@ -27,7 +27,7 @@ double decimal(double mantissa, int decade) {
 
 std::vector<double> threshold_grid(const EventTable &table) {
   std::vector<double> sorted;
-  for (const Shock &event : table.events)
+  for (const EventSummary &event : table.events)
     if (event.size > 0.0) sorted.push_back(event.size);
   std::sort(sorted.begin(), sorted.end());
   std::vector<double> grid;

@@ -10,10 +10,10 @@
 namespace LSM::postproc {
 
 /// \param ends none: events without duration
-inline std::vector<Shock> events_of(const std::vector<double> &starts,
-                                    const std::vector<double> &sizes,
-                                    const std::vector<double> &ends = {}) {
-  std::vector<Shock> events(starts.size());
+inline std::vector<EventSummary> events_of(const std::vector<double> &starts,
+                                           const std::vector<double> &sizes,
+                                           const std::vector<double> &ends = {}) {
+  std::vector<EventSummary> events(starts.size());
   for (std::size_t i = 0; i < starts.size(); ++i) {
     events[i].t_start = starts[i];
     events[i].t_end = ends.empty() ? starts[i] : ends[i];

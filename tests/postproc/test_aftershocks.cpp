@@ -14,7 +14,7 @@
 #include "coverage.h"
 #include "event_tables.h"
 
-using LSM::Shock;
+using LSM::EventSummary;
 using namespace LSM::postproc;
 
 namespace {
@@ -317,9 +317,9 @@ TEST(Omori, DegenerateAndImpossible) {
 }
 
 TEST(PoissonCatalogue, KeepsTheEventsAndForgetsTheirTimes) {
-  const std::vector<Shock> shocks =
+  const std::vector<EventSummary> shocks =
       events({1, 2, 5, 9, 20}, {0.5, 1, 2, 0, 3}, {1, 2, 3, 4, 5}).events;
-  const std::vector<Shock> other = poisson_catalogue(shocks, false, 4);
+  const std::vector<EventSummary> other = poisson_catalogue(shocks, false, 4);
   ASSERT_EQ(other.size(), 5u);
   std::vector<bool> seen(5);
   bool moved = false;
@@ -335,11 +335,12 @@ TEST(PoissonCatalogue, KeepsTheEventsAndForgetsTheirTimes) {
     moved = moved || other[i].t_start != shocks[i].t_start;
   }
   EXPECT_TRUE(moved);
-  const std::vector<Shock> overlapping = poisson_catalogue(shocks, true, 4);
+  const std::vector<EventSummary> overlapping = poisson_catalogue(shocks, true, 4);
   EXPECT_GE(overlapping.front().t_start, 1.0);
   EXPECT_LE(overlapping.back().t_start, 20.0);
-  EXPECT_TRUE(std::is_sorted(overlapping.begin(), overlapping.end(),
-                             [](const Shock &a, const Shock &b) { return a.t_start < b.t_start; }));
+  EXPECT_TRUE(std::is_sorted(
+      overlapping.begin(), overlapping.end(),
+      [](const EventSummary &a, const EventSummary &b) { return a.t_start < b.t_start; }));
 }
 
 TEST(Aftershocks, ShareOfPoissonCatalogues) {
@@ -364,7 +365,7 @@ TEST(Aftershocks, SequencesStandOutFromPoissonCatalogues) {
   EventTable clustered = poisson(3000, 1.0, 77);
   const Rng rng = generator(5);
   std::vector<std::pair<double, double>> rows;
-  for (const Shock &event : clustered.events)
+  for (const EventSummary &event : clustered.events)
     rows.emplace_back(event.t_start, std::min(event.size, 100.0));
   for (int main = 0; main < 29; ++main) {
     const double time = 50.0 + 100.0 * main;

@@ -301,10 +301,10 @@ TEST(Report, HasTheSectionsOfStatistics) {
   settings.sections = {{"First & last", [](const std::vector<EventTable> &tables) {
                           Table numbers("label,first,last");
                           numbers.row(tables.at(0).label + " <1>", 0.5, std::nan(""));
-                          Findings found;
-                          found.say("for the terminal");
-                          found.table("numbers", numbers, ".numbers");
-                          return found;
+                          Results results;
+                          results.say("for the terminal");
+                          results.table("numbers", numbers, ".numbers");
+                          return results;
                         }}};
   const std::string page = report_html({table}, settings);
   EXPECT_TRUE(contains(page, "<h3>First &amp; last</h3>"));

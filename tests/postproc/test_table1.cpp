@@ -231,7 +231,7 @@ TEST(Intervals, AtOnePlaceOnly) {
   const double length[] = {1.0, 2.0, 8.0, 3.0, 2.0};
   for (std::size_t i = 0; i < 5; ++i) {
     LSM::Event event;
-    static_cast<LSM::Shock &>(event) = table.events[i];
+    static_cast<LSM::EventSummary &>(event) = table.events[i];
     event.x_begin = begin[i];
     event.rupture_length = length[i];
     table.details.push_back(event);

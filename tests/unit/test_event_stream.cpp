@@ -324,7 +324,7 @@ TEST_F(EventStreamFiles, TheSeriesEndsBeforeAnEnergyThatIsNotFinite) {
   run.begin();
   GatheredBlock block;
   block.count = 3;
-  block.pe = {1.0, 2.0, std::numeric_limits<double>::quiet_NaN()};
+  block.pe = std::vector<double>{1.0, 2.0, std::numeric_limits<double>::quiet_NaN()};
   const std::string message = unit::message_of<EventStreamError>([&] {
     run.stream->add_block(
         block, [](std::int64_t step) { return 0.5 * static_cast<double>(step); }, 0.0, length);
@@ -377,9 +377,9 @@ TEST(EventStream, AJumpWithinAnEventIsNoPartOfItsSize) {
     block.first = step;
     block.count = 1;
     const auto time_of = [](std::int64_t s) { return static_cast<double>(s); };
-    block.pe = {pe_at(step)};
+    block.pe = std::vector<double>{pe_at(step)};
     smooth.add_block(block, time_of, 0.0, length);
-    block.pe = {pe_at(step) - (after ? 8.0 : 0.0)};
+    block.pe = std::vector<double>{pe_at(step) - (after ? 8.0 : 0.0)};
     jumps.add_block(block, time_of, 0.0, length);
     if (step != 33) continue;
     ASSERT_EQ(jumps.open(), 1);

@@ -89,7 +89,7 @@ std::string mismatch(void *lmp)
   const auto setting = in_program<int (*)(void *, const char *)>("lammps_extract_setting");
   if (!version || !setting) return "the program does not pass its version to plugins";
   const std::string found = name_of(version(lmp));
-  // volatile: compared as it stands in the file, which a test changes, and not within the code
+  // volatile, so that the string in the file is compared, which a test changes
   const char *const volatile built_for = LAMMPS_VERSION;
   const std::string expected = built_for;
   if (found != expected)

@@ -135,7 +135,7 @@ void LSMEventSources::find_sides(LSMEnergySource &style) const
   style.upper_side = upper;
 }
 
-// the styles may have been deleted since, so they are searched again
+// the styles may have been deleted since, so they are looked up again
 void LSMEventSources::release()
 {
   if (force) {
@@ -146,8 +146,8 @@ void LSMEventSources::release()
     for (auto *p : LSMScene::fixes<FixLSMNVE>(modify)) p->record_work = false;
 }
 
-// references for the slip of the fault: velocity and direction of the plates, stiffness of the
-// links
+// finds references for the slip of the fault: velocity and direction of the plates, and stiffness
+// of the links
 void LSMEventSources::find_driving(LSM::EventSettings &settings) const
 {
   if (plates_ && plates_->driving_velocity() < 0.0) settings.forward = -1.0;
@@ -210,8 +210,8 @@ LSM::EnergyTerms LSMEventSources::energies() const
   }
   LSM::EnergyTerms terms;
 
-  // of plates only the motion across the fault, as the energy of the driven motion is no part of
-  // the balance
+  // plates count with their motion across the fault only, as the energy of the driven motion is no
+  // part of the balance
   terms.kinetic = lsm_total(LSMScene::kinetic(atom, plates_ ? plates_->moved_bits() : 0), world) +
                   (plates_ ? plates_->kinetic() : 0.0);
   terms.potential = lsm_total(potential, world);

@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: GPL-2.0-or-later
-// What compute lsm/events records of a scene: the styles that have its
-// energies and works, found anew for each run
+// SPDX-License-Identifier: GPL-2.0-or-later The styles of a scene whose energies and works compute
+// lsm/events records, found anew for each run
 
 #ifndef LMP_LSM_EVENT_SOURCES_H
 #define LMP_LSM_EVENT_SOURCES_H
@@ -30,7 +29,7 @@ class LSMEventSources : protected Pointers {
   void find(bool ledger);
   /// Stops recording in the styles that are left.
   void release();
-  /// Settings of the fault in intervals that the scene decides where the keywords do not.
+  /// Completes the settings of the fault in intervals by those of the scene.
   void find_driving(LSM::EventSettings &) const;
 
   /// Those that record slips and contacts.
@@ -46,7 +45,8 @@ class LSMEventSources : protected Pointers {
   double max_strain() const;            ///< of this rank's links
   LSM::EnergyTerms energies() const;    ///< of all ranks; works since these styles began
   LSM::SceneInfo scene() const;
-  /// The variables of lsm_variables that headers state. Where a style knows what runs, that counts.
+  /// The variables of lsm_variables that headers state. The settings of a style in use take
+  /// precedence.
   LSM::text_io::Parameters variables() const;
 
  private:

@@ -33,8 +33,8 @@ void LSMRunGuard::begin_run()
   watchdog.reset();
 }
 
-// In the middle of a step there is no energy to check and no state for a restart file, so all that
-// can wait is checked when the step is complete.
+// In the middle of a step there is no energy to check and no state for a restart file, so other
+// checks wait until the step is complete.
 void LSMRunGuard::check_links()
 {
   if (!sources.has_links()) return;

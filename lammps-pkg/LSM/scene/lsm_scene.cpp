@@ -110,7 +110,7 @@ namespace LSMScene {
       names += (names.empty() ? "" : ", ") + kind + " " + style;
     };
 
-    // a pattern that matches hybrid would give the hybrid style and not its parts
+    // a pattern that matches 'hybrid' would return the hybrid style instead of its parts
     for (const char *pattern : {"^[^h]", "^h[^y]"})
       for (Pair *one : sub_styles(force, pattern)) add("pair", force->pair_match_ptr(one));
     if (force->bond) {

@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: GPL-2.0-or-later
-// What else is in the scene: asked by the styles of the package, so that
-// a combination that they cannot handle is named and not missed
+// SPDX-License-Identifier: GPL-2.0-or-later Queries about the scene, by which the styles of the
+// package refuse combinations that they cannot handle
 
 #ifndef LMP_LSM_SCENE_H
 #define LMP_LSM_SCENE_H

@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: GPL-2.0-or-later
-// Blocks of samples of all ranks on rank 0. Their energies travel while
-// the ranks go on.
+// SPDX-License-Identifier: GPL-2.0-or-later Gathers blocks of samples of all ranks on rank 0. Their
+// energies are sent while the ranks continue.
 
 #ifndef LMP_LSM_BLOCK_GATHER_H
 #define LMP_LSM_BLOCK_GATHER_H
@@ -22,7 +21,8 @@ class LSMBlockGather {
 
   /// Sends a block, which must not change until finish().
   void start(const LSM::SampleBlock &);
-  /// Waits for what was sent last; false if there is nothing. On rank 0 the block is complete then.
+  /// Waits until the last block has been sent, after which rank 0 has all of it. Returns false if
+  /// there is none.
   bool finish();
   const LSM::GatheredBlock &block() const { return block_; }
 

@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: GPL-2.0-or-later
-// What a contact loop records of the contacts it passes. A loop is compiled
-// once with each recorder, so that a run that records nothing pays nothing.
+// SPDX-License-Identifier: GPL-2.0-or-later What a contact loop records of its contacts. The loop
+// is compiled once with each recorder, so that a run that records nothing pays nothing.
 
 #ifndef LMP_LSM_CONTACT_RECORDER_H
 #define LMP_LSM_CONTACT_RECORDER_H
@@ -49,7 +48,7 @@ class LSMRecordEnergies {
   {
     if (slips_) moment_ += share * moment;
   }
-  /// Whether contacts across the fault are told from others.
+  /// Whether contacts across the fault are distinguished from others.
   bool wants_places() const
   {
     return source_.record_what & (LSMEnergySource::SLIP | LSMEnergySource::CONTACTS);

@@ -40,8 +40,8 @@ class LSMEnergySource {
     record_what = NONE;
     lower_side = upper_side = 0;
   }
-  /// Of a contact: 1 if the first particle is on the upper side and the second on the lower one, -1
-  /// the other way round, 0 if both are on the same side or one is on neither.
+  /// Returns 1 for a contact of a first particle on the upper side with a second one on the lower
+  /// side, -1 the other way round, and 0 if both are on the same side or one is on neither.
   int across_fault(int mask_i, int mask_j) const
   {
     if ((mask_i & upper_side) && (mask_j & lower_side)) return 1;

@@ -14,7 +14,7 @@ using LSM::Must;
 
 static const std::string STYLE = "Compute lsm/events";
 
-/// The kind comes first, as the keywords depend on it.
+/// The kind is read before all else, as the keywords depend on it.
 static std::shared_ptr<EventKind> kind_of_events(LAMMPS *lmp, int first, int narg, char **arg)
 {
   LSMKeywordReader in(lmp, STYLE, first, narg, arg);
@@ -59,7 +59,7 @@ Keywords LSMEventOptions::of_all(LSMKeywordReader &in)
     if (two.lower == two.upper)
       in.stop(in.key() + " needs two different groups, got " + two.lower + " twice");
   };
-  return {{"events", Action{1, [] {}}},    // known already
+  return {{"events", Action{1, [] {}}},    // read already
           {"picker", Action{1, reading}},
           {"parameter", Action{2, parameter}},
           {"lambda", &events.picker.lambda, Must::fraction},
@@ -84,7 +84,7 @@ Keywords LSMEventOptions::of_all(LSMKeywordReader &in)
           {"progress", &progress}};
 }
 
-// "none" goes into the headers
+// "none" stands for no file; headers state it
 LSM::Action LSMEventOptions::file_or_none(LSMKeywordReader &in, std::string &file)
 {
   return {1, [this, &in, &file] {
@@ -95,7 +95,7 @@ LSM::Action LSMEventOptions::file_or_none(LSMKeywordReader &in, std::string &fil
           }};
 }
 
-// of kinds that want the fault in intervals
+// keywords of kinds that need the fault in intervals
 Keywords LSMEventOptions::of_intervals(LSMKeywordReader &in)
 {
   return {{"history", file_or_none(in, events.history_file)},

@@ -15,8 +15,8 @@
 
 namespace LAMMPS_NS {
 
-/// Beside what both have, sum(mine): the total of a number of which each rank has a part. Rank 0
-/// goes on with all of it.
+/// Adds sum(mine) for a number of which each rank has a part: the total is stored, and rank 0
+/// continues with all of it.
 class LSMStateWriter : public LSM::StateWriter {
  public:
   LSMStateWriter(std::vector<double> &to, MPI_Comm world) : StateWriter(to), world_(world) {}
@@ -42,7 +42,7 @@ class LSMStateReader : public LSM::StateReader {
   bool first_;
 };
 
-/// Base of a fix whose state in restart files is what its visit() lists.
+/// Base of a fix whose state in restart files consists of what its visit() lists.
 template <class Self, class Base = Fix> class LSMKeptFix : public Base {
  public:
   LSMKeptFix(LAMMPS *_lmp, int narg, char **arg) : Base(_lmp, narg, arg)

@@ -101,7 +101,7 @@ void LSMKeywordReader::take(std::uint64_t *to, Must must) const
 
 void LSMKeywordReader::take(bool *to, Must /*must*/) const
 {
-  // as LAMMPS has it, but the message names the keyword
+  // the same words as LAMMPS accepts, but the message names the keyword
   const std::string word = text();
   *to = word == "yes" || word == "on" || word == "true" || word == "1";
   if (!*to && word != "no" && word != "off" && word != "false" && word != "0")

@@ -20,10 +20,10 @@ class LSMKeywordReader : protected Pointers {
   /// style: as messages begin, "Fix lsm/leap"; the words begin at arg[first]
   LSMKeywordReader(LAMMPS *, const std::string &style, int first, int narg, char **arg);
 
-  /// Goes on to the next keyword. False: there is none.
+  /// Advances to the next keyword. Returns false if there is none.
   bool next();
   const std::string &key() const { return key_; }
-  /// Stops unless the keyword has so many values; to be called if it is not read from a table.
+  /// Stops unless the keyword has this many values; needed only if it is not read from a table.
   void need(int values);
   const char *text(int n = 1) const { return arg_[at_ + n]; }
   /// Reads the values if the keyword is in the table.

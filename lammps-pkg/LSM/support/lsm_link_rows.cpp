@@ -62,8 +62,8 @@ namespace LSMLinkRows {
     }
   }
 
-  // The rows of the particles of a window, the longest first; rows that do not fill a slice form
-  // one of mixed lengths.
+  // Adds the rows of the particles of a window, the longest first. Rows left over that do not fill
+  // a slice form one of mixed lengths.
   static void add_window(Rows &o, const Owners &of, const int *first, const int *last, bool mixed)
   {
     std::array<std::vector<Row>, LONGEST + 1> rows;
@@ -87,9 +87,9 @@ namespace LSMLinkRows {
     add_run(o, of, left, LONGEST, true);
   }
 
-  // Cache lines used by the runs from `first` on and not by those of the previous window. They are
-  // prefetched evenly during the previous window: waiting for each when it is needed would take
-  // longer than the arithmetic.
+  // Lists the cache lines used by the runs from `first` on and not by those of the previous window.
+  // They are prefetched evenly during the previous window, as waiting for each when it is needed
+  // would take longer than the arithmetic.
   static void fetch_ahead(Rows &o, std::size_t before, std::size_t first, std::vector<int> &used,
                           int window)
   {

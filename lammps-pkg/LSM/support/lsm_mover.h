@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: GPL-2.0-or-later
-// What moves particles of the package, to be asked by what looks at them,
-// and how far they move from one step of a run to the next
+// SPDX-License-Identifier: GPL-2.0-or-later The fixes of the package that move particles, and how
+// far particles move from one step of a run to the next
 
 #ifndef LMP_LSM_MOVER_H
 #define LMP_LSM_MOVER_H
@@ -13,20 +12,21 @@
 namespace LAMMPS_NS {
 class Modify;
 
-/// Base of the fixes that move particles. They may put off the second half of a step to the first
-/// half of the next, so that both go through memory together or messages travel meanwhile: who
-/// looks at velocities calls complete_steps() before.
+/// Base of the fixes that move particles. They may defer the second half of a step to the first
+/// half of the next, to save a pass through memory or to hide communication, so that code that
+/// reads velocities has to call complete_steps() first.
 class LSMMover {
  public:
   virtual ~LSMMover() noexcept(false) {}    // as LAMMPS' own base classes
 
-  /// Velocities and positions of the same time from now on.
+  /// Brings velocities to the time of the positions.
   virtual void complete_step() = 0;
   /// Whether the second half of the last step is still to be done.
   bool has_put_off() const { return pending; }
   /// Bits of the groups that it moves.
   virtual int moved_bits() const = 0;
-  /// It moved no particle of this rank farther in this step; infinite if that is not known.
+  /// Upper bound on the displacement of the particles of this rank in this step, infinite if not
+  /// known.
   virtual double longest_move() const = 0;
 
   static void complete_steps(Modify *);
@@ -35,8 +35,8 @@ class LSMMover {
   bool pending = false;
 };
 
-/// The largest displacement of a particle of this rank in a step, as told by the fixes that move
-/// them: they have the velocities at hand, while comparing positions with older ones would read
+/// The largest displacement of a particle of this rank in a step, reported by the fixes that move
+/// them: they have the velocities at hand, whereas comparing positions with older ones would read
 /// both from memory.
 class LSMTravel : protected Pointers {
  public:

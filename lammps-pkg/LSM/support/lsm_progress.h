@@ -16,7 +16,7 @@ namespace LAMMPS_NS {
 class LSMProgress {
  public:
   void begin() { shown_at = started_at = platform::walltime(); }
-  /// Nothing in a pipe.
+  /// Prints nothing if the output is not a terminal.
   void show(const Update *update, bigint step, std::int64_t events)
   {
     const double now = platform::walltime();

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: GPL-2.0-or-later
-// What ranks tell each other
+// SPDX-License-Identifier: GPL-2.0-or-later Communication between ranks
 
 #ifndef LMP_LSM_RANKS_H
 #define LMP_LSM_RANKS_H
@@ -39,7 +38,7 @@ template <class Value> Value lsm_largest(Value mine, MPI_Comm world)
   return lsm_reduce(mine, MPI_MAX, world);
 }
 
-/// All ranks get the text of rank 0.
+/// Sends the text of rank 0 to all ranks.
 inline void lsm_share(std::string &text, MPI_Comm world)
 {
   int length = static_cast<int>(text.size());
@@ -48,7 +47,7 @@ inline void lsm_share(std::string &text, MPI_Comm world)
   if (length) MPI_Bcast(&text[0], length, MPI_CHAR, 0, world);
 }
 
-/// Rank 0 does the task. All ranks get what went wrong, or "".
+/// Performs a task on rank 0. All ranks get its error message, or "".
 template <class Task> std::string lsm_on_0(MPI_Comm world, Task &&task)
 {
   int me;
@@ -63,7 +62,7 @@ template <class Task> std::string lsm_on_0(MPI_Comm world, Task &&task)
   return problem;
 }
 
-/// All ranks get the values of rank 0, plain ones.
+/// Sends the values of rank 0, of a trivially copyable type, to all ranks.
 template <class Value> void lsm_share(std::vector<Value> &values, MPI_Comm world)
 {
   static_assert(std::is_trivially_copy_constructible_v<Value>);
@@ -77,7 +76,7 @@ template <class Value> void lsm_share(std::vector<Value> &values, MPI_Comm world
   MPI_Type_free(&type);
 }
 
-/// Rank 0 gets the values of all, in the order of the ranks.
+/// Gathers the values of all ranks on rank 0, in the order of the ranks.
 template <class Value>
 std::vector<Value> lsm_gather_on_0(const std::vector<Value> &mine, MPI_Comm world)
 {
@@ -94,7 +93,7 @@ std::vector<Value> lsm_gather_on_0(const std::vector<Value> &mine, MPI_Comm worl
   return all;
 }
 
-/// All ranks get them.
+/// Gathers the values of all ranks on all ranks.
 template <class Value> std::vector<Value> lsm_gather(const std::vector<Value> &mine, MPI_Comm world)
 {
   std::vector<Value> all = lsm_gather_on_0(mine, world);

@@ -15,7 +15,8 @@
 
 namespace LAMMPS_NS {
 
-/// As LAMMPS has it, rank 0 alone writes, and all ranks read, of which rank 0 has the file.
+/// As in LAMMPS, only rank 0 writes, and rank 0 reads the file and sends what it reads to all
+/// ranks.
 class LSMRestartFile : protected Pointers {
  public:
   LSMRestartFile(LAMMPS *_lmp, FILE *file, bool reading) :
@@ -34,7 +35,7 @@ class LSMRestartFile : protected Pointers {
     MPI_Bcast(values, static_cast<int>(count * sizeof(Value)), MPI_BYTE, 0, world);
   }
 
-  /// What the data of each style begin with.
+  /// The data of each style begin with the version.
   void version()
   {
     int found = LSM_RESTART_VERSION;

@@ -8,7 +8,7 @@
 
 namespace LAMMPS_NS {
 
-/// A value for each two types, as LAMMPS wants it.
+/// A value for each pair of types, in the form that LAMMPS expects.
 template <class Value> class LSMTypePairs {
  public:
   /// Zeros for types below n.

@@ -22,14 +22,14 @@
 
 namespace LSM {
 
-/// The fault at the end of an interval.
+/// State of the fault at the end of an interval.
 struct FaultMoment {
   std::int64_t intervals = 0;  ///< so far
   double pe = 0.0;
   std::vector<float> stress;  ///< of the bins
 };
 
-/// What is recorded in a step.
+/// The record of one step.
 struct EventSample {
   std::int64_t step;
   double time, pe;
@@ -37,9 +37,8 @@ struct EventSample {
   double x0, length;                  ///< begin and length of the fault
 };
 
-/// Finds events in the record, on the rank that has all of it. Reported events need no id; they
-/// must be in order of their ends. It is given the samples of all steps and, if its kind asks for
-/// them, the intervals of the fault.
+/// Finds events, on rank 0. It is given the samples of all steps and, if its kind asks for them,
+/// the intervals of the fault. It reports events without an id, in order of their ends.
 class EventFinder {
  public:
   using Report = std::function<void(const Event &)>;
@@ -49,21 +48,21 @@ class EventFinder {
   virtual void add_sample(const EventSample &, const Report &) {}
   /// The state before the first interval: total PE and the stresses of the bins.
   virtual void begin(double /*pe*/, const FaultRow &) {}
-  /// The next interval, with PE at its end.
+  /// Adds the next interval, with PE at its end.
   virtual void add(double /*pe*/, const FaultRow &, const Report &) {}
   /// Reports open events as if they ended now.
   virtual void each_open_as_ended(const Report &) const {}
 
-  /// The energy changed by that much between two runs, without a step.
+  /// Accounts for a change of PE between two runs that is not due to the model.
   virtual void leave_out_jump(double) {}
   /// Other settings of the picker, and the ratio of the new time step to the old one.
   virtual void change_picker(const PickerSettings &, double /*ratio*/) {}
 
   virtual std::int64_t open() const = 0;
-  /// Something slips, so that the slip history gives the last interval a record of its own.
+  /// Whether something slips, so that the slip history gives the last interval a record of its own.
   virtual bool active() const { return open() > 0; }
   virtual FaultMoment last_interval() const { return {}; }
-  /// Step up to which the ends of events are known at the end of the given one.
+  /// Step up to which the ends of events are known after the given step.
   virtual std::int64_t known_until(std::int64_t step) const = 0;
 
   /// For restarts. \throws std::invalid_argument for numbers that cannot be those of such a finder
@@ -71,7 +70,7 @@ class EventFinder {
   virtual void set_state(const std::vector<double> &) = 0;
 };
 
-/// Puts a parameter into a header.
+/// Adds a parameter to a header.
 using AddParameter = std::function<void(const std::string &key, const std::string &value)>;
 
 class EventKind {
@@ -82,10 +81,10 @@ class EventKind {
   /// Its own keywords.
   virtual Keywords keywords() { return {}; }
 
-  /// Whether it needs the slips of contacts in each step, which a periodic fault has.
+  /// Whether it needs the slips of contacts in each step, which only a periodic fault has.
   virtual bool wants_slips() const { return false; }
-  /// Whether its events are picked from PE, so that the header of the series has what its
-  /// catalogues have.
+  /// Whether its events are picked from PE, so that the header of the series states the picker's
+  /// settings.
   virtual bool picks_pe() const { return false; }
   /// Whether it needs the fault in bins and intervals.
   virtual bool wants_intervals() const { return false; }

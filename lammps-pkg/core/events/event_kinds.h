@@ -22,12 +22,12 @@ std::vector<std::shared_ptr<EventKind>> one_of_each() {
 /// A new kind goes to the end: its place is its number in restart files.
 std::vector<std::shared_ptr<EventKind>> all_event_kinds();
 
-/// Empty if no kind has that name.
+/// Returns null if no kind has that name.
 std::shared_ptr<EventKind> make_event_kind(std::string_view name);
 
 std::size_t number_of(const EventKind &wanted);
 
-/// The names for which wanted(kind) holds, "a or b", for messages.
+/// Joins the names of the kinds for which wanted(kind) holds, as "a or b".
 template <class Wanted>
 std::string names_of_kinds(Wanted &&wanted) {
   std::string names;

@@ -16,8 +16,8 @@
 
 namespace LSM {
 
-/// Readings of the paper's formula for the average change of PE, called A here;
-/// x = PE(t+1) - PE(t).
+/// Interpretations of the paper's formula for the average change of PE, called A here, with x =
+/// PE(t+1) - PE(t).
 enum class PickerReading {
   exponential,  ///< A <- lambda A + (1 - lambda) x (default) †, memory 1/(1 - lambda) samples
   average,      ///< A <- (x + lambda A) / (1 + lambda) †, memory of about two samples
@@ -48,8 +48,8 @@ inline double lambda_from_memory_time(double memory_time, double dt) {
   return std::exp(-dt / memory_time);
 }
 
-/// When an event happened and how large it was: all that most statistics need of it.
-struct Shock {
+/// When an event happened and how large it was, which is all that most statistics need.
+struct EventSummary {
   double t_start = 0.0, t_end = 0.0;
   double size = 0.0;  ///< pe_start - pe_end
 };
@@ -57,7 +57,7 @@ struct Shock {
 /// One event. Times in model time, steps as pushed, energies in model energy.
 /// The picker fills all but slip_moment and the members after it, which belong to the program that
 /// knows the slip.
-struct Event : Shock {
+struct Event : EventSummary {
   std::int64_t id = 0;  ///< 1, 2, ... over the reported events
   std::int64_t step_start = 0, step_end = 0;
   double pe_start = 0.0, pe_end = 0.0;
@@ -85,7 +85,7 @@ struct PickerState {
 static_assert(std::is_trivially_copyable<PickerState>::value, "PickerState goes into restarts");
 static_assert(sizeof(PickerState) == 13 * 8, "PickerState must have no padding");
 
-/// Whether an event of this size is left out; if so, counts it.
+/// Whether an event of this size is omitted from the catalogue. Counts the omitted events.
 inline bool is_left_out(double size, const PickerSettings &settings, PickerState &counts) {
   if (!(size > 0.0)) {
     counts.dropped_nonpositive += settings.keep_nonpositive ? 0 : 1;
@@ -95,10 +95,10 @@ inline bool is_left_out(double size, const PickerSettings &settings, PickerState
   return size < settings.min_size;
 }
 
-/// Streaming picker: push one PE sample after the other, in order of time.
+/// Picks events from PE samples that are pushed in order of time.
 ///
 /// With x = PE(t+1) - PE(t) and A updated with x, an event begins at sample t when A turns from
-///>= 0 to < 0, and ends at sample t when A turns to > 0; A == 0 keeps an open event open. The
+/// >= 0 to < 0, and ends at sample t when A turns to > 0; A == 0 keeps an open event open. The
 /// size, PE(start) - PE(end), comes from the raw series. The first sample only sets PE; A starts at
 /// 0. An event still open after the last sample is not reported.
 class EventPicker {
@@ -149,7 +149,7 @@ class EventPicker {
   }
 
   bool in_event() const { return state_.in_event != 0; }
-  /// A, the smoothed change of PE per sample, after the last push.
+  /// The smoothed change of PE per sample, A, after the last push.
   double rate() const { return state_.rate; }
   const PickerState &state() const { return state_; }
   /// Continues from a saved state, even within an event; the settings must be those of that state.
@@ -165,15 +165,14 @@ class EventPicker {
     state_ = state;
   }
 
-  /// Continues with other settings; the rate is one per step, so it is multiplied by the ratio of
-  /// the steps.
+  /// Continues with other settings. The rate is a change per step, so it scales with the time step.
   void change(const PickerSettings &settings, double ratio) {
     PickerState state = state_;
     state.rate *= ratio;
     *this = EventPicker(settings);
     set_state(state);
   }
-  /// PE changed by that much since the last sample, without a step.
+  /// Accounts for a change of PE between two samples that is not due to the model.
   void leave_out_jump(double jump) {
     state_.pe += jump;
     state_.pe_start += jump;
@@ -217,10 +216,10 @@ class EventPicker {
     }
   }
 
-  /// The event ended at the sample still in state_.
+  /// Finishes the event that ended at the sample in state_.
   bool finish(Event &out) {
-    // No size is 0 or less in exact arithmetic: the changes within an event sum to a weighted sum
-    // of the negative A in between. Rounding of a large PE can make it so.
+    // In exact arithmetic every size is positive, as the changes within an event add up to a
+    // weighted sum of negative A. Rounding of a large PE can make it zero or negative.
     const double size = state_.pe_start - state_.pe;
     if (is_left_out(size, settings_, state_)) return false;
     out = Event();

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file events/event_stream.h
-/// From samples to files, on the rank that has all of them: PE goes to the series, sums of the
-/// fault's contacts to the slip history, both to the finder of the kind of events, and its events
-/// to the catalogue.
+/// Turns samples into files, on rank 0: PE goes to the series, sums over the contacts of the fault
+/// to the slip history, and both to the finder of events, which fill the catalogue.
 #ifndef LSM_EVENT_STREAM_H
 #define LSM_EVENT_STREAM_H
 
@@ -50,11 +49,12 @@ struct SavedStream {
     state.list(self.history);
   }
 
-  /// From index `at` of the numbers on, of the kind with this number. False: this is no such state.
+  /// Reads the state of events of the given kind from index `at` on. Returns false if the numbers
+  /// are not such a state.
   bool read(const std::vector<double> &from, std::size_t at, std::size_t of_kind);
 
-  /// Whether events of this kind on this grid can continue; if not, their numbers do, and open
-  /// events are lost.
+  /// Whether open events can continue with this kind and grid. If not, they are lost, but event
+  /// numbers continue.
   bool continues_with(std::size_t other_kind, const FaultGrid &other) const;
 };
 
@@ -65,26 +65,26 @@ class EventStream {
   /// \throws std::invalid_argument for settings out of range
   explicit EventStream(const EventSettings &settings);
 
-  /// A fault before its first interval. \throws std::invalid_argument
+  /// Starts a fault before its first interval. \throws std::invalid_argument
   void set_grid(const FaultGrid &grid);
 
-  /// Continues from a restart file, after set_grid(). \throws std::invalid_argument
+  /// Continues from a restart file; to be called after set_grid(). \throws std::invalid_argument
   void set_state(const SavedStream &saved);
 
-  /// For restarts: numbers for SavedStream. open_sums: of the interval that is not complete.
+  /// Returns the numbers of a SavedStream. open_sums are the sums of the incomplete interval.
   std::vector<double> state(const std::vector<double> &open_sums) const;
 
-  /// Starts the files or continues them; anything that prevents it is found before the first one is
-  /// touched. from_restart: set_state() was called; clock: for the series; others: files that
-  /// something else writes. \throws EventStreamError or what the writers throw
+  /// Starts or continues the files. Anything that prevents it is found before the first file is
+  /// touched. from_restart says that set_state() was called; `others` are files that something else
+  /// writes. \throws EventStreamError or what the writers throw
   void begin_files(std::int64_t step, bool from_restart, const SceneInfo &scene,
                    const StepClock &clock, const std::vector<Output> &others = {});
 
-  /// The fault before its first interval, with the sums of its contacts over the ranks.
+  /// Records the fault before its first interval, with the sums over its contacts of all ranks.
   void begin_fault(double pe, const std::vector<double> &sums);
 
-  /// The samples of a block. time_of(step): model time; the fault begins at x0 and has that length.
-  /// \throws EventStreamError or what the writers throw, at the first offending sample
+  /// Adds the samples of a block. time_of(step) is model time; the fault begins at x0. \throws
+  /// EventStreamError or what the writers throw, at the first offending sample
   void add_block(const GatheredBlock &block, const TimeOfStep &time_of, double x0, double length);
 
   /// Writes open events with their end so far; nothing may be added afterwards.
@@ -93,13 +93,13 @@ class EventStream {
   /// Hands all samples so far to the operating system.
   void flush() { series_.flush(); }
 
-  /// Another time step, see EventPicker::change().
+  /// Adapts the picker to another time step, see EventPicker::change().
   void change_picker(const PickerSettings &settings, double ratio);
   void leave_out_jump(double jump);
 
-  /// Of all PE samples, for the rate of PE; events come from the finder.
+  /// The picker of all PE samples, used for the rate of PE only; events come from the finder.
   const EventPicker &picker() const { return picker_; }
-  /// Numbers of events.
+  /// Counts of events.
   const PickerState &counts() const { return counts_; }
   /// Events that have begun and not ended.
   std::int64_t open() const { return finder_ ? finder_->open() : 0; }

@@ -15,7 +15,7 @@
 
 namespace LSM {
 
-/// Moment of the bins since the open event began, and what follows from it for the event.
+/// Sums the moment of each bin since the open event began, and locates the event by it.
 class EventLocator {
  public:
   /// bin_width > 0; fraction: bins with at most this fraction of the largest moment are not
@@ -31,7 +31,7 @@ class EventLocator {
 
   /// For restarts: pairs of bin and moment.
   std::vector<double> state() const;
-  /// The pairs in saved, starting at index `at`.
+  /// Reads the pairs from index `at` on.
   void set_state(const std::vector<double> &saved, std::size_t at);
 
  private:
@@ -39,7 +39,7 @@ class EventLocator {
   std::map<int, double> moment_;
 };
 
-/// The picker, and the places of its events.
+/// Picks events from PE and locates them.
 class PeDropFinder : public EventFinder {
  public:
   /// \throws std::invalid_argument for settings out of range
@@ -58,7 +58,7 @@ class PeDropFinder : public EventFinder {
   void set_state(const std::vector<double> &saved) override;
 
  private:
-  // Which of them are written is decided where events are written.
+  // The stream decides which events are written, by size.
   static PickerSettings of_all_sizes(PickerSettings settings);
 
   EventPicker picker_;

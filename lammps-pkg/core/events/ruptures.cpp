@@ -25,7 +25,7 @@ void FaultRupture::absorb(const FaultRupture &later) {
 RuptureFinder::RuptureFinder(const FaultGrid &grid, const RuptureSettings &settings)
     : grid_(grid),
       settings_(settings),
-      // places beyond the end, in which nothing slides, keep the ends apart
+      // Extra places in which nothing slides keep the two ends of an open fault apart.
       sets_(grid.bins + (grid.ring ? 0 : settings.gap + 1), settings.gap + 1, settings.memory) {
   if (!(settings.velocity >= 0.0) || !(settings.modulus > 0.0) || settings.gap < 0)
     throw std::invalid_argument(
@@ -47,7 +47,7 @@ void RuptureFinder::add(double pe, const FaultRow &row, const Report &report) {
   const std::int64_t n = sets_.step() + 1;
   const double least = slipping_above(grid_, settings_.velocity);
   sets_.begin_step(n);
-  active_ = !sets_.idle();  // until the interval after the end, whose stress is needed
+  active_ = !sets_.idle();  // until the interval after its end, whose stress is needed
   for (int b = 0; b < grid_.bins; ++b) {
     const auto i = static_cast<std::size_t>(b);
     const double slip = row.slip[i], size = std::fabs(slip);

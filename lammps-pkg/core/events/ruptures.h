@@ -23,7 +23,7 @@
 
 namespace LSM {
 
-/// What is known of a rupture; its places are bins and its steps are intervals.
+/// A rupture in units of bins and intervals.
 struct FaultRupture : SlipSet {
   std::int64_t hypocentre = 0;            ///< bin that slipped most in the first interval
   double first_slip = 0.0;                ///< its slip then
@@ -43,7 +43,7 @@ struct FaultRupture : SlipSet {
   }
 };
 
-/// Connects the slips of a fault to ruptures. Call begin(), then add() for each interval.
+/// Connects slips of a fault to ruptures. Call begin(), then add() for each interval.
 class RuptureFinder : public EventFinder {
  public:
   /// \throws std::invalid_argument for settings out of range
@@ -55,7 +55,7 @@ class RuptureFinder : public EventFinder {
 
   void each_open_as_ended(const Report &report) const override;
 
-  /// Something slipped in the last interval, or a rupture was open when it began.
+  /// Whether something slipped in the last interval, or a rupture was open when it began.
   bool active() const override { return active_; }
   FaultMoment last_interval() const override { return {sets_.step(), pe_, before_}; }
   // A rupture is known to have ended when its pause is over.
@@ -64,7 +64,7 @@ class RuptureFinder : public EventFinder {
 
   std::vector<double> state() const override;
 
-  /// Continues to the last digit; the settings must be those of the saved state.
+  /// Continues exactly where the saved state ended; the settings must be the same.
   void set_state(const std::vector<double> &numbers) override;
 
  private:
@@ -101,7 +101,7 @@ class RuptureFinder : public EventFinder {
 
   double mean(const std::vector<float> &values, const SlipSet &row) const;
 
-  /// Stresses from before every open rupture.
+  /// Drops the snapshots that no open rupture needs.
   void forget();
 
   Event event(const FaultRupture &r) const;

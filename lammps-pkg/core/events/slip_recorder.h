@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file events/slip_recorder.h
-/// Where a fault slips, on each rank: slips of the contacts between its two sides; work and force
-/// of these contacts and displacements of the two faces, summed in bins and intervals. (Ours.)
+/// Records on each rank where a fault slips: slips of the contacts between its two sides, and work
+/// and force of these contacts and displacements of the two faces, summed in bins and intervals.
 #ifndef LSM_SLIP_RECORDER_H
 #define LSM_SLIP_RECORDER_H
 
@@ -42,8 +42,8 @@ struct FaceDisplacement {
   bool upper;
 };
 
-/// Sums of one rank's contacts and faces in the bins over the intervals of a fault; those of
-/// several ranks can be added.
+/// Sums over the contacts and faces of one rank, by bins and intervals. Sums of several ranks can
+/// be added.
 class SlipRecorder {
  public:
   /// forward: direction in which the upper side is driven along x, 1 or -1.
@@ -58,7 +58,7 @@ class SlipRecorder {
   std::vector<double> &sums() { return sums_; }
   void clear() { std::fill(sums_.begin(), sums_.end(), 0.0); }
 
-  /// Contacts of the state before the first interval; only their forces count.
+  /// Adds the contacts before the first interval, of which only the forces are needed.
   void add_forces(const std::vector<FaultContact> &contacts) {
     for (const FaultContact &c : contacts) at(c.x)[FORCE] += c.share * (forward_ * c.force);
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file events/slip_sets.h
-/// Sets of sliding places connected in space and time, assembled as the slips occur. Places form a
-/// ring: blocks of a chain, or bins along a fault. (Ours.)
+/// Sets of sliding places that are connected in space and time, assembled as the slips occur.
+/// Places are blocks of a chain or bins along a fault, and form a ring.
 ///
 /// A place that slides in step n is connected with the places at most `reach` from it that slide in
 /// step n or in one of the `memory` steps before it. A set ends when no sliding place can connect
@@ -53,7 +53,7 @@ inline void extend(SlipSet &set, std::int64_t begin, std::int64_t length, std::i
   set.length = n;
 }
 
-/// A place whose slip may still connect with the next one. Plain data.
+/// A place whose slip may still connect with later ones.
 struct RecentSlip {
   std::int64_t place = 0, step = 0;
   std::int64_t set = 0;  ///< index of its set
@@ -71,8 +71,8 @@ struct SlipSetsState {
   std::vector<RecentSlip> recent;
 };
 
-/// Puts slips together to sets. Set is derived from SlipSet and has absorb(const Set &later), which
-/// adds the values of the derived class; its first and row are joined here.
+/// Combines slips to sets. Set is derived from SlipSet and has absorb(const Set &later), which adds
+/// the values of the derived class; the members of SlipSet are merged here.
 ///
 /// Call begin_step(), slide() for each place that slides in ascending order, end_step(). The result
 /// depends on nothing but these calls. Memory: some words per place and per open set.
@@ -142,7 +142,7 @@ class SlipSets {
     for (const Set &set : finished_) finished(set);
   }
 
-  /// No set is open.
+  /// Whether no set is open.
   bool idle() const { return open_.empty(); }
   /// Sets that are open; after end_step().
   std::int64_t open() const { return static_cast<std::int64_t>(open_.size()); }
@@ -198,8 +198,8 @@ class SlipSets {
   static constexpr std::int32_t none = -1;
   static constexpr std::int64_t never = INT64_MIN / 2;
 
-  // Sets joined with another one stay as nodes that lead to it until it ends, as places may still
-  // refer to them.
+  // A set that was merged into another remains as a node that leads to it until that one ends, as
+  // places may still refer to it.
   struct Node {
     std::int32_t parent, next, tail;  // next and tail: chain of all nodes joined with a root
     Set set;

@@ -39,7 +39,7 @@ double largest_of_tridiagonal(const std::vector<double> &diagonal,
     low = std::max(low, diagonal[i]);
     high = std::max(high, diagonal[i] + reach);
   }
-  // Whether x is above all eigenvalues: all pivots of the matrix minus x are negative.
+  // x is above all eigenvalues if all pivots of the matrix minus x are negative.
   auto above = [&](double x) {
     double pivot = diagonal[0] - x;
     for (std::size_t i = 1; i < n && pivot < 0.0; ++i)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file fault/frequency.h
-/// Upper bound of the highest frequency of masses and springs, for the time step check.
+/// Upper bound on the highest frequency of a network of masses and springs, for checking the time
+/// step.
 ///
 /// Lanczos iteration from a random start. The largest Ritz value approaches the largest eigenvalue
 /// from below, and no residual tells whether a mode confined to a few discs has been missed. The
@@ -32,7 +33,7 @@ struct PairSpring {
   double viscosity = 0.0;
 };
 
-/// Adds the forces of the springs against the displacements to force; axes values a particle.
+/// Adds the forces with which the springs resist the displacements; `axes` values per particle.
 template <std::size_t axes>
 void add_spring_forces(const std::vector<PairSpring> &springs,
                        const std::vector<double> &displacement, std::vector<double> &force) {
@@ -58,8 +59,8 @@ void add_spring_forces(const std::vector<PairSpring> &springs,
 void add_spring_forces(const std::vector<PairSpring> &springs, int dim,
                        const std::vector<double> &displacement, std::vector<double> &force);
 
-/// Two independent normal random numbers, chosen by key and axis, so that a start vector does not
-/// depend on the order of the particles and on the ranks that own them.
+/// Two independent normal random numbers that are determined by key and axis, so that a start
+/// vector does not depend on the order of the particles or on the ranks that own them.
 std::pair<double, double> normal_pair(std::uint64_t key, std::uint64_t axis);
 
 /// Largest eigenvalue of the symmetric tridiagonal matrix, by bisection with Sturm sequences.
@@ -73,12 +74,12 @@ struct LargestEigenvalue {
   int steps = 0;       ///< products with the matrix
 };
 
-/// Fraction by which the eigenvalue may exceed the Ritz value, and probability that it exceeds it
-/// by more.
+/// The fraction by which the eigenvalue may exceed the Ritz value, and the probability that it
+/// exceeds it by more.
 constexpr double eigenvalue_share = 0.05;
 constexpr double eigenvalue_risk = 1e-12;
 
-/// Steps after which the Ritz value is accurate to eigenvalue_share in that many dimensions.
+/// Number of steps after which the Ritz value is accurate to eigenvalue_share.
 int lanczos_steps(double dimensions);
 
 /// start: this rank's share of a vector of independent normal numbers, of which there are

@@ -16,7 +16,7 @@ namespace LSM {
 
 namespace {
 
-/// Cells over [0, length) x [ylo, yhi], periodic in x; none is smaller than `least`.
+/// A grid of cells over [0, length) x [ylo, yhi], periodic in x. No cell is smaller than `least`.
 template <class Entry>
 class Cells {
  public:
@@ -36,7 +36,8 @@ class Cells {
   int row(double y) const {
     return std::min(ny - 1, std::max(0, static_cast<int>((y - ylo_) / dy)));
   }
-  /// The column may be one beyond the seam; shift(): what to add to the x of the entries then.
+  /// The column may lie one beyond the periodic boundary; shift() is then to be added to the x of
+  /// its entries.
   std::vector<Entry> &at(int ix, int iy) {
     ix += ix < 0 ? nx : ix >= nx ? -nx : 0;
     return cells_[static_cast<std::size_t>(ix) * static_cast<std::size_t>(ny) +
@@ -85,8 +86,8 @@ class BlockPacker {
     double x, y, r;
   };
 
-  /// A disc (line = 0) at (x, y) relative to the point of the try, or the lower (line = +1) or
-  /// upper (line = -1) line at height y. s is its surface distance from the point.
+  /// A disc (line = 0) at (x, y) relative to the trial point, or the lower (line = +1) or upper
+  /// (line = -1) line at height y. s is the distance of its surface from the point.
   struct Object {
     double s, x, y, r;
     int line;
@@ -101,11 +102,11 @@ class BlockPacker {
     return x;
   }
 
-  /// True if a disc at (x, y), x in [0, length), lies in the block and overlaps no other.
+  /// Whether a disc at (x, y), x in [0, length), lies in the block and overlaps no other disc.
   bool fits(double x, double y, double r) {
     const double slack = set_.tolerance * r;
     if (y - ylo_ < r - slack || yhi_ - y < r - slack) return false;
-    // reach: a disc further away than this along x or y cannot overlap
+    // A disc further away than this along x or y cannot overlap.
     const double reach = r + set_.rmax;
     const int kx = std::min(static_cast<int>(reach / cells_.dx) + 1, (cells_.nx - 1) / 2);
     const int ylow = cells_.row(y - reach), yhigh = cells_.row(y + reach);
@@ -134,8 +135,9 @@ class BlockPacker {
     });
   }
 
-  /// As many as a hexagonal grid of spacing 2 rmax has, so that no hole is wider than rmax allows.
-  /// Their places are random: with a grid the faces would have its period along the whole fault.
+  /// Places as many discs as a hexagonal grid of spacing 2 rmax has, so that no hole is too wide to
+  /// be filled. Their positions are random, as a grid would give the faces its period along the
+  /// whole fault.
   void place_seeds() {
     const double height = yhi_ - ylo_;
     const int columns = static_cast<int>(set_.length / (2.0 * set_.rmax));
@@ -167,9 +169,9 @@ class BlockPacker {
     });
   }
 
-  /// Calls attempt(xlo, xsize) until it failed max_failures times in a row everywhere: the block is
-  /// cut along x into tiles about as long as TILE rmax, which have their turns until they are full.
-  /// The cost is linear in the length and the density reached does not depend on it.
+  /// Calls attempt(xlo, xsize) until it has failed max_failures times in a row everywhere. The
+  /// block is divided along x into tiles about TILE rmax long, which take turns until they are
+  /// full, so that the cost is linear in the length and the density does not depend on it.
   template <class Attempt>
   void until_full(Attempt &&attempt) {
     const int ntile = std::max(1, static_cast<int>(set_.length / (TILE * set_.rmax)));
@@ -379,7 +381,7 @@ void check(const PackingSettings &s) {
   if (!(s.rmin < s.rmax)) reject("rmin", s.rmin, "a value below rmax = ", s.rmax);
   if (s.max_failures < 1) reject("failures", s.max_failures, "at least ", 1);
   if (!(s.tolerance <= 1e-4)) reject("tolerance", s.tolerance, "at most ", 1e-4);
-  // two discs that the tolerance lets overlap must still count as linked neighbours, not more
+  // Discs that overlap within the tolerance must still count as tangent.
   if (!(s.link_gap < 0.1 * s.rmin))
     reject("linkgap", s.link_gap, "less than rmin/10 = ", 0.1 * s.rmin);
   if (!(s.fault_zone >= s.link_gap) || !(s.fault_zone < 1e300))
@@ -424,7 +426,7 @@ void fill_blocks(const PackingSettings &s, Packing &result) {
   }
 }
 
-/// Neighbours in space become neighbours in memory, and are on few ranks.
+/// Sorts discs so that neighbours in space are neighbours in memory and on few ranks.
 void sort_discs(const PackingSettings &s, Packing &result) {
   const double column = 2.0 * s.rmax;
   std::sort(result.discs.begin(), result.discs.end(), [column](const Disc &a, const Disc &b) {
@@ -433,7 +435,7 @@ void sort_discs(const PackingSettings &s, Packing &result) {
   });
 }
 
-/// Links of tangent discs, by cells at least as large as the longest link, both blocks in one grid.
+/// Links tangent discs. The cells are at least as large as the longest link.
 void link_discs(const PackingSettings &s, Packing &result) {
   const int n = static_cast<int>(result.discs.size());
   Cells<int> cells(s.length, 0.0, s.width, 2.0 * s.rmax + s.link_gap);
@@ -470,7 +472,7 @@ Partners partners_of(const Packing &packing) {
   return partners;
 }
 
-/// Which discs have fewer than HELD_LINKS links. With remove, links to these do not count.
+/// Finds discs with fewer than HELD_LINKS links. With `remove`, links to such discs do not count.
 std::vector<char> with_few_links(const Packing &packing, const Partners &partners, bool remove) {
   std::vector<char> few(partners.size(), 0);
   std::vector<std::size_t> links, check(partners.size());
@@ -490,24 +492,24 @@ std::vector<char> with_few_links(const Packing &packing, const Partners &partner
   return few;
 }
 
-/// Which discs belong to a plate or are linked to one, by way of discs that are not removed.
-std::vector<char> hung_on_plates(const Packing &packing, const Partners &partners,
-                                 const std::vector<char> &removed) {
-  std::vector<char> hung(partners.size(), 0);
+/// Finds discs that belong to a plate or are connected to one through discs that are not removed.
+std::vector<char> connected_to_plates(const Packing &packing, const Partners &partners,
+                                      const std::vector<char> &removed) {
+  std::vector<char> connected(partners.size(), 0);
   std::vector<std::size_t> check;
-  const auto hang = [&](std::size_t i) {
-    hung[i] = 1;
+  const auto connect = [&](std::size_t i) {
+    connected[i] = 1;
     check.push_back(i);
   };
-  for (std::size_t i = 0; i < hung.size(); ++i)
-    if (packing.discs[i].plate) hang(i);
+  for (std::size_t i = 0; i < connected.size(); ++i)
+    if (packing.discs[i].plate) connect(i);
   while (!check.empty()) {
     const std::size_t i = check.back();
     check.pop_back();
     for (const std::size_t j : partners[i])
-      if (!hung[j] && !removed[j]) hang(j);
+      if (!connected[j] && !removed[j]) connect(j);
   }
-  return hung;
+  return connected;
 }
 
 void remove_discs(const std::vector<char> &removed, Packing &packing) {
@@ -529,13 +531,13 @@ void remove_discs(const std::vector<char> &removed, Packing &packing) {
 }
 
 /// Finds the loose discs and, if asked to, removes them and those that this leaves loose.
-void look_for_loose(const PackingSettings &s, Packing &result) {
+void find_loose(const PackingSettings &s, Packing &result) {
   const Partners partners = partners_of(result);
   std::vector<char> loose = with_few_links(result, partners, s.remove_loose);
-  const std::vector<char> hung =
-      hung_on_plates(result, partners, s.remove_loose ? loose : std::vector<char>(loose.size(), 0));
+  const std::vector<char> connected = connected_to_plates(
+      result, partners, s.remove_loose ? loose : std::vector<char>(loose.size(), 0));
   for (std::size_t i = 0; i < loose.size(); ++i) {
-    loose[i] = loose[i] || !hung[i];
+    loose[i] = loose[i] || !connected[i];
     if (!loose[i]) continue;
     ++result.loose;
     if (fault_gap(s, result.discs[i]) < s.link_gap) ++result.loose_tangent;
@@ -607,7 +609,7 @@ Packing make_packing(const PackingSettings &settings) {
   fill_blocks(settings, result);
   sort_discs(settings, result);
   link_discs(settings, result);
-  look_for_loose(settings, result);
+  find_loose(settings, result);
   if (settings.remove_loose)
     for (const int block : {0, 1})
       if (std::none_of(result.discs.begin(), result.discs.end(),

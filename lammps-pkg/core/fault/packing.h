@@ -34,9 +34,9 @@ struct Disc {
   bool plate;  ///< tangent to the outer line of its block
 };
 
-/// Links that a disc needs to be held. Two links hold a disc that does not rotate only while it is
-/// pushed into the wedge between them † (measured: such discs oscillate and hop, see
-/// doc/create_lsm_fault.rst).
+/// Number of links that a disc needs to be held. Two links hold a disc that does not rotate only
+/// while it is pushed into the wedge between them †: such discs were seen to oscillate and hop, see
+/// doc/create_lsm_fault.rst.
 constexpr int HELD_LINKS = 3;
 
 /// The result: discs sorted by position (columns of width 2 rmax along x, then y), links (i < j)
@@ -60,7 +60,7 @@ struct Packing {
   const Disc &disc(int i) const { return discs[static_cast<std::size_t>(i)]; }
 };
 
-/// From disc a to disc b by the shortest way along the period.
+/// Vector from disc a to the nearest periodic image of disc b.
 std::pair<double, double> link_vector(double length, const Disc &a, const Disc &b);
 
 /// Two blocks of tangent discs, [0, length) x [0, width/2] and [0, length) x [width/2, width],
@@ -81,11 +81,11 @@ std::pair<double, double> link_vector(double length, const Disc &a, const Disc &
 /// @throws std::invalid_argument with one line that names the setting and what was expected
 Packing make_packing(const PackingSettings &settings);
 
-/// Largest number of discs of radius r > 0 that fit around one of radius `radius`, with overlaps of
-/// a tenth of r allowed.
+/// Largest number of discs of radius r > 0 that fit around a disc of radius `radius`, if they may
+/// overlap by a tenth of r.
 int most_neighbours(double radius, double r);
 
-/// Masses that make a time step stable whatever contacts the discs get.
+/// Returns masses that make a time step stable whatever contacts the discs form.
 ///
 /// With S the stiffness that a disc feels while all others rest, u^T K u <= 2 sum of u_i^T S_i u_i
 /// for any network of springs, so that velocity Verlet is stable where m_i >= dt^2 s_i / 2 for all

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file files/binary_io.h
-/// What the binary files have in common: 16 bytes that name the format, int64 length of the header,
-/// the header of "# key = value" lines, then records of numbers; everything little-endian.
+/// The common layout of binary files: 16 bytes that name the format, the int64 length of the
+/// header, the header of "# key = value" lines, then records of numbers; everything is
+/// little-endian.
 #ifndef LSM_BINARY_IO_H
 #define LSM_BINARY_IO_H
 
@@ -26,7 +27,7 @@
 
 namespace LSM::binary_io {
 
-/// A number in the byte order of the machine, as bytes of the file or back.
+/// Converts between the byte order of the machine and that of the file.
 template <class Bytes>
 Bytes little_endian(Bytes bytes) {
 #if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
@@ -62,7 +63,7 @@ Number from_bytes(const char *from) {
 //   fault()                what is wrong with the numbers, or ""
 //   record_bytes()
 
-/// The model and the numbers of a header.
+/// Returns the model and the numbers of a header as parameters.
 template <class Info>
 text_io::Parameters numbers_of(const Info &info) {
   text_io::Parameters all = {{"model", info.model}};
@@ -72,15 +73,15 @@ text_io::Parameters numbers_of(const Info &info) {
   return all;
 }
 
-/// Reads the records of a file, all of one size, one after the other. Anything unexpected throws;
-/// only a truncated last record, as a killed run leaves it, is dropped if asked to (lenient).
+/// Reads the records of a file, which all have the same size. Anything unexpected throws, except
+/// that a lenient reader drops a truncated last record, as a killed run leaves it.
 template <class Info>
 class RecordReader {
  public:
   const Info &info() const { return info_; }
   std::int64_t records() const { return total_; }  ///< of a file, or at the end of a pipe
   bool torn() const { return torn_; }              ///< a truncated last record is dropped
-  /// Offset behind the last one read.
+  /// Offset behind the last record that was read.
   std::int64_t end() const { return begin_ + read_ * bytes_; }
 
  protected:
@@ -94,8 +95,8 @@ class RecordReader {
     if (size >= 0) end_after(size - begin_);
   }
 
-  /// The bytes of the next one, valid until the next call; nullptr: there is none. \throws
-  /// FileError
+  /// Returns the bytes of the next record, valid until the next call, or nullptr at the end.
+  /// \throws FileError
   const char *next_record() {
     if (read_ != total_ && used_ == block_.size()) {
       const std::int64_t most = std::max<std::int64_t>(1, (1 << 16) / bytes_);
@@ -110,13 +111,13 @@ class RecordReader {
     used_ += static_cast<std::size_t>(bytes_);
     return record;
   }
-  /// About the last one read. \throws FileError
+  /// Throws a FileError that names the last record read.
   [[noreturn]] void fail(const std::string &what) const {
     throw FileError(in_->path() + ": record " + std::to_string(read_) + ": " + what);
   }
 
  private:
-  /// All parameters of the header.
+  /// Reads all parameters of the header.
   text_io::Parameters read_header() {
     const std::string &path = in_->path();
     std::array<char, 16> first{};
@@ -143,7 +144,7 @@ class RecordReader {
     return parameters.all();
   }
 
-  /// Sorts them into info_; returns what is wrong, or "".
+  /// Assigns the parameters to the members of info_. Returns what is wrong, or "".
   std::string interpret(const text_io::Parameters &all) {
     std::string problem = text_io::take(all, "model", info_.model);
     Info::visit(info_, [&](const char *name, auto &value) {
@@ -173,12 +174,12 @@ class RecordReader {
   bool lenient_ = false, torn_ = false;
 };
 
-/// Begins such files, and goes on with them.
+/// Starts or continues a file of records.
 template <class Info>
 class RecordWriter : public text_io::ResumableFile {
  protected:
-  /// Starts a new file, replacing an older one (which stays if the new one cannot be written).
-  /// \throws FileError; std::invalid_argument for a header that could not be read back.
+  /// Starts a new file. An older one is replaced only once the header has been written. \throws
+  /// FileError; std::invalid_argument for a header that could not be read back.
   void begin(const std::string &path, const Info &info) {
     std::string bytes(Info::magic);
     const std::string lines = text_io::lines_of(checked(info));
@@ -187,8 +188,8 @@ class RecordWriter : public text_io::ResumableFile {
     info_ = info;
   }
 
-  /// Checks that the header is what begin() would write, but for parameters named in ignore.
-  /// \throws the same, naming the first parameter that differs
+  /// Checks that the header is what begin() would write, except for the parameters named in
+  /// `ignore`. \throws the same, naming the first parameter that differs
   void compare(const std::string &path, const Info &found, const Info &info,
                const std::vector<std::string> &ignore) {
     const std::string problem = text_io::difference(found.header(), checked(info), ignore);

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::string_view first_line = "# lsm-catalogue 1";
 
-/// In the order in which they are written.
+/// Columns are written in this order.
 constexpr CatalogueColumn all_columns[] = {
     {"event_id", nullptr, &Event::id},
     {"t_start", &Event::t_start},
@@ -45,13 +45,13 @@ std::string column_line(const CatalogueInfo &info) {
   return out;
 }
 
-/// What is wrong with the model, without which nothing can be read, or "".
+/// Returns what is wrong with the model, or "".
 std::string bad_model(const std::string &model) {
   if (model == "lsm" || model == "block-slider") return {};
   return "model is " + text_io::in_quotes(model) + ", expected 'lsm' or 'block-slider'";
 }
 
-/// The first number of event that is not finite, or "".
+/// Names the first number of the event that is not finite, or returns "".
 std::string not_finite(const Event &event) {
   for (const CatalogueColumn &column : all_columns)
     if (column.number && !std::isfinite(event.*column.number))
@@ -59,7 +59,8 @@ std::string not_finite(const Event &event) {
   return {};
 }
 
-/// Why an event of finite numbers must not follow the previous one (nullptr: none), or "".
+/// Returns why an event must not follow the previous one, or "". The first event has no predecessor
+/// (nullptr).
 std::string out_of_order(const Event &event, const Event *before, bool overlapping) {
   using text_io::number;
   constexpr const char *earlier = " is before the end of the previous event ";
@@ -87,7 +88,7 @@ std::string out_of_order(const Event &event, const Event *before, bool overlappi
   return {};
 }
 
-/// Checks what a program wants to write; same rules as for reading.
+/// Refuses a header that CatalogueReader would refuse.
 void check_info(const CatalogueInfo &info) {
   text_io::check_parameters(info.header());
   std::string problem = bad_model(info.model);
@@ -247,7 +248,7 @@ bool CatalogueReader::parse_row(Event &event) {
       parsed.ptr = std::find(at, end, ',');
     }
     at = parsed.ptr;
-    // A comma behind each field but the last.
+    // A comma follows each field but the last.
     const bool last = &column == &columns_.back();
     if (parsed.ec != std::errc() || (last ? at != end : at == end || *at != ',')) {
       report_row(column, std::string_view(begin, static_cast<std::size_t>(end - begin)));

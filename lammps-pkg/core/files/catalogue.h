@@ -36,13 +36,13 @@ namespace LSM {
 /// Header of a catalogue.
 struct CatalogueInfo : text_io::FileHeader {
   bool slip_moment = false, x_centroid = false, rupture_length = false;  ///< optional columns
-  /// Further ones, of ruptures.
+  /// Optional columns that only ruptures have.
   bool x_hypocentre = false, x_begin = false, mean_slip = false, stress_drop = false;
 
-  /// Whether events may overlap in time; they are in order of their ends then.
+  /// Whether events may overlap in time; if so, they are sorted by their ends.
   bool overlapping() const;
 
-  /// Size below which events may depend on the time step; 0: not given.
+  /// Size below which events may depend on the time step; 0 if the header does not give one.
   double completeness() const;
 
   /// All parameters, the model first.
@@ -51,8 +51,9 @@ struct CatalogueInfo : text_io::FileHeader {
 
 constexpr std::string_view catalogue_magic = "# lsm-catalogue ";
 
-/// A column of the table: its member of an event, a number, an integer or none, and whether a
-/// catalogue has it, nullptr if each does.
+/// A column of the table. One of `number` and `integer` points to its member of an event;
+/// `optional` points to the flag that says whether a catalogue has the column, or is null for
+/// columns that every catalogue has.
 struct CatalogueColumn {
   std::string_view name;
   double Event::*number = nullptr;
@@ -65,9 +66,9 @@ std::vector<CatalogueColumn> columns_of(const CatalogueInfo &info);
 
 /// Reads a catalogue event by event.
 ///
-/// Strict (the default): anything unexpected throws. Lenient: bad lines after the first are skipped
-/// and counted by kind; a wrong first line, model or column line, without which nothing can be
-/// read, throws.
+/// A strict reader (the default) throws at anything unexpected. A lenient one skips bad lines and
+/// counts them by kind; it still throws if the first line, the model or the column line is wrong,
+/// as nothing can be read without them.
 class CatalogueReader {
  public:
   /// \throws FileError if the header cannot be read.
@@ -98,11 +99,12 @@ class CatalogueReader {
 
   void read_columns();
 
-  /// Numbers of line_ into event; false, and reports why, if they do not fit the columns.
+  /// Converts line_ to an event. Reports the problem and returns false if the line does not match
+  /// the columns.
   bool parse_row(Event &event);
 
-  /// Says why parse_row() refused line_: the first column that it could not read, which rest begins
-  /// with.
+  /// Reports why parse_row() refused line_. `rest` begins with the first column that could not be
+  /// read.
   void report_row(const CatalogueColumn &column, std::string_view rest);
 
   text_io::LineReader reader_;
@@ -120,8 +122,8 @@ class CatalogueReader {
   std::string first_problem_;
 };
 
-/// Writes a catalogue. Each event is on its way to disk when write() returns, so that a process
-/// killed later keeps it.
+/// Writes a catalogue. Each event has been handed to the operating system when write() returns, so
+/// that it survives if the process is killed.
 class CatalogueWriter : public text_io::ResumableFile {
  public:
   /// Starts a new catalogue, replacing an older one (which stays if the new one cannot be written).
@@ -137,9 +139,8 @@ class CatalogueWriter : public text_io::ResumableFile {
   void find_cut(const std::string &path, const CatalogueInfo &info, std::int64_t last_step,
                 const std::vector<std::string> &ignore = {}, std::int64_t expected = -1);
 
-  /// Appends one line and hands it to the system.
-  /// \throws FileError if that fails, or if the event is not one a reader would accept after
-  /// the one before (NaN, order).
+  /// Appends one line and hands it to the operating system. \throws FileError if that fails, or if
+  /// the event is not one a reader would accept after the one before (NaN, order).
   void write(const Event &event);
 
   std::int64_t rows() const { return rows_; }  ///< events in the file, kept ones included

@@ -8,7 +8,7 @@
 
 namespace LSM {
 
-/// Unreadable or unwritable file. The message is one line and names the file.
+/// A file cannot be read or written. The message is one line and names the file.
 class FileError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -14,7 +14,7 @@
 
 namespace LSM::text_io {
 
-/// The bytes of a file, in order.
+/// A stream of the bytes of a file.
 class Bytes {
  public:
   explicit Bytes(std::string path) : path_(std::move(path)) {}
@@ -22,11 +22,11 @@ class Bytes {
   Bytes(const Bytes &) = delete;
   Bytes &operator=(const Bytes &) = delete;
 
-  /// Returns fewer than most only at the end. \throws FileError
+  /// Returns fewer bytes than `most` only at the end of the file. \throws FileError
   std::size_t read(char *to, std::size_t most);
-  /// The next bytes, without consuming them. \throws FileError
+  /// Returns the next bytes without consuming them. \throws FileError
   std::string_view peek(std::size_t count);
-  /// Of the whole file; negative: not known, of a pipe. \throws FileError
+  /// Size of the whole file, negative for a pipe, whose size is not known. \throws FileError
   virtual std::int64_t size() const = 0;
   const std::string &path() const { return path_; }
 
@@ -36,7 +36,7 @@ class Bytes {
   std::string path_, ahead_;
 };
 
-/// The bytes of a file, unchanged.
+/// The bytes of a file as they are on disk.
 class FileBytes : public Bytes {
  public:
   /// \throws FileError
@@ -53,16 +53,16 @@ class FileBytes : public Bytes {
   std::unique_ptr<std::FILE, Close> file_;
 };
 
-/// The program that compressed a file that begins with these bytes, or "".
+/// Names the program that compressed a file that begins with these bytes, or returns "".
 std::string_view compressed_by(std::string_view head);
-/// The same of a file that was not read yet. \throws FileError
+/// The same for a file of which nothing has been read yet. \throws FileError
 std::string_view compressed_by(Bytes &file);
 
-/// A file that is not compressed: LAMMPS and the block-slider link no library for others.
-/// \throws FileError
+/// Opens a file that must not be compressed, as LAMMPS and the block-slider do not link a library
+/// for decompression. \throws FileError
 std::unique_ptr<Bytes> open_plain(const std::string &path);
 
-/// Whether a text begins as one in UTF-16, and what is to be said of it.
+/// Whether a text begins with a byte order mark of UTF-16.
 bool is_utf16(std::string_view head);
 constexpr const char *utf16_text = ": text in UTF-16, expected UTF-8 or ASCII";
 }  // namespace LSM::text_io

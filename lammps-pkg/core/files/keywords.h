@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file files/keywords.h
-/// Keywords of an input in a table: where their values go and what they must be.
+/// Tables of the keywords of a style: where their values go and which values are allowed.
 #ifndef LSM_KEYWORDS_H
 #define LSM_KEYWORDS_H
 
@@ -12,17 +12,17 @@
 
 namespace LSM {
 
-/// What a number must be; positive: of whole numbers at least 1; fraction: at least 0 and less
-/// than 1.
+/// The allowed range of a number. `positive` means at least 1 for integers; `fraction` means at
+/// least 0 and less than 1.
 enum class Must { anything, positive, not_negative, fraction };
 
-/// The value is one of some words, whose place in the list is taken.
+/// The value is one of the words in the list; its index is stored.
 struct Words {
   int *place;
   std::vector<const char *> list;
 };
 
-/// What is done with so many values.
+/// A function that reads this many values itself.
 struct Action {
   int values;
   std::function<void()> take;

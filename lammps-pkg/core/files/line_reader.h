@@ -16,16 +16,17 @@
 
 namespace LSM::text_io {
 
-/// Lines of a file with their numbers and byte offsets, read in large blocks, without a byte order
-/// mark and the '\r' of Windows line ends.
+/// Reads the lines of a file with their numbers and byte offsets, in large blocks. A byte order
+/// mark and the '\r' of Windows line ends are removed.
 class LineReader {
  public:
   /// \throws FileError
   explicit LineReader(const std::string &path) : LineReader(open_plain(path)) {}
   explicit LineReader(std::unique_ptr<Bytes> bytes);
 
-  /// Next line without its '\n', valid until the next call; false at the end of the file.
-  /// \throws FileError if the file cannot be read or a line is longer than any of ours can be.
+  /// Returns the next line without its '\n', valid until the next call, or false at the end of the
+  /// file. \throws FileError if the file cannot be read or a line is longer than any of ours can
+  /// be.
   bool next(std::string_view &line);
 
   const std::string &path() const { return bytes_->path(); }
@@ -33,7 +34,7 @@ class LineReader {
   std::int64_t begin() const { return begin_; }  ///< offset of the last line
   std::int64_t end() const { return end_; }      ///< offset behind the last line
   bool complete() const { return complete_; }    ///< the last line ended with '\n'
-  /// There was a byte order mark or a Windows line end: none of our programs wrote this.
+  /// Whether there was a byte order mark or a Windows line end, which none of our programs write.
   bool foreign() const { return foreign_; }
 
   [[noreturn]] void fail(const std::string &what) const;
@@ -41,8 +42,8 @@ class LineReader {
  private:
   static constexpr std::size_t first_size = 1 << 18, longest_line = 1 << 20;
 
-  /// Reads more bytes after the unfinished line, which moves to the front; false at the end of the
-  /// file.
+  /// Moves the unfinished line to the front and reads more bytes behind it. Returns false at the
+  /// end of the file.
   bool fill();
 
   std::unique_ptr<Bytes> bytes_;

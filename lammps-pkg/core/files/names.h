@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file files/names.h
-/// Enumerators and their words in options and headers, in one list: for an enumeration with a
-/// function names_of(Enum), to_string() and from_string() follow.
+/// Names of enumerators in options and headers. An enumeration needs a function names_of(Enum),
+/// which lists them; to_string() and from_string() follow from it.
 #ifndef LSM_NAMES_H
 #define LSM_NAMES_H
 
@@ -25,7 +25,7 @@ constexpr auto to_string(Enum value) -> decltype(names_of(value)[0].name) {
   return "unknown";
 }
 
-/// Returns false, and leaves value unchanged, if name is none of the words.
+/// Returns false, and leaves value unchanged, if there is no such name.
 template <class Enum>
 constexpr auto from_string(std::string_view name, Enum &value)
     -> decltype(names_of(value)[0].name, bool()) {
@@ -37,7 +37,7 @@ constexpr auto from_string(std::string_view name, Enum &value)
   return false;
 }
 
-/// "a, b or c", for messages.
+/// Joins words for messages, as "a, b or c".
 template <class Words>
 std::string either(const Words &words, const char *last = " or ") {
   std::string out;

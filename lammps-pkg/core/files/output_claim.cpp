@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The file that a path leads to, through links, even if it does not exist yet.
+/// Follows links to the file that a path leads to, even if it does not exist yet.
 fs::path target_of(const std::string &path) {
   constexpr int most_links = 40;  // as the system
   std::error_code code;
@@ -61,7 +61,7 @@ std::string to_text(const LockHolder &holder) {
                                                  {"started", holder.started}});
 }
 
-/// False: the text is none of to_text().
+/// Returns false if the text was not made by to_text().
 bool from_text(const std::string &text, LockHolder &holder) {
   if (text.compare(0, magic.size(), magic) != 0) return false;
   text_io::ParameterList all;
@@ -73,7 +73,7 @@ bool from_text(const std::string &text, LockHolder &holder) {
   return holder.process > 0;
 }
 
-/// Whether a name leads to an open file.
+/// Whether a path leads to the file of an open descriptor.
 bool leads_to(const std::string &path, int descriptor) {
   struct stat named {
   }, opened{};
@@ -144,8 +144,8 @@ FileLock::FileLock(const std::string &path, Flock flock)
       if (ours) unlink(lock_.c_str());
       fail("its file system has no locks (flock); write to another one: cannot lock", reason);
     }
-    // Its owner may have removed it in between, and a file of that name that is no lock belongs
-    // to somebody.
+    // Its owner may have removed it in between. A file of that name that is not a lock belongs to
+    // somebody else and must be left alone, which holder() does.
     if (is_there()) {
       if (!ours) holder();
       sign();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file files/output_claim.h
-/// The files that a run is about to write: no two of them may be one file, whatever its names, and
-/// no other run may write them at the same time. (Ours.)
+/// Checks and locks for the files that a run is about to write: no two outputs may lead to the same
+/// file, under any names, and no other run may write them at the same time.
 ///
 /// A run holds FILE.lock for as long as it writes FILE: locked by flock, so that a killed run
 /// releases it, and with host and process for the message of the next run. File systems without
@@ -21,7 +21,7 @@
 
 namespace LSM {
 
-/// A file that a run will write; what: the option or keyword that names it, for messages.
+/// A file that a run will write. `what` is the option or keyword that names it, for messages.
 struct Output {
   std::string what;
   std::string path;
@@ -33,15 +33,16 @@ struct LockHolder {
   std::int64_t process = 0;
 };
 
-/// The same text for two paths that lead to one file: "./a" and "a", hard and symbolic links, even
-/// for files that do not exist yet. "" for devices such as /dev/null, which any number may write.
+/// Returns the same text for all paths that lead to one file, such as "./a", "a" and links to it,
+/// even if the file does not exist yet. Returns "" for devices such as /dev/null, which any number
+/// of outputs may share.
 std::string file_identity(const std::string &path);
 
-/// Whether this process already has a file open for writing, under any name: a log, a file of
-/// another part of the program.
+/// Whether this process already has a file open for writing, under any name, for example as its
+/// log.
 bool is_open_for_writing(const std::string &path);
 
-/// What is wrong with the names of a run's outputs, or "". Empty paths are skipped.
+/// Returns what is wrong with the names of a run's outputs, or "". Empty paths are skipped.
 std::string bad_outputs(const std::vector<Output> &outputs);
 
 /// Holds the lock of one file, or of none.
@@ -55,7 +56,7 @@ class FileLock {
   ~FileLock();
 
   /// \throws FileError if another run holds it, which it names, or if the lock cannot be written.
-  /// flock: another one than the system's, for tests.
+  /// Tests pass a substitute for the system's flock.
   explicit FileLock(const std::string &path, Flock flock = ::flock);
 
  private:
@@ -69,7 +70,7 @@ class FileLock {
   /// Whether the name still leads to the open file.
   bool is_there() const;
 
-  /// Who signed the file; a process that has just made it is given time to do so.
+  /// Reads who holds the lock. A process that has just created the file is given time to sign it.
   std::optional<LockHolder> holder();
 
   void sign();
@@ -82,8 +83,8 @@ class FileLock {
 /// Locks of the outputs of a run, from before the first is written until the last is closed.
 using OutputClaim = std::list<FileLock>;
 
-/// Empty paths are skipped; devices and pipes need no lock. others: files that something else
-/// writes, which are compared but not locked.
+/// Locks the outputs of a run. Empty paths are skipped, and devices and pipes need no lock.
+/// `others` are written by something else: they are compared with the outputs but not locked.
 /// \throws FileError before anything is written: two outputs are one file, another run writes one
 OutputClaim claim_outputs(const std::vector<Output> &outputs,
                           const std::vector<Output> &others = {});

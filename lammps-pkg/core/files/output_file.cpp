@@ -11,15 +11,16 @@ namespace LSM::text_io {
 
 namespace {
 
-/// Opens a file for writing, at its end unless it is to begin anew; nullptr: errno says why. The
-/// name of a temporary file is no secret: a link that somebody has put there is not followed.
+/// Opens a file for writing, at its end unless `anew`. Returns nullptr and sets errno on failure.
+/// Temporary files are opened without following links: their names can be guessed, so somebody else
+/// may have put a link there.
 std::FILE *open_for_writing(const std::string &path, bool anew, bool follow = true) {
   const int flags = O_WRONLY | O_CREAT | O_CLOEXEC | (anew ? O_TRUNC : O_APPEND);
   const int file = ::open(path.c_str(), flags | (follow ? 0 : O_NOFOLLOW), 0666);
   return file < 0 ? nullptr : fdopen(file, anew ? "wb" : "ab");
 }
 
-/// Why open_for_writing() failed.
+/// Describes why open_for_writing() failed.
 std::string why_not_opened(const std::string &path, const std::string &opened, int reason) {
   if (reason == ELOOP && opened != path)
     return path + ": cannot write: its temporary file " + opened +
@@ -40,7 +41,7 @@ std::string why_not_writable(const std::string &path) {
   if (std::filesystem::is_directory(path, code))
     return path + ": is a directory, expected a file name";
   const bool there = std::filesystem::exists(path, code);
-  // A reader of a pipe would notice.
+  // Opening a pipe just to test it would be noticed by its reader.
   if (there && !std::filesystem::is_regular_file(path, code)) return {};
   // A file that exists is written in place, or replaced by a new one beside it.
   for (const std::string &tried : {path, path + ".new"}) {
@@ -67,7 +68,7 @@ void OutputFile::create(const std::string &path, std::string_view text, bool who
   namespace fs = std::filesystem;
   close();
   std::error_code code;
-  // A link has to keep pointing to the file; devices and pipes cannot be replaced.
+  // The file that a link points to is replaced, not the link. Devices and pipes cannot be replaced.
   name_ = fs::is_symlink(path, code) ? fs::weakly_canonical(path, code).string() : path;
   if (code) name_ = path;
   written_ = name_;
@@ -86,7 +87,7 @@ void OutputFile::keep(const std::string &path, std::int64_t bytes) {
 }
 
 void OutputFile::append() {
-  // Opened first: without the right to write nothing is cut.
+  // The file is opened first, so that it is not truncated without permission to write.
   open(name_, name_, false);
   std::error_code code;
   if (std::filesystem::file_size(name_, code) != kept_ && !code)

@@ -14,10 +14,11 @@
 
 namespace LSM::text_io {
 
-/// Whether path is a file that would be replaced: regular, and not empty.
+/// Whether path is a regular file that is not empty.
 bool holds_data(const std::string &path);
 
-/// Why OutputFile could not write the file path, or "". Nothing is changed or left behind.
+/// Returns why OutputFile could not write this file, or "". Changes nothing and leaves nothing
+/// behind.
 std::string why_not_writable(const std::string &path);
 
 /// Writes all data of a file, or all names of a folder, to the disk. \throws FileError
@@ -37,16 +38,16 @@ class OutputFile {
   /// left of it without
   void create(const std::string &path, std::string_view text, bool whole = false);
 
-  /// An existing file of which append() will keep so many bytes.
+  /// Selects an existing file, of which append() will keep this many bytes.
   void keep(const std::string &path, std::int64_t bytes);
 
-  /// Truncates that file and continues behind the bytes that are kept.
+  /// Truncates the file selected by keep() and continues behind the bytes that are kept.
   void append();
 
   /// On failure the file is closed, as lines after a half-written one would not be readable.
   void write(std::string_view text);
 
-  /// What was written is on the disk.
+  /// Waits until everything written is on the disk.
   void sync();
   void close();
 
@@ -67,11 +68,11 @@ class OutputFile {
   std::uintmax_t kept_ = 0;
 };
 
-/// A file that a restarted run goes on with. find_cut() of the derived class looks at it without a
-/// change: where more than one file goes on, nothing is cut before all of them are found to fit.
+/// A file that a restarted run continues. find_cut() of the derived class only inspects it, so that
+/// a run with several files truncates none of them before all are found to match.
 class ResumableFile {
  public:
-  /// Drops what find_cut() found, and goes on there. \throws FileError
+  /// Truncates the file where find_cut() found that the new run begins. \throws FileError
   void cut() { file_.append(); }
   /// \throws FileError if the system reports a late failure. Also done on destruction, silently.
   void close() { file_.close(); }

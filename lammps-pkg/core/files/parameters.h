@@ -32,7 +32,7 @@ struct FileHeader {
   const std::string *find(std::string_view key) const { return text_io::find(parameters, key); }
 };
 
-/// Takes the value of a parameter that has to be there; returns what is wrong, or "".
+/// Reads the value of a required parameter. Returns what is wrong, or "".
 template <class Value>
 std::string take(const Parameters &parameters, const std::string &key, Value &value) {
   const std::string *text = find(parameters, key);
@@ -46,12 +46,11 @@ std::string take(const Parameters &parameters, const std::string &key, Value &va
   return {};
 }
 
-/// Bytes of the longest header that is written or read. Those of runs have a few thousand; a small
-/// compressed file may unpack to any.
+/// Limit on the size of a header in bytes. Headers of runs have a few thousand; the limit protects
+/// readers from small compressed files that unpack to gigabytes.
 constexpr std::int64_t longest_header = 1 << 23;
 
-/// A key or value that cannot be read back as written is an error of the program.
-/// \throws std::invalid_argument
+/// Refuses keys and values that could not be read back as written. \throws std::invalid_argument
 void check_parameters(const Parameters &parameters);
 
 /// One "# key = value" line per parameter.
@@ -60,15 +59,15 @@ std::string lines_of(const Parameters &parameters);
 /// Splits "# key = value" at the first '='.
 bool parse_parameter(std::string_view line, std::pair<std::string, std::string> &parameter);
 
-/// Parameters of a file that is being read. A header may be long, so keys are hashed.
+/// Collects the parameters of a file that is being read. Keys are hashed, as a header may be long.
 class ParameterList {
  public:
-  /// What is wrong with a key and its value, or "".
+  /// Returns what is wrong with a key and its value, or "".
   using Check = std::string (*)(const std::string &key, const std::string &value);
 
   /// Adds a "# key = value" line; returns what is wrong, or "".
   std::string add_line(std::string_view line, Check check = nullptr);
-  /// The lines of a text, up to the first that is wrong.
+  /// Adds the lines of a text, up to the first that is wrong.
   std::string add_lines(std::string_view text, Check check = nullptr);
   const Parameters &all() const { return all_; }
 
@@ -77,7 +76,8 @@ class ParameterList {
   std::unordered_set<std::string> keys_;
 };
 
-/// First difference between the header of a file and the one a resumed run would write, or "".
+/// Describes the first difference between the header of a file and the one that a resumed run would
+/// write, or returns "".
 std::string difference(const Parameters &in_file, const Parameters &expected,
                        const std::vector<std::string> &ignore);
 }  // namespace LSM::text_io

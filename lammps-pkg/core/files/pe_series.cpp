@@ -62,7 +62,7 @@ PeSeriesWriter::~PeSeriesWriter() {
   try {
     close();
   } catch (...) {
-    // call close() to learn of errors.
+    // Call close() before destruction to learn of errors.
   }
 }
 

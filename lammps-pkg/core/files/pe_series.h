@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file files/pe_series.h
 /// Time series of the total elastic potential energy (PE), Sect. 4.1 of Weatherley and Abe (2004).
-/// PE is kept in double precision: the sign of its change per step matters at
-/// 1e-9 of its value.
+/// PE is kept in double precision, as its change per step is about 1e-9 of its value.
 ///
 /// Binary: 16 bytes "lsm-pe-series-1\n", int64 length of the header, the header (lines
 /// "# key = value": model, dt, step0, time0, stride, then the others), then records of int64 step
@@ -38,7 +37,7 @@ struct PeSeriesInfo : text_io::FileHeader {
   std::int64_t stride = 1;      ///< steps between samples, >= 1
   bool explicit_times = false;  ///< each sample has its own time; time() does not apply
 
-  /// Steps are subtracted as doubles (exact below 2^53), so that no header can make this overflow.
+  /// Steps are subtracted as doubles (exact below 2^53), so that no header can cause an overflow.
   double time(std::int64_t step) const;
 
   template <class Self, class F>
@@ -60,8 +59,8 @@ class PeSeriesReader : public binary_io::RecordReader<PeSeriesInfo> {
   explicit PeSeriesReader(std::unique_ptr<text_io::Bytes> in, bool lenient = false)
       : RecordReader(std::move(in), lenient) {}
 
-  /// Next sample; false at the end of the file. Steps increase, numbers are finite.
-  /// \throws FileError
+  /// Reads the next sample; returns false at the end of the file. Checks that steps increase and
+  /// numbers are finite. \throws FileError
   bool next(std::int64_t &step, double &time, double &pe);
 
  private:
@@ -96,10 +95,10 @@ class PeSeriesWriter : public binary_io::RecordWriter<PeSeriesInfo> {
   /// cannot be written.
   void write(std::int64_t step, double time, double pe);
 
-  /// Passes all samples so far to the system. \throws FileError
+  /// Hands all samples so far to the operating system. \throws FileError
   void flush();
 
-  /// \throws FileError. Also done on destruction, silently.
+  /// \throws FileError. The destructor closes the file, too, but ignores errors.
   void close();
 
   std::int64_t rows() const { return rows_; }  ///< samples so far, kept ones included

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file files/restart_info.h
-/// FILE.info beside a restart file: settings of the run, and size and checksum, by which an
-/// incomplete file is recognized before anything reads it. (Ours.)
+/// FILE.info beside a restart file holds the settings of the run, and size and checksum, so that an
+/// incomplete file is recognized before anything reads it.
 ///
 ///   key = value                  one line each
 ///   lines = CRC                  of the lines above
@@ -34,14 +34,14 @@ class Cksum {
   std::uint64_t size_ = 0;
 };
 
-/// Gives a restart file, written as `written`, its name and its FILE.info. Whenever this is
-/// interrupted, a file with an info is complete, and an older one of that name stays or is gone.
-/// settings: keys without '='. \throws FileError
+/// Renames the restart file `written` to `path` and writes its FILE.info with the settings, whose
+/// keys must not contain '='. Whenever this is interrupted, a restart file that has an info file is
+/// complete. \throws FileError
 void seal_restart(const std::string &written, const std::string &path,
                   const text_io::Parameters &settings);
 
-/// Compares a restart file with its FILE.info; returns the settings in it, which are empty if it
-/// has only the last line. \throws FileError, one line with the reason
+/// Compares a restart file with its FILE.info and returns the settings in it, which are empty if
+/// the info file has only its last line. \throws FileError with the reason in one line
 text_io::Parameters check_restart(const std::string &path);
 
 }  // namespace LSM

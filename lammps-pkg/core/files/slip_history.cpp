@@ -76,7 +76,7 @@ void SlipHistoryReader::check_steps(const SlipRecord &record) const {
   } else if (record.step_end <= record.step_begin) {
     fail(steps + ", expected increasing steps");
   }
-  // Differences of any two steps, even nonsensical ones, are below 2^64.
+  // Unsigned, as the difference of two arbitrary steps may overflow a signed integer.
   const auto since =
       static_cast<std::uint64_t>(record.step_end) - static_cast<std::uint64_t>(grid.step0);
   if (record.step_end < grid.step0 || since % static_cast<std::uint64_t>(grid.interval) != 0)

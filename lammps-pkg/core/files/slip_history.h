@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file files/slip_history.h
-/// Slip of a fault in space and time, for pictures and for finding its ruptures again †: the
-/// bins of events/fault_grid.h, interval by interval while anything slips; quiet intervals are
+/// Slip of a fault in space and time, for pictures and for finding ruptures again with other
+/// settings †. Bins and intervals are those of events/fault_grid.h; intervals without slip are
 /// merged.
 ///
 /// Binary: 16 bytes "lsm-slip-hist-1\n", int64 length of the header, the header (lines
@@ -68,7 +68,7 @@ struct SlipHistoryInfo : text_io::FileHeader {
   std::int64_t record_bytes() const { return 24 + 12 * static_cast<std::int64_t>(grid.bins); }
 };
 
-/// The fault between two steps.
+/// What the fault did between two steps.
 struct SlipRecord {
   std::int64_t step_begin = 0, step_end = 0;
   double pe = 0.0;
@@ -81,7 +81,7 @@ class SlipHistoryReader : public binary_io::RecordReader<SlipHistoryInfo> {
   explicit SlipHistoryReader(std::unique_ptr<text_io::Bytes> in, bool lenient = false)
       : RecordReader(std::move(in), lenient) {}
 
-  /// Next record; false at the end of the file. \throws FileError
+  /// Reads the next record; returns false at the end of the file. \throws FileError
   bool next(SlipRecord &record);
 
  private:
@@ -91,11 +91,11 @@ class SlipHistoryReader : public binary_io::RecordReader<SlipHistoryInfo> {
   bool has_last_ = false;
 };
 
-/// Writes a slip history. Each record is on its way to disk when it is complete; what belongs to
-/// one that is not is lost on close().
+/// Writes a slip history. Each record is handed to the operating system once it is complete; an
+/// incomplete one is lost on close().
 class SlipHistoryWriter : public binary_io::RecordWriter<SlipHistoryInfo> {
  public:
-  /// Starts with the state at the given step. \throws as begin()
+  /// Starts a file with the state at the given step. \throws as begin()
   void create(const std::string &path, const SlipHistoryInfo &info, std::int64_t step, double pe,
               const std::vector<float> &stress);
 
@@ -106,11 +106,11 @@ class SlipHistoryWriter : public binary_io::RecordWriter<SlipHistoryInfo> {
   void find_cut(const std::string &path, const SlipHistoryInfo &info,
                 const std::vector<double> &saved, const std::vector<std::string> &ignore = {});
 
-  /// The next interval, which ends at the given step. active: something slips, or did so until a
-  /// moment ago. \throws FileError
+  /// Adds the interval that ends at the given step. An `active` interval, in which something slips
+  /// or did so shortly before, gets a record of its own. \throws FileError
   void add(std::int64_t step_end, double pe, const FaultRow &row, bool active);
 
-  /// For restarts, after any add().
+  /// Returns the state for a restart file. May be called after any add().
   std::vector<double> state() const;
 
  private:

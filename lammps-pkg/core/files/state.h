@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file files/state.h
-/// State in a restart file, as numbers that one list writes and reads:
+/// State in a restart file. One function lists the members, for both writing and reading:
 ///
 ///     template <class Self, class State>
 ///     static void visit(Self &self, State &state) { state(self.step, self.pe); }
@@ -21,7 +21,7 @@ namespace LSM {
 
 namespace state_detail {
 
-/// Shared by writing and reading; Derived has one(number) and raw_words(pointer, words).
+/// Common part of writing and reading. Derived has one(number) and raw_words(pointer, words).
 template <class Derived>
 class StateVisitor {
  public:
@@ -29,12 +29,12 @@ class StateVisitor {
   void operator()(Values &...values) {
     (any(values), ...);
   }
-  /// A vector of known length.
+  /// Visits a vector whose length is known to the reader.
   template <class Vector>
   void fixed(Vector &values) {
     for (auto &value : values) any(value);
   }
-  /// A vector, after its length.
+  /// Visits the length of a vector, then its elements.
   template <class Vector>
   void list(Vector &values) {
     list(values, [](auto &) {});
@@ -51,7 +51,7 @@ class StateVisitor {
     for (auto &value : values) prepare(value);
     fixed(values);
   }
-  /// The bytes of a struct of eight-byte words, unchanged.
+  /// Copies the bytes of a struct of eight-byte words unchanged.
   template <class Plain>
   void raw(Plain &plain) {
     static_assert(std::is_trivially_copyable_v<Plain> && sizeof(Plain) % sizeof(double) == 0);
@@ -71,7 +71,7 @@ class StateVisitor {
 
 }  // namespace state_detail
 
-/// Writes.
+/// Appends the state to a vector.
 class StateWriter : public state_detail::StateVisitor<StateWriter> {
  public:
   explicit StateWriter(std::vector<double> &to) : to_(to) {}
@@ -90,12 +90,12 @@ class StateWriter : public state_detail::StateVisitor<StateWriter> {
   std::vector<double> &to_;
 };
 
-/// Reads. \throws std::invalid_argument if numbers are missing
+/// Reads the state from numbers. \throws std::invalid_argument if numbers are missing
 class StateReader : public state_detail::StateVisitor<StateReader> {
  public:
   explicit StateReader(const std::vector<double> &from, std::size_t at = 0)
       : from_(from.data() + at), left_(from.size() - at) {}
-  /// Of numbers that are known to be enough.
+  /// For numbers that are known to be complete.
   explicit StateReader(const double *from) : from_(from), left_(SIZE_MAX) {}
 
   template <class Value>
@@ -104,7 +104,7 @@ class StateReader : public state_detail::StateVisitor<StateReader> {
     value = static_cast<Value>(*from_++);
     --left_;
   }
-  /// Checks that at least so many numbers are left.
+  /// Checks that at least this many numbers are left.
   void expect(std::int64_t numbers) const {
     if (numbers < 0 || static_cast<std::uint64_t>(numbers) > left_)
       throw std::invalid_argument("saved state is incomplete");
@@ -115,7 +115,7 @@ class StateReader : public state_detail::StateVisitor<StateReader> {
     from_ += words;
     left_ -= words;
   }
-  /// Numbers that have not been read.
+  /// How many numbers have not been read yet.
   std::size_t left() const { return left_; }
 
  private:

@@ -15,7 +15,7 @@
 
 namespace LSM::text_io {
 
-/// 17 significant digits, so that reading gives the same double back.
+/// Writes 17 significant digits, so that reading them gives the same double.
 template <class T>
 void append(std::string &out, T value) {
   char buffer[64], *const end = buffer + sizeof(buffer);
@@ -32,7 +32,7 @@ std::string number(T value) {
   return out;
 }
 
-/// All of text has to be one number; no blanks, no locale. Infinities and NaN are refused.
+/// Succeeds only if the whole text is one finite number without blanks. The locale has no effect.
 template <class T>
 bool parse(std::string_view text, T &value) {
   T result{};
@@ -47,10 +47,10 @@ bool parse(std::string_view text, T &value) {
 
 std::string_view trim(std::string_view text);
 
-/// Splits at commas; n commas make n + 1 fields. Views into line.
+/// Splits a line at commas into views of it; n commas make n + 1 fields.
 void split(std::string_view line, std::vector<std::string_view> &fields);
 
-/// Field of a bad line for an error message: quoted, not too long, printable.
+/// Quotes part of a bad line for an error message, shortened and made printable.
 std::string in_quotes(std::string_view text);
 
 std::string where(const std::string &path, std::int64_t line);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file friction/friction_contact.h
-/// What is kept of two discs that touch, or nearly do, from one step to the next.
+/// What is remembered of two discs that touch, or nearly touch, from one step to the next.
 #ifndef LSM_FRICTION_CONTACT_H
 #define LSM_FRICTION_CONTACT_H
 
@@ -20,7 +20,7 @@ enum { XI, DX, DY, STATUS, LAW_STATE };
 constexpr double STICKS = 0.0, SLIDES = 1.0, NEAR = -1.0;
 constexpr double NEAR_REACH = 1.05;  ///< in sums of radii
 
-/// What all contacts of an evaluation have in common.
+/// Values shared by all contacts of a force evaluation.
 struct Step {
   bool setup;       ///< of a run, for a step that was done: contacts stay as they are
   double rounding;  ///< but for those of discs that a command moved since by more than this
@@ -28,7 +28,7 @@ struct Step {
   bool located;     ///< the begin of a contact within the step is found
 };
 
-/// No contact: the vector is kept while the pair is near, and forgotten otherwise.
+/// Without contact, the vector is remembered as long as the pair is near.
 inline void keep_near(bool near, double delx, double dely, bool &touch, double *h) {
   touch = near;
   h[XI] = 0.0;
@@ -54,8 +54,8 @@ inline double displacement(double delx, double dely, double before_x, double bef
   return (my * (before_x - delx) + mx * (dely - before_y)) * minv;
 }
 
-/// Displacement of a contact in the step, and its time; one that was not there begins. Whether the
-/// discs have moved.
+/// Finds the tangential displacement of a contact in this step and its duration, and starts new
+/// contacts. Returns whether the discs have moved.
 template <class Law>
 [[gnu::always_inline]] inline bool follow(const Step &step, const typename Law::Coefficients &c,
                                           double delx, double dely, double r, double r0,
@@ -80,7 +80,7 @@ template <class Law>
   return moved;
 }
 
-/// Of a contact that did not move nothing changes.
+/// A contact that did not move is left unchanged.
 template <class Law>
 [[gnu::always_inline]] inline FrictionStep next(bool moved, const typename Law::Coefficients &c,
                                                 FrictionContact &contact, double *h) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// \file findings.h
-/// Findings of a statistic, as text and for programs.
-#ifndef LSM_POSTPROC_FINDINGS_H
-#define LSM_POSTPROC_FINDINGS_H
+/// \file results.h
+/// Results of a statistic, as text and for programs.
+#ifndef LSM_POSTPROC_RESULTS_H
+#define LSM_POSTPROC_RESULTS_H
 
 #include <functional>
 #include <memory>
@@ -29,8 +29,8 @@ struct WrittenFile {
   std::function<void()> close;
 };
 
-/// One finding. Names are those in JSON; one with an empty name is left out.
-struct Finding {
+/// One result. Names are those in JSON; one with an empty name is left out.
+struct Result {
   std::string name;
   std::variant<std::string, Warning, Table, Figure, WrittenFile,
                std::shared_ptr<const nlohmann::ordered_json>>
@@ -39,7 +39,7 @@ struct Finding {
 };
 
 /// In the order in which they are printed; JSON has the order in which they were named.
-class Findings {
+class Results {
  public:
   void say(std::string text) { all_.push_back({{}, std::move(text), {}}); }
   void say(const std::vector<std::string> &lines) {
@@ -62,10 +62,10 @@ class Findings {
   void numbers(const std::string &name, const Json &value) {
     all_.push_back({name, std::make_shared<const nlohmann::ordered_json>(value), {}});
   }
-  const std::vector<Finding> &all() const { return all_; }
+  const std::vector<Result> &all() const { return all_; }
 
  private:
-  std::vector<Finding> all_;
+  std::vector<Result> all_;
 };
 
 }  // namespace LSM::postproc
