@@ -21,6 +21,8 @@ import sys
 import tempfile
 from pathlib import Path
 
+from text_tables import rows_of
+
 # Time units. 0.99 a step is a memory of 100 steps; printed numbers imply steps of 0.0045, a benchmark of the same code has 0.02.
 MEMORIES = (0.5, 1, 2)
 LOADING = 8000  # time units that are left out: compression, and PE rising for the first time
@@ -123,7 +125,7 @@ def distance(row, statements=STATEMENTS):
 def read(path):
     path = Path(path)
     with (lzma.open if path.suffix == ".xz" else open)(path, "rt") as lines:
-        return list(csv.DictReader(line for line in lines if not line.startswith("#")))
+        return list(rows_of(lines))
 
 
 # Of the block-slider; each is asked at each of the five lengths.
@@ -146,7 +148,7 @@ def summary(postproc, folder, memory, work):
     subprocess.run([postproc, "pick", series, "-o", picked, "--overwrite", "--memory-time", str(memory)], **common)
     words = [word for text in RANGES for word in ("--range", text)] + [word for text in WINDOWS for word in ("--window", text)]
     said = subprocess.run([postproc, "summary", picked, "--from", str(LOADING), *words], **common).stdout
-    numbers = next(csv.DictReader(line for line in said.splitlines() if not line.startswith("#")))
+    numbers = next(rows_of(said.splitlines()))
     beside = [
         word for option, ending in (("--history", "slip.bin"), ("--ruptures", "ruptures.csv")) for path in folder.glob(f"*.{ending}")
         for word in (option, path)
@@ -196,7 +198,7 @@ def collect_sliders(binaries, output, folders):
                 Path(binaries) / "postproc", "summary", folder / "catalogue.csv", "--from",
                 str(warmup), "--method", "least-squares", "--range", "1e-2:1", "--range", "1:1e2", "--threshold", *SLIDER_SIZES
             ], check=True, capture_output=True, text=True).stdout
-            numbers = next(csv.DictReader(line for line in said.splitlines() if not line.startswith("#")))
+            numbers = next(rows_of(said.splitlines()))
             for size in SLIDER_SIZES:
                 own = {key: numbers[f"{key}_{size}"] for key in ("events", "mean_time", "gamma", "gamma_error", "B", "C")}
                 rows.append({

@@ -23,6 +23,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 from calibrate import LOADING  # noqa: E402
 from run import events_in, replace, replace_all  # noqa: E402
+from text_tables import header_of  # noqa: E402
 
 EVENTS, RUPTURES = 1e-4, 1e-3
 MAGIC = "# lsm-catalogue 1\n"
@@ -110,7 +111,7 @@ def catalogue_of(folder):
 def statements_of(postproc, catalogue):
     """Rows of postproc statements, of one run."""
     with tempfile.TemporaryDirectory() as work, open(catalogue) as lines:
-        header = dict(line[2:].rstrip("\n").split(" = ", 1) for line in lines if line[0] == "#" and " = " in line)
+        header = header_of(lines)
         said = subprocess.run([postproc, "statements", catalogue, "--from",
                                str(LOADING), "-o", f"{work}/out", "--json", f"{work}/out.json"], capture_output=True, text=True)
         if said.returncode:

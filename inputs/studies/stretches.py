@@ -26,6 +26,7 @@ import numpy as np
 
 from calibrate import LOADING
 from superpose import write
+from text_tables import header_of, rows_of
 
 LAGS = (1, 3, 10, 30, 100, 300, 1000)  # time units
 SHIFTS = 5  # sums with other shifts
@@ -37,11 +38,6 @@ NUMBERS = {
 
 class Refused(Exception):
     pass
-
-
-def header_of(catalogue):
-    with open(catalogue, encoding="utf-8") as lines:
-        return dict(line[2:].rstrip("\n").split(" = ", 1) for line in lines if line[0] == "#" and " = " in line)
 
 
 def parts_of(path):
@@ -71,7 +67,8 @@ def parts_of(path):
 
 def stretches_of(folder, stretch, begin=0.0):
     """Header, and PE of each stretch of about this length at evenly spaced times from `begin` on. \\raises Refused"""
-    info = header_of(folder / "fault.catalogue.csv")
+    with open(folder / "fault.catalogue.csv", encoding="utf-8") as lines:
+        info = header_of(lines)
     missing = {"length", "dt", "velocity", "lambda", "seed"} - info.keys()
     if missing:
         raise Refused(f"{folder / 'fault.catalogue.csv'}: the header has no {min(missing)}, expected a catalogue of fault.in")
@@ -128,7 +125,7 @@ def events(postproc, info, every, pe, memory):
         series, picked = Path(work) / "sum.pe.bin", Path(work) / "picked.csv"
         write_series(series, info, every, pe)
         said = [asked(postproc, "pick", series, "-o", picked, "--memory-time", memory), asked(postproc, "summary", picked, "--range", "1e-4:1e-1")]
-    row = next(csv.DictReader(line for line in said[1].splitlines() if not line.startswith("#")))
+    row = next(rows_of(said[1].splitlines()))
     return {name: row.get(key) for name, key in NUMBERS.items()}
 
 

@@ -16,6 +16,8 @@ import array
 import sys
 from pathlib import Path
 
+from text_tables import header_of
+
 MAGIC = b"lsm-pe-series-1\n"
 
 
@@ -29,11 +31,7 @@ def read(path):
     if raw[:16] != MAGIC:
         raise SeriesError(f"{path}: expected a binary PE series")
     begin = 24 + int.from_bytes(raw[16:24], "little")
-    info = {}
-    for line in raw[24:begin].decode().splitlines():
-        key, equals, value = line.removeprefix("# ").partition(" = ")
-        if equals:
-            info[key] = value
+    info = header_of(raw[24:begin].decode().splitlines())
     records = raw[begin:]
     values, steps = array.array("d"), array.array("q")
     values.frombytes(records)

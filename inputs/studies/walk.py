@@ -27,6 +27,7 @@ from bisect import bisect_right
 from pathlib import Path
 
 from calibrate import LOADING, number, read
+from text_tables import rows_of
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 RESULTS = ROOT / "results"
@@ -112,7 +113,7 @@ def gammas(postproc, paths, unit, begin):
         return []
     words = [word for n in SIZES for word in ("--threshold", f"{unit * 10.0**n:g}")]
     said = subprocess.run([postproc, "summary", *map(str, paths), "--from", str(begin), *words], capture_output=True, text=True, check=True).stdout
-    rows = list(csv.DictReader(line for line in said.splitlines() if not line.startswith("#")))
+    rows = rows_of(said.splitlines())
     return [{f"gamma_{n}": number(row, f"gamma_{unit * 10.0**n:g}") for n in SIZES} for row in rows]
 
 

@@ -4,6 +4,7 @@ import re
 from pathlib import Path
 
 import pytest
+from data_files import header
 from programs import INPUTS, refused, run, start
 
 SMALL = {"length": 20, "width": 15, "settle": 100, "velocity": 0.01, "checkpoint": 400, "steps": 400, "prefix": "a"}
@@ -17,10 +18,6 @@ def scene(*more, **variables):
 
 def small(*more, **variables):
     return scene(*more, **{**SMALL, **variables})
-
-
-def header(file):
-    return dict(line[2:].split(" = ", 1) for line in Path(file).read_text().splitlines() if line.startswith("# ") and " = " in line)
 
 
 def info(file):

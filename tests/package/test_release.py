@@ -7,13 +7,10 @@ import subprocess
 
 import pytest
 
+from data_files import header
 from programs import BUILD, SOURCE, run
 
 VERSION = re.search(r"^  VERSION ([0-9]+\.[0-9]+\.[0-9]+)$", (SOURCE / "CMakeLists.txt").read_text(), re.M)[1]
-
-
-def header(path):
-    return dict(line[2:].rstrip("\n").split(" = ", 1) for line in open(path) if line.startswith("# ") and " = " in line)
 
 
 def test_version_of_the_programs(slider, postproc):
