@@ -264,6 +264,19 @@ def test_header(ran):
     assert f'"events": {len(rows("c.csv"))}' in in_json
 
 
+def test_drops_that_are_no_slip(ran, no):
+    """Of all drops of PE, --without-plate-drops leaves out those by the plate, and --keep-nonpositive takes in those without a size."""
+    run_of_many = (SHORT, "--steps 600000 --picker-memory-time 1 --json - --catalogue")
+    every, slips, kept = (json.loads(ran(*run_of_many, f"{name}.csv", *more).out)
+                          for name, *more in (("every",), ("slips", "--without-plate-drops"), ("kept", "--keep-nonpositive")))
+    assert every["events_by_plate"] > 0
+    assert slips["events"] == len(rows("slips.csv")) == every["events"] - every["events_by_plate"]
+    assert header("slips.csv")["plate_drops"] == "left out" and "plate_drops" not in header("every.csv")
+    assert (header("kept.csv")["keep_nonpositive"], header("every.csv")["keep_nonpositive"]) == ("yes", "no")
+    assert kept["events"] >= every["events"]
+    no("--without-plate-drops --events ruptures", "--without-plate-drops needs --events pe")
+
+
 def test_paper(slider, ran):
     ran("--paper --steps 20000 --blocks 16 --catalogue p.csv")
     printed = dict(scheme="printed", dt="0.01", picker="literal", kl="0.01", velocity="0.01", warmup="0", friction_low="0.5", friction_high="1")
