@@ -86,7 +86,8 @@ def test_install(work):
     # headers of the core, and its library
     Path("program.cpp").write_text(PROGRAM)
     library, = root.rglob("liblsm_core.a")
-    run(Program("compiler", os.environ.get("LSM_CXX", "c++")), "-std=c++17", f"-I{root}/include -I{root}/include/lsm -o program program.cpp {library}")
+    run(Program("compiler", os.environ.get("LSM_CXX", "c++")), "-std=c++17",
+        f"-I{root}/include -I{root}/include/lsm -o program program.cpp {library}")
     run(Program("program", work / "program"))
 
 
