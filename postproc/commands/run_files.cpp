@@ -75,9 +75,7 @@ void check_same_run(const std::vector<EventTable> &catalogues, const HeaderOf &o
   throw FileError(first + expected_same);
 }
 
-HeaderOf header_of(const EventTable &table) {
-  return {table.path, table.info.header()};
-}
+HeaderOf header_of(const EventTable &table) { return {table.path, table.info.header()}; }
 
 void RunFiles::add_to(CLI::App *command) {
   OptionGroup(command, "Files of the runs, in the order of their catalogues; none: leave it out")

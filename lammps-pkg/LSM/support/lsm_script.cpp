@@ -10,8 +10,8 @@
 #include "variable.h"
 #include "write_restart.h"
 
-#include "files/restart_info.h"
 #include "files/file_error.h"
+#include "files/restart_info.h"
 #include "lsm_ranks.h"
 
 #include <filesystem>
