@@ -85,6 +85,20 @@ using CatalogueResume = CatalogueFile;
 
 // ---- format ----
 
+TEST(Text, NumbersAreFiniteAndNothingElse) {
+  double number = 7.0;
+  for (const char *text : {"nan", "inf", "-inf", "1e999", "", " 1", "1 ", "1,5", "0x1"})
+    EXPECT_FALSE(LSM::text_io::parse(text, number)) << "'" << text << "'";
+  EXPECT_EQ(number, 7.0);
+  EXPECT_TRUE(LSM::text_io::parse("-1e-3", number));
+  EXPECT_EQ(number, -1e-3);
+  int whole = 7;
+  EXPECT_FALSE(LSM::text_io::parse("2.5", whole));
+  EXPECT_EQ(whole, 7);
+  EXPECT_TRUE(LSM::text_io::parse("-12", whole));
+  EXPECT_EQ(whole, -12);
+}
+
 TEST_F(CatalogueWrite, FormatToTheByte) {
   CatalogueWriter writer;
   writer.create(file(), some_info());
