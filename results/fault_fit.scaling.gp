@@ -50,7 +50,7 @@ low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y
 set samples 400
 plot table using (row(1)):(low($4,$5)):(0):($4+$5-low($4,$5)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \
      table using (row(1)):4 with points lt 1 title "fault: s*", \
-     [102:2223.5294117647059] '+' using 1:(0.35896621571833554*$1**(0.19102593492464504)) with lines lt 1 title "A L^D with D = 0.191 ± 0.035", \
-     [102:2223.5294117647059] '+' using 1:(1.1100241564385869) with lines lt 8 dt 2 title "constant"
+     [102:2223.5294117647059] '+' using 1:(0.33262649366779523*$1**(0.20473925048777736)) with lines lt 1 title "A L^D with D = 0.205 ± 0.031", \
+     [102:2223.5294117647059] '+' using 1:(1.1706841437078015) with lines lt 8 dt 2 title "constant"
 unset output
 }

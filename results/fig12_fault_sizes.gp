@@ -67,7 +67,7 @@ plot table using (row(1)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads
      table using (row(4)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 4 dt 1 lw 0.8 notitle, \
      table using (row(4)):8 with points lt 4 notitle, \
      table using (row(4)):8 with lines lt 4 lw 1.2 notitle, \
-     keyentry with linespoints lt 4 title "fault, length 945 (700 events)", \
+     keyentry with linespoints lt 4 title "fault, length 945 (2341 events)", \
      table using (row(5)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 5 dt 1 lw 0.8 notitle, \
      table using (row(5)):8 with points lt 5 notitle, \
      table using (row(5)):8 with lines lt 5 lw 1.2 notitle, \
@@ -75,7 +75,7 @@ plot table using (row(1)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads
      table using (row(6)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 6 dt 1 lw 0.8 notitle, \
      table using (row(6)):8 with points lt 6 notitle, \
      table using (row(6)):8 with lines lt 6 lw 1.2 notitle, \
-     keyentry with linespoints lt 6 title "fault, length 1890 (407 events)", \
+     keyentry with linespoints lt 6 title "fault, length 1890 (1508 events)", \
      [0.0001:0.10000000000000001] '+' using 1:(0.424220211571882*$1**(-1.0700000000000001)) with lines lt 8 dt 2 lw 2.2 title "slope -1.07"
 unset output
 }
