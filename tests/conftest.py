@@ -11,6 +11,9 @@ import pytest
 sys.dont_write_bytecode = True
 from programs import INPUTS, SOURCE, Faults, Program  # noqa: E402
 
+sys.path.insert(0, str(INPUTS))
+from run import MPI  # noqa: E402
+
 
 def pytest_sessionfinish(session, exitstatus):
     """With nothing but skipped tests ctest is told so: skipped is not passed."""
@@ -37,11 +40,6 @@ def postproc():
     return Program.built("postproc")
 
 
-def mpi_environment():
-    said = subprocess.run(["bash", "-c", f"env -i bash -c '. {INPUTS}/mpi-settings.sh; env'"], capture_output=True, text=True, check=True).stdout
-    return dict(line.split("=", 1) for line in said.splitlines() if line.startswith(("OMP", "PRTE")))
-
-
 def lammps_errors(result):
     return [line for line in result.out.splitlines() if "ERROR" in line]
 
@@ -49,7 +47,7 @@ def lammps_errors(result):
 @pytest.fixture(scope="session")
 def lmp():
     """lmp on one rank, without a log file."""
-    return Program.built("lmp", "-log", "none", env=mpi_environment(), errors=lammps_errors)
+    return Program.built("lmp", "-log", "none", env=MPI, errors=lammps_errors)
 
 
 @pytest.fixture(scope="session")

@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from conftest import lammps_errors, mpi_environment
+from conftest import MPI, lammps_errors
 from data_files import rows, same_bytes
 from programs import BUILD, Program, run, scene
 from test_python import FAULT
@@ -48,7 +48,7 @@ def test_install(work):
     # programs as installed: nothing of the build folder in the environment
     def installed(path, *options):
         program = Program(Path(path).name, path, *options, errors=lammps_errors)
-        program.env = {**mpi_environment(), "PATH": f"{root}/bin:/usr/bin:/bin", "HOME": str(work)}
+        program.env = {**MPI, "PATH": f"{root}/bin:/usr/bin:/bin", "HOME": str(work)}
         return program
 
     for name in "slider_cli", "postproc":

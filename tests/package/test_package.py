@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 import pytest
-from conftest import lammps_errors, mpi_environment
+from conftest import MPI, lammps_errors
 from data_files import read_catalogue, same, same_bytes
 from programs import BUILD, Program, run
 
@@ -19,7 +19,7 @@ PLUGIN = BUILD / "lib/lsmplugin.so"
 def stock():
     if not os.environ.get("LSM_STOCK_LMP"):
         pytest.skip("no stock lmp: LSM_STOCK_LMP is not set")
-    return Program("lmp", os.environ["LSM_STOCK_LMP"], "-log", "none", env=mpi_environment(), errors=lammps_errors)
+    return Program("lmp", os.environ["LSM_STOCK_LMP"], "-log", "none", env=MPI, errors=lammps_errors)
 
 
 # Two discs that are linked and two that collide: bond, pair and integrator in one small run, in which the

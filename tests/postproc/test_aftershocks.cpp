@@ -65,7 +65,8 @@ EventTable events(const std::vector<double> &starts, const std::vector<double> &
 }
 
 /// Main shocks, each with aftershocks by Omori's law and half as many foreshocks by the same law
-/// back in time, and a steady background throughout. \param each aftershocks of a main shock
+/// back in time, and a steady background throughout.
+/// \param each aftershocks of a main shock
 EventTable sequences_on_background(int main_shocks, double each, double p, double background,
                                    unsigned long seed) {
   const Rng rng = generator(seed);

@@ -41,8 +41,8 @@ class SwitchingChain {
   EnergyLedger ledger() const;
   void set_displacements(const std::vector<double> &u);
   double time() const { return p_.dt * static_cast<double>(step_); }
-  /// One time step. \throws std::runtime_error if switches do not end or the tolerance is out of
-  /// reach
+  /// One time step.
+  /// \throws std::runtime_error if switches do not end or the tolerance is out of reach
   void advance();
 
  private:
