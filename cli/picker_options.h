@@ -30,9 +30,9 @@ class PickerOptions {
   /// Whether the leakiness is given, directly or by the memory time.
   bool says_lambda() const { return lambda || memory_time; }
 
-  /// Returns the given settings, completed by those of `settings`. \param interval time between
-  /// samples (model time) \throws std::invalid_argument naming the option, its value and what is
-  /// expected
+  /// Returns the given settings, completed by those of `settings`.
+  /// \param interval time between samples (model time)
+  /// \throws std::invalid_argument naming the option, its value and what is expected
   PickerSettings over(PickerSettings settings, double interval) const;
 
   std::string lambda_name() const { return "--" + prefix + "lambda"; }

@@ -88,9 +88,10 @@ class Chain {
   double fastest() const;
 
   /// Leaps by creep without time steps (see Creep), to the step at which blocks are about to become
-  /// fast, or PE begins or ceases to fall, or to last; at its end all blocks are at rest. \param
-  /// least smallest number of steps worth a leap \param falls,rises whether PE may fall, or rise,
-  /// in it \return false, and nothing done, if there is no such leap
+  /// fast, or PE begins or ceases to fall, or to last; at its end all blocks are at rest.
+  /// \param least smallest number of steps worth a leap
+  /// \param falls,rises whether PE may fall, or rise, in it \return false, and nothing done, if
+  /// there is no such leap
   bool leap(std::int64_t last, std::int64_t least, double fast, bool falls, bool rises);
   /// PE at a step within the last leap.
   double pe_in_leap(std::int64_t at) const;

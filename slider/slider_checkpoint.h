@@ -33,8 +33,9 @@ struct RunState : EventCounts {
   std::int64_t calm_since = 0;  ///< last step with a block too fast for a leap, or of a leap
 };
 
-/// Replaces the file atomically, so that there is a complete checkpoint at any moment. \param
-/// settings "key = value" of everything that influences the run \throws std::runtime_error
+/// Replaces the file atomically, so that there is a complete checkpoint at any moment.
+/// \param settings "key = value" of everything that influences the run
+/// \throws std::runtime_error
 void write_checkpoint(const std::string &path, const std::vector<std::string> &settings,
                       const RunState &state);
 

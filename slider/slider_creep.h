@@ -49,7 +49,9 @@ class Creep {
     double change(double on) const { return on * (pe_rate + 0.5 * slope * on); }
   };
 
-  /// \param mu strengths at rest, one per block \param u displacements \param plate its position
+  /// \param mu strengths at rest, one per block
+  /// \param u displacements
+  /// \param plate its position
   /// \param fast velocity that no block must reach
   Creep(const Parameters &p, const double *mu, const double *u, double plate, double fast)
       : p_(p), mu_(mu), n_(p.blocks), fast_(fast / p.velocity) {

@@ -97,8 +97,9 @@ class PeAccount {
     pe_.add(change_);
     value_ = pe_.value();
   }
-  /// Accounts for a leap, in which blocks moved without steps. \param changed change of PE in the
-  /// leap \param change change over its last step
+  /// Accounts for a leap, in which blocks moved without steps.
+  /// \param changed change of PE in the leap
+  /// \param change change over its last step
   void leap(double changed, double change, const double *u) {
     pe_ = LSM::NeumaierSum(value_);
     pe_.add(changed);

@@ -1,7 +1,7 @@
-// SPDX-License-Identifier: GPL-2.0-or-later One time step, compiled once for each instruction set
-// SLIDER_SET with SLIDER_LANES lanes per register. Every function called here must be inlined: of
-// inline functions that are not, the linker would keep one copy, of any instruction set, for all
-// programs.
+// SPDX-License-Identifier: GPL-2.0-or-later
+// One time step, compiled once for each instruction set SLIDER_SET with SLIDER_LANES lanes per
+// register. Every function called here must be inlined: of inline functions that are not, the
+// linker would keep one copy, of any instruction set, for all programs.
 #include "slider_kernels.h"
 #include "slider_modes.h"
 

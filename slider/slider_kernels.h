@@ -57,8 +57,8 @@ constexpr std::array<LSM::Named<InstructionSet>, 3> names_of(InstructionSet) {
 bool has(InstructionSet set);
 InstructionSet widest_instruction_set();
 
-/// Returns the kernel that these parameters need. \throws std::invalid_argument if the processor
-/// lacks the set asked for.
+/// Returns the kernel that these parameters need.
+/// \throws std::invalid_argument if the processor lacks the set asked for.
 StepFunction step_function(const Parameters &p, InstructionSet set);
 
 }  // namespace Slider

@@ -221,8 +221,8 @@ class CommandLine {
     runs.add("--threads", s_.threads, "Runs at a time; 0: one per core", LSM::whole_number(4096));
   }
 
-  /// Refuses keys that appear twice, of which CLI11 would silently take the last. \throws
-  /// LSM::FileError
+  /// Refuses keys that appear twice, of which CLI11 would silently take the last.
+  /// \throws LSM::FileError
   void check_config(const std::string &path) const {
     using LSM::text_io::in_quotes;
     using LSM::text_io::trim;

@@ -22,12 +22,13 @@ struct Settings {
   unsigned threads = 0;
 };
 
-/// Prints help or version and ends the program if they are asked for. \throws std::invalid_argument
-/// or std::runtime_error with one line
+/// Prints help or version and ends the program if they are asked for.
+/// \throws std::invalid_argument or std::runtime_error with one line
 Settings parse(std::vector<std::string> arguments, const std::atomic<int> *stop);
 
-/// Returns the runs of --ensemble, each with its own output files. \param base of the same
-/// arguments \throws as parse()
+/// Returns the runs of --ensemble, each with its own output files.
+/// \param base of the same arguments
+/// \throws as parse()
 std::vector<Settings> ensemble(const Settings &base, const std::vector<std::string> &arguments);
 
 /// Checks that all outputs of all runs are different files, and that none of them is an input.

@@ -17,8 +17,8 @@ namespace Slider {
 
 class Outputs {
  public:
-  /// Locks the files and checks that they can be written, without writing them. \throws
-  /// std::runtime_error naming file and option
+  /// Locks the files and checks that they can be written, without writing them.
+  /// \throws std::runtime_error naming file and option
   explicit Outputs(const RunOptions &options) : o_(options) {
     // The files are locked before they are read, as another run may still be writing them.
     claim_ = LSM::claim_outputs(outputs_of(o_));

@@ -70,7 +70,8 @@ class Run {
   /// Whether a leap may begin here: some block moves, so that quiet steps cannot be jumped over,
   /// but none has been fast for a while. This depends only on the state of the chain and is checked
   /// at fixed steps, so that a run continued from a checkpoint leaps where the uninterrupted one
-  /// does. \param at_rest whether to leap when nothing moves, too
+  /// does.
+  /// \param at_rest whether to leap when nothing moves, too
   bool may_leap(bool at_rest) {
     const std::int64_t step = chain_.step();
     if (step < next_look_) return false;

@@ -88,8 +88,8 @@ void probe(const std::string &path);
 /// The files that a run writes as it goes.
 std::vector<LSM::Output> outputs_of(const RunOptions &options);
 
-/// Refuses to replace files that are not empty, unless asked to. \throws std::runtime_error naming
-/// file and options
+/// Refuses to replace files that are not empty, unless asked to.
+/// \throws std::runtime_error naming file and options
 void check_replaced(const RunOptions &options);
 
 /// Runs or continues one chain. \throws std::exception with one line on bad input or output.

@@ -54,7 +54,8 @@ std::vector<double> modes_of(Coupling coupling, const Strip &strip, int blocks);
 
 /// The same from a file: lines "wavenumber,stiffness" in ascending order, from 0 (the leaf spring)
 /// to pi or beyond (radians per block; force per slip), between which it is interpolated linearly;
-/// '#' begins a comment. \throws LSM::FileError naming file and line
+/// '#' begins a comment.
+/// \throws LSM::FileError naming file and line
 std::vector<double> read_modes(const std::string &path, int blocks);
 
 /// One strength per line for each block; '#' begins a comment. \throws LSM::FileError

@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: GPL-2.0-or-later Lattice Solid Model: potential energy at every step,
-// slip events picked from its drops, catalogue and energy ledger. The core processes the samples;
-// this class connects it with LAMMPS.
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Lattice Solid Model: potential energy at every step, slip events picked from its drops, catalogue
+// and energy ledger. The core processes the samples; this class connects it with LAMMPS.
 
 #ifdef COMPUTE_CLASS
 // clang-format off

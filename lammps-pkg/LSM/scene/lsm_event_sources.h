@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: GPL-2.0-or-later The styles of a scene whose energies and works compute
-// lsm/events records, found anew for each run
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The styles of a scene whose energies and works compute lsm/events records, found anew for each
+// run
 
 #ifndef LMP_LSM_EVENT_SOURCES_H
 #define LMP_LSM_EVENT_SOURCES_H

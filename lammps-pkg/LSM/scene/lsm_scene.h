@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: GPL-2.0-or-later Queries about the scene, by which the styles of the
-// package refuse combinations that they cannot handle
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Queries about the scene, by which the styles of the package refuse combinations that they cannot
+// handle
 
 #ifndef LMP_LSM_SCENE_H
 #define LMP_LSM_SCENE_H

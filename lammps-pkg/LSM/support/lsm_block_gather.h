@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: GPL-2.0-or-later Gathers blocks of samples of all ranks on rank 0. Their
-// energies are sent while the ranks continue.
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Gathers blocks of samples of all ranks on rank 0. Their energies are sent while the ranks
+// continue.
 
 #ifndef LMP_LSM_BLOCK_GATHER_H
 #define LMP_LSM_BLOCK_GATHER_H

@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: GPL-2.0-or-later What a contact loop records of its contacts. The loop
-// is compiled once with each recorder, so that a run that records nothing pays nothing.
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a contact loop records of its contacts. The loop is compiled once with each recorder, so
+// that a run that records nothing pays nothing.
 
 #ifndef LMP_LSM_CONTACT_RECORDER_H
 #define LMP_LSM_CONTACT_RECORDER_H

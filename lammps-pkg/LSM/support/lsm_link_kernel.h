@@ -64,9 +64,11 @@ namespace LSMLinkKernel {
   };
 
   /// Adds the forces of links to f and returns their elastic energy. Links that break give neither,
-  /// and are added to `broken`. \param first_only  no force on the partner: its owner adds it. Half
-  /// of the energy is returned. Rows have to be mixed \param avx2        use these instructions,
-  /// which the processor has to have; the same digits either way
+  /// and are added to `broken`.
+  /// \param first_only  no force on the partner: its owner adds it. Half of the energy is returned.
+  /// Rows have to be mixed
+  /// \param avx2        use these instructions, which the processor has to have; the same digits
+  /// either way
   template <int DIM, class Law>
   double forces(const LSMLinkRows::Rows &, const Law &, bool first_only, const double *x, double *f,
                 std::vector<Place> &broken, bool avx2);

@@ -40,11 +40,13 @@ namespace LSMLinkRows {
   };
 
   /// The rows of links. Their order follows from that of `owned` and of `links` alone, so both have
-  /// to follow from the particle IDs. \param owned  local indices of the particles of this rank,
-  /// each once \param links  the first end of each is owned \param nlocal particles of this rank:
-  /// those with local indices from this on are ghosts and have no rows \param nall   local indices
-  /// are below this \param mixed  put rows of all lengths side by side, filled up to the longest:
-  /// for few links
+  /// to follow from the particle IDs.
+  /// \param owned  local indices of the particles of this rank, each once
+  /// \param links  the first end of each is owned
+  /// \param nlocal particles of this rank: those with local indices from this on are ghosts and
+  /// have no rows
+  /// \param nall   local indices are below this
+  /// \param mixed  put rows of all lengths side by side, filled up to the longest: for few links
   Rows make_rows(const std::vector<int> &owned, const std::vector<Link> &links, int nlocal,
                  int nall, bool mixed);
 

@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: GPL-2.0-or-later The fixes of the package that move particles, and how
-// far particles move from one step of a run to the next
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The fixes of the package that move particles, and how far particles move from one step of a run
+// to the next
 
 #ifndef LMP_LSM_MOVER_H
 #define LMP_LSM_MOVER_H

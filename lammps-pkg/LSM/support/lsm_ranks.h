@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: GPL-2.0-or-later Communication between ranks
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Communication between ranks
 
 #ifndef LMP_LSM_RANKS_H
 #define LMP_LSM_RANKS_H

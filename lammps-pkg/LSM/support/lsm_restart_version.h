@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: GPL-2.0-or-later The version of the package's data in restart files
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The version of the package's data in restart files
 
 #ifndef LMP_LSM_RESTART_VERSION_H
 #define LMP_LSM_RESTART_VERSION_H

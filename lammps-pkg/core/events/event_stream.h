@@ -76,15 +76,16 @@ class EventStream {
 
   /// Starts or continues the files. Anything that prevents it is found before the first file is
   /// touched. from_restart says that set_state() was called; `others` are files that something else
-  /// writes. \throws EventStreamError or what the writers throw
+  /// writes.
+  /// \throws EventStreamError or what the writers throw
   void begin_files(std::int64_t step, bool from_restart, const SceneInfo &scene,
                    const StepClock &clock, const std::vector<Output> &others = {});
 
   /// Records the fault before its first interval, with the sums over its contacts of all ranks.
   void begin_fault(double pe, const std::vector<double> &sums);
 
-  /// Adds the samples of a block. time_of(step) is model time; the fault begins at x0. \throws
-  /// EventStreamError or what the writers throw, at the first offending sample
+  /// Adds the samples of a block. time_of(step) is model time; the fault begins at x0.
+  /// \throws EventStreamError or what the writers throw, at the first offending sample
   void add_block(const GatheredBlock &block, const TimeOfStep &time_of, double x0, double length);
 
   /// Writes open events with their end so far; nothing may be added afterwards.

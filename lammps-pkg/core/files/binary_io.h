@@ -178,8 +178,8 @@ class RecordReader {
 template <class Info>
 class RecordWriter : public text_io::ResumableFile {
  protected:
-  /// Starts a new file. An older one is replaced only once the header has been written. \throws
-  /// FileError; std::invalid_argument for a header that could not be read back.
+  /// Starts a new file. An older one is replaced only once the header has been written.
+  /// \throws FileError; std::invalid_argument for a header that could not be read back.
   void begin(const std::string &path, const Info &info) {
     std::string bytes(Info::magic);
     const std::string lines = text_io::lines_of(checked(info));
@@ -189,7 +189,8 @@ class RecordWriter : public text_io::ResumableFile {
   }
 
   /// Checks that the header is what begin() would write, except for the parameters named in
-  /// `ignore`. \throws the same, naming the first parameter that differs
+  /// `ignore`.
+  /// \throws the same, naming the first parameter that differs
   void compare(const std::string &path, const Info &found, const Info &info,
                const std::vector<std::string> &ignore) {
     const std::string problem = text_io::difference(found.header(), checked(info), ignore);

@@ -134,13 +134,15 @@ class CatalogueWriter : public text_io::ResumableFile {
   /// Looks at the catalogue of a run restarted from last_step, which cut() goes on with: checks
   /// that the header says what create() would write (parameters named in ignore may differ; their
   /// old values stay), and finds the first event that ended after last_step, or a torn last line.
-  /// expected: number of events before the cut, if not negative. \throws FileError naming the first
-  /// parameter that differs, the first bad line, or the number of events.
+  /// expected: number of events before the cut, if not negative.
+  /// \throws FileError naming the first parameter that differs, the first bad line, or the number
+  /// of events.
   void find_cut(const std::string &path, const CatalogueInfo &info, std::int64_t last_step,
                 const std::vector<std::string> &ignore = {}, std::int64_t expected = -1);
 
-  /// Appends one line and hands it to the operating system. \throws FileError if that fails, or if
-  /// the event is not one a reader would accept after the one before (NaN, order).
+  /// Appends one line and hands it to the operating system.
+  /// \throws FileError if that fails, or if the event is not one a reader would accept after the
+  /// one before (NaN, order).
   void write(const Event &event);
 
   std::int64_t rows() const { return rows_; }  ///< events in the file, kept ones included

@@ -59,7 +59,8 @@ std::string_view compressed_by(std::string_view head);
 std::string_view compressed_by(Bytes &file);
 
 /// Opens a file that must not be compressed, as LAMMPS and the block-slider do not link a library
-/// for decompression. \throws FileError
+/// for decompression.
+/// \throws FileError
 std::unique_ptr<Bytes> open_plain(const std::string &path);
 
 /// Whether a text begins with a byte order mark of UTF-16.

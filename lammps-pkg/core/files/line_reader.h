@@ -25,8 +25,8 @@ class LineReader {
   explicit LineReader(std::unique_ptr<Bytes> bytes);
 
   /// Returns the next line without its '\n', valid until the next call, or false at the end of the
-  /// file. \throws FileError if the file cannot be read or a line is longer than any of ours can
-  /// be.
+  /// file.
+  /// \throws FileError if the file cannot be read or a line is longer than any of ours can be.
   bool next(std::string_view &line);
 
   const std::string &path() const { return bytes_->path(); }

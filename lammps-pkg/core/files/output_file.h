@@ -25,7 +25,8 @@ std::string why_not_writable(const std::string &path);
 void sync(const std::string &path);
 
 /// Unbuffered output file: each write() hands all its bytes to the operating system at once, so
-/// that a process killed between two calls leaves nothing half-written. \throws FileError
+/// that a process killed between two calls leaves nothing half-written.
+/// \throws FileError
 class OutputFile {
  public:
   OutputFile() = default;
@@ -34,8 +35,8 @@ class OutputFile {
   ~OutputFile() { discard(); }
 
   /// Replaces path by a file that begins with text, written beside it; an older file stays
-  /// untouched if that fails. \param whole the file gets its name by close() only, and nothing is
-  /// left of it without
+  /// untouched if that fails.
+  /// \param whole the file gets its name by close() only, and nothing is left of it without
   void create(const std::string &path, std::string_view text, bool whole = false);
 
   /// Selects an existing file, of which append() will keep this many bytes.
@@ -84,8 +85,9 @@ class ResumableFile {
   OutputFile file_;
 };
 
-/// Replaces path by a file with the text, or leaves it unchanged. \param safe also writes it to the
-/// disk, so that a power failure cannot lose it \throws FileError
+/// Replaces path by a file with the text, or leaves it unchanged.
+/// \param safe also writes it to the disk, so that a power failure cannot lose it
+/// \throws FileError
 void write_file(const std::string &path, std::string_view text, bool safe = false);
 }  // namespace LSM::text_io
 

@@ -60,7 +60,8 @@ class PeSeriesReader : public binary_io::RecordReader<PeSeriesInfo> {
       : RecordReader(std::move(in), lenient) {}
 
   /// Reads the next sample; returns false at the end of the file. Checks that steps increase and
-  /// numbers are finite. \throws FileError
+  /// numbers are finite.
+  /// \throws FileError
   bool next(std::int64_t &step, double &time, double &pe);
 
  private:
@@ -80,19 +81,20 @@ class PeSeriesWriter : public binary_io::RecordWriter<PeSeriesInfo> {
 
   /// Looks at the series of a run restarted from last_step, which cut() goes on with: checks that
   /// the header is what create() would write (parameters named in ignore may differ; their old
-  /// values stay), and finds the first sample after last_step or an incomplete last one. \throws
-  /// FileError naming the first parameter that differs, the first bad line, or the samples missing
-  /// before last_step.
+  /// values stay), and finds the first sample after last_step or an incomplete last one.
+  /// \throws FileError naming the first parameter that differs, the first bad line, or the samples
+  /// missing before last_step.
   void find_cut(const std::string &path, const PeSeriesInfo &info, std::int64_t last_step,
                 const std::vector<std::string> &ignore = {});
 
-  /// Adds a sample at the time given by its step. \throws as below; std::logic_error for a series
-  /// with explicit_times
+  /// Adds a sample at the time given by its step.
+  /// \throws as below; std::logic_error for a series with explicit_times
   void write(std::int64_t step, double pe);
 
-  /// Adds a sample. \param time counts with explicit_times only
-  /// \throws FileError if a number is not finite, steps or times do not increase, or a block
-  /// cannot be written.
+  /// Adds a sample.
+  /// \param time counts with explicit_times only
+  /// \throws FileError if a number is not finite, steps or times do not increase, or a block cannot
+  /// be written.
   void write(std::int64_t step, double time, double pe);
 
   /// Hands all samples so far to the operating system. \throws FileError

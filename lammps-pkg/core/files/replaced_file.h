@@ -19,8 +19,8 @@ Known begins_with(std::string text);
 /// Describes for messages what a file holds, judging by its first bytes.
 std::string content_of(std::string_view head);
 
-/// Returns why a program must not replace path without being asked to, or "". \throws FileError if
-/// the file cannot be read
+/// Returns why a program must not replace path without being asked to, or "".
+/// \throws FileError if the file cannot be read
 std::string why_kept(const std::string &path, const Known &known = nullptr);
 
 }  // namespace LSM

@@ -36,12 +36,14 @@ class Cksum {
 
 /// Renames the restart file `written` to `path` and writes its FILE.info with the settings, whose
 /// keys must not contain '='. Whenever this is interrupted, a restart file that has an info file is
-/// complete. \throws FileError
+/// complete.
+/// \throws FileError
 void seal_restart(const std::string &written, const std::string &path,
                   const text_io::Parameters &settings);
 
 /// Compares a restart file with its FILE.info and returns the settings in it, which are empty if
-/// the info file has only its last line. \throws FileError with the reason in one line
+/// the info file has only its last line.
+/// \throws FileError with the reason in one line
 text_io::Parameters check_restart(const std::string &path);
 
 }  // namespace LSM

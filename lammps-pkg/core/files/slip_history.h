@@ -107,7 +107,8 @@ class SlipHistoryWriter : public binary_io::RecordWriter<SlipHistoryInfo> {
                 const std::vector<double> &saved, const std::vector<std::string> &ignore = {});
 
   /// Adds the interval that ends at the given step. An `active` interval, in which something slips
-  /// or did so shortly before, gets a record of its own. \throws FileError
+  /// or did so shortly before, gets a record of its own.
+  /// \throws FileError
   void add(std::int64_t step_end, double pe, const FaultRow &row, bool active);
 
   /// Returns the state for a restart file. May be called after any add().
