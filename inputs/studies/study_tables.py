@@ -19,6 +19,7 @@ import sys
 from pathlib import Path
 
 import yaml
+from calibrate import LOADING
 
 INPUTS = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(INPUTS))
@@ -237,7 +238,7 @@ class Study:
         self.runs = read_runs(table, config)
         self.known = {program: self.known_to(program) for program in {run.program for run in self.runs.values()}}
         self.common = dict(math.__dict__, postproc=shlex.quote(f"{self.binaries}/postproc"), inputs=shlex.quote(str(INPUTS)),
-                           shorten=float(config.get("shorten") or 1))
+                           shorten=float(config.get("shorten") or 1), loading=LOADING)
         recipe, default = table.with_suffix(".yaml"), Path(__file__).with_name("default.yaml")
         self.recipe = self.read_recipe(recipe if recipe.exists() else default)
         if "like" in self.recipe:
@@ -344,7 +345,7 @@ class Study:
         return [run for name, run in self.runs.items() if re.search(pattern or "", name)]
 
     def names(self, values):
-        """Names for expressions: functions of math, `shorten`, these values, and the part `values` of the recipe."""
+        """Names for expressions: functions of math, `shorten`, `loading`, these values, and the part `values` of the recipe."""
         names = dict(self.common, **values)
         for key, expression in self.part("values").items():
             try:

@@ -18,6 +18,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 from programs import INPUTS, SOURCE, Program, refused, run, snapshot, start  # noqa: E402
 
 sys.path.insert(0, str(INPUTS / "studies"))
+from calibrate import LOADING  # noqa: E402
 from study_tables import Study, TableError, with_defaults  # noqa: E402
 
 HEAD = "run,program,length,viscosity,seed,steps,settings\n"
@@ -385,6 +386,12 @@ def test_tables_that_are_right(plan, work):
 def test_settings_are_no_code(plan):
     found = plan("run,program,pe-series\nc,slider,'a; touch b'\n", "numbers:\n  count: count {catalogue} --label {pe_series}\n")
     assert found.command(found.runs["c"], "count") == "count c/catalogue.csv --label 'a; touch b'"
+
+
+def test_first_loading_has_a_name(plan):
+    """Recipes leave out what tables.py and publish.py leave out."""
+    found = plan("run,program\nc,slider\n", "values:\n  begin: loading/2\nnumbers:\n  count: count {catalogue} --from {loading} --to {begin}\n")
+    assert found.command(found.runs["c"], "count") == f"count c/catalogue.csv --from {LOADING} --to {LOADING / 2:.15g}"
 
 
 @pytest.mark.parametrize("config, said", [
