@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::int64_t fewest = 20;
 
-// Integral of (t + c)^-p from a to b, p near 1 included.
+// Integral of (t + c)^-p from a to b, accurate also for p near 1.
 double omori_integral(double a, double b, double c, double p) {
   const double low = std::log(a + c), high = std::log(b + c), q = 1.0 - p;
   const double z = q * (high - low);
@@ -30,14 +30,14 @@ double omori_integral(double a, double b, double c, double p) {
          (std::fabs(z) < 1e-8 ? 1.0 + 0.5 * z : std::expm1(z) / z);
 }
 
-// ln L as a function of the numbers of aftershocks and background events expected, c and p.
+// ln L as a function of the expected numbers of aftershocks and background events, and of c and p.
 class Likelihood {
  public:
   explicit Likelihood(const Sequences &s)
       : first_(s.first), window_(s.window), n_(static_cast<double>(s.times.size())) {
-    // Of many, those within 3 % are taken together by the mean and the variance of their
-    // logarithms, in which the logarithm of the rate hardly bends: an evaluation costs no more for
-    // more of them.
+    // To bound the cost of an evaluation, the times of a large sample are grouped into cells 3 %
+    // wide, each represented by the mean and the variance of ln t. Over such a width ln(rate) is so
+    // nearly linear in ln t that a second-order expansion suffices.
     const double width = n_ > static_cast<double>(largest_exact_sample) ? 1.03 : 1.0;
     for (std::size_t i = 0; i < s.times.size();) {
       std::size_t end = i + 1;
@@ -68,7 +68,7 @@ class Likelihood {
       const double decaying = scale * std::exp(-p * std::log(cell.time + c));
       double value = std::log(decaying + flat);
       if (cell.variance > 0.0) {
-        // half the second derivative of ln rate by ln t, times the variance of ln t
+        // half the second derivative of ln(rate) with respect to ln t, times the variance of ln t
         const double share = decaying / (decaying + flat), q = cell.time / (cell.time + c);
         value -= 0.5 * cell.variance * p * q * share * (1.0 - q - p * q * (1.0 - share));
       }
@@ -80,7 +80,7 @@ class Likelihood {
   double n() const { return n_; }
 
  private:
-  /// Times that are taken as one, and the variance of their logarithms.
+  /// A group of times and the variance of their logarithms.
   struct Cell {
     double time, count, variance;
   };
@@ -89,20 +89,21 @@ class Likelihood {
   double first_, window_, n_;
 };
 
-// The expected numbers of aftershocks and background events, and the shape of the decay.
+// A candidate law. The amplitude is expressed by the share of aftershocks in all expected events.
 struct Law {
-  double share = 1.0, c = NAN, p = NAN;  // share: of aftershocks, all events that are expected
+  double share = 1.0, c = NAN, p = NAN;  // aftershocks over all expected events; c; p
   double log_likelihood = -HUGE_VAL;
 };
 
-// At the maximum as many events are expected as there are, so that one share is enough.
+// Maximises the likelihood. At the maximum the expected number of events equals the observed one,
+// so the share of aftershocks alone determines both amplitudes.
 struct Search {
   const Likelihood &likelihood;
-  double hold_c;  // NaN: fitted
+  double hold_c;  // NaN: c is fitted
   double least_ln_c, most_ln_c;
   bool background = true;
 
-  // Order: logit of the share of aftershocks (if there is a background), ln c (if fitted), p.
+  // Free variables in this order: logit of the share (with a background), ln c (if fitted), p.
   Numbers variables_of(const Law &law) const {
     Numbers x;
     const double share = std::clamp(law.share, 1e-9, 1.0 - 1e-9);
@@ -125,7 +126,7 @@ struct Search {
     return law;
   }
 
-  // From a law to where the simplex is smaller than tolerance.
+  // Nelder-Mead search from a given law until the simplex is smaller than the tolerance.
   Law climb(const Law &from, double tolerance) const {
     Numbers first = variables_of(from), steps(first.size(), 1.0);
     steps.back() = 0.3;
@@ -149,7 +150,8 @@ struct Search {
     return law_at(gsl_multimin_fminimizer_x(work.get()));
   }
 
-  // The best law; without a background if that is at its border, where there is no curvature.
+  // Best law. If less than half an event is attributed to the background, the maximum is on the
+  // boundary, where ln L has no curvature to give an error, and the background is dropped.
   Law best(double middle) {
     Law top;
     for (const double share : {0.3, 0.8})
@@ -160,11 +162,11 @@ struct Search {
         if (found.log_likelihood > top.log_likelihood) top = found;
         if (!std::isnan(hold_c)) break;
       }
-    background = (1.0 - top.share) * likelihood.n() >= 0.5;  // of an event
+    background = (1.0 - top.share) * likelihood.n() >= 0.5;
     return climb(top, 1e-7);
   }
 
-  // Reason why a law is none, or "".
+  // Why the law is not an acceptable decay, or "".
   std::string no_decay(const Law &law, double likelihood_ratio) const {
     const bool held = !std::isnan(hold_c);
     const double ln_c = std::log(law.c);
@@ -177,7 +179,7 @@ struct Search {
   }
 };
 
-// Minus the second derivatives of a function, by central differences.
+// Observed information: minus the second derivatives of ln L, by central differences.
 template <class Function>
 SymmetricMatrix information_at(const Function &f, const Numbers &x) {
   constexpr double step = 1e-3;
@@ -198,14 +200,14 @@ SymmetricMatrix information_at(const Function &f, const Numbers &x) {
   return information;
 }
 
-// Parameters and their errors, or why there are none.
+// Fills in the parameters and their standard errors, or the reason why there are none.
 void report(const Law &law, const Search &search, const Sequences &s, OmoriFit &fit) {
   const bool held = !std::isnan(search.hold_c);
   const double n = search.likelihood.n(), shocks = static_cast<double>(s.main_shocks);
   const auto per_K = [&](double c, double p) {
     return shocks * omori_integral(s.first, s.window, c, p);
   };
-  // ln K, p, [ln c], [ln(background)].
+  // Variables in this order: ln K, p, ln c (if fitted), ln(background events) (if there are any).
   Numbers x = {std::log(law.share * n / per_K(law.c, law.p)), law.p};
   if (!held) x.push_back(std::log(law.c));
   if (search.background) x.push_back(std::log((1.0 - law.share) * n));
@@ -235,11 +237,12 @@ void report(const Law &law, const Search &search, const Sequences &s, OmoriFit &
 
 namespace {
 
-/// The events and the time outside of all windows. \param mains the main shocks in order of time
+/// Counts the events outside all windows and measures that time.
+/// \param mains main shocks in order of time
 void count_quiet(const std::vector<EventSummary> &events, const SequenceRule &rule,
                  const std::vector<EventSummary> &mains, Sequences &stack) {
   if (events.empty()) return;
-  std::vector<std::pair<double, double>> windows;  // disjoint, ascending
+  std::vector<std::pair<double, double>> windows;  // disjoint and ascending
   for (const EventSummary &main : mains) {
     const double from = main.t_start - rule.window, to = main.t_end + rule.window;
     if (!windows.empty() && from <= windows.back().second)
@@ -269,7 +272,7 @@ Sequences stack_sequences(const std::vector<EventSummary> &events, const Sequenc
   stack.first = rule.first;
   stack.window = rule.window;
   std::vector<EventSummary> mains;
-  std::size_t earliest = 0;  // of the window; it moves on with the main shocks
+  std::size_t earliest = 0;  // index of the first event in the window, which only moves forward
   for (std::size_t k = 0; k < events.size(); ++k) {
     const EventSummary main = events[k];
     if (!(main.size >= rule.main_size)) continue;
@@ -287,10 +290,11 @@ Sequences stack_sequences(const std::vector<EventSummary> &events, const Sequenc
     for (std::size_t i = earliest; i < last; ++i) {
       const EventSummary &other = events[i];
       if (other.size < rule.least_size || i == k) continue;
-      // Those that overlap may begin before the main shock and yet start after its end.
+      // An event of a catalogue with overlaps may precede the main shock in order and yet start
+      // after the main shock has ended.
       if (other.t_start >= main.t_end + rule.first)
         stack.times.push_back(std::min(other.t_start - main.t_end, rule.window));
-      // Events that overlap with the main shock are neither before nor after it.
+      // An event that overlaps with the main shock is neither before nor after it.
       if (i < k && main.t_start - other.t_end >= rule.first)
         stack.before.push_back(main.t_start - other.t_end);
     }
@@ -315,7 +319,7 @@ Measured Sequences::excess(std::size_t count) const {
 
 Measured Sequences::after_to_before() const {
   const Measured after = excess_after(), ahead = excess_before();
-  // Beyond chance, as the ratio to a number near 0 says nothing.
+  // The ratio to a number that is not significantly above 0 is meaningless.
   if (!(ahead.value > 2.0 * ahead.error)) return {};
   const double ratio = after.value / ahead.value;
   return {ratio, std::hypot(after.error, ratio * ahead.error) / ahead.value};
@@ -342,7 +346,8 @@ double OmoriFit::rate(double t) const {
 
 namespace {
 
-// Without the care of GSL's errors, whose handler is one for all threads.
+// For callers that already hold a QuietGsl: GSL's error handler is global, so threads must not
+// switch it on and off.
 OmoriFit fit_quietly(const Sequences &s, double hold_c) {
   if (!std::isnan(hold_c) && !(hold_c >= 0.0 && std::isfinite(hold_c) && hold_c + s.first > 0.0))
     throw std::invalid_argument("Omori fit: c held at " + std::to_string(hold_c) +
@@ -359,7 +364,7 @@ OmoriFit fit_quietly(const Sequences &s, double hold_c) {
                                     std::to_string(s.main_shocks) + " main shocks, at least " +
                                     std::to_string(fewest) + " events needed");
   const Likelihood likelihood(s);
-  // Below a thousandth of the first time values of c are indistinguishable.
+  // With c far below the shortest time the laws are indistinguishable, hence the lower limit of c.
   const auto positive = std::upper_bound(s.times.begin(), s.times.end(), 0.0);
   const double shortest = positive == s.times.end() ? s.window : std::max(*positive, s.first);
   Search search{likelihood, hold_c, std::log(1e-3 * shortest), std::log(s.window)};
@@ -389,7 +394,8 @@ std::vector<EventSummary> poisson_catalogue(const std::vector<EventSummary> &eve
   std::vector<double> starts(n);
   double time = overlapping ? 0.0 : first;
   if (overlapping) {
-    // Ordered uniform numbers are sums of exponential ones over the sum of one more of them.
+    // The ordered uniform numbers are partial sums of n + 1 exponential ones divided by their
+    // total.
     for (double &start : starts) start = time += exponential();
     time += exponential();
     for (double &start : starts) start = std::min(last, first + (last - first) * (start / time));
@@ -433,13 +439,13 @@ std::vector<RateBin> rate_bins(const Sequences &sequences, const SequenceRule &r
   return bins;
 }
 
-// What one Poisson catalogue gives.
+// Result for one Poisson catalogue.
 struct Replica {
   bool used = false, as_large = false;
   std::vector<double> rates;
 };
 
-// Share of the replicas whose likelihood ratio is as large, and their rates in the bins.
+// Fills in the p-value and, for each bin, the mean rate and its scatter over the replicas.
 void compare(const std::vector<Replica> &replicas, Aftershocks &result) {
   double as_large = 0.0, used = 0.0;
   for (const Replica &replica : replicas) {
@@ -474,7 +480,7 @@ Aftershocks aftershocks_of(const EventTable &table, const SequenceRule &rule, do
     if (other.main_shocks == 0) return;
     Replica &replica = all[static_cast<std::size_t>(k)];
     replica.used = true;
-    // 0 where there are too few events to fit.
+    // The likelihood ratio of a replica with too few events is NaN and does not count as as large.
     replica.as_large = fit_quietly(other, hold_c).likelihood_ratio >= result.fit.likelihood_ratio;
     for (const RateBin &bin : result.bins)
       replica.rates.push_back(static_cast<double>(count_in(bin, other.times)) /

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file aftershocks.h
-/// Do large events have aftershocks? Times of events after main shocks, stacked, and the Omori-Utsu
-/// law fitted to them. The paper does not ask (†).
+/// Tests whether large events have aftershocks: the events after all main shocks are stacked and
+/// the Omori-Utsu law is fitted to their times. The paper does not address this question (†).
 ///
 /// Sources: Utsu 1961, Geophys. Mag. 30, 521 (n(t) = K (t + c)^-p); Ogata 1983, J. Phys. Earth 31,
 /// 115 (maximum likelihood, errors from the information matrix); Utsu, Ogata & Matsu'ura 1995,
@@ -19,102 +19,120 @@
 
 namespace LSM::postproc {
 
-/// What a main shock is, and which events are counted after it.
+/// Defines main shocks and which events count as their aftershocks or foreshocks. Times are in the
+/// unit of the catalogue's times, sizes are energies.
 struct SequenceRule {
-  double main_size = 0.0;   ///< smallest main shock
-  double least_size = 0.0;  ///< smallest event that is counted
-  double window = 0.0;      ///< time after the end of a main shock, and before its start, > 0
-  double first = 0.0;       ///< events sooner than this after the end are not counted
+  double main_size = 0.0;   ///< smallest size of a main shock
+  double least_size = 0.0;  ///< smallest size of an event that is counted
+  double window = 0.0;      ///< length of the window before the start and after the end, > 0
+  double first = 0.0;       ///< events closer than this to the main shock are not counted
 };
 
-/// Events after and before main shocks, all sequences on top of each other.
+/// Stack of the events before and after all main shocks of a catalogue.
 struct Sequences {
-  std::vector<double> times;  ///< starts, since the end of the main shock; ascending
-  /// From the end of an earlier event to the start of the main shock; ascending.
+  /// Start times relative to the end of the main shock, ascending.
+  std::vector<double> times;
+  /// Times from the end of an earlier event to the start of the main shock, ascending.
   std::vector<double> before;
   std::int64_t main_shocks = 0;
-  double first = 0.0, window = 0.0;  ///< from and to which times are counted
-  /// Events outside of the windows before and after all main shocks, and the time there.
+  double first = 0.0, window = 0.0;  ///< range of the times that are counted
+  /// Number of events outside the windows of all main shocks, and the length of that time.
   std::int64_t quiet_events = 0;
   double quiet_time = 0.0;
 
-  /// Of events far from main shocks; NaN: there is no such time.
+  /// Rate of events far from main shocks.
+  /// \return NaN if no time lies outside the windows
   Measured background() const;
-  /// Events beyond those of the background in the windows after and before main shocks.
+  /// Number of events in the windows after (before) main shocks in excess of the background.
   Measured excess_after() const { return excess(times.size()); }
   Measured excess_before() const { return excess(before.size()); }
-  /// The first over the second: how many aftershocks there are for a foreshock. The error is that
-  /// of counts; that between catalogues is larger where few main shocks have most of them.
+  /// Ratio of the two excesses: aftershocks per foreshock. The error is that of Poisson counts; the
+  /// scatter between catalogues is larger where a few main shocks have most of the aftershocks.
+  /// \return NaN unless the excess before main shocks exceeds twice its standard error
   Measured after_to_before() const;
 
  private:
   Measured excess(std::size_t count) const;
 };
 
-/// Mean of the catalogues of one label and its error from their scatter; of one, its own.
+/// Averages a number over the catalogues of one label; NaN values are left out.
+/// \return mean and its standard error from the scatter; of a single catalogue, its own value and
+/// error
 Measured mean_of_catalogues(const std::vector<Measured> &numbers);
 
-/// Main shock: an event of at least main_size that is the largest (of equals the first) of all that
-/// start from window before its start to window after its end; all of that time has to lie within
-/// the catalogue. So the windows after main shocks do not overlap. \throws std::invalid_argument
+/// Finds the main shocks and stacks the events around them. A main shock is an event of at least
+/// main_size that is the largest (among equal ones, the first) of all events that start between
+/// `window` before its start and `window` after its end, all of which must lie within the
+/// catalogue. Windows after main shocks therefore do not overlap.
+/// \param events in order of their start times
+/// \throws std::invalid_argument for an impossible window or first time
 Sequences stack_sequences(const std::vector<EventSummary> &events, const SequenceRule &rule);
 
-/// Rate of events after a main shock: n(t) = K (t + c)^-p + background.
+/// Omori-Utsu law fitted to a stack: n(t) = K (t + c)^-p + background events per time and main
+/// shock.
 struct OmoriFit {
   double K = NAN, se_K = K;
-  double c = K, se_c = K;  ///< model time; error 0 if it was held
+  double c = K, se_c = K;  ///< model time; its error is 0 if c was held
   double p = K, se_p = K;
-  double background = K, se_background = K;  ///< error NaN: 0 is best, at the border
-  std::int64_t n = 0;                        ///< events
-  double constant = K, se_constant = K;      ///< rate of the constant alone, always there if n > 0
-  /// 2 (ln L - ln L of a constant rate), 0 or more.
+  double background = K, se_background = K;  ///< NaN error: the best value is 0, on the boundary
+  std::int64_t n = 0;                        ///< number of events
+  double constant = K, se_constant = K;      ///< rate of the constant law; known whenever n > 0
+  /// Twice the gain in ln L over a constant rate, not negative.
   double likelihood_ratio = K;
-  /// No numbers but those of the constant: fewer than 20 events; a ratio below 7.81 (95 % of chi
-  /// square with the 3 more parameters; 2: 5.99 with c held); c at an end of its range, from 1e-3
-  /// of the first time to the window; or K, c and p that trade against each other (error of p above
-  /// 0.5, of ln c above 1.5).
+  /// Only the constant rate is given if there are fewer than 20 events; the likelihood ratio is
+  /// below 7.81 (the 95 % point of chi square for the 3 additional parameters; 5.99 for 2, with c
+  /// held); c lies at an end of its range, from 1e-3 of the first time to the window; p is not
+  /// positive; or K, c and p are too strongly correlated (standard error of p above 0.5 or of ln c
+  /// above 1.5).
   bool degenerate = true;
   std::string why;
 
-  double rate(double t) const;  ///< at time t after a main shock
+  /// Rate at time t after a main shock; the constant rate if the fit is degenerate.
+  double rate(double t) const;
 };
 
-/// Maximum likelihood of a Poisson process with that rate in each sequence; standard errors from
-/// the curvature of ln L. \param hold_c value c is held at; NaN: fitted; 0 needs first > 0
-/// \throws std::invalid_argument for another c
+/// Fits the law by maximum likelihood, each sequence being a Poisson process with this rate.
+/// Standard errors come from the curvature of ln L at the maximum.
+/// \param hold_c value at which c is held; NaN: c is fitted; 0 is only possible with first > 0
+/// \throws std::invalid_argument for any other value of hold_c
 OmoriFit fit_omori(const Sequences &sequences, double hold_c = NAN);
 
-/// The same events in random order at the times of a Poisson process: independent exponential times
-/// from the end of one to the start of the next with the mean of the catalogue; where events
-/// overlap, starts that are uniform over the catalogue. What is left of a decay in it
-/// comes from the choice of the main shocks and from the durations.
+/// Surrogate catalogue without clustering: the same events in random order at the times of a
+/// Poisson process. The waiting times from the end of one event to the start of the next are
+/// independent and exponential with the mean of the catalogue; where events may overlap, start
+/// times are uniform over the catalogue. Any decay that remains after main shocks is due to the way
+/// they are selected and to the durations of events.
+/// \param overlapping whether events of this catalogue may overlap in time
 std::vector<EventSummary> poisson_catalogue(const std::vector<EventSummary> &events,
                                             bool overlapping, std::uint64_t seed);
 
-/// Rate after a main shock over one bin of time.
+/// Rate of events after a main shock in one bin of time.
 struct RateBin {
   double lo, hi;
   double centre;             ///< geometric mean of the edges
-  std::int64_t count;        ///< events, all sequences together
+  std::int64_t count;        ///< events of all sequences together
   double rate;               ///< count / (main shocks (hi - lo))
   double error;              ///< Poisson error of rate
   double poisson = NAN;      ///< mean rate in Poisson catalogues
-  double scatter = poisson;  ///< standard deviation of the rate from one of them to the next
-  std::int64_t before = 0;   ///< events as long before the main shocks
+  double scatter = poisson;  ///< its standard deviation over these catalogues
+  std::int64_t before = 0;   ///< events in the same bin of time before main shocks
 };
 
-/// The aftershocks of one catalogue beside those of Poisson catalogues of the same events.
+/// Aftershocks of a catalogue, compared with those of Poisson catalogues of the same events.
 struct Aftershocks {
   SequenceRule rule;
   Sequences sequences;
   OmoriFit fit;
-  std::vector<RateBin> bins;  ///< edges factor^n within first to window
-  /// Share of Poisson catalogues whose likelihood ratio is as large, (k + 1) / (replicas + 1); NaN
-  /// without replicas, or with too few events to fit.
+  std::vector<RateBin> bins;  ///< edges factor^n between first and window
+  /// Share of Poisson catalogues whose likelihood ratio is at least as large, (k + 1) / (replicas +
+  /// 1); NaN without replicas or with too few events to fit.
   double p = NAN;
 };
 
-/// \param factor ratio of the edges of a bin \param replicas Poisson catalogues, 0: none
+/// Stacks, fits and bins the aftershocks of a catalogue and repeats this for Poisson catalogues.
+/// \param hold_c as in fit_omori()
+/// \param factor ratio of the edges of a bin
+/// \param replicas number of Poisson catalogues; 0: none
 /// \throws std::invalid_argument for impossible settings
 Aftershocks aftershocks_of(const EventTable &table, const SequenceRule &rule, double hold_c,
                            double factor, int replicas, std::uint64_t seed);

@@ -19,7 +19,7 @@ Cells::Cells(const std::function<double(double)> &survival, const std::vector<do
     add(survival, required[i - 1], above, required[i], above_next);
     above = above_next;
   }
-  // Summed from the far end, where the shares are smallest.
+  // Summed from the upper end, where the probabilities are smallest, to avoid cancellation.
   from_here_ = probabilities_;
   for (std::size_t i = size() - 1; i-- > 0;) from_here_[i] += from_here_[i + 1];
 }
@@ -30,7 +30,7 @@ void Cells::add(const std::function<double(double)> &survival, double lo, double
   const double beyond = std::min(1.0 - above_hi, above_lo);
   const double most = std::clamp(0.05 * beyond, 1e-3 / n_, 1e-3);
   const double middle = 0.5 * (lo + hi);
-  // Where the law jumps, as one of counts does, no cell is narrow enough.
+  // At a jump of the distribution (of integer data, say) no cell is narrow enough: stop splitting.
   if (share > most && hi - lo > 1e-9 * (1.0 + std::fabs(lo) + std::fabs(hi))) {
     const double above = survival(middle);
     add(survival, lo, above_lo, middle, above);

@@ -23,7 +23,6 @@ double finite_burstiness(double r, double n) {
   return (up * r - down) / ((up - 2.0) * r + down);
 }
 
-/// Correlation of each value with the next.
 double memory_of(const std::vector<double> &times) {
   const std::size_t n = times.size() - 1;
   const double first = mean_of(times.data(), n), second = mean_of(times.data() + 1, n);
@@ -37,8 +36,8 @@ double memory_of(const std::vector<double> &times) {
   return product.value() / std::sqrt(squares1.value() * squares2.value());
 }
 
-/// Cells of equally many times: what a time is followed by depends on its cell. Thirds and eighths
-/// are whole numbers of them.
+/// Cells with equal numbers of times. The random series permute the times, and what follows a time
+/// is counted by its cell. Thirds and eighths consist of whole cells.
 constexpr std::size_t cells = 480, groups = 24;
 static_assert(cells % groups == 0 && groups % thirds == 0 && groups % eighths == 0);
 
@@ -47,7 +46,7 @@ struct CelledTime {
   std::size_t cell;
 };
 
-/// Times in the order of the series, each with its cell; equal times share one.
+/// Times in the order of the series with the cell of each; equal times are in the same cell.
 std::vector<CelledTime> celled(const std::vector<double> &times) {
   std::vector<double> sorted = times, edges;
   std::sort(sorted.begin(), sorted.end());
@@ -60,8 +59,8 @@ std::vector<CelledTime> celled(const std::vector<double> &times) {
   return out;
 }
 
-/// What follows short and long times in one order of the series: the means after each third and
-/// each eighth, and the distance between the times after the shortest and the longest third.
+/// Statistics of the times that follow short and long ones: the means after each third and each
+/// eighth, and the distance between the times after the shortest and after the longest third.
 std::vector<double> conditional_of(const std::vector<CelledTime> &series, double mean) {
   std::array<NeumaierSum, groups> sums;
   std::array<double, groups> counts{};
@@ -104,8 +103,8 @@ AgainstChance against(double value, const std::vector<double> &random) {
   return out;
 }
 
-/// Largest departure of events from a steady rate between the first and the last, over their
-/// number.
+/// Kolmogorov-Smirnov distance of the event times from a uniform distribution between the first and
+/// the last.
 double departure_of(const std::vector<double> &starts) {
   const double n = static_cast<double>(starts.size()), from = starts.front();
   double most = 0.0;
@@ -117,7 +116,7 @@ double departure_of(const std::vector<double> &starts) {
   return most;
 }
 
-/// Blocks of consecutive values from random places, the series taken as a ring.
+/// One sample of the circular block bootstrap.
 std::vector<double> resampled(const std::vector<double> &values, std::size_t block,
                               Random &random) {
   std::vector<double> out;
@@ -146,7 +145,8 @@ std::vector<Stretch> steady_stretches(const std::vector<double> &starts, double 
     for (std::size_t j = i + fine; j <= edges * fine; j += fine) {
       Stretch one{numbers[i].first, numbers[j].first, numbers[j].second - numbers[i].second, 0.0};
       if (one.n < fewest) continue;
-      // From a straight line between two steps, seen at the steps.
+      // Distance of the cumulative number from a straight line between the ends, at the grid
+      // points.
       for (std::size_t k = i; k <= j; ++k)
         one.departure = std::max(
             one.departure, std::fabs(count(i, k) / count(i, j) -
@@ -288,7 +288,7 @@ Measured rescaled_distance(const std::vector<double> &first, const std::vector<d
                            int replicas, std::uint64_t seed) {
   Measured out;
   if (first.size() < fewest_times || second.size() < fewest_times) return out;
-  // Of equal magnitudes nothing is left to compare.
+  // A series of zeros has no rescaled form.
   if (mean_of(first) == 0.0 || mean_of(second) == 0.0) return out;
   out.value = two_sample_distance(over_mean(first), over_mean(second));
   const std::size_t block1 = block_of(first), block2 = block_of(second);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file clustering.h
-/// Whether events have a steady rate, and whether they cluster: what a series of
-/// inter-event times says beyond its density, each beside series without memory.
+/// Whether events have a steady rate and whether they cluster: properties of a series of
+/// inter-event times beyond its density, each compared with random series without memory.
 ///
 /// Sources: Goh & Barabasi 2008, EPL 81, 48002 (burstiness, memory coefficient); Kim & Jo 2016,
 /// Phys. Rev. E 94, 032311 (burstiness of a finite number of times); Livina et al. 2005, Phys. Rev.
-/// Lett. 95, 208501 (times after short and long ones). Stretches and the test of the rate: †.
+/// Lett. 95, 208501 (times after short and long ones). Steady stretches, test of the rate: †.
 #ifndef LSM_POSTPROC_CLUSTERING_H
 #define LSM_POSTPROC_CLUSTERING_H
 
@@ -19,95 +19,106 @@
 
 namespace LSM::postproc {
 
-/// Groups of the times by length, equally many in each.
+/// Numbers of equally populated groups into which the times are divided by length.
 constexpr std::size_t thirds = 3, eighths = 8;
 
-/// Numbers of events until `points` + 1 equally spaced times, the first and the last start among
-/// them. \param starts in ascending order
+/// Cumulative number of events at `points` + 1 equally spaced times, from the first to the last
+/// start.
+/// \param starts in ascending order
+/// \return pairs of time and number of events up to it
 std::vector<std::pair<double, std::int64_t>> cumulative_numbers(const std::vector<double> &starts,
                                                                 int points);
 
-/// Standard deviation of a series (its own, not that of a law behind it: the sum of squares is
-/// divided by n) over its mean; NaN for fewer than two values.
+/// Coefficient of variation: standard deviation over mean. The sum of squares is divided by n, as
+/// the series is described rather than a population behind it.
+/// \return NaN for fewer than two values
 double variation_of(const std::vector<double> &times);
 
-/// (r - 1) / (r + 1) of a variation r: -1 periodic, 0 independent, to 1 clustered.
+/// Burstiness (r - 1) / (r + 1) of a coefficient of variation r: -1 for a periodic series, 0 for
+/// independent events, towards 1 for clustered ones.
 double burstiness_of(double variation);
 
-/// A number of a series beside the same of random ones.
+/// A statistic of a series compared with its distribution over random series.
 struct AgainstChance {
   double value = NAN;
-  double mean = NAN;       ///< of the random series
-  double deviation = NAN;  ///< their standard deviation
-  /// Share of them, the series itself included, that are as far from their mean.
+  double mean = NAN;       ///< over the random series
+  double deviation = NAN;  ///< standard deviation over the random series
+  /// Share of the random series, the observed one included, at least as far from the mean.
   double p = NAN;
 };
 
 struct Clustering {
-  /// Standard deviation over mean, r. Random: independent exponential times.
+  /// Coefficient of variation r. Random series: independent exponential times.
   AgainstChance variation;
   double burstiness = NAN;
-  /// ((n + 1)^(1/2) r - (n - 1)^(1/2)) / (((n + 1)^(1/2) - 2) r + (n - 1)^(1/2)), 0 for independent
-  /// times whatever n is, 1 where all events but one come at once. Random: as above.
+  /// ((n + 1)^(1/2) r - (n - 1)^(1/2)) / (((n + 1)^(1/2) - 2) r + (n - 1)^(1/2)): 0 for independent
+  /// times whatever n is, 1 if all events but one coincide. Random series: as for variation.
   AgainstChance finite_burstiness;
-  /// Correlation of each time with the next one. Random: the times in random order.
+  /// Correlation of each time with the next one. Random series: permutations of the times.
   AgainstChance memory;
   /// Mean of the times that follow the shortest, the middle and the longest third, over the mean of
-  /// all. Random: the times in random order.
+  /// all times. Random series: permutations.
   std::array<AgainstChance, thirds> after;
-  /// The same of each eighth, from the shortest on (Livina et al. 2005 divide so).
+  /// The same for eighths, from the shortest to the longest (the division of Livina et al. 2005).
   std::array<AgainstChance, eighths> after_eighth;
   /// Kolmogorov-Smirnov distance between the times after the shortest third and those after the
-  /// longest, seen at the edges of 480 cells of equally many times. Random: in random order.
+  /// longest, evaluated at the edges of 480 equally populated cells. Random series: permutations.
   AgainstChance after_distance;
 };
 
+/// Compares the statistics of a series with those of random series.
 /// \param times consecutive inter-event times, none negative
-/// \param replicas random series, at least 1
-/// Fewer than 12 times, or all of them 0: NaN.
+/// \param replicas number of random series, at least 1
+/// \return NaN in all members for fewer than 12 times or if all are 0
 Clustering clustering(const std::vector<double> &times, int replicas, std::uint64_t seed);
 
-/// The times that follow the shortest, the middle and the longest third of the times.
+/// Times that follow a time of the shortest, the middle and the longest third, in order of time.
 std::array<std::vector<double>, thirds> times_after_thirds(const std::vector<double> &times);
 
-/// A stretch of time and how steadily events came in it.
+/// A stretch of time and how steadily events occurred in it.
 struct Stretch {
   double from = NAN, to = NAN;
   std::int64_t n = 0;
-  /// Largest departure of the cumulative number from a straight line, over n.
+  /// Largest distance of the cumulative number from a straight line, over n.
   double departure = NAN;
 };
 
 struct Steadiness {
   Stretch whole;
-  /// Share of series whose departure is as large with the times in random order, block by block,
-  /// so that short sequences stay together: small where the rate changes for longer than those.
+  /// Share of series with as large a departure if blocks of the times are permuted. Blocks keep
+  /// short sequences intact, so a small p means that the rate varies over longer times than these.
   double p = NAN;
-  /// Stretches whose departure is at most the tolerance, those with the most events first, none of
-  /// which overlap.
+  /// Stretches with a departure within the tolerance, which do not overlap, by decreasing number of
+  /// events.
   std::vector<Stretch> steady;
 };
 
-/// \param starts ascending, at least 20
-/// \param tolerance departure that a steady stretch may have
-/// \param fewest events of a steady stretch
+/// Tests whether the rate of events is constant and finds stretches in which it is.
+/// \param starts in ascending order; with fewer than 20 the result is empty
+/// \param tolerance largest departure of a steady stretch
+/// \param fewest smallest number of events of a steady stretch
+/// \param replicas number of permutations; 0: no p
 Steadiness steadiness(const std::vector<double> &starts, double tolerance, std::int64_t fewest,
                       int replicas, std::uint64_t seed);
 
-/// Events around large ones, over the number that the mean rate has there.
+/// Number of events near a large one, over the number expected at the mean rate.
 struct AroundLarge {
-  double before = NAN;  ///< within one mean time before them
-  double after = NAN;   ///< within one mean time after them
+  double before = NAN;  ///< within one mean inter-event time before it
+  double after = NAN;   ///< within one mean inter-event time after it
 };
 
-/// \param starts, sizes of all events, in order of time
-/// \param share of the events that count as large, those with the largest sizes
+/// Averages over the large events.
+/// \param starts start times of all events in ascending order
+/// \param sizes sizes of the same events
+/// \param share share of the events that count as large, those with the largest sizes
+/// \return NaN for fewer than 12 events
 AroundLarge around_large(const std::vector<double> &starts, const std::vector<double> &sizes,
                          double share);
 
-/// Kolmogorov-Smirnov distance of two series, each divided by its mean, and its standard deviation
-/// when blocks of consecutive values are resampled (circular block bootstrap, block_length()).
-/// \param first, second at least 12 values each, else NaN
+/// Kolmogorov-Smirnov distance between two series, each divided by its mean, with its standard
+/// error from a circular block bootstrap (see block_length()).
+/// \param first, second series of at least 12 values each
+/// \return NaN for shorter series or if a mean is 0
 Measured rescaled_distance(const std::vector<double> &first, const std::vector<double> &second,
                            int replicas, std::uint64_t seed);
 

@@ -48,7 +48,8 @@ std::vector<SizeDensity> size_densities(const std::vector<EventTable> &tables,
 }
 
 double amplitude_of(const PowerLawFit &law, const SizeDensity &density) {
-  // Integral of s^-alpha over the range; exp(-infinity) serves a range without an upper end.
+  // Integral of s^-alpha over the range. Without an upper end, expm1(-infinity) gives the right
+  // limit.
   const double power = 1.0 - law.alpha, logs = std::log(law.hi / law.lo);
   const double integral =
       std::pow(law.lo, power) * (power == 0.0 ? logs : std::expm1(power * logs) / power);

@@ -93,7 +93,7 @@ LeastSquares least_squares(const Numbers &weights, const std::vector<Numbers> &s
     if (!(chi2 < best.chi2)) continue;
     best.chi2 = chi2;
     best.p = numbers_of(gsl_multifit_nlinear_position(work.get()));
-    // Without progress: the residuals cannot fall further within rounding.
+    // GSL_ENOPROG: rounding prevents a further decrease, so this is the minimum.
     best.converged = status == GSL_SUCCESS || status == GSL_ENOPROG;
     const gsl_matrix *const j = gsl_multifit_nlinear_jac(work.get());
     SymmetricMatrix information(count);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file event_matching.h
-/// Do the same events happen in two catalogues, of the same fault under two settings for example?
-/// The paper does not ask (†).
+/// Whether the same events occur in two catalogues, for example of one fault under two settings.
+/// The paper does not address this question (†).
 #ifndef LSM_POSTPROC_EVENT_MATCHING_H
 #define LSM_POSTPROC_EVENT_MATCHING_H
 
@@ -11,21 +11,23 @@
 
 namespace LSM::postproc {
 
-/// When two events are the same: the ratio of their sizes is below 2, too.
+/// When two events count as the same; their sizes must also differ by less than a factor of 2.
 struct MatchRule {
-  double least_size = 0.0;  ///< smallest event of the first catalogue that is looked for (energy)
-  double within = 0.0;      ///< their starts are less than this apart, > 0
+  /// Smallest event of either catalogue that is considered (energy).
+  double least_size = 0.0;
+  double within = 0.0;  ///< their start times differ by less than this, > 0
 };
 
 struct EventMatches {
-  std::int64_t first = 0, second = 0;  ///< events of least_size and more in the common time
-  std::int64_t same = 0;               ///< of the first, those that the second has
-  double chance = 0.0;                 ///< mean of `same` over seven shifts of the first
+  std::int64_t first = 0, second = 0;  ///< events of at least least_size in the common time
+  std::int64_t same = 0;               ///< events of the first catalogue with a match
+  double chance = 0.0;  ///< number of matches by chance: mean of `same` over seven shifts
 };
 
-/// Each event of the first, in order of time, takes the nearest one of the second that is free.
-/// Shifted catalogues wrap around: k / 8 of the common time, k = 1 to 7.
-/// \throws std::invalid_argument for catalogues without a common time
+/// Counts the events that two catalogues share. In order of time, each event of the first takes the
+/// nearest event of the second that is still free. The number of matches by chance is found by
+/// shifting the first catalogue cyclically by k / 8 of the common time, k = 1 to 7.
+/// \throws std::invalid_argument if a catalogue is empty or they have no time in common
 EventMatches match_events(const EventTable &first, const EventTable &second, const MatchRule &rule);
 
 }  // namespace LSM::postproc

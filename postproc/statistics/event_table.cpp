@@ -28,7 +28,7 @@ double EventTable::picker_memory() const {
                            *const every = info.find("stride"), *const reading = info.find("picker");
   if (!step || !text_io::parse(*step, dt) || !rate || !text_io::parse(*rate, lambda)) return NAN;
   if (every) text_io::parse(*every, stride);
-  double left = lambda;  // of the average change after another sample
+  double left = lambda;  // factor of the average change after one more sample
   if (reading && *reading == "average")
     left = lambda / (1.0 + lambda);
   else if (reading && *reading != "exponential")
