@@ -22,17 +22,17 @@ namespace {
 
 using text_io::number;
 
-// chi2 + 2 k with the correction for few points (Hurvich & Tsai 1989, Biometrika 76, 297).
+// AICc: chi2 + 2 k with the correction for few points (Hurvich & Tsai 1989, Biometrika 76, 297).
 double corrected_aic(double chi2, int k, int points) {
   return chi2 + 2.0 * k + 2.0 * k * (k + 1.0) / (points - k - 1.0);
 }
 
-// Usable points: logarithms of length and s*, weights of the latter.
+// Usable points: logarithms of length and of s*, and the weights of the latter.
 struct LogPoints {
   Numbers x, y, weight;
 };
 
-// Growth that ends, in ln s*, and its derivatives by ln s_inf, ln L_c, D.
+// ln s* of saturating growth, and its derivatives with respect to ln s_inf, ln L_c and D.
 double saturating(double log_length, const Numbers &p, double sharpness, Numbers &slope) {
   const double below = p[1] - log_length, D = p[2], z = sharpness * D * below;
   const double small = std::exp(-std::fabs(z));  // ln(1 + e^z) without overflow
@@ -41,7 +41,7 @@ double saturating(double log_length, const Numbers &p, double sharpness, Numbers
   return p[0] - (std::max(z, 0.0) + std::log1p(small)) / sharpness;
 }
 
-// Logarithms of the different lengths.
+// Logarithms of the distinct lengths, in ascending order.
 Numbers steps_of(Numbers x) {
   std::sort(x.begin(), x.end());
   x.erase(
@@ -50,7 +50,7 @@ Numbers steps_of(Numbers x) {
   return x;
 }
 
-// Sharp bends at each length inside, as chi2 may have several minima.
+// Starting values with a sharp bend at each interior length, as chi2 may have several minima.
 std::vector<Numbers> bends_at(const Numbers &steps, const LogPoints &points) {
   std::vector<Numbers> bends;
   for (std::size_t step = 1; step + 1 < steps.size(); ++step) {
@@ -108,7 +108,7 @@ double block_length(const std::vector<double> &values) {
     for (std::size_t i = 0; i + lag < values.size(); ++i) sum.add(values[i] * values[i + lag]);
     return sum.value() / n;
   };
-  // The correlation is taken to end before the first five lags in a row without a significant one.
+  // The correlation is taken to end where five lags in a row are not significant.
   constexpr std::size_t quiet = 5;
   const std::size_t last =
       std::min(static_cast<std::size_t>(std::ceil(std::sqrt(n))) + quiet, values.size() / 2);
@@ -121,7 +121,7 @@ double block_length(const std::vector<double> &values) {
     if (std::fabs(r[lag]) >= significant) end = lag;
     if (lag >= end + quiet) break;
   }
-  // Flat-top window over twice that.
+  // Flat-top lag window of twice that width.
   const std::size_t width = std::min(2 * std::max<std::size_t>(end, 1), last);
   while (r.size() <= width) r.push_back(covariance(r.size()));
   double spectrum = r[0], slope = 0.0;
@@ -131,19 +131,20 @@ double block_length(const std::vector<double> &values) {
     spectrum += weighted;
     slope += static_cast<double>(lag) * weighted;
   }
-  // A spectrum of 0 or less is noise about a small one: the longest block.
+  // An estimate of 0 or less is a small spectrum hidden by noise: use the longest block.
   if (!(spectrum > 0.0)) return longest;
   return std::clamp(std::cbrt(1.5 * std::pow(slope / spectrum, 2) * n), shortest, longest);
 }
 
 namespace {
 
-// Events on a ring of time, with running sums so that those of any stretch cost two look-ups.
+// Events on a ring of time, with cumulative sums so that the sums over any stretch cost two
+// look-ups.
 class Ring {
  public:
   Ring(const std::vector<double> &times, const std::vector<double> &sizes) : times_(times) {
     const auto n = static_cast<double>(times.size());
-    // The gap where the ends are joined is as long as the others on average.
+    // The gap that closes the ring is as long as the mean interval.
     duration_ = (times.back() - times.front()) * n / (n - 1.0);
     NeumaierSum s, s2;
     sums_.push_back({0.0, 0.0});
@@ -158,7 +159,7 @@ class Ring {
   };
   double duration() const { return duration_; }
   Sums all() const { return sums_.back(); }
-  // Of the events in [from, from + length), 0 <= from < duration, length <= duration.
+  // Sums over the events in [from, from + length); 0 <= from < duration, length <= duration.
   Sums over(double from, double length) const {
     const Sums first = before(from), wrapped = before(from + length - duration_);
     const Sums last = from + length > duration_ ? Sums{all().s + wrapped.s, all().s2 + wrapped.s2}
@@ -176,7 +177,7 @@ class Ring {
   double duration_;
 };
 
-// Reason why a characteristic size means nothing for these, or "".
+// Why these events have no meaningful characteristic size, or "".
 std::string too_few_or_equal(const std::vector<double> &times, const std::vector<double> &sizes) {
   if (sizes.size() < 10)
     return std::to_string(sizes.size()) + " events above the threshold, at least 10 needed";
@@ -187,10 +188,10 @@ std::string too_few_or_equal(const std::vector<double> &times, const std::vector
   return {};
 }
 
-// Length of the blocks by the correlation of what the events add to the ratio.
+// Block length from the autocorrelation of the influences of the events on the ratio.
 double block_of(const std::vector<double> &times, const Ring &ring,
                 const std::vector<double> &influences) {
-  // As many bins as events: one in each on average.
+  // As many bins as events, so that on average each holds one.
   std::vector<double> bins(influences.size(), 0.0);
   const auto count = static_cast<double>(bins.size());
   for (std::size_t i = 0; i < bins.size(); ++i) {
@@ -200,9 +201,9 @@ double block_of(const std::vector<double> &times, const Ring &ring,
   return block_length(bins) * ring.duration() / count;
 }
 
-// Number of blocks as long as is asked for that make up the catalogue.
+// Number of blocks of the requested length that make up the catalogue.
 int blocks_in(const Ring &ring, double block, std::size_t events) {
-  // Below a hundredth of the mean interval hardly any block would have two events.
+  // In shorter blocks than a hundredth of the mean interval hardly ever two events occur together.
   const double shortest = 0.01 * ring.duration() / static_cast<double>(events);
   if (!(block >= shortest && block <= 0.5 * ring.duration()))
     throw std::invalid_argument(
@@ -211,11 +212,11 @@ int blocks_in(const Ring &ring, double block, std::size_t events) {
   return static_cast<int>(std::round(ring.duration() / block));
 }
 
-// s* of one catalogue drawn from the events, blocks of time from anywhere or event by event.
+// s* of one bootstrap sample: blocks of time that begin anywhere, or single events.
 double resampled(const Ring &ring, const std::vector<double> &sizes, const SizePoint &point,
                  gsl_rng *rng) {
   NeumaierSum s, s2;
-  while (!(s.value() > 0.0)) {  // a draw without an event has no ratio
+  while (!(s.value() > 0.0)) {  // a sample without events has no ratio
     for (int i = 0; i < point.blocks; ++i) {
       const Ring::Sums part = ring.over(gsl_rng_uniform(rng) * ring.duration(), point.block);
       s.add(part.s);
@@ -250,7 +251,7 @@ SizePoint characteristic_size(const std::vector<double> &t_start,
   point.degenerate = false;
   const Ring ring(times, sizes);
   point.s_star = ring.all().s2 / ring.all().s;
-  // What each event adds to the deviation of the ratio, to first order.
+  // Influence of each event: its contribution to the deviation of the ratio, to first order.
   std::vector<double> influences;
   for (double size : sizes)
     influences.push_back((size * size - point.s_star * size) / ring.all().s);

@@ -33,10 +33,11 @@ namespace {
 
 using text_io::number;
 
-// Inside, theta is measured in units of a reference (v = ln theta - reference) and the parameters
-// are gamma, v0 = ln(B^(1/delta)) - reference and ln delta: ln f = ln C + (gamma - 1) v - s with
-// s = exp(delta (v - v0)). Judged in these, a fit is degenerate or not whatever the unit of time.
-// Those that are held, ln delta or it and the scale, come last.
+// Internally, theta is measured in units of a reference (v = ln theta - reference), and the
+// parameters are gamma, v0 = ln(B^(1/delta)) - reference and ln delta: ln f = ln C + (gamma - 1) v
+// - s with s = exp(delta (v - v0)). In these variables it does not depend on the unit of time
+// whether a fit is degenerate (except for the criterion on ln B). Parameters that may be held come
+// last: ln delta, or the scale and ln delta.
 enum Parameter { log_c, shape, scale, log_delta, parameters };
 using Vector = std::array<double, parameters>;
 using Matrix = std::array<Vector, parameters>;
@@ -48,11 +49,12 @@ const char *const no_fall_off =
 const char *const singular =
     "the information matrix is singular: the parameters trade against each other";
 
-// What the fall-off has to gain over a pure power law in 2 ln L or chi square: the 95 % point of
-// chi square with as many degrees of freedom as it has parameters (B and delta, or B alone).
+// Smallest gain of the fall-off over a pure power law, in 2 ln L or chi square: the 95 % point of
+// chi square with as many degrees of freedom as the fall-off has parameters (B and delta, or B
+// alone).
 double least_gain(bool delta_fixed) { return delta_fixed ? 3.84 : 5.99; }
 
-// Reason why delta is not inside its interval, or "".
+// Why delta is not inside its interval, or "".
 std::string outside(double delta) {
   if (delta <= delta_min * (1.0 + 1e-9))
     return "delta runs below 0.1, towards a log-normal density";
@@ -61,7 +63,7 @@ std::string outside(double delta) {
   return {};
 }
 
-// The covariance of the parameters from `first` on, with 0 for those before them and those held.
+// Covariance of all parameters: that of the fitted ones from `first` on, and 0 for the others.
 Covariance of_all(const Covariance &fitted, std::size_t first) {
   Covariance all(parameters);
   for (std::size_t i = 0; i < fitted.n; ++i)
@@ -69,13 +71,13 @@ Covariance of_all(const Covariance &fitted, std::size_t first) {
   return all;
 }
 
-// Derivatives of ln B = delta (v0 + reference).
+// Gradient of ln B = delta (v0 + reference).
 Numbers slope_of_log_b(const Vector &p, double reference) {
   const double delta = std::exp(p[log_delta]);
   return {0.0, 0.0, delta, delta * (p[scale] + reference)};
 }
 
-// Reason why the parameters are not determined by the data, or "".
+// Why the data do not determine the parameters, or "".
 std::string ridge(const Vector &p, const Covariance &covariance, double reference) {
   const auto trade = [](const char *name, double error) {
     return fmt::format("the parameters trade against each other: standard error of {} is {:.2g}",
@@ -90,8 +92,8 @@ std::string ridge(const Vector &p, const Covariance &covariance, double referenc
   return {};
 }
 
-// Parameters and errors in the unit of the data, or why there are none. slope_c: derivatives of
-// ln C.
+// Fills in parameters and errors in the unit of the data, or the reason why there are none.
+// slope_c: gradient of ln C.
 void report(const Vector &p, const Numbers &slope_c, const Covariance &covariance, double reference,
             GeneralisedGammaFit &fit) {
   fit.why = ridge(p, covariance, reference);
@@ -117,11 +119,11 @@ void check_delta(double fixed) {
 
 struct Profile {
   double delta = 1.0, gamma = 0.0;
-  double v0 = 0.0;                    // infinite: best without any fall-off
+  double v0 = 0.0;                    // infinite: the best law has no fall-off
   double log_likelihood = -HUGE_VAL;  // per value, density in v
 };
 
-// A law cut off below v = lower, which may be -infinity.
+// A law truncated on the left at v = lower; -infinity: not truncated.
 class Law {
  public:
   Law(double gamma, double delta, double v0, double lower)
@@ -133,28 +135,28 @@ class Law {
 
   bool truncated() const { return std::isfinite(lower_); }
   double lower() const { return lower_; }
-  // What is left beyond v.
+  // Probability of exceeding v.
   double survival(double v) const { return tail(v) / all_; }
-  // Where next to nothing is left.
+  // A value beyond which the probability is negligible.
   double end() const {
     const double s = truncated() ? std::exp(delta_ * (lower_ - v0_)) : 0.0, k = std::max(k_, 0.0);
     return v0_ + std::log(std::max(s, k) + 8.0 * std::sqrt(k) + 40.0) / delta_;
   }
-  // A number from it, if it is not truncated: from a gamma variable of shape k, in logarithms since
-  // that underflows where k is small.
+  // Draws from the law, which must not be truncated: exp(delta (v - v0)) is a gamma variable of
+  // shape k. It is drawn as a logarithm, since it underflows for small k.
   double draw(gsl_rng *rng) const {
     const double u = gsl_rng_uniform_pos(rng);
     return v0_ + (std::log(gsl_ran_gamma(rng, k_ + 1.0, 1.0)) + std::log(u) / k_) / delta_;
   }
-  // Kolmogorov-Smirnov.
+  // Kolmogorov-Smirnov distance of a sample from this law.
   auto ks(const SamplePoints &points) const {
     return KsDistance(points, [this](double v) { return 1.0 - survival(v); });
   }
 
  private:
-  // Without the constant. exp(delta (v - v0)) beyond 700 underflows.
+  // Survival function up to a constant factor; it underflows where exp(delta (v - v0)) exceeds 700.
   double tail(double v) const {
-    if (std::isinf(v0_)) return std::exp(gamma_ * (v - lower_));  // the power law at the border
+    if (std::isinf(v0_)) return std::exp(gamma_ * (v - lower_));  // the limiting power law
     const double s = std::exp(delta_ * (v - v0_));
     if (s > 700.0) return 0.0;
     return k_ > 0.0 ? gsl_sf_gamma_inc_Q(k_, s) : gsl_sf_gamma_inc(k_, s);
@@ -163,14 +165,14 @@ class Law {
   double gamma_, delta_, v0_, lower_, k_, all_ = 1.0;
 };
 
-// Sample of logarithms; profile(delta) has the best gamma and scale for a given delta.
+// Likelihood of a sample of logarithms; profile(delta) maximises over gamma and the scale.
 class Likelihood {
  public:
   Likelihood(std::vector<double> v, double lower)
       : v_(std::move(v)), lower_(lower), n_(static_cast<double>(v_.size())) {
     mean_v_ = mean([](double v_i) { return v_i; });
   }
-  // By cells.
+  // A sample reduced to counts in cells, each represented by its centre.
   Likelihood(const std::vector<double> &centres, const std::vector<double> &counts, double lower)
       : lower_(lower), n_(std::accumulate(counts.begin(), counts.end(), 0.0)) {
     for (std::size_t i = 0; i < counts.size(); ++i) {
@@ -194,7 +196,7 @@ class Likelihood {
   double n() const { return n_; }
   bool truncated() const { return std::isfinite(lower_); }
 
-  // Per value, of the power law that is left when the fall-off goes; needs the truncation.
+  // Log-likelihood per value of the power law without a fall-off; only for a truncated sample.
   double power_law() const { return -std::log(mean_v_ - lower_) - 1.0; }
 
   Profile profile(double delta) const {
@@ -210,8 +212,8 @@ class Likelihood {
       result.log_likelihood = fit.log_likelihood;
       return result;
     }
-    // w = theta^delta has a gamma distribution of shape k = gamma / delta; ln k - psi(k) falls
-    // from infinity to 0, so there is always one solution, found by Newton's method in ln k.
+    // w = theta^delta has a gamma distribution of shape k = gamma / delta. As ln k - psi(k) falls
+    // from infinity to 0, there is exactly one solution, which is found by Newton's method in ln k.
     const double mean_w = mean([&](double v) { return std::exp(delta * v); });
     const double target = std::log(mean_w) - delta * mean_v_;
     if (!(target > 1e-12)) return result;
@@ -231,7 +233,7 @@ class Likelihood {
   }
 
   // Best delta in (delta_min, delta_max): a coarse scan, since there may be several maxima, then
-  // Brent's method around the best.
+  // Brent's method around the best one.
   Profile best() const {
     constexpr int steps = 20;
     const double first = std::log(delta_min), width = std::log(delta_max / delta_min) / steps;
@@ -244,8 +246,8 @@ class Likelihood {
     return between(*(top - 1), *top, *(top + 1), 1e-7);
   }
 
-  // The same for a replica of data whose best delta is known, where its own best is looked for, to
-  // an error far below that of the distance that is wanted.
+  // The same for a replica: searches outwards from the best delta of the data. The tolerance only
+  // has to keep the error far below that of the distance to be computed.
   Profile best_near(double delta) const {
     constexpr double width = 0.15;
     const auto beside = [delta](int k) { return delta * std::exp(k * width); };
@@ -273,17 +275,17 @@ class Likelihood {
 
   double lower() const { return lower_; }
 
-  // With delta held at a value, or free (NaN).
+  // Best law with delta held at a value, or free (NaN).
   Profile best(double held) const { return std::isnan(held) ? best() : profile(held); }
 
-  // Ascending, from here on.
+  // Sorts the sample in place, in ascending order.
   const std::vector<double> &sort() {
     std::sort(v_.begin(), v_.end());
     return v_;
   }
 
  private:
-  // Brent's method between two values of delta, one between which is better than both.
+  // Brent's method between two values of delta that bracket a better one.
   Profile between(const Profile &low, const Profile &middle, const Profile &high,
                   double tolerance) const {
     gsl_function function;
@@ -308,11 +310,11 @@ class Likelihood {
     return profile(std::exp(gsl_min_fminimizer_x_minimum(minimiser.get())));
   }
 
-  std::vector<double> v_, counts_;  // no counts: one of each
+  std::vector<double> v_, counts_;  // counts_ is empty if each value counts once
   double lower_, n_, mean_v_ = 0.0;
 };
 
-// Derivatives of ln f without the constant.
+// Derivatives of ln f, apart from ln C, with respect to the parameters.
 struct Derivatives {
   Derivatives(double v, const Profile &law) {
     const double delta = law.delta, w = delta * (v - law.v0), s = std::exp(w);
@@ -325,11 +327,11 @@ struct Derivatives {
   Matrix second{};
 };
 
-// Draws from a law.
+// A function that draws from the law.
 std::function<double(gsl_rng *)> sampler_of(const Law &law) {
   if (!law.truncated()) return [law](gsl_rng *rng) { return law.draw(rng); };
-  // k may be 0 or less: the distribution on so many points that a straight line from one to the
-  // next is off by less than 1e-5.
+  // A truncated law may have k <= 0 and then no gamma variable: interpolate the distribution
+  // function, tabulated so finely that linear interpolation is off by less than 1e-5.
   constexpr std::size_t points = 8192;
   const double first = law.lower(), width = (law.end() - first) / (points - 1);
   std::vector<double> at, cdf;
@@ -342,7 +344,7 @@ std::function<double(gsl_rng *)> sampler_of(const Law &law) {
       [at, cdf](gsl_rng *rng) { return interpolate(cdf, at, gsl_rng_uniform(rng) * cdf.back()); };
 }
 
-// Logarithms of the values from lo on.
+// Logarithms of the values from lo on; throws for values that have none.
 std::vector<double> logs_from(double lo, const std::vector<double> &values) {
   std::vector<double> v;
   for (double value : values) {
@@ -354,9 +356,10 @@ std::vector<double> logs_from(double lo, const std::vector<double> &values) {
   return v;
 }
 
-// Reason why the best law is none of the family, or "".
+// Why the best law does not belong to the family, or "".
 std::string no_density(const Likelihood &likelihood, const Profile &best, bool delta_fixed) {
-  // Compared first: a power law drives the rest to the border or along the ridge.
+  // Tested first, since data from a pure power law drive the parameters to a boundary or along a
+  // ridge.
   if (likelihood.truncated() &&
       2.0 * likelihood.n() * (best.log_likelihood - likelihood.power_law()) <
           least_gain(delta_fixed))
@@ -368,8 +371,9 @@ std::string no_density(const Likelihood &likelihood, const Profile &best, bool d
   return why;
 }
 
-// Observed information of the sample at a law by which ln C is given by the rest.
-// \param mean_slope means of the derivatives of that law
+// Observed information of the sample on the free parameters; ln C follows from them by
+// normalisation.
+// \param mean_slope receives the means of the first derivatives over the law
 SymmetricMatrix information_at(const Profile &law, const Likelihood &likelihood,
                                const TabulatedDensity &table, bool delta_fixed,
                                Numbers &mean_slope) {
@@ -416,7 +420,7 @@ void report(const Likelihood &likelihood, const Profile &best, double reference,
 
 constexpr std::int64_t fewest_counts = 5;
 
-// Bins with fewer counts are left out: their logarithms are biased.
+// Leaves out bins with fewer counts, as their logarithms are biased.
 std::vector<LogBin> usable(const std::vector<LogBin> &bins) {
   std::vector<LogBin> used;
   std::copy_if(bins.begin(), bins.end(), std::back_inserter(used),
@@ -425,7 +429,7 @@ std::vector<LogBin> usable(const std::vector<LogBin> &bins) {
 }
 
 struct BinnedDensity {
-  std::array<double, 5> v, log_weight;  // Gauss-Legendre points in v, weights over the bin width
+  std::array<double, 5> v, log_weight;  // Gauss-Legendre points in v; weights over the bin width
   double log_density;
 };
 
@@ -435,8 +439,8 @@ std::vector<BinnedDensity> binned_densities(const std::vector<LogBin> &bins, dou
   std::vector<BinnedDensity> out;
   for (const LogBin &bin : bins) {
     BinnedDensity one;
-    // Weighted with its count, the logarithm of a Poisson number is half a count too large on
-    // average.
+    // Weighted with the count, the logarithm of a Poisson number exceeds that of its mean by 0.5 /
+    // count on average.
     one.log_density = std::log(bin.density) - 0.5 / static_cast<double>(bin.count);
     for (std::size_t k = 0; k < one.v.size(); ++k) {
       double weight = 0.0;
@@ -450,7 +454,7 @@ std::vector<BinnedDensity> binned_densities(const std::vector<LogBin> &bins, dou
   return out;
 }
 
-// ln of the model averaged over the bin, and its derivatives.
+// Logarithm of the model averaged over the bin; slope receives its derivatives.
 double log_average(const BinnedDensity &bin, const Vector &p, Numbers &slope) {
   const double delta = std::exp(p[log_delta]);
   std::array<double, 5> terms;
@@ -473,7 +477,7 @@ double log_average(const BinnedDensity &bin, const Vector &p, Numbers &slope) {
   return top + std::log(total);
 }
 
-// The rest of the parameters is held.
+// All parameters: the free ones from p, the others from held.
 Vector completed(const Numbers &p, Vector held) {
   std::copy(p.begin(), p.end(), held.begin());
   return held;
@@ -537,7 +541,7 @@ GeneralisedGammaFit fit_least_squares(const std::vector<LogBin> &bins, double de
 
   const double last = std::log(used.back().hi) - reference;
   const double first_c = std::log(used.front().density);
-  // The pure power law: fall-off far beyond the data.
+  // Pure power law: the scale is held so far beyond the data that there is no fall-off.
   const LeastSquares power_law = solve({{first_c, 0.5}}, {0.0, 0.0, last + 1000.0, 0.0});
   std::vector<Numbers> starts;
   for (const double v0 : {0.0, 0.5 * last, last}) {
@@ -547,7 +551,8 @@ GeneralisedGammaFit fit_least_squares(const std::vector<LogBin> &bins, double de
   }
   const Vector held = {0.0, 0.0, 0.0, std::log(delta)};
   LeastSquares best = solve(starts, held);
-  // Compared first: a power law drives the rest to the border or along the ridge.
+  // Tested first, since data from a pure power law drive the parameters to a boundary or along a
+  // ridge.
   if (power_law.converged && power_law.chi2 - best.chi2 < least_gain(fit.delta_fixed))
     fit.why = no_fall_off;
   else if (!fit.delta_fixed && !best.p.empty())
@@ -556,7 +561,7 @@ GeneralisedGammaFit fit_least_squares(const std::vector<LogBin> &bins, double de
   if (fit.why.empty() && best.covariance.n == 0) fit.why = singular;
   if (!fit.why.empty()) return fit;
   for (double &entry : best.covariance.entries) entry *= std::max(1.0, best.chi2 / fit.dof);
-  // From ln C in units of exp(reference) to that in the unit of the data.
+  // From ln C in units of exp(reference) to ln C in the unit of the data.
   Vector p = completed(best.p, held);
   p[log_c] -= p[shape] * reference;
   report(p, {1.0, -reference, 0.0, 0.0}, of_all(best.covariance, log_c), reference, fit);
@@ -572,18 +577,18 @@ double p_value(const GeneralisedGammaFit &fit, const std::vector<double> &values
   if (replicas == 0) return NAN;
   const QuietGsl quiet;
   const auto n = static_cast<std::size_t>(fit.n);
-  // In units in which B is 1, on which distances do not depend.
+  // The distance does not depend on the unit of time, so the one in which B is 1 is used.
   const double unit = std::log(fit.B) / fit.delta;
   const auto best_of = [&fit](const Likelihood &replica) {
     return fit.delta_fixed ? replica.profile(fit.delta) : replica.best_near(fit.delta);
   };
   const Law law(fit.gamma, fit.delta, 0.0, fit.lo > 0.0 ? std::log(fit.lo) - unit : -HUGE_VAL);
-  // Whether the data would have been called degenerate does not matter: any optimum is a fit.
+  // Any optimum counts as the fit of a replica, even if it would be called degenerate for data.
   if (fit.n > largest_exact_sample) {
     std::vector<double> v = logs_from(fit.lo, values);
     for (double &v_i : v) v_i -= unit;
     std::sort(v.begin(), v.end());
-    // A thousandth of a value is below the first edge.
+    // Without truncation, a thousandth of a value is expected below the first edge.
     const double first =
         law.truncated() ? law.lower() : std::log(1e-3 / static_cast<double>(n)) / fit.gamma;
     const Cells cells([&law](double x) { return law.survival(x); }, {first, law.end()},

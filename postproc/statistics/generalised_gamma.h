@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file generalised_gamma.h
-/// The generalised gamma density f(theta) = C theta^(gamma-1) exp(-theta^delta / B) of inter-event
+/// Generalised gamma density f(theta) = C theta^(gamma-1) exp(-theta^delta / B) of inter-event
 /// times (paper Eq. 9, after Corral 2004, Phys. Rev. Lett. 92, 108501).
 #ifndef LSM_POSTPROC_GENERALISED_GAMMA_H
 #define LSM_POSTPROC_GENERALISED_GAMMA_H
@@ -15,52 +15,61 @@
 namespace LSM::postproc {
 
 struct GeneralisedGammaFit {
-  /// NaN when degenerate, standard errors se_ too. B has the unit of theta^delta, C that of
-  /// theta^-gamma.
+  /// Parameters and their standard errors se_, NaN if the fit is degenerate. B has the unit of
+  /// theta^delta, C that of theta^-gamma.
   double C = NAN, gamma = NAN, delta = NAN, B = NAN;
-  double se_C = NAN, se_gamma = NAN, se_delta = NAN, se_B = NAN;  ///< of delta 0 if it was given
+  /// se_delta is 0 for a held delta
+  double se_C = NAN, se_gamma = NAN, se_delta = NAN, se_B = NAN;
   bool delta_fixed = false;
   double lo = 0.0;     ///< left truncation (maximum likelihood) or lowest edge (least squares)
-  std::int64_t n = 0;  ///< values, or counts in the bins used
+  std::int64_t n = 0;  ///< number of values, or of counts in the bins used
   double log_likelihood = NAN;  ///< maximum likelihood only
-  /// Kolmogorov-Smirnov distance, maximum likelihood only. Parameters fitted to the same values
-  /// make it small: tables for given parameters do not apply, see p_value().
+  /// Kolmogorov-Smirnov distance, maximum likelihood only. It is reduced by fitting the parameters
+  /// to the same values, so tables for given parameters do not apply; see p_value().
   double ks = NAN;
   double chi2 = NAN;       ///< least squares only
   int dof = 0;             ///< least squares: bins used minus free parameters
-  bool degenerate = true;  ///< the data do not determine the parameters; do not show the numbers
+  bool degenerate = true;  ///< the data do not determine the parameters: do not show them
   std::string why;         ///< reason, one line
 };
 
-/// Weighted least squares on the logarithm of a log-binned density with C free, as the paper did
-/// † (weights count = 1 / Poisson variance of the logarithm, half a count taken off for the
-/// bias of the logarithm, the model averaged over each bin). Standard errors are multiplied by
-/// sqrt(chi2 / dof) where that exceeds 1. Bins with few counts get in more often when they are too
-/// high, which leaves gamma too low by up to one standard error below about 1000 values: prefer
-/// maximum likelihood. Bins of less than 5 counts are left out (their logarithms are biased).
-/// \param delta value at which it is held; NaN: free \throws std::invalid_argument for delta
-/// outside 0.1 to 10
+/// Weighted least squares on the logarithm of a log-binned density with C free, as the paper did †
+/// (weights equal to the counts, which are 1 / Poisson variance of the logarithm; half a count
+/// taken off for the bias of the logarithm; the model averaged over each bin). Standard errors are
+/// multiplied by sqrt(chi2 / dof) where that exceeds 1. Bins with fewer than 5 counts are left out,
+/// since their logarithms are biased. As sparse bins pass this limit more often when they fluctuate
+/// upwards, gamma is too low by up to one standard error for fewer than about 1000 values: prefer
+/// maximum likelihood.
+/// \param delta value at which delta is held; NaN: free
+/// \throws std::invalid_argument for delta outside 0.1 to 10
 GeneralisedGammaFit fit_least_squares(const std::vector<LogBin> &bins, double delta = NAN);
 
-/// Maximum likelihood with C from normalisation over [lo, infinity); values below lo are not used;
-/// standard errors from the observed information. gamma <= 0 (the block-slider's value in Table 1
-/// is 0) can only be normalised, and so fitted, with lo > 0.
-/// \throws std::invalid_argument for values that are not finite or, with lo = 0, not positive
+/// Maximum likelihood with C from normalisation over [lo, infinity); standard errors come from the
+/// observed information. gamma <= 0 (the block-slider's value in Table 1 is 0) can only be
+/// normalised, and so fitted, with lo > 0.
 ///
-/// Degenerate, both fits: too few data; no fall-off inside the data (not better than a pure power
-/// law at 95 %; with lo = 0 that is no density and is not tested); delta outside 0.1 to 10; a
-/// singular information matrix (reciprocal condition number below 1e-10 after scaling); or a ridge
-/// along which the parameters trade against each other: a standard error above 0.25 max(1, |gamma|)
-/// of gamma, above 0.25 of ln delta, or above 1 of ln B (which depends on the unit of time: a poor
-/// delta spoils B less when times are over their mean).
+/// Both fits are degenerate if there are too few data; if there is no fall-off inside the data (not
+/// better than a pure power law at 95 %; not tested with lo = 0, where a power law is no density);
+/// if delta is outside 0.1 to 10; if the information matrix is singular (reciprocal condition
+/// number below 1e-10 after scaling); or if the parameters are too strongly correlated: a standard
+/// error above 0.25 max(1, |gamma|) of gamma, above 0.25 of ln delta, or above 1 of ln B (which
+/// depends on the unit of time: a poorly determined delta affects B less if times are divided by
+/// their mean).
+///
+/// \param lo left truncation; smaller values are not used
+/// \param delta value at which delta is held; NaN: free
+/// \throws std::invalid_argument for delta outside 0.1 to 10, or for values that are not finite or,
+/// with lo = 0, not positive
 GeneralisedGammaFit fit_maximum_likelihood(const std::vector<double> &values, double lo = 0.0,
                                            double delta = NAN);
 
-/// Probability of a fit as poor as this one if the values are independent numbers drawn from the
-/// fitted density. Least squares: from chi2 and dof, without random numbers. Maximum likelihood:
-/// the fraction of synthetic samples, each fitted as the data were, whose Kolmogorov-Smirnov
-/// distance is at least that of the data, (k + 1) / (replicas + 1); its standard error is sqrt(p (1
-/// - p) / replicas). NaN for maximum likelihood without replicas. \param values those fitted
+/// Probability of a fit as poor as this one if the values are independent draws from the fitted
+/// density. Least squares: from chi2 and dof. Maximum likelihood: the fraction of synthetic
+/// samples, each fitted as the data were, whose Kolmogorov-Smirnov distance is at least that of the
+/// data, (k + 1) / (replicas + 1); its standard error is sqrt(p (1 - p) / replicas).
+/// \param values the values that were fitted
+/// \param replicas number of synthetic samples
+/// \return NaN for maximum likelihood without replicas
 /// \throws std::invalid_argument if the fit is degenerate
 double p_value(const GeneralisedGammaFit &fit, const std::vector<double> &values, int replicas,
                std::uint64_t seed);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file gsl_owners.h
-/// Owners of objects of GSL, and its error handler for the duration of a block.
+/// Owners of GSL objects, and a guard that switches off GSL's error handler within a block.
 #ifndef LSM_POSTPROC_GSL_OWNERS_H
 #define LSM_POSTPROC_GSL_OWNERS_H
 
@@ -12,15 +12,15 @@
 
 namespace LSM::postproc {
 
-/// An object of GSL with the function that frees it.
+/// Owns a GSL object together with the function that frees it.
 template <class T>
 using Gsl = std::unique_ptr<T, void (*)(T *)>;
 inline Gsl<gsl_vector> gsl_vector_of(std::size_t n) {
   return {gsl_vector_alloc(n), gsl_vector_free};
 }
 
-/// GSL's default handler ends the program; while one of these lives, every status is checked
-/// instead. It is one for all threads.
+/// Switches off GSL's error handler, which ends the program by default, for the lifetime of the
+/// guard; callers then check each status. The handler is global: one for all threads.
 class QuietGsl {
  public:
   QuietGsl() : old_(gsl_set_error_handler_off()) {}

@@ -31,7 +31,7 @@ std::vector<double> inter_event_times(const EventTable &events, double threshold
 
 namespace {
 
-/// Ranks from 1 on, equal values sharing the mean of theirs.
+/// Ranks from 1 on; equal values share their mean rank.
 std::vector<double> ranks_of(const std::vector<double> &values) {
   std::vector<std::pair<double, std::size_t>> sorted;
   sorted.reserve(values.size());
@@ -54,7 +54,8 @@ RankCorrelation successive_rank_correlation(const std::vector<double> &times) {
   RankCorrelation found;
   if (times.size() < 5) return found;
   const std::size_t n = times.size() - 1;
-  // All times are sorted once: ranks without the last one, and without the first one, follow.
+  // Sorting all times once is enough: the ranks without the last and without the first follow from
+  // it.
   std::vector<double> one = ranks_of(times), next(one.begin() + 1, one.end());
   const auto leave_out = [](std::vector<double> &ranks, double left_out) {
     for (double &rank : ranks) rank -= rank > left_out ? 1.0 : rank == left_out ? 0.5 : 0.0;
@@ -83,7 +84,7 @@ std::vector<double> times_at_places(const EventTable &table, double threshold, i
     double before = NAN;
     for (const Event &event : table.details) {
       if (!(event.size >= threshold)) continue;
-      // The row that it ruptured may continue across the periodic border.
+      // The ruptured stretch may continue across the periodic boundary.
       double beyond = std::fmod(x - event.x_begin, length);
       if (beyond < 0.0) beyond += length;
       if (beyond >= event.rupture_length) continue;
@@ -142,10 +143,10 @@ void add_clustering(IntervalCurve &curve, const EventTable &table, const std::ve
   }
 }
 
-/// \param shortest time that is fitted by maximum likelihood
+/// \param shortest shortest time that maximum likelihood uses
 std::vector<IntervalFit> fits_of(const std::vector<double> &times, const std::vector<LogBin> &bins,
                                  double shortest, const IntervalSettings &settings) {
-  // Fitted bins keep the normalisation of the whole density, as C belongs to it.
+  // C belongs to the density of all times, so the bins are selected without renormalising them.
   const std::vector<LogBin> fitted =
       std::isnan(settings.shortest) ? bins : bins_from(bins, shortest);
   std::vector<IntervalFit> fits;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file intervals.h
-/// Inter-event times, their densities, and generalised gamma fits (paper: Sect. 4.3).
+/// Inter-event times, their densities and fits of generalised gamma densities (paper: Sect. 4.3).
 #ifndef LSM_POSTPROC_INTERVALS_H
 #define LSM_POSTPROC_INTERVALS_H
 
@@ -18,42 +18,44 @@
 namespace LSM::postproc {
 
 struct IntervalSettings {
-  /// Smallest sizes (model energy); none: Threshold().
+  /// Smallest sizes (model energy), one curve each; empty: Threshold().
   std::vector<double> thresholds;
-  /// Places along the fault, equally spaced: times between events that rupture the same one, those
-  /// of all places together; 0: times between any two events.
+  /// Number of equally spaced places along the fault: times between events that rupture the same
+  /// place, pooled over all places; 0: times between any two events.
   int places = 0;
-  bool rescale = false;              ///< times divided by their mean
+  bool rescale = false;              ///< divide the times by their mean
   double factor = usual_bin_factor;  ///< ratio of the edges of a bin
-  /// Times shorter than this multiple of their mean are not fitted; NaN: maximum likelihood leaves
+  /// Times shorter than this multiple of the mean are not fitted; NaN: maximum likelihood leaves
   /// out those below shortest_time(), least squares none, as in the paper.
   double shortest = NAN;
-  bool cuts = false;  ///< gamma_of_cuts(), too
+  bool cuts = false;  ///< also compute gamma_of_cuts()
   bool least_squares = true, maximum_likelihood = true;
-  int replicas = 1000;  ///< of the Monte Carlo p-values of maximum likelihood; 0: none
+  int replicas = 1000;  ///< for the Monte Carlo p-values of maximum likelihood; 0: none
   std::uint64_t seed = 1;
-  /// Random series that clustering() and steadiness() compare with; 0: without these, negative:
+  /// Number of random series for clustering() and steadiness(); 0: these are left out; negative:
   /// shuffles_for().
   int shuffles = 0;
-  double steady = 0.05;                     ///< departure that a steady stretch may have
-  std::int64_t steady_events = 500;         ///< and its smallest number of events
-  std::vector<double> deltas = {1.0, NAN};  ///< NaN: free
+  double steady = 0.05;                     ///< largest departure of a steady stretch
+  std::int64_t steady_events = 500;         ///< its smallest number of events
+  std::vector<double> deltas = {1.0, NAN};  ///< values at which delta is held; NaN: free
 };
 
-/// Random series beside this many times: 200, fewer of more than 1e5 times (2e7 times in all, at
-/// least 19, so that p can be 0.05), as the random numbers of longer series scatter less.
+/// Number of random series for so many times: 200, and fewer for more than 1e5 times, as statistics
+/// of longer series scatter less (2e7 times in all, but at least 19 series, so that p can be 0.05).
 int shuffles_for(std::size_t times);
 
-/// The shortest time that says something about the fault †. A picker with a memory joins
-/// events closer than that: with times of any gamma from 0.7 to 1 and a dead time of one memory,
-/// those above 2.5 memories give gamma back, all times give 0.1 to 0.4 too much (a test has them).
-/// Below 0.05 of the mean lie the times within sequences, where catalogues of earthquakes miss
-/// events. \param memory of the picker; NaN: none
+/// Shortest time that carries information about the fault †. A picker with a memory merges events
+/// that are closer than that: of series with gamma from 0.7 to 1 and a dead time of one memory, the
+/// times above 2.5 memories recover gamma, whereas all times overestimate it by 0.1 to 0.4 (a test
+/// has these series). Times below 0.05 of the mean lie within sequences, where earthquake
+/// catalogues are incomplete.
+/// \param memory memory of the picker; NaN: none
+/// \param mean mean inter-event time in the same unit
 inline double shortest_time(double memory, double mean) {
   return std::fmax(2.5 * memory, 0.05 * mean);
 }
 
-/// gamma with delta = 1 by maximum likelihood of the times from `cut` on.
+/// gamma for delta = 1, by maximum likelihood of the times from `cut` on.
 struct GammaOfCut {
   double cut = 0.0;  ///< in the unit of the times
   GeneralisedGammaFit fit;
@@ -61,78 +63,82 @@ struct GammaOfCut {
 
 struct IntervalFit {
   std::string method;  ///< "least squares" or "maximum likelihood"
-  double held = 0.0;   ///< delta if it was held, NaN if it was free
+  double held = 0.0;   ///< value at which delta was held; NaN: free
   GeneralisedGammaFit fit;
-  /// p_value(); NaN: degenerate, no replicas. The error of its Monte Carlo estimate; NaN: least
-  /// squares, which needs none.
+  /// p_value() of the fit, NaN for a degenerate fit or without replicas. The error is that of the
+  /// Monte Carlo estimate, NaN for least squares, which needs none.
   Measured p = {};
 };
 
-/// "sizes >= 0.001", of earthquakes "magnitudes >= 2"
+/// Describes the events used: "sizes >= 0.001", or "magnitudes >= 2" for earthquakes.
 std::string events_from_text(bool earthquakes, double least);
 
-/// One catalogue above one threshold.
+/// Inter-event times of one catalogue above one threshold.
 struct IntervalCurve {
   std::string label, model;
   bool earthquakes = false;  ///< sizes are 10^(1.5 M)
-  std::string unit;          ///< of the times, unless rescaled
-  bool rescaled = false;     ///< bins and fits are of times over their mean
+  std::string unit;          ///< of the times before rescaling
+  bool rescaled = false;     ///< bins and fits are of times divided by their mean
   SmallestSize threshold;
-  std::int64_t n = 0;  ///< inter-event times
-  double mean = 0.0;   ///< of the inter-event times, model time; NaN if there is none
-  /// Standard deviation of the times over their mean: 1 for independent events, 0 for periodic
-  /// ones, above 1 for clusters; NaN if there are fewer than two times.
+  std::int64_t n = 0;  ///< number of inter-event times
+  double mean = 0.0;   ///< mean inter-event time before rescaling; NaN if there is none
+  /// Coefficient of variation of the times: 1 for independent events, 0 for periodic ones, above 1
+  /// for clustered ones; NaN for fewer than two times.
   double variation = 0.0;
-  /// The same from -1, periodic, to 1: 0 for independent events (Goh & Barabasi 2008).
+  /// The same on a scale from -1 (periodic) to 1; 0 for independent events (Goh & Barabasi 2008).
   double burstiness() const { return burstiness_of(variation); }
-  double memory = 0.0;    ///< of the picker, in the unit of the times fitted; NaN: none
-  double shortest = 0.0;  ///< time that is fitted by maximum likelihood, likewise
+  double memory = 0.0;    ///< memory of the picker in the unit of the fitted times; NaN: none
+  double shortest = 0.0;  ///< shortest time that maximum likelihood uses, in the same unit
   std::vector<LogBin> bins;
   std::vector<IntervalFit> fits;
-  std::vector<GammaOfCut> cuts;  ///< in ascending order; if asked for
-  Clustering clustering;         ///< if asked for, and times are those between any two events
-  Steadiness steadiness;         ///< likewise
-  std::vector<double> starts;    ///< likewise, of the events
-  /// Likewise: densities, over the mean, of the times that follow the shortest, the middle and the
-  /// longest third.
+  std::vector<GammaOfCut> cuts;  ///< in ascending order; empty unless requested
+  Clustering clustering;         ///< if requested, for times between any two events
+  Steadiness steadiness;         ///< under the same conditions
+  std::vector<double> starts;    ///< start times of the events, likewise
+  /// Likewise: densities of the times that follow the shortest, the middle and the longest third,
+  /// divided by the mean of all times.
   std::array<std::vector<LogBin>, thirds> after;
 
-  /// The fit that is drawn: the first that is not degenerate, or nullptr. The first of all is the
-  /// one to quote: maximum likelihood with delta = 1.
+  /// The fit to draw: the first one that is not degenerate, or nullptr. The fit to quote is the
+  /// first: maximum likelihood with delta = 1.
   const IntervalFit *drawn() const;
   std::string from() const { return events_from_text(earthquakes, threshold.size); }
 };
 
-/// Times from the start of an event to the start of the next one, events smaller than threshold
-/// left out (model time).
+/// Times from the start of an event to the start of the next one (model time); events smaller than
+/// the threshold are left out.
 std::vector<double> inter_event_times(const EventTable &events, double threshold);
 
-/// Do successive times depend on each other? Spearman's correlation of each time with the next one,
-/// which tells clusters and regular sequences from independent events whatever their density is,
-/// and the share of independent series with one as far from 0 (Student's t). Fewer than 4 pairs, or
-/// times that are all equal: NaN.
+/// Spearman's rank correlation of each time with the next one, and its two-sided p-value for
+/// independent series (Student's t). It tells clusters and regular sequences from independent
+/// events whatever the density of the times is. NaN for fewer than 4 pairs or if all times are
+/// equal.
 struct RankCorrelation {
   double rho = NAN, p = rho;
 };
 RankCorrelation successive_rank_correlation(const std::vector<double> &times);
 
-/// Times between events that rupture a place, for `places` of them, equally spaced along the fault
-/// from half a space on, one after the other. Places closer to each other than events are long
-/// share events, so that their times are not independent. \throws std::invalid_argument if the
-/// table does not say where its events ruptured
+/// Times between events that rupture the same place, for equally spaced places along the fault, the
+/// first half a spacing from its beginning; one place after the other. Places that are closer to
+/// each other than the length of events share events, so their times are not independent.
+/// \param events catalogue of ruptures
+/// \param threshold smallest size that is used (model energy)
+/// \param places number of places
+/// \throws std::invalid_argument if the table does not say where its events ruptured
 std::vector<double> times_at_places(const EventTable &events, double threshold, int places);
 
-/// fit_maximum_likelihood() with C such that the density is that of all times: over those from
-/// `shortest` on it integrates to their share.
+/// fit_maximum_likelihood() with C scaled to the density of all times: above `shortest` it
+/// integrates to the share of the times there.
 GeneralisedGammaFit fit_with_share(const std::vector<double> &times, double shortest, double delta);
 
-/// gamma against the shortest time used: all times; 0.5, 1, 2.5, 5 and 10 memories of the picker if
-/// it has one; 0.05, 0.1 and 0.2 of the mean.
+/// gamma against the shortest time used, at these cuts: 0 (all times); 0.5, 1, 2.5, 5 and 10
+/// memories of the picker, if it has one; 0.05, 0.1 and 0.2 of the mean.
 std::vector<GammaOfCut> gamma_of_cuts(const std::vector<double> &times, double memory, double mean);
 
-/// The bins of times from `shortest` on.
+/// Bins whose lower edge is at least `shortest`.
 std::vector<LogBin> bins_from(std::vector<LogBin> bins, double shortest);
 
+/// Computes one curve for each catalogue and threshold.
 /// \throws std::invalid_argument for impossible settings
 std::vector<IntervalCurve> interval_curves(const std::vector<EventTable> &tables,
                                            const IntervalSettings &settings);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file ks_distance.h
-/// Kolmogorov-Smirnov distance between a sample and a law.
+/// Kolmogorov-Smirnov distance between a sample and a distribution.
 #ifndef LSM_POSTPROC_KS_DISTANCE_H
 #define LSM_POSTPROC_KS_DISTANCE_H
 
@@ -11,38 +11,38 @@
 
 namespace LSM::postproc {
 
-/// A sample as it is, ascending values one at a time, or by cells: their edges, and how many values
-/// are below each of them.
+/// A sample in one of two forms: single values in ascending order, or cells, given by their edges
+/// and the number of values below each edge.
 struct SamplePoints {
   const double *values;
   std::size_t count;
-  const double *below = nullptr;  ///< of cells only
+  const double *below = nullptr;  ///< for cells only
 
   double n() const { return below ? below[count - 1] - below[0] : static_cast<double>(count); }
-  /// Values before point i, and up to it.
+  /// Number of values before point i, and up to and including it.
   double before(std::size_t i) const {
     return below ? below[i] - below[0] : static_cast<double>(i);
   }
   double up_to(std::size_t i) const { return before(i) + (below ? 0.0 : 1.0); }
 };
 
-/// Largest distance between the empirical distribution of a sample, not empty, and the cumulative
-/// distribution cdf(value), which must not fall. Both rise, so that within a block of values
-/// nothing exceeds a bound given by the law at its ends; blocks that cannot beat the best so far
-/// are skipped, and the exact distance costs some hundred evaluations instead of one for each
-/// value. Of a sample by cells it is the largest at their edges.
+/// Largest distance between the empirical distribution of a non-empty sample and the cumulative
+/// distribution function cdf(value), which must not decrease; for cells, the largest at their
+/// edges. As both functions increase, their values at the ends of a block bound the distance within
+/// it. Blocks that cannot exceed the largest distance so far are skipped, so that the exact result
+/// takes some hundred evaluations instead of one for each value.
 template <class Cdf>
 class KsDistance {
  public:
   KsDistance(SamplePoints points, Cdf cdf) : points_(points), n_(points.n()), cdf_(cdf) {}
 
-  /// A result above give_up only means that the distance is at least that much.
+  /// \param give_up if the result exceeds this, it is only a lower bound of the distance
   double operator()(double give_up = std::numeric_limits<double>::infinity()) {
     return search(0.0, give_up);
   }
 
-  /// Infinite if the distance is at least this, 0 otherwise: what does not reach it is not looked
-  /// for.
+  /// Only tells whether the distance reaches a given one, which is faster.
+  /// \return infinity if the distance is at least this, 0 otherwise
   double against(double distance) {
     const double below = std::nextafter(distance, -1.0);
     return search(below, below) > below ? std::numeric_limits<double>::infinity() : 0.0;

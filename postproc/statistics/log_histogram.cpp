@@ -18,7 +18,7 @@ std::vector<LogBin> log_histogram(const std::vector<double> &values, double fact
   std::map<std::int64_t, std::int64_t> counts;
   for (const double value : values) {
     if (!(value > 0.0 && std::isfinite(value))) continue;
-    // The quotient of logarithms can be off by one next to an edge; the edges themselves decide.
+    // Next to an edge, the quotient of the logarithms can be off by one; compare with the edges.
     auto n = static_cast<std::int64_t>(std::floor(std::log(value) / log_factor));
     if (value < edge(n))
       --n;

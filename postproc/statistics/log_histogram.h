@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file log_histogram.h
-/// Probability densities over bins of equal width in the logarithm (paper Sect. 4.1, after Corral
-/// 2004): edges factor^n for every integer n.
+/// Probability densities in bins of equal logarithmic width (paper Sect. 4.1, after Corral 2004),
+/// with edges factor^n for every integer n.
 #ifndef LSM_POSTPROC_LOG_HISTOGRAM_H
 #define LSM_POSTPROC_LOG_HISTOGRAM_H
 
@@ -16,17 +16,18 @@ struct LogBin {
   double lo, hi;
   double centre;       ///< geometric mean of the edges
   std::int64_t count;  ///< samples in the bin
-  double density;      ///< count / (N (hi - lo)), N the samples in all bins returned together
+  double density;      ///< count / (N (hi - lo)), N the number of samples in all bins
   double error;        ///< Poisson error of density: sqrt(count) / (N (hi - lo)); 0 if empty
 };
 
-/// Ratio of the edges of a bin: ten bins a decade † (the paper does not give its c).
+/// Ratio of the edges of a bin: ten bins per decade † (the paper does not give its c).
 constexpr double usual_bin_factor = 1.2589254117941673;
 
-/// Bins of the positive finite values whose lower edge is at or above threshold (to 1e-9 relative,
-/// so that 1e-4 is an edge of 10^(1/10) bins) and whose upper edge does not exceed upto, from the
-/// first to the last that holds a value; empty bins between them are included. The densities
-/// integrate to one over the bins returned. Empty if there is no such value.
+/// Bins the positive finite values. The bins returned have lower edges at or above threshold (to
+/// 1e-9 relative, so that 1e-4 is an edge of 10^(1/10) bins) and upper edges not above upto; they
+/// range from the first to the last bin with a value, including empty ones in between. The
+/// densities integrate to one over these bins.
+/// \return empty if there is no such value
 /// \throws std::invalid_argument unless factor is finite and at least 1.0001
 std::vector<LogBin> log_histogram(const std::vector<double> &values,
                                   double factor = usual_bin_factor, double threshold = 0.0,

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::int64_t fewest = 10;
 
-// Of values from least on; all of them are used.
+// b from all values, which are at or above `least`; `what` names them in messages.
 BValue estimate(const std::vector<double> &values, double least, double width, const char *what) {
   BValue result;
   result.n = static_cast<std::int64_t>(values.size());
@@ -61,7 +61,7 @@ BValue b_value(const std::vector<double> &magnitudes, double completeness, doubl
 BValue b_positive(const std::vector<double> &magnitudes, double completeness, double width) {
   std::vector<double> up;
   for (const double step : differences(complete(magnitudes, completeness, width)))
-    // Of continuous magnitudes those above 0.
+    // Continuous magnitudes (width 0) may be equal, and a difference of 0 is not positive.
     if (step >= 0.5 * width && step > 0.0) up.push_back(step);
   return estimate(up, width, width, "positive differences of magnitudes");
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file magnitudes.h
-/// Magnitudes of the models' events † (neither the paper nor the models know any), and the
-/// statistics of them that seismologists use: b-value, its error, magnitude of completeness.
+/// Magnitudes of the models' events † (neither the paper nor the models define any), and the usual
+/// statistics of seismology: b-value, its error, magnitude of completeness.
 ///
 /// Sources: Aki 1965, Bull. Earthq. Res. Inst. 43, 237 (b by maximum likelihood); Tinti & Mulargia
 /// 1987, Bull. Seismol. Soc. Am. 77, 2125 (magnitudes in bins); Shi & Bolt 1982, ibid. 72, 1677
@@ -18,48 +18,54 @@
 
 namespace LSM::postproc {
 
-/// M = slope log10(size) + constant. The slope 2/3 is that between magnitude and the logarithm of
-/// radiated energy or seismic moment; the constant is free, as the models have no unit of energy.
+/// M = slope log10(size) + constant. The slope of 2/3 is that between magnitude and the logarithm
+/// of radiated energy or seismic moment. The constant is free, as the models have no unit of
+/// energy.
 struct MagnitudeScale {
   double slope = 2.0 / 3.0;
   double constant = 0.0;
-  double of(double size) const;  ///< size > 0
+  /// Magnitude of an event; size > 0.
+  double of(double size) const;
 };
 
-/// The multiple of width that is nearest, halves upwards; width 0: as it is.
+/// Rounds to the nearest multiple of width, halves upwards; width 0: leaves the magnitude as it is.
 double binned(double magnitude, double width);
 
-/// Gutenberg-Richter law N(M) ~ 10^(-b M) for M >= completeness.
+/// b-value of the Gutenberg-Richter law N(M) ~ 10^(-b M) for M >= completeness.
 struct BValue {
   double b = NAN;
-  double error = NAN;  ///< Shi & Bolt
-  std::int64_t n = 0;  ///< magnitudes (b-positive: differences) that were used
+  double error = NAN;  ///< standard error after Shi & Bolt
+  std::int64_t n = 0;  ///< magnitudes (for b-positive: differences) used
   bool degenerate = true;
   std::string why;  ///< reason, one line
 };
 
-/// b of the magnitudes from completeness on (in bins: from the bin centred there).
-/// Width 0: 1 / (ln 10 (mean - completeness)) (Aki); else ln(1 + width / (mean - completeness)) /
-/// (ln 10 width) (Tinti & Mulargia), for magnitudes that are multiples of width away from it.
-/// Error: ln 10 b^2 sqrt(sum (M - mean)^2 / (n (n - 1))). Unbounded above: a roll-off raises b.
-/// Degenerate: fewer than 10 magnitudes, or all equal.
+/// Estimates b from the magnitudes at or above completeness (in bins: from the bin centred there
+/// on). Width 0: b = 1 / (ln 10 (mean - completeness)) (Aki); otherwise b = ln(1 + width / (mean -
+/// completeness)) / (ln 10 width) (Tinti & Mulargia), for magnitudes that differ from completeness
+/// by multiples of width. Error: ln 10 b^2 sqrt(sum (M - mean)^2 / (n (n - 1))). No upper limit is
+/// assumed, so a roll-off raises b. Degenerate: fewer than 10 magnitudes, or all equal.
 BValue b_value(const std::vector<double> &magnitudes, double completeness, double width = 0.0);
 
-/// b of the differences between each magnitude and the one before it that are at least width, of
-/// the magnitudes from completeness on in order of time. Their density falls with the same b, and
-/// they miss less of what is lost just after large events.
+/// b-positive: b from the differences between each magnitude and the one before it that are at
+/// least width. Their density falls with the same b, and they suffer less from the events that are
+/// missed just after large ones.
+/// \param magnitudes in order of time; those below completeness are left out
 BValue b_positive(const std::vector<double> &magnitudes, double completeness, double width = 0.0);
 
-/// Centre of the fullest bin of a width > 0 (the lower one of equals) plus 0.2, after Woessner &
-/// Wiemer. NaN without a magnitude.
+/// Magnitude of completeness by maximum curvature: centre of the fullest bin (the lowest of equal
+/// ones) plus 0.2, after Woessner & Wiemer.
+/// \param width of the bins, > 0
+/// \return NaN without magnitudes
 double maximum_curvature(const std::vector<double> &magnitudes, double width);
 
-/// Events in the bin centred at a magnitude, and from it on.
+/// Number of events in the bin centred at a magnitude, and in it and all bins above.
 struct MagnitudeCount {
   double magnitude;
   std::int64_t count, from_here_on;
 };
-/// From the first to the last bin with an event, in bins of a width > 0.
+/// Counts the magnitudes in bins of a width > 0, from the first to the last bin with an event.
+/// \throws std::invalid_argument if that needs 1e5 bins or more
 std::vector<MagnitudeCount> magnitude_counts(const std::vector<double> &magnitudes, double width);
 
 }  // namespace LSM::postproc

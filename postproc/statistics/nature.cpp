@@ -18,7 +18,7 @@ namespace LSM::postproc {
 
 namespace {
 
-/// The numbers of which a row has the means over its catalogues.
+/// Numbers that are averaged over the catalogues of a row.
 constexpr Measured NatureRow::*averaged[] = {&NatureRow::b,          &NatureRow::variation,
                                              &NatureRow::burstiness, &NatureRow::memory,
                                              &NatureRow::before,     &NatureRow::after_short,
@@ -28,7 +28,7 @@ constexpr Measured NatureRow::*averaged[] = {&NatureRow::b,          &NatureRow:
                                              &NatureRow::free_delta, &NatureRow::free_B,
                                              &NatureRow::free_C,     &NatureRow::size_distance};
 
-/// One catalogue above one smallest size; why: delta cannot be fitted.
+/// One catalogue above one smallest size. `why` is set if a free delta cannot be determined.
 NatureRow sample_of(const EventTable &table, double threshold, const NatureRow *reference,
                     const NatureSettings &settings) {
   NatureRow out;
@@ -74,7 +74,8 @@ NatureRow sample_of(const EventTable &table, double threshold, const NatureRow *
   return out;
 }
 
-/// Mean and its error: from the scatter of two and more, and not below that of their own errors.
+/// Mean and standard error: of several values from their scatter, but not below what their own
+/// errors imply.
 Measured mean_of(std::vector<Measured> values) {
   values.erase(std::remove_if(values.begin(), values.end(),
                               [](const Measured &one) { return std::isnan(one.value); }),
@@ -136,7 +137,7 @@ std::vector<NatureRow> nature_rows(const std::vector<EventTable> &tables,
       const double least = thresholds[i].complete_in(first).size;
       if (!(least > 0.0))
         throw std::invalid_argument("--threshold 0 has no magnitude, expected a larger size");
-      // If the catalogue begins above a smallest size, the next one gives the same.
+      // Where the catalogue begins above this smallest size, the next one selects the same events.
       if (i + 1 < thresholds.size() &&
           events_from(first, least) ==
               events_from(first, thresholds[i + 1].complete_in(first).size))
@@ -160,7 +161,7 @@ std::vector<NatureRow> nature_rows(const std::vector<EventTable> &tables,
     }
   }
   std::stable_sort(rows.begin() + 1, rows.end(), [](const NatureRow &a, const NatureRow &b) {
-    // Those without a distance last.
+    // Rows without a distance come last.
     return a.distance.value < b.distance.value ||
            (std::isnan(b.distance.value) && !std::isnan(a.distance.value));
   });

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file periods.h
-/// Does a fault repeat itself? Periods in the times of events, with their energy as weights, and
-/// energy released at equal times in two catalogues †. A period in the slip of the plates is
-/// one of the fault's own geometry: it goes when that is random.
+/// Whether a fault repeats itself: periods in the times of events, weighted with their energy, and
+/// energy released at the same times in two catalogues †. A period in terms of the slip of the
+/// plates stems from the geometry of the fault and disappears if that is random.
 ///
 /// Source: Rayleigh's test of directions, as in Mardia & Jupp 2000, Directional Statistics, Wiley.
 #ifndef LSM_POSTPROC_PERIODS_H
@@ -17,48 +17,55 @@
 
 namespace LSM::postproc {
 
-/// Events at times t with weights w against one period.
+/// Test of events at times t with weights w for one period.
 struct PeriodTest {
   double period = NAN;
-  /// Rayleigh's Z = |sum w exp(2 pi i t / period)|^2 / sum w^2. Random phases: 1 on average.
+  /// Rayleigh's Z = |sum w exp(2 pi i t / period)|^2 / sum w^2; 1 on average for random phases.
   double z = NAN;
-  double phase = NAN;  ///< where in the period most of the weight lies, 0 to 1
-  /// Probability of a Z as large with random phases, by random ones for these weights.
+  double phase = NAN;  ///< phase at which most of the weight lies, 0 to 1
+  /// Probability of as large a Z with random phases and these weights, by Monte Carlo.
   Measured p;
-  /// Weight in each tenth of the period over its mean.
+  /// Weight in each tenth of the period, over the mean of the tenths.
   std::array<double, 10> tenths{};
 };
 
-/// (sum w)^2 / sum w^2: as many events of equal weight would scatter as much.
+/// Effective number of events, (sum w)^2 / sum w^2: as many events of equal weight scatter as much.
 double effective_number(const std::vector<double> &weights);
 
+/// Rayleigh's Z, see PeriodTest::z.
 double rayleigh_z(const std::vector<double> &times, const std::vector<double> &weights,
                   double period);
 
-/// \param replicas random phases, at least 1
+/// Tests for one period.
+/// \param replicas number of sets of random phases, at least 1
 /// \throws std::invalid_argument for a period that is not positive, or fewer than 10 events
 PeriodTest test_period(const std::vector<double> &times, const std::vector<double> &weights,
                        double period, int replicas, std::uint64_t seed);
 
-/// Z at the periods between two that fit a whole number of times into the time from the first event
-/// to the last: random phases make them independent.
+/// Z at all periods between two limits that fit a whole number of times into the time from the
+/// first to the last event, for which values with random phases are independent.
 struct PeriodScan {
   std::vector<double> periods, z;
-  /// Z that the largest of so many exceeds by chance in 5 % of all scans of many equal weights.
+  /// The largest Z of so many periods exceeds this by chance in 5 % of all scans (for many equal
+  /// weights).
   double by_chance = NAN;
 };
 PeriodScan scan_periods(const std::vector<double> &times, const std::vector<double> &weights,
                         double shortest, double longest);
 
-/// Do two catalogues release energy at the same times?
+/// Whether two catalogues release energy at the same times.
 struct Coincidence {
-  double correlation = NAN;  ///< of the energy in bins of time
-  /// Share of shifts of one against the other in a ring, by random numbers of bins, whose
-  /// correlation is as large.
+  double correlation = NAN;  ///< correlation of the energies in bins of time
+  /// Share of cyclic shifts of one series against the other, by random numbers of bins, with as
+  /// large a correlation.
   Measured p;
   std::int64_t bins = 0;
 };
-/// \throws std::invalid_argument unless both have at least 20 bins in common
+/// Correlates the energy released in two catalogues.
+/// \param bin width of the bins of time, > 0
+/// \param replicas number of random shifts
+/// \throws std::invalid_argument if a catalogue has no events, or unless they have at least 20 bins
+/// in common
 Coincidence coincidence(const std::vector<double> &first_times,
                         const std::vector<double> &first_weights,
                         const std::vector<double> &second_times,
