@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file aftershock_figure.h
-/// Rates of events after main shocks as table and picture †.
+/// Event rates after main shocks, as tables and a figure †.
 #ifndef LSM_POSTPROC_AFTERSHOCK_FIGURE_H
 #define LSM_POSTPROC_AFTERSHOCK_FIGURE_H
 
@@ -12,17 +12,21 @@
 
 namespace LSM::postproc {
 
+/// Aftershock statistics of one catalogue.
 struct AftershockCurve {
   std::string label, model;
   Aftershocks aftershocks;
 };
 
+/// Numbers of the main shocks and aftershocks and the fitted Omori-Utsu law, a row per catalogue.
 Table aftershock_table(const std::vector<AftershockCurve> &curves);
-/// p and the ratio of after- to foreshocks over the catalogues that share a label.
+/// Means of the exponent p and of the ratio of aftershocks to foreshocks over the catalogues that
+/// share a label. A label with only one catalogue has no row.
 Table aftershock_means(const std::vector<AftershockCurve> &curves);
 
-/// Rate against time with Poisson errors, the fitted law, and the rates of Poisson catalogues (mean
-/// and two standard deviations). \throws std::runtime_error if no curve has a point
+/// Event rate against the time since the end of a main shock, with Poisson errors, the fitted law,
+/// and the rates of Poisson catalogues (mean and two standard deviations).
+/// \throws std::runtime_error if no curve has a point
 Figure aftershock_figure(const std::vector<AftershockCurve> &curves);
 
 }  // namespace LSM::postproc

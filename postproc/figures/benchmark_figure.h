@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file benchmark_figure.h
-/// Ruptures beside reference curves: tables of the misfits, picture of stations and fronts.
+/// Simulated ruptures compared with reference curves: tables of the misfits, and a figure of the
+/// stations and of the arrival of the rupture front.
 #ifndef LSM_POSTPROC_BENCHMARK_FIGURE_H
 #define LSM_POSTPROC_BENCHMARK_FIGURE_H
 
@@ -12,22 +13,24 @@
 
 namespace LSM::postproc {
 
-/// A run beside a reference.
+/// A run compared with one reference.
 struct Misfits {
   const NamedCurves *run;
   std::string reference;
-  std::vector<StationMisfit> stations;  ///< that are compared
-  MisfitSummary summary;                ///< over all of them
+  std::vector<StationMisfit> stations;  ///< those that are compared
+  MisfitSummary summary;                ///< over these stations
 };
 
-/// A row for each station.
+/// Misfits at single stations, a row per station.
 Table misfit_table(const std::vector<Misfits> &all);
-/// A row for each run beside each reference.
+/// Misfits over all stations, a row per run and reference.
 Table misfit_summary_table(const std::vector<Misfits> &all);
 
-/// Slip, slip rate, and slip less that of the last reference, at up to six places that all
-/// references have, and arrival times along the fault. \param rate above which the rupture has
-/// arrived
+/// Slip, slip rate, and the difference of the slip from that of the last reference, at up to six
+/// places that all references have; and the arrival times along the fault.
+/// \param references at least one
+/// \param rate slip rate above which the rupture has arrived
+/// \param until time at which the curves are cut off
 Figure benchmark_figure(const std::vector<NamedCurves> &runs,
                         const std::vector<NamedCurves> &references, double rate, double until);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file clustering_figures.h
-/// Whether events come at a steady rate, and what follows short and long times: a table, and
-/// pictures with a row for each curve.
+/// Whether events occur at a steady rate, and which inter-event times follow short and long ones:
+/// a table, and figures with a row of panels per curve.
 #ifndef LSM_POSTPROC_CLUSTERING_FIGURES_H
 #define LSM_POSTPROC_CLUSTERING_FIGURES_H
 
@@ -14,20 +14,23 @@
 
 namespace LSM::postproc {
 
-/// Whether a curve has what these figures show.
+/// Whether the statistics of these figures exist for a curve, which needs at least 20 events.
 bool has_clustering(const IntervalCurve &curve);
 
-/// \param date text of a time of earthquakes, which is in days since 1970
+/// Departure from a steady rate, burstiness, memory and conditional mean times, a row per curve.
+/// \param date formats a time of earthquakes, given in days since 1970
 Table clustering_table(const std::vector<IntervalCurve> &curves,
                        const std::function<std::string(double)> &date);
 
-/// Cumulative number of events, with the straight line of a steady rate and the stretches proposed
-/// as steady shaded. Curves without clustering are left out; the first eight are drawn.
-/// \throws std::runtime_error if none is left
+/// Cumulative number of events against time, with the straight line of a steady rate; periods that
+/// are proposed as steady are shaded. Only the first eight curves with has_clustering() are drawn.
+/// \throws std::runtime_error if there is no such curve
 Figure rate_figure(const std::vector<IntervalCurve> &curves);
 
-/// Densities of the times, over their mean, that follow the shortest, middle and longest third of
-/// the times, and their mean after each eighth beside times in random order. Likewise.
+/// Densities of the inter-event times (over their mean) that follow the shortest, middle and
+/// longest third of them, and the mean time after each eighth beside that of times in random order.
+/// Draws the same curves as rate_figure().
+/// \throws std::runtime_error if there is no such curve
 Figure conditional_figure(const std::vector<IntervalCurve> &curves);
 
 }  // namespace LSM::postproc

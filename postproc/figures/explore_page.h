@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file explore_page.h
-/// One page on which a person explores runs: PE with its events, each event, its slip, and the
-/// statistics against a threshold that is dragged. The page itself is in figures/explore.
+/// An HTML page for exploring runs interactively: PE with its events, each event, its slip, and the
+/// statistics against a threshold that can be dragged. Its HTML and JavaScript are in
+/// figures/explore.
 #ifndef LSM_POSTPROC_EXPLORE_PAGE_H
 #define LSM_POSTPROC_EXPLORE_PAGE_H
 
@@ -18,40 +19,41 @@
 
 namespace LSM::postproc {
 
-/// PE of a run.
+/// The PE series of a run.
 struct ExploreSeries {
   std::string path;
   PeSeriesInfo info;
-  std::int64_t samples = 0;     ///< in the file, within the times asked for
-  std::int64_t first_step = 0;  ///< of the first of them
+  std::int64_t samples = 0;     ///< in the file, within the requested times
+  std::int64_t first_step = 0;  ///< of the first of these samples
   std::vector<double> pe;
-  std::vector<double> times;  ///< of each; empty: they are one stride apart
+  std::vector<double> times;  ///< of the values; empty: one stride apart
 
-  /// Joins neighbours until there are at most `most`: of each group the smallest and the largest
-  /// stay, in their order.
+  /// Reduces the series to at most `most` values. Neighbouring values are grouped, and the smallest
+  /// and the largest of each group are kept in their order, so that short drops stay visible.
   void thin(std::int64_t most);
 };
 
 /// Events of one kind.
 struct ExploreEvents {
-  EventTable table;  ///< `details` are those that the page lists
+  EventTable table;  ///< its `details` are the events listed on the page
   std::vector<ThresholdResult> thresholds;
 };
 
 struct ExploreRun {
-  std::vector<ExploreEvents> kinds;  ///< at least one; drops of PE before ruptures
+  std::vector<ExploreEvents> kinds;  ///< at least one; drops of PE come before ruptures
   std::optional<ExploreSeries> series;
   std::optional<SlipImage> history;
   std::string history_path;
 };
 
 struct ExploreSettings {
-  std::string title;                      ///< empty: the label of the run, or how many there are
-  double p_speed = 2.12, s_speed = 1.22;  ///< of waves, beside the slip
-  std::string program;                    ///< what made the page
+  std::string title;                      ///< empty: label of the run, or number of runs
+  double p_speed = 2.12, s_speed = 1.22;  ///< wave speeds, drawn over the slip
+  std::string program;                    ///< name and version of the program
 };
 
-/// The whole page. It needs no other file and no network.
+/// Returns the whole page, which needs no other file and no network.
+/// \param runs at least one
 std::string explore_html(const std::vector<ExploreRun> &runs, const ExploreSettings &settings);
 
 }  // namespace LSM::postproc

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file interval_figures.h
-/// Inter-event times: their densities (paper: Figs. 14, 15), and Table 1 of the paper, generalised
-/// gamma parameters, beside ours.
+/// Inter-event times: their probability densities (paper: Figs. 14, 15), and the generalised gamma
+/// parameters of the paper's Table 1 beside ours.
 #ifndef LSM_POSTPROC_INTERVAL_FIGURES_H
 #define LSM_POSTPROC_INTERVAL_FIGURES_H
 
@@ -17,47 +17,55 @@
 
 namespace LSM::postproc {
 
-/// Smallest size and where it comes from; of earthquakes the smallest magnitude.
+/// Describes the smallest size of a curve and the reason for it; for earthquakes, the smallest
+/// magnitude.
 std::string source_of(const IntervalCurve &curve);
 
-/// Densities with Poisson errors and the fitted curves. \param rescaled times are over their mean
+/// Probability densities with Poisson errors, and the fitted densities.
+/// \param rescaled whether the times are divided by their mean
+/// \param width of the picture, see PictureSize
 /// \throws std::runtime_error if no curve has a point
 Figure interval_figure(const std::vector<IntervalCurve> &curves, bool rescaled, int width = 900);
 
-/// gamma against the shortest time used, a row for each cut of each curve.
+/// gamma (with delta = 1) against the shortest time used in the fit, the cut; a row per cut and
+/// curve. The cut that all commands use is marked: the larger of 2.5 memories of the picker and
+/// 0.05 of the mean.
 Table cuts_table(const std::vector<IntervalCurve> &curves);
-/// The same over the mean with errors; 2.5 memories of each picker are marked.
+/// gamma with its errors against the cut over the mean time.
 /// \throws std::runtime_error if no curve has a number
 Figure cuts_figure(const std::vector<IntervalCurve> &curves, int width = 900);
 
-/// One of our lines.
+/// One of our rows of Table 1.
 struct Table1Row {
   std::string source;                  ///< label of the catalogue
-  std::string from;                    ///< smallest size in words
-  std::string method;                  ///< how it was fitted
+  std::string from;                    ///< the smallest size, in words
+  std::string method;                  ///< of the fit
   double threshold = 0.0;              ///< smallest size
-  double shortest = NAN;               ///< time that is fitted
-  std::int64_t n = 0;                  ///< inter-event times fitted
+  double shortest = NAN;               ///< shortest time used in the fit
+  std::int64_t n = 0;                  ///< number of inter-event times fitted
   std::array<Measured, 4> parameters;  ///< gamma, delta, B, C; NaN if degenerate
-  double misfit = NAN;                 ///< least squares: chi2 per degree
+  double misfit = NAN;                 ///< least squares: chi2 per degree of freedom
   double ks = NAN;                     ///< maximum likelihood: KS distance
   Measured p;                          ///< of the fit; NaN: not computed, or no Monte Carlo
-  std::string why;                     ///< reason if degenerate
+  std::string why;                     ///< reason if degenerate, otherwise empty
 
   bool rejected() const { return p.value < 0.05; }  ///< see rejection_rule
 };
 
-/// What p and "rejected" mean, for readers.
+/// Explains p and "rejected" to readers of tables and pages.
 constexpr std::string_view rejection_rule =
     "p below 0.05. p is the probability of a fit as poor or poorer if the times are independent "
     "and follow the fitted density: least squares from χ² and its degrees of freedom (dof), "
     "maximum likelihood as the share of synthetic samples, each fitted like the data, whose "
     "Kolmogorov-Smirnov distance KS is as large";
 
+/// Returns a row for each fit of each curve.
 std::vector<Table1Row> table1_rows(const std::vector<IntervalCurve> &curves);
 
-/// The columns as printed in the paper, digits included, without unit of theta, errors and size
-/// threshold, which it does not state; then ours. \param printed false: ours only
+/// Table 1: first the rows printed in the paper, with the digits printed there (it states no unit
+/// of theta, no errors and no size threshold), then ours.
+/// \param rescaled whether our times are divided by their mean
+/// \param printed false: only our rows
 Table table1(const std::vector<Table1Row> &rows, bool rescaled, bool printed = true);
 
 }  // namespace LSM::postproc

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file magnitude_figure.h
-/// Frequencies of magnitudes and b-values as table and picture †.
+/// Frequencies of magnitudes and b-values, as a table and a figure †.
 #ifndef LSM_POSTPROC_MAGNITUDE_FIGURE_H
 #define LSM_POSTPROC_MAGNITUDE_FIGURE_H
 
@@ -12,22 +12,27 @@
 
 namespace LSM::postproc {
 
-/// One catalogue.
+/// Magnitudes of one catalogue, with their completeness and b-values.
 struct MagnitudeCurve {
   std::string label, model;
   std::vector<double> magnitudes;  ///< in order of time
   double completeness = 0.0;
-  std::string completeness_text;  ///< where it comes from
-  double curvature = 0.0;         ///< completeness by maximum curvature
+  std::string completeness_text;  ///< where the completeness comes from
+  double curvature = 0.0;         ///< magnitude of completeness by maximum curvature
   BValue b, positive;
 };
 
-/// \param slope of the magnitudes \param formula of them, for people
+/// Magnitudes of completeness and b-values, a row per catalogue.
+/// \param slope magnitudes per decade of size
+/// \param formula of the magnitudes, for readers of the table
+/// \param width of the bins; 0: none
 Table magnitude_table(const std::vector<MagnitudeCurve> &curves, double slope,
                       const std::string &formula, double width);
 
-/// Numbers of events in each bin and from each magnitude on, with the fitted laws.
-/// \param width of the bins, > 0 \throws std::runtime_error if no curve has an event
+/// Numbers of events per bin and cumulative numbers of events from each magnitude on, with the
+/// fitted laws.
+/// \param width of the bins, > 0
+/// \throws std::runtime_error if no curve has an event
 Figure magnitude_figure(const std::vector<MagnitudeCurve> &curves, double width);
 
 }  // namespace LSM::postproc

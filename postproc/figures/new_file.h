@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file new_file.h
-/// Output that appears whole or not at all, and never in the place of what it was made from.
+/// Output files that appear whole or not at all, and never replace the input they were made from.
 #ifndef LSM_POSTPROC_NEW_FILE_H
 #define LSM_POSTPROC_NEW_FILE_H
 
@@ -13,20 +13,22 @@
 
 namespace LSM::postproc {
 
-/// Before path is written: makes missing folders, and keeps others from writing it while the lock
-/// is held. \throws FileError if path exists, unless overwrite, is a folder, or is being written by
-/// another program of ours.
+/// Prepares to write path: creates missing folders, and locks the file against other programs of
+/// this project. Devices and pipes are not locked.
+/// \throws FileError if path exists (unless overwrite), is a folder, or is being written by another
+/// program of this project
 FileLock claim_output(const std::string &path, bool overwrite);
 
-/// \throws FileError if a file is there that is not known as an earlier one of the same output,
-/// unless overwrite
+/// Refuses to replace a file unless `known` recognizes it as an earlier version of the same output.
+/// \throws FileError if there is another file, unless overwrite
 void check_replaced(const std::string &path, bool overwrite, const Known &known = nullptr);
 
-/// The same, and nothing is in the way of writing path; to be asked of all outputs before the first
-/// is written. \throws FileError
+/// As check_replaced(), and also checks that path can be written. Call it for all outputs before
+/// the first one is written.
+/// \throws FileError if path must not be replaced or cannot be written
 void check_output(const std::string &path, bool overwrite, const Known &known = nullptr);
 
-/// A file that is written as one goes, and claimed as long.
+/// A writer of a file, with the lock of the file for as long as it is written.
 template <class Writer>
 struct ClaimedFile {
   ClaimedFile(const std::string &path, bool overwrite) : lock(claim_output(path, overwrite)) {}
@@ -34,14 +36,17 @@ struct ClaimedFile {
   Writer writer;
 };
 
-/// Writes text to path, in place of an older file, see check_replaced(). \throws FileError
+/// Writes text to path and replaces an older file, for which check_replaced() has to be called
+/// before.
+/// \throws FileError
 void write_file(const std::string &path, std::string_view text);
 
-/// \throws FileError if output, or its temporary name, is one of the files that are read.
+/// Refuses an output that would replace an input.
+/// \throws FileError if output, its temporary file or its lock file is one of the inputs
 void refuse_input(const std::string &output, const std::vector<std::string> &inputs);
 
-/// The same for several outputs; empty paths are skipped. \throws FileError also if two of them
-/// are one file, whatever its names
+/// As refuse_input(), for several outputs. Empty paths are skipped.
+/// \throws FileError also if two outputs lead to the same file, under any names
 void check_outputs(const std::vector<Output> &outputs, const std::vector<std::string> &inputs);
 
 }  // namespace LSM::postproc

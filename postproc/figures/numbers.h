@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file numbers.h
-/// Numbers and smallest sizes as people read them.
+/// Numbers and smallest sizes as text for people.
 #ifndef LSM_POSTPROC_NUMBERS_H
 #define LSM_POSTPROC_NUMBERS_H
 
@@ -13,20 +13,21 @@
 
 namespace LSM::postproc {
 
-/// The value with `digits` significant digits, as short as %g makes it; "-" for NaN.
+/// Formats a value with `digits` significant digits, without trailing zeros like %g; "-" for NaN.
 std::string short_number(double value, int digits = 4);
 
-/// Value and standard error with two digits of the error: "1.073 +- 0.024", "(3.1 +- 0.2)e-05".
-/// Without an error (NaN or 0) only the value.
-/// \param plus_minus text between the two
+/// Formats a value and its standard error with two digits of the error: "1.073 +- 0.024",
+/// "(3.1 +- 0.2)e-05". Without an error (NaN or 0), formats only the value.
+/// \param plus_minus text between the two numbers
 std::string with_error(double value, double error, std::string_view plus_minus = " +- ");
 
-/// "fault", "block-slider" or "earthquakes", from that in a header.
+/// Name of a model for people: "fault", "block-slider" or "earthquakes".
+/// \param model as in the header of a catalogue
 const char *model_name(std::string_view model);
 
-/// "0.01, completeness in the header of x.csv"
+/// Describes a smallest size, as in "0.01, completeness in the header of x.csv".
 std::string text(const SmallestSize &smallest);
-/// One line for each model in tables.
+/// Describes the smallest sizes of some catalogues, a line for each different one.
 std::vector<std::string> texts(const Threshold &threshold, const std::vector<EventTable> &tables);
 
 }  // namespace LSM::postproc

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file period_figure.h
-/// Rayleigh's Z of the events against the period.
+/// Periodicity of the events: Rayleigh's Z against the period.
 #ifndef LSM_POSTPROC_PERIOD_FIGURE_H
 #define LSM_POSTPROC_PERIOD_FIGURE_H
 
@@ -12,7 +12,9 @@
 
 namespace LSM::postproc {
 
-/// \param labels one for each scan \param unit of the periods
+/// Rayleigh's Z against the period for each scan, with the level that chance alone reaches.
+/// \param labels one for each scan
+/// \param unit of the periods
 /// \throws std::runtime_error if no scan has a period
 Figure period_figure(const std::vector<PeriodScan> &scans, const std::vector<std::string> &labels,
                      const std::string &unit);
