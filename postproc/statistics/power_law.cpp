@@ -26,13 +26,13 @@ using text_io::number;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::int64_t least_events = 10;
 
-// Of the search for a range.
+// Settings of the search for a range.
 constexpr int candidates = 60;
 constexpr double least_in_range = 50.0, least_ratio = 10.0;
 
-// Logarithms of a sample in ascending order and their running sums, so that the exponent of any
-// range costs two look-ups. By cells, ranges begin and end at edges, and an index is that of an
-// edge.
+// Logarithms of a sample in ascending order with cumulative sums, so that the exponent of any range
+// costs two look-ups. For a sample in cells, ranges begin and end at edges, and indices are of
+// edges.
 class LogSample {
  public:
   explicit LogSample(std::vector<double> logs) : y_(std::move(logs)) {
@@ -67,7 +67,8 @@ class LogSample {
     const auto at = std::upper_bound(y_.begin() + by_cells_, y_.end(), y + by_cells_ * rounding);
     return static_cast<std::size_t>(at - y_.begin() - by_cells_);
   }
-  /// A range that is asked for, as far as the sample can tell its ends.
+  /// A requested range as far as the sample can resolve it: in cells, moved to the next edges
+  /// inside.
   double lower_end(double lower) const { return by_cells_ ? y_[first_from(lower)] : lower; }
   double upper_end(double upper) const {
     return by_cells_ && std::isfinite(upper) ? y_[first_above(upper)] : upper;
@@ -79,7 +80,7 @@ class LogSample {
   }
 
  private:
-  static constexpr double rounding = 1e-12;  // of the logarithms of edges
+  static constexpr double rounding = 1e-12;  // tolerance for the logarithms of edges
 
   void add(double y, double count) {
     sum_.add(count * y);
@@ -92,7 +93,7 @@ class LogSample {
   int by_cells_ = 0;
 };
 
-// Power law from a logarithm on: density in u ~ exp(b u).
+// Power law truncated to an interval of logarithms; the density of u is proportional to exp(b u).
 struct Law {
   double lower;
   Exponential of_u;
@@ -105,10 +106,10 @@ struct Law {
 };
 
 struct Estimate {
-  std::size_t first, last;  // indices of the range
+  std::size_t first, last;  // indices of the range in the sample
   Law law;
   double mean_u = 0.0;
-  bool usable = false;  // an interior optimum exists
+  bool usable = false;  // whether the likelihood has an interior maximum
 };
 
 Estimate estimate(const LogSample &sample, double lower, double upper) {
@@ -122,7 +123,8 @@ Estimate estimate(const LogSample &sample, double lower, double upper) {
   return e;
 }
 
-// Kolmogorov-Smirnov distance between the sample and the law on the range, exact up to give_up.
+// Kolmogorov-Smirnov distance between sample and law on the range; above give_up only a lower
+// bound.
 double distance(const LogSample &sample, const Estimate &e, double give_up = infinity) {
   const auto cdf = [&e](double y) { return e.law.cdf(y); };
   return KsDistance(sample.points(e.first, e.last), cdf)(give_up);
@@ -133,7 +135,7 @@ struct Range {
   double distance = infinity;
 };
 
-// The range, in logarithms, of least distance; infinite distance if none qualifies.
+// Range (in logarithms) with the smallest distance, which is infinite if no range qualifies.
 Range best_range(const LogSample &sample) {
   Range best;
   if (sample.size() == 0) return best;
@@ -152,7 +154,7 @@ Range best_range(const LogSample &sample) {
   return best;
 }
 
-// The values in [lo, hi] that are positive and finite.
+// Positive finite values in [lo, hi].
 std::vector<double> between(const std::vector<double> &sorted, double lo, double hi) {
   if (!std::is_sorted(sorted.begin(), sorted.end()))
     throw std::invalid_argument("power law: sample is not in ascending order");
@@ -167,8 +169,8 @@ LogSample logs_of(std::vector<double> values) {
   return LogSample(std::move(values));
 }
 
-// Appends count numbers drawn from [0, 1), already in ascending order, turned into values: the
-// gaps between ordered uniform numbers are exponential variables over their sum.
+// Appends `count` uniform numbers from [0, 1), in ascending order, each transformed to a value:
+// ordered uniform numbers are partial sums of exponential variables divided by their total.
 template <class Transform>
 void append_ordered(std::vector<double> &out, std::size_t count, gsl_rng *rng,
                     Transform transform) {
@@ -182,7 +184,8 @@ void append_ordered(std::vector<double> &out, std::size_t count, gsl_rng *rng,
   for (std::size_t i = start; i < out.size(); ++i) out[i] = transform(out[i] / sum);
 }
 
-// Cells of what replicas are drawn from: the law within its range, the data outside of it.
+// Cells of the distribution that replicas are drawn from: the law inside its range, the data
+// outside.
 Cells cells_of(const LogSample &data, const Law &law, const double (&parts)[3]) {
   const auto n = static_cast<double>(data.size());
   const auto survival = [&](double y) {
@@ -190,12 +193,12 @@ Cells cells_of(const LogSample &data, const Law &law, const double (&parts)[3]) 
     return parts[2] + parts[1] * (1.0 - law.cdf(y));
   };
   std::vector<double> edges = {law.lower};
-  // Just beyond the data, so that the least and the greatest are within a cell.
+  // Edges slightly beyond the data, so that the extreme values lie within a cell.
   const auto room = [](double y) { return 1e-9 * (1.0 + std::fabs(y)); };
   if (parts[0] > 0.0) edges.insert(edges.begin(), data.front() - room(data.front()));
   if (law.of_u.finite()) edges.push_back(law.upper());
   if (!law.of_u.finite() || parts[2] > 0.0) {
-    // Without an end, to where a thousandth of a value is left.
+    // Without an upper end, up to where a thousandth of a value is expected.
     const double end =
         law.of_u.finite() ? data.back() : std::max(data.back(), law.quantile(1.0 - 1e-3 / n));
     edges.push_back(end + room(end));
@@ -248,7 +251,8 @@ PowerLawFit search_range(const std::vector<double> &sorted, double least) {
   const Range range = best_range(sample);
   PowerLawFit fit;
   if (std::isfinite(range.distance)) {
-    // Cuts at extremes of the sample must still contain them after exp(log(x)).
+    // Ends at the extremes of the sample must still include them after exp(log(x)) has been
+    // rounded.
     fit = fit_power_law(sorted, range.lo == sample.front() ? values.front() : std::exp(range.lo),
                         range.hi == sample.back() ? values.back() : std::exp(range.hi));
   } else {
@@ -274,7 +278,7 @@ double p_value(const PowerLawFit &fit, const std::vector<double> &sorted, int re
   const auto n = static_cast<double>(data.size());
   const double parts[3] = {static_cast<double>(first) / n, static_cast<double>(last - first) / n,
                            static_cast<double>(data.size() - last) / n};
-  // Distance of the best fit to a sample, found as that of the data was.
+  // Distance between a sample and its best fit, found as for the data.
   const auto distance_of = [&](const LogSample &sample) {
     if (fit.searched) return best_range(sample).distance;
     const Estimate e = estimate(sample, law.lower, law.upper());
@@ -306,7 +310,7 @@ double p_value(const PowerLawFit &fit, const std::vector<double> &sorted, int re
 
 namespace {
 
-// A power law and its sample, in u = ln(x / lo).
+// Comparisons of a power law with other laws for the same sample, in u = ln(x / lo).
 class Contest {
  public:
   Contest(const std::vector<double> &sorted, const PowerLawFit &fit)
@@ -315,7 +319,7 @@ class Contest {
     mean_u_ = mean_of([](double u) { return u; });
   }
 
-  // The exponential in t = (x - lo) / width has the form of the power law in u.
+  // In t = (x - lo) / width, an exponential has the same form as the power law in u.
   Comparison exponential() const {
     const bool finite = law_.of_u.finite();
     const double width = finite ? hi_ - lo_ : lo_, scale = lo_ / width;
@@ -333,7 +337,7 @@ class Contest {
       return undecided("log-normal", rival,
                        "the best log-normal is its limit, the power law itself");
     const double norm = rival.b * mean_u_ - rival.c * mean_t - rival.log_likelihood;
-    // In ln x; mu is that of the untruncated normal and can lie far below the range.
+    // Parameters of ln x: mu is that of the untruncated normal and may lie far below the range.
     return vuong(
         "log-normal",
         {{"mu", law_.lower + rival.b / (2.0 * rival.c)}, {"sigma", 1.0 / std::sqrt(2.0 * rival.c)}},
@@ -372,7 +376,7 @@ class Contest {
     return sum.value() / static_cast<double>(u_.size());
   }
 
-  // Ratio of likelihoods in u; the change of variables is the same on both sides.
+  // Vuong's test in u: the Jacobian of the change of variables cancels in the likelihood ratio.
   template <class LogDensity>
   Comparison vuong(const char *name, std::vector<std::pair<std::string, double>> parameters,
                    const LogDensity &rival) const {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file power_law.h
-/// Exponents of power laws by maximum likelihood: density C x^-alpha on [lo, hi], any real alpha if
-/// hi is finite (Deluca & Corral 2013), alpha > 1 if hi is infinite (Clauset, Shalizi & Newman
-/// 2009). All functions take the sample in ascending order; values outside [lo, hi] are not used.
-/// The paper (Sect. 4.2) fitted its exponents to binned densities by an unstated method; maximum
-/// likelihood is †.
+/// Exponents of power laws by maximum likelihood: density C x^-alpha on [lo, hi], with any real
+/// alpha if hi is finite (Deluca & Corral 2013) and alpha > 1 if hi is infinite (Clauset, Shalizi &
+/// Newman 2009). All functions take the sample in ascending order and do not use values outside
+/// [lo, hi]. The paper (Sect. 4.2) fitted its exponents to binned densities by an unstated method;
+/// maximum likelihood is †.
 ///
 /// Sources: Clauset, Shalizi & Newman 2009, SIAM Review 51, 661 (range by Kolmogorov-Smirnov
 /// distance, Monte Carlo p-value, likelihood ratios); Deluca & Corral 2013, Acta Geophysica 61,
@@ -24,52 +24,60 @@ namespace LSM::postproc {
 
 struct PowerLawFit {
   double alpha = NAN;
-  double standard_error = NAN;  ///< Fisher information
-  double lo = 0.0, hi = 0.0;    ///< the range, hi may be infinite
+  double standard_error = NAN;  ///< from the Fisher information
+  double lo = 0.0, hi = 0.0;    ///< range of the fit; hi may be infinite
   std::int64_t n = 0;           ///< events in [lo, hi]
   double ks = NAN;              ///< Kolmogorov-Smirnov distance
   double log_likelihood = NAN;
-  bool searched = false;   ///< the range comes from search_range()
-  double least = 0.0;      ///< and was to begin there or above
+  bool searched = false;   ///< the range was found by search_range()
+  double least = 0.0;      ///< lower limit of that search
   bool degenerate = true;  ///< no usable exponent: alpha, error, ks, likelihood are NaN
   std::string why;         ///< reason, one line
 };
 
-/// Exponent on a given range. Degenerate: fewer than 10 events in the range, all equal, all on one
-/// edge, or an exponent that the range does not determine (standard error above both 1 and
-/// |alpha - 1|). \throws std::invalid_argument if not ascending, or not 0 < lo < hi
+/// Fits the exponent on a given range. The fit is degenerate if fewer than 10 events are in the
+/// range, if all are equal or at one edge, or if the range does not determine the exponent
+/// (standard error above both 1 and |alpha - 1|).
+/// \throws std::invalid_argument unless the sample is ascending and 0 < lo < hi, with lo finite
 PowerLawFit fit_power_law(const std::vector<double> &sorted, double lo,
                           double hi = std::numeric_limits<double>::infinity());
 
-/// The range whose fit has the smallest Kolmogorov-Smirnov distance, of those that hold at least 50
-/// events over a ratio of 10: over all pairs of candidates † (after Deluca & Corral; Clauset et
-/// al. search the lower cut). These are 60, evenly spaced in log x between the extremes of the
-/// sample (instead of every value, which costs the square of n). The standard error does not
-/// include the choice of range. \param least smaller values are left out; 0 or less: those above 0
+/// Finds the range whose fit has the smallest Kolmogorov-Smirnov distance, among those with at
+/// least 50 events and a ratio of the ends of at least 10. Both ends are searched † (after Deluca &
+/// Corral; Clauset et al. search the lower end only), over all pairs of 60 candidates, evenly
+/// spaced in log x between the extremes of the sample (trying every value would cost the square of
+/// n). The standard error does not include the choice of the range.
+/// \param least smaller values are left out; 0 or less: all positive values are used
 PowerLawFit search_range(const std::vector<double> &sorted, double least = 0.0);
 
-/// Fraction of synthetic samples that fit worse (by Kolmogorov-Smirnov distance) than the data,
-/// (k + 1) / (replicas + 1). Each replica is fitted as the data were: with a given range the
-/// exponent, with a searched one the range too; there, what lies outside the range is resampled
-/// from the data. Small (Clauset et al.: below 0.1) means: not a power law. Standard error sqrt(p
-/// (1 - p) / replicas). \throws std::invalid_argument if the fit is degenerate
+/// Monte Carlo p-value: fraction of synthetic samples that fit as poorly (whose Kolmogorov-Smirnov
+/// distance is at least that of the data), (k + 1) / (replicas + 1). Each replica is fitted as the
+/// data were: the exponent on a given range, or the range as well if it was searched; in that case
+/// values outside the range are resampled from the data. A small p (Clauset et al.: below 0.1)
+/// rejects the power law. Its standard error is sqrt(p (1 - p) / replicas).
+/// \throws std::invalid_argument if the fit is degenerate
 double p_value(const PowerLawFit &fit, const std::vector<double> &sorted, int replicas,
                std::uint64_t seed);
 
-/// Another law fitted to the same events on the same range.
+/// Comparison with another law, fitted to the same events on the same range.
 struct Comparison {
   std::string rival;  ///< "exponential", "log-normal" or "power law with exponential cut-off"
   std::vector<std::pair<std::string, double>> parameters;  ///< name, value; empty if degenerate
   double log_likelihood_ratio = 0.0;  ///< ln L(power law) - ln L(rival); > 0 favours the power law
-  double normalised = 0.0;  ///< ratio / (sqrt(n) standard deviation) (Vuong); cut-off: 2 x ratio
-  double p = 1.0;  ///< two-sided (Vuong); cut-off, of which the power law is a case: chi square
-                   ///< with 1 degree of freedom, which is conservative since it cannot be negative
-  bool degenerate = false;  ///< the best rival is its limit (a power law, or a flat density)
+  /// Vuong's statistic, ratio / (sqrt(n) standard deviation); for the cut-off, 2 x ratio.
+  double normalised = 0.0;
+  /// Two-sided p-value (Vuong). The power law is a special case of the cut-off; there, p is from
+  /// chi square with 1 degree of freedom, which is conservative since the cut-off cannot be
+  /// negative.
+  double p = 1.0;
+  /// The best rival is its limit (a power law, or a flat density).
+  bool degenerate = false;
   std::string why = {};
 };
 
-/// Compares with an exponential, a log-normal and a power law with exponential cut-off, all
-/// truncated to [fit.lo, fit.hi]. \throws std::invalid_argument if the fit is degenerate
+/// Compares the power law with an exponential, a log-normal and a power law with exponential
+/// cut-off, all truncated to [fit.lo, fit.hi].
+/// \throws std::invalid_argument if the fit is degenerate
 std::vector<Comparison> compare(const std::vector<double> &sorted, const PowerLawFit &fit);
 
 }  // namespace LSM::postproc

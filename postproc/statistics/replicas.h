@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file replicas.h
-/// The replicas of Monte Carlo tests: several at a time, with random numbers that do not depend on
-/// the number of cores.
+/// Replicas of Monte Carlo tests, run in parallel with random numbers that do not depend on the
+/// number of cores.
 #ifndef LSM_POSTPROC_REPLICAS_H
 #define LSM_POSTPROC_REPLICAS_H
 
@@ -16,25 +16,26 @@
 
 namespace LSM::postproc {
 
-/// Samples of up to this many values are used as they are by tests that refit them; larger ones by
-/// cells (see cells.h), so that a refit costs no more.
+/// Largest sample that tests with refits use value by value; larger ones are reduced to counts in
+/// cells (see cells.h), so that the cost of a refit is bounded.
 constexpr std::int64_t largest_exact_sample = 8192;
 
-/// Seed of one replica; neighbouring seeds and replicas have nothing in common.
+/// Seed of one replica; the seeds of neighbouring seeds and replicas are unrelated.
 std::uint64_t seed_of_replica(std::uint64_t seed, int replica);
 
 using Rng = Gsl<gsl_rng>;
 
-/// Mersenne Twister.
+/// Mersenne Twister with a given seed.
 Rng generator(std::uint64_t seed);
 
-/// Calls task(0) to task(count - 1) on all cores that the process may use. \throws what the first
-/// task throws that does
+/// Calls task(0) to task(count - 1), in parallel on all cores that the process may use.
+/// \throws the exception of the first task that fails; no further tasks are started then
 void for_each_replica(int count, const std::function<void(int)> &task);
 
-/// (k + 1) / (count + 1) with the number k of replicas that are as far off as the data.
+/// Monte Carlo p-value (k + 1) / (count + 1), where k replicas are as far off as the data.
+/// \param as_far whether the replica of a given number is; called from any thread
 double share_of_replicas(int count, const std::function<bool(int)> &as_far);
-/// The same for samples that draw() gives one after the other, on any thread.
+/// The same for samples that draw() returns one after the other, called from one thread at a time.
 template <class Draw, class AsFar>
 double share_of_draws(int count, Draw draw, AsFar as_far) {
   std::mutex drawing;
@@ -46,8 +47,8 @@ double share_of_draws(int count, Draw draw, AsFar as_far) {
   });
 }
 
-/// Called between replicas with the number done and the total, by one thread at a time; at the end
-/// count of count. Empty: no report.
+/// Sets a function to be called after each replica with the number done and the total (at the end,
+/// count of count), by one thread at a time; an empty one switches the reports off.
 void watch_replicas(std::function<void(int done, int count)> observer);
 
 }  // namespace LSM::postproc

@@ -18,8 +18,8 @@ namespace LSM::postproc {
 
 namespace {
 
-// Lengths in bins of the fault from lo to hi - 1, as wide as ten bins a decade where that is more
-// than one.
+// Counts the lengths in whole bins of the fault, lo to hi - 1 of them in one bin of the density,
+// with ten bins per decade where these are wider than one bin of the fault.
 std::vector<LogBin> length_bins(const EventTable &table, double bin) {
   std::map<std::int64_t, std::int64_t> counts;
   for (const Event &e : table.details)
@@ -30,7 +30,7 @@ std::vector<LogBin> length_bins(const EventTable &table, double bin) {
         lo + 1,
         static_cast<std::int64_t>(std::llround(usual_bin_factor * static_cast<double>(lo))));
     LogBin one{};
-    // Between the integers.
+    // edges halfway between integers
     one.lo = (static_cast<double>(lo) - 0.5) * bin;
     one.hi = (static_cast<double>(hi) - 0.5) * bin;
     one.centre = std::sqrt(static_cast<double>(lo) * static_cast<double>(hi - 1)) * bin;
@@ -131,7 +131,7 @@ namespace {
 
 using Pairs = std::vector<std::pair<double, double>>;
 
-/// Mean stress drops by half decades of the moment.
+/// Mean stress drop in bins of half a decade of the moment.
 class StressMeans {
  public:
   void add(const RupturePoint &point) {

@@ -34,19 +34,19 @@ struct Measured {
   double error = NAN;
 };
 
-/// A share that so many random samples gave.
+/// A share that was found from so many random samples, with its binomial standard error.
 inline Measured share_of(double share, double samples) {
   return {share, std::sqrt(share * (1.0 - share) / samples)};
 }
 
-/// A result that has no numbers, and the reason.
+/// Marks a result as one without numbers and gives the reason.
 template <class Fit>
 Fit without_numbers(Fit fit, std::string why) {
   fit.why = std::move(why);
   return fit;
 }
 
-/// NaN without values.
+/// Arithmetic mean; NaN without values.
 inline double mean_of(const double *values, std::size_t count) {
   return sum_pairwise(values, count) / static_cast<double>(count);
 }
@@ -54,7 +54,7 @@ inline double mean_of(const std::vector<double> &values) {
   return mean_of(values.data(), values.size());
 }
 
-/// Mean of the values, each weighted with itself.
+/// Mean of the values weighted with themselves: sum of squares over sum.
 inline double self_weighted_mean(const std::vector<double> &values) {
   NeumaierSum sum, squares;
   for (const double x : values) {
@@ -71,7 +71,8 @@ inline std::vector<double> centred(std::vector<double> values) {
   return values;
 }
 
-/// The values divided by their mean. \throws std::invalid_argument if that is 0
+/// The values divided by their mean.
+/// \throws std::invalid_argument if the mean is 0
 inline std::vector<double> over_mean(std::vector<double> values) {
   const double mean = mean_of(values);
   if (mean == 0.0) throw std::invalid_argument("all times or sizes are 0, expected some above it");
@@ -79,22 +80,25 @@ inline std::vector<double> over_mean(std::vector<double> values) {
   return values;
 }
 
-/// Each value minus the one before it.
+/// Each value minus the preceding one; empty for fewer than two values.
 inline std::vector<double> differences(std::vector<double> values) {
   std::adjacent_difference(values.begin(), values.end(), values.begin());
   if (!values.empty()) values.erase(values.begin());
   return values;
 }
 
-/// Those above 0: events of zero length can start at the same time.
+/// The values above 0. Times of 0 occur, as events of zero length can start at the same time.
 inline std::vector<double> positive_ones(std::vector<double> values) {
   values.erase(std::remove_if(values.begin(), values.end(), [](double x) { return !(x > 0.0); }),
                values.end());
   return values;
 }
 
-/// Largest difference between the cumulative shares of a part of a sample and of the rest, counted
-/// by the same classes; NaN if one is empty.
+/// Largest difference between the cumulative distributions of a part of a sample and of the rest,
+/// both given as counts in the same classes.
+/// \param part counts of the part
+/// \param all counts of the whole sample
+/// \return NaN if the part or the rest is empty
 template <class Count>
 double distance_of_part(const Count *part, const Count *all, std::size_t classes) {
   const auto n1 = static_cast<double>(std::accumulate(part, part + classes, Count{}));
@@ -109,8 +113,7 @@ double distance_of_part(const Count *part, const Count *all, std::size_t classes
   return largest;
 }
 
-/// Value of a curve of straight lines through the points (x, y), x ascending; constant beyond its
-/// ends.
+/// Linear interpolation between the points (x, y) with ascending x; constant beyond the ends.
 inline double interpolate(const std::vector<double> &x, const std::vector<double> &y, double at) {
   const auto above = std::upper_bound(x.begin(), x.end(), at);
   if (above == x.begin()) return y.front();
@@ -119,19 +122,19 @@ inline double interpolate(const std::vector<double> &x, const std::vector<double
   return y[n - 1] + (y[n] - y[n - 1]) * (at - x[n - 1]) / (x[n] - x[n - 1]);
 }
 
-/// The n-th largest of at least n values.
+/// The n-th largest value, n from 1 to the number of values.
 inline double nth_largest(std::vector<double> values, std::size_t n) {
   const auto nth = values.begin() + static_cast<std::ptrdiff_t>(n - 1);
   std::nth_element(values.begin(), nth, values.end(), [](double a, double b) { return a > b; });
   return *nth;
 }
 
-/// A whole number from 0 to count - 1.
+/// Random integer from 0 to count - 1.
 inline std::size_t draw_index(Random &random, std::size_t count) {
   return static_cast<std::size_t>(random.uniform() * static_cast<double>(count));
 }
 
-/// Puts values into random order (Fisher and Yates, from the end).
+/// Random permutation (Fisher and Yates, from the end).
 template <class T>
 void shuffle(std::vector<T> &values, Random &random) {
   for (std::size_t i = values.size(); i > 1; --i)

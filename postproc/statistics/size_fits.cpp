@@ -64,7 +64,7 @@ std::vector<Scaling> scale_sizes(const std::vector<EventTable> &tables, const Th
       found->model = table.info.model;
       found->stiffness = stiffness;
       found->kind = table.kind();
-      // One for all lengths, and no catalogue with less than all of its events.
+      // One threshold for all lengths, at which every catalogue is complete.
       found->threshold = threshold.in(table);
       for (const EventTable &other : tables) {
         if (other.info.model != found->model || other.kind() != found->kind ||
@@ -74,7 +74,7 @@ std::vector<Scaling> scale_sizes(const std::vector<EventTable> &tables, const Th
       }
     }
     found->labels.push_back(table.label);
-    // A seed of its own for each catalogue, so that their bootstrap samples are independent.
+    // Each catalogue has its own seed, so that the bootstrap samples are independent.
     Resampling own = resampling;
     own.seed += found->points.size();
     found->points.push_back(characteristic_size(column(table.events, &Event::t_start),

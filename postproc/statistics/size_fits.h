@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file size_fits.h
-/// Exponents of the event sizes (paper: Sect. 4.2), and whether the roll-off moves with the length
-/// of the fault, the question the paper left open.
+/// Exponents of the event sizes (paper: Sect. 4.2), and whether their roll-off moves with the
+/// length of the fault, a question that the paper leaves open.
 #ifndef LSM_POSTPROC_SIZE_FITS_H
 #define LSM_POSTPROC_SIZE_FITS_H
 
@@ -17,51 +17,56 @@
 namespace LSM::postproc {
 
 struct SizeFitSettings {
-  std::vector<Range> ranges;  ///< of sizes (model energy); none: paper_range() of each catalogue
-  bool search = false;        ///< the range that search_range() finds, too
-  Threshold threshold;        ///< smallest size of paper_range() and of the search
-  int replicas = 100;         ///< of the Monte Carlo p-value; 0: none
+  std::vector<Range> ranges;  ///< of sizes (model energy); empty: paper_range() of each catalogue
+  bool search = false;        ///< in addition, the range found by search_range()
+  Threshold threshold;        ///< smallest size for paper_range() and for the search
+  int replicas = 100;         ///< for the Monte Carlo p-value; 0: none
   std::uint64_t seed = 1;
-  bool compare = true;  ///< with the rivals of compare()
+  bool compare = true;  ///< also fit the other laws of compare()
 };
 
-/// One catalogue on one range.
+/// Fit of one catalogue on one range.
 struct SizeFit {
   std::string label, model;
-  std::size_t catalogue = 0;  ///< index among the catalogues
-  double completeness = 0.0;  ///< in the header of the catalogue; 0: not given
+  std::size_t catalogue = 0;  ///< index of the catalogue
+  double completeness = 0.0;  ///< from the header of the catalogue; 0: not given
   PowerLawFit fit;
-  Measured p;  ///< of the Monte Carlo estimate; NaN: not computed
+  Measured p;  ///< Monte Carlo p-value; NaN: not computed
   std::vector<Comparison> comparisons;
 };
 
-/// Three decades, over which the paper saw its power law, from a smallest size on.
+/// The three decades above a smallest size; the paper saw its power law over as many.
 inline Range paper_range(double smallest) { return {smallest, 1000.0 * smallest}; }
 
-/// Exponent of ascending sizes on a range without those below `least`: there events are missing,
-/// which would pass for a flatter law. \throws std::invalid_argument for impossible settings
+/// Fits the exponent on a range without the sizes below `least`, where events are missing: their
+/// absence would look like a flatter law.
+/// \param sorted sizes in ascending order
+/// \throws std::invalid_argument for impossible settings
 PowerLawFit fit_from(const std::vector<double> &sorted, const Range &range, double least);
 
-/// Every catalogue on every range. \throws std::invalid_argument for impossible settings
+/// Fits each catalogue on each range.
+/// \throws std::invalid_argument for impossible settings
 std::vector<SizeFit> fit_sizes(const std::vector<EventTable> &tables,
                                const SizeFitSettings &settings);
 
-/// Characteristic sizes of the catalogues of one model against their lengths.
+/// Characteristic sizes of the catalogues of one model against the length.
 struct Scaling {
   std::string model;
-  std::string stiffness;  ///< block-slider: kl of the header; "" if there is none
+  std::string stiffness;  ///< block-slider: kl in the header; "" if absent
   std::string kind;       ///< of the events, see EventTable::kind()
   SmallestSize threshold;
   std::vector<std::string> labels;
   std::vector<SizePoint> points;
   ScalingFit fit;
 
-  bool drawable() const;  ///< has a point that is not degenerate
-  bool by_event() const;  ///< errors are not those of blocks of time
+  bool drawable() const;  ///< at least one point is not degenerate
+  bool by_event() const;  ///< no error comes from blocks of time
 };
 
-/// One per model, stiffness of the leaf springs and kind of events, catalogues without a length
-/// left out.
+/// Groups the catalogues by model, stiffness of the leaf springs and kind of events, and fits the
+/// dependence on length of each group; catalogues without a length are left out.
+/// \param threshold smallest size; raised to where all catalogues of the same model and kind are
+/// complete
 std::vector<Scaling> scale_sizes(const std::vector<EventTable> &tables, const Threshold &threshold,
                                  const Resampling &resampling);
 

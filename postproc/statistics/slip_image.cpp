@@ -9,12 +9,12 @@ namespace LSM::postproc {
 
 namespace {
 
-/// Joins records into rows and turns the rows into bytes.
+/// Averages records into rows and encodes the rows as bytes.
 class Rows {
  public:
   explicit Rows(SlipImage &image)
       : image_(image), slip_(static_cast<std::size_t>(image.columns)), left_over_(slip_.size()) {
-    // The bytes span eight decades from a hundredth of the driving velocity on.
+    // The bytes cover eight decades, from a hundredth of the driving velocity on.
     for (int k = 1; k <= SlipImage::steps; ++k)
       image_.velocity[static_cast<std::size_t>(k)] =
           0.01 * std::pow(10.0, 8.0 * (k - 1) / (SlipImage::steps - 1));
@@ -47,7 +47,9 @@ class Rows {
   }
 
  private:
-  /// \param velocity over the driving velocity
+  /// \param velocity slip velocity over the driving velocity
+  /// \param left_over slip not represented by earlier bytes; updated
+  /// \param unit slip of the plates in the time of the row
   std::int8_t byte_of(double velocity, double &left_over, double unit) const {
     const double least = image_.velocity[1];
     if (std::fabs(velocity) < least) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file slip_image.h
-/// The slip history of a run small enough for a page: slip velocity in space and time, a byte for
-/// each cell.
+/// Slip history of a run reduced to the size of a page: slip velocity in space and time, with one
+/// byte per cell.
 #ifndef LSM_POSTPROC_SLIP_IMAGE_H
 #define LSM_POSTPROC_SLIP_IMAGE_H
 
@@ -13,27 +13,32 @@
 #include "files/slip_history.h"
 
 namespace LSM::postproc {
+/// Image of a slip history.
 
 struct SlipImage {
   static constexpr int steps = 127;
-  /// Slip velocity over the driving velocity that byte k stands for, byte -k for slip backwards;
-  /// from a hundredth on in equal ratios of 16 %. velocity[0] is 0: less than that.
+  /// Slip velocity over the driving velocity that byte k stands for; byte -k stands for backward
+  /// slip. From a hundredth on, velocities rise in equal ratios of 16 %; velocity[0] is 0 for
+  /// anything slower.
   std::array<double, steps + 1> velocity{};
 
   SlipHistoryInfo info;
-  int columns = 0;                 ///< cells along the fault
-  int bins_per_column = 1;         ///< bins of the history; the last column may have fewer
-  int records_per_row = 1;         ///< records of the history; the last row may have fewer
-  double begin = 0.0;              ///< model time at which the first row begins
-  std::vector<double> ends;        ///< model time at which each row ends, and the next one begins
+  int columns = 0;          ///< number of cells along the fault
+  int bins_per_column = 1;  ///< bins of the history per column; the last may have fewer
+  int records_per_row = 1;  ///< records of the history per row; the last may have fewer
+  double begin = 0.0;       ///< model time at which the first row begins
+  /// Model time at which each row ends and the next one begins.
+  std::vector<double> ends;
   std::vector<std::int8_t> cells;  ///< row by row
 };
 
-/// The part of a history from one time to another. Bins and records are joined, by their mean,
-/// until there are at most `most_columns` columns and about `most_cells` cells. While a cell slips,
-/// what the byte of one row leaves over is taken into the next, so that the slip of an event,
-/// summed over its rows, is right to a few per cent of its last row.
-/// \throws FileError; std::runtime_error without records
+/// Reduces the part of a history between two times. Bins and records are averaged until there are
+/// at most `most_columns` columns and about `most_cells` cells. While a cell slips, the rounding
+/// error of its byte is carried over to the next row, so that the slip of an event, summed over its
+/// rows, is right to a few per cent of its last row.
+/// \param from, to model times
+/// \throws FileError if the history cannot be read
+/// \throws std::runtime_error if there is no record between these times
 SlipImage slip_image(SlipHistoryReader &reader,
                      double from = -std::numeric_limits<double>::infinity(),
                      double to = std::numeric_limits<double>::infinity(), int most_columns = 240,

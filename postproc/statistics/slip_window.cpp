@@ -41,7 +41,8 @@ HistoryWindow history_window(const SlipHistoryInfo &info, const std::vector<Slip
     if (grid.time(record.step_begin) > to) break;
     window.records.push_back(record);
     last = (record.step_end - grid.step0) / grid.interval;
-    if (record.step_end - record.step_begin != grid.interval) continue;  // nothing slips in others
+    // longer records: nothing slips
+    if (record.step_end - record.step_begin != grid.interval) continue;
     sets.begin_step(last);
     for (int b = 0; b < grid.bins; ++b) {
       const double slip = record.row.slip[static_cast<std::size_t>(b)];
@@ -52,7 +53,7 @@ HistoryWindow history_window(const SlipHistoryInfo &info, const std::vector<Slip
     }
     sets.end_step(nothing, keep);
   }
-  // Open ones as well: a picture shows what there is.
+  // Ruptures that have not ended are closed as well, as the picture is to show all that is there.
   sets.begin_step(last + window.info.ruptures.memory + 1);
   sets.end_step(nothing, keep);
   if (window.records.empty() || window.records.front().step_begin == window.records.back().step_end)
@@ -107,7 +108,8 @@ std::vector<ClosedLine> closed_lines(const FaultGrid &grid, const Outline &outli
   for (std::int64_t k = 0; k < outline.length; ++k) {
     const std::int64_t bin = (begin + k) % grid.bins;
     const auto found = outline.bins.find(bin);
-    if (found != outline.bins.end()) span = found->second;  // else in a gap: as beside it
+    // bins in a gap take the times of the preceding bin
+    if (found != outline.bins.end()) span = found->second;
     const auto place = static_cast<double>((bin - shift + grid.bins) % grid.bins);
     if (parts.empty() || place < parts.back().back().place) parts.emplace_back();
     parts.back().push_back({place, grid.time(span.first), grid.time(span.second)});
@@ -131,7 +133,8 @@ std::vector<ClosedLine> closed_lines(const FaultGrid &grid, const Outline &outli
 
 namespace {
 
-/// Adds the slip of a record to that of each bin; returns the largest of them.
+/// Adds the slip of a record to that of each bin.
+/// \return the largest absolute slip of a bin in the record
 double add_slip(std::vector<double> &slip, const SlipRecord &record) {
   double most = 0.0;
   for (std::size_t b = 0; b < slip.size(); ++b) {

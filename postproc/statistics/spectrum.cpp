@@ -15,7 +15,7 @@ namespace LSM::postproc {
 
 namespace {
 
-/// Takes the straight line of least squares off values.
+/// Subtracts the least-squares line.
 void remove_trend(double *values, std::size_t count) {
   const double n = static_cast<double>(count), middle = 0.5 * (n - 1.0);
   double mean = 0.0, moment = 0.0;
@@ -101,7 +101,7 @@ std::vector<SpectrumPoint> WelchSpectrum::points() const {
   const double averages = effective_segments();
   std::vector<SpectrumPoint> points(sums_.size());
   for (std::size_t k = 0; k < points.size(); ++k) {
-    // Negative frequencies are folded onto the positive ones; 0 and n/2 have no other half.
+    // Negative frequencies are folded onto positive ones; 0 and n/2 have no counterpart.
     const bool unpaired = k == 0 || 2 * k == n;
     points[k].frequency = static_cast<double>(k) * step;
     points[k].width = step;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file spectrum.h
 /// Power spectral density of an evenly sampled series by Welch's method (IEEE Trans. Audio
-/// Electroacoust. AU-15, 1967): mean of the periodograms of segments that share half of their
-/// samples with the next, without their linear trend, in a Hann window. Ours; the paper shows no
-/// spectra.
+/// Electroacoust. AU-15, 1967): mean periodogram of segments that overlap by half, each detrended
+/// linearly and multiplied by a Hann window. Our own addition; the paper shows no spectra.
 #ifndef LSM_POSTPROC_SPECTRUM_H
 #define LSM_POSTPROC_SPECTRUM_H
 
@@ -16,28 +15,29 @@ namespace LSM::postproc {
 
 /// One-sided density: the sum of density * width over all points is the variance of the series.
 struct SpectrumPoint {
-  double frequency = 0.0;  ///< middle, in cycles per time
-  double width = 0.0;      ///< frequencies it stands for
+  double frequency = 0.0;  ///< centre, in cycles per unit of time
+  double width = 0.0;      ///< width of the band of frequencies
   double density = 0.0;    ///< square of the series' unit times time
-  double error = 0.0;      ///< standard error, for noise that is Gaussian within a segment
+  double error = 0.0;      ///< standard error for noise that is Gaussian within a segment
 };
 
-/// Streaming: memory for a few segments, whatever the length of the series.
+/// Streaming estimator: its memory is that of a few segments, whatever the length of the series.
 class WelchSpectrum {
  public:
-  /// \param segment samples in one, at least 8 \param interval time between samples, > 0
-  /// \throws std::invalid_argument
+  /// \param segment number of samples in a segment, at least 8
+  /// \param interval time between samples, > 0
+  /// \throws std::invalid_argument for other values
   WelchSpectrum(std::size_t segment, double interval);
   ~WelchSpectrum();
 
   void add(double value);
   std::int64_t samples() const { return samples_; }
   std::int64_t segments() const { return segments_; }
-  /// Number of independent segments with the same scatter of their mean (Welch 1967).
+  /// Number of independent segments whose mean has the same scatter (Welch 1967).
   double effective_segments() const;
 
-  /// Frequencies 0 to half the sampling rate. \throws std::invalid_argument before the first
-  /// segment is full.
+  /// Spectrum at the frequencies from 0 to half the sampling rate.
+  /// \throws std::invalid_argument before the first segment is full
   std::vector<SpectrumPoint> points() const;
 
  private:
@@ -52,11 +52,12 @@ class WelchSpectrum {
   std::unique_ptr<Transform> transform_;
 };
 
-/// Integral of the density.
+/// Integral of the density over all frequencies.
 double variance(const std::vector<SpectrumPoint> &points);
 
-/// Neighbours averaged so that there are at most per_decade points in a decade of frequency; the
-/// integral stays. Frequency 0 is a point of its own.
+/// Averages neighbouring points so that there are at most per_decade in a decade of frequency; the
+/// integral is preserved. Frequency 0 remains a point of its own.
+/// \param per_decade below 1: nothing is averaged
 std::vector<SpectrumPoint> averaged(const std::vector<SpectrumPoint> &points, int per_decade);
 
 }  // namespace LSM::postproc

@@ -22,7 +22,9 @@ double total(const Parts &parts) {
   return sum.value();
 }
 
-/// A function of totals, with its jackknife error from leaving out one part after the other.
+/// Jackknife estimate of a function of totals.
+/// \param parts number of parts
+/// \param of_all_but value without one part; with the argument `parts`, of all of them
 template <class Function>
 Measured jackknife(std::size_t parts, const Function &of_all_but) {
   Measured found{of_all_but(parts), 0.0};
@@ -36,8 +38,8 @@ Measured jackknife(std::size_t parts, const Function &of_all_but) {
   return found;
 }
 
-/// Time spent at each velocity, over that of the plates: one bin below a tenth of it, then five
-/// per decade.
+/// Time spent at each velocity over that of the plates: one bin below a tenth, then five per
+/// decade.
 class VelocityTimes {
  public:
   void add(int part, double velocity, double time) {
@@ -114,7 +116,7 @@ Monotony monotony(std::vector<double> edges, const std::vector<std::vector<doubl
       });
       const bool beyond = ratio.value > least * ratio.error;
       const double rise = std::exp(ratio.value);
-      // Those beyond chance come first.
+      // A significant rise takes precedence over any that is not.
       if (found.rises && !beyond) continue;
       if (beyond == found.rises && !std::isnan(found.rise.value) && rise <= found.rise.value)
         continue;
@@ -140,7 +142,7 @@ SlipStatements slip_statements(SlipHistoryReader &history, const std::vector<Eve
       rise(run_parts), work(run_parts);
   VelocityTimes all, single;
   double time_single = 0.0, backwards = 0.0, known = 0.0;
-  std::size_t next = 0;  // the first event that ends after the record begins
+  std::size_t next = 0;  // index of the first event that ends after the record begins
   for (SlipRecord record; history.next(record);) {
     const double begin = grid.time(record.step_begin), end = grid.time(record.step_end);
     const int part = run.of(0.5 * (begin + end));
