@@ -124,8 +124,8 @@ struct Aftershocks {
   Sequences sequences;
   OmoriFit fit;
   std::vector<RateBin> bins;  ///< edges factor^n between first and window
-  /// Share of Poisson catalogues whose likelihood ratio is at least as large, (k + 1) / (replicas +
-  /// 1); NaN without replicas or with too few events to fit.
+  /// Share of Poisson catalogues whose likelihood ratio is at least as large, (k + 1) /
+  /// (replicas + 1); NaN without replicas or with too few events to fit.
   double p = NAN;
 };
 

@@ -34,8 +34,8 @@ namespace {
 using text_io::number;
 
 // Internally, theta is measured in units of a reference (v = ln theta - reference), and the
-// parameters are gamma, v0 = ln(B^(1/delta)) - reference and ln delta: ln f = ln C + (gamma - 1) v
-// - s with s = exp(delta (v - v0)). In these variables it does not depend on the unit of time
+// parameters are gamma, v0 = ln(B^(1/delta)) - reference and ln delta: ln f = ln C + (gamma - 1)
+// v - s with s = exp(delta (v - v0)). In these variables it does not depend on the unit of time
 // whether a fit is degenerate (except for the criterion on ln B). Parameters that may be held come
 // last: ln delta, or the scale and ln delta.
 enum Parameter { log_c, shape, scale, log_delta, parameters };

@@ -31,8 +31,8 @@ struct Regime {
   double above = 0.0;           ///< limit of saw_tooth for stick-slip at this length
 };
 
-/// Default length of a window (model time) †: long compared with the periods of single discs (about
-/// 1), short compared with large events (10 and more).
+/// Default length of a window (model time) †: long compared with the periods of single discs
+/// (about 1), short compared with large events (10 and more).
 constexpr double regime_window = 3.0;
 
 /// Value of Regime::saw_tooth above which a fault is said to stick-slip †: 3 up to length 120,

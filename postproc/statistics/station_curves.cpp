@@ -35,7 +35,7 @@ StationMisfit misfit(const StationCurve &curve, const StationCurve &reference, d
   m.end_slip = interpolate(curve.t, curve.slip, to);
   m.reference_end_slip = interpolate(reference.t, reference.slip, to);
 
-  // at the times of the finer of the two, so that nothing of either is missed
+  // Sampled at the times of the finer curve, so that no detail of either is missed.
   const std::vector<double> &times = curve.t.size() > reference.t.size() ? curve.t : reference.t;
   double slip_off = 0.0, slip_all = 0.0, rate_off = 0.0, rate_all = 0.0;
   double before = from;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file thinner.h
-/// Long series for pictures: what a column of pixels can show.
+/// Reduces long series to what the columns of pixels of a picture can show.
 #ifndef LSM_POSTPROC_THINNER_H
 #define LSM_POSTPROC_THINNER_H
 
@@ -12,15 +12,16 @@
 
 namespace LSM::postproc {
 
-/// Thins three curves in one pass, however long they are: up to 2 x columns samples are kept one by
-/// one; of more, groups of equally many, from columns to 2 x columns of them, keep their smallest
-/// and largest values in the order in which they came, so that short drops stay visible.
+/// Thins three curves in one pass, whatever their length. Up to 2 x columns samples are kept as
+/// they are; beyond that, samples are merged into between columns and 2 x columns groups of equal
+/// size. Each group keeps its smallest and largest value in the order in which they came, so that
+/// short drops remain visible.
 class Thinner {
  public:
   using Values = std::array<double, 3>;
   struct Row {
     double time;
-    Values values;  ///< NaN: none
+    Values values;  ///< NaN: no value
   };
 
   explicit Thinner(std::int64_t columns) : most_(2 * static_cast<std::size_t>(columns)) {}
@@ -29,16 +30,17 @@ class Thinner {
   std::vector<Row> rows() const;
   std::int64_t groups() const { return static_cast<std::int64_t>(groups_.size()); }
   bool thinned() const { return in_each_ > 1; }
-  Extent range(std::size_t curve) const;  ///< of all samples
+  /// Range of all samples of a curve.
+  Extent range(std::size_t curve) const;
 
  private:
   struct Extremes {
     Extent range;
-    bool rising = true;  ///< the largest came after the smallest
+    bool rising = true;  ///< whether the largest value came after the smallest
     void add(const Extremes &later);
   };
   struct Group {
-    double first, last;  ///< times
+    double first, last;  ///< times of the first and the last sample
     std::array<Extremes, 3> extremes;
     void add(const Group &later);
   };
@@ -48,8 +50,8 @@ class Thinner {
   std::vector<Group> groups_;
 };
 
-/// Places of the values that are left of a long series: of groups of neighbours the smallest and
-/// the largest, in their order, so that there are at most `most`.
+/// Thins a series to the smallest and the largest value of each group of neighbours.
+/// \return indices of the values kept, at most `most` of them, in ascending order
 std::vector<std::size_t> smallest_and_largest(const std::vector<double> &values, std::size_t most);
 
 }  // namespace LSM::postproc

@@ -14,13 +14,13 @@ namespace LSM::postproc {
 
 namespace {
 
-// Below this |z| the closed forms cancel and the series are exact to 1e-11.
+// Below this |z| the closed forms suffer from cancellation, while the series are accurate to 1e-11.
 constexpr double small_z = 0.1;
 
-// Where a log-concave density has fallen by this factor (e^-45) the rest does not count.
+// A log-concave density is neglected where it has fallen by this factor (e^-45) from its maximum.
 constexpr double log_negligible = 45.0;
 
-// Walks from the mode in one direction to where the density is negligible.
+// Searches from the mode in one direction for the point beyond which the density is negligible.
 double edge_of_support(const std::function<double(double)> &log_density, double mode, double limit,
                        double feature) {
   const double level = log_density(mode) - log_negligible;
@@ -66,7 +66,7 @@ double tilted_variance(double z) {
 
 double tilt_of_mean(double mean) {
   if (mean > 0.5) return -tilt_of_mean(1.0 - mean);
-  // The mean lies below that of the untruncated exponential, -1/z: the root is in [-1/mean, 0].
+  // The mean is below -1/z, that of the untruncated exponential, so the root is in [-1/mean, 0].
   double low = -1.0 / mean, high = 0.0;
   double z = mean < 0.25 ? low : std::max(low, 12.0 * (mean - 0.5));
   for (int i = 0; i < 100; ++i) {
@@ -98,7 +98,7 @@ double Exponential::cdf(double u) const {
   const double z = b * length;
   if (std::fabs(z) < 1e-12) return u / length;
   if (z < 0.0) return std::expm1(b * u) / std::expm1(z);
-  // The same without overflow.
+  // The same, rearranged to avoid overflow.
   return std::exp(b * (u - length)) * std::expm1(-b * u) / std::expm1(-z);
 }
 
@@ -143,13 +143,13 @@ TabulatedDensity tabulate(const std::function<double(double)> &log_density, doub
 
 namespace {
 
-// The law exp(b u - c T(u)) on [0, length], seen by a sample with these means.
+// The law exp(b u - c T(u)) on [0, length], and the sufficient statistics of a sample.
 struct TiltedLaw {
   Statistic statistic;
   double mean_u, mean_t, length;
   double b = 0.0, c = 0.0, log_likelihood = 0.0;  // per event
   TabulatedDensity table = {};
-  std::vector<double> t = {};  // T(u) of the table
+  std::vector<double> t = {};  // T(u) at the abscissae of the table
 
   void set(double new_b, double new_c) {
     b = new_b;
@@ -157,17 +157,19 @@ struct TiltedLaw {
     const double rate = statistic.rate;
     double mode = b / (2.0 * c);
     if (rate > 0.0) mode = b > 0.0 ? std::log(b / (c * rate)) / rate : 0.0;
-    // Bends: of u^2 c over its own standard deviation, of exp(rate u) over 1 / rate.
+    // The logarithm of the density bends over 1 / rate for T = exp(rate u), and over the standard
+    // deviation of the Gaussian for T = u^2.
     const double feature = rate > 0.0 ? 1.0 / rate : 1.0 / std::sqrt(2.0 * c);
     t.clear();
     const auto log_density = [this](double u) { return b * u - c * t.emplace_back(statistic(u)); };
     table = tabulate(log_density, std::clamp(mode, 0.0, length), 0.0, length, feature);
-    t.erase(t.begin(), t.end() - static_cast<std::ptrdiff_t>(table.u.size()));  // before its own
+    // Only the last evaluations were at the abscissae of the table.
+    t.erase(t.begin(), t.end() - static_cast<std::ptrdiff_t>(table.u.size()));
     log_likelihood = b * mean_u - c * mean_t - table.log_z;
   }
 
-  // Newton's step for the slopes of the log-likelihood, whose Hessian is minus the covariance of
-  // (u, -T), and what it gains; not a number where that is singular.
+  // Newton step for the likelihood, whose Hessian is minus the covariance of (u, -T), and its
+  // expected gain; NaN if the covariance is singular.
   struct Step {
     double b, c, gain;
   };
@@ -189,13 +191,14 @@ struct TiltedLaw {
     return {b_step, c_step, g_b * b_step + g_c * c_step};
   }
 
-  // Halves a step until the likelihood rises; c stays positive. False if it does not.
+  // Takes the step, halved until the likelihood increases; c stays positive.
+  // \return false if no such step is found
   bool take(const Step &step) {
     const double from_b = b, from_c = c, from_likelihood = log_likelihood;
     double scale = from_c + step.c > 0.1 * from_c ? 1.0 : -0.9 * from_c / step.c;
     for (; scale >= 1e-12; scale *= 0.5) {
       set(from_b + scale * step.b, from_c + scale * step.c);
-      // Near the optimum the gain is below rounding, so equality up to that is a success.
+      // Near the maximum the gain is lost in rounding, so equality up to that is a success.
       if (log_likelihood > from_likelihood - 1e-14 * (1.0 + std::fabs(from_likelihood)))
         return true;
     }
@@ -206,7 +209,8 @@ struct TiltedLaw {
 }  // namespace
 
 TiltedFit fit_tilted(Statistic statistic, double mean_u, double mean_t, double length) {
-  // The likelihood is concave, so its slope in c at the best exponential shows whether c > 0 helps.
+  // The likelihood is concave: its slope in c at the best exponential shows whether c > 0 is
+  // better.
   const Exponential law = Exponential::of_mean(mean_u, length);
   TiltedFit fit;
   fit.b = law.b;

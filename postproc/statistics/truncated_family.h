@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file truncated_family.h
-/// Truncated laws in the variable u = ln(x / lo) on [0, L], the common ground of power_law.h and
-/// generalised_gamma.h. There a power law is an exponential, p(u) ~ exp(b u) with b = 1 - alpha,
-/// and its rivals are exp(b u - c T(u)) with T = u^2 (log-normal) or T = exp(rate u) (cut-off).
+/// Truncated distributions of u = ln(x / lo) on [0, L], shared by power_law.h and
+/// generalised_gamma.h. In this variable a power law is an exponential, p(u) ~ exp(b u) with b =
+/// 1 - alpha, and its rivals are exp(b u - c T(u)) with T = u^2 (log-normal) or T = exp(rate u)
+/// (cut-off).
 #ifndef LSM_POSTPROC_TRUNCATED_FAMILY_H
 #define LSM_POSTPROC_TRUNCATED_FAMILY_H
 
@@ -13,29 +14,30 @@
 
 namespace LSM::postproc {
 
-// The density proportional to exp(z t) for t in [0, 1]; accurate for every z including 0.
+// Properties of the density proportional to exp(z t) for t in [0, 1], accurate for all z, also 0.
 double log_normalisation(double z);  ///< ln((exp(z) - 1) / z)
-double tilted_mean(double z);        ///< rises from 0 (z = -infinity) to 1
+double tilted_mean(double z);        ///< increases from 0 (z = -infinity) to 1
 double tilted_variance(double z);    ///< derivative of tilted_mean
-double tilt_of_mean(double mean);    ///< inverse of tilted_mean, 0 < mean < 1
+double tilt_of_mean(double mean);    ///< inverse of tilted_mean; 0 < mean < 1
 
-/// The density proportional to exp(b u) for u in [0, length]; b < 0 if length is infinite.
+/// Density proportional to exp(b u) for u in [0, length]; b < 0 if length is infinite.
 struct Exponential {
   double length, b;
 
-  /// Maximum likelihood for a sample of that mean, 0 < mean < length.
+  /// Maximum-likelihood fit to a sample with this mean, 0 < mean < length.
   static Exponential of_mean(double mean, double length);
   bool finite() const { return std::isfinite(length); }
-  double log_z() const;  ///< ln of the integral of exp(b u); infinite if there is none
+  /// Logarithm of the integral of exp(b u); infinite if the integral diverges.
+  double log_z() const;
   double variance() const;
   double cdf(double u) const;
   double quantile(double probability) const;  ///< 0 <= probability < 1
 };
 
-/// Abscissae and probabilities that stand for a density: integrals become sums.
+/// Abscissae and probabilities that represent a density, so that integrals become sums.
 struct TabulatedDensity {
   std::vector<double> u, p;  ///< p sums to 1
-  double log_z = 0.0;        ///< ln of the integral of exp(log_density)
+  double log_z = 0.0;        ///< logarithm of the integral of exp(log_density)
 
   template <class F>
   double mean(F f) const {
@@ -45,9 +47,12 @@ struct TabulatedDensity {
   }
 };
 
-/// Gauss-Legendre table of a log-concave density on [lower, upper], either may be infinite; mode is
-/// its maximum inside; feature: shortest length on which the logarithm of the density bends. It
-/// asks for the density at its abscissae last, in their order.
+/// Gauss-Legendre table of a log-concave density.
+/// \param log_density its logarithm up to a constant; the last calls are those at the abscissae of
+/// the table, in their order
+/// \param mode maximum of the density within the limits
+/// \param lower, upper limits; either may be infinite
+/// \param feature shortest length over which the logarithm of the density bends
 TabulatedDensity tabulate(const std::function<double(double)> &log_density, double mode,
                           double lower, double upper, double feature);
 
@@ -57,14 +62,17 @@ struct Statistic {
   double operator()(double u) const { return rate > 0.0 ? std::exp(rate * u) : u * u; }
 };
 
-/// Maximum likelihood of p(u) ~ exp(b u - c T(u)) on [0, length], length may be infinite, c >= 0.
+/// Fit of p(u) ~ exp(b u - c T(u)) on [0, length] with c >= 0.
 struct TiltedFit {
-  double b = 0.0, c = 0.0;      ///< c 0: best at the border, where the law is an exponential in u
-  double log_likelihood = 0.0;  ///< per event, density in u
+  /// c = 0: the best value is on the boundary, where the law is an exponential in u.
+  double b = 0.0, c = 0.0;
+  double log_likelihood = 0.0;  ///< per event, for the density in u
   bool converged = false;
 };
 
-/// mean_u and mean_t are the means of u and T(u) over the sample (a sufficient statistic).
+/// Maximum-likelihood fit.
+/// \param mean_u, mean_t means of u and T(u) over the sample, which are sufficient statistics
+/// \param length may be infinite
 TiltedFit fit_tilted(Statistic statistic, double mean_u, double mean_t, double length);
 
 }  // namespace LSM::postproc

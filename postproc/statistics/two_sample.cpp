@@ -17,14 +17,14 @@ namespace LSM::postproc {
 
 namespace {
 
-// Of both series, where divisions are taken by classes.
+// For both series together, when distances are computed by classes.
 constexpr std::size_t most_blocks = 2048, coarse_classes = 512;
 
 struct Block {
   std::size_t from, to;
 };
 
-// Blocks of n values, as equal as can be, the first of which begins at `from`.
+// Divides n values into blocks, as equal as possible, of which the first begins at `from`.
 std::vector<Block> blocks_of(std::size_t n, int block, std::size_t from = 0) {
   const std::size_t count = std::max<std::size_t>(1, n / static_cast<std::size_t>(block));
   std::vector<Block> blocks;
@@ -35,9 +35,9 @@ std::vector<Block> blocks_of(std::size_t n, int block, std::size_t from = 0) {
 
 using Counts = std::vector<std::uint32_t>;
 
-// Both samples in one list, where all values together are divided into classes of consecutive
-// ranks, as equal as can be; equal values are in one class. As many classes as values: one for each
-// different value.
+// Both samples in one list, with all values divided into classes of consecutive ranks, as equal as
+// possible; equal values are in the same class. With as many classes as values, each distinct value
+// has a class of its own.
 class Classes {
  public:
   Classes(const std::vector<double> &first, const std::vector<double> &second, std::size_t count)
@@ -61,12 +61,13 @@ class Classes {
     for (std::size_t i = block.from; i < block.to; ++i) ++counts[class_of_[i]];
   }
 
-  // Distance between the values counted and the rest.
+  // Distance between the counted values and the rest.
   double distance(const Counts &counts) const {
     return distance_of_part(counts.data(), all_.data(), count());
   }
 
-  // Ranks in (-1, 1) of some values; equal ones have their mean rank. With a class for each value.
+  // Ranks of some values scaled to (-1, 1); equal values have their mean rank. Only valid with as
+  // many classes as values.
   std::vector<double> ranks(std::size_t from, std::size_t to) const {
     std::vector<double> ranks;
     for (std::size_t i = from; i < to; ++i)
@@ -93,7 +94,7 @@ Measured block_mean(const std::vector<double> &values, int block) {
   return result;
 }
 
-// Values in a block such that the blocks of either sample are long against its correlation.
+// Block length that is long against the correlation of either sample.
 int usual_block(const Classes &classes, std::size_t n1, std::size_t n) {
   const double longer = std::max(block_length(centred(classes.ranks(0, n1))),
                                  block_length(centred(classes.ranks(n1, n))));
@@ -114,7 +115,7 @@ double two_sample_distance(std::vector<double> first, std::vector<double> second
   double largest = 0.0;
   for (auto one = first.begin(), other = second.begin();
        one != first.end() && other != second.end();) {
-    // Equal values count together.
+    // Equal values are passed together.
     const double value = std::min(*one, *other);
     while (one != first.end() && *one == value) ++one;
     while (other != second.end() && *other == value) ++other;
@@ -136,7 +137,7 @@ TwoSampleTest two_sample_test(const std::vector<double> &first, const std::vecto
   Classes classes(first, second, n);
   const bool by_classes = block == 0 && n > 2 * static_cast<std::size_t>(largest_exact_sample);
   if (block == 0) block = usual_block(classes, first.size(), n);
-  // Longer blocks are as sound.
+  // Longer blocks are just as valid.
   if (by_classes) block = std::max(block, static_cast<int>(n / most_blocks));
   test.block = block;
   test.means = {block_mean(first, block), block_mean(second, block)};
@@ -150,8 +151,8 @@ TwoSampleTest two_sample_test(const std::vector<double> &first, const std::vecto
   std::vector<std::size_t> order(blocks.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   test.distance = two_sample_distance(first, second);
-  // How many values of each class are in each block, so that the distance of a division costs no
-  // more for more values.
+  // Counts by class for each block, so that the cost of a division does not grow with the number of
+  // values.
   std::vector<Counts> in_block;
   if (by_classes) {
     classes = Classes(first, second, coarse_classes);
@@ -168,7 +169,7 @@ TwoSampleTest two_sample_test(const std::vector<double> &first, const std::vecto
         classes.add(blocks[divided[i]], counts);
     return classes.distance(counts);
   };
-  // Sums of counts over counts are exact to rounding only.
+  // Sums of counts over counts are only exact up to rounding.
   const double least = distance(order) * (1.0 - 1e-12);
   Random random(seed);
   const double p = share_of_draws(

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file two_sample.h
-/// Do two series come from the same law? For catalogues that ought to agree: other time steps,
-/// seeds, ranks, leaps.
+/// Whether two series come from the same distribution, for catalogues that are expected to agree:
+/// other time steps, seeds, numbers of ranks, leaps.
 #ifndef LSM_POSTPROC_TWO_SAMPLE_H
 #define LSM_POSTPROC_TWO_SAMPLE_H
 
@@ -16,27 +16,32 @@ namespace LSM::postproc {
 
 struct TwoSampleTest {
   std::array<std::int64_t, 2> n = {0, 0};
-  double distance = NAN;  ///< Kolmogorov-Smirnov
-  /// Share of random divisions, the true one included, whose distance is as large.
+  double distance = NAN;  ///< Kolmogorov-Smirnov distance
+  /// Share of random divisions, the true one included, with as large a distance.
   Measured p;
-  int block = 1;  ///< values that are kept together
-  /// The errors allow for values that depend on those before them; NaN: fewer than two blocks.
+  int block = 1;  ///< values in a block
+  /// The errors allow for autocorrelation; NaN for fewer than two blocks.
   std::array<Measured, 2> means;
-  Measured ratio;  ///< second mean over the first
+  Measured ratio;  ///< mean of the second series over that of the first
 };
 
-/// Largest distance between the empirical distributions of two samples, neither of them empty.
+/// Kolmogorov-Smirnov distance between two samples.
+/// \throws std::invalid_argument if a sample is empty or contains NaN
 double two_sample_distance(std::vector<double> first, std::vector<double> second);
 
-/// Permutation test of the Kolmogorov-Smirnov distance. Events cluster, so that blocks of
-/// consecutive values change sides, not single ones: with single ones, series that depend on their
-/// past differ too often.
-/// More than 16384 values of both series together: at most 2048 blocks, and the distance that p is
-/// reckoned from, of the series as of their divisions, is that at 511 ranks; test.distance is
-/// exact. \param first, second positive values in the order of time \param replicas random
-/// divisions, at least 1 \param block values in a block, at least 1; 0: the longer of the two
-/// block_length() of the ranks; with a length given, the cost of a division grows with the number
-/// of values \throws std::invalid_argument for fewer than 10 values in a series
+/// Permutation test of the Kolmogorov-Smirnov distance. As events cluster, blocks of consecutive
+/// values are permuted between the series; permuting single values would reject too often for
+/// autocorrelated series.
+///
+/// For more than 16384 values in both series together (and block = 0), at most 2048 blocks are
+/// used, and p is computed from distances evaluated at 511 ranks only, both for the series and for
+/// their divisions; test.distance is exact.
+///
+/// \param first, second positive values in order of time
+/// \param replicas number of random divisions, at least 1
+/// \param block number of values in a block, at least 1; 0: the longer of the two block_length() of
+/// the ranks; with a length given, the cost of a division grows with the number of values
+/// \throws std::invalid_argument for fewer than 10 values in a series
 TwoSampleTest two_sample_test(const std::vector<double> &first, const std::vector<double> &second,
                               int replicas, std::uint64_t seed, int block = 0);
 
