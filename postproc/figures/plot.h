@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file plot.h
-/// Pictures by gnuplot. A command writes its table BASE.csv, then draws BASE.png and BASE.svg with
-/// a script BASE.gp that stays beside them, so that `gnuplot BASE.gp` in that folder draws them
-/// again.
+/// Figures drawn by gnuplot. A command writes its table BASE.csv, then draws BASE.png and BASE.svg
+/// with the script BASE.gp, which is kept: `gnuplot BASE.gp` in that folder draws them again.
 #ifndef LSM_POSTPROC_PLOT_H
 #define LSM_POSTPROC_PLOT_H
 
@@ -24,85 +23,100 @@ class PlotError : public FileError {
   using FileError::FileError;
 };
 
-/// Where a picture goes.
+/// Where the files of a figure go.
 struct PictureOptions {
   std::string output;       ///< BASE: path of the files without extension
   bool no_picture = false;  ///< write the table and the script only
-  bool overwrite = false;   ///< replace files of others
+  bool overwrite = false;   ///< also replace files that are no earlier version
 
   std::string table() const { return output + ".csv"; }
 
-  /// Call before anything is read or written.
+  /// Checks the names of all outputs. Call it before anything is read or written.
   /// \param inputs files that the command reads
-  /// \param more what it writes besides BASE.csv, .gp, .png and .svg, as "BASE" + text
-  /// \param others files of other options; empty paths are skipped
-  /// \throws FileError if BASE is no file name, an output would replace an input, or two are one
+  /// \param more endings of further files of BASE, besides .csv, .gp, .png and .svg
+  /// \param others outputs of other options; empty paths are skipped
+  /// \throws FileError if BASE is no file name, an output would replace an input, or two outputs
+  /// are the same file
   void check(const std::vector<std::string> &inputs, const std::vector<std::string> &more = {},
              const std::vector<Output> &others = {}) const;
 };
 
-/// gnuplot string literal that prints text as it is (enhanced mode's markup escaped).
+/// gnuplot string literal that shows the text unchanged: the markup of enhanced mode is escaped.
 std::string quote(std::string_view text);
-/// gnuplot string literal for a file name or a value that enhanced mode never sees.
+/// gnuplot string literal without escapes for enhanced mode: for file names, and for texts with
+/// markup of our own.
 std::string quote_plain(std::string_view text);
 
-/// gnuplot lines for one axis ('x' or 'y', or another that gnuplot knows): label and range.
-/// Logarithmic: ticks 10^n, range widened to whole decades; a range shorter than a factor of 30 has
-/// ticks at 1, 2 and 5 times 10^n. NaN or infinity leaves an end to gnuplot.
+/// gnuplot commands for the label and the range of one axis. A logarithmic range is widened to
+/// whole decades, with ticks at 10^n; one of less than a factor of 30 is widened to the next ticks,
+/// at 1, 2 and 5 times 10^n or at more digits if these are too few.
+/// \param name 'x', 'y' or another axis that gnuplot knows
 /// \param label gnuplot enhanced text, with the unit
+/// \param lo, hi ends of the range; gnuplot chooses an end that is NaN or infinite
 std::string axis(std::string_view name, std::string_view label, bool logarithmic, double lo,
                  double hi);
 
-/// Size of a picture in units of the SVG; the PNG has twice as many pixels.
+/// Size of a picture in units of the SVG. The PNG has twice as many pixels in each direction.
 struct PictureSize {
   int width = 900, height = 640;
 };
 
-/// A table and the picture of it.
+/// A table and the gnuplot script that draws it.
 struct Figure {
   Table table;
-  /// gnuplot commands that end with a plot (or multiplot); run once per format. They find the
-  /// string variables `base` ("./" and the name without folder, so that no name begins a pipe) and
-  /// `table` (base.".csv"), comma as the separator of data files, line types 1 to 16 with Okabe and
-  /// Ito's colours, twice, and different point types and dashes (`lt K`), and the key below the
-  /// picture. lt 8 is black.
+  /// gnuplot commands that end with a plot (or multiplot); they run once per format. Before them
+  /// are set: the string variables `base` ("./" and the name without folder, so that gnuplot does
+  /// not take a name for a pipe) and `table` (base.".csv"); comma as the separator of data files;
+  /// line types `lt 1` to `lt 16` with Okabe and Ito's colours, twice, and different point types
+  /// and dashes (lt 8 is black); and the key below the picture.
   std::string script;
   PictureSize size;
 };
 
-/// Writes BASE.csv, BASE.gp and, unless options.no_picture, runs gnuplot in the folder of BASE and
-/// checks that BASE.png and BASE.svg came out; says on standard output what was written.
-/// \throws FileError; PlotError, also when gnuplot is missing (table and script are there by then)
+/// Writes BASE.csv and BASE.gp and, unless options.no_picture, runs gnuplot in the folder of BASE
+/// and checks that it wrote BASE.png and BASE.svg. Reports on standard output what was written.
+/// \throws FileError
+/// \throws PlotError if gnuplot fails or is missing; table and script have been written by then
 void make(const Figure &figure, const PictureOptions &options);
 
-/// Before anything is written. \throws FileError if make() would replace a file that is none of an
-/// earlier figure of the same kind, unless options.overwrite
+/// Checks whether make() may write its files. Call it before anything is written.
+/// \throws FileError if make() would replace a file that is not from an earlier figure of the same
+/// kind, unless options.overwrite
 void check_outputs(const Figure &figure, const PictureOptions &options);
 
-/// The picture as SVG text, without leaving a file. \throws FileError
+/// Returns the picture as SVG text. Its files are temporary.
+/// \throws FileError
 std::string svg_text(const Figure &figure);
 
-/// Begins a panel of a multiplot with linear axes; its place as shares of the picture.
+/// gnuplot commands that begin a panel of a multiplot with linear axes.
+/// \param left, right, bottom, top its edges as fractions of the picture
 std::string panel(double left, double right, double bottom, double top);
 
-/// A plot command with its key. Later layers are drawn above earlier ones.
+/// Builds a plot command and its key. Later layers are drawn over earlier ones.
 class Curves {
  public:
   enum Layer { areas, data, laws, legend };
 
-  /// A function row(k) that gives column x in the rows of curve k, where `condition` holds.
+  /// Defines the gnuplot function row(k): the value of `x` in the rows of curve k (column 1), and
+  /// NaN in other rows.
+  /// \param x gnuplot expression, such as "$5"
+  /// \param condition gnuplot condition that the rows have to fulfil as well
   explicit Curves(std::string_view x, std::string_view condition = "");
 
-  /// \param title empty: not in the key
+  /// Adds an element of the plot command.
+  /// \param title in the key; empty: none
+  /// \param quoted quote() or quote_plain(), for the title
   void add(Layer layer, const std::string &element, const std::string &title = "",
            std::string (*quoted)(std::string_view) = quote);
-  /// Points of a curve of the table with error bars, y and error being the numbers of columns.
+  /// Adds the points of a curve of the table with error bars.
+  /// \param y, error numbers of the columns, from 1
   void add_data(std::int64_t curve, int y, int error, const std::string &title = "");
-  /// The law y = formula, gnuplot's in $1, from lo to hi.
+  /// Adds the curve y = formula from lo to hi.
+  /// \param formula gnuplot expression in $1
   void add_law(double lo, double hi, const std::string &formula, const std::string &style,
                const std::string &title = "", std::string (*quoted)(std::string_view) = quote);
-  /// The picture, whose size leaves the same room for the axes whatever the key holds.
-  /// \param axes gnuplot lines before the plot command
+  /// Returns the figure, whose height leaves the same room for the axes however long the key is.
+  /// \param axes gnuplot commands before the plot command
   Figure figure(Table table, const std::string &axes, int width = 900) const;
 
  private:

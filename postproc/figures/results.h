@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file results.h
-/// Results of a statistic, as text and for programs.
+/// Results of a statistic, for people and for programs.
 #ifndef LSM_POSTPROC_RESULTS_H
 #define LSM_POSTPROC_RESULTS_H
 
@@ -18,27 +18,29 @@
 
 namespace LSM::postproc {
 
-/// A text that is no result.
+/// A text for standard error.
 struct Warning {
   std::string text;
 };
 
-/// A file that has been written beside its place, and gets its name once no output is refused.
+/// A file written under a temporary name. `close` gives it its own name, once it is known that no
+/// output is refused.
 struct WrittenFile {
   std::string path;
   std::function<void()> close;
 };
 
-/// One result. Names are those in JSON; one with an empty name is left out.
+/// One result. `name` is its name in JSON; results without a name are not in JSON.
 struct Result {
   std::string name;
   std::variant<std::string, Warning, Table, Figure, WrittenFile,
                std::shared_ptr<const nlohmann::ordered_json>>
       what;
-  std::optional<std::string> ending;  ///< of its files, if it has any: BASE + ending + .csv, ...
+  std::optional<std::string> ending;  ///< of its files BASE + ending + .csv, ...; none: no files
 };
 
-/// In the order in which they are printed; JSON has the order in which they were named.
+/// Results in the order in which they are printed. JSON has its names in the order in which they
+/// were added first.
 class Results {
  public:
   void say(std::string text) { all_.push_back({{}, std::move(text), {}}); }
@@ -55,9 +57,9 @@ class Results {
   void figure(const std::string &name, Figure figure, const std::string &ending = "") {
     all_.push_back({name, std::move(figure), ending});
   }
-  /// Printed and in JSON, but in no file of its own.
+  /// Adds a table that is printed and in JSON, but in no file of its own.
   void table(const std::string &name, Table table) { all_.push_back({name, std::move(table), {}}); }
-  /// Only for programs: JSON of any kind.
+  /// Adds any JSON value, for programs only.
   template <class Json>
   void numbers(const std::string &name, const Json &value) {
     all_.push_back({name, std::make_shared<const nlohmann::ordered_json>(value), {}});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file rupture_figures.h
-/// Pictures of the ruptures of a fault, and of its slip in space and time †.
+/// Figures of the ruptures of a fault, and of its slip in space and time †.
 #ifndef LSM_POSTPROC_RUPTURE_FIGURES_H
 #define LSM_POSTPROC_RUPTURE_FIGURES_H
 
@@ -14,31 +14,37 @@
 
 namespace LSM::postproc {
 
-/// Numbers of the ruptures of one catalogue, see rupture_densities().
+/// Density of the ruptures of one catalogue, see rupture_densities().
 struct RuptureDensity {
   std::string label;
   double fault = 0.0;  ///< length of the fault
   std::vector<LogBin> bins;
 };
 
-/// Their numbers by length or by moment.
-/// \param limit smallest moment that is seen; 0: not known
+/// Density of the ruptures by length or by moment.
+/// \param limit smallest moment that can be detected; 0: not known
 /// \throws std::runtime_error if there is nothing to draw
 Figure rupture_density_figure(const std::vector<RuptureDensity> &densities,
                               RuptureQuantity quantity, double limit);
 
-/// Moment against length, drop of the total PE against moment, and stress drop against moment.
+/// Slip moment against length of the rupture, with the fitted power law.
 Figure moment_length_figure(const RuptureRelations &relations);
+/// Drop of the total PE against slip moment, with the fits of all ruptures and of those that are
+/// isolated in time.
 Figure moment_pe_figure(const RuptureRelations &relations);
+/// Mean stress drop against slip moment, with its means over half decades of the moment.
 Figure stress_drop_figure(const RuptureRelations &relations);
 
-/// Slip velocity in space and time with the ruptures outlined.
-/// \param outlines path of a second table that the script reads
+/// Slip velocity in space and time, with the outlines of the largest ruptures.
+/// \param outlines gets the outlines; the script reads it as BASE-outlines.csv
 Figure space_time_figure(const HistoryWindow &window, Table &outlines);
-/// Lines of the slip along the fault since the beginning of the window, one every `locked` time
-/// units, and one every `slipping` while anything slips.
+/// Slip along the fault since the beginning of the window.
+/// \param locked time between lines
+/// \param slipping time between lines while any part of the fault slips
 Figure slip_lines_figure(const HistoryWindow &window, double locked, double slipping);
-/// One rupture: slip velocity around its first place, with two wave speeds as slopes, and its slip.
+/// One rupture: slip velocity around its hypocentre, with the fronts of P- and S-waves as lines,
+/// and its slip along the fault. \param lines gets outline, wave fronts and slip; the script reads
+/// it as BASE-lines.csv
 Figure rupture_detail_figure(const HistoryWindow &window, const Event &event, double p_speed,
                              double s_speed, Table &lines);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file series_figures.h
-/// PE series: with the events picked from them, whether they stick and slip, and their spectra.
+/// PE series: the events picked from them, whether they show stick-slip or creep, and their power
+/// spectra.
 #ifndef LSM_POSTPROC_SERIES_FIGURES_H
 #define LSM_POSTPROC_SERIES_FIGURES_H
 
@@ -18,33 +19,38 @@
 
 namespace LSM::postproc {
 
-/// One PE series.
+/// One PE series and its regime.
 struct SeriesRegime {
   std::string path, model;
-  double length = NAN;  ///< or number of blocks; NaN: not given
+  double length = NAN;  ///< of the fault, or number of blocks; NaN: not given
   std::int64_t samples = 0, events = 0;
-  double first = 0.0, last = 0.0;  ///< times of the samples used
+  double first = 0.0, last = 0.0;  ///< times of the first and last sample used
   std::optional<Regime> regime;
-  std::string why;  ///< reason if there is none
+  std::string why;  ///< reason if there is no regime
 
+  /// Sets `regime`, or `why` if the meter has no result.
   void take(const RegimeMeter &meter);
 };
 
+/// Regimes, a row per series.
 Table regime_table(const std::vector<SeriesRegime> &series);
 
-/// PE, its change and the smoothed change from t0 to t1, with BASE-events.csv if events (paper:
-/// Figs. 8 to 11).
+/// PE, its change and the smoothed change from t0 to t1 (paper: Figs. 8 to 11).
+/// \param events whether to draw the events in BASE-events.csv as well
+/// \param picker settings that are named in the key
 Figure series_figure(const Thinner &curves, const std::string &title, double t0, double t1,
                      bool events, const PickerSettings &picker);
 
+/// Power spectrum of one series.
 struct SpectrumCurve {
   std::string label;
   std::vector<SpectrumPoint> points;
   std::int64_t samples = 0, segments = 0;
-  double averages = 0.0;  ///< independent segments with the same scatter
+  double averages = 0.0;  ///< number of independent segments with the same scatter
 };
 
-/// Power spectra †. \throws std::runtime_error if all densities are 0
+/// Power spectra †.
+/// \throws std::runtime_error if all densities are 0
 Figure spectrum_figure(const std::vector<SpectrumCurve> &curves);
 
 }  // namespace LSM::postproc

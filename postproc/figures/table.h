@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file table.h
-/// A table that is filled once and written as CSV and JSON for programs, as text and HTML for
+/// A table that is filled once and written as CSV and JSON for programs, and as text and HTML for
 /// people.
 #ifndef LSM_POSTPROC_TABLE_H
 #define LSM_POSTPROC_TABLE_H
@@ -21,37 +21,38 @@
 
 namespace LSM::postproc {
 
-/// Text with what is no UTF-8 in it replaced by U+FFFD: labels and names of files may be anything.
+/// Replaces whatever is not valid UTF-8 by U+FFFD, as labels and file names may be anything.
 std::string valid_utf8(std::string_view text);
 
 using Cell = std::variant<double, std::int64_t, std::string, Measured>;
 
 struct Column {
-  std::string name;                    ///< for programs; empty: only for people
-  std::optional<std::string> heading;  ///< for people; none: only for programs
-  int digits = 4;                      ///< significant ones for people, of numbers without an error
-  bool measured = false;               ///< one column for people, NAME and NAME_error for programs
+  std::string name;                    ///< for programs; empty: a column for people only
+  std::optional<std::string> heading;  ///< for people; none: a column for programs only
+  int digits = 4;         ///< significant digits of numbers without an error, for people
+  bool measured = false;  ///< has errors: a column for people, NAME and NAME_error for programs
 };
 using Columns = std::vector<Column>;
 
-/// Numbers and texts in columns.
+/// Numbers and texts in columns, added row by row.
 class Table {
  public:
-  /// Columns for programs. Nothing of them is printed, and a page has them as they are.
+  /// A table of columns for programs only. It is not printed; as HTML it has all columns.
   explicit Table(const std::vector<std::string> &names);
   explicit Table(std::string_view names);  ///< separated by commas
   explicit Table(std::vector<Column> columns) : columns_(std::move(columns)) {}
 
-  void comment(std::string_view text);  ///< a line above the table
+  void comment(std::string_view text);  ///< adds a line above the table
   void comment(const std::vector<std::string> &lines) {
     for (const std::string &line : lines) comment(line);
   }
   Table &add(double value) { return put(value); }
   Table &add(std::int64_t value) { return put(value); }
   Table &add(std::string_view text) { return put(valid_utf8(text)); }
-  /// One cell of a column of measured numbers, else the columns of the number and of its error.
+  /// Fills the next cell if its column is `measured`, otherwise two cells: the number and its
+  /// error.
   Table &add(const Measured &number);
-  /// The columns bin_lo, bin_hi, centre, count, density and error.
+  /// Fills the six columns bin_lo, bin_hi, centre, count, density and error.
   Table &add(const LogBin &bin) {
     return put(bin.lo).put(bin.hi).put(bin.centre).put(bin.count).put(bin.density).put(bin.error);
   }
@@ -59,9 +60,10 @@ class Table {
   Table &add(Integer value) {
     return add(static_cast<std::int64_t>(value));
   }
-  /// Ends the row. \throws std::logic_error unless it has one field per column.
+  /// Ends the row.
+  /// \throws std::logic_error unless it has one cell per column
   void end_row();
-  /// The rest of a row, or a complete one.
+  /// Adds the remaining cells of a row, or all of them, and ends it.
   template <class... Cells>
   void row(const Cells &...cells) {
     (add(cells), ...);
@@ -69,18 +71,19 @@ class Table {
   }
   std::int64_t rows() const { return rows_; }
 
-  /// Comments that begin with '#', column names, rows. Text is quoted where it has to be; numbers
-  /// have all their digits; NaN is an empty field. An apostrophe stands before a text that a
+  /// Comments that begin with '#', the column names, and the rows. Text is quoted where necessary,
+  /// numbers have all their digits, and NaN is an empty field. An apostrophe protects text that a
   /// spreadsheet would take for a formula.
   std::string csv() const;
-  /// Whether a CSV that begins so has the same columns.
+  /// Whether a CSV file that begins with `head` has the same columns as this table.
   bool like(std::string_view head) const;
-  nlohmann::ordered_json json() const;  ///< an object per row; NaN is null; without the comments
-  /// For a terminal: comments and aligned columns, those without any content left out. A cell that
-  /// repeats the row above, as all before it do, is blank. Few wide rows are turned on their side.
+  nlohmann::ordered_json json() const;  ///< an object per row, NaN as null; no comments
+  /// Text for a terminal: comments, and aligned columns without those that are empty. The leading
+  /// cells of a row that repeat the row above are blank. A few wide rows are printed as columns.
   std::string text() const;
-  std::string html() const;  ///< the same as an element of a page, without the comments
-  /// The CSV, see write_file(). \throws FileError
+  std::string html() const;  ///< the same columns as an element of a page; no comments
+  /// Writes the CSV by write_file().
+  /// \throws FileError
   void write(const std::string &path) const;
 
  protected:
@@ -94,10 +97,10 @@ class Table {
  private:
   /// The line of column names of the CSV.
   std::string column_line() const;
-  /// Whether columns were chosen for people.
+  /// Whether any column has a heading for people.
   bool for_people() const;
-  /// What people see, column by column, each with its heading first; but for the first one, those
-  /// that were chosen and hold nothing are left out.
+  /// The columns that people see, each beginning with its heading. Columns without content are left
+  /// out, except the first one and in tables for programs only.
   std::vector<std::vector<std::string>> shown_columns(std::string_view plus_minus) const;
 
   std::vector<std::string> comments_;
@@ -105,24 +108,25 @@ class Table {
   std::int64_t rows_ = 0;
 };
 
-/// A table of what is known of things: each column says how its cells are made of a thing, by a
-/// function or a member. Columns stand in the order in which they are declared.
+/// A table with a row per object of type Thing. Each column has a function or member that makes its
+/// cells from an object. Columns are in the order in which they are declared.
 template <class Thing>
 class TableOf : public Table {
  public:
   TableOf() : Table(std::vector<std::string>()) {}
 
+  /// Declares a column for people and programs.
   template <class Make>
   void column(std::string name, std::string heading, const Make &make, int digits = 4,
               bool measured = false) {
     declare({std::move(name), std::move(heading), digits, measured}, make);
   }
-  /// A column for programs only.
+  /// Declares a column for programs only.
   template <class Make>
   void data(std::string name, const Make &make) {
     declare({std::move(name), {}}, make);
   }
-  /// A column for people only.
+  /// Declares a column for people only.
   template <class Make>
   void show(std::string heading, const Make &make, int digits = 4) {
     declare({{}, std::move(heading), digits}, make);
@@ -148,7 +152,7 @@ class TableOf : public Table {
   std::vector<std::function<void(TableOf &, const Thing &)>> add_cells_;
 };
 
-/// Text with the characters that HTML reserves replaced.
+/// Replaces the characters that HTML reserves by entities, and what is not valid UTF-8 by U+FFFD.
 std::string html_escape(std::string_view text);
 
 }  // namespace LSM::postproc
