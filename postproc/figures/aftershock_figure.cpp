@@ -112,7 +112,8 @@ Figure aftershock_figure(const std::vector<AftershockCurve> &curves) {
       if (bin.count > 0) rates.add(bin.rate);
       if (bin.poisson > 0.0) rates.add(bin.poisson);
     }
-    // A band of two standard deviations, down to a tenth where it would reach zero.
+    // A band of two standard deviations. A logarithmic axis has no zero: where the band would reach
+    // it, it ends at a tenth of the mean.
     plot.add(Curves::areas,
              fmt::format("table using (row({0})):($9 > 0 ? ($9-2*$10 > 0.1*$9 ? $9-2*$10 : 0.1*$9) "
                          ": NaN):($9 > 0 ? $9+2*$10 : NaN) with filledcurves fs solid 0.15 "

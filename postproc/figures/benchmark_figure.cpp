@@ -64,19 +64,19 @@ Table misfit_summary_table(const std::vector<Misfits> &all) {
 
 namespace {
 
-/// Distance of ticks of an axis from 0 to most, about three of them.
+/// Distance of the ticks of an axis from 0 to `most`, for about three ticks.
 double tick(double most) {
   const double decade = std::pow(10.0, std::floor(std::log10(most / 3.0)));
   const double part = most / 3.0 / decade;
   return decade * (part < 2.0 ? 1.0 : part < 5.0 ? 2.0 : 5.0);
 }
 
-/// A curve of the picture: the references are the first ones.
+/// A curve of the figure with its number and style. References have the first numbers.
 struct Numbered {
   const NamedCurves &curves;
   std::int64_t number;
   bool run;
-  std::string line, mark;  ///< gnuplot styles; runs have no marks
+  std::string line, mark;  ///< gnuplot styles; `mark` is empty for runs
 };
 
 std::vector<Numbered> numbered(const std::vector<NamedCurves> &runs,
@@ -95,7 +95,8 @@ std::vector<Numbered> numbered(const std::vector<NamedCurves> &runs,
   return all;
 }
 
-/// Slip less that of the reference at the same place, NaN where there is none.
+/// Difference of the slip from that of the reference at the same place and time, NaN where the
+/// reference has none.
 std::vector<double> difference(const StationCurve &curve, const NamedCurves &reference) {
   std::vector<double> out(curve.t.size(), std::nan(""));
   for (const StationCurve &known : reference.stations) {
@@ -107,7 +108,7 @@ std::vector<double> difference(const StationCurve &curve, const NamedCurves &ref
   return out;
 }
 
-/// The curve at one of the places, as a list of one or none.
+/// The curve at x; empty if a reference has none there. Runs are interpolated.
 std::vector<StationCurve> curves_at(const Numbered &one, double x) {
   if (one.run) return {at_place(one.curves, x)};
   std::vector<StationCurve> out;
@@ -116,7 +117,7 @@ std::vector<StationCurve> curves_at(const Numbered &one, double x) {
   return out;
 }
 
-/// Curves at these places, and arrival times.
+/// Adds the curves at these places, and the arrival times at all places.
 void add_rows(Table &table, const Numbered &one, const NamedCurves &reference,
               const std::vector<double> &places, double rate, double until) {
   for (const double x : places)
@@ -130,7 +131,7 @@ void add_rows(Table &table, const Numbered &one, const NamedCurves &reference,
               std::nan(""));
 }
 
-/// Slip, slip rate, and difference of the slip from that of the reference at one place.
+/// Panels of slip, slip rate and difference of the slip from that of the reference at one place.
 std::string station_panels(const std::vector<Numbered> &all, const NamedCurves &reference, double x,
                            double low, double high) {
   double most[3] = {0.0, 0.0, 0.0};
@@ -181,7 +182,7 @@ std::string arrival_panel(const std::vector<Numbered> &all, const std::string &r
     script += fmt::format("{}table using ($1 == {} ? $2 / 1000 : NaN):3 with ",
                           one.number == 1 ? "plot " : ", \\\n     ", -one.number);
     const std::string name = quote(one.curves.name);
-    // The key shows the line of the panels above with the mark of this one.
+    // References: the key combines their line in the panels above with their mark in this one.
     script +=
         one.run
             ? fmt::format("lines {} title {}", one.line, name)

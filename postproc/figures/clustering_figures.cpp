@@ -17,7 +17,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// Each number of a clustering: its column, what it is, and with what it is compared.
+/// A number of Clustering: its column, its description, and the random series it is compared with.
 struct Named {
   const char *column, *text, *random;
   AgainstChance (*number)(const Clustering &);
@@ -43,13 +43,15 @@ std::string title_of(const IntervalCurve &curve, const std::string &more) {
                      quote(curve.label + ", " + curve.from() + more));
 }
 
-/// Earthquakes: the year, with its fraction.
+/// Time as it is drawn: for earthquakes the year with its fraction, otherwise the model time.
 double shown_time(const IntervalCurve &curve, double time) {
   return curve.earthquakes ? 1970.0 + time / 365.2425 : time;
 }
 
-/// A row of panels for each of the first eight curves with clustering: what panels() makes of the
-/// table, the number of the curve, the curve, and a function that begins a panel of its row.
+/// A row of panels for each of the first eight curves with clustering.
+/// \param panels called with the table, the number of the curve (from 1), the curve, and a function
+/// that begins a panel between two edges of the row; adds rows and returns gnuplot commands
+/// \throws std::runtime_error if no curve has clustering
 template <class Panels>
 Figure in_rows(const std::vector<IntervalCurve> &curves, Table table, int height,
                const Panels &panels) {
@@ -123,7 +125,8 @@ Table clustering_table(const std::vector<IntervalCurve> &curves,
 
 namespace {
 
-/// Adds the stretches of a curve that are proposed as steady; returns them as shaded areas.
+/// Adds the periods of a curve that are proposed as steady, and returns gnuplot commands that shade
+/// them.
 std::string add_steady(Table &table, int number, const IntervalCurve &curve) {
   std::string areas = "unset object\nunset label\n";
   int area = 0;
@@ -174,7 +177,7 @@ Figure rate_figure(const std::vector<IntervalCurve> &curves) {
 
 namespace {
 
-/// Densities of the times after each third of the times, and the panel that shows them.
+/// Adds the densities of the times after each third of the times, and returns their panel.
 std::string after_thirds(Table &table, int number, const IntervalCurve &curve) {
   constexpr const char *names[] = {"after the shortest third", "middle", "longest"};
   constexpr int colours[] = {6, 8, 1};
@@ -199,7 +202,7 @@ std::string after_thirds(Table &table, int number, const IntervalCurve &curve) {
          axis("y", "probability density", true, heights.lo, heights.hi) + plots + "\n";
 }
 
-/// Mean time after each eighth of the times, and the panel that shows it.
+/// Adds the mean time after each eighth of the times, and returns their panel.
 std::string after_eighths(Table &table, int number, const IntervalCurve &curve) {
   for (std::size_t part = 0; part < eighths; ++part) {
     const AgainstChance &one = curve.clustering.after_eighth[part];

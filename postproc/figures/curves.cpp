@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What scripts of gnuplot say: texts, axes, curves.
+// Parts of gnuplot scripts: quoted text, axes, panels and curves.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -14,8 +14,8 @@ namespace LSM::postproc {
 
 namespace {
 
-/// Ticks from the last one below lo to the first one above hi: as few digits, times powers of ten,
-/// as give four of them.
+/// Ticks from the last one not above lo to the first one above hi. They are powers of ten times 1,
+/// 2 and 5, or more digits if these give fewer than four ticks.
 std::vector<double> ticks_around(double lo, double hi) {
   std::vector<double> ticks;
   for (const auto &digits :
@@ -33,14 +33,15 @@ std::vector<double> ticks_around(double lo, double hi) {
   return ticks;
 }
 
-/// gnuplot runs what stands in backquotes or follows a pipe, ends strings at quotes, takes two
-/// quotes at the beginning of a string for an empty one, and counts braces: all but what is
-/// harmless is written as octal numbers.
+/// gnuplot executes what is in backquotes or follows a pipe, ends strings at quotes, takes two
+/// quotes at the beginning of a string for an empty string, and counts braces. All characters that
+/// are not known to be harmless are therefore written as octal numbers.
+/// \param markup whether to escape the markup of enhanced mode as well
 std::string escape(std::string_view text, bool markup) {
-  // Our own markup is not escaped.
+  // Without `markup`, the text may contain markup of our own, which has to stay as it is.
   const std::string_view harmless = markup ? " .,:;()=+-/*%<>!?" : " .,:;()=+-/*%<>!?_^{}";
   std::string out = "\"";
-  bool number = false;  // continues with the next digit, however long it is
+  bool number = false;  // an octal number came last; gnuplot would add a following digit to it
   for (const unsigned char c : valid_utf8(text)) {
     const unsigned char code = c < 0x20 ? ' ' : c;
     if (markup && std::string_view("\\{}^_@&~").find(c) != std::string_view::npos) out += "\\134";
@@ -64,7 +65,7 @@ std::string axis(std::string_view name, std::string_view label, bool logarithmic
   if (logarithmic) {
     out += fmt::format("set logscale {}\n", name);
     if (both && hi < 30.0 * lo) {
-      // Too short for powers of ten alone.
+      // Powers of ten alone would be too few ticks.
       const std::vector<double> ticks = ticks_around(lo, hi);
       lo = ticks.front();
       hi = ticks.back();
@@ -73,10 +74,10 @@ std::string axis(std::string_view name, std::string_view label, bool logarithmic
         list += fmt::format("{}\"{:g}\" {:g}", list.empty() ? "" : ", ", tick, tick);
       out += fmt::format("set {}tics ({})\n", name, list);
     } else {
-      // A hair inside, so that an end on a decade but for rounding stays there.
+      // The 1e-9 keeps an end that is on a decade except for rounding from moving to the next one.
       if (std::isfinite(lo)) lo = std::pow(10.0, std::floor(std::log10(lo) + 1e-9));
       if (std::isfinite(hi)) hi = std::pow(10.0, std::ceil(std::log10(hi) - 1e-9));
-      // A label on every decade, or on every second one where they would touch.
+      // Labels on every decade, or on every second one where they would overlap.
       const bool sparse = both && std::log10(hi / lo) > 12.5;
       out += fmt::format("set format {0} \"10^{{%L}}\"\nset {0}tics {1}\nset m{0}tics {2}\n", name,
                          sparse ? 100 : 10, sparse ? 2 : 10);
@@ -110,8 +111,9 @@ void Curves::add(Layer layer, const std::string &element, const std::string &tit
 }
 
 void Curves::add_data(std::int64_t curve, int y, int error, const std::string &title) {
-  // gnuplot's own yerrorbars surround each point with white in an SVG. Logarithmic axes have no
-  // place for zero: the lower end of a bar is one decade down where the error reaches the value.
+  // Bars are drawn as vectors because gnuplot's yerrorbars surround each point with white in an
+  // SVG. A logarithmic axis has no zero: where an error reaches its value, the bar ends one decade
+  // below it.
   constexpr std::string_view low = "low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y\n";
   if (functions_.find(low) == std::string::npos) functions_ += low;
   add(data, fmt::format("table using (row({0})):(low(${1},${2})):(0):(${1}+${2}-low(${1},${2})) "
@@ -133,8 +135,8 @@ Figure Curves::figure(Table table, const std::string &axes, int width) const {
   for (const auto &layer : layers_)
     for (const std::string &element : layer)
       elements += (elements.empty() ? "plot " : ", \\\n     ") + element;
-  // Two columns where both fit: gnuplot assumes about 9.2 units per character, a sample and its
-  // gaps 60.
+  // gnuplot sets the key in two columns where both fit. It assumes about 9.2 units per character,
+  // and 60 for a sample and its gaps.
   std::size_t longest = 0;
   for (const std::string &title : titles_) longest = std::max(longest, title.size());
   const std::size_t columns = 2 * (9.2 * static_cast<double>(longest) + 60.0) < width ? 2 : 1;

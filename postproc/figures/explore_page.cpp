@@ -20,11 +20,12 @@ using nlohmann::json;
 
 namespace {
 
-/// The elements of the page with its data. Small data are JSON; long columns are packed,
-/// each column in an element of its own, whose id stands in the JSON.
+/// The elements of the page that hold its data. Small data are JSON. Each long column is packed in
+/// an element of its own, whose id is in the JSON.
 class PageData {
  public:
-  /// Returns the id.
+  /// Adds a long column.
+  /// \return id of its element
   template <class Number>
   std::string add(const std::vector<Number> &values) {
     std::string id = fmt::format("packed{}", count_++);
@@ -33,8 +34,8 @@ class PageData {
     return id;
   }
 
-  /// Headers of catalogues may contain anything: none of their text ends the element or begins
-  /// another.
+  /// Returns all elements. Headers of catalogues may contain any text, so '<', '>' and '&' are
+  /// escaped: otherwise text could end the element or begin another one.
   std::string html(const json &root) const {
     std::string text;
     for (const char c : root.dump(-1, ' ', true, json::error_handler_t::replace))
@@ -65,7 +66,7 @@ json series_json(const ExploreSeries &series, PageData &data) {
               {"bytes", data.add(code.bytes)}};
   if (!series.times.empty()) {
     out["begin"] = series.times.front();
-    // Each number continues from the rounded ones before it, so that rounding does not add up.
+    // Each gap starts from the rounded time before it, so that rounding errors do not accumulate.
     std::vector<float> gaps;
     double time = series.times.front();
     for (std::size_t i = 1; i < series.times.size(); ++i) {
@@ -102,7 +103,7 @@ json bins_json(const std::vector<LogBin> &bins) {
   return out;
 }
 
-/// Adds a number to what is known of it, as the commands print it, or why there is none.
+/// Adds a fitted number to its JSON object, also as text, or the reason why there is none.
 template <class Fit>
 void add_number(json &out, const Fit &fit, double value, double error) {
   if (fit.degenerate)
@@ -113,7 +114,7 @@ void add_number(json &out, const Fit &fit, double value, double error) {
 
 }  // namespace
 
-// json's constructor finds these, also for vectors.
+// The JSON library finds these functions by their name, also for vectors of these types.
 static void to_json(json &out, const PowerLawFit &fit) {
   out = {{"lo", fit.lo}, {"hi", fit.hi}, {"n", fit.n}};
   add_number(out, fit, fit.alpha, fit.standard_error);

@@ -17,7 +17,7 @@ std::string source_of(const IntervalCurve &curve) {
 
 namespace {
 
-/// The fitted density of a curve over the times that were fitted, dotted if it is rejected.
+/// Adds the fitted density over the times that were fitted, dotted if the fit is rejected.
 void add_fit(Curves &plot, std::int64_t number, const IntervalCurve &curve,
              const GeneralisedGammaFit &fit, bool rejected) {
   plot.add_law(std::max(curve.bins.front().lo, fit.lo), curve.bins.back().hi,
@@ -176,7 +176,7 @@ Table1Row row_of(const IntervalCurve &curve, const IntervalFit &of) {
   return row;
 }
 
-/// A line of the paper's Table 1: gamma, delta, B and C with the digits that are printed.
+/// A row of the paper's Table 1: gamma, delta, B and C with the digits printed there.
 struct PrintedRow {
   std::string source;
   std::array<std::string, 4> parameters;
@@ -186,7 +186,7 @@ const std::array<PrintedRow, 3> printed_rows = {
      {"LSM", {"0.995", "1.00", "15.21", "0.0573"}},
      {"Block-Slider", {"0.0", "1.00", "100.0", "0.25"}}}};
 
-/// A line of ours, or a printed one.
+/// One of our rows, or a printed one.
 struct Table1Line {
   const Table1Row &ours;
   const PrintedRow *printed = nullptr;

@@ -55,7 +55,7 @@ Figure magnitude_figure(const std::vector<MagnitudeCurve> &curves, double width)
       magnitudes.add(bin.magnitude);
       table.row(number, curve.model, bin.magnitude, bin.count, bin.from_here_on, curve.label);
     }
-    // Half a bin down: the first bin of the sum begins there.
+    // The cumulative number counts from the lower edge of the bin, half a width below its centre.
     plot.add(Curves::data, fmt::format("table using (row({0})-{1}):5 with points lt {0}", number,
                                        text_io::number(0.5 * width)));
     plot.add(Curves::data,

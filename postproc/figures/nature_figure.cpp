@@ -31,7 +31,7 @@ constexpr std::array<Compared, 10> compared = {
 
 std::string name_of(const NatureRow &row) { return row.label + ", " + row.from; }
 
-/// The same in fewer words, for an axis.
+/// As name_of() but shorter, for an axis.
 std::string short_name_of(const NatureRow &row) {
   return row.label + (row.earthquakes ? ", M" : ",") + row.from.substr(row.from.find(' '));
 }
@@ -87,11 +87,11 @@ std::vector<Table1Row> nature_table1(const std::vector<NatureRow> &rows) {
 
 namespace {
 
-/// A row as it is drawn. Colours tell labels, symbols smallest sizes.
+/// A row and its style: colours distinguish labels, symbols distinguish smallest sizes.
 struct Drawn {
   const NatureRow &row;
   int number;    ///< from 1 on
-  bool nearest;  ///< first of its label: of the others only the distance is drawn
+  bool nearest;  ///< the first of its label; of the others only the distance is drawn
   std::string style;
 };
 
@@ -119,7 +119,7 @@ std::vector<Drawn> drawn_of(const std::vector<NatureRow> &rows) {
 void add_rows(Table &table, const Drawn &one) {
   const NatureRow &row = one.row;
   const auto add = [&](const char *panel, double x, double y, double error) {
-    // gnuplot skips points with an empty error
+    // gnuplot skips points with an empty error.
     table.row(panel, one.number, x, y, std::isnan(error) ? 0.0 : error, name_of(row));
   };
   if (one.number > 1) add("distance", row.distance.value, -1.0 * one.number, row.distance.error);
@@ -133,7 +133,7 @@ void add_rows(Table &table, const Drawn &one) {
   add("plane", row.memory.value, row.burstiness.value, row.burstiness.error);
 }
 
-/// Plot command of one panel: the rows that are in it.
+/// Plot command of one panel, with the rows that are drawn in it.
 std::string plot_of(const std::vector<Drawn> &rows, const std::string &panel, const char *values,
                     const char *style, const char *size) {
   std::string out;
@@ -145,7 +145,7 @@ std::string plot_of(const std::vector<Drawn> &rows, const std::string &panel, co
   return out;
 }
 
-/// What colours and symbols of the panels on the right mean.
+/// Entries of the key for the panels on the right.
 std::string legend_of(const std::vector<Drawn> &rows) {
   std::string out;
   for (const Drawn &one : rows)
@@ -177,7 +177,7 @@ Figure nature_figure(const std::vector<NatureRow> &rows) {
   for (const Drawn &one : drawn) add_rows(table, one);
   const double free_end = std::nan("");
   const int height = std::max(900, 130 + 34 * static_cast<int>(rows.size()));
-  // The legend of the panels on the right stands below them.
+  // The key of the panels on the right is below them.
   const auto entries =
       1 + std::count_if(drawn.begin(), drawn.end(), [](const Drawn &one) { return one.nearest; });
   const double top = 0.97, legend = 26.0 * static_cast<double>(entries) / height + 0.01;

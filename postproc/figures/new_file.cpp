@@ -44,7 +44,7 @@ void check_output(const std::string &path, bool overwrite, const Known &known) {
     if (!problem.empty()) throw FileError(problem);
     return;
   }
-  fs::path there = folder;  // in which folders will be made
+  fs::path there = folder;  // becomes the existing folder in which the others will be created
   while (!there.empty() && !fs::exists(there, code)) there = there.parent_path();
   if (access(there.c_str(), W_OK | X_OK) != 0)
     throw FileError(folder.string() +

@@ -39,7 +39,7 @@ std::string packed(const std::vector<Number> &values) {
     for (std::size_t k = 0; k < width; ++k) bytes[k * n + i] = from[i * width + k];
   uLongf size = compressBound(bytes.size());
   std::string out(size, '\0');
-  // Level 3: a third of the time of the default for 2 % more bytes.
+  // Level 3 takes a third of the time of the default level, for 2 % more bytes.
   if (compress2(reinterpret_cast<Bytef *>(out.data()), &size, bytes.data(), bytes.size(), 3) !=
       Z_OK)
     throw std::runtime_error("zlib cannot compress the data of the page");
@@ -61,7 +61,7 @@ SeriesCode encode(const std::vector<double> &values) {
     most = std::max(most, std::fabs(values[i]));
     if (i > 1) bend = std::max(bend, std::fabs(values[i] - 2.0 * values[i - 1] + values[i - 2]));
   }
-  // Below the rounding of the series itself there is nothing to see.
+  // Deviations below the rounding error of the series itself carry no information.
   const double least = std::max(4.0 * std::numeric_limits<double>::epsilon() * most,
                                 std::numeric_limits<double>::min());
   const double top = std::max(2.0 * bend, 2.0 * least);

@@ -66,7 +66,8 @@ std::string inline_svg(std::string_view svg, const std::string &prefix, const st
   const std::size_t description = out.find("<desc>"), behind = out.find("</desc>");
   if (description != std::string::npos && behind != std::string::npos)
     out.erase(description, behind + 7 - description);
-  // Text between the elements may hold the same words as an attribute; the background is the first.
+  // The background is the first element with this attribute. Later matches are left alone, as they
+  // may be text.
   const std::string background = "fill=\"#ffffff\"";
   const std::size_t at = out.find(background);
   if (at != std::string::npos) out.replace(at, background.size(), "fill=\"none\"");

@@ -27,8 +27,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Line types: Okabe and Ito's colours (safe for any kind of colour vision), each with its
-// own point type and dashes, so that the curves differ in black and white as well.
+// The line types have Okabe and Ito's colours, which are safe for any kind of colour vision, each
+// with its own point type and dashes, so that curves differ in black and white as well.
 constexpr std::string_view prelude = R"(
 set datafile separator comma
 set encoding utf8
@@ -55,13 +55,14 @@ set grid xtics ytics lt 1 dt 1 lw 0.5 lc rgb "#d8d8d8"
 set key outside bottom center horizontal samplen 3 spacing 1.15 maxcols 2 width -3 Left reverse height 1
 )";
 
-/// The reason stands in gnuplot's last line; a file that is missing is only named in a warning.
+/// Extracts the reason of a failure from gnuplot's messages. It is in the last line, except that a
+/// missing file is named only in a warning.
 std::string gnuplot_message(const std::string &text) {
   std::string warning, last;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
     const std::string trimmed(text_io::trim(line));
-    // The second: said of every picture in a locale that is not UTF-8, and harmless.
+    // In a locale that is not UTF-8, gnuplot prints the harmless "iconv failed" for every picture.
     if (trimmed.empty() || trimmed.find("iconv failed") != std::string::npos) continue;
     if (warning.empty() && trimmed.find("warning: ") != std::string::npos)
       warning = trimmed.substr(trimmed.find("warning: ") + 9) + "; ";
@@ -70,16 +71,17 @@ std::string gnuplot_message(const std::string &text) {
   return warning + last;
 }
 
-/// A word of a shell command.
+/// Quotes a word of a shell command.
 std::string shell_word(std::string_view text) {
   std::string out = "'";
   for (const char c : text) out += c == '\'' ? "'\\''" : std::string(1, c);
   return out + "'";
 }
 
-/// Runs gnuplot in folder. \throws PlotError with gnuplot's own message
+/// Runs gnuplot in a folder.
+/// \throws PlotError with gnuplot's own message
 void run_gnuplot(const fs::path &folder, const std::vector<std::string> &arguments) {
-  // -d: a user's own start-up file must not change the pictures.
+  // -d keeps the start-up file of the user from changing the pictures.
   std::string command =
       "{ cd " + shell_word((fs::path(".") / folder).string()) + " && exec gnuplot -d";
   for (const std::string &argument : arguments) command += ' ' + shell_word(argument);
@@ -124,7 +126,7 @@ std::string whole_script(const std::string &name, const Figure &figure) {
       "{}"
       "set output base.\".\".format\n",
       2 * size.width, 2 * size.height, size.width, size.height,
-      // Without that, images go into files of their own.
+      // Without `standalone`, gnuplot writes images to files of their own.
       body.find("with image") != std::string::npos ? " standalone" : "", prelude);
   return script + body + "unset output\n}\n";
 }
@@ -143,14 +145,16 @@ std::string file_text(const fs::path &path) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-/// gnuplot does not notice that a disk is full.
+/// Whether a picture is complete: gnuplot does not notice that a disk is full.
 bool is_whole(const std::string &picture) {
   const std::string text = file_text(picture);
   return text.find("</svg>") != std::string::npos ||
          text.find("IEND\xae\x42\x60\x82") != std::string::npos;
 }
 
-/// Runs BASE.gp. \throws PlotError unless both pictures came out; FileError; then neither is left
+/// Runs BASE.gp. After an error neither picture is left.
+/// \throws PlotError unless both pictures were written
+/// \throws FileError
 void draw(const std::string &base) {
   const fs::path folder = fs::path(base).parent_path(), name = fs::path(base).filename();
   const std::array<std::string, 2> pictures = {base + ".png", base + ".svg"};
@@ -167,7 +171,8 @@ void draw(const std::string &base) {
         const bool full = fs::space(fs::path(".") / folder, code).available < little && !code;
         throw PlotError("gnuplot wrote no " + picture + (full ? ": no space left" : ""));
       }
-    // gnuplot calls all of its pictures Gnuplot, which browsers show and screen readers read.
+    // gnuplot titles all of its pictures "Gnuplot", which browsers show and screen readers read
+    // out.
     std::string svg = file_text(pictures[1]);
     constexpr std::string_view own = "<title>Gnuplot</title>";
     if (const std::size_t at = svg.find(own); at != std::string::npos) {
@@ -213,7 +218,7 @@ void check_outputs(const Figure &figure, const PictureOptions &options) {
   check_output(options.table(), options.overwrite,
                [&](std::string_view head) { return figure.table.like(head); });
   check_output(script, options.overwrite, drawn);
-  // Pictures are known by the script beside them.
+  // Pictures cannot be recognized by their content, only by the script beside them.
   const bool ours = text_io::holds_data(script);
   for (const char *const ending : {".png", ".svg"})
     if (!options.no_picture) check_output(base + ending, options.overwrite || ours);

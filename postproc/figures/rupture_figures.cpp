@@ -15,7 +15,7 @@ namespace LSM::postproc {
 
 namespace {
 
-/// A fit in words; in a legend there is less room.
+/// Describes a fit for a key, where there is little room.
 std::string short_text_of(const LogFit &fit, const std::string &what) {
   return fmt::format("{}: slope {}", what, with_error(fit.slope, fit.slope_error, " ± "));
 }
@@ -35,8 +35,8 @@ void add_line(Curves &plot, const LogFit &fit, const std::string &colour, const 
            short_text_of(fit, what));
 }
 
-/// A scatter of one curve per catalogue, from the columns 4 and 5 of the table. The curves are
-/// drawn in turns, a fifth of each at a time, so that none hides the others.
+/// Adds a scatter plot of the table's columns 4 and 5, a colour per catalogue. Catalogues are drawn
+/// in turns, a fifth of each at a time, so that none hides the others.
 void add_scatter(Curves &plot, const RuptureRelations &relations) {
   const std::vector<RuptureScatter> &all = relations.catalogues;
   const std::size_t layers = all.size() > 1 ? 5 : 1;
@@ -53,7 +53,7 @@ void add_scatter(Curves &plot, const RuptureRelations &relations) {
                                                           RuptureScatter::largest, all[k].one_of)));
 }
 
-/// A row for each rupture that is shown: which of which catalogue it is, and what use adds.
+/// Adds a row for each rupture that is shown: its catalogue and id, and the cells that `use` adds.
 template <class Use>
 void add_rows(Table &table, const RuptureRelations &relations, const Use &use) {
   std::int64_t number = 0;
@@ -204,7 +204,7 @@ Figure stress_drop_figure(const RuptureRelations &relations) {
 
 namespace {
 
-/// A row that ends a line: gnuplot ignores empty fields and would continue it.
+/// Adds a row of NaN, which ends a line. gnuplot ignores empty fields and would continue the line.
 void break_line(Table &table, int columns) {
   for (int k = 0; k < columns; ++k) table.add(std::string_view("NaN"));
   table.end_row();
@@ -304,8 +304,8 @@ Figure slip_lines_figure(const HistoryWindow &window, double locked, double slip
 
 namespace {
 
-/// Lines over the picture of one rupture that begins in the middle bin: its outline (1), P (2) and
-/// S (3), and its slip (4).
+/// Adds the lines of the figure of one rupture, which begins in the middle bin: its outline (curve
+/// 1), the fronts of the P-wave (2) and the S-wave (3), and its slip (4).
 void add_detail_lines(Table &lines, const HistoryWindow &window, const Event &event,
                       std::int64_t shift, double x0, const std::array<double, 2> &speeds) {
   const FaultGrid &grid = window.info.grid;
@@ -354,7 +354,7 @@ Figure rupture_detail_figure(const HistoryWindow &window, const Event &event, do
   const FaultGrid &grid = window.info.grid;
   const auto hypocentre =
       static_cast<std::int64_t>(std::floor((event.x_hypocentre - grid.x0) / grid.width));
-  // The hypocentre's bin in the middle; x is relative to its centre.
+  // The bin of the hypocentre is in the middle, and x is measured from its centre.
   const std::int64_t half = grid.bins / 2;
   const std::int64_t shift = ((hypocentre - half) % grid.bins + grid.bins) % grid.bins;
   const double x0 = -(static_cast<double>(half) + 0.5) * grid.width;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What finite-size scaling says, in words.
+// Results of finite-size scaling, in words.
 #include <fmt/format.h>
 
 #include "numbers.h"
@@ -23,7 +23,7 @@ std::string text_of(const BendRange &bends) {
       short_number(bends.L_c.hi, 3), short_number(bends.D.lo, 2), short_number(bends.D.hi, 2));
 }
 
-/// What error_scale() did.
+/// States by how much error_scale() enlarged the errors, if it did.
 std::string scaled_text(double chi2, int freedom) {
   const double scale = error_scale(chi2, freedom);
   return scale > 1.0 ? fmt::format(" (errors times {})", short_number(scale, 2)) : std::string();

@@ -20,7 +20,7 @@ void SeriesRegime::take(const RegimeMeter &meter) {
 
 Table regime_table(const std::vector<SeriesRegime> &series) {
   TableOf<SeriesRegime> table;
-  // A number of what is known of the regime.
+  // Makes the cells of a number of the regime, NaN where the regime is not known.
   const auto of = [](double Regime::*number) {
     return [number](const SeriesRegime &s) { return s.regime ? *s.regime.*number : NAN; };
   };
@@ -45,7 +45,7 @@ Table regime_table(const std::vector<SeriesRegime> &series) {
 
 namespace {
 
-/// gnuplot's range of an axis with some room around the values.
+/// gnuplot range of an axis, with some space around the values.
 std::string roomy(Extent range) {
   const double middle = 0.5 * (range.lo + range.hi);
   double half = 0.56 * (range.hi - range.lo);
@@ -85,11 +85,12 @@ Figure series_figure(const Thinner &curves, const std::string &title, double t0,
   Table table("time,pe,change,smoothed");
   for (const Thinner::Row &row : curves.rows())
     table.row(row.time, row.values[0], row.values[1], row.values[2]);
-  // Rounded ticks hide small changes on a large offset: show the distance from the lowest value.
+  // Labels of ticks are rounded, which would hide small changes on a large offset. Then the
+  // distance from the lowest value is drawn.
   const Extent pe = curves.range(0);
   const bool shifted = pe.hi - pe.lo < 0.01 * std::max(std::fabs(pe.hi), std::fabs(pe.lo));
   const double shift = shifted ? pe.lo : 0.0;
-  // Arrows too short to see would only hide the curve.
+  // Arrows that are too short to be seen would only hide the curve.
   const double shortest = 0.01 * (pe.hi - pe.lo);
   const std::string shade = events ? "events using 1:(0):1:2:(-1e300):(1e300) with boxxyerror fs "
                                      "solid 1.0 noborder lc rgb '#cccccc' {}, \\\n     "

@@ -14,7 +14,8 @@ namespace LSM::postproc {
 
 namespace {
 
-/// A line that has ends and lies above all points between them; amplitude 0: there are none.
+/// Sets the missing ends of a line, and a missing amplitude so that the line lies above all points
+/// between its ends. The amplitude is 0 if there are no such points.
 PowerLine placed(PowerLine line, const std::vector<SizeDensity> &densities, const Extent &sizes) {
   if (std::isnan(line.lo)) line.lo = sizes.lo;
   if (std::isnan(line.hi)) line.hi = sizes.hi;
@@ -32,11 +33,11 @@ PowerLine placed(PowerLine line, const std::vector<SizeDensity> &densities, cons
 
 Figure size_density_figure(const std::vector<SizeDensity> &densities,
                            const std::vector<PowerLine> &lines, int width) {
-  // Labels may contain commas, so they come last: awk -F, finds the numbers without them.
+  // Labels may contain commas. They come last so that `awk -F,` finds the numbers.
   Table table("curve,model,length,bin_lo,bin_hi,size,count,density,error,label");
   table.comment("units: sizes in model energy, densities in 1 / model energy; errors: Poisson");
   Curves curves("$6", "$7 > 0");
-  std::vector<std::int64_t> numbers;  // of each catalogue's curve
+  std::vector<std::int64_t> numbers;  // number of each catalogue's curve; 0: not drawn
   std::int64_t number = 0;
   Extent sizes, heights;
   for (const SizeDensity &density : densities) {
@@ -50,7 +51,7 @@ Figure size_density_figure(const std::vector<SizeDensity> &densities,
       heights.add(bin.density);
     }
     curves.add_data(number, 8, 9);
-    // Together, `with linespoints` would surround each point with white in an SVG.
+    // Lines and points are separate because `with linespoints` surrounds points with white in SVG.
     curves.add(Curves::data,
                fmt::format("table using (row({0})):8 with lines lt {0} lw 1.2", number));
     curves.add(Curves::data, fmt::format("keyentry with linespoints lt {}", number),
@@ -62,7 +63,7 @@ Figure size_density_figure(const std::vector<SizeDensity> &densities,
     if (line.amplitude == 0.0) continue;
     for (const double end : {line.lo, line.hi})
       top = std::max(top, line.amplitude * std::pow(end, line.slope));
-    // Colours go by the curves that are drawn.
+    // Colours are numbered by the curves that are drawn, not by all catalogues.
     const std::int64_t curve = line.catalogue < numbers.size() ? numbers[line.catalogue] : 0;
     curves.add_law(
         line.lo, line.hi,
@@ -92,7 +93,7 @@ PowerLine fitted_line(const SizeFit &fit, const SizeDensity &density) {
 
 namespace {
 
-/// The laws fitted to the points between two lengths.
+/// Adds the laws fitted to the characteristic sizes, over a range of lengths.
 void add_laws(Curves &curves, const ScalingFit &fit, std::int64_t number, const Extent &lengths) {
   const double lo = 0.85 * lengths.lo, hi = lengths.hi / 0.85;
   const auto exact = [](double value) { return text_io::number(value); };
@@ -102,7 +103,7 @@ void add_laws(Curves &curves, const ScalingFit &fit, std::int64_t number, const 
   curves.add_law(lo, hi, exact(fit.constant), "lt 8 dt 2", "constant");
   if (fit.preferred != SizeDependence::saturates) return;
   const Saturation &end = fit.saturation;
-  // Sampled evenly in ln L, so that the bend is smooth.
+  // Sampled evenly in ln L, so that the bend looks smooth.
   curves.add(
       Curves::laws,
       fmt::format("[1:2] '+' using (x = {}*{}**($1-1)):({}*(1+({}/x)**({}))**({})) with "

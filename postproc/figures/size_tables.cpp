@@ -15,7 +15,7 @@ using nlohmann::json;
 
 namespace {
 
-/// Adds the numbers of a fit to what is known of it, or why there are none.
+/// Adds the numbers of a fit to its JSON object, or the reason why there are none.
 template <class Fit>
 void add_numbers(json &out, const Fit &fit, const json &numbers) {
   out["degenerate"] = fit.degenerate;
@@ -25,20 +25,20 @@ void add_numbers(json &out, const Fit &fit, const json &numbers) {
     out.update(numbers);
 }
 
-/// "0.001 to 1", with what search_range() found marked.
+/// "0.001 to 1", with a mark if search_range() found the range.
 std::string range_text(const PowerLawFit &fit) {
   return fmt::format("{} to {}{}", short_number(fit.lo, 3),
                      std::isinf(fit.hi) ? "infinity" : short_number(fit.hi, 3),
                      fit.searched ? " (searched)" : "");
 }
 
-/// "exponent_1e-4:0.1", of a searched range "exponent_searched_...".
+/// "exponent_1e-4:0.1", or "exponent_searched_..." if search_range() found the range.
 std::string name_of(const PowerLawFit &fit) {
   return fmt::format("exponent_{}{}:{}", fit.searched ? "searched_" : "", short_number(fit.lo, 6),
                      short_number(fit.hi, 6));
 }
 
-/// Which law a comparison favours; p below 0.05 decides †.
+/// The law that a comparison favours. It is decided by p below 0.05 †.
 const char *favoured(const Comparison &comparison) {
   if (comparison.degenerate || comparison.rival.empty()) return "";
   if (!(comparison.p < 0.05)) return "undecided";

@@ -41,13 +41,13 @@ std::string csv_field(const std::string &text) {
 
 std::string csv_field(const Measured &number) { return csv_field(number.value); }
 
-/// Characters as they are shown, each in one column of a terminal.
+/// Number of characters of UTF-8 text, each of which takes one column of a terminal.
 std::size_t width_of(const std::string &text) {
   return static_cast<std::size_t>(
       std::count_if(text.begin(), text.end(), [](char c) { return (c & '\xc0') != '\x80'; }));
 }
 
-/// Lines of the same width with the columns one below the other.
+/// Lines of equal width, in which the cells of a column are aligned.
 std::vector<std::string> aligned(const Rows &rows) {
   std::vector<std::string> lines(rows.size());
   for (std::size_t k = 0; k < rows.front().size(); ++k) {
@@ -61,7 +61,7 @@ std::vector<std::string> aligned(const Rows &rows) {
   return lines;
 }
 
-/// A sentence as lines of at most `most` characters, where its words allow.
+/// Wraps a sentence into lines of at most `most` characters, as far as its words allow.
 std::string wrapped(const std::string &text, std::size_t most) {
   std::string out, line, word;
   for (std::istringstream words(text); words >> word;) {
@@ -75,8 +75,8 @@ std::string wrapped(const std::string &text, std::size_t most) {
   return out + line + '\n';
 }
 
-/// Moves sentences out of a table that they would make wide: a number stands for each. Returns
-/// them.
+/// Replaces sentences, which would make the table wide, by numbers.
+/// \return the sentences in the order of their numbers
 std::vector<std::string> take_notes(Rows &columns) {
   constexpr std::size_t longest = 32;
   std::vector<std::string> notes;
@@ -104,7 +104,8 @@ void blank_repeated(Rows &rows) {
       rows[i][k].clear();
 }
 
-/// Whether the first of several columns says whose the others are: it has no heading, or repeats.
+/// Whether the first of several columns names what the rows are about: it has no heading, or many
+/// of its cells were blanked as repetitions.
 bool is_heading(const Rows &rows) {
   const auto blank =
       std::count_if(rows.begin() + 1, rows.end(), [](const auto &row) { return row[0].empty(); });
@@ -112,7 +113,7 @@ bool is_heading(const Rows &rows) {
          (rows[0][0].empty() || 3 * static_cast<std::size_t>(blank) >= rows.size());
 }
 
-/// Moves the first column out of a table that is too wide, to the lines above.
+/// Moves the first column of a table that is too wide to lines above the rows.
 void take_headings(Rows &rows, std::vector<std::string> &headings) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     std::string &first = rows[i][0];
@@ -272,7 +273,7 @@ std::string Table::text() const {
       out += wrapped(fmt::format("[{}] {}", i + 1, notes[i]), of_text);
     return out;
   }
-  // Cells one below the other, and as many rows side by side as fit.
+  // Each row becomes a column, with as many of them side by side as fit.
   const std::vector<std::string> none(columns.size());
   for (std::size_t next = 1; next < whole.size();) {
     Rows part = {whole[0], whole[next++]};
@@ -295,7 +296,7 @@ std::string Table::html() const {
   for (std::size_t i = 1; i < rows.size(); ++i) {
     out += "<tr><th scope=\"row\">" + html_escape(rows[i][0]) + "</th>";
     for (std::size_t k = 1; k < rows[i].size(); ++k)
-      // Sentences may wrap, numbers not.
+      // Only sentences may wrap, not numbers.
       out += fmt::format("<td{}>{}</td>", rows[i][k].size() > 32 ? " class=\"text\"" : "",
                          html_escape(rows[i][k]));
     out += "</tr>\n";
@@ -317,7 +318,7 @@ std::string valid_utf8(std::string_view text) {
     bool good = length > 0 && length <= text.size();
     for (std::size_t i = 1; good && i < length; ++i)
       good = (static_cast<unsigned char>(text[i]) & 0xc0) == 0x80;
-    // Too long a form, half of a pair of UTF-16, beyond the last character.
+    // Refuses overlong forms, halves of a surrogate pair, and values above U+10FFFF.
     const auto second = static_cast<unsigned char>(good && length > 2 ? text[1] : 0);
     if (good && ((first == 0xe0 && second < 0xa0) || (first == 0xed && second >= 0xa0) ||
                  (first == 0xf0 && second < 0x90) || (first == 0xf4 && second >= 0x90)))
