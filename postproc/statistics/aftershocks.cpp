@@ -91,7 +91,7 @@ class Likelihood {
 
 // A candidate law. The amplitude is expressed by the share of aftershocks in all expected events.
 struct Law {
-  double share = 1.0, c = NAN, p = NAN;  // aftershocks over all expected events; c; p
+  double share = 1.0, c = NAN, p = NAN;  // share: of aftershocks in all expected events
   double log_likelihood = -HUGE_VAL;
 };
 
@@ -480,7 +480,7 @@ Aftershocks aftershocks_of(const EventTable &table, const SequenceRule &rule, do
     if (other.main_shocks == 0) return;
     Replica &replica = all[static_cast<std::size_t>(k)];
     replica.used = true;
-    // The likelihood ratio of a replica with too few events is NaN and does not count as as large.
+    // The likelihood ratio of a replica with too few events is NaN, which compares as smaller.
     replica.as_large = fit_quietly(other, hold_c).likelihood_ratio >= result.fit.likelihood_ratio;
     for (const RateBin &bin : result.bins)
       replica.rates.push_back(static_cast<double>(count_in(bin, other.times)) /

@@ -145,8 +145,7 @@ std::vector<Stretch> steady_stretches(const std::vector<double> &starts, double 
     for (std::size_t j = i + fine; j <= edges * fine; j += fine) {
       Stretch one{numbers[i].first, numbers[j].first, numbers[j].second - numbers[i].second, 0.0};
       if (one.n < fewest) continue;
-      // Distance of the cumulative number from a straight line between the ends, at the grid
-      // points.
+      // Distance from a straight line between the ends of the stretch, at the grid points.
       for (std::size_t k = i; k <= j; ++k)
         one.departure = std::max(
             one.departure, std::fabs(count(i, k) / count(i, j) -

@@ -138,8 +138,7 @@ double block_length(const std::vector<double> &values) {
 
 namespace {
 
-// Events on a ring of time, with cumulative sums so that the sums over any stretch cost two
-// look-ups.
+// Events on a ring of time, with cumulative sums so that those of any stretch cost two look-ups.
 class Ring {
  public:
   Ring(const std::vector<double> &times, const std::vector<double> &sizes) : times_(times) {
@@ -203,7 +202,7 @@ double block_of(const std::vector<double> &times, const Ring &ring,
 
 // Number of blocks of the requested length that make up the catalogue.
 int blocks_in(const Ring &ring, double block, std::size_t events) {
-  // In shorter blocks than a hundredth of the mean interval hardly ever two events occur together.
+  // Blocks shorter than a hundredth of the mean interval would hardly ever hold two events.
   const double shortest = 0.01 * ring.duration() / static_cast<double>(events);
   if (!(block >= shortest && block <= 0.5 * ring.duration()))
     throw std::invalid_argument(

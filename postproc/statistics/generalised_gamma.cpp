@@ -446,7 +446,8 @@ std::vector<BinnedDensity> binned_densities(const std::vector<LogBin> &bins, dou
       double weight = 0.0;
       gsl_integration_glfixed_point(std::log(bin.lo) - reference, std::log(bin.hi) - reference, k,
                                     &one.v[k], &weight, rule.get());
-      // ln C goes with theta^(gamma-1) d theta = theta^gamma dv, in units of exp(reference).
+      // In v, C theta^(gamma-1) d theta becomes C theta^gamma dv, with theta in units of
+      // exp(reference).
       one.log_weight[k] = std::log(weight / (bin.hi - bin.lo));
     }
     out.push_back(one);

@@ -15,10 +15,10 @@
 namespace LSM::postproc {
 
 struct GeneralisedGammaFit {
-  /// Parameters and their standard errors se_, NaN if the fit is degenerate. B has the unit of
+  /// Parameters, NaN like their standard errors if the fit is degenerate. B has the unit of
   /// theta^delta, C that of theta^-gamma.
   double C = NAN, gamma = NAN, delta = NAN, B = NAN;
-  /// se_delta is 0 for a held delta
+  /// Standard errors; that of delta is 0 if delta was held.
   double se_C = NAN, se_gamma = NAN, se_delta = NAN, se_B = NAN;
   bool delta_fixed = false;
   double lo = 0.0;     ///< left truncation (maximum likelihood) or lowest edge (least squares)
@@ -64,9 +64,10 @@ GeneralisedGammaFit fit_maximum_likelihood(const std::vector<double> &values, do
                                            double delta = NAN);
 
 /// Probability of a fit as poor as this one if the values are independent draws from the fitted
-/// density. Least squares: from chi2 and dof. Maximum likelihood: the fraction of synthetic
-/// samples, each fitted as the data were, whose Kolmogorov-Smirnov distance is at least that of the
-/// data, (k + 1) / (replicas + 1); its standard error is sqrt(p (1 - p) / replicas).
+/// density. Least squares: from chi2 and dof, without random numbers. Maximum likelihood: the
+/// fraction of synthetic samples, each fitted as the data were, whose Kolmogorov-Smirnov distance
+/// is at least that of the data, (k + 1) / (replicas + 1); its standard error is sqrt(p (1 - p) /
+/// replicas).
 /// \param values the values that were fitted
 /// \param replicas number of synthetic samples
 /// \return NaN for maximum likelihood without replicas

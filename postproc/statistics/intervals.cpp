@@ -54,8 +54,7 @@ RankCorrelation successive_rank_correlation(const std::vector<double> &times) {
   RankCorrelation found;
   if (times.size() < 5) return found;
   const std::size_t n = times.size() - 1;
-  // Sorting all times once is enough: the ranks without the last and without the first follow from
-  // it.
+  // All times are sorted once; the ranks without the last and without the first time follow.
   std::vector<double> one = ranks_of(times), next(one.begin() + 1, one.end());
   const auto leave_out = [](std::vector<double> &ranks, double left_out) {
     for (double &rank : ranks) rank -= rank > left_out ? 1.0 : rank == left_out ? 0.5 : 0.0;

@@ -36,6 +36,7 @@ class KsDistance {
  public:
   KsDistance(SamplePoints points, Cdf cdf) : points_(points), n_(points.n()), cdf_(cdf) {}
 
+  /// Computes the distance.
   /// \param give_up if the result exceeds this, it is only a lower bound of the distance
   double operator()(double give_up = std::numeric_limits<double>::infinity()) {
     return search(0.0, give_up);

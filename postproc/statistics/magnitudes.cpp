@@ -61,7 +61,7 @@ BValue b_value(const std::vector<double> &magnitudes, double completeness, doubl
 BValue b_positive(const std::vector<double> &magnitudes, double completeness, double width) {
   std::vector<double> up;
   for (const double step : differences(complete(magnitudes, completeness, width)))
-    // Continuous magnitudes (width 0) may be equal, and a difference of 0 is not positive.
+    // Continuous magnitudes (width 0) may be equal; a difference of 0 is not positive.
     if (step >= 0.5 * width && step > 0.0) up.push_back(step);
   return estimate(up, width, width, "positive differences of magnitudes");
 }

@@ -21,24 +21,24 @@ struct LogFit {
   std::int64_t n = 0;
   double slope = 0.0, slope_error = 0.0, intercept = 0.0;
   double scatter = 0.0;  ///< root mean square residual in decades
-  /// If y were proportional to x: y / x (10^mean of the logarithms) and its scatter in decades.
+  /// y / x if y were proportional to x (10^mean of the logarithms), and its scatter in decades.
   double ratio = 0.0, ratio_scatter = 0.0;
 };
 /// Fits a line to the logarithms of pairs (x, y), both positive.
 /// \throws std::runtime_error for fewer than three pairs, or if all x are equal
 LogFit fit_logarithms(const std::vector<std::pair<double, double>> &points);
 
-/// For each rupture, whether all ruptures that overlap with it in time have together less than a
-/// tenth of its moment. A drop of the total PE includes theirs as well.
+/// For each rupture, whether all others that overlap with it in time have less than a tenth of its
+/// moment together. (A drop of the total PE includes all of them.)
 std::vector<bool> slips_by_itself(const std::vector<Event> &events);
 
 enum class RuptureQuantity { length, moment };
 
 /// Number of ruptures per unit of model time, of fault length and of the quantity, so that faults
 /// of different lengths coincide if ruptures do not depend on the length of the fault. Moments are
-/// counted in bins of equal logarithmic width. Lengths are whole numbers of bins of the fault: a
-/// bin of the density holds as many of these numbers as its width says, only one for the shortest
-/// lengths. `density` and `error` are in these units and not normalised to one.
+/// counted in bins of equal logarithmic width. Lengths are whole numbers of bins of the fault, of
+/// which a bin of the density covers as many as its width allows, one for the shortest lengths.
+/// `density` and `error` are in these units and not normalised to one.
 /// \return empty without ruptures, or if no time passes between the first start and the last end
 /// \throws std::runtime_error if slip_bin in the header is not positive
 std::vector<LogBin> rupture_densities(const EventTable &table, RuptureQuantity quantity);

@@ -35,7 +35,7 @@ struct SizeFit {
   std::vector<Comparison> comparisons;
 };
 
-/// The three decades above a smallest size; the paper saw its power law over as many.
+/// Three decades from a smallest size on, the extent of the power law in the paper.
 inline Range paper_range(double smallest) { return {smallest, 1000.0 * smallest}; }
 
 /// Fits the exponent on a range without the sizes below `least`, where events are missing: their

@@ -18,7 +18,7 @@ namespace LSM::postproc {
 struct SlipImage {
   static constexpr int steps = 127;
   /// Slip velocity over the driving velocity that byte k stands for; byte -k stands for backward
-  /// slip. From a hundredth on, velocities rise in equal ratios of 16 %; velocity[0] is 0 for
+  /// slip. Velocities increase in equal ratios of 16 % from a hundredth on; byte 0 stands for
   /// anything slower.
   std::array<double, steps + 1> velocity{};
 

@@ -41,7 +41,7 @@ HistoryWindow history_window(const SlipHistoryInfo &info, const std::vector<Slip
     if (grid.time(record.step_begin) > to) break;
     window.records.push_back(record);
     last = (record.step_end - grid.step0) / grid.interval;
-    // longer records: nothing slips
+    // Nothing slips in records of several intervals.
     if (record.step_end - record.step_begin != grid.interval) continue;
     sets.begin_step(last);
     for (int b = 0; b < grid.bins; ++b) {
@@ -108,7 +108,7 @@ std::vector<ClosedLine> closed_lines(const FaultGrid &grid, const Outline &outli
   for (std::int64_t k = 0; k < outline.length; ++k) {
     const std::int64_t bin = (begin + k) % grid.bins;
     const auto found = outline.bins.find(bin);
-    // bins in a gap take the times of the preceding bin
+    // A bin in a gap takes the times of the preceding bin.
     if (found != outline.bins.end()) span = found->second;
     const auto place = static_cast<double>((bin - shift + grid.bins) % grid.bins);
     if (parts.empty() || place < parts.back().back().place) parts.emplace_back();
