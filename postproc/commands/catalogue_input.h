@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file catalogue_input.h
-/// Catalogues as the commands read them, and the options that choose events.
+/// How commands read catalogues, and the options that select events.
 #ifndef LSM_POSTPROC_CATALOGUE_INPUT_H
 #define LSM_POSTPROC_CATALOGUE_INPUT_H
 
@@ -19,39 +19,43 @@ namespace LSM::postproc {
 /// Which catalogues to read, and which of their events.
 struct CatalogueOptions {
   std::vector<std::string> paths;
-  std::vector<std::string> labels;  ///< one per path, or none: labels are made from the headers
-  bool lenient = false;             ///< repair what can be repaired, with a message
-  double min_size = 0.0;            ///< smaller events are omitted (energy)
-  double from_time = -std::numeric_limits<double>::infinity();  ///< first t_start kept
-  double to_time = std::numeric_limits<double>::infinity();     ///< first t_start omitted
-  double from_day = -std::numeric_limits<double>::infinity();   ///< the same of earthquakes
-  double to_day = std::numeric_limits<double>::infinity();
-  /// Number of events, the largest (and equal ones), of which a table has all columns.
+  std::vector<std::string> labels;  ///< one per path; empty: made from the headers
+  bool lenient = false;             ///< skip and report lines that cannot be read
+  double min_size = 0.0;            ///< smaller events are left out (energy)
+  double from_time = -std::numeric_limits<double>::infinity();  ///< first t_start used
+  double to_time = std::numeric_limits<double>::infinity();     ///< first t_start left out
+  double from_day = -std::numeric_limits<double>::infinity();   ///< first day of earthquakes used
+  double to_day = std::numeric_limits<double>::infinity();  ///< first day of earthquakes left out
+  /// Number of the largest events whose columns are all kept; ties may make them a few more.
   std::size_t details = 0;
   static constexpr std::size_t all_events = std::numeric_limits<std::size_t>::max() / 2;
-  std::string format = "detect";     ///< or models, csv, quakeml, zmap, scedc
-  std::vector<std::string> regions;  ///< of earthquakes, "W/E/S/N"; a table for each, or one
-  /// Times, from_time and to_time are displacements of the plates: model time times driving
-  /// velocity.
+  std::string format = "detect";     ///< detect, models, csv, quakeml, zmap or scedc
+  std::vector<std::string> regions;  ///< "W/E/S/N", for earthquakes; a table for each
+  /// Whether times, from_time and to_time included, are displacements of the driving plate: model
+  /// time times driving velocity.
   bool displacement = false;
 
-  /// Adds the catalogue arguments and the options that choose events to a command.
+  /// Adds the arguments for catalogues and the options that select events to a command.
   void add_to(CLI::App *command);
-  /// Adds --displacement to a command that says nothing about the unit of its times.
+  /// Adds --displacement, for commands whose output does not state a unit of time.
   void add_displacement(CLI::App *command);
 };
 
-/// Adds --threshold. \param what beside "smallest size of"
+/// Adds --threshold.
+/// \param what completes "Smallest size of" in the help
 void add_threshold(OptionGroup group, Threshold &threshold, const std::string &what);
-/// The same, given once or several times.
+/// Adds --threshold, which may be given several times.
+/// \param what completes "Smallest size of" in the help
 void add_thresholds(OptionGroup group, std::vector<double> &thresholds, const std::string &what);
 
-/// Changes a parameter of a header, or adds it at the end.
+/// Changes the value of a parameter, or adds the parameter at the end.
 void set_parameter(text_io::Parameters &parameters, const std::string &key,
                    const std::string &value);
 
-/// Gives each event of a catalogue that the options choose to use, which need not keep it; returns
-/// the table without events. \param begin called with what is known before the first event
+/// Reads a catalogue of any size event by event, without keeping the events.
+/// \param use called with each event that the options select
+/// \param begin called before the first event, with the table as known by then
+/// \return the table, without events
 /// \throws FileError "file:line: what, expected ..."
 using UseEvent = std::function<void(const Event &)>;
 using UseTable = std::function<void(const EventTable &)>;
@@ -59,31 +63,38 @@ EventTable read_events(
     const std::string &path, const CatalogueOptions &options, const UseEvent &use,
     const UseTable &begin = [](const EventTable &) {});
 
-/// Reads one catalogue; of earthquakes those in the first region. Events are in the order of the
-/// file. \throws FileError "file:line: what, expected ..."
+/// Reads one catalogue; of earthquakes only those in the first region. Events are in the order of
+/// the file.
+/// \throws FileError "file:line: what, expected ..."
 EventTable read_all(const std::string &path, const CatalogueOptions &options);
-/// The same in order of the starts of events.
+/// As read_all(), with the events in order of their starts.
 EventTable load_catalogue(const std::string &path, const CatalogueOptions &options);
 
-/// \throws std::invalid_argument for impossible times, sizes or numbers of labels.
+/// Checks the options before a catalogue is read.
+/// \throws std::invalid_argument for impossible times, regions or numbers of labels
 void check(const CatalogueOptions &options);
 
-/// \throws std::invalid_argument if an option that chooses earthquakes is given without a catalogue
-/// of them, or one that chooses events of models with nothing else
+/// Checks that the options apply to the kinds of the catalogues that were read.
+/// \param quakes number of catalogues of earthquakes, counted once per region
+/// \param all number of all catalogues, counted likewise
+/// \throws std::invalid_argument if an option for earthquakes is given without a catalogue of them,
+/// one for models with catalogues of earthquakes only, or a wrong number of labels
 void check_kinds(const CatalogueOptions &options, std::size_t quakes, std::size_t all);
 
-/// Calls use with each catalogue, one of earthquakes once for each region, which is the only one of
-/// the options that it gets; use returns whether it is one of earthquakes.
-/// \throws std::invalid_argument for impossible options, and at the end if one of them has chosen
-/// nothing, as no catalogue is of its kind
+/// Calls `use` for each catalogue, and for one of earthquakes once per region.
+/// \param use gets the path and the options with that single region, and returns whether the
+/// catalogue is one of earthquakes
+/// \throws std::invalid_argument for impossible options, and at the end, see check_kinds(), for
+/// options that no catalogue is of the kind for
 using UseCatalogue = std::function<bool(const std::string &path, const CatalogueOptions &options)>;
 void for_each_catalogue(const CatalogueOptions &options, const UseCatalogue &use);
 
-/// Reports on standard error what was repaired.
+/// Reports on standard error what was left out or repaired.
 void state_repairs(const EventTable &table);
 
-/// Reads all options.paths, labels them, and states repairs on standard error.
-/// \throws FileError; std::invalid_argument for impossible options.
+/// Reads and labels all catalogues in options.paths, and reports repairs on standard error.
+/// \throws FileError
+/// \throws std::invalid_argument for impossible options
 std::vector<EventTable> load_catalogues(const CatalogueOptions &options);
 
 }  // namespace LSM::postproc

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file command.h
-/// The commands of postproc. A new one is a file that defines make_NAME() and a line of
+/// The commands of postproc. To add one, define make_NAME() in a file of its own and add a line to
 /// command_list.def.
 #ifndef LSM_POSTPROC_COMMAND_H
 #define LSM_POSTPROC_COMMAND_H
@@ -15,23 +15,26 @@
 
 namespace LSM::postproc {
 
+/// A command of the program.
 class Command {
  public:
   virtual ~Command() = default;
+  /// Returns the text for --help.
   virtual const char *help() const = 0;
-  /// Options of all commands and its own.
+  /// Adds the options of this command and those that all commands have.
   void add_all_options(CLI::App *command);
-  /// Runs the command. \throws std::exception with one clear line
+  /// Runs the command.
+  /// \throws std::exception with one clear line
   virtual void run() = 0;
 
  protected:
-  bool overwrite = false;  ///< replace files that are none of an earlier run of this command
+  bool overwrite = false;  ///< also replace files not from an earlier run of this command
 
   virtual void add_options(CLI::App *command) = 0;
 };
 
-/// A command that turns its inputs into results, which are complete before the first is printed or
-/// written.
+/// A command that computes results from its inputs. All results are complete, and all outputs
+/// checked, before the first is printed or written.
 class Analysis : public Command {
  public:
   void run() final;
@@ -40,20 +43,22 @@ class Analysis : public Command {
   JsonOutput json;
   PictureOptions picture;
 
-  /// Adds --output and --no-picture.
+  /// Adds --output, with a default, and --no-picture.
   void add_picture(CLI::App *command, const std::string &base);
-  /// Adds --output of a command that draws nothing.
+  /// Adds --output, with a default, to a command that draws nothing.
   void add_table(OptionGroup group, const std::string &base);
 
+  /// Files that the command reads.
   virtual std::vector<std::string> inputs() const = 0;
-  /// Endings of the files that find() may lead to, beside those of the picture BASE.
+  /// Endings of the files that the results may have, besides those of the figure BASE.
   virtual std::vector<std::string> endings() const { return {}; }
-  /// Files of other options that find() writes itself, see WrittenFile.
+  /// Outputs of other options, which find() writes itself, see WrittenFile.
   virtual std::vector<Output> outputs() const { return {}; }
+  /// Reads the inputs and computes the results.
   virtual Results find() = 0;
 
  private:
-  bool has_base_ = false;  ///< if not, results go into no file but that of --json
+  bool has_base_ = false;  ///< false: results go to no file but that of --json
 };
 
 /// A command that reads catalogues.
@@ -66,22 +71,23 @@ class CatalogueAnalysis : public Analysis {
 /// A statistic of catalogues.
 class Statistic : public CatalogueAnalysis {
  public:
-  /// Its results from catalogues, also for the report. \throws std::exception
+  /// Computes the results from catalogues. The report calls this, too.
+  /// \throws std::exception
   virtual Results of(const std::vector<EventTable> &tables) = 0;
-  /// Heading of its section in the report of each model; nullptr: none. Options have their values
-  /// without a command line.
+  /// Heading of the section that the report has for each model, where options have their default
+  /// values; nullptr: no section.
   virtual const char *heading() const { return nullptr; }
 
  protected:
-  /// Adds catalogues, --json, --output with a default and --no-picture.
+  /// Adds catalogues, --json, --output (with a default) and --no-picture.
   void add_usual(CLI::App *command, const std::string &base);
   Results find() override { return of(load_catalogues(catalogues)); }
 };
 
-/// Endings of the files of further pictures.
+/// Endings of the files of further figures: each name with .csv, .gp, .png and .svg.
 std::vector<std::string> picture_files(const std::vector<std::string> &names);
 
-/// All commands by their names, in the order of --help.
+/// Creates all commands, with their names, in the order of --help.
 std::vector<std::pair<std::string, std::shared_ptr<Command>>> all_commands();
 
 }  // namespace LSM::postproc

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file earthquakes.h
-/// Catalogues of earthquakes as agencies give them away: ComCat's CSV, QuakeML, ZMAP, SCEDC.
+/// Earthquake catalogues in the formats that agencies publish: ComCat's CSV, QuakeML, ZMAP, SCEDC.
 #ifndef LSM_POSTPROC_EARTHQUAKES_H
 #define LSM_POSTPROC_EARTHQUAKES_H
 
@@ -16,52 +16,57 @@ namespace LSM::postproc {
 /// Value of CatalogueInfo::model for earthquakes.
 constexpr std::string_view seismicity = "seismicity";
 
+/// One earthquake.
 struct Earthquake {
   double time = 0.0;                       ///< days since 1970-01-01T00:00 UTC
   double latitude = 0.0, longitude = 0.0;  ///< degrees
-  double magnitude = 0.0;                  ///< as the file has it, whatever its type
+  double magnitude = 0.0;                  ///< as in the file, of any type
 };
 
 /// Content of a file of earthquakes.
 struct EarthquakeList {
   std::vector<Earthquake> events;              ///< in order of time
-  std::map<std::string, std::int64_t> others;  ///< by type: blasts, sonic booms, ..., left out
+  std::map<std::string, std::int64_t> others;  ///< left out, by type: blasts, sonic booms, ...
   std::int64_t without_magnitude = 0;          ///< earthquakes left out
-  std::int64_t bad_lines = 0;                  ///< passed over (lenient)
-  std::string first_problem;
+  std::int64_t bad_lines = 0;                  ///< skipped (lenient)
+  std::string first_problem;                   ///< message for the first of them
 };
 
-/// West, east, south and north border in degrees; west > east runs across the date line.
+/// Western, eastern, southern and northern border in degrees. A region with west > east extends
+/// across the date line.
 struct Region {
   double west, east, south, north;
   bool contains(const Earthquake &event) const;
 };
 
-/// Size of an earthquake, so that M = (2/3) log10(size) as for magnitudes of the models: an energy
-/// in units of that of M = 0 (Gutenberg & Richter 1956).
+/// Size of an earthquake, defined by M = (2/3) log10(size) as for magnitudes of the models: an
+/// energy in units of that of M = 0 (Gutenberg & Richter 1956).
 double size_of_magnitude(double magnitude);
 
-/// Days since 1970-01-01T00:00 UTC of a date and time by ISO 8601 (also with '/' and a blank for
-/// '-' and 'T'): 1994-01-17, 1994-01-17T12:30:55.39Z, 1994-01-17 04:30:55-08:00. Without a zone it
-/// is UTC.
+/// Days since 1970-01-01T00:00 UTC of a date and time in ISO 8601 (or with '/' and a blank instead
+/// of '-' and 'T'), such as 1994-01-17, 1994-01-17T12:30:55.39Z, 1994-01-17 04:30:55-08:00. A time
+/// without a zone is UTC.
+/// \return nothing if the text is not such a date
 std::optional<double> parse_date(std::string_view text);
 
-/// ISO 8601 of days since 1970 to the minute: 1994-01-17T12:30Z
+/// ISO 8601 date and time, rounded to minutes, of days since 1970: 1994-01-17T12:30Z
 std::string date_text(double days);
 
-/// "W/E/S/N" in degrees. \throws std::invalid_argument
+/// Parses "W/E/S/N" in degrees.
+/// \throws std::invalid_argument if it is not a possible region
 Region parse_region(std::string_view text);
 
-/// Format of a file by its first bytes, a byte order mark aside: '<' is quakeml, '# lsm-catalogue'
-/// a catalogue of the models, a line of column names with time and mag (or magnitude) csv, a first
-/// line of data that begins with YYYY/MM/DD scedc, at least nine numbers zmap; else models, whose
-/// reader says what it misses.
+/// Detects the format of a file by its first bytes, after a byte order mark: '<' is quakeml,
+/// '# lsm-catalogue' models, a line of column names with time and mag (or magnitude) csv, a first
+/// line of data that begins with YYYY/MM/DD scedc, and nine or more fields, the first five of them
+/// numbers, zmap. Everything else is taken for models, whose reader reports what is missing.
 std::string detect_format(std::string_view content);
 
-/// Earthquakes in the text of a file. An event is one if its type is missing, 'earthquake',
+/// Reads the earthquakes in the text of a file: events whose type is missing, 'earthquake',
 /// 'induced or triggered event', or SCEDC's eq, le, re, ts.
+/// \param format csv, quakeml, zmap or scedc
 /// \param path for messages, "path:line: what, expected ..."
-/// \param lenient pass over lines (QuakeML: events) that cannot be read, and count them
+/// \param lenient skip and count lines (QuakeML: events) that cannot be read
 /// \throws FileError
 EarthquakeList read_earthquakes(std::string_view content, const std::string &format,
                                 const std::string &path, bool lenient);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file input_file.h
-/// Input of all commands, compressed by gzip or xz or not, as its first bytes tell, not
-/// its name; and slip histories as the commands use them.
+/// Input files of all commands, which may be compressed by gzip or xz (recognized by the first
+/// bytes, not by the name), and slip histories as the commands open them.
 #ifndef LSM_POSTPROC_INPUT_FILE_H
 #define LSM_POSTPROC_INPUT_FILE_H
 
@@ -14,16 +14,20 @@
 
 namespace LSM::postproc {
 
-/// For CatalogueReader, PeSeriesReader, SlipHistoryReader and LineReader. Checksums of compressed
-/// files are verified. \throws FileError, also while reading: a damaged or truncated file, or one
-/// compressed by another program
+/// Opens a file for CatalogueReader, PeSeriesReader, SlipHistoryReader or LineReader. Checksums of
+/// compressed files are verified.
+/// \throws FileError if the file cannot be opened or is compressed by another program; while
+/// reading, also if it is damaged or truncated
 std::unique_ptr<text_io::Bytes> open_input(const std::string &path);
 
-/// Opens a history and states a truncated last record on standard error (lenient).
-/// \throws FileError; std::runtime_error without a driving velocity
+/// Opens a slip history.
+/// \param lenient drop a truncated last record and report it on standard error
+/// \throws FileError
+/// \throws std::runtime_error if its header has no driving velocity
 SlipHistoryReader open_history(const std::string &path, bool lenient);
 
-/// Names the file in what use throws about its records.
+/// Calls `use`, and adds the path of the file to the message of a std::runtime_error about its
+/// records. A FileError has the path already.
 template <class Use>
 auto with_path(const std::string &path, Use &&use) {
   try {

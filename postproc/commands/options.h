@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file options.h
-/// Options shared by several commands.
+/// Options that several commands share.
 #ifndef LSM_POSTPROC_OPTIONS_H
 #define LSM_POSTPROC_OPTIONS_H
 
@@ -23,46 +23,57 @@
 
 namespace LSM::postproc {
 
-/// A size, or the magnitude M2.5 of an event of size 10^(1.5 x 2.5).
+/// Rule for an option that takes a size, or a magnitude such as M2.5 for size 10^(1.5 x 2.5).
 Rule size_or_magnitude();
 
 /// Adds --p-speed and --s-speed.
 void add_wave_speeds(OptionGroup group, double &p_speed, double &s_speed);
 
-/// Adds --block of a bootstrap. \param text for parse_block()
+/// Adds --block, the length of the blocks of a bootstrap.
+/// \param text gets the value, for parse_block()
 void add_block(OptionGroup group, std::string &text);
-/// Resampling::block from "auto" or a time. \throws std::invalid_argument naming --block
+/// Resampling::block from "auto" (NaN) or a time of at least 0.
+/// \throws std::invalid_argument naming --block
 double parse_block(const std::string &text);
 
-/// "LO:HI" with LO < HI, numbers or magnitudes as M2.5; an end left out is -infinity or infinity.
+/// Parses "LO:HI" with LO < HI, numbers or magnitudes such as M2.5. An end that is left out is
+/// -infinity or infinity.
 /// \throws std::invalid_argument naming the option
 Range parse_range(const std::string &option, std::string_view text);
 
-/// "SLOPE" or "SLOPE:LO:HI". \throws std::invalid_argument
+/// Parses "SLOPE" or "SLOPE:LO:HI" of --guide.
+/// \throws std::invalid_argument
 PowerLine parse_guide(std::string_view text);
 
-/// \throws std::invalid_argument unless an option was given for all of something or not at all
+/// Checks that an option was given once for each of `count` things, or not at all.
+/// \param of what the things are, for the message
+/// \throws std::invalid_argument otherwise
 void expect_each(const char *option, std::size_t given, const char *of, std::size_t count);
 
-/// Name of each input: the one given, or that of its file. \param input what one of them is
-/// \throws std::invalid_argument unless there is one for each
+/// Label of each input: the one given, or the name of its file.
+/// \param input what one of them is, for the message
+/// \throws std::invalid_argument unless there is a label for each input, or none
 std::vector<std::string> labels_of(const std::vector<std::string> &paths,
                                    const std::vector<std::string> &given, const char *input);
 
-/// What the units of the fault are in SI.
+/// Options that say what the units of the fault are in SI.
 struct UnitOptions {
+  /// Unit of length (m), speed of P-waves (m/s), density (kg/m^3) and thickness (m).
   std::optional<double> length, p_speed, density, thickness;
 
   /// Adds --unit-length, --p-speed, --density and --thickness.
   void add_to(OptionGroup group);
   bool given() const { return length || p_speed || density || thickness; }
+  /// Returns the units. The default of the thickness is the unit of length.
   /// \throws std::invalid_argument if one of the first three is missing
   ModelUnits units() const;
-  /// The same for one catalogue. \throws also std::runtime_error if its model has no medium
+  /// As units(), for one catalogue.
+  /// \throws std::invalid_argument if one of the first three is missing
+  /// \throws std::runtime_error if its model has no elastic medium
   ModelUnits units(const std::string &path, const CatalogueInfo &info) const;
 };
 
-/// How the commands make magnitudes of events.
+/// Options that define the magnitudes of events.
 struct MagnitudeOptions {
   UnitOptions units;
   std::optional<double> slope, constant;
@@ -72,22 +83,26 @@ struct MagnitudeOptions {
   void add_to(OptionGroup group);
   /// Adds --magnitude-of and the units.
   void add_quantity_to(OptionGroup group);
-  /// \throws std::invalid_argument for options that contradict each other
+  /// \throws std::invalid_argument if options contradict each other
   void check() const;
-  /// Name of the column from which the magnitude is made.
+  /// Name of the column from which magnitudes are calculated.
   std::string of() const { return of_moment() ? "slip_moment" : "size"; }
   bool of_moment() const { return made_of_ == "moment" || (made_of_.empty() && units.given()); }
   double quantity(const Event &event) const { return of_moment() ? event.slip_moment : event.size; }
-  /// Mw or Me in SI units, else M.
+  /// Type of the magnitude: Mw or Me in SI units, otherwise M.
   std::string type() const;
-  /// The formula, for people.
+  /// Formula of the magnitude, for people.
   std::string text() const;
   /// \throws std::runtime_error if a catalogue lacks the column
   void require(const std::string &path, const CatalogueInfo &info) const;
-  /// N m or J in a unit of it. \throws as scale()
+  /// Moment (N m) or energy (J) of a model unit of that column.
+  /// \throws std::invalid_argument or std::runtime_error as units() and require(), or if the header
+  /// has an impossible modulus
   double si_unit(const std::string &path, const CatalogueInfo &info) const;
-  /// That of one catalogue. \throws std::runtime_error if it lacks the column, or has no units
+  /// Magnitude scale of one catalogue.
+  /// \throws std::runtime_error if the catalogue lacks the column or its model has no SI units
   MagnitudeScale scale(const std::string &path, const CatalogueInfo &info) const;
+  /// Makes magnitudes from sizes, whatever the units.
   void take_size() { made_of_ = "size"; }
   double slope_used() const { return slope.value_or(MagnitudeScale().slope); }
 
@@ -95,35 +110,39 @@ struct MagnitudeOptions {
   std::string made_of_;
 };
 
-/// The file that a command writes in addition to its results.
+/// A file that a command writes in addition to its results.
 struct OutputOption {
   std::string path;
 
-  /// Adds --output. \param what is written
+  /// Adds --output.
+  /// \param what is written, for the help
   void add_to(OptionGroup group, const std::string &what);
   Output output() const { return {"--output", path}; }
 };
 
-/// Option --json: one JSON object with each table by its name, an array with an object for each
-/// row.
+/// Option --json: a JSON object that holds each table under its name, as an array with an object
+/// per row.
 class JsonOutput {
  public:
-  /// With "-" as the file, standard output has only JSON: the text of the command goes to standard
-  /// error.
+  /// Adds --json. With "-" as the file, JSON goes to standard output, and the text of the command
+  /// to standard error.
   void add_to(CLI::App *command);
-  /// No path, if nothing is written or it goes to standard output.
+  /// The file to be written. Its path is empty if there is none or JSON goes to standard output.
   Output output() const { return {"--json", path_ == "-" ? std::string() : path_}; }
-  /// \throws FileError if it would replace what is no JSON, unless overwrite; once there are
-  /// results, also what is no JSON with the same first name, and where it cannot be written
+  /// Checks whether the file may be written.
+  /// \param found the results; nullptr before there are any
+  /// \throws FileError if it would replace a file that is not JSON, unless overwrite; with results,
+  /// also if that JSON has another first name, or the file cannot be written
   void check(bool overwrite, const nlohmann::ordered_json *found = nullptr) const;
-  /// Writes it, if --json was given. \throws FileError
+  /// Writes the results, if --json was given.
+  /// \throws FileError
   void write(const nlohmann::ordered_json &found) const;
 
  private:
   static std::string text_of(const nlohmann::ordered_json &found);
 
   std::string path_;
-  int standard_output_ = -1;  ///< where it led before, with "-"
+  int standard_output_ = -1;  ///< with "-": descriptor of the original standard output
 };
 
 }  // namespace LSM::postproc

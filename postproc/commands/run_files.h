@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file run_files.h
-/// The other files of the run that wrote a catalogue.
+/// Other files of the run that wrote a catalogue: PE series, ruptures, slip history.
 #ifndef LSM_POSTPROC_RUN_FILES_H
 #define LSM_POSTPROC_RUN_FILES_H
 
@@ -14,20 +14,23 @@
 
 namespace LSM::postproc {
 
-/// The header of a file.
+/// The parameters in the header of a file.
 struct HeaderOf {
   std::string path;
   text_io::Parameters parameters;
 };
-/// \throws FileError if a setting of the run that both headers state is not the same: files of one
-/// prefix may be of different runs. Settings of what is recorded may differ.
+/// Checks that two files are from the same run, as files with the same prefix may not be. Settings
+/// of what is recorded may differ.
+/// \throws FileError if another setting that is in both headers differs
 void check_same_run(const HeaderOf &one, const HeaderOf &other);
-/// The same where `other` may be of the run of any of the catalogues.
+/// Checks that a file is from the same run as any of the catalogues.
+/// \throws FileError otherwise
 void check_same_run(const std::vector<EventTable> &catalogues, const HeaderOf &other);
 
 HeaderOf header_of(const EventTable &table);
 
-/// Files of one kind, one for each catalogue: those given, or those that lie beside the catalogues.
+/// Option for files of one kind, one per catalogue. By default, files beside the catalogues are
+/// used.
 class RunFiles {
  public:
   static RunFiles series() { return {"--series", "PE series of the run", ".pe.bin"}; }
@@ -37,8 +40,8 @@ class RunFiles {
   static RunFiles history() { return {"--history", "Slip history of the run", ".slip.bin"}; }
 
   void add_to(CLI::App *command);
-  /// A path for each catalogue, "" for none. \throws std::invalid_argument unless there is one for
-  /// each or none at all
+  /// Returns a path for each catalogue, "" if it has no such file.
+  /// \throws std::invalid_argument unless the option was given once per catalogue, or not at all
   std::vector<std::string> of(const std::vector<std::string> &catalogues) const;
   bool given() const { return !given_.empty(); }
 
