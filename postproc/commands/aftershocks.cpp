@@ -86,7 +86,7 @@ class AftershockRates : public Statistic {
       curves.push_back(
           {table.label, table.info.model,
            aftershocks_of(table, rule_for(table), hold_c_, factor_, replicas_, seed_)});
-    // A catalogue without aftershocks is a result as well, but there is nothing to draw.
+    // Having no aftershocks is a result as well, but there is nothing to draw.
     const bool none = std::all_of(curves.begin(), curves.end(), [](const AftershockCurve &curve) {
       return curve.aftershocks.bins.empty();
     });

@@ -12,7 +12,7 @@ namespace LSM::postproc {
 
 namespace {
 
-/// The place of a curve to which rows are added; a new one where the curve or the place changes.
+/// The station of a curve to which rows are added; a new one where the curve or the place changes.
 StationCurve &station_of(std::vector<NamedCurves> &curves, std::string_view name, double x) {
   auto found = std::find_if(curves.begin(), curves.end(),
                             [&name](const NamedCurves &c) { return c.name == name; });
@@ -22,7 +22,8 @@ StationCurve &station_of(std::vector<NamedCurves> &curves, std::string_view name
   return found->stations.back();
 }
 
-/// Table with the columns curve, x, t, slip, slip_rate.
+/// Reads a table with the columns curve, x, t, slip, slip_rate, and adds its curves.
+/// \throws FileError
 void read_reference(const std::string &path, std::vector<NamedCurves> &curves) {
   constexpr std::string_view columns = "curve,x,t,slip,slip_rate";
   text_io::LineReader in(path);
@@ -58,8 +59,9 @@ void read_reference(const std::string &path, std::vector<NamedCurves> &curves) {
     throw FileError(fmt::format("{}: no rows, expected those of the columns '{}'", path, columns));
 }
 
-/// Slip at the end of each record, slip rate in its middle. A parameter `scale` of the header says
-/// by what the stresses, and with them the slip, were multiplied.
+/// Reads slip and slip rate in the middle of each record. The parameter `scale` of the header is
+/// the factor by which the stresses, and with them the slip, were multiplied.
+/// \throws FileError
 NamedCurves read_history(const std::string &path, bool lenient, const std::string &label) {
   SlipHistoryReader reader(text_io::open_plain(path), lenient);
   const SlipHistoryInfo &info = reader.info();
@@ -78,7 +80,7 @@ NamedCurves read_history(const std::string &path, bool lenient, const std::strin
     for (std::size_t b = 0; b < slip.size(); ++b) {
       StationCurve &station = run.stations[b];
       const double more = static_cast<double>(record.row.slip[b]) / scale;
-      // slip of the middle, so that both are of one time
+      // Slip is interpolated to the middle, the time to which the mean slip rate belongs.
       station.t.push_back(0.5 * (begin + end));
       station.slip.push_back(slip[b] + 0.5 * more);
       station.rate.push_back(end > begin ? more / (end - begin) : 0.0);
@@ -90,7 +92,8 @@ NamedCurves read_history(const std::string &path, bool lenient, const std::strin
   return run;
 }
 
-/// How errors fall with the spacing, from one run to the next finer one against the same reference.
+/// Orders of convergence: how the misfits to a reference fall with the spacing, from each run to
+/// the next one in the list.
 std::vector<std::string> orders(const std::vector<Misfits> &all) {
   std::vector<std::string> lines;
   for (std::size_t n = 1; n < all.size(); ++n) {
@@ -108,7 +111,8 @@ std::vector<std::string> orders(const std::vector<Misfits> &all) {
 }
 
 class Benchmark : public Analysis {
-  static constexpr double arrived = 1.0;  // slip rate, units of the references
+  // The rupture has arrived above this slip rate, in the units of the references.
+  static constexpr double arrived = 1.0;
 
   std::vector<std::string> histories_, references_, labels_;
   double until_ = std::numeric_limits<double>::infinity();
@@ -145,12 +149,12 @@ class Benchmark : public Analysis {
   }
   std::vector<std::string> endings() const override { return {"-stations.csv"}; }
 
-  /// The places of a reference that are compared.
+  /// Misfits at all places of a reference that slip in it before the end of the comparison.
   std::vector<StationMisfit> misfits(const NamedCurves &run, const NamedCurves &reference) const {
     std::vector<StationMisfit> stations;
     for (const StationCurve &station : reference.stations) {
       const StationMisfit found = misfit(at_place(run, station.x), station, arrived, until_);
-      // else the reference ends before it
+      // The end slip is 0 where the rupture arrives only after the end of the reference.
       if (found.reference_end_slip > 0.0) stations.push_back(found);
     }
     if (stations.empty()) throw std::invalid_argument(reference.name + ": no place slips in it");

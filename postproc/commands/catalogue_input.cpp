@@ -24,7 +24,7 @@ namespace LSM::postproc {
 
 namespace {
 
-/// Model time in the unit of the times asked for.
+/// A unit of model time in the unit of the requested times.
 double time_unit(const CatalogueInfo &info, const std::string &path, bool displacement) {
   if (!displacement) return 1.0;
   double velocity = 0.0;
@@ -56,20 +56,21 @@ void set_parameter(text_io::Parameters &parameters, const std::string &key,
 
 namespace {
 
-constexpr std::size_t head_size = 1 << 16;  // enough to know a format by
+constexpr std::size_t head_size = 1 << 16;  // bytes that are enough to detect a format
 
-/// All bytes of a file of earthquakes. \throws FileError if it is larger than any can be, or has a
-/// line that is, unless it is QuakeML: a small compressed file may unpack to anything
+/// Reads all of a file of earthquakes. Its size is limited because a small compressed file may
+/// unpack to anything.
+/// \throws FileError if the file, or a line of it (except in QuakeML), is longer than any can be
 std::string all_of(text_io::Bytes &bytes, const std::string &format) {
   constexpr std::size_t longest_line = 1 << 20, largest = std::size_t{1} << 30;
   std::string out;
-  std::size_t line = 0;  // where the last one begins
+  std::size_t line = 0;  // where the last line begins
   for (std::size_t got = 1; got > 0;) {
     const std::size_t known = out.size();
     out.resize(known + head_size);
     got = bytes.read(out.data() + known, head_size);
     out.resize(known + got);
-    // Only the new part has to be searched.
+    // Searches only the new part, as searching everything each time would take quadratic time.
     const std::size_t end = std::string_view(out).substr(known).find_last_of("\r\n");
     if (end != std::string_view::npos) line = known + end + 1;
     if (format != "quakeml" && out.size() - line > longest_line)
@@ -82,8 +83,8 @@ std::string all_of(text_io::Bytes &bytes, const std::string &format) {
   return out;
 }
 
-/// Gives an event to use if it lies within [from, to) and is large enough.
-/// \throws FileError if one of its numbers has no square
+/// Passes an event to `use` if it starts within [from, to) and is large enough.
+/// \throws FileError if a number is so large that its square could overflow
 void choose(const Event &event, double from, double to, const CatalogueOptions &options,
             EventTable &table, const UseEvent &use) {
   constexpr double largest = 1e100;
@@ -153,7 +154,7 @@ EventTable read_model_events(std::unique_ptr<text_io::Bytes> bytes, const Catalo
   table.path = path;
   table.info = reader.info();
   table.label = label_of(table);
-  // Its value is a number, or the header would have been refused.
+  // The reader has refused headers whose min_size is not a number.
   if (const std::string *text = table.info.find("min_size"))
     text_io::parse(*text, table.complete_from);
   table.complete_from = std::max(table.complete_from, options.min_size);
@@ -177,7 +178,7 @@ EventTable read_model_events(std::unique_ptr<text_io::Bytes> bytes, const Catalo
 
 EventTable read_events(const std::string &path, const CatalogueOptions &options,
                        const UseEvent &use, const UseTable &begin) {
-  // Opened once, as a pipe can be read only once.
+  // The format is detected on the open file, as a pipe can be read only once.
   std::unique_ptr<text_io::Bytes> bytes = open_input(path);
   const std::string format =
       options.format == "detect" ? detect_format(bytes->peek(head_size)) : options.format;
@@ -187,7 +188,7 @@ EventTable read_events(const std::string &path, const CatalogueOptions &options,
 
 namespace {
 
-/// Leaves the largest `most` events.
+/// Keeps the `most` largest events, and those as large as the smallest of them.
 void keep_largest(std::vector<Event> &events, std::size_t most) {
   if (events.size() <= most) return;
   const double least = nth_largest(column(events, &Event::size), most);
@@ -201,8 +202,8 @@ void keep_largest(std::vector<Event> &events, std::size_t most) {
 EventTable read_all(const std::string &path, const CatalogueOptions &options) {
   std::vector<EventSummary> events;
   std::vector<Event> details;
-  // Reserves memory by the length of the shortest possible line, as growing would touch each page
-  // twice.
+  // Reserves memory for as many events as the file can have, with lines of the shortest possible
+  // length: a growing vector would touch each page twice.
   std::error_code ignored;
   constexpr std::uintmax_t shortest_line = 40;
   const std::uintmax_t bytes = std::filesystem::file_size(path, ignored);
@@ -225,8 +226,8 @@ EventTable read_all(const std::string &path, const CatalogueOptions &options) {
 
 EventTable load_catalogue(const std::string &path, const CatalogueOptions &options) {
   EventTable table = read_all(path, options);
-  // Times between events are from start to start, but those that overlap are in order of their
-  // ends.
+  // Inter-event times are from start to start, but catalogues with overlapping events are in order
+  // of their ends.
   const auto earlier = [](const EventSummary &a, const EventSummary &b) {
     return a.t_start < b.t_start;
   };
@@ -258,7 +259,7 @@ void for_each_catalogue(const CatalogueOptions &options, const UseCatalogue &use
 
 namespace {
 
-/// Derives the name of a run from that of its catalogue.
+/// Derives the name of a run from the name of its catalogue.
 std::string run_of(const std::string &path) {
   std::string name = std::filesystem::path(path).filename().string();
   for (const std::string_view ending : {".gz", ".xz", ".csv", ".catalogue"})

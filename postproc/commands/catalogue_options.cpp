@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The options that choose catalogues and their events, and what contradicts what.
+// The options that select catalogues and their events, and which of them contradict each other.
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -12,7 +12,7 @@ namespace LSM::postproc {
 
 namespace {
 
-/// Adds --from or --to: a number is a model time, a date that of earthquakes.
+/// Adds --from or --to. A number is a model time, and a date applies to earthquakes.
 void add_time(OptionGroup group, const char *option, double &time, double &day,
               const std::string &help) {
   const auto read = [option, &time, &day](const std::vector<std::string> &texts) {

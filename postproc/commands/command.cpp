@@ -15,7 +15,8 @@ PictureOptions files_of(const Result &one, PictureOptions picture) {
   return picture;
 }
 
-/// \throws FileError if one of the files cannot be written, or was not written by this command
+/// Checks the files of all results before the first is written.
+/// \throws FileError if one cannot be written, or would replace a file of something else
 void check_files(const Results &results, const PictureOptions &picture) {
   for (const Result &one : results.all()) {
     const PictureOptions files = files_of(one, picture);
@@ -27,7 +28,6 @@ void check_files(const Results &results, const PictureOptions &picture) {
   }
 }
 
-/// Returns the results as JSON.
 nlohmann::ordered_json json_of(const Results &results) {
   nlohmann::ordered_json json;
   for (const Result &one : results.all()) {
@@ -42,7 +42,6 @@ nlohmann::ordered_json json_of(const Results &results) {
   return json;
 }
 
-/// Prints and writes the results.
 void write(const Results &results, const PictureOptions &picture) {
   for (const Result &one : results.all()) {
     const PictureOptions files = files_of(one, picture);

@@ -9,12 +9,12 @@ namespace LSM::postproc {
 
 namespace {
 
-/// Reads catalogues event by event: of all commands this one is for any number of events.
+/// Counts events while reading, so that catalogues may have any number of them.
 class Count : public CatalogueAnalysis {
   std::vector<double> sizes_ = {1e-4, 1e-3, 1e-2, 1e-1};
   std::int64_t brief_ = 0;
 
-  /// Events of one catalogue from a size on.
+  /// Counts of the events of one catalogue from a size on.
   struct From {
     double size = 0.0;
     std::int64_t events = 0, brief = 0;

@@ -24,7 +24,7 @@ using Fields = std::vector<std::string>;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// Takes `digits` digits from the front of text.
+/// Takes a number of `digits` digits from the front of the text.
 bool take(std::string_view &text, std::size_t digits, int &value) {
   if (text.size() < digits) return false;
   value = 0;
@@ -42,8 +42,8 @@ bool take(std::string_view &text, std::string_view one_of) {
   return true;
 }
 
-/// Days since 1970, or nothing; seconds may be 60 and more, as in leap seconds and in
-/// what SCEDC rounds.
+/// Days since 1970, or nothing for an impossible date. Seconds may be 60 or more, as in leap
+/// seconds and in the rounded times of SCEDC.
 std::optional<double> days(int year, int month, int day, int hour, int minute, double second) {
   const date::year_month_day when{date::year(year), date::month(static_cast<unsigned>(month)),
                                   date::day(static_cast<unsigned>(day))};
@@ -52,7 +52,7 @@ std::optional<double> days(int year, int month, int day, int hour, int minute, d
   return whole + (hour * 3600.0 + minute * 60.0 + second) / 86400.0;
 }
 
-/// "hh:mm[:ss[.fff]]" from the front of text, in seconds.
+/// Takes "hh:mm[:ss[.fff]]" from the front of the text.
 bool take_clock(std::string_view &text, int &hour, int &minute, double &second) {
   if (!take(text, 2, hour) || !take(text, ":") || !take(text, 2, minute)) return false;
   if (!take(text, ":")) return true;
@@ -62,7 +62,7 @@ bool take_clock(std::string_view &text, int &hour, int &minute, double &second) 
   return good;
 }
 
-/// Zone at the end of a time, in minutes ahead of UTC.
+/// Takes a time zone from the front of the text, in minutes ahead of UTC.
 bool take_zone(std::string_view &text, int &ahead) {
   if (text.empty() || take(text, "Zz")) return true;
   const bool behind = text.front() == '-';
@@ -87,13 +87,13 @@ bool is_earthquake(const std::string &type) {
   return names.count(in_small_letters(type)) > 0;
 }
 
-/// One event as its line says it; empty fields are those the file does not have.
+/// The fields of one event as in the file; those that the file does not have are empty.
 struct Row {
   std::string_view time, latitude, longitude, magnitude, type;
-  std::optional<double> at;  ///< where the time is several numbers
+  std::optional<double> at;  ///< the time, in formats that have it as several numbers
 };
 
-/// Fills a list from the lines or elements of a file.
+/// Collects the earthquakes from the lines or elements of a file.
 class Collector {
  public:
   Collector(std::string path, bool lenient) : path_(std::move(path)), lenient_(lenient) {}
@@ -127,7 +127,8 @@ class Collector {
   [[noreturn]] void fail(std::int64_t line, const std::string &what) const {
     throw FileError(text_io::where(path_, line) + what);
   }
-  /// A line that cannot be read.
+  /// Handles a line that cannot be read: counts it if lenient.
+  /// \throws FileError otherwise
   void bad(std::int64_t line, const std::string &what) {
     if (!lenient_) fail(line, what);
     if (list_.bad_lines++ == 0) list_.first_problem = text_io::where(path_, line) + what;
@@ -145,7 +146,8 @@ class Collector {
   EarthquakeList list_;
 };
 
-/// The lines of a file without their ends ('\n', '\r\n' or '\r'), but for comments and empty ones.
+/// The lines of a file without their ends ('\n', '\r\n' or '\r'). Comments and empty lines are
+/// skipped.
 struct Lines {
   std::string_view rest, line = {};
   std::int64_t number = 0;
@@ -163,7 +165,7 @@ struct Lines {
   }
 };
 
-/// Fields between commas; those in double quotes may contain commas (RFC 4180).
+/// Splits a line at commas, except those in double quotes (RFC 4180).
 Fields split_csv(std::string_view line) {
   Fields fields(1);
   bool quoted = false;
@@ -193,7 +195,8 @@ Fields split_blanks(std::string_view line) {
   }
 }
 
-/// Place of a column, by the first of its names in small letters; none: -1.
+/// Index of a column, or -1. `wanted` are its possible names in lower case; the first one that is
+/// there counts.
 int column(const Fields &names, std::initializer_list<std::string_view> wanted) {
   for (const std::string_view one : wanted)
     for (std::size_t i = 0; i < names.size(); ++i)
@@ -201,8 +204,8 @@ int column(const Fields &names, std::initializer_list<std::string_view> wanted) 
   return -1;
 }
 
-/// Places of columns. Time is one column (ComCat, NCEDC); a date and the time of the day; or year,
-/// month, day and hhmmss.ss (both NEIC).
+/// Indices of the columns, -1 for missing ones. The time is one column (ComCat, NCEDC); a date and
+/// the time of day; or year, month, day and hhmmss.ss (both NEIC).
 struct CsvColumns {
   int latitude, longitude, magnitude, type, time, date, year, month, day, clock;
 
@@ -227,12 +230,14 @@ CsvColumns csv_columns(const Fields &names) {
           place({"time(hhmmss.mm)utc", "time(hhmmss.ss)utc"})};
 }
 
-/// "MM/DD/YYYY" as YYYY-MM-DD, and hhmmss.ss as hh:mm:ss.ss; other texts as they are.
+/// Converts "MM/DD/YYYY" to YYYY-MM-DD, and returns other texts unchanged.
 std::string iso_date(std::string_view text) {
   if (text.size() != 10 || text[2] != '/' || text[5] != '/') return std::string(text);
   return std::string(text.substr(6)) + '-' + std::string(text.substr(0, 2)) + '-' +
          std::string(text.substr(3, 2));
 }
+/// Converts hhmmss.ss, in which leading zeros may be missing, to hh:mm:ss.ss, and returns other
+/// texts unchanged.
 std::string iso_clock(std::string_view text) {
   const std::size_t whole = std::min(text.find('.'), text.size());
   if (whole > 6 ||
@@ -281,7 +286,8 @@ void read_csv(std::string_view content, Collector &out) {
   }
 }
 
-/// Date, clock, type, type of place, magnitude, its type, latitude, longitude, ...
+/// Columns: date, time of day, type of event, geographic type, magnitude, its type, latitude,
+/// longitude, ...
 void read_scedc(std::string_view content, Collector &out) {
   for (Lines lines{content}; lines.next();) {
     const Fields f = split_blanks(lines.line);
@@ -294,8 +300,8 @@ void read_scedc(std::string_view content, Collector &out) {
   }
 }
 
-/// longitude, latitude, year, month, day, magnitude, depth, hour, minute[, second]; the year may
-/// have a fraction, which repeats month and day.
+/// Columns: longitude, latitude, year, month, day, magnitude, depth, hour, minute[, second]. The
+/// year may have a fraction, which only repeats month and day.
 void read_zmap(std::string_view content, Collector &out) {
   for (Lines lines{content}; lines.next();) {
     const Fields f = split_blanks(lines.line);
@@ -319,7 +325,7 @@ void read_zmap(std::string_view content, Collector &out) {
   }
 }
 
-/// Child `name` of event whose publicID the event prefers, or the first one.
+/// The child `name` of an event whose publicID is given in the element `by`, or the first one.
 pugi::xml_node preferred(const pugi::xml_node &event, const char *name, const char *by) {
   const std::string_view id = text_io::trim(event.child_value(by));
   for (const pugi::xml_node &one : event.children(name))
@@ -327,8 +333,8 @@ pugi::xml_node preferred(const pugi::xml_node &event, const char *name, const ch
   return event.child(name);
 }
 
-/// Removes prefixes from the names of elements: the writer may choose any for the namespace of
-/// QuakeML, and no other elements have its names.
+/// Removes namespace prefixes from the names of elements. A file may use any prefix for the
+/// namespace of QuakeML, and elements of other namespaces do not have its names.
 struct Unprefixed : pugi::xml_tree_walker {
   bool for_each(pugi::xml_node &node) override {
     const std::string_view name = node.name();

@@ -16,11 +16,12 @@ namespace LSM::postproc {
 
 namespace {
 
-// Limits of the page, so that it opens at once: 2^24 samples take some 11 MB.
+// The page is limited so that browsers open it at once: 2^24 samples take some 11 MB.
 constexpr std::int64_t most_samples = std::int64_t{1} << 24;
 constexpr std::size_t most_events = 100'000;
 
-/// \throws FileError unless series and catalogue count steps and time from the same beginning
+/// Checks that series and catalogue count steps and times from the same start.
+/// \throws FileError otherwise
 void check_same_start(const EventTable &table, const ExploreSeries &series) {
   if (table.details.empty() || series.info.explicit_times) return;
   const Event &event = table.details.front();
@@ -88,7 +89,8 @@ class Explore : public Command {
     add_wave_speeds(OptionGroup(command, "Slip"), page_.p_speed, page_.s_speed);
   }
 
-  /// The runs with their drops of PE, and with their ruptures where there is a catalogue of them.
+  /// Loads the runs with their drops of PE, and with the ruptures where a run has a catalogue of
+  /// them.
   std::vector<ExploreRun> load_events(const std::vector<std::string> &ruptures) const {
     std::vector<ExploreRun> runs;
     for (EventTable &table : load_catalogues(catalogues_)) {
@@ -112,7 +114,7 @@ class Explore : public Command {
       if (!tables[k].info.overlapping())
         throw FileError(tables[k].path + ": no catalogue of ruptures, expected one");
       check_same_run(header_of(drops), header_of(tables[k]));
-      // Short runs have none.
+      // Short runs may have no ruptures, which is an error only in a catalogue that was asked for.
       if (tables[k].events.empty() && !ruptures_.given())
         fmt::print(stderr, "postproc: {}: no ruptures, left out\n", tables[k].path);
       else

@@ -17,10 +17,11 @@ namespace LSM::postproc {
 
 namespace {
 
-/// UTC date with microseconds, or "" outside the years that the readers know.
-/// \param start seconds since 1970
+/// UTC date with microseconds, or "" outside the years that the readers of the format know.
+/// \param seconds since `start`
+/// \param start in seconds since 1970
 std::string date_text(double seconds, std::int64_t start, int last_year) {
-  // Longer than all years that can come out; keeps the integers below from overflowing.
+  // Keeps the integers below from overflowing. 1e12 s is longer than all valid years.
   if (!(std::fabs(seconds) < 1e12)) return {};
   const date::sys_time<std::chrono::microseconds> at(
       std::chrono::seconds(start) + std::chrono::microseconds(std::llround(seconds * 1e6)));
@@ -28,19 +29,19 @@ std::string date_text(double seconds, std::int64_t start, int last_year) {
   return year < 1700 || year > last_year ? std::string() : date::format("%FT%T", at);
 }
 
-/// An event as the formats take it.
+/// An event with what the formats need.
 struct Exported {
   const Event &event;
   std::size_t catalogue;
   std::string date;
   double magnitude, longitude;
-  const std::string &type;  ///< of the magnitude
+  const std::string &type;  ///< type of the magnitude
 };
 
-/// A kind of file.
+/// A format of the output.
 struct Format {
   const char *name;
-  int last_year;  ///< that its readers know
+  int last_year;  ///< last year that its readers know
   std::string head, tail;
   std::string (*event)(const Exported &event);
 };
@@ -100,7 +101,7 @@ class Export : public CatalogueAnalysis {
   std::string format_ = "seismostats";
   MagnitudeOptions magnitudes_;
   std::optional<double> degrees_;
-  std::optional<double> unit_;  // seconds in a unit of model time
+  std::optional<double> unit_;  // seconds per unit of model time
 
   const char *help() const override {
     return "Writes catalogues as a file for earthquake catalogue tools. A model has neither dates "
@@ -114,7 +115,7 @@ class Export : public CatalogueAnalysis {
     catalogues.add_to(command);
     json.add_to(command);
     OptionGroup own(command);
-    own.remove("--format");  // here that of the output
+    own.remove("--format");  // the format of the output has the name instead
     output_.add_to(own, "table");
     OptionGroup group(command, "Conventions †");
     group.add("--format", format_,
@@ -147,7 +148,8 @@ class Export : public CatalogueAnalysis {
 
   std::vector<Output> outputs() const override { return {output_.output()}; }
 
-  /// \throws std::invalid_argument unless scale and origin were chosen
+  /// Checks that everything was given that the model leaves open.
+  /// \throws std::invalid_argument otherwise
   void check_conventions() const {
     magnitudes_.check();
     if (magnitudes_.units.given()) {
@@ -168,7 +170,8 @@ class Export : public CatalogueAnalysis {
                       missing));
   }
 
-  /// Seconds since 1970 of model time 0. \throws std::invalid_argument for impossible options
+  /// Seconds since 1970 of model time 0.
+  /// \throws std::invalid_argument for impossible options
   std::int64_t checked_start() const {
     check_conventions();
     const std::string start = start_.value_or("2000-01-01");
@@ -179,9 +182,9 @@ class Export : public CatalogueAnalysis {
     return std::llround(*days * 86400.0);
   }
 
-  /// Degrees of longitude in a model length.
+  /// Degrees of longitude per unit of model length.
   double degrees(const CatalogueInfo &info) const {
-    constexpr double metres = 111194.9;  // of a degree of a sphere with the radius 6371 km
+    constexpr double metres = 111194.9;  // per degree on a sphere with a radius of 6371 km
     if (degrees_ || !info.x_centroid || !magnitudes_.units.given()) return degrees_.value_or(0.0);
     return magnitudes_.units.units().length / metres;
   }

@@ -56,7 +56,7 @@ class Fit : public Statistic {
     return files;
   }
 
-  /// The densities of all catalogues with the laws fitted to them.
+  /// The densities of all catalogues, with the laws fitted to them.
   Figure densities(const std::vector<EventTable> &tables, const std::vector<SizeFit> &fits) const {
     DensitySettings settings;
     double least = settings_.threshold.given_or_paper();

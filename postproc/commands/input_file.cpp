@@ -18,7 +18,7 @@ namespace {
 
 using text_io::Bytes;
 
-/// The bytes of a compressed file, decompressed.
+/// The decompressed bytes of a file.
 class Unpacked : public Bytes {
  public:
   explicit Unpacked(std::unique_ptr<Bytes> packed)
@@ -36,7 +36,7 @@ class Unpacked : public Bytes {
  protected:
   [[noreturn]] void fail(const std::string &what) const { throw FileError(path() + ": " + what); }
 
-  /// The next compressed bytes; none at the end of the file.
+  /// Reads the next compressed bytes; none at the end of the file.
   std::pair<std::uint8_t *, std::size_t> next_input() {
     const std::size_t got = packed_->read(input_.data(), input_.size());
     return {reinterpret_cast<std::uint8_t *>(input_.data()), got};
@@ -50,7 +50,7 @@ class Unpacked : public Bytes {
 class Gunzipped : public Unpacked {
  public:
   explicit Gunzipped(std::unique_ptr<Bytes> packed) : Unpacked(std::move(packed)) {
-    // 16: of gzip only, whose checksum is compared.
+    // Adding 16 makes zlib expect the gzip format only, and verify its checksum.
     if (inflateInit2(&stream_, 15 + 16) != Z_OK) fail("cannot read: out of memory");
   }
   ~Gunzipped() override { inflateEnd(&stream_); }
@@ -69,7 +69,7 @@ class Gunzipped : public Unpacked {
           break;
         }
       }
-      // Files are joined by joining their compressed forms.
+      // A gzip file may be several compressed files, one after the other.
       if (between_) inflateReset(&stream_);
       const int status = inflate(&stream_, Z_NO_FLUSH);
       between_ = status == Z_STREAM_END;

@@ -39,7 +39,7 @@ class Magnitudes : public Statistic {
 
   std::vector<std::string> endings() const override { return {".bvalues.csv"}; }
 
-  /// Magnitudes of one catalogue in order of its events.
+  /// Magnitudes of one catalogue, in the order of its events.
   std::vector<double> magnitudes_in(const EventTable &table, const MagnitudeScale &scale) const {
     std::vector<double> out;
     for (const double quantity : magnitudes_.of_moment()
@@ -49,7 +49,7 @@ class Magnitudes : public Statistic {
     return out;
   }
 
-  /// Magnitude of completeness of a curve.
+  /// Sets the magnitude of completeness of a curve and its description.
   void set_completeness(MagnitudeCurve &curve, const EventTable &table,
                         const MagnitudeScale &scale) const {
     const std::string from = !complete_.empty()        ? complete_
@@ -74,7 +74,7 @@ class Magnitudes : public Statistic {
       throw std::invalid_argument("--complete-from " + text_io::in_quotes(from) +
                                   ", expected 'header', 'curvature' or a magnitude");
     }
-    // The first whole bin.
+    // Rounds the completeness up to the centre of a bin, which b_value() requires.
     const double bin = magnitudes_.bin;
     if (bin > 0.0) curve.completeness = bin * std::ceil(curve.completeness / bin - 1e-9);
   }

@@ -11,8 +11,8 @@ namespace LSM::postproc {
 
 namespace {
 
-/// Counts times from the origin, which is a model time even if times are displacements of the
-/// plates.
+/// Shifts the times of a catalogue so that they count from the origin, which is a model time even
+/// if the times are displacements of the plates.
 void count_from(EventTable &table, double origin, bool displacement) {
   double velocity = 1.0;
   if (displacement) text_io::parse(*table.info.find("velocity"), velocity);

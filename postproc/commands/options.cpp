@@ -24,7 +24,7 @@ namespace LSM::postproc {
 
 namespace {
 
-/// A number, or the size of M and a magnitude.
+/// Parses a size, or M and a magnitude, which is converted to a size.
 bool parse_size(std::string_view text, double &size) {
   const bool magnitude = text.substr(0, 1) == "M";
   if (!text_io::parse(text.substr(magnitude ? 1 : 0), size)) return false;
@@ -205,7 +205,7 @@ double MagnitudeOptions::si_unit(const std::string &path, const CatalogueInfo &i
   require(path, info);
   const ModelUnits in_si = units.units(path, info);
   if (!of_moment()) return in_si.energy();
-  // Slip times length; of ruptures it has the modulus of the header.
+  // Column slip_moment is slip times length; for ruptures it includes the modulus of the header.
   double modulus = 1.0;
   const std::string *const text = info.find("modulus");
   if (text && (!text_io::parse(*text, modulus) || !(modulus > 0.0)))

@@ -55,7 +55,7 @@ class Periods : public Statistic {
 
   struct Sample {
     std::string label;
-    std::vector<double> times, weights;  ///< times in the unit asked for
+    std::vector<double> times, weights;  ///< times in the unit of --unit
   };
 
   Sample sample_of(const EventTable &table) const {

@@ -12,12 +12,12 @@ namespace LSM::postproc {
 
 namespace {
 
-/// The header that the run itself writes: the parameters of the series with dt among them, and the
-/// picker's settings. A value that has not changed keeps its text.
+/// The parameters that the run itself writes to its catalogue: those of the series, dt, and the
+/// settings of the picker. A value that has not changed keeps its text.
 text_io::Parameters catalogue_parameters(const PeSeriesInfo &info, const PickerSettings &picker,
                                          double warmup) {
   text_io::Parameters parameters = info.parameters;
-  // Where the runs have it: the fault before its viscosity, the block-slider before its picker.
+  // dt is where the runs write it: before `viscosity` (fault) or `picker` (block-slider).
   const auto after_dt =
       std::find_if(parameters.begin(), parameters.end(), [](const auto &parameter) {
         return parameter.first == "viscosity" || parameter.first == "picker";

@@ -26,7 +26,7 @@ class Rates : public Statistic {
     magnitudes_.add_quantity_to(group);
   }
 
-  /// Factors to the units of times and of what is released.
+  /// Factors that convert times, and the energy or moment released, to their units.
   std::pair<double, double> factors(const EventTable &table) const {
     if (!magnitudes_.units.given()) return {1.0, 1.0};
     return {magnitudes_.units.units(table.path, table.info).time(),

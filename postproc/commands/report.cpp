@@ -14,8 +14,8 @@ namespace LSM::postproc {
 
 namespace {
 
-/// Reads a PE series once; events are picked with the settings of its header. \throws FileError
-/// unless it is of the run of one of the catalogues
+/// Reads a PE series in one pass, and picks its events with the settings in its header.
+/// \throws FileError unless it is from the run of one of the catalogues
 SeriesRegime series_regime(const std::string &path, const SeriesOptions &options,
                            const std::vector<EventTable> &catalogues) {
   SeriesInput series(path, options);
@@ -86,7 +86,7 @@ class Report : public Command {
     const SeriesOptions samples{catalogues_.lenient, catalogues_.from_time, catalogues_.to_time};
     std::vector<SeriesRegime> series;
     for (const std::string &path : series_) series.push_back(series_regime(path, samples, tables));
-    // Statistics that ask for it have a section for each model.
+    // Statistics with a heading have a section for each model.
     for (auto &[name, command] : all_commands()) {
       const auto statistic = std::dynamic_pointer_cast<Statistic>(command);
       if (!statistic || !statistic->heading()) continue;

@@ -19,7 +19,7 @@ namespace {
 
 constexpr int picture_width = 720;
 
-/// Description of a kind of events, if the page has one.
+/// Description of a kind of events from report.html; empty if it has none.
 std::string kind_part(const std::string &kind, const std::string &of) {
   return kind == "ruptures" ? report_part("ruptures" + of) : std::string();
 }
@@ -76,7 +76,7 @@ std::string parameter_section(const std::vector<EventTable> &tables) {
       const std::string *text = table.info.find(key);
       double value = 0.0;
       if (text && text->size() > 8 && text_io::parse(*text, value))
-        out.add(short_number(value, 10));  // 17 digits are for programs
+        out.add(short_number(value, 10));  // numbers in headers have up to 17 digits
       else
         out.add(text ? *text : "–");
     }
@@ -85,8 +85,8 @@ std::string parameter_section(const std::vector<EventTable> &tables) {
   return out.html();
 }
 
-/// Runs draw; an impossible picture becomes a paragraph that says why. Errors about files and
-/// gnuplot go through: they are not about the data.
+/// Returns what `draw` returns or, if the data cannot be drawn, a paragraph with the reason. Errors
+/// about files and gnuplot, which do not concern the data, are not caught.
 template <class Draw>
 std::string drawn_or_why(Draw &&draw) {
   try {
@@ -98,13 +98,13 @@ std::string drawn_or_why(Draw &&draw) {
   }
 }
 
-/// Header value as text, or "".
+/// Value of a parameter in the header, "" if it is missing.
 std::string parameter(const EventTable &table, std::string_view key) {
   const std::string *text = table.info.find(key);
   return text ? *text : "";
 }
 
-/// Plus and minus as a page has them.
+/// Replaces "+-" of terminals by "±".
 std::string with_signs(std::string text) {
   constexpr std::string_view typed = " +- ";
   for (std::size_t at = 0; (at = text.find(typed, at)) != std::string::npos;)
@@ -112,9 +112,10 @@ std::string with_signs(std::string text) {
   return text;
 }
 
-/// The catalogues of block-sliders by their leaf springs: `same` have the commonest value; `fig7`,
-/// as in the paper's Fig. 7, has one number of blocks and every value, and is empty if all are the
-/// same.
+/// Groups catalogues of block-sliders by the stiffness of their leaf springs.
+/// \param same gets those with the most frequent stiffness
+/// \param fig7 gets, as in the paper's Fig. 7, those with other stiffnesses, and of `same` those
+/// with the number of blocks of the first of these; empty if all have the same stiffness
 void split_by_stiffness(const std::vector<EventTable> &tables, std::vector<EventTable> &same,
                         std::vector<EventTable> &fig7) {
   std::map<std::string, int> counts;
@@ -130,20 +131,22 @@ void split_by_stiffness(const std::vector<EventTable> &tables, std::vector<Event
     if (parameter(table, "blocks") == blocks) fig7.push_back(table);
 }
 
-/// The page of a set of catalogues, model by model.
+/// Writes the page of a set of catalogues, model by model.
 class ReportPage {
  public:
   explicit ReportPage(const ReportSettings &settings) : settings_(settings) {}
 
-  /// The section of the catalogues of one model and kind of events.
+  /// The section about the catalogues of one model and kind of events.
   std::string model(const std::vector<EventTable> &all, const std::string &heading,
                     const std::string &id);
-  /// The numbers to quote of all models so far, and whether their roll-off moves.
+  /// The numbers to quote for all models so far, and whether their roll-off depends on the length.
   std::string in_short() const;
-  /// Of all models so far.
+  /// Our rows of Table 1 for all models so far, after the printed ones.
   std::string table1_section() const { return table1(table1_rows(curves_), false).html(); }
 
  private:
+  /// A figure with its caption.
+  /// \param title plain text
   /// \param caption HTML
   std::string picture(const Figure &figure, const std::string &title, const std::string &caption) {
     return fmt::format(
@@ -163,7 +166,7 @@ class ReportPage {
   const ReportSettings &settings_;
   int pictures_ = 0;
   std::vector<IntervalCurve> curves_;
-  std::vector<SizeFit> fits_;  ///< on paper_range()
+  std::vector<SizeFit> fits_;  ///< fits on paper_range()
   std::string verdicts_;
 };
 
@@ -226,14 +229,14 @@ std::string ReportPage::sizes(const std::vector<EventTable> &all,
   struct Printed {
     double slope;
     const char *title;
-    Range range;  // The paper prints none. Ours: where its exponents are seen.
+    Range range;  // The paper prints no ranges. Ours are where its exponents are seen.
   };
   const bool fault = all.front().info.model == "lsm";
   const std::vector<Printed> printed =
       fault ? std::vector<Printed>{{-1.07, "paper: slope -1.07", paper_range(paper_threshold)}}
             : std::vector<Printed>{{-0.5, "paper: slope -0.5", {1e-2, 1.0}},
                                    {-1.0, "paper: slope -1.0", {1.0, 100.0}}};
-  const double threshold = settings_.threshold.of(all.front());  // the same for all of a kind
+  const double threshold = settings_.threshold.of(all.front());  // is the same for all of a kind
   SizeFitSettings fits;
   fits.replicas = settings_.replicas;
   fits.seed = settings_.seed;
@@ -304,7 +307,7 @@ std::string ReportPage::times(const std::vector<EventTable> &tables) {
   });
   curves_.insert(curves_.end(), curves.begin(), curves.end());
   intervals.rescale = true;
-  intervals.replicas = 0;  // the same fits in another unit
+  intervals.replicas = 0;  // p-values do not change with the unit, and are known already
   return out + drawn_or_why([&] {
            return picture(interval_figure(interval_curves(tables, intervals), true, picture_width),
                           "Inter-event times divided by their mean",
@@ -312,7 +315,7 @@ std::string ReportPage::times(const std::vector<EventTable> &tables) {
          });
 }
 
-/// What a statistic found: its tables and pictures.
+/// A section with the tables and figures of a statistic.
 std::string ReportPage::section(const ReportSection &section,
                                 const std::vector<EventTable> &tables) {
   return "<h3>" + html_escape(section.heading) + "</h3>\n" + drawn_or_why([&] {
@@ -335,7 +338,7 @@ std::string ReportPage::model(const std::vector<EventTable> &all, const std::str
     tables = all;
   else
     split_by_stiffness(all, tables, fig7);
-  // In this order, which is that of the numbers of the pictures.
+  // Called in the order of the page, as figures are numbered in the order in which they are made.
   const std::string of_sizes = sizes(all, tables, fig7);
   const std::string of_lengths = scaling(tables);
   std::string of_times = times(tables);

@@ -12,7 +12,7 @@ namespace LSM::postproc {
 
 namespace {
 
-/// Takes an ending off a path if it has it.
+/// Removes an ending from a path if the path has it.
 bool take_off(std::string &path, std::string_view ending) {
   if (path.size() <= ending.size() ||
       path.compare(path.size() - ending.size(), ending.size(), ending) != 0)
@@ -21,7 +21,7 @@ bool take_off(std::string &path, std::string_view ending) {
   return true;
 }
 
-/// A file of the run of a catalogue, or "" if there is none.
+/// Path of the file with this ending beside a catalogue, or "" if there is none.
 std::string file_beside(const std::string &catalogue, const std::string &ending) {
   std::string base = catalogue;
   for (const std::string_view packed : {".gz", ".xz"})
@@ -35,7 +35,7 @@ std::string file_beside(const std::string &catalogue, const std::string &ending)
   return {};
 }
 
-/// What the header of another run has otherwise, or "".
+/// Describes a setting of the run that differs between two headers; "" if there is none.
 std::string other_run(const HeaderOf &one, const HeaderOf &other) {
   constexpr std::string_view recorded[] = {
       "program",  "picker",      "lambda",   "min_size",        "keep_nonpositive",

@@ -10,7 +10,9 @@ namespace LSM::postproc {
 
 namespace {
 
-/// \throws FileError; std::runtime_error unless it is a catalogue of ruptures of a fault
+/// Reads a catalogue of ruptures.
+/// \throws FileError
+/// \throws std::runtime_error unless it is a catalogue of ruptures of a fault
 EventTable load_ruptures(const std::string &path, const CatalogueOptions &options) {
   EventTable table = read_all(path, options);
   const CatalogueInfo &info = table.info;

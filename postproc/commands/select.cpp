@@ -11,7 +11,7 @@ namespace LSM::postproc {
 
 namespace {
 
-/// The header of the original with what was selected from it.
+/// The header of the original, with a note of what was selected from it.
 CatalogueInfo header_of(const EventTable &table, const CatalogueOptions &options) {
   CatalogueInfo info = table.info;
   std::string what;
@@ -38,7 +38,7 @@ class Select : public CatalogueAnalysis {
 
   void add_options(CLI::App *command) override {
     catalogues.add_to(command);
-    // Events of negative size are left out only if a smallest size is given.
+    // By default events of negative size are kept as well.
     catalogues.min_size = -std::numeric_limits<double>::infinity();
     OptionGroup group(command);
     for (const char *const name : {"--label", "--region", "--format"}) group.remove(name);

@@ -15,7 +15,7 @@ namespace LSM::postproc {
 
 namespace {
 
-/// Samples as text.
+/// Writes the samples as text.
 class SeriesText {
  public:
   static constexpr const char *begin = "# PE series\n";
@@ -77,13 +77,13 @@ class Series : public Analysis {
   std::vector<std::string> inputs() const override { return {series_}; }
   std::vector<std::string> endings() const override { return {"-events.csv"}; }
 
-  /// What is drawn, from one pass over the series.
+  /// Everything that is needed from the series, collected in one pass.
   struct Samples {
     explicit Samples(std::int64_t columns) : curves(columns) {}
     SeriesRegime regime;
     Thinner curves;
     Table events{"t_start,t_end,pe_start,pe_end,size"};
-    std::shared_ptr<SeriesText> text;  ///< nullptr: none
+    std::shared_ptr<SeriesText> text;  ///< nullptr: not requested
     PickerSettings picker;
   };
 

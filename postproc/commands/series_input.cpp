@@ -76,7 +76,7 @@ PickerSettings picker_settings(const PickerOptions &options, const PeSeriesInfo 
   if (options.memory_time && !exponential)
     throw std::invalid_argument(fmt::format("{} with the reading '{}', expected 'exponential'",
                                             options.time_name(), to_string(s.reading)));
-  // Of every stride-th sample the memory is as long in steps.
+  // The series has only every stride-th step, and the memory has to be as long in steps.
   const std::string *lambda = info.find("lambda");
   if (lambda && text_io::parse(*lambda, s.lambda) && exponential && info.stride > 1)
     s.lambda = std::pow(s.lambda, static_cast<double>(info.stride));

@@ -13,9 +13,9 @@ namespace LSM::postproc {
 
 namespace {
 
-/// Welch's spectrum of a series in one pass. Segments of no given length are an
-/// eighth of the series, as a power of two, so that some 15 of them average, and at most 65536: as
-/// soon as the series is eight times as long they are known.
+/// Welch's spectrum of a series in one pass. By default, the length of a segment is an eighth of
+/// the series, rounded down to a power of two, so that some 15 segments are averaged, and at most
+/// 65536. Samples wait until the series ends or is eight times that long.
 class SpectrumOfSeries {
  public:
   SpectrumOfSeries(std::int64_t segment, double spacing)
@@ -25,6 +25,7 @@ class SpectrumOfSeries {
     waiting_.push_back(pe);
     if (segment_ > 0 || waiting_.size() == 8 * most) hand_over();
   }
+  /// Returns the spectrum, after the last sample.
   /// \throws std::runtime_error unless there is a whole segment
   const WelchSpectrum &result(const std::string &path) {
     hand_over();

@@ -44,8 +44,8 @@ constexpr Statement
                   "different simulations from a given model all display the same inter-event time "
                   "distribution (Sect. 4.3)"};
 
-/// Table 1, and the time step of the paper that follows: 1e7 steps for 3000 events gives 0.0045,
-/// 3e7 steps for 8000 give 0.0040.
+/// Parameters of the paper's Table 1, and the time step that follows from them and the numbers of
+/// events in the paper: 1e7 steps for 3000 events give 0.0045, 3e7 steps for 8000 give 0.0040.
 constexpr double printed_b = 15.21, printed_c = 0.0573, printed_mean = 0.995 * printed_b;
 constexpr double longest_dt = printed_mean * 3000.0 / 1e7,
                  shortest_dt = printed_mean * 8000.0 / 3e7;
@@ -105,7 +105,7 @@ class Statements : public CatalogueAnalysis {
     out.row(statement.name, catalogue, number, value, p, expected, verdict, note, statement.quote);
   }
 
-  /// By two standard errors.
+  /// Whether a number is above a limit; undecided unless by more than two standard errors.
   static const char *above(const Measured &number, double limit) {
     if (!(std::fabs(number.value - limit) > 2.0 * number.error)) return undecided;
     return number.value > limit ? holds : fails;
@@ -140,7 +140,8 @@ class Statements : public CatalogueAnalysis {
         {s.single, NAN}, "", "");
     row(out, velocities, table.label, "share of bins that slip backwards", {s.backwards, NAN}, "",
         "");
-    // 1 in the long run, if the history misses nothing; without that slip rates say nothing.
+    // In the long run this ratio is 1 if the history records all slip. If it does not, slip rates
+    // say nothing.
     const bool complete = std::fabs(s.recorded.value - 1.0) < 0.1;
     row(out, locked, table.label, "slip recorded over that of the plates", s.recorded, "1",
         complete ? holds : fails);
@@ -218,7 +219,7 @@ class Statements : public CatalogueAnalysis {
     for (std::size_t j = 1; j < tables.size(); ++j)
       for (std::size_t i = 0; i < j; ++i)
         if (tables[i].info.model == tables[j].info.model) pairs.push_back({i, j});
-    // Each of so many tests gets its part of 5 %.
+    // The level of 5 % is divided among the pairs that are tested (Bonferroni).
     const double least = 0.05 / static_cast<double>(pairs.size());
     for (const bool rescaled : {false, true})
       for (const Pair &pair : pairs) {

@@ -16,7 +16,7 @@ namespace LSM::postproc {
 
 namespace {
 
-/// A column and what stands there for a catalogue.
+/// The columns of one catalogue: name and text.
 using Row = std::vector<std::pair<std::string, std::string>>;
 
 void add(Row &row, std::string column, double value) {
@@ -75,7 +75,10 @@ class Summary : public CatalogueAnalysis {
 
   std::vector<Output> outputs() const override { return {{"--output", output_}}; }
 
-  /// \param mean of all times, also those of 0 \param memory of the picker
+  /// Fits the density of inter-event times with delta = 1.
+  /// \param times the positive ones
+  /// \param mean of all times, including those of 0
+  /// \param memory of the picker
   GeneralisedGammaFit fit_times(const std::vector<double> &times, double mean,
                                 double memory) const {
     if (times.empty()) return {};
@@ -106,7 +109,7 @@ class Summary : public CatalogueAnalysis {
     add(row, "spearman_p_" + name, successive.p);
   }
 
-  /// Fraction of the events of the smallest threshold that last so few steps.
+  /// Share of brief events, of at most so many steps, among those of the smallest threshold.
   double share_of_brief(const EventTable &table) const {
     const double least = *std::min_element(thresholds_.begin(), thresholds_.end());
     const std::string *const text = table.info.find("dt");
@@ -146,7 +149,7 @@ class Summary : public CatalogueAnalysis {
   Results find() override {
     const std::vector<EventTable> tables = load_catalogues(catalogues);
     if (ranges_.empty()) {
-      double smallest = 0.0;  // one range, as columns are those of all rows
+      double smallest = 0.0;  // a single range, as all rows have the same columns
       for (const EventTable &table : tables) smallest = std::max(smallest, Threshold().of(table));
       const Range range = paper_range(smallest);
       ranges_ = {fmt::format("{:g}:{:g}", range.lo, range.hi)};

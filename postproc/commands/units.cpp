@@ -55,7 +55,7 @@ class Units : public CatalogueAnalysis {
     double value;
   };
 
-  /// What a fault is in SI: numbers of its header and its largest event.
+  /// Adds numbers from the header of a fault, and its largest event, in SI units.
   static void add_fault(TableOf<InSi> &table, const EventTable &fault, const ModelUnits &units,
                         const MagnitudeOptions &magnitudes) {
     const auto header = [&](const char *name, const char *quantity, const char *unit, double si) {
