@@ -47,6 +47,7 @@ struct AgainstChance {
   double p = NAN;
 };
 
+/// Statistics of a series of inter-event times, each compared with random series.
 struct Clustering {
   /// Coefficient of variation r. Random series: independent exponential times.
   AgainstChance variation;
@@ -83,6 +84,7 @@ struct Stretch {
   double departure = NAN;
 };
 
+/// How steady the rate of events is, over all and in stretches.
 struct Steadiness {
   Stretch whole;
   /// Share of series with as large a departure if blocks of the times are permuted. Blocks keep

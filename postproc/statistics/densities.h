@@ -15,6 +15,7 @@
 
 namespace LSM::postproc {
 
+/// Range and bins of densities of sizes.
 struct DensitySettings {
   Threshold threshold;                                    ///< smallest size (model energy)
   double upto = std::numeric_limits<double>::infinity();  ///< largest size

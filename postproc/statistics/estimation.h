@@ -27,6 +27,7 @@ struct SymmetricMatrix {
 /// Covariance matrix of parameters; empty (n = 0) if the data do not determine them.
 struct Covariance : SymmetricMatrix {
   using SymmetricMatrix::SymmetricMatrix;
+  /// Standard error of parameter i.
   double error(std::size_t i) const { return std::sqrt((*this)(i, i)); }
   /// Standard error of a function of the parameters with this gradient.
   double error(const Numbers &gradient) const;
@@ -40,6 +41,7 @@ Covariance covariance_of(const SymmetricMatrix &information);
 /// Residual of datum i at the parameters p; its derivatives are written to slope.
 using Residual = std::function<double(std::size_t i, const Numbers &p, Numbers &slope)>;
 
+/// Result of least_squares(); p is empty if no start led to finite residuals.
 struct LeastSquares {
   Numbers p;
   Covariance covariance;  ///< from the curvature of chi square at p

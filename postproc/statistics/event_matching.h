@@ -18,6 +18,7 @@ struct MatchRule {
   double within = 0.0;  ///< their start times differ by less than this, > 0
 };
 
+/// Numbers of events in two catalogues and of their matches.
 struct EventMatches {
   std::int64_t first = 0, second = 0;  ///< events of at least least_size in the common time
   std::int64_t same = 0;               ///< events of the first catalogue with a match

@@ -110,6 +110,7 @@ class Threshold {
   bool given() const { return given_; }
   double given_or_paper() const { return size_; }
   double of(const EventTable &table) const { return in(table).size; }
+  /// Smallest size for this catalogue, and where it comes from.
   SmallestSize in(const EventTable &table) const;
   /// As in(), but not below the size from which the table is complete.
   SmallestSize complete_in(const EventTable &table) const;

@@ -61,7 +61,9 @@ SizePoint characteristic_size(const std::vector<double> &t_start, const std::vec
 /// \param values consecutive values of a stationary series with mean 0
 double block_length(const std::vector<double> &values);
 
+/// How the characteristic size depends on the length of the fault.
 enum class SizeDependence { power_law, none, undecided, saturates };
+/// The same in words.
 const char *to_string(SizeDependence dependence);
 
 /// Factor for the standard errors of a law with too large a chi2: sqrt(chi2 / freedom) if a chi2 as
@@ -119,6 +121,7 @@ bool fits_poorly(const ScalingFit &fit);
 struct BendRange {
   Extent m, L_c, D;
 };
+/// Finds these ranges for the bends of a fit.
 BendRange bends_as_good(const ScalingFit &fit);
 
 /// Weighted least squares of ln s* on ln L.

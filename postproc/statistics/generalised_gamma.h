@@ -14,6 +14,7 @@
 
 namespace LSM::postproc {
 
+/// Fit of a generalised gamma density.
 struct GeneralisedGammaFit {
   /// Parameters, NaN like their standard errors if the fit is degenerate. B has the unit of
   /// theta^delta, C that of theta^-gamma.

@@ -17,6 +17,7 @@
 
 namespace LSM::postproc {
 
+/// What interval_curves() computes.
 struct IntervalSettings {
   /// Smallest sizes (model energy), one curve each; empty: Threshold().
   std::vector<double> thresholds;
@@ -61,6 +62,7 @@ struct GammaOfCut {
   GeneralisedGammaFit fit;
 };
 
+/// One fit to the inter-event times of a curve.
 struct IntervalFit {
   std::string method;  ///< "least squares" or "maximum likelihood"
   double held = 0.0;   ///< value at which delta was held; NaN: free
@@ -116,6 +118,7 @@ std::vector<double> inter_event_times(const EventTable &events, double threshold
 struct RankCorrelation {
   double rho = NAN, p = rho;
 };
+/// Correlates successive inter-event times, given in order of time.
 RankCorrelation successive_rank_correlation(const std::vector<double> &times);
 
 /// Times between events that rupture the same place, for equally spaced places along the fault, the

@@ -15,6 +15,7 @@
 
 namespace LSM::postproc {
 
+/// What nature_rows() compares.
 struct NatureSettings {
   std::vector<double> thresholds;  ///< smallest sizes for the models; empty: Threshold()
   std::vector<double> reference;   ///< smallest sizes for the earthquakes; empty: all events

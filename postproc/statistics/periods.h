@@ -50,6 +50,8 @@ struct PeriodScan {
   /// weights).
   double by_chance = NAN;
 };
+/// Scans the periods from shortest to longest.
+/// \throws std::invalid_argument unless shortest is positive and there are at least 10 events
 PeriodScan scan_periods(const std::vector<double> &times, const std::vector<double> &weights,
                         double shortest, double longest);
 

@@ -22,6 +22,7 @@
 
 namespace LSM::postproc {
 
+/// Fit of a power law on one range.
 struct PowerLawFit {
   double alpha = NAN;
   double standard_error = NAN;  ///< from the Fisher information

@@ -25,6 +25,7 @@ struct Extent {
     lo = std::min(lo, x);
     hi = std::max(hi, x);
   }
+  /// Whether no value (other than NaN) has been added.
   bool empty() const { return !(hi >= lo); }
 };
 

@@ -16,6 +16,7 @@
 
 namespace LSM::postproc {
 
+/// What fit_sizes() fits.
 struct SizeFitSettings {
   std::vector<Range> ranges;  ///< of sizes (model energy); empty: paper_range() of each catalogue
   bool search = false;        ///< in addition, the range found by search_range()

@@ -18,6 +18,7 @@ namespace LSM::postproc {
 struct Outline : SlipSet {
   std::map<std::int64_t, std::pair<std::int64_t, std::int64_t>> bins;
   double slip = 0.0;
+  /// Merges a later outline into this one.
   void absorb(const Outline &later);
 };
 

@@ -86,6 +86,7 @@ struct RollOff {
   /// fit.
   double gain = NAN;
 };
+/// \param least smallest size that is used (energy)
 RollOff roll_off(const EventTable &table, double least);
 
 }  // namespace LSM::postproc

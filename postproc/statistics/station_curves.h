@@ -63,6 +63,7 @@ struct MisfitSummary {
   /// Root mean squares of the relative differences.
   double slip_l2 = 0.0, rate_l2 = 0.0, peak = 0.0;
 };
+/// Summarises the misfits of several stations.
 MisfitSummary summary(const std::vector<StationMisfit> &stations);
 
 /// Order of convergence: exponent of the error as a power of the spacing, from errors at two

@@ -26,7 +26,9 @@ class Thinner {
 
   explicit Thinner(std::int64_t columns) : most_(2 * static_cast<std::size_t>(columns)) {}
 
+  /// Adds the next sample.
   void add(double time, const Values &values);
+  /// Samples to draw: up to two for each group, at its first and last time.
   std::vector<Row> rows() const;
   std::int64_t groups() const { return static_cast<std::int64_t>(groups_.size()); }
   bool thinned() const { return in_each_ > 1; }

@@ -14,6 +14,7 @@
 
 namespace LSM::postproc {
 
+/// Result of two_sample_test().
 struct TwoSampleTest {
   std::array<std::int64_t, 2> n = {0, 0};
   double distance = NAN;  ///< Kolmogorov-Smirnov distance
