@@ -43,8 +43,8 @@ Figure space_time_figure(const HistoryWindow &window, Table &outlines);
 /// \param slipping time between lines while any part of the fault slips
 Figure slip_lines_figure(const HistoryWindow &window, double locked, double slipping);
 /// One rupture: slip velocity around its hypocentre, with the fronts of P- and S-waves as lines,
-/// and its slip along the fault. \param lines gets outline, wave fronts and slip; the script reads
-/// it as BASE-lines.csv
+/// and its slip along the fault.
+/// \param lines gets outline, wave fronts and slip; the script reads it as BASE-lines.csv
 Figure rupture_detail_figure(const HistoryWindow &window, const Event &event, double p_speed,
                              double s_speed, Table &lines);
 
