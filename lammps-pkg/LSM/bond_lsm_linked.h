@@ -27,7 +27,7 @@ class BondLSMLinked : public Bond, public LSMEnergySource {
   void settings(int, char **) override;
   void coeff(int, char **) override;
   void init_style() override;
-  // the rest length is r_i + r_j, but LAMMPS asks for one number per type
+  // the rest length is r_i + r_j, but LAMMPS asks for a single number per type
   double equilibrium_distance(int) override { return 2.0 * maxrad; }
   void write_restart(FILE *) override;
   void read_restart(FILE *) override;
@@ -35,28 +35,28 @@ class BondLSMLinked : public Bond, public LSMEnergySource {
   double single(int, double, int, int, double &) override;
   void *extract(const char *, int &) override;
 
-  /// Two particle IDs and the type of each link that broke since fix LSM_BREAK last took them.
+  /// Two particle IDs and the type of each link that broke since fix LSM_BREAK last collected them.
   std::vector<tagint> broken;
 
   struct Held {
     int i, j;    ///< local indices
     double stiffness, viscosity;
   };
-  /// Links of the last force evaluation, those of this style only under bond_style hybrid.
+  /// Links of the last force evaluation; under bond_style hybrid only those of this style.
   std::vector<Held> held() const;
-  /// Largest |r - r0| / r0 among them.
+  /// Largest strain |r - r0| / r0 of these links.
   double max_strain() const;
   /// Retardation times of the types, empty if all are 0.
   std::string retardation() const;
 
  private:
-  // of each bond type
+  // for each bond type
 
   std::vector<double> k;        // link stiffness
   std::vector<double> ratio;    // breaking distance over rest length; 0 if the link cannot break
   std::vector<double> delay;    // retardation time: viscosity over stiffness; 0 if there is none
   double maxrad = 0.0;
-  const bool avx2;    // of the processor
+  const bool avx2;    // the processor has AVX2
   struct Segment {    // links that are treated the same way
     int type;
     bool first_only;    // the force on the second particle is added by its owner
@@ -65,7 +65,7 @@ class BondLSMLinked : public Bond, public LSMEnergySource {
   std::vector<Segment> segments;
   // links of a segment that broke in this evaluation
   std::vector<LSMLinkKernel::Place> broken_now;
-  bigint collected_at = -1;    // step of the neighbour list they were taken from, -1 if outdated
+  bigint collected_at = -1;    // step of the neighbour list that the links are from, -1 if outdated
 
   class FixLSMVelocity *velocity = nullptr;    // of this run, null if no link is viscous in it
 

@@ -22,7 +22,7 @@
 
 using namespace LAMMPS_NS;
 
-// entries of the global vector; those of the ledger follow
+// entries of the global vector, followed by those of the ledger
 enum { EVENTS, LAST_SIZE, RATE, IN_EVENT, PE, PE_LINK, PE_CONTACT, PE_TANGENTIAL, NVECTOR };
 static constexpr int NLEDGER = 9;
 
@@ -52,7 +52,7 @@ ComputeLSMEvents::ComputeLSMEvents(LAMMPS *_lmp, int narg, char **arg) :
 
 ComputeLSMEvents::~ComputeLSMEvents()
 {
-  // rank 0 has had all complete intervals since the end of the last run
+  // rank 0 has received all complete intervals at the end of the last run
   if (options.unfinished) on_rank_0([this] { stream->write_unfinished(); });
   sources.release();
 
@@ -91,7 +91,7 @@ void ComputeLSMEvents::init()
                id, leaps ? "was defined" : "is gone");
   settings.explicit_times = leaps;
 
-  // the first run fixes these, as they are in the headers of the files
+  // these stay as in the first run, as the headers of the files state them
   if (in_intervals() && !opened && update->whichflag != 0) sources.find_driving(settings);
   set_memory();
   sampler.resize(options.block);
@@ -125,7 +125,7 @@ void ComputeLSMEvents::open_files()
   opened = true;
 }
 
-// names with a step or a processor in them cannot coincide with those of other files
+// Names that contain a step or a processor are left out: they cannot coincide with other outputs.
 std::vector<LSM::Output> ComputeLSMEvents::restart_files() const
 {
   std::vector<LSM::Output> files = {{"emergency", options.emergency_file}};
@@ -369,7 +369,7 @@ LSM::EnergyTerms ComputeLSMEvents::energies() const
   return ledger.with_earlier_works(sources.energies());
 }
 
-// numbers of this class, then those of the stream
+// state in restart files: numbers of this class, then those of the stream
 namespace {
 struct Own {
   static constexpr size_t NUMBERS = 10;

@@ -48,12 +48,12 @@ class ComputeLSMEvents : public Compute {
 
  private:
   LSMEventOptions options;
-  LSM::EventSettings &settings;    // those of the options
+  LSM::EventSettings &settings;    // part of the options
 
   class FixLSMRecord *recorder = nullptr;
   LSMEventSources sources;
 
-  // all ranks
+  // on all ranks
 
   LSM::BlockSampler sampler;
   LSMBlockGather gather;
@@ -63,15 +63,15 @@ class ComputeLSMEvents : public Compute {
   LSM::StepClock clock;
   bigint last_recorded = -1;
   bool opened = false;
-  bool fault_begun = false;    // its state before the first interval is known
+  bool fault_begun = false;    // the state before the first interval is recorded
 
-  // rank 0
+  // on rank 0 only
 
   std::unique_ptr<LSM::EventStream> stream;
   std::string failure;    // error on rank 0, which the others have to be told
   LSMProgress progress;
 
-  double begin = 0.0, period = 0.0;    // of the box along x at the first run
+  double begin = 0.0, period = 0.0;    // lower end and length of the box along x at the first run
 
   std::string id_of_fix() const { return std::string(id) + "_record"; }
   bool in_intervals() const { return settings.kind->wants_intervals(); }

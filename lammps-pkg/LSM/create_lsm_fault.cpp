@@ -36,7 +36,7 @@ static constexpr int BULK = 1;
 static constexpr int FAULT_ZONE = 3;
 static constexpr int PLATE = 5;
 static constexpr int LINK_TYPE = 1;
-static constexpr int BORDER_LINK_TYPE = 2;    // of a lattice
+static constexpr int BORDER_LINK_TYPE = 2;    // links in the border of a lattice
 
 static int type_of(const LSM::Disc &disc)
 {
@@ -259,7 +259,7 @@ std::string CreateLSMFault::box_of(const LSM::LatticeSettings &settings) const
 
 std::string CreateLSMFault::box_of(const LSM::PackingSettings &settings) const
 {
-  // LAMMPS wants no box that is much thinner than the range of the contacts
+  // LAMMPS does not accept a box that is much thinner than the range of the contacts
   return box(0.0, settings.length, -margin, settings.width + margin,
              0.5 * std::max(1.0, settings.rmax));
 }

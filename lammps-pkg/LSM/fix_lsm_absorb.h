@@ -28,7 +28,7 @@ class FixLSMAbsorb : public LSMKeptFix<FixLSMAbsorb>, public LSMWorkSource {
   }
 
  private:
-  double dashpot[2];    // force over velocity along x and y, of each particle
+  double dashpot[2];    // force over velocity of each particle, along x and y
   double rate = 0.0;    // energy lost per time in the last step, this rank
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Internal helper of bond style lsm/linked: removes broken links from the
-// topology of every rank and lets the pair become a contact pair
+// topology of every rank, so that their particles become contact pairs
 
 #ifdef FIX_CLASS
 // clang-format off

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Internal helper of pair style lsm/friction: contact history that a
-// write_restart command between two runs leaves alone, and that knows the
-// law of friction it belongs to
+// Internal helper of pair style lsm/friction: contact history that is not
+// changed by a write_restart command between two runs, and that records the
+// friction law it belongs to
 
 #ifdef FIX_CLASS
 // clang-format off
@@ -28,7 +28,7 @@ class FixLSMHistory : public FixNeighHistory {
   void unpack_restart(int, int) override;
 
  private:
-  const std::string law;    // of the contacts, "" if it keeps no state of its own
+  const std::string law;    // friction law of the contacts, "" if it has no state of its own
   const char *law_of_file;
 };
 

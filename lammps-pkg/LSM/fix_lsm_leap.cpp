@@ -163,9 +163,10 @@ void FixLSMLeap::set_factor(double value)
   for (auto *p : contacts) p->time_ratio = value;
 }
 
-// without a faster velocity there is nothing to do event: the plates move at the driving velocity
-// until nothing has slipped for a while settle: more viscosity is applied until the blocks are at
-// rest leap: the plates move fast until something slips
+// Without a faster velocity there is nothing to do. Otherwise the states follow each other:
+// - event: the plates move at the driving velocity until nothing has slipped for a while
+// - settle: viscosity is raised until the blocks are at rest
+// - leap: the plates move fast until something slips
 void FixLSMLeap::end_of_step()
 {
   const double span = nevery * dt;
@@ -174,7 +175,7 @@ void FixLSMLeap::end_of_step()
     return;
   }
   if (state == SETTLE) LSMMover::complete_steps(modify);
-  // only the blocks count, as the plates move as they are driven
+  // only the blocks count, as the motion of the plates is prescribed
   const double blocks = state == SETTLE ? LSMScene::kinetic(atom, plates->moved_bits()) : 0.0;
   double mine[2] = {0.0, blocks}, all[2];
   for (auto *p : contacts) {

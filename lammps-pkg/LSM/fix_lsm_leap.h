@@ -51,21 +51,21 @@ class FixLSMLeap : public LSMKeptFix<FixLSMLeap> {
   // bound of the kinetic energy, relative to that of the loading motion at the fast velocity, below
   // which the blocks are at rest
   double rest = 10.0;
-  double viscosity = 0.0;    // while they settle, at least; 0: no more than always
+  double viscosity = 0.0;    // least viscosity while the blocks settle; 0: no more than always
   double ramp = 15.0;        // time from the slow to the fast velocity
   double grow = 0.0;         // model time in which the factor rises by 1; 0: as fast as the ramp
-  double between = 1.5;      // time between two looks
+  double between = 1.5;      // time between two checks
 
   class FixLSMPlates *plates = nullptr;
   std::vector<class FixLSMNVE *> integrators;
   std::vector<class PairLSMFriction *> contacts;
   double dt, loading_energy = 0.0;
 
-  // state; the model time goes on from the last change of its rate
+  // state; the model time is extrapolated from the last change of its rate
 
   struct Change {
     bigint step;
-    double time, rate;    // rate: model time of a step
+    double time, rate;    // rate: model time per step
     template <class Self, class State> static void visit(Self &self, State &state)
     {
       state(self.step, self.time, self.rate);
@@ -73,16 +73,16 @@ class FixLSMLeap : public LSMKeptFix<FixLSMLeap> {
   };
   std::deque<Change> changes;
   int state = EVENT;
-  double factor = 1.0;        // of the driving velocity now
+  double factor = 1.0;        // present factor of the driving velocity
   double since = 0.0;         // time since the last slip above the bound
   double steps_time = 0.0;    // time of the steps done under this fix
-  double leap_time = 0.0;     // those of them while leaping
-  double stops = 0.0;         // leaps that ended
+  double leap_time = 0.0;     // part of this time while leaping
+  double stops = 0.0;         // number of leaps that ended
   bool begun = false;         // the time step is fixed
 
   LSM::Keywords keywords();
   double time_of_steps() const;
-  bool leaps() const;    // there is a faster velocity, and a velocity at all
+  bool leaps() const;    // the plates are driven, and more slowly than the fast velocity
   void set_factor(double);
 };
 

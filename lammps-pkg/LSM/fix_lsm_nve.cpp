@@ -96,7 +96,7 @@ void FixLSMNVE::reset_dt()
 void FixLSMNVE::raise_viscosity(double least)
 {
   if (least == nu_least) return;
-  complete_step();    // a deferred half kick has the old one
+  complete_step();    // a deferred half step has the old viscosity
   nu_least = least;
   reset_dt();
   if (initial_chosen) choose();
@@ -288,8 +288,8 @@ void FixLSMNVE::final_integrate()
   (this->*final_chosen)();
 }
 
-// Whether no other fix reads or adds forces between the beginning of a step and the interactions,
-// and none needs the torques that the integrator would clear, too
+// Whether forces may be cleared early: no other fix reads or adds forces between the beginning of a
+// step and the interactions, and none needs the torques that the integrator would clear, too
 bool FixLSMNVE::may_clear() const
 {
   if (strcmp(update->integrate_style, "verlet") != 0 || group->dynamic[igroup] ||
@@ -339,7 +339,8 @@ void FixLSMNVE::setup_pre_force(int /*vflag*/)
   clear_all();
 }
 
-// After the lists have been built, other particles have these places.
+// Clears the forces that are not cleared as particles move, and all of them after neighbor lists
+// were built, as particles have other indices then.
 
 void FixLSMNVE::pre_force(int /*vflag*/)
 {

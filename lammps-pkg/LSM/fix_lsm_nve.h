@@ -49,7 +49,7 @@ class FixLSMNVE : public LSMKeptFix<FixLSMNVE>, public LSMMover {
   void complete_step() override;
   int moved_bits() const override { return groupbit; }
   double longest_move() const override;
-  void raise_viscosity(double least);    // to at least this, for now; 0: as it was given
+  void raise_viscosity(double least);    // temporarily, to at least this; 0: as given
   std::string viscosity() const;         // one value, or one per type
   template <class Self, class State> static void visit(Self &self, State &state)
   {
@@ -58,7 +58,7 @@ class FixLSMNVE : public LSMKeptFix<FixLSMNVE>, public LSMMover {
 
  private:
   enum { ERROR, WARN, OFF };
-  double nu_least = 0.0;        // raised to it for now
+  double nu_least = 0.0;        // nu is temporarily raised to this
   std::vector<double> nu;       // force -nu m v, one value per type
   std::vector<double> decay;    // factor of the velocities in half a step of viscosity, per type
   bool viscous = false;         // some nu is not 0
@@ -69,8 +69,8 @@ class FixLSMNVE : public LSMKeptFix<FixLSMNVE>, public LSMMover {
   bool continued = false;              // after another run, or from a restart file
   std::vector<double> trial, image;    // displacements and forces, 2 or 3 values an atom
 
-  // particles of the group with the same viscosity that follow each other in memory, and dt/2 over
-  // the mass of every particle
+  // particles of the group with the same viscosity that are contiguous in memory, and dt/2 over the
+  // mass of every particle
 
   struct Stretch {
     int first, last;
@@ -80,7 +80,7 @@ class FixLSMNVE : public LSMKeptFix<FixLSMNVE>, public LSMMover {
   std::vector<double> half_kick;
 
   // Forces are set to 0 while they are in the cache, as the particles move, instead of by the
-  // integrator afterwards, unless somebody may look at them in between or needs torques
+  // integrator afterwards, unless something may read them in between or needs torques
 
   bool clears = false;
   std::vector<std::pair<int, int>> others;    // particles between the stretches: first, last
@@ -89,10 +89,10 @@ class FixLSMNVE : public LSMKeptFix<FixLSMNVE>, public LSMMover {
 
   enum { FINAL = 1, INITIAL = 2 };    // halves of a step
   std::vector<Fix *> velocity_readers;
-  class FixLSMVelocity *ahead = nullptr;    // wants velocities of the time of the next forces
+  class FixLSMVelocity *ahead = nullptr;    // needs velocities at the time of the next forces
   void (FixLSMNVE::*initial_chosen)() = nullptr;
   void (FixLSMNVE::*final_chosen)() = nullptr;
-  void (FixLSMNVE::*both_chosen)() = nullptr;    // null if no half may be put off
+  void (FixLSMNVE::*both_chosen)() = nullptr;    // null if no half may be deferred
 
   bool counts_work() const { return record_work && (viscous || nu_least > 0.0); }
   template <int PARTS, int DIM, bool PLAIN, bool CLEARS> void move();

@@ -142,7 +142,7 @@ void FixLSMPlates::post_neighbor()
   }
 }
 
-// linear ramps
+// the driving velocity at a time, with its linear ramp
 double FixLSMPlates::velocity_at(double t) const
 {
   return loading * (t < ramp ? speed * t / ramp : speed);

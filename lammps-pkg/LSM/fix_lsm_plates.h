@@ -39,7 +39,7 @@ class FixLSMPlates : public LSMKeptFix<FixLSMPlates>, public LSMMover {
   int moved_bits() const override { return plate[0].bit | plate[1].bit; }
   double longest_move() const override { return longest; }
 
-  double loading = 1.0;    // factor of the driving velocity now, set by fix lsm/leap
+  double loading = 1.0;    // present factor of the driving velocity, set by fix lsm/leap
   double driving_velocity() const { return speed; }
   // the settings in effect, for headers
   LSM::text_io::Parameters settings() const;
@@ -56,7 +56,7 @@ class FixLSMPlates : public LSMKeptFix<FixLSMPlates>, public LSMMover {
   struct Plate {
     int group, bit;
     double side;          // -1 lower, +1 upper
-    double mass = 0.0;    // of all particles of the plate
+    double mass = 0.0;    // mass of all particles of the plate
     double vy = 0.0;      // velocity across the fault
     double uy = 0.0;      // displacement across the fault since the fix was made
     double fx = 0.0,
@@ -66,10 +66,10 @@ class FixLSMPlates : public LSMKeptFix<FixLSMPlates>, public LSMMover {
   };
   Plate plate[2];
 
-  double speed = 0.0;          // driving velocity of each plate in the end
+  double speed = 0.0;          // driving velocity of each plate after the ramp
   double ramp = 0.0;           // time over which it is reached
   bool servo = false;          // normal stress held, or position held
-  double stress = 0.0;         // normal stress in the end
+  double stress = 0.0;         // normal stress after its ramp
   double stress_ramp = 0.0;    // time over which it is reached
   double damping = 0.0;        // -damping * mass * vy on each plate with servo
   double impedance = 0.0;      // -impedance * length * vy on each plate with servo
@@ -79,12 +79,12 @@ class FixLSMPlates : public LSMKeptFix<FixLSMPlates>, public LSMMover {
   double work_mine = 0.0;      // this rank's part of the work
 
   std::vector<class FixLSMNVE *> integrators;
-  class FixLSMVelocity *ahead = nullptr;    // wants velocities of the time of the next forces
-  bool reducing = false;                    // forces across the fault are on their way to all ranks
+  class FixLSMVelocity *ahead = nullptr;    // needs velocities at the time of the next forces
+  bool reducing = false;                    // a sum of forces across the fault is in transit
   MPI_Request request;
   double across_mine[2], across[2];    // these forces, of this rank and of all
   double moved = 0.0, along = 0.0;     // shear displacement and velocity of the last step
-  double longest = 0.0;                // move of the last step
+  double longest = 0.0;                // largest displacement of the last step
 
   tagint in_both(int some, int others) const;
   double half_kick(const Plate &p) const;

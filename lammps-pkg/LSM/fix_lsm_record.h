@@ -37,8 +37,8 @@ class FixLSMRecord : public LSMKeptFix<FixLSMRecord> {
     state.list(self.kept);
   }
 
-  /// The faces of the fault: displacements of their particles on this rank since this was called
-  /// last.
+  /// Stores the positions of this rank's particles on the faces of the fault, from which their
+  /// displacements are measured later.
   void begin_faces();
   bool faces_begun() const { return since >= 0; }
   std::vector<LSM::FaceDisplacement> end_faces(int lower, int upper);
@@ -53,8 +53,8 @@ class FixLSMRecord : public LSMKeptFix<FixLSMRecord> {
   std::vector<double> kept;    // state of the compute in the last restart file, read or written
 
  private:
-  double *x_before = nullptr;    // of each particle along x; null if the faces are not wanted
-  bigint since = -1;             // step of it
+  double *x_before = nullptr;    // stored x of each particle; null if the faces are not needed
+  bigint since = -1;             // step in which it was stored
 };
 
 }    // namespace LAMMPS_NS

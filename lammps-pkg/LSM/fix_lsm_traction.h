@@ -42,7 +42,7 @@ class FixLSMTraction :
   enum { NORMAL, SHEAR };
   int side[2];                         // group bits of the lower and the upper face
   std::string traction[2];             // normal and shear: number or v_name
-  int spaced = 0;                      // loads by the spacing of the particles, not their diameter
+  int spaced = 0;                      // 1: particles are loaded by their spacing, not diameter
   bool begun = false;                  // the contacts have been loaded
   double *contact_radius, *load[2];    // of each particle; load: force of the other face
 

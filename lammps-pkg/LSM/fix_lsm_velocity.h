@@ -26,8 +26,8 @@ class FixLSMVelocity : public LSMKeptFix<FixLSMVelocity, FixStoreAtom>, public L
  public:
   FixLSMVelocity(class LAMMPS *, int, char **);
 
-  /// Returns the fix of this scene to a force style that needs it, and creates it if necessary. To
-  /// be called in its init.
+  /// Returns the fix of this scene to a force style that needs it, and creates it if necessary.
+  /// Force styles call this in their init.
   static FixLSMVelocity *ask_for(LAMMPS *);
   /// Returns the fix of this scene, or null if no style needs it in this run.
   static FixLSMVelocity *in_use(LAMMPS *);
@@ -57,8 +57,8 @@ class FixLSMVelocity : public LSMKeptFix<FixLSMVelocity, FixStoreAtom>, public L
 
  private:
   bool asked = false, used = false;
-  int extrapolated = 0;    // groups of the particles whose velocities are set by who moves them
-  double power_before = 0.0;    // of the evaluation before
+  int extrapolated = 0;    // bits of groups whose velocities are set by the fixes that move them
+  double power_before = 0.0;    // power in the previous evaluation
   std::uint64_t known = 0;      // fingerprint of the velocities that belong to `now`
   std::uint64_t fingerprint() const;
   void take_velocities(int unless);

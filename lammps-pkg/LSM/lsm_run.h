@@ -25,7 +25,7 @@ class LSMRun : public Command {
 
  private:
   std::string prefix;
-  std::vector<std::string> noted;     // further variables for the .info
+  std::vector<std::string> noted;     // further variables for the .info file
   std::vector<std::string> unused;    // files that this run does not write
   enum { KEEP, REFUSE, REMOVE };
   int earlier = KEEP;    // what becomes of files of an earlier run

@@ -157,8 +157,8 @@ bool PairLSMFree::left_out(int entry, int i, int j) const
   return !active[atom->type[i]][atom->type[j]] || force->special_lj[sbmask(entry)] == 0.0;
 }
 
-// linked particles are no contact pairs, and all others are
-// under pair_style hybrid the factors of each sub-style are known only while it computes
+// Checks that linked particles are not contact pairs, and all others are. Under pair_style hybrid
+// the factors of a sub-style are known only while it computes.
 void PairLSMFree::check_special() const
 {
   const double *factor = force->special_lj;
@@ -241,8 +241,8 @@ void PairLSMFree::init_style()
         FLERR,
         "Pair style lsm/* does not work with pair_modify compute no; use 'pair_coeff I J off'");
 
-  // the list of a sub-style of hybrid holds what hybrid wants; with charges linked pairs stay in
-  // it, too
+  // the list of a sub-style of hybrid may hold pairs of other sub-styles; with charges, linked
+  // pairs stay in the list, too
   const bool under_hybrid = force->pair != this;
   screened = under_hybrid ||
              (atom->nbonds > 0 && (force->special_coul[1] != 0.0 || force->kspace != nullptr));
@@ -251,14 +251,14 @@ void PairLSMFree::init_style()
     if (LSMScene::contact_styles(force).front() == this) warn_of_missing_links();
   }
 
-  // hybrid calls init_one() of the pairs of types that it gives to this style; not of those with
-  // none, which it leaves in the list where both types with themselves belong to this style
+  // hybrid calls init_one() for the pairs of types that it assigns to this style. It does not for
+  // those with 'none', which it leaves in the list if each type with itself belongs to this style.
   const int ntypes = atom->ntypes;
   active.create(ntypes + 1);
   find_largest_radii();
 
-  // types that never touch are left out when the list is built; hybrid would replace what is asked
-  // for here
+  // types that never touch are left out when the list is built; under hybrid this request would be
+  // replaced
   auto request = neighbor->add_request(this, request_flags);
   if (under_hybrid) return;
   int any_off = 0;
@@ -287,7 +287,7 @@ void PairLSMFree::find_largest_radii()
   for (int i = 0; i < atom->nlocal; i++)
     mine[atom->type[i]] = MAX(mine[atom->type[i]], atom->radius[i]);
 
-  // those that are to come
+  // particles that will be inserted during the run
   for (const char *style : {"^pour", "^deposit"})
     for (const auto &source : modify->get_fix_by_style(style))
       for (int i = 1; i <= ntypes; i++) {

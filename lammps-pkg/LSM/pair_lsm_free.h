@@ -55,22 +55,23 @@ class PairLSMFree : public Pair, public LSMEnergySource {
   LSMTypePairs<int> on;          // 1 if the pair of types interacts at all
   LSMTypePairs<int> active;      // on, and not 'none' under hybrid, since the last init
   std::vector<double> maxrad;    // largest radius of each type
-  int request_flags;             // of the neighbor list
+  int request_flags;             // for the request of the neighbor list
   int newton_pair = 0;
   LSMNearPairs near;
   LSMTravel travel;
-  bool screened = false;                         // lists hold pairs that must not interact
-  const LSMContactRadii *own_radii = nullptr;    // of a fix that gives contacts radii of their own
+  bool screened = false;                         // the list holds pairs that must not interact
+  const LSMContactRadii *own_radii = nullptr;    // a fix that gives contacts radii of their own
 
   class FixLSMVelocity *velocity = nullptr;    // of this run, null if no contact is viscous in it
 
   const double *contact_radii() const;
-  /// Returns whether other pairs are kept than before.
+  /// Finds the pairs that touch. Returns whether a different set of pairs is kept than before.
   bool find_near(double reach, const int *const *touch);
-  /// Called before others are chosen, which may read what is known of those that are kept.
+  /// Called before other pairs are chosen, so that derived classes can save the state of those that
+  /// are kept.
   virtual void note_contacts() {}
-  /// Repulsion by the dashpot of a contact of length r, whose spring repels with `spring`. rate: of
-  /// r.
+  /// Repulsion by the dashpot of a contact of length r, whose spring repels with `spring`. Sets
+  /// `rate` to the rate of change of r.
   double dashpot(int i, int j, double r, double spring, double &rate) const;
   bool any_delay() const;
 
@@ -80,7 +81,7 @@ class PairLSMFree : public Pair, public LSMEnergySource {
   void warn_of_missing_links() const;
   virtual void allocate();
 
-  // coefficients of a law of friction: the words of pair_coeff behind the stiffness, and those of
+  // coefficients of a friction law: the words of pair_coeff after the stiffness, and the values for
   // two types
 
   virtual void parse_law(int narg, char **arg);

@@ -201,7 +201,7 @@ template <class Law, class Recorder> class PairLSMFriction::Loop {
   };
   Block block;
 
-  // Particles of contacts are far from each other in memory: their forces are fetched meanwhile.
+  // Prefetches the forces of a contact's particles, which are far from each other in memory.
   void fetch_forces(const Site &site) const
   {
     for (const int i : {site.i, site.j}) __builtin_prefetch(f + 3 * static_cast<size_t>(i), 1);
@@ -323,7 +323,7 @@ template <class Law, class Recorder> void PairLSMFriction::run_loop()
 {
   Loop<Law, Recorder>(*this).run();
   noted = false;
-  if (screened) note_contacts();    // what is left out is known only here
+  if (screened) note_contacts();    // only here it is known which pairs are left out
 }
 
 void PairLSMFriction::compute(int eflag, int vflag)
@@ -366,7 +366,7 @@ void PairLSMFriction::collect_sites()
   }
 }
 
-// Pairs that do not touch have no memory: whether one is near follows from its vector.
+// Pairs that do not touch have no state: whether one is near follows from its vector alone.
 void PairLSMFriction::note_contacts()
 {
   if (noted || sites_build != neighbor->ncalls) return;
@@ -393,7 +393,7 @@ void PairLSMFriction::note_contacts()
 void PairLSMFriction::load_contacts(const double *shear)
 {
   note_contacts();
-  near.clear();    // it knows which pairs touch
+  near.clear();    // it has stored which pairs touch
   double **x = atom->x;
   const double *radius = contact_radii();
   for (int ii = 0; ii < list->inum; ii++) {
@@ -461,10 +461,10 @@ void PairLSMFriction::settings(int narg, char **arg)
     error->all(FLERR, "Pair style lsm/friction {} expects {} or onset located|step, got '{}'",
                table.law->name, table.law->named ? "pairs NAME VALUE" : "numbers", common[0]);
   char kt[] = "1.0", *only_kt[] = {kt};
-  parse_law(1, only_kt);    // a mistake is named here
+  parse_law(1, only_kt);    // reports errors in the coefficients of pair_style right away
 }
 
-// kt and the law's coefficients, which may be those of pair_style
+// parses kt and the coefficients of the law, which may be those of pair_style
 void PairLSMFriction::parse_law(int narg, char **arg)
 {
   std::vector<char *> words(arg, arg + MAX(narg, 0));
@@ -485,13 +485,13 @@ void PairLSMFriction::init_style()
         "Pair style lsm/friction does not work with fix numdiff, as friction depends on the path");
 
   time_ratio = 1.0;
-  noted = true;           // at the end of the run before
+  noted = true;           // the history was updated at the end of the previous run
   running = table.law;    // see init_one()
   PairLSMFree::init_style();
 
   if (update->whichflag) check_periods();
 
-  // one name, whichever styles came before, so that a restart finds the history
+  // the same name whichever styles were defined before, so that a restart finds the history
   const std::string id_history = "NEIGH_HISTORY_LSM";
   if (!fix_history) {
     fix_history = dynamic_cast<FixNeighHistory *>(
@@ -532,7 +532,7 @@ double PairLSMFriction::init_one(int i, int j)
   const std::vector<double> values = table.values(i, j);
   table.check(values, types);
 
-  // the list has another law of the name; within a run there is no way back
+  // takes the next law of this name that fits; within a run it does not go back
   while (!running->fits(values.data())) {
     if (running == &LSMLawTable::all().back() || strcmp((++running)->name, table.law->name) != 0)
       error->all(FLERR, "Pair lsm/friction: the law {} cannot be run with the coefficients{}",
@@ -541,7 +541,7 @@ double PairLSMFriction::init_one(int i, int j)
   return cut;
 }
 
-// history of the pair as seen from the other particle
+// the history of a pair as seen from the other particle
 void PairLSMFriction::transfer_history(double *source, double *target, int, int)
 {
   target[XI] = source[XI];

@@ -33,12 +33,11 @@ class PairLSMFriction : public PairLSMFree {
   void transfer_history(double *, double *, int, int) override;
   double time_ratio =
       1.0;    ///< model time over time of the steps, for laws that depend on time: fix lsm/leap
-  /// Begins the contacts that the lists hold with a shear force of the upper particle on the lower
-  /// one, which is given for each particle of this rank; called before forces are evaluated in a
-  /// setup.
+  /// Starts the contacts in the list with a shear force of the upper particle on the lower one,
+  /// given for each particle of this rank. To be called before forces are evaluated in a setup.
   void load_contacts(const double *shear);
-  /// Writes the contacts of the last evaluation into the history; to be called before somebody
-  /// reads it.
+  /// Writes the contacts of the last evaluation into the history. To be called before the history
+  /// is read.
   void note_contacts() override;
 
  protected:
@@ -49,16 +48,15 @@ class PairLSMFriction : public PairLSMFree {
   void print_law(FILE *fp, int i, int j) override { table.print(fp, i, j); }
 
  private:
-  // A pair that is kept near, with what is known of it until other pairs are kept: scattered over
-  // LAMMPS' arrays it would lie on a dozen cache lines. The history of all of them is copied from
-  // there and back.
+  // The data of a pair that is kept, until other pairs are chosen. In LAMMPS' arrays they would be
+  // scattered over a dozen cache lines. The histories of all pairs are copied from there and back.
 
   struct Site {
     int i, j;
-    int types;      // place of their coefficients
-    int across;     // the fault, see across_fault()
+    int types;      // index of the coefficients of their types
+    int across;     // see across_fault()
     double r0;      // sum of the radii
-    double size;    // of the contact
+    double size;    // effective size of the contact
   };
   struct Origin {
     double *history;
@@ -68,13 +66,13 @@ class PairLSMFriction : public PairLSMFree {
   std::vector<Site> sites;
   std::vector<Origin> origins;
   std::vector<double> histories;
-  bigint sites_build = -1;    // number of the build of the neighbor list that they are of
-  bool chosen_anew = true;    // in this step
-  bool noted = true;          // the history holds what they do
+  bigint sites_build = -1;    // number of the neighbor list build that the sites are from
+  bool chosen_anew = true;    // the sites were collected in this step
+  bool noted = true;          // the history is up to date with the sites
 
   LSMLawTable table;
   std::vector<std::string> common;    // coefficients after kt where pair_coeff has none
-  const LSMLaw *running;              // of those of the name, the first that fits all coefficients
+  const LSMLaw *running;              // first law of the name that fits all coefficients
   bool restored = false;              // law and coefficients come from a restart file
   int locate_onset = 1;               // 1 if the onset of a contact within a step is located
   double of_single[2] = {};           // target of svector: nothing to free if the constructor stops

@@ -35,11 +35,11 @@ double LSMTravel::since_last()
   if (update->setupflag) look_for_movers();
   if (!known) return INFINITY;
 
-  double farthest = 0.0;    // if all of them moved it
+  double farthest = 0.0;    // a particle may be moved by all of these fixes
   for (const LSMMover *mover : movers) farthest += mover->longest_move();
   if (!follows) return INFINITY;
 
-  double largest = 0.0;    // coordinate, to which positions are rounded
+  double largest = 0.0;    // largest coordinate, which determines the rounding of positions
   for (int c = 0; c < 3; c++)
     largest = std::max({largest, std::fabs(domain->boxlo[c]), std::fabs(domain->boxhi[c])});
   constexpr double epsilon = std::numeric_limits<double>::epsilon();

@@ -24,7 +24,7 @@ class LSMMover {
   virtual void complete_step() = 0;
   /// Whether the second half of the last step is still to be done.
   bool has_put_off() const { return pending; }
-  /// Bits of the groups that it moves.
+  /// Bits of the groups that this fix moves.
   virtual int moved_bits() const = 0;
   /// Upper bound on the displacement of the particles of this rank in this step, infinite if not
   /// known.
@@ -48,9 +48,9 @@ class LSMTravel : protected Pointers {
   double since_last();
 
  private:
-  bool known = false;    // all that move particles are these
+  bool known = false;    // nothing but `movers` moves particles
   std::vector<LSMMover *> movers;
-  bigint step = -1, first_step = -1;    // of the last call and of its run
+  bigint step = -1, first_step = -1;    // step of the last call, and first step of its run
 
   void look_for_movers();
 };

@@ -14,9 +14,9 @@ using namespace LAMMPS_NS;
 static constexpr double SKIN = 0.05;
 static constexpr double ROUNDING = 1e-9;    // of the skin, and of squares of distances
 static constexpr double FEW =
-    0.5;    // pairs for each particle that are looked at rather than sorted out
+    0.5;    // up to this number of listed pairs per particle, all of them are kept
 
-// the farthest that any of the particles from first to before last has moved
+// the largest displacement of the particles in [first, last) since the pairs were chosen
 double LSMNearPairs::displacement(const double *x, size_t first, size_t last) const
 {
   double most = 0.0;    // square
@@ -27,8 +27,9 @@ double LSMNearPairs::displacement(const double *x, size_t first, size_t last) co
   return sqrt(most);
 }
 
-// Of two particles one is of this rank. Where these are is looked at only when the sum of their
-// longest moves would be too much; ghosts are few, and others move them.
+// Whether a pair that is not kept may have come near. At least one particle of a pair is owned by
+// this rank. Positions of owned particles are compared only when the sum of their largest moves is
+// too large; those of ghosts, which are few and are moved by other ranks, in each step.
 bool LSMNearPairs::outdated(const double *x, int nlocal, double farthest)
 {
   const double ghosts = displacement(x, nlocal, held.size() / 3);
@@ -54,7 +55,7 @@ bool LSMNearPairs::is_due(bigint build, const NeighList &list, const double *x, 
   return true;
 }
 
-// Whether a pair is near cannot be predicted: nothing is decided by branches before it is known.
+// Whether a pair is near is unpredictable for the processor, so the loop has no branches.
 void LSMNearPairs::choose(const double *x, const double *radius, double reach,
                           const int *const *touch)
 {
@@ -70,7 +71,7 @@ void LSMNearPairs::choose(const double *x, const double *radius, double reach,
     const double dx = a[0] - b[0], dy = a[1] - b[1], dz = a[2] - b[2];
     const double far = reach * (radius[pair.i] + radius[pair.j]) + SKIN;
     const bool touching = touch && touch[pair.i][pair.jj];
-    found[count] = n;    // stays where it is kept
+    found[count] = n;    // overwritten by the next one unless count advances
     count += all | touching | !(dx * dx + dy * dy + dz * dz > far * far);
   }
 
@@ -89,7 +90,7 @@ void LSMNearPairs::choose(const double *x, const double *radius, double reach,
   for (auto &of_a_step : vectors) of_a_step.resize(2 * pairs.size());
 }
 
-// Distances along x and y are enough to leave out nearly all others in three dimensions, too.
+// Distances along x and y suffice to leave out nearly all other pairs, in three dimensions, too.
 void LSMNearPairs::find(const double *x)
 {
   newest = 1 - newest;
@@ -104,7 +105,7 @@ void LSMNearPairs::find(const double *x)
     const double dx = a[0] - b[0], dy = a[1] - b[1];
     vector[2 * m] = dx;
     vector[2 * m + 1] = dy;
-    to[count] = m;    // stays where it is near
+    to[count] = m;    // overwritten by the next one unless count advances
     count += !(dx * dx + dy * dy > most[m]);
   }
   number = count;

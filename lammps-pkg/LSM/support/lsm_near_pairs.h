@@ -13,16 +13,16 @@ namespace LAMMPS_NS {
 
 class NeighList;
 
-/// Most pairs in the neighbor list of a filled block never touch. Kept are those that may come near
-/// before particles have moved by a small skin against each other, and in each step those of them
-/// are given that touch: no pair is missed, so forces are the same to the last bit.
+/// Most pairs in the neighbor list of a dense block never touch. This class keeps the pairs that
+/// may come near before particles have moved by a small skin against each other, and in each step
+/// finds those of them that touch. No pair is missed, so forces are the same to the last bit.
 class LSMNearPairs {
  public:
   struct Pair {
-    int i, jj;    ///< a particle, and the place of its partner in its part of the neighbor list
+    int i, jj;    ///< a particle, and the index of its partner in its neighbors
   };
 
-  /// Whether the pairs that are kept have to be chosen anew. To be asked in each step.
+  /// Whether the pairs that are kept have to be chosen anew. To be called once in each step.
   /// \param build     number of the build of the neighbor list
   /// \param x         positions of all particles with ghosts, `count` of them, `nlocal` without
   /// \param farthest  no particle of this rank has moved farther since the last call, infinite if
@@ -34,19 +34,19 @@ class LSMNearPairs {
   /// \param touch     flags of pairs that are kept and given at any distance, as in the neighbor
   /// list, or null
   void choose(const double *x, const double *radius, double reach, const int *const *touch);
-  /// Finds those of them that touch.
+  /// Finds the kept pairs that touch.
   void find(const double *x);
-  /// Those that are kept, in the order of the neighbor list.
+  /// The pairs that are kept, in the order of the neighbor list.
   const std::vector<Pair> &kept() const { return pairs; }
-  /// How many of them touch, or nearly so by rounding, and the place in kept() of the n-th of
-  /// these, in the same order.
+  /// Number of kept pairs that touch, or nearly do because of rounding, and the index in kept() of
+  /// the n-th of these, in the same order.
   int size() const { return number; }
   int operator[](int n) const { return found[n]; }
   /// From the second to the first particle of a pair, by its place in kept(), along x and y: now,
   /// and in the step before; the latter only if the same pairs were kept.
   const double *vector(int place) const { return &vectors[newest][2 * place]; }
   const double *vector_before(int place) const { return &vectors[1 - newest][2 * place]; }
-  /// Whether a pair is given at any distance; to be told when that changes.
+  /// Whether a pair is found at any distance. The caller has to report changes of this.
   bool is_touching(int place) const
   {
     return limit[place] == std::numeric_limits<double>::infinity();
@@ -60,14 +60,14 @@ class LSMNearPairs {
 
  private:
   struct Ends {
-    int i, j;    // places of their coordinates
+    int i, j;    // indices of their coordinates
   };
   struct Listed {
     int i, jj, j;
   };
   std::vector<Listed> listed;    // the whole neighbor list
   std::vector<Pair> pairs;
-  std::vector<Ends> ends;        // of the pairs, as are the following
+  std::vector<Ends> ends;        // this and the following have an entry per pair
   std::vector<double> within;    // square of the distance up to which a pair touches
   std::vector<double> limit;     // the same, infinite where it is given at any distance
   std::vector<double> vectors[2];

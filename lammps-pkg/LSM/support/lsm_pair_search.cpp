@@ -17,7 +17,7 @@
 #include <immintrin.h>
 #endif
 
-// LAMMPS' name of its search; the parameters of the template differ between versions.
+// Defines LAMMPS' name of its search, a template whose parameters differ between versions.
 namespace LAMMPS_NS {
 #define NPAIR_CLASS
 #define NPairStyle(key, Class, mask)
@@ -31,22 +31,23 @@ using namespace NeighConst;
 
 namespace {
 
-// Neighbor offers no other way to give it a search.
+// Gives access to a protected member, as class Neighbor has no interface for replacing a search.
 struct Searches : Neighbor {
   static NPair **of(Neighbor *neighbor) { return neighbor->*(&Searches::neigh_pair); }
 };
 
-// Another version may order its lists in another way: it keeps its own search.
+// Other versions may order their lists differently, so they keep their own search.
 constexpr int VERSION = 20250204;
 
 // Coordinates in single precision are off by less than this part of the largest.
 constexpr double ROUNDING = 1e-6;
 
-constexpr int LANES = 8;    // particles that are looked at together
+constexpr int LANES = 8;    // particles that are tested together
 
 }    // namespace
 
-// Those that may be in the list of particle i; how many. Without AVX2 it is not called.
+// Collects the particles that may be in the list of particle i, and returns their number. It is not
+// called without AVX2.
 #if defined(__x86_64__) && defined(__GNUC__)
 __attribute__((target("avx2"))) int LSMPairSearch::find(int i, float xi, float yi, float reach)
 {
@@ -86,7 +87,7 @@ LSMPairSearch::LSMPairSearch(LAMMPS *_lmp, NPair *other) : NPair(_lmp), stock(ot
   copy_neighbor_info();
 }
 
-// A list without some types is taken from one with all of them.
+// A list that skips some types is derived from one with all types, which is the one to be replaced.
 void LSMPairSearch::take_over(LAMMPS *lmp, NeighList &wanted)
 {
   NeighList &list = wanted.listskip ? *wanted.listskip : wanted;
@@ -103,8 +104,8 @@ void LSMPairSearch::copy_neighbor_info()
   stock->copy_neighbor_info();
 }
 
-// In the order of the bins, and in each as LAMMPS goes through it: bins that follow each other in
-// the stencil are one stretch then.
+// Sorts particles by bins, in each bin in LAMMPS' order, so that consecutive bins of the stencil
+// are contiguous in memory.
 void LSMPairSearch::sort_particles()
 {
   const size_t count = atom->nlocal + atom->nghost;
@@ -114,7 +115,7 @@ void LSMPairSearch::sort_particles()
     for (int j = binhead[bin]; j >= 0; j = bins[j]) number.push_back(j);
     begin.push_back(static_cast<int>(number.size()));
   }
-  number.resize(count + LANES, -1);    // so that all lanes can be read
+  number.resize(count + LANES, -1);    // so that all lanes of the last vector can be read
   for (auto *values : {&place[0], &place[1], &size}) values->resize(count + LANES);
   for (size_t n = 0; n < count; n++) {
     const int j = number[n];

@@ -12,13 +12,13 @@
 
 namespace LAMMPS_NS {
 
-/// Takes the place of LAMMPS' own search (half list, newton off, radii, molecules), and writes the
-/// same list, entry by entry. Those that can be in it are found eight at a time; what it
-/// does not know (exclusions, templates of molecules, three dimensions) it leaves to the other.
+/// Replaces LAMMPS' own search (half list, newton off, radii, molecules) and writes the same list,
+/// entry by entry. Candidates are tested eight at a time. Whatever this search does not support
+/// (exclusions, templates of molecules, three dimensions) is left to LAMMPS' own.
 class LSMPairSearch : public NPair {
  public:
-  /// To be called once the list was built: from the next time on it is built by this search, if
-  /// it is of that kind.
+  /// Lets this search build a list from the next time on, if the list is of that kind. To be called
+  /// after the list was built once.
   static void take_over(class LAMMPS *, class NeighList &);
 
   void copy_neighbor_info() override;
@@ -29,12 +29,12 @@ class LSMPairSearch : public NPair {
 
   std::unique_ptr<NPair> stock;
 
-  // particles in the order of their bins
+  // particles, sorted by their bins
 
-  std::vector<int> begin;     // of each bin, and the end of the last
-  std::vector<int> number;    // the particle
+  std::vector<int> begin;     // where each bin begins, and the end of the last
+  std::vector<int> number;    // local index of the particle
   std::vector<float> place[2], size;
-  std::vector<std::pair<int, int>> rows;    // of the stencil: bins that follow each other
+  std::vector<std::pair<int, int>> rows;    // runs of consecutive bins of the stencil
   std::vector<int> found;
 
   void sort_particles();
