@@ -19,9 +19,9 @@ namespace LSM {
 /// One rank's share of the samples of consecutive steps.
 struct SampleBlock {
   std::int64_t first = 0;  ///< step of the first sample
-  int count = 0;           ///< samples
+  int count = 0;           ///< number of samples
   std::vector<double> pe;  ///< of each step
-  /// Three numbers each: the step as its place in the block, bin, moment.
+  /// Slips, three numbers each: index of the step in the block, bin, moment.
   std::vector<double> slip;
   std::vector<double> intervals;  ///< SlipRecorder::sums() of the intervals that ended in the block
 
@@ -36,20 +36,21 @@ struct SampleBlock {
 /// Fills blocks. A block handed over stays valid until the next one is.
 class BlockSampler {
  public:
-  /// steps in a block, at least 1; nothing may have been sampled since the last hand_over()
+  /// Sets the length of a block. To be called while the block is empty.
+  /// \param steps at least 1
   void resize(int steps) {
     steps_ = steps;
     for (SampleBlock *block : {&filling_, &handed_over_})
       block->pe.reserve(static_cast<std::size_t>(steps));
   }
 
-  /// Slip in the step whose PE comes next, in bins of that width.
+  /// Adds the slips of the step whose PE is added next, in bins of the given width.
   void add_slip(const std::vector<ContactSlip> &slips, double bin_width) {
     for (const ContactSlip &s : slips)
       filling_.slip.insert(filling_.slip.end(), {static_cast<double>(filling_.count),
                                                  std::floor(s.along / bin_width), s.moment});
   }
-  /// An interval that ends with the step whose PE comes next.
+  /// Adds an interval that ends with the step whose PE is added next.
   void add_interval(const std::vector<double> &sums) {
     filling_.intervals.insert(filling_.intervals.end(), sums.begin(), sums.end());
   }
@@ -62,7 +63,7 @@ class BlockSampler {
   bool empty() const { return filling_.count == 0; }
   bool full() const { return filling_.count >= steps_; }
 
-  /// The block so far; a new one begins.
+  /// Returns the block and begins a new one.
   const SampleBlock &hand_over() {
     std::swap(filling_, handed_over_);
     filling_.clear();
@@ -82,7 +83,8 @@ struct GatheredBlock {
   std::vector<double> slip;       ///< as in SampleBlock, one rank after the other
   std::vector<double> intervals;  ///< sums over the ranks
 
-  /// Total of a sample; n: its place in the block.
+  /// PE of all ranks.
+  /// \param n index of the sample in the block
   double total(int n) const {
     NeumaierSum sum;
     for (int rank = 0; rank < ranks; ++rank)

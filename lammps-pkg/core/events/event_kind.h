@@ -24,7 +24,7 @@ namespace LSM {
 
 /// State of the fault at the end of an interval.
 struct FaultMoment {
-  std::int64_t intervals = 0;  ///< so far
+  std::int64_t intervals = 0;  ///< number of intervals so far
   double pe = 0.0;
   std::vector<float> stress;  ///< of the bins
 };
@@ -46,7 +46,7 @@ class EventFinder {
   virtual ~EventFinder() = default;
 
   virtual void add_sample(const EventSample &, const Report &) {}
-  /// The state before the first interval: total PE and the stresses of the bins.
+  /// Sets the state before the first interval: total PE and the stresses of the bins.
   virtual void begin(double /*pe*/, const FaultRow &) {}
   /// Adds the next interval, with PE at its end.
   virtual void add(double /*pe*/, const FaultRow &, const Report &) {}
@@ -55,7 +55,7 @@ class EventFinder {
 
   /// Accounts for a change of PE between two runs that is not due to the model.
   virtual void leave_out_jump(double) {}
-  /// Other settings of the picker, and the ratio of the new time step to the old one.
+  /// Changes the settings of the picker. The ratio is that of the new time step to the old one.
   virtual void change_picker(const PickerSettings &, double /*ratio*/) {}
 
   virtual std::int64_t open() const = 0;
@@ -65,7 +65,7 @@ class EventFinder {
   /// Step up to which the ends of events are known after the given step.
   virtual std::int64_t known_until(std::int64_t step) const = 0;
 
-  /// For restarts. \throws std::invalid_argument for numbers that cannot be those of such a finder
+  /// State for restarts; set_state() throws std::invalid_argument if no such finder can have it.
   virtual std::vector<double> state() const = 0;
   virtual void set_state(const std::vector<double> &) = 0;
 };
@@ -73,12 +73,13 @@ class EventFinder {
 /// Adds a parameter to a header.
 using AddParameter = std::function<void(const std::string &key, const std::string &value)>;
 
+/// A kind of events.
 class EventKind {
  public:
   virtual ~EventKind() = default;
 
   virtual const char *name() const = 0;
-  /// Its own keywords.
+  /// Keywords that only this kind has.
   virtual Keywords keywords() { return {}; }
 
   /// Whether it needs the slips of contacts in each step, which only a periodic fault has.
@@ -91,12 +92,12 @@ class EventKind {
   /// The input that asks for these, for messages.
   virtual std::string asked_by() const { return std::string("events ") + name(); }
 
-  /// What the header of its catalogues says about the events, add_sizes() among it. The parameter
-  /// `events`, with its name, says that events may overlap. slip_bin: width of the bins of the
-  /// grid.
+  /// Adds to the header of its catalogues what describes the events, including add_sizes(). The
+  /// parameter `events`, with the name of the kind, states that events may overlap.
+  /// \param slip_bin width of the bins of the grid
   virtual void describe(const EventSettings &, double slip_bin, const AddParameter &,
                         CatalogueInfo &) const = 0;
-  /// What slips and what is connected, for the slip history.
+  /// Settings that define what slips and what is connected, for the slip history.
   virtual RuptureSettings rupture_settings(const EventSettings &, double /*dt*/) const {
     return {};
   }
@@ -104,7 +105,7 @@ class EventKind {
   virtual std::unique_ptr<EventFinder> finder(const EventSettings &, const FaultGrid &) const = 0;
 
  protected:
-  /// What sizes of events and PE mean, for describe().
+  /// Adds what defines the sizes of events and PE, for describe().
   static void add_sizes(const EventSettings &settings, const AddParameter &add) {
     add("min_size", text_io::number(settings.picker.min_size));
     add("tangential_energy", settings.tangential ? "yes" : "no");

@@ -22,6 +22,7 @@ struct TwoSides {
   std::string lower, upper;
 };
 
+/// Settings of a recorder.
 struct EventSettings {
   std::string name;  ///< of this recorder, for messages
 
@@ -37,17 +38,17 @@ struct EventSettings {
   double bin_width = 1.0;  ///< of the bins along the fault
   TwoSides sides, faces;   ///< whole blocks; the particles that border on the fault
 
-  // Of the fault in intervals, for kinds that ask for it:
+  // For kinds that need the fault in intervals:
   double driving = 0.0;  ///< velocity that slip is compared with
   double forward = 1.0;  ///< direction of the upper side along x: 1 or -1
   int interval = 10;     ///< steps over which the slip of a bin is summed
   double modulus = 0.0;  ///< shear modulus
   int quiet = 100;       ///< intervals in one record of the history while nothing slips
 
-  /// For the headers; they replace those of the same name.
+  /// Further parameters for the headers, which replace those of the same name.
   text_io::Parameters parameters;
 
-  /// The fault from a step on.
+  /// Divides the fault into bins, and the time from a step on into intervals.
   FaultGrid grid(double x0, double length, std::int64_t step, double time, double dt) const {
     FaultGrid g;
     g.bins = std::max(1, static_cast<int>(length / bin_width * (1.0 + 1e-12)));

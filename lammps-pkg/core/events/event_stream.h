@@ -65,10 +65,12 @@ class EventStream {
   /// \throws std::invalid_argument for settings out of range
   explicit EventStream(const EventSettings &settings);
 
-  /// Starts a fault before its first interval. \throws std::invalid_argument
+  /// Starts a fault before its first interval.
+  /// \throws std::invalid_argument
   void set_grid(const FaultGrid &grid);
 
-  /// Continues from a restart file; to be called after set_grid(). \throws std::invalid_argument
+  /// Continues from a restart file. To be called after set_grid().
+  /// \throws std::invalid_argument
   void set_state(const SavedStream &saved);
 
   /// Returns the numbers of a SavedStream. open_sums are the sums of the incomplete interval.

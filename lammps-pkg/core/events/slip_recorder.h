@@ -34,9 +34,9 @@ struct FaultContact {
   double share;  ///< 1, or 0.5 where another rank has the contact as well
 };
 
-/// Displacement of a particle of one of the two faces of the fault along x in so many steps.
+/// Displacement along x of a particle of one of the two faces of the fault, in so many steps.
 struct FaceDisplacement {
-  double x;  ///< in the middle of them
+  double x;  ///< position in the middle of these steps
   double displacement;
   double steps;
   bool upper;
@@ -46,7 +46,8 @@ struct FaceDisplacement {
 /// be added.
 class SlipRecorder {
  public:
-  /// forward: direction in which the upper side is driven along x, 1 or -1.
+  /// Starts with empty sums.
+  /// \param forward direction in which the upper side is driven along x, 1 or -1
   void begin(const FaultGrid &grid, double forward) {
     grid_ = grid;
     forward_ = forward;

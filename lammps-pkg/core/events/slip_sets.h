@@ -23,8 +23,8 @@ namespace LSM {
 struct SlipSet {
   std::int64_t step_start = 0;  ///< the step before the first in which a place slid
   std::int64_t step_end = 0;    ///< the last step in which a place slid
-  std::int64_t first = 0;       ///< lowest of those that slid first
-  /// The row of places that slid, with the gaps between them: length in a row from begin on.
+  std::int64_t first = 0;       ///< lowest of the places that slid first
+  /// The places that slid and the gaps between them: `length` consecutive places from `begin` on.
   std::int64_t begin = 0, length = 0;
 
   /// The order in which sets are reported.
@@ -34,8 +34,8 @@ struct SlipSet {
   }
 };
 
-/// Adds a row of places to that of a set, with the gap of at most `gap` places between them. A row
-/// whose ends are no farther apart than that covers the whole ring.
+/// Extends the row of a set by another row and the gap of at most `gap` places between them. A row
+/// whose ends are no farther apart than `gap` covers the whole ring.
 inline void extend(SlipSet &set, std::int64_t begin, std::int64_t length, std::int64_t places,
                    std::int64_t gap) {
   if (set.length == places) return;
@@ -89,8 +89,9 @@ class SlipSets {
 
   void begin_step(std::int64_t step) { step_ = step; }
 
-  /// Place i slides. Returns its set, valid until the next call; begun is called with the set if it
-  /// is new.
+  /// Adds place i, which slides.
+  /// \param begun called with the set of the place if it is new
+  /// \return the set of the place, valid until the next call
   template <class Begun>
   Set &slide(int i, Begun &&begun) {
     std::int32_t mine = none;
@@ -171,7 +172,8 @@ class SlipSets {
     return s;
   }
 
-  /// Continues after the given step. \throws std::invalid_argument if no sets can be in that state.
+  /// Continues after the given step.
+  /// \throws std::invalid_argument if no sets can be in that state
   void set_state(const SlipSetsState<Set> &s, std::int64_t step) {
     step_ = step;
     nodes_.clear();
@@ -198,8 +200,8 @@ class SlipSets {
   static constexpr std::int32_t none = -1;
   static constexpr std::int64_t never = INT64_MIN / 2;
 
-  // A set that was merged into another remains as a node that leads to it until that one ends, as
-  // places may still refer to it.
+  // A set that was merged into another one remains as a node that refers to it until that one ends,
+  // as places may still refer to the node.
   struct Node {
     std::int32_t parent, next, tail;  // next and tail: chain of all nodes joined with a root
     Set set;

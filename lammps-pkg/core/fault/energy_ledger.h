@@ -14,8 +14,8 @@ namespace LSM {
 struct EnergyTerms {
   double kinetic = 0.0;     ///< without the driven motion of the plates
   double potential = 0.0;   ///< of all springs, whether they count as PE or not
-  double friction = 0.0;    ///< lost
-  double viscosity = 0.0;   ///< lost
+  double friction = 0.0;    ///< lost to friction
+  double viscosity = 0.0;   ///< lost to viscosity
   double broken = 0.0;      ///< lost with links that broke
   double plates = 0.0;      ///< done by the plates
   double counted_pe = 0.0;  ///< what counts as PE
@@ -26,19 +26,21 @@ struct EnergyTerms {
   double balance() const {
     return kinetic + potential + friction + viscosity + broken + absorbed - plates - outside;
   }
-  /// Scale for an error.
+  /// Scale to which residuals are compared.
   double scale() const { return friction + viscosity + absorbed + kinetic + std::fabs(counted_pe); }
 };
 
-/// Whether a change exceeds that by rounding of positions; floor: for positions near zero energy.
+/// Whether a change of energy is larger than rounding of positions explains.
+/// \param floor limit where the energy is near zero
 inline bool is_jump(double change, double energy, double floor) {
   return std::fabs(change) > std::max(floor, 1e-9 * energy);
 }
 
+/// Keeps the balance of energies and works over several runs.
 class EnergyLedger {
  public:
   bool begun() const { return begun_; }
-  /// The balance starts here.
+  /// Starts the balance.
   void begin(const EnergyTerms &now) {
     start_ = now.balance();
     begun_ = true;
@@ -52,8 +54,9 @@ class EnergyLedger {
     if (begun_) residual_at_end_ = residual(now);
     ended_at_ = step;
   }
-  /// Removes a jump since the end of the previous run, caused between two runs, from the balance.
-  /// Returns it, or 0. now() is called only if there is something to compare with.
+  /// Removes a jump of energy that a command between two runs has caused from the balance.
+  /// \param now returns the energies; called only if there is something to compare with
+  /// \return the jump, or 0
   template <class Now>
   double leave_out_jump(std::int64_t step, double floor, Now &&now) {
     if (!begun_ || ended_at_ != step) return 0.0;
@@ -64,8 +67,8 @@ class EnergyLedger {
     return jump;
   }
 
-  /// What a restart file keeps: works until now are those before, as the styles of the run that
-  /// continues from it do not know them.
+  /// The state for a restart file, with the works so far: the styles of the run that continues from
+  /// it do not know them.
   EnergyLedger kept(const EnergyTerms &now) const {
     EnergyLedger kept = *this;
     kept.friction_before_ = now.friction;
@@ -78,7 +81,8 @@ class EnergyLedger {
     state(self.begun_, self.start_, self.friction_before_, self.broken_before_,
           self.within_before_);
   }
-  /// now: with works since the last restart.
+  /// Adds the works before the last restart.
+  /// \param now with works since the last restart
   EnergyTerms with_earlier_works(EnergyTerms now) const {
     now.friction = friction_before_ + now.friction;
     now.broken = broken_before_ + now.broken;

@@ -69,8 +69,8 @@ double largest_of_tridiagonal(const std::vector<double> &diagonal,
 
 /// Largest eigenvalue of a positive semi-definite matrix.
 struct LargestEigenvalue {
-  double found = 0.0;  ///< Ritz value: not above it
-  double bound = 0.0;  ///< not below it, but with the probability asked for
+  double found = 0.0;  ///< Ritz value, which is not above the eigenvalue
+  double bound = 0.0;  ///< bound that the eigenvalue exceeds with probability eigenvalue_risk only
   int steps = 0;       ///< products with the matrix
 };
 
@@ -82,8 +82,11 @@ constexpr double eigenvalue_risk = 1e-12;
 /// Number of steps after which the Ritz value is accurate to eigenvalue_share.
 int lanczos_steps(double dimensions);
 
-/// start: this rank's share of a vector of independent normal numbers, of which there are
-/// dimensions on all ranks. multiply(x, y) sets y to the matrix times x; sum(a) adds up over ranks.
+/// Estimates the largest eigenvalue of a positive semi-definite matrix by Lanczos iteration.
+/// \param start this rank's share of a vector of independent normal numbers
+/// \param dimensions length of this vector on all ranks together
+/// \param multiply multiply(x, y) sets y to the matrix times x
+/// \param sum sum(a) adds up over the ranks
 template <class Multiply, class Sum>
 LargestEigenvalue largest_eigenvalue(std::vector<double> start, double dimensions,
                                      Multiply &&multiply, Sum &&sum) {
@@ -101,7 +104,7 @@ LargestEigenvalue largest_eigenvalue(std::vector<double> start, double dimension
   const int steps = lanczos_steps(dimensions);
   std::vector<double> diagonal, beside;
   double off = 0.0;
-  bool complete = false;  // nothing is left outside the space searched
+  bool complete = false;  // the Krylov space is exhausted
   while (result.steps < steps && !complete) {
     multiply(v, next);
     ++result.steps;
@@ -123,21 +126,23 @@ LargestEigenvalue largest_eigenvalue(std::vector<double> start, double dimension
   return result;
 }
 
-/// One rank's masses and springs. Particles are numbered: first those owned, then the ghosts, which
-/// another rank owns or which are images beyond a periodic boundary.
+/// One rank's masses and springs. Particles are numbered with the owned ones first, then the
+/// ghosts, which are owned by another rank or are images beyond a periodic boundary.
 struct SpringNetwork {
   int dim = 2;                    ///< 2 or 3
-  std::vector<double> mass;       ///< of those at home
-  std::vector<std::uint64_t> id;  ///< of those at home, for the start vector
+  std::vector<double> mass;       ///< of the owned particles
+  std::vector<std::uint64_t> id;  ///< of the owned particles, for the start vector
   std::size_t ghosts = 0;
   std::vector<PairSpring> springs;
 };
 
-/// Square of the highest frequency: largest eigenvalue of M^-1/2 K M^-1/2, in so many dimensions on
-/// all ranks. displacement and force belong to the caller, `dim` values per particle: to_ghosts()
-/// has to copy displacements of owned particles to their ghosts, from_ghosts() to add the forces of
-/// ghosts to those of owned particles, or to do nothing if no spring gave them any. sum(a) adds up
-/// over ranks.
+/// Square of the highest frequency: the largest eigenvalue of M^-1/2 K M^-1/2.
+/// \param dimensions degrees of freedom on all ranks together
+/// \param displacement, force buffers of the caller, `dim` values per particle
+/// \param to_ghosts copies displacements of owned particles to their ghosts
+/// \param from_ghosts adds the forces on ghosts to those on owned particles, or does nothing if no
+/// spring exerts any
+/// \param sum sum(a) adds up over the ranks
 template <class ToGhosts, class FromGhosts, class Sum>
 LargestEigenvalue highest_frequency_squared(const SpringNetwork &network, double dimensions,
                                             std::vector<double> &displacement,

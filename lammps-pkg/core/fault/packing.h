@@ -18,11 +18,11 @@ struct PackingSettings {
   double rmin = 0.1;         ///< smallest radius
   double rmax = 1.0;         ///< largest radius
   uint64_t seed = 1;         ///< seed of the random numbers
-  int max_failures = 5000;   ///< a stretch of a block is full after so many failures in a row
+  int max_failures = 5000;   ///< a tile of a block is full after so many failures in a row
   double tolerance = 1e-8;   ///< accepted overlap of two discs, relative to the sum of the radii
   double link_gap = 1e-5;    ///< discs (and lines) closer than this count as tangent
   double fault_zone = 0.25;  ///< † discs with a surface so close to the fault line are flagged
-  bool remove_loose = true;  ///< † take out discs that their links do not hold, see Packing::loose
+  bool remove_loose = true;  ///< † remove discs that their links do not hold, see Packing::loose
   bool mirror = false;       ///< † the upper block is the mirror image of the lower one
 };
 
@@ -78,7 +78,7 @@ std::pair<double, double> link_vector(double length, const Disc &a, const Disc &
 /// and each of its discs at the fault line faces one of the same radius at the same x.
 ///
 /// The result depends on the settings and the floating-point arithmetic of the platform only.
-/// @throws std::invalid_argument with one line that names the setting and what was expected
+/// \throws std::invalid_argument with one line that names the setting and what was expected
 Packing make_packing(const PackingSettings &settings);
 
 /// Largest number of discs of radius r > 0 that fit around a disc of radius `radius`, if they may
@@ -91,8 +91,8 @@ int most_neighbours(double radius, double r);
 /// for any network of springs, so that velocity Verlet is stable where m_i >= dt^2 s_i / 2 for all
 /// i, s the largest eigenvalue of S. That of the links is known; each further neighbour for which
 /// there is room adds at most the larger of the normal and tangential stiffness of a contact.
-/// @param stiffness of links and contacts
-/// @param kt        tangential stiffness of contacts
+/// \param stiffness of links and contacts
+/// \param kt        tangential stiffness of contacts
 std::vector<double> masses_for_step(const Packing &packing, double length, double dt,
                                     double stiffness, double kt);
 

@@ -14,38 +14,43 @@
 
 namespace LSM {
 
+/// What a Watchdog checks.
 struct WatchdogSettings {
-  double strain_limit = 0.5;  ///< of a link
+  double strain_limit = 0.5;  ///< largest strain of a link
   double tolerance = 0.0;     ///< residual of the ledger over its scale; 0: not checked
   int every = 1000;           ///< steps between two checks
 };
 
+/// Checks the state of a run every so many steps.
 class Watchdog {
  public:
-  /// What is wrong, or "".
+  /// Result of a check.
   struct Alarm {
-    std::string what;
-    bool finite = true;  ///< the state is worth a restart file
+    std::string what;    ///< what is wrong, or ""
+    bool finite = true;  ///< whether the state is worth a restart file
   };
 
   explicit Watchdog(const WatchdogSettings &settings) : settings_(settings) {}
 
-  /// Strain for a maximum over ranks, which would lose a NaN.
+  /// Replaces strains that are not finite, as a maximum over ranks would lose a NaN.
   static double comparable(double strain) { return std::isfinite(strain) ? strain : not_finite; }
 
   void reset() { alarmed_ = false; }
   bool due(std::int64_t step) const { return alarmed_ || step % settings_.every == 0; }
 
-  /// In the middle of a step, before links can be torn beyond the ghosts. Schedules a check at the
-  /// end of the step; returns what is wrong if the most strained link may be longer than the ghosts
-  /// reach. Takes the largest rest length of a link, and the reach of the ghosts.
+  /// Checks the links in the middle of a step, before they can be torn beyond the ghosts. If the
+  /// strain is above its limit, schedules a check at the end of the step.
+  /// \param widest largest rest length of a link
+  /// \param reach of the ghosts
+  /// \return what is wrong if the most strained link may be longer than the ghosts reach, or ""
   std::string check_links(double strain, double widest, double reach) {
     alarmed_ = strain > settings_.strain_limit;
     if (!alarmed_ || (1.0 + strain) * widest <= reach) return {};
     return strain >= not_finite ? "positions are not finite" : strained(strain);
   }
 
-  /// At the end of a step; terms() gives the energies for the ledger, if it is checked.
+  /// Checks the state at the end of a step.
+  /// \param terms returns the energies; called only if the ledger is checked
   template <class Terms>
   Alarm check(bool pe_finite, double strain, const EnergyLedger &ledger, Terms &&terms) {
     alarmed_ = false;
@@ -74,7 +79,7 @@ class Watchdog {
   }
 
   WatchdogSettings settings_;
-  bool alarmed_ = false;  // something was wrong within the step
+  bool alarmed_ = false;  // check_links() found something in this step
 };
 
 }  // namespace LSM

@@ -179,7 +179,8 @@ template <class Info>
 class RecordWriter : public text_io::ResumableFile {
  protected:
   /// Starts a new file. An older one is replaced only once the header has been written.
-  /// \throws FileError; std::invalid_argument for a header that could not be read back.
+  /// \throws FileError
+  /// \throws std::invalid_argument for a header that could not be read back
   void begin(const std::string &path, const Info &info) {
     std::string bytes(Info::magic);
     const std::string lines = text_io::lines_of(checked(info));

@@ -76,7 +76,8 @@ class CatalogueReader {
 
   const CatalogueInfo &info() const { return info_; }
 
-  /// Next event; false at the end of the file. \throws FileError (strict).
+  /// Reads the next event. Returns false at the end of the file.
+  /// \throws FileError (strict)
   bool next(Event &event);
 
   std::int64_t skipped() const { return skipped_; }  ///< bad lines skipped (lenient)
@@ -127,22 +128,24 @@ class CatalogueReader {
 class CatalogueWriter : public text_io::ResumableFile {
  public:
   /// Starts a new catalogue, replacing an older one (which stays if the new one cannot be written).
-  /// \throws FileError; std::invalid_argument for a header that could not be read back.
-  /// whole: the file gets its name by close() only, see OutputFile.
+  /// \param whole the file gets its name by close() only, see OutputFile
+  /// \throws FileError
+  /// \throws std::invalid_argument for a header that could not be read back
   void create(const std::string &path, const CatalogueInfo &info, bool whole = false);
 
-  /// Looks at the catalogue of a run restarted from last_step, which cut() goes on with: checks
-  /// that the header says what create() would write (parameters named in ignore may differ; their
-  /// old values stay), and finds the first event that ended after last_step, or a torn last line.
-  /// expected: number of events before the cut, if not negative.
+  /// Inspects the catalogue of a run restarted from last_step, which cut() will continue: checks
+  /// that the header is what create() would write, and finds the first event that ended after
+  /// last_step, or a truncated last line.
+  /// \param ignore parameters that may differ; their old values stay
+  /// \param expected number of events before the cut, if not negative
   /// \throws FileError naming the first parameter that differs, the first bad line, or the number
   /// of events.
   void find_cut(const std::string &path, const CatalogueInfo &info, std::int64_t last_step,
                 const std::vector<std::string> &ignore = {}, std::int64_t expected = -1);
 
   /// Appends one line and hands it to the operating system.
-  /// \throws FileError if that fails, or if the event is not one a reader would accept after the
-  /// one before (NaN, order).
+  /// \throws FileError if that fails, or if a reader would not accept the event after the previous
+  /// one (NaN, order)
   void write(const Event &event);
 
   std::int64_t rows() const { return rows_; }  ///< events in the file, kept ones included

@@ -22,11 +22,14 @@ class Bytes {
   Bytes(const Bytes &) = delete;
   Bytes &operator=(const Bytes &) = delete;
 
-  /// Returns fewer bytes than `most` only at the end of the file. \throws FileError
+  /// Reads up to `most` bytes, fewer only at the end of the file. Returns their number.
+  /// \throws FileError
   std::size_t read(char *to, std::size_t most);
-  /// Returns the next bytes without consuming them. \throws FileError
+  /// Returns the next bytes without consuming them.
+  /// \throws FileError
   std::string_view peek(std::size_t count);
-  /// Size of the whole file, negative for a pipe, whose size is not known. \throws FileError
+  /// Size of the whole file, negative for a pipe, whose size is not known.
+  /// \throws FileError
   virtual std::int64_t size() const = 0;
   const std::string &path() const { return path_; }
 
@@ -55,7 +58,8 @@ class FileBytes : public Bytes {
 
 /// Names the program that compressed a file that begins with these bytes, or returns "".
 std::string_view compressed_by(std::string_view head);
-/// The same for a file of which nothing has been read yet. \throws FileError
+/// As above, for a file of which nothing has been read yet.
+/// \throws FileError
 std::string_view compressed_by(Bytes &file);
 
 /// Opens a file that must not be compressed, as LAMMPS and the block-slider do not link a library

@@ -21,7 +21,8 @@ bool holds_data(const std::string &path);
 /// behind.
 std::string why_not_writable(const std::string &path);
 
-/// Writes all data of a file, or all names of a folder, to the disk. \throws FileError
+/// Writes all data of a file, or all names of a folder, to the disk.
+/// \throws FileError
 void sync(const std::string &path);
 
 /// Unbuffered output file: each write() hands all its bytes to the operating system at once, so
@@ -36,7 +37,7 @@ class OutputFile {
 
   /// Replaces path by a file that begins with text, written beside it; an older file stays
   /// untouched if that fails.
-  /// \param whole the file gets its name by close() only, and nothing is left of it without
+  /// \param whole the file gets its name only by close(), without which nothing is left of it
   void create(const std::string &path, std::string_view text, bool whole = false);
 
   /// Selects an existing file, of which append() will keep this many bytes.
@@ -73,9 +74,11 @@ class OutputFile {
 /// a run with several files truncates none of them before all are found to match.
 class ResumableFile {
  public:
-  /// Truncates the file where find_cut() found that the new run begins. \throws FileError
+  /// Truncates the file where find_cut() found that the new run begins.
+  /// \throws FileError
   void cut() { file_.append(); }
-  /// \throws FileError if the system reports a late failure. Also done on destruction, silently.
+  /// Closes the file. The destructor does this, too, but ignores errors.
+  /// \throws FileError if the system reports a late failure
   void close() { file_.close(); }
   bool is_open() const { return file_.is_open(); }
 

@@ -50,7 +50,8 @@ std::string take(const Parameters &parameters, const std::string &key, Value &va
 /// readers from small compressed files that unpack to gigabytes.
 constexpr std::int64_t longest_header = 1 << 23;
 
-/// Refuses keys and values that could not be read back as written. \throws std::invalid_argument
+/// Refuses keys and values that could not be read back as written.
+/// \throws std::invalid_argument
 void check_parameters(const Parameters &parameters);
 
 /// One "# key = value" line per parameter.

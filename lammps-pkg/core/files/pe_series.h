@@ -79,28 +79,32 @@ class PeSeriesWriter : public binary_io::RecordWriter<PeSeriesInfo> {
   /// \throws as begin()
   void create(const std::string &path, const PeSeriesInfo &info);
 
-  /// Looks at the series of a run restarted from last_step, which cut() goes on with: checks that
-  /// the header is what create() would write (parameters named in ignore may differ; their old
-  /// values stay), and finds the first sample after last_step or an incomplete last one.
+  /// Inspects the series of a run restarted from last_step, which cut() will continue: checks that
+  /// the header is what create() would write, and finds the first sample after last_step or a
+  /// truncated last one.
+  /// \param ignore parameters that may differ; their old values stay
   /// \throws FileError naming the first parameter that differs, the first bad line, or the samples
   /// missing before last_step.
   void find_cut(const std::string &path, const PeSeriesInfo &info, std::int64_t last_step,
                 const std::vector<std::string> &ignore = {});
 
   /// Adds a sample at the time given by its step.
-  /// \throws as below; std::logic_error for a series with explicit_times
+  /// \throws FileError as the function below
+  /// \throws std::logic_error for a series with explicit_times
   void write(std::int64_t step, double pe);
 
   /// Adds a sample.
-  /// \param time counts with explicit_times only
+  /// \param time used with explicit_times only
   /// \throws FileError if a number is not finite, steps or times do not increase, or a block cannot
   /// be written.
   void write(std::int64_t step, double time, double pe);
 
-  /// Hands all samples so far to the operating system. \throws FileError
+  /// Hands all samples so far to the operating system.
+  /// \throws FileError
   void flush();
 
-  /// \throws FileError. The destructor closes the file, too, but ignores errors.
+  /// Closes the file. The destructor does this, too, but ignores errors.
+  /// \throws FileError
   void close();
 
   std::int64_t rows() const { return rows_; }  ///< samples so far, kept ones included

@@ -81,7 +81,8 @@ class SlipHistoryReader : public binary_io::RecordReader<SlipHistoryInfo> {
   explicit SlipHistoryReader(std::unique_ptr<text_io::Bytes> in, bool lenient = false)
       : RecordReader(std::move(in), lenient) {}
 
-  /// Reads the next record; returns false at the end of the file. \throws FileError
+  /// Reads the next record. Returns false at the end of the file.
+  /// \throws FileError
   bool next(SlipRecord &record);
 
  private:
@@ -95,13 +96,15 @@ class SlipHistoryReader : public binary_io::RecordReader<SlipHistoryInfo> {
 /// incomplete one is lost on close().
 class SlipHistoryWriter : public binary_io::RecordWriter<SlipHistoryInfo> {
  public:
-  /// Starts a file with the state at the given step. \throws as begin()
+  /// Starts a file with the state at the given step.
+  /// \throws as begin()
   void create(const std::string &path, const SlipHistoryInfo &info, std::int64_t step, double pe,
               const std::vector<float> &stress);
 
-  /// Looks at the history of a run restarted with the given state(), which cut() goes on with:
-  /// checks that the header says what create() would write (parameters named in ignore may differ;
-  /// their old values stay), and finds the first record after that state, or a torn last one.
+  /// Inspects the history of a run restarted with the given state(), which cut() will continue:
+  /// checks that the header is what create() would write, and finds the first record after that
+  /// state, or a truncated last one.
+  /// \param ignore parameters that may differ; their old values stay
   /// \throws FileError
   void find_cut(const std::string &path, const SlipHistoryInfo &info,
                 const std::vector<double> &saved, const std::vector<std::string> &ignore = {});
@@ -129,7 +132,7 @@ class SlipHistoryWriter : public binary_io::RecordWriter<SlipHistoryInfo> {
   void finish();
   void put(const SlipRecord &record);
 
-  std::int64_t begin_ = 0;    // of the record being assembled
+  std::int64_t begin_ = 0;    // first step of the record being assembled
   std::int64_t pending_ = 0;  // intervals in it
   std::vector<double> slip_, work_;
   SlipRecord last_;

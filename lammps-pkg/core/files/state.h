@@ -90,7 +90,8 @@ class StateWriter : public state_detail::StateVisitor<StateWriter> {
   std::vector<double> &to_;
 };
 
-/// Reads the state from numbers. \throws std::invalid_argument if numbers are missing
+/// Reads the state from numbers.
+/// \throws std::invalid_argument if numbers are missing
 class StateReader : public state_detail::StateVisitor<StateReader> {
  public:
   explicit StateReader(const std::vector<double> &from, std::size_t at = 0)

@@ -12,7 +12,7 @@ LSM_FRICTION_LAW(CoulombStatic)
 
 namespace LSM {
 
-/// Holds up to mu fn, and slides at mu fn.
+/// A contact sticks up to the tangential force mu fn, and slides at mu fn.
 struct Coulomb : FrictionLaw {
   struct Coefficients {
     double kt, mu, mu_static;
@@ -30,12 +30,12 @@ struct Coulomb : FrictionLaw {
   }
 };
 
-/// The same with a static coefficient above the dynamic one †: a contact that did not slide
-/// holds up to it.
+/// Coulomb friction with a static coefficient above the dynamic one †, which applies to contacts
+/// that did not slide in the step before.
 struct CoulombStatic : Coulomb {
   static constexpr bool needs_sliding = true;
 
-  /// Also of the block-slider.
+  /// The block-slider uses this, too.
   template <class Number, class Truth>
   [[gnu::always_inline]] static Number friction(const Number &mu_static, const Number &mu,
                                                 const Truth &sliding) {

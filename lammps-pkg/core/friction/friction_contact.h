@@ -10,10 +10,11 @@
 
 namespace LSM::friction_contact {
 
-/// The numbers: elongation of the tangential spring along the tangent (-ny, nx), the vector from j
-/// to i in the step before, the status, and the state of the law, if it has one. The first four are
-/// always there, so that a restart may switch static friction or the onset on or off. All but the
-/// vector, which changes its sign, are the same seen from i and from j.
+/// Indices of the numbers that are kept for a contact: elongation of the tangential spring along
+/// the tangent (-ny, nx), the vector from j to i in the step before, the status, and the state of
+/// the law, if it has one. The first four are always kept, so that a restart may switch static
+/// friction or the onset on or off. All but the vector, which changes its sign, are the same seen
+/// from i and from j.
 enum { XI, DX, DY, STATUS, LAW_STATE };
 /// With the onset located, pairs that nearly touch are kept as well, so that the vector before the
 /// contact is known.
@@ -22,13 +23,13 @@ constexpr double NEAR_REACH = 1.05;  ///< in sums of radii
 
 /// Values shared by all contacts of a force evaluation.
 struct Step {
-  bool setup;       ///< of a run, for a step that was done: contacts stay as they are
-  double rounding;  ///< but for those of discs that a command moved since by more than this
-  double time;      ///< that the step lasts
-  bool located;     ///< the begin of a contact within the step is found
+  bool setup;       ///< setup of a run, for a step that was done: contacts stay as they are,
+  double rounding;  ///< except those of discs that a command has moved by more than this
+  double time;      ///< duration of the step
+  bool located;     ///< whether the onset of a contact within the step is located
 };
 
-/// Without contact, the vector is remembered as long as the pair is near.
+/// Keeps the vector of a pair without contact as long as the pair is near.
 inline void keep_near(bool near, double delx, double dely, bool &touch, double *h) {
   touch = near;
   h[XI] = 0.0;

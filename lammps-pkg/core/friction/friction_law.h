@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file friction_law.h
-/// What a friction law is. The strength that the block-slider shares with a law is a template: of
-/// numbers, or of vectors of the machine; always inlined, as functions with other instruction sets
-/// pass those differently. Every law acts through a tangential spring of stiffness kt †: in
-/// each step it says how far the spring stays stretched, and the rest of the displacement is slip.
-/// README.md of the package: how to add one.
+/// The interface of friction laws. Every law acts through a tangential spring of stiffness kt †: in
+/// each step it determines how far the spring stays stretched, and the rest of the displacement is
+/// slip. Functions that the block-slider uses as well are templates for numbers and SIMD vectors.
+/// They are always inlined, as functions compiled for other instruction sets pass such vectors
+/// differently. README.md of the package explains how to add a law.
 #ifndef LSM_FRICTION_LAW_H
 #define LSM_FRICTION_LAW_H
 
@@ -39,8 +39,8 @@ struct Parameter {
   int least = -1;  ///< index of the parameter that it must not fall below, or -1
 };
 
-/// A law derives from this and hides what differs. It also has a name, Coefficients, their
-/// parameters[], and
+/// Defaults of a law, which derives from this and hides what differs. A law also has a name,
+/// Coefficients, their parameters[], and
 ///   static double elongation(const Coefficients &c, FrictionContact &s, double *state),
 /// which returns the new elongation and sets s.sliding; if not sliding, the elongation must be the
 /// trial one.
@@ -52,17 +52,19 @@ struct FrictionLaw {
   static constexpr bool named =
       true;  ///< pair_coeff gives 'name value' after kt, not values in order
 
-  /// State of a contact that begins.
+  /// Sets the state of a new contact.
   template <class Coefficients>
   static void begin(const Coefficients &, double * /*state*/) {}
-  /// Whether the law applies to these; laws of the same name are tried in the order of the list.
+  /// Whether the law supports these coefficients. Laws of the same name are tried in the order of
+  /// the list.
   template <class Coefficients>
   static bool fits(const Coefficients &) {
     return true;
   }
 };
 
-/// Sticks while the pull of the spring is at most `strength`, else slides at `dynamic`.
+/// Elongation of a contact that sticks while the force of the spring is at most `strength`, and
+/// otherwise slides at the force `dynamic`.
 inline double stick_or_slide(double kt, FrictionContact &s, double strength, double dynamic) {
   const double trial = s.trial();
   s.sliding = kt * std::fabs(trial) > strength;

@@ -31,7 +31,7 @@ struct RateState : FrictionLaw {
   static constexpr bool needs_time = true;
   static constexpr int state_size = 1;  // theta
 
-  /// Without a theta the contact begins as after long sliding at v0 †.
+  /// Unless theta is given, a contact begins in the state after long sliding at v0 †.
   static void begin(const Coefficients &c, double *theta) {
     *theta = c.theta > 0.0 ? c.theta : c.dc / c.v0;
   }
@@ -65,7 +65,7 @@ struct RateState : FrictionLaw {
   }
 };
 
-/// Dieterich 1979: grows at rest.
+/// Ageing law (Dieterich 1979): theta grows at rest.
 struct AgeingEvolution {
   static constexpr const char *name = "rate-state-ageing";
   static double rested(double theta, double time) { return theta + time; }
@@ -75,7 +75,7 @@ struct AgeingEvolution {
 };
 using RateStateAgeing = RateState<AgeingEvolution>;
 
-/// Ruina 1983: changes with slip only.
+/// Slip law (Ruina 1983): theta changes with slip only.
 struct SlipEvolution {
   static constexpr const char *name = "rate-state-slip";
   static double rested(double theta, double) { return theta; }

@@ -14,7 +14,7 @@ namespace LSM {
 inline double part_of_ring(double sine, double cosine) {
   double part = std::atan2(sine, cosine) / (2.0 * pi);
   if (part < 0.0) part += 1.0;
-  return part < 1.0 ? part : 0.0;  // of -1e-17
+  return part < 1.0 ? part : 0.0;  // a negative angle of about -1e-17 is rounded to 1
 }
 
 class CircularMean {
@@ -26,7 +26,7 @@ class CircularMean {
     cosine_ += weight * std::cos(circle_ * position);
     sine_ += weight * std::sin(circle_ * position);
   }
-  /// From 0 to less than the length; 0 if the weights cancel or there are none.
+  /// The mean, from 0 to less than the length; 0 if the weights cancel or there are none.
   double position() const {
     if (cosine_ == 0.0 && sine_ == 0.0) return 0.0;
     const double x = std::atan2(sine_, cosine_) / circle_;
