@@ -135,7 +135,7 @@ void LSMEventSources::find_sides(LSMEnergySource &style) const
   style.upper_side = upper;
 }
 
-// the styles may have been deleted since, so they are looked up again
+// Styles may have been deleted, so they are looked up again.
 void LSMEventSources::release()
 {
   if (force) {

@@ -23,17 +23,18 @@ class LSMEventSources : protected Pointers {
  public:
   LSMEventSources(LAMMPS *, const LSM::EventSettings &);
   /// Stops if something in the scene does not work with recording, and warns of energies that are
-  /// not recorded. recorder: the fix that calls the compute.
+  /// not recorded.
+  /// \param recorder the fix that calls the compute
   void check(const Fix *recorder, bool ledger) const;
   /// Stops if the scene lacks something that the settings need; makes the styles record what they
   /// require.
   void find(bool ledger);
-  /// Stops recording in the styles that are left.
+  /// Stops recording in those styles that still exist.
   void release();
-  /// Completes the settings of the fault in intervals by those of the scene.
+  /// Completes the settings of the fault in intervals with those of the scene.
   void find_driving(LSM::EventSettings &) const;
 
-  /// Those that record slips and contacts.
+  /// The styles that record slips and contacts.
   const std::vector<LSMEnergySource *> &styles() const { return styles_; }
   const FixLSMLeap *leap() const { return leap_; }    ///< null if steps and time are proportional
   /// Bit of the group of the lower (0) or upper (1) face of the fault.
@@ -41,7 +42,7 @@ class LSMEventSources : protected Pointers {
   bool has_links() const { return links_; }
 
   double pe() const;    ///< this rank's share
-  /// Links, contacts and their tangential springs, this rank's shares; three numbers.
+  /// This rank's share of the PE of links, contacts and tangential springs: three numbers.
   void pe_by_kind(double *) const;
   double max_strain() const;            ///< of this rank's links
   LSM::EnergyTerms energies() const;    ///< of all ranks; works since these styles began

@@ -15,15 +15,16 @@ class LSMEventSources;
 
 class LSMRunGuard : protected Pointers {
  public:
-  /// flush() writes what is recorded; emergency_file: restart file of a run that is stopped
+  /// \param emergency_file restart file that is written when a run is stopped
+  /// \param flush writes what has been recorded
   LSMRunGuard(LAMMPS *, const LSMEventSources &, const LSM::WatchdogSettings &,
               const std::string &emergency_file, std::function<void()> flush);
   void begin_run();
   bool due(bigint step) const { return watchdog.due(step); }
-  /// Before neighbor lists are built: a link torn beyond the ghosts would stop LAMMPS with 'Bond
-  /// atoms missing'.
+  /// Checks the links before neighbor lists are built, as a link torn beyond the ghosts would stop
+  /// LAMMPS with 'Bond atoms missing'.
   void check_links();
-  /// At the end of a step.
+  /// Checks the state at the end of a step.
   void check_step(const LSM::EnergyLedger &, const std::function<LSM::EnergyTerms()> &energies);
 
  private:

@@ -24,10 +24,10 @@ namespace LSMScene {
   /// Pair styles of the package, each by itself under pair_style hybrid.
   std::vector<PairLSMFree *> contact_styles(Force *);
 
-  /// Whether a fix is of the package.
+  /// Whether a fix belongs to the package.
   bool is_ours(const Fix *);
 
-  /// The fixes of a kind, in their order.
+  /// All fixes of a class, in the order of the input.
   template <class Kind> std::vector<Kind *> fixes(Modify *modify)
   {
     std::vector<Kind *> all;

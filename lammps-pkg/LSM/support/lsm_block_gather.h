@@ -14,7 +14,7 @@ namespace LAMMPS_NS {
 
 class LSMBlockGather {
  public:
-  /// slip: the blocks hold slips
+  /// \param slip whether the blocks hold slips
   LSMBlockGather(MPI_Comm, bool slip);
   ~LSMBlockGather();
   LSMBlockGather(const LSMBlockGather &) = delete;

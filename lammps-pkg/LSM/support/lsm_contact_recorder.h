@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a contact loop records of its contacts. The loop is compiled once with each recorder, so
-// that a run that records nothing pays nothing.
+// What a contact loop records about its contacts. The loop is compiled once for each recorder, so
+// that runs that record nothing have no cost.
 
 #ifndef LMP_LSM_CONTACT_RECORDER_H
 #define LMP_LSM_CONTACT_RECORDER_H
@@ -11,7 +11,7 @@
 
 namespace LAMMPS_NS {
 
-/// Nothing is recorded.
+/// Records nothing.
 struct LSMRecordNothing {
   static constexpr bool records = false, tallies = false;
 
@@ -19,13 +19,13 @@ struct LSMRecordNothing {
   void finish() {}
 };
 
-/// Energies, and slip of the bins along the fault if it is asked for. `share` is that of this rank
-/// in a contact.
+/// Records energies, and slip in bins along the fault if requested. `share` is this rank's share of
+/// a contact.
 class LSMRecordEnergies {
  public:
   static constexpr bool records = true, tallies = false;
 
-  /// setup: the step was done before; its slip was counted then.
+  /// \param setup whether this is the setup of a run, for a step whose slip was counted before
   LSMRecordEnergies(LSMEnergySource &source, bool setup, double xlo, double period) :
       source_(source), counts_(!setup),
       slips_(!setup && (source.record_what & (LSMEnergySource::SLIP | LSMEnergySource::SLIP_RATE))),
@@ -44,7 +44,7 @@ class LSMRecordEnergies {
   {
     if (counts_) lost_ += share * work;
   }
-  /// moment: slip times size of the contact
+  /// \param moment slip times size of the contact
   void slip(double share, double moment)
   {
     if (slips_) moment_ += share * moment;
@@ -58,7 +58,7 @@ class LSMRecordEnergies {
   {
     if (counts_) within_ += share * work;
   }
-  /// x: place of a contact across the fault
+  /// \param x position of a contact across the fault
   void slip_at(double share, double x, double moment)
   {
     if (!slips_ || !(source_.record_what & LSMEnergySource::SLIP)) return;
@@ -66,7 +66,7 @@ class LSMRecordEnergies {
     along = (along - floor(along)) * period_;
     source_.slip.push_back({along, share * moment});
   }
-  /// Only where compute lsm/events looks for ruptures.
+  /// Whether contacts are recorded one by one, as compute lsm/events requests to find ruptures.
   bool wants_contacts() const { return source_.record_what & LSMEnergySource::CONTACTS; }
   void contact(const LSM::FaultContact &one) { source_.contacts.push_back(one); }
   void finish()
@@ -86,7 +86,7 @@ class LSMRecordEnergies {
   double normal_ = 0.0, tangential_ = 0.0, lost_ = 0.0, within_ = 0.0, moment_ = 0.0;
 };
 
-/// Also LAMMPS' own energy and virial, which the loop hands to the pair style.
+/// Also tallies LAMMPS' own energy and virial, which the loop passes to the pair style.
 struct LSMRecordAndTally : LSMRecordEnergies {
   static constexpr bool tallies = true;
   using LSMRecordEnergies::LSMRecordEnergies;

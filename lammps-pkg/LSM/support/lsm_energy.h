@@ -50,8 +50,8 @@ class LSMEnergySource {
   }
 };
 
-/// Base of the fixes that do work on particles, other than by plates. This rank's share; a restart
-/// goes on with it.
+/// Base of the fixes that do work on particles, other than by plates. Works are this rank's share
+/// and continue after a restart.
 class LSMWorkSource {
  public:
   virtual ~LSMWorkSource() noexcept(false) {}

@@ -14,7 +14,7 @@ using LSM::Must;
 
 static const std::string STYLE = "Compute lsm/events";
 
-/// The kind is read before all else, as the keywords depend on it.
+/// Reads the kind of events before everything else, as the keywords depend on it.
 static std::shared_ptr<EventKind> kind_of_events(LAMMPS *lmp, int first, int narg, char **arg)
 {
   LSMKeywordReader in(lmp, STYLE, first, narg, arg);

@@ -21,9 +21,9 @@ struct LSMEventOptions {
   int block = 100;             ///< steps collected before ranks talk to each other
   bool ledger = false;
   bool progress = true;
-  bool unfinished = false;    ///< events that are open in the end are written
+  bool unfinished = false;    ///< write events that are open at the end
 
-  /// From the words after the style's name, which begin at arg[first]. Stops at the first error.
+  /// Reads the words after the style's name, which begin at arg[first]. Stops at the first error.
   LSMEventOptions(LAMMPS *, int first, int narg, char **arg);
 
  private:

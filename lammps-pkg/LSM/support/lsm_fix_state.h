@@ -71,8 +71,8 @@ template <class Self, class Base = Fix> class LSMKeptFix : public Base {
   double compute_scalar() override { return lsm_total(*mine, this->world); }
 
  protected:
-  /// It has a scalar, at every step: the total over the ranks of their parts, or what another
-  /// compute_scalar() gives; and a vector of so many intensive numbers.
+  /// Declares the output of the fix, at every step: a scalar, the total of `parts` over the ranks
+  /// or what an overridden compute_scalar() returns, and a vector of intensive numbers.
   void has_output(const double *parts, int numbers = 0)
   {
     mine = parts;

@@ -14,28 +14,31 @@
 
 namespace LAMMPS_NS {
 
-/// Goes through the words after a style's name. Any error stops LAMMPS with one line.
+/// Reads the words after a style's name. Any error stops LAMMPS with one line.
 class LSMKeywordReader : protected Pointers {
  public:
-  /// style: as messages begin, "Fix lsm/leap"; the words begin at arg[first]
+  /// \param style begins messages, such as "Fix lsm/leap"
+  /// \param first index of the first word in arg
   LSMKeywordReader(LAMMPS *, const std::string &style, int first, int narg, char **arg);
 
   /// Advances to the next keyword. Returns false if there is none.
   bool next();
   const std::string &key() const { return key_; }
-  /// Stops unless the keyword has this many values; needed only if it is not read from a table.
+  /// Stops unless the keyword has this many values. Needed only for keywords not in a table.
   void need(int values);
   const char *text(int n = 1) const { return arg_[at_ + n]; }
   /// Reads the values if the keyword is in the table.
   bool read(const LSM::Keywords &);
-  /// Reads all keywords, which are those of the table.
+  /// Reads all keywords, which have to be in the table.
   void read_all(const LSM::Keywords &);
-  /// Stops if one of these keywords was not there.
+  /// Stops if one of these keywords is missing.
   void require(const std::vector<const char *> &keys) const;
   /// The last value of the keyword.
   double number(LSM::Must must) const { return number(must, used_ - 1); }
 
-  /// expected: of the value in place n
+  /// Stops because of a value.
+  /// \param expected what the value should be
+  /// \param n index of the value, from 1
   [[noreturn]] void refuse(const std::string &expected, int n = 1) const;
   [[noreturn]] void stop(const std::string &message) const;
   [[noreturn]] void unknown(const LSM::Keywords &) const;
@@ -44,7 +47,7 @@ class LSMKeywordReader : protected Pointers {
   const std::string style_;
   int at_, narg_;
   char **arg_;
-  int used_ = 0;    // words of the keyword, with itself
+  int used_ = 0;    // number of words of the keyword, including itself
   std::string key_;
   std::set<std::string> seen_;
 

@@ -18,8 +18,7 @@
 namespace LAMMPS_NS {
 class LSMRestartFile;
 
-/// What is known of a law at run time; a line of the list in core/friction/friction_laws.h gives
-/// one of these.
+/// A friction law at run time. Each line of the list in core/friction/friction_laws.h makes one.
 struct LSMLaw {
   const char *name;
   const LSM::Parameter *parameters;
@@ -32,13 +31,13 @@ struct LSMLaw {
 
 class LSMLawTable : protected Pointers {
  public:
-  /// In the order of the list.
+  /// All laws, in the order of the list.
   static const std::vector<LSMLaw> &all();
-  /// The first of that name, or null.
+  /// The first law of a name, or null.
   static const LSMLaw *find(const std::string &name);
   static std::string names();
 
-  /// Coefficients of a law from the values of value(place).
+  /// Coefficients of a law, from value(index).
   template <class Law, class Value> static auto coefficients(const Value &value)
   {
     return made_of<Law>(value, std::make_index_sequence<std::size(Law::parameters)>());
@@ -50,19 +49,21 @@ class LSMLawTable : protected Pointers {
   void create();    ///< as many types as there are now
   const LSMTypePairs<double> &operator[](int p) const { return coefficient[p]; }
   std::vector<double> values(int i, int j) const;
-  /// The coefficient of that name, but not one that follows another; null if there is none.
+  /// The coefficient of a name, except one that follows another; null if there is none.
   double **find_coefficient(const char *name);
 
-  /// The words that pair_coeff expects behind the types, for messages.
+  /// The words that pair_coeff expects after the types, for messages.
   std::string expected() const;
-  /// Words behind the types and the stiffness of pair_coeff. Stops LAMMPS with one line.
+  /// Parses the words of pair_coeff after the types and the stiffness. Errors stop LAMMPS with one
+  /// line.
   void parse(int narg, char **arg);
-  /// Sets what was parsed.
+  /// Sets the parsed coefficients for two types.
   void set(int i, int j);
-  /// What is set for i and j also for j and i; values that follow others do so again, as fix adapt
-  /// changes coefficients.
+  /// Copies the coefficients of types i and j to j and i, and updates those that follow others, as
+  /// fix adapt may have changed coefficients.
   void mirror(int i, int j);
-  /// Stops LAMMPS if a value is out of range. where: behind the names in messages
+  /// Stops LAMMPS if a value is out of range.
+  /// \param where follows the names of coefficients in messages
   void check(const std::vector<double> &, const std::string &where) const;
 
   void keep(LSMRestartFile &, int i, int j);

@@ -10,7 +10,7 @@
 
 #include <vector>
 
-/// A function compiled for these instructions; to be called where has_avx2().
+/// Compiles a function for AVX2. To be called only if has_avx2().
 #if defined(__x86_64__) && defined(__GNUC__)
 #define LSM_AVX2 __attribute__((target("avx2")))
 #else
@@ -58,7 +58,7 @@ namespace LSMLinkKernel {
     }
   };
 
-  /// A link by its place in Rows::particle, and in Rows::other and rest.
+  /// A link: its index in Rows::particle, and in Rows::other and rest.
   struct Place {
     int row, link;
   };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Links in the order in which lsm_link_kernel takes them
+// Links in the order in which lsm_link_kernel processes them
 
 #ifndef LMP_LSM_LINK_ROWS_H
 #define LMP_LSM_LINK_ROWS_H
@@ -10,7 +10,7 @@
 namespace LAMMPS_NS {
 namespace LSMLinkRows {
 
-  constexpr int LANES = 4;        ///< rows of a slice, worked on side by side
+  constexpr int LANES = 4;        ///< rows of a slice, processed side by side
   constexpr int LONGEST = 4;      ///< links of a row; a particle with more has several rows
   constexpr int WINDOW = 1024;    ///< particles whose rows are sorted by length
   constexpr double NO_LINK =
@@ -39,8 +39,8 @@ namespace LSMLinkRows {
     std::vector<int> to_fetch;    ///< places to fetch into the cache
   };
 
-  /// The rows of links. Their order follows from that of `owned` and of `links` alone, so both have
-  /// to follow from the particle IDs.
+  /// Arranges links in rows. Their order follows from those of `owned` and `links` alone, so both
+  /// orders have to follow from the particle IDs.
   /// \param owned  local indices of the particles of this rank, each once
   /// \param links  the first end of each is owned
   /// \param nlocal particles of this rank: those with local indices from this on are ghosts and

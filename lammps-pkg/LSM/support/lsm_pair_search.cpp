@@ -39,7 +39,7 @@ struct Searches : Neighbor {
 // Other versions may order their lists differently, so they keep their own search.
 constexpr int VERSION = 20250204;
 
-// Coordinates in single precision are off by less than this part of the largest.
+// Errors of coordinates in single precision are less than this fraction of the largest coordinate.
 constexpr double ROUNDING = 1e-6;
 
 constexpr int LANES = 8;    // particles that are tested together

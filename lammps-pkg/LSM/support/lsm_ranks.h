@@ -13,7 +13,7 @@
 
 namespace LAMMPS_NS {
 
-/// How MPI calls it.
+/// The MPI type of a C++ type.
 template <class Value> MPI_Datatype lsm_mpi_type()
 {
   if constexpr (std::is_same_v<Value, double>) return MPI_DOUBLE;

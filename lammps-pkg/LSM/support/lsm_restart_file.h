@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Coefficients of a force style in a restart file: one list of them writes and reads
+// Coefficients of a force style in a restart file: the same list is used for writing and reading
 
 #ifndef LMP_LSM_RESTART_FILE_H
 #define LMP_LSM_RESTART_FILE_H
@@ -35,7 +35,7 @@ class LSMRestartFile : protected Pointers {
     MPI_Bcast(values, static_cast<int>(count * sizeof(Value)), MPI_BYTE, 0, world);
   }
 
-  /// The data of each style begin with the version.
+  /// Writes, or reads and checks, the version with which the data of each style begin.
   void version()
   {
     int found = LSM_RESTART_VERSION;
@@ -43,7 +43,7 @@ class LSMRestartFile : protected Pointers {
     lsm_check_version(error, found);
   }
 
-  /// A text, after its length.
+  /// Writes or reads a text, which follows its length.
   void operator()(std::string &text)
   {
     int size = static_cast<int>(text.size());

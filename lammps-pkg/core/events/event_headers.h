@@ -17,17 +17,17 @@
 
 namespace LSM {
 
-/// What the headers say about the scene.
+/// What headers state about the scene.
 struct SceneInfo {
   text_io::Parameters parameters;  ///< in the order of the file
   int ranks = 1;
   double dt = 1.0;
 };
 
-/// The times of steps: a restart file has these numbers, so that a continued run gives the same
+/// Converts steps to times. Restart files keep these numbers, so that a continued run has the same
 /// times.
 struct StepClock {
-  double time = 0.0;  ///< at the step
+  double time = 0.0;  ///< time at `step`
   std::int64_t step = 0;
   double dt = 0.0;
   double at(std::int64_t later) const { return time + static_cast<double>(later - step) * dt; }
@@ -37,15 +37,16 @@ struct StepClock {
   }
 };
 
-/// What it writes, by keywords; paths are empty where it is not written.
+/// The files that a recorder writes, by their keywords; paths of those not written are empty.
 std::vector<Output> files_of(const EventSettings &settings);
 
-/// Header of the catalogue of that kind of events; slip_bin: width of the bins as the grid has it.
+/// Header of the catalogue of a kind of events.
+/// \param slip_bin width of the bins of the grid
 CatalogueInfo catalogue_header(const EventSettings &settings, const EventKind &kind,
                                const SceneInfo &scene, double slip_bin);
 
-/// Header of the PE series, the same for all kinds of events. It has the numbers that times are
-/// computed from, so that a reader gets the times of the catalogue.
+/// Header of the PE series, which is the same for all kinds of events. It has the numbers that
+/// times are computed from, so that readers obtain the times of the catalogue.
 PeSeriesInfo series_header(const EventSettings &settings, const SceneInfo &scene,
                            const StepClock &clock);
 

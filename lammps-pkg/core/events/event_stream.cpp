@@ -155,7 +155,7 @@ void EventStream::open_files(std::int64_t step, bool from_restart, const SceneIn
   if (resumes(series)) series_.find_cut(series, series_info, step, free_to_change);
   if (resumes(history)) history_.find_cut(history, history_info_, saved_history_, free_to_change);
 
-  // All fit.
+  // All files can be continued, so now they may be changed.
   if (resumes(catalogue))
     catalogue_.cut();
   else if (!catalogue.empty())

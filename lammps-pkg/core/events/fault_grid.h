@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file events/fault_grid.h
-/// A fault in bins along it and in intervals of so many steps: what its faces did in each.
+/// Divides a fault into bins along it and time into intervals of some steps, and describes what the
+/// faces did in each.
 ///
-/// Values of a bin and interval are kept as floats: the slip history has the numbers that the
-/// events were found from, and sums over several ranks, which differ in the order of the additions,
-/// give the same numbers.
+/// Values of a bin and interval are kept as floats: thus the slip history has exactly the numbers
+/// from which events were found, and sums over several ranks, which differ in the order of the
+/// additions, give the same numbers.
 #ifndef LSM_FAULT_GRID_H
 #define LSM_FAULT_GRID_H
 
@@ -18,12 +19,12 @@ namespace LSM {
 struct FaultGrid {
   int bins = 1;
   double x0 = 0.0;            ///< lower edge of the first bin
-  double width = 1.0;         ///< of a bin; the fault has the length bins * width
-  std::int64_t step0 = 0;     ///< begin of the first interval
-  std::int64_t interval = 1;  ///< steps
+  double width = 1.0;         ///< of a bin; the length of the fault is bins * width
+  std::int64_t step0 = 0;     ///< step at which the first interval begins
+  std::int64_t interval = 1;  ///< steps in an interval
   double time0 = 0.0;         ///< time at step0
   double dt = 1.0;            ///< time of a step
-  bool ring = true;           ///< periodic; else the fault has two ends
+  bool ring = true;           ///< periodic; otherwise the fault has two ends
 
   double length() const { return bins * width; }
   double duration() const { return static_cast<double>(interval) * dt; }  ///< of an interval
@@ -52,10 +53,11 @@ enum FaultField : std::size_t { UPPER, UPPER_STEPS, LOWER, LOWER_STEPS, WORK, FO
 std::vector<double> face_displacements(const FaultGrid &grid, const double *sums,
                                        std::int64_t steps);
 
-/// The row of an interval of so many steps from SlipRecorder::sums().
+/// Calculates the row of an interval from SlipRecorder::sums().
+/// \param steps length of the interval
 FaultRow fault_row(const FaultGrid &grid, const double *sums, std::int64_t steps);
 
-/// What slips and what is connected; part of a slip history.
+/// Defines what slips and what is connected. Part of the header of a slip history.
 struct RuptureSettings {
   double velocity = 0.0;    ///< bins whose slip velocity exceeds this slip
   int gap = 0;              ///< bins that may lie between two that are connected
@@ -63,7 +65,7 @@ struct RuptureSettings {
   double modulus = 1.0;     ///< shear modulus
 };
 
-/// Displacement of a bin in an interval above which it slips; the same wherever ruptures are found.
+/// Displacement in an interval above which a bin slips. All code that finds ruptures uses this.
 double slipping_above(const FaultGrid &grid, double velocity);
 
 }  // namespace LSM

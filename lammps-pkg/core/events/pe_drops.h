@@ -18,18 +18,19 @@ namespace LSM {
 /// Sums the moment of each bin since the open event began, and locates the event by it.
 class EventLocator {
  public:
-  /// bin_width > 0; fraction: bins with at most this fraction of the largest moment are not
-  /// ruptured.
+  /// \param bin_width > 0
+  /// \param fraction bins with at most this fraction of the largest moment are not ruptured
   EventLocator(double bin_width, double fraction) : bin_width_(bin_width), fraction_(fraction) {}
 
   void add(const std::vector<BinSlip> &slips);
   void clear() { moment_.clear(); }
 
-  /// Sets slip moment, centroid and rupture length; the fault begins at x0 and has this length as
-  /// its period. Centroid: circular mean of the bins over the period.
+  /// Sets slip moment, centroid and rupture length. The centroid is the circular mean of the bins.
+  /// \param x0 where the fault begins
+  /// \param length its period
   void locate(double x0, double length, Event &event) const;
 
-  /// For restarts: pairs of bin and moment.
+  /// State for restarts: pairs of bin and moment.
   std::vector<double> state() const;
   /// Reads the pairs from index `at` on.
   void set_state(const std::vector<double> &saved, std::size_t at);
@@ -58,7 +59,7 @@ class PeDropFinder : public EventFinder {
   void set_state(const std::vector<double> &saved) override;
 
  private:
-  // The stream decides which events are written, by size.
+  // The picker reports events of all sizes, as the stream decides which of them are written.
   static PickerSettings of_all_sizes(PickerSettings settings);
 
   EventPicker picker_;

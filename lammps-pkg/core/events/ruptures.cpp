@@ -47,7 +47,7 @@ void RuptureFinder::add(double pe, const FaultRow &row, const Report &report) {
   const std::int64_t n = sets_.step() + 1;
   const double least = slipping_above(grid_, settings_.velocity);
   sets_.begin_step(n);
-  active_ = !sets_.idle();  // until the interval after its end, whose stress is needed
+  active_ = !sets_.idle();  // also in the interval after a rupture, whose stress is needed
   for (int b = 0; b < grid_.bins; ++b) {
     const auto i = static_cast<std::size_t>(b);
     const double slip = row.slip[i], size = std::fabs(slip);

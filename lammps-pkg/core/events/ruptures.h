@@ -26,7 +26,7 @@ namespace LSM {
 /// A rupture in units of bins and intervals.
 struct FaultRupture : SlipSet {
   std::int64_t hypocentre = 0;            ///< bin that slipped most in the first interval
-  double first_slip = 0.0;                ///< its slip then
+  double first_slip = 0.0;                ///< slip of this bin in that interval
   double slip = 0.0;                      ///< sum over the bins and intervals
   double slip_cos = 0.0, slip_sin = 0.0;  ///< absolute slips times the direction on the ring
   double work = 0.0;
@@ -96,7 +96,7 @@ class RuptureFinder : public EventFinder {
     state.list(sets.recent);
   }
 
-  /// The stresses that a rupture began with.
+  /// The stresses before a rupture began.
   const std::vector<float> &snapshot(std::int64_t interval) const;
 
   double mean(const std::vector<float> &values, const SlipSet &row) const;
@@ -110,8 +110,8 @@ class RuptureFinder : public EventFinder {
   RuptureSettings settings_;
   SlipSets<FaultRupture> sets_;
   std::vector<double> cosine_, sine_;  // direction of a bin on the ring; without ring place and 1
-  std::vector<float> before_;          // stresses of the interval before
-  double pe_ = 0.0;                    // at its end
+  std::vector<float> before_;          // stresses of the previous interval
+  double pe_ = 0.0;                    // PE at its end
   bool active_ = false;
   std::vector<Snapshot> snapshots_;  // before open ruptures began, in order of time
 };

@@ -15,14 +15,14 @@ struct LatticeSettings {
   double length = 0.0;   ///< along the fault
   double width = 0.0;    ///< of both blocks together
   double spacing = 0.0;  ///< diameter of the discs
-  bool ring = true;      ///< periodic along the fault
+  bool ring = true;      ///< whether the fault is periodic
 
   int columns() const { return static_cast<int>(std::lround(length / spacing)); }
   double row_height() const { return 0.5 * std::sqrt(3.0) * spacing; }
   int rows() const { return 1 + static_cast<int>(0.5 * width / row_height()); }  ///< of a block
-  /// The fault line is the middle, x from -half_length to half_length.
+  /// The fault line is in the middle, with x from -half_length to half_length.
   double half_length() const { return 0.5 * columns() * spacing; }
-  /// From the fault line to the centres of the outer rows.
+  /// Distance from the fault line to the centres of the outer rows.
   double half_width() const { return 0.5 * spacing + (rows() - 1) * row_height(); }
 };
 
@@ -34,9 +34,9 @@ inline bool in_border(const Packing &packing, const std::pair<int, int> &link) {
   return (a.fault && b.fault) || (a.plate && b.plate);
 }
 
-/// Discs row by row, from the lowest to the highest. Those of the two rows at the fault face each
-/// other, at x = (n + 1/2) spacing from one end, so that bins as wide as a disc hold one of them
-/// each. Without ring every second row has one disc less.
+/// Places discs row by row, from the lowest row to the highest. The discs of the two rows at the
+/// fault face each other, at x = (n + 1/2) spacing from one end, so that each bin as wide as a disc
+/// holds one of them. Without ring, every second row has one disc less.
 /// \throws std::invalid_argument
 Packing make_lattice(const LatticeSettings &s);
 

@@ -74,7 +74,7 @@ class BlockPacker {
 
   int64_t tries() const { return tries_; }
 
-  /// Call f(x, y, r) for each disc, cell by cell.
+  /// Calls f(x, y, r) for each disc, cell by cell.
   template <class F>
   void for_each(F &&f) const {
     for (const auto &cell : cells_.all())
@@ -349,11 +349,11 @@ class BlockPacker {
     return worst < close;
   }
 
-  // in largest radii, so that blocks of any unit of length are packed alike
+  // gaps in units of rmax, so that the packing does not depend on the unit of length
   static constexpr double EXACT = 1e-15;  // no step improves on this
   static constexpr double CLOSE = 1e-13;  // largest gap accepted, before the rounding of x itself
   static constexpr double TILE = 15.0;    // length of a tile in rmax
-  static constexpr int ROUND = 64;        // tries in one tile before the next one has its turn
+  static constexpr int ROUND = 64;        // tries in one tile before the next tile takes its turn
 
   const PackingSettings &set_;
   double ylo_, yhi_;

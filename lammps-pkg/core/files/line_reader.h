@@ -48,7 +48,7 @@ class LineReader {
 
   std::unique_ptr<Bytes> bytes_;
   std::vector<char> buffer_;
-  std::size_t used_ = 0, filled_ = 0;  // the remaining lines are between them
+  std::size_t used_ = 0, filled_ = 0;  // the bytes not yet returned are between them
   std::int64_t line_ = 0, begin_ = 0, end_ = 0;
   bool complete_ = true, foreign_ = false;
 };

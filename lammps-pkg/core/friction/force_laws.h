@@ -10,8 +10,8 @@
 
 namespace LSM {
 
-/// Fraction of a step that a new contact lasted, if the distance fell evenly from r_before >= r0 to
-/// r < r0. The tangential spring of the contact takes this fraction of the step's displacement.
+/// Fraction of a step during which a new contact existed, if the distance fell linearly from
+/// r_before >= r0 to r < r0. The tangential spring takes this fraction of the step's displacement.
 inline double share_in_contact(double r_before, double r, double r0) {
   return r_before > r ? (r0 - r) / (r_before - r) : 0.0;
 }

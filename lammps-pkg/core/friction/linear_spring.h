@@ -30,7 +30,7 @@ struct Dashpot {
   }
 };
 
-/// Eq. (1): a link holds while r <= r_cut; here r_cut = ratio * r0.
+/// Eq. (1): whether a link holds, which it does while r <= r_cut; here r_cut = ratio * r0.
 template <class Number>
 [[gnu::always_inline]] inline auto link_is_broken(const Number &r, const Number &r0, double ratio) {
   return r > ratio * r0;
@@ -41,8 +41,9 @@ inline double contact_normal_force(double k, double r, double r0) {
   return r < r0 ? k * (r0 - r) : 0.0;
 }
 
-/// Repulsion by the dashpot parallel to the spring of an unlinked pair, which repels with `spring`;
-/// rate: of the distance. Together they never attract.
+/// Repulsion by the dashpot of an unlinked pair. Spring and dashpot together never attract.
+/// \param rate of change of the distance
+/// \param spring repulsion by the spring
 inline double contact_dashpot_force(double viscosity, double rate, double spring) {
   const double dashpot = -Dashpot::force(viscosity, rate);
   return dashpot < -spring ? -spring : dashpot;
