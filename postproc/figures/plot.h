@@ -52,7 +52,7 @@ std::string quote_plain(std::string_view text);
 /// at 1, 2 and 5 times 10^n or at more digits if these are too few.
 /// \param name 'x', 'y' or another axis that gnuplot knows
 /// \param label gnuplot enhanced text, with the unit
-/// \param lo, hi ends of the range; gnuplot chooses an end that is NaN or infinite
+/// \param lo,hi ends of the range; gnuplot chooses an end that is NaN or infinite
 std::string axis(std::string_view name, std::string_view label, bool logarithmic, double lo,
                  double hi);
 
@@ -89,7 +89,7 @@ void check_outputs(const Figure &figure, const PictureOptions &options);
 std::string svg_text(const Figure &figure);
 
 /// gnuplot commands that begin a panel of a multiplot with linear axes.
-/// \param left, right, bottom, top its edges as fractions of the picture
+/// \param left,right,bottom,top its edges as fractions of the picture
 std::string panel(double left, double right, double bottom, double top);
 
 /// Builds a plot command and its key. Later layers are drawn over earlier ones.
@@ -109,7 +109,7 @@ class Curves {
   void add(Layer layer, const std::string &element, const std::string &title = "",
            std::string (*quoted)(std::string_view) = quote);
   /// Adds the points of a curve of the table with error bars.
-  /// \param y, error numbers of the columns, from 1
+  /// \param y,error numbers of the columns, from 1
   void add_data(std::int64_t curve, int y, int error, const std::string &title = "");
   /// Adds the curve y = formula from lo to hi.
   /// \param formula gnuplot expression in $1

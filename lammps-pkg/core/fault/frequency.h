@@ -138,7 +138,7 @@ struct SpringNetwork {
 
 /// Square of the highest frequency: the largest eigenvalue of M^-1/2 K M^-1/2.
 /// \param dimensions degrees of freedom on all ranks together
-/// \param displacement, force buffers of the caller, `dim` values per particle
+/// \param displacement,force buffers of the caller, `dim` values per particle
 /// \param to_ghosts copies displacements of owned particles to their ghosts
 /// \param from_ghosts adds the forces on ghosts to those on owned particles, or does nothing if no
 /// spring exerts any
