@@ -14,6 +14,8 @@ from programs import INPUTS, SOURCE, Faults, Program  # noqa: E402
 sys.path.insert(0, str(INPUTS))
 from run import MPI  # noqa: E402
 
+os.environ.setdefault("OMPI_MCA_pml", "ob1")  # as in CMakeLists.txt
+
 
 def pytest_sessionfinish(session, exitstatus):
     """With nothing but skipped tests ctest is told so: skipped is not passed."""
