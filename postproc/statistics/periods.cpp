@@ -96,7 +96,7 @@ PeriodTest test_period(const std::vector<double> &times, const std::vector<doubl
     }
     return (x * x + y * y) / squares >= test.z;
   });
-  test.p = share_of(p, replicas + 1.0);
+  test.p = share_of(p, replicas);
   return test;
 }
 
@@ -145,7 +145,7 @@ Coincidence coincidence(const std::vector<double> &first_times,
     Random random(seed_of_replica(seed, replica));
     return shifted(1 + draw_index(random, count - 1)) >= least;
   });
-  found.p = share_of(p, replicas + 1.0);
+  found.p = share_of(p, replicas);
   return found;
 }
 

@@ -179,7 +179,7 @@ TwoSampleTest two_sample_test(const std::vector<double> &first, const std::vecto
         return order;
       },
       [&](const std::vector<std::size_t> &divided) { return distance(divided) >= least; });
-  test.p = share_of(p, replicas + 1.0);
+  test.p = share_of(p, replicas);
   return test;
 }
 

@@ -67,6 +67,7 @@ TEST(Periods, FoundWhereThereIsOne) {
   const PeriodTest test = test_period(events.times, events.weights, 1.0, 999, 1);
   EXPECT_GT(test.z, 4.0);
   EXPECT_LT(test.p.value, 0.01);
+  EXPECT_EQ(test.p.error, std::sqrt(test.p.value * (1.0 - test.p.value) / 999));  // as of fits
   EXPECT_NEAR(test.phase, 0.25, 0.08);
   EXPECT_EQ(std::max_element(test.tenths.begin(), test.tenths.end()) - test.tenths.begin(), 2);
   double sum = 0.0;
@@ -92,6 +93,7 @@ TEST(Periods, EnergyAtEqualTimes) {
   const Coincidence free = coincidence(c.times, c.weights, d.times, d.weights, 0.1, 499, 1);
   EXPECT_LT(std::fabs(free.correlation), 0.2);
   EXPECT_GT(free.p.value, 0.01);
+  EXPECT_EQ(free.p.error, std::sqrt(free.p.value * (1.0 - free.p.value) / 499));
   EXPECT_NEAR(static_cast<double>(free.bins), 697.0, 5.0);
   EXPECT_THROW(coincidence(a.times, a.weights, b.times, b.weights, 10.0, 9, 1),
                std::invalid_argument);

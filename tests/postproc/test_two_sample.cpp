@@ -90,6 +90,7 @@ TEST(TwoSample, FindsDifferences) {
   LSM::Random random(3);
   const auto a = series(random, 500, 0.3), b = series(random, 500, 0.3, 0.5);
   const TwoSampleTest test = two_sample_test(a, b, 999, 1);
+  EXPECT_EQ(test.p.error, std::sqrt(test.p.value * (1.0 - test.p.value) / 999));  // as of fits
   EXPECT_LE(test.p.value, 0.005);
   EXPECT_EQ(test.n[0], 500);
   EXPECT_NEAR(test.ratio.value, std::exp(0.5), 3.0 * test.ratio.error);
