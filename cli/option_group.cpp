@@ -20,7 +20,7 @@ Rule transform(const CLI::Validator &validator) {
   return [validator](CLI::Option &option) { option.transform(validator); };
 }
 
-/// A number that the predicate `good` accepts.
+/// Allows the numbers that the predicate `good` accepts.
 template <class Number, class Good>
 Rule number_that(Good good, const std::string &expected) {
   return check(CLI::Validator(
@@ -33,8 +33,8 @@ Rule number_that(Good good, const std::string &expected) {
       ""));
 }
 
-/// Defaults as CLI11 2.1 shows them, FLOAT=1, and not FLOAT [1] as later versions do, and none for
-/// an empty list, so that the help is the same with each.
+/// Shows defaults as CLI11 2.1 does, FLOAT=1, and not as later versions do, FLOAT [1], and none for
+/// an empty list, so that --help is the same with every version.
 class HelpFormatter : public CLI::Formatter {
  public:
   std::string make_option_opts(const CLI::Option *option) const override {

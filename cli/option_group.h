@@ -23,13 +23,13 @@ class Option;
 
 namespace LSM {
 
-/// A rule for an option: what is allowed, and how --help shows it.
+/// A rule for an option: which values are allowed, and how --help shows it.
 using Rule = std::function<void(CLI::Option &)>;
 Rule required();
-Rule one_each();                         ///< one value each time the option is given
-Rule values(int count);                  ///< this many values at once
-Rule shown(const std::string &value);    ///< the default shown by --help
-Rule kind(const std::string &of_value);  ///< shown by --help in place of TEXT
+Rule one_each();                         ///< a single value each time the option is given
+Rule values(int count);                  ///< exactly this many values each time
+Rule shown(const std::string &value);    ///< the default that --help shows
+Rule kind(const std::string &of_value);  ///< kind of value that --help shows in place of TEXT
 Rule more_help(const std::string &text);
 Rule excludes(CLI::Option *other);
 Rule needs(CLI::Option *other);
@@ -54,19 +54,21 @@ class OptionGroup {
   explicit OptionGroup(CLI::App *command, std::string heading = "Options")
       : command_(command), heading_(std::move(heading)) {}
 
-  /// Value: a number, a text, an optional or vector of these.
+  /// Adds an option that sets a variable.
+  /// \tparam Value a number, a text, or an optional or vector of these
   template <class Value, class... Rules>
   CLI::Option *add(const std::string &names, Value &value, const std::string &help,
                    const Rules &...rules) {
     return bind(names, value, help, {Rule(rules)...});
   }
-  /// An option that calls a function with its value: a number, a text, or all given texts.
+  /// Adds an option that calls a function with its value.
+  /// \tparam Value a number, a text, or a vector of all given texts
   template <class Value, class... Rules>
   CLI::Option *call(const std::string &names, const std::function<void(const Value &)> &use,
                     const std::string &help, const Rules &...rules) {
     return bind_call(names, use, help, {Rule(rules)...});
   }
-  /// An option whose value is one of the words of an enumeration (files/names.h).
+  /// Adds an option whose value is one of the words of an enumeration (see files/names.h).
   template <class Enum, class... Rules>
   CLI::Option *choose(const std::string &name, Enum &value, const std::string &help,
                       const Rules &...rules) {
@@ -100,10 +102,11 @@ class OptionGroup {
 void add_seed(OptionGroup group, std::uint64_t &seed,
               const std::string &help = "Seed of the random numbers");
 
-/// Sets what the programs have in common: version, default values and columns of --help.
+/// Sets what all programs have in common: --version, and the layout and default values of --help.
 void set_up(CLI::App &program, const std::string &version);
 
-/// Reads a command line. Returns an exit status if help or version was asked for and printed.
+/// Reads a command line.
+/// \return an exit status if --help or --version was given and has been printed
 /// \throws std::invalid_argument with one line
 std::optional<int> parse(CLI::App &program, std::vector<std::string> arguments);
 

@@ -12,10 +12,10 @@
 
 namespace LSM {
 
-/// The settings of the picker on the command line; those not given are empty.
+/// The settings of the picker that were given on the command line; the others are empty.
 class PickerOptions {
  public:
-  std::string prefix;  ///< between the dashes and the name of lambda and memory-time
+  std::string prefix;  ///< of the names lambda and memory-time, after the dashes
   std::optional<std::string> reading;
   std::optional<double> lambda, memory_time, min_size;
   bool keep_nonpositive = false;
@@ -24,10 +24,10 @@ class PickerOptions {
   struct Added {
     CLI::Option *reading, *lambda, *memory_time, *min_size, *keep_nonpositive;
   };
-  /// Adds --picker and, with the prefix, lambda and memory-time; --min-size, --keep-nonpositive.
+  /// Adds --picker, --min-size, --keep-nonpositive and, with the prefix, lambda and memory-time.
   Added add_to(OptionGroup group);
 
-  /// Whether the leakiness is given, directly or by the memory time.
+  /// Whether the leakiness is given, directly or through the memory time.
   bool says_lambda() const { return lambda || memory_time; }
 
   /// Returns the given settings, completed by those of `settings`.

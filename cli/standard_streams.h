@@ -9,9 +9,10 @@
 
 namespace LSM {
 
-/// Must be called first. If a program is started with closed standard streams, as by some daemons,
-/// the files that it opens get their numbers and its messages are written into them. With this,
-/// writing to standard output fails, and messages are lost.
+/// Opens closed standard streams; to be called before anything else. If a program is started with
+/// closed standard streams, as some daemons do, the files that it opens get their numbers, and its
+/// messages are written into these files. After this call, writing to such a standard output fails
+/// instead, and messages are lost.
 inline void occupy_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (fcntl(stream, F_GETFD) < 0)

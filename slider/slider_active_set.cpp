@@ -26,7 +26,7 @@ void ActiveSet::list_all() {
   for (std::int32_t c = 0; c < chunks_; ++c) list_.push_back(c);
 }
 
-// Empties the list if no chunk has to be stepped next.
+// Empties the list if no chunk has to be stepped in the next step.
 void ActiveSet::rest_together(std::int64_t step) {
   std::int64_t first = never;
   for (const std::int32_t c : list_) first = std::min(first, wake_step(c));
@@ -64,8 +64,8 @@ void ActiveSet::restart(std::int64_t step) {
   settle_idle(step);
 }
 
-// Returns the last step up to which chunk c may stay idle, at least two steps before its first
-// block can start, so that rounding cannot matter. Only the plate changes the forces until then.
+// Returns the last step up to which chunk c may stay idle, at least two steps before any of its
+// blocks can start, so that rounding cannot matter. Only the plate changes the forces until then.
 std::int64_t ActiveSet::wake_step(int c) const {
   double first = std::numeric_limits<double>::max(), scale = 0.0;
   for (int i = c * chunk_size; i < (c + 1) * chunk_size && i < view_.blocks; ++i) {
@@ -83,8 +83,8 @@ std::int64_t ActiveSet::wake_step(int c) const {
   return static_cast<std::int64_t>(std::floor(steps * (1.0 - 1e-15))) - 2;
 }
 
-// A chunk is active while a block in it moves or is about to, or the nearest block of a
-// neighbouring chunk does, or if its first block will soon start.
+// A chunk is active while one of its blocks, or the nearest block of a neighbouring chunk, moves or
+// is about to move, or if one of its blocks will start soon.
 void ActiveSet::update(std::int64_t step) {
   if (dense_) return;
   if (!view_.by_springs()) {
@@ -142,7 +142,7 @@ void ActiveSet::change_list_to_next(std::int64_t step) {
   settle_idle(step);
 }
 
-// Puts the chunks in idle_ to rest until their wake step, or back into the list if that has come.
+// Removes the chunks in idle_ from the list until their wake step, or keeps them if it has come.
 void ActiveSet::settle_idle(std::int64_t step) {
   for (const std::int32_t c : idle_) {
     const std::int64_t at = wake_step(c);
@@ -157,7 +157,7 @@ void ActiveSet::settle_idle(std::int64_t step) {
   add_extra();
   next_wake_ = queue_.empty() ? never : queue_.top().first;
   if (queue_.size() <= 64 + 8 * wake_.size()) return;
-  // Most entries are stale by now.
+  // Most entries are outdated by now.
   queue_ = Queue();
   for (std::int32_t c = 0; c < chunks_; ++c)
     if (wake(c) > 0 && wake(c) < never) queue_.emplace(wake(c), c);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file slider_active_set.h
-/// Decides which chunks of a chain are stepped: all, or those where something moves or may start
-/// to. The positions give the time before which no block of any other chunk can start. Where blocks
-/// are coupled by modes, each feels all others, so that either all chunks are stepped or none.
+/// Decides which chunks of a chain are stepped: all, or those in which a block moves or may start
+/// to move. For every other chunk, the positions give the time before which none of its blocks can
+/// start. Blocks coupled by modes all act on each other, so that either all chunks are stepped or
+/// none.
 #ifndef SLIDER_ACTIVE_SET_H
 #define SLIDER_ACTIVE_SET_H
 
@@ -18,12 +19,13 @@ namespace Slider {
 
 class ActiveSet {
  public:
-  /// \param plate_step displacement of the plate in a step \param dense all chunks, always
+  /// \param plate_step displacement of the plate in a step
+  /// \param dense whether all chunks are stepped in every step
   ActiveSet(const ChainView &view, double plate_step, bool dense);
 
   /// The chunks to step, in ascending order.
   const std::vector<std::int32_t> &list() const { return list_; }
-  /// The lanes of each listed chunk that move or are about to, for a kernel to fill in.
+  /// For each listed chunk, the lanes that move or are about to move, which a kernel fills in.
   std::uint8_t *hot() { return hot_.data(); }
 
   /// Determines the list anew from displacements, velocities and forces after the given step.
@@ -51,12 +53,12 @@ class ActiveSet {
   double plate_step_;
   bool dense_;
   int chunks_;
-  std::uint8_t last_edge_;  // the lane of the last block
+  std::uint8_t last_edge_;  // the lane of the last block of the chain
   std::vector<std::uint8_t> hot_;
   std::vector<std::int32_t> list_, next_list_, idle_, extra_;
   std::vector<std::int32_t> wanted_;  // chunks, with one past the last and room for one more
-  std::vector<std::int64_t> wake_;    // 0: in the list; else the step to wake up
-  Queue queue_;                       // of these, with stale ones
+  std::vector<std::int64_t> wake_;    // 0: in the list; else the step in which it joins the list
+  Queue queue_;                       // of the steps in wake_ and of outdated ones
   std::int64_t next_wake_ = 0;
 };
 

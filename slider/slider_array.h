@@ -21,8 +21,8 @@ constexpr std::size_t whole_chunks(std::size_t n) {
 }
 
 /// Memory aligned to cache lines, so that a chunk never straddles two. Long arrays ask for huge
-/// pages: in a long chain every active chunk lies on ordinary pages of its own, one for each array,
-/// more than the TLB holds.
+/// pages: in a long chain with ordinary pages, every active chunk would lie on pages of its own,
+/// one for each array, which are more than the TLB holds.
 template <class T>
 struct LineAllocator {
   using value_type = T;

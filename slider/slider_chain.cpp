@@ -54,10 +54,10 @@ ChainView Chain::view_of(const Parameters &p, const std::vector<double> &mu) {
 
 namespace {
 
-// A random number in [0, 1) that follows from the seed, the block and a counter, so that no
-// generator state has to be saved.
+// Returns a random number in [0, 1) that is a function of seed, block and a counter, so that no
+// state of a generator has to be saved.
 double hashed(std::uint64_t seed, std::uint64_t block, std::uint64_t number) {
-  // splitmix64 (Steele, Lea and Flood 2014), once for each of them
+  // splitmix64 (Steele, Lea and Flood 2014), applied once for the block and once for the counter
   std::uint64_t z = seed;
   for (const std::uint64_t more : {block, number}) {
     z = (z ^ more) + 0x9e3779b97f4a7c15U;
@@ -70,8 +70,8 @@ double hashed(std::uint64_t seed, std::uint64_t block, std::uint64_t number) {
 
 }  // namespace
 
-// Gives a block another strength if it has left a cell of the landscape, and returns whether it
-// did. All cells but the first are a correlation length long.
+// Gives a block another strength if it has left its cell of the landscape, and returns whether it
+// has. All cells but the first are one correlation length long.
 bool Chain::draw_strength(int i) {
   std::int64_t &cell = cells_[static_cast<std::size_t>(i)];
   double &left_at = ends_[static_cast<std::size_t>(i)];
@@ -105,7 +105,7 @@ void Chain::take_step() {
     for (int l = 0; l < chunk_size; ++l) left |= u[l] >= end[l];
     if (!left) continue;
     for (int l = 0; l < chunk_size; ++l)
-      // A block with a lower strength may move in the next step.
+      // A block whose strength has become lower may move in the next step.
       if (u[l] >= end[l] && draw_strength(static_cast<int>(i) + l))
         active_.hot()[k] = static_cast<std::uint8_t>(active_.hot()[k] | 1U << l);
   }

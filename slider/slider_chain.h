@@ -3,8 +3,8 @@
 /// The chain of blocks, coupled by springs or modes. Either all chunks are stepped (the dense
 /// reference) or only those of the active set.
 ///
-/// Both give the same numbers to the last digit, as a skipped chunk would only have added zeros to
-/// sums that are kept in fixed lanes.
+/// Both give the same numbers to the last digit: sums are kept in fixed lanes, to which a skipped
+/// chunk would only have added zeros.
 #ifndef SLIDER_CHAIN_H
 #define SLIDER_CHAIN_H
 
@@ -25,7 +25,7 @@ namespace Slider {
 
 class Chain {
  public:
-  /// \param dense step all chunks, always
+  /// \param dense whether all chunks are stepped in every step
   Chain(const Parameters &p, const std::vector<double> &mu, bool dense,
         InstructionSet set = widest_instruction_set());
   Chain(const Chain &) = delete;
@@ -38,21 +38,21 @@ class Chain {
   double dpe() const { return account_.change(); }         ///< change of PE over the last step
   double slip_sum() const { return account_.slip_sum(); }  ///< sum of all displacements
   std::int64_t moved() const { return moved_; }
-  double radiated() const { return account_.radiated(); }  ///< energy, since step 0
+  double radiated() const { return account_.radiated(); }  ///< energy radiated since step 0
   double kinetic() const;
 
   /// Displacements and velocities, one per block.
   std::vector<double> displacements() const { return {view_.u, view_.u + view_.blocks}; }
   std::vector<double> velocities() const { return {view_.v, view_.v + view_.blocks}; }
 
-  /// One time step.
+  /// Takes one time step.
   void advance() {
     take_step();
     active_.update(step_);
   }
 
-  /// The same time step, but calls `watch` in ascending order for each block that slid, with the
-  /// work of the springs on it, (F_old + F_new) du / 2 (see RuptureTracker).
+  /// Takes the same time step and reports to `watch`, in ascending order, each block that slid,
+  /// with the work of the springs on it, (F_old + F_new) du / 2 (see RuptureTracker).
   template <class Watch>
   void advance(Watch &watch) {
     const double pe_old = pe();
@@ -88,10 +88,10 @@ class Chain {
   double fastest() const;
 
   /// Leaps by creep without time steps (see Creep), to the step at which blocks are about to become
-  /// fast, or PE begins or ceases to fall, or to last; at its end all blocks are at rest.
-  /// \param least smallest number of steps worth a leap
-  /// \param falls,rises whether PE may fall, or rise, in it \return false, and nothing done, if
-  /// there is no such leap
+  /// fast, or PE begins or ceases to fall, or at most to `last`. At its end all blocks are at rest.
+  /// \param least smallest number of steps that is worth a leap
+  /// \param falls,rises whether PE may fall, or rise, during the leap
+  /// \return false if there is no such leap, in which case nothing is changed
   bool leap(std::int64_t last, std::int64_t least, double fast, bool falls, bool rises);
   /// PE at a step within the last leap.
   double pe_in_leap(std::int64_t at) const;
@@ -101,7 +101,7 @@ class Chain {
   void set_state(const ChainState &s);
 
  private:
-  // Of a chunk before a step.
+  // State of a chunk before a step.
   struct Kept {
     double u[chunk_size], force[chunk_size];
   };
@@ -117,11 +117,11 @@ class Chain {
   Array u_, v_, force_, mu_, rest_, ahead_, change_;
   std::unique_ptr<ModeForces> forces_;
   std::vector<double> first_mu_;  // at step 0
-  // In a landscape: how many strengths each block has left behind, and where it leaves its present
-  // one.
+  // In a landscape: number of the cell that each block is in, and displacement at which it leaves
+  // it.
   std::vector<std::int64_t> cells_;
   Array ends_;
-  std::vector<Kept> kept_;  // of the listed chunks, if someone watches
+  std::vector<Kept> kept_;  // of the listed chunks, if advance() has to report slips
   ChainView view_;
   ActiveSet active_;
   PeAccount account_;

@@ -17,30 +17,31 @@ namespace Slider {
 
 /// Counts of the events of a run so far.
 struct EventCounts {
-  LSM::PickerState picker;                     ///< with ruptures, only the sizes that were dropped
-  std::int64_t events = 0, before_warmup = 0;  ///< in the catalogue; too early
+  LSM::PickerState picker;                     ///< for ruptures, only the sizes of those omitted
+  std::int64_t events = 0, before_warmup = 0;  ///< in the catalogue; during the warm-up
   /// Drops of PE that slip does not explain, see is_by_plate()
   std::int64_t by_plate = 0;
-  double largest = 0.0;  ///< size of an event
+  double largest = 0.0;  ///< size of the largest event
 };
 
 /// State of a run between two steps.
 struct RunState : EventCounts {
   ChainState chain;
-  double slip_start = 0.0;      ///< sum of displacements when the present event began
-  std::vector<double> u_start;  ///< displacements then
+  double slip_start = 0.0;      ///< sum of all displacements when the present event began
+  std::vector<double> u_start;  ///< displacements when it began
   RuptureState ruptures;
-  std::int64_t calm_since = 0;  ///< last step with a block too fast for a leap, or of a leap
+  std::int64_t calm_since = 0;  ///< last step with a block too fast for a leap, or end of a leap
 };
 
-/// Replaces the file atomically, so that there is a complete checkpoint at any moment.
-/// \param settings "key = value" of everything that influences the run
+/// Replaces the file atomically, so that a complete checkpoint exists at any moment.
+/// \param settings everything that influences the run, as "key = value"
 /// \throws std::runtime_error
 void write_checkpoint(const std::string &path, const std::vector<std::string> &settings,
                       const RunState &state);
 
-/// \throws std::runtime_error with one line for a damaged file, one of another version, or one of a
-/// run with other settings, naming the first that differs
+/// Reads a checkpoint of a run with the same settings.
+/// \throws std::runtime_error with one line if the file is damaged, or of another version, or of a
+/// run with other settings, of which the first is named
 RunState read_checkpoint(const std::string &path, const std::vector<std::string> &settings);
 
 }  // namespace Slider

@@ -6,8 +6,9 @@
 /// In the limit of a slow plate a block at its limit creeps at constant force, so that the blocks
 /// at their limit follow the plate linearly: the displacement of block i is r_i times that of the
 /// plate, with K r = K_l on the creeping blocks and r = 0 on all others. K is an M-matrix: all r_i
-/// are positive and grow with each block that joins, so that no block leaves until something runs
-/// away, and the motion consists of linear pieces from one block that joins to the next.
+/// are positive and grow with each block that begins to creep, so that none stops until some block
+/// runs away, and the motion is piecewise linear, with a new piece whenever a block begins to
+/// creep.
 ///
 /// A group of neighbouring creeping blocks stick-slips about the mean: it oscillates once about the
 /// creep, from rest to rest, and friction that falls with velocity makes the oscillation grow.
@@ -33,19 +34,19 @@
 
 namespace Slider {
 
-/// Creep from a given state as the plate moves forward. All displacements are relative to that
-/// state.
+/// Creep from a given state as the plate moves forward. Displacements of blocks and plate (`way`)
+/// are relative to that state.
 class Creep {
  public:
   static constexpr double never = std::numeric_limits<double>::infinity();
 
-  /// A piece of the motion in which no block joins, beginning at a displacement of the plate.
+  /// A linear piece of the motion, which begins when the plate has moved by `way`.
   struct Piece {
     double way = 0.0;
     double pe = 0.0;                    ///< change of PE since the beginning
-    double pe_rate = 0.0, slope = 0.0;  ///< derivative of PE by the displacement, and its own
+    double pe_rate = 0.0, slope = 0.0;  ///< first and second derivative of PE by that of the plate
 
-    /// Change of PE as the plate moves on.
+    /// Change of PE while the plate moves on by a displacement within the piece.
     double change(double on) const { return on * (pe_rate + 0.5 * slope * on); }
   };
 
@@ -69,8 +70,8 @@ class Creep {
     now_.pe_rate = p.kl * loading;
     now_.slope = p.kl * n_;
     for (int i = 0; i < n_; ++i) {
-      // A group is found at its first block; if all blocks of the ring creep, block 0 takes its
-      // place.
+      // Each group is handled once, at its first block, or at block 0 if all blocks of the ring
+      // creep.
       if (at(i).creeps && (!at(before(i)).creeps || (creeping_ == n_ && i == 0)))
         begins_fast_ = gets_fast(i, solve(i)) || begins_fast_;
     }
@@ -82,9 +83,10 @@ class Creep {
   /// Whether blocks that are at their limit from the beginning become fast.
   bool begins_fast() const { return begins_fast_; }
   const Piece &now() const { return now_; }
-  /// Displacement of the plate at which the next block reaches its limit; never: there is none.
+  /// Displacement of the plate at which the next block reaches its limit, or `never`.
   double next() const { return due_.empty() ? never : due_.begin()->first; }
-  /// Advances to next(). Returns whether the group that the block joins becomes fast.
+  /// Advances to next(), where a block joins a group.
+  /// \return whether this group becomes fast
   bool join() {
     const auto [way, joining] = *due_.begin();
     due_.erase(due_.begin());
@@ -103,7 +105,7 @@ class Creep {
     }
     return gets_fast(first, length);
   }
-  /// Advances by less than next().
+  /// Advances to a displacement of the plate below next().
   void to(double way) {
     const double on = way - now_.way;
     now_.pe += now_.change(on);
@@ -117,10 +119,10 @@ class Creep {
 
  private:
   struct Block {
-    double u = 0.0, force = 0.0;  ///< at the way
+    double u = 0.0, force = 0.0;  ///< when the plate had moved by `way`
     double way = 0.0;
-    double rate = 0.0;   ///< of u if it creeps, else of force
-    double due = never;  ///< when it reaches its limit
+    double rate = 0.0;   ///< derivative by `way`: of u if it creeps, else of the force
+    double due = never;  ///< displacement of the plate at which it reaches its limit
     bool creeps = false;
   };
 
@@ -133,7 +135,8 @@ class Creep {
     b.way = now_.way;
   }
 
-  /// New rates of the group of creeping blocks that begins with first; returns its length.
+  /// Computes the rates of the group of creeping blocks that begins with `first`.
+  /// \return length of the group
   int solve(int first) {
     rows_.clear();
     const double diagonal = 2.0 * p_.kc + p_.kl;
@@ -152,7 +155,7 @@ class Creep {
     double rate = 0.0;
     for (int k = length - 1; k >= 0; --k) {
       std::tie(pivot, value) = rows_[static_cast<std::size_t>(k)];
-      // The whole ring moves as one.
+      // If all blocks creep, they move with the plate.
       rate = length == n_ ? 1.0 : (value + p_.kc * rate) / pivot;
       Block &b = at((first + k) % n_);
       settle(b);
@@ -164,7 +167,7 @@ class Creep {
     return length;
   }
 
-  /// When a block at rest reaches its limit.
+  /// Computes when a block at rest will reach its limit.
   void expect(int i) {
     Block &b = at(i);
     settle(b);
@@ -175,7 +178,7 @@ class Creep {
     due_.emplace(b.due, i);
   }
 
-  /// Whether the group of creeping blocks that begins with first becomes fast.
+  /// Whether the group of creeping blocks that begins with `first` becomes fast.
   bool gets_fast(int first, int length) {
     double rate = 0.0, low = never, high = 0.0;
     for (int k = 0; k < length; ++k) {
@@ -184,7 +187,7 @@ class Creep {
       low = std::min(low, mu_[i]);
       high = std::max(high, mu_[i]);
     }
-    // From rest, the oscillation adds to the creep.
+    // As blocks start from rest, the velocity of the oscillation adds to that of creep.
     const double growth = fast_ / rate - 1.0;
     if (!(growth > 1.0)) return true;
     const Friction &law = p_.friction;
@@ -192,7 +195,7 @@ class Creep {
     if (law.law == Law::slip_weakening)
       return law.dynamic < 1.0 && !holds(first, length, 0.0, (1.0 - law.dynamic) / law.dc, 1.0);
     const double turn = LSM::pi / std::log(growth), softer = 1.0 / (1.0 + turn * turn);
-    // The minimum is at s = a, between these.
+    // The minimum is at s = a, which lies between those of the weakest and the strongest block.
     constexpr int tries = 9;
     for (int k = 0; k < tries; ++k) {
       const double s = (low + (high - low) * k / (tries - 1)) / (2.0 * p_.mass);
@@ -201,11 +204,11 @@ class Creep {
     return false;
   }
 
-  /// Whether M s^2 + K softer - w mu is positive definite on a group: all pivots are positive.
+  /// Whether M s^2 + K softer - w mu is positive definite on a group, that is, has positive pivots.
   bool holds(int first, int length, double s, double w, double softer) const {
     const double inertia = p_.mass * s * s, kc = softer * p_.kc, kl = softer * p_.kl;
     if (length == n_) {
-      // A ring: it suffices that this holds for the leaf springs alone.
+      // On a ring it suffices that this holds for the leaf springs alone.
       for (int i = 0; i < n_; ++i)
         if (!(kl + inertia - w * mu_[i] > 0.0)) return false;
       return true;
@@ -221,11 +224,11 @@ class Creep {
   const Parameters &p_;
   const double *mu_;
   int n_;
-  double fast_;  // over the velocity of the plate
+  double fast_;  // in units of the velocity of the plate
   std::vector<Block> blocks_;
   std::vector<std::pair<double, double>>
       rows_;                              // of the system that solve() eliminates: pivot, value
-  std::set<std::pair<double, int>> due_;  // when blocks at rest reach their limits
+  std::set<std::pair<double, int>> due_;  // Block::due and number of each block at rest
   int creeping_ = 0;
   bool begins_fast_ = false;
   Piece now_;

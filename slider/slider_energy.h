@@ -26,24 +26,25 @@ struct ChainState {
   double pe_sum = 0.0, pe_compensation = 0.0;
   std::int64_t quiet_since = -1;  ///< step since which no block has moved; -1: one moves
   double pe_anchor = 0.0, loading_anchor = 0.0;  ///< PE and sum (X - U_i) at quiet_since
-  std::int64_t moved = 0;                        ///< block-steps with motion so far
-  double dpe = 0.0;                              ///< change of PE over the last step
+  std::int64_t moved = 0;  ///< steps in which a block moved, summed over blocks
+  double dpe = 0.0;        ///< change of PE over the last step
   double radiated = 0.0, radiated_compensation = 0.0;
   std::vector<double> u, v;
-  /// where blocks last rested, if the law needs it; empty: their present places
+  /// Displacements at which the blocks last rested, if the law needs them; empty: the present ones.
   std::vector<double> rest;
-  /// slips in the next step, of the scheme without inertia; empty: by the velocities of now
+  /// Slips in the next step, for the scheme without inertia; empty: from the present velocities.
   std::vector<double> ahead;
 };
 
-/// PE of all springs, summed directly; used to set and to check the work formula.
+/// PE of all springs, summed directly: the initial value of PeAccount, and a check of its later
+/// ones.
 inline double direct_energy(const Parameters &p, const std::vector<double> &u, double plate) {
   LSM::NeumaierSum sum;
   if (const auto forces = mode_forces(p)) {
     const double *const coupling = forces->find(u.data());
     for (std::size_t i = 0; i < u.size(); ++i) {
       sum.add(0.5 * p.kl * (plate - u[i]) * (plate - u[i]));
-      // u[0] may be subtracted, as the forces add up to zero.
+      // As the forces add up to zero, u[0] may be subtracted.
       sum.add(-0.5 * (u[i] - u[0]) * coupling[i]);
     }
     return sum.value();
@@ -134,13 +135,13 @@ class PeAccount {
   }
 
  private:
-  // sum (X - U_i) at a step, with the displacements of now.
+  // sum (X - U_i) at a step, with the present displacements.
   double loading(std::int64_t at) const {
     return blocks_ * (plate_step_ * static_cast<double>(at)) - slip_.value();
   }
 
-  // In quiet periods PE follows from their first step, not from the previous one, so that it does
-  // not depend on the steps at which it is evaluated.
+  // In a quiet period PE is computed from its first step, not from the previous one, so that it
+  // does not depend on the steps at which it is evaluated.
   double quiet_value(std::int64_t step) const {
     const double travel = plate_step_ * static_cast<double>(step - quiet_since_);
     return anchor_ + kl_ * travel * (loading_anchor_ + 0.5 * blocks_ * travel);

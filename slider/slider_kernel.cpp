@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // One time step, compiled once for each instruction set SLIDER_SET with SLIDER_LANES lanes per
-// register. Every function called here must be inlined: of inline functions that are not, the
-// linker would keep one copy, of any instruction set, for all programs.
+// register. Every inline function called here must indeed be inlined: of the copies of one that is
+// not, the linker would keep only one for the whole program, of an arbitrary instruction set.
 #include "slider_kernels.h"
 #include "slider_modes.h"
 
@@ -58,8 +58,8 @@ inline __attribute__((always_inline)) unsigned bits(Mask m) {
 #endif
 }
 
-// Friction of a register of blocks after the given slips, that of a block at rest with f <= m being
-// at least f.
+// Friction of a register of blocks after the given slips. For a block at rest with f <= m it is at
+// least f.
 template <Law law>
 inline __attribute__((always_inline)) Register friction(const ChainView &chain, Register m,
                                                         Register v, Register f, Register slip) {
@@ -72,8 +72,8 @@ inline __attribute__((always_inline)) Register friction(const ChainView &chain, 
     return LSM::VelocityWeakening::friction(m, v);
 }
 
-// The larger root of w = c - b / (1 + w), or 0 if there is none. Written without cancellation, so
-// that its sign is that of c - b where c <= 1.
+// The larger root of w = c - b / (1 + w), or 0 if there is none. The formula avoids cancellation,
+// so that the sign of the root is that of c - b where c <= 1.
 inline __attribute__((always_inline)) Register velocity_at(Register c, Register b) {
   const Register zero = {}, one = zero + 1.0;
   const Register q = (1.0 + c) * (1.0 + c) - 4.0 * b;
@@ -85,17 +85,20 @@ inline __attribute__((always_inline)) Register velocity_at(Register c, Register 
   return ((w > zero) & (s > zero)) ? w : zero;
 }
 
-// A step without inertia, of a register of blocks.
+// Result of a step without inertia for a register of blocks.
 struct Balance {
   Register v, ahead;
 };
 
-// Velocities v at which radiation and friction balance the forces f at the end of a step, and the
-// slips in the next one, in which forces change as they did in this one (Adams and Bashforth). A
-// block that starts has missed the slip since its force exceeded its strength, and one that will
-// stop slips until then: starts and stops are located, without which the order is 1. \param old
-// forces at the beginning of the step \param moved slips in it \param slides has slid all the
-// while \param slip since it last rested
+// Computes the velocities v at which radiation and friction balance the forces f at the end of a
+// step, and the slips in the next step, in which forces are taken to change as they did in this one
+// (Adams and Bashforth). A block that starts has missed the slip since its force exceeded its
+// strength, and one that will stop slips only until then: the times of starts and stops are
+// computed, as the scheme would be of order 1 without them.
+// \param old forces at the beginning of the step
+// \param moved slips during the step
+// \param slides blocks that have slid throughout the step
+// \param slip slips since the blocks last rested
 template <Law law>
 inline __attribute__((always_inline)) Balance balance(const ChainView &chain, Register m,
                                                       Register old, Register f, Register moved,
@@ -107,10 +110,10 @@ inline __attribute__((always_inline)) Balance balance(const ChainView &chain, Re
   Mask stops;
   if constexpr (law == Law::velocity_weakening) {
     const Register b = by_radiation * m, c_next = by_radiation * next;
-    // A block at rest stays so, though it could slide as well.
+    // A block at rest with f <= m stays at rest, even if there is a velocity in balance as well.
     v = velocity_at(by_radiation * f, b);
     v = (slides | (f > m)) ? v : zero;
-    // Slower than this no block slides, as less velocity takes more force.
+    // No block slides more slowly than this, as the force needed would grow as velocity falls.
     Register slowest = zero;
     if (bits(b > one) != 0) {
       const Register root = square_root(b);
@@ -120,8 +123,9 @@ inline __attribute__((always_inline)) Balance balance(const ChainView &chain, Re
       const Register slope = one - b / ((one + w) * (one + w));
       return slope > zero ? slope : zero;
     };
-    // Simpson's rule over the velocity, as against time velocity has a vertical tangent there. Time
-    // until then, over that of a step: the force falls by the block's own slip, and less by others.
+    // Time until a block stops, in units of the time step, by Simpson's rule over the velocity,
+    // which as a function of time has a vertical tangent there. The force falls because of the
+    // block's own slip, and less so because of the slips of others.
     const double own = chain.dt * chain.stiffness;
     const Register others = (f - old) + chain.stiffness * moved;
     Register middle = 0.5 * (v + slowest), last = slowest;
@@ -160,7 +164,7 @@ inline __attribute__((always_inline)) Balance balance(const ChainView &chain, Re
   Register late = zero;
   if (bits((v > zero) & ~slides) != 0) late = slides ? zero : old < m ? (f - m) / (f - old) : one;
   const Register ahead = chain.dt * (part * mean + late * v);
-  // Negative ones end with a stop.
+  // A negative sign marks a slip that ends with a stop.
   return {v, v > zero ? (stops ? -ahead : ahead) : zero};
 }
 
@@ -183,18 +187,19 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
   [[maybe_unused]] const double slower = 1.0 / (1.0 + half_h_m * eta);
   double *const u = chain.u, *const velocity = chain.v, *const force = chain.force;
   const double *const mu = chain.mu;
-  // A copy, so that the compiler need not read members again after each store to hot_lanes, which
-  // it could take for one of them.
+  // Copied, because the compiler would otherwise read the members again after each store to
+  // hot_lanes, which might alias them.
   const ModeArrays modes = chain.of_modes;
   double *const changed = chain.change;
   constexpr bool needs_rest = law == Law::slip_weakening;
   constexpr bool balances = scheme == Scheme::adams_bashforth;
-  // Blocks move (the first half of the step), then their springs pull. A chunk is pulled some
-  // chunks after it was moved: its neighbours have been moved by then, its data are still in the
-  // nearest cache, and the stores of its displacements have completed, so that loads across two
-  // chunks do not wait for them. The first chunk of the chain, a neighbour of the last, comes last.
+  // Blocks move (the first half of the step), then their springs pull. `lag` chunks lie between the
+  // chunk that is moved and the one that is pulled: its neighbours have been moved by then, its
+  // data are still in the nearest cache, and the stores of its displacements have completed, so
+  // that loads across two chunks do not wait for them. The first chunk of the chain, a neighbour of
+  // the last, is pulled last.
   constexpr int lag = 6;
-  constexpr int ahead = 12;     // chunks in the list between fetching into the cache and moving
+  constexpr int ahead = 12;     // chunks between the one being prefetched and the one being moved
   constexpr unsigned ring = 8;  // more than lag
   static_assert(ring > lag);
   Lanes work = {}, slip = {};
@@ -217,8 +222,8 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
       } else {
         Register slid = zero;
         if constexpr (needs_rest) slid = x.r[r] - rest.r[r];
-        // A stuck block has v = 0, so f <= mu leaves it stuck without a branch, and a block whose
-        // velocity would turn negative sticks.
+        // A block at rest has v = 0, so that f <= mu leaves it at rest without a branch, and a
+        // block whose velocity would become negative sticks.
         Register push = f.r[r] - friction<law>(chain, m.r[r], v.r[r], f.r[r], slid);
         if constexpr (radiates) push -= eta * v.r[r];
         Register w = v.r[r] + (scheme == Scheme::verlet ? half_h_m : h_m) * push;
@@ -276,7 +281,7 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
         const Balance now = balance<law>(chain, m.r[r], old.r[r], f.r[r], change.r[r], slides,
                                          slides ? slid : zero);
         store_register(chain.ahead + i + r * SLIDER_LANES, now.ahead);
-        // A block that stops has been about as fast as at the beginning until then.
+        // Until it stops, a block has been about as fast as at the beginning of the step.
         radiated.r[r] += (v.r[r] + (now.v > zero ? now.v : v.r[r])) * change.r[r];
         v.r[r] = now.v;
       } else if constexpr (scheme == Scheme::verlet && law == Law::velocity_weakening) {
@@ -288,7 +293,7 @@ StepSums step(const ChainView &chain, const std::int32_t *list, int count, doubl
         }
         v.r[r] = velocity_at(c, b);
       } else if constexpr (scheme == Scheme::verlet) {
-        // A block that came to rest in the first half of the step has healed.
+        // A block that came to rest in the first half of the step has regained its static strength.
         const Register since = v.r[r] > zero ? slid : zero;
         Register w =
             v.r[r] + half_h_m * (f.r[r] - friction<law>(chain, m.r[r], v.r[r], f.r[r], since));

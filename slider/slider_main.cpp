@@ -73,8 +73,8 @@ void warn(const Slider::Parameters &p) {
                p.dt, limit);
 }
 
-/// Calls task(0) to task(count - 1) in parallel by this many threads (0: one per core). A task must
-/// not throw.
+/// Calls task(0) to task(count - 1) in parallel. A task must not throw.
+/// \param threads number of threads; 0: one per core
 template <class Task>
 void for_each_index(std::size_t count, std::size_t threads, const Task &task) {
   std::atomic<std::size_t> next{0};
@@ -88,7 +88,8 @@ void for_each_index(std::size_t count, std::size_t threads, const Task &task) {
   for (auto &thread : pool) thread.join();
 }
 
-/// Carries out one run or those of an ensemble. Returns the exit status.
+/// Carries out one run or those of an ensemble.
+/// \return exit status
 int run_all(const std::vector<Settings> &all, const Settings &base) {
   if (base.summary != "-") Slider::probe(base.summary);
   std::vector<Slider::RunResult> results(all.size());

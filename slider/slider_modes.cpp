@@ -10,7 +10,7 @@ namespace Slider {
 
 namespace {
 
-// FFTW allows several threads to execute plans, but not to make them.
+// FFTW allows several threads to execute plans at the same time, but not to create them.
 std::mutex &planner() {
   static std::mutex one;
   return one;

@@ -16,19 +16,20 @@ namespace Slider {
 
 /// Arrays of ModeForces, in whole chunks.
 struct ModeArrays {
-  double *apart = nullptr;     ///< displacements less what they have in common; blocks move far
-  double *spectrum = nullptr;  ///< of these: real and imaginary part of each mode
-  const double *factors = nullptr;   ///< -C / blocks, for real and imaginary part
-  int values = 0;                    ///< of the spectrum, and factors
+  double *apart = nullptr;           ///< displacements less a common part, as blocks move far
+  double *spectrum = nullptr;        ///< transform of these: real and imaginary part of each mode
+  const double *factors = nullptr;   ///< -C / blocks, for real and imaginary part of each mode
+  int values = 0;                    ///< length of spectrum and of factors
   const double *coupling = nullptr;  ///< force of the coupling, without leaf springs
 };
 
 /// The coupling of a periodic fault: the force on block i is -sum_j C_ij u_j, where C is K(q) less
 /// its value at q = 0, the leaf spring, which pulls towards the plate.
 ///
-/// Transforms are planned once, by estimate: measured plans depend on the load of the machine, and
-/// so would the last digits. Two objects may be used, made and destroyed at a time by two threads.
-/// Numbers of blocks with small prime factors are fastest; any is right.
+/// Transforms are planned once, with FFTW_ESTIMATE: measured plans depend on the load of the
+/// machine, and so would the last digits of the results. Different threads may construct, use and
+/// destroy different objects at the same time. Any number of blocks is allowed; those with small
+/// prime factors are fastest.
 class ModeForces {
  public:
   /// \param modes stiffness of the modes 0 to blocks / 2
@@ -37,11 +38,12 @@ class ModeForces {
   ModeForces(const ModeForces &) = delete;
   ModeForces &operator=(const ModeForces &) = delete;
 
-  /// Force of the coupling on each block. \param u displacements
+  /// Computes the force of the coupling on each block.
+  /// \param u displacements
   const double *find(const double *u);
 
-  /// Access for a kernel that fills in the displacements and multiplies the spectrum by the factors
-  /// itself, with the transforms below.
+  /// The arrays for a kernel that itself fills in the displacements and multiplies the spectrum by
+  /// the factors, and calls transform() and transform_back().
   const ModeArrays &arrays() const { return arrays_; }
   void transform();
   void transform_back();

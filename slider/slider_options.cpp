@@ -221,7 +221,7 @@ class CommandLine {
     runs.add("--threads", s_.threads, "Runs at a time; 0: one per core", LSM::whole_number(4096));
   }
 
-  /// Refuses keys that appear twice, of which CLI11 would silently take the last.
+  /// Refuses keys that appear twice, as CLI11 would silently take the last one.
   /// \throws LSM::FileError
   void check_config(const std::string &path) const {
     using LSM::text_io::in_quotes;

@@ -27,8 +27,8 @@ struct Settings {
 Settings parse(std::vector<std::string> arguments, const std::atomic<int> *stop);
 
 /// Returns the runs of --ensemble, each with its own output files.
-/// \param base of the same arguments
-/// \throws as parse()
+/// \param base what parse() has returned for the same arguments
+/// \throws std::invalid_argument or std::runtime_error as parse()
 std::vector<Settings> ensemble(const Settings &base, const std::vector<std::string> &arguments);
 
 /// Checks that all outputs of all runs are different files, and that none of them is an input.

@@ -32,7 +32,7 @@ class Outputs {
     catalogue_info_.rupture_length = o_.rupture_length;
     series_info_.dt = o_.parameters.dt;
     series_info_.stride = o_.series_stride;
-    // The series has a key of its own for this.
+    // The header of a series has a key of its own for the time step.
     series_info_.parameters = LSM::text_io::without(o_.header, {"dt"});
   }
 
@@ -43,9 +43,10 @@ class Outputs {
     series_.create(o_.series, series_info_);
     series_.write(0, pe);
   }
-  /// Continues after the given step with a catalogue of so many events.
+  /// Continues the files after the given step.
+  /// \param events number of events in the catalogue until then
   void resume(std::int64_t step, std::int64_t events) {
-    // No file is truncated before both are found to fit.
+    // No file is truncated before both have been found to belong to this run.
     if (!o_.catalogue.empty())
       catalogue_.find_cut(o_.catalogue, catalogue_info_, step - o_.rupture_memory, {}, events);
     if (!o_.series.empty()) series_.find_cut(o_.series, series_info_, step);
@@ -56,7 +57,7 @@ class Outputs {
   void event(const LSM::Event &event) {
     if (catalogue_.is_open()) catalogue_.write(event);
   }
-  /// After a step; its sample is written if it is due.
+  /// Writes the sample of a step if it is due.
   void sample(std::int64_t step, double pe) {
     if (series_.is_open() && step % o_.series_stride == 0) series_.write(step, pe);
   }
@@ -65,8 +66,8 @@ class Outputs {
     return series_.is_open() ? (step / o_.series_stride + 1) * o_.series_stride
                              : std::numeric_limits<std::int64_t>::max();
   }
-  /// Writes everything so far to the disk: after a power failure there must be no checkpoint
-  /// without the files it relies on.
+  /// Forces everything so far to the disk: after a power failure there must be no checkpoint
+  /// without the data that it relies on.
   void flush() {
     series_.flush();
     for (const std::string &path : {o_.catalogue, o_.series})
@@ -79,7 +80,7 @@ class Outputs {
 
  private:
   const RunOptions &o_;
-  LSM::OutputClaim claim_;  // let go of last
+  LSM::OutputClaim claim_;  // before the writers, as it must be released after they are closed
   LSM::CatalogueInfo catalogue_info_;
   LSM::PeSeriesInfo series_info_;
   LSM::CatalogueWriter catalogue_;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file slider_parameters.h
 /// Parameters of the block-slider model of Weatherley and Abe (2004), Sect. 3, and their limits.
-/// The friction laws are those of lammps-pkg/core/friction under which a block at rest stays at
-/// rest until its force exceeds a strength that is constant meanwhile. README.md explains why no
-/// others.
+/// The friction laws are those of lammps-pkg/core/friction under which a block stays at rest until
+/// its force exceeds a strength that does not change while it rests. README.md explains why there
+/// are no others.
 #ifndef SLIDER_PARAMETERS_H
 #define SLIDER_PARAMETERS_H
 
@@ -34,8 +34,8 @@ enum class Scheme {
   printed,        ///< Eqs. 7 and 8: x += h v + h^2/2 a, v += h a, force of the old time
   semi_implicit,  ///< v += h a, x += h v (symplectic Euler), order 1
   verlet,         ///< velocity Verlet, friction of the new velocity solved in closed form, order 2
-  /// without inertia: the velocity at which friction and radiation balance the springs, and x by
-  /// the two-step formula of Adams and Bashforth, order 2
+  /// no inertia: v from the balance of springs, friction and radiation, x by the two-step formula
+  /// of Adams and Bashforth, order 2
   adams_bashforth
 };
 
@@ -60,17 +60,17 @@ constexpr std::array<LSM::Named<Law>, 3> names_of(Law) {
 /// A friction law with its coefficients. The static strength mu is a property of each block.
 struct Friction {
   Law law = Law::velocity_weakening;
-  double dynamic = 1.0;  ///< dynamic strength over the static one (not of Eq. 6)
-  double dc = 1.0;       ///< slip over which it is reached, of slip_weakening
+  double dynamic = 1.0;  ///< ratio of dynamic to static strength (not used by Eq. 6)
+  double dc = 1.0;       ///< slip_weakening: slip at which the dynamic strength is reached
 
-  /// Whether the place where a block last rested is needed.
+  /// Whether the law needs the displacement at which a block last rested.
   bool needs_rest() const { return law == Law::slip_weakening; }
 };
 
-/// A rough surface whose strength changes along the way †: the strength of a block is drawn anew
-/// from the range after each slip of the given length.
+/// A rough surface whose strength varies with displacement †: the strength of a block is drawn anew
+/// from [low, high) each time it has slipped by the given length.
 struct Landscape {
-  double length = 0.0;  ///< 0: strengths stay
+  double length = 0.0;  ///< correlation length; 0: strengths are constant
   double low = 0.5, high = 1.0;
   std::uint64_t seed = 1;
 };
@@ -85,9 +85,9 @@ struct Parameters {
   double dt = 0.05;        ///< time step † (not in the paper)
   Scheme scheme = Scheme::verlet;
   Friction friction = {};  ///< Eq. 6
-  double radiation = 0.0;  ///< force on a block per velocity by the waves that it sends out †
-  /// Stiffness of the modes 0 to blocks / 2 in place of the springs K_c †, the leaf spring
-  /// included, which is that of mode 0; empty: springs.
+  double radiation = 0.0;  ///< damping by radiated waves: force on a block per velocity †
+  /// Stiffness of the modes 0 to blocks / 2 in place of the springs K_c †. It includes the leaf
+  /// spring, which is the stiffness of mode 0. Empty: springs.
   std::vector<double> modes = {};
   Landscape landscape = {};
 
@@ -109,8 +109,9 @@ inline double stiffness_alone(const Parameters &p) {
 }
 
 /// Time step above which the scheme is unstable for an undamped spring, or radiation alone would
-/// reverse velocities. The printed scheme is unstable at any step (growth rate h w^2 / 4); its
-/// limit is where this exceeds the dissipation by friction, 0.12 for the paper's springs.
+/// reverse velocities. The printed scheme is unstable at any step h (growth rate h w^2 / 4); its
+/// limit is the step at which this exceeds the dissipation by friction, 0.12 for the paper's
+/// springs.
 inline double stability_limit(const Parameters &p) {
   // The shortest wave of the sliding chain without friction is the stiffest.
   const double stiffest = p.by_springs()
@@ -125,7 +126,8 @@ inline double stability_limit(const Parameters &p) {
   return damping > 0.0 ? std::min(limit, 2.0 / damping) : limit;
 }
 
-/// \throws std::invalid_argument with one line: an option, its value and what is expected
+/// Rejects the value of an option.
+/// \throws std::invalid_argument always, with one line: the option, its value and what is expected
 [[noreturn]] inline void refuse(const std::string &option, double value,
                                 const std::string &expected) {
   char text[64];
@@ -133,6 +135,8 @@ inline double stability_limit(const Parameters &p) {
   throw std::invalid_argument(option + " = " + text + ", expected " + expected);
 }
 
+/// Checks that all parameters are within their limits.
+/// \param force whether the printed scheme may be run with an unstable time step
 /// \throws std::invalid_argument as refuse()
 inline void check(const Parameters &p, bool force) {
   if (p.blocks < 1 || p.blocks > 100000000) refuse("--blocks", p.blocks, "1 to 100000000");

@@ -82,7 +82,7 @@ class Run {
     return (v > 0.0 || at_rest) && step - state_.calm_since >= calm_;
   }
   /// Leaps if it is worthwhile, see Chain::leap(). A leap should not be shorter than the calm
-  /// period that has to follow.
+  /// period that has to pass before the next one.
   bool leap(bool falls, bool rises) {
     const std::int64_t from = chain_.step();
     const bool done = chain_.leap(o_.steps, calm_, o_.leap_speed, falls, rises);
@@ -97,8 +97,8 @@ class Run {
 
   /// Whether an event began after the warm-up.
   bool after_warmup(const LSM::Event &e) const { return !(e.t_start < o_.warmup); }
-  /// Counts an event that has ended. Returns false if it belongs to the warm-up and must not be
-  /// written.
+  /// Counts an event that has ended.
+  /// \return false if it must not be written
   bool count(LSM::Event &e) {
     if (!after_warmup(e)) {
       ++state_.before_warmup;
@@ -122,7 +122,7 @@ class Run {
   void announce();
 
   std::vector<std::string> settings_;         // everything that influences the result
-  std::int64_t calm_, look_, next_look_ = 0;  // steps
+  std::int64_t calm_, look_, next_look_ = 0;  // in steps
   std::int64_t eventless_until_ = 0, announced_at_ = 100000;
 };
 
@@ -160,7 +160,7 @@ class PeRun : public Run {
     const bool report =
         picker_.push_change(chain_.step(), o_.parameters.dt * static_cast<double>(chain_.step()),
                             chain_.pe(), chain_.dpe(), event_);
-    // Slip is sampled one step late at both ends, which matters less than the error of a time step.
+    // Slip is sampled one step late at both ends, which matters less than the error of the scheme.
     if (picker_.in_event() && !falls) {
       state_.slip_start = chain_.slip_sum();
       if (located()) state_.u_start = chain_.displacements();
@@ -181,7 +181,7 @@ class PeRun : public Run {
     const std::int64_t from = chain_.step();
     const std::int64_t quiet = chain_.quiet_until();
     if (quiet <= from + replay_) return false;
-    // The next due sample is taken by a step.
+    // The next sample of the series is taken by an ordinary step.
     const std::int64_t to = std::min({quiet, limit, outputs_.next_sample(from) - 1}) - replay_;
     if (!(to > from && picker_.rate() >= 0.0 && chain_.quiet_change(from) > 0.0)) return false;
     result_.jumped += to - from;

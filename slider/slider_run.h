@@ -38,10 +38,10 @@ struct RunOptions {
   std::int64_t steps = 0;
   Events events = Events::pe;
   LSM::PickerSettings picker;  ///< for ruptures, only the sizes that are written
-  /// Steps over which slips are connected, and by which events are found after their end, at least
-  /// 1
+  /// Number of steps over which slips are connected, at least 1; events are found this many steps
+  /// after their end.
   std::int64_t rupture_memory = 1;
-  double leap_speed = 0.0;    ///< leaps while no block is faster; 0: no leaps
+  double leap_speed = 0.0;    ///< leap only while no block is faster than this; 0: no leaps
   double warmup = 0.0;        ///< events that start before this time are not written
   bool keep_by_plate = true;  ///< write drops of PE that slip does not explain, see is_by_plate()
   Kernel kernel = Kernel::active;
@@ -54,29 +54,30 @@ struct RunOptions {
   bool resume = false;
   bool overwrite = false;  ///< replace files of an earlier run
   bool progress = false;
-  std::vector<std::pair<std::string, std::string>> header;  ///< everything that shapes the result
-  const std::atomic<int> *stop = nullptr;                   ///< a signal number ends the run
+  std::vector<std::pair<std::string, std::string>> header;  ///< all that influences the result
+  const std::atomic<int> *stop = nullptr;  ///< a signal number stored here ends the run
 };
 
-/// No block must have been fast for this long before a leap. A block that runs away has become fast
-/// by then.
+/// Time for which no block must have been fast before a leap. A block that runs away becomes fast
+/// within it.
 constexpr double leap_calm = 50.0;
 
-/// Whether the plate, and not slip, has lowered PE: after overshoot the blocks are ahead of the
-/// plate, and PE falls until it has caught up. Blocks lose no more to friction than the strongest
-/// of them times the slip of all, and come from rest to rest, so that the plate has taken what
-/// exceeds that † (the paper counts all drops).
+/// Whether the plate, and not slip, has lowered PE: after an overshoot the blocks are ahead of the
+/// plate, and PE falls until it has caught up. From rest to rest, blocks lose to friction no more
+/// than the highest strength times the total slip, so that the plate has taken whatever exceeds
+/// this † (the paper counts all drops).
+/// \param strongest highest strength of the blocks
 inline bool is_by_plate(const LSM::Event &drop, double strongest) {
   return drop.size > strongest * drop.slip_moment;
 }
 
 struct RunResult : EventCounts {
-  std::int64_t first_step = 0, steps = 0;  ///< from where to where
-  std::int64_t moved = 0;                  ///< block-steps with motion
-  std::int64_t jumped = 0;                 ///< quiet steps jumped over
-  std::int64_t leaps = 0, leapt = 0;       ///< number of leaps, steps leapt over
-  double pe = 0.0, pe_direct = 0.0;        ///< by work, and summed over all springs, at the end
-  double kinetic = 0.0, radiated = 0.0;    ///< energy at the end, and that sent out until then
+  std::int64_t first_step = 0, steps = 0;  ///< first and last step
+  std::int64_t moved = 0;                  ///< steps in which a block moved, summed over blocks
+  std::int64_t jumped = 0;                 ///< number of quiet steps that were jumped over
+  std::int64_t leaps = 0, leapt = 0;       ///< number of leaps, and of the steps they replace
+  double pe = 0.0, pe_direct = 0.0;        ///< at the end: by work, and summed over all springs
+  double kinetic = 0.0, radiated = 0.0;    ///< energies: at the end, and radiated until then
   double mean_slip = 0.0, seconds = 0.0;
   int interrupted = 0;  ///< signal number, or 0
 };
@@ -88,11 +89,12 @@ void probe(const std::string &path);
 /// The files that a run writes as it goes.
 std::vector<LSM::Output> outputs_of(const RunOptions &options);
 
-/// Refuses to replace files that are not empty, unless asked to.
+/// Refuses to replace files that are not empty, unless the options allow it.
 /// \throws std::runtime_error naming file and options
 void check_replaced(const RunOptions &options);
 
-/// Runs or continues one chain. \throws std::exception with one line on bad input or output.
+/// Runs or continues one chain.
+/// \throws std::exception with one line if input or output fails
 RunResult run(const RunOptions &options);
 
 }  // namespace Slider

@@ -6,10 +6,11 @@
 /// Block i slides in step n if the step changes its displacement. It is then connected with the
 /// blocks i - 1, i and i + 1 (periodic) that slide in step n or in one of the memory steps before
 /// it. A rupture is a connected set of such pairs (i, n): it ends when no sliding block can connect
-/// with it any more, and two that meet become one. One step of memory is what causes can
-/// do: a block that stops in step n pushes its neighbour over its limit for step n + 1.
+/// with it any more, and two that meet become one. A memory of one step covers direct causation: a
+/// block that stops in step n may push its neighbour over its limit for step n + 1.
 ///
-/// Unlike drops of the total PE, ruptures far apart in a long chain stay apart.
+/// Unlike drops of the total PE, ruptures that are far apart in a long chain remain separate
+/// events.
 #ifndef SLIDER_RUPTURES_H
 #define SLIDER_RUPTURES_H
 
@@ -29,7 +30,7 @@ namespace Slider {
 struct Rupture : LSM::SlipSet {
   double size = 0.0;                      ///< work of all springs on the blocks
   double slip = 0.0;                      ///< sum of the slips of all blocks
-  double slip_cos = 0.0, slip_sin = 0.0;  ///< slips times the direction of the block on the ring
+  double slip_cos = 0.0, slip_sin = 0.0;  ///< slips times direction of the block on the ring
   double pe_start = 0.0, pe_end = 0.0;    ///< PE of the whole chain at step_start, step_end
 
   void absorb(const Rupture &later) {
@@ -44,14 +45,14 @@ static_assert(std::is_trivially_copyable<Rupture>::value, "Rupture goes into che
 /// The state of a tracker between steps.
 using RuptureState = LSM::SlipSetsState<Rupture>;
 
-/// Combines slips to ruptures as they occur.
+/// Combines slips into ruptures as they occur.
 ///
-/// Call begin_step(), slide() for each block that slides in ascending order, end_step(). The result
-/// depends on nothing but these calls; a tracker restored by set_state() continues to the last
-/// digit.
+/// For each step, call begin_step(), then slide() for each block that slides, in ascending order,
+/// then end_step(). The result depends on these calls only; a tracker restored by set_state()
+/// continues to the last digit.
 class RuptureTracker : public LSM::SlipSets<Rupture> {
  public:
-  /// \param memory steps, see above; at least 1
+  /// \param memory number of steps over which slips are connected, see above; at least 1
   /// \param centroid whether x_centroid is wanted
   RuptureTracker(int blocks, std::int64_t memory, bool centroid) : SlipSets(blocks, 1, memory) {
     if (!centroid) return;
@@ -62,13 +63,14 @@ class RuptureTracker : public LSM::SlipSets<Rupture> {
     }
   }
 
-  /// The step that leads to the given one, from PE pe_before.
+  /// Begins the step that leads to the given one.
+  /// \param pe_before PE before the step
   void begin_step(std::int64_t step, double pe_before) {
     SlipSets::begin_step(step);
     pe_before_ = pe_before;
   }
 
-  /// Block i slides by slip > 0; the springs do the given work on it.
+  /// Adds the slip of block i, slip > 0, and the work that the springs do on it.
   void slide(int i, double work, double slip) {
     Rupture &r = SlipSets::slide(i, [this](Rupture &begun) { begun.pe_start = pe_before_; });
     r.size += work;
@@ -79,8 +81,9 @@ class RuptureTracker : public LSM::SlipSets<Rupture> {
     }
   }
 
-  /// Ends the step with PE pe. Calls finished(const Rupture &) for each rupture that nothing can be
-  /// connected with any more, in order of step_end, step_start, first block.
+  /// Ends the step. Calls finished(const Rupture &) for each rupture with which no slip can connect
+  /// any more, in order of step_end, step_start, first block.
+  /// \param pe PE after the step
   template <class Finished>
   void end_step(double pe, Finished &&finished) {
     SlipSets::end_step(
@@ -90,7 +93,7 @@ class RuptureTracker : public LSM::SlipSets<Rupture> {
         finished);
   }
 
-  /// The row of a catalogue, without its number.
+  /// The rupture as a row of a catalogue, without its number.
   LSM::Event event(const Rupture &r, double dt) const {
     LSM::Event e;
     e.step_start = r.step_start;

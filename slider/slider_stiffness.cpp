@@ -21,8 +21,8 @@ namespace {
 
 using LSM::text_io::in_quotes;
 
-/// Mean of K(q) / mu' over all wavenumbers, the stiffness that a single slipping block feels, by
-/// Simpson's rule.
+/// Mean of K(q) / mu' over all wavenumbers by Simpson's rule: the stiffness that a block feels when
+/// it slips alone.
 double mean_stiffness(Coupling coupling, double width) {
   constexpr int pieces = 8192;
   double sum = 0.0;
@@ -60,7 +60,7 @@ double strip_stiffness(Coupling coupling, double q, double width) {
   if (a < 1e-6) return 1.0 / width;
   const double fall = std::exp(-2.0 * a);
   if (coupling == Coupling::antiplane) return q * (1.0 + fall) / -std::expm1(-2.0 * a);
-  // Numerator and denominator times 2 exp(-2a).
+  // Numerator and denominator are multiplied by 2 exp(-2a), lest they overflow.
   constexpr double nu = poisson, k = 3.0 - 4.0 * nu, c = 5.0 - 12.0 * nu + 8.0 * nu * nu;
   const double above = k * (1.0 + fall * fall) + 2.0 * fall * (2.0 * a * a + c);
   const double below = -k * std::expm1(-4.0 * a) + 4.0 * a * fall;

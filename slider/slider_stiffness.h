@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file slider_stiffness.h
-/// Static stiffness of what couples the blocks † (the paper has springs between neighbours):
+/// Static stiffness of the coupling between blocks † (the paper has springs between neighbours):
 /// the force on a block per slip, for slip that varies along the fault as cos q x, x in blocks.
 ///
 /// The fault lies between two elastic blocks of thickness W, each held by a plate at its far side,
@@ -10,9 +10,9 @@
 ///   in plane   K = mu' q / (1 - nu) (k cosh 2a + 2 a^2 + 5 - 12 nu + 8 nu^2) / (k sinh 2a + 2 a),
 ///              a = q W, k = 3 - 4 nu, plane strain, no change of the normal stress, by symmetry;
 ///              the edge of a layer on a rigid base (Bentall and Johnson 1968, Int. J. Mech. Sci.
-///              10, 637), which a test computes once more from Navier's equations.
-/// Both are mu' / W at q = 0, the leaf spring K_l: a uniform slip is sheared off over W. For q W >>
-/// 1 they are mu' q and mu' q / (1 - nu), those of half-spaces (Geubelle and Rice 1995, J. Mech.
+///              10, 637), which a test computes independently from Navier's equations.
+/// Both are mu' / W at q = 0, the leaf spring K_l: uniform slip shears the blocks over W. For q W
+/// >> 1 they are mu' q and mu' q / (1 - nu), those of half-spaces (Geubelle and Rice 1995, J. Mech.
 /// Phys. Solids 43, 1791).
 #ifndef SLIDER_STIFFNESS_H
 #define SLIDER_STIFFNESS_H
@@ -35,33 +35,39 @@ constexpr std::array<LSM::Named<Coupling>, 3> names_of(Coupling) {
 /// Poisson's ratio in plane: equal Lame constants, as in a lattice with forces along its links.
 constexpr double poisson = 0.25;
 
-/// K(q) / mu' of the two blocks, q >= 0, antiplane or in plane. \param width W, in blocks
+/// K(q) / mu' of the two blocks, antiplane or in plane.
+/// \param q at least 0
+/// \param width W, in blocks
 double strip_stiffness(Coupling coupling, double q, double width);
 
-/// Elastic blocks on both sides of the fault that stand in for the springs K_c: a block that slips
-/// alone in a long fault feels 2 K_c + K_l in both.
+/// Elastic blocks on both sides of the fault, which replace the springs K_c: a block that slips
+/// alone in a long fault feels the same stiffness as with springs, 2 K_c + K_l.
 struct Strip {
   double modulus = 0.0;  ///< mu'
   double width = 0.0;    ///< W
 };
-/// With the leaf spring K_l = mu' / W. \throws std::invalid_argument if there is none
+/// Returns the blocks for which mu' / W is the given leaf spring K_l.
+/// \throws std::invalid_argument if there are none
 Strip strip_of_leaf_spring(Coupling coupling, double kc, double kl);
-/// With the thickness W.
+/// Returns the blocks of thickness W.
 Strip strip_of_width(Coupling coupling, double kc, double width);
 
-/// Stiffness of the modes 0 to blocks / 2 of a periodic fault, wavenumbers 2 pi mode / blocks.
+/// Stiffness of the modes 0 to blocks / 2 of a periodic fault, whose wavenumbers are
+/// 2 pi mode / blocks.
 std::vector<double> modes_of(Coupling coupling, const Strip &strip, int blocks);
 
-/// The same from a file: lines "wavenumber,stiffness" in ascending order, from 0 (the leaf spring)
-/// to pi or beyond (radians per block; force per slip), between which it is interpolated linearly;
-/// '#' begins a comment.
+/// Reads the stiffness of these modes from a file of lines "wavenumber,stiffness" (radians per
+/// block; force per slip) in ascending order, from 0 (the leaf spring) to pi or beyond. It is
+/// interpolated linearly between the lines; '#' begins a comment.
 /// \throws LSM::FileError naming file and line
 std::vector<double> read_modes(const std::string &path, int blocks);
 
-/// One strength per line for each block; '#' begins a comment. \throws LSM::FileError
+/// Reads the strengths of the blocks, one per line; '#' begins a comment.
+/// \throws LSM::FileError
 std::vector<double> read_strengths(const std::string &path, int blocks);
 
-/// Tells two files apart in headers: name and CRC-32 of the content. \throws LSM::FileError
+/// Returns the name of a file and the CRC-32 of its content, which identify it in headers.
+/// \throws LSM::FileError
 std::string named_with_checksum(const std::string &path);
 
 }  // namespace Slider
