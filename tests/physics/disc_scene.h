@@ -24,7 +24,7 @@ neigh_modify      delay 0 every 1 check yes
 special_bonds     lj/coul 0 1 1
 )";
 
-/// Discs of radius 1 at the given centres (x y, type 1) in a box of 60 x 20.
+/// Discs of radius 1 and type 1 at the given centres (x, y) in a box of 60 x 20.
 inline std::string discs(const std::vector<std::pair<std::string, std::string>> &centres,
                          int bond_types = 1, int types = 1) {
   std::string text = std::string(discs_start) +
@@ -41,7 +41,7 @@ inline const char *const disc_columns =
     "c_events[9] c_events[11] c_events[13] c_events[14]\n"
     "thermo_modify norm no format float %.17g\n";
 
-/// A chain of discs along x, links of type 1 and 2 in turn, its last disc pulled away.
+/// A chain of discs along x whose links are of type 1 and 2 in turn, and whose last disc is pulled.
 inline std::string two_link_types(int count) {
   std::vector<std::pair<std::string, std::string>> centres;
   for (int n = 0; n < count; ++n) centres.emplace_back(std::to_string(2 * n - count), "0");

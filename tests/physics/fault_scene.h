@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file fault_scene.h
-/// A short fault for the physics tests: compressed once, then sheared from the same data file.
+/// A short fault for the physics tests. It is compressed once; all tests shear it from the same
+/// data file.
 #ifndef LSM_PHYSICS_FAULT_SCENE_H
 #define LSM_PHYSICS_FAULT_SCENE_H
 
@@ -63,7 +64,7 @@ group             upperface type 4
 )";
 }
 
-/// Compression; leaves settled.data.
+/// Compresses the fault and writes settled.data.
 inline std::string fault_settle() {
   return fault_start() + "create_lsm_fault length 40 width 20 seed ${seed} failures 500\n" +
          fault_groups() + fault_forces() + R"(
@@ -81,7 +82,8 @@ inline std::string fault_read() {
          "timestep ${dt}\n";
 }
 
-/// Fixes, compute and thermo of the shear phase; events are frequent, as the plates are fast.
+/// Fixes, compute and thermo output of the shear phase. Events are frequent, as the plates are
+/// fast.
 inline std::string fault_shear(const std::string &events) {
   return R"(
 variable          viscosity index 0.02
@@ -92,7 +94,7 @@ compute           events all lsm/events sides below above faces lowerface upperf
          events + "\n" + fault_columns;
 }
 
-/// Suite that has settled.data in its folder.
+/// Test suite with settled.data in its folder.
 class Fault : public Lmp {
  protected:
   static void SetUpTestSuite() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// fix bond/break of LAMMPS' package MC, which the build of the tests does not include, as a plugin.
+// Plugin with fix bond/break of LAMMPS' package MC, which the build of the tests does not include.
 #include "fix_bond_break.h"
 #include "lammpsplugin.h"
 #include "version.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// LAMMPS as a library on several ranks: an error on one of them has to stop all of them, and the
-// program has to be able to continue. usage: mpirun -np N library_errors
+// LAMMPS as a library on several ranks: an error on one of them must stop the commands on all, and
+// the program must be able to continue.
+// usage: mpirun -np N library_errors
 #include <mpi.h>
 #include <signal.h>
 #include <sys/resource.h>
@@ -67,7 +68,7 @@ class Session {
     if (lammps_has_error(lammps_)) lammps_get_last_error_message(lammps_, text, sizeof text);
     return text;
   }
-  /// The commands end in an error with this text on all ranks.
+  /// Expects the commands to end with an error on all ranks, whose message contains the given text.
   void fails(const std::string &commands, const std::string &expected) {
     run(commands);
     const std::string found = error();
@@ -90,7 +91,7 @@ int main(int argc, char **argv) {
   MPI_Barrier(MPI_COMM_WORLD);
   const std::string start = "fix move all lsm/nve\n";
 
-  // Files that cannot be written, at the first run.
+  // Files that cannot be written, which the first run finds.
   for (const char *files :
        {"catalogue no/folder/c.csv", "series no/folder/s.pe", "catalogue /dev/full"})
     Session().fails(start + "compute events all lsm/events " + files + "\nrun 10\n", "cannot");
@@ -101,7 +102,7 @@ int main(int argc, char **argv) {
       "stress 1\nrun 1\n",
       "is in both plates");
 
-  // A catalogue that exists.
+  // A catalogue that exists already.
   if (rank == 0) std::ofstream("there.csv") << "events\n";
   MPI_Barrier(MPI_COMM_WORLD);
   Session().fails(
@@ -116,7 +117,7 @@ int main(int argc, char **argv) {
     }
   }
 
-  // A disk that becomes full during a run, noticed by rank 0 only.
+  // A disk that becomes full during a run, which only rank 0 notices.
   {
     Session session;
     if (rank == 0) {
@@ -137,7 +138,7 @@ int main(int argc, char **argv) {
           "neigh_modify every 1000000 delay 1000000 check no\ntimestep 1e200\nfix move all lsm/nve "
           "dtcheck off\nrun 250\n",
       "not finite");
-  // A block in transit when another command fails between two steps.
+  // A block of samples is in transit when another command fails between two steps.
   {
     Session session;
     session.fails(start +

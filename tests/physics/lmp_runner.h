@@ -33,7 +33,7 @@ inline std::string read_file(const std::string &path) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-/// 17 significant digits: a double survives being written to a script and read back.
+/// A number with 17 significant digits, so that reading it from a script gives the same double.
 inline std::string text(double value) {
   std::ostringstream out;
   out.precision(17);
@@ -101,7 +101,7 @@ inline void parse_output(Result &result) {
   }
 }
 
-/// Test fixture with a folder of its own; all tests of a suite share it.
+/// Test fixture with a folder of its own, which all tests of a suite share.
 class Lmp : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -135,7 +135,7 @@ class Lmp : public ::testing::Test {
   static Result start(const std::string &script, const Variables &variables, int ranks) {
     std::vector<std::string> words;
     if (ranks > 1) words = {LSM_MPIEXEC, "--oversubscribe", LSM_MPIEXEC_NP, std::to_string(ranks)};
-    // another program may be tested with the same tests
+    // The same tests can be run with another program.
     const char *other = std::getenv("LSM_LMP");
     for (const char *word : {other ? other : LSM_LMP, "-in", script.c_str(), "-log", "none"})
       words.emplace_back(word);
@@ -171,7 +171,7 @@ inline ::testing::AssertionResult succeeded(const Result &result) {
   return ::testing::AssertionFailure() << "exit code " << result.exit_code << "\n" << result.output;
 }
 
-/// The run failed with one error line that contains all the given parts.
+/// Whether the run failed with exactly one error line, which contains all the given parts.
 inline ::testing::AssertionResult failed_with(const Result &result,
                                               const std::vector<std::string> &parts) {
   if (result.exit_code == 0)
@@ -192,8 +192,8 @@ inline ::testing::AssertionResult failed_with(const Result &result,
   return ::testing::AssertionSuccess();
 }
 
-/// Differences of all columns of two thermo tables, relative to the largest value of the column. A
-/// column that is zero throughout in both proves nothing, and fails the test.
+/// Largest difference between two thermo tables, relative to the largest value of each column. The
+/// test fails if a column is zero throughout in both, as it would prove nothing.
 inline double thermo_difference(const Result &a, const Result &b,
                                 const std::vector<std::string> &columns) {
   EXPECT_EQ(a.thermo.size(), b.thermo.size());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Dynamic ruptures of a flat fault in the regular lattice, against a boundary integral and a closed
-// form.
+// Dynamic ruptures of a flat fault in the regular lattice, compared with a boundary integral method
+// and a closed form.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -36,7 +36,7 @@ struct History {
   double end() const { return info.grid.time(records.back().step_end); }
 };
 
-/// Small blocks with a rupture that runs for a second.
+/// Settings for small blocks and a rupture that runs for one second.
 Variables small(const std::string &prefix) {
   return {{"dx", "500"},   {"length", "20000"}, {"width", "8000"},
           {"tend", "1.5"}, {"weak", "6000"},    {"prefix", prefix}};
@@ -76,7 +76,7 @@ TEST_F(Benchmark, EnergyIsBalanced) {
     EXPECT_GT(r.last("c_ruptures[15]"), friction);         // the load outside does the work
     EXPECT_GT(r.last("c_ruptures[16]"), 1e-3 * friction);  // and waves have reached the borders
     EXPECT_LT(std::fabs(r.last("c_ruptures[13]")), 2e-4 * friction) << blocks;
-    // nothing is strained before
+    // Nothing is strained before the run.
     const auto first = std::find_if(r.thermo.begin(), r.thermo.end(),
                                     [](const auto &row) { return row.count("c_ruptures[6]") > 0; });
     ASSERT_NE(first, r.thermo.end());
@@ -157,8 +157,8 @@ TEST_F(Benchmark, GoesOnFromARestartFile) {
 }
 
 TEST_F(Benchmark, PeriodicLatticeSlidesAsAWhole) {
-  // all of the fault is above its strength: it drops to the dynamic friction everywhere, and
-  // nothing depends on x, across the border of the box as well
+  // The stress exceeds the strength everywhere on the fault: it drops to the dynamic friction, and
+  // nothing depends on x, not even across the border of the box.
   const Result r = run_text(
       lattice("create_lsm_fault lattice length 40 width 16 spacing 1.0 mass r2 4.0", "p f p") +
       "unfix load\nfix load all lsm/traction lower upper 1e-3 7.5e-4\nrun 200\n"
@@ -172,7 +172,8 @@ TEST_F(Benchmark, PeriodicLatticeSlidesAsAWhole) {
 }
 
 TEST_F(Benchmark, AbsorbsPlaneWaves) {
-  // a pulse of velocity across or along the border in a periodic strip; what comes back is left
+  // A pulse of velocity normal to or along the border in a periodic strip: the energy left at the
+  // end is that of the reflections.
   for (const char *component : {"x", "y"}) {
     const std::string along = component;
     const Result r = run_text(
@@ -192,7 +193,7 @@ TEST_F(Benchmark, AbsorbsPlaneWaves) {
         (along == "x" ? "1150" : "680") + "\n");
     ASSERT_TRUE(succeeded(r));
     const double begin = r.thermo.front().at("KinEng");
-    // both halves of the pulse have met a border: the free fault sends back what came from above
+    // Both halves of the pulse have reached a border: the free fault reflects the one from above.
     std::printf("pulse along %s: %.3g of the energy is left, %.6g absorbed\n", component,
                 r.last("KinEng") / begin, r.last("f_caps") / begin);
     EXPECT_LT(r.last("KinEng"), 2e-3 * begin);
@@ -200,8 +201,8 @@ TEST_F(Benchmark, AbsorbsPlaneWaves) {
   }
 }
 
-// A mirrored packing in model units, loaded by the spacing of its discs. As contacts are 3 and 4
-// only, nothing else holds the blocks together.
+// A mirrored packing in model units, loaded by the spacing of its discs. Only types 3 and 4 have
+// contacts, and nothing else holds the blocks together.
 static std::string packing(const std::string &shear, const std::string &share = "share spacing",
                            const std::string &options = "mirror yes faultzone 1e-10") {
   return "units lj\ndimension 2\nboundary p f p\nnewton off\natom_style hybrid bond sphere\n"
@@ -225,14 +226,14 @@ TEST_F(Benchmark, MirroredPackingIsLoadedAsAWhole) {
       "thermo_style custom step ke c_carried[1] c_carried[2]\n"
       "thermo_modify norm no format float %.17g\nrun 200\n";
   for (const int ranks : {1, 2}) {
-    // below the strength nothing moves, and the whole length carries the tractions
+    // Below the strength nothing moves, and the tractions act on the whole length.
     const Result r = run_text(packing("6e-7") + run, {}, ranks);
     ASSERT_TRUE(succeeded(r));
     EXPECT_NEAR(r.last("c_carried[1]"), 30.0 * 1e-6, 1e-15);
     EXPECT_NEAR(r.last("c_carried[2]"), 30.0 * 6e-7, 1e-15);
     EXPECT_LT(r.last("KinEng"), 1e-24);
   }
-  // by diameters it is the part of the line that discs cover
+  // With share diameter they act only on the part of the line that discs cover.
   const Result r = run_text(packing("6e-7", "share diameter") + run);
   ASSERT_TRUE(succeeded(r));
   EXPECT_LT(r.last("c_carried[1]"), 0.95 * 30.0 * 1e-6);
@@ -240,8 +241,8 @@ TEST_F(Benchmark, MirroredPackingIsLoadedAsAWhole) {
 }
 
 TEST_F(Benchmark, MirroredPackingSlipsAsItsMirrorImage) {
-  // a patch above the strength breaks: one block does what the other does, the other way round, so
-  // that the fault neither opens nor closes
+  // A patch above the strength breaks: the motion of one block is the mirror image of that of the
+  // other, so that the fault neither opens nor closes.
   for (const int ranks : {1, 2}) {
     const Result r =
         run_text(packing("6.5e-7+1e-7*(abs(x-15)<5)") +
@@ -273,8 +274,8 @@ TEST_F(Benchmark, WrongInputIsNamed) {
                           {"share is 'area', but must be diameter or spacing"}));
   EXPECT_TRUE(failed_with(run_text(packing("0", "area spacing")),
                           {"Unknown fix lsm/traction keyword 'area'; accepted are share"}));
-  // blocks that are apart, discs near the line that do not touch it, and those of blocks that are
-  // no mirror images
+  // Refused are blocks with a gap between them, discs near the line that do not touch it, and
+  // blocks that are not mirror images.
   EXPECT_TRUE(
       failed_with(run_text(packing("0") + "displace_atoms upper move 0 0.05 0 units box\nrun 0\n"),
                   {"the faces do not touch"}));

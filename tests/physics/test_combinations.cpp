@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Styles of the package combined with others of LAMMPS: each combination works, or one line names
-// the reason why it does not.
+// Styles of the package combined with others of LAMMPS: each combination works, or one line
+// explains why it does not.
 #include <cstdlib>
 #include <fstream>
 
@@ -17,7 +17,7 @@ using Works = Lmp;
 
 namespace {
 
-/// Two discs in contact that shear against each other: types 1 (fixed) and 2.
+/// Two discs of types 1 (fixed) and 2 in contact, which are sheared against each other.
 std::string shear_contact(
     const std::string &pair = "pair_style lsm/friction\npair_coeff * * 1.0 1.0 0.6\n") {
   return discs({{"0", "0"}, {"0", "1.9"}}, 1, 2) + "set atom 2 type 2\n" + pair + R"(
@@ -41,7 +41,7 @@ TEST_F(Hybrid, PairsThatAreOffDoNotTouch) {
     SCOPED_TRACE(style);
     const std::string coefficients = std::string(style) == "lsm/free" ? "1.0" : "1.0 1.0 0.6";
     const std::string lj = "lj/cut 1.0";
-    // disc 2 (type 2) overlaps disc 1 (type 1); off between types
+    // Disc 2 (type 2) overlaps disc 1 (type 1), but interactions between the types are off.
     const Result r =
         run_text(shear_contact(
                      "pair_style hybrid " + std::string(style) + " " + lj + "\npair_coeff 1 1 " +
@@ -106,16 +106,16 @@ TEST_F(Hybrid, TimeStepIsCheckedWithLinksUnderBondHybrid) {
       failed_with(run_text(hybrid_bonds() + "run 1\n", {{"dt", "3"}}), {"Time step 3", "limit"}));
   const Result r = run_text(hybrid_bonds() + "run 1\nprint \"limit = $(f_move[2]:%.17g)\"\n");
   ASSERT_TRUE(succeeded(r));
-  // one link of stiffness 1 between two masses of 1: w^2 = 2
+  // For one link of stiffness 1 between two masses of 1, w^2 = 2.
   EXPECT_LE(r.value("limit"), std::sqrt(2.0));
   EXPECT_GT(r.value("limit"), 0.94 * std::sqrt(2.0));
-  // the message names what the check does not include
+  // The message names what the check leaves out.
   EXPECT_EQ(r.lines_with("WARNING: Fix lsm/nve").size(), 1u) << r.output;
   EXPECT_NE(r.output.find("bond harmonic"), std::string::npos);
 }
 
 TEST_F(Hybrid, ForeignBondsAreNamedAndDoNotCountAsStrain) {
-  // the harmonic bond has a rest length of 1, half the sum of the radii
+  // The rest length of the harmonic bond is 1, half the sum of the radii.
   const Result r = run_text(hybrid_bonds() + recorded("strainlimit 0.3 check 1 ledger yes") +
                             "thermo 10\nrun 100\n");
   ASSERT_TRUE(succeeded(r));
@@ -125,7 +125,7 @@ TEST_F(Hybrid, ForeignBondsAreNamedAndDoNotCountAsStrain) {
   EXPECT_NE(lines[0].find("bond harmonic"), std::string::npos) << lines[0];
   EXPECT_NEAR(r.thermo.front().at("c_events[6]"), 0.5 * 0.2 * 0.2, 1e-14);
 
-  // the strain of links counts under hybrid, too
+  // The strain of links counts with bond_style hybrid, too.
   EXPECT_TRUE(failed_with(
       run_text(hybrid_bonds() + recorded("strainlimit 0.05 check 1 ledger yes") + "run 100\n"),
       {"strained by"}));
@@ -144,7 +144,7 @@ TEST_F(Hybrid, BreakableLinksUnderBondHybrid) {
 }
 
 TEST_F(Hybrid, TwoPairStylesOfThePackageAreBothRecordedAndChecked) {
-  // free between types 1 and 1, friction between 1 and 2
+  // Contacts between types 1 and 1 are lsm/free, those between 1 and 2 lsm/friction.
   const std::string scene = discs({{"0", "0"}, {"0", "1.9"}, {"5", "0"}, {"5", "1.8"}}, 1, 2) + R"(
 set               atom 2 type 2
 variable          dt index 0.01
@@ -191,7 +191,7 @@ TEST_F(Hybrid, RefusedByName) {
 // ---- between two runs ----
 
 TEST_F(BetweenRuns, DisplacedParticlesLoadTangentialSprings) {
-  // sheared by 0.01 at an overlap of 0.1: sticks, as mu k 0.1 = 0.06
+  // Sheared by 0.01 at an overlap of 0.1, the contact sticks, as mu k 0.1 = 0.06.
   const std::string scene = shear_contact() + "fix move all lsm/nve\n" + recorded();
   for (int ranks : {1, 2}) {
     SCOPED_TRACE(ranks);
@@ -199,13 +199,13 @@ TEST_F(BetweenRuns, DisplacedParticlesLoadTangentialSprings) {
         run_text(scene + "run 0\ndisplace_atoms top move 0.01 0 0 units box\nrun 0\n", {}, ranks);
     ASSERT_TRUE(succeeded(r));
     EXPECT_NEAR(r.last("c_events[8]"), 0.5 * 0.01 * 0.01, 1e-8);
-    // no work of friction was done by the model, and the ledger starts anew, with one line that
-    // says so
+    // The model has done no work of friction, and the ledger starts anew, with one line that says
+    // so.
     EXPECT_EQ(r.last("c_events[11]"), 0.0);
     EXPECT_NEAR(r.last("c_events[13]"), 0.0, 1e-15);
     EXPECT_EQ(r.lines_with("WARNING: Compute lsm/events").size(), 1u) << r.output;
 
-    // beyond mu F_n it slides: the spring keeps the elongation that friction supports
+    // Beyond mu F_n the contact slides: its spring keeps the elongation that friction supports.
     const Result far =
         run_text(scene + "run 0\ndisplace_atoms top move 0.2 0 0 units box\nrun 0\n", {}, ranks);
     ASSERT_TRUE(succeeded(far));
@@ -216,7 +216,7 @@ TEST_F(BetweenRuns, DisplacedParticlesLoadTangentialSprings) {
 }
 
 TEST_F(BetweenRuns, PiecesOfARunStayAsTheyWere) {
-  // no command between the runs: no warning, no other digit
+  // Without a command between the runs there is no warning, and all digits are the same.
   const std::string scene = shear_contact() + "velocity top set 0.05 0 0\nfix move all lsm/nve\n" +
                             recorded() + "thermo 10\n";
   const Result whole = run_text(scene + "run 40\n");
@@ -231,7 +231,7 @@ TEST_F(BetweenRuns, PiecesOfARunStayAsTheyWere) {
 }
 
 TEST_F(BetweenRuns, CommandsThatChangeEnergyAreNoEventsAndNoResidual) {
-  // two contacts whose load rises throughout; each command takes or adds energy
+  // Two contacts whose load rises throughout; each command removes or adds energy.
   const std::string scene = discs({{"0", "0"}, {"0", "1.9"}, {"5", "0"}, {"5", "1.9"}}) + R"(
 pair_style        lsm/friction
 pair_coeff        1 1 1.0 1.0 0.6
@@ -254,13 +254,13 @@ fix               move all lsm/nve
     ASSERT_TRUE(succeeded(r));
     EXPECT_LT(std::fabs(r.last("c_events[13]")), 1e-4);
     EXPECT_EQ(r.lines_with("WARNING: Compute lsm/events").size(), 1u) << r.output;
-    // the energy that the command took would be the size of an event
+    // Otherwise there would be an event with the energy that the command removed as its size.
     for (const auto &event : unit::read_catalogue(path("jump.csv")).events)
       EXPECT_LT(event.size, 1e-3);
   }
 }
 
-/// Two linked discs, overlapping by 0.1, that may touch as well.
+/// Two linked discs that overlap by 0.1 and between which a contact is possible as well.
 std::string linked_pair() {
   return discs({{"0", "0"}, {"1.9", "0"}}) + R"(
 create_bonds      single/bond 1 1 2
@@ -274,7 +274,7 @@ fix               move all lsm/nve
 }
 
 TEST_F(BetweenRuns, LinksTurnedOffLeaveContacts) {
-  // a pair without a link that is excluded from contact interpenetrates: one line says so
+  // A pair without a link that is excluded from contacts interpenetrates: one line says so.
   const std::string scene = linked_pair() + recorded() + "thermo 10\n";
   const Result left = run_text(scene + "run 10\ndelete_bonds all bond 1\nrun 10\n");
   EXPECT_EQ(left.lines_with("WARNING: Pair style lsm/").size(), 1u) << left.output;
@@ -302,7 +302,7 @@ TEST_F(Refused, RerunOfWhatDependsOnThePath) {
       dump + "run 20\n";
   EXPECT_TRUE(failed_with(run_text(free + "compute events all lsm/events\n" + rerun),
                           {"lsm/events", "rerun"}));
-  // energies that follow from the positions alone are those of the run
+  // Energies that depend only on positions are those of the run.
   const Result again = run_text(free + rerun);
   ASSERT_TRUE(succeeded(again));
   ASSERT_EQ(again.thermo.size(), 10u) << again.output;
@@ -330,8 +330,8 @@ TEST_F(Refused, MinimizeWithFriction) {
 }
 
 TEST_F(Refused, LinksHoldWhileEnergyIsMinimized) {
-  // a trial of the line search beyond the breaking distance breaks nothing; a link that is too long
-  // at the end breaks then
+  // A trial step of the line search beyond the breaking distance breaks nothing; a link that is too
+  // long at the end breaks then.
   const std::string scene = discs({{"0", "0"}, {"2.1", "0"}}) + R"(
 create_bonds      single/bond 1 1 2
 bond_style        lsm/linked
@@ -356,7 +356,7 @@ thermo_modify     norm no format float %.17g
 
 namespace {
 
-/// A fixed floor of discs of radius 0.45, gravity, and a fix that drops others of radius 0.5 on it.
+/// A fixed floor of discs of radius 0.45, gravity, and a fix that drops discs of radius 0.5 on it.
 std::string rain(const std::string &insert) {
   std::vector<std::pair<std::string, std::string>> floor;
   for (int n = 0; n < 60; ++n) floor.emplace_back(text(n - 29.5), "-8");
@@ -407,7 +407,7 @@ TEST_F(Refused, SpecialBonds) {
     EXPECT_TRUE(failed_with(run_text(scene + "special_bonds " + setting + "\nrun 1\n"),
                             {"special_bonds", "0 1 1"}))
         << setting;
-  // 1-2 neighbours stay in the list because of charges: they must not interact as contacts
+  // 1-2 neighbours stay in the list because of charges, but they must not interact as contacts.
   const Result r = run_text(scene + "special_bonds lj 0 1 1 coul 1 1 1\n" + recorded() + "run 1\n");
   ASSERT_TRUE(succeeded(r));
   EXPECT_EQ(r.last("c_events[7]"), 0.0);
@@ -451,7 +451,7 @@ TEST_F(Refused, RecordingWhoseFixIsGone) {
 }
 
 TEST_F(Refused, FixesThatBreakLinks) {
-  // another program (LSM_LMP) needs one that was compiled for it
+  // Another program (LSM_LMP) needs a plugin that was compiled for it.
   const char *other = std::getenv("LSM_FOREIGN_FIX");
   const std::string plugin = other ? other : LSM_FOREIGN_FIX;
   EXPECT_TRUE(failed_with(run_text((plugin.empty() ? "" : "plugin load " + plugin + "\n") +
@@ -471,7 +471,7 @@ TEST_F(Refused, LedgerOfParticlesThatCome) {
 
 namespace {
 
-/// Two linked pairs that rub against each other, one more contact across the period.
+/// Two linked pairs that rub against each other, with another contact across the periodic border.
 std::string rubbing(
     const std::string &pair = "pair_style lsm/friction\npair_coeff * * 1.0 1.0 0.6\n") {
   std::string text = discs(
@@ -496,7 +496,7 @@ velocity          bottom set -0.1 0.02 0
          "thermo 50\n";
 }
 
-/// Largest difference of energies at the end of two runs.
+/// Largest difference between the energies at the end of two runs.
 double energies_differ(const Result &a, const Result &b) {
   double worst = 0.0;
   for (const char *column : {"KinEng", "c_events[6]", "c_events[7]", "c_events[8]", "c_events[11]"})
@@ -530,7 +530,7 @@ TEST_F(Works, ParticlesThatComeTouchWhatIsThere) {
                                   "thermo 400\nrun 1200\n",
                               {}, ranks));
       ASSERT_TRUE(succeeded(runs.back())) << insert;
-      // larger than those of the floor, and still found: nothing falls through
+      // The discs are larger than those of the floor, but contacts are found: none falls through.
       EXPECT_EQ(runs.back().last("Atoms"), 80.0) << insert;
       EXPECT_EQ(runs.back().last("v_low"), -8.0) << insert;
     }

@@ -106,8 +106,8 @@ TEST_F(BlowUp, StopsWithAMessageAndACleanCatalogue) {
       EXPECT_TRUE(lines[0].find("strained") != std::string::npos ||
                   lines[0].find("not finite") != std::string::npos)
           << lines[0];
-      // the strict readers refuse anything that is not finite; the catalogue agrees with the
-      // series
+      // The strict readers refuse anything that is not finite; the catalogue agrees with the
+      // series.
       const auto found = unit::read_catalogue(path("blown.csv")).events;
       LSM::PeSeriesReader series(LSM::text_io::open_plain(path("blown.pe")));
       LSM::PickerSettings settings;
@@ -122,7 +122,7 @@ TEST_F(BlowUp, StopsWithAMessageAndACleanCatalogue) {
         EXPECT_EQ(step, samples++);
         if (later.push(step, time, pe, event)) expected.push_back(event);
       }
-      // far above the limit the run fails before the first event
+      // With a step far above the limit the run fails before the first event.
       EXPECT_GT(samples, 5) << dt;
       if (dt == std::string("0.13")) {
         EXPECT_GT(expected.size(), 0u);
@@ -133,7 +133,7 @@ TEST_F(BlowUp, StopsWithAMessageAndACleanCatalogue) {
     }
 }
 
-// A name that leads to a file of another output, in any spelling: nothing is written to it.
+// If the name of an output leads, in any spelling, to the file of another one, nothing is written.
 TEST_F(BadInput, OneFileForTwoOutputs) {
   const std::string shear = fault_read() + fault_shear("emergency e.state ${files}");
   std::ofstream(path("there.csv")) << "somebody's data\n";
@@ -189,11 +189,11 @@ TEST_F(BadInput, AnotherRunWritesTheFile) {
   EXPECT_FALSE(std::filesystem::exists(path("held.csv.lock")));
 }
 
-// New neighbor lists from time to time, which are built in the middle of a step.
+// Builds new neighbour lists from time to time, in the middle of a step.
 static const std::string often = "neigh_modify delay 0 every 10 check no\n";
 
-// A tolerance that no step exceeds stops nothing, whether checked in every step or when lists are
-// built; a tenth of the error of the worst step does.
+// A tolerance that no step exceeds never stops the run, whether it is checked in every step or only
+// when lists are built; a tenth of the error of the worst step does.
 TEST_F(BlowUp, LedgerIsCheckedForWholeSteps) {
   for (int ranks : {1, 2})
     for (const char *viscosity : {"0", "0.02"}) {
@@ -230,16 +230,17 @@ TEST_F(BlowUp, LedgerIsCheckedForWholeSteps) {
     }
 }
 
-// The restart file of a run that was stopped has a complete step, whatever stopped it.
+// The restart file of a stopped run holds a complete step, whatever has stopped it.
 TEST_F(BlowUp, EmergencyRestartHoldsAWholeStep) {
   const std::string dump =
       "write_dump all custom ${file} id x y vx vy modify sort id format float %.17g\n";
-  // restart files have particles inside the periodic box, steps between new lists need not
+  // Particles in restart files are inside the periodic box, which they need not be between two
+  // neighbour lists.
   const std::string wrap = "displace_atoms all move 0 0 0\n";
   for (int ranks : {1, 2})
     for (const char *why : {"tolerance 1e-12 check 100", "tolerance 1e-12 check 133",
                             "strainlimit 0.1 check 1000000"}) {
-      // without viscosity, fix lsm/nve defers the second half of steps
+      // Without viscosity, fix lsm/nve defers the second half of a step.
       const bool by_ledger = why[0] == 't';
       const std::string viscosity = by_ledger ? "0.02" : "0",
                         velocity = by_ledger ? "0.005" : "0.05";
@@ -269,7 +270,7 @@ TEST_F(BlowUp, EmergencyRestartHoldsAWholeStep) {
     }
 }
 
-// No file with events is replaced unless asked for, on any number of ranks.
+// No file with events is replaced without `overwrite yes`, on any number of ranks.
 TEST_F(BadInput, OlderFilesAreKept) {
   const std::string shear = fault_read() + R"(
 fix               move blocks lsm/nve
@@ -309,7 +310,7 @@ write_restart     kept.state
                               {name, "exists", "overwrite yes"}))
           << files;
       EXPECT_TRUE(unchanged()) << files;
-      // from a restart file without resume, too
+      // The same holds for a run from a restart file without `resume yes`.
       EXPECT_TRUE(
           failed_with(run_text(again, {{"files", files}}, ranks), {name, "exists", "resume yes"}))
           << files;
@@ -319,7 +320,7 @@ write_restart     kept.state
         failed_with(run_text(shear, {{"files", "catalogue new.csv series no/folder/s.pe"}}, ranks),
                     {"no/folder/s.pe"}));
     EXPECT_TRUE(unchanged());
-    // it does if asked to
+    // With `overwrite yes` it is.
     ASSERT_TRUE(succeeded(run_text(shear, {{"files", both + " overwrite yes"}}, ranks)));
     EXPECT_TRUE(unchanged());
     ASSERT_TRUE(succeeded(run_text(again, {{"files", both + " overwrite yes"}}, ranks)));

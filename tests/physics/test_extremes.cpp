@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Stiff and extreme cases: each is either correct (ledger, momentum, bounds) or refused with a
-// clear message. Lines "EXTREME case outcome", separated by tabs, become a table of the accuracy
-// report.
+// clear message. The lines "EXTREME case outcome", separated by tabs, become a table of the
+// accuracy report.
 #include <cstdlib>
 
 #include "fault_scene.h"
@@ -76,7 +76,7 @@ run               ${steps}
 )";
 }
 
-/// Largest residual of the ledger over the run, relative to the largest energy in it.
+/// Largest residual of the ledger during the run, relative to the largest energy.
 double ledger_error(const Result &r) {
   double most = 0.0, scale = 0.0;
   for (const auto &row : r.thermo) {
@@ -96,8 +96,8 @@ bool finite(const Result &r) {
   return true;
 }
 
-/// Correct: the run ends without error, everything is finite, the ledger balances, the strict
-/// /// readers accept the files.
+/// A run is correct if it ends without error, everything is finite, the ledger balances, and the
+/// strict readers accept the files.
 class Right {
  public:
   Right(const Result &r, const std::string &name, double tolerance, const std::string &catalogue) {
@@ -157,8 +157,8 @@ TEST_F(Extremes, RefusedOrStopped) {
   EXPECT_TRUE(failed_with(above, {"Time step", "stability limit"}));
   outcome("time step 1.2 of the limit", "refused: time step above the stability limit");
 
-  // Above the limit without its check, and under a stress that crushes the discs: the check of the
-  // strain stops the compression, before there is a catalogue.
+  // With a time step above the limit and its check off, and under a stress that crushes the discs,
+  // the check of the strain stops the compression, before there is a catalogue.
   for (const auto &[name, variables] : std::vector<std::pair<std::string, Variables>>{
            {"time step 1.2 of the limit, check off", {{"part", "1.2"}, {"check", "off"}}},
            {"time step 2 of the limit, check off", {{"part", "2"}, {"check", "off"}}},
@@ -174,7 +174,7 @@ TEST_F(Extremes, RefusedOrStopped) {
     EXPECT_FALSE(std::filesystem::exists(path("extreme.csv"))) << name;
     EXPECT_TRUE(finite(r)) << name;
     const auto lines = r.lines_with("ERROR");
-    // stopped as soon as it is above the limit, where it grows slowly
+    // The strain grows slowly, and the run is stopped as soon as it exceeds the limit.
     const std::string by = "strained by ";
     if (std::string(name).find("stress") != std::string::npos && lines.size() == 1 &&
         lines[0].find(by) != std::string::npos) {
@@ -250,7 +250,8 @@ thermo_modify     norm no lost error format float %.17g
 }  // namespace
 
 TEST_F(Extremes, TenThousandPeriods) {
-  // two linked discs drift through the period of 10, one across the border most of the time
+  // Two linked discs drift through the period of 10, most of the time on different sides of the
+  // border.
   const Result r =
       run_text(single_discs("create_atoms 1 single 9.2 0 0\ncreate_atoms 1 single 1.15 0.35 0\n"
                             "create_bonds single/bond 1 1 2\n") +
@@ -263,7 +264,7 @@ TEST_F(Extremes, TenThousandPeriods) {
   double most = 0.0;
   for (const auto &row : r.thermo)
     most = std::max(most, std::fabs(row.at("c_events[5]") + row.at("KinEng") - start));
-  // velocity Verlet on a spring: PE swings by (w dt)^2 / 4, w^2 = 2
+  // For a spring integrated by velocity Verlet, energy oscillates by (w dt)^2 / 4, w^2 = 2.
   EXPECT_LT(most, 1.3e-3 * r.thermo.front().at("c_events[5]") + 1e-9);
   outcome("10000 periods across the boundary", "right; momentum to " +
                                                    brief(std::fabs(r.last("v_px") - 4.0)) +
@@ -271,7 +272,7 @@ TEST_F(Extremes, TenThousandPeriods) {
 }
 
 TEST_F(Extremes, ContactsThatMayCloseRefuseAStartButNotARunThatGoesOn) {
-  // Two discs of mass 1, k = kt = 1: a limit of the root of 2 once they touch.
+  // Two discs of mass 1, k = kt = 1: the limit is the square root of 2 once they touch.
   const auto discs = [](const char *distance) {
     return single_discs(std::string("create_atoms 1 single 3 0 0\ncreate_atoms 1 single $(3+") +
                         distance + ":%.17g) 0 0\n") +
@@ -287,7 +288,7 @@ TEST_F(Extremes, ContactsThatMayCloseRefuseAStartButNotARunThatGoesOn) {
   const Result far = run_text(discs("2.2") + on);
   EXPECT_TRUE(succeeded(far));
   EXPECT_EQ(far.output.find("nearly closed"), std::string::npos);
-  // So does a run from a restart file.
+  // A run from a restart file continues as well.
   const std::string rest = "timestep 1.0\nrun 1\nwrite_restart two.restart\n";
   ASSERT_TRUE(succeeded(run_text(discs("2.04") + rest)));
   std::string again = discs("2.04");
@@ -316,7 +317,7 @@ TEST_F(Extremes, NearlyCoincidentDiscs) {
 }
 
 TEST_F(Extremes, LinksAtBreakingDistance) {
-  // ratio 1.01: the link of two discs of radius 1 holds up to 2.02
+  // With a ratio of 1.01 the link between two discs of radius 1 holds up to a distance of 2.02.
   for (const auto &[distance, links] :
        {std::pair<const char *, double>{"2.0199999", 1.0}, {"2.0200001", 0.0}}) {
     const std::string at = std::string("create_atoms 1 single 4 0 0\ncreate_atoms 1 single $(4+") +
@@ -371,8 +372,9 @@ TEST_F(Reproducible, SameBytesFromSameRanks) {
 }
 
 TEST_F(Reproducible, LinksAreSummedInTheOrderOfTheirNumbers) {
-  // Particles are sorted in memory as they move, and a run from a restart file begins with those of
-  // the file: forces of many links on a disc and their energy have the same digits in any order.
+  // Particles are sorted in memory as they move, and a run from a restart file begins with the
+  // order of the file: the forces of many links on a disc, and their energy, have the same digits
+  // in any order.
   const std::string script = R"(
 variable          sort index 0
 units             lj
@@ -422,9 +424,9 @@ write_dump        all custom state.${sort} id x y vx vy modify sort id format fl
     EXPECT_EQ(runs[0].thermo[n].at("c_events[5]"), runs[1].thermo[n].at("c_events[5]")) << n;
 }
 
-// Fix lsm/nve sets forces to 0 as particles move; the integrator does so, before the interactions,
-// if a fix of another package acts on forces. Either way they are complete when they are read, and
-// in later runs.
+// Fix lsm/nve sets forces to 0 while it moves the particles; if a fix of another package acts on
+// forces, the integrator does so before the interactions. Either way forces are complete when they
+// are read, and in later runs.
 TEST_F(Reproducible, ForcesAreClearedByEither) {
   const std::string runs = fault_read() + R"(
 fix               move blocks lsm/nve viscosity 0.02
@@ -461,8 +463,8 @@ write_dump        all custom after.FILE id x y fx fy fz tqx tqz modify sort id f
 }
 
 TEST_F(Reproducible, PairsThatAreNotLookedAtDoNotTouch) {
-  // A gas of discs: with a list built anew in each step all pairs are examined, with long-lived
-  // lists only those that may touch soon. nsq lists pairs in the same order each time.
+  // In a gas of discs, all pairs are examined if the list is built in each step, but only those
+  // that may touch soon if lists last longer. nsq lists pairs in the same order each time.
   for (const char *pair : {"lsm/friction", "lsm/friction onset step", "lsm/free"}) {
     const std::string script = R"(
 variable          check index yes
@@ -513,8 +515,8 @@ run               3000
   }
 }
 
-// Fix lsm/nve joins the two half kicks that meet between two time steps, unless velocities may be
-// read in between.
+// Fix lsm/nve combines the second half kick of a time step with the first one of the next step,
+// unless velocities may be read in between.
 TEST_F(Reproducible, OnlookersChangeNothingAndSeeWholeSteps) {
   const std::string shear = fault_read() + R"(
 fix               move blocks lsm/nve viscosity 0.02

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A short sheared fault: energy ledger, restart, on-line and later picking, numbers of ranks.
+// A short sheared fault: energy ledger, restart, picking during and after the run, numbers of
+// ranks.
 #include <cmath>
 #include <fstream>
 
@@ -51,7 +52,7 @@ TEST_F(Ledger, BalancesAndFallsWithTheTimeStep) {
 }
 
 TEST_F(Ledger, SecondOrderBeforeTheFaultSlips) {
-  // plates that approach each other at first: contacts stick, nothing switches
+  // At first the plates approach each other: contacts stick and do not change their state.
   std::vector<double> off;
   for (double dt : {0.04, 0.02, 0.01}) {
     const Result r =
@@ -77,7 +78,7 @@ static std::string shear_from_data() {
 TEST_F(Restart, EqualsTheUninterruptedRun) {
   for (int ranks : {1, 2}) {
     const std::string tag = std::to_string(ranks);
-    // the state is written during the run, which continues
+    // The state is written during the run, which then continues.
     const Result whole = run_text(shear_from_data() + "restart 3000 half." + tag + ".*\nrun 5000\n",
                                   {{"prefix", "whole" + tag}}, ranks);
     ASSERT_TRUE(succeeded(whole));
@@ -175,7 +176,7 @@ TEST_F(Restart, PickerFollowsTheTimeStep) {
                         (1.0 - lambda) * (second.at("c_events[5]") - first.at("c_events[5]")),
                     1e-9 * std::fabs(rate));
 
-      // times continue from 60, and so do the numbers of the events
+      // Times continue from 60, and the numbering of events continues as well.
       const double old_events = before.last("c_events");
       const auto fast = unit::read_catalogue(path("fast.csv"));
       ASSERT_GT(fast.events.size(), 1u);
@@ -218,7 +219,7 @@ TEST_F(Restart, NothingIsCutWhereOneFileDoesNotFit) {
     }
 }
 
-// The header of a file has one time step.
+// The header of a file has only one time step.
 TEST_F(Restart, TimeStepOfOpenFilesIsKept) {
   const std::string shear = fault_read() + fault_shear("${files}") + "thermo 100\nrun 200\n";
   for (const char *files : {"catalogue one.csv", "series one.pe"})
@@ -269,8 +270,8 @@ TEST_F(Events, PickedOnlineEqualThosePickedLater) {
     }
 }
 
-// Slip, place and length of each event against the work lost to friction and the definitions of
-// the columns.
+// Compares slip, place and length of each event with the work lost to friction and the definitions
+// of the columns.
 TEST_F(Events, SlipAndCentroidLieOnTheFault) {
   const std::string script = fault_read() + fault_shear("catalogue located.csv location yes") +
                              "thermo ${thermo}\nrun 5000\n";
@@ -281,31 +282,31 @@ TEST_F(Events, SlipAndCentroidLieOnTheFault) {
   std::size_t slid = 0, elsewhere = 0;
   const double first = catalogue.events[0].x_centroid;
   for (const auto &e : catalogue.events) {
-    // rows of the thermo table are steps
+    // Row n of the thermo table is that of step n.
     ASSERT_EQ(r.thermo[static_cast<std::size_t>(e.step_end)].at("Step"),
               static_cast<double>(e.step_end));
     const double lost = r.thermo[static_cast<std::size_t>(e.step_end)].at("c_events[11]") -
                         r.thermo[static_cast<std::size_t>(e.step_start)].at("c_events[11]");
-    // something slides if and only if friction dissipates energy
+    // A contact slides if and only if friction dissipates energy.
     EXPECT_EQ(e.slip_moment > 0.0, lost > 0.0) << "event " << e.id;
     EXPECT_EQ(e.rupture_length > 0.0, e.slip_moment > 0.0) << "event " << e.id;
     if (!(e.slip_moment > 0.0)) continue;
     ++slid;
-    // whole bins
+    // The length is a whole number of bins.
     EXPECT_EQ(e.rupture_length, std::round(e.rupture_length));
     EXPECT_GE(e.rupture_length, 1.0);
     EXPECT_LE(e.rupture_length, 40.0);
     EXPECT_GT(e.x_centroid, 0.0);
     EXPECT_LT(e.x_centroid, 40.0);
     if (std::fabs(e.x_centroid - first) > 1.0) ++elsewhere;
-    // the work is mu F s, the moment s times the size of the contact: no contact bears ten times
-    // the whole fault's load
+    // The work is mu F s, and the moment is s times the size of the contact: no contact bears ten
+    // times the load of the whole fault.
     EXPECT_LT(lost, 10.0 * 0.6 * 0.006 * 40.0 * e.slip_moment) << "event " << e.id;
   }
   EXPECT_GT(slid, 2u);
   EXPECT_GT(elsewhere, 0u) << "every event is at the same place";
 
-  // the slip gathered from two ranks
+  // The slip gathered from two ranks is the same.
   ASSERT_TRUE(succeeded(run_text(script, {{"thermo", "1000"}}, 2)));
   const auto two = unit::read_catalogue(path("located.csv"));
   expect_same_events(catalogue.events, two.events, 1e-9);
@@ -335,7 +336,7 @@ TEST_F(Ranks, ThermoAndFirstEventsAgree) {
     }
 }
 
-// With an exclusion, here of nothing, lists are built by LAMMPS' own search.
+// With a neigh_modify exclude, here of no pair at all, LAMMPS' own search builds the lists.
 TEST_F(Ranks, ListsAreThoseOfLammps) {
   const std::string script = fault_read() + R"(
 pair_coeff        * * 1.0 0.5 0.6
@@ -383,8 +384,8 @@ TEST_F(Ranks, GeometryDoesNotDependOnThem) {
 }
 
 TEST_F(MassFloor, MassesForAStepMakeItStableWithContacts) {
-  // the upper block pressed into the lower one: many contacts at once, equally stiff in both
-  // // directions
+  // The upper block is pressed into the lower one: there are many contacts at once, equally stiff
+  // in both directions.
   const std::string script = fault_start() +
                              "create_lsm_fault length 40 width 20 seed 3 failures 500 massstep "
                              "${step} 1.0\n" +

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Order of convergence of fix lsm/nve on a smooth problem: a patch of linked discs that shakes.
+// Order of convergence of fix lsm/nve in a smooth problem: a vibrating patch of linked discs.
 #include "lmp_runner.h"
 
 using namespace physics;
@@ -66,7 +66,7 @@ TEST_F(Integrator, ConservesEnergyWithoutViscosity) {
 }
 
 TEST_F(Integrator, ViscosityIsExactForFreeParticles) {
-  // the links cut: velocities decay as exp(-nu t) for any time step, and the ledger has the loss
+  // Without links velocities decay as exp(-nu t) for any time step, and the ledger has the loss.
   std::string script = patch;
   const std::string links = "create_bonds    many all all 1 1.99 2.01";
   script.erase(script.find(links), links.size());
@@ -78,6 +78,6 @@ TEST_F(Integrator, ViscosityIsExactForFreeParticles) {
   ASSERT_TRUE(succeeded(r));
   const double begin = r.thermo.front().at("KinEng");
   EXPECT_NEAR(r.last("KinEng"), begin * std::exp(-2 * 0.3 * 12.8), 1e-12 * begin);
-  // the loss is the work of the viscosity, in each step
+  // In each step the loss is the work of the viscosity.
   EXPECT_NEAR(r.last("f_move"), begin - r.last("KinEng"), 1e-12 * begin);
 }

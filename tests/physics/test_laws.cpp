@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The friction laws of pair lsm/friction in a spring-slider: a disc that is pressed on a flat
-// surface and pulled by a spring whose end moves. Periods, critical stiffnesses and motion against
-// closed forms, and against GSL where there is none; then restart, ranks, ledger, hybrid and
-// refusals for every law. GSL is linked by this program, not by lmp.
+// surface and pulled by a spring whose end moves. Periods, critical stiffnesses and motion are
+// compared with closed forms, or with GSL where there is none; then restart, ranks, ledger, hybrid
+// and refusals are tested for every law. This program links GSL; lmp does not.
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 
@@ -21,9 +21,9 @@ using namespace physics;
 
 namespace {
 
-/// Mass 1, normal load 1, normal stiffness 100. Moved at a prescribed `speed` for the time
-/// `before`, then released with the velocity `begin` on a spring of `stiffness` whose force is then
-/// `pull` and whose end continues at `speed`.
+/// Mass 1, normal load 1, normal stiffness 100. The slider moves at the prescribed `speed` for the
+/// time `before`; then it is released with the velocity `begin` on a spring of `stiffness`, whose
+/// force is `pull` at that time and whose end continues at `speed`.
 struct Slider {
   std::string law, coefficients;  // after kt
   double kt = 100.0, stiffness = 1.0, speed = 1e-3, viscosity = 0.0, dt = 0.02;
@@ -84,7 +84,7 @@ struct Motion {
   std::vector<double> t, u, v;
 };
 
-/// Times at which the velocity rises through `speed`, between two samples.
+/// Times at which the velocity rises through `speed`, interpolated between samples.
 std::vector<double> starts(const Motion &m, double speed) {
   std::vector<double> at;
   for (std::size_t n = 1; n < m.t.size(); ++n)
@@ -98,7 +98,7 @@ double mean_period(const std::vector<double> &at) {
   return at.size() < 2 ? NAN : (at.back() - at.front()) / static_cast<double>(at.size() - 1);
 }
 
-/// Adaptive rk8pd; the right-hand side may be a closure.
+/// Integrates with GSL's adaptive rk8pd; unlike GSL's, the right-hand side may be a closure.
 Motion integrate(std::vector<double> y, double end, double every,
                  const std::function<void(double, const double *, double *)> &derive) {
   using Derive = std::function<void(double, const double *, double *)>;
@@ -147,7 +147,8 @@ class Laws : public Lmp {
 // tiny distance ----
 
 /// Distance of a slip that begins at the strength `high` with the velocity v0 under the friction
-/// `low`, while the spring's end moves: the damped oscillator up to its first rest.
+/// `low`, while the end of the spring moves: that of a damped oscillator until it first comes to
+/// rest.
 static double slip_distance(const Slider &s, double high, double low, double v0) {
   // with w = pull - low - viscosity v (mass 1): u'' = high - low + K (V t - u) - nu u'
   const double nu = s.viscosity, K = s.stiffness, V = s.speed;
@@ -177,8 +178,8 @@ TEST_F(Laws, StickSlipPeriodOfTwoStrengths) {
     s.speed = 2e-3;
     s.time = 1000.0;
     s.every = 0.1;
-    // the period is that in which the plate moves by a slip and by the deformation of the contact
-    // before it slips again
+    // In one period the plate moves by the distance of a slip plus the deformation of the contact
+    // before it slips again.
     const double creep = s.speed * s.stiffness / (s.stiffness + s.kt);
     const double theory = (slip_distance(s, 0.8, 0.6, creep) + 0.2 / s.kt) / s.speed;
     const double period = mean_period(starts(run_slider(s), 0.1));
@@ -190,7 +191,7 @@ TEST_F(Laws, StickSlipPeriodOfTwoStrengths) {
 // ---- slip weakening ----
 
 TEST_F(Laws, SlipWeakeningIsStableAboveTheCriticalStiffnessOnly) {
-  // weakening per slip, (mu_static - mu) fn / dc = 1, seen through the contact's own spring
+  // The weakening per slip, (mu_static - mu) fn / dc = 1, acts through the contact's own spring.
   for (double stiffness : {0.5, 0.9, 1.1, 2.0}) {
     Slider s;
     s.law = "slip-weakening";
@@ -205,7 +206,7 @@ TEST_F(Laws, SlipWeakeningIsStableAboveTheCriticalStiffnessOnly) {
     s.time = std::ceil(breaks) + 60.0;
     const Motion m = run_slider(s);
 
-    // from failure on: y'' = K V t - (K - W) y
+    // After failure, y'' = K V t - (K - W) y.
     const double rest = stiffness - weakening, rate = std::sqrt(std::fabs(rest));
     const double drift = s.speed * stiffness / rest;
     double largest = 0.0, worst = 0.0, fastest = 0.0;
@@ -237,8 +238,8 @@ TEST_F(Laws, SlipWeakeningIsStableAboveTheCriticalStiffnessOnly) {
 // ---- velocity weakening ----
 
 TEST_F(Laws, VelocityWeakeningGrowsAtTheRateOfItsWeakening) {
-  // sliding at V, |d force / d v| = mu fn / (1 + V)^2 feeds the oscillation that the viscosity
-  // damps: both over 2 m
+  // When sliding at V, |d force / d v| = mu fn / (1 + V)^2 amplifies the oscillation and viscosity
+  // damps it, both at a rate divided by 2 m.
   const double V = 0.2, W = 0.6 / (1.2 * 1.2);
   for (double viscosity : {0.2, W, 0.6}) {
     Slider s;
@@ -255,7 +256,7 @@ TEST_F(Laws, VelocityWeakeningGrowsAtTheRateOfItsWeakening) {
     s.time = 12.0;
     s.every = 0.01;
     const Motion m = run_slider(s);
-    // envelope from energy: u - V t oscillates around the steady distance
+    // The amplitude follows from the energy: u - V t oscillates around the steady distance.
     auto size = [&](std::size_t n) {
       const double x = m.u[n] - V * m.t[n] - 1e-3, v = m.v[n] - V;
       return std::sqrt(x * x + v * v / 25.0);
@@ -274,8 +275,8 @@ TEST_F(Laws, VelocityWeakeningGrowsAtTheRateOfItsWeakening) {
 }
 
 TEST_F(Laws, VelocityWeakeningStickSlipAsTheBlockSlider) {
-  // one block of Sect. 3: K_l = 0.01, V = 0.01, M = 1; the contact's spring is stiff, and a little
-  // viscosity damps its oscillation before the next slip
+  // One block of Sect. 3: K_l = 0.01, V = 0.01, M = 1. The contact's spring is stiff, and a little
+  // viscosity damps its oscillation before the next slip.
   Slider s;
   s.law = "velocity-weakening";
   s.coefficients = "mu 0.8 vc 1";
@@ -286,8 +287,8 @@ TEST_F(Laws, VelocityWeakeningStickSlipAsTheBlockSlider) {
   s.every = 0.1;
   const double period = mean_period(starts(run_slider(s), 0.1));
 
-  // a block without a contact spring: slips from the strength 0.8 on, with all the velocity of the
-  // law
+  // The reference is a block without a contact spring, which slips from the strength 0.8 on under
+  // the velocity-weakening law.
   const Motion slip =
       integrate({0.0, 1e-9}, 40.0, 0.001, [&s](double t, const double *y, double *dy) {
         dy[0] = y[1];
@@ -298,8 +299,8 @@ TEST_F(Laws, VelocityWeakeningStickSlipAsTheBlockSlider) {
   for (std::size_t n = 1; n < slip.t.size() && distance == 0.0; ++n)
     if (slip.t[n] > 1.0 && slip.v[n] <= 0.0) distance = slip.u[n];
   ASSERT_GT(distance, 0.1);
-  // the velocity of the contact's spring at failure starts the slip sooner, but the distance is the
-  // same
+  // Slip starts sooner because of the velocity of the contact's spring at failure, but its distance
+  // is the same.
   const double theory = distance / s.speed;
   std::printf("period %.3f, reference %.3f\n", period, theory);
   EXPECT_NEAR(period, theory, 0.005 * theory);
@@ -311,7 +312,7 @@ namespace {
 
 constexpr double kA = 0.01, kB = 0.015, kDc = 0.005, kMu = 0.6;
 
-/// Disc, contact spring, velocity of the slip and ln(v0 theta / dc), with V = v0.
+/// Integrates disc, contact spring, slip velocity and ln(v0 theta / dc), with V = v0.
 Motion rate_state_reference(const Slider &s, bool ageing) {
   const double V = s.speed;
   return integrate({0.0, s.begin, kMu / s.kt, 0.0}, s.time, s.every,
@@ -331,7 +332,7 @@ Slider rate_state_slider(const char *evolution, double of_critical, double speed
   Slider s;
   s.law = std::string("rate-state-") + evolution;
   s.coefficients = "mu 0.6 a 0.01 b 0.015 dc 0.005 v0 " + text(speed);
-  // critical: (b - a) fn / dc = 1 for the springs of slider and contact in series
+  // The critical stiffness of the springs of slider and contact in series is (b - a) fn / dc = 1.
   s.stiffness = of_critical / (1.0 - of_critical / s.kt);
   s.speed = s.begin = speed;
   s.before = 0.06 / speed;  // to the steady state
@@ -351,7 +352,7 @@ TEST_F(Laws, RateStateIsStableAboveTheCriticalStiffnessOnly) {
       const Motion m = run_slider(s),
                    reference = rate_state_reference(s, s.law == "rate-state-ageing");
       ASSERT_EQ(m.t.size(), reference.t.size());
-      // largest velocity above the mean in the first and the last cycle
+      // Compares the largest velocity above the mean in the first and in the last cycle.
       const double K = s.stiffness * s.kt / (s.stiffness + s.kt);
       const double turn = 2.0 * M_PI / (1e-3 * std::sqrt(K / (kA * kDc)));
       double early = 0.0, late = 0.0, worst = 0.0, largest = 0.0;
@@ -402,7 +403,7 @@ TEST_F(Laws, RateStateStickSlipPeriodAsTheReference) {
 namespace {
 
 struct FaultLaw {
-  const char *name, *coefficients;  // behind k kt
+  const char *name, *coefficients;  // after k kt
 };
 const std::vector<FaultLaw> fault_laws = {
     {"coulomb", "0.5 0.6"},
@@ -480,7 +481,7 @@ TEST_F(LawsOnFault, BalanceTheirEnergyOnAnyRanksUnderHybridAndFromRestartFiles) 
     ASSERT_TRUE(succeeded(hybrid)) << name;
     EXPECT_LT(thermo_difference(whole, hybrid, law_columns), 1e-9) << name;
 
-    // a restart file has the law; under hybrid it does not have the coefficients
+    // A restart file contains the law, but with hybrid it does not contain the coefficients.
     Result tail = whole;
     tail.thermo.erase(tail.thermo.begin(), tail.thermo.end() - 2);
     const std::string again = "pair_coeff * * lsm/free off\npair_coeff 3 4 lsm/friction 1.0 1.0 " +
@@ -496,7 +497,7 @@ TEST_F(LawsOnFault, BalanceTheirEnergyOnAnyRanksUnderHybridAndFromRestartFiles) 
           1e-9)
           << file;
     }
-    // and so does a data file, of the coefficients
+    // A data file contains the coefficients, too.
     const Result data = run_text(fault_start() + "read_data settled.data\n" + plain(law) +
                                  "run 0\nwrite_data written.data pair ij\n");
     ASSERT_TRUE(succeeded(data)) << name;
@@ -515,7 +516,7 @@ TEST_F(LawsOnFault, BalanceTheirEnergyOnAnyRanksUnderHybridAndFromRestartFiles) 
   for (std::size_t n = 0; n < lost.size(); ++n)
     for (std::size_t m = 0; m < n; ++m) EXPECT_NE(lost[n], lost[m]);
 
-  // a restart file and another law
+  // A restart file of another law is refused.
   const auto refused = [](const std::string &file, const FaultLaw &law, bool hybrid,
                           std::vector<std::string> parts) {
     parts.emplace_back("lsm/friction");
@@ -576,19 +577,19 @@ TEST_F(LawsOnFault, MistakesAreNamedInOneLine) {
         one.parts))
         << one.law << " " << one.coefficients;
 
-  // contacts of one law are not those of another
+  // Contacts cannot be handed over from one law to another.
   const FaultLaw other = fault_laws[3];
   EXPECT_TRUE(failed_with(
       run_text(from_data(plain(fault_laws[0]), "") + "run 5\n" + plain(other) + "run 0\n"),
       {"lsm/friction", "coulomb", "rate-state-ageing", "none"}));
   EXPECT_TRUE(succeeded(run_text(from_data(plain(fault_laws[0]), "") + "run 5\npair_style none\n" +
                                  plain(other) + "run 5\n")));
-  // before the first run there are none
+  // Before the first run there are no contacts.
   EXPECT_TRUE(succeeded(run_text(from_data(plain(fault_laws[0]) + plain(other), "") + "run 5\n")));
   EXPECT_TRUE(failed_with(run_text(from_data(plain(fault_laws[0]), "") +
                                    "pair_style lsm/friction " + other.name + "\nrun 5\n"),
                           {"pair coeffs are not set"}));
-  // changes by fix adapt are checked as well
+  // Values set by fix adapt are checked as well.
   const std::string adapt =
       "variable a equal -0.001*(step+1)\nfix a all adapt 1 pair lsm/friction b 3 4 v_a\nrun 3\n";
   EXPECT_TRUE(

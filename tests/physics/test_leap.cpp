@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Leaps between events: model time, no change without leaps, restart, ranks, refusals.
+// Leaps between events: model time, unchanged results without leaps, restart, ranks, refusals.
 #include <cmath>
 #include <set>
 #include <sstream>
@@ -30,7 +30,8 @@ thermo            100
 )";
 }
 
-// Neither velocity nor viscosity: there is nothing to leap to, at rest or not.
+// With neither a faster velocity nor viscosity there are no leaps, whether or not the blocks are at
+// rest.
 TEST_F(Leap, WithoutAFasterVelocityNothingChanges) {
   for (const char *velocity : {"0.0005", "0"}) {
     const Variables variables = {{"prefix", "nothing"}, {"dt", "0.03"}, {"velocity", velocity}};
@@ -50,7 +51,7 @@ TEST_F(Leap, WithoutAFasterVelocityNothingChanges) {
   }
 }
 
-// At 1.99 times the slip of the plates a fault that follows them would end leaps.
+// At 1.99 times the velocity of the plates, the slip of a fault that follows them would end leaps.
 TEST_F(Leap, WarnsOfPlatesThatAreHardlyFaster) {
   for (const auto &[settings, warns] : {std::pair{"fast 0.00199", 1u},
                                         {"fast 0.002", 0u},
@@ -81,13 +82,13 @@ TEST_F(Leap, PlatesMayMoveTheOtherWay) {
   EXPECT_LT(std::fabs(r.last("c_events[13]")), 2e-3 * r.last("f_plates"));
 }
 
-// The displacement of the plates is their velocity times the model time; without slip PE is the
-// same at the same model time, the more exactly the slower the plates are in leaps.
+// The displacement of the plates is their velocity times the model time. Without slip, PE at the
+// same model time is the same, the more exactly the slower the plates are during leaps.
 TEST_F(Leap, LoadsAsSlowPlatesDo) {
   const std::string columns =
       "c_events[5] f_plates[8] f_leap f_leap[1] f_leap[2] c_events[13] f_plates";
   const auto loaded = [&](const std::string &fast, double steps) {
-    // high friction: nothing slips
+    // Friction is so high that nothing slips.
     const Result r = run_text(
         slow("fix leap all lsm/leap plates calm 3 rest 1e9 viscosity 0 ramp 6 fast " + fast + "\n",
              columns) +
@@ -101,7 +102,7 @@ TEST_F(Leap, LoadsAsSlowPlatesDo) {
     return r;
   };
   const Result slowest = loaded("0.0001", 9000), faster = loaded("0.0004", 2400);
-  // PE at the displacement that both reach
+  // Returns PE at a displacement that both runs reach.
   const auto pe_at = [](const Result &r, double displacement) {
     for (std::size_t n = 1; n < r.thermo.size(); ++n) {
       const double a = r.thermo[n - 1].at("f_plates[8]"), b = r.thermo[n].at("f_plates[8]");
@@ -120,9 +121,9 @@ TEST_F(Leap, LoadsAsSlowPlatesDo) {
   EXPECT_NEAR(b / a, 1.0, 0.05);
 }
 
-// Blocks that shear uniformly with the driving velocity of the plates are at rest if 'rest' allows
-// for that; the kinetic energy of the plates, a quarter more, does not count. Until then there are
-// no leaps.
+// Blocks that shear uniformly with the driving velocity count as being at rest if 'rest' allows for
+// that; the kinetic energy of the plates, which would add a quarter, does not count. Until then
+// there are no leaps.
 TEST_F(Leap, WaitsUntilTheBlocksAreAtRest) {
   const auto leapt = [&](const std::string &rest) {
     const Result r =
@@ -135,7 +136,7 @@ TEST_F(Leap, WaitsUntilTheBlocksAreAtRest) {
     EXPECT_TRUE(succeeded(r));
     return r;
   };
-  // at half of the fast velocity a quarter of the energy
+  // Half of the fast velocity means a quarter of the energy.
   const Result never = leapt("0.2");
   EXPECT_EQ(never.last("f_leap[4]"), 0.0);
   EXPECT_EQ(never.last("f_leap[2]"), 1.0);
@@ -143,8 +144,8 @@ TEST_F(Leap, WaitsUntilTheBlocksAreAtRest) {
   EXPECT_GT(leapt("0.28").last("f_leap[4]"), 10.0);
 }
 
-// A fault that always slips leaps all the time, as Coulomb friction is independent of velocity; its
-// strength and strain are the same.
+// A fault that always slips can leap all the time, as Coulomb friction is independent of velocity;
+// its strength and strain are the same.
 TEST_F(Leap, FaultThatCreepsGoesOnCreeping) {
   const auto creep = [&](const std::string &leap, const std::string &steps) {
     const Result r = run_text(slow(leap, "c_events[5] c_events[11] c_events[13] f_plates[8]") +
@@ -180,8 +181,8 @@ TEST_F(Leap, FaultThatCreepsGoesOnCreeping) {
   EXPECT_NEAR(leapt.friction_work / slower.friction_work, 1.0, 0.05);
 }
 
-// A velocity-strengthening fault creeps under the stress of slow plates, sigma (mu + a ln(v / v0)),
-// also during leaps: a law that depends on time is given model time.
+// A velocity-strengthening fault creeps at the stress that belongs to slow plates,
+// sigma (mu + a ln(v / v0)), also during leaps, as a law that depends on time gets the model time.
 TEST_F(Leap, LawsOfTimeAreGivenModelTime) {
   const std::string law =
       "pair_style none\nrun 0\npair_style lsm/friction rate-state-ageing\npair_coeff * * off\n"
@@ -209,7 +210,7 @@ TEST_F(Leap, LawsOfTimeAreGivenModelTime) {
                    stress("0.0005", "fix leap all lsm/leap plates fast 0.002 slip 3\n", "10000");
   std::printf("stress of creep: %.4f, %.4f by leaps; %.4f at four times the velocity\n", slowly,
               leapt, fast);
-  EXPECT_GT(fast - slowly, 0.06);  // a ln 4 = 0.14 if all contacts are level
+  EXPECT_GT(fast - slowly, 0.06);  // a ln 4 = 0.14 if all contacts are parallel to the fault
   EXPECT_NEAR(leapt, slowly, 0.25 * (fast - slowly));
 }
 
@@ -232,9 +233,9 @@ TEST_F(Leap, FactorGrowsWithTheTimeOfTheLeap) {
   EXPECT_NEAR(r.last("f_leap[1]"), 100.0, 1e-9);
 }
 
-// Links that are near breaking: the same break, at the same displacement of the plates.
-// Only the first links: each that breaks sends out waves, and which links such an avalanche breaks
-// depends on the last digit. The high viscosity leaves the load to decide.
+// Of links that are near breaking, the same ones break, at the same displacement of the plates.
+// Only the first ones are compared: each link that breaks radiates waves, and which links break in
+// such an avalanche depends on the last digit. Because of the high viscosity the load decides.
 TEST_F(Leap, TheSameLinksBreak) {
   std::string scene = slow("LEAP", "bonds f_plates[8]");
   const std::string links = "bond_coeff        1 1.0\n", pairs = "pair_coeff        3 4";
@@ -250,7 +251,8 @@ dump              left all local 1 ${prefix}.links c_left[1] c_left[2]
 run               0
 )";
   const auto left = [&](const std::string &name, const std::string &leap, double &before) {
-    // links that break at once ring down first; then both start from the same state
+    // Waves from links that break at the start decay first; then both runs start from the same
+    // state.
     std::string all_of_it = scene;
     all_of_it.replace(all_of_it.find("LEAP"), 4, "run 6000\n" + leap);
     const Result r = run_text(all_of_it, {{"prefix", name},
@@ -309,7 +311,7 @@ TEST_F(Leap, RestartAndRanks) {
     EXPECT_NEAR(second.last(column), whole.last(column), 1e-7 * std::fabs(whole.last(column)))
         << column;
 
-  // the run may continue with another velocity: nothing of the former is left
+  // The run may continue with another velocity, and no trace of the former one is left.
   again.replace(again.find("fast 0.005"), 10, "fast 0.0005");
   const Result slower = run_text(again + "run 300\n", {{"prefix", "slower"}, {"dt", "0.03"}});
   ASSERT_TRUE(succeeded(slower));
@@ -326,9 +328,9 @@ TEST_F(Leap, RestartAndRanks) {
   }
 }
 
-// The motion left by an event comes to rest before the plates leap: kinetic energy of the blocks
-// below `rest` times that of a uniform shear between plates as fast as in leaps. Plates do not
-// count: theirs is 0.14 of the limit here, as they are always driven.
+// The plates leap only after the motion left by an event has decayed: the kinetic energy of the
+// blocks must be below `rest` times that of a uniform shear between plates as fast as in leaps.
+// That of the plates, 0.14 of the limit here, does not count, as they are always driven.
 TEST_F(Leap, LeapsBeginAtRest) {
   const double rest = 0.06, fast = 0.005;
   const Result r = run_text(
@@ -357,7 +359,8 @@ TEST_F(Leap, LeapsBeginAtRest) {
   EXPECT_GE(waits, 50);
 }
 
-// Times of events are model times: those of the steps, stretched, and the header says how.
+// Times of events are model times, that is, times of steps stretched by leaps, as the header
+// states.
 TEST_F(Leap, CatalogueHasModelTimes) {
   const Result r = run_text(
       slow("fix leap all lsm/leap plates fast 0.005 calm 3 viscosity 0.1 ramp 6 look 0.6\n",
@@ -410,14 +413,14 @@ TEST_F(Leap, SeriesAndRupturesHaveModelTimes) {
 
   const auto ruptures = unit::read_catalogue(path("samples.ruptures"));
   ASSERT_GE(ruptures.events.size(), 3u);
-  // Slip counts against the plates' fastest velocity.
+  // Slip is compared with the largest velocity of the plates.
   EXPECT_EQ(*ruptures.info.find("driving"), LSM::text_io::number(0.01));
   for (const auto &e : ruptures.events) {
     EXPECT_NEAR(e.t_start, model.at(static_cast<double>(e.step_start)), 1e-12 * e.t_start);
     EXPECT_NEAR(e.t_end, model.at(static_cast<double>(e.step_end)), 1e-12 * e.t_end);
   }
 
-  // The second half once more, from the restart file: the same bytes.
+  // The second half, repeated from the restart file, gives the same bytes.
   const std::string whole_series = read_file(path("samples.pe")),
                     whole = read_file(path("samples.csv")),
                     whole_ruptures = read_file(path("samples.ruptures"));
@@ -432,7 +435,7 @@ TEST_F(Leap, SeriesAndRupturesHaveModelTimes) {
   EXPECT_EQ(read_file(path("samples.csv")), whole);
   EXPECT_EQ(read_file(path("samples.ruptures")), whole_ruptures);
 
-  // A fix lsm/leap added or removed while files are open, and a slip history, are refused.
+  // Adding or removing fix lsm/leap while files are open, and a slip history, are refused.
   EXPECT_TRUE(failed_with(
       run_text(recorded + "run 1\nunfix leap\nrun 1\n", {{"prefix", "gone"}, {"dt", "0.03"}}),
       {"fix lsm/leap is gone"}));

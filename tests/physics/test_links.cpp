@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Links that break, links that do not, and restart files written at that time.
+// Links that break, links that do not, and restart files written when a link breaks.
 #include "disc_scene.h"
 #include "lmp_runner.h"
 
@@ -11,7 +11,7 @@ using BrokenLinks = Lmp;
 // ---- link types that can break and link types that cannot ----
 
 TEST_F(LinkTypes, UnbreakableLinksStayWhereOthersCanBreak) {
-  // 21 discs: ten links of each type, so that the lanes of a chunk of 16 are not filled
+  // 21 discs have ten links of each type, which do not fill the lanes of a chunk of 16.
   for (const char *newton : {"on", "off"})
     for (int ranks : {1, 2}) {
       SCOPED_TRACE(std::string("newton ") + newton + ", ranks " + std::to_string(ranks));
@@ -20,7 +20,7 @@ TEST_F(LinkTypes, UnbreakableLinksStayWhereOthersCanBreak) {
       ASSERT_TRUE(succeeded(rest));
       EXPECT_EQ(rest.last("Bonds"), 20.0);
 
-      // pulled suddenly: the last link (type 2) breaks, and nothing else
+      // Pulled suddenly, the last link (type 2) breaks, and no other.
       const Result pulled =
           run_text(two_link_types(21) + "velocity last set 0.1 0 0\nthermo 10\nrun 200\n",
                    {{"newton", newton}}, ranks);
@@ -70,7 +70,8 @@ fix               move all lsm/nve
 compute           events all lsm/events ledger yes strainlimit 10
 )" + std::string(disc_columns) +
                             "thermo 1\nrun 60 upto\nprint \"count = $(f_LSM_BREAK:%.0f)\"\n";
-  // before, during and after the step: by the run itself, and by a command after it
+  // The restart file is written before, in and after the step: by the run itself, or by a command
+  // after it.
   for (int at : {step - 1, step, step + 1})
     for (bool within : {true, false})
       for (int ranks : {1, 2}) {
@@ -96,9 +97,9 @@ compute           events all lsm/events ledger yes strainlimit 10
 }
 
 TEST_F(BrokenLinks, TooLongAtTheBeginBreaksOnce) {
-  // Too long from the first force evaluation on: absent from lists and files after a run of 0
-  // steps. On two ranks the link lies across their border; with newton off both have it, each with
-  // half of its energy.
+  // A link that is too long at the first force evaluation is absent from lists and files after a
+  // run of 0 steps. On two ranks the link lies across their border; with newton off both have it,
+  // each with half of its energy.
   for (const char *newton : {"on", "off"})
     for (int ranks : {1, 2}) {
       SCOPED_TRACE(std::string("newton ") + newton + ", ranks " + std::to_string(ranks));
@@ -129,7 +130,7 @@ run               5
 }
 
 TEST_F(BrokenLinks, AnotherLinkOfThePairKeepsItOutOfContact) {
-  // of two links between the same discs one breaks; the other pulls them together again
+  // Of two links between the same discs one breaks; the other pulls them together again.
   for (const char *newton : {"on", "off"})
     for (int ranks : {1, 2}) {
       SCOPED_TRACE(std::string("newton ") + newton + ", ranks " + std::to_string(ranks));
@@ -149,16 +150,18 @@ compute           events all lsm/events ledger yes
       ASSERT_TRUE(succeeded(r));
       EXPECT_EQ(r.last("Bonds"), 1.0);
       EXPECT_EQ(r.last("c_events[7]"), 0.0);
-      // half a period of w^2 = 2 after 44.4 steps: compressed as far as it was stretched
+      // Half a period of w^2 = 2 takes 44.4 steps: then it is compressed as far as it was
+      // stretched.
       EXPECT_NEAR(r.last("c_events[6]"), 0.5 * 0.1 * 0.1, 1e-4);
     }
 }
 
 TEST_F(BrokenLinks, PartnersOfTheFormerPartnerAreTouched) {
-  // One disc of a bent chain breaks away from the middle one and meets the last, until then the
-  // partner of its partner. With 'lj 0 1 1', without coul, LAMMPS lists partners of partners after
-  // partners: the last one moves up, but is none. From which of the two the pair is seen depends on
-  // the IDs with nsq, and on the positions with bins.
+  // One disc of a bent chain breaks away from the middle one and meets the last one, which was the
+  // partner of its partner until then. With 'lj 0 1 1', without coul, LAMMPS lists partners of
+  // partners after partners: the last disc moves up in the list, but must not be taken for a
+  // partner. Which of the two lists the other depends on the IDs with nsq, and on the positions
+  // with bins.
   for (const char *list : {"nsq", "bin"})
     for (bool reversed : {false, true})
       for (int ranks : {1, 2}) {

@@ -8,7 +8,7 @@ using namespace physics;
 
 class Onset : public Lmp {
  protected:
-  /// A disc hits an equal one at rest; state after the bounce.
+  /// A disc hits an equal one at rest. Returns the state after the bounce.
   static Result bounce(const std::string &onset, double dt, double gap, int ranks = 1) {
     return run_text(R"lmp(
 units             lj
@@ -47,7 +47,8 @@ print             "py = $(v_py:%.17g)"
 };
 
 TEST_F(Onset, LocatedIsSecondOrderAtTheStepFirst) {
-  // the bounce does not depend on where in a step it begins: root mean square over several starts
+  // The exact bounce does not depend on when within a step it begins: the error is the root mean
+  // square over several starts.
   auto error = [](const std::string &onset, double dt) {
     double sum = 0.0;
     for (int n = 0; n < 4; ++n) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Ruptures of compute lsm/events: prescribed slip, a short fault, restart; and the places that
-// location yes gives.
+// Ruptures of compute lsm/events: prescribed slip, a short fault, restart; and the places of events
+// with `location yes`.
 #include <cmath>
 #include <sstream>
 
@@ -15,8 +15,8 @@ using namespace physics;
 using Ruptures = Fault;
 using Located = Lmp;
 
-/// Twenty upper discs (id 21 to 40), each right above a lower one (id 1 to 20), overlapping by
-/// 0.01; a period of 40.
+/// Twenty upper discs (IDs 21 to 40), each right above a lower one (IDs 1 to 20) with an overlap of
+/// 0.01. The period is 40.
 static std::string upper_and_lower(const std::string &compute) {
   std::string script = R"(
 variable          newton index off
@@ -52,7 +52,7 @@ compute           events all lsm/events sides below above faces lowerface upperf
          compute + "\nthermo_style      custom step c_events c_events[2] c_events[5]\n";
 }
 
-/// The upper disc of each given bin moves along x at its velocity for the given number of steps.
+/// Moves the upper disc of each given bin along x at its velocity for the given number of steps.
 static std::string moved(const std::vector<std::pair<int, double>> &bins, int steps) {
   std::string script, after;
   for (const auto &[bin, velocity] : bins) {
@@ -72,8 +72,7 @@ static std::vector<LSM::SlipRecord> records_of(const std::string &path) {
   return records;
 }
 
-/// The file without what must differ between numbers of ranks: their number, and the last digits of
-/// PE.
+/// The file without what differs between numbers of ranks: their number, and the last digits of PE.
 static std::string without_ranks_and_pe(const std::string &file) {
   std::istringstream in(file);
   std::string out;
@@ -114,7 +113,7 @@ TEST_F(Ruptures, PrescribedSlipIsFoundOnAnyNumberOfRanks) {
       const auto catalogue = unit::read_catalogue(path("moved.csv"));
       ASSERT_EQ(catalogue.events.size(), 3u);
       const auto &a = catalogue.events[0], &b = catalogue.events[1], &c = catalogue.events[2];
-      // both ended with step 30; the one that began first comes first
+      // Both ended with step 30; the one that began first comes first.
       EXPECT_EQ(a.step_start, 0);
       EXPECT_EQ(a.step_end, 30);
       EXPECT_EQ(b.step_start, 10);
@@ -122,7 +121,7 @@ TEST_F(Ruptures, PrescribedSlipIsFoundOnAnyNumberOfRanks) {
       EXPECT_EQ(c.step_start, 30);
       EXPECT_EQ(c.step_end, 40);
       EXPECT_NEAR(a.t_end, 3.0, 1e-12);
-      // across the seam: bins 19, 0 and 1 slipped 0.04 each
+      // The rupture crosses the seam: bins 19, 0 and 1 slipped by 0.04 each.
       EXPECT_NEAR(a.slip_moment, 0.5 * 2.0 * 3.0 * 0.04, close * 0.12);
       EXPECT_NEAR(a.mean_slip, 0.04, close * 0.04);
       EXPECT_EQ(a.rupture_length, 6.0);
@@ -132,22 +131,22 @@ TEST_F(Ruptures, PrescribedSlipIsFoundOnAnyNumberOfRanks) {
       EXPECT_EQ(b.rupture_length, 2.0);
       EXPECT_EQ(b.x_hypocentre, 21.0);
       EXPECT_NEAR(b.x_centroid, 21.0, 1e-9);
-      // against the driven direction
+      // This slip was against the driving direction.
       EXPECT_NEAR(c.slip_moment, -0.05, close * 0.05);
-      // friction: mu fn slip, fn 0.0097 during the motion, and half of that in the first of 20
-      // steps
+      // The work of friction is mu fn slip, with fn = 0.0097 during the motion, and half of that in
+      // the first of 20 steps.
       EXPECT_NEAR(b.size, 1e-5 * 0.0097 * 0.06 * 0.975, 0.01 * 6e-9);
-      // upper discs moved by d press back by fn d / 2 each, over bins of 2
+      // An upper disc that has moved by d is pushed back by fn d / 2, over bins of width 2.
       EXPECT_NEAR(a.stress_drop, 0.5 * 0.01 * 0.04 / 2.0, 0.05 * 1e-4);
       EXPECT_NEAR(c.stress_drop, -0.5 * 0.01 * 0.05 / 2.0, 0.1 * 1.25e-4);
       EXPECT_GT(a.pe_start, a.pe_end);
 
-      // all slip of the fault is in ruptures, or below the velocity: bin 5
+      // All slip of the fault belongs to ruptures, or is below the velocity, as in bin 5.
       const LSM::SlipHistoryInfo info =
           LSM::SlipHistoryReader(LSM::text_io::open_plain(path("moved.slip"))).info();
       const auto slow = unit::slow_ruptures(info, records_of(path("moved.slip")));
       EXPECT_NEAR(slow.slip_in_ruptures, 3.0 * 0.04 + 0.06 - 0.05, close * 0.23);
-      // the last of the ten intervals belongs to an incomplete record
+      // The last of the ten intervals belongs to an incomplete record.
       EXPECT_NEAR(slow.slip_elsewhere, 0.018, close * 0.018);
       EXPECT_NEAR(a.slip_moment + b.slip_moment + c.slip_moment, 0.5 * 2.0 * slow.slip_in_ruptures,
                   1e-12);
@@ -196,8 +195,8 @@ static void expect_same_ruptures(const std::vector<LSM::Event> &a, const std::ve
   }
 }
 
-// The same trajectory as with events pe, to the last bit; the same ruptures by a search through the
-// history.
+// The trajectory is that with `events pe`, to the last bit, and the ruptures are those found by a
+// search through the history.
 TEST_F(Ruptures, OfAFaultAreThoseOfItsSlipHistory) {
   ASSERT_TRUE(succeeded(run_text(sheared("catalogue plain.csv series plain.pe") + "run 6000\n")));
   const Result r = run_text(sheared(found) + "run 6000\n", {{"prefix", "found"}});
@@ -222,7 +221,7 @@ TEST_F(Ruptures, OfAFaultAreThoseOfItsSlipHistory) {
   EXPECT_GT(large, 5u);
   expect_same_ruptures(catalogue.events, expected, 1e-9);
 
-  // moments add up to the slip of the fault, which follows the plates
+  // The moments add up to the slip of the fault, which follows the plates.
   double moments = 0.0, total = 0.0;
   for (const auto &e : catalogue.events) moments += e.slip_moment;
   EXPECT_NEAR(moments, written, 1e-9 * written);
@@ -237,8 +236,8 @@ TEST_F(Ruptures, OfAFaultAreThoseOfItsSlipHistory) {
   EXPECT_GT(mean, 0.7 * plates);
 }
 
-// Whatever else is in contact, the fault slips as far as the plates move, and its work is what the
-// ledger has as friction, less what is lost within the blocks. After a slip of half the period
+// Whatever else is in contact, the fault slips as far as the plates move, and its work is the
+// friction in the ledger less what is lost within the blocks. After a slip of half the period,
 // discs behind the faces touch the other block, too.
 TEST_F(Ruptures, SlipAndWorkOfTheFaultAddUp) {
   const std::string across =
@@ -331,7 +330,7 @@ TEST_F(Ruptures, GoOnFromARestartFile) {
       EXPECT_NEAR(x[n].pe, y[n].pe, 1e-9 * x[n].pe);
     }
   }
-  // a compute without ruptures left no state to continue, and no file that it could belong to
+  // A compute without ruptures has left neither a state nor a file to continue.
   const std::string state = fault_read() + fault_shear("catalogue bare.csv") +
                             "thermo 1000\nrun 100\nwrite_restart bare\n";
   ASSERT_TRUE(succeeded(run_text(state)));
@@ -382,7 +381,7 @@ TEST_F(Ruptures, OneLineOfError) {
       {"history: file h.slip exists"}));
 }
 
-// Discs that move off those below reduce PE; those that move back raise it, which ends the event.
+// Discs that move off those below them reduce PE; moving back raises it, which ends the event.
 TEST_F(Located, MomentCentroidAndLengthOfAPrescribedEvent) {
   const std::string script =
       upper_and_lower("catalogue located.csv location yes bin 2 fraction 0.05 lambda 0") +
@@ -397,7 +396,7 @@ TEST_F(Located, MomentCentroidAndLengthOfAPrescribedEvent) {
     const auto &e = catalogue.events[0];
     EXPECT_EQ(e.step_start, 10);
     EXPECT_EQ(e.step_end, 30);
-    // slips of 0.06, 0.08, 0.02 and 0.002, contacts of size 1
+    // Slips are 0.06, 0.08, 0.02 and 0.002, and contacts have size 1.
     EXPECT_NEAR(e.slip_moment, 0.162, 1e-3 * 0.162);
     EXPECT_EQ(e.rupture_length, 6.0);
     double c = 0.0, s = 0.0;
@@ -410,7 +409,7 @@ TEST_F(Located, MomentCentroidAndLengthOfAPrescribedEvent) {
                 1e-3);
     EXPECT_GE(e.x_centroid, 0.0);
     EXPECT_LT(e.x_centroid, 40.0);
-    // the energy that the springs of the four contacts lost
+    // The drop is the energy that the springs of the four contacts lost.
     double drop = 0.0;
     for (const double d : {0.06, 0.08, 0.02, 0.002})
       drop += 0.5 * (0.01 * 0.01 - std::pow(2.0 - std::hypot(d, 1.99), 2));
@@ -418,12 +417,12 @@ TEST_F(Located, MomentCentroidAndLengthOfAPrescribedEvent) {
   }
 }
 
-// A contact whose discs lie on either side of the border of the box is in one bin, whatever image
-// of a disc it was found with.
+// A contact whose discs lie on different sides of the border of the box is in one bin, whatever the
+// image of the disc with which it was found.
 TEST_F(Located, ContactsAcrossTheBorderOfTheBox) {
   for (const double side : {1.0, -1.0}) {
-    // to the left the contact at the border joins the bin of column 19, to the right it has that of
-    // column 0
+    // If it moves to the left, the contact at the border is in the bin of column 19, if it moves to
+    // the right, in that of column 0.
     const std::string script =
         upper_and_lower("catalogue located.csv location yes bin 2 fraction 0.05 lambda 0") +
         "displace_atoms all move -1 0 0 units box\n" + moved({}, 10) +

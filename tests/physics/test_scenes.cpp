@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The small scenes of the inputs folder against theory.
+// Compares the small scenes of the inputs folder with theory.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -15,7 +15,7 @@ using Coulomb = Lmp;
 using Tension = Lmp;
 
 TEST_F(Collision, HeadOnAsInTheory) {
-  // disc 1 (radius and mass 1) hits disc 2 (radius 0.7, mass 0.49) at rest with 0.1
+  // Disc 1 (radius and mass 1) hits disc 2 (radius 0.7, mass 0.49), which is at rest, at 0.1.
   const Result r = run_scene("two_body_collision.in", {{"dt", "0.005"}});
   ASSERT_TRUE(succeeded(r));
   EXPECT_NEAR(r.value("velocity_1"), 0.1 * (1 - 0.49) / 1.49, 1e-6);
@@ -36,8 +36,8 @@ TEST_F(Collision, MomentumIsKeptOnAllRankCounts) {
 }
 
 TEST_F(Collision, EnergyErrorFallsWithTheTimeStep) {
-  // second order at least; the error after a collision even falls as (w dt)^3
-  // the error depends on where in a step contact begins: the largest over several gaps is compared
+  // The order is at least two; the error after a collision even falls as (w dt)^3. It depends on
+  // when within a step the contact begins: the largest one over several gaps is compared.
   auto worst = [](double dt) {
     double most = 0.0;
     for (int n = 0; n < 8; ++n) {
@@ -85,7 +85,8 @@ TEST_F(PWave, LatticeOnSeveralRanks) {
                   one, 1e-8);
 }
 
-// Position of half the pulse's height on its leading edge, from the first layer above y = middle.
+// Position of half the height on the leading edge of the pulse, from the first layer above
+// y = middle.
 static double front(const std::vector<std::pair<double, double>> &layers, double middle) {
   std::size_t peak = 0;
   for (std::size_t n = 0; n < layers.size(); ++n)
@@ -105,7 +106,7 @@ TEST_F(PWave, RandomPacking) {
   const Result r = run_scene("p_wave_packing.in", {{"profile", "yes"}});
   ASSERT_TRUE(succeeded(r));
 
-  // blocks "step layers count", then "layer y count vy"
+  // Each block begins with a line "step layers count"; lines "layer y count vy" follow.
   std::ifstream in(path("p_wave_profile.txt"));
   std::vector<std::pair<double, double>> fronts, layers;
   double time = 0.0;
@@ -139,7 +140,7 @@ TEST_F(Coulomb, SticksBelowTheStaticStrength) {
     const Result r = run_scene("coulomb_block.in", {{"mus", mus}, {"pull", "0.98"}});
     ASSERT_TRUE(succeeded(r));
     EXPECT_EQ(r.value("friction_work"), 0.0);
-    // held by the spring: force / kt, up to the oscillation left by the ramp
+    // The tangential spring holds the disc at force / kt, but for the oscillation left by the ramp.
     const double elastic = 0.98 * std::stod(mus) * 0.01;
     EXPECT_NEAR(r.value("slip"), elastic, 0.02 * elastic);
   }
@@ -156,8 +157,8 @@ TEST_F(Coulomb, SlidesAboveItWithTheRightAcceleration) {
 }
 
 TEST_F(Coulomb, StaticStrengthIsAboveTheDynamicOne) {
-  // 0.98 x 0.8 is far above the dynamic strength and sticks; once it moves, friction is the dynamic
-  // one
+  // At 0.98 x 0.8, far above the dynamic strength, the contact sticks; once it slides, friction is
+  // dynamic.
   const Result sticks = run_scene("coulomb_block.in", {{"mus", "0.8"}, {"pull", "0.98"}});
   const Result slides = run_scene("coulomb_block.in", {{"mus", "0.8"}, {"pull", "1.02"}});
   ASSERT_TRUE(succeeded(sticks));
@@ -167,7 +168,7 @@ TEST_F(Coulomb, StaticStrengthIsAboveTheDynamicOne) {
 }
 
 TEST_F(Coulomb, SlidingGoesOnFromRunToRun) {
-  // a contact that slides does not stick again when a run ends and the next begins
+  // A sliding contact does not stick again because a run ends and the next one begins.
   const Result one = run_scene("coulomb_block.in", {{"mus", "0.8"}, {"hold", "40"}});
   ASSERT_TRUE(succeeded(one));
   std::string script = read_file(std::string(LSM_INPUTS) + "/coulomb_block.in");
@@ -194,9 +195,9 @@ TEST_F(Coulomb, RanksAndNewton) {
 
 TEST_F(Coulomb, ContactsSeenFromTheOtherSide) {
   // Two discs, one beside the other and a little higher, are sheared while both drift upwards
-  // through the bins by which LAMMPS finds pairs. It lists the left one first if both are in one
-  // row of bins, else the lower one: the contact is seen from one side, then from the other. Listed
-  // by ID it is always seen from the same side. Two ranks have their border across the path.
+  // through the bins with which LAMMPS finds pairs. It lists the left one first if both are in the
+  // same row of bins, else the lower one, so that the order of the pair changes. Listed by ID it is
+  // always the same. The border between two ranks lies across the path.
   auto run = [](const std::string &list, const std::string &newton, int ranks) {
     return run_text("processors 1 * 1\n" + discs({{"-0.85", "0.45"}, {"0.85", "-0.45"}}) + R"in(
 variable          list index bin
@@ -248,10 +249,11 @@ print             "height = $(v_y:%.17g)"
 }
 
 TEST_F(Coulomb, SpringOfAStickingContactIsSecondOrder) {
-  // A disc moves past another on a straight line, without slip: each step adds the displacement
-  // across the line between the centres, in total the integral of c / r with c the cross product of
-  // distance and velocity. As they approach throughout, an increment taken at the end of a step, or
-  // at its start, is wrong by half the change of the distance in it, always with the same sign.
+  // A disc moves past another on a straight line, without slip. Each step adds the displacement
+  // perpendicular to the line between the centres, in total the integral of c / r, where c is the
+  // cross product of distance and velocity. As the discs approach each other throughout, an
+  // increment computed at the end or the start of a step is wrong by half the change of the
+  // distance in it, always with the same sign.
   const double x = 1.95, y = -0.4, vx = -0.15, vy = 0.05, time = 6.4;
   const double speed = std::hypot(vx, vy), cross = x * vy - y * vx;
   const double from = (x * vx + y * vy) / speed, to = from + speed * time;
@@ -295,7 +297,7 @@ TEST_F(Tension, BreaksAndTurnsIntoContacts) {
 }
 
 TEST_F(Tension, ContactsBearNoTension) {
-  // pulled a second time, the pieces come apart without resistance
+  // When pulled a second time, the pieces separate without resistance.
   const std::string script = read_file(std::string(LSM_INPUTS) + "/tension_break.in") + R"lmp(
 velocity        left set $(-v_speed) 0 0
 velocity        right set ${speed} 0 0
@@ -327,8 +329,8 @@ TEST_F(Tension, SameOnAllRankCountsAndNewton) {
 
 // ---- plates on a lattice of discs of radius and mass 1 ------------------------------------------
 
-/// A bar of the lattice between two plates that are loaded from time 0 on; its P-waves run across
-/// the rows.
+/// A bar of the lattice between two plates that are loaded from time 0 on; its P-waves propagate
+/// across the rows.
 class Plates : public Lmp {
  protected:
   static Result pressed_bar(double impedance) {
@@ -375,8 +377,9 @@ run               4000
 };
 
 TEST_F(Plates, ImpedanceAddsToThatOfTheBlocks) {
-  // Eq. 4 times the mass per area; a plate under a stress moves with the stress over the sum of the
-  // impedances until the wave from the other side arrives, after 138 / 2.12 = 65 time units
+  // The impedance is Eq. 4 times the mass per area. A plate under a stress moves at the stress over
+  // the sum of the impedances until the wave from the other side arrives, after 138 / 2.12 = 65
+  // time units.
   const double blocks = std::sqrt(9.0 / 8.0) * 2.0 / (2.0 * std::sqrt(3.0));
   double rest = 0.0;
   for (const double impedance : {0.0, 0.3, blocks, 3.0}) {
@@ -386,7 +389,7 @@ TEST_F(Plates, ImpedanceAddsToThatOfTheBlocks) {
     const double speed =
         0.5 * (r.thermo.at(11).at("f_plates[9]") - r.thermo.at(4).at("f_plates[9]")) / 35.0;
     EXPECT_NEAR(speed / (1e-4 / (impedance + blocks)), 1.0, 0.02) << "impedance " << impedance;
-    // three crossings later: reflected waves are still there, those of the matching plate are gone
+    // Three crossings later reflected waves are still there, except with the matching plate.
     const double moving = r.thermo.at(40).at("c_moving");
     if (impedance == 0.0) rest = moving;
     std::printf("impedance %.4g: speed %.4g of theory, kinetic energy %.3g\n", impedance,
@@ -401,10 +404,11 @@ TEST_F(Plates, ImpedanceAddsToThatOfTheBlocks) {
 }
 
 TEST_F(Plates, WorkOfAStressThatIsRamped) {
-  // Plates without blocks, a disc each, from rest under a force that grows: half the square of the
-  // momentum over the mass is the work. The trapezoidal rule of a step differs from what velocity
-  // Verlet gives the plate by dt^2 (F_end^2 - F_begin^2) / (8 m), which adds up to the last force
-  // alone; with the stress of the start or the end of a step the work is off by 2 dt / (3 t).
+  // Plates without blocks, of one disc each, start from rest under a growing force: the work is
+  // half the square of the momentum over the mass. In a step, the trapezoidal rule differs from the
+  // energy that velocity Verlet gives the plate by dt^2 (F_end^2 - F_begin^2) / (8 m), the sum of
+  // which depends on the last force only; with the stress at the start or the end of a step the
+  // work would be off by 2 dt / (3 t).
   const double stress = 1e-3, length = 4.0, ramp = 40.0, masses[] = {2.0, 3.0};
   for (double dt : {0.4, 0.1}) {
     const Result r = run_text(R"in(

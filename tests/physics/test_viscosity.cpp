@@ -37,7 +37,7 @@ run               0
 run               $(round(v_end/v_dt):%.0f)
 )";
 
-/// Elongation of an oscillator that starts at 0 with the given velocity: two masses of 1.
+/// Elongation of an oscillator of two masses of 1 that starts at 0 with the given velocity.
 double damped(double velocity, double retardation, double t) {
   const double w2 = 2.0 * stiffness, half = 0.5 * w2 * retardation, turn = w2 - half * half;
   const double decay = velocity * std::exp(-half * t);
@@ -70,14 +70,14 @@ TEST_F(Viscosity, TwoLinkedDiscsAsInTheClosedForm) {
                 std::log2(residual[1] / residual[2]));
     EXPECT_NEAR(std::log2(off[1] / off[2]), 2.0, 0.15);
     EXPECT_LT(std::fabs(off[2]), 1e-3 * 0.02);
-    // of the 1e-4 that the discs begin with
+    // relative to the initial energy of the discs, 1e-4
     EXPECT_LT(std::fabs(residual[2]), 5e-3 * 1e-4);
     EXPECT_NEAR(std::log2(residual[1] / residual[2]), 2.0, 0.3);
   }
 }
 
 TEST_F(Viscosity, BesideThatOfTheParticles) {
-  // both viscosities: the mass-proportional one adds its rate
+  // With both viscosities, the mass-proportional one adds its rate of decay.
   std::vector<double> off;
   const double t = 3.2, nu = 0.3, time = 0.2;
   const double w2 = 2.0 * stiffness, half = 0.5 * (w2 * time + nu);
@@ -123,7 +123,7 @@ TEST_F(Viscosity, LimitOfTheTimeStepIsSharp) {
 }
 
 TEST_F(Viscosity, ContactsAsLinksButTheyDoNotPull) {
-  // two discs meet and part again: while they touch they act as a link; both pair styles
+  // Two discs collide and separate: while they touch they act as a link, with both pair styles.
   for (const char *style :
        {"lsm/free\npair_coeff * * 1.5", "lsm/friction\npair_coeff * * 1.5 1.0 0.5"}) {
     const std::string begin = two_discs("-0.02", false) + "pair_style " + style;
@@ -135,11 +135,11 @@ TEST_F(Viscosity, ContactsAsLinksButTheyDoNotPull) {
       off.push_back(r.last("v_s") - damped(-0.02, 0.2, 1.2));
       EXPECT_LT(std::fabs(r.last("c_events[13]")), 5e-3 * 1e-4);
     }
-    // the first step begins with the force of a dashpot that was not there before: first order
+    // The first step begins with the force of a dashpot that was not there before: order one.
     EXPECT_LT(std::fabs(off[1]), 5e-3 * 0.02) << style;
     EXPECT_GT(std::log2(off[0] / off[1]), 0.8) << style;
 
-    // where the dashpot would exceed the spring they separate, and the remaining energy is kinetic
+    // They separate when the dashpot would exceed the spring, and the remaining energy is kinetic.
     const Result parted =
         run_text(begin + " kelvin-voigt 1.0\n" + two_end, {{"dt", "0.01"}, {"end", "8"}});
     ASSERT_TRUE(succeeded(parted));
@@ -147,14 +147,14 @@ TEST_F(Viscosity, ContactsAsLinksButTheyDoNotPull) {
     EXPECT_GT(parted.last("KinEng"), 0.0) << style;
     EXPECT_LT(parted.last("KinEng"), 0.1 * 1e-4) << style;
     EXPECT_NEAR(parted.last("KinEng") + parted.last("c_events[12]"), 1e-4, 2e-3 * 1e-4) << style;
-    // never faster than the dashpot allows: the overlap shrinks at most as exp(-t/time)
+    // Not faster than the dashpot allows: the overlap decreases no faster than exp(-t/time).
     EXPECT_LT(parted.last("v_s"), 0.02 * 8) << style;
   }
 }
 
 namespace {
 
-/// Waves in a periodic lattice of discs with diameter 2; `direction` chooses wave and polarisation.
+/// Waves in a periodic lattice of discs with diameter 2; `velocity` defines wave and polarisation.
 std::string wave(const std::string &velocity, const std::string &dimension_2 = "2") {
   return "units lj\ndimension " + dimension_2 +
          "\nboundary p p p\natom_style hybrid bond sphere\natom_modify map array\n"
@@ -172,7 +172,7 @@ std::string wave(const std::string &velocity, const std::string &dimension_2 = "
 }  // namespace
 
 TEST_F(Viscosity, PlaneWavesDecayByTheSquareOfTheFrequency) {
-  // a standing wave along the rows: one mode of the lattice, Q = 1 / (frequency * time)
+  // A standing wave along the rows is one mode of the lattice, with Q = 1 / (frequency * time).
   struct Wave {
     const char *velocity;
     double waves;  // in the period of 16 discs, 32 long
@@ -192,7 +192,7 @@ TEST_F(Viscosity, PlaneWavesDecayByTheSquareOfTheFrequency) {
       const std::string pattern = "variable u atom 1e-7*sin(2*PI*" + text(n) + "*x/32)\n";
       const std::string velocity =
           pattern + (longitudinal ? "velocity all set v_u 0 0\n" : "velocity all set 0 v_u 0\n");
-      // kinetic energy after whole periods of the damped oscillation
+      // The kinetic energy is taken after whole periods of the damped oscillation.
       const double half = 0.5 * w2 * time, turn = std::sqrt(w2 - half * half);
       const int periods = 3;
       const double t = periods * 2.0 * std::acos(-1.0) / turn;
@@ -201,7 +201,7 @@ TEST_F(Viscosity, PlaneWavesDecayByTheSquareOfTheFrequency) {
                                 {{"retardation", "kelvin-voigt 0.1"}});
       ASSERT_TRUE(succeeded(r));
       const double begin = r.thermo.front().at("KinEng");
-      // largest kinetic energy near that time: a whole period later, so only the decay is left
+      // After whole periods the phase is the same, so that only the decay is left.
       const double left = std::log(begin / r.last("KinEng"));
       const double q = turn * t / left, expected = turn / (2.0 * half);
       std::printf("%s wave, %g discs long: Q = %.3f, theory %.3f\n",
@@ -212,7 +212,7 @@ TEST_F(Viscosity, PlaneWavesDecayByTheSquareOfTheFrequency) {
 
 namespace {
 
-/// A patch of a fault that breaks, links and contacts with dashpots.
+/// A patch of a fault that breaks; links and contacts have dashpots.
 std::string fault(const std::string &begin, const std::string &newton = "off") {
   return "units lj\ndimension 2\nboundary f f p\nnewton " + newton +
          "\natom_style hybrid bond sphere\natom_modify map array\nspecial_bonds lj/coul 0 1 1\n" +
@@ -262,7 +262,7 @@ TEST_F(Viscosity, InPiecesAndFromARestartFile) {
     const Result half =
         run_text(fault(created) + "run 200\nwrite_restart half.restart\n", {}, ranks);
     ASSERT_TRUE(succeeded(half));
-    // coefficients of the file, and those of the script
+    // Once with the coefficients of the file, once with those of the script.
     std::string of_file = fault(restarted);
     const auto from = of_file.find("bond_style"), to = of_file.find("variable shear");
     of_file.erase(from, to - from);
@@ -280,7 +280,7 @@ TEST_F(Viscosity, InPiecesAndFromARestartFile) {
 }
 
 TEST_F(Viscosity, VelocitiesSetBetweenRunsCount) {
-  // as a run that begins with them: nothing of the previous dashpots is left
+  // As in a run that begins with these velocities: no forces of the previous dashpots are left.
   const Variables variables = {{"dt", "0.02"}, {"end", "0.4"}, {"retardation", "kelvin-voigt 0.5"}};
   const Result begun = run_text(linked("0.05"), variables);
   const Result changed = run_text(linked("0.02") +
@@ -293,7 +293,7 @@ TEST_F(Viscosity, VelocitiesSetBetweenRunsCount) {
 }
 
 TEST_F(Viscosity, VelocitiesSetBeforeARestartFileCount) {
-  // as in the run that goes on without it: dashpots do not see the velocities before
+  // As in the run that continues without a restart file: the former velocities do not matter.
   const Result whole = run_text(fault(created) +
                                 "run 200\nvelocity lower set 1e-3 0 0 sum yes units box\n"
                                 "write_restart set.restart\nrun 5\n");
@@ -306,7 +306,7 @@ TEST_F(Viscosity, VelocitiesSetBeforeARestartFileCount) {
 }
 
 TEST_F(Viscosity, ThreeDimensions) {
-  // three discs at an angle: the dashpots dissipate the energy lost, and the momentum is conserved
+  // Three discs at an angle: the dashpots dissipate the lost energy, and momentum is conserved.
   const std::string script =
       "units lj\nboundary f f f\nnewton ${newton}\natom_style hybrid bond sphere\n"
       "atom_modify map array\ncomm_modify mode single cutoff 4.5\nspecial_bonds lj/coul 0 1 1\n"
@@ -333,7 +333,7 @@ TEST_F(Viscosity, ThreeDimensions) {
 
 TEST_F(Viscosity, OtherCommandsKnowIt) {
   const Variables variables = {{"dt", "0.02"}, {"end", "0.4"}, {"retardation", "kelvin-voigt 0.5"}};
-  // force of compute bond/local and the virial include the dashpot
+  // The force of compute bond/local and the virial include the dashpot.
   std::string script =
       two_discs("0.02", true) +
       "bond_coeff 1 1.5 kelvin-voigt 0.5\npair_style lsm/free\npair_coeff * * 1\n"
@@ -349,12 +349,12 @@ TEST_F(Viscosity, OtherCommandsKnowIt) {
   EXPECT_NEAR(r.last("c_f"), r.last("c_pull"), 1e-15);
   EXPECT_NEAR(r.last("v_virial"), r.last("c_pull") * r.last("v_r"), 1e-12);
 
-  // data files have the time
+  // Data files contain the retardation time.
   const Result data = run_text(linked() + "write_data viscous.data\n", variables);
   ASSERT_TRUE(succeeded(data));
   EXPECT_NE(read_file(path("viscous.data")).find("1 1.5 kelvin-voigt 0.5"), std::string::npos);
 
-  // a minimizer is without it, and the run after it has it
+  // A minimisation ignores the dashpots, and the run after it has them again.
   const auto minimized = [&](const std::string &time) {
     Variables with = variables;
     with.back().second = time;
@@ -368,7 +368,7 @@ TEST_F(Viscosity, OtherCommandsKnowIt) {
   ASSERT_TRUE(succeeded(without));
   EXPECT_NEAR(with.last("v_s"), 0.0, 1e-9);
 
-  // snapshots with velocities
+  // Snapshots that have velocities can be used by rerun.
   const Result again =
       run_text(linked() +
                    "dump d all custom 10 viscous.dump id x y vx vy\n"
@@ -378,7 +378,8 @@ TEST_F(Viscosity, OtherCommandsKnowIt) {
                    "rerun viscous.dump dump x y vx vy\n",
                variables);
   ASSERT_TRUE(succeeded(again));
-  // the velocity of the dump is that of the end of the step, what the run used is extrapolated
+  // The velocity in the dump is that at the end of the step, while the run used an extrapolated
+  // one.
   const std::size_t rows = again.thermo.size();
   ASSERT_GE(rows, 6u);
   EXPECT_NEAR(again.thermo[rows - 1].at("c_pull"), again.thermo[rows - 4].at("c_pull"),

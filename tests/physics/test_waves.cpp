@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Waves of the regular lattice beside closed forms: dispersion of P- and S-waves, Rayleigh waves of
-// a free straight border.
+// Waves of the regular lattice compared with closed forms: dispersion of P- and S-waves, Rayleigh
+// waves of a free straight border.
 #include <cmath>
 #include <string>
 #include <utility>
@@ -20,7 +20,7 @@ const std::string scenes = std::string(LSM_INPUTS) + "/../tests/accuracy/";
 }  // namespace
 
 TEST_F(Waves, DispersionAsInTheClosedForm) {
-  // cells along and across the rows, waves that fit in
+  // number of cells, and of waves, along and across the rows
   struct Box {
     int nx, ny, px, py;
   };
@@ -44,8 +44,8 @@ TEST_F(Waves, DispersionAsInTheClosedForm) {
 }
 
 TEST_F(Waves, DispersionAtTenSpacings) {
-  // what results/rupture-benchmark.md says: slower than long waves by 1.5 % (P) and 0.4 % (S) along
-  // the rows, by 1.2 % across them
+  // As stated in results/rupture-benchmark.md: slower than long waves by 1.5 % (P) and 0.4 % (S)
+  // along the rows, and by 1.2 % across them.
   const double k = 0.2 * lattice_waves::pi;
   const auto slow = [k](double kx, double ky, bool p) {
     const double speed = p ? lattice_waves::vp : lattice_waves::vs;
@@ -71,7 +71,7 @@ TEST_F(Waves, RayleighWavesOfAFreeBorder) {
     if (zeros.size() < 2) return 0.0;
     return lattice_waves::frequency(zeros) * wave / (2.0 * lattice_waves::pi) / lattice_waves::vs;
   };
-  // half the mass (create_lsm_fault) and half the stiffness in the row of the border
+  // The row at the border has half the mass (create_lsm_fault) and half the stiffness.
   const double coarse = measured(10, "0.5") / exact - 1.0, fine = measured(20, "0.5") / exact - 1.0;
   std::printf("Rayleigh waves 10 and 20 spacings long: off by %.3g and %.3g, order %.2f\n", coarse,
               fine, std::log2(coarse / fine));

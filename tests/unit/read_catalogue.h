@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Whole catalogues in memory.
+// Reads whole catalogues into memory.
 #ifndef LSM_UNIT_READ_CATALOGUE_H
 #define LSM_UNIT_READ_CATALOGUE_H
 
@@ -14,7 +14,7 @@ namespace unit {
 struct Catalogue {
   LSM::CatalogueInfo info;
   std::vector<LSM::Event> events;
-  std::int64_t skipped = 0;   ///< bad lines passed over (lenient)
+  std::int64_t skipped = 0;   ///< number of bad lines (lenient reading)
   std::string first_problem;  ///< message of the first of them
 };
 

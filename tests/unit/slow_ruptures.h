@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Ruptures of a slip history by a search through all of space and time, independent of the finder.
+// Finds the ruptures of a slip history by a search through all of space and time, independently of
+// the finder under test.
 #ifndef LSM_UNIT_SLOW_RUPTURES_H
 #define LSM_UNIT_SLOW_RUPTURES_H
 
@@ -18,13 +19,13 @@
 namespace unit {
 
 struct SlowRuptures {
-  std::vector<LSM::Event> events;  ///< followed by a quiet time, without identifiers
+  std::vector<LSM::Event> events;  ///< those known to have ended, without identifiers
   std::vector<std::set<std::pair<std::int64_t, int>>> cells;  ///< (interval, bin) of each
   double slip_in_ruptures = 0.0;  ///< sum over bins and intervals, of all ruptures
   double slip_elsewhere = 0.0;
 };
 
-/// \param records all of a history, the first one included
+/// \param records all records of a history, including the first one
 inline SlowRuptures slow_ruptures(const LSM::SlipHistoryInfo &info,
                                   const std::vector<LSM::SlipRecord> &records) {
   const LSM::FaultGrid &grid = info.grid;
@@ -127,7 +128,7 @@ inline SlowRuptures slow_ruptures(const LSM::SlipHistoryInfo &info,
     out.events.push_back(e);
     out.cells.push_back(cells);
   }
-  // In the order of a catalogue.
+  // Sort the events as in a catalogue.
   std::vector<std::size_t> order(out.events.size());
   for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
   std::sort(order.begin(), order.end(), [&out](std::size_t a, std::size_t b) {

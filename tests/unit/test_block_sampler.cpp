@@ -11,7 +11,7 @@ using LSM::BlockSampler;
 using LSM::GatheredBlock;
 using LSM::SampleBlock;
 
-/// The ranks' blocks as on rank 0; the sums of intervals are added up.
+/// Combines the blocks of all ranks as rank 0 does; the sums of intervals are added up.
 GatheredBlock gathered(const std::vector<SampleBlock> &blocks) {
   GatheredBlock all;
   all.first = blocks[0].first;
@@ -43,9 +43,9 @@ TEST(BlockSampler, FillsOneBlockWhileTheOtherIsOnItsWay) {
   EXPECT_EQ(sent.first, 10);
   EXPECT_EQ(sent.count, 3);
   EXPECT_EQ(sent.pe, (std::vector<double>{5.0, 5.5, 6.0}));
-  EXPECT_EQ(sent.pe.data(), at);  // a message is read from there
+  EXPECT_EQ(sent.pe.data(), at);  // the buffer of a message in transit must not move
 
-  const SampleBlock &next = sampler.hand_over();  // not full: the end of a run
+  const SampleBlock &next = sampler.hand_over();  // not full, as at the end of a run
   EXPECT_EQ(next.first, 13);
   EXPECT_EQ(next.count, 2);
   EXPECT_EQ(next.pe, (std::vector<double>{7.0, 8.0}));

@@ -38,7 +38,7 @@ CatalogueInfo some_info() {
   return info;
 }
 
-/// Events at steps 100 to 110, 200 to 210, ...
+/// Event n lasts from step 100 n to step 100 n + 10.
 Event some_event(std::int64_t id) {
   Event event;
   event.id = id;
@@ -291,7 +291,7 @@ TEST_F(CatalogueWrite, CreateFollowsLinks) {
 TEST_F(CatalogueWrite, FailedCreateKeepsTheOldFile) {
   write_events(3);
   const std::string before = slurp(file());
-  std::filesystem::create_directory(file() + ".new");  // in the way of the temporary file
+  std::filesystem::create_directory(file() + ".new");  // where the temporary file would be
   CatalogueWriter writer;
   EXPECT_TRUE(contains(message_of<FileError>([&] { writer.create(file(), some_info()); }),
                        file() + ": cannot open for writing: "));
@@ -335,14 +335,14 @@ TEST_F(CatalogueWrite, RefusesEventsNoReaderWouldTake) {
 struct Bad {
   const char *name;
   std::string text;     // the file
-  std::string message;  // behind the path
+  std::string message;  // after the path
 };
 
 const std::string row1 = "1,1,2,10,20,0.5,3,2.5\n";
 const std::string row2 = "2,3,4,30,40,0.5,3,2.5\n";
 const std::string row3 = "3,5,6,50,60,0.5,3,2.5\n";
 
-/// Bad rows between two good ones; line 8 of the file.
+/// Bad rows, which are placed between two good ones, in line 8 of the file.
 const std::vector<Bad> bad_rows = {
     {"missing column", "2,3,4,30,40,0.5,3\n", ":8: 7 columns, expected 8 (event_id,"},
     {"extra column", "2,3,4,30,40,0.5,3,2.5,1\n", ":8: 9 columns, expected 8 "},
@@ -378,7 +378,7 @@ TEST_F(CatalogueRead, StrictRefusesBadRows) {
 
 TEST_F(CatalogueRead, RupturesMayOverlapInOrderOfTheirEnds) {
   const std::string ruptures = header + "# events = ruptures\n" + columns;
-  // Started first but ended last; two that end at the same time.
+  // One event that started first but ended last, and two that end at the same time.
   const std::string rows =
       "1,2,3,20,30,0.5,3,2.5\n"
       "2,2.5,3,25,30,0.5,3,2.5\n"
@@ -390,13 +390,13 @@ TEST_F(CatalogueRead, RupturesMayOverlapInOrderOfTheirEnds) {
   EXPECT_EQ(catalogue.events[2].t_start, 1.0);
   spill(file(), header + "# events = of a kind to come\n" + columns + rows);
   EXPECT_EQ(unit::read_catalogue(file()).events.size(), 3U);
-  // Not without the parameter, nor for drops of PE.
+  // Without the parameter, and for drops of PE, this is an error.
   for (const char *other : {"", "# events = pe\n"}) {
     spill(file(), header + other + columns + rows);
     EXPECT_TRUE(contains(message_of<FileError>([&] { unit::read_catalogue(file()); }),
                          "t_start 2.5 is before the end of the previous event 3, expected"));
   }
-  // The order of the ends is asked for.
+  // Events must be in the order of their ends.
   for (const char *bad : {"4,2,3.5,20,50,0.5,3,2.5\n", "4,2,4.5,20,35,0.5,3,2.5\n"}) {
     spill(file(), ruptures + rows + bad);
     EXPECT_TRUE(contains(message_of<FileError>([&] { unit::read_catalogue(file()); }),
@@ -424,7 +424,7 @@ TEST_F(CatalogueRead, LineEndsOfWindowsAndByteOrderMarks) {
     ASSERT_EQ(catalogue.events.size(), 3U);
     EXPECT_EQ(catalogue.events[2].size, some_event(3).size);
     EXPECT_EQ(*catalogue.info.find("seed"), "7");
-    // To go on behind it would mix two kinds of lines.
+    // Appending to it would mix two kinds of line ends.
     CatalogueWriter writer;
     EXPECT_TRUE(contains(message_of<FileError>([&] { resume(writer, file(), some_info(), 200); }),
                          "cannot resume: Windows line ends or a byte order mark, expected"));
@@ -452,7 +452,7 @@ TEST_F(CatalogueRead, CompressedFilesAreRefusedByName) {
   }
 }
 
-// Were each key looked for among those before it, this would take longer than any test may.
+// If each key were compared with all keys before it, this test would run into its time limit.
 TEST_F(CatalogueRead, LongHeader) {
   CatalogueInfo info = some_info();
   for (int i = 0; i < 300000; ++i) info.parameters.emplace_back("key" + std::to_string(i), "1");
@@ -526,7 +526,7 @@ TEST_F(CatalogueRead, StrictTakesAGoodFile) {
 }
 
 TEST_F(CatalogueRead, StrictRefusesATruncatedLastLine) {
-  // Even where all columns are there: the last number may lack digits.
+  // This holds even if all columns are present, as the last number may lack digits.
   for (const std::string tail : {"2,3,4,30,40,0.5,3,2.5", "2,3,4,3", "2"}) {
     spill(file(), header + columns + row1 + tail);
     EXPECT_TRUE(contains(message_of<FileError>([&] { unit::read_catalogue(file()); }),
@@ -580,7 +580,8 @@ TEST_F(CatalogueRead, ColumnsAreFoundByName) {
   EXPECT_EQ(event.slip_moment, 5.0);
   EXPECT_TRUE(catalogue.info.slip_moment && catalogue.info.x_centroid);
   EXPECT_FALSE(catalogue.info.rupture_length);
-  // Bad rows are told with the columns of the file; a run goes on with its own columns only.
+  // Messages about bad rows name the columns of the file; a run continues only files that have its
+  // own columns.
   spill(file(), header + odd + "deep,0.5,1,2,7,1,10,20,3,,2.5\n");
   EXPECT_TRUE(contains(message_of<FileError>([&] { unit::read_catalogue(file()); }),
                        ":7: 11 columns, expected 12 (depth,size,event_id,"));

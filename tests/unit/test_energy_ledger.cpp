@@ -56,7 +56,7 @@ TEST(EnergyLedger, AJumpBetweenTwoRunsIsLeftOut) {
   EXPECT_EQ(ledger.leave_out_jump(101, 1e-20, now), 0.0);  // that run did not end here
   EXPECT_EQ(ledger.residual(displaced), 4.25);
   EXPECT_EQ(ledger.leave_out_jump(100, 1e-20, now), 4.0);
-  EXPECT_EQ(ledger.residual(displaced), 0.25);  // the error from before stays
+  EXPECT_EQ(ledger.residual(displaced), 0.25);  // the earlier error remains
 }
 
 TEST(EnergyLedger, RoundingIsNoJump) {
@@ -96,7 +96,7 @@ TEST(EnergyLedger, GoesOnFromARestart) {
   StateReader from(file);
   EnergyLedger::visit(second, from);
   EXPECT_TRUE(second.begun());
-  // Styles start counting anew; integrators and plates have restarts of their own.
+  // Styles count from 0 again; integrators and plates restore their own work from the restart file.
   const EnergyTerms now = second.with_earlier_works(terms(1.0, 2.0, 0.0, 0.25, 0.0, 1.0));
   EXPECT_EQ(now.friction, 0.5);
   EXPECT_EQ(now.broken, 0.125);

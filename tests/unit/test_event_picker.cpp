@@ -46,7 +46,7 @@ void expect_same(const std::vector<Event> &a, const std::vector<Event> &b) {
   }
 }
 
-/// Events of PE(0), PE(1), ... at times 0, dt, ...
+/// Returns the events of the series PE(0), PE(1), ... at times 0, dt, ...
 std::vector<Event> pick(EventPicker &picker, const std::vector<double> &pe, double dt = 1.0,
                         std::int64_t first = 0) {
   std::vector<Event> events;
@@ -58,7 +58,7 @@ std::vector<Event> pick(EventPicker &picker, const std::vector<double> &pe, doub
   return events;
 }
 
-/// Sawtooth of loading and of drops of random length, with noise; sizes over several decades.
+/// A sawtooth of loading and drops of random lengths, with noise; sizes span several decades.
 std::vector<double> stick_slip(std::uint64_t seed, int count) {
   LSM::Random random(seed);
   std::vector<double> pe;
@@ -92,7 +92,7 @@ void check_by_hand(PickerReading reading, const Expected &expected) {
   Event event;
   for (std::size_t i = 0; i < by_hand.size(); ++i) {
     SCOPED_TRACE(i);
-    // Steps and times that cannot be confused with indices.
+    // Steps and times differ from the indices, so that confusing them is noticed.
     const std::int64_t step = 1000 + static_cast<std::int64_t>(i);
     const bool reported =
         picker.push(step, 50.0 + 0.25 * static_cast<double>(i), by_hand[i], event);
@@ -262,7 +262,7 @@ std::vector<double> sampled_ramps(double dt) {
 }
 
 TEST(EventPicker, MemoryTimeMakesPicksIndependentOfTheTimeStep) {
-  // Between kinks A/dt relaxes as exp(-t/T) to the slope of PE, whatever dt.
+  // Between kinks A/dt relaxes as exp(-t/T) to the slope of PE, for any dt.
   const double memory = 2.0;
   const double before = 1.0 - std::exp(-50.0 / memory);
   const double start = 50.0 + memory * std::log((before + 3.0) / 3.0);
@@ -274,7 +274,7 @@ TEST(EventPicker, MemoryTimeMakesPicksIndependentOfTheTimeStep) {
         settings(PickerReading::exponential, LSM::lambda_from_memory_time(memory, dt)));
     const std::vector<Event> events = pick(picker, sampled_ramps(dt), dt);
     ASSERT_EQ(events.size(), 1U);
-    // The sample before the one at which A has turned.
+    // The event starts with the sample before the one at which A has changed its sign.
     EXPECT_GE(events[0].t_start, start - dt * 1.001);
     EXPECT_LE(events[0].t_start, start + dt * 0.001);
     EXPECT_GE(events[0].t_end, end - dt * 1.001);
@@ -296,7 +296,7 @@ TEST(EventPicker, FixedLambdaDependsOnTheTimeStep) {
 
 TEST(EventPicker, LambdaFromMemoryTime) {
   EXPECT_DOUBLE_EQ(LSM::lambda_from_memory_time(2.0, 0.5), std::exp(-0.25));
-  // Ten small steps forget as much as one ten times as long.
+  // Memory decays as much in ten small steps as in one that is ten times as long.
   EXPECT_NEAR(std::pow(LSM::lambda_from_memory_time(3.0, 0.01), 10),
               LSM::lambda_from_memory_time(3.0, 0.1), 1e-14);
   // 0.99 per step is a memory of very nearly 100 steps.
@@ -439,7 +439,7 @@ TEST(EventPicker, NonPositiveSizesAreCountedAndKeptOnlyOnDemand) {
     EventPicker picker(chosen);
     Event event;
     int reported = 0;
-    // A given change of -1 while the energy stays (first event) or rises (second).
+    // The given change is -1, while the energy is constant (first event) or rises (second event).
     reported += picker.push_change(0, 0.0, 1.0, 0.0, event);
     reported += picker.push_change(1, 1.0, 1.0, -1.0, event);
     reported += picker.push_change(2, 2.0, 1.0, 2.0, event);

@@ -26,7 +26,7 @@ TEST(EventStatistics, ChiSquareTail) {  // 5 % and 1 % points of printed tables
 }
 
 TEST(EventStatistics, GammaDensityAndItsErrors) {
-  // scatter of the fits of 400 samples: mean unbiased but for 3 / n, standard deviation as stated
+  // Fits to 400 samples: unbiased but for 3 / n, and their scatter is the stated standard error.
   std::mt19937_64 random(1);
   for (double gamma : {0.6, 1.0, 2.0}) {
     std::gamma_distribution<double> times(gamma, 150.0);
@@ -63,27 +63,27 @@ TEST(EventStatistics, AgreementFindsAScatterAndATrend) {
   const auto off = Accuracy::agreement(dt, {E{1.0, 0.1}, E{1.5, 0.1}, E{1.0, 0.1}, E{1.0, 0.1}});
   EXPECT_LT(off.p_same, 1e-3);
   EXPECT_GT(off.p_trend, 0.05);
-  // a slope that the scatter alone hides
+  // A slope that the test of the scatter alone does not detect.
   const auto slope = Accuracy::agreement(dt, {E{1.0, 0.1}, E{1.1, 0.1}, E{1.3, 0.1}, E{1.3, 0.1}});
   EXPECT_LT(slope.p_trend, 0.02);
   EXPECT_GT(slope.p_same, 0.05);
-  // two estimates with equal errors: scatter and trend are the same test, two-sided normal
+  // For two estimates with equal errors, scatter and trend are the same two-sided normal test.
   const auto two = Accuracy::agreement({0.03, 0.06}, {E{0.0, 1.0}, E{1.96 * std::sqrt(2.0), 1.0}});
   EXPECT_NEAR(two.p_same, 0.05, 1e-3);
   EXPECT_NEAR(two.p_trend, 0.05, 1e-3);
-  // what could not be estimated does not count
+  // Values that could not be estimated are ignored.
   const auto one = Accuracy::agreement({0.03, 0.06}, {E{}, E{1.0, 0.1}});
   EXPECT_EQ(one.p_same, 1.0);
 }
 
 TEST(EventStatistics, PairsOneToOne) {
   const auto pairs = Accuracy::paired({1.0, 2.0, 2.1, 9.0}, {1.05, 2.05, 5.0}, 0.2);
-  EXPECT_EQ(pairs.both, 2);  // 2.1 has lost its partner to 2.0
+  EXPECT_EQ(pairs.both, 2);  // the partner of 2.1 belongs to 2.0
   EXPECT_EQ(pairs.only_first, 2);
   EXPECT_EQ(pairs.only_second, 1);
   EXPECT_EQ(pairs.p(), 1.0);
   EXPECT_EQ(Accuracy::paired({}, {1.0}, 1.0).only_second, 1);
-  // 1 against 16 odd events: (15 - 1)^2 / 17 = 11.53
+  // 1 against 16 events without a partner: (15 - 1)^2 / 17 = 11.53
   Accuracy::Pairs odd;
   odd.only_first = 1;
   odd.only_second = 16;

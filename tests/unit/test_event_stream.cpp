@@ -42,7 +42,7 @@ struct MadeUpRun {
   LSM::SceneInfo scene{{{"program", "made up"}, {"links", "7"}}, 2, dt};
   LSM::StepClock clock{100.0, 0, dt};
   FaultGrid grid;
-  std::vector<double> sums;  // of the interval that is not complete
+  std::vector<double> sums;  // of the incomplete interval
   std::unique_ptr<EventStream> stream;
 
   explicit MadeUpRun(const EventSettings &s) : settings(s) {
@@ -82,7 +82,7 @@ struct MadeUpRun {
     }
   }
 
-  /// Steps from..to in blocks of the given length.
+  /// Runs the steps `from` to `to` in blocks of the given length.
   void run(std::int64_t from, std::int64_t to, int steps) {
     for (std::int64_t first = from; first <= to; first += steps) {
       GatheredBlock block;
@@ -211,8 +211,8 @@ TEST_F(EventStreamFiles, SlipCountsWhileItsEventIsOpen) {
 
 TEST_F(EventStreamFiles, GoesOnFromItsStateByteForByte) {
   for (const bool ruptures : {false, true}) {
-    // Loading; within an event; within an interval and a pause; at the end of an event, which is
-    // known one step later
+    // The stops are: during loading; within an event; within an interval and a pause; at the end of
+    // an event, which is known one step later.
     EventSettings any = ruptures ? rupture_settings("r") : pe_settings("p");
     MadeUpRun ends(any);
     ends.begin();
@@ -232,7 +232,7 @@ TEST_F(EventStreamFiles, GoesOnFromItsStateByteForByte) {
       first.begin();
       first.run(0, stop, 20);
       const std::vector<double> state = first.stream->state(first.sums);
-      first.run(stop + 1, stop + 90, 20);  // killed later than the restart file was written
+      first.run(stop + 1, stop + 90, 20);  // killed some time after the restart file was written
       first.stream.reset();
 
       part.resume = true;
@@ -285,7 +285,7 @@ TEST_F(EventStreamFiles, RupturesOfOtherBinsDoNotGoOn) {
   MadeUpRun second(settings);
   EXPECT_FALSE(saved.continues_with(1, second.grid));
   second.stream->set_state(saved);
-  EXPECT_EQ(second.stream->counts().events, events);  // the numbers continue
+  EXPECT_EQ(second.stream->counts().events, events);  // numbering continues
   EXPECT_EQ(second.stream->open(), 0);
   EXPECT_TRUE(unit::contains(unit::message_of<EventStreamError>([&] {
                                second.stream->begin_files(236, true, second.scene, second.clock);
@@ -310,7 +310,7 @@ TEST_F(EventStreamFiles, DamagedStatesAreRefused) {
   EXPECT_FALSE(saved.read(state, 0, 1));
   state.pop_back();
 
-  // Lists of the right lengths that no fault can have written.
+  // The lists have the right lengths, but no fault can have written them.
   ASSERT_TRUE(saved.read(state, 0, 1));
   saved.finder.back() = 1000.0;
   MadeUpRun other(rupture_settings("b"));
@@ -357,7 +357,7 @@ TEST(EventStream, WhatTheOutsideChangesIsNoEvent) {
   add(3, {5.0});
   EXPECT_EQ(stream.open(), 0);
   EXPECT_EQ(stream.picker().rate(), 0.5 * rate + 0.5);
-  // Half the time step: half the rate per step.
+  // Half the time step means half the rate per step.
   const double before = stream.picker().rate();
   settings.picker.lambda = 0.75;
   stream.change_picker(settings.picker, 0.5);
@@ -408,7 +408,7 @@ TEST(EventSettings, HeadersSayEachParameterOnce) {
   EXPECT_EQ(*ruptures.find("slip_velocity"), "0.0025000000000000001");
   EXPECT_EQ(ruptures.find("picker"), nullptr);
   EXPECT_TRUE(ruptures.stress_drop);
-  // The series is the same for all kinds of events; its own lines are not repeated.
+  // The series is the same for all kinds of events; lines that it has anyway are not repeated.
   const auto series = LSM::series_header(settings, scene, {100.0, 50, 0.5});
   EXPECT_EQ(series.find("dt"), nullptr);
   EXPECT_EQ(series.time(60), 105.0);

@@ -40,7 +40,7 @@ TEST(Contact, ShareOfTheStepItBeginsIn) {
   EXPECT_EQ(LSM::share_in_contact(1.0, 0.9, 1.0), 1.0);
   EXPECT_NEAR(LSM::share_in_contact(1.3, 0.9, 1.0), 0.25, 1e-15);
   EXPECT_EQ(LSM::share_in_contact(1.3, 1.0, 1.0), 0.0);
-  EXPECT_EQ(LSM::share_in_contact(0.9, 0.9, 1.0), 0.0);  // nothing moved: not a begin
+  EXPECT_EQ(LSM::share_in_contact(0.9, 0.9, 1.0), 0.0);  // nothing moved: no contact begins
 }
 
 TEST(Friction, SticksBelowTheLimit) {
@@ -64,7 +64,8 @@ TEST(Friction, SlidesAtTheLimitInBothDirections) {
 }
 
 TEST(Friction, DissipationClosesTheEnergyBalanceOfTheTangentialSpring) {
-  // Work of the displacement by the trapezoidal rule = change of the elastic energy + loss.
+  // The work of the displacement, by the trapezoidal rule, is the change of elastic energy plus the
+  // loss.
   double xi = 0.0, lost_in_all = 0.0;
   for (int step = 0; step < 400; ++step) {
     const double dxi = 0.05 * std::sin(0.1 * step);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The bound of the highest frequency against all eigenvalues by Jacobi rotations.
+// Compares the bound of the highest frequency with all eigenvalues, found by Jacobi rotations.
 #include "fault/frequency.h"
 
 #include <gtest/gtest.h>
@@ -53,7 +53,7 @@ LSM::LargestEigenvalue by_lanczos(const Network &network, std::uint64_t offset =
       [](double mine) { return mine; });
 }
 
-/// The dense matrix, written down from the springs without their code.
+/// The dense matrix, assembled from the springs independently of the code under test.
 std::vector<std::vector<double>> dense(const Network &network) {
   const std::size_t size = network.size(), dim = static_cast<std::size_t>(network.dim);
   std::vector<std::vector<double>> a(size, std::vector<double>(size, 0.0));
@@ -73,7 +73,7 @@ std::vector<std::vector<double>> dense(const Network &network) {
   return a;
 }
 
-/// Largest eigenvalue by cyclic Jacobi rotations until nothing is left beside the diagonal.
+/// Largest eigenvalue by cyclic Jacobi rotations until the matrix is diagonal.
 double exact(const Network &network) {
   auto a = dense(network);
   const std::size_t size = a.size();
@@ -136,7 +136,7 @@ Network packing(std::uint64_t seed, double mass_power, double contact, double kt
   return network;
 }
 
-/// Whether value is above all eigenvalues: value - matrix has a Cholesky factor.
+/// Whether a value is above all eigenvalues, that is, value - matrix has a Cholesky factor.
 bool above_all(const Network &network, double value) {
   auto a = dense(network);
   for (std::size_t n = 0; n < a.size(); ++n) {
@@ -165,7 +165,7 @@ void expect_bounded(const Network &network, const std::string &name) {
   }
 }
 
-/// As expect_bounded(), by all eigenvalues.
+/// As expect_bounded(), with a comparison with all eigenvalues.
 void expect_bounded_by_all(const Network &network, const std::string &name) {
   expect_bounded(network, name);
   const double largest = exact(network);
@@ -257,7 +257,8 @@ TEST(Frequency, ThreeDimensionsAndRandomStiffness) {
 }
 
 /// The network of a rank that owns all particles but has the second end of every other spring as a
-/// ghost; newton: ghosts return their forces, else each of the two ends has the spring.
+/// ghost.
+/// \param newton whether ghosts return their forces; if not, both ends of a spring have it
 LSM::LargestEigenvalue with_ghosts(const Network &network, bool newton) {
   LSM::SpringNetwork rank;
   rank.dim = network.dim;
@@ -340,7 +341,7 @@ TEST(Frequency, StartVectorIsNormal) {
     before = a;
   }
   const double n = 2.0 * pairs;
-  // five standard deviations
+  // within five standard deviations
   EXPECT_NEAR(sum / n, 0.0, 5.0 / std::sqrt(n));
   EXPECT_NEAR(squares / n, 1.0, 5.0 * std::sqrt(2.0 / n));
   EXPECT_NEAR(fourth / n, 3.0, 5.0 * std::sqrt(96.0 / n));

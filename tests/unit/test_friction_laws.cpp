@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The friction laws of core/friction: properties of all of them, and each against a closed form.
+// The friction laws of core/friction: properties that all of them have, and a comparison of each
+// with a closed form.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +14,7 @@ namespace {
 
 using namespace LSM;
 
-/// A contact that is moved by hand.
+/// A contact whose displacements are prescribed.
 template <class Law>
 struct Driven {
   typename Law::Coefficients c;
@@ -34,7 +35,7 @@ struct Driven {
     moved += dxi;
     lost += s.dissipated;
   }
-  /// At speed v over a distance, in steps of equal length.
+  /// Slides at speed v over a distance, in steps of equal length.
   void slide(double v, double distance, int steps) {
     for (int n = 0; n < steps; ++n) move(distance / steps, std::fabs(distance / v) / steps);
   }
@@ -109,7 +110,7 @@ TEST(EveryLaw, WithoutTimeAndDisplacementNothingChanges) {
     contact.move(0.0, 0.0);
     EXPECT_EQ(contact.xi, xi) << Law::name;
     EXPECT_EQ(contact.state[0], state) << Law::name;
-    EXPECT_EQ(contact.state[1], 0.0) << Law::name;  // no more state than stated
+    EXPECT_EQ(contact.state[1], 0.0) << Law::name;  // no state variables beyond those declared
   });
 }
 
@@ -141,7 +142,7 @@ TEST(SlipWeakening, FallsLinearlyWithTheSlip) {
   }
   EXPECT_GT(contact.slipped, 0.3);
   EXPECT_EQ(contact.state[0], 0.3);
-  // fracture energy: work lost beyond that at the dynamic strength
+  // The fracture energy is the work lost in excess of that at the dynamic strength.
   EXPECT_NEAR(contact.lost - 2.0 * 0.5 * contact.slipped, 0.5 * 2.0 * 0.3 * 0.3, 2e-3);
 }
 
@@ -191,7 +192,7 @@ class RateStateLaw : public ::testing::Test {};
 using Evolutions = ::testing::Types<RateStateAgeing, RateStateSlip>;
 TYPED_TEST_SUITE(RateStateLaw, Evolutions, );  // clang wants the last comma
 
-// stiff, so that the contact slips at the imposed velocity
+// The springs are stiff, so that the contact slips at the imposed velocity.
 constexpr RateStateAgeing::Coefficients kAgeing{1e6, 0.6, 0.01, 0.015, 0.02, 1e-3, 0.0};
 template <class Law>
 typename Law::Coefficients stiff() {
@@ -208,7 +209,7 @@ TYPED_TEST(RateStateLaw, SteadyStateAsInTheClosedForm) {
 }
 
 TYPED_TEST(RateStateLaw, VelocityStepAsInTheClosedForm) {
-  // direct effect a ln 10, then theta evolves over the slip: exactly known for either law
+  // The direct effect is a ln 10; then theta evolves with slip, in closed form for either law.
   Driven<TypeParam> contact(stiff<TypeParam>());
   contact.slide(1e-3, 1.0, 20000);
   const double v = 1e-2, before = contact.slipped;
@@ -237,7 +238,7 @@ TYPED_TEST(RateStateLaw, AnswersHoldsAsItsEvolutionLaw) {
 }
 
 TYPED_TEST(RateStateLaw, StateOfASteadySlipIsExactForAnyStep) {
-  // steps from far below to far above dc/v, beginning below and above the steady state
+  // Steps range from far below to far above dc/v, and begin below and above the steady state.
   const double dc = 0.02, v = 0.3, steady = dc / v;
   for (double theta : {1e-3 * steady, 0.5 * steady, 20.0 * steady})
     for (double time : {1e-4 * steady, 0.1 * steady, 2.0 * steady, 30.0 * steady}) {
@@ -264,8 +265,8 @@ TYPED_TEST(RateStateLaw, BeginsWithTheStateGivenOrThatOfSteadySlip) {
 }
 
 TYPED_TEST(RateStateLaw, ForceSpringAndVelocityAgreeForAnyStep) {
-  // the solved equation, from creep to steps much longer than dc, with coefficients for which a
-  // plain form overflows
+  // The solution satisfies the equation, from creep to steps much longer than dc, also with
+  // coefficients for which the straightforward formula overflows.
   for (double a : {0.0008, 0.01, 0.3})
     for (double dxi : {1e-12, 1e-6, 1e-3, 0.5})
       for (double xi : {0.0, 0.2, 0.4})
@@ -286,7 +287,7 @@ TYPED_TEST(RateStateLaw, ForceSpringAndVelocityAgreeForAnyStep) {
 }
 
 TYPED_TEST(RateStateLaw, IsOfFirstOrderInTheTimeStepAtLeast) {
-  // a soft contact that is pulled, stopped and pulled back
+  // A soft contact is pulled, stopped and pulled back.
   auto work = [](int steps) {
     Driven<TypeParam> contact({2.0, 0.6, 0.01, 0.008, 0.02, 1e-3, 0.0});
     for (int n = 0; n < steps; ++n) {

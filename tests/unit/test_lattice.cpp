@@ -60,7 +60,7 @@ TEST(Lattice, FacesAreMirrorImages) {
         EXPECT_EQ(p.discs[i].plate, p.discs[j].plate);
         if (p.discs[i].fault) {
           EXPECT_DOUBLE_EQ(p.discs[j].y - p.discs[i].y, 1.5);
-          // in the middle of a bin of its width
+          // Each pair is in the middle of a bin whose width is the spacing.
           const double bin = (p.discs[i].x + s.half_length()) / 1.5 - 0.5;
           EXPECT_NEAR(bin, std::round(bin), 1e-12);
         }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Links in rows: each link once, forces and energy of a plain loop, the same digits whatever the
-// order in memory and the instruction set.
+// Links in rows: each link occurs once, forces and energy are those of a plain loop, and all digits
+// are the same whatever the order in memory and the instruction set.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,8 +19,8 @@ using LSMLinkKernel::Elastic;
 using LSMLinkRows::Link;
 using LSMLinkRows::Rows;
 
-/// Particles on a disturbed grid with links between neighbours: up to nine for one particle. Those
-/// from nlocal on are ghosts.
+/// Particles on a disturbed grid with links between neighbours, up to nine for one particle.
+/// Particles from nlocal on are ghosts.
 struct Network {
   int nlocal, nall;
   std::vector<double> x;  // three per particle
@@ -50,7 +50,7 @@ Network make_network(int side, int dim, uint64_t seed) {
   return net;
 }
 
-/// Those of its links that lead to ghosts, whose forces are not wanted.
+/// Keeps only the links that lead to ghosts, whose forces are not needed.
 Network links_to_ghosts(Network net) {
   const auto is_owned = [&](const Link &link) { return link.j < net.nlocal; };
   net.links.erase(std::remove_if(net.links.begin(), net.links.end(), is_owned), net.links.end());
@@ -65,7 +65,7 @@ struct Evaluation {
   double energy;
   std::vector<double> f;
   std::vector<LSMLinkKernel::Place> broken;
-  double virial;  // change of the energy by one rounding of each length, over epsilon
+  double virial;  // change of the energy if each length is rounded once, over epsilon
 };
 
 template <int DIM, class Law>
@@ -77,7 +77,8 @@ Evaluation evaluate(const Network &net, const Rows &rows, const Law &law, bool f
   return e;
 }
 
-/// The same by a plain loop over the links in long double; ratio 0: links do not break.
+/// The same by a plain loop over the links in long double.
+/// \param ratio breaking distance over rest length; 0: links do not break
 Evaluation plain(const Network &net, double k, double ratio, bool first_only = false) {
   std::vector<long double> f(net.x.size(), 0.0L);
   long double energy = 0.0L, virial = 0.0L;
@@ -154,7 +155,7 @@ TEST(LinkRows, FetchEachPlaceOfALaterWindow) {
       at = run.fetch_end;
     }
   }
-  EXPECT_GT(at, 2 * net.nlocal / 8);  // of three doubles each, eight in a line
+  EXPECT_GT(at, 2 * net.nlocal / 8);  // three doubles each, eight in a cache line
   EXPECT_EQ(at, static_cast<int>(rows.to_fetch.size()));
 }
 
@@ -205,7 +206,7 @@ TEST(LinkKernel, LinksThatMayBreakPullLikeOthers) {
 }
 
 TEST(LinkKernel, SameDigitsInAnyOrderInMemory) {
-  // particles change places; links and owned particles stay in the order of their IDs
+  // Particles change their places in memory; links and owned particles stay in the order of IDs.
   const Network net = make_network(50, 2, 29);
   std::vector<int> place(net.nlocal);
   std::iota(place.begin(), place.end(), 0);
@@ -287,7 +288,7 @@ void dashpots_agree(const Network &net, const Spring &spring, double ratio, bool
     EXPECT_GT(power, 10.0);
   }
 
-  // at rest nothing is added, to the last bit
+  // Without velocities the dashpots change nothing, to the last bit.
   const std::vector<double> rest(net.x.size(), 0.0);
   double none = 0.0;
   const Evaluation still =

@@ -40,7 +40,7 @@ class OutputClaims : public unit::Files {
     unit::Files::TearDown();
   }
 
-  /// Another process that holds the lock of a file until it is killed.
+  /// Starts another process that holds the lock of a file until it is killed.
   void hold(const std::string &name) {
     int ready[2];
     ASSERT_EQ(pipe(ready), 0);
@@ -146,7 +146,7 @@ TEST_F(OutputClaims, AnotherRunIsNamedWhicheverWayTheFileIs) {
     EXPECT_EQ(message.find('\n'), std::string::npos);
   }
   end_child();
-  // Killed: its lock file is still there, but no longer a lock.
+  // The process was killed: its lock file is still there, but no longer locked.
   EXPECT_TRUE(fs::exists(path("a.csv.lock")));
   { const FileLock lock(path("a.csv")); }
   EXPECT_FALSE(fs::exists(path("a.csv.lock")));
@@ -163,7 +163,7 @@ TEST_F(OutputClaims, AFileThatIsNoLockStays) {
   EXPECT_TRUE(contains(message_of<FileError>([&] { const FileLock lock(path("a.csv")); }),
                        "holds something else"));
   EXPECT_EQ(slurp(path("a.csv.lock")), "my notes\n");
-  // Nor does a link lead to another file.
+  // Nor is a symbolic link followed to another file.
   fs::remove(path("a.csv.lock"));
   spill(path("victim"), "");
   fs::create_symlink("victim", path("a.csv.lock"));

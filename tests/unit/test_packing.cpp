@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The geometry is checked against plain pairwise loops, not against the search of the packing.
+// The geometry is checked by plain loops over pairs, not with the search of the packing itself.
 
 #include "fault/frequency.h"
 #include "fault/packing.h"
@@ -27,7 +27,7 @@ LSM::PackingSettings settings(double length, std::uint64_t seed = 1) {
   return s;
 }
 
-// Shortest distance of the surfaces over the periodic images in x.
+// Distance between the surfaces of two discs, the shortest over the periodic images in x.
 double gap(const LSM::Disc &a, const LSM::Disc &b, double length) {
   double dx = std::fabs(a.x - b.x);
   dx = std::min(dx, length - dx);
@@ -59,7 +59,7 @@ TEST_F(PackingOf40, RadiiAreInRange) {
   }
   EXPECT_GE(smallest, 0.1);
   EXPECT_LE(largest, 1.0);
-  // both ends of the range are made use of
+  // The radii cover the range up to both ends.
   EXPECT_LT(smallest, 0.11);
   EXPECT_GT(largest, 0.95);
   EXPECT_EQ(smallest, packing().rmin_found);
@@ -101,8 +101,8 @@ TEST_F(PackingOf40, NoLinkCrossesTheFault) {
 }
 
 TEST_F(PackingOf40, TangenciesAreExact) {
-  // Three objects touch each disc placed by the filling stage. Pairs that come closer than the link
-  // gap by chance are rare; all others are tangent to rounding.
+  // Each disc placed by the filling stage touches three objects. Pairs that come closer than the
+  // link gap by chance are rare; all others are tangent to rounding.
   int exact = 0;
   for (const auto &l : packing().links)
     if (std::fabs(gap(disc(l.first), disc(l.second), length)) < 1e-12) ++exact;
@@ -110,7 +110,7 @@ TEST_F(PackingOf40, TangenciesAreExact) {
 }
 
 TEST_F(PackingOf40, LargestClusterOfLinksIsTheWholeBlock) {
-  // union-find over the links; no piece hangs on nothing
+  // Union-find over the links; no part is disconnected from the rest.
   std::vector<int> root(packing().discs.size());
   for (int i = 0; i < count(); ++i) root[static_cast<std::size_t>(i)] = i;
   const auto find = [&](int i) {
@@ -136,7 +136,7 @@ TEST_F(PackingOf40, LargestClusterOfLinksIsTheWholeBlock) {
 }
 
 TEST_F(PackingOf40, SeamIsLikeTheInside) {
-  // links across x = 0 against the mean over lines x = const inside
+  // Compares the number of links across x = 0 with the mean over lines x = const inside.
   const auto crossing = [&](double at) {
     int n = 0;
     for (const auto &l : packing().links) {
@@ -189,8 +189,8 @@ TEST_F(PackingOf40, FiguresAreThoseOfThePaper) {
               1e-12);
 }
 
-// The loose discs found by a slow second way: take out any disc with fewer than three links until
-// none is left.
+// Loose discs, found in another, slower way: remove any disc with fewer than three links until
+// there is none.
 TEST_F(PackingOf40, LooseDiscsAreExactlyThoseTakenOut) {
   LSM::PackingSettings s = settings(length);
   s.remove_loose = false;
@@ -224,10 +224,10 @@ TEST_F(PackingOf40, LooseDiscsAreExactlyThoseTakenOut) {
   EXPECT_EQ(all.loose, loose);
   EXPECT_EQ(all.loose_tangent, loose_tangent);
   EXPECT_GT(loose_tangent,
-            30);  // most of them lie at the fault: they were fitted to two discs and its line
+            30);  // most lie at the fault, where they were fitted to two discs and its line
   EXPECT_EQ(packing().loose, gone);
   EXPECT_EQ(packing().loose_tangent, gone_tangent);
-  EXPECT_GT(gone, loose);  // some are only held by those
+  EXPECT_GT(gone, loose);  // some are held only by loose discs
   std::size_t at = 0;
   for (std::size_t i = 0; i < all.discs.size(); ++i) {
     if (!there[i]) continue;
@@ -240,7 +240,8 @@ TEST_F(PackingOf40, LooseDiscsAreExactlyThoseTakenOut) {
 }
 
 TEST_F(PackingOf40, EachDiscIsHeldInEveryDirection) {
-  // work of the links of a disc when it alone moves by a unit length: the least over all directions
+  // Work of the links of a disc when it alone moves by a unit length: the minimum over all
+  // directions.
   std::vector<std::vector<std::pair<double, double>>> normals(packing().discs.size());
   for (const auto &l : packing().links) {
     double dx = disc(l.second).x - disc(l.first).x;
@@ -266,7 +267,7 @@ TEST_F(PackingOf40, EachDiscIsHeldInEveryDirection) {
 }
 
 TEST(Packing, PiecesThatHangOnNothingAreTakenOut) {
-  // so few discs are fitted that many seeds touch nothing
+  // So few discs are fitted that many seeds touch no other disc.
   LSM::PackingSettings s = settings(20.0);
   s.max_failures = 40;
   const LSM::Packing p = LSM::make_packing(s);
@@ -301,7 +302,7 @@ TEST(Packing, IsTheSameForTheSameSeed) {
 TEST(Packing, DiffersForAnotherSeed) {
   const LSM::Packing a = LSM::make_packing(settings(20.0, 7)),
                      b = LSM::make_packing(settings(20.0, 8));
-  // the grid of the first discs does not depend on the seed, their radii do
+  // The grid of the first discs does not depend on the seed, but their radii do.
   std::set<double> radii;
   for (const auto &d : a.discs) radii.insert(d.r);
   int same = 0;
@@ -309,15 +310,15 @@ TEST(Packing, DiffersForAnotherSeed) {
   EXPECT_EQ(same, 0);
 }
 
-// A period of the faces makes a long fault slip in step with itself. Structure factors of discs at
-// random places, no two in one, are smooth functions of the wavelength, with an exponential
-// distribution around it; a period is a line. That of a grid of seeds (spacing 1 and 2) was 16
-// times its surroundings at length 480. A mean over n packings exceeds r times its expectation with
-// probability exp(-n (r - 1 - ln r)) at most; the bounds are for 1e-9.
+// If the faces are periodic, distant parts of a long fault slip in step. The structure factor of
+// discs at random places without overlap is a smooth function of the wavelength, around which
+// values are distributed exponentially; a period appears as a line. That of a grid of seeds
+// (spacing 1 and 2) was 16 times its surroundings at length 480. A mean over n packings exceeds r
+// times its expectation with probability exp(-n (r - 1 - ln r)) at most; the bounds are for 1e-9.
 struct FacePeriods {
-  double highest = 0.0;   ///< structure factor over the mean of its surroundings
-  double coherent = 0.0;  ///< of the sum over the packings, over the same
-  double at_highest = 0.0, at_coherent = 0.0;  ///< wavelengths
+  double highest = 0.0;   ///< largest ratio of a structure factor to the mean of its surroundings
+  double coherent = 0.0;  ///< the same for the coherent sum over the packings
+  double at_highest = 0.0, at_coherent = 0.0;  ///< their wavelengths
 };
 
 std::vector<double> face_places(const LSM::Packing &packing, int block) {
@@ -379,7 +380,7 @@ void expect_no_period(double length, int packings, double highest) {
   for (const auto *faces : {&lower, &upper, &both}) {
     const FacePeriods found = face_periods(*faces, length);
     EXPECT_LT(found.highest, highest) << "at wavelength " << found.at_highest;
-    // exponential: 1e-9 / (number of wavelengths)
+    // exponential distribution, with probability 1e-9 / (number of wavelengths)
     EXPECT_LT(found.coherent, 21.0 + std::log(5.0 * length)) << "at " << found.at_coherent;
   }
 }
@@ -390,7 +391,7 @@ TEST(Packing, FacesHaveNoPeriodAndPackingsNothingInCommon) {
 }
 
 TEST(Packing, FacesOnAGridAreFound) {
-  // what the test above would see of the same discs on a grid, smeared over half its spacing
+  // The test above must detect the same discs on a grid, blurred by half of its spacing.
   std::vector<std::vector<double>> faces;
   LSM::Random random(1);
   for (int n = 0; n < 24; ++n) {
@@ -413,7 +414,7 @@ TEST(Packing, BlocksDoNotMirrorEachOther) {
 TEST(Packing, DoesNotDependOnTheUnitOfLength) {
   LSM::PackingSettings s = settings(20.0);
   const LSM::Packing p = LSM::make_packing(s);
-  // a power of two, so that every digit is the same
+  // The unit is a power of two, so that every digit must be the same.
   const double unit = 1024.0;
   for (double *length : {&s.length, &s.width, &s.rmin, &s.rmax, &s.link_gap, &s.fault_zone})
     *length *= unit;
@@ -469,7 +470,7 @@ TEST(Packing, MirrorMakesTheUpperBlockAnImageOfTheLowerOne) {
   }
   EXPECT_EQ(2 * mirrored, p.links.size());
 
-  // the lower block is the one without the mirror
+  // The lower block is the same as without the mirror image.
   s.mirror = false;
   std::set<Place> below;
   for (const LSM::Disc &d : LSM::make_packing(s).discs)
@@ -495,7 +496,7 @@ TEST(Packing, FewFailuresGiveALooserPacking) {
   EXPECT_LT(loose.tries, dense.tries);
 }
 
-// The smallest scenes have the narrowest room for the periodic search.
+// The smallest scenes leave the least room for the periodic search.
 TEST(Packing, SmallestLengthAndOtherSizesHaveNoOverlap) {
   struct Case {
     double length, width, rmin, rmax;
@@ -508,7 +509,7 @@ TEST(Packing, SmallestLengthAndOtherSizesHaveNoOverlap) {
     s.width = c.width;
     s.rmin = c.rmin;
     s.rmax = c.rmax;
-    s.remove_loose = false;  // in some of these no disc would be left
+    s.remove_loose = false;  // in some cases no disc would be left
     const LSM::Packing p = LSM::make_packing(s);
     ASSERT_GT(p.discs.size(), 10u);
     std::size_t tangent = 0;
@@ -529,8 +530,8 @@ TEST(Packing, SmallestLengthAndOtherSizesHaveNoOverlap) {
   }
 }
 
-// The largest time step for the links and the contacts (k = kt = 1) that there are when the upper
-// block is pushed down by `depth` and along the fault by `shift`.
+// Largest stable time step for the links, and the contacts (k = kt = 1) that exist when the upper
+// block has been pushed down by `depth` and along the fault by `shift`.
 double step_limit(LSM::Packing p, double length, const std::vector<double> &masses, double depth,
                   double shift) {
   for (LSM::Disc &d : p.discs)
@@ -586,7 +587,7 @@ TEST(Packing, MassesForAStepCountTheRoomForNeighbours) {
   const std::vector<double> masses = LSM::masses_for_step(p, 20.0, 0.1, 2.0, 3.0);
   EXPECT_NEAR(masses[0], 0.5 * 0.01 * (2.0 + 5.0 * 3.0), 1e-15);
   EXPECT_EQ(masses[1],
-            masses[0]);  // discs of a plate, too: the check of the step takes all as free
+            masses[0]);  // discs of plates too, as the check of the step treats all as free
 }
 
 // Each bad setting is refused with a message that names it.

@@ -66,7 +66,7 @@ class PeSeries : public unit::Files {
  protected:
   std::string file() const { return path("pe.dat"); }
 
-  /// Samples at steps 100, 102, ..., last.
+  /// Writes samples at steps 100, 102, ..., last.
   void write_series(std::int64_t last, const PeSeriesInfo &info = some_info()) {
     PeSeriesWriter writer;
     writer.create(file(), info);
@@ -152,7 +152,7 @@ TEST_F(PeSeries, OwnTimesOutOfOrderAreRefused) {
   writer.write(102, 8.0, 2.0);
   writer.close();
   EXPECT_EQ(read_all(file()).size(), 2U);
-  // The same by hand, past the writer.
+  // The same file, changed without the writer.
   std::string bytes = slurp(file());
   bytes[bytes.size() - 10] = '\x1c';  // 8 becomes 7
   spill(file(), bytes);
@@ -245,7 +245,7 @@ TEST_F(PeSeries, FlushMakesSamplesVisible) {
   for (std::int64_t step = 100; step < 120; step += 2) writer.write(step, some_pe(step));
   writer.flush();
   EXPECT_EQ(read_all(file()).size(), 10U);
-  // Whole samples only, whatever has been handed over so far.
+  // A reader gets whole samples only, however much has been written so far.
   for (std::int64_t step = 120; step < 30000; step += 2) writer.write(step, some_pe(step));
   EXPECT_GT(read_all(file()).size(), 1000U);
 }

@@ -11,7 +11,7 @@
 
 namespace {
 
-// Reference values: the C++ standard demands the 10000th one, the first ones are those of the
+// Reference values: the C++ standard prescribes the 10000th one; the first ones are those of the
 // authors' mt19937-64.c seeded by init_genrand64(5489).
 constexpr std::uint64_t default_seed = 5489;
 
@@ -50,7 +50,7 @@ TEST(Random, UniformStaysInTheHalfOpenInterval) {
 }
 
 TEST(Random, UpperEndIsNeverReachedByRounding) {
-  // Only two doubles in the closed interval: half of the products round up to the excluded end.
+  // The closed interval has only two doubles: half of the products round up to the excluded end.
   const double hi = std::nextafter(1.0, 2.0);
   LSM::Random random(3);
   for (int i = 0; i < 100; ++i) ASSERT_EQ(random.uniform(1.0, hi), 1.0);

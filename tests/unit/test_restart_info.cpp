@@ -78,7 +78,7 @@ TEST_F(RestartInfo, TheSettingsAreCheckedAsWell) {
     other[at] = static_cast<char>(other[at] ^ 1);
     spill(info, other);
     try {
-      // Only the name at the end, which is for people, may be another.
+      // Only the name at the end, which is meant for people, may differ.
       EXPECT_EQ(check_restart(file), settings);
       EXPECT_GT(at, text.rfind(' ')) << "place " << at << " of\n" << text;
     } catch (const FileError &) {
@@ -104,7 +104,7 @@ TEST_F(RestartInfo, TheLineOfCksumWillDo) {
   EXPECT_TRUE(check_restart(file).empty());
 }
 
-// Whatever was interrupted, a file with an info is whole.
+// A file that has an info file is complete, whatever was interrupted.
 TEST_F(RestartInfo, OlderFileOfTheNameIsReplaced) {
   spill(path("draft"), "newer");
   fs::create_directory(info + ".new");  // the info cannot be written

@@ -56,7 +56,8 @@ FaultRow row_of(const std::string &line, int n) {
   return row;
 }
 
-/// Restores the finder from its state after each interval if asked for.
+/// Finds the ruptures of a pattern.
+/// \param restarts whether to restore the finder from its state after each interval
 std::vector<Event> find(Pattern pattern, const FaultGrid &grid, const RuptureSettings &settings,
                         bool restarts = false) {
   std::vector<Event> events;
@@ -78,7 +79,7 @@ std::vector<Event> find(Pattern pattern, const FaultGrid &grid, const RuptureSet
   return events;
 }
 
-/// The same as a history.
+/// The same pattern as a slip history.
 std::vector<LSM::SlipRecord> records_of(Pattern pattern, const FaultGrid &grid,
                                         std::int64_t memory) {
   const std::string quiet(static_cast<std::size_t>(grid.bins), '.');
@@ -96,7 +97,7 @@ std::vector<LSM::SlipRecord> records_of(Pattern pattern, const FaultGrid &grid,
   return records;
 }
 
-constexpr double rounding = 1e-7;  // of floats
+constexpr double rounding = 1e-7;  // relative error of floats
 
 TEST(FaultRuptures, OneWithAllItsNumbers) {
   const std::vector<Event> events = find({"..........",  //
@@ -120,7 +121,7 @@ TEST(FaultRuptures, OneWithAllItsNumbers) {
   EXPECT_NEAR(e.mean_slip, 0.1 / 3.0, rounding);
   // Slips 3, 4, 3 in the bins 1, 2, 3; the middle one has its centre at 0.
   EXPECT_NEAR(e.x_centroid, 0.0, 1e-6);
-  // From interval 1, before it, to interval 5, the first after it.
+  // The stress drop is that from interval 1, before the rupture, to interval 5, the first after it.
   EXPECT_NEAR(e.stress_drop, 0.04, rounding);
 }
 
@@ -133,7 +134,7 @@ TEST(FaultRuptures, AcrossTheSeam) {
   EXPECT_EQ(events[0].rupture_length, 6.0);
   EXPECT_EQ(events[0].x_begin, 11.0);
   EXPECT_EQ(events[0].x_hypocentre, -4.0);
-  // Slips 3, 2, 3 in the bins 0, 9, 8: the middle one.
+  // Slips of 3, 2, 3 in the bins 0, 9, 8: the centre is that of the middle one.
   EXPECT_NEAR(events[0].x_centroid, 14.0, 1e-6);
 }
 
@@ -144,7 +145,7 @@ TEST(FaultRuptures, SlipsBelowTheVelocityDoNotCount) {
   ASSERT_EQ(events.size(), 1U);
   EXPECT_EQ(events[0].rupture_length, 2.0);
   EXPECT_NEAR(events[0].slip_moment, 0.5 * 0.02 * 2.0, rounding);
-  // Exactly at the velocity is not above it: 0.25 is the same as a float and as a double.
+  // A velocity equal to the threshold is not above it: 0.25 is exact as a float and as a double.
   FaultGrid grid = some_grid();
   settings.velocity = 0.25 / grid.duration();
   RuptureFinder finder(grid, settings);
@@ -186,7 +187,7 @@ TEST(FaultRuptures, GapsAndMemoryConnect) {
   EXPECT_EQ(find(pause, some_grid(), some_settings(0, 1)).size(), 2U);
   EXPECT_EQ(find(pause, some_grid(), some_settings(0, 2)).size(), 1U);
 
-  // The gap across the seam counts, too; ends no farther apart than a gap close the ring.
+  // The gap across the seam counts, too: ends no farther apart than a gap close the ring.
   const std::vector<Event> seam = find({"1.......1."}, some_grid(), some_settings(1));
   ASSERT_EQ(seam.size(), 1U);
   EXPECT_EQ(seam[0].x_begin, 11.0);
@@ -251,7 +252,8 @@ TEST(FaultRuptures, RandomPatternsAgreeWithASearch) {
 }
 
 TEST(FaultRuptures, HypocentreIsWhereMostSlippedFirst) {
-  // The two of the first interval meet later; the one that slipped more stays the first.
+  // The two ruptures of the first interval meet later; the one that slipped more has the
+  // hypocentre.
   const std::vector<Event> events = find({"3...5.....",  //
                                           "91.19.....",  //
                                           ".111......"},
@@ -260,7 +262,7 @@ TEST(FaultRuptures, HypocentreIsWhereMostSlippedFirst) {
   EXPECT_EQ(events[0].x_hypocentre, 4.0);
   EXPECT_EQ(events[0].rupture_length, 10.0);
 
-  // A later one does not take it over, however much it slips in its first interval.
+  // A later rupture does not get the hypocentre, however much it slips in its first interval.
   const std::vector<Event> later = find({"..1.......",  //
                                          "..1..9....",  //
                                          "..1111...."},
@@ -293,7 +295,7 @@ TEST(SlipRecorder, SlipOfTheFacesWorkAndStressOfTheContacts) {
   const FaultGrid grid = some_grid();
   LSM::SlipRecorder sums;
   sums.begin(grid, 1.0);
-  // Contacts in bin 2 in each of 4 steps, one of them seen by two ranks.
+  // There are two contacts in bin 2 in each of 4 steps, one of which two ranks have.
   for (int step = 0; step < 4; ++step)
     sums.add(Contacts{{-0.5, 0.002, 0.1, 1.0}, {0.5, 0.006, 0.3, 0.5}, {0.5, 0.006, 0.3, 0.5}});
   // The upper face moves in bins 2 (two particles) and 9, the lower one has a particle in bin 5.
@@ -306,7 +308,7 @@ TEST(SlipRecorder, SlipOfTheFacesWorkAndStressOfTheContacts) {
   EXPECT_FLOAT_EQ(row.work[2], 4 * 0.008F);
   EXPECT_FLOAT_EQ(row.stress[2], 0.4F / 2.0F);
   EXPECT_FLOAT_EQ(row.slip[9], 0.008F + 0.01F);
-  // Bins without particles of a face: linear in between, across the seam, too.
+  // In bins without particles of a face, slip is interpolated linearly, across the seam, too.
   EXPECT_FLOAT_EQ(row.slip[3], 0.04F - 0.032F / 7.0F + 0.01F);
   EXPECT_FLOAT_EQ(row.slip[8], 0.008F + 0.032F / 7.0F + 0.01F);
   EXPECT_FLOAT_EQ(row.slip[0], 0.008F + 0.032F / 3.0F + 0.01F);
@@ -315,7 +317,8 @@ TEST(SlipRecorder, SlipOfTheFacesWorkAndStressOfTheContacts) {
   EXPECT_EQ(row.stress[3], 0.0F);
 }
 
-// Added twice within an interval (a restart file is written in between), it is the same slip.
+// Slip that is added in two parts within an interval (when a restart file is written in between) is
+// the same.
 TEST(SlipRecorder, PartsOfAnIntervalAddUp) {
   LSM::SlipRecorder sums;
   sums.begin(some_grid(), 1.0);

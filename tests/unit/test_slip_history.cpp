@@ -71,7 +71,7 @@ class SlipHistory : public unit::Files {
   std::string file() const { return path("slip.bin"); }
   bool active(int n) const { return n >= 7 && n <= 9; }
 
-  /// Intervals first + 1 to last, quiet but for 7, 8 and 9.
+  /// Adds the intervals first + 1 to last, which are quiet except 7, 8 and 9.
   void go_on(SlipHistoryWriter &writer, int first, int last) const {
     for (int n = first + 1; n <= last; ++n)
       writer.add(100 + 10 * n, -0.5 * n, some_row(n), active(n));

@@ -79,7 +79,7 @@ TEST(SumPairwise, ErrorGrowsWithTheLogarithmOfTheLength) {
   const double exact = 0.1 * static_cast<double>(values.size());  // exact: a power of two
   double plain = 0.0;
   for (double value : values) plain += value;
-  // 32 additions in the innermost loop and 15 halvings, half an ulp each.
+  // The error is half an ulp for each of 32 additions in the innermost loop and of 15 halvings.
   const double bound = (32 + 15) * 0.5 * std::numeric_limits<double>::epsilon() * exact;
   EXPECT_LE(std::fabs(LSM::sum_pairwise(values.data(), values.size()) - exact), bound);
   EXPECT_GT(std::fabs(plain - exact), bound);

@@ -49,7 +49,7 @@ TEST(Watchdog, NotFinite) {
 
 TEST(Watchdog, WithinAStepOnlyWhatCannotWaitStops) {
   Watchdog watchdog({0.5, 0.0, 1000});
-  // Two discs of 2 apart, ghosts up to 3.6: a strain of 0.8 tears the link.
+  // Two discs at a distance of 2, ghosts up to 3.6: at a strain of 0.8 the partner is out of reach.
   EXPECT_EQ(watchdog.check_links(0.3, 2.0, 3.6), "");
   EXPECT_FALSE(watchdog.due(1));
   EXPECT_EQ(watchdog.check_links(0.7, 2.0, 3.6), "");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Files and locales of the unit tests.
+// Files and locales for the unit tests.
 #ifndef LSM_UNIT_FILES_H
 #define LSM_UNIT_FILES_H
 
@@ -18,7 +18,8 @@
 
 namespace unit {
 
-/// A separate folder for each test, there before its members are made, removed afterwards.
+/// A separate folder for each test, which exists before the members of the fixture are constructed
+/// and is removed afterwards.
 class Files : public ::testing::Test {
  protected:
   Files() {
@@ -44,7 +45,8 @@ inline void spill(const std::string &path, const std::string &text) {
   std::ofstream(path, std::ios::binary) << text;
 }
 
-/// Goes on with a file as a run restarted from last_step does; returns the number of rows kept.
+/// Continues a file as a run restarted from last_step does.
+/// \return number of rows kept
 template <class Writer, class Info, class... Expected>
 std::int64_t resume(Writer &writer, const std::string &path, const Info &info,
                     std::int64_t last_step, const std::vector<std::string> &ignore = {},
@@ -82,8 +84,8 @@ class CommaFacet : public std::numpunct<char> {
   std::string do_grouping() const override { return "\3"; }
 };
 
-/// Makes such a locale the global one for the lifetime of the object; the C locale too, if one of
-/// this kind is installed.
+/// Makes such a locale the global one for the lifetime of the object, and that of C as well if one
+/// of this kind is installed.
 class CommaLocale {
  public:
   CommaLocale()
