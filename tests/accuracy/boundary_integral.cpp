@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Spontaneous mode II rupture between two elastic half-spaces by a spectral boundary integral: the
-// reference for the ruptures of the lattice, with no mesh, no borders and no waves to follow
-// through the blocks.
+// Spontaneous mode II rupture between two elastic half-spaces by a spectral boundary integral
+// method: the reference for the ruptures of the lattice, without mesh, borders, or waves computed
+// in the blocks.
 //
 // On the fault (Perrin, Rice and Zheng 1995; Geubelle and Rice 1995; Cochard and Rice 1997)
 //   tau(x, t) = tau0 + f(x, t) - mu / (2 cs) V,
@@ -9,11 +9,11 @@
 //   F(k, t) = -(mu |k| / 2) integral_0^t C(|k| cs s) D(k, t - s) |k| cs ds,
 //   C(T) = J1(T) / T + 4 T (W(kappa T) - W(T)) + 3 J0(T) - (4 / kappa) J0(kappa T),
 //   W(T) = 1 - integral_0^T J1(u) / u du, kappa = cp / cs, D: slip.
-// D is taken as linear in each time step, and the kernel integrated over it; slip goes on by Heun's
-// scheme.
+// D is taken as linear in each time step, over which the kernel is integrated; slip is integrated
+// by Heun's scheme.
 //
 //   lsm_boundary_integral PROBLEM SPACING END EVERY [RATIO] > CSV, with PROBLEM tpv205 or tpv3, in
-//   metres and seconds; RATIO is cp / cs, sqrt 3 unless given, with cs as it is
+//   metres and seconds; RATIO is cp / cs, sqrt 3 unless given, at an unchanged cs
 
 #include <fftw3.h>
 
@@ -34,7 +34,7 @@ constexpr double rho = 2670.0, cp = 6000.0, mu_static = 0.677, mu_dynamic = 0.52
 constexpr double normal_stress = 120e6, half_fault = 15000.0, period = 102400.0;
 const double cs = cp / std::sqrt(3.0), mu = rho * cs * cs;
 
-/// C on a fine grid of its argument.
+/// C, tabulated on a fine grid.
 class Kernel {
  public:
   Kernel(double end, double kappa) {
@@ -82,7 +82,7 @@ class Fault {
         spectrum_(modes_) {
     for (std::size_t i = 0; i < n_; ++i) {
       const double at = x(i), e = 0.01 * dx_;
-      // a place at the edge of a patch has the mean of both sides
+      // A place at the edge of a patch gets the mean of both sides.
       const auto within = [at, e](double lo, double hi) {
         return 0.5 * ((at > lo + e && at < hi - e) + (at > lo - e && at < hi + e));
       };
@@ -112,7 +112,7 @@ class Fault {
   double dt() const { return dt_; }
   std::size_t steps() const { return steps_; }
 
-  /// Sets the slip rates of a step, then the slip of the next.
+  /// Computes the slip rates of a step, then the slip of the next step.
   void step(std::size_t n) {
     find_rate(n, slip, rate);
     std::vector<double> tried = slip, then(n_);
@@ -124,7 +124,7 @@ class Fault {
   void advance() { slip = after_; }
 
  private:
-  /// Weights of the slip m steps ago: integral of the kernel times a hat function.
+  /// Computes the weights of the slip m steps ago: integrals of the kernel times a hat function.
   void make_weights(double kappa) {
     const Kernel kernel(pi / dx_ * cs * dt_ * static_cast<double>(steps_ + 2), kappa);
     weights_.assign(modes_ * (steps_ + 2), 0.0);
@@ -145,13 +145,13 @@ class Fault {
     }
   }
 
-  /// Slip rate of step n with the slip d, which goes into the history.
+  /// Computes the slip rate of step n for the slip d, which is stored in the history.
   void find_rate(std::size_t n, const std::vector<double> &d, std::vector<double> &v) {
     real_ = d;
     fftw_execute(forward_);
     const std::size_t row = steps_ + 2;
     for (std::size_t k = 0; k < modes_; ++k) {
-      // the latest slip last in memory, the weights the other way round
+      // The history is stored in reverse order, so that it is multiplied by the weights in order.
       history_[0][k * row + row - 1 - n] = spectrum_[k].real();
       history_[1][k * row + row - 1 - n] = spectrum_[k].imag();
     }
@@ -196,7 +196,7 @@ class Fault {
   std::array<std::vector<double>, 2> history_;  // by mode, then by step, the latest first
 };
 
-/// Samples of a place, thinned out to what straight lines between them leave out by less than a
+/// Samples of a place. Printed are as few as linear interpolation needs for an error below a
 /// thousandth.
 struct Station {
   std::size_t place;

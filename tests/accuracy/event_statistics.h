@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file event_statistics.h
-/// Event sizes and times in a few numbers, and tests of whether samples agree.
+/// Summary statistics of event sizes and times, and tests of whether samples agree.
 #ifndef LSM_ACCURACY_EVENT_STATISTICS_H
 #define LSM_ACCURACY_EVENT_STATISTICS_H
 
@@ -19,7 +19,7 @@ struct Estimate {
   double value = NAN, error = NAN;
 };
 
-/// Mean, with the error of independent samples.
+/// Mean, with the standard error for independent samples.
 inline Estimate mean(const std::vector<double> &x) {
   double sum = 0.0, squares = 0.0;
   for (double v : x) sum += v;
@@ -28,7 +28,7 @@ inline Estimate mean(const std::vector<double> &x) {
   return {m, std::sqrt(squares / (n - 1.0) / n)};
 }
 
-/// <s^2> / <s>, the characteristic size, with the error of linear propagation.
+/// The characteristic size <s^2> / <s>, with its error by linear propagation.
 inline Estimate characteristic_size(const std::vector<double> &x) {
   double s1 = 0.0, s2 = 0.0, var = 0.0;
   for (double v : x) {
@@ -65,7 +65,7 @@ inline Estimate exponent(const std::vector<double> &x, double lo, double hi) {
   return {1.0 - b, 1.0 / std::sqrt(n * variance)};
 }
 
-/// Largest distance of the two cumulative distributions, and the probability of a larger one if
+/// Largest distance between two cumulative distributions, and the probability of a larger one if
 /// both samples come from the same distribution (asymptotic, with Stephens' correction).
 struct KolmogorovSmirnov {
   double distance, p;
@@ -101,7 +101,8 @@ inline std::pair<double, double> polygamma(double x) {
   return {first, second};
 }
 
-/// Density ~ t^(gamma - 1) exp(-t / b) of times by maximum likelihood; NaN with fewer than 10.
+/// Fit of a density ~ t^(gamma - 1) exp(-t / b) to times by maximum likelihood; NaN with fewer than
+/// 10 times.
 struct GammaDensity {
   Estimate gamma, b;
 };
@@ -126,7 +127,7 @@ inline GammaDensity gamma_density(const std::vector<double> &t) {
           {b, b * std::sqrt(second / (n * (gamma * second - 1.0)))}};
 }
 
-/// Probability that chi-square with so many degrees of freedom exceeds x.
+/// Probability that chi-square with the given degrees of freedom exceeds x.
 inline double chi_square_tail(double x, int freedom) {
   if (freedom < 1 || !(x >= 0.0)) throw std::runtime_error("chi_square_tail: out of range");
   const double half = 0.5 * x;
@@ -140,9 +141,9 @@ inline double chi_square_tail(double x, int freedom) {
   return tail;
 }
 
-/// Do estimates from several time steps agree? p_same: chance of a larger scatter (chi-square) if
-/// all have the same true value; p_trend: of a larger slope against the time step. 1 with fewer
-/// than two estimates or time steps.
+/// Do estimates from several time steps agree? If all have the same true value, p_same is the
+/// probability of a larger scatter (chi-square), and p_trend that of a larger slope against the
+/// time step. Both are 1 with fewer than two estimates or time steps.
 struct Agreement {
   double p_same = 1.0, p_trend = 1.0;
 };
@@ -171,17 +172,18 @@ inline Agreement agreement(const std::vector<double> &dt, const std::vector<Esti
   return {chi_square_tail(chi, n - 1), xx > 0.0 ? chi_square_tail(xy * xy / xx, 1) : 1.0};
 }
 
-/// Events of two runs paired one to one by their starts (both in order of time).
+/// Events of two runs, paired one to one by their starts (both in order of time).
 struct Pairs {
   int both = 0, only_first = 0, only_second = 0;
-  /// Chance of a larger difference of the two numbers if an event missing in one run is as likely
-  /// missing in the other (McNemar's test with correction for continuity).
+  /// Probability of a larger difference between the two numbers if an event is equally likely to be
+  /// missing in either run (McNemar's test with correction for continuity).
   double p() const {
     const double off = std::abs(only_first - only_second), all = only_first + only_second;
     return off > 1.0 ? chi_square_tail((off - 1.0) * (off - 1.0) / all, 1) : 1.0;
   }
 };
-/// \param near  largest distance of two starts of a pair
+/// Pairs the events of two runs.
+/// \param near largest distance between the two starts of a pair
 inline Pairs paired(const std::vector<double> &first, const std::vector<double> &second,
                     double near) {
   Pairs pairs;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Lattice solid fault: error against run time of one event and of waves; from which size the
+// Lattice solid fault: error against run time of one event and of waves; the size above which the
 // catalogue of long runs depends neither on the time step nor on the number of ranks; loose discs;
 // picker readings; summation errors. Runs lmp and writes tables fault_*.csv.
 // Usage: lsm_accuracy_fault FOLDER full|quick LMP INPUTS SCENES MPIEXEC...
-// LSM_ACCURACY_PARTS: names of the parts to run, separated by commas; long runs that have ended in
-// FOLDER/work with the same command are then taken from there.
+// LSM_ACCURACY_PARTS: names of the parts to run, separated by commas; long runs that were completed
+// in FOLDER/work with the same command are not repeated then.
 #include <sys/wait.h>
 
 #include <algorithm>
@@ -40,7 +40,7 @@ using Variables = std::vector<std::pair<std::string, std::string>>;
 std::string folder, lmp, inputs, scenes, mpiexec;
 bool quick = false;
 
-// as in fault_event.in and fault.in
+// The same values as in fault_event.in and fault.in.
 constexpr double length = 60.0, width = 30.0, stress = 0.02, velocity = 0.00025, memory = 0.5,
                  impedance = 0.6, compression = 1200.0;
 
@@ -51,7 +51,7 @@ std::string text(double value) {
 }
 std::string work(const std::string &name) { return folder + "/work/" + name; }
 
-/// Rows of a table of the report; fails if it cannot be written.
+/// Writes the rows of a table of the report; throws if it cannot be written.
 class Table {
  public:
   Table(const std::string &name, const char *columns)
@@ -74,16 +74,16 @@ class Table {
 
 /// Output of one run of lmp.
 struct Run {
-  double seconds = 0.0;                   ///< CPU time of the last 'run' command on one rank
-  double cpu = 0.0;                       ///< CPU time of all of it on all ranks, if it has a name
-  std::map<std::string, double> last;     ///< last thermo row
+  double seconds = 0.0;                ///< CPU time of the last 'run' command on one rank
+  double cpu = 0.0;                    ///< CPU time of the whole run on all ranks, if it has a name
+  std::map<std::string, double> last;  ///< last thermo row
   std::map<std::string, double> printed;  ///< lines "name = number"
 };
 
 /// Runs lmp in the folder of the report.
-/// \param name  if given, of its output, NAME.out and with the command itself NAME.command; a run
-/// that has ended with the same command is not repeated
-/// \throws std::runtime_error with its line of error.
+/// \param name if given, the output is in NAME.out and the command in NAME.command, and a run that
+/// was completed with the same command is not repeated
+/// \throws std::runtime_error with the error line of lmp
 Run run(const std::string &script, const Variables &variables, int ranks = 1,
         const std::string &name = "") {
   std::string command;
@@ -196,7 +196,7 @@ Saved prepare(const Variant &v) {
   if (known.count(v.name)) return known[v.name];
   const std::string prefix = std::string("load_") + v.name;
   const double large = 1e-2, dt = 0.03;
-  // States are saved rarely at first, then often, starting from the last of them.
+  // States are saved rarely at first, then often from the last of these on.
   const std::int64_t seldom = 8192, often = 512;
   Variables variables = {{"kt", text(v.kt)},
                          {"viscosity", text(v.viscosity)},
@@ -211,7 +211,7 @@ Saved prepare(const Variant &v) {
   event_run(with({{"every", text(seldom)}, {"steps", "400000"}, {"enough", text(large)}}));
   for (const auto &e : events_of(prefix + ".csv"))
     if (e.size >= large) {
-      // records of the patch then fall on the same times for every time step
+      // With this, the records of the patch are at the same times for every time step.
       const std::int64_t step = (e.step_start - 200) / often * often,
                          before = step / seldom * seldom;
       if (step > before)
@@ -238,8 +238,8 @@ struct Outcome {
   double size = NAN, arrival = NAN;
 };
 
-/// When the velocity of the patch has changed by half of its largest change, linear between
-/// records.
+/// Time at which the velocity of the patch has changed by half of its largest change, interpolated
+/// linearly between records.
 double arrival_time(const std::string &file) {
   std::ifstream in(work(file));
   std::vector<std::array<double, 2>> change;
@@ -337,8 +337,8 @@ void single_events() {
     sweep("step", "step", "split", time_steps);
     if (v.name != standard.name) continue;
     sweep("force", "located", "force", time_steps);  // several times the run time
-    // Effect of the preset for statistics on one event: larger masses delay it, so it is recorded
-    // for longer.
+    // Effect of the preset for statistics on one event, which is recorded for longer, as larger
+    // masses delay it.
     saved.time += 24.0;
     exact = one_event(saved, v, "located", "split", finest);
     slip = slip_of(exact);
@@ -351,7 +351,7 @@ void single_events() {
 
 // ---- ways of solving friction -------------------------------------------------------------------
 
-/// The saved state as lmp has it.
+/// Reads the state that lmp has saved.
 Accuracy::Scene small_fault(const Saved &saved, const Variant &v) {
   using Accuracy::Side;
   event_run({{"resume", "yes"},
@@ -382,7 +382,7 @@ Accuracy::Scene small_fault(const Saved &saved, const Variant &v) {
     c.j = index(row.at(1));
     const auto &i = scene.discs.at(static_cast<std::size_t>(c.i)),
                &j = scene.discs.at(static_cast<std::size_t>(c.j));
-    // the elongation is the same seen from either disc
+    // The elongation is the same for either order of the discs.
     if (i.side == Side::above) std::swap(c.i, c.j);
     const Accuracy::Vector d =
         scene.discs[static_cast<std::size_t>(c.i)].x - scene.discs[static_cast<std::size_t>(c.j)].x;
@@ -399,7 +399,7 @@ struct Small {
   double size = 0.0, seconds = 0.0;
 };
 
-/// Steps through the event; its size is the largest that the picker finds.
+/// Computes the event step by step; its size is the largest that the picker finds.
 template <class Fault>
 Small run_small(Fault &fault, double time, double dt) {
   LSM::PickerSettings settings;
@@ -421,7 +421,7 @@ Small run_small(Fault &fault, double time, double dt) {
   return result;
 }
 
-/// Rms distance at the fault between two final states, and of a final state from its start.
+/// Rms distance of the discs at the fault between two states.
 double apart(const std::vector<Accuracy::Disc> &a, const std::vector<Accuracy::Disc> &b) {
   double sum = 0.0, discs = 0.0;
   for (std::size_t n = 0; n < a.size(); ++n)
@@ -527,8 +527,8 @@ void waves() {
 
 // ---- long runs ----------------------------------------------------------------------------------
 
-constexpr double warmup = 3000.0;   // of shear; the stress is then at its level
-constexpr double near_start = 5.0;  // of the same event in two runs
+constexpr double warmup = 3000.0;   // time of shear after which the stress has reached its level
+constexpr double near_start = 5.0;  // largest time between the starts of an event in two runs
 const std::vector<double> thresholds = {1e-5, 1e-4, 3e-4, 1e-3, 1e-2};
 
 /// A run of inputs/fault.in.
@@ -537,7 +537,7 @@ struct LongRun {
   double dt;
   int ranks;
   bool series;
-  double mass_floor = 0.0;  ///< smaller masses are raised to it
+  double mass_floor = 0.0;  ///< smaller masses are raised to this
   double time = 0.0;
   double seconds = 0.0;                 ///< CPU time of all ranks
   std::vector<LSM::Event> events = {};  ///< after the warm-up
@@ -575,10 +575,10 @@ struct Sample {
   double dispersion =
       NAN;  ///< variance / mean of counts in 30 equal stretches; 1 for a Poisson process
   Accuracy::GammaDensity times;
-  int brief = 0;  ///< shorter than the memory of the picker
+  int brief = 0;  ///< number of events shorter than the memory of the picker
 };
 
-/// \param shortest  duration (time units) of events that count
+/// \param shortest shortest duration (time units) of events that count
 Sample sample_of(const LongRun &w, double threshold, double shortest = 0.0) {
   Sample s;
   constexpr int stretches = 30;
@@ -606,7 +606,7 @@ Sample sample_of(const LongRun &w, double threshold, double shortest = 0.0) {
   return s;
 }
 
-/// Least probability of several tests, times their number.
+/// The smallest p of several tests, times their number.
 class LeastOf {
  public:
   void add(double p) {
@@ -620,8 +620,8 @@ class LeastOf {
   int n_ = 0;
 };
 
-/// Runs that differ in time step and ranks only, the finest first: one row of a table for each and
-/// threshold.
+/// Compares runs that differ only in time step and ranks, the finest first: one row of a table for
+/// each run and threshold.
 void compare(const std::vector<const LongRun *> &runs, Table &table) {
   for (const double threshold : thresholds) {
     const Sample finest = sample_of(*runs.front(), threshold);
@@ -639,11 +639,11 @@ void compare(const std::vector<const LongRun *> &runs, Table &table) {
   }
 }
 
-/// Size from which on these runs agree.
+/// Determines the size above which these runs agree.
 void judge(const std::vector<const LongRun *> &runs, double up_to, double shortest,
            Table &verdicts) {
   constexpr std::size_t least_events = 30;
-  double from = NAN;  // the smallest threshold above all that depend
+  double from = NAN;  // the smallest threshold above all those at which the runs differ
   bool any_depends = false;
   const char *loose = runs.front()->loose;
   for (const double threshold : thresholds) {
@@ -656,7 +656,7 @@ void judge(const std::vector<const LongRun *> &runs, double up_to, double shorte
       const Sample s = sample_of(*w, threshold, shortest);
       enough = enough && s.sizes.size() >= least_events;
       dt.push_back(w->dt);
-      // Events come in sequences: the error of a count is at least that of the counts in stretches.
+      // Events are clustered: the error of a count is at least that from the counts in stretches.
       count.push_back(
           {std::log(s.count.value), std::sqrt(std::max(1.0, s.dispersion) / s.count.value)});
       exponent.push_back(s.exponent);
@@ -746,7 +746,7 @@ void long_runs() {
     w.time = quick ? 15000.0 : 90000.0;
     if (std::string(w.loose) == "keep") w.time /= 2.0;
   }
-  // Runs on one rank two at a time, those on more one after the other.
+  // Two runs on one rank are done at a time, those on more ranks one after the other.
   std::atomic<std::size_t> next{0};
   std::array<std::string, 2> errors;
   auto lane = [&](std::string &error) {
@@ -824,19 +824,20 @@ void long_runs() {
 
 constexpr double large = 1e-2, paper_velocity = 0.00025;
 
-/// A run with slow plates; fast = 0: without leaps.
+/// A run with slow plates, without leaps if fast = 0.
 struct SlowRun {
   double velocity, fast, steps;
   std::vector<LSM::Event> events = {}, large_events = {};
   double seconds = 0.0;
   std::string name() const { return "slow_" + text(velocity) + "_" + text(fast); }
-  /// Times as the displacement of the plates, in time units of the paper's driving.
+  /// Factor that converts times to displacements of the plates, in time units of the paper's
+  /// driving.
   double unit() const { return velocity / paper_velocity; }
 };
 
-/// For each large event of one run the nearest one of the other that is of similar size, within
-/// half the mean time between them and a factor of 2; SIZE_MAX: none. Events near the end of the
-/// run are left out.
+/// For each large event of one run, the index of the nearest event of the other run within half the
+/// mean inter-event time whose size differs by at most a factor of 2, or SIZE_MAX. Events near the
+/// end of the run are left out.
 std::vector<std::size_t> partners(const std::vector<LSM::Event> &first,
                                   const std::vector<LSM::Event> &second) {
   const double near =
@@ -865,8 +866,7 @@ double quantile(std::vector<double> values, double q) {
   return values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1))];
 }
 
-/// Sizes from `smallest` on, and the times between their starts in time units of the paper's
-/// driving.
+/// Sizes of at least `smallest`, and the inter-event times in time units of the paper's driving.
 std::pair<std::vector<double>, std::vector<double>> sizes_and_times(const SlowRun &w,
                                                                     double smallest) {
   std::vector<double> sizes, times;
@@ -886,11 +886,11 @@ bool same_events(const std::vector<LSM::Event> &a, const std::vector<LSM::Event>
   });
 }
 
-/// The same large events with and without leaps, long catalogues by two-sample tests, and what a
-/// large event costs.
+/// Compares large events with and without leaps, and long catalogues by two-sample tests, and
+/// measures the cost per large event.
 void leaps() {
-  // The first is without leaps; those with its velocity are compared with it. Pairs of other
-  // velocities follow, without leaps and with.
+  // The first run is without leaps; others of the same velocity are compared with it. Pairs of runs
+  // at other velocities follow, without and with leaps.
   std::vector<SlowRun> runs = {{2.5e-5, 0.0, 350000},   {2.5e-5, 2.5e-4, 60000},
                                {2.5e-5, 5e-5, 200000},  {2.5e-4, 0.0, 60000},
                                {2.5e-4, 2.5e-4, 60000}, {2.5e-8, 2.5e-4, 60000}};
@@ -964,7 +964,7 @@ void leaps() {
               Accuracy::two_sample(first.first, mine.first).p,
               Accuracy::two_sample(first.second, mine.second).p);
   }
-  // With plates at their fastest there is nothing to leap over.
+  // Plates that always move at the fast velocity never leap.
   for (const SlowRun &a : runs)
     for (const SlowRun &b : runs)
       if (a.velocity == b.velocity && a.fast == 0.0 && b.fast == b.velocity)
@@ -974,7 +974,7 @@ void leaps() {
 
 // ---- sums ---------------------------------------------------------------------------------------
 
-/// Numbers in the last column of all snapshots of a local dump.
+/// The numbers in the last column of a local dump, by snapshot.
 std::vector<std::vector<double>> local_dump(const std::string &file) {
   std::ifstream in(work(file));
   std::vector<std::vector<double>> all;
@@ -1027,7 +1027,7 @@ run 300
               "links,ranks,steps,pe_links,relative_error,change_over_100_steps,error_of_change");
   const std::string exact_file = "sums.link";
   for (int ranks : {1, 2, 4}) {
-    // each number of ranks against the long double sum of its own energies
+    // The run on each number of ranks is compared with the long double sum of its own energies.
     run("sums.in", {{"write", "yes"}}, ranks);
     const auto energies = local_dump(exact_file);
     std::ifstream in(work("output.txt"));
@@ -1059,7 +1059,7 @@ run 300
     }
   }
 
-  // A series disturbed by much more than that gives the same catalogue.
+  // A series that is disturbed by much more than these errors gives the same catalogue.
   Table disturbed("precision_picker.csv",
                   "disturbance_relative_to_pe,events,same_begin_and_end,largest_change_of_size");
   auto pick = [&](double relative) {

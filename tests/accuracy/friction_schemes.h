@@ -40,8 +40,8 @@ struct Constants {
          impedance = 0.0;
 };
 
-/// A pair across the fault that touches or may touch soon; the elongation xi and the vector of the
-/// previous step are used by the spring, the impulse by the rigid law.
+/// A pair across the fault that touches or may touch soon. The spring uses the elongation xi and
+/// the vector of the previous step, and the rigid law uses the impulse.
 struct Contact {
   int i = 0, j = 0;
   bool touches = false;
@@ -59,7 +59,7 @@ struct Scene {
   std::vector<Contact> contacts;
 };
 
-/// Shared by both laws: links, normal forces, plates, viscosity and the list of contacts.
+/// What both laws have in common: links, normal forces, plates, viscosity and the list of contacts.
 class SmallFault {
  public:
   explicit SmallFault(Scene scene) : s_(std::move(scene)), c_(s_.constants) {
@@ -77,7 +77,8 @@ class SmallFault {
   const std::vector<Disc> &discs() const { return s_.discs; }
 
  protected:
-  /// Links' forces, in place of all others. \return their elastic energy
+  /// Sets the forces to those of the links.
+  /// \return elastic energy of the links
   double link_forces() {
     double pe = 0.0;
     for (Disc &d : s_.discs) d.f = {};
@@ -94,7 +95,7 @@ class SmallFault {
     return pe;
   }
 
-  /// Half a kick of the blocks. Viscosity decays by half a step after a final and before an initial
+  /// Half a kick of the blocks. Viscosity acts for half a step, after a final and before an initial
   /// kick.
   void half_kick(double dt, bool initial) {
     const double damp = std::exp(-0.5 * c_.viscosity * dt);
@@ -147,7 +148,7 @@ class SmallFault {
     }
   };
 
-  /// Pairs near enough to touch before the fastest disc has moved by the skin; those known keep
+  /// Lists the pairs that may touch before the fastest disc has moved by the skin; known pairs keep
   /// their state.
   void list_contacts() {
     std::vector<Contact> fresh;
@@ -192,7 +193,7 @@ class SmallFault {
   double moved_ = 0.0;
 };
 
-/// Friction with a tangential spring, onset of a contact located within the step.
+/// Friction with a tangential spring; the onset of a contact is located within the step.
 class SpringFault : public SmallFault {
  public:
   SpringFault(Scene scene, double dt) : SmallFault(std::move(scene)), dt_(dt) {
@@ -243,9 +244,9 @@ class SpringFault : public SmallFault {
   double dt_, pe_;
 };
 
-/// Friction without a spring: impulses at each half step that stop the tangential motion of every
-/// contact, or as much of it as mu F_n dt can. Sweeps over the contacts until no velocity changes
-/// by more than the tolerance.
+/// Friction without a spring: at each half step impulses of at most mu F_n dt stop the tangential
+/// motion of every contact as far as they can. Sweeps over the contacts are repeated until no
+/// velocity changes by more than the tolerance.
 class RigidFault : public SmallFault {
  public:
   RigidFault(Scene scene, double dt, double tolerance)
@@ -300,7 +301,7 @@ class RigidFault : public SmallFault {
 
   void solve(double dt) {
     for (const Contact &c : s_.contacts)
-      if (c.touches) apply(c, c.impulse);  // of the step before: a good start
+      if (c.touches) apply(c, c.impulse);  // that of the previous step is a good start
     double change = 0.0;
     int sweep = 0;
     do {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file lattice_waves.h
-/// Closed forms of the waves of the triangular lattice, with which those that lmp computes are
+/// Closed forms for waves of the triangular lattice, with which the waves computed by lmp are
 /// compared.
 #ifndef LSM_ACCURACY_LATTICE_WAVES_H
 #define LSM_ACCURACY_LATTICE_WAVES_H
@@ -15,7 +15,7 @@ namespace lattice_waves {
 
 constexpr double pi = 3.14159265358979323846;
 
-/// Spacing, stiffness and mass of 1: speeds of long waves.
+/// Speeds of long waves for spacing, stiffness and mass of 1.
 const double vp = std::sqrt(9.0 / 8.0), vs = std::sqrt(3.0 / 8.0);
 
 struct Mode {
@@ -58,7 +58,7 @@ struct Zero {
   double peak;  ///< largest amplitude since the zero before
 };
 
-/// From samples (time, amplitude).
+/// Finds the zeros in samples (time, amplitude).
 inline std::vector<Zero> zeros(const std::vector<std::pair<double, double>> &samples) {
   std::vector<Zero> found;
   double peak = 0.0;
@@ -73,7 +73,7 @@ inline std::vector<Zero> zeros(const std::vector<std::pair<double, double>> &sam
   return found;
 }
 
-/// Angular frequency, from two zeros or more.
+/// Angular frequency from at least two zeros.
 inline double frequency(const std::vector<Zero> &zeros) {
   return pi * static_cast<double>(zeros.size() - 1) / (zeros.back().time - zeros.front().time);
 }

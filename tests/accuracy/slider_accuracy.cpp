@@ -38,7 +38,7 @@ class Table {
   std::FILE *file_;
 };
 
-/// Least wall-clock seconds of one call; short calls are repeated.
+/// Smallest wall-clock time of a call in seconds; short calls are repeated.
 double seconds(const std::function<void()> &work) {
   double best = HUGE_VAL, total = 0.0;
   for (int n = 0; n < 3 || (total < 0.2 && n < 200); ++n) {
@@ -60,7 +60,7 @@ struct Start {
   double pe = 0.0;
 };
 
-/// The state from which PE falls most within the time of the comparison, among those looked at.
+/// Of several states, the one from which PE falls most within the time of the comparison.
 Start before_large_event() {
   Start start;
   start.p.blocks = 128;
@@ -111,7 +111,7 @@ Outcome run(const Start &start, const AnyScheme &scheme, double h, double time) 
   });
 }
 
-/// Gap of the ledger over the event, relative to the friction loss.
+/// Residual of the energy ledger over the event, relative to the friction loss.
 double ledger_gap(const Start &start, const AnyScheme &scheme, double h, double time) {
   if (scheme == rk4) return NAN;  // its ledger takes the work of the plate from the balance
   Parameters p = start.p;
@@ -151,7 +151,7 @@ void one_event(const std::string &folder, bool quick) {
                profile_error(again.u));
   for (const AnyScheme &scheme : all_schemes)
     for (double h = 0.4; h > (quick ? 0.01 : 0.0015); h /= 2.0) {
-      if (scheme == rk4 && h < 0.006) continue;  // at the rounding of the reference
+      if (scheme == rk4 && h < 0.006) continue;  // below the rounding error of the reference
       const Outcome o = run(start, scheme, h, time);
       const double took = seconds([&] { run(start, scheme, h, time); });
       std::fprintf(table.file(), "%s,%.6g,%.4g,%.4g,%.4g,%.4g\n", name_of(scheme), h, took,
@@ -160,8 +160,8 @@ void one_event(const std::string &folder, bool quick) {
     }
 }
 
-/// Two blocks without friction swing against each other while both drift forward, so that the rule
-/// against back-slip never acts: the shortest wave of the chain, w^2 = (4 K_c + K_l) / M.
+/// Two blocks without friction oscillate against each other while both drift forward, so that the
+/// rule against back-slip never acts: the shortest wave of the chain, w^2 = (4 K_c + K_l) / M.
 void growth(const std::string &folder) {
   Table table(folder + "/slider_growth.csv", "scheme,dt,growth_rate,theory");
   for (Scheme scheme : {Scheme::printed, Scheme::semi_implicit, Scheme::verlet})
@@ -179,7 +179,7 @@ void growth(const std::string &folder) {
       s.v = {p.velocity + amplitude * w, p.velocity - amplitude * w};
       s.quiet_since = -1;
       chain.set_state(s);
-      // Energy of the antisymmetric motion, averaged over ten periods at either end.
+      // Energy of the antisymmetric motion, averaged over ten periods at the beginning and the end.
       const long window = std::lround(10.0 * 2.0 * 3.14159265358979 / w / h);
       const long apart = std::lround(2.0 / (h * w2 / 4.0) / h);  // in theory two e-foldings
       auto energy = [&] {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Speeds of P-, S- and Rayleigh waves of the regular lattice beside closed forms, and of P- and
-// S-waves of the random packing, against their length and direction. Runs lmp and writes
-// waves_lattice.csv, waves_rayleigh.csv and waves_packing.csv.
-// Usage: lsm_accuracy_waves FOLDER full|quick LMP SCENES
+// Speeds of P-, S- and Rayleigh waves of the regular lattice compared with closed forms, and of P-
+// and S-waves of the random packing, as functions of their length and direction. Runs lmp and
+// writes waves_lattice.csv, waves_rayleigh.csv and waves_packing.csv. Usage: lsm_accuracy_waves
+// FOLDER full|quick LMP SCENES
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -29,7 +29,7 @@ std::string text(double value) {
   return buffer;
 }
 
-/// What one run of lmp printed: the lines of its thermo output, and the value of 'frequency = '.
+/// Output of one run of lmp: the lines of its thermo output, and the value of 'frequency = '.
 struct Run {
   std::vector<std::pair<double, double>> rows;
   double frequency = 0.0;
@@ -59,11 +59,11 @@ Run run(const std::string &scene, const std::vector<std::pair<std::string, std::
   return result;
 }
 
-/// Angular frequency of a standing wave, and what is left of its amplitude after a period.
+/// Angular frequency of a standing wave, and the share of its amplitude left after a period.
 std::pair<double, double> swing(const Run &r) {
   const std::vector<lattice_waves::Zero> zeros = lattice_waves::zeros(r.rows);
   if (zeros.size() < 3) throw std::runtime_error("too few swings");
-  // the first peak is that of the beginning
+  // The first peak is the initial one.
   const double left =
       std::pow(zeros.back().peak / zeros[1].peak, 2.0 / static_cast<double>(zeros.size() - 2));
   return {lattice_waves::frequency(zeros), left};
@@ -85,7 +85,8 @@ void lattice() {
   const File file("waves_lattice.csv",
                   "wave,angle (degrees),spacings per wave,k h,speed / closed form - 1,speed / that "
                   "of long waves - 1 (%)");
-  // cells along and across the rows; waves that fit in: along the rows, 15 degrees, across
+  // number of cells along and across the rows, and of waves in either direction: waves along the
+  // rows, at 15 degrees to them, and across them
   const int boxes[][4] = {{40, 2, 1, 0}, {20, 2, 1, 0},  {10, 2, 1, 0},  {6, 2, 1, 0},
                           {4, 2, 1, 0},  {26, 56, 1, 1}, {13, 28, 1, 1}, {13, 28, 2, 2},
                           {2, 23, 0, 1}, {2, 12, 0, 1},  {2, 6, 0, 1},   {2, 3, 0, 1}};

@@ -15,7 +15,7 @@ namespace {
 
 using namespace LAMMPS_NS;
 
-/// Links as one rank has them: those across the period lead to ghosts, from both sides.
+/// Links as one rank has them: those across the periodic border lead to ghosts on both sides.
 struct Fault {
   int particles;
   std::vector<double> x, f;
@@ -27,7 +27,7 @@ struct Fault {
     settings.length = length;
     const LSM::Packing packing = LSM::make_packing(settings);
     particles = static_cast<int>(packing.discs.size());
-    // slightly stretched, so that there are forces
+    // The packing is slightly stretched, so that there are forces.
     const auto place = [&](const LSM::Disc &disc, double shift) {
       x.insert(x.end(), {1.001 * disc.x + shift, disc.y, 0.0});
     };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Shared by the statistical tests: how often an interval contains the true value.
+// How often an interval contains the true value, for the statistical tests.
 #ifndef LSM_TESTS_POSTPROC_COVERAGE_H
 #define LSM_TESTS_POSTPROC_COVERAGE_H
 
@@ -8,7 +8,8 @@
 #include <cmath>
 #include <string>
 
-// Expects hits to be binomial: within 3 standard deviations of trials * probability.
+// Expects the number of hits to be within 3 standard deviations of trials * probability, as a
+// binomial variate is.
 inline void expect_binomial(int hits, int trials, double probability, const std::string &what) {
   const double sigma = std::sqrt(trials * probability * (1.0 - probability));
   EXPECT_NEAR(hits, trials * probability, 3.0 * sigma) << what;
@@ -26,7 +27,7 @@ class Coverage {
     ++trials_;
   }
 
-  // Intervals of 68.27 % and 95 %.
+  // Expects the nominal coverage of the intervals of 68.27 % and 95 %.
   void expect(const std::string &what) const {
     expect_binomial(one_, trials_, 0.6826894921370859, what + ", 68 % interval");
     expect_binomial(two_, trials_, 0.95, what + ", 95 % interval");

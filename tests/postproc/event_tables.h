@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Events by column, as tests write and compare them.
+// Conversion between events and columns, which tests write and compare.
 #ifndef LSM_TEST_EVENT_TABLES_H
 #define LSM_TEST_EVENT_TABLES_H
 
@@ -9,7 +9,7 @@
 
 namespace LSM::postproc {
 
-/// \param ends none: events without duration
+/// \param ends empty: events without duration
 inline std::vector<EventSummary> events_of(const std::vector<double> &starts,
                                            const std::vector<double> &sizes,
                                            const std::vector<double> &ends = {}) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Fuzz target of the readers of catalogues, PE series and slip histories, strict and lenient.
-// For any bytes a reader returns what its description promises or throws a FileError; it never
-// crashes.
+// Whatever the bytes, a reader returns what its description promises or throws a FileError; it
+// never crashes.
 //
-// Built as a program it mutates files of its own for a bounded time:
+// As a program it mutates files that it has written itself, for a bounded time:
 //   fuzz_readers [SECONDS [SEED]]        (default 2 1)
 // The entry LLVMFuzzerTestOneInput serves libFuzzer: clang++ -std=c++17 -DLSM_LIBFUZZER
 // -fsanitize=fuzzer,address,undefined -I lammps-pkg/core tests/postproc/fuzz_readers.cpp
@@ -30,7 +30,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder of its own, in memory if possible (thousands of files are written); removed at the end.
+/// A temporary folder, in memory if possible, as thousands of files are written; removed at the
+/// end.
 struct Folder {
   Folder() {
     const fs::path memory = "/dev/shm";
@@ -125,7 +126,7 @@ void try_catalogue(const std::string &path) {
   ++catalogues.inputs;
   ++(!a.refused ? catalogues.accepted : !b.refused ? catalogues.repaired : catalogues.refused);
   if (a.refused) return;
-  // What was read can be written and read back.
+  // What has been read can be written and read back.
   const std::string copy = (folder().path / "copy").string();
   LSM::CatalogueInfo info;
   info.model = "lsm";
@@ -247,7 +248,7 @@ std::string slurp(const std::string &path) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-/// Small files as the programs write them.
+/// Small files that look like those of the programs.
 std::vector<std::string> seeds() {
   std::vector<std::string> out;
   const std::string path = (folder().path / "seed").string();
@@ -374,7 +375,7 @@ class Mutator {
         if (digit != std::string::npos) text[digit] = static_cast<char>('0' + below(10));
         break;
       }
-      default: {  // a line repeated or moved
+      default: {  // repeats or moves a line
         const std::size_t begin = text.rfind('\n', at) + 1, end = text.find('\n', begin);
         if (end == std::string::npos) break;
         const std::string line = text.substr(begin, end + 1 - begin);
@@ -409,7 +410,7 @@ int main(int argc, char **argv) {
   };
   for (const std::string &file : files) run(file);
   const auto begin = std::chrono::steady_clock::now();
-  // A slow machine still runs the first inputs, which reach all outcomes.
+  // The first inputs, which reach all outcomes, are run even on a slow machine.
   for (int i = 0; i < 5000 ||
                   std::chrono::steady_clock::now() - begin < std::chrono::duration<double>(seconds);
        ++i) {

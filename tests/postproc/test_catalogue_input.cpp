@@ -66,7 +66,7 @@ TEST_F(CatalogueInput, RupturesAreSortedByTheirStarts) {
 TEST_F(CatalogueInput, TimesAsTheWayOfThePlate) {
   CatalogueOptions options;
   options.displacement = true;
-  options.from_time = 1.0;  // of the way, too
+  options.from_time = 1.0;  // as plate displacements, too
   options.to_time = 3.5;
   const EventTable table = load_catalogue(file(good, "velocity = -0.5"), options);
   EXPECT_EQ(starts(table), (std::vector<double>{1.5, 2.5}));
@@ -90,7 +90,7 @@ TEST_F(CatalogueInput, ColumnsOfTheEventsChosen) {
   CatalogueOptions options;
   options.min_size = 1e-4;
   options.from_time = 1.0;
-  options.to_time = 5.0;  // the first start left out
+  options.to_time = 5.0;  // leaves out the first start
   const EventTable some = load_catalogue(name, options);
   EXPECT_EQ(sizes(some), std::vector<double>{0.5});
   EXPECT_EQ(some.left_out_small, 1);
@@ -146,7 +146,7 @@ TEST_F(CatalogueInput, CompletenessIsTheDefaultThreshold) {
                    file(good, "completeness = 1e-5", "block-slider")};
   const std::vector<EventTable> tables = load_catalogues(options);
   const Threshold none, given(0.25);
-  // One for all of a model; never below the paper's.
+  // All catalogues of a model have the same threshold, which is never below the paper's.
   for (std::size_t i : {0, 1, 2}) {
     EXPECT_EQ(none.of(tables[i]), 0.003);
     EXPECT_EQ(text(none.in(tables[i])), "0.003, completeness in the header of " + options.paths[1]);
@@ -165,7 +165,7 @@ TEST_F(CatalogueInput, CompletenessIsTheDefaultThreshold) {
                 "smallest size, block-slider: 0.0001, that of the paper's Figs. 12 and 13"}));
 }
 
-// Events that may overlap are not all ruptures.
+// That events may overlap does not mean that they are ruptures.
 TEST_F(CatalogueInput, KindsOfEventsAreToldApart) {
   CatalogueOptions options;
   options.paths = {file(good, "length = 8\n# events = ruptures\n# completeness = 0.003"),

@@ -25,7 +25,7 @@ std::vector<double> starts_of(const std::vector<double> &times) {
   return starts;
 }
 
-// For times of known mean and deviation.
+// Times of known mean and standard deviation.
 TEST(Clustering, ClosedForms) {
   std::vector<double> times;
   for (int i = 0; i < 20; ++i) times.push_back(i % 2 ? 3.0 : 1.0);
@@ -38,7 +38,7 @@ TEST(Clustering, ClosedForms) {
   EXPECT_LT(c.memory.p, 0.05);
 }
 
-// All but one of the times 0: the finite form is 1, whatever n; periodic times: -1.
+// The form for finite n is 1 if all times but one are 0, and -1 for periodic times, whatever n.
 TEST(Clustering, FiniteBurstinessReachesItsEnds) {
   for (const std::size_t n : {12u, 100u}) {
     std::vector<double> times(n, 0.0);
@@ -49,7 +49,7 @@ TEST(Clustering, FiniteBurstinessReachesItsEnds) {
   }
 }
 
-// Independent times: no statistic deviates from chance more often than stated.
+// For independent times no statistic deviates from chance more often than stated.
 TEST(Clustering, IndependentTimesAreSeenAsSuch) {
   Random random(5);
   int off = 0, trials = 0;
@@ -65,7 +65,8 @@ TEST(Clustering, IndependentTimesAreSeenAsSuch) {
   EXPECT_LT(off, 0.10 * trials);
 }
 
-// Runs of short and of long times: memory, short after short and long after long.
+// Runs of short and of long times have memory: short times follow short ones, long follow long
+// ones.
 TEST(Clustering, RunsHaveMemory) {
   Random random(3);
   std::vector<double> times = exponential(2000, random);
@@ -77,7 +78,7 @@ TEST(Clustering, RunsHaveMemory) {
   EXPECT_GT(c.after[2].value, 1.4);
   EXPECT_NEAR(c.after[0].mean, 1.0, 0.03);
   EXPECT_GT(c.finite_burstiness.value, 0.2);
-  // the same by eighths, and for the whole distribution of the times
+  // The same holds by eighths, and for the whole distribution of the times.
   EXPECT_LT(c.after_eighth.front().value, 0.6);
   EXPECT_GT(c.after_eighth.back().value, 1.4);
   EXPECT_LE(c.after_eighth.back().p, 0.01);
@@ -87,7 +88,8 @@ TEST(Clustering, RunsHaveMemory) {
   EXPECT_LT(c.after_distance.mean, 0.1);
 }
 
-// Each time but the last is in one third; what follows it is given with that third.
+// Each time but the last belongs to one third, and the time that follows it is counted for that
+// third.
 TEST(Clustering, TimesAfterThirds) {
   const std::vector<double> times = {1.0, 9.0, 5.0, 2.0, 8.0, 4.0, 3.0, 7.0, 6.0};
   const auto after = times_after_thirds(times);
@@ -96,7 +98,7 @@ TEST(Clustering, TimesAfterThirds) {
   EXPECT_EQ(after[2], (std::vector<double>{5.0, 4.0, 6.0}));
 }
 
-// Independent times: the distance after short and long ones is that expected by chance.
+// For independent times the distance after short and long ones is that expected by chance.
 TEST(Clustering, DistanceOfIndependentTimesIsThatOfChance) {
   Random random(8);
   int off = 0;
@@ -115,7 +117,7 @@ TEST(Steadiness, TellsASteadyRateFromOneThatChanges) {
   const Steadiness s = steadiness(starts, 0.05, 500, 99, 1);
   EXPECT_LE(s.p, 0.01);
   EXPECT_GT(s.whole.departure, 0.2);
-  // both parts are proposed, the longer one first
+  // Both parts are proposed, the longer one first.
   ASSERT_EQ(s.steady.size(), 2u);
   EXPECT_GT(s.steady[0].n, 1600);
   EXPECT_GE(s.steady[1].n, 500);
@@ -125,7 +127,7 @@ TEST(Steadiness, TellsASteadyRateFromOneThatChanges) {
 }
 
 TEST(Steadiness, DepartureOfAKnownSeries) {
-  // ten events in the first tenth of the time, ten in the rest
+  // Ten events are in the first tenth of the time, ten in the rest.
   std::vector<double> starts;
   for (int i = 0; i < 10; ++i) starts.push_back(i);
   for (int i = 1; i <= 10; ++i) starts.push_back(9.0 + 8.1 * i);
@@ -133,7 +135,7 @@ TEST(Steadiness, DepartureOfAKnownSeries) {
 }
 
 TEST(AroundLarge, CountsBeforeAndAfter) {
-  // every tenth event is large, followed by three soon and preceded by none
+  // Every tenth event is large, is soon followed by three others, and preceded by none.
   std::vector<double> starts, sizes;
   for (int k = 0; k < 50; ++k)
     for (int i = 0; i < 10; ++i) {

@@ -20,8 +20,8 @@ using unit::spill;
 
 namespace {
 
-// The same four events in each format: Northridge, an aftershock, a quarry blast, and one before
-// both; in ComCat newest first, as it comes.
+// The same four events in each format: Northridge, an aftershock, a quarry blast, and an earlier
+// event. ComCat lists the newest first.
 const std::string csv =
     "time,latitude,longitude,depth,mag,magType,nst,id,updated,place,type\n"
     "1994-01-17T12:31:58.12Z,34.275,-118.493,5.3,5.89,mw,,ci3,2016,\"1km NNE of Granada Hills, "

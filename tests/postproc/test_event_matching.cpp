@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The same events in two catalogues: by hand, and what chance finds.
+// Matches the events of two catalogues: an example by hand, and matches by chance.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -35,8 +35,8 @@ TEST(EventMatching, ByHand) {
   MatchRule rule;
   rule.least_size = 1.0;
   rule.within = 1.0;
-  // 10 has 10.5, which is nearer than 9.2; 10.8 then takes none, 20 is three times as large, 30 is
-  // too far, 40 is the same, 50 is too small, 60 and 90 are not in both.
+  // 10 matches 10.5, which is nearer than 9.2; nothing is left for 10.8; 20 is three times as
+  // large, 30 is too far, 40 matches, 50 is too small, 60 and 90 are not in both.
   const EventTable first = events({0, 10, 10.8, 20, 30, 40, 50, 60}, {9, 1, 1, 3, 1, 1, 0.5, 1});
   const EventTable second =
       events({5, 9.2, 10.5, 20, 31.5, 40, 50, 55}, {1, 1, 1, 1, 1, 1.9, 1, 1});
@@ -53,8 +53,8 @@ TEST(EventMatching, ChanceOfIndependentCatalogues) {
   rule.within = 0.1;
   const EventTable first = random_events(1, 20000), second = random_events(2, 20000);
   const EventMatches matches = match_events(first, second, rule);
-  // Rate 1 each: one within 0.1 on either side in a share of 0.18 to 0.2 of the cases, the same
-  // with and without a shift.
+  // Both have a rate of 1: there is an event within 0.1 on either side in a share of 0.18 to 0.2 of
+  // the cases, with and without a shift.
   EXPECT_NEAR(matches.chance / static_cast<double>(matches.first), 0.18, 0.02);
   EXPECT_NEAR(static_cast<double>(matches.same), matches.chance, 4.0 * 60.0);
   EXPECT_EQ(match_events(first, first, rule).same, match_events(first, first, rule).first);

@@ -23,7 +23,7 @@ using namespace LSM::postproc;
 using unit::contains;
 using unit::message_of;
 
-/// A saw-tooth with drops of all sizes, ripples on it, and a long rest.
+/// A sawtooth with drops of all sizes and ripples, followed by a long rest.
 std::vector<double> saw_tooth(std::size_t n) {
   std::mt19937_64 random(1);
   std::vector<double> values;
@@ -39,7 +39,7 @@ std::vector<double> saw_tooth(std::size_t n) {
   return values;
 }
 
-/// What the page makes of it, to the last bit.
+/// Decodes a series as the page does, to the last bit.
 std::vector<double> decode(const SeriesCode &code) {
   std::vector<double> values = {code.first, code.second};
   for (const std::int8_t byte : code.bytes) {
@@ -63,7 +63,7 @@ TEST(SeriesCode, ErrorsAreBelowHalfOfTheBendNearby) {
     ASSERT_LE(std::fabs(found[i] - values[i]), 0.5 * bend) << i;
     most = std::max(most, std::fabs(found[i] - values[i]));
   }
-  EXPECT_GT(most, 1e-6);  // or it would be no code
+  EXPECT_GT(most, 1e-6);  // the code is lossy
 }
 
 TEST(SeriesCode, ConstantAndStraightSeriesAreExact) {
@@ -202,7 +202,7 @@ TEST_F(SlipImages, SlipOfEachPlaceIsKept) {
   ASSERT_EQ(whole.columns, 7);
   ASSERT_EQ(whole.ends.size(), 200U);
   for (std::size_t b = 0; b < 7; ++b) EXPECT_NEAR(slip_of(whole)[b], slip[b], 0.01 * slip[b]) << b;
-  // Locked places do not seem to move.
+  // Locked places must not seem to move.
   for (std::size_t row = 0; row < 10; ++row)
     for (std::size_t b = 1; b < 7; ++b) EXPECT_EQ(whole.cells[row * 7 + b], 0);
 

@@ -41,7 +41,7 @@ TEST(CharacteristicSize, SmallExampleByHand) {
   for (int i = 0; i < 10; ++i) sizes.push_back(1.0 + i);
   const SizePoint point = characteristic_size(one_by_one(13), sizes, 1.0, 120.0);
   ASSERT_FALSE(point.degenerate);
-  // Of independent events: sqrt(sum (s^2 - 7 s)^2) / 55.
+  // For independent events the error is sqrt(sum (s^2 - 7 s)^2) / 55.
   EXPECT_NEAR(point.error_independent, std::sqrt(1848.0) / 55.0, 1e-12);
   EXPECT_EQ(point.n, 10);
   EXPECT_EQ(point.length, 120.0);
@@ -49,7 +49,8 @@ TEST(CharacteristicSize, SmallExampleByHand) {
 }
 
 TEST(CharacteristicSize, ErrorCoversTheTruth) {
-  // Exponential sizes, <s^2> / <s> = 2, event by event; uniform ones, 2 / 3, by blocks of time.
+  // Exponential sizes, <s^2> / <s> = 2, are resampled by events; uniform ones, 2 / 3, by blocks of
+  // time.
   LSM::Random random(1);
   Coverage by_event(2.0), by_block(2.0 / 3.0);
   for (std::uint64_t i = 0; i < 300; ++i) {
@@ -69,16 +70,16 @@ TEST(CharacteristicSize, ErrorCoversTheTruth) {
   by_block.expect("s*, blocks of time");
 }
 
-// Sequences that begin at random, 10 events on average in each, sizes uniform from a/2 to 3a/2 with
-// a common to the sequence, 1 or 3. So <s> = 2, <s^2> = 5 * 13/12.
+// Sequences that begin at random times, with 10 events on average. Their sizes are uniform from a/2
+// to 3a/2, where a is 1 or 3 for a whole sequence, so that <s> = 2, <s^2> = 5 * 13/12.
 class Sequences {
  public:
   explicit Sequences(unsigned long seed) : rng_(gsl_rng_alloc(gsl_rng_mt19937), gsl_rng_free) {
     gsl_rng_set(rng_.get(), seed);
   }
   static constexpr double truth = 2.5 * 13.0 / 12.0, pause = 100.0, delay = 30.0;
-  // From the moments of a sequence: number K of events geometric, and z = s^2 - truth s; the sum of
-  // z over the catalogue divided by that of s is the deviation.
+  // The error follows from the moments of a sequence: the number K of events is geometric, and with
+  // z = s^2 - truth s, the deviation is the sum of z over the catalogue divided by that of s.
   static double error(double sequences) {
     const double mean_k = 10.0, mean_k2 = 190.0;
     double variance = 0.0;
@@ -92,7 +93,7 @@ class Sequences {
   }
   void catalogue(double duration, std::vector<double> &times, std::vector<double> &sizes) {
     std::vector<std::pair<double, double>> events;
-    const double before = 20.0 * delay;  // sequences that begin earlier reach into the catalogue
+    const double before = 20.0 * delay;  // sequences may begin before the catalogue
     for (double t = -before; (t += gsl_ran_exponential(rng_.get(), pause)) < duration;) {
       const double mean = gsl_rng_uniform_int(rng_.get(), 2) == 0 ? 1.0 : 3.0;
       for (unsigned int k = gsl_ran_geometric(rng_.get(), 0.1); k > 0; --k) {
@@ -135,7 +136,7 @@ TEST(CharacteristicSize, ErrorCoversTheTruthThoughEventsComeInSequences) {
     length += point.block / trials;
   }
   blocks.expect("s* of sequences");
-  // The known error; that of single events is less than half of it.
+  // The error is the known one; that for independent events is less than half of it.
   const double known = Sequences::error(sequences);
   EXPECT_NEAR(error / known, 1.0, 0.06);
   EXPECT_LT(error_by_event / known, 0.5);
@@ -154,7 +155,7 @@ TEST(CharacteristicSize, BlocksOfTime) {
   const SizePoint given = at(1000.0);
   EXPECT_EQ(given.blocks, 20);
   EXPECT_NEAR(given.block, 1000.0, 30.0);
-  // The shortest blocks contain one event or none: event by event.
+  // The shortest blocks contain at most one event, which is the same as resampling events.
   EXPECT_NEAR(at(0.5).error / at(0.0).error, 1.0, 0.15);
   EXPECT_GT(given.error / at(0.0).error, 1.3);
   EXPECT_THROW(at(1.1e4), std::invalid_argument);
@@ -162,7 +163,7 @@ TEST(CharacteristicSize, BlocksOfTime) {
 }
 
 TEST(CharacteristicSize, BlocksGoRoundTheRing) {
-  // A pattern that repeats: every half of the ring contains five repetitions, wherever it begins.
+  // The pattern is periodic: every half of the ring contains five periods, wherever it begins.
   std::vector<double> sizes;
   for (int i = 0; i < 40; ++i) sizes.push_back(1.0 + i % 4);
   const SizePoint point =
@@ -172,7 +173,7 @@ TEST(CharacteristicSize, BlocksGoRoundTheRing) {
 }
 
 TEST(BlockLength, OfAnAutoregressiveSeries) {
-  // x_i = rho x_(i-1) + noise: covariances rho^|k|, from which the best length follows.
+  // x_i = rho x_(i-1) + noise has the covariances rho^|k|, from which the best length follows.
   const std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)> rng(gsl_rng_alloc(gsl_rng_mt19937),
                                                               gsl_rng_free);
   const std::size_t n = 8000;
@@ -193,8 +194,9 @@ TEST(BlockLength, OfAnAutoregressiveSeries) {
 }
 
 TEST(BlockLength, OfASeriesWhoseCorrelationEnds) {
-  // Sums of five numbers in a row: correlated up to lag 4. The same rule (Politis & White 2004),
-  // written out for this case: lags up to 4 count in full, 5 to 7 less and less, 8 not at all.
+  // Sums of five successive numbers are correlated up to lag 4. The same rule (Politis & White
+  // 2004), written out for this case: lags up to 4 count in full, 5 to 7 less and less, 8 not at
+  // all.
   LSM::Random random(7);
   const std::size_t n = 4000;
   std::vector<double> noise(n + 4), x(n, 0.0);
@@ -268,7 +270,7 @@ TEST(Scaling, ExactPowerLaw) {
   EXPECT_NEAR(fit.chi2, 0.0, 1e-15);
   EXPECT_EQ(fit.points, 6);
   EXPECT_EQ(fit.preferred, SizeDependence::power_law);
-  // Equal relative errors: se = 0.01 / sqrt(sum (x - mean)^2).
+  // For equal relative errors, se = 0.01 / sqrt(sum (x - mean)^2).
   double mean = 0.0, spread = 0.0;
   for (double length : lengths) mean += std::log(length) / 6.0;
   for (double length : lengths) spread += std::pow(std::log(length) - mean, 2);
@@ -278,7 +280,8 @@ TEST(Scaling, ExactPowerLaw) {
 }
 
 TEST(Scaling, ErrorsOfAPoorLawGrowWithItsScatter) {
-  // Points that scatter by a tenth and claim a hundredth: the errors of D cover all the same.
+  // Points scatter by a tenth but have stated errors of a hundredth: the errors of D cover
+  // nevertheless.
   EXPECT_EQ(error_scale(6.0, 4), 1.0);
   EXPECT_DOUBLE_EQ(error_scale(400.0, 4), 10.0);
   EXPECT_EQ(error_scale(5.0, 0), 1.0);
@@ -311,7 +314,7 @@ TEST(Scaling, ErrorsCoverAndTheRightModelIsPreferred) {
         const double relative = length < 1000 ? 0.1 : 0.05;
         points.push_back(
             point(length, s * std::exp(gsl_ran_gaussian(rng, relative)), s * relative));
-        // The error belongs to the measured value.
+        // The stated error is relative to the measured value.
         points.back().error = points.back().s_star * relative;
       }
       const ScalingFit fit = fit_scaling(points);
@@ -321,8 +324,8 @@ TEST(Scaling, ErrorsCoverAndTheRightModelIsPreferred) {
     }
     coverage.expect("D = " + std::to_string(truth));
     if (truth == 0.0) {
-      // AICc of 6 points: the power law pays 8 - 3 = 5 and needs a chi square gain above 7;
-      // it loses clearly below 3.
+      // AICc of 6 points: the power law has a penalty of 8 - 3 = 5. It is preferred if chi square
+      // falls by more than 7, and rejected if by less than 3.
       expect_binomial(power_law, 400, std::erfc(std::sqrt(7.0 / 2.0)), "wrongly a power law");
       expect_binomial(none, 400, std::erf(std::sqrt(3.0 / 2.0)), "no dependence");
     } else {
@@ -371,7 +374,7 @@ TEST(Saturation, ExactCurve) {
   EXPECT_EQ(fit.preferred, SizeDependence::saturates);
 }
 
-// Points on a round bend: a sharper curve through them is worse, and finds another L_c and D.
+// Points on a smooth bend: a sharper curve fits them worse and has another L_c and D.
 TEST(Saturation, BendsTellTheForm) {
   std::vector<SizePoint> points;
   for (double length : {50, 100, 200, 400, 800, 1600, 3200, 6400}) {
@@ -471,7 +474,7 @@ TEST(Saturation, DegenerateInput) {
   EXPECT_EQ(reason(curve(many, 90.0, 1.0)), outside);
   EXPECT_FALSE(curve(many, 3.0, 1.0).saturation.degenerate);
   EXPECT_FALSE(curve(many, 40.0, 1.0).saturation.degenerate);
-  // The same reversed: a fall, which has an end, but no growth.
+  // The reverse is a decrease that ends, but no growth.
   EXPECT_FALSE(reason(curve(many, 12.0, -1.0)).empty());
 }
 

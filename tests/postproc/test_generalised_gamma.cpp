@@ -32,7 +32,7 @@ struct Truth {
 // Table 1 of the paper: Corral's universal law, with delta = 1.
 constexpr Truth corral{0.7, 1.0, 1.58};
 
-// theta^delta is gamma distributed; samples by GSL, independent of the code under test.
+// Samples by GSL, independent of the code under test: theta^delta is gamma distributed.
 class Source {
  public:
   explicit Source(unsigned long seed) : rng_(gsl_rng_alloc(gsl_rng_mt19937), gsl_rng_free) {
@@ -47,7 +47,8 @@ class Source {
     }
     return values;
   }
-  // theta^-1 exp(-theta / B) above lo (gamma = 0, delta = 1): log-uniform numbers, thinned.
+  // theta^-1 exp(-theta / B) above lo (gamma = 0, delta = 1): log-uniform numbers, of which some
+  // are rejected.
   std::vector<double> sample_gamma_zero(std::size_t n, double B, double lo) {
     std::vector<double> values;
     while (values.size() < n) {
@@ -74,10 +75,10 @@ class Source {
   std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)> rng_;
 };
 
-// What delta is held at.
+// The fixed value of delta.
 double held_at_one(bool fixed) { return fixed ? 1.0 : NAN; }
 
-// Log-likelihood by GSL: with the closed normalisation, or by quadrature above lo.
+// Log-likelihood by GSL, normalised in closed form, or by quadrature above lo.
 double log_likelihood(const std::vector<double> &values, const Truth &t, double lo) {
   double z = 1.0 / t.c();
   if (lo > 0.0) {
@@ -116,7 +117,7 @@ TEST(GeneralisedGamma, MaximumOfAnIndependentLikelihood) {
         if (lo == 0.0) {
           EXPECT_NEAR(fit.C, best.c(), 1e-9 * fit.C);
         }
-        // Along every parameter the likelihood falls on both sides, evenly (slope zero).
+        // In each parameter the likelihood falls on both sides, equally (its slope is zero).
         for (int i = 0; i < (fixed ? 2 : 3); ++i) {
           const double step = 0.02 * (i == 0 ? fit.se_gamma : i == 1 ? fit.se_B : fit.se_delta);
           Truth up = best, down = best;
@@ -179,7 +180,7 @@ TEST(GeneralisedGamma, LikelihoodIntervalsCoverTheTruth) {
     bool fixed;
     std::size_t n;
   };
-  // Large samples where delta is free: B is far from normal in small ones.
+  // Samples are large where delta is free, as B is far from normal in small ones.
   for (const Case &c :
        {Case{corral, 0.0, true, 500}, Case{corral, 0.02, true, 1000},
         Case{{1.0, 1.0, 600.0}, 0.0, true, 500}, Case{corral, 0.0, false, 4000},
@@ -221,7 +222,7 @@ TEST(GeneralisedGamma, GammaZeroNeedsTruncation) {
   gamma.expect("gamma = 0");
   b.expect("B, gamma = 0");
 
-  // Without truncation the fit runs into gamma = 0 when small times pile up.
+  // Without truncation the fit ends at gamma = 0 if there are too many small times.
   const auto values = source.sample_gamma_zero(5000, 1e6, 1e-30);
   const GeneralisedGammaFit fit = fit_maximum_likelihood(values, 0.0, 1.0);
   EXPECT_TRUE(fit.degenerate);
@@ -246,7 +247,7 @@ TEST(GeneralisedGamma, LeastSquaresIsNearlyUnbiasedAndItsErrorsAreRight) {
       c += pull_c / trials;
       c_squared += pull_c * pull_c / trials;
     }
-    // Without the half count the mean pulls would be -0.6 and 0.3 or more.
+    // Without the added half count the mean pulls would be -0.6 and 0.3 or more.
     EXPECT_LT(std::fabs(gamma), 0.45);
     EXPECT_LT(std::fabs(b), 0.3);
     EXPECT_NEAR(std::sqrt(gamma_squared - gamma * gamma), 1.0, 0.15);
@@ -255,8 +256,8 @@ TEST(GeneralisedGamma, LeastSquaresIsNearlyUnbiasedAndItsErrorsAreRight) {
 }
 
 TEST(GeneralisedGamma, ErrorsComeFromTheObservedInformation) {
-  // Data of another law, where observed and expected information differ; second differences of an
-  // independent likelihood.
+  // For data of another law, observed and expected information differ. The reference is second
+  // differences of an independent likelihood.
   Source source(12);
   auto values = source.sample(3000, corral);
   for (double value : source.sample(1000, {2.0, 1.0, 3.0})) values.push_back(value);
@@ -293,7 +294,7 @@ TEST(GeneralisedGamma, UnitOfTimeDoesNotMatter) {
     std::vector<double> scaled = values;
     for (double &value : scaled) value *= 1000.0;
     const GeneralisedGammaFit other = fit_maximum_likelihood(scaled, 1000.0 * lo);
-    // 30 bins further, the same bins.
+    // The bins are the same, shifted by 30.
     const GeneralisedGammaFit other_squares = fit_least_squares(log_histogram(scaled));
     for (const auto &[a, b] : {std::pair{fit, other}, std::pair{squares, other_squares}}) {
       ASSERT_FALSE(a.degenerate || b.degenerate) << a.why << b.why;
@@ -315,7 +316,7 @@ void expect_degenerate(const GeneralisedGammaFit &fit, const std::string &why) {
 
 TEST(GeneralisedGamma, PowerLawIsDegenerate) {
   Source source(8);
-  // Tested at 95 %: of 40 samples 2 may show a fall-off by chance; 8 would be one in 10^3.
+  // At a level of 95 %, 2 of 40 samples show a fall-off by chance; 8 would have a chance of 10^-3.
   int likelihood = 0, squares = 0;
   for (int i = 0; i < 40; ++i) {
     const auto values = source.power_law(2000, 1.5, HUGE_VAL);
@@ -328,9 +329,9 @@ TEST(GeneralisedGamma, PowerLawIsDegenerate) {
   const auto values = source.power_law(20000, 1.5, HUGE_VAL);
   expect_degenerate(fit_maximum_likelihood(values, 1.0), "no exponential fall-off");
   expect_degenerate(fit_least_squares(log_histogram(values)), "no exponential fall-off");
-  // Not truncated, the law bends as far as it can.
+  // Without truncation, delta reaches its lower limit.
   expect_degenerate(fit_maximum_likelihood(values), "delta runs below 0.1");
-  // A sharp end is no exponential fall-off.
+  // A sharp end of the distribution is no exponential fall-off.
   expect_degenerate(fit_maximum_likelihood(source.power_law(20000, 1.1, 1e4), 1.0),
                     "delta runs above 10");
 }
@@ -345,10 +346,10 @@ TEST(GeneralisedGamma, FewEventsAreDegenerate) {
     EXPECT_TRUE(fit_least_squares(log_histogram(values)).degenerate);
   }
   EXPECT_GE(free, 48);   // 30 values never determine three parameters
-  EXPECT_GE(fixed, 40);  // but two
+  EXPECT_GE(fixed, 40);  // but they determine two
   for (int i = 0; i < 20; ++i)
     EXPECT_FALSE(fit_maximum_likelihood(source.sample(5000, corral)).degenerate);
-  // In between some are shown, and those hold what the header promises.
+  // In between, some fits are not degenerate, and these are what the header promises.
   int shown = 0;
   for (int i = 0; i < 100; ++i) {
     const GeneralisedGammaFit fit = fit_maximum_likelihood(source.sample(200, corral));
@@ -378,7 +379,7 @@ TEST(GeneralisedGamma, WrongLawShows) {
   EXPECT_LT(p_value(squares, {}, 0, 1), 1e-6);
 }
 
-// How many of the samples are rejected at 5 %.
+// Number of samples that are rejected at 5 %.
 struct Rejections {
   int trials = 0;
   int by_table = 0;             // Kolmogorov's table for given parameters
@@ -418,7 +419,7 @@ TEST(GoodnessOfFit, ATrueLawIsRejectedAtTheNominalRate) {
     std::size_t n;
     int trials;
   };
-  // Of 41 equally probable ranks those with p below 0.05, and those with p above 0.5.
+  // Shares of 41 equally probable ranks with p below 0.05, and with p above 0.5.
   const double nominal = 2.0 / 41.0, half = 21.0 / 41.0;
   for (const Case &c :
        {Case{corral, 0.0, true, 400, 400}, Case{{2.0, 1.0, 600.0}, 0.0, true, 400, 400},
@@ -434,7 +435,7 @@ TEST(GoodnessOfFit, ATrueLawIsRejectedAtTheNominalRate) {
     EXPECT_GT(count.binned, 0.9 * count.trials) << what;
     if (c.lo == 0.0) expect_binomial(count.by_chi2, count.binned, 0.05, what + ", least squares");
   }
-  // gamma = 0, which exists above a time only.
+  // gamma = 0, for which the density exists only above some time.
   const Rejections count =
       rejections(120, 0.5, 1.0, [&] { return source.sample_gamma_zero(600, 100.0, 0.5); });
   expect_binomial(count.by_monte_carlo, count.trials, nominal, "gamma = 0");
@@ -452,7 +453,8 @@ TEST(GoodnessOfFit, AFalseLawIsRejectedWhereTheTableForGivenParametersPassesIt) 
   EXPECT_LT(normal.by_table, 85);
 }
 
-// Samples that the test takes by cells: as sound as one of single values, and no less sharp.
+// The test of large samples uses counts in cells: its p is as reliable as that from single values,
+// and its power no less.
 TEST(GoodnessOfFit, ManyValues) {
   Source source(77);
   const std::size_t n = 10000;
@@ -460,7 +462,7 @@ TEST(GoodnessOfFit, ManyValues) {
   int below_tenth = 0, below_half = 0;
   constexpr int trials = 150;
   for (int i = 0; i < trials; ++i) {
-    // delta is free, and there is a truncation, now and then: these take longer.
+    // Only now and then is delta free, or the sample truncated, as these cases take longer.
     const bool free = i % 10 == 0, cut = i % 10 == 1;
     const std::vector<double> values = source.sample(n, corral, cut ? 0.3 : 0.0);
     const GeneralisedGammaFit fit =
@@ -472,7 +474,7 @@ TEST(GoodnessOfFit, ManyValues) {
   }
   expect_binomial(below_tenth, trials, 0.1, "0.1");
   expect_binomial(below_half, trials, 0.5, "0.5");
-  // A twentieth of the values is three times as long.
+  // A twentieth of the values is multiplied by three.
   std::vector<double> mixed = source.sample(n - n / 20, corral);
   for (const double theta : source.sample(n / 20, corral)) mixed.push_back(3.0 * theta);
   EXPECT_LT(p_value(fit_maximum_likelihood(mixed, 0.0, 1.0), mixed, 99, 1), 0.03);
@@ -537,7 +539,7 @@ TEST(GeneralisedGamma, RefusesImpossibleInput) {
   EXPECT_THROW(fit_maximum_likelihood(good, 0.0, 0.0), std::invalid_argument);
 }
 
-// No start has a finite sum of squares.
+// From no starting point is the sum of squares finite.
 TEST(GeneralisedGamma, InfiniteDensityHasNoOptimum) {
   std::vector<LogBin> bins;
   for (double lo = 1.0; lo < 100.0; lo *= 2.0)

@@ -75,7 +75,8 @@ TEST(LogHistogram, RefusesFactors) {
 }
 
 TEST(LogHistogram, PoissonErrorsCoverAKnownDensity) {
-  // x = exp(10 t), t uniform: density 1 / (10 x), 1/10 ln(factor) of the samples in each bin.
+  // x = exp(10 t) with uniform t has the density 1 / (10 x): a share of 1/10 ln(factor) in each
+  // bin.
   LSM::Random random(11);
   const double expected = std::log(2.0) / 10.0;
   int hits = 0, trials = 0;
@@ -83,7 +84,7 @@ TEST(LogHistogram, PoissonErrorsCoverAKnownDensity) {
     std::vector<double> values;
     for (int i = 0; i < 20000; ++i) values.push_back(std::exp(10.0 * random.uniform()));
     for (const LogBin &bin : log_histogram(values, 2.0, 1.0, 8192.0)) {
-      // Counts of the shown range: 13 bins of equal probability.
+      // The range shown has 13 bins of equal probability.
       const double truth = 1.0 / 13.0 / (bin.hi - bin.lo);
       if (std::fabs(bin.density - truth) <= bin.error) ++hits;
       ++trials;
@@ -93,7 +94,7 @@ TEST(LogHistogram, PoissonErrorsCoverAKnownDensity) {
                 5.0 * std::sqrt(20000 * expected));
   }
   ASSERT_EQ(trials, 40 * 13);
-  // Binomial counts scatter a little less than Poisson's: p = 1/13 makes the interval 4 % wider.
+  // Binomial counts scatter a little less than Poisson's: for p = 1/13 the interval is 4 % wider.
   expect_binomial(hits, trials, std::erf(std::sqrt(13.0 / 12.0 / 2.0)), "Poisson error");
 }
 

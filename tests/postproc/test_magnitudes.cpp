@@ -16,7 +16,7 @@ namespace {
 
 const double ln10 = std::log(10.0);
 
-/// Magnitudes of the Gutenberg-Richter law from completeness on.
+/// Magnitudes above the completeness that follow the Gutenberg-Richter law.
 std::vector<double> gutenberg_richter(double b, double completeness, int n, std::uint64_t seed) {
   LSM::Random random(seed);
   std::vector<double> out;
@@ -56,7 +56,7 @@ TEST(BValue, ErrorIsThatPublishedWithSeismoStats) {
   ASSERT_EQ(published.size(), 100u);
   const BValue result = b_value(published, -0.25);
   ASSERT_FALSE(result.degenerate);
-  // Published for these magnitudes with b = 1.
+  // The value published for these magnitudes with b = 1.
   EXPECT_NEAR(result.error / (result.b * result.b), 0.09776728958456313, 1e-6);
 }
 
@@ -68,11 +68,11 @@ TEST(BValue, SmallExampleByHand) {
   EXPECT_EQ(aki.n, 10);
   EXPECT_NEAR(aki.b, 1.0 / (ln10 * 0.55), 1e-12);
   EXPECT_NEAR(aki.error, ln10 * aki.b * aki.b * std::sqrt(0.825 / 90.0), 1e-12);
-  // In bins of 0.1 the bin centred at 1.0 includes 0.99, too.
+  // With bins of 0.1, the bin centred at 1.0 includes 0.99.
   const BValue tinti = b_value(magnitudes, 1.0, 0.1);
   EXPECT_EQ(tinti.n, 11);
   EXPECT_NEAR(tinti.b, std::log(1.0 + 0.1 * 11.0 / 5.49) / (ln10 * 0.1), 1e-12);
-  // Steps up: 10 of 0.1, from 0.99 to 1.1 one of 0.11.
+  // Positive differences: 10 of about 0.1, that from 0.99 to 1.1 being 0.11.
   EXPECT_EQ(b_positive(magnitudes, 1.0, 0.1).n, 10);
   EXPECT_EQ(b_positive(magnitudes, 1.0, 0.25).n, 0);
 }
@@ -106,7 +106,7 @@ TEST(BValue, PositiveDifferencesHaveTheSame) {
 }
 
 TEST(BValue, PositiveDifferencesForgiveWhatIsMissedAfterLargeEvents) {
-  // An event of magnitude m hides those below m - 1; the limit decreases from event to event.
+  // An event of magnitude m hides later ones below m - 1; this limit decreases from event to event.
   std::vector<double> seen;
   double hidden = -1.0;
   for (const double m : gutenberg_richter(1.0, 0.0, 200000, 7)) {
@@ -134,7 +134,7 @@ TEST(BValue, FewOrEqualMagnitudesAreDegenerate) {
 }
 
 TEST(MaximumCurvature, IsWhereTheCatalogueBeginsToMissEvents) {
-  // Seen with a probability that rises from 0 to 1 between 0.4 and 1.
+  // Events are detected with a probability that rises from 0 to 1 between 0.4 and 1.
   LSM::Random random(3);
   std::vector<double> seen;
   for (const double m : gutenberg_richter(1.0, 0.0, 100000, 11))
@@ -142,7 +142,7 @@ TEST(MaximumCurvature, IsWhereTheCatalogueBeginsToMissEvents) {
   EXPECT_NEAR(maximum_curvature(seen, 0.1), 1.0, 0.11);
   EXPECT_NEAR(b_value(seen, maximum_curvature(seen, 0.1)).b, 1.0, 0.05);
   EXPECT_TRUE(std::isnan(maximum_curvature({}, 0.1)));
-  // The lower of two equals.
+  // Of two equal maxima the lower magnitude counts.
   EXPECT_DOUBLE_EQ(maximum_curvature({1.0, 1.0, 2.0, 2.0, 3.0}, 0.5), 1.2);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Periods in the times of events: found where there is one, not where there is none.
+// Periods in the times of events are found where there is one, and only there.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,8 +19,8 @@ struct Series {
   std::vector<double> times, weights;
 };
 
-/// Independent events over 70 periods, with weights that few of them dominate; share `tied` of them
-/// in the third tenth of the period.
+/// Independent events over 70 periods, with weights of which a few dominate.
+/// \param tied share of the events that lie in the third tenth of the period
 Series events_of(int n, double tied, Random &random) {
   Series out;
   for (int i = 0; i < n; ++i) {
@@ -34,7 +34,7 @@ Series events_of(int n, double tied, Random &random) {
 }
 
 TEST(Periods, ByHand) {
-  // A quarter turn apart: the resultant is the diagonal of the weights.
+  // The phases differ by a quarter of a period: the resultant is the diagonal of the weights.
   const std::vector<double> times = {0.0, 0.25}, weights = {3.0, 4.0};
   EXPECT_NEAR(rayleigh_z(times, weights, 1.0), 1.0, 1e-12);
   EXPECT_NEAR(rayleigh_z(times, weights, 0.25), 49.0 / 25.0, 1e-12);
@@ -88,7 +88,7 @@ TEST(Periods, EnergyAtEqualTimes) {
   const Coincidence tied = coincidence(a.times, std::vector<double>(600, 1.0), b.times,
                                        std::vector<double>(600, 1.0), 0.1, 499, 1);
   EXPECT_GT(tied.correlation, 0.3);
-  // Shifts by whole periods, one of ten, give as much.
+  // One in ten shifts is by whole periods and gives the same correlation.
   EXPECT_LT(tied.p.value, 0.15);
   const Coincidence free = coincidence(c.times, c.weights, d.times, d.weights, 0.1, 499, 1);
   EXPECT_LT(std::fabs(free.correlation), 0.2);

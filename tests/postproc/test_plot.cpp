@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Tables, scripts and pictures: what a label or a file name may hold, and what happens without
-// gnuplot.
+// Tables, scripts and pictures: labels and file names with special characters, and behaviour
+// without gnuplot.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,7 +31,7 @@ namespace {
 
 class Plot : public unit::Files {
  protected:
-  /// A picture of two points whose key holds title.
+  /// A picture of two points with the given title in its key.
   Figure figure(const std::string &title) const {
     Figure result{Table("x,y"), {}, {400, 300}};
     result.table.add(1.0).add(2.0).end_row();
@@ -47,7 +47,7 @@ class Plot : public unit::Files {
   }
 };
 
-/// PATH without any program for the life of the object.
+/// Sets PATH to a folder without programs for the lifetime of the object.
 class EmptyPath {
  public:
   EmptyPath() : before_(std::getenv("PATH")) { setenv("PATH", "/nonexistent", 1); }
@@ -105,7 +105,7 @@ TEST(Table, FourRenderersOfOneTable) {
                        "<td>1.250 ± 0.024</td><td></td></tr>"));
 }
 
-// Many columns of few rows are easier to read from top to bottom.
+// Tables of many columns and few rows are printed transposed, which is easier to read.
 TEST(Table, WideTextIsTurnedOnItsSide) {
   Columns columns;
   for (int k = 0; k < 30; ++k) {
@@ -149,7 +149,7 @@ TEST_F(Plot, ScriptDrawsAgainWhereItIs) {
     std::filesystem::rename(options.output + extension, path("elsewhere/again") + extension);
   const std::string command = "cd '" + path("elsewhere") + "' && gnuplot again.gp";
   ASSERT_EQ(std::system(command.c_str()), 0);
-  // but for its title: gnuplot names itself there
+  // Without the title, in which gnuplot names itself.
   const auto drawing = [](const std::string &svg) { return svg.substr(svg.find("<desc>")); };
   EXPECT_EQ(drawing(slurp(path("elsewhere/again.svg"))), drawing(slurp(options.output + ".svg")));
 }
@@ -206,7 +206,7 @@ TEST_F(Plot, FilesAppearWholeOrNotAtAll) {
       contains(message_of<LSM::FileError>([&] { claim_output(name, false); }), "--overwrite"));
   EXPECT_TRUE(contains(message_of<LSM::FileError>([&] { write_file(path("folder/"), "x"); }),
                        "is a directory, expected a file name"));
-  // A link goes on pointing to the file; a device is no file to be replaced.
+  // A link keeps pointing to its file; a device must not be replaced by a file.
   std::filesystem::create_symlink(name, path("link"));
   write_file(path("link"), "new");
   EXPECT_TRUE(std::filesystem::is_symlink(path("link")));
@@ -253,7 +253,7 @@ TEST_F(Plot, TableDoesNotDependOnTheLocale) {
 TEST_F(Plot, AxisOfPowersOfTen) {
   EXPECT_TRUE(contains(axis("x", "x", true, 1e-4, 1e3), "[0.0001"));
   EXPECT_TRUE(contains(axis("x", "x", true, 1e-4, 1e3), ":1000]"));
-  // Too short for powers of ten: 1, 2 and 5 around the data.
+  // A range too short for powers of ten ends at multiples of 1, 2 or 5.
   const std::string brief = axis("y", "y", true, 1100.0, 1900.0);
   EXPECT_TRUE(contains(brief, "set yrange [1000:2000]"));
   EXPECT_TRUE(contains(

@@ -45,7 +45,7 @@ std::vector<double> power_law_sample(std::size_t n, double alpha, double lo, dou
   });
 }
 
-// Integral over [lo, hi] by GSL in u = ln x, panel by panel.
+// Integral over [lo, hi] by GSL with u = ln x, panel by panel.
 double integrate(const std::function<double(double)> &density, double lo, double hi) {
   gsl_integration_workspace *work = gsl_integration_workspace_alloc(1000);
   struct Context {
@@ -69,7 +69,8 @@ double integrate(const std::function<double(double)> &density, double lo, double
   return total;
 }
 
-// Series replace the closed forms where these cancel: both sides of the border, and 0.
+// Series replace the closed forms where those suffer from cancellation: tested are values on both
+// sides of the border, and 0.
 TEST(PowerLaw, MeanAndVarianceAgreeWithQuadratureForAnyTilt) {
   for (double z : {0.0, 1e-9, 1e-4, 0.03, 0.07, 0.0999, 0.1001, 0.5, 3.0, 30.0}) {
     const auto moment = [&](double shift, int power) {
@@ -101,7 +102,7 @@ TEST(PowerLaw, LikelihoodAgreesWithQuadrature) {
       };
       const double top = log_likelihood(fit.alpha);
       EXPECT_NEAR(fit.log_likelihood, top, 1e-9 * std::fabs(top));
-      // A maximum, and its curvature gives the standard error.
+      // This is a maximum, whose curvature gives the standard error.
       const double h = 0.1 * fit.standard_error;
       const double below = log_likelihood(fit.alpha - h), above = log_likelihood(fit.alpha + h);
       EXPECT_NEAR((above - below) / (2.0 * h) * fit.standard_error, 0.0, 2e-3);
@@ -121,7 +122,7 @@ TEST(PowerLaw, InfiniteRangeHasTheClosedForm) {
   EXPECT_NEAR(fit.standard_error, (fit.alpha - 1.0) / std::sqrt(500.0), 1e-12);
 }
 
-// A power law on [1, hi] in ln x.
+// A power law on [1, hi] as an exponential law in ln x.
 Exponential law(double alpha, double hi) { return {std::log(hi), 1.0 - alpha}; }
 
 TEST(PowerLaw, DistributionIsContinuousThroughOneAndInverts) {
@@ -176,7 +177,8 @@ TEST(PowerLaw, DistanceIsThatOfEveryPoint) {
   LSM::Random random(5);
   for (std::size_t n : {10u, 11u, 100u, 101u, 5000u, 5001u}) {
     for (double alpha : {0.5, 1.0, 2.0}) {
-      // Rounded down or up, so that there are ties and either distribution is the larger one.
+      // Values are rounded down or up, so that there are ties, and either distribution function can
+      // be the larger one.
       auto sample = power_law_sample(n, alpha, 1.0, 50.0, random);
       for (double &x : sample) x = (n % 2 == 0 ? std::floor(4.0 * x) : std::ceil(4.0 * x)) / 4.0;
       const PowerLawFit fit = fit_power_law(sample, 1.0, 50.0);
@@ -237,7 +239,8 @@ TEST(PowerLaw, ProbabilityIsUniformUnderTheNull) {
   }
 }
 
-// What replicas are asked: the same as by the distance itself, also where both are equal.
+// The comparison used for replicas agrees with that of the distances themselves, even if these are
+// equal.
 TEST(KsDistance, AgainstAnotherComparesDistances) {
   LSM::Random random(3);
   const auto uniform = [](double x) { return x; };
@@ -251,7 +254,7 @@ TEST(KsDistance, AgainstAnotherComparesDistances) {
     EXPECT_GT(ks.against(distance), 0.0);
     EXPECT_EQ(ks.against(std::nextafter(distance, 1.0)), 0.0);
     EXPECT_GT(ks.against(std::nextafter(distance, 0.0)), 0.0);
-    const double other = 0.05;  // passed by about every third
+    const double other = 0.05;  // exceeded by about a third of the samples
     EXPECT_EQ(ks.against(other) > 0.0, distance >= other);
     as_far += distance >= other;
   }
@@ -259,7 +262,8 @@ TEST(KsDistance, AgainstAnotherComparesDistances) {
   EXPECT_LT(as_far, 180);
 }
 
-// Samples that the test takes by cells: as sound as one of single values, and no less sharp.
+// The test of large samples uses counts in cells: its p is as reliable as that from single values,
+// and its power no less.
 TEST(PowerLaw, ProbabilityOfManyValues) {
   LSM::Random random(12);
   const std::size_t n = 12000;
@@ -293,7 +297,7 @@ TEST(PowerLaw, ProbabilityIsTheShareOfSamplesThatFitWorse) {
   LSM::Random random(31);
   constexpr int replicas = 8000;
   for (double alpha : {1.0, 2.0}) {
-    // a sample of medium probability, which a few per cent of the distance change most
+    // A sample of medium p, which is most sensitive to a few per cent of the distance.
     std::vector<double> data;
     double about = 0.0;
     for (std::uint64_t seed = 1; std::fabs(about - 0.5) > 0.2 && seed < 100; ++seed) {
@@ -313,7 +317,7 @@ TEST(PowerLaw, ProbabilityIsTheShareOfSamplesThatFitWorse) {
 }
 
 TEST(PowerLaw, ProbabilityAllowsForTheSearch) {
-  // A search in every replica: without it the data would look better than any replica.
+  // The range is searched in every replica; otherwise the data would fit better than any replica.
   LSM::Random random(13);
   int rejected = 0;
   double mean = 0.0;
@@ -374,7 +378,7 @@ TEST(PowerLaw, OtherLawsAreRejected) {
 TEST(PowerLaw, SearchFindsWhereThePowerLawBegins) {
   LSM::Random random(9);
   for (int i = 0; i < 5; ++i) {
-    // Exponent 1.5 above 1e-3; a cluster just below, too narrow to be a range of its own.
+    // The exponent is 1.5 above 1e-3; a cluster just below is too narrow to be a range of its own.
     std::vector<double> sample = power_law_sample(4000, 1.5, 1e-3, 1.0, random);
     for (int k = 0; k < 2000; ++k) sample.push_back(1e-3 * random.uniform(0.5, 1.0));
     std::sort(sample.begin(), sample.end());
@@ -385,7 +389,7 @@ TEST(PowerLaw, SearchFindsWhereThePowerLawBegins) {
     EXPECT_NEAR(fit.alpha, 1.5, 4.0 * fit.standard_error);
     EXPECT_EQ(fit.n, std::count_if(sample.begin(), sample.end(),
                                    [&](double x) { return x >= fit.lo && x <= fit.hi; }));
-    // Nothing outside the law is included at the other end either.
+    // Values outside the law are not included at the other end either.
     for (int k = 0; k < 2000; ++k) sample.push_back(random.uniform(1.0, 1.5));
     std::sort(sample.begin(), sample.end());
     const PowerLawFit both = search_range(sample);
@@ -397,7 +401,7 @@ TEST(PowerLaw, SearchFindsWhereThePowerLawBegins) {
   }
 }
 
-// The ratios again from the parameters alone, every density normalised by quadrature.
+// The ratios are recomputed from the parameters alone, with every density normalised by quadrature.
 TEST(PowerLaw, RatiosAgreeWithQuadrature) {
   LSM::Random random(10);
   int two_sided = 0;
@@ -406,7 +410,7 @@ TEST(PowerLaw, RatiosAgreeWithQuadrature) {
   };
   for (const Case &c : {Case{0.6, 0.3, 1e-4, 1.0}, Case{1.0, 0.05, 1e-4, 1.0},
                         Case{1.8, 2.0, 0.01, 1e3}, Case{2.5, 5.0, 1.0, infinity}}) {
-    // Power law with exponential cut-off by rejection.
+    // A power law with an exponential cut-off, sampled by rejection.
     std::vector<double> sample;
     while (sample.size() < 3000) {
       const double x = power_law_sample(1, c.alpha, c.lo, c.hi, random)[0];
@@ -427,7 +431,7 @@ TEST(PowerLaw, RatiosAgreeWithQuadrature) {
           return -std::log(x) - 0.5 * std::pow((std::log(x) - p["mu"]) / p["sigma"], 2);
         return -p["alpha"] * std::log(x) - x / p["cut-off"];
       };
-      // Far enough for every rival on the infinite range.
+      // On the infinite range, all alternatives are negligible beyond this.
       const double end = c.hi < infinity ? c.hi : 1e12;
       const double shift = log_density(sample[sample.size() / 2]);
       const double log_z =
@@ -447,7 +451,8 @@ TEST(PowerLaw, RatiosAgreeWithQuadrature) {
         EXPECT_NEAR(p["alpha"], c.alpha, 0.12);
         EXPECT_NEAR(std::log(p["cut-off"] / c.cut_off), 0.0, 0.6);
       } else {
-        // Vuong: sum over its standard deviation, two-sided against a normal law
+        // Vuong's test: the sum over its standard deviation is compared with a normal law,
+        // two-sided.
         const auto n = static_cast<double>(sample.size());
         const double mean = comparison.log_likelihood_ratio / n;
         const double z = std::sqrt(n) * mean / std::sqrt(squares / n - mean * mean);
@@ -477,8 +482,8 @@ TEST(PowerLaw, CutOffIsNotFoundWhereThereIsNone) {
       ++significant;
     }
   }
-  // At the border of the parameter half the samples prefer the power law itself, and the rest are
-  // significant half as often as p states.
+  // As the true parameter is at the border of its range, half of the samples prefer the power law
+  // itself, and the others are significant half as often as p states.
   expect_binomial(none, 300, 0.5, "no cut-off");
   expect_binomial(significant, 300, 0.025, "cut-off with p < 0.05");
 }

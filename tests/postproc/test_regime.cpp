@@ -14,7 +14,8 @@ namespace {
 using LSM::postproc::Regime;
 using LSM::postproc::RegimeMeter;
 
-// Rises by `up` per sample for n samples, then falls to the start within m samples; so many times.
+// Adds a sawtooth that rises by `up` per sample for n samples and then falls back within m samples.
+// \param times number of teeth
 void saw_tooth(RegimeMeter &meter, double up, int n, int m, int times) {
   for (int k = 0; k < times; ++k) {
     for (int i = 0; i < n; ++i) meter.add(up * i);
@@ -24,7 +25,7 @@ void saw_tooth(RegimeMeter &meter, double up, int n, int m, int times) {
 }
 
 TEST(Regime, OfASawToothIsTheRatioOfItsSlopes) {
-  // windows of 5 samples, flanks of 200 and 10: no window contains a turning point
+  // With windows of 5 samples and flanks of 200 and 10, no window contains a turning point.
   RegimeMeter meter(0.5, 0.1, 120);
   saw_tooth(meter, 1e-3, 200, 10, 50);
   const Regime r = meter.result();
@@ -46,7 +47,7 @@ TEST(Regime, OfASymmetricSeriesIsOne) {
 }
 
 TEST(Regime, DoesNotGrowWithTheLengthOfTheSeries) {
-  // events of many sizes: the fastest fall grows with their number, the mean does not
+  // With events of many sizes, the fastest fall grows with their number, but the mean does not.
   const auto of = [](int cycles) {
     RegimeMeter meter(1.0, 1.0, 120);
     double pe = 0.0, u = 0.5;
@@ -62,8 +63,8 @@ TEST(Regime, DoesNotGrowWithTheLengthOfTheSeries) {
   EXPECT_NEAR(longer.saw_tooth / brief.saw_tooth, 1.0, 0.5);
 }
 
-// n faults of length 120 side by side, each a saw-tooth that falls 12 times as fast as it rises,
-// out of step.
+// n faults of length 120 side by side, with different phases, each of which is a sawtooth that
+// falls 12 times as fast as it rises.
 TEST(Regime, OfALongFaultIsJudgedByItsLength) {
   for (const int n : {1, 4, 16}) {
     RegimeMeter meter(1.0, 1.0, 120.0 * n);
@@ -86,7 +87,7 @@ TEST(Regime, OfALongFaultIsJudgedByItsLength) {
 }
 
 TEST(Regime, FastestFallIsMeasuredByTheLargestRises) {
-  // rises of 1 to 101 in any order, 99 % of them up to 100, and one fall of 200
+  // There are rises of 1 to 101 in any order, 99 % of them up to 100, and one fall of 200.
   RegimeMeter meter(1.0, 1.0, 120);
   double pe = 0.0;
   meter.add(pe);

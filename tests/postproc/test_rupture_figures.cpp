@@ -22,7 +22,8 @@ using unit::message_of;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Ten bins of width 2, intervals of 4 steps of 0.25, slipping above 5 driving velocities of 0.001.
+/// Ten bins of width 2 and intervals of 4 steps of 0.25. Bins slip above 5 times the driving
+/// velocity of 0.001.
 class RuptureHistory : public unit::Files {
  protected:
   std::string file() const { return path("slip.bin"); }
@@ -114,7 +115,8 @@ TEST_F(RuptureHistory, SpaceAndTime) {
     if (t == 53.5) slip = x == 9.0 ? 0.03 : 0.0;
     EXPECT_NEAR(v, slip > 0.0 ? std::log10(slip / 0.001) : 0.0, 1e-6) << x << " " << t;
   }
-  // The one across the seam is split into two closed lines: 5 points each, and a row that ends it.
+  // The outline across the seam is split into two closed lines of 5 points and a row that ends
+  // them.
   const auto lines = rows_of(outlines);
   ASSERT_EQ(lines.size(), 1U + 6U + 6U + 6U);
   EXPECT_EQ(lines[1], (std::vector<std::string>{"1", "18", "51"}));
@@ -130,7 +132,8 @@ TEST_F(RuptureHistory, LinesOfSlip) {
          ".........."});
   const HistoryWindow window = window_of(-infinity, infinity);
   const auto rows = rows_of(slip_lines_figure(window, 2.0, 1.0).table);
-  // Locked: times 50 (the first record) and 57; slipping: 52, 53, 54. Time 51 is before the next.
+  // The fault is locked at the times 50 (the first record) and 57, and slips at 52, 53, 54. At 51
+  // the next line is not due yet.
   std::vector<std::pair<std::string, double>> lines;  // time, sum of the slip
   for (std::size_t n = 1; n < rows.size(); ++n) {
     if (rows[n][0] == "NaN") continue;
@@ -180,7 +183,7 @@ TEST_F(RuptureHistory, DetailIsCentredOnTheFirstPlace) {
   EXPECT_TRUE(p);
   EXPECT_TRUE(s);
   EXPECT_NEAR(slip, 0.04, 1e-7);
-  // gnuplot takes it.
+  // gnuplot accepts the script.
   lines.write(path("figure-lines.csv"));
   EXPECT_TRUE(contains(figure.script, "P-wave, speed 2"));
 }

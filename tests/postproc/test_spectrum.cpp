@@ -39,7 +39,7 @@ double hann(std::size_t i, std::size_t n) {
   return std::pow(std::sin(pi * static_cast<double>(i) / static_cast<double>(n)), 2);
 }
 
-/// n values from begin on, without their line of least squares.
+/// n values from `begin` on, less their least-squares line.
 std::vector<double> without_line(const std::vector<double> &values, std::size_t begin,
                                  std::size_t n) {
   double sx = 0.0, sxx = 0.0, sy = 0.0, sxy = 0.0;
@@ -60,7 +60,7 @@ std::vector<double> without_line(const std::vector<double> &values, std::size_t 
 
 }  // namespace
 
-// Parseval: one segment, even and odd length, and the squares weighted by the window.
+// Parseval's theorem for one segment of even or odd length, with squares weighted by the window.
 TEST(Spectrum, IntegralIsTheVariance) {
   for (const std::size_t n : {64u, 65u}) {
     std::vector<double> values = noise(n, 3);
@@ -76,7 +76,7 @@ TEST(Spectrum, IntegralIsTheVariance) {
   }
 }
 
-// Against a transform written out as a sum.
+// Compares the spectrum with a transform written out as a sum.
 TEST(Spectrum, AgreesWithTheDefinition) {
   const std::size_t n = 16;
   const double dt = 0.25;
@@ -108,8 +108,8 @@ TEST(Spectrum, SineHasHalfTheSquareOfItsAmplitude) {
   const double amplitude = 0.7, dt = 0.03;
   const std::size_t n = 256;
   WelchSpectrum spectrum(n, dt);
-  // 20 periods in a segment: all power within the main lobe of the window. Cosines about the middle
-  // of each segment have no trend.
+  // With 20 periods in a segment, all power is within the main lobe of the window. A cosine that is
+  // symmetric about the middle of each segment has no trend.
   for (int i = 0; i < 4096; ++i)
     spectrum.add(3.0 + amplitude * std::cos(2.0 * pi * 20.0 * (i + 0.5) / static_cast<double>(n)));
   const std::vector<SpectrumPoint> points = spectrum.points();
@@ -123,7 +123,7 @@ TEST(Spectrum, SineHasHalfTheSquareOfItsAmplitude) {
   EXPECT_NEAR(points[20].frequency, 20.0 / (256 * dt), 1e-12);
 }
 
-// White noise is flat, 2 sigma^2 dt, and scatters as the stated errors say.
+// The spectrum of white noise is flat, 2 sigma^2 dt, and its scatter agrees with the stated errors.
 TEST(Spectrum, WhiteNoiseLevelAndErrors) {
   const double sigma = 0.3, dt = 0.05, level = 2.0 * sigma * sigma * dt;
   double sum = 0.0, scatter = 0.0;
@@ -138,9 +138,9 @@ TEST(Spectrum, WhiteNoiseLevelAndErrors) {
           std::pow((points[k].density - level) / (level * points[k].error / points[k].density), 2);
     }
   }
-  // 488 points of relative error near 1/20 (neighbours share up to half of it).
+  // 488 points have a relative error near 1/20, up to half of which neighbours share.
   EXPECT_NEAR(sum / static_cast<double>(count), 1.0, 0.011);
-  // A mean square of 488 correlated normal deviates: standard error below 0.1.
+  // The mean square of 488 correlated normal deviates has a standard error below 0.1.
   EXPECT_NEAR(scatter / static_cast<double>(count), 1.0, 0.27);
 }
 

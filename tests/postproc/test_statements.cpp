@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Statements in words: densities that fall and that do not, shares whose errors cover, slip within
-// and between drops by hand.
+// Statements in words: densities that do or do not decrease, coverage of the errors of shares, and
+// slip within and between drops by hand.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,7 +18,7 @@ namespace {
 using namespace LSM;
 using namespace LSM::postproc;
 
-/// Contents of bins of width 1 whose density is that given, with noise that parts of a run share.
+/// Contents of bins of width 1 with the given density, in parts of a run with different noise.
 std::vector<std::vector<double>> contents(const std::vector<double> &density, Random &random) {
   std::vector<std::vector<double>> out;
   for (int part = 0; part < run_parts; ++part) {
@@ -33,7 +33,7 @@ TEST(Statements, MonotonyTellsARiseFromNoise) {
   Random random(3);
   int alarms = 0;
   for (int trial = 0; trial < 200; ++trial) {
-    // Flat: the largest of 28 ratios is above 1, but by chance.
+    // For a flat density the largest of 28 ratios is above 1 by chance.
     const Monotony flat = monotony(edges, contents(std::vector<double>(8, 2.0), random));
     EXPECT_GT(flat.rise.value, 1.0);
     alarms += flat.rises;
@@ -59,7 +59,7 @@ TEST(Statements, MonotonyIsOfDensitiesAndNeedsContent) {
   const Monotony wide = monotony({0.0, 1.0, 4.0}, parts);
   EXPECT_FALSE(wide.rises);
   EXPECT_NEAR(wide.rise.value, 2.0 / 3.0, 1e-12);
-  // A bin with content in one part says nothing.
+  // A bin with content in a single part is ignored.
   for (std::size_t k = 1; k < parts.size(); ++k) parts[k][1] = 0.0;
   parts[0][1] = 1000.0;
   EXPECT_TRUE(std::isnan(monotony({0.0, 1.0, 4.0}, parts).rise.value));
@@ -71,7 +71,7 @@ TEST(Statements, RatiosOfPartsCover) {
   for (int trial = 0; trial < 300; ++trial) {
     std::vector<double> above, below;
     for (int part = 0; part < run_parts; ++part) {
-      // Clusters: a part has few or many events, of which 0.3 on average count.
+      // Events are clustered: a part has few or many, of which 0.3 on average count.
       const double many = 1.0 + 4.0 * random.uniform();
       below.push_back(many);
       above.push_back(many * (0.2 + 0.2 * random.uniform()));
@@ -85,8 +85,8 @@ TEST(Statements, RatiosOfPartsCover) {
 class SlipAndDrops : public unit::Files {};
 
 TEST_F(SlipAndDrops, AddUpByHand) {
-  // 100 times: quiet for 8 intervals of one time unit at a tenth of the plates' velocity, then a
-  // drop of 2 intervals at 10 and 30 plate velocities in the two bins of width 3.
+  // 100 cycles of 8 quiet intervals of one time unit, at a tenth of the plate velocity, and a drop
+  // that lasts 2 intervals, at 10 and 30 plate velocities in the two bins of width 3.
   SlipHistoryInfo info;
   info.grid.bins = 2;
   info.grid.width = 3.0;
@@ -129,10 +129,10 @@ TEST_F(SlipAndDrops, AddUpByHand) {
   EXPECT_NEAR(s.rise_over_work.value, 0.9, 1e-5);
   EXPECT_NEAR(s.recorded.value, (slip_between + slip_within) / (992 * 0.001), 1e-6);
   EXPECT_EQ(s.backwards, 0.0);
-  // Three velocities: 0.1 (also as a mean over eight intervals), 10 and 30.
+  // There are three velocities: 0.1 (also as a mean over eight intervals), 10 and 30.
   EXPECT_EQ(s.velocities.density.size(), 14U);
   EXPECT_FALSE(s.velocities.rises);
-  // Half of the drops are too small: twice the time between.
+  // Half of the drops are too small, which doubles the time between drops.
   SlipHistoryReader again = open_history(path("slip.bin"), false);
   const SlipStatements large = slip_statements(again, drops, 1.5);
   EXPECT_NEAR(large.time_between, 49.0 * 18 / 982, 1e-9);
@@ -159,7 +159,7 @@ TEST(Statements, ShareOfOneBin) {
 }
 
 TEST(Statements, RollOffFindsItsPower) {
-  // s^-1.2 exp(-(s / 0.1)^power) from 1e-4 on, by rejection from the power law up to 10.
+  // s^-1.2 exp(-(s / 0.1)^power) above 1e-4, sampled by rejection from a power law up to 10.
   for (const double power : {1.0, 2.5}) {
     Random random(29);
     EventTable table;

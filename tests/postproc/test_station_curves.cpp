@@ -10,7 +10,7 @@ using namespace LSM;
 
 namespace {
 
-/// Slip rate that rises from 0 to `top` between 1 and 2, sampled every h.
+/// Slip rate that rises from 0 to `top` between the times 1 and 2, sampled at intervals of h.
 StationCurve ramp(double top, double h, double end = 4.0) {
   StationCurve c{1.0, {}, {}, {}};
   for (double t = 0.0; t < end + 1e-9; t += h) {

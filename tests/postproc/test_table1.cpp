@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Table 1: the printed values as they are in the paper, ours apart from them; inter-event times.
+// Table 1: the values printed in the paper, our values apart from them, and inter-event times.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -28,7 +28,7 @@ EventTable events(const std::vector<double> &starts, const std::vector<double> &
   return table;
 }
 
-/// Start times whose differences are gamma distributed: shape and scale.
+/// Events whose inter-event times are gamma distributed with the given shape and scale.
 EventTable gamma_events(double shape, double scale, int n) {
   gsl_rng *generator = gsl_rng_alloc(gsl_rng_mt19937);
   gsl_rng_set(generator, 20);
@@ -45,7 +45,7 @@ const Table1Row *row_with(const std::vector<Table1Row> &rows, const std::string 
   return nullptr;
 }
 
-// 1e7 times with 200 random series took minutes.
+// For 1e7 times, 200 random series would take minutes.
 TEST(Intervals, FewerRandomSeriesOfLongOnes) {
   EXPECT_EQ(shuffles_for(0), 200);
   EXPECT_EQ(shuffles_for(100'000), 200);
@@ -64,7 +64,7 @@ TEST(Intervals, VariationOfRegularIndependentAndClusteredTimes) {
   // 1, 3: mean 2, standard deviation 1
   EXPECT_DOUBLE_EQ(variation(events({0.0, 1.0, 4.0}, {1.0, 1.0, 1.0})), 0.5);
   EXPECT_TRUE(std::isnan(variation(events({0.0, 1.0}, {1.0, 1.0}))));
-  // a gamma density of shape k has 1 / root k
+  // A gamma density of shape k has 1 / sqrt(k).
   EXPECT_NEAR(variation(gamma_events(4.0, 1.0, 40000)), 0.5, 0.01);
   EXPECT_NEAR(variation(gamma_events(0.25, 1.0, 40000)), 2.0, 0.1);
 }
@@ -82,7 +82,7 @@ TEST(Intervals, RankCorrelationOfSuccessiveTimes) {
   EXPECT_TRUE(std::isnan(successive_rank_correlation(std::vector<double>(9, 1.0)).rho));
 }
 
-// What is printed beside each other comes from one deviation.
+// Values that are printed side by side must be based on the same standard deviation.
 TEST(Intervals, BurstinessOfCurveAndOfClusteringAreOne) {
   IntervalSettings settings;
   settings.thresholds = {0.0};
@@ -93,8 +93,8 @@ TEST(Intervals, BurstinessOfCurveAndOfClusteringAreOne) {
   EXPECT_EQ(curve.burstiness(), curve.clustering.burstiness);
 }
 
-// Short times are left out of the fit, in multiples of the mean whatever the unit is, and C is that
-// of the density of all times.
+// Short times are left out of the fit. The limit is a multiple of the mean, whatever the unit, and
+// C is that of the density of all times.
 TEST(Intervals, FitFromALowerEndOn) {
   const EventTable table = gamma_events(0.7, 20.0, 20000);  // mean 14
   IntervalSettings settings;
@@ -121,8 +121,8 @@ TEST(Intervals, FitFromALowerEndOn) {
   }
 }
 
-/// Renewal events with gamma-distributed times, as a picker with this memory finds them: after each
-/// it finds none for a time that is random with this mean.
+/// Renewal events with gamma-distributed times, as found by a picker with the given memory: after
+/// each event it finds none for a random time whose mean is the memory.
 EventTable picked_events(double shape, double mean, double memory, std::size_t n,
                          gsl_rng *generator) {
   std::vector<double> starts;
@@ -140,8 +140,8 @@ EventTable picked_events(double shape, double mean, double memory, std::size_t n
   return table;
 }
 
-// What all commands quote: above 2.5 memories of the picker gamma is that of the events, and its
-// errors cover; of all times it is that of the picker.
+// The value that all commands quote, from times above 2.5 memories of the picker, is gamma of the
+// events, and its errors cover it; with all times it is biased by the picker.
 TEST(Intervals, GammaWithoutThePicker) {
   gsl_rng *const generator = gsl_rng_alloc(gsl_rng_mt19937);
   gsl_rng_set(generator, 17);
@@ -172,7 +172,7 @@ TEST(Intervals, GammaWithoutThePicker) {
       }
       EXPECT_NEAR(sum / trials, shape, 0.09) << mean << ' ' << shape;
       EXPECT_GE(one, 54) << mean << ' ' << shape;  // 68 % less three standard errors
-      EXPECT_GE(two, 85) << mean << ' ' << shape;  // 95 %, and what is left of the picker
+      EXPECT_GE(two, 85) << mean << ' ' << shape;  // 95 %, less the remaining bias
       EXPECT_GT(biased / trials - shape, 0.1) << mean << ' ' << shape;
     }
   gsl_rng_free(generator);
@@ -204,7 +204,7 @@ TEST(Intervals, ShortestTimeThatSaysSomething) {
   table.info.parameters = {{"dt", "0.1"}, {"lambda", lambda}};
   const IntervalCurve curve = interval_curves({table}, settings)[0];
   ASSERT_EQ(curve.cuts.size(), 9u);
-  // All times, and the one that is quoted, are among the cuts; least squares uses all bins.
+  // The cuts include none (all times) and the one that is quoted; least squares uses all bins.
   EXPECT_EQ(curve.cuts[0].cut, 0.0);
   EXPECT_EQ(curve.fits[0].method, "maximum likelihood");
   EXPECT_EQ(curve.fits[0].held, 1.0);
@@ -225,9 +225,9 @@ TEST(Intervals, AtOnePlaceOnly) {
   EventTable table = events({0.0, 10.0, 25.0, 45.0, 70.0}, {1.0, 1.0, 0.1, 1.0, 1.0});
   table.info.parameters = {{"length", "8"}};
   table.info.x_begin = table.info.rupture_length = true;
-  // The fourth continues across the border to 1.5.
+  // The fourth rupture continues across the border to 1.5.
   const double begin[] = {0.5, 2.0, 0.0, 6.5, 1.0};
-  // They reach 1; 3; all; 7 and 1; 1, as it ends before 3.
+  // They reach the places 1; 3; all; 7 and 1; 1, as the last one ends before 3.
   const double length[] = {1.0, 2.0, 8.0, 3.0, 2.0};
   for (std::size_t i = 0; i < 5; ++i) {
     LSM::Event event;
@@ -237,7 +237,7 @@ TEST(Intervals, AtOnePlaceOnly) {
     table.details.push_back(event);
   }
   EXPECT_EQ(times_at_places(table, 0.5, 4), (std::vector<double>{45.0, 25.0}));
-  // With the small one: at 1: 0, 25, 45, 70; at 3: 10, 25; at 5: 25; at 7: 25, 45.
+  // With the small event, the times are 0, 25, 45, 70 at 1; 10, 25 at 3; 25 at 5; 25, 45 at 7.
   EXPECT_EQ(times_at_places(table, 0.0, 4), (std::vector<double>{25.0, 20.0, 25.0, 15.0, 20.0}));
   IntervalSettings settings;
   settings.thresholds = {0.0};
@@ -253,7 +253,7 @@ TEST(Intervals, AtOnePlaceOnly) {
 TEST(Table1, PrintedValuesAsInThePaper) {
   const Table printed = table1({}, false);
   EXPECT_EQ(printed.rows(), 3);
-  // Digits as printed.
+  // The digits are those printed in the paper.
   const std::string csv = printed.csv();
   EXPECT_TRUE(contains(csv, "printed,,,0.67,,0.98,,1.58,,0.50,,,,,,,seismicity (Corral 2004),"));
   EXPECT_TRUE(contains(csv, "printed,,,0.995,,1.00,,15.21,,0.0573,,,,,,,LSM,"));
@@ -326,7 +326,7 @@ TEST(Table1, PoorFitsAreRejected) {
   EXPECT_TRUE(std::isfinite(binned->p.value));
   EXPECT_TRUE(std::isnan(binned->p.error));
 
-  // Without replicas nothing is said about the law.
+  // Without replicas there is no statement about the law.
   settings.replicas = 0;
   const auto quick = table1_rows(interval_curves({gamma_events(0.7, 20.0, 5000)}, settings));
   EXPECT_TRUE(std::isnan(row_with(quick, method)->p.value));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Two-sample tests: distances by hand; false alarms as often as stated, also for series with
-// memory.
+// Two-sample tests: distances by hand, and the rate of false alarms, also for series with memory.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,7 +17,7 @@ double gaussian(LSM::Random &random) {
          std::cos(6.283185307179586 * random.uniform());
 }
 
-/// exp of an autoregressive series.
+/// Exponentials of an autoregressive series.
 std::vector<double> series(LSM::Random &random, int n, double memory, double mean = 0.0) {
   std::vector<double> values;
   double x = gaussian(random);
@@ -29,7 +28,7 @@ std::vector<double> series(LSM::Random &random, int n, double memory, double mea
   return values;
 }
 
-/// Number of pairs from the same law, of `trials`, that have p < 0.05.
+/// Number of pairs of samples from the same law, out of `trials`, that have p < 0.05.
 int alarms(int trials, double memory, int block) {
   LSM::Random random(7);
   int count = 0;
@@ -51,18 +50,18 @@ TEST(TwoSample, DistanceByHand) {
 }
 
 TEST(TwoSample, FalseAlarmsAsOftenAsStated) {
-  // Three standard deviations of the binomial distribution about 5 %.
+  // The rate must be within three standard deviations of the binomial distribution of 5 %.
   const int trials = 400;
   const double slack = 3.0 * std::sqrt(trials * 0.05 * 0.95);
   EXPECT_NEAR(alarms(trials, 0.0, 1), 0.05 * trials, slack);
   EXPECT_NEAR(alarms(trials, 0.0, 0), 0.05 * trials, slack);
-  // With a memory of some events blocks are needed; in 2000 trials 6 % differ with them, 28 %
+  // For a memory of some events blocks are needed: in 2000 trials, 6 % differ with blocks and 28 %
   // without.
   EXPECT_GT(alarms(trials, 0.6, 1), 0.2 * trials);
   EXPECT_NEAR(alarms(trials, 0.6, 0), 0.05 * trials, slack);
 }
 
-// So many that the divisions are made by classes of ranks.
+// So many values that samples are divided by classes of ranks.
 TEST(TwoSample, ManyValues) {
   LSM::Random random(9);
   const int trials = 100;
@@ -79,7 +78,7 @@ TEST(TwoSample, ManyValues) {
   EXPECT_LT(
       two_sample_test(series(random, 9000, 0.0), series(random, 9000, 0.0, 0.1), 99, 1).p.value,
       0.03);
-  // Sizes of one kind only, half of them.
+  // Half of the sizes of one sample differ from the only size of the other.
   std::vector<double> same(20000, 1.0), half = same;
   for (std::size_t i = 0; i < half.size(); i += 2) half[i] = 2.0;
   EXPECT_EQ(two_sample_test(same, same, 49, 1).p.value, 1.0);
@@ -95,12 +94,13 @@ TEST(TwoSample, FindsDifferences) {
   EXPECT_EQ(test.n[0], 500);
   EXPECT_NEAR(test.ratio.value, std::exp(0.5), 3.0 * test.ratio.error);
   EXPECT_DOUBLE_EQ(test.distance, two_sample_distance(a, b));
-  // The same shape with other clusters: the same p for the same seed, another one for another.
+  // The same seed gives the same p.
   EXPECT_EQ(test.p.value, two_sample_test(a, b, 999, 1).p.value);
 }
 
 TEST(TwoSample, ErrorOfTheMeanAllowsForMemory) {
-  // Of exp(x): not known in closed form for few values, so against the scatter of many series.
+  // For few values the error of the mean of exp(x) has no closed form; it is compared with the
+  // scatter of many series.
   LSM::Random random(11);
   double squares = 0.0, errors = 0.0, sum = 0.0;
   const int trials = 400;

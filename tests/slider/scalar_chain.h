@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The straightforward loop over all blocks, one after the other, PE summed directly every step, and
-// where modes couple the blocks, over all pairs of them: what the paper describes, and the
-// yardstick for the chain of slider_cli and, with the ledger, for energy.
+// The straightforward implementation of what the paper describes: a loop over all blocks, one after
+// the other, or over all pairs of blocks that modes couple, with PE summed directly in every step.
+// It is the reference for the chain of slider_cli and, with the ledger, for energy.
 #ifndef LSM_TESTS_SCALAR_CHAIN_H
 #define LSM_TESTS_SCALAR_CHAIN_H
 
@@ -14,7 +14,7 @@
 
 namespace Slider {
 
-/// Friction of a block that moves, or starts to, after the given slip.
+/// Friction of a block that moves, or starts to move, after the given slip.
 inline double friction_of(const Friction &law, double mu, double v, double slip) {
   switch (law.law) {
     case Law::velocity_weakening:
@@ -27,8 +27,8 @@ inline double friction_of(const Friction &law, double mu, double v, double slip)
   return mu;
 }
 
-/// Work done and lost since the start: plate = PE + kinetic + friction + radiated up to the
-/// scheme's error.
+/// Work done and lost since the start: plate = PE + kinetic + friction + radiated, up to the error
+/// of the scheme.
 struct EnergyLedger {
   double plate = 0.0, friction = 0.0, kinetic = 0.0, radiated = 0.0;
 };
@@ -48,7 +48,7 @@ inline std::vector<double> coupling_of(const Parameters &p) {
   return c;
 }
 
-/// Force of all others on a block: by springs or, summed over all pairs, by modes.
+/// Force of all other blocks on a block: by springs or, summed over all pairs, by modes.
 inline double coupling_force(const Parameters &p, const std::vector<double> &c, const double *u,
                              std::size_t i) {
   const auto n = static_cast<std::size_t>(p.blocks);
@@ -141,7 +141,7 @@ class ScalarChain {
     } else if (p_.scheme == Scheme::verlet && law.law != Law::velocity_weakening) {
       for (std::size_t i = 0; i < n; ++i) {
         if (v_[i] == 0.0 && force_[i] <= mu_[i]) continue;
-        // A block that came to rest in the first half of the step has healed.
+        // A block that came to rest in the first half of the step has regained its static strength.
         const double slip = v_[i] > 0.0 ? u_[i] - rest_[i] : 0.0;
         v_[i] = std::fmax(
             0.0, (v_[i] + half_m * (force_[i] - friction_of(law, mu_[i], v_[i], slip))) * slower);
@@ -178,8 +178,9 @@ class ScalarChain {
     }
   }
 
-  // Without inertia: the velocity at the end of a step, and the slip in the next one with the force
-  // on its present course, from where the block should have started to where it will stop.
+  // Without inertia: computes the velocity at the end of a step, and the slip in the next step for
+  // a force that continues to change at the same rate, from the time at which the block should have
+  // started to that at which it will stop.
   void balance_forces(std::size_t i) {
     const double moved = u_[i] - old_u_[i];
     const double mu = mu_[i], f = force_[i], mobility = 1.0 / p_.radiation;
@@ -232,7 +233,7 @@ class ScalarChain {
     ahead_[i] = p_.dt * (part * mean + late * v) * (stops ? -1.0 : 1.0);
   }
 
-  /// That of w = c - b / (1 + w) if it is positive, else 0.
+  /// The larger root of w = c - b / (1 + w) if it is positive, else 0.
   static double larger_root(double c, double b) {
     const double q = (1.0 + c) * (1.0 + c) - 4.0 * b;
     if ((c <= b && c <= 1.0) || q <= 0.0) return 0.0;
@@ -241,7 +242,8 @@ class ScalarChain {
     return w > 0.0 ? w : 0.0;
   }
 
-  /// Forces of all springs; returns PE.
+  /// Computes the forces of all springs.
+  /// \return PE
   double set_forces() {
     const std::size_t n = u_.size();
     const double x = plate();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Read by the tests of the block-slider.
+// Reads output files for the tests of the block-slider.
 #ifndef LSM_TESTS_SLIDER_FILES_H
 #define LSM_TESTS_SLIDER_FILES_H
 

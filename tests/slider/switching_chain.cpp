@@ -72,7 +72,7 @@ void SwitchingChain::advance() {
   const double end = p_.dt * static_cast<double>(step_ + 1);
   const std::vector<double> before = y_;
   double t = time();
-  // Blocks pushed past their limit by a state set from outside start at once.
+  // Blocks beyond their limit in a state set from outside start at once.
   std::int64_t here = 0;
   const std::int64_t most = 1000 + 100 * static_cast<std::int64_t>(n_);
   while (t < end) {
@@ -124,7 +124,8 @@ int SwitchingChain::derivative(double t, const double *y, double *dy, void *self
   return GSL_SUCCESS;
 }
 
-/// y after time h from (t, y_) with no switch. Returns false if the error estimate is too large.
+/// Computes y after a time h from (t, y_) without switches.
+/// \return false if the error estimate is too large
 bool SwitchingChain::propagate(double t, double h, std::vector<double> &out) {
   out = y_;
   if (scheme_ == Located::reference) {
@@ -150,7 +151,8 @@ bool SwitchingChain::propagate(double t, double h, std::vector<double> &out) {
   return true;
 }
 
-/// > 0 when block i has passed its switch: friction overcome while stuck, v < 0 while sliding.
+/// Positive if block i has passed its switch: friction is overcome while at rest, v < 0 while
+/// sliding.
 double SwitchingChain::passed(const std::vector<double> &y, double t, std::size_t i) const {
   if (slides_[i]) return -y[n_ + i];
   return force(y.data(), i, p_.velocity * t) - mu_[i];
@@ -162,7 +164,8 @@ void SwitchingChain::flip(std::size_t i) {
   y_[n_ + i] = 0.0;
 }
 
-/// Goes on by at most h, to the first switch if one lies there. Returns the time gone.
+/// Advances by at most h, or to the first switch within this time.
+/// \return time advanced
 double SwitchingChain::advance_to_switch(double t, double h) {
   for (;;) {
     if (propagate(t, h, trial_)) break;
@@ -179,7 +182,7 @@ double SwitchingChain::advance_to_switch(double t, double h) {
     y_ = trial_;
     return h;
   }
-  // At the start of the interval: blocks already past their switch (or at rest and held back).
+  // Handles blocks that are past their switch (or at rest and held back) at the start already.
   bool at_once = false;
   for (std::size_t i : late) {
     const double now = passed(y_, t, i);
@@ -189,8 +192,8 @@ double SwitchingChain::advance_to_switch(double t, double h) {
     }
   }
   if (at_once) return 0.0;
-  // Bracket the earliest switch: whatever block is late at mid keeps it, by regula falsi
-  // (Illinois variant) on the latest known first block and bisection as a safeguard.
+  // Bracket the earliest switch: the upper end is a time at which some block is late. It is found
+  // by regula falsi (Illinois variant) for the block that is latest, with bisection as a safeguard.
   double low = 0.0;
   std::size_t who = late.front();
   auto latest = [&](const std::vector<double> &y, double at, std::size_t &which) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Schemes that locate every change between stick and slip in time: what those of slider_cli are
-// compared with.
+// Schemes that locate every change between stick and slip in time, with which those of slider_cli
+// are compared.
 #ifndef LSM_TESTS_SWITCHING_CHAIN_H
 #define LSM_TESTS_SWITCHING_CHAIN_H
 
@@ -35,14 +35,14 @@ class SwitchingChain {
   std::vector<double> displacements() const;
   std::vector<double> velocities() const;
 
-  /// Blocks with a velocity slide.
+  /// Sets the state; blocks with a velocity slide.
   void set_state(const ChainState &s);
 
   EnergyLedger ledger() const;
   void set_displacements(const std::vector<double> &u);
   double time() const { return p_.dt * static_cast<double>(step_); }
-  /// One time step.
-  /// \throws std::runtime_error if switches do not end or the tolerance is out of reach
+  /// Takes one time step.
+  /// \throws std::runtime_error if switches do not end or the tolerance cannot be reached
   void advance();
 
  private:
@@ -95,7 +95,7 @@ class StartedChain : public Chain {
   Parameters p_;
 };
 
-/// A scheme of slider_cli, or one of those above.
+/// A scheme of slider_cli, or one of those above that locate switches.
 using AnyScheme = std::variant<Scheme, Located>;
 
 inline const char *name_of(const AnyScheme &scheme) {
@@ -103,7 +103,7 @@ inline const char *name_of(const AnyScheme &scheme) {
   return std::get<Located>(scheme) == Located::rk4 ? "rk4" : "reference";
 }
 
-/// What work gives of a chain with that scheme.
+/// Calls work(chain) for a chain with the given scheme and returns its result.
 template <class Work>
 auto with_chain(Parameters p, std::vector<double> mu, const AnyScheme &scheme, Work &&work) {
   if (const auto *located = std::get_if<Located>(&scheme)) {

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double never_fast = 1e300;
 
-/// Friction that never falls: whatever creeps does so without end.
+/// Parameters with friction that never decreases, so that creep never becomes unstable.
 Parameters even(int blocks) {
   Parameters p;
   p.blocks = blocks;
@@ -44,13 +44,13 @@ TEST(SliderCreep, RatesOfOneTwoAndAllBlocks) {
   EXPECT_EQ(creep.creeping(), 0);
   EXPECT_NEAR(creep.next(), 1.0, 1e-12);
   EXPECT_FALSE(creep.join());
-  // Block 1 alone: (2 K_c + K_l) r = K_l. Block 2 is loaded by the plate and by it.
+  // For block 1 alone, (2 K_c + K_l) r = K_l. Block 2 is loaded by the plate and by block 1.
   const double alone = 0.01 / 2.01, joins = 1.0 + 0.002 / (0.01 + alone);
   EXPECT_NEAR(creep.next(), joins, 1e-12);
   creep.join();
   EXPECT_NEAR(creep.displacement(1), alone * (joins - 1.0), 1e-14);
   EXPECT_EQ(creep.displacement(2), 0.0);
-  // Both: (K_c + K_l) r = K_l.
+  // For both blocks, (K_c + K_l) r = K_l.
   creep.to(joins + 1.0);
   EXPECT_NEAR(creep.displacement(1), alone * (joins - 1.0) + 0.01 / 1.01, 1e-14);
   EXPECT_NEAR(creep.displacement(2), 0.01 / 1.01, 1e-14);
@@ -64,8 +64,8 @@ TEST(SliderCreep, RatesOfOneTwoAndAllBlocks) {
 }
 
 TEST(SliderCreep, SolvesTheProblemOfFriction) {
-  // Forces within the limits, at the limit where a block has moved, and none has moved back: the
-  // only such state there is. From a state with stresses, some of them over the limit.
+  // Forces are within the limits, and at the limit where a block has moved, and no block has moved
+  // back: there is only one such state. The initial state has stresses, some beyond the limit.
   for (const int blocks : {1, 2, 3, 50, 200}) {
     const Parameters p = even(blocks);
     const auto mu = random_friction(blocks, 0.5, 1.0, 5);
@@ -106,7 +106,7 @@ TEST(SliderCreep, SolvesTheProblemOfFriction) {
 }
 
 TEST(SliderCreep, IsTheLimitOfASlowPlate) {
-  // Every time step, with slower and slower plates.
+  // Compares with all time steps taken, for slower and slower plates.
   double last = 0.0;
   for (const double velocity : {1e-2, 1e-3, 1e-4}) {
     Parameters p = even(40);
@@ -135,7 +135,7 @@ TEST(SliderCreep, IsTheLimitOfASlowPlate) {
   }
 }
 
-/// A run of blocks as strong as each other, just at their limit, between some that never move.
+/// A row of equally strong blocks, just at their limit, between blocks that never move.
 struct Patch {
   Parameters p;
   std::vector<double> mu, u;
@@ -153,7 +153,7 @@ struct Patch {
     for (int i = 1; i + 1 < p.blocks; ++i) fast = creep.join();
     return fast;
   }
-  /// Fastest block over the plate, in the first swing.
+  /// Largest velocity of a block in the first oscillation, in units of the plate velocity.
   double fastest() const {
     Chain chain(p, mu, true);
     ChainState s;
@@ -198,7 +198,7 @@ TEST(SliderCreep, KnowsWhatGetsFast) {
 }
 
 TEST(SliderCreep, KnowsWhatGetsFastUnderOtherLaws) {
-  // Weakening by W for a slip: two blocks run away if K_c + K_l < W, one if 2 K_c + K_l < W.
+  // With a weakening W per slip, two blocks run away if K_c + K_l < W, one if 2 K_c + K_l < W.
   Patch one(1), two(2);
   for (Patch *patch : {&one, &two}) {
     Friction &law = patch->p.friction;
@@ -229,7 +229,7 @@ RunOptions slow(int blocks, double velocity, double way) {
   return o;
 }
 
-/// Events from a size on; times as ways of the plate.
+/// Events above a size.
 std::vector<LSM::Event> large_events(const RunOptions &o, double least) {
   std::vector<LSM::Event> large;
   for (const LSM::Event &e : unit::read_catalogue(o.catalogue).events)
@@ -249,7 +249,7 @@ TEST(SliderLeaps, FindTheSameLargeEvents) {
   const auto found = large_events(o, 100.0);
   ASSERT_EQ(found.size(), expected.size());
   for (std::size_t k = 0; k < found.size(); ++k) {
-    // Chaos: another time step changes as much.
+    // The motion is chaotic: another time step changes as much.
     EXPECT_NEAR(found[k].t_start * 1e-3, expected[k].t_start * 1e-3, 2.0) << k;
     EXPECT_NEAR(found[k].size / expected[k].size, 1.0, 0.25) << k;
   }
@@ -259,7 +259,7 @@ TEST(SliderLeaps, FindTheSameLargeEvents) {
 }
 
 TEST(SliderLeaps, DoNotHoldBackWhatHasBegunToRunAway) {
-  // One block on a soft spring, whose slip begins as slowly as the plate moves.
+  // The slip of one block on a soft spring begins as slowly as the plate moves.
   RunOptions o = slow(1, 1e-4, 400.0);
   o.catalogue = testing::TempDir() + "slider_one.csv";
   run(o);
@@ -276,7 +276,7 @@ TEST(SliderLeaps, DoNotHoldBackWhatHasBegunToRunAway) {
 }
 
 TEST(SliderLeaps, HaveAnEndAsThePlateGetsSlower) {
-  // The same events at the same ways, at a cost that does not grow.
+  // The same events occur at the same plate displacements, at a cost that does not grow.
   std::vector<LSM::Event> last;
   double last_velocity = 0.0, shift = 0.0;
   for (const double velocity : {1e-5, 1e-6, 1e-7}) {
@@ -331,7 +331,7 @@ TEST(SliderLeaps, KnowTheEnergyWithin) {
   double sum = 0.0;
   for (double u : chain.displacements()) sum += u;
   EXPECT_NEAR(chain.slip_sum(), sum, 1e-10);
-  // It goes on as a chain that is set to that state does.
+  // It continues as a chain that is set to that state does.
   Chain set(p, mu, true);
   set.set_state(chain.state());
   for (int n = 0; n < 2000; ++n) {
@@ -343,7 +343,7 @@ TEST(SliderLeaps, KnowTheEnergyWithin) {
 }
 
 TEST(SliderLeaps, DoNotDependOnWhatIsLookedAt) {
-  // Kernels, and a PE series with samples within the leaps.
+  // The result depends neither on the kernel nor on a PE series with samples within the leaps.
   RunOptions o = slow(64, 1e-3, 140.0);
   o.leap_speed = 1e-3;
   const std::string a = testing::TempDir() + "slider_leaps_a.csv",

@@ -34,7 +34,7 @@ Parameters parameters(const Case &c, Scheme scheme) {
   return p;
 }
 
-// The laws beside Eq. 6, whose tests follow.
+// The laws other than Eq. 6, the tests of which follow.
 TEST(SliderKernels, OtherLawsAgreeOverKernelsAndInstructionSets) {
   for (const Law law : {Law::coulomb, Law::slip_weakening})
     for (const Case &c : {cases[0], cases[3], cases[7], cases[8], cases[10]})
@@ -114,7 +114,7 @@ TEST(SliderKernels, InstructionSetsAgreeToTheLastDigit) {
 }
 
 TEST(SliderKernels, AgreesWithStraightforwardLoop) {
-  // Same arithmetic per block, so the motion is the same; only PE is summed in another way.
+  // The arithmetic of a block is the same, and so is the motion; only PE is summed differently.
   for (const Case &c : cases) {
     for (Scheme scheme : {Scheme::printed, Scheme::semi_implicit, Scheme::verlet}) {
       const Parameters p = parameters(c, scheme);

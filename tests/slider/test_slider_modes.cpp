@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Blocks coupled by a stiffness per mode, radiation, no inertia, and strengths that change along
-// the way.
+// Blocks coupled by a stiffness per mode, radiation, no inertia, and strengths that vary with
+// displacement.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ Parameters coupled(Coupling coupling, int blocks, double kl = 0.01) {
   return p;
 }
 
-// Solutions of y' = f(x, y) over a length, by steps of Runge-Kutta.
+// Solves y' = f(x, y) over a length by the Runge-Kutta method.
 template <std::size_t n, class Derivative>
 std::array<double, n> integrate(std::array<double, n> y, double length, const Derivative &f) {
   constexpr int steps = 4000;
@@ -46,7 +46,7 @@ std::array<double, n> integrate(std::array<double, n> y, double length, const De
   return y;
 }
 
-// K(q) of two blocks of Lame constants 1 and 1 from the equations of elasticity, integrated from
+// K(q) of two blocks with Lame constants 1 and 1, by integrating the equations of elasticity from
 // the plate to the fault.
 double antiplane_by_shooting(double q, double width) {
   // u'' = q^2 u
@@ -58,7 +58,7 @@ double antiplane_by_shooting(double q, double width) {
 }
 
 double inplane_by_shooting(double q, double width) {
-  // u_x = U cos q x, u_y = V sin q x; state U, V, U', V'; away from the plate
+  // u_x = U cos q x, u_y = V sin q x; the state is U, V, U', V', integrated away from the plate.
   using State = std::array<double, 4>;
   const auto navier = [q](const State &y) {
     const double u = 3.0 * q * q * y[0] - 2.0 * q * y[3];
@@ -140,7 +140,7 @@ TEST(SliderModes, StiffnessOfSpringsGivesTheChain) {
       modes.modes.push_back(stiffness_of_springs(springs, 2.0 * LSM::pi * n / 60));
     const auto mu = random_friction(60, 0.5, 1.0, 4);
     Chain chain(springs, mu, false), bulk(modes, mu, false);
-    // Chaos takes some 300 time units to make much of the last digit.
+    // It takes some 300 time units for chaos to amplify a difference in the last digit.
     for (int n = 0; n < 3000; ++n) {
       chain.advance();
       bulk.advance();
@@ -152,7 +152,7 @@ TEST(SliderModes, StiffnessOfSpringsGivesTheChain) {
   }
 }
 
-// Every way to step, with and without radiation, by springs and modes.
+// Every combination of scheme and law, with and without radiation, with springs and modes.
 struct Way {
   Scheme scheme;
   Law law;
@@ -236,7 +236,8 @@ TEST(SliderModes, ActiveSetJumpsAndSavedStatesChangeNoDigit) {
     }
 }
 
-// Displacements after one event, from blocks just below their limits and one above.
+// Displacements after one event that begins with one block above its limit and the others just
+// below theirs.
 std::vector<double> after_event(Parameters p, double h, const AnyScheme &scheme, double time,
                                 const std::vector<double> &start) {
   p.dt = h;
@@ -279,7 +280,7 @@ TEST(SliderModes, VerletIsOfOrderTwoWithModesAndRadiation) {
   }
 }
 
-// Without inertia velocities jump where blocks start and, by velocity weakening, where they stop.
+// Without inertia velocities jump when blocks start and, with velocity weakening, when they stop.
 TEST(SliderModes, WithoutInertiaTheOrderIsTwoAcrossStartsAndStops) {
   struct Case {
     Friction friction;
@@ -427,8 +428,8 @@ TEST(SliderModes, RunsJumpAndResumeToTheLastByte) {
 }
 
 TEST(SliderModes, StabilityLimitsBoundTheFreeMotion) {
-  // Just below its limit a scheme keeps the shortest wave of blocks that slide without friction
-  // bounded, and above it does not.
+  // Just below the limit of a scheme the shortest wave of blocks that slide without friction
+  // remains bounded, and just above it grows.
   for (const Way &w : all_ways()) {
     if (w.law != Law::coulomb || w.scheme == Scheme::printed) continue;
     Parameters p = parameters_of(w, 16);

@@ -32,7 +32,7 @@ TEST(SliderParameters, StabilityLimits) {
   EXPECT_EQ(message(p), "");
   p.blocks = 1;  // no coupling spring is stretched
   EXPECT_NEAR(stability_limit(p), 20.0, 1e-12);
-  p.blocks = 3;  // shortest wave of three blocks
+  p.blocks = 3;  // the shortest wave has a length of three blocks
   EXPECT_NEAR(stability_limit(p), 2.0 / std::sqrt(3.01), 1e-12);
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr Scheme stepped[] = {Scheme::printed, Scheme::semi_implicit, Scheme::verlet};
 
-// Displacements at the end of a run of any scheme.
+// Displacements at the end of a run with any scheme.
 std::vector<double> final_state(Parameters p, const AnyScheme &scheme, double h, double time,
                                 const std::vector<double> &mu, const std::vector<double> &start) {
   p.dt = h;
@@ -30,7 +30,7 @@ double largest_difference(const std::vector<double> &a, const std::vector<double
   return worst;
 }
 
-// One event from a common state: five blocks just below their limits and one just above.
+// One event from a common state: five blocks are just below their limits, and one is just above.
 struct OneEvent {
   Parameters p;
   std::vector<double> mu, start;
@@ -48,7 +48,7 @@ struct OneEvent {
 };
 
 TEST(SliderPhysics, FrictionlessBlockFollowsClosedForm) {
-  // M U'' = K_l (V t - U) from rest: U = V t - (V / w) sin w t, never moving back.
+  // M U'' = K_l (V t - U) from rest gives U = V t - (V / w) sin w t, which never decreases.
   Parameters p;
   p.blocks = 1;
   p.kl = 0.7;
@@ -65,7 +65,7 @@ TEST(SliderPhysics, FrictionlessBlockFollowsClosedForm) {
 }
 
 TEST(SliderPhysics, BlockBetweenStuckNeighboursFollowsClosedForm) {
-  // Two springs hold the moving block, whether they end at one neighbour (N = 2) or at two.
+  // Two springs hold the moving block, whether they lead to one neighbour (N = 2) or two.
   for (int blocks : {2, 3, 5}) {
     Parameters p;
     p.blocks = blocks;
@@ -131,7 +131,7 @@ TEST(SliderPhysics, ConvergenceOrdersOnOneEvent) {
   };
   for (const Case &c : {Case{Scheme::printed, 1.0}, Case{Scheme::semi_implicit, 1.0},
                         Case{Scheme::verlet, 2.0}, Case{Located::rk4, 4.0}}) {
-    // Slope of log error over log h by least squares.
+    // The order is the slope of log error against log h by least squares.
     double sx = 0, sy = 0, sxx = 0, sxy = 0;
     int n = 0;
     double last = 0.0;
@@ -175,7 +175,7 @@ TEST(SliderPhysics, NoBackSlip) {
         chain.advance();
         const auto u = chain.displacements(), v = chain.velocities();
         for (std::size_t i = 0; i < u.size(); ++i) {
-          // Located switches leave rounding of the last digit at most.
+          // Where switches are located, only rounding errors remain.
           ASSERT_GE(u[i], before[i] - 1e-12) << name_of(scheme) << " step " << n;
           ASSERT_GE(v[i], 0.0) << name_of(scheme) << " step " << n;
           stops += v[i] == 0.0 && v_before[i] > 0.0;
@@ -195,7 +195,7 @@ TEST(SliderPhysics, BlockPushedBackwardsStaysStuck) {
   for (Scheme scheme : stepped) {
     p.scheme = scheme;
     StartedChain chain(p, {5.0, 5.0, 5.0});
-    // The first block is 2 ahead: pushed back with 4, above its coefficient in magnitude.
+    // The first block is ahead by 2 and pushed back with a force of 4, below its coefficient of 5.
     chain.set_displacements({2.0, 0.0, 0.0});
     for (int n = 0; n < 1000; ++n) chain.advance();
     EXPECT_EQ(chain.displacements()[0], 2.0);
@@ -203,7 +203,8 @@ TEST(SliderPhysics, BlockPushedBackwardsStaysStuck) {
   }
 }
 
-// One block in the middle of a slip, after one step. \param force that of its leaf spring
+// One block in the middle of a slip, after one step.
+// \param force force of its leaf spring
 ChainState after_a_step(Parameters p, double v, double force) {
   p.blocks = 1;
   StartedChain chain(p, {0.8});
@@ -218,7 +219,7 @@ ChainState after_a_step(Parameters p, double v, double force) {
 }
 
 TEST(SliderPhysics, PrintedSchemeStopsABlockWithTheAccelerationThatStopsIt) {
-  // Eqs. 7 and 8 with a = f - mu_0 / (1 + v), and where that would turn the block back, a = -v/h.
+  // Eqs. 7 and 8 with a = f - mu_0 / (1 + v), or a = -v/h where the block would move back.
   Parameters p;
   p.scheme = Scheme::printed;
   p.dt = 0.01;
@@ -266,7 +267,7 @@ TEST(SliderPhysics, EnergyLedgerClosesAsTheSchemeConverges) {
 
 TEST(SliderPhysics, LedgerOfLocatedScheme) {
   // PE follows from the forces at the ends of each step, friction is integrated along with the
-  // motion, and the work of the plate is summed here: three separate ways.
+  // motion, and the work of the plate is summed here, all independently of each other.
   OneEvent e;
   e.p.dt = 0.005;
   SwitchingChain chain(e.p, e.mu, Located::rk4);
@@ -307,7 +308,7 @@ TEST(SliderPhysics, PeriodsOfOneBlockAreThoseOfTheReference) {
     p.friction = c.friction;
     std::vector<double> periods;
     for (const AnyScheme scheme : {AnyScheme(Scheme::verlet), AnyScheme(Located::reference)}) {
-      // Starts of slips that are preceded by rest.
+      // Times at which slip begins after rest.
       const std::vector<double> starts = with_chain(p, {0.8}, scheme, [](auto &chain) {
         std::vector<double> found;
         bool rested = true;
@@ -350,8 +351,8 @@ TEST(SliderPhysics, ExtremeParametersStayFinite) {
       const auto u = chain.displacements();
       for (double x : u) ASSERT_TRUE(std::isfinite(x) && x >= 0.0);
       const double direct = direct_energy(p, u, chain.plate());
-      // Displacements are rounded at the size of the plate's travel; each rounding acts through a
-      // force of order one. Worst case: all of one sign.
+      // Rounding errors of displacements are relative to the displacement of the plate, and each
+      // acts through a force of order one. In the worst case all have the same sign.
       const double rounding = 2.2e-16 * chain.plate() * p.blocks * 50000.0;
       EXPECT_NEAR(chain.pe(), direct, rounding + 1e-9 * (1.0 + direct));
     }

@@ -72,7 +72,7 @@ TEST(SliderRun, JumpingChangesNoEvent) {
 }
 
 TEST(SliderRun, EventsAreThoseOfTheSeries) {
-  // The leaky average of Sect. 4.1, implemented once more, over the series of every step.
+  // An independent implementation of the leaky average of Sect. 4.1 over the series of all steps.
   RunOptions o = options(50, 0.05, 400000);
   o.parameters.velocity = 0.05;
   o.catalogue = testing::TempDir() + "slider_sizes.csv";
@@ -129,7 +129,8 @@ TEST(SliderRun, EventsAreThoseOfTheSeries) {
   }
   EXPECT_EQ(largest, r.largest);
   EXPECT_EQ(longest, 50.0);
-  // Blocks also slide while the plate raises PE faster, but most of the slip is in events.
+  // Blocks also slide while the plate raises PE faster than they lower it, but most slip is in
+  // events.
   EXPECT_LE(slip, 50.0 * r.mean_slip);
   EXPECT_GT(slip, 25.0 * r.mean_slip);
 }
@@ -164,7 +165,7 @@ TEST(SliderRun, DropsByThePlateAreCountedAndLeftOut) {
 }
 
 TEST(SliderRun, AllSchemesFindTheFirstLargeEvent) {
-  // Chaos leaves only the first events comparable across schemes.
+  // Because of chaos only the first events can be compared between schemes.
   RunOptions o = options(6, 0.005, 0);
   o.parameters.kl = 0.5;
   o.parameters.velocity = 0.1;

@@ -22,8 +22,8 @@
 namespace Slider {
 namespace {
 
-/// One line per step, one character per block; '#' slides. Slip and work are one each per slide,
-/// and PE after step n is -n.
+/// One line per step, one character per block; '#' slides. Each slide has a slip of 1 and a work of
+/// 1, and PE after step n is -n.
 using Pattern = std::vector<std::string>;
 
 struct Found {
@@ -31,7 +31,8 @@ struct Found {
   RuptureTracker tracker;
 };
 
-/// Restores the tracker from its state after each step if asked for.
+/// Finds the ruptures of a pattern.
+/// \param restarts whether to restore the tracker from its state after each step
 Found track(const Pattern &pattern, std::int64_t memory, bool restarts = false) {
   const int blocks = static_cast<int>(pattern.front().size());
   Found found{{}, RuptureTracker(blocks, memory, true)};
@@ -142,7 +143,7 @@ TEST(Ruptures, APauseParts) {
   ASSERT_EQ(bridged.ruptures.size(), 1U);
   EXPECT_EQ(bridged.ruptures[0].size, 3.0);
   EXPECT_EQ(bridged.ruptures[0].step_start, 0);
-  // A neighbour pushed over its limit by the last slide: one step is not a pause.
+  // A neighbour may be pushed over its limit by the last slide, so that one step is no pause.
   EXPECT_EQ(track({".#..", "..#.", "...#"}, 1).ruptures.size(), 1U);
   EXPECT_EQ(track({".#...", "...#."}, 1).ruptures.size(), 2U);
 }
@@ -161,7 +162,7 @@ TEST(Ruptures, AStoppedBlockThatRejoinsIsCountedOnce) {
   EXPECT_EQ(f.ruptures[0].size, 14.0);
 }
 
-/// Ruptures by search through all of space and time.
+/// Finds ruptures by a search through all of space and time.
 std::vector<Rupture> search(const Pattern &pattern, std::int64_t memory) {
   const int blocks = static_cast<int>(pattern.front().size()),
             steps = static_cast<int>(pattern.size());
@@ -237,7 +238,7 @@ TEST(Ruptures, ImpossibleStatesAreRefused) {
   RuptureTracker tracker(10, 1, false);
   RuptureState state;
   state.recent.push_back({3, 5, 0});
-  EXPECT_THROW(tracker.set_state(state, 5), std::invalid_argument);  // of no rupture
+  EXPECT_THROW(tracker.set_state(state, 5), std::invalid_argument);  // slid in no rupture
   state.open.emplace_back();
   EXPECT_NO_THROW(tracker.set_state(state, 5));
   EXPECT_THROW(tracker.set_state(state, 4), std::invalid_argument);  // slides in the future
@@ -278,7 +279,7 @@ TEST(RupturesOfTheChain, EnergiesAddUpAndNothingElseChanges) {
         alone.advance();
         ASSERT_EQ(chain.pe(), alone.pe());
         ASSERT_EQ(chain.dpe(), alone.dpe());
-        // The mean force of the leaf springs on the plate over the step, times its way.
+        // Mean force of the leaf springs on the plate over the step, times its displacement.
         const double stretch = p.blocks * chain.plate() - chain.slip_sum();
         plate_work += 0.5 * p.kl * (before + stretch) * p.velocity * p.dt;
         before = stretch;
@@ -299,8 +300,8 @@ TEST(RupturesOfTheChain, EnergiesAddUpAndNothingElseChanges) {
 }
 
 TEST(RupturesOfTheChain, AreThoseOfTheDisplacements) {
-  // What slides is found afresh from the displacements of the dense kernel, and put together by
-  // the search.
+  // Slides are found independently from the displacements of the dense kernel, and combined by the
+  // search.
   Parameters p = parameters(43, Scheme::verlet);
   p.velocity = 0.01;
   const auto mu = random_friction(p.blocks, 0.5, 1.0, 9);
@@ -355,9 +356,9 @@ RunOptions options(const std::string &name, Events events) {
 }
 
 TEST(RupturesOfTheChain, BoundTheSlipOfEventsOfTheEnergy) {
-  // Both catalogues are of the same motion. An event of PE holds the slip of all ruptures within
-  // it, and no more than that of all ruptures that overlap with it. The events' slip is taken one
-  // sample late; a second rupture is there or not to the step.
+  // Both catalogues are of the same motion. An event of PE contains the slip of all ruptures within
+  // it, and at most that of all ruptures that overlap with it. The slip of events is sampled one
+  // step late, while ruptures are exact to the step.
   RunOptions o = options("pe", Events::pe);
   run(o);
   const unit::Catalogue drops = unit::read_catalogue(o.catalogue);
@@ -383,7 +384,7 @@ TEST(RupturesOfTheChain, BoundTheSlipOfEventsOfTheEnergy) {
     }
     EXPECT_LE(within, drop.slip_moment * (1.0 + 1e-9)) << "at " << drop.t_start;
     EXPECT_GE(touching, drop.slip_moment * (1.0 - 1e-9)) << "at " << drop.t_start;
-    // In a chain as short as this one, one rupture makes a large event.
+    // In a chain as short as this one, a large event consists of one rupture.
     EXPECT_GE(largest, 0.9 * drop.slip_moment) << "at " << drop.t_start;
   }
   EXPECT_GT(large, 5U);
@@ -402,8 +403,8 @@ TEST(RupturesOfTheChain, BoundTheSlipOfEventsOfTheEnergy) {
 }
 
 TEST(RupturesOfTheChain, ResumeFindsTheRowsOfTheCheckpoint) {
-  // A run killed after it wrote more ruptures than its checkpoint knows of, some of which ended no
-  // more than the memory before the checkpoint.
+  // The run was killed after it had written more ruptures than its checkpoint counts, some of which
+  // ended within the memory before the checkpoint.
   RunOptions o = options("resume", Events::ruptures);
   o.parameters.blocks = 60;
   o.mu = random_friction(60, 0.5, 1.0, 3);

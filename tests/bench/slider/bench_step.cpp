@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// One step in which all blocks move, or a tenth of them side by side, coupled by springs and by
-// modes, beside the two transforms of the latter: plans of the same kind, and nothing else. What
-// they leave of a step is law of friction, time stepping and sums.
+// Time of one step in which all blocks move, or a contiguous tenth of them, coupled by springs or
+// by modes, and of the two transforms that modes need, with plans of the same kind and nothing
+// else. The rest of a step is friction law, time stepping and sums.
 #include <benchmark/benchmark.h>
 #include <fftw3.h>
 
