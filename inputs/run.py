@@ -10,7 +10,7 @@ since 1970), ends the run at its next restart file or checkpoint. SIGINT, SIGHUP
 at once, and the steps since the last restart file are repeated. Neither loses an event. A fault by ESyS-Particle
 (esys) starts over. Exit status: 0 done, 75 stopped, to be continued, 1 failed.
 
-The classes say which names a program knows (known()) and which of them are given here and not by a table (OWN).
+The classes state which names a program knows (known()), and which of them are set here and not by a table (OWN).
 """
 import ctypes
 import fcntl
@@ -43,7 +43,7 @@ def die_with_parent(number=signal.SIGHUP):
 
 
 def replace_all(texts):
-    """All files, by their paths, have these texts or bytes, or are as before. A link in the place of a temporary file is not followed."""
+    """Replaces all files, {path: text or bytes}, or none. A link in the place of a temporary file is not followed."""
     written = []
     try:
         for path, text in texts.items():
@@ -65,7 +65,7 @@ def replace(path, text):
 
 
 def alone_in(folder):
-    """The lock of the folder. The ranks of a killed run may live a little longer; they hold it as well."""
+    """Locks the folder. The ranks of a killed run, which may live a little longer, hold the lock as well."""
     lock = open(folder / "lock", "a")
     for _ in range(600):
         try:
@@ -88,7 +88,7 @@ class Fault:
 
     @staticmethod
     def known(_):
-        """Variables that fault.variables declares, and those that scenes of `extra` have."""
+        """Variables that fault.variables declares, and those of scenes for `extra`."""
         declared = re.findall(r"^(\w+)\s*\|", (INPUTS / "fault.variables").read_text(), re.M)
         also = re.search(r"^lsm_variables\s.*\salso (.*)", (INPUTS / "fault.in").read_text(), re.M)
         return {*declared, *(also[1].split() if also else ())}
@@ -108,11 +108,11 @@ class Fault:
         return self.start + [word for pair in pairs for word in ("-var", *pair.split("=", 1))]
 
     def stop(self, _):
-        # fault.in checks for this file after each restart file
+        # fault.in looks for this file after each restart file.
         (self.folder / "fault.stop").touch()
 
     def steps(self):
-        """Steps of shear, None unless all are done."""
+        """Number of steps of shear, or None unless all are done."""
         info = self.folder / "fault.restart.end.info"
         if not info.exists():
             return None
@@ -156,7 +156,7 @@ class Slider:
 
 
 class Esys:
-    """A fault by ESyS-Particle; once it is done, summary.json has its steps of shear and its CPU time."""
+    """A fault computed by ESyS-Particle; once it is done, summary.json has its steps of shear and its CPU time."""
     catalogue, OWN, known = "fault.catalogue.csv", Fault.OWN, Fault.known
 
     def __init__(self, folder, ranks, checkpoint, binaries, settings):
@@ -177,7 +177,7 @@ class Esys:
 
 
 class Published:
-    """An existing catalogue, `file`. The run is a link to it; other settings only serve to name it."""
+    """An existing catalogue, `file`. The run is a link to it; other settings only serve to describe it."""
     catalogue, OWN, known = "catalogue.csv", set(), None
 
     def __init__(self, folder, ranks, checkpoint, binaries, settings):
@@ -199,7 +199,7 @@ PROGRAMS = {"fault": Fault, "slider": Slider, "esys": Esys, "catalogue": Publish
 
 
 def begun_otherwise(folder, settings):
-    """What a run that was begun in the folder has other than these settings, NAME=VALUE: text for an error, empty if nothing."""
+    """Text for an error if a run with other settings, NAME=VALUE, was started in the folder; empty if not."""
     path = folder / "settings.txt"
     if not any(True for pattern in ("*.restart.*.info", "checkpoint.bin", "done.json") for _ in folder.glob(pattern)):
         return ""
@@ -213,7 +213,7 @@ def begun_otherwise(folder, settings):
 
 
 def begin(folder, settings):
-    """Records the settings of the run; a run with other settings is left alone."""
+    """Records the settings of the run, unless a run with other settings was started in the folder."""
     otherwise = begun_otherwise(folder, settings)
     if otherwise:
         raise Failed(otherwise)
@@ -228,10 +228,10 @@ def seconds_left():
 
 
 def work(job, folder):
-    """Runs the program until it ends. Returns its exit status, whether it was told to stop, and its output."""
+    """Runs the program until it ends. Returns its exit status, whether it was asked to stop, and its output."""
     output = folder / "output.txt"
     said = output.stat().st_size if output.exists() else 0
-    # A session folder of its own: in a common one, two mpirun that start at the same moment interfere.
+    # Each run has a session folder of its own: two mpirun that start at the same moment would interfere in a common one.
     session = Path(tempfile.gettempdir()) / f"lsm-{os.getuid()}-{hashlib.sha256(os.fsencode(folder)).hexdigest()[:12]}"
     shutil.rmtree(session, ignore_errors=True)
     session.mkdir(mode=0o700)
@@ -258,7 +258,7 @@ def work(job, folder):
 
 
 def count_cpu(folder):
-    """Adds the CPU time of this part of the run to that of earlier parts; a part that was killed does not count."""
+    """Adds the CPU time of this part of the run to that of earlier parts; that of a killed part is lost."""
     path = folder / "cpu.txt"
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
     replace(path, f"{(float(path.read_text()) if path.exists() else 0.0) + used.ru_utime + used.ru_stime:.2f}\n")
@@ -285,7 +285,7 @@ def run(folder, kind, ranks, checkpoint, binaries, *settings):
             why = why.group(1) if why else f"its program ended with {code}, see output.txt"
             if "link is strained" not in why:
                 raise Failed(f"{folder}: {why}" + ("; no space left on the disk" if shutil.disk_usage(folder).free < 2**20 else ""))
-            # these settings would lead to the same error again
+            # A repetition with these settings would fail in the same way.
             print(f"run.py: {folder}: {why}", file=sys.stderr)
             replace(folder / "done.json", json.dumps({"failed": why}) + "\n")
             return 0
@@ -295,9 +295,9 @@ def run(folder, kind, ranks, checkpoint, binaries, *settings):
         "ranks": int(ranks)
     }
     if kind == "esys":
-        done["cpu_s"] = job.told()["cpu_s"]  # without its master process, which only waits, in a busy loop
+        done["cpu_s"] = job.told()["cpu_s"]  # without its master process, which only waits in a busy loop
     if kind == "catalogue":
-        done["md5"] = hashlib.md5((folder / job.catalogue).read_bytes()).hexdigest()  # for what is made of it
+        done["md5"] = hashlib.md5((folder / job.catalogue).read_bytes()).hexdigest()  # for what is made from it
     replace(folder / "done.json", json.dumps(done) + "\n")
     lock.close()
     return 0

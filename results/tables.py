@@ -44,7 +44,7 @@ def run(*words):
 
 @functools.cache
 def numbers_of(command, *words):
-    """JSON of a command of postproc."""
+    """The numbers (JSON) that a command of postproc finds."""
     with tempfile.TemporaryDirectory() as work:
         run(command, *words, "-o", f"{work}/out", "--json", f"{work}/out.json")
         return json.loads(Path(f"{work}/out.json").read_text())
@@ -67,7 +67,7 @@ def faults(kind="catalogue", folder=CAMPAIGN):
 
 @functools.cache
 def summaries(folder=CAMPAIGN):
-    """A row of postproc summary for each catalogue, and what the paper says in words where that has been measured."""
+    """A row of postproc summary for each catalogue, with the numbers of postproc statements if these were measured."""
     paths, worded = [path for some in faults(folder=folder).values() for path in some], {}
     words = [word for option, texts in (("--range", calibrate.RANGES), ("--window", calibrate.WINDOWS)) for text in texts for word in (option, text)]
     said = run("summary", *paths, "--from", LOADING, "--parameter", "length", "seed", "width", "dt", "lambda", "mass", *words)
@@ -82,7 +82,7 @@ def summaries(folder=CAMPAIGN):
 
 @functools.cache
 def use(length, seed):
-    """Was the calibration fitted to the fault?"""
+    """Whether the fault was used for the calibration, or is predicted."""
     return "used" if any((row.get("length") or "120", row["seed"]) == (length, seed) for row in read(POINTS)) else "predicted"
 
 
@@ -100,7 +100,7 @@ def table(head, rows):
 
 
 def shown(value, error=math.nan):
-    """0.667 ± 0.021: the error with one digit, or two below 3.5; three digits without an error."""
+    """A value as 0.667 ± 0.021. The error has one digit, or two if it begins with less than 3.5; without an error there are three."""
     if value is None or not math.isfinite(value):
         return "-"
     if not error > 0:
@@ -111,13 +111,13 @@ def shown(value, error=math.nan):
 
 
 def spread(values, error=math.nan):
-    """Mean with the standard deviation between packings; of a single one with its own error, if given."""
+    """Mean and standard deviation between packings; for a single packing its own error, if given."""
     values = [x for x in values if x is not None and math.isfinite(x)]
     return shown(statistics.mean(values), statistics.stdev(values) if len(values) > 1 else error) if values else "-"
 
 
 def of(row, key):
-    """A number with its error, in a column beside it."""
+    """A number with its error, which is in another column of the row."""
     names = (f"{key}_error", f"{key}_sd", key.replace("exponent_", "error_"), key.replace("gamma_", "gamma_error_"))
     return shown(number(row, key), next((number(row, name) for name in names if name != key and name in row), math.nan))
 
@@ -126,7 +126,7 @@ def of(row, key):
 
 
 def judged(rows, value, off, tolerance):
-    """Mean and deviation of a statement over packings; bold if it misses the tolerance by two standard errors."""
+    """Mean and deviation of a statement over packings, in bold if it misses the tolerance by two standard errors."""
     values = [x for x in map(value, rows) if math.isfinite(x)] or [math.nan]
     mean = statistics.mean(values)
     slack = 2 * statistics.stdev(values) / math.sqrt(len(values)) if len(values) > 1 else 0.0
@@ -142,7 +142,7 @@ def paper_table():
 
 
 def scaling_of(kind, least, folder=CAMPAIGN):
-    """Of postproc fit: exponent and characteristic size of each catalogue {length: [(fit, point)]}, and how that grows."""
+    """Results of postproc fit: exponent and characteristic size of each catalogue, {length: [(fit, point)]}, and its scaling."""
     groups = faults(kind, folder)
     numbers = numbers_of("fit", *(path for paths in groups.values() for path in paths), "--scaling", "--threshold", least, "--from", LOADING,
                          "--range", f"{least}:1", "--replicas", 0, "--no-comparison", "--no-picture")
@@ -151,7 +151,7 @@ def scaling_of(kind, least, folder=CAMPAIGN):
 
 
 def roll_off_table():
-    """Do the largest events grow with the length, as drops of the total PE and as ruptures?"""
+    """Scaling of the largest events with the length, as drops of the total PE and as ruptures."""
     out = []
     for what, kind, least in (("drops of PE >= 1e-3", "catalogue", "1e-3"), ("ruptures >= 1e-2", "ruptures", "1e-2")):
         groups, scaling = scaling_of(kind, least)
@@ -191,7 +191,7 @@ def ruptures_table():
 
 
 def same_times_table():
-    """Have the inter-event times, over their mean, one law at all lengths?"""
+    """Tests whether inter-event times over their mean have the same distribution at all lengths."""
     groups = faults()
     base = next(iter(groups.values()))
 
@@ -208,7 +208,7 @@ def same_times_table():
 
 
 def numbers_table():
-    """What postproc statements measures and the calibration does not judge."""
+    """Numbers of postproc statements that the calibration does not use."""
     kept = ("events in", "B,", "C,", "power d", "slip rate within", "share of the slip")
     rows = [row for row in read(CAMPAIGN / "statements.csv") if row["number"].startswith(kept)]
     return table(["predicted, or not judged", "paper", *map(str, faults())],
@@ -223,7 +223,7 @@ def with_ruptures(folder):
 
 
 def validation_table():
-    """Other widths and time steps beside the campaign's runs of these lengths."""
+    """Other widths and time steps compared with the campaign's runs of the same length."""
     keys = EXPONENTS | {"gamma >= 1e-4": "gamma_0.0001", "mean time": "mean_time_0.0001", "largest": "largest", "s* of ruptures >= 1e-2": "ruptures"}
     others = with_ruptures(VALIDATION)
     rows = [row for row in with_ruptures(CAMPAIGN) if row["length"] in {other["length"] for other in others}] + others
@@ -235,7 +235,7 @@ def validation_table():
 
 
 def variance_table():
-    """Variance of the changes of PE over that of independent stretches, and the correlation of neighbours."""
+    """Variance of the changes of PE over that for independent stretches, and the correlation of neighbours."""
     groups = {}
     for row in read(FOLDER / "stretches.variance.csv"):
         groups.setdefault(f"{row['length']}, {row['seed']} ({row['stretches']})", {})[row["lag"]] = f"{row['ratio']} ({row['correlation_1']})"
@@ -268,7 +268,7 @@ def statements_table():
 
 
 def accepted_table():
-    """The nearest points, those at other lengths, and the values that were chosen, with the memory of the campaign."""
+    """The nearest points, those at other lengths, and the chosen values, with the memory of the campaign."""
     rows, memory = [row for row in read(POINTS) if row["stopped"] == "no"], float(summaries()[0]["memory"])
     longer = [
         calibrate.nearest([row for row in rows if row["point"] == name], 1)[0][0] for name in sorted({row["point"]
@@ -282,8 +282,8 @@ def accepted_table():
 
 
 def slider_table():
-    """The setting of the block-slider that is nearest to the paper, over all lengths, of those that were tried."""
-    statements, rows = calibrate.SLIDER_STATEMENTS, [row for row in read(SLIDERS) if float(row["dt"]) >= 0.005]  # shorter: loading only
+    """Of the settings of the block-slider that were tried, the one nearest to the paper over all lengths."""
+    statements, rows = calibrate.SLIDER_STATEMENTS, [row for row in read(SLIDERS) if float(row["dt"]) >= 0.005]  # below: loading only
     groups = grouped(rows, lambda row: tuple(row[key] for key in calibrate.SLIDER_KEYS))
     key, rows = min(groups.items(), key=lambda one: sum(calibrate.distance(row, statements)**2 for row in one[1]))
     rows.sort(key=lambda row: int(row["blocks"]))
@@ -295,13 +295,13 @@ def slider_table():
 
 
 def ground_table():
-    """The period that seeds on a grid gave the faces, and what was recorded of the slip, beside faces at random places."""
+    """Periodicity of the faces, and recorded slip, with seeds on a grid and at random places."""
     places, now = {}, faults()
     for row in read(FOLDER / "packing/faces.csv.xz"):
         places.setdefault((row["seeds"], row["length"]), {}).setdefault((row["packing"], row["side"]), []).append(float(row["x"]))
 
     def factors(seeds, length):
-        k = 2 * math.pi * 2 * math.floor(float(length) / 2) / float(length)  # at half the spacing of the grid, as near as fits in
+        k = 2 * math.pi * 2 * math.floor(float(length) / 2) / float(length)  # at half the spacing of the grid, rounded to fit in
         return ", ".join(f"{abs(sum(cmath.exp(1j * k * x) for x in face))**2 / len(face):.1f}" for face in places[seeds, length].values())
 
     def z(paths):
@@ -319,7 +319,7 @@ def ground_table():
 
 
 def rupture_packing_table():
-    """TPV3 in the random packing beside the boundary integral, from the stations of all packings."""
+    """TPV3 in the random packing compared with the boundary integral method, from the stations of all packings."""
 
     def rms(numbers):
         return math.sqrt(statistics.fmean(x * x for x in numbers))
@@ -351,7 +351,7 @@ def rupture_packing_table():
 
 
 def study_table(file, columns, rows=None):
-    """Columns of a table of a study: {head: cell of a row, or the key of a number}."""
+    """A table of a study. columns: {head: function of a row, or the key of a number}."""
     rows = rows if rows is not None else read(FOLDER / file)
     return table(columns, [[of(row, cell) if isinstance(cell, str) else cell(row) for cell in columns.values()] for row in rows])
 
@@ -386,7 +386,7 @@ def named(label, size):
 
 
 def ranking_table():
-    """Earthquakes, and of each model the smallest size that is nearest to them."""
+    """Earthquakes, and for each model the smallest size with which it is nearest to them."""
     rows = {}
     for row in read(FOLDER / "nature.table.csv"):
         rows.setdefault((row["label"], row["threshold"] if row["label"] == "Southern California" else ""), row)
@@ -397,7 +397,7 @@ def ranking_table():
 
 
 def table1_table():
-    """The paper's Table 1, its columns and those of ours with the smallest sizes."""
+    """The paper's Table 1, its columns beside ours with the smallest sizes."""
     columns = {}
     for row in read(FOLDER / "nature.table1.csv"):
         printed = row["origin"] == "printed"
@@ -410,7 +410,7 @@ def table1_table():
 
 
 def laws_table():
-    """Each law over its packings, p of each of them."""
+    """Each law over its packings, with p of each packing."""
     groups = grouped(read(FOLDER / "laws.csv"), lambda row: row["run"].rsplit("_", 1)[0])
 
     def over(*keys):

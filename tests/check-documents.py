@@ -33,7 +33,7 @@ def outside_code(text):
 
 
 def anchor(heading):
-    """As GitHub makes them: lower case, punctuation removed, blanks as hyphens."""
+    """The anchor that GitHub makes of a heading: lower case, no punctuation, hyphens for blanks."""
     heading = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading).strip().lower()
     return re.sub(r" ", "-", re.sub(r"[^\w\- ]", "", heading))
 

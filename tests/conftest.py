@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Fixtures of all tests of programs; how to run them: programs.py, what they read: data_files.py."""
+"""Fixtures of all tests of programs. programs.py runs programs, data_files.py reads and writes files."""
 import os
 import subprocess
 import sys
@@ -18,7 +18,7 @@ os.environ.setdefault("OMPI_MCA_pml", "ob1")  # as in CMakeLists.txt
 
 
 def pytest_sessionfinish(session, exitstatus):
-    """With nothing but skipped tests ctest is told so: skipped is not passed."""
+    """If all tests were skipped, ctest has to report this as skipped and not as passed."""
     reporter = session.config.pluginmanager.getplugin("terminalreporter")
     if exitstatus == 0 and "skipped" in reporter.stats and "passed" not in reporter.stats:
         session.exitstatus = 77
@@ -26,7 +26,7 @@ def pytest_sessionfinish(session, exitstatus):
 
 @pytest.fixture(autouse=True)
 def work(monkeypatch):
-    """Every test has a folder of its own, in which it runs, and which is removed after it."""
+    """Every test runs in a folder of its own, which is removed afterwards."""
     with tempfile.TemporaryDirectory(prefix="lsm-test-", ignore_cleanup_errors=True) as folder:
         monkeypatch.chdir(folder)
         yield Path(folder)
@@ -60,13 +60,13 @@ def on_ranks(lmp):
 
 @pytest.fixture(scope="session")
 def faults():
-    """faults(program): its system calls, and faults in them (programs.Faults)."""
+    """faults(program): injects faults into its system calls (programs.Faults)."""
     return Faults
 
 
 @pytest.fixture
 def small_disk(work):
-    """small_disk(megabytes): a folder that holds no more; once more: the same with another size."""
+    """small_disk(megabytes): a folder with no more space than this; another call changes its size."""
     folder = work / "small"
 
     def mount(megabytes):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Catalogues, PE series and slip histories: read, made up, and events picked a second time."""
+"""Reads and writes catalogues, PE series and slip histories, and picks events independently."""
 import gzip
 import lzma
 import struct
@@ -31,7 +31,7 @@ def same_bytes(a, b):
 
 
 def same(a, b, least=10):
-    """Two catalogues with the same bytes, and with at least so many events."""
+    """Asserts that two catalogues have the same bytes, and at least the given number of events."""
     same_bytes(a, b)
     assert len(rows(a)) >= least, f"{a} has too few events to test anything"
 
@@ -43,7 +43,7 @@ def table(path):
 
 
 def read_catalogue(path):
-    """Header, and the columns as arrays."""
+    """Header of a catalogue, and its columns as arrays."""
     names = next(line for line in lines(path) if not line.startswith("#")).split(",")
     values = [[float(cell) for cell in row.split(",")] for row in rows(path)]
     return header(path), dict(zip(names, np.array(values).reshape(-1, len(names)).T))
@@ -54,8 +54,8 @@ def text(value):
 
 
 def write_catalogue(path, t_start, size, head=(("model", "lsm"), ("length", 40)), t_end=None, **columns):
-    """A catalogue of events at these times and of these sizes. head: dict or pairs; columns: arrays
-    that replace the usual ones (PE falls to 0) or come behind them."""
+    """Writes a catalogue of events with these times and sizes. head: dict or pairs; columns: arrays
+    that replace the usual columns (PE falls to 0) or are appended to them."""
     n = len(t_start)
     usual = dict(event_id=range(1, n + 1), t_start=t_start, t_end=t_start if t_end is None else t_end, step_start=range(1, n + 1),
                  step_end=range(1, n + 1), size=size, pe_start=size, pe_end=[0] * n)
@@ -66,7 +66,7 @@ def write_catalogue(path, t_start, size, head=(("model", "lsm"), ("length", 40))
 
 
 def edit(source, target, *changes):
-    """A copy of a text file, with pairs of (old, new) replaced, each of which must be there."""
+    """Copies a text file and replaces pairs of (old, new), each of which must occur."""
     said = Path(source).read_text()
     for old, new in changes:
         assert old in said, f"no '{old}' in {source}"
@@ -78,7 +78,7 @@ SERIES = dict(model="lsm", dt=0.03, step0=0, time0=0, stride=1)
 
 
 def write_series(path, pe, head=(), step=None):
-    """A PE series; head replaces and adds to SERIES."""
+    """Writes a PE series. head: replaces or supplements SERIES."""
     pe = np.asarray(pe, "<f8")
     head = {**SERIES, **dict(head)}
     step = np.arange(len(pe)) * head["stride"] + head["step0"] if step is None else step
@@ -95,7 +95,7 @@ def binary_header(raw, magic):
 
 
 def read_series(path):
-    """Header, steps, times, PE."""
+    """Header, steps, times and PE of a series."""
     head, records = binary_header(Path(path).read_bytes(), b"lsm-pe-series-1\n")
     own = head.get("times") == "own"
     found = np.frombuffer(records, [("step", "<i8"), *([("time", "<f8")] if own else []), ("pe", "<f8")])
@@ -112,7 +112,7 @@ def read_history(path):
 
 
 def write_history(path, steps, slip, stress=0.0, **head):
-    """A slip history: slip of each bin between one step and the next; the first is the state at steps[0]."""
+    """Writes a slip history: the slip of each bin between one step and the next. The first record is the state at steps[0]."""
     slip = np.asarray(slip, "<f4")
     bins = slip.shape[1]
     head = {
@@ -140,13 +140,13 @@ def read_dump(path):
 
 
 def loading_with_drops(rows=5000):
-    """PE that rises and falls: 80 steps up, 17 down."""
+    """PE that rises for 80 steps and falls for 17 steps, repeatedly."""
     i = np.arange(rows - 1)
     return np.cumsum(np.concatenate([[1.0], np.where(i % 97 < 80, 1e-3 * (1 + i % 7), -2e-3 * (1 + i % 11))]))
 
 
 def pick(reading, memory, least, step, time, pe):
-    """What the picker has to find, written a second time: rows of a catalogue, as tuples."""
+    """What the picker has to find, by an independent implementation: rows of a catalogue, as tuples."""
     found, change, begin = [], 0.0, None
     for n in range(1, len(pe)):
         x = pe[n] - pe[n - 1]
@@ -172,7 +172,7 @@ def numbers(path, columns=8):
 
 
 def power_law(exponent, low, high, n, seed=1):
-    """Sizes whose cumulative distribution is that of the power law, in random order."""
+    """Sizes with the cumulative distribution of a power law, in random order."""
     u = (np.random.default_rng(seed).permutation(n) + 0.5) / n
     if exponent == 1:
         return low * (high / low)**u
@@ -181,8 +181,8 @@ def power_law(exponent, low, high, n, seed=1):
 
 
 def omori(main_shocks=42, after=50, apart=5000.0, c=2.0, span=97.3, rate=50):
-    """Times and sizes: main shocks of 100, each followed by events of 0.01 by Omori's law with p = 2,
-    t = c (1 / (1 - q) - 1), and by as many spread evenly."""
+    """Times and sizes of main shocks of 100, each followed by events of 0.01 by Omori's law with p = 2,
+    t = c (1 / (1 - q) - 1), and by others at even intervals."""
     times, sizes = [], []
     for m in range(main_shocks):
         q = (np.arange(after) + (m + 0.5) / main_shocks) / after

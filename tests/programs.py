@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""How the tests start programs: run, refused, start, interrupt, and Faults in their system calls.
+"""Starts programs for the tests: run, refused, start, interrupt, and Faults in their system calls.
 
-Arguments: a text is split at blanks as a shell does ("--blocks 16 --label 'a b'"); the items of a
-list are words as they are; numbers and paths are one word each.
+Arguments: a text is split into words as a shell does ("--blocks 16 --label 'a b'"); the items of a
+list are words; numbers and paths are one word each.
 """
 import hashlib
 import os
@@ -36,7 +36,7 @@ def words(*arguments):
 
 
 class Program:
-    """A command, its environment, and how its lines of error are told from others."""
+    """A command, its environment, and how to recognise its error lines."""
 
     def __init__(self, name, *command, env=None, errors=None):
         self.name, self.command = name, [str(word) for word in command]
@@ -58,7 +58,7 @@ class Program:
 
 
 class Result:
-    """What a program that has ended left: status, out, err."""
+    """Result of a program that has ended: status, out, err."""
 
     def __init__(self, line, status, out, err):
         self.line, self.status, self.out, self.err = line, status, out, err
@@ -67,7 +67,7 @@ class Result:
         return f"{shlex.join(self.line)} ended with {self.status}\n{self.err}{self.out[-3000:]}"
 
     def told(self, pattern):
-        """The match of a pattern in what was printed, columns one blank apart; fails without one."""
+        """The match of a pattern in the output, with columns one blank apart; fails if there is none."""
         found = re.search(pattern, re.sub(" +", " ", self.out), re.M)
         assert found, f"expected '{pattern}' from {self}"
         return found
@@ -79,7 +79,7 @@ class Result:
 
 
 def run(program, *arguments, status=0, timeout=TIMEOUT, env=None, stdin=subprocess.DEVNULL, **more):
-    """Runs a program to its end. status: what it is to end with, None for anything."""
+    """Runs a program until it ends. status: expected exit status, None for any."""
     line = program.command + words(*arguments)
     done = subprocess.run(line, env={**program.env, **(env or {})}, stdin=stdin, capture_output=True, timeout=timeout, encoding="utf-8",
                           errors="replace", **more)
@@ -89,7 +89,7 @@ def run(program, *arguments, status=0, timeout=TIMEOUT, env=None, stdin=subproce
 
 
 def snapshot(folder=".", but=None):
-    """Every file below a folder, with its checksum; but: a pattern of those that do not count."""
+    """Checksums of all files below a folder. but: a pattern of files to leave out"""
     found = {}
     for path in sorted(Path(folder).rglob("*")):
         if but and re.search(but, str(path)):
@@ -99,7 +99,7 @@ def snapshot(folder=".", but=None):
 
 
 def refused(program, arguments, pattern, folder=".", but=None, **more):
-    """The program ends with an error, status 1: one line that matches, and all files as they were."""
+    """Expects the program to end with status 1 and one error line that matches, and all files unchanged."""
     before = snapshot(folder, but)
     result = run(program, arguments, status=1, **more)
     lines = program.errors(result)
@@ -111,7 +111,7 @@ def refused(program, arguments, pattern, folder=".", but=None, **more):
 
 
 class Child(subprocess.Popen):
-    """A program in the background, that does not outlive its 'with'."""
+    """A program in the background, which does not outlive its 'with'."""
 
     def __init__(self, program, *arguments, env=None, **more):
         self._said = tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace")
@@ -129,7 +129,7 @@ class Child(subprocess.Popen):
         return self._said.read()
 
     def until(self, condition, seconds=60, pause=0.002):
-        """Waits until condition() holds; False if the program ends before that."""
+        """Waits until condition() holds. Returns False if the program ends before that."""
         limit = time.monotonic() + seconds
         while not condition():
             if self.poll() is not None:
@@ -144,7 +144,7 @@ def start(program, *arguments, **more):
 
 
 def interrupt(program, *arguments, when, by=signal.SIGKILL, **more):
-    """Starts a program and sends it a signal once when() holds; whether it was that that ended it."""
+    """Starts a program and sends it a signal once when() holds. Returns whether the signal ended it."""
     with start(program, *arguments, **more) as child:
         child.until(when)
         child.send_signal(by)
@@ -154,7 +154,7 @@ def interrupt(program, *arguments, when, by=signal.SIGKILL, **more):
 
 
 def changed(path):
-    """A condition: the file has been written anew since now."""
+    """A condition: the file has been replaced or written since this call."""
 
     def stamp():
         try:
@@ -168,7 +168,7 @@ def changed(path):
 
 
 class Faults:
-    """System calls of a program that change files, and what happens when one of them fails or the
+    """Injects faults into the system calls with which a program changes files: a call fails, or the
     program is killed there. paths: only calls on these files are counted."""
 
     CALLS = "openat,write,pwrite64,rename,unlink,unlinkat,fsync,truncate,ftruncate,flock,close"
@@ -184,7 +184,7 @@ class Faults:
                        errors=self.program.errors)
 
     def calls(self, *arguments, seen="", **more):
-        """(name, n), the n-th call of that name, for all calls from the first on that names seen."""
+        """(name, n), the n-th call of that name, for all calls from the first one that mentions `seen`."""
         with tempfile.NamedTemporaryFile("r", encoding="utf-8", errors="replace") as log:
             run(self._traced("-o", log.name, "-e", "trace=" + self.names), *arguments, **more)
             count, found, begun = {}, [], False
@@ -199,11 +199,11 @@ class Faults:
         return found
 
     def inject(self, fault, name, n, *arguments, **more):
-        """Runs the program, whose n-th call of that name meets a fault: signal=KILL, error=ENOSPC."""
+        """Runs the program with a fault in its n-th call of that name: signal=KILL, error=ENOSPC."""
         return run(self._traced("-o", "/dev/null", "-e", f"trace={self.names}", "-e", f"inject={name}:{fault}:when={n}"), *arguments, status=None,
                    **more)
 
 
 def scene(name="fault.in", **variables):
-    """Words of a run of a scene of inputs, with values of its variables; one that is None is left out."""
+    """Words that run a scene of inputs with values of its variables; those that are None are left out."""
     return ["-in", INPUTS / name, *(word for key, value in variables.items() if value is not None for word in ("-var", key, value))]

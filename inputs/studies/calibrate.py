@@ -25,7 +25,7 @@ from text_tables import rows_of
 
 # Time units. 0.99 a step is a memory of 100 steps; printed numbers imply steps of 0.0045, a benchmark of the same code has 0.02.
 MEMORIES = (0.5, 1, 2)
-LOADING = 8000  # time units that are left out: compression, and PE rising for the first time
+LOADING = 8000  # time units that are left out: compression, and the first loading, in which PE rises
 SETTINGS = ("length", "seed", "stress", "viscosity", "kt", "impedance", "hold", "contacts", "mass", "dt", "steps")  # of a point
 RANGES = ("1e-4:1e-1", "1e-4:1e-3", "1e-3:1e-2", "1e-2:1e-1")
 WINDOWS = ("16:22", "22:28", "30:36", "38:44")
@@ -36,7 +36,7 @@ SLIDER_WARMUPS, SLIDER_SIZES = (0, 12000), ("0.0001", "0.01")
 
 
 def defaults():
-    """Of the variables of fault.in: what a run has where its table is silent."""
+    """Defaults of the variables of fault.in, for what a table does not set."""
     lines = (Path(__file__).resolve().parent.parent / "fault.variables").read_text().splitlines()
     cells = [[cell.strip() for cell in line.split("|")] for line in lines if line.count("|") > 4]
     return {row[0]: row[1] for row in cells}
@@ -57,17 +57,17 @@ def decades(row):
 
 
 def swings(row):
-    """Share of the times that are a period of the blocks between the plates, beyond that of other times of this length."""
+    """Share of inter-event times that are near a period of the blocks between the plates, less the share of times beside it."""
     beside = 0.5 * (number(row, "share_16:22_0.0001") + number(row, "share_38:44_0.0001"))
     return max(number(row, "share_22:28_0.0001"), number(row, "share_30:36_0.0001")) - beside
 
 
 def memories(row):
-    """Mean time between events in memories of the picker, which is 100 steps: needs no clock."""
+    """Mean inter-event time in memories of the picker, which are 100 steps, and thus independent of the unit of time."""
     return number(row, "mean_time_0.0001") / float(row["memory"])
 
 
-# What postproc statements measures: column, its name of the number
+# What postproc statements measures: {column: name of the number in its table}
 WORDED = {
     "rise": "largest rise of the density, at all times",
     "rise_slipping": "largest rise of the density, while something slips",
@@ -83,7 +83,7 @@ WORDED = {
     "C": "C, delta 1",
 }
 
-# name, what is printed (or †), value of a row, its deviation, tolerance
+# name, statement of the paper (or †), value of a row, its deviation, tolerance
 STATEMENTS = (
     ("exponent", "sizes go as s^-1.07 from 1e-4 over three decades", lambda r: number(r, "exponent_1e-4:1e-1"), lambda v: abs(v - 1.07), 0.07),
     ("decades", "so in each of these decades (no second population)", decades, abs, 0.3),
@@ -108,7 +108,7 @@ STATEMENTS = (
 
 
 def deviations(row, statements=STATEMENTS):
-    """In units of the tolerances; a statement that cannot be evaluated, for want of events, is missed by ten."""
+    """Deviations in units of the tolerances; ten if a statement cannot be evaluated for lack of events."""
     result = []
     for name, _, value, off, tolerance in statements:
         v = value(row)
@@ -128,7 +128,7 @@ def read(path):
         return list(rows_of(lines))
 
 
-# Of the block-slider; each is asked at each of the five lengths.
+# Statements about the block-slider, each of which is evaluated at each of the five lengths.
 SLIDER_STATEMENTS = (
     ("events", "3000 to 5000 in 1e7 steps", lambda r: number(r, "events"), lambda v: outside(math.log(v), math.log(3000), math.log(5000)), 0.3),
     ("small", "exponent 0.5 below size 1", lambda r: number(r, "exponent_1e-2:1"), lambda v: abs(v - 0.5), 0.1),
@@ -212,7 +212,7 @@ def collect_sliders(binaries, output, folders):
 
 
 def nearest(rows, share=0.1):
-    """The share of the points, of each its best memory, that are nearest to the paper."""
+    """The given share of the points, each with its best memory, that is nearest to the paper."""
     best = {}
     for row in rows:
         if row["point"] not in best or distance(row) < distance(best[row["point"]]):
@@ -222,7 +222,7 @@ def nearest(rows, share=0.1):
 
 
 def points(path, length="120"):
-    """Rows of the points of this length that ran to their end, and how many were stopped."""
+    """Rows of the points of this length whose runs were completed, and the number of those stopped."""
     rows = [row for row in read(path) if row["length"] == length]
     return [row for row in rows if row["stopped"] == "no"], sum(row["stopped"] == "yes" for row in rows)
 

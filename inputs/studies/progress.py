@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""How far the runs of a study are: runs done, events so far, time left."""
+"""Progress of the runs of a study: runs done, events so far, time left."""
 import re
 import sys
 import threading
@@ -14,8 +14,8 @@ class RunProgress:
         self.run, self.events, self.seen = run, 0, 0
         time = float(run.settings.get("time") or 0)
         self.steps = float(run.settings.get("steps") or time / float(run.settings.get("dt") or 0.05) or 1.2e6)
-        # estimated core seconds: 65 discs for a unit of length, 44 million steps of a disc in a second; a chain likewise
-        # ESyS-Particle takes 30 times as long
+        # Estimated core seconds: 65 discs per unit of length, 44 million steps of a disc per second; for a chain likewise.
+        # ESyS-Particle takes 30 times as long.
         size = float(run.settings.get("blocks" if run.program == "slider" else "length", 120))
         self.cost = self.steps * {"fault": 65 * size / 44e6, "slider": 2e-7 + 3e-10 * size, "esys": 65 * size / 1.4e6, "catalogue": 1e-9}[run.program]
 
@@ -59,7 +59,7 @@ def length_of_time(seconds):
 
 
 def line_of(runs, begun, elapsed):
-    """The progress line; begun: share of the work done at the start, elapsed: seconds since then."""
+    """The progress line. begun: share of the work that was done at the start; elapsed: seconds since then."""
     shares = [run.share() for run in runs]
     share = share_of_work(runs, shares)
     done = sum(share == 1.0 for share in shares)
@@ -82,7 +82,7 @@ def report_progress(study, minutes):
             try:
                 print(line_of(runs, begun, time.monotonic() - start), file=sys.stderr, flush=True)
             except (OSError, ValueError):
-                pass  # a file that is being replaced: next time
+                pass  # a file is being replaced; it is read next time
             time.sleep(60 * minutes)
 
     threading.Thread(target=work, daemon=True).start()

@@ -29,7 +29,7 @@ from text_tables import header_of  # noqa: E402
 EVENTS, RUPTURES = 1e-4, 1e-3
 MAGIC = "# lsm-catalogue 1\n"
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-# Size from which a fault's catalogue is complete, as runs state it now; earlier ones had a smaller one
+# Size above which a fault's catalogue is complete, as runs state it now; the headers of earlier runs have a smaller one.
 COMPLETE = re.search(r"^completeness *\| *(\S+)", (INPUTS / "fault.variables").read_text(), re.M)[1]
 
 
@@ -74,7 +74,7 @@ def thinned(source, least):
 
 
 def check_replaced(path, known):
-    """\\raises Refused unless the file is not there, or one that is known by how it begins"""
+    """\\raises Refused if the file exists, unless `known` recognises it by its beginning"""
     if not path.exists():
         return
     try:
@@ -87,12 +87,12 @@ def check_replaced(path, known):
 
 
 def publish(source, out, least=EVENTS):
-    """A catalogue without events smaller than `least`."""
+    """Writes a catalogue without events smaller than `least`."""
     replace(Path(out), lzma.compress(thinned(source, least).encode(), preset=9))
 
 
 def catalogue_of(folder):
-    """\\raises Refused unless the folder has a catalogue, and the study has done its run"""
+    """\\raises Refused unless the folder has a catalogue and its run is done"""
     done = folder / "done.json"
     if (folder / "settings.txt").exists() and not done.exists():
         raise Refused(f"{folder}: not done yet, expected a run that has come to its end")
@@ -110,7 +110,7 @@ def catalogue_of(folder):
 
 
 def statements_of(postproc, catalogue):
-    """Rows of postproc statements, of one run."""
+    """Rows that postproc statements writes for one run."""
     with tempfile.TemporaryDirectory() as work, open(catalogue) as lines:
         header = header_of(lines)
         said = subprocess.run([postproc, "statements", catalogue, "--from",

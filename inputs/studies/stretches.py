@@ -29,7 +29,7 @@ from superpose import write
 from text_tables import header_of, rows_of
 
 LAGS = (1, 3, 10, 30, 100, 300, 1000)  # time units
-SHIFTS = 5  # sums with other shifts
+SHIFTS = 5  # number of sums with different shifts
 NUMBERS = {
     "events": "events_0.0001", "mean_time": "mean_time_0.0001", "gamma": "gamma_0.0001", "gamma_1e-3": "gamma_0.001",
     "exponent": "exponent_1e-4:1e-1", "largest": "largest"
@@ -41,15 +41,15 @@ class Refused(Exception):
 
 
 def parts_of(path):
-    """Steps, and energies [sample, piece, block], of each part of a run, which begin with comments: of discs that were in the pieces
-    then. A part ends where the next begins, as a run that was killed repeats its last steps. \\raises Refused"""
+    """Steps and energies [sample, piece, block] of each part of a run. A part begins with comments, and its pieces have the discs that
+    were in them then. It ends where the next part begins, as a killed run repeats its last steps. \\raises Refused"""
     parts = []
     with open(path, encoding="utf-8") as file:
         try:
             for comment, lines in itertools.groupby(file, lambda line: "#" in line):
                 if comment:
                     continue
-                lines = [line for line in lines if line[-1] == "\n"]  # a killed run leaves parts of lines and samples
+                lines = [line for line in lines if line[-1] == "\n"]  # a killed run leaves incomplete lines and samples
                 pieces = int(lines[0].split()[1])
                 table = [lines[n:n + pieces + 1] for n in range(0, len(lines) - pieces, pieces + 1)]
                 steps = np.array([int(rows[0].split()[0]) for rows in table])
@@ -81,7 +81,7 @@ def stretches_of(folder, stretch, begin=0.0):
     for steps, energy in parts:
         moved = float(info["velocity"]) * dt * (steps - steps[0])
         pe = np.zeros((count, len(steps)))
-        for block, way in ((0, -1), (1, 1)):  # the plate below moves to smaller x
+        for block, way in ((0, -1), (1, 1)):  # the lower plate moves towards smaller x
             x = places[None, :] + way * moved[:, None]
             for n in range(count):
                 away = np.abs((x - (n + 0.5) * size + 0.5 * length) % length - 0.5 * length)
@@ -108,7 +108,7 @@ def variance(pe, every, dt):
 
 
 def write_series(path, info, every, pe):
-    """One sample as a step."""
+    """Writes a PE series in which each sample counts as a step."""
     info = {**info, "dt": repr(float(info["dt"]) * every), "step0": "0", "time0": "0", "stride": "1"}
     write(path, info, array.array("d", pe))
 

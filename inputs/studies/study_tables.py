@@ -26,12 +26,12 @@ sys.path.insert(0, str(INPUTS))
 from run import PROGRAMS, begun_otherwise, replace  # noqa: E402
 
 RESERVED = ("run", "program", "ranks", "settings")
-# what an expression raises if a run lacks its numbers
+# What an expression raises if numbers of a run are missing
 MISSING = (AttributeError, IndexError, KeyError, NameError, TypeError, ValueError, ZeroDivisionError)
 # Parts of a recipe
 MAPS = ("numbers", "comparisons", "table", "costs", "means", "differences", "stacks", "values", "figures", "pages")
 PARTS = (*MAPS, "reference", "drawings", "like")
-# What NAME=VALUE after the table may be, see config.yaml: whole numbers, or others; "" stands for none
+# Kinds of the values of NAME=VALUE after the table, see config.yaml: whole numbers, or others; "" stands for none
 WHOLE, POSITIVE = ("ranks", "seeds", "checkpoint"), ("hours", "shorten", "minutes")
 
 
@@ -51,7 +51,7 @@ def read_json(path):
 
 
 def with_defaults(config):
-    """The settings of a study. \\raises TableError for a name that config.yaml does not have, or a value that it cannot be"""
+    """The settings of a study. \\raises TableError for a name that config.yaml does not have, or an invalid value"""
     known = yaml.safe_load((INPUTS / "studies/config.yaml").read_text())
     for name, value in config.items():
         if name in ("table", "bin"):
@@ -75,7 +75,7 @@ def positive(text):
 
 
 def pattern(text, where):
-    """\\raises TableError unless this is a regular expression"""
+    """Compiles a regular expression. \\raises TableError if it is not valid"""
     try:
         return re.compile("" if text is None else str(text))
     except re.error as error:
@@ -83,7 +83,7 @@ def pattern(text, where):
 
 
 def text_of(path, what):
-    """\\raises TableError naming file and line of what is not UTF-8"""
+    """Text of a file. \\raises TableError naming file and line if it is not UTF-8"""
     try:
         raw = Path(path).read_bytes()
     except OSError as error:
@@ -125,7 +125,7 @@ class Run:
 
 
 def cell_values(column, cell, config):
-    """The values of a cell: words, or several words in quotes; 1-3 in the column seed are 1, 2 and 3, or as many as the config says."""
+    """The values in a cell: words, or several words in quotes. 1-3 in the column seed stands for 1, 2 and 3, or as many as config has."""
     values = []
     for word in shlex.split(cell):
         seeds = re.fullmatch(r"(\d+)-(\d+)", word) if column == "seed" else None
@@ -220,7 +220,7 @@ def meant(name, known):
 
 
 def mean_and_error(numbers):
-    """Mean and its standard error as text, empty where there is none; numbers that are missing (NaN) do not count."""
+    """Mean and its standard error as texts, which are empty if there is none; missing numbers (NaN) are ignored."""
     there = [number for number in numbers if not math.isnan(number)]
     if not there:
         return ["", ""]
@@ -251,7 +251,7 @@ class Study:
                 raise TableError(f"{run.place}: {run.settings.get('file', 'nothing')}: no such catalogue, expected one in the column 'file'")
 
     def read_recipe(self, path):
-        """\\raises TableError naming what is not a recipe"""
+        """Reads the recipe. \\raises TableError naming what is wrong with it"""
         try:
             recipe = yaml.safe_load(text_of(path, "a recipe"))
         except yaml.YAMLError as error:
@@ -273,7 +273,7 @@ class Study:
         return recipe
 
     def check_expressions(self, path, recipe):
-        """\\raises TableError for an expression of a recipe that is none, or has a name that nothing has"""
+        """\\raises TableError if an expression of a recipe is not valid, or uses a name that does not exist"""
         settings = {key for run in self.runs.values() for key in (*self.known[run.program], *run.row, *run.settings)}
         known = {
             *self.common, *dir(builtins), *(key.replace("-", "_") for key in settings), *(recipe.get("values") or {}), "run", "folder", "catalogue"
@@ -306,15 +306,15 @@ class Study:
                         check(expression, known | {"out", "reference"}, where)
 
     def known_to(self, program):
-        """Names of settings that a program has; none for existing catalogues."""
+        """Names of the settings that a program has; none for existing catalogues."""
         try:
             return PROGRAMS[program].known(self.binaries) if PROGRAMS[program].known else set()
         except (OSError, subprocess.CalledProcessError) as error:
             raise TableError(f"cannot ask program {program} in {self.binaries} for its options ({error})")
 
     def check(self):
-        """\\raises TableError for names that the programs do not have, for runs that were begun with other settings, and for
-        commands that cannot be filled in"""
+        """\\raises TableError for names that the programs do not have, for runs that were started with other settings, and for
+        commands whose expressions cannot be evaluated"""
         for run in self.runs.values():
             kind, place = PROGRAMS[run.program], run.place
             for name in run.settings if kind.known else ():
@@ -336,7 +336,7 @@ class Study:
         return self.recipe.get(name) or {}
 
     def check_programs(self):
-        """\\raises TableError where the runs need ESyS-Particle, and it is not installed"""
+        """\\raises TableError if runs need ESyS-Particle and it is not installed"""
         needing = [run.name for run in self.runs.values() if run.program == "esys"]
         if needing and not shutil.which("esysparticle"):
             raise TableError(f"run {needing[0]} needs ESyS-Particle, no program esysparticle was found (Debian package esys-particle)")
@@ -380,12 +380,12 @@ class Study:
         return commands
 
     def label(self, recipe, run):
-        """Name of the curve of a run; runs of one label are samples of one model where a command says so."""
+        """Name of the curve of a run. Some commands take runs with the same label as samples of one model."""
         return str(eval(recipe["label"], self.names(run.values()))) if "label" in recipe else run.name.replace("_", " ")
 
     def command(self, run, name):
         other = self.reference(run)
-        # Settings are words for the shell, not code: only recipes are.
+        # Settings are words for the shell; only recipes are code.
         values = {key: shlex.quote(value) if isinstance(value, str) else value for key, value in run.values().items()}
         values.update(out=f"{run.name}/numbers/{name}", reference=other.catalogue if other else "")
         try:
@@ -394,7 +394,7 @@ class Study:
             raise TableError(f"numbers of run '{run.name}': {name}: {error}")
 
     def found(self, run):
-        """All numbers of a run, by the names of its commands."""
+        """All numbers of a run, by the names of the commands that determine them."""
         found = self.names(run.values())
         for path in [f"{run.name}/done.json", f"{run.name}/summary.json", *(f"{run.name}/numbers/{name}.json" for name in self.numbers(run))]:
             if Path(path).exists():
@@ -416,17 +416,17 @@ class Study:
         return list(dict.fromkeys(key for run in self.runs.values() for key in run.row if key not in ("run", "program", "ranks")))
 
     def start(self, run):
-        """Name of a run and what it was run with, column by column; steps and times are those after `shorten`."""
+        """Name and settings of a run, column by column; steps and times are those after `shorten`."""
         others = " ".join(f"{key}={shlex.quote(value)}" for key, value in run.settings.items() if key not in run.row)
         return [run.name] + [others if key == "settings" else run.settings.get(key, run.row.get(key, "")) for key in self.columns()]
 
     def asked(self, name):
-        """All that a table is made of but for the numbers of the runs: if it changes, the table is made again."""
+        """All that a table depends on except the numbers of the runs: if it changes, the table is made again."""
         part = "stacks" if name in self.part("stacks") else name
         return json.dumps([self.part("means"), self.part(part), self.part("values"), self.columns(), [self.start(run) for run in self.runs.values()]])
 
     def table(self, name):
-        """One line for each run, with the columns that part `name` of the recipe has."""
+        """One line for each run, with the columns in part `name` of the recipe."""
         part, rows = self.part(name), []
         for run in self.runs.values():
             rows.append(self.row(run, part.values()))
@@ -450,7 +450,7 @@ class Study:
         return lines
 
     def differences(self):
-        """One line for all seeds: part `means`, and means with errors of what differs from the run of the same seed in the first."""
+        """One line for all seeds of a model: part `means`, and means with errors of the differences from the first model, seed by seed."""
         means, differences, groups, values = self.part("means"), self.part("differences"), {}, {}
         for run in self.runs.values():
             key = tuple(run.row.get(column, "") for column in self.columns() if column != "seed")

@@ -43,7 +43,7 @@ def read(path):
 
 
 def stretch(path, begin, end):
-    """Header, and PE from time `begin` on, as many steps as there are to `end`. \\raises SeriesError"""
+    """Header, and PE of the steps from time `begin` to time `end`. \\raises SeriesError"""
     info, first, pe = read(path)
     dt, time0, step0 = float(info["dt"]), float(info["time0"]), int(info["step0"])
     start = round((begin - time0) / dt) + step0 - first
@@ -55,7 +55,7 @@ def stretch(path, begin, end):
 
 
 def write(path, info, pe):
-    """A series that holds each step from info["step0"] on."""
+    """Writes a series that has each step from info["step0"] on."""
     header = "".join(f"# {key} = {value}\n" for key, value in info.items()).encode()
     both = array.array("d", bytes(16 * len(pe)))
     both[1::2] = pe
@@ -67,7 +67,7 @@ def write(path, info, pe):
 
 
 def superpose(out, parts):
-    """\\param parts (path, from, to) of each series"""
+    """Writes the sum of several series. \\param parts (path, from, to) of each series"""
     total, length = None, 0.0
     for path, begin, end in parts:
         info, pe = stretch(path, begin, end)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What text files of the programs hold: lines "# key = value", and below them a table as CSV."""
+"""Reads text files of the programs: lines "# key = value" followed by a table as CSV."""
 import csv
 
 

@@ -32,8 +32,8 @@ from text_tables import rows_of
 ROOT = Path(__file__).resolve().parent.parent.parent
 RESULTS = ROOT / "results"
 DECADES, SIZES = (-2, -1, 0, 1, 2), (0, 1, 2)
-FEWEST = 20  # events of a decade
-# Lines of the table: what is added to the station before, names of catalogues with the number of blocks, of their ruptures
+FEWEST = 20  # smallest number of events in a decade
+# Lines of the table: what is added to the previous model, and its catalogues, NAME-BLOCKS and ruptures-NAME-BLOCKS
 WALK = (("springs", "chain"), ("+ elastic blocks", "bulk"), ("+ radiation", "radiating"), ("+ roughness", "rough"), ("+ slow plate", "slow"))
 LENGTHS = {"fault": 120, "fault-240": 240, "fault-480": 480}  # of the campaign
 FAULTS = (("fault", "fault"), ("fault, length 240", "fault-240"), ("fault, length 480", "fault-480"), ("fault, viscosity 1", "fault-viscous"),
@@ -56,18 +56,18 @@ def times(rows, size, begin=0.0):
 
 
 def over_mean(samples):
-    """Of several catalogues, sorted."""
+    """Times of several catalogues over the mean of each, sorted."""
     means = [statistics.fmean(sample) for sample in samples if sample]
     return sorted(t / mean for sample, mean in zip(filter(None, samples), means) for t in sample)
 
 
 def distance(a, b):
-    """Of two sorted samples."""
+    """Kolmogorov-Smirnov distance of two sorted samples."""
     return max(abs(bisect_right(a, x) / len(a) - bisect_right(b, x) / len(b)) for x in a + b)
 
 
 def earthquakes():
-    """Times between those of Southern California of the paper's Table 1: M >= 2, 1984.0 to 1986.5."""
+    """Inter-event times of Southern California as in the paper's Table 1: M >= 2, 1984.0 to 1986.5."""
     found = []
     for row in read(ROOT / "inputs/seismicity/southern-california.csv.xz"):
         if float(row["mag"]) >= 2.0 and "1984-01-01" <= row["time"] < "1986-07-02T12":
@@ -79,12 +79,12 @@ def earthquakes():
 
 
 def exponent(sizes, low, high, fewest=FEWEST):
-    """Of a power law between these sizes, as `postproc fit`. NaN for want of events"""
+    """Exponent of a power law between these sizes, as `postproc fit` finds it. NaN if there are too few events"""
     logs, width = [math.log(size / low) for size in sizes if low <= size < high], math.log(high / low)
     if len(logs) < fewest:
         return math.nan
     mean, below, above = statistics.fmean(logs), -30.0, 30.0
-    while above - below > 1e-9:  # the mean of logarithms rises with 1 less the exponent
+    while above - below > 1e-9:  # the mean of the logarithms increases with b = 1 - exponent
         b = 0.5 * (below + above)
         expected = width / 2 if abs(b) < 1e-7 else width / -math.expm1(-b * width) - 1 / b
         below, above = (b, above) if expected < mean else (below, b)
@@ -92,7 +92,7 @@ def exponent(sizes, low, high, fewest=FEWEST):
 
 
 def exponents(paths, unit, begin):
-    """{exponent_N: (exponent, error)} of all paths together."""
+    """{exponent_N: (exponent, error)} of the events of all paths together."""
     sizes = [[number(row, "size") for row in read(path) if number(row, "t_start") >= begin] for path in paths]
     found = {}
     for n in DECADES:
@@ -108,7 +108,7 @@ def share(rows, of):
 
 
 def gammas(postproc, paths, unit, begin):
-    """Those of each catalogue."""
+    """The values gamma_N of each catalogue."""
     if not paths:
         return []
     words = [word for n in SIZES for word in ("--threshold", f"{unit * 10.0**n:g}")]
@@ -118,7 +118,7 @@ def gammas(postproc, paths, unit, begin):
 
 
 def numbers(path, unit, begin, others):
-    """Those of one catalogue, but for gammas and exponents."""
+    """The numbers of one catalogue, except gammas and exponents."""
     rows = [row for row in read(path) if number(row, "t_start") >= begin]
     t = times(rows, unit)
     found = {"events": len(t) + 1, "small": share(rows, lambda row: number(row, "size") < unit)}
@@ -212,7 +212,7 @@ def table(postproc, shown, folder=RESULTS / "walk"):
 
 
 def lattice(shown):
-    """Head and row of the stiffness of the lattice beside the closed form for an elastic block (slider/slider_stiffness.h)."""
+    """Head and row of the stiffness of the lattice compared with the closed form for an elastic block (slider/slider_stiffness.h)."""
     rows = [(float(q), float(k)) for q, k in (line.split(",") for line in (RESULTS / "lattice.stiffness.csv").read_text().splitlines()[1:])]
     modulus, nu = math.sqrt(3) / 8, 0.25  # half of the shear modulus of links of stiffness 1
     width, kappa, off = modulus / rows[0][1], 3 - 4 * nu, []

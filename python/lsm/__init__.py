@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Files of the fault and of the block-slider in NumPy.
+"""Reads files of the fault and of the block-slider into NumPy.
 
     import lsm
     events = lsm.read_catalogue("fault.catalogue.csv")   # also .gz and .xz; ruptures as well
@@ -7,11 +7,11 @@
     series = lsm.read_series("fault.pe.bin")              # series["time"], series["pe"]
     slip = lsm.read_slip("fault.slip.bin")                # slip["slip"]: records x places
 
-Each returns a Table: a NumPy structured array with the header of the file as `header`, a dict of
-texts. pandas.DataFrame(events) makes a data frame. A file that is something else, or broken, is a
-ValueError that names the file, the line or record, and what was expected. The last line of a
-catalogue and the last record of a binary file that are not complete, as of a run that is still
-going on or was killed, are left out.
+Each function returns a Table: a NumPy structured array with the header of the file as `header`, a
+dict of texts. pandas.DataFrame(events) makes a data frame. A file of another kind, or a damaged
+one, raises a ValueError that names the file, the line or record, and what was expected. An
+incomplete last line of a catalogue, or last record of a binary file, is left out: the run may not
+have ended, or may have been killed.
 """
 import gzip
 import lzma
@@ -25,7 +25,7 @@ _INTEGERS = ("event_id", "step_start", "step_end")
 
 
 class Table(np.ndarray):
-    """A structured array with the header of the file it was read from."""
+    """A structured array with the header of the file from which it was read."""
 
     def __new__(cls, records, header):
         table = np.asarray(records).view(cls)
@@ -61,9 +61,9 @@ def _number(path, header, name, kind=float):
 
 
 def read_catalogue(path):
-    """Events of a catalogue, a column each; integers are int64, all others float64."""
+    """Reads the events of a catalogue; columns of integers are int64, all others float64."""
     lines = _bytes(path).decode("utf-8", "replace").split("\n")
-    lines.pop()  # empty after the last complete line
+    lines.pop()  # the incomplete last line, or the empty text after the last line end
     if not lines or not lines[0].startswith("# lsm-catalogue "):
         raise ValueError(f"{path}: no catalogue, expected '# lsm-catalogue 1' in the first line")
     if lines[0].strip() != "# lsm-catalogue 1":
@@ -100,7 +100,7 @@ def _records(raw, kinds):
 
 
 def read_series(path):
-    """PE series: columns step, time, pe."""
+    """Reads a PE series: columns step, time, pe."""
     header, raw = _binary(path, b"lsm-pe-series-1\n", "PE series")
     if header.get("times") == "own":
         return Table(_records(raw, [("step", "<i8"), ("time", "<f8"), ("pe", "<f8")]), header)
@@ -113,7 +113,7 @@ def read_series(path):
 
 
 def read_slip(path):
-    """Slip history: columns step_begin, step_end, pe, and slip, work, stress of each place."""
+    """Reads a slip history: columns step_begin, step_end, pe; slip, work and stress of each place."""
     header, raw = _binary(path, b"lsm-slip-hist-1\n", "slip history")
     bins = _number(path, header, "bins", int)
     if bins < 1:

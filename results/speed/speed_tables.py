@@ -11,7 +11,7 @@ FOLDER = Path(__file__).resolve().parent
 
 @functools.cache
 def timings(name):
-    """Wall and CPU ns for a particle and step, parts and memory of the rounds of each (label, length, ranks)."""
+    """Wall-clock and CPU time (ns) per particle and step, parts, and memory of the rounds of each (label, length, ranks)."""
     out = {}
     for row in read(FOLDER / "timings.csv"):
         if row["table"] == name:
@@ -30,7 +30,7 @@ def middle(rounds, key="seconds"):
 
 
 def ratio_of(rounds, base):
-    """Median over the rounds of the ratio within each."""
+    """Median of the ratios within each round."""
     return statistics.median(row["seconds"] / base[number]["seconds"] for number, row in rounds.items() if number in base)
 
 

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# A fault in ESyS-Particle as that of inputs/fault.in with hold = position: masses r^2, viscosity,
-# friction between the blocks, plates driven at constant speed. NAME.geo, length, time step,
-# viscosity, driving velocity of each plate, friction, its spring, steps. PE of links and contacts
-# at every step in NAME.esys.links and NAME.esys.contacts, CPU time in NAME.esys.json.
+# A fault in ESyS-Particle like that of inputs/fault.in with hold = position: masses r^2, viscosity,
+# friction between the blocks, plates driven at constant speed. Arguments: NAME.geo, length, time
+# step, viscosity, driving velocity of each plate, friction, its spring, steps. PE of links and
+# contacts at every step is written to NAME.esys.links and NAME.esys.contacts, CPU time to
+# NAME.esys.json.
 import json
 import math
 import os
@@ -17,7 +18,7 @@ ramp = 150
 
 
 def worker_time():
-    """CPU seconds of the other process of this run, the one that computes."""
+    """CPU time (s) of the other process of this run, which does the computation."""
     for entry in os.listdir("/proc"):
         if not entry.isdigit() or int(entry) == os.getpid():
             continue
@@ -38,14 +39,14 @@ simulation.setSpatialDomain(BoundingBox(Vec3(0, -10, -5), Vec3(length, 40, 5)), 
 simulation.force2dComputations(True)
 simulation.setTimeStepSize(dt)
 simulation.readGeometry(name + ".geo")
-# A disc of radius r weighs density pi r^2. Plates are so heavy that no force moves them: those made
-# non-dynamic stay where they are whatever their velocity (version 2.3.5), and moveTaggedParticlesBy
-# makes a step ten times as long.
+# The mass of a disc of radius r is density pi r^2. Plates are so heavy that no force moves them:
+# non-dynamic particles do not move whatever their velocity (version 2.3.5), and with
+# moveTaggedParticlesBy a step takes ten times as long.
 for tag in range(1, 7):
     simulation.setParticleDensity(tag, -1, (1 if tag < 5 else 1e12) / math.pi)
 simulation.createInteractionGroup(NRotBondPrms(name="links", normalK=1.0, breakDistance=10.0, tag=0, scaling=False))
-# createInteractionGroupTagged ignores tags with this friction (version 2.3.5), so that contacts are
-# those of all discs that no link joins, as with contacts = all in inputs/fault.in.
+# createInteractionGroupTagged ignores tags with this friction (version 2.3.5), so that all discs
+# not joined by a link have contacts, as with contacts = all in inputs/fault.in.
 simulation.createInteractionGroup(NRotFrictionPrms(name="contacts", normalK=1.0, dynamicMu=mu, shearK=kt, scaling=False))
 simulation.createExclusion("links", "contacts")
 simulation.createInteractionGroup(DampingPrms(type="Damping", name="viscosity", viscosity=viscosity, maxIterations=50))

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# The same fault in ESyS-Particle, PE at every step: NAME.geo, workers, steps. No normal stress, no
-# viscosity.
+# The same fault in ESyS-Particle without normal stress and viscosity; writes PE at every step.
+# Arguments: NAME.geo, workers, steps.
 import sys
 import time
 from esys.lsm import (InteractionScalarFieldSaverPrms, LsmMpi, NRotBondPrms, NRotFrictionPrms)
@@ -20,7 +20,7 @@ for tag, velocity in ((5, -0.00025), (6, 0.00025)):
     simulation.setTaggedParticleVelocity(tag, Vec3(velocity, 0, 0))
 simulation.createInteractionGroup(NRotBondPrms(name="links", normalK=1.0, breakDistance=10.0, tag=0, scaling=False))
 # createInteractionGroupTagged ignores tags with this friction (version 2.3.5): without the
-# exclusion links would be contacts as well.
+# exclusion linked discs would have contacts as well.
 simulation.createInteractionGroup(NRotFrictionPrms(name="contacts", normalK=1.0, dynamicMu=0.6, shearK=1.0, scaling=False))
 simulation.createExclusion("links", "contacts")
 for group in ("links", "contacts"):

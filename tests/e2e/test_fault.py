@@ -21,7 +21,7 @@ def particles(result):
 
 
 def test_fault_120(on_ranks, postproc):
-    """On two ranks, from another folder: events, and a shear stress that friction allows."""
+    """On two ranks, from another folder, there are events, and a shear stress that friction can bear."""
     said = run(on_ranks(2), scene("fault_120.in", steps=30000, prefix="short", location="yes"))
     for name in "short.catalogue.csv", "short.pe.bin", "short.restart.end":
         assert Path(name).exists()
@@ -34,7 +34,7 @@ def test_fault_120(on_ranks, postproc):
     table = re.findall(r"^ *Step .*Events.*?\n(.*?)^Loop", said.out, re.S | re.M)[-1]
     ratio = float([line.split() for line in table.splitlines() if len(line.split()) == 8][-1][6])
     assert 0.5 < ratio < 0.8, "shear/normal stress"
-    # The series picks to the events that the run picked, and is drawn.
+    # Picking the series gives the events that the run picked, and it can be drawn.
     run(postproc, "pick short.pe.bin -o picked.csv")
     assert rows("picked.csv") == [",".join(row.split(",")[:8]) for row in rows("short.catalogue.csv")]
     if shutil.which("gnuplot"):
@@ -44,8 +44,9 @@ def test_fault_120(on_ranks, postproc):
 
 @pytest.mark.parametrize("length", [120, 240, 480, 945, 1440, 1890])
 def test_lengths(lmp, work, length):
-    """Every length exists and can be read from its own folder as well. The paper has "about 7800"
-    particles for length 120; ours lacks the 260 loose ones. Proportional to the length"""
+    """Every length exists, and its scene can be read from its own folder as well. The paper has "about
+    7800" particles for length 120; ours lacks the 260 loose ones. Their number is proportional to the
+    length."""
     said = run(lmp, scene(f"fault_{length}.in", settle=0, steps=2, prefix=work / "l"), cwd=INPUTS)
     assert 61 * length < particles(said) < 65 * length
 
@@ -57,7 +58,7 @@ def test_wrong_picker(lmp):
 
 
 def test_law(lmp):
-    """One variable chooses the law of friction; its words are in the headers, and a restart keeps it."""
+    """One variable chooses the friction law; its words are in the headers, and a restart keeps it."""
     law = "slip-weakening mu 0.5 mu_static 0.6 dc 0.002 heal 5"
     short = dict(settle=0, checkpoint=10, ruptures="yes", prefix="law")
     run(lmp, scene("fault_120.in", law=law, steps=10, **short))
@@ -69,8 +70,8 @@ def test_law(lmp):
 
 
 def test_stick_slip(lmp, postproc):
-    """The default fault sticks and slips, and the measure of it distinguishes a creeping one: half the
-    shortest fault of the paper."""
+    """The default fault, half as long as the shortest one of the paper, has stick-slip, and the measure
+    of it distinguishes a creeping one."""
 
     def regime(name, **more):
         run(lmp, scene(length=60, steps=90000, prefix=name, **more))
@@ -81,7 +82,7 @@ def test_stick_slip(lmp, postproc):
     word, saw_tooth, in_events = regime("default")
     # Seed 1 has 54 and 0.07.
     assert word == "stick-slip" and float(saw_tooth) > 5 and float(in_events) < 0.3
-    # A disc for which the time step is too large oscillates from step to step, each time an event.
+    # A disc for which the time step is too large would oscillate from step to step, with an event each time.
     _, events = read_catalogue("default.catalogue.csv")
     brief = (events["step_end"] - events["step_start"] <= 3) & (events["size"] >= 1e-4)
     assert not brief.any(), "the time step of the preset is unstable"
@@ -108,12 +109,12 @@ write_dump all custom back.dump id type x y z radius vx vy modify sort id format
 
 
 def test_dump(lmp):
-    """Frames at the given steps, in a form that OVITO reads, and the same when read back."""
+    """Frames are written at the given steps, in a form that OVITO reads, and are the same when read back."""
     small = dict(length=120, settle=100, steps=60, prefix="d", series="no")
     discs = particles(run(lmp, scene(extra="fault_dump", **{"from": 120, "to": 160, "every": 20}, **small)))
     frames = sorted(Path().glob("d.*.dump"))
     assert [frame.name for frame in frames] == ["d.000000120.dump", "d.000000140.dump", "d.000000160.dump"]
-    # Every disc once, within the box, of an existing type and radius.
+    # Every disc occurs once, within the box, with a valid type and radius.
     for frame in frames:
         head = frame.read_text().splitlines()[:9]
         assert head[4] == "ITEM: BOX BOUNDS pp ff pp" and head[8].split() == "ITEM: ATOMS id type x y z radius vx vy".split()
@@ -124,8 +125,8 @@ def test_dump(lmp):
         assert (np.diff(number) > 0).all() and (x >= low).all() and (x <= high).all() and (z == 0).all()
         assert set(kind) == {1, 2, 3, 4, 5, 6} and (radius >= 0.1).all() and (radius <= 1).all()
         assert np.count_nonzero(vx) >= 0.9 * discs
-    # Read into another state of the same fault, the frame comes out as it went in. Positions outside the box
-    # would come back wrapped: none is.
+    # Read into another state of the same fault and written again, the frame is unchanged. Positions outside
+    # the box would be wrapped; there are none.
     Path("back.in").write_text(READ_BACK)
     run(lmp, "-in back.in")
     discs_of = {name: Path(name).read_text().split("\n", 9)[9] for name in ("d.000000120.dump", "d.000000160.dump", "back.dump")}
@@ -138,7 +139,7 @@ def test_dump(lmp):
 
 
 def test_image(lmp):
-    """Pictures of every fourth of 20 steps, and one by itself."""
+    """Pictures of every fourth of 20 steps, and a single one."""
     small = dict(length=20, width=15, settle=100, steps=20, extra="fault_image", pixels=400, high=300)
     run(lmp, scene(prefix="film", **{"from": 102, "to": 118, "every": 4}, **small))
     run(lmp, scene(prefix="one", **{"from": 110, "to": 111, "every": 9}, **small))
@@ -156,7 +157,7 @@ dump_modify probe sort id
 
 
 def test_stretches(lmp, work):
-    """Pieces of one length, each of the discs that were there at first: the energies of all add up to PE."""
+    """Pieces of equal length keep the discs that they had at first, and their energies add up to PE."""
     Path("parts.in").write_text(STRETCHES.format(inputs=INPUTS))
     run(lmp, scene(length=36, width=15, settle=104, velocity=0.03, steps=400, checkpoint=200, prefix="p", extra=work / "parts", piece=5))
     pieces = 7  # 36 is no multiple of 5
@@ -171,11 +172,11 @@ def test_stretches(lmp, work):
     for at, _, discs in frames:
         expected = [[discs[(piece == n) & (above == side), 4].sum() for side in (False, True)] for n in range(pieces)]
         assert energy[steps == at][0] == pytest.approx(np.array(expected), rel=1e-4)  # digits of the dump
-    # The discs move on, those below the fault to smaller x.
+    # The discs move, those below the fault towards smaller x.
     moved = (frames[-1][2][:, 2] - begin[:, 2] + 18) % 36 - 18
     assert moved[~above].mean() < 0 < moved[above].mean()
     assert ((frames[-1][2][:, 2] % 36 * pieces / 36).astype(int) != piece).any(), "no disc has left its piece"
-    # Continued from the restart file before the last, as after a kill
+    # The run is continued from the restart file before the last, as after a kill.
     run(lmp, scene(restart="p.restart.304", steps=600, checkpoint=200, prefix="p", extra=INPUTS / "fault_stretches", piece=5, overwrite=None))
     (before, kept), (after, energy2) = parts_of("p.stretches.txt")
     assert list(before) == list(range(104, 304, 8)) and list(after) == list(range(304, 705, 8)) and (kept == energy[:25]).all()
@@ -192,7 +193,7 @@ dump_modify discs sort id format float %.15g
 
 
 def pulled(strain):
-    """Which disc of a.discs is moved along the fault, and how far, for one of its links to have this strain."""
+    """Chooses a disc of a.discs and a displacement along the fault that gives one of its links this strain."""
     (_, _, discs), = [frame for frame in read_dump("a.discs") if frame[0] == 0]
     (_, _, links), = [frame for frame in read_dump("a.links") if frame[0] == 0]
     at, radius = discs[:, 2:4], discs[:, 4]
@@ -209,7 +210,7 @@ def pulled(strain):
 
 
 def test_strained_links(lmp, work):
-    """A link may be strained by 0.75, whatever is recorded; the run stops beyond."""
+    """A link may be strained by up to 0.75, whatever is recorded; beyond, the run stops."""
     small = dict(length=20, width=15, settle=0, steps=3, dt=1e-4, prefix="a", ruptures="yes", overwrite="yes")
     Path("pull.in").write_text(LINKS)
     run(lmp, scene(extra=work / "pull", **small))
@@ -234,7 +235,7 @@ dump probe all local 1 ${prefix}.pairs c_types[1] c_types[2] c_push[1] c_push[2]
 
 @pytest.fixture
 def probed(work):
-    """A copy of the scenes, with input of our own."""
+    """A copy of the scenes with further input."""
     shutil.copytree(INPUTS, "scene")
     Path("scene/probe.in").write_text(PROBE)
     Path("scene/coefficients.in").write_text("write_coeff ${prefix}.coeff\n")
@@ -242,10 +243,10 @@ def probed(work):
 
 
 def test_contacts(lmp, probed):
-    """Discs of one block cannot pass through those of the other, whether they are at the fault or behind it:
-    the upper block is pushed into the lower one and the face of the latter into the discs behind it, and
-    each overlapping pair of both blocks has to repel; those of one block too, unless contacts are those of
-    the fault only, and with friction unless they are smooth."""
+    """Discs of one block cannot pass through those of the other, whether they are at the fault or behind it.
+    The upper block is pushed into the lower one, and the face of the latter into the discs behind it: each
+    overlapping pair of different blocks has to repel. So do pairs of the same block, unless only those at the
+    fault have contacts, and they have friction unless they are smooth."""
 
     def pairs(contacts):
         run(lmp, scene(probed, length=60, settle=0, steps=1, prefix=contacts, extra="probe", contacts=contacts))
@@ -270,7 +271,7 @@ def test_contacts(lmp, probed):
 
 
 def test_further_input(lmp, probed, work):
-    """It is found by any name, also one with a path."""
+    """Further input is found by any name, also one with a path."""
     Path("scene/on-board_2.in").write_text('print "this was read"\n')
     for name in "on-board_2", "./on-board_2", "../scene/on-board_2", f"{work}/scene/on-board_2":
         said = run(lmp, scene(probed, length=30, settle=0, steps=0, prefix="named", overwrite="yes", extra=name))
@@ -278,8 +279,7 @@ def test_further_input(lmp, probed, work):
 
 
 def test_dashpots(lmp, probed):
-    """With a retardation time in all links and contacts, also after a restart, and not with too long a time
-    step."""
+    """All links and contacts have dashpots, also after a restart, and too long a time step is refused."""
 
     def damped(status=0, **more):
         said = run(lmp, scene(probed, settle=0, prefix="damped", extra="coefficients", **more), status=status)

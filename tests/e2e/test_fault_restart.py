@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Robustness of the fault: damaged restart files, kills while they are written, two runs with the same
+"""Robustness of the fault: damaged restart files, kills while these are written, two runs with the same
 files, and words and values that a run refuses."""
 import os
 import random
@@ -26,7 +26,7 @@ def info(path):
 
 
 def restart_steps(folder="."):
-    """Steps of the whole restart files, in order."""
+    """Steps of the complete restart files, in order."""
     return sorted(int(path.name.split(".")[2]) for path in Path(folder).glob("a.restart.*.info") if path.name.split(".")[2].isdigit())
 
 
@@ -42,10 +42,10 @@ def test_words(lmp):
     for name, value, accepted in WORDS:
         refused(lmp, small(**{"steps": 5, name: value}), f"Variable {name} is '{value}', but must be {accepted}")
     refused(lmp, small(steps=5, prefix="a b"), "Variable prefix is 'a b', but must be a file name of letters, digits")
-    # LAMMPS itself takes a word with '-' for an option; a script may set the variable.
+    # On the command line LAMMPS takes a word with '-' for an option, but a script may set the variable.
     Path("in.dash").write_text(f"variable prefix string -x\ninclude {INPUTS}/fault.in\n")
     refused(lmp, ["-in", "in.dash", *small()[2:]], "ERROR: Variable prefix is '-x', but must be .* that does not begin with -")
-    # One that nothing reads.
+    # A variable that nothing reads.
     said = run(lmp, small(stres=0.03, prefix="known", steps=1))
     assert re.findall("WARNING: Variable (.*) is not used by this script", said.out) == ["stres"]
 
@@ -66,7 +66,7 @@ def test_values(lmp):
     run(lmp, small(prefix="b", seed=7, massfloor=0.05, stress=0.03, steps=900, restart="b.restart.end"))
     same_bytes("a.catalogue.csv", "b.catalogue.csv")
     same_bytes("a.pe.bin", "b.pe.bin")
-    # Under another name: the header says what the fault is.
+    # With another prefix, the header still says what the fault is.
     run(lmp, scene(restart="a.restart.end", steps=1000, prefix="look", velocity=0.02))
     said = header("look.catalogue.csv")
     wanted = dict(seed="7", massfloor="0.05", stress="0.03", velocity="0.02", width="15")
@@ -93,20 +93,20 @@ def test_damaged(lmp):
     no("bare", newest, "bare: its checksum file bare.info is missing", None)
     refused(lmp, scene(restart="none", steps=1500), "none: cannot open: No such file")
     no("bare", newest, "bare.info: is damaged", beside.replace("seed = 1", "seed = 2"))
-    # For a file of another origin the line of cksum will do.
+    # For a restart file of another origin the output of cksum suffices.
     Path("bare.info").write_text(subprocess.run(["cksum", "bare"], capture_output=True, text=True, check=True).stdout)
     said = run(lmp, small(restart="bare", prefix="a", steps=1000))
     assert "WARNING: Restart file bare has no value of seed" in said.out
 
 
 def go_on():
-    """Words of the next part: from the newest whole restart file, or from the beginning."""
+    """Words of the next part, from the newest complete restart file or from the beginning."""
     steps = restart_steps()
     return dict(restart=f"a.restart.{steps[-1]}") if steps else dict(overwrite="yes")
 
 
 def test_killed(lmp):
-    """Most of the time goes into restart files."""
+    """A run that spends most of its time on restart files is killed again and again."""
     often = dict(checkpoint=2, prefix="a", steps=300)
     os.mkdir("whole")
     run(lmp, small(**often), cwd="whole")
@@ -114,12 +114,12 @@ def test_killed(lmp):
     for rounds in range(60):
         if Path("a.restart.end.info").exists():
             break
-        # A file without .info is refused; one with it is whole.
+        # A file without .info is refused; one that has it is complete.
         for path in Path().glob("a.restart.*"):
             if path.suffix not in (".info", ".new") and not Path(f"{path}.info").exists():
                 said = run(lmp, small(**often, restart=path), status=1)
                 assert f"its checksum file {path}.info is missing" in said.out
-        # Killed once there are some more restart files.
+        # The run is killed once there are some more restart files.
         until = (restart_steps() or [100])[-1] + 40 + moments.randrange(20)
         with start(lmp, small(**often, **go_on())) as child:
             child.until(lambda: any(until <= step < 396 for step in restart_steps()))
@@ -137,7 +137,7 @@ CALLS = "write", "pwrite64", "rename", "unlink", "ftruncate", "fsync"
 
 @pytest.mark.parametrize("call", CALLS)
 def test_walk(lmp, work, faults, call):
-    """Killed at, or told that the disk is full by, system calls on the run's files, a few of each kind."""
+    """System calls on the run's files kill the run or report a full disk, a few calls of each kind."""
     words = small(checkpoint=100, prefix="a", steps=300, ruptures="yes")
     part = work / "part"
     traced = faults(lmp, [
@@ -172,7 +172,7 @@ def test_walk(lmp, work, faults, call):
 
 
 def test_twice(lmp):
-    """Two runs with the same files; a killed run keeps no lock."""
+    """Two runs cannot use the same files; a killed run keeps no lock."""
     run(lmp, small(prefix="a", steps=400))
     os.mkdir("whole")
     for path in Path().glob("a.*"):

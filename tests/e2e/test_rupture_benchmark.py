@@ -12,8 +12,8 @@ from programs import INPUTS, refused, run, scene
 
 @pytest.fixture
 def ruptured(lmp, postproc):
-    """ruptured(benchmark): runs it and compares; stations up to 12 km: how many of each reference, and the
-    largest differences of arrivals (s) and slip (relative)."""
+    """ruptured(benchmark): runs it and compares it at stations up to 12 km. Returns the number of stations of
+    each reference, and the largest differences of arrivals (s) and slip (relative)."""
 
     def compare(name, *more):
         run(lmp, scene(f"rupture_{name}.in", dx=200, length=60000, width=30000, tend=6, prefix=name))
@@ -37,10 +37,10 @@ def test_tpv205(ruptured, postproc):
     largest = max(abs(float(row["difference"])) for row in of_run)
     assert 0.001 < largest < 0.05 * max(float(row["slip"]) for row in of_run)
     assert all(float(row["difference"]) == 0 for row in curves if row["number"] == "2" and row["difference"])
-    # Slip within 1.5 % and arrivals within 0.15 s, against both references.
+    # Slip agrees within 1.5 % and arrivals within 0.15 s with both references.
     assert stations == {"PyLith 200 m": 5, "boundary integral 25 m": 17} and late < 0.15 and slip < 0.015
 
-    # A place between two bins, and what is refused.
+    # A place between two bins is accepted; others are refused.
     def reference(place, *times):
         Path("columns").write_text("curve,x,t,slip,slip_rate\n" + "".join(f"by hand,{place},{t},{t},1.5\n" for t in times))
 

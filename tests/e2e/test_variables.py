@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Variables of inputs/fault.in: what is refused, what a restart takes over, what headers state, and the end by PREFIX.stop."""
+"""Variables of inputs/fault.in: refusals, what a restart keeps, what headers state, and the end by PREFIX.stop."""
 import re
 from pathlib import Path
 
@@ -25,7 +25,7 @@ def info(file):
 
 
 def with_checksum(file, lines):
-    """Writes FILE.info with other lines, as somebody would who knows the format."""
+    """Writes FILE.info with other lines and a valid checksum."""
     last = Path(f"{file}.info").read_text().splitlines()[-1]
     text = "".join(line + "\n" for line in lines)
     Path(f"{file}.info").write_text(f"{text}lines = {posix_cksum(text.encode())}\n{last}\n")
@@ -72,7 +72,7 @@ def test_whole_numbers_may_have_exponents(lmp):
 
 
 def test_an_earlier_run_is_kept_from_the_beginning(lmp):
-    """Refused before the packing is made, not after the compression."""
+    """The run is refused before the packing is made, not after the compression."""
     Path("a.catalogue.csv").write_text("an earlier run\n")
     said = refused(lmp, small(), "File a.catalogue.csv exists; give another prefix, or replace it with overwrite yes")
     assert "Created" not in said.out
@@ -109,7 +109,7 @@ def test_variables_that_do_nothing_beside_others(lmp, given, others, said):
 
 
 def test_variables_that_others_make_count(lmp):
-    """Each has an effect that headers state."""
+    """Each variable has an effect that headers state."""
     for prefix, variables, name, value in (("a", {"lambda": 0.9, "memory": 0}, "lambda", "0.9"), ("b", {"lambda": 0.9,
                                                                                                         "picker": "average"}, "lambda", "0.9"),
                                            ("c", {"impedance": 0.3}, "impedance", "0.3")):
@@ -118,7 +118,7 @@ def test_variables_that_others_make_count(lmp):
 
 
 def test_a_run_goes_on_with_what_it_was_begun_with(lmp):
-    """Runs of earlier versions may have such variables, which studies give again; and another value has no effect, either."""
+    """Runs of earlier versions may have such variables, which studies give again; another value has no effect."""
     run(lmp, small(hold="position"))
     again = scene(restart="a.restart.end", steps=500, hold="position", impedance=0.6, prefix="b", **{"lambda": 0.99})
     run(lmp, again)
@@ -134,14 +134,14 @@ def test_a_default_follows_a_variable_that_a_restart_changes(lmp):
     run(lmp, scene(restart="a.restart.end", steps=500, viscosity=0.02, prefix="b"))
     assert info("b.restart.end.info")["faultviscosity"] == "0.02"
     assert header("b.catalogue.csv")["viscosity"] == "0.02"
-    # One that had a value of its own keeps it.
+    # A variable that had a value of its own keeps it.
     run(lmp, small(faultviscosity=0.3, prefix="c"))
     run(lmp, scene(restart="c.restart.end", steps=500, viscosity=0.02, prefix="d"))
     assert info("d.restart.end.info")["faultviscosity"] == "0.3"
 
 
 def test_files_of_an_earlier_run_do_not_seem_to_be_of_this_one(lmp, on_ranks):
-    """Its catalogue may have been moved away; with overwrite they are removed, once this run has the names."""
+    """The earlier catalogue may have been moved away. With overwrite the other files are removed, once this run has locked the names."""
     run(lmp, small(ruptures="yes", checkpoint=150))
     for name in "a.catalogue.csv", "a.pe.bin", "a.ruptures.csv", "a.slip.bin":
         Path(name).rename(f"moved.{name}")
@@ -154,7 +154,7 @@ def test_files_of_an_earlier_run_do_not_seem_to_be_of_this_one(lmp, on_ranks):
             for path in Path().glob("a.*")
             } == {"a.catalogue.csv", "a.restart.500", "a.restart.500.info", "a.restart.end", "a.restart.end.info", "a.restart.notes"}
     assert header("a.catalogue.csv")["seed"] == info("a.restart.500.info")["seed"] == "2"
-    # What a run of the same names writes beside its catalogue alone is refused, too.
+    # A single other file that a run of this name would write is a reason to refuse it, too.
     Path("b.slip.bin").write_bytes(b"lsm-slip-hist-1\n")
     refused(lmp, small(prefix="b"), "lsm_run: b.slip.bin is there, of an earlier run")
 
@@ -164,7 +164,7 @@ def test_headers_state_what_runs(lmp):
     for file in ("a.catalogue.csv", "a.ruptures.csv"):
         stated = header(file)
         assert stated["hold"] == "position" and "stress" not in stated and "impedance" not in stated
-    # Another fix than that of the scene: as it is when the files begin.
+    # If another fix replaces that of the scene, headers state its settings when the files begin.
     Path("harder.in").write_text("fix plates all lsm/plates lower upper stress 0.05 velocity 0.02 ramp 150\n")
     run(lmp, small(prefix="b", extra=Path("harder").resolve()))
     stated = header("b.catalogue.csv")
@@ -189,7 +189,7 @@ def test_stop(lmp):
         step = re.search(r"Stopped at step (\d+), as there was a file a.stop, which is removed", child.said())[1]
     assert not Path("a.stop").exists()
     run(lmp, scene(restart=f"a.restart.{step}", steps=int(step) - 100 + 60))
-    # One that comes too late ends no later run.
+    # A stop file that comes too late does not end a later run.
     Path("a.stop").touch()
     run(lmp, scene(restart="a.restart.end", steps=int(step) - 100 + 60)).told("There was a file a.stop, which is removed")
     assert not Path("a.stop").exists()

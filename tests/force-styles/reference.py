@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Writes the data files and the yaml files of this folder, without LAMMPS and without the package.
 
-The numbers that LAMMPS' testers compare with come from this program: a second implementation of the laws in the pages of
+The reference values of LAMMPS' testers come from this program: an independent implementation of the laws in the pages of
 lammps-pkg/doc, over all pairs, with sums that are rounded once (math.fsum). README.md says how epsilon is found.
 
 usage: reference.py [FOLDER]
@@ -49,7 +49,7 @@ class Scene:
                 self.bonds[i, j] = 1 + rng.randrange(3)
 
     def distance(self, x, i, j):
-        """Vector from j to i, nearest image, and its length."""
+        """Vector from j to i, of the nearest image, and its length."""
         d = [a - b for a, b in zip(x[i], x[j])]
         d = [c - b * round(c / b) for c, b in zip(d, self.box)]
         return d, math.sqrt(math.fsum(c * c for c in d))
@@ -81,10 +81,10 @@ class Forces:
     def __init__(self, count):
         self.energies, self.virials = [], [[] for _ in range(6)]
         self.terms = [[[], [], []] for _ in range(count)]
-        self.stiffness = [0.0] * count  # of all that acts on a particle
+        self.stiffness = [0.0] * count  # sum over all that acts on a particle
 
     def add(self, i, j, d, force, energy, stiffness):
-        """force acts on i, d points from j to i"""
+        """Adds a force, which acts on i. d: vector from j to i"""
         self.energies.append(energy)
         for values, (a, b) in zip(self.virials, ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))):
             values.append(d[a] * force[b])
@@ -114,7 +114,7 @@ class Model:
         self.bonds = dict(scene.bonds)
         self.contacts = {}  # pair: (elongation along the tangent, vector from j to i, state)
         self.work = 0.0  # taken by the viscosity
-        self.seen = set()  # what happened, so that a scene that tests little is found out
+        self.seen = set()  # what has happened, so that a scene that tests little is noticed
         self.linked = set(self.bonds)
         self.evaluate(first=True)
 
@@ -153,18 +153,18 @@ class Model:
         self.force = Forces.total(self.bond, self.pair)
 
     def friction(self, i, j, d, r, r0, law, first):
-        """Elongation of the tangential spring of a pair; gives its energy, its force on i, and its stiffness."""
+        """Updates the tangential spring of a pair. Returns its energy, its force on i, and its stiffness."""
         k, kt, mu, mu_static, located = law
         before = self.contacts.get((i, j))
         if r >= r0:
-            # a pair that parts, or comes near: from here on its vector is known
+            # The pair separates or approaches: from now on its vector is known.
             self.contacts[i, j] = (0.0, d, "near")
             return 0.0, (0.0, 0.0, 0.0), 0.0
         xi, state = 0.0, "sticks"
         if before and not first:
             xi, old, state = before
-            # the component of the displacement along the tangent of the middle of the step, tangent
-            # = normal turned left
+            # The elongation grows by the component of the displacement along the tangent in the middle
+            # of the step, which is the normal turned left.
             m = [a + b for a, b in zip(d, old)]
             length = math.hypot(m[0], m[1])
             step = ((d[0] - old[0]) * -m[1] + (d[1] - old[1]) * m[0]) / length
@@ -186,7 +186,7 @@ class Model:
         return 0.5 * kt * xi * xi, [-kt * xi * t for t in tangent], kt
 
     def step(self, dt, viscosity=None, moving=None):
-        """Velocity Verlet; viscosity by atom type: exact decay of half a step before and after."""
+        """A step of velocity Verlet. viscosity: by atom type; velocities decay exactly for half a step before and after it."""
         scene = self.scene
         who = [n for n in range(len(self.x)) if moving is None or scene.type[n] in moving]
 
@@ -285,8 +285,8 @@ def fix_test(folder, name, scene, links, pairs, options, moving, viscosity, post
         model.step(0.25, viscosity, moving)
     if not expected <= model.seen:
         raise SystemExit(f"{name}: nothing in the scene did: {expected - model.seen}")
-    # an error of rounding per step in each position, and what it makes of velocities, does not grow
-    # much in 8 steps
+    # Rounding errors of positions in each step, and the resulting errors of velocities, do not grow
+    # much in 8 steps.
     reach = 0.5 * max(scene.box)
     epsilon = max(8.0 * ROUNDING * reach / abs(c) for values in (model.x, model.v) for v in values for c in v[:2])
     if not epsilon < 1e-10:

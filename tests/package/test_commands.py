@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The commands of the README on machines without apt or without root; PATH is a folder of made-up programs."""
+"""The commands of the README on machines without apt or without root. PATH is a folder of dummy programs."""
 import os
 import shutil
 import signal
@@ -16,7 +16,7 @@ PACKAGES = SOURCE / "lammps-pkg/cmake/debian-packages.sh"
 
 @pytest.fixture
 def machine(work):
-    """machine(NAME, ...): runs a line of bash after debian-packages.sh, where only these programs and a few of coreutils are."""
+    """machine(LINE, NAME, ...): runs a line of bash after debian-packages.sh, with only these programs and a few of coreutils."""
     folder = work / "bin"
     folder.mkdir()
 
@@ -61,7 +61,7 @@ def test_a_missing_program_ends_it_in_one_line(machine):
 
 @pytest.mark.parametrize("candidate, library", [("20250204+dfsg.1-2", "/usr/lib/any/liblammps.so"), ("20220106.git7586adbb6a+ds1-2", "")])
 def test_debians_lammps_is_taken_where_it_is_the_reference(machine, candidate, library):
-    # More than a pipe holds: a reader that stops at the candidate would end it with an error.
+    # The output exceeds the capacity of a pipe: a reader that stopped at the candidate would end apt-cache with an error.
     policy = f"echo '  Candidate: {candidate}'; printf '%999999s\\n' versions"
     ran = machine('debian_lammps; echo "library=$lammps_library"', "apt-get", apt_cache=policy,
                   dpkg_query='case $1 in -W) echo -n installed ;; -L) printf "/usr/include\\n/usr/lib/any/liblammps.so\\n" ;; esac')
@@ -83,7 +83,7 @@ def test_a_command_without_its_tools_says_so(work, command):
 
 
 def test_a_configuration_that_failed_is_repeated(work):
-    """As when the network was away: what is there then is no build folder yet."""
+    """For example after a network failure: what is there then is no build folder yet."""
     if not shutil.which("cmake") or not shutil.which("ninja"):
         pytest.skip("no cmake, or no ninja")
     (work / "source").mkdir()
@@ -96,13 +96,13 @@ def test_a_configuration_that_failed_is_repeated(work):
     (work / "source/there").touch()
     assert subprocess.run(["bash", "-c", line], capture_output=True).returncode == 0
     assert Path("build/build.ninja").exists()
-    # One that is there is left alone.
+    # An existing build folder is left alone.
     (work / "source/there").unlink()
     assert subprocess.run(["bash", "-c", line], capture_output=True).returncode == 0
 
 
 def test_a_build_folder_of_others_is_refused(work):
-    """Its build.ninja would build another checkout, without a word."""
+    """Its build.ninja would silently build another checkout."""
     for name in "source", "other", "build":
         (work / name).mkdir()
     there = "install_debian_packages() { :; }; need_programs() { :; }; debian_lammps() { :; }; cmake() { echo called; }"
@@ -128,7 +128,7 @@ def test_a_build_folder_of_others_is_refused(work):
 
 @pytest.fixture
 def building(work):
-    """The same without programs: made-up ones of the package manager and the compiler wait where there is a file NAME.wait."""
+    """The same before anything is built: a dummy package manager and compiler, which wait while there is a file NAME.wait."""
     folder = work / "tools"
     folder.mkdir()
     alone = f"mkdir {work}/busy || echo $0 >>{work}/two; trap 'rmdir {work}/busy' EXIT; trap exit INT"
@@ -145,7 +145,7 @@ def building(work):
 @pytest.mark.parametrize("tool", ["apt-get", "cmake"])
 @pytest.mark.parametrize("by", [signal.SIGKILL, signal.SIGTERM, signal.SIGINT])
 def test_first_catalogue_interrupted_while_programs_are_made(first, building, tool, by):
-    """What is still at work is awaited: no two compilers write the same files, and no two package managers meet."""
+    """It waits for programs that still run, as two compilers must not write the same files, and package managers must not overlap."""
     Path(f"{tool}.wait").touch()
     with start(first, env=building, start_new_session=True) as child:
         assert child.until(lambda: Path(f"{tool}.begun").exists() and Path(f"{tool}.begun").read_text())
@@ -161,7 +161,7 @@ def test_first_catalogue_interrupted_while_programs_are_made(first, building, to
 
 @pytest.fixture
 def first(work):
-    """first-catalogue.sh with made-up programs; each of them waits at its beginning where there is a file NAME.wait."""
+    """first-catalogue.sh with dummy programs, each of which waits at its beginning while there is a file NAME.wait."""
     folder = work / "bin"
     folder.mkdir()
     events = "\\n".join(f"{k},{k}.0,{k}.5,1,2,0.1,1,0" for k in range(1, 101))
@@ -193,7 +193,7 @@ def test_first_catalogue_removes_what_it_made_only(first):
 
 
 def await_end(process):
-    """Until it holds no lock any more; nobody may collect its status."""
+    """Waits until a process holds no lock any more; it may remain as a zombie."""
     for _ in range(3000):
         try:
             if Path(f"/proc/{process}/stat").read_text().rpartition(") ")[2].startswith("Z"):
@@ -207,7 +207,7 @@ def await_end(process):
 @pytest.mark.parametrize("program", ["lmp", "postproc"])
 @pytest.mark.parametrize("by", [signal.SIGKILL, signal.SIGTERM, signal.SIGINT])
 def test_first_catalogue_interrupted(first, work, program, by):
-    """It begins anew, unless it is still at work: then it says so, and removes nothing."""
+    """It starts again, unless the interrupted one is still running: then it says so and removes nothing."""
     Path(f"{program}.wait").touch()
     with start(first, start_new_session=True) as child:
         assert child.until(lambda: Path(f"{program}.begun").exists() and Path(f"{program}.begun").read_text())

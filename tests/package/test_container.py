@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The image of the Containerfile, made from a Debian that debootstrap makes, runs the first catalogue."""
+"""The image of the Containerfile, built on a Debian made by debootstrap, runs the first catalogue."""
 import os
 import shutil
 import subprocess
@@ -18,7 +18,7 @@ def must(*command, **more):
 
 
 def mirror():
-    """The machine's own source of Debian packages."""
+    """The source of Debian packages that this machine uses."""
     for path in [*Path("/etc/apt/sources.list.d").glob("*.sources"), Path("/etc/apt/sources.list"), *Path("/etc/apt/sources.list.d").glob("*.list")]:
         for line in path.read_text().splitlines() if path.exists() else []:
             words = [word for word in line.split() if not word.startswith("[")]
@@ -39,8 +39,8 @@ def test_container_runs_the_first_catalogue(work, monkeypatch):
     base = tried.stdout.strip()
     must("debootstrap", "--variant=minbase", "trixie", work / "root", mirror())
     must("buildah", "add", base, work / "root", "/")
-    # The simplest command: whether this machine lets containers run at all, whatever the Containerfile says. Within
-    # another container often only those without namespaces of their own do.
+    # The simplest command shows whether containers can run here at all, whatever the Containerfile says. Within another
+    # container often only those without namespaces of their own can.
     for isolation in "oci", "chroot":
         monkeypatch.setenv("BUILDAH_ISOLATION", isolation)
         tried = subprocess.run(["buildah", "run", base, "--", "/bin/true"], capture_output=True, text=True)

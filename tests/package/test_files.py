@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Python module lsm: what it reads is what the programs wrote; the page and the notebook run."""
+"""Python module lsm: it reads what the programs wrote, and the examples of its page and the notebook run."""
 import gzip
 import json
 import lzma
@@ -91,7 +91,7 @@ def test_series_that_is_none(work, raw, said):
 
 @pytest.fixture(scope="module")
 def page_results(lmp, tmp_path_factory):
-    """Runs the blocks of the page, which make a fault and read it; the folder and what they left."""
+    """Runs the blocks of the page, which make a fault and read it. Returns the folder and their variables."""
     folder = tmp_path_factory.mktemp("page")
     os.symlink(SOURCE / "inputs", folder / "inputs")
     if not (BUILD / "lib/liblammps.so").exists():

@@ -45,7 +45,7 @@ def test_install(work):
             content = path.read_bytes()
             assert b"\0" in content or str(BUILD).encode() not in content, f"{path} names the build folder"
 
-    # programs as installed: nothing of the build folder in the environment
+    # Programs run as installed, without the build folder in the environment.
     def installed(path, *options):
         program = Program(Path(path).name, path, *options, errors=lammps_errors)
         program.env = {**MPI, "PATH": f"{root}/bin:/usr/bin:/bin", "HOME": str(work)}
@@ -68,7 +68,7 @@ def test_install(work):
     run(postproc, "explore slider.csv -o page.html")
     assert "Dygraph" in Path("page.html").read_text(), "the page is without its library"
 
-    # the plugin, in a stock lmp where one was built
+    # The plugin is loaded by a stock lmp if one was built.
     if os.environ.get("LSM_STOCK_LMP"):
         plugin, = root.rglob("lsmplugin.so")
         Path("in.plugin").write_text(f"plugin load {plugin}\ninclude {inputs}/two_body_collision.in\n")
@@ -92,7 +92,7 @@ def test_install(work):
 
 
 def test_others_may_use_what_is_installed(work):
-    """And a umask that keeps them out is said, as CMake makes folders by it."""
+    """A umask that would exclude them causes a warning, as CMake applies it to folders."""
     cmake = Program("cmake", "cmake", "--install", BUILD)
     assert "umask" not in run(cmake, "--prefix", work / "root", umask=0o022).err
     found = [work / "root", *(work / "root").rglob("*")]

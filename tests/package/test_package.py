@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The package compiled in, linked to a library of LAMMPS, and as plugin of the stock lmp; a plugin that does
-not match is not loaded."""
+"""The package compiled into LAMMPS, linked to its library, and as a plugin of the stock lmp; a plugin that
+does not match is not loaded."""
 import os
 import re
 from pathlib import Path
@@ -22,8 +22,8 @@ def stock():
     return Program("lmp", os.environ["LSM_STOCK_LMP"], "-log", "none", env=MPI, errors=lammps_errors)
 
 
-# Two discs that are linked and two that collide: bond, pair and integrator in one small run, in which the
-# total energy must not change. The second scene after 'clear' finds the styles again (a plugin has to be
+# Two discs that are linked and two that collide use bond, pair and integrator in one small run, in which the
+# total energy must not change. A second scene after 'clear' finds the styles again (a plugin has to be
 # loaded again).
 COLLISION = """units lj
 dimension 2
@@ -94,12 +94,12 @@ def fault(program, load, name, runs, geometry="create_lsm_fault length 20 width 
     return run(program, "-in in.fault")
 
 
-# Pieces, as in fault.in: each run sorts the particles, so that a restart between two gives the same digits.
+# The run is in pieces, as in fault.in: each sorts the particles, so that a restart in between gives the same digits.
 WHOLE = "run 2000\nwrite_restart state\nrun {}"
 
 
 def works(program, load=""):
-    """Both scenes; a restart in the middle of the fault gives the same files."""
+    """Runs both scenes; a restart in the middle of that of the fault gives the same files."""
     Path("in.scene").write_text(2 * (load + COLLISION))
     energies = re.findall("^ENERGY (.*)", run(program, "-in in.scene").out, re.M)
     # Kinetic 2 * 0.5 * 0.25 * 0.1^2 plus link 0.5 * 0.05^2.
@@ -121,7 +121,7 @@ def test_built_in(lmp):
 
 
 def test_linked(lmp):
-    """LAMMPS makes what -h says when it is compiled, so that the styles are missing there."""
+    """The output of -h is fixed when LAMMPS itself is compiled, so that the styles are missing there."""
     works(lmp)
 
 
@@ -133,7 +133,7 @@ def test_plugin(lmp, stock):
     for style in STYLES:
         assert re.search(f"Loading plugin: .*{style}", said), f"the plugin does not register {style}"
     works(stock, load)
-    # Without a command: each LAMMPS loads what is in these folders as it begins, after 'clear' too.
+    # No command is needed if LAMMPS loads what is in these folders at its start, and after 'clear'.
     by_path = Program("lmp", os.environ["LSM_STOCK_LMP"], "-log", "none", env={**stock.env, "LAMMPS_PLUGIN_PATH": str(PLUGIN.parent)},
                       errors=lammps_errors)
     Path("in.path").write_text(2 * COLLISION)
@@ -145,7 +145,7 @@ def test_plugin(lmp, stock):
 
 
 def test_refused(lmp, stock):
-    """One line about a plugin that does not match, no style registered, and the program goes on."""
+    """For a plugin that does not match there is one line, no style is registered, and the program continues."""
 
     def not_loaded(program, plugin, pattern):
         Path("in.refused").write_text(f'plugin load {plugin}\nplugin list\nprint "went on"\n')
@@ -165,7 +165,7 @@ def test_refused(lmp, stock):
     bits, other = ("64, 32 and 32", "64, 64 and 64")[::-1 if "LAMMPS_BIGBIG" in about else 1]
     not_loaded(stock, BUILD / "lib/lsmplugin_other_integers.so", f"tagint and imageint of {other} bits, but this LAMMPS has .* {bits} bits;")
     not_loaded(lmp, PLUGIN, "the package is compiled into this LAMMPS already")
-    # Loaded twice by the stock program: LAMMPS' own message.
+    # If the stock program loads it twice, the message is that of LAMMPS.
     Path("in.twice").write_text(2 * f"plugin load {PLUGIN}\n")
     said = run(stock, "-in in.twice").out
     assert "must unload existing" in said and "not loaded" not in said

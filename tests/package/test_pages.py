@@ -42,7 +42,7 @@ run 500
 lsm_run 1500 prefix state every 500{lsm_run}
 """
 LEAP = "fix leap all lsm/leap plates{fix_lsm_leap}"
-# Pages of styles with keywords, and what further keywords of the same style belong to another page
+# Pages of styles with keywords, and keywords of the same style that belong to another page
 STYLES = {
     "create_lsm_fault": (), "fix_lsm_nve": (), "fix_lsm_plates": (), "fix_lsm_leap": (), "lsm_run": (),
     "compute_lsm_events": ("compute_lsm_events_ruptures",), "compute_lsm_events_ruptures": ("compute_lsm_events",)
@@ -61,7 +61,7 @@ def keywords(name):
 
 
 def ran(lmp, name, words="", status=0):
-    """The short fault with further words in the line that belongs to a page."""
+    """Runs the short fault with further words in the command to which a page belongs."""
     parts = dict.fromkeys(STYLES, "")
     of_ruptures = name == "compute_lsm_events_ruptures"
     parts["compute_lsm_events" if of_ruptures else name] = words and " " + words
@@ -91,7 +91,7 @@ def defaults(name):
 
 @pytest.mark.parametrize("name", STYLES)
 def test_defaults(lmp, name):
-    """With the defaults of the page written out a run has the bytes that it has without."""
+    """A run with the defaults of the page written out has the same bytes as one without them."""
     given = defaults(name)
     assert given, "no defaults on the page"
     written = [f"{key} {value}" for key, value in given.items() if key != "events"]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""LAMMPS with the package as a Python module: the fault run from Python leaves the files that lmp leaves,
-errors are exceptions, files are unlocked again."""
+"""LAMMPS with the package as a Python module: the fault run from Python writes the same files as lmp, errors
+are exceptions, and files are unlocked again."""
 import os
 import sys
 from pathlib import Path

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""One version everywhere, a citation that can be read, and an installation whose pages lead somewhere."""
+"""The same version everywhere, a valid citation file, and an installation whose pages have no dead links."""
 import importlib.util
 import os
 import re
@@ -31,7 +31,7 @@ def test_changes_and_citation_are_of_this_version():
     assert re.findall(r"^## (\S+)", (SOURCE / "CHANGELOG.md").read_text(), re.M)[0] == VERSION
     yaml = pytest.importorskip("yaml")
     cff = yaml.safe_load((SOURCE / "CITATION.cff").read_text())
-    # what the schema of CFF 1.2.0 requires of what is there
+    # what the schema of CFF 1.2.0 requires of the keys that are used
     assert cff["cff-version"] == "1.2.0" and cff["type"] in ("software", "dataset") and cff["version"] == VERSION
     assert {"cff-version", "message", "title", "authors"} <= set(cff) <= {
         "cff-version", "message", "type", "title", "version", "license", "authors", "keywords", "references", "abstract", "doi", "date-released",

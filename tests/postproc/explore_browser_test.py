@@ -73,8 +73,8 @@ class Page(unittest.TestCase):
         os.chdir(cls.folder.name)
         if fault:
             lmp, scene, *launcher = fault
-            # Stiff contacts and plates that absorb waves, so that almost all of the slip is in ruptures; soft
-            # contacts also slip slowly between them.
+            # With stiff contacts and plates that absorb waves, almost all slip is in ruptures; soft contacts
+            # also slip slowly between them.
             values = "stress 0.02 viscosity 0.015 kt 1 impedance 0.6 contacts fault".split()
             changed = [word for name, value in zip(values[::2], values[1::2]) for word in ("-var", name, value)]
             run(*launcher, lmp, "-in", scene, "-log", "none", "-var", "length", "30", "-var", "seed", "3", "-var", "steps", "50000", *changed, "-var",
@@ -117,11 +117,11 @@ class Page(unittest.TestCase):
 
     def tearDown(self):
         errors = [line["message"] for line in self.driver.get_log("browser") if line["level"] in ("SEVERE", "WARNING")]
-        # dygraphs 2.2 notes that a picture does not show all of its points, as after a zoom.
+        # dygraphs 2.2 reports points outside of a picture, as after a zoom.
         errors = [message for message in errors if "points out of Y bounds" not in message]
         self.assertEqual(errors, [])
         requests = [json.loads(line["message"])["message"] for line in self.driver.get_log("performance")]
-        # Those of this page: the browser opens pages of its own.
+        # Only the requests of this page count, as the browser opens pages of its own.
         addresses = {
             message["params"]["request"]["url"]
             for message in requests if message["method"] == "Network.requestWillBeSent" and message["params"]["documentURL"] == self.address
@@ -141,7 +141,7 @@ class Page(unittest.TestCase):
         self.fail(f"never came true: {script}; the page says: {self.text('#summary')}")
 
     def settle(self):
-        """Until what waits for the next frame is drawn, and what that asks for."""
+        """Waits until what is due for the next frame has been drawn, and what that requests in turn."""
         self.driver.execute_async_script(
             "const done = arguments[0]; requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(done)))")
 
@@ -211,7 +211,7 @@ class Page(unittest.TestCase):
         self.settle()
         after = self.window()
         self.assertLess(after[1] - after[0], 0.5 * (before[1] - before[0]))
-        # To single steps: every sample of the file is there.
+        # Zoomed to single steps, every sample of the file is shown.
         self.js("app.view.show(arguments[0], arguments[0])", self.largest["t_start"])
         self.settle()
         data = self.js("const [from, to] = app.view.window; return app.view.peData().filter(p => p[0] >= from && p[0] <= to)")
@@ -254,7 +254,7 @@ class Page(unittest.TestCase):
         found = self.js("return arguments[0].map(([from, to]) => app.runs[0].series.extremes(from, to))", windows)
         for (first, last), extremes in zip(windows, found):
             self.assertEqual(extremes, [min(values[first:last]), max(values[first:last])])
-        # And of the drawing: in a picture of few pixels.
+        # The same holds for the drawing, in a picture of few pixels.
         for first, last in windows[:40]:
             drawn = self.js("const s = app.runs[0].series; return s.points(s.time(arguments[0]), s.time(arguments[1]), 50).map(p => p[1])", first,
                             last - 1)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What the analysis and the block-slider replace, combine, and read: nothing lost, nothing mixed."""
+"""Files that the analysis and the block-slider replace, combine, and read: nothing is lost or mixed up."""
 import fcntl
 import json
 import os
@@ -16,7 +16,7 @@ CHAIN = "--blocks 200 --dt 0.05 --velocity 0.05 --warmup 300 --steps 200000"
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory, slider):
-    """A run of the block-slider with all that it writes."""
+    """A run of the block-slider with all of its output files."""
     folder = tmp_path_factory.mktemp("made")
     run(slider, CHAIN, "--catalogue slider.csv --pe-series slider.pe --checkpoint slider.ck", cwd=folder)
     return folder
@@ -29,7 +29,7 @@ def files(made, work):
     return work
 
 
-# Each way of postproc to write, with an output that would replace the file FILE.csv.
+# Each command of postproc that writes, with an output that would replace the file FILE.csv.
 WRITERS = [
     "series slider.pe --no-picture -o {base}",
     "spectrum slider.pe --no-picture -o {base}",
@@ -81,7 +81,7 @@ def test_what_a_command_wrote_is_replaced(postproc, files, line):
     "spectrum slider.pe --no-picture -o out/pic --json out/n.json",
 ])
 def test_nothing_is_written_where_one_of_the_outputs_is_refused(postproc, files, line):
-    """Whichever it is: somebody else's file, or one that another program is writing."""
+    """It may be a file of somebody else, or one that another program is writing."""
     run(postproc, line)
     outputs = sorted(Path("out").iterdir())
     assert len(outputs) > 1
@@ -121,7 +121,7 @@ def test_slider_summary_replaces_only_a_summary(slider, files):
 
 
 def test_new_files_follow_no_links(postproc, slider, files):
-    """FILE.new may have been put there by somebody else."""
+    """FILE.new may be a link that somebody else has made."""
     Path("precious").write_text("of somebody\n")
     for name in "page.html", "table.csv", "picked.csv":
         os.symlink("precious", name + ".new")
@@ -133,7 +133,7 @@ def test_new_files_follow_no_links(postproc, slider, files):
 
 @pytest.mark.parametrize("line", ["series slider.pe --to 1000 -o {}/b --export {}/text --json {}/j", "histograms slider.csv -o {}/b --json {}/j"])
 def test_a_full_disk_leaves_whole_files(postproc, files, small_disk, gnuplot, line):
-    """Wherever it is full; with room again all is as if nothing had been."""
+    """Whenever the disk becomes full, files are complete; with free space again the result is the usual one."""
     disk, order = small_disk(8), ["text", "b-events.csv", "b.csv", "b.gp", "b.png", "b.svg", "j"]
     Path("there").mkdir()
     run(postproc, line.replace("{}", "there"))
@@ -183,10 +183,10 @@ def test_explore_refuses_files_of_other_runs(postproc, slider, files):
     refused(postproc, "explore slider.csv --series other.pe -o mixed.html",
             "other.pe: seed = 2, but 1 in slider.csv: expected a file of the same run")
     refused(postproc, "explore other.csv slider.csv --series slider.pe --series none -o mixed.html", "seed = 1, but 2")
-    # As beside a catalogue whose prefix was used again.
+    # This happens if the prefix of a catalogue was used again.
     shutil.copy("other.pe", "slider.pe.bin")
     refused(postproc, "explore slider.csv -o mixed.html", "slider.pe.bin: seed = 2")
-    # The same settings, but another beginning: events at other times than the samples of their steps.
+    # The settings are the same, but the start differs: events have other times than the samples of their steps.
     late = []
     for line in Path("slider.csv").read_text().splitlines():
         cells = line.split(",")
@@ -198,7 +198,7 @@ def test_explore_refuses_files_of_other_runs(postproc, slider, files):
 
 
 def test_report_refuses_series_of_other_runs(postproc, slider, files):
-    """Each is of the run of one of the catalogues, which one is not asked."""
+    """Each series must be of the run of one of the catalogues, whichever."""
     run(slider, CHAIN, "--seed 2 --catalogue other.csv --pe-series other.pe")
     quick = "--replicas 0 --interval-replicas 0 --bootstrap 2"
     run(postproc, "report slider.csv other.csv --series other.pe --series slider.pe -o both.html", quick)
@@ -335,7 +335,7 @@ def test_numbers_beyond_all_reason(postproc, work):
 
 
 def test_lines_have_a_limit(postproc, work):
-    """A small compressed file unpacks to anything."""
+    """A small compressed file may unpack to an arbitrarily long line."""
     import gzip
     with gzip.open("long.csv.gz", "wb", compresslevel=9) as file:
         file.write(b"time,latitude,longitude,mag\n")
@@ -348,7 +348,7 @@ def test_lines_have_a_limit(postproc, work):
 
 
 def test_quakeml_may_be_one_long_line(postproc, work):
-    """Each part of it is looked at once only."""
+    """Each part of the line is read only once."""
     event = XML_EVENT.replace("\n", "").format(k=1, m=3)
     with open("quakes.xml", "w") as file:
         file.write(QUAKEML.replace("\n", "").format(events=event + " " * (60 << 20)))
@@ -370,7 +370,7 @@ def test_pipe_without_reader_can_be_left(slider, work):
 
 
 def test_closed_standard_streams(slider, postproc, work):
-    """Files that are opened do not become the standard streams that messages go to."""
+    """Files that are opened do not become the standard streams to which messages are written."""
     from programs import Program
     chain = "--blocks 200 --dt 0.05 --velocity 0.05 --warmup 300 --steps 3000000 --progress"
     run(slider, chain, "--catalogue open.csv --pe-series open.pe --pe-stride 10")
@@ -458,7 +458,7 @@ def test_labels_are_no_formulas(postproc, files, label):
     run(postproc, ["summary", "slider.csv", "--label", label, "-o", "s.csv"])
     rows = list(csv.DictReader(line for line in Path("s.csv").read_text().splitlines() if not line.startswith("#")))
     assert rows[0]["label"] == "'" + label
-    # A number stays one.
+    # A number remains a number.
     run(postproc, ["summary", "slider.csv", "--label", "-5", "-o", "s.csv"])
     assert Path("s.csv").read_text().splitlines()[-1].startswith("-5,")
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""postproc from outside, without pictures."""
+"""The commands of postproc, without pictures."""
 import bz2
 import gzip
 import json
@@ -24,7 +24,7 @@ PUBLISHED = SOURCE / "results/catalogues"
 
 
 def chosen(arguments):
-    """export does not choose dates and magnitudes: those of the tests, where a test does not either."""
+    """export has no default dates and magnitudes: adds those of the tests, unless a test gives its own."""
     if not str(arguments[0]).startswith("export") or " --unit-length" in " ".join(map(str, arguments)):
         return arguments
     usual = ("--time-unit", "second"), ("--start-date", "2000-01-01"), ("--magnitude-constant", "0")
@@ -39,7 +39,7 @@ def do(postproc):
 
 @pytest.fixture
 def no(postproc):
-    """no(pattern, arguments): refused."""
+    """no(pattern, arguments): expects that postproc refuses the arguments."""
 
     def refuses(pattern, *arguments, **more):
         return refused(postproc, " ".join(chosen(arguments)) if len(arguments) == 1 else list(arguments), pattern, **more)
@@ -48,7 +48,7 @@ def no(postproc):
 
 
 def series(path, n=5000, pe=None, **head):
-    """Loading with drops; PE, steps and times of it."""
+    """Writes a series of loading with drops. Returns its steps, times and PE."""
     pe = loading_with_drops(n) if pe is None else pe
     write_series(path, pe, {"length": 40, **head, **{key: value for key, value in PICKER.items() if key not in head}})
     step = np.arange(len(pe))
@@ -70,7 +70,7 @@ event_id,t_start,t_end,step_start,step_end,size,pe_start,pe_end,slip_moment,x_ce
 
 
 def without_column(source, target, column=-1, last=None):
-    """The catalogue without a column."""
+    """Copies a catalogue without one column."""
     out = []
     for line in Path(source).read_text().splitlines():
         if not line.startswith("#"):
@@ -99,33 +99,33 @@ def test_pick(do, reading, memory, least):
 
 def test_pick_settings(do, no):
     made = series("pe.bin")
-    # What is not given comes from the header of the series; its parameters are carried over.
+    # Settings that are not given come from the header of the series, the parameters of which are kept.
     do("pick pe.bin -o picked.csv")
     whole = pick("literal", 0.5, 0, *made)
     assert picked("picked.csv") == whole
     assert header("picked.csv")["length"] == "40" and header("picked.csv")["dt"] == "0.029999999999999999"
-    # dt stands where the run has it.
+    # dt is at the place where the run has it.
     series("fault.bin", viscosity=0.1)
     do("pick fault.bin -o fault.csv")
     keys = list(header("fault.csv"))
     assert keys[keys.index("dt") + 1] == "viscosity", keys
-    # Memory in time; lambda = exp(-0.03/3)
+    # The memory is given in time: lambda = exp(-0.03/3).
     do("pick pe.bin -o a.csv --picker exponential --memory-time 3")
     assert float(header("a.csv")["lambda"]) == pytest.approx(math.exp(-0.01), rel=1e-14)
-    # Warm-up: identifiers begin with 1 behind it.
+    # Identifiers begin with 1 after the warm-up.
     do("pick pe.bin -o c.csv --warmup 75")
     assert [row[1:] for row in picked("c.csv")] == [row[1:] for row in whole if row[1] >= 75]
     assert picked("c.csv")[0][0] == 1
-    # Completeness: carried over.
+    # The completeness is kept.
     assert "completeness" not in header("c.csv")
     series("known.bin", completeness=0.002)
     do("pick known.bin -o e.csv")
     assert header("e.csv")["completeness"] == "0.002"
     series("known.bin", completeness="small")
     no("known.bin: header line .*: completeness is 'small', expected a finite size of at least 0", "pick known.bin -o x.csv")
-    # The catalogue is one that the other commands read.
+    # Other commands can read the catalogue.
     do("export c.csv -o table.csv")
-    # An older file stays unless --overwrite is given; nothing is left of a series that ends badly.
+    # An older file is kept unless --overwrite is given; a damaged series leaves no output.
     no("c.csv: exists already", "pick pe.bin -o c.csv")
     bad = made[2].copy()
     bad[3989] = np.nan
@@ -147,7 +147,7 @@ def test_pick_settings(do, no):
 
 @pytest.mark.parametrize("picker", ["exponential", "literal"])
 def test_online(do, slider, picker):
-    """The same rows as the program that ran picked, from its series."""
+    """Picking the series of a run gives the same rows as the run itself."""
     run(slider, "--blocks 100 --dt 0.05 --velocity 0.05 --warmup 300 --steps 300000 --picker", picker, "--catalogue online.csv --pe-series pe")
     do("pick pe -o picked.csv")
     online = [",".join(row.split(",")[:8]) for row in rows("online.csv")]
@@ -160,8 +160,8 @@ def test_online(do, slider, picker):
 def test_series(do, no):
     made = step, time, pe = series("pe.bin")
     do("series pe.bin -o all --no-picture --picker exponential --lambda 0.9 --columns 600")
-    # 5000 samples in groups of 8, as 4 would make more than 2 x 600: 2 rows for each, the extremes among
-    # them.
+    # 5000 samples are in groups of 8, as groups of 4 would give more than 2 x 600 rows: 2 rows for each
+    # group, including the extremes.
     drawn = table("all.csv")
     assert len(drawn) == 1250
     values = [float(row["pe"]) for row in drawn]
@@ -169,7 +169,7 @@ def test_series(do, no):
     found = [tuple(float(cell) for cell in row) for row in (line.split(",") for line in rows("all-events.csv")) if row[4] != ""]
     assert sorted(found) and [(row[0], row[1], row[4], row[2], row[3]) for row in found] == \
         [(row[1], row[2], row[5], row[6], row[7]) for row in pick("exponential", 0.9, 0, *made)]
-    # Few samples are there one by one; the smoothed change has the memory of what was before.
+    # A few samples are shown one by one; the smoothed change includes the samples before them.
     do("series pe.bin -o part --no-picture --from 30 --to 60 --picker exponential --lambda 0.9")
     change, wanted = 0.0, []
     for n in range(1, len(pe)):
@@ -178,7 +178,7 @@ def test_series(do, no):
         if 30 <= time[n] <= 60:
             wanted.append((time[n], pe[n], x, change))
     assert len(wanted) > 900 and numbers("part.csv", 4) == wanted
-    # As text: the samples of the window, to the last digit.
+    # The samples of the window as text, to the last digit.
     do("series pe.bin -o part --no-picture --from 30 --to 60 --export samples.csv")
     said = header("samples.csv")
     assert said["dt"] == "0.029999999999999999" and {**said, "dt": 0
@@ -198,21 +198,21 @@ def test_series_pictures(do, gnuplot):
     for name in "drawn.png", "drawn.svg", "drawn.gp", "drawn.csv", "drawn-events.csv":
         assert os.path.getsize(name) > 0, name
     assert "</svg>" in Path("drawn.svg").read_text(), "the SVG is not whole"
-    # A window without an event, too.
+    # A window without events can be drawn, too.
     do("series pe.bin -o quiet --from 0 --to 1")
     assert os.path.getsize("quiet.svg") > 0
 
 
 def piped(do, before, command, *after):
-    """do() where one word is /dev/fd/N, a pipe from a shell command."""
-    # The child is kept until do() has ended: Python closes the pipe of one that nothing refers to any more.
+    """do() with /dev/fd/N, a pipe from a shell command, as one of the words."""
+    # The child is kept until do() has ended, as Python closes the pipe of an object without references.
     with subprocess.Popen(["bash", "-c", command], stdout=subprocess.PIPE) as child:
         number = child.stdout.fileno()
         return do(before, f"/dev/fd/{number}", *after, pass_fds=(number,))
 
 
 def test_spectrum(do, no):
-    # A sine of amplitude 2 and period 25.6 steps of 0.5: variance 2, frequency 1/12.8
+    # A sine of amplitude 2 with a period of 25.6 steps of 0.5 has variance 2 and frequency 1/12.8.
     wave = 5 + 2 * np.sin(2 * np.pi * np.arange(4096) / 25.6)
     write_series("sine", wave, dict(dt=0.5))
     do("spectrum sine --segment 1024 --per-decade 0 --no-picture -o sine_spectrum")
@@ -220,7 +220,7 @@ def test_spectrum(do, no):
     assert np.sum(found[:, 1] * found[:, 2]) == pytest.approx(2, abs=0.001)
     assert found[np.argmax(found[:, 2]), 0] == pytest.approx(1 / 12.8, abs=5e-6)
     assert " sine 4096 7 " in told(do("spectrum sine --segment 1024 --per-decade 0 --no-picture -o sine_spectrum"))
-    # Without a length: an eighth of 4096, from a pipe, too.
+    # The default length is an eighth of 4096, also from a pipe.
     do("spectrum sine --no-picture -o usual").told(" sine 4096 15 ")
     shutil.copy("usual.csv", "file.csv")
     piped(do, "spectrum", "cat sine", "--label sine --no-picture -o usual")
@@ -249,7 +249,7 @@ def numbers_of(path, *columns):
 
 # ---- comparing
 def made(path, time, count, shift=0, **head):
-    """Times of 0.8 and 1.2 times the given one, sizes 1 to 7."""
+    """Writes a catalogue with inter-event times of 0.8 and 1.2 times the given one, and sizes 1 to 7."""
     i = np.arange(1, count + 1)
     times = np.round(np.cumsum(time * (0.8 + 0.4 * (np.floor((i + shift) * 0.618034 * 7) % 2))), 6)
     size = 1 + (i + shift) * 11 % 7
@@ -277,7 +277,7 @@ def test_compare(do, no):
     # Times twice as long have the same form.
     made("twice.csv", 10, 400)
     assert verdicts(do("compare a.csv twice.csv --rescale -o d"))[0] == 2
-    # Half the velocity, so twice the time for the same way.
+    # At half the velocity the same displacement takes twice the time.
     made("fast.csv", 5, 400, velocity=-1)
     made("slow.csv", 10, 300, 3, velocity=0.5)
     ways = do("compare fast.csv slow.csv --displacement --from 250 --to 1250 -o d")
@@ -292,14 +292,14 @@ def test_compare(do, no):
 
 
 def test_match(do, no):
-    """The second catalogue at a tenth of the velocity, its plates begin to move at time 100, too;
-    every other event is the same."""
+    """The second catalogue is at a tenth of the velocity, its plates begin to move at time 100 as well,
+    and every other event is the same."""
     k = np.arange(1, 41)
     for path, velocity, factor in ("a.csv", "1e-3", 1), ("b.csv", "1e-4", 10):
         t = 100 + factor * (1000.0 * k + np.where((factor > 1) & (k % 2 == 1), 300, 0))
         write_catalogue(path, t, [1] * 40, dict(model="lsm", length=40, velocity=velocity), t_end=t + 1, pe_start=[2] * 40, pe_end=[1] * 40)
-    # From 1.3 to 40: 39 of the first (2 to 40), of which the even ones are there. Of the seven shifts by
-    # eighths of 38.7 the second, fourth and sixth find 5, 10 and 19.
+    # From 1.3 to 40 the first has 39 events (2 to 40), of which the second has the even ones. Of the seven
+    # shifts by eighths of 38.7 the second, fourth and sixth find 5, 10 and 19.
     do("match a.csv b.csv --displacement --origin 100 --threshold 0.5 --within 0.1 --json m.json").told(r" 0.5 39 40 20 4.857$")
     assert '"same": 20' in Path("m.json").read_text()
     do("match a.csv a.csv --threshold 0.5 --within 0.1").told(" 40 40 40 ")
@@ -340,7 +340,7 @@ def test_export(do, no):
 
 
 def gutenberg_richter(path="gr.csv"):
-    """Magnitudes from -2 on with b = 1, M = -2 - log10(1 - q) with evenly spaced q; sizes 10^(1.5 M)."""
+    """Writes magnitudes above -2 with b = 1, M = -2 - log10(1 - q) for evenly spaced q; sizes are 10^(1.5 M)."""
     i = np.arange(2000)
     m = -2 - np.log10(1 - ((i * 7919) % 2000 + 0.5) / 2000)
     write_catalogue(path, 2 * i, 10**(1.5 * m), dict(model="lsm", length=40, completeness="1e-3"), t_end=2 * i + 1, pe_start=[1] * 2000,
@@ -361,7 +361,7 @@ def test_magnitudes(do, no):
     for said in (r"M = 0.6667 log10\(size\) \+ 0, bins of 0 \(0: none\)", "completeness in the header of gr.csv",
                  "exponent of the sizes 1 \\+ 0.6667 b 1.66"):
         first.told(said)
-    # The same b of the table that is exported, by the textbook's formula: with and without bins.
+    # The exported table gives the same b by the textbook formula, with and without bins.
     for width in 0, 0.1:
         do("magnitudes gr.csv -o m --no-picture --complete-from -1.5 --magnitude-bin", width)
         do("export gr.csv -o table.csv --overwrite --magnitude-bin", width)
@@ -370,12 +370,12 @@ def test_magnitudes(do, no):
         mean = np.mean(m + 1.5)
         wanted = math.log(1 + width / mean) / (width * math.log(10)) if width else 1 / (mean * math.log(10))
         assert len(m) == b_values()[3] and b_values()[4] == pytest.approx(wanted, rel=1e-12), width
-    # The smallest size that a magnitude begins with is given, found, or that of the header.
+    # The completeness is given, determined from the data, or that of the header.
     do("magnitudes gr.csv -o m --no-picture --complete-from curvature")
     assert -1.91 < b_values()[1] < -1.69 and b_values()[1] == b_values()[2]
     do("magnitudes gr.csv -o m --no-picture --threshold 0.01")
     assert -1.3334 < b_values()[1] < -1.3333
-    # Of the moment, and as plain logarithm.
+    # The magnitude may be that of the moment, and a plain logarithm.
     do("magnitudes gr.csv -o m --no-picture --magnitude-of moment --magnitude-slope 1 --complete-from -2").told(r"M = 1 log10\(slip_moment\) \+ 0")
     assert 0.99 < b_values()[4] < 1.01
     assert sum(row[0] for row in numbers_of("m.csv", 3)) == 2000
@@ -397,14 +397,14 @@ def number(cell):
 
 
 def omori_row(path="a.omori.csv"):
-    """The cells of the only row, from 1 on."""
+    """The cells of the only row, counted from 1."""
     found = [row.split(",") for row in rows(path) if row.startswith("lsm")]
     assert len(found) == 1, found
     return dict(enumerate(map(number, found[0]), 1))
 
 
 def test_aftershocks(do, no):
-    """42 main shocks, the first of which has no time before it: p = 2, c = 2, K = 100, background
+    """42 main shocks, before the first of which there is no time: p = 2, c = 2, K = 100, background
     1/97.3."""
     times, sizes = omori()
     write_catalogue("omori.csv", times, sizes, t_end=np.where(sizes == 100, times + 10, times), pe_start=[1] * len(times), pe_end=[1] * len(times))
@@ -415,19 +415,19 @@ def test_aftershocks(do, no):
     for said in ("smallest main shock 50", "largest for so long before and after 1000", "main shocks 41",
                  "share of Poisson catalogues as large 0.05"):
         first.told(f"^ {said}$")
-    # Stacked rate: counts in the bins, per main shock and time unit.
+    # The stacked rate is the count in a bin per main shock and time unit.
     stacked = [[number(cell) for cell in row.split(",")] for row in rows("a.csv") if row.startswith("1,")]
     assert len(stacked) > 8
     for row in stacked:
         assert row[6] == pytest.approx(row[5] / (41 * (row[3] - row[2])), rel=1e-4)
     do("aftershocks omori.csv -o a --no-picture --main-size 50 --window 1000 --replicas 0 --hold-c 2").told("^ c 2$")
-    # Events at one place in each stretch of 10 have no aftershocks.
+    # Single events at quasi-random times in intervals of 10 have no aftershocks.
     i = np.arange(5000)
     t = 10 * (i + i * 0.618034 % 1)
     write_catalogue("even.csv", t, np.where(i % 100 == 50, 100, 0.01), pe_start=[1] * 5000, pe_end=[1] * 5000)
     do("aftershocks even.csv -o a --no-picture --main-size 50 --window 300 --replicas 0").told("degenerate no decay")
     assert 0.095 < omori_row()[8] < 0.101 and omori_row()[10] == omori_row()[12] == ""
-    # By default a share of the events are large enough.
+    # By default main shocks are a certain share of the events.
     do("aftershocks omori.csv -o a --no-picture --replicas 0").told("^ smallest main shock 0.01$")
     no("no event of size 1000 or larger, expected a smaller --main-size", "aftershocks omori.csv -o x --main-size 1000")
     no("first time after main shocks: expected 0 or more, below the window", "aftershocks omori.csv -o x --first 20 --window 10")
@@ -453,7 +453,7 @@ def xzipped_with_crc32(raw):
 
 @pytest.mark.parametrize("way", [gzipped, quickly_gzipped, xzipped, xzipped_with_crc32])
 def test_compressed(do, way):
-    """What comes out is the same however the file lies there, whatever its name."""
+    """The result does not depend on the compression of a file, whatever its name."""
     catalogue("events.csv")
     series("pe.bin")
     do("pick pe.bin -o picked.csv")
@@ -461,7 +461,7 @@ def test_compressed(do, way):
     text = Path("events.csv").read_bytes()
     Path("packed").write_bytes(way(text))
     Path("packed-pe").write_bytes(way(Path("pe.bin").read_bytes()))
-    # Two halves compressed one after the other are one file.
+    # Two compressed halves, one after the other, are one file.
     head = text.splitlines(True)
     Path("halves").write_bytes(way(b"".join(head[:7])) + way(b"".join(head[7:])))
     for name in "packed", "halves":
@@ -492,7 +492,7 @@ def test_damaged_compression(do, no, way, name):
     for command, length in ("export torn -o x", len(whole) - 5), ("histograms torn -o x --lenient", 40):
         Path("torn").write_bytes(whole[:length])
         no(f"^postproc: torn: truncated {name} file", command)
-    # A bit within the data or its checksum.
+    # A bit of the data or of the checksum is flipped.
     for at in 60, len(whole) - 10:
         Path("flipped").write_bytes(whole[:at] + bytes([whole[at] ^ 0x55]) + whole[at + 1:])
         no(f"^postproc: flipped: (damaged|truncated) {name} file", "export flipped -o x")
@@ -506,8 +506,8 @@ def test_damaged_compression(do, no, way, name):
 
 # ---- pages, tables, JSON
 def test_explore(do, no):
-    """A run as a simulation leaves it: the catalogue is picked from the series, whose files are found by
-    their names."""
+    """The files are as a simulation leaves them: the catalogue is picked from the series, and further files
+    are found by their names."""
     series("run.pe.bin")
     do("pick run.pe.bin -o run.catalogue.csv")
     do("explore run.catalogue.csv -o page.html --title 'A < B'").told("run.pe.bin: 5000 samples")
@@ -537,7 +537,7 @@ def test_explore(do, no):
 
 
 def test_json(do, no):
-    """The same numbers in the table as text and in JSON."""
+    """The numbers in the table and in the JSON file are the same."""
 
     def same_numbers(path, in_json, name):
         lines = [row for row in table(path) if row.get("origin") != "printed"]
@@ -563,7 +563,7 @@ def test_json(do, no):
     do("export c.csv -o e.csv --json e.json")
     said = Path("e.json").read_text()
     assert '"events": 4' in said and '"without_magnitude": 0' in said
-    # With - JSON is all there is on standard output.
+    # With -, standard output contains nothing but JSON.
     found = json.loads(do("count c.csv --size 0.001 --size 1 --brief 50 --json -").out)
     sizes, one = found["sizes"], found["catalogues"][0]
     assert [row["events"] for row in sizes] == [3, 2] and [row["brief"] for row in sizes] == [2, 1], sizes
@@ -572,8 +572,8 @@ def test_json(do, no):
 
 
 def test_faults(do, postproc, faults):
-    """Killed at each system call that has to do with files, or refused it: what was there stays, or the
-    new file is whole."""
+    """postproc is killed at each system call on files, or the call fails: the old file is kept, or the new
+    file is complete."""
     traced = faults(postproc)
     catalogue("events.csv")
     series("pe.bin", 500)
@@ -600,7 +600,7 @@ def test_faults(do, postproc, faults):
 
 
 def test_progress(do, postproc):
-    """A terminal shows how far a test that takes long is; a file or a pipe is not filled with that."""
+    """A terminal shows the progress of a long test; a file or a pipe does not get it."""
     if not shutil.which("script"):
         pytest.skip("no script(1), which makes a terminal")
     times = np.cumsum(np.random.default_rng(3).exponential(size=2000))
@@ -614,7 +614,7 @@ def test_progress(do, postproc):
 
 
 def test_summary(do, no):
-    """Sizes over four decades, uneven times; every seventh event lasts one step."""
+    """Sizes span four decades, times are uneven, and every seventh event lasts one step."""
     random = np.random.default_rng(3)
     i, t, times, ends, steps = np.arange(1, 401), 0.0, [], [], []
     for n in i:
@@ -650,7 +650,7 @@ def test_summary(do, no):
 
 
 def test_outputs_are_not_inputs(no, work):
-    """What is read is not replaced, whichever of the outputs would do it."""
+    """An input is not replaced, whichever of the outputs would do so."""
     catalogue("good.csv")
     for name in "fits", "table1", "bvalues", "omori":
         shutil.copy("good.csv", f"own.{name}.csv")
@@ -726,10 +726,10 @@ def test_select(do, no):
     said = header("part.csv")
     assert said["selected"] == "t_start from 2, t_start below 86404, size from 0.001" and said["min_size"] == "0.001" and said["length"] == "40"
     assert rows("part.csv")[-1] in rows("all.csv"), "numbers are not those of the original"
-    # twice: the header says both
+    # After two selections the header states both.
     do("select part.csv --min-size 1 -o twice.csv")
     assert re.match("t_start from 2, .*size from 0.001; size from 1$", header("twice.csv")["selected"])
-    # ruptures stay in order of their ends
+    # Ruptures remain in the order of their ends.
     edit("c.csv", "ruptures.csv", ("# length = 40", "# length = 40\n# events = ruptures"), ("\n2,2,3", "\n2,0.5,3"), ("\n1,0,1.5", "\n1,1,1.5"))
     do("select ruptures.csv --min-size 1e-3 -o r.csv")
     assert chosen("r.csv") == [1, 2, 3]
@@ -740,7 +740,7 @@ def test_select(do, no):
 
 
 # ---- earthquakes
-# Values and errors measured on the same data by another program, from the first release of this extract on.
+# Values and errors that another program found for the same data, since the first release of this extract.
 @pytest.mark.parametrize("begin, end, magnitude, times, gamma, error, b", [("1984-01-01", "1986-07-02T12:00", "2", 6620, 0.667, 0.021, 1.51),
                                                                            ("1988-01-01", "1992-01-01", "2.5", 3560, 0.647, 0.028, 1.59),
                                                                            ("2011-01-01", "2019-01-01", "2", 10377, 0.659, 0.016, 1.60)])
@@ -756,7 +756,7 @@ def test_earthquakes(do, begin, end, magnitude, times, gamma, error, b):
 
 
 def test_clustered_earthquakes(do):
-    """Variation 1.23, memory 0.13 in the first stretch."""
+    """Coefficient of variation 1.23, memory 0.13 in the first time window."""
     do("intervals", CALIFORNIA,
        "--from 1984-01-01 --to 1986-07-02T12:00 --shuffles 50 --method likelihood --delta 1 --replicas 0 --no-picture -o times")
     found = {key: float(value) for key, value in table("times.clustering.csv")[-1].items() if key in ("variation", "memory", "memory_p")}
@@ -774,7 +774,7 @@ FORMATS = {
 
 @pytest.mark.parametrize("kind", FORMATS)
 def test_formats_through_a_pipe(do, kind):
-    """What it is, the first bytes tell, there, too."""
+    """The format is recognised by the first bytes, also from a pipe."""
     text = FORMATS[kind] or "".join(line + "\n" for line in lzma.decompress(CALIFORNIA.read_bytes()).decode().splitlines()[:3000])
     name = f"part.{kind}"
     Path(name).write_text(text)
@@ -789,7 +789,7 @@ def test_formats_through_a_pipe(do, kind):
 
 
 def test_nature(do, no):
-    """The rank of models; a catalogue is no way off from itself."""
+    """The ranking of models; the distance of a catalogue to itself is 0."""
     chain, other = PUBLISHED / "slider_ours_256_seed_1.catalogue.csv.xz", PUBLISHED / "slider_ours_256_seed_2.catalogue.csv.xz"
     piped(do, "count", f"xzcat {chain}")
     time = "--from 1984-01-01 --to 1986-07-02T12:00"
@@ -801,7 +801,7 @@ def test_nature(do, no):
     assert found[0]["distance"] == "" and float(found[1]["distance"]) == 0 and float(found[2]["distance"]) < 0.05
     last = {key: float(found[4][key]) for key in ("catalogues", "distance", "distance_error")}
     assert last["catalogues"] == 2 and last["distance"] > 0.1 and 0 < last["distance_error"] < last["distance"]
-    # Table 1: gamma, delta, B and C of each, as intervals has them
+    # Table 1 has gamma, delta, B and C of each catalogue, as intervals determines them.
     do("intervals", CALIFORNIA, time, "--min-magnitude 2 --rescale --method likelihood --replicas 0 --no-picture -o times")
 
     def values(path, method, name):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The commands of postproc that draw, from outside."""
+"""The commands of postproc that draw."""
 import os
 import re
 from pathlib import Path
@@ -19,12 +19,12 @@ def do(postproc):
 
 @pytest.fixture
 def no(postproc):
-    """no(pattern, arguments): refused."""
+    """no(pattern, arguments): expects that postproc refuses the arguments."""
     return lambda pattern, arguments: refused(postproc, arguments, pattern)
 
 
 def pictures(*bases):
-    """All four files of each, none empty."""
+    """Asserts that all four files of each picture exist and are not empty."""
     for base in bases:
         for ending in "csv", "gp", "png", "svg":
             assert os.path.getsize(f"{base}.{ending}") > 0, f"{base}.{ending} is empty"
@@ -40,7 +40,7 @@ def slider(path, sizes, **head):
 
 
 def said(path, *patterns):
-    """The text of a file, in which all these patterns are."""
+    """The text of a file, which must contain all these patterns."""
     text = Path(path).read_text()
     for pattern in patterns:
         assert re.search(pattern, text, re.M), f"no '{pattern}' in {path}"
@@ -48,7 +48,7 @@ def said(path, *patterns):
 
 
 def curve(path, number=1):
-    """Rows of one curve, as dicts of numbers by position from 1 on."""
+    """Rows of one curve, as dicts of numbers by column, counted from 1."""
     return [dict(enumerate(map(float_or_text, row.split(",")), 1)) for row in rows(path) if row.startswith(f"{number},")]
 
 
@@ -64,8 +64,8 @@ def count(path, number):
 
 
 def ruptures(path="r.csv"):
-    """Moment 0.1 L^2 and drops of PE 0.05 of the moment, one after the other; two more at the same time as
-    the largest."""
+    """Writes ruptures, one after the other, with a moment of 0.1 L^2 and drops of PE of 0.05 times the moment;
+    two more overlap with the largest one."""
     i = np.arange(1, 40)
     lines = [(10 * n, 10 * n + 5, n, 0.005 * n * n) for n in i] + [(402, 404.5, 30, 0.4), (400, 405, 40, 8), (401, 405, 25, -0.2),
                                                                    (500, 505, 120, 72)]
@@ -78,7 +78,7 @@ def ruptures(path="r.csv"):
 
 # ---- densities
 def test_histograms(do, no):
-    # 90 events in the bin from 1e-3 to 10^-2.9, 10 in the one from 1e-2 to 10^-1.9, 7 too small.
+    # 90 events are in the bin from 1e-3 to 10^-2.9, 10 in that from 1e-2 to 10^-1.9, and 7 are too small.
     fault("a.csv", [1.1e-3] * 90 + [1.1e-2] * 10 + [5e-5] * 7)
     slider("b.csv", power_law(1, 1e-3, 1, 1000))
     do("histograms a.csv b.csv --guide -1.07 --guide -1:1e-2:1e-1 -o h")
@@ -91,7 +91,7 @@ def test_histograms(do, no):
         assert row[7] == events and row[4] == pytest.approx(edge, rel=1e-9)
         assert row[8] == pytest.approx(row[7] / (100 * width), rel=1e-9) and row[9] == pytest.approx(row[7]**0.5 / (100 * width), rel=1e-9)
         assert row[5] / row[4] == pytest.approx(10**0.1, rel=1e-9)
-    # Ten bins a decade over three decades, density 1 / (ln 1000 s), integral 1.
+    # Ten bins per decade over three decades, density 1 / (ln 1000 s), integral 1.
     found = curve("h.csv", 2)
     assert len(found) == 30 and sum(row[8] * (row[5] - row[4]) for row in found) == pytest.approx(1, abs=1e-9)
     for row in found:
@@ -106,7 +106,7 @@ def test_histograms(do, no):
 
 
 def test_intervals(do, no):
-    # 100 times of 5, then 50 of 50.
+    # There are 100 times of 5, then 50 of 50.
     times = np.concatenate([[0], np.cumsum([5] * 100 + [50] * 50)])
     fault("a.csv", np.where(np.arange(151) % 2, 1, 2), times=times)
     first = do("intervals a.csv -o i")
@@ -127,10 +127,10 @@ def test_intervals(do, no):
     first.told(" 150 20 model time 1.061 0.02944$")
     first.told("LSM\n .*0.995 .*1.00 .*15.21 .*0.0573")
     said("i.table1.csv", "^printed,,,0.0,,1.00,,100.0,,0.25,,,,,,,Block-Slider,")
-    # Every second event is large: times of 10 and 100.
+    # Every second event is large, with times of 10 and 100.
     do("intervals a.csv --threshold 0 --threshold 1.5 --rescale -o r --no-picture")
     assert any(row[7] == 50 and row[4] <= 10 / 40 < row[5] for row in curve("r.csv", 2))
-    # p-values: from the seed, with as many replicas as asked for.
+    # p-values depend on the seed and the given number of replicas.
     few = do("intervals a.csv --delta 1 --method likelihood --replicas 20 --seed 3 -o p --no-picture")
     few.told(r" 0.048 \+- 0.04[0-9] yes")
     few.told("rejected: p below 0.05")
@@ -171,19 +171,19 @@ def test_fit(do, no):
     said("f.json", '"exponent": (1.00|0.99)', '"rival": "log-normal"')
     said("f.fits.csv", "one line per rival")
     assert do(command).out == first.out, "the same seed gives another answer"
-    # The range is that of the paper unless another is asked for; a searched one is a line of its own.
+    # The range is that of the paper unless another is given; a searched one has its own line.
     do("fit a.csv --replicas 0 --no-comparison -o s --no-picture --json s.json")
     assert [row[:4] for row in exponents("s.fits.csv")] == [["lsm", 1e-4, 0.1, "no"]]
     said("s.json", '"name": "exponent_0.0001:0.1"')
     do("fit a.csv --replicas 0 --no-comparison --search -o s --no-picture").told("searched")
     assert [row[3] for row in exponents("s.fits.csv")] == ["no", "yes"]
     assert "one line per rival" not in Path("s.fits.csv").read_text(), "rivals are explained, but there are none"
-    # The bin that contains the smallest size is no whole one.
+    # The bin that contains the smallest size is incomplete and does not count.
     assert max(float(row["size"]) for row in table("a.csv")) >= 0.8
     no("no bin of sizes from 0.8 on has an event", "fit a.csv --threshold 0.8 --replicas 0 --no-picture -o x")
     do("fit a.csv --range 1e-3:1 --replicas 0 --scaling -o o --no-picture").told("degenerate: ")
     no("expected LO above 0", "fit a.csv --range :1 -o x")
-    # Events left out below a size do not make the law flatter: the fit begins there.
+    # Events left out below a size do not make the law flatter, as the fit begins there.
     do("fit a.csv --min-size 0.01 --range 1e-3:1 --range 1e-3:0.01 --replicas 0 --no-comparison -o m --no-picture")
     whole = [row for row in exponents("m.fits.csv") if row[1] == 0.01 and row[4] > 1300]
     assert whole and 0.98 < whole[0][5] < 1.02
@@ -200,7 +200,7 @@ LENGTHS = 100, 200, 400, 800, 1600
 
 @pytest.fixture
 def growing():
-    """g*.csv: roll-off at a size proportional to the length; n*.csv: at the same size."""
+    """Writes g*.csv with a roll-off at a size proportional to the length, and n*.csv, at the same size."""
     for length in LENGTHS:
         fault(f"g{length}.csv", power_law(1.2, 1e-3, length / 100, 3000), length)
         fault(f"n{length}.csv", power_law(1.2, 1e-3, 1, 3000), length)
@@ -227,7 +227,7 @@ def test_scaling(do, no, growing):
     said("n.json", '"preferred": "no dependence on the length"')
     for kind in "g", "n":
         assert "growth up to L_c" not in Path(f"{kind}.scaling.gp").read_text(), "a curve of growth that ends without such growth"
-    # Errors by blocks of time, of a length that can be given, or event by event.
+    # Errors are by blocks of time, the length of which can be given, or event by event.
     none.told("bootstrap errors, blocks of time")
     none.told("error if events were independent blocks")
     two = files("g", (100, 200)) + SCALING
@@ -243,10 +243,10 @@ def test_scaling(do, no, growing):
 
 
 def test_scaling_of_other_growth(do, growing):
-    # Growth that does not follow a power law: s* of 1, 1, 1, 1, 16.
+    # For growth that does not follow a power law, s* is 1, 1, 1, 1, 16.
     edit("g1600.csv", "n3200.csv", ("# length = 1600", "# length = 3200"))
     do(files("n", (100, 200, 400, 800, 3200)), SCALING, "-o p --no-picture").told("grows with the length, but not as a power law")
-    # Growth that ends: s* of 1, 2, 4, 4, 4, 4, 4.
+    # For growth that ends, s* is 1, 2, 4, 4, 4, 4, 4.
     for length in 800, 1600, 3200, 6400:
         edit("g400.csv", f"s{length}.csv", ("# length = 400", f"# length = {length}"))
     do("fit g100.csv g200.csv g400.csv s800.csv s1600.csv s3200.csv s6400.csv", SCALING,
@@ -267,10 +267,10 @@ def test_completeness(do, no):
     slider("s.csv", power_law(1, 1e-3, 1, 1000))
     above = int(np.sum(sizes >= 0.01))
     assert 600 < above < 700
-    # Without it as before.
+    # Without a completeness the threshold is that of the paper.
     do("histograms plain.csv -o p --no-picture").told("smallest size, fault: 0.0001, that of the paper")
     assert count("p.csv", 1) == 1000
-    # With it, for all faults and no slider.
+    # A completeness holds for all faults, but not for block-sliders.
     both = ("smallest size, fault: 0.01, completeness in the header of known.csv", "smallest size, block-slider: 0.0001, that of the paper")
     printed = do("histograms long.csv known.csv s.csv -o h --no-picture")
     for pattern in both:
@@ -320,18 +320,18 @@ def test_report(do, postproc):
     assert not re.search(r"(src|href)=.?(https?:|//)|@import|url\((https?:)?//", page), "the page asks for something outside it"
     for absent in "are ruptures", "Stick-slip or creep", "Fig. 7":
         assert absent not in page, absent
-    # Identifiers are unique, references lead to one.
+    # Identifiers are unique, and references lead to one of them.
     ids = re.findall(r""" id=['"]([^'"]*)""", page)
     assert ids and len(ids) == len(set(ids))
     assert set(re.findall(r"""href=['"]#([^'"]*)""", page)) <= set(ids)
     for tag in "table figure svg tr td th section div p ul li h2 h3".split():
         assert len(re.findall(f"<{tag}[ >]", page)) == page.count(f"</{tag}>"), f"<{tag}> not closed"
-    # Without gnuplot an older page stays.
+    # Without gnuplot an older page is kept.
     refused(postproc, "report s.csv -o r.html", "gnuplot not found", env={"PATH": "/nonexistent"})
 
 
 def test_report_of_kinds_of_events(do):
-    """Each kind has its own words, and a section or scaling of its own."""
+    """Each kind of events has its own text, and its own section or scaling."""
     sizes = power_law(1, 1e-3, 1, 500)
     fault("a.csv", sizes)
     fault("r.csv", sizes, events="ruptures")
@@ -352,7 +352,7 @@ def test_report_of_kinds_of_events(do):
 
 
 def test_report_of_series(do, no):
-    """90 steps up by 1 and 9 down by 10, or as many down as up; one that only rises."""
+    """Series of 90 steps up by 1 and 9 down by 10, of as many steps down as up, and one that only rises."""
     for name, length, up, down in ("tooth.pe", 120, 90, 9), ("creep.pe", 240, 60, 60), ("rise.pe", 480, 10, 0):
         i = np.arange(20 * (up + down) + 1)
         pe = np.cumsum(np.concatenate([[0], np.where(i % (up + down) < up, 1, -up / down if down else 0)]))
@@ -367,7 +367,7 @@ def test_report_of_series(do, no):
     assert row("tooth.pe") == "|tooth.pe|fault|120|0 to 1981|1982|20|stick-slip|10|3|10|0.09086|9|"
     assert row("creep.pe") == "|creep.pe|fault|240|0 to 2401|2402|20|creep|1|2.41|1|0.4998|60|"
     assert re.search(r"480\|0 to 201\|202\|.*\|PE only rises", row("rise.pe"))
-    # The window of time holds for the series, too.
+    # The time window applies to the series, too.
     do("report tooth.csv --series tooth.pe --from 495 --to 1485", QUICK, "-o p.html")
     assert re.search(r"\|495 to 1485\|991\|.*\|stick-slip\|10\|", row("tooth.pe"))
     no("samples in the window of time", "report tooth.csv --series tooth.pe --from 5000 -o x.html")
@@ -376,7 +376,7 @@ def test_report_of_series(do, no):
 
 
 def test_report_of_leaf_springs(do):
-    """Several stiffnesses have a picture of their own and no part in the scaling."""
+    """Catalogues of several stiffnesses have their own picture and are left out of the scaling."""
     for kl in 0.01, 0.1:
         slider(f"kl{kl}.csv", power_law(1.2, 1e-2, 100, 500), kl=kl)
     do("report kl0.01.csv kl0.1.csv kl0.01.csv --replicas 0 --label a --label b --label c -o k.html")
@@ -419,7 +419,7 @@ def test_tables_of_many_catalogues_fit_a_terminal(do):
 
 
 def test_few(do, no):
-    """No event, one, and a few: what cannot be said is said to be degenerate."""
+    """With no event, one, or a few, numbers that cannot be determined are reported as degenerate."""
     fault("none.csv", [])
     fault("one.csv", [0.01], times=[5])
     fault("few.csv", 0.01 * np.arange(1, 7), 240, times=np.arange(6)**2)
@@ -438,7 +438,7 @@ def test_few(do, no):
         assert cells[3] == cells[5] == cells[7] == cells[9] == "" and cells[-1] != "", "numbers of degenerate fits"
     said("i.clustering.csv", '^"fault, length 120",0.0001,0,,,')
     do("fit few.csv --range 1e-3:1 -o f").told("degenerate")
-    # No characteristic size in any catalogue: no picture of the scaling, the rest is there.
+    # Without a characteristic size in any catalogue there is no picture of the scaling, but all others.
     scaled = do("fit one.csv few.csv --scaling -o z")
     pictures("z")
     scaled.warned("no picture of the scaling")
@@ -486,7 +486,7 @@ def test_names(do, drawable, command):
             os.remove(name)
 
 
-# What strings, markup and tables stumble over.
+# Labels that break careless quoting in strings, markup and tables.
 LABELS = ["run ''", "''", "'\"q\"", "' '#1' '}{'", "`touch marker`", "a\\", "@a &b ~c ^{d}_e'", "%d $1 \\n"]
 
 
@@ -514,7 +514,7 @@ def test_labels_of_reports(do, drawable):
 def test_rupture(do, no):
 
     def slope(path, pattern, wanted):
-        """The line says that slope, to rounding, and a scatter of as little."""
+        """Asserts that the line states this slope, and a scatter of 0, up to rounding."""
         line = next(line for line in Path(path).read_text().splitlines() if re.search(pattern, line))
         value, scatter = re.search(r"slope ([0-9.e-]+) .*, scatter ([0-9.e-]+) decades \(n", line).groups()
         assert float(value) == pytest.approx(wanted, abs=1e-12) and float(scatter) < 1e-12, line
@@ -522,18 +522,18 @@ def test_rupture(do, no):
     ruptures("a.csv")
     first = do("rupture a.csv --label a -o r")
     pictures("r-lengths", "r-moments", "r-length", "r-pe", "r-stress")
-    # Lengths 1 to 39 once each, and 40, 30, 25, 120: 43 in all; 8 from 25 to 30; T = 495.
+    # Lengths of 1 to 39 occur once each, and 40, 30, 25, 120: 43 in all, of which 8 from 25 to 30; T = 495.
     found = [[float_or_text(cell) for cell in row.split(",")] for row in rows("r-lengths.csv")]
     assert sum(row[5] for row in found) == 43 and [row[5] for row in found if row[2] == 24.5] == [8]
     for row in found:
         assert row[6] == pytest.approx(row[5] / (495 * 120 * (row[3] - row[2])), rel=1e-9)
     first.told("^ a 43 ")
-    # Of the lengths below that of the fault: slope 2 without scatter.
+    # For lengths below that of the fault, the slope is 2 without scatter.
     slope("r-length.csv", "^# fit, without those of the whole fault: ", 2)
     flags = [row.split(",")[5] for row in rows("r-length.csv")]
     assert flags.count("1") == 1, "ruptures of the whole fault"
-    # PE rose during one; of the others but those with another one beside them the drop is 0.05 times the
-    # moment.
+    # PE rose during one rupture. For the others, except those that overlap with another one, the drop is
+    # 0.05 times the moment.
     said("r-pe.csv", "^# PE rose during 1 of 43 ruptures")
     slope("r-pe.csv", "^# fit of those isolated in time: .*n = 40.*ratio 0.05, scatter", 1)
     beside = [float(row.split(",")[3]) for row in rows("r-pe.csv") if row.split(",")[5] == "0"]
@@ -546,8 +546,8 @@ def test_rupture(do, no):
     no("short.csv: no catalogue of ruptures of a fault", "rupture short.csv -o x")
     fault("plain.csv", [0.01], times=[5])
     no("plain.csv: no catalogue of ruptures of a fault", "rupture plain.csv -o x")
-    # Of the places 15, 45, 75 and 105 only 75 is reached by more than the one rupture of the whole fault: by
-    # 28.
+    # Of the places 15, 45, 75 and 105 only 75 is reached by more than the one rupture of the whole fault,
+    # namely by 28.
     places = do("intervals a.csv --threshold 0 --places 4 --no-picture -o p")
     places.told(" 27 [0-9.]* model time")
     places.told("times at 4 places each")

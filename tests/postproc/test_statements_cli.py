@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""postproc statements from outside."""
+"""The command postproc statements."""
 import json
 
 import numpy as np
@@ -52,7 +52,7 @@ def test_statements(postproc, made_run):
     row("locked", "rise of PE between events over the work of the plates", 1.0, 0.001, "holds")
     row("numbers", "events in 1e7 steps of 0.0045", 1e7 * 0.00454 / 104, 10, "fails")
     told.told('velocities: "The distribution of slip velocities was monotonic')
-    # Without its other files only what the catalogue says.
+    # Without the other files there are only the statements that the catalogue allows.
     short = run(postproc, "statements", made_run, "--ruptures none --history none -o short")
     short.warned("no slip history beside it")
     assert {row["statement"] for row in table("short.csv")} == {"roll-off", "numbers"}

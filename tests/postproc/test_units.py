@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""SI units of the fault: one conversion in units, magnitudes, rates and export."""
+"""SI units of the fault: the same conversion in units, magnitudes, rates and export."""
 import json
 import math
 import xml.etree.ElementTree as xml
@@ -11,7 +11,7 @@ from data_files import table, write_catalogue
 from programs import refused, run
 
 ROCK = "--unit-length 100 --p-speed 6000 --density 2700"
-# By hand: speed of P-waves 2.08, of S-waves 1.06, density 0.286 in units of the model.
+# Computed by hand from the speeds of P-waves, 2.08, and S-waves, 1.06, and the density 0.286 in model units.
 VELOCITY = 6000 / 2.08
 TIME = 100 / VELOCITY
 MODULUS = 2700 * (1.06 * VELOCITY)**2
@@ -44,7 +44,7 @@ def test_units(postproc, catalogue):
     assert unit["stress, stiffness"] == pytest.approx(2700 / 0.286 * VELOCITY**2 / 1e6)
     assert unit["energy, sizes"] == pytest.approx(ENERGY) and unit["slip times length, moments"] == pytest.approx(MOMENT)
     fault = {row["quantity"]: row["value"] for row in found["faults"]}
-    # What the paper's fault is: 1.7 GPa, 0.7 m/s
+    # The paper's fault in SI units: 1.7 GPa, 0.7 m/s
     assert fault["normal stress"] == pytest.approx(1728, abs=1) and fault["velocity of each plate"] == pytest.approx(0.721, abs=1e-3)
     assert fault["length of the fault"] == 4 and fault["Mw of the largest event"] == pytest.approx(mw(10 * MOMENT))
 
@@ -89,7 +89,7 @@ def test_quakeml(postproc, catalogue):
         assert value["origin/time/value"] == row["time_string"] + "Z" and value["magnitude/type"] == "Mw"
         assert value["magnitude/mag/value"] == row["mag"] and value["origin/longitude/value"] == row["lon"]
         assert event.find(f"{bed}preferredOriginID").text == event.find(f"{bed}origin").get("publicID")
-    # our own reader
+    # postproc can read it itself.
     run(postproc, "count q.xml --size 1e6 --json n.json")
     assert json.loads(Path("n.json").read_text())["sizes"][0]["events"] == sum(float(row["mag"]) >= 4 for row in wanted) > 0
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Statistics of the study walk that postproc does not make, beside those that it does."""
+"""Statistics of the study walk that are computed without postproc, compared with those of postproc."""
 import csv
 import math
 import random

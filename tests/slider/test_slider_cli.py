@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""slider_cli from outside."""
+"""The program slider_cli."""
 import gzip
 import json
 import math
@@ -19,20 +19,20 @@ SHORT_INI = "blocks = 100\ndt = 0.05\nvelocity = 0.05\nwarmup = 0\nseed = 3\nste
 
 @pytest.fixture
 def ran(slider):
-    """Runs slider_cli; most tests write the same files again and again."""
+    """Runs slider_cli with --overwrite, as most tests write the same files again and again."""
     return lambda *arguments, **more: run(slider, "--overwrite", *arguments, **more)
 
 
 @pytest.fixture
 def no(slider):
-    """Refused, whatever else is asked for."""
+    """no(arguments, pattern): expects that slider_cli refuses the arguments."""
     return lambda arguments, pattern: refused(slider, [
         "--overwrite", "--catalogue", "bad.csv", "--blocks", 16, "--time", 100, *(arguments.split() if isinstance(arguments, str) else arguments)
     ], pattern)
 
 
 def interrupted(slider, part, times, signals=(signal.SIGKILL,), checkpoint="part.chk"):
-    """Starts and resumes the run, and ends it once it has written a checkpoint, so many times."""
+    """Starts and resumes the run the given number of times, and ends it after each new checkpoint."""
     count = 0
     for n in range(times):
         more = "--resume" if Path(checkpoint).exists() else "--overwrite"
@@ -59,7 +59,7 @@ def test_resume(slider, ran):
     settings = SHORT + "--steps 1000000 --pe-stride 7 --columns length "
     ran(settings, "--catalogue whole.csv --pe-series whole.pe")
     part = settings + PART
-    # Finished, then resumed: nothing changes.
+    # Resuming a finished run changes nothing.
     ran(part)
     same("whole.csv", "part.csv")
     ran(part, "--resume")
@@ -70,7 +70,7 @@ def test_resume(slider, ran):
         refused(slider, "--overwrite --resume " + part + arguments, pattern)
 
     not_resumed(" --kl 0.02", "kl = 0.01.*expected.*kl = 0.02")
-    # What does not fit is found before any file is cut, as that torn line would be.
+    # Files that do not fit are found before any file is cut, as the incomplete line would be.
     kept, series = Path("part.csv").read_bytes(), Path("part.pe").read_bytes()
     Path("part.csv").write_bytes(kept + b"999,1")
     assert b"\n# seed = 3\n" in series
@@ -79,7 +79,7 @@ def test_resume(slider, ran):
     Path("part.pe").write_bytes(series)
     ran(part, "--resume")
     assert Path("part.csv").read_bytes() == kept, "the torn line was not cut"
-    # A torn checkpoint, one with a wrong byte, one of another version (as CBOR), none.
+    # A truncated checkpoint, one with a wrong byte, one of another version (as CBOR), and none.
     whole = Path("part.chk").read_bytes()
     middle = len(whole) // 2
     for name, damaged, said in (("short.chk", whole[:500], "short.chk: damaged"),
@@ -93,7 +93,7 @@ def test_resume(slider, ran):
 
 
 def test_resume_other_kernel(slider, ran):
-    """Killed with one kernel, and resumed by either."""
+    """A run killed with one kernel can be resumed with either."""
     settings = "--velocity 0.05 --blocks 24 --dt 0.05 --warmup 0 --seed 3 --steps 100000 "
     part = "--catalogue part.csv --checkpoint part.chk "
     ran(settings, "--kernel dense --catalogue whole.csv")
@@ -119,7 +119,7 @@ def test_ensemble(slider, ran, no):
     for k in 1, 2, 3:
         ran(SHORT, "--steps 300000 --seed", k + 2, "--catalogue alone.csv")
         same(f"run{k}.csv", "alone.csv", 5)
-    # Stopped by a signal while several run at a time, it goes on as if it had not been.
+    # An ensemble stopped by a signal while several runs are under way continues as if uninterrupted.
     stopped = (SHORT + "--steps 300000 --ensemble 3 --threads 3 --catalogue part{run}.csv --checkpoint part{run}.chk "
                "--checkpoint-interval 1000")
     for _ in range(5):
@@ -144,7 +144,7 @@ def test_ensemble(slider, ran, no):
 
 
 def test_laws(ran):
-    """One block: period and sizes of its slips, against closed forms."""
+    """Period and sizes of the slips of one block, compared with closed forms."""
     V, Fs = 0.001, 0.8
 
     def slips(arguments):
@@ -154,8 +154,8 @@ def test_laws(ran):
         times = events["t_start"][len(events["t_start"]) // 3:]
         return (times[-1] - times[0]) / (len(times) - 1) if len(times) > 2 else 0.0, max(events["size"], default=0.0)
 
-    # Coulomb: loading over twice the drop of strength, D = 0.8 - 0.6, then half a swing and a little:
-    # (Fs - Fd) w / (K V)
+    # Coulomb friction: loading over twice the drop of strength, D = 0.8 - 0.6, then a little more than half
+    # an oscillation: (Fs - Fd) w / (K V)
     K, D = 0.05, 0.2
     for scheme in "verlet", "semi-implicit":
         period, largest = slips(f"--law coulomb --dynamic-friction 0.75 --kl {K} --time 80000 --dt 0.05 --scheme {scheme}")
@@ -163,12 +163,12 @@ def test_laws(ran):
         assert period == pytest.approx(theory, rel=1e-4), scheme
         # PE falls by (0.8^2 - 0.4^2) / (2 K) = 4.8.
         assert largest > 4, scheme
-    # Without a drop the block follows the plate, and swings by V / w: PE falls by no more than 2 Fs V / w
-    # each time.
+    # Without a drop of strength the block follows the plate and oscillates by V / w: PE falls by no more than
+    # 2 Fs V / w each time.
     assert slips("--law coulomb --dynamic-friction 1 --kl 0.05 --time 20000 --dt 0.05")[1] < 1.01 * 2 * Fs * V / math.sqrt(K)
-    # Slip weakening by W = 0.8 (1 - 0.75) / 0.5 = 0.4 per slip. Above this stiffness a slip swings about a
-    # slow drift, y = K V / (K - W) (t - sin(w t) / w) with w^2 = K - W, and PE falls while it is faster than
-    # the plate; below it a slip is that of the whole drop.
+    # Slip weakening by W = 0.8 (1 - 0.75) / 0.5 = 0.4 per slip. Above this stiffness a slip oscillates about
+    # a slow drift, y = K V / (K - W) (t - sin(w t) / w) with w^2 = K - W, and PE falls while the block is
+    # faster than the plate; below it a slip is that of the whole drop.
     W = 0.4
     for K in 0.5, 0.8:
         _, stable = slips(f"--law slip-weakening --dynamic-friction 0.75 --slip-distance 0.5 --kl {K} --time 4000 --dt 0.01")
@@ -180,7 +180,7 @@ def test_laws(ran):
 
         assert stable == pytest.approx((force(a)**2 - force(2 * math.pi - a)**2) / (2 * K), rel=0.01), K
     period, largest = slips("--law slip-weakening --dynamic-friction 0.75 --slip-distance 0.5 --kl 0.1 --time 100000 --dt 0.05")
-    # The drop less what the weakening takes, 0.2 x 0.5 / 2, decides how far: 0.2 D - K D^2 / 2 = 0.05.
+    # The distance D follows from the drop and the fracture energy 0.2 x 0.5 / 2: 0.2 D - K D^2 / 2 = 0.05.
     assert period == pytest.approx((0.2 + math.sqrt(0.2**2 - 2 * 0.1 * 0.05)) / 0.1 / V, rel=0.02)
     assert largest > 100 * stable, "slips below the critical stiffness are no larger than above"
 
@@ -190,7 +190,7 @@ def test_laws_of_a_chain(slider, ran, no):
     ran(SHORT, "--steps 100000 --catalogue default.csv")
     ran(SHORT, "--steps 100000 --law velocity-weakening --catalogue named.csv")
     same("default.csv", "named.csv")
-    # Interrupted and resumed; the header has the law.
+    # A run is interrupted and resumed; the header has the law.
     for law in "coulomb", "slip-weakening":
         chain = SHORT + f"--law {law} --steps 200000 --scheme verlet "
         ran(chain, "--catalogue active.csv --checkpoint whole.chk")
@@ -246,7 +246,7 @@ def test_bad_steps(ran):
     # Above dt 0.01 the printed scheme runs, with a warning.
     ran("--blocks 16 --steps 100 --scheme printed --dt 0.05 --catalogue c.csv").warned("warning: --dt = 0.05")
     assert ran("--blocks 16 --steps 100 --scheme printed --dt 0.01 --catalogue c.csv").err == ""
-    # Forced, it blows up sooner or later: an error, not an endless run of NaN.
+    # With --unstable it blows up sooner or later, which is an error, not an endless run of NaN.
     for events in "pe", "ruptures":
         burst = ran("--blocks 64 --steps 3000000 --scheme printed --dt 0.9 --velocity 1 --unstable --warmup 0 --friction-range 0 0.1",
                     "--catalogue burst.csv --events", events, status=None)
@@ -265,7 +265,7 @@ def test_header(ran):
 
 
 def test_drops_that_are_no_slip(ran, no):
-    """Of all drops of PE, --without-plate-drops leaves out those by the plate, and --keep-nonpositive takes in those without a size."""
+    """Of all drops of PE, --without-plate-drops leaves out those due to the plate, and --keep-nonpositive includes those without a size."""
     run_of_many = (SHORT, "--steps 600000 --picker-memory-time 1 --json - --catalogue")
     every, slips, kept = (json.loads(ran(*run_of_many, f"{name}.csv", *more).out)
                           for name, *more in (("every",), ("slips", "--without-plate-drops"), ("kept", "--keep-nonpositive")))
@@ -286,7 +286,7 @@ def test_paper(slider, ran):
 
 
 def test_overwrite(slider):
-    """Without --overwrite nothing that holds something is replaced, and the refusal leaves no file."""
+    """Without --overwrite no file with content is replaced, and a refused run leaves no file."""
     settings = SHORT + "--steps 300000 "
     ensemble = "--ensemble 3 --catalogue r{run}.csv --checkpoint r{run}.chk "
 
@@ -300,13 +300,13 @@ def test_overwrite(slider):
     kept("--catalogue b.csv --pe-series a.pe", "a.pe: exists, expected a new file for --pe-series; --overwrite")
     kept("--catalogue b.csv --checkpoint a.chk", "a.chk: exists, expected a new file for --checkpoint; --overwrite")
     kept("--catalogue a.csv --events ruptures", "a.csv: exists")
-    # Asked to, it does; the new files are those of a first run.
+    # With --overwrite it is; the new files are those of a first run.
     first = Path("a.csv").read_bytes()
     run(slider, settings, "--catalogue a.csv --overwrite --seed 4")
     assert Path("a.csv").read_bytes() != first, "--overwrite did not replace the catalogue"
     run(slider, settings, "--catalogue a.csv --overwrite")
     assert Path("a.csv").read_bytes() == first
-    # An ensemble looks at all files before the first run; --resume without a checkpoint is a fresh start.
+    # An ensemble checks all files before the first run; --resume without a checkpoint starts anew.
     run(slider, settings, ensemble)
     for name in "r1.csv", "r1.chk", "r2.chk":
         os.remove(name)
@@ -317,7 +317,7 @@ def test_overwrite(slider):
     assert Path("r2.csv").read_bytes() == second and Path("r3.csv").read_bytes() == third
     assert len(rows("r2.csv")) >= 5 and len(rows("r3.csv")) >= 5
     assert os.path.getsize("r1.csv") > 0, "run 1 did not start"
-    # What holds nothing, and what is no file, is no reason to refuse.
+    # Empty files and devices are no reason to refuse.
     Path("empty.csv").touch()
     run(slider, settings, "--catalogue empty.csv --pe-series /dev/null")
     same("empty.csv", "a.csv", 5)
@@ -328,7 +328,7 @@ def test_config(ran):
     ran("--config s.ini --catalogue a.csv")
     ran(SHORT, "--steps 300000 --catalogue b.csv")
     same("a.csv", "b.csv", 5)
-    # Line ends of Windows, comments, two values where two are expected, text with blanks.
+    # Windows line ends, comments, two values where two are expected, text with blanks.
     Path("s.ini").write_bytes(("# a chain\n; slow\n" + SHORT_INI).replace("\n", "\r\n").encode() +
                               b'friction-range = 0.5 1.0\r\ncatalogue = "a b.csv"\r\n')
     ran("--config s.ini")
@@ -336,8 +336,8 @@ def test_config(ran):
 
 
 def test_faults(slider, ran, faults):
-    """Killed at each system call that has to do with files, or refused it: nothing is lost, nothing
-    silently wrong."""
+    """The run is killed at each system call on files, or the call fails: nothing is lost or silently
+    wrong."""
     traced = faults(slider)
     settings = "--blocks 100 --dt 0.05 --velocity 0.05 --warmup 0 --seed 3 --steps 50000 --pe-stride 50 --checkpoint-interval 20000 "
     part = settings + "--catalogue part.csv --pe-series part.pe --checkpoint part.chk"
@@ -351,7 +351,7 @@ def test_faults(slider, ran, faults):
             assert Path(f"part.{ending}").read_bytes() == Path(f"whole.{ending}").read_bytes(), f"{what}: other bytes in part.{ending}"
 
     def complete(what):
-        """Goes on where it can, and compares."""
+        """Continues the run, or starts it anew if there is no checkpoint, and compares."""
         ran(part, "--resume" if Path("part.chk").exists() else "--overwrite")
         whole(what)
         left = {path.name for path in Path().glob("part.*")} - {"part.csv", "part.pe", "part.chk"}
@@ -375,7 +375,7 @@ def test_faults(slider, ran, faults):
 
 
 def test_outputs(slider, work):
-    """One file for one purpose, whatever its names; nothing is begun."""
+    """A file cannot serve two purposes, whatever its names; the run is refused at once."""
     here = work / "here"
     here.mkdir()
     os.chdir(here)
@@ -395,21 +395,21 @@ def test_outputs(slider, work):
 
 
 def test_two_at_a_time(slider):
-    """The second of two runs of the same files is told who writes them, and changes nothing."""
+    """The second of two runs with the same files names the process that writes them, and changes nothing."""
     part = ("--blocks 100 --time 1e9 --catalogue p.csv --pe-series p.pe --pe-stride 1000 --checkpoint p.chk "
             "--checkpoint-interval 1000 ")
     with start(slider, part) as child:
         assert child.until(lambda: os.path.exists("p.chk") and os.path.getsize("p.chk"))
         for more in "--resume", "--overwrite", "--catalogue other.csv --overwrite":
             refused(slider, part + more, f"is being written by another run: process {child.pid} on {socket.gethostname()} since", but=r"^p\.")
-    # Lock files that a killed run leaves behind block no other run, and one that ends leaves none.
+    # Lock files of a killed run do not block another run, and a run that ends leaves none.
     part = "--blocks 100 --steps 200000 --dt 0.05 --velocity 0.05 --warmup 0 --catalogue p.csv --pe-series p.pe --checkpoint p.chk --overwrite"
     run(slider, part)
     assert not list(Path().glob("*.lock"))
 
 
 def test_ruptures(slider, ran):
-    # The same motion: PE and the state of the chain do not depend on the kind of events.
+    # The motion is the same: PE and the state of the chain do not depend on the kind of events.
     ran(SHORT, "--steps 300000 --catalogue pe.csv --pe-series pe.pe --pe-stride 3")
     ran(SHORT, "--steps 300000 --events ruptures --catalogue r.csv --pe-series r.pe --pe-stride 3")
     for one, other in zip(read_series("pe.pe")[1:], read_series("r.pe")[1:]):
@@ -418,19 +418,19 @@ def test_ruptures(slider, ran):
     assert not any(key.startswith(("events", "rupture")) for key in header("pe.csv")), "the header of pe events has changed"
     ran(SHORT, "--steps 300000 --events pe --catalogue pe2.csv")
     same("pe.csv", "pe2.csv")
-    # Both kernels, with ruptures that join over a gap.
+    # Both kernels agree, also with ruptures that are connected across gaps in time.
     for more in "", "--rupture-gap 0.5", "--scheme semi-implicit", "--scheme printed --dt 0.01":
         for kernel in "active", "dense":
             ran(SHORT, "--events ruptures --columns centroid,length --steps 300000", more, "--kernel", kernel, f"--catalogue {kernel}.csv")
         same("active.csv", "dense.csv", 100)
-    # Sizes that are not written.
+    # Small ruptures are left out.
     ran(SHORT, "--steps 300000 --events ruptures --min-size 0.5 --catalogue large.csv")
     large = [row.split(",", 1)[1] for row in rows("r.csv") if float(row.split(",")[5]) >= 0.5]
     assert large and large == [row.split(",", 1)[1] for row in rows("large.csv")]
 
 
 def test_a_large_catalogue_is_announced(slider, ran):
-    """Once, while it can still be stopped, within a factor of two; a small one is not."""
+    """Its size is announced once, while the run can still be stopped, within a factor of two; a small one is not."""
     chain = "--events ruptures --blocks 4000 --kl 0.1 --velocity 0.01 --warmup 0 --time 5000 --catalogue c.csv"
     said = ran(chain).warned("c.csv: ([0-9]+) events at step ([0-9]+) of 100000, at this rate (.*) in all, ([0-9]+) MB; --min-size")
     events, megabytes = len(rows("c.csv")), os.path.getsize("c.csv") / 1e6
@@ -440,7 +440,7 @@ def test_a_large_catalogue_is_announced(slider, ran):
 
 
 def test_ruptures_resumed(slider, ran):
-    """Killed at any moment, and resumed, again and again."""
+    """The run is killed at random moments and resumed, again and again."""
     settings = SHORT + "--steps 2000000 --columns centroid,length --pe-stride 500 "
     of_events = settings + "--events pe"
     settings += "--events ruptures --rupture-gap 0.2 "
@@ -451,7 +451,7 @@ def test_ruptures_resumed(slider, ran):
     same("whole.csv", "part.csv", 1000)
     same_bytes("whole.pe", "part.pe")
     same_bytes("whole.chk", "part.chk")
-    # From the one kind of events there is no way to the other.
+    # A run cannot be resumed with the other kind of events.
     refused(slider, of_events + " --catalogue part.csv --checkpoint part.chk --resume --overwrite", "cannot resume")
     ran(SHORT, "--steps 1000 --catalogue pe.csv --checkpoint pe.chk")
     refused(slider, SHORT + "--steps 1000 --events ruptures --catalogue pe.csv --checkpoint pe.chk --resume --overwrite",
@@ -469,7 +469,7 @@ def test_leap(ran):
     number = dict(item for item in everything(json.loads(Path("leap.json").read_text())))
     assert number["leaps"] >= 20
     assert 10 * (number["steps"] - number["steps_jumped"] - number["steps_leapt"]) < number["steps"], "leaps save too little"
-    # Off, nothing knows of them.
+    # Without leaps no output mentions them.
     ran(SHORT, "--steps 300000 --catalogue none.csv --checkpoint none.chk --json none.json")
     ran(SHORT, "--steps 300000 --leap 0 --catalogue off.csv --checkpoint off.chk")
     same("none.csv", "off.csv")
@@ -488,7 +488,7 @@ def everything(found):
 
 
 def test_leap_of_other_laws(ran):
-    """Under Coulomb friction that does not fall nothing creeps: the leaps end where a block starts."""
+    """Leaps with other schemes and laws. Under Coulomb friction without a drop nothing creeps: leaps end where a block starts."""
     for way in ("--scheme semi-implicit", "--scheme printed --dt 0.01 --velocity 1e-2 --time 25000", "--law coulomb",
                 "--law coulomb --dynamic-friction 1", "--law slip-weakening", "--law slip-weakening --slip-distance 0.5"):
         ran(SLOW, "--blocks 96", way, "--catalogue active.csv")
@@ -498,7 +498,7 @@ def test_leap_of_other_laws(ran):
 
 @pytest.mark.parametrize("events", ["pe", "ruptures"])
 def test_leap_resumed(slider, ran, events):
-    """Killed and resumed again and again; a series with samples within leaps."""
+    """The run is killed and resumed again and again, with a series that has samples within leaps."""
     settings = SLOW + f"--blocks 128 --events {events} --min-size 1e-3 --columns centroid,length --pe-stride 700 "
     part = settings + "--catalogue part.csv --pe-series part.pe --checkpoint part.chk --checkpoint-interval 3001 "
     ran(settings, "--catalogue whole.csv --pe-series whole.pe --checkpoint whole.chk")

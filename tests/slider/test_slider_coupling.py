@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""slider_cli from outside: what couples the blocks, radiation, strengths of each block."""
+"""The program slider_cli: coupling of the blocks, radiation, strengths of each block."""
 import json
 import math
 import re
@@ -37,11 +37,11 @@ def test_header_has_what_couples(ran):
 
 
 def test_file_of_stiffness(ran, no):
-    """The springs of the chain, given as modes, make the chain."""
+    """The stiffness of the springs, given as modes, gives the same chain."""
     blocks, kl = 64, 0.05
     lines = [f"{2 * math.pi * n / blocks:.17g},{2 - 2 * math.cos(2 * math.pi * n / blocks) + kl:.17g}" for n in range(blocks // 2 + 1)]
     Path("springs.csv").write_text("# wavenumber,stiffness\n" + "\n".join(lines) + "\n")
-    # Until chaos makes much of the last digit.
+    # The run ends before chaos amplifies the last digit.
     early = "--blocks 64 --velocity 0.05 --warmup 0 --seed 3 --time 330 "
     ran(early, "--kl 0.05 --catalogue chain.csv --events ruptures")
     ran(early, "--coupling springs.csv --catalogue modes.csv --events ruptures")
@@ -126,11 +126,11 @@ def test_ensembles_of_threads(ran):
 
 
 def test_stiffness_of_the_lattice(lmp, ran):
-    """Measured mode by mode; long waves see an elastic block, and the file couples the blocks."""
+    """It is measured mode by mode. For long waves it is that of an elastic block, and the file can couple the blocks."""
     said = run(lmp, ["-in", INPUTS / "lattice_stiffness.in", "-var", "long", 32, "-var", "rows", 17])
     differences = {float(w): float(d) for w, d in re.findall(r"^wavelength ([\d.]+): .* difference (\S+)$", said.out, re.M)}
     assert 0.0 < differences[32.0] < 0.012 and 0.0 < differences[16.0] < 0.045
-    # Of second order in the wavenumber.
+    # The difference is of second order in the wavenumber.
     assert 3.5 < differences[16.0] / differences[32.0] < 4.5
     ran("--blocks 32 --coupling lattice.stiffness.csv --dt 0.02 --time 20000 --warmup 0 --catalogue lattice.csv")
     width = 16 * math.sqrt(3) / 2

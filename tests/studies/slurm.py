@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A Slurm of one node on this machine, all of it in one folder: for tests as root."""
+"""Slurm with one node on this machine, all in one folder, for tests that run as root."""
 import os
 import shutil
 import socket
@@ -39,7 +39,7 @@ def said(*command):
 
 
 class Slurm:
-    """Begins in the given folder, ends with its 'with'; skips the test where it cannot begin."""
+    """Starts in the given folder and ends with its 'with'; skips the test if it cannot start."""
 
     def __init__(self, folder):
         if os.getuid():

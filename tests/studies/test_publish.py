@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""publish.py and superpose.py on PE and catalogue of two short faults."""
+"""publish.py and superpose.py, with PE and catalogues of two short faults."""
 import array
 import csv
 import json
@@ -117,7 +117,7 @@ def test_nothing_is_published_where_something_is_refused(runs, tmp_path):
     refused(script, ["out", first, bad],
             f"bad: {events} events in fault.catalogue.csv, but {events + 1} in done.json, expected the catalogue of that run")
     (bad / "done.json").write_text(json.dumps({"events": events}))
-    # What it wrote itself is replaced, and nothing else; a link that somebody left is not followed.
+    # Only files that it wrote itself are replaced, and a link that somebody has made is not followed.
     Path("out").mkdir()
     for name in "bad.catalogue.csv.xz", "bad.ruptures.csv.xz":
         Path("out", name).write_bytes(b"of somebody\n")
@@ -143,7 +143,7 @@ def test_a_catalogue_without_small_events_stays_so(runs):
 
 
 def test_statements_are_replaced_whole(runs, postproc, small_disk):
-    """Also where the disk is full: those of before stay."""
+    """If the disk is full, the former ones are kept."""
     script, full = Program("publish.py", INPUTS / "studies/publish.py"), small_disk(1)
     with mock.patch.object(publish, "LOADING", 60):
         publish.main(full, runs, statements=postproc.path)
@@ -161,7 +161,7 @@ def test_statements_are_replaced_whole(runs, postproc, small_disk):
 
 @pytest.mark.parametrize("number", ["KILL", "TERM"])
 def test_an_end_at_any_moment_leaves_whole_files(runs, work, faults, number):
-    """Those of before, or new ones; all of them by a signal that a program can notice."""
+    """Each file is the former or the new one; after a signal that can be caught, either all are former or all are new."""
     script, out = Program("publish.py", sys.executable, INPUTS / "studies/publish.py"), work / "out"
     run(script, "--events 0.01 --ruptures 0.01", out, runs)
     old = snapshot(out)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""inputs/studies/stretches.py: parts of a fault, on energies that are made up."""
+"""inputs/studies/stretches.py: parts of a fault, with synthetic energies."""
 import csv
 import math
 import sys
@@ -18,7 +18,7 @@ MEMORY = 5.0
 
 
 def write_run(folder, energy, velocity=0.0, steps=None, **head):
-    """A run with energies [sample, piece, block], as fault.in and fault_stretches.in leave it."""
+    """Writes a run with energies [sample, piece, block], as fault.in and fault_stretches.in do."""
     Path(folder).mkdir()
     given = dict(model="lsm", program="made up", length=LENGTH, dt=DT, velocity=velocity, seed=1, **{"lambda": math.exp(-DT / MEMORY)})
     write_catalogue(f"{folder}/fault.catalogue.csv", [1.0], [1e-3], {**given, **head})
@@ -36,7 +36,7 @@ def script(postproc):
 
 
 def in_stretches(series):
-    """Energies of pieces, of which the first of each stretch, below the fault, has one of the series."""
+    """Energies of pieces: the first piece of each stretch, below the fault, has one of the series."""
     energy = np.zeros((len(series[0]), PIECES, 2))
     for n, one in enumerate(series):
         energy[:, n * PIECES // len(series), 0] = one
@@ -53,21 +53,21 @@ def test_stretches_add_up():
 
 @pytest.mark.parametrize("block, ends_in", [(0, 0), (1, 2)])
 def test_blocks_carry_their_energy(block, ends_in):
-    """From the middle of stretch 1 by its length: the block below to the one before, that above to the one after."""
+    """Blocks move from the middle of stretch 1 by its length: the lower one to the previous stretch, the upper one to the next."""
     energy = np.zeros((41, PIECES, 2))
     energy[:, 5:7, block] = 1, 2
     moved = EVERY * DT * np.arange(41)
     _, _, pe = stretches.stretches_of(write_run("a", energy, velocity=SIZE / moved[-1]), SIZE)
     assert pe[:, 0] == pytest.approx([0, 3, 0, 0]) and pe[:, -1] == pytest.approx(3 * (np.arange(4) == ends_in))
-    # Half-way the edge of the stretch is between the two pieces: one of them has just left.
+    # Half-way, the edge of the stretch is between the two pieces, one of which has just left.
     left = energy[0, 6 if block else 5, block]
     assert pe[ends_in, 20] == pytest.approx(left) and pe[1, 20] == pytest.approx(3 - left)
-    # No jumps: a piece leaves while the blocks move by its length, a tenth of it at a time.
+    # There are no jumps: a piece leaves while the blocks move by its length, a tenth of it at a time.
     assert np.abs(np.diff(pe, axis=1)).max() == pytest.approx(0.2)
 
 
 def test_continued():
-    """A run that was killed within a sample and continued from two samples before: each part has pieces of its own."""
+    """In a run that was killed within a sample and continued from two samples before it, each part has its own pieces."""
     energy = np.random.default_rng(1).uniform(0, 1, (10, PIECES, 2))
     whole, begun, rest = (write_run(name, part, steps=100 + EVERY * np.arange(first, first + len(part)), velocity=0.3) / "fault.stretches.txt"
                           for name, part, first in (("a", energy, 0), ("b", energy[:8], 0), ("c", energy[6:], 6)))
@@ -82,7 +82,7 @@ def test_continued():
 
 
 def test_what_is_left_out(script):
-    """Stretches that are loaded together at first, and each by itself from then on."""
+    """Stretches are loaded together at first, and vary independently from then on."""
     random = np.random.default_rng(3)
     own = random.normal(size=(4, 4000))
     together = np.where(np.arange(4000) < 400, np.linspace(0, 4000, 4000), 400.0)
@@ -100,19 +100,19 @@ def changes(series):
 
 
 def test_the_same_everywhere():
-    """Stretches that change together: the variance of the sum is four times the sum of the variances."""
+    """If stretches change together, the variance of the sum is four times the sum of the variances."""
     rows = changes([np.random.default_rng(2).normal(size=4000)] * 4)
     assert [row["lag"] for row in rows] == list(stretches.LAGS)
     assert all(float(row["ratio"]) == pytest.approx(4) and float(row["correlation_1"]) == float(row["correlation_2"]) == 1 for row in rows)
 
 
 def test_nothing_to_do_with_each_other():
-    """The same noise in all stretches, at other times: ratio 1 and no correlation, within three standard errors."""
+    """With the same noise at different times in all stretches, the ratio is 1 and the correlation 0, within three standard errors."""
     samples = 20000
     noise = np.random.default_rng(3).normal(size=samples)
     first = changes([np.roll(noise, shift) for shift in (0, 3000, 6000, 9000)])[0]
-    # Neighbouring changes of noise are correlated by -1/2: the variance of a correlation is 1.5 / samples. Three pairs of
-    # stretches have one shift, two another, one a third; pairs with one shift have one correlation.
+    # Successive changes of noise have a correlation of -1/2, so that the variance of a correlation is 1.5 / samples. Three pairs
+    # of stretches have one shift, two another, one a third; pairs with the same shift have the same correlation.
     error = 2 / 4 * math.sqrt((3**2 + 2**2 + 1) * 1.5 / samples)
     assert abs(float(first["ratio"]) - 1) < 3 * error
     assert abs(float(first["correlation_1"])) < 3 * math.sqrt(1.5 / samples)

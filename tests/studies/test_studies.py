@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""inputs/study.sh on small scenes: killed and resumed, through Slurm, on damaged or foreign files."""
+"""inputs/study.sh with small scenes: killed and resumed, with Slurm, with damaged or foreign files."""
 import csv
 import fcntl
 import lzma
@@ -43,14 +43,14 @@ class Studies:
         return Program("study.sh", INPUTS / "study.sh", env={"LSM_BIN": str(self.binaries), "LSM_OUTPUT": str(self.folder / output)})
 
     def __call__(self, output, *words, table="runs.csv", **more):
-        """The study of a table, in a folder."""
+        """Runs the study of a table in a folder."""
         result = run(self.study(output), table, *words, **more)
         result.out += result.err
         return result
 
     @staticmethod
     def run_py():
-        """One run, without Snakemake."""
+        """The program that does a single run, without Snakemake."""
         return Program("run.py", INPUTS / "run.py")
 
     def words(self, folder, text, checkpoint=1500):
@@ -61,12 +61,12 @@ class Studies:
         return run(self.run_py(), self.words(folder, text, checkpoint), **more)
 
     def refused(self, folder, text, pattern):
-        """All files as they were, but for what the program said."""
+        """Expects a refusal with all files unchanged, except those with messages of the program."""
         return refused(self.run_py(), self.words(folder, text), pattern, folder, but=r"output\.txt$|lock$|cpu\.txt$|/\.snakemake/")
 
 
 def programs_in(folder):
-    """Programs that work in the given folder or below; Snakemake itself does, too."""
+    """Processes whose working directory is the given folder or below, including Snakemake itself."""
     found, folder = [], str(Path(folder).absolute())
     for entry in Path("/proc").glob("[0-9]*"):
         try:
@@ -103,8 +103,8 @@ def studies(lmp, slider, postproc, work):
 
 
 def killed(studies, name, touched):
-    """One run of the study is killed at random moments, in four ways, until it has gone on from a
-    checkpoint four times; then it runs to its end. touched: what is there once there is a checkpoint."""
+    """One run of the study is killed at random moments, in four ways, until it has continued from a
+    checkpoint four times; then it runs to its end. touched: a file that exists once there is a checkpoint."""
     began = time.monotonic()
     studies("whole", "checkpoint=4000", f"{name}/done.json")
     whole = time.monotonic() - began
@@ -114,7 +114,7 @@ def killed(studies, name, touched):
             break
         begun = any(part.glob(touched))
         with start(studies.study("part"), f"runs.csv checkpoint=4000 minutes=9 {name}/done.json") as child:
-            # Most moments are after the program has begun, some before.
+            # Most of these moments are after the program has started, some before.
             if n % 5 != 4:
                 wait(lambda: programs_in(part), 20)
             time.sleep(whole * moments.uniform(0.03, 0.27))
@@ -132,7 +132,7 @@ def killed(studies, name, touched):
                 send(signal.SIGTERM, child.pid, *programs_in(part))
             if child.wait(120) == 0:
                 break
-        # Programs may live a little longer; now and then the next round meets them.
+        # Programs may live a little longer; sometimes the next round starts while they do.
         if n % 3 != 2:
             wait(lambda: not programs_in(part), 5)
         resumed += begun
@@ -161,7 +161,7 @@ def test_kill_fault_2_ranks(studies):
 
 
 def test_stop(studies, work):
-    """SIGTERM: the run ends with its next restart file, and says that it is to go on."""
+    """On SIGTERM the run ends with its next restart file, and reports that it is to be continued."""
     long = FAULT + "steps=60000"
     studies.run("whole", long, 3000)
     with start(studies.run_py(), studies.words("part", long, 3000)) as child:
@@ -175,7 +175,7 @@ def test_stop(studies, work):
     studies.run("part", long, 3000)
     same("whole/fault.catalogue.csv", "part/fault.catalogue.csv", 15)
     same_bytes("whole/fault.pe.bin", "part/fault.pe.bin")
-    # The same at a time that was set, and nothing is begun after it.
+    # The same happens at a given time, after which nothing is started.
     for seconds in 4, 20, 100:  # a busy machine takes longer to begin
         studies.run("timed", FAULT + "steps=6000000", 3000, status=75, env={"LSM_UNTIL": str(int(time.time()) + seconds)})
         if Path("timed/fault.catalogue.csv").exists():
@@ -183,7 +183,7 @@ def test_stop(studies, work):
     assert Path("timed/fault.catalogue.csv").exists()
     studies.run("late", long, 3000, status=75, env={"LSM_UNTIL": "1"})
     assert not Path("late/output.txt").exists(), "begun after its time"
-    # Once more: nothing is left to do, and a folder of its own for the sessions of Open MPI is gone.
+    # Started once more, there is nothing left to do, and the run's folder for sessions of Open MPI is gone.
     studies.run("part", long, 3000)
     session = f"lsm-{os.getuid()}-{sha256(str(work / 'part').encode()).hexdigest()[:12]}"
     assert not Path(os.environ.get("TMPDIR", "/tmp"), session).exists(), "a session folder is left"
@@ -220,12 +220,12 @@ def test_refuse_fault(studies):
     damaged[200000] ^= 0x78
     newest.write_bytes(damaged)
     studies.refused("f", settings, newest.name)
-    # Without it the run goes on from the one before.
+    # Without it the run continues from the previous one.
     newest.unlink()
     Path("f/fault.restart.6500.info").unlink()
     studies.run("f", settings)
     same("f/fault.catalogue.csv", "whole/fault.catalogue.csv", 5)
-    # Two at a time
+    # Two runs cannot be in one folder at a time.
     Path("f/done.json").unlink()
     with open("f/lock", "a") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
@@ -264,7 +264,7 @@ def test_tables():
     assert found["s_200_2"].words == ["blocks=200", "seed=2", "steps=10000", "paper=yes"]
     found = read("program,length,ranks\nfault,40 240 1890,\nfault,50,3\n", only="length-[245]")
     assert {name: one.ranks for name, one in found.items()} == {"fault_length-40": 1, "fault_length-240": 4, "fault_length-50": 3}
-    # Values of several words are quoted; a run without a name is called by them without blanks.
+    # Values of several words are quoted; a run without a name is named after them, without blanks.
     words = "leap=yes 'leaping=slip 1.5 grow 60'"
     found = read(f"run,program,law,settings\nl,fault,coulomb,{words}\n,fault,'coulomb 0.6 0.7' 'velocity-weakening mu 0.6',{words}\n")
     assert list(found) == [
@@ -290,7 +290,7 @@ def test_wrong_tables(text, said):
 
 
 def likeliest_exponent(sizes, low, high):
-    """Of a density that goes as size^-exponent between low and high, by a scan."""
+    """The likeliest exponent of a density ~ size^-exponent between low and high, by a scan."""
     logs = [math.log(size) for size in sizes if low <= size <= high]
     assert len(logs) >= 30, "too few sizes"
 
@@ -304,7 +304,7 @@ def likeliest_exponent(sizes, low, high):
 
 def test_own_study(studies, work):
     assert studies("one", "-n", table="none.csv", status=None).status != 0, "a table that is not there"
-    # A study of one's own, without a recipe
+    # A user's own study, without a recipe
     Path("own.csv").write_text("run,program,blocks,seed,steps,settings\nc_{seed},slider,100,1-2,3e6,velocity=0.05 warmup=0\n")
     studies("own", table="own.csv")
     numbers = table("own/table.csv")
@@ -313,7 +313,7 @@ def test_own_study(studies, work):
         sizes = [float(line.split(",")[5]) for line in rows(f"own/{row['run']}/catalogue.csv")]
         assert int(row["events"]) == len(sizes) and (float(row["from_size"]), float(row["to_size"])) == (1e-4, 0.1), row
         assert float(row["exponent"]) == pytest.approx(likeliest_exponent(sizes, 1e-4, 0.1), abs=1e-3), row
-    # Catalogues that are there: the same numbers as of the runs they came from.
+    # Existing catalogues have the same numbers as the runs from which they are.
     Path("c_1.csv.xz").write_bytes(lzma.compress(Path("own/c_1/catalogue.csv").read_bytes()))
     published = f"run,program,file\nagain,catalogue,{work}/c_1.csv.xz\n"
     Path("published.csv").write_text(published + f"nowhere,catalogue,{work}/nowhere.csv\n")
@@ -327,7 +327,7 @@ def test_own_study(studies, work):
 
 
 def test_settings_of_several_words(studies):
-    """They reach the program, also where the run goes on."""
+    """They reach the program, also when the run is continued."""
     law = "slip-weakening mu 0.5 mu_static 0.6 dc 0.002 heal 5"
     Path("laws.csv").write_text("run,program,length,steps,velocity,law,settings\n"
                                 f"l,fault,40,3000,1e-3,'{law}',width=20 settle=500 leap=yes fast=0.01 'leaping=slip 1.5 grow 60'\n")
@@ -351,13 +351,13 @@ def test_plans(studies):
 
 
 def test_recipes(studies, gnuplot, work):
-    """A study asks postproc for what it has."""
+    """Recipes use only commands and numbers that postproc has."""
     studies("quick", ["shorten=2", "only=fault_120|_256"], table="quick")
     for file in ("figures/fig12_fault_sizes.png", "figures/fig13_slider_sizes.svg", "figures/fault_fit.json", "report.html", "table.csv",
                  "costs.csv"):
         assert os.path.getsize(f"quick/{file}") > 0, file
     assert not Path("quick/figures/fig7_leaf_springs.png").exists(), "a figure of nothing"
-    # ESyS-Particle is missed by name before anything is begun.
+    # If ESyS-Particle is missing, it is named before anything is started.
     Path("programs").mkdir()
     for path in Path("/usr/bin").iterdir():
         if path.name != "esysparticle":
@@ -387,15 +387,15 @@ print "tangential = $(0.5*0.07*c_squares:%.9g)"
 def test_esys(studies):
     if not shutil.which("esysparticle"):
         pytest.skip("no ESyS-Particle (Debian package esys-particle)")
-    # Soft contacts: ESyS-Particle begins without their tangential springs, whose forces the links have to take over at once.
+    # With soft contacts: ESyS-Particle begins without their tangential springs, the forces of which the links have to bear at once.
     shutil.copy(INPUTS / "studies/whole-job.yaml", "soft.yaml")
     edit(INPUTS / "studies/whole-job.csv", "soft.csv", ("hold=position", "hold=position kt=0.07"))
     studies("whole_job", "shorten=4000", table="soft.csv")
     costs = {row["run"]: row for row in csv.DictReader(open("whole_job/costs.csv"))}
     assert list(costs) == ["ESyS-Particle", "ours_0.06", "ours_0.12"] and costs["ESyS-Particle"]["steps"] == "115", costs
     assert all(float(row["time_per_core_hour"]) > 0 for row in costs.values()), costs
-    # The same scene: its PE where the shear begins is that of ours without the tangential springs of the
-    # contacts, which begin unstrained there.
+    # The scene is the same: its PE at the beginning of shear is that of ours without the tangential springs of
+    # contacts, which are unstrained there.
     _, steps, _, pe = read_series("whole_job/ESyS-Particle/fault.pe.bin")
     assert len(steps) == 114 and steps[0] == 20000
     ours = [line.split() for line in open("whole_job/ours_0.06/output.txt") if line.split()[:1] == ["20000"]][-1]
@@ -418,7 +418,7 @@ def test_slurm(studies, work):
 
     with Slurm(work / "slurm"):
         studies("here", "checkpoint=5000 ranks=1")
-        # The queue is full of another's job at first.
+        # At first the node is occupied by another job.
         other = said("sbatch", "--parsable", "--exclusive", "--output=/dev/null", "--wrap", "sleep 100")
         assert other, "sbatch"
         with start(studies.study("there"), f"runs.csv checkpoint=5000 ranks=1 --profile {INPUTS}/slurm") as child:
@@ -426,14 +426,14 @@ def test_slurm(studies, work):
             said("scancel", other)
 
             def begun(*faults):
-                """The first of the faults named that has a restart file."""
+                """The first of the named faults that has a restart file."""
                 found = []
                 wait(lambda: found.extend(name for name in faults if any(Path("there", name).glob("fault.restart.*.info"))) or found, 60, 0.1)
                 assert found, f"no restart file of {faults}: {child.said()}"
                 return found[0]
 
-            # The fault that Slurm begins first is cancelled by hand, the other is told to end as before its
-            # time limit.
+            # The fault that Slurm starts first is cancelled by hand, and the other one is signalled to end as
+            # before its time limit.
             first = begun("fault_1", "fault_2")
             job = queued("R", f"fault.{first}")
             assert job, f"{first} has ended before it was cancelled"

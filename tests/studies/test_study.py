@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""inputs/study.sh honours what is added or changed, or refuses it by name; nothing is done in silence."""
+"""inputs/study.sh honours additions and changes, or refuses them by name; nothing is silently ignored."""
 import csv
 import fcntl
 import json
@@ -25,7 +25,7 @@ HEAD = "run,program,length,viscosity,seed,steps,settings\n"
 FAULT = "f_{seed},fault,24,,1,2000,width=20 settle=100 velocity=0.02 stress=0.003\n"
 CHAIN = "run,program,blocks,seed,steps,settings\nc_{seed},slider,100,1,1e5,velocity=0.05 warmup=0\n"
 RECIPE = "numbers:\n  count: count {catalogue}\n  sizes: count {catalogue} --size 1e-3\ntable:\n  events: count.catalogues[0].events\n"
-# What Snakemake notes, the lock of the folder, and what programs say
+# Records of Snakemake, and locks
 NOTES = r"\.snakemake|/\.lock|/lock$"
 
 
@@ -36,7 +36,7 @@ def binaries():
 
 @pytest.fixture
 def study(binaries):
-    """study(words): of the table my.csv, in the folder out"""
+    """study(words): runs the study of the table my.csv in the folder out"""
     if not shutil.which("snakemake"):
         pytest.skip("no snakemake")
     return Program("study.sh", INPUTS / "study.sh", env={"LSM_BIN": str(binaries), "LSM_OUTPUT": "out"},
@@ -87,7 +87,7 @@ def test_runs_that_are_added_are_run(study):
     assert list(table()) == ["f_1", "f_2", "damped"]
     assert all(row["events"] == counted(f"{name}/fault.catalogue.csv") for name, row in table().items())
     assert first.items() <= when().items(), "what was done is done again"
-    # What is taken out of the table is not in its results any more; its run stays.
+    # A run that is removed from the table is not in the results any more, but is kept.
     write(HEAD + FAULT.replace(",1,2000", ",2,2000"))
     run(study, "my.csv")
     assert list(table()) == ["f_2"] and Path("out/f_1/done.json").exists()
@@ -156,13 +156,13 @@ def test_a_catalogue_that_is_replaced_is_read_again(study, work):
     Path("theirs/one.csv").write_text("".join(lines))
     shutil.move("out", "runs")
     write("run,program,seed,file\nseen_{seed},catalogue,1,theirs/one.csv\n")
-    # Paths are seen from the folder of the table.
+    # Paths are relative to the folder of the table.
     run(study, work / "my.csv", cwd=work / "theirs", env={"LSM_OUTPUT": str(work / "out")})
     assert table()["seen_1"]["events"] == str(sum(line[0] not in "#e" for line in lines))
     Path("theirs/one.csv").write_text("".join(lines[:-3]))
     run(study, "my.csv")
     assert table()["seen_1"]["events"] == str(sum(line[0] not in "#e" for line in lines) - 3)
-    # The time of a file says nothing: an older one may have been moved there, and clocks may be wrong.
+    # The time of a file does not matter: an older one may have been moved there, and clocks may be wrong.
     for events, when_written in ((5, 1e9), (7, 4e9)):
         Path("theirs/one.csv").write_text("".join(lines[:-events]))
         os.utime("theirs/one.csv", (when_written, when_written))
@@ -179,7 +179,7 @@ def test_a_catalogue_that_is_replaced_is_read_again(study, work):
 
 
 def test_clocks_say_nothing(study, slider):
-    """A study that is interrupted while the clock is set back goes on with what was made then, and one whose clock was ahead is done."""
+    """A study interrupted while the clock is set back continues with its files, and one whose clock was ahead is done."""
     run(slider, "--blocks 100 --seed 1 --steps 1e5 --velocity 0.05 --warmup 0 --catalogue whole.csv")
     lines = Path("whole.csv").read_text().splitlines(keepends=True)
     events = sum(line[0] not in "#e" for line in lines)
@@ -223,7 +223,7 @@ def test_a_second_start_says_that_one_works_already(study):
 
 
 def test_what_another_user_left_is_named(study, work):
-    """As after a start with sudo: neither runs nor Snakemake could write there."""
+    """For example after a start with sudo, neither runs nor Snakemake could write there."""
     if os.getuid() != 0 or not shutil.which("setpriv"):
         pytest.skip("needs root, to be another user")
     other = Program("study.sh", "setpriv", "--reuid=65534", "--regid=65534", "--clear-groups", *study.command,
@@ -258,7 +258,7 @@ def test_runs_that_are_stopped_are_told(study):
 
 
 def test_folders_with_odd_names(study, binaries):
-    """Blanks, what a shell or a format reads otherwise, and bytes that are no UTF-8."""
+    """Blanks, characters special to a shell or in format strings, and bytes that are not UTF-8."""
     work = Path("it's \"$HOME\" \\ {c}; *#& \udce9").absolute()
     work.mkdir()
     shutil.copytree(INPUTS, work / "my copy/inputs")
@@ -350,7 +350,7 @@ def test_names_that_programs_do_not_have_are_refused(plan):
         plan("run,program,block\nc,slider,100\n")
     with pytest.raises(TableError, match="'ensemble' is set by the study"):
         plan("run,program,ensemble\nc,slider,3\n")
-    # Other programs' columns may be empty.
+    # Columns of other programs may be empty.
     assert list(plan("program,run,length,blocks\nfault,f,24,\nslider,c,,100\n").runs) == ["f", "c"]
 
 
@@ -433,13 +433,13 @@ def test_recipes_that_say_what_is_wrong(plan, recipe, said):
 
 @pytest.mark.parametrize("name", sorted(path.stem for path in (INPUTS / "studies").glob("*.csv")))
 def test_studies_that_ship(binaries, work, name):
-    """Their settings are those that the programs have, and their recipes ask for what there is."""
+    """Their settings are ones that the programs have, and their recipes are valid."""
     Study(with_defaults({"table": str(INPUTS / f"studies/{name}.csv"), "bin": str(binaries)})).check()
 
 
 @pytest.mark.parametrize("name", sorted(path.stem for path in (INPUTS / "studies").glob("*.csv")))
 def test_settings_of_studies_that_ship(lmp, binaries, work, name):
-    """No variable is given another value than it may have, or one that does nothing beside others; nothing is run."""
+    """All values of variables are valid, and none is without effect beside others; nothing is run."""
     Path("variables.in").write_text(f"lsm_variables {INPUTS}/fault.variables\n")
     study = Study(with_defaults({"table": str(INPUTS / f"studies/{name}.csv"), "bin": str(binaries)}))
     settings = {
