@@ -36,12 +36,12 @@ refuse() {
   echo "first-catalogue.sh: $*" >&2
   exit 1
 }
-# The lock also says that files first.* are of this script.
+# The lock file also shows that files first.* are from this script.
 others=(first.*)
 [ -e .first-catalogue.lock ] || [ ! -e "${others[0]}" ] ||
   refuse "$run holds ${others[0]}, which this script did not write, expected another folder (LSM_OUTPUT)"
 { exec 9>>.first-catalogue.lock; } 2>/dev/null || refuse "cannot write to $run"
-# Programs of one that was killed hold it as well, and end within moments.
+# Programs of a killed script hold the lock as well; they end within moments.
 flock -w 2 9 || refuse "a first-catalogue.sh works in $run already, expected its end or another folder (LSM_OUTPUT)"
 rm -f first.*
 echo "Running the fault of length 120 for $steps steps of shear in $run"
@@ -83,7 +83,7 @@ if [ "$count" -gt 1 ]; then
   "$bin/postproc" series $series --output first.largest --from "$from" --to "$to" \
     --title "Fault of length 120: around the largest event"
 fi
-# Waves run at these speeds in the packing.
+# These are the wave speeds in the packing.
 "$bin/postproc" explore $catalogue --p-speed 2.08 --s-speed 1.06 --output first.html --title "Fault of length 120"
 echo "Catalogue, series and pictures are in $run"
 echo "Open in a browser to explore the run: file://$run/first.html"

@@ -22,13 +22,13 @@ while [[ ${1:-} =~ ^[A-Za-z_]+=.*$ ]]; do
   settings+=("$1")
   shift
 done
-# On a cluster each job has the cores that it asks for, and the hours are its limit; here all share
-# the cores of this machine, and run.py stops by then.
+# On a cluster each job has the cores that it requests, and `hours` is its time limit; here all runs
+# share the cores of this machine, and run.py stops within that time.
 options=("$@") where=(--cores all)
 for ((i = 0; i < $#; i++)); do
   if [ "${options[i]}" = --profile ]; then
     where=()
-    [ ! -d "${options[i + 1]:-}" ] || options[i + 1]=$(realpath "${options[i + 1]}") # Snakemake leaves this folder
+    [ ! -d "${options[i + 1]:-}" ] || options[i + 1]=$(realpath "${options[i + 1]}") # Snakemake changes its folder
   fi
 done
 [[ -z $hours || ${#where[@]} = 0 ]] || LSM_UNTIL=$(awk -v now="$(date +%s)" -v h="$hours" 'BEGIN { printf "%.0f", now + 3600 * h }')
@@ -43,10 +43,11 @@ mkdir -p "$output" 2>/dev/null || refuse "cannot make the folder $output"
 # Programs of a study that was killed end within seconds.
 { exec 9>>"$output/.lock"; } 2>/dev/null || refuse "cannot write to $output"
 flock -w 5 9 || refuse "a study works in $output already, expected another folder (LSM_OUTPUT)"
-# As of another user, or of a start with sudo; catalogues that links lead to are read only.
+# Files may be those of another user, or of a start with sudo. Links are left out: the catalogues to
+# which they lead are only read.
 other=$(find "$output" ! -type l ! -writable -printf '%p, which is of %u' -quit)
 [ -z "$other" ] || refuse "cannot write to $other, expected a folder of one user (LSM_OUTPUT)"
-# Written while a clock was ahead: newer than what is made of it from now on.
+# Files written while a clock was ahead would be newer than what is made from them from now on.
 find "$output" ! -type l -newermt now -exec touch -d "@$(date +%s)" {} +
 exec snakemake --snakefile "$root/inputs/Snakefile" --directory "$output" "${where[@]}" \
   --quiet rules --rerun-triggers mtime params input --nolock --keep-going --keep-incomplete --rerun-incomplete "${options[@]}" \

@@ -54,7 +54,7 @@ for part; do
       python3 ../inputs/studies/calibrate.py figure calibration/points.csv.xz calibration
       ;;
     run)
-      # The first command itself; its largest event is what is looked at.
+      # Runs the first command of the README; the pictures show its largest event.
       LSM_BIN=$(dirname "$lmp") LSM_OUTPUT=$new ../inputs/first-catalogue.sh >"$new/out"
       . ../inputs/mpi-settings.sh
       cd "$new"
@@ -82,7 +82,7 @@ for part; do
       ;;
     studies)
       gnuplot -e "table = 'slow-driving-slider.csv'" ../inputs/studies/slow-driving-slider.gp
-      # those of the fault, where the study has been run
+      # Those of the fault, if the study has been run
       [ ! -e slow-driving.csv ] || gnuplot -e "table = 'slow-driving.csv'; around = 'slow-driving-around.csv'" ../inputs/studies/slow-driving.gp
       [ ! -e accuracy_catalogues.csv ] ||
         gnuplot -e "table = 'accuracy_catalogues.csv'; name = 'accuracy_catalogues'" ../inputs/studies/work-precision.gp

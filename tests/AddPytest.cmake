@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Tests of programs: files of pytest as tests of ctest. Debian's Python is asked first, to which
-# Debian's packages belong.
+# Tests of programs: files of pytest as tests of ctest. Debian's Python is preferred, as Debian's
+# packages belong to it.
 find_program(LSM_PYTHON NAMES python3 HINTS /usr/bin)
 execute_process(COMMAND ${LSM_PYTHON} -c "import numpy, pytest" RESULT_VARIABLE failed OUTPUT_QUIET ERROR_QUIET)
 if(failed)
@@ -11,8 +11,9 @@ endif()
 # lsm_add_pytest(PREFIX FILE [TOGETHER NAME | ONLY NAME] [NEEDS TARGET...] [LABELS LABEL...] [TIMEOUT SECONDS] [PROCESSORS N]
 #                [ENVIRONMENT NAME=VALUE...])
 #
-# Each function test_NAME of FILE becomes a test PREFIXNAME; with TOGETHER the whole file is one
-# test, PREFIXNAME, with ONLY it is that function alone. Without one of the targets in NEEDS there is no test.
+# Each function test_NAME of FILE becomes a test PREFIXNAME. With TOGETHER the whole file is one
+# test, PREFIXNAME; with ONLY it is that function alone. If a target in NEEDS is missing, there is
+# no test.
 function(lsm_add_pytest prefix file)
   cmake_parse_arguments(arg "" "TOGETHER;ONLY;TIMEOUT;PROCESSORS" "NEEDS;LABELS;ENVIRONMENT" ${ARGN})
   foreach(target IN LISTS arg_NEEDS)
@@ -38,7 +39,8 @@ function(lsm_add_pytest prefix file)
                   ${arg_ENVIRONMENT})
   foreach(program IN ITEMS lmp slider_cli postproc)
     string(TOUPPER ${program} name)
-    # A program in the environment is tested instead: another build, or by an emulator.
+    # A program given in the environment is tested instead: another build, or one run by an
+    # emulator.
     if(TARGET ${program})
       list(APPEND environment "LSM_BUILT_${name}=$<TARGET_FILE:${program}>")
     endif()

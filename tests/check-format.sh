@@ -13,7 +13,7 @@ fix=
 }
 bad=0
 
-# files_of PATTERN [FILE...]: those that match, of all without names
+# files_of PATTERN [FILE...]: the files that match, out of all files if no names are given
 files_of() {
   local pattern=$1 file
   shift
@@ -32,7 +32,7 @@ not_formatted() {
   echo "Not formatted: $1; tests/check-format.sh --fix does it" >&2
   bad=1
 }
-# What is not formatted must be found, or the rest says nothing.
+# An unformatted line must be detected, or the rest proves nothing.
 blind() {
   echo "$1 does not find an unformatted line" >&2
   exit 1
@@ -58,7 +58,7 @@ if ! command -v yapf3 >/dev/null; then missing yapf3; elif [ ${#files[@]} -gt 0 
   echo "${#files[@]} Python files"
 fi
 
-# that of Slurm is a template of Snakemake
+# jobscript.sh for Slurm is a template of Snakemake.
 mapfile -t files < <(files_of '\.sh$' "$@" | grep -v /jobscript.sh)
 if ! command -v shfmt >/dev/null; then missing shfmt; elif [ ${#files[@]} -gt 0 ]; then
   ! echo 'if  a; then b; fi' | shfmt -i 2 -ci -d >/dev/null || blind shfmt

@@ -1,6 +1,7 @@
 #!/bin/bash
-# properties = {properties} Near the time limit the run is told to end, which it does at its next
-# restart file; then the job is queued again, unless it was cancelled.
+# properties = {properties}
+# Near the time limit the run is asked to end, which it does at its next restart file; then the job
+# is queued again, unless it was cancelled.
 told=
 trap 'told=is-$(squeue -h -j "$SLURM_JOB_ID" -o %T); kill -TERM -- -$child' TERM
 set -m

@@ -64,7 +64,7 @@ if wanted extremes; then
   } >"$out/extremes.tsv"
 fi
 
-# Those of the study work-precision, if they exist
+# The tables of the study work-precision, if they exist
 study=$out/../studies/work-precision
 [ ! -e "$study/differences.csv" ] || cp "$study/differences.csv" "$out/fault_catalogues.csv"
 for suffix in png svg; do

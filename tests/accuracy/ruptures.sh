@@ -35,6 +35,6 @@ for dx in "$@"; do
   done
 done
 [ ${#packings[@]} -gt 0 ] || exit 0
-# that of the packing: its ratio of wave speeds
+# The reference for the packing has its ratio of wave speeds.
 "$(dirname "$lmp")/lsm_boundary_integral" tpv3 50 6 1500 1.913 >packing-reference.csv
 "$postproc" benchmark "${packings[@]}" --reference packing-reference.csv --until 6 -o packing

@@ -104,7 +104,7 @@ scene() {
   awk -v name="$name" -f "$here/convert.awk" "$name.data"
 }
 
-# steps LENGTH MILLIONS: steps of a run that does so many million particle-steps in a second
+# steps LENGTH MILLIONS: number of steps of a run with so many million particle-steps per second
 steps() {
   awk -v length_of_fault="$1" -v rate="$2" -v s="$seconds" 'BEGIN {
     n = int(rate * 1e6 * s / (65.2 * length_of_fault)); print n < 20 ? 20 : n }'
@@ -144,7 +144,7 @@ others() {
   note peers "$1" "$length" "$2" "$3" stock.log stock.out
 }
 
-# Beside its workers ESyS-Particle has a process that directs them and never sleeps.
+# In addition to its workers ESyS-Particle has a process that directs them and never sleeps.
 esys() {
   rm -f "fault_$length".esys.*
   mpirun -np $(($1 + 1)) "${measure[@]}" esysparticle "$here/esys_particle.py" "fault_$length" "$1" "$length" "$(steps "$length" 10)" 3 \
@@ -187,7 +187,8 @@ if wanted parts; then
   for ((round = 1; round <= few; ++round)); do
     say "parts, round $round of $few"
     for ranks in $ranks_in_turn; do
-      # Each leaves out one thing more; what is left does not move, so that the contacts stay.
+      # Each run leaves out one more feature; particles do not move, so that the contacts are the
+      # same.
       without=()
       ours parts "everything" "$length" "$ranks" "$round"
       for part in events plates integration contacts links; do
@@ -205,15 +206,15 @@ fi
 if wanted features; then
   scene "$length"
   scene "$length" -var contacts all
-  # Each takes turns with the base.
+  # Each feature takes turns with the base.
   feature() {
     local label=$1
     shift
     ours features "base of $label" "$length" "$most" "$round"
     ours features "$label" "$length" "$most" "$round" "$@"
   }
-  # Another law finds contacts at which it slips: what is timed is its cost, not the lists that are
-  # rebuilt until discs are at rest again.
+  # With another law some contacts slip at first. The cost of the law is timed, and not that of
+  # lists that are rebuilt until the discs are at rest again.
   calm=(-var warmup 3000 -var viscosity 0.2)
   for ((round = 1; round <= rounds; ++round)); do
     say "features, round $round of $rounds"
@@ -225,7 +226,7 @@ if wanted features; then
     feature "energy ledger" -var ledger yes
     feature "ranks sum PE every step" -var block 1
     feature "no friction (lsm/free)" -var pairs lsm/free "${calm[@]}"
-    # A fault of its own, as discs that overlap would fly apart.
+    # This needs its own fault, as overlapping discs would fly apart.
     ours features "base of contacts of all discs" "$length" "$most" "$round"
     fault=fault_${length}_all ours features "contacts of all discs" "$length" "$most" "$round" -var contacts all
     feature "static friction above dynamic" -var mus 0.7
@@ -254,7 +255,7 @@ if wanted lengths; then
   done
 fi
 
-# The bandwidth that the caches and the memory have for as much data.
+# Bandwidth of caches and memory for the same amount of data.
 echo "ranks,megabytes,gb_per_second" >triad.csv
 if wanted lengths; then
   if mpicc -O3 -march=native -o triad "$here/triad.c" 2>triad.err; then
@@ -348,8 +349,8 @@ if wanted campaign && [ -n "$runs" ]; then
   done
 fi
 
-# What ranks send each other, counted, not timed: the difference of two runs, so that set-up does
-# not count.
+# Messages between ranks are counted, not timed, as the difference between two runs, so that set-up
+# does not count.
 echo "length,ranks,particles,largest_share,ghosts,messages,bytes,collectives,nonblocking,pe" >scale.csv
 if wanted scale; then
   if mpicc -O2 -shared -fPIC -o count_mpi.so "$here/count_mpi.c" 2>count_mpi.err; then

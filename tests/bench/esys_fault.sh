@@ -48,8 +48,8 @@ awk -v name=fault -f "$here/convert.awk" fault.data
 call mpirun -np 2 esysparticle "$here/esys_fault.py" fault "$(value length)" "$(value dt)" "$(value viscosity)" "$(value velocity)" \
   "$(value mu)" "$(value kt)" "$steps"
 
-# PE of links and contacts as a series of this project; the first row precedes the first evaluation
-# of forces
+# Writes PE of links and contacts as a series of this project; the first row is from before the
+# first evaluation of forces
 paste -d ' ' fault.esys.links fault.esys.contacts | PYTHONPATH=$here/../../inputs/studies python3 -c '
 import array, sys
 import superpose

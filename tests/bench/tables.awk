@@ -12,7 +12,7 @@ function median(list,    value, n, i, j, t) {
   return n % 2 ? value[(n + 1) / 2] : (value[n / 2] + value[n / 2 + 1]) / 2
 }
 
-# nanoseconds for each particle and step of all ranks together, median
+# median of nanoseconds per particle and step, of all ranks together
 function cost(key) { return median(costs[key]) }
 
 function rate(key) { return cost(key) ? 1e3 / cost(key) : 0 }
@@ -77,14 +77,14 @@ file == 5 {
   triad[$1, triads[$1]] = $3
 }
 
-# What a step reads and writes for each particle, bytes: force cleared 24; links, of which there are 2.53, 16 each, positions 24, forces
-# there and back 48; integration: forces 24, velocities and positions there and back 96, mass, viscosity and type 16.
+# Bytes that a step reads and writes per particle: clearing of forces 24; 2.53 links of 16, positions 24, forces in both directions 48;
+# integration: forces 24, velocities and positions in both directions 96, mass, viscosity and type 16.
 function bytes_of_step() { return 24 + 2.53 * 16 + 24 + 48 + 24 + 96 + 16 }
 
-# bytes of these data themselves
+# size of these data
 function bytes_of_data() { return 72 + 2.53 * 16 + 16 }
 
-# triad of each rank, GB/s, for so many megabytes on each
+# bandwidth of each rank, GB/s, for the given megabytes on each
 function bandwidth_of(ranks, megabytes,    i) {
   if (megabytes <= triad_at[ranks, 1]) return triad[ranks, 1]
   for (i = 2; i <= triads[ranks]; i++)
@@ -93,7 +93,7 @@ function bandwidth_of(ranks, megabytes,    i) {
   return triad[ranks, triads[ranks]]
 }
 
-# ns for each particle and step on a rank of its own with so many particles, between those measured on one rank
+# ns per particle and step on one rank with the given number of particles, interpolated between measurements
 function cost_of_share(particles,    k, n, at, value, i) {
   for (k = 1; k <= keys; k++)
     if (table[k] == "lengths" && ranks_of[k] == 1) { at[++n] = log(atoms[order[k]]); value[n] = cost(order[k]) }
@@ -104,7 +104,7 @@ function cost_of_share(particles,    k, n, at, value, i) {
   return value[n]
 }
 
-# microseconds of a step: arithmetic of the largest share, messages to both neighbours at the same time, and
+# microseconds of a step: computation of the largest share, messages to both neighbours at the same time, and
 # collective calls that go up and down a tree
 function step_time(particles, ranks, bytes, collectives, spread,    share, t, levels, sum) {
   share = particles / ranks
@@ -245,7 +245,7 @@ END {
       if (scale[k, 2] > 1) {
         if (scale[k, 7] > halo) halo = scale[k, 7]
         waits = scale[k, 8]
-        s = (scale[k, 4] - 1) * sqrt(scale[k, 3] / scale[k, 2])    # particles beyond the mean, over its root
+        s = (scale[k, 4] - 1) * sqrt(scale[k, 3] / scale[k, 2])    # excess over the mean, divided by its square root
         if (s > spread) spread = s
       }
     }

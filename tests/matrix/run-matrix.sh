@@ -117,7 +117,7 @@ configure() {
     }
 }
 
-# build COLUMN TARGETS...: the log grows, so that no warning is forgotten when only a part is built anew
+# build COLUMN TARGETS...: appends to the log, so that no warning is lost if only a part is built again
 build() {
   local log=$folder/$1.build.log at=$folder/$1
   shift
@@ -128,7 +128,7 @@ build() {
   ! grep "^$root/\(lammps-pkg\|slider\|postproc\|tests\)/.*warning:" "$log"
 }
 
-# counted LOG: what ctest says at its end, in words
+# counted LOG: the summary of ctest, in words
 counted() { sed -n 's/^\([0-9]*%\) tests passed, \([0-9]*\) tests failed out of \([0-9]*\)/\3 run, \2 failed/p' "$1"; }
 
 # run_tests COLUMN PATTERN LOG [EXCEPT]: how many passed, in words
@@ -139,8 +139,8 @@ run_tests() {
   return $rc
 }
 
-# The libraries of 64-bit ARM in a folder of their own, by an apt that knows nothing of this system: next to those of the
-# system some could not be installed. Links that begin at / would lead out of the folder.
+# Installs the libraries of 64-bit ARM in their own folder, with an apt that is independent of this system: some could not
+# be installed next to those of the system. Absolute links would lead out of the folder.
 arm_libraries() {
   local at=$1 apt=$1.apt options package link
   [ ! -d "$at" ] || return 0
@@ -159,8 +159,8 @@ arm_libraries() {
   mv "$at.part" "$at"
 }
 
-# compare_sliders OURS THEIRS: short runs of two programs, by the bytes of what they write, in words. Recorded are positions
-# of ruptures, too, which take sines and logarithms of the C library.
+# compare_sliders OURS THEIRS: compares the output files of short runs of two programs byte by byte, in words. They include
+# positions of ruptures, which depend on sines and logarithms of the C library.
 compare_sliders() {
   local at=$folder/aarch64/sliders name program file words="" same=0 differ=0
   local -A runs=([verlet]="--time 9000" [printed]="--scheme printed --dt 0.01 --time 7000"
@@ -184,8 +184,8 @@ compare_sliders() {
   [ $differ = 0 ]
 }
 
-# compare_postprocs OURS THEIRS: both on the same catalogues and on a PE series of the slider, by the bytes of what they
-# write, in words; for other bytes by how much the numbers differ. GSL and the C library are other builds.
+# compare_postprocs OURS THEIRS: compares the output for the same catalogues and a PE series of the slider byte by byte, in
+# words; if bytes differ, by how much the numbers do. GSL and the C library are different builds.
 compare_postprocs() {
   local at=$folder/aarch64/postprocs name file words="" same=0 differ=0
   local results=$root/results/catalogues
@@ -221,7 +221,7 @@ compare_postprocs() {
   echo "$same files of ${#runs[@]} commands with the same bytes${words:+, $differ others by:$words}"
 }
 
-# largest_difference A B: of the numbers of two texts, relative to them; "text" where anything else differs
+# largest_difference A B: largest relative difference of the numbers in two texts; "text" if anything else differs
 largest_difference() {
   python3 - "$@" <<'END'
 import re, sys
@@ -233,7 +233,7 @@ print("%.1e" % max(abs(x - y) / max(abs(x), abs(y), 1e-300) for x, y in pairs) i
 END
 }
 
-# run_pytest FILE EXPRESSION: tests of programs, which stand in the environment, in words
+# run_pytest FILE EXPRESSION: tests of the programs given in the environment, in words
 run_pytest() {
   local log=$folder/aarch64.pytest.log rc=0
   /usr/bin/python3 -m pytest -q "$root/tests/$1" -k "$2" >>"$log" 2>&1 || rc=$?
@@ -280,13 +280,13 @@ in_debian() {
   ' in_debian "$folder/$1-root" "$root" "$2" "$3"
 }
 
-# timed COMMAND...: its output to stdout, how long it took into FOLDER/took
+# timed COMMAND...: runs it and writes the time that it took into FOLDER/took
 timed() {
   local TIMEFORMAT='%0R s, %0U + %0S s of CPU'
   { time "$@" 2>&1; } 2>"$folder/took"
 }
 
-# command_in_debian COLUMN DEBIAN BUILD COMMAND: runs it, and the short fault with the programs that it made; sets warned
+# command_in_debian COLUMN DEBIAN BUILD COMMAND: runs it, and the short fault with the programs it has built; sets warned
 command_in_debian() {
   local name=$1 log=$folder/$1.log ranks rc=0
   timed in_debian "$2" "$3" "$4" >"$log" || {
@@ -321,7 +321,7 @@ whole() {
       tests="unit, physics, package: $tests"
       ;;
     *)
-      # unit tests know no LAMMPS; those of physics start the program of this column
+      # Unit tests do not depend on LAMMPS; those of physics start the program of this column.
       build "$name" lmp lsmplugin lsmplugin_other_integers lammps_shared lsm_library_errors lsm_foreign_fix
       tests=$(run_tests "$name" '^(package\.|physics\.library)' "$name") || ok=1
       tests="package, library: $tests; physics: $(LSM_LMP=$folder/$name/bin/lmp \
@@ -356,10 +356,10 @@ do_column() {
       return $ok
       ;;
     installed)
-      # into a copy of the source; LAMMPS' own CMake builds the program, with warnings shown
+      # The package is installed into a copy of the source; LAMMPS' own CMake builds the program, with warnings shown.
       local tree=$folder/installed-lammps at=$folder/installed
       if [ ! -d "$tree" ]; then
-        # with its links as they are: one of them, in an example, leads nowhere
+        # Links are copied as they are, as one of them, in an example, is dangling.
         rm -rf "$tree.part" && mkdir "$tree.part" && cp -a "$LSM_LAMMPS_CACHE/lammps-4Feb2025/." "$tree.part"
         mv "$tree.part" "$tree"
       fi
@@ -400,7 +400,7 @@ do_column() {
           >"$qemu/$program"
         chmod +x "$qemu/$program"
       done
-      # the quicker ones: others take many minutes; qemu-user makes up /proc/self/stat, by which a process is known
+      # Only the faster tests: others take many minutes. qemu-user emulates /proc/self/stat, which identifies a process.
       tests=$(run_tests aarch64 '^(unit|postproc\.[A-Z]|SliderParameters|SliderKernels\.(OtherLaws|ActiveSet|InstructionSets))' aarch64 \
         'OutputClaims.AnotherRunIsNamed|Omori.ErrorsCoverTheTruth') || ok=1
       tests="$tests; $(LSM_SLIDER_CLI=$qemu/slider_cli run_pytest slider/test_slider_cli.py "header or paper or config or bad")" || ok=1
@@ -422,7 +422,7 @@ do_column() {
       return $ok
       ;;
     debian-*-tests)
-      # a LAMMPS of our own, beside the distribution's in debian-13
+      # with our own build of LAMMPS, and in debian-13 also the distribution's
       local first=${name%-tests}
       [ -d "$folder/$first/fault" ] || fail "$name is compared with $first, which is not done yet"
       command_in_debian "$name" "$first" all "tests/run-all.sh ${LSM_MATRIX_CTEST:-}" || ok=1
@@ -432,7 +432,7 @@ do_column() {
       return $ok
       ;;
     sanitize | sanitize-thread)
-      # folders and environment of CMakePresets.json
+      # Folders and environment are those of CMakePresets.json.
       local log=$folder/$name.log
       (cd "$root" && cmake --preset "$name" && cmake --build --preset "$name" --parallel "$jobs") >"$log" 2>&1 || {
         tail -n 30 "$log"
@@ -489,7 +489,7 @@ done
   done
 } >"$folder/table.md"
 cat "$folder/table.md"
-# The rows take the place of those of the same columns under "Last run"; what is before it stays.
+# The rows replace those of the same columns under "Last run"; what precedes it is kept.
 page=$root/tests/matrix/README.md
 for name in "${columns[@]}"; do
   ROW=$(cat "$folder/$name.row") awk -v name="$name" '

@@ -37,7 +37,7 @@ while IFS= read -r line; do
   esac
 done <"$list"
 
-# A file that has moved to another folder is found by its name.
+# Files that have been moved to another folder are found by name.
 for i in "${!files[@]}"; do
   [ -e "$root/${files[$i]}" ] && continue
   found=$(cd "$root" && find lammps-pkg slider postproc -name "${files[$i]##*/}")
@@ -97,8 +97,8 @@ cmake -S "$tree" -B "$build" -G Ninja -DLSM_BUILD_LAMMPS=$lammps \
   exit 2
 }
 
-# run PROGRAM FILTER: 0 if the tests pass, 1 if not (names of those that fail in $work/failed), 2 if
-# they do not compile. A file of unit tests is a program of its own.
+# run PROGRAM FILTER: 0 if the tests pass, 1 if not (names of failed ones are in $work/failed), 2 if
+# they do not compile. Each file of unit tests is a separate program.
 run() {
   local program=$build/bin/$1
   if [[ $1 = *.cpp ]]; then
@@ -149,7 +149,8 @@ for i in "${chosen[@]}"; do
     *) outcome='does not compile' && survivors=$((survivors + 1)) ;;
   esac
   cat "$work/original" >"$tree/$file"
-  # A program that no test let fail, but that crashed or took too long: the code, or the machine?
+  # If a program crashed or took too long without a failed test, the cause may be the code or the
+  # machine.
   if grep -q ' ' "$work/failed" && [[ $outcome = caught* ]]; then
     outcome="caught: $(cat "$work/failed")"
     # shellcheck disable=SC2086
