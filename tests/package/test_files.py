@@ -91,7 +91,7 @@ def test_series_that_is_none(work, raw, said):
 
 @pytest.fixture(scope="module")
 def page_results(lmp, tmp_path_factory):
-    """Runs the blocks of the page, which make a fault and read it. Returns the folder and their variables."""
+    """Runs the blocks of the page, which make a fault and read its files. Returns the folder of these."""
     folder = tmp_path_factory.mktemp("page")
     os.symlink(SOURCE / "inputs", folder / "inputs")
     if not (BUILD / "lib/liblammps.so").exists():
