@@ -194,12 +194,15 @@ TEST(SliderPhysics, BlockPushedBackwardsStaysStuck) {
   p.dt = 0.01;
   for (Scheme scheme : stepped) {
     p.scheme = scheme;
-    StartedChain chain(p, {5.0, 5.0, 5.0});
-    // The first block is ahead by 2 and pushed back with a force of 4, below its coefficient of 5.
-    chain.set_displacements({2.0, 0.0, 0.0});
-    for (int n = 0; n < 1000; ++n) chain.advance();
-    EXPECT_EQ(chain.displacements()[0], 2.0);
-    EXPECT_EQ(chain.moved(), 0);
+    // The first block is ahead by 2 and pushed back with a force of 4, less and more than its
+    // strength; the others are pulled forward by 2 each.
+    for (const double strength : {5.0, 3.0}) {
+      StartedChain chain(p, {strength, strength, strength});
+      chain.set_displacements({2.0, 0.0, 0.0});
+      for (int n = 0; n < 1000; ++n) chain.advance();
+      EXPECT_EQ(chain.displacements()[0], 2.0) << strength;
+      EXPECT_EQ(chain.moved(), 0) << strength;
+    }
   }
 }
 
