@@ -43,14 +43,14 @@ set xtics ("100" 100, "200" 200, "500" 500, "1000" 1000, "2000" 2000, "5000" 500
 set xrange [100:5000]
 set ylabel "characteristic size s* (energy)"
 set logscale y
-set ytics ("0.5" 0.5, "1" 1, "2" 2, "5" 5)
-set yrange [0.5:5]
+set ytics ("0.7" 0.7, "0.8" 0.8, "0.9" 0.9, "1" 1, "1.2" 1.2, "1.4" 1.4, "1.6" 1.6, "1.8" 1.8, "2" 2)
+set yrange [0.70000000000000007:2]
 row(k) = $1 == k ? $3 : NaN
 low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y
 set samples 400
 plot table using (row(1)):(low($4,$5)):(0):($4+$5-low($4,$5)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \
      table using (row(1)):4 with points lt 1 title "fault: s*", \
-     [102:2223.5294117647059] '+' using 1:(0.33262649366779523*$1**(0.20473925048777736)) with lines lt 1 title "A L^D with D = 0.205 ± 0.031", \
-     [102:2223.5294117647059] '+' using 1:(1.1706841437078015) with lines lt 8 dt 2 title "constant"
+     [102:2223.5294117647059] '+' using 1:(0.3152880845879496*$1**(0.2140524877842197)) with lines lt 1 title "A L^D with D = 0.214 ± 0.026", \
+     [102:2223.5294117647059] '+' using 1:(1.24879756166912) with lines lt 8 dt 2 title "constant"
 unset output
 }

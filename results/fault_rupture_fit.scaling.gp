@@ -50,7 +50,7 @@ low(y, e) = y - e > 0.1 * y ? y - e : 0.1 * y
 set samples 400
 plot table using (row(1)):(low($4,$5)):(0):($4+$5-low($4,$5)) with vectors heads size screen 0.003,90 lt 1 dt 1 lw 0.8 notitle, \
      table using (row(1)):4 with points lt 1 title "fault, ruptures: s*", \
-     [102:2223.5294117647059] '+' using 1:(0.87679095642941529*$1**(-0.026874577511959385)) with lines lt 1 title "A L^D with D = -0.027 ± 0.024", \
-     [102:2223.5294117647059] '+' using 1:(0.73444235265447977) with lines lt 8 dt 2 title "constant"
+     [102:2223.5294117647059] '+' using 1:(0.88263671921595077*$1**(-0.028478715373439295)) with lines lt 1 title "A L^D with D = -0.028 ± 0.021", \
+     [102:2223.5294117647059] '+' using 1:(0.72602056071169241) with lines lt 8 dt 2 title "constant"
 unset output
 }

@@ -66,16 +66,16 @@ plot table using (row(1)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads
      keyentry with linespoints lt 4 title "fault, length 945 (2340 times)", \
      table using (row(5)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 5 dt 1 lw 0.8 notitle, \
      table using (row(5)):8 with points lt 5 notitle, \
-     keyentry with linespoints lt 5 title "fault, length 1440 (377 times)", \
+     keyentry with linespoints lt 5 title "fault, length 1440 (2896 times)", \
      table using (row(6)):(low($8,$9)):(0):($8+$9-low($8,$9)) with vectors heads size screen 0.003,90 lt 6 dt 1 lw 0.8 notitle, \
      table using (row(6)):8 with points lt 6 notitle, \
-     keyentry with linespoints lt 6 title "fault, length 1890 (1507 times)", \
+     keyentry with linespoints lt 6 title "fault, length 1890 (3306 times)", \
      [0.19952623149688789:2511.8864315095848] '+' using 1:(0.017550926644401815*$1**(-0.39513175237596698)*exp(-$1**(1)/418.83065690219149)) with lines lt 1 dt 1 lw 1.6 notitle, \
      [0.19952623149688789:1584.8931924611163] '+' using 1:(0.055384237583145847*$1**(-0.68100512133871072)*exp(-$1**(1)/342.84864122166738)) with lines lt 2 dt 3 lw 2 notitle, \
      [0.19952623149688789:1258.9254117941693] '+' using 1:(0.024319980640924214*$1**(-0.30901100886529576)*exp(-$1**(1)/146.18245088611596)) with lines lt 3 dt 3 lw 2 notitle, \
      [0.19952623149688789:630.95734448019425] '+' using 1:(0.041489383091198047*$1**(-0.38298331077594339)*exp(-$1**(1)/94.994396794742244)) with lines lt 4 dt 3 lw 2 notitle, \
-     [0.19952623149688789:316.22776601683836] '+' using 1:(0.03799446377284111*$1**(-0.25444030042061017)*exp(-$1**(1)/60.778293380677802)) with lines lt 5 dt 3 lw 2 notitle, \
-     [0.19952623149688789:398.10717055349784] '+' using 1:(0.042589336212040488*$1**(-0.29485913477368364)*exp(-$1**(1)/61.240414374752618)) with lines lt 6 dt 3 lw 2 notitle, \
+     [0.19952623149688789:501.18723362727303] '+' using 1:(0.044990466305443039*$1**(-0.35603481211293919)*exp(-$1**(1)/73.513934068348277)) with lines lt 5 dt 3 lw 2 notitle, \
+     [0.19952623149688789:398.10717055349784] '+' using 1:(0.045753020809317244*$1**(-0.3181716254485788)*exp(-$1**(1)/60.82806585704737)) with lines lt 6 dt 3 lw 2 notitle, \
      keyentry with lines lt 8 dt 1 lw 1.6 title "fit not rejected", \
      keyentry with lines lt 8 dt 3 lw 2 title "fit rejected (p < 0.05)"
 unset output

@@ -30,9 +30,11 @@ for part; do
       "$postproc" fit "${sliders[@]}" --scaling --range 0.01:1 --range 1:100 --replicas 0 --no-comparison -o "$new/slider_fit"
       "$postproc" fit catalogues/slider_ruptures_*.xz --scaling --range 1:100 --from 40000 --threshold 1 --replicas 0 \
         --no-comparison -o "$new/rupture_fit"
-      "$postproc" fit campaign/fault_*.catalogue.csv.xz --scaling --threshold 1e-3 --from "$loading" --range 1e-3:1 --replicas 0 \
+      # in the order of the tables, so that the bootstrap has the same random numbers
+      mapfile -t every < <(ls campaign/fault_*.catalogue.csv.xz | sort -t_ -k2n -k3n)
+      "$postproc" fit "${every[@]}" --scaling --threshold 1e-3 --from "$loading" --range 1e-3:1 --replicas 0 \
         --no-comparison -o "$new/fault_fit"
-      "$postproc" fit campaign/fault_*.ruptures.csv.xz --scaling --threshold 1e-2 --from "$loading" --range 1e-2:1 --replicas 0 \
+      "$postproc" fit "${every[@]/catalogue/ruptures}" --scaling --threshold 1e-2 --from "$loading" --range 1e-2:1 --replicas 0 \
         --no-comparison -o "$new/fault_rupture_fit"
       mapfile -t faults < <(ls campaign/fault_*_1.catalogue.csv.xz | sort -t_ -k2n)
       common=(--from "$loading" --threshold 1e-4)
@@ -73,7 +75,7 @@ for part; do
         -var from "$look" -var to "$look" -var every 1000 </dev/null >out
       cd - >/dev/null
       gnuplot -e "frame = '$(echo "$new"/look.*.png)'" fault_event.gp
-      cp "$new/series.png" fig8_to_11_series.png
+      for kind in png svg; do cp "$new/series.$kind" "fig8_to_11_series.$kind"; done
       cp "$new/first.largest.png" tutorial_series.png
       cp "$new/sizes.png" tutorial_sizes.png
       cp "$new/compare.png" tutorial_compare.png
