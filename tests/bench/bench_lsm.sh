@@ -309,10 +309,6 @@ pair_coeff 1 4 1.0 ${kt}
 pair_coeff 2 3 1.0 ${kt}
 pair_coeff 3 4 1.0 ${kt}
 END
-  cat >changes.impedance <<'END'
-unfix plates
-fix plates all lsm/plates lower upper stress ${stress} damping ${viscosity} velocity ${velocity} ramp 150
-END
   cat >changes.recording <<'END'
 thermo_style custom step
 uncompute events
@@ -335,7 +331,6 @@ END
     slice causes "contacts between the blocks only" "$run" 1 "$round" ../changes.blocks
     slice causes "neither location nor ruptures" "$run" 1 "$round" ../changes.place
     slice causes "nothing recorded" "$run" 1 "$round" ../changes.recording
-    slice causes "no impedance of the plates" "$run" 1 "$round" ../changes.impedance
     slice causes "lists never rebuilt" "$run" 1 "$round" ../changes.lists
   done
 fi
