@@ -17,10 +17,13 @@ trap 'rm -rf "$new"' EXIT
 for part; do
   case $part in
     catalogues)
+      # in the order of the tables, so that the bootstrap has the same random numbers
+      mapfile -t every < <(ls campaign/fault_*.catalogue.csv.xz | sort -t_ -k2n -k3n)
+      mapfile -t faults < <(printf '%s\n' "${every[@]}" | grep _1.catalogue)
       ruptures=() labels=()
-      for file in $(ls campaign/fault_*_1.ruptures.csv.xz | sort -t_ -k2n); do
+      for file in "${faults[@]}"; do
         length=${file#*fault_}
-        ruptures+=("$file") labels+=(--label "fault ${length%%_*}")
+        ruptures+=("${file/catalogue/ruptures}") labels+=(--label "fault ${length%%_*}")
       done
       "$postproc" rupture "${ruptures[@]}" "${labels[@]}" -o "$new/rupture"
       for name in lengths moments length pe; do cp "$new/rupture-$name.png" rupture_$name.png; done
@@ -30,13 +33,10 @@ for part; do
       "$postproc" fit "${sliders[@]}" --scaling --range 0.01:1 --range 1:100 --replicas 0 --no-comparison -o "$new/slider_fit"
       "$postproc" fit catalogues/slider_ruptures_*.xz --scaling --range 1:100 --from 40000 --threshold 1 --replicas 0 \
         --no-comparison -o "$new/rupture_fit"
-      # in the order of the tables, so that the bootstrap has the same random numbers
-      mapfile -t every < <(ls campaign/fault_*.catalogue.csv.xz | sort -t_ -k2n -k3n)
       "$postproc" fit "${every[@]}" --scaling --threshold 1e-3 --from "$loading" --range 1e-3:1 --replicas 0 \
         --no-comparison -o "$new/fault_fit"
       "$postproc" fit "${every[@]/catalogue/ruptures}" --scaling --threshold 1e-2 --from "$loading" --range 1e-2:1 --replicas 0 \
         --no-comparison -o "$new/fault_rupture_fit"
-      mapfile -t faults < <(ls campaign/fault_*_1.catalogue.csv.xz | sort -t_ -k2n)
       common=(--from "$loading" --threshold 1e-4)
       "$postproc" histograms "${faults[@]}" "${common[@]}" --guide=-1.07:1e-4:0.1 -o "$new/fig12_fault_sizes"
       "$postproc" intervals "${faults[@]}" "${common[@]}" --delta 1 --shortest 0 --shuffles 0 -o "$new/fig14_fault_intervals"

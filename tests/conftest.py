@@ -14,8 +14,6 @@ from programs import INPUTS, SOURCE, Faults, Program  # noqa: E402
 sys.path.insert(0, str(INPUTS))
 from run import MPI  # noqa: E402
 
-os.environ.setdefault("OMPI_MCA_pml", "ob1")  # as in CMakeLists.txt
-
 
 def pytest_sessionfinish(session, exitstatus):
     """If all tests were skipped, ctest has to report this as skipped and not as passed."""

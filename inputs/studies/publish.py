@@ -14,7 +14,6 @@ import io
 import json
 import lzma
 import math
-import re
 import signal
 import subprocess
 import sys
@@ -22,15 +21,15 @@ import tempfile
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
-from calibrate import LOADING  # noqa: E402
-from run import INPUTS, events_in, replace, replace_all  # noqa: E402
+from calibrate import LOADING, defaults  # noqa: E402
+from run import events_in, replace, replace_all  # noqa: E402
 from text_tables import header_of  # noqa: E402
 
 EVENTS, RUPTURES = 1e-4, 1e-3
 MAGIC = "# lsm-catalogue 1\n"
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 # Size above which a fault's catalogue is complete, as runs state it now; the headers of earlier runs have a smaller one.
-COMPLETE = re.search(r"^completeness *\| *(\S+)", (INPUTS / "fault.variables").read_text(), re.M)[1]
+COMPLETE = defaults()["completeness"]
 
 
 class Refused(Exception):
