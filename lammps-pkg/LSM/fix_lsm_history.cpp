@@ -44,6 +44,25 @@ void FixLSMHistory::pre_exchange()
   FixNeighHistory::pre_exchange();
 }
 
+void FixLSMHistory::post_neighbor()
+{
+  rows.clear();    // not before, as the neighbor list is used until it is built anew
+  FixNeighHistory::post_neighbor();
+}
+
+void FixLSMHistory::add_pair(int i, int jj)
+{
+  Row &row = rows[i];
+  if (row.touch.empty()) {
+    row.touch.assign(firstflag[i], firstflag[i] + jj);
+    row.values.assign(firstvalue[i], firstvalue[i] + static_cast<size_t>(dnum) * jj);
+  }
+  row.touch.push_back(0);
+  row.values.resize(row.values.size() + dnum, 0.0);
+  firstflag[i] = row.touch.data();
+  firstvalue[i] = row.values.data();
+}
+
 // Fix NEIGH_HISTORY would gather the history of each particle from the neighbor list again. The
 // command write_restart has moved particles and renewed ghosts by then, so the list refers to other
 // particles. Between two runs each particle has its history already, see post_run().

@@ -13,8 +13,11 @@ FixStyle(LSM_HISTORY,FixLSMHistory);
 #define LMP_FIX_LSM_HISTORY_H
 
 #include "fix_neigh_history.h"
+#include "lsm_near_pairs.h"
 
 #include <string>
+#include <unordered_map>
+#include <vector>
 
 namespace LAMMPS_NS {
 
@@ -23,11 +26,23 @@ class FixLSMHistory : public FixNeighHistory {
   FixLSMHistory(class LAMMPS *, int, char **);
   void init() override;
   void pre_exchange() override;
+  void post_neighbor() override;
   void write_restart(FILE *) override;
   void restart(char *) override;
   void unpack_restart(int, int) override;
 
+  /// Whether a pair has a history, and the history.
+  int *touch_of(const LSMNearPairs::Pair &pair) { return &firstflag[pair.i][pair.jj]; }
+  double *values_of(const LSMNearPairs::Pair &pair) { return &firstvalue[pair.i][dnum * pair.jj]; }
+  /// Makes room for the pair that was added as entry jj, the last, to the neighbors of particle i.
+  void add_pair(int i, int jj);
+
  private:
+  struct Row {
+    std::vector<int> touch;
+    std::vector<double> values;
+  };
+  std::unordered_map<int, Row> rows;    // of particles to whose neighbors pairs were added
   const std::string law;    // friction law of the contacts, "" if it has no state of its own
   const char *law_of_file;
 };

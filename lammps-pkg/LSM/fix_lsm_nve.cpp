@@ -80,7 +80,6 @@ void FixLSMNVE::init()
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix lsm/nve does not work with run_style respa");
   LSMScene::refuse_changing_radii(lmp, "Fix lsm/nve");
-  fastest = -1.0;
   reset_dt();
 }
 
@@ -113,8 +112,9 @@ void FixLSMNVE::collect()
     half_kick[i] = dtf / (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]);
     if (!(atom->mask[i] & groupbit)) continue;
     const double factor = decay[atom->type[i]];
-    if (stretches.empty() || stretches.back().last != i || stretches.back().decay != factor)
-      stretches.push_back({i, i, factor});
+    if (i % BLOCK == 0 || stretches.empty() || stretches.back().last != i ||
+        stretches.back().decay != factor)
+      stretches.push_back({i, i, factor, INFINITY});
     stretches.back().last = i + 1;
   }
   others.clear();
@@ -212,11 +212,9 @@ template <int PARTS, int DIM, bool PLAIN, bool CLEARS> void FixLSMNVE::move()
   const bool work = !PLAIN && counts_work(), clear = CLEARS && (PLAIN || clears);
   const double dt =
       dtv;    // a copy, as the compiler must assume that stores of positions change the member
-  double most = 0.0;
-
-  for (const Stretch &stretch : stretches) {
+  for (Stretch &stretch : stretches) {
     const double factor = stretch.decay;
-    double lost = 0.0;
+    double lost = 0.0, most = 0.0;
     double *x = atom->x[stretch.first];
     double *v = atom->v[stretch.first];
     double *f = atom->f[stretch.first];
@@ -258,13 +256,14 @@ template <int PARTS, int DIM, bool PLAIN, bool CLEARS> void FixLSMNVE::move()
       if (work) lost += dtf / *kick * vsq;
     }
     if (work) work_viscosity += 0.5 * (1.0 - factor * factor) * lost;
+    if constexpr (PARTS & INITIAL) stretch.fastest = most;
   }
-  if constexpr (PARTS & INITIAL) fastest = most;
 }
 
-double FixLSMNVE::longest_move() const
+void FixLSMNVE::add_longest_moves(std::vector<double> &of_blocks) const
 {
-  return fastest < 0.0 ? INFINITY : dtv * sqrt(fastest);
+  for (const Stretch &stretch : stretches)
+    of_blocks[stretch.first / BLOCK] += dtv * sqrt(stretch.fastest);
 }
 
 void FixLSMNVE::initial_integrate(int /*vflag*/)

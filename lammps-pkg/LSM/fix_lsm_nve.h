@@ -48,7 +48,7 @@ class FixLSMNVE : public LSMKeptFix<FixLSMNVE>, public LSMMover {
   double work_viscosity = 0.0;    // work lost to viscosity, this rank, accumulated
   void complete_step() override;
   int moved_bits() const override { return groupbit; }
-  double longest_move() const override;
+  void add_longest_moves(std::vector<double> &of_blocks) const override;
   void raise_viscosity(double least);    // temporarily, to at least this; 0: as given
   std::string viscosity() const;         // one value, or one per type
   template <class Self, class State> static void visit(Self &self, State &state)
@@ -69,12 +69,13 @@ class FixLSMNVE : public LSMKeptFix<FixLSMNVE>, public LSMMover {
   bool continued = false;              // after another run, or from a restart file
   std::vector<double> trial, image;    // displacements and forces, 2 or 3 values an atom
 
-  // particles of the group with the same viscosity that are contiguous in memory, and dt/2 over the
-  // mass of every particle
+  // particles of the group with the same viscosity that are contiguous in memory and in one block
+  // (see LSMMover), and dt/2 over the mass of every particle
 
   struct Stretch {
     int first, last;
     double decay;
+    double fastest;    // square of the largest velocity in this step, infinite if it is not known
   };
   std::vector<Stretch> stretches;
   std::vector<double> half_kick;
@@ -84,8 +85,6 @@ class FixLSMNVE : public LSMKeptFix<FixLSMNVE>, public LSMMover {
 
   bool clears = false;
   std::vector<std::pair<int, int>> others;    // particles between the stretches: first, last
-
-  double fastest = -1.0;    // square of the largest velocity in this step, or -1 if it is not known
 
   enum { FINAL = 1, INITIAL = 2 };    // halves of a step
   std::vector<Fix *> velocity_readers;

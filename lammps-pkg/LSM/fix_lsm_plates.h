@@ -37,7 +37,10 @@ class FixLSMPlates : public LSMKeptFix<FixLSMPlates>, public LSMMover {
 
   void complete_step() override;
   int moved_bits() const override { return plate[0].bit | plate[1].bit; }
-  double longest_move() const override { return longest; }
+  void add_longest_moves(std::vector<double> &of_blocks) const override
+  {
+    for (double &move : of_blocks) move += longest;
+  }
 
   double loading = 1.0;    // present factor of the driving velocity, set by fix lsm/leap
   double driving_velocity() const { return speed; }

@@ -29,7 +29,7 @@
 using namespace LAMMPS_NS;
 
 PairLSMFree::PairLSMFree(LAMMPS *_lmp) :
-    Pair(_lmp), request_flags(NeighConst::REQ_SIZE), travel(_lmp)
+    Pair(_lmp), request_flags(NeighConst::REQ_SIZE), patch(_lmp), travel(_lmp)
 {
   single_enable = 1;
   no_virial_fdotr_compute = 1;
@@ -57,19 +57,31 @@ void PairLSMFree::compute(int eflag, int vflag)
     loop<LSMRecordNothing>();
 }
 
-bool PairLSMFree::find_near(double reach, const int *const *touch)
+int PairLSMFree::find_near(double reach, const int *const *touch)
 {
-  const double farthest = travel.since_last();
-  const double *const x = atom->x[0];
-  const bool chooses =
-      near.is_due(neighbor->ncalls, *list, x, atom->nlocal, atom->nlocal + atom->nghost, farthest);
-  if (chooses) {
+  using Due = LSMNearPairs::Due;
+  const std::vector<double> &moves = travel.since_last();
+  const double *const x = atom->x[0], *const radius = contact_radii();
+  int kept_before = static_cast<int>(near.kept().size());
+  const Due due =
+      near.due(neighbor->ncalls, *list, x, atom->nlocal, atom->nlocal + atom->nghost, moves);
+  if (due == Due::new_list) {
     if (update->setupflag) LSMPairSearch::take_over(lmp, *list);
+    screened ? patch.stop() : patch.start(*list, active);
+  } else
+    for (const auto &added :
+         due == Due::choice ? patch.look_at_all() : patch.look_at(near.movers())) {
+      note_added(added.i, added.jj);
+      near.add(added.i, added.jj, added.j, radius);
+    }
+  if (due == Due::movers) near.keep_pairs_of_movers(radius);
+  if (due == Due::new_list || due == Due::choice) {
     note_contacts();
-    near.choose(x, contact_radii(), reach, touch);
+    near.choose(x, radius, reach, touch);
+    kept_before = 0;
   }
   near.find(x);
-  return chooses;
+  return kept_before;
 }
 
 template <class Recorder> void PairLSMFree::loop()
@@ -228,6 +240,7 @@ void PairLSMFree::init_style()
   record_nothing();
   velocity = any_delay() && update->whichflag != 2 ? FixLSMVelocity::ask_for(lmp) : nullptr;
   near.clear();    // the list may have changed, and its builds are counted anew
+  patch.stop();
   const auto others = LSMScene::fixes<LSMContactRadii>(modify);
   own_radii = others.empty() ? nullptr : others.front();
   newton_pair = force->newton_pair;

@@ -7,8 +7,8 @@
 #include "domain.h"
 #include "error.h"
 #include "fix_dummy.h"
+#include "fix_lsm_history.h"
 #include "fix_lsm_velocity.h"
-#include "fix_neigh_history.h"
 #include "force.h"
 #include "group.h"
 #include "memory.h"
@@ -112,11 +112,11 @@ template <class Law, class Recorder> class PairLSMFriction::Loop {
         }
         if (!side_by_side && n + AHEAD < count) fetch_forces(pair.sites[pair.near[n + AHEAD]]);
         bool touch = before;
-        if (!before && !pair.chosen_anew) {
+        if (!before && place < pair.kept_before) {
           const double *const d = pair.near.vector_before(place), r0 = pair.sites[place].r0;
           keep_near(d[0] * d[0] + d[1] * d[1] <= reach_sq * r0 * r0, d[0], d[1], touch, h);
         } else if (!before)
-          touch = *pair.origins[place].touch;
+          touch = *pair.fix_history->touch_of(pair.near.kept()[place]);
         evaluate(place, touch, h);
         const bool after = touch && h[STATUS] != NEAR;
         if (after != before) pair.near.set_touching(place, after);
@@ -257,7 +257,7 @@ template <class Law, class Recorder> class PairLSMFriction::Loop {
     const Geometry g(delx, dely);
     const bool apart = g.rsq >= r0 * r0;
     if (apart && !touch && g.rsq > reach_sq * r0 * r0) return;
-    if (pair.screened && pair.left_out(pair.origins[place].entry, site.i, site.j)) {
+    if (pair.screened && pair.left_out(pair.entry_of(place), site.i, site.j)) {
       touch = false;
       return;
     }
@@ -338,32 +338,42 @@ void PairLSMFriction::compute(int eflag, int vflag)
   };
   ev_init(eflag, vflag);
   if (screened) check_special();
-  chosen_anew = find_near(MAX(near_reach(), 1.0), fix_history->firstflag);
-  if (chosen_anew) collect_sites();
+  kept_before = find_near(MAX(near_reach(), 1.0), fix_history->firstflag);
+  collect_sites(kept_before);
   constexpr int groups = 8 * sizeof(int);
-  if (chosen_anew || std::count(group->dynamic, group->dynamic + groups, 1))
+  if (std::count(group->dynamic, group->dynamic + groups, 1))
     for (Site &site : sites) site.across = across_fault(atom->mask[site.i], atom->mask[site.j]);
   (this->*loops[running - &LSMLawTable::all()[0]][evflag ? 2 : record_what ? 1 : 0])();
 }
 
-void PairLSMFriction::collect_sites()
+int PairLSMFriction::entry_of(int place) const
+{
+  const LSMNearPairs::Pair &pair = near.kept()[place];
+  return list->firstneigh[pair.i][pair.jj];
+}
+
+void PairLSMFriction::collect_sites(int first)
 {
   const double *const radius = contact_radii();
-  const int size = size_history();
-  sites.clear();
-  origins.clear();
-  histories.clear();
+  const int size = size_history(), count = static_cast<int>(near.kept().size());
+  sites.resize(first);
+  histories.resize(static_cast<size_t>(first) * size);
   sites_build = neighbor->ncalls;
-  for (const LSMNearPairs::Pair &pair : near.kept()) {
-    const int i = pair.i, entry = list->firstneigh[i][pair.jj], j = entry & NEIGHMASK;
-    double *const h = fix_history->firstvalue[i] + size * pair.jj;
-    int *const touch = fix_history->firstflag[i] + pair.jj;
-    if (*touch && h[STATUS] == NEAR) near.set_touching(static_cast<int>(sites.size()), false);
-    sites.push_back({i, j, k.place(atom->type[i], atom->type[j]), 0, radius[i] + radius[j],
+  for (int place = first; place < count; place++) {
+    const LSMNearPairs::Pair &pair = near.kept()[place];
+    const int i = pair.i, j = entry_of(place) & NEIGHMASK;
+    const double *const h = fix_history->values_of(pair);
+    if (*fix_history->touch_of(pair) && h[STATUS] == NEAR) near.set_touching(place, false);
+    sites.push_back({i, j, k.place(atom->type[i], atom->type[j]),
+                     across_fault(atom->mask[i], atom->mask[j]), radius[i] + radius[j],
                      LSM::contact_size(radius[i], radius[j])});
-    origins.push_back({h, touch, entry});
     histories.insert(histories.end(), h, h + size);
   }
+}
+
+void PairLSMFriction::note_added(int i, int jj)
+{
+  fix_history->add_pair(i, jj);
 }
 
 // Pairs that do not touch have no state: whether one is near follows from its vector alone.
@@ -376,17 +386,16 @@ void PairLSMFriction::note_contacts()
   for (size_t n = 0; n < sites.size(); n++) {
     const int place = static_cast<int>(n);
     const Site &site = sites[n];
-    const Origin &origin = origins[n];
     double *const h = &histories[n * size];
     bool touch = near.is_touching(place);
     if (!touch) {
       const double *const d = near.vector(place);
       const bool is_near = d[0] * d[0] + d[1] * d[1] <= reach_sq * site.r0 * site.r0 &&
-                           !(screened && left_out(origin.entry, site.i, site.j));
+                           !(screened && left_out(entry_of(place), site.i, site.j));
       keep_near(is_near, d[0], d[1], touch, h);
     }
-    std::copy_n(h, size, origin.history);
-    *origin.touch = touch;
+    std::copy_n(h, size, fix_history->values_of(near.kept()[n]));
+    *fix_history->touch_of(near.kept()[n]) = touch;
   }
 }
 
@@ -494,14 +503,14 @@ void PairLSMFriction::init_style()
   // the same name whichever styles were defined before, so that a restart finds the history
   const std::string id_history = "NEIGH_HISTORY_LSM";
   if (!fix_history) {
-    fix_history = dynamic_cast<FixNeighHistory *>(
+    fix_history = dynamic_cast<FixLSMHistory *>(
         modify->replace_fix("NEIGH_HISTORY_LSM_DUMMY",
                             fmt::format("{} all LSM_HISTORY {} {}", id_history, size_history(),
                                         table.law->state_size ? table.law->name : ""),
                             1));
     fix_history->pair = this;
   } else {
-    fix_history = dynamic_cast<FixNeighHistory *>(modify->get_fix_by_id(id_history));
+    fix_history = dynamic_cast<FixLSMHistory *>(modify->get_fix_by_id(id_history));
     if (!fix_history) error->all(FLERR, "Could not find the contact history of pair lsm/friction");
   }
 }

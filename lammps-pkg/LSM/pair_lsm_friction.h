@@ -39,6 +39,7 @@ class PairLSMFriction : public PairLSMFree {
   /// Writes the contacts of the last evaluation into the history. To be called before the history
   /// is read.
   void note_contacts() override;
+  void note_added(int i, int jj) override;
 
  protected:
   void allocate() override;
@@ -58,16 +59,10 @@ class PairLSMFriction : public PairLSMFree {
     double r0;      // sum of the radii
     double size;    // effective size of the contact
   };
-  struct Origin {
-    double *history;
-    int *touch;
-    int entry;
-  };
   std::vector<Site> sites;
-  std::vector<Origin> origins;
   std::vector<double> histories;
   bigint sites_build = -1;    // number of the neighbor list build that the sites are from
-  bool chosen_anew = true;    // the sites were collected in this step
+  int kept_before = 0;        // the sites from this one on were collected in this step
   bool noted = true;          // the history is up to date with the sites
 
   LSMLawTable table;
@@ -77,12 +72,13 @@ class PairLSMFriction : public PairLSMFree {
   int locate_onset = 1;               // 1 if the onset of a contact within a step is located
   double of_single[2] = {};           // target of svector: nothing to free if the constructor stops
   class FixDummy *fix_dummy = nullptr;
-  class FixNeighHistory *fix_history = nullptr;
+  class FixLSMHistory *fix_history = nullptr;
 
   template <class Law, class Recorder> class Loop;
   template <class Law, class Recorder> void run_loop();
   void choose(const LSMLaw *);
-  void collect_sites();
+  void collect_sites(int first);
+  int entry_of(int place) const;    // in the neighbor list
   void check_periods() const;
   int size_history() const;
   double near_reach() const;

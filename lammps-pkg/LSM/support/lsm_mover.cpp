@@ -2,6 +2,7 @@
 
 #include "lsm_mover.h"
 
+#include "atom.h"
 #include "domain.h"
 #include "lsm_scene.h"
 #include "update.h"
@@ -26,22 +27,23 @@ void LSMTravel::look_for_movers()
 }
 
 // Before a run, and between runs that follow without a set-up, commands may have moved particles.
-double LSMTravel::since_last()
+const std::vector<double> &LSMTravel::since_last()
 {
   const bool follows =
       !update->setupflag && update->ntimestep == step + 1 && update->firststep == first_step;
   step = update->ntimestep;
   first_step = update->firststep;
   if (update->setupflag) look_for_movers();
-  if (!known) return INFINITY;
-
-  double farthest = 0.0;    // a particle may be moved by all of these fixes
-  for (const LSMMover *mover : movers) farthest += mover->longest_move();
-  if (!follows) return INFINITY;
+  longest.assign((atom->nlocal + LSMMover::BLOCK - 1) / LSMMover::BLOCK,
+                 known && follows ? 0.0 : INFINITY);
+  if (!known || !follows) return longest;
+  for (const LSMMover *mover : movers)    // a particle may be moved by all of these fixes
+    mover->add_longest_moves(longest);
 
   double largest = 0.0;    // largest coordinate, which determines the rounding of positions
   for (int c = 0; c < 3; c++)
     largest = std::max({largest, std::fabs(domain->boxlo[c]), std::fabs(domain->boxhi[c])});
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
-  return farthest * (1.0 + 16.0 * epsilon) + 2.0 * epsilon * largest;
+  for (double &move : longest) move = move * (1.0 + 16.0 * epsilon) + 2.0 * epsilon * largest;
+  return longest;
 }

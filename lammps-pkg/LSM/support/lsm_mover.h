@@ -26,9 +26,12 @@ class LSMMover {
   bool has_put_off() const { return pending; }
   /// Bits of the groups that this fix moves.
   virtual int moved_bits() const = 0;
-  /// Upper bound on the displacement of the particles of this rank in this step, infinite if not
-  /// known.
-  virtual double longest_move() const = 0;
+  /// Particles with consecutive local indices, from multiples of BLOCK on, of which one bound of
+  /// their displacements is known.
+  static constexpr int BLOCK = 256;
+  /// Adds to each bound the largest displacement of a particle of its block in this step, infinity
+  /// where it is not known.
+  virtual void add_longest_moves(std::vector<double> &of_blocks) const = 0;
 
   static void complete_steps(Modify *);
 
@@ -36,20 +39,21 @@ class LSMMover {
   bool pending = false;
 };
 
-/// The largest displacement of a particle of this rank in a step, reported by the fixes that move
-/// them: they have the velocities at hand, whereas comparing positions with older ones would read
-/// both from memory.
+/// The largest displacements of the particles of this rank in a step, reported by the fixes that
+/// move them: they have the velocities at hand, whereas comparing positions with older ones would
+/// read both from memory.
 class LSMTravel : protected Pointers {
  public:
   LSMTravel(LAMMPS *_lmp) : Pointers(_lmp) {}
-  /// To be called once in each step, after particles have moved. Bound of the displacement of any
-  /// particle of this rank since the last call; infinite if unknown, as something else may have
-  /// moved particles.
-  double since_last();
+  /// To be called once in each step, after particles have moved. Bounds of the displacements since
+  /// the last call, one for each block (see LSMMover); infinite if unknown, as something else may
+  /// have moved particles.
+  const std::vector<double> &since_last();
 
  private:
   bool known = false;    // nothing but `movers` moves particles
   std::vector<LSMMover *> movers;
+  std::vector<double> longest;          // of each block
   bigint step = -1, first_step = -1;    // step of the last call, and first step of its run
 
   void look_for_movers();

@@ -22,28 +22,40 @@ class LSMNearPairs {
     int i, jj;    ///< a particle, and the index of its partner in its neighbors
   };
 
-  /// Whether the pairs that are kept have to be chosen anew. To be called once in each step.
+  /// How far particles may move against each other until pairs are chosen anew.
+  static constexpr double SKIN = 0.05;
+  /// What has to be done before find(): nothing, keep_pairs_of_movers(), choose(), or choose() from
+  /// a list that was built since.
+  enum class Due { nothing, movers, choice, new_list };
+  /// To be called once in each step.
   /// \param build     number of the build of the neighbor list
   /// \param x         positions of all particles with ghosts, `count` of them, `nlocal` without
-  /// \param farthest  no particle of this rank has moved farther since the last call, infinite if
-  /// unknown
-  bool is_due(bigint build, const NeighList &, const double *x, int nlocal, int count,
-              double farthest);
+  /// \param moves     bounds of displacements since the last call, see LSMTravel
+  Due due(bigint build, const NeighList &, const double *x, int nlocal, int count,
+          const std::vector<double> &moves);
   /// Chooses the pairs that are kept.
   /// \param reach     pairs are near up to this distance, in sums of radii
   /// \param touch     flags of pairs that are kept and given at any distance, as in the neighbor
   /// list, or null
   void choose(const double *x, const double *radius, double reach, const int *const *touch);
+  /// The few particles, ghosts among them, that have moved much farther than the others since the
+  /// pairs were chosen. All of their pairs are kept, so that their motion does not matter.
+  const std::vector<int> &movers() const { return moving; }
+  /// Adds the pairs of new movers to those that are kept.
+  void keep_pairs_of_movers(const double *radius);
+  /// Adds a pair of a mover that was added to the neighbor list, to those that are kept.
+  void add(int i, int jj, int j, const double *radius);
   /// Finds the kept pairs that touch.
   void find(const double *x);
-  /// The pairs that are kept, in the order of the neighbor list.
+  /// The pairs that are kept: in the order of the neighbor list those that were chosen, then those
+  /// that were added.
   const std::vector<Pair> &kept() const { return pairs; }
   /// Number of kept pairs that touch, or nearly do because of rounding, and the index in kept() of
   /// the n-th of these, in the same order.
   int size() const { return number; }
   int operator[](int n) const { return found[n]; }
   /// From the second to the first particle of a pair, by its place in kept(), along x and y: now,
-  /// and in the step before; the latter only if the same pairs were kept.
+  /// and in the step before; the latter only if the pair was kept then.
   const double *vector(int place) const { return &vectors[newest][2 * place]; }
   const double *vector_before(int place) const { return &vectors[1 - newest][2 * place]; }
   /// Whether a pair is found at any distance. The caller has to report changes of this.
@@ -66,6 +78,7 @@ class LSMNearPairs {
     int i, jj, j;
   };
   std::vector<Listed> listed;    // the whole neighbor list
+  std::vector<char> is_kept;     // of each listed pair
   std::vector<Pair> pairs;
   std::vector<Ends> ends;        // this and the following have an entry per pair
   std::vector<double> within;    // square of the distance up to which a pair touches
@@ -76,11 +89,17 @@ class LSMNearPairs {
   int number = 0;
 
   bigint built = -1;
-  std::vector<double> held;    // positions when the pairs were chosen; empty where all are kept
-  double moved = 0.0;          // no particle of this rank has moved farther since then
+  std::vector<double> held;     // positions when the pairs were chosen; empty where all are kept
+  std::vector<double> moved;    // bounds of displacements since then, without those of movers
+  std::vector<int> moving;      // see movers()
+  size_t admitted = 0;          // movers all of whose pairs are kept
+  std::vector<int> first_of, pairs_of;    // listed pairs of each particle, once there are movers
 
   double displacement(const double *x, size_t first, size_t last) const;
-  bool outdated(const double *x, int nlocal, double farthest);
+  void hold_movers(const double *x);
+  bool find_movers(const double *x, size_t first, size_t last);
+  void index_listed();
+  void keep(int n, const double *radius, bool touching);
 };
 
 }    // namespace LAMMPS_NS

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Adds the pairs of single particles to a neighbor list that is in use
+
+#ifndef LMP_LSM_LIST_PATCH_H
+#define LMP_LSM_LIST_PATCH_H
+
+#include "lsm_type_pairs.h"
+#include "pointers.h"
+
+#include <unordered_map>
+#include <vector>
+
+namespace LAMMPS_NS {
+class NeighList;
+
+/// LAMMPS builds all neighbor lists anew once any particle has moved by half the skin. In a dense
+/// block these are mostly single discs that snap into another place. This class adds their new
+/// pairs to the list instead, and notes their positions for LAMMPS' own check of distances, so that
+/// the list is as good as a new one. Particles may move within the margin that the ghosts have
+/// beyond the longest distance of listed pairs (comm_modify cutoff); without such a margin, and
+/// where others use neighbor lists as well, everything is left to LAMMPS.
+class LSMListPatch : protected Pointers {
+ public:
+  LSMListPatch(LAMMPS *_lmp) : Pointers(_lmp) {}
+
+  struct Added {
+    int i, jj, j;    ///< a particle, the index of its partner in its neighbors, and the partner
+  };
+
+  /// To be called when the list has been built, in the same step.
+  /// \param active  which types of particles interact
+  void start(NeighList &, const LSMTypePairs<int> &active);
+  /// Adds the pairs of those of these particles that have moved far.
+  /// \return the pairs added, until the next call
+  const std::vector<Added> &look_at(const std::vector<int> &particles);
+  /// The same for all particles of this rank and its ghosts.
+  const std::vector<Added> &look_at_all();
+  /// Nothing is added until the next start().
+  void stop() { list = nullptr; }
+
+ private:
+  NeighList *list = nullptr;    // null while nothing can be added
+  const LSMTypePairs<int> *active = nullptr;
+  double margin = 0.0;          // a particle whose pairs were added is nearer to `built`
+  double trigger_sq = 0.0;      // square of the displacement from which pairs are added
+  std::vector<double> built;    // positions when the list was built
+  std::vector<double> held;     // the same, later ones where pairs were added
+  std::vector<int> far;
+  std::vector<Added> added;
+  // particles by the square cell in which they were when the list was built, along x and y; made
+  // once it is needed
+  double cell = 0.0, corner[2] = {};
+  int cells[2] = {};
+  std::vector<int> first_in, sorted;
+  std::unordered_map<int, std::vector<int>> rows;    // of the list, where pairs were added
+
+  double find_margin(const NeighList &) const;
+  const std::vector<Added> &add_pairs_of_far();
+  void sort_into_cells();
+  int find_cell(const double *position) const;
+  void add_pairs_of(int);
+  void add_pair(int, int);
+  bool is_linked(int i, int j) const;
+  bool is_listed(int i, int j) const;
+  void ask_for_build();
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Neighbor lists that are added to, instead of being built anew, when single particles move far.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "lmp_runner.h"
+
+namespace physics {
+namespace {
+
+class Lists : public Lmp {};
+
+// Discs at rest, and two linked ones that bounce through a lane between their rows, where they
+// touch new ones all the time, also over the periodic border.
+std::string lane(const std::string &pair) {
+  return R"(
+variable          cutoff index 7.0
+variable          check index yes
+units             lj
+dimension         2
+boundary          p f p
+newton            off
+atom_style        hybrid bond sphere
+atom_modify       map array
+comm_modify       mode single cutoff ${cutoff}
+neighbor          0.4 bin
+neigh_modify      delay 0 every 1 check ${check}
+special_bonds     lj/coul 0 1 1
+lattice           hex 0.2385 origin 0 0.25 0
+region            box block 0 24 0 10 -0.5 0.5
+create_box        2 box bond/types 1 extra/bond/per/atom 1 extra/special/per/atom 1
+region            lane block INF INF 4.9 5.1 INF INF
+region            rows intersect 2 box lane side out
+create_atoms      1 region rows
+create_atoms      2 single 3.05 5.02 0
+create_atoms      2 single 5.05 4.98 0
+group             bullet type 2
+set               group all diameter 2.0
+set               group all mass 1.0
+bond_style        lsm/linked
+bond_coeff        1 1.0
+pair_style        zero 2.4
+pair_coeff        * *
+create_bonds      many bullet bullet 1 1.9 2.1
+)" + pair +
+         R"(
+velocity          bullet set 0.9 0.1 0
+timestep          0.01
+fix               move bullet lsm/nve
+variable          x equal xcm(bullet,x)
+variable          y equal xcm(bullet,y)
+thermo_style      custom step ke v_x v_y
+thermo_modify     norm no format float %.17g
+thermo            500
+run               3000
+)";
+}
+
+int builds(const Result &result) {
+  const std::vector<std::string> lines = result.lines_with("Neighbor list builds = ");
+  EXPECT_EQ(lines.size(), 1u) << result.output;
+  return lines.empty() ? 0 : std::atoi(lines[0].substr(lines[0].rfind('=') + 1).c_str());
+}
+
+TEST_F(Lists, AParticleThatMovesFarMeetsOthers) {
+  for (const char *pair : {"pair_style lsm/free\npair_coeff * * 1.0\n",
+                           "pair_style lsm/friction\npair_coeff * * 1.0 0.5 0.02\n"}) {
+    const Result exact = run_text(lane(pair), {{"check", "no"}});
+    ASSERT_TRUE(succeeded(exact));
+    EXPECT_EQ(builds(exact), 3000);
+    const double went = exact.last("v_x") - exact.thermo.front().at("v_x");
+    EXPECT_GT(went, 10.0) << "the disc has to pass many others";
+    // without a margin of the ghosts LAMMPS builds the lists whenever the disc has moved by 0.2
+    const Result without = run_text(lane(pair), {{"cutoff", "2.4"}});
+    ASSERT_TRUE(succeeded(without));
+    EXPECT_GT(builds(without), 40);
+    for (int ranks : {1, 2, 4}) {
+      const Result r = run_text(lane(pair), {}, ranks);
+      ASSERT_TRUE(succeeded(r));
+      std::printf("%d ranks: %d builds, %d without a margin; moved by %g\n", ranks, builds(r),
+                  builds(without), went);
+      EXPECT_LT(builds(r), builds(without) / 4);
+      EXPECT_LT(thermo_difference(exact, r, {"KinEng", "v_x", "v_y"}), 1e-9) << pair << ranks;
+    }
+  }
+}
+
+// Their lists are not added to, so LAMMPS has to build all of them.
+TEST_F(Lists, AreBuiltWhereOthersUseThem) {
+  const Result r =
+      run_text(lane("pair_style lsm/free\npair_coeff * * 1.0\n"
+                    "compute neighbours all coord/atom cutoff 2.0\n"));
+  ASSERT_TRUE(succeeded(r));
+  EXPECT_GT(builds(r), 40);
+}
+
+}  // namespace
+}  // namespace physics
