@@ -66,7 +66,7 @@ class Result:
     def __str__(self):
         return f"{shlex.join(self.line)} ended with {self.status}\n{self.err}{self.out[-3000:]}"
 
-    def told(self, pattern):
+    def printed(self, pattern):
         """The match of a pattern in the output, with columns one blank apart; fails if there is none."""
         found = re.search(pattern, re.sub(" +", " ", self.out), re.M)
         assert found, f"expected '{pattern}' from {self}"

@@ -218,12 +218,12 @@ template <class Act> void BondLSMLinked::for_each_link(const Act &act) const
 {
   using LSMLinkRows::LANES;
   for (const Segment &s : segments)
-    for (const LSMLinkRows::Run &run : s.rows.runs)
-      for (int n = 0; n < run.slices * run.length * LANES; n++) {
-        const double rest = s.rows.rest[run.link + n];
+    for (const LSMLinkRows::Stack &stack : s.rows.stacks)
+      for (int n = 0; n < stack.slices * stack.length * LANES; n++) {
+        const double rest = s.rows.rest[stack.link + n];
         if (rest == LSMLinkRows::NO_LINK) continue;
-        const int row = n / (run.length * LANES) * LANES + n % LANES;
-        act(s, s.rows.particle[run.row + row] / 3, s.rows.other[run.link + n] / 3, rest);
+        const int row = n / (stack.length * LANES) * LANES + n % LANES;
+        act(s, s.rows.particle[stack.row + row] / 3, s.rows.other[stack.link + n] / 3, rest);
       }
 }
 

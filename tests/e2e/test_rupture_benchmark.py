@@ -46,7 +46,7 @@ def test_tpv205(ruptured, postproc):
 
     command = "benchmark tpv205.slip.bin --reference columns --no-picture -o "
     reference(1234, 0, 3, 6)
-    run(postproc, command + "one").told("by hand")
+    run(postproc, command + "one").printed("by hand")
     reference(99999, 0, 3, 6)
     refused(postproc, command + "two", "no slip at x = 99999")
     reference(0, 1, 1)

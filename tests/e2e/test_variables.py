@@ -104,8 +104,8 @@ def test_coefficients_that_the_law_does_not_use(lmp):
     ({"faultviscosity": 0.1}, {"damped": "plates"}, "Variable faultviscosity is '0.1', but has no effect, as damped is plates"),
 ])
 def test_variables_that_do_nothing_beside_others(lmp, given, others, said):
-    told = refused(lmp, small(**given, **others), said)
-    assert "Created" not in told.out
+    answer = refused(lmp, small(**given, **others), said)
+    assert "Created" not in answer.out
 
 
 def test_variables_that_others_make_count(lmp):
@@ -191,12 +191,12 @@ def test_stop(lmp):
     run(lmp, scene(restart=f"a.restart.{step}", steps=int(step) - 100 + 60))
     # A stop file that comes too late does not end a later run.
     Path("a.stop").touch()
-    run(lmp, scene(restart="a.restart.end", steps=int(step) - 100 + 60)).told("There was a file a.stop, which is removed")
+    run(lmp, scene(restart="a.restart.end", steps=int(step) - 100 + 60)).printed("There was a file a.stop, which is removed")
     assert not Path("a.stop").exists()
 
 
 def test_a_long_time_step_makes_another_model(lmp):
-    run(lmp, small(dt=1, settle=0, steps=0, massstep=1)).told(r"WARNING: create_lsm_fault: time step 1 .* \d+ % heavier, above 20 %")
+    run(lmp, small(dt=1, settle=0, steps=0, massstep=1)).printed(r"WARNING: create_lsm_fault: time step 1 .* \d+ % heavier, above 20 %")
     quiet = run(lmp, small(settle=0, steps=0, prefix="b"))
     assert "heavier" not in quiet.out
 

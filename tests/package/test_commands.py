@@ -179,7 +179,7 @@ def first(work):
 def test_first_catalogue_again(first):
     run(first)
     files = snapshot("out")
-    run(first).told("^100 events. The ten largest:")
+    run(first).printed("^100 events. The ten largest:")
     assert snapshot("out") == files and "out/first.explore" in files
 
 
@@ -219,5 +219,5 @@ def test_first_catalogue_interrupted(first, work, program, by):
         await_end(at_work)
     Path(f"{program}.wait").unlink()
     await_end(at_work)  # postproc outlives the script and holds its lock
-    run(first).told("^100 events. The ten largest:")
+    run(first).printed("^100 events. The ten largest:")
     assert Path("out/first.explore").exists()

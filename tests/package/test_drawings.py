@@ -38,9 +38,9 @@ def test_drawings(name, work):
         pytest.skip("no gnuplot")
     for table, text in TABLES[name].items():
         Path(table).write_text(text)
-    told = subprocess.run(["gnuplot", SOURCE / f"inputs/studies/{name}.gp"], env={**os.environ, "LC_ALL": "C.UTF-8"}, capture_output=True, text=True,
+    drawn = subprocess.run(["gnuplot", SOURCE / f"inputs/studies/{name}.gp"], env={**os.environ, "LC_ALL": "C.UTF-8"}, capture_output=True, text=True,
                           check=True)
-    assert told.stderr == "", "a curve without points in one of the formats"
+    assert drawn.stderr == "", "a curve without points in one of the formats"
     assert Path(f"{name}.png").stat().st_size > 10000
     titles = re.findall(r"<title>(.*?)</title>", Path(f"{name}.svg").read_text())
     assert titles[0].replace("_", "-") == name, "what browsers and screen readers call the picture"

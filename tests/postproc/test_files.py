@@ -284,9 +284,9 @@ def test_picking_after_leaps(postproc, slider, work):
 
 def test_an_event_that_has_not_ended_is_not_counted(postproc, slider, work):
     run(slider, "--blocks 100 --velocity 1e-2 --steps 3000000 --warmup 0 --leap 1e-3 --catalogue l.csv --pe-series l.pe")
-    told = run(postproc, "pick l.pe -o p.csv --json p.json")
+    done = run(postproc, "pick l.pe -o p.csv --json p.json")
     counts = json.loads(Path("p.json").read_text())["counts"][0]
-    assert counts["unfinished"] == 1, told
+    assert counts["unfinished"] == 1, done
     run(postproc, "series l.pe --no-picture -o s --json s.json")
     assert json.loads(Path("s.json").read_text())["series"][0]["events"] == counts["events"]
 
@@ -473,11 +473,11 @@ def test_unknown_commands_are_named(postproc, work):
 
 def test_two_catalogues_have_two_names(postproc, files):
     shutil.copy("slider.csv", "mus_0.8.catalogue.csv")
-    told = run(postproc, "compare slider.csv mus_0.8.catalogue.csv --replicas 10 -o c")
-    assert "block-slider, N = 200 (slider)" in told.out and "block-slider, N = 200 (mus_0.8)" in told.out
+    done = run(postproc, "compare slider.csv mus_0.8.catalogue.csv --replicas 10 -o c")
+    assert "block-slider, N = 200 (slider)" in done.out and "block-slider, N = 200 (mus_0.8)" in done.out
 
 
 def test_lines_fit_a_terminal(postproc, work):
     write_catalogue("a.csv", pareto(400), times=[float(k + k % 7 / 8) for k in range(400)])
-    told = run(postproc, "intervals a.csv --no-picture --replicas 20")
-    assert max(map(len, told.out.splitlines())) <= 200, told
+    done = run(postproc, "intervals a.csv --no-picture --replicas 20")
+    assert max(map(len, done.out.splitlines())) <= 200, done

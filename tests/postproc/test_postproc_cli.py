@@ -219,9 +219,9 @@ def test_spectrum(do, no):
     found = np.array(numbers_of("sine_spectrum.csv", 2, 3, 4))
     assert np.sum(found[:, 1] * found[:, 2]) == pytest.approx(2, abs=0.001)
     assert found[np.argmax(found[:, 2]), 0] == pytest.approx(1 / 12.8, abs=5e-6)
-    assert " sine 4096 7 " in told(do("spectrum sine --segment 1024 --per-decade 0 --no-picture -o sine_spectrum"))
+    assert " sine 4096 7 " in joined(do("spectrum sine --segment 1024 --per-decade 0 --no-picture -o sine_spectrum"))
     # The default length is an eighth of 4096, also from a pipe.
-    do("spectrum sine --no-picture -o usual").told(" sine 4096 15 ")
+    do("spectrum sine --no-picture -o usual").printed(" sine 4096 15 ")
     shutil.copy("usual.csv", "file.csv")
     piped(do, "spectrum", "cat sine", "--label sine --no-picture -o usual")
     same_bytes("usual.csv", "file.csv")
@@ -238,7 +238,7 @@ def test_spectrum_pictures(do, gnuplot):
         assert os.path.getsize(f"drawn.{ending}") > 0, ending
 
 
-def told(result):
+def joined(result):
     return re.sub(" +", " ", result.out)
 
 
@@ -267,9 +267,9 @@ def test_compare(do, no):
         return result.out.count("no difference seen"), result.out.count("they differ")
 
     first = do("compare a.csv b.csv c.csv -o d")
-    first.told("size 400 300 .*no difference seen$")
+    first.printed("size 400 300 .*no difference seen$")
     assert verdicts(first) == (3, 1)
-    first.told(r"time 399 299 .* 2\.0[0-9]* \+- [0-9.]* 1 \(5\.0 \+- 5\.0\)e-04 .*they differ")
+    first.printed(r"time 399 299 .* 2\.0[0-9]* \+- [0-9.]* 1 \(5\.0 \+- 5\.0\)e-04 .*they differ")
     assert len(rows("d.csv")) == 4
     before = Path("d.csv").read_bytes()
     do("compare a.csv b.csv c.csv -o d")
@@ -282,7 +282,7 @@ def test_compare(do, no):
     made("slow.csv", 10, 300, 3, velocity=0.5)
     ways = do("compare fast.csv slow.csv --displacement --from 250 --to 1250 -o d")
     assert verdicts(ways) == (2, 0)
-    ways.told("time 199 199 .* 1.0[0-9]* ")
+    ways.printed("time 199 199 .* 1.0[0-9]* ")
     no("a.csv: no velocity in the header, expected", "compare a.csv c.csv --displacement -o x")
     made("rest.csv", 5, 400, velocity=0)
     no("rest.csv: velocity = 0 in the header, expected", "compare rest.csv c.csv --displacement -o x")
@@ -300,9 +300,9 @@ def test_match(do, no):
         write_catalogue(path, t, [1] * 40, dict(model="lsm", length=40, velocity=velocity), t_end=t + 1, pe_start=[2] * 40, pe_end=[1] * 40)
     # From 1.3 to 40 the first has 39 events (2 to 40), of which the second has the even ones. Of the seven
     # shifts by eighths of 38.7 the second, fourth and sixth find 5, 10 and 19.
-    do("match a.csv b.csv --displacement --origin 100 --threshold 0.5 --within 0.1 --json m.json").told(r" 0.5 39 40 20 4.857$")
+    do("match a.csv b.csv --displacement --origin 100 --threshold 0.5 --within 0.1 --json m.json").printed(r" 0.5 39 40 20 4.857$")
     assert '"same": 20' in Path("m.json").read_text()
-    do("match a.csv a.csv --threshold 0.5 --within 0.1").told(" 40 40 40 ")
+    do("match a.csv a.csv --threshold 0.5 --within 0.1").printed(" 40 40 40 ")
     no("at least two", "match a.csv --threshold 0.5 --within 0.1")
     no("threshold is required", "match a.csv b.csv --within 0.1")
     no("a catalogue without events", "match a.csv b.csv --threshold 0.5 --within 0.1 --displacement --to 0.01")
@@ -316,7 +316,7 @@ def exported(path):
 
 def test_export(do, no):
     catalogue("c.csv")
-    do("export c.csv -o s.csv").told("^4 events; left out: 0 of size <= 0")
+    do("export c.csv -o s.csv").printed("^4 events; left out: 0 of size <= 0")
     assert exported("s.csv") == """longitude,latitude,depth,time,magnitude,event_id,catalog_id,duration,size,magnitude_type
 0,0,0,2000-01-01T00:00:00.000000,0,1,0,1.5,1,M
 0,0,0,2000-01-01T00:00:02.000000,-2,2,0,1,0.001,M
@@ -328,7 +328,7 @@ def test_export(do, no):
 5,0,4.5,1999-12-31T12:00:00.000000,0,0,1
 10,0,2.5,2000-01-02T12:00:00.000000,0,0,2
 """
-    do("export c.csv c.csv -o two.csv --min-size -10").told("^8 events; left out: 2 of size <= 0")
+    do("export c.csv c.csv -o two.csv --min-size -10").printed("^8 events; left out: 2 of size <= 0")
     assert sorted(row["catalog_id"] for row in table("two.csv")) == ["0"] * 4 + ["1"] * 4
     no("s.csv: exists already", "export c.csv -o s.csv")
     no("event 3 starts at time 86400.25, a date outside the years 1700 to 2261", "export c.csv -o x.csv --time-unit year")
@@ -360,7 +360,7 @@ def test_magnitudes(do, no):
     assert found[3] == 2000 and found[1] == -2 and 0.99 < found[4] < 1.01 and 0.018 < found[5] < 0.026, found
     for said in (r"M = 0.6667 log10\(size\) \+ 0, bins of 0 \(0: none\)", "completeness in the header of gr.csv",
                  "exponent of the sizes 1 \\+ 0.6667 b 1.66"):
-        first.told(said)
+        first.printed(said)
     # The exported table gives the same b by the textbook formula, with and without bins.
     for width in 0, 0.1:
         do("magnitudes gr.csv -o m --no-picture --complete-from -1.5 --magnitude-bin", width)
@@ -376,7 +376,7 @@ def test_magnitudes(do, no):
     do("magnitudes gr.csv -o m --no-picture --threshold 0.01")
     assert -1.3334 < b_values()[1] < -1.3333
     # The magnitude may be that of the moment, and a plain logarithm.
-    do("magnitudes gr.csv -o m --no-picture --magnitude-of moment --magnitude-slope 1 --complete-from -2").told(r"M = 1 log10\(slip_moment\) \+ 0")
+    do("magnitudes gr.csv -o m --no-picture --magnitude-of moment --magnitude-slope 1 --complete-from -2").printed(r"M = 1 log10\(slip_moment\) \+ 0")
     assert 0.99 < b_values()[4] < 1.01
     assert sum(row[0] for row in numbers_of("m.csv", 3)) == 2000
     no("header holds for sizes only, expected 'curvature' or a magnitude", "magnitudes gr.csv -o x --magnitude-of moment --complete-from header")
@@ -414,21 +414,21 @@ def test_aftershocks(do, no):
     assert 0.0098 < value[16] < 0.0108 and value[18] > 1000 and value[19] == 0.05, value
     for said in ("smallest main shock 50", "largest for so long before and after 1000", "main shocks 41",
                  "share of Poisson catalogues as large 0.05"):
-        first.told(f"^ {said}$")
+        first.printed(f"^ {said}$")
     # The stacked rate is the count in a bin per main shock and time unit.
     stacked = [[number(cell) for cell in row.split(",")] for row in rows("a.csv") if row.startswith("1,")]
     assert len(stacked) > 8
     for row in stacked:
         assert row[6] == pytest.approx(row[5] / (41 * (row[3] - row[2])), rel=1e-4)
-    do("aftershocks omori.csv -o a --no-picture --main-size 50 --window 1000 --replicas 0 --hold-c 2").told("^ c 2$")
+    do("aftershocks omori.csv -o a --no-picture --main-size 50 --window 1000 --replicas 0 --hold-c 2").printed("^ c 2$")
     # Single events at quasi-random times in intervals of 10 have no aftershocks.
     i = np.arange(5000)
     t = 10 * (i + i * 0.618034 % 1)
     write_catalogue("even.csv", t, np.where(i % 100 == 50, 100, 0.01), pe_start=[1] * 5000, pe_end=[1] * 5000)
-    do("aftershocks even.csv -o a --no-picture --main-size 50 --window 300 --replicas 0").told("degenerate no decay")
+    do("aftershocks even.csv -o a --no-picture --main-size 50 --window 300 --replicas 0").printed("degenerate no decay")
     assert 0.095 < omori_row()[8] < 0.101 and omori_row()[10] == omori_row()[12] == ""
     # By default main shocks are a certain share of the events.
-    do("aftershocks omori.csv -o a --no-picture --replicas 0").told("^ smallest main shock 0.01$")
+    do("aftershocks omori.csv -o a --no-picture --replicas 0").printed("^ smallest main shock 0.01$")
     no("no event of size 1000 or larger, expected a smaller --main-size", "aftershocks omori.csv -o x --main-size 1000")
     no("first time after main shocks: expected 0 or more, below the window", "aftershocks omori.csv -o x --first 20 --window 10")
     no("c held at 0.000000, expected 0 or more \\(0 needs a first time above 0\\)", "aftershocks omori.csv -o x --hold-c 0 --main-size 50")
@@ -510,21 +510,21 @@ def test_explore(do, no):
     are found by their names."""
     series("run.pe.bin")
     do("pick run.pe.bin -o run.catalogue.csv")
-    do("explore run.catalogue.csv -o page.html --title 'A < B'").told("run.pe.bin: 5000 samples")
+    do("explore run.catalogue.csv -o page.html --title 'A < B'").printed("run.pe.bin: 5000 samples")
     page = Path("page.html").read_text()
     assert "<title>A &lt; B</title>" in page and '"samples":5000' in page
     assert len(re.findall('^<script type="text/plain"', page, re.M)) == 2
     bare = do("explore run.catalogue.csv --series none -o bare.html")
     assert "samples" not in bare.out and '"series":null' in Path("bare.html").read_text()
     os.rename("run.pe.bin", "moved.bin")
-    do("explore run.catalogue.csv --series moved.bin -o moved.html").told("moved.bin: 5000 samples")
+    do("explore run.catalogue.csv --series moved.bin -o moved.html").printed("moved.bin: 5000 samples")
     Path("run.pe.bin.xz").write_bytes(xzipped(Path("moved.bin").read_bytes()))
-    do("explore run.catalogue.csv -o page.html").told("run.pe.bin.xz: 5000 samples")
+    do("explore run.catalogue.csv -o page.html").printed("run.pe.bin.xz: 5000 samples")
     os.remove("run.pe.bin.xz")
     # Two runs, one of them without a series.
     os.rename("moved.bin", "run.pe.bin")
     catalogue("other.csv")
-    do("explore run.catalogue.csv other.csv -o two.html").told("other.csv: .* events")
+    do("explore run.catalogue.csv other.csv -o two.html").printed("other.csv: .* events")
     no("--series given 1 times, expected once per catalogue \\(2\\)", "explore run.catalogue.csv other.csv --series run.pe.bin -o x")
     no("is read by this command", "explore run.catalogue.csv -o run.pe.bin")
     no("is read by this command", "explore run.catalogue.csv -o run.catalogue.csv")
@@ -682,7 +682,7 @@ def test_bad_options(do, no):
     no("help lists the options", "smooth good.csv")
     no("is required", "pick good.csv")
     no("from 3 --to 2: expected --from before --to", "export good.csv -o x --from 3 --to 2")
-    do("--version").told("^postproc [0-9]")
+    do("--version").printed("^postproc [0-9]")
 
 
 @pytest.mark.parametrize("command", "pick histograms intervals fit series spectrum magnitudes aftershocks export report explore".split())
@@ -721,7 +721,7 @@ def test_select(do, no):
     def chosen(path):
         return [int(row.split(",")[0]) for row in rows(path)]
 
-    do("select c.csv --from 2 --to 86404 --min-size 1e-3 -o part.csv").told("2 events; left out: 2 by time, 1 by size")
+    do("select c.csv --from 2 --to 86404 --min-size 1e-3 -o part.csv").printed("2 events; left out: 2 by time, 1 by size")
     assert chosen("part.csv") == [2, 3]
     said = header("part.csv")
     assert said["selected"] == "t_start from 2, t_start below 86404, size from 0.001" and said["min_size"] == "0.001" and said["length"] == "40"
@@ -746,7 +746,7 @@ def test_select(do, no):
                                                                            ("2011-01-01", "2019-01-01", "2", 10377, 0.659, 0.016, 1.60)])
 def test_earthquakes(do, begin, end, magnitude, times, gamma, error, b):
     do("intervals", CALIFORNIA, f"--from {begin} --to {end} --min-magnitude {magnitude} --rescale --delta 1 --method likelihood --replicas 0",
-       "--shuffles 20 --no-picture -o times").told(f" magnitudes >= {magnitude} {times} ")
+       "--shuffles 20 --no-picture -o times").printed(f" magnitudes >= {magnitude} {times} ")
     ours = [row for row in table("times.table1.csv") if row["origin"] == "ours"]
     assert ours
     for row in ours:

@@ -124,16 +124,16 @@ def test_intervals(do, no):
     for row, time, events in zip(filled, (5, 50), (100, 50)):
         assert row[7] == events and row[4] <= time < row[5]
         assert row[8] == pytest.approx(row[7] / (150 * (row[5] - row[4])), rel=1e-9)
-    first.told(" 150 20 model time 1.061 0.02944$")
-    first.told("LSM\n .*0.995 .*1.00 .*15.21 .*0.0573")
+    first.printed(" 150 20 model time 1.061 0.02944$")
+    first.printed("LSM\n .*0.995 .*1.00 .*15.21 .*0.0573")
     said("i.table1.csv", "^printed,,,0.0,,1.00,,100.0,,0.25,,,,,,,Block-Slider,")
     # Every second event is large, with times of 10 and 100.
     do("intervals a.csv --threshold 0 --threshold 1.5 --rescale -o r --no-picture")
     assert any(row[7] == 50 and row[4] <= 10 / 40 < row[5] for row in curve("r.csv", 2))
     # p-values depend on the seed and the given number of replicas.
     few = do("intervals a.csv --delta 1 --method likelihood --replicas 20 --seed 3 -o p --no-picture")
-    few.told(r" 0.048 \+- 0.04[0-9] yes")
-    few.told("rejected: p below 0.05")
+    few.printed(r" 0.048 \+- 0.04[0-9] yes")
+    few.printed("rejected: p below 0.05")
     none = do("intervals a.csv --delta 1 --method likelihood --replicas 0 --shuffles 0 -o p --no-picture")
     assert not [line for line in none.out.splitlines() if "γ" in line and "rejected" in line], "a p-value without replicas"
     no("replicas", "intervals a.csv --replicas -1 -o x")
@@ -145,7 +145,7 @@ def test_exponential_intervals(do):
     n = 4000
     times = np.cumsum(-7 * np.log(1 - ((np.arange(n) * 7919) % n + 0.5) / n))
     fault("e.csv", [1] * n, times=np.concatenate([[0], times[:-1]]))
-    do("intervals e.csv -o x --delta 1").told("maximum likelihood, .* 1 no$")
+    do("intervals e.csv -o x --delta 1").printed("maximum likelihood, .* 1 no$")
     ours = [[float_or_text(cell) for cell in re.sub('"[^"]*"', "", row).split(",")] for row in rows("x.table1.csv") if row.startswith("ours")]
     assert len(ours) == 2
     for row in ours:
@@ -175,13 +175,13 @@ def test_fit(do, no):
     do("fit a.csv --replicas 0 --no-comparison -o s --no-picture --json s.json")
     assert [row[:4] for row in exponents("s.fits.csv")] == [["lsm", 1e-4, 0.1, "no"]]
     said("s.json", '"name": "exponent_0.0001:0.1"')
-    do("fit a.csv --replicas 0 --no-comparison --search -o s --no-picture").told("searched")
+    do("fit a.csv --replicas 0 --no-comparison --search -o s --no-picture").printed("searched")
     assert [row[3] for row in exponents("s.fits.csv")] == ["no", "yes"]
     assert "one line per rival" not in Path("s.fits.csv").read_text(), "rivals are explained, but there are none"
     # The bin that contains the smallest size is incomplete and does not count.
     assert max(float(row["size"]) for row in table("a.csv")) >= 0.8
     no("no bin of sizes from 0.8 on has an event", "fit a.csv --threshold 0.8 --replicas 0 --no-picture -o x")
-    do("fit a.csv --range 1e-3:1 --replicas 0 --scaling -o o --no-picture").told("degenerate: ")
+    do("fit a.csv --range 1e-3:1 --replicas 0 --scaling -o o --no-picture").printed("degenerate: ")
     no("expected LO above 0", "fit a.csv --range :1 -o x")
     # Events left out below a size do not make the law flatter, as the fit begins there.
     do("fit a.csv --min-size 0.01 --range 1e-3:1 --range 1e-3:0.01 --replicas 0 --no-comparison -o m --no-picture")
@@ -220,22 +220,22 @@ def number_in(path, name):
 def test_scaling(do, no, growing):
     grown = do(files("g"), SCALING, "--json g.json -o g")
     pictures("g.scaling")
-    grown.told(r"grows with the length \(")
+    grown.printed(r"grows with the length \(")
     assert number_in("g.json", "D") == pytest.approx(1, rel=0.1)
     none = do(files("n"), SCALING, "--json n.json -o n")
-    none.told("shows no significant dependence")
+    none.printed("shows no significant dependence")
     said("n.json", '"preferred": "no dependence on the length"')
     for kind in "g", "n":
         assert "growth up to L_c" not in Path(f"{kind}.scaling.gp").read_text(), "a curve of growth that ends without such growth"
     # Errors are by blocks of time, the length of which can be given, or event by event.
-    none.told("bootstrap errors, blocks of time")
-    none.told("error if events were independent blocks")
+    none.printed("bootstrap errors, blocks of time")
+    none.printed("error if events were independent blocks")
     two = files("g", (100, 200)) + SCALING
     do(two, "--block 1000 --json b.json -o b --no-picture")
     for row in curve("b.scaling.csv"):
         assert 990 < row[8] < 1010 and row[9] == 30, row
     said("b.json", '"blocks": 30', '"error_independent": ')
-    do(two, "--block 0 -o b --no-picture").told("single events as if independent")
+    do(two, "--block 0 -o b --no-picture").printed("single events as if independent")
     for row in curve("b.scaling.csv"):
         assert row[8] == row[9] == 0 and 0.8 * row[7] < row[5] < 1.2 * row[7], row
     no("block 'long', expected 'auto' or a time of 0 or more", "fit g100.csv --scaling --block long -o x")
@@ -245,12 +245,12 @@ def test_scaling(do, no, growing):
 def test_scaling_of_other_growth(do, growing):
     # For growth that does not follow a power law, s* is 1, 1, 1, 1, 16.
     edit("g1600.csv", "n3200.csv", ("# length = 1600", "# length = 3200"))
-    do(files("n", (100, 200, 400, 800, 3200)), SCALING, "-o p --no-picture").told("grows with the length, but not as a power law")
+    do(files("n", (100, 200, 400, 800, 3200)), SCALING, "-o p --no-picture").printed("grows with the length, but not as a power law")
     # For growth that ends, s* is 1, 2, 4, 4, 4, 4, 4.
     for length in 800, 1600, 3200, 6400:
         edit("g400.csv", f"s{length}.csv", ("# length = 400", f"# length = {length}"))
     do("fit g100.csv g200.csv g400.csv s800.csv s1600.csv s3200.csv s6400.csv", SCALING,
-       "--json s.json -o s").told(r"grows with the length up to L_c only \(")
+       "--json s.json -o s").printed(r"grows with the length up to L_c only \(")
     pictures("s.scaling")
     said("s.scaling.gp", "growth up to L_c = ")
     said("s.json", '"preferred": "growth that ends at a length"')
@@ -268,32 +268,32 @@ def test_completeness(do, no):
     above = int(np.sum(sizes >= 0.01))
     assert 600 < above < 700
     # Without a completeness the threshold is that of the paper.
-    do("histograms plain.csv -o p --no-picture").told("smallest size, fault: 0.0001, that of the paper")
+    do("histograms plain.csv -o p --no-picture").printed("smallest size, fault: 0.0001, that of the paper")
     assert count("p.csv", 1) == 1000
     # A completeness holds for all faults, but not for block-sliders.
     both = ("smallest size, fault: 0.01, completeness in the header of known.csv", "smallest size, block-slider: 0.0001, that of the paper")
     printed = do("histograms long.csv known.csv s.csv -o h --no-picture")
     for pattern in both:
-        printed.told(pattern)
+        printed.printed(pattern)
     said("h.csv", *both)
     assert [count("h.csv", n) for n in (1, 2, 3)] == [above, above, 1000]
     # A given value takes precedence.
-    do("histograms known.csv -o h --no-picture --threshold 0.001").told("0.001, as given")
+    do("histograms known.csv -o h --no-picture --threshold 0.001").printed("0.001, as given")
     assert count("h.csv", 1) == 1000
     for limits, events in ("0.001:", 1000), (":1", above):
         do("histograms known.csv -o h --no-picture --range", limits)
         assert count("h.csv", 1) == events, limits
-    do("intervals known.csv -o i --no-picture --replicas 0").told(f"sizes >= 0.01, completeness in the header of known.csv {above - 1} ")
+    do("intervals known.csv -o i --no-picture --replicas 0").printed(f"sizes >= 0.01, completeness in the header of known.csv {above - 1} ")
     said("i.csv", "^# sizes >= 0.01, completeness in the header")
     said("i.table1.csv", f"^ours,0.01,{above - 1},")
-    do("intervals known.csv -o i --no-picture --replicas 0 --threshold 1e-4").told("sizes >= 0.0001, as given 999 ")
+    do("intervals known.csv -o i --no-picture --replicas 0 --threshold 1e-4").printed("sizes >= 0.0001, as given 999 ")
     fitted = do("fit known.csv --replicas 0 --scaling -o f --no-picture --json f.json")
-    fitted.told("smallest size, fault: 0.01, completeness in the header")
-    fitted.told(f"fault, length 120 120 {above} ")
+    fitted.printed("smallest size, fault: 0.01, completeness in the header")
+    fitted.printed(f"fault, length 120 120 {above} ")
     assert all(row[1] >= 0.01 for row in exponents("f.fits.csv")), "the search begins too low"
     said("f.json", '"threshold_from": "0.01, completeness')
     assert "may depend on the time step" not in fitted.out, "a note without a reason"
-    do("fit known.csv --replicas 0 --no-comparison --range 1e-3:1 -o f --no-picture").told("below its completeness of 0.01")
+    do("fit known.csv --replicas 0 --no-comparison --range 1e-3:1 -o f --no-picture").printed("below its completeness of 0.01")
     said("f.fits.csv", "^lsm,0.001,1,no,1000,")
     do("report known.csv s.csv --replicas 0 --interval-replicas 0 -o r.html")
     page = said("r.html", f"<td>{above} ≥ 0.01</td>", "<td>1000 ≥ 0.0001</td>", r"Sizes from 0.01\.",
@@ -412,10 +412,10 @@ def test_tables_of_many_catalogues_fit_a_terminal(do):
         fault(f"{k}.csv", 10**np.random.default_rng(k).uniform(-4, 0, 300), length=120 * (k + 1))
     paths = " ".join(f"{k}.csv" for k in range(6))
     for command in "intervals --shuffles 20 --replicas 20", "fit --replicas 20", "magnitudes", "count", "compare --replicas 20":
-        told = do(*command.split(), paths, *([f"--no-picture -o {command.split()[0]}"] if command.split()[0] not in ("count", "compare") else [])).out
-        assert max(map(len, told.splitlines())) <= 160, told
+        shown = do(*command.split(), paths, *([f"--no-picture -o {command.split()[0]}"] if command.split()[0] not in ("count", "compare") else [])).out
+        assert max(map(len, shown.splitlines())) <= 160, shown
         for k in range(6):
-            assert told.count(f"fault, length {120 * (k + 1)}") >= 1
+            assert shown.count(f"fault, length {120 * (k + 1)}") >= 1
 
 
 def test_few(do, no):
@@ -437,7 +437,7 @@ def test_few(do, no):
         cells = row.split(",")
         assert cells[3] == cells[5] == cells[7] == cells[9] == "" and cells[-1] != "", "numbers of degenerate fits"
     said("i.clustering.csv", '^"fault, length 120",0.0001,0,,,')
-    do("fit few.csv --range 1e-3:1 -o f").told("degenerate")
+    do("fit few.csv --range 1e-3:1 -o f").printed("degenerate")
     # Without a characteristic size in any catalogue there is no picture of the scaling, but all others.
     scaled = do("fit one.csv few.csv --scaling -o z")
     pictures("z")
@@ -527,7 +527,7 @@ def test_rupture(do, no):
     assert sum(row[5] for row in found) == 43 and [row[5] for row in found if row[2] == 24.5] == [8]
     for row in found:
         assert row[6] == pytest.approx(row[5] / (495 * 120 * (row[3] - row[2])), rel=1e-9)
-    first.told("^ a 43 ")
+    first.printed("^ a 43 ")
     # For lengths below that of the fault, the slope is 2 without scatter.
     slope("r-length.csv", "^# fit, without those of the whole fault: ", 2)
     flags = [row.split(",")[5] for row in rows("r-length.csv")]
@@ -549,8 +549,8 @@ def test_rupture(do, no):
     # Of the places 15, 45, 75 and 105 only 75 is reached by more than the one rupture of the whole fault,
     # namely by 28.
     places = do("intervals a.csv --threshold 0 --places 4 --no-picture -o p")
-    places.told(" 27 [0-9.]* model time")
-    places.told("times at 4 places each")
+    places.printed(" 27 [0-9.]* model time")
+    places.printed("times at 4 places each")
     no("plain.csv: times at places: no columns x_begin and rupture_length", "intervals plain.csv --places 4 -o x")
     no("--places", "intervals a.csv --places -1 -o x")
     no("a.csv: not a slip history", "rupture a.csv --history a.csv -o x")

@@ -35,7 +35,7 @@ def made_run(work):
 
 
 def test_statements(postproc, made_run):
-    told = run(postproc, "statements", made_run, "-o found --json all.json")
+    done = run(postproc, "statements", made_run, "-o found --json all.json")
     rows = {(row["statement"], row["number"]): row for row in table("found.csv")}
     assert len(rows) == len(json.load(open("all.json"))["statements"]) == len(table("found.csv"))
 
@@ -51,7 +51,7 @@ def test_statements(postproc, made_run):
     row("locked", "slip rate within events over that between them", 240, 12, "holds")
     row("locked", "rise of PE between events over the work of the plates", 1.0, 0.001, "holds")
     row("numbers", "events in 1e7 steps of 0.0045", 1e7 * 0.00454 / 104, 10, "fails")
-    told.told('velocities: "The distribution of slip velocities was monotonic')
+    done.printed('velocities: "The distribution of slip velocities was monotonic')
     # Without the other files there are only the statements that the catalogue allows.
     short = run(postproc, "statements", made_run, "--ruptures none --history none -o short")
     short.warned("no slip history beside it")

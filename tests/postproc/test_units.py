@@ -51,7 +51,7 @@ def test_units(postproc, catalogue):
 
 def test_export(postproc, catalogue):
     catalogue("c.csv")
-    run(postproc, "export c.csv -o t.csv", ROCK).told("a unit of time is 0.03467 s; time 0 is 2000-01-01T00:00:00")
+    run(postproc, "export c.csv -o t.csv", ROCK).printed("a unit of time is 0.03467 s; time 0 is 2000-01-01T00:00:00")
     rows = table("t.csv")
     assert [float(row["magnitude"]) for row in rows] == pytest.approx([mw(m * MOMENT) for m in (1, 0.1, 10)])
     assert {row["magnitude_type"] for row in rows} == {"Mw"} and rows[1]["time"] == f"2000-01-01T00:00:00.{round(10 * TIME * 1e6):06d}"
@@ -68,7 +68,7 @@ def test_moments_of_ruptures_contain_the_modulus(postproc, catalogue):
         run(postproc, f"export {name}.csv -o {name}.t.csv", ROCK)
     both = [[float(row["magnitude"]) for row in table(f"{name}.t.csv")] for name in "cr"]
     assert both[1] == pytest.approx([m + 2 / 3 * math.log10(2) for m in both[0]])
-    run(postproc, "magnitudes r.csv -o m --no-picture", ROCK).told("Mw = \\(2/3\\) \\(log10 M0 - 9.1\\)")
+    run(postproc, "magnitudes r.csv -o m --no-picture", ROCK).printed("Mw = \\(2/3\\) \\(log10 M0 - 9.1\\)")
 
 
 def test_quakeml(postproc, catalogue):
@@ -128,4 +128,4 @@ def test_catalogue_without_moments_says_how_to_record_them(postproc):
     write_catalogue("c.csv", t, np.array([0.5, 0.05]), dict(model="lsm", length=40), t_end=t + 1, pe_start=[3] * 2, pe_end=[2] * 2)
     for command in "export c.csv -o x.csv", "magnitudes c.csv -o x", "rates c.csv -o x":
         refused(postproc, f"{command} {ROCK}", "c.csv: has no column slip_moment.*-var location yes")
-    run(postproc, "units c.csv", ROCK).told("Me of the largest event")
+    run(postproc, "units c.csv", ROCK).printed("Me of the largest event")

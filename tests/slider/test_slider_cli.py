@@ -282,7 +282,7 @@ def test_paper(slider, ran):
     printed = dict(scheme="printed", dt="0.01", picker="literal", kl="0.01", velocity="0.01", warmup="0", friction_low="0.5", friction_high="1")
     printed["lambda"] = "0.99"
     assert {key: header("p.csv").get(key) for key in printed} == printed
-    run(slider, "--help").told("--friction-range")
+    run(slider, "--help").printed("--friction-range")
 
 
 def test_overwrite(slider):

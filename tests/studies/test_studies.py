@@ -317,13 +317,13 @@ def test_own_study(studies, work):
     Path("c_1.csv.xz").write_bytes(lzma.compress(Path("own/c_1/catalogue.csv").read_bytes()))
     published = f"run,program,file\nagain,catalogue,{work}/c_1.csv.xz\n"
     Path("published.csv").write_text(published + f"nowhere,catalogue,{work}/nowhere.csv\n")
-    studies("published", table="published.csv", status=1).told("nowhere.csv: no such catalogue, expected one in the column 'file'")
+    studies("published", table="published.csv", status=1).printed("nowhere.csv: no such catalogue, expected one in the column 'file'")
     Path("published.csv").write_text(published)
     studies("published", table="published.csv")
     again = table("published/table.csv")[0]
     for key in "events", "exponent", "gamma", "last_time":
         assert numbers[0][key] == again[key] != "", key
-    studies("own", "-n", table="own.csv").told("Nothing to be done")
+    studies("own", "-n", table="own.csv").printed("Nothing to be done")
 
 
 def test_settings_of_several_words(studies):
@@ -363,7 +363,7 @@ def test_recipes(studies, gnuplot, work):
         if path.name != "esysparticle":
             Path("programs", path.name).symlink_to(path)
     studies("whole_job", table="whole-job", env={"PATH": str(work / "programs")},
-            status=1).told(r"run ESyS-Particle needs ESyS-Particle, no program esysparticle was found \(Debian package esys-particle\)")
+            status=1).printed(r"run ESyS-Particle needs ESyS-Particle, no program esysparticle was found \(Debian package esys-particle\)")
     assert not Path("whole_job/ours_0.06").exists(), "begun without ESyS-Particle"
 
 

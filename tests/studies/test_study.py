@@ -250,7 +250,7 @@ def test_what_is_made_is_told_at_the_end(study, work):
     assert said.endswith(f"Results in {work}/out:\n  table.csv\n")
 
 
-def test_runs_that_are_stopped_are_told(study):
+def test_runs_that_are_stopped_are_reported(study):
     write(CHAIN.replace("0,1,1e5", "0,1-2,1e9"))
     said = run(study, "my.csv hours=0.002", status=1).err
     assert all(f"run.py: {name}: stopped, to be continued" in said for name in ("c_1", "c_2"))

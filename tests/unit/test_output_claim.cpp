@@ -48,8 +48,8 @@ class OutputClaims : public unit::Files {
     ASSERT_GE(child_, 0);
     if (child_ == 0) {
       const FileLock lock(path(name));
-      const bool told = write(ready[1], "!", 1) == 1;
-      while (told) pause();
+      const bool sent = write(ready[1], "!", 1) == 1;
+      while (sent) pause();
       _exit(1);
     }
     char byte = 0;

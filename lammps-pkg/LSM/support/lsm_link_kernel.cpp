@@ -26,7 +26,7 @@ namespace LSMLinkKernel {
 
   using LSMLinkRows::LANES;
   using LSMLinkRows::Rows;
-  using LSMLinkRows::Run;
+  using LSMLinkRows::Stack;
   using Lanes = double __attribute__((vector_size(LANES * sizeof(double))));
   using Pair = double __attribute__((vector_size(2 * sizeof(double))));
 
@@ -111,15 +111,15 @@ namespace LSMLinkKernel {
   // up the hundred or so instructions after it. Stations are lambdas over local variables, as
   // members of a class would be kept in memory.
   template <int DIM, int LENGTH, bool FILLED_UP, bool BOTH, class Law>
-  LSM_INLINE static double work_on(const Run &run, const Rows &rows, const Law &law,
+  LSM_INLINE static double work_on(const Stack &stack, const Rows &rows, const Law &law,
                                    const double *x, double *f, std::vector<Place> &broken)
   {
     constexpr int STAGES = 4;
     using Known = Stage<DIM, LENGTH, Law::viscous>;
     Known ring[STAGES];
-    const int *row_in = &rows.particle[run.row], *row_out = row_in;
-    const int *other_in = &rows.other[run.link], *other_out = other_in;
-    const double *rest = &rows.rest[run.link];
+    const int *row_in = &rows.particle[stack.row], *row_out = row_in;
+    const int *other_in = &rows.other[stack.link], *other_out = other_in;
+    const double *rest = &rows.rest[stack.link];
     Lanes twice{};                    // the energy
     [[maybe_unused]] Lanes lost{};    // the power
 
@@ -163,7 +163,7 @@ namespace LSMLinkKernel {
           any |= law.is_broken(s.r[n], load<Lanes>(rest + n * LANES));
         if (any[0] | any[1] | any[2] | any[3])
           note_broken(law, LENGTH, reinterpret_cast<const double *>(s.r), rest,
-                      {run.row + slice * LANES, static_cast<int>(rest - &rows.rest[0])}, broken);
+                      {stack.row + slice * LANES, static_cast<int>(rest - &rows.rest[0])}, broken);
       }
 #pragma GCC unroll 4
       for (int n = 0; n < LENGTH; n++, rest += LANES) {
@@ -201,17 +201,17 @@ namespace LSMLinkKernel {
       row_out += LANES;
     };
 
-    int fetch = run.fetch;
+    int fetch = stack.fetch;
     const auto fetch_some = [&](int count) LSM_LAMBDA {
-      for (; count > 0 && fetch < run.fetch_end; count--, fetch++) {
+      for (; count > 0 && fetch < stack.fetch_end; count--, fetch++) {
         __builtin_prefetch(x + rows.to_fetch[fetch]);
         __builtin_prefetch(f + rows.to_fetch[fetch], 1);
         if constexpr (Law::viscous) __builtin_prefetch(law.velocity + rows.to_fetch[fetch]);
       }
     };
 
-    const int slices = run.slices;
-    const int fetches = (run.fetch_end - run.fetch + slices - 1) / slices;
+    const int slices = stack.slices;
+    const int fetches = (stack.fetch_end - stack.fetch + slices - 1) / slices;
     for (int n = 0; n < slices + STAGES - 1; n++) {
       if (n >= 1 && n - 1 < slices) lengths(n - 1);
       if (n < slices) {
@@ -231,20 +231,20 @@ namespace LSMLinkKernel {
                                        const double *x, double *f, std::vector<Place> &broken)
   {
     LSM::NeumaierSum sum;
-    for (const Run &run : rows.runs) {
+    for (const Stack &stack : rows.stacks) {
       double twice = 0.0;
       if (first_only)
-        twice = work_on<DIM, LSMLinkRows::LONGEST, true, false>(run, rows, law, x, f, broken);
-      else if (run.filled_up)
-        twice = work_on<DIM, LSMLinkRows::LONGEST, true, true>(run, rows, law, x, f, broken);
-      else if (run.length == 4)
-        twice = work_on<DIM, 4, false, true>(run, rows, law, x, f, broken);
-      else if (run.length == 3)
-        twice = work_on<DIM, 3, false, true>(run, rows, law, x, f, broken);
-      else if (run.length == 2)
-        twice = work_on<DIM, 2, false, true>(run, rows, law, x, f, broken);
+        twice = work_on<DIM, LSMLinkRows::LONGEST, true, false>(stack, rows, law, x, f, broken);
+      else if (stack.filled_up)
+        twice = work_on<DIM, LSMLinkRows::LONGEST, true, true>(stack, rows, law, x, f, broken);
+      else if (stack.length == 4)
+        twice = work_on<DIM, 4, false, true>(stack, rows, law, x, f, broken);
+      else if (stack.length == 3)
+        twice = work_on<DIM, 3, false, true>(stack, rows, law, x, f, broken);
+      else if (stack.length == 2)
+        twice = work_on<DIM, 2, false, true>(stack, rows, law, x, f, broken);
       else
-        twice = work_on<DIM, 1, false, true>(run, rows, law, x, f, broken);
+        twice = work_on<DIM, 1, false, true>(stack, rows, law, x, f, broken);
       sum.add((first_only ? 0.25 : 0.5) * twice);
     }
     return sum.value();

@@ -43,12 +43,14 @@ namespace LSMLinkRows {
     }
   }
 
-  static void add_run(Rows &o, const Owners &of, std::vector<Row> &rows, int length, bool filled_up)
+  static void add_stack(Rows &o, const Owners &of, std::vector<Row> &rows, int length,
+                        bool filled_up)
   {
     if (rows.empty()) return;
     while (rows.size() % LANES) rows.push_back({rows.back().i, rows.back().first, 0});
-    o.runs.push_back({static_cast<int>(rows.size()) / LANES, length, filled_up,
-                      static_cast<int>(o.particle.size()), static_cast<int>(o.other.size()), 0, 0});
+    o.stacks.push_back({static_cast<int>(rows.size()) / LANES, length, filled_up,
+                        static_cast<int>(o.particle.size()), static_cast<int>(o.other.size()), 0,
+                        0});
     for (std::size_t slice = 0; slice < rows.size(); slice += LANES) {
       for (int c = 0; c < LANES; c++) o.particle.push_back(3 * rows[slice + c].i);
       for (int n = 0; n < length; n++)
@@ -82,14 +84,14 @@ namespace LSMLinkRows {
       const auto end = mixed ? full.begin() : full.end() - full.size() % LANES;
       left.insert(left.end(), end, full.end());
       full.erase(end, full.end());
-      add_run(o, of, full, length, false);
+      add_stack(o, of, full, length, false);
     }
-    add_run(o, of, left, LONGEST, true);
+    add_stack(o, of, left, LONGEST, true);
   }
 
-  // Lists the cache lines used by the runs from `first` on and not by those of the previous window.
-  // They are prefetched evenly during the previous window, as waiting for each when it is needed
-  // would take longer than the arithmetic.
+  // Lists the cache lines used by the stacks from `first` on and not by those of the previous
+  // window. They are prefetched evenly during the previous window, as waiting for each when it is
+  // needed would take longer than the arithmetic.
   static void fetch_ahead(Rows &o, std::size_t before, std::size_t first, std::vector<int> &used,
                           int window)
   {
@@ -101,19 +103,19 @@ namespace LSMLinkRows {
         last = window;
       }
     };
-    if (first == o.runs.size()) return;
-    use(o.particle, o.runs[first].row);
-    use(o.other, o.runs[first].link);
+    if (first == o.stacks.size()) return;
+    use(o.particle, o.stacks[first].row);
+    use(o.other, o.stacks[first].link);
 
     double slices = 0.0, done = 0.0;
-    for (std::size_t r = before; r < first; r++) slices += o.runs[r].slices;
+    for (std::size_t r = before; r < first; r++) slices += o.stacks[r].slices;
     const auto share = [&] {
       return static_cast<int>(begin + (o.to_fetch.size() - begin) * done / slices);
     };
     for (std::size_t r = before; r < first; r++) {
-      o.runs[r].fetch = share();
-      done += o.runs[r].slices;
-      o.runs[r].fetch_end = share();
+      o.stacks[r].fetch = share();
+      done += o.stacks[r].slices;
+      o.stacks[r].fetch_end = share();
     }
   }
 
@@ -123,10 +125,10 @@ namespace LSMLinkRows {
     const Owners of(links, nlocal);
     Rows o;
     std::vector<int> used(3 * nall / LINE + 1, -2);
-    std::size_t before = 0;    // where the runs of the window before begin
+    std::size_t before = 0;    // where the stacks of the window before begin
     const int n = static_cast<int>(owned.size());
     for (int from = 0, window = 0; from < n; from += WINDOW, window++) {
-      const std::size_t first = o.runs.size();
+      const std::size_t first = o.stacks.size();
       add_window(o, of, &owned[from], &owned[0] + std::min(n, from + WINDOW), mixed);
       fetch_ahead(o, before, first, used, window);
       before = first;

@@ -23,7 +23,7 @@ namespace LSMLinkRows {
   };
 
   /// Slices of rows of the same length.
-  struct Run {
+  struct Stack {
     int slices, length;
     bool filled_up;          ///< some places hold no link
     int row, link;           ///< where it begins in Rows::particle, and in Rows::other and rest
@@ -32,7 +32,7 @@ namespace LSMLinkRows {
 
   /// Links of one kind. Places are 3 times the local index of a particle.
   struct Rows {
-    std::vector<Run> runs;
+    std::vector<Stack> stacks;
     std::vector<int> particle;    ///< place of the particle of each row, LANES for each slice
     std::vector<int> other;       ///< place of its partner, LANES for each link of a slice
     std::vector<double> rest;     ///< rest length, or NO_LINK
