@@ -262,8 +262,13 @@ template <int PARTS, int DIM, bool PLAIN, bool CLEARS> void FixLSMNVE::move()
 
 void FixLSMNVE::add_longest_moves(std::vector<double> &of_blocks) const
 {
-  for (const Stretch &stretch : stretches)
-    of_blocks[stretch.first / BLOCK] += dtv * sqrt(stretch.fastest);
+  for (auto stretch = stretches.begin(); stretch != stretches.end();) {
+    const int block = stretch->first / BLOCK;
+    double most = 0.0;
+    for (; stretch != stretches.end() && stretch->first / BLOCK == block; ++stretch)
+      most = MAX(most, stretch->fastest);
+    of_blocks[block] += dtv * sqrt(most);
+  }
 }
 
 void FixLSMNVE::initial_integrate(int /*vflag*/)

@@ -60,26 +60,31 @@ void PairLSMFree::compute(int eflag, int vflag)
 int PairLSMFree::find_near(double reach, const int *const *touch)
 {
   using Due = LSMNearPairs::Due;
+  if (update->setupflag) near.clear();    // the number of a build may have been used before
   const std::vector<double> &moves = travel.since_last();
   const double *const x = atom->x[0], *const radius = contact_radii();
-  int kept_before = static_cast<int>(near.kept().size());
-  const Due due =
-      near.due(neighbor->ncalls, *list, x, atom->nlocal, atom->nlocal + atom->nghost, moves);
+  const int count = atom->nlocal + atom->nghost;
+  const Due due = near.due(neighbor->ncalls, *list, x, atom->nlocal, count, moves);
+  const bool chooses = due == Due::new_list || due == Due::choice;
+  const int kept_before = chooses ? 0 : static_cast<int>(near.kept().size());
+
   if (due == Due::new_list) {
     if (update->setupflag) LSMPairSearch::take_over(lmp, *list);
     screened ? patch.stop() : patch.start(*list, active);
-  } else
-    for (const auto &added :
-         due == Due::choice ? patch.look_at_all() : patch.look_at(near.movers())) {
-      note_added(added.i, added.jj);
-      near.add(added.i, added.jj, added.j, radius);
+  } else {
+    const auto &added = due == Due::choice    ? patch.look_at_all(0)
+                        : near.knows_strays() ? patch.look_at(near.strays())
+                                              : patch.look_at_all(atom->nlocal);
+    for (const LSMListPatch::Added &pair : added) {
+      note_added(pair.i, pair.jj);
+      near.add(pair.i, pair.jj, pair.j, radius);
     }
-  if (due == Due::movers) near.keep_pairs_of_movers(radius);
-  if (due == Due::new_list || due == Due::choice) {
+  }
+  if (chooses) {
     note_contacts();
     near.choose(x, radius, reach, touch);
-    kept_before = 0;
-  }
+  } else if (due == Due::strays)
+    near.keep_pairs_of_strays(radius);
   near.find(x);
   return kept_before;
 }

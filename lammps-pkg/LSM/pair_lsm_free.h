@@ -67,8 +67,8 @@ class PairLSMFree : public Pair, public LSMEnergySource {
   class FixLSMVelocity *velocity = nullptr;    // of this run, null if no contact is viscous in it
 
   const double *contact_radii() const;
-  /// Finds the pairs that touch. Returns how many of the pairs that are kept, the first ones, were
-  /// kept in the step before, too: all of them, or none if pairs were chosen anew.
+  /// Finds the pairs that touch. Returns how many of the pairs that are kept were kept in the step
+  /// before, too, which come first; none if pairs were chosen anew.
   int find_near(double reach, const int *const *touch);
   /// Called before other pairs are chosen, so that derived classes can save the state of those that
   /// are kept.

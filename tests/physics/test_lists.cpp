@@ -17,7 +17,10 @@ class Lists : public Lmp {};
 
 // Discs at rest, and two linked ones that bounce through a lane between their rows, where they
 // touch new ones all the time, also over the periodic border.
-std::string lane(const std::string &pair) {
+const char *const free_pairs = "pair_style lsm/free\npair_coeff * * 1.0\n";
+const char *const friction_pairs = "pair_style lsm/friction\npair_coeff * * 1.0 0.5 0.02\n";
+
+std::string lane(const std::string &pair, const std::string &runs = "run 3000\n") {
   return R"(
 variable          cutoff index 7.0
 variable          check index yes
@@ -54,11 +57,10 @@ timestep          0.01
 fix               move bullet lsm/nve
 variable          x equal xcm(bullet,x)
 variable          y equal xcm(bullet,y)
-thermo_style      custom step ke v_x v_y
+thermo_style      custom step ke pe v_x v_y
 thermo_modify     norm no format float %.17g
 thermo            500
-run               3000
-)";
+)" + runs;
 }
 
 int builds(const Result &result) {
@@ -68,8 +70,7 @@ int builds(const Result &result) {
 }
 
 TEST_F(Lists, AParticleThatMovesFarMeetsOthers) {
-  for (const char *pair : {"pair_style lsm/free\npair_coeff * * 1.0\n",
-                           "pair_style lsm/friction\npair_coeff * * 1.0 0.5 0.02\n"}) {
+  for (const char *pair : {free_pairs, friction_pairs}) {
     const Result exact = run_text(lane(pair), {{"check", "no"}});
     ASSERT_TRUE(succeeded(exact));
     EXPECT_EQ(builds(exact), 3000);
@@ -90,13 +91,90 @@ TEST_F(Lists, AParticleThatMovesFarMeetsOthers) {
   }
 }
 
-// Their lists are not added to, so LAMMPS has to build all of them.
-TEST_F(Lists, AreBuiltWhereOthersUseThem) {
-  const Result r =
-      run_text(lane("pair_style lsm/free\npair_coeff * * 1.0\n"
-                    "compute neighbours all coord/atom cutoff 2.0\n"));
+// Their lists are not added to, or they may rely on particles moving by less than half the skin, so
+// LAMMPS has to build all lists.
+TEST_F(Lists, AreBuiltWhereOthersMayRelyOnThem) {
+  for (const char *other : {"compute neighbours all coord/atom cutoff 2.0\n",
+                            "fix flow all ave/grid 10 10 100 48 20 1 vx\n"}) {
+    const Result r = run_text(lane(free_pairs + std::string(other)));
+    ASSERT_TRUE(succeeded(r));
+    EXPECT_GT(builds(r), 40) << other;
+  }
+}
+
+// Ghosts reach over several ranks here, but particles may change to the next rank only.
+TEST_F(Lists, ParticlesReachTheRankBesideTheirsAtMost) {
+  const Result exact = run_text(lane(free_pairs), {{"check", "no"}});
+  const Result r = run_text(lane(free_pairs), {{"cutoff", "20"}}, 4);
   ASSERT_TRUE(succeeded(r));
-  EXPECT_GT(builds(r), 40);
+  EXPECT_LT(thermo_difference(exact, r, {"KinEng", "v_x", "v_y"}), 1e-9);
+}
+
+// The lists of the first run are those of the second, with what was added to them.
+TEST_F(Lists, OfTheRunBeforeAreUsedOn) {
+  for (const char *pair : {free_pairs, friction_pairs}) {
+    const std::string script =
+        lane(pair, "run 1000\nwrite_coeff coefficients.txt\nrun 1000 pre no\n");
+    const Result exact = run_text(script, {{"check", "no"}});
+    const Result r = run_text(script);
+    ASSERT_TRUE(succeeded(r));
+    EXPECT_LT(thermo_difference(exact, r, {"KinEng", "v_x", "v_y"}), 1e-9) << pair;
+  }
+}
+
+TEST_F(Lists, AreNewForEachSnapshotOfARerun) {
+  const Result r = run_text(
+      lane(free_pairs,
+           "dump snap all custom 500 snap.dump id x y\ndump_modify snap format float %.17g\n"
+           "run 3000\nundump snap\nrerun snap.dump dump x y\n"));
+  ASSERT_TRUE(succeeded(r));
+  ASSERT_EQ(r.thermo.size(), 14u) << r.output;
+  for (std::size_t n = 0; n < 7; ++n)
+    EXPECT_NEAR(r.thermo[n + 7].at("PotEng"), r.thermo[n].at("PotEng"), 1e-12) << n;
+  EXPECT_GT(r.last("PotEng"), 0.0);
+}
+
+// A disc of the first rank, where many pairs are listed, hits one at rest of the second, where
+// there are no others.
+TEST_F(Lists, ARankWithFewPairsSeesWhatComesFromBesideIt) {
+  const Result r = run_text(R"(
+units             lj
+dimension         2
+boundary          f f p
+newton            off
+atom_style        hybrid bond sphere
+atom_modify       map array
+comm_modify       mode single cutoff 7.0
+neighbor          0.4 bin
+neigh_modify      delay 0 every 1 check yes
+special_bonds     lj/coul 0 1 1
+processors        2 1 1
+lattice           hex 0.2385
+region            box block -20 20 -10 10 -0.5 0.5 units box
+create_box        2 box bond/types 1 extra/bond/per/atom 1 extra/special/per/atom 1
+region            patch block -18 -8 INF INF INF INF units box
+create_atoms      1 region patch
+lattice           none 1.0
+create_atoms      2 single -1.5 0 0
+create_atoms      1 single 1.5 0 0
+set               group all diameter 2.0
+set               group all mass 1.0
+group             bullet type 2
+pair_style        lsm/free
+pair_coeff        * * 1.0
+velocity          bullet set 0.9 0 0
+timestep          0.01
+fix               move bullet lsm/nve
+variable          v equal vcm(bullet,x)
+thermo_style      custom step v_v
+thermo_modify     format float %.17g
+run               1000
+)",
+                            {}, 2);
+  ASSERT_TRUE(succeeded(r));
+  // it comes back as fast, but for the error of the time step
+  EXPECT_NEAR(r.last("v_v"), -0.9, 1e-4);
+  EXPECT_LT(builds(r), 10);
 }
 
 }  // namespace

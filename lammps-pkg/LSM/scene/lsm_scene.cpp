@@ -47,6 +47,14 @@ namespace LSMScene {
     return utils::strmatch(fix->style, "^lsm/") || utils::strmatch(fix->style, "^LSM_");
   }
 
+  bool has_only_ours(Modify *modify)
+  {
+    const auto &fixes = modify->get_fix_list();
+    return std::all_of(fixes.begin(), fixes.end(), [](const Fix *fix) {
+      return is_ours(fix) || utils::strmatch(fix->style, "^NEIGH_HISTORY");
+    });
+  }
+
   std::vector<LSM::PairSpring> springs(LAMMPS *lmp, double reach_factor)
   {
     Atom *const atom = lmp->atom;

@@ -27,6 +27,9 @@ namespace LSMScene {
   /// Whether a fix belongs to the package.
   bool is_ours(const Fix *);
 
+  /// Whether all fixes belong to the package, or to LAMMPS' contact histories.
+  bool has_only_ours(Modify *);
+
   /// All fixes of a class, in the order of the input.
   template <class Kind> std::vector<Kind *> fixes(Modify *modify)
   {

@@ -7,6 +7,8 @@
 #include "domain.h"
 #include "force.h"
 #include "lsm_near_pairs.h"
+#include "lsm_scene.h"
+#include "modify.h"
 #include "neigh_list.h"
 #include "neighbor.h"
 #include "update.h"
@@ -18,7 +20,7 @@
 
 using namespace LAMMPS_NS;
 
-// Up to this number of particles at a time. If more have moved far, all lists are built anew.
+// The largest number of particles whose pairs are added at a time.
 static constexpr std::size_t MOST = 64;
 
 static double distance_sq(const double *a, const double *b)
@@ -28,41 +30,58 @@ static double distance_sq(const double *a, const double *b)
   return sum;
 }
 
-// How far particles may be from where they were when the list was built. A pair of which neither
-// particle has the other as a ghost is farther apart than the cutoff of ghosts by then, and later
-// by up to two margins less; it may not be nearer than a pair that is not listed. Not positive if
-// lists cannot be added to.
+// How far particles may be from where they were when the list was built; not positive if pairs
+// cannot be added to the list.
+//
+// Two particles of different ranks, of which one does not have the other as a ghost, were farther
+// apart than the cutoff of ghosts when the list was built. Each may then move by the margin and by
+// half the skin, so that such pairs stay farther apart than the sum of their radii. When particles
+// change ranks, they may have moved by less than a sub-domain. Fixes of LAMMPS may rely on
+// particles moving by less than half the skin.
 double LSMListPatch::find_margin(const NeighList &of) const
 {
   bool simple = update->whichflag == 1 && utils::strmatch(update->integrate_style, "^verlet") &&
                 !force->newton_pair && !domain->box_change && !domain->triclinic &&
                 comm->mode == Comm::SINGLE && comm->style == Comm::BRICK && !neighbor->exclude &&
-                !neighbor->includegroup && neighbor->dist_check &&
+                !neighbor->includegroup && neighbor->dist_check && !of.copy &&
                 atom->molecular != Atom::TEMPLATE;
   for (int n = 0; n < neighbor->nlist; n++) {
     const NeighList *const other = neighbor->lists[n];
-    if (other && other != &of && other != of.listskip) simple = false;
+    simple = simple && (!other || other == &of ||
+                        (other == of.listskip && other->requestor_type == NeighList::NONE));
   }
-  if (!simple || of.copy) return 0.0;
-  double least = std::numeric_limits<double>::infinity();
-  for (int c = 0; c < domain->dimension; c++) least = std::min(least, comm->cutghost[c]);
-  return 0.5 * (least - neighbor->cutneighmax);
+  if (!simple || !LSMScene::has_only_ours(modify)) return 0.0;
+
+  double margin_of_all = std::numeric_limits<double>::infinity();
+  const double *const splits[] = {comm->xsplit, comm->ysplit, comm->zsplit};
+  for (int c = 0; c < domain->dimension; c++) {
+    margin_of_all = std::min(margin_of_all, 0.5 * (comm->cutghost[c] - neighbor->cutneighmax));
+    for (int n = 0; n < comm->procgrid[c]; n++)
+      margin_of_all = std::min(margin_of_all,
+                               (splits[c][n + 1] - splits[c][n]) * domain->prd[c] - neighbor->skin);
+  }
+  return margin_of_all;
 }
 
+// A list that is looked at for the first time may be older than its last build, with the rows that
+// were added to it.
 void LSMListPatch::start(NeighList &of, const LSMTypePairs<int> &active_types)
 {
+  list = nullptr;
+  if (neighbor->ago != 0) return;
   rows.clear();
+  sorted.clear();
+  wants_build = false;
   active = &active_types;
   margin = find_margin(of);
-  // until they are looked at again, particles go on moving
+  // particles that are no strays may move by SKIN until they are looked at
   const double trigger = 0.5 * neighbor->skin - LSMNearPairs::SKIN;
-  list = trigger > 0.0 && margin > 0.5 * neighbor->skin ? &of : nullptr;
-  if (!list) return;
+  if (!(trigger > 0.0 && margin > 0.5 * neighbor->skin)) return;
+  list = &of;
   trigger_sq = trigger * trigger;
   const int count = atom->nlocal + atom->nghost;
   built.assign(atom->x[0], atom->x[0] + 3 * static_cast<std::size_t>(count));
   held = built;
-  sorted.clear();
 }
 
 const std::vector<LSMListPatch::Added> &LSMListPatch::look_at(const std::vector<int> &particles)
@@ -76,18 +95,19 @@ const std::vector<LSMListPatch::Added> &LSMListPatch::look_at(const std::vector<
 }
 
 // Ghosts first: it has to be known whether any has moved far, also if many particles have.
-const std::vector<LSMListPatch::Added> &LSMListPatch::look_at_all()
+const std::vector<LSMListPatch::Added> &LSMListPatch::look_at_all(int first)
 {
   far.clear();
   if (list)
-    for (int i = static_cast<int>(held.size() / 3) - 1; i >= 0 && far.size() <= MOST; i--)
+    for (int i = static_cast<int>(held.size() / 3) - 1; i >= first && far.size() <= MOST; i--)
       if (distance_sq(atom->x[i], &held[3 * static_cast<std::size_t>(i)]) > trigger_sq)
         far.push_back(i);
   return add_pairs_of_far();
 }
 
-// A rank with a particle that has gone too far notes no new position, so that LAMMPS builds all
-// lists. For ghosts it has to be asked to, as their own rank may have noted one.
+// The position of a particle that has gone too far is not noted, so that LAMMPS' check finds it and
+// all lists are built. For a ghost it may have been noted on the rank that owns it; then this rank
+// makes the check find a particle that has moved infinitely far.
 const std::vector<LSMListPatch::Added> &LSMListPatch::add_pairs_of_far()
 {
   added.clear();
@@ -100,22 +120,19 @@ const std::vector<LSMListPatch::Added> &LSMListPatch::add_pairs_of_far()
       std::copy_n(atom->x[i], 3, &held[place]);
       if (!ghost) std::copy_n(atom->x[i], 3, neighbor->get_xhold()[i]);
       add_pairs_of(i);
-    } else if (ghost)
-      ask_for_build();
+    } else
+      wants_build = wants_build || ghost;
   }
+  if (list && wants_build && atom->nlocal > 0)
+    neighbor->get_xhold()[0][0] = std::numeric_limits<double>::infinity();
   return added;
-}
-
-// LAMMPS finds a particle that has moved infinitely far.
-void LSMListPatch::ask_for_build()
-{
-  if (atom->nlocal > 0) neighbor->get_xhold()[0][0] = std::numeric_limits<double>::infinity();
 }
 
 void LSMListPatch::sort_into_cells()
 {
   const int count = static_cast<int>(built.size() / 3);
-  cell = neighbor->cutneighmax + 2.0 * margin;    // particles have moved by up to a margin
+  // particles have moved by up to a margin, or a little more because of rounding
+  cell = (neighbor->cutneighmax + 2.0 * margin) * (1.0 + 1e-6);
   for (int c = 0; c < 2; c++) {
     double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
     for (int i = 0; i < count; i++) {
@@ -167,7 +184,7 @@ void LSMListPatch::add_pairs_of(int i)
 // The pair is in the neighbors of the particle with the lower index, as in LAMMPS' own list.
 void LSMListPatch::add_pair(int i, int j)
 {
-  if (!(*active)[atom->type[i]][atom->type[j]] || is_linked(i, j) || is_listed(i, j) ||
+  if (!(*active)[atom->type[i]][atom->type[j]] || is_excluded(i, j) || is_listed(i, j) ||
       (j < atom->nlocal && is_listed(j, i)))
     return;
   std::vector<int> &row = rows[i];
@@ -179,11 +196,15 @@ void LSMListPatch::add_pair(int i, int j)
   added.push_back({i, count++, j});
 }
 
-bool LSMListPatch::is_linked(int i, int j) const
+// LAMMPS' own rule: pairs linked directly, or over one or two other particles, may be left out.
+bool LSMListPatch::is_excluded(int i, int j) const
 {
   if (atom->molecular == Atom::ATOMIC) return false;
-  const tagint *const partners = atom->special[i], *const end = partners + atom->nspecial[i][0];
-  if (std::find(partners, end, atom->tag[j]) == end) return false;
+  const tagint *const partners = atom->special[i];
+  const int *const ends = atom->nspecial[i];
+  const auto n = std::find(partners, partners + ends[2], atom->tag[j]) - partners;
+  if (n == ends[2] || neighbor->special_flag[n < ends[0] ? 1 : n < ends[1] ? 2 : 3] != 0)
+    return false;
   const double *const a = atom->x[i], *const b = atom->x[j];
   return !domain->minimum_image_check(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }

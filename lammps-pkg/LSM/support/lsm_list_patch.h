@@ -14,11 +14,11 @@ namespace LAMMPS_NS {
 class NeighList;
 
 /// LAMMPS builds all neighbor lists anew once any particle has moved by half the skin. In a dense
-/// block these are mostly single discs that snap into another place. This class adds their new
-/// pairs to the list instead, and notes their positions for LAMMPS' own check of distances, so that
-/// the list is as good as a new one. Particles may move within the margin that the ghosts have
-/// beyond the longest distance of listed pairs (comm_modify cutoff); without such a margin, and
-/// where others use neighbor lists as well, everything is left to LAMMPS.
+/// block this is mostly a single disc that has snapped into another place. This class adds the
+/// pairs of such a disc to the list instead, and notes its position for LAMMPS' own check of
+/// distances, so that the list is as good as a new one. Particles may move by half of what the
+/// ghosts reach farther than listed pairs (comm_modify cutoff). If that is too little, or if others
+/// use neighbor lists or may rely on the skin, everything is left to LAMMPS.
 class LSMListPatch : protected Pointers {
  public:
   LSMListPatch(LAMMPS *_lmp) : Pointers(_lmp) {}
@@ -27,14 +27,15 @@ class LSMListPatch : protected Pointers {
     int i, jj, j;    ///< a particle, the index of its partner in its neighbors, and the partner
   };
 
-  /// To be called when the list has been built, in the same step.
+  /// To be called when pairs are chosen from the whole list. Does nothing unless the list was built
+  /// in this step.
   /// \param active  which types of particles interact
   void start(NeighList &, const LSMTypePairs<int> &active);
   /// Adds the pairs of those of these particles that have moved far.
   /// \return the pairs added, until the next call
   const std::vector<Added> &look_at(const std::vector<int> &particles);
-  /// The same for all particles of this rank and its ghosts.
-  const std::vector<Added> &look_at_all();
+  /// The same for all particles from local index `first` on, ghosts included.
+  const std::vector<Added> &look_at_all(int first);
   /// Nothing is added until the next start().
   void stop() { list = nullptr; }
 
@@ -45,10 +46,11 @@ class LSMListPatch : protected Pointers {
   double trigger_sq = 0.0;      // square of the displacement from which pairs are added
   std::vector<double> built;    // positions when the list was built
   std::vector<double> held;     // the same, later ones where pairs were added
+  bool wants_build = false;     // LAMMPS has to build all lists
   std::vector<int> far;
   std::vector<Added> added;
-  // particles by the square cell in which they were when the list was built, along x and y; made
-  // once it is needed
+  // Particles by the square cell, along x and y, in which they were when the list was built. Sorted
+  // when a pair is added for the first time.
   double cell = 0.0, corner[2] = {};
   int cells[2] = {};
   std::vector<int> first_in, sorted;
@@ -60,9 +62,8 @@ class LSMListPatch : protected Pointers {
   int find_cell(const double *position) const;
   void add_pairs_of(int);
   void add_pair(int, int);
-  bool is_linked(int i, int j) const;
+  bool is_excluded(int i, int j) const;
   bool is_listed(int i, int j) const;
-  void ask_for_build();
 };
 
 }    // namespace LAMMPS_NS

@@ -21,9 +21,7 @@ void LSMMover::complete_steps(Modify *modify)
 void LSMTravel::look_for_movers()
 {
   movers = LSMScene::fixes<LSMMover>(modify);
-  known = update->whichflag == 1;
-  for (const auto &fix : modify->get_fix_list())
-    known = known && (LSMScene::is_ours(fix) || utils::strmatch(fix->style, "^NEIGH_HISTORY"));
+  known = update->whichflag == 1 && LSMScene::has_only_ours(modify);
 }
 
 // Before a run, and between runs that follow without a set-up, commands may have moved particles.

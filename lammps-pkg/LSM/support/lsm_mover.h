@@ -26,8 +26,7 @@ class LSMMover {
   bool has_put_off() const { return pending; }
   /// Bits of the groups that this fix moves.
   virtual int moved_bits() const = 0;
-  /// Particles with consecutive local indices, from multiples of BLOCK on, of which one bound of
-  /// their displacements is known.
+  /// Number of particles with consecutive local indices that share one bound of displacements.
   static constexpr int BLOCK = 256;
   /// Adds to each bound the largest displacement of a particle of its block in this step, infinity
   /// where it is not known.

@@ -16,11 +16,11 @@ using namespace LAMMPS_NS;
 static constexpr double ROUNDING = 1e-9;    // of the skin, and of squares of distances
 static constexpr double FEW =
     0.5;    // up to this number of listed pairs per particle, all of them are kept
-// Displacement of a particle that may become a mover, and how many of them there may be.
-static constexpr double MOVER = LSMNearPairs::SKIN / 3.0;
-static constexpr int MIN_MOVERS = 8, PARTICLES_PER_MOVER = 128;
+// Displacement of a particle that may be a stray, and how many of them there may be.
+static constexpr double STRAY = LSMNearPairs::SKIN / 3.0;
+static constexpr int MIN_STRAYS = 8, PARTICLES_PER_STRAY = 128;
 
-// the largest displacement of the particles in [first, last) since the pairs were chosen
+// the largest distance of the particles in [first, last) from the positions that are held
 double LSMNearPairs::displacement(const double *x, size_t first, size_t last) const
 {
   double most = 0.0;    // square
@@ -31,21 +31,21 @@ double LSMNearPairs::displacement(const double *x, size_t first, size_t last) co
   return sqrt(most);
 }
 
-void LSMNearPairs::hold_movers(const double *x)
+void LSMNearPairs::hold_strays(const double *x)
 {
-  for (const size_t i : moving) std::copy_n(x + 3 * i, 3, &held[3 * i]);
+  for (const size_t i : found_strays) std::copy_n(x + 3 * i, 3, &held[3 * i]);
 }
 
-// Adds the particles in [first, last) that have moved far to the movers, unless they are many.
-bool LSMNearPairs::find_movers(const double *x, size_t first, size_t last)
+// Adds the particles in [first, last) that have moved far to the strays, unless they are many.
+bool LSMNearPairs::find_strays(const double *x, size_t first, size_t last)
 {
-  const size_t most = MIN_MOVERS + held.size() / 3 / PARTICLES_PER_MOVER;
+  const size_t most = MIN_STRAYS + held.size() / 3 / PARTICLES_PER_STRAY;
   for (size_t i = first; i < last; i++)
-    if (displacement(x, i, i + 1) > MOVER) {
-      if (moving.size() == most) return false;
-      moving.push_back(static_cast<int>(i));
+    if (displacement(x, i, i + 1) > STRAY) {
+      if (found_strays.size() == most) return false;
+      found_strays.push_back(static_cast<int>(i));
     }
-  hold_movers(x);
+  hold_strays(x);
   return true;
 }
 
@@ -70,14 +70,14 @@ LSMNearPairs::Due LSMNearPairs::due(bigint build, const NeighList &list, const d
     return Due::new_list;
   }
   if (held.empty()) return Due::nothing;
-  hold_movers(x);
+  hold_strays(x);
   double ghosts = displacement(x, nlocal, count);
   const auto too_far = [&ghosts](double move) {
     return !(move + std::max(move, ghosts) < SKIN * (1.0 - ROUNDING));
   };
-  const size_t movers_before = moving.size();
+  const size_t strays_before = found_strays.size();
   if (ghosts > 0.5 * SKIN) {
-    if (!find_movers(x, nlocal, count)) return Due::choice;
+    if (!find_strays(x, nlocal, count)) return Due::choice;
     ghosts = displacement(x, nlocal, count);
   }
   for (size_t b = 0; b < moved.size(); b++) {
@@ -87,10 +87,10 @@ LSMNearPairs::Due LSMNearPairs::due(bigint build, const NeighList &list, const d
                  last = std::min(first + LSMMover::BLOCK, static_cast<size_t>(nlocal));
     moved[b] = displacement(x, first, last);
     if (!too_far(moved[b])) continue;
-    if (!find_movers(x, first, last)) return Due::choice;
+    if (!find_strays(x, first, last)) return Due::choice;
     moved[b] = displacement(x, first, last);
   }
-  return moving.size() > movers_before ? Due::movers : Due::nothing;
+  return found_strays.size() > strays_before ? Due::strays : Due::nothing;
 }
 
 void LSMNearPairs::index_listed()
@@ -120,11 +120,11 @@ void LSMNearPairs::keep(int n, const double *radius, bool touching)
   limit.push_back(touching ? INFINITY : within.back());
 }
 
-void LSMNearPairs::keep_pairs_of_movers(const double *radius)
+void LSMNearPairs::keep_pairs_of_strays(const double *radius)
 {
   if (first_of.empty()) index_listed();
-  for (; admitted < moving.size(); admitted++) {
-    const int i = moving[admitted];
+  for (; admitted < found_strays.size(); admitted++) {
+    const int i = found_strays[admitted];
     for (int n = first_of[i]; n < first_of[i + 1]; n++)
       if (!is_kept[pairs_of[n]]) keep(pairs_of[n], radius, false);
     for (size_t n = pairs_of.size() / 2; n < listed.size(); n++)    // added since
@@ -149,7 +149,7 @@ void LSMNearPairs::choose(const double *x, const double *radius, double reach,
 {
   std::copy_n(x, held.size(), held.begin());
   std::fill(moved.begin(), moved.end(), 0.0);
-  moving.clear();
+  found_strays.clear();
   admitted = 0;
   is_kept.assign(listed.size(), 0);
   found.resize(listed.size());

@@ -15,7 +15,7 @@ class NeighList;
 
 /// Most pairs in the neighbor list of a dense block never touch. This class keeps the pairs that
 /// may come near before particles have moved by a small skin against each other, and in each step
-/// finds those of them that touch. No pair is missed, so forces are the same to the last bit.
+/// finds those of them that touch. No pair is missed.
 class LSMNearPairs {
  public:
   struct Pair {
@@ -24,9 +24,9 @@ class LSMNearPairs {
 
   /// How far particles may move against each other until pairs are chosen anew.
   static constexpr double SKIN = 0.05;
-  /// What has to be done before find(): nothing, keep_pairs_of_movers(), choose(), or choose() from
+  /// What has to be done before find(): nothing, keep_pairs_of_strays(), choose(), or choose() from
   /// a list that was built since.
-  enum class Due { nothing, movers, choice, new_list };
+  enum class Due { nothing, strays, choice, new_list };
   /// To be called once in each step.
   /// \param build     number of the build of the neighbor list
   /// \param x         positions of all particles with ghosts, `count` of them, `nlocal` without
@@ -38,12 +38,14 @@ class LSMNearPairs {
   /// \param touch     flags of pairs that are kept and given at any distance, as in the neighbor
   /// list, or null
   void choose(const double *x, const double *radius, double reach, const int *const *touch);
+  /// Whether strays are looked for: not if so few pairs are listed that all of them are kept.
+  bool knows_strays() const { return !held.empty(); }
   /// The few particles, ghosts among them, that have moved much farther than the others since the
   /// pairs were chosen. All of their pairs are kept, so that their motion does not matter.
-  const std::vector<int> &movers() const { return moving; }
-  /// Adds the pairs of new movers to those that are kept.
-  void keep_pairs_of_movers(const double *radius);
-  /// Adds a pair of a mover that was added to the neighbor list, to those that are kept.
+  const std::vector<int> &strays() const { return found_strays; }
+  /// Adds the pairs of new strays to those that are kept.
+  void keep_pairs_of_strays(const double *radius);
+  /// Keeps a pair that was added to the neighbor list.
   void add(int i, int jj, int j, const double *radius);
   /// Finds the kept pairs that touch.
   void find(const double *x);
@@ -77,7 +79,7 @@ class LSMNearPairs {
   struct Listed {
     int i, jj, j;
   };
-  std::vector<Listed> listed;    // the whole neighbor list
+  std::vector<Listed> listed;    // the whole neighbor list, and behind it what was added since
   std::vector<char> is_kept;     // of each listed pair
   std::vector<Pair> pairs;
   std::vector<Ends> ends;        // this and the following have an entry per pair
@@ -89,15 +91,16 @@ class LSMNearPairs {
   int number = 0;
 
   bigint built = -1;
-  std::vector<double> held;     // positions when the pairs were chosen; empty where all are kept
-  std::vector<double> moved;    // bounds of displacements since then, without those of movers
-  std::vector<int> moving;      // see movers()
-  size_t admitted = 0;          // movers all of whose pairs are kept
-  std::vector<int> first_of, pairs_of;    // listed pairs of each particle, once there are movers
+  std::vector<double> held;     // positions when the pairs were chosen, those of strays later ones;
+                                // empty where all pairs are kept
+  std::vector<double> moved;    // bounds of displacements since then, without those of strays
+  std::vector<int> found_strays;
+  size_t admitted = 0;                    // strays all of whose pairs are kept
+  std::vector<int> first_of, pairs_of;    // listed pairs of each particle, once there are strays
 
   double displacement(const double *x, size_t first, size_t last) const;
-  void hold_movers(const double *x);
-  bool find_movers(const double *x, size_t first, size_t last);
+  void hold_strays(const double *x);
+  bool find_strays(const double *x, size_t first, size_t last);
   void index_listed();
   void keep(int n, const double *radius, bool touching);
 };
