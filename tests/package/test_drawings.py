@@ -39,7 +39,7 @@ def test_drawings(name, work):
     for table, text in TABLES[name].items():
         Path(table).write_text(text)
     drawn = subprocess.run(["gnuplot", SOURCE / f"inputs/studies/{name}.gp"], env={**os.environ, "LC_ALL": "C.UTF-8"}, capture_output=True, text=True,
-                          check=True)
+                           check=True)
     assert drawn.stderr == "", "a curve without points in one of the formats"
     assert Path(f"{name}.png").stat().st_size > 10000
     titles = re.findall(r"<title>(.*?)</title>", Path(f"{name}.svg").read_text())

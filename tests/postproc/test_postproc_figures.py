@@ -412,7 +412,8 @@ def test_tables_of_many_catalogues_fit_a_terminal(do):
         fault(f"{k}.csv", 10**np.random.default_rng(k).uniform(-4, 0, 300), length=120 * (k + 1))
     paths = " ".join(f"{k}.csv" for k in range(6))
     for command in "intervals --shuffles 20 --replicas 20", "fit --replicas 20", "magnitudes", "count", "compare --replicas 20":
-        shown = do(*command.split(), paths, *([f"--no-picture -o {command.split()[0]}"] if command.split()[0] not in ("count", "compare") else [])).out
+        shown = do(*command.split(), paths,
+                   *([f"--no-picture -o {command.split()[0]}"] if command.split()[0] not in ("count", "compare") else [])).out
         assert max(map(len, shown.splitlines())) <= 160, shown
         for k in range(6):
             assert shown.count(f"fault, length {120 * (k + 1)}") >= 1

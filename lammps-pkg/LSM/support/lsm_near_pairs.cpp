@@ -64,7 +64,7 @@ LSMNearPairs::Due LSMNearPairs::due(bigint build, const NeighList &list, const d
         listed.push_back({i, jj, list.firstneigh[i][jj] & NEIGHMASK});
     }
     moved.resize(moves.size());
-    held.resize(listed.size() > FEW * count ? 3 * static_cast<size_t>(count) : 0);
+    held.resize(listed.size() > FEW * nlocal ? 3 * static_cast<size_t>(count) : 0);
     first_of.clear();
     built = build;
     return Due::new_list;
