@@ -234,6 +234,23 @@ def validation_table():
          for group, rows in groups.items()])
 
 
+def order_of_sums_table():
+    """Runs of the campaign, and the same runs with forces summed in another order."""
+    again, rows = FOLDER / "order-of-sums", []
+    if not again.exists():
+        raise FileNotFoundError
+    former = {(row["length"], row["seed"]): row for row in summaries()}
+    paths = [path for some in faults(folder=again).values() for path in some]
+    for path, row in zip(paths, summaries(again)):
+        before = former[row["length"], row["seed"]]
+        tests = numbers_of("compare", CAMPAIGN / path.name, path, "--from", LOADING, "--threshold", "1e-3", "--replicas", 400)["tests"]
+        both = [tuple(number(one, key) for one in (before, row)) for key in ("events_0.001", "events_0.01", "largest")]
+        rows.append([f"{row['length']}, {row['seed']}", *(f"{a:g}, {b:g}" for a, b in both),
+                     ", ".join(of(one, "exponent_1e-3:1") for one in (before, row)), *(f"{test['p']:.2f}" for test in tests)])
+    return table(["predicted: length, packing", "events >= 1e-3 before, after", "events >= 1e-2", "largest", "exponent, 1e-3 to 1",
+                  "p, sizes", "p, times"], rows)
+
+
 def variance_table():
     """Variance of the changes of PE over that for independent stretches, and the correlation of neighbours."""
     groups = {}

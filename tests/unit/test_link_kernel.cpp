@@ -111,12 +111,12 @@ void expect_near(const Evaluation &got, const Evaluation &expected) {
 
 std::multiset<std::pair<int, int>> pairs_of(const Rows &rows) {
   std::multiset<std::pair<int, int>> all;
-  for (const auto &run : rows.runs)
-    for (int n = 0; n < run.slices * run.length * LSMLinkRows::LANES; ++n) {
-      if (rows.rest[run.link + n] == LSMLinkRows::NO_LINK) continue;
-      const int row = n / (run.length * LSMLinkRows::LANES) * LSMLinkRows::LANES;
-      const int i = rows.particle[run.row + row + n % LSMLinkRows::LANES] / 3;
-      all.insert(std::minmax(i, rows.other[run.link + n] / 3));
+  for (const auto &stack : rows.stacks)
+    for (int n = 0; n < stack.slices * stack.length * LSMLinkRows::LANES; ++n) {
+      if (rows.rest[stack.link + n] == LSMLinkRows::NO_LINK) continue;
+      const int row = n / (stack.length * LSMLinkRows::LANES) * LSMLinkRows::LANES;
+      const int i = rows.particle[stack.row + row + n % LSMLinkRows::LANES] / 3;
+      all.insert(std::minmax(i, rows.other[stack.link + n] / 3));
     }
   return all;
 }
@@ -148,11 +148,11 @@ TEST(LinkRows, FetchEachPlaceOfALaterWindow) {
   const Network net = make_network(100, 2, 5);
   const Rows rows = rows_of(net);
   int at = 0;
-  for (const auto &run : rows.runs) {
-    EXPECT_GE(run.fetch_end, run.fetch);
-    if (run.fetch_end > run.fetch) {
-      EXPECT_EQ(run.fetch, at);
-      at = run.fetch_end;
+  for (const auto &stack : rows.stacks) {
+    EXPECT_GE(stack.fetch_end, stack.fetch);
+    if (stack.fetch_end > stack.fetch) {
+      EXPECT_EQ(stack.fetch, at);
+      at = stack.fetch_end;
     }
   }
   EXPECT_GT(at, 2 * net.nlocal / 8);  // three doubles each, eight in a cache line

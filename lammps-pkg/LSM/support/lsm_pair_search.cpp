@@ -84,6 +84,7 @@ LSMPairSearch::LSMPairSearch(LAMMPS *_lmp, NPair *other) : NPair(_lmp), stock(ot
   nb = other->nb;
   ns = other->ns;
   last_build = other->last_build;
+  cutoff_custom = 0.0;    // set by post_constructor() only, from a request
   copy_neighbor_info();
 }
 
