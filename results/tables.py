@@ -245,10 +245,16 @@ def order_of_sums_table():
         before = former[row["length"], row["seed"]]
         tests = numbers_of("compare", CAMPAIGN / path.name, path, "--from", LOADING, "--threshold", "1e-3", "--replicas", 400)["tests"]
         both = [tuple(number(one, key) for one in (before, row)) for key in ("events_0.001", "events_0.01", "largest")]
-        rows.append([f"{row['length']}, {row['seed']}", *(f"{a:g}, {b:g}" for a, b in both),
-                     ", ".join(of(one, "exponent_1e-3:1") for one in (before, row)), *(f"{test['p']:.2f}" for test in tests)])
-    return table(["predicted: length, packing", "events >= 1e-3 before, after", "events >= 1e-2", "largest", "exponent, 1e-3 to 1",
-                  "p, sizes", "p, times"], rows)
+        fits = [", ".join(of(one, key) for one in (before, row)) for key in ("exponent_1e-3:1e-2", "exponent_1e-2:1e-1", "gamma_0.001")]
+        rows.append([
+            f"{row['length']}, {row['seed']}, {use(row['length'], row['seed'])}", *(f"{a:.4g}, {b:.4g}" for a, b in both), *fits,
+            *(f"{test['p']:.2f}" for test in tests)
+        ])
+    head = [
+        "length, packing, calibration", "events >= 1e-3, before and after", "events >= 1e-2", "largest", "exponent 1e-3 to 1e-2", "1e-2 to 1e-1",
+        "gamma >= 1e-3"
+    ]
+    return table([*head, "p, sizes", "p, times"], rows)
 
 
 def variance_table():
