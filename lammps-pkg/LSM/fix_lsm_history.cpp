@@ -46,7 +46,7 @@ void FixLSMHistory::pre_exchange()
 
 void FixLSMHistory::post_neighbor()
 {
-  rows.clear();    // not before, as the neighbor list is used until it is built anew
+  rows.clear();    // pre_exchange() reads them until the list is built anew
   FixNeighHistory::post_neighbor();
 }
 

@@ -103,6 +103,15 @@ TEST_F(Lists, AreBuiltWhereOthersMayRelyOnThem) {
   }
 }
 
+TEST_F(Lists, AnObserverChangesNothing) {
+  const Result alone = run_text(lane(friction_pairs));
+  const Result seen =
+      run_text(lane(friction_pairs + std::string("fix see all ave/time 1 10 20 c_thermo_temp\n")));
+  ASSERT_TRUE(succeeded(seen));
+  EXPECT_EQ(builds(seen), builds(alone));
+  EXPECT_EQ(thermo_difference(alone, seen, {"KinEng", "v_x", "v_y"}), 0.0);
+}
+
 // Ghosts reach over several ranks here, but particles may change to the next rank only.
 TEST_F(Lists, ParticlesReachTheRankBesideTheirsAtMost) {
   const Result exact = run_text(lane(free_pairs), {{"check", "no"}});
@@ -136,48 +145,71 @@ TEST_F(Lists, AreNewForEachSnapshotOfARerun) {
   EXPECT_GT(r.last("PotEng"), 0.0);
 }
 
-// A disc of the first rank, where many pairs are listed, hits one of the second, where there are no
-// others.
-TEST_F(Lists, ARankWithFewPairsSeesWhatComesFromBesideIt) {
-  const Result r = run_text(R"(
+// A patch of discs at rest, and two free ones, the first of which has a velocity.
+std::string field(const std::string &bullet, const std::string &target, const std::string &runs) {
+  return R"(
 units             lj
 dimension         2
-boundary          f f p
+boundary          p f p
 newton            off
 atom_style        hybrid bond sphere
 atom_modify       map array
-comm_modify       mode single cutoff 7.0
+comm_modify       mode single cutoff 3.6
 neighbor          0.4 bin
 neigh_modify      delay 0 every 1 check yes
 special_bonds     lj/coul 0 1 1
-processors        2 1 1
+processors        * 1 1
 lattice           hex 0.2385
-region            box block -20 20 -10 10 -0.5 0.5 units box
+region            box block -20 20 -30 30 -0.5 0.5 units box
 create_box        2 box bond/types 1 extra/bond/per/atom 1 extra/special/per/atom 1
-region            patch block -18 -8 INF INF INF INF units box
+region            patch block -18 -8 -7 10 INF INF units box
 create_atoms      1 region patch
 lattice           none 1.0
-create_atoms      2 single -1.5 0 0
-create_atoms      2 single 1.5 0 0
+create_atoms      2 single )" +
+         bullet + R"( 0
+group             bullet type 2
+create_atoms      2 single )" +
+         target + R"( 0
+group             moving type 2
+group             target subtract moving bullet
 set               group all diameter 2.0
 set               group all mass 1.0
-group             moving type 2
 pair_style        lsm/free
 pair_coeff        * * 1.0
-region            left block INF 0 INF INF INF INF
-group             first region left
-group             bullet intersect first moving
-group             target subtract moving bullet
 velocity          bullet set 0.9 0 0
 timestep          0.01
 fix               move moving lsm/nve
 variable          bullet equal vcm(bullet,x)
 variable          target equal vcm(target,x)
-thermo_style      custom step v_bullet v_target
-thermo_modify     format float %.17g
-run               1000
-)",
-                            {}, 2);
+thermo_style      custom step pe v_bullet v_target
+thermo_modify     norm no format float %.17g
+)" + runs;
+}
+
+// In which cell the lowest disc is must not depend on rounding, for any position.
+TEST_F(Lists, TheLowestParticleMovesFar) {
+  const Result r = run_text("variable n loop 120\nlabel again\nclear\n" +
+                            field("-8 $(-14.0+0.05*v_n)", "15 8",
+                                  "comm_modify cutoff 7.0\nrun 100\nnext n\njump SELF again\n"));
+  ASSERT_TRUE(succeeded(r));
+  EXPECT_EQ(r.thermo.size(), 240u);
+  EXPECT_NEAR(r.last("v_bullet"), 0.9, 1e-12) << "the disc touches no other";
+}
+
+// Commands may move particles between two runs, also without a setup.
+TEST_F(Lists, ParticlesMovedAfterRunZeroAreFound) {
+  const Result r =
+      run_text(field("-6 0", "-3.9 0",
+                     "velocity moving set 0 0 0\nrun 0\ndisplace_atoms bullet move 0.12 0 0\n"
+                     "run 20 pre no\n"));
+  ASSERT_TRUE(succeeded(r));
+  EXPECT_GT(r.last("PotEng"), 1e-4);
+}
+
+// A disc of the first rank, where many pairs are listed, hits one of the second, where there are no
+// others.
+TEST_F(Lists, ARankWithFewPairsSeesWhatComesFromBesideIt) {
+  const Result r = run_text(field("-1.5 0", "1.5 0", "comm_modify cutoff 7.0\nrun 1000\n"), {}, 2);
   ASSERT_TRUE(succeeded(r));
   // equal masses exchange their velocities, but for the error of the time step
   EXPECT_NEAR(r.last("v_target"), 0.9, 1e-4);

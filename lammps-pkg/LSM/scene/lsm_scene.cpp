@@ -55,6 +55,16 @@ namespace LSMScene {
     });
   }
 
+  bool may_rely_on_skin(Modify *modify)
+  {
+    const auto &fixes = modify->get_fix_list();
+    return std::any_of(fixes.begin(), fixes.end(), [modify](Fix *fix) {
+      if (is_ours(fix) || utils::strmatch(fix->style, "^NEIGH_HISTORY")) return false;
+      return (modify->get_fix_mask(fix) & ~FixConst::END_OF_STEP) != 0 ||
+             utils::strmatch(fix->style, "^ave/grid");
+    });
+  }
+
   std::vector<LSM::PairSpring> springs(LAMMPS *lmp, double reach_factor)
   {
     Atom *const atom = lmp->atom;

@@ -30,6 +30,11 @@ namespace LSMScene {
   /// Whether all fixes belong to the package, or to LAMMPS' contact histories.
   bool has_only_ours(Modify *);
 
+  /// Whether a fix that is not of the package may rely on particles moving by less than half the
+  /// skin between two builds of neighbor lists. Those that only act at the end of steps do not, but
+  /// for one that adds to the cells of a grid.
+  bool may_rely_on_skin(Modify *);
+
   /// All fixes of a class, in the order of the input.
   template <class Kind> std::vector<Kind *> fixes(Modify *modify)
   {

@@ -36,8 +36,7 @@ static double distance_sq(const double *a, const double *b)
 // Two particles of different ranks, of which one does not have the other as a ghost, were farther
 // apart than the cutoff of ghosts when the list was built. Each may then move by the margin and by
 // half the skin, so that such pairs stay farther apart than the sum of their radii. When particles
-// change ranks, they may have moved by less than a sub-domain. Fixes of LAMMPS may rely on
-// particles moving by less than half the skin.
+// change ranks, they must have moved by less than the width of a sub-domain.
 double LSMListPatch::find_margin(const NeighList &of) const
 {
   bool simple = update->whichflag == 1 && utils::strmatch(update->integrate_style, "^verlet") &&
@@ -50,7 +49,7 @@ double LSMListPatch::find_margin(const NeighList &of) const
     simple = simple && (!other || other == &of ||
                         (other == of.listskip && other->requestor_type == NeighList::NONE));
   }
-  if (!simple || !LSMScene::has_only_ours(modify)) return 0.0;
+  if (!simple || LSMScene::may_rely_on_skin(modify)) return 0.0;
 
   double margin_of_all = std::numeric_limits<double>::infinity();
   const double *const splits[] = {comm->xsplit, comm->ysplit, comm->zsplit};
@@ -63,12 +62,18 @@ double LSMListPatch::find_margin(const NeighList &of) const
   return margin_of_all;
 }
 
-// A list that is looked at for the first time may be older than its last build, with the rows that
-// were added to it.
+// After an init without a build, the list is the old one, and rows that were added are in use.
+// Other ranks may have noted positions of particles that this one knows as ghosts, so all lists are
+// built.
 void LSMListPatch::start(NeighList &of, const LSMTypePairs<int> &active_types)
 {
   list = nullptr;
-  if (neighbor->ago != 0) return;
+  if (neighbor->ago != 0) {
+    if (noted && atom->nlocal > 0)
+      neighbor->get_xhold()[0][0] = std::numeric_limits<double>::infinity();
+    return;
+  }
+  noted = false;
   rows.clear();
   sorted.clear();
   wants_build = false;
@@ -78,6 +83,7 @@ void LSMListPatch::start(NeighList &of, const LSMTypePairs<int> &active_types)
   const double trigger = 0.5 * neighbor->skin - LSMNearPairs::SKIN;
   if (!(trigger > 0.0 && margin > 0.5 * neighbor->skin)) return;
   list = &of;
+  noted = true;
   trigger_sq = trigger * trigger;
   const int count = atom->nlocal + atom->nghost;
   built.assign(atom->x[0], atom->x[0] + 3 * static_cast<std::size_t>(count));
@@ -139,8 +145,9 @@ void LSMListPatch::sort_into_cells()
       lowest = std::min(lowest, built[3 * static_cast<std::size_t>(i) + c]);
       highest = std::max(highest, built[3 * static_cast<std::size_t>(i) + c]);
     }
-    corner[c] = lowest - cell;    // with a row of empty cells on each side
-    cells[c] = static_cast<int>((highest - lowest) / cell) + 3;
+    // with a row of empty cells on each side, however positions are rounded
+    corner[c] = lowest - 1.5 * cell;
+    cells[c] = static_cast<int>((highest - lowest) / cell + 1.5) + 2;
   }
   std::vector<int> cell_of(count);
   first_in.assign(static_cast<std::size_t>(cells[0]) * cells[1] + 1, 0);

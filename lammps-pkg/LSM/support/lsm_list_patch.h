@@ -17,8 +17,9 @@ class NeighList;
 /// block this is mostly a single disc that has snapped into another place. This class adds the
 /// pairs of such a disc to the list instead, and notes its position for LAMMPS' own check of
 /// distances, so that the list is as good as a new one. Particles may move by half of what the
-/// ghosts reach farther than listed pairs (comm_modify cutoff). If that is too little, or if others
-/// use neighbor lists or may rely on the skin, everything is left to LAMMPS.
+/// ghosts reach farther than listed pairs (comm_modify cutoff), and by less than a sub-domain. If
+/// that is too little, or if others use neighbor lists or may rely on the skin, everything is left
+/// to LAMMPS.
 class LSMListPatch : protected Pointers {
  public:
   LSMListPatch(LAMMPS *_lmp) : Pointers(_lmp) {}
@@ -27,8 +28,8 @@ class LSMListPatch : protected Pointers {
     int i, jj, j;    ///< a particle, the index of its partner in its neighbors, and the partner
   };
 
-  /// To be called when pairs are chosen from the whole list. Does nothing unless the list was built
-  /// in this step.
+  /// To be called when pairs are chosen from a list for the first time. Pairs are added to it from
+  /// then on, if it was built in this step.
   /// \param active  which types of particles interact
   void start(NeighList &, const LSMTypePairs<int> &active);
   /// Adds the pairs of those of these particles that have moved far.
@@ -47,6 +48,7 @@ class LSMListPatch : protected Pointers {
   std::vector<double> built;    // positions when the list was built
   std::vector<double> held;     // the same, later ones where pairs were added
   bool wants_build = false;     // LAMMPS has to build all lists
+  bool noted = false;           // positions may have been noted since the last build
   std::vector<int> far;
   std::vector<Added> added;
   // Particles by the square cell, along x and y, in which they were when the list was built. Sorted

@@ -27,10 +27,11 @@ void LSMTravel::look_for_movers()
 // Before a run, and between runs that follow without a set-up, commands may have moved particles.
 const std::vector<double> &LSMTravel::since_last()
 {
-  const bool follows =
-      !update->setupflag && update->ntimestep == step + 1 && update->firststep == first_step;
+  const bool follows = !update->setupflag && update->ntimestep == step + 1 &&
+                       update->firststep == first_step && update->laststep == last_step;
   step = update->ntimestep;
   first_step = update->firststep;
+  last_step = update->laststep;
   if (update->setupflag) look_for_movers();
   longest.assign((atom->nlocal + LSMMover::BLOCK - 1) / LSMMover::BLOCK,
                  known && follows ? 0.0 : INFINITY);

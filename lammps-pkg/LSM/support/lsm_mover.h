@@ -28,8 +28,8 @@ class LSMMover {
   virtual int moved_bits() const = 0;
   /// Number of particles with consecutive local indices that share one bound of displacements.
   static constexpr int BLOCK = 256;
-  /// Adds to each bound the largest displacement of a particle of its block in this step, infinity
-  /// where it is not known.
+  /// Adds to each element an upper bound of the displacements of the particles of its block in this
+  /// step, infinity where none is known.
   virtual void add_longest_moves(std::vector<double> &of_blocks) const = 0;
 
   static void complete_steps(Modify *);
@@ -52,8 +52,9 @@ class LSMTravel : protected Pointers {
  private:
   bool known = false;    // nothing but `movers` moves particles
   std::vector<LSMMover *> movers;
-  std::vector<double> longest;          // of each block
-  bigint step = -1, first_step = -1;    // step of the last call, and first step of its run
+  std::vector<double> longest;               // of each block
+  bigint step = -1;                          // of the last call
+  bigint first_step = -1, last_step = -1;    // of its run
 
   void look_for_movers();
 };

@@ -40,8 +40,8 @@ class LSMNearPairs {
   void choose(const double *x, const double *radius, double reach, const int *const *touch);
   /// Whether strays are looked for: not if so few pairs are listed that all of them are kept.
   bool knows_strays() const { return !held.empty(); }
-  /// The few particles, ghosts among them, that have moved much farther than the others since the
-  /// pairs were chosen. All of their pairs are kept, so that their motion does not matter.
+  /// The few particles, ghosts among them, that have moved so far since the pairs were chosen that
+  /// all of their pairs are kept; their motion does not matter then.
   const std::vector<int> &strays() const { return found_strays; }
   /// Adds the pairs of new strays to those that are kept.
   void keep_pairs_of_strays(const double *radius);
