@@ -41,8 +41,8 @@ create_box        2 box bond/types 1 extra/bond/per/atom 1 extra/special/per/ato
 region            lane block INF INF 4.9 5.1 INF INF
 region            rows intersect 2 box lane side out
 create_atoms      1 region rows
-create_atoms      2 single 3.05 5.02 0
-create_atoms      2 single 5.05 4.98 0
+create_atoms      2 single 6.71 19.13 0 units box
+create_atoms      2 single 8.71 18.98 0 units box
 group             bullet type 2
 set               group all diameter 2.0
 set               group all mass 1.0
@@ -76,7 +76,8 @@ TEST_F(Lists, AParticleThatMovesFarMeetsOthers) {
     ASSERT_TRUE(succeeded(exact));
     EXPECT_EQ(builds(exact), 3000);
     const double went = exact.last("v_x") - exact.thermo.front().at("v_x");
-    EXPECT_GT(went, 10.0) << "the disc has to pass many others";
+    EXPECT_GT(went, 10.0) << "the discs have to pass many others";
+    EXPECT_EQ(exact.lines_with("Added 1 bonds").size(), 1u) << exact.output;
     // without a margin of the ghosts LAMMPS builds the lists whenever the disc has moved by 0.2
     const Result without = run_text(lane(pair), {{"cutoff", "2.4"}});
     ASSERT_TRUE(succeeded(without));
