@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "disc_scene.h"
 #include "lmp_runner.h"
 
 namespace physics {
@@ -21,20 +22,14 @@ const char *const free_pairs = "pair_style lsm/free\npair_coeff * * 1.0\n";
 const char *const friction_pairs = "pair_style lsm/friction\npair_coeff * * 1.0 0.5 0.02\n";
 
 std::string lane(const std::string &pair, const std::string &runs = "run 3000\n") {
-  return R"(
+  return discs_start + std::string(R"(
 variable          cutoff index 7.0
 variable          check index yes
-units             lj
-dimension         2
 boundary          p f p
 newton            off
 processors        * 1 1
-atom_style        hybrid bond sphere
-atom_modify       map array
-comm_modify       mode single cutoff ${cutoff}
-neighbor          0.4 bin
-neigh_modify      delay 0 every 1 check ${check}
-special_bonds     lj/coul 0 1 1
+comm_modify       cutoff ${cutoff}
+neigh_modify      check ${check}
 lattice           hex 0.2385 origin 0 0.25 0
 region            box block 0 24 0 10 -0.5 0.5
 create_box        2 box bond/types 1 extra/bond/per/atom 1 extra/special/per/atom 1
@@ -51,7 +46,7 @@ bond_coeff        1 1.0
 pair_style        zero 2.4
 pair_coeff        * *
 create_bonds      many bullet bullet 1 1.9 2.1
-)" + pair +
+)") + pair +
          R"(
 velocity          bullet set 0.9 0.1 0
 timestep          0.01
@@ -148,25 +143,18 @@ TEST_F(Lists, AreNewForEachSnapshotOfARerun) {
 
 // A patch of discs at rest, and two free ones, the first of which has a velocity.
 std::string field(const std::string &bullet, const std::string &target, const std::string &runs) {
-  return R"(
-units             lj
-dimension         2
+  return discs_start + std::string(R"(
 boundary          p f p
 newton            off
-atom_style        hybrid bond sphere
-atom_modify       map array
-comm_modify       mode single cutoff 3.6
-neighbor          0.4 bin
-neigh_modify      delay 0 every 1 check yes
-special_bonds     lj/coul 0 1 1
 processors        * 1 1
+comm_modify       cutoff 3.6
 lattice           hex 0.2385
 region            box block -20 20 -30 30 -0.5 0.5 units box
 create_box        2 box bond/types 1 extra/bond/per/atom 1 extra/special/per/atom 1
 region            patch block -18 -8 -7 10 INF INF units box
 create_atoms      1 region patch
 lattice           none 1.0
-create_atoms      2 single )" +
+create_atoms      2 single )") +
          bullet + R"( 0
 group             bullet type 2
 create_atoms      2 single )" +
