@@ -293,13 +293,16 @@ TEST_F(Viscosity, VelocitiesSetBetweenRunsCount) {
 }
 
 TEST_F(Viscosity, VelocitiesSetBeforeARestartFileCount) {
-  // As in the run that continues without a restart file: the former velocities do not matter.
-  const Result whole = run_text(fault(created) +
-                                "run 200\nvelocity lower set 1e-3 0 0 sum yes units box\n"
-                                "write_restart set.restart\nrun 5\n");
+  // As in a run without a restart file: the former velocities do not matter.
+  const std::string set =
+      fault(created) + "run 200\nvelocity lower set 1e-3 0 0 sum yes units box\n";
+  const Result whole = run_text(set + "run 5\n");
+  const Result written = run_text(set + "write_restart set.restart\nrun 5\n");
   const Result rest = run_text(fault("read_restart set.restart") + "run 5\n");
   ASSERT_TRUE(succeeded(whole));
+  ASSERT_TRUE(succeeded(written));
   ASSERT_TRUE(succeeded(rest));
+  EXPECT_EQ(thermo_difference(whole, written, energies), 0.0);
   for (const std::string &column : energies)
     EXPECT_NEAR(rest.last(column), whole.last(column), 1e-11 * std::fabs(whole.last(column)))
         << column;
