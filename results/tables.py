@@ -237,10 +237,8 @@ def validation_table():
 def order_of_sums_table():
     """Runs of the campaign, and the same runs with forces summed in another order."""
     again, rows = FOLDER / "order-of-sums", []
-    if not again.exists():
-        raise FileNotFoundError
-    former = {(row["length"], row["seed"]): row for row in summaries()}
     paths = [path for some in faults(folder=again).values() for path in some]
+    former = {(row["length"], row["seed"]): row for row in summaries()}
     for path, row in zip(paths, summaries(again)):
         before = former[row["length"], row["seed"]]
         tests = numbers_of("compare", CAMPAIGN / path.name, path, "--from", LOADING, "--threshold", "1e-3", "--replicas", 400)["tests"]

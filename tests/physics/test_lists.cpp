@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <vector>
@@ -16,11 +16,11 @@ namespace {
 
 class Lists : public Lmp {};
 
-// Discs at rest, and two linked ones that bounce through a lane between their rows, where they
-// touch new ones all the time, also over the periodic border.
 const char *const free_pairs = "pair_style lsm/free\npair_coeff * * 1.0\n";
 const char *const friction_pairs = "pair_style lsm/friction\npair_coeff * * 1.0 0.5 0.02\n";
 
+// Discs at rest, and two linked ones that bounce through a lane between their rows, where they
+// touch new ones all the time, also over the periodic border.
 std::string lane(const std::string &pair, const std::string &runs = "run 3000\n") {
   return discs_start + std::string(R"(
 variable          cutoff index 7.0

@@ -47,21 +47,24 @@ namespace LSMScene {
     return utils::strmatch(fix->style, "^lsm/") || utils::strmatch(fix->style, "^LSM_");
   }
 
+  // neither of the package nor a contact history, such as that of lsm/friction
+  static bool is_foreign(const Fix *fix)
+  {
+    return !is_ours(fix) && !utils::strmatch(fix->style, "^NEIGH_HISTORY");
+  }
+
   bool has_only_ours(Modify *modify)
   {
     const auto &fixes = modify->get_fix_list();
-    return std::all_of(fixes.begin(), fixes.end(), [](const Fix *fix) {
-      return is_ours(fix) || utils::strmatch(fix->style, "^NEIGH_HISTORY");
-    });
+    return std::none_of(fixes.begin(), fixes.end(), is_foreign);
   }
 
   bool may_rely_on_skin(Modify *modify)
   {
     const auto &fixes = modify->get_fix_list();
     return std::any_of(fixes.begin(), fixes.end(), [modify](Fix *fix) {
-      if (is_ours(fix) || utils::strmatch(fix->style, "^NEIGH_HISTORY")) return false;
-      return (modify->get_fix_mask(fix) & ~FixConst::END_OF_STEP) != 0 ||
-             utils::strmatch(fix->style, "^ave/grid");
+      return is_foreign(fix) && ((modify->get_fix_mask(fix) & ~FixConst::END_OF_STEP) != 0 ||
+                                 utils::strmatch(fix->style, "^ave/grid"));
     });
   }
 

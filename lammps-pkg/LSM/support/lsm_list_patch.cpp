@@ -8,6 +8,7 @@
 #include "force.h"
 #include "lsm_near_pairs.h"
 #include "lsm_scene.h"
+#include "math_extra.h"
 #include "modify.h"
 #include "neigh_list.h"
 #include "neighbor.h"
@@ -19,16 +20,10 @@
 #include <numeric>
 
 using namespace LAMMPS_NS;
+using MathExtra::distsq3;
 
 // The largest number of particles whose pairs are added at a time.
 static constexpr std::size_t MOST = 64;
-
-static double distance_sq(const double *a, const double *b)
-{
-  double sum = 0.0;
-  for (int c = 0; c < 3; c++) sum += (a[c] - b[c]) * (a[c] - b[c]);
-  return sum;
-}
 
 // How far particles may be from where they were when the list was built; not positive if pairs
 // cannot be added to the list.
@@ -69,8 +64,7 @@ void LSMListPatch::start(NeighList &of, const LSMTypePairs<int> &active_types)
 {
   list = nullptr;
   if (neighbor->ago != 0) {
-    if (noted && atom->nlocal > 0)
-      neighbor->get_xhold()[0][0] = std::numeric_limits<double>::infinity();
+    if (noted) ask_for_build();
     return;
   }
   noted = false;
@@ -90,13 +84,17 @@ void LSMListPatch::start(NeighList &of, const LSMTypePairs<int> &active_types)
   held = built;
 }
 
+bool LSMListPatch::is_far(int i) const
+{
+  return distsq3(atom->x[i], &held[3 * static_cast<std::size_t>(i)]) > trigger_sq;
+}
+
 const std::vector<LSMListPatch::Added> &LSMListPatch::look_at(const std::vector<int> &particles)
 {
   far.clear();
   if (list)
     for (const int i : particles)
-      if (distance_sq(atom->x[i], &held[3 * static_cast<std::size_t>(i)]) > trigger_sq)
-        far.push_back(i);
+      if (is_far(i)) far.push_back(i);
   return add_pairs_of_far();
 }
 
@@ -106,8 +104,7 @@ const std::vector<LSMListPatch::Added> &LSMListPatch::look_at_all(int first)
   far.clear();
   if (list)
     for (int i = static_cast<int>(held.size() / 3) - 1; i >= first && far.size() <= MOST; i--)
-      if (distance_sq(atom->x[i], &held[3 * static_cast<std::size_t>(i)]) > trigger_sq)
-        far.push_back(i);
+      if (is_far(i)) far.push_back(i);
   return add_pairs_of_far();
 }
 
@@ -122,16 +119,20 @@ const std::vector<LSMListPatch::Added> &LSMListPatch::add_pairs_of_far()
     const std::size_t place = 3 * static_cast<std::size_t>(i);
     const bool ghost = i >= atom->nlocal;
     const double most = margin * (ghost ? 1.0 + 1e-9 : 1.0);    // ghosts are rounded otherwise
-    if (!many && distance_sq(atom->x[i], &built[place]) < most * most) {
+    if (!many && distsq3(atom->x[i], &built[place]) < most * most) {
       std::copy_n(atom->x[i], 3, &held[place]);
       if (!ghost) std::copy_n(atom->x[i], 3, neighbor->get_xhold()[i]);
       add_pairs_of(i);
     } else
       wants_build = wants_build || ghost;
   }
-  if (list && wants_build && atom->nlocal > 0)
-    neighbor->get_xhold()[0][0] = std::numeric_limits<double>::infinity();
+  if (list && wants_build) ask_for_build();
   return added;
+}
+
+void LSMListPatch::ask_for_build()
+{
+  if (atom->nlocal > 0) neighbor->get_xhold()[0][0] = std::numeric_limits<double>::infinity();
 }
 
 void LSMListPatch::sort_into_cells()
@@ -181,8 +182,8 @@ void LSMListPatch::add_pairs_of(int i)
       const int j = sorted[n];
       if (j == i || (i >= atom->nlocal && j >= atom->nlocal)) continue;
       const double cut = radius[i] + radius[j] + neighbor->skin;
-      if (distance_sq(&held[3 * static_cast<std::size_t>(i)],
-                      &held[3 * static_cast<std::size_t>(j)]) <= cut * cut)
+      if (distsq3(&held[3 * static_cast<std::size_t>(i)], &held[3 * static_cast<std::size_t>(j)]) <=
+          cut * cut)
         add_pair(std::min(i, j), std::max(i, j));
     }
   }

@@ -59,7 +59,9 @@ class LSMListPatch : protected Pointers {
   std::unordered_map<int, std::vector<int>> rows;    // of the list, where pairs were added
 
   double find_margin(const NeighList &) const;
+  bool is_far(int) const;
   const std::vector<Added> &add_pairs_of_far();
+  void ask_for_build();
   void sort_into_cells();
   int find_cell(const double *position) const;
   void add_pairs_of(int);
