@@ -2,7 +2,7 @@
 /// \file explore_page.h
 /// An HTML page for exploring runs interactively: PE with its events, each event, its slip, and the
 /// statistics against a threshold that can be dragged. Its HTML and JavaScript are in
-/// figures/explore.
+/// output/explore.
 #ifndef LSM_POSTPROC_EXPLORE_PAGE_H
 #define LSM_POSTPROC_EXPLORE_PAGE_H
 

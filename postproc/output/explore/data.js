@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Content of the page: a JSON element for small data; long columns are packed in elements of
-// their own (figures/packed_numbers.h): bytes, compressed by zlib, in base 64.
+// their own (output/packed_numbers.h): bytes, compressed by zlib, in base 64.
 'use strict';
 
 async function unpacked(id) {
@@ -187,7 +187,7 @@ class Events {
   }
 }
 
-/** Slip velocity of the fault in space and time (figures/slip_image.h). */
+/** Slip velocity of the fault in space and time (statistics/slip_image.h). */
 class Slip {
   static async load(info) {
     const slip = new Slip();

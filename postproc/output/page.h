@@ -15,7 +15,7 @@
 
 namespace LSM::postproc {
 
-/// Returns a file that was compiled into the program: report.html, or a file of figures/explore or
+/// Returns a file that was compiled into the program: report.html, or a file of output/explore or
 /// of the library that it uses.
 /// \throws std::logic_error if there is no such file
 std::string_view page_file(std::string_view name);
