@@ -165,7 +165,7 @@ void CreateLSMFault::read(LSMKeywordReader in, LSM::Keywords keywords,
 
 void CreateLSMFault::parse(int narg, char **arg, LSM::PackingSettings &settings)
 {
-  int removed = settings.remove_loose;
+  int removed = settings.remove_loose, faces = settings.random_faces, seeds = settings.random_seeds;
   read({lmp, "Create_lsm_fault", 0, narg, arg},
        {{"length", &settings.length},
         {"width", &settings.width},
@@ -175,6 +175,9 @@ void CreateLSMFault::parse(int narg, char **arg, LSM::PackingSettings &settings)
         {"failures", &settings.max_failures},
         {"tolerance", &settings.tolerance},
         {"linkgap", &settings.link_gap},
+        {"linkratio", &settings.link_ratio},
+        {"faces", Words{&faces, {"none", "random"}}},
+        {"seeds", Words{&seeds, {"grid", "random"}}},
         {"faultzone", &settings.fault_zone},
         {"loose", Words{&removed, {"keep", "remove"}}},
         {"mirror", &settings.mirror},
@@ -183,6 +186,8 @@ void CreateLSMFault::parse(int narg, char **arg, LSM::PackingSettings &settings)
         {"stiffness", &stiffness, Must::positive}},
        {"length", "width", "seed"});
   settings.remove_loose = removed != 0;
+  settings.random_faces = faces != 0;
+  settings.random_seeds = seeds != 0;
 }
 
 void CreateLSMFault::parse(int narg, char **arg, LSM::LatticeSettings &settings)

@@ -383,6 +383,54 @@ TEST_F(Ranks, GeometryDoesNotDependOnThem) {
   EXPECT_EQ(read_file(path("one.dump")), read_file(path("four.dump")));
 }
 
+TEST_F(Ranks, NorDoesThatOfAPackingOnAGrid) {
+  // The lines of a data file are in the order of the owners of the particles.
+  const auto lines = [this](int ranks) {
+    const Result r =
+        run_text(fault_start() +
+                     "create_lsm_fault length 41 width 20 seed 3 failures 500 faces none "
+                     "seeds grid linkratio 1.05 loose keep\n"
+                     "bond_style zero\nbond_coeff *\n"
+                     "write_data grid.data nocoeff nofix\n",
+                 {}, ranks);
+    EXPECT_TRUE(succeeded(r));
+    std::vector<std::string> found;
+    std::istringstream in(read_file(path("grid.data")));
+    for (std::string line; std::getline(in, line);) found.push_back(line);
+    std::sort(found.begin(), found.end());
+    return found;
+  };
+  const std::vector<std::string> one = lines(1);
+  EXPECT_GT(one.size(), 1500u);
+  for (const int ranks : {2, 3}) EXPECT_EQ(lines(ranks), one) << ranks << " ranks";
+}
+
+TEST_F(Ranks, LinksOfCloseDiscsPullTheBlocksTogether) {
+  // Without stress the plates stay where they are, unless links begin under tension.
+  const std::string script = fault_start() +
+                             "create_lsm_fault length 40 width 20 seed 3 failures 500 linkratio "
+                             "${ratio}\n" +
+                             fault_groups() + fault_forces() + R"(
+fix move blocks lsm/nve viscosity 0.2
+fix plates all lsm/plates lower upper stress 0 damping 0.2
+compute guard all lsm/events strainlimit 0.75
+thermo_style custom step pe f_plates[9]
+thermo_modify norm no format float %.17g
+timestep 0.03
+run 3000
+)";
+  const Result tangent = run_text(script, {{"ratio", "1"}}),
+               close = run_text(script, {{"ratio", "1.05"}});
+  ASSERT_TRUE(succeeded(tangent));
+  ASSERT_TRUE(succeeded(close));
+  EXPECT_NEAR(tangent.last("f_plates[9]"), 0.0, 1e-6);
+  EXPECT_GT(close.last("f_plates[9]"), 0.01);
+  EXPECT_LT(close.last("PotEng"), close.thermo.front().at("PotEng"));
+  const Result two = run_text(script, {{"ratio", "1.05"}}, 2);
+  ASSERT_TRUE(succeeded(two));
+  EXPECT_NEAR(two.last("f_plates[9]"), close.last("f_plates[9]"), 1e-9);
+}
+
 TEST_F(MassFloor, MassesForAStepMakeItStableWithContacts) {
   // The upper block is pressed into the lower one: there are many contacts at once, equally stiff
   // in both directions.

@@ -286,6 +286,84 @@ TEST_F(PackingOf40, DiscsAreSortedByPosition) {
   EXPECT_TRUE(std::is_sorted(packing().discs.begin(), packing().discs.end(), before));
 }
 
+LSM::PackingSettings without_faces(double length, bool random_seeds) {
+  LSM::PackingSettings s = settings(length);
+  s.random_faces = false;
+  s.random_seeds = random_seeds;
+  s.remove_loose = false;
+  return s;
+}
+
+// 41 is not a multiple of the spacing of the grid, so that seeds of a row meet at its ends.
+TEST(Packing, WithoutFacesDiscsAreFittedToTheFaultLine) {
+  for (const double length : {40.0, 41.0})
+    for (const bool random_seeds : {true, false}) {
+      const LSM::Packing p = LSM::make_packing(without_faces(length, random_seeds));
+      for (std::size_t i = 0; i < p.discs.size(); ++i) {
+        const LSM::Disc &a = p.discs[i];
+        EXPECT_GE(std::min({a.y, 30.0 - a.y, std::fabs(a.y - 15.0)}), a.r * (1.0 - 1e-8));
+        EXPECT_EQ(a.block, a.y < 15.0 ? 0 : 1);
+        for (std::size_t j = i + 1; j < p.discs.size(); ++j)
+          ASSERT_GE(gap(a, p.discs[j], length), -1e-8 * (a.r + p.discs[j].r));
+      }
+      EXPECT_GT(p.fault_tangent[0], 1.4 * length);
+      EXPECT_GT(p.fault_tangent[1], 1.4 * length);
+      EXPECT_NEAR(static_cast<double>(p.discs.size()) / length, 65.3, 1.5);
+    }
+}
+
+TEST(Packing, SeedsStandOnAGridInAbsoluteCoordinates) {
+  // Counts the discs of each row of the grid. The fault line, at 8.66 rows, leaves out some of
+  // those of row 9, and the border some of row 17, which is at 17.32.
+  const auto in_rows = [](const LSM::PackingSettings &s) {
+    std::vector<int> rows(18, 0);
+    for (const LSM::Disc &d : LSM::make_packing(s).discs) {
+      const double j = std::round(d.y / std::sqrt(3.0)), i = 0.5 * d.x - 0.5 * std::fmod(j, 2.0);
+      if (std::fabs(d.y - std::sqrt(3.0) * j) < 1e-12 && std::fabs(i - std::round(i)) < 1e-12)
+        ++rows.at(static_cast<std::size_t>(j));
+    }
+    return rows;
+  };
+  const std::vector<int> grid = in_rows(without_faces(40.0, false));
+  for (std::size_t j = 0; j < grid.size(); ++j)
+    if (j == 0)
+      EXPECT_EQ(grid[j], 0);  // its discs would cross the border
+    else if (j == 9 || j == 17)
+      EXPECT_TRUE(grid[j] > 0 && grid[j] < 20) << j;
+    else
+      EXPECT_EQ(grid[j], 20) << j;
+  EXPECT_EQ(in_rows(without_faces(40.0, true)), std::vector<int>(18, 0));
+  // Discs at the faces come first, so that a seed beside them may not fit.
+  LSM::PackingSettings faces = without_faces(40.0, false);
+  faces.random_faces = true;
+  const std::vector<int> beside = in_rows(faces);
+  EXPECT_EQ(beside[5], 20);
+  EXPECT_EQ(beside[13], 20);
+  EXPECT_LT(beside[8], 20);
+}
+
+TEST(Packing, CloseDiscsAreLinkedToo) {
+  // At the smallest length and the largest ratio a disc sees the same cells from both sides.
+  for (const auto &[length, ratio] : {std::pair(20.0, 1.05), std::pair(8.0, 1.25)}) {
+    LSM::PackingSettings s = settings(length);
+    s.remove_loose = false;
+    const LSM::Packing tangent = LSM::make_packing(s);
+    s.link_ratio = ratio;
+    const LSM::Packing p = LSM::make_packing(s);
+    std::vector<std::pair<int, int>> expected;
+    for (int i = 0; i < static_cast<int>(p.discs.size()); ++i)
+      for (int j = i + 1; j < static_cast<int>(p.discs.size()); ++j) {
+        const LSM::Disc &a = p.disc(i), &b = p.disc(j);
+        const double d = gap(a, b, length) + a.r + b.r;
+        if (a.block == b.block && (d < ratio * (a.r + b.r) || d < a.r + b.r + 1e-5))
+          expected.emplace_back(i, j);
+      }
+    EXPECT_EQ(p.links, expected);
+    EXPECT_EQ(p.discs.size(), tangent.discs.size());
+    EXPECT_GT(p.links.size(), tangent.links.size() + 10);
+  }
+}
+
 TEST(Packing, IsTheSameForTheSameSeed) {
   const LSM::Packing a = LSM::make_packing(settings(20.0, 7)),
                      b = LSM::make_packing(settings(20.0, 7));
@@ -302,7 +380,6 @@ TEST(Packing, IsTheSameForTheSameSeed) {
 TEST(Packing, DiffersForAnotherSeed) {
   const LSM::Packing a = LSM::make_packing(settings(20.0, 7)),
                      b = LSM::make_packing(settings(20.0, 8));
-  // The grid of the first discs does not depend on the seed, but their radii do.
   std::set<double> radii;
   for (const auto &d : a.discs) radii.insert(d.r);
   int same = 0;
@@ -626,6 +703,9 @@ TEST(Packing, RefusesImpossibleSettings) {
   expect_refused("tolerance", [](S &s) { s.tolerance = 0.01; });
   expect_refused("linkgap", [](S &s) { s.link_gap = 0.0; });
   expect_refused("linkgap", [](S &s) { s.link_gap = 0.02; });
+  expect_refused("linkratio", [](S &s) { s.link_ratio = 0.99; });
+  expect_refused("linkratio", [](S &s) { s.link_ratio = 1.26; });
+  expect_refused("linkratio", [&](S &s) { s.link_ratio = nan; });
   expect_refused("loose", [](S &s) { s.rmin = 0.95; });
   expect_refused("faultzone", [](S &s) { s.fault_zone = -0.25; });
   expect_refused("faultzone", [&](S &s) { s.fault_zone = nan; });

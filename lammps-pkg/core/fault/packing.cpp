@@ -53,22 +53,26 @@ class Cells {
   std::vector<std::vector<Entry>> cells_;
 };
 
-/// One block [0, length) x [ylo, yhi], periodic in x, with a cell grid for neighbour searches.
+/// One block, or both if the fault line is among the lines between the first and the last:
+/// [0, length) x [ylo, yhi], periodic in x, with a cell grid for neighbour searches. No disc
+/// crosses a line.
 class BlockPacker {
  public:
-  BlockPacker(const PackingSettings &settings, double ylo, double yhi, bool fault_at_top,
-              Random &random)
+  BlockPacker(const PackingSettings &settings, const std::vector<double> &lines, Random &random)
       : set_(settings),
-        ylo_(ylo),
-        yhi_(yhi),
-        fault_at_top_(fault_at_top),
+        lines_(lines),
+        ylo_(lines.front()),
+        yhi_(lines.back()),
         random_(random),
         // no cell is smaller than rmax, so a search of few rings is enough
-        cells_(settings.length, ylo, yhi, settings.rmax) {}
+        cells_(settings.length, ylo_, yhi_, settings.rmax) {}
 
   void run() {
-    place_face();
-    place_seeds();
+    if (set_.random_faces) place_face();
+    if (set_.random_seeds)
+      place_seeds();
+    else
+      place_seeds_on_grid();
     fill();
   }
 
@@ -86,8 +90,8 @@ class BlockPacker {
     double x, y, r;
   };
 
-  /// A disc (line = 0) at (x, y) relative to the trial point, or the lower (line = +1) or upper
-  /// (line = -1) line at height y. s is the distance of its surface from the point.
+  /// A disc (line = 0) at (x, y) relative to the trial point, or a line at height y below
+  /// (line = +1) or above (line = -1) the point. s is the distance of its surface from the point.
   struct Object {
     double s, x, y, r;
     int line;
@@ -102,10 +106,12 @@ class BlockPacker {
     return x;
   }
 
-  /// Whether a disc at (x, y), x in [0, length), lies in the block and overlaps no other disc.
+  /// Whether a disc at (x, y), x in [0, length) and y in [ylo, yhi], crosses no line and overlaps
+  /// no other disc.
   bool fits(double x, double y, double r) {
     const double slack = set_.tolerance * r;
-    if (y - ylo_ < r - slack || yhi_ - y < r - slack) return false;
+    for (const double line : lines_)
+      if (std::fabs(y - line) < r - slack) return false;
     // A disc further away than this along x or y cannot overlap.
     const double reach = r + set_.rmax;
     const int kx = std::min(static_cast<int>(reach / cells_.dx) + 1, (cells_.nx - 1) / 2);
@@ -127,7 +133,7 @@ class BlockPacker {
 
   /// Discs of random radius that touch the fault line at random places.
   void place_face() {
-    const double away = fault_at_top_ ? -1.0 : 1.0, line = fault_at_top_ ? yhi_ : ylo_;
+    const double line = 0.5 * set_.width, away = ylo_ < line ? -1.0 : 1.0;
     until_full([&](double xlo, double xsize) {
       const double x = wrap(xlo + xsize * random_.uniform());
       const double r = random_.uniform(set_.rmin, set_.rmax);
@@ -154,6 +160,16 @@ class BlockPacker {
     }
   }
 
+  /// Discs of random radius on a hexagonal grid, in coordinates that do not depend on the block.
+  void place_seeds_on_grid() {
+    const double across = std::sqrt(3.0) * set_.rmax, along = 2.0 * set_.rmax;
+    for (int j = static_cast<int>(std::ceil(ylo_ / across)); j * across <= yhi_; ++j)
+      for (int i = 0; i < set_.length / along; ++i) {
+        const double r = random_.uniform(set_.rmin, set_.rmax);
+        insert_if_it_fits(wrap(along * (i + 0.5 * (j % 2))), across * j, r);
+      }
+  }
+
   bool insert_if_it_fits(double x, double y, double r) {
     if (!fits(x, y, r)) return false;
     cells_.insert(x, y, {x, y, r});
@@ -171,10 +187,11 @@ class BlockPacker {
 
   /// Calls attempt(xlo, xsize) until it has failed max_failures times in a row everywhere. The
   /// block is divided along x into tiles about TILE rmax long, which take turns until they are
-  /// full, so that the cost is linear in the length and the density does not depend on it.
+  /// full, so that the density does not depend on the length. Without faces there is one tile.
   template <class Attempt>
   void until_full(Attempt &&attempt) {
-    const int ntile = std::max(1, static_cast<int>(set_.length / (TILE * set_.rmax)));
+    const int most = static_cast<int>(set_.length / (TILE * set_.rmax));
+    const int ntile = set_.random_faces ? std::max(1, most) : 1;
     const double tile = set_.length / ntile;
     std::vector<int> failures(static_cast<std::size_t>(ntile), 0);
     int open = ntile;
@@ -217,8 +234,8 @@ class BlockPacker {
   /// The three objects nearest to (px, py) by surface distance, nearest first.
   bool nearest(double px, double py, Object *near) {
     near[0] = near[1] = near[2] = {FAR, 0.0, 0.0, 0.0, 0};
-    offer(near, {py - ylo_, 0.0, ylo_ - py, 0.0, 1});
-    offer(near, {yhi_ - py, 0.0, yhi_ - py, 0.0, -1});
+    for (const double line : lines_)
+      offer(near, {std::fabs(py - line), 0.0, line - py, 0.0, line <= py ? 1 : -1});
     const int nx = cells_.nx, ny = cells_.ny, cx = cells_.column(px), cy = cells_.row(py);
     const double dx = cells_.dx, dy = cells_.dy;
     const double fx = px - cx * dx, fy = py - ylo_ - cy * dy;
@@ -262,7 +279,7 @@ class BlockPacker {
       else if (base < 0)
         base = i;
     }
-    // a circle that touches both lines is wider than rmax allows
+    // a circle that touches two lines is wider than rmax allows
     if (lines > 1) return 0;
     const Object &d = o[base];
     double n[2][2], a[2], b[2];
@@ -356,8 +373,8 @@ class BlockPacker {
   static constexpr int ROUND = 64;        // tries in one tile before the next tile takes its turn
 
   const PackingSettings &set_;
-  double ylo_, yhi_;
-  bool fault_at_top_;
+  const std::vector<double> lines_;
+  const double ylo_, yhi_;
   Random &random_;
   Cells<Entry> cells_;
   int64_t tries_ = 0;
@@ -369,6 +386,10 @@ template <class A, class B>
   msg << name << " = " << value << ", expected " << expected << bound;
   throw std::invalid_argument(msg.str());
 }
+
+// Across the period, three links of this ratio fit into the smallest length, 8 rmax, so that no two
+// discs are linked twice; and strains begin far from those that stop a run.
+constexpr double MOST_LINK_RATIO = 1.25;
 
 void check(const PackingSettings &s) {
   const std::pair<const char *, double> positive[] = {
@@ -384,6 +405,8 @@ void check(const PackingSettings &s) {
   // Discs that overlap within the tolerance must still count as tangent.
   if (!(s.link_gap < 0.1 * s.rmin))
     reject("linkgap", s.link_gap, "less than rmin/10 = ", 0.1 * s.rmin);
+  if (!(s.link_ratio >= 1.0) || !(s.link_ratio <= MOST_LINK_RATIO))
+    reject("linkratio", s.link_ratio, "1 to ", MOST_LINK_RATIO);
   if (!(s.fault_zone >= s.link_gap) || !(s.fault_zone < 1e300))
     reject("faultzone", s.fault_zone, "at least linkgap = ", s.link_gap);
   // each disc must meet at most one image of any other, with room for the neighbour search
@@ -405,12 +428,17 @@ double fault_gap(const PackingSettings &s, const Disc &d) {
 void fill_blocks(const PackingSettings &s, Packing &result) {
   Random random(s.seed);
   const double middle = 0.5 * s.width;
-  for (int block = 0; block < (s.mirror ? 1 : 2); ++block) {
-    const double ylo = block == 0 ? 0.0 : middle, yhi = block == 0 ? middle : s.width;
-    BlockPacker packer(s, ylo, yhi, block == 0, random);
+  std::vector<std::vector<double>> parts{{0.0, middle}, {middle, s.width}};
+  if (s.mirror)
+    parts = {{0.0, middle}};
+  else if (!s.random_faces)
+    parts = {{0.0, middle, s.width}};
+  for (const std::vector<double> &lines : parts) {
+    BlockPacker packer(s, lines, random);
     packer.run();
     result.tries += packer.tries();
     packer.for_each([&](double x, double y, double r) {
+      const int block = y < middle ? 0 : 1;
       Disc disc{x, y, r, block, false, (block == 0 ? y : s.width - y) - r < s.link_gap};
       disc.fault = fault_gap(s, disc) < s.fault_zone;
       result.discs.push_back(disc);
@@ -435,10 +463,11 @@ void sort_discs(const PackingSettings &s, Packing &result) {
   });
 }
 
-/// Links tangent discs. The cells are at least as large as the longest link.
+/// Links discs that are tangent or close. The cells are at least as large as the longest link.
 void link_discs(const PackingSettings &s, Packing &result) {
   const int n = static_cast<int>(result.discs.size());
-  Cells<int> cells(s.length, 0.0, s.width, 2.0 * s.rmax + s.link_gap);
+  const auto longest = [&s](double sum) { return std::max(sum + s.link_gap, s.link_ratio * sum); };
+  Cells<int> cells(s.length, 0.0, s.width, longest(2.0 * s.rmax));
   for (int i = 0; i < n; ++i) cells.insert(result.disc(i).x, result.disc(i).y, i);
   std::vector<int> partners;
   for (int i = 0; i < n; ++i) {
@@ -452,7 +481,7 @@ void link_discs(const PackingSettings &s, Packing &result) {
           const Disc &b = result.disc(j);
           if (b.block != a.block) continue;
           const auto [ex, ey] = link_vector(s.length, a, b);
-          const double limit = a.r + b.r + s.link_gap;
+          const double limit = longest(a.r + b.r);
           if (ex * ex + ey * ey < limit * limit) partners.push_back(j);
         }
     std::sort(partners.begin(), partners.end());

@@ -18,11 +18,14 @@ struct PackingSettings {
   double rmin = 0.1;         ///< smallest radius
   double rmax = 1.0;         ///< largest radius
   uint64_t seed = 1;         ///< seed of the random numbers
-  int max_failures = 5000;   ///< a tile of a block is full after so many failures in a row
+  int max_failures = 5000;   ///< a tile is full after so many failures in a row
   double tolerance = 1e-8;   ///< accepted overlap of two discs, relative to the sum of the radii
   double link_gap = 1e-5;    ///< discs (and lines) closer than this count as tangent
   double fault_zone = 0.25;  ///< † discs with a surface so close to the fault line are flagged
   bool remove_loose = true;  ///< † remove discs that their links do not hold, see Packing::loose
+  double link_ratio = 1.0;  ///< so are those closer than this times the sum of the radii, 1 to 1.25
+  bool random_faces = true;  ///< place the faces first, see make_packing()
+  bool random_seeds = true;  ///< seeds at random places, not on a grid
   bool mirror = false;       ///< † the upper block is the mirror image of the lower one
 };
 
@@ -76,6 +79,11 @@ std::pair<double, double> link_vector(double length, const Disc &a, const Disc &
 /// tries in it failed. The cost is linear in the length. Finally (4) † discs that their links
 /// do not hold are removed: see Packing::loose. With mirror † only the lower block is packed,
 /// and each of its discs at the fault line faces one of the same radius at the same x.
+///
+/// Without random_faces †, as in the later particle code of one of the authors, there is no step
+/// (1), both blocks are packed at once, the fault line is one of the lines of step (3), and there
+/// is one tile, whatever the length. Without random_seeds † the seeds of step (2) are discs of
+/// random radius at x = 2 rmax (i + (j mod 2) / 2), y = sqrt(3) rmax j where they fit.
 ///
 /// The result depends on the settings and the floating-point arithmetic of the platform only.
 /// \throws std::invalid_argument with one line that names the setting and what was expected
