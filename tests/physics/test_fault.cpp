@@ -384,7 +384,8 @@ TEST_F(Ranks, GeometryDoesNotDependOnThem) {
 }
 
 TEST_F(Ranks, NorDoesThatOfAPackingOnAGrid) {
-  // The lines of a data file are in the order of the owners of the particles.
+  // The lines of a data file are in the order of the owners of the particles, and the first word of
+  // a bond is its place in this order.
   const auto lines = [this](int ranks) {
     const Result r =
         run_text(fault_start() +
@@ -396,7 +397,11 @@ TEST_F(Ranks, NorDoesThatOfAPackingOnAGrid) {
     EXPECT_TRUE(succeeded(r));
     std::vector<std::string> found;
     std::istringstream in(read_file(path("grid.data")));
-    for (std::string line; std::getline(in, line);) found.push_back(line);
+    bool bonds = false;
+    for (std::string line; std::getline(in, line);) {
+      bonds = bonds || line == "Bonds";
+      found.push_back(bonds ? line.substr(line.find(' ') + 1) : line);
+    }
     std::sort(found.begin(), found.end());
     return found;
   };
@@ -424,7 +429,7 @@ run 3000
   ASSERT_TRUE(succeeded(tangent));
   ASSERT_TRUE(succeeded(close));
   EXPECT_NEAR(tangent.last("f_plates[9]"), 0.0, 1e-6);
-  EXPECT_GT(close.last("f_plates[9]"), 0.01);
+  EXPECT_GT(close.last("f_plates[9]"), 1e-3);
   EXPECT_LT(close.last("PotEng"), close.thermo.front().at("PotEng"));
   const Result two = run_text(script, {{"ratio", "1.05"}}, 2);
   ASSERT_TRUE(succeeded(two));
