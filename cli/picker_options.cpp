@@ -57,6 +57,10 @@ PickerSettings PickerOptions::over(PickerSettings settings, double interval) con
     if (!(settings.lambda < 1.0))
       fail(time_name(), digits(*memory_time), "less than 1e16 intervals of the samples");
   }
+  return settings;
+}
+
+FilterSettings PickerOptions::over(FilterSettings settings) const {
   if (min_size) settings.min_size = *min_size;
   if (!std::isfinite(settings.min_size) || !(settings.min_size >= 0.0))
     fail("--min-size", digits(settings.min_size), "a finite size of at least 0");

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file picker_options.h
-/// The options of the event picker, declared once for all programs.
+/// The options of the event picker and of the filter behind it, declared once for all programs.
 #ifndef LSM_PICKER_OPTIONS_H
 #define LSM_PICKER_OPTIONS_H
 
 #include <optional>
 #include <string>
 
+#include "events/event_filter.h"
 #include "events/event_picker.h"
 #include "option_group.h"
 
 namespace LSM {
 
-/// The settings of the picker that were given on the command line; the others are empty.
+/// The settings of picker and filter that were given on the command line; the others are empty.
 class PickerOptions {
  public:
   std::string prefix;  ///< of the names lambda and memory-time, after the dashes
@@ -34,6 +35,7 @@ class PickerOptions {
   /// \param interval time between samples (model time)
   /// \throws std::invalid_argument naming the option, its value and what is expected
   PickerSettings over(PickerSettings settings, double interval) const;
+  FilterSettings over(FilterSettings settings) const;
 
   std::string lambda_name() const { return "--" + prefix + "lambda"; }
   std::string time_name() const { return "--" + prefix + "memory-time"; }

@@ -30,8 +30,7 @@ void from_json(const json &j, RecentSlip &slip) {
 }
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Slider::RuptureState, open, recent)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PickerState, samples, step, time, pe, rate, in_event, step_start,
-                                   t_start, pe_start, events, dropped_nonpositive, dropped_small,
-                                   last_size)
+                                   t_start, pe_start)
 
 }  // namespace LSM
 
@@ -40,14 +39,15 @@ namespace Slider {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ChainState, step, slip_sum, slip_compensation, pe_sum,
                                    pe_compensation, quiet_since, pe_anchor, loading_anchor, moved,
                                    dpe, radiated, radiated_compensation, u, v, rest, ahead)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunState, chain, picker, events, before_warmup, by_plate,
-                                   slip_start, largest, u_start, ruptures, calm_since)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunState, chain, picker, events, dropped_nonpositive,
+                                   dropped_small, before_warmup, last_size, by_plate, slip_start,
+                                   largest, u_start, ruptures, calm_since)
 
 namespace {
 
 using nlohmann::json;
 
-constexpr int version = 4;
+constexpr int version = 5;
 constexpr const char *version_key = "slider_cli checkpoint";
 
 std::uint32_t checksum(const std::vector<std::uint8_t> &bytes) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "events/event_filter.h"
 #include "events/event_picker.h"
 #include "slider_chain.h"
 #include "slider_ruptures.h"
@@ -16,9 +17,7 @@
 namespace Slider {
 
 /// Counts of the events of a run so far.
-struct EventCounts {
-  LSM::PickerState picker;                     ///< for ruptures, only the sizes of those omitted
-  std::int64_t events = 0, before_warmup = 0;  ///< in the catalogue; during the warm-up
+struct EventCounts : LSM::FilterCounts {
   /// Drops of PE that slip does not explain, see is_by_plate()
   std::int64_t by_plate = 0;
   double largest = 0.0;  ///< size of the largest event
@@ -27,6 +26,7 @@ struct EventCounts {
 /// State of a run between two steps.
 struct RunState : EventCounts {
   ChainState chain;
+  LSM::PickerState picker;      ///< of drops of PE
   double slip_start = 0.0;      ///< sum of all displacements when the present event began
   std::vector<double> u_start;  ///< displacements when it began
   RuptureState ruptures;

@@ -37,8 +37,8 @@ nlohmann::ordered_json summary(const Settings &s, const Slider::RunResult &r) {
   j["time"] = steps * s.run.parameters.dt;
   j["events"] = r.events;
   j["events_before_warmup"] = r.before_warmup;
-  j["events_nonpositive"] = r.picker.dropped_nonpositive;
-  j["events_below_min_size"] = r.picker.dropped_small;
+  j["events_nonpositive"] = r.dropped_nonpositive;
+  j["events_below_min_size"] = r.dropped_small;
   if (s.run.events == Slider::Events::pe) j["events_by_plate"] = r.by_plate;
   j["largest_event"] = r.largest;
   j["mean_slip"] = r.mean_slip;

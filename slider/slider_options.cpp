@@ -48,7 +48,7 @@ class CommandLine {
  public:
   CommandLine() {
     run_.catalogue = "slider_catalogue.csv";
-    run_.warmup = 12000.0;
+    run_.filter.warmup = 12000.0;
     run_.checkpoint_interval = 1000000;
     p_.friction = {Law::velocity_weakening, 0.8, 0.1};
     LSM::set_up(app_, SLIDER_VERSION);
@@ -171,7 +171,7 @@ class CommandLine {
     shown("0")(*picker.min_size);
     for (CLI::Option *const option : {picker.reading, picker.lambda, picker.memory_time})
       not_paper(*option);
-    group.add("--warmup", run_.warmup, "Drop events that start before this time (time) †",
+    group.add("--warmup", run_.filter.warmup, "Drop events that start before this time (time) †",
               not_paper);
     group.flag("--without-plate-drops", without_plate_drops_,
                "Leave out drops of PE larger than the largest mu_0 times slip_moment, which the "
@@ -266,7 +266,7 @@ class CommandLine {
     if (paper_) {
       p_.scheme = Scheme::printed;
       p_.dt = 0.01;
-      run_.warmup = 0.0;
+      run_.filter.warmup = 0.0;
       picker_.reading = "literal";
       picker_.lambda = 0.99;
     }
@@ -285,7 +285,7 @@ class CommandLine {
       throw std::invalid_argument(
           "--leap needs --coupling chain without --radiation and --correlation-length");
     for (const auto &[option, value] :
-         {std::pair("--leap", run_.leap_speed), {"--warmup", run_.warmup}})
+         {std::pair("--leap", run_.leap_speed), {"--warmup", run_.filter.warmup}})
       if (!(value >= 0.0) || !std::isfinite(value)) refuse(option, value, "a finite number >= 0");
     if (!given("--steps")) {
       if (!std::isfinite(time_) || !(time_ > 0.0)) refuse("--time", time_, "a positive number");
@@ -293,6 +293,7 @@ class CommandLine {
     }
     if (!picker_.says_lambda()) picker_.memory_time = 1.0;
     run_.picker = picker_.over(run_.picker, p_.dt);
+    run_.filter = picker_.over(run_.filter);
     const double gap = std::round(rupture_gap_ / p_.dt);
     if (!(rupture_gap_ >= 0.0) || !(gap < 1e15))
       refuse("--rupture-gap", rupture_gap_, "a number >= 0 and less than 1e15 time steps");
@@ -380,9 +381,9 @@ class CommandLine {
     add("rupture_gap", rupture_gap_, ruptures);
     add("picker", to_string(run_.picker.reading), !ruptures);
     add("lambda", run_.picker.lambda, !ruptures);
-    add("min_size", run_.picker.min_size);
-    add("keep_nonpositive", run_.picker.keep_nonpositive ? "yes" : "no");
-    add("warmup", run_.warmup);
+    add("min_size", run_.filter.min_size);
+    add("keep_nonpositive", run_.filter.keep_nonpositive ? "yes" : "no");
+    add("warmup", run_.filter.warmup);
     add("plate_drops", "left out", without_plate_drops_);
   }
 

@@ -50,6 +50,7 @@ class Run {
   explicit Run(const RunOptions &options)
       : o_(options),
         chain_(o_.parameters, o_.mu, o_.kernel == Kernel::dense),
+        filter_(o_.filter),
         outputs_(o_),
         calm_(std::max<std::int64_t>(1, std::llround(leap_calm / o_.parameters.dt))),
         look_(std::max<std::int64_t>(1, std::llround(1.0 / o_.parameters.dt))) {
@@ -95,23 +96,17 @@ class Run {
     return true;
   }
 
-  /// Whether an event began after the warm-up.
-  bool after_warmup(const LSM::Event &e) const { return !(e.t_start < o_.warmup); }
-  /// Counts an event that has ended.
-  /// \return false if it must not be written
-  bool count(LSM::Event &e) {
-    if (!after_warmup(e)) {
-      ++state_.before_warmup;
-      return false;
-    }
-    e.id = ++state_.events;
+  /// Writes an event that has passed the filter.
+  void write(LSM::Event &e) {
+    filter_.number(e);
     state_.largest = std::max(state_.largest, e.size);
-    return true;
+    outputs_.event(e);
   }
 
   const Clock::time_point begin_ = Clock::now();
   const RunOptions &o_;
   Chain chain_;
+  LSM::EventFilter filter_;
   Outputs outputs_;
   RunState state_;
   RunResult result_;
@@ -157,7 +152,7 @@ class PeRun : public Run {
       return;
     }
     chain_.advance();
-    const bool report =
+    const bool ended =
         picker_.push_change(chain_.step(), o_.parameters.dt * static_cast<double>(chain_.step()),
                             chain_.pe(), chain_.dpe(), event_);
     // Slip is sampled one step late at both ends, which matters less than the error of the scheme.
@@ -165,13 +160,14 @@ class PeRun : public Run {
       state_.slip_start = chain_.slip_sum();
       if (located()) state_.u_start = chain_.displacements();
     }
-    if (!report) return;
+    if (!ended || !filter_.passes(event_)) return;
     event_.slip_moment = chain_.slip_sum() - state_.slip_start;
-    if (is_by_plate(event_, strongest_) && after_warmup(event_)) {
+    if (is_by_plate(event_, strongest_)) {
       ++state_.by_plate;
       if (!o_.keep_by_plate) return;
     }
-    if (count(event_)) write();
+    if (located()) locate();
+    write(event_);
   }
 
   /// Jumps over steps in which nothing slips: only the plate changes PE then, and no event can
@@ -207,18 +203,15 @@ class PeRun : public Run {
 
   bool located() const { return o_.x_centroid || o_.rupture_length; }
 
-  void write() {
-    if (located()) {
-      const std::vector<double> u = chain_.displacements();
-      LSM::CircularMean mean(static_cast<double>(u.size()));
-      for (std::size_t i = 0; i < u.size(); ++i) {
-        const double slip = u[i] - state_.u_start[i];
-        if (slip > 0.0) event_.rupture_length += 1.0;
-        mean.add(static_cast<double>(i), slip);
-      }
-      event_.x_centroid = mean.position();
+  void locate() {
+    const std::vector<double> u = chain_.displacements();
+    LSM::CircularMean mean(static_cast<double>(u.size()));
+    for (std::size_t i = 0; i < u.size(); ++i) {
+      const double slip = u[i] - state_.u_start[i];
+      if (slip > 0.0) event_.rupture_length += 1.0;
+      mean.add(static_cast<double>(i), slip);
     }
-    outputs_.event(event_);
+    event_.x_centroid = mean.position();
   }
 
   LSM::EventPicker picker_;
@@ -256,8 +249,7 @@ class RuptureRun : public Run {
                                " is not a finite number");
     tracker_.end_step(chain_.pe(), [this](const Rupture &rupture) {
       LSM::Event e = tracker_.event(rupture, o_.parameters.dt);
-      // Omitted events are counted where the picker counts them, for checkpoints.
-      if (!LSM::is_left_out(e.size, o_.picker, state_.picker) && count(e)) outputs_.event(e);
+      if (filter_.passes(e)) write(e);
     });
   }
 
@@ -271,6 +263,7 @@ void Run::begin() {
   if (o_.resume) {
     state_ = read_checkpoint(o_.checkpoint, settings_);
     chain_.set_state(state_.chain);
+    filter_.set_counts(state_);
     restore();
     outputs_.resume(chain_.step(), state_.events);
   } else {
@@ -280,6 +273,7 @@ void Run::begin() {
 }
 
 void Run::keep_state() {
+  static_cast<LSM::FilterCounts &>(state_) = filter_.counts();
   save();
   if (o_.checkpoint.empty()) return;
   outputs_.flush();
@@ -289,8 +283,9 @@ void Run::keep_state() {
 
 /// Announces once how large the catalogue will become, while the run can still be stopped.
 void Run::announce() {
-  if (state_.events == 0) eventless_until_ = chain_.step();
-  if (o_.catalogue.empty() || state_.events < announced_at_) return;
+  const std::int64_t events = filter_.counts().events;
+  if (events == 0) eventless_until_ = chain_.step();
+  if (o_.catalogue.empty() || events < announced_at_) return;
   announced_at_ = std::numeric_limits<std::int64_t>::max();
   const double grows = static_cast<double>(o_.steps - eventless_until_) /
                        static_cast<double>(chain_.step() - eventless_until_);
@@ -301,8 +296,8 @@ void Run::announce() {
   fmt::print(stderr,
              "slider_cli: {}: {} events at step {} of {}, at this rate {:.2g} in all{}; --min-size "
              "leaves small ones out\n",
-             o_.catalogue, state_.events, chain_.step(), o_.steps,
-             grows * static_cast<double>(state_.events), size);
+             o_.catalogue, events, chain_.step(), o_.steps, grows * static_cast<double>(events),
+             size);
 }
 
 RunResult Run::execute() {
@@ -327,7 +322,7 @@ RunResult Run::execute() {
     if (!o_.progress || Clock::now() - shown < std::chrono::seconds(1)) continue;
     shown = Clock::now();
     std::fprintf(stderr, "step %lld of %lld, %lld events\n", static_cast<long long>(chain_.step()),
-                 static_cast<long long>(o_.steps), static_cast<long long>(state_.events));
+                 static_cast<long long>(o_.steps), static_cast<long long>(filter_.counts().events));
   }
   keep_state();
   outputs_.close();

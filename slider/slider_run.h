@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "events/event_filter.h"
 #include "events/event_picker.h"
 #include "files/names.h"
 #include "files/output_claim.h"
@@ -37,12 +38,12 @@ struct RunOptions {
   std::vector<double> mu;  ///< one per block
   std::int64_t steps = 0;
   Events events = Events::pe;
-  LSM::PickerSettings picker;  ///< for ruptures, only the sizes that are written
+  LSM::PickerSettings picker;  ///< of drops of PE
+  LSM::FilterSettings filter{0.0, false, 0.0};
   /// Number of steps over which slips are connected, at least 1; events are found this many steps
   /// after their end.
   std::int64_t rupture_memory = 1;
   double leap_speed = 0.0;    ///< leap only while no block is faster than this; 0: no leaps
-  double warmup = 0.0;        ///< events that start before this time are not written
   bool keep_by_plate = true;  ///< write drops of PE that slip does not explain, see is_by_plate()
   Kernel kernel = Kernel::active;
   std::string catalogue;  ///< empty: none

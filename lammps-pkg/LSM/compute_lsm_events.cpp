@@ -17,7 +17,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <exception>
 
 using namespace LAMMPS_NS;
@@ -25,10 +24,12 @@ using namespace LAMMPS_NS;
 // entries of the global vector, followed by those of the ledger
 enum { EVENTS, LAST_SIZE, RATE, IN_EVENT, PE, PE_LINK, PE_CONTACT, PE_TANGENTIAL, NVECTOR };
 static constexpr int NLEDGER = 9;
+// if ruptures are recorded, these follow, whether there is a ledger or not
+enum { RUPTURES, LAST_WORK, OPEN, NRUPTURES };
 
 ComputeLSMEvents::ComputeLSMEvents(LAMMPS *_lmp, int narg, char **arg) :
     Compute(_lmp, narg, arg), options(_lmp, 3, narg, arg), settings(options.events),
-    sources(_lmp, settings), gather(world, settings.kind->wants_slips()),
+    sources(_lmp, settings), gather(world),
     guard(_lmp, sources, options.watchdog, options.emergency_file, [this] { flush(); })
 {
   if (igroup) error->all(FLERR, "Compute lsm/events must use group all");
@@ -36,14 +37,15 @@ ComputeLSMEvents::ComputeLSMEvents(LAMMPS *_lmp, int narg, char **arg) :
   vector_flag = 1;
   extscalar = 0;
   extvector = 0;
-  size_vector = NVECTOR + (options.ledger ? NLEDGER : 0);
+  size_vector = NVECTOR + (options.ledger || settings.finds_ruptures() ? NLEDGER : 0) +
+                (settings.finds_ruptures() ? NRUPTURES : 0);
   settings.name = id;
 
   if (modify->get_fix_by_id(id_of_fix()))
     error->all(FLERR, "Compute lsm/events {} needs the fix ID {}, which is in use", id,
                id_of_fix());
   recorder = dynamic_cast<FixLSMRecord *>(modify->add_fix(
-      id_of_fix() + (in_intervals() ? " all LSM_RECORD faces" : " all LSM_RECORD")));
+      id_of_fix() + (settings.records_slip() ? " all LSM_RECORD faces" : " all LSM_RECORD")));
   recorder->owner = this;
   update->first_update = 0;
   vector = new double[size_vector];    // allocated last, as the destructor does not run if the
@@ -53,7 +55,7 @@ ComputeLSMEvents::ComputeLSMEvents(LAMMPS *_lmp, int narg, char **arg) :
 ComputeLSMEvents::~ComputeLSMEvents()
 {
   // rank 0 has received all complete intervals at the end of the last run
-  if (options.unfinished) on_rank_0([this] { stream->write_unfinished(); });
+  on_rank_0([this] { stream->write_rest(options.unfinished); });
   sources.release();
 
   // 'run N pre no' needs an init, too, which sets up LAMMPS' lists of fixes and what the styles
@@ -65,12 +67,8 @@ ComputeLSMEvents::~ComputeLSMEvents()
 
 void ComputeLSMEvents::init()
 {
-  int same = 0;
-  for (const auto &other : modify->get_compute_by_style("lsm/events"))
-    if (auto p = dynamic_cast<ComputeLSMEvents *>(other))
-      same += strcmp(p->settings.kind->name(), settings.kind->name()) == 0;
-  if (same > 1 && comm->me == 0)
-    error->warning(FLERR, "More than one compute lsm/events with the same kind of events");
+  if (modify->get_compute_by_style("lsm/events").size() > 1 && comm->me == 0)
+    error->warning(FLERR, "More than one compute lsm/events");
 
   if (modify->get_fix_by_id(id_of_fix()) != recorder)
     error->all(FLERR, "Compute lsm/events {}: its fix {} is gone; use uncompute to end recording",
@@ -92,7 +90,7 @@ void ComputeLSMEvents::init()
   settings.explicit_times = leaps;
 
   // these stay as in the first run, as the headers of the files state them
-  if (in_intervals() && !opened && update->whichflag != 0) sources.find_driving(settings);
+  if (settings.records_slip() && !opened && update->whichflag != 0) sources.find_driving(settings);
   set_memory();
   sampler.resize(options.block);
 }
@@ -115,7 +113,7 @@ void ComputeLSMEvents::open_files()
   const std::string problem =
       lsm_on_0(world, [this] { stream = std::make_unique<LSM::EventStream>(settings); });
   if (!problem.empty()) error->all(FLERR, "Compute lsm/events: {}", problem);
-  if (in_intervals()) make_grid();
+  if (settings.records_slip()) make_grid();
   if (from_restart) unpack_state(recorder->kept);
   change_dt();
   on_rank_0([this, from_restart] {
@@ -187,8 +185,8 @@ void ComputeLSMEvents::setup_record()
   check_box();
   change_dt();
   leave_out_jump();
-  if (in_intervals() && !fault_begun) begin_fault();
-  if (in_intervals() && !recorder->faces_begun()) recorder->begin_faces();
+  if (settings.records_slip() && !fault_begun) begin_fault();
+  if (settings.records_slip() && recorder->faces_since() < 0) recorder->begin_faces();
   if (options.ledger && !ledger.begun()) ledger.begin(energies());
   if (last_recorded != update->ntimestep) record();
 }
@@ -197,13 +195,13 @@ void ComputeLSMEvents::setup_record()
 // length
 void ComputeLSMEvents::check_box()
 {
-  const bool placed = in_intervals() || settings.kind->wants_slips();
+  const bool placed = settings.records_slip();
   if (placed)
     for (const auto &ifix : modify->get_fix_list())
       if (ifix->box_change & Fix::BOX_CHANGE_X)
         error->all(FLERR,
                    "Compute lsm/events {}: fix {} changes the box along x, which {} cannot follow",
-                   id, ifix->id, settings.kind->asked_by());
+                   id, ifix->id, settings.asked_by());
   if (period == 0.0) {
     begin = domain->boxlo[0];
     period = domain->prd[0];
@@ -235,8 +233,8 @@ void ComputeLSMEvents::change_dt()
   const double ratio = clock.dt > 0.0 ? update->dt / clock.dt : 0.0;
   clock = {time_of(update->ntimestep), update->ntimestep, update->dt};
   set_memory();
-  if (in_intervals()) make_grid();
-  if (in_intervals() && opened) begin_fault();
+  if (settings.records_slip()) make_grid();
+  if (settings.records_slip() && opened) begin_fault();
   on_rank_0([this, ratio] { stream->change_picker(settings.picker, ratio); });
 }
 
@@ -248,9 +246,7 @@ double ComputeLSMEvents::time_of(bigint step) const
 void ComputeLSMEvents::record()
 {
   const bigint step = update->ntimestep;
-  if (settings.kind->wants_slips())
-    for (const auto *style : sources.styles()) sampler.add_slip(style->slip, settings.bin_width);
-  if (in_intervals() && step != fault.grid().step0) {
+  if (settings.records_slip() && step != fault.grid().step0) {
     for (const auto *style : sources.styles()) fault.add(style->contacts);
     if (fault.grid().ends_interval(step)) {
       add_faces();
@@ -274,13 +270,10 @@ void ComputeLSMEvents::start_gather()
 void ComputeLSMEvents::finish_gather()
 {
   if (!gather.finish()) return;
-  on_rank_0([this] {
-    stream->add_block(
-        gather.block(), [this](bigint step) { return time_of(step); }, domain->boxlo[0],
-        domain->prd[0]);
-  });
+  on_rank_0(
+      [this] { stream->add_block(gather.block(), [this](bigint step) { return time_of(step); }); });
   if (comm->me == 0 && options.progress)
-    progress.show(update, gather.block().first + gather.block().count - 1, stream->counts().events);
+    progress.show(update, gather.block().first + gather.block().count - 1, stream->drops().events);
   stop_on_failure();
 }
 
@@ -295,23 +288,36 @@ void ComputeLSMEvents::flush()
 void ComputeLSMEvents::end_run()
 {
   flush();
+  if (settings.records_slip() && opened) {
+    LSM::SlipRecorder until_now = fault;
+    until_now.add(faces());
+    const std::vector<double> open_sums = sum_on_0(until_now);
+    on_rank_0([&] { stream->end_run(update->ntimestep, open_sums); });
+  }
   LSMMover::complete_steps(modify);
   ledger.end_run(update->ntimestep, ledger.begun() ? energies() : LSM::EnergyTerms());
 }
 
 // returns on rank 0 the sums of the incomplete interval over all ranks
-std::vector<double> ComputeLSMEvents::fault_sums()
+std::vector<double> ComputeLSMEvents::sum_on_0(LSM::SlipRecorder &slip) const
 {
-  std::vector<double> all(fault.sums().size());
-  MPI_Reduce(fault.sums().data(), all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_SUM, 0,
+  std::vector<double> all(slip.sums().size());
+  MPI_Reduce(slip.sums().data(), all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_SUM, 0,
              world);
   return all;
 }
 
-// adds the displacements of the faces since the last call
+// displacements of the faces since add_faces()
+std::vector<LSM::FaceDisplacement> ComputeLSMEvents::faces() const
+{
+  return recorder->faces(sources.face(0), sources.face(1));
+}
+
 void ComputeLSMEvents::add_faces()
 {
-  fault.add(recorder->end_faces(sources.face(0), sources.face(1)));
+  if (recorder->faces_since() == update->ntimestep) return;
+  fault.add(faces());
+  recorder->begin_faces();
 }
 
 // records the state before the first interval, for which only forces are needed
@@ -321,7 +327,7 @@ void ComputeLSMEvents::begin_fault()
   recorder->begin_faces();
   fault.clear();
   for (const auto *style : sources.styles()) fault.add_forces(style->contacts);
-  const std::vector<double> sums = fault_sums();
+  const std::vector<double> sums = sum_on_0(fault);
   fault.clear();
   const double pe = total_pe();
   on_rank_0([&] { stream->begin_fault(pe, sums); });
@@ -372,14 +378,13 @@ LSM::EnergyTerms ComputeLSMEvents::energies() const
 // state in restart files: numbers of this class, then those of the stream
 namespace {
 struct Own {
-  static constexpr size_t NUMBERS = 10;
-  int kind = -1;
+  static constexpr size_t NUMBERS = 9;
   bigint last_recorded = 0;
   LSM::EnergyLedger ledger;
   LSM::StepClock clock;
   template <class Self, class State> static void visit(Self &self, State &state)
   {
-    state(self.kind, self.last_recorded, self.ledger, self.clock);
+    state(self.last_recorded, self.ledger, self.clock);
   }
 };
 }    // namespace
@@ -388,11 +393,11 @@ std::vector<double> ComputeLSMEvents::pack_state()
 {
   if (!opened) return recorder->kept;
   flush();
-  if (in_intervals()) add_faces();
-  const std::vector<double> open_sums = in_intervals() ? fault_sums() : std::vector<double>();
+  if (settings.records_slip()) add_faces();
+  const std::vector<double> open_sums = settings.records_slip() ? sum_on_0(fault)
+                                                                : std::vector<double>();
   std::vector<double> state;
-  const Own own = {static_cast<int>(LSM::number_of(*settings.kind)), last_recorded,
-                   ledger.kept(energies()), clock};
+  const Own own = {last_recorded, ledger.kept(energies()), clock};
   LSM::StateWriter to(state);
   Own::visit(own, to);
   if (comm->me == 0) {
@@ -412,20 +417,21 @@ void ComputeLSMEvents::unpack_state(const std::vector<double> &state)
     LSM::StateReader from(state);
     Own::visit(own, from);
   }
-  if (own.kind < 0 || !saved.read(state, Own::NUMBERS, static_cast<size_t>(own.kind)))
+  if (!saved.read(state, Own::NUMBERS))
     error->all(FLERR, "Compute lsm/events {}: the restart file holds no state of such a compute",
                id);
   last_recorded = own.last_recorded;
   ledger = own.ledger;
   clock = own.clock;
   on_rank_0([&] { stream->set_state(saved); });
-  if (!in_intervals() || saved.kind != LSM::number_of(*settings.kind)) return;
-  if (!saved.continues_with(saved.kind, fault.grid())) {
+  if (!settings.records_slip() || !saved.has_slip()) return;
+  if (!saved.continues_with(fault.grid(), settings.finds_ruptures())) {
     if (comm->me == 0)
       error->warning(FLERR,
-                     "Compute lsm/events {}: the restart file holds {} of another time step, "
-                     "interval or number of bins; those that were open are lost",
-                     id, settings.kind->name());
+                     "Compute lsm/events {}: the restart file holds the slip of another time step, "
+                     "interval or number of bins, or is without ruptures; the slip of open events "
+                     "until now is lost",
+                     id);
     return;
   }
   LSM::FaultGrid grid = fault.grid();
@@ -440,7 +446,7 @@ double ComputeLSMEvents::compute_scalar()
 {
   invoked_scalar = update->ntimestep;
   flush();
-  double events = stream ? static_cast<double>(stream->counts().events) : 0.0;
+  double events = stream ? static_cast<double>(stream->drops().events) : 0.0;
   MPI_Bcast(&events, 1, MPI_DOUBLE, 0, world);
   scalar = events;
   return scalar;
@@ -450,15 +456,22 @@ void ComputeLSMEvents::compute_vector()
 {
   invoked_vector = update->ntimestep;
   flush();
-  double picked[4] = {0.0, 0.0, 0.0, 0.0};
+  double picked[4 + NRUPTURES] = {};
+  double *const ruptures = picked + 4;
   if (stream) {
-    picked[EVENTS] = static_cast<double>(stream->counts().events);
-    picked[LAST_SIZE] = stream->counts().last_size;
+    picked[EVENTS] = static_cast<double>(stream->drops().events);
+    picked[LAST_SIZE] = stream->drops().last_size;
     picked[RATE] = stream->picker().rate();
-    picked[IN_EVENT] = static_cast<double>(stream->open());
+    picked[IN_EVENT] = stream->picker().in_event() ? 1.0 : 0.0;
+    ruptures[RUPTURES] = static_cast<double>(stream->ruptures().events);
+    ruptures[LAST_WORK] = stream->ruptures().last_size;
+    ruptures[OPEN] = static_cast<double>(stream->open_ruptures());
   }
-  MPI_Bcast(picked, 4, MPI_DOUBLE, 0, world);
+  MPI_Bcast(picked, 4 + NRUPTURES, MPI_DOUBLE, 0, world);
   std::copy_n(picked, 4, vector);
+  std::fill(vector + NVECTOR, vector + size_vector, 0.0);
+  if (settings.finds_ruptures())
+    std::copy_n(ruptures, static_cast<int>(NRUPTURES), vector + NVECTOR + NLEDGER);
 
   double mine[3];
   sources.pe_by_kind(mine);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Lattice Solid Model: potential energy at every step, slip events picked from its drops, catalogue
-// and energy ledger. The core processes the samples; this class connects it with LAMMPS.
+// Lattice Solid Model: potential energy at every step, slip events picked from its drops, ruptures
+// and slip of the fault, energy ledger. The core processes the samples; this class connects it with
+// LAMMPS.
 
 #ifdef COMPUTE_CLASS
 // clang-format off
@@ -74,7 +75,6 @@ class ComputeLSMEvents : public Compute {
   double begin = 0.0, period = 0.0;    // lower end and length of the box along x at the first run
 
   std::string id_of_fix() const { return std::string(id) + "_record"; }
-  bool in_intervals() const { return settings.kind->wants_intervals(); }
   void set_memory();
   void open_files();
   std::vector<LSM::Output> restart_files() const;
@@ -91,7 +91,8 @@ class ComputeLSMEvents : public Compute {
   double time_of(bigint step) const;
   double total_pe() const;
   LSM::EnergyTerms energies() const;
-  std::vector<double> fault_sums();
+  std::vector<double> sum_on_0(LSM::SlipRecorder &) const;
+  std::vector<LSM::FaceDisplacement> faces() const;
 };
 
 }    // namespace LAMMPS_NS

@@ -49,7 +49,7 @@ void FixLSMRecord::begin_faces()
   since = update->ntimestep;
 }
 
-std::vector<LSM::FaceDisplacement> FixLSMRecord::end_faces(int lower, int upper)
+std::vector<LSM::FaceDisplacement> FixLSMRecord::faces(int lower, int upper) const
 {
   std::vector<LSM::FaceDisplacement> faces;
   const auto steps = static_cast<double>(update->ntimestep - since);
@@ -62,7 +62,6 @@ std::vector<LSM::FaceDisplacement> FixLSMRecord::end_faces(int lower, int upper)
     if (period > 0.0) d -= period * std::round(d / period);
     faces.push_back({atom->x[i][0] - 0.5 * d, d, steps, above});
   }
-  begin_faces();
   return faces;
 }
 

@@ -40,8 +40,10 @@ class FixLSMRecord : public LSMKeptFix<FixLSMRecord> {
   /// Stores the positions of this rank's particles on the faces of the fault, from which their
   /// displacements are measured later.
   void begin_faces();
-  bool faces_begun() const { return since >= 0; }
-  std::vector<LSM::FaceDisplacement> end_faces(int lower, int upper);
+  /// Step in which they were stored; below 0 before the first.
+  bigint faces_since() const { return since; }
+  /// Displacements since then of the particles of two groups, given by their bits.
+  std::vector<LSM::FaceDisplacement> faces(int lower, int upper) const;
   void grow_arrays(int) override;
   void copy_arrays(int, int, int) override;
   void set_arrays(int) override;

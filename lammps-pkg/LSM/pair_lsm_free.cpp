@@ -104,7 +104,7 @@ template <class Recorder, bool DIM3> void PairLSMFree::loop()
   const double *radius = contact_radii();
   const int *type = atom->type;
   const int nlocal = atom->nlocal;
-  Recorder recorder(*this, update->setupflag != 0, domain->boxlo[0], domain->prd[0]);
+  Recorder recorder(*this, update->setupflag != 0);
 
   for (int n = 0; n < near.size(); n++) {
     const LSMNearPairs::Pair &pair = near.kept()[near[n]];

@@ -88,7 +88,7 @@ template <class Law, class Recorder> class PairLSMFriction::Loop {
                                                               style.locate_onset != 0},
       side_by_side(Law::state_size == 0 && !Recorder::tallies && !step.setup && !style.screened &&
                    !style.velocity),
-      recorder(style, step.setup, style.domain->boxlo[0], style.domain->prd[0])
+      recorder(style, step.setup)
   {
   }
 
@@ -304,17 +304,14 @@ template <class Law, class Recorder> class PairLSMFriction::Loop {
     const LSM::FrictionStep &s = push.step;
     recorder.springs(share, push.normal, push.tangential);
     recorder.dissipation(share, s.dissipated);
-    const double moment = fabs(s.slip) * site.size;
-    recorder.slip(share, moment);
-    if (!recorder.wants_places()) return;
+    recorder.slip(share, fabs(s.slip) * site.size);
+    if (!recorder.wants_contacts()) return;
     if (site.across == 0) {
       recorder.within(share, s.dissipated);
       return;
     }
     const double place =
         0.5 * (x[3 * static_cast<size_t>(site.i)] + x[3 * static_cast<size_t>(site.j)]);
-    if (moment != 0.0) recorder.slip_at(share, place, moment);
-    if (!recorder.wants_contacts()) return;
     recorder.contact({place, s.dissipated, -site.across * (apart ? 0.0 : push.fx), share});
   }
 };

@@ -15,7 +15,7 @@ namespace {
 /// The parameters that the run itself writes to its catalogue: those of the series, dt, and the
 /// settings of the picker. A value that has not changed keeps its text.
 text_io::Parameters catalogue_parameters(const PeSeriesInfo &info, const PickerSettings &picker,
-                                         double warmup) {
+                                         const FilterSettings &filter) {
   text_io::Parameters parameters = info.parameters;
   // dt is where the runs write it: before `viscosity` (fault) or `picker` (block-slider).
   const auto after_dt =
@@ -32,10 +32,11 @@ text_io::Parameters catalogue_parameters(const PeSeriesInfo &info, const PickerS
       set_parameter(parameters, key, fmt::format("{}", value));
   };
   set_number("lambda", picker.lambda);
-  set_number("min_size", picker.min_size);
-  if (picker.keep_nonpositive || text_io::find(parameters, "keep_nonpositive"))
-    set_parameter(parameters, "keep_nonpositive", picker.keep_nonpositive ? "yes" : "no");
-  if (warmup > 0.0 || text_io::find(parameters, "warmup")) set_number("warmup", warmup);
+  set_number("min_size", filter.min_size);
+  if (filter.keep_nonpositive || text_io::find(parameters, "keep_nonpositive"))
+    set_parameter(parameters, "keep_nonpositive", filter.keep_nonpositive ? "yes" : "no");
+  if (filter.warmup > 0.0 || text_io::find(parameters, "warmup"))
+    set_number("warmup", filter.warmup);
   if (info.stride > 1) set_parameter(parameters, "stride", text_io::number(info.stride));
   set_parameter(parameters, "picked_by", "postproc " POSTPROC_VERSION);
   return parameters;
@@ -76,37 +77,35 @@ class Pick : public Analysis {
     SeriesInput series(series_, samples_);
     const PeSeriesInfo &info = series.info();
     EventPicker picker(picker_settings(picker_, info));
-    double warmup = 0.0;
-    if (const std::string *text = info.find("warmup")) text_io::parse(*text, warmup);
-    if (warmup_) warmup = *warmup_;
+    FilterSettings settings = filter_settings(picker_, info);
+    settings.warmup = 0.0;
+    if (const std::string *text = info.find("warmup")) text_io::parse(*text, settings.warmup);
+    if (warmup_) settings.warmup = *warmup_;
+    EventFilter filter(settings);
 
     CatalogueInfo header;
     header.model = info.model;
-    header.parameters = catalogue_parameters(info, picker.settings(), warmup);
+    header.parameters = catalogue_parameters(info, picker.settings(), settings);
     const auto file = std::make_shared<ClaimedFile<CatalogueWriter>>(output_.path, overwrite);
     CatalogueWriter &catalogue = file->writer;
     catalogue.create(output_.path, header, true);
-    std::int64_t early = 0;
     Event event;
     const std::int64_t samples = series.read([&](std::int64_t step, double time, double pe) {
-      if (!picker.push(step, time, pe, event)) return;
-      if (event.t_start < warmup) {
-        ++early;
-        return;
-      }
-      event.id = catalogue.rows() + 1;
+      if (!picker.push(step, time, pe, event) || !filter.passes(event)) return;
+      filter.number(event);
       catalogue.write(event);
     });
+    const FilterCounts &out = filter.counts();
     Results results;
     results.say(fmt::format(
         "{} samples, {} events; not written: {} of size <= 0, {} below the minimum size, {} "
         "before the warm-up ended{}\n",
-        samples, catalogue.rows(), picker.state().dropped_nonpositive, picker.state().dropped_small,
-        early, picker.in_event() ? ", 1 that had not ended" : ""));
+        samples, catalogue.rows(), out.dropped_nonpositive, out.dropped_small, out.before_warmup,
+        picker.in_event() ? ", 1 that had not ended" : ""));
     results.file(output_.path, [file] { file->writer.close(); });
     Table counts("samples,events,nonpositive,small,before_warmup,unfinished");
-    counts.row(samples, catalogue.rows(), picker.state().dropped_nonpositive,
-               picker.state().dropped_small, early, picker.in_event());
+    counts.row(samples, catalogue.rows(), out.dropped_nonpositive, out.dropped_small,
+               out.before_warmup, picker.in_event());
     results.table("counts", std::move(counts));
     return results;
   }

@@ -23,11 +23,12 @@ SeriesRegime series_regime(const std::string &path, const SeriesOptions &options
   check_same_run(catalogues, {path, info.header()});
   SeriesRegime result = series.about();
   EventPicker picker(picker_settings({}, info));
+  EventFilter filter(filter_settings({}, info));
   RegimeMeter meter(regime_window, series.spacing(), length_of(info));
   Event event;
   Extent times;
   result.samples = series.read_some([&](std::int64_t step, double time, double pe) {
-    const bool picked = picker.push(step, time, pe, event);
+    const bool picked = picker.push(step, time, pe, event) && filter.passes(event);
     if (time < options.from_time) return;
     times.add(time);
     meter.add(pe);

@@ -92,6 +92,7 @@ class Series : public Analysis {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     SeriesInput series(series_, samples_);
     EventPicker picker(picker_settings(picker_, series.info()));
+    EventFilter filter(filter_settings(picker_, series.info()));
     Samples out(columns_);
     out.picker = picker.settings();
     RegimeMeter meter(window_, series.spacing(), length_of(series.info()));
@@ -102,7 +103,7 @@ class Series : public Analysis {
     out.regime = series.about();
     out.regime.samples = series.read_some([&](std::int64_t step, double time, double pe) {
       if (time >= samples_.from_time) times.add(time);
-      if (picker.push(step, time, pe, event) && event.t_end >= times.lo) {
+      if (picker.push(step, time, pe, event) && filter.passes(event) && event.t_end >= times.lo) {
         out.events.row(event.t_start, event.t_end, event.pe_start, event.pe_end, event.size);
         meter.event(std::max(event.t_start, times.lo), event.t_end);
       }

@@ -80,10 +80,15 @@ PickerSettings picker_settings(const PickerOptions &options, const PeSeriesInfo 
   const std::string *lambda = info.find("lambda");
   if (lambda && text_io::parse(*lambda, s.lambda) && exponential && info.stride > 1)
     s.lambda = std::pow(s.lambda, static_cast<double>(info.stride));
+  return options.over(s, info.dt * static_cast<double>(info.stride));
+}
+
+FilterSettings filter_settings(const PickerOptions &options, const PeSeriesInfo &info) {
+  FilterSettings s;
   if (const std::string *text = info.find("min_size")) text_io::parse(*text, s.min_size);
   const std::string *keep = info.find("keep_nonpositive");
   s.keep_nonpositive = keep && *keep == "yes";
-  return options.over(s, info.dt * static_cast<double>(info.stride));
+  return options.over(s);
 }
 
 }  // namespace LSM::postproc

@@ -65,10 +65,12 @@ class SeriesInput {
 /// Adds the options of the picker to a command.
 void add_picker_options(CLI::App *command, PickerOptions &options);
 
-/// Settings of the picker from the options. Those not given come from the header of the series, so
-/// that picking afterwards repeats what the run picked, or else are the defaults of PickerSettings.
+/// Settings of picker and filter from the options. Those not given come from the header of the
+/// series, so that picking afterwards repeats what the run picked, or else are the defaults. The
+/// filter has no warm-up.
 /// \throws std::invalid_argument naming the option that is out of range
 PickerSettings picker_settings(const PickerOptions &options, const PeSeriesInfo &info);
+FilterSettings filter_settings(const PickerOptions &options, const PeSeriesInfo &info);
 
 }  // namespace LSM::postproc
 

@@ -1065,8 +1065,8 @@ run 300
   auto pick = [&](double relative) {
     LSM::PickerSettings settings;
     settings.lambda = LSM::lambda_from_memory_time(memory, 0.06);
-    settings.min_size = 1e-9;
     LSM::EventPicker picker(settings);
+    LSM::EventFilter filter({1e-9});
     LSM::PeSeriesReader series(LSM::text_io::open_plain(work("long_remove_0.06_1.pe.bin")));
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> uniform(-relative, relative);
@@ -1074,7 +1074,8 @@ run 300
     std::int64_t step;
     double time, pe;
     for (LSM::Event e; series.next(step, time, pe);)
-      if (picker.push(step, time, pe * (1.0 + (relative > 0.0 ? uniform(random) : 0.0)), e))
+      if (picker.push(step, time, pe * (1.0 + (relative > 0.0 ? uniform(random) : 0.0)), e) &&
+          filter.passes(e))
         events.push_back(e);
     return events;
   };

@@ -216,7 +216,6 @@ void long_runs(const std::string &folder, bool quick) {
     const auto mu = random_friction(p.blocks, 0.5, 1.0, 1);
     LSM::PickerSettings settings;
     settings.lambda = LSM::lambda_from_memory_time(1.0, h);
-    settings.min_size = 1e-3;
     LSM::EventPicker picker(settings);
     std::vector<double> sizes;
     const auto start = std::chrono::steady_clock::now();
@@ -227,7 +226,7 @@ void long_runs(const std::string &folder, bool quick) {
       while (chain.step() < last) {
         chain.advance();
         if (picker.push_change(chain.step(), chain.time(), chain.pe(), chain.dpe(), event) &&
-            event.t_start >= warmup)
+            event.t_start >= warmup && event.size >= 1e-3)
           sizes.push_back(event.size);
       }
     });

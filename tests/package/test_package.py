@@ -74,6 +74,8 @@ group plates union lower upper
 group blocks subtract all plates
 group below type 1 3 5
 group above type 2 4 6
+group lowerface type 3
+group upperface type 4
 bond_style lsm/linked
 bond_coeff 1 1.0
 pair_style lsm/friction
@@ -82,7 +84,7 @@ pair_coeff 3 4 1.0 1.0 0.6
 timestep 0.03
 fix move blocks lsm/nve viscosity 0.05
 fix plates all lsm/plates lower upper stress 0.02 stressramp 6 damping 0.05 velocity 0.02 ramp 6
-compute events all lsm/events sides below above catalogue {name}.csv series {name}.pe ledger yes location yes resume yes
+compute events all lsm/events faces lowerface upperface catalogue {name}.csv series {name}.pe ledger yes location yes resume yes
 thermo 1000
 thermo_style custom step c_events c_events[5] c_events[11]
 {runs}

@@ -42,11 +42,8 @@ run 500
 lsm_run 1500 prefix state every 500{lsm_run}
 """
 LEAP = "fix leap all lsm/leap plates{fix_lsm_leap}"
-# Pages of styles with keywords, and keywords of the same style that belong to another page
-STYLES = {
-    "create_lsm_fault": (), "fix_lsm_nve": (), "fix_lsm_plates": (), "fix_lsm_leap": (), "lsm_run": (),
-    "compute_lsm_events": ("compute_lsm_events_ruptures",), "compute_lsm_events_ruptures": ("compute_lsm_events",)
-}
+# Pages of styles with keywords
+STYLES = ("create_lsm_fault", "fix_lsm_nve", "fix_lsm_plates", "fix_lsm_leap", "lsm_run", "compute_lsm_events")
 
 
 def page(name):
@@ -63,9 +60,9 @@ def keywords(name):
 def ran(lmp, name, words="", status=0):
     """Runs the short fault with further words in the command to which a page belongs."""
     parts = dict.fromkeys(STYLES, "")
-    of_ruptures = name == "compute_lsm_events_ruptures"
-    parts["compute_lsm_events" if of_ruptures else name] = words and " " + words
-    files = "catalogue a.csv series a.pe" + " events ruptures sides below above faces lowerface upperface history a.slip" * of_ruptures
+    parts[name] = words and " " + words
+    slip = " ruptures a.ruptures history a.slip sides below above faces lowerface upperface"
+    files = "catalogue a.csv series a.pe" + slip * (name == "compute_lsm_events")
     leap = LEAP.format(fix_lsm_leap=parts["fix_lsm_leap"]) if name == "fix_lsm_leap" else ""
     driving = "" if name == "fix_lsm_plates" else " velocity 1e-4" if leap else " velocity 0.02"
     Path("in.scene").write_text(SCENE.format(**parts, leap=leap, driving=driving, events=files))
@@ -80,7 +77,7 @@ def test_keywords(lmp, name):
     assert len(accepted) > 2
     assert keywords(name) <= accepted, "unknown to lmp"
     required = {"length", "width", "seed"} if name == "create_lsm_fault" else set()
-    assert accepted - required <= keywords(name).union(*(keywords(other) for other in STYLES[name])), "not on the page"
+    assert accepted - required <= keywords(name), "not on the page"
 
 
 def defaults(name):
@@ -94,7 +91,7 @@ def test_defaults(lmp, name):
     """A run with the defaults of the page written out has the same bytes as one without them."""
     given = defaults(name)
     assert given, "no defaults on the page"
-    written = [f"{key} {value}" for key, value in given.items() if key != "events"]
+    written = [f"{key} {value}" for key, value in given.items()]
     ran(lmp, name)
     files = {path: path.read_bytes() for path in Path().iterdir() if path.name != "in.scene"}
     assert len([path for path in files if path.name.startswith("state")]) > 3 and Path("a.csv") in files

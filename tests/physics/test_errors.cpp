@@ -115,7 +115,6 @@ TEST_F(BlowUp, StopsWithAMessageAndACleanCatalogue) {
       LSM::PeSeriesReader series(LSM::text_io::open_plain(path("blown.pe")));
       LSM::PickerSettings settings;
       settings.reading = LSM::PickerReading::literal;
-      settings.keep_nonpositive = true;
       LSM::EventPicker later(settings);
       std::vector<LSM::Event> expected;
       std::int64_t step = 0, samples = 0;
@@ -156,8 +155,9 @@ TEST_F(BadInput, OneFileForTwoOutputs) {
       {"catalogue one.csv", "log soft.csv", {"catalogue one.csv: this run writes that file"}},
       {"catalogue one.csv", "dump d all atom 100 one.csv", {"this run writes that file"}},
       {"catalogue one.csv",
-       "compute r all lsm/events events ruptures sides below above faces lowerface upperface catalogue one.csv overwrite yes",
+       "compute r all lsm/events catalogue one.csv overwrite yes",
        {"one.csv", "this run"}},
+      {"catalogue one.csv ruptures one.csv", "", {"catalogue one.csv and ruptures one.csv"}},
       {"catalogue one.csv.new", "", {"names that end in .new"}}};
   for (const auto &one : cases) {
     std::filesystem::remove(path("one.csv"));
@@ -172,8 +172,7 @@ TEST_F(BadInput, OneFileForTwoOutputs) {
 
 TEST_F(BadInput, MoreBinsThanAHistoryMayHave) {
   EXPECT_TRUE(
-      failed_with(run_text(fault_read() +
-                           fault_shear("events ruptures bin 1e-6 catalogue many.csv") + "run 10\n"),
+      failed_with(run_text(fault_read() + fault_shear("bin 1e-6 ruptures many.csv") + "run 10\n"),
                   {"bin 1e-06 makes", "bins of a box", "expected at most 1048576"}));
   EXPECT_FALSE(std::filesystem::exists(path("many.csv")));
 }

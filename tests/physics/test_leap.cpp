@@ -389,11 +389,9 @@ TEST_F(Leap, SeriesAndRupturesHaveModelTimes) {
       slow("fix leap all lsm/leap plates fast 0.005 calm 3 viscosity 0.1 ramp 6 look 0.6\n",
            "c_events c_events[5] f_plates[8] f_leap") +
       "variable go index no\nuncompute events\n"
-      "compute events all lsm/events resume ${go} catalogue ${prefix}.csv series ${prefix}.pe\n"
-      "compute ruptures all lsm/events events ruptures sides below above faces lowerface upperface slipping 1 interval 10 "
-      "resume ${go} "
-      "catalogue "
-      "${prefix}.ruptures progress no\nthermo 1\n";
+      "compute events all lsm/events resume ${go} catalogue ${prefix}.csv series ${prefix}.pe "
+      "ruptures ${prefix}.ruptures sides below above faces lowerface upperface slipping 1 "
+      "interval 10\nthermo 1\n";
   const Result r = run_text(recorded + "run 4000\nwrite_restart samples.restart\nrun 4000\n",
                             {{"prefix", "samples"}, {"dt", "0.03"}});
   ASSERT_TRUE(succeeded(r));
@@ -440,11 +438,10 @@ TEST_F(Leap, SeriesAndRupturesHaveModelTimes) {
       run_text(recorded + "run 1\nunfix leap\nrun 1\n", {{"prefix", "gone"}, {"dt", "0.03"}}),
       {"fix lsm/leap is gone"}));
   EXPECT_TRUE(failed_with(
-      run_text(
-          recorded +
-              "uncompute ruptures\ncompute ruptures all lsm/events "
-              "events ruptures sides below above faces lowerface upperface history h.slip\nrun 1\n",
-          {{"prefix", "history"}, {"dt", "0.03"}}),
+      run_text(recorded +
+                   "thermo_style one\nuncompute events\ncompute events all lsm/events sides below "
+                   "above faces lowerface upperface history h.slip\nrun 1\n",
+               {{"prefix", "history"}, {"dt", "0.03"}}),
       {"history does not work with fix lsm/leap"}));
 }
 

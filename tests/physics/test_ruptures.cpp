@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Ruptures of compute lsm/events: prescribed slip, a short fault, restart; and the places of events
-// with `location yes`.
+// Slip, ruptures and places of drops of compute lsm/events: prescribed slip, a short fault,
+// restart.
 #include <cmath>
 #include <sstream>
+#include <tuple>
 
 #include "fault_scene.h"
 #include "files/pe_series.h"
@@ -95,7 +96,7 @@ static std::string without_ranks_and_pe(const std::string &file) {
 TEST_F(Ruptures, PrescribedSlipIsFoundOnAnyNumberOfRanks) {
   const std::string script =
       upper_and_lower(
-          "catalogue ${name}.csv history ${name}.slip events ruptures driving 0.001 slipping 5 "
+          "ruptures ${name}.csv history ${name}.slip driving 0.001 slipping 5 "
           "interval 10 "
           "bin 2 gap 0 pause 1 modulus 0.5 quiet 4 block 7") +
       moved({{19, 0.02}, {0, 0.02}, {5, 0.002}}, 10) +              // 1
@@ -124,6 +125,8 @@ TEST_F(Ruptures, PrescribedSlipIsFoundOnAnyNumberOfRanks) {
       // The rupture crosses the seam: bins 19, 0 and 1 slipped by 0.04 each.
       EXPECT_NEAR(a.slip_moment, 0.5 * 2.0 * 3.0 * 0.04, close * 0.12);
       EXPECT_NEAR(a.mean_slip, 0.04, close * 0.04);
+      EXPECT_NEAR(a.peak_slip, 0.04, close * 0.04);
+      EXPECT_NEAR(c.peak_slip, 0.05, close * 0.05);
       EXPECT_EQ(a.rupture_length, 6.0);
       EXPECT_EQ(a.x_begin, 38.0);
       EXPECT_NEAR(std::remainder(a.x_centroid - 1.0, 40.0), 0.0, 1e-3);
@@ -165,7 +168,7 @@ TEST_F(Ruptures, PrescribedSlipIsFoundOnAnyNumberOfRanks) {
 }
 
 static const char *const found =
-    "catalogue ${prefix}.csv series ${prefix}.pe history ${prefix}.slip events ruptures "
+    "ruptures ${prefix}.csv catalogue ${prefix}.drops series ${prefix}.pe history ${prefix}.slip "
     "slipping 2 interval 7 "
     "pause 1.5 quiet 5 resume yes ";
 
@@ -189,22 +192,38 @@ static void expect_same_ruptures(const std::vector<LSM::Event> &a, const std::ve
     EXPECT_NEAR(a[n].slip_moment, b[n].slip_moment, tolerance * std::fabs(a[n].slip_moment));
     EXPECT_NEAR(a[n].mean_slip, b[n].mean_slip, tolerance * std::fabs(a[n].mean_slip));
     EXPECT_NEAR(a[n].stress_drop, b[n].stress_drop, tolerance);
+    EXPECT_NEAR(a[n].peak_slip, b[n].peak_slip, tolerance * a[n].peak_slip);
     EXPECT_NEAR(a[n].pe_start, b[n].pe_start, tolerance * a[n].pe_start);
     EXPECT_NEAR(a[n].pe_end, b[n].pe_end, tolerance * a[n].pe_end);
     EXPECT_NEAR(std::remainder(a[n].x_centroid - b[n].x_centroid, 40.0), 0.0, std::sqrt(tolerance));
   }
 }
 
-// The trajectory is that with `events pe`, to the last bit, and the ruptures are those found by a
-// search through the history.
+// The trajectory and the drops are those without ruptures, to the last bit, and the ruptures are
+// those found by a search through the history.
 TEST_F(Ruptures, OfAFaultAreThoseOfItsSlipHistory) {
   ASSERT_TRUE(succeeded(run_text(sheared("catalogue plain.csv series plain.pe") + "run 6000\n")));
-  const Result r = run_text(sheared(found) + "run 6000\n", {{"prefix", "found"}});
+  const Result r =
+      run_text(sheared(found) +
+                   "thermo_style custom step c_events c_events[18] c_events[19] "
+                   "c_events[20] f_plates[8]\nthermo_modify format float %.17g\nrun 6000\n",
+               {{"prefix", "found"}});
   ASSERT_TRUE(succeeded(r));
   EXPECT_TRUE(read_file(path("plain.pe")) == read_file(path("found.pe")));
+  const auto plain = unit::read_catalogue(path("plain.csv")).events,
+             drops = unit::read_catalogue(path("found.drops")).events;
+  ASSERT_GT(plain.size(), 3u);
+  ASSERT_EQ(plain.size(), drops.size());
+  for (std::size_t n = 0; n < plain.size(); ++n) {
+    EXPECT_EQ(plain[n].id, drops[n].id);
+    EXPECT_EQ(plain[n].step_end, drops[n].step_end);
+    EXPECT_EQ(plain[n].size, drops[n].size);
+  }
 
   const auto catalogue = unit::read_catalogue(path("found.csv"));
-  EXPECT_EQ(r.last("c_events"), static_cast<double>(catalogue.events.size()));
+  EXPECT_EQ(r.last("c_events"), static_cast<double>(drops.size()));
+  EXPECT_EQ(r.last("c_events[18]"), static_cast<double>(catalogue.events.size()));
+  EXPECT_EQ(r.last("c_events[19]"), catalogue.events.back().size);
   const LSM::SlipHistoryInfo info =
       LSM::SlipHistoryReader(LSM::text_io::open_plain(path("found.slip"))).info();
   const auto records = records_of(path("found.slip"));
@@ -234,6 +253,62 @@ TEST_F(Ruptures, OfAFaultAreThoseOfItsSlipHistory) {
               large, mean, plates);
   EXPECT_LT(mean, 1.05 * plates);
   EXPECT_GT(mean, 0.7 * plates);
+}
+
+// One definition of slip: what the history has during a drop is that of the drop, and what ruptures
+// have and what slips too slowly is all of the history.
+TEST_F(Ruptures, DropsRupturesAndHistoryAgreeOnTheSlip) {
+  for (int ranks : {1, 2}) {
+    SCOPED_TRACE(ranks);
+    const std::string prefix = "agree" + std::to_string(ranks);
+    ASSERT_TRUE(succeeded(run_text(sheared(found + std::string("quiet 1 ")) + "run 6000\n",
+                                   {{"prefix", prefix}}, ranks)));
+    const LSM::SlipHistoryInfo info =
+        LSM::SlipHistoryReader(LSM::text_io::open_plain(path(prefix + ".slip"))).info();
+    const auto records = records_of(path(prefix + ".slip"));
+    const double factor = info.ruptures.modulus * info.grid.width;
+    const auto slip_between = [&records](std::int64_t from, std::int64_t to, std::size_t bin) {
+      double slip = 0.0;
+      for (const LSM::SlipRecord &record : records) {
+        const auto inside = std::min(to, record.step_end) - std::max(from, record.step_begin);
+        if (inside <= 0) continue;
+        slip += static_cast<double>(record.row.slip[bin]) * static_cast<double>(inside) /
+                static_cast<double>(record.step_end - record.step_begin);
+      }
+      return slip;
+    };
+    const auto bins = records.front().row.slip.size();
+    double whole = 0.0;
+    for (std::size_t b = 0; b < bins; ++b) whole += factor * slip_between(0, 6000, b);
+
+    const auto drops = unit::read_catalogue(path(prefix + ".drops"));
+    EXPECT_EQ(*drops.info.find("modulus"), LSM::text_io::number(info.ruptures.modulus));
+    ASSERT_GT(drops.events.size(), 3u);
+    double in_drops = 0.0;
+    for (const auto &e : drops.events) {
+      if (e.step_end > records.back().step_end) continue;  // in the interval that is not complete
+      double moment = 0.0, most = 0.0;
+      for (std::size_t b = 0; b < bins; ++b) {
+        const double slip = slip_between(e.step_start, e.step_end, b);
+        moment += factor * slip;
+        most = std::max(most, std::fabs(slip));
+      }
+      EXPECT_NEAR(e.slip_moment, moment, 1e-9 * most) << "drop " << e.id;
+      EXPECT_NEAR(e.peak_slip, most, 1e-9 * most) << "drop " << e.id;
+      in_drops += e.slip_moment;
+    }
+    const unit::SlowRuptures slow = unit::slow_ruptures(info, records);
+    double in_ruptures = 0.0;
+    for (const auto &e : slow.events) in_ruptures += e.slip_moment;
+    EXPECT_NEAR(factor * (slow.slip_in_ruptures + slow.slip_elsewhere), whole, 1e-9 * whole);
+    EXPECT_LE(in_ruptures, factor * slow.slip_in_ruptures * (1.0 + 1e-9));
+    std::printf("slip times modulus and length: %.4g; of drops %.4g, of ruptures %.4g\n", whole,
+                in_drops, in_ruptures);
+    // Most slip is in large events, which are both drops and ruptures.
+    EXPECT_GT(in_drops, 0.5 * in_ruptures);
+    EXPECT_LT(in_drops, whole);
+    EXPECT_LT(in_ruptures, whole);
+  }
 }
 
 // Whatever else is in contact, the fault slips as far as the plates move, and its work is the
@@ -340,7 +415,7 @@ TEST_F(Ruptures, GoOnFromARestartFile) {
       "neighbor 0.4 bin\nneigh_modify delay 0 every 10 check yes\n";
   ASSERT_TRUE(succeeded(run_text(sheared(found) + "run 100\n", {{"prefix", "there"}})));
   EXPECT_TRUE(failed_with(run_text(from + fault_shear(found) + "run 10\n", {{"prefix", "there"}}),
-                          {"there.csv exists", "no ruptures of compute events"}));
+                          {"exists", "no slip of compute events"}));
   ASSERT_TRUE(succeeded(run_text(from + fault_shear(found) + "run 100\n", {{"prefix", "begun"}})));
   EXPECT_EQ(LSM::SlipHistoryReader(LSM::text_io::open_plain(path("begun.slip"))).info().grid.step0,
             100);
@@ -349,42 +424,46 @@ TEST_F(Ruptures, GoOnFromARestartFile) {
 TEST_F(Ruptures, OneLineOfError) {
   const auto with = [](const std::string &compute) { return upper_and_lower(compute) + "run 0\n"; };
   for (const auto &[compute, parts] : std::vector<std::pair<std::string, std::vector<std::string>>>{
-           {"events slips", {"events is 'slips', but must be pe or ruptures"}},
-           {"gap 2", {"keyword gap needs events ruptures"}},
-           {"history h.slip", {"keyword history needs events ruptures"}},
-           {"events ruptures location yes", {"keyword location needs events pe"}},
-           {"events ruptures gap 1.5", {"gap is 1.5, but must be a whole number of at least 0"}},
-           {"events ruptures pause -1", {"pause is -1, but must be >= 0"}},
-           {"events ruptures interval 0",
+           {"events ruptures", {"keyword 'events'", "ruptures, history, slipping"}},
+           {"gap 2", {"keyword gap needs ruptures or history"}},
+           {"location yes unfinished yes", {"keyword unfinished needs ruptures or history"}},
+           {"ruptures r.csv gap 1.5", {"gap is 1.5, but must be a whole number of at least 0"}},
+           {"ruptures r.csv pause -1", {"pause is -1, but must be >= 0"}},
+           {"ruptures r.csv interval 0",
             {"interval is 0, but must be a whole number of at least 1"}},
-           {"events ruptures modulus 0.4", {"needs fix lsm/plates, or the keyword driving"}},
-           {"events ruptures driving 0.001",
+           {"ruptures r.csv modulus 0.4", {"needs fix lsm/plates, or the keyword driving"}},
+           {"ruptures r.csv driving 0.001",
             {"needs bond style lsm/linked, or the keyword modulus"}},
-           {"events ruptures sides below nobody driving 0.001 modulus 1",
+           {"ruptures r.csv sides below nobody driving 0.001 modulus 1",
             {"sides has the group nobody, which does not exist"}},
-           {"events ruptures sides below below", {"sides needs two different groups, got below"}},
-           {"events ruptures faces nobody above driving 0.001 modulus 1",
+           {"ruptures r.csv sides below below", {"sides needs two different groups, got below"}},
+           {"ruptures r.csv faces nobody above driving 0.001 modulus 1",
             {"faces has the group nobody, which does not exist"}},
-           {"events ruptures driving 0.001 modulus 1 history missing/h.slip",
+           {"ruptures r.csv driving 0.001 modulus 1 history missing/h.slip",
             {"missing/h.slip", "No such file"}}})
     EXPECT_TRUE(failed_with(run_text(with(compute)), parts)) << compute;
-  for (const char *located : {"location yes", "events ruptures"})
+  for (const auto &[given, asked, missing] :
+       {std::tuple("location yes", "location", "faces"),
+        std::tuple("history h.slip faces lowerface upperface", "history", "sides"),
+        std::tuple("ruptures r.csv sides below above", "ruptures", "faces")})
     EXPECT_TRUE(failed_with(
         run_text(fault_read() + fault_shear("") + "uncompute events\ncompute one all lsm/events " +
-                 located + "\nthermo_style one\nrun 0\n"),
-        {located, "needs the keyword sides with the groups below and above the fault"}));
-  EXPECT_TRUE(failed_with(
-      run_text(with("events ruptures driving 0.001 modulus 1 history h.slip overwrite no") +
-               "thermo_style one\nuncompute events\ncompute events all lsm/events events ruptures "
-               "sides below above faces lowerface upperface driving 0.001 "
-               "modulus 1 history h.slip\nrun 0\n"),
-      {"history: file h.slip exists"}));
+                 given + "\nthermo_style one\nrun 0\n"),
+        {asked, "needs the keyword " + std::string(missing) +
+                    " with the groups below and above the fault"}));
+  EXPECT_TRUE(
+      failed_with(run_text(with("driving 0.001 modulus 1 history h.slip overwrite no") +
+                           "thermo_style one\nuncompute events\ncompute events all lsm/events "
+                           "sides below above faces lowerface upperface driving 0.001 "
+                           "modulus 1 history h.slip\nrun 0\n"),
+                  {"history: file h.slip exists"}));
 }
 
 // Discs that move off those below them reduce PE; moving back raises it, which ends the event.
 TEST_F(Located, MomentCentroidAndLengthOfAPrescribedEvent) {
   const std::string script =
-      upper_and_lower("catalogue located.csv location yes bin 2 fraction 0.05 lambda 0") +
+      upper_and_lower(
+          "catalogue located.csv location yes bin 2 fraction 0.05 lambda 0 modulus 0.5") +
       moved({}, 10) +                                              // at rest
       moved({{19, 0.03}, {0, 0.04}, {1, 0.01}, {7, 0.001}}, 20) +  // 7 is below the fraction
       moved({{19, -0.03}, {0, -0.04}, {1, -0.01}}, 10);
@@ -396,8 +475,9 @@ TEST_F(Located, MomentCentroidAndLengthOfAPrescribedEvent) {
     const auto &e = catalogue.events[0];
     EXPECT_EQ(e.step_start, 10);
     EXPECT_EQ(e.step_end, 30);
-    // Slips are 0.06, 0.08, 0.02 and 0.002, and contacts have size 1.
-    EXPECT_NEAR(e.slip_moment, 0.162, 1e-3 * 0.162);
+    // Slips are 0.06, 0.08, 0.02 and 0.002, of bins of width 2.
+    EXPECT_NEAR(e.slip_moment, 0.5 * 0.162 * 2.0, 1e-6 * 0.162);
+    EXPECT_NEAR(e.peak_slip, 0.08, 1e-6 * 0.08);
     EXPECT_EQ(e.rupture_length, 6.0);
     double c = 0.0, s = 0.0;
     for (const auto &[x, slip] : {std::pair(39.0, 0.06), std::pair(1.0, 0.08), std::pair(3.0, 0.02),
@@ -417,33 +497,12 @@ TEST_F(Located, MomentCentroidAndLengthOfAPrescribedEvent) {
   }
 }
 
-// A contact whose discs lie on different sides of the border of the box is in one bin, whatever the
-// image of the disc with which it was found.
-TEST_F(Located, ContactsAcrossTheBorderOfTheBox) {
-  for (const double side : {1.0, -1.0}) {
-    // If it moves to the left, the contact at the border is in the bin of column 19, if it moves to
-    // the right, in that of column 0.
-    const std::string script =
-        upper_and_lower("catalogue located.csv location yes bin 2 fraction 0.05 lambda 0") +
-        "displace_atoms all move -1 0 0 units box\n" + moved({}, 10) +
-        moved({{0, -side * 0.04}, {side > 0.0 ? 19 : 1, side * 0.04}}, 20) +
-        moved({{0, side * 0.04}, {side > 0.0 ? 19 : 1, -side * 0.04}}, 10);
-    for (const char *newton : {"off", "on"})
-      for (int ranks : {1, 2, 4}) {
-        SCOPED_TRACE(std::to_string(side) + newton + std::to_string(ranks));
-        ASSERT_TRUE(succeeded(run_text(script, {{"newton", newton}}, ranks)));
-        const auto catalogue = unit::read_catalogue(path("located.csv"));
-        ASSERT_EQ(catalogue.events.size(), 1u);
-        EXPECT_EQ(catalogue.events[0].rupture_length, 2.0);
-      }
-  }
-}
-
 // Contacts are recorded once, and each compute sorts them into its own bins.
 TEST_F(Located, EachComputeHasItsOwnBins) {
   const auto located = [](const char *more) {
-    return upper_and_lower("catalogue own.csv location yes bin 2 fraction 0.05 lambda 0\n" +
-                           std::string(more)) +
+    return upper_and_lower(
+               "catalogue own.csv location yes bin 2 fraction 0.05 lambda 0 modulus 0.5\n" +
+               std::string(more)) +
            moved({}, 10) + moved({{19, 0.03}, {0, 0.04}, {1, 0.01}, {7, 0.001}}, 20) +
            moved({{19, -0.03}, {0, -0.04}, {1, -0.01}}, 10);
   };
@@ -453,8 +512,9 @@ TEST_F(Located, EachComputeHasItsOwnBins) {
   for (
       const char *other :
       {"compute other all lsm/events",
-       "compute other all lsm/events sides below above location yes bin 7 lambda 0",
-       "compute other all lsm/events sides below above faces lowerface upperface events ruptures driving 0.001 modulus 0.5 bin 5"}) {
+       "compute other all lsm/events faces lowerface upperface location yes bin 7 lambda 0 modulus 1",
+       "compute other all lsm/events sides below above faces lowerface upperface ruptures other.csv "
+       "overwrite yes driving 0.001 modulus 0.5 bin 5"}) {
     ASSERT_TRUE(succeeded(run_text(located(other))));
     EXPECT_EQ(read_file(path("own.csv")), alone) << other;
   }
@@ -463,8 +523,8 @@ TEST_F(Located, EachComputeHasItsOwnBins) {
 TEST_F(Ruptures, UncomputeLeavesTheOtherCompute) {
   const std::string pe = "compute events all lsm/events overwrite yes catalogue pe.csv\n";
   const std::string other =
-      "compute other all lsm/events events ruptures sides below above faces lowerface upperface overwrite yes catalogue "
-      "r.csv\n";
+      "compute other all lsm/events sides below above faces lowerface upperface overwrite yes "
+      "ruptures r.csv\n";
   const std::string fixes =
       fault_read() + fault_shear("") + "uncompute events\nthermo_style custom step ke\n";
   ASSERT_TRUE(succeeded(run_text(fixes + pe + "run 1000\nrun 2000\n")));
@@ -485,13 +545,14 @@ TEST_F(Ruptures, UncomputeLeavesTheOtherCompute) {
 TEST_F(Ruptures, BoxThatChangesIsRefused) {
   const std::string start = fault_read() + fault_shear("");
   const std::string ruptures =
-      "compute r all lsm/events events ruptures sides below above faces lowerface upperface overwrite yes\n";
+      "compute r all lsm/events sides below above faces lowerface upperface overwrite yes "
+      "ruptures box.csv\n";
   const std::string longer = "change_box all x scale 1.001 remap\nrun 100\n";
   EXPECT_TRUE(failed_with(run_text(start + ruptures + "run 100\n" + longer),
                           {"lsm/events r: the box along x was 0 to 40", "places of events"}));
   EXPECT_TRUE(failed_with(
       run_text(start + ruptures + "fix d all deform 1 x scale 1.001 remap x\nrun 100\n"),
-      {"lsm/events r: fix d changes the box along x, which events ruptures cannot follow"}));
+      {"lsm/events r: fix d changes the box along x, which ruptures cannot follow"}));
   EXPECT_TRUE(failed_with(
       run_text(start + "compute l all lsm/events overwrite yes catalogue l.csv\nrun 100\n" +
                longer),

@@ -75,7 +75,7 @@ bool same(const LSM::Event &a, const LSM::Event &b) {
          a.pe_start == b.pe_start && a.pe_end == b.pe_end && a.slip_moment == b.slip_moment &&
          a.x_centroid == b.x_centroid && a.rupture_length == b.rupture_length &&
          a.x_hypocentre == b.x_hypocentre && a.x_begin == b.x_begin && a.mean_slip == b.mean_slip &&
-         a.stress_drop == b.stress_drop;
+         a.stress_drop == b.stress_drop && a.peak_slip == b.peak_slip;
 }
 
 Outcome read_catalogue(const std::string &path, bool lenient, std::vector<LSM::Event> &events) {
@@ -85,9 +85,10 @@ Outcome read_catalogue(const std::string &path, bool lenient, std::vector<LSM::E
     require(reader.info().model == "lsm" || reader.info().model == "block-slider", "known model");
     LSM::Event event;
     while (reader.next(event)) {
-      for (const double x : {event.t_start, event.t_end, event.size, event.pe_start, event.pe_end,
-                             event.slip_moment, event.x_centroid, event.rupture_length,
-                             event.x_hypocentre, event.x_begin, event.mean_slip, event.stress_drop})
+      for (const double x :
+           {event.t_start, event.t_end, event.size, event.pe_start, event.pe_end, event.slip_moment,
+            event.x_centroid, event.rupture_length, event.x_hypocentre, event.x_begin,
+            event.mean_slip, event.stress_drop, event.peak_slip})
         require(std::isfinite(x), "finite numbers");
       require(event.t_start <= event.t_end, "an event ends after its start");
       require(event.step_start <= event.step_end, "an event ends after its first step");
@@ -131,7 +132,7 @@ void try_catalogue(const std::string &path) {
   LSM::CatalogueInfo info;
   info.model = "lsm";
   info.slip_moment = info.x_centroid = info.rupture_length = true;
-  info.x_hypocentre = info.x_begin = info.mean_slip = info.stress_drop = true;
+  info.x_hypocentre = info.x_begin = info.mean_slip = info.stress_drop = info.peak_slip = true;
   LSM::CatalogueWriter writer;
   writer.create(copy, info);
   for (const LSM::Event &event : strict) writer.write(event);
@@ -257,7 +258,7 @@ std::vector<std::string> seeds() {
     info.model = columns ? "lsm" : "block-slider";
     info.parameters = {{"dt", "0.03"}, {"length", "120"}, {"picker", "exponential"}};
     info.slip_moment = info.x_centroid = info.rupture_length = columns;
-    info.x_begin = info.stress_drop = columns;
+    info.x_begin = info.stress_drop = info.peak_slip = columns;
     LSM::CatalogueWriter writer;
     writer.create(path, info);
     for (int i = 0; i < 8; ++i) {

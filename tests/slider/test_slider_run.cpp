@@ -33,7 +33,7 @@ TEST(SliderRun, PureLoadingOverAThousandMillionSteps) {
     RunOptions o = options(100, 0.05, 1000000000);
     o.parameters.velocity = 1e-7;  // the plate reaches 5, far from the onset at 50
     o.picker.reading = reading;
-    o.picker.keep_nonpositive = true;
+    o.filter.keep_nonpositive = true;
     const RunResult r = run(o);
     EXPECT_EQ(r.steps, 1000000000);
     EXPECT_EQ(r.events, 0);
@@ -63,7 +63,7 @@ TEST(SliderRun, JumpingChangesNoEvent) {
     EXPECT_GT(active.jumped, 100000);
     EXPECT_EQ(dense.jumped, 0);
     EXPECT_GT(active.events, 20);
-    EXPECT_EQ(active.picker.dropped_nonpositive, dense.picker.dropped_nonpositive);
+    EXPECT_EQ(active.dropped_nonpositive, dense.dropped_nonpositive);
     EXPECT_EQ(text(a), text(b));
     // The whole state at the end: displacements, velocities, PE, picker.
     EXPECT_GT(text(a + ".chk").size(), 500U);
@@ -105,7 +105,7 @@ TEST(SliderRun, EventsAreThoseOfTheSeries) {
     }
   }
   ASSERT_GT(drops.size(), 50U);
-  EXPECT_EQ(static_cast<std::size_t>(r.picker.dropped_nonpositive), nonpositive);
+  EXPECT_EQ(static_cast<std::size_t>(r.dropped_nonpositive), nonpositive);
   ASSERT_EQ(c.events.size(), drops.size());
   ASSERT_EQ(r.events, static_cast<std::int64_t>(drops.size()));
   double slip = 0.0, largest = 0.0, longest = 0.0;
@@ -137,7 +137,7 @@ TEST(SliderRun, EventsAreThoseOfTheSeries) {
 
 TEST(SliderRun, DropsByThePlateAreCountedAndLeftOut) {
   RunOptions o = options(256, 0.05, 1200000);
-  o.warmup = 12000.0;
+  o.filter.warmup = 12000.0;
   o.picker.lambda = std::exp(-0.05);
   o.catalogue = testing::TempDir() + "slider_all_drops.csv";
   const RunResult all = run(o);

@@ -346,7 +346,7 @@ RunOptions options(const std::string &name, Events events) {
   o.mu = random_friction(256, 0.5, 1.0, 1);
   o.steps = 1000000;
   o.picker.lambda = LSM::lambda_from_memory_time(1.0, 0.05);
-  o.warmup = 12000.0;
+  o.filter.warmup = 12000.0;
   o.events = events;
   if (events == Events::ruptures) o.header.emplace_back("events", "ruptures");
   o.catalogue = testing::TempDir() + "slider_" + name + ".csv";
@@ -409,7 +409,7 @@ TEST(RupturesOfTheChain, ResumeFindsTheRowsOfTheCheckpoint) {
   o.parameters.blocks = 60;
   o.mu = random_friction(60, 0.5, 1.0, 3);
   o.parameters.velocity = 0.05;
-  o.warmup = 0.0;
+  o.filter.warmup = 0.0;
   o.steps = 100000;
   o.rupture_memory = 8;
   run(o);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <set>
 #include <string>
 #include <tuple>
@@ -78,6 +79,7 @@ inline SlowRuptures slow_ruptures(const LSM::SlipHistoryInfo &info,
 
     std::set<int> rows;
     LSM::Event e;
+    std::map<int, double> of_bins;
     double slip = 0.0, c = 0.0, s = 0.0, most = 0.0;
     int where = 0;
     for (const auto &[n, b] : cells) {
@@ -85,6 +87,7 @@ inline SlowRuptures slow_ruptures(const LSM::SlipHistoryInfo &info,
       const double one = row.slip[static_cast<std::size_t>(b)];
       rows.insert(b);
       slip += one;
+      of_bins[b] += one;
       e.size += row.work[static_cast<std::size_t>(b)];
       c += std::fabs(one) * std::cos(2.0 * pi * (b + 0.5) / bins);
       s += std::fabs(one) * std::sin(2.0 * pi * (b + 0.5) / bins);
@@ -124,6 +127,7 @@ inline SlowRuptures slow_ruptures(const LSM::SlipHistoryInfo &info,
     e.x_hypocentre = grid.x0 + (where + 0.5) * grid.width;
     e.x_begin = grid.x0 + begin * grid.width;
     e.mean_slip = slip / ruptured;
+    for (const auto &[b, one] : of_bins) e.peak_slip = std::max(e.peak_slip, std::fabs(one));
     e.stress_drop = before - after;
     out.events.push_back(e);
     out.cells.push_back(cells);

@@ -20,7 +20,6 @@ GatheredBlock gathered(const std::vector<SampleBlock> &blocks) {
   all.intervals.assign(blocks[0].intervals.size(), 0.0);
   for (const SampleBlock &block : blocks) {
     all.pe.insert(all.pe.end(), block.pe.begin(), block.pe.end());
-    all.slip.insert(all.slip.end(), block.slip.begin(), block.slip.end());
     for (std::size_t n = 0; n < block.intervals.size(); ++n) all.intervals[n] += block.intervals[n];
   }
   return all;
@@ -56,21 +55,16 @@ TEST(BlockSampler, FillsOneBlockWhileTheOtherIsOnItsWay) {
   EXPECT_EQ(last.pe, (std::vector<double>{9.0}));
 }
 
-TEST(BlockSampler, SlipAndIntervalsGoWithTheirBlock) {
+TEST(BlockSampler, IntervalsGoWithTheirBlock) {
   BlockSampler sampler;
   sampler.resize(2);
-  sampler.add_slip({{8.5, 0.25}}, 2.0);
   sampler.add(1, 0.0);
-  sampler.add_slip({{10.0, 0.5}, {13.9, 0.75}}, 2.0);
-  sampler.add_slip({{14.0, 1.0}}, 2.0);
   sampler.add_interval({1.0, 2.0});
   sampler.add(2, 0.0);
   const SampleBlock first = sampler.hand_over();
-  EXPECT_EQ(first.slip, (std::vector<double>{0, 4, 0.25, 1, 5, 0.5, 1, 6, 0.75, 1, 7, 1.0}));
   EXPECT_EQ(first.intervals, (std::vector<double>{1.0, 2.0}));
   sampler.add(3, 0.0);
   const SampleBlock second = sampler.hand_over();
-  EXPECT_TRUE(second.slip.empty());
   EXPECT_TRUE(second.intervals.empty());
 }
 
@@ -84,23 +78,6 @@ TEST(GatheredBlock, TotalsOfAllRanksAreCompensated) {
   const GatheredBlock all = gathered(blocks);
   EXPECT_EQ(all.total(0), 60.0);
   EXPECT_EQ(all.total(1), 2.0);  // a plain sum gives 0
-}
-
-TEST(GatheredBlock, SlipOfAStepInTheOrderOfTheRanks) {
-  std::vector<SampleBlock> blocks(2);
-  blocks[0].count = blocks[1].count = 3;
-  blocks[0].slip = {0, 1, 0.1, 2, 3, 0.3};
-  blocks[1].slip = {0, 2, 0.2, 0, 1, 0.4, 2, 9, 0.9};
-  const auto steps = gathered(blocks).slip_by_step();
-  ASSERT_EQ(steps.size(), 3u);
-  ASSERT_EQ(steps[0].size(), 3u);
-  EXPECT_EQ(steps[0][0].bin, 1.0);
-  EXPECT_EQ(steps[0][0].moment, 0.1);
-  EXPECT_EQ(steps[0][1].bin, 2.0);
-  EXPECT_EQ(steps[0][2].moment, 0.4);
-  EXPECT_TRUE(steps[1].empty());
-  ASSERT_EQ(steps[2].size(), 2u);
-  EXPECT_EQ(steps[2][1].bin, 9.0);
 }
 
 }  // namespace

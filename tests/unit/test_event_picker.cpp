@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "events/event_filter.h"
 #include "events/event_picker.h"
 #include "numerics/random.h"
 #include "unit_files.h"
@@ -16,6 +17,7 @@
 namespace {
 
 using LSM::Event;
+using LSM::EventFilter;
 using LSM::EventPicker;
 using LSM::PickerReading;
 using LSM::PickerSettings;
@@ -100,8 +102,6 @@ void check_by_hand(PickerReading reading, const Expected &expected) {
     EXPECT_EQ(picker.in_event(), expected.in_event[i]);
     EXPECT_EQ(reported, static_cast<std::int64_t>(i) == expected.end + 1);
   }
-  EXPECT_EQ(picker.state().events, 1);
-  EXPECT_EQ(event.id, 1);
   EXPECT_EQ(event.step_start, 1000 + expected.start);
   EXPECT_EQ(event.step_end, 1000 + expected.end);
   EXPECT_EQ(event.t_start, 50.0 + 0.25 * static_cast<double>(expected.start));
@@ -109,7 +109,6 @@ void check_by_hand(PickerReading reading, const Expected &expected) {
   EXPECT_EQ(event.pe_start, by_hand[static_cast<std::size_t>(expected.start)]);
   EXPECT_EQ(event.pe_end, by_hand[static_cast<std::size_t>(expected.end)]);
   EXPECT_EQ(event.size, expected.size);
-  EXPECT_EQ(picker.state().last_size, expected.size);
 }
 
 TEST(EventPicker, ExponentialByHand) {
@@ -170,7 +169,6 @@ TEST(EventPicker, OpenEventAtTheEndIsNotReported) {
   EventPicker picker(settings(PickerReading::exponential, 0.5));
   EXPECT_TRUE(pick(picker, {0, 1, -5, -6}).empty());
   EXPECT_TRUE(picker.in_event());
-  EXPECT_EQ(picker.state().events, 0);
 }
 
 TEST(EventPicker, ConstantEnergyIsNoEvent) {
@@ -218,11 +216,9 @@ TEST(EventPicker, SizesArePositiveForAllReadings) {
       const std::vector<double> pe = stick_slip(17, 20000);
       const std::vector<Event> events = pick(picker, pe);
       EXPECT_GT(events.size(), 20U);
-      EXPECT_EQ(picker.state().dropped_nonpositive, 0);
       for (std::size_t i = 0; i < events.size(); ++i) {
         const Event &event = events[i];
         ASSERT_GT(event.size, 0.0);
-        ASSERT_EQ(event.id, static_cast<std::int64_t>(i) + 1);
         ASSERT_LT(event.step_start, event.step_end);
         ASSERT_EQ(event.pe_start, pe[static_cast<std::size_t>(event.step_start)]);
         ASSERT_EQ(event.pe_end, pe[static_cast<std::size_t>(event.step_end)]);
@@ -316,8 +312,7 @@ TEST(EventPicker, GoesOnFromAStateSavedAnywhere) {
   for (PickerReading reading :
        {PickerReading::exponential, PickerReading::average, PickerReading::literal}) {
     SCOPED_TRACE(to_string(reading));
-    PickerSettings chosen = settings(reading, 0.9);
-    chosen.min_size = 1.0;
+    const PickerSettings chosen = settings(reading, 0.9);
     EventPicker whole(chosen);
     const std::vector<Event> expected = pick(whole, pe);
     ASSERT_GT(expected.size(), 5U);
@@ -338,9 +333,6 @@ TEST(EventPicker, GoesOnFromAStateSavedAnywhere) {
       events.insert(events.end(), rest.begin(), rest.end());
       SCOPED_TRACE(cut);
       expect_same(events, expected);
-      EXPECT_EQ(after.state().events, whole.state().events);
-      EXPECT_EQ(after.state().dropped_small, whole.state().dropped_small);
-      EXPECT_EQ(after.state().last_size, whole.state().last_size);
       EXPECT_EQ(std::memcmp(&after.state(), &whole.state(), sizeof(bytes)), 0);
       if (HasFailure()) return;
     }
@@ -415,70 +407,73 @@ TEST(EventPicker, GivenChangesSeeWhatDifferencesOfLargeEnergiesLose) {
   EventPicker by_change(settings(PickerReading::exponential, 0.5));
   Event event;
   double pe = 1e12;
+  int nonpositive = 0;
   for (int i = 0; i < 100; ++i) {
     const double change = i % 20 < 10 ? 1e-6 : -1e-6;
     pe += change;
     by_difference.push(i, i, pe, event);
-    by_change.push_change(i, i, pe, change, event);
+    if (by_change.push_change(i, i, pe, change, event)) nonpositive += event.size <= 0.0 ? 1 : 0;
   }
   EXPECT_EQ(by_difference.rate(), 0.0);
   EXPECT_FALSE(by_difference.in_event());
   EXPECT_TRUE(by_change.in_event());
-  EXPECT_EQ(by_change.state().dropped_nonpositive,
-            4);  // the sizes still come from the rounded energy
+  EXPECT_EQ(nonpositive, 4);  // the sizes still come from the rounded energy
 }
 
-// ---- events that are not reported ----
+// ---- events that are not written ----
 
-TEST(EventPicker, NonPositiveSizesAreCountedAndKeptOnlyOnDemand) {
+TEST(EventPicker, ReportsEventsOfEverySize) {
+  EventPicker picker(settings(PickerReading::exponential, 0.5));
+  Event event;
+  event.id = 77;
+  // The given change is -1, while the energy is constant (first event) or rises (second event).
+  EXPECT_FALSE(picker.push_change(0, 0.0, 1.0, 0.0, event));
+  EXPECT_FALSE(picker.push_change(1, 1.0, 1.0, -1.0, event));
+  EXPECT_EQ(event.id, 77) << "no event has ended";
+  EXPECT_TRUE(picker.push_change(2, 2.0, 1.0, 2.0, event));
+  EXPECT_EQ(event.size, 0.0);
+  EXPECT_FALSE(picker.push_change(3, 3.0, 1.5, -3.0, event));
+  EXPECT_TRUE(picker.push_change(4, 4.0, 1.5, 9.0, event));
+  EXPECT_EQ(event.size, -0.5);
+}
+
+Event of_size(double size, double t_start = 0.0) {
+  Event event;
+  event.size = size;
+  event.t_start = t_start;
+  return event;
+}
+
+TEST(EventFilter, NonPositiveSizesAreCountedAndKeptOnlyOnDemand) {
   for (bool keep : {false, true}) {
     SCOPED_TRACE(keep);
-    PickerSettings chosen = settings(PickerReading::exponential, 0.5);
-    chosen.keep_nonpositive = keep;
-    chosen.min_size = 10.0;
-    EventPicker picker(chosen);
-    Event event;
-    int reported = 0;
-    // The given change is -1, while the energy is constant (first event) or rises (second event).
-    reported += picker.push_change(0, 0.0, 1.0, 0.0, event);
-    reported += picker.push_change(1, 1.0, 1.0, -1.0, event);
-    reported += picker.push_change(2, 2.0, 1.0, 2.0, event);
-    reported += picker.push_change(3, 3.0, 1.5, -3.0, event);
-    reported += picker.push_change(4, 4.0, 1.5, 9.0, event);
-    EXPECT_EQ(reported, keep ? 2 : 0);
-    EXPECT_EQ(picker.state().events, keep ? 2 : 0);
-    EXPECT_EQ(picker.state().dropped_nonpositive, keep ? 0 : 2);
-    EXPECT_EQ(picker.state().dropped_small, 0);
-    if (keep) {
-      EXPECT_EQ(event.id, 2);
-      EXPECT_EQ(event.size, -0.5);
-    }
+    EventFilter filter({10.0, keep});
+    for (const double size : {0.0, -0.5}) EXPECT_EQ(filter.passes(of_size(size)), keep);
+    EXPECT_EQ(filter.counts().dropped_nonpositive, keep ? 0 : 2);
+    EXPECT_EQ(filter.counts().dropped_small, 0);
   }
 }
 
-TEST(EventPicker, SmallEventsAreCountedAndTakeNoIdentifier) {
-  PickerSettings chosen = settings(PickerReading::exponential, 0.0);
-  chosen.min_size = 2.0;
-  EventPicker picker(chosen);
-  // Drops of 1, 2 (just large enough), 1.5, 3.
-  const std::vector<Event> events = pick(picker, {5, 4, 6, 4, 6, 4.5, 6, 3, 4});
-  ASSERT_EQ(events.size(), 2U);
-  EXPECT_EQ(events[0].id, 1);
-  EXPECT_EQ(events[0].size, 2.0);
-  EXPECT_EQ(events[1].id, 2);
-  EXPECT_EQ(events[1].size, 3.0);
-  EXPECT_EQ(picker.state().dropped_small, 2);
-  EXPECT_EQ(picker.state().dropped_nonpositive, 0);
-}
-
-TEST(EventPicker, UnreportedEventsLeaveTheOutputAlone) {
-  PickerSettings chosen = settings(PickerReading::exponential, 0.0);
-  chosen.min_size = 2.0;
-  EventPicker picker(chosen);
-  Event event;
-  event.id = 77;
-  for (int i = 0; i < 4; ++i) EXPECT_FALSE(picker.push(i, i, i % 2, event));
-  EXPECT_EQ(event.id, 77);
+TEST(EventFilter, EventsThatAreLeftOutAreCountedAndTakeNoNumber) {
+  EventFilter filter({2.0, false, 100.0});
+  std::vector<Event> written;
+  for (Event event : {of_size(1, 200), of_size(2, 200), of_size(3, 99), of_size(1, 99),
+                      of_size(0, 99), of_size(4, 100)}) {
+    if (!filter.passes(event)) continue;
+    filter.number(event);
+    written.push_back(event);
+  }
+  ASSERT_EQ(written.size(), 2U);
+  EXPECT_EQ(written[0].id, 1);
+  EXPECT_EQ(written[0].size, 2.0) << "just large enough";
+  EXPECT_EQ(written[1].id, 2);
+  EXPECT_EQ(written[1].t_start, 100.0) << "just late enough";
+  const LSM::FilterCounts &counts = filter.counts();
+  EXPECT_EQ(counts.events, 2);
+  EXPECT_EQ(counts.dropped_small, 2);
+  EXPECT_EQ(counts.dropped_nonpositive, 1);
+  EXPECT_EQ(counts.before_warmup, 1);
+  EXPECT_EQ(counts.last_size, 4.0);
 }
 
 // ---- bad input ----
@@ -487,11 +482,8 @@ TEST(EventPicker, RefusesSettingsOutOfRange) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (double lambda : {-0.01, 1.0, 1.5, nan})
     EXPECT_THROW(EventPicker(settings(PickerReading::exponential, lambda)), std::invalid_argument);
-  for (double size : {-1.0, nan, std::numeric_limits<double>::infinity()}) {
-    PickerSettings chosen;
-    chosen.min_size = size;
-    EXPECT_THROW(EventPicker{chosen}, std::invalid_argument);
-  }
+  for (double size : {-1.0, nan, std::numeric_limits<double>::infinity()})
+    EXPECT_THROW(EventFilter({size}), std::invalid_argument);
 }
 
 TEST(EventPicker, RefusesBadSamplesAndForgetsThem) {

@@ -9,6 +9,7 @@
 
 #include "numerics/random.h"
 #include "events/ruptures.h"
+#include "events/slip_recorder.h"
 #include "slow_ruptures.h"
 
 namespace {
@@ -63,12 +64,13 @@ std::vector<Event> find(Pattern pattern, const FaultGrid &grid, const RuptureSet
   std::vector<Event> events;
   RuptureFinder finder(grid, settings);
   const std::string quiet(static_cast<std::size_t>(grid.bins), '.');
-  finder.begin(0.0, row_of(quiet, 0));
+  finder.begin(grid.time(grid.step0), 0.0, row_of(quiet, 0));
   for (std::int64_t k = 0; k <= settings.memory; ++k) pattern.push_back(quiet);
   int n = 0;
   for (const std::string &line : pattern) {
     ++n;
-    finder.add(-n, row_of(line, n), [&events](const Event &e) { events.push_back(e); });
+    finder.add(grid.time(grid.step0 + n * grid.interval), -n, row_of(line, n),
+               [&events](const Event &e) { events.push_back(e); });
     if (!restarts) continue;
     const std::vector<double> state = finder.state();
     finder = RuptureFinder(grid, settings);
@@ -119,6 +121,7 @@ TEST(FaultRuptures, OneWithAllItsNumbers) {
   EXPECT_EQ(e.x_begin, -3.0);
   EXPECT_EQ(e.x_hypocentre, 2.0);  // bin 3 slips most in the first interval
   EXPECT_NEAR(e.mean_slip, 0.1 / 3.0, rounding);
+  EXPECT_NEAR(e.peak_slip, 0.04, rounding);  // of bin 2
   // Slips 3, 4, 3 in the bins 1, 2, 3; the middle one has its centre at 0.
   EXPECT_NEAR(e.x_centroid, 0.0, 1e-6);
   // The stress drop is that from interval 1, before the rupture, to interval 5, the first after it.
@@ -150,12 +153,12 @@ TEST(FaultRuptures, SlipsBelowTheVelocityDoNotCount) {
   settings.velocity = 0.25 / grid.duration();
   RuptureFinder finder(grid, settings);
   FaultRow row(grid.bins);
-  finder.begin(0.0, row);
+  finder.begin(0.0, 0.0, row);
   row.slip[3] = 0.25F;
-  finder.add(0.0, row, [](const Event &) {});
+  finder.add(0.0, 0.0, row, [](const Event &) {});
   EXPECT_FALSE(finder.active());
   row.slip[3] = std::nextafter(0.25F, 1.0F);
-  finder.add(0.0, row, [](const Event &) {});
+  finder.add(0.0, 0.0, row, [](const Event &) {});
   EXPECT_TRUE(finder.active());
 }
 
@@ -163,16 +166,17 @@ TEST(FaultRuptures, BackwardSlipCountsAndIsTakenOff) {
   FaultGrid grid = some_grid();
   RuptureFinder finder(grid, some_settings());
   FaultRow row(grid.bins);
-  finder.begin(0.0, row);
+  finder.begin(0.0, 0.0, row);
   row.slip[4] = 0.5F;
   row.slip[5] = -0.25F;
   std::vector<Event> events;
   const auto keep = [&events](const Event &e) { events.push_back(e); };
-  finder.add(0.0, row, keep);
-  finder.add(0.0, FaultRow(grid.bins), keep);
+  finder.add(0.0, 0.0, row, keep);
+  finder.add(0.0, 0.0, FaultRow(grid.bins), keep);
   ASSERT_EQ(events.size(), 1U);
   EXPECT_EQ(events[0].slip_moment, 0.5 * 2.0 * 0.25);
   EXPECT_EQ(events[0].rupture_length, 4.0);
+  EXPECT_EQ(events[0].peak_slip, 0.5);
 }
 
 TEST(FaultRuptures, GapsAndMemoryConnect) {
@@ -237,6 +241,7 @@ TEST(FaultRuptures, RandomPatternsAgreeWithASearch) {
                 ASSERT_EQ(a.rupture_length, b.rupture_length);
                 ASSERT_EQ(a.x_begin, b.x_begin);
                 ASSERT_NEAR(a.mean_slip, b.mean_slip, 1e-12);
+                ASSERT_NEAR(a.peak_slip, b.peak_slip, 1e-12);
                 ASSERT_NEAR(a.stress_drop, b.stress_drop, 1e-12);
                 if (a.rupture_length < bins * grid.width / 2) {  // else slips may balance
                   ASSERT_NEAR(std::remainder(a.x_centroid - b.x_centroid, grid.length()), 0, 1e-9);
@@ -275,8 +280,8 @@ TEST(FaultRuptures, ImpossibleSettingsAndStatesAreRefused) {
   EXPECT_THROW(RuptureFinder(some_grid(), some_settings(-1)), std::invalid_argument);
   EXPECT_THROW(RuptureFinder(some_grid(), some_settings(0, 0)), std::invalid_argument);
   RuptureFinder finder(some_grid(), some_settings());
-  finder.begin(0.0, row_of("..........", 0));
-  finder.add(0.0, row_of("12........", 1), [](const Event &) {});
+  finder.begin(0.0, 0.0, row_of("..........", 0));
+  finder.add(0.0, 0.0, row_of("12........", 1), [](const Event &) {});
   const std::vector<double> state = finder.state();
   RuptureFinder other(some_grid(9), some_settings());
   EXPECT_THROW(other.set_state(state), std::invalid_argument);

@@ -3,15 +3,19 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
 #include <vector>
 
-#include "events/pe_drops.h"
+#include "events/drop_locator.h"
 
 namespace {
 
+using LSM::DropLocator;
 using LSM::Event;
-using LSM::EventLocator;
 using LSM::FaultGrid;
+using LSM::FaultRow;
 using LSM::SlipRecorder;
 using Contacts = std::vector<LSM::FaultContact>;
 using Faces = std::vector<LSM::FaceDisplacement>;
@@ -83,56 +87,129 @@ TEST(SlipRecorder, BeforeTheFirstIntervalOnlyForcesCount) {
   EXPECT_EQ(recorder.sums()[LSM::FORCE], -1.0);
 }
 
-TEST(EventLocator, MomentCentroidAndLength) {
-  EventLocator locator(0.5, 0.1);
-  locator.add({{4, 1.0}, {6, 1.0}});
-  locator.add({{5, 2.0}, {9, 0.2}});
-  locator.add({{5, 1.0}});
-  Event event;
-  // Bins 4 to 6 ruptured; bin 9 has less than a tenth of the 3 of bin 5.
-  locator.locate(100.0, 40.0, event);
-  EXPECT_EQ(event.slip_moment, 5.2);
-  EXPECT_EQ(event.rupture_length, 1.5);
-  EXPECT_NEAR(event.x_centroid, 100.0 + (5.0 * 2.75 + 0.2 * 4.75) / 5.2, 2e-3);
+using Drops = std::vector<Event>;
+
+/// A drop between two steps of a fault whose first interval begins at step 100.
+Event drop(std::int64_t id, std::int64_t start, std::int64_t end) {
+  Event e;
+  e.id = id;
+  e.step_start = start;
+  e.step_end = end;
+  return e;
 }
 
-TEST(EventLocator, TheSeamIsNoPlaceOfItsOwn) {
-  EventLocator locator(1.0, 0.0);
-  locator.add({{0, 1.0}, {9, 1.0}});  // around 0 of a period of 10
-  Event event;
-  locator.locate(0.0, 10.0, event);
-  EXPECT_NEAR(std::min(event.x_centroid, 10.0 - event.x_centroid), 0.0, 1e-12);
-  EXPECT_EQ(event.rupture_length, 2.0);
-  locator.clear();
-  locator.add({{8, 1.0}, {1, 1.0}, {9, 2.0}});
-  locator.locate(0.0, 10.0, event);
-  EXPECT_GT(event.x_centroid, 9.0);
-  EXPECT_LT(event.x_centroid, 10.0);
+FaultRow slips(const std::vector<float> &of_bins) {
+  FaultRow row(static_cast<int>(of_bins.size()));
+  row.slip = of_bins;
+  return row;
 }
 
-TEST(EventLocator, NoLongerThanTheFault) {
-  EventLocator locator(3.0, 0.0);  // the fourth bin is cut by the seam
-  locator.add({{0, 1.0}, {1, 1.0}, {2, 1.0}, {3, 1.0}});
-  Event event;
-  locator.locate(0.0, 10.0, event);
-  EXPECT_EQ(event.rupture_length, 10.0);
+struct Located {
+  DropLocator locator{four_bins(), 0.5, 0.1};
+  Drops drops;
+  DropLocator::Report report = [this](const Event &e) { drops.push_back(e); };
+};
+
+TEST(DropLocator, MomentCentroidLengthAndPeak) {
+  Located a;
+  a.locator.add_interval(105, slips({1.0F, 0.0F, 0.0F, 0.0F}), {}, a.report);  // before the drop
+  a.locator.add_interval(110, slips({0.0F, 2.0F, -1.0F, 0.25F}), 105, a.report);
+  a.locator.add(drop(1, 105, 110), a.report);
+  ASSERT_EQ(a.drops.size(), 1u);
+  const Event &e = a.drops[0];
+  EXPECT_EQ(e.slip_moment, 0.5 * (2.0 - 1.0 + 0.25) * 2.0);  // modulus, width 2
+  EXPECT_EQ(e.peak_slip, 2.0);
+  EXPECT_EQ(e.rupture_length, 6.0);
+  // Weights 0, 2, 1 and 0.25 at 11, 13, 15, 17 of a ring of 8 from 10 on.
+  const double c = 2.0 * std::cos(M_PI * 0.75) + std::cos(M_PI * 1.25) +
+                   0.25 * std::cos(M_PI * 1.75),
+               s = 2.0 * std::sin(M_PI * 0.75) + std::sin(M_PI * 1.25) +
+                   0.25 * std::sin(M_PI * 1.75);
+  EXPECT_NEAR(e.x_centroid, 10.0 + 8.0 * (std::atan2(s, c) / (2.0 * M_PI)), 1e-12);
 }
 
-TEST(EventLocator, GoesOnFromItsState) {
-  EventLocator first(1.0, 0.05), second(1.0, 0.05);
-  first.add({{3, 0.1}, {-1, 0.7}, {12, 1.0 / 3.0}});
-  std::vector<double> saved = {42.0};
-  const std::vector<double> state = first.state();
-  saved.insert(saved.end(), state.begin(), state.end());
-  second.add({{5, 1.0}});
-  second.set_state(saved, 1);
-  for (EventLocator *locator : {&first, &second}) locator->add({{3, 0.2}});
-  Event a, b;
-  first.locate(0.0, 20.0, a);
-  second.locate(0.0, 20.0, b);
-  EXPECT_EQ(a.slip_moment, b.slip_moment);
-  EXPECT_EQ(a.x_centroid, b.x_centroid);
-  EXPECT_EQ(a.rupture_length, b.rupture_length);
+TEST(DropLocator, BinsThatSlipLittleDidNotRupture) {
+  Located a;
+  a.locator.add_interval(105, slips({0.0F, 10.0F, 1.0F, 1.25F}), 100, a.report);
+  a.locator.add(drop(1, 100, 105), a.report);
+  ASSERT_EQ(a.drops.size(), 1u);
+  EXPECT_EQ(a.drops[0].rupture_length, 4.0) << "bin 2 has 0.1 of the largest, not more";
+}
+
+TEST(DropLocator, SlipIsInterpolatedInTheFirstAndTheLastInterval) {
+  Located a;
+  a.locator.add_interval(105, slips({5.0F, 0.0F, 0.0F, 0.0F}), 103, a.report);
+  a.locator.add_interval(110, slips({1.0F, 0.0F, 0.0F, 0.0F}), 103, a.report);
+  a.locator.add(drop(1, 103, 111), a.report);
+  a.locator.add(drop(2, 112, 114), a.report);  // within an interval
+  EXPECT_EQ(a.locator.waiting(), 2);
+  EXPECT_TRUE(a.drops.empty()) << "their interval is not complete";
+  EXPECT_EQ(a.locator.known_until(), 110);
+  a.locator.add_interval(115, slips({0.5F, 0.0F, 0.0F, 0.0F}), {}, a.report);
+  ASSERT_EQ(a.drops.size(), 2u);
+  EXPECT_EQ(a.locator.waiting(), 0);
+  EXPECT_NEAR(a.drops[0].peak_slip, 2.0 + 1.0 + 0.1, 1e-15);
+  EXPECT_NEAR(a.drops[1].peak_slip, 0.2, 1e-15);
+}
+
+TEST(DropLocator, ADropThatIsNotWrittenLeavesNoSlip) {
+  Located a;
+  a.locator.add_interval(105, slips({1.0F, 0.0F, 0.0F, 0.0F}), 100, a.report);
+  a.locator.forget_open();
+  a.locator.add_interval(110, slips({0.0F, 1.0F, 0.0F, 0.0F}), 105, a.report);
+  a.locator.add(drop(1, 105, 110), a.report);
+  ASSERT_EQ(a.drops.size(), 1u);
+  EXPECT_EQ(a.drops[0].rupture_length, 2.0);
+  EXPECT_NEAR(a.drops[0].x_centroid, 13.0, 1e-12);
+}
+
+TEST(DropLocator, AtTheEndOfARunThePartOfTheIntervalCounts) {
+  Located a;
+  a.locator.add(drop(1, 101, 103), a.report);
+  a.locator.finish(104, slips({1.0F, 0.0F, 0.0F, 0.0F}), a.report);  // 4 of 5 steps
+  ASSERT_EQ(a.drops.size(), 1u);
+  EXPECT_EQ(a.drops[0].peak_slip, 0.5);
+}
+
+TEST(DropLocator, GoesOnFromItsState) {
+  Located a, b;
+  a.locator.add_interval(105, slips({1.0F, 3.0F, 0.0F, 0.0F}), 103, a.report);
+  a.locator.add(drop(7, 103, 106), a.report);
+  b.locator.add_interval(105, slips({9.0F, 9.0F, 9.0F, 9.0F}), 100, b.report);
+  b.locator.set_state(a.locator.state());
+  for (Located *one : {&a, &b}) {
+    one->locator.add_interval(110, slips({0.5F, 0.0F, 1.0F, 0.0F}), 108, one->report);
+    one->locator.add_interval(115, slips({0.0F, 0.0F, 1.0F, 0.0F}), 108, one->report);
+    one->locator.add(drop(8, 108, 115), one->report);
+  }
+  ASSERT_EQ(a.drops.size(), 2u);
+  ASSERT_EQ(b.drops.size(), 2u);
+  for (std::size_t n = 0; n < 2; ++n) {
+    EXPECT_EQ(a.drops[n].id, b.drops[n].id);
+    EXPECT_EQ(a.drops[n].slip_moment, b.drops[n].slip_moment);
+    EXPECT_EQ(a.drops[n].x_centroid, b.drops[n].x_centroid);
+    EXPECT_EQ(a.drops[n].peak_slip, b.drops[n].peak_slip);
+  }
+  const std::vector<double> state = a.locator.state();
+  for (std::size_t n = 0; n < state.size(); ++n)
+    EXPECT_THROW(b.locator.set_state({state.begin(), state.begin() + static_cast<long>(n)}),
+                 std::invalid_argument);
+}
+
+TEST(DropLocator, AFaultWithEnds) {
+  FaultGrid open = four_bins();
+  open.ring = false;
+  DropLocator locator(open, 0.5, 0.1);
+  Drops drops;
+  const auto report = [&drops](const Event &e) { drops.push_back(e); };
+  locator.add_interval(105, slips({1.0F, 0.0F, 0.0F, 1.0F}), 100, report);
+  locator.add(drop(1, 100, 105), report);
+  locator.add_interval(110, slips({0.0F, 0.0F, 0.0F, 0.0F}), 105, report);
+  locator.add(drop(2, 105, 110), report);
+  ASSERT_EQ(drops.size(), 2u);
+  EXPECT_EQ(drops[0].x_centroid, 14.0) << "the mean place, not that across the ends";
+  EXPECT_EQ(drops[1].x_centroid, 10.0) << "nothing slid";
+  EXPECT_EQ(drops[1].rupture_length, 0.0);
 }
 
 }  // namespace

@@ -75,23 +75,20 @@ void LSMEventSources::find(bool ledger)
   if (!links_ && contacts.empty())
     error->all(FLERR, "Compute lsm/events needs bond style lsm/linked or pair style lsm/free or "
                       "lsm/friction");
-  const LSM::EventKind &kind = *settings_.kind;
-  const bool slips = kind.wants_slips(), intervals = kind.wants_intervals();
-  if ((slips || intervals) && !force->pair_match("lsm/friction", 1))
-    error->all(FLERR, "Compute lsm/events {} needs pair style lsm/friction", kind.asked_by());
-  if (slips && !domain->xperiodic)
-    error->all(FLERR, "Compute lsm/events {} needs a box that is periodic in x", kind.asked_by());
+  if (settings_.records_slip() && !force->pair_match("lsm/friction", 1))
+    error->all(FLERR, "Compute lsm/events {} needs pair style lsm/friction", settings_.asked_by());
 
   styles_.clear();
   if (links_) styles_.push_back(links_);
   styles_.insert(styles_.end(), contacts.begin(), contacts.end());
   for (auto *style : styles_) {
-    style->record_what |= LSMEnergySource::ENERGY | (slips ? LSMEnergySource::SLIP : 0) |
-                          (intervals ? LSMEnergySource::CONTACTS : 0);
-    if (slips || intervals) find_sides(*style);
+    style->record_what |= LSMEnergySource::ENERGY;
+    if (!settings_.finds_ruptures()) continue;
+    style->record_what |= LSMEnergySource::CONTACTS;
+    find_sides(*style);
   }
 
-  if (intervals) faces_ = bits_of("faces", settings_.faces);
+  if (settings_.records_slip()) faces_ = bits_of("faces", settings_.faces);
 
   plates_ = nullptr;
   leap_ = nullptr;
@@ -112,7 +109,7 @@ std::pair<int, int> LSMEventSources::bits_of(const char *keyword, const LSM::Two
     error->all(
         FLERR,
         "Compute lsm/events {} needs the keyword {} with the groups below and above the fault",
-        settings_.kind->asked_by(), keyword);
+        settings_.asked_by(), keyword);
   const auto bit = [&](const std::string &name) {
     const int found = group->find(name);
     if (found < 0)
@@ -151,20 +148,24 @@ void LSMEventSources::release()
 void LSMEventSources::find_driving(LSM::EventSettings &settings) const
 {
   if (plates_ && plates_->driving_velocity() < 0.0) settings.forward = -1.0;
+  if (settings.finds_ruptures()) find_velocity(settings);
+  if (settings.modulus > 0.0) return;
+  if (!links_)
+    error->all(FLERR, "Compute lsm/events {} needs bond style lsm/linked, or the keyword modulus",
+               settings.asked_by());
+  int dim;
+  const auto *stiffness = static_cast<const double *>(links_->extract("k", dim));
+  settings.modulus = 0.25 * sqrt(3.0) * stiffness[1];    // of the regular lattice of equal discs
+}
+
+void LSMEventSources::find_velocity(LSM::EventSettings &settings) const
+{
   if (settings.driving == 0.0 && leap_) settings.driving = 2.0 * leap_->fastest();
   if (settings.driving == 0.0 && plates_)
     settings.driving = 2.0 * fabs(plates_->driving_velocity());
   if (settings.driving == 0.0)
-    error->all(FLERR, "Compute lsm/events {} needs {}, or the keyword driving",
-               settings.kind->asked_by(),
+    error->all(FLERR, "Compute lsm/events {} needs {}, or the keyword driving", settings.asked_by(),
                plates_ ? "a velocity of fix lsm/plates that is not 0" : "fix lsm/plates");
-  if (settings.modulus > 0.0) return;
-  if (!links_)
-    error->all(FLERR, "Compute lsm/events {} needs bond style lsm/linked, or the keyword modulus",
-               settings.kind->asked_by());
-  int dim;
-  const auto *stiffness = static_cast<const double *>(links_->extract("k", dim));
-  settings.modulus = 0.25 * sqrt(3.0) * stiffness[1];    // of the regular lattice of equal discs
 }
 
 double LSMEventSources::pe() const

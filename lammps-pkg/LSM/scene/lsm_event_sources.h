@@ -31,10 +31,10 @@ class LSMEventSources : protected Pointers {
   void find(bool ledger);
   /// Stops recording in those styles that still exist.
   void release();
-  /// Completes the settings of the fault in intervals with those of the scene.
+  /// Completes the settings of slip with those of the scene.
   void find_driving(LSM::EventSettings &) const;
 
-  /// The styles that record slips and contacts.
+  /// The styles that record contacts.
   const std::vector<LSMEnergySource *> &styles() const { return styles_; }
   const FixLSMLeap *leap() const { return leap_; }    ///< null if steps and time are proportional
   /// Bit of the group of the lower (0) or upper (1) face of the fault.
@@ -54,6 +54,7 @@ class LSMEventSources : protected Pointers {
  private:
   std::pair<int, int> bits_of(const char *keyword, const LSM::TwoSides &) const;
   void find_sides(LSMEnergySource &) const;
+  void find_velocity(LSM::EventSettings &) const;
 
   const LSM::EventSettings &settings_;
   std::pair<int, int> faces_ = {0, 0};

@@ -2,11 +2,9 @@
 
 #include "lsm_block_gather.h"
 
-#include "lsm_ranks.h"
-
 using namespace LAMMPS_NS;
 
-LSMBlockGather::LSMBlockGather(MPI_Comm world, bool slip) : world_(world), me_(0), slip_(slip)
+LSMBlockGather::LSMBlockGather(MPI_Comm world) : world_(world), me_(0)
 {
   MPI_Comm_rank(world_, &me_);
   MPI_Comm_size(world_, &block_.ranks);
@@ -33,7 +31,6 @@ void LSMBlockGather::start(const LSM::SampleBlock &mine)
   if (!mine.intervals.empty())
     MPI_Reduce(mine.intervals.data(), block_.intervals.data(),
                static_cast<int>(mine.intervals.size()), MPI_DOUBLE, MPI_SUM, 0, world_);
-  if (slip_) block_.slip = lsm_gather_on_0(mine.slip, world_);
 }
 
 bool LSMBlockGather::finish()

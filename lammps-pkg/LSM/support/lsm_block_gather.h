@@ -14,8 +14,7 @@ namespace LAMMPS_NS {
 
 class LSMBlockGather {
  public:
-  /// \param slip whether the blocks hold slips
-  LSMBlockGather(MPI_Comm, bool slip);
+  explicit LSMBlockGather(MPI_Comm);
   ~LSMBlockGather();
   LSMBlockGather(const LSMBlockGather &) = delete;
   LSMBlockGather &operator=(const LSMBlockGather &) = delete;
@@ -30,7 +29,6 @@ class LSMBlockGather {
  private:
   MPI_Comm world_;
   int me_;
-  bool slip_;
   LSM::GatheredBlock block_;
   MPI_Request request_ = MPI_REQUEST_NULL;
   bool pending_ = false;

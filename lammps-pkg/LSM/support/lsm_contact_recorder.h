@@ -15,25 +15,22 @@ namespace LAMMPS_NS {
 struct LSMRecordNothing {
   static constexpr bool records = false, tallies = false;
 
-  LSMRecordNothing(LSMEnergySource &, bool, double, double) {}
+  LSMRecordNothing(LSMEnergySource &, bool) {}
   void finish() {}
 };
 
-/// Records energies, and slip in bins along the fault if requested. `share` is this rank's share of
-/// a contact.
+/// Records energies, and contacts across the fault if requested. `share` is this rank's share of a
+/// contact.
 class LSMRecordEnergies {
  public:
   static constexpr bool records = true, tallies = false;
 
   /// \param setup whether this is the setup of a run, for a step whose slip was counted before
-  LSMRecordEnergies(LSMEnergySource &source, bool setup, double xlo, double period) :
+  LSMRecordEnergies(LSMEnergySource &source, bool setup) :
       source_(source), counts_(!setup),
-      slips_(!setup && (source.record_what & (LSMEnergySource::SLIP | LSMEnergySource::SLIP_RATE))),
-      xlo_(xlo), period_(period)
+      slips_(!setup && (source.record_what & LSMEnergySource::SLIP_RATE))
   {
-    if (!source.record_what) return;
-    source_.slip.clear();
-    source_.contacts.clear();
+    if (source.record_what) source_.contacts.clear();
   }
   void springs(double share, double normal, double tangential)
   {
@@ -49,24 +46,12 @@ class LSMRecordEnergies {
   {
     if (slips_) moment_ += share * moment;
   }
-  /// Whether contacts across the fault are distinguished from others.
-  bool wants_places() const
-  {
-    return source_.record_what & (LSMEnergySource::SLIP | LSMEnergySource::CONTACTS);
-  }
   void within(double share, double work)
   {
     if (counts_) within_ += share * work;
   }
-  /// \param x position of a contact across the fault
-  void slip_at(double share, double x, double moment)
-  {
-    if (!slips_ || !(source_.record_what & LSMEnergySource::SLIP)) return;
-    double along = (x - xlo_) / period_;
-    along = (along - floor(along)) * period_;
-    source_.slip.push_back({along, share * moment});
-  }
-  /// Whether contacts are recorded one by one, as compute lsm/events requests to find ruptures.
+  /// Whether contacts across the fault are recorded one by one, as compute lsm/events requests to
+  /// find ruptures.
   bool wants_contacts() const { return source_.record_what & LSMEnergySource::CONTACTS; }
   void contact(const LSM::FaultContact &one) { source_.contacts.push_back(one); }
   void finish()
@@ -82,7 +67,6 @@ class LSMRecordEnergies {
  private:
   LSMEnergySource &source_;
   const bool counts_, slips_;
-  const double xlo_, period_;
   double normal_ = 0.0, tangential_ = 0.0, lost_ = 0.0, within_ = 0.0, moment_ = 0.0;
 };
 

@@ -15,7 +15,7 @@ namespace LAMMPS_NS {
 /// All values are this rank's share; a pair shared by two ranks counts half on each.
 class LSMEnergySource {
  public:
-  enum { NONE = 0, ENERGY = 1, SLIP = 2, SLIP_RATE = 4, CONTACTS = 8 };
+  enum { NONE = 0, ENERGY = 1, SLIP_RATE = 2, CONTACTS = 4 };
 
   virtual ~LSMEnergySource() noexcept(false) {}    // as LAMMPS' own base classes
 
@@ -27,11 +27,9 @@ class LSMEnergySource {
   double work_broken = 0.0;      ///< energy of the links that broke, accumulated
   double slip_moment = 0.0;      ///< sum of |slip| times contact size, accumulated (SLIP_RATE)
 
-  /// Bits of the groups on the two sides of the fault, for SLIP and CONTACTS.
+  /// Bits of the groups on the two sides of the fault, for CONTACTS.
   int lower_side = 0, upper_side = 0;
   double work_within = 0.0;    ///< part of work_friction that is lost elsewhere, accumulated
-  std::vector<LSM::ContactSlip>
-      slip;    ///< contacts across the fault that slid in the last force evaluation
   /// all contacts across the fault in the last force evaluation, with friction
   std::vector<LSM::FaultContact> contacts;
 

@@ -6,6 +6,7 @@
 
 #include "events/event_headers.h"
 #include "fault/watchdog.h"
+#include "files/keywords.h"
 
 #include <string>
 
@@ -27,10 +28,7 @@ struct LSMEventOptions {
   LSMEventOptions(LAMMPS *, int first, int narg, char **arg);
 
  private:
-  LSM::Keywords of_all(LSMKeywordReader &);
-  LSM::Keywords of_intervals(LSMKeywordReader &);
-  LSM::Action file_or_none(LSMKeywordReader &, std::string &file);
-  [[noreturn]] void no_such_keyword(LSMKeywordReader &);
+  LSM::Keywords keywords(LSMKeywordReader &);
 };
 
 }    // namespace LAMMPS_NS

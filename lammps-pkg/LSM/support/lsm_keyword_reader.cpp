@@ -61,8 +61,7 @@ void LSMKeywordReader::read_all(const LSM::Keywords &table)
 void LSMKeywordReader::require(const std::vector<const char *> &keys) const
 {
   for (const char *key : keys)
-    if (!seen_.count(key))
-      stop(std::string(key) + " is missing; needed are " + LSM::either(keys, " and "));
+    if (!has(key)) stop(std::string(key) + " is missing; needed are " + LSM::either(keys, " and "));
 }
 
 double LSMKeywordReader::number(Must must, int n) const

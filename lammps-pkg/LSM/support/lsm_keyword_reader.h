@@ -31,6 +31,8 @@ class LSMKeywordReader : protected Pointers {
   bool read(const LSM::Keywords &);
   /// Reads all keywords, which have to be in the table.
   void read_all(const LSM::Keywords &);
+  /// Whether a keyword was among those read so far.
+  bool has(const std::string &key) const { return seen_.count(key) > 0; }
   /// Stops if one of these keywords is missing.
   void require(const std::vector<const char *> &keys) const;
   /// The last value of the keyword.

@@ -9,7 +9,7 @@
 namespace LAMMPS_NS {
 
 /// To be raised with every change of what a style writes.
-constexpr int LSM_RESTART_VERSION = 2;
+constexpr int LSM_RESTART_VERSION = 3;
 
 inline void lsm_check_version(Error *error, int found)
 {

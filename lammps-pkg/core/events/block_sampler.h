@@ -5,30 +5,25 @@
 #ifndef LSM_BLOCK_SAMPLER_H
 #define LSM_BLOCK_SAMPLER_H
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
-#include "events/slip_recorder.h"
 #include "numerics/sum.h"
 
 namespace LSM {
 
 /// One rank's share of the samples of consecutive steps.
 struct SampleBlock {
-  std::int64_t first = 0;  ///< step of the first sample
-  int count = 0;           ///< number of samples
-  std::vector<double> pe;  ///< of each step
-  /// Slips, three numbers each: index of the step in the block, bin, moment.
-  std::vector<double> slip;
+  std::int64_t first = 0;         ///< step of the first sample
+  int count = 0;                  ///< number of samples
+  std::vector<double> pe;         ///< of each step
   std::vector<double> intervals;  ///< SlipRecorder::sums() of the intervals that ended in the block
 
   void clear() {
     count = 0;
     pe.clear();
-    slip.clear();
     intervals.clear();
   }
 };
@@ -44,12 +39,6 @@ class BlockSampler {
       block->pe.reserve(static_cast<std::size_t>(steps));
   }
 
-  /// Adds the slips of the step whose PE is added next, in bins of the given width.
-  void add_slip(const std::vector<ContactSlip> &slips, double bin_width) {
-    for (const ContactSlip &s : slips)
-      filling_.slip.insert(filling_.slip.end(), {static_cast<double>(filling_.count),
-                                                 std::floor(s.along / bin_width), s.moment});
-  }
   /// Adds an interval that ends with the step whose PE is added next.
   void add_interval(const std::vector<double> &sums) {
     filling_.intervals.insert(filling_.intervals.end(), sums.begin(), sums.end());
@@ -80,7 +69,6 @@ struct GatheredBlock {
   std::int64_t first = 0;
   int count = 0, ranks = 1;
   std::vector<double> pe;         ///< count samples of each rank, one rank after the other
-  std::vector<double> slip;       ///< as in SampleBlock, one rank after the other
   std::vector<double> intervals;  ///< sums over the ranks
 
   /// PE of all ranks.
@@ -91,14 +79,6 @@ struct GatheredBlock {
       sum.add(pe[static_cast<std::size_t>(rank) * static_cast<std::size_t>(count) +
                  static_cast<std::size_t>(n)]);
     return sum.value();
-  }
-
-  /// The slips of each step, in the order of the ranks.
-  std::vector<std::vector<BinSlip>> slip_by_step() const {
-    std::vector<std::vector<BinSlip>> steps(static_cast<std::size_t>(count));
-    for (std::size_t n = 0; n + 2 < slip.size(); n += 3)
-      steps[static_cast<std::size_t>(slip[n])].push_back({slip[n + 1], slip[n + 2]});
-    return steps;
   }
 };
 

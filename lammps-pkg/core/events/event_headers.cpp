@@ -3,28 +3,81 @@
 
 #include <string>
 
-#include "events/pe_drops.h"
-
 namespace LSM {
+
+namespace {
+
+using text_io::number;
+using text_io::Parameters;
+
+/// What describes the events stands between the lines of the scene and those of the user, who may
+/// replace each of them.
+/// \param left_out file that was left out by name, or ""
+Parameters parameters_of(const EventSettings &settings, const SceneInfo &scene,
+                         const Parameters &events, const std::string &left_out = "") {
+  Parameters all = scene.parameters;
+  all.insert(all.end(), events.begin(), events.end());
+  all.emplace_back("ranks", std::to_string(scene.ranks));
+  if (!left_out.empty()) all.emplace_back(left_out, "none");
+  Parameters out;
+  for (auto &one : all)
+    if (!text_io::find(settings.parameters, one.first)) out.push_back(std::move(one));
+  out.insert(out.end(), settings.parameters.begin(), settings.parameters.end());
+  return out;
+}
+
+Parameters picker_of(const EventSettings &settings) {
+  return {{"picker", to_string(settings.picker.reading)},
+          {"lambda", number(settings.picker.lambda)},
+          {"min_size", number(settings.drops.min_size)},
+          {"tangential_energy", settings.tangential ? "yes" : "no"}};
+}
+
+}  // namespace
 
 std::vector<Output> files_of(const EventSettings &settings) {
   return {{"catalogue", settings.catalogue_file},
           {"series", settings.series_file},
+          {"ruptures", settings.ruptures_file},
           {"history", settings.history_file}};
 }
 
-CatalogueInfo catalogue_header(const EventSettings &settings, const EventKind &kind,
-                               const SceneInfo &scene, double slip_bin) {
+CatalogueInfo drops_header(const EventSettings &settings, const SceneInfo &scene, double slip_bin) {
   CatalogueInfo info;
   info.model = "lsm";
-  const AddParameter add = [&](const std::string &key, const std::string &value) {
-    if (!text_io::find(settings.parameters, key)) info.parameters.emplace_back(key, value);
-  };
-  for (const auto &[key, value] : scene.parameters) add(key, value);
-  kind.describe(settings, slip_bin, add, info);
-  add("ranks", std::to_string(scene.ranks));
-  info.parameters.insert(info.parameters.end(), settings.parameters.begin(),
-                         settings.parameters.end());
+  Parameters events = picker_of(settings);
+  if (settings.records_slip()) {
+    events.emplace_back("slip_bin", number(slip_bin));
+    events.emplace_back("rupture_fraction", number(settings.fraction));
+    events.emplace_back("interval", std::to_string(settings.interval));
+    events.emplace_back("modulus", number(settings.modulus));
+  }
+  info.slip_moment = info.x_centroid = info.rupture_length = info.peak_slip =
+      settings.records_slip();
+  info.parameters = parameters_of(settings, scene, events, settings.no_series ? "series" : "");
+  return info;
+}
+
+CatalogueInfo ruptures_header(const EventSettings &settings, const SceneInfo &scene,
+                              double slip_bin) {
+  CatalogueInfo info;
+  info.model = "lsm";
+  info.parameters = parameters_of(settings, scene,
+                                  {{"min_size", number(settings.ruptures.min_size)},
+                                   {"tangential_energy", settings.tangential ? "yes" : "no"},
+                                   {"events", "ruptures"},
+                                   {"driving", number(settings.driving)},
+                                   {"slipping", number(settings.slipping)},
+                                   {"slip_velocity", number(settings.slipping * settings.driving)},
+                                   {"slip_bin", number(slip_bin)},
+                                   {"interval", std::to_string(settings.interval)},
+                                   {"gap", std::to_string(settings.gap)},
+                                   {"pause", number(settings.pause)},
+                                   {"modulus", number(settings.modulus)}},
+                                  settings.no_history ? "history" : "");
+  info.slip_moment = info.x_centroid = info.rupture_length = true;
+  info.x_hypocentre = info.x_begin = info.mean_slip = info.stress_drop = true;
+  info.peak_slip = true;
   return info;
 }
 
@@ -37,11 +90,7 @@ PeSeriesInfo series_header(const EventSettings &settings, const SceneInfo &scene
   info.time0 = clock.time;
   info.stride = settings.series_stride;
   info.explicit_times = settings.explicit_times;
-  const PeDrops drops;
-  const EventKind &own = *settings.kind;
-  const EventKind &kind = own.picks_pe() ? own : drops;
-  info.parameters =
-      text_io::without(catalogue_header(settings, kind, scene, 0.0).parameters, {"dt"});
+  info.parameters = text_io::without(parameters_of(settings, scene, picker_of(settings)), {"dt"});
   return info;
 }
 
@@ -49,11 +98,11 @@ SlipHistoryInfo history_header(const EventSettings &settings, const SceneInfo &s
                                const FaultGrid &grid) {
   SlipHistoryInfo info;
   info.grid = grid;
-  info.ruptures = settings.kind->rupture_settings(settings, grid.dt);
+  info.ruptures = settings.rupture_settings(grid.dt);
   info.driving = settings.driving;
   info.quiet = settings.quiet;
   info.parameters = text_io::without(
-      catalogue_header(settings, *settings.kind, scene, grid.width).parameters,
+      ruptures_header(settings, scene, grid.width).parameters,
       {"dt", "slip_velocity", "interval", "gap", "modulus", "driving", "slip_bin", "events"});
   if (!grid.ring) info.parameters.emplace_back("ends", "open");
   return info;

@@ -7,8 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "events/event_kinds.h"
-#include "events/event_picker.h"
+#include "events/event_settings.h"
 #include "files/catalogue.h"
 #include "files/output_claim.h"
 #include "files/parameters.h"
@@ -40,13 +39,15 @@ struct StepClock {
 /// The files that a recorder writes, by their keywords; paths of those not written are empty.
 std::vector<Output> files_of(const EventSettings &settings);
 
-/// Header of the catalogue of a kind of events.
-/// \param slip_bin width of the bins of the grid
-CatalogueInfo catalogue_header(const EventSettings &settings, const EventKind &kind,
-                               const SceneInfo &scene, double slip_bin);
+/// Headers of the two catalogues.
+/// \param slip_bin width of the bins of the grid, if slip is recorded
+CatalogueInfo drops_header(const EventSettings &settings, const SceneInfo &scene, double slip_bin);
+/// The parameter `events` states that ruptures may overlap.
+CatalogueInfo ruptures_header(const EventSettings &settings, const SceneInfo &scene,
+                              double slip_bin);
 
-/// Header of the PE series, which is the same for all kinds of events. It has the numbers that
-/// times are computed from, so that readers obtain the times of the catalogue.
+/// Header of the PE series, whether slip is recorded or not. It has the numbers that times are
+/// computed from, so that readers obtain the times of the catalogue.
 PeSeriesInfo series_header(const EventSettings &settings, const SceneInfo &scene,
                            const StepClock &clock);
 

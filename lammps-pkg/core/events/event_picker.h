@@ -32,9 +32,7 @@ constexpr std::array<Named<PickerReading>, 3> names_of(PickerReading) {
 
 struct PickerSettings {
   PickerReading reading = PickerReading::exponential;
-  double lambda = 0.99;           ///< leakiness per sample, 0 <= lambda < 1 (paper: 0.99)
-  double min_size = 0.0;          ///< positive sizes below this are counted, not reported †
-  bool keep_nonpositive = false;  ///< report events of size <= 0 too, whatever min_size is †
+  double lambda = 0.99;  ///< leakiness per sample, 0 <= lambda < 1 (paper: 0.99)
 };
 
 /// Leakiness that gives the exponential reading the memory memory_time, whatever the sampling
@@ -55,14 +53,15 @@ struct EventSummary {
 };
 
 /// One event. Times in model time, steps as pushed, energies in model energy.
-/// The picker fills all but slip_moment and the members after it, which belong to the program that
-/// knows the slip.
+/// The picker fills all but the identifier, which EventFilter gives, and slip_moment and the
+/// members after it, which belong to the program that knows the slip.
 struct Event : EventSummary {
-  std::int64_t id = 0;  ///< 1, 2, ... over the reported events
+  std::int64_t id = 0;  ///< 1, 2, ... over the events that are written
   std::int64_t step_start = 0, step_end = 0;
   double pe_start = 0.0, pe_end = 0.0;
   double slip_moment = 0.0, x_centroid = 0.0, rupture_length = 0.0;
   double x_hypocentre = 0.0, x_begin = 0.0, mean_slip = 0.0, stress_drop = 0.0;  ///< of ruptures
+  double peak_slip = 0.0;
 };
 
 /// The whole state of a picker besides its settings. Plain old data without padding, so it can be
@@ -77,23 +76,9 @@ struct PickerState {
   std::int64_t step_start = 0;
   double t_start = 0.0;
   double pe_start = 0.0;
-  std::int64_t events = 0;  ///< reported events
-  std::int64_t dropped_nonpositive = 0;
-  std::int64_t dropped_small = 0;
-  double last_size = 0.0;  ///< size of the last reported event
 };
 static_assert(std::is_trivially_copyable<PickerState>::value, "PickerState goes into restarts");
-static_assert(sizeof(PickerState) == 13 * 8, "PickerState must have no padding");
-
-/// Whether an event of this size is omitted from the catalogue. Counts the omitted events.
-inline bool is_left_out(double size, const PickerSettings &settings, PickerState &counts) {
-  if (!(size > 0.0)) {
-    counts.dropped_nonpositive += settings.keep_nonpositive ? 0 : 1;
-    return !settings.keep_nonpositive;
-  }
-  counts.dropped_small += size < settings.min_size ? 1 : 0;
-  return size < settings.min_size;
-}
+static_assert(sizeof(PickerState) == 9 * 8, "PickerState must have no padding");
 
 /// Picks events from PE samples that are pushed in order of time.
 ///
@@ -107,12 +92,10 @@ class EventPicker {
   explicit EventPicker(PickerSettings settings) : settings_(settings) {
     if (!(settings_.lambda >= 0.0 && settings_.lambda < 1.0))
       throw std::invalid_argument("picker lambda must be at least 0 and less than 1");
-    if (!std::isfinite(settings_.min_size) || settings_.min_size < 0.0)
-      throw std::invalid_argument("picker minimum size must be a finite number >= 0");
   }
 
-  /// Adds the sample PE(step) = pe. Returns true, and fills out, if an event to be reported ended
-  /// at the sample before this one; otherwise out is unchanged.
+  /// Adds the sample PE(step) = pe. Returns true, and fills out, if an event ended at the sample
+  /// before this one; otherwise out is unchanged. Which events are written is up to EventFilter.
   /// Samples may be a decimated series; steps and times are reported as given.
   /// \throws std::invalid_argument (and drops the sample) if step or time do not advance or a
   /// number is not finite, e.g. because a simulation blew up.
@@ -126,13 +109,14 @@ class EventPicker {
   bool push_change(std::int64_t step, double time, double pe, double dpe, Event &out) {
     check(step, time, pe, dpe);
     const bool first = state_.samples == 0;
-    bool report = false;
+    bool ended = false;
     if (!first) {
       update_rate(dpe);
       if (state_.in_event) {
         if (state_.rate > 0.0) {
           state_.in_event = 0;
-          report = finish(out);
+          ended = true;
+          out = finished();
         }
       } else if (state_.rate < 0.0) {
         state_.in_event = 1;
@@ -145,7 +129,7 @@ class EventPicker {
     state_.step = step;
     state_.time = time;
     state_.pe = pe;
-    return report;
+    return ended;
   }
 
   bool in_event() const { return state_.in_event != 0; }
@@ -156,9 +140,8 @@ class EventPicker {
   /// \throws std::invalid_argument if no picker can be in that state.
   void set_state(const PickerState &state) {
     const bool sane =
-        state.samples >= 0 && (state.in_event == 0 || state.in_event == 1) && state.events >= 0 &&
-        state.dropped_nonpositive >= 0 && state.dropped_small >= 0 && std::isfinite(state.time) &&
-        std::isfinite(state.pe) && std::isfinite(state.rate) &&
+        state.samples >= 0 && (state.in_event == 0 || state.in_event == 1) &&
+        std::isfinite(state.time) && std::isfinite(state.pe) && std::isfinite(state.rate) &&
         (state.in_event == 0 || (state.rate <= 0.0 && std::isfinite(state.t_start) &&
                                  std::isfinite(state.pe_start) && state.step_start < state.step));
     if (!sane) throw std::invalid_argument("saved picker state is inconsistent");
@@ -216,23 +199,19 @@ class EventPicker {
     }
   }
 
-  /// Finishes the event that ended at the sample in state_.
-  bool finish(Event &out) {
-    // In exact arithmetic every size is positive, as the changes within an event add up to a
-    // weighted sum of negative A. Rounding of a large PE can make it zero or negative.
-    const double size = state_.pe_start - state_.pe;
-    if (is_left_out(size, settings_, state_)) return false;
-    out = Event();
-    out.id = ++state_.events;
+  /// The event that ended at the sample in state_. In exact arithmetic its size is positive, as the
+  /// changes within an event add up to a weighted sum of negative A. Rounding of a large PE can
+  /// make it zero or negative.
+  Event finished() const {
+    Event out;
     out.t_start = state_.t_start;
     out.t_end = state_.time;
     out.step_start = state_.step_start;
     out.step_end = state_.step;
-    out.size = size;
+    out.size = state_.pe_start - state_.pe;
     out.pe_start = state_.pe_start;
     out.pe_end = state_.pe;
-    state_.last_size = size;
-    return true;
+    return out;
   }
 
   PickerSettings settings_;

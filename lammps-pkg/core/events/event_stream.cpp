@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "events/event_stream.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <system_error>
@@ -8,9 +9,8 @@
 
 namespace LSM {
 
-bool SavedStream::read(const std::vector<double> &from, std::size_t at, std::size_t of_kind) {
+bool SavedStream::read(const std::vector<double> &from, std::size_t at) {
   if (from.size() < at) return false;
-  kind = of_kind;
   try {
     StateReader in(from, at);
     visit(*this, in);
@@ -20,42 +20,48 @@ bool SavedStream::read(const std::vector<double> &from, std::size_t at, std::siz
   }
 }
 
-bool SavedStream::continues_with(std::size_t other_kind, const FaultGrid &other) const {
-  return kind == other_kind && grid.dt == other.dt && grid.interval == other.interval &&
-         grid.bins == other.bins;
+bool SavedStream::continues_with(const FaultGrid &other, bool finds_ruptures) const {
+  return has_slip() && finder.empty() != finds_ruptures && grid.dt == other.dt &&
+         grid.interval == other.interval && grid.bins == other.bins;
 }
 
 EventStream::EventStream(const EventSettings &settings)
-    : settings_(settings), kind_(number_of(*settings.kind)), picker_(settings.picker) {
-  if (!settings.kind->wants_intervals()) finder_ = settings.kind->finder(settings, grid_);
-}
+    : settings_(settings),
+      picker_(settings.picker),
+      drops_(settings.drops),
+      ruptures_(settings.ruptures) {}
 
 void EventStream::set_grid(const FaultGrid &grid) {
   grid_ = grid;
-  finder_ = settings_.kind->finder(settings_, grid);
-  continues_ = false;
+  locator_.emplace(grid, settings_.modulus, settings_.fraction);
+  if (settings_.finds_ruptures()) finder_.emplace(grid, settings_.rupture_settings(grid.dt));
+  slip_continues_ = false;
 }
 
 void EventStream::set_state(const SavedStream &saved) {
   picker_.set_state(saved.picker);
-  if (saved.kind != kind_) return;
-  counts_ = saved.counts;
-  if (!saved.continues_with(kind_, grid_)) return;
-  grid_.step0 = saved.grid.step0;
-  grid_.time0 = saved.grid.time0;
-  finder_ = settings_.kind->finder(settings_, grid_);
-  finder_->set_state(saved.finder);
+  drops_.set_counts(saved.drops);
+  ruptures_.set_counts(saved.ruptures);
+  if (!locator_ || !saved.continues_with(grid_, finder_.has_value())) return;
+  FaultGrid grid = grid_;
+  grid.step0 = saved.grid.step0;
+  grid.time0 = saved.grid.time0;
+  set_grid(grid);
+  locator_->set_state(saved.locator);
+  if (finder_) finder_->set_state(saved.finder);
   saved_history_ = saved.history;
-  continues_ = true;
+  slip_continues_ = true;
 }
 
 std::vector<double> EventStream::state(const std::vector<double> &open_sums) const {
   SavedStream now;
   now.picker = picker_.state();
+  now.drops = drops();
+  now.ruptures = ruptures();
   now.grid = grid_;
-  now.counts = counts_;
   now.open_sums = open_sums;
-  now.finder = finder_->state();
+  if (locator_) now.locator = locator_->state();
+  if (finder_) now.finder = finder_->state();
   if (history_.is_open()) now.history = history_.state();
   std::vector<double> out;
   StateWriter to(out);
@@ -71,43 +77,42 @@ void EventStream::begin_files(std::int64_t step, bool from_restart, const SceneI
 }
 
 void EventStream::begin_fault(double pe, const std::vector<double> &sums) {
+  if (!finder_) return;
   const FaultRow row = fault_row(grid_, sums.data(), 1);
-  finder_->begin(pe, row);
+  finder_->begin(grid_.time0, pe, row);
   if (!settings_.history_file.empty())
     history_.create(settings_.history_file, history_info_, grid_.step0, pe, row.stress);
 }
 
-void EventStream::add_block(const GatheredBlock &block, const TimeOfStep &time_of, double x0,
-                            double length) {
-  const bool with_slips = settings_.kind->wants_slips();
-  const bool with_intervals = settings_.kind->wants_intervals();
-  std::vector<std::vector<BinSlip>> slips;
-  if (with_slips) slips = block.slip_by_step();
+void EventStream::add_block(const GatheredBlock &block, const TimeOfStep &time_of) {
   const double *sums = block.intervals.data();
   for (int n = 0; n < block.count; ++n) {
     const std::int64_t step = block.first + n;
-    const double pe = block.total(n);
-    add_sample({step, time_of(step), pe, with_slips ? &slips[static_cast<std::size_t>(n)] : nullptr,
-                x0, length});
-    if (!with_intervals || !grid_.ends_interval(step)) continue;
-    add_interval(step, pe, sums, time_of);
+    const double time = time_of(step), pe = block.total(n);
+    add_sample(step, time, pe);
+    if (!locator_ || !grid_.ends_interval(step)) continue;
+    add_interval(step, time, pe, sums);
     sums += fault_fields * static_cast<std::size_t>(grid_.bins);
   }
 }
 
-void EventStream::write_unfinished() {
-  finder_->each_open_as_ended([this](const Event &event) { finish(event); });
+void EventStream::end_run(std::int64_t step, const std::vector<double> &open_sums) {
+  last_step_ = step;
+  last_sums_ = open_sums;
+}
+
+void EventStream::write_rest(bool open_ruptures) {
+  if (locator_ && locator_->waiting() > 0)
+    locator_->finish(last_step_,
+                     fault_row(grid_, last_sums_.data(), last_step_ - locator_->known_until()),
+                     [this](const Event &drop) { write_drop(drop); });
+  if (finder_ && open_ruptures)
+    finder_->each_open_as_ended([this](const Event &rupture) { write_rupture(rupture); });
 }
 
 void EventStream::change_picker(const PickerSettings &settings, double ratio) {
   settings_.picker = settings;
   picker_.change(settings, ratio);
-  if (finder_) finder_->change_picker(settings, ratio);
-}
-
-void EventStream::leave_out_jump(double jump) {
-  picker_.leave_out_jump(jump);
-  if (finder_) finder_->leave_out_jump(jump);
 }
 
 bool EventStream::resumes(const std::string &file) const {
@@ -124,10 +129,9 @@ void EventStream::check_files(bool from_restart) const {
       throw EventStreamError(who + "resume yes: file " + file +
                              " exists, but the restart file holds no picker state of compute " +
                              name + "; read a restart written while it was active");
-    if (resumes(file) && !continues_ && file != settings_.series_file)
+    if (resumes(file) && locator_ && !slip_continues_ && file != settings_.series_file)
       throw EventStreamError(who + "resume yes: file " + file +
-                             " exists, but the restart file holds no " + settings_.kind->name() +
-                             " of compute " + name +
+                             " exists, but the restart file holds no slip of compute " + name +
                              " with these bins and intervals; give another name, or replace it "
                              "with overwrite yes and resume no");
     if (!resumes(file) && !settings_.overwrite && text_io::holds_data(file))
@@ -144,14 +148,19 @@ void EventStream::open_files(std::int64_t step, bool from_restart, const SceneIn
   check_files(from_restart);
   const std::vector<std::string> free_to_change = {"program", "ranks", "links"};
   const std::string &catalogue = settings_.catalogue_file, &series = settings_.series_file,
-                    &history = settings_.history_file;
-  const CatalogueInfo catalogue_info =
-      catalogue_header(settings_, *settings_.kind, scene, grid_.width);
+                    &ruptures = settings_.ruptures_file, &history = settings_.history_file;
+  const CatalogueInfo drops_info = drops_header(settings_, scene, grid_.width),
+                      ruptures_info = ruptures_header(settings_, scene, grid_.width);
   const PeSeriesInfo series_info = series_header(settings_, scene, clock);
   history_info_ = history_header(settings_, scene, grid_);
+  // A drop that ended at this step is known one step later, and written with its interval.
   if (resumes(catalogue))
-    catalogue_.find_cut(catalogue, catalogue_info, finder_->known_until(step), free_to_change,
-                        counts().events);
+    catalogue_.find_cut(catalogue, drops_info,
+                        locator_ ? std::min(step - 1, locator_->known_until()) : step - 1,
+                        free_to_change, drops().events - (locator_ ? locator_->waiting() : 0));
+  if (resumes(ruptures))
+    rupture_catalogue_.find_cut(ruptures, ruptures_info, finder_->known_until(), free_to_change,
+                                this->ruptures().events);
   if (resumes(series)) series_.find_cut(series, series_info, step, free_to_change);
   if (resumes(history)) history_.find_cut(history, history_info_, saved_history_, free_to_change);
 
@@ -159,52 +168,63 @@ void EventStream::open_files(std::int64_t step, bool from_restart, const SceneIn
   if (resumes(catalogue))
     catalogue_.cut();
   else if (!catalogue.empty())
-    catalogue_.create(catalogue, catalogue_info);
+    catalogue_.create(catalogue, drops_info);
+  if (resumes(ruptures))
+    rupture_catalogue_.cut();
+  else if (!ruptures.empty())
+    rupture_catalogue_.create(ruptures, ruptures_info);
   if (resumes(series))
     series_.cut();
   else if (!series.empty())
     series_.create(series, series_info);
   if (resumes(history)) {
     history_.cut();
-  } else if (!history.empty() && continues_) {
+  } else if (!history.empty() && slip_continues_) {
     const FaultMoment last = finder_->last_interval();
     history_.create(history, history_info_, grid_.step0 + last.intervals * grid_.interval, last.pe,
                     last.stress);
   }
 }
 
-void EventStream::add_sample(const EventSample &sample) {
-  if (!std::isfinite(sample.pe)) {
+void EventStream::add_sample(std::int64_t step, double time, double pe) {
+  if (!std::isfinite(pe)) {
     series_.flush();
-    throw EventStreamError("Potential energy is not finite at step " + std::to_string(sample.step) +
+    throw EventStreamError("Potential energy is not finite at step " + std::to_string(step) +
                            "; the catalogue ends with the last event before it. Use a smaller "
                            "time step or start from an earlier restart");
   }
-  if (series_.is_open() && sample.step % settings_.series_stride == 0)
-    series_.write(sample.step, sample.time, sample.pe);
+  if (series_.is_open() && step % settings_.series_stride == 0) series_.write(step, time, pe);
   Event drop;
-  picker_.push(sample.step, sample.time, sample.pe, drop);
-  finder_->add_sample(sample, [this](const Event &event) { finish(event); });
+  if (!picker_.push(step, time, pe, drop)) return;
+  if (!drops_.passes(drop)) {
+    if (locator_) locator_->forget_open();
+    return;
+  }
+  drops_.number(drop);
+  if (locator_)
+    locator_->add(drop, [this](const Event &located) { write_drop(located); });
+  else
+    write_drop(drop);
 }
 
-void EventStream::add_interval(std::int64_t step, double pe, const double *sums,
-                               const TimeOfStep &time_of) {
+void EventStream::add_interval(std::int64_t step, double time, double pe, const double *sums) {
   const FaultRow row = fault_row(grid_, sums, grid_.interval);
-  finder_->add(pe, row, [this, &time_of](Event event) {
-    if (settings_.explicit_times) {
-      event.t_start = time_of(event.step_start);
-      event.t_end = time_of(event.step_end);
-    }
-    finish(event);
-  });
+  std::optional<std::int64_t> begun;
+  if (picker_.in_event()) begun = picker_.state().step_start;
+  locator_->add_interval(step, row, begun, [this](const Event &drop) { write_drop(drop); });
+  if (!finder_) return;
+  finder_->add(time, pe, row, [this](const Event &rupture) { write_rupture(rupture); });
   if (history_.is_open()) history_.add(step, pe, row, finder_->active());
 }
 
-void EventStream::finish(Event event) {
-  if (is_left_out(event.size, settings_.picker, counts_)) return;
-  event.id = ++counts_.events;
-  counts_.last_size = event.size;
-  if (catalogue_.is_open()) catalogue_.write(event);
+void EventStream::write_drop(const Event &drop) {
+  if (catalogue_.is_open()) catalogue_.write(drop);
+}
+
+void EventStream::write_rupture(Event rupture) {
+  if (!ruptures_.passes(rupture)) return;
+  ruptures_.number(rupture);
+  if (rupture_catalogue_.is_open()) rupture_catalogue_.write(rupture);
 }
 
 }  // namespace LSM

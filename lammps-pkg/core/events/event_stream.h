@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file events/event_stream.h
-/// Turns samples into files, on rank 0: PE goes to the series, sums over the contacts of the fault
-/// to the slip history, and both to the finder of events, which fill the catalogue.
+/// Turns samples into files, on rank 0. Each PE sample goes to the series and the picker, whose
+/// drops pass the filter to the catalogue. If slip is recorded, sums over the faces and contacts of
+/// the fault go to the locator of drops, to the finder of ruptures and to the slip history.
 #ifndef LSM_EVENT_STREAM_H
 #define LSM_EVENT_STREAM_H
 
-#include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "events/block_sampler.h"
+#include "events/drop_locator.h"
+#include "events/event_filter.h"
 #include "events/event_headers.h"
-#include "events/slip_recorder.h"
+#include "events/ruptures.h"
 #include "files/output_claim.h"
 #include "files/state.h"
 
@@ -29,33 +31,34 @@ class EventStreamError : public std::runtime_error {
 
 /// State of a stream in a restart file, read from the numbers of EventStream::state().
 struct SavedStream {
-  std::size_t kind = 0;           ///< number of the kind of events
-  PickerState picker;             ///< of the rate of PE
+  PickerState picker;
+  FilterCounts drops, ruptures;
   FaultGrid grid;                 ///< only step0, interval, bins, time0 and dt
-  PickerState counts;             ///< only the numbers of events
   std::vector<double> open_sums;  ///< of the interval that was not complete
-  std::vector<double> finder;     ///< EventFinder::state()
+  std::vector<double> locator;    ///< DropLocator::state(), empty if slip was not recorded
+  std::vector<double> finder;     ///< RuptureFinder::state(), empty if there was none
   std::vector<double> history;    ///< SlipHistoryWriter::state(), empty if there was none
 
   template <class Self, class State>
   static void visit(Self &self, State &state) {
     auto &grid = self.grid;
-    auto &counts = self.counts;
     state.raw(self.picker);
+    state(self.drops, self.ruptures);
     state(grid.step0, grid.time0, grid.dt, grid.interval, grid.bins);
-    state(counts.events, counts.dropped_nonpositive, counts.dropped_small, counts.last_size);
     state.list(self.open_sums);
+    state.list(self.locator);
     state.list(self.finder);
     state.list(self.history);
   }
 
-  /// Reads the state of events of the given kind from index `at` on. Returns false if the numbers
-  /// are not such a state.
-  bool read(const std::vector<double> &from, std::size_t at, std::size_t of_kind);
+  /// Reads the state from index `at` on. Returns false if the numbers are not such a state.
+  bool read(const std::vector<double> &from, std::size_t at);
 
-  /// Whether open events can continue with this kind and grid. If not, they are lost, but event
-  /// numbers continue.
-  bool continues_with(std::size_t other_kind, const FaultGrid &other) const;
+  /// Whether slip was recorded.
+  bool has_slip() const { return !locator.empty(); }
+  /// Whether slip continues with this grid. If not, the slip of an open drop so far and open
+  /// ruptures are lost, but events and their numbers continue.
+  bool continues_with(const FaultGrid &other, bool finds_ruptures) const;
 };
 
 class EventStream {
@@ -65,7 +68,7 @@ class EventStream {
   /// \throws std::invalid_argument for settings out of range
   explicit EventStream(const EventSettings &settings);
 
-  /// Starts a fault before its first interval.
+  /// Starts a fault before its first interval, if slip is recorded.
   /// \throws std::invalid_argument
   void set_grid(const FaultGrid &grid);
 
@@ -86,26 +89,29 @@ class EventStream {
   /// Records the fault before its first interval, with the sums over its contacts of all ranks.
   void begin_fault(double pe, const std::vector<double> &sums);
 
-  /// Adds the samples of a block. time_of(step) is model time; the fault begins at x0.
+  /// Adds the samples of a block. time_of(step) is model time.
   /// \throws EventStreamError or what the writers throw, at the first offending sample
-  void add_block(const GatheredBlock &block, const TimeOfStep &time_of, double x0, double length);
+  void add_block(const GatheredBlock &block, const TimeOfStep &time_of);
 
-  /// Writes open events with their end so far; nothing may be added afterwards.
-  void write_unfinished();
+  /// Notes the sums of the interval that was not complete at the end of a run, for write_rest().
+  void end_run(std::int64_t step, const std::vector<double> &open_sums);
+  /// Writes what is held back until the present interval is complete: drops that ended in it and,
+  /// if requested, open ruptures with their end so far. Nothing may be added afterwards.
+  void write_rest(bool open_ruptures);
 
   /// Hands all samples so far to the operating system.
   void flush() { series_.flush(); }
 
   /// Adapts the picker to another time step, see EventPicker::change().
   void change_picker(const PickerSettings &settings, double ratio);
-  void leave_out_jump(double jump);
+  void leave_out_jump(double jump) { picker_.leave_out_jump(jump); }
 
-  /// The picker of all PE samples, used for the rate of PE only; events come from the finder.
   const EventPicker &picker() const { return picker_; }
-  /// Counts of events.
-  const PickerState &counts() const { return counts_; }
-  /// Events that have begun and not ended.
-  std::int64_t open() const { return finder_ ? finder_->open() : 0; }
+  /// Counts of drops of PE, including those that are not written yet, and of ruptures.
+  const FilterCounts &drops() const { return drops_.counts(); }
+  const FilterCounts &ruptures() const { return ruptures_.counts(); }
+  /// Ruptures that have begun and not ended.
+  std::int64_t open_ruptures() const { return finder_ ? finder_->open() : 0; }
 
  private:
   bool resumes(const std::string &file) const;
@@ -114,22 +120,25 @@ class EventStream {
 
   void open_files(std::int64_t step, bool from_restart, const SceneInfo &scene,
                   const StepClock &clock);
-  void add_sample(const EventSample &sample);
-  void add_interval(std::int64_t step, double pe, const double *sums, const TimeOfStep &time_of);
+  void add_sample(std::int64_t step, double time, double pe);
+  void add_interval(std::int64_t step, double time, double pe, const double *sums);
 
-  void finish(Event event);
+  void write_drop(const Event &drop);
+  void write_rupture(Event rupture);
 
   EventSettings settings_;
-  std::size_t kind_;
   EventPicker picker_;
-  FaultGrid grid_;  // of kinds that want the fault in intervals
-  std::unique_ptr<EventFinder> finder_;
-  PickerState counts_;      // only the numbers of events
-  bool continues_ = false;  // with the state of a restart file
+  EventFilter drops_, ruptures_;
+  FaultGrid grid_;                       // if slip is recorded
+  std::optional<DropLocator> locator_;   // the same
+  std::optional<RuptureFinder> finder_;  // if ruptures or slip history are recorded
+  bool slip_continues_ = false;          // with the state of a restart file
   std::vector<double> saved_history_;
+  std::int64_t last_step_ = 0;     // of the last run
+  std::vector<double> last_sums_;  // of the incomplete interval at its end
 
   OutputClaim claim_;  // outlives the writers
-  CatalogueWriter catalogue_;
+  CatalogueWriter catalogue_, rupture_catalogue_;
   PeSeriesWriter series_;
   SlipHistoryWriter history_;
   SlipHistoryInfo history_info_;

@@ -2,6 +2,10 @@
 #include "events/fault_grid.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "numerics/circular_mean.h"
+#include "numerics/constants.h"
 
 namespace LSM {
 
@@ -11,6 +15,19 @@ double FaultGrid::time(std::int64_t step) const {
 
 bool FaultGrid::ends_interval(std::int64_t step) const {
   return step > step0 && (step - step0) % interval == 0;
+}
+
+MeanPlace::MeanPlace(const FaultGrid &grid) : grid_(grid) {
+  const double circle = 2.0 * pi / grid.bins;
+  for (int b = 0; b < grid.bins; ++b) {
+    cosine_.push_back(grid.ring ? std::cos(circle * (b + 0.5)) : b + 0.5);
+    sine_.push_back(grid.ring ? std::sin(circle * (b + 0.5)) : 1.0);
+  }
+}
+
+double MeanPlace::of(double cosines, double sines) const {
+  if (grid_.ring) return grid_.x0 + part_of_ring(sines, cosines) * grid_.length();
+  return grid_.x0 + (sines > 0.0 ? cosines / sines / grid_.bins : 0.0) * grid_.length();
 }
 
 std::vector<double> face_displacements(const FaultGrid &grid, const double *sums,

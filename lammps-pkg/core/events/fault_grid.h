@@ -33,6 +33,21 @@ struct FaultGrid {
   double centre(std::int64_t bin) const { return x0 + (static_cast<double>(bin) + 0.5) * width; }
 };
 
+/// Mean place of bins with weights: on a ring the circular mean.
+class MeanPlace {
+ public:
+  explicit MeanPlace(const FaultGrid &grid);
+  /// What the weight of a bin is multiplied with in the two sums.
+  double cosine(std::size_t bin) const { return cosine_[bin]; }
+  double sine(std::size_t bin) const { return sine_[bin]; }
+  /// The place, from the two sums over the bins; the begin of the fault if there are no weights.
+  double of(double cosines, double sines) const;
+
+ private:
+  FaultGrid grid_;
+  std::vector<double> cosine_, sine_;  // of the direction on the ring; otherwise place and 1
+};
+
 /// What the bins of the fault did in one interval. Slip and stress are positive in the direction in
 /// which the fault is driven.
 struct FaultRow {

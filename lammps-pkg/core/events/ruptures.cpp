@@ -3,13 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 #include "files/state.h"
-#include "numerics/circular_mean.h"
-#include "numerics/constants.h"
 
 namespace LSM {
+
+void FaultRupture::add_slip(std::int64_t bin, double slip) {
+  auto at = std::lower_bound(places.begin(), places.end(), bin,
+                             [](const BinSlip &place, std::int64_t b) { return place.bin < b; });
+  if (at == places.end() || at->bin != bin) at = places.insert(at, {bin, 0.0});
+  at->slip += slip;
+}
 
 void FaultRupture::absorb(const FaultRupture &later) {
   if (later.step_start == step_start && later.first_slip > first_slip) {
@@ -20,30 +24,28 @@ void FaultRupture::absorb(const FaultRupture &later) {
   slip_cos += later.slip_cos;
   slip_sin += later.slip_sin;
   work += later.work;
+  for (const BinSlip &place : later.places) add_slip(place.bin, place.slip);
 }
 
 RuptureFinder::RuptureFinder(const FaultGrid &grid, const RuptureSettings &settings)
     : grid_(grid),
       settings_(settings),
       // Extra places in which nothing slides keep the two ends of an open fault apart.
-      sets_(grid.bins + (grid.ring ? 0 : settings.gap + 1), settings.gap + 1, settings.memory) {
+      sets_(grid.bins + (grid.ring ? 0 : settings.gap + 1), settings.gap + 1, settings.memory),
+      centroid_(grid) {
   if (!(settings.velocity >= 0.0) || !(settings.modulus > 0.0) || settings.gap < 0)
     throw std::invalid_argument(
         "rupture settings out of range, expected a velocity and a gap of at least 0 and a "
         "modulus above 0");
-  const double circle = 2.0 * pi / grid.bins;
-  for (int b = 0; b < grid.bins; ++b) {
-    cosine_.push_back(grid.ring ? std::cos(circle * (b + 0.5)) : b + 0.5);
-    sine_.push_back(grid.ring ? std::sin(circle * (b + 0.5)) : 1.0);
-  }
 }
 
-void RuptureFinder::begin(double pe, const FaultRow &row) {
+void RuptureFinder::begin(double time, double pe, const FaultRow &row) {
   before_ = row.stress;
+  time_ = time;
   pe_ = pe;
 }
 
-void RuptureFinder::add(double pe, const FaultRow &row, const Report &report) {
+void RuptureFinder::add(double time, double pe, const FaultRow &row, const Report &report) {
   const std::int64_t n = sets_.step() + 1;
   const double least = slipping_above(grid_, settings_.velocity);
   sets_.begin_step(n);
@@ -54,6 +56,7 @@ void RuptureFinder::add(double pe, const FaultRow &row, const Report &report) {
     if (!(size > least)) continue;
     active_ = true;
     FaultRupture &r = sets_.slide(b, [this, n](FaultRupture &begun) {
+      begun.t_start = time_;
       begun.pe_start = pe_;
       begun.hypocentre = begun.first;
       if (snapshots_.empty() || snapshots_.back().interval != n - 1)
@@ -64,18 +67,23 @@ void RuptureFinder::add(double pe, const FaultRow &row, const Report &report) {
       r.first_slip = size;
     }
     r.slip += slip;
-    r.slip_cos += size * cosine_[i];
-    r.slip_sin += size * sine_[i];
+    r.add_slip(b, slip);
+    r.slip_cos += size * centroid_.cosine(i);
+    r.slip_sin += size * centroid_.sine(i);
     r.work += row.work[i];
   }
   sets_.end_step(
       [&](FaultRupture &r) {
-        if (r.step_end == n) r.pe_end = pe;
+        if (r.step_end == n) {
+          r.t_end = time;
+          r.pe_end = pe;
+        }
         if (r.step_end == n - 1) r.stress_after = mean(row.stress, r);
       },
       [&](const FaultRupture &r) { report(event(r)); });
   forget();
   before_ = row.stress;
+  time_ = time;
   pe_ = pe;
 }
 
@@ -89,7 +97,7 @@ void RuptureFinder::each_open_as_ended(const Report &report) const {
   }
 }
 
-std::int64_t RuptureFinder::known_until(std::int64_t) const {
+std::int64_t RuptureFinder::known_until() const {
   return grid_.step0 + (sets_.step() - settings_.memory) * grid_.interval;
 }
 
@@ -140,59 +148,20 @@ Event RuptureFinder::event(const FaultRupture &r) const {
   Event e;
   e.step_start = grid_.step0 + r.step_start * grid_.interval;
   e.step_end = grid_.step0 + r.step_end * grid_.interval;
-  e.t_start = grid_.time(e.step_start);
-  e.t_end = grid_.time(e.step_end);
+  e.t_start = r.t_start;
+  e.t_end = r.t_end;
   e.size = r.work;
   e.pe_start = r.pe_start;
   e.pe_end = r.pe_end;
   e.slip_moment = settings_.modulus * r.slip * grid_.width;
-  const double along =
-      grid_.ring ? part_of_ring(r.slip_sin, r.slip_cos) : r.slip_cos / r.slip_sin / grid_.bins;
-  e.x_centroid = grid_.x0 + along * grid_.length();
+  e.x_centroid = centroid_.of(r.slip_cos, r.slip_sin);
   e.rupture_length = static_cast<double>(r.length) * grid_.width;
   e.x_hypocentre = grid_.centre(r.hypocentre);
   e.x_begin = grid_.x0 + static_cast<double>(r.begin) * grid_.width;
   e.mean_slip = r.slip / static_cast<double>(r.length);
+  for (const BinSlip &place : r.places) e.peak_slip = std::max(e.peak_slip, std::fabs(place.slip));
   e.stress_drop = mean(snapshot(r.step_start), r) - r.stress_after;
   return e;
-}
-
-Keywords Ruptures::keywords() {
-  return {{"slipping", &slipping, Must::not_negative},
-          {"gap", &gap, Must::not_negative},
-          {"pause", &pause, Must::not_negative}};
-}
-
-void Ruptures::describe(const EventSettings &settings, double slip_bin, const AddParameter &add,
-                        CatalogueInfo &info) const {
-  using text_io::number;
-  add_sizes(settings, add);
-  add("events", name());
-  add("driving", number(settings.driving));
-  add("slipping", number(slipping));
-  add("slip_velocity", number(slipping * settings.driving));
-  add("slip_bin", number(slip_bin));
-  add("interval", std::to_string(settings.interval));
-  add("gap", std::to_string(gap));
-  add("pause", number(pause));
-  add("modulus", number(settings.modulus));
-  info.slip_moment = info.x_centroid = info.rupture_length = true;
-  info.x_hypocentre = info.x_begin = info.mean_slip = info.stress_drop = true;
-}
-
-RuptureSettings Ruptures::rupture_settings(const EventSettings &settings, double dt) const {
-  RuptureSettings s;
-  s.velocity = slipping * settings.driving;
-  s.gap = gap;
-  s.memory = std::max<std::int64_t>(
-      1, static_cast<std::int64_t>(std::llround(pause / (settings.interval * dt))));
-  s.modulus = settings.modulus;
-  return s;
-}
-
-std::unique_ptr<EventFinder> Ruptures::finder(const EventSettings &settings,
-                                              const FaultGrid &grid) const {
-  return std::make_unique<RuptureFinder>(grid, rupture_settings(settings, grid.dt));
 }
 
 }  // namespace LSM

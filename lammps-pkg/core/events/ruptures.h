@@ -13,15 +13,26 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
+#include <functional>
 #include <stdexcept>
 #include <type_traits>
 #include <vector>
 
-#include "events/event_kind.h"
+#include "events/event_picker.h"
+#include "events/fault_grid.h"
 #include "events/slip_sets.h"
 
 namespace LSM {
+
+/// Slip of one bin.
+struct BinSlip {
+  std::int64_t bin = 0;
+  double slip = 0.0;
+  template <class Self, class State>
+  static void visit(Self &self, State &state) {
+    state(self.bin, self.slip);
+  }
+};
 
 /// A rupture in units of bins and intervals.
 struct FaultRupture : SlipSet {
@@ -30,42 +41,60 @@ struct FaultRupture : SlipSet {
   double slip = 0.0;                      ///< sum over the bins and intervals
   double slip_cos = 0.0, slip_sin = 0.0;  ///< absolute slips times the direction on the ring
   double work = 0.0;
+  double t_start = 0.0, t_end = 0.0;
   double pe_start = 0.0, pe_end = 0.0;
   double stress_after = 0.0;  ///< mean over its row in the first interval after its end
 
+  std::vector<BinSlip> places;  ///< slip of each of its bins that slipped, in order of the bins
+
+  void add_slip(std::int64_t bin, double slip);
   void absorb(const FaultRupture &later);
 
   template <class Self, class State>
   static void visit(Self &self, State &state) {
     state(self.step_start, self.step_end, self.first, self.begin, self.length, self.hypocentre,
-          self.first_slip, self.slip, self.slip_cos, self.slip_sin, self.work, self.pe_start,
-          self.pe_end, self.stress_after);
+          self.first_slip, self.slip, self.slip_cos, self.slip_sin, self.work, self.t_start,
+          self.t_end, self.pe_start, self.pe_end, self.stress_after);
+    state.list(self.places);
   }
 };
 
-/// Connects slips of a fault to ruptures. Call begin(), then add() for each interval.
-class RuptureFinder : public EventFinder {
+/// State of the fault at the end of an interval.
+struct FaultMoment {
+  std::int64_t intervals = 0;  ///< number of intervals so far
+  double pe = 0.0;
+  std::vector<float> stress;  ///< of the bins
+};
+
+/// Connects slips of a fault to ruptures. Call begin(), then add() for each interval. Events have
+/// no number and are reported in order of their ends.
+class RuptureFinder {
  public:
+  using Report = std::function<void(const Event &)>;
+
   /// \throws std::invalid_argument for settings out of range
   RuptureFinder(const FaultGrid &grid, const RuptureSettings &settings);
 
-  void begin(double pe, const FaultRow &row) override;
+  /// Sets the state before the first interval.
+  void begin(double time, double pe, const FaultRow &row);
+  /// Adds the next interval, with time and PE at its end.
+  void add(double time, double pe, const FaultRow &row, const Report &report);
+  /// Reports open ruptures as if they ended now.
+  void each_open_as_ended(const Report &report) const;
 
-  void add(double pe, const FaultRow &row, const Report &report) override;
+  /// Whether something slipped in the last interval, or a rupture was open when it began, so that
+  /// the slip history gives it a record of its own.
+  bool active() const { return active_; }
+  FaultMoment last_interval() const { return {sets_.step(), pe_, before_}; }
+  /// Step up to which the ends of ruptures are known: a rupture has ended when its pause is over.
+  std::int64_t known_until() const;
+  std::int64_t open() const { return sets_.open(); }
 
-  void each_open_as_ended(const Report &report) const override;
-
-  /// Whether something slipped in the last interval, or a rupture was open when it began.
-  bool active() const override { return active_; }
-  FaultMoment last_interval() const override { return {sets_.step(), pe_, before_}; }
-  // A rupture is known to have ended when its pause is over.
-  std::int64_t known_until(std::int64_t) const override;
-  std::int64_t open() const override { return sets_.open(); }
-
-  std::vector<double> state() const override;
+  std::vector<double> state() const;
 
   /// Continues exactly where the saved state ended; the settings must be the same.
-  void set_state(const std::vector<double> &numbers) override;
+  /// \throws std::invalid_argument if no such finder can be in that state
+  void set_state(const std::vector<double> &numbers);
 
  private:
   /// The stresses at the end of an interval.
@@ -85,7 +114,7 @@ class RuptureFinder : public EventFinder {
     state(bins);
     if (bins != self.grid_.bins)
       throw std::invalid_argument("saved ruptures are of another number of bins");
-    state(step, self.active_, self.pe_);
+    state(step, self.active_, self.time_, self.pe_);
     const auto room = [bins](auto &row) {
       if constexpr (!std::is_const_v<Self>) row.resize(static_cast<std::size_t>(bins));
     };
@@ -109,28 +138,11 @@ class RuptureFinder : public EventFinder {
   FaultGrid grid_;
   RuptureSettings settings_;
   SlipSets<FaultRupture> sets_;
-  std::vector<double> cosine_, sine_;  // direction of a bin on the ring; without ring place and 1
-  std::vector<float> before_;          // stresses of the previous interval
-  double pe_ = 0.0;                    // PE at its end
+  MeanPlace centroid_;
+  std::vector<float> before_;     // stresses of the previous interval
+  double time_ = 0.0, pe_ = 0.0;  // at its end
   bool active_ = false;
   std::vector<Snapshot> snapshots_;  // before open ruptures began, in order of time
-};
-
-class Ruptures : public EventKind {
- public:
-  double slipping = 5.0;  ///< multiple of the driving velocity above which a bin slips
-  int gap = 1;            ///< bins that may lie between two that are connected
-  double pause = 3.0;     ///< time over which slips are connected
-
-  const char *name() const override { return "ruptures"; }
-  Keywords keywords() override;
-  bool wants_intervals() const override { return true; }
-
-  void describe(const EventSettings &settings, double slip_bin, const AddParameter &add,
-                CatalogueInfo &info) const override;
-  RuptureSettings rupture_settings(const EventSettings &settings, double dt) const override;
-  std::unique_ptr<EventFinder> finder(const EventSettings &settings,
-                                      const FaultGrid &grid) const override;
 };
 
 }  // namespace LSM

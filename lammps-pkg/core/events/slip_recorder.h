@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file events/slip_recorder.h
-/// Records on each rank where a fault slips: slips of the contacts between its two sides, and work
-/// and force of these contacts and displacements of the two faces, summed in bins and intervals.
+/// Records on each rank where a fault slips: displacements of its two faces, and work and force of
+/// the contacts between its two sides, summed in bins and intervals.
 #ifndef LSM_SLIP_RECORDER_H
 #define LSM_SLIP_RECORDER_H
 
@@ -13,18 +13,6 @@
 #include "events/fault_grid.h"
 
 namespace LSM {
-
-/// Slip of one contact during one step.
-struct ContactSlip {
-  double along;   ///< distance along x from the beginning of the fault, less than its length
-  double moment;  ///< |slip| times contact size
-};
-
-/// Slip of the contacts inside one bin along the fault during one step.
-struct BinSlip {
-  double bin;     ///< index of the bin along x
-  double moment;  ///< sum of |slip| times contact size
-};
 
 /// A contact between the two sides of a fault along x in one force evaluation.
 struct FaultContact {

@@ -34,7 +34,8 @@ constexpr CatalogueColumn all_columns[] = {
     {"x_hypocentre", &Event::x_hypocentre, nullptr, &CatalogueInfo::x_hypocentre},
     {"x_begin", &Event::x_begin, nullptr, &CatalogueInfo::x_begin},
     {"mean_slip", &Event::mean_slip, nullptr, &CatalogueInfo::mean_slip},
-    {"stress_drop", &Event::stress_drop, nullptr, &CatalogueInfo::stress_drop}};
+    {"stress_drop", &Event::stress_drop, nullptr, &CatalogueInfo::stress_drop},
+    {"peak_slip", &Event::peak_slip, nullptr, &CatalogueInfo::peak_slip}};
 
 std::string column_line(const CatalogueInfo &info) {
   std::string out;

@@ -8,12 +8,12 @@
 ///     event_id,t_start,t_end,step_start,step_end,size,pe_start,pe_end[,slip_moment][,x_centroid]...
 ///
 /// Columns that may follow: slip_moment, x_centroid, rupture_length, x_hypocentre, x_begin,
-/// mean_slip, stress_drop. The program that writes them defines them. They are written in this
-/// order; a reader finds columns by name and ignores those it does not know. Times in model time,
-/// sizes in model energy, 17 significant digits. Events are in order of time and do not overlap;
-/// identifiers increase. Events of another kind than drops of PE, named by the parameter `events`,
-/// may overlap in time and are in order of their ends. The parameter `completeness` is a size:
-/// smaller events may depend on the time step.
+/// mean_slip, stress_drop, peak_slip. The program that writes them defines them. They are written
+/// in this order; a reader finds columns by name and ignores those it does not know. Times in model
+/// time, sizes in model energy, 17 significant digits. Events are in order of time and do not
+/// overlap; identifiers increase. Events of another kind than drops of PE, named by the parameter
+/// `events`, may overlap in time and are in order of their ends. The parameter `completeness` is a
+/// size: smaller events may depend on the time step.
 #ifndef LSM_CATALOGUE_H
 #define LSM_CATALOGUE_H
 
@@ -36,6 +36,7 @@ namespace LSM {
 /// Header of a catalogue.
 struct CatalogueInfo : text_io::FileHeader {
   bool slip_moment = false, x_centroid = false, rupture_length = false;  ///< optional columns
+  bool peak_slip = false;                                                ///< the same
   /// Optional columns that only ruptures have.
   bool x_hypocentre = false, x_begin = false, mean_slip = false, stress_drop = false;
 
