@@ -326,18 +326,19 @@ Measured Sequences::after_to_before() const {
 }
 
 Measured mean_of_catalogues(const std::vector<Measured> &numbers) {
-  std::vector<double> known;
+  std::vector<Measured> known;
   for (const Measured &number : numbers)
-    if (!std::isnan(number.value)) known.push_back(number.value);
+    if (!std::isnan(number.value)) known.push_back(number);
   if (known.empty()) return {};
-  if (known.size() == 1)
-    return *std::find_if(numbers.begin(), numbers.end(),
-                         [](const Measured &number) { return !std::isnan(number.value); });
-  const double mean = mean_of(known);
-  double squares = 0.0;
-  for (const double number : known) squares += (number - mean) * (number - mean);
+  if (known.size() == 1) return known.front();
   const auto n = static_cast<double>(known.size());
-  return {mean, std::sqrt(squares / (n * (n - 1.0)))};
+  const double mean = mean_of(column(known, &Measured::value));
+  double squares = 0.0, own = 0.0;
+  for (const Measured &number : known) {
+    squares += (number.value - mean) * (number.value - mean);
+    if (number.error > 0.0) own += number.error * number.error;
+  }
+  return {mean, std::sqrt(std::max(squares / (n - 1.0) / n, own / n / n))};
 }
 
 double OmoriFit::rate(double t) const {

@@ -56,7 +56,8 @@ struct Sequences {
 };
 
 /// Averages a number over the catalogues of one label; NaN values are left out.
-/// \return mean and its standard error from the scatter; of a single catalogue, its own value and
+/// \return mean and its standard error, from the scatter but not below what the errors of the
+/// catalogues imply: few catalogues may agree by chance; of a single catalogue, its own value and
 /// error
 Measured mean_of_catalogues(const std::vector<Measured> &numbers);
 

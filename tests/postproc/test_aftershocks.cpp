@@ -145,6 +145,9 @@ TEST(Aftershocks, BackgroundIsTakenOff) {
   EXPECT_LT(mean_p.error, 0.03);
   // With one catalogue, the error is its own; with none, there is none.
   EXPECT_EQ(mean_of_catalogues({{1.5, 0.2}, {}}).error, 0.2);
+  // Two that agree by chance are no better than their own errors; two that do not, as they scatter.
+  EXPECT_NEAR(mean_of_catalogues({{1.5, 0.3}, {1.5, 0.4}}).error, 0.25, 1e-12);
+  EXPECT_NEAR(mean_of_catalogues({{1.0, 0.3}, {3.0, 0.4}}).error, 1.0, 1e-12);
   EXPECT_TRUE(std::isnan(mean_of_catalogues({{}, {}}).value));
 }
 
