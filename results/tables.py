@@ -4,6 +4,7 @@
 
 tables.py POSTPROC            says which tables are not what the data give; exit status 1 if there is one
 tables.py POSTPROC --write    writes them into the pages
+tables.py POSTPROC --csv      says which numbers of the CSV files that the published catalogues give are others, likewise
 
 A table stands between the lines <!-- table NAME --> and <!-- end -->, in a page of this folder or the project's README.md. Statistics
 are those of postproc; here are means over packings. A study whose data are not in this folder has a line in place of its table.
@@ -12,19 +13,21 @@ import cmath
 import csv
 import difflib
 import functools
-import json
 import math
 import re
 import statistics
 import subprocess
 import sys
-import tempfile
 from pathlib import Path
 
 FOLDER = Path(__file__).resolve().parent
 sys.path[:0] = [str(FOLDER.parent / "inputs/studies"), str(FOLDER / "speed")]
 import calibrate  # noqa: E402
+import catalogues  # noqa: E402
+import nature  # noqa: E402
+import periods  # noqa: E402
 import speed_tables  # noqa: E402
+import statements  # noqa: E402
 import walk  # noqa: E402
 from calibrate import number, read  # noqa: E402
 
@@ -45,9 +48,7 @@ def run(*words):
 @functools.cache
 def numbers_of(command, *words):
     """The numbers (JSON) that a command of postproc finds."""
-    with tempfile.TemporaryDirectory() as work:
-        run(command, *words, "-o", f"{work}/out", "--json", f"{work}/out.json")
-        return json.loads(Path(f"{work}/out.json").read_text())
+    return catalogues.numbers_of(POSTPROC, command, *words)
 
 
 def grouped(rows, key):
@@ -67,7 +68,7 @@ def faults(kind="catalogue", folder=CAMPAIGN):
 
 @functools.cache
 def summaries(folder=CAMPAIGN):
-    """A row of postproc summary for each catalogue, with the numbers of postproc statements if these were measured."""
+    """A row of postproc summary for each catalogue, with the numbers of statements.py if these were measured."""
     paths, worded = [path for some in faults(folder=folder).values() for path in some], {}
     words = [word for option, texts in (("--range", calibrate.RANGES), ("--window", calibrate.WINDOWS)) for text in texts for word in (option, text)]
     said = run("summary", *paths, "--from", LOADING, "--parameter", "length", "seed", "width", "dt", "lambda", "mass", *words)
@@ -208,7 +209,7 @@ def same_times_table():
 
 
 def numbers_table():
-    """Numbers of postproc statements that the calibration does not use."""
+    """Numbers of statements.py that the calibration does not use."""
     kept = ("events in", "B,", "C,", "power d", "slip rate within", "share of the slip")
     rows = [row for row in read(CAMPAIGN / "statements.csv") if row["number"].startswith(kept)]
     return table(["predicted, or not judged", "paper", *map(str, faults())],
@@ -326,7 +327,7 @@ def ground_table():
         return ", ".join(f"{abs(sum(cmath.exp(1j * k * x) for x in face))**2 / len(face):.1f}" for face in places[seeds, length].values())
 
     def z(paths):
-        return ", ".join(f"{numbers_of('periods', path, '--from', LOADING, '--no-picture')['periods'][0]['z']:.1f}" for path in paths)
+        return ", ".join(f"{periods.rayleigh_z(*periods.slips_of(path, calibrate.LOADING, 1e-2), 1.0):.1f}" for path in paths)
 
     columns = {
         "length (predicted)": lambda row: row["length"],
@@ -475,8 +476,42 @@ def check(write):
     return wrong
 
 
+def differing(path, rows, least=1e-6):
+    """Says which cells of a CSV file differ from those of the same rows made again, numbers relatively by more than `least`."""
+    wrong, there = [], read(path)
+    for n, (old, new) in enumerate(zip(there, rows), 1):
+        for key in new:
+            a, b = old[key], catalogues.text_of(new[key] if new[key] is not None else math.nan)
+            try:
+                same = math.isclose(float(a), float(b), rel_tol=least, abs_tol=1e-12)
+            except ValueError:
+                same = a == b
+            wrong += [] if same else [f"{path.name}: row {n}, {key}: {a}, from the data {b}"]
+    wrong += [f"{path.name}: {len(there)} rows, from the data {len(rows)}"] if len(there) != len(rows) else []
+    print("\n".join(wrong[:20] + ([f"{path.name}: {len(wrong)} differences"] if wrong else [f"{path.name}: {len(there)} rows are the same"])))
+    return bool(wrong)
+
+
+def check_csv():
+    """Files of nature.py, and those statements of each fault that rest on its catalogue only."""
+    rows = nature.rows_of(POSTPROC, nature.MODELS)
+    wrong = [
+        differing(FOLDER / f"nature{ending}.csv", made) for ending, made in (("", nature.curves(rows)), (".table", nature.table(rows)),
+                                                                             (".table1", nature.table1(rows)))
+    ]
+    for folder in CAMPAIGN, VALIDATION:
+        again = {}
+        for path in (path for paths in faults(folder=folder).values() for path in paths):
+            for row in statements.statements_of(POSTPROC, path, calibrate.LOADING):
+                again[path.name.split(".")[0], row["number"]] = row
+        there = [row for row in read(folder / "statements.csv") if (row["run"], row["number"]) in again]
+        made = [again[row["run"], row["number"]] for row in there]
+        wrong.append(len(made) != len(again) or differing(folder / "statements.csv", made))
+    return any(wrong)
+
+
 if __name__ == "__main__":
-    if len(sys.argv) not in (2, 3) or sys.argv[2:] not in ([], ["--write"]):
+    if len(sys.argv) not in (2, 3) or sys.argv[2:] not in ([], ["--write"], ["--csv"]):
         sys.exit(__doc__)
     POSTPROC = sys.argv[1]
-    sys.exit(check(len(sys.argv) == 3))
+    sys.exit(check_csv() if sys.argv[2:] == ["--csv"] else check(len(sys.argv) == 3))

@@ -23,6 +23,8 @@ from pathlib import Path
 
 from text_tables import rows_of
 
+sys.path.append(str(Path(__file__).resolve().parent.parent.parent / "results"))
+
 # Time units. 0.99 a step is a memory of 100 steps; printed numbers imply steps of 0.0045, a benchmark of the same code has 0.02.
 MEMORIES = (0.5, 1, 2)
 LOADING = 8000  # time units that are left out: compression, and the first loading, in which PE rises
@@ -67,7 +69,7 @@ def memories(row):
     return number(row, "mean_time_0.0001") / float(row["memory"])
 
 
-# What postproc statements measures: {column: name of the number in its table}
+# What results/statements.py measures: {column: name of the number in its table}
 WORDED = {
     "rise": "largest rise of the density, at all times",
     "rise_slipping": "largest rise of the density, while something slips",
@@ -142,6 +144,7 @@ SLIDER_STATEMENTS = (
 
 
 def summary(postproc, folder, memory, work):
+    from statements import statements_of  # needs NumPy
     picked = work / "picked.csv"
     common = dict(check=True, capture_output=True, text=True)
     series = next(folder.glob("*.pe.bin"))
@@ -149,14 +152,7 @@ def summary(postproc, folder, memory, work):
     words = [word for text in RANGES for word in ("--range", text)] + [word for text in WINDOWS for word in ("--window", text)]
     said = subprocess.run([postproc, "summary", picked, "--from", str(LOADING), *words], **common).stdout
     numbers = next(rows_of(said.splitlines()))
-    beside = [
-        word for option, ending in (("--history", "slip.bin"), ("--ruptures", "ruptures.csv")) for path in folder.glob(f"*.{ending}")
-        for word in (option, path)
-    ]
-    subprocess.run(
-        [postproc, "statements", picked, "--from",
-         str(LOADING), *beside, "--replicas", "1", "-o", work / "words", "--json", work / "words.json"], **common)
-    values = {row["number"]: row["value"] for row in json.loads((work / "words.json").read_text())["statements"]}
+    values = {row["number"]: row["value"] for row in statements_of(postproc, picked, LOADING, folder / "fault.catalogue.csv")}
     return {**numbers, **{key: "" if values.get(name) is None else f"{values[name]:.6g}" for key, name in WORDED.items()}}
 
 

@@ -15,9 +15,7 @@ import json
 import lzma
 import math
 import signal
-import subprocess
 import sys
-import tempfile
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
@@ -109,14 +107,14 @@ def catalogue_of(folder):
 
 
 def statements_of(postproc, catalogue):
-    """Rows that postproc statements writes for one run."""
-    with tempfile.TemporaryDirectory() as work, open(catalogue) as lines:
+    """Rows of results/statements.py for one run."""
+    from statements import statements_of as measured  # needs NumPy
+    with open(catalogue) as lines:
         header = header_of(lines)
-        said = subprocess.run([postproc, "statements", catalogue, "--from",
-                               str(LOADING), "-o", f"{work}/out", "--json", f"{work}/out.json"], capture_output=True, text=True)
-        if said.returncode:
-            raise Refused(said.stderr.strip())
-        rows = json.loads(Path(f"{work}/out.json").read_text())["statements"]
+    try:
+        rows = measured(postproc, catalogue, LOADING)
+    except ValueError as error:
+        raise Refused(error)
     return [{"run": catalogue.parent.name, "length": header["length"], "seed": header["seed"], **row} for row in rows]
 
 

@@ -373,7 +373,7 @@ class Study:
         return self.runs.get(name) if name != run.name else None
 
     def numbers(self, run):
-        """Names and commands of postproc for a run."""
+        """Names and commands, of postproc or scripts of results, for a run."""
         commands = dict(self.part("numbers"))
         if self.reference(run):
             commands.update(self.part("comparisons"))
@@ -389,9 +389,12 @@ class Study:
         values = {key: shlex.quote(value) if isinstance(value, str) else value for key, value in run.values().items()}
         values.update(out=f"{run.name}/numbers/{name}", reference=other.catalogue if other else "")
         try:
-            return self.fill(self.numbers(run)[name], values)
+            command = self.fill(self.numbers(run)[name], values)
         except MISSING as error:
             raise TableError(f"numbers of run '{run.name}': {name}: {error}")
+        if command.split()[0].endswith(".py"):
+            return f"{shlex.quote(sys.executable)} {shlex.quote(str(INPUTS.parent / 'results'))}/{command}"
+        return f"{self.common['postproc']} {command} --overwrite"
 
     def found(self, run):
         """All numbers of a run, by the names of the commands that determine them."""

@@ -17,16 +17,16 @@ results/campaign. Each number is the mean over the seeds, with its standard erro
 gamma is that of `postproc summary`.
 """
 import csv
-import datetime
 import itertools
 import math
 import statistics
 import subprocess
 import sys
-from bisect import bisect_right
 from pathlib import Path
 
+import numpy as np
 from calibrate import LOADING, number, read
+from catalogues import distance, earthquakes, mean_and_error, over_mean
 from text_tables import rows_of
 
 ROOT = Path(__file__).resolve().parent.parent.parent
@@ -55,27 +55,9 @@ def times(rows, size, begin=0.0):
     return [b - a for a, b in zip(start, start[1:])]
 
 
-def over_mean(samples):
-    """Times of several catalogues over the mean of each, sorted."""
-    means = [statistics.fmean(sample) for sample in samples if sample]
-    return sorted(t / mean for sample, mean in zip(filter(None, samples), means) for t in sample)
-
-
-def distance(a, b):
-    """Kolmogorov-Smirnov distance of two sorted samples."""
-    return max(abs(bisect_right(a, x) / len(a) - bisect_right(b, x) / len(b)) for x in a + b)
-
-
-def earthquakes():
-    """Inter-event times of Southern California as in the paper's Table 1: M >= 2, 1984.0 to 1986.5."""
-    found = []
-    for row in read(ROOT / "inputs/seismicity/southern-california.csv.xz"):
-        if float(row["mag"]) >= 2.0 and "1984-01-01" <= row["time"] < "1986-07-02T12":
-            day, clock = row["time"].rstrip("Z").split("T")
-            hours, minutes, seconds = map(float, clock.split(":"))  # the catalogue has seconds of 60
-            found.append(86400 * datetime.date.fromisoformat(day).toordinal() + 3600 * hours + 60 * minutes + seconds)
-    found.sort()
-    return [b - a for a, b in zip(found, found[1:])]
+def all_over_mean(samples):
+    """Times of several catalogues over the mean of each."""
+    return np.concatenate([over_mean(sample) for sample in samples if sample])
 
 
 def exponent(sizes, low, high, fewest=FEWEST):
@@ -125,7 +107,7 @@ def numbers(path, unit, begin, others):
     if len(t) > 1:
         mean, deviation = statistics.fmean(t), statistics.pstdev(t)
         found |= {"burstiness": (deviation - mean) / (deviation + mean)}
-        found |= {f"to_{name}": distance(over_mean([t]), other) for name, other in others.items()}
+        found |= {f"to_{name}": distance(over_mean(t), other) for name, other in others.items()}
     if rows and "rupture_length" in rows[0] and unit == 1.0:
         blocks = int(path.name.split("-")[-1].split("_")[0] if path.suffix == ".xz" else path.parent.name.split("-")[-1].split("_")[0])
         found |= {"short": share(rows, lambda row: number(row, "rupture_length") <= 3)}
@@ -157,20 +139,13 @@ def stations(folder):
     return found
 
 
-def mean_and_error(values):
-    values = [x for x in values if math.isfinite(x)]
-    if not values:
-        return math.nan, math.nan
-    return statistics.mean(values), statistics.stdev(values) / math.sqrt(len(values)) if len(values) > 1 else math.nan
-
-
 def measured(postproc, folder):
     """{station: {"seeds": number, key: (mean, standard error)}}. \\raises FileNotFoundError if there are no catalogues"""
     places = stations(Path(folder))
     others = {
-        "slider": over_mean([times(read(path), 1.0, 12000) for path in sorted((RESULTS / "catalogues").glob("slider_ours_1928_seed_*.xz"))]),
-        "fault": over_mean([times(read(path), 1e-3, LOADING) for path in places["fault"]]),
-        "california": over_mean([earthquakes()]),
+        "slider": all_over_mean([times(read(path), 1.0, 12000) for path in sorted((RESULTS / "catalogues").glob("slider_ours_1928_seed_*.xz"))]),
+        "fault": all_over_mean([times(read(path), 1e-3, LOADING) for path in places["fault"]]),
+        "california": over_mean(np.diff(earthquakes()[0])),
     }
     found = {}
     for unit, begin, fault in ((1.0, 0.0, False), (1e-3, LOADING, True)):

@@ -16,7 +16,7 @@ class Fit : public Statistic {
   SizeFitSettings settings_;
   std::vector<std::string> ranges_;
   std::string block_ = "auto";
-  bool scaling_ = false, no_comparison_ = false;
+  bool scaling_ = false, no_comparison_ = false, roll_off_ = false;
   Resampling bootstrap_;
 
   const char *help() const override {
@@ -42,6 +42,9 @@ class Fit : public Statistic {
               "Synthetic samples of the Monte Carlo p-value; 0: none", zero_or_more());
     add_seed(group, settings_.seed);
     group.flag("--no-comparison", no_comparison_, "Leave out the rival laws");
+    group.flag("--roll-off", roll_off_,
+               "Also the power d of the roll-off s^-a exp(-(s/c)^d) of the sizes from --threshold "
+               "on, and 2 ln L of d = 1 over a power law without end †");
     group.flag("--scaling", scaling_,
                "Characteristic size <s^2>/<s> against length for each model: a power law, no "
                "dependence, or growth that ends at a length †");
@@ -52,8 +55,31 @@ class Fit : public Statistic {
 
   std::vector<std::string> endings() const override {
     std::vector<std::string> files = picture_files({".scaling"});
-    files.push_back(".fits.csv");
+    files.insert(files.end(), {".fits.csv", ".rolloff.csv"});
     return files;
+  }
+
+  /// The form of the roll-off of each catalogue.
+  Table roll_offs(const std::vector<EventTable> &tables) const {
+    struct Line {
+      const EventTable &table;
+      double least;
+      RollOff found;
+    };
+    TableOf<Line> out;
+    out.column("label", "roll-off", [](auto &line) { return line.table.label; });
+    out.column("threshold", "sizes from", &Line::least);
+    out.column("n", "events", [](auto &line) { return line.found.exponential.n; });
+    out.column("power", "power d", [](auto &line) {
+      return Measured{line.found.free.delta, line.found.free.se_delta};
+    });
+    out.column("gain", "2 ln L of d = 1", [](auto &line) { return line.found.gain; });
+    out.column("degenerate", "degenerate", [](auto &line) { return line.found.free.why; });
+    for (const EventTable &table : tables) {
+      const double least = settings_.threshold.complete_in(table).size;
+      out.row({table, least, roll_off(table, least)});
+    }
+    return Table(std::move(out));
   }
 
   /// The densities of all catalogues, with the laws fitted to them.
@@ -95,6 +121,7 @@ class Fit : public Statistic {
     if (scaling_) results.numbers("scaling", nlohmann::json(scalings));
     if (scaling_) results.table("", scaling_table(scalings));
     results.table("", size_fit_table(fits), ".fits");
+    if (roll_off_) results.table("roll_off", roll_offs(tables), ".rolloff");
     results.figure("", densities(tables, fits));
     if (std::any_of(scalings.begin(), scalings.end(), [](const auto &s) { return s.drawable(); }))
       results.figure("", scaling_figure(scalings), ".scaling");

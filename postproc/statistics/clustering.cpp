@@ -10,7 +10,6 @@
 
 #include "finite_size.h"
 #include "replicas.h"
-#include "two_sample.h"
 
 namespace LSM::postproc {
 
@@ -114,18 +113,6 @@ double departure_of(const std::vector<double> &starts) {
     most = std::max({most, std::fabs(line - below), std::fabs(line - below - 1.0 / n)});
   }
   return most;
-}
-
-/// One sample of the circular block bootstrap.
-std::vector<double> resampled(const std::vector<double> &values, std::size_t block,
-                              Random &random) {
-  std::vector<double> out;
-  while (out.size() < values.size()) {
-    const std::size_t at = draw_index(random, values.size());
-    for (std::size_t i = 0; i < block && out.size() < values.size(); ++i)
-      out.push_back(values[(at + i) % values.size()]);
-  }
-  return out;
 }
 
 std::size_t block_of(const std::vector<double> &values) {
@@ -258,48 +245,6 @@ Steadiness steadiness(const std::vector<double> &starts, double tolerance, std::
   };
   if (replicas > 0) out.p = share_of_replicas(replicas, as_far);
   out.steady = steady_stretches(starts, tolerance, fewest);
-  return out;
-}
-
-AroundLarge around_large(const std::vector<double> &starts, const std::vector<double> &sizes,
-                         double share) {
-  AroundLarge out;
-  if (starts.size() < fewest_times) return out;
-  const double mean = (starts.back() - starts.front()) / static_cast<double>(starts.size() - 1);
-  std::vector<double> sorted = sizes;
-  std::sort(sorted.begin(), sorted.end(), std::greater<double>());
-  const double least =
-      sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
-  double large = 0.0, before = 0.0, after = 0.0;
-  for (std::size_t i = 0; i < starts.size(); ++i) {
-    if (sizes[i] < least) continue;
-    large += 1.0;
-    for (std::size_t j = i; j-- > 0 && starts[i] - starts[j] < mean;) before += 1.0;
-    for (std::size_t j = i + 1; j < starts.size() && starts[j] - starts[i] < mean; ++j)
-      after += 1.0;
-  }
-  out.before = before / large;
-  out.after = after / large;
-  return out;
-}
-
-Measured rescaled_distance(const std::vector<double> &first, const std::vector<double> &second,
-                           int replicas, std::uint64_t seed) {
-  Measured out;
-  if (first.size() < fewest_times || second.size() < fewest_times) return out;
-  // A series of zeros has no rescaled form.
-  if (mean_of(first) == 0.0 || mean_of(second) == 0.0) return out;
-  out.value = two_sample_distance(over_mean(first), over_mean(second));
-  const std::size_t block1 = block_of(first), block2 = block_of(second);
-  Random random(seed);
-  std::vector<double> again;
-  for (int k = 0; k < replicas; ++k) {
-    const std::vector<double> one = resampled(first, block1, random),
-                              other = resampled(second, block2, random);
-    if (mean_of(one) != 0.0 && mean_of(other) != 0.0)
-      again.push_back(two_sample_distance(over_mean(one), over_mean(other)));
-  }
-  if (again.size() > 1) out.error = against(out.value, again).deviation;
   return out;
 }
 

@@ -103,27 +103,6 @@ struct Steadiness {
 Steadiness steadiness(const std::vector<double> &starts, double tolerance, std::int64_t fewest,
                       int replicas, std::uint64_t seed);
 
-/// Number of events near a large one, over the number expected at the mean rate.
-struct AroundLarge {
-  double before = NAN;  ///< within one mean inter-event time before it
-  double after = NAN;   ///< within one mean inter-event time after it
-};
-
-/// Averages over the large events.
-/// \param starts start times of all events in ascending order
-/// \param sizes sizes of the same events
-/// \param share share of the events that count as large, those with the largest sizes
-/// \return NaN for fewer than 12 events
-AroundLarge around_large(const std::vector<double> &starts, const std::vector<double> &sizes,
-                         double share);
-
-/// Kolmogorov-Smirnov distance between two series, each divided by its mean, with its standard
-/// error from a circular block bootstrap (see block_length()).
-/// \param first, second series of at least 12 values each
-/// \return NaN for shorter series or if a mean is 0
-Measured rescaled_distance(const std::vector<double> &first, const std::vector<double> &second,
-                           int replicas, std::uint64_t seed);
-
 }  // namespace LSM::postproc
 
 #endif

@@ -46,6 +46,18 @@ std::vector<SizeFit> fit_sizes(const std::vector<EventTable> &tables,
   return fits;
 }
 
+RollOff roll_off(const EventTable &table, double least) {
+  std::vector<double> sizes = column_from(table, least, &EventSummary::size);
+  std::sort(sizes.begin(), sizes.end());
+  RollOff found;
+  found.free = fit_maximum_likelihood(sizes, least);
+  found.exponential = fit_maximum_likelihood(sizes, least, 1.0);
+  const PowerLawFit law = fit_power_law(sizes, least);
+  if (!law.degenerate && !found.exponential.degenerate)
+    found.gain = 2.0 * (found.exponential.log_likelihood - law.log_likelihood);
+  return found;
+}
+
 std::vector<Scaling> scale_sizes(const std::vector<EventTable> &tables, const Threshold &threshold,
                                  const Resampling &resampling) {
   std::vector<Scaling> scalings;

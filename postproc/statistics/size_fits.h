@@ -12,6 +12,7 @@
 
 #include "event_table.h"
 #include "finite_size.h"
+#include "generalised_gamma.h"
 #include "power_law.h"
 
 namespace LSM::postproc {
@@ -49,6 +50,17 @@ PowerLawFit fit_from(const std::vector<double> &sorted, const Range &range, doub
 /// \throws std::invalid_argument for impossible settings
 std::vector<SizeFit> fit_sizes(const std::vector<EventTable> &tables,
                                const SizeFitSettings &settings);
+
+/// Roll-off of the sizes, s^-alpha exp(-(s / s_c)^power), by maximum likelihood above `least`.
+struct RollOff {
+  GeneralisedGammaFit free;         ///< fit to the sizes: gamma = 1 - alpha, delta = power
+  GeneralisedGammaFit exponential;  ///< the same with power 1
+  /// Twice the gain in ln L of the exponential roll-off over a pure power law; NaN if either has no
+  /// fit.
+  double gain = NAN;
+};
+/// \param least smallest size that is used (energy)
+RollOff roll_off(const EventTable &table, double least);
 
 /// Characteristic sizes of the catalogues of one model against the length.
 struct Scaling {

@@ -47,7 +47,7 @@ if wanted ruptures; then
   spacings=(200 100 50)
   [ "$mode" = full ] || spacings=(200)
   mkdir -p "$out/work/ruptures"
-  (cd "$out/work/ruptures" && bash "$scenes/ruptures.sh" "$lmp" "$(dirname "$lmp")/postproc" "$inputs" "${spacings[@]}") \
+  (cd "$out/work/ruptures" && bash "$scenes/ruptures.sh" "$lmp" "$inputs" "${spacings[@]}") \
     >"$out/ruptures.txt"
   for scene in tpv205 tpv3; do cp "$out/work/ruptures/$scene".{png,svg} "$out/"; done
 fi

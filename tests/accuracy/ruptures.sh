@@ -3,11 +3,11 @@
 # Error against run time of the rupture benchmarks TPV205-2D and TPV3-2D, and the self-similar crack: some minutes of CPU
 # time.
 # At last TPV3-2D in three random packings, spacings of 100 m and more.
-# usage: ruptures.sh LMP POSTPROC INPUTS [SPACING ...]   in an empty folder; spacings 200 100 50
+# usage: ruptures.sh LMP INPUTS [SPACING ...]   in an empty folder; spacings 200 100 50
 set -euo pipefail
 export LC_ALL=C
-lmp=$1 postproc=$2 inputs=$3
-shift 3
+lmp=$1 inputs=$2 compare=$2/../results/rupture_benchmark.py
+shift 2
 [ $# -gt 0 ] || set -- 200 100 50
 block=(-var length 60000 -var width 36000 -var tend 6)
 run() { # SCENE PREFIX SPACING [SETTINGS]
@@ -24,7 +24,7 @@ for dx in "$@"; do
 done
 for scene in tpv205 tpv3; do
   histories=("${@/#/$scene.}")
-  "$postproc" benchmark "${histories[@]/%/.slip.bin}" --reference "$inputs/reference/$scene.csv" --until 6 -o "$scene"
+  "$compare" "${histories[@]/%/.slip.bin}" --reference "$inputs/reference/$scene.csv" --until 6 -o "$scene"
 done
 packings=()
 for dx in "$@"; do
@@ -37,4 +37,4 @@ done
 [ ${#packings[@]} -gt 0 ] || exit 0
 # The reference for the packing has its ratio of wave speeds.
 "$(dirname "$lmp")/lsm_boundary_integral" tpv3 50 6 1500 1.913 >packing-reference.csv
-"$postproc" benchmark "${packings[@]}" --reference packing-reference.csv --until 6 -o packing
+"$compare" "${packings[@]}" --reference packing-reference.csv --until 6 -o packing

@@ -195,7 +195,7 @@ compare_postprocs() {
     [likelihood]="$chain --method likelihood --replicas 2 --no-picture -o o"
     [fit]="$one --range 1e-4:0.1 --replicas 2 --no-picture -o o" [magnitudes]="$one --magnitude-bin 0.1 --no-picture -o o"
     [aftershocks]="$chain --replicas 2 --no-picture -o o" [count]="$one" [compare]="$one $chain --rescale --replicas 10 -o o"
-    [match]="$one $one --threshold 1e-3 --within 5" [spectrum]="$series --no-picture -o o" [series]="$series --no-picture -o o"
+    [spectrum]="$series --no-picture -o o" [series]="$series --no-picture -o o"
     [pick]="$series -o o.csv" [select]="$one --min-size 1e-3 -o o.csv" [export]="$chain --time-unit second --start-date 2000-01-01 --magnitude-constant 0 -o o.csv")
   rm -rf "$at"
   for name in "${!runs[@]}"; do

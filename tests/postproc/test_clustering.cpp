@@ -134,30 +134,4 @@ TEST(Steadiness, DepartureOfAKnownSeries) {
   EXPECT_NEAR(steadiness(starts, 0.05, 500, 9, 1).whole.departure, 0.5 - 0.1, 0.011);
 }
 
-TEST(AroundLarge, CountsBeforeAndAfter) {
-  // Every tenth event is large, is soon followed by three others, and preceded by none.
-  std::vector<double> starts, sizes;
-  for (int k = 0; k < 50; ++k)
-    for (int i = 0; i < 10; ++i) {
-      starts.push_back(k * 100.0 + (i < 4 ? 0.01 * i : 9.0 * i));
-      sizes.push_back(i == 0 ? 10.0 : 1.0);
-    }
-  const AroundLarge around = around_large(starts, sizes, 49.5 / 499.0);
-  EXPECT_NEAR(around.after, 3.0, 1e-12);
-  EXPECT_EQ(around.before, 0.0);
-}
-
-TEST(RescaledDistance, SeesTheLawAndNotTheUnit) {
-  Random random(4);
-  const auto a = exponential(1000, random);
-  auto b = exponential(1000, random);
-  for (double &time : b) time *= 50.0;
-  const Measured same = rescaled_distance(a, b, 100, 1);
-  EXPECT_LT(same.value, 0.07);
-  EXPECT_GT(same.error, 0.005);
-  EXPECT_LT(same.error, 0.03);
-  for (double &time : b) time = time * time;
-  EXPECT_GT(rescaled_distance(a, b, 100, 1).value, 0.15);
-}
-
 }  // namespace

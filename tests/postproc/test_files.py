@@ -296,30 +296,11 @@ def test_an_event_that_has_not_ended_is_not_counted(postproc, slider, work):
 HOSTILE = 20
 
 
-def test_reference_without_rows(postproc, work):
-    Path("reference.csv").write_text("curve,x,t,slip,slip_rate\n")
-    Path("run.slip.bin").write_bytes(b"")
-    refused(postproc, "benchmark run.slip.bin --reference reference.csv --no-picture",
-            "reference.csv: no rows, expected those of the columns 'curve,x,t,slip,slip_rate'", timeout=HOSTILE)
-
-
-def test_equal_times_and_magnitudes(postproc, work):
-    lines = ["time,latitude,longitude,mag"]
-    same_mag = lines + [f"2001-{1 + k // 28:02d}-{1 + k % 28:02d}T01:{k % 60:02d}:00Z,30,-120,2.5" for k in range(300)]
-    same_time = lines + [f"2001-01-01T01:00:00Z,30,-120,{2 + k % 40 / 10}" for k in range(300)]
-    Path("mag.csv").write_text("\n".join(same_mag) + "\n")
-    Path("time.csv").write_text("\n".join(same_time) + "\n")
+def test_equal_times_and_sizes_of_0(postproc, work):
     write_catalogue("model.csv", pareto(300))
     write_catalogue("at_once.csv", pareto(300), times=[5.0] * 300)
-    run(postproc, "nature mag.csv model.csv --no-picture --replicas 20", timeout=HOSTILE)
-    refused(postproc, "nature time.csv model.csv --no-picture --replicas 20", "time.csv: all events start at the same time", timeout=HOSTILE)
     refused(postproc, "compare at_once.csv model.csv --rescale", "all times or sizes are 0", timeout=HOSTILE)
-
-
-def test_no_magnitude_of_size_0(postproc, work):
-    Path("quakes.csv").write_text(QUAKES)
-    write_catalogue("model.csv", pareto(300))
-    refused(postproc, "nature quakes.csv model.csv --no-picture --threshold 0", "--threshold 0 has no magnitude", timeout=HOSTILE)
+    refused(postproc, "magnitudes model.csv --no-picture --threshold 0", "--threshold 0 has no magnitude", timeout=HOSTILE)
 
 
 def test_numbers_beyond_all_reason(postproc, work):

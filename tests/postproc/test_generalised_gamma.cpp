@@ -19,6 +19,7 @@
 #include "generalised_gamma.h"
 #include "log_histogram.h"
 #include "replicas.h"
+#include "size_fits.h"
 
 namespace {
 
@@ -559,6 +560,28 @@ TEST(GeneralisedGamma, ErrorHandlerOfGslIsLeftAlone) {
   fit_maximum_likelihood(source.sample(100, corral));
   fit_least_squares(log_histogram(source.sample(100, corral)));
   EXPECT_EQ(gsl_set_error_handler(before), mine);
+}
+
+TEST(RollOff, FindsItsPower) {
+  // s^-1.2 exp(-(s / 0.1)^power) above 1e-4, sampled by rejection from a power law up to 10.
+  for (const double power : {1.0, 2.5}) {
+    LSM::Random random(29);
+    EventTable table;
+    while (table.events.size() < 8000) {
+      const double lo = std::pow(1e-4, -0.2), hi = std::pow(10.0, -0.2);
+      const double size = std::pow(lo + random.uniform() * (hi - lo), -5.0);
+      if (random.uniform() > std::exp(-std::pow(size / 0.1, power))) continue;
+      EventSummary shock;
+      shock.size = size;
+      table.events.push_back(shock);
+    }
+    const RollOff fit = roll_off(table, 1e-4);
+    ASSERT_FALSE(fit.free.degenerate) << fit.free.why;
+    EXPECT_NEAR(fit.free.delta, power, 3.0 * fit.free.se_delta);
+    EXPECT_LT(fit.free.se_delta, 0.3 * power);
+    EXPECT_NEAR(1.0 - fit.free.gamma, 1.2, 4.0 * fit.free.se_gamma);
+    EXPECT_GT(fit.gain, 100.0);
+  }
 }
 
 }  // namespace

@@ -291,23 +291,6 @@ def test_compare(do, no):
     no("no such file|cannot open", "compare a.csv none.csv -o x")
 
 
-def test_match(do, no):
-    """The second catalogue is at a tenth of the velocity, its plates begin to move at time 100 as well,
-    and every other event is the same."""
-    k = np.arange(1, 41)
-    for path, velocity, factor in ("a.csv", "1e-3", 1), ("b.csv", "1e-4", 10):
-        t = 100 + factor * (1000.0 * k + np.where((factor > 1) & (k % 2 == 1), 300, 0))
-        write_catalogue(path, t, [1] * 40, dict(model="lsm", length=40, velocity=velocity), t_end=t + 1, pe_start=[2] * 40, pe_end=[1] * 40)
-    # From 1.3 to 40 the first has 39 events (2 to 40), of which the second has the even ones. Of the seven
-    # shifts by eighths of 38.7 the second, fourth and sixth find 5, 10 and 19.
-    do("match a.csv b.csv --displacement --origin 100 --threshold 0.5 --within 0.1 --json m.json").printed(r" 0.5 39 40 20 4.857$")
-    assert '"same": 20' in Path("m.json").read_text()
-    do("match a.csv a.csv --threshold 0.5 --within 0.1").printed(" 40 40 40 ")
-    no("at least two", "match a.csv --threshold 0.5 --within 0.1")
-    no("threshold is required", "match a.csv b.csv --within 0.1")
-    no("a catalogue without events", "match a.csv b.csv --threshold 0.5 --within 0.1 --displacement --to 0.01")
-
-
 # ---- other formats
 def exported(path):
     """Lines of an exported table, with numbers rounded to ten digits."""
@@ -788,32 +771,9 @@ def test_formats_through_a_pipe(do, kind):
     assert unlabelled(piped(do, "count", f"xz < {name}", "--json -")) == unlabelled(whole)
 
 
-def test_nature(do, no):
-    """The ranking of models; the distance of a catalogue to itself is 0."""
-    chain, other = PUBLISHED / "slider_ours_256_seed_1.catalogue.csv.xz", PUBLISHED / "slider_ours_256_seed_2.catalogue.csv.xz"
+def test_options_of_earthquakes(do, no):
+    chain = PUBLISHED / "slider_ours_256_seed_1.catalogue.csv.xz"
     piped(do, "count", f"xzcat {chain}")
-    time = "--from 1984-01-01 --to 1986-07-02T12:00"
-    do("nature", CALIFORNIA, chain, other, CALIFORNIA, "--label nature --label chain --label chain --label again", time,
-       "--from 12000 --reference M2 --reference M2.5 --threshold 1 --replicas 20 --no-picture -o beside")
-    found = table("beside.table.csv")
-    names = [list(row.values())[0] for row in found]
-    assert len(found) == 5 and names[:2] == ["nature", "again"] and names[4] == "chain"
-    assert found[0]["distance"] == "" and float(found[1]["distance"]) == 0 and float(found[2]["distance"]) < 0.05
-    last = {key: float(found[4][key]) for key in ("catalogues", "distance", "distance_error")}
-    assert last["catalogues"] == 2 and last["distance"] > 0.1 and 0 < last["distance_error"] < last["distance"]
-    # Table 1 has gamma, delta, B and C of each catalogue, as intervals determines them.
-    do("intervals", CALIFORNIA, time, "--min-magnitude 2 --rescale --method likelihood --replicas 0 --no-picture -o times")
-
-    def values(path, method, name):
-        for line in rows(path):
-            if line.startswith("ours") and re.search(f"{name},{method},[0-9.]*,", line.replace('"', "")):
-                cells = line.split(",")
-                return cells[3], cells[5], cells[7], cells[9]
-        raise AssertionError(f"no {method} of {name} in {path}")
-
-    for method in "maximum likelihood", "maximum likelihood, δ = 1 held":
-        assert values("times.table1.csv", method, "southern-california") == values("beside.table1.csv", f"{method}, 1 catalogue", "nature")
-    no("slider_ours_256_seed_1.catalogue.csv.xz: catalogue of a model, expected one of earthquakes first", f"nature {chain} {CALIFORNIA} -o x")
     no("is a date, but no catalogue is of earthquakes", f"intervals {chain} --from 1984-01-01 -o x")
     no("is a number, but all catalogues are of earthquakes, expected a date", f"intervals {CALIFORNIA} --from 1984 -o x")
     no("from 'monday': expected a model time, or for earthquakes a date", f"intervals {CALIFORNIA} --from monday -o x")

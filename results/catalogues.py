@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What the scripts of these pages share: events as arrays, numbers of postproc, means with errors, CSV and pictures."""
+import csv
+import datetime
+import json
+import lzma
+import math
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path[:0] = [str(ROOT / "python"), str(ROOT / "inputs/studies")]
+import lsm  # noqa: E402
+from calibrate import LOADING  # noqa: E402, F401
+from text_tables import rows_of  # noqa: E402
+
+CALIFORNIA = ROOT / "inputs/seismicity/southern-california.csv.xz"
+PERIOD = ("1984-01-01", "1986-07-02T12:00")  # of the paper's Table 1: 1984.0 to 1986.5
+
+
+def numbers_of(postproc, command, *words):
+    """The numbers (JSON) that a command of postproc finds. \\raises ValueError with its line of error"""
+    with tempfile.TemporaryDirectory() as work:
+        line = [postproc, command, *words, "-o", f"{work}/out", "--json", f"{work}/out.json"]
+        done = subprocess.run([str(word) for word in line], capture_output=True, text=True)
+        if done.returncode:
+            raise ValueError(done.stderr.strip())
+        return json.loads(Path(f"{work}/out.json").read_text())
+
+
+def events_of(path, begin=-math.inf, end=math.inf):
+    """The events that start at `begin` or later and before `end`, in order of their starts. \\raises ValueError"""
+    events = lsm.read_catalogue(path)
+    events = events[np.argsort(events["t_start"], kind="stable")]
+    return events[(events["t_start"] >= begin) & (events["t_start"] < end)]
+
+
+def earthquakes():
+    """Times (days) and magnitudes of Southern California in PERIOD, in order of time."""
+    found = []
+    with lzma.open(CALIFORNIA, "rt") as lines:
+        for row in rows_of(lines):
+            if PERIOD[0] <= row["time"] < PERIOD[1]:
+                day, clock = row["time"].rstrip("Z").split("T")
+                hours, minutes, seconds = map(float, clock.split(":"))  # the catalogue has seconds of 60
+                seconds += 3600 * hours + 60 * minutes
+                found.append((datetime.date.fromisoformat(day).toordinal() + seconds / 86400, float(row["mag"])))
+    return np.array(sorted(found, key=lambda one: one[0])).T  # in the order of the file where times are equal
+
+
+def over_mean(values):
+    return values / np.mean(values)
+
+
+def distance(a, b):
+    """Kolmogorov-Smirnov distance of two samples."""
+    both = np.concatenate([a, b])
+    order = np.argsort(both, kind="stable")
+    below_a = np.cumsum(order < len(a))
+    below_b = np.arange(1, len(both) + 1) - below_a
+    last = np.append(np.diff(both[order]) > 0, True)  # of equal values
+    return np.abs(below_a / len(a) - below_b / len(b))[last].max()
+
+
+def mean_and_error(values, errors=()):
+    """Mean of catalogues and its standard error: from their scatter, but not below what their own errors imply."""
+    errors = np.resize(np.array(errors if len(errors) else [math.nan], float), len(values))
+    values, errors = (np.array(one, float)[np.isfinite(values)] for one in (values, errors))
+    n = len(values)
+    if n < 2:
+        return (values[0], errors[0]) if n else (math.nan, math.nan)
+    return np.mean(values), math.sqrt(max(np.var(values, ddof=1) / n, np.nansum(errors**2) / n**2))
+
+
+def text_of(value):
+    """A cell of a CSV file; empty if there is no number."""
+    if isinstance(value, (float, np.floating)):
+        return f"{value:.17g}" if math.isfinite(value) else ""
+    return str(value)
+
+
+def write_table(path, comments, rows):
+    """Writes rows (dicts) as CSV with lines of comments before them."""
+    with open(path, "w", newline="") as file:
+        file.writelines(f"# {line}\n" for line in comments)
+        table = csv.DictWriter(file, rows[0], lineterminator="\n")
+        table.writeheader()
+        table.writerows({key: text_of(value) for key, value in row.items()} for row in rows)
+
+
+def plain(row):
+    """A row with numbers of Python, and None where there is none."""
+    numbers = {key: value.item() if isinstance(value, np.generic) else value for key, value in row.items()}
+    return {key: None if isinstance(value, float) and not math.isfinite(value) else value for key, value in numbers.items()}
+
+
+def write_json(path, **tables):
+    """Writes tables, lists of rows, as those of postproc: null where there is no number. path: None is standard output"""
+    text = json.dumps({name: [plain(row) for row in rows] for name, rows in tables.items()}, indent=1) + "\n"
+    Path(path).write_text(text) if path else print(text, end="")
+
+
+STYLE = """set datafile separator comma
+set encoding utf8
+colours = "#0072B2 #D55E00 #009E73 #CC79A7 #E69F00 #56B4E9 #7A6A00 #000000" # of Okabe and Ito
+points = "7 5 9 13 4 6 8 12"
+do for [n = 1:8] { set linetype n lc rgb word(colours, n) pt int(word(points, n)) dt 1 lw 1.6 ps 0.9*point }
+set border lw 1.0 lc rgb "#333333"
+set tics out nomirror
+set grid xtics ytics lt 1 dt 1 lw 0.5 lc rgb "#d8d8d8"
+"""
+
+
+def draw(base, script, width, height):
+    """Draws BASE.png and BASE.svg with a script for gnuplot, in which `table` is BASE.csv. \\raises ValueError"""
+    for ending, head in (("png", f"point = 1.0; set terminal pngcairo size {2 * width},{2 * height} font 'DejaVu Sans,26' linewidth 2 pointscale 2"),
+                         ("svg", f"point = 0.65; set terminal svg size {width},{height} dynamic font 'DejaVu Sans,13'")):
+        text = f"{head} enhanced background '#ffffff'\n{STYLE}table = '{base}.csv'\nset output '{base}.{ending}'\n{script}\nunset output\n"
+        done = subprocess.run(["gnuplot", "-d"], input=text, capture_output=True, text=True)
+        if done.returncode:
+            raise ValueError(f"gnuplot: {done.stderr.strip().splitlines()[-1]}")
+
+
+def run(main, parser):
+    """Runs a script; what it refuses ends it with one line of error."""
+    try:
+        main(**vars(parser.parse_args()))
+    except (OSError, ValueError) as error:
+        sys.exit(f"{Path(sys.argv[0]).name}: {error}")

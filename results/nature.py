@@ -1,0 +1,336 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Models ranked by the distance of their inter-event times, over their mean, to those of earthquakes.
+
+nature.py POSTPROC                                      makes nature.csv, .png, .svg, .table.csv and .table1.csv of nature.md
+nature.py POSTPROC CATALOGUE --threshold SIZE... [--from TIME] --json FILE   the numbers of one catalogue, for a study
+
+Rows are labels above a smallest size: those of earthquakes first, then by distance. Numbers are means over the catalogues of a
+label with their standard errors; those of one catalogue have its own errors.
+  distance       Kolmogorov-Smirnov, of the times over their mean to those of the first row; error: circular block bootstrap
+  size_distance  the same of the magnitudes above the smallest one, (2/3) log10 of the size
+  gamma, ...     of the generalised gamma density, of `postproc intervals --rescale`
+  variation      standard deviation over mean; burstiness: (r - 1) / (r + 1) of it in the form for a finite number of times
+  memory         correlation of each time with the next; after_short: mean time after the shortest third
+  before, after  events within a mean time of the largest 2 %, over that of any others
+  b              Aki's, of these magnitudes
+"""
+import argparse
+import functools
+import math
+from pathlib import Path
+
+import numpy as np
+from catalogues import CALIFORNIA, LOADING, PERIOD, distance, draw, earthquakes, events_of, mean_and_error, numbers_of, over_mean, run
+from catalogues import write_json, write_table
+
+HERE = Path(__file__).resolve().parent
+NATURE = "Southern California"
+MAGNITUDES, SIZES = (2.0, 2.5, 3.0), ("1e-4", "1e-3", "1e-2", "1")
+FEWEST = 50  # events of a catalogue that is used
+LARGE = 0.02  # share of the events that count as large
+REPLICAS = 200
+CATALOGUES = [(f"fault {length}", f"campaign/fault_{length}_{{}}.catalogue", 2 if length > 945 else 3) for length in (120, 240, 480, 945, 1440, 1890)]
+CATALOGUES += [(f"ruptures of fault {length}", f"campaign/fault_{length}_{{}}.ruptures", 3) for length in (120, 480, 945)]
+CATALOGUES += [("slider 1928", "catalogues/slider_ours_1928_seed_{}.catalogue", 3),
+               ("ruptures of slider 1928", "catalogues/slider_ruptures_1928_seed_{}.catalogue", 3)]
+CATALOGUES += [(f"slider {text}", f"walk/{name}-512_{{}}.catalogue", 2 if name == "slow" else 5)
+               for text, name in (("springs", "chain"), ("elastic blocks", "bulk"), ("and radiation", "radiating"), ("and roughness", "rough"),
+                                  ("and slow plate", "slow"))]
+CATALOGUES += [(f"fault 120 {name}", f"walk/fault-{name}_{{}}.catalogue", 3) for name in ("viscous", "weakening")]
+MODELS = {label: [HERE / f"{name.format(n + 1)}.csv.xz" for n in range(many)] for label, name, many in CATALOGUES}
+
+# ---- error of a distance
+
+
+@functools.cache
+def random_numbers(count):
+    """Uniform numbers of the 64-bit Mersenne Twister (Nishimura and Matsumoto 2004) with seed 1, those of the published errors."""
+    n, m = 312, 156
+    state = [1]
+    for i in range(1, n):
+        state.append((6364136223846793005 * (state[-1] ^ (state[-1] >> 62)) + i) % 2**64)
+    x, blocks = np.array(state, np.uint64), []
+    upper, one = np.uint64(0xffffffff80000000), np.uint64(1)
+    for _ in range(-(-count // n)):
+        for part, other in ((slice(0, m), slice(m, n)), (slice(m, n), slice(0, m))):
+            y = (x[part] & upper) | (np.roll(x, -1)[part] & ~upper)
+            x[part] = x[other] ^ (y >> one) ^ np.where(y & one, np.uint64(0xb5026f5aa96619e9), np.uint64(0))
+        y = x ^ ((x >> np.uint64(29)) & np.uint64(0x5555555555555555))
+        y ^= (y << np.uint64(17)) & np.uint64(0x71d67fffeda60000)
+        y ^= (y << np.uint64(37)) & np.uint64(0xfff7eee000000000)
+        blocks.append(((y ^ (y >> np.uint64(43))) >> np.uint64(11)) * 2.0**-53)
+    return np.concatenate(blocks)[:count]
+
+
+def block_length(values):
+    """Length of the blocks of a bootstrap (Politis and White 2004), at least the cube root of the number of values."""
+    x = values - np.mean(values)
+    n = len(x)
+    longest = max(1.0, n / 10)
+    shortest = min(np.cbrt(n), longest)
+    last = min(math.ceil(math.sqrt(n)) + 5, n // 2)
+    r = np.array([np.dot(x[:n - lag], x[lag:]) / n for lag in range(last + 1)])
+    if not r[0] > 0:
+        return int(shortest)
+    # The correlation ends where five lags in a row are not significant.
+    significant = [0, *np.flatnonzero(np.abs(r[1:]) >= 2 * math.sqrt(math.log10(n) / n) * r[0]) + 1]
+    end = next(a for a, b in zip(significant, [*significant[1:], math.inf]) if b - a > 5)
+    width = min(2 * max(end, 1), last)
+    lag = np.arange(1, width + 1)
+    weighted = 2 * np.minimum(1, 2 * (1 - lag / width)) * r[1:width + 1]  # flat-top lag window
+    spectrum = r[0] + weighted.sum()
+    length = np.cbrt(1.5 * (np.dot(lag, weighted) / spectrum)**2 * n) if spectrum > 0 else longest
+    return max(1, int(np.clip(length, shortest, longest)))
+
+
+def distance_and_error(first, second, replicas):
+    """Distance of two series over their means, and its error by resampling circular blocks of consecutive values."""
+    lengths = [block_length(one) for one in (first, second)]
+    draws = [-(-len(one) // length) for one, length in zip((first, second), lengths)]
+    uniform, again = random_numbers(2**19), []
+    for k in range(replicas):
+        parts = np.split(uniform[k * sum(draws):(k + 1) * sum(draws)], [draws[0]])
+        pair = []
+        for one, length, part in zip((first, second), lengths, parts):
+            at = (part * len(one)).astype(int)[:, None] + np.arange(length)
+            pair.append(over_mean(one[at.ravel()[:len(one)] % len(one)]))
+        again.append(distance(*pair))
+    return distance(over_mean(first), over_mean(second)), np.std(again, ddof=1) if replicas > 1 else math.nan
+
+
+# ---- rows
+
+
+def sample_of(starts, sizes, least):
+    """Times over their mean, magnitudes above the smallest one, and numbers of one catalogue: {name: (value, error)}."""
+    starts, sizes = starts[sizes >= least], sizes[sizes >= least]
+    if not starts[-1] > starts[0]:
+        raise ValueError("all events start at the same time")
+    times, magnitudes = over_mean(np.diff(starts)), np.log10(sizes / least) / 1.5
+    n, r, mean = len(times), np.std(times), np.mean(np.diff(starts))
+    up, down = math.sqrt(n + 1), math.sqrt(n - 1)
+    short = times[:-1] < np.sort(times)[160 * n // 480]
+    large = np.flatnonzero(sizes >= np.sort(sizes)[::-1][int(LARGE * n)])
+    before = large - np.searchsorted(starts, starts[large] - mean, "right")
+    after = np.searchsorted(starts, starts[large] + mean, "left") - large - 1
+    b = 1 / (math.log(10) * np.mean(magnitudes))
+    numbers = dict(variation=r, burstiness=(up * r - down) / ((up - 2) * r + down), memory=np.corrcoef(times[:-1], times[1:])[0, 1],
+                   after_short=np.mean(times[1:][short]), before=np.mean(before), after=np.mean(after))
+    numbers = {key: (value, math.nan) for key, value in numbers.items()}
+    return times, magnitudes, numbers | {"b": (b, math.log(10) * b**2 * np.std(magnitudes, ddof=1) / math.sqrt(len(magnitudes)))}
+
+
+def fits_of(postproc, paths, sizes, *words):
+    """Of each catalogue, for each smallest size: {"threshold": it, "free": fit, "held": fit}, where events are complete."""
+    thresholds = [word for size in sizes for word in ("--threshold", size)]
+    numbers = numbers_of(postproc, "intervals", *paths, *words, *thresholds, "--rescale", "--method", "likelihood", "--delta", "free", "--delta", 1,
+                         "--replicas", 0, "--shuffles", 0, "--no-picture")
+    fits = iter(numbers["fits"])
+    return [[{"threshold": one["threshold"], "free": one, "held": next(fits)} for one in (next(fits) for _ in sizes)] for _ in paths]
+
+
+def row_of(label, fits, samples, reference, replicas):
+    """A row of samples: label, number of catalogues, their times and magnitudes, and numbers with errors."""
+    row = dict(label=label, threshold=fits[0]["threshold"], catalogues=len(samples), events=sum(len(one[1]) for one in samples))
+    numbers = []
+    for fit, (times, magnitudes, own) in zip(fits, samples):
+        own = dict(own)
+        for which, prefix in (("held", ""), ("free", "free_")):
+            for key in ("gamma", "delta", "B", "C"):
+                value, error = fit[which][key], fit[which][f"{key}_error"]
+                own[prefix + key] = (math.nan if value is None else value, math.nan if error is None else error)
+        for key, mine, k in (("distance", times, 0), ("size_distance", magnitudes, 1)):
+            own[key] = distance_and_error(reference[k], mine, replicas) if reference else (math.nan, math.nan)
+        numbers.append(own)
+    row |= {key: mean_and_error(*zip(*(one[key] for one in numbers))) for key in numbers[0]}
+    why = [fit["free"]["degenerate"] for fit in fits if fit["free"]["degenerate"]]
+    row |= dict(why=why[-1] if why else "", without_delta=len(why), times=np.concatenate([one[0] for one in samples]),
+                magnitudes=np.concatenate([one[1] for one in samples]))
+    return row
+
+
+def rows_of(postproc, models, sizes=SIZES, magnitudes=MAGNITUDES, begin=LOADING, replicas=REPLICAS):
+    """All rows. models: {label: paths}. \\raises ValueError if the earthquakes are too few, or a smallest size is 0"""
+    if not all(float(size) > 0 for size in sizes):
+        raise ValueError("--threshold 0 has no magnitude, expected a larger size")
+    days, above = earthquakes()
+    sizes_of = np.array([10**(1.5 * m) for m in above])  # as postproc has them, to the last digit
+    groups = {NATURE: ([(days, sizes_of)], fits_of(postproc, [CALIFORNIA], [f"M{m:g}" for m in magnitudes], "--from", PERIOD[0], "--to",
+                                                            PERIOD[1]))}  # yapf: disable
+    fits = iter(fits_of(postproc, [path for paths in models.values() for path in paths], sizes, "--from", begin))
+    for label, paths in models.items():
+        some = [events_of(path, begin) for path in paths]
+        groups[label] = [(events["t_start"], events["size"]) for events in some], [next(fits) for _ in paths]
+    rows, reference = [], None
+    for label, (catalogues, fits) in groups.items():
+        least = [one["threshold"] for one in fits[0]]
+        counts = [np.count_nonzero(catalogues[0][1] >= size) for size in least]
+        for k, size in enumerate(least):
+            # Where the catalogue begins above this smallest size, the next one selects the same events.
+            if k + 1 < len(least) and counts[k] == counts[k + 1]:
+                continue
+            used = [n for n, (_, all_sizes) in enumerate(catalogues) if np.count_nonzero(all_sizes >= size) >= FEWEST]
+            if used:
+                samples = [sample_of(*catalogues[n], size) for n in used]
+                rows.append(row_of(label, [fits[n][k] for n in used], samples, reference, replicas))
+                reference = reference or samples[0]
+            elif not rows:
+                raise ValueError(f"{label}: fewer than {FEWEST} events to compare with")
+    return rows[:1] + sorted(rows[1:], key=lambda row: math.inf if math.isnan(row["distance"][0]) else row["distance"][0])
+
+
+# ---- tables and picture
+
+
+def from_text(row):
+    return f"magnitudes >= {math.log10(row['threshold']) / 1.5:.3g}" if row["label"] == NATURE else f"sizes >= {row['threshold']:.4g}"
+
+
+def measured(row, *keys):
+    return {name: number for key in keys for name, number in zip((key, f"{key}_error"), row[key])}
+
+
+def table(rows):
+    keys = ("distance", "gamma", "variation", "burstiness", "memory", "after_short", "before", "after", "b", "size_distance")
+    return [{key: row[key] for key in ("label", "threshold", "catalogues", "events")} | measured(row, *keys) for row in rows]
+
+
+def table1(rows):
+    """The paper's Table 1: the rows that it prints, and for each row one with delta free and one with delta held at 1."""
+    columns = "origin,threshold,n,gamma,gamma_error,delta,delta_error,B,B_error,C,C_error,chi2_per_dof,ks,p,p_error,rejected,source,method,shortest,"
+    empty = dict.fromkeys((columns + "degenerate").split(","), "")
+    out = [
+        empty | dict(origin="printed", source=source, gamma=gamma, delta=delta, B=b, C=c)
+        for source, gamma, delta, b, c in (("seismicity (Corral 2004)", "0.67", "0.98", "1.58", "0.50"), ("LSM", "0.995", "1.00", "15.21", "0.0573"),
+                                           ("Block-Slider", "0.0", "1.00", "100.0", "0.25"))
+    ]
+    for row in rows:
+        many = f"{row['catalogues']} catalogue{'s' if row['catalogues'] > 1 else ''}"
+        for method, prefix in (("maximum likelihood", "free_"), ("maximum likelihood, δ = 1 held", "")):
+            line = dict(origin="ours", threshold=row["threshold"], n=row["events"], source=row["label"], method=f"{method}, {many}")
+            if prefix and row["without_delta"]:
+                line["degenerate"] = row["why"] if row["catalogues"] == 1 else f"in {row['without_delta']} of {many}: {row['why']}"
+            elif math.isnan(row["gamma"][0]):
+                line["degenerate"] = "the times do not determine it"
+            else:
+                found = measured(row, *(prefix + key for key in ("gamma", "delta", "B", "C")))
+                line |= {key.removeprefix(prefix): value for key, value in found.items()}
+                line |= {} if prefix else dict(delta=1, delta_error=0)
+            out.append(empty | line)
+    return out
+
+
+def curves(rows):
+    """The points of the picture, as (panel, number of the row, x, y, error, name), of the nearest row of each label."""
+    out, seen = [], set()
+    for number, row in enumerate(rows, 1):
+        name = f"{row['label']}, {from_text(row)}"
+
+        def add(panel, x, y, error):
+            error = 0.0 if math.isnan(error) else error  # gnuplot skips points without one
+            out.append(dict(panel=panel, curve=number, x=x, y=y, error=error, label=name))
+
+        if number > 1:
+            add("distance", row["distance"][0], -number, row["distance"][1])
+        if row["label"] in seen:
+            continue
+        seen.add(row["label"])
+        times = row["times"][row["times"] > 0]
+        edges = 10.0**(0.2 * np.arange(math.floor(5 * math.log10(times.min())), math.floor(5 * math.log10(times.max())) + 2))
+        counts, width = np.histogram(times, edges)[0], np.diff(edges)
+        for low, high, count, wide in zip(edges, edges[1:], counts, width):
+            if count > 2:
+                add("times", math.sqrt(low * high), count / (len(times) * wide), math.sqrt(count) / (len(times) * wide))
+        magnitudes = np.sort(row["magnitudes"])
+        for k in range(int(magnitudes[-1] / 0.1 + 1e-9) + 1):
+            add("sizes", 0.1 * k, 1 - np.searchsorted(magnitudes, 0.1 * k - 1e-9) / len(magnitudes), 0.0)
+        add("plane", row["memory"][0], *row["burstiness"])
+    return out
+
+
+def picture(rows, base):
+    """Distances of all rows; times, magnitudes and clustering of the nearest row of each label. Colours: labels, symbols: sizes."""
+    sizes, labels = sorted({row["threshold"] for row in rows if row["label"] != NATURE}), list(dict.fromkeys(row["label"] for row in rows))
+    drawn = []
+    for number, row in enumerate(rows, 1):
+        name = row["label"] + (", M " if row["label"] == NATURE else ", ") + from_text(row).split(" ", 1)[1]
+        style = f"lc rgb '#000000' lw {2 if number == 1 else 1} dt 1 pt {7 if number == 1 else 6}"
+        if row["label"] != NATURE:
+            style = f"lt {(labels.index(row['label']) + 6) % 7 + 1} pt {(7, 5, 9, 11, 13, 15)[sizes.index(row['threshold']) % 6]}"
+        drawn.append((number, name, style, all(row["label"] != other["label"] for other in rows[:number - 1])))
+    height = max(900, 130 + 34 * len(rows))
+    entries = [(name, style) for _, name, style, nearest in drawn if nearest]
+    legend, top = 26 * (1 + len(entries)) / height + 0.01, 0.97  # the key is below the panels on the right
+    high = (top - 0.09 - legend) / 0.77
+
+    def panel(left, right, bottom, above, x, y, more):
+        return f"""unset logscale; set format '%g'; set xtics autofreq; set ytics autofreq; set autoscale; {more}
+set lmargin at screen {left}; set rmargin at screen {right}; set bmargin at screen {bottom}; set tmargin at screen {above}
+set xlabel "{x}"; set ylabel "{y}"
+"""
+
+    def plot(name, values, style):
+        return "plot " + ", \\\n".join(f"table using (at('{name}', {number})):{values} with {style.format(own)} notitle"
+                                       for number, _, own, nearest in drawn if (number > 1 if name == "distance" else nearest))
+
+    ticks = ", ".join(f'"{name}" {-number}' for number, name, *_ in drawn[1:])
+    logs = "set logscale y; set format y '10^{%L}'; set yrange "
+    corral = "[0.003:10] '+' using 1:(0.5*$1**(-0.33)*exp(-$1/1.58)) with lines lt 8 dt (6,4) lw 2 notitle"
+    keys = "".join(f", keyentry with linespoints {style} title \"{name}\"" for name, style in entries)
+    draw(base, "\n".join([
+        "at(p, k) = strcol(1) eq p && $2 == k ? $3 : NaN\nset multiplot\nset key off",
+        panel(0.36, 0.58, 0.1, 0.97, "distance of the inter-event times", "",
+              f"set xrange [0:*]; set yrange [{-len(rows) - 0.7}:-1.3]; set xtics 0.2; set ytics ({ticks})"),
+        plot("distance", "4:5", "xerrorbars {} ps 1.3"),
+        panel(0.68, 0.98, top - 0.17 * high, top, "inter-event time / mean", "probability density",
+              f"{logs}[1e-4:1e2]; set logscale x; set format x '10^{{%L}}'; set xrange [1e-3:1e2]"),
+        plot("times", "4", "linespoints {} ps 0.7") + ", " + corral,
+        panel(0.68, 0.98, top - 0.47 * high, top - 0.30 * high, "magnitude above the smallest", "share of the events",
+              f"{logs}[1e-4:1]; set xrange [0:4]"),
+        plot("sizes", "4", "linespoints {} pi 3 ps 0.8"),
+        panel(0.68, 0.98, top - 0.77 * high, top - 0.60 * high, "memory coefficient", "burstiness (finite form)",
+              "set xrange [-0.3:0.4]; set yrange [-0.4:1]"),
+        f"set key on at screen 0.99, screen {legend} right top Left reverse samplen 3",
+        plot("plane", "4:5", "yerrorbars {} ps 1.4") + keys + ", keyentry with lines lt 8 dt (6,4) lw 2 title 'earthquakes, Corral (2004)'",
+        "unset multiplot"
+    ]), 1150, height)  # yapf: disable
+
+
+def write(rows, base):
+    """The tables BASE.csv, BASE.table.csv and BASE.table1.csv."""
+    write_table(f"{base}.table.csv", [
+        "distance: Kolmogorov-Smirnov distance of the inter-event times over their mean to those of the first row, size_distance: of the magnitudes "
+        "above the smallest, over their mean",
+        "after_short: mean time after the shortest third over the mean; before, after: events within a mean time of large ones, over that of any "
+        "others; b: Aki",
+        "errors: from the scatter between catalogues of a label, or for one catalogue its own (distances: blocks of consecutive values resampled)"
+    ], table(rows))
+    write_table(f"{base}.table1.csv", [
+        "f(theta) = C theta^(gamma-1) exp(-theta^delta / B)",
+        "printed: Table 1 of the paper, unit of theta not stated; ours: theta in multiples of the mean, by maximum likelihood"
+    ], table1(rows))
+    write_table(f"{base}.csv", [
+        "panels: distance (rank), and of the nearest row of each label times (density over time / mean), sizes (share of the events with magnitudes "
+        "of at least x above the smallest), plane (burstiness, memory)"
+    ], curves(rows))
+
+
+def main(postproc, catalogue, threshold, begin, json_file):
+    if catalogue is None:
+        rows = rows_of(postproc, MODELS)
+        write(rows, HERE / "nature")
+        picture(rows, HERE / "nature")
+    else:
+        rows = rows_of(postproc, {catalogue.name: [catalogue]}, threshold or SIZES, MAGNITUDES[:1], begin)
+        write_json(json_file, models=table(rows))
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("postproc", metavar="POSTPROC", type=Path)
+    parser.add_argument("catalogue", metavar="CATALOGUE", type=Path, nargs="?")
+    parser.add_argument("--threshold", metavar="SIZE", action="append")
+    parser.add_argument("--from", metavar="TIME", type=float, dest="begin", default=LOADING)
+    parser.add_argument("--json", metavar="FILE", dest="json_file")
+    run(main, parser)

@@ -1,0 +1,233 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""match.py, periods.py, nature.py and rupture_benchmark.py: examples by hand, chance, and what is refused."""
+import json
+import math
+import sys
+
+import numpy as np
+import pytest
+from data_files import rows, write_catalogue
+from programs import SOURCE, Program, refused, run
+
+RESULTS = SOURCE / "results"
+sys.path.insert(0, str(RESULTS))
+import catalogues  # noqa: E402
+import match  # noqa: E402
+import nature  # noqa: E402
+import periods  # noqa: E402
+import rupture_benchmark as benchmark  # noqa: E402
+
+# ---- match.py
+
+
+def catalogue(starts, sizes):
+    return np.array(starts, float), np.array(sizes, float), starts[-1]
+
+
+def test_matches_by_hand():
+    # 10 matches 10.5, which is nearer than 9.2; nothing is left for 10.8; 20 is three times as large, 30 is too far, 40 matches, 50 is
+    # too small, 60 and 90 are not in both.
+    first = catalogue([0, 10, 10.8, 20, 30, 40, 50, 60], [9, 1, 1, 3, 1, 1, 0.5, 1])
+    second = catalogue([5, 9.2, 10.5, 20, 31.5, 40, 50, 55], [1, 1, 1, 1, 1, 1.9, 1, 1])
+    found = match.matches(first, second, 1.0, 1.0)
+    assert (found["n_first"], found["n_second"], found["same"]) == (5, 7, 2)
+    assert match.matches(first, first, 1.0, 1.0)["same"] == 6
+    with pytest.raises(ValueError, match="no time in common"):
+        match.matches(catalogue([0, 1], [1, 1]), catalogue([5, 6], [1, 1]), 1.0, 1.0)
+
+
+def test_matches_by_chance():
+    rng = np.random.default_rng(1)
+    first, second = (catalogue(np.cumsum(2 * rng.uniform(size=20000)), np.ones(20000)) for _ in range(2))
+    found = match.matches(first, second, 1.0, 0.1)
+    # Both have a rate of 1: there is an event within 0.1 on either side in a share of 0.18 to 0.2 of the cases, with and without a shift.
+    assert found["chance"] / found["n_first"] == pytest.approx(0.18, abs=0.02)
+    assert found["same"] == pytest.approx(found["chance"], abs=4 * 60)
+
+
+def test_match_of_files(work):
+    """The second catalogue is at a tenth of the velocity, its plates begin to move at time 100 as well, and every other event is the
+    same. From 1.3 to 40 the first has 39 events (2 to 40), of which the second has the even ones. Of the seven shifts by eighths of
+    38.7 the second, fourth and sixth find 5, 10 and 19."""
+    k = np.arange(1, 41)
+    for path, velocity, factor in ("a.csv", "1e-3", 1), ("b.csv", "1e-4", 10):
+        t = 100 + factor * (1000.0 * k + np.where((factor > 1) & (k % 2 == 1), 300, 0))
+        write_catalogue(path, t, [1] * 40, dict(model="lsm", length=40, velocity=velocity), t_end=t + 1, pe_start=[2] * 40, pe_end=[1] * 40)
+    script = Program("match.py", sys.executable, RESULTS / "match.py")
+    run(script, "a.csv b.csv --origin 100 --threshold 0.5 --within 0.1 --json m.json")
+    found, = json.load(open("m.json"))["matches"]
+    assert [found[key] for key in ("smallest_size", "n_first", "n_second", "same")] == [0.5, 39, 40, 20]
+    assert found["chance"] == pytest.approx(34 / 7)
+    refused(script, "a.csv b.csv --threshold 0.5 --within 0.1 --to 0.01", "a.csv: a catalogue without events")
+    write_catalogue("still.csv", [1, 2], [1, 1])
+    refused(script, "a.csv still.csv --threshold 0.5 --within 0.1", "still.csv: no velocity in the header")
+
+
+# ---- periods.py
+
+
+def events(n, tied, rng):
+    """Independent events over 70 periods, with weights of which a few dominate; a share lies in the third tenth of the period."""
+    at = 70 * rng.uniform(size=n)
+    times = np.where(rng.uniform(size=n) < tied, np.floor(at) + 0.2 + 0.1 * rng.uniform(size=n), at)
+    return np.sort(times), (1 - rng.uniform(size=n))**-0.6
+
+
+def test_rayleigh_by_hand():
+    # The phases differ by a quarter of a period: the resultant is the diagonal of the weights.
+    times, weights = np.array([0, 0.25]), np.array([3.0, 4.0])
+    for period, z in (1.0, 1.0), (0.25, 49 / 25), (0.5, 1 / 25):
+        assert periods.rayleigh_z(times, weights, period) == pytest.approx(z)
+
+
+def test_chance_is_one_and_alarms_are_as_rare_as_stated():
+    rng, z, alarms = np.random.default_rng(5), [], 0
+    for _ in range(300):
+        times, weights = events(200, 0.0, rng)
+        z.append(periods.rayleigh_z(times, weights, 1.0))
+        alarms += periods.chance_of(z[-1], weights, 199) <= 0.05
+    assert np.mean(z) == pytest.approx(1, abs=0.2) and alarms / 300 == pytest.approx(0.05, abs=0.04)
+    times, weights = events(400, 0.3, rng)
+    z = periods.rayleigh_z(times, weights, 1.0)
+    assert z > 4 and periods.chance_of(z, weights, 999) < 0.01
+
+
+def test_energy_at_equal_times():
+    rng = np.random.default_rng(7)
+    a, b = (events(600, 0.5, rng)[0] for _ in range(2))
+    correlation, p = periods.coincidence((a, np.ones(600)), (b, np.ones(600)), 0.1)
+    assert correlation > 0.3 and p < 0.15  # one in ten shifts is by whole periods and gives the same correlation
+    correlation, p = periods.coincidence(events(600, 0, rng), events(600, 0, rng), 0.1)
+    assert abs(correlation) < 0.2 and p > 0.01
+    with pytest.raises(ValueError, match="fewer than 20 bins of 10 in common"):
+        periods.coincidence((a, np.ones(600)), (b, np.ones(600)), 10)
+
+
+def test_periods_of_files(work):
+    rng = np.random.default_rng(3)
+    for name, tied in ("tied", True), ("free", False):
+        cycles = np.arange(1, 81)
+        slip = np.sort((cycles[:, None] + (0.1 if tied else 1.0) * rng.uniform(size=(80, 5))).ravel())
+        write_catalogue(f"{name}.csv", slip / 5e-4, [0.1] * 400, dict(model="lsm", length=40, velocity=2.5e-4))  # two plates
+    write_catalogue("still.csv", range(20), [1] * 20)
+    script = Program("periods.py", sys.executable, RESULTS / "periods.py")
+    done = run(script, "tied.csv free.csv")
+    assert float(done.printed(r"tied.csv: period 1, 400 events: Z (\S+),")[1]) > 300
+    assert float(done.printed(r"free.csv: period 1, 400 events: Z (\S+),")[1]) < 10
+    done.printed("tied.csv and free.csv: energy at equal times: correlation")
+    refused(script, "still.csv", "still.csv: no velocity of the plates in the header")
+    refused(script, "tied.csv --threshold 2", "tied.csv: 0 events of this size, expected at least 10")
+
+
+# ---- nature.py
+
+
+def test_random_numbers_are_those_of_the_mersenne_twister():
+    """The first of std::mt19937_64 with seed 1."""
+    assert list((nature.random_numbers(1000)[:3] * 2**53).astype(int)) == [2469588189546311528 >> 11, 2516265689700432462 >> 11,
+                                                                           8323445853463659930 >> 11]  # yapf: disable
+
+
+def test_mean_and_error():
+    assert catalogues.mean_and_error([2.0, math.nan], [0.3, 0.1]) == (2.0, 0.3)
+    assert catalogues.mean_and_error([1.5, 1.5], [0.3, 0.4]) == pytest.approx((1.5, 0.25))
+    assert catalogues.mean_and_error([1.0, 3.0], [0.3, 0.4]) == pytest.approx((2.0, 1.0))
+    assert math.isnan(catalogues.mean_and_error([math.nan])[0])
+
+
+def test_distance_sees_the_law_and_not_the_unit():
+    rng = np.random.default_rng(4)
+    a, b = rng.exponential(size=1000), 50 * rng.exponential(size=1000)
+    value, error = nature.distance_and_error(a, b, 100)
+    assert value < 0.07 and 0.005 < error < 0.03
+    assert nature.distance_and_error(a, b**2, 100)[0] > 0.15
+
+
+def test_events_around_large_ones():
+    # Every tenth event is large, is soon followed by three others, and preceded by none.
+    starts = np.array([100.0 * k + (0.01 * i if i < 4 else 9.0 * i) for k in range(50) for i in range(10)])
+    numbers = nature.sample_of(starts, np.where(np.arange(500) % 10, 1.0, 10.0), 1.0)[2]
+    assert numbers["after"][0] == pytest.approx(3.0) and numbers["before"][0] == 0
+    with pytest.raises(ValueError, match="all events start at the same time"):
+        nature.sample_of(np.ones(9), np.ones(9), 1.0)
+
+
+def test_nature_of_a_catalogue(postproc, work):
+    script = Program("nature.py", sys.executable, RESULTS / "nature.py", postproc.path)
+    chain = RESULTS / "catalogues/slider_ours_256_seed_1.catalogue.csv.xz"
+    run(script, chain, "--from 12000 --threshold 1 --json n.json")
+    quakes, model = json.load(open("n.json"))["models"]
+    assert quakes["label"] == "Southern California" and quakes["distance"] is None and quakes["events"] == 6621
+    assert 0.1 < model["distance"] and 0 < model["distance_error"] < model["distance"]
+    # The fits are those of intervals.
+    run(postproc, "intervals", chain, "--from 12000 --threshold 1 --rescale --method likelihood --delta 1 --replicas 0 --no-picture --json i.json")
+    fit = json.load(open("i.json"))["fits"][0]
+    assert (model["gamma"], model["gamma_error"]) == (fit["gamma"], fit["gamma_error"])
+    refused(script, [chain, "--threshold", "0"], "--threshold 0 has no magnitude")
+    # Twice the same catalogue: no scatter, and errors of half the variance.
+    twice = nature.rows_of(postproc.path, {"twice": [chain, chain]}, ["1"], [2.0], 12000, 20)[1]
+    once = nature.rows_of(postproc.path, {"once": [chain]}, ["1"], [2.0], 12000, 20)[1]
+    assert twice["catalogues"] == 2 and twice["distance"][0] == once["distance"][0]
+    assert twice["distance"][1] == pytest.approx(once["distance"][1] / math.sqrt(2))
+    assert [len(nature.table1([once])), len(rows(chain)) > 0] == [5, True]
+
+
+# ---- rupture_benchmark.py
+
+
+def ramp(top, h, end=4.0):
+    """Slip rate that rises from 0 to `top` between the times 1 and 2, sampled at intervals of h."""
+    t = np.arange(0, end + 1e-9, h)
+    up = np.clip(t - 1, 0, 1)
+    return np.array([t, top * (0.5 * up * up + np.maximum(t - 2, 0)), top * up])
+
+
+def test_arrival_is_between_samples(monkeypatch):
+    monkeypatch.setattr(benchmark, "ARRIVED", 1.1)
+    assert benchmark.arrival(ramp(2.0, 0.25)) == pytest.approx(1.55)
+    assert math.isnan(benchmark.arrival(ramp(1.0, 0.25)))
+
+
+def test_misfit_of_a_multiple():
+    m = benchmark.misfit(ramp(2.2, 0.01), ramp(2.0, 0.05), 100.0)
+    assert (m["slip_l2"], m["rate_l2"]) == pytest.approx((0.1, 0.1), abs=1e-3)
+    assert m["end_slip"] / m["reference_end_slip"] == pytest.approx(1.1) and m["peak_rate"] / m["reference_peak_rate"] == pytest.approx(1.1)
+    assert m["arrival"] - m["reference_arrival"] == pytest.approx(1 / 2.2 - 1 / 2.0)
+    # Only times that both have count.
+    m = benchmark.misfit(ramp(2.0, 0.01, 2.5), ramp(2.0, 0.05), 100.0)
+    assert (m["end_slip"], m["reference_end_slip"]) == pytest.approx((2.0, 2.0))
+    assert benchmark.misfit(ramp(2.0, 0.01), ramp(2.0, 0.05), 1.5)["end_slip"] == pytest.approx(0.25)
+    with pytest.raises(ValueError, match="no time in common"):
+        benchmark.misfit(ramp(2.0, 0.01), ramp(2.0, 0.05), -1.0)
+
+
+def test_summary_is_root_mean_square():
+    a = dict(arrival=1.3, reference_arrival=0.9, end_slip=1.1, reference_end_slip=1.0, slip_l2=0.1, rate_l2=0.3, peak_rate=1.0,
+             reference_peak_rate=1.0)
+    b = a | dict(arrival=1.0, end_slip=1.9, reference_end_slip=2.0, rate_l2=0.4, peak_rate=0.8)
+    s = benchmark.summary([a, b])
+    assert (s["arrival"], s["arrival_max"]) == pytest.approx((math.sqrt((0.16 + 0.01) / 2), 0.4))
+    assert (s["slip"], s["slip_max"], s["slip_l2"]) == pytest.approx((math.sqrt(0.02 / 5), 0.1, 0.1))
+    assert (s["rate_l2"], s["peak"]) == pytest.approx((math.sqrt(0.125), math.sqrt(0.04 / 2)))
+
+
+def test_summary_is_that_of_the_page():
+    """The published stations give the numbers of rupture-benchmark.md."""
+    stations = [row for row in catalogues.rows_of(open(RESULTS / "rupture_benchmark-stations.csv")) if row["reference"].startswith("boundary")]
+    for spacing, arrival, slip, rate in (("200", 0.0357, 0.42, 19.7), ("100", 0.0086, 0.15, 8.4), ("50", 0.0029, 0.06, 3.8)):
+        some = [{key: value if key in ("run", "reference") else float(value) for key, value in row.items()} for row in stations
+                if row["spacing"] == spacing]  # yapf: disable
+        s = benchmark.summary(some)
+        assert f"{s['arrival']:.4f}" == f"{arrival:.4f}" and f"{100 * s['slip']:.2f}" == f"{slip:.2f}" and f"{100 * s['rate_l2']:.1f}" == f"{rate}"
+
+
+def test_references_that_are_none_are_refused(work):
+    script = Program("rupture_benchmark.py", sys.executable, RESULTS / "rupture_benchmark.py")
+    (work / "run.slip.bin").write_bytes(b"")
+    for text, said in (("curve,x,t,slip,slip_rate\n", "reference.csv: no rows, expected those of the columns 'curve,x,t,slip,slip_rate'"),
+                       ("a,b\n", "reference.csv: expected the columns"), ("curve,x,t,slip,slip_rate\na,0,1,x,1\n",
+                                                                          "reference.csv:2: 'a,0,1,x,1', expected a name and four numbers"),
+                       ("curve,x,t,slip,slip_rate\na,0,1,1,1\na,0,1,1,1\n", "reference.csv:3: time 1, expected increasing times"),
+                       ("curve,x,t,slip,slip_rate\na,0,1,1,1\n", "run.slip.bin: no slip history")):
+        (work / "reference.csv").write_text(text)
+        refused(script, "run.slip.bin --reference reference.csv -o out --no-picture", said)
