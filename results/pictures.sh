@@ -1,25 +1,32 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Pictures of these pages from the published data, and from two short runs of the fault of length
-# 120: the default (PE, ruptures, tutorial, page of postproc explore, a film frame) and more static
-# friction (tutorial). POSTPROC and LMP: the programs, those of build/bin by default. Needs gnuplot,
-# and chromium for the page.
-# usage: pictures.sh [catalogues|run|studies]...
+# Pictures of these pages and a report page (report.html, not in git) from the published data, and
+# pictures from two short runs of the fault of length 120: the default (PE, ruptures, tutorial, page
+# of postproc explore, a film frame) and more static friction (tutorial). POSTPROC and LMP: the
+# programs, those of build/bin by default. Needs gnuplot, and chromium for the page.
+# usage: pictures.sh [catalogues|run|studies|report]...
 set -euo pipefail
 cd "$(dirname "$0")"
 root=$(cd .. && pwd)
 postproc=${POSTPROC:-$root/build/bin/postproc} lmp=${LMP:-$root/build/bin/lmp}
 loading=$(sed -n "s/^LOADING = \([0-9]*\).*/\1/p" "$root/inputs/studies/calibrate.py") # as in the tables
-[ $# -gt 0 ] || set -- catalogues run studies
+[ $# -gt 0 ] || set -- catalogues run studies report
 new=$(mktemp -d)
 trap 'rm -rf "$new"' EXIT
 
+# in the order of the tables, so that the bootstrap has the same random numbers
+mapfile -t every < <(ls campaign/fault_*.catalogue.csv.xz | sort -t_ -k2n -k3n)
+mapfile -t faults < <(printf '%s\n' "${every[@]}" | grep _1.catalogue)
+sliders=(catalogues/slider_ours_{256,614,972,1450,1928}_seed_1.catalogue.csv.xz)
+
 for part; do
   case $part in
+    report)
+      "$postproc" report "${faults[@]}" "${sliders[@]}" --from "$loading" -o "$new/report.html" \
+        --title "Faults with the calibrated values, block-sliders in the default settings"
+      cp "$new/report.html" .
+      ;;
     catalogues)
-      # in the order of the tables, so that the bootstrap has the same random numbers
-      mapfile -t every < <(ls campaign/fault_*.catalogue.csv.xz | sort -t_ -k2n -k3n)
-      mapfile -t faults < <(printf '%s\n' "${every[@]}" | grep _1.catalogue)
       ruptures=() labels=()
       for file in "${faults[@]}"; do
         length=${file#*fault_}
@@ -27,8 +34,6 @@ for part; do
       done
       "$postproc" rupture "${ruptures[@]}" "${labels[@]}" -o "$new/rupture"
       for name in lengths moments length pe; do cp "$new/rupture-$name.png" rupture_$name.png; done
-      sliders=()
-      for blocks in 256 614 972 1450 1928; do sliders+=(catalogues/slider_ours_${blocks}_seed_1.catalogue.csv.xz); done
       "$postproc" intervals "${sliders[@]}" -o "$new/fig15_slider_intervals"
       "$postproc" fit "${sliders[@]}" --scaling --range 0.01:1 --range 1:100 --replicas 0 --no-comparison -o "$new/slider_fit"
       "$postproc" fit catalogues/slider_ruptures_*.xz --scaling --range 1:100 --from 40000 --threshold 1 --replicas 0 \
@@ -40,9 +45,6 @@ for part; do
       common=(--from "$loading" --threshold 1e-4)
       "$postproc" histograms "${faults[@]}" "${common[@]}" --guide=-1.07:1e-4:0.1 -o "$new/fig12_fault_sizes"
       "$postproc" intervals "${faults[@]}" "${common[@]}" --delta 1 --shortest 0 --shuffles 0 -o "$new/fig14_fault_intervals"
-      "$postproc" report "${faults[@]}" "${sliders[@]}" --from "$loading" -o "$new/report.html" \
-        --title "Faults with the calibrated values, block-sliders in the default settings"
-      cp "$new/report.html" .
       for fit in slider_fit rupture_fit fault_fit fault_rupture_fit; do
         for kind in csv gp png; do cp "$new/$fit.scaling.$kind" .; done
       done
@@ -93,7 +95,7 @@ for part; do
       rm -f regime-map.svg
       ;;
     *)
-      echo "pictures.sh: part '$part', expected catalogues, run or studies" >&2
+      echo "pictures.sh: part '$part', expected catalogues, run, studies or report" >&2
       exit 2
       ;;
   esac

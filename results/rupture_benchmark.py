@@ -99,10 +99,13 @@ def misfit(curve, reference, until):
     times = times[(times > begin) & (times <= end)]
     share = np.diff(times, prepend=begin)
     (slip, rate), (wanted_slip, wanted_rate) = ([np.interp(times, one[0], one[k]) for k in (1, 2)] for one in (curve, reference))
+
+    def l2(wanted, found):
+        return math.sqrt(share @ (found - wanted)**2 / total) if (total := share @ wanted**2) > 0 else math.inf
+
     return dict(arrival=arrival(curve), reference_arrival=arrival(reference), end_slip=np.interp(end, curve[0], curve[1]),
-                reference_end_slip=np.interp(end, reference[0], reference[1]),
-                slip_l2=math.sqrt(share @ (slip - wanted_slip)**2 / (share @ wanted_slip**2)), peak_rate=rate.max(),
-                reference_peak_rate=wanted_rate.max(), rate_l2=math.sqrt(share @ (rate - wanted_rate)**2 / (share @ wanted_rate**2)))
+                reference_end_slip=np.interp(end, reference[0], reference[1]), slip_l2=l2(wanted_slip, slip), peak_rate=rate.max(),
+                reference_peak_rate=wanted_rate.max(), rate_l2=l2(wanted_rate, rate))
 
 
 def summary(stations):
@@ -161,6 +164,12 @@ def shown_places(references):
     return [common[k] for k in np.unique(np.linspace(0, len(common) - 1, min(6, len(common))).astype(int))] if common else []
 
 
+def tick(most):
+    """Distance of the ticks of an axis from 0 to `most`, for about three."""
+    decade = 10.0**math.floor(math.log10(most / 3))
+    return decade * (1 if most / 3 < 2 * decade else 2 if most / 3 < 5 * decade else 5)
+
+
 def rows_and_picture(runs, references, until, base, no_picture):
     """BASE.csv: curves at the places shown, and fronts, numbered: the references first; and its picture."""
     places, last = shown_places(references), list(references)[-1]
@@ -171,9 +180,7 @@ def rows_and_picture(runs, references, until, base, no_picture):
             t, slip, rate = at_place(one, x, name) if spacing else next(curve for y, curve in one.items() if same_place(x, y))
             known = next(curve for y, curve in references[last].items() if same_place(x, y))
             off = np.where((t >= known[0][0]) & (t <= known[0][-1]), slip - np.interp(t, known[0], known[1]), math.nan)
-            rows += [
-                dict(number=number, x=x, t=at, slip=s, slip_rate=v, difference=d) for at, s, v, d in zip(t, slip, rate, off) if at <= until
-            ]
+            rows += [dict(number=number, x=x, t=at, slip=s, slip_rate=v, difference=d) for at, s, v, d in zip(t, slip, rate, off) if at <= until]
             most[k] = np.fmax(most[k], [slip.max(), rate.max(), 100 * np.nanmax(np.abs(off), initial=0)])
         rows += [dict(number=-number, x=x, t=arrival(curve), slip=math.nan, slip_rate=math.nan, difference=math.nan) for x, curve in one.items()]
     comments = ["number n > 0: curve n at x; -n: arrival of curve n at x", f"difference: slip less that of {last}"]
@@ -190,14 +197,15 @@ def rows_and_picture(runs, references, until, base, no_picture):
             left, top, limit = 0.065 + 0.335 * column, 0.985 - high * k, max(1.1 * most[k][column], 1e-9)
             script += f"""set lmargin at screen {left}; set rmargin at screen {left + 0.25}
 set tmargin at screen {top:.4f}; set bmargin at screen {top - 0.86 * high:.4f}
-set format x "{'%g' if k + 1 == len(places) else ''}"; set ylabel "{title}"; set yrange [{-limit if column == 2 else 0}:{limit}]
+set format x "{'%g' if k + 1 == len(places) else ''}"; set ylabel "{title}" offset {0.5 if column == 2 else 1.5},0
+set yrange [{-limit if column == 2 else 0}:{limit}]; set ytics {tick(2.5 * limit if column == 2 else limit):g}
 set label 1 "{'' if column == 2 else f'x = {x / 1000:g} km'}" at graph {0.98 if column else 0.03},0.86 {'right' if column else 'left'}
 plot """ + ", ".join(f"table using ($1 == {n} && $2 == {x:.17g} ? $3 : NaN):{cell} with lines {line} notitle"
                      for n, line in enumerate(lines, 1)) + "\n"
     script += f"""unset label 1; set lmargin at screen 0.065; set rmargin at screen 0.985; set xrange [*:*]; set yrange [*:*]; set format x "%g"
-set tmargin at screen {0.985 - high * len(places) - 30 / height:.4f}; set bmargin at screen {high:.4f}; set ylabel "Arrival (s)"
+set tmargin at screen {0.985 - high * len(places) - 30 / height:.4f}; set bmargin at screen {high:.4f}; set ylabel "Arrival (s)" offset 2.5,0; set ytics autofreq
 set xlabel "Place along the fault (km); above: time (s); right: slip less that of {last}"
-set key at screen 0.5,0.004 bottom center horizontal maxcols 4 samplen 3 noreverse Right
+set key at screen 0.5,0.004 bottom center horizontal maxcols 4 samplen 3 spacing 1.15 noreverse Right
 plot """
     parts = []
     for n, ((name, _, spacing), line) in enumerate(zip(curves, lines), 1):
@@ -205,7 +213,9 @@ plot """
         if spacing:
             parts.append(f'{data}lines {line} title "{name}"')
         else:  # the key combines the line of the panels above with the mark of this one
-            parts += [f"{data}points {line.split(' dt')[0].split(' lw')[0]} {mark} notitle", f'keyentry with linespoints {line} {mark} title "{name}"']
+            parts += [
+                f"{data}points {line.split(' dt')[0].split(' lw')[0]} {mark} notitle", f'keyentry with linespoints {line} {mark} title "{name}"'
+            ]
     draw(base, script + ", ".join(parts) + "\nunset multiplot", 1000, height)
 
 

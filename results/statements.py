@@ -17,10 +17,12 @@ from catalogues import events_of, lsm, numbers_of, plain, run, write_json
 PARTS = 20
 VELOCITIES = ("velocities", "The distribution of slip velocities was monotonic, decreasing for all slip velocities. (Sect. 4.1)")
 NEIGHBOURS = ("neighbours", "Slip at a single contact will in most cases, trigger dynamic rupture of neighbouring contacts. (Sect. 5)")
-LOCKED = ("locked", "During intervals in which the fault is locked, the potential in the model increases due to loading at the boundaries. (Sect. 4.1)")
+LOCKED = ("locked",
+          "During intervals in which the fault is locked, the potential in the model increases due to loading at the boundaries. (Sect. 4.1)")
 ROLL_OFF = ("roll-off", "Both LSM and block-slider simulations display an exponential roll-off in event numbers for the large event tail of the "
             "distributions. (Sect. 4.2)")
-NUMBERS = ("numbers", "1-3 x 10^7 time steps, resulting in the generation of between 3000 and 8000 events generated during each simulation (Sect. 2); "
+NUMBERS = ("numbers",
+           "1-3 x 10^7 time steps, resulting in the generation of between 3000 and 8000 events generated during each simulation (Sect. 2); "
            "LSM: B 15.21, C 0.0573 (Table 1)")
 # Of Table 1, and the time step that follows from them if 1e7 steps have 3000 events.
 PRINTED_B, PRINTED_C = 15.21, 0.0573
@@ -196,8 +198,9 @@ def statements_of(postproc, path, begin, run=None):
     fit = numbers_of(postproc, "fit", path, "--from", begin, "--roll-off", "--replicas", 0, "--no-comparison", "--no-picture")
     found += catalogue_statements(fit["roll_off"][0], times["fits"][0], times["times"][0])
     return [
-        plain(dict(statement=statement, catalogue=label, number=number, value=value, value_error=error, p=math.nan, expected=expected,
-             verdict=verdict, note=note, quote=quote)) for (statement, quote), number, (value, error), expected, verdict, note in found
+        plain(
+            dict(statement=statement, catalogue=label, number=number, value=value, value_error=error, p=math.nan, expected=expected, verdict=verdict,
+                 note=note, quote=quote)) for (statement, quote), number, (value, error), expected, verdict, note in found
     ]
 
 

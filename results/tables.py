@@ -450,7 +450,7 @@ def laws_table():
 
 TABLES = {name.removesuffix("_table").replace("_", "-"): made for name, made in list(globals().items()) if name.endswith("_table")}
 TABLES |= {name: lambda made=made: table(*made()) for name, made in speed_tables.TABLES.items()}
-TABLES |= {"walk": lambda: table(*walk.table(POSTPROC, shown)), "lattice": lambda: table(*walk.lattice(shown))}
+TABLES |= {"walk": lambda: table(*walk.table(shown)), "lattice": lambda: table(*walk.lattice(shown))}
 
 
 def check(write):
@@ -476,9 +476,9 @@ def check(write):
     return wrong
 
 
-def differing(path, rows, least=1e-6):
-    """Says which cells of a CSV file differ from those of the same rows made again, numbers relatively by more than `least`."""
-    wrong, there = [], read(path)
+def differing(path, rows, there=None, least=1e-6):
+    """Says which cells of a CSV file, or of these rows of it, differ from those made again, numbers relatively by more than `least`."""
+    wrong, there = [], read(path) if there is None else there
     for n, (old, new) in enumerate(zip(there, rows), 1):
         for key in new:
             a, b = old[key], catalogues.text_of(new[key] if new[key] is not None else math.nan)
@@ -493,11 +493,11 @@ def differing(path, rows, least=1e-6):
 
 
 def check_csv():
-    """Files of nature.py, and those statements of each fault that rest on its catalogue only."""
+    """Files of nature.py, the statements of each fault that rest on its catalogue only, and stations of the walk with all their seeds."""
     rows = nature.rows_of(POSTPROC, nature.MODELS)
     wrong = [
-        differing(FOLDER / f"nature{ending}.csv", made) for ending, made in (("", nature.curves(rows)), (".table", nature.table(rows)),
-                                                                             (".table1", nature.table1(rows)))
+        differing(FOLDER / f"nature{ending}.csv", made)
+        for ending, made in (("", nature.curves(rows)), (".table", nature.table(rows)), (".table1", nature.table1(rows)))
     ]
     for folder in CAMPAIGN, VALIDATION:
         again = {}
@@ -506,7 +506,11 @@ def check_csv():
                 again[path.name.split(".")[0], row["number"]] = row
         there = [row for row in read(folder / "statements.csv") if (row["run"], row["number"]) in again]
         made = [again[row["run"], row["number"]] for row in there]
-        wrong.append(len(made) != len(again) or differing(folder / "statements.csv", made))
+        wrong.append(len(made) != len(again) or differing(folder / "statements.csv", made, there))
+    measured = {row["station"]: row for row in walk.lines_of(walk.measured(POSTPROC, FOLDER / "walk"))}
+    there = read(FOLDER / "walk.csv")
+    both = [row["station"] for row in there if str(measured.get(row["station"], {"seeds": ""})["seeds"]) == row["seeds"]]
+    wrong.append(len(both) < 12 or differing(FOLDER / "walk.csv", [measured[name] for name in both], [row for row in there if row["station"] in both]))
     return any(wrong)
 
 

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The stations of the study `walk`, seeds put together: walk.py POSTPROC FOLDER walk.csv
 
-FOLDER has the catalogues, as RUN/catalogue.csv (of the study) or RUN.catalogue.csv.xz (as published); the fault is that of
-results/campaign. Each number is the mean over the seeds, with its standard error, of
+FOLDER has the catalogues, as RUN/catalogue.csv (of the study) or RUN.catalogue.csv.xz (as published; of the stations that
+results/nature.py uses); the fault is that of results/campaign. Each number is the mean over the seeds, with its standard error, of
   exponent_N   exponent of the sizes from 10^N to 10^(N+1) units, by maximum likelihood, of all seeds together, as one seed may have
                few events there; error by jackknife over the seeds. The unit is 1 for blocks and 1e-3 for faults
   gamma_N      of the times between events of at least 10^N units, delta held at 1
@@ -165,9 +165,9 @@ def measured(postproc, folder):
     return result
 
 
-def table(postproc, shown, folder=RESULTS / "walk"):
-    """Head and rows of the table of walk.md. \\param shown text of a number and its error"""
-    found = measured(postproc, folder)
+def table(shown):
+    """Head and rows of the table of walk.md, from walk.csv. \\param shown text of a number and its error"""
+    found = {row["station"]: row for row in read(RESULTS / "walk.csv")}
     lines = [(f"{text}, {n} blocks", f"{name}-{n}") for text, name in WALK for n in (256, 512, 1024)]
     lines += [*FAULTS, *((f"*{text}*", f"{name}-512") for text, name in CONTROLS)]
     head = ["station", "seeds, events", *(f"exponent {10.0**n:g} to {10.0**(n + 1):g}" for n in DECADES[1:])]
@@ -180,9 +180,8 @@ def table(postproc, shown, folder=RESULTS / "walk"):
         if name not in found:
             continue
         one, local = found[name], found.get(f"ruptures-{name}", {})
-        cells = [shown(*one.get(key, (math.nan, math.nan))) for key in keys]
-        cells += [shown(*local.get(key, (math.nan, math.nan))) for key in ("local", "local_10")]
-        rows.append([text, f"{one['seeds']}, {one['events'][0] * one['seeds']:.0f}", *cells])
+        cells = [shown(number(row, key), number(row, f"{key}_error")) for row, some in ((one, keys), (local, ("local", "local_10"))) for key in some]
+        rows.append([text, f"{one['seeds']}, {number(one, 'events') * int(one['seeds']):.0f}", *cells])
     return head, rows
 
 
@@ -203,13 +202,19 @@ def lattice(shown):
     ]  # yapf: disable
 
 
-def main(postproc, folder, out):
+def lines_of(found):
+    """Rows of walk.csv."""
     lines = []
-    for name, one in measured(postproc, folder).items():
-        line = {"station": name, "seeds": one.pop("seeds")}
-        for key, (mean, error) in one.items():
-            line |= {key: f"{mean:.4g}" if math.isfinite(mean) else "", f"{key}_error": f"{error:.2g}" if math.isfinite(error) else ""}
+    for name, one in found.items():
+        line = {"station": name, "seeds": one["seeds"]}
+        for key, (mean, error) in ((key, pair) for key, pair in one.items() if key != "seeds"):
+            line |= {key: f"{mean:.10g}" if math.isfinite(mean) else "", f"{key}_error": f"{error:.10g}" if math.isfinite(error) else ""}
         lines.append(line)
+    return lines
+
+
+def main(postproc, folder, out):
+    lines = lines_of(measured(postproc, folder))
     names = list(dict.fromkeys(key for line in lines for key in line))
     with open(out, "w", encoding="utf-8", newline="") as file:
         writer = csv.DictWriter(file, names, lineterminator="\n")

@@ -34,7 +34,7 @@ def test_tpv205(ruptured):
     if drawn:
         assert os.path.getsize("beside.png") > 0
         svg = Path("beside.svg").read_text()
-        assert "right: slip less that of boundary integral 25 m" in svg and svg.count("PyLith 200 m") == 1
+        assert "right: slip less that of boundary integral 25 m" in svg and svg.count("<title>PyLith 200 m</title>") == 1
     curves = table("beside.csv")
     of_run = [row for row in curves if row["number"] == "3" and row["difference"]]
     largest = max(abs(float(row["difference"])) for row in of_run)

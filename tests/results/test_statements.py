@@ -92,9 +92,9 @@ def test_slip_and_drops_add_up_by_hand(work):
     between, within = 99 * 8 * 1e-4, 200 * 0.02
     for number, value in (("share of the time while no event is open", 99 * 8 / 992), ("share of the time with intervals of their own", 200 / 992),
                           ("slip rate between events over that of the plates", 0.1), ("slip rate within events over that between them", 200),
-                          ("share of the slip while no event is open", between / (between + within)),
-                          ("rise of PE between events over the work of the plates", 0.9), ("slip recorded over that of the plates",
-                                                                                           (between + within) / 0.992)):
+                          ("share of the slip while no event is open",
+                           between / (between + within)), ("rise of PE between events over the work of the plates",
+                                                           0.9), ("slip recorded over that of the plates", (between + within) / 0.992)):
         assert all_drops[number] == pytest.approx(value, rel=1e-5), number
     assert all_drops["share of bins that slip backwards"] == 0
     # Half of the drops are too small, which doubles the time between drops.
