@@ -60,7 +60,7 @@ class AftershockRates : public Statistic {
 
   SequenceRule rule_for(const EventTable &table) const {
     SequenceRule rule;
-    rule.least_size = threshold_.complete_in(table).size;
+    rule.least_size = threshold_.of(table).size;
     rule.first = first_;
     std::vector<double> sizes = column_from(table, rule.least_size, &Event::size);
     if (sizes.size() < 2)

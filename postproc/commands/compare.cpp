@@ -68,7 +68,7 @@ class Compare : public Statistic {
       TwoSampleTest test;
     };
     const EventTable &first = tables.front();
-    const double threshold = threshold_.complete_in(first).size;
+    const double threshold = threshold_.of(first).size;
     TableOf<Line> out;
     out.column("first", "first", [](auto &line) { return line.first.label; });
     out.column("second", "second", [](auto &line) { return line.second.label; });

@@ -76,7 +76,7 @@ class Fit : public Statistic {
     out.column("gain", "2 ln L of d = 1", [](auto &line) { return line.found.gain; });
     out.column("degenerate", "degenerate", [](auto &line) { return line.found.free.why; });
     for (const EventTable &table : tables) {
-      const double least = settings_.threshold.complete_in(table).size;
+      const double least = settings_.threshold.of(table).size;
       out.row({table, least, roll_off(table, least)});
     }
     return Table(std::move(out));
@@ -85,7 +85,7 @@ class Fit : public Statistic {
   /// The densities of all catalogues, with the laws fitted to them.
   Figure densities(const std::vector<EventTable> &tables, const std::vector<SizeFit> &fits) const {
     DensitySettings settings;
-    double least = settings_.threshold.given_or_paper();
+    double least = settings_.threshold.given.value_or(paper_threshold);
     for (const Range &range : settings_.ranges) least = std::min(least, range.lo);
     settings.threshold = settings_.ranges.empty() ? settings_.threshold : Threshold(least);
     const std::vector<SizeDensity> densities = size_densities(tables, settings);

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include <optional>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -18,7 +17,6 @@ class Intervals : public Statistic {
   IntervalSettings settings_;
   std::string method_ = "both";
   std::vector<std::string> deltas_ = {"1", "free"};
-  std::optional<double> shortest_;
 
   const char *help() const override {
     return "Densities of inter-event times (start to start), generalised gamma fits, and the "
@@ -43,7 +41,7 @@ class Intervals : public Statistic {
               among({"least-squares", "likelihood", "both"}));
     group.add("--delta", deltas_, "Exponent in the exponential: free or a value, several allowed",
               one_each());
-    group.add("--shortest", shortest_,
+    group.add("--shortest", settings_.shortest,
               "Leave times shorter than this multiple of their mean out of the fits; without it "
               "likelihood leaves out those below 2.5 memories of the picker, which joins events "
               "that are closer, and below 0.05 of the mean †, and least-squares none (as in "
@@ -96,7 +94,6 @@ class Intervals : public Statistic {
   Results of(const std::vector<EventTable> &tables) override {
     settings_.least_squares = method_ != "likelihood";
     settings_.maximum_likelihood = method_ != "least-squares";
-    settings_.shortest = shortest_.value_or(NAN);
     settings_.cuts = true;
     settings_.deltas.clear();
     for (const std::string &text : deltas_) {

@@ -65,7 +65,7 @@ class Magnitudes : public Statistic {
           "--complete-from header holds for sizes only, expected 'curvature' or a magnitude for "
           "magnitudes of moments");
     } else if (from == "header") {
-      const SmallestSize smallest = threshold_.complete_in(table);
+      const SmallestSize smallest = threshold_.of(table);
       if (!(smallest.size > 0.0))
         throw std::invalid_argument("--threshold 0 has no magnitude, expected a larger size");
       curve.completeness = scale.of(smallest.size);

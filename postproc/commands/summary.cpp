@@ -75,19 +75,6 @@ class Summary : public CatalogueAnalysis {
 
   std::vector<Output> outputs() const override { return {{"--output", output_}}; }
 
-  /// Fits the density of inter-event times with delta = 1.
-  /// \param times the positive ones
-  /// \param mean of all times, including those of 0
-  /// \param memory of the picker
-  GeneralisedGammaFit fit_times(const std::vector<double> &times, double mean,
-                                double memory) const {
-    if (times.empty()) return {};
-    const double given = shortest_.value_or(0.0) * mean;
-    if (method_ == "least-squares")
-      return fit_least_squares(bins_from(log_histogram(times), given), 1.0);
-    return fit_with_share(times, shortest_ ? given : shortest_time(memory, mean), 1.0);
-  }
-
   void add_threshold(Row &row, const EventTable &table, double threshold) const {
     const std::string name = fmt::format("{}", threshold);
     std::vector<double> times = inter_event_times(table, threshold);
@@ -98,8 +85,11 @@ class Summary : public CatalogueAnalysis {
       add(row, "share_" + window + "_" + name,
           share_within(times, parse_range("--window", window)));
     const RankCorrelation successive = successive_rank_correlation(times);
+    times = positive_ones(std::move(times));
+    const FitMethod method =
+        method_ == "likelihood" ? FitMethod::maximum_likelihood : FitMethod::least_squares;
     const GeneralisedGammaFit fit =
-        fit_times(positive_ones(std::move(times)), mean, table.picker_memory());
+        fit_times(method, times, log_histogram(times), shortest_, table.picker_memory(), mean, 1.0);
     add(row, "shortest_" + name, fit.lo);
     add(row, "gamma_" + name, fit.gamma);
     add(row, "gamma_error_" + name, fit.se_gamma);
@@ -150,7 +140,8 @@ class Summary : public CatalogueAnalysis {
     const std::vector<EventTable> tables = load_catalogues(catalogues);
     if (ranges_.empty()) {
       double smallest = 0.0;  // a single range, as all rows have the same columns
-      for (const EventTable &table : tables) smallest = std::max(smallest, Threshold().of(table));
+      for (const EventTable &table : tables)
+        smallest = std::max(smallest, Threshold().of(table).size);
       const Range range = paper_range(smallest);
       ranges_ = {fmt::format("{:g}:{:g}", range.lo, range.hi)};
     }

@@ -93,7 +93,7 @@ Table cuts_table(const std::vector<IntervalCurve> &curves) {
     const IntervalCurve &curve;
     const GammaOfCut &at;
     double mean() const { return curve.rescaled ? 1.0 : curve.mean; }
-    bool used() const { return at.cut == shortest_time(curve.memory, mean()); }
+    bool used() const { return at.cut == shortest_time({}, curve.memory, mean()); }
   };
   TableOf<Line> table;
   table.show("catalogue", [](auto &line) { return line.curve.label; });

@@ -157,7 +157,7 @@ json events_json(const ExploreEvents &kind, PageData &data) {
       numbers.push_back(column.number ? event.*column.number
                                       : static_cast<double>(event.*column.integer));
   }
-  const SmallestSize usual = Threshold().complete_in(table);
+  const SmallestSize usual = Threshold().of(table);
   return {{"kind", table.kind() == "pe" ? "drops" : table.kind()},
           {"file", table.path},
           {"count", table.events.size()},

@@ -47,7 +47,7 @@ std::vector<std::string> texts(const Threshold &threshold, const std::vector<Eve
   std::vector<std::string> lines;
   for (const EventTable &table : tables) {
     std::string line = fmt::format("smallest size, {}: {}", model_name(table.info.model),
-                                   text(threshold.in(table)));
+                                   text(threshold.of(table)));
     if (std::find(lines.begin(), lines.end(), line) == lines.end())
       lines.push_back(std::move(line));
   }

@@ -30,7 +30,7 @@ std::string catalogue_section(const std::vector<EventTable> &tables, const Thres
                "smallest to largest size (model energy)", "lines skipped"});
   std::string below;
   for (const EventTable &events : tables) {
-    const double threshold = least.of(events);
+    const double threshold = least.of(events).size;
     std::string starts = "no events", range = starts;
     if (!events.events.empty()) {
       Extent sizes;
@@ -236,7 +236,8 @@ std::string ReportPage::sizes(const std::vector<EventTable> &all,
       fault ? std::vector<Printed>{{-1.07, "paper: slope -1.07", paper_range(paper_threshold)}}
             : std::vector<Printed>{{-0.5, "paper: slope -0.5", {1e-2, 1.0}},
                                    {-1.0, "paper: slope -1.0", {1.0, 100.0}}};
-  const double threshold = settings_.threshold.of(all.front());  // is the same for all of a kind
+  const double threshold =
+      settings_.threshold.of(all.front()).size;  // is the same for all of a kind
   SizeFitSettings fits;
   fits.replicas = settings_.replicas;
   fits.seed = settings_.seed;
@@ -293,9 +294,9 @@ std::string ReportPage::scaling(const std::vector<EventTable> &tables) {
 }
 
 std::string ReportPage::times(const std::vector<EventTable> &tables) {
-  const double threshold = settings_.threshold.of(tables.front());
+  const double threshold = settings_.threshold.of(tables.front()).size;
   IntervalSettings intervals;
-  if (settings_.threshold.given()) intervals.thresholds = {threshold};
+  if (settings_.threshold.given) intervals.thresholds = {threshold};
   intervals.replicas = settings_.interval_replicas;
   intervals.seed = settings_.seed;
   const std::vector<IntervalCurve> curves = interval_curves(tables, intervals);

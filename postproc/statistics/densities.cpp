@@ -16,7 +16,7 @@ SizeDensity density_of(const EventTable &table, const DensitySettings &settings)
   out.label = table.label;
   out.model = table.info.model;
   out.length = table.length();
-  const double least = settings.threshold.of(table);
+  const double least = settings.threshold.of(table).size;
   if (!(least >= 0.0) || !(settings.upto > least))
     throw std::invalid_argument(
         fmt::format("{}: sizes from {} to {}: expected 0 <= lower end < upper end", table.label,
@@ -38,7 +38,7 @@ std::vector<SizeDensity> size_densities(const std::vector<EventTable> &tables,
   bool any = false;
   for (const EventTable &table : tables) {
     all.push_back(density_of(table, settings));
-    least = std::min(least, settings.threshold.of(table));
+    least = std::min(least, settings.threshold.of(table).size);
     any = any || !all.back().bins.empty();
   }
   if (!any)

@@ -37,15 +37,6 @@ double EventTable::picker_memory() const {
   return model_time * dt * stride / -std::log(left);
 }
 
-double EventTable::plate_velocity() const {
-  double velocity = 0.0;
-  const std::string *text = info.find("driving");
-  if (text && text_io::parse(*text, velocity)) return std::fabs(velocity);
-  text = info.find("velocity");
-  if (!text || !text_io::parse(*text, velocity)) return NAN;
-  return std::fabs(velocity) * (info.model == "lsm" ? 2.0 : 1.0);
-}
-
 double EventTable::share_in_events() const {
   if (events.empty() || info.overlapping()) return NAN;
   return in_events / (last_end - events.front().t_start);
@@ -64,19 +55,17 @@ std::int64_t events_from(const EventTable &table, double least) {
                        [least](const EventSummary &event) { return event.size >= least; });
 }
 
-SmallestSize Threshold::in(const EventTable &table) const {
-  if (given_) return {size_, SmallestSize::Origin::given};
-  if (table.earthquakes())
-    return {table.complete_from, SmallestSize::Origin::catalogue, table.label};
-  if (table.completeness > size_)
-    return {table.completeness, SmallestSize::Origin::header, table.completeness_path};
-  return {size_, SmallestSize::Origin::paper};
-}
-
-SmallestSize Threshold::complete_in(const EventTable &table) const {
-  const SmallestSize smallest = in(table);
-  if (!(table.complete_from > smallest.size)) return smallest;
-  return {table.complete_from, SmallestSize::Origin::catalogue};
+SmallestSize Threshold::of(const EventTable &table) const {
+  SmallestSize smallest;
+  if (given)
+    smallest = {*given, SmallestSize::Origin::given};
+  else if (table.earthquakes())
+    smallest = {table.complete_from, SmallestSize::Origin::catalogue, table.label};
+  else if (table.completeness > paper_threshold)
+    smallest = {table.completeness, SmallestSize::Origin::header, table.completeness_path};
+  if (table.complete_from > smallest.size)
+    smallest = {table.complete_from, SmallestSize::Origin::catalogue};
+  return smallest;
 }
 
 }  // namespace LSM::postproc

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -61,11 +62,6 @@ struct EventTable {
   /// \return NaN if no picker found the events or its memory has no length
   double picker_memory() const;
 
-  /// Relative velocity of the two sides (model units) from the header: `driving` for ruptures,
-  /// otherwise twice the plate velocity for a fault and the plate velocity for a chain.
-  /// \return NaN if the header does not give it
-  double plate_velocity() const;
-
   /// Share of the time from the first start to the end of the last event that lies within events.
   /// Ruptures that happen at the same time in different places are one drop of the total PE and
   /// hence one event: the longer the model, the larger this share and the more ruptures are merged.
@@ -101,23 +97,14 @@ struct SmallestSize {
 };
 
 /// The smallest size that was asked for.
-class Threshold {
- public:
-  /// The paper's threshold, or the completeness of the catalogues where that is larger.
+struct Threshold {
+  /// Without it, the paper's threshold or the completeness of the catalogues, if that is larger.
+  std::optional<double> given;
   Threshold() = default;
-  /// A threshold given by the user.
-  Threshold(double size) : size_(size), given_(true) {}
-  bool given() const { return given_; }
-  double given_or_paper() const { return size_; }
-  double of(const EventTable &table) const { return in(table).size; }
-  /// Smallest size for this catalogue, and where it comes from.
-  SmallestSize in(const EventTable &table) const;
-  /// As in(), but not below the size from which the table is complete.
-  SmallestSize complete_in(const EventTable &table) const;
-
- private:
-  double size_ = paper_threshold;
-  bool given_ = false;
+  Threshold(double size) : given(size) {}
+  /// Smallest size that is used of a catalogue, never below the size from which the catalogue is
+  /// complete, and where it comes from.
+  SmallestSize of(const EventTable &table) const;
 };
 
 }  // namespace LSM::postproc

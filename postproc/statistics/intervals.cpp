@@ -29,41 +29,12 @@ std::vector<double> inter_event_times(const EventTable &events, double threshold
   return differences(column_from(events, threshold, &Event::t_start));
 }
 
-namespace {
-
-/// Ranks from 1 on; equal values share their mean rank.
-std::vector<double> ranks_of(const std::vector<double> &values) {
-  std::vector<std::pair<double, std::size_t>> sorted;
-  sorted.reserve(values.size());
-  for (std::size_t i = 0; i < values.size(); ++i) sorted.emplace_back(values[i], i);
-  std::sort(sorted.begin(), sorted.end());
-  std::vector<double> ranks(values.size());
-  for (std::size_t first = 0; first < sorted.size();) {
-    std::size_t end = first;
-    while (end < sorted.size() && sorted[end].first == sorted[first].first) ++end;
-    for (std::size_t i = first; i < end; ++i)
-      ranks[sorted[i].second] = 0.5 * static_cast<double>(first + 1 + end);
-    first = end;
-  }
-  return ranks;
-}
-
-}  // namespace
-
 RankCorrelation successive_rank_correlation(const std::vector<double> &times) {
   RankCorrelation found;
   if (times.size() < 5) return found;
   const std::size_t n = times.size() - 1;
-  // All times are sorted once; the ranks without the last and without the first time follow.
-  std::vector<double> one = ranks_of(times), next(one.begin() + 1, one.end());
-  const auto leave_out = [](std::vector<double> &ranks, double left_out) {
-    for (double &rank : ranks) rank -= rank > left_out ? 1.0 : rank == left_out ? 0.5 : 0.0;
-  };
-  const double first = one.front(), last = one.back();
-  one.pop_back();
-  leave_out(one, last);
-  leave_out(next, first);
-  found.rho = gsl_stats_correlation(one.data(), 1, next.data(), 1, n);
+  std::vector<double> work(2 * n);
+  found.rho = gsl_stats_spearman(times.data(), 1, times.data() + 1, 1, n, work.data());
   const double freedom = static_cast<double>(n) - 2.0;
   const double t = std::fabs(found.rho) * std::sqrt(freedom / (1.0 - found.rho * found.rho));
   if (!std::isnan(found.rho)) found.p = std::isinf(t) ? 0.0 : 2.0 * gsl_cdf_tdist_Q(t, freedom);
@@ -94,25 +65,28 @@ std::vector<double> times_at_places(const EventTable &table, double threshold, i
   return times;
 }
 
-GeneralisedGammaFit fit_with_share(const std::vector<double> &times, double shortest,
-                                   double delta) {
-  GeneralisedGammaFit fit = fit_maximum_likelihood(times, shortest, delta);
-  const double share = static_cast<double>(fit.n) / static_cast<double>(times.size());
-  fit.C *= share;
-  fit.se_C *= share;
-  return fit;
-}
-
 int shuffles_for(std::size_t times) {
   return static_cast<int>(
       std::clamp<std::size_t>(20'000'000 / std::max<std::size_t>(times, 1), 19, 200));
 }
 
-std::vector<LogBin> bins_from(std::vector<LogBin> bins, double shortest) {
-  bins.erase(std::remove_if(bins.begin(), bins.end(),
-                            [shortest](const LogBin &bin) { return bin.lo < shortest; }),
-             bins.end());
-  return bins;
+GeneralisedGammaFit fit_times(FitMethod method, const std::vector<double> &times,
+                              const std::vector<LogBin> &bins, std::optional<double> shortest,
+                              double memory, double mean, double delta) {
+  const double least = times.empty() ? 0.0 : shortest_time(shortest, memory, mean);
+  if (method == FitMethod::least_squares) {
+    // C belongs to the density of all times, so the bins are selected without renormalising them.
+    std::vector<LogBin> used;
+    for (const LogBin &bin : bins)
+      if (!shortest || bin.lo >= least) used.push_back(bin);
+    return fit_least_squares(used, delta);
+  }
+  // Likewise: above the shortest time the density integrates to the share of the times there.
+  GeneralisedGammaFit fit = fit_maximum_likelihood(times, least, delta);
+  const double share = static_cast<double>(fit.n) / static_cast<double>(times.size());
+  fit.C *= share;
+  fit.se_C *= share;
+  return fit;
 }
 
 std::vector<GammaOfCut> gamma_of_cuts(const std::vector<double> &times, double memory,
@@ -142,18 +116,19 @@ void add_clustering(IntervalCurve &curve, const EventTable &table, const std::ve
   }
 }
 
-/// \param shortest shortest time that maximum likelihood uses
-std::vector<IntervalFit> fits_of(const std::vector<double> &times, const std::vector<LogBin> &bins,
-                                 double shortest, const IntervalSettings &settings) {
-  // C belongs to the density of all times, so the bins are selected without renormalising them.
-  const std::vector<LogBin> fitted =
-      std::isnan(settings.shortest) ? bins : bins_from(bins, shortest);
+/// \param mean of all times, in their unit
+std::vector<IntervalFit> fits_of(const std::vector<double> &times, const IntervalCurve &curve,
+                                 double mean, const IntervalSettings &settings) {
   std::vector<IntervalFit> fits;
+  const auto add = [&](const char *name, FitMethod method, double delta) {
+    fits.push_back(
+        {name, delta,
+         fit_times(method, times, curve.bins, settings.shortest, curve.memory, mean, delta)});
+  };
   for (const double delta : settings.deltas) {
     if (settings.maximum_likelihood)
-      fits.push_back({"maximum likelihood", delta, fit_with_share(times, shortest, delta)});
-    if (settings.least_squares)
-      fits.push_back({"least squares", delta, fit_least_squares(fitted, delta)});
+      add("maximum likelihood", FitMethod::maximum_likelihood, delta);
+    if (settings.least_squares) add("least squares", FitMethod::least_squares, delta);
   }
   for (IntervalFit &fit : fits) {
     if (fit.fit.degenerate) continue;
@@ -171,7 +146,7 @@ IntervalCurve curve_of(const EventTable &table, const Threshold &threshold,
   curve.earthquakes = table.earthquakes();
   curve.unit = table.time_unit();
   curve.rescaled = settings.rescale;
-  curve.threshold = threshold.complete_in(table);
+  curve.threshold = threshold.of(table);
   std::vector<double> times = settings.places > 0
                                   ? times_at_places(table, curve.threshold.size, settings.places)
                                   : inter_event_times(table, curve.threshold.size);
@@ -187,10 +162,8 @@ IntervalCurve curve_of(const EventTable &table, const Threshold &threshold,
   curve.memory = settings.places > 0 ? NAN : table.picker_memory();
   const double mean = settings.rescale ? 1.0 : curve.mean;
   if (settings.rescale) curve.memory /= curve.mean;
-  if (!times.empty())
-    curve.shortest = std::isnan(settings.shortest) ? shortest_time(curve.memory, mean)
-                                                   : settings.shortest * mean;
-  curve.fits = fits_of(times, curve.bins, curve.shortest, settings);
+  if (!times.empty()) curve.shortest = shortest_time(settings.shortest, curve.memory, mean);
+  curve.fits = fits_of(times, curve, mean, settings);
   if (settings.cuts) curve.cuts = gamma_of_cuts(times, curve.memory, mean);
   return curve;
 }
@@ -199,8 +172,7 @@ IntervalCurve curve_of(const EventTable &table, const Threshold &threshold,
 
 std::vector<IntervalCurve> interval_curves(const std::vector<EventTable> &tables,
                                            const IntervalSettings &settings) {
-  if (!std::isnan(settings.shortest) &&
-      !(settings.shortest >= 0.0 && std::isfinite(settings.shortest)))
+  if (settings.shortest && !(*settings.shortest >= 0.0 && std::isfinite(*settings.shortest)))
     throw std::invalid_argument("shortest time: expected a multiple of the mean of zero or more");
   std::vector<Threshold> thresholds(settings.thresholds.begin(), settings.thresholds.end());
   if (thresholds.empty()) thresholds.emplace_back();

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,10 +27,8 @@ struct IntervalSettings {
   int places = 0;
   bool rescale = false;              ///< divide the times by their mean
   double factor = usual_bin_factor;  ///< ratio of the edges of a bin
-  /// Times shorter than this multiple of the mean are not fitted; NaN: maximum likelihood leaves
-  /// out those below shortest_time(), least squares none, as in the paper.
-  double shortest = NAN;
-  bool cuts = false;  ///< also compute gamma_of_cuts()
+  std::optional<double> shortest;    ///< see shortest_time()
+  bool cuts = false;                 ///< also compute gamma_of_cuts()
   bool least_squares = true, maximum_likelihood = true;
   int replicas = 1000;  ///< for the Monte Carlo p-values of maximum likelihood; 0: none
   std::uint64_t seed = 1;
@@ -45,15 +44,18 @@ struct IntervalSettings {
 /// of longer series scatter less (2e7 times in all, but at least 19 series, so that p can be 0.05).
 int shuffles_for(std::size_t times);
 
-/// Shortest time that carries information about the fault †. A picker with a memory merges events
+/// Shortest time that maximum likelihood uses: a given multiple of the mean or, if none is given,
+/// the shortest one that carries information about the fault †. Least squares uses it only if it is
+/// given, and all times otherwise, as in the paper. A picker with a memory merges events
 /// that are closer than that: of series with gamma from 0.7 to 1 and a dead time of one memory, the
 /// times above 2.5 memories recover gamma, whereas all times overestimate it by 0.1 to 0.4 (a test
 /// has these series). Times below 0.05 of the mean lie within sequences, where earthquake
 /// catalogues are incomplete.
+/// \param given multiple of the mean
 /// \param memory memory of the picker; NaN: none
 /// \param mean mean inter-event time in the same unit
-inline double shortest_time(double memory, double mean) {
-  return std::fmax(2.5 * memory, 0.05 * mean);
+inline double shortest_time(std::optional<double> given, double memory, double mean) {
+  return given ? *given * mean : std::fmax(2.5 * memory, 0.05 * mean);
 }
 
 /// gamma for delta = 1, by maximum likelihood of the times from `cut` on.
@@ -90,7 +92,7 @@ struct IntervalCurve {
   /// The same on a scale from -1 (periodic) to 1; 0 for independent events (Goh & Barabasi 2008).
   double burstiness() const { return burstiness_of(variation); }
   double memory = 0.0;    ///< memory of the picker in the unit of the fitted times; NaN: none
-  double shortest = 0.0;  ///< shortest time that maximum likelihood uses, in the same unit
+  double shortest = 0.0;  ///< shortest_time() in the same unit
   std::vector<LogBin> bins;
   std::vector<IntervalFit> fits;
   std::vector<GammaOfCut> cuts;  ///< in ascending order; empty unless requested
@@ -130,16 +132,19 @@ RankCorrelation successive_rank_correlation(const std::vector<double> &times);
 /// \throws std::invalid_argument if the table does not say where its events ruptured
 std::vector<double> times_at_places(const EventTable &events, double threshold, int places);
 
-/// fit_maximum_likelihood() with C scaled to the density of all times: above `shortest` it
-/// integrates to the share of the times there.
-GeneralisedGammaFit fit_with_share(const std::vector<double> &times, double shortest, double delta);
+/// Fits a density of inter-event times by one of the two methods.
+/// \param times above 0
+/// \param bins their density, for least squares
+/// \param mean of all times, also those of 0
+/// \param delta value at which delta is held; NaN: free
+enum class FitMethod { maximum_likelihood, least_squares };
+GeneralisedGammaFit fit_times(FitMethod method, const std::vector<double> &times,
+                              const std::vector<LogBin> &bins, std::optional<double> shortest,
+                              double memory, double mean, double delta);
 
 /// gamma against the shortest time used, at these cuts: 0 (all times); 0.5, 1, 2.5, 5 and 10
 /// memories of the picker, if it has one; 0.05, 0.1 and 0.2 of the mean.
 std::vector<GammaOfCut> gamma_of_cuts(const std::vector<double> &times, double memory, double mean);
-
-/// Bins whose lower edge is at least `shortest`.
-std::vector<LogBin> bins_from(std::vector<LogBin> bins, double shortest);
 
 /// Computes one curve for each catalogue and threshold.
 /// \throws std::invalid_argument for impossible settings

@@ -25,7 +25,7 @@ std::vector<SizeFit> fit_sizes(const std::vector<EventTable> &tables,
     std::sort(sorted.begin(), sorted.end());
     const double least = tables[i].complete_from;
     std::vector<PowerLawFit> laws;
-    const double smallest = std::max(least, settings.threshold.of(tables[i]));
+    const double smallest = settings.threshold.of(tables[i]).size;
     for (const Range &range : settings.ranges) laws.push_back(fit_from(sorted, range, least));
     if (laws.empty() && smallest > 0.0)
       laws.push_back(fit_from(sorted, paper_range(smallest), least));
@@ -77,7 +77,9 @@ std::vector<Scaling> scale_sizes(const std::vector<EventTable> &tables, const Th
       found->stiffness = stiffness;
       found->kind = table.kind();
       // One threshold for all lengths, at which every catalogue is complete.
-      found->threshold = threshold.in(table);
+      found->threshold = threshold.of(table);
+      if (found->threshold.origin == SmallestSize::Origin::catalogue)
+        found->threshold.source = table.label;
       for (const EventTable &other : tables) {
         if (other.info.model != found->model || other.kind() != found->kind ||
             !(other.complete_from > found->threshold.size))

@@ -41,7 +41,7 @@ std::vector<double> threshold_grid(const EventTable &table) {
       const double size = decimal(mantissa, decade);
       if (size >= sorted.front() && size <= last) grid.push_back(size);
     }
-  const double usual = Threshold().complete_in(table).size;
+  const double usual = Threshold().of(table).size;
   if (usual <= last) grid.push_back(usual);
   std::sort(grid.begin(), grid.end());
   grid.erase(std::unique(grid.begin(), grid.end()), grid.end());

@@ -193,7 +193,7 @@ TEST_F(EarthquakeInput, TableOfDaysAndMagnitudes) {
   EXPECT_EQ(std::log10(table.events[1].size) / 1.5, 6.7);
   ASSERT_EQ(table.repairs.size(), 1u);
   EXPECT_TRUE(contains(table.repairs[0], "left out 1 of type 'quarry blast'"));
-  EXPECT_EQ(Threshold().of(table), size_of_magnitude(2.01));
+  EXPECT_EQ(Threshold().of(table).size, size_of_magnitude(2.01));
 }
 
 TEST_F(EarthquakeInput, Selection) {
