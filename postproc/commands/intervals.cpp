@@ -79,12 +79,12 @@ class Intervals : public Statistic {
 
   static Table times_of(const std::vector<IntervalCurve> &curves) {
     TableOf<IntervalCurve> table;
-    table.column("label", "catalogue", &IntervalCurve::label);
+    table.column("label", "catalogue", [](auto &curve) { return curve.sample.label; });
     table.show("events", source_of);
-    table.data("threshold", [](auto &curve) { return curve.threshold.size; });
+    table.data("threshold", [](auto &curve) { return curve.sample.threshold.size; });
     table.column("n", "inter-event times", &IntervalCurve::n);
     table.column("mean", "mean", &IntervalCurve::mean, 6);
-    table.show("in", &IntervalCurve::unit);
+    table.show("in", [](auto &curve) { return curve.sample.unit; });
     table.column("variation", "standard deviation / mean", &IntervalCurve::variation);
     table.show("burstiness", &IntervalCurve::burstiness);
     for (const IntervalCurve &curve : curves) table.row(curve);
@@ -108,10 +108,10 @@ class Intervals : public Statistic {
     const std::vector<Table1Row> rows = table1_rows(curves);
     Results results;
     for (const IntervalCurve &curve : curves)
-      if (curve.bins.empty())
+      if (curve.plot.bins.empty())
         results.warn(
             fmt::format("{}: fewer than two events of size {} or larger, no inter-event time",
-                        curve.label, short_number(curve.threshold.size)));
+                        curve.sample.label, short_number(curve.sample.threshold.size)));
     if (settings_.places > 0)
       results.say(fmt::format(
           "times at {} places each; places closer than the length of ruptures share ruptures, "

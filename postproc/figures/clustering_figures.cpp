@@ -40,12 +40,12 @@ constexpr std::array<Named, 7> numbers = {
 
 std::string title_of(const IntervalCurve &curve, const std::string &more) {
   return fmt::format("set title {} offset 0,-0.6\n",
-                     quote(curve.label + ", " + curve.from() + more));
+                     quote(curve.sample.label + ", " + curve.sample.from() + more));
 }
 
 /// Time as it is drawn: for earthquakes the year with its fraction, otherwise the model time.
 double shown_time(const IntervalCurve &curve, double time) {
-  return curve.earthquakes ? 1970.0 + time / 365.2425 : time;
+  return curve.sample.earthquakes ? 1970.0 + time / 365.2425 : time;
 }
 
 /// A row of panels for each of the first eight curves with clustering.
@@ -75,7 +75,7 @@ Figure in_rows(const std::vector<IntervalCurve> &curves, Table table, int height
 }  // namespace
 
 bool has_clustering(const IntervalCurve &curve) {
-  return !std::isnan(curve.clustering.burstiness) && curve.starts.size() >= 20;
+  return !std::isnan(curve.clustering.burstiness) && curve.plot.starts.size() >= 20;
 }
 
 Table clustering_table(const std::vector<IntervalCurve> &curves,
@@ -84,12 +84,12 @@ Table clustering_table(const std::vector<IntervalCurve> &curves,
   const auto time = [date](double Stretch::*end) {
     return [date, end](const IntervalCurve &curve) {
       const double t = curve.steadiness.whole.*end;
-      return curve.earthquakes && std::isfinite(t) ? date(t) : short_number(t, 6);
+      return curve.sample.earthquakes && std::isfinite(t) ? date(t) : short_number(t, 6);
     };
   };
-  table.column("label", "catalogue", &IntervalCurve::label);
-  table.show("events", &IntervalCurve::from);
-  table.data("threshold", [](auto &curve) { return curve.threshold.size; });
+  table.column("label", "catalogue", [](auto &curve) { return curve.sample.label; });
+  table.show("events", [](auto &curve) { return curve.sample.from(); });
+  table.data("threshold", [](auto &curve) { return curve.sample.threshold.size; });
   table.column("n", "times", &IntervalCurve::n);
   table.show("from", time(&Stretch::from));
   table.show("to", time(&Stretch::to));
@@ -132,7 +132,7 @@ std::string add_steady(Table &table, int number, const IntervalCurve &curve) {
   int area = 0;
   for (const Stretch &one : curve.steadiness.steady) {
     const double left = shown_time(curve, one.from), right = shown_time(curve, one.to);
-    table.row(number, "steady", left, right, one.n, one.departure, curve.label);
+    table.row(number, "steady", left, right, one.n, one.departure, curve.sample.label);
     areas += fmt::format(
         "set object {0} rect from {1}, graph 0 to {2}, graph 1 fc rgb '#009e73' fs solid 0.18 "
         "noborder behind\nset label {0} '{3}' at {4}, graph 0.08 center\n",
@@ -158,20 +158,20 @@ Figure rate_figure(const std::vector<IntervalCurve> &curves) {
   return in_rows(
       curves, std::move(counts), 290,
       [](Table &table, int number, const IntervalCurve &curve, const auto &begin_panel) {
-        for (const auto &[time, count] : cumulative_numbers(curve.starts, 400))
-          table.row(number, "count", shown_time(curve, time), nan, count, nan, curve.label);
-        const double first = shown_time(curve, curve.starts.front()),
-                     last = shown_time(curve, curve.starts.back());
+        for (const auto &[time, count] : cumulative_numbers(curve.plot.starts, 400))
+          table.row(number, "count", shown_time(curve, time), nan, count, nan, curve.sample.label);
+        const double first = shown_time(curve, curve.plot.starts.front()),
+                     last = shown_time(curve, curve.plot.starts.back());
         return begin_panel(0.1, 0.97) + add_steady(table, number, curve) +
                title_of(curve, departure_text(curve.steadiness)) +
-               axis("x", curve.earthquakes ? "year" : "time (model time units)", false, first,
-                    last) +
+               axis("x", curve.sample.earthquakes ? "year" : "time (model time units)", false,
+                    first, last) +
                axis("y", "events", false, 0.0, nan) +
                fmt::format(
                    "plot table using ($1 == {0} && strcol(2) eq 'count' ? $3 : NaN):5 with lines "
                    "lt 1 lw 1.5 notitle, \\\n     [{1}:{2}] '+' using "
                    "1:({3}*($1-({1}))/(({2})-({1}))) with lines lt 8 dt (6,4) notitle\n",
-                   number, text_io::number(first), text_io::number(last), curve.starts.size());
+                   number, text_io::number(first), text_io::number(last), curve.plot.starts.size());
       });
 }
 
@@ -184,10 +184,10 @@ std::string after_thirds(Table &table, int number, const IntervalCurve &curve) {
   Extent times, heights;
   std::string plots;
   for (std::size_t third = 0; third < thirds; ++third) {
-    for (const LogBin &bin : curve.after[third]) {
+    for (const LogBin &bin : curve.plot.after[third]) {
       if (bin.count == 0) continue;
       table.row(number, "density", third + 1, bin.centre, bin.density, bin.error, nan, nan,
-                curve.label);
+                curve.sample.label);
       heights.add(bin.density);
       times.add(bin.lo);
       times.add(bin.hi);
@@ -207,7 +207,7 @@ std::string after_eighths(Table &table, int number, const IntervalCurve &curve) 
   for (std::size_t part = 0; part < eighths; ++part) {
     const AgainstChance &one = curve.clustering.after_eighth[part];
     table.row(number, "mean", part + 1, static_cast<double>(part + 1), one.value, nan, one.mean,
-              one.deviation, curve.label);
+              one.deviation, curve.sample.label);
   }
   return "set key inside bottom right noopaque\n" +
          axis("x", "eighth of the previous time", false, 0.5, 8.5) +

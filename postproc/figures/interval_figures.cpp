@@ -12,7 +12,8 @@
 namespace LSM::postproc {
 
 std::string source_of(const IntervalCurve &curve) {
-  return curve.earthquakes ? curve.from() : "sizes >= " + text(curve.threshold);
+  return curve.sample.earthquakes ? curve.sample.from()
+                                  : "sizes >= " + text(curve.sample.threshold);
 }
 
 namespace {
@@ -20,7 +21,7 @@ namespace {
 /// Adds the fitted density over the times that were fitted, dotted if the fit is rejected.
 void add_fit(Curves &plot, std::int64_t number, const IntervalCurve &curve,
              const GeneralisedGammaFit &fit, bool rejected) {
-  plot.add_law(std::max(curve.bins.front().lo, fit.lo), curve.bins.back().hi,
+  plot.add_law(std::max(curve.plot.bins.front().lo, fit.lo), curve.plot.bins.back().hi,
                fmt::format("{}*$1**({})*exp(-$1**({})/{})", text_io::number(fit.C),
                            text_io::number(fit.gamma - 1.0), text_io::number(fit.delta),
                            text_io::number(fit.B)),
@@ -39,7 +40,7 @@ Figure interval_figure(const std::vector<IntervalCurve> &curves, bool rescaled, 
   std::set<double> thresholds;
   std::set<std::string> sources;
   for (const IntervalCurve &curve : curves) {
-    thresholds.insert(curve.threshold.size);
+    thresholds.insert(curve.sample.threshold.size);
     sources.insert(source_of(curve));
   }
   for (const std::string &source : sources) table.comment(source);
@@ -48,10 +49,10 @@ Figure interval_figure(const std::vector<IntervalCurve> &curves, bool rescaled, 
   std::int64_t number = 0;
   bool any_accepted = false, any_rejected = false;
   for (const IntervalCurve &curve : curves) {
-    if (curve.bins.empty()) continue;
+    if (curve.plot.bins.empty()) continue;
     ++number;
-    for (const LogBin &bin : curve.bins) {
-      table.row(number, curve.model, curve.threshold.size, bin, curve.label);
+    for (const LogBin &bin : curve.plot.bins) {
+      table.row(number, curve.sample.model, curve.sample.threshold.size, bin, curve.sample.label);
       if (bin.count == 0) continue;
       heights.add(bin.density);
       range.add(bin.lo);
@@ -59,8 +60,8 @@ Figure interval_figure(const std::vector<IntervalCurve> &curves, bool rescaled, 
     }
     plot.add_data(number, 8, 9);
     plot.add(Curves::data, fmt::format("keyentry with linespoints lt {}", number),
-             fmt::format("{}{} ({} times)", curve.label,
-                         thresholds.size() > 1 ? ", " + curve.from() : "", curve.n));
+             fmt::format("{}{} ({} times)", curve.sample.label,
+                         thresholds.size() > 1 ? ", " + curve.sample.from() : "", curve.n));
     const IntervalFit *const fit = curve.drawn();
     if (!fit) continue;
     const bool rejected = fit->p.value < 0.05;
@@ -92,26 +93,28 @@ Table cuts_table(const std::vector<IntervalCurve> &curves) {
     std::int64_t number;
     const IntervalCurve &curve;
     const GammaOfCut &at;
-    double mean() const { return curve.rescaled ? 1.0 : curve.mean; }
-    bool used() const { return at.cut == shortest_time({}, curve.memory, mean()); }
+    bool used() const {
+      return at.cut == shortest_time({}, curve.sample.memory, curve.fitted_mean());
+    }
   };
   TableOf<Line> table;
-  table.show("catalogue", [](auto &line) { return line.curve.label; });
+  table.show("catalogue", [](auto &line) { return line.curve.sample.label; });
   table.data("curve", &Line::number);
-  table.data("threshold", [](auto &line) { return line.curve.threshold.size; });
+  table.data("threshold", [](auto &line) { return line.curve.sample.threshold.size; });
   table.column(
       "cut", "times from", [](auto &line) { return line.at.cut; }, 3);
   table.column(
-      "cut_over_mean", "over the mean", [](auto &line) { return line.at.cut / line.mean(); }, 2);
+      "cut_over_mean", "over the mean",
+      [](auto &line) { return line.at.cut / line.curve.fitted_mean(); }, 2);
   table.column(
       "cut_over_memory", "over the picker's memory",
-      [](auto &line) { return line.at.cut / line.curve.memory; }, 2);
+      [](auto &line) { return line.at.cut / line.curve.sample.memory; }, 2);
   table.column("n", "times", [](auto &line) { return line.at.fit.n; });
   table.column("gamma", "γ", [](auto &line) {
     return Measured{line.at.fit.gamma, line.at.fit.se_gamma};
   });
   table.column("used", "", [](auto &line) { return line.used() ? "used" : ""; });
-  table.data("label", [](auto &line) { return line.curve.label; });
+  table.data("label", [](auto &line) { return line.curve.sample.label; });
   table.data("degenerate", [](auto &line) { return line.at.fit.why; });
   table.comment(
       "gamma with delta = 1 by maximum likelihood of the times from a cut on; used: the cut of all "
@@ -131,7 +134,7 @@ Figure cuts_figure(const std::vector<IntervalCurve> &curves, int width) {
   std::int64_t number = 0;
   for (const IntervalCurve &curve : curves) {
     ++number;
-    const double mean = curve.rescaled ? 1.0 : curve.mean;
+    const double mean = curve.fitted_mean();
     bool any = false;
     for (const GammaOfCut &one : curve.cuts) {
       if (one.fit.degenerate || !(one.cut > 0.0)) continue;
@@ -142,7 +145,8 @@ Figure cuts_figure(const std::vector<IntervalCurve> &curves, int width) {
     }
     if (!any) continue;
     plot.add_data(number, 7, 8);
-    plot.add(Curves::data, fmt::format("keyentry with linespoints lt {}", number), curve.label);
+    plot.add(Curves::data, fmt::format("keyentry with linespoints lt {}", number),
+             curve.sample.label);
   }
   if (range.empty())
     throw std::runtime_error("no catalogue gives gamma for any cut, nothing to draw");
@@ -159,11 +163,11 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 Table1Row row_of(const IntervalCurve &curve, const IntervalFit &of) {
   const GeneralisedGammaFit &fit = of.fit;
   Table1Row row;
-  row.source = curve.label;
-  row.from = curve.from();
+  row.source = curve.sample.label;
+  row.from = curve.sample.from();
   row.method = of.method;
   if (!std::isnan(of.held)) row.method += fmt::format(", δ = {} held", short_number(of.held));
-  row.threshold = curve.threshold.size;
+  row.threshold = curve.sample.threshold.size;
   row.shortest = fit.lo;
   row.n = fit.n;
   row.why = fit.degenerate ? fit.why : "";

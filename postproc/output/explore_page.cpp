@@ -142,7 +142,7 @@ static void to_json(json &out, const ThresholdResult &result) {
          {"burstinessText", short_number(curve.burstiness())},
          {"law", result.law},
          {"gammas", curve.fits},
-         {"bins", bins_json(curve.bins)}};
+         {"bins", bins_json(curve.plot.bins)}};
 }
 
 namespace {

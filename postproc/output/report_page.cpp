@@ -201,7 +201,7 @@ std::string ReportPage::in_short() const {
   for (const SizeFit &fit : fits_) {
     const auto curve =
         std::find_if(curves_.begin(), curves_.end(),
-                     [&fit](const IntervalCurve &one) { return one.label == fit.label; });
+                     [&fit](const IntervalCurve &one) { return one.sample.label == fit.label; });
     IntervalFit times;
     if (curve != curves_.end() && !curve->fits.empty()) times = curve->fits.front();
     table.row({fit, times});

@@ -106,24 +106,23 @@ namespace {
 void add_clustering(IntervalCurve &curve, const EventTable &table, const std::vector<double> &times,
                     int shuffles, const IntervalSettings &settings) {
   curve.clustering = clustering(times, shuffles, settings.seed);
-  curve.starts = column_from(table, curve.threshold.size, &Event::t_start);
-  curve.steadiness =
-      steadiness(curve.starts, settings.steady, settings.steady_events, shuffles, settings.seed);
+  curve.plot.starts = column_from(table, curve.sample.threshold.size, &Event::t_start);
+  curve.steadiness = steadiness(curve.plot.starts, settings.steady, settings.steady_events,
+                                shuffles, settings.seed);
   auto after = times_after_thirds(times);
   for (std::size_t k = 0; k < after.size(); ++k) {
     for (double &time : after[k]) time /= curve.mean;
-    curve.after[k] = log_histogram(after[k], std::pow(10.0, 0.2));
+    curve.plot.after[k] = log_histogram(after[k], std::pow(10.0, 0.2));
   }
 }
 
-/// \param mean of all times, in their unit
 std::vector<IntervalFit> fits_of(const std::vector<double> &times, const IntervalCurve &curve,
-                                 double mean, const IntervalSettings &settings) {
+                                 const IntervalSettings &settings) {
   std::vector<IntervalFit> fits;
   const auto add = [&](const char *name, FitMethod method, double delta) {
-    fits.push_back(
-        {name, delta,
-         fit_times(method, times, curve.bins, settings.shortest, curve.memory, mean, delta)});
+    fits.push_back({name, delta,
+                    fit_times(method, times, curve.plot.bins, settings.shortest,
+                              curve.sample.memory, curve.fitted_mean(), delta)});
   };
   for (const double delta : settings.deltas) {
     if (settings.maximum_likelihood)
@@ -141,15 +140,15 @@ std::vector<IntervalFit> fits_of(const std::vector<double> &times, const Interva
 IntervalCurve curve_of(const EventTable &table, const Threshold &threshold,
                        const IntervalSettings &settings) {
   IntervalCurve curve;
-  curve.label = table.label;
-  curve.model = table.info.model;
-  curve.earthquakes = table.earthquakes();
-  curve.unit = table.time_unit();
-  curve.rescaled = settings.rescale;
-  curve.threshold = threshold.of(table);
-  std::vector<double> times = settings.places > 0
-                                  ? times_at_places(table, curve.threshold.size, settings.places)
-                                  : inter_event_times(table, curve.threshold.size);
+  curve.sample.label = table.label;
+  curve.sample.model = table.info.model;
+  curve.sample.earthquakes = table.earthquakes();
+  curve.sample.unit = table.time_unit();
+  curve.sample.rescaled = settings.rescale;
+  curve.sample.threshold = threshold.of(table);
+  std::vector<double> times =
+      settings.places > 0 ? times_at_places(table, curve.sample.threshold.size, settings.places)
+                          : inter_event_times(table, curve.sample.threshold.size);
   curve.n = static_cast<std::int64_t>(times.size());
   curve.mean = mean_of(times);
   curve.variation = variation_of(times);
@@ -158,13 +157,13 @@ IntervalCurve curve_of(const EventTable &table, const Threshold &threshold,
   times = positive_ones(std::move(times));
   if (settings.rescale)
     for (double &time : times) time /= curve.mean;
-  curve.bins = log_histogram(times, settings.factor);
-  curve.memory = settings.places > 0 ? NAN : table.picker_memory();
-  const double mean = settings.rescale ? 1.0 : curve.mean;
-  if (settings.rescale) curve.memory /= curve.mean;
-  if (!times.empty()) curve.shortest = shortest_time(settings.shortest, curve.memory, mean);
-  curve.fits = fits_of(times, curve, mean, settings);
-  if (settings.cuts) curve.cuts = gamma_of_cuts(times, curve.memory, mean);
+  curve.plot.bins = log_histogram(times, settings.factor);
+  curve.sample.memory = settings.places > 0 ? NAN : table.picker_memory();
+  if (settings.rescale) curve.sample.memory /= curve.mean;
+  if (!times.empty())
+    curve.shortest = shortest_time(settings.shortest, curve.sample.memory, curve.fitted_mean());
+  curve.fits = fits_of(times, curve, settings);
+  if (settings.cuts) curve.cuts = gamma_of_cuts(times, curve.sample.memory, curve.fitted_mean());
   return curve;
 }
 

@@ -77,13 +77,30 @@ struct IntervalFit {
 /// Describes the events used: "sizes >= 0.001", or "magnitudes >= 2" for earthquakes.
 std::string events_from_text(bool earthquakes, double least);
 
-/// Inter-event times of one catalogue above one threshold.
-struct IntervalCurve {
+/// Which times a curve is of.
+struct IntervalSample {
   std::string label, model;
   bool earthquakes = false;  ///< sizes are 10^(1.5 M)
   std::string unit;          ///< of the times before rescaling
   bool rescaled = false;     ///< bins and fits are of times divided by their mean
   SmallestSize threshold;
+  double memory = 0.0;  ///< memory of the picker in the unit of the fitted times; NaN: none
+  std::string from() const { return events_from_text(earthquakes, threshold.size); }
+};
+
+/// What is drawn of a curve, besides its fits.
+struct IntervalPlot {
+  std::vector<LogBin> bins;    ///< density of the times
+  std::vector<double> starts;  ///< start times of the events, if clustering is requested
+  /// Likewise: densities of the times that follow the shortest, the middle and the longest third,
+  /// divided by the mean of all times.
+  std::array<std::vector<LogBin>, thirds> after;
+};
+
+/// Inter-event times of one catalogue above one threshold.
+struct IntervalCurve {
+  IntervalSample sample;
+  IntervalPlot plot;
   std::int64_t n = 0;  ///< number of inter-event times
   double mean = 0.0;   ///< mean inter-event time before rescaling; NaN if there is none
   /// Coefficient of variation of the times: 1 for independent events, 0 for periodic ones, above 1
@@ -91,22 +108,17 @@ struct IntervalCurve {
   double variation = 0.0;
   /// The same on a scale from -1 (periodic) to 1; 0 for independent events (Goh & Barabasi 2008).
   double burstiness() const { return burstiness_of(variation); }
-  double memory = 0.0;    ///< memory of the picker in the unit of the fitted times; NaN: none
-  double shortest = 0.0;  ///< shortest_time() in the same unit
-  std::vector<LogBin> bins;
+  double shortest = 0.0;  ///< shortest_time() in the unit of the fitted times
   std::vector<IntervalFit> fits;
   std::vector<GammaOfCut> cuts;  ///< in ascending order; empty unless requested
   Clustering clustering;         ///< if requested, for times between any two events
   Steadiness steadiness;         ///< under the same conditions
-  std::vector<double> starts;    ///< start times of the events, likewise
-  /// Likewise: densities of the times that follow the shortest, the middle and the longest third,
-  /// divided by the mean of all times.
-  std::array<std::vector<LogBin>, thirds> after;
 
+  /// Mean of the fitted times.
+  double fitted_mean() const { return sample.rescaled ? 1.0 : mean; }
   /// The fit to draw: the first one that is not degenerate, or nullptr. The fit to quote is the
   /// first: maximum likelihood with delta = 1.
   const IntervalFit *drawn() const;
-  std::string from() const { return events_from_text(earthquakes, threshold.size); }
 };
 
 /// Times from the start of an event to the start of the next one (model time); events smaller than

@@ -340,9 +340,9 @@ TEST(Table1, MissingSmallEventsRaiseTheThreshold) {
   IntervalSettings settings;
   settings.thresholds = {0.01, 0.8};
   const auto curves = interval_curves({table}, settings);
-  EXPECT_EQ(curves[0].threshold.size, 0.5);
+  EXPECT_EQ(curves[0].sample.threshold.size, 0.5);
   EXPECT_EQ(curves[0].n, 2);
-  EXPECT_EQ(curves[1].threshold.size, 0.8);
+  EXPECT_EQ(curves[1].sample.threshold.size, 0.8);
 }
 
 TEST(Table1, CompletenessIsTheDefaultThreshold) {
@@ -352,13 +352,13 @@ TEST(Table1, CompletenessIsTheDefaultThreshold) {
   IntervalSettings settings;
   const auto curves = interval_curves({table}, settings);
   ASSERT_EQ(curves.size(), 1u);
-  EXPECT_EQ(curves[0].threshold.size, 0.3);
+  EXPECT_EQ(curves[0].sample.threshold.size, 0.3);
   EXPECT_EQ(curves[0].n, 2);
-  EXPECT_EQ(text(curves[0].threshold), "0.3, completeness in the header of a.csv");
+  EXPECT_EQ(text(curves[0].sample.threshold), "0.3, completeness in the header of a.csv");
   settings.thresholds = {0.05};
   EXPECT_EQ(interval_curves({table}, settings)[0].n, 3);
   table.complete_from = 0.7;
-  EXPECT_EQ(text(interval_curves({table}, settings)[0].threshold),
+  EXPECT_EQ(text(interval_curves({table}, settings)[0].sample.threshold),
             "0.7, where the catalogue begins");
 }
 
