@@ -94,7 +94,7 @@ def write_table(path, comments, rows):
 
 def plain(row):
     """A row with numbers of Python, and None where there is none."""
-    numbers = {key: value.item() if isinstance(value, np.generic) else value for key, value in row.items()}
+    numbers = {key: value.item() if isinstance(value, (np.generic, np.ndarray)) else value for key, value in row.items()}
     return {key: None if isinstance(value, float) and not math.isfinite(value) else value for key, value in numbers.items()}
 
 

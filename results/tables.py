@@ -510,7 +510,8 @@ def check_csv():
     measured = {row["station"]: row for row in walk.lines_of(walk.measured(POSTPROC, FOLDER / "walk"))}
     there = read(FOLDER / "walk.csv")
     both = [row["station"] for row in there if str(measured.get(row["station"], {"seeds": ""})["seeds"]) == row["seeds"]]
-    wrong.append(len(both) < 12 or differing(FOLDER / "walk.csv", [measured[name] for name in both], [row for row in there if row["station"] in both]))
+    wrong.append(
+        len(both) < 12 or differing(FOLDER / "walk.csv", [measured[name] for name in both], [row for row in there if row["station"] in both]))
     return any(wrong)
 
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-2.0-or-later
-   Counts what a program sends, for bench_lsm.sh: loaded before the MPI library (LD_PRELOAD), it stands between program
+   Counts what a program sends, for bench_lsm.py: loaded before the MPI library (LD_PRELOAD), it stands between program
    and library. At the end each rank prints a line
      count_mpi RANK messages BYTES collectives nonblocking
    of all messages to other ranks, their bytes, collective calls that wait, and collective calls that do not. */

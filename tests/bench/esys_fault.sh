@@ -44,7 +44,7 @@ pair_coeff      1*4 1*6 1.0 1.0 0.6
 write_data      fault.data nocoeff
 END
 call "$bin/lmp" -in data.in -log none
-awk -v name=fault -f "$here/convert.awk" fault.data
+"$here/convert.py" fault
 call mpirun -np 2 esysparticle "$here/esys_fault.py" fault "$(value length)" "$(value dt)" "$(value viscosity)" "$(value velocity)" \
   "$(value mu)" "$(value kt)" "$steps"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-2.0-or-later
-   Bandwidth of a = b + s c, for bench_lsm.sh: on all ranks at the same time, for sets of data of the given megabytes on each.
+   Bandwidth of a = b + s c, for bench_lsm.py: on all ranks at the same time, for sets of data of the given megabytes on each.
    Rank 0 prints a line
      triad MEGABYTES GB_PER_SECOND
    for each, of one rank in the mean, the best of five; 24 bytes for an element. */

@@ -571,7 +571,7 @@ TEST(RollOff, FindsItsPower) {
       const double lo = std::pow(1e-4, -0.2), hi = std::pow(10.0, -0.2);
       const double size = std::pow(lo + random.uniform() * (hi - lo), -5.0);
       if (random.uniform() > std::exp(-std::pow(size / 0.1, power))) continue;
-      EventSummary shock;
+      LSM::EventSummary shock;
       shock.size = size;
       table.events.push_back(shock);
     }

@@ -10,7 +10,7 @@ from unittest import mock
 
 import pytest
 from data_files import header, rows
-from programs import INPUTS, Program, refused, run, snapshot
+from programs import INPUTS, SOURCE, Program, refused, run, snapshot
 
 sys.path.insert(0, str(INPUTS / "studies"))
 import publish  # noqa: E402
@@ -79,13 +79,14 @@ def test_runs_that_are_not_done_are_refused(runs, tmp_path):
 
 
 def test_statements_are_those_of_the_runs(runs, postproc, tmp_path):
-    script = Program("publish.py", INPUTS / "studies/publish.py")
+    script = Program("publish.py", sys.executable, INPUTS / "studies/publish.py")
     with mock.patch.object(publish, "LOADING", 60):
         publish.main(tmp_path / "out", runs, statements=postproc.path)
     with open(tmp_path / "out/statements.csv") as file:
         found = list(csv.DictReader(file))
     for n, folder in enumerate(runs, 1):
-        run(postproc, "statements", folder / "fault.catalogue.csv", "--from 60 -o out --json out.json")
+        measure = Program("statements.py", sys.executable, SOURCE / "results/statements.py", postproc.path)
+        run(measure, folder / "fault.catalogue.csv", "--from 60 --json out.json")
         wanted = json.loads(Path("out.json").read_text())["statements"]
         mine = [row for row in found if row["run"] == folder.name]
         assert [(row["number"], row["verdict"]) for row in mine] == [(row["number"], row["verdict"]) for row in wanted] and wanted
