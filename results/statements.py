@@ -177,15 +177,17 @@ def catalogue_statements(roll_off, fit, times):
             yield NUMBERS, text, (value, error), f"{printed:.4g}", verdict, f"{value / printed:.2g} times the paper's"
 
 
-def statements_of(postproc, path, begin, run=None):
-    """Rows of a run, fewer without the files beside its catalogue. run: that catalogue, if `path` was picked again. \\raises ValueError"""
+def statements_of(postproc, path, begin, run=None, threshold=None):
+    """Rows of a run, fewer without the files beside its catalogue. run: that catalogue, if `path` was picked again; threshold: smallest
+    size, by default that of postproc. \\raises ValueError"""
     path, run = Path(path), Path(run or path)
     drops = events_of(path, begin)
     if "rupture_length" in drops.dtype.names:
         raise ValueError(f"{path}: no drops of PE, expected a catalogue of these")
     history, ruptures = (run.with_name(run.name.replace(".catalogue.csv", ending)) for ending in (".slip.bin", ".ruptures.csv"))
-    times = numbers_of(postproc, "intervals", path, "--from", begin, "--method", "likelihood", "--delta", 1, "--replicas", 0, "--shuffles", 0,
-                       "--no-picture")
+    from_size = ["--threshold", threshold] if threshold else []
+    times = numbers_of(postproc, "intervals", path, *from_size, "--from", begin, "--method", "likelihood", "--delta", 1, "--replicas", 0,
+                       "--shuffles", 0, "--no-picture")
     label, least = (times["times"][0][key] for key in ("label", "threshold"))
     found = []
     try:
@@ -195,7 +197,7 @@ def statements_of(postproc, path, begin, run=None):
             found += rupture_statement(events_of(ruptures, begin))
     except ValueError as error:
         raise ValueError(f"{path}: {error}") from None
-    fit = numbers_of(postproc, "fit", path, "--from", begin, "--roll-off", "--replicas", 0, "--no-comparison", "--no-picture")
+    fit = numbers_of(postproc, "fit", path, *from_size, "--from", begin, "--roll-off", "--replicas", 0, "--no-comparison", "--no-picture")
     found += catalogue_statements(fit["roll_off"][0], times["fits"][0], times["times"][0])
     return [
         plain(

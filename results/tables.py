@@ -499,10 +499,11 @@ def check_csv():
         differing(FOLDER / f"nature{ending}.csv", made)
         for ending, made in (("", nature.curves(rows)), (".table", nature.table(rows)), (".table1", nature.table1(rows)))
     ]
-    for folder in CAMPAIGN, VALIDATION:
+    # The headers of the campaign's runs gave 1e-4 as their completeness. Published ruptures lack those that are smaller than 1e-3.
+    for folder, threshold in (CAMPAIGN, 1e-4), (VALIDATION, None):
         again = {}
         for path in (path for paths in faults(folder=folder).values() for path in paths):
-            for row in statements.statements_of(POSTPROC, path, calibrate.LOADING):
+            for row in statements.statements_of(POSTPROC, path, calibrate.LOADING, run="none", threshold=threshold):
                 again[path.name.split(".")[0], row["number"]] = row
         there = [row for row in read(folder / "statements.csv") if (row["run"], row["number"]) in again]
         made = [again[row["run"], row["number"]] for row in there]
