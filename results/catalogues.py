@@ -39,6 +39,14 @@ def events_of(path, begin=-math.inf, end=math.inf):
     return events[(events["t_start"] >= begin) & (events["t_start"] < end)]
 
 
+def numbers_in(header, *keys):
+    """Parameters of a header as numbers, by name. \\raises ValueError if one is missing"""
+    missing = [key for key in keys if key not in header]
+    if missing:
+        raise ValueError(f"no {missing[0]} in the header, expected one")
+    return {key: float(header[key]) for key in keys}
+
+
 def earthquakes():
     """Times (days) and magnitudes of Southern California in PERIOD, in order of time."""
     found = []

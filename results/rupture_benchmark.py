@@ -14,7 +14,7 @@ import math
 from pathlib import Path
 
 import numpy as np
-from catalogues import draw, lsm, run, write_table
+from catalogues import draw, lsm, numbers_in, run, write_table
 
 ARRIVED = 1.0  # slip rate above which the rupture has arrived, in the units of the references
 COLUMNS = ["curve", "x", "t", "slip", "slip_rate"]
@@ -48,7 +48,7 @@ def history_of(path):
     records = lsm.read_slip(path)
     if len(records) < 2:
         raise ValueError(f"{path}: one record, expected a slip history")
-    head = {key: float(records.header[key]) for key in ("dt", "step0", "time0", "x0", "bin")}
+    head = numbers_in(records.header, "dt", "step0", "time0", "x0", "bin")
     scale = float(records.header.get("scale", 1))
     if not scale > 0:
         raise ValueError(f"{path}: parameter 'scale' is {scale:g}, expected a positive number")

@@ -12,7 +12,7 @@ import math
 from pathlib import Path
 
 import numpy as np
-from catalogues import events_of, lsm, numbers_of, plain, run, write_json
+from catalogues import events_of, lsm, numbers_in, numbers_of, plain, run, write_json
 
 PARTS = 20
 VELOCITIES = ("velocities", "The distribution of slip velocities was monotonic, decreasing for all slip velocities. (Sect. 4.1)")
@@ -98,7 +98,7 @@ def judge(value, error, limit, above):
 
 def slip_statements(drops, slip):
     """The slip history of a fault compared with the drops of its PE. \\raises ValueError if these have no time in common"""
-    head = {key: float(slip.header[key]) for key in ("dt", "step0", "time0", "bin", "driving", "interval")}
+    head = numbers_in(slip.header, "dt", "step0", "time0", "bin", "driving", "interval")
     if len(drops) < 2:
         raise ValueError("slip between drops of PE: fewer than two drops of this size")
     driving, run_begin, run_end = abs(head["driving"]), drops["t_start"][0], drops["t_end"][-1]

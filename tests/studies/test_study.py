@@ -148,6 +148,14 @@ def test_a_changed_recipe_makes_again_what_it_changes(study):
     assert "Second title" in Path("out/report.html").read_text() and when("out/figures/sizes.png") != drawn
 
 
+def test_scripts_of_results_give_numbers(study):
+    """A recipe may use them beside commands of postproc."""
+    own = "  own: match.py {catalogue} {catalogue} --threshold 1e-3 --within 1\n"
+    write(CHAIN, RECIPE.replace("table:\n", own + "table:\n  of: own.matches[0].n_first\n  same: own.matches[0].same\n"))
+    run(study, "my.csv")
+    assert int(table()["c_1"]["same"]) == int(table()["c_1"]["of"]) > 0
+
+
 def test_a_catalogue_that_is_replaced_is_read_again(study, work):
     write(CHAIN)
     run(study, "my.csv")
