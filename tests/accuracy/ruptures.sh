@@ -6,7 +6,7 @@
 # usage: ruptures.sh LMP INPUTS [SPACING ...]   in an empty folder; spacings 200 100 50
 set -euo pipefail
 export LC_ALL=C
-lmp=$1 inputs=$2 compare=$2/../results/rupture_benchmark.py
+lmp=$1 inputs=$2 compare=("${LSM_PYTHON:-python3}" "$2/../results/rupture_benchmark.py") # a Python with NumPy
 shift 2
 [ $# -gt 0 ] || set -- 200 100 50
 block=(-var length 60000 -var width 36000 -var tend 6)
@@ -24,7 +24,7 @@ for dx in "$@"; do
 done
 for scene in tpv205 tpv3; do
   histories=("${@/#/$scene.}")
-  "$compare" "${histories[@]/%/.slip.bin}" --reference "$inputs/reference/$scene.csv" --until 6 -o "$scene"
+  "${compare[@]}" "${histories[@]/%/.slip.bin}" --reference "$inputs/reference/$scene.csv" --until 6 -o "$scene"
 done
 packings=()
 for dx in "$@"; do
@@ -37,4 +37,4 @@ done
 [ ${#packings[@]} -gt 0 ] || exit 0
 # The reference for the packing has its ratio of wave speeds.
 "$(dirname "$lmp")/lsm_boundary_integral" tpv3 50 6 1500 1.913 >packing-reference.csv
-"$compare" "${packings[@]}" --reference packing-reference.csv --until 6 -o packing
+"${compare[@]}" "${packings[@]}" --reference packing-reference.csv --until 6 -o packing
