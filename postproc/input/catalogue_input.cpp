@@ -142,9 +142,9 @@ EventTable read_earthquake_events(text_io::Bytes &bytes, const std::string &form
   for (const auto &[type, count] : list.others) left_out(count, "of type '" + type + "'");
   left_out(list.without_magnitude, "without magnitude");
   if (list.not_preferred > 0)
-    table.repairs.push_back(fmt::format(
-        "{}: the preferred origin or magnitude of {} events is missing, the first is used", path,
-        list.not_preferred));
+    table.repairs.push_back(
+        fmt::format("{}: the preferred origin or magnitude is missing, the first is used: {}", path,
+                    list.not_preferred));
   left_out(elsewhere, "outside of " + table.region);
   left_out(list.bad_lines, "that cannot be read; the first was " + list.first_problem);
   table.skipped_lines = list.bad_lines;
@@ -188,8 +188,8 @@ EventTable read_events(const std::string &path, const CatalogueOptions &options,
   const std::string_view head = bytes->peek(head_size);
   const std::string format = options.format == "detect" ? detect_format(head) : options.format;
   if (options.format == "detect" && format == "models" && !head.empty() &&
-      head.substr(0, catalogue_magic.size()) != catalogue_magic && !text_io::is_utf16(head))
-    throw FileError(fmt::format("{}not a catalogue, expected '{} 1' of a model, or earthquakes: {}",
+      head.find(catalogue_magic) > 3 /* of a byte order mark */ && !text_io::is_utf16(head))
+    throw FileError(fmt::format("{}not a catalogue, expected '{}1' of a model, or earthquakes: {}",
                                 text_io::where(path, 1), catalogue_magic, earthquake_formats));
   return format == "models" ? read_model_events(std::move(bytes), options, use, begin)
                             : read_earthquake_events(*bytes, format, options, use, begin);

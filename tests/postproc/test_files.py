@@ -412,13 +412,13 @@ FORMATS = {
     "quakeml": QUAKEML.format(events="".join(XML_EVENT.format(k=k, m=m) for k, m in enumerate(MAGNITUDES))),
     "fdsn": "#EventID | Time | Latitude | Longitude | Depth/km | MagType | Magnitude\n" +
     "".join(f"{k}|20{k:02d}-01-01T00:00:00|30|-120|5|ML|{m:.1f}\n" for k, m in enumerate(MAGNITUDES)),
-    "parts": "eventID;year;month;day;hour;minute;second;longitude;latitude;magnitude\n" +
-    "".join(f"{k};20{k:02d};1;1;0;0;0.0;-120;30;{m:.1f}\n" for k, m in enumerate(MAGNITUDES)),
-    "csep": "lon,lat,mag,time_string,depth,catalog_id,event_id\n" +
-    "".join(f"-120,30,{m:.1f},20{k:02d}-01-01T00:00:00.000000,5,,{k}\n" for k, m in enumerate(MAGNITUDES)),
-    "geojson": '{"type": "FeatureCollection", "features": [\n' + ",\n".join(
-        f'{{"properties": {{"mag": {m:.1f}, "time": {(10957 + 365 * k + (k + 3) // 4) * 86400000}, "type": "earthquake"}}, '
-        '"geometry": {"coordinates": [-120, 30, 5]}}' for k, m in enumerate(MAGNITUDES)) + "]}\n",
+    "parts": "eventID;year;month;day;hour;minute;second;longitude;latitude;magnitude\n" + "".join(f"{k};20{k:02d};1;1;0;0;0.0;-120;30;{m:.1f}\n"
+                                                                                                  for k, m in enumerate(MAGNITUDES)),
+    "csep": "lon,lat,mag,time_string,depth,catalog_id,event_id\n" + "".join(f"-120,30,{m:.1f},20{k:02d}-01-01T00:00:00.000000,5,,{k}\n"
+                                                                            for k, m in enumerate(MAGNITUDES)),
+    "geojson": '{"type": "FeatureCollection", "features": [\n' +
+    ",\n".join(f'{{"properties": {{"mag": {m:.1f}, "time": {(10957 + 365 * k + (k + 3) // 4) * 86400000}, "type": "earthquake"}}, '
+               '"geometry": {"coordinates": [-120, 30, 5]}}' for k, m in enumerate(MAGNITUDES)) + "]}\n",
 }
 
 
