@@ -6,6 +6,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "numerics/random.h"
+
 namespace Slider {
 
 Chain::Chain(const Parameters &p, const std::vector<double> &mu, bool dense, InstructionSet set)
@@ -57,15 +59,8 @@ namespace {
 // Returns a random number in [0, 1) that is a function of seed, block and a counter, so that no
 // state of a generator has to be saved.
 double hashed(std::uint64_t seed, std::uint64_t block, std::uint64_t number) {
-  // splitmix64 (Steele, Lea and Flood 2014), applied once for the block and once for the counter
-  std::uint64_t z = seed;
-  for (const std::uint64_t more : {block, number}) {
-    z = (z ^ more) + 0x9e3779b97f4a7c15U;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
-    z ^= z >> 31;
-  }
-  return static_cast<double>(z >> 11) * 0x1.0p-53;
+  const std::uint64_t bits = LSM::splitmix64(LSM::splitmix64(seed ^ block) ^ number);
+  return static_cast<double>(bits >> 11) * 0x1.0p-53;
 }
 
 }  // namespace

@@ -60,7 +60,8 @@ constexpr std::size_t head_size = 1 << 16;  // bytes that are enough to detect a
 
 /// Reads all of a file of earthquakes. Its size is limited because a small compressed file may
 /// unpack to anything.
-/// \throws FileError if the file, or a line of it (except in QuakeML), is longer than any can be
+/// \throws FileError if the file, or a line of it (except in XML and JSON), is longer than any can
+/// be
 std::string all_of(text_io::Bytes &bytes, const std::string &format) {
   constexpr std::size_t longest_line = 1 << 20, largest = std::size_t{1} << 30;
   std::string out;
@@ -73,7 +74,7 @@ std::string all_of(text_io::Bytes &bytes, const std::string &format) {
     // Searches only the new part, as searching everything each time would take quadratic time.
     const std::size_t end = std::string_view(out).substr(known).find_last_of("\r\n");
     if (end != std::string_view::npos) line = known + end + 1;
-    if (format != "quakeml" && out.size() - line > longest_line)
+    if (format != "quakeml" && format != "geojson" && out.size() - line > longest_line)
       throw FileError(fmt::format("{}: a line of more than {} bytes, expected events on lines",
                                   bytes.path(), longest_line));
     if (out.size() > largest)
@@ -140,6 +141,10 @@ EventTable read_earthquake_events(text_io::Bytes &bytes, const std::string &form
   };
   for (const auto &[type, count] : list.others) left_out(count, "of type '" + type + "'");
   left_out(list.without_magnitude, "without magnitude");
+  if (list.not_preferred > 0)
+    table.repairs.push_back(
+        fmt::format("{}: the preferred origin or magnitude is missing, the first is used: {}", path,
+                    list.not_preferred));
   left_out(elsewhere, "outside of " + table.region);
   left_out(list.bad_lines, "that cannot be read; the first was " + list.first_problem);
   table.skipped_lines = list.bad_lines;
@@ -180,8 +185,12 @@ EventTable read_events(const std::string &path, const CatalogueOptions &options,
                        const UseEvent &use, const UseTable &begin) {
   // The format is detected on the open file, as a pipe can be read only once.
   std::unique_ptr<text_io::Bytes> bytes = open_input(path);
-  const std::string format =
-      options.format == "detect" ? detect_format(bytes->peek(head_size)) : options.format;
+  const std::string_view head = bytes->peek(head_size);
+  const std::string format = options.format == "detect" ? detect_format(head) : options.format;
+  if (options.format == "detect" && format == "models" && !head.empty() &&
+      head.find(catalogue_magic) > 3 /* of a byte order mark */ && !text_io::is_utf16(head))
+    throw FileError(fmt::format("{}not a catalogue, expected '{}1' of a model, or earthquakes: {}",
+                                text_io::where(path, 1), catalogue_magic, earthquake_formats));
   return format == "models" ? read_model_events(std::move(bytes), options, use, begin)
                             : read_earthquake_events(*bytes, format, options, use, begin);
 }

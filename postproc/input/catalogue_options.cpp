@@ -43,8 +43,8 @@ void CatalogueOptions::add_to(CLI::App *command) {
   OptionGroup group(command, "Catalogues");
   group.add("catalogues", paths,
             "Catalogue files, one curve each: of either model, as written by compute lsm/events, "
-            "slider_cli or postproc pick; or of earthquakes (ComCat CSV, QuakeML, ZMAP, SCEDC), "
-            "with times in days since 1970 UTC and sizes 10^(1.5 M)",
+            "slider_cli or postproc pick; or of earthquakes (columns with names, QuakeML, GeoJSON, "
+            "ZMAP, SCEDC), with times in days since 1970 UTC and sizes 10^(1.5 M)",
             required(), kind("FILE"), shown(""));
   group.add("--label", labels,
             "Name of a curve, once per catalogue and in their order (default: the model and its "
@@ -67,11 +67,12 @@ void CatalogueOptions::add_to(CLI::App *command) {
            "Leave out events that start at this time or later (as --from)");
   group.add(
       "--format", format,
-      "Format of the files: detect (by the first bytes: '<' is quakeml, '# lsm-catalogue' "
-      "models, column names with time and mag csv, YYYY/MM/DD scedc, nine numbers zmap), or one "
-      "of these. Only events of the type earthquake are used; blasts and others are counted on "
-      "standard error",
-      among({"detect", "models", "csv", "quakeml", "zmap", "scedc"}));
+      "Format of the files: detect (by the first bytes: '<' is quakeml, '{' geojson, "
+      "'# lsm-catalogue' models, column names with time and mag csv, YYYY/MM/DD scedc, nine "
+      "numbers zmap), or one of these. Events whose type says that they are no earthquakes "
+      "(blasts, ...) are left out and counted on standard error; if they are most, that is an "
+      "error unless --lenient",
+      among({"detect", "models", "csv", "quakeml", "geojson", "zmap", "scedc"}));
   group.add("--region", regions,
             "Only earthquakes within W/E/S/N (degrees); may be repeated, for one curve each",
             one_each(), kind("W/E/S/N"), shown(""));

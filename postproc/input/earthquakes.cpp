@@ -2,11 +2,14 @@
 #include "earthquakes.h"
 
 #include <date/date.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 #include <set>
 #include <stdexcept>
@@ -14,6 +17,7 @@
 #include "files/catalogue.h"
 #include "files/file_error.h"
 #include "files/input_bytes.h"
+#include "files/names.h"
 #include "files/text.h"
 
 namespace LSM::postproc {
@@ -81,92 +85,240 @@ std::string in_small_letters(std::string_view text) {
   return out;
 }
 
-bool is_earthquake(const std::string &type) {
-  static const std::set<std::string> names = {
-      "", "earthquake", "induced or triggered event", "eq", "eql", "eqr", "le", "re", "ts"};
-  return names.count(in_small_letters(type)) > 0;
+/// Whether a text stands for a value that is missing.
+bool is_missing(std::string_view text) {
+  static const std::set<std::string, std::less<>> words = {"",    "nan", "null", "none", "na",
+                                                           "n/a", "-",   "--",   "---"};
+  return words.count(in_small_letters(text)) > 0;
 }
 
-/// The fields of one event as in the file; those that the file does not have are empty.
-struct Row {
-  std::string_view time, latitude, longitude, magnitude, type;
-  std::optional<double> at;  ///< the time, in formats that have it as several numbers
+/// Whether a type says that an event is no earthquake: names of QuakeML and ComCat, the codes of
+/// SCEDC and NCEDC, and those of ISC and EMSC (IMS 1.0). What only may be something else is none of
+/// these: unknown, not reported, other event, induced events (rock bursts are among them), and
+/// everything that is not listed, such as the types of magnitudes in a column TYPE.
+bool is_no_earthquake(std::string_view type) {
+  static const std::set<std::string, std::less<>> codes = {
+      "qb", "sn", "nt", "th", "sh", "px", "bc", "ce", "co", "df", "ls", "rs",  // SCEDC, NCEDC
+      "av", "ex", "su", "ve", "vt", "km", "sm", "kh", "kx", "sx", "kn"};
+  constexpr std::string_view parts[] = {
+      "blast",           "explosi",      "quarry",    "detonati", "nuclear",     "artillery",
+      "rocket",          "aircraft",     "crash",     "collapse", "sonic",       "acoustic",
+      "noise",           "thunder",      "meteor",    "slide",    "rockfall",    "avalanche",
+      "debris",          "lahar",        "pyroclast", "erupti",   "calving",     "atmospheric",
+      "volcanic tremor", "tremor pulse", "ice quake", "icequake", "frost quake", "surface event",
+      "duplicate",       "not existing", "road cut"};
+  std::string text = in_small_letters(type);
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '_' || c == '-'; }, ' ');
+  return codes.count(text) > 0 || std::any_of(std::begin(parts), std::end(parts), [&](auto part) {
+           return text.find(part) != std::string::npos;
+         });
+}
+
+/// What files may hold of an event.
+enum Field {
+  time,
+  date,
+  clock,
+  year,
+  month,
+  day,
+  hour,
+  minute,
+  second,
+  latitude,
+  longitude,
+  magnitude,
+  type,
+  number_of_fields
 };
+
+/// One event as in the file, with empty texts for what the file does not have.
+struct Record {
+  std::array<std::string, number_of_fields> texts = {};
+  std::optional<double> at = {};  ///< the time, in formats that have it as a number
+
+  std::string &operator[](Field field) { return texts[field]; }
+  const std::string &operator[](Field field) const { return texts[field]; }
+};
+
+/// The names of each field, in its order, as columns and as properties in GeoJSON: in small
+/// letters, without blanks and signs. The first one that a file has counts.
+constexpr std::array<std::string_view, number_of_fields> known_names = {
+    "time datetime timeutc utctime datetimeutc origintime origintimeutc timestring timestamp eventtime",
+    "date origindate eventdate",
+    "timehhmmssmmutc timehhmmssssutc",
+    "year yr",
+    "month mon mo",
+    "day dy",
+    "hour hr",
+    "minute min mi",
+    "second seconds sec",
+    "latitude lat",
+    "longitude lon long lng",
+    "mag magnitude",
+    "eventtype evtype etype type"};
+
+/// A name as in `known_names`.
+std::string plain(std::string_view name) {
+  std::string out;
+  for (const char c : in_small_letters(name))
+    if (is_digit(c) || (c >= 'a' && c <= 'z')) out += c;
+  return out;
+}
+
+/// Converts "MM/DD/YYYY" to YYYY-MM-DD, and returns other texts unchanged.
+std::string iso_date(std::string_view text) {
+  if (text.size() != 10 || text[2] != '/' || text[5] != '/') return std::string(text);
+  return fmt::format("{}-{}-{}", text.substr(6), text.substr(0, 2), text.substr(3, 2));
+}
+/// Converts hhmmss.ss, in which leading zeros may be missing, to hh:mm:ss.ss, and returns other
+/// texts unchanged.
+std::string iso_clock(std::string_view text) {
+  const std::size_t whole = std::min(text.find('.'), text.size());
+  if (text.empty() || whole > 6 || !std::all_of(text.begin(), text.begin() + whole, is_digit))
+    return std::string(text);
+  const std::string digits = std::string(6 - whole, '0') + std::string(text);
+  return digits.substr(0, 2) + ':' + digits.substr(2, 2) + ':' + digits.substr(4);
+}
+
+/// Days since 1970 of year, month, day, and the time of day if it is known; the year may have a
+/// fraction, which only repeats the others. Years of two digits are refused, as nobody knows their
+/// century.
+std::optional<double> time_in_parts(const Record &record) {
+  std::array<double, 6> v{};  // year, month, day, hour, minute, second
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    const std::string_view text = record.texts[year + i];
+    if (!text_io::parse(text, v[i]) && !(i >= 3 && is_missing(text))) return {};
+    if (i > 0 && i < 5 && (v[i] < 0.0 || v[i] > 60.0 || v[i] != std::floor(v[i]))) return {};
+  }
+  if (!(v[0] >= 100.0 && v[0] < 1e4)) return {};
+  const auto whole = [&v](std::size_t i) { return static_cast<int>(v[i]); };
+  const std::string of_day = iso_clock(record[clock].empty() ? record[time] : record[clock]);
+  if (of_day.empty()) return days(whole(0), whole(1), whole(2), whole(3), whole(4), v[5]);
+  return parse_date(fmt::format("{:04}-{:02}-{:02} {}", whole(0), whole(1), whole(2), of_day));
+}
+
+/// Days since 1970, from what a record has.
+std::optional<double> time_of(const Record &record) {
+  if (record.at) return record.at;
+  if (!record[date].empty())
+    return parse_date(iso_date(record[date]) +
+                      (is_missing(record[time]) ? "" : " " + record[time]));
+  const std::optional<double> at = parse_date(record[time]);
+  return at || record[year].empty() ? at : time_in_parts(record);
+}
 
 /// Collects the earthquakes from the lines or elements of a file.
 class Collector {
  public:
   Collector(std::string path, bool lenient) : path_(std::move(path)), lenient_(lenient) {}
 
-  void add(const Row &row, std::int64_t line) {
+  void add(const Record &record, std::int64_t line) {
     Earthquake event;
-    const auto number = [&](std::string_view text, const char *name, double most, double &value) {
+    const auto number = [&](Field field, const char *name, double most, double &value) {
+      const std::string &text = record[field];
+      if (field != magnitude && is_missing(text)) {
+        value = NAN;
+        return true;
+      }
       if (text_io::parse(text, value) && std::fabs(value) <= most) return true;
-      bad(line, std::string(name) + " is " + text_io::in_quotes(text) + ", expected a number");
+      bad(line, fmt::format("{} is {}, expected a number", name, text_io::in_quotes(text)));
       return false;
     };
-    const std::optional<double> at = row.at ? row.at : parse_date(row.time);
-    if (!at)
-      return bad(line, "time is " + text_io::in_quotes(row.time) +
-                           ", expected a date and time such as 1994-01-17T12:30:55.39Z");
+    const std::optional<double> at = time_of(record);
+    if (!at) return bad(line, bad_time(record));
     event.time = *at;
-    if (!number(row.latitude, "latitude", 90.0, event.latitude) ||
-        !number(row.longitude, "longitude", 360.0, event.longitude))
+    if (!number(latitude, "latitude", 90.0, event.latitude) ||
+        !number(longitude, "longitude", 360.0, event.longitude))
       return;
-    if (!is_earthquake(std::string(row.type))) {
-      ++list_.others[std::string(row.type)];
-      return;
-    }
-    if (row.magnitude.empty()) {
+    if (is_no_earthquake(record[type]))
+      ++list_.others[record[type]];
+    else if (is_missing(record[magnitude]))
       ++list_.without_magnitude;
-      return;
-    }
-    if (number(row.magnitude, "magnitude", 12.0, event.magnitude)) list_.events.push_back(event);
+    else if (number(magnitude, "magnitude", 12.0, event.magnitude))
+      list_.events.push_back(event);
   }
+  /// Counts an event of which the file lacks the preferred origin or magnitude.
+  void add_unpreferred() { ++list_.not_preferred; }
 
+  /// What messages count, if not lines.
+  void count_in(std::string_view unit) { unit_ = unit; }
   [[noreturn]] void fail(std::int64_t line, const std::string &what) const {
-    throw FileError(text_io::where(path_, line) + what);
+    throw FileError(where(line) + what);
   }
   /// Handles a line that cannot be read: counts it if lenient.
   /// \throws FileError otherwise
   void bad(std::int64_t line, const std::string &what) {
     if (!lenient_) fail(line, what);
-    if (list_.bad_lines++ == 0) list_.first_problem = text_io::where(path_, line) + what;
+    if (list_.bad_lines++ == 0) list_.first_problem = where(line) + what;
   }
 
+  /// \throws FileError if most events are no earthquakes, unless lenient
   EarthquakeList finish() {
+    std::int64_t others = 0;
+    std::string types;
+    for (const auto &[name, count] : list_.others) {
+      others += count;
+      types += fmt::format("{}{} of type {}", types.empty() ? "" : ", ", count,
+                           text_io::in_quotes(name));
+    }
+    const auto all =
+        others + list_.without_magnitude + static_cast<std::int64_t>(list_.events.size());
+    if (2 * others > all && !lenient_)
+      throw FileError(fmt::format(
+          "{}: {} of {} events are no earthquakes ({}), expected less than half; --lenient leaves "
+          "them out",
+          path_, others, all, types));
     std::stable_sort(list_.events.begin(), list_.events.end(),
                      [](const Earthquake &a, const Earthquake &b) { return a.time < b.time; });
     return std::move(list_);
   }
 
  private:
+  std::string where(std::int64_t number) const {
+    return unit_.empty() ? text_io::where(path_, number)
+                         : fmt::format("{}: {} {}: ", path_, unit_, number);
+  }
+  static std::string bad_time(const Record &record) {
+    std::string text = record[time];
+    for (const Field field : {date, year, month, day, hour, minute, second})
+      if (!record[field].empty()) text += (text.empty() ? "" : " ") + record[field];
+    return "time is " + text_io::in_quotes(text) +
+           ", expected a date and time such as 1994-01-17T12:30:55.39Z";
+  }
+
   std::string path_;
+  std::string_view unit_;
   bool lenient_;
   EarthquakeList list_;
 };
 
-/// The lines of a file without their ends ('\n', '\r\n' or '\r'). Comments and empty lines are
-/// skipped.
+/// The lines of a file without their ends ('\n', '\r\n' or '\r'). Empty lines are skipped.
 struct Lines {
   std::string_view rest, line = {};
   std::int64_t number = 0;
 
-  bool next() {
+  /// Goes on to the next line, by default to one that is no comment.
+  bool next(bool comments = false) {
     while (!rest.empty()) {
       const std::size_t end = std::min(rest.find_first_of("\r\n"), rest.size());
-      line = text_io::trim(rest.substr(0, end));
+      line = rest.substr(0, end);
       rest.remove_prefix(end);
       rest.remove_prefix(rest.substr(0, 2) == "\r\n" ? 2 : std::min<std::size_t>(1, rest.size()));
       ++number;
-      if (!line.empty() && line.front() != '#' && line.front() != '%') return true;
+      if (!text_io::trim(line).empty() && (comments || !is_comment())) return true;
     }
     return false;
   }
+  bool is_comment() const {
+    const char first = text_io::trim(line).front();
+    return first == '#' || first == '%';
+  }
 };
 
-/// Splits a line at commas, except those in double quotes (RFC 4180).
-Fields split_csv(std::string_view line) {
+/// Splits a line at a separator, except within double quotes (RFC 4180).
+Fields split_quoted(std::string_view line, char separator) {
   Fields fields(1);
   bool quoted = false;
   for (std::size_t i = 0; i < line.size(); ++i) {
@@ -174,7 +326,7 @@ Fields split_csv(std::string_view line) {
       const bool doubled = quoted && i + 1 < line.size() && line[i + 1] == '"';
       if (doubled) fields.back() += line[i++];
       if (!doubled) quoted = !quoted;
-    } else if (line[i] == ',' && !quoted) {
+    } else if (line[i] == separator && !quoted) {
       fields.emplace_back();
     } else {
       fields.back() += line[i];
@@ -195,141 +347,203 @@ Fields split_blanks(std::string_view line) {
   }
 }
 
-/// Index of a column, or -1. `wanted` are its possible names in lower case; the first one that is
-/// there counts.
-int column(const Fields &names, std::initializer_list<std::string_view> wanted) {
-  for (const std::string_view one : wanted)
-    for (std::size_t i = 0; i < names.size(); ++i)
-      if (in_small_letters(text_io::trim(names[i])) == one) return static_cast<int>(i);
-  return -1;
+/// Position of each field among names of columns or properties; -1: missing.
+using Places = std::array<std::ptrdiff_t, number_of_fields>;
+Places places_in(const Fields &names) {
+  Fields plain_names;
+  for (const std::string &name : names) plain_names.push_back(plain(name));
+  Places places;
+  places.fill(-1);
+  for (std::size_t field = 0; field < places.size(); ++field)
+    for (const std::string &known : split_blanks(known_names[field])) {
+      const auto at = std::find(plain_names.begin(), plain_names.end(), known);
+      if (places[field] < 0 && at != plain_names.end()) places[field] = at - plain_names.begin();
+    }
+  return places;
 }
 
-/// Indices of the columns, -1 for missing ones. The time is one column (ComCat, NCEDC); a date and
-/// the time of day; or year, month, day and hhmmss.ss (both NEIC).
-struct CsvColumns {
-  int latitude, longitude, magnitude, type, time, date, year, month, day, clock;
+/// The record whose values, in the order of the names, are these.
+Record record_of(const Fields &values, const Places &places) {
+  Record record;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (places[i] >= 0)
+      record.texts[i] = text_io::trim(values[static_cast<std::size_t>(places[i])]);
+  return record;
+}
 
-  bool complete() const {
-    return latitude >= 0 && longitude >= 0 && magnitude >= 0 &&
-           (time >= 0 || (year >= 0 && month >= 0 && day >= 0 && clock >= 0));
+/// A line of column names.
+struct Header {
+  char separator = ',';
+  std::size_t columns = 0;
+  Places places{};
+  Fields missing;  ///< names of what an event needs and the line lacks, out of 4
+
+  Header(std::string_view line, char separator_in) : separator(separator_in) {
+    const Fields names = split_quoted(line, separator);
+    columns = names.size();
+    places = places_in(names);
+    const auto has = [this](Field field) { return places[field] >= 0; };
+    if (!has(time) && !has(date) && !(has(year) && has(month) && has(day)))
+      missing.push_back("time");
+    if (!has(latitude)) missing.push_back("latitude");
+    if (!has(longitude)) missing.push_back("longitude");
+    if (!has(magnitude)) missing.push_back("mag");
+  }
+  /// Whether the line is one of column names, though one of them may be missing.
+  bool likely() const { return missing.size() <= 1; }
+};
+
+/// The column names in a line, which may begin as a comment (FDSN), by the separator that finds
+/// most of what an event needs.
+Header header_in(std::string_view line) {
+  Header best(line, ',');
+  for (const char separator : {';', '|', '\t'}) {
+    Header other(line, separator);
+    if (other.missing.size() < best.missing.size()) best = other;
+  }
+  return best;
+}
+
+/// Goes on to the line of column names or, if there is none, to the first that is no comment.
+Header take_header(Lines &lines) {
+  while (lines.next(true)) {
+    const Header header = header_in(lines.line);
+    if (header.likely() || !lines.is_comment()) return header;
+  }
+  return Header({}, ',');
+}
+
+void read_columns(std::string_view content, Collector &out) {
+  Lines lines{content};
+  const Header header = take_header(lines);
+  if (!header.missing.empty())
+    out.fail(lines.number, "column names without " + either(header.missing, " and ") +
+                               ", expected such as those of ComCat, NEIC, NCEDC, GeoNet or FDSN");
+  while (lines.next()) {
+    const Fields fields = split_quoted(lines.line, header.separator);
+    if (fields.size() == header.columns)
+      out.add(record_of(fields, header.places), lines.number);
+    else
+      out.bad(lines.number, fmt::format("{} fields, expected {}", fields.size(), header.columns));
+  }
+}
+
+/// Numbers of lines, counted once over the whole text if the offsets ascend.
+struct LineCounter {
+  std::string_view text;
+  std::size_t counted = 0;
+  std::int64_t line = 1;
+
+  std::int64_t of(std::ptrdiff_t offset) {
+    for (; static_cast<std::ptrdiff_t>(counted) < offset && counted < text.size(); ++counted)
+      line += text[counted] == '\n';
+    return line;
   }
 };
-CsvColumns csv_columns(const Fields &names) {
-  const auto place = [&names](std::initializer_list<std::string_view> wanted) {
-    return column(names, wanted);
+
+/// A collection of GeoJSON as ComCat writes it: times in milliseconds since 1970, places as
+/// coordinates. The names of properties are those of columns.
+void read_geojson(std::string_view content, Collector &out) {
+  using nlohmann::json;
+  json document;
+  try {
+    document = json::parse(content);
+  } catch (const json::parse_error &error) {
+    out.fail(LineCounter{content}.of(static_cast<std::ptrdiff_t>(error.byte) - 1),
+             "no JSON, expected GeoJSON");
+  }
+  const auto text_of = [](const json &value) {
+    return value.is_string() ? value.get<std::string>()
+           : value.is_null() ? std::string()
+                             : value.dump();
   };
-  return {place({"latitude", "lat"}),
-          place({"longitude", "lon"}),
-          place({"mag", "magnitude"}),
-          place({"type", "event_type", "eventtype"}),
-          place({"time", "datetime", "timeutc", "origin_time"}),
-          place({"date"}),
-          place({"year"}),
-          place({"month"}),
-          place({"day"}),
-          place({"time(hhmmss.mm)utc", "time(hhmmss.ss)utc"})};
-}
-
-/// Converts "MM/DD/YYYY" to YYYY-MM-DD, and returns other texts unchanged.
-std::string iso_date(std::string_view text) {
-  if (text.size() != 10 || text[2] != '/' || text[5] != '/') return std::string(text);
-  return std::string(text.substr(6)) + '-' + std::string(text.substr(0, 2)) + '-' +
-         std::string(text.substr(3, 2));
-}
-/// Converts hhmmss.ss, in which leading zeros may be missing, to hh:mm:ss.ss, and returns other
-/// texts unchanged.
-std::string iso_clock(std::string_view text) {
-  const std::size_t whole = std::min(text.find('.'), text.size());
-  if (whole > 6 ||
-      !std::all_of(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(whole), is_digit))
-    return std::string(text);
-  const std::string digits = std::string(6 - whole, '0') + std::string(text);
-  return digits.substr(0, 2) + ':' + digits.substr(2, 2) + ':' + digits.substr(4);
-}
-
-void read_csv(std::string_view content, Collector &out) {
-  Lines lines{content};
-  const Fields names = lines.next() ? split_csv(lines.line) : Fields();
-  const CsvColumns columns = csv_columns(names);
-  if (!columns.complete())
-    out.fail(lines.number,
-             "column names without time, latitude, longitude and mag, expected those of ComCat, "
-             "NEIC or NCEDC");
-  while (lines.next()) {
-    const Fields fields = split_csv(lines.line);
-    if (fields.size() != names.size()) {
-      out.bad(lines.number,
-              std::to_string(fields.size()) + " fields, expected " + std::to_string(names.size()));
-      continue;
+  const auto member = [](const json &of, const char *name) -> const json & {
+    static const json none;
+    return of.is_object() && of.contains(name) ? of.at(name) : none;
+  };
+  const json &features = member(document, "features");
+  if (!features.is_array()) out.fail(1, "no array 'features', expected GeoJSON");
+  out.count_in("feature");
+  std::int64_t number = 0;
+  for (const json &feature : features) {
+    ++number;
+    const json &properties = member(feature, "properties");
+    const json &coordinates = member(member(feature, "geometry"), "coordinates");
+    Fields names, values;
+    for (const auto &[name, value] : properties.items()) {
+      names.push_back(name);
+      values.push_back(text_of(value));
     }
-    const auto field = [&](int place) {
-      return place < 0 ? std::string_view()
-                       : text_io::trim(fields[static_cast<std::size_t>(place)]);
-    };
-    std::string time(field(columns.time));
-    if (columns.time >= 0 && columns.date >= 0) {
-      time = iso_date(field(columns.date)) + ' ' + time;
-    } else if (columns.time < 0) {
-      const auto two = [](std::string_view number) {
-        return (number.size() == 1 ? "-0" : "-") + std::string(number);
-      };
-      time = std::string(field(columns.year)) + two(field(columns.month)) +
-             two(field(columns.day)) + ' ' + iso_clock(field(columns.clock));
+    Record record = record_of(values, places_in(names));
+    if (coordinates.is_array() && coordinates.size() >= 2) {
+      record[longitude] = text_of(coordinates[0]);
+      record[latitude] = text_of(coordinates[1]);
     }
-    out.add({time,
-             field(columns.latitude),
-             field(columns.longitude),
-             field(columns.magnitude),
-             field(columns.type),
-             {}},
-            lines.number);
+    double milliseconds = 0.0;
+    if (text_io::parse(record[time], milliseconds)) record.at = milliseconds / 86400e3;
+    out.add(record, number);
   }
 }
 
-/// Columns: date, time of day, type of event, geographic type, magnitude, its type, latitude,
-/// longitude, ...
+/// Columns: date, time of day, type of event, geographic type (not in the yearly files of 2003),
+/// magnitude, its type, latitude, longitude, ... The type 'n' says that there is no magnitude.
 void read_scedc(std::string_view content, Collector &out) {
   for (Lines lines{content}; lines.next();) {
-    const Fields f = split_blanks(lines.line);
-    if (f.size() < 9)
-      out.bad(lines.number, std::to_string(f.size()) +
-                                " fields, expected date, time, event type, place type, magnitude, "
-                                "its type, latitude, longitude, depth, ...");
-    else
-      out.add({f[0] + ' ' + f[1], f[6], f[7], f[4], f[2], {}}, lines.number);
+    Fields f = split_blanks(lines.line);
+    double number = 0.0;
+    for (const std::size_t text : {3u, 5u})  // a number instead: the text is missing
+      if (f.size() > text && text_io::parse(f[text], number))
+        f.insert(f.begin() + static_cast<std::ptrdiff_t>(text), std::string());
+    if (f.size() < 9) {
+      out.bad(lines.number, fmt::format("{} fields, expected date, time, event type, place type, "
+                                        "magnitude, its type, latitude, longitude, depth, ...",
+                                        split_blanks(lines.line).size()));
+      continue;
+    }
+    Record record;
+    record[time] = f[0] + ' ' + f[1];
+    record[type] = f[2];
+    record[magnitude] = f[5] == "n" ? std::string() : f[4];
+    record[latitude] = f[6];
+    record[longitude] = f[7];
+    out.add(record, lines.number);
   }
 }
 
-/// Columns: longitude, latitude, year, month, day, magnitude, depth, hour, minute[, second]. The
-/// year may have a fraction, which only repeats month and day.
+/// Columns: longitude, latitude, year, month, day, magnitude, depth, hour, minute[, second], and
+/// others that are not used; NaN for what is missing.
 void read_zmap(std::string_view content, Collector &out) {
+  constexpr Field columns[] = {longitude, latitude, year, month,  day,
+                               magnitude, type,     hour, minute, second};
   for (Lines lines{content}; lines.next();) {
     const Fields f = split_blanks(lines.line);
-    std::array<double, 10> v{};
+    Record record;
+    double number = 0.0;
     bool good = f.size() >= 9;
-    for (std::size_t i = 0; good && i < std::min(f.size(), v.size()); ++i)
-      good = text_io::parse(f[i], v[i]) || (i == 5 && f[i] == "NaN");
-    for (const std::size_t whole : {3u, 4u, 7u, 8u})
-      good = good && v[whole] >= 0.0 && v[whole] <= 60.0 && v[whole] == std::floor(v[whole]);
-    std::optional<double> at;
-    if (good && std::fabs(v[2]) <= 1e4)
-      at = days(static_cast<int>(v[2]), static_cast<int>(v[3]), static_cast<int>(v[4]),
-                static_cast<int>(v[7]), static_cast<int>(v[8]), v[9]);
-    if (at)
-      out.add({{}, f[1], f[0], f[5] == "NaN" ? std::string_view() : std::string_view(f[5]), {}, at},
-              lines.number);
+    for (std::size_t i = 0; good && i < std::min(f.size(), std::size(columns)); ++i) {
+      good = text_io::parse(f[i], number) || is_missing(f[i]);
+      record[columns[i]] = f[i];
+    }
+    record[type].clear();  // the depth, which is not used
+    record.at = good ? time_in_parts(record) : std::nullopt;
+    if (record.at)
+      out.add(record, lines.number);
     else
-      out.bad(lines.number,
-              "no event of ZMAP, expected longitude, latitude, year, month, day, magnitude, "
-              "depth, hour, minute and, if known, second");
+      out.bad(
+          lines.number,
+          "no event of ZMAP, expected longitude, latitude, year (of four digits), month, day, magnitude, "
+          "depth, hour, minute and, if known, second");
   }
 }
 
 /// The child `name` of an event whose publicID is given in the element `by`, or the first one.
-pugi::xml_node preferred(const pugi::xml_node &event, const char *name, const char *by) {
+/// \param found set to false if the file lacks the one that is given
+pugi::xml_node preferred(const pugi::xml_node &event, const char *name, const char *by,
+                         bool &found) {
   const std::string_view id = text_io::trim(event.child_value(by));
   for (const pugi::xml_node &one : event.children(name))
-    if (!id.empty() && one.attribute("publicID").value() == id) return one;
+    if (!id.empty() && text_io::trim(one.attribute("publicID").value()) == id) return one;
+  if (!id.empty()) found = false;
   return event.child(name);
 }
 
@@ -347,29 +561,28 @@ struct Unprefixed : pugi::xml_tree_walker {
 void read_quakeml(std::string_view content, Collector &out, const std::string &path) {
   pugi::xml_document document;
   const pugi::xml_parse_result parsed = document.load_buffer(content.data(), content.size());
-  const auto line_of = [content](std::ptrdiff_t offset) {
-    return 1 + std::count(content.begin(), content.begin() + offset, '\n');
-  };
+  LineCounter lines{content};
   if (!parsed)
-    throw FileError(text_io::where(path, line_of(parsed.offset)) + parsed.description() +
-                    ", expected QuakeML");
+    out.fail(lines.of(parsed.offset), fmt::format("{}, expected QuakeML", parsed.description()));
   Unprefixed walker;
   document.traverse(walker);
   const pugi::xml_node events = document.document_element().child("eventParameters");
   if (!events) throw FileError(path + ": no element eventParameters, expected QuakeML");
   for (const pugi::xml_node &event : events.children("event")) {
-    const pugi::xml_node origin = preferred(event, "origin", "preferredOriginID");
-    const pugi::xml_node magnitude = preferred(event, "magnitude", "preferredMagnitudeID");
+    bool found = true;
+    const pugi::xml_node origin = preferred(event, "origin", "preferredOriginID", found);
+    const pugi::xml_node size = preferred(event, "magnitude", "preferredMagnitudeID", found);
     const auto value = [](const pugi::xml_node &of, const char *name) {
       return text_io::trim(of.child(name).child_value("value"));
     };
-    out.add({value(origin, "time"),
-             value(origin, "latitude"),
-             value(origin, "longitude"),
-             value(magnitude, "mag"),
-             text_io::trim(event.child_value("type")),
-             {}},
-            line_of(event.offset_debug()));
+    Record record;
+    record[time] = value(origin, "time");
+    record[latitude] = value(origin, "latitude");
+    record[longitude] = value(origin, "longitude");
+    record[magnitude] = value(size, "mag");
+    record[type] = text_io::trim(event.child_value("type"));
+    if (!found) out.add_unpreferred();
+    out.add(record, lines.of(event.offset_debug()));
   }
 }
 
@@ -380,7 +593,7 @@ std::string_view without_mark(std::string_view content) {
 }  // namespace
 
 bool Region::contains(const Earthquake &event) const {
-  if (event.latitude < south || event.latitude > north) return false;
+  if (!(event.latitude >= south && event.latitude <= north)) return false;
   if (east - west >= 360.0) return true;
   const auto eastwards = [this](double longitude) {
     const double turn = std::fmod(longitude - west, 360.0);
@@ -430,17 +643,19 @@ Region parse_region(std::string_view text) {
 std::string detect_format(std::string_view content) {
   content = without_mark(content);
   Lines lines{content};
-  if (content.substr(0, catalogue_magic.size()) == catalogue_magic || !lines.next())
-    return "models";
-  if (lines.line.front() == '<') return "quakeml";
-  if (csv_columns(split_csv(lines.line)).complete()) return "csv";
-  if (lines.line.size() > 10 && lines.line[4] == '/' && parse_date(lines.line.substr(0, 10)))
-    return "scedc";
-  const Fields fields = split_blanks(lines.line);
+  if (content.substr(0, catalogue_magic.size()) == catalogue_magic) return "models";
+  const std::string_view first = lines.next() ? text_io::trim(lines.line) : std::string_view();
+  if (first.substr(0, 1) == "<") return "quakeml";
+  if (first.substr(0, 1) == "{") return "geojson";
+  Lines again{content};
+  if (take_header(again).likely()) return "csv";
+  if (first.size() > 10 && first[4] == '/' && parse_date(first.substr(0, 10))) return "scedc";
+  const Fields fields = split_blanks(first);
   double number = 0.0;
   const bool numbers =
-      fields.size() >= 9 && std::all_of(fields.begin(), fields.begin() + 5,
-                                        [&](auto &field) { return text_io::parse(field, number); });
+      fields.size() >= 9 && std::all_of(fields.begin(), fields.begin() + 9, [&](auto &field) {
+        return text_io::parse(field, number) || is_missing(field);
+      });
   return numbers ? "zmap" : "models";
 }
 
@@ -451,7 +666,8 @@ EarthquakeList read_earthquakes(std::string_view content, const std::string &for
   if (text_io::is_utf16(content)) throw FileError(path + text_io::utf16_text);
   if (content.substr(0, (1 << 16)).find('\0') != std::string_view::npos)
     throw FileError(path + ": has bytes of 0, expected text");
-  if (format == "csv") read_csv(content, out);
+  if (format == "csv") read_columns(content, out);
+  if (format == "geojson") read_geojson(content, out);
   if (format == "quakeml") read_quakeml(content, out, path);
   if (format == "zmap") read_zmap(content, out);
   if (format == "scedc") read_scedc(content, out);

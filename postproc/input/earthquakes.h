@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// \file earthquakes.h
-/// Earthquake catalogues in the formats that agencies publish: ComCat's CSV, QuakeML, ZMAP, SCEDC.
+/// Earthquake catalogues in the formats that agencies publish: columns with names,
+/// QuakeML, GeoJSON, ZMAP, SCEDC.
 #ifndef LSM_POSTPROC_EARTHQUAKES_H
 #define LSM_POSTPROC_EARTHQUAKES_H
 
@@ -19,7 +20,7 @@ constexpr std::string_view seismicity = "seismicity";
 /// One earthquake.
 struct Earthquake {
   double time = 0.0;                       ///< days since 1970-01-01T00:00 UTC
-  double latitude = 0.0, longitude = 0.0;  ///< degrees
+  double latitude = 0.0, longitude = 0.0;  ///< degrees; NaN if the file has none
   double magnitude = 0.0;                  ///< as in the file, of any type
 };
 
@@ -28,8 +29,9 @@ struct EarthquakeList {
   std::vector<Earthquake> events;              ///< in order of time
   std::map<std::string, std::int64_t> others;  ///< left out, by type: blasts, sonic booms, ...
   std::int64_t without_magnitude = 0;          ///< earthquakes left out
-  std::int64_t bad_lines = 0;                  ///< skipped (lenient)
-  std::string first_problem;                   ///< message for the first of them
+  std::int64_t not_preferred = 0;  ///< without the preferred origin or magnitude; the first is used
+  std::int64_t bad_lines = 0;      ///< skipped (lenient)
+  std::string first_problem;       ///< message for the first of them
 };
 
 /// Western, eastern, southern and northern border in degrees. A region with west > east extends
@@ -56,17 +58,24 @@ std::string date_text(double days);
 /// \throws std::invalid_argument if it is not a possible region
 Region parse_region(std::string_view text);
 
-/// Detects the format of a file by its first bytes, after a byte order mark: '<' is quakeml,
-/// '# lsm-catalogue' models, a line of column names with time and mag (or magnitude) csv, a first
-/// line of data that begins with YYYY/MM/DD scedc, and nine or more fields, the first five of them
-/// numbers, zmap. Everything else is taken for models, whose reader reports what is missing.
+/// What read_earthquakes() reads, for messages.
+constexpr std::string_view earthquake_formats =
+    "columns separated by , ; | or tabs, with names such as time (or date, or year to second), "
+    "latitude, longitude and mag (ComCat, NEIC, NCEDC, GeoNet, FDSN, ISC, pyCSEP); QuakeML; "
+    "GeoJSON of ComCat; SCEDC; ZMAP";
+
+/// Detects the format of a file by its first bytes, after a byte order mark: '# lsm-catalogue'
+/// models, a line of column names (at most one of those needed may be missing) csv, '<' quakeml,
+/// '{' geojson, a first line of data that begins with YYYY/MM/DD scedc, and nine or more numbers
+/// zmap. Everything else is taken for models, whose reader reports what is missing.
 std::string detect_format(std::string_view content);
 
-/// Reads the earthquakes in the text of a file: events whose type is missing, 'earthquake',
-/// 'induced or triggered event', or SCEDC's eq, le, re, ts.
-/// \param format csv, quakeml, zmap or scedc
+/// Reads the earthquakes in the text of a file: all events but those whose type says that they are
+/// something else (blasts, explosions, collapses, ...).
+/// \param format csv, quakeml, geojson, zmap or scedc
 /// \param path for messages, "path:line: what, expected ..."
-/// \param lenient skip and count lines (QuakeML: events) that cannot be read
+/// \param lenient skip and count lines (QuakeML, GeoJSON: events) that cannot be read, and go on if
+/// most events are no earthquakes
 /// \throws FileError
 EarthquakeList read_earthquakes(std::string_view content, const std::string &format,
                                 const std::string &path, bool lenient);

@@ -307,26 +307,9 @@ std::string Table::html() const {
 void Table::write(const std::string &path) const { write_file(path, csv()); }
 
 std::string valid_utf8(std::string_view text) {
-  std::string out;
-  while (!text.empty()) {
-    const auto first = static_cast<unsigned char>(text[0]);
-    const std::size_t length = first < 0x80                    ? 1
-                               : first >= 0xc2 && first < 0xe0 ? 2
-                               : first >= 0xe0 && first < 0xf0 ? 3
-                               : first >= 0xf0 && first < 0xf5 ? 4
-                                                               : 0;
-    bool good = length > 0 && length <= text.size();
-    for (std::size_t i = 1; good && i < length; ++i)
-      good = (static_cast<unsigned char>(text[i]) & 0xc0) == 0x80;
-    // Refuses overlong forms, halves of a surrogate pair, and values above U+10FFFF.
-    const auto second = static_cast<unsigned char>(good && length > 2 ? text[1] : 0);
-    if (good && ((first == 0xe0 && second < 0xa0) || (first == 0xed && second >= 0xa0) ||
-                 (first == 0xf0 && second < 0x90) || (first == 0xf4 && second >= 0x90)))
-      good = false;
-    out += good ? text.substr(0, length) : std::string_view("\xef\xbf\xbd");
-    text.remove_prefix(good ? length : 1);
-  }
-  return out;
+  // The writer of JSON is what repairs texts.
+  const nlohmann::json json = text;
+  return nlohmann::json::parse(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 std::string html_escape(std::string_view raw) {

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "numerics/random.h"
+
 namespace LSM::postproc {
 
 namespace {
@@ -18,14 +20,7 @@ std::function<void(int, int)> watcher;
 }  // namespace
 
 std::uint64_t seed_of_replica(std::uint64_t seed, int replica) {
-  // SplitMix64 (Steele, Lea & Flood 2014).
-  const auto mix = [](std::uint64_t x) {
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
-    return x ^ (x >> 31);
-  };
-  constexpr std::uint64_t step = 0x9e3779b97f4a7c15ULL;
-  return mix(mix(seed + step) + step * (static_cast<std::uint64_t>(replica) + 1));
+  return splitmix64(splitmix64(seed) + splitmix64_step * static_cast<std::uint64_t>(replica));
 }
 
 Rng generator(std::uint64_t seed) {

@@ -157,6 +157,197 @@ TEST(Earthquakes, EventsWithoutMagnitudeAreCounted) {
   EXPECT_EQ(list.without_magnitude, 1);
 }
 
+// A type may be the type of the magnitude (ISC), a code, or unknown: only what is known to be
+// something else is left out.
+TEST(Earthquakes, OnlyWhatIsKnownToBeNoEarthquakeIsLeftOut) {
+  const auto file_of = [](const std::vector<std::string> &types) {
+    std::string text = "date,time,lat,lon,type,mag\n";
+    for (const std::string &type : types)
+      text += "2011-03-11,05:46:23.20, 38.2963, 142.4980," + type + ", 9.1\n";
+    return text;
+  };
+  const std::vector<std::string> kept = {"MW",
+                                         "mb",
+                                         "ML",
+                                         "Mi",
+                                         "",
+                                         "earthquake",
+                                         "Earthquake",
+                                         "ke",
+                                         "se",
+                                         "fe",
+                                         "de",
+                                         "ki",
+                                         "si",
+                                         "uk",
+                                         "kr",
+                                         "null",
+                                         "not reported",
+                                         "other event",
+                                         "unknown",
+                                         "induced earthquake",
+                                         "induced or triggered event",
+                                         "rock burst",
+                                         "eq",
+                                         "eql",
+                                         "le",
+                                         "re",
+                                         "ts",
+                                         "lp"};
+  EXPECT_EQ(read(file_of(kept)).events.size(), kept.size());
+  for (const char *const no_earthquake :
+       {"quarry blast", "Quarry_Blast", "explosion", "mining explosion", "nuclear explosion", "qb",
+        "km", "sm", "kn", "kx", "sn", "sonic boom", "landslide", "mine collapse", "ice quake",
+        "duplicate earthquake", "not existing", "volcanic eruption", "meteorite"}) {
+    const EarthquakeList list = read(file_of({"eq", no_earthquake}));
+    EXPECT_EQ(list.events.size(), 1u) << no_earthquake;
+    EXPECT_EQ(list.others.count(no_earthquake), 1u) << no_earthquake;
+  }
+  const std::string most = file_of({"qb", "eq", "qb", "explosion"});
+  EXPECT_TRUE(contains(message_of<FileError>([&] { read(most); }),
+                       "file: 3 of 4 events are no earthquakes (1 of type 'explosion', 2 of type "
+                       "'qb'), expected less than half"));
+  EXPECT_EQ(read(most, true).events.size(), 1u);
+}
+
+TEST(Earthquakes, QuakeMlWithValuesOnLinesOfTheirOwn) {
+  std::string text;
+  for (const char c : quakeml) {
+    if (c == '<' && text.back() != '>' && text.back() != '\n') text += "\n   ";
+    text += c;
+    if (c == '>') text += "\r\n\t ";
+  }
+  text.replace(text.find("quakeml:m2\""), 11, " \n quakeml:m2 \"");
+  const EarthquakeList list = read(text), plain = read(quakeml);
+  ASSERT_EQ(list.events.size(), 3u);
+  EXPECT_EQ(list.others, plain.others);
+  EXPECT_EQ(list.not_preferred, 0);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(list.events[i].time, plain.events[i].time);
+    EXPECT_EQ(list.events[i].magnitude, plain.events[i].magnitude);
+  }
+  text.replace(text.find("quakeml:m2"), 10, "quakeml:m3");
+  EXPECT_EQ(read(text).events[1].magnitude, 6.4);
+  EXPECT_EQ(read(text).not_preferred, 1);
+}
+
+TEST(Earthquakes, MissingValues) {
+  for (const char *const missing : {"", "nan", "NaN", "null", "NULL", "None", "NA", "--", "-"}) {
+    const std::string none = missing;
+    const EarthquakeList list =
+        read("time,latitude,longitude,depth,mag\n1994-01-17T12:30:55Z,34,-118,1," + none +
+             "\n1994-01-18,34,-118," + none + ",3.1\n1994-01-19," + none + "," + none + ",1,3.2\n");
+    EXPECT_EQ(list.without_magnitude, 1) << none;
+    ASSERT_EQ(list.events.size(), 2u) << none;
+    EXPECT_TRUE(std::isnan(list.events[1].latitude)) << none;
+    EXPECT_FALSE(parse_region("-180/180/-90/90").contains(list.events[1])) << none;
+  }
+  const EarthquakeList list = read(
+      "-116.5\t33.5\t1994.04\t1\t15\t2.01\tNaN\t0\t0\t0\n"
+      "-116.5\t33.5\t1994.04\t1\t16\tNaN\tNaN\t0\t0\t0\n"
+      "NaN\tNaN\t1994.04\t1\t17\t2.02\tNaN\tNaN\tNaN\tNaN\n");
+  ASSERT_EQ(list.events.size(), 2u);
+  EXPECT_EQ(list.without_magnitude, 1);
+  EXPECT_EQ(list.events[1].time, 8782.0);
+}
+
+TEST(Earthquakes, YearsOfTwoDigitsAreRefused) {
+  for (const char *const year : {"83.45", "99.99", "0.01", "83", "-5", "12345"}) {
+    const std::string file = std::string("-116.5 33.5 ") + year + " 6 15 2.1 5 0 0\n";
+    EXPECT_TRUE(contains(message_of<FileError>([&] { read(file); }),
+                         "file:1: no event of ZMAP, expected longitude, latitude, year (of four"))
+        << year;
+  }
+  EXPECT_TRUE(
+      contains(message_of<FileError>([] { read("year,month,day,lat,lon,mag\n83,6,15,1,1,4\n"); }),
+               "file:2: time is '83 6 15', expected a date and time"));
+}
+
+// The type 'n' stands for no magnitude, and the yearly files of 2003 have no type of the place.
+TEST(Earthquakes, Scedc) {
+  const EarthquakeList list = read(
+      "1981/01/01 01:49:29.23 le 2.27 c    33.724 -118.832   0.6 A 1  10   20\n"
+      "1981/01/01 04:13:55.64 le 0.00 n    33.249 -115.967   1.0 A 2  10   20\n"
+      "2019/07/06 03:19:53.04 eq  l 7.10 w    35.770 -117.599   8.0 A  1         100  200\n"
+      "2019/07/06 03:20:00.00 eq  l 0.00 n    35.770 -117.599   8.0 A  2          10   20\n"
+      "2019/07/06 03:21:00.00 eq  l 1.00      35.770 -117.599   8.0 A  2          10   20\n");
+  ASSERT_EQ(list.events.size(), 3u);
+  EXPECT_EQ(list.without_magnitude, 2);
+  EXPECT_EQ(list.events[0].magnitude, 2.27);
+  EXPECT_EQ(list.events[0].longitude, -118.832);
+  EXPECT_EQ(list.events[1].magnitude, 7.1);
+}
+
+// One table has the names of the columns of all of these.
+TEST(Earthquakes, ColumnsOfAgencies) {
+  const struct {
+    const char *name;
+    std::string text, format = "csv";
+  } cases[] = {
+      {"GeoNet",
+       "publicid,eventtype,origintime,modificationtime,longitude, latitude, magnitude, depth\n"
+       "x1,,1994-01-17T12:30:55.390Z,2020-02-17T00:21:34.988Z,-118.537,34.213,6.7,5.9\n"},
+      {"FDSN",
+       "#EventID | Time | Latitude | Longitude | Depth/km | Author | MagType | Magnitude | "
+       "EventLocationName|EventType\n# a comment\n"
+       "x1|1994-01-17T12:30:55.39|34.213|-118.537|3.6|||6.7|1 km; NNW, of Reseda|earthquake\n"},
+      {"pyCSEP",
+       "lon,lat,mag,time_string,depth,catalog_id,event_id\n"
+       "-118.537,34.213,6.7,1994-01-17T12:30:55.390000,8.9,,x1\n"},
+      {"year to second",
+       "eventID,year,month,day,hour,minute,second,longitude,latitude,depth,magnitude\n"
+       "1,1994,1,17,12,30,55.39,-118.537,34.213,150.0,6.7\n"},
+      {"semicolons",
+       "timestamp;longitude;latitude;depth;magnitude\n"
+       "1994-01-17T21:30:55.390000+0900;-118.537;34.213;32.0;6.7\n"},
+      {"tabs",
+       "Year\tMonth\tDay\tTime\tLat\tLon\tMag\n1994\t1\t17\t12:30:55.39\t34.213\t-118.537\t6.7\n"},
+      {"ISC",
+       "EVENTID,TYPE,AUTHOR   ,DATE      ,TIME       ,LAT     ,LON      ,DEPTH,DEPFIX,AUTHOR   "
+       ",TYPE  ,MAG \n1,ke,ISC,1994-01-17,12:30:55.39, 34.213,-118.537, 19.7,,GCMT,MW, 6.7\n"},
+      {"ComCat's GeoJSON",
+       "{\"type\":\"FeatureCollection\",\"features\":[{\"type\":\"Feature\",\"properties\":{\"mag\""
+       ":6.7,\"time\":758809855390,\"type\":\"earthquake\"},\"geometry\":{\"type\":\"Point\","
+       "\"coordinates\":[-118.537,34.213,18.2]}}]}\n",
+       "geojson"},
+      {"EMSC's GeoJSON",
+       "{\"features\":[{\"geometry\":{\"coordinates\":[-118.537,34.213,-8]},\"properties\":"
+       "{\"time\":\"1994-01-17T12:30:55.39Z\",\"mag\":6.7,\"lat\":1,\"evtype\":\"ke\"}}]}",
+       "geojson"}};
+  for (const auto &one : cases) {
+    EXPECT_EQ(detect_format(one.text), one.format) << one.name;
+    const EarthquakeList list = read(one.text);
+    ASSERT_EQ(list.events.size(), 1u) << one.name;
+    EXPECT_NEAR((list.events[0].time - 8782.0) * 86400.0, 45055.39, 1e-4) << one.name;
+    EXPECT_EQ(list.events[0].magnitude, 6.7) << one.name;
+    EXPECT_EQ(list.events[0].latitude, 34.213) << one.name;
+    EXPECT_EQ(list.events[0].longitude, -118.537) << one.name;
+  }
+  EXPECT_EQ(detect_format("#EventID|Time|Latitude|Longitude|Magnitude\n"), "csv");
+  EXPECT_EQ(read("time\tlatitude\tlongitude\tmag\ttype\n2000-01-01\t1\t1\t4\t\n").events.size(),
+            1u);
+  const EarthquakeList early =
+      read("year,month,day,hour,minute,second,lon,lat,mag\n1107,2,12,3,,nan,26.6,45.7,7.1\n");
+  EXPECT_EQ(early.events.at(0).time, *parse_date("1107-02-12T03:00"));
+}
+
+TEST(Earthquakes, GeoJsonThatCannotBeRead) {
+  const auto refused = [](const std::string &text, const std::string &says) {
+    EXPECT_TRUE(contains(message_of<FileError>([&] { read(text); }), says))
+        << message_of<FileError>([&] { read(text); });
+  };
+  const std::string good =
+      "{\"properties\":{\"time\":0,\"mag\":null},\"geometry\":{\"coordinates\":[1,2,3]}}";
+  EXPECT_EQ(read("{\"features\":[" + good + "]}").without_magnitude, 1);
+  refused("{\"features\":[" + good + ",\n{]}", "file:2: no JSON, expected GeoJSON");
+  refused("{\"a\":[]}", "file:1: no array 'features', expected GeoJSON");
+  refused("{\"features\":[" + good + ",{\"properties\":{\"time\":\"x\"}}]}",
+          "file: feature 2: time is 'x', expected a date and time");
+  for (const char *const odd : {"1", "null", "{}", "{\"properties\":1,\"geometry\":[1]}",
+                                "{\"properties\":{\"time\":{}},\"geometry\":{\"coordinates\":3}}"})
+    refused("{\"features\":[" + std::string(odd) + "]}", "file: feature 1: ");
+}
+
 TEST(Earthquakes, Regions) {
   const auto holds = [](const char *region, double longitude, double latitude) {
     Earthquake event;

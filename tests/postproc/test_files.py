@@ -391,6 +391,15 @@ FORMATS = {
     "zmap": "".join(f"-120 30 20{k:02d} 1 1 {m:.1f} 5 0 0 0\n" for k, m in enumerate(MAGNITUDES)),
     "scedc": "".join(f"20{k:02d}/01/01 00:00:00.00 eq l {m:.2f} l 30.000 -120.000 5.0 A {k} 1 1\n" for k, m in enumerate(MAGNITUDES)),
     "quakeml": QUAKEML.format(events="".join(XML_EVENT.format(k=k, m=m) for k, m in enumerate(MAGNITUDES))),
+    "fdsn": "#EventID | Time | Latitude | Longitude | Depth/km | MagType | Magnitude\n" +
+    "".join(f"{k}|20{k:02d}-01-01T00:00:00|30|-120|5|ML|{m:.1f}\n" for k, m in enumerate(MAGNITUDES)),
+    "parts": "eventID;year;month;day;hour;minute;second;longitude;latitude;magnitude\n" + "".join(f"{k};20{k:02d};1;1;0;0;0.0;-120;30;{m:.1f}\n"
+                                                                                                  for k, m in enumerate(MAGNITUDES)),
+    "csep": "lon,lat,mag,time_string,depth,catalog_id,event_id\n" + "".join(f"-120,30,{m:.1f},20{k:02d}-01-01T00:00:00.000000,5,,{k}\n"
+                                                                            for k, m in enumerate(MAGNITUDES)),
+    "geojson": '{"type": "FeatureCollection", "features": [\n' +
+    ",\n".join(f'{{"properties": {{"mag": {m:.1f}, "time": {(10957 + 365 * k + (k + 3) // 4) * 86400000}, "type": "earthquake"}}, '
+               '"geometry": {"coordinates": [-120, 30, 5]}}' for k, m in enumerate(MAGNITUDES)) + "]}\n",
 }
 
 
@@ -409,6 +418,17 @@ def test_earthquakes_in_any_dress(postproc, work, name, dressed):
     assert [row["events"] for row in found["sizes"]] == [12, 1]
     first = found["catalogues"][0]["first_start"]
     assert abs(first - 10957.0) < 1e-6  # 2000-01-01
+
+
+def test_what_is_read_is_listed(postproc, work):
+    """A file of no known format, and one whose events mostly are something else."""
+    Path("events.csv").write_text("when,where\n1,2\n")
+    refused(postproc, "count events.csv", "events.csv:1: not a catalogue, expected '# lsm-catalogue 1' of a model, or earthquakes: columns")
+    Path("events.csv").write_text("time,lat,lon,mag,type\n" + "2000-01-01,1,1,2,quarry blast\n" * 3 + "2000-01-02,1,1,2,ke\n")
+    refused(postproc, "count events.csv", r"events.csv: 3 of 4 events are no earthquakes \(3 of type 'quarry blast'\)")
+    lenient = run(postproc, "count events.csv --lenient --json n.json")
+    assert "left out 3 of type 'quarry blast'" in lenient.err
+    assert json.loads(Path("n.json").read_text())["catalogues"][0]["events"] == 1
 
 
 def test_sizes_may_be_magnitudes(postproc, work):

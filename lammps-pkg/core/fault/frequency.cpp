@@ -2,6 +2,7 @@
 #include "fault/frequency.h"
 
 #include "numerics/constants.h"
+#include "numerics/random.h"
 
 namespace LSM {
 
@@ -15,13 +16,10 @@ void add_spring_forces(const std::vector<PairSpring> &springs, int dim,
 
 std::pair<double, double> normal_pair(std::uint64_t key, std::uint64_t axis) {
   std::uint64_t state = key * 4 + axis;
-  auto uniform = [&state] {  // splitmix64; in (0, 1]
-    state += 0x9e3779b97f4a7c15ULL;
-    std::uint64_t z = state;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-    z ^= z >> 31;
-    return (static_cast<double>(z >> 11) + 1.0) * 0x1.0p-53;
+  auto uniform = [&state] {  // in (0, 1]
+    const std::uint64_t bits = splitmix64(state);
+    state += splitmix64_step;
+    return (static_cast<double>(bits >> 11) + 1.0) * 0x1.0p-53;
   };
   state = static_cast<std::uint64_t>(uniform() * 0x1.0p53);
   const double length = std::sqrt(-2.0 * std::log(uniform()));

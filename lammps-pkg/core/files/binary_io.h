@@ -60,7 +60,7 @@ Number from_bytes(const char *from) {
 //   visit(info, f)         calls f(name, number) for each number, in the order of the file
 //   header()               all parameters
 //   read(all parameters)   takes those that visit() leaves out; returns what is wrong, or ""
-//   fault()                what is wrong with the numbers, or ""
+//   problem()              what is wrong with the numbers, or ""
 //   record_bytes()
 
 /// Returns the model and the numbers of a header as parameters.
@@ -155,7 +155,7 @@ class RecordReader {
     const text_io::Parameters known = info_.header();
     for (const auto &parameter : all)
       if (!text_io::find(known, parameter.first)) info_.parameters.push_back(parameter);
-    return info_.fault();
+    return info_.problem();
   }
 
   void end_after(std::int64_t bytes) {
@@ -203,7 +203,7 @@ class RecordWriter : public text_io::ResumableFile {
 
  private:
   static text_io::Parameters checked(const Info &info) {
-    const std::string problem = info.fault();
+    const std::string problem = info.problem();
     if (!problem.empty())
       throw std::invalid_argument(std::string(Info::what) + " header: " + problem);
     text_io::check_parameters(info.header());

@@ -24,7 +24,7 @@ std::string PeSeriesInfo::read(const text_io::Parameters &all) {
   return "parameter 'times' is " + text_io::in_quotes(*times) + ", expected 'own' or none";
 }
 
-std::string PeSeriesInfo::fault() const {
+std::string PeSeriesInfo::problem() const {
   if (model != "lsm" && model != "block-slider")
     return "model is " + text_io::in_quotes(model) + ", expected 'lsm' or 'block-slider'";
   if (!std::isfinite(dt) || !(dt > 0.0))

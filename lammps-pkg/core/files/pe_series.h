@@ -49,7 +49,7 @@ struct PeSeriesInfo : text_io::FileHeader {
   }
   text_io::Parameters header() const;
   std::string read(const text_io::Parameters &all);
-  std::string fault() const;
+  std::string problem() const;
   std::int64_t record_bytes() const { return explicit_times ? 24 : 16; }
 };
 

@@ -18,7 +18,7 @@ std::string SlipHistoryInfo::read(const text_io::Parameters &all) {
   return {};
 }
 
-std::string SlipHistoryInfo::fault() const {
+std::string SlipHistoryInfo::problem() const {
   if (model != "lsm") return "model is " + text_io::in_quotes(model) + ", expected 'lsm'";
   if (grid.bins < 1 || grid.bins > most_bins)
     return "bins is not a number of bins, expected 1 to " + std::to_string(most_bins);

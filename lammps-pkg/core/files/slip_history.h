@@ -64,7 +64,7 @@ struct SlipHistoryInfo : text_io::FileHeader {
   }
   text_io::Parameters header() const;
   std::string read(const text_io::Parameters &all);
-  std::string fault() const;
+  std::string problem() const;
   std::int64_t record_bytes() const { return 24 + 12 * static_cast<std::int64_t>(grid.bins); }
 };
 

@@ -10,6 +10,16 @@
 
 namespace LSM {
 
+/// splitmix64 (Steele, Lea and Flood 2014): each state is this much larger than the one before.
+constexpr std::uint64_t splitmix64_step = 0x9e3779b97f4a7c15ULL;
+/// The number of splitmix64 that follows a state.
+constexpr std::uint64_t splitmix64(std::uint64_t state) {
+  std::uint64_t z = state + splitmix64_step;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+  return z ^ (z >> 31);
+}
+
 /// std::mt19937_64 with our own conversion to double: the C++ standard fixes the sequence of the
 /// engine, but not that of std::uniform_real_distribution.
 class Random {
