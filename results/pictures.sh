@@ -45,11 +45,12 @@ for part; do
       common=(--from "$loading" --threshold 1e-4)
       "$postproc" histograms "${faults[@]}" "${common[@]}" --guide=-1.07:1e-4:0.1 -o "$new/fig12_fault_sizes"
       "$postproc" intervals "${faults[@]}" "${common[@]}" --delta 1 --shortest 0 --shuffles 0 -o "$new/fig14_fault_intervals"
+      "$postproc" intervals damping/fault_*_4.catalogue.csv.xz "${common[@]}" --shuffles 0 -o "$new/damping_times"
       for fit in slider_fit rupture_fit fault_fit fault_rupture_fit; do
         for kind in csv gp png; do cp "$new/$fit.scaling.$kind" .; done
       done
       "$postproc" histograms "${sliders[@]}" --guide=-0.5:1e-2:1 --guide=-1:1:100 -o "$new/fig13_slider_sizes"
-      for name in fig12_fault_sizes fig13_slider_sizes; do
+      for name in fig12_fault_sizes fig13_slider_sizes damping_times; do
         for kind in csv gp png svg; do cp "$new/$name.$kind" .; done
       done
       for name in fig14_fault_intervals fig15_slider_intervals; do

@@ -33,7 +33,7 @@ from calibrate import number, read  # noqa: E402
 
 POSTPROC = "postproc"  # the program, set by main()
 POINTS, SLIDERS = FOLDER / "calibration/points.csv.xz", FOLDER / "calibration/sliders.csv.xz"
-CAMPAIGN, VALIDATION = FOLDER / "campaign", FOLDER / "validation"
+CAMPAIGN, VALIDATION, DAMPING = FOLDER / "campaign", FOLDER / "validation", FOLDER / "damping"
 LOADING = str(calibrate.LOADING)
 SIZES = ("1e-4", "1e-3", "1e-2")
 EXPONENTS = {text.replace(":", " to "): f"exponent_{text}" for text in calibrate.RANGES}
@@ -271,6 +271,47 @@ def stretches_table():
     columns = {"predicted; length, packing": lambda row: f"{row['length']}, {row['seed']}", "PE of": lambda row: row["what"]}
     columns |= {"events >= 1e-4": "events", "mean time": "mean_time", "gamma": "gamma", "gamma >= 1e-3": "gamma_1e-3"}
     return study_table("stretches.events.csv", columns | {"exponent": "exponent", "largest": "largest"})
+
+
+# ---- damping
+
+
+def preset_paper_table():
+    """The catalogues of preset paper, none of whose packings was used to choose its values."""
+    paths = [path for some in faults(folder=DAMPING).values() for path in some]
+    said = run("summary", *paths, "--from", LOADING, "--threshold", "1e-4", "--shortest", 0).splitlines()
+    all_times = csv.DictReader(line for line in said if not line.startswith("#"))
+    rows = [{**row, "gamma_all": one["gamma_0.0001"], "gamma_error_all": one["gamma_error_0.0001"]} for row, one in zip(summaries(DAMPING), all_times)]
+    columns = {"length, packing": lambda row: f"{row['length']}, {row['seed']}", "exponent 1e-4 to 0.1": EXPONENTS["1e-4 to 1e-1"]}
+    columns |= {"in each decade": lambda row: ", ".join(shown(number(row, key)) for key in list(EXPONENTS.values())[1:])}
+    columns |= {"gamma of all times": "gamma_all", "of those above 2.5": "gamma_0.0001", "one event in": "mean_time_0.0001"}
+    return study_table("", columns, rows)
+
+
+def kinds_table():
+    """Events by size: frictional work and slip within them."""
+    groups = grouped(read(DAMPING / "kinds.csv"), lambda row: row["run"])
+    sizes = ("0.0001", "0.001", "0.01", "0.10000000000000001")
+    cells = {run: {row["smallest"]: f"{number(row, 'excess'):.2f}, {number(row, 'rank'):.2f} ({row['events']})" for row in rows} for run, rows in groups.items()}
+    return table(["excess, rank (events)", "1e-4 to 1e-3", "1e-3 to 1e-2", "1e-2 to 0.1", "above"],
+                 [[run.replace("_", " "), *(found.get(size, "-") for size in sizes)] for run, found in cells.items()])
+
+
+def energies_table():
+    keys = {"events": "events", "one in": "one_in", "exponent": "exponent", "gamma": "gamma"}
+    names = {"damped": "damped, plates absorb", "hardly": "hardly damped"}
+    return study_table("damping/energies.csv", {"fault": lambda row: names[row["run"]], "drops of": lambda row: row["energy"]} | keys)
+
+
+def surrogates_table():
+    columns = {"fault": lambda row: row["run"].replace("_", " "), "series": lambda row: row["series"], "one in": "one_in", "by its spectrum": "by_spectrum"}
+    return study_table("damping/surrogates.csv", columns | {"exponent": "exponent", "gamma": "gamma"})
+
+
+def switched_table():
+    groups = grouped(read(DAMPING / "switched.csv"), lambda row: row["run"])
+    return table(["from then on, time units after it", *(str(1000 * n) for n in range(5))],
+                 [[name.replace("_", " "), *(row["events"] for row in rows[:5])] for name, rows in groups.items()])
 
 
 # ---- calibration

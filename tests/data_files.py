@@ -111,7 +111,7 @@ def read_history(path):
                                          ("stress", "<f4", bins)])
 
 
-def write_history(path, steps, slip, stress=0.0, **head):
+def write_history(path, steps, slip, stress=0.0, work=0.0, **head):
     """Writes a slip history: the slip of each bin between one step and the next. The first record is the state at steps[0]."""
     slip = np.asarray(slip, "<f4")
     bins = slip.shape[1]
@@ -123,7 +123,7 @@ def write_history(path, steps, slip, stress=0.0, **head):
     records = np.zeros(len(steps), [("begin", "<i8"), ("end", "<i8"), ("pe", "<f8"), ("slip", "<f4", bins), ("work", "<f4", bins),
                                     ("stress", "<f4", bins)])
     records["begin"], records["end"] = [steps[0], *steps[:-1]], steps
-    records["slip"], records["stress"] = slip, stress
+    records["slip"], records["stress"], records["work"] = slip, stress, work
     Path(path).write_bytes(b"lsm-slip-hist-1\n" + struct.pack("<q", len(said)) + said + records.tobytes())
 
 

@@ -1,0 +1,216 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Is a drop of the springs' potential energy slip, or an exchange with the load of the plates and with waves? †
+
+slip_or_exchange.py events RUN OUT.csv.xz           the events >= 1e-4 of a run, with the two numbers below
+slip_or_exchange.py kinds OUT.csv FILE.csv.xz...    means of these by size
+slip_or_exchange.py surrogates POSTPROC OUT.csv RUN...   events of series that have the spectrum of a run and nothing else of it
+slip_or_exchange.py energies POSTPROC OUT.csv RUN...     events of other energies than that of the springs
+slip_or_exchange.py switched OUT.csv RUN...         events in each 1000 time units of runs that continue others with other damping
+slip_or_exchange.py figure OUT RUN FROM TO RUN FROM TO   a stretch of two runs: OUT.png and OUT.svg
+
+RUN is the prefix of the files of a run of inputs/fault.in with ruptures=yes; energies and figure need extra=fault_energy as well.
+For each event:
+  excess   frictional work within it, less what friction does in as much time on the mean of the run, over its size. 1: friction
+           takes up what the springs lose; 0: it does no more than at any other time, so that the energy goes to the load or waves
+  rank     share of random stretches of the run, as long as the event, in which no place of the fault (bin of the slip history)
+           slips as far as the place that slips farthest in the event. 0.5: it slips as far as at any other time
+"""
+import lzma
+import struct
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import numpy as np
+from catalogues import LOADING, draw, lsm, rows_of, text_of, write_table
+
+STRETCHES = 40  # random stretches for each event
+DECADES = ((1e-4, 1e-3), (1e-3, 1e-2), (1e-2, 1e-1), (1e-1, np.inf))
+MEMORY = 1.0  # of the picker, for surrogates and energies; that of preset paper
+
+
+class History:
+    """Slip of each place and frictional work of the whole fault, summed over time."""
+
+    def __init__(self, path):
+        history = lsm.read_slip(path)
+        history = history[history["step_end"] > history["step_begin"]]  # a run that continues another begins with an empty record
+        self.dt = float(history.header["dt"])
+        self.offset = float(history.header["time0"]) - float(history.header["step0"]) * self.dt
+        self.steps = np.concatenate([history["step_begin"][:1], history["step_end"]]).astype(float)
+        self.slip = np.concatenate([np.zeros((1, history["slip"].shape[1])), np.cumsum(history["slip"], axis=0, dtype=float)])
+        self.work = np.concatenate([[0.0], np.cumsum(history["work"].sum(axis=1, dtype=float))])
+
+    def slipped(self, at):
+        i = np.clip(np.searchsorted(self.steps, at, "right") - 1, 0, len(self.steps) - 2)
+        part = (at - self.steps[i]) / (self.steps[i + 1] - self.steps[i])
+        return self.slip[i] + (self.slip[i + 1] - self.slip[i]) * part[:, None]
+
+    def farthest(self, begin, end):
+        """Slip of the place that slips farthest from step `begin` to step `end`."""
+        return (self.slipped(end) - self.slipped(begin)).max(axis=1)
+
+    def worked(self, begin, end):
+        return np.interp(end, self.steps, self.work) - np.interp(begin, self.steps, self.work)
+
+
+def judged(history, events, first):
+    """Excess and rank of events, in a history from step `first` on."""
+    rng, last = np.random.default_rng(1), history.steps[-1]
+    begin, end = events["step_start"].astype(float), events["step_end"].astype(float)
+    rate = history.worked(first, last) / (last - first)
+    excess = (history.worked(begin, end) - rate * (end - begin)) / events["size"]
+    farthest, below = history.farthest(begin, end), np.zeros(len(begin))
+    for _ in range(STRETCHES):
+        start = rng.uniform(first, last - (end - begin).max(), len(begin))
+        below += history.farthest(start, start + end - begin) < farthest
+    return np.asarray(excess), below / STRETCHES
+
+
+def events(run, output):
+    catalogue, history = lsm.read_catalogue(f"{run}.catalogue.csv"), History(f"{run}.slip.bin")
+    kept = catalogue[(catalogue["t_start"] >= LOADING) & (catalogue["size"] >= 1e-4) & (catalogue["step_end"] <= history.steps[-1])]
+    excess, rank = judged(history, kept, (LOADING - history.offset) / history.dt)
+    names = kept.dtype.names
+    with lzma.open(output, "wt") as file:
+        file.write("# lsm-catalogue 1\n" + "".join(f"# {key} = {value}\n" for key, value in catalogue.header.items()))
+        file.write(f"# selected = t_start >= {LOADING}, size >= 1e-4; excess, rank: results/slip_or_exchange.py\n{','.join(names)},excess,rank\n")
+        for event, *numbers in zip(kept, excess, rank):
+            file.write(",".join([*(text_of(event[name]) for name in names), *(f"{number:.4g}" for number in numbers)]) + "\n")
+
+
+def kinds(output, *paths):
+    rows = []
+    for path in paths:
+        found = lsm.read_catalogue(path)
+        for low, high in DECADES:
+            of = found[(found["size"] >= low) & (found["size"] < high)]
+            if len(of) >= 5:
+                size = of["size"]
+                rows.append(
+                    dict(run=Path(path).name.split(".")[0], length=float(found.header["length"]), seed=found.header["seed"], smallest=low, events=len(of),
+                         excess=np.sum(of["excess"] * size) / np.sum(size), excess_median=np.median(of["excess"]), rank=np.mean(of["rank"]),
+                         slip=np.mean((of["excess"] > 0.5) & (of["rank"] > 0.8))))
+    write_table(output, ["Events by size; excess: of their sum; slip: share with excess above 0.5 and rank above 0.8 (slip_or_exchange.py kinds)"], rows)
+
+
+# ---- events of other series
+
+
+def write_series(path, pe, dt):
+    head = f"# model = lsm\n# dt = {dt:.17g}\n# step0 = 0\n# time0 = 0\n# stride = 1\n".encode()
+    records = np.zeros(len(pe), [("step", "<i8"), ("pe", "<f8")])
+    records["step"], records["pe"] = np.arange(len(pe)), pe
+    Path(path).write_bytes(b"lsm-pe-series-1\n" + struct.pack("<q", len(head)) + head + records.tobytes())
+
+
+def numbers(postproc, pe, dt):
+    """Number, mean time, exponent, gamma and B of the events >= 1e-4 of a series, by postproc."""
+    with tempfile.TemporaryDirectory() as work:
+        write_series(f"{work}/pe.bin", pe, dt)
+        common = dict(check=True, stdout=subprocess.PIPE, text=True)
+        subprocess.run([postproc, "pick", f"{work}/pe.bin", "-o", f"{work}/picked.csv", "--memory-time", str(MEMORY)], **common)
+        said = subprocess.run([postproc, "summary", f"{work}/picked.csv", "--range", "1e-4:1e-1", "--threshold", "1e-4"], **common).stdout
+    row = next(rows_of(said.splitlines()))
+    keys = dict(events="events_0.0001", one_in="mean_time_0.0001", exponent="exponent_1e-4:1e-1", gamma="gamma_0.0001", B="B_0.0001")
+    return {name: float(row[key]) if row[key] else np.nan for name, key in keys.items()}
+
+
+def with_phases(series, rng):
+    """A Gaussian series whose changes have the spectrum of those of another: random phases (Theiler et al. 1992, Physica D 58, 77)."""
+    spectrum = np.fft.rfft(np.diff(series))
+    phases = np.exp(2j * np.pi * rng.random(len(spectrum)))
+    phases[0] = 1.0  # the mean change stays
+    return np.concatenate([[0.0], np.cumsum(np.fft.irfft(np.abs(spectrum) * phases, len(series) - 1))])
+
+
+def mean_return(series, dt):
+    """Mean time between falls of the smoothed change through zero, 2 pi sigma / sigma of the derivative, were it Gaussian (Rice 1944)."""
+    keep = np.exp(-dt / MEMORY)
+    frequency = 2 * np.pi * np.fft.rfftfreq(len(series) - 1)
+    power = np.abs(np.fft.rfft(np.diff(series)) * (1 - keep) / (1 - keep * np.exp(-1j * frequency)))**2
+    power[0] = 0.0
+    return 2 * np.pi * np.sqrt(np.sum(power) / np.sum(power * (2 * np.sin(frequency / 2) / dt)**2))
+
+
+def surrogates(postproc, output, *runs):
+    rows = []
+    for run in runs:
+        series, rng = lsm.read_series(f"{run}.pe.bin"), np.random.default_rng(1)
+        dt, pe = float(series.header["dt"]), np.asarray(series["pe"][series["time"] >= LOADING])
+        for n in range(4):
+            said = numbers(postproc, with_phases(pe, rng) if n else pe, dt)
+            rows.append(dict(run=Path(run).name, series=f"phases {n}" if n else "run", **said, by_spectrum=mean_return(pe, dt)))
+    write_table(output, [f"Events >= 1e-4, memory {MEMORY}; phases: series of the same spectrum; by_spectrum: mean time of Rice"], rows)
+
+
+def energies(postproc, output, *runs):
+    rows = []
+    for run in runs:
+        series, beside = lsm.read_series(f"{run}.pe.bin"), np.loadtxt(f"{run}.energy.txt")
+        head = lsm.read_catalogue(f"{run}.catalogue.csv").header
+        at = np.searchsorted(series["step"], beside[:, 0])
+        kept = (at < len(series)) & (beside[:, 0] >= series["step"][0])
+        pe, (step, kinetic, approach, _) = np.asarray(series["pe"][at[kept]]), beside[kept].T
+        load, dt = -float(head["stress"]) * float(head["length"]) * approach, float(series.header["dt"]) * (step[1] - step[0])
+        for name, energy in (("springs", pe), ("springs and load", pe + load), ("springs, load and motion", pe + load + kinetic)):
+            rows.append(dict(run=Path(run).name, energy=name, time=dt * (len(pe) - 1), **numbers(postproc, energy, dt)))
+    write_table(output, [f"Events >= 1e-4 of sums of energies, memory {MEMORY}; load: stress x length x distance of the plates"], rows)
+
+
+def switched(output, *runs):
+    rows = []
+    for run in runs:
+        found, time = lsm.read_catalogue(f"{run}.catalogue.csv"), lsm.read_series(f"{run}.pe.bin")["time"]
+        edges = np.arange(time[0], time[-1], 1000.0)
+        counts = np.histogram(found["t_start"][found["size"] >= 1e-4], edges)[0]
+        rows += [dict(run=Path(run).name, viscosity=found.header["viscosity"], begin=1000 * n, events=count) for n, count in enumerate(counts)]
+    write_table(output, ["Events >= 1e-4 in 1000 time units from `begin` after the damping was changed"], rows)
+
+
+# ---- a picture
+
+
+def stretch(run, begin, end):
+    """PE, kinetic energy, frictional work a time, and events >= 1e-3 (begin, end, whether slip) of a stretch of a run."""
+    series, history, catalogue = lsm.read_series(f"{run}.pe.bin"), History(f"{run}.slip.bin"), lsm.read_catalogue(f"{run}.catalogue.csv")
+    shown = series[(series["time"] >= begin) & (series["time"] <= end)]
+    shown = shown[::max(1, len(shown) // 3000)]
+    beside = np.loadtxt(f"{run}.energy.txt")
+    time = beside[:, 0] * history.dt + history.offset
+    seen = (time >= begin) & (time <= end)
+    at = np.arange(begin, end)
+    step = (at - history.offset) / history.dt
+    lines = (shown["time"], shown["pe"]), (time[seen], beside[seen, 1]), (at + 0.5, history.worked(step, step + 1 / history.dt))
+    kept = catalogue[(catalogue["size"] >= 1e-3) & (catalogue["step_end"] <= history.steps[-1])]
+    slip = judged(history, kept, history.steps[0])[0] > 0.5
+    spans = [(max(a, begin), min(z, end), s) for a, z, s in zip(kept["t_start"], kept["t_end"], slip) if z > begin and a < end]
+    return lines, spans
+
+
+def figure(base, *stretches):
+    script = "set multiplot layout 3,2 columnsfirst margins 0.11,0.98,0.09,0.94 spacing 0.14,0.05\nunset key\n"
+    for title, run, begin, end in zip(("hardly damped, plates reflect", "damped, plates absorb"), *[iter(stretches)] * 3):
+        begin, end = float(begin), float(end)
+        lines, spans = stretch(run, begin, end)
+        script += "unset object\n" + "".join(
+            f"set object {n} rect from {a - begin:.2f},graph 0 to {z - begin:.2f},graph 1 fc rgb '{'#f3b26b' if slip else '#c3dcf2'}' fs solid noborder behind\n"
+            for n, (a, z, slip) in enumerate(spans, 1))
+        for label, (x, y) in zip(("potential energy", "kinetic energy", "frictional work a time"), lines):
+            first, last = label == "potential energy", label == "frictional work a time"
+            script += f"set title '{title if first else ''}'\nset xlabel '{'time' if last else ''}'\nset ylabel '{label}'\nset format x '{'%g' if last else ''}'\n"
+            script += f"set xrange [0:{end - begin:g}]\nset yrange [{'*' if first else 0}:*]\nset datafile separator\nplot '-' w l lt 8\n"
+            script += "\n".join(f"{a - begin:.3f} {b:.6g}" for a, b in zip(x, y)) + "\ne\n"
+    draw(base, script + "unset multiplot", 1100, 760)
+
+
+if __name__ == "__main__":
+    commands = dict(events=events, kinds=kinds, surrogates=surrogates, energies=energies, switched=switched, figure=figure)
+    if len(sys.argv) < 4 or sys.argv[1] not in commands:
+        sys.exit(__doc__)
+    try:
+        commands[sys.argv[1]](*sys.argv[2:])
+    except (OSError, ValueError) as error:
+        sys.exit(f"slip_or_exchange.py: {error}")

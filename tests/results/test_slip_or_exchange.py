@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""slip_or_exchange.py: runs whose friction, spectrum and load are known."""
+
+import math
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from data_files import read_catalogue, write_catalogue, write_history, write_series
+from programs import SOURCE, Program, refused, run
+
+sys.path.insert(0, str(SOURCE / "results"))
+import slip_or_exchange  # noqa: E402
+from catalogues import rows_of  # noqa: E402
+
+
+@pytest.fixture
+def script():
+    return Program("slip_or_exchange.py", sys.executable, SOURCE / "results/slip_or_exchange.py")
+
+
+def table(path):
+    with open(path) as lines:
+        return list(rows_of(lines))
+
+
+def test_excess_and_rank(script, work):
+    """Every 100 steps the fault slips for one step at one place, and friction takes up 0.01; the events are these or lie between them."""
+    dt, bins, cycles, first = 1.0, 10, 400, 9000
+    steps = first + np.arange(100 * cycles + 1)
+    slip, friction = np.full((len(steps), bins), 1e-5), np.full((len(steps), bins), 1e-6)
+    slips = np.arange(50, len(steps), 100)
+    slip[slips, 3], friction[slips, 3] = 0.01, 0.01
+    write_history("run.slip.bin", steps, slip, work=friction, dt=dt)
+    mean = friction.sum() / (len(steps) - 1)
+    for name, begin, excess in (("run", steps[slips] - 1, (0.01 + 9e-6 - mean) / 0.01), ("quiet", steps[slips] + 20, (1e-5 - mean) / 0.01)):
+        write_catalogue(f"{name}.catalogue.csv", begin * dt, [0.01] * cycles, dict(model="lsm", length=10, seed=1), t_end=(begin + 1) * dt,
+                        step_start=begin, step_end=begin + 1)
+        Path(f"{name}.slip.bin").write_bytes(Path("run.slip.bin").read_bytes())
+        run(script, "events", name, f"{name}.events.csv.xz")
+        _, found = read_catalogue(f"{name}.events.csv.xz")
+        assert len(found["size"]) == cycles
+        np.testing.assert_allclose(found["excess"], excess, atol=2e-3)
+        rank = np.mean(found["rank"])
+        assert rank > 0.95 if name == "run" else rank < 0.05, rank
+    run(script, "kinds", "kinds.csv", "run.events.csv.xz", "quiet.events.csv.xz")
+    rows = table("kinds.csv")
+    assert [(row["run"], row["events"], float(row["slip"])) for row in rows] == [("run", "400", 1.0), ("quiet", "400", 0.0)]
+
+
+def test_random_phases_keep_the_spectrum():
+    rng = np.random.default_rng(3)
+    series = np.cumsum(rng.exponential(1.0, 4096) - 1.0)
+    other = slip_or_exchange.with_phases(series, rng)
+    spectra = [np.abs(np.fft.rfft(np.diff(one))) for one in (series, other)]
+    # That at the highest frequency has no phase of its own.
+    np.testing.assert_allclose(spectra[0][:-1], spectra[1][:-1], rtol=1e-6, atol=1e-6 * spectra[0].max())
+    assert abs(np.corrcoef(np.diff(series), np.diff(other))[0, 1]) < 0.1
+
+
+def test_mean_return_of_an_oscillation():
+    """An oscillation falls through zero once in each period; two of them as Rice's formula has it."""
+    dt, time = 0.1, np.arange(200000) * 0.1
+    one = np.sin(2 * math.pi * time / 25.0)
+    assert slip_or_exchange.mean_return(one, dt) == pytest.approx(25.0, rel=0.01)
+    low, high = 2 * math.pi / 50.0, 2 * math.pi / 5.0
+    both = np.sin(low * time) / low + np.sin(high * time) / high  # changes of equal size
+    gain = [1 / (1 + (w * slip_or_exchange.MEMORY)**2) for w in (low, high)]
+    expected = 2 * math.pi * math.sqrt(sum(gain) / (gain[0] * low**2 + gain[1] * high**2))
+    assert slip_or_exchange.mean_return(both, dt) == pytest.approx(expected, rel=0.02)
+
+
+def test_surrogates_and_energies(script, postproc, work):
+    """Springs that lend their energy to the load: drops of their energy, none of the sum."""
+    dt, n = 0.1, 200001
+    time = np.arange(n) * dt + 9000
+    load, period = 0.03 * 120, 30.0
+    approach = 0.01 * np.sin(2 * math.pi * time / period)
+    write_series("run.pe.bin", 5.0 + 1e-6 * (time - 9000) + load * approach, dict(dt=dt, time0=9000))
+    write_catalogue("run.catalogue.csv", [9001.0], [0.1], dict(model="lsm", length=120, stress=0.03))
+    steps = np.arange(0, n, 4)
+    np.savetxt("run.energy.txt", np.stack([steps, np.zeros(len(steps)), approach[::4], np.zeros(len(steps))], axis=1))
+    run(script, "energies", postproc.path, "energies.csv", "run")
+    springs, both, moving = table("energies.csv")
+    drops = (time[-1] - time[0]) / period
+    assert abs(float(springs["events"]) - drops) <= 2 and both["events"] == moving["events"] == "0", (springs, both)
+    run(script, "surrogates", postproc.path, "surrogates.csv", "run")
+    rows = table("surrogates.csv")
+    assert [row["series"] for row in rows] == ["run", "phases 1", "phases 2", "phases 3"]
+    assert all(abs(float(row["one_in"]) - period) < 2 for row in rows), rows
+
+
+def test_bad_input(script, work):
+    refused(script, "events nowhere out.csv.xz", r"nowhere\.catalogue\.csv")
+    assert not Path("out.csv.xz").exists()
+    run(script, "unknown a b", status=1)
+
