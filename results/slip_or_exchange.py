@@ -90,10 +90,11 @@ def kinds(output, *paths):
             if len(of) >= 5:
                 size = of["size"]
                 rows.append(
-                    dict(run=Path(path).name.split(".")[0], length=float(found.header["length"]), seed=found.header["seed"], smallest=low, events=len(of),
-                         excess=np.sum(of["excess"] * size) / np.sum(size), excess_median=np.median(of["excess"]), rank=np.mean(of["rank"]),
-                         slip=np.mean((of["excess"] > 0.5) & (of["rank"] > 0.8))))
-    write_table(output, ["Events by size; excess: of their sum; slip: share with excess above 0.5 and rank above 0.8 (slip_or_exchange.py kinds)"], rows)
+                    dict(run=Path(path).name.split(".")[0], length=float(found.header["length"]), seed=found.header["seed"], smallest=low,
+                         events=len(of), excess=np.sum(of["excess"] * size) / np.sum(size), excess_median=np.median(of["excess"]),
+                         rank=np.mean(of["rank"]), slip=np.mean((of["excess"] > 0.5) & (of["rank"] > 0.8))))
+    write_table(output, ["Events by size; excess: of their sum; slip: share with excess above 0.5 and rank above 0.8 (slip_or_exchange.py kinds)"],
+                rows)
 
 
 # ---- events of other series

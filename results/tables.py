@@ -281,7 +281,8 @@ def preset_paper_table():
     paths = [path for some in faults(folder=DAMPING).values() for path in some]
     said = run("summary", *paths, "--from", LOADING, "--threshold", "1e-4", "--shortest", 0).splitlines()
     all_times = csv.DictReader(line for line in said if not line.startswith("#"))
-    rows = [{**row, "gamma_all": one["gamma_0.0001"], "gamma_error_all": one["gamma_error_0.0001"]} for row, one in zip(summaries(DAMPING), all_times)]
+    rows = [{**row, "gamma_all": one["gamma_0.0001"], "gamma_error_all": one["gamma_error_0.0001"]}
+            for row, one in zip(summaries(DAMPING), all_times)]
     columns = {"length, packing": lambda row: f"{row['length']}, {row['seed']}", "exponent 1e-4 to 0.1": EXPONENTS["1e-4 to 1e-1"]}
     columns |= {"in each decade": lambda row: ", ".join(shown(number(row, key)) for key in list(EXPONENTS.values())[1:])}
     columns |= {"gamma of all times": "gamma_all", "of those above 2.5": "gamma_0.0001", "one event in": "mean_time_0.0001"}
@@ -290,21 +291,27 @@ def preset_paper_table():
 
 def kinds_table():
     """Events by size: frictional work and slip within them."""
-    groups = grouped(read(DAMPING / "kinds.csv"), lambda row: row["run"])
-    sizes = ("0.0001", "0.001", "0.01", "0.10000000000000001")
-    cells = {run: {row["smallest"]: f"{number(row, 'excess'):.2f}, {number(row, 'rank'):.2f} ({row['events']})" for row in rows} for run, rows in groups.items()}
-    return table(["excess, rank (events)", "1e-4 to 1e-3", "1e-3 to 1e-2", "1e-2 to 0.1", "above"],
-                 [[run.replace("_", " "), *(found.get(size, "-") for size in sizes)] for run, found in cells.items()])
+    names = {"damped": "damped, plates absorb", "fault": "hardly damped"}
+    groups = grouped(read(DAMPING / "kinds.csv"), lambda row: f"{names[row['run'].split('_')[0]]}, {row['length']}, {row['seed']}")
+    cells = {
+        name: {float(row["smallest"]): f"{number(row, 'excess'):.2f}, {number(row, 'rank'):.2f} ({row['events']})"
+               for row in rows}
+        for name, rows in groups.items()
+    }
+    return table(["excess, rank (events) of fault, length, packing", "1e-4 to 1e-3", "1e-3 to 1e-2", "1e-2 to 0.1", "above"],
+                 [[name, *(found.get(size, "-") for size in (1e-4, 1e-3, 1e-2, 0.1))] for name, found in cells.items()])
 
 
 def energies_table():
-    keys = {"events": "events", "one in": "one_in", "exponent": "exponent", "gamma": "gamma"}
+    keys = {"events": lambda row: row["events"], "one in": "one_in", "exponent": "exponent", "gamma": "gamma"}
     names = {"damped": "damped, plates absorb", "hardly": "hardly damped"}
     return study_table("damping/energies.csv", {"fault": lambda row: names[row["run"]], "drops of": lambda row: row["energy"]} | keys)
 
 
 def surrogates_table():
-    columns = {"fault": lambda row: row["run"].replace("_", " "), "series": lambda row: row["series"], "one in": "one_in", "by its spectrum": "by_spectrum"}
+    columns = {
+        "fault": lambda row: row["run"].replace("_", " "), "series": lambda row: row["series"], "one in": "one_in", "by its spectrum": "by_spectrum"
+    }
     return study_table("damping/surrogates.csv", columns | {"exponent": "exponent", "gamma": "gamma"})
 
 

@@ -184,6 +184,22 @@ def test_stretches(lmp, work):
     assert energy2.sum(axis=(1, 2)) == pytest.approx(pe[np.isin(step, after)], rel=1e-13)
 
 
+def test_energy(lmp, work):
+    """Without friction and damping the springs exchange energy with motion and with the load only."""
+    run(
+        lmp,
+        scene(length=20, width=15, settle=200, steps=4000, viscosity=0, impedance=0, velocity=0, law="coulomb 0 0", prefix="e", extra="fault_energy",
+              sample=8))
+    step, kinetic, approach, worked = np.loadtxt("e.energy.txt").T
+    _, steps, _, pe = read_series("e.pe.bin")
+    assert list(step) == list(range(200, 4201, 8))
+    pe = pe[np.isin(steps, step)]
+    exchanged, load = np.ptp(pe), 0.025 * 20 * approach
+    assert np.ptp(kinetic) > 0.01 * exchanged
+    assert np.ptp(worked - load) < 1e-4 * exchanged, "work of the plates is not that of the load"
+    assert np.ptp(pe + kinetic - worked) < 0.02 * exchanged
+
+
 # ---- links
 LINKS = """compute links all property/local batom1 batom2
 dump links all local 1 a.links c_links[1] c_links[2]

@@ -95,4 +95,3 @@ def test_bad_input(script, work):
     refused(script, "events nowhere out.csv.xz", r"nowhere\.catalogue\.csv")
     assert not Path("out.csv.xz").exists()
     run(script, "unknown a b", status=1)
-
