@@ -75,7 +75,7 @@ def test_a_preset_is_one_line_of_defaults(lmp):
     """All values of a preset are used, but for those that are given; headers and restart files state them."""
     line = re.search("^when preset paper : (.*)$", (INPUTS / "fault.variables").read_text(), re.M)[1]
     preset = dict(part.split() for part in line.split(", "))
-    assert {"dt", "stress", "kt", "impedance", "viscosity", "memory"} <= set(preset)
+    assert {"dt", "stress", "kt", "impedance", "viscosity"} <= set(preset)
     said = run(lmp, small(preset="paper", prefix="paper"))
     kept, stated = info("paper.restart.end.info"), header("paper.catalogue.csv")
     assert {name: kept[name] for name in preset} == preset
