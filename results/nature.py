@@ -21,7 +21,7 @@ import math
 from pathlib import Path
 
 import numpy as np
-from catalogues import CALIFORNIA, LOADING, PERIOD, distance, draw, earthquakes, events_of, mean_and_error, numbers_of, over_mean, run
+from catalogues import CALIFORNIA, LOADING, PERIOD, distance, distance_of_counts, draw, earthquakes, events_of, mean_and_error, numbers_of, over_mean, run
 from catalogues import write_json, write_table
 
 HERE = Path(__file__).resolve().parent
@@ -86,16 +86,17 @@ def block_length(values):
 
 def distance_and_error(first, second, replicas):
     """Distance of two series over their means, and its error by resampling circular blocks of consecutive values."""
-    lengths = [block_length(one) for one in (first, second)]
-    draws = [-(-len(one) // length) for one, length in zip((first, second), lengths)]
-    uniform, again = random_numbers(2**19), []
-    for k in range(replicas):
-        parts = np.split(uniform[k * sum(draws):(k + 1) * sum(draws)], [draws[0]])
-        pair = []
-        for one, length, part in zip((first, second), lengths, parts):
-            at = (part * len(one)).astype(int)[:, None] + np.arange(length)
-            pair.append(over_mean(one[at.ravel()[:len(one)] % len(one)]))
-        again.append(distance(*pair))
+    pair, again, used = [(*np.unique(one, return_inverse=True), block_length(one)) for one in (first, second)], [], 0
+    uniform = random_numbers(2**19)
+    for _ in range(replicas):
+        parts = []
+        for values, place, length in pair:
+            n, draws = len(place), -(-len(place) // length)
+            at = ((uniform[used:used + draws] * n).astype(int)[:, None] + np.arange(length)).ravel()[:n] % n
+            used += draws
+            counts = np.bincount(place[at], minlength=len(values))
+            parts += [values / (values @ counts / n), counts]
+        again.append(distance_of_counts(*parts))
     return distance(over_mean(first), over_mean(second)), np.std(again, ddof=1) if replicas > 1 else math.nan
 
 
