@@ -292,7 +292,7 @@ set xlabel "{x}"; set ylabel "{y}"
         plot("sizes", "4", "linespoints {} pi 3 ps 0.8"),
         panel(0.68, 0.98, top - 0.77 * high, top - 0.60 * high, "memory coefficient", "burstiness (finite form)",
               "set xrange [-0.3:0.4]; set yrange [-0.4:1]"),
-        f"set key on at screen 0.99, screen {legend} right top vertical maxcols 1 Left reverse samplen 3 spacing 1.15",
+        f"set key on at screen 0.99, screen {legend} right top horizontal maxcols 1 Left reverse samplen 3 spacing 1.15",
         plot("plane", "4:5", "yerrorbars {} ps 1.4") + keys + ", keyentry with lines lt 8 dt (6,4) lw 2 title 'earthquakes, Corral (2004)'",
         "unset multiplot"
     ]), 1150, height)  # yapf: disable
