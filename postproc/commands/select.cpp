@@ -22,6 +22,7 @@ CatalogueInfo header_of(const EventTable &table, const CatalogueOptions &options
     add("size from " + text_io::number(options.min_size));
     set_parameter(info.parameters, "min_size", text_io::number(table.complete_from));
   }
+  for (const std::string &condition : options.where) add(condition);
   if (what.empty()) what = "all events";
   if (const std::string *before = info.find("selected")) what = *before + "; " + what;
   set_parameter(info.parameters, "selected", what);
@@ -32,7 +33,7 @@ class Select : public CatalogueAnalysis {
   OutputOption output_;
 
   const char *help() const override {
-    return "Writes the events of a model's catalogue that --from, --to and --min-size select as "
+    return "Writes the events of a model's catalogue that --from, --to, --min-size and --where select as "
            "a catalogue: numbers and columns unchanged, and the selection in the header †";
   }
 
@@ -64,8 +65,10 @@ class Select : public CatalogueAnalysis {
         });
     state_repairs(table);
     Results results;
-    results.say(fmt::format("{} events; left out: {} by time, {} by size\n", writer.rows(),
-                            table.left_out_time, table.left_out_small));
+    results.say(fmt::format(
+        "{} events; left out: {} by time, {} by size{}\n", writer.rows(), table.left_out_time,
+        table.left_out_small,
+        catalogues.where.empty() ? "" : fmt::format(", {} by --where", table.left_out_where)));
     results.file(output_.path, [file] { file->writer.close(); });
     return results;
   }

@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include "event_condition.h"
 #include "input_file.h"
 #include "files/file_error.h"
 #include "files/input_bytes.h"
@@ -110,6 +111,8 @@ EventTable read_earthquake_events(text_io::Bytes &bytes, const std::string &form
   const std::string &path = bytes.path();
   if (options.displacement)
     throw FileError(path + ": earthquakes, expected a catalogue of a model for --displacement");
+  if (!options.where.empty())
+    throw FileError(path + ": earthquakes, expected a catalogue of a model for --where");
   const EarthquakeList list =
       read_earthquakes(all_of(bytes, format), format, path, options.lenient);
   EventTable table;
@@ -166,9 +169,14 @@ EventTable read_model_events(std::unique_ptr<text_io::Bytes> bytes, const Catalo
   table.completeness = table.info.completeness();
   table.completeness_path = path;
   const double unit = table.model_time = time_unit(table.info, path, options.displacement);
+  const EventConditions where(options.where, table.info, path);
   begin(table);
   Event event;
   while (reader.next(event)) {
+    if (!where.hold(event)) {
+      ++table.left_out_where;
+      continue;
+    }
     event.t_start *= unit;
     event.t_end *= unit;
     choose(event, options.from_time, options.to_time, options, table, use);

@@ -24,6 +24,7 @@ struct CatalogueOptions {
   double min_size = 0.0;            ///< smaller events are left out (energy)
   double from_time = -std::numeric_limits<double>::infinity();  ///< first t_start used
   double to_time = std::numeric_limits<double>::infinity();     ///< first t_start left out
+  std::vector<std::string> where;                               ///< conditions on columns
   double from_day = -std::numeric_limits<double>::infinity();   ///< first day of earthquakes used
   double to_day = std::numeric_limits<double>::infinity();  ///< first day of earthquakes left out
   /// Number of the largest events whose columns are all kept; ties may make them a few more.

@@ -43,6 +43,7 @@ struct EventTable {
   std::int64_t skipped_lines = 0;    ///< malformed lines that were skipped (lenient)
   std::int64_t left_out_small = 0;   ///< events below min_size
   std::int64_t left_out_time = 0;    ///< events outside [from_time, to_time)
+  std::int64_t left_out_where = 0;   ///< events for which --where does not hold
   std::vector<std::string> repairs;  ///< what was skipped, with counts by kind (lenient)
 
   /// Whether this is a catalogue of earthquakes: times in days, sizes 10^(1.5 M).

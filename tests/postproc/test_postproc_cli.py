@@ -6,6 +6,7 @@ import json
 import lzma
 import math
 import os
+import operator
 import re
 import shutil
 import signal
@@ -720,6 +721,35 @@ def test_select(do, no):
     no("is read by this command", "select c.csv -o c.csv --overwrite")
     no("2 catalogues, expected one", "select c.csv part.csv -o x.csv")
     no("earthquakes, expected a catalogue of a model", f"select {CALIFORNIA} -o x.csv")
+
+
+def test_where(do, no):
+    """--where leaves out events by any column, in all commands that read catalogues."""
+    catalogue("c.csv")
+    sizes = {int(row.split(",")[0]): float(row.split(",")[5]) for row in rows("c.csv")}
+
+    def left(path):
+        return [int(row.split(",")[0]) for row in rows(path)]
+
+    compared = {"<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge, "=": operator.eq, "!=": operator.ne}
+    for word, holds in compared.items():
+        expected = [i for i, size in sizes.items() if holds(size, 0.001)]
+        assert 0 < len(expected) < len(sizes)
+        said = do("select c.csv --overwrite -o part.csv", ["--where", f"size {word} 1e-3"])
+        said.printed(f"{len(expected)} events; left out: 0 by time, 0 by size, {len(sizes) - len(expected)} by --where")
+        assert left("part.csv") == expected, word
+        assert header("part.csv")["selected"] == f"size {word} 1e-3"
+    do("select c.csv --where event_id>1 --where event_id<=3 -o two.csv")
+    assert left("two.csv") == [2, 3]
+    do("select c.csv --where event_id>1 -o later.csv")
+    do("export later.csv -o of-later.csv")
+    do("export c.csv -o of-all.csv --where event_id>1")
+    assert Path("of-later.csv").read_text() == Path("of-all.csv").read_text()
+    no("c.csv: has no column peak_slip, expected one of event_id, .*slip_moment, x_centroid for --where",
+       "select c.csv --where peak_slip>0 -o x.csv")
+    for text in "size", "size>", ">1", "size ~ 1", "size>1.2.3", "size >> 1":
+        no("--where '.*': expected a column, one of < <= > >= = != and a number", "select c.csv -o x.csv", ["--where", text])
+    no("earthquakes, expected a catalogue of a model for --where", f"export {CALIFORNIA} -o x.csv --where size>1")
 
 
 # ---- earthquakes

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "event_condition.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "files/file_error.h"
+#include "files/text.h"
+
+namespace LSM::postproc {
+
+EventCondition parse_condition(const std::string &text) {
+  using Is = EventCondition::Is;
+  // Of two that fit at the same place, the longer one comes first.
+  constexpr std::pair<std::string_view, Is> words[] = {
+      {"<=", Is::at_most}, {">=", Is::at_least}, {"!=", Is::different}, {"==", Is::equal},
+      {"<", Is::less},     {">", Is::more},      {"=", Is::equal}};
+  const std::size_t at = text.find_first_of("<>=!");
+  for (const auto &[word, is] : words) {
+    if (at == std::string::npos || text.compare(at, word.size(), word) != 0) continue;
+    const std::string column(text_io::trim(std::string_view(text).substr(0, at)));
+    EventCondition out{column, is, 0.0};
+    if (!column.empty() &&
+        text_io::parse(text_io::trim(std::string_view(text).substr(at + word.size())), out.number))
+      return out;
+    break;
+  }
+  throw std::invalid_argument(
+      fmt::format("--where {}: expected a column, one of < <= > >= = != and a number, such as "
+                  "'peak_slip > 0.001'",
+                  text_io::in_quotes(text)));
+}
+
+EventConditions::EventConditions(const std::vector<std::string> &texts, const CatalogueInfo &info,
+                                 const std::string &path) {
+  const std::vector<CatalogueColumn> columns = columns_of(info);
+  for (const std::string &text : texts) {
+    const EventCondition condition = parse_condition(text);
+    const auto found = std::find_if(
+        columns.begin(), columns.end(),
+        [&condition](const CatalogueColumn &column) { return column.name == condition.column; });
+    if (found == columns.end()) {
+      std::string names;
+      for (const CatalogueColumn &column : columns)
+        names += (names.empty() ? "" : ", ") + std::string(column.name);
+      throw FileError(fmt::format("{}: has no column {}, expected one of {} for --where", path,
+                                  condition.column, names));
+    }
+    all_.push_back({condition, *found});
+  }
+}
+
+bool EventConditions::hold(const Event &event) const {
+  using Is = EventCondition::Is;
+  return std::all_of(all_.begin(), all_.end(), [&event](const One &one) {
+    const double value = one.column.number ? event.*one.column.number
+                                           : static_cast<double>(event.*one.column.integer);
+    const double number = one.condition.number;
+    switch (one.condition.is) {
+      case Is::less: return value < number;
+      case Is::at_most: return value <= number;
+      case Is::more: return value > number;
+      case Is::at_least: return value >= number;
+      case Is::equal: return value == number;
+      case Is::different: return value != number;
+    }
+    return false;
+  });
+}
+
+}  // namespace LSM::postproc
