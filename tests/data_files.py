@@ -2,10 +2,12 @@
 """Reads and writes catalogues, PE series and slip histories, and picks events independently."""
 import gzip
 import lzma
+import re
 import struct
 from pathlib import Path
 
 import numpy as np
+from programs import SOURCE
 
 COLUMNS = "event_id,t_start,t_end,step_start,step_end,size,pe_start,pe_end".split(",")
 
@@ -19,6 +21,13 @@ def lines(path):
 
 def header(path):
     return dict(line[2:].split(" = ", 1) for line in lines(path) if line.startswith("# ") and " = " in line)
+
+
+def unknown_keys(*headers):
+    """Keys of headers that are not in the table of lammps-pkg/core/files/header_keys.cpp."""
+    table = set(re.findall(r'^ +{"(\w+)",', (SOURCE / "lammps-pkg/core/files/header_keys.cpp").read_text(), re.M))
+    assert len(table) > 50
+    return {key for one in headers for key in one} - table
 
 
 def rows(path):

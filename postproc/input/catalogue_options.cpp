@@ -66,11 +66,12 @@ void CatalogueOptions::add_to(CLI::App *command) {
            "earthquakes an ISO 8601 date, such as 1984-01-01 or 1984-01-01T12:00Z)");
   add_time(group, "--to", to_time, to_day,
            "Leave out events that start at this time or later (as --from)");
-  group.add("--where", where,
-            "Leave out events of a model for which this does not hold: a column, one of < <= > >= = "
-            "!= and a number (units of the file), such as 'peak_slip > 0.001', drops of PE in which "
-            "the fault slips †; may be repeated, and all have to hold",
-            one_each(), kind("CONDITION"), shown(""));
+  group.add(
+      "--where", where,
+      "Leave out events of a model for which this does not hold: a column, one of < <= > >= = "
+      "!= and a number (units of the file), such as 'peak_slip > 0.001', drops of PE in which "
+      "the fault slips †; may be repeated, and all have to hold",
+      one_each(), kind("CONDITION"), shown(""));
   group.add(
       "--format", format,
       "Format of the files: detect (by the first bytes: '<' is quakeml, '{' geojson, "

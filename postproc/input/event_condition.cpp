@@ -61,12 +61,18 @@ bool EventConditions::hold(const Event &event) const {
                                            : static_cast<double>(event.*one.column.integer);
     const double number = one.condition.number;
     switch (one.condition.is) {
-      case Is::less: return value < number;
-      case Is::at_most: return value <= number;
-      case Is::more: return value > number;
-      case Is::at_least: return value >= number;
-      case Is::equal: return value == number;
-      case Is::different: return value != number;
+      case Is::less:
+        return value < number;
+      case Is::at_most:
+        return value <= number;
+      case Is::more:
+        return value > number;
+      case Is::at_least:
+        return value >= number;
+      case Is::equal:
+        return value == number;
+      case Is::different:
+        return value != number;
     }
     return false;
   });

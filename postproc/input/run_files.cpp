@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "run_files.h"
 
-#include <algorithm>
 #include <filesystem>
-#include <iterator>
 #include <string_view>
 
 #include <fmt/format.h>
+
+#include "files/header_keys.h"
 
 namespace LSM::postproc {
 
@@ -37,16 +37,11 @@ std::string file_beside(const std::string &catalogue, const std::string &ending)
 
 /// Describes a setting of the run that differs between two headers; "" if there is none.
 std::string other_run(const HeaderOf &one, const HeaderOf &other) {
-  constexpr std::string_view recorded[] = {
-      "program",  "picker",      "lambda",   "min_size",        "keep_nonpositive",
-      "warmup",   "stride",      "events",   "picked_by",       "selected",
-      "interval", "slipping",    "slip_bin", "completeness",    "gap",
-      "pause",    "rupture_gap", "times",    "rupture_fraction"};
   for (const auto &[key, value] : one.parameters) {
     const std::string *const there = text_io::find(other.parameters, key);
     double a = 0.0, b = 0.0;
-    if (!there || *there == value ||
-        std::find(std::begin(recorded), std::end(recorded), key) != std::end(recorded) ||
+    const HeaderKey *const known = header_key(key);
+    if (!there || *there == value || (known && known->of == HeaderKey::Of::recording) ||
         (text_io::parse(value, a) && text_io::parse(*there, b) && a == b))
       continue;
     return fmt::format("{}: {} = {}, but {} in {}", other.path, key, *there, value, one.path);

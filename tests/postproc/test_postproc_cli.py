@@ -15,8 +15,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from data_files import (edit, header, loading_with_drops, numbers, omori, pick, read_catalogue, read_series, rows, same_bytes, table, write_catalogue,
-                        write_series)
+from data_files import (edit, header, loading_with_drops, numbers, omori, pick, read_catalogue, read_series, rows, same_bytes, table, unknown_keys,
+                        write_catalogue, write_series)
 from programs import SOURCE, Program, refused, run, start
 
 PICKER = dict(picker="literal", min_size=0, **{"lambda": 0.5})
@@ -117,6 +117,7 @@ def test_pick_settings(do, no):
     do("pick pe.bin -o c.csv --warmup 75")
     assert [row[1:] for row in picked("c.csv")] == [row[1:] for row in whole if row[1] >= 75]
     assert picked("c.csv")[0][0] == 1
+    assert not unknown_keys(header("c.csv"))
     # The completeness is kept.
     assert "completeness" not in header("c.csv")
     series("known.bin", completeness=0.002)
@@ -713,6 +714,7 @@ def test_select(do, no):
     # After two selections the header states both.
     do("select part.csv --min-size 1 -o twice.csv")
     assert re.match("t_start from 2, .*size from 0.001; size from 1$", header("twice.csv")["selected"])
+    assert not unknown_keys(header("twice.csv"))
     # Ruptures remain in the order of their ends.
     edit("c.csv", "ruptures.csv", ("# length = 40", "# length = 40\n# events = ruptures"), ("\n2,2,3", "\n2,0.5,3"), ("\n1,0,1.5", "\n1,1,1.5"))
     do("select ruptures.csv --min-size 1e-3 -o r.csv")
@@ -745,8 +747,7 @@ def test_where(do, no):
     do("export later.csv -o of-later.csv")
     do("export c.csv -o of-all.csv --where event_id>1")
     assert Path("of-later.csv").read_text() == Path("of-all.csv").read_text()
-    no("c.csv: has no column peak_slip, expected one of event_id, .*slip_moment, x_centroid for --where",
-       "select c.csv --where peak_slip>0 -o x.csv")
+    no("c.csv: has no column peak_slip, expected one of event_id, .*slip_moment, x_centroid for --where", "select c.csv --where peak_slip>0 -o x.csv")
     for text in "size", "size>", ">1", "size ~ 1", "size>1.2.3", "size >> 1":
         no("--where '.*': expected a column, one of < <= > >= = != and a number", "select c.csv -o x.csv", ["--where", text])
     no("earthquakes, expected a catalogue of a model for --where", f"export {CALIFORNIA} -o x.csv --where size>1")

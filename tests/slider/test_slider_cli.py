@@ -10,11 +10,22 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from data_files import header, read_catalogue, read_series, rows, same, same_bytes
+from data_files import header, read_catalogue, read_series, rows, same, same_bytes, unknown_keys
 from programs import changed, interrupt, refused, run, start
 
 SHORT = "--blocks 100 --dt 0.05 --velocity 0.05 --warmup 0 --seed 3 "
 SHORT_INI = "blocks = 100\ndt = 0.05\nvelocity = 0.05\nwarmup = 0\nseed = 3\nsteps = 300000\n"
+
+
+def test_header_keys(slider):
+    """What headers state is in the table of all keys."""
+    Path("mu.txt").write_text("0.6\n" * 64)
+    shared = "--blocks 64 --kl 0.1 --time 2000 --warmup 0"
+    for number, more in enumerate(
+        ("", "--events ruptures --rupture-gap 0.2", "--law slip-weakening --slip-distance 0.1 --dynamic-friction 0.5", "--friction-file mu.txt",
+         "--correlation-length 4 --without-plate-drops --keep-nonpositive", "--leap 0.001", "--radiation 0.1")):
+        run(slider, f"{shared} {more} --catalogue c{number}.csv --pe-series c{number}.pe")
+        assert not unknown_keys(header(f"c{number}.csv"), read_series(f"c{number}.pe")[0]), more
 
 
 @pytest.fixture

@@ -427,9 +427,9 @@ TEST_F(PeSeries, ResumeNamesTheParameterThatDiffers) {
   refused([](PeSeriesInfo &info) { info.parameters.emplace_back("V", "1"); },
           "'V' is missing in the file, expected '1'");
   PeSeriesInfo info = some_info();
-  info.parameters[0].second = "6";
+  info.parameters.emplace_back("ranks", "2");
   PeSeriesWriter writer;
-  EXPECT_EQ(resume(writer, file(), info, 104, {"seed"}), 3);
+  EXPECT_EQ(resume(writer, file(), info, 104), 3);
   writer.close();
 }
 

@@ -49,9 +49,8 @@ inline void spill(const std::string &path, const std::string &text) {
 /// \return number of rows kept
 template <class Writer, class Info, class... Expected>
 std::int64_t resume(Writer &writer, const std::string &path, const Info &info,
-                    std::int64_t last_step, const std::vector<std::string> &ignore = {},
-                    Expected... expected) {
-  writer.find_cut(path, info, last_step, ignore, expected...);
+                    std::int64_t last_step, Expected... expected) {
+  writer.find_cut(path, info, last_step, expected...);
   writer.cut();
   return writer.rows();
 }

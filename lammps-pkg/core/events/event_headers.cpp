@@ -33,6 +33,14 @@ Parameters picker_of(const EventSettings &settings) {
           {"tangential_energy", settings.tangential ? "yes" : "no"}};
 }
 
+/// Adds the parameters that a binary header does not have as numbers of its own.
+template <class Info>
+void add_others(Info &info, const Parameters &parameters) {
+  const Parameters own = info.header();
+  for (const auto &one : parameters)
+    if (!text_io::find(own, one.first)) info.parameters.push_back(one);
+}
+
 }  // namespace
 
 std::vector<Output> files_of(const EventSettings &settings) {
@@ -90,7 +98,7 @@ PeSeriesInfo series_header(const EventSettings &settings, const SceneInfo &scene
   info.time0 = clock.time;
   info.stride = settings.series_stride;
   info.explicit_times = settings.explicit_times;
-  info.parameters = text_io::without(parameters_of(settings, scene, picker_of(settings)), {"dt"});
+  add_others(info, parameters_of(settings, scene, picker_of(settings)));
   return info;
 }
 
@@ -101,9 +109,9 @@ SlipHistoryInfo history_header(const EventSettings &settings, const SceneInfo &s
   info.ruptures = settings.rupture_settings(grid.dt);
   info.driving = settings.driving;
   info.quiet = settings.quiet;
-  info.parameters = text_io::without(
-      ruptures_header(settings, scene, grid.width).parameters,
-      {"dt", "slip_velocity", "interval", "gap", "modulus", "driving", "slip_bin", "events"});
+  // The width of the bins has its own key, and the history is no catalogue.
+  add_others(info, text_io::without(ruptures_header(settings, scene, grid.width).parameters,
+                                    {"slip_bin", "events"}));
   if (!grid.ring) info.parameters.emplace_back("ends", "open");
   return info;
 }

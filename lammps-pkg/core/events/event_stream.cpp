@@ -146,7 +146,6 @@ void EventStream::check_files(bool from_restart) const {
 void EventStream::open_files(std::int64_t step, bool from_restart, const SceneInfo &scene,
                              const StepClock &clock) {
   check_files(from_restart);
-  const std::vector<std::string> free_to_change = {"program", "ranks", "links"};
   const std::string &catalogue = settings_.catalogue_file, &series = settings_.series_file,
                     &ruptures = settings_.ruptures_file, &history = settings_.history_file;
   const CatalogueInfo drops_info = drops_header(settings_, scene, grid_.width),
@@ -157,12 +156,12 @@ void EventStream::open_files(std::int64_t step, bool from_restart, const SceneIn
   if (resumes(catalogue))
     catalogue_.find_cut(catalogue, drops_info,
                         locator_ ? std::min(step - 1, locator_->known_until()) : step - 1,
-                        free_to_change, drops().events - (locator_ ? locator_->waiting() : 0));
+                        drops().events - (locator_ ? locator_->waiting() : 0));
   if (resumes(ruptures))
-    rupture_catalogue_.find_cut(ruptures, ruptures_info, finder_->known_until(), free_to_change,
+    rupture_catalogue_.find_cut(ruptures, ruptures_info, finder_->known_until(),
                                 this->ruptures().events);
-  if (resumes(series)) series_.find_cut(series, series_info, step, free_to_change);
-  if (resumes(history)) history_.find_cut(history, history_info_, saved_history_, free_to_change);
+  if (resumes(series)) series_.find_cut(series, series_info, step);
+  if (resumes(history)) history_.find_cut(history, history_info_, saved_history_);
 
   // All files can be continued, so now they may be changed.
   if (resumes(catalogue))

@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "files/file_error.h"
-#include "files/header_values.h"
+#include "files/header_keys.h"
 #include "files/input_bytes.h"
 #include "files/output_file.h"
 #include "files/parameters.h"
@@ -189,12 +189,10 @@ class RecordWriter : public text_io::ResumableFile {
     info_ = info;
   }
 
-  /// Checks that the header is what begin() would write, except for the parameters named in
-  /// `ignore`.
+  /// Checks that the header is what begin() would write, except for what may change.
   /// \throws the same, naming the first parameter that differs
-  void compare(const std::string &path, const Info &found, const Info &info,
-               const std::vector<std::string> &ignore) {
-    const std::string problem = text_io::difference(found.header(), checked(info), ignore);
+  void compare(const std::string &path, const Info &found, const Info &info) {
+    const std::string problem = text_io::difference(found.header(), checked(info));
     if (!problem.empty()) refuse(path, problem);
     info_ = info;
   }

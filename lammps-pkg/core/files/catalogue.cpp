@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "files/file_error.h"
-#include "files/header_values.h"
+#include "files/header_keys.h"
 
 namespace LSM {
 
@@ -281,13 +281,12 @@ void CatalogueWriter::create(const std::string &path, const CatalogueInfo &info,
 }
 
 void CatalogueWriter::find_cut(const std::string &path, const CatalogueInfo &info,
-                               std::int64_t last_step, const std::vector<std::string> &ignore,
-                               std::int64_t expected) {
+                               std::int64_t last_step, std::int64_t expected) {
   check_info(info);
   file_.close();
   CatalogueReader reader(text_io::open_plain(path));
   reader.resuming_ = true;
-  const std::string problem = text_io::difference(reader.info().header(), info.header(), ignore);
+  const std::string problem = text_io::difference(reader.info().header(), info.header());
   if (!problem.empty()) refuse(path, problem);
   const std::string columns = column_line(info);
   if (reader.column_line_ != columns)

@@ -137,12 +137,11 @@ class CatalogueWriter : public text_io::ResumableFile {
   /// Inspects the catalogue of a run restarted from last_step, which cut() will continue: checks
   /// that the header is what create() would write, and finds the first event that ended after
   /// last_step, or a truncated last line.
-  /// \param ignore parameters that may differ; their old values stay
   /// \param expected number of events before the cut, if not negative
   /// \throws FileError naming the first parameter that differs, the first bad line, or the number
   /// of events.
   void find_cut(const std::string &path, const CatalogueInfo &info, std::int64_t last_step,
-                const std::vector<std::string> &ignore = {}, std::int64_t expected = -1);
+                std::int64_t expected = -1);
 
   /// Appends one line and hands it to the operating system.
   /// \throws FileError if that fails, or if a reader would not accept the event after the previous

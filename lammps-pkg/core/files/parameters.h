@@ -78,9 +78,8 @@ class ParameterList {
 };
 
 /// Describes the first difference between the header of a file and the one that a resumed run would
-/// write, or returns "".
-std::string difference(const Parameters &in_file, const Parameters &expected,
-                       const std::vector<std::string> &ignore);
+/// write, or returns "". What may change when a run continues (header_keys.h) is no difference.
+std::string difference(const Parameters &in_file, const Parameters &expected);
 }  // namespace LSM::text_io
 
 #endif

@@ -73,10 +73,10 @@ void PeSeriesWriter::create(const std::string &path, const PeSeriesInfo &info) {
 }
 
 void PeSeriesWriter::find_cut(const std::string &path, const PeSeriesInfo &info,
-                              std::int64_t last_step, const std::vector<std::string> &ignore) {
+                              std::int64_t last_step) {
   close();
   PeSeriesReader reader(text_io::open_plain(path), true);
-  compare(path, reader.info(), info, ignore);
+  compare(path, reader.info(), info);
   start();
   std::int64_t step = 0, length = reader.end();
   double time = 0.0, pe = 0.0;

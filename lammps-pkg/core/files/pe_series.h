@@ -82,11 +82,9 @@ class PeSeriesWriter : public binary_io::RecordWriter<PeSeriesInfo> {
   /// Inspects the series of a run restarted from last_step, which cut() will continue: checks that
   /// the header is what create() would write, and finds the first sample after last_step or a
   /// truncated last one.
-  /// \param ignore parameters that may differ; their old values stay
   /// \throws FileError naming the first parameter that differs, the first bad line, or the samples
   /// missing before last_step.
-  void find_cut(const std::string &path, const PeSeriesInfo &info, std::int64_t last_step,
-                const std::vector<std::string> &ignore = {});
+  void find_cut(const std::string &path, const PeSeriesInfo &info, std::int64_t last_step);
 
   /// Adds a sample at the time given by its step.
   /// \throws FileError as the function below

@@ -96,13 +96,12 @@ void SlipHistoryWriter::create(const std::string &path, const SlipHistoryInfo &i
 }
 
 void SlipHistoryWriter::find_cut(const std::string &path, const SlipHistoryInfo &info,
-                                 const std::vector<double> &saved,
-                                 const std::vector<std::string> &ignore) {
+                                 const std::vector<double> &saved) {
   close();
   if (saved.size() != 4 + 3 * static_cast<std::size_t>(info.grid.bins))
     refuse(path, "the saved state is of another fault");
   SlipHistoryReader reader(text_io::open_plain(path), true);
-  compare(path, reader.info(), info, ignore);
+  compare(path, reader.info(), info);
   start(0);
   StateReader in(saved);
   visit(*this, in);

@@ -104,10 +104,9 @@ class SlipHistoryWriter : public binary_io::RecordWriter<SlipHistoryInfo> {
   /// Inspects the history of a run restarted with the given state(), which cut() will continue:
   /// checks that the header is what create() would write, and finds the first record after that
   /// state, or a truncated last one.
-  /// \param ignore parameters that may differ; their old values stay
   /// \throws FileError
   void find_cut(const std::string &path, const SlipHistoryInfo &info,
-                const std::vector<double> &saved, const std::vector<std::string> &ignore = {});
+                const std::vector<double> &saved);
 
   /// Adds the interval that ends at the given step. An `active` interval, in which something slips
   /// or did so shortly before, gets a record of its own.

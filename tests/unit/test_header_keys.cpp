@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What our programs write into headers is in the table of keys. Those of slider and postproc are
+// compared with it by tests/slider/test_slider_cli.py and tests/postproc/test_postproc_cli.py.
+#include "files/header_keys.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "events/event_headers.h"
+#include "files/text.h"
+
+namespace {
+
+using LSM::bad_value;
+using LSM::header_key;
+
+TEST(HeaderKeys, EachStandsOnce) {
+  std::set<std::string_view> keys;
+  for (const LSM::HeaderKey &one : LSM::header_keys())
+    EXPECT_TRUE(keys.insert(one.key).second) << one.key;
+  EXPECT_GT(keys.size(), 50u);
+}
+
+TEST(HeaderKeys, NumberedKeysAreThoseOfTheFirst) {
+  ASSERT_NE(header_key("viscosity_2"), nullptr);
+  EXPECT_EQ(header_key("viscosity_2"), header_key("viscosity"));
+  EXPECT_EQ(header_key("step0")->key, "step0");
+  EXPECT_EQ(header_key("something"), nullptr);
+  EXPECT_EQ(header_key("2"), nullptr);
+}
+
+TEST(HeaderKeys, ValuesOutOfRangeAreNamed) {
+  for (const auto &[key, value] :
+       std::vector<std::pair<std::string, std::string>>{{"completeness", "-1"},
+                                                        {"completeness", "inf"},
+                                                        {"min_size", "x"},
+                                                        {"lambda", "1"},
+                                                        {"warmup", "nan"},
+                                                        {"length", "0"},
+                                                        {"dt", "0"},
+                                                        {"blocks", "0"},
+                                                        {"picker", "best"},
+                                                        {"keep_nonpositive", "perhaps"}})
+    EXPECT_EQ(bad_value(key, value).find(key + " is '" + value + "', expected "), 0u) << key;
+  for (const auto &[key, value] :
+       std::vector<std::pair<std::string, std::string>>{{"completeness", "0"},
+                                                        {"lambda", "0"},
+                                                        {"warmup", "-5"},
+                                                        {"picker", "literal"},
+                                                        {"keep_nonpositive", "no"},
+                                                        {"something", "else"},
+                                                        {"length_2", "none"}})
+    EXPECT_EQ(bad_value(key, value), "") << key;
+}
+
+void expect_known(const LSM::text_io::Parameters &header) {
+  EXPECT_GT(header.size(), 8u);
+  for (const auto &one : header) EXPECT_NE(header_key(one.first), nullptr) << one.first;
+}
+
+TEST(HeaderKeys, HaveWhatAFaultWrites) {
+  LSM::EventSettings settings;
+  settings.ruptures_file = "r.csv";
+  settings.no_series = settings.no_history = settings.explicit_times = true;
+  LSM::SceneInfo scene;
+  for (const char *key : {"program", "particles", "links", "length", "dt", "viscosity",
+                          "viscosity_2", "kelvin_voigt", "leap"})
+    scene.parameters.emplace_back(key, "1");
+  LSM::FaultGrid grid;
+  grid.ring = false;
+  expect_known(LSM::drops_header(settings, scene, 1.0).header());
+  expect_known(LSM::ruptures_header(settings, scene, 1.0).header());
+  expect_known(LSM::series_header(settings, scene, {0.0, 0, 1.0}).header());
+  expect_known(LSM::history_header(settings, scene, grid).header());
+}
+
+TEST(HeaderKeys, HaveTheVariablesThatHeadersState) {
+  std::ifstream in(LSM_INPUTS "/fault.variables");
+  int stated = 0;
+  for (std::string line; std::getline(in, line);) {
+    std::vector<std::string_view> cells;
+    for (std::size_t at = 0; at <= line.size();) {
+      const std::size_t bar = std::min(line.find('|', at), line.size());
+      cells.push_back(LSM::text_io::trim(std::string_view(line).substr(at, bar - at)));
+      at = bar + 1;
+    }
+    if (line.empty() || line[0] == '#' || cells.size() < 5 || cells[4] != "header") continue;
+    ++stated;
+    EXPECT_NE(header_key(cells[0]), nullptr) << cells[0];
+  }
+  EXPECT_GT(stated, 10);
+}
+
+}  // namespace
