@@ -113,8 +113,10 @@ void ComputeLSMEvents::open_files()
   const std::string problem =
       lsm_on_0(world, [this] { stream = std::make_unique<LSM::EventStream>(settings); });
   if (!problem.empty()) error->all(FLERR, "Compute lsm/events: {}", problem);
-  if (settings.records_slip()) make_grid();
-  if (from_restart) unpack_state(recorder->kept);
+  std::unique_ptr<LSM::SavedStream> saved;
+  if (from_restart) saved = std::make_unique<LSM::SavedStream>(unpack_state(recorder->kept));
+  if (settings.records_slip()) make_grid(saved.get());
+  if (saved) on_rank_0([&] { stream->set_state(*saved); });
   change_dt();
   on_rank_0([this, from_restart] {
     stream->begin_files(update->ntimestep, from_restart, sources.scene(), clock, restart_files());
@@ -134,7 +136,9 @@ std::vector<LSM::Output> ComputeLSMEvents::restart_files() const
   return files;
 }
 
-void ComputeLSMEvents::make_grid()
+// with another time step, interval or number of bins than in the restart file, if there is one, the
+// slip of open events until now is lost
+void ComputeLSMEvents::make_grid(const LSM::SavedStream *saved)
 {
   const bigint step = update->ntimestep;
   const double time = clock.at(step);
@@ -147,8 +151,16 @@ void ComputeLSMEvents::make_grid()
                settings.bin_width, bins, domain->prd[0], most);
   LSM::FaultGrid grid = settings.grid(domain->boxlo[0], domain->prd[0], step, time, update->dt);
   grid.ring = domain->xperiodic;
-  fault.begin(grid, settings.forward);
-  fault_begun = false;
+  const bool had_slip = saved && saved->has_slip();
+  fault_begun = had_slip && saved->continues_with(grid, settings.finds_ruptures());
+  if (had_slip && !fault_begun && comm->me == 0)
+    error->warning(FLERR,
+                   "Compute lsm/events {}: the restart file holds the slip of another time step, "
+                   "interval or number of bins, or is without ruptures; the slip of open events "
+                   "until now is lost",
+                   id);
+  fault.begin(fault_begun ? saved->continued(grid) : grid, settings.forward);
+  if (fault_begun && comm->me == 0) fault.sums() = saved->open_sums;
   on_rank_0([this] { stream->set_grid(fault.grid()); });
 }
 
@@ -233,7 +245,7 @@ void ComputeLSMEvents::change_dt()
   const double ratio = clock.dt > 0.0 ? update->dt / clock.dt : 0.0;
   clock = {time_of(update->ntimestep), update->ntimestep, update->dt};
   set_memory();
-  if (settings.records_slip()) make_grid();
+  if (settings.records_slip()) make_grid(nullptr);
   if (settings.records_slip() && opened) begin_fault();
   on_rank_0([this, ratio] { stream->change_picker(settings.picker, ratio); });
 }
@@ -407,9 +419,8 @@ std::vector<double> ComputeLSMEvents::pack_state()
   return state;
 }
 
-// with another time step, interval or number of bins, open events are lost, but event numbers
-// continue
-void ComputeLSMEvents::unpack_state(const std::vector<double> &state)
+// restores what this class keeps itself, and returns the rest
+LSM::SavedStream ComputeLSMEvents::unpack_state(const std::vector<double> &state)
 {
   Own own;
   LSM::SavedStream saved;
@@ -423,23 +434,7 @@ void ComputeLSMEvents::unpack_state(const std::vector<double> &state)
   last_recorded = own.last_recorded;
   ledger = own.ledger;
   clock = own.clock;
-  on_rank_0([&] { stream->set_state(saved); });
-  if (!settings.records_slip() || !saved.has_slip()) return;
-  if (!saved.continues_with(fault.grid(), settings.finds_ruptures())) {
-    if (comm->me == 0)
-      error->warning(FLERR,
-                     "Compute lsm/events {}: the restart file holds the slip of another time step, "
-                     "interval or number of bins, or is without ruptures; the slip of open events "
-                     "until now is lost",
-                     id);
-    return;
-  }
-  LSM::FaultGrid grid = fault.grid();
-  grid.step0 = saved.grid.step0;
-  grid.time0 = saved.grid.time0;
-  fault.begin(grid, settings.forward);
-  if (comm->me == 0) fault.sums() = saved.open_sums;
-  fault_begun = true;
+  return saved;
 }
 
 double ComputeLSMEvents::compute_scalar()

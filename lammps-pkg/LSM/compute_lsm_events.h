@@ -78,8 +78,8 @@ class ComputeLSMEvents : public Compute {
   void set_memory();
   void open_files();
   std::vector<LSM::Output> restart_files() const;
-  void unpack_state(const std::vector<double> &);
-  void make_grid();
+  LSM::SavedStream unpack_state(const std::vector<double> &);
+  void make_grid(const LSM::SavedStream *);
   void begin_fault();
   void add_faces();
   void check_box();

@@ -20,7 +20,7 @@ EventTable load_ruptures(const std::string &path, const CatalogueOptions &option
       !info.x_hypocentre || !info.stress_drop)
     throw std::runtime_error(path +
                              ": no catalogue of ruptures of a fault, expected one of compute "
-                             "lsm/events with events ruptures");
+                             "lsm/events with ruptures");
   return table;
 }
 
@@ -45,7 +45,7 @@ class Rupture : public CatalogueAnalysis {
   double p_speed_ = 2.12, s_speed_ = 1.22;
 
   const char *help() const override {
-    return "Draws the ruptures of faults † (catalogues of compute lsm/events with events "
+    return "Draws the ruptures of faults † (catalogues of compute lsm/events with "
            "ruptures): their numbers by length (BASE-lengths) and moment (BASE-moments), moment "
            "against length (BASE-length), drop of the total PE, which the paper expects to be "
            "proportional, against moment (BASE-pe), stress drop against moment (BASE-stress). "

@@ -58,12 +58,12 @@ struct MadeUpRun {
     SavedStream saved;
     ASSERT_TRUE(saved.read(state, 0));
     grid = settings.grid(0.0, length, step, clock.at(step), dt);
-    if (settings.records_slip()) stream->set_grid(grid);
-    stream->set_state(saved);
     if (settings.records_slip()) {
-      grid.step0 = saved.grid.step0;
+      grid = saved.continued(grid);
+      stream->set_grid(grid);
       sums = saved.open_sums;
     }
+    stream->set_state(saved);
     stream->begin_files(step, true, scene, clock);
   }
 

@@ -25,6 +25,12 @@ bool SavedStream::continues_with(const FaultGrid &other, bool finds_ruptures) co
          grid.interval == other.interval && grid.bins == other.bins;
 }
 
+FaultGrid SavedStream::continued(FaultGrid other) const {
+  other.step0 = grid.step0;
+  other.time0 = grid.time0;
+  return other;
+}
+
 EventStream::EventStream(const EventSettings &settings)
     : settings_(settings),
       picker_(settings.picker),
@@ -43,10 +49,6 @@ void EventStream::set_state(const SavedStream &saved) {
   drops_.set_counts(saved.drops);
   ruptures_.set_counts(saved.ruptures);
   if (!locator_ || !saved.continues_with(grid_, finder_.has_value())) return;
-  FaultGrid grid = grid_;
-  grid.step0 = saved.grid.step0;
-  grid.time0 = saved.grid.time0;
-  set_grid(grid);
   locator_->set_state(saved.locator);
   if (finder_) finder_->set_state(saved.finder);
   saved_history_ = saved.history;

@@ -56,9 +56,12 @@ struct SavedStream {
 
   /// Whether slip was recorded.
   bool has_slip() const { return !locator.empty(); }
-  /// Whether slip continues with this grid. If not, the slip of an open drop so far and open
-  /// ruptures are lost, but events and their numbers continue.
+  /// Whether slip continues with this grid, as it is when recording begins at the step of the
+  /// restart file. If not, the slip of an open drop so far and open ruptures are lost, but events
+  /// and their numbers continue.
   bool continues_with(const FaultGrid &other, bool finds_ruptures) const;
+  /// The grid, whose intervals continue to count from the first one.
+  FaultGrid continued(FaultGrid other) const;
 };
 
 class EventStream {
@@ -72,8 +75,8 @@ class EventStream {
   /// \throws std::invalid_argument
   void set_grid(const FaultGrid &grid);
 
-  /// Continues from a restart file. To be called after set_grid().
-  /// \throws std::invalid_argument
+  /// Continues from a restart file. To be called after set_grid(), whose grid is the continued()
+  /// one if slip continues with it. \throws std::invalid_argument
   void set_state(const SavedStream &saved);
 
   /// Returns the numbers of a SavedStream. open_sums are the sums of the incomplete interval.

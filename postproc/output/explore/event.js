@@ -8,7 +8,7 @@ const columnNames = {
   step_start: ['First step', ''], step_end: ['Last step', ''],
   slip_moment: ['Slip moment', ''], x_centroid: ['Centre', 'place'], rupture_length: ['Length', 'length'],
   x_hypocentre: ['First place', 'place'], x_begin: ['From', 'place'], mean_slip: ['Mean slip', 'length'],
-  stress_drop: ['Stress drop', 'stress']
+  stress_drop: ['Stress drop', 'stress'], peak_slip: ['Largest slip', 'length']
 };
 
 class EventPanel {

@@ -4,7 +4,7 @@
 
 class EventTable {
   static page = 100;
-  static order = ['event_id', 't_start', 'duration', 'size', 'slip_moment', 'x_centroid', 'rupture_length', 'mean_slip', 'stress_drop'];
+  static order = ['event_id', 't_start', 'duration', 'size', 'slip_moment', 'x_centroid', 'rupture_length', 'mean_slip', 'peak_slip', 'stress_drop'];
 
   constructor(app) {
     this.app = app;
