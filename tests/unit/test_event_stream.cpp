@@ -277,10 +277,13 @@ TEST_F(EventStreamFiles, TheLastDropIsWrittenAtTheEnd) {
 }
 
 TEST_F(EventStreamFiles, GoesOnFromItsStateByteForByte) {
-  for (const bool ruptures : {false, true}) {
+  for (const std::string kind : {"plain", "located", "ruptures"}) {
+    const auto settings = [&](const std::string &name) {
+      return kind == "ruptures" ? rupture_settings(name) : pe_settings(name, kind == "located");
+    };
     // The stops are: during loading; within an event; within an interval and a pause; at the end of
     // an event, which is known one step later.
-    EventSettings any = ruptures ? rupture_settings("r") : pe_settings("p");
+    EventSettings any = settings(kind);
     MadeUpRun ends(any);
     ends.begin();
     ends.run(0, 200, 20);
@@ -288,14 +291,14 @@ TEST_F(EventStreamFiles, GoesOnFromItsStateByteForByte) {
     ASSERT_NE(end % 4, 0) << "it ends within an interval";
     for (const std::int64_t stop : {std::int64_t{60}, std::int64_t{75}, std::int64_t{83}, end,
                                     std::int64_t{161}, std::int64_t{236}}) {
-      const std::string at = (ruptures ? "r" : "p") + std::to_string(stop);
-      EventSettings whole = ruptures ? rupture_settings(at) : pe_settings(at, true);
+      const std::string at = kind + std::to_string(stop);
+      SCOPED_TRACE(at);
+      EventSettings whole = settings(at);
       MadeUpRun uninterrupted(whole);
       uninterrupted.begin();
       uninterrupted.run(0, 400, 20);
 
-      EventSettings part =
-          ruptures ? rupture_settings(at + "part") : pe_settings(at + "part", true);
+      EventSettings part = settings(at + "part");
       MadeUpRun first(part);
       first.begin();
       first.run(0, stop, 20);
