@@ -48,10 +48,11 @@ class Outputs {
   void resume(std::int64_t step, std::int64_t events) {
     // No file is truncated before both have been found to belong to this run.
     if (!o_.catalogue.empty())
-      catalogue_.find_cut(o_.catalogue, catalogue_info_, step - o_.rupture_memory, {}, events);
-    if (!o_.series.empty()) series_.find_cut(o_.series, series_info_, step);
-    if (!o_.catalogue.empty()) catalogue_.cut();
-    if (!o_.series.empty()) series_.cut();
+      catalogue_.find_cut(o_.catalogue, catalogue_info_, step - o_.rupture_memory, {steps_key},
+                          events);
+    if (!o_.series.empty()) series_.find_cut(o_.series, series_info_, step, {steps_key});
+    if (!o_.catalogue.empty()) catalogue_.cut_with_new_header();
+    if (!o_.series.empty()) series_.cut_with_new_header();
   }
 
   void event(const LSM::Event &event) {
