@@ -80,7 +80,8 @@ RunState read_checkpoint(const std::string &path, const std::vector<std::string>
   for (std::size_t at = end + 2; at + sizeof(double) <= run.size(); at += sizeof(double))
     numbers.push_back(LSM::binary_io::from_bytes<double>(run.data() + at));
   RunState state;
-  LSM::StateReader(numbers)(state);
+  LSM::StateReader from(numbers);
+  from(state);
   return state;
 }
 

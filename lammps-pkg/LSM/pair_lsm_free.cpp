@@ -19,7 +19,6 @@
 #include "friction/force_laws.h"
 #include "lsm_contact_recorder.h"
 #include "lsm_fixes.h"
-#include "lsm_pair_search.h"
 #include "lsm_restart_file.h"
 #include "lsm_scene.h"
 

@@ -147,7 +147,7 @@ struct Slow {
 };
 
 TEST(FrictionLoop, IsThatOfASlowSecondImplementation) {
-  Rows rows = rows_of<LSM::Coulomb>({kt, mu});
+  Rows rows = rows_of<LSM::Coulomb>({kt, mu, mu});
   Slow slow;
   double most = 0.0;
   for (int n = 0; n < 3000; ++n) {
@@ -171,7 +171,7 @@ TEST(FrictionLoop, IsThatOfASlowSecondImplementation) {
     ASSERT_NEAR(rows.energies.slip_moment, slow.moment, 1e-10);
   }
   EXPECT_GT(most, 0.05);
-  for (const int count : {slow.began, slow.ended, slow.slid, slow.stuck}) EXPECT_GT(count, 500);
+  for (const int count : {slow.began, slow.ended, slow.slid, slow.stuck}) EXPECT_GT(count, 250);
 }
 
 /// Contacts are computed side by side, or one by one where the scene is screened: to the last bit,
@@ -193,7 +193,7 @@ void side_by_side(const std::vector<double> &values) {
 }
 
 TEST(FrictionLoop, GivesTheSameDigitsSideBySideAndOneByOne) {
-  side_by_side<LSM::Coulomb>({kt, mu});
+  side_by_side<LSM::Coulomb>({kt, mu, mu});
   side_by_side<LSM::CoulombStatic>({kt, mu, 0.5});
   side_by_side<LSM::VelocityWeakening>({kt, mu, 0.5});
 }
@@ -224,7 +224,7 @@ TEST(FrictionLoop, ASetupChangesNothing) {
 
 // LAMMPS' own sums are those of the energies, and the virial that of the forces.
 TEST(FrictionLoop, TalliesWhatItRecords) {
-  Rows rows = rows_of<LSM::Coulomb>({kt, mu});
+  Rows rows = rows_of<LSM::Coulomb>({kt, mu, mu});
   for (int n = 0; n < 500; ++n) {
     rows.move_to(n);
     rows.host.energies = rows.host.virial = 0.0;
