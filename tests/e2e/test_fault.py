@@ -44,24 +44,31 @@ def test_fault_120(on_ranks, postproc):
 
 
 def test_lists_that_are_added_to_do_not_change_the_motion(lmp, work):
-    """Over 1e5 steps of shear the fault moves as with LAMMPS' own lists, which are built anew whenever a
-    disc has moved by half the skin, as ghosts that do not reach farther leave no room for adding. The
-    order of sums differs, and what grows from it is far below what a missed contact does: at another
-    distance of the checks (every 10 steps) LAMMPS' own lists miss one, and energies differ by 4e-6."""
-    Path("added.in").write_text("thermo 500\nthermo_modify format float %.15g\n")
+    """Over 1e5 steps of shear the fault moves as with lists that LAMMPS builds anew in each step in which
+    a disc has moved by half the skin: ghosts that do not reach farther leave no room for adding. As the
+    order of sums differs and rounding grows, both begin anew from the same state in intervals. In a
+    contact that is found late (checks every 10 steps, no adding) energies differ by 4e-6 at once."""
+    Path("added.in").write_text("thermo_modify format float %.15g\n")
     Path("built.in").write_text("comm_modify mode single cutoff 2.45\nneigh_modify every 1\ninclude added.in\n")
-    found = {}
-    for way in "added", "built":
-        said = run(lmp, scene("fault_120.in", steps=100000, checkpoint=1000000, velocity=0.002, ledger="yes", series="no", prefix=way,
-                              extra=work / way))
+    piece, last, worst = 5000, 100000, []
+
+    def at_the_end(way, at, **more):
+        said = run(lmp, scene("fault_120.in", steps=at, prefix=f"{way}{at}", extra=work / way, **more))
         table = re.findall(r"^ *Step .*Events.*?\n(.*?)^Loop", said.out, re.S | re.M)[-1]
-        lines = [line.split() for line in table.splitlines()]
-        found[way] = np.array([line for line in lines if len(line) == 8 and line[0].isdigit()], float)
-    added, built = found["added"], found["built"]
-    assert len(added) == 201 and added[-1, 1] > 80, "there are events"
-    assert (added[:, 1] == built[:, 1]).all()
-    for column in range(3, 8):
-        assert np.allclose(added[:, column], built[:, column], rtol=1e-8, atol=1e-10), added[np.argmax(np.abs(added - built)[:, column])]
+        return np.array([line.split() for line in table.splitlines() if len(line.split()) == 8][-1], float)
+
+    settings = dict(checkpoint=1000000, velocity=0.002, series="no")
+    at_the_end("added", piece, **settings)
+    for at in range(2 * piece, last + 1, piece):
+        start = f"added{at - piece}.restart.end"
+        added, built = (at_the_end(way, at, restart=start) for way in ("added", "built"))
+        worst.append((np.abs(added - built)[3:] / np.abs(built[3:])).max())
+        Path(start).unlink()
+    assert max(worst) < 1e-6 and np.median(worst) < 1e-10, worst
+
+
+# Mean and standard deviation over 12 seeds
+BANDS = (1.03, 0.11), (0.65, 0.16), (76, 14)
 
 
 def test_statistics_of_a_short_fault(lmp, postproc):
@@ -77,7 +84,7 @@ def test_statistics_of_a_short_fault(lmp, postproc):
         exponent, gamma = (json.loads(Path(name).read_text())["fits"][0] for name in ("fit.json", "intervals.json"))
         values.append((exponent["exponent"], gamma["gamma"], (events["size"] >= 1e-3).sum()))
     for name, value, (mean, deviation) in zip(("exponent", "gamma", "events >= 1e-3"), np.mean(values, 0), BANDS):
-        assert abs(value - mean) < 4 * deviation / 2**0.5, f"{name} is {value:.3g}, expected {mean:.3g}"
+        assert abs(value - mean) < 4 * deviation / 2**0.5, f"{name} is {value:.3g}, expected about {mean:.3g}"
 
 
 @pytest.mark.parametrize("length", [120, 240, 480, 945, 1440, 1890])
